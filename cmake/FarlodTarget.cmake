@@ -1,0 +1,35 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+
+# Warnings that all our code is free of.
+function(farlod_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow $<$<BOOL:${FARLOD_WARNINGS_AS_ERRORS}>:-Werror>)
+endfunction()
+
+# Declares the headers below some folders as public, so that the target all_verify_interface_header_sets compiles each alone.
+#   farlod_public_headers(target BASE folder-that-includes-start-from FOLDERS folder...)
+function(farlod_public_headers target)
+  cmake_parse_arguments(H "" "BASE" "FOLDERS" ${ARGN})
+  get_target_property(type ${target} TYPE)
+  set(scope PUBLIC)
+  if(type STREQUAL INTERFACE_LIBRARY)
+    set(scope INTERFACE)
+  endif()
+  set(headers)
+  foreach(folder ${H_FOLDERS})
+    file(GLOB_RECURSE found CONFIGURE_DEPENDS ${H_BASE}/${folder}/*.hpp)
+    list(APPEND headers ${found})
+  endforeach()
+  # A header named for its library belongs to that library's door
+  list(FILTER headers EXCLUDE REGEX "_cgal\\.hpp$")
+  target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS ${H_BASE} FILES ${headers})
+  set_target_properties(${target} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+endfunction()
+
+# A library of ours: its sources are listed by the folders below it.
+function(farlod_library name)
+  add_library(farlod_${name} STATIC)
+  add_library(farlod::${name} ALIAS farlod_${name})
+  target_link_libraries(farlod_${name} PUBLIC farlod::contract)
+  farlod_warnings(farlod_${name})
+endfunction()

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "console/progress.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <utility>
+
+namespace farlod {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::string duration_text(double seconds) {
+  const auto s = static_cast<long>(seconds + 0.5);
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
+  return fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
+}
+
+}  // namespace
+
+Progress::Progress(std::string what, Verbosity verbosity)
+    : what_(std::move(what)),
+      silent_(verbosity == Verbosity::quiet),
+      on_terminal_(isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()),
+      next_(start_ + (on_terminal_ ? 200ms : 10s)) {}
+
+Progress::~Progress() {
+  if (line_open_) fmt::print(stderr, "\r\033[K");
+}
+
+void Progress::update(std::size_t done, std::size_t all) {
+  if (silent_ || done == 0) return;
+  const std::lock_guard lock(mutex_);
+  const Clock::time_point now = Clock::now();
+  if (now < next_) return;
+  next_ = now + (on_terminal_ ? 200ms : 10s);
+  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+  const double left_s = elapsed_s * static_cast<double>(all - done) / static_cast<double>(done);
+  const std::string line =
+      fmt::format("{}: {:.0f} %, about {} left", what_, 100.0 * static_cast<double>(done) / static_cast<double>(all), duration_text(left_s));
+  if (on_terminal_)
+    fmt::print(stderr, "\r\033[K{}", line);
+  else
+    fmt::print(stderr, "{}\n", line);
+  std::fflush(stderr);
+  line_open_ = on_terminal_;
+}
+
+}  // namespace farlod

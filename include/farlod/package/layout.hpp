@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "farlod/grid.hpp"
+#include "farlod/mesh_view.hpp"
+#include "farlod/surface_kind.hpp"
+
+/// The bytes of `tiles.bin`. docs/package_format.md tells the same in words; where they differ, this file wins.
+/// All numbers are little-endian. Sections start at multiples of 64 bytes, and the file ends with 16 bytes of padding, so
+/// that a section can be a vertex buffer whose last vertex is read as 16 bytes.
+namespace farlod::package {
+
+static_assert(std::endian::native == std::endian::little, "packages are mapped, not decoded: a big-endian reader must swap bytes");
+
+inline constexpr std::uint32_t format_version = 1;
+inline constexpr std::array<char, 8> magic{'F', 'A', 'R', 'L', 'O', 'D', 'T', '\n'};
+inline constexpr std::uint64_t section_alignment = 64;
+inline constexpr std::uint64_t end_padding = 16;
+
+enum class SectionKind : std::uint32_t {
+  cells = 1,              ///< CellRecord, row by row, every cell of the block that exists
+  vertices = 2,           ///< Point3f, cell frame
+  triangles = 3,          ///< Triangle; vertex numbers count from the cell's first vertex
+  triangle_surfaces = 4,  ///< uint32 for each triangle: its row in `surfaces`
+  surfaces = 5,           ///< SurfaceRecord
+  buildings = 6,          ///< BuildingRecord
+  text = 7,               ///< bytes, UTF-8: the ids of buildings
+};
+inline constexpr std::uint32_t section_count = 7;
+
+struct Header {
+  std::array<char, 8> magic;
+  std::uint32_t version;
+  std::uint32_t section_count;
+  std::int32_t block_i, block_j;
+  std::uint64_t file_bytes;
+  std::array<std::uint8_t, 32> reserved;  ///< zero
+};
+static_assert(sizeof(Header) == 64);
+
+struct Section {
+  SectionKind kind;            ///< a reader skips kinds that it does not know
+  std::uint32_t element_bytes;
+  std::uint64_t offset;        ///< from the file's beginning
+  std::uint64_t count;         ///< elements, not bytes
+  std::uint64_t reserved;      ///< zero
+};
+static_assert(sizeof(Section) == 32);
+
+/// Bits of CellRecord::flags.
+inline constexpr std::uint32_t cell_has_overhang = 1;  ///< a surface of the tile looks down onto something below it
+
+struct CellRecord {
+  std::int32_t i, j;
+  std::uint64_t first_vertex, first_triangle;
+  std::uint32_t vertex_count, triangle_count;
+  float z_low_m, z_high_m;  ///< of the tile's vertices; low > high when it is empty
+  float capture_x_m, capture_y_m, capture_z_m;  ///< where the far map was captured, cell frame
+  float far_map_top;        ///< BoxMap::top; 0 when the cell has no far field above the horizontal
+  std::uint32_t flags;
+  std::uint32_t reserved;   ///< zero
+};
+static_assert(sizeof(CellRecord) == 64);
+
+inline constexpr std::uint32_t no_building = 0xFFFFFFFF;
+
+struct SurfaceRecord {
+  std::uint32_t building;   ///< row in `buildings`; no_building for the ground
+  std::uint32_t number;     ///< of the surface, within its building
+  std::uint16_t part;       ///< closed part of the building, for the question "inside?"
+  SurfaceKind kind;
+  std::uint8_t reserved;    ///< zero
+  float normal_x, normal_y, normal_z;  ///< outward, length 1, grid frame
+  float area_m2;            ///< of the whole surface, over all tiles
+  std::uint32_t reserved_2; ///< zero
+};
+static_assert(sizeof(SurfaceRecord) == 32);
+
+struct BuildingRecord {
+  std::uint64_t text_offset;
+  std::uint32_t text_bytes;
+  std::uint32_t number;     ///< of the building, within the city
+};
+static_assert(sizeof(BuildingRecord) == 16);
+
+static_assert(sizeof(Point3f) == 12 && sizeof(Triangle) == 12);
+
+/// The folder of a block within a package, and its two files.
+[[nodiscard]] inline std::string block_folder(Block b) { return "blocks/" + std::to_string(b.i) + "_" + std::to_string(b.j); }
+inline constexpr const char* tiles_file = "tiles.bin";
+inline constexpr const char* far_map_file = "far.exr";
+inline constexpr const char* manifest_file = "manifest.json";
+
+/// Channels of far.exr, both half: Y is 1 where the sky is seen and 0 where the far city hides it, so that any viewer shows
+/// the map; Z is the distance in metres from the capture point to what hides the sky, infinite where nothing does.
+inline constexpr const char* sky_channel = "Y";
+inline constexpr const char* distance_channel = "Z";
+
+}  // namespace farlod::package
