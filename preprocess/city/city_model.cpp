@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "city/city_model.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace farlod {
+
+std::span<const Point3d> CityModel::points_of(const Building& b) const {
+  if (b.facet_count == 0) return {};
+  const Facet& first = facets_[b.first_facet];
+  const Facet& last = facets_[b.first_facet + b.facet_count - 1];
+  const std::uint64_t begin = ring_begin_[first.first_ring];
+  const std::uint64_t end = ring_begin_[last.first_ring + last.ring_count];
+  return std::span(points_).subspan(begin, end - begin);
+}
+
+std::uint64_t CityModel::surface_count() const {
+  std::uint64_t count = 0;
+  std::vector<std::uint32_t> surfaces;
+  for (const Building& b : buildings_) {
+    surfaces.clear();
+    for (const Facet& f : facets_of(b)) surfaces.push_back(f.surface);
+    std::sort(surfaces.begin(), surfaces.end());
+    count += static_cast<std::uint64_t>(std::unique(surfaces.begin(), surfaces.end()) - surfaces.begin());
+  }
+  return count;
+}
+
+void CityModel::begin_building(std::string id, bool stands_on_ground) {
+  buildings_.push_back({std::move(id), facets_.size(), 0, stands_on_ground});
+}
+
+void CityModel::begin_facet(SurfaceKind kind, std::uint32_t surface, std::uint16_t part) {
+  FARLOD_EXPECTS(!buildings_.empty());
+  facets_.push_back({ring_begin_.size() - 1, 0, surface, part, kind});
+  ++buildings_.back().facet_count;
+}
+
+void CityModel::add_ring(std::span<const Point3d> points) {
+  FARLOD_EXPECTS(!facets_.empty());
+  points_.insert(points_.end(), points.begin(), points.end());
+  ring_begin_.push_back(points_.size());
+  ++facets_.back().ring_count;
+}
+
+void CityModel::drop_last_building() {
+  FARLOD_EXPECTS(!buildings_.empty());
+  const Building& b = buildings_.back();
+  if (b.facet_count > 0) {
+    const std::uint64_t ring = facets_[b.first_facet].first_ring;
+    points_.resize(ring_begin_[ring]);
+    ring_begin_.resize(ring + 1);
+    facets_.resize(b.first_facet);
+  }
+  buildings_.pop_back();
+}
+
+void CityModel::append(const CityModel& other) {
+  const std::uint64_t facet_shift = facets_.size();
+  const std::uint64_t ring_shift = ring_begin_.size() - 1;
+  const std::uint64_t point_shift = points_.size();
+  for (Building b : other.buildings_) {
+    b.first_facet += facet_shift;
+    buildings_.push_back(std::move(b));
+  }
+  for (Facet f : other.facets_) {
+    f.first_ring += ring_shift;
+    facets_.push_back(f);
+  }
+  for (std::size_t r = 1; r < other.ring_begin_.size(); ++r) ring_begin_.push_back(other.ring_begin_[r] + point_shift);
+  points_.insert(points_.end(), other.points_.begin(), other.points_.end());
+}
+
+}  // namespace farlod

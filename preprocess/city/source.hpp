@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "city/city_model.hpp"
+
+namespace farlod {
+
+/// What a file says of its coordinate reference system.
+struct SourceCrs {
+  /// "EPSG:n", a URN, a URL, an AdV name or WKT, as found in the file; empty when the file does not say.
+  std::string definition;
+  /// x is the longitude whatever the definition's axis order says (GeoJSON, and all that GDAL hands out).
+  bool longitude_first = false;
+  /// z is in metres whatever the horizontal unit is (heights taken from an attribute).
+  bool heights_in_metres = false;
+};
+
+/// One input file, read: coordinates are still those of the file.
+struct SourceCity {
+  std::string source;  ///< the file's name as the user gave it
+  SourceCrs crs;
+  CityModel city;
+};
+
+}  // namespace farlod
