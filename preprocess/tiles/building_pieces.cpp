@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tiles/building_pieces.hpp"
+
+#include <array>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "tiles/facet_triangulation.hpp"
+#include "tiles/solid_orientation.hpp"
+
+namespace farlod {
+namespace {
+
+using RingList = std::vector<std::span<const Point3d>>;
+
+struct TriangulatedFacet {
+  const Facet* facet;
+  Triangulation triangulation;
+  Point3d area_vector_m2;
+};
+
+RingList rings_of(const CityModel& city, const Facet& facet) {
+  RingList rings;
+  for (std::uint32_t k = 0; k < facet.ring_count; ++k) rings.push_back(city.ring(facet, k));
+  return rings;
+}
+
+/// Figures in messages: three digits after the point are a millimetre.
+std::string metres(double value) {
+  std::string text = std::to_string(value);
+  return text.substr(0, text.find('.') + 4) + " m";
+}
+
+class BuildingCutter {
+ public:
+  BuildingCutter(const CityModel& city, const Building& building, const Grid& grid, Assign assign, double height_origin_m)
+      : city_(city), building_(building), grid_(grid), assign_(assign), height_origin_m_(height_origin_m) {}
+
+  BuildingPieces run() {
+    for (const Facet& f : city_.facets_of(building_)) triangulate_facet(f);
+    make_surfaces();
+    const std::optional<Cell> only_cell = assign_ == Assign::whole ? std::optional(cell_of_footprint()) : std::nullopt;
+    for (const TriangulatedFacet& f : facets_) cut_facet(f, only_cell);
+    return std::move(result_);
+  }
+
+ private:
+  void report(ProblemCode code, const Facet& facet, const std::string& detail) {
+    result_.problems.push_back({code, "", building_.id, "surface " + std::to_string(facet.surface) + ": " + detail});
+  }
+
+  void triangulate_facet(const Facet& facet) {
+    const RingList rings = rings_of(city_, facet);
+    Triangulation t = triangulate(rings);
+    if (t.triangles.empty()) return report(ProblemCode::zero_area, facet, "its points lie on a line");
+    if (t.rings_cross) report(ProblemCode::self_intersecting, facet, "what an odd number of its rings surrounds was kept");
+    const Point3d area_vector_m2 = area_vector(rings);
+    if (const double d = distance_from_plane_m(rings, normalized(area_vector_m2)); d > planarity_tolerance_m)
+      report(ProblemCode::not_planar, facet, "a point is " + metres(d) + " off its plane");
+    facets_.push_back({&facet, std::move(t), area_vector_m2});
+  }
+
+  void make_surfaces() {
+    std::vector<OrientedArea> areas;
+    for (const TriangulatedFacet& f : facets_) areas.push_back({f.area_vector_m2, f.triangulation.points.front(), f.facet->part});
+    const std::vector<double> outward = outward_signs(areas);
+    std::vector<Point3d> total_vectors;
+    for (std::size_t n = 0; n < facets_.size(); ++n) {
+      const Facet& facet = *facets_[n].facet;
+      const auto [entry, is_new] = place_of_surface_.try_emplace(facet.surface, result_.surfaces.size());
+      if (is_new) {
+        result_.surfaces.push_back({{0, facet.surface, facet.part, facet.kind, {}, 0.0}, {}});
+        total_vectors.emplace_back();
+      }
+      add_to_surface(entry->second, facets_[n], outward[n], total_vectors[entry->second]);
+    }
+    for (std::size_t s = 0; s < result_.surfaces.size(); ++s) finish_surface(result_.surfaces[s], total_vectors[s]);
+  }
+
+  void add_to_surface(std::size_t s, const TriangulatedFacet& f, double outward, Point3d& total_vector) {
+    BuildingSurface& surface = result_.surfaces[s];
+    total_vector = total_vector + outward * f.area_vector_m2;
+    for (const Triangle& t : f.triangulation.triangles) {
+      const Point3d &a = f.triangulation.points[t.a], &b = f.triangulation.points[t.b], &c = f.triangulation.points[t.c];
+      const double area = 0.5 * norm(cross(b - a, c - a));
+      surface.surface.area_m2 += area;
+      surface.middle = surface.middle + (area / 3.0) * (a + b + c);
+    }
+  }
+
+  /// The file's word for a surface counts more than the way it was drawn: a roof looks up.
+  static void finish_surface(BuildingSurface& s, const Point3d& total_vector) {
+    Point3d normal = normalized(total_vector);
+    SurfaceKind& kind = s.surface.kind;
+    if (kind == SurfaceKind::unknown) kind = kind_of_normal(normal);
+    const bool upside_down = (kind == SurfaceKind::roof && normal.z < 0.0) || (kind == SurfaceKind::floor && normal.z > 0.0);
+    s.surface.normal = upside_down ? -1.0 * normal : normal;
+    if (s.surface.area_m2 > 0.0) s.middle = (1.0 / s.surface.area_m2) * s.middle;
+  }
+
+  Cell cell_of_footprint() const {
+    Point2d weighted;
+    double area = 0.0;
+    for (const BuildingSurface& s : result_.surfaces) {
+      const double share = s.surface.area_m2 * std::abs(s.surface.normal.z);
+      weighted = weighted + share * horizontal(s.middle);
+      area += share;
+    }
+    const auto points = city_.points_of(building_);
+    return grid_.cell_of(area > 0.0 ? (1.0 / area) * weighted : horizontal(points.front()));
+  }
+
+  void cut_facet(const TriangulatedFacet& f, const std::optional<Cell>& only_cell) {
+    const auto surface = static_cast<std::uint32_t>(place_of_surface_.at(f.facet->surface));
+    for (const Triangle& t : f.triangulation.triangles) {
+      const std::array corners{f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c]};
+      if (only_cell) {
+        std::vector<Point3f> polygon;
+        for (const Point3d& p : corners) polygon.push_back(cell_from_grid(p, *only_cell, grid_, height_origin_m_));
+        result_.pieces.push_back({{*only_cell, std::move(polygon)}, surface});
+        continue;
+      }
+      for (CellPiece& piece : cut(corners, grid_, height_origin_m_)) result_.pieces.push_back({std::move(piece), surface});
+    }
+  }
+
+  const CityModel& city_;
+  const Building& building_;
+  const Grid& grid_;
+  Assign assign_;
+  double height_origin_m_;
+  std::vector<TriangulatedFacet> facets_;
+  std::map<std::uint32_t, std::size_t> place_of_surface_;
+  BuildingPieces result_;
+};
+
+}  // namespace
+
+BuildingPieces cut_building(const CityModel& city_grid, const Building& building, const Grid& grid, Assign assign, double height_origin_m) {
+  return BuildingCutter(city_grid, building, grid, assign, height_origin_m).run();
+}
+
+}  // namespace farlod

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "farlod/grid.hpp"
+#include "farlod/point.hpp"
+
+namespace farlod {
+
+/// A convex polygon in one cell, rounded to the cell frame.
+struct CellPiece {
+  Cell cell;
+  std::vector<Point3f> polygon;
+};
+
+/// A point of the grid frame in the frame of `cell`: the one way in which a vertex is rounded.
+[[nodiscard]] Point3f cell_from_grid(const Point3d& p_grid, Cell cell, const Grid& grid, double height_origin_m);
+
+/// Cuts a triangle of the grid frame along the borders of the grid, exactly, then rounds each corner once.
+/// Corners on a border are rounded alike in both cells, so that the pieces still touch. A triangle inside one cell
+/// costs no arithmetic beyond the rounding.
+[[nodiscard]] std::vector<CellPiece> cut(const std::array<Point3d, 3>& triangle_grid, const Grid& grid, double height_origin_m);
+
+}  // namespace farlod

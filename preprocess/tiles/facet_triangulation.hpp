@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "farlod/mesh_view.hpp"
+#include "farlod/point.hpp"
+
+namespace farlod {
+
+/// The triangles of a facet.
+struct Triangulation {
+  std::vector<Point3d> points;  ///< the points of all rings, one ring after the other, then those where rings cross
+  std::vector<Triangle> triangles;
+  bool rings_cross = false;     ///< the rings touch or cross each other; what lies inside was decided by even and odd
+};
+
+/// Area vector of closed rings (Newell): half the sum of the cross products of neighbouring points, taken from the first point so
+/// that large coordinates do not cancel. The first ring counts as drawn; each other ring counts as a hole.
+[[nodiscard]] Point3d area_vector(std::span<const std::span<const Point3d>> rings);
+
+/// Triangulates a facet with holes. For every facet whose rings do not cross:
+///   (1) the corners of the triangles are the facet's points, unchanged: the exact area vectors of the triangles sum to the facet's own
+///   (2) triangles run round as the outer ring does
+///   (3) a facet without area has no triangles
+/// Where the rings cross, the inside is what an odd number of rings surrounds.
+[[nodiscard]] Triangulation triangulate(std::span<const std::span<const Point3d>> rings);
+
+/// Largest distance of a facet's points from the plane through its first point along `unit_normal`.
+[[nodiscard]] double distance_from_plane_m(std::span<const std::span<const Point3d>> rings, const Point3d& unit_normal);
+
+}  // namespace farlod

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Constrained_triangulation_plus_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <utility>
+
+#include "tiles/facet_triangulation.hpp"
+
+namespace farlod {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+constexpr std::uint32_t no_number = 0xFFFFFFFF;
+
+struct PointNumber {
+  std::uint32_t value = no_number;
+};
+enum class Side : std::uint8_t { unvisited, outside, inside };
+struct FaceSide {
+  Side value = Side::unvisited;
+};
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<PointNumber, Kernel>;
+using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<FaceSide, Kernel>>;
+using DataStructure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, DataStructure, CGAL::Exact_predicates_tag>;
+/// Knows how many rings run along an edge, so that a keyhole's bridge (drawn there and back) bounds nothing.
+using Rings = CGAL::Constrained_triangulation_plus_2<Delaunay>;
+
+/// Drops the coordinate along which the facet is seen largest: no arithmetic, so nothing is rounded.
+struct Projection {
+  int dropped = 2;
+  bool mirrored = false;  ///< what runs counter-clockwise in space runs clockwise in the plane
+
+  explicit Projection(const Point3d& normal) {
+    const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
+    dropped = z >= x && z >= y ? 2 : x >= y ? 0 : 1;
+    mirrored = (dropped == 0 ? normal.x : dropped == 1 ? normal.y : normal.z) < 0.0;
+  }
+  [[nodiscard]] Kernel::Point_2 operator()(const Point3d& p) const {
+    return dropped == 2 ? Kernel::Point_2(p.x, p.y) : dropped == 0 ? Kernel::Point_2(p.y, p.z) : Kernel::Point_2(p.z, p.x);
+  }
+  /// The point of the plane through `on_plane` that projects to `q`.
+  [[nodiscard]] Point3d lift(const Kernel::Point_2& q, const Point3d& on_plane, const Point3d& n) const {
+    const double u = q.x(), v = q.y();
+    switch (dropped) {
+      case 0: return {on_plane.x - (n.y * (u - on_plane.y) + n.z * (v - on_plane.z)) / n.x, u, v};
+      case 1: return {v, on_plane.y - (n.z * (u - on_plane.z) + n.x * (v - on_plane.x)) / n.y, u};
+      default: return {u, v, on_plane.z - (n.x * (u - on_plane.x) + n.y * (v - on_plane.y)) / n.z};
+    }
+  }
+};
+
+/// Convex rings of up to four points need no triangulation: most walls and all triangles.
+bool add_convex_fan(Triangulation& result, const Projection& project) {
+  const std::size_t n = result.points.size();
+  if (n > 4) return false;
+  const CGAL::Orientation wanted = project.mirrored ? CGAL::CLOCKWISE : CGAL::COUNTERCLOCKWISE;
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto turn = CGAL::orientation(project(result.points[k]), project(result.points[(k + 1) % n]), project(result.points[(k + 2) % n]));
+    if (turn != wanted) return false;
+  }
+  for (std::uint32_t k = 2; k < n; ++k) result.triangles.push_back({0, k - 1, k});
+  return true;
+}
+
+/// Draws the rings into the triangulation; numbers their vertices as in `points`.
+void draw(Rings& plane, std::span<const std::span<const Point3d>> rings, const Projection& project) {
+  std::uint32_t number = 0;
+  std::vector<Rings::Vertex_handle> corners;
+  for (const auto ring : rings) {
+    corners.clear();
+    for (const Point3d& p : ring) {
+      const auto corner = plane.insert(project(p));
+      if (corner->info().value == no_number) corner->info().value = number;
+      ++number;
+      corners.push_back(corner);
+    }
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const auto a = corners[k], b = corners[(k + 1) % corners.size()];
+      if (a != b) plane.insert_constraint(a, b);
+    }
+  }
+}
+
+/// Whether stepping over this edge changes between inside and outside.
+bool is_border(const Rings& plane, const Rings::Face_handle& face, int edge) {
+  if (!face->is_constrained(edge)) return false;
+  return plane.number_of_enclosing_constraints(face->vertex(plane.cw(edge)), face->vertex(plane.ccw(edge))) % 2 == 1;
+}
+
+/// Walks over all faces from the infinite one, which is outside.
+void mark_sides(Rings& plane) {
+  std::deque<Rings::Face_handle> open{plane.infinite_face()};
+  open.front()->info().value = Side::outside;
+  while (!open.empty()) {
+    const auto face = open.front();
+    open.pop_front();
+    for (int edge = 0; edge < 3; ++edge) {
+      const auto next = face->neighbor(edge);
+      if (next->info().value != Side::unvisited) continue;
+      const bool inside = (face->info().value == Side::inside) != is_border(plane, face, edge);
+      next->info().value = inside ? Side::inside : Side::outside;
+      open.push_back(next);
+    }
+  }
+}
+
+/// Points that the drawing had to invent, where rings cross, lie in the facet's plane.
+void number_crossings(Rings& plane, Triangulation& result, const Projection& project, const Point3d& normal) {
+  for (auto v = plane.finite_vertices_begin(); v != plane.finite_vertices_end(); ++v) {
+    if (v->info().value != no_number) continue;
+    v->info().value = static_cast<std::uint32_t>(result.points.size());
+    result.points.push_back(project.lift(v->point(), result.points.front(), normal));
+    result.rings_cross = true;
+  }
+}
+
+void collect_inside(const Rings& plane, Triangulation& result, bool mirrored) {
+  for (auto face = plane.finite_faces_begin(); face != plane.finite_faces_end(); ++face) {
+    if (face->info().value != Side::inside) continue;
+    Triangle t{face->vertex(0)->info().value, face->vertex(1)->info().value, face->vertex(2)->info().value};
+    if (mirrored) std::swap(t.b, t.c);
+    result.triangles.push_back(t);
+  }
+}
+
+}  // namespace
+
+Point3d area_vector(std::span<const std::span<const Point3d>> rings) {
+  Point3d total;
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    const auto ring = rings[r];
+    Point3d sum;
+    for (std::size_t k = 2; k < ring.size(); ++k) sum = sum + 0.5 * cross(ring[k - 1] - ring[0], ring[k] - ring[0]);
+    // Files do not agree on which way holes run: a hole takes area away whichever way it is drawn
+    total = r == 0 || dot(sum, total) < 0.0 ? total + sum : total - sum;
+  }
+  return total;
+}
+
+Triangulation triangulate(std::span<const std::span<const Point3d>> rings) {
+  Triangulation result;
+  for (const auto ring : rings) result.points.insert(result.points.end(), ring.begin(), ring.end());
+  const Point3d normal = area_vector(rings);
+  if (result.points.size() < 3 || norm(normal) == 0.0) return result;
+  const Projection project(normal);
+  if (rings.size() == 1 && add_convex_fan(result, project)) return result;
+  Rings plane;
+  draw(plane, rings, project);
+  if (plane.dimension() < 2) return result;
+  mark_sides(plane);
+  number_crossings(plane, result, project, normal);
+  collect_inside(plane, result, project.mirrored);
+  return result;
+}
+
+double distance_from_plane_m(std::span<const std::span<const Point3d>> rings, const Point3d& unit_normal) {
+  double largest = 0.0;
+  for (const auto ring : rings)
+    for (const Point3d& p : ring) largest = std::max(largest, std::abs(dot(p - rings[0][0], unit_normal)));
+  return largest;
+}
+
+}  // namespace farlod

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "farlod/grid.hpp"
+#include "farlod/mesh_view.hpp"
+#include "farlod/surface_kind.hpp"
+
+namespace farlod {
+
+/// The geometry that one cell owns. Vertices are in the cell frame: x and y from the cell's south-west corner, heights
+/// from TileSet::height_origin_m.
+struct Tile {
+  std::vector<Point3f> vertices;
+  std::vector<Triangle> triangles;
+  std::vector<std::uint32_t> triangle_surfaces;  ///< for each triangle, its number in TileSet::surfaces
+  float z_low_m = std::numeric_limits<float>::infinity();
+  float z_high_m = -std::numeric_limits<float>::infinity();
+  float ground_at_centre_m = 0.0F;
+  bool has_overhang = false;
+
+  [[nodiscard]] MeshView mesh() const { return {vertices, triangles}; }
+  /// Adds a convex polygon as a fan of triangles.
+  void add_polygon(const std::vector<Point3f>& polygon, std::uint32_t surface);
+};
+
+/// A surface of a building, or the ground, whole: its pieces may lie in several tiles.
+struct Surface {
+  std::uint32_t building = 0;  ///< place in TileSet::building_ids; `ground_building` for the ground
+  std::uint32_t number = 0;    ///< within the building
+  std::uint16_t part = 0;
+  SurfaceKind kind = SurfaceKind::unknown;
+  Point3d normal;              ///< outward, length 1, grid frame
+  double area_m2 = 0.0;
+};
+
+inline constexpr std::uint32_t ground_building = 0xFFFFFFFF;
+/// The ground is the first surface of every tile set.
+inline constexpr std::uint32_t ground_surface = 0;
+
+/// The whole city, cut into the cells of the grid. The tiles partition it: nothing twice, nothing left.
+struct TileSet {
+  double height_origin_m = 0.0;
+  CellRange cells;
+  std::vector<Tile> tiles;  ///< one for each cell, in the order of CellRange::index_of
+  std::vector<Surface> surfaces;
+  std::vector<std::string> building_ids;
+  std::uint64_t polygon_count = 0;  ///< surfaces of buildings
+
+  [[nodiscard]] const Tile& tile(Cell c) const { return tiles[cells.index_of(c)]; }
+  [[nodiscard]] Tile& tile(Cell c) { return tiles[cells.index_of(c)]; }
+  [[nodiscard]] std::uint64_t triangle_count() const;
+};
+
+}  // namespace farlod

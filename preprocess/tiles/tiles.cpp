@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tiles/tiles.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "farlod/expects.hpp"
+#include "tiles/base_points.hpp"
+#include "tiles/building_pieces.hpp"
+#include "tiles/ground.hpp"
+
+namespace farlod {
+namespace {
+
+/// Buildings cut at once, before their pieces are put in place one after the other. Bounds the memory of what waits.
+constexpr std::size_t batch_size = 4096;
+/// A surface that looks down by less than this (cosine) is a wall that was surveyed a little off.
+constexpr double overhang_normal_z = -0.01;
+
+/// Lifts the buildings that know only their height above ground: to the lowest terrain under their outline.
+void lift_onto_terrain(CityModel& city, const TerrainRaster& terrain) {
+  const auto all_points = city.points();
+  for (const Building& b : city.buildings()) {
+    if (!b.stands_on_ground || b.facet_count == 0) continue;
+    const auto points = std::as_const(city).points_of(b);
+    double lowest_m = std::numeric_limits<double>::infinity();
+    for (const Point3d& p : points)
+      if (const auto height = terrain.height_at(horizontal(p))) lowest_m = std::min(lowest_m, *height);
+    if (lowest_m == std::numeric_limits<double>::infinity()) continue;
+    const auto first = static_cast<std::size_t>(points.data() - all_points.data());
+    for (Point3d& p : all_points.subspan(first, points.size())) p.z += lowest_m;
+  }
+}
+
+std::vector<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& rotation) {
+  std::vector<Point3d> nodes;
+  for (std::size_t row = 0; row < terrain.rows; ++row)
+    for (std::size_t column = 0; column < terrain.columns; ++column)
+      if (const auto& height = terrain.height_m[row * terrain.columns + column]) {
+        const Point2d p_grid = rotation.grid_from_city(terrain.node(column, row));
+        nodes.push_back({p_grid.x, p_grid.y, *height});
+      }
+  return nodes;
+}
+
+Box2d rectangle_of(const Grid& grid) {
+  return {grid.corner_of({grid.cells.i_begin, grid.cells.j_begin}), grid.corner_of({grid.cells.i_end, grid.cells.j_end})};
+}
+
+class TileCutter {
+ public:
+  TileCutter(const CityModel& city_grid, const Grid& grid, Assign assign, Ground ground)
+      : city_(city_grid), grid_(grid), assign_(assign), ground_(std::move(ground)), ground_triangles_(ground_.triangles()) {
+    tiles_.cells = grid.cells;
+    tiles_.tiles.resize(static_cast<std::size_t>(grid.cells.size()));
+    tiles_.height_origin_m = lowest_whole_metre();
+  }
+
+  TileSet run(Report& report) {
+    place_ground();
+    for (std::size_t first = 0; first < city_.buildings().size(); first += batch_size) cut_batch(first, report);
+    return std::move(tiles_);
+  }
+
+ private:
+  [[nodiscard]] double lowest_whole_metre() const {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const Point3d& p : city_.points()) lowest = std::min(lowest, p.z);
+    for (const auto& triangle : ground_triangles_)
+      for (const Point3d& p : triangle) lowest = std::min(lowest, p.z);
+    return std::floor(lowest);
+  }
+
+  void place_ground() {
+    tiles_.surfaces.push_back({ground_building, 0, 0, SurfaceKind::ground, {0.0, 0.0, 1.0}, 0.0});
+    for (const auto& triangle : ground_triangles_) {
+      tiles_.surfaces[ground_surface].area_m2 += 0.5 * norm(cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
+      for (const CellPiece& piece : cut(triangle, grid_, tiles_.height_origin_m))
+        if (grid_.cells.contains(piece.cell)) place(piece, ground_surface);  // a terrain may reach beyond the grid
+    }
+    for (std::size_t n = 0; n < tiles_.tiles.size(); ++n) {
+      const double height = ground_.height_at(grid_.centre_of(grid_.cells.cell_at(n)));
+      tiles_.tiles[n].ground_at_centre_m = static_cast<float>(height - tiles_.height_origin_m);
+    }
+  }
+
+  /// The grid covers the buildings: a piece beyond it would be our mistake.
+  void place(const CellPiece& piece, std::uint32_t surface) {
+    FARLOD_EXPECTS(grid_.cells.contains(piece.cell));
+    tiles_.tile(piece.cell).add_polygon(piece.polygon, surface);
+  }
+
+  void cut_batch(std::size_t first, Report& report) {
+    const auto buildings = city_.buildings().subspan(first, std::min(batch_size, city_.buildings().size() - first));
+    std::vector<BuildingPieces> cut_buildings(buildings.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, buildings.size(), [&](std::size_t n) {
+      cut_buildings[n] = cut_building(city_, buildings[n], grid_, assign_, tiles_.height_origin_m);
+    });
+    for (std::size_t n = 0; n < buildings.size(); ++n) place_building(buildings[n], cut_buildings[n], report);
+  }
+
+  void place_building(const Building& building, BuildingPieces& cut_building, Report& report) {
+    for (Problem& problem : cut_building.problems) report.add(std::move(problem));
+    const auto number = static_cast<std::uint32_t>(tiles_.building_ids.size());
+    const auto first_surface = static_cast<std::uint32_t>(tiles_.surfaces.size());
+    tiles_.building_ids.push_back(building.id);
+    tiles_.polygon_count += cut_building.surfaces.size();
+    std::vector<bool> overhangs;
+    for (BuildingSurface& s : cut_building.surfaces) {
+      overhangs.push_back(is_overhang(s));
+      s.surface.building = number;
+      tiles_.surfaces.push_back(s.surface);
+    }
+    for (const SurfacePiece& p : cut_building.pieces) {
+      place(p.piece, first_surface + p.surface);
+      if (overhangs[p.surface]) tiles_.tile(p.piece.cell).has_overhang = true;
+    }
+  }
+
+  [[nodiscard]] bool is_overhang(const BuildingSurface& s) const {
+    return s.surface.normal.z < overhang_normal_z && s.middle.z - ground_.height_at(horizontal(s.middle)) > least_overhang_m;
+  }
+
+  const CityModel& city_;
+  const Grid& grid_;
+  Assign assign_;
+  Ground ground_;
+  std::vector<std::array<Point3d, 3>> ground_triangles_;
+  TileSet tiles_;
+};
+
+}  // namespace
+
+TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, const std::optional<TerrainRaster>& terrain, Report& report) {
+  CityModel city = std::move(located.city);
+  if (terrain) lift_onto_terrain(city, *terrain);
+  for (Point3d& p : city.points()) p = grid.rotation.grid_from_city(p);  // exactness begins here
+  Ground ground(terrain ? nodes_of(*terrain, grid.rotation) : base_points(city), rectangle_of(grid));
+  return TileCutter(city, grid, assign, std::move(ground)).run(report);
+}
+
+}  // namespace farlod

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "city/located_city.hpp"
+#include "city/terrain_raster.hpp"
+#include "farlod/grid.hpp"
+#include "farlod/problem.hpp"
+#include "tiles/tile_set.hpp"
+
+namespace farlod {
+
+/// Which cell a building's geometry goes to.
+enum class Assign {
+  clip,  ///< cut exactly at the cells' borders
+  whole  ///< as in the paper: each building whole, to the cell of its footprint's centroid
+};
+
+/// A facet farther than this from its plane is reported (the default tolerance of val3dity).
+inline constexpr double planarity_tolerance_m = 0.01;
+/// A floor that hangs higher than this above the ground counts as an overhang: less than that hides no sky that matters.
+inline constexpr double least_overhang_m = 0.5;
+
+/// Triangulates the city and its ground and cuts them into the cells of the grid.
+///   (1) the tiles partition the city: the exact area vectors of a facet's pieces sum to its own, and no piece lies in two tiles
+///   (2) a facet that is not in the tiles is in the report
+///   (3) the result does not depend on the number of threads
+/// Without a terrain, the ground is a network through the buildings' base points; with one, through the nodes of the raster, and
+/// buildings that know only their height above ground are lifted onto it.
+[[nodiscard]] TileSet cut_into_tiles(LocatedCity city, const Grid& grid, Assign assign, const std::optional<TerrainRaster>& terrain,
+                                     Report& report);
+
+}  // namespace farlod
