@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "farlod/mesh_view.hpp"
+#include "farlod/point.hpp"
+
+namespace farlod {
+
+/// A ray in the frame of the occluder that is asked. `direction` need not have length 1; distances count in its length.
+struct Ray {
+  Point3f origin;
+  Point3f direction;
+  float begin = 0.0F;  ///< hits nearer than this do not count
+  float end = std::numeric_limits<float>::infinity();
+};
+
+struct Hit {
+  float distance = 0.0F;  ///< along the ray, in lengths of its direction
+  std::uint32_t triangle = 0;
+};
+
+/// Embree, or the memory that it asked for, failed.
+class OcclusionError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Answers "what does this ray meet?" for a set of triangles. Both sides of a triangle count. Immutable; all questions may
+/// be asked from many threads. The only door to Embree.
+///
+/// Neighbouring triangles are watertight (Embree's robust mode): a ray through a shared edge meets one of them. Whether a ray
+/// that ends or begins on a triangle meets it is not specified.
+class Occluder {
+ public:
+  /// Takes the triangles; vertex numbers must be below vertices.size(). Throws OcclusionError.
+  Occluder(std::vector<Point3f> vertices, std::vector<Triangle> triangles);
+  Occluder(Occluder&&) noexcept;
+  Occluder& operator=(Occluder&&) noexcept;
+  ~Occluder();
+
+  [[nodiscard]] std::size_t triangle_count() const;
+
+  [[nodiscard]] bool blocks(const Ray& ray) const;
+  /// The same for many rays at once; `blocked[n]` becomes 1 or 0. Fastest when 16 rays in a row are alike.
+  void blocks(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
+
+  [[nodiscard]] std::optional<Hit> nearest(const Ray& ray) const;
+  /// The nearest among the triangles that `counts` says yes to.
+  [[nodiscard]] std::optional<Hit> nearest(const Ray& ray, const std::function<bool(std::uint32_t triangle)>& counts) const;
+  /// All triangles along the ray, from near to far. A shared edge that is hit may yield both of its triangles.
+  [[nodiscard]] std::vector<Hit> all_hits(const Ray& ray) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "farlod/expects.hpp"
+#include "occlusion/occluder.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr std::size_t packet_size = 16;
+
+/// One device for the process: Embree's threads and caches are shared by all scenes.
+RTCDevice shared_device() {
+  struct Device {
+    RTCDevice handle = rtcNewDevice(nullptr);
+    Device() {
+      if (handle == nullptr) throw OcclusionError("Embree could not be started (error " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
+    }
+    ~Device() { rtcReleaseDevice(handle); }
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+  };
+  static const Device device;
+  return device.handle;
+}
+
+/// Embree hands the context of a query back to the filter; ours carries the question that the filter shall ask.
+struct QueryContext {
+  RTCIntersectContext embree;
+  const std::function<bool(const Hit&)>* accepts = nullptr;
+};
+
+void ask_query(const RTCFilterFunctionNArguments* arguments) {
+  const auto* context = reinterpret_cast<const QueryContext*>(arguments->context);
+  if (context->accepts == nullptr) return;
+  for (unsigned n = 0; n < arguments->N; ++n) {
+    if (arguments->valid[n] != -1) continue;
+    const Hit hit{RTCRayN_tfar(arguments->ray, arguments->N, n), RTCHitN_primID(arguments->hit, arguments->N, n)};
+    if (!(*context->accepts)(hit)) arguments->valid[n] = 0;
+  }
+}
+
+RTCRayHit embree_ray(const Ray& ray) {
+  RTCRayHit query{};
+  query.ray = {ray.origin.x, ray.origin.y, ray.origin.z, ray.begin, ray.direction.x, ray.direction.y, ray.direction.z,
+               0.0F, ray.end, 0xFFFFFFFF, 0, 0};
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  return query;
+}
+
+void load(RTCRay16& packet, std::size_t lane, const Ray& ray) {
+  packet.org_x[lane] = ray.origin.x;
+  packet.org_y[lane] = ray.origin.y;
+  packet.org_z[lane] = ray.origin.z;
+  packet.dir_x[lane] = ray.direction.x;
+  packet.dir_y[lane] = ray.direction.y;
+  packet.dir_z[lane] = ray.direction.z;
+  packet.tnear[lane] = ray.begin;
+  packet.tfar[lane] = ray.end;
+  packet.mask[lane] = 0xFFFFFFFF;
+}
+
+}  // namespace
+
+struct Occluder::Impl {
+  std::vector<Point3f> vertices;
+  std::vector<Triangle> triangles;
+  RTCScene scene = nullptr;
+
+  Impl(std::vector<Point3f> v, std::vector<Triangle> t) : vertices(std::move(v)), triangles(std::move(t)) {
+    if (triangles.empty()) return;
+    const std::size_t vertex_count = vertices.size();
+    vertices.push_back({});  // Embree reads the last vertex as 16 bytes
+    build(vertex_count);
+  }
+  ~Impl() { rtcReleaseScene(scene); }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void build(std::size_t vertex_count) {
+    const RTCDevice device = shared_device();
+    scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(), 0, sizeof(Point3f), vertex_count);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0, sizeof(Triangle), triangles.size());
+    rtcSetGeometryIntersectFilterFunction(geometry, ask_query);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
+      throw OcclusionError("Embree could not index " + std::to_string(triangles.size()) + " triangles (error " + std::to_string(error) + ")");
+  }
+
+  std::optional<Hit> nearest_accepted(const Ray& ray, const std::function<bool(const Hit&)>* accepts) const {
+    if (scene == nullptr) return std::nullopt;
+    QueryContext context;
+    rtcInitIntersectContext(&context.embree);
+    context.accepts = accepts;
+    RTCRayHit query = embree_ray(ray);
+    rtcIntersect1(scene, &context.embree, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return Hit{query.ray.tfar, query.hit.primID};
+  }
+};
+
+Occluder::Occluder(std::vector<Point3f> vertices, std::vector<Triangle> triangles)
+    : impl_(std::make_unique<Impl>(std::move(vertices), std::move(triangles))) {}
+Occluder::Occluder(Occluder&&) noexcept = default;
+Occluder& Occluder::operator=(Occluder&&) noexcept = default;
+Occluder::~Occluder() = default;
+
+std::size_t Occluder::triangle_count() const { return impl_->triangles.size(); }
+
+bool Occluder::blocks(const Ray& ray) const {
+  if (impl_->scene == nullptr) return false;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay query = embree_ray(ray).ray;
+  rtcOccluded1(impl_->scene, &context, &query);
+  return query.tfar < 0.0F;  // Embree's sign for "blocked"
+}
+
+void Occluder::blocks(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
+  FARLOD_EXPECTS(rays.size() == blocked.size());
+  if (impl_->scene == nullptr) {
+    std::fill(blocked.begin(), blocked.end(), std::uint8_t{0});
+    return;
+  }
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRay16 packet{};
+  for (std::size_t first = 0; first < rays.size(); first += packet_size) {
+    const std::size_t count = std::min(packet_size, rays.size() - first);
+    alignas(64) std::array<int, packet_size> valid{};
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      load(packet, lane, rays[first + lane]);
+      valid[lane] = -1;
+    }
+    rtcOccluded16(valid.data(), impl_->scene, &context, &packet);
+    for (std::size_t lane = 0; lane < count; ++lane) blocked[first + lane] = packet.tfar[lane] < 0.0F ? 1 : 0;
+  }
+}
+
+std::optional<Hit> Occluder::nearest(const Ray& ray) const { return impl_->nearest_accepted(ray, nullptr); }
+
+std::optional<Hit> Occluder::nearest(const Ray& ray, const std::function<bool(std::uint32_t)>& counts) const {
+  const std::function<bool(const Hit&)> accepts = [&counts](const Hit& hit) { return counts(hit.triangle); };
+  return impl_->nearest_accepted(ray, &accepts);
+}
+
+std::vector<Hit> Occluder::all_hits(const Ray& ray) const {
+  std::vector<Hit> hits;
+  // Refuse each hit, so that the traversal goes on to the next
+  const std::function<bool(const Hit&)> accepts = [&hits](const Hit& hit) {
+    hits.push_back(hit);
+    return false;
+  };
+  impl_->nearest_accepted(ray, &accepts);
+  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
+  });
+  // A triangle that lies in two leaves of the index may be reported twice
+  hits.erase(std::unique(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.triangle == b.triangle; }), hits.end());
+  return hits;
+}
+
+}  // namespace farlod

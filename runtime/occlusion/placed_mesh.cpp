@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "occlusion/placed_mesh.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "farlod/expects.hpp"
+
+namespace farlod {
+
+Occluder occluder_of(std::span<const PlacedMesh> tiles) {
+  std::size_t vertex_count = 0, triangle_count = 0;
+  for (const PlacedMesh& tile : tiles) {
+    vertex_count += tile.mesh.vertices.size();
+    triangle_count += tile.mesh.triangles.size();
+  }
+  FARLOD_EXPECTS(vertex_count < 0xFFFFFFFF && triangle_count < 0xFFFFFFFF);
+  std::vector<Point3f> vertices;
+  std::vector<Triangle> triangles;
+  vertices.reserve(vertex_count + 1);  // Embree wants one more, for padding
+  triangles.reserve(triangle_count);
+  for (const PlacedMesh& tile : tiles) {
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    for (const Point3f& p : tile.mesh.vertices)
+      vertices.push_back({static_cast<float>(p.x + tile.corner_m.x), static_cast<float>(p.y + tile.corner_m.y), p.z});
+    for (const Triangle& t : tile.mesh.triangles) triangles.push_back({t.a + first, t.b + first, t.c + first});
+  }
+  return {std::move(vertices), std::move(triangles)};
+}
+
+}  // namespace farlod

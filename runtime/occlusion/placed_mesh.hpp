@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "farlod/mesh_view.hpp"
+#include "farlod/point.hpp"
+#include "occlusion/occluder.hpp"
+
+namespace farlod {
+
+/// A tile's mesh, and where its corner lies in the frame of a scene.
+struct PlacedMesh {
+  MeshView mesh;
+  Point2d corner_m;
+};
+
+/// One occluder of many tiles. Triangles are numbered through, in the order given.
+/// Offsets are added in double and rounded once, so that what touches across a border still touches.
+[[nodiscard]] Occluder occluder_of(std::span<const PlacedMesh> tiles);
+
+}  // namespace farlod
