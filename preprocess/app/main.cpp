@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/core.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <chrono>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <new>
+#include <thread>
+
+#include "app/pack_options.hpp"
+#include "app/pack_summary.hpp"
+#include "city/input_error.hpp"
+#include "console/exit_code.hpp"
+
+namespace farlod {
+namespace {
+
+void write_text(const std::string& path, const std::string& text) {
+  if (path.empty()) return;
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) throw PackageWriteError(path + " cannot be written.");
+}
+
+/// A line for each kind of problem, so that nothing is lost silently; --report has them one by one.
+void print_problems(const Report& report, const std::string& report_file) {
+  std::map<ProblemCode, std::size_t> counts;
+  for (const Problem& p : report.problems()) ++counts[p.code];
+  for (const auto& [code, count] : counts) {
+    const ProblemDescription& d = describe(code);
+    fmt::print("  {:>6} × {} {}: {} ({})\n", count, static_cast<int>(code), d.slug, d.summary, name_of(d.effect));
+  }
+  if (!counts.empty() && report_file.empty()) fmt::print("  --report FILE.json lists each of them.\n");
+}
+
+void print_result(const PackResult& result, const Report& report, const PackOptions& options, double seconds) {
+  const package::Manifest& m = result.manifest;
+  fmt::print("{} buildings, {} polygons, {} problems\n", m.buildings, m.polygons, report.problems().size());
+  print_problems(report, options.report_file);
+  const double bearing_deg = m.grid.rotation.bearing().degrees();
+  fmt::print("CRS: {}\n", m.crs_name);
+  fmt::print("Streets: {:.2f}° from grid north ({:.2f}° from true north), strength {:.2f}\n", result.alignment.bearing.degrees(),
+             (result.alignment.bearing + m.convergence).degrees(), result.alignment.strength);
+  fmt::print("Grid: turned by {:.2f}°, {} × {} cells of {:g} m, neighbourhood {} × {}\n", bearing_deg, m.grid.cells.width(), m.grid.cells.height(),
+             m.grid.cell_edge_m, m.grid.neighborhood, m.grid.neighborhood);
+  fmt::print("{}: {:.1f} MiB ({:.1f} MiB far maps), {} triangles, {:.1f} s\n", options.settings.output.string(),
+             static_cast<double>(result.package_bytes) / 1048576.0, static_cast<double>(result.far_map_bytes) / 1048576.0, m.triangles, seconds);
+}
+
+/// Shows one progress line for each stage.
+class StageProgress {
+ public:
+  explicit StageProgress(Verbosity verbosity) : verbosity_(verbosity) {}
+  void operator()(const std::string& stage, std::size_t done, std::size_t all) {
+    if (stage != stage_ || !line_) {
+      line_.reset();
+      line_ = std::make_unique<Progress>(stage, verbosity_);
+      stage_ = stage;
+    }
+    line_->update(done, all);
+  }
+
+ private:
+  Verbosity verbosity_;
+  std::string stage_;
+  std::unique_ptr<Progress> line_;
+};
+
+int run(const PackOptions& options) {
+  const std::size_t threads = options.threads > 0 ? static_cast<std::size_t>(options.threads) : std::thread::hardware_concurrency();
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+  const auto start = std::chrono::steady_clock::now();
+  Report report;
+  std::optional<PackResult> result;
+  try {
+    StageProgress progress(options.verbosity);
+    result = pack(options.settings, report, std::ref(progress));
+  } catch (...) {
+    write_text(options.report_file, report_json(report));  // what was wrong is wanted most when nothing came of it
+    throw;
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  write_text(options.report_file, report_json(report));
+  write_text(options.summary_file, pack_summary_json(*result, report, seconds));
+  if (options.verbosity == Verbosity::normal) print_result(*result, report, options, seconds);
+  return exit_done;
+}
+
+}  // namespace
+}  // namespace farlod
+
+int main(int argc, char** argv) {
+  using namespace farlod;
+  try {
+    const ParsedPackOptions parsed = parse_pack_options(argc, argv);
+    return parsed.options ? run(*parsed.options) : parsed.exit_code;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "farlod-pack: {}\n", error.what());
+    return exit_unusable_input;
+  } catch (const PackageWriteError& error) {
+    fmt::print(stderr, "farlod-pack: {}\n", error.what());
+    return exit_unusable_input;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "farlod-pack: out of memory. Pack the city in parts, or with larger cells.\n");
+    return exit_limit_reached;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "farlod-pack: {}\n", error.what());
+    return exit_internal;
+  }
+}

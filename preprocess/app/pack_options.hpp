@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "console/progress.hpp"
+#include "pipeline/pack.hpp"
+
+namespace farlod {
+
+/// The command line of farlod-pack, understood.
+struct PackOptions {
+  PackSettings settings;
+  std::string summary_file, report_file;
+  int threads = 0;  ///< 0: all cores
+  Verbosity verbosity = Verbosity::normal;
+};
+
+/// Returns the options, or the exit code when there is nothing to do (help, version) or the command line is wrong; what
+/// there is to say has been said then.
+struct ParsedPackOptions {
+  std::optional<PackOptions> options;
+  int exit_code = 0;
+};
+[[nodiscard]] ParsedPackOptions parse_pack_options(int argc, char** argv);
+
+}  // namespace farlod

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+#include "farlod/package/manifest.hpp"
+
+namespace farlod {
+
+[[nodiscard]] package::FileStamp stamp_of(std::span<const std::byte> bytes);
+/// Reads the file piece by piece. Throws std::runtime_error when it cannot be read.
+[[nodiscard]] package::FileStamp stamp_of(const std::filesystem::path& file);
+
+}  // namespace farlod

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <xxhash.h>
+
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "package/file_stamp.hpp"
+
+namespace farlod {
+
+package::FileStamp stamp_of(std::span<const std::byte> bytes) { return {bytes.size(), XXH3_64bits(bytes.data(), bytes.size())}; }
+
+package::FileStamp stamp_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
+  XXH3_64bits_reset(state.get());
+  package::FileStamp stamp;
+  std::vector<char> buffer(std::size_t{1} << 20);
+  while (file) {
+    file.read(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    XXH3_64bits_update(state.get(), buffer.data(), static_cast<std::size_t>(file.gcount()));
+    stamp.bytes += static_cast<std::uint64_t>(file.gcount());
+  }
+  if (!file.eof()) throw std::runtime_error(path.string() + " cannot be read");
+  stamp.xxh3 = XXH3_64bits_digest(state.get());
+  return stamp;
+}
+
+}  // namespace farlod

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "farlod/package/manifest.hpp"
+
+namespace farlod {
+
+/// The text of `manifest.json`. docs/package_format.md lists the keys.
+[[nodiscard]] std::string manifest_text(const package::Manifest& manifest);
+
+}  // namespace farlod

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "farlod/package/layout.hpp"
+#include "package/manifest_writer.hpp"
+
+namespace farlod {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using package::Manifest;
+
+Json json_of(const package::FileStamp& stamp) {
+  // A checksum is 64 bits; numbers in JSON are safe to 53
+  std::array<char, 17> digits{};
+  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(stamp.xxh3));
+  return {{"bytes", stamp.bytes}, {"xxh3", digits.data()}};
+}
+
+Json place_of(const Manifest& m) {
+  Json j;
+  j["crs"] = {{"name", m.crs_name}, {"epsg", m.epsg ? Json(*m.epsg) : Json(nullptr)}, {"wkt", m.crs_wkt}};
+  j["frame"] = {{"origin_m", {m.origin_m.x, m.origin_m.y}},
+                {"height_origin_m", m.height_origin_m},
+                {"grid_rotation_deg", m.grid.rotation.bearing().degrees()},
+                {"convergence_deg", m.convergence.degrees()}};
+  const CellRange& c = m.grid.cells;
+  j["grid"] = {{"cell_m", m.grid.cell_edge_m},
+               {"neighborhood", m.grid.neighborhood},
+               {"block_edge", m.grid.block_edge},
+               {"cells", {c.i_begin, c.j_begin, c.i_end, c.j_end}}};
+  return j;
+}
+
+Json inputs_of(const Manifest& m) {
+  Json inputs = Json::array();
+  for (const package::InputFile& input : m.inputs) {
+    Json j = {{"name", input.name}};
+    j.update(json_of(input.stamp));
+    inputs.push_back(std::move(j));
+  }
+  return inputs;
+}
+
+}  // namespace
+
+std::string manifest_text(const Manifest& m) {
+  Json j = {{"format", "farlod-package"}, {"version", package::format_version}, {"software", m.software}};
+  j.update(place_of(m));
+  j["settings"] = {{"assign", m.assign},
+                   {"far_map", {{"kind", m.far_map_kind}, {"side_columns", m.far_map_side_columns}, {"rows", m.far_map_rows}}}};
+  j["inputs"] = inputs_of(m);
+  j["counts"] = {{"buildings", m.buildings}, {"polygons", m.polygons}, {"triangles", m.triangles}};
+  j["problems"] = Json::object();
+  for (const auto& [code, count] : m.problem_counts) j["problems"][std::to_string(code)] = count;
+  j["blocks"] = Json::array();
+  for (const package::BlockFiles& b : m.blocks)
+    j["blocks"].push_back({{"i", b.block.i}, {"j", b.block.j}, {"tiles", json_of(b.tiles)}, {"far_map", json_of(b.far_map)}});
+  // An id or a name with broken UTF-8 must not end the run
+  return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace farlod

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "package/package_writer.hpp"
+
+#include <fstream>
+#include <string>
+#include <utility>
+
+#include "farlod/package/layout.hpp"
+#include "package/far_map_writer.hpp"
+#include "package/file_stamp.hpp"
+#include "package/manifest_writer.hpp"
+#include "package/tiles_writer.hpp"
+
+namespace farlod {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* blocks_folder = "blocks";
+
+/// Only what a package consists of may be swept away: a mistyped -o must not cost anybody their files.
+void require_package_or_empty(const fs::path& folder) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const fs::path name = entry.path().filename();
+    if (name != package::manifest_file && name != blocks_folder)
+      throw PackageWriteError(folder.string() + " holds " + name.string() + ", which is not part of a package: choose another folder for -o.");
+  }
+}
+
+void make_room(const fs::path& folder, Overwrite overwrite) {
+  if (!fs::exists(folder)) return;
+  if (!fs::is_directory(folder)) throw PackageWriteError(folder.string() + " is a file: choose another name for -o.");
+  require_package_or_empty(folder);
+  if (fs::is_empty(folder)) return;
+  if (overwrite == Overwrite::refuse)
+    throw PackageWriteError(folder.string() + " exists already: give --force to replace it, or choose another name for -o.");
+  fs::remove(folder / package::manifest_file);
+  fs::remove_all(folder / blocks_folder);
+}
+
+fs::path temporary_name(const fs::path& path) { return path.string() + ".part"; }
+
+}  // namespace
+
+PackageWriter::PackageWriter(fs::path folder, Overwrite overwrite) : folder_(std::move(folder)) {
+  try {
+    make_room(folder_, overwrite);
+    fs::create_directories(folder_ / blocks_folder);
+  } catch (const fs::filesystem_error& reason) {
+    throw PackageWriteError(folder_.string() + " cannot be written: " + reason.code().message());
+  }
+}
+
+package::FileStamp PackageWriter::write_file(const fs::path& path, std::span<const std::byte> bytes) {
+  const fs::path part = temporary_name(path);
+  std::ofstream file(part, std::ios::binary | std::ios::trunc);
+  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) throw PackageWriteError(path.string() + " cannot be written. Is the disk full?");
+  fs::rename(part, path);
+  bytes_written_ += bytes.size();
+  return stamp_of(bytes);
+}
+
+package::BlockFiles PackageWriter::write_block(const TileSet& tiles, std::span<const BakedMap> maps, const Grid& grid, Block block,
+                                               const FarMapSettings& settings) {
+  const fs::path folder = folder_ / package::block_folder(block);
+  fs::create_directories(folder);
+  package::BlockFiles files{block, write_file(folder / package::tiles_file, tiles_file(tiles, maps, grid, block)), {}};
+  const fs::path far = folder / package::far_map_file;
+  write_far_maps(temporary_name(far), maps, grid.cells_of(block), settings);
+  files.far_map = stamp_of(temporary_name(far));
+  fs::rename(temporary_name(far), far);
+  bytes_written_ += files.far_map.bytes;
+  far_map_bytes_ += files.far_map.bytes;
+  return files;
+}
+
+void PackageWriter::finish(const package::Manifest& manifest) {
+  const std::string text = manifest_text(manifest);
+  write_file(folder_ / package::manifest_file, std::as_bytes(std::span(text)));
+}
+
+}  // namespace farlod

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+
+#include "farlod/package/manifest.hpp"
+#include "farmap/box_map_baker.hpp"
+#include "tiles/tile_set.hpp"
+
+namespace farlod {
+
+/// What to do when the package's folder is there already.
+enum class Overwrite { refuse, replace };
+
+/// The package cannot be written.
+class PackageWriteError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Writes a package block by block. Every file is written under a temporary name and renamed; the manifest comes last, so that a folder
+/// with a manifest is a whole package, whatever happened before.
+class PackageWriter {
+ public:
+  /// Makes the folder. An old package in it loses its manifest at once, and its blocks with it (`replace`), or is left
+  /// alone (`refuse`: throws PackageWriteError). A folder that holds anything else is never touched.
+  PackageWriter(std::filesystem::path folder, Overwrite overwrite);
+
+  /// Returns the stamps of the block's two files, for the manifest.
+  package::BlockFiles write_block(const TileSet& tiles, std::span<const BakedMap> maps, const Grid& grid, Block block,
+                                  const FarMapSettings& settings);
+  void finish(const package::Manifest& manifest);
+
+  [[nodiscard]] std::uint64_t bytes_written() const { return bytes_written_; }
+  [[nodiscard]] std::uint64_t far_map_bytes() const { return far_map_bytes_; }
+
+ private:
+  package::FileStamp write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+  std::filesystem::path folder_;
+  std::uint64_t bytes_written_ = 0, far_map_bytes_ = 0;
+};
+
+}  // namespace farlod

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "package/tiles_writer.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "farlod/expects.hpp"
+#include "farlod/package/layout.hpp"
+
+namespace farlod {
+namespace {
+
+using namespace package;
+
+/// The sections of a block, gathered cell by cell. Surfaces and buildings are numbered anew, by their order in the city, so that a
+/// block knows only those that it holds.
+class BlockSections {
+ public:
+  BlockSections(const TileSet& tiles, const CellRange& range) : city_(tiles) {
+    for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n)
+      for (const std::uint32_t s : tiles.tile(range.cell_at(n)).triangle_surfaces) row_of_surface_.try_emplace(s, 0);
+    for (auto& [number, row] : row_of_surface_) {
+      row = static_cast<std::uint32_t>(surfaces.size());
+      surfaces.push_back(record_of(city_.surfaces[number]));
+    }
+  }
+
+  void add_cell(Cell cell, const BakedMap& map) {
+    const Tile& tile = city_.tile(cell);
+    cells.push_back({cell.i, cell.j, vertices.size(), triangles.size(), static_cast<std::uint32_t>(tile.vertices.size()),
+                     static_cast<std::uint32_t>(tile.triangles.size()), tile.z_low_m, tile.z_high_m, map.capture_cell.x, map.capture_cell.y,
+                     map.capture_cell.z, map.shape.top, tile.has_overhang ? cell_has_overhang : 0, 0});
+    vertices.insert(vertices.end(), tile.vertices.begin(), tile.vertices.end());
+    triangles.insert(triangles.end(), tile.triangles.begin(), tile.triangles.end());
+    for (const std::uint32_t s : tile.triangle_surfaces) triangle_surfaces.push_back(row_of_surface_.at(s));
+  }
+
+  std::vector<CellRecord> cells;
+  std::vector<Point3f> vertices;
+  std::vector<Triangle> triangles;
+  std::vector<std::uint32_t> triangle_surfaces;
+  std::vector<SurfaceRecord> surfaces;
+  std::vector<BuildingRecord> buildings;
+  std::string text;
+
+ private:
+  SurfaceRecord record_of(const Surface& s) {
+    const auto f = [](double x) { return static_cast<float>(x); };
+    return {s.building == ground_building ? no_building : row_of_building(s.building), s.number, s.part, s.kind, 0, f(s.normal.x), f(s.normal.y),
+            f(s.normal.z), f(s.area_m2), 0};
+  }
+  std::uint32_t row_of_building(std::uint32_t number) {
+    const auto [entry, is_new] = row_of_building_.try_emplace(number, static_cast<std::uint32_t>(buildings.size()));
+    if (is_new) {
+      const std::string& id = city_.building_ids[number];
+      buildings.push_back({text.size(), static_cast<std::uint32_t>(id.size()), number});
+      text += id;
+    }
+    return entry->second;
+  }
+
+  const TileSet& city_;
+  std::map<std::uint32_t, std::uint32_t> row_of_surface_, row_of_building_;
+};
+
+/// A file in memory: header, table of sections, then the sections at aligned places.
+class TilesFile {
+ public:
+  explicit TilesFile(Block block) : bytes_(sizeof(Header) + section_count * sizeof(Section)) {
+    header_.magic = magic;
+    header_.version = format_version;
+    header_.section_count = section_count;
+    header_.block_i = block.i;
+    header_.block_j = block.j;
+  }
+
+  template <class Elements>
+  void add(SectionKind kind, const Elements& elements) {
+    using T = typename Elements::value_type;
+    bytes_.resize((bytes_.size() + section_alignment - 1) / section_alignment * section_alignment);
+    table_.push_back({kind, sizeof(T), bytes_.size(), elements.size(), 0});
+    const auto* begin = reinterpret_cast<const std::byte*>(elements.data());
+    bytes_.insert(bytes_.end(), begin, begin + elements.size() * sizeof(T));
+  }
+
+  std::vector<std::byte> finish() {
+    FARLOD_EXPECTS(table_.size() == section_count);
+    bytes_.resize(bytes_.size() + end_padding);
+    header_.file_bytes = bytes_.size();
+    std::memcpy(bytes_.data(), &header_, sizeof(Header));
+    std::memcpy(bytes_.data() + sizeof(Header), table_.data(), table_.size() * sizeof(Section));
+    return std::move(bytes_);
+  }
+
+ private:
+  Header header_{};
+  std::vector<Section> table_;
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace
+
+std::vector<std::byte> tiles_file(const TileSet& tiles, std::span<const BakedMap> maps, const Grid& grid, Block block) {
+  const CellRange range = grid.cells_of(block);
+  FARLOD_EXPECTS(maps.size() == static_cast<std::size_t>(range.size()));
+  BlockSections sections(tiles, range);
+  for (std::size_t n = 0; n < maps.size(); ++n) sections.add_cell(range.cell_at(n), maps[n]);
+  TilesFile file(block);
+  file.add(SectionKind::cells, sections.cells);
+  file.add(SectionKind::vertices, sections.vertices);
+  file.add(SectionKind::triangles, sections.triangles);
+  file.add(SectionKind::triangle_surfaces, sections.triangle_surfaces);
+  file.add(SectionKind::surfaces, sections.surfaces);
+  file.add(SectionKind::buildings, sections.buildings);
+  file.add(SectionKind::text, sections.text);
+  return file.finish();
+}
+
+}  // namespace farlod

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/pack.hpp"
+
+#include <chrono>
+#include <map>
+
+#include "city/input_error.hpp"
+#include "farlod/version.hpp"
+#include "georeference/terrain_reader.hpp"
+#include "package/file_stamp.hpp"
+
+namespace farlod {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_between(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
+
+/// Runs the stages one after the other, and remembers how long each took.
+class Packing {
+ public:
+  Packing(const PackSettings& settings, Report& report, const PackProgress& progress)
+      : settings_(settings), report_(report), progress_(progress) {}
+
+  PackResult run() {
+    LocatedCity located = read_and_locate();
+    // Before the long work, so that a folder that may not be written ends the run early
+    PackageWriter writer(settings_.output, settings_.overwrite);
+    const auto terrain = timed("terrain", [&] { return read_ground(located.georeference); });
+    const Grid grid = timed("align", [&] { return lay_grid(located, terrain); });
+    describe_place(located, grid);
+    TileSet tiles = timed("tiles", [&] { return cut_into_tiles(std::move(located), grid, settings_.assign, terrain, report_); });
+    describe_tiles(tiles);
+    write_package(writer, tiles, grid);
+    return std::move(result_);
+  }
+
+ private:
+  template <class Work>
+  auto timed(const std::string& stage, const Work& work) {
+    progress_(stage, 0, 1);
+    const auto start = Clock::now();
+    auto value = work();
+    result_.stage_seconds.emplace_back(stage, seconds_between(start, Clock::now()));
+    return value;
+  }
+
+  LocatedCity read_and_locate() {
+    if (settings_.inputs.empty()) {
+      return {{}, timed("georeference", [&] { return georeference_of_terrain(*settings_.terrain, settings_.georeference); })};
+    }
+    std::vector<SourceCity> sources = timed("ingest", [&] {
+      std::vector<SourceCity> read;
+      for (const auto& input : settings_.inputs) read.push_back(ingest(input, settings_.ingest, report_));
+      return read;
+    });
+    LocatedCity located = timed("georeference", [&] { return georeference(std::move(sources), settings_.georeference, report_); });
+    if (located.city.buildings().empty())
+      throw InputError("No building is left to pack: see --report for what was wrong with each of them.");
+    return located;
+  }
+
+  std::optional<TerrainRaster> read_ground(const Georeference& place) {
+    if (!settings_.terrain) return std::nullopt;
+    return read_terrain(*settings_.terrain, settings_.georeference.crs, place, std::nullopt);
+  }
+
+  Grid lay_grid(const LocatedCity& located, const std::optional<TerrainRaster>& terrain) {
+    if (!located.city.buildings().empty()) {
+      AlignedGrid aligned = align(located, settings_.grid, report_);
+      result_.alignment = aligned.alignment;
+      return aligned.grid;
+    }
+    Box2d outline;
+    outline.add(terrain->first);
+    outline.add(terrain->node(terrain->columns - 1, terrain->rows - 1));
+    return grid_over(outline, settings_.grid);
+  }
+
+  void describe_place(const LocatedCity& located, const Grid& grid) {
+    package::Manifest& m = result_.manifest;
+    const Georeference& place = located.georeference;
+    m.software = std::string("farlod-pack ") + software_version;
+    m.crs_wkt = place.crs_wkt;
+    m.crs_name = place.crs_name;
+    m.epsg = place.epsg;
+    m.origin_m = place.origin_m;
+    m.convergence = place.convergence;
+    m.grid = grid;
+    m.assign = settings_.assign == Assign::clip ? "clip" : "whole";
+    m.far_map_kind = "box";
+    m.far_map_side_columns = settings_.far_map.side_columns;
+    m.far_map_rows = settings_.far_map.rows;
+    for (const auto& input : settings_.inputs) m.inputs.push_back({input.filename().string(), stamp_of(input)});
+    if (settings_.terrain) m.inputs.push_back({settings_.terrain->filename().string(), stamp_of(*settings_.terrain)});
+  }
+
+  void describe_tiles(const TileSet& tiles) {
+    package::Manifest& m = result_.manifest;
+    m.height_origin_m = tiles.height_origin_m;
+    m.buildings = tiles.building_ids.size();
+    m.polygons = tiles.polygon_count;
+    m.triangles = tiles.triangle_count();
+    std::map<int, std::uint64_t> counts;
+    for (const Problem& p : report_.problems()) ++counts[static_cast<int>(p.code)];
+    m.problem_counts.assign(counts.begin(), counts.end());
+  }
+
+  void write_package(PackageWriter& writer, const TileSet& tiles, const Grid& grid) {
+    const BoxMapBaker baker = timed("city_index", [&] { return BoxMapBaker(tiles, grid, settings_.assign, settings_.far_map); });
+    const std::vector<Block> blocks = grid.blocks();
+    double bake_s = 0.0, write_s = 0.0;
+    for (const Block block : blocks) {
+      progress_("far maps", result_.manifest.blocks.size(), blocks.size());
+      const auto start = Clock::now();
+      const std::vector<BakedMap> maps = baker.bake(block);
+      const auto baked = Clock::now();
+      result_.manifest.blocks.push_back(writer.write_block(tiles, maps, grid, block, settings_.far_map));
+      bake_s += seconds_between(start, baked);
+      write_s += seconds_between(baked, Clock::now());
+    }
+    writer.finish(result_.manifest);
+    result_.stage_seconds.emplace_back("far_maps", bake_s);
+    result_.stage_seconds.emplace_back("package", write_s);
+    result_.package_bytes = writer.bytes_written();
+    result_.far_map_bytes = writer.far_map_bytes();
+  }
+
+  const PackSettings& settings_;
+  Report& report_;
+  const PackProgress& progress_;
+  PackResult result_;
+};
+
+}  // namespace
+
+PackResult pack(const PackSettings& settings, Report& report, const PackProgress& progress) {
+  return Packing(settings, report, progress).run();
+}
+
+}  // namespace farlod

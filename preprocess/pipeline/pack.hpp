@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "align/align.hpp"
+#include "farlod/problem.hpp"
+#include "farmap/box_map_baker.hpp"
+#include "georeference/georeference.hpp"
+#include "ingest/ingest.hpp"
+#include "package/package_writer.hpp"
+#include "tiles/tiles.hpp"
+
+namespace farlod {
+
+/// Everything that `farlod-pack` can be told.
+struct PackSettings {
+  std::vector<std::filesystem::path> inputs;  ///< may be empty when there is a terrain
+  std::optional<std::filesystem::path> terrain;
+  std::filesystem::path output;
+  Overwrite overwrite = Overwrite::refuse;
+  IngestSettings ingest;
+  GeoreferenceSettings georeference;
+  GridSettings grid;
+  Assign assign = Assign::clip;
+  FarMapSettings far_map;
+};
+
+/// What came of it.
+struct PackResult {
+  package::Manifest manifest;
+  Alignment alignment;
+  std::uint64_t package_bytes = 0, far_map_bytes = 0;
+  std::vector<std::pair<std::string, double>> stage_seconds;  ///< in the order in which the stages ran
+};
+
+/// Is told how far the work is: the stage, and how much of it is done.
+using PackProgress = std::function<void(const std::string& stage, std::size_t done, std::size_t all)>;
+
+/// From city files to a package: ingest, georeference, align, tiles, far maps, package.
+/// Throws InputError, PackageWriteError or OcclusionError; what is wrong with single buildings goes to the report.
+PackResult pack(const PackSettings& settings, Report& report, const PackProgress& progress);
+
+}  // namespace farlod
