@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "package/block_tiles.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "farlod/expects.hpp"
+#include "package/package_error.hpp"
+
+namespace farlod {
+
+using namespace package;
+
+BlockTiles::BlockTiles(std::span<const std::byte> bytes, const CellRange& cells, std::string name)
+    : bytes_(bytes), range_(cells), name_(std::move(name)) {
+  check_header();
+  find_sections();
+  check_surfaces();
+  check_cells();
+}
+
+void BlockTiles::require(bool rule, const char* what) const {
+  if (!rule) throw PackageDamaged(name_ + " is damaged: " + what + ". Pack the city again.");
+}
+
+void BlockTiles::check_header() const {
+  require(bytes_.size() >= sizeof(Header), "it is shorter than its header");
+  const auto* header = reinterpret_cast<const Header*>(bytes_.data());
+  require(header->magic == magic, "it does not begin as a tiles file");
+  if (header->version > format_version)
+    throw PackageUnusable(name_ + " has format version " + std::to_string(header->version) + ", this program reads up to " +
+                          std::to_string(format_version) + ". Use a newer farlod-svf, or pack the city again.");
+  require(header->version == format_version, "its format version does not exist");
+  require(header->file_bytes == bytes_.size(), "its length is not what its header says");
+  require(header->section_count <= (bytes_.size() - sizeof(Header)) / sizeof(Section), "its table of sections is cut off");
+}
+
+void BlockTiles::find_sections() {
+  const auto* header = reinterpret_cast<const Header*>(bytes_.data());
+  sections_ = {reinterpret_cast<const Section*>(bytes_.data() + sizeof(Header)), header->section_count};
+  cells_ = section<CellRecord>(SectionKind::cells);
+  vertices_ = section<Point3f>(SectionKind::vertices);
+  triangles_ = section<Triangle>(SectionKind::triangles);
+  triangle_surfaces_ = section<std::uint32_t>(SectionKind::triangle_surfaces);
+  surfaces_ = section<SurfaceRecord>(SectionKind::surfaces);
+  buildings_ = section<BuildingRecord>(SectionKind::buildings);
+  const auto text = section<char>(SectionKind::text);
+  text_ = {text.data(), text.size()};
+}
+
+template <class T>
+std::span<const T> BlockTiles::section(SectionKind kind) const {
+  for (const Section& s : sections_) {
+    if (s.kind != kind) continue;
+    require(s.element_bytes == sizeof(T), "a section has elements of another size");
+    require(s.offset % section_alignment == 0, "a section is not aligned");
+    require(s.offset <= bytes_.size() && s.count <= (bytes_.size() - s.offset) / sizeof(T), "a section reaches beyond the end");
+    return {reinterpret_cast<const T*>(bytes_.data() + s.offset), s.count};
+  }
+  require(false, "a section is missing");
+  return {};
+}
+
+void BlockTiles::check_surfaces() const {
+  for (const BuildingRecord& b : buildings_)
+    require(b.text_offset <= text_.size() && b.text_bytes <= text_.size() - b.text_offset, "a building's id reaches beyond the text");
+  for (const SurfaceRecord& s : surfaces_) {
+    require(s.building == no_building || s.building < buildings_.size(), "a surface names a building that does not exist");
+    require(s.kind >= SurfaceKind::ground && s.kind <= SurfaceKind::floor, "a surface is of a kind that does not exist");
+    require(std::isfinite(s.normal_x) && std::isfinite(s.normal_y) && std::isfinite(s.normal_z) && std::isfinite(s.area_m2),
+            "a surface's normal is not a number");
+  }
+}
+
+void BlockTiles::check_cells() const {
+  require(cells_.size() == static_cast<std::size_t>(range_.size()), "it does not hold the cells of its block");
+  require(triangle_surfaces_.size() == triangles_.size(), "not every triangle has a surface");
+  for (std::size_t n = 0; n < cells_.size(); ++n) {
+    const CellRecord& c = cells_[n];
+    require(Cell{c.i, c.j} == range_.cell_at(n), "its cells are not in order");
+    require(c.first_vertex <= vertices_.size() && c.vertex_count <= vertices_.size() - c.first_vertex, "a cell's vertices reach beyond the end");
+    require(c.first_triangle <= triangles_.size() && c.triangle_count <= triangles_.size() - c.first_triangle,
+            "a cell's triangles reach beyond the end");
+    require(std::isfinite(c.capture_x_m) && std::isfinite(c.capture_y_m) && std::isfinite(c.capture_z_m), "a capture point is not a number");
+    require(std::isfinite(c.far_map_top) && c.far_map_top >= 0.0F, "a far map's height is not a number");
+    check_triangles(c);
+  }
+}
+
+void BlockTiles::check_triangles(const CellRecord& c) const {
+  for (const Point3f& p : vertices_.subspan(c.first_vertex, c.vertex_count))
+    require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "a vertex is not a number");
+  for (const Triangle& t : triangles_.subspan(c.first_triangle, c.triangle_count))
+    require(t.a < c.vertex_count && t.b < c.vertex_count && t.c < c.vertex_count, "a triangle names a vertex that does not exist");
+  for (const std::uint32_t s : triangle_surfaces_.subspan(c.first_triangle, c.triangle_count))
+    require(s < surfaces_.size(), "a triangle names a surface that does not exist");
+}
+
+TileView BlockTiles::tile(Cell cell) const {
+  FARLOD_EXPECTS(range_.contains(cell));
+  const CellRecord& c = cells_[range_.index_of(cell)];
+  return {&c,
+          {vertices_.subspan(c.first_vertex, c.vertex_count), triangles_.subspan(c.first_triangle, c.triangle_count)},
+          triangle_surfaces_.subspan(c.first_triangle, c.triangle_count),
+          surfaces_,
+          buildings_};
+}
+
+}  // namespace farlod

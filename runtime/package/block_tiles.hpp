@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "farlod/grid.hpp"
+#include "farlod/mesh_view.hpp"
+#include "farlod/package/layout.hpp"
+
+namespace farlod {
+
+/// The geometry of one cell, still in the mapped file. Vertices are in the cell frame.
+struct TileView {
+  const package::CellRecord* cell = nullptr;
+  MeshView mesh;
+  std::span<const std::uint32_t> triangle_surfaces;  ///< for each triangle, its row in `surfaces`
+  std::span<const package::SurfaceRecord> surfaces;  ///< of the whole block
+  std::span<const package::BuildingRecord> buildings;
+
+  [[nodiscard]] const package::SurfaceRecord& surface_of(std::uint32_t triangle) const {
+    return surfaces[triangle_surfaces[triangle]];
+  }
+  /// Number within the city of a surface's building; no_building for the ground.
+  [[nodiscard]] std::uint32_t building_number(const package::SurfaceRecord& surface) const {
+    return surface.building == package::no_building ? package::no_building : buildings[surface.building].number;
+  }
+};
+
+/// A checked view of the bytes of a `tiles.bin`. Whatever it hands out lies inside the bytes and refers only to what exists:
+/// the constructor checks everything once, and nothing afterwards checks again.
+class BlockTiles {
+ public:
+  /// `name` is for messages. `cells` are the cells that the block must hold. The bytes must outlive the view.
+  /// Throws PackageDamaged naming the first rule that is broken, PackageUnusable for a newer version.
+  BlockTiles(std::span<const std::byte> bytes, const CellRange& cells, std::string name);
+
+  [[nodiscard]] TileView tile(Cell cell) const;  ///< `cell` must be one of the block's
+  [[nodiscard]] std::span<const package::SurfaceRecord> surfaces() const { return surfaces_; }
+  [[nodiscard]] std::span<const package::BuildingRecord> buildings() const { return buildings_; }
+  [[nodiscard]] std::string_view id_of(const package::BuildingRecord& building) const {
+    return text_.substr(building.text_offset, building.text_bytes);
+  }
+
+ private:
+  void check_header() const;
+  void find_sections();
+  void check_cells() const;
+  void check_triangles(const package::CellRecord& cell) const;
+  void check_surfaces() const;
+  template <class T>
+  [[nodiscard]] std::span<const T> section(package::SectionKind kind) const;
+  void require(bool rule, const char* what) const;
+
+  std::span<const std::byte> bytes_;
+  CellRange range_;
+  std::string name_;
+  std::span<const package::Section> sections_;
+  std::span<const package::CellRecord> cells_;
+  std::span<const Point3f> vertices_;
+  std::span<const Triangle> triangles_;
+  std::span<const std::uint32_t> triangle_surfaces_;
+  std::span<const package::SurfaceRecord> surfaces_;
+  std::span<const package::BuildingRecord> buildings_;
+  std::string_view text_;
+};
+
+}  // namespace farlod

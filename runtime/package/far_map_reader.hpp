@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "farlod/far_map/box_map.hpp"
+#include "farlod/grid.hpp"
+
+namespace farlod {
+
+/// The far map of one cell: what the city beyond the neighbourhood hides, seen from the capture point.
+class FarMap {
+ public:
+  /// A far field that hides nothing.
+  FarMap() = default;
+  /// `distance_m` holds a row of texels after the other, from the horizontal upwards; infinite where the sky is seen.
+  FarMap(BoxMap shape, std::vector<float> distance_m) : shape_(shape), distance_m_(std::move(distance_m)) {}
+
+  [[nodiscard]] const BoxMap& shape() const { return shape_; }
+  /// Distance from the capture point to what hides this direction (of the grid frame); infinite where the sky is seen.
+  [[nodiscard]] float distance_m(const Point3d& direction) const {
+    if (distance_m_.empty()) return std::numeric_limits<float>::infinity();
+    const auto texel = shape_.texel_of(direction);
+    if (!texel) return std::numeric_limits<float>::infinity();
+    return distance_m_[static_cast<std::size_t>(texel->row) * shape_.columns() + texel->column];
+  }
+  [[nodiscard]] bool blocks(const Point3d& direction) const { return distance_m(direction) < std::numeric_limits<float>::infinity(); }
+
+ private:
+  BoxMap shape_;
+  std::vector<float> distance_m_;
+};
+
+/// The `far.exr` of a block: one tile of the picture for each cell. Cells may be read from many threads.
+class FarMapReader {
+ public:
+  /// Throws PackageDamaged when the file is not a far map of this block.
+  FarMapReader(const std::filesystem::path& file, const CellRange& cells, std::uint32_t side_columns, std::uint32_t rows);
+  FarMapReader(FarMapReader&&) noexcept;
+  FarMapReader& operator=(FarMapReader&&) noexcept;
+  ~FarMapReader();
+
+  /// Throws PackageDamaged.
+  [[nodiscard]] FarMap read(Cell cell, float top) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+namespace farlod {
+
+/// A whole file, readable as memory. Throws PackageDamaged when it cannot be mapped: a package lists its files, so one that
+/// is missing or unreadable is damage.
+class MappedFile {
+ public:
+  explicit MappedFile(const std::filesystem::path& path);
+  MappedFile(MappedFile&&) noexcept;
+  MappedFile& operator=(MappedFile&&) noexcept;
+  ~MappedFile();
+
+  /// Begins at a page, and stays where it is when the object is moved.
+  [[nodiscard]] std::span<const std::byte> bytes() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "package/package.hpp"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "farlod/expects.hpp"
+#include "package/manifest_reader.hpp"
+#include "package/mapped_file.hpp"
+#include "package/package_error.hpp"
+
+namespace farlod {
+namespace {
+
+using package::BlockFiles;
+using package::FileStamp;
+
+void check_stamp(const std::filesystem::path& path, std::span<const std::byte> bytes, const FileStamp& stamp) {
+  if (bytes.size() != stamp.bytes)
+    throw PackageDamaged(path.string() + " is damaged: it has " + std::to_string(bytes.size()) + " bytes, the manifest says " +
+                         std::to_string(stamp.bytes) + ". Copy it again, or pack the city again.");
+  if (XXH3_64bits(bytes.data(), bytes.size()) != stamp.xxh3)
+    throw PackageDamaged(path.string() + " is damaged: its checksum is not the manifest's. Copy it again, or pack the city again.");
+}
+
+/// The files of a block, each opened when it is first needed.
+struct OpenBlock {
+  std::once_flag tiles_once, far_map_once;
+  std::optional<MappedFile> tiles_bytes;
+  std::optional<BlockTiles> tiles;
+  std::optional<FarMapReader> far_map;
+};
+
+}  // namespace
+
+struct Package::Impl {
+  std::filesystem::path folder;
+  package::Manifest manifest;
+  std::vector<OpenBlock> blocks;
+
+  explicit Impl(std::filesystem::path f) : folder(std::move(f)), manifest(read_manifest(folder)), blocks(manifest.blocks.size()) {}
+
+  std::size_t index_of(Cell cell) const {
+    FARLOD_EXPECTS(manifest.grid.cells.contains(cell));
+    const Block wanted = manifest.grid.block_of(cell);
+    const auto south_west_first = [](const BlockFiles& a, const Block& b) {
+      return std::pair(a.block.j, a.block.i) < std::pair(b.j, b.i);
+    };
+    const auto found = std::lower_bound(manifest.blocks.begin(), manifest.blocks.end(), wanted, south_west_first);
+    FARLOD_EXPECTS(found != manifest.blocks.end() && found->block == wanted);
+    return static_cast<std::size_t>(found - manifest.blocks.begin());
+  }
+
+  std::filesystem::path path_of(std::size_t n, const char* file) const {
+    return folder / package::block_folder(manifest.blocks[n].block) / file;
+  }
+
+  const BlockTiles& tiles(std::size_t n) {
+    OpenBlock& open = blocks[n];
+    std::call_once(open.tiles_once, [&] {
+      const auto path = path_of(n, package::tiles_file);
+      open.tiles_bytes.emplace(path);
+      check_stamp(path, open.tiles_bytes->bytes(), manifest.blocks[n].tiles);
+      open.tiles.emplace(open.tiles_bytes->bytes(), manifest.grid.cells_of(manifest.blocks[n].block), path.string());
+    });
+    return *open.tiles;
+  }
+
+  const FarMapReader& far_maps(std::size_t n) {
+    OpenBlock& open = blocks[n];
+    std::call_once(open.far_map_once, [&] {
+      const auto path = path_of(n, package::far_map_file);
+      check_stamp(path, MappedFile(path).bytes(), manifest.blocks[n].far_map);
+      open.far_map.emplace(path, manifest.grid.cells_of(manifest.blocks[n].block), manifest.far_map_side_columns, manifest.far_map_rows);
+    });
+    return *open.far_map;
+  }
+};
+
+Package::Package(std::filesystem::path folder) : impl_(std::make_unique<Impl>(std::move(folder))) {}
+Package::Package(Package&&) noexcept = default;
+Package& Package::operator=(Package&&) noexcept = default;
+Package::~Package() = default;
+
+const package::Manifest& Package::manifest() const { return impl_->manifest; }
+
+const BlockTiles& Package::block_tiles(Cell cell) const { return impl_->tiles(impl_->index_of(cell)); }
+
+FarMap Package::far_map(Cell cell) const {
+  const std::size_t n = impl_->index_of(cell);
+  return impl_->far_maps(n).read(cell, impl_->tiles(n).tile(cell).cell->far_map_top);
+}
+
+}  // namespace farlod

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "farlod/grid.hpp"
+#include "farlod/package/layout.hpp"
+#include "occlusion/occluder.hpp"
+#include "package/package.hpp"
+
+namespace farlod {
+
+/// Everything above and below one place, from low to high. Heights are those on disk.
+class Column {
+ public:
+  struct Crossing {
+    float height_m;
+    std::uint32_t building;  ///< number within the city; package::no_building for the ground
+    std::uint16_t part;      ///< closed part of the building
+    bool looks_up;           ///< its outward normal does
+  };
+  explicit Column(std::vector<Crossing> crossings) : crossings_(std::move(crossings)) {}
+
+  /// The highest ground; none outside of the ground that the package holds.
+  [[nodiscard]] std::optional<float> ground_m() const;
+  /// The highest of all: a roof, a bridge, or the ground.
+  [[nodiscard]] std::optional<float> highest_m() const;
+  /// Whether a point at this height is within a closed part of a building: an odd number of the part's surfaces lies above
+  /// it. Under a bridge or an arcade the number is even; a part without a roof encloses nothing.
+  [[nodiscard]] bool is_inside_building(float height_m) const;
+
+ private:
+  std::vector<Crossing> crossings_;
+};
+
+/// Answers what lies above and below places of one cell.
+class CellColumns {
+ public:
+  /// Reads the cell's own tile: what is cut at the borders lies nowhere else. Where buildings were assigned whole,
+  /// the tiles within `reach_of_whole_buildings` cells are read too.
+  CellColumns(const Package& package, Cell cell);
+
+  [[nodiscard]] Column at(float x_cell, float y_cell) const;
+
+  static constexpr std::int32_t reach_of_whole_buildings = 2;
+
+ private:
+  [[nodiscard]] Column::Crossing crossing(const Hit& hit) const;
+
+  std::vector<TileView> tiles_;
+  Occluder occluder_;
+  float below_all_m_ = 0.0F;
+};
+
+}  // namespace farlod

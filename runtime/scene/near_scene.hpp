@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "farlod/grid.hpp"
+#include "occlusion/occluder.hpp"
+#include "package/package.hpp"
+
+namespace farlod {
+
+/// The tiles of the neighbourhood of `cell`, in the frame of `cell`. Neighbours that do not exist are empty.
+[[nodiscard]] Occluder near_scene(const Package& package, Cell cell);
+
+}  // namespace farlod

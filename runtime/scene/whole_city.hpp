@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "farlod/grid.hpp"
+#include "occlusion/occluder.hpp"
+#include "package/package.hpp"
+
+namespace farlod {
+
+/// All tiles of a package as one scene: the reference that needs no far map. Its frame is the grid frame moved to the corner
+/// of the middle cell, with heights as on disk. Costs memory in proportion to the city.
+class WholeCity {
+ public:
+  explicit WholeCity(const Package& package);
+
+  [[nodiscard]] const Occluder& occluder() const { return occluder_; }
+  /// A point of the frame of `cell` in the frame of this scene.
+  [[nodiscard]] Point3f scene_from_cell(const Point3f& p_cell, Cell cell) const;
+
+ private:
+  const Grid& grid_;
+  Point2d origin_grid_;
+  Occluder occluder_;
+};
+
+}  // namespace farlod
