@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "receivers/point_receivers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace farlod {
+namespace {
+
+Cell nearest_existing(Cell c, const CellRange& cells) {
+  return {std::clamp(c.i, cells.i_begin, cells.i_end - 1), std::clamp(c.j, cells.j_begin, cells.j_end - 1)};
+}
+
+/// A point of the grid frame in the frame of a cell, moved into the cell's square when it lies outside.
+Point2d cell_point_within(Point2d p_grid, Cell cell, const Grid& grid) {
+  const Point2d p = p_grid - grid.corner_of(cell);
+  // The square is closed at its west and south only
+  const double last_m = std::nextafter(static_cast<float>(grid.cell_edge_m), 0.0F);
+  return {std::clamp(p.x, 0.0, last_m), std::clamp(p.y, 0.0, last_m)};
+}
+
+}  // namespace
+
+std::vector<std::pair<Cell, std::vector<std::size_t>>> places_by_cell(const Package& package, std::span<const PlaceOfReceiver> places) {
+  std::map<Cell, std::vector<std::size_t>> cells;
+  for (std::size_t n = 0; n < places.size(); ++n)
+    cells[package.grid().cell_of(package.manifest().grid_from_projected(places[n].p_projected))].push_back(n);
+  return {cells.begin(), cells.end()};
+}
+
+CellReceivers receivers_at(const Package& package, Cell cell, std::span<const PlaceOfReceiver> places, std::span<const std::size_t> chosen,
+                           HeightAbove above, float height_m) {
+  const Grid& grid = package.grid();
+  const Cell existing = nearest_existing(cell, grid.cells);
+  const CellColumns columns(package, existing);
+  CellReceivers result{cell, {}};
+  for (const std::size_t n : chosen) {
+    const Point2d p_grid = package.manifest().grid_from_projected(places[n].p_projected);
+    const Point2d stand_at = cell_point_within(p_grid, existing, grid);
+    const bool has_height = places[n].height_m.has_value();
+    const float height = has_height ? static_cast<float>(*places[n].height_m - package.manifest().height_origin_m) : height_m;
+    const auto standing = stand(columns, static_cast<float>(stand_at.x), static_cast<float>(stand_at.y), has_height ? HeightAbove::sea_level : above, height);
+    if (!standing) continue;
+    const Point2d p_cell = p_grid - grid.corner_of(cell);
+    result.receivers.push_back({n, {static_cast<float>(p_cell.x), static_cast<float>(p_cell.y), standing->z}});
+  }
+  return result;
+}
+
+}  // namespace farlod

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "farlod/point.hpp"
+#include "package/package.hpp"
+#include "receivers/receiver.hpp"
+
+namespace farlod {
+
+/// A place that the user named, in the output CRS.
+struct PlaceOfReceiver {
+  Point2d p_projected;
+  std::optional<double> height_m;  ///< absolute; when absent, HeightAbove decides
+};
+
+/// The places by cell, in the order of the cells; a place's index is its position in `places`. Cells may lie outside of the grid: a
+/// receiver out there stands on the height that the ground has where the grid ends.
+[[nodiscard]] std::vector<std::pair<Cell, std::vector<std::size_t>>> places_by_cell(const Package& package, std::span<const PlaceOfReceiver> places);
+
+/// The receivers at some of the places, all in one cell; those inside buildings are left out.
+[[nodiscard]] CellReceivers receivers_at(const Package& package, Cell cell, std::span<const PlaceOfReceiver> places,
+                                         std::span<const std::size_t> chosen, HeightAbove above, float height_m);
+
+}  // namespace farlod

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "receivers/raster_receivers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace farlod {
+namespace {
+
+/// Pixels are listed patch by patch, so that 16 in a row see almost the same.
+constexpr std::ptrdiff_t patch_edge = 4;
+
+/// The pixels whose centres may lie within a rectangle of the grid frame: half open ranges.
+struct PixelRange {
+  std::ptrdiff_t column_begin, column_end, row_begin, row_end;
+};
+
+Box2d projected_outline(const package::Manifest& m, const Box2d& rectangle_grid) {
+  const auto& [low, high] = rectangle_grid;
+  Box2d outline;
+  for (const Point2d corner : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}})
+    outline.add(horizontal(m.projected_from_grid({corner.x, corner.y, 0.0})));
+  return outline;
+}
+
+PixelRange pixels_over(const RasterPlan& plan, const Box2d& o) {
+  const auto clamp = [](double x, std::size_t n) { return static_cast<std::ptrdiff_t>(std::clamp(x, 0.0, static_cast<double>(n))); };
+  return {clamp(std::floor((o.low.x - plan.north_west_m.x) / plan.step_m), plan.columns),
+          clamp(std::ceil((o.high.x - plan.north_west_m.x) / plan.step_m), plan.columns),
+          clamp(std::floor((plan.north_west_m.y - o.high.y) / plan.step_m), plan.rows),
+          clamp(std::ceil((plan.north_west_m.y - o.low.y) / plan.step_m), plan.rows)};
+}
+
+template <class Visit>
+void for_each_pixel_by_patches(const PixelRange& r, const Visit& visit) {
+  for (std::ptrdiff_t row_0 = r.row_begin; row_0 < r.row_end; row_0 += patch_edge)
+    for (std::ptrdiff_t column_0 = r.column_begin; column_0 < r.column_end; column_0 += patch_edge)
+      for (std::ptrdiff_t row = row_0; row < std::min(row_0 + patch_edge, r.row_end); ++row)
+        for (std::ptrdiff_t column = column_0; column < std::min(column_0 + patch_edge, r.column_end); ++column)
+          visit(static_cast<std::size_t>(column), static_cast<std::size_t>(row));
+}
+
+}  // namespace
+
+RasterPlan plan_raster(const package::Manifest& m, double step_m, const std::optional<Box2d>& wanted_projected) {
+  const CellRange& c = m.grid.cells;
+  const Box2d all_cells{m.grid.corner_of({c.i_begin, c.j_begin}), m.grid.corner_of({c.i_end, c.j_end})};
+  const Box2d area = wanted_projected ? *wanted_projected : projected_outline(m, all_cells);
+  const double west = std::floor(area.low.x / step_m), south = std::floor(area.low.y / step_m);
+  const double east = std::ceil(area.high.x / step_m), north = std::ceil(area.high.y / step_m);
+  return {{west * step_m, north * step_m}, step_m, static_cast<std::size_t>(east - west), static_cast<std::size_t>(north - south)};
+}
+
+std::vector<Cell> RasterReceivers::cells() const {
+  std::vector<Cell> result;
+  const CellRange& range = manifest_.grid.cells;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) {
+    const PixelRange pixels = pixels_over(plan_, projected_outline(manifest_, manifest_.grid.square_of(range.cell_at(n))));
+    if (pixels.column_begin < pixels.column_end && pixels.row_begin < pixels.row_end) result.push_back(range.cell_at(n));
+  }
+  return result;
+}
+
+CellReceivers RasterReceivers::in_cell(const Package& package, Cell cell, HeightAbove above, float height_m) const {
+  const Grid& grid = manifest_.grid;
+  const CellColumns columns(package, cell);
+  CellReceivers result{cell, {}};
+  const Point2d corner = grid.corner_of(cell);
+  for_each_pixel_by_patches(pixels_over(plan_, projected_outline(manifest_, grid.square_of(cell))), [&](std::size_t column, std::size_t row) {
+    const Point2d p_grid = manifest_.grid_from_projected(plan_.centre_m(column, row));
+    if (grid.cell_of(p_grid) != cell) return;
+    const Point2d p = p_grid - corner;
+    if (const auto p_cell = stand(columns, static_cast<float>(p.x), static_cast<float>(p.y), above, height_m))
+      result.receivers.push_back({row * plan_.columns + column, *p_cell});
+  });
+  return result;
+}
+
+}  // namespace farlod

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "farlod/box.hpp"
+#include "farlod/package/manifest.hpp"
+#include "package/package.hpp"
+#include "receivers/receiver.hpp"
+
+namespace farlod {
+
+/// A north-up raster in the output CRS, whose pixel centres are the receivers.
+struct RasterPlan {
+  Point2d north_west_m;  ///< outer corner of the first pixel, projected frame
+  double step_m = 1.0;
+  std::size_t columns = 0, rows = 0;
+
+  [[nodiscard]] Point2d centre_m(std::size_t column, std::size_t row) const {
+    return {north_west_m.x + (static_cast<double>(column) + 0.5) * step_m, north_west_m.y - (static_cast<double>(row) + 0.5) * step_m};
+  }
+};
+
+/// The raster over `wanted` (projected frame), or over all cells of the grid. Pixels begin at multiples of the step, so that rasters of
+/// neighbouring runs fit together.
+[[nodiscard]] RasterPlan plan_raster(const package::Manifest& manifest, double step_m, const std::optional<Box2d>& wanted_projected);
+
+/// The pixels of a raster by the cells that hold their centres; pixel (column, row) has index row·columns + column.
+class RasterReceivers {
+ public:
+  RasterReceivers(const package::Manifest& manifest, RasterPlan plan) : manifest_(manifest), plan_(plan) {}
+
+  /// The existing cells that hold a pixel's centre, in the order of CellRange::index_of.
+  [[nodiscard]] std::vector<Cell> cells() const;
+  /// The receivers of one cell; pixels inside buildings are left out. Neighbours in the plane are neighbours in the list.
+  [[nodiscard]] CellReceivers in_cell(const Package& package, Cell cell, HeightAbove above, float height_m) const;
+
+ private:
+  const package::Manifest& manifest_;
+  RasterPlan plan_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "farlod/grid.hpp"
+#include "farlod/point.hpp"
+#include "scene/column.hpp"
+
+namespace farlod {
+
+/// A point that looks at the sky.
+struct Receiver {
+  std::size_t index = 0;  ///< where its answer goes
+  Point3f p_cell;         ///< in the frame of the cell that it belongs to
+  Point3f normal{0.0F, 0.0F, 1.0F};  ///< length 1, grid frame
+};
+
+/// The receivers of one cell.
+struct CellReceivers {
+  Cell cell;
+  std::vector<Receiver> receivers;
+};
+
+/// What a receiver's height counts from.
+enum class HeightAbove { ground, highest_surface, sea_level };
+
+/// Where a receiver stands above a place of a cell; nowhere when that is inside a building.
+/// `height_m` counts from `above`; for `sea_level`, from the package's height origin. Where the package holds no ground,
+/// its height origin counts as the ground.
+[[nodiscard]] std::optional<Point3f> stand(const CellColumns& columns, float x_cell, float y_cell, HeightAbove above, float height_m);
+
+}  // namespace farlod

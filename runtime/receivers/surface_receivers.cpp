@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "receivers/surface_receivers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace farlod {
+namespace {
+
+bool is_chosen(SurfaceKind kind, SurfaceChoice choice) {
+  if (kind == SurfaceKind::roof) return choice != SurfaceChoice::walls;
+  return kind == SurfaceKind::wall && choice != SurfaceChoice::roofs;
+}
+
+/// The n-th point of the R2 sequence (M. Roberts 2018), folded from the unit square into the triangle of barycentric
+/// coordinates (u, v) with u + v ≤ 1. The fold keeps areas.
+Point2d in_triangle(std::size_t n) {
+  constexpr double plastic = 1.32471795724474602596;
+  const auto fraction = [](double x) { return x - std::floor(x); };
+  const double u = fraction(0.5 + static_cast<double>(n + 1) / plastic);
+  const double v = fraction(0.5 + static_cast<double>(n + 1) / (plastic * plastic));
+  return u + v <= 1.0 ? Point2d{u, v} : Point2d{1.0 - u, 1.0 - v};
+}
+
+/// One receiver stands in the middle; more are spread.
+Point2d place_in_triangle(std::size_t n, std::size_t count) { return count == 1 ? Point2d{1.0 / 3.0, 1.0 / 3.0} : in_triangle(n); }
+
+void spread(const TileView& tile, std::uint32_t t, double spacing_m, const CellColumns& columns, std::vector<SurfaceReceiver>& receivers) {
+  const Triangle& corners = tile.mesh.triangles[t];
+  const Point3f a = tile.mesh.vertices[corners.a];
+  const Point3f ab = tile.mesh.vertices[corners.b] - a, ac = tile.mesh.vertices[corners.c] - a;
+  const float area_m2 = 0.5F * norm(cross(ab, ac));
+  if (area_m2 == 0.0F) return;  // rounded away: it holds no share of the surface
+  const package::SurfaceRecord& surface = tile.surface_of(t);
+  const Point3f normal{surface.normal_x, surface.normal_y, surface.normal_z};
+  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(area_m2) / (spacing_m * spacing_m))));
+  for (std::size_t n = 0; n < count; ++n) {
+    const Point2d w = place_in_triangle(n, count);
+    const Point3f p = a + static_cast<float>(w.x) * ab + static_cast<float>(w.y) * ac + surface_offset_m * normal;
+    receivers.push_back({t, area_m2 / static_cast<float>(count), p, normal, columns.at(p.x, p.y).is_inside_building(p.z)});
+  }
+}
+
+}  // namespace
+
+std::vector<SurfaceReceiver> surface_receivers(const Package& package, Cell cell, SurfaceChoice choice, double spacing_m) {
+  const TileView tile = package.tile(cell);
+  const CellColumns columns(package, cell);
+  std::vector<SurfaceReceiver> receivers;
+  for (std::uint32_t t = 0; t < tile.mesh.triangles.size(); ++t)
+    if (is_chosen(tile.surface_of(t).kind, choice)) spread(tile, t, spacing_m, columns, receivers);
+  return receivers;
+}
+
+}  // namespace farlod
