@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results/atomic_file.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <fstream>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "results/output_error.hpp"
+
+namespace farlod {
+
+AtomicFile::AtomicFile(std::filesystem::path destination) : destination_(std::move(destination)) {
+  // The process number keeps two runs that write the same file apart
+  std::string name(1, '.');
+  name.append(destination_.filename().string()).append(1, '.').append(std::to_string(getpid())).append(".partial");
+  temporary_ = destination_.parent_path() / name;
+}
+
+AtomicFile::~AtomicFile() {
+  std::error_code nothing_to_remove;
+  std::filesystem::remove(temporary_, nothing_to_remove);
+}
+
+void AtomicFile::commit() {
+  std::error_code error;
+  std::filesystem::rename(temporary_, destination_, error);
+  if (error) throw OutputError(destination_, error.message());
+}
+
+void write_text_atomically(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write) {
+  AtomicFile file(path);
+  errno = 0;
+  std::ofstream stream(file.temporary(), std::ios::binary);
+  if (stream) write(stream);
+  stream.close();
+  // The stream does not say why it failed; the system's last error does
+  if (!stream) throw OutputError(path, errno != 0 ? std::generic_category().message(errno) : "the disk refused the data");
+  file.commit();
+}
+
+}  // namespace farlod

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace farlod {
+
+/// The shortest decimal number, without an exponent, that reads back as `value` (which is finite).
+[[nodiscard]] std::string shortest_decimal(double value);
+[[nodiscard]] std::string shortest_decimal(float value);
+/// Rounded to the millimetre, without trailing zeros: coordinates and areas mean no more than that.
+[[nodiscard]] std::string millimetre_decimal(double value);
+/// With six digits after the point: view factors.
+[[nodiscard]] std::string share_decimal(double value);
+
+}  // namespace farlod

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "farlod/point.hpp"
+
+namespace farlod {
+
+/// One value for each pixel of a north-up raster in the output CRS. Row 0 is the northernmost.
+/// A pixel without an answer (its centre lies inside a building) holds NaN.
+struct SkyRaster {
+  Point2d north_west_m;  ///< the outer corner of the first pixel, projected frame
+  double step_m = 1.0;   ///< edge of a pixel
+  std::size_t columns = 0, rows = 0;
+  std::vector<float> svf;  ///< row by row from the north, each from the west
+  std::string quantity;    ///< "svf" or "svf_solid": the band's name
+  std::string crs_wkt;
+
+  [[nodiscard]] Point2d centre_m(std::size_t column, std::size_t row) const {
+    return {north_west_m.x + (static_cast<double>(column) + 0.5) * step_m,
+            north_west_m.y - (static_cast<double>(row) + 0.5) * step_m};
+  }
+};
+
+}  // namespace farlod

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "results/sky_table.hpp"
+
+namespace farlod {
+
+// Tables as CSV (RFC 4180, lines end with a line feed): a header row, units in the column names, lengths to the millimetre,
+// view factors with six digits, empty where there is no answer. `quantity` ("svf" or "svf_solid") names the columns of
+// the answers. All throw OutputError.
+
+/// Columns: id, x_m, y_m, z_m, QUANTITY.
+void write_points_csv(std::span<const PointRow> rows, const std::string& quantity, const std::filesystem::path& path);
+
+/// Columns: building, surface, kind, x_m, y_m, z_m, azimuth_deg, tilt_deg, area_m2, QUANTITY.
+void write_surface_points_csv(std::span<const SurfacePointRow> rows, const std::string& quantity,
+                              const std::filesystem::path& path);
+
+/// Columns: building, surface, kind, azimuth_deg, tilt_deg, area_m2, receivers, nodata, QUANTITY_mean, QUANTITY_min,
+/// QUANTITY_max.
+void write_surfaces_csv(std::span<const SurfaceRow> rows, const std::string& quantity, const std::filesystem::path& path);
+
+/// Columns: building, roof_area_m2, wall_area_m2, receivers, nodata, QUANTITY_roofs, QUANTITY_walls.
+void write_buildings_csv(std::span<const BuildingRow> rows, const std::string& quantity, const std::filesystem::path& path);
+
+}  // namespace farlod
