@@ -103,7 +103,7 @@ void understand(const RawOptions& raw, PackOptions& o) {
     throw CLI::ValidationError("--neighborhood", std::to_string(s.grid.neighborhood) + " is even: a neighbourhood has a cell in its middle, give an odd number");
   if (!raw.origin.empty()) s.ingest.obj_origin = parse_origin(raw.origin);
   s.ingest.up = raw.up == "y" ? UpAxis::y : UpAxis::z;
-  if (raw.lod != "best") s.ingest.lod = LodChoice::exactly(std::stoi(raw.lod));
+  if (raw.lod != "best") s.ingest.lod.exactly = std::stoi(raw.lod);
   if (!raw.height_field.empty()) s.ingest.height_field = raw.height_field;
   if (!raw.base_field.empty()) s.ingest.base_field = raw.base_field;
   understand_alignment(raw.align, s.grid);

@@ -23,6 +23,15 @@ class Packing {
   Packing(const PackSettings& settings, Report& report, const PackProgress& progress)
       : settings_(settings), report_(report), progress_(progress) {}
 
+  template <class Work>
+  auto timed(const std::string& stage, const Work& work) {
+    progress_(stage, 0, 1);
+    const auto start = Clock::now();
+    auto value = work();
+    result_.stage_seconds.emplace_back(stage, seconds_between(start, Clock::now()));
+    return value;
+  }
+
   PackResult run() {
     LocatedCity located = read_and_locate();
     // Before the long work, so that a folder that may not be written ends the run early
@@ -37,15 +46,6 @@ class Packing {
   }
 
  private:
-  template <class Work>
-  auto timed(const std::string& stage, const Work& work) {
-    progress_(stage, 0, 1);
-    const auto start = Clock::now();
-    auto value = work();
-    result_.stage_seconds.emplace_back(stage, seconds_between(start, Clock::now()));
-    return value;
-  }
-
   LocatedCity read_and_locate() {
     if (settings_.inputs.empty()) {
       return {{}, timed("georeference", [&] { return georeference_of_terrain(*settings_.terrain, settings_.georeference); })};
@@ -68,8 +68,8 @@ class Packing {
 
   Grid lay_grid(const LocatedCity& located, const std::optional<TerrainRaster>& terrain) {
     if (!located.city.buildings().empty()) {
-      AlignedGrid aligned = align(located, settings_.grid, report_);
-      result_.alignment = aligned.alignment;
+      GridAlignment aligned = align(located, settings_.grid, report_);
+      result_.alignment = aligned.streets;
       return aligned.grid;
     }
     Box2d outline;

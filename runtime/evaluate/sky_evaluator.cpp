@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/sky_evaluator.hpp"
 
+#include <chrono>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -13,7 +14,11 @@
 namespace farlod {
 namespace {
 
-/// Calls `visit(first, count)` for each run of receivers that look the same way: they share their directions.
+using Clock = std::chrono::steady_clock;
+
+double seconds_between(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
+
+/// Calls `visit` for each run of receivers that look the same way: they share their directions.
 template <class Visit>
 void for_each_run(std::span<const Receiver> receivers, const Visit& visit) {
   for (std::size_t first = 0; first < receivers.size();) {
@@ -54,10 +59,12 @@ SkyEvaluator::~SkyEvaluator() = default;
 
 void SkyEvaluator::evaluate(const CellReceivers& cell, std::span<float> svf) const {
   if (cell.receivers.empty()) return;
+  const auto start = Clock::now();
   const bool exact = settings_.engine == Engine::exact || !package_.grid().cells.contains(cell.cell);
   const WholeCity* city = exact ? &city_->get(package_) : nullptr;
   const std::optional<Occluder> near = exact ? std::nullopt : std::optional(near_scene(package_, cell.cell));
   const FarMap far = exact ? FarMap() : package_.far_map(cell.cell);
+  const auto scene_ready = Clock::now();
   for_each_run(cell.receivers, [&](std::span<const Receiver> run) {
     std::vector<Point3d> directions = directions_of(directions_, run.front().normal);
     // What the far city hides needs no ray: the map is looked up by direction alone, hence alike for the whole run
@@ -68,6 +75,10 @@ void SkyEvaluator::evaluate(const CellReceivers& cell, std::span<float> svf) con
     for (std::size_t n = 0; n < run.size(); ++n)
       svf[run[n].index] = static_cast<float>(static_cast<double>(free[n]) / static_cast<double>(directions_.ray_count()));
   });
+  scenes_s_ += seconds_between(start, scene_ready);
+  rays_s_ += seconds_between(scene_ready, Clock::now());
 }
+
+SkyEvaluator::Effort SkyEvaluator::effort() const { return {scenes_s_, rays_s_}; }
 
 }  // namespace farlod

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -36,12 +37,19 @@ class SkyEvaluator {
   /// its receivers are traced against the whole city, whatever the engine.
   void evaluate(const CellReceivers& receivers, std::span<float> svf) const;
 
+  /// Seconds spent so far, summed over threads.
+  struct Effort {
+    double scenes_s = 0.0, rays_s = 0.0;
+  };
+  [[nodiscard]] Effort effort() const;
+
  private:
   struct WholeCityOnDemand;
   const Package& package_;
   SkySettings settings_;
   SkyDirections directions_;
   std::unique_ptr<WholeCityOnDemand> city_;
+  mutable std::atomic<double> scenes_s_ = 0.0, rays_s_ = 0.0;
 };
 
 }  // namespace farlod

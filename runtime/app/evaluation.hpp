@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "app/svf_options.hpp"
+#include "evaluate/sky_evaluator.hpp"
+#include "evaluate/verification.hpp"
+#include "package/package.hpp"
+
+namespace farlod {
+
+/// Rays of each receiver that `--verify` computes anew: enough that the discretisation of the reference does not count
+/// (root mean square error below .001).
+inline constexpr std::size_t verify_rays = 20000;
+
+/// Gives the receivers of the n-th cell of a run; the same whenever it is asked.
+using ReceiversOfCell = std::function<CellReceivers(std::size_t n)>;
+
+/// Seconds of wall clock by part of the work.
+struct RunSeconds {
+  double open = 0.0, scenes = 0.0, evaluate = 0.0, write = 0.0;
+};
+
+/// What a run came to, for people and for `--summary`.
+struct SvfRun {
+  std::size_t receivers = 0, nodata = 0, outside_of_grid = 0;
+  RunSeconds seconds;
+  std::optional<double> svf_min, svf_mean, svf_max;
+  std::optional<ErrorSummary> errors;
+  std::vector<std::filesystem::path> files;
+};
+
+/// Evaluates the receivers of all cells on all cores; `svf[receiver.index]` gets each answer. Then, when the user asked for it,
+/// verifies some of them. Adds to the run's times, figures and counts; `nodata` is the caller's to count.
+void evaluate_cells(const Package& package, const SvfOptions& options, std::size_t cell_count, const ReceiversOfCell& receivers_of,
+                    std::span<float> svf, SvfRun& run);
+
+/// The three kinds of run. Each evaluates, writes its files and returns what it came to.
+[[nodiscard]] SvfRun run_raster(const Package& package, const SvfOptions& options);
+[[nodiscard]] SvfRun run_points(const Package& package, const SvfOptions& options);
+[[nodiscard]] SvfRun run_surfaces(const Package& package, const SvfOptions& options);
+
+/// "svf" or "svf_solid": never one ambiguous name.
+[[nodiscard]] std::string quantity_name(SkyWeight weight);
+
+}  // namespace farlod

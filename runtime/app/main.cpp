@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <chrono>
+#include <fstream>
+#include <new>
+#include <thread>
+
+#include "app/evaluation.hpp"
+#include "app/svf_options.hpp"
+#include "app/svf_summary.hpp"
+#include "console/exit_code.hpp"
+#include "package/package_error.hpp"
+#include "receivers/point_reader.hpp"
+#include "results/output_error.hpp"
+
+namespace farlod {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+void write_summary(const std::string& path, const std::string& text) {
+  if (path.empty()) return;
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) throw OutputError(path, "is there such a folder, and room on the disk?");
+}
+
+SvfRun evaluate(const SvfOptions& options) {
+  const auto start = Clock::now();
+  const Package package(options.package);
+  const double open_s = seconds_since(start);
+  SvfRun run = options.source == ReceiverSource::grid       ? run_raster(package, options)
+               : options.source == ReceiverSource::surfaces ? run_surfaces(package, options)
+                                                            : run_points(package, options);
+  run.seconds.open = open_s;
+  return run;
+}
+
+void print_sanity(const SvfRun& run) {
+  if (!run.svf_mean) return fmt::print("No receiver has an answer: all of them lie inside buildings or outside of the package.\n");
+  if (*run.svf_min == *run.svf_max && run.receivers > 100)
+    fmt::print("Every receiver has the same value: is the package the right one, and the height above its roofs?\n");
+}
+
+void print_run(const SvfRun& run, const SvfOptions& options, double total_s) {
+  const std::string quantity = quantity_name(options.sky.weight);
+  fmt::print("{} receivers, {} without data; {:.1f} s in all\n", run.receivers, run.nodata, total_s);
+  if (run.svf_mean) fmt::print("{}: min {:.4f}, mean {:.4f}, max {:.4f}\n", quantity, *run.svf_min, *run.svf_mean, *run.svf_max);
+  print_sanity(run);
+  if (run.outside_of_grid > 0)
+    fmt::print("{} receivers lie outside of the grid, where there is no far map: they were traced against the whole city.\n", run.outside_of_grid);
+  if (run.errors)
+    fmt::print("Errors against exact ({} random receivers, {} rays): mean {:.4f}, 99 % within {:.4f}, max {:.4f}, bias {:+.4f}\n", run.errors->count,
+               std::max(verify_rays, options.sky.rays), run.errors->mean_abs_error, run.errors->p99_abs_error, run.errors->max_abs_error,
+               run.errors->bias);
+  for (const auto& file : run.files) fmt::print("{}\n", file.string());
+}
+
+int run(const SvfOptions& options) {
+  const std::size_t threads = options.threads > 0 ? static_cast<std::size_t>(options.threads) : std::thread::hardware_concurrency();
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+  const auto start = Clock::now();
+  const SvfRun result = evaluate(options);
+  const double total_s = seconds_since(start);
+  write_summary(options.summary_file, svf_summary_json(result, options, total_s));
+  if (options.verbosity == Verbosity::normal) print_run(result, options, total_s);
+  return exit_done;
+}
+
+int complain(const std::exception& error, int exit_code) {
+  fmt::print(stderr, "farlod-svf: {}\n", error.what());
+  return exit_code;
+}
+
+}  // namespace
+}  // namespace farlod
+
+int main(int argc, char** argv) {
+  using namespace farlod;
+  try {
+    const ParsedSvfOptions parsed = parse_svf_options(argc, argv);
+    return parsed.options ? run(*parsed.options) : parsed.exit_code;
+  } catch (const PackageDamaged& error) {
+    return complain(error, exit_damaged_package);
+  } catch (const PackageUnusable& error) {
+    return complain(error, exit_unusable_input);
+  } catch (const PointsError& error) {
+    return complain(error, exit_unusable_input);
+  } catch (const OutputError& error) {
+    return complain(error, exit_unusable_input);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "farlod-svf: out of memory. Evaluate a part at a time (--bbox), or use fewer --threads.\n");
+    return exit_limit_reached;
+  } catch (const std::exception& error) {
+    return complain(error, exit_internal);
+  }
+}

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <limits>
+#include <stdexcept>
+
+#include "app/evaluation.hpp"
+#include "receivers/point_reader.hpp"
+#include "results/sky_table_csv.hpp"
+#ifdef FARLOD_WITH_GDAL
+#include "results/reproject_gdal.hpp"
+#endif
+
+namespace farlod {
+namespace {
+
+struct NamedPlaces {
+  std::vector<PlaceOfReceiver> places;
+  std::vector<std::string> ids;
+};
+
+void move_to_package_crs(std::vector<PlaceOfReceiver>& places, [[maybe_unused]] const SvfOptions& options,
+                         [[maybe_unused]] const package::Manifest& manifest) {
+#ifdef FARLOD_WITH_GDAL
+  std::vector<Point2d> points;
+  for (const PlaceOfReceiver& p : places) points.push_back(p.p_projected);
+  points = to_projected(points, options.points_crs, manifest.crs_wkt);
+  for (std::size_t n = 0; n < places.size(); ++n) places[n].p_projected = points[n];
+#else
+  throw PointsError("--points-crs needs GDAL, which this farlod-svf was built without: give the points in the package's CRS (" +
+                    manifest.crs_name + ").");
+#endif
+}
+
+NamedPlaces read_places(const SvfOptions& options, const package::Manifest& manifest) {
+  if (options.source == ReceiverSource::at) return {{options.at}, {"1"}};
+  NamedPlaces result;
+  for (RequestedPoint& point : read_points_csv(options.points_file)) {
+    result.places.push_back({{point.x, point.y}, point.z});
+    result.ids.push_back(std::move(point.id));
+  }
+  if (!options.points_crs.empty()) move_to_package_crs(result.places, options, manifest);
+  return result;
+}
+
+}  // namespace
+
+SvfRun run_points(const Package& package, const SvfOptions& options) {
+  const NamedPlaces named = read_places(options, package.manifest());
+  const auto cells = places_by_cell(package, named.places);
+  std::vector<float> svf(named.places.size(), std::numeric_limits<float>::quiet_NaN());
+  // Where a receiver stands is known once its cell is read
+  std::vector<double> height_m(named.places.size(), std::numeric_limits<double>::quiet_NaN());
+  SvfRun run;
+  const auto receivers_of = [&](std::size_t n) {
+    CellReceivers r = receivers_at(package, cells[n].first, named.places, cells[n].second, options.height_above, static_cast<float>(options.height_m));
+    for (const Receiver& receiver : r.receivers) height_m[receiver.index] = receiver.p_cell.z + package.manifest().height_origin_m;
+    return r;
+  };
+  evaluate_cells(package, options, cells.size(), receivers_of, svf, run);
+  run.nodata = svf.size() - run.receivers;
+  std::vector<PointRow> rows;
+  for (std::size_t n = 0; n < svf.size(); ++n) {
+    const Point2d p = named.places[n].p_projected;
+    rows.push_back({named.ids[n], {p.x, p.y, height_m[n]}, std::isnan(svf[n]) ? std::nullopt : std::optional<double>(svf[n])});
+  }
+  const auto start = std::chrono::steady_clock::now();
+  write_points_csv(rows, quantity_name(options.sky.weight), options.output);
+  run.files.push_back(options.output);
+  run.seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return run;
+}
+
+}  // namespace farlod

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/svf_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "console/exit_code.hpp"
+#include "farlod/version.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr const char* description =
+    "farlod-svf — computes sky view factors from a package that farlod-pack made.\n\n"
+    "Try this first:\n"
+    "  farlod-svf town.farlod -o svf.tif --grid 2 --preview svf.png\n"
+    "  farlod-svf town.farlod -o walls.csv --surfaces walls --spacing 2\n";
+constexpr const char* footer =
+    "\nReceivers inside a building get no answer: the declared no-data value in a raster, an empty field in a table.\n"
+    "Exit codes: 0 done, 1 internal, 2 usage, 3 an input cannot be read or used, 4 a damaged package, 5 a limit was reached.";
+
+/// Options whose text must be understood after CLI11 has taken them.
+struct RawOptions {
+  std::string package, output, points, surfaces, at, bbox, engine = "auto", sky = "cosine";
+  bool on_surface = false, quiet = false;
+};
+
+std::vector<double> numbers_in(const std::string& text, const std::string& option, const std::string& form) {
+  std::vector<double> numbers;
+  for (const std::string& part : CLI::detail::split(text, ',')) {
+    char* end = nullptr;
+    numbers.push_back(std::strtod(part.c_str(), &end));
+    if (part.empty() || *end != '\0' || !std::isfinite(numbers.back()))
+      throw CLI::ValidationError(option, "\"" + text + "\" is not of the form " + form);
+  }
+  return numbers;
+}
+
+void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
+  auto* receivers = app.add_option_group("Receivers", "Where the sky is looked at: exactly one of");
+  receivers->add_option("--grid", o.grid_step_m, "A raster with pixels of this many metres")->check(CLI::Range(0.01, 10000.0));
+  receivers->add_option("--points", raw.points, "The points of this table (CSV with x, y and perhaps z and id)");
+  receivers->add_option("--surfaces", raw.surfaces, "Points spread over the buildings, with averages per surface and building")
+      ->check(CLI::IsMember({"roofs", "walls", "all"}));
+  receivers->add_option("--at", raw.at, "One point: X,Y or X,Y,Z in the package's CRS");
+  receivers->require_option(1);
+  app.add_option("--height", o.height_m, "Metres above ground (not for --surfaces, nor for points with a z)")->capture_default_str()->group("Placing");
+  app.add_flag("--on-surface", raw.on_surface, "Count --height from whatever is highest there, ground or roof")->group("Placing");
+  app.add_option("--spacing", o.spacing_m, "Metres between receivers on surfaces")->check(CLI::Range(0.05, 1000.0))->capture_default_str()->group("Placing");
+  app.add_option("--points-crs", o.points_crs, "CRS of --points, as EPSG:n (default: the package's)")->group("Placing");
+  app.add_option("--bbox", raw.bbox, "X0,Y0,X1,Y1: only this part of --grid")->group("Placing");
+}
+
+void add_other_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
+  app.add_option("PACKAGE", raw.package, "A folder that farlod-pack made")->required();
+  app.add_option("-o,--output", raw.output, "File to write; its ending says the format: " + known_output_endings())->required()->group("Output");
+  app.add_option("--preview", o.preview_file, "Also draw the raster as this PNG, with a colour scale")->group("Output");
+  app.add_option("--summary", o.summary_file, "Write counts, times and figures to this JSON file")->group("Output");
+  app.add_option("--engine", raw.engine, "auto: the fastest that fits; rays: near tiles and far map; exact: all tiles, the reference")
+      ->check(CLI::IsMember({"auto", "rays", "exact"}))->capture_default_str()->group("Accuracy");
+  app.add_option("--rays", o.sky.rays, "Directions a receiver")->check(CLI::Range(1, 10000000))->capture_default_str()->group("Accuracy");
+  app.add_option("--sky", raw.sky, "Weight of the sky: cosine (svf) or solid (svf_solid)")
+      ->check(CLI::IsMember({"cosine", "solid"}))->capture_default_str()->group("Accuracy");
+  app.add_option("--verify", o.verify_count, "Also compute this many random receivers exactly, and report the errors")->group("Accuracy");
+  app.add_flag("--quiet", raw.quiet, "Say nothing but errors")->group("Run");
+  app.add_option("--threads", o.threads, "Threads to use (default: all cores)")->check(CLI::Range(1, 4096))->group("Run");
+  app.set_config("--config", "", "Read options from this file (TOML)")->group("Run");
+  app.set_version_flag("--version", std::string("farlod-svf ") + software_version);
+}
+
+void understand_place(const RawOptions& raw, SvfOptions& o) {
+  if (!raw.at.empty()) {
+    const auto n = numbers_in(raw.at, "--at", "X,Y or X,Y,Z");
+    if (n.size() != 2 && n.size() != 3) throw CLI::ValidationError("--at", "give X,Y or X,Y,Z");
+    o.source = ReceiverSource::at;
+    o.at = {{n[0], n[1]}, n.size() == 3 ? std::optional(n[2]) : std::nullopt};
+  } else if (!raw.points.empty()) {
+    o.source = ReceiverSource::points;
+    o.points_file = raw.points;
+  } else if (!raw.surfaces.empty()) {
+    o.source = ReceiverSource::surfaces;
+    o.surfaces = raw.surfaces == "roofs" ? SurfaceChoice::roofs : raw.surfaces == "walls" ? SurfaceChoice::walls : SurfaceChoice::all;
+  }
+  if (raw.bbox.empty()) return;
+  const auto n = numbers_in(raw.bbox, "--bbox", "X0,Y0,X1,Y1");
+  if (n.size() != 4 || n[0] >= n[2] || n[1] >= n[3]) throw CLI::ValidationError("--bbox", "give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
+  if (o.source != ReceiverSource::grid) throw CLI::ValidationError("--bbox", "it goes with --grid");
+  o.bbox_projected = Box2d{{n[0], n[1]}, {n[2], n[3]}};
+}
+
+void understand_output(const RawOptions& raw, SvfOptions& o) {
+  o.output = raw.output;
+  const auto format = output_format_of(o.output);
+  if (!format)
+    throw CLI::ValidationError("-o", "the ending of \"" + raw.output + "\" is not one that can be written here: use one of " + known_output_endings());
+  o.format = *format;
+  const bool is_table = *format == OutputFormat::csv;
+  if (o.source == ReceiverSource::grid && is_table) throw CLI::ValidationError("-o", "--grid makes a raster: choose a raster's ending instead of .csv");
+  if (o.source != ReceiverSource::grid && !is_table) throw CLI::ValidationError("-o", "only --grid makes a raster: choose .csv for points and surfaces");
+  if (!o.preview_file.empty() && o.source != ReceiverSource::grid) throw CLI::ValidationError("--preview", "it goes with --grid");
+  if (!o.points_crs.empty() && o.source != ReceiverSource::points) throw CLI::ValidationError("--points-crs", "it goes with --points");
+}
+
+void understand(const RawOptions& raw, SvfOptions& o) {
+  o.package = raw.package;
+  understand_place(raw, o);
+  understand_output(raw, o);
+  o.height_above = raw.on_surface ? HeightAbove::highest_surface : HeightAbove::ground;
+  // `auto` is the fastest engine that fits; so far that is one for all cities
+  o.sky.engine = raw.engine == "exact" ? Engine::exact : Engine::rays;
+  o.sky.weight = raw.sky == "solid" ? SkyWeight::solid_angle : SkyWeight::cosine;
+  o.verbosity = raw.quiet ? Verbosity::quiet : Verbosity::normal;
+}
+
+}  // namespace
+
+ParsedSvfOptions parse_svf_options(int argc, char** argv) {
+  CLI::App app(description, "farlod-svf");
+  app.footer(footer);
+  app.get_formatter()->column_width(34);
+  RawOptions raw;
+  SvfOptions options;
+  add_receiver_options(app, raw, options);
+  add_other_options(app, raw, options);
+  try {
+    app.parse(argc, argv);
+    understand(raw, options);
+  } catch (const CLI::ParseError& error) {
+    return {std::nullopt, app.exit(error) == 0 ? exit_done : exit_usage};
+  }
+  return {std::move(options), exit_done};
+}
+
+}  // namespace farlod

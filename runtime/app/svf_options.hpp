@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "console/progress.hpp"
+#include "evaluate/sky_evaluator.hpp"
+#include "farlod/box.hpp"
+#include "receivers/point_receivers.hpp"
+#include "receivers/surface_receivers.hpp"
+#include "results/output_format.hpp"
+
+namespace farlod {
+
+/// Where the receivers are: exactly one of these.
+enum class ReceiverSource { grid, points, surfaces, at };
+
+/// The command line of farlod-svf, understood.
+struct SvfOptions {
+  std::filesystem::path package, output;
+  OutputFormat format = OutputFormat::csv;
+  ReceiverSource source = ReceiverSource::grid;
+  double grid_step_m = 0.0;
+  std::filesystem::path points_file;
+  std::string points_crs;
+  SurfaceChoice surfaces = SurfaceChoice::all;
+  double spacing_m = 2.0;
+  PlaceOfReceiver at;
+  HeightAbove height_above = HeightAbove::ground;
+  double height_m = 1.5;
+  std::optional<Box2d> bbox_projected;
+  SkySettings sky;
+  std::size_t verify_count = 0;
+  std::string preview_file, summary_file;
+  int threads = 0;  ///< 0: all cores
+  Verbosity verbosity = Verbosity::normal;
+};
+
+/// The options, or the exit code when there is nothing to do (help, version) or the command line is wrong; what there is
+/// to say has been said then.
+struct ParsedSvfOptions {
+  std::optional<SvfOptions> options;
+  int exit_code = 0;
+};
+[[nodiscard]] ParsedSvfOptions parse_svf_options(int argc, char** argv);
+
+}  // namespace farlod

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "app/evaluation.hpp"
+
+namespace farlod {
+
+/// The text of `--summary`.
+[[nodiscard]] std::string svf_summary_json(const SvfRun& run, const SvfOptions& options, double total_seconds);
+
+}  // namespace farlod

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/svf_summary.hpp"
+#include "console/peak_memory.hpp"
+
+namespace farlod {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+}  // namespace
+
+std::string svf_summary_json(const SvfRun& run, const SvfOptions& options, double total_seconds) {
+  const double busy_s = run.seconds.scenes + run.seconds.evaluate;
+  Json j = {{"receivers", run.receivers},
+            {"nodata", run.nodata},
+            {"engine", options.sky.engine == Engine::exact ? "exact" : "rays"},
+            {"seconds",
+             {{"total", total_seconds},
+              {"open", run.seconds.open},
+              {"scenes", run.seconds.scenes},
+              {"evaluate", run.seconds.evaluate},
+              {"write", run.seconds.write}}},
+            {"receivers_per_second", busy_s > 0.0 ? static_cast<double>(run.receivers) / busy_s : 0.0},
+            {"rays", options.sky.rays},
+            {"peak_memory_mib", peak_memory_mib()},
+            {"svf", {{"min", number_or_null(run.svf_min)}, {"mean", number_or_null(run.svf_mean)}, {"max", number_or_null(run.svf_max)}}}};
+  if (run.errors)
+    j["verify"] = {{"count", run.errors->count},
+                   {"rays", std::max(verify_rays, options.sky.rays)},
+                   {"mean_abs_error", run.errors->mean_abs_error},
+                   {"p99_abs_error", run.errors->p99_abs_error},
+                   {"max_abs_error", run.errors->max_abs_error},
+                   {"bias", run.errors->bias}};
+  return j.dump(1) + "\n";
+}
+
+}  // namespace farlod
