@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/scenes/scene_builder.hpp"
+
+namespace farlod::scenes {
+
+void SceneBuilder::add_facet(std::vector<Point3d> points, SurfaceKind kind) {
+  // city_from_grid turns clockwise: the grid's y axis has the bearing
+  for (Point3d& p : points) p = turn_.city_from_grid(p) + shift_;
+  city_.begin_facet(kind, next_surface_++);
+  city_.add_ring(points);
+}
+
+void SceneBuilder::add_wall(Point2d a, Point2d b, double low_m, double high_m) {
+  add_polygon({{a.x, a.y, low_m}, {b.x, b.y, low_m}, {b.x, b.y, high_m}, {a.x, a.y, high_m}});
+}
+
+void SceneBuilder::add_polygon(const std::vector<Point3d>& points) {
+  city_.begin_building("polygon " + std::to_string(city_.buildings().size()));
+  next_surface_ = 0;
+  add_facet(points, SurfaceKind::unknown);
+}
+
+void SceneBuilder::add_box(const Box2d& o, double low_m, double high_m) {
+  city_.begin_building("box " + std::to_string(city_.buildings().size()));
+  next_surface_ = 0;
+  const std::vector<Point2d> ring{o.low, {o.high.x, o.low.y}, o.high, {o.low.x, o.high.y}};
+  std::vector<Point3d> roof, floor;
+  for (std::size_t n = 0; n < 4; ++n) {
+    roof.push_back({ring[n].x, ring[n].y, high_m});
+    floor.insert(floor.begin(), {ring[n].x, ring[n].y, low_m});
+  }
+  add_facet(roof, SurfaceKind::roof);
+  add_facet(floor, SurfaceKind::floor);
+  for (std::size_t n = 0; n < 4; ++n) {
+    const Point2d a = ring[n], b = ring[(n + 1) % 4];
+    add_facet({{a.x, a.y, low_m}, {b.x, b.y, low_m}, {b.x, b.y, high_m}, {a.x, a.y, high_m}}, SurfaceKind::wall);
+  }
+}
+
+}  // namespace farlod::scenes
