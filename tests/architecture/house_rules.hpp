@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/architecture/source_tree.hpp"
+
+namespace farlod {
+
+/// Files whose first lines do not name the authors and the licence of their folder: GPL-3.0-or-later below preprocess/ (it
+/// uses GPL packages of CGAL), Apache-2.0 elsewhere.
+[[nodiscard]] std::vector<std::string> files_without_licence(const std::vector<SourceFile>& tree);
+
+/// C++ files that are longer than 400 lines, but for those that have a reason to be.
+[[nodiscard]] std::vector<std::string> files_too_long(const std::vector<SourceFile>& tree);
+
+/// Files whose name says nothing: utils, helpers, common, misc, manager.
+[[nodiscard]] std::vector<std::string> files_with_empty_names(const std::vector<SourceFile>& tree);
+
+/// C++ files that carry a note to do something later, which belongs into an issue.
+[[nodiscard]] std::vector<std::string> files_with_notes_to_self(const std::vector<SourceFile>& tree);
+
+}  // namespace farlod

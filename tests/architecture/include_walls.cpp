@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/architecture/include_walls.hpp"
+
+#include <algorithm>
+#include <array>
+#include <regex>
+#include <set>
+#include <string_view>
+
+namespace farlod {
+namespace {
+
+/// What the files of a room must not include. All four are regular expressions or words for people.
+struct Wall {
+  const char* room;       ///< paths that the row is about
+  const char* exempt;     ///< paths among them that it is not about
+  const char* forbidden;  ///< what stands between the brackets or quotes
+  const char* reason;
+};
+
+#define CGAL_HEADERS "CGAL/|gmpxx?\\.h|mpfr\\.h"
+#define GDAL_HEADERS "gdal|cpl_|ogr|vrtdataset"
+#define PROJ_HEADERS "proj(\\.h|_|/)"
+#define XML_HEADERS "expat\\.h|libxml|citygml/"
+#define EXR_HEADERS "OpenEXR/|Imf|Imath|half\\.h"
+#define MAPPING_HEADERS "boost/(interprocess|iostreams)|sys/mman"
+#define NOWHERE "^$"
+
+constexpr Wall walls[] = {
+    {"^include/", NOWHERE, "^(?!farlod/|[a-z_0-9]+$)", "the contract knows the standard library only"},
+
+    {"^runtime/", NOWHERE, "^(" CGAL_HEADERS "|" PROJ_HEADERS "|" XML_HEADERS "|GeographicLib/)",
+     "the runtime ships without the geometry stack"},
+    {"^runtime/", "^runtime/results/[a-z_]+_gdal\\.cpp$", "^(" GDAL_HEADERS ")",
+     "the runtime library never needs GDAL; results/*_gdal.cpp are a library apart"},
+    {"^runtime/", "^runtime/occlusion/[a-z_]+_embree\\.cpp$", "^embree", "occlusion is the only door to Embree"},
+    {"^runtime/", "^runtime/package/[a-z_]+\\.cpp$", "^(" EXR_HEADERS "|" MAPPING_HEADERS ")",
+     "only the package room knows how far maps and tiles lie on disk"},
+
+    {"^console/", NOWHERE,
+     "^(" CGAL_HEADERS "|" GDAL_HEADERS "|" PROJ_HEADERS "|" XML_HEADERS "|" EXR_HEADERS "|GeographicLib/|embree)",
+     "the console knows how to talk, not what about"},
+
+    {"^preprocess/", NOWHERE, "^embree", "rays are asked through runtime/occlusion"},
+    {"^preprocess/", "_cgal\\.[hc]pp$", "^(" CGAL_HEADERS ")", "CGAL's door is *_cgal.*"},
+    {"^preprocess/", "_(gdal|ogr)\\.cpp$", "^(" GDAL_HEADERS ")", "GDAL's doors are *_gdal.cpp and *_ogr.cpp"},
+    {"^preprocess/", "_proj\\.cpp$", "^" PROJ_HEADERS, "PROJ's door is *_proj.cpp"},
+    {"^preprocess/", "_geographiclib\\.cpp$", "^GeographicLib/", "GeographicLib's door is *_geographiclib.cpp"},
+    {"^preprocess/", "_expat\\.cpp$", "^(" XML_HEADERS ")", "Expat's door is *_expat.cpp"},
+    {"^preprocess/", "_nlohmann\\.cpp$", "^nlohmann/", "nlohmann-json's door is *_nlohmann.cpp"},
+    {"^preprocess/", "^preprocess/(farmap|package)/[a-z_]+_openexr\\.cpp$", "^(" EXR_HEADERS ")",
+     "OpenEXR's doors are farmap/ and package/*_openexr.cpp"},
+    {"^preprocess/(?!farmap/)", NOWHERE, "^occlusion/", "only farmap casts rays"},
+
+    {"^(preprocess|runtime)/", "_libpng\\.cpp$", "^png\\.h", "libpng's door is *_libpng.cpp"},
+    {"^(preprocess|runtime)/", "/app/", "^(CLI/|spdlog/|iostream$|print$)", "libraries neither print nor read command lines"},
+    {"^(preprocess|runtime)/.*\\.hpp$", "/app/|_cgal\\.hpp$", "^(?![a-z_0-9]+$|[a-z_]+/[a-z_0-9/]+\\.hpp$)",
+     "headers name no foreign library"},
+    {"^(preprocess|runtime)/.*\\.hpp$", "/app/", "^(boost|tbb|nlohmann|fmt|oneapi)/", "headers name no foreign library"},
+};
+
+/// In the order in which the data goes through them.
+constexpr std::array<std::string_view, 9> stages{"city",   "ingest",  "georeference", "align", "tiles",
+                                                 "farmap", "package", "pipeline",     "app"};
+
+std::size_t stage_of(std::string_view path_in_preprocess) {
+  const std::string_view folder = path_in_preprocess.substr(0, path_in_preprocess.find('/'));
+  return static_cast<std::size_t>(std::find(stages.begin(), stages.end(), folder) - stages.begin());
+}
+
+std::string sentence(const SourceFile& file, const Include& include, std::string_view reason) {
+  std::string text = file.path;
+  return text.append(":")
+      .append(std::to_string(include.line))
+      .append(" includes ")
+      .append(include.target)
+      .append(": ")
+      .append(reason);
+}
+
+void check_walls(const SourceFile& file, std::vector<std::string>& breaches) {
+  for (const Wall& wall : walls) {
+    if (!std::regex_search(file.path, std::regex(wall.room)) || std::regex_search(file.path, std::regex(wall.exempt))) continue;
+    const std::regex forbidden(wall.forbidden);
+    for (const Include& include : includes_of(file))
+      if (std::regex_search(include.target, forbidden)) breaches.push_back(sentence(file, include, wall.reason));
+  }
+}
+
+void check_stage_order(const SourceFile& file, std::vector<std::string>& breaches) {
+  constexpr std::string_view side = "preprocess/";
+  if (!file.path.starts_with(side)) return;
+  const std::size_t own = stage_of(std::string_view(file.path).substr(side.size()));
+  for (const Include& include : includes_of(file)) {
+    const std::size_t other = stage_of(include.target);
+    if (include.quoted && other < stages.size() && other > own)
+      breaches.push_back(sentence(file, include, "data goes one way; that stage is later"));
+  }
+}
+
+/// What a file may name in quotes besides the contract: the headers of its own side (both sides have a room `package` and a room
+/// `app`, so that the name alone does not say whose header is meant), the console from a program, rays from preprocess.
+bool may_quote(const SourceFile& file, const std::string& target, const std::set<std::string>& paths) {
+  const std::string side = file.path.substr(0, file.path.find('/'));
+  if (target.starts_with("farlod/") || paths.contains(side + "/" + target)) return true;
+  if (side == "datasets" && paths.contains("datasets/generator/" + target)) return true;
+  if (target.starts_with("console/")) return side == "console" || file.path.find("/app/") != std::string::npos;
+  return side == "preprocess" && target.starts_with("occlusion/");
+}
+
+void check_side(const SourceFile& file, const std::set<std::string>& paths, std::vector<std::string>& breaches) {
+  static const std::regex walled("^(console|preprocess|runtime|datasets)/");
+  if (!std::regex_search(file.path, walled)) return;
+  for (const Include& include : includes_of(file))
+    if (include.quoted && !may_quote(file, include.target, paths))
+      breaches.push_back(sentence(file, include, "quotes are for the contract and the headers of the own side"));
+}
+
+}  // namespace
+
+std::vector<std::string> breaches_of_include_walls(const std::vector<SourceFile>& tree) {
+  std::set<std::string> paths;
+  for (const SourceFile& file : tree) paths.insert(file.path);
+  std::vector<std::string> breaches;
+  for (const SourceFile& file : tree) {
+    if (!is_cpp(file)) continue;
+    check_walls(file, breaches);
+    check_stage_order(file, breaches);
+    check_side(file, paths, breaches);
+  }
+  return breaches;
+}
+
+}  // namespace farlod

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/architecture/include_walls.hpp"
+
+#include <gmock/gmock.h>
+
+namespace farlod {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A tree around the file under test, with a header on each side that it may name.
+std::vector<SourceFile> tree_with(const std::string& path, const std::string& include_line) {
+  return {{"console/progress.hpp", {}},
+          {"preprocess/tiles/cutter.hpp", {}},
+          {"runtime/package/reader.hpp", {}},
+          {path, {"// a line before", include_line}}};
+}
+
+TEST(IncludeWalls, StandInThisTree) {
+  const std::vector<SourceFile> tree = read_source_tree(FARLOD_SOURCE_DIR);
+  ASSERT_GT(tree.size(), 20U) << "the tree was not found at " << FARLOD_SOURCE_DIR;
+  std::string all;
+  for (const std::string& breach : breaches_of_include_walls(tree)) all.append(breach).append("\n");
+  EXPECT_EQ(all, "");
+}
+
+struct Planted {
+  const char* path;
+  const char* include_line;
+  const char* reason;
+};
+
+class PlantedBreach : public testing::TestWithParam<Planted> {};
+
+TEST_P(PlantedBreach, IsFound) {
+  const Planted& planted = GetParam();
+  const std::vector<std::string> breaches = breaches_of_include_walls(tree_with(planted.path, planted.include_line));
+  EXPECT_THAT(breaches, Contains(testing::AllOf(HasSubstr(std::string(planted.path) + ":2 "), HasSubstr(planted.reason))));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    IncludeWalls, PlantedBreach,
+    testing::Values(Planted{"include/farlod/a.hpp", "#include <boost/version.hpp>", "standard library only"},
+                    Planted{"include/farlod/a.hpp", "#include <expat.h>", "standard library only"},
+                    Planted{"include/farlod/a.hpp", "#include \"occlusion/occluder.hpp\"", "standard library only"},
+                    Planted{"runtime/scene/a.cpp", "#include <CGAL/Simple_cartesian.h>", "geometry stack"},
+                    Planted{"runtime/scene/a.cpp", "#include <proj.h>", "geometry stack"},
+                    Planted{"runtime/scene/a.cpp", "#include <expat.h>", "geometry stack"},
+                    Planted{"runtime/results/reproject_gdal.cpp", "#include <GeographicLib/UTMUPS.hpp>", "geometry stack"},
+                    Planted{"runtime/results/a.cpp", "#include <gdal_priv.h>", "never needs GDAL"},
+                    Planted{"runtime/results/a_gdal.hpp", "#include <ogr_spatialref.h>", "never needs GDAL"},
+                    Planted{"runtime/evaluate/a_gdal.cpp", "#  include <cpl_conv.h>", "never needs GDAL"},
+                    Planted{"runtime/scene/a_embree.cpp", "#include <embree3/rtcore.h>", "only door to Embree"},
+                    Planted{"runtime/scene/a.cpp", "#include <OpenEXR/ImfTiledInputFile.h>", "only the package room"},
+                    Planted{"runtime/scene/a.cpp", "#include <boost/interprocess/mapped_region.hpp>", "only the package room"},
+                    Planted{"runtime/package/a.hpp", "#include <ImfTiledInputFile.h>", "only the package room"},
+                    Planted{"runtime/scene/a.cpp", "#include \"tiles/cutter.hpp\"", "own side"},
+                    Planted{"runtime/scene/a.cpp", "#include \"console/progress.hpp\"", "own side"},
+                    Planted{"console/a.cpp", "#include \"package/reader.hpp\"", "own side"},
+                    Planted{"console/a.cpp", "#include <gdal.h>", "not what about"},
+                    Planted{"datasets/generator/a.cpp", "#include \"tiles/cutter.hpp\"", "own side"},
+                    Planted{"runtime/scene/a.cpp", "#include \"../package/reader.hpp\"", "own side"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    IncludeWallsOfPreprocess, PlantedBreach,
+    testing::Values(Planted{"preprocess/tiles/a.cpp", "#include <embree3/rtcore.h>", "through runtime/occlusion"},
+                    Planted{"preprocess/tiles/a.cpp", "#include <CGAL/Gmpq.h>", "CGAL's door"},
+                    Planted{"preprocess/ingest/a.cpp", "#include <ogrsf_frmts.h>", "GDAL's doors"},
+                    Planted{"preprocess/ingest/a.cpp", "#include <proj.h>", "PROJ's door"},
+                    Planted{"preprocess/georeference/a_proj.cpp", "#include <GeographicLib/UTMUPS.hpp>", "GeographicLib's door"},
+                    Planted{"preprocess/ingest/a.cpp", "#include <expat.h>", "Expat's door"},
+                    Planted{"preprocess/ingest/a.cpp", "#include <nlohmann/json.hpp>", "nlohmann-json's door"},
+                    Planted{"preprocess/tiles/a_openexr.cpp", "#include <OpenEXR/ImfArray.h>", "OpenEXR's doors"},
+                    Planted{"preprocess/tiles/a.cpp", "#include \"occlusion/occluder.hpp\"", "only farmap casts rays"},
+                    Planted{"preprocess/align/a.cpp", "#include \"tiles/cutter.hpp\"", "that stage is later"},
+                    Planted{"preprocess/package/a.cpp", "#include \"package/reader.hpp\"", "own side"},
+                    Planted{"preprocess/app/a.cpp", "#include \"scene/scene.hpp\"", "own side"},
+                    Planted{"preprocess/farmap/a.cpp", "#include <png.h>", "libpng's door"},
+                    Planted{"preprocess/farmap/a.cpp", "#include <iostream>", "neither print"},
+                    Planted{"preprocess/farmap/a.cpp", "#include <CLI/CLI.hpp>", "neither print"},
+                    Planted{"preprocess/farmap/a.hpp", "#include <tbb/parallel_for.h>", "headers name no foreign library"},
+                    Planted{"preprocess/farmap/a.hpp", "#include <nlohmann/json.hpp>", "headers name no foreign library"}));
+
+TEST(IncludeWalls, DoorsAreOpen) {
+  const Planted allowed[]{{"include/farlod/a.hpp", "#include <vector>", ""},
+                          {"include/farlod/a.hpp", "#include \"farlod/point.hpp\"", ""},
+                          {"runtime/results/raster_writer_gdal.cpp", "#include <gdal_priv.h>", ""},
+                          {"runtime/occlusion/occluder_embree.cpp", "#include <embree3/rtcore.h>", ""},
+                          {"runtime/package/a.cpp", "#include <boost/interprocess/mapped_region.hpp>", ""},
+                          {"runtime/evaluate/a.cpp", "#include \"package/reader.hpp\"", ""},
+                          {"runtime/app/a.cpp", "#include \"console/progress.hpp\"", ""},
+                          {"runtime/app/a.hpp", "#include <CLI/CLI.hpp>", ""},
+                          {"preprocess/tiles/kernel_cgal.hpp", "#include <CGAL/Gmpq.h>", ""},
+                          {"preprocess/farmap/a.cpp", "#include \"tiles/cutter.hpp\"", ""},
+                          {"preprocess/farmap/a.cpp", "#include \"occlusion/occluder.hpp\"", ""},
+                          {"tests/agreement/a.cpp", "#include <CGAL/Gmpq.h>", ""}};
+  for (const Planted& planted : allowed)
+    EXPECT_THAT(breaches_of_include_walls(tree_with(planted.path, planted.include_line)), IsEmpty()) << planted.path;
+}
+
+}  // namespace
+}  // namespace farlod

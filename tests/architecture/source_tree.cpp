@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/architecture/source_tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <regex>
+
+namespace farlod {
+namespace {
+
+constexpr std::array code_folders{"include", "console", "preprocess", "runtime", "datasets", "tests", "cmake", "scripts", ".ci"};
+
+bool is_code(const std::filesystem::path& path) {
+  const std::string folder = path.parent_path().filename().string(), ending = path.extension().string();
+  const bool script = ending.empty() && (folder == "scripts" || folder == ".ci");
+  return ending == ".cpp" || ending == ".hpp" || ending == ".cmake" || path.filename() == "CMakeLists.txt" || script;
+}
+
+SourceFile read(const std::filesystem::path& root, const std::filesystem::path& path) {
+  SourceFile file{std::filesystem::relative(path, root).generic_string(), {}};
+  std::ifstream stream(path);
+  for (std::string line; std::getline(stream, line);) file.lines.push_back(line);
+  return file;
+}
+
+}  // namespace
+
+std::vector<SourceFile> read_source_tree(const std::filesystem::path& root) {
+  std::vector<SourceFile> files;
+  if (std::filesystem::exists(root / "CMakeLists.txt")) files.push_back(read(root, root / "CMakeLists.txt"));
+  for (const char* folder : code_folders) {
+    if (!std::filesystem::exists(root / folder)) continue;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder))
+      if (entry.is_regular_file() && is_code(entry.path())) files.push_back(read(root, entry.path()));
+  }
+  std::sort(files.begin(), files.end(), [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
+  return files;
+}
+
+std::vector<Include> includes_of(const SourceFile& file) {
+  static const std::regex include(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
+  std::vector<Include> includes;
+  for (std::size_t n = 0; n < file.lines.size(); ++n) {
+    std::smatch match;
+    if (std::regex_search(file.lines[n], match, include)) includes.push_back({match[2], match[1] == "\"", n + 1});
+  }
+  return includes;
+}
+
+bool is_cpp(const SourceFile& file) { return file.path.ends_with(".cpp") || file.path.ends_with(".hpp"); }
+
+}  // namespace farlod

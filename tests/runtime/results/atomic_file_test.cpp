@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results/atomic_file.hpp"
+
+#include <gmock/gmock.h>
+
+#include <stdexcept>
+
+#include "results/output_error.hpp"
+#include "tests/runtime/results/scratch_folder.hpp"
+
+namespace farlod {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(AtomicFile, AppearsUnderItsNameOnly) {
+  const ScratchFolder folder;
+  write_text_atomically(folder.file("a.csv"), [&folder](std::ostream& out) {
+    EXPECT_FALSE(std::filesystem::exists(folder.file("a.csv")));
+    out << "whole";
+  });
+  EXPECT_THAT(folder.names(), ElementsAre("a.csv"));
+  EXPECT_EQ(text_of(folder.file("a.csv")), "whole");
+}
+
+TEST(AtomicFile, ReplacesAnOlderFile) {
+  const ScratchFolder folder;
+  for (const char* text : {"older and longer", "new"})
+    write_text_atomically(folder.file("a.csv"), [text](std::ostream& out) { out << text; });
+  EXPECT_EQ(text_of(folder.file("a.csv")), "new");
+}
+
+TEST(AtomicFile, LeavesNothingBehindWhenTheWriterFails) {
+  const ScratchFolder folder;
+  const auto fail = [](std::ostream& out) {
+    out << "half of it";
+    throw std::runtime_error("no more");
+  };
+  EXPECT_THROW(write_text_atomically(folder.file("a.csv"), fail), std::runtime_error);
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(AtomicFile, LeavesNothingBehindWhenTheDiskRefuses) {
+  const ScratchFolder folder;
+  const auto refuse = [](std::ostream& out) { out.setstate(std::ios::badbit); };
+  EXPECT_THROW(write_text_atomically(folder.file("a.csv"), refuse), OutputError);
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(AtomicFile, LeavesNothingBehindWhenTheNameIsTaken) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder.file("a.csv") / "inside");
+  EXPECT_THROW(write_text_atomically(folder.file("a.csv"), [](std::ostream& out) { out << "x"; }), OutputError);
+  EXPECT_THAT(folder.names(), ElementsAre("a.csv"));
+}
+
+TEST(AtomicFile, NamesTheFileAndTheReason) {
+  const ScratchFolder folder;
+  try {
+    write_text_atomically(folder.file("missing") / "a.csv", [](std::ostream& out) { out << "x"; });
+    FAIL() << "a folder that does not exist was written to";
+  } catch (const OutputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("missing/a.csv: No such file or directory"));
+  }
+}
+
+}  // namespace
+}  // namespace farlod

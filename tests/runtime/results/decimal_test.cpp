@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results/decimal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <limits>
+
+namespace farlod {
+namespace {
+
+TEST(Decimal, ShortestReadsBackAsTheSame) {
+  for (const double value : {0.1, 1.0 / 3.0, 5700010.123456789, -1e-7, 1e22, std::numeric_limits<double>::denorm_min()})
+    EXPECT_EQ(std::strtod(shortest_decimal(value).c_str(), nullptr), value);
+  EXPECT_EQ(shortest_decimal(0.1F), "0.1");
+}
+
+TEST(Decimal, HasNoExponentAndNoNegativeZero) {
+  EXPECT_EQ(shortest_decimal(1e6), "1000000");
+  EXPECT_EQ(shortest_decimal(-0.0), "0");
+  EXPECT_EQ(millimetre_decimal(-0.0001), "0");
+}
+
+TEST(Decimal, LongestNumbersFit) {
+  EXPECT_EQ(shortest_decimal(std::numeric_limits<double>::max()).size(), 309U);
+  EXPECT_EQ(shortest_decimal(-std::numeric_limits<double>::denorm_min()).size(), 327U);
+}
+
+TEST(Decimal, CoordinatesEndAtTheMillimetre) {
+  EXPECT_EQ(millimetre_decimal(5700010.123456), "5700010.123");
+  EXPECT_EQ(millimetre_decimal(1.5), "1.5");
+  EXPECT_EQ(millimetre_decimal(2.0), "2");
+}
+
+TEST(Decimal, SharesHaveSixDigits) {
+  EXPECT_EQ(share_decimal(1.0), "1.000000");
+  EXPECT_EQ(share_decimal(0.3390174), "0.339017");
+}
+
+}  // namespace
+}  // namespace farlod

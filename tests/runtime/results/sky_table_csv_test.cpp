@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results/sky_table_csv.hpp"
+
+#include <gtest/gtest.h>
+
+#include "receivers/point_reader.hpp"
+#include "results/csv_row.hpp"
+#include "tests/runtime/results/scratch_folder.hpp"
+
+namespace farlod {
+namespace {
+
+TEST(CsvField, IsQuotedWhereItMustBe) {
+  EXPECT_EQ(csv_field("plain text"), "plain text");
+  EXPECT_EQ(csv_field(""), "");
+  EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
+  EXPECT_EQ(csv_field("the \"old\" town"), "\"the \"\"old\"\" town\"");
+  EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
+}
+
+TEST(PointsCsv, IsAsDocumented) {
+  const ScratchFolder folder;
+  const std::vector<PointRow> rows{{"square, north", {500000.12345, 5700010.0, 1.5}, 0.5},
+                                   {"inside", {1.0, -2.25, 0.0}, std::nullopt}};
+  write_points_csv(rows, "svf_solid", folder.file("a.csv"));
+  EXPECT_EQ(text_of(folder.file("a.csv")),
+            "id,x_m,y_m,z_m,svf_solid\n"
+            "\"square, north\",500000.123,5700010,1.5,0.500000\n"
+            "inside,1,-2.25,0,\n");
+}
+
+TEST(PointsCsv, CanBeReadAsPointsAgain) {
+  const ScratchFolder folder;
+  const std::vector<PointRow> rows{{"the \"first\", quoted\nover two lines", {500000.125, 5700010.25, 1.5}, 0.5},
+                                   {"2nd", {1.0, -2.25, 0.0}, {}}};
+  write_points_csv(rows, "svf", folder.file("a.csv"));
+  const std::vector<RequestedPoint> points = read_points_csv(folder.file("a.csv"));
+  ASSERT_EQ(points.size(), rows.size());
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    EXPECT_EQ(points[n].id, rows[n].id);
+    EXPECT_EQ((Point3d{points[n].x, points[n].y, points[n].z.value()}), rows[n].p_projected);
+  }
+}
+
+TEST(SurfacePointsCsv, IsAsDocumented) {
+  const ScratchFolder folder;
+  const std::vector<SurfacePointRow> rows{
+      {"b1", 7, SurfaceKind::wall, {10.0, 20.0, 3.125}, Angle::degrees(181.25), Angle::degrees(90.0), 4.0, 0.25}};
+  write_surface_points_csv(rows, "svf", folder.file("a.csv"));
+  EXPECT_EQ(text_of(folder.file("a.csv")),
+            "building,surface,kind,x_m,y_m,z_m,azimuth_deg,tilt_deg,area_m2,svf\n"
+            "b1,7,wall,10,20,3.125,181.25,90,4,0.250000\n");
+}
+
+TEST(SurfacesCsv, IsAsDocumented) {
+  const ScratchFolder folder;
+  std::vector<SurfaceRow> rows(2);
+  rows[0] = {"b1", 0, SurfaceKind::roof, Angle::degrees(0.0), Angle::degrees(0.0), 100.5, 25, 1, 0.75, 0.5, 1.0};
+  rows[1].building = "b2";
+  write_surfaces_csv(rows, "svf", folder.file("a.csv"));
+  EXPECT_EQ(text_of(folder.file("a.csv")),
+            "building,surface,kind,azimuth_deg,tilt_deg,area_m2,receivers,nodata,svf_mean,svf_min,svf_max\n"
+            "b1,0,roof,0,0,100.5,25,1,0.750000,0.500000,1.000000\n"
+            "b2,0,unknown,0,0,0,0,0,,,\n");
+}
+
+TEST(BuildingsCsv, IsAsDocumented) {
+  const ScratchFolder folder;
+  const std::vector<BuildingRow> rows{{"b1", 100.0, 0.0, 25, 0, 0.75, std::nullopt}};
+  write_buildings_csv(rows, "svf", folder.file("a.csv"));
+  EXPECT_EQ(text_of(folder.file("a.csv")),
+            "building,roof_area_m2,wall_area_m2,receivers,nodata,svf_roofs,svf_walls\n"
+            "b1,100,0,25,0,0.750000,\n");
+}
+
+}  // namespace
+}  // namespace farlod
