@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ingest/city_writer.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+namespace farlod {
+namespace {
+
+/// Twice the area that a ring encloses in plan; positive when it runs counter-clockwise.
+double signed_double_area(const Ring& ring) {
+  // Counted from the first point: far from the origin the products would lose the area in their rounding
+  double sum = 0.0;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    const Point3d a = ring[i] - ring[0], b = ring[i + 1] - ring[0];
+    sum += a.x * b.y - a.y * b.x;
+  }
+  return sum;
+}
+
+void orient_footprint(Rings& rings) {
+  for (std::size_t k = 0; k < rings.size(); ++k)
+    if ((signed_double_area(rings[k]) < 0.0) == (k == 0)) std::reverse(rings[k].begin(), rings[k].end());
+}
+
+void lift(Rings& rings, double z_m) {
+  for (Ring& ring : rings)
+    for (Point3d& p : ring) p.z = z_m;
+}
+
+std::string counted(std::size_t n, const char* thing) { return std::to_string(n) + " " + thing + (n == 1 ? "" : "s"); }
+
+}  // namespace
+
+void CityWriter::begin_building(std::string id, bool stands_on_ground) {
+  id_ = std::move(id);
+  ++buildings_met_;
+  next_surface_ = 0;
+  repeated_vertices_ = open_rings_ = 0;
+  largest_gap_ = 0.0;
+  city_.begin_building(id_, stands_on_ground);
+  if (!ids_.insert(id_).second) add_problem(ProblemCode::repeated_id, "an earlier building of this file has the same id");
+}
+
+void CityWriter::add_problem(ProblemCode code, std::string detail) { add_problem_at(id_, code, std::move(detail)); }
+
+void CityWriter::add_problem_at(std::string place, ProblemCode code, std::string detail) {
+  report_.add({code, source_, std::move(place), std::move(detail)});
+}
+
+bool CityWriter::clean(Ring& ring, RingEnd end, std::string_view name, bool is_hole) {
+  const std::size_t points = ring.size();
+  const RingFindings findings = clean_ring(ring, end);
+  if (findings.state == RingState::usable) {
+    repeated_vertices_ += findings.repeated_vertices;
+    open_rings_ += findings.was_open ? 1 : 0;
+    largest_gap_ = std::max(largest_gap_, findings.gap);
+    return true;
+  }
+  const std::string who =
+      "polygon " + (name.empty() ? std::to_string(next_surface_) : std::string(name)) + (is_hole ? ", a hole: " : ": ");
+  if (findings.state == RingState::too_few_points)
+    add_problem(ProblemCode::too_few_points, who + "of its " + counted(points, "point") + " fewer than three differ");
+  else
+    add_problem(ProblemCode::unreadable_coordinate, who + "a coordinate is missing, not a number, or beyond the Earth");
+  return false;
+}
+
+bool CityWriter::clean_polygon(Rings& rings, RingEnd end, std::string_view name) {
+  if (rings.empty()) rings.emplace_back();
+  if (!clean(rings.front(), end, name, false)) return false;
+  const auto unusable = [&](Ring& hole) { return !clean(hole, end, name, true); };
+  rings.erase(std::remove_if(rings.begin() + 1, rings.end(), unusable), rings.end());
+  return true;
+}
+
+void CityWriter::add_facet(const Rings& rings, SurfaceKind kind, std::uint32_t surface, std::uint16_t part) {
+  city_.begin_facet(kind, surface, part);
+  for (const Ring& ring : rings) city_.add_ring(ring);
+}
+
+void CityWriter::add_polygon(Rings& rings, RingEnd end, const PolygonTraits& traits) {
+  if (clean_polygon(rings, end, traits.name)) add_facet(rings, traits.kind, traits.surface.value_or(next_surface_), traits.part);
+  ++next_surface_;
+}
+
+void CityWriter::add_walls(const Ring& ring, double base_m, double top_m, std::uint16_t part) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point3d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    wall_ = {{a.x, a.y, base_m}, {b.x, b.y, base_m}, {b.x, b.y, top_m}, {a.x, a.y, top_m}};
+    city_.begin_facet(SurfaceKind::wall, next_surface_++, part);
+    city_.add_ring(wall_);
+  }
+}
+
+void CityWriter::add_prism(Rings& rings, RingEnd end, double base_m, double top_m, std::uint16_t part) {
+  lift(rings, top_m);
+  if (!clean_polygon(rings, end, "footprint")) return;
+  orient_footprint(rings);
+  add_facet(rings, SurfaceKind::roof, next_surface_++, part);
+  for (const Ring& ring : rings) add_walls(ring, base_m, top_m, part);
+  lift(rings, base_m);
+  for (Ring& ring : rings) std::reverse(ring.begin(), ring.end());
+  add_facet(rings, SurfaceKind::floor, next_surface_++, part);
+}
+
+void CityWriter::report_repairs() {
+  if (repeated_vertices_ > 0)
+    add_problem(ProblemCode::repeated_vertex, "taken out: " + counted(repeated_vertices_, "repetition"));
+  if (open_rings_ > 0) {
+    std::ostringstream detail;
+    detail << counted(open_rings_, "ring") << " closed; the last vertex is up to " << largest_gap_
+           << " (units of the file) from the first";
+    add_problem(ProblemCode::ring_not_closed, detail.str());
+  }
+}
+
+void CityWriter::end_building(std::string_view missing) {
+  report_repairs();
+  if (city_.buildings().back().facet_count > 0) return;
+  city_.drop_last_building();
+  add_problem(ProblemCode::no_geometry, std::string(missing));
+}
+
+}  // namespace farlod

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include "city/city_model.hpp"
+#include "farlod/problem.hpp"
+#include "ingest/ring_cleaning.hpp"
+
+namespace farlod {
+
+/// What is known of a polygon besides its points.
+struct PolygonTraits {
+  SurfaceKind kind = SurfaceKind::unknown;
+  std::uint16_t part = 0;
+  std::optional<std::uint32_t> surface;  ///< empty: a surface of its own
+  std::string_view name;                 ///< for the report; empty: its number
+};
+
+/// Writes the buildings of one file: cleans what the readers bring, and keeps the account of what is wrong with it.
+/// All formats pass through here, so that the same town gives the same model and the same problems in each.
+class CityWriter {
+ public:
+  CityWriter(std::string source, Report& report) : source_(std::move(source)), report_(report) {}
+
+  void begin_building(std::string id, bool stands_on_ground = false);
+  /// Cleans the rings in place, and adds the polygon unless its outer ring is unusable; unusable holes are filled.
+  void add_polygon(Rings& rings, RingEnd end, const PolygonTraits& traits);
+  /// Adds a prism over a footprint (z of its rings is ignored): roof, floor, and a wall per edge, all facing outwards.
+  void add_prism(Rings& rings, RingEnd end, double base_m, double top_m, std::uint16_t part);
+  /// Reports a problem of the building begun last.
+  void add_problem(ProblemCode code, std::string detail);
+  /// Reports a problem of something that is not a building.
+  void add_problem_at(std::string place, ProblemCode code, std::string detail);
+  /// Takes the building back when nothing of it is usable; `missing` then says what the reader knows about the reason.
+  void end_building(std::string_view missing = "it has no surfaces");
+
+  [[nodiscard]] std::size_t buildings_met() const { return buildings_met_; }
+  [[nodiscard]] const std::string& source() const { return source_; }
+  [[nodiscard]] CityModel take_city() { return std::move(city_); }
+
+ private:
+  [[nodiscard]] bool clean_polygon(Rings& rings, RingEnd end, std::string_view name);
+  [[nodiscard]] bool clean(Ring& ring, RingEnd end, std::string_view name, bool is_hole);
+  void add_facet(const Rings& rings, SurfaceKind kind, std::uint32_t surface, std::uint16_t part);
+  void add_walls(const Ring& ring, double base_m, double top_m, std::uint16_t part);
+  void report_repairs();
+
+  std::string source_;
+  Report& report_;
+  CityModel city_;
+  std::unordered_set<std::string> ids_;
+  std::string id_;
+  std::size_t buildings_met_ = 0;
+  std::uint32_t next_surface_ = 0;
+  std::size_t repeated_vertices_ = 0, open_rings_ = 0;
+  double largest_gap_ = 0.0;
+  Ring wall_ = Ring(4);
+};
+
+}  // namespace farlod

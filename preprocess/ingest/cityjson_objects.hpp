@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "farlod/point.hpp"
+#include "farlod/surface_kind.hpp"
+#include "ingest/city_writer.hpp"
+#include "ingest/lod_choice.hpp"
+
+namespace farlod {
+
+struct CityJsonPolygon {
+  std::vector<std::vector<std::int64_t>> rings;  ///< rows of the vertex list; the file may be wrong about them
+  SurfaceKind kind = SurfaceKind::unknown;
+};
+
+/// A use of a template: turned and scaled by a matrix (row by row, 4 × 4), then moved to a vertex.
+struct CityJsonInstance {
+  std::size_t template_row = 0;
+  std::array<double, 16> matrix{};
+  std::int64_t anchor = 0;
+};
+
+struct CityJsonGeometry {
+  std::string type;
+  double lod = 0.0;
+  std::vector<CityJsonPolygon> polygons;
+  std::optional<CityJsonInstance> instance;  ///< then the polygons are those of the template
+};
+
+struct CityJsonObject {
+  std::string id, type;
+  std::vector<std::string> parents, children;
+  std::vector<CityJsonGeometry> geometries;
+  std::optional<double> measured_height_m;
+  std::string malformed;  ///< what does not follow the format; then there are no geometries
+};
+
+/// Templates, common to all objects of a file.
+struct CityJsonTemplates {
+  std::vector<CityJsonGeometry> geometries;
+  std::vector<Point3d> vertices;
+};
+
+/// Writes the buildings among the objects of one vertex list: of a CityJSON file, or of one line of a CityJSONSeq.
+/// Buildings, bridges and other constructions hide the sky, with their parts and outer installations; terrain, plants
+/// and the like are passed over.
+void write_buildings(const std::vector<CityJsonObject>& objects, const std::vector<Point3d>& vertices,
+                     const CityJsonTemplates& templates, LodChoice lod, CityWriter& writer);
+
+}  // namespace farlod

@@ -1,0 +1,355 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <charconv>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "city/input_error.hpp"
+#include "ingest/city_writer.hpp"
+#include "ingest/cityjson_objects.hpp"
+#include "ingest/cityjson_reader.hpp"
+#include "ingest/surface_names.hpp"
+
+namespace farlod {
+namespace {
+
+using nlohmann::json;
+
+constexpr double unreadable = std::numeric_limits<double>::quiet_NaN();
+
+/// What a JSON text turned out not to be.
+class JsonFlaw : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// nlohmann's messages begin with their own number in brackets.
+std::string plain(std::string_view message) {
+  const std::size_t at = message.find("] ");
+  return std::string(at == message.npos ? message : message.substr(at + 2));
+}
+
+double lod_from(const json& geometry) {
+  const auto lod = geometry.find("lod");
+  if (lod == geometry.end()) return 0.0;
+  if (lod->is_number()) return lod->get<double>();
+  const auto& text = lod->get_ref<const std::string&>();
+  double value = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+/// How many lists lie around the surfaces of a geometry; nothing for what has no surfaces.
+std::optional<int> nesting_of(std::string_view type) {
+  if (type == "MultiSurface" || type == "CompositeSurface") return 0;
+  if (type == "Solid") return 1;
+  if (type == "MultiSolid" || type == "CompositeSolid") return 2;
+  return std::nullopt;
+}
+
+std::vector<SurfaceKind> kinds_from(const json& geometry) {
+  std::vector<SurfaceKind> kinds;
+  const auto semantics = geometry.find("semantics");
+  if (semantics == geometry.end() || !semantics->contains("surfaces")) return kinds;
+  for (const json& surface : semantics->at("surfaces")) kinds.push_back(kind_of_surface_name(surface.value("type", "")));
+  return kinds;
+}
+
+/// Flattens solids and shells; `values` numbers the semantics of the surfaces in the same nesting, or is null at any depth.
+void add_polygons(const json& boundaries, const json& values, int nesting, const std::vector<SurfaceKind>& kinds,
+                  std::vector<CityJsonPolygon>& polygons) {
+  static const json nothing;
+  if (!boundaries.is_array()) throw JsonFlaw("the boundaries of a geometry are not nested as its type asks for");
+  const auto& list = boundaries.get_ref<const json::array_t&>();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const json& value = values.is_array() && i < values.size() ? values[i] : nothing;
+    if (nesting > 0) {
+      add_polygons(list[i], value, nesting - 1, kinds, polygons);
+      continue;
+    }
+    const auto row = value.is_number_unsigned() ? value.get<std::size_t>() : kinds.size();
+    polygons.push_back(
+        {list[i].get<std::vector<std::vector<std::int64_t>>>(), row < kinds.size() ? kinds[row] : SurfaceKind::unknown});
+  }
+}
+
+CityJsonGeometry geometry_from(const json& j) {
+  CityJsonGeometry geometry{j.at("type").get<std::string>(), lod_from(j), {}, std::nullopt};
+  if (geometry.type == "GeometryInstance") {
+    geometry.instance = {j.at("template").get<std::size_t>(), j.at("transformationMatrix").get<std::array<double, 16>>(),
+                         j.at("boundaries").at(0).get<std::int64_t>()};
+  } else if (const std::optional<int> nesting = nesting_of(geometry.type)) {
+    const json values = j.contains("semantics") ? j.at("semantics").value("values", json()) : json();
+    add_polygons(j.at("boundaries"), values, *nesting, kinds_from(j), geometry.polygons);
+  }
+  return geometry;
+}
+
+CityJsonObject object_from(std::string id, const json& j) {
+  CityJsonObject object;
+  object.id = std::move(id);
+  try {
+    object.type = j.at("type").get<std::string>();
+    object.parents = j.value("parents", std::vector<std::string>());
+    object.children = j.value("children", std::vector<std::string>());
+    if (const auto attributes = j.find("attributes"); attributes != j.end() && attributes->is_object())
+      if (const auto height = attributes->find("measuredHeight"); height != attributes->end() && height->is_number())
+        object.measured_height_m = height->get<double>();
+    if (const auto geometries = j.find("geometry"); geometries != j.end())
+      for (const json& geometry : *geometries) object.geometries.push_back(geometry_from(geometry));
+  } catch (const std::exception& flaw) {
+    object.malformed = plain(flaw.what());
+    object.geometries.clear();
+  }
+  return object;
+}
+
+/// One JSON text of CityJSON: a file, or a line of a sequence. Vertices are still whole numbers where the file says so.
+struct CityJsonText {
+  std::vector<CityJsonObject> objects;
+  std::vector<Point3d> vertices;
+  json rest = json::object();  ///< the other members, by name
+};
+
+/// Takes a CityJSON text apart while it is parsed: a tree of all its vertices would need ten times their memory, and
+/// would forget the order of the objects, and those whose id comes twice.
+class CityJsonCollector : public nlohmann::json_sax<json> {
+ public:
+  bool null() override { return take(json()); }
+  bool boolean(bool value) override { return take(json(value)); }
+  bool number_integer(number_integer_t value) override { return take_number(static_cast<double>(value), json(value)); }
+  bool number_unsigned(number_unsigned_t value) override { return take_number(static_cast<double>(value), json(value)); }
+  bool number_float(number_float_t value, const string_t&) override { return take_number(value, json(value)); }
+  bool string(string_t& value) override { return take(json(std::move(value))); }
+  bool binary(binary_t&) override { return true; }
+
+  bool start_object(std::size_t) override { return open(json::object()); }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t) override { return open(json::array()); }
+  bool end_array() override { return close(); }
+  bool key(string_t& name) override {
+    if (depth_ == 1) member_ = name;
+    if (depth_ == 2 && stack_.empty()) object_ = name;
+    key_ = std::move(name);
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& flaw) override {
+    flaw_ = plain(flaw.what());
+    return false;
+  }
+
+  [[nodiscard]] const std::string& flaw() const { return flaw_; }
+  [[nodiscard]] CityJsonText text() { return std::move(text_); }
+
+ private:
+  bool in_vertices() const { return depth_ >= 2 && member_ == "vertices"; }
+  bool among_objects() const { return depth_ == 2 && member_ == "CityObjects"; }
+
+  bool take_number(double value, json tree) {
+    if (!in_vertices()) return take(std::move(tree));
+    vertex_.push_back(value);
+    return true;
+  }
+
+  bool take(json value) {
+    if (depth_ == 0) return fail("it is no JSON object");
+    if (in_vertices())
+      vertex_.push_back(unreadable);
+    else if (!stack_.empty())
+      attach(std::move(value));
+    else
+      complete(std::move(value));
+    return true;
+  }
+
+  bool open(json container) {
+    if (depth_ == 0 && !container.is_object()) return fail("it is no JSON object");
+    const bool is_ours = depth_ == 0 || in_vertices() || (depth_ == 1 && (member_ == "vertices" || member_ == "CityObjects"));
+    ++depth_;
+    if (in_vertices() && depth_ == 3) vertex_.clear();
+    if (is_ours) return true;
+    if (stack_.empty()) tree_ = std::move(container);
+    stack_.push_back(stack_.empty() ? &tree_ : attach(std::move(container)));
+    return true;
+  }
+
+  bool close() {
+    if (in_vertices() && depth_ == 3) add_vertex();
+    --depth_;
+    if (stack_.empty()) return true;
+    stack_.pop_back();
+    if (stack_.empty()) complete(std::move(tree_));
+    return true;
+  }
+
+  json* attach(json value) {
+    json& top = *stack_.back();
+    if (top.is_array()) return &top.emplace_back(std::move(value));
+    return &(top[key_] = std::move(value));
+  }
+
+  void complete(json value) {
+    if (among_objects())
+      text_.objects.push_back(object_from(object_, value));
+    else if (depth_ == 1 && member_ != "appearance")
+      text_.rest[member_] = std::move(value);
+  }
+
+  void add_vertex() {
+    const bool is_point = vertex_.size() == 3;
+    text_.vertices.push_back(is_point ? Point3d{vertex_[0], vertex_[1], vertex_[2]}
+                                      : Point3d{unreadable, unreadable, unreadable});
+  }
+
+  bool fail(const char* what) {
+    flaw_ = what;
+    return false;
+  }
+
+  CityJsonText text_;
+  std::string member_, object_, key_, flaw_;
+  std::size_t depth_ = 0;
+  std::vector<double> vertex_;
+  json tree_;
+  std::vector<json*> stack_;
+};
+
+/// Stops at the member "type" of the outermost object.
+class TypeFinder : public nlohmann::json_sax<json> {
+ public:
+  bool string(string_t& value) override {
+    if (depth_ == 1 && is_type_) type = value;
+    return goes_on();
+  }
+  bool start_object(std::size_t) override { return ++depth_ > 0; }
+  bool end_object() override { return --depth_ > 0; }
+  bool start_array(std::size_t) override { return ++depth_ > 1; }  // an outermost list has no type
+  bool end_array() override { return --depth_ > 0; }
+  bool key(string_t& name) override {
+    is_type_ = name == "type";
+    return true;
+  }
+  bool null() override { return goes_on(); }
+  bool boolean(bool) override { return goes_on(); }
+  bool number_integer(number_integer_t) override { return goes_on(); }
+  bool number_unsigned(number_unsigned_t) override { return goes_on(); }
+  bool number_float(number_float_t, const string_t&) override { return goes_on(); }
+  bool binary(binary_t&) override { return goes_on(); }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& reason) override {
+    flaw = plain(reason.what());
+    return false;
+  }
+
+  std::string type, flaw;
+
+ private:
+  bool goes_on() const { return depth_ > 0 && type.empty(); }
+
+  int depth_ = 0;
+  bool is_type_ = false;
+};
+
+class CityJsonFile {
+ public:
+  CityJsonFile(const std::filesystem::path& file, LodChoice lod, CityWriter& writer) : file_(file), lod_(lod), writer_(writer) {}
+
+  /// The first text says where the city lies; in a sequence the features follow, one a line.
+  void read() {
+    std::ifstream stream(file_, std::ios::binary);
+    std::string line;
+    std::getline(stream, line);
+    const bool is_sequence = has_another_line(stream) && json::accept(line);
+    if (!is_sequence) {
+      stream.clear();
+      stream.seekg(0);
+      return take_header(parse(stream));
+    }
+    take_header(parse(line));
+    for (number_ = 2; std::getline(stream, line); ++number_)
+      if (line.find_first_not_of(" \t\r") != line.npos) take_feature(line);
+  }
+
+  std::string reference_system;
+
+ private:
+  static bool has_another_line(std::ifstream& stream) {
+    stream >> std::ws;
+    return stream.good() && stream.peek() == '{';
+  }
+
+  template <class Text>
+  CityJsonText parse(Text&& text) {
+    CityJsonCollector collector;
+    if (!json::sax_parse(text, &collector)) throw JsonFlaw(collector.flaw());
+    return collector.text();
+  }
+
+  void take_header(CityJsonText text) {
+    if (text.rest.value("type", json()) != "CityJSON") throw JsonFlaw("it does not say \"type\": \"CityJSON\"");
+    if (text.rest.contains("transform")) {
+      scale_ = text.rest.at("transform").at("scale").get<std::array<double, 3>>();
+      translate_ = text.rest.at("transform").at("translate").get<std::array<double, 3>>();
+    }
+    if (text.rest.contains("metadata") && text.rest.at("metadata").contains("referenceSystem"))
+      reference_system = text.rest.at("metadata").at("referenceSystem").get<std::string>();
+    if (text.rest.contains("geometry-templates")) take_templates(text.rest.at("geometry-templates"));
+    write(text);
+  }
+
+  void take_templates(const json& j) {
+    for (const json& geometry : j.at("templates")) templates_.geometries.push_back(geometry_from(geometry));
+    for (const auto& p : j.at("vertices-templates").get<std::vector<std::array<double, 3>>>())
+      templates_.vertices.push_back({p[0], p[1], p[2]});
+  }
+
+  /// A line that is no JSON costs its feature, not the city.
+  void take_feature(const std::string& line) {
+    try {
+      CityJsonText text = parse(line);
+      if (text.rest.value("type", json()) != "CityJSONFeature") throw JsonFlaw("it is no CityJSONFeature");
+      write(text);
+    } catch (const JsonFlaw& flaw) {
+      writer_.add_problem_at("line " + std::to_string(number_), ProblemCode::malformed_feature, flaw.what());
+    }
+  }
+
+  void write(CityJsonText& text) {
+    for (Point3d& p : text.vertices)
+      p = {p.x * scale_[0] + translate_[0], p.y * scale_[1] + translate_[1], p.z * scale_[2] + translate_[2]};
+    write_buildings(text.objects, text.vertices, templates_, lod_, writer_);
+  }
+
+  const std::filesystem::path& file_;
+  LodChoice lod_;
+  CityWriter& writer_;
+  std::size_t number_ = 1;
+  std::array<double, 3> scale_{1.0, 1.0, 1.0}, translate_{};
+  CityJsonTemplates templates_;
+};
+
+}  // namespace
+
+bool is_cityjson(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  TypeFinder finder;
+  json::sax_parse(stream, &finder, json::input_format_t::json, false);
+  if (!finder.flaw.empty()) throw InputError(file.string() + " is not JSON: " + finder.flaw + ".");
+  return finder.type == "CityJSON";
+}
+
+SourceCity read_cityjson(const std::filesystem::path& file, LodChoice lod, Report& report) {
+  CityWriter writer(file.string(), report);
+  CityJsonFile reader(file, lod, writer);
+  try {
+    reader.read();
+  } catch (const JsonFlaw& flaw) {
+    throw InputError(file.string() + " is not CityJSON: " + flaw.what() + ". The validator cjval tells more.");
+  } catch (const json::exception& flaw) {
+    throw InputError(file.string() + " is not CityJSON: " + plain(flaw.what()) + ". The validator cjval tells more.");
+  }
+  if (writer.buildings_met() == 0)
+    throw InputError(file.string() + " holds no Building, Bridge or OtherConstruction. Is it another theme of the city model?");
+  return {file.string(), {reader.reference_system, false, false}, writer.take_city()};
+}
+
+}  // namespace farlod

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "farlod/point.hpp"
+
+namespace farlod {
+
+using Ring = std::vector<Point3d>;
+/// A polygon: the outer ring first, then its holes.
+using Rings = std::vector<Ring>;
+
+/// How a format ends a ring: by writing the first point once more (GML, OGR), or not at all (OBJ, CityJSON).
+enum class RingEnd { repeats_first, implied };
+
+enum class RingState { usable, too_few_points, unreadable_coordinate };
+
+struct RingFindings {
+  RingState state = RingState::usable;
+  std::size_t repeated_vertices = 0;  ///< taken out
+  bool was_open = false;              ///< the format repeats the first point, and this ring did not
+  double gap = 0.0;                   ///< from the last vertex to the first, where it was open
+};
+
+/// No reference system of the Earth reaches this far, in metres or in feet: a larger number is a slip.
+inline constexpr double farthest_coordinate = 1e9;
+
+/// Brings a ring into the form that CityModel promises: not closed, no vertex twice in a row, at least three different
+/// points. The one place where rings are judged, whatever the format. A ring that is not usable is left half-way.
+[[nodiscard]] RingFindings clean_ring(Ring& ring, RingEnd end);
+
+}  // namespace farlod

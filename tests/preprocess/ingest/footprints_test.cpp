@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reading.hpp"
+
+#include "city/input_error.hpp"
+#include "ingest/height_text.hpp"
+
+namespace farlod::test {
+namespace {
+
+std::string feature(const std::string& properties, const std::string& type, const std::string& coordinates) {
+  return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":{"type":")" + type + R"(","coordinates":)" +
+         coordinates + "}}";
+}
+
+std::string collection(const std::vector<std::string>& features) {
+  std::string text = R"({"type":"FeatureCollection","features":[)";
+  for (const std::string& f : features) text += (&f == &features.front() ? "" : ",") + f;
+  return text + "]}";
+}
+
+const std::string square = "[[[0,0],[4,0],[4,4],[0,4],[0,0]]]";
+// The hole runs the same way round as the outer ring: files do not agree on this
+const std::string court = "[[[0,0],[0,4],[4,4],[4,0],[0,0]],[[1,1],[1,3],[3,3],[3,1],[1,1]]]";
+
+/// The volume under the outward normals (divergence theorem).
+double volume(const CityModel& city) {
+  double sum = 0.0;
+  for (const Facet& f : city.facets())
+    for (std::uint32_t k = 0; k < f.ring_count; ++k) {
+      const auto ring = city.ring(f, k);
+      for (std::size_t i = 1; i + 1 < ring.size(); ++i) sum += dot(ring[0], cross(ring[i], ring[i + 1]));
+    }
+  return sum / 6.0;
+}
+
+TEST(Footprints, BecomePrismsThatFaceOutwards) {
+  const Reading r = read_text("a.geojson", collection({feature(R"("height":3)", "Polygon", square)}));
+  ASSERT_EQ(r.city().buildings().size(), 1u);
+  EXPECT_EQ(r.city().surface_count(), 6u);
+  EXPECT_EQ(volume(r.city()), 48.0);
+  for (const Facet& f : r.city().facets()) {
+    const Point3d n = double_area_vector(r.city(), f);
+    EXPECT_EQ(kind_of_normal(normalized(n)), f.kind);
+  }
+  EXPECT_TRUE(r.city().buildings()[0].stands_on_ground);
+  EXPECT_TRUE(r.source.crs.longitude_first);
+  EXPECT_TRUE(r.source.crs.heights_in_metres);
+  EXPECT_NE(r.source.crs.definition.find("WGS 84"), std::string::npos);
+}
+
+TEST(Footprints, HolesGetWallsTooWhicheverWayTheyRun) {
+  const Reading r = read_text("a.geojson", collection({feature(R"("height":2)", "Polygon", court)}));
+  EXPECT_EQ(r.city().surface_count(), 10u);
+  EXPECT_EQ(volume(r.city()), (16.0 - 4.0) * 2.0);
+}
+
+TEST(Footprints, AFeatureOfSeveralPolygonsIsOneBuildingWithParts) {
+  const Reading r = read_text(
+      "a.geojson", collection({feature(R"("height":2)", "MultiPolygon", "[" + square + ",[[[9,0],[10,0],[10,1],[9,0]]]]")}));
+  ASSERT_EQ(r.city().buildings().size(), 1u);
+  EXPECT_EQ(r.city().facets().front().part, 0);
+  EXPECT_EQ(r.city().facets().back().part, 1);
+  EXPECT_EQ(r.city().surface_count(), 11u);
+}
+
+TEST(Footprints, TheBaseComesFromItsOwnField) {
+  IngestSettings settings{
+      .height_field = "h", .base_field = "ground", .default_height_m = {}, .lod = {}, .obj_origin = {}, .up = UpAxis::z};
+  const Reading r = read_text("a.geojson", collection({feature(R"("h":"10 ft","ground":100)", "Polygon", square)}), settings);
+  EXPECT_FALSE(r.city().buildings()[0].stands_on_ground);
+  EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[0].z, 100.0 + 10.0 * 0.3048);
+}
+
+TEST(Footprints, ADefaultHeightServesThoseWithoutOne) {
+  IngestSettings settings;
+  settings.default_height_m = 7.0;
+  const Reading r =
+      read_text("a.geojson", collection({feature("", "Polygon", square), feature(R"("height":3)", "Polygon", square)}), settings);
+  EXPECT_EQ(r.city().buildings().size(), 2u);
+  EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[0].z, 7.0);
+  EXPECT_TRUE(r.codes().empty());
+}
+
+TEST(Footprints, IdsComeFromTheTableOrAreNumbers) {
+  const Reading r = read_text("a.geojson", collection({feature(R"("height":3,"@id":"way/7")", "Polygon", square),
+                                                       feature(R"("height":3)", "Polygon", square)}));
+  EXPECT_EQ(r.city().buildings()[0].id, "way/7");
+  EXPECT_EQ(r.city().buildings()[1].id, "1");
+}
+
+TEST(Footprints, ElevationsOfVerticesAreIgnored) {
+  const Reading r =
+      read_text("a.geojson", collection({feature(R"("height":3)", "Polygon", "[[[0,0,50],[4,0,51],[4,4,52],[0,0,50]]]")}));
+  EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[0].z, 3.0);
+}
+
+TEST(Footprints, ATableWithoutHeightsNamesItsNumbers) {
+  const std::filesystem::path file =
+      write_file("a.geojson", collection({feature(R"("floors":3,"storey":"4.5","use":"school")", "Polygon", square)}));
+  for (const IngestSettings& settings :
+       {IngestSettings{},
+        IngestSettings{
+            .height_field = "TAKASA", .base_field = {}, .default_height_m = {}, .lod = {}, .obj_origin = {}, .up = UpAxis::z}}) {
+    try {
+      (void)read_file(file, settings);
+      FAIL() << "an InputError was due";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("floors, storey"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("--height-field"), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find("use"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(Footprints, HeightsInAllNotations) {
+  EXPECT_EQ(length_m_from("17.5"), 17.5);
+  EXPECT_EQ(length_m_from(" 17,5 m "), 17.5);
+  EXPECT_EQ(length_m_from("57 ft"), 57 * 0.3048);
+  EXPECT_EQ(length_m_from("57'"), 57 * 0.3048);
+  EXPECT_EQ(length_m_from("10'6\""), 10.5 * 0.3048);
+  EXPECT_EQ(length_m_from("-3"), -3.0);
+  for (const char* text : {"", "high", "10-12", "10 storeys", "1.2.3", "nan", "inf", "5 6", "10'x"})
+    EXPECT_EQ(length_m_from(text), std::nullopt) << text;
+}
+
+}  // namespace
+}  // namespace farlod::test

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ingest/ingest.hpp"
+
+namespace farlod::test {
+
+struct Reading {
+  SourceCity source;
+  Report report;
+
+  [[nodiscard]] const CityModel& city() const { return source.city; }
+  [[nodiscard]] std::set<int> codes() const {
+    std::set<int> codes;
+    for (const Problem& problem : report.problems()) codes.insert(static_cast<int>(problem.code));
+    return codes;
+  }
+};
+
+inline Reading read_file(const std::filesystem::path& file, const IngestSettings& settings = {}) {
+  Reading reading;
+  reading.source = ingest(file, settings, reading.report);
+  return reading;
+}
+
+/// Writes a file of the running test's own.
+inline std::filesystem::path write_file(const std::string& name, const std::string& text) {
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / (std::string("farlod_") + test->test_suite_name() + "_" + test->name());
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / name, std::ios::binary) << text;
+  return folder / name;
+}
+
+inline Reading read_text(const std::string& name, const std::string& text, const IngestSettings& settings = {}) {
+  return read_file(write_file(name, text), settings);
+}
+
+/// The normal of a facet's outer ring, as long as twice its area.
+inline Point3d double_area_vector(const CityModel& city, const Facet& facet) {
+  const auto ring = city.ring(facet, 0);
+  Point3d sum;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) sum = sum + cross(ring[i] - ring[0], ring[i + 1] - ring[0]);
+  return sum;
+}
+
+inline std::size_t count_kind(const CityModel& city, SurfaceKind kind) {
+  return static_cast<std::size_t>(
+      std::count_if(city.facets().begin(), city.facets().end(), [&](const Facet& f) { return f.kind == kind; }));
+}
+
+inline std::filesystem::path shared_data(const std::string& name) { return std::filesystem::path(FARLOD_SHARED_DATA_DIR) / name; }
+
+}  // namespace farlod::test
+
+/// Real data lies outside of the project; where it is absent the test says so and passes over.
+#define FARLOD_NEEDS_DATA(name)                                  \
+  if (!std::filesystem::exists(farlod::test::shared_data(name))) \
+  GTEST_SKIP() << "needs real data: " << farlod::test::shared_data(name)
