@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tiles/exact_cutting_cgal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+#include "tiles/cutting.hpp"
+
+namespace farlod {
+namespace {
+
+using TriangleOfPoints = std::array<Point3d, 3>;
+
+Grid grid_of(double cell_edge_m) {
+  Grid grid;
+  grid.cell_edge_m = exact_cell_edge_m(cell_edge_m);
+  return grid;
+}
+
+/// Random triangles: any, with corners on borders, in border planes, and tiny beside large.
+std::vector<TriangleOfPoints> random_triangles(const Grid& grid, int count) {
+  std::mt19937_64 random(7);
+  const auto uniform = [&random](double low, double high) { return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53; };
+  std::vector<TriangleOfPoints> triangles;
+  for (int n = 0; n < count; ++n) {
+    const double reach = n % 3 == 0 ? 5.0 : 300.0;
+    const Point3d middle{uniform(-500, 500), uniform(-500, 500), uniform(0, 80)};
+    TriangleOfPoints t;
+    for (Point3d& p : t) {
+      p = middle + Point3d{uniform(-reach, reach), uniform(-reach, reach), uniform(-20, 20)};
+      if (random() % 4 == 0) p.x = grid.border_m(grid.interval_of(p.x));
+      if (random() % 4 == 0) p.y = grid.border_m(grid.interval_of(p.y));
+    }
+    if (n % 7 == 0) t[1].x = t[2].x = t[0].x = grid.border_m(grid.interval_of(t[0].x));
+    triangles.push_back(t);
+  }
+  return triangles;
+}
+
+ExactPoint twice_area_vector_of(const TriangleOfPoints& t) {
+  std::vector<ExactCorner> polygon;
+  for (const Point3d& p : t) polygon.push_back({{Rational(p.x), Rational(p.y), Rational(p.z)}, -1});
+  return twice_area_vector(polygon);
+}
+
+class CutExactly : public testing::TestWithParam<double> {};
+
+TEST_P(CutExactly, PiecesStayInTheirCell) {
+  const Grid grid = grid_of(GetParam());
+  for (const TriangleOfPoints& t : random_triangles(grid, 300))
+    for (const ExactPiece& piece : cut_exactly(t, grid)) {
+      const Box2d square = grid.square_of(piece.cell);
+      for (const ExactCorner& c : piece.polygon) {
+        EXPECT_TRUE(Rational(square.low.x) <= c.p_grid.x && c.p_grid.x <= Rational(square.high.x));
+        EXPECT_TRUE(Rational(square.low.y) <= c.p_grid.y && c.p_grid.y <= Rational(square.high.y));
+      }
+    }
+}
+
+TEST_P(CutExactly, AreaVectorsAddUpToTheTrianglesOwn) {
+  const Grid grid = grid_of(GetParam());
+  std::size_t pieces_in_all = 0;
+  for (const TriangleOfPoints& t : random_triangles(grid, 300)) {
+    ExactPoint sum{Rational(0), Rational(0), Rational(0)};
+    for (const ExactPiece& piece : cut_exactly(t, grid)) {
+      sum = sum + twice_area_vector(piece.polygon);
+      ++pieces_in_all;
+    }
+    EXPECT_TRUE(sum == twice_area_vector_of(t));
+  }
+  EXPECT_GT(pieces_in_all, 300U);
+}
+
+TEST_P(CutExactly, EachPieceHasOneOwner) {
+  const Grid grid = grid_of(GetParam());
+  for (const TriangleOfPoints& t : random_triangles(grid, 300)) {
+    std::map<Cell, int> owners;
+    for (const ExactPiece& piece : cut_exactly(t, grid)) EXPECT_EQ(++owners[piece.cell], 1);
+  }
+}
+
+TEST_P(CutExactly, APieceOnABorderBelongsToTheCellEastOrNorth) {
+  const Grid grid = grid_of(GetParam());
+  const double x = grid.border_m(3), y = grid.border_m(-2), c = grid.cell_edge_m;
+  const auto east = cut_exactly({{{x, 0.2 * c, 0}, {x, 0.7 * c, 0}, {x, 0.4 * c, 9}}}, grid);
+  ASSERT_EQ(east.size(), 1U);
+  EXPECT_EQ(east[0].cell, (Cell{3, 0}));
+  const auto north = cut_exactly({{{0.1 * c, y, 0}, {0.6 * c, y, 0}, {0.3 * c, y, 9}}}, grid);
+  ASSERT_EQ(north.size(), 1U);
+  EXPECT_EQ(north[0].cell, (Cell{0, -2}));
+}
+
+TEST_P(CutExactly, NeighboursAreCutAtTheSamePointsOfTheirCommonEdge) {
+  const Grid grid = grid_of(GetParam());
+  for (const TriangleOfPoints& t : random_triangles(grid, 100)) {
+    const auto points_on_edge = [&grid](const Point3d& a, const Point3d& b, const Point3d& other) {
+      const ExactPoint u{Rational(b.x) - Rational(a.x), Rational(b.y) - Rational(a.y), Rational(b.z) - Rational(a.z)};
+      std::map<std::tuple<Rational, Rational, Rational>, int> points;
+      for (const ExactPiece& piece : cut_exactly({a, b, other}, grid))
+        for (const ExactCorner& c : piece.polygon) {
+          const ExactPoint v = c.p_grid - ExactPoint{Rational(a.x), Rational(a.y), Rational(a.z)};
+          if (cross(u, v) == ExactPoint{Rational(0), Rational(0), Rational(0)}) points[{c.p_grid.x, c.p_grid.y, c.p_grid.z}] = 1;
+        }
+      return points;
+    };
+    // The neighbour runs along the edge the other way, and lies on its other side
+    const Point3d beyond = t[0] + t[1] - t[2];
+    EXPECT_TRUE(points_on_edge(t[0], t[1], t[2]) == points_on_edge(t[1], t[0], beyond));
+  }
+}
+
+// 33.3 is no float: the grid must take the nearest one, whose multiples are exact
+INSTANTIATE_TEST_SUITE_P(Cells, CutExactly, testing::Values(50.0, 33.3, 17.9));
+
+TEST(Cut, RoundsBothSidesOfABorderAlike) {
+  const Grid grid = grid_of(33.3);
+  std::map<std::tuple<std::int32_t, float, float>, std::array<bool, 2>> on_border;  // border x = k·edge: y of the grid row, z → west, east
+  for (const TriangleOfPoints& t : random_triangles(grid, 400)) {
+    on_border.clear();
+    const bool edge_on_border = t[0].x == t[1].x || t[1].x == t[2].x || t[2].x == t[0].x;
+    for (const CellPiece& piece : cut(t, grid, 0.0))
+      for (const Point3f& p : piece.polygon) {
+        const auto edge = static_cast<float>(grid.cell_edge_m);
+        EXPECT_TRUE(0.0F <= p.x && p.x <= edge && 0.0F <= p.y && p.y <= edge);
+        if (p.y == 0.0F || p.y == edge) continue;  // where four cells meet, a triangle may touch one of them in that point only
+        if (p.x == 0.0F) on_border[{piece.cell.i * 1000 + piece.cell.j, p.y, p.z}][1] = true;
+        if (p.x == edge) on_border[{(piece.cell.i + 1) * 1000 + piece.cell.j, p.y, p.z}][0] = true;
+      }
+    if (edge_on_border) continue;  // it touches the border from one side along a whole edge
+    // A corner of the triangle on a border touches one side only; every other point of a border is in both cells
+    std::size_t one_sided = 0;
+    for (const auto& [place, sides] : on_border) one_sided += sides[0] != sides[1] ? 1 : 0;
+    EXPECT_LE(one_sided, 3U);
+  }
+}
+
+}  // namespace
+}  // namespace farlod

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tiles/ground.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace farlod {
+namespace {
+
+const Box2d rectangle{{0, 0}, {100, 100}};
+
+double covered_area(const Ground& ground) {
+  double sum = 0.0;
+  for (const auto& t : ground.triangles()) {
+    const double area = 0.5 * cross(t[1] - t[0], t[2] - t[0]).z;
+    EXPECT_GT(area, 0.0);
+    sum += area;
+  }
+  return sum;
+}
+
+TEST(Ground, PassesThroughItsPointsAndCoversItsRectangle) {
+  const std::vector<Point3d> points{{20, 30, 5}, {70, 60, 8}, {40, 80, 2}};
+  const Ground ground(points, rectangle);
+  for (const Point3d& p : points) EXPECT_DOUBLE_EQ(ground.height_at(horizontal(p)), p.z);
+  // Six triangles of sums and products of a few digits each
+  EXPECT_NEAR(covered_area(ground), 1e4, 1e4 * 16 * std::numeric_limits<double>::epsilon());
+}
+
+TEST(Ground, TheLowestOfTwoPointsAtOnePlaceCounts) {
+  EXPECT_DOUBLE_EQ(Ground({{50, 50, 9}, {50, 50, 4}}, rectangle).height_at({50, 50}), 4.0);
+}
+
+TEST(Ground, ItsCornersHaveTheHeightOfTheNearestPoint) {
+  const Ground ground({{10, 10, 1}, {90, 90, 7}}, rectangle);
+  EXPECT_DOUBLE_EQ(ground.height_at({0, 0}), 1.0);
+  EXPECT_DOUBLE_EQ(ground.height_at({100, 100}), 7.0);
+}
+
+TEST(Ground, DoesNotDependOnTheOrderOfItsPoints) {
+  std::vector<Point3d> points;
+  for (int n = 0; n < 60; ++n) points.push_back({static_cast<double>(n * 37 % 100), static_cast<double>(n * 53 % 100), static_cast<double>(n % 9)});
+  const Ground there(points, rectangle);
+  std::reverse(points.begin(), points.end());
+  EXPECT_EQ(there.triangles(), Ground(points, rectangle).triangles());
+}
+
+TEST(Ground, WithoutPointsIsFlatAtZero) { EXPECT_EQ(Ground({}, rectangle).height_at({33, 44}), 0.0); }
+
+}  // namespace
+}  // namespace farlod

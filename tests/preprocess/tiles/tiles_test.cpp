@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tiles/tiles.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "tests/scenes/packed_city.hpp"
+#include "tests/scenes/scene_builder.hpp"
+
+namespace farlod {
+namespace {
+
+using scenes::SceneBuilder;
+
+TileSet tiles_of(const CityModel& city, const Grid& grid, Assign assign = Assign::clip, const std::optional<TerrainRaster>& terrain = {},
+                 Report* report = nullptr) {
+  Report ignored;
+  return cut_into_tiles({city, {}}, grid, assign, terrain, report != nullptr ? *report : ignored);
+}
+
+/// Area of a surface by its triangles in all tiles.
+double area_in_tiles(const TileSet& tiles, std::uint32_t surface) {
+  double sum = 0.0;
+  for (const Tile& tile : tiles.tiles)
+    for (std::size_t n = 0; n < tile.triangles.size(); ++n) {
+      if (tile.triangle_surfaces[n] != surface) continue;
+      const auto corner = [&](std::uint32_t v) { return Point3d{tile.vertices[v].x, tile.vertices[v].y, tile.vertices[v].z}; };
+      const Triangle& t = tile.triangles[n];
+      sum += 0.5 * norm(cross(corner(t.b) - corner(t.a), corner(t.c) - corner(t.a)));
+    }
+  return sum;
+}
+
+/// A triangle's area moves by its perimeter times the rounding of its corners; a surface of `area` in cells of `edge` is cut into
+/// pieces whose perimeters add up to less than 8·area/edge + the surface's own four sides, taken twice.
+double rounding_of_area(double area_m2, double edge_m, double extent_m) {
+  const double corner = edge_m * std::numeric_limits<float>::epsilon() + extent_m * std::numeric_limits<float>::epsilon();
+  return corner * (8 * area_m2 / edge_m + 8 * extent_m + 8 * edge_m);
+}
+
+TEST(Tiles, HoldEverySurfaceWhole) {
+  SceneBuilder town;
+  town.add_box({{3, 4}, {177, 93}}, 0.0, 31.0);
+  for (const double bearing_deg : {0.0, 28.3}) {
+    const Grid grid = scenes::grid_covering(town.city(), Angle::degrees(bearing_deg), 33.3, 3);
+    const TileSet tiles = tiles_of(town.city(), grid);
+    ASSERT_EQ(tiles.surfaces.size(), 7U);  // the ground and six sides
+    for (std::uint32_t s = 0; s < 7; ++s)
+      EXPECT_NEAR(area_in_tiles(tiles, s), tiles.surfaces[s].area_m2, rounding_of_area(tiles.surfaces[s].area_m2, 33.3, 200)) << s;
+    // Roof and floor first, then the walls south, east, north and west
+    EXPECT_NEAR(tiles.surfaces[1].area_m2, 174.0 * 89, rounding_of_area(174.0 * 89, 33.3, 200));
+    EXPECT_NEAR(tiles.surfaces[3].area_m2, 174.0 * 31, rounding_of_area(174.0 * 31, 33.3, 200));
+  }
+}
+
+TEST(Tiles, KnowBuildingAndKindAndOutwardNormalOfEachSurface) {
+  SceneBuilder town;
+  town.add_box({{0, 0}, {10, 10}}, 0.0, 5.0);
+  town.add_box({{20, 0}, {30, 10}}, 0.0, 5.0);
+  const TileSet tiles = tiles_of(town.city(), scenes::grid_covering(town.city(), {}, 50, 3));
+  EXPECT_EQ(tiles.building_ids, (std::vector<std::string>{"box 0", "box 1"}));
+  EXPECT_EQ(tiles.surfaces[ground_surface].kind, SurfaceKind::ground);
+  std::map<SurfaceKind, int> kinds;
+  for (const Surface& s : tiles.surfaces) ++kinds[s.kind];
+  EXPECT_EQ(kinds[SurfaceKind::roof], 2);
+  EXPECT_EQ(kinds[SurfaceKind::floor], 2);
+  EXPECT_EQ(kinds[SurfaceKind::wall], 8);
+  EXPECT_EQ(tiles.surfaces[3].normal, (Point3d{0, -1, 0}));  // the south wall of the first box
+  EXPECT_EQ(tiles.surfaces[3].building, 0U);
+  EXPECT_EQ(tiles.surfaces[9].building, 1U);
+}
+
+TEST(Tiles, AssignWholePutsABuildingIntoOneTile) {
+  SceneBuilder town;
+  town.add_box({{40, 10}, {90, 20}}, 0.0, 12.0);  // its centroid is at x = 65
+  const Grid grid = scenes::grid_covering(town.city(), {}, 50, 3);
+  const TileSet tiles = tiles_of(town.city(), grid, Assign::whole);
+  std::set<std::size_t> holders;
+  for (std::size_t n = 0; n < tiles.tiles.size(); ++n)
+    for (const std::uint32_t s : tiles.tiles[n].triangle_surfaces)
+      if (s != ground_surface) holders.insert(n);
+  EXPECT_EQ(holders, (std::set<std::size_t>{grid.cells.index_of({1, 0})}));
+}
+
+TEST(Tiles, EveryFacetIsKeptOrInTheReport) {
+  CityModel city;
+  city.begin_building("odd");
+  std::uint32_t n = 0;
+  const auto add = [&](const std::vector<Point3d>& ring) {
+    city.begin_facet(SurfaceKind::unknown, n++);
+    city.add_ring(ring);
+  };
+  add({{0, 0, 0}, {10, 0, 0}, {10, 0, 5}, {0, 0, 5}});
+  add({{0, 0, 0}, {5, 0, 0}, {9, 0, 0}});
+  add({{0, 0, 3}, {4, 4, 3}, {4, 0, 3}, {0, 6, 3}});
+  add({{0, 0, 0}, {10, 0, 0}, {10, 10, 1}, {0, 10, 0}});
+  Report report;
+  const TileSet tiles = tiles_of(city, scenes::grid_covering(city, {}, 50, 3), Assign::clip, {}, &report);
+  EXPECT_EQ(tiles.polygon_count, 3U);
+  ASSERT_EQ(report.problems().size(), 3U);
+  EXPECT_EQ(report.problems()[0].code, ProblemCode::zero_area);
+  EXPECT_EQ(report.problems()[1].code, ProblemCode::self_intersecting);
+  EXPECT_EQ(report.problems()[2].code, ProblemCode::not_planar);
+  for (const Problem& p : report.problems()) EXPECT_EQ(p.place, "odd");
+}
+
+TEST(Tiles, FlagCellsWithOverhangsOnly) {
+  SceneBuilder town;
+  town.add_box({{1, 1}, {49, 20}}, 0.0, 12.0);
+  town.add_box({{51, 1}, {99, 20}}, 0.0, 12.0);
+  town.add_box({{90, 20}, {95, 40}}, 4.0, 7.0);  // a bridge that leads from the second house over the street
+  town.add_box({{51, 40}, {99, 49}}, 0.0, 12.0);
+  const Grid grid = scenes::grid_covering(town.city(), {}, 50, 3);
+  const TileSet tiles = tiles_of(town.city(), grid);
+  EXPECT_FALSE(tiles.tile({0, 0}).has_overhang);
+  EXPECT_TRUE(tiles.tile({1, 0}).has_overhang);
+  EXPECT_EQ(tiles.tile({1, 0}).ground_at_centre_m, 0.0F);  // the bridge does not lift the ground
+}
+
+TEST(Tiles, BuildingsThatKnowOnlyTheirHeightStandOnTheTerrain) {
+  CityModel city;
+  city.begin_building("house", true);
+  city.begin_facet(SurfaceKind::roof, 0);
+  city.add_ring(std::vector<Point3d>{{40, 40, 9}, {60, 40, 9}, {60, 60, 9}, {40, 60, 9}});
+  // A slope that rises by 1 m in 10 m to the east, from 100 m
+  TerrainRaster slope{{-50, -50}, {10, 10}, 21, 21, {}};
+  for (std::size_t n = 0; n < 21 * 21; ++n) slope.height_m.emplace_back(100.0F + static_cast<float>(n % 21));
+  const Grid grid = scenes::grid_covering(city, {}, 50, 3);
+  const TileSet tiles = tiles_of(city, grid, Assign::clip, slope);
+  float roof_m = 0.0F;
+  for (const Tile& tile : tiles.tiles) roof_m = std::max(roof_m, tile.z_high_m);
+  // The lowest terrain under the house is at its west side, x = 40
+  EXPECT_NEAR(roof_m + tiles.height_origin_m, 100.0 + 9.0 + 9.0, 200 * std::numeric_limits<float>::epsilon());
+  EXPECT_NEAR(tiles.tile({0, 0}).ground_at_centre_m + tiles.height_origin_m, 107.5, 200 * std::numeric_limits<float>::epsilon());
+}
+
+}  // namespace
+}  // namespace farlod
