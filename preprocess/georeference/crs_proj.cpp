@@ -1,0 +1,294 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <proj.h>
+// After proj.h, which it needs: making CRSs from parts
+#include <proj_experimental.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "farlod/expects.hpp"
+#include "georeference/crs.hpp"
+
+namespace farlod {
+namespace {
+
+struct ContextDeleter {
+  void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
+};
+struct ObjectDeleter {
+  void operator()(PJ* object) const { proj_destroy(object); }
+};
+struct ListDeleter {
+  void operator()(PJ_OBJ_LIST* list) const { proj_list_destroy(list); }
+};
+using Context = std::shared_ptr<PJ_CONTEXT>;
+using Object = std::unique_ptr<PJ, ObjectDeleter>;
+
+/// A context of its own for each CRS: PROJ's default one is shared, and may go to the network.
+Context make_context() {
+  Context context(proj_context_create(), ContextDeleter{});
+  proj_context_set_enable_network(context.get(), 0);
+  proj_log_level(context.get(), PJ_LOG_NONE);
+  return context;
+}
+
+Object clone(const Context& context, const PJ* object) { return Object(proj_clone(context.get(), object)); }
+
+bool is_projected_or_geographic(PJ_TYPE type) {
+  return type == PJ_TYPE_PROJECTED_CRS || type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
+}
+
+/// Takes the shift to WGS 84 off that old WKT and PROJ strings carry.
+Object without_shift(const Context& context, Object crs) {
+  while (crs && proj_get_type(crs.get()) == PJ_TYPE_BOUND_CRS) crs.reset(proj_get_source_crs(context.get(), crs.get()));
+  return crs;
+}
+
+/// The horizontal part of a compound CRS; anything else itself.
+Object horizontal_part(const Context& context, Object crs) {
+  while (crs && proj_get_type(crs.get()) == PJ_TYPE_COMPOUND_CRS) crs.reset(proj_crs_get_sub_crs(context.get(), crs.get(), 0));
+  return crs;
+}
+
+struct Axis {
+  std::string direction;
+  double unit = 1.0;  ///< in metres or radians
+};
+
+std::optional<Axis> axis_of(const Context& context, const PJ* crs, int index) {
+  const Object system(proj_crs_get_coordinate_system(context.get(), crs));
+  const char* direction = nullptr;
+  double unit = 1.0;
+  if (!system || index >= proj_cs_get_axis_count(context.get(), system.get())) return std::nullopt;
+  if (!proj_cs_get_axis_info(context.get(), system.get(), index, nullptr, nullptr, &direction, &unit, nullptr, nullptr, nullptr))
+    return std::nullopt;
+  return Axis{direction, unit};
+}
+
+/// Unit of the vertical axis, where the CRS has one.
+std::optional<double> vertical_unit_m(const Context& context, const PJ* crs) {
+  if (proj_get_type(crs) == PJ_TYPE_COMPOUND_CRS) {
+    const Object vertical = without_shift(context, Object(proj_crs_get_sub_crs(context.get(), crs, 1)));
+    const auto axis = vertical ? axis_of(context, vertical.get(), 0) : std::nullopt;
+    return axis ? std::optional(axis->unit) : std::nullopt;
+  }
+  const Object plain = without_shift(context, clone(context, crs));
+  const auto axis = axis_of(context, plain.get(), 2);
+  return axis ? std::optional(axis->unit) : std::nullopt;
+}
+
+/// The entry of the EPSG register that says the same, by name and by content.
+Object entry_of_register(const Context& context, const PJ* crs) {
+  constexpr int surely = 90;  // what GDAL takes for certain, too
+  int* confidences = nullptr;
+  const std::unique_ptr<PJ_OBJ_LIST, ListDeleter> list(proj_identify(context.get(), crs, "EPSG", nullptr, &confidences));
+  Object entry;
+  if (list && proj_list_get_count(list.get()) > 0 && confidences[0] >= surely)
+    entry.reset(proj_list_get(context.get(), list.get(), 0));
+  proj_int_list_destroy(confidences);
+  return entry;
+}
+
+bool has_code(const PJ* crs) {
+  const char* authority = proj_get_id_auth_name(crs, 0);
+  return authority != nullptr && std::string(authority) == "EPSG" && proj_get_id_code(crs, 0) != nullptr;
+}
+
+/// "NAD83 / New York Long Island (ftUS)" without the unit: the register names metric twins so.
+std::string without_unit(std::string name) {
+  const auto bracket = name.rfind(" (");
+  if (bracket != std::string::npos) name.erase(bracket);
+  return name;
+}
+
+}  // namespace
+
+struct Crs::Impl {
+  Context context;
+  Object shifted;     ///< easting first, with its shift to WGS 84 if it has one: for transformations
+  Object plain;       ///< easting first, without
+  Object registered;  ///< the authority's own form: the EPSG register's entry, or what was given
+  double height_unit_m = 1.0;
+  bool northing_first = false;
+
+  /// Empty when `given` is neither geographic nor projected.
+  static std::shared_ptr<const Impl> make(const Context& context, Object given);
+};
+
+std::shared_ptr<const Crs::Impl> Crs::Impl::make(const Context& context, Object given) {
+  auto impl = std::make_shared<Impl>();
+  impl->context = context;
+  const auto height_unit = vertical_unit_m(context, given.get());
+  Object horizontal = horizontal_part(context, std::move(given));
+  Object plain = horizontal ? without_shift(context, clone(context, horizontal.get())) : nullptr;
+  if (!plain || !is_projected_or_geographic(proj_get_type(plain.get()))) return nullptr;
+  plain.reset(proj_crs_demote_to_2D(context.get(), nullptr, plain.get()));
+  horizontal.reset(proj_crs_demote_to_2D(context.get(), nullptr, horizontal.get()));
+  const auto first = axis_of(context, plain.get(), 0);
+  if (!first) return nullptr;
+  impl->northing_first = first->direction == "north" || first->direction == "south";
+  const bool projected = proj_get_type(plain.get()) == PJ_TYPE_PROJECTED_CRS;
+  impl->height_unit_m = height_unit.value_or(projected ? first->unit : 1.0);
+  impl->shifted.reset(proj_normalize_for_visualization(context.get(), horizontal.get()));
+  impl->plain.reset(proj_normalize_for_visualization(context.get(), plain.get()));
+  if (!has_code(plain.get()))
+    if (Object entry = entry_of_register(context, plain.get())) plain = std::move(entry);
+  impl->registered = std::move(plain);
+  return impl->shifted && impl->plain ? impl : nullptr;
+}
+
+std::optional<Crs> Crs::find(const std::string& definition) {
+  const Context context = make_context();
+  Object given(proj_create(context.get(), definition.c_str()));
+  if (!given) return std::nullopt;
+  auto impl = Impl::make(context, std::move(given));
+  return impl ? std::optional(Crs(std::move(impl))) : std::nullopt;
+}
+
+bool Crs::is_projected() const { return proj_get_type(impl_->plain.get()) == PJ_TYPE_PROJECTED_CRS; }
+double Crs::unit() const { return axis_of(impl_->context, impl_->plain.get(), 0)->unit; }
+double Crs::height_unit_m() const { return impl_->height_unit_m; }
+bool Crs::northing_first() const { return impl_->northing_first; }
+
+bool Crs::runs_east_and_north() const {
+  const auto x = axis_of(impl_->context, impl_->plain.get(), 0), y = axis_of(impl_->context, impl_->plain.get(), 1);
+  return x && y && x->direction == "east" && y->direction == "north";
+}
+
+bool Crs::is_in_degrees_from_greenwich() const {
+  if (is_projected()) return false;
+  const Object meridian(proj_get_prime_meridian(impl_->context.get(), impl_->plain.get()));
+  double longitude = 0.0;
+  if (!meridian || !proj_prime_meridian_get_parameters(impl_->context.get(), meridian.get(), &longitude, nullptr, nullptr))
+    return false;
+  // A file may write the factor with fewer digits than a double has
+  constexpr double digits_of_files = 1e-9;
+  return longitude == 0.0 && std::abs(unit() - std::numbers::pi / 180.0) < digits_of_files;
+}
+
+std::string Crs::name() const { return proj_get_name(impl_->registered.get()); }
+
+std::optional<int> Crs::epsg() const {
+  if (!has_code(impl_->registered.get())) return std::nullopt;
+  return std::atoi(proj_get_id_code(impl_->registered.get(), 0));
+}
+
+std::string Crs::wkt() const {
+  const char* const options[] = {"MULTILINE=NO", nullptr};
+  const char* text = proj_as_wkt(impl_->context.get(), impl_->registered.get(), PJ_WKT2_2019, options);
+  FARLOD_EXPECTS(text != nullptr);
+  return text;
+}
+
+std::optional<AreaOfUse> Crs::area_of_use() const {
+  AreaOfUse a;
+  constexpr double unknown = -1000.0;
+  if (!proj_get_area_of_use(impl_->context.get(), impl_->registered.get(), &a.west_deg, &a.south_deg, &a.east_deg, &a.north_deg,
+                            nullptr))
+    return std::nullopt;
+  return a.west_deg == unknown ? std::nullopt : std::optional(a);
+}
+
+Ellipsoid Crs::ellipsoid() const {
+  Ellipsoid e;
+  const Object found(proj_get_ellipsoid(impl_->context.get(), impl_->plain.get()));
+  FARLOD_EXPECTS(found != nullptr);
+  proj_ellipsoid_get_parameters(impl_->context.get(), found.get(), &e.semi_major_m, nullptr, nullptr, &e.inverse_flattening);
+  return e;
+}
+
+std::optional<UtmZone> Crs::utm_zone() const {
+  if (!is_projected() || unit() != 1.0) return std::nullopt;
+  const Object conversion(proj_crs_get_coordoperation(impl_->context.get(), impl_->plain.get()));
+  const std::string title = conversion ? proj_get_name(conversion.get()) : "";
+  constexpr std::string_view start = "UTM zone ";
+  if (!title.starts_with(start)) return std::nullopt;
+  const int number = std::atoi(title.c_str() + start.size());
+  if (number < 1 || number > 60) return std::nullopt;
+  return UtmZone{number, title.back() == 'N'};
+}
+
+bool Crs::equals(const Crs& other) const {
+  return proj_is_equivalent_to_with_ctx(impl_->context.get(), impl_->plain.get(), other.impl_->plain.get(), PJ_COMP_EQUIVALENT) !=
+         0;
+}
+
+Crs Crs::geographic() const {
+  if (!is_projected()) return *this;
+  auto impl = Impl::make(impl_->context, Object(proj_crs_get_geodetic_crs(impl_->context.get(), impl_->plain.get())));
+  FARLOD_EXPECTS(impl != nullptr);
+  return Crs(std::move(impl));
+}
+
+Crs Crs::in_metres() const {
+  FARLOD_EXPECTS(is_projected());
+  const Context& context = impl_->context;
+  const Object metric(proj_crs_alter_cs_linear_unit(context.get(), impl_->plain.get(), "metre", 1.0, "EPSG", "9001"));
+  FARLOD_EXPECTS(metric != nullptr);
+  const std::string twin_name = without_unit(proj_get_name(impl_->registered.get()));
+  auto impl = Impl::make(context, Object(proj_alter_name(context.get(), metric.get(), twin_name.c_str())));
+  FARLOD_EXPECTS(impl != nullptr);
+  return Crs(std::move(impl));
+}
+
+Crs Crs::utm(UtmZone zone) const {
+  FARLOD_EXPECTS(!is_projected());
+  const Context& context = impl_->context;
+  const Object conversion(proj_create_conversion_utm(context.get(), zone.number, zone.north ? 1 : 0));
+  const Object system(proj_create_cartesian_2D_cs(context.get(), PJ_CART2D_EASTING_NORTHING, nullptr, 0));
+  const std::string title = name() + " / UTM zone " + std::to_string(zone.number) + (zone.north ? "N" : "S");
+  auto impl = Impl::make(context, Object(proj_create_projected_crs(context.get(), title.c_str(), impl_->registered.get(),
+                                                                   conversion.get(), system.get())));
+  FARLOD_EXPECTS(impl != nullptr);
+  return Crs(std::move(impl));
+}
+
+std::optional<Crs::Distortion> Crs::distortion_at(Point2d p_projected) const {
+  // proj_factors of PROJ 9.1 forgets the unit of a CRS in feet
+  if (unit() != 1.0) return in_metres().distortion_at(unit() * p_projected);
+  const Crs base = geographic();
+  const auto place = CrsTransformation(*this, base, p_projected).apply(p_projected);
+  if (!place) return std::nullopt;
+  const PJ_FACTORS f = proj_factors(impl_->plain.get(), proj_coord(place->x * base.unit(), place->y * base.unit(), 0.0, 0.0));
+  if (!(f.tissot_semiminor > 0.0) || !std::isfinite(f.tissot_semimajor) || !std::isfinite(f.meridian_convergence))
+    return std::nullopt;
+  return Distortion{Angle::radians(f.meridian_convergence), f.tissot_semiminor, f.tissot_semimajor};
+}
+
+struct CrsTransformation::Impl {
+  Context context = make_context();
+  Object operation;  ///< empty when PROJ knows no way between the two
+};
+
+CrsTransformation::CrsTransformation(const Crs& from, const Crs& to, Point2d typical) {
+  auto impl = std::make_shared<Impl>();
+  Object any(
+      proj_create_crs_to_crs_from_pj(impl->context.get(), from.impl_->shifted.get(), to.impl_->shifted.get(), nullptr, nullptr));
+  if (any) {
+    (void)proj_trans(any.get(), PJ_FWD, proj_coord(typical.x, typical.y, 0.0, HUGE_VAL));
+    Object settled(proj_trans_get_last_used_operation(any.get()));
+    impl->operation = settled ? std::move(settled) : std::move(any);
+  }
+  impl_ = std::move(impl);
+}
+
+void CrsTransformation::apply(std::span<Point3d> points) const {
+  for (Point3d& p : points) {
+    const auto there = apply(horizontal(p));
+    constexpr double nowhere = std::numeric_limits<double>::infinity();
+    p = there ? Point3d{there->x, there->y, p.z} : Point3d{nowhere, nowhere, p.z};
+  }
+}
+
+std::optional<Point2d> CrsTransformation::apply(Point2d point) const {
+  if (!impl_->operation) return std::nullopt;
+  const PJ_COORD there = proj_trans(impl_->operation.get(), PJ_FWD, proj_coord(point.x, point.y, 0.0, HUGE_VAL));
+  if (!std::isfinite(there.xy.x) || !std::isfinite(there.xy.y)) return std::nullopt;
+  return Point2d{there.xy.x, there.xy.y};
+}
+
+}  // namespace farlod

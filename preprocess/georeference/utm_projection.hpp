@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "farlod/angle.hpp"
+#include "farlod/point.hpp"
+
+namespace farlod {
+
+struct Ellipsoid {
+  double semi_major_m = 0.0;
+  double inverse_flattening = 0.0;  ///< 0 for a sphere
+};
+
+struct UtmZone {
+  int number = 0;  ///< 1 to 60
+  bool north = true;
+  bool operator==(const UtmZone&) const = default;
+};
+
+/// The zone that a place belongs to, with the exceptions of Norway and Svalbard; near the poles, the zone of its longitude.
+[[nodiscard]] UtmZone utm_zone_of(Point2d lon_lat_deg);
+
+/// UTM on the ellipsoid of one's own datum, so that no datum is shifted on the way.
+///   (1) accurate to nanometres within the zone and its neighbours (Karney 2011, series of order 6)
+///   (2) a point without a place, or more than 500 km from the zone's meridian, where UTM ends, has no projection
+class UtmProjection {
+ public:
+  UtmProjection(UtmZone zone, Ellipsoid ellipsoid) : zone_(zone), ellipsoid_(ellipsoid) {}
+
+  [[nodiscard]] std::optional<Point2d> projected(Point2d lon_lat_deg) const;
+  [[nodiscard]] Point2d lon_lat_deg(Point2d p_projected) const;
+  /// Meridian convergence γ: true azimuth = grid azimuth + γ.
+  [[nodiscard]] Angle convergence_at(Point2d p_projected) const;
+
+ private:
+  UtmZone zone_;
+  Ellipsoid ellipsoid_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "georeference/crs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace farlod {
+namespace {
+
+constexpr double us_survey_foot_m = 1200.0 / 3937.0;
+/// EPSG writes units with 17 digits: an ulp of a foot.
+constexpr double ulp_of_a_foot = 1.2e-16;
+
+const char* const esri_wgs84 =
+    "GEOGCS[\"GCS_WGS_1984\",DATUM[\"D_WGS_1984\",SPHEROID[\"WGS_1984\",6378137.0,298.257223563]],"
+    "PRIMEM[\"Greenwich\",0.0],UNIT[\"Degree\",0.0174532925199433]]";
+const char* const esri_utm_32 =
+    "PROJCS[\"ETRS_1989_UTM_Zone_32N\",GEOGCS[\"GCS_ETRS_1989\",DATUM[\"D_ETRS_1989\",SPHEROID[\"GRS_1980\",6378137.0,"
+    "298.257222101]],PRIMEM[\"Greenwich\",0.0],UNIT[\"Degree\",0.0174532925199433]],PROJECTION[\"Transverse_Mercator\"],"
+    "PARAMETER[\"False_Easting\",500000.0],PARAMETER[\"False_Northing\",0.0],PARAMETER[\"Central_Meridian\",9.0],"
+    "PARAMETER[\"Scale_Factor\",0.9996],PARAMETER[\"Latitude_Of_Origin\",0.0],UNIT[\"Meter\",1.0]]";
+
+Crs crs(const std::string& definition) {
+  const auto found = Crs::find(definition);
+  EXPECT_TRUE(found.has_value()) << definition;
+  return found.value();
+}
+
+TEST(Crs, KnowsOnlyHorizontalOnes) {
+  EXPECT_FALSE(Crs::find("EPSG:669")) << "no such code";
+  EXPECT_FALSE(Crs::find("EPSG:4978")) << "geocentric";
+  EXPECT_FALSE(Crs::find("EPSG:5783")) << "heights alone";
+  EXPECT_FALSE(Crs::find("PROJCS[broken]"));
+  EXPECT_FALSE(Crs::find("+proj=nonsense +type=crs"));
+}
+
+TEST(Crs, KnowsTheAuthoritysAxisOrder) {
+  for (const char* northing_first : {"EPSG:4326", "EPSG:6697", "EPSG:31467", "EPSG:2180", "EPSG:3007"})
+    EXPECT_TRUE(crs(northing_first).northing_first()) << northing_first;
+  for (const std::string easting_first : {"EPSG:25832", "EPSG:28992", "EPSG:2263", esri_wgs84, esri_utm_32})
+    EXPECT_FALSE(crs(easting_first).northing_first()) << easting_first;
+}
+
+TEST(Crs, KnowsWhereAxesRun) {
+  EXPECT_TRUE(crs("EPSG:31467").runs_east_and_north());
+  EXPECT_FALSE(crs("EPSG:2048").runs_east_and_north()) << "Lo19 of South Africa counts to the west and south";
+}
+
+TEST(Crs, KnowsTheUnitOfHeights) {
+  EXPECT_EQ(crs("EPSG:25832+7837").height_unit_m(), 1.0);
+  EXPECT_EQ(crs("EPSG:4979").height_unit_m(), 1.0);
+  EXPECT_EQ(crs("EPSG:4326").height_unit_m(), 1.0);
+  EXPECT_NEAR(crs("EPSG:2263").height_unit_m(), us_survey_foot_m, ulp_of_a_foot) << "no vertical axis: as the horizontal ones";
+  EXPECT_EQ(crs("EPSG:2263+5703").height_unit_m(), 1.0) << "NAVD88 in metres";
+  EXPECT_NEAR(crs("EPSG:32118+6360").height_unit_m(), us_survey_foot_m, ulp_of_a_foot) << "NAVD88 in feet";
+}
+
+TEST(Crs, FindsItsCodeInTheRegister) {
+  EXPECT_EQ(crs("EPSG:28992").epsg(), 28992);
+  EXPECT_EQ(crs("EPSG:7415").epsg(), 28992) << "without its heights";
+  EXPECT_EQ(crs(esri_utm_32).epsg(), 25832);
+  EXPECT_EQ(crs("+proj=tmerc +lat_0=1 +lon_0=2 +type=crs").epsg(), std::nullopt);
+}
+
+TEST(Crs, WktLeadsBackToIt) {
+  for (const char* code : {"EPSG:28992", "EPSG:31467", "EPSG:32118", "+proj=tmerc +lat_0=1 +lon_0=2 +type=crs"}) {
+    const Crs first = crs(code);
+    EXPECT_TRUE(crs(first.wkt()).equals(first)) << code;
+    EXPECT_EQ(crs(first.wkt()).northing_first(), first.northing_first()) << code;
+  }
+}
+
+TEST(Crs, HasAMetricTwin) {
+  const Crs long_island = crs("EPSG:2263").in_metres();
+  EXPECT_EQ(long_island.epsg(), 32118);
+  EXPECT_EQ(long_island.unit(), 1.0);
+  const Crs maryland = crs("EPSG:2248").in_metres();  // the register's own differs by parts of a millimetre
+  EXPECT_EQ(maryland.unit(), 1.0);
+  EXPECT_EQ(maryland.name(), "NAD83 / Maryland");
+}
+
+TEST(Crs, HasUtmOnItsOwnDatum) {
+  EXPECT_EQ(crs("EPSG:4326").utm({18, true}).epsg(), 32618);
+  EXPECT_EQ(crs("EPSG:4979").utm({56, false}).epsg(), 32756);
+  EXPECT_EQ(crs(esri_wgs84).utm({18, true}).epsg(), 32618);
+  EXPECT_EQ(crs("EPSG:4258").utm({32, true}).epsg(), 25832);
+  EXPECT_EQ(crs("EPSG:4269").utm({18, true}).epsg(), 26918);
+  EXPECT_EQ(crs("EPSG:6697").utm({54, true}).epsg(), 6691);
+  EXPECT_EQ(crs("EPSG:4301").utm({54, true}).epsg(), 3095);
+}
+
+TEST(Crs, KnowsUtmWhenItSeesIt) {
+  EXPECT_EQ(crs("EPSG:25832").utm_zone(), (UtmZone{32, true}));
+  EXPECT_EQ(crs("EPSG:32756").utm_zone(), (UtmZone{56, false}));
+  EXPECT_EQ(crs("EPSG:28992").utm_zone(), std::nullopt);
+  EXPECT_EQ(crs("EPSG:4326").utm_zone(), std::nullopt);
+}
+
+TEST(Crs, CountsInDegreesFromGreenwich) {
+  EXPECT_TRUE(crs("EPSG:4326").is_in_degrees_from_greenwich());
+  EXPECT_TRUE(crs(esri_wgs84).is_in_degrees_from_greenwich());
+  EXPECT_FALSE(crs("EPSG:4807").is_in_degrees_from_greenwich()) << "grads from Paris";
+  EXPECT_FALSE(crs("EPSG:25832").is_in_degrees_from_greenwich());
+}
+
+/// Textbook: tan γ = tan Δλ sin φ on the sphere; the ellipsoid changes it by e'² Δλ² of itself at most.
+double convergence_of_transverse_mercator(double lon_from_meridian_deg, double lat_deg) {
+  constexpr double degree = 3.14159265358979 / 180.0;
+  return std::atan(std::tan(lon_from_meridian_deg * degree) * std::sin(lat_deg * degree));
+}
+
+TEST(Crs, ConvergesWhateverItsAxisOrder) {
+  for (const char* code : {"EPSG:31467", "EPSG:5677"}) {  // the same projection, northing first and easting first
+    const Crs gauss_krueger = crs(code);
+    const auto p = CrsTransformation(gauss_krueger.geographic(), gauss_krueger, {10.0, 50.0}).apply(Point2d{10.0, 50.0});
+    ASSERT_TRUE(p.has_value());
+    const double expected = convergence_of_transverse_mercator(1.0, 50.0);
+    constexpr double ellipsoid_share = 0.0067 * 0.0175 * 0.0175;
+    EXPECT_NEAR(gauss_krueger.distortion_at(*p)->convergence.radians(), expected, ellipsoid_share) << code;
+  }
+}
+
+TEST(Crs, KnowsThatWebMercatorStretches) {
+  const Crs web = crs("EPSG:3857");
+  const auto p = CrsTransformation(web.geographic(), web, {8.0, 60.0}).apply(Point2d{8.0, 60.0});
+  const auto distortion = web.distortion_at(*p);
+  ASSERT_TRUE(distortion.has_value());
+  // Sphere for ellipsoid: off by the flattening
+  EXPECT_NEAR(distortion->greatest_scale, 1.0 / std::cos(3.14159265358979 / 3.0), 2.0 * 2.0 / 298.0);
+}
+
+TEST(Crs, StatesItsScaleInMetres) {
+  const auto distortion = crs("EPSG:2263").distortion_at({1025000.0, 172918.0});  // feet
+  ASSERT_TRUE(distortion.has_value());
+  constexpr double state_plane_scale_error = 1e-4;  // by the design of the system: one part in 10,000
+  EXPECT_NEAR(distortion->greatest_scale, 1.0, state_plane_scale_error);
+}
+
+TEST(AreaOfUse, MayCrossTheAntimeridian) {
+  constexpr AreaOfUse fiji{176.0, -20.0, -178.0, -12.0};
+  EXPECT_TRUE(fiji.contains({179.0, -17.0}));
+  EXPECT_TRUE(fiji.contains({-179.0, -17.0}));
+  EXPECT_FALSE(fiji.contains({0.0, -17.0}));
+}
+
+TEST(CrsTransformation, MakesWhatItCannotTransformInfinite) {
+  const CrsTransformation way(crs("EPSG:4326"), crs("EPSG:28992"), {4.4, 51.9});
+  std::vector<Point3d> points{{4.4, 51.9, 7.0}, {4.4, 100.0, 7.0}};
+  way.apply(points);
+  EXPECT_TRUE(std::isfinite(points[0].x));
+  EXPECT_EQ(points[0].z, 7.0) << "heights are left alone";
+  EXPECT_TRUE(std::isinf(points[1].x));
+}
+
+TEST(CrsTransformation, KeepsTheShiftThatOldDefinitionsCarry) {
+  const Crs shifted = crs("+proj=longlat +ellps=bessel +towgs84=598.1,73.7,418.2,0.202,0.045,-2.455,6.7 +type=crs");
+  const auto there = CrsTransformation(shifted, crs("EPSG:4326"), {9.0, 50.0}).apply(Point2d{9.0, 50.0});
+  ASSERT_TRUE(there.has_value());
+  EXPECT_GT(std::abs(there->x - 9.0), 1e-4) << "DHDN lies some 100 m from WGS 84";
+}
+
+}  // namespace
+}  // namespace farlod

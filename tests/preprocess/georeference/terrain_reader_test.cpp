@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "georeference/terrain_reader.hpp"
+
+#include <gdal_priv.h>
+#include <gmock/gmock.h>
+#include <ogr_spatialref.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+
+#include "city/input_error.hpp"
+#include "georeference/output_crs.hpp"
+
+namespace farlod {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Optional;
+
+/// A folder that goes with its test.
+class TerrainReader : public testing::Test {
+ protected:
+  void SetUp() override {
+    GDALAllRegister();
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::temp_directory_path() / ("farlod_" + std::string(test->name()) + "_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+
+  /// Three columns and two rows of 10 m, the north row first, south-west corner at (1000, 2000).
+  [[nodiscard]] std::filesystem::path small_grid() const {
+    std::ofstream(file("small.asc")) << "ncols 3\nnrows 2\nxllcorner 1000\nyllcorner 2000\ncellsize 10\nNODATA_value -9999\n"
+                                        "1.5 2.5 3.5\n4.5 -9999 6.5\n";
+    return file("small.asc");
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// A frame in `code` whose origin is (500, 1500), so that forgetting it shows.
+Georeference frame_in(const std::string& code) { return georeference_around({500.0, 1500.0}, *Crs::find(code)); }
+
+struct NewRaster {
+  std::string code;
+  std::array<double, 6> transform;
+  int columns, rows;
+  GDALDataType type = GDT_Float64;
+};
+
+GDALDatasetUniquePtr make_raster(const std::filesystem::path& path, const NewRaster& raster) {
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  GDALDatasetUniquePtr dataset(driver->Create(path.c_str(), raster.columns, raster.rows, 1, raster.type, nullptr));
+  std::array<double, 6> transform = raster.transform;
+  dataset->SetGeoTransform(transform.data());
+  OGRSpatialReference reference;
+  reference.SetFromUserInput(raster.code.c_str());
+  dataset->SetSpatialRef(&reference);
+  return dataset;
+}
+
+/// Writes f(column, row) into every pixel; rows count from the north.
+template <class F>
+void fill(GDALDataset& dataset, F f) {
+  for (int row = 0; row < dataset.GetRasterYSize(); ++row)
+    for (int column = 0; column < dataset.GetRasterXSize(); ++column) {
+      double value = f(column, row);
+      ASSERT_EQ(dataset.GetRasterBand(1)->RasterIO(GF_Write, column, row, 1, 1, &value, 1, 1, GDT_Float64, 0, 0, nullptr),
+                CE_None);
+    }
+}
+
+TEST_F(TerrainReader, TakesARasterInTheOutputCrsAsItIs) {
+  const TerrainRaster terrain = read_terrain(small_grid(), "EPSG:25832", frame_in("EPSG:25832"), std::nullopt);
+  EXPECT_EQ(terrain.columns, 3u);
+  EXPECT_EQ(terrain.rows, 2u);
+  EXPECT_EQ(terrain.first, (Point2d{505.0, 505.0})) << "centre of the south-west pixel, minus the origin";
+  EXPECT_EQ(terrain.step_m, (Point2d{10.0, 10.0}));
+  EXPECT_THAT(terrain.height_m,
+              ElementsAre(Optional(4.5F), std::nullopt, Optional(6.5F), Optional(1.5F), Optional(2.5F), Optional(3.5F)));
+}
+
+TEST_F(TerrainReader, TakesARasterWithoutACrsForOneInTheOutputCrs) {
+  EXPECT_EQ(read_terrain(small_grid(), "", frame_in("EPSG:25832"), std::nullopt).first, (Point2d{505.0, 505.0}));
+}
+
+TEST_F(TerrainReader, ReadsOnePixelAroundTheWantedCity) {
+  const auto path = file("wide.tif");
+  auto dataset = make_raster(path, {"EPSG:25832", {900.0, 10.0, 0.0, 2500.0, 0.0, -10.0}, 100, 100});
+  fill(*dataset, [](int column, int row) { return 100.0 * row + column; });
+  dataset.reset();
+  Box2d wanted;
+  wanted.add({1007.0, 2007.0});
+  wanted.add({1012.0, 2018.0});
+  const Georeference frame = georeference_around({0.0, 0.0}, *Crs::find("EPSG:25832"));
+  const TerrainRaster terrain = read_terrain(path, "", frame, wanted);
+  EXPECT_TRUE(terrain.height_at({1007.0, 2007.0}).has_value());
+  EXPECT_TRUE(terrain.height_at({1012.0, 2018.0}).has_value());
+  EXPECT_EQ(terrain.columns, 4u) << "centres at 1005 and 1015 hold it, and one more at either side";
+  EXPECT_EQ(terrain.rows, 5u) << "2005 to 2025, and one more at either side";
+  EXPECT_EQ(terrain.first, (Point2d{995.0, 1995.0}));
+  EXPECT_THAT(terrain.height_m.front(), Optional(100.0F * 50.0F + 9.0F)) << "column 9 of row 50";
+}
+
+TEST_F(TerrainReader, HonoursScaleOffsetAndUnit) {
+  const auto path = file("feet.tif");
+  auto dataset = make_raster(path, {"EPSG:25832", {1000.0, 10.0, 0.0, 3000.0, 0.0, -10.0}, 2, 2, GDT_Int16});
+  fill(*dataset, [](int column, int row) { return 10.0 * row + column; });
+  dataset->GetRasterBand(1)->SetScale(0.5);
+  dataset->GetRasterBand(1)->SetOffset(100.0);
+  dataset->GetRasterBand(1)->SetUnitType("ft");
+  dataset.reset();
+  const TerrainRaster terrain = read_terrain(path, "", frame_in("EPSG:25832"), std::nullopt);
+  EXPECT_EQ(terrain.height_m[0], static_cast<float>(0.3048 * (0.5 * 10.0 + 100.0)));
+}
+
+TEST_F(TerrainReader, CountsHeightsInTheFeetOfTheCrs) {
+  const auto path = file("state_plane.tif");
+  auto dataset = make_raster(path, {"EPSG:2263", {1025000.0, 10.0, 0.0, 172918.0, 0.0, -10.0}, 20, 20});
+  fill(*dataset, [](int, int) { return 100.0; });
+  dataset.reset();
+  const Georeference frame = georeference_of_terrain(path, {});
+  EXPECT_EQ(frame.epsg, 32118);
+  const TerrainRaster terrain = read_terrain(path, "", frame, std::nullopt);
+  const auto height_m = terrain.height_at({0.0, 0.0});
+  ASSERT_TRUE(height_m.has_value());
+  EXPECT_EQ(static_cast<float>(*height_m), static_cast<float>(100.0 * 1200.0 / 3937.0));
+}
+
+// A plane stays a plane under bilinear resampling, up to the bend of the one projection in the other
+TEST_F(TerrainReader, ResamplesFromDegrees) {
+  const auto path = file("degrees.tif");
+  constexpr double step_deg = 1e-4, west_deg = 8.0, north_deg = 50.0;
+  auto dataset = make_raster(path, {"EPSG:4326", {west_deg, step_deg, 0.0, north_deg, 0.0, -step_deg}, 200, 200});
+  fill(*dataset, [](int column, int row) { return 100.0 + 0.1 * column - 0.05 * row; });
+  dataset->GetRasterBand(1)->SetNoDataValue(-1.0);
+  dataset.reset();
+  const Georeference frame = georeference_of_terrain(path, {});
+  EXPECT_EQ(frame.epsg, 32632);
+  const TerrainRaster terrain = read_terrain(path, "", frame, std::nullopt);
+  const Crs utm = *Crs::find("EPSG:32632");
+  const CrsTransformation to_degrees(utm, *Crs::find("EPSG:4326"), frame.origin_m);
+  for (const Point2d p_city : {Point2d{0.0, 0.0}, Point2d{200.0, -300.0}, Point2d{-250.0, 310.0}}) {
+    const auto place = to_degrees.apply(p_city + frame.origin_m);
+    const auto height_m = terrain.height_at(p_city);
+    ASSERT_TRUE(place && height_m);
+    const double column = (place->x - west_deg) / step_deg - 0.5, row = (north_deg - place->y) / step_deg - 0.5;
+    // Heights are floats; within a pixel of 11 m the projections bend against each other by 11²/(8·6.4e6) m, 1e-6 of a pixel
+    constexpr double float_and_bend_m = 120.0 * 6e-8 * 2.0 + 1e-6;
+    EXPECT_NEAR(*height_m, 100.0 + 0.1 * column - 0.05 * row, float_and_bend_m);
+  }
+  EXPECT_FALSE(terrain.height_m.front().has_value()) << "the corners of a turned raster are empty";
+}
+
+TEST_F(TerrainReader, ResamplesATurnedRaster) {
+  const auto path = file("turned.tif");
+  auto dataset = make_raster(path, {"EPSG:25832", {500000.0, 8.0, 6.0, 5600000.0, 6.0, -8.0}, 60, 60});
+  fill(*dataset, [](int column, int) { return 1.0 * column; });
+  dataset.reset();
+  const Georeference frame = georeference_of_terrain(path, {});
+  const TerrainRaster terrain = read_terrain(path, "", frame, std::nullopt);
+  const auto height_m = terrain.height_at({0.0, 0.0});
+  ASSERT_TRUE(height_m.has_value());
+  constexpr double origin_rounding_pixels = 0.5 * (8.0 + 6.0) / 100.0 + 1e-5;  // half a metre along each axis, in pixels of 10 m
+  EXPECT_NEAR(*height_m, 29.5, origin_rounding_pixels) << "the middle of the raster";
+}
+
+TEST_F(TerrainReader, SaysWhatIsWrong) {
+  std::ofstream(file("not.tif")) << "no raster";
+  auto dataset = make_raster(file("far.tif"), {"EPSG:25832", {500000.0, 10.0, 0.0, 5600000.0, 0.0, -10.0}, 5, 5});
+  dataset.reset();
+  Box2d wanted;
+  wanted.add({0.0, 0.0});
+  const auto message = [&](const std::string& name) -> std::string {
+    try {
+      (void)read_terrain(file(name), "", frame_in("EPSG:25832"), wanted);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "nothing was thrown";
+  };
+  EXPECT_THAT(message("absent.tif"), HasSubstr("absent.tif"));
+  EXPECT_THAT(message("not.tif"), HasSubstr("is not a raster"));
+  EXPECT_THAT(message("far.tif"), HasSubstr("does not cover the city"));
+  EXPECT_THROW((void)georeference_of_terrain(small_grid(), {}), InputError) << "no CRS anywhere";
+}
+
+TEST_F(TerrainReader, ReadsTheSurfaceModelOfGothenburg) {
+  const std::filesystem::path path = std::string(FARLOD_SHARED_DATA_DIR) + "/goteborg/dsm.asc";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent";
+  const Georeference frame = georeference_of_terrain(path, {"EPSG:3007", ""});
+  EXPECT_EQ(frame.epsg, 3007);
+  EXPECT_EQ(frame.origin_m, (Point2d{147740.0 + 95.0, 6398620.0 + 65.0}));
+  const TerrainRaster terrain = read_terrain(path, "EPSG:3007", frame, std::nullopt);
+  EXPECT_EQ(terrain.columns, 190u);
+  EXPECT_EQ(terrain.rows, 130u);
+  EXPECT_EQ(terrain.first, (Point2d{-94.5, -64.5}));
+  EXPECT_THAT(terrain.height_m[129 * 190], Optional(21.2248F)) << "the first number of the file is the north-west";
+}
+
+}  // namespace
+}  // namespace farlod
