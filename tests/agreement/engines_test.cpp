@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "scene/near_scene.hpp"
+#include "scene/whole_city.hpp"
+#include "tests/agreement/random_receivers.hpp"
+#include "tests/scenes/generated_town.hpp"
+#include "tests/scenes/packed_city.hpp"
+
+namespace farlod {
+namespace {
+
+Point3f rounded(const Point3d& d) { return {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)}; }
+
+CityModel town() {
+  CitySettings settings;
+  settings.size_m = 500;
+  settings.lod = 2;
+  settings.overhangs = true;
+  return scenes::generated_town(settings);
+}
+
+TEST(Agreement, ANeighbourhoodThatCoversTheCityIsTheCity) {
+  const CityModel city = town();
+  const Grid grid = scenes::grid_covering(city, Angle::degrees(23.0), 50.0, 41);
+  ASSERT_LE(grid.cells.width(), 20);
+  const scenes::TemporaryFolder folder;
+  scenes::pack_city(city, grid, folder.path() / "town.farlod", {8, 8, 1.5});
+  const Package package(folder.path() / "town.farlod");
+  const WholeCity whole(package);
+  RandomSky random;
+  constexpr int receivers = 200, rays_each = 5000;
+  int differences = 0;
+  for (int n = 0; n < receivers; ++n) {
+    const CellReceivers r = random.receiver(package);
+    const Occluder near = near_scene(package, r.cell);
+    ASSERT_EQ(near.triangle_count(), whole.occluder().triangle_count());
+    const Point3f p = r.receivers[0].p_cell, p_whole = whole.scene_from_cell(p, r.cell);
+    for (int k = 0; k < rays_each; ++k) {
+      const Point3f d = rounded(random.direction_above_horizon());
+      differences += near.blocks({p, d}) != whole.occluder().blocks({p_whole, d}) ? 1 : 0;
+    }
+  }
+  // The two frames round differently: a ray that grazes an edge may pass it on either side, but no more than one in 100,000
+  EXPECT_LE(differences, receivers * rays_each / 100000);
+}
+
+class NearAndFar : public testing::TestWithParam<Assign> {};
+
+TEST_P(NearAndFar, TogetherAreTheCitySeenFromTheCapturePoint) {
+  const CityModel city = town();
+  const Grid grid = scenes::grid_covering(city, Angle::degrees(23.0), 50.0, 3);
+  const scenes::TemporaryFolder folder;
+  const FarMapSettings map{16, 16, 1.5};
+  scenes::pack_city(city, grid, folder.path() / "town.farlod", map, GetParam());
+  const Package package(folder.path() / "town.farlod");
+  const WholeCity whole(package);
+  int rays = 0, differences = 0, far_alone = 0;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(grid.cells.size()); ++n) {
+    const Cell cell = grid.cells.cell_at(n);
+    const auto& record = *package.tile(cell).cell;
+    const Point3f p{record.capture_x_m, record.capture_y_m, record.capture_z_m};
+    const Occluder near = near_scene(package, cell);
+    const FarMap far = package.far_map(cell);
+    for (std::uint32_t row = 0; row < map.rows && record.far_map_top > 0.0F; ++row)
+      for (std::uint32_t column = 0; column < 4 * map.side_columns; ++column) {
+        const Point3d d = far.shape().direction_of({column, row});
+        const bool is_near = near.blocks({p, rounded(d)}), is_far = far.blocks(d);
+        differences += (is_near || is_far) != whole.occluder().blocks({whole.scene_from_cell(p, cell), rounded(d)}) ? 1 : 0;
+        far_alone += is_far && !is_near ? 1 : 0;
+        ++rays;
+      }
+  }
+  EXPECT_GT(far_alone, 1000);
+  EXPECT_LE(differences, rays / 100000);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, NearAndFar, testing::Values(Assign::clip, Assign::whole));
+
+}  // namespace
+}  // namespace farlod

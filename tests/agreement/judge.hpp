@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "city/city_model.hpp"
+#include "farlod/point.hpp"
+
+namespace farlod {
+
+/// An independent ray caster: CGAL's AABB tree with exact predicates, on a city's facets as they were before anything was turned,
+/// cut or rounded.
+class Judge {
+ public:
+  explicit Judge(const CityModel& city);
+  ~Judge();
+
+  /// Whether the ray from `origin` meets a facet. City frame.
+  [[nodiscard]] bool blocks(const Point3d& origin, const Point3d& direction) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <vector>
+
+#include "tests/agreement/judge.hpp"
+#include "tiles/facet_triangulation.hpp"
+
+namespace farlod {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Triangles = std::vector<Kernel::Triangle_3>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
+
+Triangles triangles_of(const CityModel& city) {
+  Triangles triangles;
+  for (const Facet& facet : city.facets()) {
+    std::vector<std::span<const Point3d>> rings;
+    for (std::uint32_t k = 0; k < facet.ring_count; ++k) rings.push_back(city.ring(facet, k));
+    const Triangulation t = triangulate(rings);
+    const auto corner = [&t](std::uint32_t n) { return Kernel::Point_3(t.points[n].x, t.points[n].y, t.points[n].z); };
+    for (const Triangle& c : t.triangles) triangles.emplace_back(corner(c.a), corner(c.b), corner(c.c));
+  }
+  return triangles;
+}
+
+}  // namespace
+
+struct Judge::Impl {
+  Triangles triangles;
+  Tree tree;
+  explicit Impl(Triangles t) : triangles(std::move(t)), tree(triangles.cbegin(), triangles.cend()) {}
+};
+
+Judge::Judge(const CityModel& city) : impl_(std::make_unique<Impl>(triangles_of(city))) {}
+Judge::~Judge() = default;
+
+bool Judge::blocks(const Point3d& o, const Point3d& d) const {
+  return impl_->tree.do_intersect(Kernel::Ray_3({o.x, o.y, o.z}, Kernel::Vector_3(d.x, d.y, d.z)));
+}
+
+}  // namespace farlod
