@@ -63,12 +63,12 @@ void SkyEvaluator::evaluate(const CellReceivers& cell, std::span<float> svf) con
   const bool exact = settings_.engine == Engine::exact || !package_.grid().cells.contains(cell.cell);
   const WholeCity* city = exact ? &city_->get(package_) : nullptr;
   const std::optional<Occluder> near = exact ? std::nullopt : std::optional(near_scene(package_, cell.cell));
-  const FarMap far = exact ? FarMap() : package_.far_map(cell.cell);
+  const FarMap far = settings_.engine == Engine::rays && !exact ? package_.far_map(cell.cell) : FarMap();
   const auto scene_ready = Clock::now();
   for_each_run(cell.receivers, [&](std::span<const Receiver> run) {
     std::vector<Point3d> directions = directions_of(directions_, run.front().normal);
     // What the far city hides needs no ray: the map is looked up by direction alone, hence alike for the whole run
-    if (!exact) keep_open(directions, far);
+    keep_open(directions, far);
     std::vector<Point3f> origins;
     for (const Receiver& r : run) origins.push_back(exact ? city->scene_from_cell(r.p_cell, cell.cell) : r.p_cell);
     const std::vector<std::uint32_t> free = count_free(exact ? city->occluder() : *near, origins, directions);

@@ -15,8 +15,9 @@
 namespace farlod {
 
 enum class Engine {
-  rays,  ///< rays against the tiles of the neighbourhood, then the far map (paper, Listing 1)
-  exact  ///< rays against all tiles: the reference
+  rays,      ///< rays against the tiles of the neighbourhood, then the far map (paper, Listing 1)
+  exact,     ///< rays against all tiles: the reference
+  near_only  ///< the far field dropped, as by tools that cut a city into tiles: to measure what it is worth
 };
 
 struct SkySettings {
