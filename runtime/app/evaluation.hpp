@@ -29,7 +29,10 @@ struct RunSeconds {
 
 /// What a run came to, for people and for `--summary`.
 struct SvfRun {
-  std::size_t receivers = 0, nodata = 0, outside_of_grid = 0;
+  std::size_t receivers = 0;         ///< with an answer
+  std::size_t inside_buildings = 0;  ///< without one
+  std::size_t beyond_grid = 0;       ///< pixels of a raster that no cell holds: without an answer too
+  std::size_t outside_of_grid = 0;   ///< of the receivers, those that were traced against the whole city
   RunSeconds seconds;
   std::optional<double> svf_min, svf_mean, svf_max;
   std::optional<ErrorSummary> errors;
@@ -37,7 +40,7 @@ struct SvfRun {
 };
 
 /// Evaluates the receivers of all cells on all cores; `svf[receiver.index]` gets each answer. Then, when the user asked for it,
-/// verifies some of them. Adds to the run's times, figures and counts; `nodata` is the caller's to count.
+/// verifies some of them. Adds to the run's times and figures; who has no answer, and why, is the caller's to count.
 void evaluate_cells(const Package& package, const SvfOptions& options, std::size_t cell_count, const ReceiversOfCell& receivers_of,
                     std::span<float> svf, SvfRun& run);
 

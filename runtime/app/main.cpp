@@ -50,7 +50,9 @@ void print_sanity(const SvfRun& run) {
 
 void print_run(const SvfRun& run, const SvfOptions& options, double total_s) {
   const std::string quantity = quantity_name(options.sky.weight);
-  fmt::print("{} receivers, {} without data; {:.1f} s in all\n", run.receivers, run.nodata, total_s);
+  fmt::print("{} receivers, {:.1f} s in all; no data: {} inside buildings", run.receivers, total_s, run.inside_buildings);
+  if (run.beyond_grid > 0) fmt::print(", {} beyond the grid", run.beyond_grid);
+  fmt::print("\n");
   if (run.svf_mean) fmt::print("{}: min {:.4f}, mean {:.4f}, max {:.4f}\n", quantity, *run.svf_min, *run.svf_mean, *run.svf_max);
   print_sanity(run);
   if (run.outside_of_grid > 0)

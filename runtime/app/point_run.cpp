@@ -50,7 +50,7 @@ SvfRun run_points(const Package& package, const SvfOptions& options) {
   const auto cells = places_by_cell(package, named.places);
   std::vector<float> svf(named.places.size(), std::numeric_limits<float>::quiet_NaN());
   // Where a receiver stands is known once its cell is read
-  std::vector<double> height_m(named.places.size(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<std::optional<double>> height_m(named.places.size());
   SvfRun run;
   const auto receivers_of = [&](std::size_t n) {
     CellReceivers r = receivers_at(package, cells[n].first, named.places, cells[n].second, options.height_above, static_cast<float>(options.height_m));
@@ -58,11 +58,11 @@ SvfRun run_points(const Package& package, const SvfOptions& options) {
     return r;
   };
   evaluate_cells(package, options, cells.size(), receivers_of, svf, run);
-  run.nodata = svf.size() - run.receivers;
+  run.inside_buildings = svf.size() - run.receivers;
   std::vector<PointRow> rows;
   for (std::size_t n = 0; n < svf.size(); ++n) {
     const Point2d p = named.places[n].p_projected;
-    rows.push_back({named.ids[n], {p.x, p.y, height_m[n]}, std::isnan(svf[n]) ? std::nullopt : std::optional<double>(svf[n])});
+    rows.push_back({named.ids[n], p, height_m[n], std::isnan(svf[n]) ? std::nullopt : std::optional<double>(svf[n])});
   }
   const auto start = std::chrono::steady_clock::now();
   write_points_csv(rows, quantity_name(options.sky.weight), options.output);

@@ -50,7 +50,8 @@ SvfRun run_raster(const Package& package, const SvfOptions& options) {
     return receivers.in_cell(package, cells[n], options.height_above, static_cast<float>(options.height_m));
   };
   evaluate_cells(package, options, cells.size(), receivers_of, raster.svf, run);
-  run.nodata = raster.svf.size() - run.receivers;
+  run.beyond_grid = raster.svf.size() - receivers.pixels_in_grid(cells);
+  run.inside_buildings = raster.svf.size() - run.beyond_grid - run.receivers;
   const auto start = std::chrono::steady_clock::now();
   write_raster(raster, options);
   run.files.push_back(options.output);

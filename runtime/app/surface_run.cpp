@@ -92,7 +92,7 @@ SvfRun run_surfaces(const Package& package, const SvfOptions& options) {
   std::vector<float> svf(count, std::numeric_limits<float>::quiet_NaN());
   SvfRun run;
   evaluate_cells(package, options, cells.size(), [&](std::size_t n) { return answerable(cells[n]); }, svf, run);
-  run.nodata = count - run.receivers;
+  run.inside_buildings = count - run.receivers;
   const auto start = std::chrono::steady_clock::now();
   std::vector<SurfacePointRow> rows;
   rows.reserve(count);

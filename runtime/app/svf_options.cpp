@@ -3,6 +3,7 @@
 #include "app/svf_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -28,6 +29,16 @@ struct RawOptions {
   bool on_surface = false, quiet = false;
 };
 
+/// A finite number. CLI11's own Range lets NaN through, which is neither below nor above.
+CLI::Validator between(double low, double high) {
+  const auto complaint = [low, high](const std::string& text) {
+    double value = 0.0;
+    const bool fits = CLI::detail::lexical_cast(text, value) && low <= value && value <= high;
+    return fits ? std::string() : fmt::format("{} is not a number from {:g} to {:g}", text, low, high);
+  };
+  return {complaint, fmt::format("from {:g} to {:g}", low, high), "between"};
+}
+
 std::vector<double> numbers_in(const std::string& text, const std::string& option, const std::string& form) {
   std::vector<double> numbers;
   for (const std::string& part : CLI::detail::split(text, ',')) {
@@ -40,16 +51,16 @@ std::vector<double> numbers_in(const std::string& text, const std::string& optio
 }
 
 void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
-  auto* receivers = app.add_option_group("Receivers", "Where the sky is looked at: exactly one of");
-  receivers->add_option("--grid", o.grid_step_m, "A raster with pixels of this many metres")->check(CLI::Range(0.01, 10000.0));
+  auto* receivers = app.add_option_group("Receivers", "Where the sky is looked at");
+  receivers->add_option("--grid", o.grid_step_m, "A raster with pixels of this many metres")->check(between(0.01, 10000.0));
   receivers->add_option("--points", raw.points, "The points of this table (CSV with x, y and perhaps z and id)");
   receivers->add_option("--surfaces", raw.surfaces, "Points spread over the buildings, with averages per surface and building")
       ->check(CLI::IsMember({"roofs", "walls", "all"}));
   receivers->add_option("--at", raw.at, "One point: X,Y or X,Y,Z in the package's CRS");
   receivers->require_option(1);
-  app.add_option("--height", o.height_m, "Metres above ground (not for --surfaces, nor for points with a z)")->capture_default_str()->group("Placing");
+  app.add_option("--height", o.height_m, "Metres above ground (not for --surfaces, nor for points with a z)")->check(between(0.0, 10000.0))->capture_default_str()->group("Placing");
   app.add_flag("--on-surface", raw.on_surface, "Count --height from whatever is highest there, ground or roof")->group("Placing");
-  app.add_option("--spacing", o.spacing_m, "Metres between receivers on surfaces")->check(CLI::Range(0.05, 1000.0))->capture_default_str()->group("Placing");
+  app.add_option("--spacing", o.spacing_m, "Metres between receivers on surfaces")->check(between(0.05, 1000.0))->capture_default_str()->group("Placing");
   app.add_option("--points-crs", o.points_crs, "CRS of --points, as EPSG:n (default: the package's)")->group("Placing");
   app.add_option("--bbox", raw.bbox, "X0,Y0,X1,Y1: only this part of --grid")->group("Placing");
 }
@@ -64,7 +75,8 @@ void add_other_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_option("--rays", o.sky.rays, "Directions a receiver")->check(CLI::Range(1, 10000000))->capture_default_str()->group("Accuracy");
   app.add_option("--sky", raw.sky, "Weight of the sky: cosine (svf) or solid (svf_solid)")
       ->check(CLI::IsMember({"cosine", "solid"}))->capture_default_str()->group("Accuracy");
-  app.add_option("--verify", o.verify_count, "Also compute this many random receivers exactly, and report the errors")->group("Accuracy");
+  app.add_option("--verify", o.verify_count, "Also compute this many random receivers exactly, and report the errors")
+      ->check(CLI::Range(0, 1000000000))->group("Accuracy");
   app.add_flag("--quiet", raw.quiet, "Say nothing but errors")->group("Run");
   app.add_option("--threads", o.threads, "Threads to use (default: all cores)")->check(CLI::Range(1, 4096))->group("Run");
   app.set_config("--config", "", "Read options from this file (TOML)")->group("Run");

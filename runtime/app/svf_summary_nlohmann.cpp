@@ -18,7 +18,7 @@ Json number_or_null(const std::optional<double>& value) { return value ? Json(*v
 std::string svf_summary_json(const SvfRun& run, const SvfOptions& options, double total_seconds) {
   const double busy_s = run.seconds.scenes + run.seconds.evaluate;
   Json j = {{"receivers", run.receivers},
-            {"nodata", run.nodata},
+            {"nodata", run.inside_buildings + run.beyond_grid},
             {"engine", options.sky.engine == Engine::exact ? "exact" : "rays"},
             {"seconds",
              {{"total", total_seconds},

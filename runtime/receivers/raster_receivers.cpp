@@ -63,19 +63,30 @@ std::vector<Cell> RasterReceivers::cells() const {
   return result;
 }
 
-CellReceivers RasterReceivers::in_cell(const Package& package, Cell cell, HeightAbove above, float height_m) const {
+template <class Visit>
+void RasterReceivers::for_each_pixel(Cell cell, const Visit& visit) const {
   const Grid& grid = manifest_.grid;
-  const CellColumns columns(package, cell);
-  CellReceivers result{cell, {}};
-  const Point2d corner = grid.corner_of(cell);
   for_each_pixel_by_patches(pixels_over(plan_, projected_outline(manifest_, grid.square_of(cell))), [&](std::size_t column, std::size_t row) {
     const Point2d p_grid = manifest_.grid_from_projected(plan_.centre_m(column, row));
-    if (grid.cell_of(p_grid) != cell) return;
-    const Point2d p = p_grid - corner;
+    if (grid.cell_of(p_grid) == cell) visit(row * plan_.columns + column, p_grid);
+  });
+}
+
+CellReceivers RasterReceivers::in_cell(const Package& package, Cell cell, HeightAbove above, float height_m) const {
+  const CellColumns columns(package, cell);
+  CellReceivers result{cell, {}};
+  for_each_pixel(cell, [&](std::size_t index, Point2d p_grid) {
+    const Point2d p = p_grid - manifest_.grid.corner_of(cell);
     if (const auto p_cell = stand(columns, static_cast<float>(p.x), static_cast<float>(p.y), above, height_m))
-      result.receivers.push_back({row * plan_.columns + column, *p_cell});
+      result.receivers.push_back({index, *p_cell});
   });
   return result;
+}
+
+std::size_t RasterReceivers::pixels_in_grid(const std::vector<Cell>& cells) const {
+  std::size_t count = 0;
+  for (const Cell cell : cells) for_each_pixel(cell, [&count](std::size_t, Point2d) { ++count; });
+  return count;
 }
 
 }  // namespace farlod

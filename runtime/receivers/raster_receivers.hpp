@@ -36,8 +36,14 @@ class RasterReceivers {
   [[nodiscard]] std::vector<Cell> cells() const;
   /// The receivers of one cell; pixels inside buildings are left out. Neighbours in the plane are neighbours in the list.
   [[nodiscard]] CellReceivers in_cell(const Package& package, Cell cell, HeightAbove above, float height_m) const;
+  /// How many pixels have their centres in these cells, inside buildings or not.
+  [[nodiscard]] std::size_t pixels_in_grid(const std::vector<Cell>& cells) const;
 
  private:
+  /// Calls `visit(index, p_grid)` for each pixel whose centre the cell holds, patch by patch.
+  template <class Visit>
+  void for_each_pixel(Cell cell, const Visit& visit) const;
+
   const package::Manifest& manifest_;
   RasterPlan plan_;
 };

@@ -15,7 +15,8 @@ namespace farlod {
 /// A receiver that the user named, with its answer; no answer when it lies inside a building.
 struct PointRow {
   std::string id;
-  Point3d p_projected;  ///< where the sky was looked at: easting, northing, height
+  Point2d p_projected;             ///< easting and northing
+  std::optional<double> height_m;  ///< where it stands; unknown inside a building
   std::optional<double> svf;
 };
 

@@ -45,8 +45,8 @@ void write_table(const std::filesystem::path& path, const Fields& header, std::s
 }
 
 Fields point_fields(const PointRow& r) {
-  return {r.id, millimetre_decimal(r.p_projected.x), millimetre_decimal(r.p_projected.y), millimetre_decimal(r.p_projected.z),
-          share(r.svf)};
+  return {r.id, millimetre_decimal(r.p_projected.x), millimetre_decimal(r.p_projected.y),
+          r.height_m ? millimetre_decimal(*r.height_m) : std::string(), share(r.svf)};
 }
 
 Fields surface_point_fields(const SurfacePointRow& r) {

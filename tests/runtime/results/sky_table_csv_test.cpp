@@ -21,25 +21,26 @@ TEST(CsvField, IsQuotedWhereItMustBe) {
 
 TEST(PointsCsv, IsAsDocumented) {
   const ScratchFolder folder;
-  const std::vector<PointRow> rows{{"square, north", {500000.12345, 5700010.0, 1.5}, 0.5},
-                                   {"inside", {1.0, -2.25, 0.0}, std::nullopt}};
+  const std::vector<PointRow> rows{{"square, north", {500000.12345, 5700010.0}, 1.5, 0.5},
+                                   {"inside", {1.0, -2.25}, std::nullopt, std::nullopt}};
   write_points_csv(rows, "svf_solid", folder.file("a.csv"));
   EXPECT_EQ(text_of(folder.file("a.csv")),
             "id,x_m,y_m,z_m,svf_solid\n"
             "\"square, north\",500000.123,5700010,1.5,0.500000\n"
-            "inside,1,-2.25,0,\n");
+            "inside,1,-2.25,,\n");
 }
 
 TEST(PointsCsv, CanBeReadAsPointsAgain) {
   const ScratchFolder folder;
-  const std::vector<PointRow> rows{{"the \"first\", quoted\nover two lines", {500000.125, 5700010.25, 1.5}, 0.5},
-                                   {"2nd", {1.0, -2.25, 0.0}, {}}};
+  const std::vector<PointRow> rows{{"the \"first\", quoted\nover two lines", {500000.125, 5700010.25}, 1.5, 0.5},
+                                   {"2nd", {1.0, -2.25}, {}, {}}};
   write_points_csv(rows, "svf", folder.file("a.csv"));
   const std::vector<RequestedPoint> points = read_points_csv(folder.file("a.csv"));
   ASSERT_EQ(points.size(), rows.size());
   for (std::size_t n = 0; n < rows.size(); ++n) {
     EXPECT_EQ(points[n].id, rows[n].id);
-    EXPECT_EQ((Point3d{points[n].x, points[n].y, points[n].z.value()}), rows[n].p_projected);
+    EXPECT_EQ((Point2d{points[n].x, points[n].y}), rows[n].p_projected);
+    EXPECT_EQ(points[n].z, rows[n].height_m);
   }
 }
 
