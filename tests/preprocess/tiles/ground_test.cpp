@@ -1,5 +1,5 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: Apache-2.0
 #include "tiles/ground.hpp"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "generator/app/city_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
+
+#include "console/exit_code.hpp"
+#include "farlod/version.hpp"
+#include "generator/generated_city.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr const char* description =
+    "farlod-city — makes test cities of any size: same settings, same bytes, on every machine.\n\n"
+    "Try this first:\n"
+    "  farlod-city -o town.city.json --size 1000\n"
+    "  farlod-city -o metropolis.obj --size 3500 --rotation 29 --lod 2 --overhangs\n";
+constexpr const char* footer =
+    "\nThe ending of the output says the format: .gml (CityGML 2.0), .city.json (CityJSON 2.0), .obj, .geojson.\n"
+    "GeoJSON holds footprints with `height` above `base`, both in metres: roofs of LoD2 and arcades are reduced to that, and a "
+    "bridge\n"
+    "has its underside as base. Its coordinates are in the CRS that the file names, since the city is not in degrees.\n"
+    "Exit codes: 0 done, 1 internal, 2 usage, 3 the output cannot be written.";
+
+/// Options whose text must be understood after CLI11 has taken them.
+struct RawOptions {
+  std::string output, crs = "EPSG:32632", summary;
+  std::int64_t buildings = 0;
+  int threads = 1;
+  bool quiet = false;
+};
+
+/// The numbers that the settings describe themselves; their ranges are checked when all options are known.
+void add_settings(CLI::App& app, CitySettings& settings) {
+  CitySettings::describe(settings,
+                         [&app](const char* name, auto& value, SettingRange range, const char* group, const char* help) {
+                           const std::string text = fmt::format("{} ({:.12g} to {:.12g})", help, range.low, range.high);
+                           app.add_option(std::string("--") + name, value, text)
+                               ->default_str(fmt::format("{:.12g}", static_cast<double>(value)))
+                               ->group(group);
+                         });
+}
+
+void add_other_options(CLI::App& app, RawOptions& raw, CityOptions& o) {
+  app.add_option("-o,--output", raw.output, "File to write")->required()->group("Output");
+  app.add_flag("--obj-from-centre", o.obj_from_centre,
+               "OBJ: count x and y from the city's centre, for viewers that compute in float")
+      ->group("Output");
+  app.add_option("--summary", raw.summary, "Write counts and times to this JSON file")->group("Output");
+  app.add_option("--seed", o.settings.seed, "Number that chooses one of many cities alike")->capture_default_str()->group("City");
+  app.add_option("--buildings", raw.buildings, "Choose the size such that the city has about so many buildings")
+      ->excludes("--size")
+      ->group("City");
+  app.add_flag("--overhangs", o.settings.overhangs, "Add pedestrian bridges across streets, and arcades under upper floors")
+      ->group("Buildings");
+  app.add_option("--crs", raw.crs, "CRS that the file names, as EPSG:n: projected, in metres, easting first")
+      ->capture_default_str()
+      ->group("Place");
+  app.add_flag("--quiet", raw.quiet, "Say nothing but errors")->group("Run");
+  app.add_option("--threads", raw.threads, "As for the other programs; a city is written by one thread")
+      ->check(CLI::Range(1, 4096))
+      ->group("Run");
+  app.set_config("--config", "", "Read options from this file (TOML)")->group("Run");
+  app.set_version_flag("--version", std::string("farlod-city ") + software_version);
+}
+
+void understand(const RawOptions& raw, const CLI::App& app, CityOptions& o) {
+  o.output = raw.output;
+  const auto format = city_format_of(o.output);
+  if (!format) throw CLI::ValidationError("--output", raw.output + " must end in .gml, .city.json, .obj or .geojson");
+  o.format = *format;
+  if (o.obj_from_centre && o.format != CityFormat::obj) throw CLI::ValidationError("--obj-from-centre", "is for .obj only");
+  const auto epsg = epsg_code(raw.crs);
+  if (!epsg) throw CLI::ValidationError("--crs", "\"" + raw.crs + "\" is not like EPSG:32632");
+  o.settings.epsg = *epsg;
+  o.summary_file = raw.summary;
+  o.verbosity = raw.quiet ? Verbosity::quiet : Verbosity::normal;
+  check(o.settings);
+  if (app.count("--buildings") > 0) o.settings.size_m = size_for_buildings_m(o.settings, raw.buildings);
+}
+
+}  // namespace
+
+ParsedCityOptions parse_city_options(int argc, char** argv) {
+  CLI::App app(description, "farlod-city");
+  app.footer(footer);
+  app.get_formatter()->column_width(34);
+  RawOptions raw;
+  CityOptions options;
+  add_settings(app, options.settings);
+  add_other_options(app, raw, options);
+  try {
+    app.parse(argc, argv);
+    understand(raw, app, options);
+  } catch (const CLI::ParseError& error) {
+    return {std::nullopt, app.exit(error) == 0 ? exit_done : exit_usage};
+  } catch (const SettingsError& error) {
+    fmt::print(stderr, "farlod-city: {}\n", error.what());
+    return {std::nullopt, exit_usage};
+  }
+  return {std::move(options), exit_done};
+}
+
+}  // namespace farlod

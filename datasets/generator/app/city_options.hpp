@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "console/progress.hpp"
+#include "generator/city_settings.hpp"
+#include "generator/city_writer.hpp"
+
+namespace farlod {
+
+struct CityOptions {
+  CitySettings settings;
+  std::filesystem::path output;
+  CityFormat format = CityFormat::obj;
+  bool obj_from_centre = false;
+  std::filesystem::path summary_file;  ///< empty: none
+  Verbosity verbosity = Verbosity::normal;
+};
+
+/// The options, or only the code to exit with: after --help, --version or an error that has been told.
+struct ParsedCityOptions {
+  std::optional<CityOptions> options;
+  int exit_code = 0;
+};
+[[nodiscard]] ParsedCityOptions parse_city_options(int argc, char** argv);
+
+}  // namespace farlod

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+
+#include "console/exit_code.hpp"
+#include "generator/app/city_options.hpp"
+#include "generator/app/city_summary.hpp"
+#include "generator/city_text_file.hpp"
+#include "generator/generated_city.hpp"
+
+namespace farlod {
+namespace {
+
+void count(const GeneratedBuilding& building, CityCounts& counts) {
+  ++counts.buildings;
+  counts.polygons += building.facets.size();
+  counts.towers += building.kind == BuildingKind::tower ? 1 : 0;
+  counts.bridges += building.kind == BuildingKind::bridge ? 1 : 0;
+  counts.tallest_m = std::max(counts.tallest_m, building.height_m());
+}
+
+[[nodiscard]] CityCounts write_city(const CityOptions& options) {
+  CityCounts counts;
+  const auto start = std::chrono::steady_clock::now();
+  CityHeader header = header_of(options.settings, options.output);
+  header.obj_from_centre = options.obj_from_centre;
+  const auto writer = make_city_writer(options.format, options.output, header);
+  Progress progress("Building", options.verbosity);
+  const auto blocks = static_cast<std::size_t>(CityLayout(options.settings).block_count());
+  writer->begin();
+  visit_city(options.settings,
+             {.building =
+                  [&](const GeneratedBuilding& building) {
+                    writer->add(building);
+                    count(building, counts);
+                  },
+              .block_done = [&](std::int64_t done) { progress.update(static_cast<std::size_t>(done), blocks); }});
+  writer->end();
+  counts.bytes = std::filesystem::file_size(options.output);
+  counts.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return counts;
+}
+
+void write_summary(const CityOptions& options, const CityCounts& counts) {
+  if (options.summary_file.empty()) return;
+  CityTextFile file(options.summary_file);
+  file.text() += city_summary_json(options, counts);
+  file.commit();
+}
+
+void print_counts(const CityOptions& options, const CityCounts& counts) {
+  if (options.verbosity == Verbosity::quiet) return;
+  fmt::print("{}: {} buildings, {} polygons, tallest {:.1f} m, {:.1f} MiB, {:.1f} s\n", options.output.string(), counts.buildings,
+             counts.polygons, counts.tallest_m, static_cast<double>(counts.bytes) / 1048576.0, counts.seconds);
+}
+
+int run(const CityOptions& options) {
+  try {
+    const CityCounts counts = write_city(options);
+    write_summary(options, counts);
+    print_counts(options, counts);
+    return exit_done;
+  } catch (const CityWriteError& error) {
+    fmt::print(stderr, "farlod-city: {}. Is the folder there, may you write to it, and is there room on the disk?\n",
+               error.what());
+    return exit_unusable_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "farlod-city: internal error: {}\n", error.what());
+    return exit_internal;
+  }
+}
+
+}  // namespace
+}  // namespace farlod
+
+int main(int argc, char** argv) {
+  const farlod::ParsedCityOptions parsed = farlod::parse_city_options(argc, argv);
+  return parsed.options ? farlod::run(*parsed.options) : parsed.exit_code;
+}

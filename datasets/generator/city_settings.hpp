@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace farlod {
+
+/// The values that a setting may take, both ends included.
+struct SettingRange {
+  double low, high;
+};
+
+/// Everything that decides a generated city. Same settings, same city, on every machine.
+struct CitySettings {
+  double size_m = 1000.0;
+  std::uint64_t seed = 1;
+  double rotation_deg = 0.0;
+  double avenue_spacing_m = 170.0;
+  double street_spacing_m = 85.0;
+  double avenue_width_m = 22.0;
+  double street_width_m = 13.0;
+  double tower_share = 0.25;
+  double max_height_m = 210.0;
+  double height_scale = 1.0;
+  double terrain_relief_m = 0.0;
+  int lod = 1;
+  bool overhangs = false;
+  int epsg = 32632;
+  double centre_easting_m = 550000.0;
+  double centre_northing_m = 5500000.0;
+
+  /// Names each numeric setting once: the command line, the check of ranges and the help all walk this list.
+  /// `setting` is called with (name, value, range, group, help).
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& setting) {
+    setting("size", self.size_m, SettingRange{100.0, 200'000.0}, "City", "Edge of the square city, in metres");
+    setting("rotation", self.rotation_deg, SettingRange{-360.0, 360.0}, "City",
+            "Bearing of the avenues, in degrees clockwise from grid north");
+    setting("avenue-spacing", self.avenue_spacing_m, SettingRange{60.0, 600.0}, "Streets",
+            "Mean distance between the axes of avenues, in metres");
+    setting("street-spacing", self.street_spacing_m, SettingRange{60.0, 600.0}, "Streets",
+            "Mean distance between the axes of the streets that cross them, in metres");
+    setting("avenue-width", self.avenue_width_m, SettingRange{4.0, 60.0}, "Streets",
+            "Width of an avenue, in metres; every fourth is half as wide again");
+    setting("street-width", self.street_width_m, SettingRange{4.0, 60.0}, "Streets",
+            "Width of a street, in metres; every fifth is half as wide again");
+    setting("towers", self.tower_share, SettingRange{0.0, 1.0}, "Buildings",
+            "Share of the buildings in the core that are towers; a city needs about 400 m to have a core");
+    setting("max-height", self.max_height_m, SettingRange{60.0, 1000.0}, "Buildings",
+            "What the tallest towers come near to, in metres");
+    setting("height-scale", self.height_scale, SettingRange{0.25, 4.0}, "Buildings",
+            "Multiplies the heights of all buildings that are not towers");
+    setting("terrain-relief", self.terrain_relief_m, SettingRange{0.0, 500.0}, "Buildings",
+            "Hills between 0 and this height, in metres; a building stands at the lowest ground under its corners");
+    setting("lod", self.lod, SettingRange{1, 2}, "Buildings",
+            "1: flat-roofed prisms; 2: gabled and hipped roofs on low buildings, stepped tops on towers");
+    setting("centre-easting", self.centre_easting_m, SettingRange{-1e7, 1e7}, "Place", "Easting of the city's centre, in metres");
+    setting("centre-northing", self.centre_northing_m, SettingRange{-2e7, 2e7}, "Place",
+            "Northing of the city's centre, in metres");
+  }
+};
+
+/// A setting cannot be used. The message names it as on the command line, its value, and what is allowed.
+class SettingsError : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// Throws SettingsError for the first setting that is out of its range or contradicts another.
+void check(const CitySettings& settings);
+
+/// The code in "EPSG:n", in capitals or not; empty if the text is not of this form.
+[[nodiscard]] std::optional<int> epsg_code(std::string_view text);
+
+}  // namespace farlod

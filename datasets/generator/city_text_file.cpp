@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "generator/city_text_file.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+namespace farlod {
+
+CityWriteError::CityWriteError(const std::filesystem::path& path, const std::string& reason)
+    : std::runtime_error(fmt::format("cannot write {}: {}", path.string(), reason)) {}
+
+CityTextFile::CityTextFile(std::filesystem::path destination) : destination_(std::move(destination)) {
+  // The process number keeps two runs that write the same file apart
+  temporary_ = destination_.parent_path() / fmt::format(".{}.{}.partial", destination_.filename().string(), getpid());
+  errno = 0;
+  file_.open(temporary_, std::ios::binary | std::ios::in | std::ios::out | std::ios::trunc);
+  if (!file_) fail();
+  buffer_.reserve(buffer_bytes + buffer_bytes / 4);
+}
+
+CityTextFile::~CityTextFile() {
+  std::error_code nothing_to_remove;
+  std::filesystem::remove(temporary_, nothing_to_remove);
+}
+
+void CityTextFile::overwrite(std::uint64_t position, std::string_view text) {
+  flush();
+  file_.seekp(static_cast<std::streamoff>(position));
+  file_.write(text.data(), static_cast<std::streamsize>(text.size()));
+  file_.seekp(0, std::ios::end);
+  if (!file_) fail();
+}
+
+void CityTextFile::append(CityTextFile& other) {
+  other.flush();
+  other.file_.seekg(0);
+  std::string piece(buffer_bytes, '\0');
+  while (other.file_.read(piece.data(), static_cast<std::streamsize>(piece.size())) || other.file_.gcount() > 0) {
+    buffer_.append(piece, 0, static_cast<std::size_t>(other.file_.gcount()));
+    flush();
+  }
+}
+
+void CityTextFile::commit() {
+  flush();
+  file_.close();
+  if (!file_) fail();
+  std::error_code error;
+  std::filesystem::rename(temporary_, destination_, error);
+  if (error) throw CityWriteError(destination_, error.message());
+}
+
+void CityTextFile::flush() {
+  errno = 0;
+  file_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+  file_.flush();
+  if (!file_) fail();
+  flushed_bytes_ += buffer_.size();
+  buffer_.clear();
+}
+
+void CityTextFile::fail() const {
+  // The stream does not say why it failed; the system's last error does
+  throw CityWriteError(destination_, errno != 0 ? std::strerror(errno) : "the disk refused the data");
+}
+
+void append_metres(std::string& text, std::int64_t value_mm) {
+  const std::int64_t size_mm = value_mm < 0 ? -value_mm : value_mm;
+  if (value_mm < 0) text += '-';
+  fmt::format_to(std::back_inserter(text), FMT_STRING("{}.{:03}"), size_mm / 1000, size_mm % 1000);
+}
+
+}  // namespace farlod

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace farlod {
+
+/// The city cannot be written. The message names the file and the system's reason.
+class CityWriteError : public std::runtime_error {
+ public:
+  CityWriteError(const std::filesystem::path& path, const std::string& reason);
+};
+
+/// A text that is appended to and appears under its name only when it is whole. Holds a buffer of fixed size, however long the
+/// text becomes. What is not committed is removed. All members throw CityWriteError.
+class CityTextFile {
+ public:
+  explicit CityTextFile(std::filesystem::path destination);
+  ~CityTextFile();
+  CityTextFile(const CityTextFile&) = delete;
+  CityTextFile& operator=(const CityTextFile&) = delete;
+
+  /// To append to; call `drain` after each building.
+  [[nodiscard]] std::string& text() { return buffer_; }
+  /// Empties the buffer into the file if it is full.
+  void drain() {
+    if (buffer_.size() >= buffer_bytes) flush();
+  }
+  /// How much was appended so far.
+  [[nodiscard]] std::uint64_t position() const { return flushed_bytes_ + buffer_.size(); }
+  /// Writes over what stands at `position`.
+  void overwrite(std::uint64_t position, std::string_view text);
+  /// Appends all of another text, which stays uncommitted.
+  void append(CityTextFile& other);
+  void commit();
+
+ private:
+  static constexpr std::size_t buffer_bytes = std::size_t{1} << 20U;
+  void flush();
+  [[noreturn]] void fail() const;
+
+  std::filesystem::path destination_, temporary_;
+  std::fstream file_;
+  std::string buffer_;
+  std::uint64_t flushed_bytes_ = 0;
+};
+
+/// Appends whole millimetres as metres with three decimals.
+void append_metres(std::string& text, std::int64_t value_mm);
+
+}  // namespace farlod

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "generator/city_settings.hpp"
+#include "generator/generated_building.hpp"
+
+namespace farlod {
+
+enum class CityFormat { citygml, cityjson, obj, geojson };
+
+/// The format that a file's ending stands for: .gml, .city.json (or .json), .obj, .geojson. Empty for all others.
+[[nodiscard]] std::optional<CityFormat> city_format_of(const std::filesystem::path& path);
+
+/// What a writer needs to know before the first building.
+struct CityHeader {
+  std::string name;  ///< of the data set
+  int lod = 1;
+  int epsg = 0;
+  std::int64_t centre_easting_mm = 0, centre_northing_mm = 0;
+  /// OBJ only: write coordinates from the city's centre, for viewers that compute in float.
+  bool obj_from_centre = false;
+};
+[[nodiscard]] CityHeader header_of(const CitySettings& settings, const std::filesystem::path& path);
+
+/// Writes a city one building at a time: begin, add …, end. Memory does not grow with the city, and the file appears under
+/// its name at the end. All members throw CityWriteError.
+class GeneratedCityWriter {
+ public:
+  virtual ~GeneratedCityWriter() = default;
+  virtual void begin() = 0;
+  virtual void add(const GeneratedBuilding& building) = 0;
+  virtual void end() = 0;
+};
+
+[[nodiscard]] std::unique_ptr<GeneratedCityWriter> make_city_writer(CityFormat format, const std::filesystem::path& path,
+                                                                    const CityHeader& header);
+
+/// CityGML 2.0: lod1Solid, or thematic surfaces with an lod2Solid that refers to them.
+[[nodiscard]] std::unique_ptr<GeneratedCityWriter> make_citygml_writer(const std::filesystem::path& path,
+                                                                       const CityHeader& header);
+/// CityJSON 2.0: solids, in LoD2 with the semantics of their surfaces. Vertices wait in a second file beside the first.
+[[nodiscard]] std::unique_ptr<GeneratedCityWriter> make_cityjson_writer(const std::filesystem::path& path,
+                                                                        const CityHeader& header);
+/// Wavefront OBJ: one group a building, convex faces without holes, z up, metres.
+[[nodiscard]] std::unique_ptr<GeneratedCityWriter> make_obj_writer(const std::filesystem::path& path, const CityHeader& header);
+/// GeoJSON footprints with `height` above `base`, in the CRS that the file names: roofs and overhangs are lost.
+[[nodiscard]] std::unique_ptr<GeneratedCityWriter> make_geojson_writer(const std::filesystem::path& path,
+                                                                       const CityHeader& header);
+
+}  // namespace farlod

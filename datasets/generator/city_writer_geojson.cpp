@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "generator/city_text_file.hpp"
+#include "generator/city_writer.hpp"
+
+namespace farlod {
+namespace {
+
+class GeoJsonWriter final : public GeneratedCityWriter {
+ public:
+  GeoJsonWriter(const std::filesystem::path& path, const CityHeader& header) : header_(header), file_(path) {}
+
+  void begin() override {
+    // RFC 7946 dropped the member `crs`, but projected coordinates cannot do without it, and GDAL reads it
+    fmt::format_to(std::back_inserter(file_.text()),
+                   R"({{"type":"FeatureCollection","name":"{}",)"
+                   "\n"
+                   R"("crs":{{"type":"name","properties":{{"name":"urn:ogc:def:crs:EPSG::{}"}}}},)"
+                   "\n\"features\":[",
+                   header_.name, header_.epsg);
+  }
+
+  void add(const GeneratedBuilding& building) override {
+    std::string& text = file_.text();
+    text += first_ ? "\n" : ",\n";
+    first_ = false;
+    fmt::format_to(std::back_inserter(text), R"({{"type":"Feature","properties":{{"id":"{}","height":)", building.id);
+    append_metres(text, building.top_mm - building.base_mm);
+    text += R"(,"base":)";
+    append_metres(text, building.base_mm);
+    text += R"(},"geometry":{"type":"Polygon","coordinates":[)";
+    add_ring(building.footprint);
+    if (!building.footprint_hole.empty()) {
+      text += ',';
+      add_ring(building.footprint_hole);
+    }
+    text += "]}}";
+    file_.drain();
+  }
+
+  void end() override {
+    file_.text() += "\n]}\n";
+    file_.commit();
+  }
+
+ private:
+  void add_ring(const std::vector<PlanPointMm>& ring) {
+    std::string& text = file_.text();
+    // A ring of GeoJSON ends with its first point again
+    for (std::size_t k = 0; k <= ring.size(); ++k) {
+      text += k == 0 ? "[[" : ",[";
+      append_metres(text, header_.centre_easting_mm + ring[k % ring.size()][0]);
+      text += ',';
+      append_metres(text, header_.centre_northing_mm + ring[k % ring.size()][1]);
+      text += ']';
+    }
+    text += ']';
+  }
+
+  CityHeader header_;
+  CityTextFile file_;
+  bool first_ = true;
+};
+
+}  // namespace
+
+std::unique_ptr<GeneratedCityWriter> make_geojson_writer(const std::filesystem::path& path, const CityHeader& header) {
+  return std::make_unique<GeoJsonWriter>(path, header);
+}
+
+}  // namespace farlod

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "generator/convex_faces.hpp"
+
+#include <optional>
+
+#include "farlod/expects.hpp"
+
+namespace farlod {
+namespace {
+
+[[nodiscard]] Point3d as_double(const PointMm& p) {
+  return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+}
+
+/// At corner k of the ring: the cross product of the edges that meet there.
+[[nodiscard]] Point3d turn_at(const FaceRing& ring, std::size_t k, std::span<const PointMm> vertices) {
+  const std::size_t n = ring.size();
+  const PointMm &before = vertices[ring[(k + n - 1) % n]], &here = vertices[ring[k]], &after = vertices[ring[(k + 1) % n]];
+  return cross(as_double(here - before), as_double(after - here));
+}
+
+/// The corner where the ring turns against its own sense, if there is one.
+[[nodiscard]] std::optional<std::size_t> reentrant_corner(const FaceRing& ring, std::span<const PointMm> vertices) {
+  // Only hexagons can be concave here, and their five other turns outweigh the re-entrant one
+  if (ring.size() != 6) return std::nullopt;
+  Point3d sense;
+  for (std::size_t k = 0; k < ring.size(); ++k) sense = sense + normalized(turn_at(ring, k, vertices));
+  for (std::size_t k = 0; k < ring.size(); ++k)
+    if (dot(turn_at(ring, k, vertices), sense) < 0.0) return k;
+  return std::nullopt;
+}
+
+/// One quadrilateral between each edge of the ring and the edge of the hole opposite to it: a mitred frame.
+[[nodiscard]] std::vector<FaceRing> frame_around_hole(const GeneratedFacet& facet) {
+  const std::size_t n = facet.outer.size();
+  FARLOD_EXPECTS(facet.hole.size() == n);
+  std::vector<FaceRing> faces;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t next = (k + 1) % n;
+    faces.push_back({facet.outer[k], facet.outer[next], facet.hole[(n - next) % n], facet.hole[(n - k) % n]});
+  }
+  return faces;
+}
+
+}  // namespace
+
+std::vector<FaceRing> convex_faces(const GeneratedFacet& facet, std::span<const PointMm> vertices) {
+  if (!facet.hole.empty()) return frame_around_hole(facet);
+  const std::optional<std::size_t> corner = reentrant_corner(facet.outer, vertices);
+  if (!corner) return {facet.outer};
+  // From the re-entrant corner of an L to the outer one: both halves are convex
+  const auto at = [&](std::size_t k) { return facet.outer[(*corner + k) % 6]; };
+  return {{at(0), at(1), at(2), at(3)}, {at(0), at(3), at(4), at(5)}};
+}
+
+}  // namespace farlod

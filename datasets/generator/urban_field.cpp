@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "generator/urban_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "generator/keyed_random.hpp"
+
+namespace farlod {
+namespace {
+
+/// Smaller centres: one in each square of this edge.
+constexpr double sub_centre_spacing_m = 4000.0;
+
+/// Value noise in [0, 1): random numbers at the nodes of a square net, smoothly interpolated.
+[[nodiscard]] double smooth_noise(std::uint64_t seed, RandomStream stream, double net_m, Point2d p) {
+  const double column = std::floor(p.x / net_m), row = std::floor(p.y / net_m);
+  const auto node = [&](int right, int up) {
+    const auto i = static_cast<std::int64_t>(column) + right, j = static_cast<std::int64_t>(row) + up;
+    return KeyedRandom({seed, key_of(stream), static_cast<std::uint64_t>(net_m), key_of(i), key_of(j)}).unit();
+  };
+  const double across = smooth_step(0.0, 1.0, p.x / net_m - column);
+  const double up = smooth_step(0.0, 1.0, p.y / net_m - row);
+  const double south = node(0, 0) + across * (node(1, 0) - node(0, 0));
+  const double north = node(0, 1) + across * (node(1, 1) - node(0, 1));
+  return south + up * (north - south);
+}
+
+/// Half of it is left at `radius_m`.
+[[nodiscard]] double decay(Point2d from_centre, double radius_m) {
+  return 1.0 / (1.0 + dot(from_centre, from_centre) / (radius_m * radius_m));
+}
+
+}  // namespace
+
+double smooth_step(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+UrbanField::UrbanField(const CitySettings& settings)
+    : seed_(settings.seed),
+      relief_m_(settings.terrain_relief_m),
+      peak_(0.25 + 0.75 * smooth_step(120.0, 480.0, settings.size_m)),
+      core_radius_m_(std::clamp(0.17 * settings.size_m, 120.0, 1500.0)) {}
+
+double UrbanField::urbanity(Point2d p_plan) const {
+  const double centre = decay(p_plan, core_radius_m_);
+  const double noise = smooth_noise(seed_, RandomStream::urbanity_noise, 450.0, p_plan);
+  // The heart itself stays dense, however the noise falls
+  const double modulation = 0.7 + 0.6 * noise;
+  const double modulated = std::max(centre, sub_centre_urbanity(p_plan)) * modulation;
+  return std::min(1.0, peak_ * std::max(modulated, centre * smooth_step(0.6, 0.9, centre)));
+}
+
+double UrbanField::sub_centre_urbanity(Point2d p_plan) const {
+  const auto column = static_cast<std::int64_t>(std::floor(p_plan.x / sub_centre_spacing_m));
+  const auto row = static_cast<std::int64_t>(std::floor(p_plan.y / sub_centre_spacing_m));
+  double densest = 0.0;
+  for (std::int64_t i = column - 1; i <= column + 1; ++i) {
+    for (std::int64_t j = row - 1; j <= row + 1; ++j) {
+      KeyedRandom random({seed_, key_of(RandomStream::sub_centre), key_of(i), key_of(j)});
+      const double x = sub_centre_spacing_m * (static_cast<double>(i) + random.unit());
+      const double y = sub_centre_spacing_m * (static_cast<double>(j) + random.unit());
+      const double peak = random.between(0.3, 0.8);
+      const double radius_m = random.between(200.0, 450.0);
+      densest = std::max(densest, peak * decay(p_plan - Point2d{x, y}, radius_m));
+    }
+  }
+  return densest;
+}
+
+double UrbanField::ground_m(Point2d p_plan) const {
+  if (relief_m_ == 0.0) return 0.0;
+  const double hills = smooth_noise(seed_, RandomStream::ground_noise, 1100.0, p_plan);
+  const double knolls = smooth_noise(seed_, RandomStream::ground_noise, 400.0, p_plan);
+  return relief_m_ * (0.75 * hills + 0.25 * knolls);
+}
+
+}  // namespace farlod

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "farlod/point.hpp"
+#include "generator/city_settings.hpp"
+
+namespace farlod {
+
+/// Where the city is dense and tall, and how high its ground is: smooth functions of the place in the plan.
+class UrbanField {
+ public:
+  explicit UrbanField(const CitySettings& settings);
+
+  /// From 0 (the last houses) to 1 (the heart of the core). Falls with the square of the distance from the centre, and
+  /// again from smaller centres some kilometres apart; modulated so that no two directions are alike.
+  [[nodiscard]] double urbanity(Point2d p_plan) const;
+  /// Height of the ground, in [0, relief].
+  [[nodiscard]] double ground_m(Point2d p_plan) const;
+
+  /// The core is where the urbanity is at least this.
+  static constexpr double core_urbanity = 0.55;
+
+ private:
+  [[nodiscard]] double sub_centre_urbanity(Point2d p_plan) const;
+
+  std::uint64_t seed_;
+  double relief_m_;
+  double peak_;           ///< urbanity at the centre: a village has no core
+  double core_radius_m_;  ///< where half of it is left
+};
+
+/// 0 below `low`, 1 above `high`, smooth between.
+[[nodiscard]] double smooth_step(double low, double high, double x);
+
+}  // namespace farlod

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "generator/city_text_file.hpp"
+#include "generator/city_writer.hpp"
+#include "generator/convex_faces.hpp"
+#include "generator/generated_city.hpp"
+#include "tests/datasets/generator/written_city.hpp"
+
+namespace farlod {
+namespace {
+
+using ::testing::HasSubstr;
+
+CitySettings small_city(int lod) {
+  CitySettings settings;
+  settings.size_m = 450.0;
+  settings.seed = 7;
+  settings.rotation_deg = 29.0;
+  settings.lod = lod;
+  settings.overhangs = true;
+  settings.terrain_relief_m = 30.0;
+  settings.epsg = 25832;
+  settings.centre_easting_m = 566000.25;
+  return settings;
+}
+
+void write(const CitySettings& settings, const std::filesystem::path& path) {
+  const auto writer = make_city_writer(*city_format_of(path), path, header_of(settings, path));
+  writer->begin();
+  visit_city(settings, {.building = [&writer](const GeneratedBuilding& building) { writer->add(building); }});
+  writer->end();
+}
+
+PlaceMm placed(const CitySettings& settings, std::int64_t x_mm, std::int64_t y_mm, std::int64_t z_mm) {
+  return {millimetres(settings.centre_easting_m) + x_mm, millimetres(settings.centre_northing_m) + y_mm, z_mm};
+}
+
+enum class Polygons { facets, convex_faces, none };
+enum class Places { solid, footprint };
+
+/// The city as the library makes it, in the terms of a format.
+WrittenCity expected_city(const CitySettings& settings, Polygons polygons, Places places) {
+  WrittenCity city{settings.epsg, {}};
+  visit_city(settings, {.building = [&](const GeneratedBuilding& building) {
+               WrittenBuilding& b = city.buildings[building.id];
+               b.base_mm = building.base_mm;
+               b.height_mm = building.top_mm - building.base_mm;
+               if (polygons == Polygons::facets) b.polygons = building.facets.size();
+               if (polygons == Polygons::convex_faces)
+                 for (const GeneratedFacet& facet : building.facets) b.polygons += convex_faces(facet, building.vertices).size();
+               if (places == Places::solid)
+                 for (const PointMm& p : building.vertices) b.places.insert(placed(settings, p.x, p.y, p.z));
+               if (places == Places::footprint)
+                 for (const auto* ring : {&building.footprint, &building.footprint_hole})
+                   for (const PlanPointMm& p : *ring) b.places.insert({placed(settings, p[0], p[1], 0)});
+             }});
+  return city;
+}
+
+void expect_same(const WrittenCity& read, const WrittenCity& expected) {
+  EXPECT_EQ(read.epsg, expected.epsg);
+  ASSERT_EQ(read.buildings.size(), expected.buildings.size());
+  ASSERT_GT(read.buildings.size(), 0U);
+  for (const auto& [id, building] : expected.buildings) {
+    ASSERT_TRUE(read.buildings.contains(id)) << id;
+    const WrittenBuilding& found = read.buildings.at(id);
+    EXPECT_EQ(found.base_mm, building.base_mm) << id;
+    EXPECT_EQ(found.height_mm, building.height_mm) << id;
+    EXPECT_EQ(found.polygons, building.polygons) << id;
+    EXPECT_EQ(found.places, building.places) << id;
+  }
+}
+
+class CityWriters : public ::testing::TestWithParam<int> {
+ protected:
+  ScratchFolder folder_;
+  CitySettings settings_ = small_city(GetParam());
+};
+INSTANTIATE_TEST_SUITE_P(Lod, CityWriters, ::testing::Values(1, 2));
+
+TEST_P(CityWriters, CityGmlHoldsTheCity) {
+  write(settings_, folder_ / "city.gml");
+  expect_same(read_citygml(folder_ / "city.gml"), expected_city(settings_, Polygons::facets, Places::solid));
+}
+
+TEST_P(CityWriters, CityJsonHoldsTheCity) {
+  write(settings_, folder_ / "city.city.json");
+  expect_same(read_cityjson(folder_ / "city.city.json"), expected_city(settings_, Polygons::facets, Places::solid));
+}
+
+TEST_P(CityWriters, ObjHoldsTheCity) {
+  write(settings_, folder_ / "city.obj");
+  expect_same(read_obj(folder_ / "city.obj"), expected_city(settings_, Polygons::convex_faces, Places::solid));
+}
+
+TEST_P(CityWriters, GeoJsonHoldsTheFootprints) {
+  write(settings_, folder_ / "city.geojson");
+  expect_same(read_geojson(folder_ / "city.geojson"), expected_city(settings_, Polygons::none, Places::footprint));
+}
+
+TEST_P(CityWriters, NothingIsLeftBesideTheCity) {
+  for (const char* name : {"city.gml", "city.city.json", "city.obj", "city.geojson"}) write(settings_, folder_ / name);
+  EXPECT_EQ(folder_.file_count(), 4U);
+}
+
+TEST(CityGmlWriter, EnvelopeHoldsTheCityTightly) {
+  const ScratchFolder folder;
+  write(small_city(2), folder / "city.gml");
+  const std::string text = text_of(folder / "city.gml");
+  PlaceMm low{INT64_MAX, INT64_MAX, INT64_MAX}, high{INT64_MIN, INT64_MIN, INT64_MIN};
+  for (const auto& [id, building] : read_citygml(folder / "city.gml").buildings)
+    for (const PlaceMm& p : building.places)
+      for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+  for (const auto& [element, corner] : {std::pair{"lowerCorner", low}, std::pair{"upperCorner", high}}) {
+    const std::size_t begin = text.find(std::string("<gml:") + element + ">") + std::string(element).size() + 6;
+    std::istringstream numbers(text.substr(begin, 60));
+    for (std::size_t k = 0; k < 3; ++k) {
+      double x = 0.0;
+      numbers >> x;
+      EXPECT_EQ(millimetres(x), corner[k]) << element << k;
+    }
+  }
+}
+
+TEST(CityGmlWriter, SolidsOfLod2ReferToAllTheirSurfaces) {
+  const ScratchFolder folder;
+  write(small_city(2), folder / "city.gml");
+  const std::string text = text_of(folder / "city.gml");
+  std::set<std::string> named, referred;
+  const std::regex id("<gml:Polygon gml:id=\"([^\"]+)\""), reference("xlink:href=\"#([^\"]+)\"");
+  for (std::sregex_iterator m(text.begin(), text.end(), id), end; m != end; ++m) EXPECT_TRUE(named.insert((*m)[1]).second);
+  for (std::sregex_iterator m(text.begin(), text.end(), reference), end; m != end; ++m)
+    EXPECT_TRUE(referred.insert((*m)[1]).second);
+  EXPECT_FALSE(named.empty());
+  EXPECT_EQ(named, referred);
+}
+
+TEST(CityJsonWriter, SemanticsNameARoleForEachSurface) {
+  const ScratchFolder folder;
+  write(small_city(2), folder / "city.city.json");
+  const auto json = nlohmann::json::parse(text_of(folder / "city.city.json"));
+  EXPECT_EQ(json.at("version"), "2.0");
+  std::map<std::string, FacetRole> role_of{{"RoofSurface", FacetRole::roof},
+                                           {"WallSurface", FacetRole::wall},
+                                           {"GroundSurface", FacetRole::ground},
+                                           {"OuterCeilingSurface", FacetRole::outer_ceiling}};
+  visit_city(small_city(2), {.building = [&](const GeneratedBuilding& building) {
+               const auto& geometry = json.at("CityObjects").at(building.id).at("geometry").at(0);
+               const auto& values = geometry.at("semantics").at("values").at(0);
+               ASSERT_EQ(values.size(), building.facets.size());
+               for (std::size_t k = 0; k < values.size(); ++k) {
+                 const std::string type = geometry.at("semantics").at("surfaces").at(values[k].get<std::size_t>()).at("type");
+                 EXPECT_EQ(role_of.at(type), building.facets[k].role);
+               }
+             }});
+}
+
+TEST(ObjWriter, CountsFromTheCentreWhenAsked) {
+  const ScratchFolder folder;
+  const CitySettings settings = small_city(1);
+  CityHeader header = header_of(settings, folder / "local.obj");
+  header.obj_from_centre = true;
+  const auto writer = make_obj_writer(folder / "local.obj", header);
+  writer->begin();
+  const GeneratedBuilding building = buildings_of_block(settings, {0, 0}).at(0);
+  writer->add(building);
+  writer->end();
+  const PointMm& p = building.vertices.front();
+  EXPECT_TRUE(read_obj(folder / "local.obj").buildings.at(building.id).places.contains({p.x, p.y, p.z}));
+  EXPECT_THAT(text_of(folder / "local.obj"), HasSubstr("# Origin, to be added to x and y: 566000.250,5500000.000\n"));
+}
+
+TEST(CityWriter, NamesTheFolderThatIsNotThere) {
+  const CityHeader header;
+  EXPECT_THAT([&] { (void)make_obj_writer("/no/such/folder/city.obj", header); },
+              ::testing::ThrowsMessage<CityWriteError>(
+                  ::testing::AllOf(HasSubstr("/no/such/folder/city.obj"), HasSubstr("No such file or directory"))));
+}
+
+TEST(CityWriter, AnUnfinishedCityLeavesNothing) {
+  const ScratchFolder folder;
+  {
+    const auto writer = make_cityjson_writer(folder / "city.city.json", CityHeader{});
+    writer->begin();
+  }
+  EXPECT_EQ(folder.file_count(), 0U);
+}
+
+TEST(CityWriter, OddFileNamesDoNotSpoilTheFile) {
+  const ScratchFolder folder;
+  const std::string name = "a\"<&>\n\xFFz.city.json";
+  write(small_city(1), folder / name);
+  EXPECT_EQ(nlohmann::json::parse(text_of(folder / name)).at("metadata").at("title"), "a______z");
+}
+
+TEST(CityFormatOf, KnowsTheEndings) {
+  EXPECT_EQ(city_format_of("a/b.gml"), CityFormat::citygml);
+  EXPECT_EQ(city_format_of("b.city.json"), CityFormat::cityjson);
+  EXPECT_EQ(city_format_of("b.obj"), CityFormat::obj);
+  EXPECT_EQ(city_format_of("b.geojson"), CityFormat::geojson);
+  EXPECT_FALSE(city_format_of("b.tif"));
+  EXPECT_FALSE(city_format_of("obj"));
+}
+
+TEST(AppendMetres, WritesThreeDecimalsAlways) {
+  std::string text;
+  for (const std::int64_t value_mm : {std::int64_t{0}, std::int64_t{-1}, std::int64_t{5500000020}, std::int64_t{-12345}}) {
+    append_metres(text, value_mm);
+    text += ' ';
+  }
+  EXPECT_EQ(text, "0.000 -0.001 5500000.020 -12.345 ");
+}
+
+}  // namespace
+}  // namespace farlod

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "generator/generated_building.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <tuple>
+
+#include "farlod/surface_kind.hpp"
+#include "tests/datasets/generator/solid_geometry.hpp"
+
+namespace farlod {
+namespace {
+
+template <class Check>
+void for_each_building_of_all_shapes(Check check_building) {
+  for (const CitySettings& settings : cities_of_all_shapes())
+    for (const GeneratedBuilding& building : all_buildings(settings)) check_building(building, settings);
+}
+
+TEST(GeneratedBuilding, IsClosed) {
+  for_each_building_of_all_shapes(
+      [](const GeneratedBuilding& building, const CitySettings&) { ASSERT_TRUE(is_closed(rings_of(building))) << building.id; });
+}
+
+TEST(GeneratedBuilding, LooksOutwards) {
+  for_each_building_of_all_shapes([](const GeneratedBuilding& building, const CitySettings&) {
+    ASSERT_GT(six_volumes_mm3(rings_of(building), building.vertices), 0) << building.id;
+  });
+}
+
+TEST(GeneratedBuilding, FacetsArePlanarToWhatRoundingSpends) {
+  for_each_building_of_all_shapes([](const GeneratedBuilding& building, const CitySettings&) {
+    for (const GeneratedFacet& facet : building.facets) {
+      std::vector<PointMm> points;
+      for (const std::uint32_t k : facet.outer) points.push_back(building.vertices[k]);
+      for (const std::uint32_t k : facet.hole) points.push_back(building.vertices[k]);
+      ASSERT_LE(least_thickness_mm(points), 2.0 * planarity_mm) << building.id;
+    }
+  });
+}
+
+TEST(GeneratedBuilding, VerticesAndFacetsAreNotDegenerate) {
+  for_each_building_of_all_shapes([](const GeneratedBuilding& building, const CitySettings&) {
+    std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> places;
+    for (const PointMm& p : building.vertices) EXPECT_TRUE(places.insert({p.x, p.y, p.z}).second) << building.id;
+    for (const RingNumbers& ring : rings_of(building)) {
+      EXPECT_EQ(std::set(ring.begin(), ring.end()).size(), ring.size()) << building.id;
+      EXPECT_NE(twice_area_mm2(ring, building.vertices), PointMm{}) << building.id;
+    }
+  });
+}
+
+TEST(GeneratedBuilding, RolesAgreeWithTheNormals) {
+  for_each_building_of_all_shapes([](const GeneratedBuilding& building, const CitySettings&) {
+    for (const GeneratedFacet& facet : building.facets) {
+      const PointMm area = twice_area_mm2(facet.outer, building.vertices);
+      const Point3d normal =
+          normalized(Point3d{static_cast<double>(area.x), static_cast<double>(area.y), static_cast<double>(area.z)});
+      const bool looks_down = facet.role == FacetRole::ground || facet.role == FacetRole::outer_ceiling;
+      const SurfaceKind expected = looks_down                      ? SurfaceKind::floor
+                                   : facet.role == FacetRole::wall ? SurfaceKind::wall
+                                                                   : SurfaceKind::roof;
+      EXPECT_EQ(kind_of_normal(normal), expected) << building.id;
+    }
+  });
+}
+
+TEST(GeneratedBuilding, RoofsCoverTheFootprint) {
+  for_each_building_of_all_shapes([](const GeneratedBuilding& building, const CitySettings&) {
+    std::int64_t covered_mm2 = 0;
+    for (const GeneratedFacet& facet : building.facets) {
+      if (facet.role != FacetRole::roof) continue;
+      covered_mm2 += twice_area_mm2(facet.outer, building.vertices).z;
+      if (!facet.hole.empty()) covered_mm2 += twice_area_mm2(facet.hole, building.vertices).z;
+    }
+    const std::int64_t footprint_mm2 = twice_area_mm2(building.footprint) + twice_area_mm2(building.footprint_hole);
+    EXPECT_GT(footprint_mm2, 0);
+    if (building.footprint_hole.empty() || building.kind == BuildingKind::courtyard) {
+      // A gable's peak may leave its wall's line by a millimetre, along the whole width of the building
+      std::int64_t perimeter_mm = 0;
+      for (std::size_t k = 0; k < building.footprint.size(); ++k) {
+        const PlanPointMm &a = building.footprint[k], &b = building.footprint[(k + 1) % building.footprint.size()];
+        perimeter_mm += std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]);
+      }
+      EXPECT_LE(std::abs(covered_mm2 - footprint_mm2), 2 * perimeter_mm) << building.id;
+    }
+  });
+}
+
+TEST(GeneratedBuilding, HeightsAreThoseOfTheSolid) {
+  for_each_building_of_all_shapes([](const GeneratedBuilding& building, const CitySettings& settings) {
+    const auto [low, high] = std::ranges::minmax(building.vertices, {}, &PointMm::z);
+    EXPECT_EQ(low.z, building.base_mm);
+    EXPECT_EQ(high.z, building.top_mm);
+    if (settings.terrain_relief_m == 0.0 && building.kind != BuildingKind::bridge) {
+      EXPECT_EQ(building.base_mm, 0);
+    }
+    if (building.kind == BuildingKind::bridge) {
+      EXPECT_GT(building.base_mm, 0);
+    }
+  });
+}
+
+TEST(GeneratedBuilding, WallsRunAlongTheStreets) {
+  for (const CitySettings& settings : cities_of_all_shapes()) {
+    // The length-weighted mean direction modulo 90°, from the fourth power of each wall's direction
+    double real = 0.0, imaginary = 0.0, length_mm = 0.0, edges = 0.0;
+    for (const GeneratedBuilding& building : all_buildings(settings)) {
+      for (std::size_t k = 0; k < building.footprint.size(); ++k) {
+        const PlanPointMm &a = building.footprint[k], &b = building.footprint[(k + 1) % building.footprint.size()];
+        const double east = static_cast<double>(b[0] - a[0]), north = static_cast<double>(b[1] - a[1]);
+        const double bearing = std::atan2(east, north), length = std::hypot(east, north);
+        real += length * std::cos(4.0 * bearing), imaginary += length * std::sin(4.0 * bearing);
+        length_mm += length, edges += 1.0;
+      }
+    }
+    const double turned = 0.25 * std::atan2(imaginary, real) - settings.rotation_deg * std::numbers::pi / 180.0;
+    // Rounding moves each end of a wall by at most √½ mm: the sum of length × angle by at most √2 mm a wall
+    const double bound = std::numbers::sqrt2 * edges / length_mm;
+    EXPECT_LE(std::abs(std::sin(2.0 * turned)), 2.0 * bound) << settings.rotation_deg;
+  }
+}
+
+TEST(GeneratedBuilding, EveryShapeOfRoofAndOverhangOccurs) {
+  int ceilings = 0, holes = 0, pentagons = 0, hexagons = 0, triangles = 0;
+  for_each_building_of_all_shapes([&](const GeneratedBuilding& building, const CitySettings&) {
+    for (const GeneratedFacet& facet : building.facets) {
+      ceilings += facet.role == FacetRole::outer_ceiling ? 1 : 0;
+      holes += facet.hole.empty() ? 0 : 1;
+      triangles += facet.outer.size() == 3 ? 1 : 0;
+      pentagons += facet.outer.size() == 5 ? 1 : 0;
+      hexagons += facet.outer.size() == 6 ? 1 : 0;
+    }
+  });
+  for (const int count : {ceilings, holes, triangles, pentagons, hexagons}) EXPECT_GT(count, 0);
+}
+
+}  // namespace
+}  // namespace farlod

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "generator/plan_frame.hpp"
+
+namespace farlod {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CityRun {
+  double buildings, peak_memory_bytes;
+};
+
+/// Makes a city in a process of its own: a peak never falls, so that runs in one process would hide each other's.
+CityRun make_city(const fs::path& folder, const std::string& file, int size_m) {
+  const std::string command = "cd '" + folder.string() + "' && '" + FARLOD_BIN_DIR + "/farlod-city' --quiet --overhangs -o " +
+                              file + " --size " + std::to_string(size_m) + " --summary summary.json";
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;
+  std::ifstream text(folder / "summary.json");
+  const auto summary = nlohmann::json::parse(text);
+  return {summary.at("buildings"), 1048576.0 * summary.at("peak_memory_mib").get<double>()};
+}
+
+/// Whoever kept a city in memory would keep its corners at least, and no building has fewer than eight.
+constexpr double least_bytes_of_a_kept_building = 8.0 * sizeof(PointMm);
+
+class Memory : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Formats, Memory, ::testing::Values("c.gml", "c.city.json", "c.obj", "c.geojson"));
+
+TEST_P(Memory, DoesNotGrowWithTheCity) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "AddressSanitizer keeps freed memory";
+#endif
+  std::string pattern = (fs::temp_directory_path() / "farlod-memory-XXXXXX").string();
+  const fs::path folder = mkdtemp(pattern.data());
+  // Both cities are large enough to fill the writers' buffers, which are of fixed size
+  const CityRun small = make_city(folder, GetParam(), 3000), large = make_city(folder, GetParam(), 7000);
+  fs::remove_all(folder);
+  ASSERT_GT(large.buildings, 2.0 * small.buildings);
+  EXPECT_LT(large.peak_memory_bytes - small.peak_memory_bytes,
+            least_bytes_of_a_kept_building * (large.buildings - small.buildings));
+  RecordProperty("growth_bytes", std::to_string(large.peak_memory_bytes - small.peak_memory_bytes));
+}
+
+}  // namespace
+}  // namespace farlod

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace farlod {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+struct Outcome {
+  int exit_code;
+  std::string text;  ///< both streams
+};
+
+class FarlodCity : public ::testing::Test {
+ protected:
+  FarlodCity() {
+    std::string pattern = (fs::temp_directory_path() / "farlod-city-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~FarlodCity() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::string text_of(const std::string& name) const {
+    std::ifstream file(folder_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  [[nodiscard]] Outcome run(const std::string& arguments) const {
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" + std::string(FARLOD_BIN_DIR) + "/farlod-city' " + arguments + " > said.txt 2>&1";
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), text_of("said.txt")};
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(FarlodCity, HelpStartsWithOneLineAndAnExample) {
+  const Outcome help = run("--help");
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.text, StartsWith("farlod-city — "));
+  EXPECT_THAT(help.text.substr(help.text.find('\n')), StartsWith("\n\nTry this first:\n  farlod-city -o "));
+  for (const char* option :
+       {"--size", "--seed", "--rotation", "--towers", "--lod", "--overhangs", "--crs", "--summary", "--quiet"})
+    EXPECT_THAT(help.text, HasSubstr(option));
+}
+
+TEST_F(FarlodCity, TellsItsVersion) { EXPECT_THAT(run("--version").text, StartsWith("farlod-city ")); }
+
+TEST_F(FarlodCity, WritesACityAndASummary) {
+  const Outcome outcome = run("-o town.obj --size 600 --overhangs --summary town.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  const auto summary = nlohmann::json::parse(text_of("town.json"));
+  EXPECT_GT(summary.at("buildings"), 0);
+  EXPECT_GT(summary.at("polygons"), summary.at("buildings"));
+  EXPECT_GT(summary.at("tallest_m"), 0.0);
+  EXPECT_GE(summary.at("seconds").at("total"), 0.0);
+  EXPECT_EQ(summary.at("output_bytes"), fs::file_size(folder_ / "town.obj"));
+  EXPECT_THAT(outcome.text, HasSubstr(std::to_string(summary.at("buildings").get<int>()) + " buildings"));
+}
+
+TEST_F(FarlodCity, QuietSaysNothing) {
+  const Outcome outcome = run("-o town.geojson --size 200 --quiet");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.text, "");
+}
+
+TEST_F(FarlodCity, TakesOptionsFromAFile) {
+  std::ofstream(folder_ / "town.toml") << "size = 300\nseed = 9\n";
+  EXPECT_EQ(run("-o a.obj --config town.toml --quiet").exit_code, 0);
+  EXPECT_EQ(run("-o b.obj --size 300 --seed 9 --quiet").exit_code, 0);
+  // The first line holds the file's name
+  EXPECT_EQ(text_of("a.obj").substr(text_of("a.obj").find('\n')), text_of("b.obj").substr(text_of("b.obj").find('\n')));
+}
+
+TEST_F(FarlodCity, WrongUsageIsTwoAndSaysWhat) {
+  const std::pair<const char*, const char*> wrong[] = {
+      {"", "--output"},
+      {"-o town.tif", ".city.json"},
+      {"-o town.obj --size 3", "--size is 3; it must be between 100 and 200000"},
+      {"-o town.obj --size abc", "--size"},
+      {"-o town.obj --towers 2", "--towers"},
+      {"-o town.obj --lod 3", "--lod"},
+      {"-o town.obj --crs 32632", "EPSG:32632"},
+      {"-o town.obj --crs EPSG:4326", "degrees"},
+      {"-o town.obj --size 300 --buildings 100", "--buildings"},
+      {"-o town.obj --buildings 0", "--buildings is 0"},
+      {"-o town.gml --obj-from-centre", ".obj"},
+      {"-o town.obj --frobnicate", "--frobnicate"},
+  };
+  for (const auto& [arguments, said] : wrong) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_THAT(outcome.text, HasSubstr(said)) << arguments;
+    EXPECT_FALSE(fs::exists(folder_ / "town.obj")) << arguments;
+  }
+}
+
+TEST_F(FarlodCity, WhatCannotBeWrittenIsThree) {
+  const Outcome outcome = run("-o nowhere/town.obj --size 200");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.text, HasSubstr("nowhere/town.obj"));
+}
+
+}  // namespace
+}  // namespace farlod
