@@ -67,7 +67,7 @@ void draw_scale_bar(Picture& picture, Pixel place, double metres_per_pixel) {
 void draw_nodata_legend(Picture& picture, Pixel place) {
   const std::size_t edge = 14;
   picture.fill({place.x, place.y}, {edge, edge}, nodata_colour);
-  draw_text(picture, {place.x + edge + 8, place.y}, "no data (inside buildings, outside the grid)", text_style);
+  draw_text(picture, {place.x + edge + 8, place.y}, "no data", text_style);
 }
 
 void draw_north_arrow(Picture& picture, Pixel tip) {
