@@ -20,6 +20,7 @@ std::string pack_summary_json(const PackResult& result, const Report& report, do
   for (const auto& [stage, value] : result.stage_seconds) seconds[stage] = value;
   return text_of({{"buildings", m.buildings},
                   {"polygons", m.polygons},
+                  {"facets", result.facets},
                   {"triangles", m.triangles},
                   {"problems", report.problems().size()},
                   {"cells", m.grid.cells.size()},

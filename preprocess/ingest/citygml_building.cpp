@@ -38,8 +38,14 @@ class BuildingWriter {
     chosen_ = choose_lods(lods, lod);
     writer_.begin_building(building_.id);
     report_unread();
-    for (const UsedPolygon& p : polygons_)
-      if (is_chosen(*p.use) && is_new(p)) write(p);
+    std::set<const GmlPolygon*> others;
+    for (const UsedPolygon& p : polygons_) {
+      if (!is_chosen(*p.use))
+        others.insert(p.resolved.polygon);
+      else if (is_new(p))
+        write(p);
+    }
+    if (has_chosen() && !others.empty()) writer_.add_problem(ProblemCode::other_level_of_detail, unused_polygons(others.size(), lods));
     writer_.end_building("no usable surface in the level of detail asked for; it has LoD " + list_lods(lods));
   }
 
@@ -69,6 +75,10 @@ class BuildingWriter {
   }
 
   bool is_chosen(const SurfaceUse& use) const { return chosen_[use.part] && *chosen_[use.part] == use.lod; }
+
+  bool has_chosen() const {
+    return std::any_of(chosen_.begin(), chosen_.end(), [](const std::optional<double>& lod) { return lod.has_value(); });
+  }
 
   bool is_new(const UsedPolygon& p) {
     if (!written_.insert(p.resolved.polygon).second) return false;

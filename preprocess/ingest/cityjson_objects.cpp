@@ -90,8 +90,17 @@ class BuildingWriter {
     gather(root, 0);
     const std::vector<std::vector<double>> lods = usable_lods();
     const std::vector<std::optional<double>> chosen = choose_lods(lods, lod);
-    for (const Shape& shape : shapes_)
-      if (chosen[shape.part] && *chosen[shape.part] == shape.geometry->lod) write(shape);
+    std::size_t others = 0;
+    bool has_chosen = false;
+    for (const Shape& shape : shapes_) {
+      const bool is_chosen = chosen[shape.part] && *chosen[shape.part] == shape.geometry->lod;
+      has_chosen |= is_chosen;
+      if (is_chosen)
+        write(shape);
+      else
+        others += shape.geometry->polygons.size();
+    }
+    if (has_chosen && others > 0) writer_.add_problem(ProblemCode::other_level_of_detail, unused_polygons(others, lods));
     writer_.end_building("no usable surface in the level of detail asked for; it has LoD " + list_lods(lods));
   }
 

@@ -48,4 +48,8 @@ std::string list_lods(std::span<const std::vector<double>> lods_of_parts) {
   return all.empty() ? "none" : text.str();
 }
 
+std::string unused_polygons(std::size_t count, std::span<const std::vector<double>> lods_of_parts) {
+  return std::to_string(count) + " polygons of other levels are not used; it has LoD " + list_lods(lods_of_parts);
+}
+
 }  // namespace farlod

@@ -24,4 +24,7 @@ struct LodChoice {
 /// "1, 2.2": for messages. "none" when there are none.
 [[nodiscard]] std::string list_lods(std::span<const std::vector<double>> lods_of_parts);
 
+/// What the report says of the polygons of the levels that were not chosen.
+[[nodiscard]] std::string unused_polygons(std::size_t count, std::span<const std::vector<double>> lods_of_parts);
+
 }  // namespace farlod

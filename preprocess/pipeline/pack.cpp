@@ -39,6 +39,7 @@ class Packing {
     const auto terrain = timed("terrain", [&] { return read_ground(located.georeference); });
     const Grid grid = timed("align", [&] { return lay_grid(located, terrain); });
     describe_place(located, grid);
+    result_.facets = located.city.facets().size();
     TileSet tiles = timed("tiles", [&] { return cut_into_tiles(std::move(located), grid, settings_.assign, terrain, report_); });
     describe_tiles(tiles);
     write_package(writer, tiles, grid);

@@ -37,6 +37,7 @@ struct PackSettings {
 struct PackResult {
   package::Manifest manifest;
   Alignment alignment;
+  std::uint64_t facets = 0;  ///< polygons as the files have them: a surface of a mesh is made of several triangles
   std::uint64_t package_bytes = 0, far_map_bytes = 0;
   std::vector<std::pair<std::string, double>> stage_seconds;  ///< in the order in which the stages ran
 };
