@@ -4,6 +4,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -23,7 +24,14 @@ void write_text(const std::string& path, const std::string& text) {
   std::ofstream file(path);
   file << text;
   file.close();
-  if (!file) throw PackageWriteError(path + " cannot be written.");
+  if (!file) throw PackageWriteError(path + " cannot be written: is there room on the disk?");
+}
+
+/// Asked before the work, which may take hours.
+void require_folder_of(const std::filesystem::path& file) {
+  const auto folder = file.parent_path();
+  if (folder.empty() || std::filesystem::is_directory(folder)) return;
+  throw PackageWriteError(file.string() + " cannot be written: there is no folder " + folder.string() + ". Make it first, or choose another.");
 }
 
 /// A line for each kind of problem, so that nothing is lost silently; --report has them one by one.
@@ -39,7 +47,9 @@ void print_problems(const Report& report, const std::string& report_file) {
 
 void print_result(const PackResult& result, const Report& report, const PackOptions& options, double seconds) {
   const package::Manifest& m = result.manifest;
-  fmt::print("{} buildings, {} polygons, {} problems\n", m.buildings, m.polygons, report.problems().size());
+  fmt::print("{} buildings, {} polygons", m.buildings, m.polygons);
+  if (result.facets > m.polygons) fmt::print(" (planar faces of {} facets)", result.facets);
+  fmt::print(", {} problems\n", report.problems().size());
   print_problems(report, options.report_file);
   const double bearing_deg = m.grid.rotation.bearing().degrees();
   fmt::print("CRS: {}\n", m.crs_name);
@@ -73,6 +83,8 @@ class StageProgress {
 int run(const PackOptions& options) {
   const std::size_t threads = options.threads > 0 ? static_cast<std::size_t>(options.threads) : std::thread::hardware_concurrency();
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+  require_folder_of(options.report_file);
+  require_folder_of(options.summary_file);
   const auto start = std::chrono::steady_clock::now();
   Report report;
   std::optional<PackResult> result;

@@ -3,7 +3,9 @@
 #include "app/pack_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/core.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <vector>
@@ -31,16 +33,26 @@ struct RawOptions {
   bool force = false, quiet = false;
 };
 
-double number_in(const std::string& text, const std::string& option) {
+/// A finite number. CLI11's own Range lets NaN through, which is neither below nor above.
+CLI::Validator between(double low, double high) {
+  const auto complaint = [low, high](const std::string& text) {
+    double value = 0.0;
+    const bool fits = CLI::detail::lexical_cast(text, value) && low <= value && value <= high;
+    return fits ? std::string() : fmt::format("{} is not a number from {:g} to {:g}", text, low, high);
+  };
+  return {complaint, fmt::format("[{:g}, {:g}]", low, high), "between"};
+}
+
+double number_in(const std::string& text, const std::string& option, const std::string& remedy) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value)) throw CLI::ValidationError(option, "\"" + text + "\" is not a number");
+  if (text.empty() || *end != '\0' || !std::isfinite(value)) throw CLI::ValidationError(option, "\"" + text + "\" is not a number: " + remedy);
   return value;
 }
 
 Point3d parse_origin(const std::string& text) {
   std::vector<double> numbers;
-  for (const std::string& part : CLI::detail::split(text, ',')) numbers.push_back(number_in(part, "--origin"));
+  for (const std::string& part : CLI::detail::split(text, ',')) numbers.push_back(number_in(part, "--origin", "give X,Y or X,Y,Z"));
   if (numbers.size() != 2 && numbers.size() != 3) throw CLI::ValidationError("--origin", "give X,Y or X,Y,Z");
   return {numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 0.0};
 }
@@ -54,13 +66,13 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("--height-field", raw.height_field, "Attribute with a footprint's height above its base, in metres")->group("Input");
   app.add_option("--base-field", raw.base_field, "Attribute with the elevation of a footprint's base, in metres")->group("Input");
   app.add_option("--default-height", o.settings.ingest.default_height_m, "Height of footprints that have none, in metres")
-      ->check(CLI::PositiveNumber)->group("Input");
+      ->check(between(0.01, 10000.0))->group("Input");
   app.add_option("--lod", raw.lod, "Level of detail to read")->check(CLI::IsMember({"best", "0", "1", "2", "3"}))->capture_default_str()->group("Input");
   app.add_option("--terrain", raw.terrain, "Raster of ground elevations (any that GDAL reads)")->group("Input");
 }
 
 void add_grid_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
-  app.add_option("--cell", o.settings.grid.cell_edge_m, "Edge of a cell in metres")->check(CLI::Range(0.5, 10000.0))->capture_default_str()->group("Grid");
+  app.add_option("--cell", o.settings.grid.cell_edge_m, "Edge of a cell in metres")->check(between(0.5, 10000.0))->capture_default_str()->group("Grid");
   app.add_option("--neighborhood", o.settings.grid.neighborhood, "Cells along the edge of the near field, N: odd")
       ->check(CLI::Range(1, 999))->capture_default_str()->group("Grid");
   app.add_option("--align", raw.align, "auto: along the streets; none: grid north; or degrees clockwise from grid north")
@@ -78,6 +90,7 @@ void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_flag("--quiet", raw.quiet, "Say nothing but errors")->group("Run");
   app.add_option("--threads", o.threads, "Threads to use (default: all cores)")->check(CLI::Range(1, 4096))->group("Run");
   app.set_config("--config", "", "Read options from this file (TOML)")->group("Run");
+  app.allow_config_extras(CLI::config_extras_mode::error);
   app.set_version_flag("--version", std::string("farlod-pack ") + software_version);
 }
 
@@ -88,13 +101,16 @@ void understand_alignment(const std::string& text, GridSettings& grid) {
     grid.align = AlignMode::none;
   } else {
     grid.align = AlignMode::fixed;
-    grid.fixed_bearing = Angle::degrees(number_in(text, "--align"));
+    const double bearing_deg = number_in(text, "--align", "give auto, none, or degrees clockwise from grid north");
+    if (std::abs(bearing_deg) > 360.0) throw CLI::ValidationError("--align", "\"" + text + "\" is more than a full turn");
+    grid.fixed_bearing = Angle::degrees(bearing_deg);
   }
 }
 
 void understand(const RawOptions& raw, PackOptions& o) {
   PackSettings& s = o.settings;
   s.inputs.assign(raw.inputs.begin(), raw.inputs.end());
+  if (raw.output.empty()) throw CLI::ValidationError("-o", "the name is empty: give the folder of the package, NAME.farlod");
   s.output = raw.output;
   s.overwrite = raw.force ? Overwrite::replace : Overwrite::refuse;
   if (!raw.terrain.empty()) s.terrain = raw.terrain;
@@ -125,6 +141,9 @@ ParsedPackOptions parse_pack_options(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     understand(raw, options);
+  } catch (const CLI::ConfigError& error) {
+    app.exit(CLI::ValidationError("--config", std::string(error.what()) + ": name its options as --help does, without the dashes"));
+    return {std::nullopt, exit_usage};
   } catch (const CLI::ParseError& error) {
     return {std::nullopt, app.exit(error) == 0 ? exit_done : exit_usage};
   }

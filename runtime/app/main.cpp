@@ -4,6 +4,7 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <new>
 #include <thread>
@@ -29,6 +30,13 @@ void write_summary(const std::string& path, const std::string& text) {
   file << text;
   file.close();
   if (!file) throw OutputError(path, "is there such a folder, and room on the disk?");
+}
+
+/// Asked before the work, which may take hours.
+void require_folder_of(const std::filesystem::path& file) {
+  const auto folder = file.parent_path();
+  if (folder.empty() || std::filesystem::is_directory(folder)) return;
+  throw OutputError(file, "there is no folder " + folder.string() + "; make it first, or choose another");
 }
 
 SvfRun evaluate(const SvfOptions& options) {
@@ -67,6 +75,8 @@ void print_run(const SvfRun& run, const SvfOptions& options, double total_s) {
 int run(const SvfOptions& options) {
   const std::size_t threads = options.threads > 0 ? static_cast<std::size_t>(options.threads) : std::thread::hardware_concurrency();
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+  for (const std::filesystem::path& file : {options.output, std::filesystem::path(options.preview_file), std::filesystem::path(options.summary_file)})
+    require_folder_of(file);
   const auto start = Clock::now();
   const SvfRun result = evaluate(options);
   const double total_s = seconds_since(start);

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -32,6 +34,16 @@ void move_to_package_crs(std::vector<PlaceOfReceiver>& places, [[maybe_unused]] 
 #endif
 }
 
+/// No map is as large, and no place on it as high or as low. Beyond, a cell has no number.
+void require_on_earth(const NamedPlaces& named) {
+  constexpr double farthest_m = 1e8, highest_m = 1e5;
+  for (std::size_t n = 0; n < named.places.size(); ++n) {
+    const auto& [p, height_m] = named.places[n];
+    if (std::max(std::abs(p.x), std::abs(p.y)) > farthest_m || std::abs(height_m.value_or(0.0)) > highest_m)
+      throw PointsError("point " + named.ids[n] + " lies nowhere on Earth: check its coordinates, and its CRS (--points-crs)");
+  }
+}
+
 NamedPlaces read_places(const SvfOptions& options, const package::Manifest& manifest) {
   if (options.source == ReceiverSource::at) return {{options.at}, {"1"}};
   NamedPlaces result;
@@ -47,6 +59,7 @@ NamedPlaces read_places(const SvfOptions& options, const package::Manifest& mani
 
 SvfRun run_points(const Package& package, const SvfOptions& options) {
   const NamedPlaces named = read_places(options, package.manifest());
+  require_on_earth(named);
   const auto cells = places_by_cell(package, named.places);
   std::vector<float> svf(named.places.size(), std::numeric_limits<float>::quiet_NaN());
   // Where a receiver stands is known once its cell is read

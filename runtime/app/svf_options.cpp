@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -36,7 +37,7 @@ CLI::Validator between(double low, double high) {
     const bool fits = CLI::detail::lexical_cast(text, value) && low <= value && value <= high;
     return fits ? std::string() : fmt::format("{} is not a number from {:g} to {:g}", text, low, high);
   };
-  return {complaint, fmt::format("from {:g} to {:g}", low, high), "between"};
+  return {complaint, fmt::format("[{:g}, {:g}]", low, high), "between"};
 }
 
 std::vector<double> numbers_in(const std::string& text, const std::string& option, const std::string& form) {
@@ -80,6 +81,7 @@ void add_other_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_flag("--quiet", raw.quiet, "Say nothing but errors")->group("Run");
   app.add_option("--threads", o.threads, "Threads to use (default: all cores)")->check(CLI::Range(1, 4096))->group("Run");
   app.set_config("--config", "", "Read options from this file (TOML)")->group("Run");
+  app.allow_config_extras(CLI::config_extras_mode::error);
   app.set_version_flag("--version", std::string("farlod-svf ") + software_version);
 }
 
@@ -101,6 +103,9 @@ void understand_place(const RawOptions& raw, SvfOptions& o) {
   if (n.size() != 4 || n[0] >= n[2] || n[1] >= n[3]) throw CLI::ValidationError("--bbox", "give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
   if (o.source != ReceiverSource::grid) throw CLI::ValidationError("--bbox", "it goes with --grid");
   o.bbox_projected = Box2d{{n[0], n[1]}, {n[2], n[3]}};
+  constexpr double most_pixels = 1e11;  // beyond what any machine holds, and below what a count can be
+  if ((n[2] - n[0]) / o.grid_step_m * ((n[3] - n[1]) / o.grid_step_m) > most_pixels)
+    throw CLI::ValidationError("--bbox", "too many pixels: give a smaller part, or a larger --grid");
 }
 
 void understand_output(const RawOptions& raw, SvfOptions& o) {
@@ -113,6 +118,8 @@ void understand_output(const RawOptions& raw, SvfOptions& o) {
   if (o.source == ReceiverSource::grid && is_table) throw CLI::ValidationError("-o", "--grid makes a raster: choose a raster's ending instead of .csv");
   if (o.source != ReceiverSource::grid && !is_table) throw CLI::ValidationError("-o", "only --grid makes a raster: choose .csv for points and surfaces");
   if (!o.preview_file.empty() && o.source != ReceiverSource::grid) throw CLI::ValidationError("--preview", "it goes with --grid");
+  if (!o.preview_file.empty() && output_format_of(o.preview_file) != OutputFormat::png)
+    throw CLI::ValidationError("--preview", "the ending of \"" + o.preview_file + "\" is not .png");
   if (!o.points_crs.empty() && o.source != ReceiverSource::points) throw CLI::ValidationError("--points-crs", "it goes with --points");
 }
 
@@ -120,6 +127,8 @@ void understand(const RawOptions& raw, SvfOptions& o) {
   o.package = raw.package;
   understand_place(raw, o);
   understand_output(raw, o);
+  // On the surface itself a receiver would see nothing but that surface
+  o.height_m = std::max(o.height_m, static_cast<double>(surface_offset_m));
   o.height_above = raw.on_surface ? HeightAbove::highest_surface : HeightAbove::ground;
   // `auto` is the fastest engine that fits; so far that is one for all cities
   o.sky.engine = raw.engine == "exact" ? Engine::exact : Engine::rays;
@@ -140,6 +149,9 @@ ParsedSvfOptions parse_svf_options(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     understand(raw, options);
+  } catch (const CLI::ConfigError& error) {
+    app.exit(CLI::ValidationError("--config", std::string(error.what()) + ": name its options as --help does, without the dashes"));
+    return {std::nullopt, exit_usage};
   } catch (const CLI::ParseError& error) {
     return {std::nullopt, app.exit(error) == 0 ? exit_done : exit_usage};
   }
