@@ -8,7 +8,7 @@
 namespace farlod::detail {
 
 [[noreturn]] inline void abort_with_broken_promise(const char* condition, const char* file, int line) {
-  std::fprintf(stderr, "farlod: a promise of the code is broken: %s (%s:%d)\n", condition, file, line);
+  (void)std::fprintf(stderr, "farlod: a promise of the code is broken: %s (%s:%d)\n", condition, file, line);
   std::abort();
 }
 

@@ -84,6 +84,9 @@ struct Grid {
   }
   [[nodiscard]] Box2d square_of(Cell c) const { return {corner_of(c), corner_of({c.i + 1, c.j + 1})}; }
 
+  /// What all cells cover together, in the grid frame.
+  [[nodiscard]] Box2d rectangle() const { return {corner_of({cells.i_begin, cells.j_begin}), corner_of({cells.i_end, cells.j_end})}; }
+
   /// The N×N cells around `c`; some of them may lie outside of `cells`.
   [[nodiscard]] CellRange neighborhood_of(Cell c) const {
     const std::int32_t r = neighborhood / 2;

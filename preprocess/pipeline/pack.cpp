@@ -17,6 +17,19 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_between(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
 
+/// Some of GDAL's formats are folders: they have a name, but no bytes of their own.
+package::InputFile input_file(const std::filesystem::path& path) {
+  return {path.filename().string(), std::filesystem::is_regular_file(path) ? stamp_of(path) : package::FileStamp{}};
+}
+
+/// The grid's rectangle in the frame that it is turned against.
+Box2d city_outline(const Grid& grid) {
+  const auto [low, high] = grid.rectangle();
+  Box2d outline;
+  for (const Point2d corner : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}}) outline.add(grid.rotation.city_from_grid(corner));
+  return outline;
+}
+
 /// Runs the stages one after the other, and remembers how long each took.
 class Packing {
  public:
@@ -36,11 +49,10 @@ class Packing {
     LocatedCity located = read_and_locate();
     // Before the long work, so that a folder that may not be written ends the run early
     PackageWriter writer(settings_.output, settings_.overwrite);
-    const auto terrain = timed("terrain", [&] { return read_ground(located.georeference); });
-    const Grid grid = timed("align", [&] { return lay_grid(located, terrain); });
+    const auto [grid, terrain] = lay_grid_on_ground(located);
     describe_place(located, grid);
     result_.facets = located.city.facets().size();
-    TileSet tiles = timed("tiles", [&] { return cut_into_tiles(std::move(located), grid, settings_.assign, terrain, report_); });
+    TileSet tiles = timed("tiles", [&, &grid = grid, &terrain = terrain] { return cut_into_tiles(std::move(located), grid, settings_.assign, terrain, report_); });
     describe_tiles(tiles);
     write_package(writer, tiles, grid);
     return std::move(result_);
@@ -62,21 +74,22 @@ class Packing {
     return located;
   }
 
-  std::optional<TerrainRaster> read_ground(const Georeference& place) {
-    if (!settings_.terrain) return std::nullopt;
-    return read_terrain(*settings_.terrain, settings_.georeference.crs, place, std::nullopt);
-  }
-
-  Grid lay_grid(const LocatedCity& located, const std::optional<TerrainRaster>& terrain) {
-    if (!located.city.buildings().empty()) {
-      GridAlignment aligned = align(located, settings_.grid, report_);
-      result_.alignment = aligned.streets;
-      return aligned.grid;
+  /// Buildings decide where the grid lies, and of a terrain only what it covers is read; a terrain alone decides itself.
+  std::pair<Grid, std::optional<TerrainRaster>> lay_grid_on_ground(const LocatedCity& located) {
+    const auto read = [&](const std::optional<Box2d>& wanted_city) {
+      return timed("terrain", [&] { return read_terrain(*settings_.terrain, settings_.georeference.crs, located.georeference, wanted_city); });
+    };
+    if (located.city.buildings().empty()) {
+      TerrainRaster terrain = read(std::nullopt);
+      Box2d outline;
+      outline.add(terrain.first);
+      outline.add(terrain.node(terrain.columns - 1, terrain.rows - 1));
+      const Grid grid = timed("align", [&] { return grid_over(outline, settings_.grid); });
+      return {grid, std::move(terrain)};
     }
-    Box2d outline;
-    outline.add(terrain->first);
-    outline.add(terrain->node(terrain->columns - 1, terrain->rows - 1));
-    return grid_over(outline, settings_.grid);
+    const GridAlignment aligned = timed("align", [&] { return align(located, settings_.grid, report_); });
+    result_.alignment = aligned.streets;
+    return {aligned.grid, settings_.terrain ? std::optional(read(city_outline(aligned.grid))) : std::nullopt};
   }
 
   void describe_place(const LocatedCity& located, const Grid& grid) {
@@ -93,8 +106,8 @@ class Packing {
     m.far_map_kind = "box";
     m.far_map_side_columns = settings_.far_map.side_columns;
     m.far_map_rows = settings_.far_map.rows;
-    for (const auto& input : settings_.inputs) m.inputs.push_back({input.filename().string(), stamp_of(input)});
-    if (settings_.terrain) m.inputs.push_back({settings_.terrain->filename().string(), stamp_of(*settings_.terrain)});
+    for (const auto& input : settings_.inputs) m.inputs.push_back(input_file(input));
+    if (settings_.terrain) m.inputs.push_back(input_file(*settings_.terrain));
   }
 
   void describe_tiles(const TileSet& tiles) {

@@ -100,7 +100,7 @@ class BuildingCutter {
     if (s.surface.area_m2 > 0.0) s.middle = (1.0 / s.surface.area_m2) * s.middle;
   }
 
-  Cell cell_of_footprint() const {
+  [[nodiscard]] Cell cell_of_footprint() const {
     Point2d weighted;
     double area = 0.0;
     for (const BuildingSurface& s : result_.surfaces) {
@@ -118,6 +118,7 @@ class BuildingCutter {
       const std::array corners{f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c]};
       if (only_cell) {
         std::vector<Point3f> polygon;
+        polygon.reserve(corners.size());
         for (const Point3d& p : corners) polygon.push_back(cell_from_grid(p, *only_cell, grid_, height_origin_m_));
         result_.pieces.push_back({{*only_cell, std::move(polygon)}, surface});
         continue;

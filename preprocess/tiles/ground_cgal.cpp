@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "farlod/expects.hpp"
@@ -25,11 +26,17 @@ void keep_lowest(std::vector<Point3d>& points) {
                points.end());
 }
 
-double height_of_nearest(const std::vector<Point3d>& points, Point2d p) {
-  const auto nearest = std::min_element(points.begin(), points.end(), [p](const Point3d& a, const Point3d& b) {
-    return norm(horizontal(a) - p) < norm(horizontal(b) - p);
-  });
-  return nearest == points.end() ? 0.0 : nearest->z;
+/// Over points without area CGAL has no nearest one; a city of one post is rare enough to look through them all.
+double height_of_nearest(const Network& network, Point2d p) {
+  if (network.dimension() == 2) return network.nearest_vertex(Kernel::Point_3(p.x, p.y, 0.0))->point().z();
+  double height = 0.0, least = std::numeric_limits<double>::infinity();
+  for (auto v = network.finite_vertices_begin(); v != network.finite_vertices_end(); ++v) {
+    const double distance = std::hypot(v->point().x() - p.x, v->point().y() - p.y);
+    if (distance >= least) continue;
+    least = distance;
+    height = v->point().z();
+  }
+  return height;
 }
 
 Point3d from_cgal(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
@@ -38,36 +45,38 @@ Point3d from_cgal(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
 struct Ground::Impl {
   Network network;
-  Box2d rectangle;
   Network::Face_handle last_found;
 };
 
-Ground::Ground(std::vector<Point3d> points, const Box2d& rectangle) : impl_(std::make_unique<Impl>()) {
+Ground::Ground(std::vector<Point3d> points, const Box2d& rectangle, GroundExtent extent) : impl_(std::make_unique<Impl>()) {
   FARLOD_EXPECTS(!rectangle.empty());
-  impl_->rectangle = rectangle;
-  const std::array corners{rectangle.low, Point2d{rectangle.high.x, rectangle.low.y}, rectangle.high, Point2d{rectangle.low.x, rectangle.high.y}};
-  std::array<double, 4> heights{};
-  for (std::size_t k = 0; k < 4; ++k) heights[k] = height_of_nearest(points, corners[k]);
-  for (std::size_t k = 0; k < 4; ++k) points.push_back({corners[k].x, corners[k].y, heights[k]});
   keep_lowest(points);
   std::vector<Kernel::Point_3> input;
   input.reserve(points.size());
   for (const Point3d& p : points) input.emplace_back(p.x, p.y, p.z);
-  impl_->network.insert(input.begin(), input.end());
+  Network& network = impl_->network;
+  network.insert(input.begin(), input.end());
+  if (extent == GroundExtent::points) return;
+  // All heights first, so that one corner is not another's nearest point
+  std::vector<Kernel::Point_3> corners;
+  for (const Point2d c : {rectangle.low, Point2d{rectangle.high.x, rectangle.low.y}, rectangle.high, Point2d{rectangle.low.x, rectangle.high.y}})
+    corners.emplace_back(c.x, c.y, height_of_nearest(network, c));
+  // A corner that is a point already keeps that point's height
+  for (const Kernel::Point_3& corner : corners) network.insert(corner);
 }
 Ground::Ground(Ground&&) noexcept = default;
 Ground& Ground::operator=(Ground&&) noexcept = default;
 Ground::~Ground() = default;
 
 double Ground::height_at(Point2d p) const {
-  const Box2d& r = impl_->rectangle;
-  const Kernel::Point_3 query(std::clamp(p.x, r.low.x, r.high.x), std::clamp(p.y, r.low.y, r.high.y), 0.0);
-  const auto face = impl_->network.locate(query, impl_->last_found);
-  FARLOD_EXPECTS(face != nullptr && !impl_->network.is_infinite(face));
+  const Network& network = impl_->network;
+  const Kernel::Point_3 query(p.x, p.y, 0.0);
+  const auto face = network.dimension() == 2 ? network.locate(query, impl_->last_found) : nullptr;
+  if (face == nullptr || network.is_infinite(face)) return height_of_nearest(network, p);
   impl_->last_found = face;
   const Point3d a = from_cgal(face->vertex(0)->point()), b = from_cgal(face->vertex(1)->point()), c = from_cgal(face->vertex(2)->point());
   const Point3d n = cross(b - a, c - a);
-  return a.z - (n.x * (query.x() - a.x) + n.y * (query.y() - a.y)) / n.z;
+  return a.z - (n.x * (p.x - a.x) + n.y * (p.y - a.y)) / n.z;
 }
 
 std::vector<std::array<Point3d, 3>> Ground::triangles() const {

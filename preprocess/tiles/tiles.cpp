@@ -48,10 +48,6 @@ std::vector<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& 
   return nodes;
 }
 
-Box2d rectangle_of(const Grid& grid) {
-  return {grid.corner_of({grid.cells.i_begin, grid.cells.j_begin}), grid.corner_of({grid.cells.i_end, grid.cells.j_end})};
-}
-
 class TileCutter {
  public:
   TileCutter(const CityModel& city_grid, const Grid& grid, Assign assign, Ground ground)
@@ -140,7 +136,9 @@ TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, con
   CityModel city = std::move(located.city);
   if (terrain) lift_onto_terrain(city, *terrain);
   for (Point3d& p : city.points()) p = grid.rotation.grid_from_city(p);  // exactness begins here
-  Ground ground(terrain ? nodes_of(*terrain, grid.rotation) : base_points(city), rectangle_of(grid));
+  // Between and around buildings there is ground; beyond a terrain that stands for itself, nobody knows
+  const GroundExtent extent = city.buildings().empty() ? GroundExtent::points : GroundExtent::rectangle;
+  Ground ground(terrain ? nodes_of(*terrain, grid.rotation) : base_points(city), grid.rectangle(), extent);
   return TileCutter(city, grid, assign, std::move(ground)).run(report);
 }
 

@@ -58,7 +58,7 @@ void print_sanity(const SvfRun& run) {
 
 void print_run(const SvfRun& run, const SvfOptions& options, double total_s) {
   const std::string quantity = quantity_name(options.sky.weight);
-  fmt::print("{} receivers, {:.1f} s in all; no data: {} inside buildings", run.receivers, total_s, run.inside_buildings);
+  fmt::print("{} receivers, {:.1f} s in all; no data: {} inside buildings or without ground", run.receivers, total_s, run.inside_buildings);
   if (run.beyond_grid > 0) fmt::print(", {} beyond the grid", run.beyond_grid);
   fmt::print("\n");
   if (run.svf_mean) fmt::print("{}: min {:.4f}, mean {:.4f}, max {:.4f}\n", quantity, *run.svf_min, *run.svf_mean, *run.svf_max);

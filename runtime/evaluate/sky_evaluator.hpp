@@ -36,7 +36,7 @@ class SkyEvaluator {
 
   /// Writes the sky view factor of each receiver, in [0, 1], to `svf[receiver.index]`. A cell outside of the grid has no far map:
   /// its receivers are traced against the whole city, whatever the engine.
-  void evaluate(const CellReceivers& receivers, std::span<float> svf) const;
+  void evaluate(const CellReceivers& cell, std::span<float> svf) const;
 
   /// Seconds spent so far, summed over threads.
   struct Effort {

@@ -45,9 +45,7 @@ void for_each_pixel_by_patches(const PixelRange& r, const Visit& visit) {
 }  // namespace
 
 RasterPlan plan_raster(const package::Manifest& m, double step_m, const std::optional<Box2d>& wanted_projected) {
-  const CellRange& c = m.grid.cells;
-  const Box2d all_cells{m.grid.corner_of({c.i_begin, c.j_begin}), m.grid.corner_of({c.i_end, c.j_end})};
-  const Box2d area = wanted_projected ? *wanted_projected : projected_outline(m, all_cells);
+  const Box2d area = wanted_projected ? *wanted_projected : projected_outline(m, m.grid.rectangle());
   const double west = std::floor(area.low.x / step_m), south = std::floor(area.low.y / step_m);
   const double east = std::ceil(area.high.x / step_m), north = std::ceil(area.high.y / step_m);
   return {{west * step_m, north * step_m}, step_m, static_cast<std::size_t>(east - west), static_cast<std::size_t>(north - south)};

@@ -28,9 +28,8 @@ struct CellReceivers {
 /// What a receiver's height counts from.
 enum class HeightAbove { ground, highest_surface, sea_level };
 
-/// Where a receiver stands above a place of a cell; nowhere when that is inside a building.
-/// `height_m` counts from `above`; for `sea_level`, from the package's height origin. Where the package holds no ground,
-/// its height origin counts as the ground.
+/// Where a receiver stands above a place of a cell; nowhere when that is inside a building, or when its height counts from a
+/// surface that is not there (beyond a terrain). `height_m` counts from `above`; for `sea_level`, from the package's height origin.
 [[nodiscard]] std::optional<Point3f> stand(const CellColumns& columns, float x_cell, float y_cell, HeightAbove above, float height_m);
 
 }  // namespace farlod

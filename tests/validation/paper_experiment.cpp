@@ -30,8 +30,7 @@ std::vector<double> evaluate(const Package& package, Engine engine, std::size_t 
 
 /// Random places on the ground outside of buildings. In the test's city frame, projected coordinates are city coordinates.
 std::vector<PlaceOfReceiver> random_places(const Package& package, std::size_t count) {
-  const CellRange& c = package.grid().cells;
-  const Point2d low = package.grid().corner_of({c.i_begin, c.j_begin}), high = package.grid().corner_of({c.i_end, c.j_end});
+  const auto [low, high] = package.grid().rectangle();
   std::mt19937_64 random(20120901);
   const auto uniform = [&random](double a, double b) { return a + (b - a) * static_cast<double>(random() >> 11) * 0x1p-53; };
   std::vector<PlaceOfReceiver> places;

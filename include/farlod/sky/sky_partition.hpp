@@ -65,7 +65,7 @@ class SkyPartition {
 }
 
 inline std::size_t SkyPartition::next_ring_inside(SkyWeight weight, std::size_t inside, std::size_t all) {
-  const double k_i = static_cast<double>(inside), k = static_cast<double>(all);
+  const auto k_i = static_cast<double>(inside), k = static_cast<double>(all);
   double shrink = 0.0;  // r_{i−1} / r_i, with the aspect ratio a = 1
   if (weight == SkyWeight::cosine) {
     const double r = std::sqrt(k_i / k);
@@ -92,11 +92,11 @@ inline std::vector<std::size_t> SkyPartition::rings(SkyWeight weight, std::size_
 inline std::vector<Point3d> SkyPartition::directions() const {
   constexpr double golden = std::numbers::phi - 1.0;  // frac(m·golden) fills [0, 1) evenly for any number of m
   const auto fraction = [](double x) { return x - std::floor(x); };
-  const double k = static_cast<double>(size());
+  const auto k = static_cast<double>(size());
   std::vector<Point3d> result;
   result.reserve(size());
   for (std::size_t ring = 0; ring < ring_count(); ++ring) {
-    const double n = static_cast<double>(cells_of_ring(ring));
+    const auto n = static_cast<double>(cells_of_ring(ring));
     const double first = static_cast<double>(cells_inside_[ring]) - n;
     const double turn = fraction(static_cast<double>(ring) * golden);
     for (std::size_t m = 0; m < cells_of_ring(ring); ++m) {

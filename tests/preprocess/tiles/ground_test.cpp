@@ -48,6 +48,12 @@ TEST(Ground, DoesNotDependOnTheOrderOfItsPoints) {
   EXPECT_EQ(there.triangles(), Ground(points, rectangle).triangles());
 }
 
+TEST(Ground, MayEndWhereItsPointsEnd) {
+  const Ground ground({{20, 20, 5}, {60, 20, 5}, {60, 60, 5}, {20, 60, 5}}, rectangle, GroundExtent::points);
+  EXPECT_EQ(covered_area(ground), 1600.0);
+  EXPECT_EQ(ground.height_at({95, 95}), 5.0);
+}
+
 TEST(Ground, WithoutPointsIsFlatAtZero) { EXPECT_EQ(Ground({}, rectangle).height_at({33, 44}), 0.0); }
 
 }  // namespace
