@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/preprocess/pipeline/packing.hpp"
+#include "tests/problems/problem_lists.hpp"
+
+namespace farlod::test {
+namespace {
+
+class BrokenFile : public testing::TestWithParam<Fixture> {};
+
+TEST_P(BrokenFile, HasExactlyItsProblemAndIsPacked) {
+  const int code = GetParam().name.first;
+  Packing p;
+  p.settings.inputs = {GetParam().path};
+  p.run();
+  EXPECT_EQ(p.codes(), std::set<int>{code});
+  const std::vector<std::pair<int, std::uint64_t>> counts{{code, p.report.problems().size()}};
+  EXPECT_EQ(p.result.manifest.problem_counts, counts);
+  EXPECT_EQ(Package(p.settings.output).manifest().problem_counts, counts);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pipeline, BrokenFile, testing::ValuesIn(fixtures_of_stages(2, 4)),
+                         [](const auto& test) { return test.param.name.second; });
+
+/// What is in the package when the problem had its effect.
+struct Remains {
+  std::set<std::string> buildings;
+  std::uint64_t polygons;
+};
+
+TEST(BrokenFiles, LoseWhatIsLeftOutAndNothingElse) {
+  const std::map<std::string, Remains> expected{
+      {"outside_of_projection", {{"house", "neighbour"}, 12}},  // of three houses
+      {"no_dominant_direction", {{"rotunda"}, 66}},
+      {"zero_area", {{"house"}, 6}},  // of seven polygons
+      {"self_intersecting", {{"house", "carport"}, 7}},
+      {"not_planar", {{"house"}, 6}},
+  };
+  for (const Fixture& fixture : fixtures_of_stages(2, 4)) {
+    const auto remains = expected.find(fixture.name.second);
+    ASSERT_NE(remains, expected.end()) << "say what is left of " << fixture.path;
+    Packing p;
+    p.settings.inputs = {fixture.path};
+    p.run();
+    EXPECT_EQ(ids_in(Package(p.settings.output)), remains->second.buildings) << fixture.path;
+    EXPECT_EQ(p.result.manifest.polygons, remains->second.polygons) << fixture.path;
+  }
+}
+
+}  // namespace
+}  // namespace farlod::test
