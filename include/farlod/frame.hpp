@@ -20,7 +20,8 @@ namespace farlod {
 class GridRotation {
  public:
   GridRotation() = default;
-  explicit GridRotation(Angle bearing) : bearing_(bearing), cos_(std::cos(bearing.radians())), sin_(std::sin(bearing.radians())) {}
+  explicit GridRotation(Angle bearing)
+      : bearing_(bearing), cos_(std::cos(bearing.radians())), sin_(std::sin(bearing.radians())) {}
 
   [[nodiscard]] Angle bearing() const { return bearing_; }
   [[nodiscard]] Point2d grid_from_city(Point2d p_city) const {
@@ -46,7 +47,9 @@ class GridRotation {
 /// Azimuth of a horizontal vector: clockwise from the frame's y axis, in [0, 2π).
 [[nodiscard]] inline Angle azimuth_of(Point2d v) {
   const double a = std::atan2(v.x, v.y);
-  return Angle::radians(a < 0.0 ? a + 2.0 * std::numbers::pi : a);
+  // A hair west of north, the sum rounds to the whole turn
+  const double turned = a < 0.0 ? a + 2.0 * std::numbers::pi : a;
+  return Angle::radians(turned < 2.0 * std::numbers::pi ? turned : 0.0);
 }
 
 }  // namespace farlod

@@ -22,7 +22,7 @@ constexpr const char* description =
     "  farlod-pack town.gml -o town.farlod\n"
     "  farlod-pack footprints.geojson --height-field height -o town.farlod\n";
 constexpr const char* footer =
-    "\nReads CityGML 1.0 and 2.0, CityJSON 1.0 to 2.0, OBJ, and footprints in any vector format of GDAL (GeoJSON, GeoPackage, Shapefile …).\n"
+    "\nReads CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, OBJ, and footprints in any vector format of GDAL (GeoJSON, GeoPackage, Shapefile …).\n"
     "Exit codes: 0 done, 1 internal, 2 usage, 3 an input cannot be read or used, 5 a limit was reached.";
 
 /// Options whose text must be understood after CLI11 has taken them.

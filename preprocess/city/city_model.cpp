@@ -28,8 +28,8 @@ std::uint64_t CityModel::surface_count() const {
   return count;
 }
 
-void CityModel::begin_building(std::string id, bool stands_on_ground) {
-  buildings_.push_back({std::move(id), facets_.size(), 0, stands_on_ground});
+void CityModel::begin_building(std::string id, bool stands_on_ground, std::uint32_t source) {
+  buildings_.push_back({std::move(id), facets_.size(), 0, stands_on_ground, source});
 }
 
 void CityModel::begin_facet(SurfaceKind kind, std::uint32_t surface, std::uint16_t part) {
@@ -55,6 +55,10 @@ void CityModel::drop_last_building() {
     facets_.resize(b.first_facet);
   }
   buildings_.pop_back();
+}
+
+void CityModel::set_source(std::uint32_t source) {
+  for (Building& b : buildings_) b.source = source;
 }
 
 void CityModel::append(const CityModel& other) {

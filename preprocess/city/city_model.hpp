@@ -30,6 +30,7 @@ struct Building {
   std::uint32_t facet_count = 0;
   /// The file gave a height, not an elevation: z counts from the ground, which only a terrain can tell.
   bool stands_on_ground = false;
+  std::uint32_t source = 0;  ///< place in LocatedCity::sources of the file that it comes from
 };
 
 /// All buildings of a city, as flat arrays: a city has millions of rings, and a vector for each would double it.
@@ -53,11 +54,12 @@ class CityModel {
   [[nodiscard]] std::uint64_t surface_count() const;
 
   /// Building up: a building, then its facets, each with its rings, outer ring first.
-  void begin_building(std::string id, bool stands_on_ground = false);
+  void begin_building(std::string id, bool stands_on_ground = false, std::uint32_t source = 0);
   void begin_facet(SurfaceKind kind, std::uint32_t surface, std::uint16_t part = 0);
   void add_ring(std::span<const Point3d> points);
   /// Takes back the building begun last, with all that it has.
   void drop_last_building();
+  void set_source(std::uint32_t source);  ///< of all buildings
   /// Appends the buildings of another model.
   void append(const CityModel& other);
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "city/city_model.hpp"
 #include "farlod/angle.hpp"
@@ -25,6 +26,7 @@ struct Georeference {
 struct LocatedCity {
   CityModel city;
   Georeference georeference;
+  std::vector<std::string> sources = {};  ///< names of the files, for messages
 };
 
 }  // namespace farlod

@@ -40,12 +40,16 @@ float BoxMapBaker::distance_m(const Point3f& capture, const Point3d& d, const Ce
   // The direction's longer horizontal component is 1, so that the ray's parameter is the distance to a wall of the box
   Ray ray{capture, {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)}};
   std::optional<Hit> hit;
+  const auto is_far = [&](std::uint32_t triangle) { return !near.contains(city_.cell_of_triangle(triangle)); };
   if (assign_ == Assign::clip) {
-    ray.begin = static_cast<float>(grid_.neighborhood_half_edge_m() * (1.0 - border_rounding));
+    const double border_m = grid_.neighborhood_half_edge_m();
+    ray.begin = static_cast<float>(border_m * (1.0 - border_rounding));
     hit = city_.occluder().nearest(ray);
+    // What stands on the border itself is near in the west and south, far in the east and north
+    if (hit && hit->distance < border_m * (1.0 + border_rounding) && !is_far(hit->triangle)) hit = city_.occluder().nearest(ray, is_far);
   } else {
     // Whole buildings cross the border: whose cell they belong to decides, not where they stand
-    hit = city_.occluder().nearest(ray, [&](std::uint32_t t) { return !near.contains(city_.cell_of_triangle(t)); });
+    hit = city_.occluder().nearest(ray, is_far);
   }
   return hit ? static_cast<float>(hit->distance * norm(d)) : std::numeric_limits<float>::infinity();
 }

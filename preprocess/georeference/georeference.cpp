@@ -73,7 +73,7 @@ std::string detail_of(const Point3d& given, const Crs& output) {
 
 /// Appends a copy of a building.
 void copy_building(const CityModel& from, const Building& b, CityModel& to) {
-  to.begin_building(b.id, b.stands_on_ground);
+  to.begin_building(b.id, b.stands_on_ground, b.source);
   for (const Facet& f : from.facets_of(b)) {
     to.begin_facet(f.kind, f.surface, f.part);
     for (std::uint32_t k = 0; k < f.ring_count; ++k) to.add_ring(from.ring(f, k));
@@ -132,6 +132,8 @@ LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSett
     SettledSource settled = settle(std::move(source), settings);
     if (!output) output = choose_output_crs(settled.crs, settled.typical, settings.out_crs);
     const auto lost = project(settled, *output, report);
+    settled.source.city.set_source(static_cast<std::uint32_t>(located.sources.size()));
+    located.sources.push_back(settled.source.source);
     append_without(located.city, settled.source.city, lost);
   }
   if (located.city.points().empty())

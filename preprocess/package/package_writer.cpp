@@ -27,24 +27,23 @@ void require_package_or_empty(const fs::path& folder) {
   }
 }
 
-void make_room(const fs::path& folder, Overwrite overwrite) {
-  if (!fs::exists(folder)) return;
-  if (!fs::is_directory(folder)) throw PackageWriteError(folder.string() + " is a file: choose another name for -o.");
-  require_package_or_empty(folder);
-  if (fs::is_empty(folder)) return;
-  if (overwrite == Overwrite::refuse)
-    throw PackageWriteError(folder.string() + " exists already: give --force to replace it, or choose another name for -o.");
-  fs::remove(folder / package::manifest_file);
-  fs::remove_all(folder / blocks_folder);
-}
-
 fs::path temporary_name(const fs::path& path) { return path.string() + ".part"; }
 
 }  // namespace
 
+void require_room(const fs::path& folder, Overwrite overwrite) {
+  if (!fs::exists(folder)) return;
+  if (!fs::is_directory(folder)) throw PackageWriteError(folder.string() + " is a file: choose another name for -o.");
+  require_package_or_empty(folder);
+  if (overwrite == Overwrite::refuse && !fs::is_empty(folder))
+    throw PackageWriteError(folder.string() + " exists already: give --force to replace it, or choose another name for -o.");
+}
+
 PackageWriter::PackageWriter(fs::path folder, Overwrite overwrite) : folder_(std::move(folder)) {
   try {
-    make_room(folder_, overwrite);
+    require_room(folder_, overwrite);
+    fs::remove(folder_ / package::manifest_file);  // first, so that a half-swept package is none
+    fs::remove_all(folder_ / blocks_folder);
     fs::create_directories(folder_ / blocks_folder);
   } catch (const fs::filesystem_error& reason) {
     throw PackageWriteError(folder_.string() + " cannot be written: " + reason.code().message());

@@ -22,6 +22,10 @@ class PackageWriteError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Throws PackageWriteError when a package may not be written there: the folder holds one already and shall not be replaced, or
+/// holds anything that is not part of a package. Touches nothing.
+void require_room(const std::filesystem::path& folder, Overwrite overwrite);
+
 /// Writes a package block by block. Every file is written under a temporary name and renamed; the manifest comes last, so that a folder
 /// with a manifest is a whole package, whatever happened before.
 class PackageWriter {

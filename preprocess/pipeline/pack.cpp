@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/pack.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 
@@ -46,15 +47,15 @@ class Packing {
   }
 
   PackResult run() {
+    // A folder that may not be written ends the run before the long work; one that may be is swept only after it
+    require_room(settings_.output, settings_.overwrite);
     LocatedCity located = read_and_locate();
-    // Before the long work, so that a folder that may not be written ends the run early
-    PackageWriter writer(settings_.output, settings_.overwrite);
     const auto [grid, terrain] = lay_grid_on_ground(located);
     describe_place(located, grid);
     result_.facets = located.city.facets().size();
     TileSet tiles = timed("tiles", [&, &grid = grid, &terrain = terrain] { return cut_into_tiles(std::move(located), grid, settings_.assign, terrain, report_); });
     describe_tiles(tiles);
-    write_package(writer, tiles, grid);
+    write_package(tiles, grid);
     return std::move(result_);
   }
 
@@ -77,7 +78,12 @@ class Packing {
   /// Buildings decide where the grid lies, and of a terrain only what it covers is read; a terrain alone decides itself.
   std::pair<Grid, std::optional<TerrainRaster>> lay_grid_on_ground(const LocatedCity& located) {
     const auto read = [&](const std::optional<Box2d>& wanted_city) {
-      return timed("terrain", [&] { return read_terrain(*settings_.terrain, settings_.georeference.crs, located.georeference, wanted_city); });
+      return timed("terrain", [&] {
+        TerrainRaster terrain = read_terrain(*settings_.terrain, settings_.georeference.crs, located.georeference, wanted_city);
+        if (std::none_of(terrain.height_m.begin(), terrain.height_m.end(), [](const auto& height) { return height.has_value(); }))
+          throw InputError(settings_.terrain->string() + " has no heights where the city lies: give a terrain that covers it.");
+        return terrain;
+      });
     };
     if (located.city.buildings().empty()) {
       TerrainRaster terrain = read(std::nullopt);
@@ -121,7 +127,8 @@ class Packing {
     m.problem_counts.assign(counts.begin(), counts.end());
   }
 
-  void write_package(PackageWriter& writer, const TileSet& tiles, const Grid& grid) {
+  void write_package(const TileSet& tiles, const Grid& grid) {
+    PackageWriter writer(settings_.output, settings_.overwrite);
     const BoxMapBaker baker = timed("city_index", [&] { return BoxMapBaker(tiles, grid, settings_.assign, settings_.far_map); });
     const std::vector<Block> blocks = grid.blocks();
     double bake_s = 0.0, write_s = 0.0;
@@ -134,6 +141,7 @@ class Packing {
       bake_s += seconds_between(start, baked);
       write_s += seconds_between(baked, Clock::now());
     }
+    progress_("far maps", blocks.size(), blocks.size());
     writer.finish(result_.manifest);
     result_.stage_seconds.emplace_back("far_maps", bake_s);
     result_.stage_seconds.emplace_back("package", write_s);

@@ -56,7 +56,7 @@ class BuildingCutter {
     Triangulation t = triangulate(rings);
     if (t.triangles.empty()) return report(ProblemCode::zero_area, facet, "its points lie on a line");
     if (t.rings_cross) report(ProblemCode::self_intersecting, facet, "what an odd number of its rings surrounds was kept");
-    const Point3d area_vector_m2 = area_vector(rings);
+    const Point3d area_vector_m2 = t.rings_cross ? area_vector(t) : area_vector(rings);
     if (const double d = distance_from_plane_m(rings, normalized(area_vector_m2)); d > planarity_tolerance_m)
       report(ProblemCode::not_planar, facet, "a point is " + metres(d) + " off its plane");
     facets_.push_back({&facet, std::move(t), area_vector_m2});

@@ -29,7 +29,7 @@ struct SurfacePiece {
 struct BuildingPieces {
   std::vector<BuildingSurface> surfaces;
   std::vector<SurfacePiece> pieces;
-  std::vector<Problem> problems;
+  std::vector<Problem> problems;  ///< without the source, which a building alone does not know
 };
 
 /// Triangulates and cuts one building, given in the grid frame.

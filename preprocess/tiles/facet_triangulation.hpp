@@ -28,6 +28,9 @@ struct Triangulation {
 /// Where the rings cross, the inside is what an odd number of rings surrounds.
 [[nodiscard]] Triangulation triangulate(std::span<const std::span<const Point3d>> rings);
 
+/// Sum of the triangles' area vectors: the facet's own, but where rings cross, for there it says what was kept.
+[[nodiscard]] Point3d area_vector(const Triangulation& triangulation);
+
 /// Largest distance of a facet's points from the plane through its first point along `unit_normal`.
 [[nodiscard]] double distance_from_plane_m(std::span<const std::span<const Point3d>> rings, const Point3d& unit_normal);
 

@@ -131,6 +131,16 @@ void collect_inside(const Rings& plane, Triangulation& result, bool mirrored) {
   }
 }
 
+/// A direction in which the facet has area, where its area vector cancels: the wings of a bow tie run round opposite ways.
+Point3d normal_of_wings(std::span<const Point3d> ring) {
+  Point3d largest;
+  for (std::size_t k = 2; k < ring.size(); ++k) {
+    const Point3d wing = cross(ring[k - 1] - ring[0], ring[k] - ring[0]);
+    if (norm(wing) > norm(largest)) largest = wing;
+  }
+  return largest;
+}
+
 }  // namespace
 
 Point3d area_vector(std::span<const std::span<const Point3d>> rings) {
@@ -145,11 +155,19 @@ Point3d area_vector(std::span<const std::span<const Point3d>> rings) {
   return total;
 }
 
+Point3d area_vector(const Triangulation& t) {
+  Point3d sum;
+  for (const Triangle& c : t.triangles) sum = sum + 0.5 * cross(t.points[c.b] - t.points[c.a], t.points[c.c] - t.points[c.a]);
+  return sum;
+}
+
 Triangulation triangulate(std::span<const std::span<const Point3d>> rings) {
   Triangulation result;
   for (const auto ring : rings) result.points.insert(result.points.end(), ring.begin(), ring.end());
-  const Point3d normal = area_vector(rings);
-  if (result.points.size() < 3 || norm(normal) == 0.0) return result;
+  if (result.points.size() < 3) return result;
+  Point3d normal = area_vector(rings);
+  if (norm(normal) == 0.0) normal = normal_of_wings(rings[0]);
+  if (norm(normal) == 0.0) return result;
   const Projection project(normal);
   if (rings.size() == 1 && add_convex_fan(result, project)) return result;
   Rings plane;

@@ -50,8 +50,8 @@ std::vector<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& 
 
 class TileCutter {
  public:
-  TileCutter(const CityModel& city_grid, const Grid& grid, Assign assign, Ground ground)
-      : city_(city_grid), grid_(grid), assign_(assign), ground_(std::move(ground)), ground_triangles_(ground_.triangles()) {
+  TileCutter(const CityModel& city_grid, std::span<const std::string> sources, const Grid& grid, Assign assign, Ground ground)
+      : city_(city_grid), sources_(sources), grid_(grid), assign_(assign), ground_(std::move(ground)), ground_triangles_(ground_.triangles()) {
     tiles_.cells = grid.cells;
     tiles_.tiles.resize(static_cast<std::size_t>(grid.cells.size()));
     tiles_.height_origin_m = lowest_whole_metre();
@@ -69,7 +69,7 @@ class TileCutter {
     for (const Point3d& p : city_.points()) lowest = std::min(lowest, p.z);
     for (const auto& triangle : ground_triangles_)
       for (const Point3d& p : triangle) lowest = std::min(lowest, p.z);
-    return std::floor(lowest);
+    return std::isfinite(lowest) ? std::floor(lowest) : 0.0;
   }
 
   void place_ground() {
@@ -101,7 +101,10 @@ class TileCutter {
   }
 
   void place_building(const Building& building, BuildingPieces& cut_building, Report& report) {
-    for (Problem& problem : cut_building.problems) report.add(std::move(problem));
+    for (Problem& problem : cut_building.problems) {
+      if (building.source < sources_.size()) problem.source = sources_[building.source];
+      report.add(std::move(problem));
+    }
     const auto number = static_cast<std::uint32_t>(tiles_.building_ids.size());
     const auto first_surface = static_cast<std::uint32_t>(tiles_.surfaces.size());
     tiles_.building_ids.push_back(building.id);
@@ -123,6 +126,7 @@ class TileCutter {
   }
 
   const CityModel& city_;
+  std::span<const std::string> sources_;
   const Grid& grid_;
   Assign assign_;
   Ground ground_;
@@ -139,7 +143,7 @@ TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, con
   // Between and around buildings there is ground; beyond a terrain that stands for itself, nobody knows
   const GroundExtent extent = city.buildings().empty() ? GroundExtent::points : GroundExtent::rectangle;
   Ground ground(terrain ? nodes_of(*terrain, grid.rotation) : base_points(city), grid.rectangle(), extent);
-  return TileCutter(city, grid, assign, std::move(ground)).run(report);
+  return TileCutter(city, located.sources, grid, assign, std::move(ground)).run(report);
 }
 
 }  // namespace farlod

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "package/block_tiles.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "farlod/expects.hpp"
@@ -11,6 +13,19 @@
 namespace farlod {
 
 using namespace package;
+
+namespace {
+
+/// No city reaches farther from one of its cells than the Earth is wide. What does would be lost on the way to the ray index,
+/// which takes no triangle beyond 1.8e18 and says nothing.
+constexpr float farthest_m = 1.3e7F;
+
+/// False for what is not a number, too.
+bool is_on_earth(const Point3f& p) {
+  return std::abs(p.x) <= farthest_m && std::abs(p.y) <= farthest_m && std::abs(p.z) <= farthest_m;
+}
+
+}  // namespace
 
 BlockTiles::BlockTiles(std::span<const std::byte> bytes, const CellRange& cells, std::string name)
     : bytes_(bytes), range_(cells), name_(std::move(name)) {
@@ -63,13 +78,16 @@ std::span<const T> BlockTiles::section(SectionKind kind) const {
 }
 
 void BlockTiles::check_surfaces() const {
+  constexpr float longest = 1.0F + std::numeric_limits<float>::epsilon();  // a length of 1, rounded
   for (const BuildingRecord& b : buildings_)
-    require(b.text_offset <= text_.size() && b.text_bytes <= text_.size() - b.text_offset, "a building's id reaches beyond the text");
+    require(b.text_offset <= text_.size() && b.text_bytes <= text_.size() - b.text_offset,
+            "a building's id reaches beyond the text");
   for (const SurfaceRecord& s : surfaces_) {
     require(s.building == no_building || s.building < buildings_.size(), "a surface names a building that does not exist");
     require(s.kind >= SurfaceKind::ground && s.kind <= SurfaceKind::floor, "a surface is of a kind that does not exist");
-    require(std::isfinite(s.normal_x) && std::isfinite(s.normal_y) && std::isfinite(s.normal_z) && std::isfinite(s.area_m2),
-            "a surface's normal is not a number");
+    require(std::abs(s.normal_x) <= longest && std::abs(s.normal_y) <= longest && std::abs(s.normal_z) <= longest,
+            "a surface's normal is not a direction");
+    require(s.area_m2 >= 0.0F && std::isfinite(s.area_m2), "a surface's area is not a number");
   }
 }
 
@@ -79,20 +97,33 @@ void BlockTiles::check_cells() const {
   for (std::size_t n = 0; n < cells_.size(); ++n) {
     const CellRecord& c = cells_[n];
     require(Cell{c.i, c.j} == range_.cell_at(n), "its cells are not in order");
-    require(c.first_vertex <= vertices_.size() && c.vertex_count <= vertices_.size() - c.first_vertex, "a cell's vertices reach beyond the end");
+    require(c.first_vertex <= vertices_.size() && c.vertex_count <= vertices_.size() - c.first_vertex,
+            "a cell's vertices reach beyond the end");
     require(c.first_triangle <= triangles_.size() && c.triangle_count <= triangles_.size() - c.first_triangle,
             "a cell's triangles reach beyond the end");
-    require(std::isfinite(c.capture_x_m) && std::isfinite(c.capture_y_m) && std::isfinite(c.capture_z_m), "a capture point is not a number");
+    require(is_on_earth({c.capture_x_m, c.capture_y_m, c.capture_z_m}), "a capture point lies nowhere on Earth");
     require(std::isfinite(c.far_map_top) && c.far_map_top >= 0.0F, "a far map's height is not a number");
+    check_vertices(c);
     check_triangles(c);
   }
 }
 
+void BlockTiles::check_vertices(const CellRecord& c) const {
+  float z_low_m = std::numeric_limits<float>::infinity(), z_high_m = -z_low_m;
+  for (const Point3f& p : vertices_.subspan(c.first_vertex, c.vertex_count)) {
+    require(is_on_earth(p), "a vertex lies nowhere on Earth");
+    z_low_m = std::min(z_low_m, p.z);
+    z_high_m = std::max(z_high_m, p.z);
+  }
+  const bool is_empty = c.vertex_count == 0;
+  require(is_empty ? c.z_low_m > c.z_high_m : c.z_low_m == z_low_m && c.z_high_m == z_high_m,
+          "a cell's heights are not those of its vertices");
+}
+
 void BlockTiles::check_triangles(const CellRecord& c) const {
-  for (const Point3f& p : vertices_.subspan(c.first_vertex, c.vertex_count))
-    require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "a vertex is not a number");
   for (const Triangle& t : triangles_.subspan(c.first_triangle, c.triangle_count))
-    require(t.a < c.vertex_count && t.b < c.vertex_count && t.c < c.vertex_count, "a triangle names a vertex that does not exist");
+    require(t.a < c.vertex_count && t.b < c.vertex_count && t.c < c.vertex_count,
+            "a triangle names a vertex that does not exist");
   for (const std::uint32_t s : triangle_surfaces_.subspan(c.first_triangle, c.triangle_count))
     require(s < surfaces_.size(), "a triangle names a surface that does not exist");
 }

@@ -50,6 +50,7 @@ class BlockTiles {
   void check_header() const;
   void find_sections();
   void check_cells() const;
+  void check_vertices(const package::CellRecord& cell) const;
   void check_triangles(const package::CellRecord& cell) const;
   void check_surfaces() const;
   template <class T>

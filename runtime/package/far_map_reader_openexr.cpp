@@ -67,6 +67,8 @@ FarMap FarMapReader::read(Cell cell, float top) const {
   } catch (const std::exception& reason) {
     impl_->damaged(reason.what());
   }
+  for (const float d : from_top_down)
+    if (!(d > 0.0F)) impl_->damaged("a distance is not a positive number");
   // Pictures run downwards, maps upwards
   std::vector<float> distance_m(from_top_down.size());
   for (std::size_t row = 0; row < h; ++row)

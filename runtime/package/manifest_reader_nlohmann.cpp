@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
 
 #include "farlod/package/layout.hpp"
 #include "package/manifest_reader.hpp"
@@ -15,34 +19,69 @@ using nlohmann::json;
 using namespace package;
 
 constexpr std::int64_t most_cells = std::int64_t{1} << 34;
+/// Beyond it, multiples of the cell edge are no longer exact (exact_cell_edge_m).
+constexpr std::int32_t farthest_index = std::int32_t{1} << 29;
+/// Eastings with a zone's number in front come to some ten million metres; no reference system reaches a thousand million.
+constexpr double farthest_m = 1e9;
+/// Of a map of 64 × 64 texels a side, 4096 times over: more than that is not a map of one cell.
+constexpr std::uint64_t most_texels = std::uint64_t{1} << 26;
 
 void require(bool rule, const std::string& what) {
   if (!rule) throw std::runtime_error(what);
 }
 
+/// nlohmann-json would cut 1.5 to 1 and 2³² + 1 to 1.
+template <class T>
+T whole_number(const json& j) {
+  const bool fits = j.is_number_unsigned() ? std::in_range<T>(j.get<std::uint64_t>())
+                                           : j.is_number_integer() && std::in_range<T>(j.get<std::int64_t>());
+  require(fits, "a whole number was expected where it has " + j.dump());
+  return static_cast<T>(j.get<std::int64_t>());
+}
+
+template <class T>
+T number_from(std::string_view digits, int base) {
+  T number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number, base);
+  require(error == std::errc() && end == digits.data() + digits.size(), "\"" + std::string(digits) + "\" is not a number");
+  return number;
+}
+
 FileStamp stamp_from(const json& j) {
-  FileStamp stamp{j.at("bytes").get<std::uint64_t>(), 0};
-  const auto text = j.at("xxh3").get<std::string>();
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), stamp.xxh3, 16);
-  require(error == std::errc() && end == text.data() + text.size(), "a checksum is not a hexadecimal number");
-  return stamp;
+  return {whole_number<std::uint64_t>(j.at("bytes")), number_from<std::uint64_t>(j.at("xxh3").get<std::string>(), 16)};
+}
+
+CellRange cells_from(const json& j) {
+  require(j.size() == 4, "\"cells\" does not hold four numbers");
+  std::vector<std::int32_t> k;
+  for (const json& index : j) k.push_back(whole_number<std::int32_t>(index));
+  const bool near = std::all_of(k.begin(), k.end(), [](std::int32_t n) { return -farthest_index <= n && n <= farthest_index; });
+  const CellRange cells{k[0], k[1], k[2], k[3]};
+  // Neither side exceeds 2³⁰ now, so that the product cannot overflow
+  require(near && cells.size() > 0 && cells.size() <= most_cells, "the range of cells is impossible");
+  return cells;
+}
+
+/// Grid::blocks().size(), without making a list that a damaged manifest could make endless.
+std::int64_t block_count(const Grid& grid) {
+  const Block first = grid.block_of({grid.cells.i_begin, grid.cells.j_begin});
+  const Block last = grid.block_of({grid.cells.i_end - 1, grid.cells.j_end - 1});
+  return (std::int64_t{last.i} - first.i + 1) * (std::int64_t{last.j} - first.j + 1);
 }
 
 Grid grid_from(const json& j, double rotation_deg) {
   Grid grid;
   grid.rotation = GridRotation(Angle::degrees(rotation_deg));
   grid.cell_edge_m = j.at("cell_m").get<double>();
-  grid.neighborhood = j.at("neighborhood").get<int>();
-  grid.block_edge = j.at("block_edge").get<int>();
-  const auto cells = j.at("cells").get<std::vector<std::int32_t>>();
-  require(cells.size() == 4, "\"cells\" does not hold four numbers");
-  grid.cells = {cells[0], cells[1], cells[2], cells[3]};
-  require(grid.cell_edge_m > 0.0 && grid.cell_edge_m == exact_cell_edge_m(grid.cell_edge_m), "the cell edge is impossible");
-  require(grid.neighborhood >= 1 && grid.neighborhood % 2 == 1 && grid.neighborhood < 10000, "the neighbourhood is not an odd number");
+  grid.neighborhood = whole_number<int>(j.at("neighborhood"));
+  grid.block_edge = whole_number<int>(j.at("block_edge"));
+  grid.cells = cells_from(j.at("cells"));
+  // Between a centimetre and a thousand kilometres, so that an index of a cell near the city fits 32 bits
+  require(grid.cell_edge_m >= 0.01 && grid.cell_edge_m <= 1e6 && grid.cell_edge_m == exact_cell_edge_m(grid.cell_edge_m),
+          "the cell edge is impossible");
+  require(grid.neighborhood >= 1 && grid.neighborhood % 2 == 1 && grid.neighborhood < 10000,
+          "the neighbourhood is not an odd number");
   require(grid.block_edge >= 1 && grid.block_edge <= 4096, "the block edge is impossible");
-  require(grid.cells.size() > 0 && grid.cells.width() <= most_cells && grid.cells.height() <= most_cells &&
-              grid.cells.size() <= most_cells && std::abs(static_cast<double>(cells[0])) < 1e8 && std::abs(static_cast<double>(cells[1])) < 1e8,
-          "the range of cells is impossible");
   return grid;
 }
 
@@ -50,24 +89,30 @@ void read_place(const json& j, Manifest& m) {
   const json& crs = j.at("crs");
   m.crs_wkt = crs.at("wkt").get<std::string>();
   m.crs_name = crs.at("name").get<std::string>();
-  if (!crs.at("epsg").is_null()) m.epsg = crs.at("epsg").get<int>();
+  if (!crs.at("epsg").is_null()) m.epsg = whole_number<int>(crs.at("epsg"));
   const json& frame = j.at("frame");
   m.origin_m = {frame.at("origin_m").at(0).get<double>(), frame.at("origin_m").at(1).get<double>()};
   m.height_origin_m = frame.at("height_origin_m").get<double>();
+  require(
+      std::abs(m.origin_m.x) <= farthest_m && std::abs(m.origin_m.y) <= farthest_m && std::abs(m.height_origin_m) <= farthest_m,
+      "its origin lies nowhere on Earth");
   m.convergence = Angle::degrees(frame.at("convergence_deg").get<double>());
   m.grid = grid_from(j.at("grid"), frame.at("grid_rotation_deg").get<double>());
 }
 
 void read_contents(const json& j, Manifest& m) {
   for (const json& input : j.at("inputs")) m.inputs.push_back({input.at("name").get<std::string>(), stamp_from(input)});
-  m.buildings = j.at("counts").at("buildings").get<std::uint64_t>();
-  m.polygons = j.at("counts").at("polygons").get<std::uint64_t>();
-  m.triangles = j.at("counts").at("triangles").get<std::uint64_t>();
-  for (const auto& [code, count] : j.at("problems").items()) m.problem_counts.emplace_back(std::stoi(code), count.get<std::uint64_t>());
+  m.buildings = whole_number<std::uint64_t>(j.at("counts").at("buildings"));
+  m.polygons = whole_number<std::uint64_t>(j.at("counts").at("polygons"));
+  m.triangles = whole_number<std::uint64_t>(j.at("counts").at("triangles"));
+  for (const auto& [code, count] : j.at("problems").items())
+    m.problem_counts.emplace_back(number_from<int>(code, 10), whole_number<std::uint64_t>(count));
   for (const json& b : j.at("blocks"))
-    m.blocks.push_back({{b.at("i").get<std::int32_t>(), b.at("j").get<std::int32_t>()}, stamp_from(b.at("tiles")), stamp_from(b.at("far_map"))});
+    m.blocks.push_back({{whole_number<std::int32_t>(b.at("i")), whole_number<std::int32_t>(b.at("j"))},
+                        stamp_from(b.at("tiles")),
+                        stamp_from(b.at("far_map"))});
+  require(std::cmp_equal(m.blocks.size(), block_count(m.grid)), "it does not list each block of the grid");
   const std::vector<Block> expected = m.grid.blocks();
-  require(m.blocks.size() == expected.size(), "it does not list each block of the grid");
   for (std::size_t n = 0; n < expected.size(); ++n) require(m.blocks[n].block == expected[n], "its blocks are not in order");
 }
 
@@ -78,10 +123,11 @@ Manifest manifest_from(const json& j) {
   m.assign = j.at("settings").at("assign").get<std::string>();
   const json& far_map = j.at("settings").at("far_map");
   m.far_map_kind = far_map.at("kind").get<std::string>();
-  m.far_map_side_columns = far_map.at("side_columns").get<std::uint32_t>();
-  m.far_map_rows = far_map.at("rows").get<std::uint32_t>();
+  m.far_map_side_columns = whole_number<std::uint32_t>(far_map.at("side_columns"));
+  m.far_map_rows = whole_number<std::uint32_t>(far_map.at("rows"));
+  require(m.assign == "clip" || m.assign == "whole", "its buildings are assigned in the unknown way \"" + m.assign + "\"");
   require(m.far_map_kind == "box", "its far maps are of the unknown kind \"" + m.far_map_kind + "\"");
-  require(m.far_map_side_columns >= 1 && m.far_map_side_columns <= 65536 && m.far_map_rows >= 1 && m.far_map_rows <= 65536,
+  require(m.far_map_side_columns >= 1 && m.far_map_rows >= 1 && m.far_map_side_columns <= most_texels / 4 / m.far_map_rows,
           "the size of its far maps is impossible");
   read_contents(j, m);
   return m;
@@ -100,11 +146,11 @@ Manifest read_manifest(const std::filesystem::path& package_folder) {
   try {
     const json j = json::parse(file);
     require(j.is_object() && j.value("format", "") == "farlod-package", "it does not say that it is one");
-    const int version = j.at("version").get<int>();
-    if (version > static_cast<int>(format_version))
+    const auto version = whole_number<std::uint32_t>(j.at("version"));
+    if (version > format_version)
       throw PackageUnusable(path.string() + " has format version " + std::to_string(version) + ", this program reads up to " +
                             std::to_string(format_version) + ". Use a newer farlod-svf, or pack the city again.");
-    require(version == static_cast<int>(format_version), "its format version does not exist");
+    require(version == format_version, "its format version does not exist");
     return manifest_from(j);
   } catch (const PackageUnusable&) {
     throw;

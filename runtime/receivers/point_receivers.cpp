@@ -21,30 +21,42 @@ Point2d cell_point_within(Point2d p_grid, Cell cell, const Grid& grid) {
   return {std::clamp(p.x, 0.0, last_m), std::clamp(p.y, 0.0, last_m)};
 }
 
+/// Out there is no building to be inside of, nor a roof to stand on, even where one ends at the very border of the grid.
+std::optional<Point3f> stand_outside(const CellColumns& columns, Point2d p_cell, Point2d at_border, HeightAbove above,
+                                     float height_m) {
+  const Column column = columns.at(static_cast<float>(at_border.x), static_cast<float>(at_border.y));
+  const auto z_m = standing_height_m(column, above == HeightAbove::highest_surface ? HeightAbove::ground : above, height_m);
+  if (!z_m) return std::nullopt;
+  return Point3f{static_cast<float>(p_cell.x), static_cast<float>(p_cell.y), *z_m};
+}
+
 }  // namespace
 
-std::vector<std::pair<Cell, std::vector<std::size_t>>> places_by_cell(const Package& package, std::span<const PlaceOfReceiver> places) {
+std::vector<std::pair<Cell, std::vector<std::size_t>>> places_by_cell(const Package& package,
+                                                                      std::span<const PlaceOfReceiver> places) {
   std::map<Cell, std::vector<std::size_t>> cells;
   for (std::size_t n = 0; n < places.size(); ++n)
     cells[package.grid().cell_of(package.manifest().grid_from_projected(places[n].p_projected))].push_back(n);
   return {cells.begin(), cells.end()};
 }
 
-CellReceivers receivers_at(const Package& package, Cell cell, std::span<const PlaceOfReceiver> places, std::span<const std::size_t> chosen,
-                           HeightAbove above, float height_m) {
+CellReceivers receivers_at(const Package& package, Cell cell, std::span<const PlaceOfReceiver> places,
+                           std::span<const std::size_t> chosen, HeightAbove above, float height_m) {
   const Grid& grid = package.grid();
   const Cell existing = nearest_existing(cell, grid.cells);
   const CellColumns columns(package, existing);
   CellReceivers result{cell, {}};
   for (const std::size_t n : chosen) {
     const Point2d p_grid = package.manifest().grid_from_projected(places[n].p_projected);
-    const Point2d stand_at = cell_point_within(p_grid, existing, grid);
-    const bool has_height = places[n].height_m.has_value();
-    const float height = has_height ? static_cast<float>(*places[n].height_m - package.manifest().height_origin_m) : height_m;
-    const auto standing = stand(columns, static_cast<float>(stand_at.x), static_cast<float>(stand_at.y), has_height ? HeightAbove::sea_level : above, height);
-    if (!standing) continue;
     const Point2d p_cell = p_grid - grid.corner_of(cell);
-    result.receivers.push_back({n, {static_cast<float>(p_cell.x), static_cast<float>(p_cell.y), standing->z}});
+    const auto x = static_cast<float>(p_cell.x), y = static_cast<float>(p_cell.y);
+    const bool has_height = places[n].height_m.has_value();
+    const HeightAbove from = has_height ? HeightAbove::sea_level : above;
+    const float height = has_height ? static_cast<float>(*places[n].height_m - package.manifest().height_origin_m) : height_m;
+    const auto standing = cell == existing
+                              ? stand(columns, x, y, from, height)
+                              : stand_outside(columns, {x, y}, cell_point_within(p_grid, existing, grid), from, height);
+    if (standing) result.receivers.push_back({n, *standing});
   }
   return result;
 }

@@ -14,8 +14,8 @@ namespace farlod {
 
 /// A point that looks at the sky.
 struct Receiver {
-  std::size_t index = 0;  ///< where its answer goes
-  Point3f p_cell;         ///< in the frame of the cell that it belongs to
+  std::size_t index = 0;             ///< where its answer goes
+  Point3f p_cell;                    ///< in the frame of the cell that it belongs to
   Point3f normal{0.0F, 0.0F, 1.0F};  ///< length 1, grid frame
 };
 
@@ -28,8 +28,13 @@ struct CellReceivers {
 /// What a receiver's height counts from.
 enum class HeightAbove { ground, highest_surface, sea_level };
 
+/// How high that is; nowhere when the surface that the height counts from is not there.
+[[nodiscard]] std::optional<float> standing_height_m(const Column& column, HeightAbove above, float height_m);
+
 /// Where a receiver stands above a place of a cell; nowhere when that is inside a building, or when its height counts from a
-/// surface that is not there (beyond a terrain). `height_m` counts from `above`; for `sea_level`, from the package's height origin.
-[[nodiscard]] std::optional<Point3f> stand(const CellColumns& columns, float x_cell, float y_cell, HeightAbove above, float height_m);
+/// surface that is not there (beyond a terrain). `height_m` counts from `above`; for `sea_level`, from the package's height
+/// origin.
+[[nodiscard]] std::optional<Point3f> stand(const CellColumns& columns, float x_cell, float y_cell, HeightAbove above,
+                                           float height_m);
 
 }  // namespace farlod

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace farlod {
 namespace {
@@ -24,9 +25,34 @@ Point2d in_triangle(std::size_t n) {
 }
 
 /// One receiver stands in the middle; more are spread.
-Point2d place_in_triangle(std::size_t n, std::size_t count) { return count == 1 ? Point2d{1.0 / 3.0, 1.0 / 3.0} : in_triangle(n); }
+Point2d place_in_triangle(std::size_t n, std::size_t count) {
+  return count == 1 ? Point2d{1.0 / 3.0, 1.0 / 3.0} : in_triangle(n);
+}
 
-void spread(const TileView& tile, std::uint32_t t, double spacing_m, const CellColumns& columns, std::vector<SurfaceReceiver>& receivers) {
+/// Columns of a cell and of its neighbours: a receiver that stands off a wall on the cell's border is in the next.
+class ColumnsAround {
+ public:
+  ColumnsAround(const Package& package, Cell cell) : package_(package), cell_(cell) {}
+
+  [[nodiscard]] bool is_inside_building(const Point3f& p_cell) {
+    const Grid& grid = package_.grid();
+    const auto edge_m = static_cast<float>(grid.cell_edge_m);
+    const auto step = [edge_m](float x) { return x < 0.0F ? -1 : x >= edge_m ? 1 : 0; };
+    const Cell there{cell_.i + step(p_cell.x), cell_.j + step(p_cell.y)};
+    if (!grid.cells.contains(there)) return false;
+    const CellColumns& columns = columns_.try_emplace(there, package_, there).first->second;
+    const Point2d p = Point2d{p_cell.x, p_cell.y} + grid.corner_of(cell_) - grid.corner_of(there);
+    return columns.at(static_cast<float>(p.x), static_cast<float>(p.y)).is_inside_building(p_cell.z);
+  }
+
+ private:
+  const Package& package_;
+  Cell cell_;
+  std::map<Cell, CellColumns> columns_;
+};
+
+void spread(const TileView& tile, std::uint32_t t, double spacing_m, ColumnsAround& columns,
+            std::vector<SurfaceReceiver>& receivers) {
   const Triangle& corners = tile.mesh.triangles[t];
   const Point3f a = tile.mesh.vertices[corners.a];
   const Point3f ab = tile.mesh.vertices[corners.b] - a, ac = tile.mesh.vertices[corners.c] - a;
@@ -38,7 +64,7 @@ void spread(const TileView& tile, std::uint32_t t, double spacing_m, const CellC
   for (std::size_t n = 0; n < count; ++n) {
     const Point2d w = place_in_triangle(n, count);
     const Point3f p = a + static_cast<float>(w.x) * ab + static_cast<float>(w.y) * ac + surface_offset_m * normal;
-    receivers.push_back({t, area_m2 / static_cast<float>(count), p, normal, columns.at(p.x, p.y).is_inside_building(p.z)});
+    receivers.push_back({t, area_m2 / static_cast<float>(count), p, normal, columns.is_inside_building(p)});
   }
 }
 
@@ -46,7 +72,7 @@ void spread(const TileView& tile, std::uint32_t t, double spacing_m, const CellC
 
 std::vector<SurfaceReceiver> surface_receivers(const Package& package, Cell cell, SurfaceChoice choice, double spacing_m) {
   const TileView tile = package.tile(cell);
-  const CellColumns columns(package, cell);
+  ColumnsAround columns(package, cell);
   std::vector<SurfaceReceiver> receivers;
   for (std::uint32_t t = 0; t < tile.mesh.triangles.size(); ++t)
     if (is_chosen(tile.surface_of(t).kind, choice)) spread(tile, t, spacing_m, columns, receivers);

@@ -108,6 +108,13 @@ TEST(Triangulate, ABowTieIsRepairedAndReported) {
   for (const Point3d& p : t.points) EXPECT_EQ(p.z, 3.0);
 }
 
+TEST(Triangulate, ABowTieWhoseWingsCancelIsRepairedToo) {
+  const Triangulation t = triangulate(spans({{{0, 0, 3}, {4, 4, 3}, {4, 0, 3}, {0, 4, 3}}}));
+  EXPECT_TRUE(t.rings_cross);
+  EXPECT_DOUBLE_EQ(area(t), 8.0);
+  EXPECT_DOUBLE_EQ(std::abs(area_vector(t).z), 8.0);
+}
+
 TEST(Triangulate, WhatHasNoAreaHasNoTriangles) {
   EXPECT_TRUE(triangulate(spans({{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}})).triangles.empty());
   EXPECT_TRUE(triangulate(spans({{{0, 0, 0}, {1, 0, 0}}})).triangles.empty());
