@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "farlod/package/layout.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <type_traits>
+
+// Another reader is written from docs/package_format.md. Where the document and the header differ, the header wins, and this test
+// fails.
+
+namespace farlod::package {
+namespace {
+
+std::string format_document() {
+  std::ifstream file(std::string(FARLOD_SOURCE_DIR) + "/docs/package_format.md");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The part of the document below a heading, up to the next.
+std::string chapter(const std::string& heading) {
+  const std::string all = format_document();
+  const std::size_t begin = all.find("# " + heading + "\n");
+  if (begin == std::string::npos) return {};
+  return all.substr(begin, all.find("\n#", begin + 1) - begin);
+}
+
+/// A row of a table: offset, bytes and name of a field.
+std::string row(std::size_t offset, std::size_t bytes, const std::string& field) {
+  return "| " + std::to_string(offset) + " | " + std::to_string(bytes) + " | `" + field + "` |";
+}
+
+#define EXPECT_DOCUMENTED(record, field)                                                                           \
+  EXPECT_NE(chapter(#record).find(row(offsetof(record, field), sizeof(record::field), #field)), std::string::npos) \
+      << "docs/package_format.md, " #record " lacks: " << row(offsetof(record, field), sizeof(record::field), #field)
+
+TEST(Layout, HeaderIsDocumented) {
+  EXPECT_DOCUMENTED(Header, magic);
+  EXPECT_DOCUMENTED(Header, version);
+  EXPECT_DOCUMENTED(Header, section_count);
+  EXPECT_DOCUMENTED(Header, block_i);
+  EXPECT_DOCUMENTED(Header, block_j);
+  EXPECT_DOCUMENTED(Header, file_bytes);
+  EXPECT_DOCUMENTED(Header, reserved);
+}
+
+TEST(Layout, SectionIsDocumented) {
+  EXPECT_DOCUMENTED(Section, kind);
+  EXPECT_DOCUMENTED(Section, element_bytes);
+  EXPECT_DOCUMENTED(Section, offset);
+  EXPECT_DOCUMENTED(Section, count);
+  EXPECT_DOCUMENTED(Section, reserved);
+}
+
+TEST(Layout, CellRecordIsDocumented) {
+  EXPECT_DOCUMENTED(CellRecord, i);
+  EXPECT_DOCUMENTED(CellRecord, j);
+  EXPECT_DOCUMENTED(CellRecord, first_vertex);
+  EXPECT_DOCUMENTED(CellRecord, first_triangle);
+  EXPECT_DOCUMENTED(CellRecord, vertex_count);
+  EXPECT_DOCUMENTED(CellRecord, triangle_count);
+  EXPECT_DOCUMENTED(CellRecord, z_low_m);
+  EXPECT_DOCUMENTED(CellRecord, z_high_m);
+  EXPECT_DOCUMENTED(CellRecord, capture_x_m);
+  EXPECT_DOCUMENTED(CellRecord, capture_y_m);
+  EXPECT_DOCUMENTED(CellRecord, capture_z_m);
+  EXPECT_DOCUMENTED(CellRecord, far_map_top);
+  EXPECT_DOCUMENTED(CellRecord, flags);
+  EXPECT_DOCUMENTED(CellRecord, reserved);
+}
+
+TEST(Layout, SurfaceRecordIsDocumented) {
+  EXPECT_DOCUMENTED(SurfaceRecord, building);
+  EXPECT_DOCUMENTED(SurfaceRecord, number);
+  EXPECT_DOCUMENTED(SurfaceRecord, part);
+  EXPECT_DOCUMENTED(SurfaceRecord, kind);
+  EXPECT_DOCUMENTED(SurfaceRecord, reserved);
+  EXPECT_DOCUMENTED(SurfaceRecord, normal_x);
+  EXPECT_DOCUMENTED(SurfaceRecord, normal_y);
+  EXPECT_DOCUMENTED(SurfaceRecord, normal_z);
+  EXPECT_DOCUMENTED(SurfaceRecord, area_m2);
+  EXPECT_DOCUMENTED(SurfaceRecord, reserved_2);
+}
+
+TEST(Layout, BuildingRecordIsDocumented) {
+  EXPECT_DOCUMENTED(BuildingRecord, text_offset);
+  EXPECT_DOCUMENTED(BuildingRecord, text_bytes);
+  EXPECT_DOCUMENTED(BuildingRecord, number);
+}
+
+TEST(Layout, SectionKindsAndElementSizesAreDocumented) {
+  const struct {
+    SectionKind kind;
+    const char* name;
+    std::size_t bytes;
+  } kinds[] = {{SectionKind::cells, "cells", sizeof(CellRecord)},
+               {SectionKind::vertices, "vertices", sizeof(Point3f)},
+               {SectionKind::triangles, "triangles", sizeof(Triangle)},
+               {SectionKind::triangle_surfaces, "triangle_surfaces", 4},
+               {SectionKind::surfaces, "surfaces", sizeof(SurfaceRecord)},
+               {SectionKind::buildings, "buildings", sizeof(BuildingRecord)},
+               {SectionKind::text, "text", 1}};
+  EXPECT_EQ(std::size(kinds), section_count);
+  for (const auto& [kind, name, bytes] : kinds) {
+    const std::string expected =
+        "| " + std::to_string(static_cast<int>(kind)) + " | `" + name + "` | " + std::to_string(bytes) + " |";
+    EXPECT_NE(chapter("Section").find(expected), std::string::npos) << "docs/package_format.md, Section lacks: " << expected;
+  }
+}
+
+TEST(Layout, RecordsCanBeMapped) {
+  static_assert(std::is_trivially_copyable_v<Header> && std::is_trivially_copyable_v<Section> &&
+                std::is_trivially_copyable_v<CellRecord> && std::is_trivially_copyable_v<SurfaceRecord> &&
+                std::is_trivially_copyable_v<BuildingRecord>);
+  static_assert(section_alignment % alignof(CellRecord) == 0 && section_alignment % alignof(SurfaceRecord) == 0);
+  static_assert(end_padding >= 16 - sizeof(Point3f), "the last vertex is read as 16 bytes");
+}
+
+TEST(Layout, BlocksHaveFoldersOfTheirOwn) {
+  EXPECT_EQ(block_folder({0, 0}), "blocks/0_0");
+  EXPECT_EQ(block_folder({-1, 12}), "blocks/-1_12");
+  EXPECT_NE(block_folder({1, 11}), block_folder({11, 1}));
+}
+
+}  // namespace
+}  // namespace farlod::package

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "evaluate/sky_evaluator.hpp"
+#include "receivers/raster_receivers.hpp"
+#include "tests/determinism/crooked_town.hpp"
+#include "tests/determinism/threads.hpp"
+
+namespace farlod {
+namespace {
+
+class SkyViewFactors : public testing::TestWithParam<Engine> {
+ protected:
+  SkyViewFactors()
+      : package_(packed()), plan_(plan_raster(package_.manifest(), 3.0, std::nullopt)), raster_(package_.manifest(), plan_) {}
+
+  Package packed() const {
+    scenes::pack_city(crooked_town(), crooked_grid(), folder_.path() / "town.farlod", {16, 16, 1.5});
+    return Package(folder_.path() / "town.farlod");
+  }
+  [[nodiscard]] SkySettings settings() const { return {GetParam(), SkyWeight::cosine, 145}; }
+  [[nodiscard]] CellReceivers receivers_of(Cell cell) const { return raster_.in_cell(package_, cell, HeightAbove::ground, 1.5F); }
+
+  /// The whole raster, cells in parallel; bits, so that no data equals no data.
+  std::vector<std::uint32_t> raster_with(std::size_t threads) const {
+    std::vector<float> svf(plan_.columns * plan_.rows, std::numeric_limits<float>::quiet_NaN());
+    const Package opened_anew(folder_.path() / "town.farlod");
+    const SkyEvaluator evaluator(opened_anew, settings());
+    const std::vector<Cell> cells = raster_.cells();
+    with_threads(threads, [&] {
+      oneapi::tbb::parallel_for(std::size_t{0}, cells.size(),
+                                [&](std::size_t n) { evaluator.evaluate(receivers_of(cells[n]), svf); });
+    });
+    EXPECT_TRUE(std::any_of(svf.begin(), svf.end(), [](float x) { return x < 0.9F; })) << "the town hides too little to tell";
+    std::vector<std::uint32_t> bits;
+    for (const float x : svf) bits.push_back(std::bit_cast<std::uint32_t>(x));
+    return bits;
+  }
+
+  scenes::TemporaryFolder folder_;
+  Package package_;
+  RasterPlan plan_;
+  RasterReceivers raster_;
+};
+
+TEST_P(SkyViewFactors, DoNotDependOnTheNumberOfThreads) {
+  const std::vector<std::uint32_t> alone = raster_with(1);
+  for (int n = 0; n < repeats; ++n) EXPECT_TRUE(raster_with(many_threads) == alone);
+}
+
+TEST_P(SkyViewFactors, DoNotDependOnWhatElseIsAsked) {
+  const SkyEvaluator evaluator(package_, settings());
+  const std::vector<Cell> cells = raster_.cells();
+  for (const std::size_t middle : {cells.size() / 2, cells.size() / 3}) {
+    CellReceivers together = receivers_of(cells[middle]);
+    for (std::size_t n = 0; n < together.receivers.size(); ++n) together.receivers[n].index = n;
+    std::vector<float> svf(together.receivers.size(), -1.0F);
+    evaluator.evaluate(together, svf);
+    for (const Receiver& r : together.receivers) {
+      std::vector<float> alone(1, -1.0F);
+      evaluator.evaluate({together.cell, {{0, r.p_cell, r.normal}}}, alone);
+      EXPECT_EQ(alone[0], svf[r.index]) << "receiver " << r.index;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, SkyViewFactors, testing::Values(Engine::rays, Engine::exact),
+                         [](const auto& test) { return test.param == Engine::rays ? "Rays" : "Exact"; });
+
+}  // namespace
+}  // namespace farlod

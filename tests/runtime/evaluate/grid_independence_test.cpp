@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "evaluate/sky_evaluator.hpp"
+#include "receivers/point_receivers.hpp"
+#include "tests/scenes/packed_city.hpp"
+#include "tests/scenes/scene_builder.hpp"
+
+// Where the grid happens to lie must not show in the answers of the exact engine.
+
+namespace farlod {
+namespace {
+
+constexpr std::size_t rays = 4000;
+constexpr double cell_m = 20.0, nearest_m = 1.0;
+
+/// Coordinates of the tiles, of the scene and of a receiver, all below 128 m, are floats: each off by half of the last digit.
+constexpr double place_error_m = 3 * 0.5 * 128.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
+
+/// A ray changes its answer when it passes an edge within the angle that the rounding makes at the nearest wall. The border
+/// between sky and city is at most 4π long on the unit disk, so that the rays expected within that angle of it are rays · (2 ·
+/// angle · 4π)/π < 1/2. Five changes have a probability below 1/2^5/5! (Poisson): that many are allowed, at most.
+constexpr double expected_changes = static_cast<double>(rays) * 8.0 * place_error_m / nearest_m;
+static_assert(expected_changes < 1.0);
+constexpr double allowed_change = 5.0 / static_cast<double>(rays);
+
+std::vector<Point2d> places() {
+  std::vector<Point2d> result;
+  for (int n = 0; n < 40; ++n) result.push_back({-14.0 + 2.9 * (n % 10), -1.3 + 0.9 * (n / 10)});
+  return result;
+}
+
+/// Two rows of houses and a tower, beside a street from west to east.
+CityModel street(const Point3d& shift) {
+  scenes::SceneBuilder builder(shift);
+  for (int n = 0; n < 5; ++n) {
+    const double x = -30.0 + 12.0 * n;
+    builder.add_box({{x, 4.0}, {x + 11.0, 14.0}}, 0.0, 7.0 + 2 * n);
+    builder.add_box({{x + 3.0, -15.0}, {x + 14.0, -4.0}}, 0.0, 15.0 - 2 * n);
+  }
+  builder.add_box({{-3.0, 20.0}, {5.0, 27.0}}, 0.0, 60.0);
+  return builder.city();
+}
+
+std::vector<float> svf_on(const Point3d& shift, double bearing_deg) {
+  const CityModel city = street(shift);
+  const Grid grid = scenes::grid_covering(city, Angle::degrees(bearing_deg), cell_m, 3, 4);
+  const scenes::TemporaryFolder folder;
+  scenes::pack_city(city, grid, folder.path() / "street.farlod", {4, 4, 1.5});
+  const Package package(folder.path() / "street.farlod");
+  std::vector<PlaceOfReceiver> shifted;
+  for (const Point2d p : places()) shifted.push_back({p + horizontal(shift), {}});
+  std::vector<float> svf(shifted.size(), -1.0F);
+  const SkyEvaluator evaluator(package, {Engine::exact, SkyWeight::cosine, rays});
+  for (const auto& [cell, chosen] : places_by_cell(package, shifted))
+    evaluator.evaluate(receivers_at(package, cell, shifted, chosen, HeightAbove::ground, 1.5F), svf);
+  return svf;
+}
+
+void expect_alike(const std::vector<float>& a, const std::vector<float>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t n = 0; n < a.size(); ++n) EXPECT_NEAR(a[n], b[n], allowed_change) << "receiver " << n;
+}
+
+TEST(GridIndependence, MovingTheGridByAPartOfACellChangesNothing) {
+  const std::vector<float> unmoved = svf_on({}, 0.0);
+  EXPECT_LT(*std::max_element(unmoved.begin(), unmoved.end()), 0.8F) << "the street hides too little to tell";
+  EXPECT_GT(*std::min_element(unmoved.begin(), unmoved.end()), 0.0F);
+  for (const Point3d& shift : {Point3d{3.7, -8.1, 0.0}, {10.0, 10.0, 0.0}, {-19.9, 0.013, 0.0}})
+    expect_alike(svf_on(shift, 0.0), unmoved);
+}
+
+TEST(GridIndependence, TurningTheGridChangesNothing) {
+  const std::vector<float> unturned = svf_on({}, 0.0);
+  for (const double bearing_deg : {12.3, 45.0, 90.0, -77.0}) expect_alike(svf_on({}, bearing_deg), unturned);
+}
+
+TEST(GridIndependence, LiftingTheCityChangesNothing) { expect_alike(svf_on({0.0, 0.0, 41.37}, 0.0), svf_on({}, 0.0)); }
+
+}  // namespace
+}  // namespace farlod

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/sky_evaluator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/analytic/tolerance.hpp"
+#include "tests/scenes/packed_city.hpp"
+#include "tests/scenes/scene_builder.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr double cell_m = 20.0;
+constexpr Engine both_engines[] = {Engine::rays, Engine::exact};
+
+Grid grid_of(const CellRange& cells, int neighborhood = 3) {
+  Grid grid;
+  grid.cell_edge_m = cell_m;
+  grid.neighborhood = neighborhood;
+  grid.block_edge = 4;
+  grid.cells = cells;
+  return grid;
+}
+
+class PackedScene {
+ public:
+  PackedScene(const CityModel& city, const Grid& grid) : package_(packed(city, grid)) {}
+
+  [[nodiscard]] const Package& package() const { return package_; }
+  [[nodiscard]] std::vector<float> svf(const CellReceivers& receivers, const SkySettings& settings) const {
+    std::vector<float> result(receivers.receivers.size(), -1.0F);
+    SkyEvaluator(package_, settings).evaluate(receivers, result);
+    return result;
+  }
+
+ private:
+  Package packed(const CityModel& city, const Grid& grid) const {
+    scenes::pack_city(city, grid, folder_.path() / "scene.farlod", {16, 16, 1.5});
+    return Package(folder_.path() / "scene.farlod");
+  }
+  scenes::TemporaryFolder folder_;
+  Package package_;
+};
+
+/// 25 places spread over a cell, at eye height.
+CellReceivers spread_over(Cell cell) {
+  CellReceivers result{cell, {}};
+  for (std::size_t n = 0; n < 25; ++n)
+    result.receivers.push_back({n, {1.3F + 4.1F * static_cast<float>(n % 5), 1.7F + 4.1F * static_cast<float>(n / 5), 1.5F}});
+  return result;
+}
+
+/// An open field: one stone, lower than any eye, says where the ground is.
+scenes::SceneBuilder open_field() {
+  scenes::SceneBuilder builder;
+  builder.add_box({{5.0, 5.0}, {5.1, 5.1}}, 0.0, 0.01);
+  return builder;
+}
+
+/// Boxes of random size, none of them over the places of `spread_over({0, 0})`.
+CityModel random_boxes(int count) {
+  std::mt19937_64 random(20120901);
+  const auto between = [&random](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  scenes::SceneBuilder builder = open_field();
+  for (int n = 0; n < count; ++n) {
+    const Point2d low{between(-58.0, 68.0), between(-58.0, 68.0)};
+    const bool near_receivers = low.x < 21.0 && low.x > -7.0 && low.y < 21.0 && low.y > -7.0;
+    const double height = between(3.0, 40.0);
+    if (!near_receivers) builder.add_box({low, low + Point2d{between(2.0, 6.0), between(2.0, 6.0)}}, 0.0, height);
+  }
+  return builder.city();
+}
+
+constexpr CellRange around_the_middle{-3, -3, 4, 4};
+
+TEST(SkyEvaluator, AnOpenFieldSeesAllOfTheSky) {
+  const PackedScene field(open_field().city(), grid_of({0, 0, 2, 2}));
+  for (const Engine engine : both_engines)
+    for (const SkyWeight weight : {SkyWeight::cosine, SkyWeight::solid_angle})
+      for (const std::size_t rays : {1U, 145U, 1000U})
+        EXPECT_EQ(field.svf(spread_over({1, 0}), {engine, weight, rays}), std::vector<float>(25, 1.0F));
+}
+
+TEST(SkyEvaluator, AnswersLieBetweenZeroAndOne) {
+  const PackedScene town(random_boxes(60), grid_of(around_the_middle));
+  CellReceivers receivers = spread_over({0, 0});
+  for (std::size_t n = 0; n < receivers.receivers.size(); n += 2) {
+    const Point3d normal =
+        normalized(Point3d{std::sin(1.0 * static_cast<double>(n)), std::cos(2.0 * static_cast<double>(n)), 0.2});
+    receivers.receivers[n].normal = {static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z)};
+  }
+  for (const Engine engine : both_engines)
+    for (const float svf : town.svf(receivers, {engine, SkyWeight::cosine, 290})) EXPECT_TRUE(svf > 0.0F && svf < 1.0F) << svf;
+}
+
+TEST(SkyEvaluator, InAClosedBoxThereIsNoSky) {
+  scenes::SceneBuilder builder;
+  builder.add_box({{-1.0, -1.0}, {21.0, 21.0}}, 0.0, 5.0);
+  const PackedScene box(builder.city(), grid_of({-1, -1, 2, 2}));
+  for (const Engine engine : both_engines) EXPECT_EQ(box.svf(spread_over({0, 0}), {engine}), std::vector<float>(25, 0.0F));
+}
+
+TEST(SkyEvaluator, AnotherBuildingNeverOpensTheSky) {
+  // A neighbourhood that holds the city: what hides the sky is geometry, in both engines
+  const Grid all_near = grid_of(around_the_middle, 7);
+  for (const Engine engine : both_engines) {
+    std::vector<float> before(25, 1.0F);
+    for (int count = 0; count <= 60; count += 4) {
+      const std::vector<float> after =
+          PackedScene(random_boxes(count), all_near).svf(spread_over({0, 0}), {engine, SkyWeight::cosine, 290});
+      for (std::size_t n = 0; n < after.size(); ++n) EXPECT_LE(after[n], before[n]) << count << " boxes, receiver " << n;
+      before = after;
+    }
+    EXPECT_LT(*std::max_element(before.begin(), before.end()), 0.95F) << "the boxes hide too little to tell";
+  }
+}
+
+TEST(SkyEvaluator, WhereAllIsNearTheEnginesAgree) {
+  const PackedScene town(random_boxes(60), grid_of(around_the_middle, 7));
+  EXPECT_EQ(town.svf(spread_over({0, 0}), {Engine::rays}), town.svf(spread_over({0, 0}), {Engine::exact}));
+}
+
+TEST(SkyEvaluator, OutsideOfTheGridAnswersAreExact) {
+  const PackedScene town(random_boxes(60), grid_of(around_the_middle, 1));
+  for (const Cell outside : {Cell{4, 0}, {0, -5}, {-4, 4}}) {
+    const std::vector<float> rays = town.svf(spread_over(outside), {Engine::rays});
+    EXPECT_EQ(rays, town.svf(spread_over(outside), {Engine::exact}));
+    EXPECT_LT(*std::min_element(rays.begin(), rays.end()), 1.0F);
+  }
+  EXPECT_NE(town.svf(spread_over({0, 0}), {Engine::rays}), town.svf(spread_over({0, 0}), {Engine::exact}))
+      << "the far map's error should show";
+}
+
+TEST(SkyEvaluator, ATiltedReceiverSharesAllOfItsRays) {
+  const PackedScene field(open_field().city(), grid_of({0, 0, 2, 2}));
+  CellReceivers wall = spread_over({1, 0});
+  for (Receiver& r : wall.receivers) r.normal = {0.0F, 1.0F, 0.0F};
+  // Half of a wall's rays point below the horizon: they count, and see no sky
+  const auto seen = static_cast<float>(SkyDirections(SkyWeight::cosine, 1000, {}).around({0.0, 1.0, 0.0}).size());
+  for (const Engine engine : both_engines) EXPECT_EQ(field.svf(wall, {engine}), std::vector<float>(25, seen / 1000.0F));
+}
+
+TEST(SkyEvaluator, WhatIsFarHidesTheSkyToo) {
+  scenes::SceneBuilder builder = open_field();
+  builder.add_box({{-55.0, -55.0}, {-45.0, 75.0}}, 0.0, 60.0);
+  const PackedScene town(builder.city(), grid_of(around_the_middle, 1));
+  // At the capture point, the map is wrong by its texels only; the wall hides an eighth of the sky
+  const CellReceivers middle{{0, 0}, {{0, {10.0F, 10.0F, 1.5F}}}};
+  constexpr std::size_t many = 100000;
+  const float rays = town.svf(middle, {Engine::rays, SkyWeight::cosine, many})[0];
+  const float exact = town.svf(middle, {Engine::exact, SkyWeight::cosine, many})[0];
+  const BoxMap shape = town.package().far_map({0, 0}).shape();
+  EXPECT_LT(exact, 0.9F);
+  EXPECT_NEAR(rays, exact, box_map_error(shape, 2 * shape.top, steepest_cos) + 2 * sampling_error(many, 4 * std::numbers::pi));
+}
+
+TEST(SkyEvaluator, AnswersGoWhereTheirIndexSays) {
+  const PackedScene town(random_boxes(60), grid_of(around_the_middle));
+  CellReceivers receivers = spread_over({0, 0});
+  const std::vector<float> in_order = town.svf(receivers, {});
+  std::vector<float> spaced(100, -1.0F);
+  for (Receiver& r : receivers.receivers) r.index = 99 - 4 * r.index;
+  SkyEvaluator(town.package(), {}).evaluate(receivers, spaced);
+  for (std::size_t n = 0; n < 100; ++n) EXPECT_EQ(spaced[n], n % 4 == 3 ? in_order[(99 - n) / 4] : -1.0F);
+}
+
+TEST(SkyEvaluator, NoReceiversNoWork) {
+  const PackedScene field(open_field().city(), grid_of({0, 0, 1, 1}));
+  EXPECT_TRUE(field.svf({{0, 0}, {}}, {}).empty());
+}
+
+}  // namespace
+}  // namespace farlod

@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "occlusion/occluder.hpp"
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <random>
+
+#include "occlusion/placed_mesh.hpp"
+
+namespace farlod {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+constexpr Point3f up{0.0F, 0.0F, 1.0F}, down{0.0F, 0.0F, -1.0F};
+
+/// Horizontal triangles around the z axis, one at each height.
+Occluder layers(const std::vector<float>& heights_m) {
+  std::vector<Point3f> vertices;
+  std::vector<Triangle> triangles;
+  for (const float z : heights_m) {
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    vertices.insert(vertices.end(), {{-2.0F, -1.0F, z}, {2.0F, -1.0F, z}, {0.0F, 3.0F, z}});
+    triangles.push_back({first, first + 1, first + 2});
+  }
+  return {std::move(vertices), std::move(triangles)};
+}
+
+std::vector<std::uint32_t> triangles_of(const std::vector<Hit>& hits) {
+  std::vector<std::uint32_t> triangles;
+  for (const Hit& hit : hits) triangles.push_back(hit.triangle);
+  return triangles;
+}
+
+TEST(Occluder, BlocksWhatMeetsATriangleFromEitherSide) {
+  const Occluder occluder = layers({1.0F, 2.0F});
+  EXPECT_EQ(occluder.triangle_count(), 2U);
+  EXPECT_TRUE(occluder.blocks({{0.1F, 0.2F, 0.0F}, up}));
+  EXPECT_TRUE(occluder.blocks({{0.1F, 0.2F, 3.0F}, down}));
+  EXPECT_TRUE(occluder.blocks({{0.1F, 0.2F, 1.5F}, up}));
+  EXPECT_FALSE(occluder.blocks({{5.0F, 0.2F, 0.0F}, up}));
+  EXPECT_FALSE(occluder.blocks({{0.1F, 0.2F, 0.0F}, down}));
+}
+
+TEST(Occluder, WhatLiesBehindDoesNotCount) {
+  const Occluder occluder = layers({1.0F, 2.0F});
+  const Ray from_above{{0.1F, 0.2F, 3.0F}, up};
+  EXPECT_FALSE(occluder.blocks(from_above));
+  EXPECT_FALSE(occluder.nearest(from_above));
+  EXPECT_THAT(occluder.all_hits(from_above), IsEmpty());
+}
+
+TEST(Occluder, RaysBeginAndEndWhereTheySay) {
+  const Occluder occluder = layers({1.0F, 2.0F});
+  const Point3f origin{0.1F, 0.2F, 0.0F};
+  EXPECT_FALSE(occluder.blocks({origin, up, 0.0F, 0.5F}));
+  EXPECT_TRUE(occluder.blocks({origin, up, 0.0F, 1.5F}));
+  EXPECT_TRUE(occluder.blocks({origin, up, 1.5F}));
+  EXPECT_FALSE(occluder.blocks({origin, up, 2.5F}));
+  EXPECT_EQ(occluder.nearest({origin, up, 1.5F})->triangle, 1U);
+  EXPECT_THAT(triangles_of(occluder.all_hits({origin, up, 0.0F, 1.5F})), ElementsAre(0U));
+}
+
+TEST(Occluder, DistancesCountInTheLengthOfTheDirection) {
+  const Occluder occluder = layers({1.0F, 2.0F});
+  EXPECT_EQ(occluder.nearest({{0.1F, 0.2F, 0.0F}, up})->distance, 1.0F);
+  EXPECT_EQ(occluder.nearest({{0.1F, 0.2F, 0.0F}, {0.0F, 0.0F, 4.0F}})->distance, 0.25F);
+}
+
+TEST(Occluder, NearestIsTheFirstOfThoseThatCount) {
+  const Occluder occluder = layers({3.0F, 1.0F, 2.0F});
+  const Ray ray{{0.1F, 0.2F, 0.0F}, up};
+  EXPECT_EQ(occluder.nearest(ray)->triangle, 1U);
+  EXPECT_EQ(occluder.nearest(ray, [](std::uint32_t t) { return t != 1; })->triangle, 2U);
+  EXPECT_EQ(occluder.nearest(ray, [](std::uint32_t t) { return t == 0; })->distance, 3.0F);
+  EXPECT_FALSE(occluder.nearest(ray, [](std::uint32_t) { return false; }));
+}
+
+TEST(Occluder, AllHitsComeFromNearToFar) {
+  const Occluder occluder = layers({3.0F, 1.0F, 2.0F});
+  EXPECT_THAT(triangles_of(occluder.all_hits({{0.1F, 0.2F, 0.0F}, up})), ElementsAre(1U, 2U, 0U));
+  EXPECT_THAT(triangles_of(occluder.all_hits({{0.1F, 0.2F, 9.0F}, down})), ElementsAre(0U, 2U, 1U));
+}
+
+TEST(Occluder, AllHitsForgetNoneOfMany) {
+  std::vector<float> heights_m;
+  for (int n = 0; n < 1000; ++n) heights_m.push_back(1.0F + 0.25F * static_cast<float>(n));
+  const std::vector<Hit> hits = layers(heights_m).all_hits({{0.1F, 0.2F, 0.0F}, up});
+  ASSERT_EQ(hits.size(), heights_m.size());
+  for (std::uint32_t n = 0; n < hits.size(); ++n) EXPECT_EQ(hits[n].triangle, n);
+}
+
+TEST(Occluder, NothingHidesNothing) {
+  const Occluder nothing({}, {});
+  const Occluder points_only({{1.0F, 2.0F, 3.0F}}, {});
+  for (const Occluder* occluder : {&nothing, &points_only}) {
+    const std::array<Ray, 3> rays{Ray{{}, up}, {{}, down}, {{}, {1.0F, 0.0F, 0.0F}}};
+    std::array<std::uint8_t, 3> blocked{9, 9, 9};
+    occluder->blocks(rays, blocked);
+    EXPECT_THAT(blocked, ElementsAre(0, 0, 0));
+    EXPECT_FALSE(occluder->blocks(rays[0]));
+    EXPECT_FALSE(occluder->nearest(rays[0]));
+    EXPECT_THAT(occluder->all_hits(rays[0]), IsEmpty());
+    EXPECT_EQ(occluder->triangle_count(), 0U);
+  }
+}
+
+class RandomScene : public testing::Test {
+ protected:
+  /// In [−1, 1), the same on every machine.
+  float random() { return static_cast<float>(static_cast<double>(random_() >> 11) * 0x1p-52 - 1.0); }
+  Point3f point(float size) { return {size * random(), size * random(), size * random()}; }
+
+  Occluder triangles(std::size_t count) {
+    std::vector<Point3f> vertices;
+    std::vector<Triangle> list;
+    for (std::uint32_t n = 0; n < count; ++n) {
+      const Point3f middle = point(50.0F);
+      for (int k = 0; k < 3; ++k) vertices.push_back(middle + point(8.0F));
+      list.push_back({3 * n, 3 * n + 1, 3 * n + 2});
+    }
+    return {std::move(vertices), std::move(list)};
+  }
+
+ private:
+  std::mt19937_64 random_{20120901};
+};
+
+TEST_F(RandomScene, PacketsAnswerAsSingleRaysDo) {
+  const Occluder occluder = triangles(400);
+  for (const std::size_t count : {std::size_t{1}, std::size_t{15}, std::size_t{16}, std::size_t{17}, std::size_t{20000}}) {
+    std::vector<Ray> rays;
+    for (std::size_t n = 0; n < count; ++n) rays.push_back({point(60.0F), point(1.0F)});
+    std::vector<std::uint8_t> blocked(count, 9);
+    occluder.blocks(rays, blocked);
+    std::size_t blocked_count = 0;
+    for (std::size_t n = 0; n < count; ++n) {
+      EXPECT_EQ(blocked[n], occluder.blocks(rays[n]) ? 1 : 0) << "ray " << n << " of " << count;
+      blocked_count += blocked[n];
+    }
+    EXPECT_TRUE(count < 1000 || (blocked_count > count / 10 && blocked_count < 9 * count / 10)) << "the scene tests little";
+  }
+}
+
+TEST_F(RandomScene, NearestIsTheFirstOfAllHits) {
+  const Occluder occluder = triangles(400);
+  for (int n = 0; n < 5000; ++n) {
+    const Ray ray{point(60.0F), point(1.0F)};
+    const std::vector<Hit> all = occluder.all_hits(ray);
+    const auto nearest = occluder.nearest(ray);
+    ASSERT_EQ(nearest.has_value(), !all.empty());
+    EXPECT_EQ(occluder.blocks(ray), nearest.has_value());
+    EXPECT_TRUE(!nearest || nearest->triangle == all.front().triangle);
+  }
+}
+
+/// A fan of eight long triangles around a vertex, not quite in one plane, far from the origin of the scene.
+class Fan : public RandomScene {
+ protected:
+  Fan() {
+    const std::array<std::array<float, 2>, 8> rim{
+        {{70, 0}, {50, 50}, {0, 70}, {-50, 50}, {-70, 0}, {-50, -50}, {0, -70}, {50, -50}}};
+    for (const auto& [x, y] : rim) rim_.push_back(hub_ + Point3f{x, y, 3.0F * random()});
+  }
+  Occluder occluder() const {
+    std::vector<Point3f> vertices{hub_};
+    vertices.insert(vertices.end(), rim_.begin(), rim_.end());
+    std::vector<Triangle> triangles;
+    for (std::uint32_t n = 0; n < 8; ++n) triangles.push_back({0, 1 + n, 1 + (n + 1) % 8});
+    return {vertices, triangles};
+  }
+  /// A ray to some point of a spoke, the hub among them.
+  Ray ray_to_spoke(std::size_t n) {
+    const Point3f target = hub_ + (n % 100 == 0 ? 0.0F : 0.49F * (random() + 1.0F)) * (rim_[n % 8] - hub_);
+    const Point3f origin = hub_ + Point3f{300.0F * random(), 300.0F * random(), 200.0F + 100.0F * random()};
+    return {origin, target - origin};
+  }
+
+ private:
+  Point3f hub_{5000.3F, -3000.2F, 10.1F};
+  std::vector<Point3f> rim_;
+};
+
+TEST_F(Fan, SharedEdgesAndASharedVertexLetNothingThrough) {
+  const Occluder fan = occluder();
+  for (std::size_t n = 0; n < 50000; ++n) {
+    const Ray ray = ray_to_spoke(n);
+    EXPECT_TRUE(fan.blocks(ray)) << n;
+    const std::array<Ray, 2> pair{ray, ray};
+    std::array<std::uint8_t, 2> blocked{};
+    fan.blocks(pair, blocked);
+    EXPECT_THAT(blocked, ElementsAre(1, 1)) << n;
+  }
+}
+
+TEST(PlacedMesh, NumbersTrianglesThrough) {
+  const std::vector<Point3f> vertices{{0.0F, 0.0F, 5.0F}, {10.0F, 0.0F, 5.0F}, {0.0F, 10.0F, 5.0F}};
+  const std::vector<Triangle> triangles{{0, 1, 2}};
+  const std::array<PlacedMesh, 3> tiles{
+      PlacedMesh{{vertices, triangles}, {-100.0, 0.0}}, {{}, {-50.0, 0.0}}, {{vertices, triangles}, {100.0, 50.0}}};
+  const Occluder occluder = occluder_of(tiles);
+  EXPECT_EQ(occluder.triangle_count(), 2U);
+  EXPECT_EQ(occluder.nearest({{-98.0F, 2.0F, 0.0F}, up})->triangle, 0U);
+  EXPECT_EQ(occluder.nearest({{102.0F, 52.0F, 0.0F}, up})->triangle, 1U);
+  EXPECT_FALSE(occluder.blocks({{2.0F, 2.0F, 0.0F}, up}));
+}
+
+TEST(PlacedMesh, WhatTouchesAcrossABorderStillTouches) {
+  // An edge of 33.3 m, as a float: far from the origin, sums of floats would leave gaps
+  const double edge_m = static_cast<float>(33.3);
+  const auto edge = static_cast<float>(edge_m);
+  const std::vector<Point3f> vertices{{0.0F, 0.0F, 5.0F}, {edge, 0.0F, 5.0F}, {edge, edge, 5.0F}, {0.0F, edge, 5.0F}};
+  const std::vector<Triangle> square{{0, 1, 2}, {0, 2, 3}};
+  std::vector<PlacedMesh> tiles;
+  for (int i = -300; i < 300; ++i) tiles.push_back({{vertices, square}, {i * edge_m, 0.0}});
+  const Occluder occluder = occluder_of(tiles);
+  for (int i = -299; i < 300; ++i) {
+    const auto border = static_cast<float>(i * edge_m);
+    for (const float x : {border, std::nextafter(border, -1e9F), std::nextafter(border, 1e9F)})
+      EXPECT_TRUE(occluder.blocks({{x, 7.0F, 0.0F}, up})) << i;
+  }
+}
+
+}  // namespace
+}  // namespace farlod

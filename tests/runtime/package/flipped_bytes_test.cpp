@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "package/block_tiles.hpp"
+#include "package/manifest_reader.hpp"
+#include "tests/runtime/package/small_package.hpp"
+
+// Each byte of a file is changed in turn. The reader may refuse, or hand out a view that can be read whole; nothing else.
+
+namespace farlod {
+namespace {
+
+using namespace package;
+
+/// A low bit, the sign of a number, and everything.
+constexpr std::byte changes[] = {std::byte{0x01}, std::byte{0x80}, std::byte{0xFF}};
+
+template <class T>
+bool lies_within(std::span<const T> part, const Bytes& bytes) {
+  const auto whole = std::span<const std::byte>(bytes);
+  const auto inner = std::as_bytes(part);
+  return inner.empty() || (inner.data() >= whole.data() && inner.data() + inner.size() <= whole.data() + whole.size());
+}
+
+bool tile_is_sound(const TileView& tile, const Bytes& bytes) {
+  const auto is_inside = [&](const auto& part) { return lies_within(part, bytes); };
+  if (!is_inside(tile.mesh.vertices) || !is_inside(tile.mesh.triangles) || !is_inside(tile.triangle_surfaces) ||
+      !is_inside(tile.surfaces) || !is_inside(tile.buildings) || tile.triangle_surfaces.size() != tile.mesh.triangles.size())
+    return false;
+  const auto vertex_is_finite = [](const Point3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
+  const auto vertices_exist = [&](const Triangle& t) { return std::max({t.a, t.b, t.c}) < tile.mesh.vertices.size(); };
+  const auto surface_exists = [&](std::uint32_t s) {
+    return s < tile.surfaces.size() &&
+           (tile.surfaces[s].building == no_building || tile.surfaces[s].building < tile.buildings.size());
+  };
+  return std::all_of(tile.mesh.vertices.begin(), tile.mesh.vertices.end(), vertex_is_finite) &&
+         std::all_of(tile.mesh.triangles.begin(), tile.mesh.triangles.end(), vertices_exist) &&
+         std::all_of(tile.triangle_surfaces.begin(), tile.triangle_surfaces.end(), surface_exists);
+}
+
+bool is_sound(const BlockTiles& tiles, const Bytes& bytes) {
+  for (std::size_t n = 0; n < static_cast<std::size_t>(SmallPackage::cells_of_two.size()); ++n)
+    if (!tile_is_sound(tiles.tile(SmallPackage::cells_of_two.cell_at(n)), bytes)) return false;
+  return std::all_of(tiles.buildings().begin(), tiles.buildings().end(), [&](const BuildingRecord& b) {
+    const std::string_view id = tiles.id_of(b);
+    return lies_within(std::span(id.data(), id.size()), bytes);
+  });
+}
+
+enum class Outcome { refused, sound, unsound };
+
+Outcome outcome_of(const Bytes& bytes) {
+  try {
+    return is_sound(BlockTiles(bytes, SmallPackage::cells_of_two, "tiles.bin"), bytes) ? Outcome::sound : Outcome::unsound;
+  } catch (const PackageDamaged&) {
+  } catch (const PackageUnusable&) {
+  }
+  return Outcome::refused;
+}
+
+TEST(Package, EachFlippedByteOfTilesIsRefusedOrHarmless) {
+  Bytes bytes = bytes_of(SmallPackage().file(SmallPackage::two_cells, tiles_file));
+  ASSERT_EQ(outcome_of(bytes), Outcome::sound);
+  std::size_t refused = 0;
+  for (std::size_t n = 0; n < bytes.size(); ++n)
+    for (const std::byte change : changes) {
+      bytes[n] ^= change;
+      const Outcome outcome = outcome_of(bytes);
+      EXPECT_NE(outcome, Outcome::unsound) << "byte " << n << " ^ " << static_cast<int>(change);
+      refused += outcome == Outcome::refused ? 1U : 0U;
+      bytes[n] ^= change;
+    }
+  // Magic, version and length alone are 20 bytes
+  EXPECT_GT(refused, 20 * std::size(changes));
+}
+
+TEST(Package, EachFlippedByteOfTheManifestIsRefusedOrHarmless) {
+  const SmallPackage small;
+  const auto path = small.folder() / manifest_file;
+  Bytes bytes = bytes_of(path);
+  for (std::size_t n = 0; n < bytes.size(); ++n)
+    for (const std::byte change : {std::byte{0x01}, std::byte{0x10}, std::byte{0x80}}) {
+      bytes[n] ^= change;
+      write_bytes(path, bytes);
+      try {
+        const Manifest m = read_manifest(small.folder());
+        EXPECT_EQ(m.blocks.size(), m.grid.blocks().size());
+        EXPECT_TRUE(m.grid.cells.size() > 0 && m.grid.cell_edge_m > 0 && m.far_map_rows > 0);
+      } catch (const PackageDamaged&) {
+      } catch (const PackageUnusable&) {
+      }
+      bytes[n] ^= change;
+    }
+}
+
+}  // namespace
+}  // namespace farlod

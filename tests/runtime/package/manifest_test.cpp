@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "package/manifest_reader.hpp"
+#include "package/package.hpp"
+#include "tests/runtime/package/small_package.hpp"
+
+namespace farlod {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+std::string damage_of(const SmallPackage& small, const json& manifest) {
+  small.write_manifest(manifest);
+  return damage_met_by([&] { (void)read_manifest(small.folder()); });
+}
+
+/// Every place in the manifest, down to the single numbers.
+void collect_places(const json& j, const json::json_pointer& here, std::vector<json::json_pointer>& places) {
+  if (!here.empty()) places.push_back(here);
+  if (j.is_object())
+    for (const auto& [key, value] : j.items()) collect_places(value, here / key, places);
+  if (j.is_array())
+    for (std::size_t n = 0; n < j.size(); ++n) collect_places(j[n], here / n, places);
+}
+
+std::vector<json::json_pointer> places_of(const json& manifest) {
+  std::vector<json::json_pointer> places;
+  collect_places(manifest, json::json_pointer(), places);
+  return places;
+}
+
+TEST(Package, ManifestMissing) {
+  const SmallPackage small;
+  std::filesystem::remove(small.folder() / package::manifest_file);
+  EXPECT_THROW((void)Package(small.folder()), PackageUnusable);
+  EXPECT_THROW((void)Package(small.folder() / "nothing here"), PackageUnusable);
+}
+
+TEST(Package, ManifestIsAFolder) {
+  const SmallPackage small;
+  std::filesystem::remove(small.folder() / package::manifest_file);
+  std::filesystem::create_directory(small.folder() / package::manifest_file);
+  EXPECT_NE(damage_met_by([&] { (void)Package(small.folder()); }), "no damage");
+}
+
+TEST(Package, ManifestTruncated) {
+  const SmallPackage small;
+  const auto path = small.folder() / package::manifest_file;
+  const Bytes whole = bytes_of(path);
+  // All but the line feed at its end is needed
+  for (std::size_t cut = 0; cut + 1 < whole.size(); ++cut) {
+    write_bytes(path, std::span(whole).first(cut));
+    EXPECT_THAT(damage_met_by([&] { (void)read_manifest(small.folder()); }), HasSubstr("manifest.json is damaged")) << cut;
+  }
+}
+
+TEST(Package, ManifestOfNewerVersion) {
+  const SmallPackage small;
+  for (const std::uint64_t version : {std::uint64_t{2}, std::uint64_t{0xFFFFFFFF}}) {
+    json m = small.manifest();
+    m["version"] = version;
+    m.erase("grid");  // a later version may say it otherwise
+    small.write_manifest(m);
+    EXPECT_THROW((void)read_manifest(small.folder()), PackageUnusable) << version;
+  }
+}
+
+TEST(Package, ManifestOfNoVersion) {
+  const SmallPackage small;
+  // The last would be 1, were it cut to 32 bits
+  for (const json& version : {json(0), json(-1), json("1"), json(1.5), json(true), json((std::uint64_t{1} << 32) + 1)}) {
+    json m = small.manifest();
+    m["version"] = version;
+    EXPECT_NE(damage_of(small, m), "no damage") << version;
+  }
+}
+
+TEST(Package, ManifestWithMissingKey) {
+  const SmallPackage small;
+  const json whole = small.manifest();
+  ASSERT_EQ(damage_of(small, whole), "no damage");
+  for (const json::json_pointer& place : places_of(whole)) {
+    json m = whole;
+    json& parent = m[place.parent_pointer()];
+    if (parent.is_object()) parent.erase(place.back());
+    if (parent.is_array()) parent.erase(static_cast<std::size_t>(std::stoul(place.back())));
+    if (place == json::json_pointer("/inputs/0")) continue;  // the list of inputs may be of any length
+    EXPECT_NE(damage_of(small, m), "no damage") << place;
+  }
+}
+
+TEST(Package, ManifestWithSomethingElseInAPlace) {
+  const SmallPackage small;
+  const json whole = small.manifest();
+  for (const json::json_pointer& place : places_of(whole))
+    for (const json& other : {json::object({{"a", 1}}), json(true)}) {
+      json m = whole;
+      m[place] = other;
+      // A count of problems by code is an object itself, but "a" is no code
+      EXPECT_NE(damage_of(small, m), "no damage") << place << " = " << other;
+    }
+}
+
+TEST(Package, ManifestWithAFractionForAWholeNumber) {
+  const SmallPackage small;
+  const json whole = small.manifest();
+  for (const json::json_pointer& place : places_of(whole)) {
+    if (!whole[place].is_number_integer()) continue;
+    json m = whole;
+    m[place] = whole[place].get<double>() + 0.5;
+    EXPECT_NE(damage_of(small, m), "no damage") << place;
+  }
+}
+
+TEST(Package, ManifestWithAnImpossibleGrid) {
+  const SmallPackage small;
+  const std::int64_t most = std::numeric_limits<std::int32_t>::max(), least = std::numeric_limits<std::int32_t>::min();
+  // Too many cells to list, differences that do not fit 32 bits, an empty range
+  const json ranges[] = {{0, 0, 1 << 29, 1 << 29},
+                         {0, 0, 100000, 100000},
+                         {least, least, most, most},
+                         {-1000000000, 0, most, 1},
+                         {0, 0, 3, most},
+                         {3, 0, 3, 1},
+                         {5, 0, 3, 1},
+                         {5, 5, 3, 3},
+                         {0, 0, 3, std::int64_t{1} << 32},
+                         {0, 0, std::int64_t{1} << 40, 1},
+                         {0, 0, 3},
+                         {0, 0, 3, 1, 1}};
+  for (const json& cells : ranges)
+    for (const int block_edge : {1, 2, 4096}) {
+      json m = small.manifest();
+      m["grid"]["cells"] = cells;
+      m["grid"]["block_edge"] = block_edge;
+      EXPECT_NE(damage_of(small, m), "no damage") << cells << ", blocks of " << block_edge;
+      m["grid"]["cells"] = {0, 0, 3, 1};
+      m["grid"]["block_edge"] = 2;
+      small.write_manifest(m);
+    }
+}
+
+TEST(Package, ManifestWithImpossibleSettings) {
+  const SmallPackage small;
+  const json whole = small.manifest();
+  const std::pair<const char*, json> changes[] = {{"/format", "other"},
+                                                  {"/grid/cell_m", 0.0},
+                                                  {"/grid/cell_m", -20.0},
+                                                  {"/grid/cell_m", 20.1},
+                                                  {"/grid/cell_m", 1e-30},
+                                                  {"/grid/cell_m", 1e300},
+                                                  {"/grid/neighborhood", 0},
+                                                  {"/grid/neighborhood", 2},
+                                                  {"/grid/neighborhood", -1},
+                                                  {"/grid/block_edge", 0},
+                                                  {"/grid/block_edge", 3},
+                                                  {"/grid/block_edge", 100000},
+                                                  {"/settings/assign", "somehow"},
+                                                  {"/settings/far_map/kind", "globe"},
+                                                  {"/settings/far_map/rows", 0},
+                                                  {"/settings/far_map/rows", 4000000000U},
+                                                  {"/settings/far_map/side_columns", 0},
+                                                  {"/settings/far_map/side_columns", 1 << 30},
+                                                  {"/blocks/0/i", 1},
+                                                  {"/blocks/0/tiles/xxh3", "xyz"},
+                                                  {"/blocks/0/tiles/xxh3", ""},
+                                                  {"/blocks/0/tiles/xxh3", "00000000000000000f0"},
+                                                  {"/blocks/0/tiles/bytes", -1},
+                                                  {"/crs/epsg", std::int64_t{1} << 33},
+                                                  {"/frame/origin_m/0", 1e300},
+                                                  {"/frame/origin_m/1", -2e9},
+                                                  {"/frame/height_origin_m", 1e12},
+                                                  {"/counts/buildings", -1}};
+  for (const auto& [place, value] : changes) {
+    json m = whole;
+    m[json::json_pointer(place)] = value;
+    const std::string damage = damage_of(small, m);
+    const bool harmless = std::string(place) == "/blocks/0/tiles/xxh3" && value == "00000000000000000f0";
+    EXPECT_EQ(damage == "no damage", harmless) << place << " = " << value << ": " << damage;
+  }
+}
+
+TEST(Package, ManifestThatIsNotJson) {
+  const SmallPackage small;
+  const auto path = small.folder() / package::manifest_file;
+  for (const std::string text : {"", "[]", "null", "7", "{}", "\xFF\xFE", "{\"frame\": {\"height_origin_m\": 1e999}}"}) {
+    write_bytes(path, std::as_bytes(std::span(text)));
+    EXPECT_NE(damage_met_by([&] { (void)read_manifest(small.folder()); }), "no damage") << text;
+  }
+}
+
+TEST(Package, UnknownKeysOfTheManifestAreSkipped) {
+  const SmallPackage small;
+  json m = small.manifest();
+  m["weather"] = {{"wind", 3}};
+  m["grid"]["colour"] = "grey";
+  m["blocks"][0]["tiles"]["crc"] = 1;
+  EXPECT_EQ(damage_of(small, m), "no damage");
+}
+
+TEST(Package, EachKeyOfTheManifestIsDocumented) {
+  std::ifstream file(std::string(FARLOD_SOURCE_DIR) + "/docs/package_format.md");
+  const std::string document{std::istreambuf_iterator<char>(file), {}};
+  const json m = SmallPackage().manifest();
+  for (const json::json_pointer& place : places_of(m)) {
+    if (m[place].is_structured() && !m[place].is_array()) continue;
+    std::string key;
+    for (json::json_pointer p = place; !p.empty(); p.pop_back()) {
+      const bool is_index = p.back().find_first_not_of("0123456789") == std::string::npos;
+      key = (is_index ? "[]" : "." + p.back()) + key;
+    }
+    key.erase(0, 1);
+    // The table has one row for a list of numbers, and one for a stamp
+    if (key.ends_with("[]") || (key.starts_with("blocks[].") && key.find('.', 9) != std::string::npos)) continue;
+    if (key == "inputs" || key == "blocks") continue;
+    EXPECT_NE(document.find("`" + key + "`"), std::string::npos) << "docs/package_format.md lacks " << key;
+  }
+}
+
+}  // namespace
+}  // namespace farlod

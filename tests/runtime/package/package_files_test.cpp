@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "package/package.hpp"
+#include "tests/runtime/package/small_package.hpp"
+
+// A package whose files are not those that its manifest tells of.
+
+namespace farlod {
+namespace {
+
+using package::far_map_file;
+using package::tiles_file;
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// What a user meets who asks for everything.
+std::string damage_of(const SmallPackage& small) {
+  return damage_met_by([&] {
+    const Package package(small.folder());
+    for (const Cell cell : {Cell{0, 0}, {1, 0}, {2, 0}}) (void)package.far_map(cell);
+  });
+}
+
+void append_byte(const std::filesystem::path& file) {
+  Bytes bytes = bytes_of(file);
+  bytes.push_back({});
+  write_bytes(file, bytes);
+}
+
+TEST(Package, UndamagedOpens) {
+  const SmallPackage small;
+  EXPECT_EQ(damage_of(small), "no damage");
+  small.stamp_anew();
+  EXPECT_EQ(damage_of(small), "no damage");
+}
+
+TEST(Package, ChecksumMismatch) {
+  for (const char* name : {tiles_file, far_map_file})
+    for (const double place : {0.0, 0.5, 0.999}) {
+      const SmallPackage small;
+      const auto file = small.file(SmallPackage::one_cell, name);
+      Bytes bytes = bytes_of(file);
+      bytes[static_cast<std::size_t>(place * static_cast<double>(bytes.size()))] ^= std::byte{1};
+      write_bytes(file, bytes);
+      EXPECT_THAT(damage_of(small), AllOf(HasSubstr(file.string()), HasSubstr("checksum")));
+    }
+}
+
+TEST(Package, SizeMismatch) {
+  for (const char* name : {tiles_file, far_map_file}) {
+    const SmallPackage small;
+    append_byte(small.file(SmallPackage::two_cells, name));
+    EXPECT_THAT(damage_of(small), AllOf(HasSubstr(name), HasSubstr("bytes, the manifest says")));
+  }
+}
+
+TEST(Package, MissingFile) {
+  for (const char* name : {tiles_file, far_map_file}) {
+    const SmallPackage small;
+    const auto file = small.file(SmallPackage::one_cell, name);
+    std::filesystem::remove(file);
+    EXPECT_THAT(damage_of(small), HasSubstr(file.string()));
+    std::filesystem::create_directory(file);
+    EXPECT_THAT(damage_of(small), HasSubstr(file.string()));
+  }
+}
+
+TEST(Package, EmptyFile) {
+  for (const char* name : {tiles_file, far_map_file}) {
+    const SmallPackage small;
+    write_bytes(small.file(SmallPackage::one_cell, name), {});
+    EXPECT_THAT(damage_of(small), HasSubstr("has 0 bytes"));
+    small.stamp_anew();
+    EXPECT_THAT(damage_of(small), HasSubstr(name));
+  }
+}
+
+TEST(Package, TilesOfAnotherBlock) {
+  const SmallPackage small;
+  write_bytes(small.file(SmallPackage::two_cells, tiles_file), bytes_of(small.file(SmallPackage::one_cell, tiles_file)));
+  small.stamp_anew();
+  EXPECT_THAT(damage_of(small), HasSubstr("does not hold the cells of its block"));
+}
+
+TEST(Package, FarMapsOfAnotherBlock) {
+  const SmallPackage small;
+  write_bytes(small.file(SmallPackage::two_cells, far_map_file), bytes_of(small.file(SmallPackage::one_cell, far_map_file)));
+  EXPECT_THAT(damage_of(small), HasSubstr("far.exr is damaged"));
+  small.stamp_anew();
+  EXPECT_THAT(damage_of(small), HasSubstr("does not hold a map for each cell"));
+}
+
+TEST(Package, FarMapsOfAnotherSize) {
+  const SmallPackage small;
+  nlohmann::json m = small.manifest();
+  m["settings"]["far_map"]["rows"] = 8;
+  small.write_manifest(m);
+  EXPECT_THAT(damage_of(small), HasSubstr("not of the size that the manifest says"));
+}
+
+TEST(Package, FarMapsTruncated) {
+  const SmallPackage small;
+  const auto file = small.file(SmallPackage::two_cells, far_map_file);
+  const Bytes whole = bytes_of(file);
+  for (std::size_t cut = 0; cut < whole.size(); cut += 13) {
+    write_bytes(file, std::span(whole).first(cut));
+    small.stamp_anew();
+    EXPECT_THAT(damage_of(small), HasSubstr(file.string())) << cut << " of " << whole.size();
+  }
+}
+
+TEST(Package, FarMapsThatAreAnotherPicture) {
+  const SmallPackage small;
+  const std::string text = "P3 1 1 255 0 0 0";
+  write_bytes(small.file(SmallPackage::one_cell, far_map_file), std::as_bytes(std::span(text)));
+  small.stamp_anew();
+  EXPECT_THAT(damage_of(small), HasSubstr("cannot be read as a far map"));
+}
+
+TEST(Package, WhatIsNotAskedForIsNotOpened) {
+  const SmallPackage small;
+  std::filesystem::remove(small.file(SmallPackage::one_cell, tiles_file));
+  const Package package(small.folder());
+  EXPECT_GT(package.tile({0, 0}).mesh.triangles.size(), 0U);
+  EXPECT_THROW((void)package.tile({2, 0}), PackageDamaged);
+  EXPECT_THROW((void)package.tile({2, 0}), PackageDamaged) << "asking again must not help";
+}
+
+}  // namespace
+}  // namespace farlod

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "receivers/raster_receivers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/scenes/packed_city.hpp"
+#include "tests/scenes/scene_builder.hpp"
+
+namespace farlod {
+namespace {
+
+TEST(RasterPlan, BeginsAtMultiplesOfTheStep) {
+  const package::Manifest m;
+  for (const double step_m : {0.5, 2.0, 30.0}) {
+    const RasterPlan plan = plan_raster(m, step_m, Box2d{{-1003.3, 17.7}, {-950.1, 98.2}});
+    EXPECT_EQ(std::remainder(plan.north_west_m.x, step_m), 0.0);
+    EXPECT_EQ(std::remainder(plan.north_west_m.y, step_m), 0.0);
+  }
+}
+
+TEST(RasterPlan, CoversWhatIsWantedAndNoPixelMore) {
+  const package::Manifest m;
+  for (const double step_m : {0.5, 2.0, 30.0}) {
+    const Box2d wanted{{-1003.3, 17.7}, {-950.1, 98.2}};
+    const RasterPlan plan = plan_raster(m, step_m, wanted);
+    const double east = plan.north_west_m.x + static_cast<double>(plan.columns) * step_m;
+    const double south = plan.north_west_m.y - static_cast<double>(plan.rows) * step_m;
+    EXPECT_TRUE(plan.north_west_m.x <= wanted.low.x && wanted.low.x < plan.north_west_m.x + step_m);
+    EXPECT_TRUE(plan.north_west_m.y >= wanted.high.y && wanted.high.y > plan.north_west_m.y - step_m);
+    EXPECT_TRUE(east >= wanted.high.x && wanted.high.x > east - step_m);
+    EXPECT_TRUE(south <= wanted.low.y && wanted.low.y < south + step_m);
+  }
+}
+
+TEST(RasterPlan, RunsFromTheNorthWest) {
+  const RasterPlan plan{{100.0, 200.0}, 2.0, 10, 10};
+  EXPECT_EQ(plan.centre_m(0, 0), (Point2d{101.0, 199.0}));
+  EXPECT_EQ(plan.centre_m(3, 4), (Point2d{107.0, 191.0}));
+}
+
+/// A small town on a turned grid, somewhere in the output CRS.
+class RasterOfATown : public testing::TestWithParam<double> {
+ protected:
+  RasterOfATown() : package_(packed(GetParam())), manifest_(package_.manifest()) { manifest_.origin_m = {1000.3, -2000.7}; }
+
+  Package packed(double bearing_deg) const {
+    scenes::SceneBuilder builder;
+    for (const double x : {0.0, 21.0, 43.0}) builder.add_box({{x, 0.5 * x}, {x + 11.0, 0.5 * x + 9.0}}, 0.0, 6.0);
+    const Grid grid = scenes::grid_covering(builder.city(), Angle::degrees(bearing_deg), 16.0, 1, 2);
+    scenes::pack_city(builder.city(), grid, folder_.path() / "town.farlod", {1, 1, 1.5});
+    return Package(folder_.path() / "town.farlod");
+  }
+
+  /// Every pixel in turn, without patches and ranges.
+  std::map<std::size_t, Point3f> one_by_one(const RasterPlan& plan, HeightAbove above, float height_m) const {
+    std::map<Cell, CellColumns> columns;
+    std::map<std::size_t, Point3f> result;
+    for (std::size_t n = 0; n < plan.columns * plan.rows; ++n) {
+      const Point2d p_grid = manifest_.grid_from_projected(plan.centre_m(n % plan.columns, n / plan.columns));
+      const Cell cell = package_.grid().cell_of(p_grid);
+      if (!package_.grid().cells.contains(cell)) continue;
+      const auto found = columns.try_emplace(cell, package_, cell).first;
+      const Point2d p = p_grid - package_.grid().corner_of(cell);
+      if (const auto standing = stand(found->second, static_cast<float>(p.x), static_cast<float>(p.y), above, height_m))
+        result[n] = *standing;
+    }
+    return result;
+  }
+
+  scenes::TemporaryFolder folder_;
+  Package package_;
+  package::Manifest manifest_;
+};
+
+TEST_P(RasterOfATown, CoversAllCells) {
+  const RasterPlan plan = plan_raster(manifest_, 3.0, std::nullopt);
+  const Box2d outline{{plan.north_west_m.x, plan.north_west_m.y - 3.0 * static_cast<double>(plan.rows)},
+                      {plan.north_west_m.x + 3.0 * static_cast<double>(plan.columns), plan.north_west_m.y}};
+  const CellRange& cells = package_.grid().cells;
+  for (const Cell corner : {Cell{cells.i_begin, cells.j_begin},
+                            {cells.i_end, cells.j_begin},
+                            {cells.i_begin, cells.j_end},
+                            {cells.i_end, cells.j_end}}) {
+    const Point2d p_grid = package_.grid().corner_of(corner);
+    EXPECT_TRUE(outline.contains(horizontal(manifest_.projected_from_grid({p_grid.x, p_grid.y, 0.0}))));
+  }
+}
+
+TEST_P(RasterOfATown, EachPixelBelongsToExactlyOneCell) {
+  for (const double step_m : {1.0, 3.7, 40.0})
+    for (const HeightAbove above : {HeightAbove::ground, HeightAbove::highest_surface}) {
+      const RasterPlan plan = plan_raster(manifest_, step_m, std::nullopt);
+      const RasterReceivers receivers(manifest_, plan);
+      std::map<std::size_t, Point3f> found;
+      for (const Cell cell : receivers.cells())
+        for (const Receiver& r : receivers.in_cell(package_, cell, above, 1.5F).receivers)
+          EXPECT_TRUE(found.emplace(r.index, r.p_cell).second) << "pixel " << r.index << " twice";
+      EXPECT_EQ(found, one_by_one(plan, above, 1.5F)) << step_m;
+    }
+}
+
+TEST_P(RasterOfATown, APartOfTheRasterHasTheSameReceivers) {
+  const RasterPlan whole = plan_raster(manifest_, 2.0, std::nullopt);
+  const Box2d wanted{whole.centre_m(5, 12), whole.centre_m(14, 4)};
+  const RasterPlan part = plan_raster(manifest_, 2.0, wanted);
+  const auto all = one_by_one(whole, HeightAbove::ground, 1.5F);
+  const RasterReceivers receivers(manifest_, part);
+  std::size_t count = 0;
+  for (const Cell cell : receivers.cells())
+    for (const Receiver& r : receivers.in_cell(package_, cell, HeightAbove::ground, 1.5F).receivers) {
+      const std::size_t column = r.index % part.columns + 5, row = r.index / part.columns + 4;
+      const auto same = all.find(row * whole.columns + column);
+      ASSERT_NE(same, all.end());
+      EXPECT_EQ(r.p_cell, same->second);
+      ++count;
+    }
+  EXPECT_GT(count, 0U);
+  EXPECT_EQ(std::pair(part.columns, part.rows), std::pair(std::size_t{10}, std::size_t{9}));
+}
+
+TEST_P(RasterOfATown, HousesHaveNoPixelsUnlessOneStandsOnThem) {
+  const RasterPlan plan = plan_raster(manifest_, 1.0, std::nullopt);
+  const auto street = one_by_one(plan, HeightAbove::ground, 1.5F), top = one_by_one(plan, HeightAbove::highest_surface, 1.5F);
+  EXPECT_LT(street.size(), top.size());
+  // A column's height is rounded a few times below 8 m
+  constexpr float rounding_m = 4 * 8.0F * std::numeric_limits<float>::epsilon();
+  for (const auto& [n, p_cell] : top) EXPECT_NEAR(p_cell.z, street.contains(n) ? 1.5F : 7.5F, rounding_m);
+}
+
+INSTANTIATE_TEST_SUITE_P(TurnedBy, RasterOfATown, testing::Values(0.0, 33.0, 90.0, -71.5));
+
+}  // namespace
+}  // namespace farlod

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/column.hpp"
+
+#include <gtest/gtest.h>
+
+// What a column concludes from the surfaces that it crosses.
+
+namespace farlod {
+namespace {
+
+constexpr std::uint32_t ground = package::no_building;
+constexpr Column::Crossing ground_at(float height_m) { return {height_m, ground, 0, true}; }
+constexpr Column::Crossing floor_at(float height_m, std::uint32_t building, std::uint16_t part = 0) {
+  return {height_m, building, part, false};
+}
+constexpr Column::Crossing roof_at(float height_m, std::uint32_t building, std::uint16_t part = 0) {
+  return {height_m, building, part, true};
+}
+
+TEST(Column, NothingHasNoHeights) {
+  const Column empty({});
+  EXPECT_EQ(empty.ground_m(), std::nullopt);
+  EXPECT_EQ(empty.highest_m(), std::nullopt);
+  EXPECT_FALSE(empty.is_inside_building(0.0F));
+}
+
+TEST(Column, AHouseStandsOnTheGround) {
+  const Column house({floor_at(0.9F, 4), ground_at(1.0F), roof_at(7.0F, 4)});
+  EXPECT_EQ(house.ground_m(), 1.0F);
+  EXPECT_EQ(house.highest_m(), 7.0F);
+  EXPECT_TRUE(house.is_inside_building(2.5F));
+  EXPECT_FALSE(house.is_inside_building(7.5F));
+  EXPECT_FALSE(house.is_inside_building(0.5F));
+}
+
+TEST(Column, WithoutGroundThereIsNoGroundHeight) {
+  const Column house({floor_at(0.0F, 4), roof_at(7.0F, 4)});
+  EXPECT_EQ(house.ground_m(), std::nullopt);
+  EXPECT_EQ(house.highest_m(), 7.0F);
+}
+
+TEST(Column, TheGroundEnclosesNothing) { EXPECT_FALSE(Column({ground_at(1.0F)}).is_inside_building(0.5F)); }
+
+TEST(Column, UnderABridgeIsOutside) {
+  const Column bridge({ground_at(0.0F), floor_at(5.0F, 4), roof_at(6.0F, 4)});
+  EXPECT_FALSE(bridge.is_inside_building(1.5F));
+  EXPECT_TRUE(bridge.is_inside_building(5.5F));
+  EXPECT_FALSE(bridge.is_inside_building(6.5F));
+  EXPECT_EQ(bridge.ground_m(), 0.0F);
+}
+
+TEST(Column, OverlappingBuildingsAreCountedApart) {
+  // Counted together, there would be two surfaces above, as under a bridge
+  const Column two({floor_at(0.0F, 4), floor_at(0.0F, 9), roof_at(6.0F, 4), roof_at(8.0F, 9)});
+  EXPECT_TRUE(two.is_inside_building(3.0F));
+  EXPECT_TRUE(two.is_inside_building(7.0F));
+  EXPECT_FALSE(two.is_inside_building(9.0F));
+}
+
+TEST(Column, OverlappingPartsOfABuildingAreCountedApart) {
+  const Column two({floor_at(0.0F, 4, 0), floor_at(0.0F, 4, 1), roof_at(6.0F, 4, 0), roof_at(8.0F, 4, 1)});
+  EXPECT_TRUE(two.is_inside_building(3.0F));
+  EXPECT_TRUE(two.is_inside_building(7.0F));
+}
+
+TEST(Column, AnEdgeThatTwoTrianglesShareIsOneSurface) {
+  const Column edge({floor_at(0.0F, 4), floor_at(0.0F, 4), roof_at(6.0F, 4), roof_at(6.00005F, 4)});
+  EXPECT_TRUE(edge.is_inside_building(3.0F));
+  EXPECT_FALSE(edge.is_inside_building(7.0F));
+}
+
+TEST(Column, AThinSlabIsTwoSurfaces) {
+  // Millimetres apart, but looking up and down: two surfaces above, hence outside
+  const Column slab({floor_at(5.0F, 4), roof_at(5.0003F, 4)});
+  EXPECT_FALSE(slab.is_inside_building(3.0F));
+}
+
+TEST(Column, FloorsWithinABuildingDoNotMatter) {
+  const Column storeys({floor_at(0.0F, 4), floor_at(3.0F, 4), roof_at(3.2F, 4), roof_at(6.0F, 4)});
+  EXPECT_TRUE(storeys.is_inside_building(1.0F));
+  EXPECT_TRUE(storeys.is_inside_building(5.0F));
+}
+
+}  // namespace
+}  // namespace farlod
