@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "console/exit_code.hpp"
+#include "farlod/version.hpp"
+#include "tests/acceptance/packed_town.hpp"
+
+namespace farlod::acceptance {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string a_place() { return text_of(p_projected({-60.0, 0.0})); }
+
+std::vector<std::string> keys_of(const nlohmann::json& object) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.push_back(key);
+  return keys;
+}
+
+struct Program {
+  const char* name;
+  std::vector<const char*> options;
+};
+
+class EachProgram : public testing::TestWithParam<Program> {
+ protected:
+  WorkFolder folder;
+};
+
+TEST_P(EachProgram, TellsItsVersion) {
+  const Outcome outcome = folder.run(std::string(GetParam().name) + " --version");
+  EXPECT_EQ(outcome.exit_code, exit_done);
+  EXPECT_EQ(outcome.out, std::string(GetParam().name) + " " + software_version + "\n");
+}
+
+TEST_P(EachProgram, HelpBeginsWithWhatItIsAndWhatToTry) {
+  const Outcome outcome = folder.run(std::string(GetParam().name) + " --help");
+  EXPECT_EQ(outcome.exit_code, exit_done);
+  EXPECT_THAT(outcome.out, StartsWith(std::string(GetParam().name) + " — "));
+  const std::vector<std::string> lines = lines_of(outcome.out);
+  ASSERT_GT(lines.size(), 3U);
+  EXPECT_EQ(lines[2], "Try this first:");
+  EXPECT_THAT(lines[3], StartsWith("  " + std::string(GetParam().name) + " "));
+  for (const char* option : GetParam().options) EXPECT_THAT(outcome.out, HasSubstr(option));
+  EXPECT_THAT(outcome.out, HasSubstr("Exit codes: 0 done"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Options, EachProgram,
+    testing::Values(Program{"farlod-pack", {"--crs",          "--out-crs",        "--origin",  "--up",      "--height-field",
+                                            "--base-field",   "--default-height", "--lod",     "--terrain", "--cell",
+                                            "--neighborhood", "--align",          "--assign",  "--far-map", "--output",
+                                            "--force",        "--report",         "--summary", "--quiet",   "--threads",
+                                            "--config",       "--version"}},
+                    Program{"farlod-svf",
+                            {"--grid",       "--points", "--surfaces", "--at",      "--height",  "--on-surface", "--spacing",
+                             "--points-crs", "--bbox",   "--output",   "--preview", "--summary", "--engine",     "--rays",
+                             "--sky",        "--verify", "--quiet",    "--threads", "--config",  "--version"}}),
+    [](const auto& program) { return program.param.name + 7; });  // what follows "farlod-"
+
+TEST_F(PackedTown, QuietSaysNothing) {
+  for (const std::string command :
+       {"farlod-pack town.geojson -o b.farlod --quiet", "farlod-svf a.farlod -o o.asc --grid 10 --verify 5 --quiet"}) {
+    const Outcome outcome = folder.run(command);
+    EXPECT_EQ(outcome.exit_code, exit_done);
+    EXPECT_EQ(outcome.out + outcome.err, "") << command;
+  }
+}
+
+TEST_F(PackedTown, OptionsMayComeFromAFile) {
+  folder.write("pack.toml", "cell = 25\nneighborhood = 5\nquiet = true\n");
+  folder.must("farlod-pack town.geojson -o from_file.farlod --config pack.toml --summary from_file.json");
+  EXPECT_EQ(folder.json_of("from_file.json").at("cell_m"), 25.0);
+  EXPECT_EQ(folder.json_of("from_file.json").at("neighborhood"), 5);
+  folder.write("svf.toml", "rays = 500\nheight = 3.0\non-surface = true\n");
+  folder.must("farlod-svf a.farlod -o from_file.csv --config svf.toml --at " + a_place());
+  folder.must("farlod-svf a.farlod -o typed.csv --rays 500 --height 3 --on-surface --at " + a_place());
+  EXPECT_EQ(folder.text_of("from_file.csv"), folder.text_of("typed.csv"));
+}
+
+TEST_F(PackedTown, WhatIsTypedWinsOverTheFile) {
+  folder.write("pack.toml", "cell = 25\n");
+  folder.must("farlod-pack town.geojson -o b.farlod --config pack.toml --cell 40 --summary s.json");
+  EXPECT_EQ(folder.json_of("s.json").at("cell_m"), 40.0);
+}
+
+TEST_F(PackedTown, SummaryOfPackHasAllKeys) {
+  folder.must("farlod-pack town.geojson -o b.farlod --summary s.json");
+  const nlohmann::json summary = folder.json_of("s.json");
+  for (const char* key : {"buildings", "polygons", "triangles", "problems", "cells", "grid_rotation_deg", "alignment_strength",
+                          "cell_m", "neighborhood", "seconds", "peak_memory_mib", "package_bytes", "far_map_bytes"})
+    EXPECT_TRUE(summary.contains(key)) << key;
+  EXPECT_EQ(summary.at("buildings"), 36);
+  EXPECT_EQ(summary.at("polygons"), 36 * 6);
+  EXPECT_EQ(summary.at("problems"), 0);
+  EXPECT_NEAR(summary.at("grid_rotation_deg"), town_bearing.degrees(), 0.01);
+  EXPECT_GT(summary.at("alignment_strength"), 0.9);
+  EXPECT_LE(summary.at("far_map_bytes"), summary.at("package_bytes"));
+  EXPECT_GT(summary.at("peak_memory_mib"), 1.0);
+}
+
+TEST_F(PackedTown, SecondsOfThePackStagesAddUpToTheTotal) {
+  folder.must("farlod-pack town.geojson -o b.farlod --summary s.json");
+  const nlohmann::json seconds = folder.json_of("s.json").at("seconds");
+  EXPECT_THAT(keys_of(seconds),
+              testing::IsSupersetOf({"total", "ingest", "georeference", "align", "tiles", "far_maps", "package"}));
+  double sum = 0.0;
+  for (const auto& [stage, value] : seconds.items()) sum += stage == "total" ? 0.0 : value.get<double>();
+  EXPECT_GT(sum, 0.0);
+  EXPECT_LE(sum, seconds.at("total"));
+}
+
+TEST_F(PackedTown, SummaryOfSvfHasAllKeys) {
+  folder.must("farlod-svf a.farlod -o o.asc --grid 10 --verify 20 --summary s.json");
+  const nlohmann::json summary = folder.json_of("s.json");
+  for (const char* key :
+       {"receivers", "nodata", "engine", "seconds", "receivers_per_second", "rays", "peak_memory_mib", "svf", "verify"})
+    EXPECT_TRUE(summary.contains(key)) << key;
+  EXPECT_THAT(keys_of(summary.at("seconds")), testing::UnorderedElementsAre("total", "open", "scenes", "evaluate", "write"));
+  EXPECT_THAT(keys_of(summary.at("svf")), testing::UnorderedElementsAre("min", "mean", "max"));
+  EXPECT_THAT(keys_of(summary.at("verify")),
+              testing::UnorderedElementsAre("count", "rays", "mean_abs_error", "p99_abs_error", "max_abs_error", "bias"));
+  const RasterFile map = raster("o.asc");
+  EXPECT_EQ(summary.at("receivers").get<std::size_t>() + summary.at("nodata").get<std::size_t>(), map.values.size());
+  EXPECT_EQ(summary.at("rays"), default_rays);
+  EXPECT_GT(summary.at("receivers_per_second"), 0.0);
+}
+
+TEST_F(PackedTown, SummaryTellsTheFiguresOfTheMap) {
+  folder.must("farlod-svf a.farlod -o o.asc --grid 10 --summary s.json");
+  double low = 1.0, high = 0.0, sum = 0.0, count = 0.0;
+  for (const auto& value : raster("o.asc").values) {
+    if (!value) continue;
+    low = std::min(low, *value);
+    high = std::max(high, *value);
+    sum += *value;
+    count += 1.0;
+  }
+  const nlohmann::json svf = folder.json_of("s.json").at("svf");
+  const double rounding = 1e-7;  // a float below 1, next to its shortest decimal
+  EXPECT_NEAR(svf.at("min"), low, rounding);
+  EXPECT_NEAR(svf.at("max"), high, rounding);
+  EXPECT_NEAR(svf.at("mean"), sum / count, rounding);
+}
+
+TEST_F(PackedTown, SummaryNamesTheEngine) {
+  for (const char* engine : {"auto", "rays", "exact"}) {
+    folder.must(std::string("farlod-svf a.farlod -o o.csv --summary s.json --at ") + a_place() + " --engine " + engine);
+    const std::string told = folder.json_of("s.json").at("engine");
+    if (std::string(engine) == "auto") {
+      EXPECT_THAT(told, testing::AnyOf("rays", "horizon"));
+    }
+    if (std::string(engine) != "auto") {
+      EXPECT_EQ(told, engine);
+    }
+    EXPECT_FALSE(folder.json_of("s.json").contains("verify"));
+  }
+}
+
+TEST_F(PackedTown, TheSameCityGivesTheSamePackage) {
+  folder.must("farlod-pack town.geojson -o one.farlod --threads 1");
+  folder.must("farlod-pack town.geojson -o four.farlod --threads 4");
+  EXPECT_EQ(folder.run("diff -r one.farlod four.farlod").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace farlod::acceptance

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "console/exit_code.hpp"
+#include "tests/acceptance/packed_town.hpp"
+#include "tests/analytic/tolerance.hpp"
+
+namespace farlod::acceptance {
+namespace {
+
+/// In the middle of a crossing of two streets, with the far city on all sides.
+const Point2d crossing = p_projected({-60.0, 0.0});
+
+TEST_F(PackedTown, APointFarFromTheCitySeesTheWholeSky) {
+  // Ten kilometres away the town stands 0.5° high at most, which hides sin²(0.5°) of the view factor: no ray in 1,000
+  EXPECT_EQ(svf_at(text_of(town_middle + Point2d{10000.0, 0.0})), 1.0);
+}
+
+TEST(TwoBlocks, APointNextToThemButOutsideOfTheGridIsExact) {
+  const WorkFolder folder;
+  folder.write("town.geojson", footprints_geojson({{"low", {}, 20.0, 10.0}, {"high", {60.0, 0.0}, 20.0, 40.0}}));
+  folder.must("farlod-pack town.geojson -o a.farlod --cell 10");
+  // The grid ends within one cell of the outermost wall; this point is 12 m away from it
+  const std::string place = text_of(p_projected({-22.0, 3.0}));
+  const Outcome outcome = folder.run("farlod-svf a.farlod -o o.csv --at " + place);
+  EXPECT_NE(outcome.out.find("outside of the grid"), std::string::npos) << outcome.out;
+  folder.must("farlod-svf a.farlod -o exact.csv --engine exact --at " + place);
+  EXPECT_EQ(folder.text_of("o.csv"), folder.text_of("exact.csv"));
+  EXPECT_LT(CsvTable(folder.text_of("o.csv")).number(0, "svf"), 1.0);
+}
+
+TEST_F(PackedTown, AtStandsAboveTheGroundUnlessItHasAHeight) {
+  folder.must("farlod-svf a.farlod -o o.csv --at " + text_of(crossing));
+  EXPECT_EQ(table("o.csv").number(0, "z_m"), 1.5);
+  folder.must("farlod-svf a.farlod -o o.csv --height 3 --at " + text_of(crossing));
+  EXPECT_EQ(table("o.csv").number(0, "z_m"), 3.0);
+  folder.must("farlod-svf a.farlod -o o.csv --at " + text_of(Point3d{crossing.x, crossing.y, 12.0}));
+  EXPECT_EQ(table("o.csv").number(0, "z_m"), 12.0);
+}
+
+TEST_F(PackedTown, TheHigherTheMoreSky) {
+  const double low = svf_at(text_of(Point3d{crossing.x, crossing.y, 1.5}), "--engine exact");
+  const double high = svf_at(text_of(Point3d{crossing.x, crossing.y, 15.0}), "--engine exact");
+  EXPECT_LT(low, high);
+  EXPECT_EQ(svf_at(text_of(Point3d{crossing.x, crossing.y, tower_height_m + 1.0}), "--engine exact"), 1.0);
+}
+
+TEST_F(PackedTown, InsideABuildingThereIsNoAnswer) {
+  const Point2d inside = p_projected(small_town().front().centre);
+  folder.must("farlod-svf a.farlod -o o.csv --summary s.json --at " + text_of(inside));
+  EXPECT_EQ(table("o.csv").text(0, "svf"), "");
+  EXPECT_EQ(folder.json_of("s.json").at("nodata"), 1);
+}
+
+TEST_F(PackedTown, OnTheSurfaceAReceiverStandsOnTheRoof) {
+  const Block tower = tower_of(small_town());
+  folder.must("farlod-svf a.farlod -o o.csv --engine exact --on-surface --at " + text_of(p_projected(tower.centre)));
+  EXPECT_EQ(table("o.csv").number(0, "z_m"), tower_height_m + 1.5);
+  EXPECT_EQ(table("o.csv").number(0, "svf"), 1.0);
+}
+
+TEST_F(PackedTown, AReceiverOnTheVerySurfaceDoesNotSeeTheSurface) {
+  const std::string roof = text_of(p_projected(tower_of(small_town()).centre));
+  EXPECT_EQ(svf_at(roof, "--engine exact --on-surface --height 0"), 1.0);
+  // A hand above the ground differs from the ground by what stands less than a hand above the horizon
+  const double tolerance = sampling_error(default_rays, 4.0);
+  EXPECT_NEAR(svf_at(text_of(crossing), "--height 0"), svf_at(text_of(crossing), "--height 0.1"), tolerance);
+}
+
+TEST_F(PackedTown, PointsOfATableAreThoseOfAt) {
+  const Point2d street = p_projected({30.0, 0.0});
+  folder.write("p.csv", "id,x,y,z\nfirst," + text_of(crossing) + ",\nsecond," + text_of(street) + ",20\n");
+  folder.must("farlod-svf a.farlod -o o.csv --points p.csv");
+  const CsvTable answers = table("o.csv");
+  ASSERT_EQ(answers.size(), 2U);
+  EXPECT_EQ(answers.header(), (std::vector<std::string>{"id", "x_m", "y_m", "z_m", "svf"}));
+  EXPECT_EQ(answers.text(0, "id"), "first");
+  EXPECT_EQ(answers.text(1, "id"), "second");
+  EXPECT_EQ(answers.number(0, "svf"), svf_at(text_of(crossing)));
+  EXPECT_EQ(answers.number(1, "svf"), svf_at(text_of(Point3d{street.x, street.y, 20.0})));
+}
+
+#ifdef FARLOD_WITH_GDAL
+TEST_F(PackedTown, PointsInDegreesAreProjected) {
+  // On the central meridian the easting is 500 km sharp, and 0.001° of latitude are 111.2 m (times UTM's 0.9996) at 50° north
+  folder.write("p.csv", "lon,lat\n9,49.65\n9,49.651\n");
+  folder.must("farlod-svf a.farlod -o o.csv --points p.csv --points-crs EPSG:4326");
+  const CsvTable answers = table("o.csv");
+  ASSERT_EQ(answers.size(), 2U);
+  for (std::size_t n = 0; n < 2; ++n) {
+    EXPECT_EQ(answers.number(n, "x_m"), 500000.0);
+    EXPECT_EQ(answers.number(n, "svf"), svf_at(answers.text(n, "x_m") + "," + answers.text(n, "y_m")));
+  }
+  const double millimetre = 0.001;
+  EXPECT_NEAR(answers.number(1, "y_m") - answers.number(0, "y_m"), 111.23 * 0.9996, 10.0 * millimetre);
+}
+#endif
+
+TEST_F(PackedTown, MoreRaysComeCloserToTheTruth) {
+  const double fine = svf_at(text_of(crossing), "--engine exact --rays 100000");
+  // The edge of the sky between roofs is shorter than twice the circle's circumference here
+  const double border = 4.0 * std::numbers::pi;
+  for (const std::size_t rays : {100U, 1000U, 10000U}) {
+    const double svf = svf_at(text_of(crossing), "--engine exact --rays " + std::to_string(rays));
+    EXPECT_NEAR(svf, fine, sampling_error(rays, border) + sampling_error(100000, border)) << rays;
+    const double free_rays = svf * static_cast<double>(rays);
+    EXPECT_NEAR(free_rays, std::round(free_rays), half_of_last_digit * static_cast<double>(rays)) << rays;
+  }
+}
+
+TEST_F(PackedTown, SolidAngleIsAnotherQuantityUnderAnotherName) {
+  const double cosine = svf_at(text_of(crossing));
+  folder.must("farlod-svf a.farlod -o o.csv --sky solid --at " + text_of(crossing));
+  EXPECT_EQ(table("o.csv").header().back(), "svf_solid");
+  // A horizon at the elevation e leaves 1 − sin e of the solid angle, but 1 − sin² e of the view factor
+  EXPECT_LT(table("o.csv").number(0, "svf_solid"), cosine);
+}
+
+}  // namespace
+}  // namespace farlod::acceptance

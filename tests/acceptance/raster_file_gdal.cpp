@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "tests/acceptance/raster_file.hpp"
+
+namespace farlod::acceptance {
+
+Point2d RasterFile::centre_of(std::size_t n) const {
+  const auto column = static_cast<double>(n % columns), row = static_cast<double>(n / columns);
+  return {north_west.x + (column + 0.5) * step_m, north_west.y - (row + 0.5) * step_m};
+}
+
+std::optional<double> RasterFile::at(Point2d p) const {
+  const double column = std::floor((p.x - north_west.x) / step_m), row = std::floor((north_west.y - p.y) / step_m);
+  if (column < 0.0 || row < 0.0 || column >= static_cast<double>(columns) || row >= static_cast<double>(rows))
+    throw std::runtime_error("the raster does not reach the place");
+  return values[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)];
+}
+
+RasterFile read_raster(const std::filesystem::path& file) {
+  GDALAllRegister();
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  std::array<double, 6> place{};
+  if (!dataset || dataset->GetGeoTransform(place.data()) != CE_None)
+    throw std::runtime_error(file.string() + " is not a raster with a place");
+  RasterFile raster{static_cast<std::size_t>(dataset->GetRasterXSize()),
+                    static_cast<std::size_t>(dataset->GetRasterYSize()),
+                    place[1],
+                    {place[0], place[3]},
+                    std::nullopt,
+                    {}};
+  if (const OGRSpatialReference* crs = dataset->GetSpatialRef()) {
+    OGRSpatialReference copy(*crs);
+    copy.AutoIdentifyEPSG();
+    if (const char* code = copy.GetAuthorityCode(nullptr)) raster.epsg = std::stoi(code);
+  }
+  GDALRasterBand& band = *dataset->GetRasterBand(1);
+  const int columns = dataset->GetRasterXSize(), rows = dataset->GetRasterYSize();
+  std::vector<double> values(raster.columns * raster.rows);
+  if (band.RasterIO(GF_Read, 0, 0, columns, rows, values.data(), columns, rows, GDT_Float64, 0, 0) != CE_None)
+    throw std::runtime_error(file.string() + " cannot be read");
+  const double nodata = band.GetNoDataValue();
+  for (const double v : values) raster.values.push_back(std::isnan(v) || v == nodata ? std::nullopt : std::optional(v));
+  return raster;
+}
+
+}  // namespace farlod::acceptance

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "farlod/frame.hpp"
+#include "tests/acceptance/packed_town.hpp"
+#include "tests/analytic/tolerance.hpp"
+
+namespace farlod::acceptance {
+namespace {
+
+/// Streets of 24 m hold whole pixels, wherever the raster begins.
+constexpr double step_m = 4.0;
+
+void expect_same_values(const RasterFile& a, const RasterFile& b) {
+  ASSERT_EQ(a.values.size(), b.values.size());
+  EXPECT_EQ(a.values, b.values);
+}
+
+double mean_difference(const RasterFile& a, const RasterFile& b) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t n = 0; n < a.values.size(); ++n) {
+    if (!a.values[n] || !b.values.at(n)) continue;
+    sum += std::abs(*a.values[n] - *b.values[n]);
+    count += 1.0;
+  }
+  return sum / count;
+}
+
+TEST_F(PackedTown, PixelsLieWhereTheBuildingsAre) {
+  folder.must("farlod-svf a.farlod -o o.asc --grid 4");
+  const RasterFile map = raster("o.asc");
+  EXPECT_EQ(map.step_m, step_m);
+  for (const Block& b : small_town()) {
+    EXPECT_FALSE(map.at(p_projected(b.centre))) << b.id;
+    // A pixel whose centre lies a pixel's diagonal beyond the wall, on each side
+    const double beyond = 0.5 * b.edge_m + std::sqrt(2.0) * step_m;
+    for (const Point2d side : {Point2d{beyond, 0.0}, {-beyond, 0.0}, {0.0, beyond}, {0.0, -beyond}})
+      EXPECT_TRUE(map.at(p_projected(b.centre + side))) << b.id;
+  }
+}
+
+TEST_F(PackedTown, NoDataCoversTheFootprintsAndNothingElse) {
+  folder.must("farlod-svf a.farlod -o o.asc --grid 4");
+  const RasterFile map = raster("o.asc");
+  const double border_m = 0.001 * std::sqrt(2.0);  // corners are written in whole millimetres
+  for (std::size_t n = 0; n < map.values.size(); ++n) {
+    const Point2d p_town = GridRotation(town_bearing).grid_from_city(map.centre_of(n) - town_middle);
+    const double beyond = std::max(std::abs(p_town.x), std::abs(p_town.y)) - town_half_m;
+    if (beyond > 0.0) continue;  // there the grid may end
+    double inside_m = -1e9;
+    for (const Block& b : small_town()) {
+      const Point2d d = p_town - b.centre;
+      inside_m = std::max(inside_m, 0.5 * b.edge_m - std::max(std::abs(d.x), std::abs(d.y)));
+    }
+    if (std::abs(inside_m) > border_m) {
+      EXPECT_EQ(map.values[n].has_value(), inside_m < 0.0) << p_town.x << ' ' << p_town.y;
+    }
+  }
+}
+
+TEST_F(PackedTown, APixelIsThePointAtItsCentre) {
+  folder.must("farlod-svf a.farlod -o o.asc --grid 4");
+  const RasterFile map = raster("o.asc");
+  std::string points = "x,y\n";
+  for (std::size_t n = 0; n < map.values.size(); ++n) points += text_of(map.centre_of(n)) + "\n";
+  folder.write("p.csv", points);
+  folder.must("farlod-svf a.farlod -o o.csv --points p.csv");
+  const CsvTable answers = table("o.csv");
+  ASSERT_EQ(answers.size(), map.values.size());
+  std::size_t compared = 0;
+  for (std::size_t n = 0; n < map.values.size(); ++n) {
+    if (!map.values[n]) continue;
+    EXPECT_NEAR(answers.number(n, "svf"), *map.values[n], half_of_last_digit) << n;
+    ++compared;
+  }
+  EXPECT_GT(compared, map.values.size() / 4);
+}
+
+TEST_F(PackedTown, EachFormatHoldsTheSameMap) {
+  folder.must("farlod-svf a.farlod -o o.asc --grid 4 --preview preview.png");
+  folder.must("farlod-svf a.farlod -o o.png --grid 4");
+  EXPECT_EQ(folder.text_of("o.png"), folder.text_of("preview.png"));
+  EXPECT_EQ(folder.text_of("o.png").substr(1, 3), "PNG");
+  EXPECT_TRUE(folder.has("o.prj"));
+#ifdef FARLOD_WITH_GDAL
+  folder.must("farlod-svf a.farlod -o o.tif --grid 4");
+  const RasterFile tif = raster("o.tif"), asc = raster("o.asc");
+  EXPECT_EQ(tif.epsg, 32632);
+  EXPECT_EQ(tif.north_west, asc.north_west);
+  ASSERT_EQ(tif.columns, asc.columns);
+  ASSERT_EQ(tif.rows, asc.rows);
+  // An ASCII grid holds the shortest decimal of each float; readers may keep it as a double
+  for (std::size_t n = 0; n < tif.values.size(); ++n) {
+    ASSERT_EQ(tif.values[n].has_value(), asc.values[n].has_value()) << n;
+    if (tif.values[n]) {
+      EXPECT_EQ(static_cast<float>(*tif.values[n]), static_cast<float>(*asc.values[n])) << n;
+    }
+  }
+#endif
+}
+
+TEST_F(PackedTown, ABoxCutsOutAPartOfTheSameMap) {
+  folder.must("farlod-svf a.farlod -o all.asc --grid 4");
+  folder.must("farlod-svf a.farlod -o part.asc --grid 4 --bbox 499952,5499960,500060,5500048");
+  const RasterFile all = raster("all.asc"), part = raster("part.asc");
+  EXPECT_EQ(part.columns, 27U);
+  EXPECT_EQ(part.rows, 22U);
+  EXPECT_EQ(part.north_west, (Point2d{499952.0, 5500048.0}));
+  for (std::size_t n = 0; n < part.values.size(); ++n) EXPECT_EQ(part.values[n], all.at(part.centre_of(n))) << n;
+}
+
+TEST_F(PackedTown, RoofsHaveValuesWhenReceiversStandOnThem) {
+  folder.must("farlod-svf a.farlod -o o.asc --grid 4 --on-surface --engine exact");
+  const RasterFile map = raster("o.asc");
+  EXPECT_EQ(map.at(p_projected(tower_of(small_town()).centre)), 1.0);
+  for (const Block& b : small_town()) EXPECT_TRUE(map.at(p_projected(b.centre))) << b.id;
+}
+
+TEST_F(PackedTown, WithTheWholeTownNearRaysAreExact) {
+  folder.must("farlod-pack town.geojson -o near.farlod --neighborhood 21");
+  folder.must("farlod-svf near.farlod -o rays.asc --grid 4 --engine rays");
+  folder.must("farlod-svf near.farlod -o exact.asc --grid 4 --engine exact");
+  const RasterFile rays = raster("rays.asc"), exact = raster("exact.asc");
+  // The two scenes round their corners apart, so that a ray along an edge may be lost on one side
+  EXPECT_LT(mean_difference(rays, exact), 0.01 / static_cast<double>(default_rays));
+}
+
+TEST_F(PackedTown, VerifyTellsTheErrorOfTheFarMap) {
+  const double border = 4.0 * std::numbers::pi;
+  std::vector<double> mean_errors;
+  for (const int neighborhood : {1, 3, 21}) {
+    const std::string n = std::to_string(neighborhood);
+    folder.must("farlod-pack town.geojson -o n.farlod --force --neighborhood " + n);
+    folder.must("farlod-svf n.farlod -o o.asc --grid 4 --verify 200 --summary s.json");
+    const nlohmann::json verify = folder.json_of("s.json").at("verify");
+    EXPECT_EQ(verify.at("count"), 200);
+    EXPECT_GE(verify.at("rays"), 20000);
+    EXPECT_LE(std::abs(verify.at("bias").get<double>()), verify.at("mean_abs_error").get<double>());
+    EXPECT_LE(verify.at("mean_abs_error"), verify.at("p99_abs_error"));
+    EXPECT_LE(verify.at("p99_abs_error"), verify.at("max_abs_error"));
+    mean_errors.push_back(verify.at("mean_abs_error"));
+    if (neighborhood == 3) {
+      EXPECT_LT(verify.at("max_abs_error"), paper_error);
+    }
+    if (neighborhood == 21) {
+      EXPECT_LT(verify.at("max_abs_error"), sampling_error(default_rays, border));
+    }
+  }
+  EXPECT_GT(mean_errors[0], mean_errors[1]);
+  EXPECT_GT(mean_errors[1], mean_errors[2]);
+}
+
+TEST_F(PackedTown, ThreadsChangeNothing) {
+  folder.must("farlod-svf a.farlod -o one.asc --grid 4 --threads 1 --summary one.json");
+  folder.must("farlod-svf a.farlod -o four.asc --grid 4 --threads 4 --summary four.json");
+  expect_same_values(raster("one.asc"), raster("four.asc"));
+  EXPECT_EQ(folder.text_of("one.asc"), folder.text_of("four.asc"));
+  EXPECT_EQ(folder.json_of("one.json").at("svf"), folder.json_of("four.json").at("svf"));
+}
+
+}  // namespace
+}  // namespace farlod::acceptance

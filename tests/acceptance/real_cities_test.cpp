@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/acceptance/real_city.hpp"
+
+namespace farlod::acceptance {
+namespace {
+
+TEST_F(RealCity, Manhattan) {
+  const std::string file = "manhattan/manhattan.geojson";
+  needs({file});
+  if (IsSkipped()) return;
+  PackedCity city = pack(data(file) + " --height-field height");
+  // 1,239 areas, of which 11 do not say their height; beside them 47 points
+  EXPECT_EQ(city.count("buildings") + city.problems[107], 1239U);
+  EXPECT_EQ(city.problems[107], 11U);
+  EXPECT_EQ(city.problems[108], 47U);
+  EXPECT_EQ(city.count("polygons"), 15091U);
+  // The avenues run 29° from true north, which is 28.3° from the grid north of UTM 18N
+  EXPECT_NEAR(city.summary.at("grid_rotation_deg"), 28.3, 0.5);
+  EXPECT_GT(city.summary.at("alignment_strength"), 0.9);
+  expect_sound_map();
+}
+
+TEST_F(RealCity, Omiya) {
+  const std::string file = "omiya/omiya.geojson";
+  needs({file});
+  if (IsSkipped()) return;
+  PackedCity city = pack(data(file) + " --height-field TAKASA");
+  EXPECT_EQ(city.count("buildings"), 10213U);
+  // Between a corner and its repetition stands no wall: 88 buildings have 669 such
+  EXPECT_EQ(city.problems[103], 88U);
+  EXPECT_EQ(city.count("polygons") + city.told_counts[103], 101722U);
+  expect_sound_map();
+}
+
+TEST_F(RealCity, Tokyo) {
+  const std::string file = "tokyo/53392633_bldg_6697_2_op.gml";
+  needs({file});
+  if (IsSkipped()) return;
+  PackedCity city = pack(data(file));
+  EXPECT_EQ(city.count("buildings"), 9U);
+  // Each building is there three times: 9 outlines in LoD 0, 177 polygons in LoD 1, 897 in LoD 2, of which the last count
+  EXPECT_EQ(city.problems[114], 9U);
+  EXPECT_EQ(city.told_counts[114], 9U + 177U);
+  EXPECT_EQ(city.count("polygons") + city.told_counts[114], 1083U);
+  expect_sound_map();
+}
+
+TEST_F(RealCity, NorthRhineWestphalia) {
+  const std::string south = "nrw/LoD2_32_280_5657_1_NW.gml", north = "nrw/LoD2_32_280_5659_1_NW.gml";
+  needs({south, north});
+  if (IsSkipped()) return;
+  PackedCity city = pack(data(south) + " " + data(north));
+  // The 105 parts belong to the 192 buildings, and their polygons count
+  EXPECT_EQ(city.count("buildings"), 192U);
+  EXPECT_EQ(city.count("polygons"), 2585U);
+  EXPECT_EQ(city.problems[403], 70U);
+  EXPECT_EQ(city.problems.size(), 1U);
+  expect_sound_map();
+}
+
+TEST_F(RealCity, Rotterdam) {
+  const std::string file = "rotterdam/delfshaven.city.json";
+  needs({file});
+  if (IsSkipped()) return;
+  PackedCity city = pack(data(file));
+  EXPECT_EQ(city.count("buildings"), 853U);
+  // 633 rings enclose nothing, and the points of 9 more lie on a line
+  EXPECT_EQ(city.problems[101], 633U);
+  EXPECT_EQ(city.problems[401], 9U);
+  EXPECT_EQ(city.count("polygons") + city.problems[101] + city.problems[401], 15482U);
+  expect_sound_map();
+}
+
+}  // namespace
+}  // namespace farlod::acceptance

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "tests/acceptance/packed_town.hpp"
+#include "tests/analytic/tolerance.hpp"
+
+namespace farlod::acceptance {
+namespace {
+
+/// A corner is written in whole millimetres, so it moves by at most 0.71 mm, and a side's length by twice that.
+const double side_error_m = std::sqrt(2.0) * 0.001;
+double wall_error_m2(const Block& b) { return 4.0 * b.height_m * side_error_m; }
+double roof_error_m2(const Block& b) { return 2.0 * b.edge_m * side_error_m; }
+
+/// Each of n printed areas is off by at most half a square millimetre's digit.
+double printing_error_m2(std::size_t n) { return 0.0005 * static_cast<double>(n); }
+
+std::set<std::string> values_of(const CsvTable& table, const std::string& column) {
+  std::set<std::string> values;
+  for (std::size_t n = 0; n < table.size(); ++n) values.insert(table.text(n, column));
+  return values;
+}
+
+TEST_F(PackedTown, SurfacesComeAsPointsSurfacesAndBuildings) {
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces all --spacing 4");
+  EXPECT_EQ(table("o.csv").header(), (std::vector<std::string>{"building", "surface", "kind", "x_m", "y_m", "z_m", "azimuth_deg",
+                                                               "tilt_deg", "area_m2", "svf"}));
+  EXPECT_EQ(table("o.surfaces.csv").header(),
+            (std::vector<std::string>{"building", "surface", "kind", "azimuth_deg", "tilt_deg", "area_m2", "receivers", "nodata",
+                                      "svf_mean", "svf_min", "svf_max"}));
+  EXPECT_EQ(table("o.buildings.csv").header(), (std::vector<std::string>{"building", "roof_area_m2", "wall_area_m2", "receivers",
+                                                                         "nodata", "svf_roofs", "svf_walls"}));
+  const std::size_t blocks = small_town().size();
+  EXPECT_EQ(table("o.buildings.csv").size(), blocks);
+  EXPECT_EQ(table("o.surfaces.csv").size(), 5 * blocks);
+}
+
+TEST_F(PackedTown, AreasAddUp) {
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces all --spacing 4");
+  const CsvTable points = table("o.csv"), surfaces = table("o.surfaces.csv"), buildings = table("o.buildings.csv");
+  const auto by_surface = points.sums_by({"building", "surface"}, "area_m2");
+  for (const auto& [surface, area_m2] : surfaces.sums_by({"building", "surface"}, "area_m2"))
+    EXPECT_NEAR(by_surface.at(surface), area_m2, printing_error_m2(points.size())) << surface;
+  const auto by_kind = surfaces.sums_by({"building", "kind"}, "area_m2");
+  const auto roofs = buildings.sums_by({"building"}, "roof_area_m2"), walls = buildings.sums_by({"building"}, "wall_area_m2");
+  for (const Block& b : small_town()) {
+    const double printing = printing_error_m2(5);
+    EXPECT_NEAR(by_kind.at(b.id + "/roof/"), roofs.at(b.id + "/"), printing);
+    EXPECT_NEAR(by_kind.at(b.id + "/wall/"), walls.at(b.id + "/"), printing);
+    EXPECT_NEAR(roofs.at(b.id + "/"), b.edge_m * b.edge_m, roof_error_m2(b) + printing) << b.id;
+    EXPECT_NEAR(walls.at(b.id + "/"), 4.0 * b.edge_m * b.height_m, wall_error_m2(b) + printing) << b.id;
+  }
+}
+
+TEST_F(PackedTown, RoofsAndWallsAreTheTwoHalvesOfAll) {
+  std::vector<std::size_t> sizes;
+  for (const char* choice : {"roofs", "walls", "all"}) {
+    folder.must(std::string("farlod-svf a.farlod -o o.csv --spacing 4 --surfaces ") + choice);
+    sizes.push_back(table("o.csv").size());
+    if (std::string(choice) != "all") {
+      EXPECT_EQ(values_of(table("o.csv"), "kind"), std::set{std::string(choice).substr(0, 4)});
+    }
+  }
+  EXPECT_EQ(sizes[0] + sizes[1], sizes[2]);
+}
+
+TEST_F(PackedTown, SpacingSaysHowDenselyReceiversStand) {
+  double area_m2 = 0.0;
+  for (const Block& b : small_town()) area_m2 += 4.0 * b.edge_m * b.height_m;
+  std::vector<std::size_t> counts;
+  for (const double spacing_m : {2.0, 4.0, 8.0}) {
+    folder.must("farlod-svf a.farlod -o o.csv --surfaces walls --summary s.json --spacing " + std::to_string(spacing_m));
+    counts.push_back(folder.json_of("s.json").at("receivers"));
+    EXPECT_GE(static_cast<double>(counts.back()), area_m2 / (spacing_m * spacing_m));
+  }
+  // Each triangle has at least one receiver, so that twice the spacing leaves a quarter of them and some more
+  EXPECT_GT(counts[0], 2 * counts[1]);
+  EXPECT_GT(counts[1], 2 * counts[2]);
+}
+
+TEST_F(PackedTown, AveragesAreWeighedByArea) {
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces walls --spacing 4");
+  const CsvTable points = table("o.csv"), surfaces = table("o.surfaces.csv");
+  std::map<std::string, double> weighted, area;
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const std::string key = points.text(n, "building") + "/" + points.text(n, "surface");
+    weighted[key] += points.number(n, "area_m2") * points.number(n, "svf");
+    area[key] += points.number(n, "area_m2");
+  }
+  // An area of a square metre or more is known to a thousandth: so is the weight
+  constexpr double weight_error = 0.0005;
+  for (std::size_t n = 0; n < surfaces.size(); ++n) {
+    const std::string key = surfaces.text(n, "building") + "/" + surfaces.text(n, "surface");
+    EXPECT_NEAR(weighted.at(key) / area.at(key), surfaces.number(n, "svf_mean"), weight_error) << key;
+    EXPECT_LE(surfaces.number(n, "svf_min"), surfaces.number(n, "svf_mean"));
+    EXPECT_LE(surfaces.number(n, "svf_mean"), surfaces.number(n, "svf_max"));
+  }
+}
+
+TEST_F(PackedTown, WallsFaceAlongTheStreets) {
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces walls --spacing 8");
+  const CsvTable surfaces = table("o.surfaces.csv");
+  // Two corners of a side, half a millimetre off each way; and grid north is true north on the central meridian to 180 m ·
+  // sin(50°)/R
+  const double tolerance_deg = Angle::radians(side_error_m / town_edge_m + 250.0 / 6.37e6).degrees() + half_of_last_digit;
+  for (std::size_t n = 0; n < surfaces.size(); ++n) {
+    const double turn = std::remainder(surfaces.number(n, "azimuth_deg") - town_bearing.degrees(), 90.0);
+    EXPECT_NEAR(turn, 0.0, tolerance_deg + 0.0005) << surfaces.text(n, "building");
+    EXPECT_NEAR(surfaces.number(n, "tilt_deg"), 90.0, 0.0005);
+  }
+}
+
+TEST_F(PackedTown, TheTallestRoofSeesTheWholeSky) {
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces roofs --engine exact --spacing 4");
+  const CsvTable buildings = table("o.buildings.csv");
+  for (std::size_t n = 0; n < buildings.size(); ++n) {
+    const bool is_tower = buildings.text(n, "building") == tower_of(small_town()).id;
+    if (is_tower) {
+      EXPECT_EQ(buildings.number(n, "svf_roofs"), 1.0);
+    }
+    if (!is_tower) {
+      EXPECT_LT(buildings.number(n, "svf_roofs"), 1.0);
+    }
+  }
+}
+
+TEST(LoneBox, AWallInTheOpenSeesHalfOfItsHemisphere) {
+  const WorkFolder folder;
+  folder.write("box.geojson", footprints_geojson({{"box", {}, 20.0, 10.0}}));
+  folder.must("farlod-pack box.geojson -o a.farlod");
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces all");
+  const CsvTable surfaces(folder.text_of("o.surfaces.csv"));
+  ASSERT_EQ(surfaces.size(), 5U);
+  const double diameter = 2.0;  // the horizon, drawn on the unit disk of the wall's own hemisphere
+  for (std::size_t n = 0; n < surfaces.size(); ++n) {
+    const bool is_roof = surfaces.text(n, "kind") == "roof";
+    EXPECT_NEAR(surfaces.number(n, "svf_mean"), is_roof ? 1.0 : 0.5, is_roof ? 0.0 : sampling_error(default_rays, diameter));
+  }
+}
+
+/// Where two blocks touch. In the first pair that is on the border of two cells, which meet in the middle of the city.
+struct Pair {
+  const char* name;
+  std::vector<Block> blocks;
+};
+void PrintTo(const Pair& pair, std::ostream* out) { *out << pair.name; }
+
+class PartyWall : public testing::TestWithParam<Pair> {};
+
+TEST_P(PartyWall, HasNoAnswerWhereItIsCovered) {
+  const WorkFolder folder;
+  folder.write("pair.geojson", footprints_geojson(GetParam().blocks));
+  folder.must("farlod-pack pair.geojson -o a.farlod");
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces walls --summary s.json");
+  const CsvTable surfaces(folder.text_of("o.surfaces.csv")), points(folder.text_of("o.csv"));
+  std::size_t without_answer = 0;
+  for (std::size_t n = 0; n < surfaces.size(); ++n) {
+    const bool has_none = surfaces.text(n, "nodata") == surfaces.text(n, "receivers");
+    EXPECT_EQ(surfaces.text(n, "svf_mean").empty(), has_none);
+    without_answer += has_none ? 1 : 0;
+  }
+  // The low one's party wall is covered whole; the high one's only below the low one's roof
+  EXPECT_EQ(without_answer, 1U);
+  for (std::size_t n = 0; n < points.size(); ++n) EXPECT_NE(points.text(n, "svf"), "0.000000") << points.text(n, "building");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Blocks, PartyWall,
+    testing::Values(Pair{"OnACellsBorder", {{"low", {-10.0, 0.0}, 20.0, 10.0}, {"high", {10.0, 0.0}, 20.0, 30.0}}},
+                    Pair{"WithinACell", {{"low", {-10.0, 0.0}, 20.0, 10.0}, {"high", {15.0, 0.0}, 30.0, 30.0}}}),
+    [](const auto& pair) { return pair.param.name; });
+
+}  // namespace
+}  // namespace farlod::acceptance

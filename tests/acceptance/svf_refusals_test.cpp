@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "console/exit_code.hpp"
+#include "tests/acceptance/small_town.hpp"
+#include "tests/acceptance/work_folder.hpp"
+
+namespace farlod::acceptance {
+namespace {
+
+/// A command of farlod-svf that cannot be followed, and what the user must be told.
+struct Refused {
+  const char* name;
+  const char* arguments;
+  int exit_code;
+  std::vector<std::string> said;
+};
+void PrintTo(const Refused& refused, std::ostream* out) { *out << "farlod-svf " << refused.arguments; }
+
+std::string name_of(const testing::TestParamInfo<Refused>& info) { return info.param.name; }
+
+class SvfRefuses : public testing::TestWithParam<Refused> {
+ protected:
+  SvfRefuses() {
+    folder.write("town.geojson", footprints_geojson({{"block", {}, 20.0, 10.0}}));
+    folder.must("farlod-pack town.geojson -o a.farlod");
+    folder.must("mkdir no_package");
+    folder.write("word.csv", "x,y\n500030,5500010\n500040,north\n");
+    folder.write("short.csv", "x,y\n500030,5500010\n500040\n");
+    folder.write("nameless.csv", "u,v\n1,2\n");
+    folder.write("empty.csv", "");
+    folder.write("headed.csv", "x,y\n");
+    folder.write("pole.csv", "lon,lat\n9,95\n");
+    folder.write("galaxy.csv", "x,y\n1e300,3\n");
+    folder.write("typo.toml", "grid = 5\nrayz = 100\n");
+  }
+  WorkFolder folder;
+};
+
+TEST_P(SvfRefuses, InOneLine) {
+  expect_refusal(folder.run(std::string("farlod-svf ") + GetParam().arguments), GetParam().exit_code, GetParam().said);
+  for (const char* result : {"o.csv", "o.tif", "o.asc", "o.png"}) EXPECT_FALSE(folder.has(result));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Package, SvfRefuses,
+    testing::Values(Refused{"Missing",
+                            "lost.farlod -o o.csv --at 1,2",
+                            exit_unusable_input,
+                            {"lost.farlod is not a package", "no such folder", "farlod-pack"}},
+                    Refused{"OtherFolder",
+                            "no_package -o o.csv --at 1,2",
+                            exit_unusable_input,
+                            {"no_package is not a finished package", "manifest.json"}},
+                    Refused{"File", "town.geojson -o o.csv --at 1,2", exit_unusable_input, {"town.geojson is not a package"}}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    Usage, SvfRefuses,
+    testing::Values(
+        Refused{"NoOutput", "a.farlod --at 1,2", exit_usage, {"--output is required"}},
+        Refused{"NoPackage", "-o o.csv --at 1,2", exit_usage, {"PACKAGE is required"}},
+        Refused{"UnknownEnding", "a.farlod -o o.xyz --at 1,2", exit_usage, {"o.xyz", ".csv", ".png", ".asc"}},
+        Refused{"NoEnding", "a.farlod -o o --at 1,2", exit_usage, {"\"o\"", ".csv", ".png", ".asc"}},
+        Refused{"GridAsTable", "a.farlod -o o.csv --grid 5", exit_usage, {"-o", "--grid makes a raster", ".csv"}},
+        Refused{"PointsAsRaster", "a.farlod -o o.png --points word.csv", exit_usage, {"-o", "choose .csv"}},
+        Refused{"SurfacesAsRaster", "a.farlod -o o.asc --surfaces all", exit_usage, {"-o", "choose .csv"}},
+        Refused{"NoReceivers", "a.farlod -o o.csv", exit_usage, {"--grid,--points,--surfaces,--at", "required"}},
+        Refused{"TwoKindsOfReceivers",
+                "a.farlod -o o.csv --at 1,2 --surfaces all",
+                exit_usage,
+                {"--grid,--points,--surfaces,--at", "2 were given"}},
+        Refused{"NoRays", "a.farlod -o o.csv --at 1,2 --rays 0", exit_usage, {"--rays", "1 to 10000000"}},
+        Refused{"NegativeRays", "a.farlod -o o.csv --at 1,2 --rays -3", exit_usage, {"--rays", "1 to 10000000"}},
+        Refused{"NegativeVerify", "a.farlod -o o.csv --at 1,2 --verify -4", exit_usage, {"--verify", "-4"}},
+        Refused{"UnknownEngine", "a.farlod -o o.csv --at 1,2 --engine magic", exit_usage, {"--engine: magic", "auto,rays,exact"}},
+        Refused{"OneCoordinate", "a.farlod -o o.csv --at 1", exit_usage, {"--at: give X,Y or X,Y,Z"}},
+        Refused{"CoordinateIsNoNumber", "a.farlod -o o.csv --at nan,2", exit_usage, {"--at", "nan,2"}},
+        Refused{"ZeroStep", "a.farlod -o o.asc --grid 0", exit_usage, {"--grid: 0", "from 0.01 to 10000"}},
+        Refused{"StepIsNoNumber", "a.farlod -o o.asc --grid nan", exit_usage, {"--grid: nan", "from 0.01 to 10000"}},
+        Refused{"HeightIsNoNumber", "a.farlod -o o.asc --grid 5 --height nan", exit_usage, {"--height: nan", "from 0 to 10000"}},
+        Refused{"HeightInSpace", "a.farlod -o o.asc --grid 5 --height 1e30", exit_usage, {"--height: 1e30", "from 0 to 10000"}},
+        Refused{"SpacingIsNoNumber", "a.farlod -o o.csv --surfaces all --spacing nan", exit_usage, {"--spacing: nan"}},
+        Refused{"BoxOfThreeNumbers", "a.farlod -o o.asc --grid 5 --bbox 1,2,3", exit_usage, {"--bbox", "X0,Y0,X1,Y1"}},
+        Refused{"BoxInsideOut", "a.farlod -o o.asc --grid 5 --bbox 3,2,1,4", exit_usage, {"--bbox", "X0 < X1"}},
+        Refused{"BoxBeyondAllMachines",
+                "a.farlod -o o.asc --grid 1 --bbox 0,0,1e300,1e300",
+                exit_usage,
+                {"--bbox", "too many pixels", "--grid"}},
+        Refused{"BoxWithoutGrid", "a.farlod -o o.csv --at 1,2 --bbox 0,0,1,1", exit_usage, {"--bbox", "--grid"}},
+        Refused{"PointsCrsWithoutPoints",
+                "a.farlod -o o.csv --at 1,2 --points-crs EPSG:4326",
+                exit_usage,
+                {"--points-crs", "--points"}},
+        Refused{"PreviewWithoutGrid", "a.farlod -o o.csv --at 1,2 --preview p.png", exit_usage, {"--preview", "--grid"}},
+        Refused{"PreviewIsNoPng", "a.farlod -o o.asc --grid 5 --preview p.jpg", exit_usage, {"--preview", "p.jpg", ".png"}},
+        Refused{"UnknownOptionInConfig", "a.farlod -o o.asc --config typo.toml", exit_usage, {"--config", "rayz"}}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    Points, SvfRefuses,
+    testing::Values(
+        Refused{"Missing", "a.farlod -o o.csv --points lost.csv", exit_unusable_input, {"lost.csv", "cannot be read"}},
+        Refused{"Word", "a.farlod -o o.csv --points word.csv", exit_unusable_input, {"word.csv:3", "\"north\" is not a number"}},
+        Refused{"ShortRow", "a.farlod -o o.csv --points short.csv", exit_unusable_input, {"short.csv:3", "ends before y"}},
+        Refused{"NamelessColumns", "a.farlod -o o.csv --points nameless.csv", exit_unusable_input, {"nameless.csv:1", "x and y"}},
+        Refused{"Empty", "a.farlod -o o.csv --points empty.csv", exit_unusable_input, {"empty.csv", "no points"}},
+        Refused{"HeaderAlone", "a.farlod -o o.csv --points headed.csv", exit_unusable_input, {"headed.csv", "no points"}},
+        Refused{"BeyondAllMaps", "a.farlod -o o.csv --points galaxy.csv", exit_unusable_input, {"point 1", "nowhere on Earth"}},
+        Refused{"AtBeyondAllMaps", "a.farlod -o o.csv --at 1e12,1e12", exit_unusable_input, {"point 1", "nowhere on Earth"}},
+        Refused{"AtInSpace", "a.farlod -o o.csv --at 500000,5500000,1e30", exit_unusable_input, {"point 1", "nowhere on Earth"}}),
+    name_of);
+
+INSTANTIATE_TEST_SUITE_P(
+    Output, SvfRefuses,
+    testing::Values(
+        Refused{"NoFolder", "a.farlod -o lost/o.csv --at 500030,5500010", exit_unusable_input, {"lost/o.csv", "no folder lost"}},
+        Refused{"NoFolderForPreview",
+                "a.farlod -o o.asc --grid 5 --preview lost/p.png",
+                exit_unusable_input,
+                {"lost/p.png", "no folder lost"}},
+        Refused{"NoFolderForSummary",
+                "a.farlod -o o.asc --grid 5 --summary lost/s.json",
+                exit_unusable_input,
+                {"lost/s.json", "no folder lost"}},
+        Refused{
+            "FolderIsAFile", "a.farlod -o town.geojson/o.csv --at 500030,5500010", exit_unusable_input, {"town.geojson/o.csv"}}),
+    name_of);
+
+#ifdef FARLOD_WITH_GDAL
+INSTANTIATE_TEST_SUITE_P(
+    Gdal, SvfRefuses,
+    testing::Values(
+        Refused{"PointsAsGeotiff", "a.farlod -o o.tif --points word.csv", exit_usage, {"-o", "choose .csv"}},
+        Refused{"UnknownEndingListsTif", "a.farlod -o o.xyz --grid 5", exit_usage, {"o.xyz", ".tif", ".csv", ".png", ".asc"}},
+        Refused{"BeyondThePole",
+                "a.farlod -o o.csv --points pole.csv --points-crs EPSG:4326",
+                exit_unusable_input,
+                {"point 1 at (9, 95)", "x is the longitude"}},
+        Refused{"UnknownPointsCrs",
+                "a.farlod -o o.csv --points pole.csv --points-crs EPSG:99999",
+                exit_unusable_input,
+                {"EPSG:99999", "not known", "EPSG:4326"}}),
+    name_of);
+#endif
+
+TEST(SvfAnswersFromOutside, ABoxBesideTheCityIsAllNoData) {
+  const WorkFolder folder;
+  folder.write("town.geojson", footprints_geojson({{"block", {}, 20.0, 10.0}}));
+  folder.must("farlod-pack town.geojson -o a.farlod");
+  const Outcome outcome = folder.run("farlod-svf a.farlod -o o.asc --grid 5 --bbox 0,0,50,50 --summary s.json");
+  EXPECT_EQ(outcome.exit_code, exit_done);
+  EXPECT_THAT(outcome.out, testing::HasSubstr("No receiver has an answer"));
+  EXPECT_EQ(folder.json_of("s.json").at("nodata"), 100);
+  EXPECT_TRUE(folder.json_of("s.json").at("svf").at("mean").is_null());
+}
+
+}  // namespace
+}  // namespace farlod::acceptance

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/acceptance/work_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+#include "console/exit_code.hpp"
+
+namespace farlod::acceptance {
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+WorkFolder::WorkFolder() {
+  std::string pattern = (fs::temp_directory_path() / "farlod-acceptance-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error(pattern + " cannot be made");
+  path_ = pattern;
+}
+
+WorkFolder::~WorkFolder() { fs::remove_all(path_); }
+
+Outcome WorkFolder::run(const std::string& command) const {
+  std::string line = "cd '" + path_.string() + "' && PATH='" + FARLOD_BIN_DIR + "':\"$PATH\" && export PATH && ( ";
+  line.append(command).append(" ) > .out 2> .err");
+  const int status = std::system(line.c_str());
+  return {WEXITSTATUS(status), text_of(".out"), text_of(".err")};
+}
+
+void WorkFolder::must(const std::string& command) const {
+  const Outcome outcome = run(command);
+  ASSERT_EQ(outcome.exit_code, exit_done) << command << '\n' << outcome.err;
+}
+
+void WorkFolder::write(const std::string& name, const std::string& text) const {
+  std::ofstream file(path_ / name, std::ios::binary);
+  file << text;
+  file.close();
+  ASSERT_TRUE(file) << name;
+}
+
+std::string WorkFolder::text_of(const std::string& name) const {
+  std::ifstream file(path_ / name, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+nlohmann::json WorkFolder::json_of(const std::string& name) const { return nlohmann::json::parse(text_of(name)); }
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+void expect_refusal(const Outcome& outcome, int exit_code, const std::vector<std::string>& said) {
+  EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  const std::vector<std::string> lines = lines_of(outcome.err);
+  const std::size_t expected_lines = exit_code == exit_usage ? 2 : 1;
+  ASSERT_EQ(lines.size(), expected_lines) << outcome.err;
+  for (const std::string& part : said) EXPECT_THAT(lines[0], HasSubstr(part));
+  if (exit_code == exit_usage) {
+    EXPECT_EQ(lines[1], "Run with --help for more information.");
+  }
+}
+
+}  // namespace farlod::acceptance

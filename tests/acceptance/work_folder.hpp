@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace farlod::acceptance {
+
+/// What came of a command.
+struct Outcome {
+  int exit_code;  ///< 128 and the signal's number when a signal ended it
+  std::string out, err;
+};
+
+/// A folder in which commands run as a user would type them, and that is gone afterwards.
+class WorkFolder {
+ public:
+  WorkFolder();
+  ~WorkFolder();
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+
+  /// Runs a command line in this folder, by a shell that finds the programs of this build first.
+  [[nodiscard]] Outcome run(const std::string& command) const;
+  /// The same, for steps on the way: the test fails when the command does.
+  void must(const std::string& command) const;
+
+  void write(const std::string& name, const std::string& text) const;
+  [[nodiscard]] std::string text_of(const std::string& name) const;
+  [[nodiscard]] nlohmann::json json_of(const std::string& name) const;
+  [[nodiscard]] std::filesystem::path path(const std::string& name) const { return path_ / name; }
+  [[nodiscard]] bool has(const std::string& name) const { return std::filesystem::exists(path_ / name); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The lines of a text, without their ends.
+[[nodiscard]] std::vector<std::string> lines_of(const std::string& text);
+
+/// The command was refused as it should be: with this exit code, nothing on standard output, and on standard error one line
+/// that holds all of `said`. After a usage error a second line leads to --help.
+void expect_refusal(const Outcome& outcome, int exit_code, const std::vector<std::string>& said);
+
+}  // namespace farlod::acceptance
