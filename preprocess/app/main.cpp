@@ -9,7 +9,6 @@
 #include <map>
 #include <memory>
 #include <new>
-#include <thread>
 
 #include "app/pack_options.hpp"
 #include "app/pack_summary.hpp"
@@ -81,15 +80,14 @@ class StageProgress {
 };
 
 int run(const PackOptions& options) {
-  const std::size_t threads = options.threads > 0 ? static_cast<std::size_t>(options.threads) : std::thread::hardware_concurrency();
-  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
   require_folder_of(options.report_file);
-  require_folder_of(options.summary_file);
+  require_folder_of(options.run.summary_file);
   const auto start = std::chrono::steady_clock::now();
   Report report;
   std::optional<PackResult> result;
   try {
-    StageProgress progress(options.verbosity);
+    StageProgress progress(options.run.verbosity);
     result = pack(options.settings, report, std::ref(progress));
   } catch (...) {
     write_text(options.report_file, report_json(report));  // what was wrong is wanted most when nothing came of it
@@ -97,8 +95,8 @@ int run(const PackOptions& options) {
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_text(options.report_file, report_json(report));
-  write_text(options.summary_file, pack_summary_json(*result, report, seconds));
-  if (options.verbosity == Verbosity::normal) print_result(*result, report, options, seconds);
+  write_text(options.run.summary_file, pack_summary_json(*result, report, seconds));
+  if (options.run.verbosity == Verbosity::normal) print_result(*result, report, options, seconds);
   return exit_done;
 }
 

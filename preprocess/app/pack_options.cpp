@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "console/exit_code.hpp"
-#include "farlod/version.hpp"
 
 namespace farlod {
 namespace {
@@ -30,7 +29,7 @@ struct RawOptions {
   std::vector<std::string> inputs;
   std::string output, origin, up = "z", lod = "best", align = "auto", assign = "clip", far_map = "box";
   std::string terrain, height_field, base_field;
-  bool force = false, quiet = false;
+  bool force = false;
 };
 
 /// A finite number. CLI11's own Range lets NaN through, which is neither below nor above.
@@ -86,12 +85,7 @@ void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("-o,--output", raw.output, "Folder of the package, NAME.farlod")->required()->group("Output");
   app.add_flag("--force", raw.force, "Replace a package that is there already")->group("Output");
   app.add_option("--report", o.report_file, "Write every problem of the input to this JSON file")->group("Output");
-  app.add_option("--summary", o.summary_file, "Write counts and times to this JSON file")->group("Output");
-  app.add_flag("--quiet", raw.quiet, "Say nothing but errors")->group("Run");
-  app.add_option("--threads", o.threads, "Threads to use (default: all cores)")->check(CLI::Range(1, 4096))->group("Run");
-  app.set_config("--config", "", "Read options from this file (TOML)")->group("Run");
-  app.allow_config_extras(CLI::config_extras_mode::error);
-  app.set_version_flag("--version", std::string("farlod-pack ") + software_version);
+  add_run_options(app, "farlod-pack", o.run);
 }
 
 void understand_alignment(const std::string& text, GridSettings& grid) {
@@ -124,7 +118,6 @@ void understand(const RawOptions& raw, PackOptions& o) {
   if (!raw.base_field.empty()) s.ingest.base_field = raw.base_field;
   understand_alignment(raw.align, s.grid);
   s.assign = raw.assign == "whole" ? Assign::whole : Assign::clip;
-  o.verbosity = raw.quiet ? Verbosity::quiet : Verbosity::normal;
 }
 
 }  // namespace
@@ -132,21 +125,12 @@ void understand(const RawOptions& raw, PackOptions& o) {
 ParsedPackOptions parse_pack_options(int argc, char** argv) {
   CLI::App app(description, "farlod-pack");
   app.footer(footer);
-  app.get_formatter()->column_width(34);
   RawOptions raw;
   PackOptions options;
   add_input_options(app, raw, options);
   add_grid_options(app, raw, options);
   add_output_options(app, raw, options);
-  try {
-    app.parse(argc, argv);
-    understand(raw, options);
-  } catch (const CLI::ConfigError& error) {
-    app.exit(CLI::ValidationError("--config", std::string(error.what()) + ": name its options as --help does, without the dashes"));
-    return {std::nullopt, exit_usage};
-  } catch (const CLI::ParseError& error) {
-    return {std::nullopt, app.exit(error) == 0 ? exit_done : exit_usage};
-  }
+  if (const auto exit_code = parse_command_line(app, argc, argv, [&] { understand(raw, options); })) return {std::nullopt, *exit_code};
   return {std::move(options), exit_done};
 }
 

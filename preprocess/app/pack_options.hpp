@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "console/progress.hpp"
+#include "console/run_options.hpp"
 #include "pipeline/pack.hpp"
 
 namespace farlod {
@@ -13,9 +13,8 @@ namespace farlod {
 /// The command line of farlod-pack, understood.
 struct PackOptions {
   PackSettings settings;
-  std::string summary_file, report_file;
-  int threads = 0;  ///< 0: all cores
-  Verbosity verbosity = Verbosity::normal;
+  std::string report_file;
+  RunOptions run;
 };
 
 /// Returns the options, or the exit code when there is nothing to do (help, version) or the command line is wrong; what

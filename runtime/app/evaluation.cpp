@@ -93,7 +93,7 @@ void evaluate_cells(const Package& package, const SvfOptions& options, std::size
   std::atomic<std::size_t> cells_done = 0, outside = 0;
   const auto start = Clock::now();
   {
-    Progress progress("sky view factors", options.verbosity);
+    Progress progress("sky view factors", options.run.verbosity);
     oneapi::tbb::parallel_for(std::size_t{0}, cell_count, [&](std::size_t n) {
       const CellReceivers receivers = receivers_of(n);
       evaluator.evaluate(receivers, svf);

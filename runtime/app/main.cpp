@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <new>
-#include <thread>
 
 #include "app/evaluation.hpp"
 #include "app/svf_options.hpp"
@@ -73,15 +72,14 @@ void print_run(const SvfRun& run, const SvfOptions& options, double total_s) {
 }
 
 int run(const SvfOptions& options) {
-  const std::size_t threads = options.threads > 0 ? static_cast<std::size_t>(options.threads) : std::thread::hardware_concurrency();
-  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
-  for (const std::filesystem::path& file : {options.output, std::filesystem::path(options.preview_file), std::filesystem::path(options.summary_file)})
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
+  for (const std::filesystem::path& file : {options.output, std::filesystem::path(options.preview_file), std::filesystem::path(options.run.summary_file)})
     require_folder_of(file);
   const auto start = Clock::now();
   const SvfRun result = evaluate(options);
   const double total_s = seconds_since(start);
-  write_summary(options.summary_file, svf_summary_json(result, options, total_s));
-  if (options.verbosity == Verbosity::normal) print_run(result, options, total_s);
+  write_summary(options.run.summary_file, svf_summary_json(result, options, total_s));
+  if (options.run.verbosity == Verbosity::normal) print_run(result, options, total_s);
   return exit_done;
 }
 

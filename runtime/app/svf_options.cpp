@@ -10,7 +10,6 @@
 #include <cstdlib>
 
 #include "console/exit_code.hpp"
-#include "farlod/version.hpp"
 
 namespace farlod {
 namespace {
@@ -27,7 +26,7 @@ constexpr const char* footer =
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
   std::string package, output, points, surfaces, at, bbox, engine = "auto", sky = "cosine";
-  bool on_surface = false, quiet = false;
+  bool on_surface = false;
 };
 
 /// A finite number. CLI11's own Range lets NaN through, which is neither below nor above.
@@ -70,7 +69,6 @@ void add_other_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_option("PACKAGE", raw.package, "A folder that farlod-pack made")->required();
   app.add_option("-o,--output", raw.output, "File to write; its ending says the format: " + known_output_endings())->required()->group("Output");
   app.add_option("--preview", o.preview_file, "Also draw the raster as this PNG, with a colour scale")->group("Output");
-  app.add_option("--summary", o.summary_file, "Write counts, times and figures to this JSON file")->group("Output");
   app.add_option("--engine", raw.engine, "auto: the fastest that fits; rays: near tiles and far map; exact: all tiles, the reference")
       ->check(CLI::IsMember({"auto", "rays", "exact"}))->capture_default_str()->group("Accuracy");
   app.add_option("--rays", o.sky.rays, "Directions a receiver")->check(CLI::Range(1, 10000000))->capture_default_str()->group("Accuracy");
@@ -78,11 +76,7 @@ void add_other_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->check(CLI::IsMember({"cosine", "solid"}))->capture_default_str()->group("Accuracy");
   app.add_option("--verify", o.verify_count, "Also compute this many random receivers exactly, and report the errors")
       ->check(CLI::Range(0, 1000000000))->group("Accuracy");
-  app.add_flag("--quiet", raw.quiet, "Say nothing but errors")->group("Run");
-  app.add_option("--threads", o.threads, "Threads to use (default: all cores)")->check(CLI::Range(1, 4096))->group("Run");
-  app.set_config("--config", "", "Read options from this file (TOML)")->group("Run");
-  app.allow_config_extras(CLI::config_extras_mode::error);
-  app.set_version_flag("--version", std::string("farlod-svf ") + software_version);
+  add_run_options(app, "farlod-svf", o.run);
 }
 
 void understand_place(const RawOptions& raw, SvfOptions& o) {
@@ -133,7 +127,6 @@ void understand(const RawOptions& raw, SvfOptions& o) {
   // `auto` is the fastest engine that fits; so far that is one for all cities
   o.sky.engine = raw.engine == "exact" ? Engine::exact : Engine::rays;
   o.sky.weight = raw.sky == "solid" ? SkyWeight::solid_angle : SkyWeight::cosine;
-  o.verbosity = raw.quiet ? Verbosity::quiet : Verbosity::normal;
 }
 
 }  // namespace
@@ -141,20 +134,11 @@ void understand(const RawOptions& raw, SvfOptions& o) {
 ParsedSvfOptions parse_svf_options(int argc, char** argv) {
   CLI::App app(description, "farlod-svf");
   app.footer(footer);
-  app.get_formatter()->column_width(34);
   RawOptions raw;
   SvfOptions options;
   add_receiver_options(app, raw, options);
   add_other_options(app, raw, options);
-  try {
-    app.parse(argc, argv);
-    understand(raw, options);
-  } catch (const CLI::ConfigError& error) {
-    app.exit(CLI::ValidationError("--config", std::string(error.what()) + ": name its options as --help does, without the dashes"));
-    return {std::nullopt, exit_usage};
-  } catch (const CLI::ParseError& error) {
-    return {std::nullopt, app.exit(error) == 0 ? exit_done : exit_usage};
-  }
+  if (const auto exit_code = parse_command_line(app, argc, argv, [&] { understand(raw, options); })) return {std::nullopt, *exit_code};
   return {std::move(options), exit_done};
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "console/progress.hpp"
+#include "console/run_options.hpp"
 #include "evaluate/sky_evaluator.hpp"
 #include "farlod/box.hpp"
 #include "receivers/point_receivers.hpp"
@@ -35,9 +35,8 @@ struct SvfOptions {
   std::optional<Box2d> bbox_projected;
   SkySettings sky;
   std::size_t verify_count = 0;
-  std::string preview_file, summary_file;
-  int threads = 0;  ///< 0: all cores
-  Verbosity verbosity = Verbosity::normal;
+  std::string preview_file;
+  RunOptions run;
 };
 
 /// The options, or the exit code when there is nothing to do (help, version) or the command line is wrong; what there is

@@ -20,7 +20,7 @@ class RayBatch {
 
   void add(const Point3f& origin, std::size_t n, const Point3f& direction) {
     if (count_ == batch_size) flush();
-    rays_[count_] = {origin, direction};
+    rays_[count_] = {origin, direction, least_distance_m};
     origin_of_[count_++] = n;
   }
   void flush() {

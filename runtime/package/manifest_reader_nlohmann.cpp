@@ -145,7 +145,7 @@ Manifest read_manifest(const std::filesystem::path& package_folder) {
                           ". Was farlod-pack interrupted? Pack the city again.");
   try {
     const json j = json::parse(file);
-    require(j.is_object() && j.value("format", "") == "farlod-package", "it does not say that it is one");
+    require(j.is_object() && j.value("format", "") == "farlod-package", "it is not the manifest of a package");
     const auto version = whole_number<std::uint32_t>(j.at("version"));
     if (version > format_version)
       throw PackageUnusable(path.string() + " has format version " + std::to_string(version) + ", this program reads up to " +

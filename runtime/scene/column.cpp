@@ -44,7 +44,7 @@ std::optional<float> Column::highest_m() const {
 
 bool Column::is_inside_building(float height_m) const {
   struct Count {
-    int above = 0;
+    int up_minus_down = 0;
     float last_height_m = -std::numeric_limits<float>::infinity();
     bool last_looks_up = false;
   };
@@ -53,11 +53,11 @@ bool Column::is_inside_building(float height_m) const {
     if (c.height_m <= height_m || c.building == package::no_building) continue;
     Count& part = parts[{c.building, c.part}];
     const bool same = c.looks_up == part.last_looks_up && c.height_m - part.last_height_m <= same_surface_m;
-    part.above += same ? 0 : 1;
+    if (!same) part.up_minus_down += c.looks_up ? 1 : -1;
     part.last_height_m = c.height_m;
     part.last_looks_up = c.looks_up;
   }
-  return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.second.above % 2 == 1; });
+  return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.second.up_minus_down > 0; });
 }
 
 CellColumns::CellColumns(const Package& package, Cell cell)

@@ -27,8 +27,9 @@ class Column {
   [[nodiscard]] std::optional<float> ground_m() const;
   /// The highest of all: a roof, a bridge, or the ground.
   [[nodiscard]] std::optional<float> highest_m() const;
-  /// Whether a point at this height is within a closed part of a building: an odd number of the part's surfaces lies above
-  /// it. Under a bridge or an arcade the number is even; a part without a roof encloses nothing.
+  /// Whether a point at this height is within a part of a building: above it, more of the part's surfaces look up than
+  /// down. Under a bridge or an arcade they are equally many; a part without a roof encloses nothing. (Odd and even would be fooled
+  /// by a main roof that runs on under a rooftop structure.)
   [[nodiscard]] bool is_inside_building(float height_m) const;
 
  private:

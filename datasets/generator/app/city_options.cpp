@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "console/exit_code.hpp"
-#include "farlod/version.hpp"
 #include "generator/generated_city.hpp"
 
 namespace farlod {
@@ -29,10 +28,8 @@ constexpr const char* footer =
 
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
-  std::string output, crs = "EPSG:32632", summary;
+  std::string output, crs = "EPSG:32632";
   std::int64_t buildings = 0;
-  int threads = 1;
-  bool quiet = false;
 };
 
 /// The numbers that the settings describe themselves; their ranges are checked when all options are known.
@@ -51,7 +48,6 @@ void add_other_options(CLI::App& app, RawOptions& raw, CityOptions& o) {
   app.add_flag("--obj-from-centre", o.obj_from_centre,
                "OBJ: count x and y from the city's centre, for viewers that compute in float")
       ->group("Output");
-  app.add_option("--summary", raw.summary, "Write counts and times to this JSON file")->group("Output");
   app.add_option("--seed", o.settings.seed, "Number that chooses one of many cities alike")->capture_default_str()->group("City");
   app.add_option("--buildings", raw.buildings, "Choose the size such that the city has about so many buildings")
       ->excludes("--size")
@@ -61,12 +57,8 @@ void add_other_options(CLI::App& app, RawOptions& raw, CityOptions& o) {
   app.add_option("--crs", raw.crs, "CRS that the file names, as EPSG:n: projected, in metres, easting first")
       ->capture_default_str()
       ->group("Place");
-  app.add_flag("--quiet", raw.quiet, "Say nothing but errors")->group("Run");
-  app.add_option("--threads", raw.threads, "As for the other programs; a city is written by one thread")
-      ->check(CLI::Range(1, 4096))
-      ->group("Run");
-  app.set_config("--config", "", "Read options from this file (TOML)")->group("Run");
-  app.set_version_flag("--version", std::string("farlod-city ") + software_version);
+  add_run_options(app, "farlod-city", o.run);
+  app.get_option("--threads")->description("As for the other programs; a city is written by one thread");
 }
 
 void understand(const RawOptions& raw, const CLI::App& app, CityOptions& o) {
@@ -78,8 +70,6 @@ void understand(const RawOptions& raw, const CLI::App& app, CityOptions& o) {
   const auto epsg = epsg_code(raw.crs);
   if (!epsg) throw CLI::ValidationError("--crs", "\"" + raw.crs + "\" is not like EPSG:32632");
   o.settings.epsg = *epsg;
-  o.summary_file = raw.summary;
-  o.verbosity = raw.quiet ? Verbosity::quiet : Verbosity::normal;
   check(o.settings);
   if (app.count("--buildings") > 0) o.settings.size_m = size_for_buildings_m(o.settings, raw.buildings);
 }
@@ -89,16 +79,12 @@ void understand(const RawOptions& raw, const CLI::App& app, CityOptions& o) {
 ParsedCityOptions parse_city_options(int argc, char** argv) {
   CLI::App app(description, "farlod-city");
   app.footer(footer);
-  app.get_formatter()->column_width(34);
   RawOptions raw;
   CityOptions options;
   add_settings(app, options.settings);
   add_other_options(app, raw, options);
   try {
-    app.parse(argc, argv);
-    understand(raw, app, options);
-  } catch (const CLI::ParseError& error) {
-    return {std::nullopt, app.exit(error) == 0 ? exit_done : exit_usage};
+    if (const auto exit_code = parse_command_line(app, argc, argv, [&] { understand(raw, app, options); })) return {std::nullopt, *exit_code};
   } catch (const SettingsError& error) {
     fmt::print(stderr, "farlod-city: {}\n", error.what());
     return {std::nullopt, exit_usage};

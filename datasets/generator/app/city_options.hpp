@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "console/progress.hpp"
+#include "console/run_options.hpp"
 #include "generator/city_settings.hpp"
 #include "generator/city_writer.hpp"
 
@@ -16,8 +16,7 @@ struct CityOptions {
   std::filesystem::path output;
   CityFormat format = CityFormat::obj;
   bool obj_from_centre = false;
-  std::filesystem::path summary_file;  ///< empty: none
-  Verbosity verbosity = Verbosity::normal;
+  RunOptions run;
 };
 
 /// The options, or only the code to exit with: after --help, --version or an error that has been told.

@@ -29,7 +29,7 @@ void count(const GeneratedBuilding& building, CityCounts& counts) {
   CityHeader header = header_of(options.settings, options.output);
   header.obj_from_centre = options.obj_from_centre;
   const auto writer = make_city_writer(options.format, options.output, header);
-  Progress progress("Building", options.verbosity);
+  Progress progress("Building", options.run.verbosity);
   const auto blocks = static_cast<std::size_t>(CityLayout(options.settings).block_count());
   writer->begin();
   visit_city(options.settings,
@@ -46,14 +46,14 @@ void count(const GeneratedBuilding& building, CityCounts& counts) {
 }
 
 void write_summary(const CityOptions& options, const CityCounts& counts) {
-  if (options.summary_file.empty()) return;
-  CityTextFile file(options.summary_file);
+  if (options.run.summary_file.empty()) return;
+  CityTextFile file(options.run.summary_file);
   file.text() += city_summary_json(options, counts);
   file.commit();
 }
 
 void print_counts(const CityOptions& options, const CityCounts& counts) {
-  if (options.verbosity == Verbosity::quiet) return;
+  if (options.run.verbosity == Verbosity::quiet) return;
   fmt::print("{}: {} buildings, {} polygons, tallest {:.1f} m, {:.1f} MiB, {:.1f} s\n", options.output.string(), counts.buildings,
              counts.polygons, counts.tallest_m, static_cast<double>(counts.bytes) / 1048576.0, counts.seconds);
 }
