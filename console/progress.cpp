@@ -40,8 +40,8 @@ void Progress::update(std::size_t done, std::size_t all) {
   next_ = now + (on_terminal_ ? 200ms : 10s);
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
   const double left_s = elapsed_s * static_cast<double>(all - done) / static_cast<double>(done);
-  const std::string line =
-      fmt::format("{}: {:.0f} %, about {} left", what_, 100.0 * static_cast<double>(done) / static_cast<double>(all), duration_text(left_s));
+  const std::string line = fmt::format("{}: {:.0f} %, about {} left", what_,
+                                       100.0 * static_cast<double>(done) / static_cast<double>(all), duration_text(left_s));
   if (on_terminal_)
     fmt::print(stderr, "\r\033[K{}", line);
   else

@@ -30,6 +30,7 @@ void add_run_options(CLI::App& app, const std::string& program, RunOptions& opti
 /// Parses the command line, then lets `understand` make sense of it (it may throw CLI::ValidationError).
 /// Returns the exit code when the program has nothing left to do: after --help and --version, or when the command line is wrong;
 /// what there is to say has been said then.
-[[nodiscard]] std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv, const std::function<void()>& understand);
+[[nodiscard]] std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv,
+                                                    const std::function<void()>& understand);
 
 }  // namespace farlod

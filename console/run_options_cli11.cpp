@@ -16,7 +16,9 @@ std::size_t thread_count(const RunOptions& options) {
 
 void add_run_options(CLI::App& app, const std::string& program, RunOptions& o) {
   app.add_option("--summary", o.summary_file, "Write counts, times and figures to this JSON file")->group("Output");
-  app.add_flag_callback("--quiet", [&o] { o.verbosity = Verbosity::quiet; }, "Say nothing but errors")->group("Run");
+  app.add_flag_callback(
+         "--quiet", [&o] { o.verbosity = Verbosity::quiet; }, "Say nothing but errors")
+      ->group("Run");
   app.add_option("--threads", o.threads, "Threads to use (default: all cores)")->check(CLI::Range(1, 4096))->group("Run");
   app.set_config("--config", "", "Read options from this file (TOML)")->group("Run");
   app.allow_config_extras(CLI::config_extras_mode::error);
@@ -29,7 +31,8 @@ std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv, cons
     app.parse(argc, argv);
     understand();
   } catch (const CLI::ConfigError& error) {
-    app.exit(CLI::ValidationError("--config", std::string(error.what()) + ": name its options as --help does, without the dashes"));
+    app.exit(
+        CLI::ValidationError("--config", std::string(error.what()) + ": name its options as --help does, without the dashes"));
     return exit_usage;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_done : exit_usage;

@@ -31,9 +31,7 @@ struct CellRange {
   std::int32_t i_begin = 0, j_begin = 0, i_end = 0, j_end = 0;
   bool operator==(const CellRange&) const = default;
 
-  [[nodiscard]] constexpr bool contains(Cell c) const {
-    return i_begin <= c.i && c.i < i_end && j_begin <= c.j && c.j < j_end;
-  }
+  [[nodiscard]] constexpr bool contains(Cell c) const { return i_begin <= c.i && c.i < i_end && j_begin <= c.j && c.j < j_end; }
   [[nodiscard]] constexpr std::int64_t width() const { return i_end > i_begin ? i_end - i_begin : 0; }
   [[nodiscard]] constexpr std::int64_t height() const { return j_end > j_begin ? j_end - j_begin : 0; }
   [[nodiscard]] constexpr std::int64_t size() const { return width() * height(); }
@@ -80,12 +78,15 @@ struct Grid {
   [[nodiscard]] Point2d centre_of(Cell c) const { return {(c.i + 0.5) * cell_edge_m, (c.j + 0.5) * cell_edge_m}; }
   /// Corner of the middle cell: where a scene of the whole city has its origin, so that floats are finest in the city.
   [[nodiscard]] Point2d middle_corner() const {
-    return corner_of({cells.i_begin + static_cast<std::int32_t>(cells.width() / 2), cells.j_begin + static_cast<std::int32_t>(cells.height() / 2)});
+    return corner_of({cells.i_begin + static_cast<std::int32_t>(cells.width() / 2),
+                      cells.j_begin + static_cast<std::int32_t>(cells.height() / 2)});
   }
   [[nodiscard]] Box2d square_of(Cell c) const { return {corner_of(c), corner_of({c.i + 1, c.j + 1})}; }
 
   /// What all cells cover together, in the grid frame.
-  [[nodiscard]] Box2d rectangle() const { return {corner_of({cells.i_begin, cells.j_begin}), corner_of({cells.i_end, cells.j_end})}; }
+  [[nodiscard]] Box2d rectangle() const {
+    return {corner_of({cells.i_begin, cells.j_begin}), corner_of({cells.i_end, cells.j_end})};
+  }
 
   /// The N×N cells around `c`; some of them may lie outside of `cells`.
   [[nodiscard]] CellRange neighborhood_of(Cell c) const {

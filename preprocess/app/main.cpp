@@ -30,7 +30,8 @@ void write_text(const std::string& path, const std::string& text) {
 void require_folder_of(const std::filesystem::path& file) {
   const auto folder = file.parent_path();
   if (folder.empty() || std::filesystem::is_directory(folder)) return;
-  throw PackageWriteError(file.string() + " cannot be written: there is no folder " + folder.string() + ". Make it first, or choose another.");
+  throw PackageWriteError(file.string() + " cannot be written: there is no folder " + folder.string() +
+                          ". Make it first, or choose another.");
 }
 
 /// A line for each kind of problem, so that nothing is lost silently; --report has them one by one.
@@ -54,10 +55,11 @@ void print_result(const PackResult& result, const Report& report, const PackOpti
   fmt::print("CRS: {}\n", m.crs_name);
   fmt::print("Streets: {:.2f}° from grid north ({:.2f}° from true north), strength {:.2f}\n", result.alignment.bearing.degrees(),
              (result.alignment.bearing + m.convergence).degrees(), result.alignment.strength);
-  fmt::print("Grid: turned by {:.2f}°, {} × {} cells of {:g} m, neighbourhood {} × {}\n", bearing_deg, m.grid.cells.width(), m.grid.cells.height(),
-             m.grid.cell_edge_m, m.grid.neighborhood, m.grid.neighborhood);
+  fmt::print("Grid: turned by {:.2f}°, {} × {} cells of {:g} m, neighbourhood {} × {}\n", bearing_deg, m.grid.cells.width(),
+             m.grid.cells.height(), m.grid.cell_edge_m, m.grid.neighborhood, m.grid.neighborhood);
   fmt::print("{}: {:.1f} MiB ({:.1f} MiB far maps), {} triangles, {:.1f} s\n", options.settings.output.string(),
-             static_cast<double>(result.package_bytes) / 1048576.0, static_cast<double>(result.far_map_bytes) / 1048576.0, m.triangles, seconds);
+             static_cast<double>(result.package_bytes) / 1048576.0, static_cast<double>(result.far_map_bytes) / 1048576.0,
+             m.triangles, seconds);
 }
 
 /// Shows one progress line for each stage.

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pack_options.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <cstdlib>
@@ -21,7 +21,8 @@ constexpr const char* description =
     "  farlod-pack town.gml -o town.farlod\n"
     "  farlod-pack footprints.geojson --height-field height -o town.farlod\n";
 constexpr const char* footer =
-    "\nReads CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, OBJ, and footprints in any vector format of GDAL (GeoJSON, GeoPackage, Shapefile …).\n"
+    "\nReads CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, OBJ, and footprints in any vector format of GDAL (GeoJSON, GeoPackage, "
+    "Shapefile …).\n"
     "Exit codes: 0 done, 1 internal, 2 usage, 3 an input cannot be read or used, 5 a limit was reached.";
 
 /// Options whose text must be understood after CLI11 has taken them.
@@ -45,13 +46,15 @@ CLI::Validator between(double low, double high) {
 double number_in(const std::string& text, const std::string& option, const std::string& remedy) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !std::isfinite(value)) throw CLI::ValidationError(option, "\"" + text + "\" is not a number: " + remedy);
+  if (text.empty() || *end != '\0' || !std::isfinite(value))
+    throw CLI::ValidationError(option, "\"" + text + "\" is not a number: " + remedy);
   return value;
 }
 
 Point3d parse_origin(const std::string& text) {
   std::vector<double> numbers;
-  for (const std::string& part : CLI::detail::split(text, ',')) numbers.push_back(number_in(part, "--origin", "give X,Y or X,Y,Z"));
+  for (const std::string& part : CLI::detail::split(text, ','))
+    numbers.push_back(number_in(part, "--origin", "give X,Y or X,Y,Z"));
   if (numbers.size() != 2 && numbers.size() != 3) throw CLI::ValidationError("--origin", "give X,Y or X,Y,Z");
   return {numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 0.0};
 }
@@ -59,26 +62,47 @@ Point3d parse_origin(const std::string& text) {
 void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("INPUT", raw.inputs, "City files; several are put together");
   app.add_option("--crs", o.settings.georeference.crs, "CRS of inputs that do not say, as EPSG:n")->group("Input");
-  app.add_option("--out-crs", o.settings.georeference.out_crs, "CRS of the package (default: the input's, or UTM for degrees)")->group("Input");
+  app.add_option("--out-crs", o.settings.georeference.out_crs, "CRS of the package (default: the input's, or UTM for degrees)")
+      ->group("Input");
   app.add_option("--origin", raw.origin, "X,Y[,Z] added to the coordinates of OBJ files")->group("Input");
-  app.add_option("--up", raw.up, "Axis that points up in OBJ files")->check(CLI::IsMember({"z", "y"}))->capture_default_str()->group("Input");
-  app.add_option("--height-field", raw.height_field, "Attribute with a footprint's height above its base, in metres")->group("Input");
+  app.add_option("--up", raw.up, "Axis that points up in OBJ files")
+      ->check(CLI::IsMember({"z", "y"}))
+      ->capture_default_str()
+      ->group("Input");
+  app.add_option("--height-field", raw.height_field, "Attribute with a footprint's height above its base, in metres")
+      ->group("Input");
   app.add_option("--base-field", raw.base_field, "Attribute with the elevation of a footprint's base, in metres")->group("Input");
   app.add_option("--default-height", o.settings.ingest.default_height_m, "Height of footprints that have none, in metres")
-      ->check(between(0.01, 10000.0))->group("Input");
-  app.add_option("--lod", raw.lod, "Level of detail to read")->check(CLI::IsMember({"best", "0", "1", "2", "3"}))->capture_default_str()->group("Input");
+      ->check(between(0.01, 10000.0))
+      ->group("Input");
+  app.add_option("--lod", raw.lod, "Level of detail to read")
+      ->check(CLI::IsMember({"best", "0", "1", "2", "3"}))
+      ->capture_default_str()
+      ->group("Input");
   app.add_option("--terrain", raw.terrain, "Raster of ground elevations (any that GDAL reads)")->group("Input");
 }
 
 void add_grid_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
-  app.add_option("--cell", o.settings.grid.cell_edge_m, "Edge of a cell in metres")->check(between(0.5, 10000.0))->capture_default_str()->group("Grid");
+  app.add_option("--cell", o.settings.grid.cell_edge_m, "Edge of a cell in metres")
+      ->check(between(0.5, 10000.0))
+      ->capture_default_str()
+      ->group("Grid");
   app.add_option("--neighborhood", o.settings.grid.neighborhood, "Cells along the edge of the near field, N: odd")
-      ->check(CLI::Range(1, 999))->capture_default_str()->group("Grid");
+      ->check(CLI::Range(1, 999))
+      ->capture_default_str()
+      ->group("Grid");
   app.add_option("--align", raw.align, "auto: along the streets; none: grid north; or degrees clockwise from grid north")
-      ->capture_default_str()->group("Grid");
-  app.add_option("--assign", raw.assign, "clip: cut at the cells' borders; whole: buildings go whole to the cell of their centroid")
-      ->check(CLI::IsMember({"clip", "whole"}))->capture_default_str()->group("Grid");
-  app.add_option("--far-map", raw.far_map, "Kind of far map")->check(CLI::IsMember({"box"}))->capture_default_str()->group("Grid");
+      ->capture_default_str()
+      ->group("Grid");
+  app.add_option("--assign", raw.assign,
+                 "clip: cut at the cells' borders; whole: buildings go whole to the cell of their centroid")
+      ->check(CLI::IsMember({"clip", "whole"}))
+      ->capture_default_str()
+      ->group("Grid");
+  app.add_option("--far-map", raw.far_map, "Kind of far map")
+      ->check(CLI::IsMember({"box"}))
+      ->capture_default_str()
+      ->group("Grid");
 }
 
 void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
@@ -110,7 +134,8 @@ void understand(const RawOptions& raw, PackOptions& o) {
   if (!raw.terrain.empty()) s.terrain = raw.terrain;
   if (s.inputs.empty() && !s.terrain) throw CLI::RequiredError("INPUT");
   if (s.grid.neighborhood % 2 == 0)
-    throw CLI::ValidationError("--neighborhood", std::to_string(s.grid.neighborhood) + " is even: a neighbourhood has a cell in its middle, give an odd number");
+    throw CLI::ValidationError("--neighborhood", std::to_string(s.grid.neighborhood) +
+                                                     " is even: a neighbourhood has a cell in its middle, give an odd number");
   if (!raw.origin.empty()) s.ingest.obj_origin = parse_origin(raw.origin);
   s.ingest.up = raw.up == "y" ? UpAxis::y : UpAxis::z;
   if (raw.lod != "best") s.ingest.lod.exactly = std::stoi(raw.lod);
@@ -130,7 +155,8 @@ ParsedPackOptions parse_pack_options(int argc, char** argv) {
   add_input_options(app, raw, options);
   add_grid_options(app, raw, options);
   add_output_options(app, raw, options);
-  if (const auto exit_code = parse_command_line(app, argc, argv, [&] { understand(raw, options); })) return {std::nullopt, *exit_code};
+  if (const auto exit_code = parse_command_line(app, argc, argv, [&] { understand(raw, options); }))
+    return {std::nullopt, *exit_code};
   return {std::move(options), exit_done};
 }
 

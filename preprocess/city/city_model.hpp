@@ -20,7 +20,7 @@ struct Facet {
   /// The surface it belongs to, counted within its building. Polygons of a file are surfaces of their own;
   /// the coplanar triangles of a mesh share one.
   std::uint32_t surface = 0;
-  std::uint16_t part = 0;        ///< the closed part (BuildingPart) of the building, for the question "inside?"
+  std::uint16_t part = 0;  ///< the closed part (BuildingPart) of the building, for the question "inside?"
   SurfaceKind kind = SurfaceKind::unknown;
 };
 

@@ -14,10 +14,10 @@ namespace farlod {
 
 /// Where the city frame lies on the Earth.
 struct Georeference {
-  std::string crs_wkt;         ///< the output CRS: projected, in metres
-  std::optional<int> epsg;     ///< its code, where it has one
-  std::string crs_name;        ///< for people
-  Point2d origin_m;            ///< easting and northing of the city frame's origin
+  std::string crs_wkt;      ///< the output CRS: projected, in metres
+  std::optional<int> epsg;  ///< its code, where it has one
+  std::string crs_name;     ///< for people
+  Point2d origin_m;         ///< easting and northing of the city frame's origin
   /// Meridian convergence γ at the origin: true azimuth = grid azimuth + γ.
   Angle convergence;
 };

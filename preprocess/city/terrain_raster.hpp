@@ -12,7 +12,7 @@ namespace farlod {
 /// Heights of the ground at the nodes of a regular net in the city frame (not turned: a terrain in another CRS is
 /// resampled on reading). Node (column, row) lies at first + (column, row)·step; rows go north.
 struct TerrainRaster {
-  Point2d first;                            ///< the south-west node, city frame
+  Point2d first;  ///< the south-west node, city frame
   Point2d step_m{1.0, 1.0};
   std::size_t columns = 0, rows = 0;
   std::vector<std::optional<float>> height_m;  ///< row by row from the south; empty where the raster has no data

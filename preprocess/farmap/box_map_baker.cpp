@@ -9,8 +9,8 @@
 namespace farlod {
 namespace {
 
-/// Rays begin this much (relative) before the neighbourhood's border, so that a wall that stands on the border, and hence belongs to
-/// the far side, is not missed by rounding: the float origin, the division and the product round once each.
+/// Rays begin this much (relative) before the neighbourhood's border, so that a wall that stands on the border, and hence belongs
+/// to the far side, is not missed by rounding: the float origin, the division and the product round once each.
 constexpr double border_rounding = 4.0 * std::numeric_limits<float>::epsilon();
 
 }  // namespace
@@ -46,7 +46,8 @@ float BoxMapBaker::distance_m(const Point3f& capture, const Point3d& d, const Ce
     ray.begin = static_cast<float>(border_m * (1.0 - border_rounding));
     hit = city_.occluder().nearest(ray);
     // What stands on the border itself is near in the west and south, far in the east and north
-    if (hit && hit->distance < border_m * (1.0 + border_rounding) && !is_far(hit->triangle)) hit = city_.occluder().nearest(ray, is_far);
+    if (hit && hit->distance < border_m * (1.0 + border_rounding) && !is_far(hit->triangle))
+      hit = city_.occluder().nearest(ray, is_far);
   } else {
     // Whole buildings cross the border: whose cell they belong to decides, not where they stand
     hit = city_.occluder().nearest(ray, is_far);

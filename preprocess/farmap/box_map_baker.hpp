@@ -22,9 +22,10 @@ struct FarMapSettings {
 
 /// The far map of a cell, as captured.
 struct BakedMap {
-  Point3f capture_cell;            ///< capture point, cell frame
+  Point3f capture_cell;  ///< capture point, cell frame
   BoxMap shape;
-  std::vector<float> distance_m;   ///< texel rows from the horizontal upwards; infinite where the sky is seen; empty when all is sky
+  std::vector<float>
+      distance_m;  ///< texel rows from the horizontal upwards; infinite where the sky is seen; empty when all is sky
 };
 
 /// Captures the far maps of a block's cells, in the order of CellRange::index_of: what the city outside of each cell's

@@ -45,7 +45,8 @@ class BuildingWriter {
       else if (is_new(p))
         write(p);
     }
-    if (has_chosen() && !others.empty()) writer_.add_problem(ProblemCode::other_level_of_detail, unused_polygons(others.size(), lods));
+    if (has_chosen() && !others.empty())
+      writer_.add_problem(ProblemCode::other_level_of_detail, unused_polygons(others.size(), lods));
     writer_.end_building("no usable surface in the level of detail asked for; it has LoD " + list_lods(lods));
   }
 

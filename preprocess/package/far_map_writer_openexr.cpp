@@ -46,7 +46,8 @@ Imf::Header header_for(const CellRange& cells, int columns, int rows) {
 
 }  // namespace
 
-void write_far_maps(const std::filesystem::path& path, std::span<const BakedMap> maps, const CellRange& cells, const FarMapSettings& settings) {
+void write_far_maps(const std::filesystem::path& path, std::span<const BakedMap> maps, const CellRange& cells,
+                    const FarMapSettings& settings) {
   FARLOD_EXPECTS(maps.size() == static_cast<std::size_t>(cells.size()));
   const std::uint32_t columns = 4 * settings.side_columns, rows = settings.rows;
   try {

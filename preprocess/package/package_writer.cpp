@@ -23,7 +23,8 @@ void require_package_or_empty(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path name = entry.path().filename();
     if (name != package::manifest_file && name != blocks_folder)
-      throw PackageWriteError(folder.string() + " holds " + name.string() + ", which is not part of a package: choose another folder for -o.");
+      throw PackageWriteError(folder.string() + " holds " + name.string() +
+                              ", which is not part of a package: choose another folder for -o.");
   }
 }
 
@@ -61,8 +62,8 @@ package::FileStamp PackageWriter::write_file(const fs::path& path, std::span<con
   return stamp_of(bytes);
 }
 
-package::BlockFiles PackageWriter::write_block(const TileSet& tiles, std::span<const BakedMap> maps, const Grid& grid, Block block,
-                                               const FarMapSettings& settings) {
+package::BlockFiles PackageWriter::write_block(const TileSet& tiles, std::span<const BakedMap> maps, const Grid& grid,
+                                               Block block, const FarMapSettings& settings) {
   const fs::path folder = folder_ / package::block_folder(block);
   fs::create_directories(folder);
   package::BlockFiles files{block, write_file(folder / package::tiles_file, tiles_file(tiles, maps, grid, block)), {}};

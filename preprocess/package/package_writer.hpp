@@ -26,8 +26,8 @@ class PackageWriteError : public std::runtime_error {
 /// holds anything that is not part of a package. Touches nothing.
 void require_room(const std::filesystem::path& folder, Overwrite overwrite);
 
-/// Writes a package block by block. Every file is written under a temporary name and renamed; the manifest comes last, so that a folder
-/// with a manifest is a whole package, whatever happened before.
+/// Writes a package block by block. Every file is written under a temporary name and renamed; the manifest comes last, so that a
+/// folder with a manifest is a whole package, whatever happened before.
 class PackageWriter {
  public:
   /// Makes the folder. An old package in it loses its manifest at once, and its blocks with it (`replace`), or is left

@@ -15,8 +15,8 @@ namespace {
 
 using namespace package;
 
-/// The sections of a block, gathered cell by cell. Surfaces and buildings are numbered anew, by their order in the city, so that a
-/// block knows only those that it holds.
+/// The sections of a block, gathered cell by cell. Surfaces and buildings are numbered anew, by their order in the city, so that
+/// a block knows only those that it holds.
 class BlockSections {
  public:
   BlockSections(const TileSet& tiles, const CellRange& range) : city_(tiles) {
@@ -31,8 +31,8 @@ class BlockSections {
   void add_cell(Cell cell, const BakedMap& map) {
     const Tile& tile = city_.tile(cell);
     cells.push_back({cell.i, cell.j, vertices.size(), triangles.size(), static_cast<std::uint32_t>(tile.vertices.size()),
-                     static_cast<std::uint32_t>(tile.triangles.size()), tile.z_low_m, tile.z_high_m, map.capture_cell.x, map.capture_cell.y,
-                     map.capture_cell.z, map.shape.top, tile.has_overhang ? cell_has_overhang : 0, 0});
+                     static_cast<std::uint32_t>(tile.triangles.size()), tile.z_low_m, tile.z_high_m, map.capture_cell.x,
+                     map.capture_cell.y, map.capture_cell.z, map.shape.top, tile.has_overhang ? cell_has_overhang : 0, 0});
     vertices.insert(vertices.end(), tile.vertices.begin(), tile.vertices.end());
     triangles.insert(triangles.end(), tile.triangles.begin(), tile.triangles.end());
     for (const std::uint32_t s : tile.triangle_surfaces) triangle_surfaces.push_back(row_of_surface_.at(s));
@@ -49,8 +49,16 @@ class BlockSections {
  private:
   SurfaceRecord record_of(const Surface& s) {
     const auto f = [](double x) { return static_cast<float>(x); };
-    return {s.building == ground_building ? no_building : row_of_building(s.building), s.number, s.part, s.kind, 0, f(s.normal.x), f(s.normal.y),
-            f(s.normal.z), f(s.area_m2), 0};
+    return {s.building == ground_building ? no_building : row_of_building(s.building),
+            s.number,
+            s.part,
+            s.kind,
+            0,
+            f(s.normal.x),
+            f(s.normal.y),
+            f(s.normal.z),
+            f(s.area_m2),
+            0};
   }
   std::uint32_t row_of_building(std::uint32_t number) {
     const auto [entry, is_new] = row_of_building_.try_emplace(number, static_cast<std::uint32_t>(buildings.size()));

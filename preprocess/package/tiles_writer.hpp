@@ -13,6 +13,7 @@
 namespace farlod {
 
 /// The bytes of a block's `tiles.bin` (include/farlod/package/layout.hpp). `maps` are those of the block's cells, in order.
-[[nodiscard]] std::vector<std::byte> tiles_file(const TileSet& tiles, std::span<const BakedMap> maps, const Grid& grid, Block block);
+[[nodiscard]] std::vector<std::byte> tiles_file(const TileSet& tiles, std::span<const BakedMap> maps, const Grid& grid,
+                                                Block block);
 
 }  // namespace farlod

@@ -27,7 +27,8 @@ package::InputFile input_file(const std::filesystem::path& path) {
 Box2d city_outline(const Grid& grid) {
   const auto [low, high] = grid.rectangle();
   Box2d outline;
-  for (const Point2d corner : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}}) outline.add(grid.rotation.city_from_grid(corner));
+  for (const Point2d corner : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}})
+    outline.add(grid.rotation.city_from_grid(corner));
   return outline;
 }
 
@@ -53,7 +54,9 @@ class Packing {
     const auto [grid, terrain] = lay_grid_on_ground(located);
     describe_place(located, grid);
     result_.facets = located.city.facets().size();
-    TileSet tiles = timed("tiles", [&, &grid = grid, &terrain = terrain] { return cut_into_tiles(std::move(located), grid, settings_.assign, terrain, report_); });
+    TileSet tiles = timed("tiles", [&, &grid = grid, &terrain = terrain] {
+      return cut_into_tiles(std::move(located), grid, settings_.assign, terrain, report_);
+    });
     describe_tiles(tiles);
     write_package(tiles, grid);
     return std::move(result_);
@@ -69,7 +72,8 @@ class Packing {
       for (const auto& input : settings_.inputs) read.push_back(ingest(input, settings_.ingest, report_));
       return read;
     });
-    LocatedCity located = timed("georeference", [&] { return georeference(std::move(sources), settings_.georeference, report_); });
+    LocatedCity located =
+        timed("georeference", [&] { return georeference(std::move(sources), settings_.georeference, report_); });
     if (located.city.buildings().empty())
       throw InputError("No building is left to pack: see --report for what was wrong with each of them.");
     return located;

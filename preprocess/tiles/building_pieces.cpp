@@ -139,7 +139,8 @@ class BuildingCutter {
 
 }  // namespace
 
-BuildingPieces cut_building(const CityModel& city_grid, const Building& building, const Grid& grid, Assign assign, double height_origin_m) {
+BuildingPieces cut_building(const CityModel& city_grid, const Building& building, const Grid& grid, Assign assign,
+                            double height_origin_m) {
   return BuildingCutter(city_grid, building, grid, assign, height_origin_m).run();
 }
 

@@ -16,8 +16,8 @@ namespace farlod {
 
 /// A surface of one building, whole.
 struct BuildingSurface {
-  Surface surface;   ///< its building is not filled in
-  Point3d middle;    ///< area-weighted, grid frame
+  Surface surface;  ///< its building is not filled in
+  Point3d middle;   ///< area-weighted, grid frame
 };
 
 struct SurfacePiece {

@@ -18,10 +18,14 @@ std::optional<Cell> only_cell(const std::array<Point3d, 3>& t, const Grid& grid)
   return low == high ? std::optional(low) : std::nullopt;
 }
 
-Point3f rounded(const ExactCorner& corner, const std::array<Point3d, 3>& triangle, Cell cell, const Grid& grid, double height_origin_m) {
-  if (corner.original >= 0) return cell_from_grid(triangle[static_cast<std::size_t>(corner.original)], cell, grid, height_origin_m);
+Point3f rounded(const ExactCorner& corner, const std::array<Point3d, 3>& triangle, Cell cell, const Grid& grid,
+                double height_origin_m) {
+  if (corner.original >= 0)
+    return cell_from_grid(triangle[static_cast<std::size_t>(corner.original)], cell, grid, height_origin_m);
   const Point2d south_west = grid.corner_of(cell);
-  const auto round = [](const Rational& exact, double origin) { return static_cast<float>(CGAL::to_double(exact - Rational(origin))); };
+  const auto round = [](const Rational& exact, double origin) {
+    return static_cast<float>(CGAL::to_double(exact - Rational(origin)));
+  };
   return {round(corner.p_grid.x, south_west.x), round(corner.p_grid.y, south_west.y), round(corner.p_grid.z, height_origin_m)};
 }
 
@@ -29,7 +33,8 @@ Point3f rounded(const ExactCorner& corner, const std::array<Point3d, 3>& triangl
 
 Point3f cell_from_grid(const Point3d& p_grid, Cell cell, const Grid& grid, double height_origin_m) {
   const Point2d corner = grid.corner_of(cell);
-  return {static_cast<float>(p_grid.x - corner.x), static_cast<float>(p_grid.y - corner.y), static_cast<float>(p_grid.z - height_origin_m)};
+  return {static_cast<float>(p_grid.x - corner.x), static_cast<float>(p_grid.y - corner.y),
+          static_cast<float>(p_grid.z - height_origin_m)};
 }
 
 std::vector<CellPiece> cut(const std::array<Point3d, 3>& triangle, const Grid& grid, double height_origin_m) {
@@ -41,7 +46,8 @@ std::vector<CellPiece> cut(const std::array<Point3d, 3>& triangle, const Grid& g
   std::vector<CellPiece> pieces;
   for (const ExactPiece& exact : cut_exactly(triangle, grid)) {
     CellPiece& piece = pieces.emplace_back(CellPiece{exact.cell, {}});
-    for (const ExactCorner& corner : exact.polygon) piece.polygon.push_back(rounded(corner, triangle, exact.cell, grid, height_origin_m));
+    for (const ExactCorner& corner : exact.polygon)
+      piece.polygon.push_back(rounded(corner, triangle, exact.cell, grid, height_origin_m));
   }
   return pieces;
 }

@@ -77,7 +77,9 @@ std::vector<ExactPiece> cut_exactly(const std::array<Point3d, 3>& triangle_grid,
   }
   std::vector<ExactPiece> pieces;
   cut_along(Axis::x, std::move(triangle), grid, [&](std::int32_t i, Polygon column) {
-    cut_along(Axis::y, std::move(column), grid, [&](std::int32_t j, Polygon piece) { pieces.push_back({{i, j}, std::move(piece)}); });
+    cut_along(Axis::y, std::move(column), grid, [&](std::int32_t j, Polygon piece) {
+      pieces.push_back({{i, j}, std::move(piece)});
+    });
   });
   return pieces;
 }

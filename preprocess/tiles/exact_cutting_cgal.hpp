@@ -18,8 +18,8 @@ namespace farlod {
 using Rational = CGAL::Exact_rational;
 using ExactPoint = Point3<Rational>;
 
-/// A corner of a piece. Corners that the cut did not make remember which corner of the triangle they are, so that they can be rounded
-/// as in a triangle that was never cut.
+/// A corner of a piece. Corners that the cut did not make remember which corner of the triangle they are, so that they can be
+/// rounded as in a triangle that was never cut.
 struct ExactCorner {
   ExactPoint p_grid;
   std::int8_t original = -1;

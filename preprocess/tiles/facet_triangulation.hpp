@@ -14,7 +14,7 @@ namespace farlod {
 struct Triangulation {
   std::vector<Point3d> points;  ///< the points of all rings, one ring after the other, then those where rings cross
   std::vector<Triangle> triangles;
-  bool rings_cross = false;     ///< the rings touch or cross each other; what lies inside was decided by even and odd
+  bool rings_cross = false;  ///< the rings touch or cross each other; what lies inside was decided by even and odd
 };
 
 /// Area vector of closed rings (Newell): half the sum of the cross products of neighbouring points, taken from the first point so
@@ -22,9 +22,8 @@ struct Triangulation {
 [[nodiscard]] Point3d area_vector(std::span<const std::span<const Point3d>> rings);
 
 /// Triangulates a facet with holes. For every facet whose rings do not cross:
-///   (1) the corners of the triangles are the facet's points, unchanged: the exact area vectors of the triangles sum to the facet's own
-///   (2) triangles run round as the outer ring does
-///   (3) a facet without area has no triangles
+///   (1) the corners of the triangles are the facet's points, unchanged: the exact area vectors of the triangles sum to the
+///   facet's own (2) triangles run round as the outer ring does (3) a facet without area has no triangles
 /// Where the rings cross, the inside is what an odd number of rings surrounds.
 [[nodiscard]] Triangulation triangulate(std::span<const std::span<const Point3d>> rings);
 

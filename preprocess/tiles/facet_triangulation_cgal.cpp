@@ -50,9 +50,12 @@ struct Projection {
   [[nodiscard]] Point3d lift(const Kernel::Point_2& q, const Point3d& on_plane, const Point3d& n) const {
     const double u = q.x(), v = q.y();
     switch (dropped) {
-      case 0: return {on_plane.x - (n.y * (u - on_plane.y) + n.z * (v - on_plane.z)) / n.x, u, v};
-      case 1: return {v, on_plane.y - (n.z * (u - on_plane.z) + n.x * (v - on_plane.x)) / n.y, u};
-      default: return {u, v, on_plane.z - (n.x * (u - on_plane.x) + n.y * (v - on_plane.y)) / n.z};
+      case 0:
+        return {on_plane.x - (n.y * (u - on_plane.y) + n.z * (v - on_plane.z)) / n.x, u, v};
+      case 1:
+        return {v, on_plane.y - (n.z * (u - on_plane.z) + n.x * (v - on_plane.x)) / n.y, u};
+      default:
+        return {u, v, on_plane.z - (n.x * (u - on_plane.x) + n.y * (v - on_plane.y)) / n.z};
     }
   }
 };
@@ -63,7 +66,8 @@ bool add_convex_fan(Triangulation& result, const Projection& project) {
   if (n > 4) return false;
   const CGAL::Orientation wanted = project.mirrored ? CGAL::CLOCKWISE : CGAL::COUNTERCLOCKWISE;
   for (std::size_t k = 0; k < n; ++k) {
-    const auto turn = CGAL::orientation(project(result.points[k]), project(result.points[(k + 1) % n]), project(result.points[(k + 2) % n]));
+    const auto turn =
+        CGAL::orientation(project(result.points[k]), project(result.points[(k + 1) % n]), project(result.points[(k + 2) % n]));
     if (turn != wanted) return false;
   }
   for (std::uint32_t k = 2; k < n; ++k) result.triangles.push_back({0, k - 1, k});

@@ -22,8 +22,9 @@ using Network = CGAL::Delaunay_triangulation_2<CGAL::Projection_traits_xy_3<Kern
 void keep_lowest(std::vector<Point3d>& points) {
   std::sort(points.begin(), points.end(),
             [](const Point3d& a, const Point3d& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
-  points.erase(std::unique(points.begin(), points.end(), [](const Point3d& a, const Point3d& b) { return a.x == b.x && a.y == b.y; }),
-               points.end());
+  points.erase(
+      std::unique(points.begin(), points.end(), [](const Point3d& a, const Point3d& b) { return a.x == b.x && a.y == b.y; }),
+      points.end());
 }
 
 /// Over points without area CGAL has no nearest one; a city of one post is rare enough to look through them all.
@@ -59,7 +60,8 @@ Ground::Ground(std::vector<Point3d> points, const Box2d& rectangle, GroundExtent
   if (extent == GroundExtent::points) return;
   // All heights first, so that one corner is not another's nearest point
   std::vector<Kernel::Point_3> corners;
-  for (const Point2d c : {rectangle.low, Point2d{rectangle.high.x, rectangle.low.y}, rectangle.high, Point2d{rectangle.low.x, rectangle.high.y}})
+  for (const Point2d c :
+       {rectangle.low, Point2d{rectangle.high.x, rectangle.low.y}, rectangle.high, Point2d{rectangle.low.x, rectangle.high.y}})
     corners.emplace_back(c.x, c.y, height_of_nearest(network, c));
   // A corner that is a point already keeps that point's height
   for (const Kernel::Point_3& corner : corners) network.insert(corner);
@@ -74,7 +76,8 @@ double Ground::height_at(Point2d p) const {
   const auto face = network.dimension() == 2 ? network.locate(query, impl_->last_found) : nullptr;
   if (face == nullptr || network.is_infinite(face)) return height_of_nearest(network, p);
   impl_->last_found = face;
-  const Point3d a = from_cgal(face->vertex(0)->point()), b = from_cgal(face->vertex(1)->point()), c = from_cgal(face->vertex(2)->point());
+  const Point3d a = from_cgal(face->vertex(0)->point()), b = from_cgal(face->vertex(1)->point()),
+                c = from_cgal(face->vertex(2)->point());
   const Point3d n = cross(b - a, c - a);
   return a.z - (n.x * (p.x - a.x) + n.y * (p.y - a.y)) / n.z;
 }
@@ -83,7 +86,8 @@ std::vector<std::array<Point3d, 3>> Ground::triangles() const {
   std::vector<std::array<Point3d, 3>> result;
   result.reserve(impl_->network.number_of_faces());
   for (auto face = impl_->network.finite_faces_begin(); face != impl_->network.finite_faces_end(); ++face)
-    result.push_back({from_cgal(face->vertex(0)->point()), from_cgal(face->vertex(1)->point()), from_cgal(face->vertex(2)->point())});
+    result.push_back(
+        {from_cgal(face->vertex(0)->point()), from_cgal(face->vertex(1)->point()), from_cgal(face->vertex(2)->point())});
   return result;
 }
 

@@ -35,7 +35,7 @@ struct Surface {
   std::uint32_t number = 0;    ///< within the building
   std::uint16_t part = 0;
   SurfaceKind kind = SurfaceKind::unknown;
-  Point3d normal;              ///< outward, length 1, grid frame
+  Point3d normal;  ///< outward, length 1, grid frame
   double area_m2 = 0.0;
 };
 

@@ -51,7 +51,12 @@ std::vector<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& 
 class TileCutter {
  public:
   TileCutter(const CityModel& city_grid, std::span<const std::string> sources, const Grid& grid, Assign assign, Ground ground)
-      : city_(city_grid), sources_(sources), grid_(grid), assign_(assign), ground_(std::move(ground)), ground_triangles_(ground_.triangles()) {
+      : city_(city_grid),
+        sources_(sources),
+        grid_(grid),
+        assign_(assign),
+        ground_(std::move(ground)),
+        ground_triangles_(ground_.triangles()) {
     tiles_.cells = grid.cells;
     tiles_.tiles.resize(static_cast<std::size_t>(grid.cells.size()));
     tiles_.height_origin_m = lowest_whole_metre();
@@ -136,7 +141,8 @@ class TileCutter {
 
 }  // namespace
 
-TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, const std::optional<TerrainRaster>& terrain, Report& report) {
+TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, const std::optional<TerrainRaster>& terrain,
+                       Report& report) {
   CityModel city = std::move(located.city);
   if (terrain) lift_onto_terrain(city, *terrain);
   for (Point3d& p : city.points()) p = grid.rotation.grid_from_city(p);  // exactness begins here

@@ -29,7 +29,7 @@ inline constexpr double least_overhang_m = 0.5;
 ///   (3) the result does not depend on the number of threads
 /// Without a terrain, the ground is a network through the buildings' base points; with one, through the nodes of the raster, and
 /// buildings that know only their height above ground are lifted onto it.
-[[nodiscard]] TileSet cut_into_tiles(LocatedCity city, const Grid& grid, Assign assign, const std::optional<TerrainRaster>& terrain,
-                                     Report& report);
+[[nodiscard]] TileSet cut_into_tiles(LocatedCity city, const Grid& grid, Assign assign,
+                                     const std::optional<TerrainRaster>& terrain, Report& report);
 
 }  // namespace farlod

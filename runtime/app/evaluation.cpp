@@ -58,8 +58,8 @@ std::vector<std::vector<std::size_t>> choose_receivers(std::span<const CellFigur
   return chosen;
 }
 
-ErrorSummary verify(const Package& package, const SvfOptions& options, std::span<const CellFigures> cells, const ReceiversOfCell& receivers_of,
-                    std::span<const float> svf) {
+ErrorSummary verify(const Package& package, const SvfOptions& options, std::span<const CellFigures> cells,
+                    const ReceiversOfCell& receivers_of, std::span<const float> svf) {
   const SkyEvaluator reference(package, {Engine::exact, options.sky.weight, std::max(verify_rays, options.sky.rays)});
   const auto chosen = choose_receivers(cells, options.verify_count);
   std::vector<std::vector<double>> answers(cells.size()), exact(cells.size());
@@ -86,8 +86,8 @@ ErrorSummary verify(const Package& package, const SvfOptions& options, std::span
 
 }  // namespace
 
-void evaluate_cells(const Package& package, const SvfOptions& options, std::size_t cell_count, const ReceiversOfCell& receivers_of,
-                    std::span<float> svf, SvfRun& run) {
+void evaluate_cells(const Package& package, const SvfOptions& options, std::size_t cell_count,
+                    const ReceiversOfCell& receivers_of, std::span<float> svf, SvfRun& run) {
   const SkyEvaluator evaluator(package, options.sky);
   std::vector<CellFigures> figures(cell_count);
   std::atomic<std::size_t> cells_done = 0, outside = 0;

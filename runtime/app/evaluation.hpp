@@ -41,8 +41,8 @@ struct SvfRun {
 
 /// Evaluates the receivers of all cells on all cores; `svf[receiver.index]` gets each answer. Then, when the user asked for it,
 /// verifies some of them. Adds to the run's times and figures; who has no answer, and why, is the caller's to count.
-void evaluate_cells(const Package& package, const SvfOptions& options, std::size_t cell_count, const ReceiversOfCell& receivers_of,
-                    std::span<float> svf, SvfRun& run);
+void evaluate_cells(const Package& package, const SvfOptions& options, std::size_t cell_count,
+                    const ReceiversOfCell& receivers_of, std::span<float> svf, SvfRun& run);
 
 /// The three kinds of run. Each evaluates, writes its files and returns what it came to.
 [[nodiscard]] SvfRun run_raster(const Package& package, const SvfOptions& options);

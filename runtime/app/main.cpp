@@ -50,30 +50,34 @@ SvfRun evaluate(const SvfOptions& options) {
 }
 
 void print_sanity(const SvfRun& run) {
-  if (!run.svf_mean) return fmt::print("No receiver has an answer: all of them lie inside buildings or outside of the package.\n");
+  if (!run.svf_mean)
+    return fmt::print("No receiver has an answer: all of them lie inside buildings or outside of the package.\n");
   if (*run.svf_min == *run.svf_max && run.receivers > 100)
     fmt::print("Every receiver has the same value: is the package the right one, and the height above its roofs?\n");
 }
 
 void print_run(const SvfRun& run, const SvfOptions& options, double total_s) {
   const std::string quantity = quantity_name(options.sky.weight);
-  fmt::print("{} receivers, {:.1f} s in all; no data: {} inside buildings or without ground", run.receivers, total_s, run.inside_buildings);
+  fmt::print("{} receivers, {:.1f} s in all; no data: {} inside buildings or without ground", run.receivers, total_s,
+             run.inside_buildings);
   if (run.beyond_grid > 0) fmt::print(", {} beyond the grid", run.beyond_grid);
   fmt::print("\n");
   if (run.svf_mean) fmt::print("{}: min {:.4f}, mean {:.4f}, max {:.4f}\n", quantity, *run.svf_min, *run.svf_mean, *run.svf_max);
   print_sanity(run);
   if (run.outside_of_grid > 0)
-    fmt::print("{} receivers lie outside of the grid, where there is no far map: they were traced against the whole city.\n", run.outside_of_grid);
+    fmt::print("{} receivers lie outside of the grid, where there is no far map: they were traced against the whole city.\n",
+               run.outside_of_grid);
   if (run.errors)
-    fmt::print("Errors against exact ({} random receivers, {} rays): mean {:.4f}, 99 % within {:.4f}, max {:.4f}, bias {:+.4f}\n", run.errors->count,
-               std::max(verify_rays, options.sky.rays), run.errors->mean_abs_error, run.errors->p99_abs_error, run.errors->max_abs_error,
-               run.errors->bias);
+    fmt::print("Errors against exact ({} random receivers, {} rays): mean {:.4f}, 99 % within {:.4f}, max {:.4f}, bias {:+.4f}\n",
+               run.errors->count, std::max(verify_rays, options.sky.rays), run.errors->mean_abs_error, run.errors->p99_abs_error,
+               run.errors->max_abs_error, run.errors->bias);
   for (const auto& file : run.files) fmt::print("{}\n", file.string());
 }
 
 int run(const SvfOptions& options) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
-  for (const std::filesystem::path& file : {options.output, std::filesystem::path(options.preview_file), std::filesystem::path(options.run.summary_file)})
+  for (const std::filesystem::path& file :
+       {options.output, std::filesystem::path(options.preview_file), std::filesystem::path(options.run.summary_file)})
     require_folder_of(file);
   const auto start = Clock::now();
   const SvfRun result = evaluate(options);

@@ -66,8 +66,10 @@ SvfRun run_points(const Package& package, const SvfOptions& options) {
   std::vector<std::optional<double>> height_m(named.places.size());
   SvfRun run;
   const auto receivers_of = [&](std::size_t n) {
-    CellReceivers r = receivers_at(package, cells[n].first, named.places, cells[n].second, options.height_above, static_cast<float>(options.height_m));
-    for (const Receiver& receiver : r.receivers) height_m[receiver.index] = receiver.p_cell.z + package.manifest().height_origin_m;
+    CellReceivers r = receivers_at(package, cells[n].first, named.places, cells[n].second, options.height_above,
+                                   static_cast<float>(options.height_m));
+    for (const Receiver& receiver : r.receivers)
+      height_m[receiver.index] = receiver.p_cell.z + package.manifest().height_origin_m;
     return r;
   };
   evaluate_cells(package, options, cells.size(), receivers_of, svf, run);

@@ -26,13 +26,16 @@ SkyRaster with_esri_wkt(SkyRaster raster) {
 
 void write_raster(const SkyRaster& raster, const SvfOptions& options) {
   switch (options.format) {
-    case OutputFormat::png: return write_png_preview(raster, options.output);
-    case OutputFormat::esri_ascii: return write_esri_ascii(with_esri_wkt(raster), options.output);
+    case OutputFormat::png:
+      return write_png_preview(raster, options.output);
+    case OutputFormat::esri_ascii:
+      return write_esri_ascii(with_esri_wkt(raster), options.output);
     case OutputFormat::geotiff:
 #ifdef FARLOD_WITH_GDAL
       return write_geotiff(raster, options.output);
 #endif
-    case OutputFormat::csv: break;
+    case OutputFormat::csv:
+      break;
   }
   FARLOD_EXPECTS(!"the options allow only formats that this build writes");
 }
@@ -41,7 +44,8 @@ void write_raster(const SkyRaster& raster, const SvfOptions& options) {
 
 SvfRun run_raster(const Package& package, const SvfOptions& options) {
   const RasterPlan plan = plan_raster(package.manifest(), options.grid_step_m, options.bbox_projected);
-  SkyRaster raster{plan.north_west_m, plan.step_m, plan.columns, plan.rows, {}, quantity_name(options.sky.weight), package.manifest().crs_wkt};
+  SkyRaster raster{plan.north_west_m,         plan.step_m, plan.columns, plan.rows, {}, quantity_name(options.sky.weight),
+                   package.manifest().crs_wkt};
   raster.svf.assign(plan.columns * plan.rows, std::numeric_limits<float>::quiet_NaN());
   const RasterReceivers receivers(package.manifest(), plan);
   const std::vector<Cell> cells = receivers.cells();

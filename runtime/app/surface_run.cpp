@@ -9,8 +9,8 @@
 
 #include "app/evaluation.hpp"
 #include "receivers/surface_receivers.hpp"
-#include "results/surface_averages.hpp"
 #include "results/sky_table_csv.hpp"
+#include "results/surface_averages.hpp"
 
 namespace farlod {
 namespace {
@@ -91,13 +91,15 @@ SvfRun run_surfaces(const Package& package, const SvfOptions& options) {
   const std::size_t count = cells.empty() ? 0 : cells.back().first_index + cells.back().receivers.size();
   std::vector<float> svf(count, std::numeric_limits<float>::quiet_NaN());
   SvfRun run;
-  evaluate_cells(package, options, cells.size(), [&](std::size_t n) { return answerable(cells[n]); }, svf, run);
+  evaluate_cells(
+      package, options, cells.size(), [&](std::size_t n) { return answerable(cells[n]); }, svf, run);
   run.inside_buildings = count - run.receivers;
   const auto start = std::chrono::steady_clock::now();
   std::vector<SurfacePointRow> rows;
   rows.reserve(count);
   for (const CellSurfaces& cell : cells)
-    for (std::size_t k = 0; k < cell.receivers.size(); ++k) rows.push_back(row_of(package, cell, cell.receivers[k], svf[cell.first_index + k]));
+    for (std::size_t k = 0; k < cell.receivers.size(); ++k)
+      rows.push_back(row_of(package, cell, cell.receivers[k], svf[cell.first_index + k]));
   write_tables(rows, options, run);
   run.seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;

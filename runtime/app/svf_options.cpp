@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/svf_options.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -58,24 +58,41 @@ void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->check(CLI::IsMember({"roofs", "walls", "all"}));
   receivers->add_option("--at", raw.at, "One point: X,Y or X,Y,Z in the package's CRS");
   receivers->require_option(1);
-  app.add_option("--height", o.height_m, "Metres above ground (not for --surfaces, nor for points with a z)")->check(between(0.0, 10000.0))->capture_default_str()->group("Placing");
+  app.add_option("--height", o.height_m, "Metres above ground (not for --surfaces, nor for points with a z)")
+      ->check(between(0.0, 10000.0))
+      ->capture_default_str()
+      ->group("Placing");
   app.add_flag("--on-surface", raw.on_surface, "Count --height from whatever is highest there, ground or roof")->group("Placing");
-  app.add_option("--spacing", o.spacing_m, "Metres between receivers on surfaces")->check(between(0.05, 1000.0))->capture_default_str()->group("Placing");
+  app.add_option("--spacing", o.spacing_m, "Metres between receivers on surfaces")
+      ->check(between(0.05, 1000.0))
+      ->capture_default_str()
+      ->group("Placing");
   app.add_option("--points-crs", o.points_crs, "CRS of --points, as EPSG:n (default: the package's)")->group("Placing");
   app.add_option("--bbox", raw.bbox, "X0,Y0,X1,Y1: only this part of --grid")->group("Placing");
 }
 
 void add_other_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_option("PACKAGE", raw.package, "A folder that farlod-pack made")->required();
-  app.add_option("-o,--output", raw.output, "File to write; its ending says the format: " + known_output_endings())->required()->group("Output");
+  app.add_option("-o,--output", raw.output, "File to write; its ending says the format: " + known_output_endings())
+      ->required()
+      ->group("Output");
   app.add_option("--preview", o.preview_file, "Also draw the raster as this PNG, with a colour scale")->group("Output");
-  app.add_option("--engine", raw.engine, "auto: the fastest that fits; rays: near tiles and far map; exact: all tiles, the reference")
-      ->check(CLI::IsMember({"auto", "rays", "exact"}))->capture_default_str()->group("Accuracy");
-  app.add_option("--rays", o.sky.rays, "Directions a receiver")->check(CLI::Range(1, 10000000))->capture_default_str()->group("Accuracy");
+  app.add_option("--engine", raw.engine,
+                 "auto: the fastest that fits; rays: near tiles and far map; exact: all tiles, the reference")
+      ->check(CLI::IsMember({"auto", "rays", "exact"}))
+      ->capture_default_str()
+      ->group("Accuracy");
+  app.add_option("--rays", o.sky.rays, "Directions a receiver")
+      ->check(CLI::Range(1, 10000000))
+      ->capture_default_str()
+      ->group("Accuracy");
   app.add_option("--sky", raw.sky, "Weight of the sky: cosine (svf) or solid (svf_solid)")
-      ->check(CLI::IsMember({"cosine", "solid"}))->capture_default_str()->group("Accuracy");
+      ->check(CLI::IsMember({"cosine", "solid"}))
+      ->capture_default_str()
+      ->group("Accuracy");
   app.add_option("--verify", o.verify_count, "Also compute this many random receivers exactly, and report the errors")
-      ->check(CLI::Range(0, 1000000000))->group("Accuracy");
+      ->check(CLI::Range(0, 1000000000))
+      ->group("Accuracy");
   add_run_options(app, "farlod-svf", o.run);
 }
 
@@ -90,11 +107,14 @@ void understand_place(const RawOptions& raw, SvfOptions& o) {
     o.points_file = raw.points;
   } else if (!raw.surfaces.empty()) {
     o.source = ReceiverSource::surfaces;
-    o.surfaces = raw.surfaces == "roofs" ? SurfaceChoice::roofs : raw.surfaces == "walls" ? SurfaceChoice::walls : SurfaceChoice::all;
+    o.surfaces = raw.surfaces == "roofs"   ? SurfaceChoice::roofs
+                 : raw.surfaces == "walls" ? SurfaceChoice::walls
+                                           : SurfaceChoice::all;
   }
   if (raw.bbox.empty()) return;
   const auto n = numbers_in(raw.bbox, "--bbox", "X0,Y0,X1,Y1");
-  if (n.size() != 4 || n[0] >= n[2] || n[1] >= n[3]) throw CLI::ValidationError("--bbox", "give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
+  if (n.size() != 4 || n[0] >= n[2] || n[1] >= n[3])
+    throw CLI::ValidationError("--bbox", "give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
   if (o.source != ReceiverSource::grid) throw CLI::ValidationError("--bbox", "it goes with --grid");
   o.bbox_projected = Box2d{{n[0], n[1]}, {n[2], n[3]}};
   constexpr double most_pixels = 1e11;  // beyond what any machine holds, and below what a count can be
@@ -106,15 +126,19 @@ void understand_output(const RawOptions& raw, SvfOptions& o) {
   o.output = raw.output;
   const auto format = output_format_of(o.output);
   if (!format)
-    throw CLI::ValidationError("-o", "the ending of \"" + raw.output + "\" is not one that can be written here: use one of " + known_output_endings());
+    throw CLI::ValidationError(
+        "-o", "the ending of \"" + raw.output + "\" is not one that can be written here: use one of " + known_output_endings());
   o.format = *format;
   const bool is_table = *format == OutputFormat::csv;
-  if (o.source == ReceiverSource::grid && is_table) throw CLI::ValidationError("-o", "--grid makes a raster: choose a raster's ending instead of .csv");
-  if (o.source != ReceiverSource::grid && !is_table) throw CLI::ValidationError("-o", "only --grid makes a raster: choose .csv for points and surfaces");
+  if (o.source == ReceiverSource::grid && is_table)
+    throw CLI::ValidationError("-o", "--grid makes a raster: choose a raster's ending instead of .csv");
+  if (o.source != ReceiverSource::grid && !is_table)
+    throw CLI::ValidationError("-o", "only --grid makes a raster: choose .csv for points and surfaces");
   if (!o.preview_file.empty() && o.source != ReceiverSource::grid) throw CLI::ValidationError("--preview", "it goes with --grid");
   if (!o.preview_file.empty() && output_format_of(o.preview_file) != OutputFormat::png)
     throw CLI::ValidationError("--preview", "the ending of \"" + o.preview_file + "\" is not .png");
-  if (!o.points_crs.empty() && o.source != ReceiverSource::points) throw CLI::ValidationError("--points-crs", "it goes with --points");
+  if (!o.points_crs.empty() && o.source != ReceiverSource::points)
+    throw CLI::ValidationError("--points-crs", "it goes with --points");
 }
 
 void understand(const RawOptions& raw, SvfOptions& o) {
@@ -138,7 +162,8 @@ ParsedSvfOptions parse_svf_options(int argc, char** argv) {
   SvfOptions options;
   add_receiver_options(app, raw, options);
   add_other_options(app, raw, options);
-  if (const auto exit_code = parse_command_line(app, argc, argv, [&] { understand(raw, options); })) return {std::nullopt, *exit_code};
+  if (const auto exit_code = parse_command_line(app, argc, argv, [&] { understand(raw, options); }))
+    return {std::nullopt, *exit_code};
   return {std::move(options), exit_done};
 }
 

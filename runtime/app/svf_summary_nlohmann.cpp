@@ -17,19 +17,21 @@ Json number_or_null(const std::optional<double>& value) { return value ? Json(*v
 
 std::string svf_summary_json(const SvfRun& run, const SvfOptions& options, double total_seconds) {
   const double busy_s = run.seconds.scenes + run.seconds.evaluate;
-  Json j = {{"receivers", run.receivers},
-            {"nodata", run.inside_buildings + run.beyond_grid},
-            {"engine", options.sky.engine == Engine::exact ? "exact" : "rays"},
-            {"seconds",
-             {{"total", total_seconds},
-              {"open", run.seconds.open},
-              {"scenes", run.seconds.scenes},
-              {"evaluate", run.seconds.evaluate},
-              {"write", run.seconds.write}}},
-            {"receivers_per_second", busy_s > 0.0 ? static_cast<double>(run.receivers) / busy_s : 0.0},
-            {"rays", options.sky.rays},
-            {"peak_memory_mib", peak_memory_mib()},
-            {"svf", {{"min", number_or_null(run.svf_min)}, {"mean", number_or_null(run.svf_mean)}, {"max", number_or_null(run.svf_max)}}}};
+  Json j = {
+      {"receivers", run.receivers},
+      {"nodata", run.inside_buildings + run.beyond_grid},
+      {"engine", options.sky.engine == Engine::exact ? "exact" : "rays"},
+      {"seconds",
+       {{"total", total_seconds},
+        {"open", run.seconds.open},
+        {"scenes", run.seconds.scenes},
+        {"evaluate", run.seconds.evaluate},
+        {"write", run.seconds.write}}},
+      {"receivers_per_second", busy_s > 0.0 ? static_cast<double>(run.receivers) / busy_s : 0.0},
+      {"rays", options.sky.rays},
+      {"peak_memory_mib", peak_memory_mib()},
+      {"svf",
+       {{"min", number_or_null(run.svf_min)}, {"mean", number_or_null(run.svf_mean)}, {"max", number_or_null(run.svf_max)}}}};
   if (run.errors)
     j["verify"] = {{"count", run.errors->count},
                    {"rays", std::max(verify_rays, options.sky.rays)},

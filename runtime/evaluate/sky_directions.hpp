@@ -11,8 +11,8 @@
 
 namespace farlod {
 
-/// The directions in which a receiver looks, in the grid frame. They are fixed in the city frame, so that turning the grid changes no
-/// receiver's directions.
+/// The directions in which a receiver looks, in the grid frame. They are fixed in the city frame, so that turning the grid
+/// changes no receiver's directions.
 class SkyDirections {
  public:
   SkyDirections(SkyWeight weight, std::size_t ray_count, const GridRotation& rotation);
@@ -25,7 +25,7 @@ class SkyDirections {
   [[nodiscard]] std::vector<Point3d> around(const Point3d& normal) const;
 
  private:
-  std::vector<Point3d> local_;       ///< around the receiver's own axis
+  std::vector<Point3d> local_;  ///< around the receiver's own axis
   std::vector<Point3d> horizontal_;
 };
 

@@ -40,10 +40,12 @@ class RayBatch {
 
 }  // namespace
 
-std::vector<std::uint32_t> count_free(const Occluder& occluder, std::span<const Point3f> origins, std::span<const Point3d> directions) {
+std::vector<std::uint32_t> count_free(const Occluder& occluder, std::span<const Point3f> origins,
+                                      std::span<const Point3d> directions) {
   std::vector<std::uint32_t> free(origins.size(), 0);
   std::vector<Point3f> rounded;
-  for (const Point3d& d : directions) rounded.push_back({static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)});
+  for (const Point3d& d : directions)
+    rounded.push_back({static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)});
   RayBatch batch(occluder, free);
   for (std::size_t first = 0; first < origins.size(); first += group_size) {
     const std::size_t end = std::min(first + group_size, origins.size());

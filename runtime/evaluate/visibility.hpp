@@ -11,12 +11,13 @@
 
 namespace farlod {
 
-/// What is nearer than this is not seen: a receiver that stands exactly on a surface would see nothing else. Twice the rounding of a
-/// coordinate 5 km from a scene's origin.
+/// What is nearer than this is not seen: a receiver that stands exactly on a surface would see nothing else. Twice the rounding
+/// of a coordinate 5 km from a scene's origin.
 inline constexpr float least_distance_m = 0.001F;
 
 /// For each origin, how many of the directions meet nothing. Neighbouring origins should see alike: 16 of them share a
 /// direction in one packet.
-[[nodiscard]] std::vector<std::uint32_t> count_free(const Occluder& occluder, std::span<const Point3f> origins, std::span<const Point3d> directions);
+[[nodiscard]] std::vector<std::uint32_t> count_free(const Occluder& occluder, std::span<const Point3f> origins,
+                                                    std::span<const Point3d> directions);
 
 }  // namespace farlod

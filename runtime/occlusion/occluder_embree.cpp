@@ -20,7 +20,8 @@ RTCDevice shared_device() {
   struct Device {
     RTCDevice handle = rtcNewDevice(nullptr);
     Device() {
-      if (handle == nullptr) throw OcclusionError("Embree could not be started (error " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
+      if (handle == nullptr)
+        throw OcclusionError("Embree could not be started (error " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
     }
     ~Device() { rtcReleaseDevice(handle); }
     Device(const Device&) = delete;
@@ -48,8 +49,18 @@ void ask_query(const RTCFilterFunctionNArguments* arguments) {
 
 RTCRayHit embree_ray(const Ray& ray) {
   RTCRayHit query{};
-  query.ray = {ray.origin.x, ray.origin.y, ray.origin.z, ray.begin, ray.direction.x, ray.direction.y, ray.direction.z,
-               0.0F, ray.end, 0xFFFFFFFF, 0, 0};
+  query.ray = {ray.origin.x,
+               ray.origin.y,
+               ray.origin.z,
+               ray.begin,
+               ray.direction.x,
+               ray.direction.y,
+               ray.direction.z,
+               0.0F,
+               ray.end,
+               0xFFFFFFFF,
+               0,
+               0};
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   return query;
 }
@@ -88,15 +99,18 @@ struct Occluder::Impl {
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(), 0, sizeof(Point3f), vertex_count);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0, sizeof(Triangle), triangles.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(), 0, sizeof(Point3f),
+                               vertex_count);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0, sizeof(Triangle),
+                               triangles.size());
     rtcSetGeometryIntersectFilterFunction(geometry, ask_query);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene);
     if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
-      throw OcclusionError("Embree could not index " + std::to_string(triangles.size()) + " triangles (error " + std::to_string(error) + ")");
+      throw OcclusionError("Embree could not index " + std::to_string(triangles.size()) + " triangles (error " +
+                           std::to_string(error) + ")");
   }
 
   std::optional<Hit> nearest_accepted(const Ray& ray, const std::function<bool(const Hit&)>* accepts) const {
@@ -169,7 +183,8 @@ std::vector<Hit> Occluder::all_hits(const Ray& ray) const {
     return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
   });
   // A triangle that lies in two leaves of the index may be reported twice
-  hits.erase(std::unique(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.triangle == b.triangle; }), hits.end());
+  hits.erase(std::unique(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.triangle == b.triangle; }),
+             hits.end());
   return hits;
 }
 

@@ -29,7 +29,9 @@ class FarMap {
     if (!texel) return std::numeric_limits<float>::infinity();
     return distance_m_[static_cast<std::size_t>(texel->row) * shape_.columns() + texel->column];
   }
-  [[nodiscard]] bool blocks(const Point3d& direction) const { return distance_m(direction) < std::numeric_limits<float>::infinity(); }
+  [[nodiscard]] bool blocks(const Point3d& direction) const {
+    return distance_m(direction) < std::numeric_limits<float>::infinity();
+  }
 
  private:
   BoxMap shape_;

@@ -38,7 +38,8 @@ struct FarMapReader::Impl {
   }
 };
 
-FarMapReader::FarMapReader(const std::filesystem::path& path, const CellRange& cells, std::uint32_t side_columns, std::uint32_t rows) {
+FarMapReader::FarMapReader(const std::filesystem::path& path, const CellRange& cells, std::uint32_t side_columns,
+                           std::uint32_t rows) {
   try {
     impl_ = std::make_unique<Impl>(path, cells, 4 * side_columns, rows);
   } catch (const std::exception& reason) {

@@ -19,7 +19,8 @@ MappedFile::MappedFile(const std::filesystem::path& path) : impl_(std::make_uniq
     if (std::filesystem::file_size(path) == 0) return;
     impl_->region = ipc::mapped_region(ipc::file_mapping(path.c_str(), ipc::read_only), ipc::read_only);
   } catch (const std::exception& reason) {
-    throw PackageDamaged(path.string() + " is missing or cannot be read. Copy the package again, or pack the city again. (" + reason.what() + ")");
+    throw PackageDamaged(path.string() + " is missing or cannot be read. Copy the package again, or pack the city again. (" +
+                         reason.what() + ")");
   }
 }
 

@@ -25,7 +25,8 @@ void check_stamp(const std::filesystem::path& path, std::span<const std::byte> b
     throw PackageDamaged(path.string() + " is damaged: it has " + std::to_string(bytes.size()) + " bytes, the manifest says " +
                          std::to_string(stamp.bytes) + ". Copy it again, or pack the city again.");
   if (XXH3_64bits(bytes.data(), bytes.size()) != stamp.xxh3)
-    throw PackageDamaged(path.string() + " is damaged: its checksum is not the manifest's. Copy it again, or pack the city again.");
+    throw PackageDamaged(path.string() +
+                         " is damaged: its checksum is not the manifest's. Copy it again, or pack the city again.");
 }
 
 /// The files of a block, each opened when it is first needed.
@@ -43,7 +44,8 @@ struct Package::Impl {
   package::Manifest manifest;
   std::vector<OpenBlock> blocks;
 
-  explicit Impl(std::filesystem::path f) : folder(std::move(f)), manifest(read_manifest(folder)), blocks(manifest.blocks.size()) {}
+  explicit Impl(std::filesystem::path f)
+      : folder(std::move(f)), manifest(read_manifest(folder)), blocks(manifest.blocks.size()) {}
 
   std::size_t index_of(Cell cell) const {
     FARLOD_EXPECTS(manifest.grid.cells.contains(cell));
@@ -76,7 +78,8 @@ struct Package::Impl {
     std::call_once(open.far_map_once, [&] {
       const auto path = path_of(n, package::far_map_file);
       check_stamp(path, MappedFile(path).bytes(), manifest.blocks[n].far_map);
-      open.far_map.emplace(path, manifest.grid.cells_of(manifest.blocks[n].block), manifest.far_map_side_columns, manifest.far_map_rows);
+      open.far_map.emplace(path, manifest.grid.cells_of(manifest.blocks[n].block), manifest.far_map_side_columns,
+                           manifest.far_map_rows);
     });
     return *open.far_map;
   }

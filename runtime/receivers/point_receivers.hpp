@@ -18,9 +18,10 @@ struct PlaceOfReceiver {
   std::optional<double> height_m;  ///< absolute; when absent, HeightAbove decides
 };
 
-/// The places by cell, in the order of the cells; a place's index is its position in `places`. Cells may lie outside of the grid: a
-/// receiver out there stands on the height that the ground has where the grid ends.
-[[nodiscard]] std::vector<std::pair<Cell, std::vector<std::size_t>>> places_by_cell(const Package& package, std::span<const PlaceOfReceiver> places);
+/// The places by cell, in the order of the cells; a place's index is its position in `places`. Cells may lie outside of the grid:
+/// a receiver out there stands on the height that the ground has where the grid ends.
+[[nodiscard]] std::vector<std::pair<Cell, std::vector<std::size_t>>> places_by_cell(const Package& package,
+                                                                                    std::span<const PlaceOfReceiver> places);
 
 /// The receivers at some of the places, all in one cell; those inside buildings are left out.
 [[nodiscard]] CellReceivers receivers_at(const Package& package, Cell cell, std::span<const PlaceOfReceiver> places,

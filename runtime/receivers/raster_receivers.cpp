@@ -26,7 +26,9 @@ Box2d projected_outline(const package::Manifest& m, const Box2d& rectangle_grid)
 }
 
 PixelRange pixels_over(const RasterPlan& plan, const Box2d& o) {
-  const auto clamp = [](double x, std::size_t n) { return static_cast<std::ptrdiff_t>(std::clamp(x, 0.0, static_cast<double>(n))); };
+  const auto clamp = [](double x, std::size_t n) {
+    return static_cast<std::ptrdiff_t>(std::clamp(x, 0.0, static_cast<double>(n)));
+  };
   return {clamp(std::floor((o.low.x - plan.north_west_m.x) / plan.step_m), plan.columns),
           clamp(std::ceil((o.high.x - plan.north_west_m.x) / plan.step_m), plan.columns),
           clamp(std::floor((plan.north_west_m.y - o.high.y) / plan.step_m), plan.rows),
@@ -48,7 +50,8 @@ RasterPlan plan_raster(const package::Manifest& m, double step_m, const std::opt
   const Box2d area = wanted_projected ? *wanted_projected : projected_outline(m, m.grid.rectangle());
   const double west = std::floor(area.low.x / step_m), south = std::floor(area.low.y / step_m);
   const double east = std::ceil(area.high.x / step_m), north = std::ceil(area.high.y / step_m);
-  return {{west * step_m, north * step_m}, step_m, static_cast<std::size_t>(east - west), static_cast<std::size_t>(north - south)};
+  return {
+      {west * step_m, north * step_m}, step_m, static_cast<std::size_t>(east - west), static_cast<std::size_t>(north - south)};
 }
 
 std::vector<Cell> RasterReceivers::cells() const {
@@ -64,10 +67,11 @@ std::vector<Cell> RasterReceivers::cells() const {
 template <class Visit>
 void RasterReceivers::for_each_pixel(Cell cell, const Visit& visit) const {
   const Grid& grid = manifest_.grid;
-  for_each_pixel_by_patches(pixels_over(plan_, projected_outline(manifest_, grid.square_of(cell))), [&](std::size_t column, std::size_t row) {
-    const Point2d p_grid = manifest_.grid_from_projected(plan_.centre_m(column, row));
-    if (grid.cell_of(p_grid) == cell) visit(row * plan_.columns + column, p_grid);
-  });
+  for_each_pixel_by_patches(pixels_over(plan_, projected_outline(manifest_, grid.square_of(cell))),
+                            [&](std::size_t column, std::size_t row) {
+                              const Point2d p_grid = manifest_.grid_from_projected(plan_.centre_m(column, row));
+                              if (grid.cell_of(p_grid) == cell) visit(row * plan_.columns + column, p_grid);
+                            });
 }
 
 CellReceivers RasterReceivers::in_cell(const Package& package, Cell cell, HeightAbove above, float height_m) const {

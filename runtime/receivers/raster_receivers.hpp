@@ -19,13 +19,15 @@ struct RasterPlan {
   std::size_t columns = 0, rows = 0;
 
   [[nodiscard]] Point2d centre_m(std::size_t column, std::size_t row) const {
-    return {north_west_m.x + (static_cast<double>(column) + 0.5) * step_m, north_west_m.y - (static_cast<double>(row) + 0.5) * step_m};
+    return {north_west_m.x + (static_cast<double>(column) + 0.5) * step_m,
+            north_west_m.y - (static_cast<double>(row) + 0.5) * step_m};
   }
 };
 
-/// The raster over `wanted` (projected frame), or over all cells of the grid. Pixels begin at multiples of the step, so that rasters of
-/// neighbouring runs fit together.
-[[nodiscard]] RasterPlan plan_raster(const package::Manifest& manifest, double step_m, const std::optional<Box2d>& wanted_projected);
+/// The raster over `wanted` (projected frame), or over all cells of the grid. Pixels begin at multiples of the step, so that
+/// rasters of neighbouring runs fit together.
+[[nodiscard]] RasterPlan plan_raster(const package::Manifest& manifest, double step_m,
+                                     const std::optional<Box2d>& wanted_projected);
 
 /// The pixels of a raster by the cells that hold their centres; pixel (column, row) has index row·columns + column.
 class RasterReceivers {

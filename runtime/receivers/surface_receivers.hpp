@@ -20,14 +20,15 @@ inline constexpr float surface_offset_m = 0.01F;
 struct SurfaceReceiver {
   std::uint32_t triangle = 0;  ///< of the cell's tile
   float area_m2 = 0.0F;
-  Point3f p_cell;              ///< off the surface by surface_offset_m
-  Point3f normal;              ///< the surface's, grid frame
+  Point3f p_cell;                   ///< off the surface by surface_offset_m
+  Point3f normal;                   ///< the surface's, grid frame
   bool is_inside_building = false;  ///< covered by another building: a party wall
 };
 
 /// Spreads receivers over the pieces of surfaces in one tile: each triangle of area A has ⌈A/spacing²⌉ of them, at least one,
-/// evenly placed (the R2 sequence, folded into the triangle), each standing for an equal share of its area. Areas therefore add up to
-/// the surface's own, whatever the spacing.
-[[nodiscard]] std::vector<SurfaceReceiver> surface_receivers(const Package& package, Cell cell, SurfaceChoice choice, double spacing_m);
+/// evenly placed (the R2 sequence, folded into the triangle), each standing for an equal share of its area. Areas therefore add
+/// up to the surface's own, whatever the spacing.
+[[nodiscard]] std::vector<SurfaceReceiver> surface_receivers(const Package& package, Cell cell, SurfaceChoice choice,
+                                                             double spacing_m);
 
 }  // namespace farlod

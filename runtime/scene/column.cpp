@@ -26,7 +26,8 @@ std::vector<TileView> tiles_around(const Package& package, Cell cell) {
 
 Occluder occluder_of_tiles(std::span<const TileView> tiles, const Grid& grid, Cell cell) {
   std::vector<PlacedMesh> placed;
-  for (const TileView& tile : tiles) placed.push_back({tile.mesh, grid.corner_of({tile.cell->i, tile.cell->j}) - grid.corner_of(cell)});
+  for (const TileView& tile : tiles)
+    placed.push_back({tile.mesh, grid.corner_of({tile.cell->i, tile.cell->j}) - grid.corner_of(cell)});
   return occluder_of(placed);
 }
 
@@ -70,14 +71,16 @@ CellColumns::CellColumns(const Package& package, Cell cell)
 Column::Crossing CellColumns::crossing(const Hit& hit) const {
   std::uint32_t triangle = hit.triangle;
   auto tile = tiles_.begin();
-  for (; triangle >= tile->triangle_surfaces.size(); ++tile) triangle -= static_cast<std::uint32_t>(tile->triangle_surfaces.size());
+  for (; triangle >= tile->triangle_surfaces.size(); ++tile)
+    triangle -= static_cast<std::uint32_t>(tile->triangle_surfaces.size());
   const package::SurfaceRecord& surface = tile->surface_of(triangle);
   return {below_all_m_ + hit.distance, tile->building_number(surface), surface.part, surface.normal_z > 0.0F};
 }
 
 Column CellColumns::at(float x_cell, float y_cell) const {
   std::vector<Column::Crossing> crossings;
-  for (const Hit& hit : occluder_.all_hits({{x_cell, y_cell, below_all_m_}, {0.0F, 0.0F, 1.0F}})) crossings.push_back(crossing(hit));
+  for (const Hit& hit : occluder_.all_hits({{x_cell, y_cell, below_all_m_}, {0.0F, 0.0F, 1.0F}}))
+    crossings.push_back(crossing(hit));
   return Column(std::move(crossings));
 }
 

@@ -28,8 +28,8 @@ class Column {
   /// The highest of all: a roof, a bridge, or the ground.
   [[nodiscard]] std::optional<float> highest_m() const;
   /// Whether a point at this height is within a part of a building: above it, more of the part's surfaces look up than
-  /// down. Under a bridge or an arcade they are equally many; a part without a roof encloses nothing. (Odd and even would be fooled
-  /// by a main roof that runs on under a rooftop structure.)
+  /// down. Under a bridge or an arcade they are equally many; a part without a roof encloses nothing. (Odd and even would be
+  /// fooled by a main roof that runs on under a rooftop structure.)
   [[nodiscard]] bool is_inside_building(float height_m) const;
 
  private:

@@ -13,8 +13,8 @@
 namespace farlod {
 namespace {
 
-/// A ray counts as away from edges when turning it by this much, four ways, changes nothing. Vertices are rounded by at most 15 µm in
-/// a scene of 500 m, seen from no nearer than some decimetres: below this angle.
+/// A ray counts as away from edges when turning it by this much, four ways, changes nothing. Vertices are rounded by at most 15
+/// µm in a scene of 500 m, seen from no nearer than some decimetres: below this angle.
 constexpr double edge_angle_rad = 2e-4;
 
 std::array<Point3d, 4> turned_a_little(const Point3d& d) {
@@ -50,14 +50,16 @@ TEST(Agreement, CgalAndEmbreeSeeTheSameTownRayForRay) {
     const Point3d d_grid = grid.rotation.grid_from_city(d_city);
     const Point3f p = r.receivers[0].p_cell;
     const Point2d corner = grid.corner_of(r.cell);
-    const Point3d p_city = grid.rotation.city_from_grid(Point3d{corner.x + p.x, corner.y + p.y, p.z + package.manifest().height_origin_m});
+    const Point3d p_city =
+        grid.rotation.city_from_grid(Point3d{corner.x + p.x, corner.y + p.y, p.z + package.manifest().height_origin_m});
     if (!is_away_from_edges(judge, p_city, d_city)) continue;
     ++away_from_edges;
     const bool is_blocked = judge.blocks(p_city, d_city);
     blocked += is_blocked ? 1 : 0;
-    EXPECT_EQ(whole.occluder().blocks({whole.scene_from_cell(p, r.cell),
-                                       {static_cast<float>(d_grid.x), static_cast<float>(d_grid.y), static_cast<float>(d_grid.z)}}),
-              is_blocked)
+    EXPECT_EQ(
+        whole.occluder().blocks({whole.scene_from_cell(p, r.cell),
+                                 {static_cast<float>(d_grid.x), static_cast<float>(d_grid.y), static_cast<float>(d_grid.z)}}),
+        is_blocked)
         << "ray " << n;
   }
   // The comparison must have had something to compare: most rays, of both kinds

@@ -15,7 +15,9 @@ namespace farlod {
 /// Places and directions that are the same on every machine.
 class RandomSky {
  public:
-  [[nodiscard]] double uniform(double low, double high) { return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53; }
+  [[nodiscard]] double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
+  }
   [[nodiscard]] Point3d direction_above_horizon() {
     const double z = uniform(0.0, 1.0), azimuth = uniform(0.0, 2.0 * std::numbers::pi), r = std::sqrt(1.0 - z * z);
     return {r * std::sin(azimuth), r * std::cos(azimuth), z};
@@ -26,7 +28,8 @@ class RandomSky {
     while (true) {
       const Cell cell = cells.cell_at(static_cast<std::size_t>(uniform(0.0, static_cast<double>(cells.size()))));
       const auto edge = package.grid().cell_edge_m;
-      const auto p = stand(CellColumns(package, cell), static_cast<float>(uniform(0, edge)), static_cast<float>(uniform(0, edge)), HeightAbove::ground, 1.5F);
+      const auto p = stand(CellColumns(package, cell), static_cast<float>(uniform(0, edge)), static_cast<float>(uniform(0, edge)),
+                           HeightAbove::ground, 1.5F);
       if (p) return {cell, {{0, *p}}};
     }
   }

@@ -19,7 +19,9 @@ inline double wall_solid(double H, double d) { return 1.0 - std::atan(H / d) / p
 inline double canyon_cos(double H1, double H2, double W, double x) {
   return (std::cos(std::atan(H1 / x)) + std::cos(std::atan(H2 / (W - x)))) / 2.0;
 }
-inline double canyon_solid(double H1, double H2, double W, double x) { return 1.0 - (std::atan(H1 / x) + std::atan(H2 / (W - x))) / pi; }
+inline double canyon_solid(double H1, double H2, double W, double x) {
+  return 1.0 - (std::atan(H1 / x) + std::atan(H2 / (W - x))) / pi;
+}
 
 /// Means over the floor and a wall of an endless canyon, h = H/W.
 inline double canyon_floor_mean(double h) { return std::sqrt(1.0 + h * h) - h; }
@@ -63,6 +65,8 @@ inline double court_quadrant_solid(double a, double b, double H) {
 /// A receiver tilted by t in the open.
 inline double tilted_cos(double t) { return (1.0 + std::cos(t)) / 2.0; }
 /// A half plane h overhead whose edge is e away; under it, or beside it.
-inline double overhang_cos(double h, double e, bool under) { return (1.0 + (under ? -1.0 : 1.0) * std::sin(std::atan(e / h))) / 2.0; }
+inline double overhang_cos(double h, double e, bool under) {
+  return (1.0 + (under ? -1.0 : 1.0) * std::sin(std::atan(e / h))) / 2.0;
+}
 
 }  // namespace farlod::oracles

@@ -24,8 +24,8 @@ TEST(Oracles, AgreeWithThePrintedSpotValues) {
   EXPECT_NEAR(finite_wall_solid(20, 12, 30, 7), 0.7823225, printed);
 }
 
-/// What a wall hides beyond a/d is (H/d)² ∫ cos²ψ dψ from atan(a/d) to 90° at most, below (H/d)²·(d/a)³/3, over 2π, twice; the rest is
-/// rounding in some ten operations.
+/// What a wall hides beyond a/d is (H/d)² ∫ cos²ψ dψ from atan(a/d) to 90° at most, below (H/d)²·(d/a)³/3, over 2π, twice; the
+/// rest is rounding in some ten operations.
 double endless_error(double H, double d, double a) {
   return std::pow(H / d, 2) * std::pow(d / a, 3) / (3 * pi) + 10 * std::numeric_limits<double>::epsilon();
 }

@@ -19,18 +19,18 @@ namespace {
 
 using scenes::SceneBuilder;
 
-constexpr double eye_m = 1.5;           // receivers stand this high, as the far maps are captured
-constexpr double ground = -eye_m;       // scenes are drawn around the eye
+constexpr double eye_m = 1.5;      // receivers stand this high, as the far maps are captured
+constexpr double ground = -eye_m;  // scenes are drawn around the eye
 constexpr std::size_t rays = 200000;
 constexpr FarMapSettings fine_map{256, 256, eye_m};
 
 struct Scene {
   std::string name;
   std::function<void(SceneBuilder&)> build;
-  double svf_cos, svf_solid;            // NaN: no closed form
-  double nearest_m, farthest_m;         // how near and how far its geometry is
-  double rise;                          // total variation of tan β along the circle
-  double extra_error = 0.0;             // of the scene itself, where it stands in for a smooth one
+  double svf_cos, svf_solid;     // NaN: no closed form
+  double nearest_m, farthest_m;  // how near and how far its geometry is
+  double rise;                   // total variation of tan β along the circle
+  double extra_error = 0.0;      // of the scene itself, where it stands in for a smooth one
   Point3d normal{0.0, 0.0, 1.0};
   bool can_be_far = true;
 };
@@ -41,8 +41,14 @@ constexpr double no_closed_form = std::numeric_limits<double>::quiet_NaN();
 /// A wall that is drawn from −a1 to a2 at distance d; "endless" ones end six distances away, and the oracle knows.
 Scene finite_wall(const std::string& name, double H, double d, double a1, double a2) {
   return {name,
-          [=](SceneBuilder& s) { s.add_wall({-a1, d}, {a2, d}, ground, H); },
-          oracles::finite_wall_cos(H, d, a1, a2), oracles::finite_wall_solid(H, d, a1, a2), d, std::hypot(d, std::max(a1, a2)), 2 * H / d};
+          [=](SceneBuilder& s) {
+            s.add_wall({-a1, d}, {a2, d}, ground, H);
+          },
+          oracles::finite_wall_cos(H, d, a1, a2),
+          oracles::finite_wall_solid(H, d, a1, a2),
+          d,
+          std::hypot(d, std::max(a1, a2)),
+          2 * H / d};
 }
 
 Scene canyon(double H1, double H2, double W, double x) {
@@ -55,11 +61,13 @@ Scene canyon(double H1, double H2, double W, double x) {
           },
           hidden(oracles::finite_wall_cos(H1, x, a, a), oracles::finite_wall_cos(H2, W - x, a, a)),
           hidden(oracles::finite_wall_solid(H1, x, a, a), oracles::finite_wall_solid(H2, W - x, a, a)),
-          std::min(x, W - x), std::hypot(a, W), 2 * H1 / x + 2 * H2 / (W - x)};
+          std::min(x, W - x),
+          std::hypot(a, W),
+          2 * H1 / x + 2 * H2 / (W - x)};
 }
 
-/// A polygon of n sides around the circle: its sides come nearer than the circle by 1 − cos(π/n) of the radius, which raises tan β by
-/// that share of at most H over the least distance.
+/// A polygon of n sides around the circle: its sides come nearer than the circle by 1 − cos(π/n) of the radius, which raises tan
+/// β by that share of at most H over the least distance.
 Scene round_court(const std::string& name, double R, double H, double r) {
   constexpr int n = 360;
   const double nearest = R - std::abs(r);
@@ -71,8 +79,12 @@ Scene round_court(const std::string& name, double R, double H, double r) {
             };
             for (int k = 0; k < n; ++k) s.add_wall(corner(k), corner(k + 1), ground, H);
           },
-          oracles::round_court_cos(R, H, r), r == 0 ? oracles::basin_solid(std::atan(H / R)) : no_closed_form, nearest, R + std::abs(r),
-          2 * (H / nearest - H / (R + std::abs(r))), polygon_error};
+          oracles::round_court_cos(R, H, r),
+          r == 0 ? oracles::basin_solid(std::atan(H / R)) : no_closed_form,
+          nearest,
+          R + std::abs(r),
+          2 * (H / nearest - H / (R + std::abs(r))),
+          polygon_error};
 }
 
 Scene rectangular_court(double west, double east, double south, double north, double H) {
@@ -87,7 +99,10 @@ Scene rectangular_court(double west, double east, double south, double north, do
             const std::vector<Point2d> c{{-west, -south}, {east, -south}, {east, north}, {-west, north}};
             for (std::size_t k = 0; k < 4; ++k) s.add_wall(c[k], c[(k + 1) % 4], ground, H);
           },
-          cos, solid, std::min({west, east, south, north}), std::hypot(std::max(west, east), std::max(south, north)),
+          cos,
+          solid,
+          std::min({west, east, south, north}),
+          std::hypot(std::max(west, east), std::max(south, north)),
           2 * (H / west + H / east + H / south + H / north)};
 }
 
@@ -96,22 +111,48 @@ Scene wall_point(double q, double W) {
   const double a = 6 * W;
   // The opposite wall is finite: what it hides is, as for a horizontal receiver, below the tail of an endless one
   const double tail = q / W * std::pow(W / a, 2) / 2;
-  return {"WallPoint", [=](SceneBuilder& s) { s.add_wall({W, -a}, {W, a}, ground, q); },
-          oracles::wall_point_cos(q, W), oracles::wall_point_solid(q, W), W, std::hypot(a, W), 2 * q / W, tail, {1.0, 0.0, 0.0}};
+  return {"WallPoint",
+          [=](SceneBuilder& s) {
+            s.add_wall({W, -a}, {W, a}, ground, q);
+          },
+          oracles::wall_point_cos(q, W),
+          oracles::wall_point_solid(q, W),
+          W,
+          std::hypot(a, W),
+          2 * q / W,
+          tail,
+          {1.0, 0.0, 0.0}};
 }
 
 Scene tilted_in_the_open(double tilt_deg) {
   const Angle t = Angle::degrees(tilt_deg);
-  return {"Tilted" + std::to_string(static_cast<int>(tilt_deg)), [](SceneBuilder&) {}, oracles::tilted_cos(t.radians()), 1.0 - t.radians() / std::numbers::pi, 1.0, 1.0, 0.0, 0.0,
-          {sin(t), 0.0, cos(t)}, false};
+  return {"Tilted" + std::to_string(static_cast<int>(tilt_deg)),
+          [](SceneBuilder&) {},
+          oracles::tilted_cos(t.radians()),
+          1.0 - t.radians() / std::numbers::pi,
+          1.0,
+          1.0,
+          0.0,
+          0.0,
+          {sin(t), 0.0, cos(t)},
+          false};
 }
 
 /// A half plane overhead, cut off far away: what lies beyond hides no more than an endless wall of its height there.
 Scene overhang(const std::string& name, double h, double e, bool under) {
   const double far = 60 * h, edge = under ? e : -e;
   return {name,
-          [=](SceneBuilder& s) { s.add_polygon({{edge - far, -far, h}, {edge, -far, h}, {edge, far, h}, {edge - far, far, h}}); },
-          oracles::overhang_cos(h, e, under), no_closed_form, h, far * 1.5, 0.0, 4 * (1 - oracles::wall_cos(h, far - e)), {0.0, 0.0, 1.0}, false};
+          [=](SceneBuilder& s) {
+            s.add_polygon({{edge - far, -far, h}, {edge, -far, h}, {edge, far, h}, {edge - far, far, h}});
+          },
+          oracles::overhang_cos(h, e, under),
+          no_closed_form,
+          h,
+          far * 1.5,
+          0.0,
+          4 * (1 - oracles::wall_cos(h, far - e)),
+          {0.0, 0.0, 1.0},
+          false};
 }
 
 enum class Share { all_near, all_far, split };
@@ -125,9 +166,12 @@ struct Setup {
 /// The edge of a cell that holds all, nothing or some of the scene around its middle: a corner is √½ of the edge away.
 double cell_edge_for(const Scene& scene, Share share) {
   switch (share) {
-    case Share::all_near: return 3.0 * scene.farthest_m;
-    case Share::all_far: return 1.2 * scene.nearest_m;
-    case Share::split: break;
+    case Share::all_near:
+      return 3.0 * scene.farthest_m;
+    case Share::all_far:
+      return 1.2 * scene.nearest_m;
+    case Share::split:
+      break;
   }
   return 2.0 * std::sqrt(scene.nearest_m * scene.farthest_m);
 }
@@ -151,8 +195,10 @@ double evaluate(const Scene& scene, const Setup& setup, SkyWeight weight, BoxMap
   map_used = package.far_map({0, 0}).shape();
   const auto half = static_cast<float>(0.5 * cell_edge_m);
   const Point3d n = grid.rotation.grid_from_city(scene.normal);
-  const CellReceivers receiver{{0, 0}, {{0, {half, half, static_cast<float>(eye_m - package.manifest().height_origin_m)},
-                                         {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)}}}};
+  const CellReceivers receiver{{0, 0},
+                               {{0,
+                                 {half, half, static_cast<float>(eye_m - package.manifest().height_origin_m)},
+                                 {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)}}}};
   std::vector<float> svf(1);
   SkyEvaluator(package, {setup.engine, weight, rays}).evaluate(receiver, svf);
   return svf[0];
@@ -179,13 +225,15 @@ TEST_P(AnalyticScene, HasItsKnownSkyViewFactor) {
 std::string name_of_case(const testing::TestParamInfo<std::tuple<Scene, Setup>>& info) {
   const auto& [scene, setup] = info.param;
   const char* share = setup.share == Share::all_near ? "Near" : setup.share == Share::all_far ? "Far" : "Split";
-  return scene.name + share + (setup.engine == Engine::exact ? "Exact" : "Rays") + std::to_string(static_cast<int>(setup.bearing_deg));
+  return scene.name + share + (setup.engine == Engine::exact ? "Exact" : "Rays") +
+         std::to_string(static_cast<int>(setup.bearing_deg));
 }
 
 std::vector<Setup> all_setups() {
   std::vector<Setup> setups;
   for (const double bearing_deg : {0.0, 17.0, 45.0}) {
-    for (const Share share : {Share::all_near, Share::all_far, Share::split}) setups.push_back({share, Engine::rays, bearing_deg});
+    for (const Share share : {Share::all_near, Share::all_far, Share::split})
+      setups.push_back({share, Engine::rays, bearing_deg});
     // The exact engine knows no near and far; how the tiles are cut must not matter to it
     setups.push_back({Share::split, Engine::exact, bearing_deg});
   }
@@ -194,9 +242,10 @@ std::vector<Setup> all_setups() {
 
 INSTANTIATE_TEST_SUITE_P(
     All, AnalyticScene,
-    testing::Combine(testing::Values(finite_wall("LongWall", 20, 12, 72, 72), finite_wall("FiniteWall", 20, 12, 30, 7), canyon(20, 14, 15, 4),
-                                     round_court("Basin", 25, 20, 0), round_court("RoundCourt", 25, 20, 10),
-                                     rectangular_court(9, 14, 11, 20, 16), wall_point(12, 15), tilted_in_the_open(35), tilted_in_the_open(90),
+    testing::Combine(testing::Values(finite_wall("LongWall", 20, 12, 72, 72), finite_wall("FiniteWall", 20, 12, 30, 7),
+                                     canyon(20, 14, 15, 4), round_court("Basin", 25, 20, 0),
+                                     round_court("RoundCourt", 25, 20, 10), rectangular_court(9, 14, 11, 20, 16),
+                                     wall_point(12, 15), tilted_in_the_open(35), tilted_in_the_open(90),
                                      overhang("UnderOverhang", 4, 3, true), overhang("BesideOverhang", 4, 3, false)),
                      testing::ValuesIn(all_setups())),
     name_of_case);

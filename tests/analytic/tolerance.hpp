@@ -10,8 +10,8 @@
 
 namespace farlod {
 
-/// Error of a sky view factor that is the share of free cells among k equal ones, when the border between sky and city, drawn on the unit
-/// disk (or the unit hemisphere), has a length of at most `border_length`.
+/// Error of a sky view factor that is the share of free cells among k equal ones, when the border between sky and city, drawn on
+/// the unit disk (or the unit hemisphere), has a length of at most `border_length`.
 ///
 /// Only cells that the border crosses can be wrong. Cells have the area π/k (2π/k) and are nearly square: within the factor 1.6
 /// their diameter is d = 1.6·√(2·area). All that the border crosses lies within d of it, in an area of 2dL + πd²: at most
@@ -32,9 +32,9 @@ inline constexpr double steepest_solid = 1.0;
 /// Error of a sky view factor that is looked up in a box map from its capture point. `rise` bounds the total variation of the
 /// horizon's tangent along the circle (up and down).
 ///
-/// A texel is blocked when its middle is: the horizon that the map holds is off by at most half a row, top/(2·rows), and is taken at an azimuth that is
-/// off by at most half a column, 1/side_columns (the columns are widest at the middle of a side). The first shifts tan β by at most
-/// half a row everywhere; the second, integrated over the circle, by at most rise/side_columns.
+/// A texel is blocked when its middle is: the horizon that the map holds is off by at most half a row, top/(2·rows), and is taken
+/// at an azimuth that is off by at most half a column, 1/side_columns (the columns are widest at the middle of a side). The first
+/// shifts tan β by at most half a row everywhere; the second, integrated over the circle, by at most rise/side_columns.
 [[nodiscard]] inline double box_map_error(const BoxMap& map, double rise, double steepest) {
   const double rows = static_cast<double>(map.top) / (2.0 * map.rows);
   const double columns = rise / map.side_columns / (2.0 * std::numbers::pi);

@@ -11,10 +11,13 @@ namespace {
 
 SurfaceKind kind_of(FacetRole role) {
   switch (role) {
-    case FacetRole::roof: return SurfaceKind::roof;
-    case FacetRole::wall: return SurfaceKind::wall;
+    case FacetRole::roof:
+      return SurfaceKind::roof;
+    case FacetRole::wall:
+      return SurfaceKind::wall;
     case FacetRole::ground:
-    case FacetRole::outer_ceiling: break;
+    case FacetRole::outer_ceiling:
+      break;
   }
   return SurfaceKind::floor;
 }

@@ -36,8 +36,8 @@ Grid grid_covering(const CityModel& city, Angle bearing, double cell_edge_m, int
   return grid;
 }
 
-void pack_city(const CityModel& city, const Grid& grid, const std::filesystem::path& folder, const FarMapSettings& far_map, Assign assign,
-               const std::optional<std::vector<Cell>>& only) {
+void pack_city(const CityModel& city, const Grid& grid, const std::filesystem::path& folder, const FarMapSettings& far_map,
+               Assign assign, const std::optional<std::vector<Cell>>& only) {
   Report report;
   const TileSet tiles = cut_into_tiles({city, {}}, grid, assign, std::nullopt, report);
   package::Manifest manifest;

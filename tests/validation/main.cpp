@@ -11,7 +11,8 @@
 namespace {
 
 void print_row(double cell_edge_m, const char* what, const farlod::ErrorSummary& e) {
-  std::printf("| %g | %s | %.4f | %.4f | %.4f | %+.4f |\n", cell_edge_m, what, e.mean_abs_error, e.p99_abs_error, e.max_abs_error, e.bias);
+  std::printf("| %g | %s | %.4f | %.4f | %.4f | %+.4f |\n", cell_edge_m, what, e.mean_abs_error, e.p99_abs_error, e.max_abs_error,
+              e.bias);
 }
 
 void run() {
@@ -22,9 +23,11 @@ void run() {
   const farlod::CityModel city = farlod::scenes::generated_town(settings);
   farlod::PaperExperiment experiment;
   experiment.bearing_deg = settings.rotation_deg;
-  std::printf("Generated city: %zu buildings, %llu polygons; %zu receivers 1.5 m above ground; N = %d; against %zu rays that see the whole city.\n\n",
-              city.buildings().size(), static_cast<unsigned long long>(city.surface_count()), experiment.receivers, experiment.neighborhood,
-              experiment.reference_rays);
+  std::printf(
+      "Generated city: %zu buildings, %llu polygons; %zu receivers 1.5 m above ground; N = %d; against %zu rays that see the "
+      "whole city.\n\n",
+      city.buildings().size(), static_cast<unsigned long long>(city.surface_count()), experiment.receivers,
+      experiment.neighborhood, experiment.reference_rays);
   std::printf("| cell, m | far field | mean | 99 %% | max | bias |\n|---|---|---|---|---|---|\n");
   for (const farlod::PaperRow& row : farlod::run_paper_experiment(city, experiment)) {
     print_row(row.cell_edge_m, "dropped", row.dropped);

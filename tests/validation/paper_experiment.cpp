@@ -18,7 +18,8 @@ using scenes::grid_covering;
 using scenes::pack_city;
 using scenes::TemporaryFolder;
 
-std::vector<double> evaluate(const Package& package, Engine engine, std::size_t rays, const std::vector<PlaceOfReceiver>& places) {
+std::vector<double> evaluate(const Package& package, Engine engine, std::size_t rays,
+                             const std::vector<PlaceOfReceiver>& places) {
   const SkyEvaluator evaluator(package, {engine, SkyWeight::cosine, rays});
   const auto cells = places_by_cell(package, places);
   std::vector<float> svf(places.size(), std::numeric_limits<float>::quiet_NaN());
@@ -38,7 +39,8 @@ std::vector<PlaceOfReceiver> random_places(const Package& package, std::size_t c
     const Point2d p_grid{uniform(low.x, high.x), uniform(low.y, high.y)};
     const std::vector<PlaceOfReceiver> one{{package.grid().rotation.city_from_grid(p_grid), std::nullopt}};
     const std::vector<std::size_t> first{0};
-    if (!receivers_at(package, package.grid().cell_of(p_grid), one, first, HeightAbove::ground, 1.5F).receivers.empty()) places.push_back(one[0]);
+    if (!receivers_at(package, package.grid().cell_of(p_grid), one, first, HeightAbove::ground, 1.5F).receivers.empty())
+      places.push_back(one[0]);
   }
   return places;
 }
@@ -51,15 +53,18 @@ std::vector<PaperRow> run_paper_experiment(const CityModel& city, const PaperExp
   std::vector<PaperRow> rows;
   for (const double cell_edge_m : experiment.cell_edges_m) {
     const TemporaryFolder folder;
-    pack_city(city, grid_covering(city, Angle::degrees(experiment.bearing_deg), cell_edge_m, experiment.neighborhood), folder.path() / "city.farlod");
+    pack_city(city, grid_covering(city, Angle::degrees(experiment.bearing_deg), cell_edge_m, experiment.neighborhood),
+              folder.path() / "city.farlod");
     const Package package(folder.path() / "city.farlod");
     if (places.empty()) {
       places = random_places(package, experiment.receivers);
       exact = evaluate(package, Engine::exact, experiment.reference_rays, places);
     }
-    const auto errors = [&](Engine engine, std::size_t rays) { return summarize_errors(evaluate(package, engine, rays, places), exact); };
-    rows.push_back({cell_edge_m, errors(Engine::near_only, experiment.reference_rays), errors(Engine::rays, experiment.reference_rays),
-                    errors(Engine::rays, experiment.default_rays)});
+    const auto errors = [&](Engine engine, std::size_t rays) {
+      return summarize_errors(evaluate(package, engine, rays, places), exact);
+    };
+    rows.push_back({cell_edge_m, errors(Engine::near_only, experiment.reference_rays),
+                    errors(Engine::rays, experiment.reference_rays), errors(Engine::rays, experiment.default_rays)});
   }
   return rows;
 }

@@ -14,7 +14,7 @@ namespace farlod {
 struct PaperExperiment {
   std::vector<double> cell_edges_m{50.0, 100.0};
   int neighborhood = 3;
-  double bearing_deg = 0.0;         ///< of the grid
+  double bearing_deg = 0.0;  ///< of the grid
   std::size_t receivers = 2000;
   std::size_t reference_rays = 20000;
   std::size_t default_rays = 1000;  ///< what farlod-svf takes when nobody says

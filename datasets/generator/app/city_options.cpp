@@ -84,7 +84,8 @@ ParsedCityOptions parse_city_options(int argc, char** argv) {
   add_settings(app, options.settings);
   add_other_options(app, raw, options);
   try {
-    if (const auto exit_code = parse_command_line(app, argc, argv, [&] { understand(raw, app, options); })) return {std::nullopt, *exit_code};
+    if (const auto exit_code = parse_command_line(app, argc, argv, [&] { understand(raw, app, options); }))
+      return {std::nullopt, *exit_code};
   } catch (const SettingsError& error) {
     fmt::print(stderr, "farlod-city: {}\n", error.what());
     return {std::nullopt, exit_usage};

@@ -31,7 +31,7 @@ struct Texel {
 struct BoxMap {
   std::uint32_t side_columns = 64;  ///< texels along one side; the picture has 4·side_columns columns
   std::uint32_t rows = 64;
-  float top = 1.0F;                 ///< height of the box as a multiple of its half edge, above the capture height
+  float top = 1.0F;  ///< height of the box as a multiple of its half edge, above the capture height
 
   [[nodiscard]] std::uint32_t columns() const { return 4 * side_columns; }
 
@@ -50,7 +50,8 @@ inline std::optional<Texel> BoxMap::texel_of(const Point3d& d) const {
   const double across = (east_or_west ? d.y / d.x : -d.x / d.y);
   const double up = d.z / (static_cast<double>(top) * reach);
   const auto clamp_to = [](double x, std::uint32_t n) { return std::min(static_cast<std::uint32_t>(x * n), n - 1); };
-  return Texel{static_cast<std::uint32_t>(side) * side_columns + clamp_to(0.5 * (across + 1.0), side_columns), clamp_to(up, rows)};
+  return Texel{static_cast<std::uint32_t>(side) * side_columns + clamp_to(0.5 * (across + 1.0), side_columns),
+               clamp_to(up, rows)};
 }
 
 inline Point3d BoxMap::direction_of(Texel texel) const {
@@ -58,10 +59,14 @@ inline Point3d BoxMap::direction_of(Texel texel) const {
   const double across = 2.0 * (texel.column % side_columns + 0.5) / side_columns - 1.0;
   const double up = static_cast<double>(top) * (texel.row + 0.5) / rows;
   switch (side) {
-    case BoxSide::east: return {1.0, across, up};
-    case BoxSide::north: return {-across, 1.0, up};
-    case BoxSide::west: return {-1.0, -across, up};
-    case BoxSide::south: break;
+    case BoxSide::east:
+      return {1.0, across, up};
+    case BoxSide::north:
+      return {-across, 1.0, up};
+    case BoxSide::west:
+      return {-1.0, -across, up};
+    case BoxSide::south:
+      break;
   }
   return {across, -1.0, up};
 }

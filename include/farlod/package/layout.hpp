@@ -17,7 +17,8 @@
 /// that a section can be a vertex buffer whose last vertex is read as 16 bytes.
 namespace farlod::package {
 
-static_assert(std::endian::native == std::endian::little, "packages are mapped, not decoded: a big-endian reader must swap bytes");
+static_assert(std::endian::native == std::endian::little,
+              "packages are mapped, not decoded: a big-endian reader must swap bytes");
 
 inline constexpr std::uint32_t format_version = 1;
 inline constexpr std::array<char, 8> magic{'F', 'A', 'R', 'L', 'O', 'D', 'T', '\n'};
@@ -46,11 +47,11 @@ struct Header {
 static_assert(sizeof(Header) == 64);
 
 struct Section {
-  SectionKind kind;            ///< a reader skips kinds that it does not know
+  SectionKind kind;  ///< a reader skips kinds that it does not know
   std::uint32_t element_bytes;
-  std::uint64_t offset;        ///< from the file's beginning
-  std::uint64_t count;         ///< elements, not bytes
-  std::uint64_t reserved;      ///< zero
+  std::uint64_t offset;    ///< from the file's beginning
+  std::uint64_t count;     ///< elements, not bytes
+  std::uint64_t reserved;  ///< zero
 };
 static_assert(sizeof(Section) == 32);
 
@@ -61,32 +62,32 @@ struct CellRecord {
   std::int32_t i, j;
   std::uint64_t first_vertex, first_triangle;
   std::uint32_t vertex_count, triangle_count;
-  float z_low_m, z_high_m;  ///< of the tile's vertices; low > high when it is empty
+  float z_low_m, z_high_m;                      ///< of the tile's vertices; low > high when it is empty
   float capture_x_m, capture_y_m, capture_z_m;  ///< where the far map was captured, cell frame
-  float far_map_top;        ///< BoxMap::top; 0 when the cell has no far field above the horizontal
+  float far_map_top;                            ///< BoxMap::top; 0 when the cell has no far field above the horizontal
   std::uint32_t flags;
-  std::uint32_t reserved;   ///< zero
+  std::uint32_t reserved;  ///< zero
 };
 static_assert(sizeof(CellRecord) == 64);
 
 inline constexpr std::uint32_t no_building = 0xFFFFFFFF;
 
 struct SurfaceRecord {
-  std::uint32_t building;   ///< row in `buildings`; no_building for the ground
-  std::uint32_t number;     ///< of the surface, within its building
-  std::uint16_t part;       ///< closed part of the building, for the question "inside?"
+  std::uint32_t building;  ///< row in `buildings`; no_building for the ground
+  std::uint32_t number;    ///< of the surface, within its building
+  std::uint16_t part;      ///< closed part of the building, for the question "inside?"
   SurfaceKind kind;
-  std::uint8_t reserved;    ///< zero
+  std::uint8_t reserved;               ///< zero
   float normal_x, normal_y, normal_z;  ///< outward, length 1, grid frame
-  float area_m2;            ///< of the whole surface, over all tiles
-  std::uint32_t reserved_2; ///< zero
+  float area_m2;                       ///< of the whole surface, over all tiles
+  std::uint32_t reserved_2;            ///< zero
 };
 static_assert(sizeof(SurfaceRecord) == 32);
 
 struct BuildingRecord {
   std::uint64_t text_offset;
   std::uint32_t text_bytes;
-  std::uint32_t number;     ///< of the building, within the city
+  std::uint32_t number;  ///< of the building, within the city
 };
 static_assert(sizeof(BuildingRecord) == 16);
 

@@ -40,20 +40,22 @@ struct Manifest {
   double height_origin_m = 0;  ///< heights on disk count from here
   Angle convergence;           ///< true azimuth = grid azimuth + convergence
   Grid grid;
-  std::string assign;          ///< "clip" or "whole"
-  std::string far_map_kind;    ///< "box"
+  std::string assign;        ///< "clip" or "whole"
+  std::string far_map_kind;  ///< "box"
   std::uint32_t far_map_side_columns = 0, far_map_rows = 0;
   std::vector<InputFile> inputs;
   std::uint64_t buildings = 0, polygons = 0, triangles = 0;
   std::vector<std::pair<int, std::uint64_t>> problem_counts;  ///< by code, ascending
-  std::vector<BlockFiles> blocks;  ///< in the order of Grid::blocks()
+  std::vector<BlockFiles> blocks;                             ///< in the order of Grid::blocks()
 
   /// Between the grid frame and the output CRS; heights are the same in both.
   [[nodiscard]] Point3d projected_from_grid(const Point3d& p_grid) const {
     const Point2d p = origin_m + grid.rotation.city_from_grid(horizontal(p_grid));
     return {p.x, p.y, p_grid.z};
   }
-  [[nodiscard]] Point2d grid_from_projected(Point2d p_projected) const { return grid.rotation.grid_from_city(p_projected - origin_m); }
+  [[nodiscard]] Point2d grid_from_projected(Point2d p_projected) const {
+    return grid.rotation.grid_from_city(p_projected - origin_m);
+  }
 };
 
 }  // namespace farlod::package

@@ -72,8 +72,8 @@ inline std::size_t SkyPartition::next_ring_inside(SkyWeight weight, std::size_t 
     shrink = (r - std::sqrt(std::numbers::pi / k)) / r;
   } else {
     const double zenith = std::acos(1.0 - k_i / k);
-    const double r = 2.0 * std::sin(zenith / 2.0);                               // (16)
-    const double next_zenith = zenith - r * std::sqrt(std::numbers::pi / k_i);   // (20)
+    const double r = 2.0 * std::sin(zenith / 2.0);                              // (16)
+    const double next_zenith = zenith - r * std::sqrt(std::numbers::pi / k_i);  // (20)
     shrink = 2.0 * std::sin(next_zenith / 2.0) / r;
   }
   const double next = shrink > 0.0 ? std::floor(k_i * shrink * shrink + 0.5) : 0.0;  // (1)

@@ -65,11 +65,9 @@ TEST(UnusableInput, NoneOfTheKnownBrokenFilesIsLostInSilence) {
   settings.default_height_m = 10.0;
   std::size_t files = 0;
   // These are wrong in ways that ingest does not judge: planes, crossings, volumes
-  const std::set<std::string> left_to_later_stages{"citygml30_invalid_building.gml",
-                                                   "interiors_as_pos.gml",
-                                                   "val3dity_data_obj_nonmanifold.obj",
-                                                   "val3dity_data_test_duplicates_cube_tol_1.obj",
-                                                   "val3dity_test_file_format_invalid_citygml_3.gml"};
+  const std::set<std::string> left_to_later_stages{
+      "citygml30_invalid_building.gml", "interiors_as_pos.gml", "val3dity_data_obj_nonmanifold.obj",
+      "val3dity_data_test_duplicates_cube_tol_1.obj", "val3dity_test_file_format_invalid_citygml_3.gml"};
   for (const auto& entry : std::filesystem::directory_iterator(shared_data("broken"))) {
     ++files;
     try {

@@ -33,7 +33,8 @@ TEST(BasePoints, ABridgeBetweenHousesHangs) {
 
 TEST(BasePoints, HousesOnASteepStreetStandOnTheGround) {
   scenes::SceneBuilder town;
-  for (int n = 0; n < 6; ++n) town.add_box({{20.0 * n, 0}, {20.0 * n + 10, 10}}, 5.0 * n, 5.0 * n + 10);  // 5 m up in 10 m of street
+  for (int n = 0; n < 6; ++n)
+    town.add_box({{20.0 * n, 0}, {20.0 * n + 10, 10}}, 5.0 * n, 5.0 * n + 10);  // 5 m up in 10 m of street
   for (int n = 0; n < 6; ++n) EXPECT_TRUE(has_point_at(base_points(town.city()), 5.0 * n)) << n;
 }
 

@@ -23,7 +23,9 @@ Grid grid_of(double cell_edge_m) {
 /// Random triangles: any, with corners on borders, in border planes, and tiny beside large.
 std::vector<TriangleOfPoints> random_triangles(const Grid& grid, int count) {
   std::mt19937_64 random(7);
-  const auto uniform = [&random](double low, double high) { return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53; };
+  const auto uniform = [&random](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
   std::vector<TriangleOfPoints> triangles;
   for (int n = 0; n < count; ++n) {
     const double reach = n % 3 == 0 ? 5.0 : 300.0;
@@ -117,7 +119,8 @@ INSTANTIATE_TEST_SUITE_P(Cells, CutExactly, testing::Values(50.0, 33.3, 17.9));
 
 TEST(Cut, RoundsBothSidesOfABorderAlike) {
   const Grid grid = grid_of(33.3);
-  std::map<std::tuple<std::int32_t, float, float>, std::array<bool, 2>> on_border;  // border x = k·edge: y of the grid row, z → west, east
+  std::map<std::tuple<std::int32_t, float, float>, std::array<bool, 2>>
+      on_border;  // border x = k·edge: y of the grid row, z → west, east
   for (const TriangleOfPoints& t : random_triangles(grid, 400)) {
     on_border.clear();
     const bool edge_on_border = t[0].x == t[1].x || t[1].x == t[2].x || t[2].x == t[0].x;

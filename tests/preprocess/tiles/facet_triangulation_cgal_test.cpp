@@ -45,7 +45,8 @@ double area(const Triangulation& t) {
 }
 
 /// A star of n points around a middle, in a tilted plane or, with `rough`, off it; holes run the other way.
-Ring star(int n, double radius, const Point3d& middle, const Point3d& u, const Point3d& v, double rough, bool reverse, std::mt19937_64& random) {
+Ring star(int n, double radius, const Point3d& middle, const Point3d& u, const Point3d& v, double rough, bool reverse,
+          std::mt19937_64& random) {
   const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   Ring ring;
   for (int k = 0; k < n; ++k) {
@@ -96,7 +97,8 @@ TEST(Triangulate, TrianglesRunRoundAsTheOuterRingDoes) {
 
 TEST(Triangulate, AKeyholeIsAHole) {
   // The bridge from the outer ring to the hole is drawn there and back
-  const Ring keyhole{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}, {0, 5, 0}, {4, 5, 0}, {4, 6, 0}, {6, 6, 0}, {6, 4, 0}, {4, 4, 0}, {4, 5, 0}, {0, 5, 0}};
+  const Ring keyhole{{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}, {0, 5, 0}, {4, 5, 0},
+                     {4, 6, 0}, {6, 6, 0},  {6, 4, 0},   {4, 4, 0},  {4, 5, 0}, {0, 5, 0}};
   EXPECT_EQ(area(triangulate(spans({keyhole}))), 96.0);
 }
 

@@ -42,7 +42,8 @@ TEST(Ground, ItsCornersHaveTheHeightOfTheNearestPoint) {
 
 TEST(Ground, DoesNotDependOnTheOrderOfItsPoints) {
   std::vector<Point3d> points;
-  for (int n = 0; n < 60; ++n) points.push_back({static_cast<double>(n * 37 % 100), static_cast<double>(n * 53 % 100), static_cast<double>(n % 9)});
+  for (int n = 0; n < 60; ++n)
+    points.push_back({static_cast<double>(n * 37 % 100), static_cast<double>(n * 53 % 100), static_cast<double>(n % 9)});
   const Ground there(points, rectangle);
   std::reverse(points.begin(), points.end());
   EXPECT_EQ(there.triangles(), Ground(points, rectangle).triangles());

@@ -16,8 +16,8 @@ namespace {
 
 using scenes::SceneBuilder;
 
-TileSet tiles_of(const CityModel& city, const Grid& grid, Assign assign = Assign::clip, const std::optional<TerrainRaster>& terrain = {},
-                 Report* report = nullptr) {
+TileSet tiles_of(const CityModel& city, const Grid& grid, Assign assign = Assign::clip,
+                 const std::optional<TerrainRaster>& terrain = {}, Report* report = nullptr) {
   Report ignored;
   return cut_into_tiles({city, {}}, grid, assign, terrain, report != nullptr ? *report : ignored);
 }
@@ -50,7 +50,8 @@ TEST(Tiles, HoldEverySurfaceWhole) {
     const TileSet tiles = tiles_of(town.city(), grid);
     ASSERT_EQ(tiles.surfaces.size(), 7U);  // the ground and six sides
     for (std::uint32_t s = 0; s < 7; ++s)
-      EXPECT_NEAR(area_in_tiles(tiles, s), tiles.surfaces[s].area_m2, rounding_of_area(tiles.surfaces[s].area_m2, 33.3, 200)) << s;
+      EXPECT_NEAR(area_in_tiles(tiles, s), tiles.surfaces[s].area_m2, rounding_of_area(tiles.surfaces[s].area_m2, 33.3, 200))
+          << s;
     // Roof and floor first, then the walls south, east, north and west
     EXPECT_NEAR(tiles.surfaces[1].area_m2, 174.0 * 89, rounding_of_area(174.0 * 89, 33.3, 200));
     EXPECT_NEAR(tiles.surfaces[3].area_m2, 174.0 * 31, rounding_of_area(174.0 * 31, 33.3, 200));
