@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tiles/facet_triangulation.hpp"
+#include "tiles/open_ends.hpp"
 #include "tiles/solid_orientation.hpp"
 
 namespace farlod {
@@ -43,6 +44,7 @@ class BuildingCutter {
     make_surfaces();
     const std::optional<Cell> only_cell = assign_ == Assign::whole ? std::optional(cell_of_footprint()) : std::nullopt;
     for (const TriangulatedFacet& f : facets_) cut_facet(f, only_cell);
+    find_edges(only_cell);
     return std::move(result_);
   }
 
@@ -124,6 +126,19 @@ class BuildingCutter {
         continue;
       }
       for (CellPiece& piece : cut(corners, grid_, height_origin_m_)) result_.pieces.push_back({std::move(piece), surface});
+    }
+  }
+
+  void find_edges(const std::optional<Cell>& only_cell) {
+    EdgeTable table;
+    for (const TriangulatedFacet& f : facets_)
+      for (const Triangle& t : f.triangulation.triangles)
+        table.add_triangle(f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c]);
+    result_.open_ends = open_ends(table.open_edges());
+    for (const Segment3d& edge : table.horizon_edges()) {
+      const auto pieces = only_cell ? std::vector{whole_edge(edge, *only_cell, grid_, height_origin_m_)}
+                                    : cut_edge(edge, grid_, height_origin_m_);
+      result_.horizon_edges.insert(result_.horizon_edges.end(), pieces.begin(), pieces.end());
     }
   }
 

@@ -9,6 +9,7 @@
 #include "farlod/grid.hpp"
 #include "farlod/problem.hpp"
 #include "tiles/cutting.hpp"
+#include "tiles/horizon_edges.hpp"
 #include "tiles/tile_set.hpp"
 #include "tiles/tiles.hpp"
 
@@ -29,7 +30,9 @@ struct SurfacePiece {
 struct BuildingPieces {
   std::vector<BuildingSurface> surfaces;
   std::vector<SurfacePiece> pieces;
-  std::vector<Problem> problems;  ///< without the source, which a building alone does not know
+  std::vector<CellEdge> horizon_edges;  ///< if it stands
+  std::vector<Point3d> open_ends;       ///< where it is open: it stands only if these are at the ground; grid frame
+  std::vector<Problem> problems;        ///< without the source, which a building alone does not know
 };
 
 /// Triangulates and cuts one building, given in the grid frame.

@@ -8,6 +8,7 @@
 
 #include "farlod/box.hpp"
 #include "farlod/point.hpp"
+#include "tiles/horizon_edges.hpp"
 
 namespace farlod {
 
@@ -33,6 +34,8 @@ class Ground {
   [[nodiscard]] double height_at(Point2d p_grid) const;
   /// All triangles, counter-clockwise seen from above, in a fixed order.
   [[nodiscard]] std::vector<std::array<Point3d, 3>> triangles() const;
+  /// Edges of the triangles that can be a horizon: the convex ones and the border, in a fixed order.
+  [[nodiscard]] std::vector<Segment3d> horizon_edges() const;
 
  private:
   struct Impl;

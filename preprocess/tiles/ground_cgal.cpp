@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "farlod/expects.hpp"
 #include "tiles/ground.hpp"
@@ -88,6 +89,26 @@ std::vector<std::array<Point3d, 3>> Ground::triangles() const {
   for (auto face = impl_->network.finite_faces_begin(); face != impl_->network.finite_faces_end(); ++face)
     result.push_back(
         {from_cgal(face->vertex(0)->point()), from_cgal(face->vertex(1)->point()), from_cgal(face->vertex(2)->point())});
+  return result;
+}
+
+std::vector<Segment3d> Ground::horizon_edges() const {
+  const Network& network = impl_->network;
+  std::vector<Segment3d> result;
+  if (network.dimension() < 2) return result;
+  // Not finite_edges: of an edge's two faces it takes the one that lies lower in memory, and no two runs agree on that
+  for (auto face = network.finite_faces_begin(); face != network.finite_faces_end(); ++face)
+    for (int opposite = 0; opposite < 3; ++opposite) {
+      const Point3d a = from_cgal(face->vertex(Network::ccw(opposite))->point());
+      const Point3d b = from_cgal(face->vertex(Network::cw(opposite))->point());
+      const Network::Edge mirrored = network.mirror_edge({face, opposite});
+      const bool has_two_faces = !network.is_infinite(mirrored.first);
+      if (has_two_faces && std::pair(b.x, b.y) < std::pair(a.x, a.y)) continue;  // the other face brings it
+      EdgeSides edge(a, b);
+      edge.add(from_cgal(face->vertex(opposite)->point()));
+      if (has_two_faces) edge.add(from_cgal(mirrored.first->vertex(mirrored.second)->point()));
+      if (edge.can_be_horizon()) result.push_back(edge.edge());
+    }
   return result;
 }
 

@@ -81,9 +81,15 @@ class TileCutter {
     tiles_.surfaces.push_back({ground_building, 0, 0, SurfaceKind::ground, {0.0, 0.0, 1.0}, 0.0});
     for (const auto& triangle : ground_triangles_) {
       tiles_.surfaces[ground_surface].area_m2 += 0.5 * norm(cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
-      for (const CellPiece& piece : cut(triangle, grid_, tiles_.height_origin_m))
-        if (grid_.cells.contains(piece.cell)) place(piece, ground_surface);  // a terrain may reach beyond the grid
+      for (const CellPiece& piece : cut(triangle, grid_, tiles_.height_origin_m)) {
+        if (!grid_.cells.contains(piece.cell)) continue;  // a terrain may reach beyond the grid
+        place(piece, ground_surface);
+        place_rim(piece);
+      }
     }
+    for (const Segment3d& edge : ground_.horizon_edges())
+      for (const CellEdge& piece : cut_edge(edge, grid_, tiles_.height_origin_m))
+        if (grid_.cells.contains(piece.cell) && !lies_on_rim(piece)) place(piece);
     for (std::size_t n = 0; n < tiles_.tiles.size(); ++n) {
       const double height = ground_.height_at(grid_.centre_of(grid_.cells.cell_at(n)));
       tiles_.tiles[n].ground_at_centre_m = static_cast<float>(height - tiles_.height_origin_m);
@@ -94,6 +100,28 @@ class TileCutter {
   void place(const CellPiece& piece, std::uint32_t surface) {
     FARLOD_EXPECTS(grid_.cells.contains(piece.cell));
     tiles_.tile(piece.cell).add_polygon(piece.polygon, surface);
+  }
+
+  /// Where the grid cuts the ground off, the cut is an edge of what is left.
+  void place_rim(const CellPiece& piece) {
+    for (std::size_t k = 0; k < piece.polygon.size(); ++k) {
+      const CellEdge side{piece.cell, {piece.polygon[k], piece.polygon[(k + 1) % piece.polygon.size()]}};
+      if (lies_on_rim(side)) place(side);
+    }
+  }
+
+  [[nodiscard]] bool lies_on_rim(const CellEdge& piece) const {
+    const auto edge_m = static_cast<float>(grid_.cell_edge_m);
+    const auto& [a, b] = piece.edge;
+    return (piece.cell.i == grid_.cells.i_begin && a.x == 0.0F && b.x == 0.0F) ||
+           (piece.cell.j == grid_.cells.j_begin && a.y == 0.0F && b.y == 0.0F) ||
+           (piece.cell.i == grid_.cells.i_end - 1 && a.x == edge_m && b.x == edge_m) ||
+           (piece.cell.j == grid_.cells.j_end - 1 && a.y == edge_m && b.y == edge_m);
+  }
+
+  void place(const CellEdge& piece) {
+    FARLOD_EXPECTS(grid_.cells.contains(piece.cell));
+    tiles_.tile(piece.cell).horizon_edges.push_back(piece.edge);
   }
 
   void cut_batch(std::size_t first, Report& report) {
@@ -115,11 +143,15 @@ class TileCutter {
     tiles_.building_ids.push_back(building.id);
     tiles_.polygon_count += cut_building.surfaces.size();
     std::vector<bool> overhangs;
+    for (const BuildingSurface& s : cut_building.surfaces) overhangs.push_back(is_overhang(s));
+    const bool stands = std::find(overhangs.begin(), overhangs.end(), true) == overhangs.end() && is_closed(cut_building);
     for (BuildingSurface& s : cut_building.surfaces) {
-      overhangs.push_back(is_overhang(s));
       s.surface.building = number;
+      s.surface.stands = stands;
       tiles_.surfaces.push_back(s.surface);
     }
+    if (stands)
+      for (const CellEdge& edge : cut_building.horizon_edges) place(edge);
     for (const SurfacePiece& p : cut_building.pieces) {
       place(p.piece, first_surface + p.surface);
       if (overhangs[p.surface]) tiles_.tile(p.piece.cell).has_overhang = true;
@@ -128,6 +160,12 @@ class TileCutter {
 
   [[nodiscard]] bool is_overhang(const BuildingSurface& s) const {
     return s.surface.normal.z < overhang_normal_z && s.middle.z - ground_.height_at(horizontal(s.middle)) > least_overhang_m;
+  }
+
+  /// Closed but for its foot, which the ground closes.
+  [[nodiscard]] bool is_closed(const BuildingPieces& building) const {
+    return std::all_of(building.open_ends.begin(), building.open_ends.end(),
+                       [this](const Point3d& p) { return p.z <= ground_.height_at(horizontal(p)) + least_overhang_m; });
   }
 
   const CityModel& city_;

@@ -49,6 +49,23 @@ TEST(Ground, DoesNotDependOnTheOrderOfItsPoints) {
   EXPECT_EQ(there.triangles(), Ground(points, rectangle).triangles());
 }
 
+TEST(Ground, ItsEdgesDoNotDependOnWhereInMemoryItLies) {
+  std::vector<Point3d> points;
+  for (int n = 0; n < 900; ++n)
+    points.push_back(
+        {static_cast<double>(n * 37 % 100) + 1e-3 * n, static_cast<double>(n * 53 % 97), static_cast<double>(n % 9)});
+  const Ground first(points, rectangle);
+  std::vector<Ground> others;  // all alive at once, in memory that small holes break up
+  std::vector<std::vector<char>> holes;
+  for (std::size_t n = 1; n < 12; ++n) {
+    for (std::size_t k = 0; k < 40; ++k) holes.emplace_back(n * 977 * (k % 7 + 1));
+    if (n % 3 == 0) holes.clear();
+    others.emplace_back(points, rectangle);
+    EXPECT_EQ(others.back().horizon_edges(), first.horizon_edges());
+  }
+  EXPECT_GT(first.horizon_edges().size(), 500U);
+}
+
 TEST(Ground, MayEndWhereItsPointsEnd) {
   const Ground ground({{20, 20, 5}, {60, 20, 5}, {60, 60, 5}, {20, 60, 5}}, rectangle, GroundExtent::points);
   EXPECT_EQ(covered_area(ground), 1600.0);

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tiles/horizon_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <tuple>
+
+#include "tiles/cutting.hpp"
+
+namespace farlod {
+namespace {
+
+/// Minus zero equals zero, but has other bits.
+Point3d without_minus_zero(const Point3d& p) { return {p.x + 0.0, p.y + 0.0, p.z + 0.0}; }
+
+bool comes_first(const Point3d& a, const Point3d& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
+
+/// A point of the edge; its ends exactly, and nothing beyond them.
+Point3d point_at(const Segment3d& s, double t) {
+  return {std::lerp(s.a.x, s.b.x, t), std::lerp(s.a.y, s.b.y, t), std::lerp(s.a.z, s.b.z, t)};
+}
+
+/// Where, between 0 and 1, a coordinate that runs from `a` to `b` meets the borders of the grid.
+void add_crossings(double a, double b, const Grid& grid, std::vector<double>& places) {
+  const std::int32_t last = grid.interval_of(std::max(a, b));
+  for (std::int32_t k = grid.interval_of(std::min(a, b)) + 1; k <= last; ++k) places.push_back((grid.border_m(k) - a) / (b - a));
+}
+
+}  // namespace
+
+void EdgeSides::add(const Point3d& opposite) {
+  ++triangle_count_;
+  const Point3d along = edge_.b - edge_.a, v = opposite - edge_.a;
+  const double run_m = norm(horizontal(along)), length_m = norm(along);
+  // Rounding decides which way the planes of slivers look: they say nothing
+  if (run_m < least_extent_m || norm(cross(along, v)) < least_extent_m * length_m) return;
+  const double aside_m = (along.x * v.y - along.y * v.x) / run_m;
+  const double ahead_m = dot(horizontal(along), horizontal(v)) / run_m;
+  // At right angles to the edge: horizontally, and upwards
+  const double rise_m = (v.z * run_m - ahead_m * along.z) / length_m;
+  const double rise_rad = std::atan2(rise_m, std::abs(aside_m));
+  if (std::abs(aside_m) <= angle_tolerance_rad * std::abs(rise_m)) {
+    under_wall_ |= rise_m > 0.0;
+    return;
+  }
+  double& side_rad = aside_m > 0.0 ? left_rad_ : right_rad_;
+  side_rad = std::max(side_rad, rise_rad);
+}
+
+bool EdgeSides::can_be_horizon() const {
+  if (norm(horizontal(edge_.b - edge_.a)) <= upright_m || under_wall_) return false;
+  return left_rad_ + right_rad_ < -angle_tolerance_rad;
+}
+
+std::size_t EdgeTable::Hash::operator()(const Segment3d& s) const {
+  std::size_t seed = 0;
+  for (const double x : {s.a.x, s.a.y, s.a.z, s.b.x, s.b.y, s.b.z})
+    seed ^= std::hash<double>{}(x) + 0x9E3779B97F4A7C15U + (seed << 6) + (seed >> 2);
+  return seed;
+}
+
+void EdgeTable::add_edge(const Point3d& a, const Point3d& b, const Point3d& opposite) {
+  const Segment3d key = comes_first(a, b) ? Segment3d{a, b} : Segment3d{b, a};
+  const auto [entry, is_new] = place_of_.try_emplace(key, edges_.size());
+  if (is_new) edges_.emplace_back(key.a, key.b);
+  edges_[entry->second].add(opposite);
+}
+
+void EdgeTable::add_triangle(const Point3d& corner_a, const Point3d& corner_b, const Point3d& corner_c) {
+  const Point3d a = without_minus_zero(corner_a), b = without_minus_zero(corner_b), c = without_minus_zero(corner_c);
+  add_edge(a, b, c);
+  add_edge(b, c, a);
+  add_edge(c, a, b);
+}
+
+std::vector<Segment3d> EdgeTable::horizon_edges() const {
+  std::vector<Segment3d> result;
+  for (const EdgeSides& e : edges_)
+    if (e.can_be_horizon()) result.push_back(e.edge());
+  return result;
+}
+
+std::vector<Segment3d> EdgeTable::open_edges() const {
+  std::vector<Segment3d> result;
+  for (const EdgeSides& e : edges_)
+    if (e.triangle_count() % 2 == 1) result.push_back(e.edge());
+  return result;
+}
+
+CellEdge whole_edge(const Segment3d& edge, Cell cell, const Grid& grid, double height_origin_m) {
+  return {cell, {cell_from_grid(edge.a, cell, grid, height_origin_m), cell_from_grid(edge.b, cell, grid, height_origin_m)}};
+}
+
+std::vector<CellEdge> cut_edge(const Segment3d& edge, const Grid& grid, double height_origin_m) {
+  const Cell cell = grid.cell_of(horizontal(edge.a));
+  if (cell == grid.cell_of(horizontal(edge.b))) return {whole_edge(edge, cell, grid, height_origin_m)};
+  std::vector<double> places{0.0, 1.0};
+  add_crossings(edge.a.x, edge.b.x, grid, places);
+  add_crossings(edge.a.y, edge.b.y, grid, places);
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  std::vector<CellEdge> pieces;
+  for (std::size_t n = 1; n < places.size(); ++n) {
+    const Cell owner = grid.cell_of(horizontal(point_at(edge, 0.5 * (places[n - 1] + places[n]))));
+    pieces.push_back(whole_edge({point_at(edge, places[n - 1]), point_at(edge, places[n])}, owner, grid, height_origin_m));
+  }
+  return pieces;
+}
+
+}  // namespace farlod

@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tiles/horizon_edges.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "tests/preprocess/tiles/bodies.hpp"
+#include "tiles/ground.hpp"
+#include "tiles/open_ends.hpp"
+
+namespace farlod {
+namespace {
+
+using test::Face;
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
+
+/// Faces as fans of triangles: what diagonals they get, no test depends on.
+EdgeTable table_of(const std::vector<Face>& faces) {
+  EdgeTable table;
+  for (const Face& face : faces)
+    for (std::size_t n = 2; n < face.size(); ++n) table.add_triangle(face[0], face[n - 1], face[n]);
+  return table;
+}
+
+std::vector<Segment3d> horizon_edges_of(const std::vector<Face>& faces) { return table_of(faces).horizon_edges(); }
+
+std::vector<Point3d> open_ends_of(const std::vector<Face>& faces) { return open_ends(table_of(faces).open_edges()); }
+
+/// Each edge from west to east, or from south to north: which end comes first means nothing.
+std::vector<Segment3d> directed(std::vector<Segment3d> edges) {
+  for (Segment3d& e : edges)
+    if (std::pair(e.b.x, e.b.y) < std::pair(e.a.x, e.a.y)) std::swap(e.a, e.b);
+  return edges;
+}
+
+TEST(HorizonEdges, OfABoxAreItsFourTopEdges) {
+  EXPECT_THAT(horizon_edges_of(test::box(0, 0, 10, 20, 0, 5)),
+              UnorderedElementsAre(Segment3d{{0, 0, 5}, {10, 0, 5}}, Segment3d{{0, 20, 5}, {10, 20, 5}},
+                                   Segment3d{{0, 0, 5}, {0, 20, 5}}, Segment3d{{10, 0, 5}, {10, 20, 5}}));
+}
+
+TEST(HorizonEdges, OfAGabledHouseAreRidgeEavesAndGables) {
+  EXPECT_THAT(horizon_edges_of(test::gabled_house()),
+              UnorderedElementsAre(Segment3d{{0, 5, 9}, {20, 5, 9}},                                         // ridge
+                                   Segment3d{{0, 0, 6}, {20, 0, 6}}, Segment3d{{0, 10, 6}, {20, 10, 6}},     // eaves
+                                   Segment3d{{0, 0, 6}, {0, 5, 9}}, Segment3d{{0, 5, 9}, {0, 10, 6}},        // west gable
+                                   Segment3d{{20, 0, 6}, {20, 5, 9}}, Segment3d{{20, 5, 9}, {20, 10, 6}}));  // east gable
+}
+
+TEST(HorizonEdges, LeaveOutTheConcaveFootOfAHigherPart) {
+  const Segment3d foot{{10, 0, 5}, {10, 10, 5}};
+  const auto edges = horizon_edges_of(test::stepped_box());
+  EXPECT_THAT(edges, testing::Not(testing::Contains(foot)));
+  EXPECT_EQ(edges.size(), 7U);  // three of the low roof, four of the high one
+}
+
+TEST(HorizonEdges, LeaveOutTheValleyBetweenTwoSlopesButKeepTheRidge) {
+  const Face left{{0, 0, 1}, {5, 0, 0}, {5, 9, 0}, {0, 9, 1}}, right{{5, 0, 0}, {10, 0, 1}, {10, 9, 1}, {5, 9, 0}};
+  const Segment3d fold{{5, 0, 0}, {5, 9, 0}};
+  EXPECT_THAT(horizon_edges_of({left, right}), testing::Not(testing::Contains(fold)));
+  const auto turned_over = [](Face face) {
+    for (Point3d& p : face) p.z = -p.z;
+    return face;
+  };
+  EXPECT_THAT(horizon_edges_of({turned_over(left), turned_over(right)}),
+              testing::Contains(Segment3d{{5, 0, -0.0}, {5, 9, -0.0}}));
+}
+
+TEST(HorizonEdges, KeepTheTopOfAWallWithoutThickness) {
+  const Face wall{{0, 0, 0}, {10, 0, 0}, {10, 0, 4}, {0, 0, 4}};
+  // Drawn from both sides it is closed as far as counting goes, and must not vanish
+  EXPECT_THAT(horizon_edges_of({wall, wall}), UnorderedElementsAre(Segment3d{{0, 0, 4}, {10, 0, 4}}));
+}
+
+TEST(HorizonEdges, KeepTheFoldWhereASliverLiesBetweenTheSlopes) {
+  // The middle of the ridge lies a hair beside it: the triangle between has no direction to be trusted
+  const Point3d a{0, 0, 3}, b{10, 0, 3}, m{5, 1e-9, 3 + 1e-9};
+  EdgeTable table;
+  table.add_triangle(a, b, {5, -5, 0});
+  table.add_triangle(a, m, b);
+  table.add_triangle(a, {5, 5, 0}, m);
+  table.add_triangle(m, {5, 5, 0}, b);
+  EXPECT_THAT(table.horizon_edges(), testing::Contains(Segment3d{a, b}));
+}
+
+TEST(HorizonEdges, ComeInTheOrderOfTheirTriangles) {
+  auto faces = test::gabled_house();
+  const auto edges = horizon_edges_of(faces);
+  faces.insert(faces.end(), faces.begin(), faces.end());  // what comes twice is not there twice
+  const auto twice = horizon_edges_of(faces);
+  EXPECT_EQ(edges, twice);
+}
+
+TEST(HorizonEdges, OfAHillAreItsRibsAndTheBorder) {
+  // A pyramid of four sides in the middle of a plain
+  std::vector<Point3d> points{{50, 50, 10}, {40, 40, 0}, {60, 40, 0}, {60, 60, 0}, {40, 60, 0}};
+  const Ground ground(points, {{0, 0}, {100, 100}});
+  EXPECT_THAT(directed(ground.horizon_edges()),
+              UnorderedElementsAre(Segment3d{{40, 40, 0}, {50, 50, 10}}, Segment3d{{50, 50, 10}, {60, 40, 0}},
+                                   Segment3d{{50, 50, 10}, {60, 60, 0}}, Segment3d{{40, 60, 0}, {50, 50, 10}},
+                                   Segment3d{{0, 0, 0}, {100, 0, 0}}, Segment3d{{0, 100, 0}, {100, 100, 0}},
+                                   Segment3d{{0, 0, 0}, {0, 100, 0}}, Segment3d{{100, 0, 0}, {100, 100, 0}}));
+}
+
+TEST(HorizonEdges, OfFlatGroundAreItsBorder) {
+  EXPECT_EQ(Ground({{20, 30, 5}, {70, 60, 5}, {40, 80, 5}}, {{0, 0}, {100, 100}}).horizon_edges().size(), 4U);
+}
+
+TEST(OpenEnds, OfClosedBodiesThereAreNone) {
+  EXPECT_THAT(open_ends_of(test::box(0, 0, 10, 20, 0, 5)), IsEmpty());
+  EXPECT_THAT(open_ends_of(test::gabled_house()), IsEmpty());
+  EXPECT_THAT(open_ends_of(test::stepped_box()), IsEmpty());
+}
+
+TEST(OpenEnds, OfAMissingFaceAreItsCorners) {
+  auto faces = test::box(0, 0, 10, 20, 0, 5);
+  faces.pop_back();
+  EXPECT_EQ(open_ends_of(faces).size(), 4U);
+}
+
+TEST(OpenEnds, AChainOfShorterEdgesClosesALongOne) {
+  const auto faces = test::box_with_t_junctions();
+  EXPECT_FALSE(table_of(faces).open_edges().empty());
+  EXPECT_THAT(open_ends_of(faces), IsEmpty());
+}
+
+TEST(OpenEnds, AChainThatMissesAPartDoesNot) {
+  const std::vector<Segment3d> edges{{{0, 0, 9}, {10, 0, 9}}, {{0, 0, 9}, {4, 0, 9}}, {{6, 0, 9}, {10, 0, 9}}};
+  EXPECT_THAT(open_ends(edges), UnorderedElementsAre(Point3d{4, 0, 9}, Point3d{6, 0, 9}));
+}
+
+TEST(OpenEnds, ARoundHoleIsNotALine) {
+  std::vector<Segment3d> circle;
+  const int sides = 720;  // so many that each step alone is straight within on_line_m
+  const auto corner = [](int n) {
+    const double turn = 2.0 * std::numbers::pi * (n % sides) / sides;
+    return Point3d{10 * std::cos(turn), 10 * std::sin(turn), 9.0};
+  };
+  ASSERT_LT(norm(corner(1) - corner(0)) * std::sin(2.0 * std::numbers::pi / sides), on_line_m);
+  for (int n = 0; n < sides; ++n) circle.push_back({corner(n), corner(n + 1)});
+  EXPECT_EQ(open_ends(circle).size(), static_cast<std::size_t>(sides));
+}
+
+class CutEdge : public testing::Test {
+ protected:
+  static Grid grid() {
+    Grid grid;
+    grid.cell_edge_m = 50.0;
+    return grid;
+  }
+  static Point3d grid_from_cell(const Point3f& p, Cell cell) {
+    const Point2d corner = grid().corner_of(cell);
+    return {p.x + corner.x, p.y + corner.y, static_cast<double>(p.z)};
+  }
+  static double length_m(const CellEdge& e) { return norm(grid_from_cell(e.edge.b, e.cell) - grid_from_cell(e.edge.a, e.cell)); }
+};
+
+TEST_F(CutEdge, PiecesLieInTheirCellsAndTheirLengthsSumToItsOwn) {
+  const Segment3d edge{{-37.3, 12.9, 3}, {212.8, 171.4, 60}};
+  const auto pieces = cut_edge(edge, grid(), 0.0);
+  ASSERT_EQ(pieces.size(), 9U);  // five columns (−1 to 4: five borders), three borders of rows
+  double sum_m = 0.0;
+  for (const CellEdge& piece : pieces) {
+    sum_m += length_m(piece);
+    for (const Point3f& p : {piece.edge.a, piece.edge.b}) {
+      const Point3d p_grid = grid_from_cell(p, piece.cell);
+      // A crossing is rounded once in double, then as a float in the cell
+      const double rounding_m = 50.0 * std::numeric_limits<float>::epsilon();
+      const Box2d square = grid().square_of(piece.cell);
+      EXPECT_GE(p_grid.x, square.low.x - rounding_m);
+      EXPECT_LE(p_grid.x, square.high.x + rounding_m);
+      EXPECT_GE(p_grid.y, square.low.y - rounding_m);
+      EXPECT_LE(p_grid.y, square.high.y + rounding_m);
+    }
+  }
+  // Both ends of each piece are rounded in three coordinates of at most 60 m
+  const double rounding_m = std::sqrt(3.0) * 60.0 * std::numeric_limits<float>::epsilon();
+  EXPECT_NEAR(sum_m, norm(edge.b - edge.a), static_cast<double>(pieces.size()) * rounding_m);
+}
+
+TEST_F(CutEdge, AlongABorderItBelongsToTheCellToTheEast) {
+  const auto pieces = cut_edge({{50, 10, 3}, {50, 70, 3}}, grid(), 0.0);
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_EQ(pieces[0].cell, (Cell{1, 0}));
+  EXPECT_EQ(pieces[1].cell, (Cell{1, 1}));
+}
+
+TEST_F(CutEdge, ThatOnlyEndsOnABorderStaysWhole) {
+  const auto pieces = cut_edge({{10, 10, 3}, {50, 10, 3}}, grid(), 2.0);
+  ASSERT_EQ(pieces.size(), 1U);
+  EXPECT_EQ(pieces[0].cell, (Cell{0, 0}));
+  EXPECT_EQ(pieces[0].edge, (HorizonEdge{{10, 10, 1}, {50, 10, 1}}));
+}
+
+}  // namespace
+}  // namespace farlod
