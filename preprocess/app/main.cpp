@@ -45,6 +45,26 @@ void print_problems(const Report& report, const std::string& report_file) {
   if (!counts.empty() && report_file.empty()) fmt::print("  --report FILE.json lists each of them.\n");
 }
 
+void print_choice(const ChosenGrid& chosen, const PackOptions& options) {
+  const double max_error = options.max_error.value_or(0.0);
+  if (chosen.best) {
+    const GridChoice& b = *chosen.best;
+    fmt::print(
+        "Chosen for errors up to {:g}: cells of {:g} m, neighbourhood {} × {}, far maps to {:g}; expected of the far maps: at "
+        "the "
+        "most {:.4f}, certain to {:.4f} for 99 %\n",
+        max_error, b.cell_edge_m, b.neighborhood, b.neighborhood, b.tolerance, b.verdict.max_error, b.verdict.p99_doubt);
+  } else {
+    fmt::print(
+        "No cells and no neighbourhood keep an error of {:g} with far maps alone: farlod-svf --max-error {:g} will trace more "
+        "rays exactly.\n",
+        max_error, max_error);
+  }
+  const FarMapVerdict& m = chosen.measured;
+  fmt::print("Measured on {} other random receivers against exact: mean {:.4f}, at the most {:.4f}, certain to {:.4f} for 99 %\n",
+             m.receivers, m.mean_error, m.max_error, m.p99_doubt);
+}
+
 void print_result(const PackResult& result, const Report& report, const PackOptions& options, double seconds) {
   const package::Manifest& m = result.manifest;
   fmt::print("{} buildings, {} polygons", m.buildings, m.polygons);
@@ -57,6 +77,7 @@ void print_result(const PackResult& result, const Report& report, const PackOpti
              (result.alignment.bearing + m.convergence).degrees(), result.alignment.strength);
   fmt::print("Grid: turned by {:.2f}°, {} × {} cells of {:g} m, neighbourhood {} × {}\n", bearing_deg, m.grid.cells.width(),
              m.grid.cells.height(), m.grid.cell_edge_m, m.grid.neighborhood, m.grid.neighborhood);
+  if (result.chosen) print_choice(*result.chosen, options);
   fmt::print("{}: {:.1f} MiB ({:.1f} MiB far maps), {} triangles, {:.1f} s\n", options.settings.output.string(),
              static_cast<double>(result.package_bytes) / 1048576.0, static_cast<double>(result.far_map_bytes) / 1048576.0,
              m.triangles, seconds);

@@ -7,7 +7,7 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <map>
+#include <optional>
 #include <vector>
 
 #include "console/exit_code.hpp"
@@ -28,8 +28,10 @@ constexpr const char* footer =
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
   std::vector<std::string> inputs;
-  std::string output, origin, up = "z", lod = "best", align = "auto", assign = "clip", far_map = "box";
+  std::string output, origin, up = "z", lod = "best", align = "auto", assign = "clip", far_map = "horizon";
   std::string terrain, height_field, base_field;
+  std::optional<double> cell_edge_m;
+  std::optional<int> neighborhood;
   bool force = false;
 };
 
@@ -83,13 +85,16 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
 }
 
 void add_grid_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
-  app.add_option("--cell", o.settings.grid.cell_edge_m, "Edge of a cell in metres")
+  app.add_option("--cell", raw.cell_edge_m, "Edge of a cell in metres (default: 50, or what --max-error needs)")
       ->check(between(0.5, 10000.0))
-      ->capture_default_str()
       ->group("Grid");
-  app.add_option("--neighborhood", o.settings.grid.neighborhood, "Cells along the edge of the near field, N: odd")
+  app.add_option("--neighborhood", raw.neighborhood,
+                 "Cells along the edge of the near field, N: odd (default: 3, or what --max-error needs)")
       ->check(CLI::Range(1, 999))
-      ->capture_default_str()
+      ->group("Grid");
+  app.add_option("--max-error", o.max_error,
+                 "Choose cells and neighbourhood so that sky view factors keep this error; tell farlod-svf the same")
+      ->check(between(0.0001, 1.0))
       ->group("Grid");
   app.add_option("--align", raw.align, "auto: along the streets; none: grid north; or degrees clockwise from grid north")
       ->capture_default_str()
@@ -99,8 +104,8 @@ void add_grid_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->check(CLI::IsMember({"clip", "whole"}))
       ->capture_default_str()
       ->group("Grid");
-  app.add_option("--far-map", raw.far_map, "Kind of far map")
-      ->check(CLI::IsMember({"box"}))
+  app.add_option("--far-map", raw.far_map, "horizon: without parallax, with certain bounds; box: the paper's")
+      ->check(CLI::IsMember({"horizon", "box"}))
       ->capture_default_str()
       ->group("Grid");
 }
@@ -125,6 +130,16 @@ void understand_alignment(const std::string& text, GridSettings& grid) {
   }
 }
 
+/// Half of the error is left for the sky between the rays of farlod-svf. What the user fixes is not chosen.
+void understand_choice(const RawOptions& raw, double max_error, PackSettings& s) {
+  if (s.far_map.kind == FarMapKind::box)
+    throw CLI::ValidationError("--max-error", "far maps of the kind box keep no error: leave --far-map out");
+  s.choice.emplace();
+  s.choice->max_far_error = 0.5 * max_error;
+  if (raw.cell_edge_m) s.choice->cell_edges_m = {*raw.cell_edge_m};
+  if (raw.neighborhood) s.choice->neighborhoods = {*raw.neighborhood};
+}
+
 void understand(const RawOptions& raw, PackOptions& o) {
   PackSettings& s = o.settings;
   s.inputs.assign(raw.inputs.begin(), raw.inputs.end());
@@ -133,6 +148,8 @@ void understand(const RawOptions& raw, PackOptions& o) {
   s.overwrite = raw.force ? Overwrite::replace : Overwrite::refuse;
   if (!raw.terrain.empty()) s.terrain = raw.terrain;
   if (s.inputs.empty() && !s.terrain) throw CLI::RequiredError("INPUT");
+  if (raw.cell_edge_m) s.grid.cell_edge_m = *raw.cell_edge_m;
+  if (raw.neighborhood) s.grid.neighborhood = *raw.neighborhood;
   if (s.grid.neighborhood % 2 == 0)
     throw CLI::ValidationError("--neighborhood", std::to_string(s.grid.neighborhood) +
                                                      " is even: a neighbourhood has a cell in its middle, give an odd number");
@@ -142,7 +159,9 @@ void understand(const RawOptions& raw, PackOptions& o) {
   if (!raw.height_field.empty()) s.ingest.height_field = raw.height_field;
   if (!raw.base_field.empty()) s.ingest.base_field = raw.base_field;
   understand_alignment(raw.align, s.grid);
+  s.far_map.kind = raw.far_map == "box" ? FarMapKind::box : FarMapKind::horizon;
   s.assign = raw.assign == "whole" ? Assign::whole : Assign::clip;
+  if (o.max_error) understand_choice(raw, *o.max_error, s);
 }
 
 }  // namespace

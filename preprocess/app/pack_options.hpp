@@ -13,6 +13,7 @@ namespace farlod {
 /// The command line of farlod-pack, understood.
 struct PackOptions {
   PackSettings settings;
+  std::optional<double> max_error;  ///< what the user asked for; settings.choice says what follows from it
   std::string report_file;
   RunOptions run;
 };

@@ -12,26 +12,42 @@ using Json = nlohmann::ordered_json;
 
 std::string text_of(const Json& j) { return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
+Json json_of(const FarMapVerdict& v) {
+  return {{"receivers", v.receivers}, {"mean_error", v.mean_error}, {"max_error", v.max_error}, {"p99_doubt", v.p99_doubt}};
+}
+
+Json json_of(const ChosenGrid& chosen) {
+  Json j = {{"keeps_error", chosen.best.has_value()}};
+  if (chosen.best) {
+    j["tolerance"] = chosen.best->tolerance;
+    j["expected"] = json_of(chosen.best->verdict);
+  }
+  j["measured"] = json_of(chosen.measured);
+  return j;
+}
+
 }  // namespace
 
 std::string pack_summary_json(const PackResult& result, const Report& report, double total_seconds) {
   const package::Manifest& m = result.manifest;
   Json seconds = {{"total", total_seconds}};
   for (const auto& [stage, value] : result.stage_seconds) seconds[stage] = value;
-  return text_of({{"buildings", m.buildings},
-                  {"polygons", m.polygons},
-                  {"facets", result.facets},
-                  {"triangles", m.triangles},
-                  {"problems", report.problems().size()},
-                  {"cells", m.grid.cells.size()},
-                  {"grid_rotation_deg", m.grid.rotation.bearing().degrees()},
-                  {"alignment_strength", result.alignment.strength},
-                  {"cell_m", m.grid.cell_edge_m},
-                  {"neighborhood", m.grid.neighborhood},
-                  {"seconds", seconds},
-                  {"peak_memory_mib", peak_memory_mib()},
-                  {"package_bytes", result.package_bytes},
-                  {"far_map_bytes", result.far_map_bytes}});
+  Json j = {{"buildings", m.buildings},
+            {"polygons", m.polygons},
+            {"facets", result.facets},
+            {"triangles", m.triangles},
+            {"problems", report.problems().size()},
+            {"cells", m.grid.cells.size()},
+            {"grid_rotation_deg", m.grid.rotation.bearing().degrees()},
+            {"alignment_strength", result.alignment.strength},
+            {"cell_m", m.grid.cell_edge_m},
+            {"neighborhood", m.grid.neighborhood},
+            {"seconds", seconds},
+            {"peak_memory_mib", peak_memory_mib()},
+            {"package_bytes", result.package_bytes},
+            {"far_map_bytes", result.far_map_bytes}};
+  if (result.chosen) j["chosen"] = json_of(*result.chosen);
+  return text_of(j);
 }
 
 std::string report_json(const Report& report) {

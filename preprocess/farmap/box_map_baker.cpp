@@ -15,17 +15,17 @@ constexpr double border_rounding = 4.0 * std::numeric_limits<float>::epsilon();
 
 }  // namespace
 
-std::vector<BakedMap> BoxMapBaker::bake(Block block) const {
+BakedBoxes BoxMapBaker::bake(Block block) const {
   const CellRange cells = grid_.cells_of(block);
-  std::vector<BakedMap> maps(static_cast<std::size_t>(cells.size()));
+  BakedBoxes maps(static_cast<std::size_t>(cells.size()));
   oneapi::tbb::parallel_for(std::size_t{0}, maps.size(), [&](std::size_t n) { maps[n] = bake_cell(cells.cell_at(n)); });
   return maps;
 }
 
-BakedMap BoxMapBaker::bake_cell(Cell cell) const {
+BakedBox BoxMapBaker::bake_cell(Cell cell) const {
   const auto half_edge = static_cast<float>(0.5 * grid_.cell_edge_m);
   const float height_m = tiles_.tile(cell).ground_at_centre_m + static_cast<float>(settings_.capture_height_m);
-  BakedMap map{{half_edge, half_edge, height_m}, {settings_.side_columns, settings_.rows, skyline_.top(cell, height_m)}, {}};
+  BakedBox map{{half_edge, half_edge, height_m}, {settings_.side_columns, settings_.rows, skyline_.top(cell, height_m)}, {}};
   if (map.shape.top == 0.0F) return map;
   const Point3f capture = city_.frame_from_grid(grid_.centre_of(cell), height_m);
   const CellRange near = grid_.neighborhood_of(cell);

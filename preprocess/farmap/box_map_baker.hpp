@@ -5,47 +5,34 @@
 #include <cstdint>
 #include <vector>
 
-#include "farlod/far_map/box_map.hpp"
 #include "farlod/grid.hpp"
+#include "farmap/baked_block.hpp"
 #include "farmap/city_occluder.hpp"
+#include "farmap/far_map_settings.hpp"
 #include "farmap/far_skyline.hpp"
 #include "tiles/tile_set.hpp"
 #include "tiles/tiles.hpp"
 
 namespace farlod {
 
-struct FarMapSettings {
-  std::uint32_t side_columns = 64;
-  std::uint32_t rows = 64;
-  double capture_height_m = 1.5;  ///< above the ground at the cell's centre, where most receivers will stand
-};
-
-/// The far map of a cell, as captured.
-struct BakedMap {
-  Point3f capture_cell;  ///< capture point, cell frame
-  BoxMap shape;
-  std::vector<float>
-      distance_m;  ///< texel rows from the horizontal upwards; infinite where the sky is seen; empty when all is sky
-};
-
 /// Captures the far maps of a block's cells, in the order of CellRange::index_of: what the city outside of each cell's
 /// neighbourhood hides, one ray a texel from the cell's centre (paper, Section 3; on a box that has no lid instead of a cube).
 class BoxMapBaker {
  public:
   /// The tiles and the grid must outlive the baker.
-  BoxMapBaker(const TileSet& tiles, const Grid& grid, Assign assign, const FarMapSettings& settings)
+  BoxMapBaker(const TileSet& tiles, const Grid& grid, Assign assign, const BoxMapSettings& settings)
       : tiles_(tiles), grid_(grid), assign_(assign), settings_(settings), city_(tiles, grid), skyline_(tiles, grid) {}
 
-  [[nodiscard]] std::vector<BakedMap> bake(Block block) const;
+  [[nodiscard]] BakedBoxes bake(Block block) const;
 
  private:
-  [[nodiscard]] BakedMap bake_cell(Cell cell) const;
+  [[nodiscard]] BakedBox bake_cell(Cell cell) const;
   [[nodiscard]] float distance_m(const Point3f& capture, const Point3d& direction, const CellRange& near) const;
 
   const TileSet& tiles_;
   const Grid& grid_;
   Assign assign_;
-  FarMapSettings settings_;
+  BoxMapSettings settings_;
   CityOccluder city_;
   FarSkyline skyline_;
 };

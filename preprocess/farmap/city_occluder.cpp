@@ -29,15 +29,23 @@ Occluder occluder_of_tiles(const TileSet& tiles, const Grid& grid, Point2d origi
 }  // namespace
 
 CityOccluder::CityOccluder(const TileSet& tiles, const Grid& grid)
-    : cells_(tiles.cells),
+    : tiles_(tiles),
+      cells_(tiles.cells),
       origin_grid_(grid.middle_corner()),
       first_triangle_(first_triangles(tiles)),
       occluder_(occluder_of_tiles(tiles, grid, origin_grid_)) {}
 
-Cell CityOccluder::cell_of_triangle(std::uint32_t triangle) const {
+std::size_t CityOccluder::tile_of(std::uint32_t triangle) const {
   // Empty tiles begin where the next one does: the last that begins at or before the triangle holds it
   const auto after = std::upper_bound(first_triangle_.begin(), first_triangle_.end(), triangle);
-  return cells_.cell_at(static_cast<std::size_t>(after - first_triangle_.begin()) - 1);
+  return static_cast<std::size_t>(after - first_triangle_.begin()) - 1;
+}
+
+Cell CityOccluder::cell_of_triangle(std::uint32_t triangle) const { return cells_.cell_at(tile_of(triangle)); }
+
+const Surface& CityOccluder::surface_of(std::uint32_t triangle) const {
+  const std::size_t n = tile_of(triangle);
+  return tiles_.surfaces[tiles_.tiles[n].triangle_surfaces[triangle - first_triangle_[n]]];
 }
 
 }  // namespace farlod

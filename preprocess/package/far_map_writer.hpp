@@ -3,17 +3,18 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 
 #include "farlod/grid.hpp"
-#include "farmap/box_map_baker.hpp"
+#include "farlod/package/manifest.hpp"
+#include "farmap/baked_block.hpp"
 
 namespace farlod {
 
 /// Writes a block's `far.exr`: a tiled picture whose tile (i, j) is the map of the block's cell (i, j) from its south-west
-/// corner. Tiles run upwards with j; within a tile, pictures run downwards, so row 0 is the map's highest.
+/// corner. Tiles run upwards with j; within a tile of the kind `box`, pictures run downwards, so row 0 is the map's highest; of
+/// the kind `horizon`, row 0 is the first patch. Bounds are rounded outwards.
 /// Throws std::runtime_error when the file cannot be written.
-void write_far_maps(const std::filesystem::path& file, std::span<const BakedMap> maps, const CellRange& cells,
-                    const FarMapSettings& settings);
+void write_far_maps(const std::filesystem::path& file, const BakedBlock& maps, const CellRange& cells,
+                    const package::FarMapShape& shape);
 
 }  // namespace farlod

@@ -7,7 +7,9 @@
 #include <half.h>
 
 #include <limits>
+#include <map>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "farlod/expects.hpp"
@@ -17,51 +19,101 @@
 namespace farlod {
 namespace {
 
-/// The two channels of one map, top row first.
-struct MapPicture {
-  std::vector<half> sky, distance_m;
+/// The channels of one cell's picture, top row first.
+using Picture = std::map<std::string, std::vector<half>>;
 
-  MapPicture(const BakedMap& map, std::uint32_t columns, std::uint32_t rows)
-      : sky(static_cast<std::size_t>(columns) * rows, half(1.0F)), distance_m(sky.size(), half::posInf()) {
-    if (map.distance_m.empty()) return;
-    for (std::size_t row = 0; row < rows; ++row)
-      for (std::size_t column = 0; column < columns; ++column) {
-        const float d = map.distance_m[(rows - 1 - row) * columns + column];
-        if (d == std::numeric_limits<float>::infinity()) continue;
-        sky[row * columns + column] = half(0.0F);
-        // What hides the sky farther away than half can say stays hidden
-        distance_m[row * columns + column] = half(std::min(d, static_cast<float>(HALF_MAX)));
-      }
+Picture picture_of(const BakedBox& map, std::uint32_t columns, std::uint32_t rows) {
+  std::vector<half> sky(static_cast<std::size_t>(columns) * rows, half(1.0F)), distance_m(sky.size(), half::posInf());
+  for (std::size_t row = 0; row < rows && !map.distance_m.empty(); ++row)
+    for (std::size_t column = 0; column < columns; ++column) {
+      const float d = map.distance_m[(rows - 1 - row) * columns + column];
+      if (d == std::numeric_limits<float>::infinity()) continue;
+      sky[row * columns + column] = half(0.0F);
+      // What hides the sky farther away than half can say stays hidden
+      distance_m[row * columns + column] = half(std::min(d, static_cast<float>(HALF_MAX)));
+    }
+  return {{package::sky_channel, std::move(sky)}, {package::distance_channel, std::move(distance_m)}};
+}
+
+half next_half(half h, int step) {
+  half result;
+  result.setBits(static_cast<unsigned short>(h.bits() + step));
+  return result;
+}
+/// The nearest half on one side of a slope; slopes are not negative, so that bits are in order.
+half rounded_up(float slope) {
+  const half h(slope);
+  return static_cast<float>(h) < slope ? next_half(h, 1) : h;
+}
+half rounded_down(float slope) {
+  const half h(std::min(slope, static_cast<float>(HALF_MAX)));
+  return static_cast<float>(h) > slope ? next_half(h, -1) : h;
+}
+
+Picture picture_of(const BakedHorizon& map, std::uint32_t, std::uint32_t) {
+  std::vector<half> lower, likely, upper;
+  for (const float slope : map.lower) lower.push_back(rounded_down(slope));
+  for (const float slope : map.upper) upper.push_back(rounded_up(slope));
+  for (const float slope : map.likely) likely.emplace_back(slope);
+  return {{package::lower_channel, std::move(lower)},
+          {package::likely_channel, std::move(likely)},
+          {package::upper_channel, std::move(upper)}};
+}
+
+/// One cell's picture after the other, in a file of tiles.
+class TiledFile {
+ public:
+  TiledFile(const std::filesystem::path& path, const CellRange& cells, const package::FarMapShape& shape, const Picture& channels)
+      : cells_(cells),
+        columns_(static_cast<int>(shape.picture_columns())),
+        rows_(static_cast<int>(shape.picture_rows())),
+        file_(path.c_str(), header(channels), 0) {}
+
+  void add(std::size_t n, Picture picture) {
+    const Cell cell = cells_.cell_at(n);
+    const int i = cell.i - cells_.i_begin, j = cell.j - cells_.j_begin;
+    const Imath::V2i first_pixel(i * columns_, j * rows_);
+    Imf::FrameBuffer frame;
+    for (auto& [name, pixels] : picture) {
+      FARLOD_EXPECTS(pixels.size() == static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+      frame.insert(name, Imf::Slice::Make(Imf::HALF, pixels.data(), first_pixel, columns_, rows_));
+    }
+    file_.setFrameBuffer(frame);
+    file_.writeTile(i, j);
   }
+
+ private:
+  [[nodiscard]] Imf::Header header(const Picture& channels) const {
+    Imf::Header header(static_cast<int>(cells_.width()) * columns_, static_cast<int>(cells_.height()) * rows_);
+    for (const auto& [name, pixels] : channels) header.channels().insert(name, Imf::Channel(Imf::HALF));
+    header.setTileDescription(
+        Imf::TileDescription(static_cast<unsigned>(columns_), static_cast<unsigned>(rows_), Imf::ONE_LEVEL));
+    header.compression() = Imf::ZIP_COMPRESSION;
+    return header;
+  }
+
+  CellRange cells_;
+  int columns_, rows_;
+  Imf::TiledOutputFile file_;
 };
 
-Imf::Header header_for(const CellRange& cells, int columns, int rows) {
-  Imf::Header header(static_cast<int>(cells.width()) * columns, static_cast<int>(cells.height()) * rows);
-  header.channels().insert(package::sky_channel, Imf::Channel(Imf::HALF));
-  header.channels().insert(package::distance_channel, Imf::Channel(Imf::HALF));
-  header.setTileDescription(Imf::TileDescription(static_cast<unsigned>(columns), static_cast<unsigned>(rows), Imf::ONE_LEVEL));
-  header.compression() = Imf::ZIP_COMPRESSION;
-  return header;
+template <class Maps>
+void write_all(const std::filesystem::path& path, const Maps& maps, const CellRange& cells, const package::FarMapShape& shape) {
+  FARLOD_EXPECTS(maps.size() == static_cast<std::size_t>(cells.size()));
+  const auto picture = [&](std::size_t n) { return picture_of(maps[n], shape.picture_columns(), shape.picture_rows()); };
+  TiledFile file(path, cells, shape, picture(0));
+  for (std::size_t n = 0; n < maps.size(); ++n) file.add(n, picture(n));
 }
 
 }  // namespace
 
-void write_far_maps(const std::filesystem::path& path, std::span<const BakedMap> maps, const CellRange& cells,
-                    const FarMapSettings& settings) {
-  FARLOD_EXPECTS(maps.size() == static_cast<std::size_t>(cells.size()));
-  const std::uint32_t columns = 4 * settings.side_columns, rows = settings.rows;
+void write_far_maps(const std::filesystem::path& path, const BakedBlock& maps, const CellRange& cells,
+                    const package::FarMapShape& shape) {
   try {
-    Imf::TiledOutputFile file(path.c_str(), header_for(cells, static_cast<int>(columns), static_cast<int>(rows)), 0);
-    for (std::size_t n = 0; n < maps.size(); ++n) {
-      MapPicture picture(maps[n], columns, rows);
-      const Cell cell = cells.cell_at(n);
-      const int i = cell.i - cells.i_begin, j = cell.j - cells.j_begin;
-      const Imath::V2i first_pixel(i * static_cast<int>(columns), j * static_cast<int>(rows));
-      Imf::FrameBuffer frame;
-      frame.insert(package::sky_channel, Imf::Slice::Make(Imf::HALF, picture.sky.data(), first_pixel, columns, rows));
-      frame.insert(package::distance_channel, Imf::Slice::Make(Imf::HALF, picture.distance_m.data(), first_pixel, columns, rows));
-      file.setFrameBuffer(frame);
-      file.writeTile(i, j);
+    if (const auto* boxes = std::get_if<BakedBoxes>(&maps)) {
+      write_all(path, *boxes, cells, shape);
+    } else {
+      write_all(path, std::get<BakedHorizons>(maps).cells, cells, shape);
     }
   } catch (const std::exception& reason) {
     throw std::runtime_error(path.string() + " cannot be written: " + reason.what());

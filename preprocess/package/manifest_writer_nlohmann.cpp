@@ -20,6 +20,15 @@ Json json_of(const package::FileStamp& stamp) {
   return {{"bytes", stamp.bytes}, {"xxh3", digits.data()}};
 }
 
+Json json_of(const package::FarMapShape& shape) {
+  if (shape.is_box()) return {{"kind", shape.kind}, {"side_columns", shape.side_columns}, {"rows", shape.rows}};
+  return {{"kind", shape.kind},
+          {"azimuth_bins", shape.azimuth_bins},
+          {"squares_per_edge", shape.squares_per_edge},
+          {"layers", shape.layers},
+          {"tolerance", shape.tolerance}};
+}
+
 Json place_of(const Manifest& m) {
   Json j;
   j["crs"] = {{"name", m.crs_name}, {"epsg", m.epsg ? Json(*m.epsg) : Json(nullptr)}, {"wkt", m.crs_wkt}};
@@ -50,8 +59,7 @@ Json inputs_of(const Manifest& m) {
 std::string manifest_text(const Manifest& m) {
   Json j = {{"format", "farlod-package"}, {"version", package::format_version}, {"software", m.software}};
   j.update(place_of(m));
-  j["settings"] = {{"assign", m.assign},
-                   {"far_map", {{"kind", m.far_map_kind}, {"side_columns", m.far_map_side_columns}, {"rows", m.far_map_rows}}}};
+  j["settings"] = {{"assign", m.assign}, {"far_map", json_of(m.far_map)}};
   j["inputs"] = inputs_of(m);
   j["counts"] = {{"buildings", m.buildings}, {"polygons", m.polygons}, {"triangles", m.triangles}};
   j["problems"] = Json::object();

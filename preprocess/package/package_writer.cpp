@@ -28,6 +28,17 @@ void require_package_or_empty(const fs::path& folder) {
   }
 }
 
+/// What far maps of the kind `horizon` add to the tiles file.
+std::uint64_t named_bytes(const BakedBlock& maps) {
+  const auto* horizons = std::get_if<BakedHorizons>(&maps);
+  if (horizons == nullptr) return 0;
+  std::uint64_t bytes = horizons->edges.size() * sizeof(HorizonEdge) + horizons->triangles.size() * sizeof(package::FarTriangle);
+  for (const BakedHorizon& cell : horizons->cells)
+    bytes +=
+        sizeof(package::FarCellRecord) + (cell.named_edges.size() + cell.named_triangles.size()) * sizeof(package::NamedObstacle);
+  return bytes;
+}
+
 fs::path temporary_name(const fs::path& path) { return path.string() + ".part"; }
 
 }  // namespace
@@ -62,17 +73,17 @@ package::FileStamp PackageWriter::write_file(const fs::path& path, std::span<con
   return stamp_of(bytes);
 }
 
-package::BlockFiles PackageWriter::write_block(const TileSet& tiles, std::span<const BakedMap> maps, const Grid& grid,
-                                               Block block, const FarMapSettings& settings) {
+package::BlockFiles PackageWriter::write_block(const TileSet& tiles, const BakedBlock& maps, const Grid& grid, Block block,
+                                               const package::FarMapShape& shape) {
   const fs::path folder = folder_ / package::block_folder(block);
   fs::create_directories(folder);
   package::BlockFiles files{block, write_file(folder / package::tiles_file, tiles_file(tiles, maps, grid, block)), {}};
   const fs::path far = folder / package::far_map_file;
-  write_far_maps(temporary_name(far), maps, grid.cells_of(block), settings);
+  write_far_maps(temporary_name(far), maps, grid.cells_of(block), shape);
   files.far_map = stamp_of(temporary_name(far));
   fs::rename(temporary_name(far), far);
   bytes_written_ += files.far_map.bytes;
-  far_map_bytes_ += files.far_map.bytes;
+  far_map_bytes_ += files.far_map.bytes + named_bytes(maps);
   return files;
 }
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "farlod/package/manifest.hpp"
-#include "farmap/box_map_baker.hpp"
+#include "farmap/baked_block.hpp"
 #include "tiles/tile_set.hpp"
 
 namespace farlod {
@@ -35,11 +35,12 @@ class PackageWriter {
   PackageWriter(std::filesystem::path folder, Overwrite overwrite);
 
   /// Returns the stamps of the block's two files, for the manifest.
-  package::BlockFiles write_block(const TileSet& tiles, std::span<const BakedMap> maps, const Grid& grid, Block block,
-                                  const FarMapSettings& settings);
+  package::BlockFiles write_block(const TileSet& tiles, const BakedBlock& maps, const Grid& grid, Block block,
+                                  const package::FarMapShape& shape);
   void finish(const package::Manifest& manifest);
 
   [[nodiscard]] std::uint64_t bytes_written() const { return bytes_written_; }
+  /// Of all far maps: their pictures, and what they name.
   [[nodiscard]] std::uint64_t far_map_bytes() const { return far_map_bytes_; }
 
  private:

@@ -28,17 +28,50 @@ class BlockSections {
     }
   }
 
-  void add_cell(Cell cell, const BakedMap& map) {
+  void add_cell(Cell cell) {
     const Tile& tile = city_.tile(cell);
-    cells.push_back({cell.i, cell.j, vertices.size(), triangles.size(), static_cast<std::uint32_t>(tile.vertices.size()),
-                     static_cast<std::uint32_t>(tile.triangles.size()), tile.z_low_m, tile.z_high_m, map.capture_cell.x,
-                     map.capture_cell.y, map.capture_cell.z, map.shape.top, tile.has_overhang ? cell_has_overhang : 0, 0});
+    CellRecord record{};
+    record.i = cell.i;
+    record.j = cell.j;
+    record.first_vertex = vertices.size();
+    record.first_triangle = triangles.size();
+    record.vertex_count = static_cast<std::uint32_t>(tile.vertices.size());
+    record.triangle_count = static_cast<std::uint32_t>(tile.triangles.size());
+    record.z_low_m = tile.z_low_m;
+    record.z_high_m = tile.z_high_m;
+    record.flags = tile.has_overhang ? cell_has_overhang : 0;
+    cells.push_back(record);
     vertices.insert(vertices.end(), tile.vertices.begin(), tile.vertices.end());
     triangles.insert(triangles.end(), tile.triangles.begin(), tile.triangles.end());
     for (const std::uint32_t s : tile.triangle_surfaces) triangle_surfaces.push_back(row_of_surface_.at(s));
   }
 
+  void describe_map(CellRecord& cell, const BakedBox& map) {
+    cell.capture_x_m = map.capture_cell.x;
+    cell.capture_y_m = map.capture_cell.y;
+    cell.capture_z_m = map.capture_cell.z;
+    cell.far_map_top = map.shape.top;
+  }
+
+  void add_map(const BakedHorizon& map) {
+    FarCellRecord record{};
+    record.first_named_edge = named_edges.size();
+    record.first_named_triangle = named_triangles.size();
+    record.named_edge_count = static_cast<std::uint32_t>(map.named_edges.size());
+    record.named_triangle_count = static_cast<std::uint32_t>(map.named_triangles.size());
+    const std::vector<float>& levels_m = map.patches.levels_m();
+    FARLOD_EXPECTS(levels_m.size() <= record.levels_m.size());
+    for (std::size_t l = 0; l < record.levels_m.size(); ++l) record.levels_m[l] = levels_m[std::min(l, levels_m.size() - 1)];
+    far_cells.push_back(record);
+    named_edges.insert(named_edges.end(), map.named_edges.begin(), map.named_edges.end());
+    named_triangles.insert(named_triangles.end(), map.named_triangles.begin(), map.named_triangles.end());
+  }
+
   std::vector<CellRecord> cells;
+  std::vector<FarCellRecord> far_cells;
+  std::vector<HorizonEdge> far_edges;
+  std::vector<FarTriangle> far_triangles;
+  std::vector<NamedObstacle> named_edges, named_triangles;
   std::vector<Point3f> vertices;
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> triangle_surfaces;
@@ -109,13 +142,26 @@ class TilesFile {
   std::vector<std::byte> bytes_;
 };
 
+void add_far_maps(BlockSections& sections, const BakedBlock& maps) {
+  if (const auto* boxes = std::get_if<BakedBoxes>(&maps)) {
+    FARLOD_EXPECTS(boxes->size() == sections.cells.size());
+    for (std::size_t n = 0; n < boxes->size(); ++n) sections.describe_map(sections.cells[n], (*boxes)[n]);
+    return;
+  }
+  const auto& horizons = std::get<BakedHorizons>(maps);
+  FARLOD_EXPECTS(horizons.cells.size() == sections.cells.size());
+  for (const BakedHorizon& map : horizons.cells) sections.add_map(map);
+  sections.far_edges = horizons.edges;
+  sections.far_triangles = horizons.triangles;
+}
+
 }  // namespace
 
-std::vector<std::byte> tiles_file(const TileSet& tiles, std::span<const BakedMap> maps, const Grid& grid, Block block) {
+std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, const Grid& grid, Block block) {
   const CellRange range = grid.cells_of(block);
-  FARLOD_EXPECTS(maps.size() == static_cast<std::size_t>(range.size()));
   BlockSections sections(tiles, range);
-  for (std::size_t n = 0; n < maps.size(); ++n) sections.add_cell(range.cell_at(n), maps[n]);
+  for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) sections.add_cell(range.cell_at(n));
+  add_far_maps(sections, maps);
   TilesFile file(block);
   file.add(SectionKind::cells, sections.cells);
   file.add(SectionKind::vertices, sections.vertices);
@@ -124,6 +170,11 @@ std::vector<std::byte> tiles_file(const TileSet& tiles, std::span<const BakedMap
   file.add(SectionKind::surfaces, sections.surfaces);
   file.add(SectionKind::buildings, sections.buildings);
   file.add(SectionKind::text, sections.text);
+  file.add(SectionKind::far_cells, sections.far_cells);
+  file.add(SectionKind::far_edges, sections.far_edges);
+  file.add(SectionKind::far_triangles, sections.far_triangles);
+  file.add(SectionKind::named_edges, sections.named_edges);
+  file.add(SectionKind::named_triangles, sections.named_triangles);
   return file.finish();
 }
 

@@ -3,17 +3,15 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "farlod/grid.hpp"
-#include "farmap/box_map_baker.hpp"
+#include "farmap/baked_block.hpp"
 #include "tiles/tile_set.hpp"
 
 namespace farlod {
 
-/// The bytes of a block's `tiles.bin` (include/farlod/package/layout.hpp). `maps` are those of the block's cells, in order.
-[[nodiscard]] std::vector<std::byte> tiles_file(const TileSet& tiles, std::span<const BakedMap> maps, const Grid& grid,
-                                                Block block);
+/// The bytes of a block's `tiles.bin` (include/farlod/package/layout.hpp), with what its far maps name.
+[[nodiscard]] std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, const Grid& grid, Block block);
 
 }  // namespace farlod

@@ -32,6 +32,13 @@ Box2d city_outline(const Grid& grid) {
   return outline;
 }
 
+Box2d outline_of(const TerrainRaster& terrain) {
+  Box2d outline;
+  outline.add(terrain.first);
+  outline.add(terrain.node(terrain.columns - 1, terrain.rows - 1));
+  return outline;
+}
+
 /// Runs the stages one after the other, and remembers how long each took.
 class Packing {
  public:
@@ -51,6 +58,7 @@ class Packing {
     // A folder that may not be written ends the run before the long work; one that may be is swept only after it
     require_room(settings_.output, settings_.overwrite);
     LocatedCity located = read_and_locate();
+    if (settings_.choice) result_.chosen = timed("choice", [&] { return choose(located); });
     const auto [grid, terrain] = lay_grid_on_ground(located);
     describe_place(located, grid);
     result_.facets = located.city.facets().size();
@@ -58,6 +66,7 @@ class Packing {
       return cut_into_tiles(std::move(located), grid, settings_.assign, terrain, report_);
     });
     describe_tiles(tiles);
+    if (result_.chosen) result_.chosen->measured = timed("measure", [&] { return measure(tiles, grid); });
     write_package(tiles, grid);
     return std::move(result_);
   }
@@ -82,24 +91,51 @@ class Packing {
   /// Buildings decide where the grid lies, and of a terrain only what it covers is read; a terrain alone decides itself.
   std::pair<Grid, std::optional<TerrainRaster>> lay_grid_on_ground(const LocatedCity& located) {
     const auto read = [&](const std::optional<Box2d>& wanted_city) {
-      return timed("terrain", [&] {
-        TerrainRaster terrain = read_terrain(*settings_.terrain, settings_.georeference.crs, located.georeference, wanted_city);
-        if (std::none_of(terrain.height_m.begin(), terrain.height_m.end(), [](const auto& height) { return height.has_value(); }))
-          throw InputError(settings_.terrain->string() + " has no heights where the city lies: give a terrain that covers it.");
-        return terrain;
-      });
+      return timed("terrain", [&] { return read_ground(located, wanted_city); });
     };
     if (located.city.buildings().empty()) {
       TerrainRaster terrain = read(std::nullopt);
-      Box2d outline;
-      outline.add(terrain.first);
-      outline.add(terrain.node(terrain.columns - 1, terrain.rows - 1));
-      const Grid grid = timed("align", [&] { return grid_over(outline, settings_.grid); });
+      const Grid grid = timed("align", [&] { return grid_over(outline_of(terrain), settings_.grid); });
       return {grid, std::move(terrain)};
     }
     const GridAlignment aligned = timed("align", [&] { return align(located, settings_.grid, report_); });
     result_.alignment = aligned.streets;
     return {aligned.grid, settings_.terrain ? std::optional(read(city_outline(aligned.grid))) : std::nullopt};
+  }
+
+  [[nodiscard]] TerrainRaster read_ground(const LocatedCity& located, const std::optional<Box2d>& wanted_city) const {
+    TerrainRaster terrain = read_terrain(*settings_.terrain, settings_.georeference.crs, located.georeference, wanted_city);
+    if (std::none_of(terrain.height_m.begin(), terrain.height_m.end(), [](const auto& height) { return height.has_value(); }))
+      throw InputError(settings_.terrain->string() + " has no heights where the city lies: give a terrain that covers it.");
+    return terrain;
+  }
+
+  /// Tries grids, and takes the best into the settings. What is wrong with the city is reported once, when it is packed.
+  ChosenGrid choose(const LocatedCity& located) {
+    Report unread;
+    const auto lay = [&](double cell_edge_m) -> std::pair<Grid, std::optional<TerrainRaster>> {
+      GridSettings settings = settings_.grid;
+      settings.cell_edge_m = cell_edge_m;
+      if (located.city.buildings().empty()) {
+        TerrainRaster terrain = read_ground(located, std::nullopt);
+        return {grid_over(outline_of(terrain), settings), std::move(terrain)};
+      }
+      const Grid grid = align(located, settings, unread).grid;
+      return {grid, settings_.terrain ? std::optional(read_ground(located, city_outline(grid))) : std::nullopt};
+    };
+    const GridChoices choices = choose_grid(located, lay, settings_.assign, settings_.far_map.horizon, *settings_.choice);
+    if (!choices.best) return {};
+    settings_.grid.cell_edge_m = choices.best->cell_edge_m;
+    settings_.grid.neighborhood = choices.best->neighborhood;
+    settings_.far_map.horizon.tolerance = choices.best->tolerance;
+    return {choices.best, {}};
+  }
+
+  [[nodiscard]] FarMapVerdict measure(const TileSet& tiles, const Grid& grid) const {
+    JudgeSettings others = settings_.choice->judge;
+    others.seed += 1;
+    others.cells *= 2;
+    return judge_far_maps(tiles, grid, settings_.far_map.horizon, others);
   }
 
   void describe_place(const LocatedCity& located, const Grid& grid) {
@@ -113,9 +149,7 @@ class Packing {
     m.convergence = place.convergence;
     m.grid = grid;
     m.assign = settings_.assign == Assign::clip ? "clip" : "whole";
-    m.far_map_kind = "box";
-    m.far_map_side_columns = settings_.far_map.side_columns;
-    m.far_map_rows = settings_.far_map.rows;
+    m.far_map = shape_of(settings_.far_map);
     for (const auto& input : settings_.inputs) m.inputs.push_back(input_file(input));
     if (settings_.terrain) m.inputs.push_back(input_file(*settings_.terrain));
   }
@@ -133,15 +167,15 @@ class Packing {
 
   void write_package(const TileSet& tiles, const Grid& grid) {
     PackageWriter writer(settings_.output, settings_.overwrite);
-    const BoxMapBaker baker = timed("city_index", [&] { return BoxMapBaker(tiles, grid, settings_.assign, settings_.far_map); });
+    const FarMapBaker baker = timed("city_index", [&] { return FarMapBaker(tiles, grid, settings_.assign, settings_.far_map); });
     const std::vector<Block> blocks = grid.blocks();
     double bake_s = 0.0, write_s = 0.0;
     for (const Block block : blocks) {
       progress_("far maps", result_.manifest.blocks.size(), blocks.size());
       const auto start = Clock::now();
-      const std::vector<BakedMap> maps = baker.bake(block);
+      const BakedBlock maps = baker.bake(block);
       const auto baked = Clock::now();
-      result_.manifest.blocks.push_back(writer.write_block(tiles, maps, grid, block, settings_.far_map));
+      result_.manifest.blocks.push_back(writer.write_block(tiles, maps, grid, block, result_.manifest.far_map));
       bake_s += seconds_between(start, baked);
       write_s += seconds_between(baked, Clock::now());
     }
@@ -153,7 +187,7 @@ class Packing {
     result_.far_map_bytes = writer.far_map_bytes();
   }
 
-  const PackSettings& settings_;
+  PackSettings settings_;
   Report& report_;
   const PackProgress& progress_;
   PackResult result_;

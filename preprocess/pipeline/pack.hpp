@@ -12,10 +12,11 @@
 
 #include "align/align.hpp"
 #include "farlod/problem.hpp"
-#include "farmap/box_map_baker.hpp"
+#include "farmap/far_map_baker.hpp"
 #include "georeference/georeference.hpp"
 #include "ingest/ingest.hpp"
 #include "package/package_writer.hpp"
+#include "pipeline/grid_choice.hpp"
 #include "tiles/tiles.hpp"
 
 namespace farlod {
@@ -31,12 +32,22 @@ struct PackSettings {
   GridSettings grid;
   Assign assign = Assign::clip;
   FarMapSettings far_map;
+  /// Choose the cells, the neighbourhood and the far maps' tolerance such that an error is kept, instead of taking them from
+  /// `grid` and `far_map`.
+  std::optional<ChoiceSettings> choice;
+};
+
+/// What was chosen to keep an error, and what it was then measured to do with receivers that did not take part in the choice.
+struct ChosenGrid {
+  std::optional<GridChoice> best;  ///< none: nothing keeps the error, and the settings were taken as they are
+  FarMapVerdict measured;
 };
 
 /// What came of it.
 struct PackResult {
   package::Manifest manifest;
   Alignment alignment;
+  std::optional<ChosenGrid> chosen;
   std::uint64_t facets = 0;  ///< polygons as the files have them: a surface of a mesh is made of several triangles
   std::uint64_t package_bytes = 0, far_map_bytes = 0;
   std::vector<std::pair<std::string, double>> stage_seconds;  ///< in the order in which the stages ran

@@ -8,6 +8,8 @@
 #include <atomic>
 #include <chrono>
 
+#include "package/package_error.hpp"
+
 namespace farlod {
 namespace {
 
@@ -20,29 +22,38 @@ struct CellFigures {
   std::size_t count = 0;
   double sum = 0.0;
   float min = 1.0F, max = 0.0F;
+  double width_sum = 0.0;
+  float width_max = 0.0F;
 };
 
-CellFigures figures_of(const CellReceivers& cell, std::span<const float> svf) {
+CellFigures figures_of(const CellReceivers& cell, const AnswerTable& answers) {
   CellFigures figures{cell.receivers.size()};
   for (const Receiver& r : cell.receivers) {
-    figures.sum += svf[r.index];
-    figures.min = std::min(figures.min, svf[r.index]);
-    figures.max = std::max(figures.max, svf[r.index]);
+    figures.sum += answers.svf[r.index];
+    figures.min = std::min(figures.min, answers.svf[r.index]);
+    figures.max = std::max(figures.max, answers.svf[r.index]);
+    if (answers.low.empty()) continue;
+    const float width = answers.high[r.index] - answers.low[r.index];
+    figures.width_sum += width;
+    figures.width_max = std::max(figures.width_max, width);
   }
   return figures;
 }
 
-void add_figures(std::span<const CellFigures> cells, SvfRun& run) {
+void add_figures(std::span<const CellFigures> cells, bool bounds, SvfRun& run) {
   CellFigures all;
   for (const CellFigures& c : cells) {
     if (c.count == 0) continue;
-    all = {all.count + c.count, all.sum + c.sum, std::min(all.min, c.min), std::max(all.max, c.max)};
+    all = {all.count + c.count,         all.sum + c.sum,
+           std::min(all.min, c.min),    std::max(all.max, c.max),
+           all.width_sum + c.width_sum, std::max(all.width_max, c.width_max)};
   }
   run.receivers = all.count;
   if (all.count == 0) return;
   run.svf_min = all.min;
   run.svf_max = all.max;
   run.svf_mean = all.sum / static_cast<double>(all.count);
+  if (bounds) run.bounds = {all.width_sum / static_cast<double>(all.count), all.width_max};
 }
 
 /// Random receivers among all that have an answer: which of each cell's.
@@ -60,7 +71,8 @@ std::vector<std::vector<std::size_t>> choose_receivers(std::span<const CellFigur
 
 ErrorSummary verify(const Package& package, const SvfOptions& options, std::span<const CellFigures> cells,
                     const ReceiversOfCell& receivers_of, std::span<const float> svf) {
-  const SkyEvaluator reference(package, {Engine::exact, options.sky.weight, std::max(verify_rays, options.sky.rays)});
+  const SkyEvaluator reference(package,
+                               {Engine::exact, options.sky.weight, std::max(verify_rays, options.sky.rays), std::nullopt});
   const auto chosen = choose_receivers(cells, options.verify_count);
   std::vector<std::vector<double>> answers(cells.size()), exact(cells.size());
   oneapi::tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t n) {
@@ -84,10 +96,20 @@ ErrorSummary verify(const Package& package, const SvfOptions& options, std::span
   return summarize_errors(all_answers, all_exact);
 }
 
+void require_bounds_known(const Package& package, const SvfOptions& options) {
+  const bool asks = options.bounds || options.sky.max_far_error;
+  if (!asks || options.sky.engine == Engine::exact || !package.manifest().far_map.is_box()) return;
+  throw PackageUnusable(
+      options.package.string() +
+      " has far maps of the kind box, which know neither bounds nor errors: pack the city with --far-map horizon, "
+      "or use --engine exact.");
+}
+
 }  // namespace
 
 void evaluate_cells(const Package& package, const SvfOptions& options, std::size_t cell_count,
-                    const ReceiversOfCell& receivers_of, std::span<float> svf, SvfRun& run) {
+                    const ReceiversOfCell& receivers_of, AnswerTable& answers, SvfRun& run) {
+  require_bounds_known(package, options);
   const SkyEvaluator evaluator(package, options.sky);
   std::vector<CellFigures> figures(cell_count);
   std::atomic<std::size_t> cells_done = 0, outside = 0;
@@ -96,21 +118,23 @@ void evaluate_cells(const Package& package, const SvfOptions& options, std::size
     Progress progress("sky view factors", options.run.verbosity);
     oneapi::tbb::parallel_for(std::size_t{0}, cell_count, [&](std::size_t n) {
       const CellReceivers receivers = receivers_of(n);
-      evaluator.evaluate(receivers, svf);
-      figures[n] = figures_of(receivers, svf);
+      evaluator.evaluate(receivers, SkyAnswers(answers.svf, answers.low, answers.high));
+      figures[n] = figures_of(receivers, answers);
       if (!package.grid().cells.contains(receivers.cell)) outside += receivers.receivers.size();
       progress.update(++cells_done, cell_count);
     });
   }
   // Threads share the wall clock in proportion to what each part took of them
   const double wall_s = seconds_since(start);
-  const auto [scenes_s, rays_s] = evaluator.effort();
-  const double scene_share = scenes_s + rays_s > 0.0 ? scenes_s / (scenes_s + rays_s) : 0.0;
+  const SkyEvaluator::Effort effort = evaluator.effort();
+  const double busy_s = effort.scenes_s + effort.rays_s;
+  const double scene_share = busy_s > 0.0 ? effort.scenes_s / busy_s : 0.0;
   run.seconds.scenes += wall_s * scene_share;
   run.seconds.evaluate += wall_s * (1.0 - scene_share);
   run.outside_of_grid = outside;
-  add_figures(figures, run);
-  if (options.verify_count > 0) run.errors = verify(package, options, figures, receivers_of, svf);
+  run.settled_rays = effort.settled_rays;
+  add_figures(figures, options.bounds, run);
+  if (options.verify_count > 0) run.errors = verify(package, options, figures, receivers_of, answers.svf);
 }
 
 std::string quantity_name(SkyWeight weight) { return weight == SkyWeight::cosine ? "svf" : "svf_solid"; }

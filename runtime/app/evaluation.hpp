@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -27,6 +30,23 @@ struct RunSeconds {
   double open = 0.0, scenes = 0.0, evaluate = 0.0, write = 0.0;
 };
 
+/// The answers of all receivers, by Receiver::index: NaN where there is none. `low` and `high` are empty unless the user wants
+/// bounds.
+struct AnswerTable {
+  static constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
+  std::vector<float> svf, low, high;
+  AnswerTable(std::size_t size, bool bounds) : svf(size, nothing), low(bounds ? size : 0, nothing), high(low) {}
+  /// An answer for a table; none for NaN, and none where bounds are not wanted.
+  [[nodiscard]] static std::optional<double> value(const std::vector<float>& answers, std::size_t n) {
+    return answers.empty() || std::isnan(answers[n]) ? std::nullopt : std::optional<double>(answers[n]);
+  }
+};
+
+/// How wide the certain intervals are.
+struct BoundsWidth {
+  double mean = 0.0, max = 0.0;
+};
+
 /// What a run came to, for people and for `--summary`.
 struct SvfRun {
   std::size_t receivers = 0;         ///< with an answer
@@ -35,14 +55,16 @@ struct SvfRun {
   std::size_t outside_of_grid = 0;   ///< of the receivers, those that were traced against the whole city
   RunSeconds seconds;
   std::optional<double> svf_min, svf_mean, svf_max;
+  std::optional<BoundsWidth> bounds;
+  std::uint64_t settled_rays = 0;  ///< traced against the whole city because the far map was not enough (--max-error)
   std::optional<ErrorSummary> errors;
   std::vector<std::filesystem::path> files;
 };
 
-/// Evaluates the receivers of all cells on all cores; `svf[receiver.index]` gets each answer. Then, when the user asked for it,
+/// Evaluates the receivers of all cells on all cores. Then, when the user asked for it,
 /// verifies some of them. Adds to the run's times and figures; who has no answer, and why, is the caller's to count.
 void evaluate_cells(const Package& package, const SvfOptions& options, std::size_t cell_count,
-                    const ReceiversOfCell& receivers_of, std::span<float> svf, SvfRun& run);
+                    const ReceiversOfCell& receivers_of, AnswerTable& answers, SvfRun& run);
 
 /// The three kinds of run. Each evaluates, writes its files and returns what it came to.
 [[nodiscard]] SvfRun run_raster(const Package& package, const SvfOptions& options);

@@ -67,6 +67,11 @@ void print_run(const SvfRun& run, const SvfOptions& options, double total_s) {
   if (run.outside_of_grid > 0)
     fmt::print("{} receivers lie outside of the grid, where there is no far map: they were traced against the whole city.\n",
                run.outside_of_grid);
+  if (options.max_error)
+    fmt::print("Error of {:g} at the most: {} rays a receiver, and {} rays traced against the whole city\n", *options.max_error,
+               options.sky.rays, run.settled_rays);
+  if (run.bounds)
+    fmt::print("Certain intervals: {:.4f} wide on average, {:.4f} at the most\n", run.bounds->mean, run.bounds->max);
   if (run.errors)
     fmt::print("Errors against exact ({} random receivers, {} rays): mean {:.4f}, 99 % within {:.4f}, max {:.4f}, bias {:+.4f}\n",
                run.errors->count, std::max(verify_rays, options.sky.rays), run.errors->mean_abs_error, run.errors->p99_abs_error,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "app/evaluation.hpp"
@@ -61,7 +60,7 @@ SvfRun run_points(const Package& package, const SvfOptions& options) {
   const NamedPlaces named = read_places(options, package.manifest());
   require_on_earth(named);
   const auto cells = places_by_cell(package, named.places);
-  std::vector<float> svf(named.places.size(), std::numeric_limits<float>::quiet_NaN());
+  AnswerTable answers(named.places.size(), options.bounds);
   // Where a receiver stands is known once its cell is read
   std::vector<std::optional<double>> height_m(named.places.size());
   SvfRun run;
@@ -72,15 +71,15 @@ SvfRun run_points(const Package& package, const SvfOptions& options) {
       height_m[receiver.index] = receiver.p_cell.z + package.manifest().height_origin_m;
     return r;
   };
-  evaluate_cells(package, options, cells.size(), receivers_of, svf, run);
-  run.inside_buildings = svf.size() - run.receivers;
+  evaluate_cells(package, options, cells.size(), receivers_of, answers, run);
+  run.inside_buildings = answers.svf.size() - run.receivers;
   std::vector<PointRow> rows;
-  for (std::size_t n = 0; n < svf.size(); ++n) {
-    const Point2d p = named.places[n].p_projected;
-    rows.push_back({named.ids[n], p, height_m[n], std::isnan(svf[n]) ? std::nullopt : std::optional<double>(svf[n])});
-  }
+  for (std::size_t n = 0; n < answers.svf.size(); ++n)
+    rows.push_back({named.ids[n], named.places[n].p_projected, height_m[n], AnswerTable::value(answers.svf, n),
+                    AnswerTable::value(answers.low, n), AnswerTable::value(answers.high, n)});
   const auto start = std::chrono::steady_clock::now();
-  write_points_csv(rows, quantity_name(options.sky.weight), options.output);
+  write_points_csv(rows, quantity_name(options.sky.weight), options.bounds ? BoundsColumns::yes : BoundsColumns::no,
+                   options.output);
   run.files.push_back(options.output);
   run.seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
-#include <limits>
+#include <utility>
 
 #include "app/evaluation.hpp"
 #include "receivers/raster_receivers.hpp"
@@ -44,16 +44,19 @@ void write_raster(const SkyRaster& raster, const SvfOptions& options) {
 
 SvfRun run_raster(const Package& package, const SvfOptions& options) {
   const RasterPlan plan = plan_raster(package.manifest(), options.grid_step_m, options.bbox_projected);
-  SkyRaster raster{plan.north_west_m,         plan.step_m, plan.columns, plan.rows, {}, quantity_name(options.sky.weight),
+  SkyRaster raster{plan.north_west_m,         plan.step_m, plan.columns, plan.rows, {}, {}, {}, quantity_name(options.sky.weight),
                    package.manifest().crs_wkt};
-  raster.svf.assign(plan.columns * plan.rows, std::numeric_limits<float>::quiet_NaN());
+  AnswerTable answers(plan.columns * plan.rows, options.bounds);
   const RasterReceivers receivers(package.manifest(), plan);
   const std::vector<Cell> cells = receivers.cells();
   SvfRun run;
   const auto receivers_of = [&](std::size_t n) {
     return receivers.in_cell(package, cells[n], options.height_above, static_cast<float>(options.height_m));
   };
-  evaluate_cells(package, options, cells.size(), receivers_of, raster.svf, run);
+  evaluate_cells(package, options, cells.size(), receivers_of, answers, run);
+  raster.svf = std::move(answers.svf);
+  raster.low = std::move(answers.low);
+  raster.high = std::move(answers.high);
   run.beyond_grid = raster.svf.size() - receivers.pixels_in_grid(cells);
   run.inside_buildings = raster.svf.size() - run.beyond_grid - run.receivers;
   const auto start = std::chrono::steady_clock::now();

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "app/evaluation.hpp"
 #include "receivers/surface_receivers.hpp"
@@ -53,7 +52,8 @@ Angle true_azimuth(const Point3d& normal_grid, const package::Manifest& m) {
   return Angle::degrees(azimuth_deg - 360.0 * std::floor(azimuth_deg / 360.0));
 }
 
-SurfacePointRow row_of(const Package& package, const CellSurfaces& cell, const SurfaceReceiver& r, float svf) {
+SurfacePointRow row_of(const Package& package, const CellSurfaces& cell, const SurfaceReceiver& r, const AnswerTable& answers,
+                       std::size_t n) {
   const package::Manifest& m = package.manifest();
   const BlockTiles& block = package.block_tiles(cell.cell);
   const package::SurfaceRecord& surface = block.tile(cell.cell).surface_of(r.triangle);
@@ -67,7 +67,9 @@ SurfacePointRow row_of(const Package& package, const CellSurfaces& cell, const S
   row.azimuth = true_azimuth(normal, m);
   row.tilt = Angle::radians(std::acos(std::clamp(normal.z, -1.0, 1.0)));
   row.area_m2 = r.area_m2;
-  if (!std::isnan(svf)) row.svf = svf;
+  row.svf = AnswerTable::value(answers.svf, n);
+  row.low = AnswerTable::value(answers.low, n);
+  row.high = AnswerTable::value(answers.high, n);
   return row;
 }
 
@@ -79,7 +81,7 @@ std::filesystem::path beside(const std::filesystem::path& output, const std::str
 void write_tables(std::span<const SurfacePointRow> rows, const SvfOptions& options, SvfRun& run) {
   const std::string quantity = quantity_name(options.sky.weight);
   run.files = {options.output, beside(options.output, ".surfaces"), beside(options.output, ".buildings")};
-  write_surface_points_csv(rows, quantity, run.files[0]);
+  write_surface_points_csv(rows, quantity, options.bounds ? BoundsColumns::yes : BoundsColumns::no, run.files[0]);
   write_surfaces_csv(average_by_surface(rows), quantity, run.files[1]);
   write_buildings_csv(average_by_building(rows), quantity, run.files[2]);
 }
@@ -89,17 +91,17 @@ void write_tables(std::span<const SurfacePointRow> rows, const SvfOptions& optio
 SvfRun run_surfaces(const Package& package, const SvfOptions& options) {
   const std::vector<CellSurfaces> cells = collect(package, options);
   const std::size_t count = cells.empty() ? 0 : cells.back().first_index + cells.back().receivers.size();
-  std::vector<float> svf(count, std::numeric_limits<float>::quiet_NaN());
+  AnswerTable answers(count, options.bounds);
   SvfRun run;
   evaluate_cells(
-      package, options, cells.size(), [&](std::size_t n) { return answerable(cells[n]); }, svf, run);
+      package, options, cells.size(), [&](std::size_t n) { return answerable(cells[n]); }, answers, run);
   run.inside_buildings = count - run.receivers;
   const auto start = std::chrono::steady_clock::now();
   std::vector<SurfacePointRow> rows;
   rows.reserve(count);
   for (const CellSurfaces& cell : cells)
     for (std::size_t k = 0; k < cell.receivers.size(); ++k)
-      rows.push_back(row_of(package, cell, cell.receivers[k], svf[cell.first_index + k]));
+      rows.push_back(row_of(package, cell, cell.receivers[k], answers, cell.first_index + k));
   write_tables(rows, options, run);
   run.seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;

@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "console/exit_code.hpp"
+#include "evaluate/error_budget.hpp"
 
 namespace farlod {
 namespace {
@@ -26,6 +27,7 @@ constexpr const char* footer =
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
   std::string package, output, points, surfaces, at, bbox, engine = "auto", sky = "cosine";
+  std::optional<std::size_t> rays;
   bool on_surface = false;
 };
 
@@ -82,9 +84,14 @@ void add_other_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->check(CLI::IsMember({"auto", "rays", "exact"}))
       ->capture_default_str()
       ->group("Accuracy");
-  app.add_option("--rays", o.sky.rays, "Directions a receiver")
+  app.add_option("--rays", raw.rays, "Directions a receiver (default: 1000, or as many as --max-error needs)")
       ->check(CLI::Range(1, 10000000))
-      ->capture_default_str()
+      ->group("Accuracy");
+  app.add_option("--max-error", o.max_error,
+                 "Largest error allowed: chooses the number of rays, and traces exactly where the far map is not enough")
+      ->check(between(0.0001, 1.0))
+      ->group("Accuracy");
+  app.add_flag("--bounds", o.bounds, "Also write a certain lower and upper bound of each value, with these rays")
       ->group("Accuracy");
   app.add_option("--sky", raw.sky, "Weight of the sky: cosine (svf) or solid (svf_solid)")
       ->check(CLI::IsMember({"cosine", "solid"}))
@@ -132,6 +139,9 @@ void understand_output(const RawOptions& raw, SvfOptions& o) {
   const bool is_table = *format == OutputFormat::csv;
   if (o.source == ReceiverSource::grid && is_table)
     throw CLI::ValidationError("-o", "--grid makes a raster: choose a raster's ending instead of .csv");
+  if (o.bounds && !is_table && *format != OutputFormat::geotiff)
+    throw CLI::ValidationError("--bounds", "a file that ends in " + o.output.extension().string() +
+                                               " holds one value a pixel: choose .tif, which has bands for the bounds");
   if (o.source != ReceiverSource::grid && !is_table)
     throw CLI::ValidationError("-o", "only --grid makes a raster: choose .csv for points and surfaces");
   if (!o.preview_file.empty() && o.source != ReceiverSource::grid) throw CLI::ValidationError("--preview", "it goes with --grid");
@@ -139,6 +149,20 @@ void understand_output(const RawOptions& raw, SvfOptions& o) {
     throw CLI::ValidationError("--preview", "the ending of \"" + o.preview_file + "\" is not .png");
   if (!o.points_crs.empty() && o.source != ReceiverSource::points)
     throw CLI::ValidationError("--points-crs", "it goes with --points");
+}
+
+/// Half of the allowed error is for the sky between the rays, half for what the far map does not settle; where the user fixes the
+/// rays, the map gets what they leave.
+void understand_accuracy(const RawOptions& raw, SvfOptions& o) {
+  if (raw.rays) o.sky.rays = *raw.rays;
+  if (!o.max_error) return;
+  if (!raw.rays) o.sky.rays = rays_for_sampling_error(0.5 * *o.max_error);
+  const double left = *o.max_error - sampling_error(o.sky.rays);
+  if (left <= 0.0)
+    throw CLI::ValidationError("--rays", std::to_string(o.sky.rays) + " are too few for --max-error " +
+                                             fmt::format("{:g}", *o.max_error) + ": leave --rays out, or give at least " +
+                                             std::to_string(rays_for_sampling_error(0.75 * *o.max_error)));
+  o.sky.max_far_error = left;
 }
 
 void understand(const RawOptions& raw, SvfOptions& o) {
@@ -150,6 +174,7 @@ void understand(const RawOptions& raw, SvfOptions& o) {
   o.height_above = raw.on_surface ? HeightAbove::highest_surface : HeightAbove::ground;
   // `auto` is the fastest engine that fits; so far that is one for all cities
   o.sky.engine = raw.engine == "exact" ? Engine::exact : Engine::rays;
+  understand_accuracy(raw, o);
   o.sky.weight = raw.sky == "solid" ? SkyWeight::solid_angle : SkyWeight::cosine;
 }
 

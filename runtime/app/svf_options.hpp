@@ -34,6 +34,8 @@ struct SvfOptions {
   double height_m = 1.5;
   std::optional<Box2d> bbox_projected;
   SkySettings sky;
+  bool bounds = false;              ///< certain [low, high] beside each value
+  std::optional<double> max_error;  ///< what the user asked for; `sky` says what follows from it
   std::size_t verify_count = 0;
   std::string preview_file;
   RunOptions run;

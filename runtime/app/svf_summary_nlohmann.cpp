@@ -5,6 +5,7 @@
 
 #include "app/svf_summary.hpp"
 #include "console/peak_memory.hpp"
+#include "evaluate/error_budget.hpp"
 
 namespace farlod {
 namespace {
@@ -32,6 +33,12 @@ std::string svf_summary_json(const SvfRun& run, const SvfOptions& options, doubl
       {"peak_memory_mib", peak_memory_mib()},
       {"svf",
        {{"min", number_or_null(run.svf_min)}, {"mean", number_or_null(run.svf_mean)}, {"max", number_or_null(run.svf_max)}}}};
+  if (options.max_error)
+    j["max_error"] = {{"allowed", *options.max_error},
+                      {"sampling_share", sampling_error(options.sky.rays)},
+                      {"far_share", *options.sky.max_far_error},
+                      {"rays_traced_exactly", run.settled_rays}};
+  if (run.bounds) j["bounds"] = {{"mean_width", run.bounds->mean}, {"max_width", run.bounds->max}};
   if (run.errors)
     j["verify"] = {{"count", run.errors->count},
                    {"rays", std::max(verify_rays, options.sky.rays)},

@@ -33,6 +33,8 @@ BlockTiles::BlockTiles(std::span<const std::byte> bytes, const CellRange& cells,
   find_sections();
   check_surfaces();
   check_cells();
+  check_far_cells();
+  check_far_places();
 }
 
 void BlockTiles::require(bool rule, const char* what) const {
@@ -62,6 +64,11 @@ void BlockTiles::find_sections() {
   buildings_ = section<BuildingRecord>(SectionKind::buildings);
   const auto text = section<char>(SectionKind::text);
   text_ = {text.data(), text.size()};
+  far_cells_ = section<FarCellRecord>(SectionKind::far_cells);
+  far_edges_ = section<HorizonEdge>(SectionKind::far_edges);
+  far_triangles_ = section<FarTriangle>(SectionKind::far_triangles);
+  named_edges_ = section<NamedObstacle>(SectionKind::named_edges);
+  named_triangles_ = section<NamedObstacle>(SectionKind::named_triangles);
 }
 
 template <class T>
@@ -126,6 +133,43 @@ void BlockTiles::check_triangles(const CellRecord& c) const {
             "a triangle names a vertex that does not exist");
   for (const std::uint32_t s : triangle_surfaces_.subspan(c.first_triangle, c.triangle_count))
     require(s < surfaces_.size(), "a triangle names a surface that does not exist");
+}
+
+void BlockTiles::check_far_cells() const {
+  require(far_cells_.empty() || far_cells_.size() == cells_.size(), "not every cell has a far map");
+  for (const FarCellRecord& c : far_cells_) {
+    require(c.first_named_edge <= named_edges_.size() && c.named_edge_count <= named_edges_.size() - c.first_named_edge,
+            "a far map's edges reach beyond the end");
+    require(c.first_named_triangle <= named_triangles_.size() &&
+                c.named_triangle_count <= named_triangles_.size() - c.first_named_triangle,
+            "a far map's triangles reach beyond the end");
+    for (std::size_t l = 0; l < c.levels_m.size(); ++l)
+      require(std::abs(c.levels_m[l]) <= farthest_m && (l == 0 || c.levels_m[l - 1] <= c.levels_m[l]),
+              "the levels of a far map are not in order");
+  }
+  for (const NamedObstacle& n : named_edges_) require(n.row < far_edges_.size(), "a far map names an edge that does not exist");
+  for (const NamedObstacle& n : named_triangles_)
+    require(n.row < far_triangles_.size(), "a far map names a triangle that does not exist");
+}
+
+void BlockTiles::check_far_places() const {
+  for (const HorizonEdge& e : far_edges_) require(is_on_earth(e.a) && is_on_earth(e.b), "a far edge lies nowhere on Earth");
+  for (const FarTriangle& t : far_triangles_)
+    for (const Point3f& p : t) require(is_on_earth(p), "a far triangle lies nowhere on Earth");
+}
+
+NamedObstacles BlockTiles::named_obstacles(Cell cell, double cell_edge_m) const {
+  FARLOD_EXPECTS(range_.contains(cell) && has_far_cells());
+  const FarCellRecord& c = far_cells_[range_.index_of(cell)];
+  return {far_edges_, far_triangles_, named_edges_.subspan(c.first_named_edge, c.named_edge_count),
+          named_triangles_.subspan(c.first_named_triangle, c.named_triangle_count),
+          Point2d{(range_.i_begin - cell.i) * cell_edge_m, (range_.j_begin - cell.j) * cell_edge_m}};
+}
+
+std::vector<float> BlockTiles::levels_m(Cell cell, std::uint32_t layers) const {
+  FARLOD_EXPECTS(range_.contains(cell) && has_far_cells() && layers <= most_layers);
+  const auto& levels = far_cells_[range_.index_of(cell)].levels_m;
+  return {levels.begin(), levels.begin() + layers};
 }
 
 TileView BlockTiles::tile(Cell cell) const {

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "farlod/far_map/far_horizon.hpp"
 #include "farlod/grid.hpp"
 #include "farlod/mesh_view.hpp"
 #include "farlod/package/layout.hpp"
@@ -40,6 +41,11 @@ class BlockTiles {
   BlockTiles(std::span<const std::byte> bytes, const CellRange& cells, std::string name);
 
   [[nodiscard]] TileView tile(Cell cell) const;  ///< `cell` must be one of the block's
+  /// What the far map of a cell names, and the levels of its layers. Only where far maps are of the kind `horizon`:
+  /// has_far_cells().
+  [[nodiscard]] NamedObstacles named_obstacles(Cell cell, double cell_edge_m) const;
+  [[nodiscard]] std::vector<float> levels_m(Cell cell, std::uint32_t layers) const;
+  [[nodiscard]] bool has_far_cells() const { return !far_cells_.empty(); }
   [[nodiscard]] std::span<const package::SurfaceRecord> surfaces() const { return surfaces_; }
   [[nodiscard]] std::span<const package::BuildingRecord> buildings() const { return buildings_; }
   [[nodiscard]] std::string_view id_of(const package::BuildingRecord& building) const {
@@ -53,6 +59,8 @@ class BlockTiles {
   void check_vertices(const package::CellRecord& cell) const;
   void check_triangles(const package::CellRecord& cell) const;
   void check_surfaces() const;
+  void check_far_cells() const;
+  void check_far_places() const;
   template <class T>
   [[nodiscard]] std::span<const T> section(package::SectionKind kind) const;
   void require(bool rule, const char* what) const;
@@ -68,6 +76,10 @@ class BlockTiles {
   std::span<const package::SurfaceRecord> surfaces_;
   std::span<const package::BuildingRecord> buildings_;
   std::string_view text_;
+  std::span<const package::FarCellRecord> far_cells_;
+  std::span<const HorizonEdge> far_edges_;
+  std::span<const package::FarTriangle> far_triangles_;
+  std::span<const package::NamedObstacle> named_edges_, named_triangles_;
 };
 
 }  // namespace farlod

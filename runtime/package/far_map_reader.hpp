@@ -2,24 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <vector>
 
 #include "farlod/far_map/box_map.hpp"
+#include "farlod/far_map/far_horizon.hpp"
 #include "farlod/grid.hpp"
+#include "farlod/package/manifest.hpp"
 
 namespace farlod {
 
-/// The far map of one cell: what the city beyond the neighbourhood hides, seen from the capture point.
-class FarMap {
+/// The far map of one cell, of the kind `box`: what the city beyond the neighbourhood hides, seen from the capture point.
+class BoxFarMap {
  public:
   /// A far field that hides nothing.
-  FarMap() = default;
+  BoxFarMap() = default;
   /// `distance_m` holds a row of texels after the other, from the horizontal upwards; infinite where the sky is seen.
-  FarMap(BoxMap shape, std::vector<float> distance_m) : shape_(shape), distance_m_(std::move(distance_m)) {}
+  BoxFarMap(BoxMap shape, std::vector<float> distance_m) : shape_(shape), distance_m_(std::move(distance_m)) {}
 
   [[nodiscard]] const BoxMap& shape() const { return shape_; }
   /// Distance from the capture point to what hides this direction (of the grid frame); infinite where the sky is seen.
@@ -42,13 +43,15 @@ class FarMap {
 class FarMapReader {
  public:
   /// Throws PackageDamaged when the file is not a far map of this block.
-  FarMapReader(const std::filesystem::path& file, const CellRange& cells, std::uint32_t side_columns, std::uint32_t rows);
+  FarMapReader(const std::filesystem::path& file, const CellRange& cells, const package::FarMapShape& shape);
   FarMapReader(FarMapReader&&) noexcept;
   FarMapReader& operator=(FarMapReader&&) noexcept;
   ~FarMapReader();
 
-  /// Throws PackageDamaged.
-  [[nodiscard]] FarMap read(Cell cell, float top) const;
+  /// Of the kind `box`; `top` is BoxMap::top. Throws PackageDamaged.
+  [[nodiscard]] BoxFarMap read_box(Cell cell, float top) const;
+  /// Of the kind `horizon`: fills lower, likely and upper. Throws PackageDamaged.
+  void read_slopes(Cell cell, FarHorizon& map) const;
 
  private:
   struct Impl;

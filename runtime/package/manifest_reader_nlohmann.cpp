@@ -116,19 +116,34 @@ void read_contents(const json& j, Manifest& m) {
   for (std::size_t n = 0; n < expected.size(); ++n) require(m.blocks[n].block == expected[n], "its blocks are not in order");
 }
 
+FarMapShape far_map_from(const json& j) {
+  FarMapShape shape;
+  shape.kind = j.at("kind").get<std::string>();
+  require(shape.kind == "box" || shape.kind == "horizon", "its far maps are of the unknown kind \"" + shape.kind + "\"");
+  if (shape.is_box()) {
+    shape.side_columns = whole_number<std::uint32_t>(j.at("side_columns"));
+    shape.rows = whole_number<std::uint32_t>(j.at("rows"));
+    require(shape.side_columns >= 1 && shape.rows >= 1 && shape.side_columns <= most_texels / 4 / shape.rows,
+            "the size of its far maps is impossible");
+    return shape;
+  }
+  shape.azimuth_bins = whole_number<std::uint32_t>(j.at("azimuth_bins"));
+  shape.squares_per_edge = whole_number<std::uint32_t>(j.at("squares_per_edge"));
+  shape.layers = whole_number<std::uint32_t>(j.at("layers"));
+  shape.tolerance = j.at("tolerance").get<double>();
+  require(shape.azimuth_bins >= 1 && shape.azimuth_bins <= 65536 && shape.squares_per_edge >= 1 && shape.squares_per_edge <= 4 &&
+              shape.layers >= 1 && shape.layers <= most_layers && shape.tolerance >= 0.0,
+          "the size of its far maps is impossible");
+  return shape;
+}
+
 Manifest manifest_from(const json& j) {
   Manifest m;
   m.software = j.at("software").get<std::string>();
   read_place(j, m);
   m.assign = j.at("settings").at("assign").get<std::string>();
-  const json& far_map = j.at("settings").at("far_map");
-  m.far_map_kind = far_map.at("kind").get<std::string>();
-  m.far_map_side_columns = whole_number<std::uint32_t>(far_map.at("side_columns"));
-  m.far_map_rows = whole_number<std::uint32_t>(far_map.at("rows"));
   require(m.assign == "clip" || m.assign == "whole", "its buildings are assigned in the unknown way \"" + m.assign + "\"");
-  require(m.far_map_kind == "box", "its far maps are of the unknown kind \"" + m.far_map_kind + "\"");
-  require(m.far_map_side_columns >= 1 && m.far_map_rows >= 1 && m.far_map_side_columns <= most_texels / 4 / m.far_map_rows,
-          "the size of its far maps is impossible");
+  m.far_map = far_map_from(j.at("settings").at("far_map"));
   read_contents(j, m);
   return m;
 }

@@ -78,8 +78,7 @@ struct Package::Impl {
     std::call_once(open.far_map_once, [&] {
       const auto path = path_of(n, package::far_map_file);
       check_stamp(path, MappedFile(path).bytes(), manifest.blocks[n].far_map);
-      open.far_map.emplace(path, manifest.grid.cells_of(manifest.blocks[n].block), manifest.far_map_side_columns,
-                           manifest.far_map_rows);
+      open.far_map.emplace(path, manifest.grid.cells_of(manifest.blocks[n].block), manifest.far_map);
     });
     return *open.far_map;
   }
@@ -94,9 +93,27 @@ const package::Manifest& Package::manifest() const { return impl_->manifest; }
 
 const BlockTiles& Package::block_tiles(Cell cell) const { return impl_->tiles(impl_->index_of(cell)); }
 
-FarMap Package::far_map(Cell cell) const {
+BoxFarMap Package::box_far_map(Cell cell) const {
   const std::size_t n = impl_->index_of(cell);
-  return impl_->far_maps(n).read(cell, impl_->tiles(n).tile(cell).cell->far_map_top);
+  return impl_->far_maps(n).read_box(cell, impl_->tiles(n).tile(cell).cell->far_map_top);
+}
+
+FarHorizon Package::far_horizon(Cell cell) const {
+  const std::size_t n = impl_->index_of(cell);
+  const package::FarMapShape& shape = impl_->manifest.far_map;
+  const BlockTiles& tiles = impl_->tiles(n);
+  if (!tiles.has_far_cells())
+    throw PackageDamaged(impl_->path_of(n, package::tiles_file).string() +
+                         " is damaged: it does not name what its far maps need. Pack the city again.");
+  const double cell_edge_m = grid().cell_edge_m;
+  FarHorizon map{ReceiverPatches(cell_edge_m, shape.squares_per_edge, tiles.levels_m(cell, shape.layers)),
+                 AzimuthBins{shape.azimuth_bins},
+                 {},
+                 {},
+                 {},
+                 tiles.named_obstacles(cell, cell_edge_m)};
+  impl_->far_maps(n).read_slopes(cell, map);
+  return map;
 }
 
 }  // namespace farlod

@@ -28,7 +28,10 @@ class Package {
   /// The block that owns a cell of the grid; the cell must exist.
   [[nodiscard]] const BlockTiles& block_tiles(Cell cell) const;
   [[nodiscard]] TileView tile(Cell cell) const { return block_tiles(cell).tile(cell); }
-  [[nodiscard]] FarMap far_map(Cell cell) const;
+  /// Of packages whose far maps are of the kind `box`.
+  [[nodiscard]] BoxFarMap box_far_map(Cell cell) const;
+  /// Of packages whose far maps are of the kind `horizon`. The package must outlive it.
+  [[nodiscard]] FarHorizon far_horizon(Cell cell) const;
 
  private:
   struct Impl;

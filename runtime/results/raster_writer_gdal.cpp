@@ -28,7 +28,8 @@ GDALDatasetUniquePtr create_tiff(const SkyRaster& raster, const AtomicFile& file
   if (raster.columns > largest || raster.rows > largest)
     throw OutputError(file.destination(), "the raster has too many pixels along an edge");
   GDALDatasetUniquePtr dataset(driver->Create(file.temporary().c_str(), static_cast<int>(raster.columns),
-                                              static_cast<int>(raster.rows), 1, GDT_Float32, options.List()));
+                                              static_cast<int>(raster.rows), raster.low.empty() ? 1 : 3, GDT_Float32,
+                                              options.List()));
   if (dataset == nullptr) throw OutputError(file.destination(), errors.last());
   return dataset;
 }
@@ -44,14 +45,12 @@ void place(GDALDataset& dataset, const SkyRaster& raster) {
     CPLError(CE_Failure, CPLE_AppDefined, "the coordinate reference system is not valid WKT");
 }
 
-void fill(GDALDataset& dataset, const SkyRaster& raster) {
-  GDALRasterBand& band = *dataset.GetRasterBand(1);
-  band.SetDescription(raster.quantity.c_str());
+void fill(GDALRasterBand& band, const std::string& name, const std::vector<float>& values) {
+  band.SetDescription(name.c_str());
   band.SetNoDataValue(std::numeric_limits<double>::quiet_NaN());
-  dataset.SetMetadataItem("TIFFTAG_SOFTWARE", (std::string("Far-LoD ") + software_version).c_str());
   // RasterIO promises not to change what it writes, but its parameter does not say so
-  auto* pixels = const_cast<float*>(raster.svf.data());
-  const int columns = static_cast<int>(raster.columns), rows = static_cast<int>(raster.rows);
+  auto* pixels = const_cast<float*>(values.data());
+  const int columns = band.GetXSize(), rows = band.GetYSize();
   const CPLErr refused = band.RasterIO(GF_Write, 0, 0, columns, rows, pixels, columns, rows, GDT_Float32, 0, 0, nullptr);
   if (refused != CE_None && CPLGetLastErrorType() < CE_Failure) CPLError(CE_Failure, CPLE_FileIO, "the pixels were refused");
 }
@@ -64,7 +63,12 @@ void write_geotiff(const SkyRaster& raster, const std::filesystem::path& path) {
   AtomicFile file(path);
   GDALDatasetUniquePtr dataset = create_tiff(raster, file, errors);
   place(*dataset, raster);
-  fill(*dataset, raster);
+  dataset->SetMetadataItem("TIFFTAG_SOFTWARE", (std::string("Far-LoD ") + software_version).c_str());
+  fill(*dataset->GetRasterBand(1), raster.quantity, raster.svf);
+  if (!raster.low.empty()) {
+    fill(*dataset->GetRasterBand(2), raster.quantity + "_low", raster.low);
+    fill(*dataset->GetRasterBand(3), raster.quantity + "_high", raster.high);
+  }
   // A full disk may show only when the last tiles are flushed
   dataset.reset();
   if (errors.any()) throw OutputError(path, errors.last());

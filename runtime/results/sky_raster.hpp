@@ -16,8 +16,9 @@ struct SkyRaster {
   Point2d north_west_m;  ///< the outer corner of the first pixel, projected frame
   double step_m = 1.0;   ///< edge of a pixel
   std::size_t columns = 0, rows = 0;
-  std::vector<float> svf;  ///< row by row from the north, each from the west
-  std::string quantity;    ///< "svf" or "svf_solid": the band's name
+  std::vector<float> svf;        ///< row by row from the north, each from the west
+  std::vector<float> low, high;  ///< certain bounds; empty when nobody asked for them
+  std::string quantity;          ///< "svf" or "svf_solid": the name of the first band; `_low` and `_high` are those of the bounds
   std::string crs_wkt;
 
   [[nodiscard]] Point2d centre_m(std::size_t column, std::size_t row) const {

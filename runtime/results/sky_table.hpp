@@ -18,6 +18,7 @@ struct PointRow {
   Point2d p_projected;             ///< easting and northing
   std::optional<double> height_m;  ///< where it stands; unknown inside a building
   std::optional<double> svf;
+  std::optional<double> low, high;  ///< certain bounds, where asked for
 };
 
 /// A receiver on a surface of a building. Azimuth is true (clockwise from true north).
@@ -29,6 +30,7 @@ struct SurfacePointRow {
   Angle azimuth, tilt;   ///< of the outward normal; tilt 0° looks up, 90° is a wall
   double area_m2 = 0.0;  ///< the part of the surface that this receiver stands for
   std::optional<double> svf;
+  std::optional<double> low, high;  ///< certain bounds, where asked for
 };
 
 /// Area-weighted average over the receivers of a surface that have an answer.

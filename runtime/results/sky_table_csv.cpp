@@ -44,9 +44,26 @@ void write_table(const std::filesystem::path& path, const Fields& header, std::s
   });
 }
 
+/// A row for each receiver: who and where it is, then its answer, then its bounds where they are wanted.
+template <class Row>
+void write_receivers(const std::filesystem::path& path, Fields header, const std::string& quantity, BoundsColumns bounds,
+                     std::span<const Row> rows, Fields (*identity)(const Row&)) {
+  header.push_back(quantity);
+  if (bounds == BoundsColumns::yes) header.insert(header.end(), {quantity + "_low", quantity + "_high"});
+  write_text_atomically(path, [&](std::ostream& out) {
+    write_csv_row(out, header);
+    for (const Row& row : rows) {
+      Fields fields = identity(row);
+      fields.push_back(share(row.svf));
+      if (bounds == BoundsColumns::yes) fields.insert(fields.end(), {share(row.low), share(row.high)});
+      write_csv_row(out, fields);
+    }
+  });
+}
+
 Fields point_fields(const PointRow& r) {
   return {r.id, millimetre_decimal(r.p_projected.x), millimetre_decimal(r.p_projected.y),
-          r.height_m ? millimetre_decimal(*r.height_m) : std::string(), share(r.svf)};
+          r.height_m ? millimetre_decimal(*r.height_m) : std::string()};
 }
 
 Fields surface_point_fields(const SurfacePointRow& r) {
@@ -58,8 +75,7 @@ Fields surface_point_fields(const SurfacePointRow& r) {
           millimetre_decimal(r.p_projected.z),
           degrees(r.azimuth),
           degrees(r.tilt),
-          millimetre_decimal(r.area_m2),
-          share(r.svf)};
+          millimetre_decimal(r.area_m2)};
 }
 
 Fields surface_fields(const SurfaceRow& r) {
@@ -88,14 +104,15 @@ Fields building_fields(const BuildingRow& r) {
 
 }  // namespace
 
-void write_points_csv(std::span<const PointRow> rows, const std::string& quantity, const std::filesystem::path& path) {
-  write_table(path, {"id", "x_m", "y_m", "z_m", quantity}, rows, point_fields);
+void write_points_csv(std::span<const PointRow> rows, const std::string& quantity, BoundsColumns bounds,
+                      const std::filesystem::path& path) {
+  write_receivers(path, {"id", "x_m", "y_m", "z_m"}, quantity, bounds, rows, point_fields);
 }
 
-void write_surface_points_csv(std::span<const SurfacePointRow> rows, const std::string& quantity,
+void write_surface_points_csv(std::span<const SurfacePointRow> rows, const std::string& quantity, BoundsColumns bounds,
                               const std::filesystem::path& path) {
-  write_table(path, {"building", "surface", "kind", "x_m", "y_m", "z_m", "azimuth_deg", "tilt_deg", "area_m2", quantity}, rows,
-              surface_point_fields);
+  write_receivers(path, {"building", "surface", "kind", "x_m", "y_m", "z_m", "azimuth_deg", "tilt_deg", "area_m2"}, quantity,
+                  bounds, rows, surface_point_fields);
 }
 
 void write_surfaces_csv(std::span<const SurfaceRow> rows, const std::string& quantity, const std::filesystem::path& path) {

@@ -14,11 +14,15 @@ namespace farlod {
 // view factors with six digits, empty where there is no answer. `quantity` ("svf" or "svf_solid") names the columns of
 // the answers. All throw OutputError.
 
+/// Whether tables of receivers have the columns QUANTITY_low and QUANTITY_high, too.
+enum class BoundsColumns { no, yes };
+
 /// Columns: id, x_m, y_m, z_m, QUANTITY.
-void write_points_csv(std::span<const PointRow> rows, const std::string& quantity, const std::filesystem::path& path);
+void write_points_csv(std::span<const PointRow> rows, const std::string& quantity, BoundsColumns bounds,
+                      const std::filesystem::path& path);
 
 /// Columns: building, surface, kind, x_m, y_m, z_m, azimuth_deg, tilt_deg, area_m2, QUANTITY.
-void write_surface_points_csv(std::span<const SurfacePointRow> rows, const std::string& quantity,
+void write_surface_points_csv(std::span<const SurfacePointRow> rows, const std::string& quantity, BoundsColumns bounds,
                               const std::filesystem::path& path);
 
 /// Columns: building, surface, kind, azimuth_deg, tilt_deg, area_m2, receivers, nodata, QUANTITY_mean, QUANTITY_min,

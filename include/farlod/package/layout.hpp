@@ -9,6 +9,7 @@
 #include <string>
 
 #include "farlod/grid.hpp"
+#include "farlod/horizon/horizon_edge.hpp"
 #include "farlod/mesh_view.hpp"
 #include "farlod/surface_kind.hpp"
 
@@ -20,7 +21,7 @@ namespace farlod::package {
 static_assert(std::endian::native == std::endian::little,
               "packages are mapped, not decoded: a big-endian reader must swap bytes");
 
-inline constexpr std::uint32_t format_version = 1;
+inline constexpr std::uint32_t format_version = 2;
 inline constexpr std::array<char, 8> magic{'F', 'A', 'R', 'L', 'O', 'D', 'T', '\n'};
 inline constexpr std::uint64_t section_alignment = 64;
 inline constexpr std::uint64_t end_padding = 16;
@@ -33,8 +34,14 @@ enum class SectionKind : std::uint32_t {
   surfaces = 5,           ///< SurfaceRecord
   buildings = 6,          ///< BuildingRecord
   text = 7,               ///< bytes, UTF-8: the ids of buildings
+  // Far maps of the kind `horizon`; without elements for the kind `box`
+  far_cells = 8,        ///< FarCellRecord, as many and in the same order as `cells`
+  far_edges = 9,        ///< HorizonEdge, block frame: what the cells' far maps name
+  far_triangles = 10,   ///< FarTriangle, block frame
+  named_edges = 11,     ///< NamedObstacle: rows of `far_edges`, cell by cell
+  named_triangles = 12  ///< NamedObstacle: rows of `far_triangles`, cell by cell
 };
-inline constexpr std::uint32_t section_count = 7;
+inline constexpr std::uint32_t section_count = 12;
 
 struct Header {
   std::array<char, 8> magic;
@@ -93,15 +100,46 @@ static_assert(sizeof(BuildingRecord) == 16);
 
 static_assert(sizeof(Point3f) == 12 && sizeof(Triangle) == 12);
 
+/// Layers of a far map of the kind `horizon`, at the most.
+inline constexpr std::uint32_t most_layers = 8;
+
+/// What a cell's far map names, and the heights of its layers (ReceiverPatches). Levels beyond the last repeat it.
+struct FarCellRecord {
+  std::uint64_t first_named_edge, first_named_triangle;
+  std::uint32_t named_edge_count, named_triangle_count;
+  std::array<float, most_layers> levels_m;
+  std::uint64_t reserved;  ///< zero
+};
+static_assert(sizeof(FarCellRecord) == 64);
+
+/// An obstacle that receivers in some patches of a cell must meet by itself: in the squares and in the layers whose bits are set.
+struct NamedObstacle {
+  std::uint32_t row;
+  std::uint16_t squares;
+  std::uint16_t layers;
+  [[nodiscard]] bool matters(std::uint32_t square, std::uint32_t layer) const {
+    return ((squares >> square) & 1U) != 0 && ((layers >> layer) & 1U) != 0;
+  }
+};
+static_assert(sizeof(NamedObstacle) == 8);
+
+using FarTriangle = std::array<Point3f, 3>;
+static_assert(sizeof(FarTriangle) == 36 && sizeof(HorizonEdge) == 24);
+
 /// The folder of a block within a package, and its two files.
 [[nodiscard]] inline std::string block_folder(Block b) { return "blocks/" + std::to_string(b.i) + "_" + std::to_string(b.j); }
 inline constexpr const char* tiles_file = "tiles.bin";
 inline constexpr const char* far_map_file = "far.exr";
 inline constexpr const char* manifest_file = "manifest.json";
 
-/// Channels of far.exr, both half: Y is 1 where the sky is seen and 0 where the far city hides it, so that any viewer shows
-/// the map; Z is the distance in metres from the capture point to what hides the sky, infinite where nothing does.
+/// Channels of far.exr, all half. Of the kind `box`: Y is 1 where the sky is seen and 0 where the far city hides it, so that any
+/// viewer shows the map; Z is the distance in metres from the capture point to what hides the sky, infinite where nothing does.
+/// Of the kind `horizon`: slopes (tangents of elevations) of what is not named, a column for each azimuth bin, a row for each
+/// patch from the first; `lower` and `upper` are certain all over the patch, Y is what is likely on the floor of the patch.
 inline constexpr const char* sky_channel = "Y";
 inline constexpr const char* distance_channel = "Z";
+inline constexpr const char* likely_channel = "Y";
+inline constexpr const char* lower_channel = "lower";
+inline constexpr const char* upper_channel = "upper";
 
 }  // namespace farlod::package

@@ -31,6 +31,19 @@ struct BlockFiles {
   FileStamp tiles, far_map;
 };
 
+/// The kind of a package's far maps, and the size of their pictures.
+struct FarMapShape {
+  std::string kind;                                                  ///< "horizon" or "box"
+  std::uint32_t side_columns = 0, rows = 0;                          ///< of the kind `box`
+  std::uint32_t azimuth_bins = 0, squares_per_edge = 0, layers = 0;  ///< of the kind `horizon`
+  double tolerance = 0.0;                                            ///< of the kind `horizon`: see docs/stages/farmap.md
+
+  [[nodiscard]] bool is_box() const { return kind == "box"; }
+  /// Pixels of one cell's picture.
+  [[nodiscard]] std::uint32_t picture_columns() const { return is_box() ? 4 * side_columns : azimuth_bins; }
+  [[nodiscard]] std::uint32_t picture_rows() const { return is_box() ? rows : squares_per_edge * squares_per_edge * layers; }
+};
+
 /// What `manifest.json` says. docs/package_format.md lists the keys.
 struct Manifest {
   std::string software;
@@ -40,9 +53,8 @@ struct Manifest {
   double height_origin_m = 0;  ///< heights on disk count from here
   Angle convergence;           ///< true azimuth = grid azimuth + convergence
   Grid grid;
-  std::string assign;        ///< "clip" or "whole"
-  std::string far_map_kind;  ///< "box"
-  std::uint32_t far_map_side_columns = 0, far_map_rows = 0;
+  std::string assign;  ///< "clip" or "whole"
+  FarMapShape far_map;
   std::vector<InputFile> inputs;
   std::uint64_t buildings = 0, polygons = 0, triangles = 0;
   std::vector<std::pair<int, std::uint64_t>> problem_counts;  ///< by code, ascending

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "farlod/point.hpp"
+
+namespace farlod {
+
+/// The full turn, cut into equal bins: bin k holds the azimuths from k·width to (k + 1)·width, counter-clockwise from the x axis.
+struct AzimuthBins {
+  std::uint32_t count = 256;
+
+  [[nodiscard]] double width_rad() const { return 2.0 * std::numbers::pi / count; }
+  /// The bin of an azimuth of any number of turns, itself any number of turns away: see `wrapped`.
+  [[nodiscard]] std::int64_t unwrapped_bin_of(double azimuth_rad) const {
+    return static_cast<std::int64_t>(std::floor(azimuth_rad / width_rad()));
+  }
+  [[nodiscard]] std::uint32_t wrapped(std::int64_t bin) const {
+    const std::int64_t n = count;
+    return static_cast<std::uint32_t>(((bin % n) + n) % n);
+  }
+  [[nodiscard]] std::uint32_t bin_of(Point2d direction) const {
+    return wrapped(unwrapped_bin_of(std::atan2(direction.y, direction.x)));
+  }
+};
+
+/// Grows with the azimuth as the angle does, from 0 to 4 counter-clockwise from the x axis, without an arc tangent: the
+/// perimeter of the square |x| + |y| = 1 up to the direction. Its slope against the angle lies between ½ and 1.
+[[nodiscard]] inline double diamond_angle(Point2d d) {
+  const double across = d.y / (std::abs(d.x) + std::abs(d.y));
+  if (d.x < 0.0) return 2.0 - across;
+  return d.y < 0.0 ? 4.0 + across : across;
+}
+
+}  // namespace farlod

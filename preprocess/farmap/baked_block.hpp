@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "farlod/far_map/box_map.hpp"
+#include "farlod/far_map/receiver_patches.hpp"
+#include "farlod/horizon/horizon_edge.hpp"
+#include "farlod/package/layout.hpp"
+#include "farlod/point.hpp"
+
+namespace farlod {
+
+/// The far map of a cell, of the kind `box`, as captured.
+struct BakedBox {
+  Point3f capture_cell;  ///< capture point, cell frame
+  BoxMap shape;
+  std::vector<float>
+      distance_m;  ///< texel rows from the horizontal upwards; infinite where the sky is seen; empty when all is sky
+};
+
+/// The far map of a cell, of the kind `horizon`: a few obstacles by name, and what all the others can do at the most, do at
+/// the least, and likely do. Slopes are tangents of elevations, a row of azimuth bins for each patch.
+///   (1) from every place in a patch, all of the far city that is not named lies below `upper`
+///   (2) from every place in a patch, everything below `lower` is hidden
+///   (3) `likely` is what is seen of the unnamed on average on the patch's floor; between two floors it changes evenly with the
+///   height
+struct BakedHorizon {
+  ReceiverPatches patches;
+  std::vector<package::NamedObstacle> named_edges, named_triangles;
+  std::vector<float> lower, likely, upper;
+};
+
+/// A block's far maps, in the order of CellRange::index_of.
+using BakedBoxes = std::vector<BakedBox>;
+struct BakedHorizons {
+  std::vector<HorizonEdge> edges;               ///< what its cells name, in the frame of its south-west cell
+  std::vector<package::FarTriangle> triangles;  ///< likewise
+  std::vector<BakedHorizon> cells;
+};
+using BakedBlock = std::variant<BakedBoxes, BakedHorizons>;
+
+}  // namespace farlod

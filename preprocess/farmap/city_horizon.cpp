@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "farmap/city_horizon.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace farlod {
+
+CityHorizon::CityHorizon(const TileSet& tiles, const Grid& grid)
+    : grid_(grid), origin_grid_(grid.middle_corner()), cells_(tiles.cells) {
+  for (std::size_t n = 0; n < tiles.tiles.size(); ++n) {
+    first_of_cell_.push_back(static_cast<std::uint32_t>(obstacles_.size()));
+    gather(tiles.tiles[n], tiles.surfaces, cells_.cell_at(n));
+  }
+  first_of_cell_.push_back(static_cast<std::uint32_t>(obstacles_.size()));
+  if (obstacles_.empty()) return;
+  nodes_.emplace_back();
+  build(0, cells_);
+}
+
+void CityHorizon::gather(const Tile& tile, const std::vector<Surface>& surfaces, Cell cell) {
+  const Point2d corner = corner_of(cell);
+  const auto placed = [corner](const Point3f& p) { return Point3d{corner.x + p.x, corner.y + p.y, p.z}; };
+  for (const HorizonEdge& e : tile.horizon_edges) obstacles_.push_back({{placed(e.a), placed(e.b), placed(e.b)}, true});
+  for (std::size_t n = 0; n < tile.triangles.size(); ++n) {
+    if (surfaces[tile.triangle_surfaces[n]].stands) continue;
+    const Triangle& t = tile.triangles[n];
+    obstacles_.push_back({{placed(tile.vertices[t.a]), placed(tile.vertices[t.b]), placed(tile.vertices[t.c])}, false});
+  }
+}
+
+void CityHorizon::build(std::uint32_t n, const CellRange& range) {
+  Node node;
+  node.z_high_m = -std::numeric_limits<double>::infinity();
+  if (range.size() == 1) {
+    node.cell = {range.i_begin, range.j_begin};
+    const std::size_t place = cells_.index_of(node.cell);
+    node.first_obstacle = first_of_cell_[place];
+    node.obstacle_count = first_of_cell_[place + 1] - first_of_cell_[place];
+    for (const Obstacle& o : obstacles().subspan(node.first_obstacle, node.obstacle_count)) {
+      node.z_high_m = std::max(node.z_high_m, o.z_high_m());
+      for (const Point3d& p : o.corners) node.outline.add(horizontal(p));
+    }
+    nodes_[n] = node;
+    return;
+  }
+  CellRange low = range, high = range;
+  if (range.width() >= range.height()) {
+    low.i_end = high.i_begin = range.i_begin + static_cast<std::int32_t>(range.width() / 2);
+  } else {
+    low.j_end = high.j_begin = range.j_begin + static_cast<std::int32_t>(range.height() / 2);
+  }
+  node.children = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.resize(nodes_.size() + 2);
+  build(node.children, low);
+  build(node.children + 1, high);
+  for (const Node& child : {nodes_[node.children], nodes_[node.children + 1]}) {
+    node.z_high_m = std::max(node.z_high_m, child.z_high_m);
+    if (child.outline.empty()) continue;
+    node.outline.add(child.outline.low);
+    node.outline.add(child.outline.high);
+  }
+  nodes_[n] = node;
+}
+
+}  // namespace farlod

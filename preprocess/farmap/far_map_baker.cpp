@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "farmap/far_map_baker.hpp"
+
+#include "farmap/box_map_baker.hpp"
+#include "farmap/horizon_map_baker.hpp"
+
+namespace farlod {
+
+FarMapBaker::FarMapBaker(const TileSet& tiles, const Grid& grid, Assign assign, const FarMapSettings& settings) {
+  if (settings.kind == FarMapKind::box) {
+    box_ = std::make_unique<BoxMapBaker>(tiles, grid, assign, settings.box);
+  } else {
+    horizon_ = std::make_unique<HorizonMapBaker>(tiles, grid, settings.horizon);
+  }
+}
+FarMapBaker::FarMapBaker(FarMapBaker&&) noexcept = default;
+FarMapBaker::~FarMapBaker() = default;
+
+BakedBlock FarMapBaker::bake(Block block) const {
+  if (box_) return box_->bake(block);
+  return horizon_->bake(block);
+}
+
+package::FarMapShape shape_of(const FarMapSettings& settings) {
+  package::FarMapShape shape;
+  if (settings.kind == FarMapKind::box) {
+    shape.kind = "box";
+    shape.side_columns = settings.box.side_columns;
+    shape.rows = settings.box.rows;
+    return shape;
+  }
+  shape.kind = "horizon";
+  shape.azimuth_bins = settings.horizon.azimuth_bins;
+  shape.squares_per_edge = settings.horizon.squares_per_edge;
+  shape.layers = settings.horizon.layers;
+  shape.tolerance = settings.horizon.tolerance;
+  return shape;
+}
+
+}  // namespace farlod

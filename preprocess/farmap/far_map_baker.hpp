@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+
+#include "farlod/grid.hpp"
+#include "farlod/package/manifest.hpp"
+#include "farmap/baked_block.hpp"
+#include "farmap/far_map_settings.hpp"
+#include "tiles/tile_set.hpp"
+#include "tiles/tiles.hpp"
+
+namespace farlod {
+
+class BoxMapBaker;
+class HorizonMapBaker;
+
+/// Bakes far maps of the kind that the settings ask for.
+class FarMapBaker {
+ public:
+  /// The tiles and the grid must outlive the baker.
+  FarMapBaker(const TileSet& tiles, const Grid& grid, Assign assign, const FarMapSettings& settings);
+  FarMapBaker(FarMapBaker&&) noexcept;
+  ~FarMapBaker();
+
+  /// In the order of CellRange::index_of. The same for any number of threads.
+  [[nodiscard]] BakedBlock bake(Block block) const;
+
+ private:
+  std::unique_ptr<BoxMapBaker> box_;
+  std::unique_ptr<HorizonMapBaker> horizon_;
+};
+
+/// What the manifest says of far maps that are baked so.
+[[nodiscard]] package::FarMapShape shape_of(const FarMapSettings& settings);
+
+}  // namespace farlod

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "farmap/horizon_map_baker.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "farlod/expects.hpp"
+#include "farmap/block_obstacles.hpp"
+#include "farmap/look_around.hpp"
+#include "farmap/obstacle_judge.hpp"
+
+namespace farlod {
+namespace {
+
+/// Heads rise this much above the highest ground of a cell: receivers at 1.5 m stand in the lowest layer.
+constexpr float street_layer_m = 2.0F;
+/// Roofs bear receivers too, a little above them.
+constexpr float above_roofs_m = 0.5F;
+
+/// Levels of a cell's layers: the street first, then up to the highest roof, finer below, where most roofs are.
+std::vector<float> levels_of(const Tile& tile, const std::vector<Surface>& surfaces, std::uint32_t layers) {
+  float ground_low = tile.ground_at_centre_m, ground_high = tile.ground_at_centre_m;
+  for (std::size_t n = 0; n < tile.triangles.size(); ++n) {
+    if (surfaces[tile.triangle_surfaces[n]].building != ground_building) continue;
+    for (const std::uint32_t v : {tile.triangles[n].a, tile.triangles[n].b, tile.triangles[n].c}) {
+      ground_low = std::min(ground_low, tile.vertices[v].z);
+      ground_high = std::max(ground_high, tile.vertices[v].z);
+    }
+  }
+  std::vector<float> levels{ground_low, ground_high + street_layer_m};
+  const float top = std::max(levels.back(), tile.z_high_m + above_roofs_m);
+  for (std::uint32_t l = 2; l < layers; ++l) {
+    const float share = static_cast<float>(l - 1) / static_cast<float>(layers - 2);
+    levels.push_back(levels[1] + (top - levels[1]) * share * share);
+  }
+  return levels;
+}
+
+/// A map that names nothing, above what was hidden at first sight. That holds from all over the cell: for each square alike.
+BakedHorizon empty_map(const ReceiverPatches& patches, const std::vector<float>& hidden) {
+  const std::size_t bins = hidden.size() / patches.layers();
+  BakedHorizon map{patches, {}, {}, std::vector<float>(patches.count() * bins, 0.0F), {}, {}};
+  map.likely = map.lower;
+  for (std::uint32_t patch = 0; patch < patches.count(); ++patch) {
+    const auto row = hidden.begin() + static_cast<std::ptrdiff_t>(patch / patches.squares() * bins);
+    map.upper.insert(map.upper.end(), row, row + static_cast<std::ptrdiff_t>(bins));
+  }
+  return map;
+}
+
+/// What the viewpoints at the corners of a patch's floor see on average.
+void estimate(const ViewpointHorizons& views, BakedHorizon& map) {
+  const std::uint32_t n = map.patches.squares_per_edge();
+  const std::size_t bins = map.likely.size() / map.patches.count();
+  for (std::uint32_t patch = 0; patch < map.patches.count(); ++patch) {
+    const std::uint32_t square = patch % map.patches.squares(), layer = patch / map.patches.squares();
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+      float sum = 0.0F;
+      for (std::uint32_t corner = 0; corner < 4; ++corner)
+        sum += views.at(square % n + (corner & 1U), square / n + (corner >> 1U), layer)[bin];
+      map.likely[patch * bins + bin] = 0.25F * sum;
+    }
+  }
+}
+
+}  // namespace
+
+HorizonMapBaker::HorizonMapBaker(const TileSet& tiles, const Grid& grid, const HorizonMapSettings& settings)
+    : tiles_(tiles), grid_(grid), settings_(settings), city_(tiles, grid), borders_({settings.azimuth_bins}) {
+  // Squares and layers must fit the bits of package::NamedObstacle; the street and the roofs are two layers
+  FARLOD_EXPECTS(settings.squares_per_edge >= 1 && settings.squares_per_edge <= 4 && settings.layers >= 2 &&
+                 settings.layers <= package::most_layers && settings.azimuth_bins > 0);
+}
+
+BakedHorizons HorizonMapBaker::bake(Block block) const {
+  const CellRange range = grid_.cells_of(block);
+  std::vector<Cell> cells;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) cells.push_back(range.cell_at(n));
+  return bake(cells);
+}
+
+BakedHorizons HorizonMapBaker::bake(std::span<const Cell> cells) const {
+  std::vector<std::optional<BakedHorizon>> baked(cells.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, baked.size(), [&](std::size_t n) { baked[n] = bake_cell(cells[n]); });
+  BlockObstacles obstacles(city_, city_.corner_of(cells.front()));
+  BakedHorizons result;
+  for (std::optional<BakedHorizon>& cell : baked) {
+    obstacles.renumber(cell->named_edges);
+    obstacles.renumber(cell->named_triangles);
+    result.cells.push_back(std::move(*cell));
+  }
+  result.edges = std::move(obstacles.edges);
+  result.triangles = std::move(obstacles.triangles);
+  return result;
+}
+
+BakedHorizon HorizonMapBaker::bake_cell(Cell cell) const {
+  const CellPlace place{
+      city_.corner_of(cell),
+      grid_.neighborhood_of(cell),
+      {{0.0, 0.0}, {grid_.cell_edge_m, grid_.cell_edge_m}},
+      {grid_.cell_edge_m, settings_.squares_per_edge, levels_of(tiles_.tile(cell), tiles_.surfaces, settings_.layers)}};
+  const Surroundings around = LookAround(city_, place, borders_, settings_.tolerance).run();
+  BakedHorizon map = empty_map(place.patches, around.hidden);
+  ObstacleJudge judge(city_, place, around.views, borders_, settings_.tolerance, map);
+  ViewpointHorizons unnamed(grid_.cell_edge_m, place.patches, borders_.bins());
+  for (const std::uint32_t number : around.candidates) {
+    const Obstacle& obstacle = city_.obstacles()[number];
+    const std::uint32_t named_layers = judge.judge(number);
+    const Point3d corner{place.corner.x, place.corner.y, 0.0};
+    if (obstacle.is_edge) unnamed.add(obstacle.corners[0] - corner, obstacle.corners[1] - corner, ~named_layers);
+  }
+  // A thing may be at least as high as another is at the most: both are rounded
+  for (std::size_t n = 0; n < map.lower.size(); ++n) map.lower[n] = std::min(map.lower[n], map.upper[n]);
+  estimate(unnamed, map);
+  return map;
+}
+
+}  // namespace farlod

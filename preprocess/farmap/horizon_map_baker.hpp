@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+
+#include "farlod/grid.hpp"
+#include "farmap/baked_block.hpp"
+#include "farmap/bin_borders.hpp"
+#include "farmap/city_horizon.hpp"
+#include "farmap/far_map_settings.hpp"
+#include "tiles/tile_set.hpp"
+
+namespace farlod {
+
+/// Bakes far maps without parallax: obstacles that move against each other within a patch are named, so that the runtime can draw
+/// them from where the receiver is; the rest is bounded. docs/stages/farmap.md.
+class HorizonMapBaker {
+ public:
+  /// The tiles and the grid must outlive the baker.
+  HorizonMapBaker(const TileSet& tiles, const Grid& grid, const HorizonMapSettings& settings);
+
+  [[nodiscard]] BakedHorizons bake(Block block) const;
+  /// Of some cells; what they name is in the frame of the first.
+  [[nodiscard]] BakedHorizons bake(std::span<const Cell> cells) const;
+
+ private:
+  [[nodiscard]] BakedHorizon bake_cell(Cell cell) const;
+
+  const TileSet& tiles_;
+  const Grid& grid_;
+  HorizonMapSettings settings_;
+  CityHorizon city_;
+  BinBorders borders_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "farmap/obstacle_judge.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace farlod {
+namespace {
+
+/// Limits only spare the exact comparison: they are lower than it by more than their own rounding.
+constexpr double just_below = 1.0 - 1e-9;
+
+}  // namespace
+
+ObstacleJudge::ObstacleJudge(const CityHorizon& city, const CellPlace& place, const ViewpointHorizons& views,
+                             const BinBorders& borders, double tolerance, BakedHorizon& map)
+    : city_(city),
+      place_(place),
+      views_(views),
+      bins_(borders.bins()),
+      tolerance_(tolerance),
+      map_(map),
+      seen_(map.upper.size()),
+      limits_(map.upper.size()),
+      over_square_(borders) {
+  for (std::uint32_t patch = 0; patch < place_.patches.count(); ++patch) see_from(patch);
+}
+
+/// The lowest horizon of the patch's four upper corners.
+void ObstacleJudge::see_from(std::uint32_t patch) {
+  const std::uint32_t n = place_.patches.squares_per_edge(), square = patch % place_.patches.squares(),
+                      level = place_.ceiling_level(patch / place_.patches.squares());
+  const std::uint32_t i = square % n, j = square / n;
+  for (std::size_t bin = 0; bin < bins_.count; ++bin) {
+    float lowest = views_.at(i, j, level)[bin];
+    for (const auto& [di, dj] : {std::pair{1U, 0U}, std::pair{0U, 1U}, std::pair{1U, 1U}})
+      lowest = std::min(lowest, views_.at(i + di, j + dj, level)[bin]);
+    const std::size_t place = std::size_t{patch} * bins_.count + bin;
+    seen_[place] = lowest;
+    limits_[place] = std::max<double>(lowest, just_below * slope_of_sine(sine_of_slope(lowest) + tolerance_));
+  }
+}
+
+std::uint32_t ObstacleJudge::judge(std::uint32_t number) {
+  const Obstacle& obstacle = city_.obstacles()[number];
+  package::NamedObstacle named{number, 0, 0};
+  for (std::uint32_t square = 0; square < place_.patches.squares(); ++square) {
+    const PatchBox box = place_.patches.box(square);
+    over_square_.look_at(obstacle, place_.corner, {box.low, box.high});
+    const auto edges = over_square_.edges();
+    for (std::uint32_t layer = 0; layer < place_.patches.layers(); ++layer) {
+      // What does not rise above the floor hides nothing there
+      if (obstacle.z_high_m() <= place_.patches.levels_m()[layer]) break;
+      const std::uint32_t patch = place_.patches.number(square, layer);
+      if (over_square_.surrounds() ||
+          std::any_of(edges.begin(), edges.end(), [&](EdgeOverSquare& edge) { return matters(edge, patch); })) {
+        named.squares = static_cast<std::uint16_t>(named.squares | (1U << square));
+        named.layers = static_cast<std::uint16_t>(named.layers | (1U << layer));
+      } else {
+        for (EdgeOverSquare& edge : edges) leave_unnamed(edge, patch, obstacle.is_edge);
+      }
+    }
+  }
+  if (named.squares != 0) (obstacle.is_edge ? map_.named_edges : map_.named_triangles).push_back(named);
+  return named.layers;
+}
+
+/// Whether an edge can rise notably above what is seen anyway, by an amount that its bounds do not settle.
+bool ObstacleJudge::matters(EdgeOverSquare& edge, std::uint32_t patch) const {
+  const std::uint32_t layer = patch / place_.patches.squares();
+  const std::size_t row = std::size_t{patch} * bins_.count;
+  const std::span<const double> upper = edge.upper(place_.patches.levels_m()[layer]);
+  const std::span<const double> lower = edge.lower(place_.patches.ceiling_m(layer));
+  bool matters = false;
+  for_each_bin(bins_, edge.first_bin(), upper.size(), [&](std::size_t n, std::uint32_t bin) {
+    if (matters || upper[n] <= limits_[row + bin]) return;
+    const double least = std::max(static_cast<double>(seen_[row + bin]), lower[n]);
+    matters = upper[n] > least && sine_of_slope(upper[n]) - sine_of_slope(least) > tolerance_;
+  });
+  return matters;
+}
+
+void ObstacleJudge::leave_unnamed(EdgeOverSquare& edge, std::uint32_t patch, bool stands) {
+  const std::uint32_t layer = patch / place_.patches.squares();
+  const std::size_t row = std::size_t{patch} * bins_.count;
+  const auto raise = [&](std::vector<float>& rows, std::span<const double> slopes) {
+    for_each_bin(bins_, edge.first_bin(), slopes.size(), [&](std::size_t n, std::uint32_t bin) {
+      rows[row + bin] = std::max(rows[row + bin], static_cast<float>(slopes[n]));
+    });
+  };
+  raise(map_.upper, edge.upper(place_.patches.levels_m()[layer]));
+  if (stands) raise(map_.lower, edge.lower(place_.patches.ceiling_m(layer)));
+}
+
+}  // namespace farlod

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "farmap/baked_block.hpp"
+#include "farmap/bin_borders.hpp"
+#include "farmap/cell_place.hpp"
+#include "farmap/city_horizon.hpp"
+#include "farmap/obstacle_over_square.hpp"
+#include "farmap/viewpoint_horizons.hpp"
+
+namespace farlod {
+
+/// Decides for each patch of a cell which obstacles are named, and bounds the others.
+class ObstacleJudge {
+ public:
+  /// All must outlive it; `map` gets names and bounds. The tolerance is HorizonMapSettings::tolerance.
+  ObstacleJudge(const CityHorizon& city, const CellPlace& place, const ViewpointHorizons& views, const BinBorders& borders,
+                double tolerance, BakedHorizon& map);
+
+  /// Names an obstacle (by its number in the city) for the patches where that is worth it, and bounds it for the others. Returns
+  /// the layers in which it is named, as bits.
+  std::uint32_t judge(std::uint32_t obstacle);
+
+ private:
+  void see_from(std::uint32_t patch);
+  [[nodiscard]] bool matters(EdgeOverSquare& edge, std::uint32_t patch) const;
+  void leave_unnamed(EdgeOverSquare& edge, std::uint32_t patch, bool stands);
+
+  const CityHorizon& city_;
+  const CellPlace& place_;
+  const ViewpointHorizons& views_;
+  const AzimuthBins& bins_;
+  double tolerance_;
+  BakedHorizon& map_;
+  std::vector<float> seen_;     ///< rows as in the map: what receivers in the patch likely cannot see over
+  std::vector<double> limits_;  ///< likewise: what stays below this does not matter
+  ObstacleOverSquare over_square_;
+};
+
+}  // namespace farlod

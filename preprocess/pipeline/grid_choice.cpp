@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/grid_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace farlod {
+namespace {
+
+/// What a map of 2 m costs for each of its receivers: rays that descend a tree of the near triangles, named obstacles that are
+/// drawn, and a share of the cell's scene and of its far map. Constants from docs/decisions/0010; only their ratios matter.
+double expected_receiver_us(const FarMapVerdict& verdict, double cell_edge_m) {
+  constexpr double rays = 1000.0, ray_us = 0.02, level_us = 0.002, named_us = 0.02;
+  constexpr double bake_us = 10000.0, scene_us = 400.0, build_us = 0.3, grid_step_m = 2.0;
+  const double triangles = std::max(2.0, verdict.near_triangles_per_cell);
+  const double receivers = std::max(1.0, cell_edge_m * cell_edge_m / (grid_step_m * grid_step_m));
+  return rays * (ray_us + level_us * std::log2(triangles)) + named_us * verdict.named_per_cell +
+         (bake_us + scene_us + build_us * triangles) / receivers;
+}
+
+bool keeps(const FarMapVerdict& verdict, double max_far_error) {
+  return verdict.receivers > 0 && verdict.max_error <= max_far_error && verdict.p99_doubt <= max_far_error;
+}
+
+class GridChooser {
+ public:
+  GridChooser(const LocatedCity& city, Assign assign, const HorizonMapSettings& far_map, const ChoiceSettings& settings)
+      : city_(city), assign_(assign), far_map_(far_map), settings_(settings) {}
+
+  void try_cells(double cell_edge_m, const LayGrid& lay) {
+    auto [grid, terrain] = lay(cell_edge_m);
+    Report unread;  // the run itself reports what it finds
+    const TileSet tiles = cut_into_tiles(city_, grid, assign_, terrain, unread);
+    for (const int neighborhood : settings_.neighborhoods) {
+      grid.neighborhood = neighborhood;
+      try_tolerances(tiles, grid);
+    }
+  }
+  GridChoices choices;
+
+ private:
+  /// The coarsest that is fine enough.
+  void try_tolerances(const TileSet& tiles, const Grid& grid) {
+    for (const double tolerance : settings_.tolerances) {
+      HorizonMapSettings far_map = far_map_;
+      far_map.tolerance = tolerance;
+      GridChoice choice{grid.cell_edge_m, grid.neighborhood, tolerance, judge_far_maps(tiles, grid, far_map, settings_.judge),
+                        0.0};
+      choice.receiver_us = expected_receiver_us(choice.verdict, grid.cell_edge_m);
+      choices.tried.push_back(choice);
+      if (!keeps(choice.verdict, settings_.max_far_error)) continue;
+      if (!choices.best || choice.receiver_us < choices.best->receiver_us) choices.best = choice;
+      return;
+    }
+  }
+
+  const LocatedCity& city_;
+  Assign assign_;
+  HorizonMapSettings far_map_;
+  const ChoiceSettings& settings_;
+};
+
+}  // namespace
+
+GridChoices choose_grid(const LocatedCity& city, const LayGrid& lay, Assign assign, const HorizonMapSettings& far_map,
+                        const ChoiceSettings& settings) {
+  GridChooser chooser(city, assign, far_map, settings);
+  for (const double cell_edge_m : settings.cell_edges_m) chooser.try_cells(cell_edge_m, lay);
+  return std::move(chooser.choices);
+}
+
+}  // namespace farlod

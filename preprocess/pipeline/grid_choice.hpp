@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "align/align.hpp"
+#include "city/located_city.hpp"
+#include "city/terrain_raster.hpp"
+#include "farmap/far_map_judge.hpp"
+#include "farmap/far_map_settings.hpp"
+#include "tiles/tiles.hpp"
+
+namespace farlod {
+
+/// A cell size, a neighbourhood and how finely its far maps name obstacles; what that was found to do, and what a receiver costs.
+struct GridChoice {
+  double cell_edge_m = 0.0;
+  int neighborhood = 0;
+  double tolerance = 0.0;
+  FarMapVerdict verdict;
+  double receiver_us =
+      0.0;  ///< expected, packing included, at 1,000 rays on a 2 m grid: to compare choices with, not to plan a run by
+};
+
+/// What may be chosen from.
+struct ChoiceSettings {
+  double max_far_error = 0.01;  ///< of the far maps alone
+  std::vector<double> cell_edges_m{25.0, 50.0, 100.0, 200.0};
+  std::vector<int> neighborhoods{1, 3, 5};
+  std::vector<double> tolerances{0.1, 0.05, 0.02, 0.01};  ///< descending
+  JudgeSettings judge;
+};
+
+struct GridChoices {
+  std::optional<GridChoice> best;  ///< none when nothing keeps the error
+  std::vector<GridChoice> tried;
+};
+
+/// Lays a grid with these cells over the city; the ground that belongs to it.
+using LayGrid = std::function<std::pair<Grid, std::optional<TerrainRaster>>(double cell_edge_m)>;
+
+/// The cheapest choice whose far maps keep the error: none of the sampled receivers is farther from `exact` than `max_far_error`,
+/// and 99 % of them are certain not to be (farlod-svf traces the rest exactly when it is told the error, too). Deterministic.
+[[nodiscard]] GridChoices choose_grid(const LocatedCity& city, const LayGrid& lay, Assign assign,
+                                      const HorizonMapSettings& far_map, const ChoiceSettings& settings);
+
+}  // namespace farlod

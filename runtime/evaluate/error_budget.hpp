@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+namespace farlod {
+
+/// The largest error seen among thousands of receivers in streets, on roofs and on walls follows this times rays^(−3/4)
+/// (docs/validation.md, "Shares of the error", measures it anew).
+inline constexpr double sampling_error_factor = 2.4;
+
+/// How far an answer of so many rays is from the truth at the most, because the sky between the rays is not looked at: what was
+/// seen, and a quarter more. Not a certain bound.
+[[nodiscard]] double sampling_error(std::size_t rays);
+
+/// The fewest rays whose sampling error is at most this.
+[[nodiscard]] std::size_t rays_for_sampling_error(double error);
+
+}  // namespace farlod
