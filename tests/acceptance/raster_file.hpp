@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "farlod/point.hpp"
@@ -24,6 +25,8 @@ struct RasterFile {
   [[nodiscard]] std::optional<double> at(Point2d p) const;
 };
 
-[[nodiscard]] RasterFile read_raster(const std::filesystem::path& file);
+/// One of its bands, counted from 1; and the names of all of them.
+[[nodiscard]] RasterFile read_raster(const std::filesystem::path& file, int band = 1);
+[[nodiscard]] std::vector<std::string> band_names(const std::filesystem::path& file);
 
 }  // namespace farlod::acceptance

@@ -24,7 +24,7 @@ std::optional<double> RasterFile::at(Point2d p) const {
   return values[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)];
 }
 
-RasterFile read_raster(const std::filesystem::path& file) {
+RasterFile read_raster(const std::filesystem::path& file, int band_number) {
   GDALAllRegister();
   const GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
   std::array<double, 6> place{};
@@ -41,7 +41,7 @@ RasterFile read_raster(const std::filesystem::path& file) {
     copy.AutoIdentifyEPSG();
     if (const char* code = copy.GetAuthorityCode(nullptr)) raster.epsg = std::stoi(code);
   }
-  GDALRasterBand& band = *dataset->GetRasterBand(1);
+  GDALRasterBand& band = *dataset->GetRasterBand(band_number);
   const int columns = dataset->GetRasterXSize(), rows = dataset->GetRasterYSize();
   std::vector<double> values(raster.columns * raster.rows);
   if (band.RasterIO(GF_Read, 0, 0, columns, rows, values.data(), columns, rows, GDT_Float64, 0, 0) != CE_None)
@@ -49,6 +49,15 @@ RasterFile read_raster(const std::filesystem::path& file) {
   const double nodata = band.GetNoDataValue();
   for (const double v : values) raster.values.push_back(std::isnan(v) || v == nodata ? std::nullopt : std::optional(v));
   return raster;
+}
+
+std::vector<std::string> band_names(const std::filesystem::path& file) {
+  GDALAllRegister();
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  if (!dataset) throw std::runtime_error(file.string() + " is not a raster");
+  std::vector<std::string> names;
+  for (int n = 1; n <= dataset->GetRasterCount(); ++n) names.emplace_back(dataset->GetRasterBand(n)->GetDescription());
+  return names;
 }
 
 }  // namespace farlod::acceptance

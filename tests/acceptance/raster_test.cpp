@@ -131,7 +131,7 @@ TEST_F(PackedTown, VerifyTellsTheErrorOfTheFarMap) {
   std::vector<double> mean_errors;
   for (const int neighborhood : {1, 3, 21}) {
     const std::string n = std::to_string(neighborhood);
-    folder.must("farlod-pack town.geojson -o n.farlod --force --neighborhood " + n);
+    folder.must("farlod-pack town.geojson -o n.farlod --force --far-map box --neighborhood " + n);
     folder.must("farlod-svf n.farlod -o o.asc --grid 4 --verify 200 --summary s.json");
     const nlohmann::json verify = folder.json_of("s.json").at("verify");
     EXPECT_EQ(verify.at("count"), 200);

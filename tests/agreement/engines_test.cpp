@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "farlod/far_map/far_view.hpp"
 #include "scene/near_scene.hpp"
 #include "scene/whole_city.hpp"
 #include "tests/agreement/random_receivers.hpp"
@@ -26,7 +27,7 @@ TEST(Agreement, ANeighbourhoodThatCoversTheCityIsTheCity) {
   const Grid grid = scenes::grid_covering(city, Angle::degrees(23.0), 50.0, 41);
   ASSERT_LE(grid.cells.width(), 20);
   const scenes::TemporaryFolder folder;
-  scenes::pack_city(city, grid, folder.path() / "town.farlod", {8, 8, 1.5});
+  scenes::pack_city(city, grid, folder.path() / "town.farlod", scenes::box_maps(8, 8));
   const Package package(folder.path() / "town.farlod");
   const WholeCity whole(package);
   RandomSky random;
@@ -52,8 +53,9 @@ TEST_P(NearAndFar, TogetherAreTheCitySeenFromTheCapturePoint) {
   const CityModel city = town();
   const Grid grid = scenes::grid_covering(city, Angle::degrees(23.0), 50.0, 3);
   const scenes::TemporaryFolder folder;
-  const FarMapSettings map{16, 16, 1.5};
-  scenes::pack_city(city, grid, folder.path() / "town.farlod", map, GetParam());
+  const FarMapSettings settings = scenes::box_maps(16, 16);
+  const BoxMapSettings& map = settings.box;
+  scenes::pack_city(city, grid, folder.path() / "town.farlod", settings, GetParam());
   const Package package(folder.path() / "town.farlod");
   const WholeCity whole(package);
   int rays = 0, differences = 0, far_alone = 0;
@@ -62,7 +64,7 @@ TEST_P(NearAndFar, TogetherAreTheCitySeenFromTheCapturePoint) {
     const auto& record = *package.tile(cell).cell;
     const Point3f p{record.capture_x_m, record.capture_y_m, record.capture_z_m};
     const Occluder near = near_scene(package, cell);
-    const FarMap far = package.far_map(cell);
+    const BoxFarMap far = package.box_far_map(cell);
     for (std::uint32_t row = 0; row < map.rows && record.far_map_top > 0.0F; ++row)
       for (std::uint32_t column = 0; column < 4 * map.side_columns; ++column) {
         const Point3d d = far.shape().direction_of({column, row});
@@ -74,6 +76,41 @@ TEST_P(NearAndFar, TogetherAreTheCitySeenFromTheCapturePoint) {
   }
   EXPECT_GT(far_alone, 1000);
   EXPECT_LE(differences, rays / 100000);
+}
+
+TEST_P(NearAndFar, AreNeverCertainOfWhatIsNotSo) {
+  const CityModel city = town();
+  const Grid grid = scenes::grid_covering(city, Angle::degrees(23.0), 50.0, 3);
+  const scenes::TemporaryFolder folder;
+  scenes::pack_city(city, grid, folder.path() / "town.farlod", {}, GetParam());
+  const Package package(folder.path() / "town.farlod");
+  const WholeCity whole(package);
+  RandomSky random;
+  constexpr int receivers = 200, rays_each = 5000;
+  int differences = 0, certain = 0, blocked_afar = 0;
+  for (int n = 0; n < receivers; ++n) {
+    const CellReceivers r = random.receiver(package);
+    const FarHorizon far = package.far_horizon(r.cell);
+    const Occluder near = near_scene(package, r.cell, far.named);
+    const Point3f p = r.receivers[0].p_cell, p_whole = whole.scene_from_cell(p, r.cell);
+    std::vector<Point3d> directions;
+    for (int k = 0; k < rays_each; ++k) directions.push_back(random.direction_above_horizon());
+    const AzimuthFan fan(directions);
+    std::vector<FarVerdict> verdicts(directions.size());
+    FarView(fan, far).judge(p, verdicts);
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      if (verdicts[k] != FarVerdict::free && verdicts[k] != FarVerdict::blocked) continue;
+      ++certain;
+      const Point3f d = rounded(directions[fan.place()[k]]);
+      const bool is_blocked = verdicts[k] == FarVerdict::blocked || near.blocks({p, d});
+      differences += is_blocked != whole.occluder().blocks({p_whole, d}) ? 1 : 0;
+      blocked_afar += verdicts[k] == FarVerdict::blocked && !near.blocks({p, d}) ? 1 : 0;
+    }
+  }
+  EXPECT_LE(differences, certain / 100000);
+  // The comparison must have had something to compare
+  EXPECT_GT(certain, receivers * rays_each * 3 / 4);
+  EXPECT_GT(blocked_afar, 1000);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, NearAndFar, testing::Values(Assign::clip, Assign::whole));

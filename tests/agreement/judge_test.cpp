@@ -37,7 +37,7 @@ TEST(Agreement, CgalAndEmbreeSeeTheSameTownRayForRay) {
   const CityModel city = scenes::generated_town(settings);
   const Grid grid = scenes::grid_covering(city, Angle::degrees(23.0), 50.0, 3);
   const scenes::TemporaryFolder folder;
-  scenes::pack_city(city, grid, folder.path() / "town.farlod", {8, 8, 1.5});
+  scenes::pack_city(city, grid, folder.path() / "town.farlod", scenes::box_maps(8, 8));
   const Package package(folder.path() / "town.farlod");
   const WholeCity whole(package);
   const Judge judge(city);

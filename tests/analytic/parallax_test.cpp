@@ -32,7 +32,7 @@ TEST_P(PaperMap, IsWrongByParallaxAsItShouldBe) {
   builder.add_box({{middle - 0.05, middle - 0.05}, {middle + 0.05, middle + 0.05}}, 0.0, 0.01);
   const Grid grid = scenes::grid_covering(builder.city(), {}, c, N, 1);
   const scenes::TemporaryFolder folder;
-  const FarMapSettings map_settings{256, 256, eye_m};
+  const FarMapSettings map_settings = scenes::box_maps(256, 256);
   scenes::pack_city(builder.city(), grid, folder.path() / "scene.farlod", map_settings, Assign::clip, {{Cell{0, 0}}});
   const Package package(folder.path() / "scene.farlod");
   // The receiver is in the same cell, as near to the wall as the cell lets it be
@@ -41,7 +41,7 @@ TEST_P(PaperMap, IsWrongByParallaxAsItShouldBe) {
   SkyEvaluator(package, {Engine::rays, SkyWeight::cosine, rays}).evaluate(receiver, map);
   SkyEvaluator(package, {Engine::exact, SkyWeight::cosine, rays}).evaluate(receiver, exact);
   const double sampling = sampling_error(rays, 4 * std::numbers::pi);
-  const double map_error = box_map_error(package.far_map({0, 0}).shape(), 2 * H / D, steepest_cos);
+  const double map_error = box_map_error(package.box_far_map({0, 0}).shape(), 2 * H / D, steepest_cos);
   EXPECT_NEAR(exact[0], oracles::finite_wall_cos(H, D - c / 2, a, a), sampling);
   EXPECT_NEAR(map[0], oracles::finite_wall_cos(H, D, a, a), sampling + map_error);
 }

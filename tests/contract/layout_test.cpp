@@ -92,6 +92,36 @@ TEST(Layout, BuildingRecordIsDocumented) {
   EXPECT_DOCUMENTED(BuildingRecord, number);
 }
 
+TEST(Layout, FarCellRecordIsDocumented) {
+  EXPECT_DOCUMENTED(FarCellRecord, first_named_edge);
+  EXPECT_DOCUMENTED(FarCellRecord, first_named_triangle);
+  EXPECT_DOCUMENTED(FarCellRecord, named_edge_count);
+  EXPECT_DOCUMENTED(FarCellRecord, named_triangle_count);
+  EXPECT_DOCUMENTED(FarCellRecord, levels_m);
+  EXPECT_DOCUMENTED(FarCellRecord, reserved);
+}
+
+TEST(Layout, NamedObstacleIsDocumented) {
+  EXPECT_DOCUMENTED(NamedObstacle, row);
+  EXPECT_DOCUMENTED(NamedObstacle, squares);
+  EXPECT_DOCUMENTED(NamedObstacle, layers);
+}
+
+TEST(Layout, NamedObstaclesMatterWhereBothBitsAreSet) {
+  const NamedObstacle named{0, 0b0101, 0b10};
+  EXPECT_TRUE(named.matters(0, 1));
+  EXPECT_TRUE(named.matters(2, 1));
+  EXPECT_FALSE(named.matters(1, 1));
+  EXPECT_FALSE(named.matters(0, 0));
+}
+
+TEST(Layout, VersionAndChannelsAreDocumented) {
+  const std::string document = format_document();
+  EXPECT_NE(document.find("# The package format, version " + std::to_string(format_version) + "\n"), std::string::npos);
+  for (const char* channel : {sky_channel, distance_channel, likely_channel, lower_channel, upper_channel})
+    EXPECT_NE(chapter("far.exr").find("| `" + std::string(channel) + "` |"), std::string::npos) << channel;
+}
+
 TEST(Layout, SectionKindsAndElementSizesAreDocumented) {
   const struct {
     SectionKind kind;
@@ -103,7 +133,12 @@ TEST(Layout, SectionKindsAndElementSizesAreDocumented) {
                {SectionKind::triangle_surfaces, "triangle_surfaces", 4},
                {SectionKind::surfaces, "surfaces", sizeof(SurfaceRecord)},
                {SectionKind::buildings, "buildings", sizeof(BuildingRecord)},
-               {SectionKind::text, "text", 1}};
+               {SectionKind::text, "text", 1},
+               {SectionKind::far_cells, "far_cells", sizeof(FarCellRecord)},
+               {SectionKind::far_edges, "far_edges", sizeof(HorizonEdge)},
+               {SectionKind::far_triangles, "far_triangles", sizeof(FarTriangle)},
+               {SectionKind::named_edges, "named_edges", sizeof(NamedObstacle)},
+               {SectionKind::named_triangles, "named_triangles", sizeof(NamedObstacle)}};
   EXPECT_EQ(std::size(kinds), section_count);
   for (const auto& [kind, name, bytes] : kinds) {
     const std::string expected =
@@ -115,8 +150,11 @@ TEST(Layout, SectionKindsAndElementSizesAreDocumented) {
 TEST(Layout, RecordsCanBeMapped) {
   static_assert(std::is_trivially_copyable_v<Header> && std::is_trivially_copyable_v<Section> &&
                 std::is_trivially_copyable_v<CellRecord> && std::is_trivially_copyable_v<SurfaceRecord> &&
-                std::is_trivially_copyable_v<BuildingRecord>);
-  static_assert(section_alignment % alignof(CellRecord) == 0 && section_alignment % alignof(SurfaceRecord) == 0);
+                std::is_trivially_copyable_v<BuildingRecord> && std::is_trivially_copyable_v<FarCellRecord> &&
+                std::is_trivially_copyable_v<NamedObstacle> && std::is_trivially_copyable_v<HorizonEdge> &&
+                std::is_trivially_copyable_v<FarTriangle>);
+  static_assert(section_alignment % alignof(CellRecord) == 0 && section_alignment % alignof(SurfaceRecord) == 0 &&
+                section_alignment % alignof(FarCellRecord) == 0);
   static_assert(end_padding >= 16 - sizeof(Point3f), "the last vertex is read as 16 bytes");
 }
 

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 
+#include "farmap/far_map_baker.hpp"
 #include "package/package_writer.hpp"
 #include "tests/determinism/crooked_town.hpp"
 #include "tests/determinism/threads.hpp"
@@ -29,10 +30,10 @@ Files files_in(const std::filesystem::path& folder) {
   return files;
 }
 
-Files package_made_with(std::size_t threads, Assign assign) {
+Files package_made_with(std::size_t threads, FarMapKind kind, Assign assign) {
   const scenes::TemporaryFolder folder;
   with_threads(threads, [&] {
-    scenes::pack_city(crooked_town(), crooked_grid(), folder.path() / "town.farlod", {16, 16, 1.5}, assign);
+    scenes::pack_city(crooked_town(), crooked_grid(), folder.path() / "town.farlod", scenes::small_maps(kind), assign);
   });
   return files_in(folder.path());
 }
@@ -47,33 +48,38 @@ std::vector<std::string> differences(const Files& a, const Files& b) {
   return names;
 }
 
-TEST(PackageBytes, DoNotDependOnTheNumberOfThreads) {
+class PackageBytes : public testing::TestWithParam<FarMapKind> {};
+
+TEST_P(PackageBytes, DoNotDependOnTheNumberOfThreads) {
   for (const Assign assign : {Assign::clip, Assign::whole}) {
-    const Files alone = package_made_with(1, assign);
+    const Files alone = package_made_with(1, GetParam(), assign);
     EXPECT_GT(alone.size(), 10U) << "too few blocks to tell";
     for (int n = 0; n < repeats; ++n)
-      EXPECT_EQ(differences(alone, package_made_with(many_threads, assign)), std::vector<std::string>());
+      EXPECT_EQ(differences(alone, package_made_with(many_threads, GetParam(), assign)), std::vector<std::string>());
   }
 }
 
-Files blocks_written_in(const std::vector<Block>& order) {
+Files blocks_written_in(const std::vector<Block>& order, FarMapKind kind) {
   const Grid grid = crooked_grid();
   Report report;
   const TileSet tiles = cut_into_tiles({crooked_town(), {}}, grid, Assign::clip, std::nullopt, report);
-  const FarMapSettings settings{16, 16, 1.5};
-  const BoxMapBaker baker(tiles, grid, Assign::clip, settings);
+  const FarMapSettings settings = scenes::small_maps(kind);
+  const FarMapBaker baker(tiles, grid, Assign::clip, settings);
   const scenes::TemporaryFolder folder;
   PackageWriter writer(folder.path() / "town.farlod", Overwrite::refuse);
-  for (const Block block : order) (void)writer.write_block(tiles, baker.bake(block), grid, block, settings);
+  for (const Block block : order) (void)writer.write_block(tiles, baker.bake(block), grid, block, shape_of(settings));
   return files_in(folder.path());
 }
 
-TEST(PackageBytes, DoNotDependOnTheOrderOfBlocks) {
+TEST_P(PackageBytes, DoNotDependOnTheOrderOfBlocks) {
   std::vector<Block> blocks = crooked_grid().blocks();
-  const Files forwards = blocks_written_in(blocks);
+  const Files forwards = blocks_written_in(blocks, GetParam());
   std::reverse(blocks.begin(), blocks.end());
-  EXPECT_EQ(differences(forwards, blocks_written_in(blocks)), std::vector<std::string>());
+  EXPECT_EQ(differences(forwards, blocks_written_in(blocks, GetParam())), std::vector<std::string>());
 }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, PackageBytes, testing::Values(FarMapKind::box, FarMapKind::horizon),
+                         [](const auto& test) { return scenes::name_of(test.param); });
 
 }  // namespace
 }  // namespace farlod

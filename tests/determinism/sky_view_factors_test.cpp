@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <ostream>
 
 #include "evaluate/sky_evaluator.hpp"
 #include "receivers/raster_receivers.hpp"
@@ -15,16 +17,24 @@
 namespace farlod {
 namespace {
 
-class SkyViewFactors : public testing::TestWithParam<Engine> {
+struct Way {
+  const char* name;
+  Engine engine;
+  FarMapKind kind;
+  std::optional<double> max_far_error = std::nullopt;
+};
+void PrintTo(const Way& way, std::ostream* out) { *out << way.name; }
+
+class SkyViewFactors : public testing::TestWithParam<Way> {
  protected:
   SkyViewFactors()
       : package_(packed()), plan_(plan_raster(package_.manifest(), 3.0, std::nullopt)), raster_(package_.manifest(), plan_) {}
 
   Package packed() const {
-    scenes::pack_city(crooked_town(), crooked_grid(), folder_.path() / "town.farlod", {16, 16, 1.5});
+    scenes::pack_city(crooked_town(), crooked_grid(), folder_.path() / "town.farlod", scenes::small_maps(GetParam().kind));
     return Package(folder_.path() / "town.farlod");
   }
-  [[nodiscard]] SkySettings settings() const { return {GetParam(), SkyWeight::cosine, 145}; }
+  [[nodiscard]] SkySettings settings() const { return {GetParam().engine, SkyWeight::cosine, 145, GetParam().max_far_error}; }
   [[nodiscard]] CellReceivers receivers_of(Cell cell) const { return raster_.in_cell(package_, cell, HeightAbove::ground, 1.5F); }
 
   /// The whole raster, cells in parallel; bits, so that no data equals no data.
@@ -70,8 +80,12 @@ TEST_P(SkyViewFactors, DoNotDependOnWhatElseIsAsked) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, SkyViewFactors, testing::Values(Engine::rays, Engine::exact),
-                         [](const auto& test) { return test.param == Engine::rays ? "Rays" : "Exact"; });
+INSTANTIATE_TEST_SUITE_P(Ways, SkyViewFactors,
+                         testing::Values(Way{"RaysBox", Engine::rays, FarMapKind::box},
+                                         Way{"RaysHorizon", Engine::rays, FarMapKind::horizon},
+                                         Way{"RaysHorizonSettled", Engine::rays, FarMapKind::horizon, 0.01},
+                                         Way{"Exact", Engine::exact, FarMapKind::horizon}),
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace farlod

@@ -1,49 +1,71 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
 
-#include "tests/scenes/generated_town.hpp"
-#include "tests/validation/paper_experiment.hpp"
+#include "tests/validation/report.hpp"
 
-// Prints the table of docs/validation.md. The city: farlod-city --size 3520 --seed 1 --towers 0.3 --rotation 20 --lod 1.
+// Prints the sections of docs/validation.md that are measured, and writes their plots. scripts/validate runs it.
 
+namespace farlod::validation {
 namespace {
 
-void print_row(double cell_edge_m, const char* what, const farlod::ErrorSummary& e) {
-  std::printf("| %g | %s | %.4f | %.4f | %.4f | %+.4f |\n", cell_edge_m, what, e.mean_abs_error, e.p99_abs_error, e.max_abs_error,
-              e.bias);
+/// The generated one and two real ones.
+constexpr std::size_t city_count = 3;
+
+struct Options {
+  bool quick = false;
+  std::filesystem::path data, figures = "docs/figures";
+};
+
+std::vector<StudiedCity> cities_of(const Options& options, const Extent& extent) {
+  std::vector<StudiedCity> cities;
+  cities.push_back(generated_city(extent.generated_size_m));
+  const auto add = [&](const std::string& name, const std::string& height_field) {
+    const std::filesystem::path file = options.data / name / (name + ".geojson");
+    if (std::filesystem::exists(file)) cities.push_back(footprint_city(name, file, height_field));
+  };
+  add("omiya", "TAKASA");
+  add("manhattan", "height");
+  return cities;
 }
 
-void run() {
-  farlod::CitySettings settings;
-  settings.size_m = 3520;
-  settings.tower_share = 0.3;
-  settings.rotation_deg = 20;
-  const farlod::CityModel city = farlod::scenes::generated_town(settings);
-  farlod::PaperExperiment experiment;
-  experiment.bearing_deg = settings.rotation_deg;
-  std::printf(
-      "Generated city: %zu buildings, %llu polygons; %zu receivers 1.5 m above ground; N = %d; against %zu rays that see the "
-      "whole city.\n\n",
-      city.buildings().size(), static_cast<unsigned long long>(city.surface_count()), experiment.receivers,
-      experiment.neighborhood, experiment.reference_rays);
-  std::printf("| cell, m | far field | mean | 99 %% | max | bias |\n|---|---|---|---|---|---|\n");
-  for (const farlod::PaperRow& row : farlod::run_paper_experiment(city, experiment)) {
-    print_row(row.cell_edge_m, "dropped", row.dropped);
-    print_row(row.cell_edge_m, "paper's map", row.far_map);
-    print_row(row.cell_edge_m, "paper's map, 1,000 rays (the default)", row.delivered);
-  }
+CityResults study(const StudiedCity& city, const Extent& extent) {
+  const StudySites sites = choose_sites(city, extent);
+  return {study_far_field(city, sites, extent), study_sampling(city, sites, extent), study_alignment(city, extent)};
+}
+
+int run(const Options& options) {
+  const Extent extent = options.quick ? quick_extent() : Extent();
+  std::filesystem::create_directories(options.figures);
+  const std::vector<StudiedCity> cities = cities_of(options, extent);
+  Results results{extent, {}, cities.size() < city_count, cities.front().name, {}};
+  for (const StudiedCity& city : cities) results.cities.push_back(study(city, extent));
+  results.settings = study_settings(cities.front(), extent);
+  write_plots(results, options.figures);
+  std::fputs(markdown(results).c_str(), stdout);
+  return 0;
 }
 
 }  // namespace
+}  // namespace farlod::validation
 
-int main() {
+int main(int argc, char** argv) {
+  CLI::App app("farlod-validate — measures errors of sky view factors, for docs/validation.md", "farlod-validate");
+  farlod::validation::Options options;
+  app.add_flag("--quick", options.quick, "A small city and few receivers");
+  app.add_option("--data", options.data, "Folder of the real cities; those that are absent are left out");
+  app.add_option("--figures", options.figures, "Where plots go")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
   try {
-    run();
-    return 0;
+    return farlod::validation::run(options);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "farlod-paper-experiment: %s\n", error.what());
+    std::fprintf(stderr, "farlod-validate: %s\n", error.what());
     return 1;
   }
 }

@@ -72,8 +72,27 @@ TEST(Pack, CountsWhatIsInThePackage) {
   EXPECT_EQ(package.manifest().buildings, m.buildings);
 }
 
-TEST(Pack, WritesEveryBlockOfTheGridAndSaysHowManyBytes) {
+/// Of the sections of a tiles file that far maps of the kind `horizon` need.
+std::uint64_t far_bytes_in_tiles(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  package::Header header{};
+  file.read(reinterpret_cast<char*>(&header), sizeof header);
+  std::uint64_t bytes = 0;
+  for (std::uint32_t n = 0; n < header.section_count; ++n) {
+    package::Section section{};
+    file.read(reinterpret_cast<char*>(&section), sizeof section);
+    if (section.kind >= package::SectionKind::far_cells) bytes += section.count * section.element_bytes;
+  }
+  return bytes;
+}
+
+class PackKind : public testing::TestWithParam<FarMapKind> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, PackKind, testing::Values(FarMapKind::box, FarMapKind::horizon),
+                         [](const auto& test) { return scenes::name_of(test.param); });
+
+TEST_P(PackKind, WritesEveryBlockOfTheGridAndSaysHowManyBytes) {
   TownPacking p;
+  p.settings.far_map.kind = GetParam();
   p.run();
   const package::Manifest& m = p.result.manifest;
   std::vector<Block> written;
@@ -85,9 +104,11 @@ TEST(Pack, WritesEveryBlockOfTheGridAndSaysHowManyBytes) {
     if (!entry.is_regular_file()) continue;
     bytes += entry.file_size();
     if (entry.path().filename() == package::far_map_file) far_map_bytes += entry.file_size();
+    if (entry.path().filename() == package::tiles_file) far_map_bytes += far_bytes_in_tiles(entry.path());
   }
   EXPECT_EQ(p.result.package_bytes, bytes);
   EXPECT_EQ(p.result.far_map_bytes, far_map_bytes);
+  EXPECT_EQ(Package(p.settings.output).manifest().far_map.is_box(), GetParam() == FarMapKind::box);
 }
 
 TEST(Pack, WhatIsLeftOutIsInTheReportAndNotInThePackage) {

@@ -32,7 +32,7 @@ class WallToTheNorth : public testing::Test {
     builder.add_wall({-half_width_m, distance_m}, {half_width_m, distance_m}, 0.0, eye_m + height_m);
     builder.add_box({{-0.5, -0.5}, {0.5, 0.5}}, 0.0, 0.01);
     scenes::pack_city(builder.city(), scenes::grid_covering(builder.city(), {}, cell_m, 1, 4), folder_.path() / "wall.farlod",
-                      {W, H, eye_m});
+                      scenes::box_maps(W, H));
   }
 
   /// Whether the format says that a texel of the map of cell (0, 0) is hidden.
@@ -47,7 +47,7 @@ class WallToTheNorth : public testing::Test {
 
 TEST_F(WallToTheNorth, IsInTheNorthernColumns) {
   const Package package(folder_.path() / "wall.farlod");
-  const FarMap map = package.far_map({0, 0});
+  const BoxFarMap map = package.box_far_map({0, 0});
   const double top = map.shape().top;
   // The box is as high as the wall of the nearest cell could be, seen from the middle
   EXPECT_GE(top, height_m / distance_m);
@@ -61,7 +61,7 @@ TEST_F(WallToTheNorth, IsInTheNorthernColumns) {
 }
 
 TEST_F(WallToTheNorth, OpenExrSeesItUpright) {
-  const double top = Package(folder_.path() / "wall.farlod").far_map({0, 0}).shape().top;
+  const double top = Package(folder_.path() / "wall.farlod").box_far_map({0, 0}).shape().top;
   Imf::TiledInputFile file((folder_.path() / "wall.farlod" / package::block_folder({0, 0}) / package::far_map_file).c_str());
   ASSERT_EQ(file.tileXSize(), 4 * W);
   ASSERT_EQ(file.tileYSize(), H);

@@ -42,9 +42,25 @@ bool tile_is_sound(const TileView& tile, const Bytes& bytes) {
          std::all_of(tile.triangle_surfaces.begin(), tile.triangle_surfaces.end(), surface_exists);
 }
 
+bool far_map_is_sound(const NamedObstacles& named, const std::vector<float>& levels_m, const Bytes& bytes) {
+  const auto is_inside = [&](const auto& part) { return lies_within(part, bytes); };
+  if (!is_inside(named.edges) || !is_inside(named.triangles) || !is_inside(named.named_edges) ||
+      !is_inside(named.named_triangles))
+    return false;
+  const auto exist = [](const std::span<const NamedObstacle>& list, std::size_t count) {
+    return std::all_of(list.begin(), list.end(), [count](const NamedObstacle& n) { return n.row < count; });
+  };
+  return exist(named.named_edges, named.edges.size()) && exist(named.named_triangles, named.triangles.size()) &&
+         std::is_sorted(levels_m.begin(), levels_m.end()) && std::isfinite(levels_m.front() + levels_m.back());
+}
+
 bool is_sound(const BlockTiles& tiles, const Bytes& bytes) {
-  for (std::size_t n = 0; n < static_cast<std::size_t>(SmallPackage::cells_of_two.size()); ++n)
-    if (!tile_is_sound(tiles.tile(SmallPackage::cells_of_two.cell_at(n)), bytes)) return false;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(SmallPackage::cells_of_two.size()); ++n) {
+    const Cell cell = SmallPackage::cells_of_two.cell_at(n);
+    if (!tile_is_sound(tiles.tile(cell), bytes)) return false;
+    if (!tiles.has_far_cells()) continue;
+    if (!far_map_is_sound(tiles.named_obstacles(cell, 20.0), tiles.levels_m(cell, most_layers), bytes)) return false;
+  }
   return std::all_of(tiles.buildings().begin(), tiles.buildings().end(), [&](const BuildingRecord& b) {
     const std::string_view id = tiles.id_of(b);
     return lies_within(std::span(id.data(), id.size()), bytes);
@@ -62,8 +78,10 @@ Outcome outcome_of(const Bytes& bytes) {
   return Outcome::refused;
 }
 
-TEST(Package, EachFlippedByteOfTilesIsRefusedOrHarmless) {
-  Bytes bytes = bytes_of(SmallPackage().file(SmallPackage::two_cells, tiles_file));
+class FlippedBytes : public testing::TestWithParam<FarMapKind> {};
+
+TEST_P(FlippedBytes, OfTilesAreRefusedOrHarmless) {
+  Bytes bytes = bytes_of(SmallPackage(GetParam()).file(SmallPackage::two_cells, tiles_file));
   ASSERT_EQ(outcome_of(bytes), Outcome::sound);
   std::size_t refused = 0;
   for (std::size_t n = 0; n < bytes.size(); ++n)
@@ -78,8 +96,8 @@ TEST(Package, EachFlippedByteOfTilesIsRefusedOrHarmless) {
   EXPECT_GT(refused, 20 * std::size(changes));
 }
 
-TEST(Package, EachFlippedByteOfTheManifestIsRefusedOrHarmless) {
-  const SmallPackage small;
+TEST_P(FlippedBytes, OfTheManifestAreRefusedOrHarmless) {
+  const SmallPackage small(GetParam());
   const auto path = small.folder() / manifest_file;
   Bytes bytes = bytes_of(path);
   for (std::size_t n = 0; n < bytes.size(); ++n)
@@ -89,13 +107,17 @@ TEST(Package, EachFlippedByteOfTheManifestIsRefusedOrHarmless) {
       try {
         const Manifest m = read_manifest(small.folder());
         EXPECT_EQ(m.blocks.size(), m.grid.blocks().size());
-        EXPECT_TRUE(m.grid.cells.size() > 0 && m.grid.cell_edge_m > 0 && m.far_map_rows > 0);
+        EXPECT_TRUE(m.grid.cells.size() > 0 && m.grid.cell_edge_m > 0 && m.far_map.picture_rows() > 0 &&
+                    m.far_map.picture_columns() > 0);
       } catch (const PackageDamaged&) {
       } catch (const PackageUnusable&) {
       }
       bytes[n] ^= change;
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, FlippedBytes, testing::Values(FarMapKind::box, FarMapKind::horizon),
+                         [](const auto& test) { return scenes::name_of(test.param); });
 
 }  // namespace
 }  // namespace farlod

@@ -13,6 +13,7 @@ namespace farlod {
 namespace {
 
 using nlohmann::json;
+using package::most_layers;
 using testing::HasSubstr;
 
 std::string damage_of(const SmallPackage& small, const json& manifest) {
@@ -62,7 +63,7 @@ TEST(Package, ManifestTruncated) {
 
 TEST(Package, ManifestOfNewerVersion) {
   const SmallPackage small;
-  for (const std::uint64_t version : {std::uint64_t{2}, std::uint64_t{0xFFFFFFFF}}) {
+  for (const std::uint64_t version : {std::uint64_t{package::format_version} + 1, std::uint64_t{0xFFFFFFFF}}) {
     json m = small.manifest();
     m["version"] = version;
     m.erase("grid");  // a later version may say it otherwise
@@ -73,16 +74,21 @@ TEST(Package, ManifestOfNewerVersion) {
 
 TEST(Package, ManifestOfNoVersion) {
   const SmallPackage small;
-  // The last would be 1, were it cut to 32 bits
-  for (const json& version : {json(0), json(-1), json("1"), json(1.5), json(true), json((std::uint64_t{1} << 32) + 1)}) {
+  // The last would be ours, were it cut to 32 bits; version 1 was never released
+  for (const json& version :
+       {json(0), json(1), json(-1), json("2"), json(2.5), json(true), json((std::uint64_t{1} << 32) + package::format_version)}) {
     json m = small.manifest();
     m["version"] = version;
     EXPECT_NE(damage_of(small, m), "no damage") << version;
   }
 }
 
-TEST(Package, ManifestWithMissingKey) {
-  const SmallPackage small;
+class ManifestOfKind : public testing::TestWithParam<FarMapKind> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, ManifestOfKind, testing::Values(FarMapKind::box, FarMapKind::horizon),
+                         [](const auto& test) { return scenes::name_of(test.param); });
+
+TEST_P(ManifestOfKind, WithMissingKey) {
+  const SmallPackage small(GetParam());
   const json whole = small.manifest();
   ASSERT_EQ(damage_of(small, whole), "no damage");
   for (const json::json_pointer& place : places_of(whole)) {
@@ -95,8 +101,8 @@ TEST(Package, ManifestWithMissingKey) {
   }
 }
 
-TEST(Package, ManifestWithSomethingElseInAPlace) {
-  const SmallPackage small;
+TEST_P(ManifestOfKind, WithSomethingElseInAPlace) {
+  const SmallPackage small(GetParam());
   const json whole = small.manifest();
   for (const json::json_pointer& place : places_of(whole))
     for (const json& other : {json::object({{"a", 1}}), json(true)}) {
@@ -107,8 +113,8 @@ TEST(Package, ManifestWithSomethingElseInAPlace) {
     }
 }
 
-TEST(Package, ManifestWithAFractionForAWholeNumber) {
-  const SmallPackage small;
+TEST_P(ManifestOfKind, WithAFractionForAWholeNumber) {
+  const SmallPackage small(GetParam());
   const json whole = small.manifest();
   for (const json::json_pointer& place : places_of(whole)) {
     if (!whole[place].is_number_integer()) continue;
@@ -186,6 +192,28 @@ TEST(Package, ManifestWithImpossibleSettings) {
   }
 }
 
+TEST(Package, ManifestWithImpossibleHorizons) {
+  const SmallPackage small(FarMapKind::horizon);
+  const json whole = small.manifest();
+  const std::pair<const char*, json> changes[] = {
+      {"azimuth_bins", 0},     {"azimuth_bins", 65537}, {"azimuth_bins", -8},        {"squares_per_edge", 0},
+      {"squares_per_edge", 5}, {"layers", 0},           {"layers", most_layers + 1}, {"tolerance", -0.1},
+      {"tolerance", nullptr},  {"kind", "box"},         {"kind", "Horizon"}};
+  for (const auto& [key, value] : changes) {
+    json m = whole;
+    m["settings"]["far_map"][key] = value;
+    EXPECT_NE(damage_of(small, m), "no damage") << key << " = " << value;
+  }
+  for (const auto& [key, value] : {std::pair<const char*, json>{"azimuth_bins", 65536},
+                                   {"squares_per_edge", 4},
+                                   {"layers", most_layers},
+                                   {"tolerance", 0}}) {
+    json m = whole;
+    m["settings"]["far_map"][key] = value;
+    EXPECT_EQ(damage_of(small, m), "no damage") << key << " = " << value;
+  }
+}
+
 TEST(Package, ManifestThatIsNotJson) {
   const SmallPackage small;
   const auto path = small.folder() / package::manifest_file;
@@ -204,10 +232,10 @@ TEST(Package, UnknownKeysOfTheManifestAreSkipped) {
   EXPECT_EQ(damage_of(small, m), "no damage");
 }
 
-TEST(Package, EachKeyOfTheManifestIsDocumented) {
+TEST_P(ManifestOfKind, IsDocumentedKeyByKey) {
   std::ifstream file(std::string(FARLOD_SOURCE_DIR) + "/docs/package_format.md");
   const std::string document{std::istreambuf_iterator<char>(file), {}};
-  const json m = SmallPackage().manifest();
+  const json m = SmallPackage(GetParam()).manifest();
   for (const json::json_pointer& place : places_of(m)) {
     if (m[place].is_structured() && !m[place].is_array()) continue;
     std::string key;

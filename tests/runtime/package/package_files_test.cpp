@@ -19,7 +19,9 @@ using testing::HasSubstr;
 std::string damage_of(const SmallPackage& small) {
   return damage_met_by([&] {
     const Package package(small.folder());
-    for (const Cell cell : {Cell{0, 0}, {1, 0}, {2, 0}}) (void)package.far_map(cell);
+    const bool is_box = package.manifest().far_map.is_box();
+    for (const Cell cell : {Cell{0, 0}, {1, 0}, {2, 0}})
+      is_box ? (void)package.box_far_map(cell) : (void)package.far_horizon(cell);
   });
 }
 
@@ -29,17 +31,19 @@ void append_byte(const std::filesystem::path& file) {
   write_bytes(file, bytes);
 }
 
-TEST(Package, UndamagedOpens) {
-  const SmallPackage small;
+class PackageFiles : public testing::TestWithParam<FarMapKind> {};
+
+TEST_P(PackageFiles, UndamagedOpens) {
+  const SmallPackage small(GetParam());
   EXPECT_EQ(damage_of(small), "no damage");
   small.stamp_anew();
   EXPECT_EQ(damage_of(small), "no damage");
 }
 
-TEST(Package, ChecksumMismatch) {
+TEST_P(PackageFiles, ChecksumMismatch) {
   for (const char* name : {tiles_file, far_map_file})
     for (const double place : {0.0, 0.5, 0.999}) {
-      const SmallPackage small;
+      const SmallPackage small(GetParam());
       const auto file = small.file(SmallPackage::one_cell, name);
       Bytes bytes = bytes_of(file);
       bytes[static_cast<std::size_t>(place * static_cast<double>(bytes.size()))] ^= std::byte{1};
@@ -48,17 +52,17 @@ TEST(Package, ChecksumMismatch) {
     }
 }
 
-TEST(Package, SizeMismatch) {
+TEST_P(PackageFiles, SizeMismatch) {
   for (const char* name : {tiles_file, far_map_file}) {
-    const SmallPackage small;
+    const SmallPackage small(GetParam());
     append_byte(small.file(SmallPackage::two_cells, name));
     EXPECT_THAT(damage_of(small), AllOf(HasSubstr(name), HasSubstr("bytes, the manifest says")));
   }
 }
 
-TEST(Package, MissingFile) {
+TEST_P(PackageFiles, MissingFile) {
   for (const char* name : {tiles_file, far_map_file}) {
-    const SmallPackage small;
+    const SmallPackage small(GetParam());
     const auto file = small.file(SmallPackage::one_cell, name);
     std::filesystem::remove(file);
     EXPECT_THAT(damage_of(small), HasSubstr(file.string()));
@@ -67,9 +71,9 @@ TEST(Package, MissingFile) {
   }
 }
 
-TEST(Package, EmptyFile) {
+TEST_P(PackageFiles, EmptyFile) {
   for (const char* name : {tiles_file, far_map_file}) {
-    const SmallPackage small;
+    const SmallPackage small(GetParam());
     write_bytes(small.file(SmallPackage::one_cell, name), {});
     EXPECT_THAT(damage_of(small), HasSubstr("has 0 bytes"));
     small.stamp_anew();
@@ -77,31 +81,31 @@ TEST(Package, EmptyFile) {
   }
 }
 
-TEST(Package, TilesOfAnotherBlock) {
-  const SmallPackage small;
+TEST_P(PackageFiles, TilesOfAnotherBlock) {
+  const SmallPackage small(GetParam());
   write_bytes(small.file(SmallPackage::two_cells, tiles_file), bytes_of(small.file(SmallPackage::one_cell, tiles_file)));
   small.stamp_anew();
   EXPECT_THAT(damage_of(small), HasSubstr("does not hold the cells of its block"));
 }
 
-TEST(Package, FarMapsOfAnotherBlock) {
-  const SmallPackage small;
+TEST_P(PackageFiles, FarMapsOfAnotherBlock) {
+  const SmallPackage small(GetParam());
   write_bytes(small.file(SmallPackage::two_cells, far_map_file), bytes_of(small.file(SmallPackage::one_cell, far_map_file)));
   EXPECT_THAT(damage_of(small), HasSubstr("far.exr is damaged"));
   small.stamp_anew();
   EXPECT_THAT(damage_of(small), HasSubstr("does not hold a map for each cell"));
 }
 
-TEST(Package, FarMapsOfAnotherSize) {
-  const SmallPackage small;
+TEST_P(PackageFiles, FarMapsOfAnotherSize) {
+  const SmallPackage small(GetParam());
   nlohmann::json m = small.manifest();
-  m["settings"]["far_map"]["rows"] = 8;
+  m["settings"]["far_map"][GetParam() == FarMapKind::box ? "rows" : "layers"] = 8;
   small.write_manifest(m);
   EXPECT_THAT(damage_of(small), HasSubstr("not of the size that the manifest says"));
 }
 
-TEST(Package, FarMapsTruncated) {
-  const SmallPackage small;
+TEST_P(PackageFiles, FarMapsTruncated) {
+  const SmallPackage small(GetParam());
   const auto file = small.file(SmallPackage::two_cells, far_map_file);
   const Bytes whole = bytes_of(file);
   for (std::size_t cut = 0; cut < whole.size(); cut += 13) {
@@ -111,22 +115,43 @@ TEST(Package, FarMapsTruncated) {
   }
 }
 
-TEST(Package, FarMapsThatAreAnotherPicture) {
-  const SmallPackage small;
+TEST_P(PackageFiles, FarMapsThatAreAnotherPicture) {
+  const SmallPackage small(GetParam());
   const std::string text = "P3 1 1 255 0 0 0";
   write_bytes(small.file(SmallPackage::one_cell, far_map_file), std::as_bytes(std::span(text)));
   small.stamp_anew();
   EXPECT_THAT(damage_of(small), HasSubstr("cannot be read as a far map"));
 }
 
-TEST(Package, WhatIsNotAskedForIsNotOpened) {
-  const SmallPackage small;
+TEST_P(PackageFiles, WhatIsNotAskedForIsNotOpened) {
+  const SmallPackage small(GetParam());
   std::filesystem::remove(small.file(SmallPackage::one_cell, tiles_file));
   const Package package(small.folder());
   EXPECT_GT(package.tile({0, 0}).mesh.triangles.size(), 0U);
   EXPECT_THROW((void)package.tile({2, 0}), PackageDamaged);
   EXPECT_THROW((void)package.tile({2, 0}), PackageDamaged) << "asking again must not help";
 }
+
+TEST(Package, HorizonsWithoutNamesAreRefused) {
+  // The tiles of a package of the other kind, with matching stamps
+  const SmallPackage small(FarMapKind::horizon), other(FarMapKind::box);
+  for (const Block block : {SmallPackage::one_cell, SmallPackage::two_cells})
+    write_bytes(small.file(block, tiles_file), bytes_of(other.file(block, tiles_file)));
+  small.stamp_anew();
+  EXPECT_THAT(damage_of(small), HasSubstr("does not name what its far maps need"));
+}
+
+TEST(Package, FarMapsOfTheOtherKindAreRefused) {
+  for (const FarMapKind kind : {FarMapKind::box, FarMapKind::horizon}) {
+    const SmallPackage small(kind), other(kind == FarMapKind::box ? FarMapKind::horizon : FarMapKind::box);
+    write_bytes(small.file(SmallPackage::one_cell, far_map_file), bytes_of(other.file(SmallPackage::one_cell, far_map_file)));
+    small.stamp_anew();
+    EXPECT_THAT(damage_of(small), HasSubstr("far.exr is damaged"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, PackageFiles, testing::Values(FarMapKind::box, FarMapKind::horizon),
+                         [](const auto& test) { return scenes::name_of(test.param); });
 
 }  // namespace
 }  // namespace farlod

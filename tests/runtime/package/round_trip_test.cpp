@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
+#include <string>
+#include <variant>
 
+#include "farmap/far_map_baker.hpp"
 #include "package/package.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
@@ -15,18 +19,33 @@ namespace {
 
 /// A half has 11 digits: it is off by at most half of the last.
 constexpr float half_precision = 1.0F / 4096;
-constexpr FarMapSettings map_settings{8, 6, 1.5};
+constexpr float smallest_half = 0x1p-24F;
+
+FarMapSettings maps_of(FarMapKind kind) {
+  if (kind == FarMapKind::box) return scenes::box_maps(8, 6);
+  FarMapSettings settings;
+  settings.horizon = {32, 2, 4, 0.05};
+  return settings;
+}
 
 CityModel small_town() {
   scenes::SceneBuilder builder({3.0, -1.0, 12.0}, Angle::degrees(11));
   for (int n = 0; n < 6; ++n) builder.add_box({{30.0 * n, -20.0 + 9 * n}, {30.0 * n + 17, 6.0 + 9 * n}}, 0.5 * n, 8.0 + 4 * n);
+  // A bridge, which is seen from under
+  builder.add_box({{14.0, 5.0}, {120.0, 9.0}}, 15.0, 16.0);
   return builder.city();
 }
 
 /// The town as it was before it was written, and as it came back.
 class RoundTrip : public testing::TestWithParam<Assign> {
  protected:
-  RoundTrip() { scenes::pack_city(town_, grid_, folder_.path() / "town.farlod", map_settings, GetParam()); }
+  RoundTrip() {
+    for (const FarMapKind kind : {FarMapKind::box, FarMapKind::horizon})
+      scenes::pack_city(town_, grid_, path_of(kind), maps_of(kind), GetParam());
+  }
+  [[nodiscard]] std::filesystem::path path_of(FarMapKind kind) const {
+    return folder_.path() / (std::string(scenes::name_of(kind)) + ".farlod");
+  }
 
   [[nodiscard]] TileSet tiles() const {
     Report report;
@@ -39,7 +58,7 @@ class RoundTrip : public testing::TestWithParam<Assign> {
 };
 
 TEST_P(RoundTrip, TheManifestKeepsThePlace) {
-  const Package package(folder_.path() / "town.farlod");
+  const Package package(path_of(FarMapKind::horizon));
   EXPECT_EQ(package.grid().cells, grid_.cells);
   EXPECT_EQ(package.grid().cell_edge_m, grid_.cell_edge_m);
   EXPECT_EQ(package.grid().neighborhood, grid_.neighborhood);
@@ -53,7 +72,7 @@ TEST_P(RoundTrip, TheManifestKeepsThePlace) {
 
 TEST_P(RoundTrip, TilesAreTheSame) {
   const TileSet before = tiles();
-  const Package package(folder_.path() / "town.farlod");
+  const Package package(path_of(FarMapKind::horizon));
   for (std::size_t n = 0; n < before.tiles.size(); ++n) {
     const Tile& tile = before.tiles[n];
     const TileView view = package.tile(before.cells.cell_at(n));
@@ -67,7 +86,7 @@ TEST_P(RoundTrip, TilesAreTheSame) {
 
 TEST_P(RoundTrip, SurfacesAndBuildingsAreTheSame) {
   const TileSet before = tiles();
-  const Package package(folder_.path() / "town.farlod");
+  const Package package(path_of(FarMapKind::horizon));
   for (std::size_t n = 0; n < before.tiles.size(); ++n) {
     const Cell cell = before.cells.cell_at(n);
     const BlockTiles& block = package.block_tiles(cell);
@@ -88,16 +107,16 @@ TEST_P(RoundTrip, SurfacesAndBuildingsAreTheSame) {
   }
 }
 
-TEST_P(RoundTrip, FarMapsAreTheSameToHalfPrecision) {
+TEST_P(RoundTrip, BoxMapsAreTheSameToHalfPrecision) {
   const TileSet before = tiles();
-  const BoxMapBaker baker(before, grid_, GetParam(), map_settings);
-  const Package package(folder_.path() / "town.farlod");
+  const FarMapBaker baker(before, grid_, GetParam(), maps_of(FarMapKind::box));
+  const Package package(path_of(FarMapKind::box));
   std::size_t blocked = 0;
   for (const Block block : grid_.blocks()) {
-    const std::vector<BakedMap> maps = baker.bake(block);
+    const auto maps = std::get<BakedBoxes>(baker.bake(block));
     for (std::size_t n = 0; n < maps.size(); ++n) {
       const Cell cell = grid_.cells_of(block).cell_at(n);
-      const FarMap map = package.far_map(cell);
+      const BoxFarMap map = package.box_far_map(cell);
       EXPECT_EQ(package.tile(cell).cell->far_map_top, maps[n].shape.top);
       EXPECT_EQ(package.tile(cell).cell->capture_z_m, maps[n].capture_cell.z);
       for (std::size_t k = 0; k < maps[n].distance_m.size(); ++k) {
@@ -112,6 +131,66 @@ TEST_P(RoundTrip, FarMapsAreTheSameToHalfPrecision) {
     }
   }
   EXPECT_GT(blocked, 100U) << "the scene tests nothing";
+}
+
+/// What names are worth: rows may be numbered anew, obstacles stay.
+template <class Obstacle>
+void expect_same_names(std::span<const package::NamedObstacle> a, std::span<const Obstacle> of_a,
+                       std::span<const package::NamedObstacle> b, std::span<const Obstacle> of_b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    EXPECT_EQ(of_a[a[n].row], of_b[b[n].row]);
+    EXPECT_EQ(std::pair(a[n].squares, a[n].layers), std::pair(b[n].squares, b[n].layers));
+  }
+}
+
+TEST_P(RoundTrip, WhatHorizonsNameIsTheSame) {
+  const TileSet before = tiles();
+  const FarMapBaker baker(before, grid_, GetParam(), maps_of(FarMapKind::horizon));
+  const Package package(path_of(FarMapKind::horizon));
+  std::size_t edges = 0, triangles = 0;
+  for (const Block block : grid_.blocks()) {
+    const auto maps = std::get<BakedHorizons>(baker.bake(block));
+    const CellRange cells = grid_.cells_of(block);
+    for (std::size_t n = 0; n < maps.cells.size(); ++n) {
+      const FarHorizon map = package.far_horizon(cells.cell_at(n));
+      EXPECT_EQ(map.patches.levels_m(), maps.cells[n].patches.levels_m());
+      EXPECT_EQ(map.patches.squares_per_edge(), maps.cells[n].patches.squares_per_edge());
+      expect_same_names<HorizonEdge>(map.named.named_edges, map.named.edges, maps.cells[n].named_edges, maps.edges);
+      expect_same_names<package::FarTriangle>(map.named.named_triangles, map.named.triangles, maps.cells[n].named_triangles,
+                                              maps.triangles);
+      EXPECT_EQ(map.named.cell_from_block_m, grid_.corner_of(cells.cell_at(0)) - grid_.corner_of(cells.cell_at(n)));
+      edges += map.named.named_edges.size();
+      triangles += map.named.named_triangles.size();
+    }
+  }
+  EXPECT_GT(edges, 100U) << "the scene tests nothing";
+  EXPECT_GT(triangles, 10U) << "the scene tests nothing";
+}
+
+TEST_P(RoundTrip, SlopesAreRoundedOutwardsToHalfPrecision) {
+  const TileSet before = tiles();
+  const FarMapBaker baker(before, grid_, GetParam(), maps_of(FarMapKind::horizon));
+  const Package package(path_of(FarMapKind::horizon));
+  std::size_t uncertain = 0;
+  for (const Block block : grid_.blocks()) {
+    const auto maps = std::get<BakedHorizons>(baker.bake(block));
+    for (std::size_t n = 0; n < maps.cells.size(); ++n) {
+      const FarHorizon read = package.far_horizon(grid_.cells_of(block).cell_at(n));
+      const BakedHorizon& written = maps.cells[n];
+      ASSERT_EQ(read.upper.size(), written.upper.size());
+      for (std::size_t k = 0; k < written.upper.size(); ++k) {
+        EXPECT_LE(read.lower[k], written.lower[k]);
+        EXPECT_GE(read.upper[k], written.upper[k]);
+        // Outwards, by one of the last digits of a half at the most
+        EXPECT_NEAR(read.lower[k], written.lower[k], 4 * half_precision * written.lower[k] + smallest_half);
+        EXPECT_NEAR(read.upper[k], written.upper[k], 4 * half_precision * written.upper[k] + smallest_half);
+        EXPECT_NEAR(read.likely[k], written.likely[k], 2 * half_precision * written.likely[k] + smallest_half);
+        uncertain += written.upper[k] > written.lower[k] ? 1U : 0U;
+      }
+    }
+  }
+  EXPECT_GT(uncertain, 100U) << "the scene tests nothing";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RoundTrip, testing::Values(Assign::clip, Assign::whole),

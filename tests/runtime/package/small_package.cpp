@@ -25,12 +25,25 @@ void write_bytes(const fs::path& path, std::span<const std::byte> bytes) {
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
-SmallPackage::SmallPackage() {
+namespace {
+
+FarMapSettings maps_of(FarMapKind kind) {
+  if (kind == FarMapKind::box) return scenes::box_maps(4, 4);
+  FarMapSettings settings;
+  settings.horizon.azimuth_bins = 8;
+  settings.horizon.layers = 3;
+  return settings;
+}
+
+}  // namespace
+
+SmallPackage::SmallPackage(FarMapKind kind) {
   scenes::SceneBuilder builder;
   for (const double x : {2.0, 22.0, 42.0}) builder.add_box({{x, 3.0}, {x + 6.0, 9.0}}, 0.0, 4.0 + x);
+  builder.add_box({{10.0, 14.0}, {32.0, 17.0}}, 9.0, 10.0);
   const Grid grid = scenes::grid_covering(builder.city(), {}, 20.0, 1, 2);
   FARLOD_EXPECTS(grid.cells == (CellRange{0, 0, 3, 1}));
-  scenes::pack_city(builder.city(), grid, folder_, {4, 4, 1.5});
+  scenes::pack_city(builder.city(), grid, folder_, maps_of(kind));
   // Give all lists of the manifest an entry
   json m = manifest();
   m["inputs"].push_back({{"name", "town.gml"}, {"bytes", 1}, {"xxh3", "ff"}});

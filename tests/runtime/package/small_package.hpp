@@ -23,10 +23,10 @@ using Bytes = std::vector<std::byte>;
 void write_bytes(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
 /// A package of three cells in two blocks, (0, 0) with two cells and (1, 0) with one, a house in each; and the means to damage
-/// it.
+/// it. A bridge between the houses is seen from under.
 class SmallPackage {
  public:
-  SmallPackage();
+  explicit SmallPackage(FarMapKind kind = FarMapKind::box);
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   [[nodiscard]] std::filesystem::path file(Block block, const char* name) const {

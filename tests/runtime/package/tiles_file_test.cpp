@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 
 #include "package/block_tiles.hpp"
@@ -21,7 +22,7 @@ constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
 TilesBytes whole_file() {
-  static const Bytes bytes = bytes_of(SmallPackage().file(SmallPackage::two_cells, tiles_file));
+  static const Bytes bytes = bytes_of(SmallPackage(FarMapKind::horizon).file(SmallPackage::two_cells, tiles_file));
   return TilesBytes(bytes);
 }
 
@@ -78,7 +79,9 @@ TEST(Package, FutureVersion) {
     file.header().version = version;
     EXPECT_THROW((void)open(file), PackageUnusable) << version;
   }
-  EXPECT_THAT(damage_after([](TilesBytes& f) { f.header().version = 0; }), HasSubstr("format version does not exist"));
+  for (const std::uint32_t version : {0U, format_version - 1})
+    EXPECT_THAT(damage_after([version](TilesBytes& f) { f.header().version = version; }),
+                HasSubstr("format version does not exist"));
 }
 
 TEST(Package, Truncated) {
@@ -210,7 +213,9 @@ TEST(Package, SurfaceOfUnknownKind) {
 }
 
 TEST(Package, IdReachesBeyondTheText) {
-  const auto building = [](TilesBytes& f) -> BuildingRecord& { return f.element<BuildingRecord>(SectionKind::buildings, 1); };
+  const auto building = [](TilesBytes& f) -> BuildingRecord& {
+    return f.element<BuildingRecord>(SectionKind::buildings, f.section(SectionKind::buildings).count - 1);
+  };
   EXPECT_THAT(damage_after([=](TilesBytes& f) { ++building(f).text_bytes; }), HasSubstr("id reaches beyond"));
   EXPECT_THAT(damage_after([=](TilesBytes& f) { building(f).text_offset = ~std::uint64_t{0}; }), HasSubstr("id reaches beyond"));
 }
@@ -233,6 +238,10 @@ TEST(Package, NotANumber) {
     for (auto part : {&CellRecord::z_low_m, &CellRecord::z_high_m})
       EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<CellRecord>(SectionKind::cells, 1).*part = bad; }),
                   HasSubstr("cell's heights"));
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<HorizonEdge>(SectionKind::far_edges, 0).b.y = bad; }),
+                HasSubstr("far edge lies nowhere on Earth"));
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<FarTriangle>(SectionKind::far_triangles, 0)[2].z = bad; }),
+                HasSubstr("far triangle lies nowhere on Earth"));
   }
 }
 
@@ -251,6 +260,69 @@ TEST(Package, HeightsThatAreNotTheVertices) {
                   HasSubstr("cell's heights"));
 }
 
+TEST(Package, FarPlacesNowhereOnEarth) {
+  for (const float huge : {2e7F, -1e20F})
+    for (auto part : {&Point3f::x, &Point3f::y, &Point3f::z}) {
+      for (auto end : {&HorizonEdge::a, &HorizonEdge::b})
+        EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<HorizonEdge>(SectionKind::far_edges, 0).*end.*part = huge; }),
+                    HasSubstr("far edge lies nowhere on Earth"));
+      for (const std::size_t corner : {0U, 1U, 2U})
+        EXPECT_THAT(
+            damage_after([=](TilesBytes& f) { f.element<FarTriangle>(SectionKind::far_triangles, 0)[corner].*part = huge; }),
+            HasSubstr("far triangle lies nowhere on Earth"));
+    }
+}
+
+TEST(Package, NotEveryCellHasAFarMap) {
+  EXPECT_THAT(damage_after([](TilesBytes& f) { --f.section(SectionKind::far_cells).count; }),
+              HasSubstr("not every cell has a far map"));
+  // None at all is the other kind
+  TilesBytes file = whole_file();
+  for (const SectionKind kind : {SectionKind::far_cells, SectionKind::far_edges, SectionKind::far_triangles,
+                                 SectionKind::named_edges, SectionKind::named_triangles})
+    file.section(kind).count = 0;
+  EXPECT_EQ(damage_of(file), "no damage");
+  EXPECT_FALSE(open(file).has_far_cells());
+}
+
+TEST(Package, FarMapReachesBeyondItsSections) {
+  const auto cell = [](TilesBytes& f) -> FarCellRecord& { return f.element<FarCellRecord>(SectionKind::far_cells, 1); };
+  for (const std::uint64_t first : {std::uint64_t{1} << 33, ~std::uint64_t{0}}) {
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { cell(f).first_named_edge = first; }), HasSubstr("edges reach beyond"));
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { cell(f).first_named_triangle = first; }), HasSubstr("triangles reach beyond"));
+  }
+  EXPECT_THAT(damage_after([=](TilesBytes& f) { ++cell(f).named_edge_count; }), HasSubstr("edges reach beyond"));
+  EXPECT_THAT(damage_after([=](TilesBytes& f) { ++cell(f).named_triangle_count; }), HasSubstr("triangles reach beyond"));
+}
+
+TEST(Package, FarMapNamesWhatDoesNotExist) {
+  TilesBytes whole = whole_file();
+  const auto edges = static_cast<std::uint32_t>(whole.section(SectionKind::far_edges).count);
+  const auto triangles = static_cast<std::uint32_t>(whole.section(SectionKind::far_triangles).count);
+  ASSERT_GT(edges, 0U);
+  ASSERT_GT(triangles, 0U);
+  for (const std::uint32_t beyond : {0U, 7U}) {
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<NamedObstacle>(SectionKind::named_edges, 0).row = edges + beyond; }),
+                HasSubstr("names an edge that does not exist"));
+    EXPECT_THAT(
+        damage_after([=](TilesBytes& f) { f.element<NamedObstacle>(SectionKind::named_triangles, 0).row = triangles + beyond; }),
+        HasSubstr("names a triangle that does not exist"));
+  }
+}
+
+TEST(Package, LevelsOfAFarMapOutOfOrder) {
+  const auto level = [](TilesBytes& f, std::size_t l) -> float& {
+    return f.element<FarCellRecord>(SectionKind::far_cells, 1).levels_m[l];
+  };
+  for (std::size_t l = 0; l < most_layers; ++l)
+    for (const float bad : {not_a_number, infinite, -infinite, 2e7F, -2e7F})
+      EXPECT_THAT(damage_after([=](TilesBytes& f) { level(f, l) = bad; }), HasSubstr("levels of a far map")) << l << ": " << bad;
+  EXPECT_THAT(damage_after([=](TilesBytes& f) { level(f, 1) = std::nextafter(level(f, 0), -infinite); }),
+              HasSubstr("levels of a far map"));
+  // Layers may be without thickness
+  EXPECT_EQ(damage_after([=](TilesBytes& f) { level(f, 1) = level(f, 0); }), "no damage");
+}
+
 TEST(Package, ReservedFieldsAndUnknownFlagsAreSkipped) {
   EXPECT_EQ(damage_after([](TilesBytes& f) {
               f.header().reserved.fill(0xFF);
@@ -258,6 +330,9 @@ TEST(Package, ReservedFieldsAndUnknownFlagsAreSkipped) {
               f.element<CellRecord>(SectionKind::cells, 0).reserved = 1;
               f.element<CellRecord>(SectionKind::cells, 0).flags = 0xFFFFFFFF;
               f.element<SurfaceRecord>(SectionKind::surfaces, 1).reserved_2 = 1;
+              f.element<FarCellRecord>(SectionKind::far_cells, 1).reserved = 1;
+              f.element<NamedObstacle>(SectionKind::named_edges, 0).squares = 0xFFFF;
+              f.element<NamedObstacle>(SectionKind::named_edges, 0).layers = 0xFFFF;
             }),
             "no damage");
 }

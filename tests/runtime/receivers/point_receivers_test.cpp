@@ -36,7 +36,7 @@ class Slope : public testing::Test {
     if (with_house) builder.add_box({{18.0, 10.0}, {24.0, 16.0}}, 103.0, 115.0);
     const Grid grid = scenes::grid_covering(builder.city(), {}, cell_m, 1, 4);
     const auto folder = folder_.path() / (with_house ? "house.farlod" : "slope.farlod");
-    scenes::pack_city(builder.city(), grid, folder, {1, 1, 1.5});
+    scenes::pack_city(builder.city(), grid, folder, scenes::box_maps(1, 1));
     return Package(folder);
   }
 
@@ -110,7 +110,7 @@ TEST(PointReceivers, OutsideOfTheGridNobodyStandsInAHouse) {
   builder.add_box({{0.0, 0.0}, {12.0, 12.0}}, 0.0, 8.0);
   const scenes::TemporaryFolder folder;
   const Grid grid = scenes::grid_covering(builder.city(), {}, cell_m, 1, 4);
-  scenes::pack_city(builder.city(), grid, folder.path() / "edge.farlod", {1, 1, 1.5});
+  scenes::pack_city(builder.city(), grid, folder.path() / "edge.farlod", scenes::box_maps(1, 1));
   const Package package(folder.path() / "edge.farlod");
   const std::vector<PlaceOfReceiver> places{{{-100.0, 8.0}, {}}, {{8.0, -100.0}, {}}, {{-100.0, 8.0}, 4.0}};
   std::size_t count = 0;

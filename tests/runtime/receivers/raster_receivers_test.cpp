@@ -50,7 +50,7 @@ class RasterOfATown : public testing::TestWithParam<double> {
     scenes::SceneBuilder builder;
     for (const double x : {0.0, 21.0, 43.0}) builder.add_box({{x, 0.5 * x}, {x + 11.0, 0.5 * x + 9.0}}, 0.0, 6.0);
     const Grid grid = scenes::grid_covering(builder.city(), Angle::degrees(bearing_deg), 16.0, 1, 2);
-    scenes::pack_city(builder.city(), grid, folder_.path() / "town.farlod", {1, 1, 1.5});
+    scenes::pack_city(builder.city(), grid, folder_.path() / "town.farlod", scenes::box_maps(1, 1));
     return Package(folder_.path() / "town.farlod");
   }
 

@@ -28,7 +28,7 @@ class TouchingHouses : public testing::Test {
     builder.add_box({{3.0, 3.0}, {27.0, 17.0}}, 0.0, 9.0);
     builder.add_box({{27.0, 7.0}, {51.0, 33.0}}, 0.0, 6.0);
     const Grid grid = scenes::grid_covering(builder.city(), {}, 20.0, 1, 2);
-    scenes::pack_city(builder.city(), grid, folder_.path() / "houses.farlod", {1, 1, 1.5});
+    scenes::pack_city(builder.city(), grid, folder_.path() / "houses.farlod", scenes::box_maps(1, 1));
     return Package(folder_.path() / "houses.farlod");
   }
 
@@ -143,7 +143,7 @@ TEST(SurfaceReceivers, APartyWallOnABorderOfTheGridIsInsideFromBothSides) {
   builder.add_box({{20.0, 3.0}, {37.0, 17.0}}, 0.0, 9.0);
   const Grid grid = scenes::grid_covering(builder.city(), {}, 20.0, 1, 2);
   const scenes::TemporaryFolder folder;
-  scenes::pack_city(builder.city(), grid, folder.path() / "row.farlod", {1, 1, 1.5});
+  scenes::pack_city(builder.city(), grid, folder.path() / "row.farlod", scenes::box_maps(1, 1));
   const Package package(folder.path() / "row.farlod");
   for (const Cell cell : {Cell{0, 0}, {1, 0}})
     for (const SurfaceReceiver& r : surface_receivers(package, cell, SurfaceChoice::walls, 1.0)) {

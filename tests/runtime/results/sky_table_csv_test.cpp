@@ -21,20 +21,25 @@ TEST(CsvField, IsQuotedWhereItMustBe) {
 
 TEST(PointsCsv, IsAsDocumented) {
   const ScratchFolder folder;
-  const std::vector<PointRow> rows{{"square, north", {500000.12345, 5700010.0}, 1.5, 0.5},
-                                   {"inside", {1.0, -2.25}, std::nullopt, std::nullopt}};
-  write_points_csv(rows, "svf_solid", folder.file("a.csv"));
+  const std::vector<PointRow> rows{{"square, north", {500000.12345, 5700010.0}, 1.5, 0.5, 0.25, 0.75},
+                                   {"inside", {1.0, -2.25}, {}, {}, {}, {}}};
+  write_points_csv(rows, "svf_solid", BoundsColumns::no, folder.file("a.csv"));
   EXPECT_EQ(text_of(folder.file("a.csv")),
             "id,x_m,y_m,z_m,svf_solid\n"
             "\"square, north\",500000.123,5700010,1.5,0.500000\n"
             "inside,1,-2.25,,\n");
+  write_points_csv(rows, "svf", BoundsColumns::yes, folder.file("b.csv"));
+  EXPECT_EQ(text_of(folder.file("b.csv")),
+            "id,x_m,y_m,z_m,svf,svf_low,svf_high\n"
+            "\"square, north\",500000.123,5700010,1.5,0.500000,0.250000,0.750000\n"
+            "inside,1,-2.25,,,,\n");
 }
 
 TEST(PointsCsv, CanBeReadAsPointsAgain) {
   const ScratchFolder folder;
-  const std::vector<PointRow> rows{{"the \"first\", quoted\nover two lines", {500000.125, 5700010.25}, 1.5, 0.5},
-                                   {"2nd", {1.0, -2.25}, {}, {}}};
-  write_points_csv(rows, "svf", folder.file("a.csv"));
+  const std::vector<PointRow> rows{{"the \"first\", quoted\nover two lines", {500000.125, 5700010.25}, 1.5, 0.5, {}, {}},
+                                   {"2nd", {1.0, -2.25}, {}, {}, {}, {}}};
+  write_points_csv(rows, "svf", BoundsColumns::no, folder.file("a.csv"));
   const std::vector<RequestedPoint> points = read_points_csv(folder.file("a.csv"));
   ASSERT_EQ(points.size(), rows.size());
   for (std::size_t n = 0; n < rows.size(); ++n) {
@@ -47,11 +52,15 @@ TEST(PointsCsv, CanBeReadAsPointsAgain) {
 TEST(SurfacePointsCsv, IsAsDocumented) {
   const ScratchFolder folder;
   const std::vector<SurfacePointRow> rows{
-      {"b1", 7, SurfaceKind::wall, {10.0, 20.0, 3.125}, Angle::degrees(181.25), Angle::degrees(90.0), 4.0, 0.25}};
-  write_surface_points_csv(rows, "svf", folder.file("a.csv"));
+      {"b1", 7, SurfaceKind::wall, {10.0, 20.0, 3.125}, Angle::degrees(181.25), Angle::degrees(90.0), 4.0, 0.25, 0.125, 0.5}};
+  write_surface_points_csv(rows, "svf", BoundsColumns::no, folder.file("a.csv"));
   EXPECT_EQ(text_of(folder.file("a.csv")),
             "building,surface,kind,x_m,y_m,z_m,azimuth_deg,tilt_deg,area_m2,svf\n"
             "b1,7,wall,10,20,3.125,181.25,90,4,0.250000\n");
+  write_surface_points_csv(rows, "svf", BoundsColumns::yes, folder.file("b.csv"));
+  EXPECT_EQ(text_of(folder.file("b.csv")),
+            "building,surface,kind,x_m,y_m,z_m,azimuth_deg,tilt_deg,area_m2,svf,svf_low,svf_high\n"
+            "b1,7,wall,10,20,3.125,181.25,90,4,0.250000,0.125000,0.500000\n");
 }
 
 TEST(SurfacesCsv, IsAsDocumented) {

@@ -31,7 +31,7 @@ class PackedColumns {
 
  private:
   Package packed(const CityModel& city, Assign assign) const {
-    scenes::pack_city(city, grid_, folder_.path() / "city.farlod", {1, 1, 1.5}, assign);
+    scenes::pack_city(city, grid_, folder_.path() / "city.farlod", scenes::box_maps(1, 1), assign);
     return Package(folder_.path() / "city.farlod");
   }
   scenes::TemporaryFolder folder_;

@@ -37,7 +37,7 @@ class Pillars : public testing::Test {
   }
 
   Package packed() const {
-    scenes::pack_city(city(), grid_, folder_.path() / "pillars.farlod", {1, 1, 1.5});
+    scenes::pack_city(city(), grid_, folder_.path() / "pillars.farlod", scenes::box_maps(1, 1));
     return Package(folder_.path() / "pillars.farlod");
   }
 

@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "farmap/horizon_map_baker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/determinism/threads.hpp"
+#include "tests/preprocess/farmap/far_city.hpp"
+#include "tests/scenes/generated_town.hpp"
+#include "tests/scenes/packed_city.hpp"
+#include "tests/scenes/scene_builder.hpp"
+
+namespace farlod {
+namespace {
+
+using test::Chance;
+
+constexpr int places_asked = 60;
+
+struct Town {
+  std::string name;
+  CitySettings city;
+  double cell_edge_m = 30.0;
+  int neighborhood = 3;
+  Assign assign = Assign::clip;
+};
+
+CitySettings city_of(std::uint64_t seed, int lod, bool overhangs, double relief_m) {
+  CitySettings settings;
+  settings.size_m = 420;
+  settings.seed = seed;
+  settings.tower_share = 0.5;
+  settings.rotation_deg = 10;
+  settings.lod = lod;
+  settings.overhangs = overhangs;
+  settings.terrain_relief_m = relief_m;
+  return settings;
+}
+
+std::vector<Town> towns() {
+  return {{"flat", city_of(1, 1, false, 0)},
+          {"overhangs", city_of(2, 2, true, 0)},
+          {"hills", city_of(3, 2, true, 60)},
+          {"nothing_near_but_the_cell", city_of(4, 1, true, 0), 40.0, 1},
+          {"whole", city_of(5, 2, true, 0), 30.0, 3, Assign::whole},
+          {"whole_small_cells", city_of(6, 1, true, 30), 15.0, 1, Assign::whole}};
+}
+
+/// A town, cut, and the maps of the block in its middle.
+struct Baked {
+  Grid grid;
+  TileSet tiles;
+  CellRange cells;
+  BakedHorizons block;
+};
+
+Baked bake(const Town& town, const HorizonMapSettings& settings = {}) {
+  const CityModel city = scenes::generated_town(town.city);
+  Report ignored;
+  Baked baked;
+  baked.grid = scenes::grid_covering(city, Angle::degrees(4), town.cell_edge_m, town.neighborhood, 5);
+  baked.tiles = cut_into_tiles({city, {}}, baked.grid, town.assign, {}, ignored);
+  const Block middle = baked.grid.block_of(baked.grid.cell_of({0, 0}));
+  baked.cells = baked.grid.cells_of(middle);
+  baked.block = HorizonMapBaker(baked.tiles, baked.grid, settings).bake(middle);
+  return baked;
+}
+
+/// A random place of a random patch of a random cell.
+struct Place {
+  Cell cell;
+  const BakedHorizon& map;
+  std::uint32_t patch;
+  Point3d eye;
+  [[nodiscard]] float lower(std::uint32_t bin, std::uint32_t bins) const { return map.lower[patch * bins + bin]; }
+  [[nodiscard]] float upper(std::uint32_t bin, std::uint32_t bins) const { return map.upper[patch * bins + bin]; }
+};
+
+Place random_place(const Baked& baked, Chance& chance) {
+  const std::size_t n = chance.below(baked.block.cells.size());
+  const BakedHorizon& map = baked.block.cells[n];
+  const auto patch = static_cast<std::uint32_t>(chance.below(map.patches.count()));
+  return {baked.cells.cell_at(n), map, patch, test::place_in(map.patches.box(patch), chance)};
+}
+
+class HorizonMaps : public testing::TestWithParam<Town> {};
+
+TEST_P(HorizonMaps, AllThatIsNotNamedLiesBelowUpper) {
+  const Baked baked = bake(GetParam());
+  const AzimuthBins bins;
+  Chance chance(7);
+  std::size_t named = 0, bounded = 0;
+  for (int n = 0; n < places_asked; ++n) {
+    const Place place = random_place(baked, chance);
+    const auto names = test::named_in(baked.block, place.map, place.patch);
+    for (const test::FarThing& thing : test::far_city(baked.tiles, baked.grid, place.cell)) {
+      ++(names.contains(thing) ? named : bounded);
+      if (names.contains(thing)) continue;
+      const auto& [a, b, c] = thing.corners;
+      for (const double share : {0.0, 1.0, chance.between(0, 1), chance.between(0, 1)}) {
+        const Point3d p = test::point_between(test::point_between(a, b, chance.between(0, 1)), c, share);
+        const test::Sight sight = test::sight_of(p, place.eye, bins);
+        ASSERT_LE(sight.slope, place.upper(sight.bin, bins.count)) << "place " << n << ", patch " << place.patch;
+      }
+    }
+  }
+  EXPECT_GT(named, 0U);
+  EXPECT_GT(bounded, named) << "the test would not test much";
+}
+
+TEST_P(HorizonMaps, AllBelowLowerIsHidden) {
+  // Small squares: the less eyes move, the more is promised
+  HorizonMapSettings settings;
+  settings.squares_per_edge = 4;
+  const Baked baked = bake(GetParam(), settings);
+  const AzimuthBins bins;
+  Chance chance(8);
+  int promises = 0;
+  for (int n = 0; n < places_asked; ++n) {
+    const Place place = random_place(baked, chance);
+    const auto things = test::far_city(baked.tiles, baked.grid, place.cell);
+    for (std::uint32_t bin = 0; bin < bins.count; ++bin) {
+      if (place.lower(bin, bins.count) == 0.0F) continue;
+      ++promises;
+      const double azimuth = (bin + chance.between(0, 1)) * bins.width_rad();
+      double horizon = 0.0;
+      for (const test::FarThing& thing : things)
+        if (thing.is_edge)
+          horizon = std::max(horizon, test::slope_at(azimuth, thing.corners[0], thing.corners[1], place.eye).value_or(0.0));
+      ASSERT_GE(horizon, place.lower(bin, bins.count)) << "place " << n << ", patch " << place.patch << ", bin " << bin;
+    }
+  }
+  EXPECT_GT(promises, places_asked);
+}
+
+TEST_P(HorizonMaps, LowerIsNotAboveUpper) {
+  const Baked baked = bake(GetParam());
+  for (const BakedHorizon& map : baked.block.cells)
+    for (std::size_t n = 0; n < map.upper.size(); ++n) ASSERT_LE(map.lower[n], map.upper[n]);
+}
+
+INSTANTIATE_TEST_SUITE_P(, HorizonMaps, testing::ValuesIn(towns()), [](const auto& town) { return town.param.name; });
+
+/// Four floats are rounded, then added one by one.
+constexpr double average_rounding = 4.0 * std::numeric_limits<float>::epsilon();
+
+TEST(HorizonMapBaker, LikelyKnowsOnlyTheUnnamed) {
+  const Baked baked = bake(towns()[1]);
+  const AzimuthBins bins;
+  Chance chance(9);
+  for (int n = 0; n < 20; ++n) {
+    const Place place = random_place(baked, chance);
+    const auto names = test::named_in(baked.block, place.map, place.patch);
+    const auto things = test::far_city(baked.tiles, baked.grid, place.cell);
+    const PatchBox box = place.map.patches.box(place.patch);
+    for (std::uint32_t bin = 0; bin < bins.count; bin += 5) {
+      double average = 0.0;
+      for (const Point2d at : {box.low, box.high, Point2d{box.low.x, box.high.y}, Point2d{box.high.x, box.low.y}}) {
+        double horizon = 0.0;
+        for (const test::FarThing& thing : things)
+          if (thing.is_edge && !names.contains(thing))
+            horizon = std::max(horizon, test::slope_at((bin + 0.5) * bins.width_rad(), thing.corners[0], thing.corners[1],
+                                                       {at.x, at.y, box.z_low_m})
+                                            .value_or(0.0));
+        average += 0.25 * horizon;
+      }
+      // What was hidden at first sight is not looked at again, so that it may be less
+      ASSERT_LE(place.map.likely[place.patch * bins.count + bin], average + average_rounding * (1.0 + average)) << "place " << n;
+    }
+  }
+}
+
+TEST(HorizonMapBaker, ABlockStoresEachNamedThingOnce) {
+  const Baked baked = bake(towns()[1]);
+  std::vector<int> edge_uses(baked.block.edges.size(), 0), triangle_uses(baked.block.triangles.size(), 0);
+  for (const BakedHorizon& map : baked.block.cells) {
+    for (const package::NamedObstacle& named : map.named_edges) ++edge_uses.at(named.row);
+    for (const package::NamedObstacle& named : map.named_triangles) ++triangle_uses.at(named.row);
+  }
+  ASSERT_FALSE(edge_uses.empty());
+  EXPECT_EQ(std::count(edge_uses.begin(), edge_uses.end(), 0), 0);
+  EXPECT_EQ(std::count(triangle_uses.begin(), triangle_uses.end(), 0), 0);
+  EXPECT_GT(*std::max_element(edge_uses.begin(), edge_uses.end()), 1) << "cells share what they name";
+  EXPECT_FALSE(baked.block.triangles.empty()) << "bridges and eaves are met by themselves";
+}
+
+void expect_equal(const std::vector<package::NamedObstacle>& a, const std::vector<package::NamedObstacle>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t n = 0; n < a.size(); ++n)
+    ASSERT_EQ(std::tuple(a[n].row, a[n].squares, a[n].layers), std::tuple(b[n].row, b[n].squares, b[n].layers));
+}
+
+TEST(HorizonMapBaker, TheNumberOfThreadsChangesNothing) {
+  const Baked once = with_threads(1, [] { return bake(towns()[1]); });
+  for (int n = 0; n < repeats; ++n) {
+    const Baked again = with_threads(many_threads, [] { return bake(towns()[1]); });
+    ASSERT_EQ(once.block.edges, again.block.edges);
+    ASSERT_EQ(once.block.triangles, again.block.triangles);
+    for (std::size_t cell = 0; cell < once.block.cells.size(); ++cell) {
+      const BakedHorizon &a = once.block.cells[cell], &b = again.block.cells[cell];
+      expect_equal(a.named_edges, b.named_edges);
+      expect_equal(a.named_triangles, b.named_triangles);
+      ASSERT_EQ(std::tie(a.lower, a.likely, a.upper), std::tie(b.lower, b.likely, b.upper));
+    }
+  }
+}
+
+TEST(HorizonMapBaker, WhereNothingRisesNothingIsNamed) {
+  // One low house in a wide plain: from the far cells, nothing rises by more than the tolerance
+  scenes::SceneBuilder scene;
+  scene.add_box({{-5, -5}, {5, 5}}, 0.0, 4.0);
+  scene.add_box({{400, 400}, {405, 405}}, 0.0, 3.0);
+  Report ignored;
+  const Grid grid = scenes::grid_covering(scene.city(), {}, 50, 3);
+  const TileSet tiles = cut_into_tiles({scene.city(), {}}, grid, Assign::clip, {}, ignored);
+  const BakedHorizons maps = HorizonMapBaker(tiles, grid, {}).bake({0, 0});
+  const BakedHorizon& far_away = maps.cells.at(grid.cells_of({0, 0}).index_of({4, 4}));
+  EXPECT_TRUE(far_away.named_edges.empty());
+  EXPECT_GT(*std::max_element(far_away.upper.begin(), far_away.upper.end()), 0.0F) << "but it is bounded";
+}
+
+}  // namespace
+}  // namespace farlod

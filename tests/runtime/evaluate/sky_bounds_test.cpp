@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+
+#include "evaluate/sky_evaluator.hpp"
+#include "receivers/receiver.hpp"
+#include "tests/scenes/generated_town.hpp"
+#include "tests/scenes/packed_city.hpp"
+
+// What the far map of the kind `horizon` promises of whole answers, in towns with everything that hides the sky: towers, roofs,
+// bridges that can be seen under, hills.
+
+namespace farlod {
+namespace {
+
+constexpr std::size_t rays = 1000;
+/// The near scene and the whole city round to floats in frames of their own: a ray that grazes an edge may pass it on either
+/// side.
+constexpr double one_ray = 1.5 / static_cast<double>(rays);
+
+struct Town {
+  const char* name;
+  double cell_m;
+  int neighborhood;
+  double tower_share, relief_m;
+  bool overhangs;
+  double tolerance;
+  Assign assign = Assign::clip;
+};
+void PrintTo(const Town& town, std::ostream* out) { *out << town.name; }
+
+CityModel city_of(const Town& town) {
+  CitySettings settings;
+  settings.size_m = 400;
+  settings.lod = 2;
+  settings.tower_share = town.tower_share;
+  settings.terrain_relief_m = town.relief_m;
+  settings.overhangs = town.overhangs;
+  settings.rotation_deg = 13;
+  return scenes::generated_town(settings);
+}
+
+struct Answers {
+  std::vector<float> svf, low, high;
+};
+
+class SkyBounds : public testing::TestWithParam<Town> {
+ protected:
+  SkyBounds() : package_(packed()), places_(some_places()) {}
+
+  Package packed() const {
+    const Town& town = GetParam();
+    const CityModel city = city_of(town);
+    const Grid grid = scenes::grid_covering(city, Angle::degrees(13.0), town.cell_m, town.neighborhood, 4);
+    FarMapSettings settings;
+    settings.horizon.tolerance = town.tolerance;
+    scenes::pack_city(city, grid, folder_.path() / "town.farlod", settings, town.assign);
+    return Package(folder_.path() / "town.farlod");
+  }
+
+  /// All over the town, on streets and roofs and high above both, a fifth of them tilted; none inside of a building.
+  std::vector<CellReceivers> some_places() {
+    const Grid& grid = package_.grid();
+    std::vector<CellReceivers> places;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(grid.cells.size()); ++n) {
+      const CellColumns columns(package_, grid.cells.cell_at(n));
+      CellReceivers cell{grid.cells.cell_at(n), {}};
+      const auto add = [&](float x, HeightAbove above, float height_m, const Point3f& normal) {
+        const auto p = stand(columns, x, between(0, grid.cell_edge_m), above, height_m);
+        if (p) cell.receivers.push_back({count_++, *p, normal});
+      };
+      const auto edge = grid.cell_edge_m;
+      for (const float height_m : {1.5F, 12.0F, 60.0F}) add(between(0, edge), HeightAbove::ground, height_m, upwards);
+      add(between(0, edge), HeightAbove::highest_surface, 0.3F, upwards);
+      // Where squares and cells meet
+      add(0.0F, HeightAbove::ground, 1.5F, upwards);
+      add(static_cast<float>(0.5 * edge), HeightAbove::ground, 1.5F, normalized(Point3f{between(-1, 1), between(-1, 1), 0.5F}));
+      places.push_back(std::move(cell));
+    }
+    return places;
+  }
+
+  float between(double low, double high) {
+    return static_cast<float>(low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53);
+  }
+
+  [[nodiscard]] Answers answers(Engine engine, std::optional<double> max_far_error = std::nullopt) const {
+    const SkyEvaluator evaluator(package_, {engine, SkyWeight::cosine, rays, max_far_error});
+    Answers a{std::vector<float>(count_), std::vector<float>(count_), std::vector<float>(count_)};
+    for (const CellReceivers& cell : places_) evaluator.evaluate(cell, SkyAnswers(a.svf, a.low, a.high));
+    return a;
+  }
+
+  static constexpr Point3f upwards{0.0F, 0.0F, 1.0F};
+  std::mt19937_64 random_{20120901};
+  std::size_t count_ = 0;
+  scenes::TemporaryFolder folder_;
+  Package package_;
+  std::vector<CellReceivers> places_;
+};
+
+TEST_P(SkyBounds, HoldTheExactAnswer) {
+  const Answers exact = answers(Engine::exact), bounded = answers(Engine::rays);
+  double widest = 0.0;
+  for (std::size_t n = 0; n < exact.svf.size(); ++n) {
+    EXPECT_LE(bounded.low[n], exact.svf[n] + one_ray) << "receiver " << n;
+    EXPECT_GE(bounded.high[n], exact.svf[n] - one_ray) << "receiver " << n;
+    EXPECT_LE(bounded.low[n], bounded.svf[n]);
+    EXPECT_LE(bounded.svf[n], bounded.high[n]);
+    widest = std::max<double>(widest, bounded.high[n] - bounded.low[n]);
+  }
+  EXPECT_LT(*std::min_element(exact.svf.begin(), exact.svf.end()), 0.5F) << "the town hides too little to tell";
+  if (GetParam().tolerance > 0.0) {
+    EXPECT_GT(widest, 0.0) << "nothing is left open to tell";
+  }
+}
+
+TEST_P(SkyBounds, WithoutAnyFarErrorTheAnswerIsExact) {
+  const Answers exact = answers(Engine::exact), settled = answers(Engine::rays, 0.0);
+  for (std::size_t n = 0; n < exact.svf.size(); ++n) {
+    EXPECT_NEAR(settled.svf[n], exact.svf[n], one_ray) << "receiver " << n;
+    EXPECT_EQ(settled.low[n], settled.high[n]) << "receiver " << n;
+  }
+}
+
+TEST_P(SkyBounds, TheFarErrorStaysBelowTheMost) {
+  constexpr double most = 0.005;
+  const Answers exact = answers(Engine::exact), settled = answers(Engine::rays, most);
+  for (std::size_t n = 0; n < exact.svf.size(); ++n)
+    EXPECT_NEAR(settled.svf[n], exact.svf[n], most + one_ray) << "receiver " << n;
+}
+
+TEST_P(SkyBounds, AskingForThemChangesNoAnswer) {
+  const Answers bounded = answers(Engine::rays);
+  const SkyEvaluator evaluator(package_, {Engine::rays, SkyWeight::cosine, rays});
+  std::vector<float> plain(bounded.svf.size());
+  for (const CellReceivers& cell : places_) evaluator.evaluate(cell, plain);
+  EXPECT_EQ(plain, bounded.svf);
+}
+
+TEST_P(SkyBounds, RaysAreTracedAgainstTheWholeCityOnlyWhereTheyMust) {
+  const SkyEvaluator lax(package_, {Engine::rays, SkyWeight::cosine, rays, 1.0}),
+      strict(package_, {Engine::rays, SkyWeight::cosine, rays, 0.0});
+  std::vector<float> svf(count_);
+  for (const CellReceivers& cell : places_) {
+    lax.evaluate(cell, svf);
+    strict.evaluate(cell, svf);
+  }
+  EXPECT_EQ(lax.effort().settled_rays, 0U);
+  EXPECT_LT(strict.effort().settled_rays, rays * svf.size() / 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Towns, SkyBounds,
+    testing::Values(Town{"Plain", 50, 3, 0.0, 0.0, false, 0.05}, Town{"Towers", 50, 3, 1.0, 0.0, false, 0.05},
+                    Town{"Bridges", 50, 3, 0.3, 0.0, true, 0.05}, Town{"BridgesOverHills", 50, 3, 0.3, 60.0, true, 0.05},
+                    Town{"BridgesWholeBuildings", 50, 3, 0.3, 0.0, true, 0.05, Assign::whole},
+                    Town{"SmallNeighbourhood", 100, 1, 0.5, 20.0, true, 0.05}, Town{"CoarseMap", 50, 3, 0.5, 0.0, true, 0.5},
+                    Town{"FineMap", 50, 3, 0.5, 0.0, true, 0.0}),
+    [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace farlod

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "tests/validation/city_study.hpp"
+
+namespace farlod::validation {
+namespace {
+
+/// What is promised of far maps of the kind `horizon` with N = 3, on the ground.
+struct Promise {
+  double mean, p99, max;
+};
+constexpr Promise at_50_m{0.0010, 0.005, 0.010}, at_100_m{0.0006, 0.003, 0.006};
+/// The same with c = 50 m, on roofs and façades.
+constexpr Promise on_surfaces{0.0015, 0.008, 0.015};
+constexpr double most_bytes_a_cell = 24e3;
+/// What the paper says of its map, with cells of 50 and of 100 m.
+constexpr double papers_error_at_50_m = 0.10, papers_error_at_100_m = 0.05;
+
+void expect_kept(const Promise& promise, const ErrorSummary& e) {
+  EXPECT_LE(e.mean_abs_error, promise.mean);
+  EXPECT_LE(e.p99_abs_error, promise.p99);
+  EXPECT_LE(e.max_abs_error, promise.max);
+}
+
+class FarFieldOfATown : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    Extent extent = quick_extent();
+    extent.generated_size_m = 800.0;
+    extent.neighborhoods = {3};
+    const StudiedCity city = generated_city(extent.generated_size_m);
+    study = study_far_field(city, choose_sites(city, extent), extent);
+  }
+  static CityStudy study;
+};
+CityStudy FarFieldOfATown::study;
+
+TEST_F(FarFieldOfATown, OursIsBetterThanThePapersAndThatThanNothing) {
+  ASSERT_EQ(study.rows.size(), 2U);
+  for (const FarFieldRow& row : study.rows) {
+    EXPECT_LT(row.ground.horizon.mean_abs_error, row.ground.box.mean_abs_error);
+    EXPECT_LT(row.ground.box.mean_abs_error, row.ground.dropped.mean_abs_error);
+    EXPECT_GT(row.ground.dropped.bias, 0.0);
+  }
+}
+
+TEST_F(FarFieldOfATown, PapersMapKeepsThePapersPromise) {
+  EXPECT_LT(study.rows[0].ground.box.max_abs_error, papers_error_at_50_m);
+  EXPECT_LT(study.rows[1].ground.box.max_abs_error, papers_error_at_100_m);
+}
+
+TEST_F(FarFieldOfATown, OursKeepsItsOwn) {
+  expect_kept(at_50_m, study.rows[0].ground.horizon);
+  expect_kept(at_100_m, study.rows[1].ground.horizon);
+  expect_kept(on_surfaces, study.rows[0].roofs->horizon);
+  expect_kept(on_surfaces, study.rows[0].facades->horizon);
+  EXPECT_LE(study.rows[0].bytes_a_cell, most_bytes_a_cell);
+}
+
+TEST_F(FarFieldOfATown, ExactAnswersAreWithinTheBounds) {
+  for (const FarFieldRow& row : study.rows) EXPECT_EQ(row.ground.bounds.outside, 0U);
+  EXPECT_EQ(study.rows[0].roofs->bounds.outside, 0U);
+  EXPECT_EQ(study.rows[0].facades->bounds.outside, 0U);
+}
+
+}  // namespace
+}  // namespace farlod::validation

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/validation/studied_city.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "align/street_alignment.hpp"
+#include "farlod/box.hpp"
+#include "georeference/georeference.hpp"
+#include "ingest/ingest.hpp"
+#include "tests/scenes/generated_town.hpp"
+
+namespace farlod::validation {
+namespace {
+
+void move_middle_to_origin(CityModel& city) {
+  Box2d outline;
+  for (const Point3d& p : city.points()) outline.add(horizontal(p));
+  const Point2d middle = 0.5 * (outline.low + outline.high);
+  for (Point3d& p : city.points()) p = p - Point3d{middle.x, middle.y, 0.0};
+}
+
+}  // namespace
+
+StudiedCity generated_city(double size_m) {
+  CitySettings settings;
+  settings.size_m = size_m;
+  settings.tower_share = 0.3;
+  settings.rotation_deg = 20;
+  return {"generated", scenes::generated_town(settings), Angle::degrees(settings.rotation_deg)};
+}
+
+StudiedCity footprint_city(const std::string& name, const std::filesystem::path& file, const std::string& height_field) {
+  Report report;
+  IngestSettings ingest_settings;
+  ingest_settings.height_field = height_field;
+  std::vector<SourceCity> sources;
+  sources.push_back(ingest(file, ingest_settings, report));
+  LocatedCity located = georeference(std::move(sources), {}, report);
+  move_middle_to_origin(located.city);
+  const Angle streets = street_alignment(located.city).bearing;
+  return {name, std::move(located.city), streets};
+}
+
+}  // namespace farlod::validation
