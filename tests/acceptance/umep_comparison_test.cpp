@@ -24,7 +24,7 @@ class UmepComparison : public RealCity {
   void SetUp() override {
     needs({"goteborg/dsm.asc", "goteborg/svf_umep.asc"});
     if (IsSkipped()) return;
-    folder.must("farlod-pack --terrain " + data("goteborg/dsm.asc") + " --crs EPSG:3006 --quiet -o a.farlod");
+    folder.must("farlod-pack --terrain " + data("goteborg/dsm.asc") + " --crs EPSG:3007 --quiet -o a.farlod");
     surface = read_ascii_grid(data("goteborg/dsm.asc"));
     umep = read_ascii_grid(data("goteborg/svf_umep.asc"));
   }
