@@ -51,7 +51,15 @@ class FarView {
   [[nodiscard]] static double length(Point2d v) { return std::sqrt(dot(v, v)); }
   void draw_named(const Point3f& p_cell, std::optional<std::uint32_t> patch);
   void draw(const EdgeView& edge);
-  void raise(std::vector<float>& slopes, const SlopePlane& plane, double shift, double from, double to);
+  /// The directions that an edge covers, by diamond angle, and how far its ends may lie from there.
+  struct Span {
+    double from, to, before, after;
+    /// Covered even if both ends move inwards.
+    [[nodiscard]] bool surely_covers(double diamond) const;
+  };
+  static constexpr double full_turn = 4.0;  ///< of diamond angles
+  void raise(const SlopePlane& plane, double give, const Span& span, bool hides);
+  void raise_row(const SlopePlane& plane, double give, const Span& span, bool hides, std::size_t first, std::size_t end);
 
   const AzimuthFan& fan_;
   const FarHorizon& map_;
@@ -123,40 +131,51 @@ inline void FarView::draw(const EdgeView& given) {
   const double from = diamond_angle(a), to = diamond_angle(b);
   // What moves by the rounding rises so much at the distance, and shows another place of its plane, as much steeper as that is
   const auto give = [&](double gradient) { return (rounding_m / nearest_m + rounding) * (1.0 + steepest + gradient); };
+  const Span span{from, to, turn_a, turn_b};
   // Looked along, an edge shows no more than its ends
-  if (edge.turn() <= rounding_m * length(b - a)) return raise(upper_, {}, steepest + give(0.0), from - turn_a, to + turn_b);
+  if (edge.turn() <= rounding_m * length(b - a)) return raise({}, steepest + give(0.0), span, false);
   const SlopePlane plane = edge.plane();
-  const double gradient = length({plane.along_x, plane.along_y});
-  raise(upper_, plane, give(gradient), from - turn_a, to + turn_b);
-  raise(lower_, plane, -give(gradient), from + turn_a, to - turn_b);
+  raise(plane, give(length({plane.along_x, plane.along_y})), span, true);
 }
 
-inline void FarView::raise(std::vector<float>& slopes, const SlopePlane& plane, double shift, double from, double to) {
-  constexpr double full_turn = 4.0;
-  if (to < from) {
-    // Either the row passes the x axis, or the margins have eaten it up
-    if (from - to < 0.5 * full_turn) return;
-    to += full_turn;
-  }
+inline bool FarView::Span::surely_covers(double diamond) const {
+  const auto turn = [](double difference) {
+    return difference < -0.5 * full_turn  ? difference + full_turn
+           : difference > 0.5 * full_turn ? difference - full_turn
+                                          : difference;
+  };
+  return turn(diamond - from) >= before && turn(to - diamond) >= after;
+}
+
+inline void FarView::raise(const SlopePlane& plane, double give, const Span& span, bool hides) {
+  double from = span.from - span.before, to = span.to + span.after;
+  if (to < from) to += full_turn;  // the row passes the x axis
   if (from >= full_turn) {
     from -= full_turn;
     to -= full_turn;
   }
-  const auto x = static_cast<float>(plane.along_x), y = static_cast<float>(plane.along_y), s = static_cast<float>(shift);
-  const float *cosine = fan_.cosine().data(), *sine = fan_.sine().data();
-  float* const slope = slopes.data();
-  const auto raise_row = [=](std::size_t first, std::size_t end) {
-    for (std::size_t n = first; n < end; ++n) slope[n] = std::max(slope[n], x * cosine[n] + y * sine[n] + s);
-  };
   if (from < 0.0) {
-    raise_row(fan_.first_from(from + full_turn), fan_.size());
+    raise_row(plane, give, span, hides, fan_.first_from(from + full_turn), fan_.size());
     from = 0.0;
   }
   if (to > full_turn) {
-    raise_row(0, fan_.first_from(to - full_turn));
+    raise_row(plane, give, span, hides, 0, fan_.first_from(to - full_turn));
     to = full_turn;
   }
-  raise_row(fan_.first_from(from), fan_.first_from(to));
+  raise_row(plane, give, span, hides, fan_.first_from(from), fan_.first_from(to));
+}
+
+inline void FarView::raise_row(const SlopePlane& plane, double give, const Span& span, bool hides, std::size_t first,
+                               std::size_t end) {
+  const auto x = static_cast<float>(plane.along_x), y = static_cast<float>(plane.along_y), g = static_cast<float>(give);
+  const float *cosine = fan_.cosine().data(), *sine = fan_.sine().data();
+  float *const upper = upper_.data(), *const lower = lower_.data();
+  for (std::size_t n = first; n < end; ++n) upper[n] = std::max(upper[n], x * cosine[n] + y * sine[n] + g);
+  if (!hides) return;
+  // Only at its ends is a row in doubt
+  while (first < end && !span.surely_covers(fan_.diamond()[first])) ++first;
+  while (end > first && !span.surely_covers(fan_.diamond()[end - 1])) --end;
+  for (std::size_t n = first; n < end; ++n) lower[n] = std::max(lower[n], x * cosine[n] + y * sine[n] - g);
 }
 
 }  // namespace farlod

@@ -20,11 +20,13 @@ class AzimuthFan {
   explicit AzimuthFan(std::span<const Point3d> directions);
 
   [[nodiscard]] std::size_t size() const { return slope_.size(); }
-  /// Of the n-th direction: its place among those given, cosine and sine of its azimuth, and the tangent of its elevation.
+  /// Of the n-th direction: its place among those given, cosine and sine of its azimuth, the tangent of its elevation, and its
+  /// diamond angle.
   [[nodiscard]] std::span<const std::uint32_t> place() const { return place_; }
   [[nodiscard]] std::span<const float> cosine() const { return cosine_; }
   [[nodiscard]] std::span<const float> sine() const { return sine_; }
   [[nodiscard]] std::span<const float> slope() const { return slope_; }
+  [[nodiscard]] std::span<const double> diamond() const { return diamond_; }
   /// For each direction the bin of its azimuth.
   [[nodiscard]] std::vector<std::uint32_t> bins(const AzimuthBins& bins) const;
   /// The first direction whose diamond angle is at least this; size() when there is none. Any angle from 0 to 4.
