@@ -37,7 +37,7 @@ class GridChooser {
       try_tolerances(tiles, grid);
     }
   }
-  GridChoices choices;
+  std::optional<GridChoice> best;
 
  private:
   /// The coarsest that is fine enough.
@@ -48,9 +48,8 @@ class GridChooser {
       GridChoice choice{grid.cell_edge_m, grid.neighborhood, tolerance, judge_far_maps(tiles, grid, far_map, settings_.judge),
                         0.0};
       choice.receiver_us = expected_receiver_us(choice.verdict, grid.cell_edge_m);
-      choices.tried.push_back(choice);
       if (!keeps(choice.verdict, settings_.max_far_error)) continue;
-      if (!choices.best || choice.receiver_us < choices.best->receiver_us) choices.best = choice;
+      if (!best || choice.receiver_us < best->receiver_us) best = choice;
       return;
     }
   }
@@ -63,11 +62,11 @@ class GridChooser {
 
 }  // namespace
 
-GridChoices choose_grid(const LocatedCity& city, const LayGrid& lay, Assign assign, const HorizonMapSettings& far_map,
-                        const ChoiceSettings& settings) {
+std::optional<GridChoice> choose_grid(const LocatedCity& city, const LayGrid& lay, Assign assign,
+                                      const HorizonMapSettings& far_map, const ChoiceSettings& settings) {
   GridChooser chooser(city, assign, far_map, settings);
   for (const double cell_edge_m : settings.cell_edges_m) chooser.try_cells(cell_edge_m, lay);
-  return std::move(chooser.choices);
+  return chooser.best;
 }
 
 }  // namespace farlod

@@ -35,17 +35,13 @@ struct ChoiceSettings {
   JudgeSettings judge;
 };
 
-struct GridChoices {
-  std::optional<GridChoice> best;  ///< none when nothing keeps the error
-  std::vector<GridChoice> tried;
-};
-
 /// Lays a grid with these cells over the city; the ground that belongs to it.
 using LayGrid = std::function<std::pair<Grid, std::optional<TerrainRaster>>(double cell_edge_m)>;
 
 /// The cheapest choice whose far maps keep the error: none of the sampled receivers is farther from `exact` than `max_far_error`,
-/// and 99 % of them are certain not to be (farlod-svf traces the rest exactly when it is told the error, too). Deterministic.
-[[nodiscard]] GridChoices choose_grid(const LocatedCity& city, const LayGrid& lay, Assign assign,
-                                      const HorizonMapSettings& far_map, const ChoiceSettings& settings);
+/// and 99 % of them are certain not to be (farlod-svf traces the rest exactly when it is told the error, too). None when nothing
+/// keeps the error. Deterministic.
+[[nodiscard]] std::optional<GridChoice> choose_grid(const LocatedCity& city, const LayGrid& lay, Assign assign,
+                                                    const HorizonMapSettings& far_map, const ChoiceSettings& settings);
 
 }  // namespace farlod

@@ -123,12 +123,12 @@ class Packing {
       const Grid grid = align(located, settings, unread).grid;
       return {grid, settings_.terrain ? std::optional(read_ground(located, city_outline(grid))) : std::nullopt};
     };
-    const GridChoices choices = choose_grid(located, lay, settings_.assign, settings_.far_map.horizon, *settings_.choice);
-    if (!choices.best) return {};
-    settings_.grid.cell_edge_m = choices.best->cell_edge_m;
-    settings_.grid.neighborhood = choices.best->neighborhood;
-    settings_.far_map.horizon.tolerance = choices.best->tolerance;
-    return {choices.best, {}};
+    const auto best = choose_grid(located, lay, settings_.assign, settings_.far_map.horizon, *settings_.choice);
+    if (!best) return {};
+    settings_.grid.cell_edge_m = best->cell_edge_m;
+    settings_.grid.neighborhood = best->neighborhood;
+    settings_.far_map.horizon.tolerance = best->tolerance;
+    return {best, {}};
   }
 
   [[nodiscard]] FarMapVerdict measure(const TileSet& tiles, const Grid& grid) const {
