@@ -6,9 +6,23 @@
 #include <limits>
 
 namespace farlod {
+namespace {
+
+std::size_t obstacle_count(const TileSet& tiles) {
+  std::size_t count = 0;
+  for (const Tile& tile : tiles.tiles) {
+    count += tile.horizon_edges.size();
+    count += static_cast<std::size_t>(std::count_if(tile.triangle_surfaces.begin(), tile.triangle_surfaces.end(),
+                                                    [&](std::uint32_t s) { return !tiles.surfaces[s].stands; }));
+  }
+  return count;
+}
+
+}  // namespace
 
 CityHorizon::CityHorizon(const TileSet& tiles, const Grid& grid)
     : grid_(grid), origin_grid_(grid.middle_corner()), cells_(tiles.cells) {
+  obstacles_.reserve(obstacle_count(tiles));
   for (std::size_t n = 0; n < tiles.tiles.size(); ++n) {
     first_of_cell_.push_back(static_cast<std::uint32_t>(obstacles_.size()));
     gather(tiles.tiles[n], tiles.surfaces, cells_.cell_at(n));
@@ -22,11 +36,11 @@ CityHorizon::CityHorizon(const TileSet& tiles, const Grid& grid)
 void CityHorizon::gather(const Tile& tile, const std::vector<Surface>& surfaces, Cell cell) {
   const Point2d corner = corner_of(cell);
   const auto placed = [corner](const Point3f& p) { return Point3d{corner.x + p.x, corner.y + p.y, p.z}; };
-  for (const HorizonEdge& e : tile.horizon_edges) obstacles_.push_back({{placed(e.a), placed(e.b), placed(e.b)}, true});
+  for (const HorizonEdge& e : tile.horizon_edges) obstacles_.push_back({{placed(e.a), placed(e.b), placed(e.b)}, true, e.rises});
   for (std::size_t n = 0; n < tile.triangles.size(); ++n) {
     if (surfaces[tile.triangle_surfaces[n]].stands) continue;
     const Triangle& t = tile.triangles[n];
-    obstacles_.push_back({{placed(tile.vertices[t.a]), placed(tile.vertices[t.b]), placed(tile.vertices[t.c])}, false});
+    obstacles_.push_back({{placed(tile.vertices[t.a]), placed(tile.vertices[t.b]), placed(tile.vertices[t.c])}, false, {}});
   }
 }
 

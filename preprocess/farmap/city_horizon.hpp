@@ -10,6 +10,7 @@
 
 #include "farlod/box.hpp"
 #include "farlod/grid.hpp"
+#include "farlod/horizon/horizon_edge.hpp"
 #include "tiles/tile_set.hpp"
 
 namespace farlod {
@@ -19,6 +20,7 @@ namespace farlod {
 struct Obstacle {
   std::array<Point3d, 3> corners;  ///< of an edge, the third repeats the second
   bool is_edge = true;
+  EdgeRises rises = {};  ///< of an edge
 
   [[nodiscard]] double z_high_m() const { return std::max({corners[0].z, corners[1].z, corners[2].z}); }
   [[nodiscard]] std::uint32_t edge_count() const { return is_edge ? 1 : 3; }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "farlod/horizon/edge_view.hpp"
@@ -13,8 +12,8 @@
 namespace farlod {
 namespace {
 
-/// An edge that some eye sees this far (radians) from where the middle sees it is too close to be bounded.
-constexpr double widest_turn_rad = 0.49 * std::numbers::pi;
+/// An edge that some eye sees this far from where the middle sees it is too close to be bounded: its tangent, of .49 π.
+constexpr double tangent_of_widest_turn = 31.82;
 
 double squared(Point2d d) { return dot(d, d); }
 
@@ -48,12 +47,13 @@ void EdgeOverSquare::look_at(const Point3d& a, const Point3d& b, const Box2d& sq
   corners_ = {square.low, Point2d{square.high.x, square.low.y}, square.high, Point2d{square.low.x, square.high.y}};
   nearest_m_ = distance_m(horizontal(a), horizontal(b), square, corners_);
   borders_known_ = false;
-  upper_at_m_ = std::numeric_limits<double>::quiet_NaN();
+  upper_at_m_ = lower_at_m_ = std::numeric_limits<double>::quiet_NaN();
   bin_count_ = 0;
   const Point2d toward = 0.5 * (horizontal(a_) + horizontal(b_)) - 0.5 * (square.low + square.high);
   const std::optional<Turns> turns = turns_over(toward);
-  surrounds_ = !(turns && turns->from.rad() > -widest_turn_rad && turns->to.rad() < widest_turn_rad && nearest_m_ > 0.0);
-  if (!surrounds_) find_range(*turns, std::atan2(toward.y, toward.x));
+  constexpr Turn widest_right{-tangent_of_widest_turn, 1.0}, widest_left{tangent_of_widest_turn, 1.0};
+  surrounds_ = !(turns && widest_right < turns->from && turns->to < widest_left && nearest_m_ > 0.0);
+  if (!surrounds_) find_range(*turns, toward);
 }
 
 std::optional<EdgeOverSquare::Turns> EdgeOverSquare::turns_over(Point2d toward) {
@@ -76,19 +76,20 @@ std::optional<EdgeOverSquare::Turns> EdgeOverSquare::turns_over(Point2d toward) 
   return turns;
 }
 
-void EdgeOverSquare::find_range(const Turns& turns, double middle_rad) {
-  const AzimuthBins& bins = borders_->bins();
-  first_bin_ = bins.unwrapped_bin_of(middle_rad + turns.from.rad() - bound_rounding);
-  const std::int64_t end = bins.unwrapped_bin_of(middle_rad + turns.to.rad() + bound_rounding) + 1;
-  bin_count_ = static_cast<std::size_t>(end - first_bin_);
+void EdgeOverSquare::find_range(const Turns& turns, Point2d toward) {
+  const Point2d from = turned(direction_of(turns.from, toward), -bound_rounding);
+  const BinRange range = borders_->between(from, turned(direction_of(turns.to, toward), bound_rounding));
+  first_bin_ = range.first;
+  bin_count_ = range.count;
   common_begin_ = common_end_ = 0;
   if (!one_sided_ || turns.common_to < turns.common_from) return;
+  const Point2d common_from = turned(direction_of(turns.common_from, toward), bound_rounding);
+  const Point2d common_to = turned(direction_of(turns.common_to, toward), -bound_rounding);
+  if (turn_to(common_to, common_from).aside <= 0.0) return;
   // Not the bins that the ends of the common range lie in: the whole bin must be covered
-  const std::int64_t common_first = bins.unwrapped_bin_of(middle_rad + turns.common_from.rad() + bound_rounding) + 1;
-  const std::int64_t common_end = bins.unwrapped_bin_of(middle_rad + turns.common_to.rad() - bound_rounding);
-  if (common_first >= common_end) return;
-  common_begin_ = static_cast<std::size_t>(common_first - first_bin_);
-  common_end_ = static_cast<std::size_t>(common_end - first_bin_);
+  common_begin_ = borders_->between(from, common_from).count;
+  common_end_ = borders_->between(from, common_to).count - 1;
+  if (common_begin_ >= common_end_) common_begin_ = common_end_ = 0;
 }
 
 void EdgeOverSquare::evaluate_borders() {
@@ -142,6 +143,8 @@ std::span<const double> EdgeOverSquare::upper(double z_m) {
 }
 
 std::span<const double> EdgeOverSquare::lower(double z_m) {
+  if (z_m == lower_at_m_) return lower_;
+  lower_at_m_ = z_m;
   lower_.assign(bin_count_, 0.0);
   if (common_begin_ == common_end_ || std::max(a_.z, b_.z) <= z_m) return lower_;
   evaluate_borders();

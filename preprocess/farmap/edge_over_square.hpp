@@ -49,7 +49,6 @@ class EdgeOverSquare {
   /// How far to the left of a direction another one lies, by less than a right angle: compared without an arc tangent.
   struct Turn {
     double aside = 0.0, ahead = 1.0;
-    [[nodiscard]] double rad() const { return std::atan2(aside, ahead); }
     bool operator<(const Turn& o) const { return aside * o.ahead < o.aside * ahead; }
   };
   /// From the middle's azimuth to the ends, over all eyes; and those that the edge covers for each eye.
@@ -59,9 +58,13 @@ class EdgeOverSquare {
   [[nodiscard]] static Turn turn_to(Point2d d, Point2d toward) {
     return {toward.x * d.y - toward.y * d.x, toward.x * d.x + toward.y * d.y};
   }
+  /// The other way, but for the length.
+  [[nodiscard]] static Point2d direction_of(const Turn& turn, Point2d toward) {
+    return {toward.x * turn.ahead - toward.y * turn.aside, toward.y * turn.ahead + toward.x * turn.aside};
+  }
   /// None when an end can lie beside or behind.
   [[nodiscard]] std::optional<Turns> turns_over(Point2d toward);
-  void find_range(const Turns& turns, double middle_rad);
+  void find_range(const Turns& turns, Point2d toward);
   void evaluate_borders();
 
   const BinBorders* borders_;
@@ -72,7 +75,7 @@ class EdgeOverSquare {
   std::int64_t first_bin_ = 0;
   std::size_t bin_count_ = 0, common_begin_ = 0, common_end_ = 0;
   std::array<FromCorner, 4> from_corner_;
-  double upper_at_m_ = 0.0;  ///< the height that `upper_` is for
+  double upper_at_m_ = 0.0, lower_at_m_ = 0.0;  ///< the heights that `upper_` and `lower_` are for
   std::vector<double> across_, steepest_, upper_, lower_;
 };
 

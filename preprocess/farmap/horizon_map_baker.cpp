@@ -55,13 +55,13 @@ BakedHorizon empty_map(const ReceiverPatches& patches, const std::vector<float>&
 /// What the viewpoints at the corners of a patch's floor see on average.
 void estimate(const ViewpointHorizons& views, BakedHorizon& map) {
   const std::uint32_t n = map.patches.squares_per_edge();
-  const std::size_t bins = map.likely.size() / map.patches.count();
+  const auto bins = static_cast<std::uint32_t>(map.likely.size() / map.patches.count());
   for (std::uint32_t patch = 0; patch < map.patches.count(); ++patch) {
     const std::uint32_t square = patch % map.patches.squares(), layer = patch / map.patches.squares();
-    for (std::size_t bin = 0; bin < bins; ++bin) {
+    for (std::uint32_t bin = 0; bin < bins; ++bin) {
       float sum = 0.0F;
       for (std::uint32_t corner = 0; corner < 4; ++corner)
-        sum += views.at(square % n + (corner & 1U), square / n + (corner >> 1U), layer)[bin];
+        sum += views.slope(square % n + (corner & 1U), square / n + (corner >> 1U), layer, bin);
       map.likely[patch * bins + bin] = 0.25F * sum;
     }
   }
@@ -73,7 +73,7 @@ HorizonMapBaker::HorizonMapBaker(const TileSet& tiles, const Grid& grid, const H
     : tiles_(tiles), grid_(grid), settings_(settings), city_(tiles, grid), borders_({settings.azimuth_bins}) {
   // Squares and layers must fit the bits of package::NamedObstacle; the street and the roofs are two layers
   FARLOD_EXPECTS(settings.squares_per_edge >= 1 && settings.squares_per_edge <= 4 && settings.layers >= 2 &&
-                 settings.layers <= package::most_layers && settings.azimuth_bins > 0);
+                 settings.layers <= package::most_layers);
 }
 
 BakedHorizons HorizonMapBaker::bake(Block block) const {
@@ -107,7 +107,7 @@ BakedHorizon HorizonMapBaker::bake_cell(Cell cell) const {
   const Surroundings around = LookAround(city_, place, borders_, settings_.tolerance).run();
   BakedHorizon map = empty_map(place.patches, around.hidden);
   ObstacleJudge judge(city_, place, around.views, borders_, settings_.tolerance, map);
-  ViewpointHorizons unnamed(grid_.cell_edge_m, place.patches, borders_.bins());
+  ViewpointHorizons unnamed(grid_.cell_edge_m, place.patches, borders_);
   for (const std::uint32_t number : around.candidates) {
     const Obstacle& obstacle = city_.obstacles()[number];
     const std::uint32_t named_layers = judge.judge(number);

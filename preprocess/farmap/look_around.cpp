@@ -5,17 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <queue>
 #include <utility>
+
+#include "farlod/horizon/edge_facing.hpp"
 
 namespace farlod {
 namespace {
 
 /// Between two boxes in the plane; 0 where they meet.
 double distance_m(const Box2d& a, const Box2d& b) {
-  return norm(
-      Point2d{std::max({a.low.x - b.high.x, b.low.x - a.high.x, 0.0}), std::max({a.low.y - b.high.y, b.low.y - a.high.y, 0.0})});
+  const double x = std::max({a.low.x - b.high.x, b.low.x - a.high.x, 0.0});
+  const double y = std::max({a.low.y - b.high.y, b.low.y - a.high.y, 0.0});
+  return std::sqrt(x * x + y * y);
 }
 
 /// What rises so high, nowhere nearer than this, stays below this slope.
@@ -35,10 +37,11 @@ LookAround::LookAround(const CityHorizon& city, const CellPlace& place, const Bi
       borders_(borders),
       bins_(borders.bins()),
       tolerance_(tolerance),
-      found_{{}, ViewpointHorizons(place.square.high.x, place.patches, bins_), {}},
+      found_{{}, ViewpointHorizons(place.square.high.x, place.patches, borders), {}},
       settled_(place.patches.layers(), 0.0),
       over_cell_(borders_) {
   found_.hidden.assign(std::size_t{place.patches.layers()} * bins_.count, 0.0F);
+  floors_.assign(found_.hidden.size(), -1.0F);
   limits_.resize(found_.hidden.size());
   update_limits({0, bins_.count});
 }
@@ -69,21 +72,16 @@ Box2d LookAround::outline_of(const CityHorizon::Node& node) const {
 }
 
 /// The bins in which some place of a box can be seen from some place of the cell, which it does not meet.
-LookAround::BinRange LookAround::bins_of(const Box2d& box) const {
-  const Point2d toward = 0.5 * (box.low + box.high) - 0.5 * (place_.square.low + place_.square.high);
-  // The difference of the two boxes is a box: its corners bound the azimuths
+BinRange LookAround::bins_of(const Box2d& box) const {
+  // The difference of the two boxes is a box without the origin: its corners bound the azimuths, within half a turn
   const Box2d difference{box.low - place_.square.high, box.high - place_.square.low};
-  double from = 0.0, to = 0.0;
-  for (const Point2d d : {difference.low, Point2d{difference.high.x, difference.low.y}, difference.high,
-                          Point2d{difference.low.x, difference.high.y}}) {
-    const double turn = std::atan2(toward.x * d.y - toward.y * d.x, dot(toward, d));
-    from = std::min(from, turn);
-    to = std::max(to, turn);
+  Point2d from = difference.low, to = from;
+  for (const Point2d d :
+       {Point2d{difference.high.x, difference.low.y}, difference.high, Point2d{difference.low.x, difference.high.y}}) {
+    if (from.x * d.y < from.y * d.x) from = d;
+    if (to.x * d.y > to.y * d.x) to = d;
   }
-  if (to - from >= std::numbers::pi) return {0, bins_.count};
-  const double middle = std::atan2(toward.y, toward.x);
-  const std::int64_t first = bins_.unwrapped_bin_of(middle + from - bound_rounding);
-  return {first, static_cast<std::size_t>(bins_.unwrapped_bin_of(middle + to + bound_rounding) + 1 - first)};
+  return borders_.between(turned(from, -bound_rounding), turned(to, bound_rounding));
 }
 
 /// When all of a node is surely below what stands before it, its bound is noted, and it is done.
@@ -112,7 +110,7 @@ void LookAround::add_leaf(const CityHorizon::Node& leaf, double distance_m) {
   bool drawn = false;
   for (std::uint32_t n = leaf.first_obstacle; n < leaf.first_obstacle + leaf.obstacle_count; ++n) {
     const Obstacle& obstacle = city_.obstacles()[n];
-    if (is_settled(obstacle) || hide_obstacle(obstacle)) continue;
+    if (faces_away(obstacle) || is_settled(obstacle) || hide_obstacle(obstacle)) continue;
     found_.candidates.push_back(n);
     // What does not stand may be seen under: it hides nothing for certain
     if (!obstacle.is_edge) continue;
@@ -132,6 +130,14 @@ void LookAround::remember_what_is_settled(const BinRange& range) {
   }
 }
 
+/// Whether an edge can be no horizon for anybody in the cell: what hides it, or rises behind it, is there by its own edges.
+bool LookAround::faces_away(const Obstacle& obstacle) const {
+  const double lowest_m = place_.patches.levels_m().front();
+  if (!obstacle.is_edge || obstacle.z_high_m() <= lowest_m) return false;
+  const auto p = obstacle.corners_from(place_.corner);
+  return !may_be_horizon(p[0], p[1], obstacle.rises, place_.square, lowest_m, obstacle.z_high_m());
+}
+
 /// Whether an obstacle is so low that `hidden` bounds it already, wherever in the leaf at hand it stands. A bound without
 /// azimuths is enough to tell for most.
 bool LookAround::is_settled(const Obstacle& obstacle) const {
@@ -148,36 +154,43 @@ bool LookAround::hide_obstacle(const Obstacle& obstacle) {
   over_cell_.look_at(obstacle, place_.corner, place_.square);
   if (over_cell_.surrounds() || rises(obstacle)) return false;
   const std::vector<float>& levels_m = place_.patches.levels_m();
-  for (EdgeOverSquare& edge : over_cell_.edges())
-    for (std::size_t l = 0; l < levels_m.size() && obstacle.z_high_m() > levels_m[l]; ++l) {
-      const std::span<const double> upper = edge.upper(levels_m[l]);
+  const double* bound = bounds_.data();
+  for (const EdgeOverSquare& edge : over_cell_.edges())
+    for (std::size_t l = 0; l < levels_m.size() && obstacle.z_high_m() > levels_m[l]; ++l, bound += edge.bin_count()) {
       float* row = &found_.hidden[l * bins_.count];
-      for_each_bin(bins_, edge.first_bin(), upper.size(),
-                   [&](std::size_t n, std::uint32_t bin) { row[bin] = std::max(row[bin], static_cast<float>(upper[n])); });
+      for_each_bin(bins_, edge.first_bin(), edge.bin_count(),
+                   [&](std::size_t n, std::uint32_t bin) { row[bin] = std::max(row[bin], static_cast<float>(bound[n])); });
     }
   return true;
 }
 
-/// Whether the obstacle at hand may be seen over what stands before it.
+/// Whether the obstacle at hand may be seen over what stands before it. If not, its bounds are kept.
 bool LookAround::rises(const Obstacle& obstacle) {
   const std::vector<float>& levels_m = place_.patches.levels_m();
   bool rises = false;
+  bounds_.clear();
   for (EdgeOverSquare& edge : over_cell_.edges())
     for (std::size_t l = 0; l < levels_m.size() && !rises && obstacle.z_high_m() > levels_m[l]; ++l) {
       const std::span<const double> upper = edge.upper(levels_m[l]);
       const double* limits = &limits_[l * bins_.count];
       for_each_bin(bins_, edge.first_bin(), upper.size(),
                    [&](std::size_t n, std::uint32_t bin) { rises = rises || upper[n] > limits[bin]; });
+      bounds_.insert(bounds_.end(), upper.begin(), upper.end());
     }
   return rises;
 }
 
 void LookAround::update_limits(const BinRange& range) {
-  for (std::uint32_t l = 0; l < place_.patches.layers(); ++l)
-    for_each_bin(bins_, range.first, range.count, [&](std::size_t, std::uint32_t bin) {
-      const double floor = found_.views.lowest(place_.ceiling_level(l), bin);
-      limits_[l * bins_.count + bin] = std::max(floor, slope_of_sine(sine_of_slope(floor) + tolerance_));
-    });
+  for_each_bin(bins_, range.first, range.count, [&](std::size_t, std::uint32_t bin) {
+    const std::span<const float> floors = found_.views.lowest(bin);
+    for (std::uint32_t l = 0; l < place_.patches.layers(); ++l) {
+      const float floor = floors[place_.ceiling_level(l)];
+      const std::size_t place = std::size_t{l} * bins_.count + bin;
+      if (floor == floors_[place]) continue;
+      floors_[place] = floor;
+      limits_[place] = std::max<double>(floor, slope_of_sine(sine_of_slope(floor) + tolerance_));
+    }
+  });
 }
 
 }  // namespace farlod

@@ -31,16 +31,12 @@ class LookAround {
   [[nodiscard]] Surroundings run() &&;
 
  private:
-  /// Unwrapped bins, one after the other.
-  struct BinRange {
-    std::int64_t first = 0;
-    std::size_t count = 0;
-  };
   [[nodiscard]] Box2d outline_of(const CityHorizon::Node& node) const;
   [[nodiscard]] BinRange bins_of(const Box2d& box) const;
   bool hide_node(const CityHorizon::Node& node, double distance_m);
   void add_leaf(const CityHorizon::Node& leaf, double distance_m);
   void remember_what_is_settled(const BinRange& bins);
+  [[nodiscard]] bool faces_away(const Obstacle& obstacle) const;
   [[nodiscard]] bool is_settled(const Obstacle& obstacle) const;
   bool hide_obstacle(const Obstacle& obstacle);
   [[nodiscard]] bool rises(const Obstacle& obstacle);
@@ -52,9 +48,11 @@ class LookAround {
   const AzimuthBins& bins_;
   double tolerance_;
   Surroundings found_;
-  std::vector<double> limits_;    ///< as Surroundings::hidden: what does not rise over this slope is hidden
+  std::vector<float> floors_;     ///< as Surroundings::hidden: the slope over which all viewpoints see nothing yet
+  std::vector<double> limits_;    ///< likewise: what does not rise over this slope is hidden
   std::vector<double> settled_;   ///< for each layer, the lowest of `hidden` over the bins of the leaf at hand
   ObstacleOverSquare over_cell_;  ///< the obstacle at hand
+  std::vector<double> bounds_;    ///< of the obstacle at hand: `upper` of its edges, level by level
 };
 
 }  // namespace farlod

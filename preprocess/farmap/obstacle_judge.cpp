@@ -32,10 +32,10 @@ void ObstacleJudge::see_from(std::uint32_t patch) {
   const std::uint32_t n = place_.patches.squares_per_edge(), square = patch % place_.patches.squares(),
                       level = place_.ceiling_level(patch / place_.patches.squares());
   const std::uint32_t i = square % n, j = square / n;
-  for (std::size_t bin = 0; bin < bins_.count; ++bin) {
-    float lowest = views_.at(i, j, level)[bin];
+  for (std::uint32_t bin = 0; bin < bins_.count; ++bin) {
+    float lowest = views_.slope(i, j, level, bin);
     for (const auto& [di, dj] : {std::pair{1U, 0U}, std::pair{0U, 1U}, std::pair{1U, 1U}})
-      lowest = std::min(lowest, views_.at(i + di, j + dj, level)[bin]);
+      lowest = std::min(lowest, views_.slope(i + di, j + dj, level, bin));
     const std::size_t place = std::size_t{patch} * bins_.count + bin;
     seen_[place] = lowest;
     limits_[place] = std::max<double>(lowest, just_below * slope_of_sine(sine_of_slope(lowest) + tolerance_));

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "farlod/far_map/receiver_patches.hpp"
-#include "farlod/horizon/azimuth.hpp"
 #include "farlod/point.hpp"
+#include "farmap/bin_borders.hpp"
 
 namespace farlod {
 
@@ -16,30 +16,34 @@ namespace farlod {
 /// the azimuth bins, as slopes; 0 where nothing rises above the horizontal.
 class ViewpointHorizons {
  public:
-  ViewpointHorizons(double cell_edge_m, const ReceiverPatches& patches, const AzimuthBins& bins);
+  /// The borders must outlive it.
+  ViewpointHorizons(double cell_edge_m, const ReceiverPatches& patches, const BinBorders& borders);
 
   static constexpr std::uint32_t all_levels = ~std::uint32_t{0};
   /// Raises the horizons by an edge (cell frame), at the levels whose bits are set.
   void add(const Point3d& a, const Point3d& b, std::uint32_t levels = all_levels);
-  /// The horizon of the viewpoint at corner (i, j), counted from the south-west, at a level.
-  [[nodiscard]] std::span<const float> at(std::uint32_t i, std::uint32_t j, std::uint32_t level) const {
-    return std::span(slopes_).subspan(place(i, j, level), bins_.count);
+  /// The horizon of the viewpoint at corner (i, j), counted from the south-west, at a level, in a bin.
+  [[nodiscard]] float slope(std::uint32_t i, std::uint32_t j, std::uint32_t level, std::uint32_t bin) const {
+    return slopes_[place(i, j, bin) + level];
   }
-  /// In a bin, the lowest horizon of all viewpoints of a level.
-  [[nodiscard]] float lowest(std::uint32_t level, std::uint32_t bin) const;
+  /// In a bin, for each level the lowest horizon of all viewpoints. Valid until the next call.
+  [[nodiscard]] std::span<const float> lowest(std::uint32_t bin);
 
  private:
-  [[nodiscard]] std::size_t place(std::uint32_t i, std::uint32_t j, std::uint32_t level) const {
-    return ((static_cast<std::size_t>(j) * corners_per_edge_ + i) * levels_m_.size() + level) * bins_.count;
+  /// Of the lowest level; the others follow, since an edge is drawn at all of them.
+  [[nodiscard]] std::size_t place(std::uint32_t i, std::uint32_t j, std::uint32_t bin) const {
+    return ((static_cast<std::size_t>(j) * corners_per_edge_ + i) * middles_.size() + bin) * levels_m_.size();
   }
-  void add_at(std::uint32_t i, std::uint32_t j, const Point3d& a, const Point3d& b, std::uint32_t levels);
+  void add_at(std::uint32_t i, std::uint32_t j, const Point3d& a, const Point3d& b);
+  [[nodiscard]] BinRange middles_between(Point2d from, Point2d to) const;
 
-  AzimuthBins bins_;
+  const BinBorders* borders_;
   std::uint32_t corners_per_edge_;
   double square_edge_m_;
   std::vector<float> levels_m_;
+  std::vector<double> shown_m_;   ///< the levels at which the edge at hand is drawn; infinite for those that it is not drawn at
   std::vector<Point2d> middles_;  ///< unit vectors through the middles of the bins
-  std::vector<float> slopes_;
+  std::vector<float> slopes_, lowest_;
 };
 
 }  // namespace farlod

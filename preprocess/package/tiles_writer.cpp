@@ -3,12 +3,14 @@
 #include "package/tiles_writer.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
 
 #include "farlod/expects.hpp"
 #include "farlod/package/layout.hpp"
+#include "package/shared_vertices.hpp"
 
 namespace farlod {
 namespace {
@@ -33,17 +35,12 @@ class BlockSections {
     CellRecord record{};
     record.i = cell.i;
     record.j = cell.j;
-    record.first_vertex = vertices.size();
-    record.first_triangle = triangles.size();
-    record.vertex_count = static_cast<std::uint32_t>(tile.vertices.size());
     record.triangle_count = static_cast<std::uint32_t>(tile.triangles.size());
-    record.z_low_m = tile.z_low_m;
-    record.z_high_m = tile.z_high_m;
+    record.edge_count = static_cast<std::uint32_t>(tile.horizon_edges.size());
     record.flags = tile.has_overhang ? cell_has_overhang : 0;
+    add_geometry(tile, record);
+    add_runs(tile);
     cells.push_back(record);
-    vertices.insert(vertices.end(), tile.vertices.begin(), tile.vertices.end());
-    triangles.insert(triangles.end(), tile.triangles.begin(), tile.triangles.end());
-    for (const std::uint32_t s : tile.triangle_surfaces) triangle_surfaces.push_back(row_of_surface_.at(s));
   }
 
   void describe_map(CellRecord& cell, const BakedBox& map) {
@@ -74,31 +71,60 @@ class BlockSections {
   std::vector<NamedObstacle> named_edges, named_triangles;
   std::vector<Point3f> vertices;
   std::vector<Triangle> triangles;
-  std::vector<std::uint32_t> triangle_surfaces;
+  std::vector<SurfaceRun> surface_runs;
+  std::vector<TileEdge> tile_edges;
+  std::vector<EdgeRises> edge_rises;
   std::vector<SurfaceRecord> surfaces;
   std::vector<BuildingRecord> buildings;
   std::string text;
 
  private:
+  /// An end of an edge is nearly always a corner of a triangle: both are rounded in the same way from the same place. Where the
+  /// two were cut elsewhere, it becomes a vertex of its own.
+  void add_geometry(const Tile& tile, CellRecord& cell) {
+    SharedVertices shared;
+    const auto corner = [&](std::uint32_t vertex) { return shared.number_of(tile.vertices[vertex]); };
+    for (const Triangle& t : tile.triangles) triangles.push_back(Triangle{corner(t.a), corner(t.b), corner(t.c)});
+    for (const HorizonEdge& e : tile.horizon_edges) {
+      tile_edges.push_back(TileEdge{shared.number_of(e.a), shared.number_of(e.b)});
+      edge_rises.push_back(e.rises);
+    }
+    cell.vertex_count = static_cast<std::uint32_t>(shared.vertices().size());
+    cell.z_low_m = std::numeric_limits<float>::infinity();
+    cell.z_high_m = -cell.z_low_m;
+    for (const Point3f& p : shared.vertices()) {
+      cell.z_low_m = std::min(cell.z_low_m, p.z);
+      cell.z_high_m = std::max(cell.z_high_m, p.z);
+    }
+    vertices.insert(vertices.end(), shared.vertices().begin(), shared.vertices().end());
+  }
+
+  void add_runs(const Tile& tile) {
+    const std::vector<std::uint32_t>& numbers = tile.triangle_surfaces;
+    for (std::uint32_t t = 0; t < numbers.size(); ++t) {
+      const bool ends = t + 1 == numbers.size() || numbers[t + 1] != numbers[t];
+      if (ends) surface_runs.push_back(SurfaceRun{row_of_surface_.at(numbers[t]), t + 1});
+    }
+  }
+
   SurfaceRecord record_of(const Surface& s) {
     const auto f = [](double x) { return static_cast<float>(x); };
     return {s.building == ground_building ? no_building : row_of_building(s.building),
             s.number,
             s.part,
             s.kind,
-            0,
+            static_cast<std::uint8_t>(s.stands ? 1 : 0),
             f(s.normal.x),
             f(s.normal.y),
-            f(s.normal.z),
-            f(s.area_m2),
-            0};
+            f(s.normal.z)};
   }
   std::uint32_t row_of_building(std::uint32_t number) {
     const auto [entry, is_new] = row_of_building_.try_emplace(number, static_cast<std::uint32_t>(buildings.size()));
     if (is_new) {
       const std::string& id = city_.building_ids[number];
-      buildings.push_back({text.size(), static_cast<std::uint32_t>(id.size()), number});
+      buildings.push_back({static_cast<std::uint32_t>(text.size()), static_cast<std::uint32_t>(id.size()), number});
       text += id;
+      FARLOD_EXPECTS(text.size() <= std::numeric_limits<std::uint32_t>::max());
     }
     return entry->second;
   }
@@ -166,7 +192,7 @@ std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, 
   file.add(SectionKind::cells, sections.cells);
   file.add(SectionKind::vertices, sections.vertices);
   file.add(SectionKind::triangles, sections.triangles);
-  file.add(SectionKind::triangle_surfaces, sections.triangle_surfaces);
+  file.add(SectionKind::surface_runs, sections.surface_runs);
   file.add(SectionKind::surfaces, sections.surfaces);
   file.add(SectionKind::buildings, sections.buildings);
   file.add(SectionKind::text, sections.text);
@@ -175,6 +201,8 @@ std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, 
   file.add(SectionKind::far_triangles, sections.far_triangles);
   file.add(SectionKind::named_edges, sections.named_edges);
   file.add(SectionKind::named_triangles, sections.named_triangles);
+  file.add(SectionKind::tile_edges, sections.tile_edges);
+  file.add(SectionKind::edge_rises, sections.edge_rises);
   return file.finish();
 }
 

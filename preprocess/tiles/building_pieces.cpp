@@ -135,7 +135,7 @@ class BuildingCutter {
       for (const Triangle& t : f.triangulation.triangles)
         table.add_triangle(f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c]);
     result_.open_ends = open_ends(table.open_edges());
-    for (const Segment3d& edge : table.horizon_edges()) {
+    for (const HorizonSegment& edge : table.horizon_edges()) {
       const auto pieces = only_cell ? std::vector{whole_edge(edge, *only_cell, grid_, height_origin_m_)}
                                     : cut_edge(edge, grid_, height_origin_m_);
       result_.horizon_edges.insert(result_.horizon_edges.end(), pieces.begin(), pieces.end());

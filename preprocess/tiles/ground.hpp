@@ -35,7 +35,7 @@ class Ground {
   /// All triangles, counter-clockwise seen from above, in a fixed order.
   [[nodiscard]] std::vector<std::array<Point3d, 3>> triangles() const;
   /// Edges of the triangles that can be a horizon: the convex ones and the border, in a fixed order.
-  [[nodiscard]] std::vector<Segment3d> horizon_edges() const;
+  [[nodiscard]] std::vector<HorizonSegment> horizon_edges() const;
 
  private:
   struct Impl;

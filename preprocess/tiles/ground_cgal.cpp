@@ -92,9 +92,9 @@ std::vector<std::array<Point3d, 3>> Ground::triangles() const {
   return result;
 }
 
-std::vector<Segment3d> Ground::horizon_edges() const {
+std::vector<HorizonSegment> Ground::horizon_edges() const {
   const Network& network = impl_->network;
-  std::vector<Segment3d> result;
+  std::vector<HorizonSegment> result;
   if (network.dimension() < 2) return result;
   // Not finite_edges: of an edge's two faces it takes the one that lies lower in memory, and no two runs agree on that
   for (auto face = network.finite_faces_begin(); face != network.finite_faces_end(); ++face)
@@ -107,7 +107,7 @@ std::vector<Segment3d> Ground::horizon_edges() const {
       EdgeSides edge(a, b);
       edge.add(from_cgal(face->vertex(opposite)->point()));
       if (has_two_faces) edge.add(from_cgal(mirrored.first->vertex(mirrored.second)->point()));
-      if (edge.can_be_horizon()) result.push_back(edge.edge());
+      if (edge.can_be_horizon()) result.push_back({edge.edge(), edge.rises()});
     }
   return result;
 }

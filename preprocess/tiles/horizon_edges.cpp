@@ -75,10 +75,10 @@ void EdgeTable::add_triangle(const Point3d& corner_a, const Point3d& corner_b, c
   add_edge(c, a, b);
 }
 
-std::vector<Segment3d> EdgeTable::horizon_edges() const {
-  std::vector<Segment3d> result;
+std::vector<HorizonSegment> EdgeTable::horizon_edges() const {
+  std::vector<HorizonSegment> result;
   for (const EdgeSides& e : edges_)
-    if (e.can_be_horizon()) result.push_back(e.edge());
+    if (e.can_be_horizon()) result.push_back({e.edge(), e.rises()});
   return result;
 }
 
@@ -89,13 +89,16 @@ std::vector<Segment3d> EdgeTable::open_edges() const {
   return result;
 }
 
-CellEdge whole_edge(const Segment3d& edge, Cell cell, const Grid& grid, double height_origin_m) {
-  return {cell, {cell_from_grid(edge.a, cell, grid, height_origin_m), cell_from_grid(edge.b, cell, grid, height_origin_m)}};
+CellEdge whole_edge(const HorizonSegment& edge, Cell cell, const Grid& grid, double height_origin_m) {
+  return {cell,
+          {cell_from_grid(edge.segment.a, cell, grid, height_origin_m),
+           cell_from_grid(edge.segment.b, cell, grid, height_origin_m), edge.rises}};
 }
 
-std::vector<CellEdge> cut_edge(const Segment3d& edge, const Grid& grid, double height_origin_m) {
+std::vector<CellEdge> cut_edge(const HorizonSegment& horizon, const Grid& grid, double height_origin_m) {
+  const Segment3d& edge = horizon.segment;
   const Cell cell = grid.cell_of(horizontal(edge.a));
-  if (cell == grid.cell_of(horizontal(edge.b))) return {whole_edge(edge, cell, grid, height_origin_m)};
+  if (cell == grid.cell_of(horizontal(edge.b))) return {whole_edge(horizon, cell, grid, height_origin_m)};
   std::vector<double> places{0.0, 1.0};
   add_crossings(edge.a.x, edge.b.x, grid, places);
   add_crossings(edge.a.y, edge.b.y, grid, places);
@@ -104,7 +107,8 @@ std::vector<CellEdge> cut_edge(const Segment3d& edge, const Grid& grid, double h
   std::vector<CellEdge> pieces;
   for (std::size_t n = 1; n < places.size(); ++n) {
     const Cell owner = grid.cell_of(horizontal(point_at(edge, 0.5 * (places[n - 1] + places[n]))));
-    pieces.push_back(whole_edge({point_at(edge, places[n - 1]), point_at(edge, places[n])}, owner, grid, height_origin_m));
+    pieces.push_back(
+        whole_edge({{point_at(edge, places[n - 1]), point_at(edge, places[n])}, horizon.rises}, owner, grid, height_origin_m));
   }
   return pieces;
 }

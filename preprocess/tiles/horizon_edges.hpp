@@ -20,6 +20,13 @@ struct Segment3d {
   bool operator==(const Segment3d&) const = default;
 };
 
+/// A segment that can be a horizon, and the facets beside it.
+struct HorizonSegment {
+  Segment3d segment;
+  EdgeRises rises;
+  bool operator==(const HorizonSegment&) const = default;
+};
+
 /// Two directions closer than this cannot be told apart. Turning a city into the grid frame rounds its points by less than
 /// 1e-10 m (a double has 53 bits, a city less than 400 km); over `least_extent_m` that makes this angle.
 inline constexpr double angle_tolerance_rad = 1e-6;
@@ -37,6 +44,7 @@ class EdgeSides {
   void add(const Point3d& opposite);
   [[nodiscard]] const Segment3d& edge() const { return edge_; }
   [[nodiscard]] std::uint32_t triangle_count() const { return triangle_count_; }
+  [[nodiscard]] EdgeRises rises() const { return {EdgeRises::rounded_down(left_rad_), EdgeRises::rounded_down(right_rad_)}; }
   /// False: whatever eye looks past the edge sees one of its triangles at least as high as the edge.
   [[nodiscard]] bool can_be_horizon() const;
 
@@ -54,7 +62,7 @@ class EdgeTable {
   void add_triangle(const Point3d& a, const Point3d& b, const Point3d& c);
 
   /// Each edge that can be a horizon, once, in the order in which they were added.
-  [[nodiscard]] std::vector<Segment3d> horizon_edges() const;
+  [[nodiscard]] std::vector<HorizonSegment> horizon_edges() const;
   /// Edges of an odd number of triangles, in the order in which they were added. A closed surface has none.
   [[nodiscard]] std::vector<Segment3d> open_edges() const;
 
@@ -76,9 +84,9 @@ struct CellEdge {
 
 /// Cuts an edge at the borders of the grid, and rounds the ends of the pieces once. A piece belongs to the cell of its
 /// middle: along a border, to the one to its east or north.
-[[nodiscard]] std::vector<CellEdge> cut_edge(const Segment3d& edge_grid, const Grid& grid, double height_origin_m);
+[[nodiscard]] std::vector<CellEdge> cut_edge(const HorizonSegment& edge_grid, const Grid& grid, double height_origin_m);
 
 /// An edge left whole, in the frame of `cell`.
-[[nodiscard]] CellEdge whole_edge(const Segment3d& edge_grid, Cell cell, const Grid& grid, double height_origin_m);
+[[nodiscard]] CellEdge whole_edge(const HorizonSegment& edge_grid, Cell cell, const Grid& grid, double height_origin_m);
 
 }  // namespace farlod

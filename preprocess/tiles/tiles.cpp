@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tiles/tiles.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_pipeline.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +17,9 @@
 namespace farlod {
 namespace {
 
-/// Buildings cut at once, before their pieces are put in place one after the other. Bounds the memory of what waits.
-constexpr std::size_t batch_size = 4096;
+/// Things that are cut by one thread at a stretch, and stretches that may wait to be put in place. Bounds the memory of what
+/// waits.
+constexpr std::size_t batch_size = 256, batches_at_once = 16;
 /// A surface that looks down by less than this (cosine) is a wall that was surveyed a little off.
 constexpr double overhang_normal_z = -0.01;
 
@@ -48,6 +49,31 @@ std::vector<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& 
   return nodes;
 }
 
+/// Calls place(n, made) for each n below `count`, in order and one at a time, with what make(n) returns. Making goes on in
+/// parallel meanwhile.
+template <class Make, class Place>
+void make_and_place(std::size_t count, const Make& make, const Place& place) {
+  namespace tbb = oneapi::tbb;
+  using Made = std::vector<decltype(make(std::size_t{0}))>;
+  using Batch = std::pair<std::size_t, Made>;
+  std::size_t next = 0;
+  const auto begin_batch = [&](tbb::flow_control& flow) {
+    if (next >= count) flow.stop();
+    return std::exchange(next, next + batch_size);
+  };
+  const auto make_batch = [&](std::size_t first) {
+    Batch batch{first, {}};
+    for (std::size_t n = first; n < std::min(first + batch_size, count); ++n) batch.second.push_back(make(n));
+    return batch;
+  };
+  const auto place_batch = [&](Batch batch) {
+    for (std::size_t k = 0; k < batch.second.size(); ++k) place(batch.first + k, batch.second[k]);
+  };
+  tbb::parallel_pipeline(batches_at_once, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, begin_batch) &
+                                              tbb::make_filter<std::size_t, Batch>(tbb::filter_mode::parallel, make_batch) &
+                                              tbb::make_filter<Batch, void>(tbb::filter_mode::serial_in_order, place_batch));
+}
+
 class TileCutter {
  public:
   TileCutter(const CityModel& city_grid, std::span<const std::string> sources, const Grid& grid, Assign assign, Ground ground)
@@ -64,7 +90,13 @@ class TileCutter {
 
   TileSet run(Report& report) {
     place_ground();
-    for (std::size_t first = 0; first < city_.buildings().size(); first += batch_size) cut_batch(first, report);
+    place_ground_edges();
+    note_ground_heights();
+    const auto buildings = city_.buildings();
+    make_and_place(
+        buildings.size(),
+        [&](std::size_t n) { return cut_building(city_, buildings[n], grid_, assign_, tiles_.height_origin_m); },
+        [&](std::size_t n, BuildingPieces& pieces) { place_building(buildings[n], pieces, report); });
     return std::move(tiles_);
   }
 
@@ -79,17 +111,33 @@ class TileCutter {
 
   void place_ground() {
     tiles_.surfaces.push_back({ground_building, 0, 0, SurfaceKind::ground, {0.0, 0.0, 1.0}, 0.0});
-    for (const auto& triangle : ground_triangles_) {
-      tiles_.surfaces[ground_surface].area_m2 += 0.5 * norm(cross(triangle[1] - triangle[0], triangle[2] - triangle[0]));
-      for (const CellPiece& piece : cut(triangle, grid_, tiles_.height_origin_m)) {
-        if (!grid_.cells.contains(piece.cell)) continue;  // a terrain may reach beyond the grid
-        place(piece, ground_surface);
-        place_rim(piece);
-      }
-    }
-    for (const Segment3d& edge : ground_.horizon_edges())
-      for (const CellEdge& piece : cut_edge(edge, grid_, tiles_.height_origin_m))
-        if (grid_.cells.contains(piece.cell) && !lies_on_rim(piece)) place(piece);
+    const std::vector<std::array<Point3d, 3>> triangles = std::move(ground_triangles_);  // let go of before the buildings come
+    make_and_place(
+        triangles.size(), [&](std::size_t n) { return cut(triangles[n], grid_, tiles_.height_origin_m); },
+        [&](std::size_t n, const std::vector<CellPiece>& pieces) {
+          const auto& [a, b, c] = triangles[n];
+          tiles_.surfaces[ground_surface].area_m2 += 0.5 * norm(cross(b - a, c - a));
+          for (const CellPiece& piece : pieces) place_ground_piece(piece);
+        });
+  }
+
+  void place_ground_piece(const CellPiece& piece) {
+    if (!grid_.cells.contains(piece.cell)) return;  // a terrain may reach beyond the grid
+    place(piece, ground_surface);
+    place_rim(piece);
+  }
+
+  void place_ground_edges() {
+    const std::vector<HorizonSegment> edges = ground_.horizon_edges();
+    make_and_place(
+        edges.size(), [&](std::size_t n) { return cut_edge(edges[n], grid_, tiles_.height_origin_m); },
+        [&](std::size_t, const std::vector<CellEdge>& pieces) {
+          for (const CellEdge& piece : pieces)
+            if (grid_.cells.contains(piece.cell) && !lies_on_rim(piece)) place(piece);
+        });
+  }
+
+  void note_ground_heights() {
     for (std::size_t n = 0; n < tiles_.tiles.size(); ++n) {
       const double height = ground_.height_at(grid_.centre_of(grid_.cells.cell_at(n)));
       tiles_.tiles[n].ground_at_centre_m = static_cast<float>(height - tiles_.height_origin_m);
@@ -105,14 +153,14 @@ class TileCutter {
   /// Where the grid cuts the ground off, the cut is an edge of what is left.
   void place_rim(const CellPiece& piece) {
     for (std::size_t k = 0; k < piece.polygon.size(); ++k) {
-      const CellEdge side{piece.cell, {piece.polygon[k], piece.polygon[(k + 1) % piece.polygon.size()]}};
+      const CellEdge side{piece.cell, {piece.polygon[k], piece.polygon[(k + 1) % piece.polygon.size()], {}}};
       if (lies_on_rim(side)) place(side);
     }
   }
 
   [[nodiscard]] bool lies_on_rim(const CellEdge& piece) const {
     const auto edge_m = static_cast<float>(grid_.cell_edge_m);
-    const auto& [a, b] = piece.edge;
+    const Point3f &a = piece.edge.a, &b = piece.edge.b;
     return (piece.cell.i == grid_.cells.i_begin && a.x == 0.0F && b.x == 0.0F) ||
            (piece.cell.j == grid_.cells.j_begin && a.y == 0.0F && b.y == 0.0F) ||
            (piece.cell.i == grid_.cells.i_end - 1 && a.x == edge_m && b.x == edge_m) ||
@@ -122,15 +170,6 @@ class TileCutter {
   void place(const CellEdge& piece) {
     FARLOD_EXPECTS(grid_.cells.contains(piece.cell));
     tiles_.tile(piece.cell).horizon_edges.push_back(piece.edge);
-  }
-
-  void cut_batch(std::size_t first, Report& report) {
-    const auto buildings = city_.buildings().subspan(first, std::min(batch_size, city_.buildings().size() - first));
-    std::vector<BuildingPieces> cut_buildings(buildings.size());
-    oneapi::tbb::parallel_for(std::size_t{0}, buildings.size(), [&](std::size_t n) {
-      cut_buildings[n] = cut_building(city_, buildings[n], grid_, assign_, tiles_.height_origin_m);
-    });
-    for (std::size_t n = 0; n < buildings.size(); ++n) place_building(buildings[n], cut_buildings[n], report);
   }
 
   void place_building(const Building& building, BuildingPieces& cut_building, Report& report) {

@@ -25,6 +25,9 @@ bool is_on_earth(const Point3f& p) {
   return std::abs(p.x) <= farthest_m && std::abs(p.y) <= farthest_m && std::abs(p.z) <= farthest_m;
 }
 
+/// −128 is no angle: its tangent would come out on the other side of the vertical.
+bool are_angles(EdgeRises rises) { return rises.left >= EdgeRises::straight_down && rises.right >= EdgeRises::straight_down; }
+
 }  // namespace
 
 BlockTiles::BlockTiles(std::span<const std::byte> bytes, const CellRange& cells, std::string name)
@@ -33,6 +36,8 @@ BlockTiles::BlockTiles(std::span<const std::byte> bytes, const CellRange& cells,
   find_sections();
   check_surfaces();
   check_cells();
+  place_tiles();
+  for (const TileView& tile : tiles_) check_tile(tile);
   check_far_cells();
   check_far_places();
 }
@@ -57,9 +62,6 @@ void BlockTiles::find_sections() {
   const auto* header = reinterpret_cast<const Header*>(bytes_.data());
   sections_ = {reinterpret_cast<const Section*>(bytes_.data() + sizeof(Header)), header->section_count};
   cells_ = section<CellRecord>(SectionKind::cells);
-  vertices_ = section<Point3f>(SectionKind::vertices);
-  triangles_ = section<Triangle>(SectionKind::triangles);
-  triangle_surfaces_ = section<std::uint32_t>(SectionKind::triangle_surfaces);
   surfaces_ = section<SurfaceRecord>(SectionKind::surfaces);
   buildings_ = section<BuildingRecord>(SectionKind::buildings);
   const auto text = section<char>(SectionKind::text);
@@ -92,47 +94,79 @@ void BlockTiles::check_surfaces() const {
   for (const SurfaceRecord& s : surfaces_) {
     require(s.building == no_building || s.building < buildings_.size(), "a surface names a building that does not exist");
     require(s.kind >= SurfaceKind::ground && s.kind <= SurfaceKind::floor, "a surface is of a kind that does not exist");
+    require(s.stands <= 1, "a surface neither stands nor does not");
     require(std::abs(s.normal_x) <= longest && std::abs(s.normal_y) <= longest && std::abs(s.normal_z) <= longest,
             "a surface's normal is not a direction");
-    require(s.area_m2 >= 0.0F && std::isfinite(s.area_m2), "a surface's area is not a number");
   }
 }
 
 void BlockTiles::check_cells() const {
   require(cells_.size() == static_cast<std::size_t>(range_.size()), "it does not hold the cells of its block");
-  require(triangle_surfaces_.size() == triangles_.size(), "not every triangle has a surface");
   for (std::size_t n = 0; n < cells_.size(); ++n) {
     const CellRecord& c = cells_[n];
     require(Cell{c.i, c.j} == range_.cell_at(n), "its cells are not in order");
-    require(c.first_vertex <= vertices_.size() && c.vertex_count <= vertices_.size() - c.first_vertex,
-            "a cell's vertices reach beyond the end");
-    require(c.first_triangle <= triangles_.size() && c.triangle_count <= triangles_.size() - c.first_triangle,
-            "a cell's triangles reach beyond the end");
     require(is_on_earth({c.capture_x_m, c.capture_y_m, c.capture_z_m}), "a capture point lies nowhere on Earth");
     require(std::isfinite(c.far_map_top) && c.far_map_top >= 0.0F, "a far map's height is not a number");
-    check_vertices(c);
-    check_triangles(c);
   }
 }
 
-void BlockTiles::check_vertices(const CellRecord& c) const {
+void BlockTiles::place_tiles() {
+  auto vertices = section<Point3f>(SectionKind::vertices);
+  auto triangles = section<Triangle>(SectionKind::triangles);
+  auto runs = section<SurfaceRun>(SectionKind::surface_runs);
+  auto edges = section<TileEdge>(SectionKind::tile_edges);
+  auto rises = section<EdgeRises>(SectionKind::edge_rises);
+  require(rises.size() == edges.size(), "not every edge has its rises");
+  tiles_.reserve(cells_.size());
+  for (const CellRecord& c : cells_) {
+    TileView tile{&c, {}, {}, surfaces_, buildings_, {}, {}};
+    tile.mesh.vertices = cut_off(vertices, c.vertex_count, "a cell's vertices reach beyond the end");
+    tile.mesh.triangles = cut_off(triangles, c.triangle_count, "a cell's triangles reach beyond the end");
+    tile.surface_runs = cut_off(runs, run_count(runs, c.triangle_count), "a cell's surfaces reach beyond the end");
+    tile.edges = cut_off(edges, c.edge_count, "a cell's edges reach beyond the end");
+    tile.edge_rises = cut_off(rises, c.edge_count, "a cell's edges reach beyond the end");
+    tiles_.push_back(tile);
+  }
+  require(vertices.empty() && triangles.empty() && runs.empty() && edges.empty(), "it holds more than its cells own");
+}
+
+template <class T>
+std::span<const T> BlockTiles::cut_off(std::span<const T>& rest, std::size_t count, const char* what) const {
+  require(count <= rest.size(), what);
+  const auto front = rest.first(count);
+  rest = rest.subspan(count);
+  return front;
+}
+
+std::size_t BlockTiles::run_count(std::span<const SurfaceRun> runs, std::uint32_t triangle_count) const {
+  std::size_t count = 0;
+  for (std::uint32_t begin = 0; begin < triangle_count; ++count) {
+    require(count < runs.size(), "not every triangle has a surface");
+    const SurfaceRun& run = runs[count];
+    require(begin < run.end && run.end <= triangle_count, "the runs of triangles of one surface are not in order");
+    require(run.surface < surfaces_.size(), "a triangle names a surface that does not exist");
+    begin = run.end;
+  }
+  return count;
+}
+
+void BlockTiles::check_tile(const TileView& tile) const {
   float z_low_m = std::numeric_limits<float>::infinity(), z_high_m = -z_low_m;
-  for (const Point3f& p : vertices_.subspan(c.first_vertex, c.vertex_count)) {
+  for (const Point3f& p : tile.mesh.vertices) {
     require(is_on_earth(p), "a vertex lies nowhere on Earth");
     z_low_m = std::min(z_low_m, p.z);
     z_high_m = std::max(z_high_m, p.z);
   }
+  const CellRecord& c = *tile.cell;
   const bool is_empty = c.vertex_count == 0;
   require(is_empty ? c.z_low_m > c.z_high_m : c.z_low_m == z_low_m && c.z_high_m == z_high_m,
           "a cell's heights are not those of its vertices");
-}
-
-void BlockTiles::check_triangles(const CellRecord& c) const {
-  for (const Triangle& t : triangles_.subspan(c.first_triangle, c.triangle_count))
+  for (const Triangle& t : tile.mesh.triangles)
     require(t.a < c.vertex_count && t.b < c.vertex_count && t.c < c.vertex_count,
             "a triangle names a vertex that does not exist");
-  for (const std::uint32_t s : triangle_surfaces_.subspan(c.first_triangle, c.triangle_count))
-    require(s < surfaces_.size(), "a triangle names a surface that does not exist");
+  for (const TileEdge& e : tile.edges)
+    require(e.a < c.vertex_count && e.b < c.vertex_count, "an edge names a vertex that does not exist");
+  for (const EdgeRises rises : tile.edge_rises) require(are_angles(rises), "something beside an edge rises beyond a right angle");
 }
 
 void BlockTiles::check_far_cells() const {
@@ -153,7 +187,10 @@ void BlockTiles::check_far_cells() const {
 }
 
 void BlockTiles::check_far_places() const {
-  for (const HorizonEdge& e : far_edges_) require(is_on_earth(e.a) && is_on_earth(e.b), "a far edge lies nowhere on Earth");
+  for (const HorizonEdge& e : far_edges_) {
+    require(is_on_earth(e.a) && is_on_earth(e.b), "a far edge lies nowhere on Earth");
+    require(are_angles(e.rises), "something beside a far edge rises beyond a right angle");
+  }
   for (const FarTriangle& t : far_triangles_)
     for (const Point3f& p : t) require(is_on_earth(p), "a far triangle lies nowhere on Earth");
 }
@@ -174,12 +211,7 @@ std::vector<float> BlockTiles::levels_m(Cell cell, std::uint32_t layers) const {
 
 TileView BlockTiles::tile(Cell cell) const {
   FARLOD_EXPECTS(range_.contains(cell));
-  const CellRecord& c = cells_[range_.index_of(cell)];
-  return {&c,
-          {vertices_.subspan(c.first_vertex, c.vertex_count), triangles_.subspan(c.first_triangle, c.triangle_count)},
-          triangle_surfaces_.subspan(c.first_triangle, c.triangle_count),
-          surfaces_,
-          buildings_};
+  return tiles_[range_.index_of(cell)];
 }
 
 }  // namespace farlod

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "farlod/far_map/far_horizon.hpp"
 #include "farlod/grid.hpp"
@@ -19,12 +21,16 @@ namespace farlod {
 struct TileView {
   const package::CellRecord* cell = nullptr;
   MeshView mesh;
-  std::span<const std::uint32_t> triangle_surfaces;  ///< for each triangle, its row in `surfaces`
-  std::span<const package::SurfaceRecord> surfaces;  ///< of the whole block
+  std::span<const package::SurfaceRun> surface_runs;  ///< cover the triangles, in order
+  std::span<const package::SurfaceRecord> surfaces;   ///< of the whole block
   std::span<const package::BuildingRecord> buildings;
+  std::span<const package::TileEdge> edges;  ///< the horizon of what stands (SurfaceRecord::stands); ends in mesh.vertices
+  std::span<const EdgeRises> edge_rises;     ///< for each edge
 
   [[nodiscard]] const package::SurfaceRecord& surface_of(std::uint32_t triangle) const {
-    return surfaces[triangle_surfaces[triangle]];
+    const auto run = std::upper_bound(surface_runs.begin(), surface_runs.end(), triangle,
+                                      [](std::uint32_t t, const package::SurfaceRun& r) { return t < r.end; });
+    return surfaces[run->surface];
   }
   /// Number within the city of a surface's building; no_building for the ground.
   [[nodiscard]] std::uint32_t building_number(const package::SurfaceRecord& surface) const {
@@ -56,8 +62,11 @@ class BlockTiles {
   void check_header() const;
   void find_sections();
   void check_cells() const;
-  void check_vertices(const package::CellRecord& cell) const;
-  void check_triangles(const package::CellRecord& cell) const;
+  void place_tiles();
+  template <class T>
+  [[nodiscard]] std::span<const T> cut_off(std::span<const T>& rest, std::size_t count, const char* what) const;
+  [[nodiscard]] std::size_t run_count(std::span<const package::SurfaceRun> runs, std::uint32_t triangle_count) const;
+  void check_tile(const TileView& tile) const;
   void check_surfaces() const;
   void check_far_cells() const;
   void check_far_places() const;
@@ -70,12 +79,10 @@ class BlockTiles {
   std::string name_;
   std::span<const package::Section> sections_;
   std::span<const package::CellRecord> cells_;
-  std::span<const Point3f> vertices_;
-  std::span<const Triangle> triangles_;
-  std::span<const std::uint32_t> triangle_surfaces_;
   std::span<const package::SurfaceRecord> surfaces_;
   std::span<const package::BuildingRecord> buildings_;
   std::string_view text_;
+  std::vector<TileView> tiles_;  ///< as many and in the same order as cells_
   std::span<const package::FarCellRecord> far_cells_;
   std::span<const HorizonEdge> far_edges_;
   std::span<const package::FarTriangle> far_triangles_;

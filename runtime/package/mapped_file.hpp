@@ -20,6 +20,8 @@ class MappedFile {
 
   /// Begins at a page, and stays where it is when the object is moved.
   [[nodiscard]] std::span<const std::byte> bytes() const;
+  /// Gives the memory back that holds the bytes. They stay readable, and are read from the disk anew when somebody does.
+  void let_go() const;
 
  private:
   struct Impl;

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <sys/mman.h>
+
 #include <boost/interprocess/file_mapping.hpp>
 #include <boost/interprocess/mapped_region.hpp>
 
@@ -30,6 +32,13 @@ MappedFile::~MappedFile() = default;
 
 std::span<const std::byte> MappedFile::bytes() const {
   return {static_cast<const std::byte*>(impl_->region.get_address()), impl_->region.get_size()};
+}
+
+void MappedFile::let_go() const {
+  if (impl_->region.get_size() == 0) return;
+  // Not Boost's advise(): it asks through POSIX, and there the system is free to do nothing, as glibc does. What a file's shared
+  // pages hold is not lost by this.
+  madvise(impl_->region.get_address(), impl_->region.get_size(), MADV_DONTNEED);
 }
 
 }  // namespace farlod

@@ -13,6 +13,7 @@
 #include "package/manifest_reader.hpp"
 #include "package/mapped_file.hpp"
 #include "package/package_error.hpp"
+#include "package/recently_used.hpp"
 
 namespace farlod {
 namespace {
@@ -29,12 +30,20 @@ void check_stamp(const std::filesystem::path& path, std::span<const std::byte> b
                          " is damaged: its checksum is not the manifest's. Copy it again, or pack the city again.");
 }
 
-/// The files of a block, each opened when it is first needed.
+/// The files of a block, each opened when it is first needed. Tiles stay mapped from then on, even while they hold no memory; the
+/// reader of far maps goes and comes.
 struct OpenBlock {
-  std::once_flag tiles_once, far_map_once;
+  std::once_flag tiles_once, far_map_checked;
   std::optional<MappedFile> tiles_bytes;
   std::optional<BlockTiles> tiles;
-  std::optional<FarMapReader> far_map;
+  std::mutex far_map_door;
+  std::shared_ptr<const FarMapReader> far_map;
+
+  void let_go() {
+    if (tiles_bytes) tiles_bytes->let_go();
+    const std::lock_guard lock(far_map_door);
+    far_map.reset();
+  }
 };
 
 }  // namespace
@@ -43,6 +52,8 @@ struct Package::Impl {
   std::filesystem::path folder;
   package::Manifest manifest;
   std::vector<OpenBlock> blocks;
+  std::mutex held_door;
+  RecentlyUsed held;
 
   explicit Impl(std::filesystem::path f)
       : folder(std::move(f)), manifest(read_manifest(folder)), blocks(manifest.blocks.size()) {}
@@ -62,6 +73,20 @@ struct Package::Impl {
     return folder / package::block_folder(manifest.blocks[n].block) / file;
   }
 
+  /// What a block holds at the most: its tiles, read from end to end, and OpenEXR's buffers, one for the map of a cell as it is
+  /// and one as it is packed.
+  std::uint64_t bytes_of(std::size_t n) const {
+    constexpr std::uint64_t channels = 3, bytes_of_half = 2, buffers = 2;
+    const package::FarMapShape& shape = manifest.far_map;
+    return manifest.blocks[n].tiles.bytes + buffers * channels * bytes_of_half * shape.picture_columns() * shape.picture_rows();
+  }
+
+  /// A block that is open is being used; others may have to go.
+  void use(std::size_t n) {
+    const std::lock_guard lock(held_door);
+    for (const std::size_t other : held.use(n, bytes_of(n))) blocks[other].let_go();
+  }
+
   const BlockTiles& tiles(std::size_t n) {
     OpenBlock& open = blocks[n];
     std::call_once(open.tiles_once, [&] {
@@ -70,17 +95,20 @@ struct Package::Impl {
       check_stamp(path, open.tiles_bytes->bytes(), manifest.blocks[n].tiles);
       open.tiles.emplace(open.tiles_bytes->bytes(), manifest.grid.cells_of(manifest.blocks[n].block), path.string());
     });
+    use(n);
     return *open.tiles;
   }
 
-  const FarMapReader& far_maps(std::size_t n) {
+  /// Whoever has the reader keeps it, even when the block has to go meanwhile. The block's tiles must be open.
+  std::shared_ptr<const FarMapReader> far_maps(std::size_t n) {
     OpenBlock& open = blocks[n];
-    std::call_once(open.far_map_once, [&] {
-      const auto path = path_of(n, package::far_map_file);
-      check_stamp(path, MappedFile(path).bytes(), manifest.blocks[n].far_map);
-      open.far_map.emplace(path, manifest.grid.cells_of(manifest.blocks[n].block), manifest.far_map);
-    });
-    return *open.far_map;
+    const auto path = path_of(n, package::far_map_file);
+    std::call_once(open.far_map_checked, [&] { check_stamp(path, MappedFile(path).bytes(), manifest.blocks[n].far_map); });
+    const std::lock_guard lock(open.far_map_door);
+    if (!open.far_map)
+      open.far_map =
+          std::make_shared<const FarMapReader>(path, manifest.grid.cells_of(manifest.blocks[n].block), manifest.far_map);
+    return open.far_map;
   }
 };
 
@@ -95,7 +123,8 @@ const BlockTiles& Package::block_tiles(Cell cell) const { return impl_->tiles(im
 
 BoxFarMap Package::box_far_map(Cell cell) const {
   const std::size_t n = impl_->index_of(cell);
-  return impl_->far_maps(n).read_box(cell, impl_->tiles(n).tile(cell).cell->far_map_top);
+  const float top = impl_->tiles(n).tile(cell).cell->far_map_top;
+  return impl_->far_maps(n)->read_box(cell, top);
 }
 
 FarHorizon Package::far_horizon(Cell cell) const {
@@ -112,8 +141,18 @@ FarHorizon Package::far_horizon(Cell cell) const {
                  {},
                  {},
                  tiles.named_obstacles(cell, cell_edge_m)};
-  impl_->far_maps(n).read_slopes(cell, map);
+  impl_->far_maps(n)->read_slopes(cell, map);
   return map;
+}
+
+void Package::hold_at_most(std::uint64_t bytes) {
+  const std::lock_guard lock(impl_->held_door);
+  impl_->held.keep_at_most(bytes);
+}
+
+Package::Held Package::held() const {
+  const std::lock_guard lock(impl_->held_door);
+  return {impl_->held.count(), impl_->held.bytes()};
 }
 
 }  // namespace farlod

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 
@@ -11,8 +12,10 @@
 
 namespace farlod {
 
-/// A package on disk. Blocks are mapped, checked against their checksums and kept when they are first asked for.
-/// All questions may be asked from many threads.
+/// A package on disk. Blocks are mapped and checked against their checksums when they are first asked for, and kept in memory as
+/// far as there is room. One that was not asked for the longest gives its memory to the next: what was handed out of it stays
+/// where it is and readable, since the mapping stays, and comes from the disk again when somebody reads it. All questions may be
+/// asked from many threads.
 class Package {
  public:
   /// Reads the manifest only. Throws PackageUnusable or PackageDamaged, as do all the other functions when they meet a
@@ -32,6 +35,16 @@ class Package {
   [[nodiscard]] BoxFarMap box_far_map(Cell cell) const;
   /// Of packages whose far maps are of the kind `horizon`. The package must outlive it.
   [[nodiscard]] FarHorizon far_horizon(Cell cell) const;
+
+  /// From the next question on, the blocks hold no more memory than this together, except that one block always has room. There
+  /// is no such limit before.
+  void hold_at_most(std::uint64_t bytes);
+  /// The blocks in memory now, and what they hold at the most.
+  struct Held {
+    std::size_t blocks = 0;
+    std::uint64_t bytes = 0;
+  };
+  [[nodiscard]] Held held() const;
 
  private:
   struct Impl;

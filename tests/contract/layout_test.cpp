@@ -59,8 +59,6 @@ TEST(Layout, SectionIsDocumented) {
 TEST(Layout, CellRecordIsDocumented) {
   EXPECT_DOCUMENTED(CellRecord, i);
   EXPECT_DOCUMENTED(CellRecord, j);
-  EXPECT_DOCUMENTED(CellRecord, first_vertex);
-  EXPECT_DOCUMENTED(CellRecord, first_triangle);
   EXPECT_DOCUMENTED(CellRecord, vertex_count);
   EXPECT_DOCUMENTED(CellRecord, triangle_count);
   EXPECT_DOCUMENTED(CellRecord, z_low_m);
@@ -70,7 +68,29 @@ TEST(Layout, CellRecordIsDocumented) {
   EXPECT_DOCUMENTED(CellRecord, capture_z_m);
   EXPECT_DOCUMENTED(CellRecord, far_map_top);
   EXPECT_DOCUMENTED(CellRecord, flags);
-  EXPECT_DOCUMENTED(CellRecord, reserved);
+  EXPECT_DOCUMENTED(CellRecord, edge_count);
+}
+
+TEST(Layout, SurfaceRunIsDocumented) {
+  EXPECT_DOCUMENTED(SurfaceRun, surface);
+  EXPECT_DOCUMENTED(SurfaceRun, end);
+}
+
+TEST(Layout, TileEdgeIsDocumented) {
+  EXPECT_DOCUMENTED(TileEdge, a);
+  EXPECT_DOCUMENTED(TileEdge, b);
+}
+
+TEST(Layout, EdgeRisesAreDocumented) {
+  EXPECT_DOCUMENTED(EdgeRises, left);
+  EXPECT_DOCUMENTED(EdgeRises, right);
+}
+
+TEST(Layout, HorizonEdgeIsDocumented) {
+  EXPECT_DOCUMENTED(HorizonEdge, a);
+  EXPECT_DOCUMENTED(HorizonEdge, b);
+  EXPECT_DOCUMENTED(HorizonEdge, rises);
+  EXPECT_DOCUMENTED(HorizonEdge, reserved);
 }
 
 TEST(Layout, SurfaceRecordIsDocumented) {
@@ -78,12 +98,10 @@ TEST(Layout, SurfaceRecordIsDocumented) {
   EXPECT_DOCUMENTED(SurfaceRecord, number);
   EXPECT_DOCUMENTED(SurfaceRecord, part);
   EXPECT_DOCUMENTED(SurfaceRecord, kind);
-  EXPECT_DOCUMENTED(SurfaceRecord, reserved);
+  EXPECT_DOCUMENTED(SurfaceRecord, stands);
   EXPECT_DOCUMENTED(SurfaceRecord, normal_x);
   EXPECT_DOCUMENTED(SurfaceRecord, normal_y);
   EXPECT_DOCUMENTED(SurfaceRecord, normal_z);
-  EXPECT_DOCUMENTED(SurfaceRecord, area_m2);
-  EXPECT_DOCUMENTED(SurfaceRecord, reserved_2);
 }
 
 TEST(Layout, BuildingRecordIsDocumented) {
@@ -130,7 +148,7 @@ TEST(Layout, SectionKindsAndElementSizesAreDocumented) {
   } kinds[] = {{SectionKind::cells, "cells", sizeof(CellRecord)},
                {SectionKind::vertices, "vertices", sizeof(Point3f)},
                {SectionKind::triangles, "triangles", sizeof(Triangle)},
-               {SectionKind::triangle_surfaces, "triangle_surfaces", 4},
+               {SectionKind::surface_runs, "surface_runs", sizeof(SurfaceRun)},
                {SectionKind::surfaces, "surfaces", sizeof(SurfaceRecord)},
                {SectionKind::buildings, "buildings", sizeof(BuildingRecord)},
                {SectionKind::text, "text", 1},
@@ -138,7 +156,9 @@ TEST(Layout, SectionKindsAndElementSizesAreDocumented) {
                {SectionKind::far_edges, "far_edges", sizeof(HorizonEdge)},
                {SectionKind::far_triangles, "far_triangles", sizeof(FarTriangle)},
                {SectionKind::named_edges, "named_edges", sizeof(NamedObstacle)},
-               {SectionKind::named_triangles, "named_triangles", sizeof(NamedObstacle)}};
+               {SectionKind::named_triangles, "named_triangles", sizeof(NamedObstacle)},
+               {SectionKind::tile_edges, "tile_edges", sizeof(TileEdge)},
+               {SectionKind::edge_rises, "edge_rises", sizeof(EdgeRises)}};
   EXPECT_EQ(std::size(kinds), section_count);
   for (const auto& [kind, name, bytes] : kinds) {
     const std::string expected =
@@ -152,7 +172,8 @@ TEST(Layout, RecordsCanBeMapped) {
                 std::is_trivially_copyable_v<CellRecord> && std::is_trivially_copyable_v<SurfaceRecord> &&
                 std::is_trivially_copyable_v<BuildingRecord> && std::is_trivially_copyable_v<FarCellRecord> &&
                 std::is_trivially_copyable_v<NamedObstacle> && std::is_trivially_copyable_v<HorizonEdge> &&
-                std::is_trivially_copyable_v<FarTriangle>);
+                std::is_trivially_copyable_v<FarTriangle> && std::is_trivially_copyable_v<SurfaceRun> &&
+                std::is_trivially_copyable_v<TileEdge> && std::is_trivially_copyable_v<EdgeRises>);
   static_assert(section_alignment % alignof(CellRecord) == 0 && section_alignment % alignof(SurfaceRecord) == 0 &&
                 section_alignment % alignof(FarCellRecord) == 0);
   static_assert(end_padding >= 16 - sizeof(Point3f), "the last vertex is read as 16 bytes");

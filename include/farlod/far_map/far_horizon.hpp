@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "farlod/far_map/receiver_patches.hpp"
@@ -32,6 +34,19 @@ struct FarHorizon {
   AzimuthBins bins;
   std::vector<float> lower, likely, upper;
   NamedObstacles named;
+
+  /// The bins of a patch, in `lower`, `likely` or `upper`.
+  [[nodiscard]] std::span<const float> row(const std::vector<float>& slopes, std::uint32_t patch) const {
+    return std::span(slopes).subspan(static_cast<std::size_t>(patch) * bins.count, bins.count);
+  }
+  /// The patch above, and how far up the way to its floor a height in `patch` is, from 0 to 1.
+  [[nodiscard]] std::pair<std::uint32_t, float> floor_above(std::uint32_t patch, float z_m) const {
+    const std::vector<float>& levels_m = patches.levels_m();
+    const std::uint32_t layer = patch / patches.squares();
+    if (layer + 1 >= levels_m.size()) return {patch, 0.0F};
+    const float thickness_m = levels_m[layer + 1] - levels_m[layer];
+    return {patch + patches.squares(), thickness_m > 0.0F ? std::max(0.0F, z_m - levels_m[layer]) / thickness_m : 0.0F};
+  }
 };
 
 }  // namespace farlod

@@ -45,8 +45,6 @@ class FarView {
   /// Nearer than this, rounding decides where an edge stands: it may hide anything.
   static constexpr double too_close_m = 0.01;
 
-  /// The patch above, and how far up the way to its floor the receiver is, from 0 to 1.
-  [[nodiscard]] std::pair<std::uint32_t, float> floor_above(const Point3f& p_cell, std::uint32_t patch) const;
   /// Without std::hypot's care for numbers that no city has: a tenth of the whole time went into it.
   [[nodiscard]] static double length(Point2d v) { return std::sqrt(dot(v, v)); }
   void draw_named(const Point3f& p_cell, std::optional<std::uint32_t> patch);
@@ -83,7 +81,7 @@ inline void FarView::judge(const Point3f& p_cell, std::span<FarVerdict> verdicts
   const std::optional<std::uint32_t> patch = map_.patches.patch_of(p_cell);
   draw_named(p_cell, patch);
   const std::size_t bins = map_.bins.count, row = patch.value_or(0) * bins;
-  const auto [next_row, share] = floor_above(p_cell, patch.value_or(0));
+  const auto [next_row, share] = map_.floor_above(patch.value_or(0), p_cell.z);
   for (std::size_t n = 0; n < fan_.size(); ++n) {
     const std::size_t bin = bins_[n];
     const float here = map_.likely[row + bin], above = map_.likely[next_row * bins + bin];
@@ -96,14 +94,6 @@ inline void FarView::judge(const Point3f& p_cell, std::span<FarVerdict> verdicts
                   : slope > std::max(upper_[n], likely) ? FarVerdict::likely_free
                                                         : FarVerdict::likely_blocked;
   }
-}
-
-inline std::pair<std::uint32_t, float> FarView::floor_above(const Point3f& p_cell, std::uint32_t patch) const {
-  const std::vector<float>& levels_m = map_.patches.levels_m();
-  const std::uint32_t layer = patch / map_.patches.squares();
-  if (layer + 1 >= levels_m.size()) return {patch, 0.0F};
-  const float thickness_m = levels_m[layer + 1] - levels_m[layer];
-  return {patch + map_.patches.squares(), thickness_m > 0.0F ? std::max(0.0F, p_cell.z - levels_m[layer]) / thickness_m : 0.0F};
 }
 
 inline void FarView::draw_named(const Point3f& p_cell, std::optional<std::uint32_t> patch) {

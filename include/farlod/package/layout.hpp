@@ -21,27 +21,30 @@ namespace farlod::package {
 static_assert(std::endian::native == std::endian::little,
               "packages are mapped, not decoded: a big-endian reader must swap bytes");
 
-inline constexpr std::uint32_t format_version = 2;
+inline constexpr std::uint32_t format_version = 3;
 inline constexpr std::array<char, 8> magic{'F', 'A', 'R', 'L', 'O', 'D', 'T', '\n'};
 inline constexpr std::uint64_t section_alignment = 64;
 inline constexpr std::uint64_t end_padding = 16;
 
 enum class SectionKind : std::uint32_t {
-  cells = 1,              ///< CellRecord, row by row, every cell of the block that exists
-  vertices = 2,           ///< Point3f, cell frame
-  triangles = 3,          ///< Triangle; vertex numbers count from the cell's first vertex
-  triangle_surfaces = 4,  ///< uint32 for each triangle: its row in `surfaces`
-  surfaces = 5,           ///< SurfaceRecord
-  buildings = 6,          ///< BuildingRecord
-  text = 7,               ///< bytes, UTF-8: the ids of buildings
+  cells = 1,         ///< CellRecord, row by row, every cell of the block that exists
+  vertices = 2,      ///< Point3f, cell frame
+  triangles = 3,     ///< Triangle; vertex numbers count from the cell's first vertex
+  surface_runs = 4,  ///< SurfaceRun, cell by cell
+  surfaces = 5,      ///< SurfaceRecord
+  buildings = 6,     ///< BuildingRecord
+  text = 7,          ///< bytes, UTF-8: the ids of buildings
   // Far maps of the kind `horizon`; without elements for the kind `box`
-  far_cells = 8,        ///< FarCellRecord, as many and in the same order as `cells`
-  far_edges = 9,        ///< HorizonEdge, block frame: what the cells' far maps name
-  far_triangles = 10,   ///< FarTriangle, block frame
-  named_edges = 11,     ///< NamedObstacle: rows of `far_edges`, cell by cell
-  named_triangles = 12  ///< NamedObstacle: rows of `far_triangles`, cell by cell
+  far_cells = 8,         ///< FarCellRecord, as many and in the same order as `cells`
+  far_edges = 9,         ///< HorizonEdge, block frame: what the cells' far maps name
+  far_triangles = 10,    ///< FarTriangle, block frame
+  named_edges = 11,      ///< NamedObstacle: rows of `far_edges`, cell by cell
+  named_triangles = 12,  ///< NamedObstacle: rows of `far_triangles`, cell by cell
+  // Of the tiles again
+  tile_edges = 13,  ///< TileEdge, cell by cell
+  edge_rises = 14   ///< EdgeRises, as many and in the same order as `tile_edges`
 };
-inline constexpr std::uint32_t section_count = 12;
+inline constexpr std::uint32_t section_count = 14;
 
 struct Header {
   std::array<char, 8> magic;
@@ -65,17 +68,31 @@ static_assert(sizeof(Section) == 32);
 /// Bits of CellRecord::flags.
 inline constexpr std::uint32_t cell_has_overhang = 1;  ///< a surface of the tile looks down onto something below it
 
+/// What a cell owns of `vertices`, `triangles`, `surface_runs` and `tile_edges` follows what the cell before owns, without a gap.
 struct CellRecord {
   std::int32_t i, j;
-  std::uint64_t first_vertex, first_triangle;
-  std::uint32_t vertex_count, triangle_count;
+  std::uint32_t vertex_count, triangle_count, edge_count;
   float z_low_m, z_high_m;                      ///< of the tile's vertices; low > high when it is empty
   float capture_x_m, capture_y_m, capture_z_m;  ///< where the far map was captured, cell frame
   float far_map_top;                            ///< BoxMap::top; 0 when the cell has no far field above the horizontal
   std::uint32_t flags;
-  std::uint32_t reserved;  ///< zero
 };
-static_assert(sizeof(CellRecord) == 64);
+static_assert(sizeof(CellRecord) == 48);
+
+/// An edge of a tile below which everything is solid (HorizonEdge): vertex numbers count from the cell's first vertex.
+struct TileEdge {
+  std::uint32_t a, b;
+  bool operator==(const TileEdge&) const = default;
+};
+static_assert(sizeof(TileEdge) == 8);
+
+/// Consecutive triangles of a cell that belong to one surface. The runs of a cell cover its triangles: the first begins at
+/// triangle 0, each other one where the one before it ends, and the last ends with the cell.
+struct SurfaceRun {
+  std::uint32_t surface;  ///< row in `surfaces`
+  std::uint32_t end;      ///< the first triangle after the run, counted from the cell's first
+};
+static_assert(sizeof(SurfaceRun) == 8);
 
 inline constexpr std::uint32_t no_building = 0xFFFFFFFF;
 
@@ -84,19 +101,16 @@ struct SurfaceRecord {
   std::uint32_t number;    ///< of the surface, within its building
   std::uint16_t part;      ///< closed part of the building, for the question "inside?"
   SurfaceKind kind;
-  std::uint8_t reserved;               ///< zero
+  std::uint8_t stands;                 ///< 1: the tiles' edges stand for it; 0: it must be met triangle by triangle
   float normal_x, normal_y, normal_z;  ///< outward, length 1, grid frame
-  float area_m2;                       ///< of the whole surface, over all tiles
-  std::uint32_t reserved_2;            ///< zero
 };
-static_assert(sizeof(SurfaceRecord) == 32);
+static_assert(sizeof(SurfaceRecord) == 24);
 
 struct BuildingRecord {
-  std::uint64_t text_offset;
-  std::uint32_t text_bytes;
+  std::uint32_t text_offset, text_bytes;
   std::uint32_t number;  ///< of the building, within the city
 };
-static_assert(sizeof(BuildingRecord) == 16);
+static_assert(sizeof(BuildingRecord) == 12);
 
 static_assert(sizeof(Point3f) == 12 && sizeof(Triangle) == 12);
 
@@ -124,7 +138,7 @@ struct NamedObstacle {
 static_assert(sizeof(NamedObstacle) == 8);
 
 using FarTriangle = std::array<Point3f, 3>;
-static_assert(sizeof(FarTriangle) == 36 && sizeof(HorizonEdge) == 24);
+static_assert(sizeof(FarTriangle) == 36 && sizeof(HorizonEdge) == 28 && sizeof(EdgeRises) == 2);
 
 /// The folder of a block within a package, and its two files.
 [[nodiscard]] inline std::string block_folder(Block b) { return "blocks/" + std::to_string(b.i) + "_" + std::to_string(b.j); }

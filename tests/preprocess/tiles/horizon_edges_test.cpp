@@ -29,7 +29,23 @@ EdgeTable table_of(const std::vector<Face>& faces) {
   return table;
 }
 
-std::vector<Segment3d> horizon_edges_of(const std::vector<Face>& faces) { return table_of(faces).horizon_edges(); }
+std::vector<Segment3d> segments_of(const std::vector<HorizonSegment>& edges) {
+  std::vector<Segment3d> segments;
+  for (const HorizonSegment& e : edges) segments.push_back(e.segment);
+  return segments;
+}
+
+std::vector<Segment3d> horizon_edges_of(const std::vector<Face>& faces) { return segments_of(table_of(faces).horizon_edges()); }
+
+/// What rises beside an edge, to the left and to the right of the way from a to b.
+EdgeRises rises_beside(const std::vector<HorizonSegment>& edges, const Segment3d& ab) {
+  for (const auto& [segment, rises] : edges) {
+    if (segment == ab) return rises;
+    if (segment == Segment3d{ab.b, ab.a}) return {rises.right, rises.left};
+  }
+  ADD_FAILURE() << "no such edge";
+  return {};
+}
 
 std::vector<Point3d> open_ends_of(const std::vector<Face>& faces) { return open_ends(table_of(faces).open_edges()); }
 
@@ -87,7 +103,41 @@ TEST(HorizonEdges, KeepTheFoldWhereASliverLiesBetweenTheSlopes) {
   table.add_triangle(a, m, b);
   table.add_triangle(a, {5, 5, 0}, m);
   table.add_triangle(m, {5, 5, 0}, b);
-  EXPECT_THAT(table.horizon_edges(), testing::Contains(Segment3d{a, b}));
+  EXPECT_THAT(segments_of(table.horizon_edges()), testing::Contains(Segment3d{a, b}));
+}
+
+TEST(EdgeRises, OfAFlatRoofAreLevelInwardsAndAWallOutwards) {
+  const auto edges = table_of(test::box(0, 0, 10, 20, 0, 5)).horizon_edges();
+  EXPECT_EQ(rises_beside(edges, {{0, 0, 5}, {10, 0, 5}}), (EdgeRises{0, EdgeRises::straight_down}));
+  EXPECT_EQ(rises_beside(edges, {{0, 20, 5}, {10, 20, 5}}), (EdgeRises{EdgeRises::straight_down, 0}));
+  EXPECT_EQ(rises_beside(edges, {{0, 0, 5}, {0, 20, 5}}), (EdgeRises{EdgeRises::straight_down, 0}));
+  EXPECT_EQ(rises_beside(edges, {{10, 0, 5}, {10, 20, 5}}), (EdgeRises{0, EdgeRises::straight_down}));
+}
+
+TEST(EdgeRises, OfAGabledHouseAreThePitchesOfItsRoof) {
+  const auto edges = table_of(test::gabled_house()).horizon_edges();
+  const double pitch_rad = std::atan2(3.0, 5.0);
+  const std::int8_t up = EdgeRises::rounded_down(pitch_rad), down = EdgeRises::rounded_down(-pitch_rad);
+  EXPECT_EQ(rises_beside(edges, {{0, 5, 9}, {20, 5, 9}}), (EdgeRises{down, down}));
+  EXPECT_EQ(rises_beside(edges, {{0, 0, 6}, {20, 0, 6}}), (EdgeRises{up, EdgeRises::straight_down}));
+  EXPECT_EQ(rises_beside(edges, {{0, 10, 6}, {20, 10, 6}}), (EdgeRises{EdgeRises::straight_down, up}));
+  // Along a gable's edge the roof climbs, but not away from it
+  EXPECT_EQ(rises_beside(edges, {{0, 0, 6}, {0, 5, 9}}), (EdgeRises{EdgeRises::straight_down, 0}));
+}
+
+TEST(EdgeRises, WhereNoTriangleIsAreUnknown) {
+  EdgeTable table;
+  table.add_triangle({0, 0, 5}, {10, 0, 5}, {5, 10, 4});
+  EXPECT_EQ(rises_beside(table.horizon_edges(), {{0, 0, 5}, {10, 0, 5}}).right, EdgeRises::straight_down);
+}
+
+TEST(EdgeRises, OfAHillArePlainAndSlope) {
+  // A dam along the x axis, 2 m high, whose sides climb at 45° and at less
+  const Ground ground({{0, 50, 2}, {100, 50, 2}, {0, 48, 0}, {100, 48, 0}, {0, 60, 0}, {100, 60, 0}}, {{0, 0}, {100, 100}});
+  const auto edges = ground.horizon_edges();
+  const std::int8_t steep = EdgeRises::rounded_down(-std::atan(1.0)), gentle = EdgeRises::rounded_down(-std::atan2(2.0, 10.0));
+  EXPECT_EQ(rises_beside(edges, {{0, 50, 2}, {100, 50, 2}}), (EdgeRises{gentle, steep}));
+  EXPECT_EQ(rises_beside(edges, {{0, 0, 0}, {100, 0, 0}}), (EdgeRises{0, EdgeRises::straight_down}));
 }
 
 TEST(HorizonEdges, ComeInTheOrderOfTheirTriangles) {
@@ -102,7 +152,7 @@ TEST(HorizonEdges, OfAHillAreItsRibsAndTheBorder) {
   // A pyramid of four sides in the middle of a plain
   std::vector<Point3d> points{{50, 50, 10}, {40, 40, 0}, {60, 40, 0}, {60, 60, 0}, {40, 60, 0}};
   const Ground ground(points, {{0, 0}, {100, 100}});
-  EXPECT_THAT(directed(ground.horizon_edges()),
+  EXPECT_THAT(directed(segments_of(ground.horizon_edges())),
               UnorderedElementsAre(Segment3d{{40, 40, 0}, {50, 50, 10}}, Segment3d{{50, 50, 10}, {60, 40, 0}},
                                    Segment3d{{50, 50, 10}, {60, 60, 0}}, Segment3d{{40, 60, 0}, {50, 50, 10}},
                                    Segment3d{{0, 0, 0}, {100, 0, 0}}, Segment3d{{0, 100, 0}, {100, 100, 0}},
@@ -164,11 +214,13 @@ class CutEdge : public testing::Test {
 
 TEST_F(CutEdge, PiecesLieInTheirCellsAndTheirLengthsSumToItsOwn) {
   const Segment3d edge{{-37.3, 12.9, 3}, {212.8, 171.4, 60}};
-  const auto pieces = cut_edge(edge, grid(), 0.0);
+  const auto pieces = cut_edge({edge, {-31, 17}}, grid(), 0.0);
   ASSERT_EQ(pieces.size(), 9U);  // five columns (−1 to 4: five borders), three borders of rows
   double sum_m = 0.0;
   for (const CellEdge& piece : pieces) {
     sum_m += length_m(piece);
+    EXPECT_EQ(piece.edge.rises, (EdgeRises{-31, 17}));
+    EXPECT_GT(piece.edge.b.x, piece.edge.a.x) << "turned round, left would be right";
     for (const Point3f& p : {piece.edge.a, piece.edge.b}) {
       const Point3d p_grid = grid_from_cell(p, piece.cell);
       // A crossing is rounded once in double, then as a float in the cell
@@ -186,17 +238,17 @@ TEST_F(CutEdge, PiecesLieInTheirCellsAndTheirLengthsSumToItsOwn) {
 }
 
 TEST_F(CutEdge, AlongABorderItBelongsToTheCellToTheEast) {
-  const auto pieces = cut_edge({{50, 10, 3}, {50, 70, 3}}, grid(), 0.0);
+  const auto pieces = cut_edge({{{50, 10, 3}, {50, 70, 3}}, {}}, grid(), 0.0);
   ASSERT_EQ(pieces.size(), 2U);
   EXPECT_EQ(pieces[0].cell, (Cell{1, 0}));
   EXPECT_EQ(pieces[1].cell, (Cell{1, 1}));
 }
 
 TEST_F(CutEdge, ThatOnlyEndsOnABorderStaysWhole) {
-  const auto pieces = cut_edge({{10, 10, 3}, {50, 10, 3}}, grid(), 2.0);
+  const auto pieces = cut_edge({{{10, 10, 3}, {50, 10, 3}}, {5, -5}}, grid(), 2.0);
   ASSERT_EQ(pieces.size(), 1U);
   EXPECT_EQ(pieces[0].cell, (Cell{0, 0}));
-  EXPECT_EQ(pieces[0].edge, (HorizonEdge{{10, 10, 1}, {50, 10, 1}}));
+  EXPECT_EQ(pieces[0].edge, (HorizonEdge{{10, 10, 1}, {50, 10, 1}, {5, -5}}));
 }
 
 }  // namespace

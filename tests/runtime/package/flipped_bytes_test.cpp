@@ -26,20 +26,31 @@ bool lies_within(std::span<const T> part, const Bytes& bytes) {
   return inner.empty() || (inner.data() >= whole.data() && inner.data() + inner.size() <= whole.data() + whole.size());
 }
 
+bool runs_cover_triangles(const TileView& tile) {
+  std::uint32_t begin = 0;
+  for (const SurfaceRun& run : tile.surface_runs) {
+    if (run.end <= begin) return false;
+    begin = run.end;
+  }
+  return begin == tile.mesh.triangles.size();
+}
+
 bool tile_is_sound(const TileView& tile, const Bytes& bytes) {
   const auto is_inside = [&](const auto& part) { return lies_within(part, bytes); };
-  if (!is_inside(tile.mesh.vertices) || !is_inside(tile.mesh.triangles) || !is_inside(tile.triangle_surfaces) ||
-      !is_inside(tile.surfaces) || !is_inside(tile.buildings) || tile.triangle_surfaces.size() != tile.mesh.triangles.size())
+  if (!is_inside(tile.mesh.vertices) || !is_inside(tile.mesh.triangles) || !is_inside(tile.surface_runs) ||
+      !is_inside(tile.surfaces) || !is_inside(tile.buildings) || !is_inside(tile.edges) || !runs_cover_triangles(tile))
     return false;
   const auto vertex_is_finite = [](const Point3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
   const auto vertices_exist = [&](const Triangle& t) { return std::max({t.a, t.b, t.c}) < tile.mesh.vertices.size(); };
-  const auto surface_exists = [&](std::uint32_t s) {
-    return s < tile.surfaces.size() &&
-           (tile.surfaces[s].building == no_building || tile.surfaces[s].building < tile.buildings.size());
+  const auto ends_exist = [&](const TileEdge& e) { return std::max(e.a, e.b) < tile.mesh.vertices.size(); };
+  const auto surface_exists = [&](const SurfaceRun& r) {
+    return r.surface < tile.surfaces.size() &&
+           (tile.surfaces[r.surface].building == no_building || tile.surfaces[r.surface].building < tile.buildings.size());
   };
   return std::all_of(tile.mesh.vertices.begin(), tile.mesh.vertices.end(), vertex_is_finite) &&
          std::all_of(tile.mesh.triangles.begin(), tile.mesh.triangles.end(), vertices_exist) &&
-         std::all_of(tile.triangle_surfaces.begin(), tile.triangle_surfaces.end(), surface_exists);
+         std::all_of(tile.edges.begin(), tile.edges.end(), ends_exist) &&
+         std::all_of(tile.surface_runs.begin(), tile.surface_runs.end(), surface_exists);
 }
 
 bool far_map_is_sound(const NamedObstacles& named, const std::vector<float>& levels_m, const Bytes& bytes) {

@@ -171,14 +171,25 @@ TEST(Package, CellsOfAnotherBlock) {
   EXPECT_THAT(damage_after([](TilesBytes& f) { --f.section(SectionKind::cells).count; }), HasSubstr("does not hold the cells"));
 }
 
-TEST(Package, CellReachesBeyondItsSections) {
+TEST(Package, CellsOwnMoreThanTheFileHolds) {
   const auto cell = [](TilesBytes& f) -> CellRecord& { return f.element<CellRecord>(SectionKind::cells, 1); };
-  for (const std::uint64_t first : {std::uint64_t{1} << 33, ~std::uint64_t{0}}) {
-    EXPECT_THAT(damage_after([=](TilesBytes& f) { cell(f).first_vertex = first; }), HasSubstr("vertices reach beyond"));
-    EXPECT_THAT(damage_after([=](TilesBytes& f) { cell(f).first_triangle = first; }), HasSubstr("triangles reach beyond"));
+  for (const std::uint32_t more : {1U, 1000U, 0xFFFF0000U}) {
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { cell(f).vertex_count += more; }), HasSubstr("vertices reach beyond"));
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { cell(f).triangle_count += more; }), HasSubstr("triangles reach beyond"));
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { cell(f).edge_count += more; }), HasSubstr("edges reach beyond"));
   }
-  EXPECT_THAT(damage_after([=](TilesBytes& f) { ++cell(f).vertex_count; }), HasSubstr("vertices reach beyond"));
-  EXPECT_THAT(damage_after([=](TilesBytes& f) { ++cell(f).triangle_count; }), HasSubstr("triangles reach beyond"));
+  EXPECT_THAT(damage_after([](TilesBytes& f) {
+                --f.section(SectionKind::tile_edges).count;
+                --f.section(SectionKind::edge_rises).count;
+              }),
+              HasSubstr("edges reach beyond"));
+}
+
+TEST(Package, CellsOwnLessThanTheFileHolds) {
+  const auto cell = [](TilesBytes& f) -> CellRecord& { return f.element<CellRecord>(SectionKind::cells, 1); };
+  EXPECT_THAT(damage_after([=](TilesBytes& f) { --cell(f).vertex_count; }), HasSubstr("more than its cells own"));
+  EXPECT_THAT(damage_after([=](TilesBytes& f) { --cell(f).edge_count; }), HasSubstr("more than its cells own"));
+  EXPECT_THAT(damage_after([=](TilesBytes& f) { cell(f).triangle_count = 0; }), HasSubstr("more than its cells own"));
 }
 
 TEST(Package, TriangleNamesMissingVertex) {
@@ -190,12 +201,62 @@ TEST(Package, TriangleNamesMissingVertex) {
 
 TEST(Package, TriangleNamesMissingSurface) {
   EXPECT_THAT(damage_after([](TilesBytes& f) {
-                f.element<std::uint32_t>(SectionKind::triangle_surfaces, 2) =
+                f.element<SurfaceRun>(SectionKind::surface_runs, 2).surface =
                     static_cast<std::uint32_t>(f.section(SectionKind::surfaces).count);
               }),
               HasSubstr("names a surface that does not exist"));
-  EXPECT_THAT(damage_after([](TilesBytes& f) { --f.section(SectionKind::triangle_surfaces).count; }),
+  EXPECT_THAT(damage_after([](TilesBytes& f) { --f.section(SectionKind::surface_runs).count; }),
               HasSubstr("not every triangle has a surface"));
+}
+
+TEST(Package, RunsOfTrianglesOutOfOrder) {
+  const auto run = [](TilesBytes& f, std::size_t n) -> SurfaceRun& {
+    return f.element<SurfaceRun>(SectionKind::surface_runs, n);
+  };
+  TilesBytes whole = whole_file();
+  const std::uint32_t triangles = whole.element<CellRecord>(SectionKind::cells, 0).triangle_count;
+  for (const std::uint32_t end : {0U, run(whole, 0).end, triangles + 1, 0xFFFFFFFFU})
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { run(f, 1).end = end; }), HasSubstr("not in order")) << end;
+  // One that covers all triangles of its cell leaves the others to the next cell
+  EXPECT_THAT(damage_after([=](TilesBytes& f) { run(f, 0).end = triangles; }),
+              testing::AnyOf(HasSubstr("not in order"), HasSubstr("more than its cells own")));
+}
+
+TEST(Package, EdgeNamesMissingVertex) {
+  TilesBytes whole = whole_file();
+  const auto& cell = whole.element<CellRecord>(SectionKind::cells, 0);
+  ASSERT_GT(cell.edge_count, 0U);
+  for (const std::size_t n : {std::size_t{0}, std::size_t{cell.edge_count - 1}})
+    for (auto end : {&TileEdge::a, &TileEdge::b})
+      for (const std::uint32_t vertex : {cell.vertex_count, 0xFFFFFFFFU})
+        EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<TileEdge>(SectionKind::tile_edges, n).*end = vertex; }),
+                    HasSubstr("an edge names a vertex that does not exist"));
+}
+
+TEST(Package, NotEveryEdgeHasItsRises) {
+  for (const int step : {-1, 1})
+    EXPECT_THAT(
+        damage_after([=](TilesBytes& f) { f.section(SectionKind::edge_rises).count += static_cast<std::uint64_t>(step); }),
+        HasSubstr("not every edge has its rises"));
+}
+
+TEST(Package, RisesBeyondARightAngle) {
+  constexpr std::int8_t beyond = -128;
+  for (auto side : {&EdgeRises::left, &EdgeRises::right}) {
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<EdgeRises>(SectionKind::edge_rises, 1).*side = beyond; }),
+                HasSubstr("beyond a right angle"));
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<HorizonEdge>(SectionKind::far_edges, 0).rises.*side = beyond; }),
+                HasSubstr("beyond a right angle"));
+    for (const std::int8_t right : {std::int8_t{-127}, std::int8_t{127}})
+      EXPECT_EQ(damage_after([=](TilesBytes& f) { f.element<EdgeRises>(SectionKind::edge_rises, 1).*side = right; }),
+                "no damage");
+  }
+}
+
+TEST(Package, SurfaceThatNeitherStandsNorHangs) {
+  for (const std::uint8_t stands : {std::uint8_t{2}, std::uint8_t{255}})
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<SurfaceRecord>(SectionKind::surfaces, 1).stands = stands; }),
+                HasSubstr("neither stands nor"));
 }
 
 TEST(Package, SurfaceNamesMissingBuilding) {
@@ -217,7 +278,7 @@ TEST(Package, IdReachesBeyondTheText) {
     return f.element<BuildingRecord>(SectionKind::buildings, f.section(SectionKind::buildings).count - 1);
   };
   EXPECT_THAT(damage_after([=](TilesBytes& f) { ++building(f).text_bytes; }), HasSubstr("id reaches beyond"));
-  EXPECT_THAT(damage_after([=](TilesBytes& f) { building(f).text_offset = ~std::uint64_t{0}; }), HasSubstr("id reaches beyond"));
+  EXPECT_THAT(damage_after([=](TilesBytes& f) { building(f).text_offset = ~std::uint32_t{0}; }), HasSubstr("id reaches beyond"));
 }
 
 TEST(Package, NotANumber) {
@@ -228,8 +289,6 @@ TEST(Package, NotANumber) {
     for (auto part : {&SurfaceRecord::normal_x, &SurfaceRecord::normal_y, &SurfaceRecord::normal_z})
       EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<SurfaceRecord>(SectionKind::surfaces, 1).*part = bad; }),
                   HasSubstr("normal"));
-    EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<SurfaceRecord>(SectionKind::surfaces, 1).area_m2 = bad; }),
-                HasSubstr("area"));
     for (auto part : {&CellRecord::capture_x_m, &CellRecord::capture_y_m, &CellRecord::capture_z_m})
       EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<CellRecord>(SectionKind::cells, 1).*part = bad; }),
                   HasSubstr("capture point"));
@@ -327,10 +386,9 @@ TEST(Package, ReservedFieldsAndUnknownFlagsAreSkipped) {
   EXPECT_EQ(damage_after([](TilesBytes& f) {
               f.header().reserved.fill(0xFF);
               f.section(SectionKind::cells).reserved = 1;
-              f.element<CellRecord>(SectionKind::cells, 0).reserved = 1;
               f.element<CellRecord>(SectionKind::cells, 0).flags = 0xFFFFFFFF;
-              f.element<SurfaceRecord>(SectionKind::surfaces, 1).reserved_2 = 1;
               f.element<FarCellRecord>(SectionKind::far_cells, 1).reserved = 1;
+              f.element<HorizonEdge>(SectionKind::far_edges, 0).reserved = 1;
               f.element<NamedObstacle>(SectionKind::named_edges, 0).squares = 0xFFFF;
               f.element<NamedObstacle>(SectionKind::named_edges, 0).layers = 0xFFFF;
             }),

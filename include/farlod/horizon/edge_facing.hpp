@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "farlod/box.hpp"
+#include "farlod/horizon/horizon_edge.hpp"
+#include "farlod/point.hpp"
+
+namespace farlod {
+
+/// Eyes this near to the plane of a facet count as being on either side of it: twice the rounding of a place 4 km from the
+/// origin.
+inline constexpr double facing_slack_m = 0.001;
+
+/// Whether the edge can be a horizon for some eye in a box, as far as the facets beside it tell: not if each eye looks at it
+/// through the solid, or sees the solid rise behind it. Proof in docs/concepts.md, "Edges that face away".
+[[nodiscard]] inline bool may_be_horizon(const Point3d& a, const Point3d& b, EdgeRises rises, const Box2d& eyes_plan,
+                                         double eyes_low_m, double eyes_high_m) {
+  const Point3d along = b - a;
+  const double run_m = norm(horizontal(along)), length_m = norm(along);
+  if (run_m == 0.0) return true;
+  const std::array corners{eyes_plan.low, Point2d{eyes_plan.high.x, eyes_plan.low.y}, eyes_plan.high,
+                           Point2d{eyes_plan.low.x, eyes_plan.high.y}};
+  double least_left_m = std::numeric_limits<double>::infinity(), most_left_m = -least_left_m;
+  for (const Point2d corner : corners) {
+    const Point2d v = corner - horizontal(a);
+    const double left_m = (along.x * v.y - along.y * v.x) / run_m;
+    least_left_m = std::min(least_left_m, left_m);
+    most_left_m = std::max(most_left_m, left_m);
+  }
+  if (least_left_m <= facing_slack_m && most_left_m >= -facing_slack_m) return true;
+  const bool eyes_left = least_left_m > 0.0;
+  const double near_slope = EdgeRises::slope(eyes_left ? rises.left : rises.right),
+               far_slope = EdgeRises::slope(eyes_left ? rises.right : rises.left);
+  const double highest_eye_m = std::min(eyes_high_m, std::max(a.z, b.z) - 2.0 * facing_slack_m);
+  bool over_near = false, under_far = false;
+  for (const Point2d corner : corners) {
+    const Point2d v = corner - horizontal(a);
+    const double aside_m = std::abs(along.x * v.y - along.y * v.x) / run_m, ahead_m = dot(horizontal(along), v) / run_m;
+    const auto rise_m = [&](double z_m) { return ((z_m - a.z) * run_m - ahead_m * along.z) / length_m; };
+    over_near = over_near || rise_m(highest_eye_m) > aside_m * near_slope - facing_slack_m;
+    under_far = under_far || rise_m(eyes_low_m) < -aside_m * far_slope + facing_slack_m;
+  }
+  return over_near && under_far;
+}
+
+}  // namespace farlod

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "package/tiles_writer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "package/block_tiles.hpp"
+#include "package/shared_vertices.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+TEST(SharedVertices, AreOneOnlyWhereTheyAreEqual) {
+  SharedVertices shared;
+  const Point3f p{12.5F, 0.1F, 3.0F};
+  EXPECT_EQ(shared.number_of(p), 0U);
+  for (auto coordinate : {&Point3f::x, &Point3f::y, &Point3f::z})
+    for (const float towards : {-infinite, infinite}) {
+      Point3f neighbour = p;
+      neighbour.*coordinate = std::nextafter(neighbour.*coordinate, towards);
+      const auto next = static_cast<std::uint32_t>(shared.vertices().size());
+      EXPECT_EQ(shared.number_of(neighbour), next);
+      EXPECT_EQ(shared.vertices().back(), neighbour);
+    }
+  EXPECT_EQ(shared.number_of(p), 0U);
+  EXPECT_EQ(shared.vertices().size(), 7U);
+}
+
+/// Two triangles that share an edge, of two surfaces, in the one cell of a grid.
+class TilesWriter : public testing::Test {
+ protected:
+  TilesWriter() {
+    grid_.cells = tiles_.cells = {0, 0, 1, 1};
+    tiles_.tiles.resize(1);
+    tiles_.building_ids = {"house"};
+    tiles_.surfaces = {{ground_building, 0, 0, SurfaceKind::ground, {0, 0, 1}, 8.0},
+                       {0, 7, 0, SurfaceKind::roof, {0, 0, 1}, 8.0, false}};
+    tile().add_polygon({corners_[0], corners_[1], corners_[2]}, 1);
+    tile().add_polygon({corners_[0], corners_[2], corners_[3]}, ground_surface);
+  }
+  Tile& tile() { return tiles_.tiles[0]; }
+
+  /// What comes back from the file.
+  TileView written() {
+    bytes_ = tiles_file(tiles_, BakedBoxes(1), grid_, Block{0, 0});
+    block_.emplace(bytes_, grid_.cells, "tiles.bin");
+    return block_->tile({0, 0});
+  }
+
+  const std::array<Point3f, 4> corners_{{{0, 0, 1}, {4, 0, 1}, {4, 4, 2}, {0, 4, 2}}};
+  Grid grid_;
+  TileSet tiles_;
+  std::vector<std::byte> bytes_;
+  std::optional<BlockTiles> block_;
+};
+
+TEST_F(TilesWriter, WritesTheVerticesOfNeighbouringTrianglesOnce) {
+  const TileView view = written();
+  EXPECT_TRUE(std::equal(view.mesh.vertices.begin(), view.mesh.vertices.end(), corners_.begin(), corners_.end()));
+  ASSERT_EQ(view.mesh.triangles.size(), 2U);
+  EXPECT_EQ(view.mesh.triangles[0], (Triangle{0, 1, 2}));
+  EXPECT_EQ(view.mesh.triangles[1], (Triangle{0, 2, 3}));
+}
+
+TEST_F(TilesWriter, FindsTheSurfaceOfEachTriangle) {
+  tile().add_polygon({corners_[0], corners_[1], corners_[2], corners_[3]}, 1);  // again, after another
+  const TileView view = written();
+  const std::vector<SurfaceKind> kinds{SurfaceKind::roof, SurfaceKind::ground, SurfaceKind::roof, SurfaceKind::roof};
+  ASSERT_EQ(view.mesh.triangles.size(), kinds.size());
+  for (std::uint32_t t = 0; t < kinds.size(); ++t) EXPECT_EQ(view.surface_of(t).kind, kinds[t]) << t;
+  EXPECT_EQ(view.surface_runs.size(), 3U);
+  EXPECT_EQ(view.surface_of(0).stands, 0);
+  EXPECT_EQ(view.surface_of(1).stands, 1);
+}
+
+TEST_F(TilesWriter, NamesTheEndsOfEdgesByVertex) {
+  tile().horizon_edges = {{corners_[2], corners_[1]}, {corners_[3], corners_[0]}};
+  const TileView view = written();
+  EXPECT_TRUE(std::ranges::equal(view.edges, std::vector<package::TileEdge>{{2, 1}, {3, 0}}));
+  EXPECT_EQ(view.mesh.vertices.size(), corners_.size());
+}
+
+TEST_F(TilesWriter, AddsAVertexWhereAnEdgeEndsBesideTheMesh) {
+  const Point3f beside{2, 0, 0.5F};
+  tile().horizon_edges = {{corners_[0], beside}, {beside, corners_[1]}};
+  const TileView view = written();
+  EXPECT_TRUE(std::ranges::equal(view.edges, std::vector<package::TileEdge>{{0, 4}, {4, 1}}));
+  ASSERT_EQ(view.mesh.vertices.size(), 5U);
+  EXPECT_EQ(view.mesh.vertices[4], beside);
+  EXPECT_EQ(view.cell->z_low_m, 0.5F) << "a cell's heights are those of its vertices";
+}
+
+TEST_F(TilesWriter, WritesTheRisesOfEdgesInTheirOrder) {
+  const std::vector<EdgeRises> rises{{-127, 0}, {44, -44}, {127, 1}};
+  tile().horizon_edges = {
+      {corners_[2], corners_[1], rises[0]}, {corners_[3], corners_[0], rises[1]}, {corners_[0], corners_[1], rises[2]}};
+  EXPECT_TRUE(std::ranges::equal(written().edge_rises, rises));
+}
+
+TEST_F(TilesWriter, WritesATileWithoutAnything) {
+  tile() = {};
+  const TileView view = written();
+  EXPECT_TRUE(view.mesh.vertices.empty() && view.mesh.triangles.empty() && view.edges.empty() && view.surface_runs.empty());
+  EXPECT_TRUE(view.edge_rises.empty());
+}
+
+}  // namespace
+}  // namespace farlod
