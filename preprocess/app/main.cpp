@@ -10,6 +10,7 @@
 #include <memory>
 #include <new>
 
+#include "app/estimate_text.hpp"
 #include "app/pack_options.hpp"
 #include "app/pack_summary.hpp"
 #include "city/input_error.hpp"
@@ -95,6 +96,11 @@ class StageProgress {
     }
     line_->update(done, all);
   }
+  void tell(const PackEstimate& estimate) {
+    line_.reset();
+    if (verbosity_ == Verbosity::normal) fmt::print("{}\n", estimate_text(estimate));
+    std::fflush(stdout);
+  }
 
  private:
   Verbosity verbosity_;
@@ -111,7 +117,7 @@ int run(const PackOptions& options) {
   std::optional<PackResult> result;
   try {
     StageProgress progress(options.run.verbosity);
-    result = pack(options.settings, report, std::ref(progress));
+    result = pack(options.settings, report, std::ref(progress), [&](const PackEstimate& e) { progress.tell(e); });
   } catch (...) {
     write_text(options.report_file, report_json(report));  // what was wrong is wanted most when nothing came of it
     throw;
@@ -137,6 +143,9 @@ int main(int argc, char** argv) {
   } catch (const PackageWriteError& error) {
     fmt::print(stderr, "farlod-pack: {}\n", error.what());
     return exit_unusable_input;
+  } catch (const MemoryLimitError& error) {
+    fmt::print(stderr, "farlod-pack: {}\n", error.what());
+    return exit_limit_reached;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "farlod-pack: out of memory. Pack the city in parts, or with larger cells.\n");
     return exit_limit_reached;

@@ -113,6 +113,9 @@ void add_grid_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
 void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("-o,--output", raw.output, "Folder of the package, NAME.farlod")->required()->group("Output");
   app.add_flag("--force", raw.force, "Replace a package that is there already")->group("Output");
+  app.add_option("--memory-limit", o.settings.memory_limit_mib, "End before the long work when it would need more MiB than this")
+      ->check(CLI::PositiveNumber)
+      ->group("Output");
   app.add_option("--report", o.report_file, "Write every problem of the input to this JSON file")->group("Output");
   add_run_options(app, "farlod-pack", o.run);
 }

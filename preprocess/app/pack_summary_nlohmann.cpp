@@ -45,7 +45,11 @@ std::string pack_summary_json(const PackResult& result, const Report& report, do
             {"seconds", seconds},
             {"peak_memory_mib", peak_memory_mib()},
             {"package_bytes", result.package_bytes},
-            {"far_map_bytes", result.far_map_bytes}};
+            {"far_map_bytes", result.far_map_bytes},
+            {"estimate",
+             {{"seconds", result.estimate.seconds},
+              {"memory_mib", result.estimate.memory_mib},
+              {"package_mib", result.estimate.package_mib}}}};
   if (result.chosen) j["chosen"] = json_of(*result.chosen);
   return text_of(j);
 }

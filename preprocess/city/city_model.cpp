@@ -61,11 +61,15 @@ void CityModel::set_source(std::uint32_t source) {
   for (Building& b : buildings_) b.source = source;
 }
 
-void CityModel::append(const CityModel& other) {
+void CityModel::append(CityModel&& other) {
+  if (buildings_.empty()) {
+    *this = std::move(other);
+    return;
+  }
   const std::uint64_t facet_shift = facets_.size();
   const std::uint64_t ring_shift = ring_begin_.size() - 1;
   const std::uint64_t point_shift = points_.size();
-  for (Building b : other.buildings_) {
+  for (Building& b : other.buildings_) {
     b.first_facet += facet_shift;
     buildings_.push_back(std::move(b));
   }

@@ -60,8 +60,8 @@ class CityModel {
   /// Takes back the building begun last, with all that it has.
   void drop_last_building();
   void set_source(std::uint32_t source);  ///< of all buildings
-  /// Appends the buildings of another model.
-  void append(const CityModel& other);
+  /// Appends the buildings of another model; takes it over whole where there is nothing yet.
+  void append(CityModel&& other);
 
  private:
   [[nodiscard]] std::span<const Point3d> points_of_ring(std::uint64_t r) const {

@@ -107,8 +107,8 @@ std::vector<std::size_t> project(SettledSource& settled, const Crs& output, Repo
   return lost;
 }
 
-void append_without(CityModel& city, const CityModel& more, const std::vector<std::size_t>& lost) {
-  if (lost.empty()) return city.append(more);
+void append_without(CityModel& city, CityModel&& more, const std::vector<std::size_t>& lost) {
+  if (lost.empty()) return city.append(std::move(more));
   for (std::size_t n = 0; n < more.buildings().size(); ++n)
     if (!std::binary_search(lost.begin(), lost.end(), n)) copy_building(more, more.buildings()[n], city);
 }
@@ -134,7 +134,7 @@ LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSett
     const auto lost = project(settled, *output, report);
     settled.source.city.set_source(static_cast<std::uint32_t>(located.sources.size()));
     located.sources.push_back(settled.source.source);
-    append_without(located.city, settled.source.city, lost);
+    append_without(located.city, std::move(settled.source.city), lost);
   }
   if (located.city.points().empty())
     throw InputError("no building is left that could be put on the map: see the report for what is wrong with each");

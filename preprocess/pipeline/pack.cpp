@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/pack.hpp"
 
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_group.h>
+
 #include <algorithm>
 #include <chrono>
 #include <map>
@@ -39,11 +42,19 @@ Box2d outline_of(const TerrainRaster& terrain) {
   return outline;
 }
 
+/// What can never be a folder is said before the long work, too.
+void require_folders_above(const std::filesystem::path& output) {
+  for (std::filesystem::path above = std::filesystem::absolute(output).parent_path(); above.has_relative_path();
+       above = above.parent_path())
+    if (std::filesystem::exists(above) && !std::filesystem::is_directory(above))
+      throw PackageWriteError(output.string() + " cannot be written: " + above.string() + ": Not a directory");
+}
+
 /// Runs the stages one after the other, and remembers how long each took.
 class Packing {
  public:
-  Packing(const PackSettings& settings, Report& report, const PackProgress& progress)
-      : settings_(settings), report_(report), progress_(progress) {}
+  Packing(const PackSettings& settings, Report& report, const PackProgress& progress, const TellEstimate& tell)
+      : settings_(settings), report_(report), progress_(progress), tell_(tell) {}
 
   template <class Work>
   auto timed(const std::string& stage, const Work& work) {
@@ -56,10 +67,12 @@ class Packing {
 
   PackResult run() {
     // A folder that may not be written ends the run before the long work; one that may be is swept only after it
+    require_folders_above(settings_.output);
     require_room(settings_.output, settings_.overwrite);
     LocatedCity located = read_and_locate();
     if (settings_.choice) result_.chosen = timed("choice", [&] { return choose(located); });
     const auto [grid, terrain] = lay_grid_on_ground(located);
+    estimate(located.city, grid, terrain);
     describe_place(located, grid);
     result_.facets = located.city.facets().size();
     TileSet tiles = timed("tiles", [&, &grid = grid, &terrain = terrain] {
@@ -131,6 +144,14 @@ class Packing {
     return {best, {}};
   }
 
+  void estimate(const CityModel& city, const Grid& grid, const std::optional<TerrainRaster>& terrain) {
+    using oneapi::tbb::global_control;
+    const std::size_t threads = global_control::active_value(global_control::max_allowed_parallelism);
+    result_.estimate = estimate_pack(city, terrain, grid, settings_.far_map.kind, threads);
+    require_memory(result_.estimate, settings_.memory_limit_mib);
+    if (tell_) tell_(result_.estimate);
+  }
+
   [[nodiscard]] FarMapVerdict measure(const TileSet& tiles, const Grid& grid) const {
     JudgeSettings others = settings_.choice->judge;
     others.seed += 1;
@@ -170,15 +191,22 @@ class Packing {
     const FarMapBaker baker = timed("city_index", [&] { return FarMapBaker(tiles, grid, settings_.assign, settings_.far_map); });
     const std::vector<Block> blocks = grid.blocks();
     double bake_s = 0.0, write_s = 0.0;
-    for (const Block block : blocks) {
-      progress_("far maps", result_.manifest.blocks.size(), blocks.size());
+    BakedBlock to_write;
+    oneapi::tbb::task_group writing;  // a block is written while the next one is baked
+    for (std::size_t n = 0; n < blocks.size(); ++n) {
+      progress_("far maps", n, blocks.size());
       const auto start = Clock::now();
-      const BakedBlock maps = baker.bake(block);
-      const auto baked = Clock::now();
-      result_.manifest.blocks.push_back(writer.write_block(tiles, maps, grid, block, result_.manifest.far_map));
-      bake_s += seconds_between(start, baked);
-      write_s += seconds_between(baked, Clock::now());
+      BakedBlock maps = baker.bake(blocks[n]);
+      bake_s += seconds_between(start, Clock::now());
+      writing.wait();
+      to_write = std::move(maps);
+      writing.run([&, block = blocks[n]] {
+        const auto begin = Clock::now();
+        result_.manifest.blocks.push_back(writer.write_block(tiles, to_write, grid, block, result_.manifest.far_map));
+        write_s += seconds_between(begin, Clock::now());
+      });
     }
+    writing.wait();
     progress_("far maps", blocks.size(), blocks.size());
     writer.finish(result_.manifest);
     result_.stage_seconds.emplace_back("far_maps", bake_s);
@@ -190,13 +218,14 @@ class Packing {
   PackSettings settings_;
   Report& report_;
   const PackProgress& progress_;
+  const TellEstimate& tell_;
   PackResult result_;
 };
 
 }  // namespace
 
-PackResult pack(const PackSettings& settings, Report& report, const PackProgress& progress) {
-  return Packing(settings, report, progress).run();
+PackResult pack(const PackSettings& settings, Report& report, const PackProgress& progress, const TellEstimate& tell) {
+  return Packing(settings, report, progress, tell).run();
 }
 
 }  // namespace farlod

@@ -17,6 +17,7 @@
 #include "ingest/ingest.hpp"
 #include "package/package_writer.hpp"
 #include "pipeline/grid_choice.hpp"
+#include "pipeline/pack_estimate.hpp"
 #include "tiles/tiles.hpp"
 
 namespace farlod {
@@ -35,6 +36,8 @@ struct PackSettings {
   /// Choose the cells, the neighbourhood and the far maps' tolerance such that an error is kept, instead of taking them from
   /// `grid` and `far_map`.
   std::optional<ChoiceSettings> choice;
+  /// End the run before the long work when it is expected to need more.
+  std::optional<std::uint64_t> memory_limit_mib;
 };
 
 /// What was chosen to keep an error, and what it was then measured to do with receivers that did not take part in the choice.
@@ -50,14 +53,19 @@ struct PackResult {
   std::optional<ChosenGrid> chosen;
   std::uint64_t facets = 0;  ///< polygons as the files have them: a surface of a mesh is made of several triangles
   std::uint64_t package_bytes = 0, far_map_bytes = 0;
-  std::vector<std::pair<std::string, double>> stage_seconds;  ///< in the order in which the stages ran
+  PackEstimate estimate;  ///< made when the grid was laid
+  /// In the order in which the stages ran. The package is written while far maps are baked: together they take less than the sum.
+  std::vector<std::pair<std::string, double>> stage_seconds;
 };
 
 /// Is told how far the work is: the stage, and how much of it is done.
 using PackProgress = std::function<void(const std::string& stage, std::size_t done, std::size_t all)>;
+/// Is told, before the long work, what it will need.
+using TellEstimate = std::function<void(const PackEstimate&)>;
 
 /// From city files to a package: ingest, georeference, align, tiles, far maps, package.
-/// Throws InputError, PackageWriteError or OcclusionError; what is wrong with single buildings goes to the report.
-PackResult pack(const PackSettings& settings, Report& report, const PackProgress& progress);
+/// Throws InputError, PackageWriteError, MemoryLimitError or OcclusionError; what is wrong with single buildings goes to the
+/// report.
+PackResult pack(const PackSettings& settings, Report& report, const PackProgress& progress, const TellEstimate& tell = {});
 
 }  // namespace farlod

@@ -72,6 +72,29 @@ TEST(Pack, CountsWhatIsInThePackage) {
   EXPECT_EQ(package.manifest().buildings, m.buildings);
 }
 
+TEST(Pack, EndsBeforeTheTilesWhereTheMemoryIsShort) {
+  TownPacking p;
+  p.settings.memory_limit_mib = 1;
+  EXPECT_THROW(p.run(), MemoryLimitError);
+  EXPECT_FALSE(p.stages_told().contains("tiles"));
+  EXPECT_FALSE(fs::exists(p.settings.output));
+}
+
+TEST(Pack, TellsItsEstimateOnceBeforeTheTiles) {
+  TownPacking p;
+  std::vector<PackEstimate> told;
+  bool cutting = false;
+  const PackResult result = pack(
+      p.settings, p.report, [&](const std::string& stage, std::size_t, std::size_t) { cutting |= stage == "tiles"; },
+      [&](const PackEstimate& estimate) {
+        told.push_back(estimate);
+        EXPECT_FALSE(cutting);
+      });
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told.front().cells, static_cast<std::uint64_t>(result.manifest.grid.cells.size()));
+  EXPECT_EQ(told.front().memory_mib, result.estimate.memory_mib);
+}
+
 /// Of the sections of a tiles file that far maps of the kind `horizon` need.
 std::uint64_t far_bytes_in_tiles(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -81,7 +104,8 @@ std::uint64_t far_bytes_in_tiles(const fs::path& path) {
   for (std::uint32_t n = 0; n < header.section_count; ++n) {
     package::Section section{};
     file.read(reinterpret_cast<char*>(&section), sizeof section);
-    if (section.kind >= package::SectionKind::far_cells) bytes += section.count * section.element_bytes;
+    if (section.kind >= package::SectionKind::far_cells && section.kind <= package::SectionKind::named_triangles)
+      bytes += section.count * section.element_bytes;
   }
   return bytes;
 }

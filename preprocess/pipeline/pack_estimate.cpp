@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/pack_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace farlod {
+namespace {
+
+// Measured with `farlod-pack --summary` on generated cities of 35,000 to 10 million polygons (`farlod-city --towers 0.3`) with
+// cells of 35 to 100 m, and on Queens, Omiya and Manhattan; see docs/performance.md. Rounded, and rather high than low.
+
+/// Triangles in the tiles for each triangle of the buildings: the ground between them comes to two thirds of theirs, and borders
+/// cut them the more often the smaller the cells are.
+constexpr double tiles_per_city_triangle = 1.7, cut_by_borders_m = 55.0;
+/// A raster of n nodes makes 2n triangles; few of them cross borders.
+constexpr double tiles_per_terrain_node = 2.2;
+
+/// Tiles, surfaces, horizon edges and the city model as long as it is cut; an index of rays needs as much again.
+constexpr double memory_bytes_per_triangle = 160.0, ray_index_bytes_per_triangle = 100.0;
+/// The program itself; two blocks of far maps, one of them being written.
+constexpr double memory_mib_of_program = 50.0, memory_mib_of_blocks = 60.0;
+constexpr double cells_of_a_block = 1024.0;
+
+constexpr double package_bytes_per_triangle = 28.0;
+constexpr double package_bytes_per_horizon_map = 10000.0, package_bytes_per_box_map = 6000.0;
+
+/// Of one core: cutting and writing a triangle; baking and writing a far map of either kind.
+constexpr double seconds_per_triangle = 4e-6, seconds_per_far_map = 4e-3;
+
+constexpr double bytes_per_mib = 1048576.0;
+
+double triangles_in_tiles(const CityModel& city, const std::optional<TerrainRaster>& terrain, const Grid& grid) {
+  // A polygon of n corners has n − 2 triangles
+  const double of_city = static_cast<double>(city.points().size()) - 2.0 * static_cast<double>(city.facets().size());
+  const double of_terrain = terrain ? tiles_per_terrain_node * static_cast<double>(terrain->height_m.size()) : 0.0;
+  return of_city * (tiles_per_city_triangle + cut_by_borders_m / grid.cell_edge_m) + of_terrain;
+}
+
+}  // namespace
+
+PackEstimate estimate_pack(const CityModel& city, const std::optional<TerrainRaster>& terrain, const Grid& grid,
+                           FarMapKind far_map, std::size_t threads) {
+  const bool is_box = far_map == FarMapKind::box;
+  const double triangles = triangles_in_tiles(city, terrain, grid), cells = static_cast<double>(grid.cells.size());
+  PackEstimate e;
+  e.cells = static_cast<std::uint64_t>(grid.cells.size());
+  e.seconds =
+      (triangles * seconds_per_triangle + cells * seconds_per_far_map) / static_cast<double>(std::max<std::size_t>(threads, 1));
+  const double per_triangle = memory_bytes_per_triangle + (is_box ? ray_index_bytes_per_triangle : 0.0);
+  e.memory_mib = memory_mib_of_program + memory_mib_of_blocks * std::min(1.0, cells / cells_of_a_block) +
+                 triangles * per_triangle / bytes_per_mib;
+  const double per_map = is_box ? package_bytes_per_box_map : package_bytes_per_horizon_map;
+  e.package_mib = (triangles * package_bytes_per_triangle + cells * per_map) / bytes_per_mib;
+  return e;
+}
+
+void require_memory(const PackEstimate& estimate, std::optional<std::uint64_t> limit_mib) {
+  if (!limit_mib || estimate.memory_mib <= static_cast<double>(*limit_mib)) return;
+  throw MemoryLimitError("Packing into " + std::to_string(estimate.cells) + " cells needs about " +
+                         std::to_string(std::llround(estimate.memory_mib)) + " MiB, more than --memory-limit " +
+                         std::to_string(*limit_mib) +
+                         ": choose larger cells (--cell), pack fewer inputs at a time, or raise the limit.");
+}
+
+}  // namespace farlod
