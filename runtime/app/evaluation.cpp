@@ -3,11 +3,15 @@
 #include "app/evaluation.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_pipeline.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
+#include <memory>
+#include <numeric>
+#include <utility>
 
+#include "app/memory_limit.hpp"
 #include "package/package_error.hpp"
 
 namespace farlod {
@@ -18,36 +22,36 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Figures over the answers of some cells. Sums are taken cell by cell, in order, so that threads do not change the mean.
-struct CellFigures {
+struct Figures {
   std::size_t count = 0;
   double sum = 0.0;
   float min = 1.0F, max = 0.0F;
   double width_sum = 0.0;
   float width_max = 0.0F;
+
+  void add(const Figures& o) {
+    *this = {count + o.count,         sum + o.sum,
+             std::min(min, o.min),    std::max(max, o.max),
+             width_sum + o.width_sum, std::max(width_max, o.width_max)};
+  }
 };
 
-CellFigures figures_of(const CellReceivers& cell, const AnswerTable& answers) {
-  CellFigures figures{cell.receivers.size()};
-  for (const Receiver& r : cell.receivers) {
-    figures.sum += answers.svf[r.index];
-    figures.min = std::min(figures.min, answers.svf[r.index]);
-    figures.max = std::max(figures.max, answers.svf[r.index]);
-    if (answers.low.empty()) continue;
-    const float width = answers.high[r.index] - answers.low[r.index];
+Figures figures_of(const AnswerTable& answers) {
+  Figures figures{answers.svf.size()};
+  for (const float svf : answers.svf) {
+    figures.sum += svf;
+    figures.min = std::min(figures.min, svf);
+    figures.max = std::max(figures.max, svf);
+  }
+  for (std::size_t n = 0; n < answers.low.size(); ++n) {
+    const float width = answers.high[n] - answers.low[n];
     figures.width_sum += width;
     figures.width_max = std::max(figures.width_max, width);
   }
   return figures;
 }
 
-void add_figures(std::span<const CellFigures> cells, bool bounds, SvfRun& run) {
-  CellFigures all;
-  for (const CellFigures& c : cells) {
-    if (c.count == 0) continue;
-    all = {all.count + c.count,         all.sum + c.sum,
-           std::min(all.min, c.min),    std::max(all.max, c.max),
-           all.width_sum + c.width_sum, std::max(all.width_max, c.width_max)};
-  }
+void tell_figures(const Figures& all, bool bounds, SvfRun& run) {
   run.receivers = all.count;
   if (all.count == 0) return;
   run.svf_min = all.min;
@@ -56,40 +60,75 @@ void add_figures(std::span<const CellFigures> cells, bool bounds, SvfRun& run) {
   if (bounds) run.bounds = {all.width_sum / static_cast<double>(all.count), all.width_max};
 }
 
+/// A cell on its way: handed out, evaluated, taken.
+struct CellInFlight {
+  std::size_t n = 0;
+  CellReceivers receivers;
+  AnswerTable answers{0, false};
+};
+
+AnswerTable answers_of(const SkyEvaluator& evaluator, CellReceivers cell, bool bounds) {
+  AnswerTable answers(cell.receivers.size(), bounds);
+  for (std::size_t k = 0; k < cell.receivers.size(); ++k) cell.receivers[k].index = k;
+  evaluator.evaluate(cell, SkyAnswers(answers.svf, answers.low, answers.high));
+  return answers;
+}
+
+/// Evaluates cells on all cores; they are taken one at a time, in their order.
+void evaluate_in_order(const SvfOptions& options, std::size_t cell_count,
+                       const std::function<CellInFlight(std::size_t)>& evaluate,
+                       const std::function<void(const CellInFlight&)>& take) {
+  using oneapi::tbb::filter_mode, oneapi::tbb::make_filter;
+  using OnItsWay = std::shared_ptr<const CellInFlight>;
+  std::size_t next = 0;
+  const auto hand_out = [&](oneapi::tbb::flow_control& flow) {
+    if (next == cell_count) flow.stop();
+    return next++;
+  };
+  oneapi::tbb::parallel_pipeline(
+      cells_in_flight(options.run),
+      make_filter<void, std::size_t>(filter_mode::serial_in_order, hand_out) &
+          make_filter<std::size_t, OnItsWay>(filter_mode::parallel,
+                                             [&](std::size_t n) { return std::make_shared<const CellInFlight>(evaluate(n)); }) &
+          make_filter<OnItsWay, void>(filter_mode::serial_in_order, [&](const OnItsWay& cell) { take(*cell); }));
+}
+
 /// Random receivers among all that have an answer: which of each cell's.
-std::vector<std::vector<std::size_t>> choose_receivers(std::span<const CellFigures> cells, std::size_t wanted) {
-  std::size_t all = 0;
-  for (const CellFigures& c : cells) all += c.count;
-  std::vector<std::vector<std::size_t>> chosen(cells.size());
+std::vector<std::vector<std::size_t>> choose_receivers(std::span<const std::size_t> counts, std::size_t wanted) {
+  std::vector<std::vector<std::size_t>> chosen(counts.size());
   std::size_t cell = 0, first = 0;
-  for (const std::size_t n : choose_some(all, wanted)) {
-    while (n >= first + cells[cell].count) first += cells[cell++].count;
+  for (const std::size_t n : choose_some(std::accumulate(counts.begin(), counts.end(), std::size_t{0}), wanted)) {
+    while (n >= first + counts[cell]) first += counts[cell++];
     chosen[cell].push_back(n - first);
   }
   return chosen;
 }
 
-ErrorSummary verify(const Package& package, const SvfOptions& options, std::span<const CellFigures> cells,
-                    const ReceiversOfCell& receivers_of, std::span<const float> svf) {
-  const SkyEvaluator reference(package,
-                               {Engine::exact, options.sky.weight, std::max(verify_rays, options.sky.rays), std::nullopt});
-  const auto chosen = choose_receivers(cells, options.verify_count);
-  std::vector<std::vector<double>> answers(cells.size()), exact(cells.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t n) {
+SkySettings reference_settings(SkySettings settings) {
+  settings.engine = Engine::exact;
+  settings.rays = std::max(verify_rays, settings.rays);
+  settings.max_far_error.reset();
+  return settings;
+}
+
+/// Answers are not kept: those of the cells of the chosen are computed once more, all together as they were, beside the exact
+/// ones.
+ErrorSummary verify(const Package& package, const SvfOptions& options, const SkyEvaluator& evaluator,
+                    std::span<const std::size_t> counts, const ReceiversOfCell& receivers_of) {
+  const SkyEvaluator reference(package, reference_settings(options.sky));
+  const auto chosen = choose_receivers(counts, options.verify_count);
+  std::vector<std::vector<float>> answers(counts.size()), exact(counts.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t n) {
     if (chosen[n].empty()) return;
     const CellReceivers all = receivers_of(n);
     CellReceivers some{all.cell, {}};
-    for (const std::size_t k : chosen[n]) {
-      some.receivers.push_back(all.receivers[k]);
-      some.receivers.back().index = some.receivers.size() - 1;
-      answers[n].push_back(svf[all.receivers[k].index]);
-    }
-    std::vector<float> exact_svf(some.receivers.size());
-    reference.evaluate(some, exact_svf);
-    exact[n].assign(exact_svf.begin(), exact_svf.end());
+    for (const std::size_t k : chosen[n]) some.receivers.push_back(all.receivers[k]);
+    const std::vector<float> answers_of_all = answers_of(evaluator, all, options.bounds).svf;
+    for (const std::size_t k : chosen[n]) answers[n].push_back(answers_of_all[k]);
+    exact[n] = answers_of(reference, some, false).svf;
   });
   std::vector<double> all_answers, all_exact;
-  for (std::size_t n = 0; n < cells.size(); ++n) {
+  for (std::size_t n = 0; n < counts.size(); ++n) {
     all_answers.insert(all_answers.end(), answers[n].begin(), answers[n].end());
     all_exact.insert(all_exact.end(), exact[n].begin(), exact[n].end());
   }
@@ -105,36 +144,63 @@ void require_bounds_known(const Package& package, const SvfOptions& options) {
       "or use --engine exact.");
 }
 
+/// What is summed up while cells are taken.
+struct Tally {
+  std::vector<std::size_t> counts;  ///< receivers of each cell
+  Figures figures;
+  std::size_t outside_of_grid = 0;
+  double take_s = 0.0;
+
+  void add(const Package& package, const CellInFlight& cell) {
+    counts.push_back(cell.receivers.receivers.size());
+    figures.add(figures_of(cell.answers));
+    if (!package.grid().cells.contains(cell.receivers.cell)) outside_of_grid += counts.back();
+  }
+};
+
+/// Threads share the wall clock in proportion to what each part took of them.
+void tell_seconds(double wall_s, const SkyEvaluator::Effort& effort, double take_s, RunSeconds& seconds) {
+  const double busy_s = effort.scenes_s + effort.rays_s + take_s;
+  const double scene_share = busy_s > 0.0 ? effort.scenes_s / busy_s : 0.0;
+  const double take_share = busy_s > 0.0 ? take_s / busy_s : 0.0;
+  seconds.scenes = wall_s * scene_share;
+  seconds.write = wall_s * take_share;
+  seconds.evaluate = wall_s * (1.0 - scene_share - take_share);
+}
+
+Tally evaluate_and_take(const Package& package, const SvfOptions& options, const SkyEvaluator& evaluator, std::size_t cell_count,
+                        const ReceiversOfCell& receivers_of, const TakeAnswers& take) {
+  Tally tally;
+  Progress progress("sky view factors", options.run.verbosity);
+  const auto evaluate_cell = [&](std::size_t n) {
+    CellReceivers receivers = receivers_of(n);
+    AnswerTable answers = answers_of(evaluator, receivers, options.bounds);
+    return CellInFlight{n, std::move(receivers), std::move(answers)};
+  };
+  evaluate_in_order(options, cell_count, evaluate_cell, [&](const CellInFlight& cell) {
+    const auto start = Clock::now();
+    tally.add(package, cell);
+    take(cell.n, cell.receivers, cell.answers);
+    tally.take_s += seconds_since(start);
+    progress.update(tally.counts.size(), cell_count);
+  });
+  return tally;
+}
+
 }  // namespace
 
 void evaluate_cells(const Package& package, const SvfOptions& options, std::size_t cell_count,
-                    const ReceiversOfCell& receivers_of, AnswerTable& answers, SvfRun& run) {
+                    const ReceiversOfCell& receivers_of, const TakeAnswers& take, SvfRun& run) {
   require_bounds_known(package, options);
   const SkyEvaluator evaluator(package, options.sky);
-  std::vector<CellFigures> figures(cell_count);
-  std::atomic<std::size_t> cells_done = 0, outside = 0;
   const auto start = Clock::now();
-  {
-    Progress progress("sky view factors", options.run.verbosity);
-    oneapi::tbb::parallel_for(std::size_t{0}, cell_count, [&](std::size_t n) {
-      const CellReceivers receivers = receivers_of(n);
-      evaluator.evaluate(receivers, SkyAnswers(answers.svf, answers.low, answers.high));
-      figures[n] = figures_of(receivers, answers);
-      if (!package.grid().cells.contains(receivers.cell)) outside += receivers.receivers.size();
-      progress.update(++cells_done, cell_count);
-    });
-  }
-  // Threads share the wall clock in proportion to what each part took of them
-  const double wall_s = seconds_since(start);
-  const SkyEvaluator::Effort effort = evaluator.effort();
-  const double busy_s = effort.scenes_s + effort.rays_s;
-  const double scene_share = busy_s > 0.0 ? effort.scenes_s / busy_s : 0.0;
-  run.seconds.scenes += wall_s * scene_share;
-  run.seconds.evaluate += wall_s * (1.0 - scene_share);
-  run.outside_of_grid = outside;
-  run.settled_rays = effort.settled_rays;
-  add_figures(figures, options.bounds, run);
-  if (options.verify_count > 0) run.errors = verify(package, options, figures, receivers_of, answers.svf);
+  const Tally tally = evaluate_and_take(package, options, evaluator, cell_count, receivers_of, take);
+  tell_seconds(seconds_since(start), evaluator.effort(), tally.take_s, run.seconds);
+  run.outside_of_grid = tally.outside_of_grid;
+  run.by_rays = evaluator.effort().by_rays;
+  run.settled_rays = evaluator.effort().settled_rays;
+  tell_figures(tally.figures, options.bounds, run);
+  if (options.verify_count > 0) run.errors = verify(package, options, evaluator, tally.counts, receivers_of);
 }
 
 std::string quantity_name(SkyWeight weight) { return weight == SkyWeight::cosine ? "svf" : "svf_solid"; }

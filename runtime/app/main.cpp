@@ -9,6 +9,7 @@
 #include <new>
 
 #include "app/evaluation.hpp"
+#include "app/memory_limit.hpp"
 #include "app/svf_options.hpp"
 #include "app/svf_summary.hpp"
 #include "console/exit_code.hpp"
@@ -40,7 +41,7 @@ void require_folder_of(const std::filesystem::path& file) {
 
 SvfRun evaluate(const SvfOptions& options) {
   const auto start = Clock::now();
-  const Package package(options.package);
+  Package package(options.package);
   const double open_s = seconds_since(start);
   SvfRun run = options.source == ReceiverSource::grid       ? run_raster(package, options)
                : options.source == ReceiverSource::surfaces ? run_surfaces(package, options)
@@ -67,9 +68,13 @@ void print_run(const SvfRun& run, const SvfOptions& options, double total_s) {
   if (run.outside_of_grid > 0)
     fmt::print("{} receivers lie outside of the grid, where there is no far map: they were traced against the whole city.\n",
                run.outside_of_grid);
+  if (options.sky.engine == Engine::automatic && run.by_rays > 0)
+    fmt::print("{} of the receivers were answered by {} rays each: horizons are not all that they see.\n", run.by_rays,
+               options.sky.rays);
   if (options.max_error)
-    fmt::print("Error of {:g} at the most: {} rays a receiver, and {} rays traced against the whole city\n", *options.max_error,
-               options.sky.rays, run.settled_rays);
+    fmt::print(
+        "Error of {:g} at the most: {} azimuths, {} rays where horizons are not enough, {} rays traced against the whole city\n",
+        *options.max_error, options.sky.azimuths, options.sky.rays, run.settled_rays);
   if (run.bounds)
     fmt::print("Certain intervals: {:.4f} wide on average, {:.4f} at the most\n", run.bounds->mean, run.bounds->max);
   if (run.errors)
@@ -113,6 +118,8 @@ int main(int argc, char** argv) {
     return complain(error, exit_unusable_input);
   } catch (const OutputError& error) {
     return complain(error, exit_unusable_input);
+  } catch (const LimitReached& error) {
+    return complain(error, exit_limit_reached);
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "farlod-svf: out of memory. Evaluate a part at a time (--bbox), or use fewer --threads.\n");
     return exit_limit_reached;

@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "app/evaluation.hpp"
+#include "app/memory_limit.hpp"
+#include "receivers/hilbert_curve.hpp"
 #include "receivers/point_reader.hpp"
 #include "results/sky_table_csv.hpp"
 #ifdef FARLOD_WITH_GDAL
@@ -44,45 +47,104 @@ void require_on_earth(const NamedPlaces& named) {
 }
 
 NamedPlaces read_places(const SvfOptions& options, const package::Manifest& manifest) {
-  if (options.source == ReceiverSource::at) return {{options.at}, {"1"}};
   NamedPlaces result;
-  for (RequestedPoint& point : read_points_csv(options.points_file)) {
-    result.places.push_back({{point.x, point.y}, point.z});
-    result.ids.push_back(std::move(point.id));
+  if (options.source == ReceiverSource::at) {
+    result = {{options.at}, {"1"}};
+  } else {
+    for (RequestedPoint& point : read_points_csv(options.points_file)) {
+      result.places.push_back({{point.x, point.y}, point.z});
+      result.ids.push_back(std::move(point.id));
+    }
   }
   if (!options.points_crs.empty()) move_to_package_crs(result.places, options, manifest);
+  require_on_earth(result);
   return result;
 }
 
+using PlacesByCell = std::vector<std::pair<Cell, std::vector<std::size_t>>>;
+
+PlacesByCell places_along_curve(const Package& package, std::span<const PlaceOfReceiver> places) {
+  std::map<Cell, std::vector<std::size_t>> by_cell;
+  std::vector<Cell> cells;
+  for (auto& [cell, chosen] : places_by_cell(package, places)) {
+    cells.push_back(cell);
+    by_cell[cell] = std::move(chosen);
+  }
+  PlacesByCell result;
+  for (const Cell cell : along_hilbert_curve(std::move(cells), package.grid().block_edge))
+    result.emplace_back(cell, std::move(by_cell[cell]));
+  return result;
+}
+
+MemoryNeeds needs_of(const Package& package, const NamedPlaces& named, const PlacesByCell& cells) {
+  // A point with its id, its place in its cell, its height and its answer
+  constexpr std::uint64_t bytes_of_point =
+      sizeof(PlaceOfReceiver) + sizeof(std::string) + sizeof(std::size_t) + sizeof(std::optional<double>) + 3 * sizeof(float);
+  MemoryNeeds needs{named.places.size() * bytes_of_point, 0, false};
+  for (const auto& [cell, chosen] : cells) {
+    needs.receivers_of_cell = std::max<std::uint64_t>(needs.receivers_of_cell, chosen.size());
+    needs.whole_city = needs.whole_city || !package.grid().cells.contains(cell);
+  }
+  return needs;
+}
+
+/// The way of named points: cell by cell to their answers, then row by row to their table.
+class PointRun {
+ public:
+  PointRun(Package& package, const SvfOptions& options)
+      : package_(package),
+        options_(options),
+        named_(read_places(options, package.manifest())),
+        cells_(places_along_curve(package, named_.places)),
+        answers_(named_.places.size(), options.bounds),
+        height_m_(named_.places.size()) {
+    share_memory(package, options, needs_of(package, named_, cells_));
+  }
+
+  [[nodiscard]] std::size_t cell_count() const { return cells_.size(); }
+  [[nodiscard]] CellReceivers receivers_of(std::size_t n) const {
+    return receivers_at(package_, cells_[n].first, named_.places, cells_[n].second, options_.height_above,
+                        static_cast<float>(options_.height_m));
+  }
+  void take(std::size_t, const CellReceivers& cell, const AnswerTable& answers) {
+    for (std::size_t k = 0; k < cell.receivers.size(); ++k) {
+      const std::size_t n = cell.receivers[k].index;
+      height_m_[n] = cell.receivers[k].p_cell.z + package_.manifest().height_origin_m;
+      answers_.svf[n] = answers.svf[k];
+      if (answers.low.empty()) continue;
+      answers_.low[n] = answers.low[k];
+      answers_.high[n] = answers.high[k];
+    }
+  }
+  void finish(SvfRun& run) const {
+    run.inside_buildings = named_.places.size() - run.receivers;
+    const auto row_of = [this](std::size_t n) {
+      return PointRow{named_.ids[n],
+                      named_.places[n].p_projected,
+                      height_m_[n],
+                      AnswerTable::value(answers_.svf, n),
+                      AnswerTable::value(answers_.low, n),
+                      AnswerTable::value(answers_.high, n)};
+    };
+    write_points_csv(named_.places.size(), row_of, quantity_name(options_.sky.weight),
+                     options_.bounds ? BoundsColumns::yes : BoundsColumns::no, options_.output);
+    run.files = {options_.output};
+  }
+
+ private:
+  const Package& package_;
+  const SvfOptions& options_;
+  NamedPlaces named_;
+  PlacesByCell cells_;
+  AnswerTable answers_;
+  std::vector<std::optional<double>> height_m_;  ///< where a receiver stands is known once its cell is read
+};
+
 }  // namespace
 
-SvfRun run_points(const Package& package, const SvfOptions& options) {
-  const NamedPlaces named = read_places(options, package.manifest());
-  require_on_earth(named);
-  const auto cells = places_by_cell(package, named.places);
-  AnswerTable answers(named.places.size(), options.bounds);
-  // Where a receiver stands is known once its cell is read
-  std::vector<std::optional<double>> height_m(named.places.size());
-  SvfRun run;
-  const auto receivers_of = [&](std::size_t n) {
-    CellReceivers r = receivers_at(package, cells[n].first, named.places, cells[n].second, options.height_above,
-                                   static_cast<float>(options.height_m));
-    for (const Receiver& receiver : r.receivers)
-      height_m[receiver.index] = receiver.p_cell.z + package.manifest().height_origin_m;
-    return r;
-  };
-  evaluate_cells(package, options, cells.size(), receivers_of, answers, run);
-  run.inside_buildings = answers.svf.size() - run.receivers;
-  std::vector<PointRow> rows;
-  for (std::size_t n = 0; n < answers.svf.size(); ++n)
-    rows.push_back({named.ids[n], named.places[n].p_projected, height_m[n], AnswerTable::value(answers.svf, n),
-                    AnswerTable::value(answers.low, n), AnswerTable::value(answers.high, n)});
-  const auto start = std::chrono::steady_clock::now();
-  write_points_csv(rows, quantity_name(options.sky.weight), options.bounds ? BoundsColumns::yes : BoundsColumns::no,
-                   options.output);
-  run.files.push_back(options.output);
-  run.seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return run;
+SvfRun run_points(Package& package, const SvfOptions& options) {
+  PointRun points(package, options);
+  return evaluate_and_finish(package, options, points);
 }
 
 }  // namespace farlod

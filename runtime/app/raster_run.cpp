@@ -1,13 +1,19 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "app/evaluation.hpp"
+#include "app/memory_limit.hpp"
+#include "receivers/hilbert_curve.hpp"
 #include "receivers/raster_receivers.hpp"
+#include "results/open_tiles.hpp"
 #include "results/raster_preview.hpp"
 #include "results/raster_writer_esri_ascii.hpp"
-#include "results/sky_raster.hpp"
 #ifdef FARLOD_WITH_GDAL
 #include "results/esri_wkt_gdal.hpp"
 #include "results/raster_writer_gdal.hpp"
@@ -17,57 +23,142 @@ namespace farlod {
 namespace {
 
 /// GIS programs read the `.prj` beside an ASCII grid only in Esri's dialect; without GDAL it stays as the package has it.
-SkyRaster with_esri_wkt(SkyRaster raster) {
+RasterFrame with_esri_wkt(RasterFrame frame) {
 #ifdef FARLOD_WITH_GDAL
-  raster.crs_wkt = esri_wkt_of(raster.crs_wkt);
+  frame.crs_wkt = esri_wkt_of(frame.crs_wkt);
 #endif
-  return raster;
+  return frame;
 }
 
-void write_raster(const SkyRaster& raster, const SvfOptions& options) {
+std::unique_ptr<RasterWriter> writer_for(const RasterFrame& frame, const SvfOptions& options) {
   switch (options.format) {
     case OutputFormat::png:
-      return write_png_preview(raster, options.output);
+      return std::make_unique<PngPreviewWriter>(frame, options.output);
     case OutputFormat::esri_ascii:
-      return write_esri_ascii(with_esri_wkt(raster), options.output);
+      return std::make_unique<EsriAsciiWriter>(with_esri_wkt(frame), options.output);
     case OutputFormat::geotiff:
 #ifdef FARLOD_WITH_GDAL
-      return write_geotiff(raster, options.output);
+      return std::make_unique<GeotiffWriter>(frame, options.output);
 #endif
     case OutputFormat::csv:
       break;
   }
   FARLOD_EXPECTS(!"the options allow only formats that this build writes");
+  return nullptr;
 }
+
+/// The raster of a run: it goes to its files tile by tile, as its cells are evaluated.
+class RasterFiles {
+ public:
+  RasterFiles(const RasterFrame& frame, const SvfOptions& options) {
+    writers_.push_back(writer_for(frame, options));
+    files_.push_back(options.output);
+    if (options.preview_file.empty()) return;
+    writers_.push_back(std::make_unique<PngPreviewWriter>(frame, options.preview_file));
+    files_.emplace_back(options.preview_file);
+  }
+
+  void write(const RasterTile& tile) const {
+    for (const auto& writer : writers_) writer->write(tile);
+  }
+  [[nodiscard]] const std::vector<std::filesystem::path>& commit() const {
+    for (const auto& writer : writers_) writer->commit();
+    return files_;
+  }
+
+ private:
+  std::vector<std::unique_ptr<RasterWriter>> writers_;
+  std::vector<std::filesystem::path> files_;
+};
+
+TileRange tiles_over(const PixelRange& pixels) {
+  return {{pixels.row_begin / raster_tile_edge, pixels.column_begin / raster_tile_edge},
+          {tiles_along(pixels.row_end), tiles_along(pixels.column_end)}};
+}
+
+std::vector<TileRange> tiles_of_cells(const RasterReceivers& receivers, std::span<const Cell> cells) {
+  std::vector<TileRange> tiles;
+  tiles.reserve(cells.size());
+  for (const Cell cell : cells) tiles.push_back(tiles_over(receivers.range_of(cell)));
+  return tiles;
+}
+
+MemoryNeeds needs_of(const RasterFrame& frame, std::span<const TileRange> tiles, const Grid& grid, const SvfOptions& options) {
+  const std::uint64_t bytes_of_pixel = (frame.bands == RasterBands::answers ? 1 : 3) * sizeof(float);
+  MemoryNeeds needs;
+  needs.results = OpenTiles::most_open(frame, tiles) * raster_tile_edge * raster_tile_edge * bytes_of_pixel;
+  const bool draws = options.format == OutputFormat::png || !options.preview_file.empty();
+  if (draws) needs.results += ScreenFit::bytes_for(frame) + bytes_of_largest_preview;
+  if (options.format == OutputFormat::esri_ascii) needs.results += frame.columns * raster_tile_edge * sizeof(float);
+  const double along_edge = std::ceil(grid.cell_edge_m / frame.step_m);
+  needs.receivers_of_cell = static_cast<std::uint64_t>(along_edge * along_edge);
+  return needs;
+}
+
+RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const package::Manifest& manifest) {
+  return {plan.north_west_m,
+          plan.step_m,
+          plan.columns,
+          plan.rows,
+          options.bounds ? RasterBands::answers_and_bounds : RasterBands::answers,
+          quantity_name(options.sky.weight),
+          manifest.crs_wkt};
+}
+
+/// The way of a raster's cells: from their receivers to the tiles of its files.
+class RasterRun {
+ public:
+  RasterRun(Package& package, const SvfOptions& options)
+      : package_(package),
+        options_(options),
+        plan_(plan_raster(package.manifest(), options.grid_step_m, options.bbox_projected)),
+        frame_(frame_of(plan_, options, package.manifest())),
+        receivers_(package.manifest(), plan_),
+        cells_(along_hilbert_curve(receivers_.cells(), package.grid().block_edge)),
+        tiles_of_cells_(tiles_of_cells(receivers_, cells_)) {
+    share_memory(package, options, needs_of(frame_, tiles_of_cells_, package.grid(), options));
+    files_.emplace(frame_, options);
+    open_tiles_.emplace(frame_, tiles_of_cells_, [this](const RasterTile& tile) { files_->write(tile); });
+  }
+
+  [[nodiscard]] std::size_t cell_count() const { return cells_.size(); }
+  [[nodiscard]] CellReceivers receivers_of(std::size_t n) const {
+    return receivers_.in_cell(package_, cells_[n], options_.height_above, static_cast<float>(options_.height_m));
+  }
+  void take(std::size_t n, const CellReceivers& cell, const AnswerTable& answers) {
+    const bool bounds = !answers.low.empty();
+    for (std::size_t k = 0; k < cell.receivers.size(); ++k) {
+      const std::size_t pixel = cell.receivers[k].index;
+      open_tiles_->put(pixel % plan_.columns, pixel / plan_.columns,
+                       {answers.svf[k], bounds ? answers.low[k] : 0.0F, bounds ? answers.high[k] : 0.0F});
+    }
+    open_tiles_->part_done();
+    pixels_in_grid_ += receivers_.pixel_count(cells_[n]);
+  }
+  void finish(SvfRun& run) const {
+    run.beyond_grid = plan_.columns * plan_.rows - pixels_in_grid_;
+    run.inside_buildings = pixels_in_grid_ - run.receivers;
+    run.files = files_->commit();
+  }
+
+ private:
+  const Package& package_;
+  const SvfOptions& options_;
+  RasterPlan plan_;
+  RasterFrame frame_;
+  RasterReceivers receivers_;
+  std::vector<Cell> cells_;
+  std::vector<TileRange> tiles_of_cells_;
+  std::optional<RasterFiles> files_;
+  std::optional<OpenTiles> open_tiles_;
+  std::size_t pixels_in_grid_ = 0;
+};
 
 }  // namespace
 
-SvfRun run_raster(const Package& package, const SvfOptions& options) {
-  const RasterPlan plan = plan_raster(package.manifest(), options.grid_step_m, options.bbox_projected);
-  SkyRaster raster{plan.north_west_m,         plan.step_m, plan.columns, plan.rows, {}, {}, {}, quantity_name(options.sky.weight),
-                   package.manifest().crs_wkt};
-  AnswerTable answers(plan.columns * plan.rows, options.bounds);
-  const RasterReceivers receivers(package.manifest(), plan);
-  const std::vector<Cell> cells = receivers.cells();
-  SvfRun run;
-  const auto receivers_of = [&](std::size_t n) {
-    return receivers.in_cell(package, cells[n], options.height_above, static_cast<float>(options.height_m));
-  };
-  evaluate_cells(package, options, cells.size(), receivers_of, answers, run);
-  raster.svf = std::move(answers.svf);
-  raster.low = std::move(answers.low);
-  raster.high = std::move(answers.high);
-  run.beyond_grid = raster.svf.size() - receivers.pixels_in_grid(cells);
-  run.inside_buildings = raster.svf.size() - run.beyond_grid - run.receivers;
-  const auto start = std::chrono::steady_clock::now();
-  write_raster(raster, options);
-  run.files.push_back(options.output);
-  if (!options.preview_file.empty()) {
-    write_png_preview(raster, options.preview_file);
-    run.files.emplace_back(options.preview_file);
-  }
-  run.seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return run;
+SvfRun run_raster(Package& package, const SvfOptions& options) {
+  RasterRun raster(package, options);
+  return evaluate_and_finish(package, options, raster);
 }
 
 }  // namespace farlod

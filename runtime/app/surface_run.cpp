@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "app/evaluation.hpp"
+#include "app/memory_limit.hpp"
+#include "receivers/hilbert_curve.hpp"
 #include "receivers/surface_receivers.hpp"
 #include "results/sky_table_csv.hpp"
 #include "results/surface_averages.hpp"
@@ -14,33 +13,10 @@
 namespace farlod {
 namespace {
 
-/// The receivers of one cell, those with an answer and those without, and where their answers begin.
-struct CellSurfaces {
-  Cell cell;
-  std::vector<SurfaceReceiver> receivers;
-  std::size_t first_index = 0;
-};
-
-std::vector<CellSurfaces> collect(const Package& package, const SvfOptions& options) {
-  const CellRange& range = package.grid().cells;
-  std::vector<CellSurfaces> cells(static_cast<std::size_t>(range.size()));
-  oneapi::tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t n) {
-    cells[n] = {range.cell_at(n), surface_receivers(package, range.cell_at(n), options.surfaces, options.spacing_m), 0};
-  });
-  std::size_t next = 0;
-  for (CellSurfaces& c : cells) {
-    c.first_index = next;
-    next += c.receivers.size();
-  }
-  return cells;
-}
-
-CellReceivers answerable(const CellSurfaces& cell) {
-  CellReceivers result{cell.cell, {}};
-  for (std::size_t k = 0; k < cell.receivers.size(); ++k) {
-    const SurfaceReceiver& r = cell.receivers[k];
-    if (!r.is_inside_building) result.receivers.push_back({cell.first_index + k, r.p_cell, r.normal});
-  }
+CellReceivers answerable(Cell cell, std::span<const SurfaceReceiver> receivers) {
+  CellReceivers result{cell, {}};
+  for (std::size_t k = 0; k < receivers.size(); ++k)
+    if (!receivers[k].is_inside_building) result.receivers.push_back({k, receivers[k].p_cell, receivers[k].normal});
   return result;
 }
 
@@ -52,12 +28,11 @@ Angle true_azimuth(const Point3d& normal_grid, const package::Manifest& m) {
   return Angle::degrees(azimuth_deg - 360.0 * std::floor(azimuth_deg / 360.0));
 }
 
-SurfacePointRow row_of(const Package& package, const CellSurfaces& cell, const SurfaceReceiver& r, const AnswerTable& answers,
-                       std::size_t n) {
+/// Who and where a receiver is; its answer is to come.
+SurfacePointRow row_of(const Package& package, Cell cell, const BlockTiles& block, const SurfaceReceiver& r) {
   const package::Manifest& m = package.manifest();
-  const BlockTiles& block = package.block_tiles(cell.cell);
-  const package::SurfaceRecord& surface = block.tile(cell.cell).surface_of(r.triangle);
-  const Point2d corner = m.grid.corner_of(cell.cell);
+  const package::SurfaceRecord& surface = block.tile(cell).surface_of(r.triangle);
+  const Point2d corner = m.grid.corner_of(cell);
   const Point3d normal{r.normal.x, r.normal.y, r.normal.z};
   SurfacePointRow row;
   row.building = block.id_of(block.buildings()[surface.building]);
@@ -67,10 +42,23 @@ SurfacePointRow row_of(const Package& package, const CellSurfaces& cell, const S
   row.azimuth = true_azimuth(normal, m);
   row.tilt = Angle::radians(std::acos(std::clamp(normal.z, -1.0, 1.0)));
   row.area_m2 = r.area_m2;
-  row.svf = AnswerTable::value(answers.svf, n);
-  row.low = AnswerTable::value(answers.low, n);
-  row.high = AnswerTable::value(answers.high, n);
   return row;
+}
+
+/// All receivers of a cell, those with an answer and those without.
+std::vector<SurfacePointRow> rows_of(const Package& package, Cell cell, std::span<const SurfaceReceiver> receivers,
+                                     std::span<const Receiver> answered, const AnswerTable& answers) {
+  const BlockTiles& block = package.block_tiles(cell);
+  std::vector<SurfacePointRow> rows;
+  rows.reserve(receivers.size());
+  for (const SurfaceReceiver& r : receivers) rows.push_back(row_of(package, cell, block, r));
+  for (std::size_t k = 0; k < answered.size(); ++k) {
+    SurfacePointRow& row = rows[answered[k].index];
+    row.svf = AnswerTable::value(answers.svf, k);
+    row.low = AnswerTable::value(answers.low, k);
+    row.high = AnswerTable::value(answers.high, k);
+  }
+  return rows;
 }
 
 /// OUT.csv → OUT.surfaces.csv
@@ -78,33 +66,90 @@ std::filesystem::path beside(const std::filesystem::path& output, const std::str
   return std::filesystem::path(output).replace_extension(what + output.extension().string());
 }
 
-void write_tables(std::span<const SurfacePointRow> rows, const SvfOptions& options, SvfRun& run) {
-  const std::string quantity = quantity_name(options.sky.weight);
-  run.files = {options.output, beside(options.output, ".surfaces"), beside(options.output, ".buildings")};
-  write_surface_points_csv(rows, quantity, options.bounds ? BoundsColumns::yes : BoundsColumns::no, run.files[0]);
-  write_surfaces_csv(average_by_surface(rows), quantity, run.files[1]);
-  write_buildings_csv(average_by_building(rows), quantity, run.files[2]);
+/// The three tables of a run. Rows come cell by cell along a curve, and stand in the order of CellRange::index_of.
+class SurfaceTables {
+ public:
+  explicit SurfaceTables(const SvfOptions& options)
+      : quantity_(quantity_name(options.sky.weight)),
+        files_{options.output, beside(options.output, ".surfaces"), beside(options.output, ".buildings")},
+        receivers_(options.output, quantity_, options.bounds ? BoundsColumns::yes : BoundsColumns::no) {}
+
+  void add(std::size_t cell_index, std::span<const SurfacePointRow> rows) {
+    receivers_.write_part(cell_index, rows);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      surfaces_.add({cell_index, k}, rows[k]);
+      buildings_.add({cell_index, k}, rows[k]);
+    }
+  }
+  [[nodiscard]] const std::vector<std::filesystem::path>& commit() {
+    receivers_.commit();
+    write_surfaces_csv(surfaces_.rows(), quantity_, files_[1]);
+    write_buildings_csv(buildings_.rows(), quantity_, files_[2]);
+    return files_;
+  }
+
+ private:
+  std::string quantity_;
+  std::vector<std::filesystem::path> files_;
+  SurfacePointsCsv receivers_;
+  SurfaceAverages surfaces_;
+  BuildingAverages buildings_;
+};
+
+std::vector<Cell> all_cells(const CellRange& range) {
+  std::vector<Cell> cells;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) cells.push_back(range.cell_at(n));
+  return cells;
 }
+
+/// Averages need a row and its keys for each surface, which has a polygon at least, and for each building.
+MemoryNeeds needs_of(const package::Manifest& manifest) {
+  constexpr std::uint64_t bytes_of_surface = 320, bytes_of_building = 320;
+  return {manifest.polygons * bytes_of_surface + manifest.buildings * bytes_of_building, 0, false};
+}
+
+/// The way of a city's surfaces: cell by cell from their receivers to the three tables.
+class SurfaceRun {
+ public:
+  SurfaceRun(Package& package, const SvfOptions& options)
+      : package_(package),
+        options_(options),
+        cells_(along_hilbert_curve(all_cells(package.grid().cells), package.grid().block_edge)),
+        tables_(options),
+        placed_(cells_.size()) {
+    share_memory(package, options, needs_of(package.manifest()));
+  }
+
+  [[nodiscard]] std::size_t cell_count() const { return cells_.size(); }
+  [[nodiscard]] CellReceivers receivers_of(std::size_t n) {
+    placed_[n] = surface_receivers(package_, cells_[n], options_.surfaces, options_.spacing_m);
+    return answerable(cells_[n], placed_[n]);
+  }
+  void take(std::size_t n, const CellReceivers& cell, const AnswerTable& answers) {
+    tables_.add(package_.grid().cells.index_of(cells_[n]), rows_of(package_, cells_[n], placed_[n], cell.receivers, answers));
+    receiver_count_ += placed_[n].size();
+    placed_[n] = {};
+  }
+  void finish(SvfRun& run) {
+    run.inside_buildings = receiver_count_ - run.receivers;
+    run.files = tables_.commit();
+  }
+
+ private:
+  const Package& package_;
+  const SvfOptions& options_;
+  std::vector<Cell> cells_;
+  SurfaceTables tables_;
+  /// What is known of a cell's receivers, from when they are placed until their answers are there.
+  std::vector<std::vector<SurfaceReceiver>> placed_;
+  std::size_t receiver_count_ = 0;
+};
 
 }  // namespace
 
-SvfRun run_surfaces(const Package& package, const SvfOptions& options) {
-  const std::vector<CellSurfaces> cells = collect(package, options);
-  const std::size_t count = cells.empty() ? 0 : cells.back().first_index + cells.back().receivers.size();
-  AnswerTable answers(count, options.bounds);
-  SvfRun run;
-  evaluate_cells(
-      package, options, cells.size(), [&](std::size_t n) { return answerable(cells[n]); }, answers, run);
-  run.inside_buildings = count - run.receivers;
-  const auto start = std::chrono::steady_clock::now();
-  std::vector<SurfacePointRow> rows;
-  rows.reserve(count);
-  for (const CellSurfaces& cell : cells)
-    for (std::size_t k = 0; k < cell.receivers.size(); ++k)
-      rows.push_back(row_of(package, cell, cell.receivers[k], answers, cell.first_index + k));
-  write_tables(rows, options, run);
-  run.seconds.write = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return run;
+SvfRun run_surfaces(Package& package, const SvfOptions& options) {
+  SurfaceRun surfaces(package, options);
+  return evaluate_and_finish(package, options, surfaces);
 }
 
 }  // namespace farlod

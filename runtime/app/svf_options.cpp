@@ -26,8 +26,8 @@ constexpr const char* footer =
 
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
-  std::string package, output, points, surfaces, at, bbox, engine = "auto", sky = "cosine";
-  std::optional<std::size_t> rays;
+  std::string package, output, points, surfaces, at, bbox, engine = "auto", sky = "cosine", directions = "partition";
+  std::optional<std::size_t> rays, azimuths;
   bool on_surface = false;
 };
 
@@ -80,18 +80,27 @@ void add_other_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->group("Output");
   app.add_option("--preview", o.preview_file, "Also draw the raster as this PNG, with a colour scale")->group("Output");
   app.add_option("--engine", raw.engine,
-                 "auto: the fastest that fits; rays: near tiles and far map; exact: all tiles, the reference")
-      ->check(CLI::IsMember({"auto", "rays", "exact"}))
+                 "auto: horizons where they are all that is seen, rays elsewhere; horizon: horizons alone; rays: near tiles and "
+                 "far map; exact: all tiles, the reference")
+      ->check(CLI::IsMember({"auto", "horizon", "rays", "exact"}))
       ->capture_default_str()
       ->group("Accuracy");
-  app.add_option("--rays", raw.rays, "Directions a receiver (default: 1000, or as many as --max-error needs)")
+  app.add_option("--rays", raw.rays, "Directions a receiver, for rays (default: 1000, or as many as --max-error needs)")
       ->check(CLI::Range(1, 10000000))
       ->group("Accuracy");
+  app.add_option("--directions", raw.directions,
+                 "Where rays go: partition, one in each of equal cells of the sky; fibonacci, a lattice of low discrepancy")
+      ->check(CLI::IsMember({"partition", "fibonacci"}))
+      ->capture_default_str()
+      ->group("Accuracy");
+  app.add_option("--azimuths", raw.azimuths, "Azimuths of a horizon (default: 256, or as many as --max-error needs)")
+      ->check(CLI::Range(4, 1000000))
+      ->group("Accuracy");
   app.add_option("--max-error", o.max_error,
-                 "Largest error allowed: chooses the number of rays, and traces exactly where the far map is not enough")
+                 "Largest error allowed: chooses azimuths and rays, and traces exactly where the far map is not enough")
       ->check(between(0.0001, 1.0))
       ->group("Accuracy");
-  app.add_flag("--bounds", o.bounds, "Also write a certain lower and upper bound of each value, with these rays")
+  app.add_flag("--bounds", o.bounds, "Also write a certain lower and upper bound of each value, with these azimuths or rays")
       ->group("Accuracy");
   app.add_option("--sky", raw.sky, "Weight of the sky: cosine (svf) or solid (svf_solid)")
       ->check(CLI::IsMember({"cosine", "solid"}))
@@ -100,6 +109,10 @@ void add_other_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_option("--verify", o.verify_count, "Also compute this many random receivers exactly, and report the errors")
       ->check(CLI::Range(0, 1000000000))
       ->group("Accuracy");
+  app.add_option("--memory-limit", o.memory_limit_mib,
+                 "Refuse to begin when the run needs more than this many MiB (default: no limit)")
+      ->check(CLI::Range(1, 1 << 30))
+      ->group("Run");
   add_run_options(app, "farlod-svf", o.run);
 }
 
@@ -151,18 +164,29 @@ void understand_output(const RawOptions& raw, SvfOptions& o) {
     throw CLI::ValidationError("--points-crs", "it goes with --points");
 }
 
-/// Half of the allowed error is for the sky between the rays, half for what the far map does not settle; where the user fixes the
-/// rays, the map gets what they leave.
+/// Half of the allowed error is for the sky between the samples, half for what the far map does not settle; where the user fixes
+/// the samples, the map gets what they leave.
 void understand_accuracy(const RawOptions& raw, SvfOptions& o) {
   if (raw.rays) o.sky.rays = *raw.rays;
+  if (raw.azimuths) o.sky.azimuths = *raw.azimuths;
   if (!o.max_error) return;
   if (!raw.rays) o.sky.rays = rays_for_sampling_error(0.5 * *o.max_error);
-  const double left = *o.max_error - sampling_error(o.sky.rays);
+  if (!raw.azimuths) o.sky.azimuths = azimuths_for_error(0.5 * *o.max_error);
+  const double left = *o.max_error - sampling_error_of(o.sky);
   if (left <= 0.0)
-    throw CLI::ValidationError("--rays", std::to_string(o.sky.rays) + " are too few for --max-error " +
-                                             fmt::format("{:g}", *o.max_error) + ": leave --rays out, or give at least " +
-                                             std::to_string(rays_for_sampling_error(0.75 * *o.max_error)));
+    throw CLI::ValidationError(
+        "--max-error",
+        fmt::format("{:g} is less than {} rays and {} azimuths can keep: leave --rays and --azimuths out, or give at "
+                    "least {} rays and {} azimuths",
+                    *o.max_error, o.sky.rays, o.sky.azimuths, rays_for_sampling_error(0.75 * *o.max_error),
+                    azimuths_for_error(0.75 * *o.max_error)));
   o.sky.max_far_error = left;
+}
+
+Engine engine_of(const std::string& name) {
+  if (name == "exact") return Engine::exact;
+  if (name == "rays") return Engine::rays;
+  return name == "horizon" ? Engine::horizon : Engine::automatic;
 }
 
 void understand(const RawOptions& raw, SvfOptions& o) {
@@ -172,8 +196,8 @@ void understand(const RawOptions& raw, SvfOptions& o) {
   // On the surface itself a receiver would see nothing but that surface
   o.height_m = std::max(o.height_m, static_cast<double>(surface_offset_m));
   o.height_above = raw.on_surface ? HeightAbove::highest_surface : HeightAbove::ground;
-  // `auto` is the fastest engine that fits; so far that is one for all cities
-  o.sky.engine = raw.engine == "exact" ? Engine::exact : Engine::rays;
+  o.sky.directions = raw.directions == "fibonacci" ? DirectionSet::fibonacci : DirectionSet::partition;
+  o.sky.engine = engine_of(raw.engine);
   understand_accuracy(raw, o);
   o.sky.weight = raw.sky == "solid" ? SkyWeight::solid_angle : SkyWeight::cosine;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -38,6 +39,7 @@ struct SvfOptions {
   std::optional<double> max_error;  ///< what the user asked for; `sky` says what follows from it
   std::size_t verify_count = 0;
   std::string preview_file;
+  std::optional<std::uint64_t> memory_limit_mib;
   RunOptions run;
 };
 

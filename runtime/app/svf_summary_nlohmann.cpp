@@ -14,6 +14,21 @@ using Json = nlohmann::ordered_json;
 
 Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
+const char* name_of(Engine engine) {
+  switch (engine) {
+    case Engine::automatic:
+      return "auto";
+    case Engine::horizon:
+      return "horizon";
+    case Engine::exact:
+      return "exact";
+    case Engine::rays:
+    case Engine::near_only:
+      break;
+  }
+  return "rays";
+}
+
 }  // namespace
 
 std::string svf_summary_json(const SvfRun& run, const SvfOptions& options, double total_seconds) {
@@ -21,7 +36,7 @@ std::string svf_summary_json(const SvfRun& run, const SvfOptions& options, doubl
   Json j = {
       {"receivers", run.receivers},
       {"nodata", run.inside_buildings + run.beyond_grid},
-      {"engine", options.sky.engine == Engine::exact ? "exact" : "rays"},
+      {"engine", name_of(options.sky.engine)},
       {"seconds",
        {{"total", total_seconds},
         {"open", run.seconds.open},
@@ -30,12 +45,14 @@ std::string svf_summary_json(const SvfRun& run, const SvfOptions& options, doubl
         {"write", run.seconds.write}}},
       {"receivers_per_second", busy_s > 0.0 ? static_cast<double>(run.receivers) / busy_s : 0.0},
       {"rays", options.sky.rays},
+      {"azimuths", options.sky.azimuths},
+      {"receivers_by_rays", run.by_rays},
       {"peak_memory_mib", peak_memory_mib()},
       {"svf",
        {{"min", number_or_null(run.svf_min)}, {"mean", number_or_null(run.svf_mean)}, {"max", number_or_null(run.svf_max)}}}};
   if (options.max_error)
     j["max_error"] = {{"allowed", *options.max_error},
-                      {"sampling_share", sampling_error(options.sky.rays)},
+                      {"sampling_share", sampling_error_of(options.sky)},
                       {"far_share", *options.sky.max_far_error},
                       {"rays_traced_exactly", run.settled_rays}};
   if (run.bounds) j["bounds"] = {{"mean_width", run.bounds->mean}, {"max_width", run.bounds->max}};

@@ -10,12 +10,7 @@ namespace farlod {
 namespace {
 
 /// Pixels are listed patch by patch, so that 16 in a row see almost the same.
-constexpr std::ptrdiff_t patch_edge = 4;
-
-/// The pixels whose centres may lie within a rectangle of the grid frame: half open ranges.
-struct PixelRange {
-  std::ptrdiff_t column_begin, column_end, row_begin, row_end;
-};
+constexpr std::size_t patch_edge = 4;
 
 Box2d projected_outline(const package::Manifest& m, const Box2d& rectangle_grid) {
   const auto& [low, high] = rectangle_grid;
@@ -26,9 +21,7 @@ Box2d projected_outline(const package::Manifest& m, const Box2d& rectangle_grid)
 }
 
 PixelRange pixels_over(const RasterPlan& plan, const Box2d& o) {
-  const auto clamp = [](double x, std::size_t n) {
-    return static_cast<std::ptrdiff_t>(std::clamp(x, 0.0, static_cast<double>(n)));
-  };
+  const auto clamp = [](double x, std::size_t n) { return static_cast<std::size_t>(std::clamp(x, 0.0, static_cast<double>(n))); };
   return {clamp(std::floor((o.low.x - plan.north_west_m.x) / plan.step_m), plan.columns),
           clamp(std::ceil((o.high.x - plan.north_west_m.x) / plan.step_m), plan.columns),
           clamp(std::floor((plan.north_west_m.y - o.high.y) / plan.step_m), plan.rows),
@@ -37,11 +30,10 @@ PixelRange pixels_over(const RasterPlan& plan, const Box2d& o) {
 
 template <class Visit>
 void for_each_pixel_by_patches(const PixelRange& r, const Visit& visit) {
-  for (std::ptrdiff_t row_0 = r.row_begin; row_0 < r.row_end; row_0 += patch_edge)
-    for (std::ptrdiff_t column_0 = r.column_begin; column_0 < r.column_end; column_0 += patch_edge)
-      for (std::ptrdiff_t row = row_0; row < std::min(row_0 + patch_edge, r.row_end); ++row)
-        for (std::ptrdiff_t column = column_0; column < std::min(column_0 + patch_edge, r.column_end); ++column)
-          visit(static_cast<std::size_t>(column), static_cast<std::size_t>(row));
+  for (std::size_t row_0 = r.row_begin; row_0 < r.row_end; row_0 += patch_edge)
+    for (std::size_t column_0 = r.column_begin; column_0 < r.column_end; column_0 += patch_edge)
+      for (std::size_t row = row_0; row < std::min(row_0 + patch_edge, r.row_end); ++row)
+        for (std::size_t column = column_0; column < std::min(column_0 + patch_edge, r.column_end); ++column) visit(column, row);
 }
 
 }  // namespace
@@ -57,21 +49,22 @@ RasterPlan plan_raster(const package::Manifest& m, double step_m, const std::opt
 std::vector<Cell> RasterReceivers::cells() const {
   std::vector<Cell> result;
   const CellRange& range = manifest_.grid.cells;
-  for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) {
-    const PixelRange pixels = pixels_over(plan_, projected_outline(manifest_, manifest_.grid.square_of(range.cell_at(n))));
-    if (pixels.column_begin < pixels.column_end && pixels.row_begin < pixels.row_end) result.push_back(range.cell_at(n));
-  }
+  for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n)
+    if (!range_of(range.cell_at(n)).empty()) result.push_back(range.cell_at(n));
   return result;
+}
+
+PixelRange RasterReceivers::range_of(Cell cell) const {
+  return pixels_over(plan_, projected_outline(manifest_, manifest_.grid.square_of(cell)));
 }
 
 template <class Visit>
 void RasterReceivers::for_each_pixel(Cell cell, const Visit& visit) const {
   const Grid& grid = manifest_.grid;
-  for_each_pixel_by_patches(pixels_over(plan_, projected_outline(manifest_, grid.square_of(cell))),
-                            [&](std::size_t column, std::size_t row) {
-                              const Point2d p_grid = manifest_.grid_from_projected(plan_.centre_m(column, row));
-                              if (grid.cell_of(p_grid) == cell) visit(row * plan_.columns + column, p_grid);
-                            });
+  for_each_pixel_by_patches(range_of(cell), [&](std::size_t column, std::size_t row) {
+    const Point2d p_grid = manifest_.grid_from_projected(plan_.centre_m(column, row));
+    if (grid.cell_of(p_grid) == cell) visit(row * plan_.columns + column, p_grid);
+  });
 }
 
 CellReceivers RasterReceivers::in_cell(const Package& package, Cell cell, HeightAbove above, float height_m) const {
@@ -85,9 +78,9 @@ CellReceivers RasterReceivers::in_cell(const Package& package, Cell cell, Height
   return result;
 }
 
-std::size_t RasterReceivers::pixels_in_grid(const std::vector<Cell>& cells) const {
+std::size_t RasterReceivers::pixel_count(Cell cell) const {
   std::size_t count = 0;
-  for (const Cell cell : cells) for_each_pixel(cell, [&count](std::size_t, Point2d) { ++count; });
+  for_each_pixel(cell, [&count](std::size_t, Point2d) { ++count; });
   return count;
 }
 

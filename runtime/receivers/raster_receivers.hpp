@@ -29,17 +29,26 @@ struct RasterPlan {
 [[nodiscard]] RasterPlan plan_raster(const package::Manifest& manifest, double step_m,
                                      const std::optional<Box2d>& wanted_projected);
 
+/// A rectangle of pixels, half open: rows run southwards.
+struct PixelRange {
+  std::size_t column_begin = 0, column_end = 0, row_begin = 0, row_end = 0;
+
+  [[nodiscard]] bool empty() const { return column_begin >= column_end || row_begin >= row_end; }
+};
+
 /// The pixels of a raster by the cells that hold their centres; pixel (column, row) has index row·columns + column.
 class RasterReceivers {
  public:
   RasterReceivers(const package::Manifest& manifest, RasterPlan plan) : manifest_(manifest), plan_(plan) {}
 
-  /// The existing cells that hold a pixel's centre, in the order of CellRange::index_of.
+  /// The existing cells that may hold a pixel's centre, in the order of CellRange::index_of.
   [[nodiscard]] std::vector<Cell> cells() const;
+  /// All pixels whose centres a cell holds lie in this range, and others do.
+  [[nodiscard]] PixelRange range_of(Cell cell) const;
   /// The receivers of one cell; pixels inside buildings are left out. Neighbours in the plane are neighbours in the list.
   [[nodiscard]] CellReceivers in_cell(const Package& package, Cell cell, HeightAbove above, float height_m) const;
-  /// How many pixels have their centres in these cells, inside buildings or not.
-  [[nodiscard]] std::size_t pixels_in_grid(const std::vector<Cell>& cells) const;
+  /// How many pixels have their centres in a cell, inside buildings or not.
+  [[nodiscard]] std::size_t pixel_count(Cell cell) const;
 
  private:
   /// Calls `visit(index, p_grid)` for each pixel whose centre the cell holds, patch by patch.

@@ -12,6 +12,10 @@
 
 namespace farlod {
 
+/// What is nearer than this is not seen: a receiver that stands exactly on a surface would see nothing else. Twice the rounding
+/// of a coordinate 5 km from a scene's origin.
+inline constexpr float least_distance_m = 0.001F;
+
 /// A point that looks at the sky.
 struct Receiver {
   std::size_t index = 0;             ///< where its answer goes

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "results/bitmap_font.hpp"
 #include "results/colour_map.hpp"
@@ -100,19 +101,25 @@ double round_length_m(double limit_m) {
   return power;
 }
 
-Picture draw_preview(const SkyRaster& raster) {
-  const PreviewRaster fitted = fit_to_screen(raster);
-  const PreviewLayout layout = preview_layout({fitted.columns, fitted.rows});
+Picture draw_preview(const PreviewRaster& raster, const std::string& quantity) {
+  const PreviewLayout layout = preview_layout({raster.columns, raster.rows});
   Picture picture(layout.picture, paper);
-  draw_text(picture, {margin, margin}, title_of(raster.quantity), text_style);
-  draw_map(picture, layout, fitted);
+  draw_text(picture, {margin, margin}, title_of(quantity), text_style);
+  draw_map(picture, layout, raster);
   draw_colour_bar(picture, layout);
-  draw_scale_bar(picture, layout.footer, fitted.metres_per_pixel);
+  draw_scale_bar(picture, layout.footer, raster.metres_per_pixel);
   draw_nodata_legend(picture, {layout.footer.x + 230, layout.footer.y + 14});
   draw_north_arrow(picture, {layout.colour_bar.x + legend_size.width / 2, layout.footer.y - 4});
   return picture;
 }
 
-void write_png_preview(const SkyRaster& raster, const std::filesystem::path& path) { write_png(draw_preview(raster), path); }
+PngPreviewWriter::PngPreviewWriter(const RasterFrame& frame, std::filesystem::path path)
+    : fit_(frame), quantity_(frame.quantity), path_(std::move(path)) {}
+
+void PngPreviewWriter::commit() { write_png(draw_preview(fit_.preview(), quantity_), path_); }
+
+void write_png_preview(const SkyRaster& raster, const std::filesystem::path& path) {
+  write_png(draw_preview(fit_to_screen(raster), raster.quantity), path);
+}
 
 }  // namespace farlod

@@ -7,7 +7,7 @@
 
 #include "results/picture.hpp"
 #include "results/preview_raster.hpp"
-#include "results/sky_raster.hpp"
+#include "results/raster_writer.hpp"
 
 namespace farlod {
 
@@ -26,10 +26,23 @@ struct PreviewLayout {
 /// A length of 1, 2 or 5 times a power of ten, the longest that is not above `limit_m` (which is positive).
 [[nodiscard]] double round_length_m(double limit_m);
 
-/// Draws the raster as a map with a title, a colour scale from 0 to 1, a scale bar in metres and a north arrow.
-[[nodiscard]] Picture draw_preview(const SkyRaster& raster);
+/// Draws a raster as a map with a title, a colour scale from 0 to 1, a scale bar in metres and a north arrow.
+[[nodiscard]] Picture draw_preview(const PreviewRaster& raster, const std::string& quantity);
 
-/// Draws the raster and writes it as PNG. Throws OutputError.
+/// Draws the raster and writes it as PNG. Bounds are left out.
+class PngPreviewWriter : public RasterWriter {
+ public:
+  PngPreviewWriter(const RasterFrame& frame, std::filesystem::path path);
+  void write(const RasterTile& tile) override { fit_.add(tile); }
+  void commit() override;
+
+ private:
+  ScreenFit fit_;
+  std::string quantity_;
+  std::filesystem::path path_;
+};
+
+/// The same for a raster as a whole. Throws OutputError.
 void write_png_preview(const SkyRaster& raster, const std::filesystem::path& path);
 
 }  // namespace farlod

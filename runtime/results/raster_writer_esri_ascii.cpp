@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/raster_writer_esri_ascii.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <ostream>
+#include <span>
 #include <string>
 
-#include "farlod/expects.hpp"
 #include "results/atomic_file.hpp"
 #include "results/decimal.hpp"
 
@@ -16,7 +18,7 @@ namespace {
 // The point tells readers that the grid holds fractions, even where all the sky is free and each value is 1
 constexpr const char* nodata = "-9999.0";
 
-void write_header(std::ostream& out, const SkyRaster& raster) {
+void write_header(std::ostream& out, const RasterFrame& raster) {
   const double south = raster.north_west_m.y - static_cast<double>(raster.rows) * raster.step_m;
   out << "ncols " << raster.columns << "\nnrows " << raster.rows << "\nxllcorner " << shortest_decimal(raster.north_west_m.x)
       << "\nyllcorner " << shortest_decimal(south) << "\ncellsize " << shortest_decimal(raster.step_m) << "\nNODATA_value "
@@ -32,18 +34,51 @@ void write_pixel(std::ostream& out, float svf) {
 
 }  // namespace
 
-void write_esri_ascii(const SkyRaster& raster, const std::filesystem::path& path) {
-  FARLOD_EXPECTS(raster.svf.size() == raster.columns * raster.rows);
-  write_text_atomically(path, [&raster](std::ostream& out) {
-    write_header(out, raster);
-    for (std::size_t n = 0; n < raster.svf.size(); ++n) {
-      write_pixel(out, raster.svf[n]);
-      out << ((n + 1) % raster.columns == 0 ? '\n' : ' ');
+EsriAsciiWriter::EsriAsciiWriter(const RasterFrame& frame, const std::filesystem::path& path)
+    : frame_(frame), path_(path), waiting_(path) {}
+
+void EsriAsciiWriter::write(const RasterTile& tile) {
+  waiting_tiles_.emplace(tile.place, waiting_.append(std::as_bytes(std::span(tile.svf))));
+}
+
+std::vector<float> EsriAsciiWriter::band(std::size_t tile_row) {
+  std::vector<float> band(frame_.columns * pixels_of_tile(tile_row, frame_.rows), std::numeric_limits<float>::quiet_NaN());
+  std::vector<float> tile(raster_tile_edge * raster_tile_edge);
+  for (auto t = waiting_tiles_.lower_bound({tile_row, 0}); t != waiting_tiles_.end() && t->first.row == tile_row; ++t) {
+    waiting_.read(t->second, std::as_writable_bytes(std::span(tile)));
+    const std::size_t column = t->first.column * raster_tile_edge;
+    for (std::size_t row = 0; row < band.size() / frame_.columns; ++row)
+      std::copy_n(tile.begin() + static_cast<std::ptrdiff_t>(row * raster_tile_edge),
+                  pixels_of_tile(t->first.column, frame_.columns),
+                  band.begin() + static_cast<std::ptrdiff_t>(row * frame_.columns + column));
+  }
+  return band;
+}
+
+void EsriAsciiWriter::write_rows(std::ostream& out) {
+  for (std::size_t tile_row = 0; tile_row < tiles_along(frame_.rows); ++tile_row) {
+    std::size_t pixels = 0;
+    for (const float svf : band(tile_row)) {
+      write_pixel(out, svf);
+      out << (++pixels % frame_.columns == 0 ? '\n' : ' ');
     }
+  }
+}
+
+void EsriAsciiWriter::commit() {
+  write_text_atomically(path_, [this](std::ostream& out) {
+    write_header(out, frame_);
+    write_rows(out);
   });
-  if (raster.crs_wkt.empty()) return;
-  auto prj = path;
-  write_text_atomically(prj.replace_extension(".prj"), [&raster](std::ostream& out) { out << raster.crs_wkt << '\n'; });
+  if (frame_.crs_wkt.empty()) return;
+  auto prj = path_;
+  write_text_atomically(prj.replace_extension(".prj"), [this](std::ostream& out) { out << frame_.crs_wkt << '\n'; });
+}
+
+void write_esri_ascii(const SkyRaster& raster, const std::filesystem::path& path) {
+  EsriAsciiWriter writer(raster, path);
+  for_each_tile(raster, [&writer](const RasterTile& tile) { writer.write(tile); });
+  writer.commit();
 }
 
 }  // namespace farlod

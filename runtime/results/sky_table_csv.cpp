@@ -3,8 +3,11 @@
 #include "results/sky_table_csv.hpp"
 
 #include <ostream>
+#include <sstream>
+#include <utility>
 #include <vector>
 
+#include "farlod/expects.hpp"
 #include "results/atomic_file.hpp"
 #include "results/csv_row.hpp"
 #include "results/decimal.hpp"
@@ -44,21 +47,18 @@ void write_table(const std::filesystem::path& path, const Fields& header, std::s
   });
 }
 
-/// A row for each receiver: who and where it is, then its answer, then its bounds where they are wanted.
-template <class Row>
-void write_receivers(const std::filesystem::path& path, Fields header, const std::string& quantity, BoundsColumns bounds,
-                     std::span<const Row> rows, Fields (*identity)(const Row&)) {
+/// The columns of a table of receivers: who and where each is, then its answer, then its bounds where they are wanted.
+Fields receiver_header(Fields header, const std::string& quantity, BoundsColumns bounds) {
   header.push_back(quantity);
   if (bounds == BoundsColumns::yes) header.insert(header.end(), {quantity + "_low", quantity + "_high"});
-  write_text_atomically(path, [&](std::ostream& out) {
-    write_csv_row(out, header);
-    for (const Row& row : rows) {
-      Fields fields = identity(row);
-      fields.push_back(share(row.svf));
-      if (bounds == BoundsColumns::yes) fields.insert(fields.end(), {share(row.low), share(row.high)});
-      write_csv_row(out, fields);
-    }
-  });
+  return header;
+}
+
+template <class Row>
+void write_receiver(std::ostream& out, Fields identity, const Row& row, BoundsColumns bounds) {
+  identity.push_back(share(row.svf));
+  if (bounds == BoundsColumns::yes) identity.insert(identity.end(), {share(row.low), share(row.high)});
+  write_csv_row(out, identity);
 }
 
 Fields point_fields(const PointRow& r) {
@@ -104,15 +104,58 @@ Fields building_fields(const BuildingRow& r) {
 
 }  // namespace
 
+void write_points_csv(std::size_t count, const std::function<PointRow(std::size_t n)>& row_of, const std::string& quantity,
+                      BoundsColumns bounds, const std::filesystem::path& path) {
+  write_text_atomically(path, [&](std::ostream& out) {
+    write_csv_row(out, receiver_header({"id", "x_m", "y_m", "z_m"}, quantity, bounds));
+    for (std::size_t n = 0; n < count; ++n) {
+      const PointRow row = row_of(n);
+      write_receiver(out, point_fields(row), row, bounds);
+    }
+  });
+}
+
 void write_points_csv(std::span<const PointRow> rows, const std::string& quantity, BoundsColumns bounds,
                       const std::filesystem::path& path) {
-  write_receivers(path, {"id", "x_m", "y_m", "z_m"}, quantity, bounds, rows, point_fields);
+  write_points_csv(
+      rows.size(), [rows](std::size_t n) { return rows[n]; }, quantity, bounds, path);
+}
+
+SurfacePointsCsv::SurfacePointsCsv(const std::filesystem::path& path, const std::string& quantity, BoundsColumns bounds)
+    : path_(path), bounds_(bounds), waiting_(path) {
+  std::ostringstream header;
+  write_csv_row(header,
+                receiver_header({"building", "surface", "kind", "x_m", "y_m", "z_m", "azimuth_deg", "tilt_deg", "area_m2"},
+                                quantity, bounds));
+  header_ = header.str();
+}
+
+void SurfacePointsCsv::write_part(std::size_t part, std::span<const SurfacePointRow> rows) {
+  if (rows.empty()) return;
+  std::ostringstream text;
+  for (const SurfacePointRow& row : rows) write_receiver(text, surface_point_fields(row), row, bounds_);
+  const std::string bytes = text.str();
+  const bool is_new = parts_.emplace(part, Place{waiting_.append(std::as_bytes(std::span(bytes))), bytes.size()}).second;
+  FARLOD_EXPECTS(is_new);
+}
+
+void SurfacePointsCsv::commit() {
+  write_text_atomically(path_, [this](std::ostream& out) {
+    out << header_;
+    std::string bytes;
+    for (const auto& [part, place] : parts_) {
+      bytes.resize(place.bytes);
+      waiting_.read(place.begin, std::as_writable_bytes(std::span(bytes)));
+      out << bytes;
+    }
+  });
 }
 
 void write_surface_points_csv(std::span<const SurfacePointRow> rows, const std::string& quantity, BoundsColumns bounds,
                               const std::filesystem::path& path) {
-  write_receivers(path, {"building", "surface", "kind", "x_m", "y_m", "z_m", "azimuth_deg", "tilt_deg", "area_m2"}, quantity,
-                  bounds, rows, surface_point_fields);
+  SurfacePointsCsv table(path, quantity, bounds);
+  table.write_part(0, rows);
+  table.commit();
 }
 
 void write_surfaces_csv(std::span<const SurfaceRow> rows, const std::string& quantity, const std::filesystem::path& path) {

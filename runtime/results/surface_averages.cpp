@@ -3,76 +3,70 @@
 #include "results/surface_averages.hpp"
 
 #include <algorithm>
-#include <map>
-#include <string>
-#include <utility>
+#include <tuple>
 
 namespace farlod {
 namespace {
-
-/// A mean weighted by area, over what has an answer.
-struct AreaMean {
-  double weighted = 0.0, area_m2 = 0.0;
-
-  void add(double value, double area) {
-    weighted += area * value;
-    area_m2 += area;
-  }
-  [[nodiscard]] std::optional<double> value() const { return area_m2 > 0.0 ? std::optional(weighted / area_m2) : std::nullopt; }
-};
 
 void add_extremes(SurfaceRow& row, double svf) {
   row.svf_min = std::min(row.svf_min.value_or(svf), svf);
   row.svf_max = std::max(row.svf_max.value_or(svf), svf);
 }
 
+/// Pointers to the entries, in the order of their first receivers.
+template <class Entry>
+std::vector<const Entry*> in_order(const std::vector<Entry>& entries) {
+  std::vector<const Entry*> order;
+  for (const Entry& e : entries) order.push_back(&e);
+  std::sort(order.begin(), order.end(), [](const Entry* a, const Entry* b) { return a->first < b->first; });
+  return order;
+}
+
 }  // namespace
 
-std::vector<SurfaceRow> average_by_surface(std::span<const SurfacePointRow> receivers) {
-  std::map<std::pair<std::string, std::uint32_t>, std::size_t> place;
-  std::vector<SurfaceRow> rows;
-  std::vector<AreaMean> means;
-  for (const SurfacePointRow& r : receivers) {
-    const auto [entry, is_new] = place.try_emplace({r.building, r.surface}, rows.size());
-    if (is_new) {
-      rows.push_back({r.building, r.surface, r.kind, r.azimuth, r.tilt, 0.0, 0, 0, {}, {}, {}});
-      means.emplace_back();
-    }
-    SurfaceRow& row = rows[entry->second];
-    row.area_m2 += r.area_m2;
-    ++row.receivers;
-    if (!r.svf) {
-      ++row.nodata;
-      continue;
-    }
-    means[entry->second].add(*r.svf, r.area_m2);
-    add_extremes(row, *r.svf);
+void SurfaceAverages::add(PlaceInRun place, const SurfacePointRow& r) {
+  const auto [entry, is_new] = places_.try_emplace({r.building, r.surface}, surfaces_.size());
+  if (is_new) surfaces_.push_back({place, {r.building, r.surface, r.kind, r.azimuth, r.tilt, 0.0, 0, 0, {}, {}, {}}, {}});
+  Surface& surface = surfaces_[entry->second];
+  if (place < surface.first) {
+    surface.first = place;
+    std::tie(surface.row.kind, surface.row.azimuth, surface.row.tilt) = std::tie(r.kind, r.azimuth, r.tilt);
   }
-  for (std::size_t n = 0; n < rows.size(); ++n) rows[n].svf_mean = means[n].value();
+  surface.row.area_m2 += r.area_m2;
+  ++surface.row.receivers;
+  surface.row.nodata += r.svf ? 0 : 1;
+  if (!r.svf) return;
+  surface.mean.add(*r.svf, r.area_m2);
+  add_extremes(surface.row, *r.svf);
+}
+
+std::vector<SurfaceRow> SurfaceAverages::rows() const {
+  std::vector<SurfaceRow> rows;
+  for (const Surface* surface : in_order(surfaces_)) {
+    rows.push_back(surface->row);
+    rows.back().svf_mean = surface->mean.value();
+  }
   return rows;
 }
 
-std::vector<BuildingRow> average_by_building(std::span<const SurfacePointRow> receivers) {
-  std::map<std::string, std::size_t> place;
+void BuildingAverages::add(PlaceInRun place, const SurfacePointRow& r) {
+  const auto [entry, is_new] = places_.try_emplace(r.building, buildings_.size());
+  if (is_new) buildings_.push_back({place, {r.building, 0.0, 0.0, 0, 0, {}, {}}, {}, {}});
+  Building& building = buildings_[entry->second];
+  building.first = std::min(building.first, place);
+  const bool is_roof = r.kind == SurfaceKind::roof;
+  (is_roof ? building.row.roof_area_m2 : building.row.wall_area_m2) += r.area_m2;
+  ++building.row.receivers;
+  building.row.nodata += r.svf ? 0 : 1;
+  if (r.svf) (is_roof ? building.roofs : building.walls).add(*r.svf, r.area_m2);
+}
+
+std::vector<BuildingRow> BuildingAverages::rows() const {
   std::vector<BuildingRow> rows;
-  std::vector<std::pair<AreaMean, AreaMean>> roofs_and_walls;
-  for (const SurfacePointRow& r : receivers) {
-    const auto [entry, is_new] = place.try_emplace(r.building, rows.size());
-    if (is_new) {
-      rows.push_back({r.building, 0.0, 0.0, 0, 0, {}, {}});
-      roofs_and_walls.emplace_back();
-    }
-    BuildingRow& row = rows[entry->second];
-    const bool is_roof = r.kind == SurfaceKind::roof;
-    (is_roof ? row.roof_area_m2 : row.wall_area_m2) += r.area_m2;
-    ++row.receivers;
-    row.nodata += r.svf ? 0 : 1;
-    auto& [roofs, walls] = roofs_and_walls[entry->second];
-    if (r.svf) (is_roof ? roofs : walls).add(*r.svf, r.area_m2);
-  }
-  for (std::size_t n = 0; n < rows.size(); ++n) {
-    rows[n].svf_roofs = roofs_and_walls[n].first.value();
-    rows[n].svf_walls = roofs_and_walls[n].second.value();
+  for (const Building* building : in_order(buildings_)) {
+    rows.push_back(building->row);
+    rows.back().svf_roofs = building->roofs.value();
+    rows.back().svf_walls = building->walls.value();
   }
   return rows;
 }

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "console/exit_code.hpp"
+#include "runtime/evaluate/error_budget.hpp"
 #include "tests/acceptance/packed_town.hpp"
 
 // --bounds and --max-error, as users ask for them.
@@ -27,7 +29,8 @@ class ErrorControl : public PackedTown {
 
 #ifdef FARLOD_WITH_GDAL
 TEST_F(ErrorControl, BoundsAreTwoMoreBandsAroundTheExactValue) {
-  folder.must("farlod-svf a.farlod -o a.tif --grid 20 --bounds");
+  // Certain for the rays that were asked: the same ones must be compared
+  folder.must("farlod-svf a.farlod -o a.tif --grid 20 --bounds --engine rays");
   folder.must("farlod-svf a.farlod -o exact.tif --grid 20 --engine exact");
   ASSERT_THAT(band_names(folder.path("a.tif")), testing::ElementsAre("svf", "svf_low", "svf_high"));
   const RasterFile svf = raster("a.tif"), exact = raster("exact.tif");
@@ -44,6 +47,22 @@ TEST_F(ErrorControl, BoundsAreTwoMoreBandsAroundTheExactValue) {
     EXPECT_LE(*exact.values[n], *high.values[n] + one_ray);
   }
   EXPECT_GT(answers, 100U);
+}
+
+TEST_F(ErrorControl, BoundsOfHorizonsHoldTheExactValueUpToTheirAzimuths) {
+  constexpr std::size_t azimuths = 4096, rays = 20000;
+  const double sampling = azimuth_error_factor / azimuths + sampling_error_factor * std::pow(rays, -0.75);
+  folder.must("farlod-svf a.farlod -o a.tif --grid 20 --bounds --azimuths " + std::to_string(azimuths));
+  folder.must("farlod-svf a.farlod -o exact.tif --grid 20 --engine exact --rays " + std::to_string(rays));
+  const RasterFile svf = raster("a.tif"), exact = raster("exact.tif");
+  const RasterFile low = read_raster(folder.path("a.tif"), 2), high = read_raster(folder.path("a.tif"), 3);
+  for (std::size_t n = 0; n < svf.values.size(); ++n) {
+    if (!svf.values[n]) continue;
+    EXPECT_LE(*low.values[n], *svf.values[n]);
+    EXPECT_LE(*svf.values[n], *high.values[n]);
+    EXPECT_LE(*low.values[n] - sampling, *exact.values[n]);
+    EXPECT_LE(*exact.values[n], *high.values[n] + sampling);
+  }
 }
 
 TEST_F(ErrorControl, WithoutBoundsARasterHasOneBand) {
@@ -122,7 +141,7 @@ TEST_F(ErrorControl, BoxMapsKnowNoErrors) {
 TEST_F(ErrorControl, ImpossibleWishesAreRefused) {
   expect_refusal(folder.run("farlod-svf a.farlod -o o.png --grid 20 --bounds"), exit_usage, {"--bounds", ".tif"});
   expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --surfaces all --rays 100 --max-error 0.01"), exit_usage,
-                 {"--rays", "too few", "at least"});
+                 {"--max-error", "100 rays", "leave --rays", "at least"});
   expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --surfaces all --max-error nan"), exit_usage, {"--max-error"});
 }
 

@@ -85,12 +85,13 @@ TEST_F(PackedTown, PointsOfATableAreThoseOfAt) {
 TEST_F(PackedTown, PointsInDegreesAreProjected) {
   // On the central meridian the easting is 500 km sharp, and 0.001° of latitude are 111.2 m (times UTM's 0.9996) at 50° north
   folder.write("p.csv", "lon,lat\n9,49.65\n9,49.651\n");
-  folder.must("farlod-svf a.farlod -o o.csv --points p.csv --points-crs EPSG:4326");
+  folder.must("farlod-svf a.farlod -o o.csv --points p.csv --points-crs EPSG:4326 --engine exact");
   const CsvTable answers = table("o.csv");
   ASSERT_EQ(answers.size(), 2U);
   for (std::size_t n = 0; n < 2; ++n) {
     EXPECT_EQ(answers.number(n, "x_m"), 500000.0);
-    EXPECT_EQ(answers.number(n, "svf"), svf_at(answers.text(n, "x_m") + "," + answers.text(n, "y_m")));
+    // Rays come in steps, so that the millimetre to which the table rounds a place does not show
+    EXPECT_EQ(answers.number(n, "svf"), svf_at(answers.text(n, "x_m") + "," + answers.text(n, "y_m"), "--engine exact"));
   }
   const double millimetre = 0.001;
   EXPECT_NEAR(answers.number(1, "y_m") - answers.number(0, "y_m"), 111.23 * 0.9996, 10.0 * millimetre);

@@ -60,12 +60,13 @@ TEST_F(PackedTown, NoDataCoversTheFootprintsAndNothingElse) {
 }
 
 TEST_F(PackedTown, APixelIsThePointAtItsCentre) {
-  folder.must("farlod-svf a.farlod -o o.asc --grid 4");
+  // The reference answers each receiver as if it were alone; for horizons it matters a little who stands beside it
+  folder.must("farlod-svf a.farlod -o o.asc --grid 4 --engine exact");
   const RasterFile map = raster("o.asc");
   std::string points = "x,y\n";
   for (std::size_t n = 0; n < map.values.size(); ++n) points += text_of(map.centre_of(n)) + "\n";
   folder.write("p.csv", points);
-  folder.must("farlod-svf a.farlod -o o.csv --points p.csv");
+  folder.must("farlod-svf a.farlod -o o.csv --points p.csv --engine exact");
   const CsvTable answers = table("o.csv");
   ASSERT_EQ(answers.size(), map.values.size());
   std::size_t compared = 0;

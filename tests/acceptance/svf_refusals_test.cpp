@@ -74,7 +74,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"NoRays", "a.farlod -o o.csv --at 1,2 --rays 0", exit_usage, {"--rays", "1 to 10000000"}},
         Refused{"NegativeRays", "a.farlod -o o.csv --at 1,2 --rays -3", exit_usage, {"--rays", "1 to 10000000"}},
         Refused{"NegativeVerify", "a.farlod -o o.csv --at 1,2 --verify -4", exit_usage, {"--verify", "-4"}},
-        Refused{"UnknownEngine", "a.farlod -o o.csv --at 1,2 --engine magic", exit_usage, {"--engine: magic", "auto,rays,exact"}},
+        Refused{"UnknownEngine",
+                "a.farlod -o o.csv --at 1,2 --engine magic",
+                exit_usage,
+                {"--engine: magic", "auto,horizon,rays,exact"}},
         Refused{"OneCoordinate", "a.farlod -o o.csv --at 1", exit_usage, {"--at: give X,Y or X,Y,Z"}},
         Refused{"CoordinateIsNoNumber", "a.farlod -o o.csv --at nan,2", exit_usage, {"--at", "nan,2"}},
         Refused{"ZeroStep", "a.farlod -o o.asc --grid 0", exit_usage, {"--grid: 0", "from 0.01 to 10000"}},
@@ -95,6 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"--points-crs", "--points"}},
         Refused{"PreviewWithoutGrid", "a.farlod -o o.csv --at 1,2 --preview p.png", exit_usage, {"--preview", "--grid"}},
         Refused{"PreviewIsNoPng", "a.farlod -o o.asc --grid 5 --preview p.jpg", exit_usage, {"--preview", "p.jpg", ".png"}},
+        Refused{"NoMemory", "a.farlod -o o.csv --at 1,2 --memory-limit 0", exit_usage, {"--memory-limit", "0"}},
         Refused{"UnknownOptionInConfig", "a.farlod -o o.asc --config typo.toml", exit_usage, {"--config", "rayz"}}),
     name_of);
 

@@ -63,6 +63,24 @@ TEST(SurfacePointsCsv, IsAsDocumented) {
             "b1,7,wall,10,20,3.125,181.25,90,4,0.250000,0.125000,0.500000\n");
 }
 
+TEST(SurfacePointsCsv, PartsStandInOrderHoweverTheyCome) {
+  const ScratchFolder folder;
+  std::vector<SurfacePointRow> rows(5);
+  for (std::size_t n = 0; n < rows.size(); ++n) rows[n].surface = static_cast<std::uint32_t>(n);
+  const std::span<const SurfacePointRow> all(rows);
+  {
+    SurfacePointsCsv table(folder.file("a.csv"), "svf", BoundsColumns::no);
+    table.write_part(70, all.subspan(4));
+    table.write_part(5, all.subspan(0, 2));
+    table.write_part(9, {});
+    table.write_part(12, all.subspan(2, 2));
+    table.commit();
+  }
+  write_surface_points_csv(rows, "svf", BoundsColumns::no, folder.file("b.csv"));
+  EXPECT_EQ(text_of(folder.file("a.csv")), text_of(folder.file("b.csv")));
+  EXPECT_EQ(folder.names().size(), 2U);
+}
+
 TEST(SurfacesCsv, IsAsDocumented) {
   const ScratchFolder folder;
   std::vector<SurfaceRow> rows(2);

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "console/exit_code.hpp"
+#include "tests/acceptance/small_town.hpp"
+#include "tests/acceptance/work_folder.hpp"
+
+// --memory-limit: what it promises, and that it changes no byte of any result.
+
+namespace farlod::acceptance {
+namespace {
+
+/// 40 × 40 blocks over 1.2 km: all in one scene, they take several MiB. Its maps are quickly made and read.
+std::vector<Block> wide_town() {
+  std::vector<Block> town;
+  constexpr double pitch_m = 30.0;
+  for (int row = 0; row < 40; ++row)
+    for (int column = 0; column < 40; ++column)
+      town.push_back({"b" + std::to_string(town.size()),
+                      {pitch_m * (column - 20), pitch_m * (row - 20)},
+                      17.0,
+                      6.0 + (column * 7 + row * 3) % 20});
+  return town;
+}
+
+class WideTown : public testing::Test {
+ protected:
+  WideTown() {
+    folder.write("town.geojson", footprints_geojson(wide_town()));
+    folder.must("farlod-pack town.geojson -o a.farlod --far-map box");
+  }
+  /// The limit that a run asks for when it is given too little; 0 when it does not ask.
+  [[nodiscard]] int limit_asked_for(const std::string& arguments) const {
+    const Outcome outcome = folder.run("farlod-svf a.farlod " + arguments + " --memory-limit 1");
+    EXPECT_EQ(outcome.exit_code, exit_limit_reached);
+    std::smatch found;
+    return std::regex_search(outcome.err, found, std::regex("needs about ([0-9]+) MiB")) ? std::stoi(found[1]) : 0;
+  }
+  [[nodiscard]] double peak_mib(const std::string& summary) const { return folder.json_of(summary).at("peak_memory_mib"); }
+
+  WorkFolder folder;
+};
+
+std::string limit(int mib) { return " --memory-limit " + std::to_string(mib); }
+
+TEST_F(WideTown, ALimitThatIsTooLowIsRefused) {
+  const Outcome outcome = folder.run("farlod-svf a.farlod -o o.asc --grid 20 --memory-limit 1");
+  expect_refusal(outcome, exit_limit_reached, {"needs about", "--memory-limit 1", "raise the limit", "--threads", "--bbox"});
+  EXPECT_FALSE(folder.has("o.asc"));
+}
+
+TEST_F(WideTown, TheLimitThatARunAsksForIsKept) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "AddressSanitizer keeps freed memory";
+#endif
+  for (const std::string arguments :
+       {"-o o.asc --grid 5 --rays 50 --preview p.png", "-o o.csv --surfaces all --spacing 5 --rays 50"}) {
+    const int mib = limit_asked_for(arguments);
+    ASSERT_GT(mib, 0);
+    folder.must("farlod-svf a.farlod " + arguments + limit(mib) + " --summary s.json");
+    EXPECT_LE(peak_mib("s.json"), mib) << arguments;
+  }
+}
+
+TEST_F(WideTown, WhatNeedsTheWholeCityIsRefusedWhereItHasNoRoom) {
+  const std::string raster = "-o o.asc --grid 20 --rays 50";
+  const int mib = limit_asked_for(raster);
+  folder.must("farlod-svf a.farlod " + raster + limit(mib));
+  for (const std::string whole : {" --engine exact", " --verify 3"}) {
+    expect_refusal(folder.run("farlod-svf a.farlod " + raster + whole + limit(mib)), exit_limit_reached,
+                   {"the whole city needs about", "--memory-limit", "--verify"});
+    folder.must("farlod-svf a.farlod " + raster + whole);
+    folder.must("farlod-svf a.farlod " + raster + whole + limit(1000));
+  }
+  const std::string beyond = "-o o.csv --at 510000,5500000";
+  expect_refusal(folder.run("farlod-svf a.farlod " + beyond + limit(mib)), exit_limit_reached, {"points beyond the grid"});
+  folder.must("farlod-svf a.farlod " + beyond);
+}
+
+TEST_F(WideTown, NeitherTheLimitNorThreadsChangeAByte) {
+  const std::string tables = "--surfaces all --spacing 6 --rays 50", raster = "--grid 3 --rays 50";
+#ifdef FARLOD_WITH_GDAL
+  const std::vector<std::string> rasters{"tif", "asc", "png"};
+#else
+  const std::vector<std::string> rasters{"asc", "png"};
+#endif
+  const int mib = std::max(limit_asked_for("-o o.png --threads 3 " + raster), limit_asked_for("-o o.csv --threads 3 " + tables));
+  const auto make = [&](const std::string& name, const std::string& how) {
+    for (const std::string& ending : rasters) folder.must("farlod-svf a.farlod -o " + name + "." + ending + " " + raster + how);
+    folder.must("farlod-svf a.farlod -o " + name + ".csv " + tables + how);
+  };
+  make("one", " --threads 1");
+  make("two", " --threads 2");
+  make("tight", " --threads 3" + limit(mib));
+  std::vector<std::string> files = rasters;
+  for (const char* table : {"csv", "surfaces.csv", "buildings.csv"}) files.emplace_back(table);
+  for (const std::string& file : files) {
+    const std::string expected = folder.text_of("one." + file);
+    EXPECT_FALSE(expected.empty());
+    EXPECT_TRUE(folder.text_of("two." + file) == expected) << file;
+    EXPECT_TRUE(folder.text_of("tight." + file) == expected) << file;
+  }
+}
+
+#ifdef FARLOD_WITH_GDAL
+TEST_F(WideTown, ARasterManyTimesTheLimitIsWritten) {
+  // 16 km by 16 km from the middle of the town, every metre: a GiB of pixels, most of them beyond the grid
+  const std::string raster = "-o o.tif --grid 1 --rays 50 --bbox 500550,5500000,516550,5516000";
+  const int mib = limit_asked_for(raster);
+  EXPECT_LT(mib, 256);
+  folder.must("farlod-svf a.farlod " + raster + limit(mib) + " --summary s.json");
+  EXPECT_EQ(
+      folder.json_of("s.json").at("receivers").get<std::size_t>() + folder.json_of("s.json").at("nodata").get<std::size_t>(),
+      std::size_t{16000} * 16000);
+#ifndef __SANITIZE_ADDRESS__
+  EXPECT_LE(peak_mib("s.json"), mib);
+#endif
+}
+#endif
+
+}  // namespace
+}  // namespace farlod::acceptance
