@@ -25,4 +25,14 @@ std::size_t rays_for_sampling_error(double error) {
   return static_cast<std::size_t>(std::ceil(std::pow(error / (reserve * sampling_error_factor), 1.0 / decline)));
 }
 
+double azimuth_error(std::size_t azimuths) {
+  FARLOD_EXPECTS(azimuths > 0);
+  return reserve * azimuth_error_factor / static_cast<double>(azimuths);
+}
+
+std::size_t azimuths_for_error(double error) {
+  FARLOD_EXPECTS(error > 0.0);
+  return static_cast<std::size_t>(std::ceil(reserve * azimuth_error_factor / error));
+}
+
 }  // namespace farlod

@@ -2,10 +2,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/sky_directions.hpp"
 
+#include <cmath>
+#include <numbers>
+
 namespace farlod {
 
-SkyDirections::SkyDirections(SkyWeight weight, std::size_t ray_count, const GridRotation& rotation)
-    : local_(SkyPartition(weight, ray_count).directions()) {
+namespace {
+
+/// n points on the disk or the hemisphere, each with the same share of the sky around it: ring by ring by the golden angle.
+std::vector<Point3d> fibonacci_directions(SkyWeight weight, std::size_t n) {
+  constexpr double golden_turns = 2.0 - std::numbers::phi;
+  std::vector<Point3d> result;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double turns = static_cast<double>(i) * golden_turns;
+    const double share_above = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+    result.push_back(sky_direction(weight, share_above, 2.0 * std::numbers::pi * (turns - std::floor(turns))));
+  }
+  return result;
+}
+
+}  // namespace
+
+SkyDirections::SkyDirections(SkyWeight weight, std::size_t ray_count, const GridRotation& rotation, DirectionSet set)
+    : local_(set == DirectionSet::partition ? SkyPartition(weight, ray_count).directions()
+                                            : fibonacci_directions(weight, ray_count)) {
   horizontal_.reserve(local_.size());
   for (const Point3d& d : local_) horizontal_.push_back(rotation.grid_from_city(d));
 }

@@ -11,11 +11,18 @@
 
 namespace farlod {
 
+/// Where in the sky rays go.
+enum class DirectionSet {
+  partition,  ///< one ray in each cell of the Beckers & Beckers partition (SkyPartition), as in the paper
+  fibonacci   ///< a spherical Fibonacci lattice with the sky's weight: fixed, of low discrepancy
+};
+
 /// The directions in which a receiver looks, in the grid frame. They are fixed in the city frame, so that turning the grid
 /// changes no receiver's directions.
 class SkyDirections {
  public:
-  SkyDirections(SkyWeight weight, std::size_t ray_count, const GridRotation& rotation);
+  SkyDirections(SkyWeight weight, std::size_t ray_count, const GridRotation& rotation,
+                DirectionSet set = DirectionSet::partition);
 
   /// All rays of the hemisphere, whether or not they reach the sky: what a view factor is a share of.
   [[nodiscard]] std::size_t ray_count() const { return local_.size(); }

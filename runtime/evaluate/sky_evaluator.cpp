@@ -3,14 +3,24 @@
 #include "evaluate/sky_evaluator.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <mutex>
+#include <numeric>
 #include <optional>
+#include <string>
+#include <tuple>
 #include <vector>
 
-#include "evaluate/horizon_packets.hpp"
+#include "evaluate/error_budget.hpp"
 #include "evaluate/visibility.hpp"
 #include "farlod/expects.hpp"
+#include "horizon/cell_skyline.hpp"
+#include "horizon/hanging_city.hpp"
+#include "horizon/horizon_engine.hpp"
+#include "horizon/ray_engine.hpp"
+#include "horizon/receiver_packets.hpp"
+#include "package/package_error.hpp"
 #include "scene/near_scene.hpp"
 #include "scene/whole_city.hpp"
 
@@ -43,17 +53,27 @@ std::vector<Point3f> places_of(std::span<const Receiver> receivers) {
   return places;
 }
 
-void answer(const SkyAnswers& answers, std::size_t index, const FreeRays& free, std::size_t ray_count) {
+BoundedShare shares_of(const FreeRays& free, std::size_t ray_count) {
   const auto share = [ray_count](std::uint32_t n) {
     return static_cast<float>(static_cast<double>(n) / static_cast<double>(ray_count));
   };
-  answers.svf[index] = share(free.likely);
+  return {share(free.low), share(free.likely), share(free.high)};
+}
+
+void answer(const SkyAnswers& answers, std::size_t index, const BoundedShare& share) {
+  answers.svf[index] = share.likely;
   if (answers.low.empty()) return;
-  answers.low[index] = share(free.low);
-  answers.high[index] = share(free.high);
+  answers.low[index] = share.low;
+  answers.high[index] = share.high;
 }
 
 }  // namespace
+
+double sampling_error_of(const SkySettings& settings) {
+  const double of_rays = settings.engine == Engine::horizon ? 0.0 : sampling_error(settings.rays);
+  const bool has_horizons = settings.engine == Engine::horizon || settings.engine == Engine::automatic;
+  return std::max(of_rays, has_horizons ? azimuth_error(settings.azimuths) : 0.0);
+}
 
 struct SkyEvaluator::WholeCityOnDemand {
   std::once_flag once;
@@ -68,9 +88,11 @@ struct SkyEvaluator::WholeCityOnDemand {
 SkyEvaluator::SkyEvaluator(const Package& package, const SkySettings& settings)
     : package_(package),
       settings_(settings),
-      directions_(settings.weight, settings.rays, package.grid().rotation),
+      directions_(settings.weight, settings.rays, package.grid().rotation, settings.directions),
+      ring_(AzimuthRing::even(settings.azimuths, package.grid().rotation)),
       city_(std::make_unique<WholeCityOnDemand>()) {
-  FARLOD_EXPECTS(!settings.max_far_error || settings.engine != Engine::rays || !package.manifest().far_map.is_box());
+  FARLOD_EXPECTS(!settings.max_far_error || settings.engine == Engine::exact || settings.engine == Engine::near_only ||
+                 !package.manifest().far_map.is_box());
 }
 SkyEvaluator::~SkyEvaluator() = default;
 
@@ -90,7 +112,7 @@ void SkyEvaluator::evaluate_exactly(const CellReceivers& cell, const SkyAnswers&
     for (const Receiver& r : run) origins.push_back(city.scene_from_cell(r.p_cell, cell.cell));
     const auto free = count_free(city.occluder(), origins, directions_of(directions_, run.front().normal));
     for (std::size_t n = 0; n < run.size(); ++n)
-      answer(answers, run[n].index, {free[n], free[n], free[n]}, directions_.ray_count());
+      answer(answers, run[n].index, shares_of({free[n], free[n], free[n]}, directions_.ray_count()));
   });
   scenes_s_ += seconds_between(start, scene_ready);
   rays_s_ += seconds_between(scene_ready, Clock::now());
@@ -107,43 +129,116 @@ void SkyEvaluator::evaluate_with_box(const CellReceivers& cell, const SkyAnswers
     std::erase_if(directions, [&far](const Point3d& d) { return far.blocks(d); });
     const std::vector<std::uint32_t> free = count_free(near, places_of(run), directions);
     for (std::size_t n = 0; n < run.size(); ++n)
-      answer(answers, run[n].index, {free[n], free[n], free[n]}, directions_.ray_count());
+      answer(answers, run[n].index, shares_of({free[n], free[n], free[n]}, directions_.ray_count()));
   });
   scenes_s_ += seconds_between(start, scene_ready);
   rays_s_ += seconds_between(scene_ready, Clock::now());
 }
+
+/// What the receivers of a cell may see.
+struct SkyEvaluator::CellSight {
+  CellSight(const Package& package, const CellReceivers& cell)
+      : far(package.far_horizon(cell.cell)),
+        skyline(cell_skyline(package, cell.cell, far, box_around(cell.receivers))),
+        hanging(skyline.hanging) {}
+  FarHorizon far;
+  CellSkyline skyline;
+  HangingCity hanging;
+};
 
 void SkyEvaluator::evaluate_with_horizon(const CellReceivers& cell, const SkyAnswers& answers) const {
   const auto start = Clock::now();
-  const FarHorizon far = package_.far_horizon(cell.cell);
-  const Occluder near = near_scene(package_, cell.cell, far.named);
+  const CellSight sight(package_, cell);
   const auto scene_ready = Clock::now();
-  const bool wants_bounds = !answers.low.empty() || settings_.max_far_error.has_value();
-  for_each_run(cell.receivers, [&](std::span<const Receiver> run) {
-    HorizonPackets packets(far, near, directions_of(directions_, run.front().normal), wants_bounds);
-    for (std::size_t first = 0; first < run.size(); first += origins_per_packet) {
-      const auto some = run.subspan(first, std::min(origins_per_packet, run.size() - first));
-      std::vector<FreeRays> free = packets.count(places_of(some));
-      if (settings_.max_far_error) settle(cell.cell, some, packets, free);
-      for (std::size_t n = 0; n < some.size(); ++n) answer(answers, some[n].index, free[n], directions_.ray_count());
-    }
-  });
+  Numbers by_rays;
+  if (settings_.engine == Engine::rays) {
+    by_rays.resize(cell.receivers.size());
+    std::iota(by_rays.begin(), by_rays.end(), 0U);
+  } else {
+    by_rays = answer_by_horizons(sight, cell, answers);
+  }
+  if (!by_rays.empty()) answer_by_rays(sight, cell, by_rays, answers);
   scenes_s_ += seconds_between(start, scene_ready);
   rays_s_ += seconds_between(scene_ready, Clock::now());
 }
 
-void SkyEvaluator::settle(Cell cell, std::span<const Receiver> receivers, HorizonPackets& packets,
-                          std::vector<FreeRays>& free) const {
-  const double most = *settings_.max_far_error * static_cast<double>(directions_.ray_count());
-  std::vector<bool> doubtful;
-  for (const FreeRays& f : free) doubtful.push_back(std::max(f.high - f.likely, f.likely - f.low) > most);
-  if (std::none_of(doubtful.begin(), doubtful.end(), [](bool b) { return b; })) return;
-  const WholeCity& city = city_->get(package_);
-  std::vector<Point3f> origins;
-  for (const Receiver& r : receivers) origins.push_back(city.scene_from_cell(r.p_cell, cell));
-  settled_rays_ += packets.settle(city.occluder(), origins, doubtful, free);
+/// Returns the numbers of those that horizons are not enough for.
+SkyEvaluator::Numbers SkyEvaluator::answer_by_horizons(const CellSight& sight, const CellReceivers& cell,
+                                                       const SkyAnswers& answers) const {
+  HorizonEngine engine(ring_, settings_.weight, sight.far, sight.skyline, sight.hanging);
+  Numbers by_rays;
+  const auto answer_packet = [&](const ReceiverPacket& packet, std::span<const std::uint32_t> numbers) {
+    std::array<BoundedShare, ReceiverPacket::lanes> room;
+    const std::span shares = std::span(room).first(numbers.size());
+    const bool bounds = wants_bounds(answers);
+    const std::uint32_t see_hanging = bounds ? engine.evaluate_with_bounds(packet, shares) : engine.evaluate(packet, shares);
+    if (see_hanging != 0) require_standing(cell.cell);
+    for (std::size_t l = 0; l < numbers.size(); ++l) {
+      answer(answers, cell.receivers[numbers[l]].index, shares[l]);
+      if (((see_hanging >> l) & 1U) != 0 || is_doubtful(shares[l])) by_rays.push_back(numbers[l]);
+    }
+  };
+  for_each_packet(cell.receivers, packet_order(cell.receivers), answer_packet);
+  return by_rays;
 }
 
-SkyEvaluator::Effort SkyEvaluator::effort() const { return {scenes_s_, rays_s_, settled_rays_}; }
+/// Whether the far map leaves an answer more uncertain than the user wants.
+bool SkyEvaluator::is_doubtful(const BoundedShare& s) const {
+  return settings_.max_far_error && std::max(s.high - s.likely, s.likely - s.low) > *settings_.max_far_error;
+}
+
+void SkyEvaluator::require_standing(Cell cell) const {
+  if (settings_.engine != Engine::horizon) return;
+  throw PackageUnusable(
+      "The engine horizon cannot see under what hangs over open ground (bridges, eaves, open shells), and there are such "
+      "things in sight of cell " +
+      std::to_string(cell.i) + "," + std::to_string(cell.j) + ": use --engine auto.");
+}
+
+void SkyEvaluator::answer_by_rays(const CellSight& sight, const CellReceivers& cell, const Numbers& numbers,
+                                  const SkyAnswers& answers) const {
+  by_rays_ += numbers.size();
+  const Occluder scene = sight.hanging.scene();
+  std::vector<Receiver> receivers;
+  for (const std::uint32_t n : numbers) receivers.push_back(cell.receivers[n]);
+  std::stable_sort(receivers.begin(), receivers.end(), [](const Receiver& a, const Receiver& b) {
+    return std::tie(a.normal.x, a.normal.y, a.normal.z) < std::tie(b.normal.x, b.normal.y, b.normal.z);
+  });
+  for_each_run(receivers, [&](std::span<const Receiver> run) {
+    const std::vector<Point3d> directions = directions_of(directions_, run.front().normal);
+    if (directions.empty()) {
+      for (const Receiver& r : run) answer(answers, r.index, BoundedShare{});
+      return;
+    }
+    const RayFan fan(directions);
+    RayEngine engine(fan, sight.far, sight.skyline, sight.hanging, scene, wants_bounds(answers));
+    for (std::size_t first = 0; first < run.size(); first += ReceiverPacket::lanes) {
+      const auto some = run.subspan(first, std::min(ReceiverPacket::lanes, run.size() - first));
+      std::vector<FreeRays> free = engine.count(some);
+      if (settings_.max_far_error) settle(cell.cell, some, engine, free);
+      for (std::size_t n = 0; n < some.size(); ++n) answer(answers, some[n].index, shares_of(free[n], directions_.ray_count()));
+    }
+  });
+}
+
+void SkyEvaluator::settle(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine,
+                          std::span<FreeRays> free) const {
+  const double most = *settings_.max_far_error * static_cast<double>(directions_.ray_count());
+  std::uint32_t doubtful = 0;
+  for (std::size_t l = 0; l < free.size(); ++l)
+    if (std::max(free[l].high - free[l].likely, free[l].likely - free[l].low) > most) doubtful |= 1U << l;
+  if (doubtful == 0) return;
+  const WholeCity& city = city_->get(package_);
+  RayOrigins origins;
+  for (std::size_t l = 0; l < receivers.size(); ++l) {
+    const Point3f p = city.scene_from_cell(receivers[l].p_cell, cell);
+    origins.x[l] = p.x;
+    origins.y[l] = p.y;
+    origins.z[l] = p.z;
+  }
+  settled_rays_ += engine.settle(city.occluder(), origins, doubtful, free);
+}
+
+SkyEvaluator::Effort SkyEvaluator::effort() const { return {scenes_s_, rays_s_, by_rays_, settled_rays_}; }
 
 }  // namespace farlod

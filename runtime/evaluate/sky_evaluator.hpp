@@ -12,28 +12,37 @@
 
 #include "evaluate/sky_directions.hpp"
 #include "farlod/sky/sky_partition.hpp"
+#include "horizon/azimuth_ring.hpp"
 #include "package/package.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {
 
-class HorizonPackets;
+class RayEngine;
+struct BoundedShare;
 struct FreeRays;
 
 enum class Engine {
-  rays,      ///< rays against the tiles of the neighbourhood, then the far map (paper, Listing 1)
-  exact,     ///< rays against all tiles: the reference
-  near_only  ///< the far field dropped, as by tools that cut a city into tiles: to measure what it is worth
+  automatic,  ///< horizons where a receiver sees nothing but what stands solidly, rays elsewhere
+  horizon,    ///< horizons alone: what does not stand solidly cannot be
+  rays,       ///< rays, as in the paper (Listing 1); only what hangs is traced, all else is told from horizons
+  exact,      ///< rays against all tiles: the reference
+  near_only   ///< the far field dropped, as by tools that cut a city into tiles: to measure what it is worth
 };
 
 struct SkySettings {
-  Engine engine = Engine::rays;
+  Engine engine = Engine::automatic;
   SkyWeight weight = SkyWeight::cosine;
   std::size_t rays = 1000;
   /// Where the far map leaves an answer more uncertain than this, the directions that it leaves open are traced against the whole
   /// city. Needs far maps of the kind `horizon`.
   std::optional<double> max_far_error = std::nullopt;
+  DirectionSet directions = DirectionSet::partition;
+  std::size_t azimuths = 256;  ///< of horizons
 };
+
+/// How far the samples of the sky alone may lead astray: of rays, or of azimuths, whichever errs more and may be used.
+[[nodiscard]] double sampling_error_of(const SkySettings& settings);
 
 /// Where answers go, by Receiver::index. `low` and `high` are wanted or empty.
 struct SkyAnswers {
@@ -41,8 +50,8 @@ struct SkyAnswers {
   explicit SkyAnswers(std::span<float> s, std::span<float> l = {}, std::span<float> h = {}) : svf(s), low(l), high(h) {}
 };
 
-/// Computes sky view factors from a package. May be asked from many threads; the same receivers give the same answers
-/// whatever else is asked.
+/// Computes sky view factors from a package. May be asked from many threads; the same receivers give the same answers whatever
+/// else is asked, up to the rounding of floats (docs/concepts.md, "Edges that a packet passes over").
 class SkyEvaluator {
  public:
   /// The package must outlive the evaluator.
@@ -50,16 +59,18 @@ class SkyEvaluator {
   ~SkyEvaluator();
 
   /// Writes the sky view factor of each receiver, in [0, 1]. A cell outside of the grid has no far map: its receivers are traced
-  /// against the whole city, whatever the engine.
-  /// Where `low` and `high` are wanted, the engine `exact` with the same number of rays lies between them, up to the rounding of
-  /// floats (docs/concepts.md, "Bounds"); the engine `rays` gives them only with far maps of the kind `horizon`.
+  /// against the whole city, whatever the engine. Packages with far maps of the kind `box` know no horizons: `automatic` is
+  /// `rays`. Where `low` and `high` are wanted, the truth of the same azimuths or rays lies between them, up to the rounding of
+  /// floats (docs/concepts.md, "Bounds of a sky view factor"); only with far maps of the kind `horizon`. Throws PackageUnusable
+  /// where the engine `horizon` meets a receiver that sees something which does not stand solidly.
   void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const;
   void evaluate(const CellReceivers& cell, std::span<float> svf) const { evaluate(cell, SkyAnswers(svf)); }
 
-  /// Seconds spent so far, summed over threads, and rays traced against the whole city because the far map did not settle them.
+  /// Seconds spent so far, summed over threads; receivers answered by rays rather than by horizons; and rays traced against the
+  /// whole city because the far map did not settle them.
   struct Effort {
     double scenes_s = 0.0, rays_s = 0.0;
-    std::uint64_t settled_rays = 0;
+    std::uint64_t by_rays = 0, settled_rays = 0;
   };
   [[nodiscard]] Effort effort() const;
 
@@ -69,14 +80,25 @@ class SkyEvaluator {
   void evaluate_with_box(const CellReceivers& cell, const SkyAnswers& answers) const;
   void evaluate_with_horizon(const CellReceivers& cell, const SkyAnswers& answers) const;
 
-  void settle(Cell cell, std::span<const Receiver> receivers, HorizonPackets& packets, std::vector<FreeRays>& free) const;
+  struct CellSight;
+  using Numbers = std::vector<std::uint32_t>;
+  [[nodiscard]] Numbers answer_by_horizons(const CellSight& sight, const CellReceivers& cell, const SkyAnswers& answers) const;
+  [[nodiscard]] bool is_doubtful(const BoundedShare& share) const;
+  /// Called where a receiver sees something that does not stand solidly: the engine `horizon` ends there.
+  void require_standing(Cell cell) const;
+  void answer_by_rays(const CellSight& sight, const CellReceivers& cell, const Numbers& numbers, const SkyAnswers& answers) const;
+  [[nodiscard]] bool wants_bounds(const SkyAnswers& answers) const {
+    return !answers.low.empty() || settings_.max_far_error.has_value();
+  }
+  void settle(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine, std::span<FreeRays> free) const;
 
   const Package& package_;
   SkySettings settings_;
   SkyDirections directions_;
+  AzimuthRing ring_;
   std::unique_ptr<WholeCityOnDemand> city_;
   mutable std::atomic<double> scenes_s_ = 0.0, rays_s_ = 0.0;
-  mutable std::atomic<std::uint64_t> settled_rays_ = 0;
+  mutable std::atomic<std::uint64_t> by_rays_ = 0, settled_rays_ = 0;
 };
 
 }  // namespace farlod

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -162,6 +163,34 @@ void Occluder::blocks(std::span<const Ray> rays, std::span<std::uint8_t> blocked
     rtcOccluded16(valid.data(), impl_->scene, &context, &packet);
     for (std::size_t lane = 0; lane < count; ++lane) blocked[first + lane] = packet.tfar[lane] < 0.0F ? 1 : 0;
   }
+}
+
+std::uint32_t Occluder::blocked(const RayOrigins& origins, const Point3f& direction, float begin, std::uint32_t wanted) const {
+  static_assert(RayOrigins::lanes == packet_size);
+  if (impl_->scene == nullptr || wanted == 0) return 0;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  RTCRay16 packet;
+  alignas(64) std::array<int, packet_size> valid;
+  for (std::size_t lane = 0; lane < packet_size; ++lane) {
+    valid[lane] = ((wanted >> lane) & 1U) != 0 ? -1 : 0;
+    packet.org_x[lane] = origins.x[lane];
+    packet.org_y[lane] = origins.y[lane];
+    packet.org_z[lane] = origins.z[lane];
+    packet.dir_x[lane] = direction.x;
+    packet.dir_y[lane] = direction.y;
+    packet.dir_z[lane] = direction.z;
+    packet.tnear[lane] = begin;
+    packet.tfar[lane] = std::numeric_limits<float>::infinity();
+    packet.time[lane] = 0.0F;
+    packet.mask[lane] = ~0U;
+    packet.flags[lane] = 0;
+  }
+  rtcOccluded16(valid.data(), impl_->scene, &context, &packet);
+  std::uint32_t bits = 0;
+  for (std::size_t lane = 0; lane < packet_size; ++lane) bits |= packet.tfar[lane] < 0.0F ? 1U << lane : 0U;
+  return bits & wanted;
 }
 
 std::optional<Hit> Occluder::nearest(const Ray& ray) const { return impl_->nearest_accepted(ray, nullptr); }

@@ -71,8 +71,7 @@ CellColumns::CellColumns(const Package& package, Cell cell)
 Column::Crossing CellColumns::crossing(const Hit& hit) const {
   std::uint32_t triangle = hit.triangle;
   auto tile = tiles_.begin();
-  for (; triangle >= tile->triangle_surfaces.size(); ++tile)
-    triangle -= static_cast<std::uint32_t>(tile->triangle_surfaces.size());
+  for (; triangle >= tile->mesh.triangles.size(); ++tile) triangle -= static_cast<std::uint32_t>(tile->mesh.triangles.size());
   const package::SurfaceRecord& surface = tile->surface_of(triangle);
   return {below_all_m_ + hit.distance, tile->building_number(surface), surface.part, surface.normal_z > 0.0F};
 }

@@ -24,17 +24,4 @@ std::vector<PlacedMesh> near_tiles(const Package& package, Cell cell) {
 
 Occluder near_scene(const Package& package, Cell cell) { return occluder_of(near_tiles(package, cell)); }
 
-Occluder near_scene(const Package& package, Cell cell, const NamedObstacles& named) {
-  std::vector<PlacedMesh> placed = near_tiles(package, cell);
-  std::vector<Point3f> vertices;
-  std::vector<Triangle> triangles;
-  for (const package::NamedObstacle& n : named.named_triangles) {
-    const auto first = static_cast<std::uint32_t>(vertices.size());
-    vertices.insert(vertices.end(), named.triangles[n.row].begin(), named.triangles[n.row].end());
-    triangles.push_back({first, first + 1, first + 2});
-  }
-  placed.push_back({{vertices, triangles}, named.cell_from_block_m});
-  return occluder_of(placed);
-}
-
 }  // namespace farlod

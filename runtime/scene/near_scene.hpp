@@ -10,7 +10,5 @@ namespace farlod {
 
 /// The tiles of the neighbourhood of `cell`, in the frame of `cell`. Neighbours that do not exist are empty.
 [[nodiscard]] Occluder near_scene(const Package& package, Cell cell);
-/// The same, and the far triangles that the cell's far map names.
-[[nodiscard]] Occluder near_scene(const Package& package, Cell cell, const NamedObstacles& named);
 
 }  // namespace farlod

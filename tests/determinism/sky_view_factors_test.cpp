@@ -22,6 +22,7 @@ struct Way {
   Engine engine;
   FarMapKind kind;
   std::optional<double> max_far_error = std::nullopt;
+  DirectionSet directions = DirectionSet::partition;
 };
 void PrintTo(const Way& way, std::ostream* out) { *out << way.name; }
 
@@ -34,15 +35,18 @@ class SkyViewFactors : public testing::TestWithParam<Way> {
     scenes::pack_city(crooked_town(), crooked_grid(), folder_.path() / "town.farlod", scenes::small_maps(GetParam().kind));
     return Package(folder_.path() / "town.farlod");
   }
-  [[nodiscard]] SkySettings settings() const { return {GetParam().engine, SkyWeight::cosine, 145, GetParam().max_far_error}; }
+  [[nodiscard]] SkySettings settings() const {
+    return {GetParam().engine, SkyWeight::cosine, 145, GetParam().max_far_error, GetParam().directions, 64};
+  }
   [[nodiscard]] CellReceivers receivers_of(Cell cell) const { return raster_.in_cell(package_, cell, HeightAbove::ground, 1.5F); }
 
   /// The whole raster, cells in parallel; bits, so that no data equals no data.
-  std::vector<std::uint32_t> raster_with(std::size_t threads) const {
+  std::vector<std::uint32_t> raster_with(std::size_t threads, bool backwards = false) const {
     std::vector<float> svf(plan_.columns * plan_.rows, std::numeric_limits<float>::quiet_NaN());
     const Package opened_anew(folder_.path() / "town.farlod");
     const SkyEvaluator evaluator(opened_anew, settings());
-    const std::vector<Cell> cells = raster_.cells();
+    std::vector<Cell> cells = raster_.cells();
+    if (backwards) std::reverse(cells.begin(), cells.end());
     with_threads(threads, [&] {
       oneapi::tbb::parallel_for(std::size_t{0}, cells.size(),
                                 [&](std::size_t n) { evaluator.evaluate(receivers_of(cells[n]), svf); });
@@ -64,6 +68,8 @@ TEST_P(SkyViewFactors, DoNotDependOnTheNumberOfThreads) {
   for (int n = 0; n < repeats; ++n) EXPECT_TRUE(raster_with(many_threads) == alone);
 }
 
+TEST_P(SkyViewFactors, DoNotDependOnTheOrderOfCells) { EXPECT_TRUE(raster_with(1, true) == raster_with(2)); }
+
 TEST_P(SkyViewFactors, DoNotDependOnWhatElseIsAsked) {
   const SkyEvaluator evaluator(package_, settings());
   const std::vector<Cell> cells = raster_.cells();
@@ -84,6 +90,10 @@ INSTANTIATE_TEST_SUITE_P(Ways, SkyViewFactors,
                          testing::Values(Way{"RaysBox", Engine::rays, FarMapKind::box},
                                          Way{"RaysHorizon", Engine::rays, FarMapKind::horizon},
                                          Way{"RaysHorizonSettled", Engine::rays, FarMapKind::horizon, 0.01},
+                                         Way{"FibonacciRays", Engine::rays, FarMapKind::horizon, 0.01, DirectionSet::fibonacci},
+                                         Way{"AutomaticHorizon", Engine::automatic, FarMapKind::horizon},
+                                         Way{"AutomaticHorizonSettled", Engine::automatic, FarMapKind::horizon, 0.01},
+                                         Way{"HorizonOnly", Engine::horizon, FarMapKind::horizon},
                                          Way{"Exact", Engine::exact, FarMapKind::horizon}),
                          [](const auto& test) { return test.param.name; });
 

@@ -21,21 +21,24 @@ void SceneBuilder::add_polygon(const std::vector<Point3d>& points) {
   add_facet(points, SurfaceKind::unknown);
 }
 
-void SceneBuilder::add_box(const Box2d& o, double low_m, double high_m) {
+void SceneBuilder::add_prism(const std::vector<Point2d>& outline, double low_m, double high_m) {
   city_.begin_building("box " + std::to_string(city_.buildings().size()));
   next_surface_ = 0;
-  const std::vector<Point2d> ring{o.low, {o.high.x, o.low.y}, o.high, {o.low.x, o.high.y}};
   std::vector<Point3d> roof, floor;
-  for (std::size_t n = 0; n < 4; ++n) {
-    roof.push_back({ring[n].x, ring[n].y, high_m});
-    floor.insert(floor.begin(), {ring[n].x, ring[n].y, low_m});
+  for (const Point2d p : outline) {
+    roof.push_back({p.x, p.y, high_m});
+    floor.insert(floor.begin(), {p.x, p.y, low_m});
   }
   add_facet(roof, SurfaceKind::roof);
   add_facet(floor, SurfaceKind::floor);
-  for (std::size_t n = 0; n < 4; ++n) {
-    const Point2d a = ring[n], b = ring[(n + 1) % 4];
+  for (std::size_t n = 0; n < outline.size(); ++n) {
+    const Point2d a = outline[n], b = outline[(n + 1) % outline.size()];
     add_facet({{a.x, a.y, low_m}, {b.x, b.y, low_m}, {b.x, b.y, high_m}, {a.x, a.y, high_m}}, SurfaceKind::wall);
   }
+}
+
+void SceneBuilder::add_box(const Box2d& o, double low_m, double high_m) {
+  add_prism({o.low, {o.high.x, o.low.y}, o.high, {o.low.x, o.high.y}}, low_m, high_m);
 }
 
 }  // namespace farlod::scenes

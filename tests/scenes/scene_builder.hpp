@@ -22,6 +22,8 @@ class SceneBuilder {
   void add_wall(Point2d a, Point2d b, double low_m, double high_m);
   /// A single polygon.
   void add_polygon(const std::vector<Point3d>& points);
+  /// A closed body with a flat roof over a counter-clockwise outline.
+  void add_prism(const std::vector<Point2d>& outline, double low_m, double high_m);
   /// A closed box.
   void add_box(const Box2d& outline, double low_m, double high_m);
 

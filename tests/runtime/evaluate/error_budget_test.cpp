@@ -15,6 +15,14 @@ TEST(ErrorBudget, AsManyRaysAsItTakesAndNoMore) {
   }
 }
 
+TEST(ErrorBudget, AsManyAzimuthsAsItTakesAndNoMore) {
+  for (const double error : {0.05, 0.011, 0.007, 0.0013, 0.0001}) {
+    const std::size_t azimuths = azimuths_for_error(error);
+    EXPECT_LE(azimuth_error(azimuths), error);
+    EXPECT_GT(azimuth_error(azimuths - 1), error);
+  }
+}
+
 // Receivers of the generated city of docs/validation.md: the largest errors seen
 TEST(ErrorBudget, CoversWhatWasMeasured) {
   EXPECT_GE(sampling_error(500), 0.0246);

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numbers>
+#include <string>
 
 #include "evaluate/sky_evaluator.hpp"
 #include "receivers/point_receivers.hpp"
@@ -10,7 +12,7 @@
 #include "tests/scenes/scene_builder.hpp"
 
 // Where the grid happens to lie must not show in the exact answers: neither of the engine that traces all, nor of the one that
-// traces only what the far map leaves open.
+// traces only what the far map leaves open, nor of horizons.
 
 namespace farlod {
 namespace {
@@ -27,6 +29,21 @@ constexpr double place_error_m = 3 * 0.5 * 128.0 * static_cast<double>(std::nume
 constexpr double expected_changes = static_cast<double>(rays) * 8.0 * place_error_m / nearest_m;
 static_assert(expected_changes < 1.0);
 constexpr double allowed_change = 5.0 / static_cast<double>(rays);
+
+/// Likewise an azimuth of a horizon: it passes one of at most 64 jumps within the angle with the probability 64 · 2 · angle ·
+/// 256/2π < 1/8, so that three of 256 changes have one below 1/8³/3!; each weighs at most one azimuth. Slopes are rounded
+/// besides.
+constexpr std::size_t azimuths = 256;
+constexpr double expected_jumps = 64.0 * 2.0 * place_error_m / nearest_m * static_cast<double>(azimuths) / 6.2;
+static_assert(expected_jumps < 0.125);
+constexpr double allowed_change_of_horizons = 3.0 / static_cast<double>(azimuths);
+
+/// Horizons are compared where all is near: what the far map leaves open would depend on the grid.
+struct Way {
+  Engine engine;
+  int neighborhood;
+  double allowed_change;
+};
 
 std::vector<Point2d> places() {
   std::vector<Point2d> result;
@@ -46,47 +63,76 @@ CityModel street(const Point3d& shift) {
   return builder.city();
 }
 
-std::vector<float> svf_on(Engine engine, const Point3d& shift, double bearing_deg) {
+std::vector<float> svf_on(const Way& way, const Point3d& shift, double bearing_deg) {
   const CityModel city = street(shift);
-  const Grid grid = scenes::grid_covering(city, Angle::degrees(bearing_deg), cell_m, 3, 4);
+  const Grid grid = scenes::grid_covering(city, Angle::degrees(bearing_deg), cell_m, way.neighborhood, 4);
   const scenes::TemporaryFolder folder;
   scenes::pack_city(city, grid, folder.path() / "street.farlod", scenes::small_maps(FarMapKind::horizon));
   const Package package(folder.path() / "street.farlod");
   std::vector<PlaceOfReceiver> shifted;
   for (const Point2d p : places()) shifted.push_back({p + horizontal(shift), {}});
   std::vector<float> svf(shifted.size(), -1.0F);
-  const SkyEvaluator evaluator(package, {engine, SkyWeight::cosine, rays, 0.0});
+  const SkyEvaluator evaluator(package, {way.engine, SkyWeight::cosine, rays, 0.0});
   for (const auto& [cell, chosen] : places_by_cell(package, shifted))
     evaluator.evaluate(receivers_at(package, cell, shifted, chosen, HeightAbove::ground, 1.5F), svf);
   return svf;
 }
 
-void expect_alike(const std::vector<float>& a, const std::vector<float>& b) {
+void expect_alike(const std::vector<float>& a, const std::vector<float>& b, double most) {
   ASSERT_EQ(a.size(), b.size());
-  for (std::size_t n = 0; n < a.size(); ++n) EXPECT_NEAR(a[n], b[n], allowed_change) << "receiver " << n;
+  for (std::size_t n = 0; n < a.size(); ++n) EXPECT_NEAR(a[n], b[n], most) << "receiver " << n;
 }
 
-class GridIndependence : public testing::TestWithParam<Engine> {};
+class GridIndependence : public testing::TestWithParam<Way> {};
 
 TEST_P(GridIndependence, MovingTheGridByAPartOfACellChangesNothing) {
   const std::vector<float> unmoved = svf_on(GetParam(), {}, 0.0);
   EXPECT_LT(*std::max_element(unmoved.begin(), unmoved.end()), 0.8F) << "the street hides too little to tell";
   EXPECT_GT(*std::min_element(unmoved.begin(), unmoved.end()), 0.0F);
   for (const Point3d& shift : {Point3d{3.7, -8.1, 0.0}, {10.0, 10.0, 0.0}, {-19.9, 0.013, 0.0}})
-    expect_alike(svf_on(GetParam(), shift, 0.0), unmoved);
+    expect_alike(svf_on(GetParam(), shift, 0.0), unmoved, GetParam().allowed_change);
 }
 
 TEST_P(GridIndependence, TurningTheGridChangesNothing) {
   const std::vector<float> unturned = svf_on(GetParam(), {}, 0.0);
-  for (const double bearing_deg : {12.3, 45.0, 90.0, -77.0}) expect_alike(svf_on(GetParam(), {}, bearing_deg), unturned);
+  for (const double bearing_deg : {12.3, 45.0, 90.0, -77.0})
+    expect_alike(svf_on(GetParam(), {}, bearing_deg), unturned, GetParam().allowed_change);
 }
 
 TEST_P(GridIndependence, LiftingTheCityChangesNothing) {
-  expect_alike(svf_on(GetParam(), {0.0, 0.0, 41.37}, 0.0), svf_on(GetParam(), {}, 0.0));
+  expect_alike(svf_on(GetParam(), {0.0, 0.0, 41.37}, 0.0), svf_on(GetParam(), {}, 0.0), GetParam().allowed_change);
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, GridIndependence, testing::Values(Engine::rays, Engine::exact),
-                         [](const auto& test) { return test.param == Engine::rays ? "Rays" : "Exact"; });
+TEST(GridIndependence, AzimuthsOfHorizonsAreThoseOfTheCity) {
+  // Two azimuths look north and south. In the north stands a house, seen at 45°: half of that azimuth's sky is left
+  scenes::SceneBuilder builder;
+  builder.add_box({{-5.0, 8.0}, {5.0, 20.0}}, 0.0, 9.5);
+  builder.add_box({{30.0, 30.0}, {30.1, 30.1}}, 0.0, 0.01);
+  builder.add_box({{-30.0, -30.0}, {-29.9, -29.9}}, 0.0, 0.01);
+  for (const double bearing_deg : {0.0, 33.0, -77.0, 180.0}) {
+    const Grid grid = scenes::grid_covering(builder.city(), Angle::degrees(bearing_deg), cell_m, 3, 4);
+    const scenes::TemporaryFolder folder;
+    scenes::pack_city(builder.city(), grid, folder.path() / "house.farlod", scenes::small_maps(FarMapKind::horizon));
+    const Package package(folder.path() / "house.farlod");
+    SkySettings settings{Engine::horizon};
+    settings.azimuths = 2;
+    const std::vector<PlaceOfReceiver> place{{{0.0, 0.0}, {}}};
+    std::vector<float> svf(1, -1.0F);
+    for (const auto& [cell, chosen] : places_by_cell(package, place))
+      SkyEvaluator(package, settings).evaluate(receivers_at(package, cell, place, chosen, HeightAbove::ground, 1.5F), svf);
+    // A slope of 1 whose coordinates are rounded
+    EXPECT_NEAR(svf[0], 0.75, place_error_m / 8.0) << bearing_deg;
+  }
+}
+
+std::string name_of(const testing::TestParamInfo<Way>& test) {
+  return test.param.engine == Engine::rays ? "Rays" : test.param.engine == Engine::exact ? "Exact" : "Automatic";
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, GridIndependence,
+                         testing::Values(Way{Engine::rays, 3, allowed_change}, Way{Engine::exact, 3, allowed_change},
+                                         Way{Engine::automatic, 15, allowed_change_of_horizons}),
+                         name_of);
 
 }  // namespace
 }  // namespace farlod

@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 #include "tests/analytic/oracles.hpp"
 #include "tests/analytic/tolerance.hpp"
@@ -88,6 +92,100 @@ TEST(SkyDirections, AFloorSeesNoSkyAndARoofAll) {
   const SkyDirections sky(SkyWeight::cosine, 145, {});
   EXPECT_TRUE(sky.around({0.0, 0.0, -1.0}).empty());
   EXPECT_EQ(sky.around({0.0, 0.0, 1.0}).size(), 145U);
+}
+
+constexpr SkyWeight both_weights[] = {SkyWeight::cosine, SkyWeight::solid_angle};
+
+SkyDirections fibonacci(SkyWeight weight, std::size_t rays) { return {weight, rays, {}, DirectionSet::fibonacci}; }
+
+TEST(FibonacciDirections, AreAsManyAsAskedForAndAllAbove) {
+  for (const SkyWeight weight : both_weights)
+    for (const std::size_t rays : {1U, 2U, 145U, 1000U}) {
+      const SkyDirections sky = fibonacci(weight, rays);
+      EXPECT_EQ(sky.ray_count(), rays);
+      ASSERT_EQ(sky.horizontal().size(), rays);
+      for (const Point3d& d : sky.horizontal()) {
+        EXPECT_GT(d.z, 0.0);
+        EXPECT_NEAR(norm(d), 1.0, rounding);
+      }
+    }
+}
+
+TEST(FibonacciDirections, EachBandHasItsShare) {
+  for (const SkyWeight weight : both_weights) {
+    const SkyDirections sky = fibonacci(weight, ray_count);
+    for (const auto& [low, high] : {std::pair(0.0, 0.1), {0.3, 0.35}, {0.0, 1.0}, {0.97, 1.0}}) {
+      const auto inside = [&, from = low, to = high](const Point3d& d) {
+        const double share = sky_share_above(weight, d);
+        return share >= from && share < to;
+      };
+      const auto count = std::count_if(sky.horizontal().begin(), sky.horizontal().end(), inside);
+      EXPECT_NEAR(static_cast<double>(count), (high - low) * ray_count, 1.0);
+    }
+  }
+}
+
+/// Multiples of the golden ratio, n of them, fill each interval of the circle but for 3 + (1/ln φ + 1/ln 2) ln n (Kuipers &
+/// Niederreiter, theorem 3.4 of chapter 2); those of a band are n in a row, and the band itself is off by one.
+double most_off(std::size_t n) {
+  return 4.0 + (1.0 / std::log(std::numbers::phi) + 1.0 / std::numbers::ln2) * std::log(static_cast<double>(n));
+}
+
+TEST(FibonacciDirections, EachSectorOfABandHasItsShare) {
+  constexpr std::size_t many = 100000;
+  for (const SkyWeight weight : both_weights) {
+    const SkyDirections sky = fibonacci(weight, many);
+    for (const auto& [low, high] : {std::pair(0.0, 0.2), {0.3, 0.7}, {0.9, 1.0}})
+      for (const double sector : {0.01, 0.1, 0.3})
+        for (const double begin : {0.0, 0.17, 0.55}) {
+          const auto inside = [&, from = low, to = high](const Point3d& d) {
+            const double turns = azimuth_of(horizontal(d)).radians() / (2.0 * std::numbers::pi),
+                         share = sky_share_above(weight, d);
+            return share >= from && share < to && turns >= begin && turns < begin + sector;
+          };
+          const auto count = std::count_if(sky.horizontal().begin(), sky.horizontal().end(), inside);
+          EXPECT_NEAR(static_cast<double>(count), (high - low) * sector * many, most_off(many)) << sector;
+        }
+  }
+}
+
+TEST(FibonacciDirections, TurningTheGridDoesNotTurnThem) {
+  const GridRotation rotation(Angle::degrees(33.0));
+  const SkyDirections turned(SkyWeight::cosine, 500, rotation, DirectionSet::fibonacci),
+      north = fibonacci(SkyWeight::cosine, 500);
+  for (std::size_t n = 0; n < 500; ++n)
+    EXPECT_LE(norm(rotation.city_from_grid(turned.horizontal()[n]) - north.horizontal()[n]), rounding);
+}
+
+/// Root of the mean square of the errors that some directions make of finite walls, of many heights and at many azimuths.
+double error_of_walls(SkyWeight weight, DirectionSet set, std::size_t rays) {
+  const SkyDirections sky(weight, rays, {}, set);
+  double sum = 0.0;
+  int walls = 0;
+  for (int n = 0; n < 60; ++n)
+    for (const double H : {4.0, 11.0, 30.0}) {
+      const double d = 10.0, left = 3.0 + n % 7 * 4.0, right = 50.0 - left, turn = 0.37 * n;
+      const auto is_free = [&](const Point3d& s) {
+        const double across = s.x * std::cos(turn) + s.y * std::sin(turn), along = s.y * std::cos(turn) - s.x * std::sin(turn);
+        if (across <= 0.0 || along * d / across < -left || along * d / across > right) return true;
+        return s.z * d / across > H;
+      };
+      const auto free = std::count_if(sky.horizontal().begin(), sky.horizontal().end(), is_free);
+      const double truth = weight == SkyWeight::cosine ? oracles::finite_wall_cos(H, d, left, right)
+                                                       : oracles::finite_wall_solid(H, d, left, right);
+      sum += std::pow(static_cast<double>(free) / static_cast<double>(rays) - truth, 2);
+      ++walls;
+    }
+  return std::sqrt(sum / walls);
+}
+
+TEST(FibonacciDirections, AreNoWorseThanThePartition) {
+  for (const SkyWeight weight : both_weights)
+    for (const std::size_t rays : {256U, 1000U, 4000U}) {
+      const double lattice = error_of_walls(weight, DirectionSet::fibonacci, rays),
+                   partition = error_of_walls(weight, DirectionSet::partition, rays);
+      EXPECT_LE(lattice, partition) << rays << " rays";
+    }
 }
 
 }  // namespace

@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <random>
+#include <tuple>
 
+#include "evaluate/error_budget.hpp"
+#include "package/package_error.hpp"
 #include "tests/analytic/tolerance.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
@@ -15,7 +19,12 @@ namespace farlod {
 namespace {
 
 constexpr double cell_m = 20.0;
-constexpr Engine both_engines[] = {Engine::rays, Engine::exact};
+
+/// Far maps of the kind `box` know no horizons.
+std::vector<Engine> engines_of(FarMapKind kind) {
+  if (kind == FarMapKind::box) return {Engine::automatic, Engine::rays, Engine::exact};
+  return {Engine::automatic, Engine::horizon, Engine::rays, Engine::exact};
+}
 
 Grid grid_of(const CellRange& cells, int neighborhood = 3) {
   Grid grid;
@@ -83,7 +92,7 @@ class SkyEvaluatorOfKind : public testing::TestWithParam<FarMapKind> {};
 
 TEST_P(SkyEvaluatorOfKind, AnOpenFieldSeesAllOfTheSky) {
   const PackedScene field(open_field().city(), grid_of({0, 0, 2, 2}), GetParam());
-  for (const Engine engine : both_engines)
+  for (const Engine engine : engines_of(GetParam()))
     for (const SkyWeight weight : {SkyWeight::cosine, SkyWeight::solid_angle})
       for (const std::size_t rays : {1U, 145U, 1000U})
         EXPECT_EQ(field.svf(spread_over({1, 0}), {engine, weight, rays}), std::vector<float>(25, 1.0F));
@@ -97,21 +106,24 @@ TEST_P(SkyEvaluatorOfKind, AnswersLieBetweenZeroAndOne) {
         normalized(Point3d{std::sin(1.0 * static_cast<double>(n)), std::cos(2.0 * static_cast<double>(n)), 0.2});
     receivers.receivers[n].normal = {static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z)};
   }
-  for (const Engine engine : both_engines)
+  for (const Engine engine : engines_of(GetParam()))
     for (const float svf : town.svf(receivers, {engine, SkyWeight::cosine, 290})) EXPECT_TRUE(svf > 0.0F && svf < 1.0F) << svf;
 }
 
-TEST_P(SkyEvaluatorOfKind, InAClosedBoxThereIsNoSky) {
+TEST_P(SkyEvaluatorOfKind, InAClosedRoomThereIsNoSky) {
   scenes::SceneBuilder builder;
-  builder.add_box({{-1.0, -1.0}, {21.0, 21.0}}, 0.0, 5.0);
-  const PackedScene box(builder.city(), grid_of({-1, -1, 2, 2}), GetParam());
-  for (const Engine engine : both_engines) EXPECT_EQ(box.svf(spread_over({0, 0}), {engine}), std::vector<float>(25, 0.0F));
+  const std::vector<Point2d> corners{{-1.0, -1.0}, {21.0, -1.0}, {21.0, 21.0}, {-1.0, 21.0}};
+  for (std::size_t n = 0; n < 4; ++n) builder.add_wall(corners[n], corners[(n + 1) % 4], 0.0, 5.0);
+  builder.add_polygon({{-1.0, -1.0, 5.0}, {21.0, -1.0, 5.0}, {21.0, 21.0, 5.0}, {-1.0, 21.0, 5.0}});
+  const PackedScene room(builder.city(), grid_of({-1, -1, 2, 2}), GetParam());
+  for (const Engine engine : {Engine::automatic, Engine::rays, Engine::exact})
+    EXPECT_EQ(room.svf(spread_over({0, 0}), {engine}), std::vector<float>(25, 0.0F));
 }
 
 TEST_P(SkyEvaluatorOfKind, AnotherBuildingNeverOpensTheSky) {
   // A neighbourhood that holds the city: what hides the sky is geometry, in both engines
   const Grid all_near = grid_of(around_the_middle, 7);
-  for (const Engine engine : both_engines) {
+  for (const Engine engine : engines_of(GetParam())) {
     std::vector<float> before(25, 1.0F);
     for (int count = 0; count <= 60; count += 4) {
       const std::vector<float> after =
@@ -123,18 +135,28 @@ TEST_P(SkyEvaluatorOfKind, AnotherBuildingNeverOpensTheSky) {
   }
 }
 
+/// Horizons and rays are told and traced in different ways: a ray that grazes an edge may pass it on either side.
+constexpr float one_ray = 1.5F / 1000.0F;
+
 TEST_P(SkyEvaluatorOfKind, WhereAllIsNearTheEnginesAgree) {
   const PackedScene town(random_boxes(60), grid_of(around_the_middle, 7), GetParam());
-  EXPECT_EQ(town.svf(spread_over({0, 0}), {Engine::rays}), town.svf(spread_over({0, 0}), {Engine::exact}));
+  const std::vector<float> exact = town.svf(spread_over({0, 0}), {Engine::exact, SkyWeight::cosine, 1000});
+  for (const Engine engine : engines_of(GetParam())) {
+    const bool by_horizons = GetParam() == FarMapKind::horizon && (engine == Engine::automatic || engine == Engine::horizon);
+    const double error = by_horizons ? azimuth_error(256) + sampling_error(1000) : one_ray;
+    const std::vector<float> svf = town.svf(spread_over({0, 0}), {engine, SkyWeight::cosine, 1000});
+    for (std::size_t n = 0; n < svf.size(); ++n) EXPECT_NEAR(svf[n], exact[n], error) << "receiver " << n;
+  }
 }
 
 TEST_P(SkyEvaluatorOfKind, OutsideOfTheGridAnswersAreExact) {
   const PackedScene town(random_boxes(60), grid_of(around_the_middle, 1), GetParam());
-  for (const Cell outside : {Cell{4, 0}, {0, -5}, {-4, 4}}) {
-    const std::vector<float> rays = town.svf(spread_over(outside), {Engine::rays});
-    EXPECT_EQ(rays, town.svf(spread_over(outside), {Engine::exact}));
-    EXPECT_LT(*std::min_element(rays.begin(), rays.end()), 1.0F);
-  }
+  for (const Cell outside : {Cell{4, 0}, {0, -5}, {-4, 4}})
+    for (const Engine engine : engines_of(GetParam())) {
+      const std::vector<float> svf = town.svf(spread_over(outside), {engine});
+      EXPECT_EQ(svf, town.svf(spread_over(outside), {Engine::exact}));
+      EXPECT_LT(*std::min_element(svf.begin(), svf.end()), 1.0F);
+    }
   if (GetParam() == FarMapKind::box) {
     EXPECT_NE(town.svf(spread_over({0, 0}), {Engine::rays}), town.svf(spread_over({0, 0}), {Engine::exact}))
         << "the far map's error should show";
@@ -147,7 +169,12 @@ TEST_P(SkyEvaluatorOfKind, ATiltedReceiverSharesAllOfItsRays) {
   for (Receiver& r : wall.receivers) r.normal = {0.0F, 1.0F, 0.0F};
   // Half of a wall's rays point below the horizon: they count, and see no sky
   const auto seen = static_cast<float>(SkyDirections(SkyWeight::cosine, 1000, {}).around({0.0, 1.0, 0.0}).size());
-  for (const Engine engine : both_engines) EXPECT_EQ(field.svf(wall, {engine}), std::vector<float>(25, seen / 1000.0F));
+  for (const Engine engine : {Engine::rays, Engine::exact})
+    EXPECT_EQ(field.svf(wall, {engine}), std::vector<float>(25, seen / 1000.0F));
+  if (GetParam() == FarMapKind::box) return;
+  // Horizons see half of the sky, but for the corners of |cos φ|: the midpoint rule errs there by at most the square of a step
+  constexpr double step = 2.0 * std::numbers::pi / 256;
+  for (const float svf : field.svf(wall, {Engine::automatic})) EXPECT_NEAR(svf, 0.5, step * step);
 }
 
 TEST_P(SkyEvaluatorOfKind, WhatIsFarHidesTheSkyToo) {
@@ -182,6 +209,73 @@ TEST_P(SkyEvaluatorOfKind, AnswersGoWhereTheirIndexSays) {
 TEST_P(SkyEvaluatorOfKind, NoReceiversNoWork) {
   const PackedScene field(open_field().city(), grid_of({0, 0, 1, 1}), GetParam());
   EXPECT_TRUE(field.svf({{0, 0}, {}}, {}).empty());
+}
+
+/// A field with a slab over the west of it, on one post.
+CityModel under_a_slab() {
+  scenes::SceneBuilder builder = open_field();
+  builder.add_box({{-20.0, 8.0}, {-19.0, 9.0}}, 0.0, 6.0);
+  builder.add_polygon({{-30.0, 0.0, 6.0}, {-10.0, 0.0, 6.0}, {-10.0, 20.0, 6.0}, {-30.0, 20.0, 6.0}});
+  // High houses hide the slab from the places behind them
+  builder.add_box({{-9.0, -10.0}, {-5.0, 30.0}}, 0.0, 40.0);
+  return builder.city();
+}
+
+TEST(SkyEvaluatorByHorizons, RaysAnswerWhereSomethingHangsOverTheHorizonAndNowhereElse) {
+  const PackedScene scene(under_a_slab(), grid_of({-3, -3, 4, 4}, 7), FarMapKind::horizon);
+  const auto both = [&](Cell cell) {
+    const SkyEvaluator automatic(scene.package(), {Engine::automatic}), rays(scene.package(), {Engine::rays});
+    std::vector<float> a(25), b(25);
+    automatic.evaluate(spread_over(cell), a);
+    rays.evaluate(spread_over(cell), b);
+    return std::tuple(a == b, automatic.effort().by_rays, rays.effort().by_rays);
+  };
+  EXPECT_EQ(both({-2, 0}), std::tuple(true, 25U, 25U)) << "below the slab";
+  EXPECT_EQ(both({0, 0}), std::tuple(false, 0U, 25U)) << "behind the houses";
+}
+
+TEST(SkyEvaluatorByHorizons, TheEngineHorizonRefusesWhatHangs) {
+  const PackedScene scene(under_a_slab(), grid_of({-3, -3, 4, 4}, 7), FarMapKind::horizon);
+  EXPECT_THROW((void)scene.svf(spread_over({-2, 0}), {Engine::horizon}), PackageUnusable);
+  EXPECT_NO_THROW((void)scene.svf(spread_over({0, 0}), {Engine::horizon})) << "behind the houses nothing of it is seen";
+}
+
+TEST(SkyEvaluatorByHorizons, WithMapsOfTheKindBoxAutomaticIsRays) {
+  const PackedScene town(random_boxes(60), grid_of(around_the_middle), FarMapKind::box);
+  EXPECT_EQ(town.svf(spread_over({0, 0}), {Engine::automatic}), town.svf(spread_over({0, 0}), {Engine::rays}));
+}
+
+TEST(SkyEvaluatorByHorizons, MoreAzimuthsComeNearer) {
+  const PackedScene town(random_boxes(60), grid_of(around_the_middle, 7), FarMapKind::horizon);
+  constexpr std::size_t many = 100000;
+  const std::vector<float> exact = town.svf(spread_over({0, 0}), {Engine::exact, SkyWeight::cosine, many});
+  const auto largest_error = [&](std::size_t azimuths) {
+    SkySettings settings{Engine::horizon};
+    settings.azimuths = azimuths;
+    const std::vector<float> svf = town.svf(spread_over({0, 0}), settings);
+    double largest = 0.0;
+    for (std::size_t n = 0; n < svf.size(); ++n) largest = std::max<double>(largest, std::abs(svf[n] - exact[n]));
+    return largest;
+  };
+  // An error falls with the number of azimuths, at the least: sixteen times as many, a quarter of it leaves room for luck
+  EXPECT_LT(largest_error(1024), largest_error(64) / 4.0 + sampling_error(many));
+  EXPECT_LT(largest_error(4096), largest_error(256) / 4.0 + sampling_error(many));
+}
+
+TEST(SkyEvaluatorByHorizons, ReceiversThatLookManyWaysMayComeInAnyOrder) {
+  const PackedScene scene(under_a_slab(), grid_of({-3, -3, 4, 4}, 7), FarMapKind::horizon);
+  CellReceivers receivers = spread_over({-1, 0});
+  std::mt19937_64 random(20120901);
+  for (Receiver& r : receivers.receivers) {
+    const auto kind = random() % 3;
+    r.normal = kind == 0 ? Point3f{0.0F, 0.0F, 1.0F} : kind == 1 ? Point3f{1.0F, 0.0F, 0.0F} : Point3f{0.0F, -0.6F, 0.8F};
+  }
+  for (const Engine engine : {Engine::automatic, Engine::rays, Engine::exact}) {
+    const std::vector<float> in_order = scene.svf(receivers, {engine});
+    CellReceivers turned = receivers;
+    std::reverse(turned.receivers.begin(), turned.receivers.end());
+    EXPECT_EQ(scene.svf(turned, {engine}), in_order);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(SkyEvaluator, SkyEvaluatorOfKind, testing::Values(FarMapKind::box, FarMapKind::horizon),

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "horizon/azimuth_ring.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "horizon/skyline_edges.hpp"
+
+namespace farlod {
+
+/// The kernel of PacketHorizon: raises `slopes`, a row of receivers for each azimuth of the ring, to what the receivers see of
+/// some edges.
+void raise_horizons(const SkylineEdges& edges, const ReceiverPacket& receivers, const AzimuthRing& ring, float* slopes);
+
+}  // namespace farlod

@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "horizon/packet_horizon.hpp"
+
+#include <algorithm>
+
+#include "farlod/expects.hpp"
+#include "horizon/horizon_drawing.hpp"
+#include "horizon/lanes.hpp"
+
+namespace farlod {
+namespace {
+
+using Lanes = ReceiverPacket::Lanes;
+
+/// Twice ∫ (outward · cos θ + upward · sin θ) cos θ dθ from the slope t ≥ 0 to the zenith.
+FARLOD_LANES Floats cosine_above(const Floats& t, const Floats& outward, const Floats& upward) {
+  constexpr float half_pi = 1.57079632679F;
+  const Floats arc = arc_tangent_of_share(t < 1.0F ? t : 1.0F / greatest(t, all(1.0F)));
+  const Floats zenith_distance = t < 1.0F ? half_pi - arc : arc, cos_square = 1.0F / (1.0F + t * t);
+  return outward * (zenith_distance - t * cos_square) + upward * cos_square;
+}
+
+/// 1 − sin θ of the slope t.
+FARLOD_LANES Floats solid_angle_above(const Floats& t) { return 1.0F - t / root(1.0F + t * t); }
+
+/// Stands for an infinite slope: less than 1e-12 of the sky lies above it, and no power of its inverse gets so small that the
+/// processor takes its slow way.
+constexpr float straight_up = 1e6F;
+
+/// Of a receiver that looks along `outward` and `upward`, the slopes between which the directions lie that it looks into.
+struct LookedAt {
+  Floats lowest, highest;
+};
+FARLOD_LANES LookedAt looked_at(const Floats& outward, const Floats& upward) {
+  const Floats safe = upward == 0.0F ? all(1e-30F) : upward;
+  const Floats border = least(magnitude(outward / safe), all(straight_up));
+  const Floats behind = upward > 0.0F ? border : all(straight_up);
+  return {outward > 0.0F ? all(0.0F) : behind, least(outward, -upward) > 0.0F ? border : all(straight_up)};
+}
+
+struct Normals {
+  Floats x, y, z;
+};
+
+FARLOD_FOR_EACH_PROCESSOR
+void sum_cosine_up(const float* slopes, std::size_t azimuth_count, float* sums) {
+  Floats sum{};
+  for (std::size_t k = 0; k < azimuth_count; ++k) {
+    const Floats t = loaded(slopes + k * lane_count);
+    sum += 1.0F / (1.0F + t * t);
+  }
+  store(sum, sums);
+}
+
+FARLOD_FOR_EACH_PROCESSOR
+void sum_cosine(const float* slopes, const ReceiverPacket& receivers, const AzimuthRing& ring, float* sums) {
+  const Normals n{loaded(receivers.normal_x.data()), loaded(receivers.normal_y.data()), loaded(receivers.normal_z.data())};
+  Floats sum{};
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Floats outward = n.x * ring.cosine()[k] + n.y * ring.sine()[k];
+    const LookedAt between = looked_at(outward, n.z);
+    const Floats t = least(greatest(loaded(slopes + k * lane_count), between.lowest), between.highest);
+    sum += cosine_above(t, outward, n.z) - cosine_above(between.highest, outward, n.z);
+  }
+  store(sum, sums);
+}
+
+FARLOD_FOR_EACH_PROCESSOR
+void sum_solid_angle(const float* slopes, const ReceiverPacket& receivers, const AzimuthRing& ring, float* sums) {
+  const Normals n{loaded(receivers.normal_x.data()), loaded(receivers.normal_y.data()), loaded(receivers.normal_z.data())};
+  Floats sum{};
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const LookedAt between = looked_at(n.x * ring.cosine()[k] + n.y * ring.sine()[k], n.z);
+    const Floats t = least(greatest(loaded(slopes + k * lane_count), between.lowest), between.highest);
+    sum += solid_angle_above(t) - solid_angle_above(between.highest);
+  }
+  store(sum, sums);
+}
+
+FARLOD_FOR_EACH_PROCESSOR
+void raise_between(const PacketHorizon::RowsBetween& rows, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count,
+                   float* slopes) {
+  const Floats shares = loaded(rows.shares.data());
+  for (std::size_t k = 0; k < azimuth_count; ++k) {
+    const std::uint32_t bin = bin_of_azimuth[k];
+    const float here = rows.here[bin], rise = rows.above[bin] - here;
+    const Floats likely = least(greatest(here + shares * rise, all(rows.lower[bin])), all(rows.upper[bin]));
+    float* row = slopes + k * lane_count;
+    store(greatest(loaded(row), likely), row);
+  }
+}
+
+FARLOD_FOR_EACH_PROCESSOR
+void raise_alike(const float* row, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count, float* slopes) {
+  for (std::size_t k = 0; k < azimuth_count; ++k) {
+    float* lanes = slopes + k * lane_count;
+    store(greatest(loaded(lanes), all(row[bin_of_azimuth[k]])), lanes);
+  }
+}
+
+FARLOD_FOR_EACH_PROCESSOR
+void count_rows(const float* rows, const float* slopes, std::size_t azimuth_count, float* counts) {
+  Floats count{};
+  for (std::size_t k = 0; k < azimuth_count; ++k) count += loaded(rows + k * lane_count) < slopes[k] ? all(1.0F) : all(0.0F);
+  store(count, counts);
+}
+
+/// Returns how many azimuths were written.
+FARLOD_FOR_EACH_PROCESSOR
+std::size_t find_rows_between(const float* rows, const float* outline, const float* slopes, std::size_t azimuth_count,
+                              std::uint32_t* azimuths) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < azimuth_count; ++k) {
+    const Floats row = loaded(rows + k * lane_count), top = loaded(outline + k * lane_count);
+    const Floats is_between = row < slopes[k] ? top - slopes[k] : all(-1.0F);
+    azimuths[count] = static_cast<std::uint32_t>(k);
+    count += greatest_lane(is_between) >= 0.0F ? 1U : 0U;
+  }
+  return count;
+}
+
+FARLOD_FOR_EACH_PROCESSOR
+void raise_rows(const float* others, std::size_t azimuth_count, float* rows) {
+  for (std::size_t k = 0; k < azimuth_count * lane_count; k += lane_count)
+    store(greatest(loaded(rows + k), loaded(others + k)), rows + k);
+}
+
+bool look_straight_up(const ReceiverPacket& r) {
+  bool all_do = true;
+  for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
+    all_do = all_do && r.normal_x[l] == 0.0F && r.normal_y[l] == 0.0F && r.normal_z[l] > 0.0F;
+  return all_do;
+}
+
+}  // namespace
+
+void PacketHorizon::clear() { std::fill(slopes_.begin(), slopes_.end(), Row{}); }
+
+void PacketHorizon::raise(std::size_t lane, std::span<const float> row, std::span<const std::uint32_t> bin_of_azimuth) {
+  FARLOD_EXPECTS(bin_of_azimuth.size() == slopes_.size());
+  for (std::size_t k = 0; k < slopes_.size(); ++k) slopes_[k][lane] = std::max(slopes_[k][lane], row[bin_of_azimuth[k]]);
+}
+
+void PacketHorizon::raise_all(std::span<const float> row, std::span<const std::uint32_t> bin_of_azimuth) {
+  FARLOD_EXPECTS(bin_of_azimuth.size() == slopes_.size());
+  raise_alike(row.data(), bin_of_azimuth.data(), slopes_.size(), slopes_.front().data());
+}
+
+void PacketHorizon::raise(const RowsBetween& rows, std::span<const std::uint32_t> bin_of_azimuth) {
+  FARLOD_EXPECTS(bin_of_azimuth.size() == slopes_.size());
+  raise_between(rows, bin_of_azimuth.data(), slopes_.size(), slopes_.front().data());
+}
+
+void PacketHorizon::raise(const SkylineEdges& edges, const ReceiverPacket& receivers) {
+  raise_horizons(edges, receivers, *ring_, slopes_.front().data());
+}
+
+void PacketHorizon::raise(const PacketHorizon& other) {
+  FARLOD_EXPECTS(other.slopes_.size() == slopes_.size());
+  raise_rows(other.slopes_.front().data(), slopes_.size(), slopes_.front().data());
+}
+
+PacketHorizon::Lanes PacketHorizon::count_over(std::span<const float> slopes) const {
+  FARLOD_EXPECTS(slopes.size() == slopes_.size());
+  Lanes counts;
+  count_rows(slopes_.front().data(), slopes.data(), slopes_.size(), counts.data());
+  return counts;
+}
+
+void PacketHorizon::find_between(const PacketHorizon& outline, std::span<const float> slopes,
+                                 std::vector<std::uint32_t>& azimuths) const {
+  FARLOD_EXPECTS(slopes.size() == slopes_.size() && outline.slopes_.size() == slopes_.size());
+  azimuths.resize(slopes_.size() + 1);
+  azimuths.resize(
+      find_rows_between(slopes_.front().data(), outline.slopes_.front().data(), slopes.data(), slopes_.size(), azimuths.data()));
+}
+
+std::uint32_t PacketHorizon::above(const PacketHorizon& other) const {
+  FARLOD_EXPECTS(other.slopes_.size() == slopes_.size());
+  std::uint32_t bits = 0;
+  for (std::size_t k = 0; k < slopes_.size(); ++k)
+    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) bits |= slopes_[k][l] > other.slopes_[k][l] ? 1U << l : 0U;
+  return bits;
+}
+
+PacketHorizon::Lanes PacketHorizon::sky_above(SkyWeight weight, const ReceiverPacket& receivers) const {
+  Lanes sums{};
+  const float* slopes = slopes_.front().data();
+  if (weight == SkyWeight::solid_angle)
+    sum_solid_angle(slopes, receivers, *ring_, sums.data());
+  else if (look_straight_up(receivers))
+    sum_cosine_up(slopes, slopes_.size(), sums.data());
+  else
+    sum_cosine(slopes, receivers, *ring_, sums.data());
+  for (float& s : sums) s = std::clamp(s / static_cast<float>(slopes_.size()), 0.0F, 1.0F);
+  return sums;
+}
+
+}  // namespace farlod

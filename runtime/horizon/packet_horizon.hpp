@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "farlod/sky/sky_partition.hpp"
+#include "horizon/azimuth_ring.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "horizon/skyline_edges.hpp"
+
+namespace farlod {
+
+/// The horizons of a packet of receivers: for each azimuth of a ring the slope (tangent of the elevation, at least 0) below which
+/// no sky is seen. docs/concepts.md, "Above a horizon".
+class PacketHorizon {
+ public:
+  using Lanes = ReceiverPacket::Lanes;
+
+  /// The ring must outlive it. All horizons are level.
+  explicit PacketHorizon(const AzimuthRing& ring) : ring_(&ring), slopes_(ring.size()) {}
+
+  /// Makes all horizons level again.
+  void clear();
+  /// Raises the horizon of one receiver to slopes given for the bins of a far map.
+  void raise(std::size_t lane, std::span<const float> row, std::span<const std::uint32_t> bin_of_azimuth);
+  /// The same for all receivers.
+  void raise_all(std::span<const float> row, std::span<const std::uint32_t> bin_of_azimuth);
+  /// Raises each horizon to slopes between two rows of bins, as much of the way from `here` to `above` as its share says, within
+  /// the bounds.
+  struct RowsBetween {
+    std::span<const float> here, above, lower, upper;
+    Lanes shares;
+  };
+  void raise(const RowsBetween& rows, std::span<const std::uint32_t> bin_of_azimuth);
+  /// Raises each receiver's horizon by what it sees of some edges: fastest if they come from near to far, since those that lie
+  /// below the horizons of all receivers already are passed over.
+  void raise(const SkylineEdges& edges, const ReceiverPacket& receivers);
+  /// Raises each horizon to the other one of its receiver.
+  void raise(const PacketHorizon& other);
+  /// Of directions with these slopes, one at each azimuth, how many pass over each receiver's horizon.
+  [[nodiscard]] Lanes count_over(std::span<const float> slopes) const;
+  /// The azimuths at which somebody's direction passes over this horizon, and not over `outline`.
+  void find_between(const PacketHorizon& outline, std::span<const float> slopes, std::vector<std::uint32_t>& azimuths) const;
+  /// A bit for each receiver whose horizon is higher than the other one of its own, at some azimuth.
+  [[nodiscard]] std::uint32_t above(const PacketHorizon& other) const;
+  /// A bit for each receiver whose horizon lies below a slope at one azimuth.
+  [[nodiscard]] std::uint32_t below(std::size_t azimuth, float slope) const {
+    std::uint32_t bits = 0;
+    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) bits |= slopes_[azimuth][l] < slope ? 1U << l : 0U;
+    return bits;
+  }
+  /// The view factors of the sky above the horizons, for each receiver's normal, in [0, 1].
+  [[nodiscard]] Lanes sky_above(SkyWeight weight, const ReceiverPacket& receivers) const;
+
+ private:
+  struct alignas(64) Row : Lanes {};
+  const AzimuthRing* ring_;
+  std::vector<Row> slopes_;  ///< a row of receivers for each azimuth
+};
+
+}  // namespace farlod

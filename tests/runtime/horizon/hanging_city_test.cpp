@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "horizon/hanging_city.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "farlod/sky/sky_partition.hpp"
+#include "horizon/ray_fan.hpp"
+#include "tests/runtime/horizon/grazing_rays.hpp"
+#include "tests/runtime/horizon/random_places.hpp"
+
+namespace farlod {
+namespace {
+
+using TriangleCorners = HangingCity::TriangleCorners;
+
+/// A receiver this near to the outline of a triangle may count as below it or not.
+constexpr double border_m = 0.003;
+
+/// How far inside of a triangle's outline a place lies, seen from above; negative outside of it.
+double depth_inside(const TriangleCorners& t, const Point3f& p) {
+  double least = 1e9, area = 0.0;
+  for (std::size_t n = 0; n < 3; ++n) {
+    const Point3f &a = t[n], &b = t[(n + 1) % 3];
+    area += double{a.x} * b.y - double{b.x} * a.y;
+  }
+  for (std::size_t n = 0; n < 3; ++n) {
+    const Point3f &a = t[n], &b = t[(n + 1) % 3];
+    const Point2d along{double{b.x} - a.x, double{b.y} - a.y}, to{double{p.x} - a.x, double{p.y} - a.y};
+    const double left = (along.x * to.y - along.y * to.x) / norm(along);
+    least = std::min(least, area > 0.0 ? left : -left);
+  }
+  return least;
+}
+
+std::vector<TriangleCorners> random_triangles(RandomPlaces& random, int count) {
+  std::vector<TriangleCorners> triangles;
+  for (int n = 0; n < count; ++n) {
+    const Point3f a = random.place(30.0, 3.0, 20.0);
+    const auto beside = [&] {
+      return Point3f{a.x + random.between(-8.0, 8.0), a.y + random.between(-8.0, 8.0), a.z + random.between(-2.0, 2.0)};
+    };
+    const Point3f b = beside();
+    triangles.push_back({a, b, beside()});
+  }
+  return triangles;
+}
+
+std::vector<Point3f> random_eyes(RandomPlaces& random) {
+  const Point3f low = random.place(25.0, 0.0, 8.0);
+  std::vector<Point3f> eyes;
+  for (int n = 0; n < 16; ++n)
+    eyes.push_back({low.x + random.between(0.0, 6.0), low.y + random.between(0.0, 6.0), low.z + random.between(0.0, 3.0)});
+  return eyes;
+}
+
+TEST(HangingCity, CoversThoseWhoStandBelow) {
+  RandomPlaces random;
+  int below = 0, beside = 0;
+  for (int n = 0; n < 600; ++n) {
+    const std::vector<TriangleCorners> triangles = random_triangles(random, 4);
+    const std::vector<Point3f> eyes = random_eyes(random);
+    const std::uint32_t bits = HangingCity(triangles).covered(packet_of(eyes));
+    for (std::size_t l = 0; l < eyes.size(); ++l) {
+      bool must = false, may = false;
+      for (const TriangleCorners& t : triangles) {
+        const double depth = depth_inside(t, eyes[l]);
+        const auto [low, high] = std::minmax({t[0].z, t[1].z, t[2].z});
+        must = must || (depth > border_m && low > eyes[l].z);
+        may = may || (depth > -border_m && high > eyes[l].z);
+      }
+      const bool is_covered = ((bits >> l) & 1U) != 0;
+      EXPECT_TRUE(is_covered || !must) << n << ", " << l;
+      EXPECT_TRUE(may || !is_covered) << n << ", " << l;
+      below += must ? 1 : 0;
+      beside += may ? 0 : 1;
+    }
+  }
+  EXPECT_GT(std::min(below, beside), 100) << "too few to tell";
+}
+
+TEST(HangingCity, AVerticalWallCoversNobodyBesideIt) {
+  const std::vector<TriangleCorners> wall{{{{5.0F, 0.0F, 2.0F}, {5.0F, 8.0F, 2.0F}, {5.0F, 8.0F, 9.0F}}}};
+  const std::vector<Point3f> eyes{{4.9F, 4.0F, 1.0F}, {5.1F, 4.0F, 1.0F}};
+  EXPECT_EQ(HangingCity(wall).covered(packet_of(eyes)), 0U);
+}
+
+TEST(HangingCity, NoRayThatMeetsItStartsAboveTheOutline) {
+  RandomPlaces random;
+  const RayFan fan(SkyPartition(SkyWeight::solid_angle, 500).directions());
+  std::size_t hits = 0, free_above = 0;
+  for (int n = 0; n < 60; ++n) {
+    const std::vector<TriangleCorners> triangles = random_triangles(random, 5);
+    const HangingCity hanging(triangles);
+    const std::vector<Point3f> eyes = random_eyes(random);
+    const ReceiverPacket packet = packet_of(eyes);
+    PacketHorizon outlines(fan.ring());
+    hanging.raise(packet, outlines);
+    const std::uint32_t covered = hanging.covered(packet);
+    const Occluder scene = hanging.scene();
+    for (std::size_t l = 0; l < eyes.size(); ++l)
+      for (std::size_t k = 0; k < fan.size(); ++k) {
+        const RayVerdict ray = verdict(scene, eyes[l], fan.direction(k));
+        const bool may_meet = (((~outlines.below(k, fan.slopes()[k]) | covered) >> l) & 1U) != 0;
+        EXPECT_TRUE(ray.is_free || ray.grazes || may_meet) << n << ", receiver " << l << ", ray " << k;
+        hits += ray.is_free ? 0 : 1;
+        free_above += may_meet ? 0 : 1;
+      }
+  }
+  EXPECT_GT(hits, 1000U) << "too little hangs to tell";
+  EXPECT_GT(free_above, 10000U) << "the outlines spare no rays";
+}
+
+TEST(HangingCity, NothingHangsFromNothing) {
+  const HangingCity none(std::span<const TriangleCorners>{});
+  EXPECT_TRUE(none.empty());
+  EXPECT_EQ(none.scene().triangle_count(), 0U);
+  const std::vector<Point3f> eyes{{0.0F, 0.0F, 0.0F}};
+  EXPECT_EQ(none.covered(packet_of(eyes)), 0U);
+}
+
+}  // namespace
+}  // namespace farlod

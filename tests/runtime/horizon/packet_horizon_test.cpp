@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "horizon/packet_horizon.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "farlod/angle.hpp"
+#include "horizon/ray_fan.hpp"
+#include "tests/runtime/horizon/horizon_judge.hpp"
+#include "tests/runtime/horizon/random_places.hpp"
+
+namespace farlod {
+namespace {
+
+std::vector<AzimuthRing> some_rings() {
+  return {AzimuthRing::even(1, {}), AzimuthRing::even(16, {}), AzimuthRing::even(256, GridRotation(Angle::degrees(20.0))),
+          RayFan(SkyPartition(SkyWeight::cosine, 290).directions()).ring(),
+          RayFan(SkyPartition(SkyWeight::solid_angle, 1).directions()).ring()};
+}
+
+Point2d azimuth(const AzimuthRing& ring, std::size_t k) { return {ring.cosine()[k], ring.sine()[k]}; }
+
+float just_above(double slope) { return std::nextafter(static_cast<float>(slope), std::numeric_limits<float>::infinity()); }
+float just_below(double slope) { return std::nextafter(static_cast<float>(slope), 0.0F); }
+
+/// Whether the horizon of one receiver lies where the judge says, at one azimuth.
+testing::AssertionResult lies_in(const PacketHorizon& horizon, std::size_t lane, std::size_t k, const SlopeRange& range) {
+  const auto is_below = [&](float slope) { return ((horizon.below(k, slope) >> lane) & 1U) != 0; };
+  if (is_below(just_above(range.high)) && !is_below(just_below(range.low))) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "lane " << lane << ", azimuth " << k << ": not between " << range.low << " and "
+                                     << range.high;
+}
+
+/// Draws edges for a packet on some rings, and judges every slope. Returns how many rise above the horizontal.
+std::size_t judge(const std::vector<HorizonEdge>& edges, const std::vector<Point3f>& eyes) {
+  std::size_t raised = 0;
+  for (const AzimuthRing& ring : some_rings()) {
+    PacketHorizon horizon(ring);
+    horizon.raise(skyline_of(edges), packet_of(eyes));
+    for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane)
+      for (std::size_t k = 0; k < ring.size(); ++k) {
+        const SlopeRange range = judged_horizon(edges, eyes[std::min(lane, eyes.size() - 1)], azimuth(ring, k));
+        EXPECT_TRUE(lies_in(horizon, lane, k, range));
+        raised += range.low > 0.0 ? 1 : 0;
+      }
+  }
+  return raised;
+}
+
+/// Receivers side by side, as on a raster.
+std::vector<Point3f> eyes_in_a_row(const Point3f& first, std::size_t count) {
+  std::vector<Point3f> eyes;
+  for (std::size_t n = 0; n < count; ++n)
+    eyes.push_back({first.x + static_cast<float>(n % 4), first.y + static_cast<float>(n / 4), first.z});
+  return eyes;
+}
+
+TEST(PacketHorizon, EdgesAnywhere) {
+  RandomPlaces random;
+  std::size_t raised = 0;
+  for (int n = 0; n < 40; ++n) {
+    std::vector<HorizonEdge> edges;
+    for (int e = 0; e < 20; ++e) edges.push_back(random.edge(60.0, -5.0, 40.0));
+    raised += judge(edges, eyes_in_a_row(random.place(30.0, 0.0, 20.0), 16));
+  }
+  EXPECT_GT(raised, 10000U) << "the edges hide too little to tell";
+}
+
+TEST(PacketHorizon, OneEdgeAtATime) {
+  RandomPlaces random;
+  for (int n = 0; n < 300; ++n) {
+    const HorizonEdge edge = random.edge(60.0, -5.0, 40.0);
+    judge({edge}, eyes_in_a_row(random.place(30.0, 0.0, 20.0), 16));
+  }
+}
+
+TEST(PacketHorizon, ReceiversThatSeeAnEdgeInVeryDifferentDirections) {
+  RandomPlaces random;
+  for (int n = 0; n < 100; ++n) {
+    // All around the edge, some of them nearly below it
+    const HorizonEdge edge = random.edge(8.0, 5.0, 40.0);
+    std::vector<Point3f> eyes;
+    for (int e = 0; e < 16; ++e) eyes.push_back(random.place(12.0, 0.0, 20.0));
+    judge({edge}, eyes);
+  }
+}
+
+TEST(PacketHorizon, EdgesAfarAreWhereTheyMoveToEvenly) {
+  RandomPlaces random;
+  std::size_t raised = 0;
+  for (int n = 0; n < 300; ++n) {
+    const Point3f aside = random.direction_at(0.0), along = random.direction_at(0.0);
+    const float distance_m = random.between(60.0, 500.0), half_m = random.between(1.0, 100.0);
+    const Point3f middle{distance_m * aside.x, distance_m * aside.y, 0.0F};
+    const auto end = [&](float s) { return Point3f{middle.x + s * along.x, middle.y + s * along.y, random.between(3.0, 90.0)}; };
+    const Point3f a = end(-half_m);
+    raised += judge({{a, end(half_m)}}, eyes_in_a_row({0.0F, 0.0F, 1.5F}, 16));
+  }
+  EXPECT_GT(raised, 10000U) << "the edges hide too little to tell";
+}
+
+TEST(PacketHorizon, PartialPacketsRepeatTheirLastReceiver) {
+  RandomPlaces random;
+  for (const std::size_t count : {1U, 2U, 5U, 15U}) {
+    std::vector<HorizonEdge> edges;
+    for (int e = 0; e < 10; ++e) edges.push_back(random.edge(60.0, 0.0, 40.0));
+    judge(edges, eyes_in_a_row(random.place(10.0, 0.0, 5.0), count));
+  }
+}
+
+TEST(PacketHorizon, EdgesAcrossTheBeginningOfTheTurn) {
+  RandomPlaces random;
+  for (int n = 0; n < 100; ++n) {
+    const float x = random.between(3.0, 50.0), z = random.between(2.0, 30.0);
+    const float south = random.between(-30.0, -0.1);
+    const HorizonEdge across{{x, south, z}, {x, random.between(0.1, 30.0), z}};
+    // Some eyes see all of it on one side of azimuth 0
+    judge({across}, eyes_in_a_row({0.0F, random.between(-40.0, 40.0), 1.5F}, 16));
+  }
+  // From end to end, on all of the turn but half: beside the eye, whichever way it runs
+  judge({{{0.5F, -1000.0F, 9.0F}, {0.5F, 1000.0F, 9.0F}}}, eyes_in_a_row({0.0F, 0.0F, 1.5F}, 16));
+  judge({{{-0.5F, 1000.0F, 9.0F}, {-0.5F, -1000.0F, 9.0F}}}, eyes_in_a_row({0.0F, 0.0F, 1.5F}, 16));
+}
+
+TEST(PacketHorizon, EdgesSeenEndOn) {
+  RandomPlaces random;
+  for (int n = 0; n < 200; ++n) {
+    const Point3f eye = random.place(20.0, 0.0, 5.0), along = random.direction_at(0.0);
+    const float begin = random.between(0.5, 10.0), length = random.between(1.0, 50.0), aside = random.between(-1e-3, 1e-3);
+    const HorizonEdge edge{{eye.x + begin * along.x, eye.y + begin * along.y, 10.0F},
+                           {eye.x + (begin + length) * along.x - aside * along.y,
+                            eye.y + (begin + length) * along.y + aside * along.x, random.between(5.0, 20.0)}};
+    judge({edge}, eyes_in_a_row(eye, 3));
+  }
+}
+
+TEST(PacketHorizon, EdgesRightBesideAnEye) {
+  RandomPlaces random;
+  for (int n = 0; n < 200; ++n) {
+    const Point3f eye = random.place(20.0, 0.0, 5.0), along = random.direction_at(0.0);
+    const float aside = random.between(-0.02, 0.02), back = random.between(0.01, 20.0), on = random.between(0.01, 20.0);
+    const auto at = [&](float s, float z) {
+      return Point3f{eye.x + s * along.x - aside * along.y, eye.y + s * along.y + aside * along.x, z};
+    };
+    const float back_z = random.between(5.1, 30.0);
+    judge({{at(-back, back_z), at(on, random.between(5.1, 30.0))}}, eyes_in_a_row(eye, 2));
+  }
+}
+
+TEST(PacketHorizon, AnEyeInLineWithAnEdgeSeesNothingOfIt) {
+  const HorizonEdge edge{{3.0F, 4.0F, 10.0F}, {9.0F, 4.0F, 10.0F}};
+  judge({edge}, {{3.0F, 4.0F, 1.5F}, {9.0F, 4.0F, 1.5F}, {2.0F, 4.0F, 1.5F}, {3.0F, 4.0F, 10.0F}});
+}
+
+TEST(PacketHorizon, RightBelowTheTopOfAWallTheHouseIsHiddenAndNotTheStreet) {
+  // Whichever way the edge runs, the house is in the west
+  const EdgeRises house_left{0, EdgeRises::straight_down}, house_right{EdgeRises::straight_down, 0};
+  const Point3f south{10.0F, -5.0F, 6.0F}, north{10.0F, 5.0F, 6.0F};
+  const AzimuthRing ring = AzimuthRing::even(64, {});
+  for (const HorizonEdge& edge : {HorizonEdge{south, north, house_left}, HorizonEdge{north, south, house_right}}) {
+    PacketHorizon horizon(ring);
+    horizon.raise(skyline_of(std::vector{edge}), packet_of(std::vector{Point3f{10.0F, 1.0F, 1.5F}}));
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      // As if the eye stood a millimetre in the street: 4.5 m up, that far away
+      const float steep = 0.99F * 4.5F / 0.001F * -ring.cosine()[k];
+      EXPECT_EQ(horizon.below(k, ring.cosine()[k] < 0.0F ? steep : 1e-6F), ring.cosine()[k] < 0.0F ? 0U : 0xFFFFU) << k;
+    }
+  }
+}
+
+TEST(PacketHorizon, WhatIsNotAboveTheEyeRaisesNothing) {
+  const AzimuthRing ring = AzimuthRing::even(64, {});
+  RandomPlaces random;
+  PacketHorizon horizon(ring);
+  std::vector<HorizonEdge> edges;
+  for (int e = 0; e < 100; ++e) edges.push_back(random.edge(50.0, -40.0, 2.0));
+  horizon.raise(skyline_of(edges), packet_of(eyes_in_a_row({0.0F, 0.0F, 2.0F}, 16)));
+  EXPECT_EQ(horizon.above(PacketHorizon(ring)), 0U);
+}
+
+TEST(PacketHorizon, ReceiversAtManyHeightsSeeWhatIsAboveEach) {
+  RandomPlaces random;
+  for (int n = 0; n < 50; ++n) {
+    std::vector<Point3f> eyes;
+    for (int e = 0; e < 16; ++e) eyes.push_back({random.between(0.0, 3.0), random.between(0.0, 3.0), random.between(0.0, 60.0)});
+    judge({random.edge(40.0, 0.0, 60.0), random.edge(40.0, 0.0, 60.0)}, eyes);
+  }
+}
+
+TEST(PacketHorizon, NeitherTheOrderOfEdgesNorOfTheirEndsMatters) {
+  RandomPlaces random;
+  const AzimuthRing ring = AzimuthRing::even(128, {});
+  std::vector<HorizonEdge> edges;
+  for (int e = 0; e < 30; ++e) edges.push_back(random.edge(60.0, 0.0, 40.0));
+  const ReceiverPacket eyes = packet_of(eyes_in_a_row({0.0F, 0.0F, 1.5F}, 16));
+  PacketHorizon forwards(ring), backwards(ring);
+  forwards.raise(skyline_of(edges), eyes);
+  std::reverse(edges.begin(), edges.end());
+  backwards.raise(skyline_of(edges), eyes);
+  EXPECT_EQ(forwards.above(backwards) | backwards.above(forwards), 0U);
+}
+
+TEST(PacketHorizon, RowsRaiseOneReceiverOrAll) {
+  const AzimuthRing ring = AzimuthRing::even(32, {});
+  const std::vector<float> row{0.5F, 2.0F};
+  std::vector<std::uint32_t> bins(32);
+  for (std::uint32_t k = 0; k < 32; ++k) bins[k] = k / 16;
+  PacketHorizon one(ring), all(ring);
+  one.raise(5, row, bins);
+  all.raise_all(row, bins);
+  EXPECT_EQ(one.above(PacketHorizon(ring)), 1U << 5);
+  EXPECT_EQ(all.above(one), 0xFFFFU & ~(1U << 5));
+  for (std::size_t k = 0; k < 32; ++k) {
+    EXPECT_EQ(all.below(k, row[bins[k]]), 0U);
+    EXPECT_EQ(all.below(k, just_above(row[bins[k]])), 0xFFFFU);
+  }
+  one.clear();
+  EXPECT_EQ(one.above(PacketHorizon(ring)), 0U);
+}
+
+TEST(PacketHorizon, RaisingNeverLowers) {
+  const AzimuthRing ring = AzimuthRing::even(64, {});
+  RandomPlaces random;
+  const ReceiverPacket eyes = packet_of(eyes_in_a_row({0.0F, 0.0F, 1.5F}, 16));
+  PacketHorizon horizon(ring);
+  for (int n = 0; n < 50; ++n) {
+    const PacketHorizon before = horizon;
+    horizon.raise(skyline_of(std::vector{random.edge(60.0, 0.0, 30.0)}), eyes);
+    EXPECT_EQ(before.above(horizon), 0U);
+  }
+  EXPECT_NE(horizon.above(PacketHorizon(ring)), 0U);
+}
+
+}  // namespace
+}  // namespace farlod

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "evaluate/visibility.hpp"
+#include "farlod/sky/sky_partition.hpp"
+#include "horizon/ray_engine.hpp"
+#include "tests/contract/far_horizon_by_hand.hpp"
+
+// A wall to the east is near, standing or hanging; one to the west is far, once named, once bounded only.
+
+namespace farlod {
+namespace {
+
+constexpr float near_x = 25.0F, far_x = -40.0F, south = -50.0F, north = 70.0F, top = 30.0F;
+
+std::array<std::array<Point3f, 3>, 2> wall_at(float x) {
+  const Point3f a{x, south, 0.0F}, b{x, north, 0.0F}, c{x, north, top}, d{x, south, top};
+  return {{{a, b, c}, {a, c, d}}};
+}
+
+Occluder both_walls() {
+  std::vector<Point3f> vertices;
+  std::vector<Triangle> triangles;
+  for (const float x : {near_x, far_x})
+    for (const auto& t : wall_at(x)) {
+      const auto first = static_cast<std::uint32_t>(vertices.size());
+      vertices.insert(vertices.end(), t.begin(), t.end());
+      triangles.push_back({first, first + 1, first + 2});
+    }
+  return {vertices, triangles};
+}
+
+struct Walls {
+  const char* name;
+  bool near_hangs, far_is_named;
+};
+void PrintTo(const Walls& walls, std::ostream* out) { *out << walls.name; }
+
+CellSkyline skyline_of(const Walls& walls) {
+  CellSkyline skyline;
+  const auto near = wall_at(near_x);
+  if (walls.near_hangs)
+    skyline.hanging.assign(near.begin(), near.end());
+  else
+    skyline.standing.add({{near_x, south, top}, {near_x, north, top}});
+  if (walls.far_is_named) skyline.standing.add({{far_x, south, top}, {far_x, north, top}});
+  return skyline;
+}
+
+class TwoWalls : public testing::TestWithParam<Walls> {
+ protected:
+  TwoWalls() {
+    // Not named, the wall may hide all below 45° anywhere, and surely hides nothing
+    std::fill(far_.map().upper.begin(), far_.map().upper.end(), 1.0F);
+    std::fill(far_.map().likely.begin(), far_.map().likely.end(), 0.4F);
+    for (std::size_t n = 0; n < 16; ++n) {
+      receivers_.push_back({n, {1.0F + 1.2F * static_cast<float>(n), 7.0F, 1.5F}});
+      places_.push_back(receivers_.back().p_cell);
+      origins_.x[n] = places_[n].x;
+      origins_.y[n] = places_[n].y;
+      origins_.z[n] = places_[n].z;
+    }
+  }
+  [[nodiscard]] std::vector<std::uint32_t> exact() const { return count_free(city_, places_, directions_); }
+
+  const Occluder city_ = both_walls();
+  const std::vector<Point3d> directions_ = SkyPartition(SkyWeight::cosine, 1000).directions();
+  const RayFan fan_{directions_};
+  const CellSkyline skyline_ = skyline_of(GetParam());
+  const HangingCity hanging_{skyline_.hanging};
+  const Occluder scene_ = hanging_.scene();
+  FarHorizonByHand far_{{}};
+  RayEngine engine_{fan_, far_.map(), skyline_, hanging_, scene_, true};
+  std::vector<Receiver> receivers_;
+  std::vector<Point3f> places_;
+  RayOrigins origins_;
+};
+
+TEST_P(TwoWalls, TheExactCountLiesWithinTheBounds) {
+  const std::vector<FreeRays> free = engine_.count(receivers_);
+  const std::vector<std::uint32_t> truth = exact();
+  std::uint32_t open = 0;
+  for (std::size_t n = 0; n < free.size(); ++n) {
+    EXPECT_LE(free[n].low, free[n].likely);
+    EXPECT_LE(free[n].likely, free[n].high);
+    EXPECT_LE(free[n].low, truth[n]);
+    EXPECT_GE(free[n].high, truth[n]);
+    open += free[n].high - free[n].low;
+  }
+  EXPECT_GT(open, 0U) << "nothing is left open to tell";
+}
+
+TEST_P(TwoWalls, SettlingMakesTheDoubtfulExactAndLeavesTheRest) {
+  const std::vector<FreeRays> before = engine_.count(receivers_);
+  std::vector<FreeRays> after = before;
+  std::uint32_t doubtful = 0;
+  std::uint64_t open = 0;
+  for (std::size_t n = 0; n < before.size(); n += 3) {
+    doubtful |= 1U << n;
+    open += before[n].high - before[n].low;
+  }
+  EXPECT_EQ(engine_.settle(city_, origins_, doubtful, after), open);
+  const std::vector<std::uint32_t> truth = exact();
+  for (std::size_t n = 0; n < after.size(); ++n) {
+    const FreeRays expected = ((doubtful >> n) & 1U) != 0 ? FreeRays{truth[n], truth[n], truth[n]} : before[n];
+    EXPECT_EQ(after[n].low, expected.low) << n;
+    EXPECT_EQ(after[n].likely, expected.likely) << n;
+    EXPECT_EQ(after[n].high, expected.high) << n;
+  }
+}
+
+TEST_P(TwoWalls, WithoutBoundsTheLikelyCountIsTheSame) {
+  RayEngine without(fan_, far_.map(), skyline_, hanging_, scene_, false);
+  const std::vector<FreeRays> bounded = engine_.count(receivers_), plain = without.count(receivers_);
+  for (std::size_t n = 0; n < receivers_.size(); ++n) {
+    EXPECT_EQ(plain[n].likely, bounded[n].likely) << n;
+    EXPECT_EQ(plain[n].low, plain[n].likely) << n;
+    EXPECT_EQ(plain[n].high, plain[n].likely) << n;
+  }
+}
+
+TEST_P(TwoWalls, APacketDoesNotRememberTheOneBefore) {
+  const std::vector<FreeRays> all = engine_.count(receivers_);
+  const std::vector<FreeRays> some = engine_.count(std::span(receivers_).subspan(3, 5));
+  ASSERT_EQ(some.size(), 5U);
+  for (std::size_t n = 0; n < some.size(); ++n) {
+    EXPECT_EQ(some[n].low, all[n + 3].low);
+    EXPECT_EQ(some[n].likely, all[n + 3].likely);
+    EXPECT_EQ(some[n].high, all[n + 3].high);
+  }
+}
+
+TEST_P(TwoWalls, ReceiversAtDifferentHeightsAreJudgedEachAtItsOwn) {
+  for (std::size_t n = 0; n < receivers_.size(); ++n) receivers_[n].p_cell.z = 1.5F + 1.5F * static_cast<float>(n);
+  const std::vector<FreeRays> together = engine_.count(receivers_);
+  for (std::size_t n = 0; n < receivers_.size(); ++n) {
+    const std::vector<FreeRays> alone = engine_.count(std::span(receivers_).subspan(n, 1));
+    EXPECT_EQ(together[n].low, alone[0].low) << n;
+    EXPECT_EQ(together[n].likely, alone[0].likely) << n;
+    EXPECT_EQ(together[n].high, alone[0].high) << n;
+  }
+  EXPECT_LT(together.front().likely, together.back().likely) << "the higher, the more sky";
+}
+
+INSTANTIATE_TEST_SUITE_P(RayEngine, TwoWalls,
+                         testing::Values(Walls{"StandingAndBounded", false, false}, Walls{"StandingAndNamed", false, true},
+                                         Walls{"HangingAndBounded", true, false}, Walls{"HangingAndNamed", true, true}),
+                         [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace farlod

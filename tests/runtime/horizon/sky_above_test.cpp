@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "farlod/angle.hpp"
+#include "horizon/packet_horizon.hpp"
+#include "tests/runtime/horizon/random_places.hpp"
+#include "tests/runtime/horizon/sky_judge.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr SkyWeight both_weights[] = {SkyWeight::cosine, SkyWeight::solid_angle};
+constexpr Point3f up{0.0F, 0.0F, 1.0F}, down{0.0F, 0.0F, -1.0F};
+
+/// Normals that look up, up a little aside, along a roof, along a wall, slightly and steeply downward.
+std::vector<Point3f> some_normals(RandomPlaces& random) {
+  std::vector<Point3f> normals{up, down, {1.0F, 0.0F, 0.0F}, {0.0F, -1.0F, 0.0F}, {-0.6F, 0.0F, 0.8F}, {0.0F, 0.8F, -0.6F}};
+  for (const double z : {0.999, 0.9, 0.5, 0.1, 0.01, 0.0, -0.01, -0.3, -0.9, -0.999}) normals.push_back(random.direction_at(z));
+  return normals;
+}
+
+/// A receiver in each lane, each with a normal and a horizon of its own: level parts, low and high ones, some up to the zenith.
+class RandomHorizons {
+ public:
+  explicit RandomHorizons(const AzimuthRing& ring) : ring_(ring), horizon_(ring) {
+    std::vector<std::uint32_t> bins(ring.size());
+    std::iota(bins.begin(), bins.end(), 0U);
+    for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane) {
+      for (std::size_t k = 0; k < ring.size(); ++k) slopes_[lane].push_back(some_slope());
+      horizon_.raise(lane, slopes_[lane], bins);
+    }
+  }
+  [[nodiscard]] const PacketHorizon& horizon() const { return horizon_; }
+  [[nodiscard]] double judged(SkyWeight weight, std::size_t lane, const Point3f& normal) const {
+    return judged_sky(weight, normal, ring_, [&](std::size_t k) { return double{slopes_[lane][k]}; });
+  }
+
+ private:
+  float some_slope() {
+    const float kind = random_.between(0.0, 1.0);
+    if (kind < 0.15F) return 0.0F;
+    if (kind > 0.97F) return std::numeric_limits<float>::infinity();
+    return std::tan(random_.between(0.0, kind < 0.5F ? 0.2 : 1.55));
+  }
+  const AzimuthRing& ring_;
+  RandomPlaces random_;
+  PacketHorizon horizon_;
+  std::array<std::vector<float>, ReceiverPacket::lanes> slopes_;
+};
+
+ReceiverPacket packet_with(std::span<const Point3f> normals) {
+  ReceiverPacket packet;
+  for (std::size_t n = 0; n < ReceiverPacket::lanes; ++n) packet.add({n, {}, normals[n % normals.size()]});
+  return packet;
+}
+
+TEST(SkyAbove, IsTheIntegralOverRandomHorizons) {
+  RandomPlaces random;
+  for (const std::size_t azimuths : {1U, 8U, 64U, 256U}) {
+    const AzimuthRing ring = AzimuthRing::even(azimuths, GridRotation(Angle::degrees(11.0)));
+    const RandomHorizons random_horizons(ring);
+    const std::vector<Point3f> normals = some_normals(random);
+    for (const SkyWeight weight : both_weights) {
+      const auto sky = random_horizons.horizon().sky_above(weight, packet_with(normals));
+      for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane)
+        EXPECT_NEAR(sky[lane], random_horizons.judged(weight, lane, normals[lane]), sky_rounding(azimuths, normals[lane]))
+            << "lane " << lane << ", normal z " << normals[lane].z;
+    }
+  }
+}
+
+TEST(SkyAbove, WhereAllLookUpAsWellAsWhereOneDoesNot) {
+  const AzimuthRing ring = AzimuthRing::even(64, {});
+  const RandomHorizons random_horizons(ring);
+  std::vector<Point3f> normals(ReceiverPacket::lanes, up);
+  const auto alone = random_horizons.horizon().sky_above(SkyWeight::cosine, packet_with(normals));
+  normals.back() = {0.6F, 0.0F, 0.8F};
+  const auto mixed = random_horizons.horizon().sky_above(SkyWeight::cosine, packet_with(normals));
+  for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane) {
+    EXPECT_NEAR(alone[lane], random_horizons.judged(SkyWeight::cosine, lane, up), sky_rounding(64, up));
+    if (lane + 1 < ReceiverPacket::lanes) {
+      EXPECT_NEAR(mixed[lane], alone[lane], 2.0 * sky_rounding(64, up));
+    }
+  }
+}
+
+TEST(SkyAbove, ALevelHorizonLeavesAllAndAnEndlessOneNothing) {
+  const AzimuthRing ring = AzimuthRing::even(256, {});
+  PacketHorizon horizon(ring);
+  const std::vector<Point3f> ups(ReceiverPacket::lanes, up), downs(ReceiverPacket::lanes, down);
+  for (const SkyWeight weight : both_weights) {
+    for (const float share : horizon.sky_above(weight, packet_with(ups))) EXPECT_EQ(share, 1.0F);
+    for (const float share : horizon.sky_above(weight, packet_with(downs))) EXPECT_EQ(share, 0.0F);
+  }
+  const std::vector<float> endless{std::numeric_limits<float>::infinity()};
+  horizon.raise_all(endless, std::vector<std::uint32_t>(ring.size(), 0));
+  for (const SkyWeight weight : both_weights)
+    for (const float share : horizon.sky_above(weight, packet_with(ups))) EXPECT_EQ(share, 0.0F);
+}
+
+}  // namespace
+}  // namespace farlod
