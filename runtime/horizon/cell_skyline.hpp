@@ -15,8 +15,8 @@
 
 namespace farlod {
 
-/// What receivers of one cell may see of the city, apart from what its far map leaves unnamed. Cell frame.
-///   (1) what stands solidly (SurfaceRecord::stands) is there by its edges, all else by its triangles: it may be seen under
+/// What receivers of one cell may see of the city, apart from what its far map leaves unnamed. Cell frame. What stands solidly
+/// (SurfaceRecord::stands) is there by its edges, all else by its triangles, since it may be seen under.
 struct CellSkyline {
   SkylineEdges standing;
   std::vector<std::array<Point3f, 3>> hanging;

@@ -141,7 +141,7 @@ PacketBounds bounds_of(const ReceiverPacket& r) {
   const auto [south, north] = std::minmax_element(r.y.begin(), r.y.end());
   b.x = 0.5F * (*west + *east);
   b.y = 0.5F * (*south + *north);
-  b.lowest_z = *std::min_element(r.z.begin(), r.z.end());
+  b.lowest_z = r.lowest_z();
   bool alike = r.normal_z[0] >= 0.0F;
   float hindmost = std::numeric_limits<float>::infinity();
   for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) {

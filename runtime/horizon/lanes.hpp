@@ -20,8 +20,8 @@
 namespace farlod {
 
 inline constexpr std::size_t lane_count = 16;
-/// Sixteen numbers at once. A comparison must stand within the choice that it makes (a < b ? x : y): kept in a variable, it would
-/// be taken apart lane by lane.
+/// Sixteen numbers at once. A comparison must stand within the one choice that it makes (a < b ? x : y): g++ 12 takes one apart
+/// lane by lane that is kept in a variable, or joined with another (also by nesting choices with the same last value).
 using Floats = float __attribute__((vector_size(64)));
 using Wholes = std::int32_t __attribute__((vector_size(64)));
 

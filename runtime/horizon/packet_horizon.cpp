@@ -120,12 +120,6 @@ std::size_t find_rows_between(const float* rows, const float* outline, const flo
   return count;
 }
 
-FARLOD_FOR_EACH_PROCESSOR
-void raise_rows(const float* others, std::size_t azimuth_count, float* rows) {
-  for (std::size_t k = 0; k < azimuth_count * lane_count; k += lane_count)
-    store(greatest(loaded(rows + k), loaded(others + k)), rows + k);
-}
-
 bool look_straight_up(const ReceiverPacket& r) {
   bool all_do = true;
   for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
@@ -154,11 +148,6 @@ void PacketHorizon::raise(const RowsBetween& rows, std::span<const std::uint32_t
 
 void PacketHorizon::raise(const SkylineEdges& edges, const ReceiverPacket& receivers) {
   raise_horizons(edges, receivers, *ring_, slopes_.front().data());
-}
-
-void PacketHorizon::raise(const PacketHorizon& other) {
-  FARLOD_EXPECTS(other.slopes_.size() == slopes_.size());
-  raise_rows(other.slopes_.front().data(), slopes_.size(), slopes_.front().data());
 }
 
 PacketHorizon::Lanes PacketHorizon::count_over(std::span<const float> slopes) const {

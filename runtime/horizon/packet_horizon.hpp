@@ -40,8 +40,6 @@ class PacketHorizon {
   /// Raises each receiver's horizon by what it sees of some edges: fastest if they come from near to far, since those that lie
   /// below the horizons of all receivers already are passed over.
   void raise(const SkylineEdges& edges, const ReceiverPacket& receivers);
-  /// Raises each horizon to the other one of its receiver.
-  void raise(const PacketHorizon& other);
   /// Of directions with these slopes, one at each azimuth, how many pass over each receiver's horizon.
   [[nodiscard]] Lanes count_over(std::span<const float> slopes) const;
   /// The azimuths at which somebody's direction passes over this horizon, and not over `outline`.
