@@ -3,6 +3,7 @@
 #include "horizon/azimuth_ring.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -13,9 +14,9 @@
 namespace farlod {
 namespace {
 
-std::int32_t steps_to(Point2d d) {
-  const std::int32_t steps = steps_of(diamond_turns(all(static_cast<float>(d.x)), all(static_cast<float>(d.y))))[0];
-  return steps < one_turn ? steps : 0;
+float turns_to(Point2d d) {
+  const float turns = diamond_turns(all(static_cast<float>(d.x)), all(static_cast<float>(d.y)))[0];
+  return turns < 1.0F ? turns : 0.0F;
 }
 
 }  // namespace
@@ -40,25 +41,28 @@ AzimuthRing AzimuthRing::of(std::span<const Point3d> directions) {
 
 AzimuthRing::AzimuthRing(std::span<const Point2d> directions) : place_(directions.size()) {
   FARLOD_EXPECTS(!directions.empty());
-  std::vector<std::int32_t> unordered;
-  for (const Point2d d : directions) unordered.push_back(steps_to(d));
+  std::vector<float> unordered;
+  for (const Point2d d : directions) unordered.push_back(turns_to(d));
   std::iota(place_.begin(), place_.end(), 0U);
   std::stable_sort(place_.begin(), place_.end(), [&](std::uint32_t a, std::uint32_t b) { return unordered[a] < unordered[b]; });
   for (const std::uint32_t n : place_) {
-    steps_.push_back(unordered[n]);
-    turns_.push_back(static_cast<float>(unordered[n]) / static_cast<float>(one_turn));
+    turns_.push_back(unordered[n]);
     cosine_.push_back(static_cast<float>(directions[n].x));
     sine_.push_back(static_cast<float>(directions[n].y));
   }
-  first_of_slot_ = first_of_parts(slots());
   first_of_sector_ = first_of_parts(sectors);
+  const std::vector<std::uint32_t> one_turn = first_of_parts(std::bit_ceil(4 * size()));
+  for (std::uint32_t turn = 0; turn < 3; ++turn) {
+    if (turn > 0) first_of_slot_.pop_back();
+    for (const std::uint32_t first : one_turn) first_of_slot_.push_back(first + turn * static_cast<std::uint32_t>(size()));
+  }
 }
 
 std::vector<std::uint32_t> AzimuthRing::first_of_parts(std::size_t count) const {
   std::vector<std::uint32_t> result;
   for (std::size_t part = 0; part < count; ++part) {
-    const auto from = static_cast<std::int32_t>((static_cast<std::uint64_t>(part) * one_turn + count - 1) / count);
-    result.push_back(static_cast<std::uint32_t>(std::lower_bound(steps_.begin(), steps_.end(), from) - steps_.begin()));
+    const float from = static_cast<float>(part) / static_cast<float>(count);
+    result.push_back(static_cast<std::uint32_t>(std::lower_bound(turns_.begin(), turns_.end(), from) - turns_.begin()));
   }
   result.push_back(static_cast<std::uint32_t>(size()));
   return result;

@@ -21,31 +21,31 @@ class AzimuthRing {
   /// it gets any.
   [[nodiscard]] static AzimuthRing of(std::span<const Point3d> directions);
 
-  [[nodiscard]] std::size_t size() const { return steps_.size(); }
-  /// Each azimuth in steps of `diamond_turns` (lanes.hpp), from 0 to less than a turn, with its cosine and sine.
-  [[nodiscard]] const std::int32_t* steps() const { return steps_.data(); }
-  [[nodiscard]] const float* turns() const { return turns_.data(); }  ///< the same in turns
+  [[nodiscard]] std::size_t size() const { return turns_.size(); }
   [[nodiscard]] const float* cosine() const { return cosine_.data(); }
   [[nodiscard]] const float* sine() const { return sine_.data(); }
   /// For each azimuth, which of those that were given it is.
   [[nodiscard]] std::span<const std::uint32_t> place() const { return place_; }
 
-  /// Sixty-four equal parts of the turn, and for each the first azimuth at or beyond its beginning; one more for the end.
+  /// Sixty-four equal parts of the turn, as `diamond_turns` (lanes.hpp) count, and for each the first azimuth at or beyond its
+  /// beginning; one more for the end.
   static constexpr std::size_t sectors = 64;
   [[nodiscard]] const std::uint32_t* first_of_sector() const { return first_of_sector_.data(); }
 
-  /// An even division of the turn, and for each of its `slots()` parts the first azimuth at or beyond its beginning.
+  /// Three turns in a row, each in `slots()` equal parts, finer than the azimuths lie. For each part the first azimuth at or
+  /// beyond its beginning, counted on from turn to turn; one more for the end.
   [[nodiscard]] const std::uint32_t* first_of_slot() const { return first_of_slot_.data(); }
-  [[nodiscard]] std::size_t slots() const { return size(); }
+  [[nodiscard]] std::size_t slots() const { return first_of_slot_.size() / 3; }
 
  private:
   /// Of unit vectors; order does not matter.
   explicit AzimuthRing(std::span<const Point2d> directions);
 
-  std::vector<std::int32_t> steps_;
-  std::vector<float> turns_, cosine_, sine_;
+  std::vector<float> turns_;  ///< diamond_turns, less than 1
+  std::vector<float> cosine_, sine_;
   std::vector<std::uint32_t> place_, first_of_slot_, first_of_sector_;
 
+  /// Of so many parts, a power of two.
   [[nodiscard]] std::vector<std::uint32_t> first_of_parts(std::size_t count) const;
 };
 

@@ -2,99 +2,92 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
+#include <limits>
 
-#include "horizon/azimuth_ring.hpp"
 #include "horizon/lanes.hpp"
 #include "horizon/skyline_edges.hpp"
 
-/// Which edges of a list some receiver of a packet can see, told for all receivers at once. Proof in docs/concepts.md, "Edges
-/// that a packet passes over".
+/// From where the receivers of a packet can see edges, sixteen edges at once. Proof in docs/concepts.md, "Edges that a packet
+/// passes over".
 namespace farlod {
 
-/// What the receivers of a packet have in common: a circle around them, how low the lowest is, and a plane behind which none of
-/// them looks: normal · p ≤ depth.
+/// What the receivers of a packet have in common: an upright box around them, given by the middle of its plan, half its sides and
+/// its floor; and a plane behind which none of them looks: normal · p ≤ depth.
 struct PacketBounds {
-  float x = 0.0F, y = 0.0F, radius = 0.0F, lowest_z = 0.0F;
+  float x = 0.0F, y = 0.0F, half_x = 0.0F, half_y = 0.0F, lowest_z = 0.0F;
   float normal_x = 0.0F, normal_y = 0.0F, normal_z = 0.0F, depth = 0.0F;
 };
 
-/// In each sector of the turn, the lowest slope of any receiver's horizon.
-using SectorFloors = std::array<float, AzimuthRing::sectors>;
-
-/// Of some edges, from where receivers may see them: the sectors from first to last, counted on over the end of the turn, and how
-/// steep they can be at the most: 0 for those that nobody sees, `anything` for those that are too near to tell.
+/// Of some edges: how steep any receiver can see them, at the most: less than 0 for those that nobody sees, `anything` for those
+/// that are too near to tell. And between which azimuths, as diamond_turns from 0 to 3, counted on from turn to turn; of edges
+/// that are too near, they say nothing.
 struct EdgeReach {
-  static constexpr float anything = 1e30F;
-  Floats steepest;
-  Wholes first, last;
+  static constexpr float anything = std::numeric_limits<float>::infinity();
+  Floats steepest, from, to;
 };
 
 /// Bounds give way by this share, and azimuths by this many turns: many times the rounding of floats.
 inline constexpr float reach_give = 1e-4F;
-/// A packet this near to an edge, in radii, may have it anywhere around.
-inline constexpr float least_radii = 1.25F;
-/// An eye that moves by r turns a point at the distance d ≥ 1.25 r by at most arcsin(r/d) ≤ 1.16 r/d; a radian is at most a
-/// quarter of diamond_turns.
-inline constexpr float most_turned = 0.29F;
+/// An edge that comes this near to the box, or into it, may be seen anywhere around: many times the rounding of floats, too.
+inline constexpr float least_clear_m = 0.01F;
 
 FARLOD_LANES Floats within_half_a_turn(const Floats& turns) {
   return turns > 0.5F ? turns - 1.0F : turns < -0.5F ? turns + 1.0F : turns;
 }
 
-FARLOD_LANES EdgeReach reach_of(const SkylineEdges::Batch& edges, const PacketBounds& eye) {
+/// The outermost azimuths, as diamond_turns, at which a rectangle around the origin sees points outside it: those of two corners.
+/// If the point lies beyond both sides of a corner, the corners to the left and right of that one; else the two of the side
+/// that it lies in front of.
+struct Outermost {
+  Floats from, to;
+};
+FARLOD_LANES Outermost outermost(const Floats& x, const Floats& y, float half_x, float half_y) {
+  const Floats x_towards_x = x < 0.0F ? all(-half_x) : all(half_x), x_towards_y = y < 0.0F ? all(-half_x) : all(half_x);
+  const Floats y_towards_x = x < 0.0F ? all(-half_y) : all(half_y), y_towards_y = y < 0.0F ? all(-half_y) : all(half_y);
+  const Floats beyond_x = magnitude(x) - half_x, beyond_y = magnitude(y) - half_y;
+  const Floats from_x = beyond_y > 0.0F ? -x_towards_y : x_towards_x, from_y = beyond_x > 0.0F ? y_towards_x : y_towards_y;
+  const Floats to_x = beyond_y > 0.0F ? x_towards_y : x_towards_x, to_y = beyond_x > 0.0F ? -y_towards_x : y_towards_y;
+  return {diamond_turns(x - from_x, y - from_y), diamond_turns(x - to_x, y - to_y)};
+}
+
+/// Edges as the middle of the box sees them in the plan.
+struct EdgesFromMiddle {
+  Floats px, py, qx, qy;
+};
+
+/// High over the box's floor, how steep they are at the most.
+FARLOD_LANES Floats steepest_slope(const EdgesFromMiddle& e, const Floats& high, const PacketBounds& box) {
+  const Floats along_x = e.qx - e.px, along_y = e.qy - e.py, along_square = along_x * along_x + along_y * along_y;
+  const Floats share = -(e.px * along_x + e.py * along_y) / (along_square > 0.0F ? along_square : all(1.0F));
+  const Floats s = least(greatest(share, all(0.0F)), all(1.0F));
+  const Floats nearest_x = e.px + s * along_x, nearest_y = e.py + s * along_y;
+  const Floats square = nearest_x * nearest_x + nearest_y * nearest_y, distance = root(square);
+  // Both times the distance: what lies between box and edge on the shortest way, and the least that is enough
+  const Floats clear = square - magnitude(nearest_x) * box.half_x - magnitude(nearest_y) * box.half_y;
+  const Floats enough = least_clear_m * distance;
+  const Floats bound = high * distance / greatest(clear, all(least_clear_m * least_clear_m)) * (1.0F + reach_give) + reach_give;
+  return clear > enough ? bound : all(EdgeReach::anything);
+}
+
+FARLOD_LANES EdgeReach reach_of(const SkylineEdges::Batch& edges, const PacketBounds& box) {
   const Floats ax = loaded(edges.ax.data()), ay = loaded(edges.ay.data()), az = loaded(edges.az.data());
   const Floats bx = loaded(edges.bx.data()), by = loaded(edges.by.data()), bz = loaded(edges.bz.data());
-  const Floats px = ax - eye.x, py = ay - eye.y, qx = bx - eye.x, qy = by - eye.y;
-  const Floats along_x = qx - px, along_y = qy - py, along_square = along_x * along_x + along_y * along_y;
-  const Floats share = -(px * along_x + py * along_y) / (along_square > 0.0F ? along_square : all(1.0F));
-  const Floats s = least(greatest(share, all(0.0F)), all(1.0F));
-  const Floats near_x = px + s * along_x, near_y = py + s * along_y;
-  const Floats distance = root(near_x * near_x + near_y * near_y);
-  const float clear_m = least_radii * eye.radius;
-  const Floats clear = distance - eye.radius, high = greatest(az, bz) - eye.lowest_z;
-  const Floats bound = distance > clear_m ? high / (clear > 0.0F ? clear : all(1.0F)) * (1.0F + reach_give) + reach_give
-                                          : all(EdgeReach::anything);
-  const Floats front = greatest(eye.normal_x * ax + eye.normal_y * ay + eye.normal_z * az,
-                                eye.normal_x * bx + eye.normal_y * by + eye.normal_z * bz) -
-                       eye.depth;
+  const EdgesFromMiddle e{ax - box.x, ay - box.y, bx - box.x, by - box.y};
+  const Floats high = greatest(az, bz) - box.lowest_z;
+  const Floats front = greatest(box.normal_x * ax + box.normal_y * ay + box.normal_z * az,
+                                box.normal_x * bx + box.normal_y * by + box.normal_z * bz) -
+                       box.depth;
   EdgeReach reach;
-  reach.steepest = least(high, front) > 0.0F ? bound : all(0.0F);
-  const Floats p_turns = diamond_turns(px, py), width = within_half_a_turn(diamond_turns(qx, qy) - p_turns);
-  const Floats from = width >= 0.0F ? p_turns : p_turns + width, to = width >= 0.0F ? p_turns + width : p_turns;
-  const Floats turned = most_turned * eye.radius / (distance > 0.0F ? distance : all(1.0F)) + reach_give;
-  constexpr auto sectors = static_cast<float>(AzimuthRing::sectors);
-  // A turn more, so that the whole part rounds down
-  reach.first = truncated((from - turned + 1.0F) * sectors);
-  reach.last = distance > clear_m ? truncated((to + turned + 1.0F) * sectors) : reach.first;
+  const Floats bound = steepest_slope(e, high, box);
+  reach.steepest = least(high, front) > 0.0F ? bound : all(-1.0F);
+  const Outermost a = outermost(e.px, e.py, box.half_x, box.half_y), b = outermost(e.qx, e.qy, box.half_x, box.half_y);
+  // All lie within half a turn of each other, since box and edge can be parted by a line
+  const Floats a_to = a.from + within_half_a_turn(a.to - a.from);
+  const Floats b_from = a.from + within_half_a_turn(b.from - a.from), b_to = a.from + within_half_a_turn(b.to - a.from);
+  // A turn more, so that whole parts round down
+  reach.from = least(a.from, b_from) + (1.0F - reach_give);
+  reach.to = greatest(a_to, b_to) + (1.0F + reach_give);
   return reach;
-}
-
-/// The lowest floor of the sectors from first to last. Most edges lie within three of them: no branch decides how many.
-FARLOD_LANES float lowest_floor(const SectorFloors& floors, std::int32_t first, std::int32_t last) {
-  const auto floor_at = [&floors](std::int32_t s) __attribute__((always_inline)) {
-    return floors[static_cast<std::size_t>(s) % AzimuthRing::sectors];
-  };
-  const float at_ends = floor_at(first) < floor_at(last) ? floor_at(first) : floor_at(last);
-  const std::int32_t second = first + 1 < last ? first + 1 : last;
-  float lowest = floor_at(second) < at_ends ? floor_at(second) : at_ends;
-  for (std::int32_t s = first + 2; s < last; ++s) lowest = floor_at(s) < lowest ? floor_at(s) : lowest;
-  return lowest;
-}
-
-/// Writes the lanes of the edges that may rise over somebody's horizon, and returns how many there are.
-FARLOD_LANES std::size_t find_risers(const EdgeReach& reach, const SectorFloors& floors,
-                                     std::array<std::uint8_t, lane_count>& risers) {
-  std::size_t count = 0;
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    const float floor = lowest_floor(floors, reach.first[l], reach.last[l]), steepest = reach.steepest[l];
-    risers[count] = static_cast<std::uint8_t>(l);
-    count += static_cast<std::size_t>((steepest > floor) & (steepest > 0.0F)) |
-             static_cast<std::size_t>(steepest == EdgeReach::anything);
-  }
-  return count;
 }
 
 }  // namespace farlod

@@ -81,8 +81,4 @@ FARLOD_LANES Floats diamond_turns(const Floats& x, const Floats& y) {
   return x < 0.0F ? 0.5F - across : right;
 }
 
-/// Turns as whole steps, as fine as floats.
-inline constexpr std::int32_t one_turn = 16777216;
-FARLOD_LANES Wholes steps_of(const Floats& turns) { return truncated(turns * static_cast<float>(one_turn)); }
-
 }  // namespace farlod

@@ -20,9 +20,9 @@ namespace farlod {
 /// Rounding of a float, relative.
 inline constexpr double float_rounding = 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
 
-/// Where an edge ends, in radians: some ten roundings of numbers of up to two turns (the azimuth of the end, its way to those of
-/// the other end and of the other receivers, the azimuth that is asked). A turn is 8 rad where diamond angles change slowest.
-inline constexpr double azimuth_rounding_rad = 10.0 * float_rounding * 8.0;
+/// Where an edge ends, in radians: one rounding of its place, one of the azimuth that is asked, and those of two products and
+/// their difference, each at most √2 of a rounding off.
+inline constexpr double azimuth_rounding_rad = 5.0 * 1.4143 * float_rounding;
 
 /// An edge that is seen end-on within this (sine of the angle) may be left out; one that is overhead may hide either side.
 inline constexpr double end_on_sine = 1.1e-5;
@@ -66,9 +66,9 @@ class JudgedEdge {
   [[nodiscard]] double sense() const { return turn() < 0.0 ? -1.0 : 1.0; }
   static double across(const Point3d& p, double z, Point2d u) { return z * (p.x * u.y - p.y * u.x); }
 
-  /// The plane's normal has two products in each coordinate, the turn as well: with the differences from the eye that are four
-  /// roundings each, of the sum of what is added, not of what remains. A division, a product, and the sum along the azimuth,
-  /// whose cosine and sine are given: another eight.
+  /// Two products for each end, and for the turn: with the differences from the eye, and the azimuth, that are five roundings each,
+  /// of the sum of what is added, not of what remains. A division, a product by it and by the height, which is a difference,
+  /// and the sum of both ends: another five, and as much again to spare.
   [[nodiscard]] double slope_error(double slope) const {
     const double added = std::abs(a_.y * b_.z) + std::abs(a_.z * b_.y) + std::abs(a_.z * b_.x) + std::abs(a_.x * b_.z);
     return 16.0 * float_rounding * (added + std::abs(slope) * lengths()) / std::abs(turn());

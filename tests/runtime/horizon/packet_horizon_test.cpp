@@ -136,6 +136,23 @@ TEST(PacketHorizon, EdgesSeenEndOn) {
   }
 }
 
+TEST(PacketHorizon, LookingAlongAnEdgeNothingIsSteeperThanItsNearEndCanBe) {
+  RandomPlaces random;
+  std::size_t raised = 0;
+  for (int n = 0; n < 3000; ++n) {
+    // In line, but for the rounding of the ends: the plane through eye and edge may be any
+    const Point3f eye = random.place(50.0, 0.0, 5.0), along = random.direction_at(0.0);
+    const float near_m = random.between(1.0, 50.0), far_m = near_m + random.between(0.1, 50.0), rise_m = random.between(1.0, 20.0);
+    const auto end = [&](float s) { return Point3f{eye.x + s * along.x, eye.y + s * along.y, eye.z + rise_m}; };
+    const AzimuthRing ring = AzimuthRing::of(std::vector{Point3d{along.x, along.y, 0.0}});
+    PacketHorizon horizon(ring);
+    horizon.raise(skyline_of(std::vector<HorizonEdge>{{end(near_m), end(far_m)}}), packet_of(std::vector{eye}));
+    EXPECT_NE(horizon.below(0, 1.01F * rise_m / near_m), 0U) << n;
+    raised += horizon.below(0, 1e-6F) == 0 ? 1 : 0;
+  }
+  EXPECT_GT(raised, 100U) << "no eye hits the edge";
+}
+
 TEST(PacketHorizon, EdgesRightBesideAnEye) {
   RandomPlaces random;
   for (int n = 0; n < 200; ++n) {

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "horizon/edge_reach.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "farlod/horizon/azimuth.hpp"
+#include "farlod/horizon/edge_view.hpp"
+#include "tests/runtime/horizon/random_places.hpp"
+
+namespace farlod {
+namespace {
+
+/// Azimuths and bounds give way by this; their rounding is a thousandth of it.
+constexpr double give = reach_give;
+
+struct Scene {
+  PacketBounds box;
+  HorizonEdge edge;
+};
+
+/// Boxes of many shapes, down to a point, and edges near and far, across their axes and beside them.
+Scene random_scene(RandomPlaces& random) {
+  Scene s;
+  s.box.x = random.between(-5.0, 5.0);
+  s.box.y = random.between(-5.0, 5.0);
+  s.box.half_x = std::max(0.0F, random.between(-2.0, 8.0));
+  s.box.half_y = std::max(0.0F, random.between(-2.0, 8.0));
+  s.box.lowest_z = random.between(-2.0, 2.0);
+  s.box.depth = -1.0F;
+  s.edge = random.edge(random.between(5.0, 100.0), -5.0, 40.0);
+  return s;
+}
+
+EdgeReach reach(const Scene& s) { return reach_of(skyline_of(std::vector{s.edge}).batches()[0], s.box); }
+
+Point3d place(const Point3f& p) { return {p.x, p.y, p.z}; }
+
+/// The corners first, then places within the box.
+std::vector<Point3d> eyes_in(const PacketBounds& box, RandomPlaces& random) {
+  std::vector<Point3d> eyes;
+  const auto add = [&](double x, double y) { eyes.push_back({box.x + x * box.half_x, box.y + y * box.half_y, box.lowest_z}); };
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0}) add(x, y);
+  for (int n = 0; n < 20; ++n) {
+    const float x = random.between(-1.0, 1.0);
+    add(x, random.between(-1.0, 1.0));
+  }
+  return eyes;
+}
+
+/// The diamond angle of a direction in turns, on the turn that is nearest to `about`.
+double turns_about(Point2d direction, double about) {
+  const double turns = 0.25 * diamond_angle(direction);
+  return turns + std::round(about - turns);
+}
+
+struct Seen {
+  double steepest = 0.0, from = 3.0, to = 0.0;
+  void add(const Point3d& eye, const Point3d& p, double about) {
+    const Point2d way = horizontal(p) - horizontal(eye);
+    steepest = std::max(steepest, (p.z - eye.z) / norm(way));
+    from = std::min(from, turns_about(way, about));
+    to = std::max(to, turns_about(way, about));
+  }
+};
+
+/// What some receivers see of an edge that is clear of them, at its ends and between.
+Seen seen(const Scene& s, double about, RandomPlaces& random) {
+  const Point3d a = place(s.edge.a), b = place(s.edge.b);
+  Seen result;
+  for (const Point3d& eye : eyes_in(s.box, random)) {
+    result.add(eye, a, about);
+    result.add(eye, b, about);
+    for (int n = 0; n < 20; ++n) result.add(eye, a + double{random.between(0.0, 1.0)} * (b - a), about);
+  }
+  return result;
+}
+
+/// Of the circle around the box, for which alone no edge is steeper.
+double slope_from_circle(const Scene& s) {
+  const Point2d middle{s.box.x, s.box.y};
+  const double distance = distance_to_segment(horizontal(place(s.edge.a)) - middle, horizontal(place(s.edge.b)) - middle);
+  const double radius = std::hypot(s.box.half_x, s.box.half_y);
+  const double high = std::max(s.edge.a.z, s.edge.b.z) - double{s.box.lowest_z};
+  return distance > radius ? high / (distance - radius) : std::numeric_limits<double>::infinity();
+}
+
+TEST(EdgeReach, HoldsWhatAnyReceiverSeesAndNoMoreAzimuthsThanThat) {
+  RandomPlaces random;
+  int told = 0;
+  for (int n = 0; n < 5000; ++n) {
+    const Scene s = random_scene(random);
+    const EdgeReach r = reach(s);
+    const bool is_above = std::max(s.edge.a.z, s.edge.b.z) > s.box.lowest_z;
+    EXPECT_EQ(r.steepest[0] > 0.0F, is_above);
+    if (r.steepest[0] < 0.0F || r.steepest[0] == EdgeReach::anything) continue;
+    ++told;
+    const double from = r.from[0], to = r.to[0];
+    const Seen what = seen(s, 0.5 * (from + to), random);
+    EXPECT_LE(what.steepest, r.steepest[0]);
+    EXPECT_LE(r.steepest[0], slope_from_circle(s) * (1.0 + 2.0 * give) + 2.0 * give);
+    EXPECT_GE(what.from, from);
+    EXPECT_LE(what.to, to);
+    EXPECT_NEAR(what.from, from, 2.0 * give);
+    EXPECT_NEAR(what.to, to, 2.0 * give);
+    EXPECT_GE(from, 0.0);
+    EXPECT_LT(to, 3.0);
+  }
+  EXPECT_GT(told, 1000);
+}
+
+TEST(EdgeReach, OfAnEdgeThatCrossesTheBoxItCannotTell) {
+  Scene s;
+  s.box = {.x = 10.0F, .y = 20.0F, .half_x = 3.0F, .half_y = 1.0F, .lowest_z = 1.5F, .depth = -1.0F};
+  const auto steepest = [&s](const Point3f& a, const Point3f& b) {
+    s.edge = {a, b};
+    return reach(s).steepest[0];
+  };
+  EXPECT_EQ(steepest({6.0F, 20.5F, 9.0F}, {14.0F, 20.5F, 9.0F}), EdgeReach::anything);
+  EXPECT_EQ(steepest({10.0F, 20.0F, 9.0F}, {50.0F, 20.0F, 9.0F}), EdgeReach::anything);
+  EXPECT_EQ(steepest({6.0F, 21.0F, 9.0F}, {14.0F, 21.0F, 9.0F}), EdgeReach::anything);
+  // Past the short sides, and beside the long ones, by two metres
+  constexpr double slope = 7.5 / 2.0, off = 2.0 * give * (slope + 1.0);
+  EXPECT_NEAR(steepest({15.0F, 0.0F, 9.0F}, {15.0F, 40.0F, 9.0F}), slope, off);
+  EXPECT_NEAR(steepest({0.0F, 23.0F, 9.0F}, {40.0F, 23.0F, 9.0F}), slope, off);
+}
+
+TEST(EdgeReach, WhatLiesBehindAllIsSeenByNobody) {
+  Scene s;
+  s.box = {.half_x = 1.0F, .half_y = 1.0F, .normal_x = 1.0F, .depth = -1.0F};
+  s.edge = {{-2.0F, -5.0F, 9.0F}, {-2.0F, 5.0F, 9.0F}};
+  EXPECT_LT(reach(s).steepest[0], 0.0F);
+  s.edge.b.x = -0.5F;
+  EXPECT_GT(reach(s).steepest[0], 0.0F);
+}
+
+TEST(EdgeReach, LanesWithoutAnEdgeAreSeenByNobodyAboveTheirHeight) {
+  const Scene s{{.x = 50.0F, .half_x = 1.0F, .half_y = 1.0F, .depth = -1.0F}, {{1.0F, 2.0F, 3.0F}, {3.0F, 2.0F, 3.0F}}};
+  EXPECT_LT(reach(s).steepest[1], 0.0F);
+}
+
+}  // namespace
+}  // namespace farlod
