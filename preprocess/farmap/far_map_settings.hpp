@@ -25,6 +25,9 @@ struct HorizonMapSettings {
   std::uint32_t layers = 8;            ///< 2 to package::most_layers
   /// An obstacle is named where it may rise higher than this (sine of the elevation) over what surely or likely hides the sky.
   double tolerance = 0.05;
+  /// An obstacle that rises less than this share of the tolerance over what all viewpoints see is not looked at for what is
+  /// likely.
+  double faintest = 0.6;
 };
 
 struct FarMapSettings {

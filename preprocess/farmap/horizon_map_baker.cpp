@@ -104,16 +104,17 @@ BakedHorizon HorizonMapBaker::bake_cell(Cell cell) const {
       grid_.neighborhood_of(cell),
       {{0.0, 0.0}, {grid_.cell_edge_m, grid_.cell_edge_m}},
       {grid_.cell_edge_m, settings_.squares_per_edge, levels_of(tiles_.tile(cell), tiles_.surfaces, settings_.layers)}};
-  const Surroundings around = LookAround(city_, place, borders_, settings_.tolerance).run();
+  const Surroundings around = LookAround(city_, place, borders_, settings_).run();
   BakedHorizon map = empty_map(place.patches, around.hidden);
   ObstacleJudge judge(city_, place, around.views, borders_, settings_.tolerance, map);
   ViewpointHorizons unnamed(grid_.cell_edge_m, place.patches, borders_);
-  for (const std::uint32_t number : around.candidates) {
+  const auto leave_unnamed = [&](std::uint32_t number, std::uint32_t levels) {
     const Obstacle& obstacle = city_.obstacles()[number];
-    const std::uint32_t named_layers = judge.judge(number);
-    const Point3d corner{place.corner.x, place.corner.y, 0.0};
-    if (obstacle.is_edge) unnamed.add(obstacle.corners[0] - corner, obstacle.corners[1] - corner, ~named_layers);
-  }
+    const auto p = obstacle.corners_from(place.corner);
+    if (obstacle.is_edge) unnamed.add(p[0], p[1], levels);
+  };
+  for (const std::uint32_t number : around.candidates) leave_unnamed(number, ~judge.judge(number));
+  for (const std::uint32_t number : around.faint) leave_unnamed(number, ViewpointHorizons::all_levels);
   // A thing may be at least as high as another is at the most: both are rounded
   for (std::size_t n = 0; n < map.lower.size(); ++n) map.lower[n] = std::min(map.lower[n], map.upper[n]);
   estimate(unnamed, map);

@@ -31,18 +31,21 @@ struct Waiting {
 
 }  // namespace
 
-LookAround::LookAround(const CityHorizon& city, const CellPlace& place, const BinBorders& borders, double tolerance)
+LookAround::LookAround(const CityHorizon& city, const CellPlace& place, const BinBorders& borders,
+                       const HorizonMapSettings& settings)
     : city_(city),
       place_(place),
       borders_(borders),
       bins_(borders.bins()),
-      tolerance_(tolerance),
-      found_{{}, ViewpointHorizons(place.square.high.x, place.patches, borders), {}},
+      tolerance_(settings.tolerance),
+      faintest_(settings.faintest * settings.tolerance),
+      found_{{}, {}, ViewpointHorizons(place.square.high.x, place.patches, borders), {}},
       settled_(place.patches.layers(), 0.0),
       over_cell_(borders_) {
   found_.hidden.assign(std::size_t{place.patches.layers()} * bins_.count, 0.0F);
   floors_.assign(found_.hidden.size(), -1.0F);
-  limits_.resize(found_.hidden.size());
+  faint_over_.resize(found_.hidden.size());
+  notable_over_.resize(found_.hidden.size());
   update_limits({0, bins_.count});
 }
 
@@ -92,9 +95,9 @@ bool LookAround::hide_node(const CityHorizon::Node& node, double distance_m) {
   const BinRange range = bins_of(outline_of(node));
   bool hidden = true;
   for (std::size_t l = 0; l < levels_m.size() && hidden && node.z_high_m > levels_m[l]; ++l) {
-    const double slope = slope_at_most(node.z_high_m - levels_m[l], distance_m), *limits = &limits_[l * bins_.count];
+    const double slope = slope_at_most(node.z_high_m - levels_m[l], distance_m), *faint_over = &faint_over_[l * bins_.count];
     for_each_bin(bins_, range.first, range.count,
-                 [&](std::size_t, std::uint32_t bin) { hidden = hidden && slope <= limits[bin]; });
+                 [&](std::size_t, std::uint32_t bin) { hidden = hidden && slope <= faint_over[bin]; });
   }
   for (std::size_t l = 0; l < levels_m.size() && hidden && node.z_high_m > levels_m[l]; ++l) {
     const auto slope = static_cast<float>(slope_at_most(node.z_high_m - levels_m[l], distance_m));
@@ -110,10 +113,12 @@ void LookAround::add_leaf(const CityHorizon::Node& leaf, double distance_m) {
   bool drawn = false;
   for (std::uint32_t n = leaf.first_obstacle; n < leaf.first_obstacle + leaf.obstacle_count; ++n) {
     const Obstacle& obstacle = city_.obstacles()[n];
-    if (faces_away(obstacle) || is_settled(obstacle) || hide_obstacle(obstacle)) continue;
-    found_.candidates.push_back(n);
+    if (faces_away(obstacle) || is_settled(obstacle)) continue;
+    const Rise rise = look_at(obstacle);
+    if (rise == Rise::notable) found_.candidates.push_back(n);
     // What does not stand may be seen under: it hides nothing for certain
-    if (!obstacle.is_edge) continue;
+    if (rise == Rise::hidden || !obstacle.is_edge) continue;
+    if (rise == Rise::faint) found_.faint.push_back(n);
     const auto p = obstacle.corners_from(place_.corner);
     found_.views.add(p[0], p[1]);
     drawn = true;
@@ -123,9 +128,12 @@ void LookAround::add_leaf(const CityHorizon::Node& leaf, double distance_m) {
 
 void LookAround::remember_what_is_settled(const BinRange& range) {
   for (std::size_t l = 0; l < settled_.size(); ++l) {
-    float lowest = std::numeric_limits<float>::infinity();
+    double lowest = std::numeric_limits<double>::infinity();
     const float* row = &found_.hidden[l * bins_.count];
-    for_each_bin(bins_, range.first, range.count, [&](std::size_t, std::uint32_t bin) { lowest = std::min(lowest, row[bin]); });
+    const double* faint_over = &faint_over_[l * bins_.count];
+    for_each_bin(bins_, range.first, range.count, [&](std::size_t, std::uint32_t bin) {
+      lowest = std::min({lowest, double{row[bin]}, faint_over[bin]});
+    });
     settled_[l] = lowest;
   }
 }
@@ -149,10 +157,33 @@ bool LookAround::is_settled(const Obstacle& obstacle) const {
   return true;
 }
 
-/// The same as for a node, for one obstacle.
-bool LookAround::hide_obstacle(const Obstacle& obstacle) {
+LookAround::Rise LookAround::look_at(const Obstacle& obstacle) {
   over_cell_.look_at(obstacle, place_.corner, place_.square);
-  if (over_cell_.surrounds() || rises(obstacle)) return false;
+  const Rise rise = over_cell_.surrounds() ? Rise::notable : rise_of(obstacle);
+  if (rise != Rise::notable) hide(obstacle);
+  return rise;
+}
+
+/// How far the obstacle at hand may be seen over what stands before it. Unless that is notable, its bounds are kept.
+LookAround::Rise LookAround::rise_of(const Obstacle& obstacle) {
+  const std::vector<float>& levels_m = place_.patches.levels_m();
+  bool faint = false, notable = false;
+  bounds_.clear();
+  for (EdgeOverSquare& edge : over_cell_.edges())
+    for (std::size_t l = 0; l < levels_m.size() && !notable && obstacle.z_high_m() > levels_m[l]; ++l) {
+      const std::span<const double> upper = edge.upper(levels_m[l]);
+      const double *faint_over = &faint_over_[l * bins_.count], *notable_over = &notable_over_[l * bins_.count];
+      for_each_bin(bins_, edge.first_bin(), upper.size(), [&](std::size_t n, std::uint32_t bin) {
+        faint = faint || upper[n] > faint_over[bin];
+        notable = notable || upper[n] > notable_over[bin];
+      });
+      bounds_.insert(bounds_.end(), upper.begin(), upper.end());
+    }
+  return notable ? Rise::notable : faint ? Rise::faint : Rise::hidden;
+}
+
+/// Notes the bounds that are kept of the obstacle at hand.
+void LookAround::hide(const Obstacle& obstacle) {
   const std::vector<float>& levels_m = place_.patches.levels_m();
   const double* bound = bounds_.data();
   for (const EdgeOverSquare& edge : over_cell_.edges())
@@ -161,23 +192,6 @@ bool LookAround::hide_obstacle(const Obstacle& obstacle) {
       for_each_bin(bins_, edge.first_bin(), edge.bin_count(),
                    [&](std::size_t n, std::uint32_t bin) { row[bin] = std::max(row[bin], static_cast<float>(bound[n])); });
     }
-  return true;
-}
-
-/// Whether the obstacle at hand may be seen over what stands before it. If not, its bounds are kept.
-bool LookAround::rises(const Obstacle& obstacle) {
-  const std::vector<float>& levels_m = place_.patches.levels_m();
-  bool rises = false;
-  bounds_.clear();
-  for (EdgeOverSquare& edge : over_cell_.edges())
-    for (std::size_t l = 0; l < levels_m.size() && !rises && obstacle.z_high_m() > levels_m[l]; ++l) {
-      const std::span<const double> upper = edge.upper(levels_m[l]);
-      const double* limits = &limits_[l * bins_.count];
-      for_each_bin(bins_, edge.first_bin(), upper.size(),
-                   [&](std::size_t n, std::uint32_t bin) { rises = rises || upper[n] > limits[bin]; });
-      bounds_.insert(bounds_.end(), upper.begin(), upper.end());
-    }
-  return rises;
 }
 
 void LookAround::update_limits(const BinRange& range) {
@@ -188,7 +202,9 @@ void LookAround::update_limits(const BinRange& range) {
       const std::size_t place = std::size_t{l} * bins_.count + bin;
       if (floor == floors_[place]) continue;
       floors_[place] = floor;
-      limits_[place] = std::max<double>(floor, slope_of_sine(sine_of_slope(floor) + tolerance_));
+      const double sine = sine_of_slope(floor);
+      faint_over_[place] = std::max<double>(floor, slope_of_sine(sine + faintest_));
+      notable_over_[place] = std::max<double>(floor, slope_of_sine(sine + tolerance_));
     }
   });
 }

@@ -8,6 +8,7 @@
 #include "farmap/bin_borders.hpp"
 #include "farmap/cell_place.hpp"
 #include "farmap/city_horizon.hpp"
+#include "farmap/far_map_settings.hpp"
 #include "farmap/obstacle_over_square.hpp"
 #include "farmap/viewpoint_horizons.hpp"
 
@@ -15,18 +16,20 @@ namespace farlod {
 
 /// The far city of a cell, looked at from near to far.
 ///   (1) each obstacle outside of the neighbourhood is a candidate, or from all over the cell it lies below `hidden`
-///   (2) what is hidden rises by no more than the tolerance over what the viewpoints above see of the candidates before it
+///   (2) what is hidden rises by no more than the tolerance over what the viewpoints above see of what was found before it
+///   (3) what is hidden and not faint rises by no more than `faintest` of the tolerance
 struct Surroundings {
   std::vector<std::uint32_t> candidates;  ///< numbers of obstacles, from near to far
-  ViewpointHorizons views;                ///< of the candidates that stand
+  std::vector<std::uint32_t> faint;       ///< likewise: those that stand, and are hidden, but likely seen
+  ViewpointHorizons views;                ///< of the candidates that stand, and of the faint
   std::vector<float> hidden;              ///< slopes: a row of azimuth bins for each layer
 };
 
 /// Looks around from a cell. Whole quarters that are hidden are passed over at once.
 class LookAround {
  public:
-  /// All must outlive it. The tolerance is HorizonMapSettings::tolerance.
-  LookAround(const CityHorizon& city, const CellPlace& place, const BinBorders& borders, double tolerance);
+  /// All must outlive it.
+  LookAround(const CityHorizon& city, const CellPlace& place, const BinBorders& borders, const HorizonMapSettings& settings);
 
   [[nodiscard]] Surroundings run() &&;
 
@@ -38,19 +41,23 @@ class LookAround {
   void remember_what_is_settled(const BinRange& bins);
   [[nodiscard]] bool faces_away(const Obstacle& obstacle) const;
   [[nodiscard]] bool is_settled(const Obstacle& obstacle) const;
-  bool hide_obstacle(const Obstacle& obstacle);
-  [[nodiscard]] bool rises(const Obstacle& obstacle);
+  enum class Rise : std::uint8_t { hidden, faint, notable };
+  Rise look_at(const Obstacle& obstacle);
+  [[nodiscard]] Rise rise_of(const Obstacle& obstacle);
+  void hide(const Obstacle& obstacle);
   void update_limits(const BinRange& bins);
 
   const CityHorizon& city_;
   const CellPlace& place_;
   const BinBorders& borders_;
   const AzimuthBins& bins_;
-  double tolerance_;
+  double tolerance_, faintest_;
   Surroundings found_;
-  std::vector<float> floors_;     ///< as Surroundings::hidden: the slope over which all viewpoints see nothing yet
-  std::vector<double> limits_;    ///< likewise: what does not rise over this slope is hidden
-  std::vector<double> settled_;   ///< for each layer, the lowest of `hidden` over the bins of the leaf at hand
+  /// As Surroundings::hidden: the slope over which all viewpoints see nothing yet, and those over which a rise is faint or
+  /// notable.
+  std::vector<float> floors_;
+  std::vector<double> faint_over_, notable_over_;
+  std::vector<double> settled_;   ///< for each layer, a slope that is hidden and not faint in all bins of the leaf at hand
   ObstacleOverSquare over_cell_;  ///< the obstacle at hand
   std::vector<double> bounds_;    ///< of the obstacle at hand: `upper` of its edges, level by level
 };

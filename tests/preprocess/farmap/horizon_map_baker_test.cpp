@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
+#include "farmap/cell_place.hpp"
 #include "tests/determinism/threads.hpp"
 #include "tests/preprocess/farmap/far_city.hpp"
 #include "tests/scenes/generated_town.hpp"
@@ -149,30 +151,57 @@ INSTANTIATE_TEST_SUITE_P(, HorizonMaps, testing::ValuesIn(towns()), [](const aut
 /// Four floats are rounded, then added one by one.
 constexpr double average_rounding = 4.0 * std::numeric_limits<float>::epsilon();
 
-TEST(HorizonMapBaker, LikelyKnowsOnlyTheUnnamed) {
-  const Baked baked = bake(towns()[1]);
+/// What the corners of a patch's floor see at one azimuth.
+struct CornerView {
+  double unnamed = 0.0;   ///< slope, the average of the corners
+  double left_out = 0.0;  ///< by how much that may be less, if what is nearly hidden is not looked at
+  bool names_nothing = true;
+};
+
+CornerView view_from_corners(const std::vector<test::FarThing>& things, const std::set<test::FarThing>& names,
+                             const PatchBox& box, double azimuth, double faintest_sine) {
+  CornerView view;
+  for (const Point2d at : {box.low, box.high, Point2d{box.low.x, box.high.y}, Point2d{box.high.x, box.low.y}}) {
+    double horizon = 0.0;
+    for (const test::FarThing& thing : things) {
+      if (!thing.is_edge) continue;
+      const Point3d eye{at.x, at.y, box.z_low_m};
+      const double slope = test::slope_at(azimuth, thing.corners[0], thing.corners[1], eye).value_or(0.0);
+      if (names.contains(thing))
+        view.names_nothing = view.names_nothing && slope == 0.0;
+      else
+        horizon = std::max(horizon, slope);
+    }
+    view.unnamed += 0.25 * horizon;
+    view.left_out += 0.25 * (horizon - slope_of_sine(std::max(0.0, sine_of_slope(horizon) - faintest_sine)));
+  }
+  return view;
+}
+
+TEST(HorizonMapBaker, LikelyKnowsOnlyTheUnnamedAndLeavesOutTheFaintest) {
+  const HorizonMapSettings settings;
+  const Baked baked = bake(towns()[1], settings);
   const AzimuthBins bins;
   Chance chance(9);
-  for (int n = 0; n < 20; ++n) {
+  int faint = 0;
+  for (int n = 0; n < places_asked; ++n) {
     const Place place = random_place(baked, chance);
     const auto names = test::named_in(baked.block, place.map, place.patch);
-    const auto things = test::far_city(baked.tiles, baked.grid, place.cell);
+    auto things = test::far_city(baked.tiles, baked.grid, place.cell);
+    std::erase_if(things, [&](const auto& t) { return test::faces_away(t, place.map, baked.grid.cell_edge_m); });
     const PatchBox box = place.map.patches.box(place.patch);
     for (std::uint32_t bin = 0; bin < bins.count; bin += 5) {
-      double average = 0.0;
-      for (const Point2d at : {box.low, box.high, Point2d{box.low.x, box.high.y}, Point2d{box.high.x, box.low.y}}) {
-        double horizon = 0.0;
-        for (const test::FarThing& thing : things)
-          if (thing.is_edge && !names.contains(thing))
-            horizon = std::max(horizon, test::slope_at((bin + 0.5) * bins.width_rad(), thing.corners[0], thing.corners[1],
-                                                       {at.x, at.y, box.z_low_m})
-                                            .value_or(0.0));
-        average += 0.25 * horizon;
-      }
-      // What was hidden at first sight is not looked at again, so that it may be less
-      ASSERT_LE(place.map.likely[place.patch * bins.count + bin], average + average_rounding * (1.0 + average)) << "place " << n;
+      const double azimuth = (bin + 0.5) * bins.width_rad(), likely = place.map.likely[place.patch * bins.count + bin];
+      const CornerView seen = view_from_corners(things, names, box, azimuth, settings.faintest * settings.tolerance);
+      const double rounding = average_rounding * (1.0 + seen.unnamed);
+      ASSERT_LE(likely, seen.unnamed + rounding) << "place " << n;
+      // Where something is named, what it nearly hides is left out, however high that is
+      if (!seen.names_nothing) continue;
+      ASSERT_GE(likely, seen.unnamed - seen.left_out - rounding) << "place " << n;
+      faint += likely > 0.0 && sine_of_slope(likely) < settings.tolerance ? 1 : 0;
     }
   }
+  EXPECT_GT(faint, 20) << "the test would not test much";
 }
 
 TEST(HorizonMapBaker, ABlockStoresEachNamedThingOnce) {
