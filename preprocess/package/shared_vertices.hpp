@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -21,6 +22,11 @@ class SharedVertices {
     const auto [entry, is_new] = numbers_.try_emplace(bits_of(p_cell), static_cast<std::uint32_t>(vertices_.size()));
     if (is_new) vertices_.push_back(p_cell);
     return entry->second;
+  }
+  /// Its number, if it has been asked for.
+  [[nodiscard]] std::optional<std::uint32_t> find(const Point3f& p_cell) const {
+    const auto entry = numbers_.find(bits_of(p_cell));
+    return entry == numbers_.end() ? std::nullopt : std::optional(entry->second);
   }
   [[nodiscard]] const std::vector<Point3f>& vertices() const { return vertices_; }
 

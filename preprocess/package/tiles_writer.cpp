@@ -11,6 +11,7 @@
 #include "farlod/expects.hpp"
 #include "farlod/package/layout.hpp"
 #include "package/shared_vertices.hpp"
+#include "package/side_edges.hpp"
 
 namespace farlod {
 namespace {
@@ -36,7 +37,6 @@ class BlockSections {
     record.i = cell.i;
     record.j = cell.j;
     record.triangle_count = static_cast<std::uint32_t>(tile.triangles.size());
-    record.edge_count = static_cast<std::uint32_t>(tile.horizon_edges.size());
     record.flags = tile.has_overhang ? cell_has_overhang : 0;
     add_geometry(tile, record);
     add_runs(tile);
@@ -73,22 +73,17 @@ class BlockSections {
   std::vector<Triangle> triangles;
   std::vector<SurfaceRun> surface_runs;
   std::vector<TileEdge> tile_edges;
-  std::vector<EdgeRises> edge_rises;
+  std::vector<HorizonEdge> loose_edges;
   std::vector<SurfaceRecord> surfaces;
   std::vector<BuildingRecord> buildings;
   std::string text;
 
  private:
-  /// An end of an edge is nearly always a corner of a triangle: both are rounded in the same way from the same place. Where the
-  /// two were cut elsewhere, it becomes a vertex of its own.
   void add_geometry(const Tile& tile, CellRecord& cell) {
     SharedVertices shared;
     const auto corner = [&](std::uint32_t vertex) { return shared.number_of(tile.vertices[vertex]); };
     for (const Triangle& t : tile.triangles) triangles.push_back(Triangle{corner(t.a), corner(t.b), corner(t.c)});
-    for (const HorizonEdge& e : tile.horizon_edges) {
-      tile_edges.push_back(TileEdge{shared.number_of(e.a), shared.number_of(e.b)});
-      edge_rises.push_back(e.rises);
-    }
+    add_edges(side_edges(tile.horizon_edges, std::span(triangles).last(tile.triangles.size()), shared), cell);
     cell.vertex_count = static_cast<std::uint32_t>(shared.vertices().size());
     cell.z_low_m = std::numeric_limits<float>::infinity();
     cell.z_high_m = -cell.z_low_m;
@@ -97,6 +92,13 @@ class BlockSections {
       cell.z_high_m = std::max(cell.z_high_m, p.z);
     }
     vertices.insert(vertices.end(), shared.vertices().begin(), shared.vertices().end());
+  }
+
+  void add_edges(const SideEdges& edges, CellRecord& cell) {
+    cell.edge_count = static_cast<std::uint32_t>(edges.sides.size());
+    cell.loose_edge_count = static_cast<std::uint32_t>(edges.loose.size());
+    tile_edges.insert(tile_edges.end(), edges.sides.begin(), edges.sides.end());
+    loose_edges.insert(loose_edges.end(), edges.loose.begin(), edges.loose.end());
   }
 
   void add_runs(const Tile& tile) {
@@ -108,15 +110,16 @@ class BlockSections {
   }
 
   SurfaceRecord record_of(const Surface& s) {
-    const auto f = [](double x) { return static_cast<float>(x); };
-    return {s.building == ground_building ? no_building : row_of_building(s.building),
-            s.number,
-            s.part,
-            s.kind,
-            static_cast<std::uint8_t>(s.stands ? 1 : 0),
-            f(s.normal.x),
-            f(s.normal.y),
-            f(s.normal.z)};
+    SurfaceRecord record{};
+    record.building = s.building == ground_building ? no_building : row_of_building(s.building);
+    record.number = s.number;
+    record.part = s.part;
+    record.kind = s.kind;
+    record.stands = s.stands ? 1 : 0;
+    const StoredDirection normal = StoredDirection::nearest_to(s.normal);
+    record.normal_u = normal.u & StoredDirection::largest;
+    record.normal_v = normal.v & StoredDirection::largest;
+    return record;
   }
   std::uint32_t row_of_building(std::uint32_t number) {
     const auto [entry, is_new] = row_of_building_.try_emplace(number, static_cast<std::uint32_t>(buildings.size()));
@@ -202,7 +205,7 @@ std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, 
   file.add(SectionKind::named_edges, sections.named_edges);
   file.add(SectionKind::named_triangles, sections.named_triangles);
   file.add(SectionKind::tile_edges, sections.tile_edges);
-  file.add(SectionKind::edge_rises, sections.edge_rises);
+  file.add(SectionKind::loose_edges, sections.loose_edges);
   return file.finish();
 }
 

@@ -16,8 +16,7 @@ Point3f moved(const Point3f& p, Point2d shift_m) {
 
 void add_tile(const TileView& tile, Point2d shift_m, CellSkyline& skyline) {
   const auto vertex = [&](std::uint32_t n) { return moved(tile.mesh.vertices[n], shift_m); };
-  for (std::size_t n = 0; n < tile.edges.size(); ++n)
-    skyline.standing.add({vertex(tile.edges[n].a), vertex(tile.edges[n].b), tile.edge_rises[n]});
+  tile.visit_edges([&](const HorizonEdge& e) { skyline.standing.add({moved(e.a, shift_m), moved(e.b, shift_m), e.rises}); });
   std::uint32_t first = 0;
   for (const package::SurfaceRun& run : tile.surface_runs) {
     if (tile.surfaces[run.surface].stands == 0)

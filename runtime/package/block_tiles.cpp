@@ -87,16 +87,12 @@ std::span<const T> BlockTiles::section(SectionKind kind) const {
 }
 
 void BlockTiles::check_surfaces() const {
-  constexpr float longest = 1.0F + std::numeric_limits<float>::epsilon();  // a length of 1, rounded
   for (const BuildingRecord& b : buildings_)
     require(b.text_offset <= text_.size() && b.text_bytes <= text_.size() - b.text_offset,
             "a building's id reaches beyond the text");
   for (const SurfaceRecord& s : surfaces_) {
     require(s.building == no_building || s.building < buildings_.size(), "a surface names a building that does not exist");
     require(s.kind >= SurfaceKind::ground && s.kind <= SurfaceKind::floor, "a surface is of a kind that does not exist");
-    require(s.stands <= 1, "a surface neither stands nor does not");
-    require(std::abs(s.normal_x) <= longest && std::abs(s.normal_y) <= longest && std::abs(s.normal_z) <= longest,
-            "a surface's normal is not a direction");
   }
 }
 
@@ -115,19 +111,19 @@ void BlockTiles::place_tiles() {
   auto triangles = section<Triangle>(SectionKind::triangles);
   auto runs = section<SurfaceRun>(SectionKind::surface_runs);
   auto edges = section<TileEdge>(SectionKind::tile_edges);
-  auto rises = section<EdgeRises>(SectionKind::edge_rises);
-  require(rises.size() == edges.size(), "not every edge has its rises");
+  auto loose_edges = section<HorizonEdge>(SectionKind::loose_edges);
   tiles_.reserve(cells_.size());
   for (const CellRecord& c : cells_) {
     TileView tile{&c, {}, {}, surfaces_, buildings_, {}, {}};
     tile.mesh.vertices = cut_off(vertices, c.vertex_count, "a cell's vertices reach beyond the end");
     tile.mesh.triangles = cut_off(triangles, c.triangle_count, "a cell's triangles reach beyond the end");
     tile.surface_runs = cut_off(runs, run_count(runs, c.triangle_count), "a cell's surfaces reach beyond the end");
-    tile.edges = cut_off(edges, c.edge_count, "a cell's edges reach beyond the end");
-    tile.edge_rises = cut_off(rises, c.edge_count, "a cell's edges reach beyond the end");
+    tile.edge_sides = cut_off(edges, c.edge_count, "a cell's edges reach beyond the end");
+    tile.loose_edges = cut_off(loose_edges, c.loose_edge_count, "a cell's loose edges reach beyond the end");
     tiles_.push_back(tile);
   }
-  require(vertices.empty() && triangles.empty() && runs.empty() && edges.empty(), "it holds more than its cells own");
+  require(vertices.empty() && triangles.empty() && runs.empty() && edges.empty() && loose_edges.empty(),
+          "it holds more than its cells own");
 }
 
 template <class T>
@@ -164,9 +160,24 @@ void BlockTiles::check_tile(const TileView& tile) const {
   for (const Triangle& t : tile.mesh.triangles)
     require(t.a < c.vertex_count && t.b < c.vertex_count && t.c < c.vertex_count,
             "a triangle names a vertex that does not exist");
-  for (const TileEdge& e : tile.edges)
-    require(e.a < c.vertex_count && e.b < c.vertex_count, "an edge names a vertex that does not exist");
-  for (const EdgeRises rises : tile.edge_rises) require(are_angles(rises), "something beside an edge rises beyond a right angle");
+  check_edges(tile);
+}
+
+void BlockTiles::check_edges(const TileView& tile) const {
+  std::uint64_t sides = 0;
+  for (const TileEdge& e : tile.edge_sides) {
+    sides += e.sides_passed + (e.sides_passed == TileEdge::only_passes ? 0U : 1U);
+    require(are_angles(e.rises), "something beside an edge rises beyond a right angle");
+  }
+  require(sides <= 3 * tile.mesh.triangles.size(), "an edge is a side of a triangle that does not exist");
+  check_places(tile.loose_edges);
+}
+
+void BlockTiles::check_places(std::span<const HorizonEdge> edges) const {
+  for (const HorizonEdge& e : edges) {
+    require(is_on_earth(e.a) && is_on_earth(e.b), "an edge lies nowhere on Earth");
+    require(are_angles(e.rises), "something beside an edge rises beyond a right angle");
+  }
 }
 
 void BlockTiles::check_far_cells() const {
@@ -187,10 +198,7 @@ void BlockTiles::check_far_cells() const {
 }
 
 void BlockTiles::check_far_places() const {
-  for (const HorizonEdge& e : far_edges_) {
-    require(is_on_earth(e.a) && is_on_earth(e.b), "a far edge lies nowhere on Earth");
-    require(are_angles(e.rises), "something beside a far edge rises beyond a right angle");
-  }
+  check_places(far_edges_);
   for (const FarTriangle& t : far_triangles_)
     for (const Point3f& p : t) require(is_on_earth(p), "a far triangle lies nowhere on Earth");
 }

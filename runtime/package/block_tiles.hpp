@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -24,13 +25,28 @@ struct TileView {
   std::span<const package::SurfaceRun> surface_runs;  ///< cover the triangles, in order
   std::span<const package::SurfaceRecord> surfaces;   ///< of the whole block
   std::span<const package::BuildingRecord> buildings;
-  std::span<const package::TileEdge> edges;  ///< the horizon of what stands (SurfaceRecord::stands); ends in mesh.vertices
-  std::span<const EdgeRises> edge_rises;     ///< for each edge
+  std::span<const package::TileEdge> edge_sides;  ///< the horizon of what stands (SurfaceRecord::stands): see visit_edges
+  std::span<const HorizonEdge> loose_edges;       ///< the rest of it
 
   [[nodiscard]] const package::SurfaceRecord& surface_of(std::uint32_t triangle) const {
     const auto run = std::upper_bound(surface_runs.begin(), surface_runs.end(), triangle,
                                       [](std::uint32_t t, const package::SurfaceRun& r) { return t < r.end; });
     return surfaces[run->surface];
+  }
+  /// Calls `visit` with each HorizonEdge of what stands, cell frame. In no particular order, running either way.
+  template <class Visitor>
+  void visit_edges(const Visitor& visit) const {
+    static constexpr std::array<std::ptrdiff_t, 3> to_next{1, 1, -2};  // from a corner of a triangle
+    const auto* corner = reinterpret_cast<const std::uint32_t*>(mesh.triangles.data());
+    std::size_t side = 0;
+    for (const package::TileEdge& e : edge_sides) {
+      side += e.sides_passed;
+      if (e.sides_passed == package::TileEdge::only_passes) continue;
+      const std::uint32_t* from = corner + side;
+      visit(HorizonEdge{mesh.vertices[*from], mesh.vertices[from[to_next[side % 3]]], e.rises});
+      ++side;
+    }
+    for (const HorizonEdge& e : loose_edges) visit(e);
   }
   /// Number within the city of a surface's building; no_building for the ground.
   [[nodiscard]] std::uint32_t building_number(const package::SurfaceRecord& surface) const {
@@ -67,6 +83,8 @@ class BlockTiles {
   [[nodiscard]] std::span<const T> cut_off(std::span<const T>& rest, std::size_t count, const char* what) const;
   [[nodiscard]] std::size_t run_count(std::span<const package::SurfaceRun> runs, std::uint32_t triangle_count) const;
   void check_tile(const TileView& tile) const;
+  void check_edges(const TileView& tile) const;
+  void check_places(std::span<const HorizonEdge> edges) const;
   void check_surfaces() const;
   void check_far_cells() const;
   void check_far_places() const;

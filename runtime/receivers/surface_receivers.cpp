@@ -58,8 +58,7 @@ void spread(const TileView& tile, std::uint32_t t, double spacing_m, ColumnsArou
   const Point3f ab = tile.mesh.vertices[corners.b] - a, ac = tile.mesh.vertices[corners.c] - a;
   const float area_m2 = 0.5F * norm(cross(ab, ac));
   if (area_m2 == 0.0F) return;  // rounded away: it holds no share of the surface
-  const package::SurfaceRecord& surface = tile.surface_of(t);
-  const Point3f normal{surface.normal_x, surface.normal_y, surface.normal_z};
+  const Point3f normal = tile.surface_of(t).normal().direction();
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(area_m2) / (spacing_m * spacing_m))));
   for (std::size_t n = 0; n < count; ++n) {
     const Point2d w = place_in_triangle(n, count);

@@ -73,7 +73,7 @@ Column::Crossing CellColumns::crossing(const Hit& hit) const {
   auto tile = tiles_.begin();
   for (; triangle >= tile->mesh.triangles.size(); ++tile) triangle -= static_cast<std::uint32_t>(tile->mesh.triangles.size());
   const package::SurfaceRecord& surface = tile->surface_of(triangle);
-  return {below_all_m_ + hit.distance, tile->building_number(surface), surface.part, surface.normal_z > 0.0F};
+  return {below_all_m_ + hit.distance, tile->building_number(surface), surface.part, surface.normal().looks_up()};
 }
 
 Column CellColumns::at(float x_cell, float y_cell) const {

@@ -107,8 +107,8 @@ TEST_F(DamagedPackage, ManifestOfSomethingElse) {
 }
 
 TEST_F(DamagedPackage, ANewerVersionIsNoDamage) {
-  edit_manifest("\"version\": 3", "\"version\": 4");
-  expect_refusal(evaluate(), exit_unusable_input, {"manifest.json has format version 4", "up to 3", "newer farlod-svf"});
+  edit_manifest("\"version\": 4", "\"version\": 5");
+  expect_refusal(evaluate(), exit_unusable_input, {"manifest.json has format version 5", "up to 4", "newer farlod-svf"});
 }
 
 TEST_F(DamagedPackage, AnInterruptedPackingIsNoDamage) {

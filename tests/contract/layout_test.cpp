@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -69,6 +70,7 @@ TEST(Layout, CellRecordIsDocumented) {
   EXPECT_DOCUMENTED(CellRecord, far_map_top);
   EXPECT_DOCUMENTED(CellRecord, flags);
   EXPECT_DOCUMENTED(CellRecord, edge_count);
+  EXPECT_DOCUMENTED(CellRecord, loose_edge_count);
 }
 
 TEST(Layout, SurfaceRunIsDocumented) {
@@ -77,8 +79,8 @@ TEST(Layout, SurfaceRunIsDocumented) {
 }
 
 TEST(Layout, TileEdgeIsDocumented) {
-  EXPECT_DOCUMENTED(TileEdge, a);
-  EXPECT_DOCUMENTED(TileEdge, b);
+  EXPECT_DOCUMENTED(TileEdge, sides_passed);
+  EXPECT_DOCUMENTED(TileEdge, rises);
 }
 
 TEST(Layout, EdgeRisesAreDocumented) {
@@ -97,11 +99,32 @@ TEST(Layout, SurfaceRecordIsDocumented) {
   EXPECT_DOCUMENTED(SurfaceRecord, building);
   EXPECT_DOCUMENTED(SurfaceRecord, number);
   EXPECT_DOCUMENTED(SurfaceRecord, part);
-  EXPECT_DOCUMENTED(SurfaceRecord, kind);
-  EXPECT_DOCUMENTED(SurfaceRecord, stands);
-  EXPECT_DOCUMENTED(SurfaceRecord, normal_x);
-  EXPECT_DOCUMENTED(SurfaceRecord, normal_y);
-  EXPECT_DOCUMENTED(SurfaceRecord, normal_z);
+  // The rest has no bytes of its own
+  for (const char* bits : {"| 0 | 3 | `kind` |", "| 3 | 1 | `stands` |", "| 4 | 22 | `normal_u` |", "| 26 | 22 | `normal_v` |"})
+    EXPECT_NE(chapter("SurfaceRecord").find(bits), std::string::npos) << "docs/package_format.md, SurfaceRecord lacks: " << bits;
+}
+
+TEST(Layout, BitsOfSurfaceRecordsLieWhereTheyAreDocumented) {
+  const auto word = [](const SurfaceRecord& record) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, reinterpret_cast<const char*>(&record) + 8, sizeof bits);
+    return bits;
+  };
+  SurfaceRecord record{};
+  record.part = 0xFFFF;
+  EXPECT_EQ(word(record), 0xFFFFU);
+  record = {};
+  record.kind = SurfaceKind{5};
+  EXPECT_EQ(word(record), std::uint64_t{5} << 16U);
+  record = {};
+  record.stands = 1;
+  EXPECT_EQ(word(record), std::uint64_t{1} << 19U);
+  record = {};
+  record.normal_u = 0x3FFFFE;
+  EXPECT_EQ(word(record), std::uint64_t{0x3FFFFE} << 20U);
+  record = {};
+  record.normal_v = 0x3FFFFE;
+  EXPECT_EQ(word(record), std::uint64_t{0x3FFFFE} << 42U);
 }
 
 TEST(Layout, BuildingRecordIsDocumented) {
@@ -158,7 +181,7 @@ TEST(Layout, SectionKindsAndElementSizesAreDocumented) {
                {SectionKind::named_edges, "named_edges", sizeof(NamedObstacle)},
                {SectionKind::named_triangles, "named_triangles", sizeof(NamedObstacle)},
                {SectionKind::tile_edges, "tile_edges", sizeof(TileEdge)},
-               {SectionKind::edge_rises, "edge_rises", sizeof(EdgeRises)}};
+               {SectionKind::loose_edges, "loose_edges", sizeof(HorizonEdge)}};
   EXPECT_EQ(std::size(kinds), section_count);
   for (const auto& [kind, name, bytes] : kinds) {
     const std::string expected =
@@ -173,7 +196,7 @@ TEST(Layout, RecordsCanBeMapped) {
                 std::is_trivially_copyable_v<BuildingRecord> && std::is_trivially_copyable_v<FarCellRecord> &&
                 std::is_trivially_copyable_v<NamedObstacle> && std::is_trivially_copyable_v<HorizonEdge> &&
                 std::is_trivially_copyable_v<FarTriangle> && std::is_trivially_copyable_v<SurfaceRun> &&
-                std::is_trivially_copyable_v<TileEdge> && std::is_trivially_copyable_v<EdgeRises>);
+                std::is_trivially_copyable_v<TileEdge>);
   static_assert(section_alignment % alignof(CellRecord) == 0 && section_alignment % alignof(SurfaceRecord) == 0 &&
                 section_alignment % alignof(FarCellRecord) == 0);
   static_assert(end_padding >= 16 - sizeof(Point3f), "the last vertex is read as 16 bytes");

@@ -11,6 +11,7 @@
 #include "farlod/grid.hpp"
 #include "farlod/horizon/horizon_edge.hpp"
 #include "farlod/mesh_view.hpp"
+#include "farlod/package/stored_direction.hpp"
 #include "farlod/surface_kind.hpp"
 
 /// The bytes of `tiles.bin`. docs/package_format.md tells the same in words; where they differ, this file wins.
@@ -21,7 +22,7 @@ namespace farlod::package {
 static_assert(std::endian::native == std::endian::little,
               "packages are mapped, not decoded: a big-endian reader must swap bytes");
 
-inline constexpr std::uint32_t format_version = 3;
+inline constexpr std::uint32_t format_version = 4;
 inline constexpr std::array<char, 8> magic{'F', 'A', 'R', 'L', 'O', 'D', 'T', '\n'};
 inline constexpr std::uint64_t section_alignment = 64;
 inline constexpr std::uint64_t end_padding = 16;
@@ -42,7 +43,7 @@ enum class SectionKind : std::uint32_t {
   named_triangles = 12,  ///< NamedObstacle: rows of `far_triangles`, cell by cell
   // Of the tiles again
   tile_edges = 13,  ///< TileEdge, cell by cell
-  edge_rises = 14   ///< EdgeRises, as many and in the same order as `tile_edges`
+  loose_edges = 14  ///< HorizonEdge, cell frame, cell by cell: those that are no side of a triangle
 };
 inline constexpr std::uint32_t section_count = 14;
 
@@ -68,23 +69,29 @@ static_assert(sizeof(Section) == 32);
 /// Bits of CellRecord::flags.
 inline constexpr std::uint32_t cell_has_overhang = 1;  ///< a surface of the tile looks down onto something below it
 
-/// What a cell owns of `vertices`, `triangles`, `surface_runs` and `tile_edges` follows what the cell before owns, without a gap.
+/// What a cell owns of `vertices`, `triangles`, `surface_runs`, `tile_edges` and `loose_edges` follows what the cell before owns,
+/// without a gap.
 struct CellRecord {
   std::int32_t i, j;
-  std::uint32_t vertex_count, triangle_count, edge_count;
+  std::uint32_t vertex_count, triangle_count;
+  std::uint32_t edge_count, loose_edge_count;   ///< rows of `tile_edges` and `loose_edges`
   float z_low_m, z_high_m;                      ///< of the tile's vertices; low > high when it is empty
   float capture_x_m, capture_y_m, capture_z_m;  ///< where the far map was captured, cell frame
   float far_map_top;                            ///< BoxMap::top; 0 when the cell has no far field above the horizontal
   std::uint32_t flags;
 };
-static_assert(sizeof(CellRecord) == 48);
+static_assert(sizeof(CellRecord) == 52);
 
-/// An edge of a tile below which everything is solid (HorizonEdge): vertex numbers count from the cell's first vertex.
+/// An edge of a tile below which everything is solid (HorizonEdge), as a side of one of its triangles. The sides of a cell are
+/// counted triangle by triangle, three each: from the first corner to the second, on to the third, and back. Each row passes some
+/// sides that are no edges, and is the next one; a row that passes 255 is none.
 struct TileEdge {
-  std::uint32_t a, b;
+  static constexpr std::uint8_t only_passes = 255;
+  std::uint8_t sides_passed;
+  EdgeRises rises;  ///< along the side
   bool operator==(const TileEdge&) const = default;
 };
-static_assert(sizeof(TileEdge) == 8);
+static_assert(sizeof(TileEdge) == 3);
 
 /// Consecutive triangles of a cell that belong to one surface. The runs of a cell cover its triangles: the first begins at
 /// triangle 0, each other one where the one before it ends, and the last ends with the cell.
@@ -96,15 +103,22 @@ static_assert(sizeof(SurfaceRun) == 8);
 
 inline constexpr std::uint32_t no_building = 0xFFFFFFFF;
 
+/// The bits of kind, stands and normal follow one another from the lowest on, as compilers for Linux lay them out; a test looks.
 struct SurfaceRecord {
   std::uint32_t building;  ///< row in `buildings`; no_building for the ground
   std::uint32_t number;    ///< of the surface, within its building
   std::uint16_t part;      ///< closed part of the building, for the question "inside?"
-  SurfaceKind kind;
-  std::uint8_t stands;                 ///< 1: the tiles' edges stand for it; 0: it must be met triangle by triangle
-  float normal_x, normal_y, normal_z;  ///< outward, length 1, grid frame
+  SurfaceKind kind : 3;
+  std::uint8_t stands : 1;  ///< 1: the tiles' edges stand for it; 0: it must be met triangle by triangle
+  std::uint64_t normal_u : StoredDirection::bits;
+  std::uint64_t normal_v : StoredDirection::bits;
+
+  /// Outward, grid frame.
+  [[nodiscard]] StoredDirection normal() const {
+    return {static_cast<std::uint32_t>(normal_u), static_cast<std::uint32_t>(normal_v)};
+  }
 };
-static_assert(sizeof(SurfaceRecord) == 24);
+static_assert(sizeof(SurfaceRecord) == 16);
 
 struct BuildingRecord {
   std::uint32_t text_offset, text_bytes;

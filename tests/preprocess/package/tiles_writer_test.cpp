@@ -80,35 +80,44 @@ TEST_F(TilesWriter, FindsTheSurfaceOfEachTriangle) {
   EXPECT_EQ(view.surface_of(1).stands, 1);
 }
 
-TEST_F(TilesWriter, NamesTheEndsOfEdgesByVertex) {
-  tile().horizon_edges = {{corners_[2], corners_[1]}, {corners_[3], corners_[0]}};
+TEST_F(TilesWriter, NamesEdgesAsSidesOfTriangles) {
+  tile().horizon_edges = {{corners_[3], corners_[0], {1, 2}}, {corners_[2], corners_[1], {3, 4}}};
   const TileView view = written();
-  EXPECT_TRUE(std::ranges::equal(view.edges, std::vector<package::TileEdge>{{2, 1}, {3, 0}}));
-  EXPECT_EQ(view.mesh.vertices.size(), corners_.size());
+  EXPECT_TRUE(std::ranges::equal(view.edge_sides, std::vector<package::TileEdge>{{1, {4, 3}}, {3, {1, 2}}}));
+  EXPECT_TRUE(view.loose_edges.empty());
 }
 
-TEST_F(TilesWriter, AddsAVertexWhereAnEdgeEndsBesideTheMesh) {
+TEST_F(TilesWriter, WritesAnEdgeThatEndsBesideTheMeshAsItIs) {
   const Point3f beside{2, 0, 0.5F};
-  tile().horizon_edges = {{corners_[0], beside}, {beside, corners_[1]}};
+  tile().horizon_edges = {{corners_[0], beside, {5, -6}}, {beside, corners_[1]}};
   const TileView view = written();
-  EXPECT_TRUE(std::ranges::equal(view.edges, std::vector<package::TileEdge>{{0, 4}, {4, 1}}));
-  ASSERT_EQ(view.mesh.vertices.size(), 5U);
-  EXPECT_EQ(view.mesh.vertices[4], beside);
-  EXPECT_EQ(view.cell->z_low_m, 0.5F) << "a cell's heights are those of its vertices";
+  EXPECT_TRUE(std::ranges::equal(view.loose_edges, tile().horizon_edges));
+  EXPECT_TRUE(view.edge_sides.empty());
+  EXPECT_EQ(view.mesh.vertices.size(), corners_.size());
+  EXPECT_EQ(view.cell->z_low_m, 1.0F) << "a cell's heights are those of its vertices";
 }
 
-TEST_F(TilesWriter, WritesTheRisesOfEdgesInTheirOrder) {
-  const std::vector<EdgeRises> rises{{-127, 0}, {44, -44}, {127, 1}};
-  tile().horizon_edges = {
-      {corners_[2], corners_[1], rises[0]}, {corners_[3], corners_[0], rises[1]}, {corners_[0], corners_[1], rises[2]}};
-  EXPECT_TRUE(std::ranges::equal(written().edge_rises, rises));
+TEST_F(TilesWriter, KeepsTheEdgesOfEachCellToItself) {
+  grid_.cells = tiles_.cells = {0, 0, 2, 1};
+  tiles_.tiles.resize(2);
+  tiles_.tiles[1] = tile();
+  const Point3f beside{2, 0, 0.5F};
+  tile().horizon_edges = {{corners_[2], corners_[3]}, {corners_[0], beside}};
+  tiles_.tiles[1].horizon_edges = {{corners_[0], corners_[1]}, {beside, corners_[1]}};
+  bytes_ = tiles_file(tiles_, BakedBoxes(2), grid_, Block{0, 0});
+  const BlockTiles block(bytes_, grid_.cells, "tiles.bin");
+  for (const int i : {0, 1}) {
+    std::vector<HorizonEdge> read;
+    block.tile({i, 0}).visit_edges([&](const HorizonEdge& e) { read.push_back(e); });
+    EXPECT_EQ(read, tiles_.tiles[static_cast<std::size_t>(i)].horizon_edges) << i;
+  }
 }
 
 TEST_F(TilesWriter, WritesATileWithoutAnything) {
   tile() = {};
   const TileView view = written();
-  EXPECT_TRUE(view.mesh.vertices.empty() && view.mesh.triangles.empty() && view.edges.empty() && view.surface_runs.empty());
-  EXPECT_TRUE(view.edge_rises.empty());
+  EXPECT_TRUE(view.mesh.vertices.empty() && view.mesh.triangles.empty() && view.surface_runs.empty());
+  EXPECT_TRUE(view.edge_sides.empty() && view.loose_edges.empty());
 }
 
 }  // namespace

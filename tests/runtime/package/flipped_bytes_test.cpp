@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "package/block_tiles.hpp"
 #include "package/manifest_reader.hpp"
@@ -38,18 +39,22 @@ bool runs_cover_triangles(const TileView& tile) {
 bool tile_is_sound(const TileView& tile, const Bytes& bytes) {
   const auto is_inside = [&](const auto& part) { return lies_within(part, bytes); };
   if (!is_inside(tile.mesh.vertices) || !is_inside(tile.mesh.triangles) || !is_inside(tile.surface_runs) ||
-      !is_inside(tile.surfaces) || !is_inside(tile.buildings) || !is_inside(tile.edges) || !runs_cover_triangles(tile))
+      !is_inside(tile.surfaces) || !is_inside(tile.buildings) || !is_inside(tile.edge_sides) || !is_inside(tile.loose_edges) ||
+      !runs_cover_triangles(tile))
     return false;
   const auto vertex_is_finite = [](const Point3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
   const auto vertices_exist = [&](const Triangle& t) { return std::max({t.a, t.b, t.c}) < tile.mesh.vertices.size(); };
-  const auto ends_exist = [&](const TileEdge& e) { return std::max(e.a, e.b) < tile.mesh.vertices.size(); };
+  const auto passed = [](std::size_t sum, const TileEdge& e) { return sum + e.sides_passed + (e.sides_passed < 255 ? 1U : 0U); };
+  const auto is_finite = [&](const HorizonEdge& e) { return vertex_is_finite(e.a) && vertex_is_finite(e.b); };
   const auto surface_exists = [&](const SurfaceRun& r) {
     return r.surface < tile.surfaces.size() &&
            (tile.surfaces[r.surface].building == no_building || tile.surfaces[r.surface].building < tile.buildings.size());
   };
   return std::all_of(tile.mesh.vertices.begin(), tile.mesh.vertices.end(), vertex_is_finite) &&
          std::all_of(tile.mesh.triangles.begin(), tile.mesh.triangles.end(), vertices_exist) &&
-         std::all_of(tile.edges.begin(), tile.edges.end(), ends_exist) &&
+         std::accumulate(tile.edge_sides.begin(), tile.edge_sides.end(), std::size_t{0}, passed) <=
+             3 * tile.mesh.triangles.size() &&
+         std::all_of(tile.loose_edges.begin(), tile.loose_edges.end(), is_finite) &&
          std::all_of(tile.surface_runs.begin(), tile.surface_runs.end(), surface_exists);
 }
 

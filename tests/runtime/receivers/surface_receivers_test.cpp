@@ -83,7 +83,7 @@ TEST_F(TouchingHouses, RoofsAndWallsAreWhatIsAskedFor) {
 TEST_F(TouchingHouses, ReceiversStandJustOffTheirTriangle) {
   for_each(SurfaceChoice::all, 1.5, [&](Cell, const TileView& tile, const SurfaceReceiver& r) {
     const package::SurfaceRecord& surface = tile.surface_of(r.triangle);
-    EXPECT_EQ(r.normal, (Point3f{surface.normal_x, surface.normal_y, surface.normal_z}));
+    EXPECT_EQ(r.normal, surface.normal().direction());
     const Triangle& t = tile.mesh.triangles[r.triangle];
     const Point3f a = tile.mesh.vertices[t.a], b = tile.mesh.vertices[t.b], c = tile.mesh.vertices[t.c];
     const Point3f foot = r.p_cell - surface_offset_m * r.normal;

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "package/side_edges.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace farlod {
+namespace {
+
+using package::TileEdge;
+
+/// Two vertices by number, the lower one first: edges and sides may run against each other.
+using Ends = std::pair<std::uint32_t, std::uint32_t>;
+Ends ends_of(std::uint32_t from, std::uint32_t to) { return std::minmax({from, to}); }
+
+/// Edges that have not been met among the sides of the triangles.
+class UnmetEdges {
+ public:
+  UnmetEdges(std::span<const HorizonEdge> edges, const SharedVertices& vertices) : edges_(edges), is_met_(edges.size()) {
+    for (std::size_t n = 0; n < edges.size(); ++n) {
+      const auto a = vertices.find(edges[n].a), b = vertices.find(edges[n].b);
+      if (a && b) by_ends_.emplace(ends_of(*a, *b), Entry{n, *a});
+    }
+  }
+
+  /// The rises along the side, if it is an edge; the first one, if it is several.
+  std::optional<EdgeRises> meet(std::uint32_t from, std::uint32_t to) {
+    const auto found = by_ends_.lower_bound(ends_of(from, to));
+    if (found == by_ends_.end() || found->first != ends_of(from, to)) return std::nullopt;
+    const auto [n, edge_from] = found->second;
+    by_ends_.erase(found);
+    is_met_[n] = true;
+    const EdgeRises rises = edges_[n].rises;
+    return edge_from == from ? rises : EdgeRises{rises.right, rises.left};
+  }
+
+  [[nodiscard]] std::vector<HorizonEdge> rest() const {
+    std::vector<HorizonEdge> result;
+    for (std::size_t n = 0; n < edges_.size(); ++n)
+      if (!is_met_[n]) result.push_back(edges_[n]);
+    return result;
+  }
+
+ private:
+  struct Entry {
+    std::size_t edge;
+    std::uint32_t from;
+  };
+  std::span<const HorizonEdge> edges_;
+  std::vector<bool> is_met_;
+  std::multimap<Ends, Entry> by_ends_;
+};
+
+}  // namespace
+
+SideEdges side_edges(std::span<const HorizonEdge> edges, std::span<const Triangle> triangles, const SharedVertices& vertices) {
+  UnmetEdges unmet(edges, vertices);
+  SideEdges result;
+  std::size_t passed = 0;
+  for (const Triangle& t : triangles)
+    for (const auto& [from, to] : {std::pair(t.a, t.b), std::pair(t.b, t.c), std::pair(t.c, t.a)}) {
+      const std::optional<EdgeRises> rises = unmet.meet(from, to);
+      if (!rises) {
+        ++passed;
+        continue;
+      }
+      for (; passed >= TileEdge::only_passes; passed -= TileEdge::only_passes)
+        result.sides.push_back({TileEdge::only_passes, EdgeRises{0, 0}});
+      result.sides.push_back({static_cast<std::uint8_t>(passed), *rises});
+      passed = 0;
+    }
+  result.loose = unmet.rest();
+  return result;
+}
+
+}  // namespace farlod
