@@ -67,7 +67,7 @@ class TiledFile {
       : cells_(cells),
         columns_(static_cast<int>(shape.picture_columns())),
         rows_(static_cast<int>(shape.picture_rows())),
-        file_(path.c_str(), header(channels), 0) {}
+        file_(path.c_str(), header(channels, compression_of(shape)), 0) {}
 
   void add(std::size_t n, Picture picture) {
     const Cell cell = cells_.cell_at(n);
@@ -83,12 +83,17 @@ class TiledFile {
   }
 
  private:
-  [[nodiscard]] Imf::Header header(const Picture& channels) const {
+  /// Horizons are read cell by cell while receivers wait: as runs they take a quarter more bytes than zipped, and a sixth of the
+  /// time.
+  static Imf::Compression compression_of(const package::FarMapShape& shape) {
+    return shape.is_box() ? Imf::ZIP_COMPRESSION : Imf::RLE_COMPRESSION;
+  }
+  [[nodiscard]] Imf::Header header(const Picture& channels, Imf::Compression compression) const {
     Imf::Header header(static_cast<int>(cells_.width()) * columns_, static_cast<int>(cells_.height()) * rows_);
     for (const auto& [name, pixels] : channels) header.channels().insert(name, Imf::Channel(Imf::HALF));
     header.setTileDescription(
         Imf::TileDescription(static_cast<unsigned>(columns_), static_cast<unsigned>(rows_), Imf::ONE_LEVEL));
-    header.compression() = Imf::ZIP_COMPRESSION;
+    header.compression() = compression;
     return header;
   }
 

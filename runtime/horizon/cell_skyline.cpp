@@ -43,6 +43,8 @@ void add_named(const NamedObstacles& named, CellSkyline& skyline) {
 CellSkyline cell_skyline(const Package& package, Cell cell, const FarHorizon& far, const ReceiverBox& box) {
   CellSkyline skyline;
   const Grid& grid = package.grid();
+  // The most part of what is seen is far
+  skyline.standing.reserve(2 * far.named.named_edges.size());
   const CellRange near = grid.neighborhood_of(cell).intersection(grid.cells);
   for (std::size_t n = 0; n < static_cast<std::size_t>(near.size()); ++n) {
     const Cell neighbour = near.cell_at(n);

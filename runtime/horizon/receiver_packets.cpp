@@ -3,48 +3,167 @@
 #include "horizon/receiver_packets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
-#include <tuple>
+#include <utility>
 
 namespace farlod {
 namespace {
 
-/// The bits of a number with two zeros between each and the next: a third of a Morton code.
-std::uint64_t spread(std::uint64_t bits) {
-  std::uint64_t x = bits & 0x1FFFFFU;
-  x = (x | x << 32U) & 0x1F00000000FFFFU;
-  x = (x | x << 16U) & 0x1F0000FF0000FFU;
-  x = (x | x << 8U) & 0x100F00F00F00F00FU;
-  x = (x | x << 4U) & 0x10C30C30C30C30C3U;
-  return (x | x << 2U) & 0x1249249249249249U;
+// What sets receivers apart, as lengths. Measured on streets, roofs and façades 2 m apart: at half and at twice these weights it
+// costs the same within 6 %.
+/// One metre higher changes what is seen as much as so many metres aside.
+constexpr float height_weight = 1.5F;
+/// Looking at right angles to each other sets receivers apart as much as so many metres, times √2.
+constexpr float look_weight_m = 60.0F;
+
+/// Everything that receivers may differ in.
+using Traits = std::array<float, 5>;
+Traits traits_of(const Receiver& r) {
+  return {r.p_cell.x, r.p_cell.y, r.p_cell.z * height_weight, r.normal.x * look_weight_m, r.normal.y * look_weight_m};
 }
 
-/// Steps of half a metre, finer than receivers stand, from far below any cell.
-std::uint64_t morton_code(const Point3f& p) {
-  const auto step = [](float x) {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x * 2.0F)) + (1 << 20));
-  };
-  return spread(step(p.x)) | spread(step(p.y)) << 1U | spread(step(p.z)) << 2U;
+using Numbers = std::span<std::uint32_t>;
+
+/// Along one trait, where the receivers of a part lie.
+struct Extent {
+  std::size_t trait = 0;
+  float low = 0.0F, width = 0.0F;
+};
+struct WidestTwo {
+  Extent first, second;
+};
+
+WidestTwo widest_two(std::span<const Traits> traits, Numbers part) {
+  Traits low = traits[part[0]], high = low;
+  for (const std::uint32_t n : part)
+    for (std::size_t k = 0; k < low.size(); ++k) {
+      low[k] = std::min(low[k], traits[n][k]);
+      high[k] = std::max(high[k], traits[n][k]);
+    }
+  WidestTwo widest;
+  for (std::size_t k = 0; k < low.size(); ++k) {
+    const Extent extent{k, low[k], high[k] - low[k]};
+    if (extent.width > widest.first.width) {
+      widest.second = std::exchange(widest.first, extent);
+    } else if (extent.width > widest.second.width) {
+      widest.second = extent;
+    }
+  }
+  return widest;
 }
 
-bool look_alike(std::span<const Receiver> receivers) {
-  return std::all_of(receivers.begin(), receivers.end(), [&](const Receiver& r) { return r.normal == receivers[0].normal; });
+/// A part is cut where it is widest: the extent is divided into bins, and the cut falls into one of them or between two.
+constexpr std::size_t bin_count = 32;
+class Bins {
+ public:
+  Bins(std::span<const Traits> traits, const Extent& extent, Numbers part)
+      : traits_(traits), extent_(extent), per_length_(extent.width > 0.0F ? 0.999F * bin_count / extent.width : 0.0F) {
+    for (const std::uint32_t n : part) ++counts_[bin_of(n)];
+  }
+  [[nodiscard]] std::size_t bin_of(std::uint32_t number) const {
+    return static_cast<std::size_t>((traits_[number][extent_.trait] - extent_.low) * per_length_);
+  }
+  [[nodiscard]] std::uint32_t count(std::size_t bin) const { return counts_[bin]; }
+  /// How many bins without anybody are a gap of such a width.
+  [[nodiscard]] std::size_t least_empty(float width) const { return static_cast<std::size_t>(width * per_length_) + 1; }
+
+ private:
+  std::span<const Traits> traits_;
+  Extent extent_;
+  float per_length_;
+  std::array<std::uint32_t, bin_count> counts_{};
+};
+
+/// All of the bins before `bin` go to the one side, and so many of it.
+struct Cut {
+  std::size_t bin = 0, of_bin = 0, count = 0;
+};
+
+/// Halves a part into whole packets, but for the last.
+Cut half_of(const Bins& bins, std::size_t count) {
+  const std::size_t packets = (count + ReceiverPacket::lanes - 1) / ReceiverPacket::lanes;
+  Cut cut{0, 0, packets / 2 * ReceiverPacket::lanes};
+  std::size_t before = 0;
+  while (before + bins.count(cut.bin) < cut.count) before += bins.count(cut.bin++);
+  cut.of_bin = cut.count - before;
+  return cut;
 }
+
+/// A gap as wide as a packet would be is worth a packet more, if there is something on both sides of it. The count is 0 when
+/// there is no such gap.
+Cut widest_gap(const Bins& bins, std::size_t count, float packet_width) {
+  constexpr std::size_t least = ReceiverPacket::lanes / 4;
+  Cut cut;
+  std::size_t before = 0, empty = 0, least_empty = bins.least_empty(packet_width);
+  for (std::size_t bin = 0; bin < bin_count; ++bin) {
+    if (bins.count(bin) == 0) {
+      ++empty;
+      continue;
+    }
+    if (empty >= least_empty && before >= least && count - before >= least) {
+      cut = {bin, 0, before};
+      least_empty = empty + 1;
+    }
+    before += bins.count(bin);
+    empty = 0;
+  }
+  return cut;
+}
+
+class Division {
+ public:
+  explicit Division(std::span<const Receiver> receivers) : room_(receivers.size()) {
+    order_.numbers.resize(receivers.size());
+    std::iota(order_.numbers.begin(), order_.numbers.end(), 0U);
+    traits_.reserve(receivers.size());
+    for (const Receiver& r : receivers) traits_.push_back(traits_of(r));
+  }
+
+  PacketOrder divided() && {
+    if (!order_.numbers.empty()) divide(order_.numbers);
+    return std::move(order_);
+  }
+
+ private:
+  void divide(Numbers part) {
+    if (part.size() <= ReceiverPacket::lanes) {
+      order_.ends.push_back(static_cast<std::uint32_t>(part.data() + part.size() - order_.numbers.data()));
+      return;
+    }
+    const std::size_t count = cut(part);
+    divide(part.first(count));
+    divide(part.subspan(count));
+  }
+  /// Returns how many are on the one side; they come first then. Neither side is empty.
+  std::size_t cut(Numbers part) {
+    const auto [widest, second] = widest_two(traits_, part);
+    const Bins bins(traits_, widest, part);
+    const float packet_share = static_cast<float>(ReceiverPacket::lanes) / static_cast<float>(part.size());
+    const Cut gap = widest_gap(bins, part.size(), std::sqrt(widest.width * second.width * packet_share));
+    const Cut cut = gap.count > 0 ? gap : half_of(bins, part.size());
+    // In the order in which they come. Without a branch, which would be guessed wrong every other time
+    std::size_t here = 0, beyond = 0, of_bin = cut.of_bin;
+    for (const std::uint32_t number : part) {
+      const std::size_t bin = bins.bin_of(number), is_of_bin = bin == cut.bin ? 1 : 0;
+      const std::size_t is_here = (bin < cut.bin ? 1U : 0U) | (is_of_bin & (of_bin > 0 ? 1U : 0U));
+      part[here] = room_[beyond] = number;
+      here += is_here;
+      beyond += 1 - is_here;
+      of_bin -= is_of_bin & is_here;
+    }
+    std::copy_n(room_.begin(), beyond, part.begin() + static_cast<std::ptrdiff_t>(here));
+    return here;
+  }
+
+  std::vector<Traits> traits_;
+  PacketOrder order_;
+  std::vector<std::uint32_t> room_;
+};
 
 }  // namespace
 
-std::vector<std::uint32_t> packet_order(std::span<const Receiver> receivers) {
-  std::vector<std::uint32_t> order(receivers.size());
-  std::iota(order.begin(), order.end(), 0U);
-  if (look_alike(receivers)) return order;
-  std::vector<std::uint64_t> codes;
-  for (const Receiver& r : receivers) codes.push_back(morton_code(r.p_cell));
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Point3f &m = receivers[a].normal, &n = receivers[b].normal;
-    return std::tie(m.x, m.y, m.z, codes[a]) < std::tie(n.x, n.y, n.z, codes[b]);
-  });
-  return order;
-}
+PacketOrder packet_order(std::span<const Receiver> receivers) { return Division(receivers).divided(); }
 
 }  // namespace farlod

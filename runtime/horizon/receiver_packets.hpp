@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,19 +12,28 @@
 
 namespace farlod {
 
-/// Orders the receivers of a cell so that those in a row see alike: first by where they look, then along a space-filling curve
-/// (Morton order), to be cut into packets. Gives the places of the receivers in their list. Receivers that look the same way and
-/// are neighbours in the list already, as those of a raster are, stay in its order.
-[[nodiscard]] std::vector<std::uint32_t> packet_order(std::span<const Receiver> receivers);
+/// The receivers of a cell, divided into packets that see alike: a packet is drawn the faster, the nearer its receivers stand to
+/// each other and the more they look the same way.
+struct PacketOrder {
+  std::vector<std::uint32_t> numbers;  ///< places of the receivers in their list, packet by packet
+  std::vector<std::uint32_t> ends;     ///< of each packet, in `numbers`
+};
 
-/// Calls `visit(packet, numbers)` for each packet of the receivers that `order` numbers.
+///   (1) each receiver is in one packet
+///   (2) a packet has between one and ReceiverPacket::lanes receivers
+///   (3) the receivers alone decide
+[[nodiscard]] PacketOrder packet_order(std::span<const Receiver> receivers);
+
+/// Calls `visit(packet, numbers)` for each packet.
 template <class Visit>
-void for_each_packet(std::span<const Receiver> receivers, std::span<const std::uint32_t> order, const Visit& visit) {
-  for (std::size_t first = 0; first < order.size(); first += ReceiverPacket::lanes) {
-    const auto numbers = order.subspan(first, std::min(ReceiverPacket::lanes, order.size() - first));
+void for_each_packet(std::span<const Receiver> receivers, const PacketOrder& order, const Visit& visit) {
+  std::size_t first = 0;
+  for (const std::uint32_t end : order.ends) {
+    const auto numbers = std::span(order.numbers).subspan(first, end - first);
     ReceiverPacket packet;
     for (const std::uint32_t n : numbers) packet.add(receivers[n]);
     visit(packet, numbers);
+    first = end;
   }
 }
 

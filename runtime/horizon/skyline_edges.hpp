@@ -28,20 +28,22 @@ class SkylineEdges {
 
   [[nodiscard]] std::size_t size() const { return rises_.size(); }
   [[nodiscard]] bool empty() const { return size() == 0; }
+  /// Makes room for so many.
+  void reserve(std::size_t count) {
+    batches_.reserve((count + lanes - 1) / lanes);
+    rises_.reserve(count);
+  }
   /// Turns an edge round if need be: if only one side is a wall, that is to the right of the way from a to b.
-  void add(const HorizonEdge& given) {
-    const bool turns = given.rises.left == EdgeRises::straight_down && given.rises.right != EdgeRises::straight_down;
-    const HorizonEdge e = turns ? HorizonEdge{given.b, given.a, {given.rises.right, given.rises.left}} : given;
+  void add(const HorizonEdge& e) {
+    const bool turns = (e.rises.left == EdgeRises::straight_down) & (e.rises.right != EdgeRises::straight_down);
     const std::size_t lane = size() % lanes;
     if (lane == 0) batches_.emplace_back();
-    Batch& batch = batches_.back();
-    batch.ax[lane] = e.a.x;
-    batch.ay[lane] = e.a.y;
-    batch.az[lane] = e.a.z;
-    batch.bx[lane] = e.b.x;
-    batch.by[lane] = e.b.y;
-    batch.bz[lane] = e.b.z;
-    rises_.push_back(e.rises);
+    // Both ends by their number: a branch would be guessed wrong for every other edge
+    const std::size_t a = turns ? 1 : 0, b = 1 - a;
+    const std::array x{e.a.x, e.b.x}, y{e.a.y, e.b.y}, z{e.a.z, e.b.z};
+    put(lane, {x[a], y[a], z[a]}, {x[b], y[b], z[b]}, batches_.back());
+    const std::array sides{e.rises.left, e.rises.right};
+    rises_.push_back({sides[a], sides[b]});
   }
   [[nodiscard]] HorizonEdge at(std::size_t n) const {
     const Batch& batch = batches_[n / lanes];
@@ -49,10 +51,19 @@ class SkylineEdges {
     return {{batch.ax[lane], batch.ay[lane], batch.az[lane]}, {batch.bx[lane], batch.by[lane], batch.bz[lane]}, rises_[n]};
   }
   [[nodiscard]] std::span<const Batch> batches() const { return batches_; }
-  /// Those that can be a horizon for receivers in a box, from near to far as seen from its middle.
+  /// Those that can be a horizon for receivers in a box, from near to far as seen from its middle, in steps of 3 %.
   [[nodiscard]] SkylineEdges facing(const ReceiverBox& box) const;
 
  private:
+  static void put(std::size_t lane, const Point3f& a, const Point3f& b, Batch& batch) {
+    batch.ax[lane] = a.x;
+    batch.ay[lane] = a.y;
+    batch.az[lane] = a.z;
+    batch.bx[lane] = b.x;
+    batch.by[lane] = b.y;
+    batch.bz[lane] = b.z;
+  }
+
   std::vector<Batch> batches_;
   std::vector<EdgeRises> rises_;
 };

@@ -1,74 +1,167 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfTiledInputFile.h>
+#include <OpenEXR/openexr.h>
 
+#include <algorithm>
 #include <array>
-#include <mutex>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "farlod/expects.hpp"
 #include "farlod/package/layout.hpp"
+#include "package/exr_runs.hpp"
 #include "package/far_map_reader.hpp"
 #include "package/package_error.hpp"
 
+// OpenEXR's core library: a third of its C++ classes' time for a tile, and any number of threads may read one file at once.
+
 namespace farlod {
+namespace {
+
+constexpr int only_part = 0, only_level = 0;
+
+/// Libraries never print. What went wrong comes back as a number.
+void keep_silent(exr_const_context_t, exr_result_t, const char*) {}
+
+exr_result_t undo_runs(exr_decode_pipeline_t* decoding) {
+  const exr_chunk_info_t& chunk = decoding->chunk;
+  // OpenEXR stores a tile as it is when runs do not make it smaller, and then both are the same bytes
+  if (chunk.packed_size == chunk.unpacked_size) return EXR_ERR_SUCCESS;
+  const std::span packed(static_cast<const std::byte*>(decoding->packed_buffer), chunk.packed_size);
+  const std::span pixels(static_cast<std::byte*>(decoding->unpacked_buffer), chunk.unpacked_size);
+  return undo_exr_runs(packed, pixels) ? EXR_ERR_SUCCESS : EXR_ERR_CORRUPT_CHUNK;
+}
+
+/// A channel to read, and where to.
+struct Wanted {
+  const char* channel;
+  std::vector<float>* pixels;
+};
+
+/// The decoding of one tile.
+class Decoding {
+ public:
+  Decoding(exr_const_context_t file, const exr_chunk_info_t& chunk) : file_(file) {
+    state_ = exr_decoding_initialize(file_, only_part, &chunk, &pipeline_);
+  }
+  Decoding(const Decoding&) = delete;
+  Decoding& operator=(const Decoding&) = delete;
+  ~Decoding() { exr_decoding_destroy(file_, &pipeline_); }
+
+  exr_result_t run(std::span<const Wanted> wanted, exr_compression_t compression) {
+    if (state_ != EXR_ERR_SUCCESS) return state_;
+    const std::span channels(pipeline_.channels, static_cast<std::size_t>(pipeline_.channel_count));
+    unwanted_.resize(channels.size());
+    for (std::size_t n = 0; n < channels.size(); ++n)
+      direct(channels[n], pixels_of(channels[n].channel_name, wanted, unwanted_[n]));
+    state_ = exr_decoding_choose_default_routines(file_, only_part, &pipeline_);
+    if (compression == EXR_COMPRESSION_RLE) pipeline_.decompress_fn = undo_runs;
+    return state_ == EXR_ERR_SUCCESS ? exr_decoding_run(file_, only_part, &pipeline_) : state_;
+  }
+
+ private:
+  /// OpenEXR 3.1 does not leave out channels without a place as it promises: it writes to no place at all.
+  static std::vector<float>& pixels_of(std::string_view channel, std::span<const Wanted> wanted, std::vector<float>& otherwise) {
+    for (const Wanted& w : wanted)
+      if (channel == w.channel) return *w.pixels;
+    return otherwise;
+  }
+  static void direct(exr_coding_channel_info_t& channel, std::vector<float>& pixels) {
+    pixels.resize(static_cast<std::size_t>(channel.width) * static_cast<std::size_t>(channel.height));
+    channel.decode_to_ptr = reinterpret_cast<std::uint8_t*>(pixels.data());
+    channel.user_data_type = EXR_PIXEL_FLOAT;
+    channel.user_bytes_per_element = sizeof(float);
+    channel.user_pixel_stride = sizeof(float);
+    channel.user_line_stride = channel.width * static_cast<std::int32_t>(sizeof(float));
+  }
+
+  exr_const_context_t file_;
+  exr_decode_pipeline_t pipeline_ = EXR_DECODE_PIPELINE_INITIALIZER;
+  exr_result_t state_ = EXR_ERR_SUCCESS;
+  std::vector<std::vector<float>> unwanted_;
+};
+
+}  // namespace
 
 struct FarMapReader::Impl {
   std::string name;
   CellRange cells;
   package::FarMapShape shape;
-  Imf::TiledInputFile file;
-  std::mutex one_reader;  // a frame buffer belongs to the file, not to the call
+  exr_context_t file = nullptr;
+  exr_compression_t compression = EXR_COMPRESSION_NONE;
 
   Impl(const std::filesystem::path& path, const CellRange& c, const package::FarMapShape& s)
-      : name(path.string()), cells(c), shape(s), file(path.c_str(), 0) {}
+      : name(path.string()), cells(c), shape(s) {
+    exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    how.error_handler_fn = keep_silent;
+    const exr_result_t result = exr_start_read(&file, name.c_str(), &how);
+    if (result == EXR_ERR_SUCCESS) return;
+    exr_finish(&file);
+    throw PackageDamaged(name + " cannot be read as a far map: " + exr_get_default_error_message(result) +
+                         ". Pack the city again.");
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+  ~Impl() { exr_finish(&file); }
 
   [[noreturn]] void damaged(const std::string& what) const {
     throw PackageDamaged(name + " is damaged: " + what + ". Pack the city again.");
   }
-  void check() const {
-    const Imath::Box2i window = file.header().dataWindow();
+  void require(exr_result_t result) const {
+    if (result != EXR_ERR_SUCCESS) damaged(exr_get_default_error_message(result));
+  }
+  void check() {
+    int parts = 0;
+    exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
+    require(exr_get_count(file, &parts));
+    require(exr_get_storage(file, only_part, &storage));
+    if (parts != 1 || storage != EXR_STORAGE_TILED) damaged("it is not one picture of tiles");
+    require(exr_get_compression(file, only_part, &compression));
+    check_places();
+    check_channels();
+    // OpenEXR reads where the tiles lie with the first of them: before many threads come
+    exr_chunk_info_t chunk;
+    require(exr_read_tile_chunk_info(file, only_part, 0, 0, only_level, only_level, &chunk));
+  }
+  void check_places() const {
     const std::uint32_t columns = shape.picture_columns(), rows = shape.picture_rows();
-    if (file.tileXSize() != columns || file.tileYSize() != rows) damaged("its maps are not of the size that the manifest says");
+    std::uint32_t tile_columns = 0, tile_rows = 0;
+    exr_tile_level_mode_t levels = EXR_TILE_LAST_TYPE;
+    exr_tile_round_mode_t rounding = EXR_TILE_ROUND_LAST_TYPE;
+    require(exr_get_tile_descriptor(file, only_part, &tile_columns, &tile_rows, &levels, &rounding));
+    if (tile_columns != columns || tile_rows != rows) damaged("its maps are not of the size that the manifest says");
+    exr_attr_box2i_t window{};
+    require(exr_get_data_window(file, only_part, &window));
     if (window.min.x != 0 || window.min.y != 0 || window.max.x + 1 != static_cast<int>(cells.width() * columns) ||
         window.max.y + 1 != static_cast<int>(cells.height() * rows))
       damaged("it does not hold a map for each cell of its block");
-    const Imf::ChannelList& channels = file.header().channels();
-    if (shape.is_box() && channels.findChannel(package::distance_channel) == nullptr) damaged("it has no distances");
-    for (const char* slopes : {package::lower_channel, package::likely_channel, package::upper_channel})
-      if (!shape.is_box() && channels.findChannel(slopes) == nullptr) damaged("it has no slopes");
   }
-  /// The pixels of one cell, channel by channel, in the file's order of rows.
-  std::vector<std::vector<float>> read(Cell cell, std::span<const char* const> names) {
-    const std::uint32_t columns = shape.picture_columns(), rows = shape.picture_rows();
+  void check_channels() const {
+    const exr_attr_chlist_t* channels = nullptr;
+    require(exr_get_channels(file, only_part, &channels));
+    const std::span entries(channels->entries, static_cast<std::size_t>(channels->num_channels));
+    const auto has = [&](std::string_view wanted) {
+      return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return wanted == entry.name.str; });
+    };
+    if (shape.is_box() && !has(package::distance_channel)) damaged("it has no distances");
+    for (const char* slopes : {package::lower_channel, package::likely_channel, package::upper_channel})
+      if (!shape.is_box() && !has(slopes)) damaged("it has no slopes");
+  }
+  /// The pixels of one cell, in the file's order of rows.
+  void read(Cell cell, std::span<const Wanted> wanted) const {
     const auto tile_x = static_cast<int>(cell.i - cells.i_begin), tile_y = static_cast<int>(cell.j - cells.j_begin);
-    std::vector<std::vector<float>> channels(names.size(), std::vector<float>(static_cast<std::size_t>(columns) * rows));
-    const std::lock_guard lock(one_reader);
-    try {
-      // Tell OpenEXR where pixel (0, 0) of the whole picture would lie, were it in memory
-      const Imath::V2i first_pixel(tile_x * static_cast<int>(columns), tile_y * static_cast<int>(rows));
-      Imf::FrameBuffer frame;
-      for (std::size_t n = 0; n < names.size(); ++n)
-        frame.insert(names[n], Imf::Slice::Make(Imf::FLOAT, channels[n].data(), first_pixel, columns, rows));
-      file.setFrameBuffer(frame);
-      file.readTile(tile_x, tile_y);
-    } catch (const std::exception& reason) {
-      damaged(reason.what());
-    }
-    return channels;
+    exr_chunk_info_t chunk;
+    require(exr_read_tile_chunk_info(file, only_part, tile_x, tile_y, only_level, only_level, &chunk));
+    require(Decoding(file, chunk).run(wanted, compression));
+    for (const Wanted& w : wanted)
+      if (w.pixels->size() != static_cast<std::size_t>(shape.picture_columns()) * shape.picture_rows())
+        damaged("a channel does not have a value for each pixel");
   }
 };
 
-FarMapReader::FarMapReader(const std::filesystem::path& path, const CellRange& cells, const package::FarMapShape& shape) {
-  try {
-    impl_ = std::make_unique<Impl>(path, cells, shape);
-  } catch (const std::exception& reason) {
-    throw PackageDamaged(path.string() + " cannot be read as a far map: " + reason.what() + ". Pack the city again.");
-  }
+FarMapReader::FarMapReader(const std::filesystem::path& path, const CellRange& cells, const package::FarMapShape& shape)
+    : impl_(std::make_unique<Impl>(path, cells, shape)) {
   impl_->check();
 }
 FarMapReader::FarMapReader(FarMapReader&&) noexcept = default;
@@ -79,7 +172,8 @@ BoxFarMap FarMapReader::read_box(Cell cell, float top) const {
   FARLOD_EXPECTS(impl_->cells.contains(cell) && impl_->shape.is_box());
   if (top <= 0.0F) return {};
   const std::size_t w = impl_->shape.picture_columns(), h = impl_->shape.picture_rows();
-  const std::vector<float> from_top_down = impl_->read(cell, std::array{package::distance_channel})[0];
+  std::vector<float> from_top_down;
+  impl_->read(cell, std::array{Wanted{package::distance_channel, &from_top_down}});
   for (const float d : from_top_down)
     if (!(d > 0.0F)) impl_->damaged("a distance is not a positive number");
   // Pictures run downwards, maps upwards
@@ -92,13 +186,12 @@ BoxFarMap FarMapReader::read_box(Cell cell, float top) const {
 
 void FarMapReader::read_slopes(Cell cell, FarHorizon& map) const {
   FARLOD_EXPECTS(impl_->cells.contains(cell) && !impl_->shape.is_box());
-  auto slopes = impl_->read(cell, std::array{package::lower_channel, package::likely_channel, package::upper_channel});
-  map.lower = std::move(slopes[0]);
-  map.likely = std::move(slopes[1]);
-  map.upper = std::move(slopes[2]);
+  impl_->read(cell, std::array{Wanted{package::lower_channel, &map.lower}, Wanted{package::likely_channel, &map.likely},
+                               Wanted{package::upper_channel, &map.upper}});
+  std::size_t in_order = 0;
   for (std::size_t n = 0; n < map.lower.size(); ++n)
-    if (!(map.lower[n] >= 0.0F && map.lower[n] <= map.upper[n] && map.likely[n] >= 0.0F))
-      impl_->damaged("its bounds are not in order");
+    in_order += (map.lower[n] >= 0.0F ? 1U : 0U) & (map.lower[n] <= map.upper[n] ? 1U : 0U) & (map.likely[n] >= 0.0F ? 1U : 0U);
+  if (in_order != map.lower.size()) impl_->damaged("its bounds are not in order");
 }
 
 }  // namespace farlod

@@ -73,12 +73,11 @@ struct Package::Impl {
     return folder / package::block_folder(manifest.blocks[n].block) / file;
   }
 
-  /// What a block holds at the most: its tiles, read from end to end, and OpenEXR's buffers, one for the map of a cell as it is
-  /// and one as it is packed.
+  /// What a block holds at the most: its tiles, read from end to end, and where in its file the far map of each cell lies.
   std::uint64_t bytes_of(std::size_t n) const {
-    constexpr std::uint64_t channels = 3, bytes_of_half = 2, buffers = 2;
-    const package::FarMapShape& shape = manifest.far_map;
-    return manifest.blocks[n].tiles.bytes + buffers * channels * bytes_of_half * shape.picture_columns() * shape.picture_rows();
+    constexpr std::uint64_t bytes_of_place = 8;
+    const BlockFiles& files = manifest.blocks[n];
+    return files.tiles.bytes + bytes_of_place * static_cast<std::uint64_t>(manifest.grid.cells_of(files.block).size());
   }
 
   /// A block that is open is being used; others may have to go.

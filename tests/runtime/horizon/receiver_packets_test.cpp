@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "tests/runtime/horizon/random_places.hpp"
@@ -23,54 +24,87 @@ std::vector<Receiver> random_receivers(std::size_t count, const std::vector<Poin
   return receivers;
 }
 
-TEST(PacketOrder, HoldsEachReceiverOnce) {
+std::vector<std::vector<Receiver>> packets_of(const std::vector<Receiver>& receivers) {
+  std::vector<std::vector<Receiver>> packets;
+  for_each_packet(receivers, packet_order(receivers), [&](const ReceiverPacket& packet, std::span<const std::uint32_t> numbers) {
+    EXPECT_EQ(packet.count, numbers.size());
+    packets.emplace_back();
+    for (const std::uint32_t n : numbers) packets.back().push_back(receivers[n]);
+    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
+      EXPECT_EQ(packet.x[l], packets.back()[std::min(l, numbers.size() - 1)].p_cell.x);
+  });
+  return packets;
+}
+
+std::vector<Receiver> raster(int columns, int rows) {
+  std::vector<Receiver> receivers;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      receivers.push_back({receivers.size(), {static_cast<float>(column), static_cast<float>(row), 1.5F}, up});
+  return receivers;
+}
+
+/// All nearer to the first than this, along x, y and z.
+bool lie_within(const std::vector<Receiver>& packet, float width_m) {
+  return std::all_of(packet.begin(), packet.end(), [&](const Receiver& r) {
+    const Point3f &p = r.p_cell, &q = packet[0].p_cell;
+    return std::max({std::abs(p.x - q.x), std::abs(p.y - q.y), std::abs(p.z - q.z)}) < width_m;
+  });
+}
+
+TEST(PacketOrder, EachReceiverIsInOnePacket) {
   for (const std::size_t count : {0U, 1U, 15U, 16U, 17U, 500U}) {
-    std::vector<std::uint32_t> order = packet_order(random_receivers(count, {up, east, south}));
-    std::sort(order.begin(), order.end());
-    std::vector<std::uint32_t> all(count);
-    std::iota(all.begin(), all.end(), 0U);
-    EXPECT_EQ(order, all);
+    std::vector<std::size_t> seen;
+    for (const auto& packet : packets_of(random_receivers(count, {up, east, south}))) {
+      EXPECT_FALSE(packet.empty());
+      EXPECT_LE(packet.size(), ReceiverPacket::lanes);
+      for (const Receiver& r : packet) seen.push_back(r.index);
+    }
+    std::sort(seen.begin(), seen.end());
+    std::vector<std::size_t> all(count);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    EXPECT_EQ(seen, all);
   }
 }
 
-TEST(PacketOrder, RastersStayAsTheyAre) {
-  std::vector<std::uint32_t> all(100);
-  std::iota(all.begin(), all.end(), 0U);
-  EXPECT_EQ(packet_order(random_receivers(100, {up})), all);
+TEST(PacketOrder, PacketsAreFullButForTheLast) {
+  // A raster has no gaps
+  EXPECT_EQ(packets_of(raster(23, 17)).size(), (23U * 17U + 15U) / 16U);
 }
 
-TEST(PacketOrder, ThoseWhoLookAlikeAreTogether) {
-  const std::vector<Receiver> receivers = random_receivers(300, {up, east, south});
-  const std::vector<std::uint32_t> order = packet_order(receivers);
-  int changes = 0;
-  for (std::size_t n = 1; n < order.size(); ++n) changes += receivers[order[n]].normal == receivers[order[n - 1]].normal ? 0 : 1;
-  EXPECT_EQ(changes, 2);
+TEST(PacketOrder, ARasterComesInSquares) {
+  const auto packets = packets_of(raster(16, 32));
+  EXPECT_EQ(packets.size(), 32U);
+  for (const auto& packet : packets) EXPECT_TRUE(lie_within(packet, 4.0F));
 }
 
-TEST(PacketOrder, NeighboursAreTogether) {
-  const std::vector<Receiver> receivers = random_receivers(4000, {east, south});
-  const auto length = [&](const std::vector<std::uint32_t>& order) {
-    double sum = 0.0;
-    for (std::size_t n = 1; n < order.size(); ++n) sum += norm(receivers[order[n]].p_cell - receivers[order[n - 1]].p_cell);
-    return sum / static_cast<double>(order.size());
-  };
-  std::vector<std::uint32_t> as_given(receivers.size());
-  std::iota(as_given.begin(), as_given.end(), 0U);
-  // 2000 in 100 m x 100 m x 65 m stand 7 m apart; at random they are 60 m apart
-  EXPECT_LT(length(packet_order(receivers)), length(as_given) / 3.0);
+TEST(PacketOrder, OppositeWallsStayApart) {
+  // Two sides of a house, 8 m apart, come in turn
+  std::vector<Receiver> receivers;
+  for (int n = 0; n < 60; ++n) {
+    const Point3f p{static_cast<float>(2 * (n % 10)), 0.0F, static_cast<float>(2 * (n / 10))};
+    receivers.push_back({receivers.size(), p, south});
+    receivers.push_back({receivers.size(), {p.x, 8.0F, p.z}, {0.0F, 1.0F, 0.0F}});
+  }
+  for (const auto& packet : packets_of(receivers))
+    for (const Receiver& r : packet) EXPECT_EQ(r.normal, packet[0].normal);
 }
 
-TEST(ReceiverPackets, CoverTheOrderOnceAndTheLastIsPartial) {
-  const std::vector<Receiver> receivers = random_receivers(37, {up, east});
-  const std::vector<std::uint32_t> order = packet_order(receivers);
-  std::vector<std::uint32_t> visited;
-  for_each_packet(receivers, order, [&](const ReceiverPacket& packet, std::span<const std::uint32_t> numbers) {
-    ASSERT_EQ(packet.count, numbers.size());
-    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
-      EXPECT_EQ(packet.x[l], receivers[numbers[std::min(l, numbers.size() - 1)]].p_cell.x);
-    visited.insert(visited.end(), numbers.begin(), numbers.end());
-  });
-  EXPECT_EQ(visited, order);
+TEST(PacketOrder, AGapIsWorthAPacketMore) {
+  std::vector<Receiver> receivers = raster(4, 5);
+  for (Receiver r : raster(3, 4)) {
+    r.p_cell.x += 40.0F;
+    r.index += 20;
+    receivers.push_back(r);
+  }
+  const auto packets = packets_of(receivers);
+  EXPECT_EQ(packets.size(), 3U) << "two would be enough";
+  for (const auto& packet : packets) EXPECT_TRUE(lie_within(packet, 6.0F));
+}
+
+TEST(PacketOrder, ManyAtOnePlace) {
+  const std::vector<Receiver> receivers(40, Receiver{0, {1.0F, 2.0F, 3.0F}, up});
+  EXPECT_EQ(packets_of(receivers).size(), 3U);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <numbers>
 
@@ -76,12 +77,32 @@ TEST(SkylineEdges, AnEaveUnderASteeperRoofIsNoHorizon) {
 TEST(SkylineEdges, ComeFromNearToFar) {
   RandomPlaces random;
   SkylineEdges edges;
-  for (int n = 0; n < 100; ++n) edges.add(random.edge(90.0, 5.0, 30.0));
+  // From the next metre to beyond all steps
+  for (const double reach_m : {1.5, 15.0, 90.0, 2000.0, 500000.0})
+    for (int n = 0; n < 100; ++n) edges.add(random.edge(reach_m, 5.0, 30.0));
   const std::vector<HorizonEdge> ordered = all_of(edges.facing({{-1.0F, -1.0F, 1.0F}, {1.0F, 1.0F, 2.0F}}));
-  EXPECT_EQ(ordered.size(), 100U);
-  const auto distance = [](const HorizonEdge& e) { return distance_to_segment({e.a.x, e.a.y}, {e.b.x, e.b.y}); };
+  EXPECT_EQ(ordered.size(), 500U);
+  constexpr double nearest_step_m = 0.25, farthest_step_m = 131072.0, step = 1.0 + 1.0 / 32;
+  const auto distance = [&](const HorizonEdge& e) {
+    return std::clamp(distance_to_segment({e.a.x, e.a.y}, {e.b.x, e.b.y}), nearest_step_m, farthest_step_m / step);
+  };
   for (std::size_t n = 1; n < ordered.size(); ++n)
-    EXPECT_GE(distance(ordered[n]), distance(ordered[n - 1]) - 100.0 * float_rounding);
+    EXPECT_GE(distance(ordered[n]) * step, distance(ordered[n - 1]) * (1.0 - 10.0 * float_rounding));
+}
+
+TEST(SkylineEdges, ThoseOfOneDistanceStayInOrder) {
+  SkylineEdges edges;
+  for (int n = 0; n < 40; ++n) edges.add({{10.0F, -5.0F, 8.0F + static_cast<float>(n)}, {10.0F, 5.0F, 8.0F}});
+  const std::vector<HorizonEdge> ordered = all_of(edges.facing({{0.0F, 0.0F, 0.0F}, {5.0F, 5.0F, 2.0F}}));
+  EXPECT_EQ(ordered, all_of(edges));
+}
+
+TEST(SkylineEdges, WallsAreToTheRight) {
+  SkylineEdges edges;
+  edges.add({{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}, {EdgeRises::straight_down, -8}});
+  edges.add({{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}, {-8, EdgeRises::straight_down}});
+  EXPECT_EQ(edges.at(0), (HorizonEdge{{4.0F, 5.0F, 6.0F}, {1.0F, 2.0F, 3.0F}, {-8, EdgeRises::straight_down}}));
+  EXPECT_EQ(edges.at(1), (HorizonEdge{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}, {-8, EdgeRises::straight_down}}));
 }
 
 TEST(SkylineEdges, WallsWithoutThicknessFaceBothWays) {

@@ -8,8 +8,14 @@
 #include <gmock/gmock.h>
 #include <half.h>
 
+#include <array>
+#include <atomic>
+#include <filesystem>
 #include <limits>
+#include <random>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "farlod/package/layout.hpp"
@@ -96,6 +102,99 @@ TEST(HorizonFile, PatchesRunDownwardsFromTheFirst) {
   EXPECT_EQ(upper, map.upper);
 }
 
+/// A file of three tiles in a row: 0, long runs, and next to no runs.
+class ThreeTiles {
+ public:
+  ThreeTiles() {
+    shape_.kind = "horizon";
+    shape_.azimuth_bins = columns;
+    shape_.squares_per_edge = 2;
+    shape_.layers = rows / 4;
+    std::mt19937 random(1);
+    for (std::size_t n = 0; n < zeros_.size(); ++n) {
+      const std::size_t tile = n % (3 * columns) / columns;
+      noise_[n] = half(tile == 2 ? static_cast<float>(random() % 1000) / 256.0F : tile == 1 ? static_cast<float>(n / 700) : 0.0F);
+    }
+  }
+  void write(Imf::Compression compression) {
+    Imf::Header header(3 * columns, rows);
+    header.compression() = compression;
+    header.setTileDescription(Imf::TileDescription(columns, rows, Imf::ONE_LEVEL));
+    Imf::FrameBuffer frame;
+    for (const auto& [name, pixels] : {std::pair{"Y", &noise_}, {"lower", &zeros_}, {"upper", &noise_}}) {
+      header.channels().insert(name, Imf::Channel(Imf::HALF));
+      frame.insert(name, Imf::Slice::Make(Imf::HALF, pixels->data(), header.dataWindow()));
+    }
+    Imf::TiledOutputFile file(path().c_str(), header);
+    file.setFrameBuffer(frame);
+    file.writeTiles(0, 2, 0, 0);
+  }
+  [[nodiscard]] FarMapReader reader() const { return {path(), {0, 0, 3, 1}, shape_}; }
+  [[nodiscard]] static FarHorizon read(const FarMapReader& reader, std::int32_t tile) {
+    FarHorizon map{ReceiverPatches(20.0, 2, std::vector<float>(rows / 4)), AzimuthBins{columns}, {}, {}, {}, {}};
+    reader.read_slopes({tile, 0}, map);
+    return map;
+  }
+  [[nodiscard]] std::vector<float> written(std::int32_t tile) const {
+    std::vector<float> result;
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t column = 0; column < columns; ++column)
+        result.push_back(noise_[row * 3 * columns + static_cast<std::size_t>(tile) * columns + column]);
+    return result;
+  }
+  [[nodiscard]] std::string path() const { return (folder_.path() / package::far_map_file).string(); }
+
+ private:
+  static constexpr std::size_t columns = 64, rows = 12;
+  scenes::TemporaryFolder folder_;
+  package::FarMapShape shape_;
+  std::vector<half> zeros_ = std::vector<half>(3 * columns * rows, half(0.0F)), noise_ = zeros_;
+};
+
+TEST(HorizonFile, AnyCompressionThatLosesNothing) {
+  ThreeTiles file;
+  for (const Imf::Compression compression : {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION,
+                                             Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION, Imf::PXR24_COMPRESSION}) {
+    file.write(compression);
+    const FarMapReader reader = file.reader();
+    for (std::int32_t tile = 0; tile < 3; ++tile) {
+      const FarHorizon map = ThreeTiles::read(reader, tile);
+      EXPECT_EQ(map.likely, file.written(tile)) << "compression " << compression << ", tile " << tile;
+      EXPECT_EQ(map.upper, map.likely);
+      EXPECT_EQ(map.lower, std::vector<float>(map.upper.size()));
+    }
+  }
+}
+
+TEST(HorizonFile, ManyThreadsReadOneFile) {
+  ThreeTiles file;
+  file.write(Imf::RLE_COMPRESSION);
+  const FarMapReader reader = file.reader();
+  std::array<std::thread, 4> threads;
+  std::atomic<int> alike = 0;
+  for (std::thread& thread : threads)
+    thread = std::thread([&] {
+      for (std::int32_t n = 0; n < 300; ++n) alike += ThreeTiles::read(reader, n % 3).likely == file.written(n % 3) ? 1 : 0;
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(alike, 1200);
+}
+
+TEST(HorizonFile, DamagedTilesAreToldAndNothingIsPrinted) {
+  ThreeTiles file;
+  for (const Imf::Compression compression : {Imf::RLE_COMPRESSION, Imf::ZIP_COMPRESSION}) {
+    file.write(compression);
+    const auto bytes = std::filesystem::file_size(file.path());
+    testing::internal::CaptureStderr();
+    // The end of the last tile's bytes, then of the table that says where they are, then the header
+    for (const auto left : {bytes - 5, std::uintmax_t{370}, std::uintmax_t{100}}) {
+      std::filesystem::resize_file(file.path(), left);
+      EXPECT_NE(damage_met_by([&] { (void)ThreeTiles::read(file.reader(), 2); }), "no damage") << left;
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  }
+}
+
 TEST(HorizonFile, BoundsOutOfOrder) {
   const struct {
     float lower, likely, upper;
@@ -140,8 +239,25 @@ TEST(HorizonFile, MissingChannels) {
 
 TEST(HorizonFile, UnknownChannelsAreSkipped) {
   const OneRow row(4);
-  write_picture(row.file(), 4, {"Y", "lower", "upper", "colour"});
-  EXPECT_EQ(row.read().upper, std::vector<float>(4, 0.0F));
+  // Before, among and after the known ones, and of each type
+  const std::pair<const char*, Imf::PixelType> channels[] = {{"A", Imf::FLOAT},    {"Y", Imf::HALF},      {"Z", Imf::UINT},
+                                                             {"lower", Imf::HALF}, {"middle", Imf::HALF}, {"upper", Imf::HALF},
+                                                             {"vague", Imf::UINT}};
+  Imf::Header header(4, 1);
+  Imf::FrameBuffer frame;
+  std::array<std::uint32_t, 4> ones{0x3C003C00, 0x3C003C00, 0x3C003C00, 0x3C003C00};  // halfs of 1, in pairs
+  for (const auto& [name, type] : channels) {
+    header.channels().insert(name, Imf::Channel(type));
+    frame.insert(name, Imf::Slice::Make(type, ones.data(), Imath::V2i(0, 0), 4, 1));
+  }
+  header.setTileDescription(Imf::TileDescription(4, 1, Imf::ONE_LEVEL));
+  {
+    Imf::TiledOutputFile file(row.file().c_str(), header);
+    file.setFrameBuffer(frame);
+    file.writeTile(0, 0);
+  }
+  const FarHorizon map = row.read();
+  for (const auto* slopes : {&map.lower, &map.likely, &map.upper}) EXPECT_EQ(*slopes, std::vector<float>(4, 1.0F));
 }
 
 }  // namespace

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "horizon/facing_edges.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "farlod/horizon/edge_facing.hpp"
+#include "farlod/horizon/edge_view.hpp"
+#include "tests/runtime/horizon/horizon_judge.hpp"
+#include "tests/runtime/horizon/random_places.hpp"
+
+// The judge is may_be_horizon, in doubles.
+
+namespace farlod {
+namespace {
+
+Point3d exactly(const Point3f& p) { return {p.x, p.y, p.z}; }
+
+bool is_kept_by_judge(const HorizonEdge& e, const ReceiverBox& box) {
+  return std::max(e.a.z, e.b.z) > box.low.z &&
+         may_be_horizon(exactly(e.a), exactly(e.b), e.rises, {{box.low.x, box.low.y}, {box.high.x, box.high.y}}, box.low.z,
+                        box.high.z);
+}
+
+/// Distances, or less than 0, for a whole number of batches.
+std::vector<float> found(const std::vector<HorizonEdge>& edges, const ReceiverBox& box) {
+  std::vector<SkylineEdges::Batch> batches(edges.size() / SkylineEdges::lanes);
+  std::vector<EdgeRises> rises;
+  for (std::size_t n = 0; n < edges.size(); ++n) {
+    SkylineEdges::Batch& batch = batches.at(n / SkylineEdges::lanes);
+    const std::size_t lane = n % SkylineEdges::lanes;
+    const auto& [a, b, r, reserved] = edges[n];
+    batch.ax[lane] = a.x, batch.ay[lane] = a.y, batch.az[lane] = a.z;
+    batch.bx[lane] = b.x, batch.by[lane] = b.y, batch.bz[lane] = b.z;
+    rises.push_back(r);
+  }
+  std::vector<float> distances_m(edges.size());
+  find_facing(batches, rises, box, distances_m);
+  return distances_m;
+}
+
+class Edges {
+ public:
+  /// Between `reach_m` around the eyes, with facets of all angles on both sides, walls among them.
+  [[nodiscard]] HorizonEdge edge(double reach_m, double length_m) {
+    const Point3f a = random_.place(reach_m, -10.0, 60.0), way = random_.place(length_m, -1.0, 1.0);
+    const float climb = random_.between(-1.0, 1.0) < 0.0F ? 0.0F : random_.between(-length_m, length_m);
+    return {a, {a.x + way.x, a.y + way.y, a.z + climb}, {rise(), rise()}};
+  }
+  /// In line with a corner of the box: whether the eyes are on both sides is decided by less than the rounding of a place.
+  [[nodiscard]] HorizonEdge aimed_edge(double reach_m, double length_m, const ReceiverBox& box) {
+    HorizonEdge e = edge(reach_m, length_m);
+    const Point2d way = Point2d{box.high.x, box.low.y} - Point2d{e.a.x, e.a.y};
+    const double share = length_m / norm(way);
+    e.b = {static_cast<float>(e.a.x + share * way.x), static_cast<float>(e.a.y + share * way.y), e.a.z};
+    return e;
+  }
+  [[nodiscard]] ReceiverBox box() {
+    const Point3f p = random_.place(40.0, -5.0, 40.0);
+    return {p, {p.x + random_.between(0.0, 50.0), p.y + random_.between(0.0, 50.0), p.z + random_.between(0.0, 30.0)}};
+  }
+
+ private:
+  [[nodiscard]] std::int8_t rise() {
+    return random_.between(-1.0, 1.0) < 0.0F ? EdgeRises::straight_down
+                                             : static_cast<std::int8_t>(random_.between(-127.0, 127.0));
+  }
+  RandomPlaces random_;
+};
+
+struct Tally {
+  std::size_t kept = 0, away = 0, in_excess = 0;
+};
+Tally compared(double reach_m, double length_m) {
+  Edges random;
+  Tally tally;
+  for (int n = 0; n < 300; ++n) {
+    const ReceiverBox box = random.box();
+    std::vector<HorizonEdge> edges;
+    for (int k = 0; k < 320; ++k) edges.push_back(random.edge(reach_m, length_m));
+    const std::vector<float> distances_m = found(edges, box);
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      const bool wanted = is_kept_by_judge(edges[k], box), kept = distances_m[k] >= 0.0F;
+      EXPECT_TRUE(kept || !wanted) << "edge " << k << " of box " << n;
+      (wanted ? tally.kept : tally.away) += 1;
+      tally.in_excess += kept && !wanted ? 1 : 0;
+    }
+  }
+  return tally;
+}
+
+TEST(FacingEdges, NoneIsLostThatMayBeAHorizon) {
+  // Near and far ones, and so short that they are next to nothing but rounding
+  for (const double reach_m : {30.0, 300.0, 20000.0})
+    for (const double length_m : {0.001, 10.0, 100.0}) {
+      const Tally tally = compared(reach_m, length_m);
+      EXPECT_GT(tally.kept, 1000U);
+      EXPECT_GT(tally.away, 1000U);
+    }
+}
+
+TEST(FacingEdges, RoundingLosesNone) {
+  Edges random;
+  std::size_t near_misses = 0;
+  for (int n = 0; n < 300; ++n) {
+    const ReceiverBox box = random.box();
+    std::vector<HorizonEdge> edges;
+    for (int k = 0; k < 320; ++k) edges.push_back(random.aimed_edge(20000.0, 10.0, box));
+    const std::vector<float> distances_m = found(edges, box);
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      EXPECT_TRUE(distances_m[k] >= 0.0F || !is_kept_by_judge(edges[k], box)) << "edge " << k << " of box " << n;
+      near_misses += is_kept_by_judge(edges[k], box) ? 0 : 1;
+    }
+  }
+  EXPECT_GT(near_misses, 1000U) << "all are kept anyway";
+}
+
+TEST(FacingEdges, RoundingKeepsFewInExcess) {
+  // It decides about who is within millimetres of a plane, of edges tens of metres away
+  const Tally tally = compared(300.0, 30.0);
+  EXPECT_LT(1000 * tally.in_excess, tally.away);
+}
+
+TEST(FacingEdges, UprightAndBelow) {
+  const HorizonEdge upright{{10.0F, 0.0F, 0.0F}, {10.0F, 0.0F, 9.0F}, {0, 0}}, low{{10.0F, 0.0F, 1.0F}, {10.0F, 9.0F, 1.0F}};
+  std::vector<HorizonEdge> edges(SkylineEdges::lanes, low);
+  edges[3] = upright;
+  const std::vector<float> distances_m = found(edges, {{0.0F, 0.0F, 1.0F}, {2.0F, 0.0F, 5.0F}});
+  for (std::size_t n = 0; n < edges.size(); ++n) EXPECT_EQ(distances_m[n], n == 3 ? 9.0F : -1.0F);
+}
+
+TEST(FacingEdges, DistancesAreFromTheMiddle) {
+  RandomPlaces random;
+  std::vector<HorizonEdge> edges;
+  for (int n = 0; n < 160; ++n) edges.push_back(random.edge(100.0, 5.0, 30.0));
+  const std::vector<float> distances_m = found(edges, {{-1.0F, -5.0F, 0.0F}, {3.0F, 7.0F, 1.0F}});
+  const Point2d middle{1.0, 1.0};
+  // A coordinate of up to 101 m is rounded at each of ten steps, and the way along an edge of up to 283 m
+  constexpr double rounding_m = (10.0 * 101.0 + 3.0 * 283.0) * float_rounding;
+  for (std::size_t n = 0; n < edges.size(); ++n)
+    EXPECT_NEAR(distances_m[n],
+                distance_to_segment(horizontal(exactly(edges[n].a)) - middle, horizontal(exactly(edges[n].b)) - middle),
+                rounding_m);
+}
+
+}  // namespace
+}  // namespace farlod
