@@ -26,9 +26,11 @@ void add_tile(const TileView& tile, Point2d shift_m, CellSkyline& skyline) {
   }
 }
 
-void add_named(const NamedObstacles& named, CellSkyline& skyline) {
+/// What does not stand, and is named in any layer, counts in all: without it, it would be open where it is not named.
+void add_named(const NamedObstacles& named, std::uint32_t layers, CellSkyline& skyline) {
   const Point2d shift_m = named.cell_from_block_m;
   for (const package::NamedObstacle& n : named.named_edges) {
+    if ((n.layers & layers) == 0) continue;
     const HorizonEdge& e = named.edges[n.row];
     skyline.standing.add({moved(e.a, shift_m), moved(e.b, shift_m), e.rises});
   }
@@ -50,7 +52,7 @@ CellSkyline cell_skyline(const Package& package, Cell cell, const FarHorizon& fa
     const Cell neighbour = near.cell_at(n);
     add_tile(package.tile(neighbour), grid.corner_of(neighbour) - grid.corner_of(cell), skyline);
   }
-  add_named(far.named, skyline);
+  add_named(far.named, far.layers_met_from(box.low.z, box.high.z), skyline);
   skyline.standing = skyline.standing.facing(box);
   return skyline;
 }

@@ -28,7 +28,8 @@ struct NamedObstacles {
 /// for each patch a row of azimuth bins (grid frame).
 ///   (1) from every place in a patch, all of the far city that is not named lies below `upper`
 ///   (2) from every place in a patch, everything below `lower` is hidden
-///   (3) `likely` is what is seen of the unnamed on average on the patch's floor; between two floors it changes evenly with the height
+///   (3) `likely` is what is seen of the unnamed on average on the patch's floor; between two floors it changes evenly with the
+///   height
 struct FarHorizon {
   ReceiverPatches patches;
   AzimuthBins bins;
@@ -38,6 +39,12 @@ struct FarHorizon {
   /// The bins of a patch, in `lower`, `likely` or `upper`.
   [[nodiscard]] std::span<const float> row(const std::vector<float>& slopes, std::uint32_t patch) const {
     return std::span(slopes).subspan(static_cast<std::size_t>(patch) * bins.count, bins.count);
+  }
+  /// The layers, as bits, whose named obstacles must be met from heights between two: theirs, and the one above, since `likely`,
+  /// which knows only the unnamed, is on its way there.
+  [[nodiscard]] std::uint32_t layers_met_from(float z_low_m, float z_high_m) const {
+    const std::uint32_t lowest = patches.layer_of(z_low_m), highest = patches.layer_of(z_high_m) + 1;
+    return (std::uint32_t{2} << highest) - (std::uint32_t{1} << lowest);
   }
   /// The patch above, and how far up the way to its floor a height in `patch` is, from 0 to 1.
   [[nodiscard]] std::pair<std::uint32_t, float> floor_above(std::uint32_t patch, float z_m) const {

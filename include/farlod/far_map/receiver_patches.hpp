@@ -50,6 +50,12 @@ class ReceiverPatches {
     const Point2d low{(square % squares_per_edge_) * edge, (square / squares_per_edge_) * edge};
     return {low, low + Point2d{edge, edge}, levels_m_[layer], ceiling_m(layer)};
   }
+  /// The layer of a height; the lowest for all below.
+  [[nodiscard]] std::uint32_t layer_of(float z_m) const {
+    // The last level at or below it: layers without thickness hold nothing
+    const auto above = std::upper_bound(levels_m_.begin() + 1, levels_m_.end(), z_m);
+    return static_cast<std::uint32_t>(above - levels_m_.begin()) - 1;
+  }
   /// None below the lowest level.
   [[nodiscard]] std::optional<std::uint32_t> patch_of(const Point3f& p_cell) const {
     if (!(p_cell.z >= levels_m_.front())) return std::nullopt;
@@ -57,10 +63,7 @@ class ReceiverPatches {
       const double k = std::floor(static_cast<double>(x) * squares_per_edge_ / cell_edge_m_);
       return static_cast<std::uint32_t>(std::clamp(k, 0.0, squares_per_edge_ - 1.0));
     };
-    // The last level at or below the place: layers without thickness hold nothing
-    const auto above = std::upper_bound(levels_m_.begin() + 1, levels_m_.end(), p_cell.z);
-    const auto layer = static_cast<std::uint32_t>(above - levels_m_.begin()) - 1;
-    return number(square_along(p_cell.y) * squares_per_edge_ + square_along(p_cell.x), layer);
+    return number(square_along(p_cell.y) * squares_per_edge_ + square_along(p_cell.x), layer_of(p_cell.z));
   }
 
  private:
