@@ -53,6 +53,20 @@ void sum_cosine_up(const float* slopes, std::size_t azimuth_count, float* sums) 
   store(sum, sums);
 }
 
+/// Of receivers that look level, as on walls: only the azimuths in front count, up to the zenith.
+FARLOD_FOR_EACH_PROCESSOR
+void sum_cosine_level(const float* slopes, const ReceiverPacket& receivers, const AzimuthRing& ring, float* sums) {
+  const Floats x = loaded(receivers.normal_x.data()), y = loaded(receivers.normal_y.data());
+  Floats sum{};
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Floats outward = greatest(x * ring.cosine()[k] + y * ring.sine()[k], all(0.0F));
+    if (greatest_lane(outward) == 0.0F) continue;
+    const Floats t = least(loaded(slopes + k * lane_count), all(straight_up));
+    sum += cosine_above(t, outward, all(0.0F));
+  }
+  store(sum, sums);
+}
+
 FARLOD_FOR_EACH_PROCESSOR
 void sum_cosine(const float* slopes, const ReceiverPacket& receivers, const AzimuthRing& ring, float* sums) {
   const Normals n{loaded(receivers.normal_x.data()), loaded(receivers.normal_y.data()), loaded(receivers.normal_z.data())};
@@ -81,21 +95,23 @@ void sum_solid_angle(const float* slopes, const ReceiverPacket& receivers, const
 FARLOD_FOR_EACH_PROCESSOR
 void raise_between(const PacketHorizon::RowsBetween& rows, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count,
                    float* slopes) {
-  const Floats shares = loaded(rows.shares.data());
+  const Floats shares = loaded(rows.shares.data()), caps = loaded(rows.caps.data());
   for (std::size_t k = 0; k < azimuth_count; ++k) {
     const std::uint32_t bin = bin_of_azimuth[k];
     const float here = rows.here[bin], rise = rows.above[bin] - here;
     const Floats likely = least(greatest(here + shares * rise, all(rows.lower[bin])), all(rows.upper[bin]));
     float* row = slopes + k * lane_count;
-    store(greatest(loaded(row), likely), row);
+    store(greatest(loaded(row), least(likely, caps)), row);
   }
 }
 
 FARLOD_FOR_EACH_PROCESSOR
-void raise_alike(const float* row, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count, float* slopes) {
+void raise_alike(const float* row, const float* caps, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count,
+                 float* slopes) {
+  const Floats highest = loaded(caps);
   for (std::size_t k = 0; k < azimuth_count; ++k) {
     float* lanes = slopes + k * lane_count;
-    store(greatest(loaded(lanes), all(row[bin_of_azimuth[k]])), lanes);
+    store(greatest(loaded(lanes), least(all(row[bin_of_azimuth[k]]), highest)), lanes);
   }
 }
 
@@ -127,18 +143,17 @@ bool look_straight_up(const ReceiverPacket& r) {
   return all_do;
 }
 
+bool look_level(const ReceiverPacket& r) {
+  return std::all_of(r.normal_z.begin(), r.normal_z.end(), [](float z) { return z == 0.0F; });
+}
+
 }  // namespace
 
 void PacketHorizon::clear() { std::fill(slopes_.begin(), slopes_.end(), Row{}); }
 
-void PacketHorizon::raise(std::size_t lane, std::span<const float> row, std::span<const std::uint32_t> bin_of_azimuth) {
+void PacketHorizon::raise(std::span<const float> row, const Lanes& caps, std::span<const std::uint32_t> bin_of_azimuth) {
   FARLOD_EXPECTS(bin_of_azimuth.size() == slopes_.size());
-  for (std::size_t k = 0; k < slopes_.size(); ++k) slopes_[k][lane] = std::max(slopes_[k][lane], row[bin_of_azimuth[k]]);
-}
-
-void PacketHorizon::raise_all(std::span<const float> row, std::span<const std::uint32_t> bin_of_azimuth) {
-  FARLOD_EXPECTS(bin_of_azimuth.size() == slopes_.size());
-  raise_alike(row.data(), bin_of_azimuth.data(), slopes_.size(), slopes_.front().data());
+  raise_alike(row.data(), caps.data(), bin_of_azimuth.data(), slopes_.size(), slopes_.front().data());
 }
 
 void PacketHorizon::raise(const RowsBetween& rows, std::span<const std::uint32_t> bin_of_azimuth) {
@@ -180,6 +195,8 @@ PacketHorizon::Lanes PacketHorizon::sky_above(SkyWeight weight, const ReceiverPa
     sum_solid_angle(slopes, receivers, *ring_, sums.data());
   else if (look_straight_up(receivers))
     sum_cosine_up(slopes, slopes_.size(), sums.data());
+  else if (look_level(receivers))
+    sum_cosine_level(slopes, receivers, *ring_, sums.data());
   else
     sum_cosine(slopes, receivers, *ring_, sums.data());
   for (float& s : sums) s = std::clamp(s / static_cast<float>(slopes_.size()), 0.0F, 1.0F);

@@ -26,15 +26,14 @@ class PacketHorizon {
 
   /// Makes all horizons level again.
   void clear();
-  /// Raises the horizon of one receiver to slopes given for the bins of a far map.
-  void raise(std::size_t lane, std::span<const float> row, std::span<const std::uint32_t> bin_of_azimuth);
-  /// The same for all receivers.
-  void raise_all(std::span<const float> row, std::span<const std::uint32_t> bin_of_azimuth);
-  /// Raises each horizon to slopes between two rows of bins, as much of the way from `here` to `above` as its share says, within
-  /// the bounds.
+  /// Raises the horizons to slopes given for the bins of a far map, each to its cap at the most: infinite for the receivers that
+  /// are meant, 0 for the others.
+  void raise(std::span<const float> row, const Lanes& caps, std::span<const std::uint32_t> bin_of_azimuth);
+  /// Raises them likewise to slopes between two rows of bins, as much of the way from `here` to `above` as each one's share says,
+  /// within the bounds.
   struct RowsBetween {
     std::span<const float> here, above, lower, upper;
-    Lanes shares;
+    Lanes shares, caps;
   };
   void raise(const RowsBetween& rows, std::span<const std::uint32_t> bin_of_azimuth);
   /// Raises each receiver's horizon by what it sees of some edges: fastest if they come from near to far, since those that lie

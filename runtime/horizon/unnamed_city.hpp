@@ -29,15 +29,14 @@ class UnnamedCity {
  private:
   using Patch = std::optional<std::uint32_t>;
   [[nodiscard]] Patch patch_of(const ReceiverPacket& receivers, std::size_t lane) const;
-  /// The patch that all of them stand in; none when they do not share one.
-  [[nodiscard]] Patch patch_of_all(const ReceiverPacket& receivers) const;
+  /// The same, but that of the lowest level for those below it.
+  [[nodiscard]] Patch patch_or_lowest(const ReceiverPacket& receivers, std::size_t lane) const;
   [[nodiscard]] std::span<const float> lower_row(Patch patch) const {
     return patch ? map_.row(map_.lower, *patch) : std::span<const float>(level_);
   }
   [[nodiscard]] std::span<const float> upper_row(Patch patch) const {
     return patch ? map_.row(map_.upper, *patch) : std::span<const float>(infinite_);
   }
-  void raise_likely_of(const ReceiverPacket& receivers, std::size_t lane, PacketHorizon& horizon) const;
 
   const FarHorizon& map_;
   std::vector<std::uint32_t> bin_of_azimuth_;

@@ -10,7 +10,6 @@
 
 #include "farlod/expects.hpp"
 #include "farlod/package/layout.hpp"
-#include "package/exr_runs.hpp"
 #include "package/far_map_reader.hpp"
 #include "package/package_error.hpp"
 
@@ -23,15 +22,6 @@ constexpr int only_part = 0, only_level = 0;
 
 /// Libraries never print. What went wrong comes back as a number.
 void keep_silent(exr_const_context_t, exr_result_t, const char*) {}
-
-exr_result_t undo_runs(exr_decode_pipeline_t* decoding) {
-  const exr_chunk_info_t& chunk = decoding->chunk;
-  // OpenEXR stores a tile as it is when runs do not make it smaller, and then both are the same bytes
-  if (chunk.packed_size == chunk.unpacked_size) return EXR_ERR_SUCCESS;
-  const std::span packed(static_cast<const std::byte*>(decoding->packed_buffer), chunk.packed_size);
-  const std::span pixels(static_cast<std::byte*>(decoding->unpacked_buffer), chunk.unpacked_size);
-  return undo_exr_runs(packed, pixels) ? EXR_ERR_SUCCESS : EXR_ERR_CORRUPT_CHUNK;
-}
 
 /// A channel to read, and where to.
 struct Wanted {
@@ -49,14 +39,13 @@ class Decoding {
   Decoding& operator=(const Decoding&) = delete;
   ~Decoding() { exr_decoding_destroy(file_, &pipeline_); }
 
-  exr_result_t run(std::span<const Wanted> wanted, exr_compression_t compression) {
+  exr_result_t run(std::span<const Wanted> wanted) {
     if (state_ != EXR_ERR_SUCCESS) return state_;
     const std::span channels(pipeline_.channels, static_cast<std::size_t>(pipeline_.channel_count));
     unwanted_.resize(channels.size());
     for (std::size_t n = 0; n < channels.size(); ++n)
       direct(channels[n], pixels_of(channels[n].channel_name, wanted, unwanted_[n]));
     state_ = exr_decoding_choose_default_routines(file_, only_part, &pipeline_);
-    if (compression == EXR_COMPRESSION_RLE) pipeline_.decompress_fn = undo_runs;
     return state_ == EXR_ERR_SUCCESS ? exr_decoding_run(file_, only_part, &pipeline_) : state_;
   }
 
@@ -89,7 +78,6 @@ struct FarMapReader::Impl {
   CellRange cells;
   package::FarMapShape shape;
   exr_context_t file = nullptr;
-  exr_compression_t compression = EXR_COMPRESSION_NONE;
 
   Impl(const std::filesystem::path& path, const CellRange& c, const package::FarMapShape& s)
       : name(path.string()), cells(c), shape(s) {
@@ -117,7 +105,6 @@ struct FarMapReader::Impl {
     require(exr_get_count(file, &parts));
     require(exr_get_storage(file, only_part, &storage));
     if (parts != 1 || storage != EXR_STORAGE_TILED) damaged("it is not one picture of tiles");
-    require(exr_get_compression(file, only_part, &compression));
     check_places();
     check_channels();
     // OpenEXR reads where the tiles lie with the first of them: before many threads come
@@ -153,7 +140,7 @@ struct FarMapReader::Impl {
     const auto tile_x = static_cast<int>(cell.i - cells.i_begin), tile_y = static_cast<int>(cell.j - cells.j_begin);
     exr_chunk_info_t chunk;
     require(exr_read_tile_chunk_info(file, only_part, tile_x, tile_y, only_level, only_level, &chunk));
-    require(Decoding(file, chunk).run(wanted, compression));
+    require(Decoding(file, chunk).run(wanted));
     for (const Wanted& w : wanted)
       if (w.pixels->size() != static_cast<std::size_t>(shape.picture_columns()) * shape.picture_rows())
         damaged("a channel does not have a value for each pixel");

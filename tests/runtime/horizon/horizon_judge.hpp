@@ -66,9 +66,9 @@ class JudgedEdge {
   [[nodiscard]] double sense() const { return turn() < 0.0 ? -1.0 : 1.0; }
   static double across(const Point3d& p, double z, Point2d u) { return z * (p.x * u.y - p.y * u.x); }
 
-  /// Two products for each end, and for the turn: with the differences from the eye, and the azimuth, that are five roundings each,
-  /// of the sum of what is added, not of what remains. A division, a product by it and by the height, which is a difference,
-  /// and the sum of both ends: another five, and as much again to spare.
+  /// Two products for each end, and for the turn: with the differences from the eye, and the azimuth, that are five roundings
+  /// each, of the sum of what is added, not of what remains. A division, a product by it and by the height, which is a
+  /// difference, and the sum of both ends: another five, and as much again to spare.
   [[nodiscard]] double slope_error(double slope) const {
     const double added = std::abs(a_.y * b_.z) + std::abs(a_.z * b_.y) + std::abs(a_.z * b_.x) + std::abs(a_.x * b_.z);
     return 16.0 * float_rounding * (added + std::abs(slope) * lengths()) / std::abs(turn());

@@ -142,7 +142,8 @@ TEST(PacketHorizon, LookingAlongAnEdgeNothingIsSteeperThanItsNearEndCanBe) {
   for (int n = 0; n < 3000; ++n) {
     // In line, but for the rounding of the ends: the plane through eye and edge may be any
     const Point3f eye = random.place(50.0, 0.0, 5.0), along = random.direction_at(0.0);
-    const float near_m = random.between(1.0, 50.0), far_m = near_m + random.between(0.1, 50.0), rise_m = random.between(1.0, 20.0);
+    const float near_m = random.between(1.0, 50.0), far_m = near_m + random.between(0.1, 50.0),
+                rise_m = random.between(1.0, 20.0);
     const auto end = [&](float s) { return Point3f{eye.x + s * along.x, eye.y + s * along.y, eye.z + rise_m}; };
     const AzimuthRing ring = AzimuthRing::of(std::vector{Point3d{along.x, along.y, 0.0}});
     PacketHorizon horizon(ring);
@@ -225,8 +226,8 @@ TEST(PacketHorizon, RowsRaiseOneReceiverOrAll) {
   std::vector<std::uint32_t> bins(32);
   for (std::uint32_t k = 0; k < 32; ++k) bins[k] = k / 16;
   PacketHorizon one(ring), all(ring);
-  one.raise(5, row, bins);
-  all.raise_all(row, bins);
+  one.raise(row, only(5), bins);
+  all.raise(row, everybody, bins);
   EXPECT_EQ(one.above(PacketHorizon(ring)), 1U << 5);
   EXPECT_EQ(all.above(one), 0xFFFFU & ~(1U << 5));
   for (std::size_t k = 0; k < 32; ++k) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <span>
@@ -51,6 +52,18 @@ class RandomPlaces {
   ReceiverPacket packet;
   for (const Point3f& p : places) packet.add({0, p, normal});
   return packet;
+}
+
+/// Caps of a PacketHorizon that raise all receivers, or only one.
+inline constexpr ReceiverPacket::Lanes everybody = [] {
+  ReceiverPacket::Lanes caps{};
+  caps.fill(std::numeric_limits<float>::infinity());
+  return caps;
+}();
+[[nodiscard]] inline ReceiverPacket::Lanes only(std::size_t lane) {
+  ReceiverPacket::Lanes caps{};
+  caps[lane] = std::numeric_limits<float>::infinity();
+  return caps;
 }
 
 }  // namespace farlod

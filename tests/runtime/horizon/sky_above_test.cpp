@@ -31,7 +31,7 @@ class RandomHorizons {
     std::iota(bins.begin(), bins.end(), 0U);
     for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane) {
       for (std::size_t k = 0; k < ring.size(); ++k) slopes_[lane].push_back(some_slope());
-      horizon_.raise(lane, slopes_[lane], bins);
+      horizon_.raise(slopes_[lane], only(lane), bins);
     }
   }
   [[nodiscard]] const PacketHorizon& horizon() const { return horizon_; }
@@ -88,6 +88,21 @@ TEST(SkyAbove, WhereAllLookUpAsWellAsWhereOneDoesNot) {
   }
 }
 
+TEST(SkyAbove, WhereAllLookLevelAsWellAsWhereOneDoesNot) {
+  RandomPlaces random;
+  const AzimuthRing ring = AzimuthRing::even(64, {});
+  const RandomHorizons random_horizons(ring);
+  // Of one wall, and of many
+  for (const bool alike : {true, false}) {
+    std::vector<Point3f> normals(ReceiverPacket::lanes, random.direction_at(0.0));
+    if (!alike)
+      for (Point3f& normal : normals) normal = random.direction_at(0.0);
+    const auto sky = random_horizons.horizon().sky_above(SkyWeight::cosine, packet_with(normals));
+    for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane)
+      EXPECT_NEAR(sky[lane], random_horizons.judged(SkyWeight::cosine, lane, normals[lane]), sky_rounding(64, normals[lane]));
+  }
+}
+
 TEST(SkyAbove, ALevelHorizonLeavesAllAndAnEndlessOneNothing) {
   const AzimuthRing ring = AzimuthRing::even(256, {});
   PacketHorizon horizon(ring);
@@ -97,7 +112,7 @@ TEST(SkyAbove, ALevelHorizonLeavesAllAndAnEndlessOneNothing) {
     for (const float share : horizon.sky_above(weight, packet_with(downs))) EXPECT_EQ(share, 0.0F);
   }
   const std::vector<float> endless{std::numeric_limits<float>::infinity()};
-  horizon.raise_all(endless, std::vector<std::uint32_t>(ring.size(), 0));
+  horizon.raise(endless, everybody, std::vector<std::uint32_t>(ring.size(), 0));
   for (const SkyWeight weight : both_weights)
     for (const float share : horizon.sky_above(weight, packet_with(ups))) EXPECT_EQ(share, 0.0F);
 }
