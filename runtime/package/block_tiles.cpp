@@ -50,10 +50,7 @@ void BlockTiles::check_header() const {
   require(bytes_.size() >= sizeof(Header), "it is shorter than its header");
   const auto* header = reinterpret_cast<const Header*>(bytes_.data());
   require(header->magic == magic, "it does not begin as a tiles file");
-  if (header->version > format_version)
-    throw PackageUnusable(name_ + " has format version " + std::to_string(header->version) + ", this program reads up to " +
-                          std::to_string(format_version) + ". Use a newer farlod-svf, or pack the city again.");
-  require(header->version == format_version, "its format version does not exist");
+  require_readable_version(name_, header->version);
   require(header->file_bytes == bytes_.size(), "its length is not what its header says");
   require(header->section_count <= (bytes_.size() - sizeof(Header)) / sizeof(Section), "its table of sections is cut off");
 }

@@ -161,11 +161,7 @@ Manifest read_manifest(const std::filesystem::path& package_folder) {
   try {
     const json j = json::parse(file);
     require(j.is_object() && j.value("format", "") == "farlod-package", "it is not the manifest of a package");
-    const auto version = whole_number<std::uint32_t>(j.at("version"));
-    if (version > format_version)
-      throw PackageUnusable(path.string() + " has format version " + std::to_string(version) + ", this program reads up to " +
-                            std::to_string(format_version) + ". Use a newer farlod-svf, or pack the city again.");
-    require(version == format_version, "its format version does not exist");
+    require_readable_version(path.string(), whole_number<std::uint32_t>(j.at("version")));
     return manifest_from(j);
   } catch (const PackageUnusable&) {
     throw;

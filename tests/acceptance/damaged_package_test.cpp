@@ -108,7 +108,13 @@ TEST_F(DamagedPackage, ManifestOfSomethingElse) {
 
 TEST_F(DamagedPackage, ANewerVersionIsNoDamage) {
   edit_manifest("\"version\": 4", "\"version\": 5");
-  expect_refusal(evaluate(), exit_unusable_input, {"manifest.json has format version 5", "up to 4", "newer farlod-svf"});
+  expect_refusal(evaluate(), exit_unusable_input, {"manifest.json has format version 5", "reads version 4", "newer farlod-svf"});
+}
+
+TEST_F(DamagedPackage, AnOlderVersionIsNoDamage) {
+  edit_manifest("\"version\": 4", "\"version\": 3");
+  expect_refusal(evaluate(), exit_unusable_input,
+                 {"manifest.json has format version 3", "reads version 4", "Pack the city again"});
 }
 
 TEST_F(DamagedPackage, AnInterruptedPackingIsNoDamage) {

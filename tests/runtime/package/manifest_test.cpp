@@ -61,12 +61,12 @@ TEST(Package, ManifestTruncated) {
   }
 }
 
-TEST(Package, ManifestOfNewerVersion) {
+TEST(Package, ManifestOfAnotherVersion) {
   const SmallPackage small;
-  for (const std::uint64_t version : {std::uint64_t{package::format_version} + 1, std::uint64_t{0xFFFFFFFF}}) {
+  for (const std::uint64_t version : {std::uint64_t{1}, std::uint64_t{package::format_version} + 1, std::uint64_t{0xFFFFFFFF}}) {
     json m = small.manifest();
     m["version"] = version;
-    m.erase("grid");  // a later version may say it otherwise
+    m.erase("grid");  // another version may say it otherwise
     small.write_manifest(m);
     EXPECT_THROW((void)read_manifest(small.folder()), PackageUnusable) << version;
   }
@@ -74,9 +74,9 @@ TEST(Package, ManifestOfNewerVersion) {
 
 TEST(Package, ManifestOfNoVersion) {
   const SmallPackage small;
-  // The last would be ours, were it cut to 32 bits; version 1 was never released
+  // The last would be ours, were it cut to 32 bits
   for (const json& version :
-       {json(0), json(1), json(-1), json("2"), json(2.5), json(true), json((std::uint64_t{1} << 32) + package::format_version)}) {
+       {json(0), json(-1), json("2"), json(2.5), json(true), json((std::uint64_t{1} << 32) + package::format_version)}) {
     json m = small.manifest();
     m["version"] = version;
     EXPECT_NE(damage_of(small, m), "no damage") << version;
