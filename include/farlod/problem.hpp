@@ -5,12 +5,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "farlod/expects.hpp"
+#include "farlod/point.hpp"
 
 namespace farlod {
 
@@ -100,6 +103,11 @@ struct Problem {
   std::string source;  ///< the file's name as the user gave it
   std::string place;   ///< the building's id, the feature's number or the line
   std::string detail;  ///< what exactly, with figures
+  /// A place on the ground, where one is known. 1xx and 2xx: as the file counts, in its axis order (an OBJ file with its
+  /// origin added, z up); 4xx: easting, northing and height in the CRS of the package.
+  std::optional<Point3d> position = {};
+  /// The same in degrees of WGS 84, longitude first; known once the CRS of the position is.
+  std::optional<Point2d> lon_lat_deg = {};
 };
 
 /// Collects problems in the order in which they are met. Never ends a run.
@@ -107,6 +115,8 @@ class Report {
  public:
   void add(Problem problem) { problems_.push_back(std::move(problem)); }
   [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }
+  /// From number `first` on: what is wrong is known at once, where on the ground only later. Valid until the next one is added.
+  [[nodiscard]] std::span<Problem> since(std::size_t first) { return std::span(problems_).subspan(first); }
   [[nodiscard]] std::size_t count(ProblemCode code) const {
     std::size_t n = 0;
     for (const Problem& p : problems_) n += p.code == code ? 1 : 0;

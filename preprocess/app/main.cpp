@@ -35,6 +35,16 @@ void require_folder_of(const std::filesystem::path& file) {
                           ". Make it first, or choose another.");
 }
 
+void write_report(const Report& report, const std::string& path) {
+  write_text(path, std::filesystem::path(path).extension() == ".geojson" ? report_geojson(report) : report_json(report));
+}
+
+/// What --strict says.
+InputError refusal(const ProblemsRefused& refused, const std::string& report_file) {
+  const std::string list = report_file.empty() ? "--report FILE.json lists each of them" : report_file + " lists them one by one";
+  return InputError(std::string(refused.what()) + ", and --strict allows none: no package is written; " + list + ".");
+}
+
 /// A line for each kind of problem, so that nothing is lost silently; --report has them one by one.
 void print_problems(const Report& report, const std::string& report_file) {
   std::map<ProblemCode, std::size_t> counts;
@@ -108,6 +118,15 @@ class StageProgress {
   std::unique_ptr<Progress> line_;
 };
 
+PackResult pack_as_told(const PackOptions& options, Report& report) {
+  StageProgress progress(options.run.verbosity);
+  try {
+    return pack(options.settings, report, std::ref(progress), [&](const PackEstimate& e) { progress.tell(e); });
+  } catch (const ProblemsRefused& refused) {
+    throw refusal(refused, options.report_file);
+  }
+}
+
 int run(const PackOptions& options) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
   require_folder_of(options.report_file);
@@ -116,14 +135,13 @@ int run(const PackOptions& options) {
   Report report;
   std::optional<PackResult> result;
   try {
-    StageProgress progress(options.run.verbosity);
-    result = pack(options.settings, report, std::ref(progress), [&](const PackEstimate& e) { progress.tell(e); });
+    result = pack_as_told(options, report);
   } catch (...) {
-    write_text(options.report_file, report_json(report));  // what was wrong is wanted most when nothing came of it
+    write_report(report, options.report_file);  // what was wrong is wanted most when nothing came of it
     throw;
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  write_text(options.report_file, report_json(report));
+  write_report(report, options.report_file);
   write_text(options.run.summary_file, pack_summary_json(*result, report, seconds));
   if (options.run.verbosity == Verbosity::normal) print_result(*result, report, options, seconds);
   return exit_done;

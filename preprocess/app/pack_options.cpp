@@ -23,7 +23,8 @@ constexpr const char* description =
 constexpr const char* footer =
     "\nReads CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, OBJ, and footprints in any vector format of GDAL (GeoJSON, GeoPackage, "
     "Shapefile …).\n"
-    "Exit codes: 0 done, 1 internal, 2 usage, 3 an input cannot be read or used, 5 a limit was reached.";
+    "Exit codes: 0 done, 1 internal, 2 usage, 3 an input cannot be read or used (with --strict: has a problem), 5 a limit was "
+    "reached.";
 
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
@@ -32,7 +33,7 @@ struct RawOptions {
   std::string terrain, height_field, base_field;
   std::optional<double> cell_edge_m;
   std::optional<int> neighborhood;
-  bool force = false;
+  bool force = false, strict = false;
 };
 
 /// A finite number. CLI11's own Range lets NaN through, which is neither below nor above.
@@ -116,7 +117,11 @@ void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("--memory-limit", o.settings.memory_limit_mib, "End before the long work when it would need more MiB than this")
       ->check(CLI::PositiveNumber)
       ->group("Output");
-  app.add_option("--report", o.report_file, "Write every problem of the input to this JSON file")->group("Output");
+  app.add_option("--report", o.report_file,
+                 "Write every problem of the input to this JSON file; as points for a map when it ends in .geojson")
+      ->group("Output");
+  app.add_flag("--strict", raw.strict, "Write no package, and end with exit code 3, when the input has any problem")
+      ->group("Output");
   add_run_options(app, "farlod-pack", o.run);
 }
 
@@ -149,6 +154,7 @@ void understand(const RawOptions& raw, PackOptions& o) {
   if (raw.output.empty()) throw CLI::ValidationError("-o", "the name is empty: give the folder of the package, NAME.farlod");
   s.output = raw.output;
   s.overwrite = raw.force ? Overwrite::replace : Overwrite::refuse;
+  s.problems = raw.strict ? ProblemPolicy::refuse : ProblemPolicy::pack;
   if (!raw.terrain.empty()) s.terrain = raw.terrain;
   if (s.inputs.empty() && !s.terrain) throw CLI::RequiredError("INPUT");
   if (raw.cell_edge_m) s.grid.cell_edge_m = *raw.cell_edge_m;

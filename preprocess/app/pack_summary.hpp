@@ -13,5 +13,8 @@ namespace farlod {
 [[nodiscard]] std::string pack_summary_json(const PackResult& result, const Report& report, double total_seconds);
 /// The text of `--report`: every problem, one entry each.
 [[nodiscard]] std::string report_json(const Report& report);
+/// The same as a FeatureCollection (RFC 7946): points in WGS 84, properties as in report_json; no geometry where no place is
+/// known.
+[[nodiscard]] std::string report_geojson(const Report& report);
 
 }  // namespace farlod

@@ -26,6 +26,22 @@ Json json_of(const ChosenGrid& chosen) {
   return j;
 }
 
+Json json_of(const Problem& p) {
+  const ProblemDescription& d = describe(p.code);
+  return {{"code", static_cast<int>(p.code)},
+          {"problem", d.slug},
+          {"effect", name_of(d.effect)},
+          {"source", p.source},
+          {"place", p.place},
+          {"position", p.position ? Json::array({p.position->x, p.position->y, p.position->z}) : Json()},
+          {"detail", p.detail}};
+}
+
+Json point_of(const std::optional<Point2d>& lon_lat_deg) {
+  if (!lon_lat_deg) return nullptr;
+  return {{"type", "Point"}, {"coordinates", Json::array({lon_lat_deg->x, lon_lat_deg->y})}};
+}
+
 }  // namespace
 
 std::string pack_summary_json(const PackResult& result, const Report& report, double total_seconds) {
@@ -56,16 +72,15 @@ std::string pack_summary_json(const PackResult& result, const Report& report, do
 
 std::string report_json(const Report& report) {
   Json entries = Json::array();
-  for (const Problem& p : report.problems()) {
-    const ProblemDescription& d = describe(p.code);
-    entries.push_back({{"code", static_cast<int>(p.code)},
-                       {"problem", d.slug},
-                       {"effect", name_of(d.effect)},
-                       {"source", p.source},
-                       {"place", p.place},
-                       {"detail", p.detail}});
-  }
+  for (const Problem& p : report.problems()) entries.push_back(json_of(p));
   return text_of(entries);
+}
+
+std::string report_geojson(const Report& report) {
+  Json features = Json::array();
+  for (const Problem& p : report.problems())
+    features.push_back({{"type", "Feature"}, {"geometry", point_of(p.lon_lat_deg)}, {"properties", json_of(p)}});
+  return text_of({{"type", "FeatureCollection"}, {"features", features}});
 }
 
 }  // namespace farlod

@@ -13,6 +13,7 @@
 #include "city/input_error.hpp"
 #include "farlod/box.hpp"
 #include "georeference/output_crs.hpp"
+#include "georeference/problem_locator.hpp"
 #include "georeference/source_coordinates.hpp"
 
 namespace farlod {
@@ -28,6 +29,7 @@ struct SettledSource {
   SourceCity source;
   Crs crs;
   Point2d typical;
+  AxisOrder order_in_file = AxisOrder::as_usual;
 };
 
 SettledSource settle(SourceCity source, const GeoreferenceSettings& settings) {
@@ -37,7 +39,7 @@ SettledSource settle(SourceCity source, const GeoreferenceSettings& settings) {
   const bool northing_first = is_northing_first(typical.place, named.crs, source.crs.longitude_first || named.longitude_first);
   settle_axes(source, named.crs, northing_first);
   const Point2d place = northing_first ? Point2d{typical.place.y, typical.place.x} : typical.place;
-  return {std::move(source), std::move(named.crs), place};
+  return {std::move(source), std::move(named.crs), place, northing_first ? AxisOrder::northing_first : AxisOrder::as_usual};
 }
 
 void project_to_utm(std::span<Point3d> points, const UtmProjection& utm) {
@@ -71,6 +73,19 @@ std::string detail_of(const Point3d& given, const Crs& output) {
   return text.str();
 }
 
+/// A settled point as the file has it.
+Point3d p_file(const Point3d& p, const SettledSource& settled) {
+  const double height_unit_m = settled.source.crs.heights_in_metres ? 1.0 : settled.crs.height_unit_m();
+  const bool northing_first = settled.order_in_file == AxisOrder::northing_first;
+  return {northing_first ? p.y : p.x, northing_first ? p.x : p.y, p.z / height_unit_m};
+}
+
+void locate_problems(const SettledSource& settled, Report& report) {
+  ProblemLocator locator(settled.crs, settled.order_in_file, settled.typical);
+  for (Problem& problem : report.since(0))
+    if (problem.source == settled.source.source) locator.locate(problem);
+}
+
 /// Appends a copy of a building.
 void copy_building(const CityModel& from, const Building& b, CityModel& to) {
   to.begin_building(b.id, b.stands_on_ground, b.source);
@@ -101,7 +116,8 @@ std::vector<std::size_t> project(SettledSource& settled, const Crs& output, Repo
     const auto bad = std::find_if_not(points.begin(), points.end(), is_on_a_map);
     if (bad == points.end()) continue;
     const Point3d& given = before[static_cast<std::size_t>(bad - points.begin())];
-    report.add({ProblemCode::outside_of_projection, settled.source.source, b.id, detail_of(given, output)});
+    report.add(
+        {ProblemCode::outside_of_projection, settled.source.source, b.id, detail_of(given, output), p_file(given, settled)});
     lost.push_back(n);
   }
   return lost;
@@ -132,6 +148,7 @@ LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSett
     SettledSource settled = settle(std::move(source), settings);
     if (!output) output = choose_output_crs(settled.crs, settled.typical, settings.out_crs);
     const auto lost = project(settled, *output, report);
+    locate_problems(settled, report);
     settled.source.city.set_source(static_cast<std::uint32_t>(located.sources.size()));
     located.sources.push_back(settled.source.source);
     append_without(located.city, std::move(settled.source.city), lost);

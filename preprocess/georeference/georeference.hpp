@@ -20,6 +20,7 @@ struct GeoreferenceSettings {
 ///   (1) latitude and northing first is read as such, degrees are never taken for metres, nor feet for metres
 ///   (2) in an input's own metric CRS the coordinates stay those of the file, minus the origin
 ///   (3) it is in the city, or in the report as outside_of_projection
+/// Problems of files whose CRS is known by then get their longitude and latitude.
 /// Throws InputError when a file's CRS is missing, unknown or evidently not that of its coordinates, when the output CRS
 /// is not projected in metres, and when no building is left.
 [[nodiscard]] LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSettings& settings, Report& report);

@@ -3,6 +3,7 @@
 #include "ingest/city_writer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace farlod {
@@ -39,31 +40,38 @@ void CityWriter::begin_building(std::string id, bool stands_on_ground) {
   next_surface_ = 0;
   repeated_vertices_ = open_rings_ = 0;
   largest_gap_ = 0.0;
+  at_largest_gap_ = first_vertex_ = std::nullopt;
+  problems_before_ = report_.problems().size();
   city_.begin_building(id_, stands_on_ground);
   if (!ids_.insert(id_).second) add_problem(ProblemCode::repeated_id, "an earlier building of this file has the same id");
 }
 
-void CityWriter::add_problem(ProblemCode code, std::string detail) { add_problem_at(id_, code, std::move(detail)); }
+void CityWriter::add_problem(ProblemCode code, std::string detail, std::optional<Point3d> position) {
+  add_problem_at(id_, code, std::move(detail), position);
+}
 
-void CityWriter::add_problem_at(std::string place, ProblemCode code, std::string detail) {
-  report_.add({code, source_, std::move(place), std::move(detail)});
+void CityWriter::add_problem_at(std::string place, ProblemCode code, std::string detail, std::optional<Point3d> position) {
+  report_.add({code, source_, std::move(place), std::move(detail), position});
 }
 
 bool CityWriter::clean(Ring& ring, RingEnd end, std::string_view name, bool is_hole) {
   const std::size_t points = ring.size();
+  const std::optional<Point3d> position = first_readable({&ring, 1});
+  if (!first_vertex_) first_vertex_ = position;
   const RingFindings findings = clean_ring(ring, end);
   if (findings.state == RingState::usable) {
     repeated_vertices_ += findings.repeated_vertices;
     open_rings_ += findings.was_open ? 1 : 0;
+    if (findings.gap > largest_gap_) at_largest_gap_ = position;
     largest_gap_ = std::max(largest_gap_, findings.gap);
     return true;
   }
   const std::string who =
       "polygon " + (name.empty() ? std::to_string(next_surface_) : std::string(name)) + (is_hole ? ", a hole: " : ": ");
   if (findings.state == RingState::too_few_points)
-    add_problem(ProblemCode::too_few_points, who + "of its " + counted(points, "point") + " fewer than three differ");
+    add_problem(ProblemCode::too_few_points, who + "of its " + counted(points, "point") + " fewer than three differ", position);
   else
-    add_problem(ProblemCode::unreadable_coordinate, who + "a coordinate is missing, not a number, or beyond the Earth");
+    add_problem(ProblemCode::unreadable_coordinate, who + "a coordinate is missing, not a number, or beyond the Earth", position);
   return false;
 }
 
@@ -94,9 +102,19 @@ void CityWriter::add_walls(const Ring& ring, double base_m, double top_m, std::u
   }
 }
 
+bool CityWriter::leaves_room_for_walls(double base_m, double top_m) {
+  const bool is_on_earth = std::abs(base_m) <= farthest_coordinate;
+  if (is_on_earth && base_m < top_m) return true;
+  std::ostringstream detail;
+  detail << "between its base at " << base_m << " and its top at " << top_m << " there is no room for walls";
+  add_problem(is_on_earth ? ProblemCode::height_not_positive : ProblemCode::unreadable_coordinate, detail.str());
+  return false;
+}
+
 void CityWriter::add_prism(Rings& rings, RingEnd end, double base_m, double top_m, std::uint16_t part) {
   lift(rings, top_m);
   if (!clean_polygon(rings, end, "footprint")) return;
+  if (!leaves_room_for_walls(base_m, top_m)) return;
   orient_footprint(rings);
   add_facet(rings, SurfaceKind::roof, next_surface_++, part);
   for (const Ring& ring : rings) add_walls(ring, base_m, top_m, part);
@@ -112,15 +130,22 @@ void CityWriter::report_repairs() {
     std::ostringstream detail;
     detail << counted(open_rings_, "ring") << " closed; the last vertex is up to " << largest_gap_
            << " (units of the file) from the first";
-    add_problem(ProblemCode::ring_not_closed, detail.str());
+    add_problem(ProblemCode::ring_not_closed, detail.str(), at_largest_gap_);
   }
+}
+
+void CityWriter::place_problems() {
+  for (Problem& problem : report_.since(problems_before_))
+    if (!problem.position) problem.position = first_vertex_;
 }
 
 void CityWriter::end_building(std::string_view missing) {
   report_repairs();
-  if (city_.buildings().back().facet_count > 0) return;
-  city_.drop_last_building();
-  add_problem(ProblemCode::no_geometry, std::string(missing));
+  if (city_.buildings().back().facet_count == 0) {
+    city_.drop_last_building();
+    add_problem(ProblemCode::no_geometry, std::string(missing));
+  }
+  place_problems();
 }
 
 }  // namespace farlod

@@ -34,10 +34,10 @@ class CityWriter {
   void add_polygon(Rings& rings, RingEnd end, const PolygonTraits& traits);
   /// Adds a prism over a footprint (z of its rings is ignored): roof, floor, and a wall per edge, all facing outwards.
   void add_prism(Rings& rings, RingEnd end, double base_m, double top_m, std::uint16_t part);
-  /// Reports a problem of the building begun last.
-  void add_problem(ProblemCode code, std::string detail);
+  /// Reports a problem of the building begun last; without a position of its own it is at the building's first vertex.
+  void add_problem(ProblemCode code, std::string detail, std::optional<Point3d> position = {});
   /// Reports a problem of something that is not a building.
-  void add_problem_at(std::string place, ProblemCode code, std::string detail);
+  void add_problem_at(std::string place, ProblemCode code, std::string detail, std::optional<Point3d> position = {});
   /// Takes the building back when nothing of it is usable; `missing` then says what the reader knows about the reason.
   void end_building(std::string_view missing = "it has no surfaces");
 
@@ -49,8 +49,11 @@ class CityWriter {
   [[nodiscard]] bool clean_polygon(Rings& rings, RingEnd end, std::string_view name);
   [[nodiscard]] bool clean(Ring& ring, RingEnd end, std::string_view name, bool is_hole);
   void add_facet(const Rings& rings, SurfaceKind kind, std::uint32_t surface, std::uint16_t part);
+  /// Elevations beyond the Earth, or so high that a small height is lost beside them, leave none.
+  [[nodiscard]] bool leaves_room_for_walls(double base_m, double top_m);
   void add_walls(const Ring& ring, double base_m, double top_m, std::uint16_t part);
   void report_repairs();
+  void place_problems();
 
   std::string source_;
   Report& report_;
@@ -61,6 +64,8 @@ class CityWriter {
   std::uint32_t next_surface_ = 0;
   std::size_t repeated_vertices_ = 0, open_rings_ = 0;
   double largest_gap_ = 0.0;
+  std::optional<Point3d> at_largest_gap_, first_vertex_;
+  std::size_t problems_before_ = 0;  ///< in the report, when the building began
   Ring wall_ = Ring(4);
 };
 

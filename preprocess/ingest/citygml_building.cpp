@@ -108,9 +108,11 @@ class BuildingWriter {
     const std::optional<double> height_m = building_.measured_height_m[use.part];
     const double z = rings.empty() || rings.front().empty() ? 0.0 : rings.front().front().z;
     if (!height_m || std::isnan(z))
-      writer_.add_problem(ProblemCode::no_height, std::isnan(z) ? "its LoD 0 has no elevation" : "LoD 0 needs a measuredHeight");
+      writer_.add_problem(ProblemCode::no_height, std::isnan(z) ? "its LoD 0 has no elevation" : "LoD 0 needs a measuredHeight",
+                          first_readable(rings));
     else if (!(*height_m > 0.0))
-      writer_.add_problem(ProblemCode::height_not_positive, "its measuredHeight is " + std::to_string(*height_m));
+      writer_.add_problem(ProblemCode::height_not_positive, "its measuredHeight is " + std::to_string(*height_m),
+                          first_readable(rings));
     else
       writer_.add_prism(rings, RingEnd::repeats_first, use.role == SurfaceRole::roof_edge ? z - *height_m : z,
                         use.role == SurfaceRole::roof_edge ? z : z + *height_m, use.part);

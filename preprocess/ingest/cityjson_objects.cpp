@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "ingest/seen_polygons.hpp"
 
@@ -87,7 +88,7 @@ class BuildingWriter {
   void write(std::size_t root, LodChoice lod) {
     root_ = &objects_[root];
     writer_.begin_building(objects_[root].id);
-    gather(root, 0);
+    gather(root);
     const std::vector<std::vector<double>> lods = usable_lods();
     const std::vector<std::optional<double>> chosen = choose_lods(lods, lod);
     std::size_t others = 0;
@@ -105,21 +106,28 @@ class BuildingWriter {
   }
 
  private:
-  void gather(std::size_t k, std::uint16_t part) {
-    if (!visited_.insert(k).second) return;
-    const CityJsonObject& object = objects_[k];
+  /// Depth first, with a list of its own: a file may nest its parts deeper than the program's stack is.
+  void gather(std::size_t root) {
+    std::vector<std::pair<std::size_t, std::uint16_t>> waiting{{root, 0}};
+    while (!waiting.empty()) {
+      const auto [k, part_of_parent] = waiting.back();
+      waiting.pop_back();
+      if (!visited_.insert(k).second) continue;
+      const bool shares_part = k == root || role_of(objects_[k].type) == ObjectRole::installation;
+      const std::uint16_t part = shares_part ? part_of_parent : next_part();
+      gather_own(objects_[k], part);
+      const std::set<std::size_t>& children = family_.children_of(k);
+      for (auto child = children.rbegin(); child != children.rend(); ++child)
+        if (role_of(objects_[*child].type) != ObjectRole::none) waiting.emplace_back(*child, part);
+    }
+  }
+
+  void gather_own(const CityJsonObject& object, std::uint16_t part) {
     if (!object.malformed.empty()) writer_.add_problem(ProblemCode::malformed_feature, object.id + ": " + object.malformed);
     for (const CityJsonGeometry& geometry : object.geometries) add_shape(object, geometry, part);
     for (const std::vector<std::string>* relatives : {&object.parents, &object.children})
       for (const std::string& id : *relatives)
         if (!family_.find(id)) writer_.add_problem(ProblemCode::dangling_reference, object.id + " refers to " + id);
-    for (const std::size_t child : family_.children_of(k)) {
-      const ObjectRole role = role_of(objects_[child].type);
-      if (role == ObjectRole::installation)
-        gather(child, part);
-      else if (role != ObjectRole::none)
-        gather(child, next_part());
-    }
   }
 
   std::uint16_t next_part() {
@@ -205,9 +213,10 @@ class BuildingWriter {
     const std::optional<double> height_m = shape.object->measured_height_m;
     const double base_m = rings.empty() || rings[0].empty() ? 0.0 : rings[0][0].z;
     if (!height_m)
-      writer_.add_problem(ProblemCode::no_height, "LoD 0 needs the attribute measuredHeight");
+      writer_.add_problem(ProblemCode::no_height, "LoD 0 needs the attribute measuredHeight", first_readable(rings));
     else if (!(*height_m > 0.0))
-      writer_.add_problem(ProblemCode::height_not_positive, "measuredHeight is " + std::to_string(*height_m));
+      writer_.add_problem(ProblemCode::height_not_positive, "measuredHeight is " + std::to_string(*height_m),
+                          first_readable(rings));
     else
       writer_.add_prism(rings, RingEnd::implied, base_m, base_m + *height_m, shape.part);
   }

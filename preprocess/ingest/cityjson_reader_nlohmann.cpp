@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -36,7 +37,7 @@ double lod_from(const json& geometry) {
   const auto& text = lod->get_ref<const std::string&>();
   double value = 0.0;
   std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
+  return std::isfinite(value) ? value : 0.0;
 }
 
 /// How many lists lie around the surfaces of a geometry; nothing for what has no surfaces.
@@ -55,6 +56,21 @@ std::vector<SurfaceKind> kinds_from(const json& geometry) {
   return kinds;
 }
 
+/// nlohmann would cut off a fraction, and has no answer for what no integer can hold.
+std::int64_t whole_number_from(const json& number) {
+  if (!number.is_number_integer()) throw JsonFlaw("the number of a vertex or a template is not whole");
+  return number.get<std::int64_t>();
+}
+
+std::vector<std::vector<std::int64_t>> rings_from(const json& surface) {
+  std::vector<std::vector<std::int64_t>> rings;
+  for (const json& ring : surface.get_ref<const json::array_t&>()) {
+    std::vector<std::int64_t>& rows = rings.emplace_back();
+    for (const json& row : ring.get_ref<const json::array_t&>()) rows.push_back(whole_number_from(row));
+  }
+  return rings;
+}
+
 /// Flattens solids and shells; `values` numbers the semantics of the surfaces in the same nesting, or is null at any depth.
 void add_polygons(const json& boundaries, const json& values, int nesting, const std::vector<SurfaceKind>& kinds,
                   std::vector<CityJsonPolygon>& polygons) {
@@ -68,16 +84,15 @@ void add_polygons(const json& boundaries, const json& values, int nesting, const
       continue;
     }
     const auto row = value.is_number_unsigned() ? value.get<std::size_t>() : kinds.size();
-    polygons.push_back(
-        {list[i].get<std::vector<std::vector<std::int64_t>>>(), row < kinds.size() ? kinds[row] : SurfaceKind::unknown});
+    polygons.push_back({rings_from(list[i]), row < kinds.size() ? kinds[row] : SurfaceKind::unknown});
   }
 }
 
 CityJsonGeometry geometry_from(const json& j) {
   CityJsonGeometry geometry{j.at("type").get<std::string>(), lod_from(j), {}, std::nullopt};
   if (geometry.type == "GeometryInstance") {
-    geometry.instance = {j.at("template").get<std::size_t>(), j.at("transformationMatrix").get<std::array<double, 16>>(),
-                         j.at("boundaries").at(0).get<std::int64_t>()};
+    geometry.instance = {static_cast<std::size_t>(whole_number_from(j.at("template"))),
+                         j.at("transformationMatrix").get<std::array<double, 16>>(), whole_number_from(j.at("boundaries").at(0))};
   } else if (const std::optional<int> nesting = nesting_of(geometry.type)) {
     const json values = j.contains("semantics") ? j.at("semantics").value("values", json()) : json();
     add_polygons(j.at("boundaries"), values, *nesting, kinds_from(j), geometry.polygons);

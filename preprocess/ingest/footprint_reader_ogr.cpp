@@ -94,6 +94,14 @@ Ring ring_from(const OGRLinearRing& line) {
   return ring;
 }
 
+/// Of a feature that has no rings to be found by.
+std::optional<Point3d> middle_of(const OGRGeometry& geometry) {
+  OGREnvelope box;
+  geometry.getEnvelope(&box);
+  const Ring middle{{0.5 * (box.MinX + box.MaxX), 0.5 * (box.MinY + box.MaxY), 0.0}};
+  return first_readable({&middle, 1});
+}
+
 /// Collects the polygons of a geometry; false when it holds something that is no area in the plane.
 bool add_polygons(const OGRGeometry& geometry, std::vector<Rings>& polygons) {
   const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
@@ -168,7 +176,8 @@ class FootprintLayer {
     std::vector<Rings> polygons;
     const bool all = straight && add_polygons(*straight, polygons);
     if (!all)
-      writer_.add_problem_at(id, ProblemCode::not_an_area, std::string("it is, or holds, a ") + geometry->getGeometryName());
+      writer_.add_problem_at(id, ProblemCode::not_an_area, std::string("it is, or holds, a ") + geometry->getGeometryName(),
+                             middle_of(*geometry));
     if (!polygons.empty()) raise(feature, id, polygons);
   }
 
@@ -177,9 +186,11 @@ class FootprintLayer {
     if (!height_m) height_m = settings_.default_height_m;
     const std::optional<double> base_m = settings_.base_field ? length_m_of(feature, base_field_) : 0.0;
     if (!height_m || !base_m) {
-      writer_.add_problem_at(id, ProblemCode::no_height, said(feature, height_m ? base_field_ : height_field_));
+      writer_.add_problem_at(id, ProblemCode::no_height, said(feature, height_m ? base_field_ : height_field_),
+                             first_readable(polygons.front()));
     } else if (!(*height_m > 0.0)) {
-      writer_.add_problem_at(id, ProblemCode::height_not_positive, said(feature, height_field_));
+      writer_.add_problem_at(id, ProblemCode::height_not_positive, said(feature, height_field_),
+                             first_readable(polygons.front()));
     } else {
       writer_.begin_building(id, !settings_.base_field);
       for (std::size_t part = 0; part < polygons.size(); ++part)

@@ -19,6 +19,13 @@ bool has_three_different(const Ring& ring) {
 
 }  // namespace
 
+std::optional<Point3d> first_readable(std::span<const Ring> rings) {
+  for (const Ring& ring : rings)
+    for (const Point3d& p : ring)
+      if (is_readable(p)) return p;
+  return std::nullopt;
+}
+
 RingFindings clean_ring(Ring& ring, RingEnd end) {
   RingFindings findings;
   if (!std::all_of(ring.begin(), ring.end(), [](const Point3d& p) { return is_readable(p); })) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "farlod/point.hpp"
@@ -27,6 +29,9 @@ struct RingFindings {
 
 /// No reference system of the Earth reaches this far, in metres or in feet: a larger number is a slip.
 inline constexpr double farthest_coordinate = 1e9;
+
+/// The first vertex that lies on the Earth.
+[[nodiscard]] std::optional<Point3d> first_readable(std::span<const Ring> rings);
 
 /// Brings a ring into the form that CityModel promises: not closed, no vertex twice in a row, at least three different
 /// points. The one place where rings are judged, whatever the format. A ring that is not usable is left half-way.

@@ -11,6 +11,7 @@
 
 #include "city/input_error.hpp"
 #include "farlod/version.hpp"
+#include "georeference/problem_locator.hpp"
 #include "georeference/terrain_reader.hpp"
 #include "package/file_stamp.hpp"
 
@@ -75,9 +76,8 @@ class Packing {
     estimate(located.city, grid, terrain);
     describe_place(located, grid);
     result_.facets = located.city.facets().size();
-    TileSet tiles = timed("tiles", [&, &grid = grid, &terrain = terrain] {
-      return cut_into_tiles(std::move(located), grid, settings_.assign, terrain, report_);
-    });
+    TileSet tiles = timed("tiles", [&, &grid = grid, &terrain = terrain] { return cut_city(std::move(located), grid, terrain); });
+    require_no_problems();
     describe_tiles(tiles);
     if (result_.chosen) result_.chosen->measured = timed("measure", [&] { return measure(tiles, grid); });
     write_package(tiles, grid);
@@ -150,6 +150,25 @@ class Packing {
     result_.estimate = estimate_pack(city, terrain, grid, settings_.far_map.kind, threads);
     require_memory(result_.estimate, settings_.memory_limit_mib);
     if (tell_) tell_(result_.estimate);
+  }
+
+  /// What is found here is placed in the CRS of the package.
+  TileSet cut_city(LocatedCity located, const Grid& grid, const std::optional<TerrainRaster>& terrain) {
+    const std::size_t known = report_.problems().size();
+    const Georeference place = located.georeference;
+    TileSet tiles = cut_into_tiles(std::move(located), grid, settings_.assign, terrain, report_);
+    if (const auto crs = Crs::find(place.crs_wkt)) {
+      ProblemLocator locator(*crs, AxisOrder::as_usual, place.origin_m);
+      for (Problem& problem : report_.since(known)) locator.locate(problem);
+    }
+    return tiles;
+  }
+
+  /// Later stages find no more of them, and take long.
+  void require_no_problems() const {
+    const std::size_t count = report_.problems().size();
+    if (settings_.problems == ProblemPolicy::pack || count == 0) return;
+    throw ProblemsRefused("the city has " + std::to_string(count) + (count == 1 ? " problem" : " problems"));
   }
 
   [[nodiscard]] FarMapVerdict measure(const TileSet& tiles, const Grid& grid) const {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +23,15 @@
 
 namespace farlod {
 
+/// What to do with a city that has problems.
+enum class ProblemPolicy { pack, refuse };
+
+/// The city has problems, and was to have none.
+class ProblemsRefused : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Everything that `farlod-pack` can be told.
 struct PackSettings {
   std::vector<std::filesystem::path> inputs;  ///< may be empty when there is a terrain
@@ -33,6 +43,7 @@ struct PackSettings {
   GridSettings grid;
   Assign assign = Assign::clip;
   FarMapSettings far_map;
+  ProblemPolicy problems = ProblemPolicy::pack;
   /// Choose the cells, the neighbourhood and the far maps' tolerance such that an error is kept, instead of taking them from
   /// `grid` and `far_map`.
   std::optional<ChoiceSettings> choice;
@@ -65,7 +76,8 @@ using TellEstimate = std::function<void(const PackEstimate&)>;
 
 /// From city files to a package: ingest, georeference, align, tiles, far maps, package.
 /// Throws InputError, PackageWriteError, MemoryLimitError or OcclusionError; what is wrong with single buildings goes to the
-/// report.
+/// report. Where problems are refused, throws ProblemsRefused as soon as the report is complete: after the tiles, before far
+/// maps, and with nothing written.
 PackResult pack(const PackSettings& settings, Report& report, const PackProgress& progress, const TellEstimate& tell = {});
 
 }  // namespace farlod

@@ -50,7 +50,8 @@ class BuildingCutter {
 
  private:
   void report(ProblemCode code, const Facet& facet, const std::string& detail) {
-    result_.problems.push_back({code, "", building_.id, "surface " + std::to_string(facet.surface) + ": " + detail});
+    result_.problems.push_back(
+        {code, "", building_.id, "surface " + std::to_string(facet.surface) + ": " + detail, city_.ring(facet, 0).front()});
   }
 
   void triangulate_facet(const Facet& facet) {

@@ -32,7 +32,7 @@ struct BuildingPieces {
   std::vector<SurfacePiece> pieces;
   std::vector<CellEdge> horizon_edges;  ///< if it stands
   std::vector<Point3d> open_ends;       ///< where it is open: it stands only if these are at the ground; grid frame
-  std::vector<Problem> problems;        ///< without the source, which a building alone does not know
+  std::vector<Problem> problems;        ///< without the source, which a building alone does not know; grid frame
 };
 
 /// Triangulates and cuts one building, given in the grid frame.

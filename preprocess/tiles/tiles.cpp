@@ -76,9 +76,10 @@ void make_and_place(std::size_t count, const Make& make, const Place& place) {
 
 class TileCutter {
  public:
-  TileCutter(const CityModel& city_grid, std::span<const std::string> sources, const Grid& grid, Assign assign, Ground ground)
+  TileCutter(const CityModel& city_grid, const LocatedCity& located, const Grid& grid, Assign assign, Ground ground)
       : city_(city_grid),
-        sources_(sources),
+        sources_(located.sources),
+        origin_m_(located.georeference.origin_m),
         grid_(grid),
         assign_(assign),
         ground_(std::move(ground)),
@@ -175,6 +176,7 @@ class TileCutter {
   void place_building(const Building& building, BuildingPieces& cut_building, Report& report) {
     for (Problem& problem : cut_building.problems) {
       if (building.source < sources_.size()) problem.source = sources_[building.source];
+      if (problem.position) problem.position = p_projected(*problem.position);
       report.add(std::move(problem));
     }
     const auto number = static_cast<std::uint32_t>(tiles_.building_ids.size());
@@ -197,6 +199,11 @@ class TileCutter {
     }
   }
 
+  [[nodiscard]] Point3d p_projected(const Point3d& p_grid) const {
+    const Point2d p = origin_m_ + grid_.rotation.city_from_grid(horizontal(p_grid));
+    return {p.x, p.y, p_grid.z};
+  }
+
   [[nodiscard]] bool is_overhang(const BuildingSurface& s) const {
     return s.surface.normal.z < overhang_normal_z && s.middle.z - ground_.height_at(horizontal(s.middle)) > least_overhang_m;
   }
@@ -209,6 +216,7 @@ class TileCutter {
 
   const CityModel& city_;
   std::span<const std::string> sources_;
+  Point2d origin_m_;
   const Grid& grid_;
   Assign assign_;
   Ground ground_;
@@ -226,7 +234,7 @@ TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, con
   // Between and around buildings there is ground; beyond a terrain that stands for itself, nobody knows
   const GroundExtent extent = city.buildings().empty() ? GroundExtent::points : GroundExtent::rectangle;
   Ground ground(terrain ? nodes_of(*terrain, grid.rotation) : base_points(city), grid.rectangle(), extent);
-  return TileCutter(city, located.sources, grid, assign, std::move(ground)).run(report);
+  return TileCutter(city, located, grid, assign, std::move(ground)).run(report);
 }
 
 }  // namespace farlod

@@ -50,11 +50,11 @@ TEST_P(EachProgram, HelpBeginsWithWhatItIsAndWhatToTry) {
 
 INSTANTIATE_TEST_SUITE_P(
     Options, EachProgram,
-    testing::Values(Program{"farlod-pack", {"--crs",          "--out-crs",        "--origin", "--up",      "--height-field",
-                                            "--base-field",   "--default-height", "--lod",    "--terrain", "--cell",
-                                            "--neighborhood", "--align",          "--assign", "--far-map", "--output",
-                                            "--force",        "--memory-limit",   "--report", "--summary", "--quiet",
-                                            "--threads",      "--config",         "--version"}},
+    testing::Values(Program{"farlod-pack", {"--crs",          "--out-crs",        "--origin",  "--up",      "--height-field",
+                                            "--base-field",   "--default-height", "--lod",     "--terrain", "--cell",
+                                            "--neighborhood", "--align",          "--assign",  "--far-map", "--output",
+                                            "--force",        "--memory-limit",   "--report",  "--summary", "--quiet",
+                                            "--threads",      "--config",         "--version", "--strict"}},
                     Program{"farlod-svf",
                             {"--grid",       "--points", "--surfaces", "--at",      "--height",  "--on-surface", "--spacing",
                              "--points-crs", "--bbox",   "--output",   "--preview", "--summary", "--engine",     "--rays",

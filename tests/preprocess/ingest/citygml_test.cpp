@@ -162,6 +162,20 @@ TEST(CityGml, LevelZeroIsRaisedByTheMeasuredHeight) {
   EXPECT_EQ(r.city().ring(r.city().facets().back(), 0)[0].z, 6.0);
 }
 
+TEST(CityGml, AnEndlessHeightRaisesNothing) {
+  const auto house = [](const std::string& height, const std::string& id) {
+    return building("<bldg:measuredHeight>" + height + "</bldg:measuredHeight><bldg:lod0RoofEdge><gml:MultiSurface>" +
+                        member(polygon("edge_of_" + id, "10")) + "</gml:MultiSurface></bldg:lod0RoofEdge>",
+                    id);
+  };
+  IngestSettings settings;
+  settings.lod.exactly = 0;
+  const Reading r = read_text("a.gml", model(house("inf", "endless") + house("1e300", "far") + house("4", "good")), settings);
+  ASSERT_EQ(r.city().buildings().size(), 1u);
+  EXPECT_EQ(r.city().buildings()[0].id, "good");
+  EXPECT_EQ(r.codes(), (std::set<int>{102, 111}));
+}
+
 TEST(CityGml, CirclesOfReferencesEnd) {
   const std::string loop = R"(<gml:CompositeSurface gml:id="loop">)" + reference("loop") + reference("loop") +
                            member(polygon("a", "1")) + "</gml:CompositeSurface>";

@@ -113,5 +113,38 @@ TEST(CityJson, LevelZeroIsRaisedByTheMeasuredHeight) {
   EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[0].z, 35.0);
 }
 
+TEST(CityJson, AHeightThatIsLostBesideTheElevationIsNone) {
+  IngestSettings settings;
+  settings.lod.exactly = 0;
+  const std::string good =
+      R"("good":{"type":"Building","attributes":{"measuredHeight":5},"geometry":[)" + surface("0", "[[[0,1,2]]]") + "]},";
+  const std::string flat = building(surface("0", "[[[0,1,2]]]"), R"(,"attributes":{"measuredHeight":1e-20})");
+  const Reading r = read_text("a.city.json", file_of(good + flat), settings);
+  ASSERT_EQ(r.city().buildings().size(), 1u);
+  EXPECT_EQ(r.city().buildings()[0].id, "good");
+  EXPECT_EQ(r.codes(), (std::set<int>{109, 111}));
+}
+
+TEST(CityJson, AVertexNumberThatIsNotWholeCostsItsBuilding) {
+  const std::string good = R"("good":{"type":"Building","geometry":[)" + surface("2", "[[[0,1,2]]]") + "]},";
+  for (const std::string number : {"1.0", "1.5", "true", "1e300", "218446744073709551615"}) {
+    const Reading r = read_text("a.city.json", file_of(good + building(surface("2", "[[[0," + number + ",2]]]"))));
+    EXPECT_EQ(r.city().buildings().size(), 1u) << number;
+    EXPECT_EQ(r.codes(), (std::set<int>{111, 113})) << number;
+  }
+}
+
+TEST(CityJson, PartsMayBeNestedDeeperThanTheStack) {
+  constexpr int depth = 100'000;  // calls, each of a hundred bytes or more, overflow the usual 8 MiB
+  std::string objects = building("", R"(,"children":["p1"])");
+  for (int k = 1; k < depth; ++k)
+    objects += ",\"p" + std::to_string(k) + R"(":{"type":"BuildingPart","children":["p)" + std::to_string(k + 1) + "\"]}";
+  objects += ",\"p" + std::to_string(depth) + R"(":{"type":"BuildingPart","geometry":[)" + surface("2", "[[[0,1,2]]]") + "]}";
+  const Reading r = read_text("a.city.json", file_of(objects));
+  EXPECT_EQ(r.city().buildings().size(), 1u);
+  EXPECT_EQ(r.city().facets().size(), 1u);
+  EXPECT_TRUE(r.codes().empty());
+}
+
 }  // namespace
 }  // namespace farlod::test

@@ -80,6 +80,16 @@ TEST(Pack, EndsBeforeTheTilesWhereTheMemoryIsShort) {
   EXPECT_FALSE(fs::exists(p.settings.output));
 }
 
+TEST(Pack, RefusesProblemsOnceTheReportIsCompleteAndBeforeFarMaps) {
+  TownPacking p;
+  p.settings.problems = ProblemPolicy::refuse;
+  EXPECT_THROW(p.run(), ProblemsRefused);
+  EXPECT_TRUE(p.stages_told().contains("tiles"));
+  EXPECT_FALSE(p.stages_told().contains("far maps"));
+  EXPECT_EQ(p.codes(), std::set<int>{109});
+  EXPECT_FALSE(fs::exists(p.settings.output));
+}
+
 TEST(Pack, TellsItsEstimateOnceBeforeTheTiles) {
   TownPacking p;
   std::vector<PackEstimate> told;

@@ -26,6 +26,33 @@ TEST_P(BrokenFile, HasExactlyItsProblemAndIsPacked) {
 INSTANTIATE_TEST_SUITE_P(Pipeline, BrokenFile, testing::ValuesIn(fixtures_of_stages(2, 4)),
                          [](const auto& test) { return test.param.name.second; });
 
+TEST_P(BrokenFile, IsRefusedWhereProblemsAre) {
+  Packing p;
+  p.settings.inputs = {GetParam().path};
+  p.settings.problems = ProblemPolicy::refuse;
+  EXPECT_THROW(p.run(), ProblemsRefused);
+  EXPECT_EQ(p.codes(), std::set<int>{GetParam().name.first});
+}
+
+class PlacedProblem : public testing::TestWithParam<Fixture> {};
+
+TEST_P(PlacedProblem, IsOnTheMapUnlessItIsOfNoPlace) {
+  const std::set<ProblemCode> without_vertex{ProblemCode::no_geometry, ProblemCode::no_dominant_direction};
+  Packing p;
+  p.settings.inputs = {GetParam().path};
+  p.settings.georeference.crs = "EPSG:32632";  // of OBJ files
+  p.run();
+  ASSERT_FALSE(p.report.problems().empty());
+  for (const Problem& problem : p.report.problems()) {
+    EXPECT_EQ(problem.position.has_value(), !without_vertex.contains(problem.code)) << problem.detail;
+    const bool is_on_earth = problem.code != ProblemCode::outside_of_projection;
+    EXPECT_EQ(problem.lon_lat_deg.has_value(), problem.position && is_on_earth) << problem.detail;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pipeline, PlacedProblem, testing::ValuesIn(fixtures_of_stages(1, 4)),
+                         [](const auto& test) { return test.param.name.second; });
+
 /// What is in the package when the problem had its effect.
 struct Remains {
   std::set<std::string> buildings;

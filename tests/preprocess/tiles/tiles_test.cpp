@@ -109,6 +109,23 @@ TEST(Tiles, EveryFacetIsKeptOrInTheReport) {
   for (const Problem& p : report.problems()) EXPECT_EQ(p.place, "odd");
 }
 
+TEST(Tiles, PlaceProblemsInTheCrsOfThePackage) {
+  LocatedCity located;
+  located.georeference.origin_m = {500000.0, 5500000.0};
+  located.city.begin_building("odd");
+  located.city.begin_facet(SurfaceKind::unknown, 0);
+  located.city.add_ring(std::vector<Point3d>{{30, 20, 7}, {40, 20, 7}, {40, 30, 8}, {30, 30, 7}});
+  Report report;
+  const Grid grid = scenes::grid_covering(located.city, Angle::degrees(30), 50, 3);
+  (void)cut_into_tiles(std::move(located), grid, Assign::clip, {}, report);
+  ASSERT_EQ(report.count(ProblemCode::not_planar), 1U);
+  constexpr double rounding_m = 2.0 * 9.4e-10;  // of numbers up to eight million, turned there and back
+  const Point3d p = report.problems()[0].position.value();
+  EXPECT_NEAR(p.x, 500030.0, rounding_m);
+  EXPECT_NEAR(p.y, 5500020.0, rounding_m);
+  EXPECT_EQ(p.z, 7.0);
+}
+
 TEST(Tiles, FlagCellsWithOverhangsOnly) {
   SceneBuilder town;
   town.add_box({{1, 1}, {49, 20}}, 0.0, 12.0);

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "ingest/city_writer.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Ring triangle_at(const Point3d& p) { return {p, p + Point3d{4, 0, 0}, p + Point3d{0, 4, 0}, p}; }
+
+struct Writing {
+  Report report;
+  CityWriter writer{"town.gml", report};
+
+  void polygon(Ring outer) {
+    Rings rings{std::move(outer)};
+    writer.add_polygon(rings, RingEnd::repeats_first, {});
+  }
+  [[nodiscard]] std::optional<Point3d> position(std::size_t n) const { return report.problems().at(n).position; }
+};
+
+TEST(ProblemPositions, OfABadRingAreItsFirstVertex) {
+  Writing w;
+  w.writer.begin_building("house");
+  w.polygon(triangle_at({1, 2, 3}));
+  w.polygon({{7, 8, 9}, {7, 8, 9}, {7, 8, 9}});
+  w.writer.end_building();
+  EXPECT_EQ(w.position(0), (Point3d{7, 8, 9}));
+}
+
+TEST(ProblemPositions, AreNumbersWhateverTheRingHolds) {
+  Writing w;
+  w.writer.begin_building("house");
+  w.polygon({{nan, 8, 9}, {5, 1e12, 9}, {5, 6, 7}, {nan, 8, 9}});
+  w.polygon({{nan, nan, nan}});
+  w.writer.end_building();
+  ASSERT_EQ(w.report.problems().size(), 3U);
+  EXPECT_EQ(w.report.problems()[2].code, ProblemCode::no_geometry);
+  for (std::size_t n = 0; n < 3; ++n) EXPECT_EQ(w.position(n), (Point3d{5, 6, 7})) << n;
+}
+
+TEST(ProblemPositions, OfAWholeBuildingAreItsFirstVertex) {
+  Writing w;
+  for (const double x : {10.0, 20.0}) {
+    w.writer.begin_building("twin");
+    w.polygon(triangle_at({x, 2, 3}));
+    w.polygon(triangle_at({x, 2, 30}));
+    w.writer.end_building();
+  }
+  ASSERT_EQ(w.report.count(ProblemCode::repeated_id), 1U);
+  EXPECT_EQ(w.position(0), (Point3d{20, 2, 3}));
+}
+
+TEST(ProblemPositions, OfOpenRingsAreAtTheGreatestGap) {
+  Writing w;
+  w.writer.begin_building("house");
+  w.polygon(triangle_at({1, 2, 3}));
+  for (const double leg_m : {1.0, 5.0, 2.0}) w.polygon({{leg_m, 0, 0}, {leg_m, 9, 0}, {2 * leg_m, 0, 0}});
+  w.writer.end_building();
+  ASSERT_EQ(w.report.count(ProblemCode::ring_not_closed), 1U);
+  EXPECT_EQ(w.position(0), (Point3d{5, 0, 0}));
+}
+
+TEST(ProblemPositions, AreNotGuessedForABuildingWithoutVertices) {
+  Writing w;
+  w.writer.begin_building("full");
+  w.polygon(triangle_at({1, 2, 3}));
+  w.writer.end_building();
+  w.writer.begin_building("empty");
+  w.writer.end_building();
+  ASSERT_EQ(w.report.count(ProblemCode::no_geometry), 1U);
+  EXPECT_FALSE(w.position(0));
+}
+
+}  // namespace
+}  // namespace farlod
