@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "ingest/ingest.hpp"
+
+/// The name that libFuzzer calls. Each format has one, in a program of its own.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace farlod {
+
+/// Has `bytes` read as a file whose name ends with `ending`. Either InputError refuses the file, with a message, or the city
+/// keeps the promises of ingest.hpp: a breach aborts. Any other exception is passed on.
+void ingest_bytes(std::span<const std::uint8_t> bytes, std::string_view ending, const IngestSettings& settings);
+
+}  // namespace farlod
