@@ -83,7 +83,7 @@ class TiledFile {
   }
 
  private:
-  /// Horizons are read cell by cell while receivers wait: as runs they take a quarter more bytes than zipped, and half of the
+  /// Horizons are read cell by cell while receivers wait: as runs they take a third more bytes than zipped, and half of the
   /// time.
   static Imf::Compression compression_of(const package::FarMapShape& shape) {
     return shape.is_box() ? Imf::ZIP_COMPRESSION : Imf::RLE_COMPRESSION;

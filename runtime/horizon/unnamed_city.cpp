@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <span>
 #include <tuple>
 
 namespace farlod {
@@ -19,9 +20,8 @@ void for_each_patch(const PatchOf& patch_of, const Raise& raise) {
   for (std::size_t l = 0; l < patches.size(); ++l) patches[l] = patch_of(l);
   for (std::size_t first = 0; first < patches.size(); ++first) {
     const auto patch = patches[first];
-    if (std::find(patches.begin(), patches.begin() + static_cast<std::ptrdiff_t>(first), patch) !=
-        patches.begin() + static_cast<std::ptrdiff_t>(first))
-      continue;
+    const auto before = std::span(patches).first(first);
+    if (std::find(before.begin(), before.end(), patch) != before.end()) continue;
     PacketHorizon::Lanes caps;
     for (std::size_t l = 0; l < patches.size(); ++l)
       caps[l] = patches[l] == patch ? std::numeric_limits<float>::infinity() : 0.0F;

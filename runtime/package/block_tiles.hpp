@@ -59,7 +59,7 @@ struct TileView {
 class BlockTiles {
  public:
   /// `name` is for messages. `cells` are the cells that the block must hold. The bytes must outlive the view.
-  /// Throws PackageDamaged naming the first rule that is broken, PackageUnusable for a newer version.
+  /// Throws PackageDamaged naming the first rule that is broken, PackageUnusable for another version of the format.
   BlockTiles(std::span<const std::byte> bytes, const CellRange& cells, std::string name);
 
   [[nodiscard]] TileView tile(Cell cell) const;  ///< `cell` must be one of the block's

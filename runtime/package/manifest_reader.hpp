@@ -9,7 +9,7 @@
 namespace farlod {
 
 /// Reads and checks `manifest.json` of a package's folder.
-/// Throws PackageUnusable (no package there, newer format) or PackageDamaged (a key is missing or impossible).
+/// Throws PackageUnusable (no package there, another version of the format) or PackageDamaged (a key is missing or impossible).
 [[nodiscard]] package::Manifest read_manifest(const std::filesystem::path& package_folder);
 
 }  // namespace farlod
