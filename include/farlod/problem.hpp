@@ -34,11 +34,24 @@ enum class ProblemCode : std::uint16_t {
   unsupported_geometry = 112,
   malformed_feature = 113,
   other_level_of_detail = 114,
+  duplicate_surface = 115,
+  absurd_height = 116,
+  another_format = 117,
+  empty_file = 118,
+  unusable_file = 119,
   outside_of_projection = 201,
+  axes_swapped = 202,
+  crs_overruled = 203,
+  crs_unknown = 204,
+  unlikely_place = 205,
+  zone_in_easting = 206,
+  far_away = 207,
   no_dominant_direction = 301,
   zero_area = 401,
   self_intersecting = 402,
   not_planar = 403,
+  spike = 404,
+  hole_outside = 405,
 };
 
 /// What happened to the thing that has the problem.
@@ -80,14 +93,37 @@ inline constexpr std::array problem_descriptions{
                        "a feature does not follow its format"},
     ProblemDescription{ProblemCode::other_level_of_detail, "other_level_of_detail", Effect::left_out,
                        "a building has further levels of detail, of which one counts"},
+    ProblemDescription{ProblemCode::duplicate_surface, "duplicate_surface", Effect::left_out,
+                       "a building has the same surface twice"},
+    ProblemDescription{ProblemCode::absurd_height, "absurd_height", Effect::left_out,
+                       "a footprint is higher than any building on Earth"},
+    ProblemDescription{ProblemCode::another_format, "another_format", Effect::kept,
+                       "a file is of another format than its name says"},
+    ProblemDescription{ProblemCode::empty_file, "empty_file", Effect::left_out, "a file has nothing in it"},
+    ProblemDescription{ProblemCode::unusable_file, "unusable_file", Effect::left_out, "one of several files cannot be used"},
     ProblemDescription{ProblemCode::outside_of_projection, "outside_of_projection", Effect::left_out,
-                       "a building cannot be projected"},
+                       "a building has a vertex that cannot be projected"},
+    ProblemDescription{ProblemCode::axes_swapped, "axes_swapped", Effect::repaired,
+                       "a file writes its coordinates in another order than its CRS says"},
+    ProblemDescription{ProblemCode::crs_overruled, "crs_overruled", Effect::repaired,
+                       "a file says one CRS, and --crs another, which holds"},
+    ProblemDescription{ProblemCode::crs_unknown, "crs_unknown", Effect::repaired,
+                       "a file names a CRS that nobody knows, and --crs stands in"},
+    ProblemDescription{ProblemCode::unlikely_place, "unlikely_place", Effect::kept,
+                       "a file lies where its CRS is not meant to be used"},
+    ProblemDescription{ProblemCode::zone_in_easting, "zone_in_easting", Effect::repaired,
+                       "eastings begin with the number of their zone"},
+    ProblemDescription{ProblemCode::far_away, "far_away", Effect::left_out,
+                       "a facet or a building lies far from all the rest of the city"},
     ProblemDescription{ProblemCode::no_dominant_direction, "no_dominant_direction", Effect::kept,
                        "the streets have no dominant direction"},
     ProblemDescription{ProblemCode::zero_area, "zero_area", Effect::left_out, "a facet has no area"},
     ProblemDescription{ProblemCode::self_intersecting, "self_intersecting", Effect::repaired,
                        "the rings of a facet cross each other"},
     ProblemDescription{ProblemCode::not_planar, "not_planar", Effect::kept, "a facet is not planar"},
+    ProblemDescription{ProblemCode::spike, "spike", Effect::repaired, "a ring goes out and comes back the same way"},
+    ProblemDescription{ProblemCode::hole_outside, "hole_outside", Effect::left_out,
+                       "a hole lies outside of the facet that it is a hole of"},
 };
 
 [[nodiscard]] constexpr const ProblemDescription& describe(ProblemCode code) {
@@ -104,10 +140,13 @@ struct Problem {
   std::string place;   ///< the building's id, the feature's number or the line
   std::string detail;  ///< what exactly, with figures
   /// A place on the ground, where one is known. 1xx and 2xx: as the file counts, in its axis order (an OBJ file with its
-  /// origin added, z up); 4xx: easting, northing and height in the CRS of the package.
+  /// origin added, z up); 207, 4xx and what waits for the terrain: easting, northing and height in the CRS
+  /// of the package.
   std::optional<Point3d> position = {};
   /// The same in degrees of WGS 84, longitude first; known once the CRS of the position is.
   std::optional<Point2d> lon_lat_deg = {};
+  /// Where a ring is concerned, which one: "polygon UUID_1, ring 0 (outer)"; empty where none is.
+  std::string ring = {};
 };
 
 /// Collects problems in the order in which they are met. Never ends a run.

@@ -33,6 +33,7 @@ Json json_of(const Problem& p) {
           {"effect", name_of(d.effect)},
           {"source", p.source},
           {"place", p.place},
+          {"ring", p.ring.empty() ? Json() : Json(p.ring)},
           {"position", p.position ? Json::array({p.position->x, p.position->y, p.position->z}) : Json()},
           {"detail", p.detail}};
 }
@@ -66,6 +67,7 @@ std::string pack_summary_json(const PackResult& result, const Report& report, do
              {{"seconds", result.estimate.seconds},
               {"memory_mib", result.estimate.memory_mib},
               {"package_mib", result.estimate.package_mib}}}};
+  if (!result.passed_over.empty()) j["passed_over"] = result.passed_over;
   if (result.chosen) j["chosen"] = json_of(*result.chosen);
   return text_of(j);
 }

@@ -28,8 +28,8 @@ std::uint64_t CityModel::surface_count() const {
   return count;
 }
 
-void CityModel::begin_building(std::string id, bool stands_on_ground, std::uint32_t source) {
-  buildings_.push_back({std::move(id), facets_.size(), 0, stands_on_ground, source});
+void CityModel::begin_building(std::string id, Footing footing, std::uint32_t source) {
+  buildings_.push_back({std::move(id), facets_.size(), 0, footing, source});
 }
 
 void CityModel::begin_facet(SurfaceKind kind, std::uint32_t surface, std::uint16_t part) {
@@ -55,6 +55,21 @@ void CityModel::drop_last_building() {
     facets_.resize(b.first_facet);
   }
   buildings_.pop_back();
+}
+
+void CityModel::drop(std::span<const std::size_t> buildings) {
+  if (buildings.empty()) return;
+  CityModel kept;
+  for (std::size_t n = 0; n < buildings_.size(); ++n) {
+    if (std::binary_search(buildings.begin(), buildings.end(), n)) continue;
+    const Building& b = buildings_[n];
+    kept.begin_building(b.id, b.footing, b.source);
+    for (const Facet& f : facets_of(b)) {
+      kept.begin_facet(f.kind, f.surface, f.part);
+      for (std::uint32_t k = 0; k < f.ring_count; ++k) kept.add_ring(ring(f, k));
+    }
+  }
+  *this = std::move(kept);
 }
 
 void CityModel::set_source(std::uint32_t source) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -24,12 +25,18 @@ struct Facet {
   SurfaceKind kind = SurfaceKind::unknown;
 };
 
+/// What the heights of a building count from.
+enum class Footing : std::uint8_t {
+  elevation,       ///< the zero of the CRS: the file knows where the building stands
+  on_ground,       ///< the ground, which only a terrain can tell
+  down_to_ground,  ///< the roof has an elevation; what is nearer to the foot than to the roof has yet to be put on the ground
+};
+
 struct Building {
   std::string id;
   std::uint64_t first_facet = 0;
   std::uint32_t facet_count = 0;
-  /// The file gave a height, not an elevation: z counts from the ground, which only a terrain can tell.
-  bool stands_on_ground = false;
+  Footing footing = Footing::elevation;
   std::uint32_t source = 0;  ///< place in LocatedCity::sources of the file that it comes from
 };
 
@@ -54,11 +61,13 @@ class CityModel {
   [[nodiscard]] std::uint64_t surface_count() const;
 
   /// Building up: a building, then its facets, each with its rings, outer ring first.
-  void begin_building(std::string id, bool stands_on_ground = false, std::uint32_t source = 0);
+  void begin_building(std::string id, Footing footing = Footing::elevation, std::uint32_t source = 0);
   void begin_facet(SurfaceKind kind, std::uint32_t surface, std::uint16_t part = 0);
   void add_ring(std::span<const Point3d> points);
   /// Takes back the building begun last, with all that it has.
   void drop_last_building();
+  /// Takes back buildings, given by their places in ascending order.
+  void drop(std::span<const std::size_t> buildings);
   void set_source(std::uint32_t source);  ///< of all buildings
   /// Appends the buildings of another model; takes it over whole where there is nothing yet.
   void append(CityModel&& other);

@@ -26,7 +26,8 @@ struct Georeference {
 struct LocatedCity {
   CityModel city;
   Georeference georeference;
-  std::vector<std::string> sources = {};  ///< names of the files, for messages
+  std::vector<std::string> sources = {};    ///< names of the files, for messages
+  std::vector<Point3d> relief_points = {};  ///< points of the ground that the files give as terrain
 };
 
 }  // namespace farlod

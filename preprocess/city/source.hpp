@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "city/city_model.hpp"
+#include "farlod/point.hpp"
 
 namespace farlod {
 
@@ -18,11 +22,17 @@ struct SourceCrs {
   bool heights_in_metres = false;
 };
 
+/// How often something was met that is not used, by what it is: vegetation, water, elements of extensions.
+using PassedOver = std::map<std::string, std::uint64_t>;
+
 /// One input file, read: coordinates are still those of the file.
 struct SourceCity {
   std::string source;  ///< the file's name as the user gave it
   SourceCrs crs;
   CityModel city;
+  std::vector<Point3d> relief_points = {};  ///< corners of the triangles that the file gives as terrain; may repeat
+  PassedOver passed_over = {};
+  std::vector<std::string> notes = {};  ///< for the user: what was taken from small files beside this one
 };
 
 }  // namespace farlod

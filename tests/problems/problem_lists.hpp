@@ -56,6 +56,22 @@ inline std::vector<Fixture> fixtures_of_stages(int first, int last) {
   return files;
 }
 
+/// A file without problems, in the UTM zone of all fixtures.
+inline std::filesystem::path good_city() {
+  return std::filesystem::path(FARLOD_SOURCE_DIR) / "datasets/samples/village.city.json";
+}
+
+/// Whether a file alone would end the run: its problem is one among several files.
+inline bool needs_company(const Fixture& fixture) {
+  return fixture.name.first == static_cast<int>(ProblemCode::empty_file) ||
+         fixture.name.first == static_cast<int>(ProblemCode::unusable_file);
+}
+
+/// What has to be read for the problem to show.
+inline std::vector<std::filesystem::path> inputs_with(const Fixture& fixture) {
+  return needs_company(fixture) ? std::vector{fixture.path, good_city()} : std::vector{fixture.path};
+}
+
 /// The headings "### <code> <slug>" of docs/problems.md, from top to bottom.
 inline std::vector<ProblemName> documented_problems() {
   std::vector<ProblemName> names;
