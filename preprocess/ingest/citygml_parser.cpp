@@ -3,152 +3,158 @@
 #include "ingest/citygml_parser.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <limits>
 
+#include "farlod/expects.hpp"
 #include "ingest/surface_names.hpp"
 
 namespace farlod {
 namespace {
 
-constexpr std::string_view citygml = "http://www.opengis.net/citygml/";
+/// Of a height, or of a word: no more is needed, whatever a file has there.
+constexpr std::size_t most_words = 256;
 
-bool is_gml(std::string_view space) { return space.starts_with("http://www.opengis.net/gml"); }
-
-/// Whether elements of a namespace can lead to surfaces of a building. The core has a version where modules have a name.
-bool may_hold_surfaces(std::string_view space) {
-  if (is_gml(space)) return true;
-  if (!space.starts_with(citygml)) return false;
-  const std::string_view module = space.substr(citygml.size());
-  return module.starts_with("building/") || module.starts_with("bridge/") || module.starts_with("construction/") ||
-         module.starts_with("texturedsurface/") || (!module.empty() && module.front() >= '0' && module.front() <= '9');
+/// Terrains that are pictures or lines, and clouds of points, which lie in other files.
+bool is_unread_relief(std::string_view name) {
+  return name == "RasterRelief" || name == "BreaklineRelief" || name == "PointCloud";
 }
 
-bool is_construction(std::string_view space) {
-  return space.starts_with(citygml) && (space.find("/building/") != space.npos || space.find("/bridge/") != space.npos);
-}
-
-/// Properties that hold rooms, furniture, addresses, or other buildings.
-constexpr std::array<std::string_view, 13> inner_properties{"interiorRoom",
-                                                            "interiorBuildingInstallation",
-                                                            "interiorBridgeRoom",
-                                                            "interiorBridgeInstallation",
-                                                            "buildingRoom",
-                                                            "buildingSubdivision",
-                                                            "bridgeRoom",
-                                                            "roomInstallation",
-                                                            "generalizesTo",
-                                                            "address",
-                                                            "IntBuildingInstallation",
-                                                            "IntBridgeInstallation",
-                                                            "appearance"};
-
-constexpr std::array<std::string_view, 6> installation_names{"BuildingInstallation",      "BridgeInstallation",
-                                                             "BridgeConstructionElement", "BuildingConstructiveElement",
-                                                             "BridgeConstructiveElement", "OtherConstruction"};
-
-template <std::size_t n>
-bool is_one_of(std::string_view name, const std::array<std::string_view, n>& names) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-bool is_surface_name(std::string_view name) { return name.ends_with("Surface"); }
-
-bool is_lod_property(std::string_view name) {
-  return name.size() > 4 && name.starts_with("lod") && name[3] >= '0' && name[3] <= '9';
-}
+bool is_read_relief(std::string_view name) { return name == "ReliefFeature" || name == "TINRelief" || name == "MassPointRelief"; }
 
 }  // namespace
 
 void CityGmlParser::start(const XmlElement& element) {
   if (root_.empty()) root_ = element.name;
   if (srs_name_.empty() && !element.srs_name.empty()) srs_name_ = element.srs_name;
-  if (passed_over_ > 0 || is_passed_over(element)) {
-    ++passed_over_;
-    return;
-  }
-  if (in_surfaces_) {
-    const GmlSurfaceReader::Answer answer = reader_.start(element);
-    if (answer == GmlSurfaceReader::Answer::unsupported) building_.unread.emplace_back("a gml:").append(element.name);
-    if (answer == GmlSurfaceReader::Answer::entered)
-      open_.push_back(Meaning::geometry);
-    else
-      ++passed_over_;
-  } else if (!in_building_) {
-    open_.push_back(meaning_outside(element));
-  } else if (is_lod_property(element.name)) {
-    if (start_surfaces(element))
-      open_.push_back(Meaning::surfaces);
-    else
-      ++passed_over_;
+  if (depth_passed_over_ > 0) {
+    ++depth_passed_over_;
+  } else if (const MaybeMeaning meaning = meaning_of(element)) {
+    open_.push_back(*meaning);
   } else {
-    open_.push_back(meaning_inside(element));
+    depth_passed_over_ = 1;
   }
 }
 
-bool CityGmlParser::is_passed_over(const XmlElement& element) const {
-  if (!in_building_) return false;
-  return !may_hold_surfaces(element.space) || is_one_of(element.name, inner_properties) || is_interior_surface_name(element.name);
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_of(const XmlElement& element) {
+  if (in_surfaces_) return meaning_in_surfaces(element);
+  if (in_building_) return meaning_inside(element);
+  return in_relief_ ? meaning_in_relief(element) : meaning_outside(element);
 }
 
-CityGmlParser::Meaning CityGmlParser::meaning_outside(const XmlElement& element) {
-  // A part that stands alone is as good as a building
-  const bool is_root =
-      element.name == "Building" || element.name == "Bridge" || element.name == "BuildingPart" || element.name == "BridgePart";
-  if (!is_root || !is_construction(element.space)) return Meaning::nothing;
-  begin_building(element);
-  return Meaning::building;
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_outside(const XmlElement& element) {
+  const Vocabulary vocabulary = vocabulary_of(element.space);
+  if (vocabulary == Vocabulary::constructions && is_construction_name(element.name)) {
+    begin_building(element);
+    return Meaning::building;
+  }
+  if (vocabulary == Vocabulary::relief && ReliefReader::is_point_property(element.name)) {
+    relief_.begin(element);
+    in_relief_ = true;
+    return Meaning::terrain;
+  }
+  const bool is_object = !open_.empty() && open_.back() == Meaning::members;
+  const bool is_read = vocabulary == Vocabulary::relief && is_read_relief(element.name);
+  const bool is_unread = vocabulary != Vocabulary::foreign && is_unread_relief(element.name);
+  if (is_unread || (is_object && !is_read)) passed_over_.add(element);
+  return is_member_name(element.name) ? Meaning::members : Meaning::nothing;
 }
 
-CityGmlParser::Meaning CityGmlParser::meaning_inside(const XmlElement& element) {
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_in_relief(const XmlElement& element) {
+  return relief_.start(element) ? MaybeMeaning(Meaning::terrain) : std::nullopt;
+}
+
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_in_surfaces(const XmlElement& element) {
+  const Vocabulary vocabulary = vocabulary_of(element.space);
+  if (vocabulary == Vocabulary::foreign) passed_over_.add(element);
+  if (!may_hold_surfaces(vocabulary)) return std::nullopt;
+  const GmlSurfaceReader::Answer answer = reader_.start(element);
+  if (answer == GmlSurfaceReader::Answer::unsupported) building_.add_unread(std::string("a gml:").append(element.name));
+  return answer == GmlSurfaceReader::Answer::entered ? MaybeMeaning(Meaning::geometry) : std::nullopt;
+}
+
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_inside(const XmlElement& element) {
+  const Vocabulary vocabulary = vocabulary_of(element.space);
+  if (vocabulary == Vocabulary::foreign) passed_over_.add(element);
+  if (!may_hold_surfaces(vocabulary) || is_inner_name(element.name)) return std::nullopt;
+  if (in_prototype_) return meaning_in_prototype(element);
+  if (is_lod_property(element.name)) return meaning_of_lod_property(element);
+  return vocabulary == Vocabulary::gml ? Meaning::nothing : meaning_of_thing(element, vocabulary);
+}
+
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_of_thing(const XmlElement& element, Vocabulary vocabulary) {
   const std::string_view name = element.name;
-  if (is_gml(element.space)) return Meaning::nothing;
-  if (name == "BuildingPart" || name == "BridgePart") {
+  if (is_part_name(name)) {
     begin_part();
     return Meaning::part;
   }
-  if (is_one_of(name, installation_names)) {
-    ++installations_;
-    kinds_.push_back(SurfaceKind::unknown);
+  if (is_element_name(name) || is_installation_name(name) || name == "OtherConstruction") {
+    begin_installation(is_element_name(name) ? SurfaceRole::element : SurfaceRole::installation);
     return Meaning::installation;
   }
-  if (is_surface_name(name)) {
+  if (is_boundary_name(name)) {
     ++boundaries_;
     kinds_.push_back(kind_of_surface_name(name));
     return Meaning::boundary;
   }
-  if (name == "measuredHeight" || (name == "value" && element.space.find("/construction/") != name.npos)) {
-    height_text_.clear();
-    in_height_ = true;
-    return Meaning::height;
-  }
+  if (name == "measuredHeight" || (name == "value" && vocabulary == Vocabulary::constructions))
+    return begin_words(Meaning::height);
+  if (name == "relationToConstruction" && !installations_.empty()) return begin_words(Meaning::relation);
   return Meaning::nothing;
 }
 
-bool CityGmlParser::start_surfaces(const XmlElement& element) {
+CityGmlParser::Meaning CityGmlParser::begin_words(Meaning meaning) {
+  words_.clear();
+  in_words_ = true;
+  return meaning;
+}
+
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_of_lod_property(const XmlElement& element) {
   const int lod = element.name[3] - '0';
   const std::string_view what = element.name.substr(4);
-  if (lod > 3) return false;
-  SurfaceUse use{lod, parts_.back(), SurfaceRole::shell, kinds_.back()};
-  if (what == "ImplicitRepresentation") building_.unread.emplace_back("a geometry by ").append(element.name);
-  if (what == "FootPrint")
-    use.role = SurfaceRole::footprint;
-  else if (what == "RoofEdge")
-    use.role = SurfaceRole::roof_edge;
-  else if (what != "Solid" && what != "MultiSurface" && what != "Geometry")
-    return false;
-  else if (lod == 0)
-    return false;
-  else if (installations_ > 0)
-    use.role = SurfaceRole::installation;
-  else if (boundaries_ > 0)
-    use.role = SurfaceRole::boundary;
+  if (lod > 3) return std::nullopt;
+  if (what == "ImplicitRepresentation") {
+    prototype_.begin(element.name, {lod, parts_.back(), role_here(), kinds_.back(), building_.placements.size()});
+    in_prototype_ = true;
+    return Meaning::prototype;
+  }
+  const std::optional<SurfaceRole> role = role_of_lod_property(lod, what);
+  if (!role) return std::nullopt;
+  begin_surfaces({lod, parts_.back(), *role, kinds_.back()}, element);
+  return Meaning::surfaces;
+}
+
+SurfaceRole CityGmlParser::role_here() const {
+  if (!installations_.empty()) return installations_.back().role;
+  return boundaries_ > 0 ? SurfaceRole::boundary : SurfaceRole::shell;
+}
+
+std::optional<SurfaceRole> CityGmlParser::role_of_lod_property(int lod, std::string_view what) const {
+  if (what == "FootPrint") return SurfaceRole::footprint;
+  if (what == "RoofEdge") return SurfaceRole::roof_edge;
+  if (what != "Solid" && what != "MultiSurface" && what != "Geometry") return std::nullopt;
+  if (lod > 0) return role_here();
+  // CityGML 3.0 tells footprints and roof edges by the surface that has them
+  if (what != "MultiSurface" || !installations_.empty()) return std::nullopt;
+  if (boundaries_ == 0 || kinds_.back() == SurfaceKind::floor) return SurfaceRole::footprint;
+  return kinds_.back() == SurfaceKind::roof ? std::optional(SurfaceRole::roof_edge) : std::nullopt;
+}
+
+void CityGmlParser::begin_surfaces(const SurfaceUse& use, const XmlElement& element) {
   reader_.begin_use(static_cast<std::uint32_t>(building_.uses.size()));
   building_.uses.push_back(use);
   if (!element.href.empty()) reader_.add_reference(element.href);
   in_surfaces_ = true;
-  return true;
+}
+
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_in_prototype(const XmlElement& element) {
+  if (open_.back() == Meaning::prototype_number) return std::nullopt;
+  if (prototype_.start(element.name)) return Meaning::prototype_number;
+  if (element.name == "libraryObject") prototype_.note_library_object();
+  if (element.name != "relativeGMLGeometry" && element.name != "relativeGeometry") return Meaning::nothing;
+  prototype_.note_surfaces();
+  begin_surfaces(prototype_.use(), element);
+  return Meaning::surfaces;
 }
 
 void CityGmlParser::begin_building(const XmlElement& element) {
@@ -168,9 +174,14 @@ void CityGmlParser::begin_part() {
   kinds_.push_back(SurfaceKind::unknown);
 }
 
+void CityGmlParser::begin_installation(SurfaceRole role) {
+  installations_.push_back({role, building_.uses.size()});
+  kinds_.push_back(SurfaceKind::unknown);
+}
+
 void CityGmlParser::end(std::string_view name) {
-  if (passed_over_ > 0) {
-    --passed_over_;
+  if (depth_passed_over_ > 0) {
+    --depth_passed_over_;
     return;
   }
   FARLOD_EXPECTS(!open_.empty());
@@ -184,10 +195,10 @@ void CityGmlParser::undo(Meaning meaning, std::string_view name) {
   if (meaning == Meaning::part || meaning == Meaning::boundary || meaning == Meaning::installation) kinds_.pop_back();
   switch (meaning) {
     case Meaning::nothing:
+    case Meaning::members:
       break;
     case Meaning::building:
-      end_building();
-      break;
+      return end_building();
     case Meaning::part:
       parts_.pop_back();
       break;
@@ -195,16 +206,25 @@ void CityGmlParser::undo(Meaning meaning, std::string_view name) {
       --boundaries_;
       break;
     case Meaning::installation:
-      --installations_;
-      break;
+      return end_installation();
     case Meaning::surfaces:
       in_surfaces_ = false;
       break;
     case Meaning::geometry:
-      reader_.end(name);
-      break;
+      return reader_.end(name);
     case Meaning::height:
-      take_height();
+      return take_height();
+    case Meaning::relation:
+      in_words_ = false;
+      installations_.back().is_inside = words_ == "inside";
+      break;
+    case Meaning::prototype:
+      return end_prototype();
+    case Meaning::prototype_number:
+      return prototype_.end_numbers();
+    case Meaning::terrain:
+      relief_.end();
+      in_relief_ = !open_.empty() && open_.back() == Meaning::terrain;
       break;
   }
 }
@@ -213,50 +233,45 @@ void CityGmlParser::end_building() {
   take_(building_);
   building_.uses.clear();
   building_.unread.clear();
+  building_.placements.clear();
   building_.surfaces = {};
   building_.measured_height_m = {std::nullopt};
   in_building_ = false;
 }
 
+void CityGmlParser::end_installation() {
+  // CityGML 3.0 says where an installation stands only behind its geometry
+  if (installations_.back().is_inside)
+    for (std::size_t k = installations_.back().first_use; k < building_.uses.size(); ++k)
+      building_.uses[k].role = SurfaceRole::inside;
+  installations_.pop_back();
+}
+
+void CityGmlParser::end_prototype() {
+  in_prototype_ = false;
+  std::string unread;
+  building_.placements.push_back(prototype_.placement(!srs_name_.empty(), unread));
+  if (!building_.placements.back()) building_.add_unread(std::move(unread));
+}
+
 void CityGmlParser::take_height() {
-  in_height_ = false;
-  const std::size_t begin = std::min(height_text_.find_first_not_of(" \t\r\n+"), height_text_.size());
+  in_words_ = false;
+  const std::size_t begin = std::min(words_.find_first_not_of(" \t\r\n+"), words_.size());
   double height_m = 0.0;
-  const auto [end, error] = std::from_chars(height_text_.data() + begin, height_text_.data() + height_text_.size(), height_m);
-  if (error == std::errc() && end != height_text_.data()) building_.measured_height_m[parts_.back()] = height_m;
+  const auto [end, error] = std::from_chars(words_.data() + begin, words_.data() + words_.size(), height_m);
+  if (error == std::errc() && end != words_.data()) building_.measured_height_m[parts_.back()] = height_m;
 }
 
 void CityGmlParser::text(std::string_view piece) {
-  if (passed_over_ > 0) return;
+  if (depth_passed_over_ > 0) return;
   if (in_surfaces_)
     reader_.text(piece);
-  else if (in_height_)
-    height_text_.append(piece);
-}
-
-void GmlSurfaceFinder::start(const XmlElement& element) {
-  const bool is_wanted = !element.id.empty() && hrefs_.contains(std::string(1, '#').append(element.id));
-  if (passed_over_ > 0) {
-    ++passed_over_;
-  } else if (wanted_depth_ > 0 || is_wanted) {
-    if (reader_.start(element) == GmlSurfaceReader::Answer::entered)
-      ++wanted_depth_;
-    else
-      ++passed_over_;
-  }
-}
-
-void GmlSurfaceFinder::end(std::string_view name) {
-  if (passed_over_ > 0) {
-    --passed_over_;
-  } else if (wanted_depth_ > 0) {
-    reader_.end(name);
-    --wanted_depth_;
-  }
-}
-
-void GmlSurfaceFinder::text(std::string_view piece) {
-  if (wanted_depth_ > 0 && passed_over_ == 0) reader_.text(piece);
+  else if (in_relief_)
+    relief_.text(piece);
+  else if (in_words_)
+    words_.append(piece.substr(0, most_words - std::min(most_words, words_.size())));
+  else if (!open_.empty() && open_.back() == Meaning::prototype_number)
+    prototype_.text(piece);
 }
 
 }  // namespace farlod

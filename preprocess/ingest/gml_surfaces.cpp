@@ -4,16 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
-#include <unordered_set>
 #include <utility>
 
 namespace farlod {
 namespace {
 
 constexpr double unreadable = std::numeric_limits<double>::quiet_NaN();
-constexpr int deepest_reference = 32;
 
 template <std::size_t n>
 bool is_one_of(std::string_view name, const std::array<std::string_view, n>& names) {
@@ -32,65 +29,7 @@ constexpr std::array<std::string_view, 17> property_names{
 constexpr std::array<std::string_view, 4> ring_element_names{"pointProperty", "pointRep", "Point", "coord"};
 constexpr std::array<std::string_view, 3> coordinate_names{"posList", "pos", "coordinates"};
 
-bool is_separator(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == ','; }
-
-/// All numbers of a list; NaN for a word that is none.
-std::vector<double> numbers_from(std::string_view text) {
-  std::vector<double> numbers;
-  const char *p = text.data(), *const end = p + text.size();
-  while (true) {
-    while (p != end && is_separator(*p)) ++p;
-    if (p == end) return numbers;
-    const char* word_end = std::find_if(p, end, is_separator);
-    if (*p == '+') ++p;
-    double value = 0.0;
-    const auto [stop, error] = std::from_chars(p, word_end, value);
-    numbers.push_back(error == std::errc() && stop == word_end ? value : unreadable);
-    p = word_end;
-  }
-}
-
-class Resolver {
- public:
-  Resolver(const GmlSurfaces& own, const GmlSurfaces& foreign, std::vector<std::string>& dangling)
-      : own_(own), foreign_(foreign), dangling_(dangling) {}
-
-  void add(const GmlMember& member, const GmlSurfaces& home, bool reversed, int depth) {
-    if (member.polygon) {
-      polygons_.push_back({&home.polygons[*member.polygon], reversed != member.is_reversed});
-      return;
-    }
-    const bool is_local = member.href.starts_with('#');
-    const std::string id = is_local ? member.href.substr(1) : std::string();
-    // Once is enough, since a polygon counts once; and it keeps circles and ever-doubling references short
-    if (is_local && !expanded_.insert(id).second) return;
-    for (const GmlSurfaces* there : {&own_, &foreign_})
-      if (const auto found = there->ranges.find(id); is_local && depth < deepest_reference && found != there->ranges.end()) {
-        const GmlRange& range = found->second;
-        for (std::size_t m = range.begin; m < range.end; ++m)
-          add(there->members[m], *there, (reversed != member.is_reversed) != range.was_reversed, depth + 1);
-        return;
-      }
-    dangling_.push_back(member.href);
-  }
-
-  std::vector<ResolvedPolygon> take() { return std::move(polygons_); }
-
- private:
-  const GmlSurfaces &own_, &foreign_;
-  std::vector<std::string>& dangling_;
-  std::unordered_set<std::string> expanded_;
-  std::vector<ResolvedPolygon> polygons_;
-};
-
 }  // namespace
-
-std::vector<ResolvedPolygon> resolve(const GmlMember& member, const GmlSurfaces& own, const GmlSurfaces& foreign,
-                                     std::vector<std::string>& dangling) {
-  Resolver resolver(own, foreign, dangling);
-  resolver.add(member, own, false, 0);
-  return resolver.take();
-}
 
 void GmlSurfaceReader::begin_use(std::uint32_t use) {
   use_ = use;
@@ -115,7 +54,7 @@ void GmlSurfaceReader::start_polygon(const XmlElement& element) {
   const std::size_t member = surfaces_.members.size();
   open_.push_back({std::string(element.id), {member, member, is_reversed_}, false});
   surfaces_.members.push_back({surfaces_.polygons.size(), {}, is_reversed_, use_});
-  surfaces_.polygons.push_back({std::string(element.id), {}, false});
+  surfaces_.polygons.push_back({std::string(element.id), {}, false, false});
   in_polygon_ = true;
 }
 
@@ -149,7 +88,7 @@ GmlSurfaceReader::Answer GmlSurfaceReader::start_in_polygon(const XmlElement& el
     return Answer::skip;
   } else if (in_ring_ && is_one_of(element.name, coordinate_names)) {
     in_coordinates_ = true;
-    text_.clear();
+    numbers_.clear();
   } else if (!in_ring_ || !is_one_of(element.name, ring_element_names)) {
     return Answer::skip;
   }
@@ -180,7 +119,12 @@ void GmlSurfaceReader::end_open() {
 }
 
 void GmlSurfaceReader::text(std::string_view piece) {
-  if (in_coordinates_) text_.append(piece);
+  if (in_coordinates_) scanner_.take(piece, [this](double number) { take_number(number); });
+}
+
+void GmlSurfaceReader::take_number(double number) {
+  // One more than may be shows that it is too long
+  if (numbers_.size() <= 3 * most_points_of_ring) numbers_.push_back(number);
 }
 
 void GmlSurfaceReader::add_reference(std::string_view href) {
@@ -188,12 +132,21 @@ void GmlSurfaceReader::add_reference(std::string_view href) {
 }
 
 void GmlSurfaceReader::take_coordinates(std::string_view name) {
-  const std::vector<double> numbers = numbers_from(text_);
-  Ring& ring = surfaces_.polygons.back().rings.back();
+  scanner_.end([this](double number) { take_number(number); });
+  GmlPolygon& polygon = surfaces_.polygons.back();
+  Ring& ring = polygon.rings.back();
+  const std::size_t count = numbers_.size();
   // A single position says its dimension by its length
-  const std::size_t dimension = name == "pos" && numbers.size() >= 2 ? numbers.size() : dimension_;
-  for (std::size_t i = 0; i < numbers.size(); i += dimension) {
-    const auto number = [&](std::size_t k) { return i + k < numbers.size() ? numbers[i + k] : unreadable; };
+  const std::size_t dimension = name == "pos" && count >= 2 ? count : dimension_;
+  const std::size_t points = (count + dimension - 1) / dimension;
+  if (polygon.is_too_long || ring.size() + points > most_points_of_ring) {
+    polygon.is_too_long = true;
+    ring = {};
+    return;
+  }
+  if (ring.empty()) ring.reserve(points);
+  for (std::size_t i = 0; i < count; i += dimension) {
+    const auto number = [&](std::size_t k) { return i + k < count ? numbers_[i + k] : unreadable; };
     ring.push_back({number(0), number(1), dimension == 2 ? unreadable : number(2)});
   }
 }

@@ -9,15 +9,27 @@
 #include <unordered_map>
 #include <vector>
 
+#include "ingest/gml_surfaces_numbers.hpp"
 #include "ingest/ring_cleaning.hpp"
 #include "ingest/xml_element.hpp"
 
 namespace farlod {
 
+/// The longest ring that is read. No wall has a million corners, and a file must not fill the memory with one list.
+inline constexpr std::size_t most_points_of_ring = std::size_t{1} << 20;
+
 struct GmlPolygon {
   std::string id;
   Rings rings;
-  bool has_curves = false;  ///< bounded by a curve that is not a LinearRing
+  bool has_curves = false;   ///< bounded by a curve that is not a LinearRing
+  bool is_too_long = false;  ///< a ring had more than most_points_of_ring points, and is gone
+
+  /// What looking at it costs: its points, and one for itself.
+  [[nodiscard]] std::size_t point_count() const {
+    std::size_t points = 1;
+    for (const Ring& ring : rings) points += ring.size();
+    return points;
+  }
 };
 
 /// One entry of a surface or solid: a polygon, or a reference to something that holds polygons.
@@ -40,16 +52,6 @@ struct GmlSurfaces {
   std::vector<GmlMember> members;
   std::unordered_map<std::string, GmlRange> ranges;
 };
-
-struct ResolvedPolygon {
-  const GmlPolygon* polygon = nullptr;
-  bool is_reversed = false;
-};
-
-/// The polygons that a member stands for. References are looked up among `own`, then among `foreign`; those that lead to
-/// nothing are appended to `dangling`.
-[[nodiscard]] std::vector<ResolvedPolygon> resolve(const GmlMember& member, const GmlSurfaces& own, const GmlSurfaces& foreign,
-                                                   std::vector<std::string>& dangling);
 
 /// Understands GML's surfaces and solids, element by element: 3.1 and 3.2, and the rings of GML 2. Knows nothing of XML
 /// syntax and nothing of buildings.
@@ -79,6 +81,7 @@ class GmlSurfaceReader {
   [[nodiscard]] Answer start_property(const XmlElement& element);
   [[nodiscard]] Answer start_in_polygon(const XmlElement& element);
   void end_open();
+  void take_number(double number);
   void take_coordinates(std::string_view name);
   void note_dimension(std::string_view srs_dimension);
 
@@ -88,7 +91,8 @@ class GmlSurfaceReader {
   bool in_polygon_ = false, in_ring_ = false, in_coordinates_ = false;
   std::uint32_t use_ = 0;
   std::size_t dimension_ = 3;
-  std::string text_;
+  NumberScanner scanner_;
+  std::vector<double> numbers_;  ///< of the list that is being read
 };
 
 }  // namespace farlod

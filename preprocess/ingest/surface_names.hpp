@@ -12,7 +12,8 @@ namespace farlod {
 /// Outer ceilings look down and outer floors look up: they are the undersides and the terraces of a building.
 [[nodiscard]] constexpr SurfaceKind kind_of_surface_name(std::string_view name) {
   if (name == "RoofSurface" || name == "OuterFloorSurface") return SurfaceKind::roof;
-  if (name == "WallSurface" || name == "Window" || name == "Door") return SurfaceKind::wall;
+  if (name == "WallSurface" || name == "Window" || name == "Door" || name == "WindowSurface" || name == "DoorSurface")
+    return SurfaceKind::wall;
   if (name == "GroundSurface" || name == "OuterCeilingSurface") return SurfaceKind::floor;
   return SurfaceKind::unknown;
 }

@@ -15,4 +15,14 @@ struct XmlElement {
   std::string_view srs_name, srs_dimension, orientation;
 };
 
+/// What listens to the elements of an XML file.
+class XmlListener {
+ public:
+  virtual ~XmlListener() = default;
+  virtual void start(const XmlElement& element) = 0;
+  virtual void end(std::string_view name) = 0;
+  /// A piece of text: where it is broken says nothing.
+  virtual void text(std::string_view piece) = 0;
+};
+
 }  // namespace farlod

@@ -55,8 +55,10 @@ void expect_clean_ring(std::span<const Point3d> ring) {
   }
 }
 
-void expect_promises_kept(const CityModel& city) {
-  FARLOD_EXPECTS(!city.buildings().empty());
+void expect_promises_kept(const SourceCity& source) {
+  const CityModel& city = source.city;
+  FARLOD_EXPECTS(!city.buildings().empty() || !source.relief_points.empty());
+  for (const Point3d& p : source.relief_points) FARLOD_EXPECTS(is_finite(p));
   for (const Building& building : city.buildings()) FARLOD_EXPECTS(building.facet_count > 0);
   for (const Facet& facet : city.facets()) {
     FARLOD_EXPECTS(facet.ring_count > 0);
@@ -69,7 +71,7 @@ void expect_promises_kept(const CityModel& city) {
 void ingest_bytes(std::span<const std::uint8_t> bytes, std::string_view ending, const IngestSettings& settings) {
   Report report;
   try {
-    expect_promises_kept(ingest(write_file(bytes, ending), settings, report).city);
+    expect_promises_kept(ingest(write_file(bytes, ending), settings, report));
   } catch (const InputError& refusal) {
     FARLOD_EXPECTS(!std::string_view(refusal.what()).empty());
   }

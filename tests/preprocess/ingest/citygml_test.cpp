@@ -1,46 +1,9 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reading.hpp"
+#include "citygml_text.hpp"
 
 namespace farlod::test {
 namespace {
-
-std::string model(const std::string& members) {
-  return R"(<?xml version="1.0"?><CityModel xmlns="http://www.opengis.net/citygml/2.0" xmlns:gml="http://www.opengis.net/gml")"
-         R"( xmlns:bldg="http://www.opengis.net/citygml/building/2.0" xmlns:xlink="http://www.w3.org/1999/xlink")"
-         R"( xmlns:uro="urn:some:ade" xmlns:app="http://www.opengis.net/citygml/appearance/2.0">)"
-         R"(<gml:boundedBy><gml:Envelope srsName="EPSG:25832"><gml:lowerCorner>0 0 0</gml:lowerCorner></gml:Envelope></gml:boundedBy>)" +
-         members + "</CityModel>";
-}
-std::string building(const std::string& content, const std::string& id = "b") {
-  return R"(<cityObjectMember><bldg:Building gml:id=")" + id + R"(">)" + content + "</bldg:Building></cityObjectMember>";
-}
-std::string ring(const std::string& z, const std::string& x = "0") {
-  return "<gml:LinearRing><gml:posList>" + x + " 0 " + z + " 9 0 " + z + " 9 9 " + z + " " + x + " 0 " + z +
-         "</gml:posList></gml:LinearRing>";
-}
-/// A triangle at height z.
-std::string polygon(const std::string& id, const std::string& z) {
-  return R"(<gml:Polygon gml:id=")" + id + R"("><gml:exterior>)" + ring(z) + "</gml:exterior></gml:Polygon>";
-}
-std::string member(const std::string& content) { return "<gml:surfaceMember>" + content + "</gml:surfaceMember>"; }
-std::string reference(const std::string& id) { return R"(<gml:surfaceMember xlink:href="#)" + id + R"("/>)"; }
-std::string multi_surface(const std::string& lod, const std::string& members) {
-  return "<bldg:lod" + lod + "MultiSurface><gml:MultiSurface>" + members + "</gml:MultiSurface></bldg:lod" + lod +
-         "MultiSurface>";
-}
-std::string solid(const std::string& lod, const std::string& members) {
-  return "<bldg:lod" + lod + "Solid><gml:Solid><gml:exterior><gml:CompositeSurface>" + members +
-         "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod" + lod + "Solid>";
-}
-std::string bounded_by(const std::string& kind, const std::string& content) {
-  return "<bldg:boundedBy><bldg:" + kind + ">" + content + "</bldg:" + kind + "></bldg:boundedBy>";
-}
-std::vector<double> heights(const CityModel& city) {
-  std::vector<double> z;
-  for (const Facet& f : city.facets()) z.push_back(city.ring(f, 0)[0].z);
-  return z;
-}
 
 TEST(CityGml, ReadsRingsHolesAndTheReferenceSystem) {
   const std::string content =
@@ -71,6 +34,15 @@ TEST(CityGml, ASolidThatCopiesSemanticSurfacesDoesNotDoubleThem) {
   const std::string content = solid("2", member(polygon("copy", "6")) + member(polygon("only here", "3"))) +
                               bounded_by("RoofSurface", multi_surface("2", member(polygon("r", "6"))));
   EXPECT_EQ(heights(read_text("a.gml", model(building(content))).city()), (std::vector<double>{6, 3}));
+}
+
+TEST(CityGml, ASurfaceThatRefersToAnothersPolygonDoesNotDoubleIt) {
+  const std::string content = bounded_by("WallSurface", multi_surface("2", member(polygon("w", "3")))) +
+                              bounded_by("RoofSurface", multi_surface("2", reference("w")));
+  const Reading r = read_text("a.gml", model(building(content)));
+  EXPECT_EQ(heights(r.city()), std::vector<double>{3});
+  EXPECT_EQ(r.city().facets()[0].kind, SurfaceKind::wall) << "the first that has it tells its kind";
+  EXPECT_TRUE(r.codes().empty());
 }
 
 TEST(CityGml, OneLevelOfDetailCounts) {
