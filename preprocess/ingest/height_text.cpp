@@ -17,6 +17,9 @@ void skip_blanks(std::string_view& text) { text.remove_prefix(std::min(text.find
 
 std::optional<double> take_number(std::string_view& text) {
   skip_blanks(text);
+  // The best that is known is still the best
+  if (text.starts_with('~')) text.remove_prefix(1);
+  skip_blanks(text);
   if (text.starts_with('+')) text.remove_prefix(1);
   // A comma is a decimal point in half of the world; nobody writes thousands of metres with separators
   std::string pointed(text.substr(0, text.find_first_not_of("0123456789.,eE+-")));
@@ -29,8 +32,9 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
-std::optional<double> unit_m(std::string_view unit) {
-  for (const std::string_view name : {"", "m", "m.", "metre", "metres", "meter", "meters"})
+std::optional<double> unit_m(std::string_view unit, LengthUnit plain) {
+  if (unit.empty()) return metres_in(plain);
+  for (const std::string_view name : {"m", "m.", "metre", "metres", "meter", "meters"})
     if (unit == name) return 1.0;
   for (const std::string_view name : {"ft", "ft.", "feet", "foot", "'"})
     if (unit == name) return metres_in_a_foot;
@@ -41,7 +45,9 @@ std::string_view without_blanks_behind(std::string_view text) { return text.subs
 
 }  // namespace
 
-std::optional<double> length_m_from(std::string_view text) {
+double metres_in(LengthUnit unit) { return unit == LengthUnit::foot ? metres_in_a_foot : 1.0; }
+
+std::optional<double> length_m_from(std::string_view text, LengthUnit plain) {
   text = without_blanks_behind(text);
   const std::optional<double> number = take_number(text);
   if (!number) return std::nullopt;
@@ -52,8 +58,14 @@ std::optional<double> length_m_from(std::string_view text) {
     if (!inches || !ends_well) return std::nullopt;
     return (*number + *inches * feet_in_an_inch) * metres_in_a_foot;
   }
-  const std::optional<double> unit = unit_m(text);
+  const std::optional<double> unit = unit_m(text, plain);
   return unit ? std::optional(*number * *unit) : std::nullopt;
+}
+
+std::optional<double> number_from(std::string_view text) {
+  text = without_blanks_behind(text);
+  const std::optional<double> number = take_number(text);
+  return text.empty() ? number : std::nullopt;
 }
 
 }  // namespace farlod

@@ -43,7 +43,7 @@ TEST(Footprints, BecomePrismsThatFaceOutwards) {
     const Point3d n = double_area_vector(r.city(), f);
     EXPECT_EQ(kind_of_normal(normalized(n)), f.kind);
   }
-  EXPECT_TRUE(r.city().buildings()[0].stands_on_ground);
+  EXPECT_EQ(r.city().buildings()[0].footing, Footing::on_ground);
   EXPECT_TRUE(r.source.crs.longitude_first);
   EXPECT_TRUE(r.source.crs.heights_in_metres);
   EXPECT_NE(r.source.crs.definition.find("WGS 84"), std::string::npos);
@@ -68,7 +68,7 @@ TEST(Footprints, TheBaseComesFromItsOwnField) {
   IngestSettings settings{
       .height_field = "h", .base_field = "ground", .default_height_m = {}, .lod = {}, .obj_origin = {}, .up = UpAxis::z};
   const Reading r = read_text("a.geojson", collection({feature(R"("h":"10 ft","ground":100)", "Polygon", square)}), settings);
-  EXPECT_FALSE(r.city().buildings()[0].stands_on_ground);
+  EXPECT_EQ(r.city().buildings()[0].footing, Footing::elevation);
   EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[0].z, 100.0 + 10.0 * 0.3048);
 }
 
@@ -97,7 +97,7 @@ TEST(Footprints, ElevationsOfVerticesAreIgnored) {
 
 TEST(Footprints, ATableWithoutHeightsNamesItsNumbers) {
   const std::filesystem::path file =
-      write_file("a.geojson", collection({feature(R"("floors":3,"storey":"4.5","use":"school")", "Polygon", square)}));
+      write_file("a.geojson", collection({feature(R"("rooms":3,"area":"4.5","use":"school")", "Polygon", square)}));
   for (const IngestSettings& settings :
        {IngestSettings{},
         IngestSettings{
@@ -106,11 +106,105 @@ TEST(Footprints, ATableWithoutHeightsNamesItsNumbers) {
       (void)read_file(file, settings);
       FAIL() << "an InputError was due";
     } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("floors, storey"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("rooms, area"), std::string::npos) << error.what();
       EXPECT_NE(std::string(error.what()).find("--height-field"), std::string::npos) << error.what();
       EXPECT_EQ(std::string(error.what()).find("use"), std::string::npos) << error.what();
     }
   }
+}
+
+TEST(Footprints, StoreysServeThoseWithoutAHeight) {
+  IngestSettings settings;
+  settings.floor_height_m = 3.25;
+  const Reading r = read_text("a.geojson",
+                              collection({feature(R"("height":"17.5 m","building:levels":"9")", "Polygon", square),
+                                          feature(R"("height":null,"building:levels":"4")", "Polygon", square),
+                                          feature(R"("height":null,"building:levels":null)", "Polygon", square)}),
+                              settings);
+  ASSERT_EQ(r.city().buildings().size(), 2u);
+  EXPECT_EQ(r.city().points_of(r.city().buildings()[0])[0].z, 17.5);
+  EXPECT_EQ(r.city().points_of(r.city().buildings()[1])[0].z, 13.0);
+  EXPECT_EQ(r.codes(), std::set<int>{107});
+  EXPECT_EQ(r.report.problems()[0].detail, "height is empty, building:levels is empty");
+}
+
+TEST(Footprints, FieldsThatAreAskedForMustBeThere) {
+  const std::filesystem::path file = write_file("a.geojson", collection({feature(R"("height":3)", "Polygon", square)}));
+  IngestSettings storeys, roof;
+  storeys.storeys_field = roof.roof_field = "nowhere";
+  for (const auto& [settings, option] : {std::pair(storeys, "--storeys-field"), std::pair(roof, "--roof-field")}) {
+    try {
+      (void)read_file(file, settings);
+      FAIL() << "an InputError was due";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(option), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(Footprints, OfWhichOnlyTheRoofIsKnownReachDownToTheGround) {
+  IngestSettings settings;
+  settings.roof_field = "roof";
+  const Reading r = read_text("a.geojson", collection({feature(R"("roof":"412,5")", "Polygon", court)}), settings);
+  EXPECT_EQ(r.city().buildings()[0].footing, Footing::down_to_ground);
+  EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[0].z, 412.5);
+}
+
+/// The sides of a cube with an edge of 2e-5°, which is about 2 m, at 100 m.
+std::string cube_sides() {
+  const auto at = [](int corner) {
+    return "[" + std::string(corner & 1 ? "8.40002" : "8.4") + "," + (corner & 2 ? "49.00002" : "49.0") + "," +
+           (corner & 4 ? "102" : "100") + "]";
+  };
+  std::string sides;
+  for (const auto& side : std::vector<std::vector<int>>{
+           {0, 2, 3, 1, 0}, {4, 5, 7, 6, 4}, {0, 1, 5, 4, 0}, {1, 3, 7, 5, 1}, {3, 2, 6, 7, 3}, {2, 0, 4, 6, 2}}) {
+    std::string ring;
+    for (const int corner : side) ring += (ring.empty() ? "" : ",") + at(corner);
+    sides += (sides.empty() ? "[[" : ",[[") + ring + "]]";
+  }
+  return "[" + sides + "]";
+}
+
+TEST(Footprints, BodiesInSpaceStandAsTheyAre) {
+  const Reading r = read_text("a.geojson", collection({feature(R"("name":"cube")", "MultiPolygon", cube_sides())}));
+  ASSERT_EQ(r.city().buildings().size(), 1u);
+  EXPECT_EQ(r.city().buildings()[0].footing, Footing::elevation);
+  EXPECT_EQ(r.city().facets().size(), 6u);
+  EXPECT_FALSE(r.source.crs.heights_in_metres);
+  for (const Point3d& p : r.city().points()) EXPECT_TRUE(p.z == 100 || p.z == 102);
+}
+
+TEST(Footprints, SurfacesOfFacesAreBodiesToo) {
+  const std::string tetrahedron =
+      "((0 0 5,0 8 5,8 0 5,0 0 5)),((0 0 5,8 0 5,0 0 9,0 0 5)),((8 0 5,0 8 5,0 0 9,8 0 5)),((0 8 5,0 0 5,0 0 9,0 8 5))";
+  for (const char* type : {"TIN", "POLYHEDRALSURFACE", "MULTIPOLYGON"}) {
+    const Reading r =
+        read_text(std::string(type) + ".csv", "WKT,name\n\"" + std::string(type) + " Z (" + tetrahedron + ")\",x\n");
+    EXPECT_EQ(r.city().facets().size(), 4u) << type;
+    EXPECT_EQ(volume(r.city()), 8.0 * 8.0 * 4.0 / 6.0) << type;
+  }
+}
+
+TEST(Footprints, DrapedOverTheTerrainAreNoBodies) {
+  const std::string draped =
+      "[[[[8.4,49,50],[8.4001,49,53],[8.4001,49.0001,55],[8.4,49,50]]],"
+      "[[[8.41,49,50],[8.4101,49,51],[8.4101,49.0001,52],[8.41,49,50]]]]";
+  const Reading r = read_text("a.geojson", collection({feature(R"("height":3)", "MultiPolygon", draped)}));
+  EXPECT_EQ(r.city().buildings()[0].footing, Footing::on_ground);
+  EXPECT_EQ(r.city().facets().size(), 10u);
+  // A hut of 1 m on a cliff is steep, but still a footprint: one polygon makes no body
+  const std::string hut = "[[[8.4,49,50],[8.40001,49,50],[8.40001,49.00001,57],[8.4,49,50]]]";
+  const Reading cliff = read_text("b.geojson", collection({feature(R"("height":3)", "Polygon", hut)}));
+  EXPECT_EQ(cliff.city().facets().size(), 5u);
+}
+
+TEST(Footprints, AreNotMixedWithBodies) {
+  std::vector<std::string> features(100, feature(R"("height":3)", "Polygon", square));
+  features.push_back(feature(R"("height":3,"id":"cube")", "MultiPolygon", cube_sides()));
+  const Reading r = read_text("a.geojson", collection(features));
+  EXPECT_EQ(r.city().buildings().size(), 100u);
+  ASSERT_EQ(r.report.count(ProblemCode::unsupported_geometry), 1u);
 }
 
 TEST(Footprints, HeightsInAllNotations) {
