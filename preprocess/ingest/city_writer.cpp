@@ -34,51 +34,76 @@ std::string counted(std::size_t n, const char* thing) { return std::to_string(n)
 
 }  // namespace
 
-void CityWriter::begin_building(std::string id, bool stands_on_ground) {
+void CityWriter::begin_building(std::string id, Footing footing) {
   id_ = std::move(id);
   ++buildings_met_;
   next_surface_ = 0;
   repeated_vertices_ = open_rings_ = 0;
   largest_gap_ = 0.0;
-  at_largest_gap_ = first_vertex_ = std::nullopt;
+  at_repeating_ring_ = at_largest_gap_ = first_vertex_ = std::nullopt;
+  written_ = {};
   problems_before_ = report_.problems().size();
-  city_.begin_building(id_, stands_on_ground);
+  city_.begin_building(id_, footing);
   if (!ids_.insert(id_).second) add_problem(ProblemCode::repeated_id, "an earlier building of this file has the same id");
 }
 
-void CityWriter::add_problem(ProblemCode code, std::string detail, std::optional<Point3d> position) {
-  add_problem_at(id_, code, std::move(detail), position);
+void CityWriter::add_problem(ProblemCode code, std::string detail, std::optional<Point3d> position, std::string ring) {
+  report_.add({.code = code,
+               .source = source_,
+               .place = id_,
+               .detail = std::move(detail),
+               .position = position,
+               .ring = std::move(ring)});
 }
 
 void CityWriter::add_problem_at(std::string place, ProblemCode code, std::string detail, std::optional<Point3d> position) {
   report_.add({code, source_, std::move(place), std::move(detail), position});
 }
 
-bool CityWriter::clean(Ring& ring, RingEnd end, std::string_view name, bool is_hole) {
+std::string CityWriter::name_of_ring(std::string_view polygon, std::size_t k) const {
+  return "polygon " + (polygon.empty() ? std::to_string(next_surface_) : std::string(polygon)) + ", ring " + std::to_string(k) +
+         (k == 0 ? " (outer)" : " (hole)");
+}
+
+bool CityWriter::clean(Ring& ring, RingEnd end, std::string_view polygon, std::size_t k) {
   const std::size_t points = ring.size();
   const std::optional<Point3d> position = first_readable({&ring, 1});
   if (!first_vertex_) first_vertex_ = position;
   const RingFindings findings = clean_ring(ring, end);
   if (findings.state == RingState::usable) {
-    repeated_vertices_ += findings.repeated_vertices;
-    open_rings_ += findings.was_open ? 1 : 0;
-    if (findings.gap > largest_gap_) at_largest_gap_ = position;
-    largest_gap_ = std::max(largest_gap_, findings.gap);
+    note_repairs(findings, position, polygon, k);
     return true;
   }
-  const std::string who =
-      "polygon " + (name.empty() ? std::to_string(next_surface_) : std::string(name)) + (is_hole ? ", a hole: " : ": ");
+  const std::string ring_name = name_of_ring(polygon, k);
   if (findings.state == RingState::too_few_points)
-    add_problem(ProblemCode::too_few_points, who + "of its " + counted(points, "point") + " fewer than three differ", position);
+    add_problem(ProblemCode::too_few_points, ring_name + ": of its " + counted(points, "point") + " fewer than three differ",
+                position, ring_name);
   else
-    add_problem(ProblemCode::unreadable_coordinate, who + "a coordinate is missing, not a number, or beyond the Earth", position);
+    add_problem(ProblemCode::unreadable_coordinate, ring_name + ": a coordinate is missing, not a number, or beyond the Earth",
+                position, ring_name);
   return false;
+}
+
+void CityWriter::note_repairs(const RingFindings& findings, const std::optional<Point3d>& position, std::string_view polygon,
+                              std::size_t k) {
+  if (findings.repeated_vertices > 0 && repeated_vertices_ == 0) {
+    repeating_ring_ = name_of_ring(polygon, k);
+    at_repeating_ring_ = position;
+  }
+  repeated_vertices_ += findings.repeated_vertices;
+  if (findings.gap > largest_gap_) {
+    widest_open_ring_ = name_of_ring(polygon, k);
+    at_largest_gap_ = position;
+  }
+  open_rings_ += findings.was_open ? 1 : 0;
+  largest_gap_ = std::max(largest_gap_, findings.gap);
 }
 
 bool CityWriter::clean_polygon(Rings& rings, RingEnd end, std::string_view name) {
   if (rings.empty()) rings.emplace_back();
-  if (!clean(rings.front(), end, name, false)) return false;
-  const auto unusable = [&](Ring& hole) { return !clean(hole, end, name, true); };
+  if (!clean(rings.front(), end, name, 0)) return false;
+  std::size_t k = 0;
+  const auto unusable = [&](Ring& hole) { return !clean(hole, end, name, ++k); };
   rings.erase(std::remove_if(rings.begin() + 1, rings.end(), unusable), rings.end());
   return true;
 }
@@ -89,8 +114,20 @@ void CityWriter::add_facet(const Rings& rings, SurfaceKind kind, std::uint32_t s
 }
 
 void CityWriter::add_polygon(Rings& rings, RingEnd end, const PolygonTraits& traits) {
-  if (clean_polygon(rings, end, traits.name)) add_facet(rings, traits.kind, traits.surface.value_or(next_surface_), traits.part);
+  if (clean_polygon(rings, end, traits.name)) add_once(rings, traits);
   ++next_surface_;
+}
+
+void CityWriter::add_once(const Rings& rings, const PolygonTraits& traits) {
+  if (const auto same = written_.find_or_remember(city_, rings, traits.part)) {
+    const std::string ring = name_of_ring(traits.name, 0);
+    add_problem(ProblemCode::duplicate_surface,
+                ring + ": the building has a polygon with the same corners, the same way round, as its surface " +
+                    std::to_string(city_.facets()[*same].surface),
+                rings.front().front(), ring);
+    return;
+  }
+  add_facet(rings, traits.kind, traits.surface.value_or(next_surface_), traits.part);
 }
 
 void CityWriter::add_walls(const Ring& ring, double base_m, double top_m, std::uint16_t part) {
@@ -125,12 +162,13 @@ void CityWriter::add_prism(Rings& rings, RingEnd end, double base_m, double top_
 
 void CityWriter::report_repairs() {
   if (repeated_vertices_ > 0)
-    add_problem(ProblemCode::repeated_vertex, "taken out: " + counted(repeated_vertices_, "repetition"));
+    add_problem(ProblemCode::repeated_vertex, "taken out: " + counted(repeated_vertices_, "repetition"), at_repeating_ring_,
+                repeating_ring_);
   if (open_rings_ > 0) {
     std::ostringstream detail;
     detail << counted(open_rings_, "ring") << " closed; the last vertex is up to " << largest_gap_
            << " (units of the file) from the first";
-    add_problem(ProblemCode::ring_not_closed, detail.str(), at_largest_gap_);
+    add_problem(ProblemCode::ring_not_closed, detail.str(), at_largest_gap_, widest_open_ring_);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "city/city_model.hpp"
 #include "farlod/problem.hpp"
 #include "ingest/ring_cleaning.hpp"
+#include "ingest/written_polygons.hpp"
 
 namespace farlod {
 
@@ -29,13 +30,14 @@ class CityWriter {
  public:
   CityWriter(std::string source, Report& report) : source_(std::move(source)), report_(report) {}
 
-  void begin_building(std::string id, bool stands_on_ground = false);
-  /// Cleans the rings in place, and adds the polygon unless its outer ring is unusable; unusable holes are filled.
+  void begin_building(std::string id, Footing footing = Footing::elevation);
+  /// Cleans the rings in place, and adds the polygon unless its outer ring is unusable or the building's part has the same
+  /// polygon already; unusable holes are filled.
   void add_polygon(Rings& rings, RingEnd end, const PolygonTraits& traits);
   /// Adds a prism over a footprint (z of its rings is ignored): roof, floor, and a wall per edge, all facing outwards.
   void add_prism(Rings& rings, RingEnd end, double base_m, double top_m, std::uint16_t part);
   /// Reports a problem of the building begun last; without a position of its own it is at the building's first vertex.
-  void add_problem(ProblemCode code, std::string detail, std::optional<Point3d> position = {});
+  void add_problem(ProblemCode code, std::string detail, std::optional<Point3d> position = {}, std::string ring = {});
   /// Reports a problem of something that is not a building.
   void add_problem_at(std::string place, ProblemCode code, std::string detail, std::optional<Point3d> position = {});
   /// Takes the building back when nothing of it is usable; `missing` then says what the reader knows about the reason.
@@ -47,7 +49,12 @@ class CityWriter {
 
  private:
   [[nodiscard]] bool clean_polygon(Rings& rings, RingEnd end, std::string_view name);
-  [[nodiscard]] bool clean(Ring& ring, RingEnd end, std::string_view name, bool is_hole);
+  [[nodiscard]] bool clean(Ring& ring, RingEnd end, std::string_view polygon, std::size_t k);
+  /// What ring `k` of the polygon in hand is called in the report; a polygon without a name goes by its number.
+  [[nodiscard]] std::string name_of_ring(std::string_view polygon, std::size_t k) const;
+  void note_repairs(const RingFindings& findings, const std::optional<Point3d>& position, std::string_view polygon,
+                    std::size_t k);
+  void add_once(const Rings& rings, const PolygonTraits& traits);
   void add_facet(const Rings& rings, SurfaceKind kind, std::uint32_t surface, std::uint16_t part);
   /// Elevations beyond the Earth, or so high that a small height is lost beside them, leave none.
   [[nodiscard]] bool leaves_room_for_walls(double base_m, double top_m);
@@ -62,9 +69,11 @@ class CityWriter {
   std::string id_;
   std::size_t buildings_met_ = 0;
   std::uint32_t next_surface_ = 0;
+  WrittenPolygons written_;
   std::size_t repeated_vertices_ = 0, open_rings_ = 0;
   double largest_gap_ = 0.0;
-  std::optional<Point3d> at_largest_gap_, first_vertex_;
+  std::string repeating_ring_, widest_open_ring_;
+  std::optional<Point3d> at_repeating_ring_, at_largest_gap_, first_vertex_;
   std::size_t problems_before_ = 0;  ///< in the report, when the building began
   Ring wall_ = Ring(4);
 };

@@ -7,32 +7,20 @@
 #include <string>
 #include <utility>
 
+#include "tiles/facet_repair.hpp"
 #include "tiles/facet_triangulation.hpp"
+#include "tiles/metres_text.hpp"
 #include "tiles/open_ends.hpp"
 #include "tiles/solid_orientation.hpp"
 
 namespace farlod {
 namespace {
 
-using RingList = std::vector<std::span<const Point3d>>;
-
 struct TriangulatedFacet {
   const Facet* facet;
   Triangulation triangulation;
   Point3d area_vector_m2;
 };
-
-RingList rings_of(const CityModel& city, const Facet& facet) {
-  RingList rings;
-  for (std::uint32_t k = 0; k < facet.ring_count; ++k) rings.push_back(city.ring(facet, k));
-  return rings;
-}
-
-/// Figures in messages: three digits after the point are a millimetre.
-std::string metres(double value) {
-  std::string text = std::to_string(value);
-  return text.substr(0, text.find('.') + 4) + " m";
-}
 
 class BuildingCutter {
  public:
@@ -49,13 +37,24 @@ class BuildingCutter {
   }
 
  private:
+  void report(ProblemCode code, const FacetFinding& finding, const Facet& facet) {
+    const std::string surface = "surface " + std::to_string(facet.surface);
+    result_.problems.push_back({.code = code,
+                                .source = "",
+                                .place = building_.id,
+                                .detail = surface + ": " + finding.detail,
+                                .position = finding.position,
+                                .ring = surface + name_of_ring(finding.ring)});
+  }
+
   void report(ProblemCode code, const Facet& facet, const std::string& detail) {
-    result_.problems.push_back(
-        {code, "", building_.id, "surface " + std::to_string(facet.surface) + ": " + detail, city_.ring(facet, 0).front()});
+    report(code, {code, 0, detail, city_.ring(facet, 0).front()}, facet);
   }
 
   void triangulate_facet(const Facet& facet) {
-    const RingList rings = rings_of(city_, facet);
+    const RepairedFacet repaired = repaired_rings(city_, facet);
+    for (const FacetFinding& finding : repaired.findings) report(finding.code, finding, facet);
+    const std::span<const std::span<const Point3d>> rings = repaired.rings;
     Triangulation t = triangulate(rings);
     if (t.triangles.empty()) return report(ProblemCode::zero_area, facet, "its points lie on a line");
     if (t.rings_cross) report(ProblemCode::self_intersecting, facet, "what an odd number of its rings surrounds was kept");

@@ -24,7 +24,7 @@ struct Triangulation {
 /// Triangulates a facet with holes. For every facet whose rings do not cross:
 ///   (1) the corners of the triangles are the facet's points, unchanged: the exact area vectors of the triangles sum to the
 ///   facet's own (2) triangles run round as the outer ring does (3) a facet without area has no triangles
-/// Where the rings cross, the inside is what an odd number of rings surrounds.
+/// Where the rings cross, in the facet's own plane, the inside is what an odd number of rings surrounds.
 [[nodiscard]] Triangulation triangulate(std::span<const std::span<const Point3d>> rings);
 
 /// Sum of the triangles' area vectors: the facet's own, but where rings cross, for there it says what was kept.

@@ -11,6 +11,7 @@
 #include <deque>
 #include <utility>
 
+#include "tiles/facet_projection.hpp"
 #include "tiles/facet_triangulation.hpp"
 
 namespace farlod {
@@ -33,41 +34,22 @@ using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, DataStructur
 /// Knows how many rings run along an edge, so that a keyhole's bridge (drawn there and back) bounds nothing.
 using Rings = CGAL::Constrained_triangulation_plus_2<Delaunay>;
 
-/// Drops the coordinate along which the facet is seen largest: no arithmetic, so nothing is rounded.
-struct Projection {
-  int dropped = 2;
-  bool mirrored = false;  ///< what runs counter-clockwise in space runs clockwise in the plane
+/// A facet whose points are less than this off its plane is as good as planar: files round to millimetres.
+constexpr double bent_m = 0.001;
 
-  explicit Projection(const Point3d& normal) {
-    const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
-    dropped = z >= x && z >= y ? 2 : x >= y ? 0 : 1;
-    mirrored = (dropped == 0 ? normal.x : dropped == 1 ? normal.y : normal.z) < 0.0;
-  }
-  [[nodiscard]] Kernel::Point_2 operator()(const Point3d& p) const {
-    return dropped == 2 ? Kernel::Point_2(p.x, p.y) : dropped == 0 ? Kernel::Point_2(p.y, p.z) : Kernel::Point_2(p.z, p.x);
-  }
-  /// The point of the plane through `on_plane` that projects to `q`.
-  [[nodiscard]] Point3d lift(const Kernel::Point_2& q, const Point3d& on_plane, const Point3d& n) const {
-    const double u = q.x(), v = q.y();
-    switch (dropped) {
-      case 0:
-        return {on_plane.x - (n.y * (u - on_plane.y) + n.z * (v - on_plane.z)) / n.x, u, v};
-      case 1:
-        return {v, on_plane.y - (n.z * (u - on_plane.z) + n.x * (v - on_plane.x)) / n.y, u};
-      default:
-        return {u, v, on_plane.z - (n.x * (u - on_plane.x) + n.y * (v - on_plane.y)) / n.z};
-    }
-  }
-};
+Kernel::Point_2 flat(const Point3d& p, const FacetProjection& project) {
+  const Point2d q = project(p);
+  return {q.x, q.y};
+}
 
 /// Convex rings of up to four points need no triangulation: most walls and all triangles.
-bool add_convex_fan(Triangulation& result, const Projection& project) {
+bool add_convex_fan(Triangulation& result, const FacetProjection& project) {
   const std::size_t n = result.points.size();
   if (n > 4) return false;
-  const CGAL::Orientation wanted = project.mirrored ? CGAL::CLOCKWISE : CGAL::COUNTERCLOCKWISE;
+  const CGAL::Orientation wanted = project.is_mirrored() ? CGAL::CLOCKWISE : CGAL::COUNTERCLOCKWISE;
   for (std::size_t k = 0; k < n; ++k) {
-    const auto turn =
-        CGAL::orientation(project(result.points[k]), project(result.points[(k + 1) % n]), project(result.points[(k + 2) % n]));
+    const auto turn = CGAL::orientation(flat(result.points[k], project), flat(result.points[(k + 1) % n], project),
+                                        flat(result.points[(k + 2) % n], project));
     if (turn != wanted) return false;
   }
   for (std::uint32_t k = 2; k < n; ++k) result.triangles.push_back({0, k - 1, k});
@@ -75,13 +57,13 @@ bool add_convex_fan(Triangulation& result, const Projection& project) {
 }
 
 /// Draws the rings into the triangulation; numbers their vertices as in `points`.
-void draw(Rings& plane, std::span<const std::span<const Point3d>> rings, const Projection& project) {
+void draw(Rings& plane, std::span<const std::span<const Point3d>> rings, const FacetProjection& project) {
   std::uint32_t number = 0;
   std::vector<Rings::Vertex_handle> corners;
   for (const auto ring : rings) {
     corners.clear();
     for (const Point3d& p : ring) {
-      const auto corner = plane.insert(project(p));
+      const auto corner = plane.insert(flat(p, project));
       if (corner->info().value == no_number) corner->info().value = number;
       ++number;
       corners.push_back(corner);
@@ -117,11 +99,11 @@ void mark_sides(Rings& plane) {
 }
 
 /// Points that the drawing had to invent, where rings cross, lie in the facet's plane.
-void number_crossings(Rings& plane, Triangulation& result, const Projection& project, const Point3d& normal) {
+void number_crossings(Rings& plane, Triangulation& result, const FacetProjection& project) {
   for (auto v = plane.finite_vertices_begin(); v != plane.finite_vertices_end(); ++v) {
     if (v->info().value != no_number) continue;
     v->info().value = static_cast<std::uint32_t>(result.points.size());
-    result.points.push_back(project.lift(v->point(), result.points.front(), normal));
+    result.points.push_back(project.lift({v->point().x(), v->point().y()}, result.points.front()));
     result.rings_cross = true;
   }
 }
@@ -165,21 +147,32 @@ Point3d area_vector(const Triangulation& t) {
   return sum;
 }
 
-Triangulation triangulate(std::span<const std::span<const Point3d>> rings) {
+namespace {
+
+Triangulation triangulate_in(const FacetProjection& project, std::span<const std::span<const Point3d>> rings) {
   Triangulation result;
   for (const auto ring : rings) result.points.insert(result.points.end(), ring.begin(), ring.end());
-  if (result.points.size() < 3) return result;
-  Point3d normal = area_vector(rings);
-  if (norm(normal) == 0.0) normal = normal_of_wings(rings[0]);
-  if (norm(normal) == 0.0) return result;
-  const Projection project(normal);
   if (rings.size() == 1 && add_convex_fan(result, project)) return result;
   Rings plane;
   draw(plane, rings, project);
   if (plane.dimension() < 2) return result;
   mark_sides(plane);
-  number_crossings(plane, result, project, normal);
-  collect_inside(plane, result, project.mirrored);
+  number_crossings(plane, result, project);
+  collect_inside(plane, result, project.is_mirrored());
+  return result;
+}
+
+}  // namespace
+
+Triangulation triangulate(std::span<const std::span<const Point3d>> rings) {
+  if (rings.empty() || rings[0].size() < 3) return {};
+  Point3d normal = area_vector(rings);
+  if (norm(normal) == 0.0) normal = normal_of_wings(rings[0]);
+  if (norm(normal) == 0.0) return {};
+  Triangulation result = triangulate_in(FacetProjection::dropping_a_coordinate(normal), rings);
+  // Of a bent facet the coordinate planes show something else than its own plane
+  if (result.rings_cross && distance_from_plane_m(rings, normalized(normal)) > bent_m)
+    return triangulate_in(FacetProjection::onto_plane(rings[0][0], normal), rings);
   return result;
 }
 

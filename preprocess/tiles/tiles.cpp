@@ -13,6 +13,7 @@
 #include "tiles/base_points.hpp"
 #include "tiles/building_pieces.hpp"
 #include "tiles/ground.hpp"
+#include "tiles/lift_onto_terrain.hpp"
 
 namespace farlod {
 namespace {
@@ -23,21 +24,6 @@ constexpr std::size_t batch_size = 256, batches_at_once = 16;
 /// A surface that looks down by less than this (cosine) is a wall that was surveyed a little off.
 constexpr double overhang_normal_z = -0.01;
 
-/// Lifts the buildings that know only their height above ground: to the lowest terrain under their outline.
-void lift_onto_terrain(CityModel& city, const TerrainRaster& terrain) {
-  const auto all_points = city.points();
-  for (const Building& b : city.buildings()) {
-    if (!b.stands_on_ground || b.facet_count == 0) continue;
-    const auto points = std::as_const(city).points_of(b);
-    double lowest_m = std::numeric_limits<double>::infinity();
-    for (const Point3d& p : points)
-      if (const auto height = terrain.height_at(horizontal(p))) lowest_m = std::min(lowest_m, *height);
-    if (lowest_m == std::numeric_limits<double>::infinity()) continue;
-    const auto first = static_cast<std::size_t>(points.data() - all_points.data());
-    for (Point3d& p : all_points.subspan(first, points.size())) p.z += lowest_m;
-  }
-}
-
 std::vector<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& rotation) {
   std::vector<Point3d> nodes;
   for (std::size_t row = 0; row < terrain.rows; ++row)
@@ -47,6 +33,28 @@ std::vector<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& 
         nodes.push_back({p_grid.x, p_grid.y, *height});
       }
   return nodes;
+}
+
+/// Reliefs come in tiles far larger than a city. What lies farther from the rectangle than its longer side shapes nothing in it,
+/// unless the relief has no points nearer by.
+Box2d with_surroundings(const Box2d& rectangle) {
+  const Point2d size_m = rectangle.high - rectangle.low;
+  const double reach_m = std::max(size_m.x, size_m.y);
+  return {rectangle.low - Point2d{reach_m, reach_m}, rectangle.high + Point2d{reach_m, reach_m}};
+}
+
+/// Through the nodes of a raster, else through the points of a relief; empty when neither has any here.
+std::optional<Ground> surveyed_ground(const std::optional<TerrainRaster>& terrain, std::span<const Point3d> relief_points_city,
+                                      const Grid& grid, GroundExtent extent) {
+  if (terrain) return Ground(nodes_of(*terrain, grid.rotation), grid.rectangle(), extent);
+  if (relief_points_city.empty()) return std::nullopt;
+  const Box2d shaping = with_surroundings(grid.rectangle());
+  std::vector<Point3d> points_grid;
+  for (const Point3d& p_city : relief_points_city)
+    if (const Point3d p_grid = grid.rotation.grid_from_city(p_city); shaping.contains(horizontal(p_grid)))
+      points_grid.push_back(p_grid);
+  if (points_grid.empty()) return std::nullopt;
+  return Ground(std::move(points_grid), grid.rectangle(), extent);
 }
 
 /// Calls place(n, made) for each n below `count`, in order and one at a time, with what make(n) returns. Making goes on in
@@ -228,12 +236,17 @@ class TileCutter {
 
 TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, const std::optional<TerrainRaster>& terrain,
                        Report& report) {
-  CityModel city = std::move(located.city);
-  if (terrain) lift_onto_terrain(city, *terrain);
-  for (Point3d& p : city.points()) p = grid.rotation.grid_from_city(p);  // exactness begins here
   // Between and around buildings there is ground; beyond a terrain that stands for itself, nobody knows
-  const GroundExtent extent = city.buildings().empty() ? GroundExtent::points : GroundExtent::rectangle;
-  Ground ground(terrain ? nodes_of(*terrain, grid.rotation) : base_points(city), grid.rectangle(), extent);
+  const GroundExtent extent = located.city.buildings().empty() ? GroundExtent::points : GroundExtent::rectangle;
+  std::optional<Ground> surveyed = surveyed_ground(terrain, located.relief_points, grid, extent);
+  const auto ground_height = [&](Point2d p_city) -> std::optional<double> {
+    if (terrain) return terrain->height_at(p_city);
+    return surveyed ? std::optional(surveyed->height_at(grid.rotation.grid_from_city(p_city))) : std::nullopt;
+  };
+  lift_onto_terrain(located, ground_height, report);
+  CityModel city = std::move(located.city);
+  for (Point3d& p : city.points()) p = grid.rotation.grid_from_city(p);  // exactness begins here
+  Ground ground = surveyed ? std::move(*surveyed) : Ground(base_points(city), grid.rectangle(), extent);
   return TileCutter(city, located, grid, assign, std::move(ground)).run(report);
 }
 

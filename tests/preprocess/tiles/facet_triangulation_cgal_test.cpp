@@ -117,6 +117,18 @@ TEST(Triangulate, ABowTieWhoseWingsCancelIsRepairedToo) {
   EXPECT_DOUBLE_EQ(std::abs(area_vector(t).z), 8.0);
 }
 
+TEST(Triangulate, ABentFacetIsSeenAlongItsOwnNormal) {
+  // Over a plane that rises by 45° the ring is a simple arrow; its barb lies 3 m above the plane, and seen from the top, which is
+  // the side that the facet shows most of, it sticks out through the shaft
+  const Point3d u{1, 0, 0}, v = normalized(Point3d{0, 1, 0.9}), n = cross(u, v);
+  const auto at = [&](double x, double y, double off) { return x * u + y * v + off * n; };
+  const Ring arrow{at(0, 0, 0), at(10, 0, 0), at(10, 10, 0), at(6, 10, 0), at(5, 1, 3), at(4, 10, 0), at(0, 10, 0)};
+  const Triangulation t = triangulate(spans({arrow}));
+  EXPECT_FALSE(t.rings_cross);
+  EXPECT_EQ(t.points.size(), arrow.size());
+  EXPECT_TRUE(exact_area(t) == exact_area(Rings{arrow}));
+}
+
 TEST(Triangulate, WhatHasNoAreaHasNoTriangles) {
   EXPECT_TRUE(triangulate(spans({{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}})).triangles.empty());
   EXPECT_TRUE(triangulate(spans({{{0, 0, 0}, {1, 0, 0}}})).triangles.empty());

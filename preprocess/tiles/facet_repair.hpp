@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <list>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "city/city_model.hpp"
+#include "farlod/problem.hpp"
+
+namespace farlod {
+
+/// What is wrong with a ring of a facet.
+struct FacetFinding {
+  ProblemCode code;
+  std::size_t ring = 0;  ///< of the facet, as the city has it
+  std::string detail;
+  Point3d position;
+};
+
+/// The rings of a facet without what encloses nothing or takes nothing away.
+struct RepairedFacet {
+  std::vector<std::span<const Point3d>> rings;  ///< the outer one first; into the city, or into `changed`
+  std::list<std::vector<Point3d>> changed;
+  std::vector<FacetFinding> findings;
+};
+
+/// Takes spikes out of rings, leaves misplaced holes out, and puts the outer ring first where a hole was written in its place.
+/// What cannot be repaired with certainty stays for the triangulation to find.
+[[nodiscard]] RepairedFacet repaired_rings(const CityModel& city, const Facet& facet);
+
+/// What a ring is called in the report: ", ring 1 (hole)".
+[[nodiscard]] std::string name_of_ring(std::size_t ring);
+
+}  // namespace farlod

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "tests/scenes/packed_city.hpp"
+#include "tiles/tiles.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr double slope = 0.1, height_at_origin_m = 100.0;
+double slope_m(double x_city) { return height_at_origin_m + slope * x_city; }
+
+/// A flat roof 9 m above a ground that the file does not know, from 40 to 60 m.
+LocatedCity house_on_ground() {
+  LocatedCity located;
+  located.city.begin_building("house", Footing::on_ground);
+  located.city.begin_facet(SurfaceKind::roof, 0);
+  located.city.add_ring(std::vector<Point3d>{{40, 40, 9}, {60, 40, 9}, {60, 60, 9}, {40, 60, 9}});
+  return located;
+}
+
+/// Corners of the triangles of a plane that rises to the east, every 20 m, each corner once for each of its triangles.
+std::vector<Point3d> plane(double from_m, double to_m) {
+  constexpr double step_m = 20.0;
+  std::vector<Point3d> corners;
+  for (double x = from_m; x < to_m; x += step_m)
+    for (double y = from_m; y < to_m; y += step_m)
+      for (const Point2d p :
+           {Point2d{x, y}, {x + step_m, y}, {x, y + step_m}, {x + step_m, y}, {x + step_m, y + step_m}, {x, y + step_m}})
+        corners.push_back({p.x, p.y, slope_m(p.x)});
+  return corners;
+}
+
+TileSet tiles_on(std::vector<Point3d> relief, const std::optional<TerrainRaster>& terrain = {}) {
+  LocatedCity located = house_on_ground();
+  const Grid grid = scenes::grid_covering(located.city, Angle::degrees(20.0), 25.0, 3);
+  located.relief_points = std::move(relief);
+  Report report;
+  return cut_into_tiles(std::move(located), grid, Assign::clip, terrain, report);
+}
+
+/// Heights of all vertices of one surface: the lowest and the highest.
+std::pair<double, double> heights_of(const TileSet& tiles, std::uint32_t surface) {
+  std::pair<double, double> range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const Tile& tile : tiles.tiles)
+    for (std::size_t n = 0; n < tile.triangles.size(); ++n) {
+      if (tile.triangle_surfaces[n] != surface) continue;
+      for (const std::uint32_t v : {tile.triangles[n].a, tile.triangles[n].b, tile.triangles[n].c}) {
+        const double z = static_cast<double>(tile.vertices[v].z) + tiles.height_origin_m;
+        range = {std::min(range.first, z), std::max(range.second, z)};
+      }
+    }
+  return range;
+}
+
+/// Heights of some ten metres above a tile's zero, as float.
+constexpr double rounding_m = 64.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
+
+TEST(Relief, IsTheGround) {
+  const TileSet tiles = tiles_on(plane(-200, 300));
+  const auto [lowest, highest] = heights_of(tiles, 0);
+  // Within the grid, which reaches no farther than its cells of 25 m, turned, do beyond the house
+  EXPECT_GT(lowest, slope_m(40.0 - 2 * 25.0 * 1.5));
+  EXPECT_LT(highest, slope_m(60.0 + 2 * 25.0 * 1.5));
+  EXPECT_GT(highest - lowest, slope * 20.0);
+}
+
+TEST(Relief, CarriesBuildingsThatKnowOnlyTheirHeight) {
+  const TileSet tiles = tiles_on(plane(-200, 300));
+  const auto [lowest, highest] = heights_of(tiles, 1);
+  EXPECT_NEAR(lowest, slope_m(40.0) + 9.0, rounding_m);  // the lowest ground under it
+  EXPECT_NEAR(highest, slope_m(40.0) + 9.0, rounding_m);
+}
+
+TEST(Relief, GivesTheSameGroundAsARasterOfTheSamePlane) {
+  TerrainRaster raster{{-200, -200}, {20, 20}, 26, 26, {}};
+  for (std::size_t row = 0; row < raster.rows; ++row)
+    for (std::size_t column = 0; column < raster.columns; ++column)
+      raster.height_m.emplace_back(static_cast<float>(slope_m(raster.node(column, row).x)));
+  const TileSet of_relief = tiles_on(plane(-200, 300)), of_raster = tiles_on({}, raster);
+  ASSERT_EQ(of_relief.tiles.size(), of_raster.tiles.size());
+  for (std::size_t n = 0; n < of_relief.tiles.size(); ++n)
+    EXPECT_NEAR(of_relief.height_origin_m + of_relief.tiles[n].ground_at_centre_m,
+                of_raster.height_origin_m + of_raster.tiles[n].ground_at_centre_m, rounding_m)
+        << n;
+}
+
+TEST(Relief, FarAwayShapesNothing) {
+  std::vector<Point3d> relief = plane(-200, 300);
+  relief.push_back({50'000, 50, -1000.0});
+  EXPECT_EQ(heights_of(tiles_on(relief), 0), heights_of(tiles_on(plane(-200, 300)), 0));
+  // Nothing but that: the building's own foot is the ground then
+  const auto [lowest, highest] = heights_of(tiles_on({{50'000, 50, -1000.0}}), 0);
+  EXPECT_EQ(lowest, 9.0);
+  EXPECT_EQ(highest, 9.0);
+}
+
+}  // namespace
+}  // namespace farlod
