@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -17,12 +18,31 @@ namespace farlod {
 struct AreaOfUse {
   double west_deg = 0.0, south_deg = 0.0, east_deg = 0.0, north_deg = 0.0;
 
-  [[nodiscard]] bool contains(Point2d lon_lat_deg) const {
-    const bool in_longitude = west_deg <= east_deg ? west_deg <= lon_lat_deg.x && lon_lat_deg.x <= east_deg
-                                                   : lon_lat_deg.x >= west_deg || lon_lat_deg.x <= east_deg;
-    return in_longitude && south_deg <= lon_lat_deg.y && lon_lat_deg.y <= north_deg;
+  [[nodiscard]] bool contains(Point2d lon_lat_deg) const { return contains(lon_lat_deg, 0.0, 0.0); }
+  /// The same of the area widened to all sides.
+  [[nodiscard]] bool contains(Point2d lon_lat_deg, double lon_margin_deg, double lat_margin_deg) const {
+    const auto east_of_west = [this](double lon_deg) {
+      const double d = std::fmod(lon_deg - west_deg, 360.0);
+      return d < 0.0 ? d + 360.0 : d;
+    };
+    const double width_deg = east_deg - west_deg == 360.0 ? 360.0 : east_of_west(east_deg);
+    const double d = east_of_west(lon_lat_deg.x);
+    const bool in_longitude = d <= width_deg + lon_margin_deg || d >= 360.0 - lon_margin_deg;
+    return in_longitude && south_deg - lat_margin_deg <= lon_lat_deg.y && lon_lat_deg.y <= north_deg + lat_margin_deg;
   }
 };
+
+/// A unit that maps count in.
+struct LengthUnit {
+  std::string name;       ///< in EPSG's words
+  double metres = 1.0;    ///< of one unit
+  std::string epsg_code;  ///< empty where the register has none
+  std::string mark;       ///< how the register ends the names of CRSs in this unit: " (ftUS)"
+};
+
+inline const LengthUnit metre{"metre", 1.0, "9001", ""};
+inline const LengthUnit foot{"foot", 0.3048, "9002", " (ft)"};
+inline const LengthUnit us_survey_foot{"US survey foot", 1200.0 / 3937.0, "9003", " (ftUS)"};
 
 /// A horizontal coordinate reference system, geographic or projected. What a definition says of heights is kept only as
 /// their unit: heights are never shifted from one vertical datum to another.
@@ -38,6 +58,8 @@ class Crs {
   [[nodiscard]] double unit() const;
   /// Metres for one unit of height: of the vertical axis; without one, of a projected CRS's horizontal axes; else 1.
   [[nodiscard]] double height_unit_m() const;
+  /// The definition has a vertical axis.
+  [[nodiscard]] bool says_height_unit() const;
   /// The authority writes the northing or the latitude first.
   [[nodiscard]] bool northing_first() const;
   /// The axes run east and north, in whichever order (not so: Lo of South Africa, polar stereographic).
@@ -51,14 +73,19 @@ class Crs {
   [[nodiscard]] std::string wkt() const;
   [[nodiscard]] std::optional<AreaOfUse> area_of_use() const;
   [[nodiscard]] Ellipsoid ellipsoid() const;
-  /// The zone, if the projection is UTM in metres.
+  /// The zone, if the projection is UTM in metres, without a zone number before the easting.
   [[nodiscard]] std::optional<UtmZone> utm_zone() const;
+  /// Of projections cut into zones along meridians, UTM and Gauss-Krüger: how wide a zone is; else 0.
+  [[nodiscard]] double zone_width_deg() const;
   [[nodiscard]] bool equals(const Crs& other) const;
+  /// Where a point is on the datum's own ellipsoid, in degrees from Greenwich: a shift to WGS 84, of up to some hundred metres,
+  /// is left out. Empty for what is nowhere.
+  [[nodiscard]] std::optional<Point2d> lon_lat_deg(Point2d p) const;
 
   /// The geographic CRS below a projected one; a geographic one itself.
   [[nodiscard]] Crs geographic() const;
-  /// The same projection counted in metres; the register's own metric twin where there is one.
-  [[nodiscard]] Crs in_metres() const;
+  /// The same projection counted in another unit; the register's own twin where there is one.
+  [[nodiscard]] Crs counted_in(const LengthUnit& length) const;
   /// UTM on the datum of this geographic CRS.
   [[nodiscard]] Crs utm(UtmZone zone) const;
 

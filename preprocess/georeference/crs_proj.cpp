@@ -113,7 +113,16 @@ struct Crs::Impl {
   Object plain;       ///< easting first, without
   Object registered;  ///< the authority's own form: the EPSG register's entry, or what was given
   double height_unit_m = 1.0;
+  bool says_height_unit = false;
   bool northing_first = false;
+  struct WayToGeographic {
+    Crs base;
+    CrsTransformation way;
+    WayToGeographic(Crs geographic, CrsTransformation transformation)
+        : base(std::move(geographic)), way(std::move(transformation)) {}
+  };
+  mutable std::unique_ptr<const WayToGeographic> to_geographic;  ///< of a projected CRS, once it is asked for: it costs 20 ms
+  const WayToGeographic& way_to_geographic(const Crs& owner) const;
 
   /// Empty when `given` is neither geographic nor projected.
   static std::shared_ptr<const Impl> make(const Context& context, Object given);
@@ -132,6 +141,7 @@ std::shared_ptr<const Crs::Impl> Crs::Impl::make(const Context& context, Object 
   if (!first) return nullptr;
   impl->northing_first = first->direction == "north" || first->direction == "south";
   const bool projected = proj_get_type(plain.get()) == PJ_TYPE_PROJECTED_CRS;
+  impl->says_height_unit = height_unit.has_value();
   impl->height_unit_m = height_unit.value_or(projected ? first->unit : 1.0);
   impl->shifted.reset(proj_normalize_for_visualization(context.get(), horizontal.get()));
   impl->plain.reset(proj_normalize_for_visualization(context.get(), plain.get()));
@@ -152,6 +162,7 @@ std::optional<Crs> Crs::find(const std::string& definition) {
 bool Crs::is_projected() const { return proj_get_type(impl_->plain.get()) == PJ_TYPE_PROJECTED_CRS; }
 double Crs::unit() const { return axis_of(impl_->context, impl_->plain.get(), 0)->unit; }
 double Crs::height_unit_m() const { return impl_->height_unit_m; }
+bool Crs::says_height_unit() const { return impl_->says_height_unit; }
 bool Crs::northing_first() const { return impl_->northing_first; }
 
 bool Crs::runs_east_and_north() const {
@@ -159,15 +170,42 @@ bool Crs::runs_east_and_north() const {
   return x && y && x->direction == "east" && y->direction == "north";
 }
 
+namespace {
+
+/// Longitude of the prime meridian from Greenwich.
+std::optional<double> prime_meridian_deg(const Context& context, const PJ* crs) {
+  const Object meridian(proj_get_prime_meridian(context.get(), crs));
+  double longitude = 0.0, unit = 1.0;
+  if (!meridian || !proj_prime_meridian_get_parameters(context.get(), meridian.get(), &longitude, &unit, nullptr))
+    return std::nullopt;
+  return longitude * unit * (180.0 / std::numbers::pi);
+}
+
+}  // namespace
+
 bool Crs::is_in_degrees_from_greenwich() const {
-  if (is_projected()) return false;
-  const Object meridian(proj_get_prime_meridian(impl_->context.get(), impl_->plain.get()));
-  double longitude = 0.0;
-  if (!meridian || !proj_prime_meridian_get_parameters(impl_->context.get(), meridian.get(), &longitude, nullptr, nullptr))
-    return false;
+  if (is_projected() || prime_meridian_deg(impl_->context, impl_->plain.get()) != 0.0) return false;
   // A file may write the factor with fewer digits than a double has
   constexpr double digits_of_files = 1e-9;
-  return longitude == 0.0 && std::abs(unit() - std::numbers::pi / 180.0) < digits_of_files;
+  return std::abs(unit() - std::numbers::pi / 180.0) < digits_of_files;
+}
+
+const Crs::Impl::WayToGeographic& Crs::Impl::way_to_geographic(const Crs& owner) const {
+  FARLOD_EXPECTS(owner.is_projected());  // a geographic CRS would hold itself, for ever
+  if (!to_geographic) {
+    const Crs base = owner.geographic();
+    to_geographic = std::make_unique<WayToGeographic>(base, CrsTransformation(owner, base, {}));
+  }
+  return *to_geographic;
+}
+
+std::optional<Point2d> Crs::lon_lat_deg(Point2d p) const {
+  const Crs base = is_projected() ? impl_->way_to_geographic(*this).base : *this;
+  const auto there = is_projected() ? impl_->way_to_geographic(*this).way.apply(p) : p;
+  if (!there) return std::nullopt;
+  const Point2d lon_lat = base.unit() * (180.0 / std::numbers::pi) * *there;
+  const double greenwich_deg = prime_meridian_deg(base.impl_->context, base.impl_->plain.get()).value_or(0.0);
+  return std::abs(lon_lat.y) <= 90.0 ? std::optional(Point2d{lon_lat.x + greenwich_deg, lon_lat.y}) : std::nullopt;
 }
 
 std::string Crs::name() const { return proj_get_name(impl_->registered.get()); }
@@ -201,15 +239,31 @@ Ellipsoid Crs::ellipsoid() const {
   return e;
 }
 
+namespace {
+
+/// "UTM zone 32N", "UTM zone 32N with prefix", "3-degree Gauss-Kruger zone 3".
+std::string conversion_name(const Context& context, const PJ* projected) {
+  const Object conversion(proj_crs_get_coordoperation(context.get(), projected));
+  return conversion ? proj_get_name(conversion.get()) : "";
+}
+
+}  // namespace
+
 std::optional<UtmZone> Crs::utm_zone() const {
   if (!is_projected() || unit() != 1.0) return std::nullopt;
-  const Object conversion(proj_crs_get_coordoperation(impl_->context.get(), impl_->plain.get()));
-  const std::string title = conversion ? proj_get_name(conversion.get()) : "";
+  const std::string title = conversion_name(impl_->context, impl_->plain.get());
   constexpr std::string_view start = "UTM zone ";
-  if (!title.starts_with(start)) return std::nullopt;
+  if (!title.starts_with(start) || (title.back() != 'N' && title.back() != 'S')) return std::nullopt;
   const int number = std::atoi(title.c_str() + start.size());
   if (number < 1 || number > 60) return std::nullopt;
   return UtmZone{number, title.back() == 'N'};
+}
+
+double Crs::zone_width_deg() const {
+  if (!is_projected()) return 0.0;
+  const std::string title = conversion_name(impl_->context, impl_->plain.get());
+  if (title.starts_with("3-degree Gauss")) return 3.0;
+  return title.starts_with("UTM zone ") || title.find("Gauss-Kruger zone") != std::string::npos ? 6.0 : 0.0;
 }
 
 bool Crs::equals(const Crs& other) const {
@@ -224,13 +278,15 @@ Crs Crs::geographic() const {
   return Crs(std::move(impl));
 }
 
-Crs Crs::in_metres() const {
+Crs Crs::counted_in(const LengthUnit& length) const {
   FARLOD_EXPECTS(is_projected());
   const Context& context = impl_->context;
-  const Object metric(proj_crs_alter_cs_linear_unit(context.get(), impl_->plain.get(), "metre", 1.0, "EPSG", "9001"));
-  FARLOD_EXPECTS(metric != nullptr);
-  const std::string twin_name = without_unit(proj_get_name(impl_->registered.get()));
-  auto impl = Impl::make(context, Object(proj_alter_name(context.get(), metric.get(), twin_name.c_str())));
+  const char* code = length.epsg_code.empty() ? nullptr : length.epsg_code.c_str();
+  const Object twin(proj_crs_alter_cs_linear_unit(context.get(), impl_->plain.get(), length.name.c_str(), length.metres,
+                                                  code == nullptr ? nullptr : "EPSG", code));
+  FARLOD_EXPECTS(twin != nullptr);
+  const std::string twin_name = without_unit(proj_get_name(impl_->registered.get())) + length.mark;
+  auto impl = Impl::make(context, Object(proj_alter_name(context.get(), twin.get(), twin_name.c_str())));
   FARLOD_EXPECTS(impl != nullptr);
   return Crs(std::move(impl));
 }
@@ -249,7 +305,7 @@ Crs Crs::utm(UtmZone zone) const {
 
 std::optional<Crs::Distortion> Crs::distortion_at(Point2d p_projected) const {
   // proj_factors of PROJ 9.1 forgets the unit of a CRS in feet
-  if (unit() != 1.0) return in_metres().distortion_at(unit() * p_projected);
+  if (unit() != 1.0) return counted_in(metre).distortion_at(unit() * p_projected);
   const Crs base = geographic();
   const auto place = CrsTransformation(*this, base, p_projected).apply(p_projected);
   if (!place) return std::nullopt;

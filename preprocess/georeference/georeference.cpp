@@ -12,9 +12,11 @@
 
 #include "city/input_error.hpp"
 #include "farlod/box.hpp"
+#include "georeference/input_crs.hpp"
+#include "georeference/misplaced_facets.hpp"
 #include "georeference/output_crs.hpp"
 #include "georeference/problem_locator.hpp"
-#include "georeference/source_coordinates.hpp"
+#include "georeference/settled_source.hpp"
 
 namespace farlod {
 namespace {
@@ -23,24 +25,6 @@ using Projection = std::function<void(std::span<Point3d>)>;
 
 /// No map of the Earth has coordinates as large as this, zone numbers before the easting included.
 constexpr double beyond_all_maps_m = 1e8;
-
-/// A file whose x is the easting or longitude, and whose heights are in metres.
-struct SettledSource {
-  SourceCity source;
-  Crs crs;
-  Point2d typical;
-  AxisOrder order_in_file = AxisOrder::as_usual;
-};
-
-SettledSource settle(SourceCity source, const GeoreferenceSettings& settings) {
-  NamedCrs named = crs_of_input(source.source, source.crs.definition, settings.crs);
-  const TypicalBuilding typical = typical_building(source.city);
-  check_units(source, typical, named.crs);
-  const bool northing_first = is_northing_first(typical.place, named.crs, source.crs.longitude_first || named.longitude_first);
-  settle_axes(source, named.crs, northing_first);
-  const Point2d place = northing_first ? Point2d{typical.place.y, typical.place.x} : typical.place;
-  return {std::move(source), std::move(named.crs), place, northing_first ? AxisOrder::northing_first : AxisOrder::as_usual};
-}
 
 void project_to_utm(std::span<Point3d> points, const UtmProjection& utm) {
   for (Point3d& p : points) {
@@ -54,7 +38,7 @@ Projection make_projection(const Crs& from, const Crs& to, Point2d typical) {
   // Coordinates that are in the output CRS already stay what they are, to the last bit
   if (from.equals(to)) return [](std::span<Point3d>) {};
   // Feet to metres is a factor, wherever the coordinates lie
-  if (from.is_projected() && from.unit() != 1.0 && from.in_metres().equals(to))
+  if (from.is_projected() && from.unit() != 1.0 && from.counted_in(metre).equals(to))
     return [unit_m = from.unit()](std::span<Point3d> points) {
       for (Point3d& p : points) p = {unit_m * p.x, unit_m * p.y, p.z};
     };
@@ -73,26 +57,14 @@ std::string detail_of(const Point3d& given, const Crs& output) {
   return text.str();
 }
 
-/// A settled point as the file has it.
-Point3d p_file(const Point3d& p, const SettledSource& settled) {
-  const double height_unit_m = settled.source.crs.heights_in_metres ? 1.0 : settled.crs.height_unit_m();
-  const bool northing_first = settled.order_in_file == AxisOrder::northing_first;
-  return {northing_first ? p.y : p.x, northing_first ? p.x : p.y, p.z / height_unit_m};
+std::string detail_of(const MisplacedFacets& misplaced) {
+  return std::to_string(misplaced.facets.size()) + (misplaced.all_of_it ? " polygons, the whole building" : " of its polygons");
 }
 
 void locate_problems(const SettledSource& settled, Report& report) {
-  ProblemLocator locator(settled.crs, settled.order_in_file, settled.typical);
+  ProblemLocator locator(settled.crs, settled.axes, settled.typical);
   for (Problem& problem : report.since(0))
     if (problem.source == settled.source.source) locator.locate(problem);
-}
-
-/// Appends a copy of a building.
-void copy_building(const CityModel& from, const Building& b, CityModel& to) {
-  to.begin_building(b.id, b.stands_on_ground, b.source);
-  for (const Facet& f : from.facets_of(b)) {
-    to.begin_facet(f.kind, f.surface, f.part);
-    for (std::uint32_t k = 0; k < f.ring_count; ++k) to.add_ring(from.ring(f, k));
-  }
 }
 
 /// The building's points, to be changed.
@@ -102,10 +74,8 @@ std::span<Point3d> mutable_points_of(CityModel& city, const Building& b) {
   return city.points().subspan(static_cast<std::size_t>(points.data() - city.points().data()), points.size());
 }
 
-/// Projects a file, building by building, and returns those that lie nowhere.
-std::vector<std::size_t> project(SettledSource& settled, const Crs& output, Report& report) {
-  const Projection projection = make_projection(settled.crs, output, settled.typical);
-  std::vector<std::size_t> lost;
+/// Projects a file's buildings, one by one. What lies nowhere is reported, and no longer finite.
+void project_buildings(SettledSource& settled, const Projection& projection, const Crs& output, Report& report) {
   std::vector<Point3d> before;
   CityModel& city = settled.source.city;
   for (std::size_t n = 0; n < city.buildings().size(); ++n) {
@@ -117,45 +87,101 @@ std::vector<std::size_t> project(SettledSource& settled, const Crs& output, Repo
     if (bad == points.end()) continue;
     const Point3d& given = before[static_cast<std::size_t>(bad - points.begin())];
     report.add(
-        {ProblemCode::outside_of_projection, settled.source.source, b.id, detail_of(given, output), p_file(given, settled)});
-    lost.push_back(n);
+        {ProblemCode::outside_of_projection, settled.source.source, b.id, detail_of(given, output), settled.axes.p_file(given)});
+    for (Point3d& p : points)
+      if (!is_on_a_map(p)) p.x = p.y = std::numeric_limits<double>::infinity();
   }
-  return lost;
 }
 
-void append_without(CityModel& city, CityModel&& more, const std::vector<std::size_t>& lost) {
-  if (lost.empty()) return city.append(std::move(more));
-  for (std::size_t n = 0; n < more.buildings().size(); ++n)
-    if (!std::binary_search(lost.begin(), lost.end(), n)) copy_building(more, more.buildings()[n], city);
+std::string detail_of(std::size_t lost, std::size_t all, const Point3d& first, const Crs& output) {
+  return std::to_string(lost) + " of " + std::to_string(all) + " points of the relief: " + detail_of(first, output);
 }
 
-/// From the projected frame into the city frame.
-Georeference move_to_origin(CityModel& city, const Crs& output) {
+/// Projects a file's relief. Points that lie nowhere are left out, and reported together.
+void project_relief(SettledSource& settled, const Projection& projection, const Crs& output, Report& report) {
+  std::vector<Point3d>& points = settled.source.relief_points;
+  const std::size_t all = points.size();
+  std::optional<Point3d> first_lost;
+  std::size_t kept = 0;
+  for (const Point3d& given : points) {
+    Point3d p = given;
+    projection({&p, 1});
+    if (is_on_a_map(p))
+      points[kept++] = p;
+    else if (!first_lost)
+      first_lost = given;
+  }
+  points.resize(kept);
+  if (first_lost)
+    report.add({ProblemCode::outside_of_projection, settled.source.source, "relief",
+                detail_of(all - kept, all, *first_lost, output), settled.axes.p_file(*first_lost)});
+}
+
+void project(SettledSource& settled, const Crs& output, Report& report) {
+  const Projection projection = make_projection(settled.crs, output, settled.typical);
+  project_buildings(settled, projection, output, report);
+  project_relief(settled, projection, output, report);
+}
+
+void append(std::vector<Point3d>& points, std::vector<Point3d>&& more) {
+  if (points.empty())
+    points = std::move(more);
+  else
+    points.insert(points.end(), more.begin(), more.end());
+}
+
+/// Leaves out what lies nowhere, and what lies far from all the rest.
+void leave_out_misplaced(LocatedCity& located, const Crs& output, Report& report) {
+  const std::vector<MisplacedFacets> misplaced = find_misplaced(located.city);
+  if (misplaced.empty()) return;
+  CityModel kept = without(located.city, misplaced);
+  const std::size_t known = report.problems().size();
+  for (const MisplacedFacets& m : misplaced) {
+    if (!std::isfinite(m.first_vertex.x)) continue;  // that is reported already, as the file has it
+    const Building& b = located.city.buildings()[m.building];
+    report.add({ProblemCode::far_away, located.sources[b.source], b.id, detail_of(m), m.first_vertex});
+  }
+  if (!kept.points().empty()) {
+    ProblemLocator locator(output, FileAxes{}, horizontal(kept.points().front()));
+    for (Problem& problem : report.since(known)) locator.locate(problem);
+  }
+  located.city = std::move(kept);
+}
+
+/// From the projected frame into the city frame. Buildings decide where its origin is; a relief alone decides itself.
+void move_to_origin(LocatedCity& located, const Crs& output) {
+  const std::span<Point3d> relief(located.relief_points), buildings = located.city.points();
   Box2d box;
-  for (const Point3d& p : city.points()) box.add(horizontal(p));
-  const Georeference georeference = georeference_around(0.5 * (box.low + box.high), output);
-  for (Point3d& p : city.points()) p = p - Point3d{georeference.origin_m.x, georeference.origin_m.y, 0.0};
-  return georeference;
+  for (const Point3d& p : buildings.empty() ? relief : buildings) box.add(horizontal(p));
+  located.georeference = georeference_around(0.5 * (box.low + box.high), output);
+  const Point2d origin_m = located.georeference.origin_m;
+  for (const auto points : {buildings, relief})
+    for (Point3d& p : points) p = p - Point3d{origin_m.x, origin_m.y, 0.0};
 }
+
+bool is_empty(const SourceCity& source) { return source.city.points().empty() && source.relief_points.empty(); }
 
 }  // namespace
 
 LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSettings& settings, Report& report) {
+  std::erase_if(sources, is_empty);
+  const std::vector<InputCrs> inputs = crs_of_inputs(sources, settings);
   LocatedCity located;
   std::optional<Crs> output;
-  for (SourceCity& source : sources) {
-    if (source.city.points().empty()) continue;
-    SettledSource settled = settle(std::move(source), settings);
+  for (std::size_t n = 0; n < sources.size(); ++n) {
+    SettledSource settled = settle(std::move(sources[n]), inputs[n], report);
     if (!output) output = choose_output_crs(settled.crs, settled.typical, settings.out_crs);
-    const auto lost = project(settled, *output, report);
+    project(settled, *output, report);
     locate_problems(settled, report);
     settled.source.city.set_source(static_cast<std::uint32_t>(located.sources.size()));
     located.sources.push_back(settled.source.source);
-    append_without(located.city, std::move(settled.source.city), lost);
+    located.city.append(std::move(settled.source.city));
+    append(located.relief_points, std::move(settled.source.relief_points));
   }
-  if (located.city.points().empty())
+  if (output) leave_out_misplaced(located, *output, report);
+  if (located.city.points().empty() && located.relief_points.empty())
     throw InputError("no building is left that could be put on the map: see the report for what is wrong with each");
-  located.georeference = move_to_origin(located.city, *output);
+  move_to_origin(located, *output);
   return located;
 }
 

@@ -10,16 +10,6 @@
 
 namespace farlod {
 
-/// A CRS as an input names it, or else as --crs does.
-struct NamedCrs {
-  Crs crs;
-  bool longitude_first = false;  ///< the name itself says so
-};
-
-/// The CRS of `file`: what it says itself (`definition`), or `fallback` where it says nothing or nothing that is known.
-/// Throws InputError when neither helps.
-[[nodiscard]] NamedCrs crs_of_input(const std::string& file, const std::string& definition, const std::string& fallback);
-
 /// The CRS that the city is put into: `wish` where there is one, else the input's own when it is projected in metres, its
 /// metric twin when projected in feet, else UTM on its datum. `typical` is a place of the city in `input`.
 /// A projection whose metres are not metres at the city (Web Mercator) never serves. Throws InputError when `wish` cannot.

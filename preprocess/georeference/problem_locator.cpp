@@ -22,8 +22,7 @@ CrsTransformation make_transformation(const Crs& crs, Point2d typical) {
 void ProblemLocator::locate(Problem& problem) {
   if (!problem.position) return;
   if (!lon_lat_from_crs_) lon_lat_from_crs_ = make_transformation(crs_, typical_);
-  const Point2d given = horizontal(*problem.position);
-  const auto lon_lat_deg = lon_lat_from_crs_->apply(order_ == AxisOrder::northing_first ? Point2d{given.y, given.x} : given);
+  const auto lon_lat_deg = lon_lat_from_crs_->apply(horizontal(axes_.p_map(*problem.position)));
   if (lon_lat_deg && is_on_earth(*lon_lat_deg)) problem.lon_lat_deg = lon_lat_deg;
 }
 

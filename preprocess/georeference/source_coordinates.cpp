@@ -11,11 +11,13 @@
 #include "city/input_error.hpp"
 #include "farlod/box.hpp"
 #include "farlod/expects.hpp"
+#include "georeference/crs_area.hpp"
 
 namespace farlod {
 namespace {
 
-/// No building is as small as 5 cm or as large as 0.05° (5 km): its extent tells metres and feet from degrees.
+/// Most facets are neither as small as 5 cm nor as large as 0.05° (5 km), and no relief has its points as close or as far from
+/// each other: this tells metres and feet from degrees.
 constexpr double between_degrees_and_metres = 0.05;
 
 double median(std::vector<double> values) {
@@ -41,52 +43,81 @@ std::string text_of(Point2d p) {
   return text.str();
 }
 
-bool lies_in_area_of_use(Point2d p, const Crs& crs) {
-  const auto area = crs.area_of_use();
-  const auto world = Crs::find("EPSG:4326");
-  FARLOD_EXPECTS(world.has_value());
-  const auto lon_lat_deg = CrsTransformation(crs, *world, p).apply(p);
-  return area && lon_lat_deg && area->contains(*lon_lat_deg);
-}
-
-}  // namespace
-
-TypicalBuilding typical_building(const CityModel& city) {
-  std::vector<double> x, y, extent;
+/// What a few stray buildings cannot change.
+TypicalPlace typical_of_buildings(const CityModel& city) {
+  std::vector<double> x, y, z, extent, grain;
   for (const Building& b : city.buildings()) {
     const auto points = city.points_of(b);
     if (points.empty()) continue;
     x.push_back(points.front().x);
     y.push_back(points.front().y);
+    z.push_back(points.front().z);
     extent.push_back(larger_side(points));
+    for (const Facet& facet : city.facets_of(b)) grain.push_back(larger_side(city.ring(facet, 0)));
   }
-  FARLOD_EXPECTS(!x.empty());
-  return {{median(std::move(x)), median(std::move(y))}, median(std::move(extent))};
+  return {
+      {median(std::move(x)), median(std::move(y)), median(std::move(z))}, median(std::move(extent)), median(std::move(grain))};
 }
 
-bool is_northing_first(Point2d p, const Crs& crs, bool longitude_first) {
-  if (longitude_first || !crs.northing_first()) return false;
-  if (!crs.is_projected()) return std::abs(p.x) <= 90.0 || std::abs(p.y) > 90.0;
-  return lies_in_area_of_use({p.y, p.x}, crs) && !lies_in_area_of_use(p, crs);
+/// Triangles and rows of a relief are written one after the other, so that most of its points follow a neighbour.
+TypicalPlace typical_of_relief(std::span<const Point3d> points) {
+  constexpr std::size_t enough = 10'000;
+  const std::size_t stride = std::max<std::size_t>(points.size() / enough, 1);
+  std::vector<double> x, y, z, steps;
+  for (std::size_t n = 0; n < points.size(); n += stride) {
+    x.push_back(points[n].x);
+    y.push_back(points[n].y);
+    z.push_back(points[n].z);
+    const double step = n == 0 ? 0.0 : larger_side(points.subspan(n - 1, 2));
+    if (step > 0.0) steps.push_back(step);
+  }
+  const auto grain = steps.empty() ? std::nullopt : std::optional(median(std::move(steps)));
+  return {{median(std::move(x)), median(std::move(y)), median(std::move(z))}, std::nullopt, grain};
 }
 
-void check_units(const SourceCity& source, const TypicalBuilding& typical, const Crs& crs) {
-  const bool looks_like_degrees = may_be_lon_lat(typical.place) && typical.extent < between_degrees_and_metres;
+AxisOrder other(AxisOrder order) {
+  return order == AxisOrder::easting_first ? AxisOrder::northing_first : AxisOrder::easting_first;
+}
+
+/// Eastings of UTM that begin with the number of their zone: 32,356,123. Without it, those of another zone lie nowhere near.
+double zone_before_easting(const Crs& crs) {
+  constexpr double one_zone = 1e6;  // no easting of UTM has as many digits
+  const auto zone = crs.utm_zone();
+  return zone ? zone->number * one_zone : 0.0;
+}
+
+Point2d on_map(const FileAxes& axes, Point2d p_file) { return horizontal(axes.p_map({p_file.x, p_file.y, 0.0})); }
+
+}  // namespace
+
+TypicalPlace typical_place(const SourceCity& source) {
+  if (!source.city.points().empty()) return typical_of_buildings(source.city);
+  FARLOD_EXPECTS(!source.relief_points.empty());
+  return typical_of_relief(source.relief_points);
+}
+
+AxisOrder stated_order(const Crs& crs, bool longitude_first) {
+  return crs.northing_first() && !longitude_first ? AxisOrder::northing_first : AxisOrder::easting_first;
+}
+
+FileAxes find_axes(Point2d typical_place, const Crs& crs, bool longitude_first) {
+  const FileAxes usual{crs.is_projected() ? AxisOrder::easting_first : stated_order(crs, longitude_first)};
+  if (may_be_used_at(crs, on_map(usual, typical_place))) return usual;
+  for (const AxisOrder order : {usual.order, other(usual.order)})
+    for (const FileAxes axes : {FileAxes{order}, FileAxes{order, zone_before_easting(crs)}})
+      if (lies_in_area_of_use(crs, on_map(axes, typical_place))) return axes;
+  return usual;
+}
+
+void check_units(const SourceCity& source, const TypicalPlace& typical, const Crs& crs, const std::string& advice) {
+  if (!typical.grain) return;
+  const Point2d place = horizontal(typical.place);
+  const bool looks_like_degrees = may_be_lon_lat(place) && *typical.grain < between_degrees_and_metres;
   if (crs.is_projected() == !looks_like_degrees) return;
-  const std::string place =
-      " (" + text_of(typical.place) + "): name the CRS that they are in, in the file, or with --crs EPSG:n if it says none";
+  const std::string end = " (" + text_of(place) + "): " + advice;
   if (crs.is_projected())
-    throw InputError(source.source + ": its CRS " + crs.name() + " is projected, but its coordinates look like degrees" + place);
-  throw InputError(source.source + ": its CRS " + crs.name() + " counts in degrees, but its coordinates cannot be degrees" +
-                   place);
-}
-
-void settle_axes(SourceCity& source, const Crs& crs, bool northing_first) {
-  const double height_unit_m = source.crs.heights_in_metres ? 1.0 : crs.height_unit_m();
-  for (Point3d& p : source.city.points()) {
-    if (northing_first) std::swap(p.x, p.y);
-    p.z *= height_unit_m;
-  }
+    throw InputError(source.source + ": its CRS " + crs.name() + " is projected, but its coordinates look like degrees" + end);
+  throw InputError(source.source + ": its CRS " + crs.name() + " counts in degrees, but its coordinates cannot be degrees" + end);
 }
 
 }  // namespace farlod

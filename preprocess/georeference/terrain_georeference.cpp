@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "city/input_error.hpp"
+#include "georeference/input_crs.hpp"
 #include "georeference/output_crs.hpp"
 #include "georeference/terrain_reader.hpp"
 

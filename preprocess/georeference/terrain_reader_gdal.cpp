@@ -17,7 +17,7 @@
 #include "city/input_error.hpp"
 #include "farlod/expects.hpp"
 #include "georeference/crs.hpp"
-#include "georeference/output_crs.hpp"
+#include "georeference/input_crs.hpp"
 #include "georeference/terrain_reader.hpp"
 
 namespace farlod {

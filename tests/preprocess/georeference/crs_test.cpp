@@ -54,6 +54,13 @@ TEST(Crs, KnowsTheUnitOfHeights) {
   EXPECT_EQ(crs("EPSG:4326").height_unit_m(), 1.0);
   EXPECT_NEAR(crs("EPSG:2263").height_unit_m(), us_survey_foot_m, ulp_of_a_foot) << "no vertical axis: as the horizontal ones";
   EXPECT_EQ(crs("EPSG:2263+5703").height_unit_m(), 1.0) << "NAVD88 in metres";
+  EXPECT_NEAR(crs("EPSG:2263+6360").height_unit_m(), us_survey_foot_m, ulp_of_a_foot) << "NAVD88 in US survey feet";
+  EXPECT_EQ(crs("EPSG:2263+8228").height_unit_m(), 0.3048) << "NAVD88 in international feet";
+  for (const char* three_dimensions : {"EPSG:6697", "EPSG:4979", "EPSG:7912"}) {
+    EXPECT_EQ(crs(three_dimensions).height_unit_m(), 1.0) << three_dimensions;
+    EXPECT_TRUE(crs(three_dimensions).says_height_unit()) << three_dimensions;
+  }
+  EXPECT_FALSE(crs("EPSG:2263").says_height_unit());
   EXPECT_NEAR(crs("EPSG:32118+6360").height_unit_m(), us_survey_foot_m, ulp_of_a_foot) << "NAVD88 in feet";
 }
 
@@ -73,12 +80,24 @@ TEST(Crs, WktLeadsBackToIt) {
 }
 
 TEST(Crs, HasAMetricTwin) {
-  const Crs long_island = crs("EPSG:2263").in_metres();
+  const Crs long_island = crs("EPSG:2263").counted_in(metre);
   EXPECT_EQ(long_island.epsg(), 32118);
   EXPECT_EQ(long_island.unit(), 1.0);
-  const Crs maryland = crs("EPSG:2248").in_metres();  // the register's own differs by parts of a millimetre
+  const Crs maryland = crs("EPSG:2248").counted_in(metre);  // the register's own differs by parts of a millimetre
   EXPECT_EQ(maryland.unit(), 1.0);
   EXPECT_EQ(maryland.name(), "NAD83 / Maryland");
+}
+
+TEST(Crs, HasTwinsInOtherUnits) {
+  EXPECT_EQ(crs("EPSG:32118").counted_in(us_survey_foot).epsg(), 2263);
+  EXPECT_EQ(crs("EPSG:28992").counted_in(foot).epsg(), std::nullopt);
+  EXPECT_EQ(crs("EPSG:28992").counted_in(foot).unit(), 0.3048);
+}
+
+TEST(Crs, KnowsHowWideZonesAre) {
+  for (const char* utm : {"EPSG:25832", "EPSG:4647", "EPSG:5652", "EPSG:3834"}) EXPECT_EQ(crs(utm).zone_width_deg(), 6.0) << utm;
+  for (const char* gauss_krueger : {"EPSG:31466", "EPSG:5677"}) EXPECT_EQ(crs(gauss_krueger).zone_width_deg(), 3.0);
+  for (const char* other : {"EPSG:28992", "EPSG:4258", "EPSG:2225"}) EXPECT_EQ(crs(other).zone_width_deg(), 0.0) << other;
 }
 
 TEST(Crs, HasUtmOnItsOwnDatum) {
@@ -94,6 +113,7 @@ TEST(Crs, HasUtmOnItsOwnDatum) {
 TEST(Crs, KnowsUtmWhenItSeesIt) {
   EXPECT_EQ(crs("EPSG:25832").utm_zone(), (UtmZone{32, true}));
   EXPECT_EQ(crs("EPSG:32756").utm_zone(), (UtmZone{56, false}));
+  EXPECT_EQ(crs("EPSG:4647").utm_zone(), std::nullopt) << "the zone stands before the easting: not the formula's own";
   EXPECT_EQ(crs("EPSG:28992").utm_zone(), std::nullopt);
   EXPECT_EQ(crs("EPSG:4326").utm_zone(), std::nullopt);
 }
@@ -103,6 +123,20 @@ TEST(Crs, CountsInDegreesFromGreenwich) {
   EXPECT_TRUE(crs(esri_wgs84).is_in_degrees_from_greenwich());
   EXPECT_FALSE(crs("EPSG:4807").is_in_degrees_from_greenwich()) << "grads from Paris";
   EXPECT_FALSE(crs("EPSG:25832").is_in_degrees_from_greenwich());
+}
+
+TEST(Crs, KnowsPlacesInDegreesFromGreenwich) {
+  const auto observatory = crs("EPSG:4807").lon_lat_deg({0.0, 54.262});  // grads from Paris
+  ASSERT_TRUE(observatory.has_value());
+  // By definition of the meridian of Paris: 2 deg 20' 14.025"
+  constexpr double written_to_deg = 0.5e-3 / 3600.0;
+  EXPECT_NEAR(observatory->x, 2.0 + 20.0 / 60.0 + 14.025 / 3600.0, written_to_deg);
+  EXPECT_NEAR(observatory->y, 54.262 * 0.9, written_to_deg);
+  const auto meridian = crs("EPSG:25832").lon_lat_deg({500000.0, 5400000.0});
+  ASSERT_TRUE(meridian.has_value());
+  EXPECT_NEAR(meridian->x, 9.0, written_to_deg);
+  EXPECT_FALSE(crs("EPSG:4326").lon_lat_deg({8.0, 95.0}).has_value());
+  EXPECT_FALSE(crs("EPSG:25832").lon_lat_deg({1e12, 1e12}).has_value());
 }
 
 /// Textbook: tan γ = tan Δλ sin φ on the sphere; the ellipsoid changes it by e'² Δλ² of itself at most.
@@ -143,6 +177,16 @@ TEST(AreaOfUse, MayCrossTheAntimeridian) {
   EXPECT_TRUE(fiji.contains({179.0, -17.0}));
   EXPECT_TRUE(fiji.contains({-179.0, -17.0}));
   EXPECT_FALSE(fiji.contains({0.0, -17.0}));
+  EXPECT_TRUE(fiji.contains({-177.5, -17.0}, 1.0, 0.0)) << "half a degree beyond, with a margin of one";
+  EXPECT_TRUE(fiji.contains({175.5, -17.0}, 1.0, 0.0));
+  EXPECT_FALSE(fiji.contains({-176.5, -17.0}, 1.0, 0.0));
+  EXPECT_FALSE(fiji.contains({-177.5, -17.0}));
+}
+
+TEST(AreaOfUse, MayBeTheWorld) {
+  constexpr AreaOfUse world{-180.0, -90.0, 180.0, 90.0};
+  for (const double lon_deg : {-180.0, -90.0, 0.0, 179.9, 180.0}) EXPECT_TRUE(world.contains({lon_deg, 45.0})) << lon_deg;
+  EXPECT_FALSE(world.contains({0.0, 90.5}));
 }
 
 TEST(CrsTransformation, MakesWhatItCannotTransformInfinite) {

@@ -90,9 +90,7 @@ TEST(Georeference, ReadsLongitudeFirstWhereTheReaderSaysSo) {
   EXPECT_EQ(locate(std::move(source)).georeference.epsg, 32618);
 }
 
-TEST(Georeference, SwapsOnlyLatitudesThatCannotBe) {
-  const LocatedCity tokyo = locate(source_with("EPSG:6668", {139.7937, 35.5327, 3.0}, ten_metres_deg));
-  EXPECT_EQ(tokyo.georeference.epsg, 6691);
+TEST(Georeference, NeverSecondGuessesAPlaceThatIsPossible) {
   const LocatedCity off_arabia = locate(source_with("EPSG:4326", {13.4, 52.5, 3.0}, ten_metres_deg));
   EXPECT_EQ(off_arabia.georeference.epsg, 32639) << "13.4 N 52.5 E is a place: the authority's order holds";
 }
@@ -163,10 +161,8 @@ TEST(Georeference, RefusesAnOutCrsThatIsNotInMetres) {
   }
 }
 
-TEST(Georeference, UsesTheGivenCrsOnlyWhereTheFileSaysNone) {
+TEST(Georeference, UsesTheGivenCrsWhereTheFileSaysNone) {
   EXPECT_EQ(locate(source_with("", {92461.0, 436007.0, 3.0}, 10.0), {"EPSG:28992", ""}).georeference.epsg, 28992);
-  EXPECT_EQ(locate(source_with("EPSG:669", {92461.0, 436007.0, 3.0}, 10.0), {"EPSG:28992", ""}).georeference.epsg, 28992);
-  EXPECT_EQ(locate(source_with("EPSG:25832", {500000.0, 5600000.0, 3.0}, 10.0), {"EPSG:28992", ""}).georeference.epsg, 25832);
 }
 
 TEST(Georeference, AsksForACrsWhereThereIsNone) {
@@ -191,15 +187,6 @@ TEST(Georeference, TellsDegreesFromMetres) {
               }),
               HasSubstr("cannot be degrees"));
   EXPECT_THAT(message_of([] { (void)locate(source_with("EPSG:4326", {12, 20, 3}, 10.0)); }), HasSubstr("cannot be degrees"));
-}
-
-TEST(Georeference, LetsALocalSiteStayWhereItIs) {
-  for (const char* crs : {"EPSG:32632", "EPSG:2154", "EPSG:31467", "EPSG:2193", "EPSG:3035", "EPSG:5514"}) {
-    const Point3d first{12.0, 20.0, 3.0};
-    expect_near(first_projected(locate(source_with("", first, 10.0), {crs, ""})), first, rounding_m);
-  }
-  const Point3d in_feet{12.0, 20.0, 3.0};
-  expect_near(first_projected(locate(source_with("", in_feet, 10.0), {"EPSG:2225", ""})), us_survey_foot_m * in_feet, rounding_m);
 }
 
 SourceCity town_with_stray_building() {
@@ -259,7 +246,7 @@ TEST(Georeference, BringsFilesOfDifferentCrssTogether) {
 TEST(Georeference, KeepsAllOfABuilding) {
   SourceCity source;
   source.crs.definition = "EPSG:28992";
-  source.city.begin_building("with a hole", true);
+  source.city.begin_building("with a hole", Footing::on_ground);
   source.city.begin_facet(SurfaceKind::roof, 7, 2);
   source.city.add_ring(std::vector<Point3d>{{92461, 436007, 3}, {92471, 436007, 3}, {92471, 436017, 3}});
   source.city.add_ring(std::vector<Point3d>{{92469, 436009, 3}, {92470, 436009, 3}, {92470, 436010, 3}});
@@ -268,7 +255,7 @@ TEST(Georeference, KeepsAllOfABuilding) {
   Report report;
   const CityModel city = georeference(std::move(sources), {}, report).city;
   ASSERT_EQ(city.buildings().size(), 1u);
-  EXPECT_TRUE(city.buildings()[0].stands_on_ground);
+  EXPECT_EQ(city.buildings()[0].footing, Footing::on_ground);
   ASSERT_EQ(city.facets().size(), 1u);
   EXPECT_EQ(city.facets()[0].kind, SurfaceKind::roof);
   EXPECT_EQ(city.facets()[0].surface, 7u);

@@ -16,14 +16,14 @@ Problem problem_at(const std::string& source, std::optional<Point3d> position) {
 
 std::optional<Point2d> lon_lat_of(const char* crs, AxisOrder order, const Point3d& position) {
   const bool swap = order == AxisOrder::northing_first;
-  ProblemLocator locator(Crs::find(crs).value(), order, swap ? Point2d{position.y, position.x} : horizontal(position));
+  ProblemLocator locator(Crs::find(crs).value(), FileAxes{order}, swap ? Point2d{position.y, position.x} : horizontal(position));
   Problem problem = problem_at("town.gml", position);
   locator.locate(problem);
   return problem.lon_lat_deg;
 }
 
 TEST(ProblemLocator, LeavesDegreesOfWgs84AsTheyAre) {
-  EXPECT_EQ(lon_lat_of("EPSG:4326", AxisOrder::as_usual, {8.5, 49.25, 3.0}), (Point2d{8.5, 49.25}));
+  EXPECT_EQ(lon_lat_of("EPSG:4326", AxisOrder::easting_first, {8.5, 49.25, 3.0}), (Point2d{8.5, 49.25}));
 }
 
 TEST(ProblemLocator, ReadsTheFilesAxisOrder) {
@@ -31,13 +31,13 @@ TEST(ProblemLocator, ReadsTheFilesAxisOrder) {
 }
 
 TEST(ProblemLocator, KnowsNoPlaceBeyondTheEarth) {
-  EXPECT_FALSE(lon_lat_of("EPSG:4326", AxisOrder::as_usual, {8.5, 95.0, 3.0}));
-  EXPECT_FALSE(lon_lat_of("EPSG:4326", AxisOrder::as_usual, {190.0, 49.25, 3.0}));
-  EXPECT_FALSE(lon_lat_of("EPSG:25832", AxisOrder::as_usual, {1e12, 1e12, 3.0}));
+  EXPECT_FALSE(lon_lat_of("EPSG:4326", AxisOrder::easting_first, {8.5, 95.0, 3.0}));
+  EXPECT_FALSE(lon_lat_of("EPSG:4326", AxisOrder::easting_first, {190.0, 49.25, 3.0}));
+  EXPECT_FALSE(lon_lat_of("EPSG:25832", AxisOrder::easting_first, {1e12, 1e12, 3.0}));
 }
 
 TEST(ProblemLocator, LeavesAProblemWithoutPositionAlone) {
-  ProblemLocator locator(Crs::find("EPSG:4326").value(), AxisOrder::as_usual, {8.5, 49.25});
+  ProblemLocator locator(Crs::find("EPSG:4326").value(), FileAxes{}, {8.5, 49.25});
   Problem problem = problem_at("town.gml", std::nullopt);
   locator.locate(problem);
   EXPECT_FALSE(problem.lon_lat_deg);

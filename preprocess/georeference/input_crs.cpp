@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "georeference/input_crs.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "city/input_error.hpp"
+#include "georeference/crs_definition.hpp"
+#include "georeference/crs_name.hpp"
+
+namespace farlod {
+namespace {
+
+using Found = std::optional<NamedCrs>;
+
+/// WKT is too long for a message.
+std::string shortened(const std::string& definition) {
+  constexpr std::size_t longest = 80;
+  return definition.size() > longest ? definition.substr(0, longest) + "..." : definition;
+}
+
+/// "EPSG:4326 (WGS 84), longitude first".
+std::string label_of(const NamedCrs& named) {
+  const auto code = named.crs.epsg();
+  const std::string name = named.crs.name();
+  return (code ? "EPSG:" + std::to_string(*code) + " (" + name + ")" : name) + (named.longitude_first ? ", longitude first" : "");
+}
+
+/// What each source says itself. Hundreds of tiles say the same, and each look into the register takes milliseconds.
+std::vector<Found> find_own(std::span<const SourceCity> sources) {
+  std::map<std::string, Found> known;
+  std::vector<Found> own;
+  for (const SourceCity& source : sources) {
+    const std::string& definition = source.crs.definition;
+    if (!known.contains(definition)) known.emplace(definition, find_crs(definition));
+    own.push_back(known.at(definition));
+  }
+  return own;
+}
+
+[[noreturn]] void throw_unknown(const std::string& given, const std::string& file) {
+  throw InputError("--crs " + given + ", for " + file + ": no such CRS is known: give EPSG:n");
+}
+
+/// A reader that knows the order itself is believed, whatever the name says.
+bool has_longitude_first(const SourceCity& source, const NamedCrs& named) {
+  return source.crs.longitude_first || named.longitude_first;
+}
+
+bool mean_the_same(const SourceCity& source, const NamedCrs& own, const NamedCrs& given) {
+  const bool same_order = has_longitude_first(source, own) == has_longitude_first(source, given) || own.crs.is_projected();
+  const bool same_heights = !given.crs.says_height_unit() || own.crs.height_unit_m() == given.crs.height_unit_m();
+  return own.crs.equals(given.crs) && same_order && same_heights;
+}
+
+InputCrs overruled(const SourceCity& source, const NamedCrs& own, const NamedCrs& given) {
+  if (mean_the_same(source, own, given)) return {own, std::nullopt, {}};
+  return {given, ProblemCode::crs_overruled,
+          "the file says " + label_of(own) + "; --crs says " + label_of(given) + ", which holds"};
+}
+
+/// Of a source that says nothing, or nothing that is known.
+InputCrs stood_in_for(const SourceCity& source, const Found& given, const std::string& given_text) {
+  const std::string& own = source.crs.definition;
+  InputCrs input{given ? *given : crs_of_input(source.source, own, given_text), std::nullopt, {}};
+  if (own.empty()) return input;
+  input.problem = ProblemCode::crs_unknown;
+  input.detail = "nobody knows the CRS \"" + shortened(own) + "\": --crs stands in, " + label_of(input.named);
+  return input;
+}
+
+}  // namespace
+
+std::optional<NamedCrs> find_crs(const std::string& definition) {
+  const auto parsed = parse_crs_definition(definition);
+  if (!parsed) return std::nullopt;
+  const auto for_proj = parsed->is_bare_name ? code_of_crs_name(parsed->for_proj) : parsed->for_proj;
+  const auto crs = for_proj ? Crs::find(*for_proj) : std::nullopt;
+  return crs ? std::optional(NamedCrs{*crs, parsed->longitude_first}) : std::nullopt;
+}
+
+NamedCrs crs_of_input(const std::string& file, const std::string& definition, const std::string& fallback) {
+  if (auto own = find_crs(definition)) return *own;
+  if (fallback.empty() && definition.empty()) throw InputError(file + " does not say its CRS: give --crs EPSG:n");
+  if (fallback.empty())
+    throw InputError(file + " names a CRS that is not known, \"" + shortened(definition) + "\": give --crs EPSG:n");
+  if (auto given = find_crs(fallback)) return *given;
+  throw_unknown(fallback, file);
+}
+
+std::vector<InputCrs> crs_of_inputs(std::span<const SourceCity> sources, const GeoreferenceSettings& settings) {
+  const std::vector<Found> own = find_own(sources);
+  const bool all_say = std::all_of(own.begin(), own.end(), [](const Found& found) { return found.has_value(); });
+  const bool overrules = all_say && !settings.crs.empty() && !settings.crs_is_for_another;
+  const Found given = all_say && !overrules ? std::nullopt : find_crs(settings.crs);
+  if (overrules && !given && !sources.empty()) throw_unknown(settings.crs, sources.front().source);
+  std::vector<InputCrs> inputs;
+  for (std::size_t n = 0; n < sources.size(); ++n) {
+    if (!own[n])
+      inputs.push_back(stood_in_for(sources[n], given, settings.crs));
+    else if (overrules)
+      inputs.push_back(overruled(sources[n], *own[n], *given));
+    else
+      inputs.push_back({*own[n], std::nullopt, {}});
+  }
+  return inputs;
+}
+
+}  // namespace farlod

@@ -1,0 +1,251 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+// What is said of a whole file: how it counts, where it lies, and which CRS holds.
+#include <gmock/gmock.h>
+
+#include "city/input_error.hpp"
+#include "georeference/georeference.hpp"
+#include "tests/preprocess/georeference/small_source.hpp"
+
+namespace farlod {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr double us_survey_foot_m = 1200.0 / 3937.0;
+/// One rounding of a coordinate below 40,000 km, moved to the origin and back: two ulps.
+constexpr double rounding_m = 2.0 * 7.5e-9;
+
+struct Georeferencing {
+  LocatedCity located;
+  Report report;
+
+  [[nodiscard]] std::vector<int> codes() const {
+    std::vector<int> codes;
+    for (const Problem& problem : report.problems()) codes.push_back(static_cast<int>(problem.code));
+    return codes;
+  }
+  [[nodiscard]] std::string detail() const { return report.problems().empty() ? "" : report.problems()[0].detail; }
+  /// Easting, northing and height of the first vertex of a building.
+  [[nodiscard]] Point3d projected(std::size_t building = 0) const {
+    const Point2d origin = located.georeference.origin_m;
+    return located.city.points_of(located.city.buildings()[building])[0] + Point3d{origin.x, origin.y, 0.0};
+  }
+};
+
+Georeferencing run(std::vector<SourceCity> sources, const GeoreferenceSettings& settings = {}) {
+  Georeferencing result;
+  result.located = georeference(std::move(sources), settings, result.report);
+  return result;
+}
+
+Georeferencing run(const std::string& crs, const Point3d& first, double extent, const GeoreferenceSettings& settings = {}) {
+  return run({source_with(crs, first, extent)}, settings);
+}
+
+void expect_near(const Point3d& p, const Point3d& expected, double tolerance_m) {
+  EXPECT_NEAR(p.x, expected.x, tolerance_m);
+  EXPECT_NEAR(p.y, expected.y, tolerance_m);
+  EXPECT_NEAR(p.z, expected.z, tolerance_m);
+}
+
+const Point3d bonn{365000.0, 5621000.0, 60.0};
+
+TEST(AxesSwapped, IsSaidOfLatitudesBeyondThePoles) {
+  const Georeferencing tokyo = run("EPSG:6668", {139.7937, 35.5327, 3.0}, ten_metres_deg);
+  EXPECT_THAT(tokyo.codes(), ElementsAre(202));
+  EXPECT_EQ(tokyo.located.georeference.epsg, 6691);
+  const Problem& problem = tokyo.report.problems()[0];
+  EXPECT_EQ(problem.source, "town.gml");
+  EXPECT_EQ(problem.place, "whole file");
+  EXPECT_EQ(problem.position, (Point3d{139.7937, 35.5327, 3.0})) << "as the file has it";
+  ASSERT_TRUE(problem.lon_lat_deg);
+  EXPECT_NEAR(problem.lon_lat_deg->x, 139.7937, ten_metres_deg);
+}
+
+TEST(AxesSwapped, IsSaidWhereOnlyTheOtherOrderLiesInTheAreaOfUse) {
+  const Georeferencing berlin = run("EPSG:4258", {13.4, 52.5, 3.0}, ten_metres_deg);
+  EXPECT_THAT(berlin.codes(), ElementsAre(202));
+  EXPECT_EQ(berlin.located.georeference.epsg, 25833);
+  EXPECT_THAT(berlin.detail(), HasSubstr("longitude first"));
+}
+
+TEST(AxesSwapped, IsSaidEvenOfReadersThatKnowTheOrder) {
+  SourceCity source = source_with("EPSG:4326", {35.5327, 139.7937, 3.0}, ten_metres_deg);
+  source.crs.longitude_first = true;
+  const Georeferencing tokyo = run({std::move(source)});
+  EXPECT_THAT(tokyo.codes(), ElementsAre(202));
+  EXPECT_EQ(tokyo.located.georeference.epsg, 32654);
+}
+
+TEST(AxesSwapped, IsSaidOfNorthingsFirstWhereEastingsAreDue) {
+  const Georeferencing swapped = run("EPSG:25832", {bonn.y, bonn.x, bonn.z}, 10.0);
+  EXPECT_THAT(swapped.codes(), ElementsAre(202));
+  EXPECT_THAT(swapped.detail(), HasSubstr("northing first"));
+  expect_near(swapped.projected(), bonn, rounding_m);
+}
+
+TEST(AxesSwapped, IsNotSaidOfUsualOrders) {
+  const Point3d stuttgart{3512000.0, 5403000.0, 250.0};
+  EXPECT_THAT(run("EPSG:31467", stuttgart, 10.0).codes(), IsEmpty()) << "easting first, as nearly all files have it";
+  EXPECT_THAT(run("EPSG:31467", {stuttgart.y, stuttgart.x, 250.0}, 10.0).codes(), IsEmpty()) << "as the authority says";
+  EXPECT_THAT(run("EPSG:6697", {35.5327, 139.7937, 3.0}, ten_metres_deg).codes(), IsEmpty());
+  EXPECT_THAT(run("OGC:CRS84", {139.7937, 35.5327, 3.0}, ten_metres_deg).codes(), IsEmpty());
+}
+
+TEST(AxesSwapped, IsNotSaidOfAPlaceJustBeyondTheArea) {
+  const Georeferencing anatolia = run("EPSG:4258", {38.0, 40.9, 900.0}, ten_metres_deg);
+  EXPECT_THAT(anatolia.codes(), IsEmpty()) << "0.7 degrees east of the area; in the other order it would lie within";
+  EXPECT_EQ(anatolia.located.georeference.epsg, 25837);
+}
+
+TEST(ZoneInEasting, IsTakenOff) {
+  const Georeferencing prefixed = run("EPSG:25832", {32e6 + bonn.x, bonn.y, bonn.z}, 10.0);
+  EXPECT_THAT(prefixed.codes(), ElementsAre(206));
+  EXPECT_THAT(prefixed.detail(), AllOf(HasSubstr("32365000"), HasSubstr("365000 is taken")));
+  EXPECT_EQ(prefixed.located.georeference.epsg, 25832);
+  expect_near(prefixed.projected(), bonn, rounding_m);
+  EXPECT_EQ(prefixed.report.problems()[0].position, (Point3d{32e6 + bonn.x, bonn.y, bonn.z})) << "as the file has it";
+  ASSERT_TRUE(prefixed.report.problems()[0].lon_lat_deg);
+  EXPECT_NEAR(prefixed.report.problems()[0].lon_lat_deg->x, 7.1, 0.1) << "Bonn";
+}
+
+TEST(ZoneInEasting, IsTakenOffBehindANorthing) {
+  const Georeferencing both = run("EPSG:25832", {bonn.y, 32e6 + bonn.x, bonn.z}, 10.0);
+  EXPECT_THAT(both.codes(), ElementsAre(202, 206));
+  expect_near(both.projected(), bonn, rounding_m);
+}
+
+TEST(ZoneInEasting, IsNoProblemWhereTheCrsHasIt) {
+  const Georeferencing honest = run("EPSG:4647", {32e6 + bonn.x, bonn.y, bonn.z}, 10.0);
+  EXPECT_THAT(honest.codes(), IsEmpty());
+  expect_near(honest.projected(), {32e6 + bonn.x, bonn.y, bonn.z}, rounding_m);
+  const Georeferencing plain = run("EPSG:25832", bonn, 10.0);
+  // PROJ's is a central difference over 1e-5 radians
+  constexpr double two_ways_rad = 1e-5 * 1e-5;
+  EXPECT_NEAR(honest.located.georeference.convergence.radians(), plain.located.georeference.convergence.radians(), two_ways_rad);
+}
+
+TEST(ZoneInEasting, IsNotThatOfAnotherZone) {
+  EXPECT_THAT(run("EPSG:25833", {32e6 + bonn.x, bonn.y, 0.0}, 10.0).codes(), ElementsAre(205));
+}
+
+TEST(UnlikelyPlace, IsSaidOfASiteThatStaysWhereItIs) {
+  const Point3d first{12.0, 20.0, 3.0};
+  for (const char* crs : {"EPSG:32632", "EPSG:2154", "EPSG:31467", "EPSG:2193", "EPSG:5514"}) {
+    const Georeferencing site = run("", first, 10.0, {crs, ""});
+    EXPECT_THAT(site.codes(), ElementsAre(205)) << crs;
+    EXPECT_THAT(site.detail(), AllOf(HasSubstr("12, 20"), HasSubstr("--origin"))) << crs;
+    expect_near(site.projected(), first, rounding_m);
+  }
+  const Georeferencing in_feet = run("", first, 10.0, {"EPSG:2225", ""});
+  EXPECT_THAT(in_feet.codes(), ElementsAre(205));
+  expect_near(in_feet.projected(), us_survey_foot_m * first, rounding_m);
+}
+
+TEST(UnlikelyPlace, IsNotSaidWhereZeroIsWithinTheCountry) {
+  EXPECT_THAT(run("EPSG:6677", {-35000.0, -7000.0, 3.0}, 10.0).codes(), IsEmpty());
+  EXPECT_THAT(run("EPSG:28991", {1000.0, 500.0, 3.0}, 10.0).codes(), IsEmpty()) << "RD Old counts from Amersfoort";
+}
+
+/// What is said first of a file that lies beyond all maps, and ends the run.
+std::string detail_in_ended_run(const std::string& crs, const Point3d& first, double extent) {
+  Report report;
+  EXPECT_THROW((void)georeference({source_with(crs, first, extent)}, {}, report), InputError);
+  return report.problems().empty() ? "" : report.problems()[0].detail;
+}
+
+TEST(UnlikelyPlace, NamesTheUnitThatExplainsIt) {
+  const Point3d queens_m{312420.625, 52705.512, 3.0}, queens_ft{1025000.0, 172918.0, 10.0};
+  EXPECT_THAT(run("EPSG:32118", queens_ft, 30.0).detail(), AllOf(HasSubstr("US survey feet"), HasSubstr("--crs EPSG:2263")));
+  EXPECT_THAT(run("EPSG:2263", queens_m, 10.0).detail(), AllOf(HasSubstr("in metres"), HasSubstr("--crs EPSG:32118")));
+  EXPECT_THAT(detail_in_ended_run("EPSG:25832", 1e3 * bonn, 10e3), HasSubstr("in millimetres it would lie within"));
+  EXPECT_THAT(detail_in_ended_run("EPSG:25832", 1e2 * bonn, 1e3), HasSubstr("in centimetres it would lie within"));
+  EXPECT_THAT(run("EPSG:25832", {365.0, 5621.0, 0.06}, 0.01).detail(), HasSubstr("in kilometres it would lie within"));
+  EXPECT_THAT(run("EPSG:25832", {900000.0, 100000.0, 0.0}, 10.0).detail(), HasSubstr("is it the right CRS?"));
+}
+
+TEST(UnlikelyPlace, LeavesPlacesJustBeyondAnAreaAlone) {
+  EXPECT_THAT(run("EPSG:25832", {930000.0, 5700000.0, 100.0}, 10.0).codes(), IsEmpty()) << "Saxony in the zone of the west";
+  EXPECT_THAT(run("EPSG:31466", {2735000.0, 5750000.0, 100.0}, 10.0).codes(), IsEmpty())
+      << "the east of a Land that keeps one zone";
+  EXPECT_THAT(run("EPSG:28992", {92461.0, 560000.0, 3.0}, 10.0).codes(), IsEmpty());
+}
+
+TEST(UnlikelyPlace, IsSaidOfBuildingsThatAreTooLarge) {
+  const Georeferencing huge = run("EPSG:25832", bonn, 10e3);
+  EXPECT_THAT(huge.codes(), ElementsAre(205));
+  EXPECT_THAT(huge.detail(), HasSubstr("10000 m wide"));
+  EXPECT_THAT(run("EPSG:25832", bonn, 1.9e3).codes(), IsEmpty());
+}
+
+TEST(UnlikelyPlace, IsSaidOfDegreesToo) {
+  EXPECT_THAT(run("EPSG:4258", {40.7, -74.0, 3.0}, ten_metres_deg).codes(), ElementsAre(205)) << "New York in Europe's degrees";
+}
+
+TEST(GivenCrs, OverrulesWhatEveryFileSays) {
+  const Georeferencing overruled = run("EPSG:25832", bonn, 10.0, {"EPSG:32632", ""});
+  EXPECT_THAT(overruled.codes(), ElementsAre(203));
+  EXPECT_THAT(overruled.detail(), AllOf(HasSubstr("EPSG:25832"), HasSubstr("EPSG:32632")));
+  EXPECT_EQ(overruled.located.georeference.epsg, 32632);
+}
+
+TEST(GivenCrs, IsNotSaidWhereItIsTheFilesOwn) {
+  for (const char* same : {"EPSG:25832", "EPSG:25832+7837", "ETRS89 / UTM zone 32N", "urn:adv:crs:ETRS89_UTM32*DE_DHHN2016_NH"})
+    EXPECT_THAT(run("urn:ogc:def:crs,crs:EPSG::25832,crs:EPSG::5783", bonn, 10.0, {same, ""}).codes(), IsEmpty()) << same;
+}
+
+TEST(GivenCrs, LeavesTheUnitOfHeightsToTheFileUnlessItSaysOne) {
+  const Point3d first_ft{1025000.0, 172918.0, 100.0};
+  const Georeferencing own = run("EPSG:2263+5703", first_ft, 30.0, {"EPSG:2263", ""});
+  EXPECT_THAT(own.codes(), IsEmpty());
+  EXPECT_EQ(own.projected().z, 100.0) << "the file says metres";
+  const Georeferencing given = run("EPSG:2263", first_ft, 30.0, {"EPSG:2263+5703", ""});
+  EXPECT_THAT(given.codes(), ElementsAre(203));
+  EXPECT_EQ(given.projected().z, 100.0) << "--crs says metres";
+}
+
+TEST(GivenCrs, MayTurnTheAxes) {
+  const Georeferencing turned = run("EPSG:4326", {13.4, 52.5, 3.0}, ten_metres_deg, {"OGC:CRS84", ""});
+  EXPECT_THAT(turned.codes(), ElementsAre(203));
+  EXPECT_THAT(turned.detail(), HasSubstr("longitude first"));
+  EXPECT_EQ(turned.located.georeference.epsg, 32633) << "Berlin";
+}
+
+TEST(GivenCrs, StandsInForOneThatNobodyKnows) {
+  const Georeferencing unknown = run("EPSG:669", bonn, 10.0, {"EPSG:25832", ""});
+  EXPECT_THAT(unknown.codes(), ElementsAre(204));
+  EXPECT_THAT(unknown.detail(), AllOf(HasSubstr("\"EPSG:669\""), HasSubstr("EPSG:25832")));
+  EXPECT_EQ(unknown.located.georeference.epsg, 25832);
+}
+
+TEST(GivenCrs, LeavesFilesAloneWhenItIsForOthers) {
+  const Georeferencing mixed =
+      run({source_with("EPSG:32632", bonn, 10.0), source_with("", bonn, 10.0)}, {"EPSG:25832", "EPSG:32632"});
+  EXPECT_THAT(mixed.codes(), IsEmpty());
+  expect_near(mixed.projected(), bonn, rounding_m);
+  EXPECT_THAT(run("EPSG:32632", bonn, 10.0, {"EPSG:25832", "", true}).codes(), IsEmpty()) << "of a raster that says none";
+}
+
+TEST(GivenCrs, MustBeKnownWhereItOverrules) {
+  Report report;
+  EXPECT_THROW((void)georeference({source_with("EPSG:25832", bonn, 10.0)}, {"Germany", ""}, report), InputError);
+}
+
+TEST(GivenCrs, IsInTheReportOfARunThatItEnds) {
+  Report report;
+  std::string message;
+  try {
+    (void)georeference({source_with("EPSG:4326", {50.7, 7.1, 60.0}, ten_metres_deg)}, {"EPSG:25832", ""}, report);
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  EXPECT_THAT(message, AllOf(HasSubstr("look like degrees"), HasSubstr("--crs overrules"), HasSubstr("--out-crs")));
+  EXPECT_EQ(report.count(ProblemCode::crs_overruled), 1u);
+}
+
+}  // namespace
+}  // namespace farlod
