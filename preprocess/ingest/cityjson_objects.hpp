@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "city/source.hpp"
 #include "farlod/point.hpp"
 #include "farlod/surface_kind.hpp"
 #include "ingest/city_writer.hpp"
@@ -48,10 +49,17 @@ struct CityJsonTemplates {
   std::vector<Point3d> vertices;
 };
 
+/// What the objects hold besides buildings.
+struct ObjectAccount {
+  std::vector<Point3d> relief_points;  ///< corners of the triangles of terrain, in its best level of detail
+  PassedOver passed_over;              ///< types of the objects that are not used
+  std::uint64_t template_corners = 0;  ///< written by using templates
+};
+
 /// Writes the buildings among the objects of one vertex list: of a CityJSON file, or of one line of a CityJSONSeq.
-/// Buildings, bridges and other constructions hide the sky, with their parts and outer installations; terrain, plants
-/// and the like are passed over.
-void write_buildings(const std::vector<CityJsonObject>& objects, const std::vector<Point3d>& vertices,
-                     const CityJsonTemplates& templates, LodChoice lod, CityWriter& writer);
+/// Buildings, bridges, tunnels and other constructions hide the sky, with their parts and outer installations. Terrain is ground;
+/// plants, rooms, types of extensions and all else are counted. An object belongs to one building at the most.
+void write_objects(const std::vector<CityJsonObject>& objects, const std::vector<Point3d>& vertices,
+                   const CityJsonTemplates& templates, LodChoice lod, CityWriter& writer, ObjectAccount& account);
 
 }  // namespace farlod

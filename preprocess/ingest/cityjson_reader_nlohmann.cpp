@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <istream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "city/input_error.hpp"
 #include "ingest/city_writer.hpp"
@@ -19,9 +20,17 @@ using nlohmann::json;
 
 constexpr double unreadable = std::numeric_limits<double>::quiet_NaN();
 
+/// No city is nested as deep as this; trees that are cannot be copied or deleted within the stack.
+constexpr std::size_t deepest_nesting = 500;
+
 /// What a JSON text turned out not to be.
 class JsonFlaw : public std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+/// What turned out to be no JSON.
+class SyntaxFlaw : public JsonFlaw {
+  using JsonFlaw::JsonFlaw;
 };
 
 /// nlohmann's messages begin with their own number in brackets.
@@ -54,6 +63,15 @@ std::vector<SurfaceKind> kinds_from(const json& geometry) {
   if (semantics == geometry.end() || !semantics->contains("surfaces")) return kinds;
   for (const json& surface : semantics->at("surfaces")) kinds.push_back(kind_of_surface_name(surface.value("type", "")));
   return kinds;
+}
+
+/// Numbers of semantics, nested like the boundaries; null when there are none.
+const json& semantic_values_of(const json& geometry) {
+  static const json nothing;
+  const auto semantics = geometry.find("semantics");
+  if (semantics == geometry.end() || !semantics->is_object()) return nothing;
+  const auto values = semantics->find("values");
+  return values == semantics->end() ? nothing : *values;
 }
 
 /// nlohmann would cut off a fraction, and has no answer for what no integer can hold.
@@ -94,8 +112,7 @@ CityJsonGeometry geometry_from(const json& j) {
     geometry.instance = {static_cast<std::size_t>(whole_number_from(j.at("template"))),
                          j.at("transformationMatrix").get<std::array<double, 16>>(), whole_number_from(j.at("boundaries").at(0))};
   } else if (const std::optional<int> nesting = nesting_of(geometry.type)) {
-    const json values = j.contains("semantics") ? j.at("semantics").value("values", json()) : json();
-    add_polygons(j.at("boundaries"), values, *nesting, kinds_from(j), geometry.polygons);
+    add_polygons(j.at("boundaries"), semantic_values_of(j), *nesting, kinds_from(j), geometry.polygons);
   }
   return geometry;
 }
@@ -119,6 +136,28 @@ CityJsonObject object_from(std::string id, const json& j) {
   return object;
 }
 
+/// A reference system as the versions of CityJSON and its forerunners write it: a URL, a URN, "EPSG:n" or n alone, {"epsg": n},
+/// or a name in GeoJSON's way. Empty when it is none of these.
+std::string crs_definition_of(const json& crs) {
+  if (crs.is_string()) return crs.get<std::string>();
+  if (crs.is_number_unsigned()) return "EPSG:" + std::to_string(crs.get<std::uint64_t>());
+  if (!crs.is_object()) return {};
+  if (const auto code = crs.find("epsg"); code != crs.end()) return crs_definition_of(*code);
+  const auto properties = crs.find("properties");
+  if (properties == crs.end() || !properties->is_object() || !properties->contains("name")) return {};
+  return crs_definition_of(properties->at("name"));
+}
+
+std::string reference_system_of(const json& file) {
+  const json none = json::object();
+  const auto metadata = file.find("metadata");
+  for (const json* holder : {metadata != file.end() && metadata->is_object() ? &*metadata : &none, &file})
+    for (const char* key : {"referenceSystem", "crs"})
+      if (const auto crs = holder->find(key); crs != holder->end())
+        if (std::string definition = crs_definition_of(*crs); !definition.empty()) return definition;
+  return {};
+}
+
 /// One JSON text of CityJSON: a file, or a line of a sequence. Vertices are still whole numbers where the file says so.
 struct CityJsonText {
   std::vector<CityJsonObject> objects;
@@ -132,9 +171,9 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
  public:
   bool null() override { return take(json()); }
   bool boolean(bool value) override { return take(json(value)); }
-  bool number_integer(number_integer_t value) override { return take_number(static_cast<double>(value), json(value)); }
-  bool number_unsigned(number_unsigned_t value) override { return take_number(static_cast<double>(value), json(value)); }
-  bool number_float(number_float_t value, const string_t&) override { return take_number(value, json(value)); }
+  bool number_integer(number_integer_t value) override { return take_number(value); }
+  bool number_unsigned(number_unsigned_t value) override { return take_number(value); }
+  bool number_float(number_float_t value, const string_t&) override { return take_number(value); }
   bool string(string_t& value) override { return take(json(std::move(value))); }
   bool binary(binary_t&) override { return true; }
 
@@ -143,26 +182,36 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
   bool start_array(std::size_t) override { return open(json::array()); }
   bool end_array() override { return close(); }
   bool key(string_t& name) override {
-    if (depth_ == 1) member_ = name;
+    if (depth_ == 1) begin_member(name);
     if (depth_ == 2 && stack_.empty()) object_ = name;
     key_ = std::move(name);
     return true;
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& flaw) override {
-    flaw_ = plain(flaw.what());
-    return false;
+    is_json_ = false;
+    return fail(plain(flaw.what()));
   }
 
   [[nodiscard]] const std::string& flaw() const { return flaw_; }
+  [[nodiscard]] bool is_json() const { return is_json_; }
   [[nodiscard]] CityJsonText text() { return std::move(text_); }
 
  private:
-  bool in_vertices() const { return depth_ >= 2 && member_ == "vertices"; }
-  bool among_objects() const { return depth_ == 2 && member_ == "CityObjects"; }
+  /// Of the outermost object.
+  enum class Member { vertices, objects, other };
 
-  bool take_number(double value, json tree) {
-    if (!in_vertices()) return take(std::move(tree));
-    vertex_.push_back(value);
+  bool in_vertices() const { return depth_ >= 2 && kind_ == Member::vertices; }
+  bool among_objects() const { return depth_ == 2 && kind_ == Member::objects; }
+
+  void begin_member(const std::string& name) {
+    member_ = name;
+    kind_ = name == "vertices" ? Member::vertices : name == "CityObjects" ? Member::objects : Member::other;
+  }
+
+  template <class Number>
+  bool take_number(Number value) {
+    if (!in_vertices()) return take(json(value));
+    vertex_.push_back(static_cast<double>(value));
     return true;
   }
 
@@ -179,7 +228,8 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
 
   bool open(json container) {
     if (depth_ == 0 && !container.is_object()) return fail("it is no JSON object");
-    const bool is_ours = depth_ == 0 || in_vertices() || (depth_ == 1 && (member_ == "vertices" || member_ == "CityObjects"));
+    if (depth_ == deepest_nesting) return fail("it is nested deeper than any city");
+    const bool is_ours = depth_ == 0 || in_vertices() || (depth_ == 1 && kind_ != Member::other);
     ++depth_;
     if (in_vertices() && depth_ == 3) vertex_.clear();
     if (is_ours) return true;
@@ -216,87 +266,56 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
                                       : Point3d{unreadable, unreadable, unreadable});
   }
 
-  bool fail(const char* what) {
-    flaw_ = what;
+  bool fail(std::string what) {
+    flaw_ = std::move(what);
     return false;
   }
 
   CityJsonText text_;
   std::string member_, object_, key_, flaw_;
+  Member kind_ = Member::other;
+  bool is_json_ = true;
   std::size_t depth_ = 0;
   std::vector<double> vertex_;
   json tree_;
   std::vector<json*> stack_;
 };
 
-/// Stops at the member "type" of the outermost object.
-class TypeFinder : public nlohmann::json_sax<json> {
- public:
-  bool string(string_t& value) override {
-    if (depth_ == 1 && is_type_) type = value;
-    return goes_on();
-  }
-  bool start_object(std::size_t) override { return ++depth_ > 0; }
-  bool end_object() override { return --depth_ > 0; }
-  bool start_array(std::size_t) override { return ++depth_ > 1; }  // an outermost list has no type
-  bool end_array() override { return --depth_ > 0; }
-  bool key(string_t& name) override {
-    is_type_ = name == "type";
-    return true;
-  }
-  bool null() override { return goes_on(); }
-  bool boolean(bool) override { return goes_on(); }
-  bool number_integer(number_integer_t) override { return goes_on(); }
-  bool number_unsigned(number_unsigned_t) override { return goes_on(); }
-  bool number_float(number_float_t, const string_t&) override { return goes_on(); }
-  bool binary(binary_t&) override { return goes_on(); }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& reason) override {
-    flaw = plain(reason.what());
-    return false;
-  }
-
-  std::string type, flaw;
-
- private:
-  bool goes_on() const { return depth_ > 0 && type.empty(); }
-
-  int depth_ = 0;
-  bool is_type_ = false;
-};
+/// ", but 15 SolitaryVegetationObject": what there is instead.
+std::string said(const PassedOver& passed_over) {
+  std::string text;
+  for (const auto& [type, count] : passed_over) text += (text.empty() ? ", but " : ", ") + std::to_string(count) + " " + type;
+  return text;
+}
 
 class CityJsonFile {
  public:
-  CityJsonFile(const std::filesystem::path& file, LodChoice lod, CityWriter& writer) : file_(file), lod_(lod), writer_(writer) {}
+  CityJsonFile(const InputFile& file, LodChoice lod, CityWriter& writer) : file_(file), lod_(lod), writer_(writer) {}
 
   /// The first text says where the city lies; in a sequence the features follow, one a line.
   void read() {
-    std::ifstream stream(file_, std::ios::binary);
+    const std::unique_ptr<std::istream> stream = open_input(file_);
+    take_header(parse(*stream));
+    *stream >> std::ws;
+    if (stream->peek() == std::istream::traits_type::eof()) return;
+    if (stream->peek() != '{') throw SyntaxFlaw("there is more text behind its end");
     std::string line;
-    std::getline(stream, line);
-    const bool is_sequence = has_another_line(stream) && json::accept(line);
-    if (!is_sequence) {
-      stream.clear();
-      stream.seekg(0);
-      return take_header(parse(stream));
-    }
-    take_header(parse(line));
-    for (number_ = 2; std::getline(stream, line); ++number_)
+    for (number_ = 2; std::getline(*stream, line); ++number_)
       if (line.find_first_not_of(" \t\r") != line.npos) take_feature(line);
   }
 
   std::string reference_system;
+  ObjectAccount account;
 
  private:
-  static bool has_another_line(std::ifstream& stream) {
-    stream >> std::ws;
-    return stream.good() && stream.peek() == '{';
-  }
-
+  /// Of a stream the first text only: where it ends, the stream stands.
   template <class Text>
   CityJsonText parse(Text&& text) {
+    constexpr bool is_stream = std::is_base_of_v<std::istream, std::remove_cvref_t<Text>>;
     CityJsonCollector collector;
-    if (!json::sax_parse(text, &collector)) throw JsonFlaw(collector.flaw());
-    return collector.text();
+    if (json::sax_parse(text, &collector, json::input_format_t::json, !is_stream)) return collector.text();
+    if (collector.is_json()) throw JsonFlaw(collector.flaw());
+    throw SyntaxFlaw(collector.flaw());
   }
 
   void take_header(CityJsonText text) {
@@ -305,8 +324,7 @@ class CityJsonFile {
       scale_ = text.rest.at("transform").at("scale").get<std::array<double, 3>>();
       translate_ = text.rest.at("transform").at("translate").get<std::array<double, 3>>();
     }
-    if (text.rest.contains("metadata") && text.rest.at("metadata").contains("referenceSystem"))
-      reference_system = text.rest.at("metadata").at("referenceSystem").get<std::string>();
+    reference_system = reference_system_of(text.rest);
     if (text.rest.contains("geometry-templates")) take_templates(text.rest.at("geometry-templates"));
     write(text);
   }
@@ -331,10 +349,10 @@ class CityJsonFile {
   void write(CityJsonText& text) {
     for (Point3d& p : text.vertices)
       p = {p.x * scale_[0] + translate_[0], p.y * scale_[1] + translate_[1], p.z * scale_[2] + translate_[2]};
-    write_buildings(text.objects, text.vertices, templates_, lod_, writer_);
+    write_objects(text.objects, text.vertices, templates_, lod_, writer_, account);
   }
 
-  const std::filesystem::path& file_;
+  const InputFile& file_;
   LodChoice lod_;
   CityWriter& writer_;
   std::size_t number_ = 1;
@@ -344,27 +362,26 @@ class CityJsonFile {
 
 }  // namespace
 
-bool is_cityjson(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  TypeFinder finder;
-  json::sax_parse(stream, &finder, json::input_format_t::json, false);
-  if (!finder.flaw.empty()) throw InputError(file.string() + " is not JSON: " + finder.flaw + ".");
-  return finder.type == "CityJSON";
-}
-
-SourceCity read_cityjson(const std::filesystem::path& file, LodChoice lod, Report& report) {
-  CityWriter writer(file.string(), report);
+SourceCity read_cityjson(const InputFile& file, LodChoice lod, Report& report) {
+  CityWriter writer(file.name, report);
   CityJsonFile reader(file, lod, writer);
   try {
     reader.read();
+  } catch (const SyntaxFlaw& flaw) {
+    throw InputError(file.name + " is not JSON: " + flaw.what() + ". Was it cut short? The validator cjval tells more.");
   } catch (const JsonFlaw& flaw) {
-    throw InputError(file.string() + " is not CityJSON: " + flaw.what() + ". The validator cjval tells more.");
+    throw InputError(file.name + " is not CityJSON: " + flaw.what() + ". The validator cjval tells more.");
   } catch (const json::exception& flaw) {
-    throw InputError(file.string() + " is not CityJSON: " + plain(flaw.what()) + ". The validator cjval tells more.");
+    throw InputError(file.name + " is not CityJSON: " + plain(flaw.what()) + ". The validator cjval tells more.");
   }
-  if (writer.buildings_met() == 0)
-    throw InputError(file.string() + " holds no Building, Bridge or OtherConstruction. Is it another theme of the city model?");
-  return {file.string(), {reader.reference_system, false, false}, writer.take_city()};
+  if (writer.buildings_met() == 0 && reader.account.relief_points.empty())
+    throw InputError(file.name + " holds no Building, Bridge, Tunnel, OtherConstruction or TINRelief" +
+                     said(reader.account.passed_over) + ". Is it another theme of the city model?");
+  return {.source = file.name,
+          .crs = {reader.reference_system, false, false},
+          .city = writer.take_city(),
+          .relief_points = std::move(reader.account.relief_points),
+          .passed_over = std::move(reader.account.passed_over)};
 }
 
 }  // namespace farlod

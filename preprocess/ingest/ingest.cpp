@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ingest/ingest.hpp"
 
-#include <algorithm>
-#include <cctype>
-#include <fstream>
-#include <sstream>
-
 #include "city/input_error.hpp"
 #include "ingest/citygml_reader.hpp"
 #include "ingest/cityjson_reader.hpp"
+#include "ingest/file_format.hpp"
 #include "ingest/footprint_reader.hpp"
+#include "ingest/obj_placement.hpp"
 #include "ingest/obj_reader.hpp"
 
 namespace farlod {
@@ -18,76 +15,113 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Format { citygml, cityjson, obj, footprints };
-
-std::string lower_case_name(const fs::path& file) {
-  std::string name = file.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name;
-}
-
-Format format_of(const fs::path& file) {
-  const std::string name = lower_case_name(file);
-  for (const char* ending : {".gml", ".xml", ".citygml"})
-    if (name.ends_with(ending)) return Format::citygml;
-  for (const char* ending : {".city.json", ".cityjson", ".jsonl"})
-    if (name.ends_with(ending)) return Format::cityjson;
-  if (name.ends_with(".obj")) return Format::obj;
-  return name.ends_with(".json") && is_cityjson(file) ? Format::cityjson : Format::footprints;
-}
-
-void require_content(const fs::path& file) {
+bool is_folder(const InputFile& file) {
   std::error_code error;
-  if (!fs::exists(file, error)) throw InputError(file.string() + " does not exist. Check the path.");
-  if (fs::is_directory(file, error)) return;  // some of GDAL's formats are folders
-  const std::uintmax_t bytes = fs::file_size(file, error);
-  if (error || !std::ifstream(file)) throw InputError(file.string() + " cannot be opened. Check its permissions.");
-  if (bytes == 0) throw InputError(file.string() + " is empty: 0 bytes. Was the download cut short?");
+  return !file.is_packed() && fs::is_directory(file.path, error);
 }
 
-/// A mesh has no place for its reference system; by custom a file beside it tells.
-std::string crs_beside(fs::path file) {
-  std::ifstream stream(file.replace_extension(".prj"));
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return std::move(text).str();
+/// Some of GDAL's formats are folders.
+bool is_empty(const InputFile& file) {
+  if (file.declared_bytes) return *file.declared_bytes == 0;
+  return !is_folder(file) && read_beginning(file, 1).empty();
 }
 
-SourceCity ingest_obj(const fs::path& file, const IngestSettings& settings, Report& report) {
-  CityWriter writer(file.string(), report);
-  read_obj(file, settings, writer);
+void require_content(const InputFile& file) {
+  std::error_code error;
+  if (!fs::exists(file.on_disk, error)) throw InputError(file.name + " does not exist. Check the path.");
+  if (is_empty(file)) throw InputError(file.name + " is empty: 0 bytes. Was the download cut short?");
+}
+
+FileFormat format_of(const InputFile& file, Report& report) {
+  const FileFormat format = format_by_content(file);
+  if (format == FileFormat::unknown) return format_by_name(file);
+  const std::string name = file.unpacked_name();
+  if (!name_allows(name, format))
+    report.add({ProblemCode::another_format, file.name, "the whole file",
+                "it is named " + name + ", but is " + std::string(name_of(format)) + ", and is read as that"});
+  return format;
+}
+
+SourceCity ingest_obj(const InputFile& file, const IngestSettings& settings, Report& report) {
+  const ObjPlacement placement = find_obj_placement(file);
+  const Point3d origin = settings.obj_origin ? *settings.obj_origin : placement.origin.value_or(Point3d{});
+  CityWriter writer(file.name, report);
+  read_obj(file, {origin, settings.up}, writer);
   // Meshes are drawn with x to the east, whatever order of axes an authority gives to the system
-  return {file.string(), {crs_beside(file), true, false}, writer.take_city()};
+  return {.source = file.name,
+          .crs = {placement.crs, true, false},
+          .city = writer.take_city(),
+          .notes = notes_of(placement, file, settings.obj_origin.has_value())};
 }
 
-SourceCity read(const fs::path& file, const IngestSettings& settings, Report& report) {
-  switch (format_of(file)) {
-    case Format::citygml:
+/// GDAL unpacks as much as there is: an archive that unpacks without an end has to be known before.
+void require_city_size(const InputFile& file) {
+  if (!file.is_packed()) return;
+  const std::unique_ptr<std::istream> stream = open_input(file);
+  while (stream->ignore(std::streamsize{1} << 20))
+    if (stream->eof()) break;
+}
+
+SourceCity read(const InputFile& file, const IngestSettings& settings, Report& report) {
+  switch (format_of(file, report)) {
+    case FileFormat::citygml:
       return read_citygml(file, settings.lod, report);
-    case Format::cityjson:
+    case FileFormat::cityjson:
       return read_cityjson(file, settings.lod, report);
-    case Format::obj:
+    case FileFormat::obj:
       return ingest_obj(file, settings, report);
-    case Format::footprints:
+    case FileFormat::archive:
+      throw InputError(file.name + " is an archive within an archive, or of a kind that is not opened: unpack it first.");
+    case FileFormat::raster:
+      throw InputError(file.name + " is a raster among other files: give it with --terrain.");
+    case FileFormat::features:
+    case FileFormat::unknown:
       break;
   }
+  require_city_size(file);
   return read_footprints(file, settings, report);
+}
+
+/// Of several files one that cannot be used costs itself only.
+void ingest_among_others(const InputFile& file, const IngestSettings& settings, Report& report, std::vector<SourceCity>& cities) {
+  try {
+    if (is_empty(file))
+      report.add({ProblemCode::empty_file, file.name, "the whole file", "0 bytes: was the download cut short?"});
+    else
+      cities.push_back(ingest(file, settings, report));
+  } catch (const InputError& error) {
+    report.add({ProblemCode::unusable_file, file.name, "the whole file", error.what()});
+  }
 }
 
 }  // namespace
 
-SourceCity ingest(const fs::path& file, const IngestSettings& settings, Report& report) {
+SourceCity ingest(const InputFile& file, const IngestSettings& settings, Report& report) {
   require_content(file);
   const std::size_t known = report.problems().size();
   SourceCity city = read(file, settings, report);
-  if (city.city.buildings().empty()) {
+  if (city.city.buildings().empty() && city.relief_points.empty()) {
     const auto& problems = report.problems();
     const std::string reason =
         problems.size() > known ? " The first problem: " + problems[known].place + ": " + problems[known].detail + "." : "";
-    throw InputError(file.string() + " holds no usable building; " + std::to_string(problems.size() - known) +
+    throw InputError(file.name + " holds no usable building; " + std::to_string(problems.size() - known) +
                      " problems are in the report." + reason);
   }
   return city;
+}
+
+std::vector<SourceCity> ingest_all(std::span<const InputFile> files, const IngestSettings& settings, Report& report) {
+  std::vector<SourceCity> cities;
+  if (files.size() == 1) {
+    cities.push_back(ingest(files.front(), settings, report));
+    return cities;
+  }
+  const std::size_t known = report.problems().size();
+  for (const InputFile& file : files) ingest_among_others(file, settings, report, cities);
+  if (cities.empty() && !files.empty())
+    throw InputError("none of the " + std::to_string(files.size()) + " files can be used. The first problem: " +
+                     report.problems()[known].source + ": " + report.problems()[known].detail);
+  return cities;
 }
 
 }  // namespace farlod

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "city/source.hpp"
 #include "farlod/point.hpp"
 #include "farlod/problem.hpp"
+#include "ingest/input_file.hpp"
 #include "ingest/lod_choice.hpp"
 
 namespace farlod {
@@ -17,20 +19,29 @@ namespace farlod {
 enum class UpAxis { z, y };
 
 struct IngestSettings {
-  std::optional<std::string> height_field;  ///< attribute of footprints: height above the base
-  std::optional<std::string> base_field;    ///< attribute of footprints: elevation of the base, metres
-  std::optional<double> default_height_m;   ///< of footprints without a height of their own
-  LodChoice lod;                            ///< CityGML and CityJSON
-  Point3d obj_origin;                       ///< added to the coordinates of an OBJ file, after turning it upright
-  UpAxis up = UpAxis::z;                    ///< OBJ
+  std::optional<std::string> height_field;        ///< attribute of footprints: height above the base
+  std::optional<std::string> base_field;          ///< attribute of footprints: elevation of the base
+  std::optional<std::string> storeys_field = {};  ///< attribute of footprints: number of storeys
+  double floor_height_m = 3.0;                    ///< of a storey, for footprints that only say how many they have
+  std::optional<std::string> roof_field = {};     ///< attribute of footprints: elevation of the roof
+  std::optional<double> default_height_m;         ///< of footprints without a height of their own
+  LodChoice lod;                                  ///< CityGML and CityJSON
+  std::optional<Point3d> obj_origin;              ///< added to the coordinates of OBJ files, after turning them upright
+  UpAxis up = UpAxis::z;                          ///< OBJ
 };
 
-/// Reads one file of buildings: CityGML, CityJSON, OBJ, or footprints in any format that GDAL knows. For every file:
+/// Reads one file of a city: CityGML, CityJSON, OBJ, or footprints in any format that GDAL knows. For every file:
 ///   (1) coordinates are handed on as the file has them, in its own axis order;
 ///   (2) a building comes in one level of detail, and each of its polygons once;
 ///   (3) rings have at least three different points, no vertex twice in a row, and only finite coordinates;
-///   (4) what is left out or repaired is in the report.
-/// Throws InputError when the file as a whole cannot be used, or when no building is left.
-[[nodiscard]] SourceCity ingest(const std::filesystem::path& file, const IngestSettings& settings, Report& report);
+///   (4) what is left out or repaired is in the report;
+///   (5) its content says what format it is, and its name only what it was meant to be where the content does not tell.
+/// Throws InputError when the file as a whole cannot be used, or when neither a building nor a point of a relief is left.
+[[nodiscard]] SourceCity ingest(const InputFile& file, const IngestSettings& settings, Report& report);
+
+/// Reads the files of a city one by one. Of several files one that is empty, or that cannot be used as a whole, is in the report
+/// and left out. Throws InputError when none is left; a single file is `ingest`'s.
+[[nodiscard]] std::vector<SourceCity> ingest_all(std::span<const InputFile> files, const IngestSettings& settings,
+                                                 Report& report);
 
 }  // namespace farlod

@@ -10,7 +10,7 @@
 namespace farlod {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\v\f";
+constexpr std::string_view blanks = " \t\r\v\f", byte_order_mark = "\xEF\xBB\xBF";
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(blanks);
@@ -35,6 +35,7 @@ double coordinate_from(std::string_view word) {
 class ObjScanner {
  public:
   ObjMesh scan(std::string_view text) {
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
     while (!text.empty()) {
       const std::size_t end = std::min(text.find('\n'), text.size());
       take_line(text.substr(0, end));

@@ -3,9 +3,7 @@
 #include "ingest/obj_reader.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <numeric>
-#include <sstream>
 
 #include "city/input_error.hpp"
 #include "ingest/disjoint_sets.hpp"
@@ -21,13 +19,6 @@ struct FacesByBuilding {
   std::vector<std::size_t> begin;  ///< of each building in `faces`, and one past the last
   std::vector<std::string> ids;
 };
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return std::move(text).str();
-}
 
 bool is_in_range(const ObjMesh& mesh, std::int64_t corner) {
   return corner >= 0 && corner < static_cast<std::int64_t>(mesh.vertices.size());
@@ -87,8 +78,7 @@ FacesByBuilding group_faces(const ObjMesh& mesh) {
 
 class ObjBuildings {
  public:
-  ObjBuildings(const ObjMesh& mesh, const IngestSettings& settings, CityWriter& writer)
-      : mesh_(mesh), settings_(settings), writer_(writer) {}
+  ObjBuildings(const ObjMesh& mesh, const ObjFrame& frame, CityWriter& writer) : mesh_(mesh), frame_(frame), writer_(writer) {}
 
   void write(const std::string& id, std::span<const std::uint32_t> faces) {
     writer_.begin_building(id);
@@ -111,9 +101,10 @@ class ObjBuildings {
       const ObjFace& face = mesh_.faces[f];
       const auto numbers = std::span(mesh_.corners).subspan(face.first_corner, face.corner_count);
       if (!std::all_of(numbers.begin(), numbers.end(), [&](std::int64_t corner) { return is_in_range(mesh_, corner); })) {
-        writer_.add_problem(ProblemCode::vertex_index_out_of_range, "the face of line " + std::to_string(face.line) +
-                                                                        " names a vertex that is not among the " +
-                                                                        std::to_string(mesh_.vertices.size()) + " of the file");
+        writer_.add_problem(ProblemCode::vertex_index_out_of_range,
+                            "the face of line " + std::to_string(face.line) + " names a vertex that is not among the " +
+                                std::to_string(mesh_.vertices.size()) + " of the file",
+                            {}, "polygon of line " + std::to_string(face.line) + ", ring 0 (outer)");
         continue;
       }
       for (const std::int64_t corner : numbers)
@@ -123,12 +114,10 @@ class ObjBuildings {
     }
   }
 
-  Point3d placed(const Point3d& p) const {
-    return settings_.obj_origin + (settings_.up == UpAxis::y ? Point3d{p.x, -p.z, p.y} : p);
-  }
+  Point3d placed(const Point3d& p) const { return frame_.origin + (frame_.up == UpAxis::y ? Point3d{p.x, -p.z, p.y} : p); }
 
   const ObjMesh& mesh_;
-  const IngestSettings& settings_;
+  const ObjFrame frame_;
   CityWriter& writer_;
   FaceCorners corners_;
   std::vector<std::uint32_t> kept_;
@@ -147,14 +136,14 @@ void report_unread(const ObjMesh& mesh, CityWriter& writer) {
 
 }  // namespace
 
-void read_obj(const std::filesystem::path& file, const IngestSettings& settings, CityWriter& writer) {
-  const ObjMesh mesh = scan_obj(text_of(file));
+void read_obj(const InputFile& file, const ObjFrame& frame, CityWriter& writer) {
+  const ObjMesh mesh = scan_obj(read_whole(file));
   report_unread(mesh, writer);
   if (mesh.faces.empty())
-    throw InputError(file.string() + " holds " + std::to_string(mesh.vertices.size()) +
+    throw InputError(file.name + " holds " + std::to_string(mesh.vertices.size()) +
                      " vertices and no face: it is not an OBJ file, or it is a point cloud. Export it as a polygon mesh.");
   const FacesByBuilding sorted = group_faces(mesh);
-  ObjBuildings buildings(mesh, settings, writer);
+  ObjBuildings buildings(mesh, frame, writer);
   for (std::size_t b = 0; b < sorted.ids.size(); ++b)
     buildings.write(sorted.ids[b], std::span(sorted.faces).subspan(sorted.begin[b], sorted.begin[b + 1] - sorted.begin[b]));
 }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include "city/input_error.hpp"
 #include "reading.hpp"
 
 namespace farlod::test {
@@ -81,11 +82,94 @@ TEST(CityJson, BuildingsKeepTheOrderOfTheFileAndEqualIdsSurvive) {
   EXPECT_EQ(r.codes(), std::set<int>{106});
 }
 
-TEST(CityJson, OtherThemesAreNotBuildings) {
-  const std::string objects = building(surface("2", "[[[0,1,2]]]")) + R"(,"t":{"type":"TINRelief","geometry":[)" +
-                              surface("1", "[[[0,1,2]]]") + R"(]},"bridge":{"type":"Bridge","geometry":[)" +
-                              surface("2", "[[[0,1,4]]]") + "]}";
-  EXPECT_EQ(read_text("a.city.json", file_of(objects)).city().buildings().size(), 2u);
+TEST(CityJson, OtherThemesAreCounted) {
+  std::string objects = building(surface("2", "[[[0,1,2]]]"));
+  for (const char* object : {R"("v1":{"type":"SolitaryVegetationObject"})", R"("v2":{"type":"SolitaryVegetationObject"})",
+                             R"("w":{"type":"WaterBody"})", R"("n":{"type":"+NoiseWall"})", R"("r":{"type":"BuildingRoom"})"})
+    objects += std::string(",") + object;
+  const Reading r = read_text("a.city.json", file_of(objects));
+  EXPECT_EQ(r.city().buildings().size(), 1u);
+  EXPECT_EQ(r.source.passed_over,
+            (PassedOver{{"+NoiseWall", 1}, {"BuildingRoom", 1}, {"SolitaryVegetationObject", 2}, {"WaterBody", 1}}));
+  EXPECT_TRUE(r.codes().empty());
+}
+
+TEST(CityJson, BridgesTunnelsAndWallsHideTheSkyToo) {
+  const std::string geometry = R"(,"geometry":[)" + surface("2", "[[[0,1,4]]]") + "]}";
+  const std::string objects = R"("b":{"type":"Bridge","children":["d"])" + geometry + R"(,"d":{"type":"BridgePart")" + geometry +
+                              R"(,"t":{"type":"Tunnel","children":["p"])" + geometry + R"(,"p":{"type":"TunnelInstallation")" +
+                              geometry + R"(,"w":{"type":"OtherConstruction")" + geometry;
+  const Reading r = read_text("a.city.json", file_of(objects));
+  ASSERT_EQ(r.city().buildings().size(), 3u);
+  EXPECT_EQ(r.city().buildings()[0].id, "b");
+  EXPECT_EQ(r.city().buildings()[1].id, "t");
+  EXPECT_EQ(r.city().buildings()[2].id, "w");
+  EXPECT_TRUE(r.source.passed_over.empty());
+}
+
+TEST(CityJson, ABridgeMayConsistOfItsElements) {
+  const std::string element = R"("e":{"type":"BridgeConstructiveElement","geometry":[)" + surface("2", "[[[0,1,4]]]") + "]}";
+  const Reading r = read_text("a.city.json", file_of(R"("b":{"type":"Bridge","children":["e"]},)" + element));
+  ASSERT_EQ(r.city().buildings().size(), 1u);
+  EXPECT_EQ(r.city().facets()[0].part, 0);
+  // Beside a deck of a coarser level they follow it
+  const std::string deck = R"("b":{"type":"Bridge","children":["e"],"geometry":[)" + surface("1", "[[[0,1,2]]]") + "]},";
+  EXPECT_EQ(read_text("b.city.json", file_of(deck + element)).city().facets().size(), 1u);
+}
+
+TEST(CityJson, ReliefIsGroundOfTheBestLevel) {
+  const std::string relief =
+      R"("t":{"type":"TINRelief","geometry":[{"type":"CompositeSurface","lod":"1","boundaries":[[[0,1,4]]]},)"
+      R"({"type":"CompositeSurface","lod":"2","boundaries":[[[0,1,2]],[[0,2,3]]]}]})";
+  for (const std::string& objects : {relief, building(surface("2", "[[[0,1,4]]]")) + "," + relief}) {
+    const Reading r = read_text("a.city.json", file_of(objects));
+    EXPECT_EQ(r.source.relief_points, (std::vector<Point3d>{{10, 20, 30}, {11, 20, 30}, {11, 21, 30}, {10, 21, 30}}));
+    EXPECT_EQ(r.city().buildings().size(), objects == relief ? 0u : 1u);
+    EXPECT_TRUE(r.codes().empty());
+  }
+}
+
+TEST(CityJson, ReliefWithCornersThatAreNoneIsReported) {
+  const std::string relief =
+      R"("t":{"type":"TINRelief","geometry":[{"type":"CompositeSurface","lod":"1","boundaries":[[[0,1,9]],[[0,-1,2]]]}]})";
+  const Reading r = read_text("a.city.json", file_of(relief));
+  EXPECT_EQ(r.source.relief_points.size(), 3u);
+  EXPECT_EQ(r.codes(), std::set<int>{110});
+}
+
+TEST(CityJson, EachVersionSaysItsReferenceSystemInItsOwnWay) {
+  const std::string rest = R"("CityObjects":{)" + building(surface("2", "[[[0,1,2]]]")) + "}," + vertices + "}";
+  const std::vector<std::pair<std::string, std::string>> ways{
+      {R"("metadata":{"referenceSystem":"https://www.opengis.net/def/crs/EPSG/0/7415"})",
+       "https://www.opengis.net/def/crs/EPSG/0/7415"},
+      {R"("metadata":{"referenceSystem":"urn:ogc:def:crs:EPSG::7415"})", "urn:ogc:def:crs:EPSG::7415"},
+      {R"("metadata":{"referenceSystem":7415})", "EPSG:7415"},
+      {R"("metadata":{"crs":{"epsg":7415}})", "EPSG:7415"},
+      {R"("crs":{"epsg":7415})", "EPSG:7415"},
+      {R"("crs":{"type":"name","properties":{"name":"EPSG:7415"}})", "EPSG:7415"},
+      {R"("metadata":{"referenceSystem":null,"crs":"EPSG:7415"})", "EPSG:7415"},
+      {R"("metadata":{"referenceSystem":[1]})", ""},
+      {R"("metadata":7)", ""}};
+  for (const auto& [way, definition] : ways)
+    EXPECT_EQ(read_text("a.city.json", R"({"type":"CityJSON",)" + way + "," + rest).source.crs.definition, definition) << way;
+}
+
+TEST(CityJson, CirclesOfParentsAreNotLost) {
+  const std::string geometry = R"("geometry":[)" + surface("2", "[[[0,1,4]]]") + "]}";
+  const std::string objects =
+      R"("a":{"type":"BuildingPart","parents":["b"],)" + geometry + R"(,"b":{"type":"BuildingPart","parents":["a"],)" + geometry;
+  const Reading r = read_text("a.city.json", file_of(objects));
+  ASSERT_EQ(r.city().buildings().size(), 1u);
+  EXPECT_EQ(r.city().buildings()[0].id, "a");
+}
+
+TEST(CityJson, APartBelongsToOneBuilding) {
+  const std::string shared = R"("p":{"type":"BuildingPart","geometry":[)" + surface("2", "[[[0,1,4]]]") + "]}";
+  const std::string own = R"("geometry":[)" + surface("2", "[[[0,1,2]]]") + "]}";
+  const Reading r = read_text("a.city.json", file_of(R"("a":{"type":"Building","children":["p"],)" + own +
+                                                     R"(,"b":{"type":"Building","children":["p"],)" + own + "," + shared));
+  ASSERT_EQ(r.city().buildings().size(), 2u);
+  EXPECT_EQ(r.city().facets().size(), 3u);
 }
 
 TEST(CityJson, TheTypeMayComeLastAndTheEndingBeJson) {
@@ -102,6 +186,14 @@ TEST(CityJson, ASequenceIsReadLineByLine) {
   EXPECT_EQ(r.city().buildings().size(), 1u);
   EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[1], (Point3d{11, 20, 30}));
   EXPECT_EQ(r.codes(), std::set<int>{113});
+}
+
+TEST(CityJson, ASequenceMayBeginWithAnIndentedText) {
+  const std::string feature =
+      R"({"type":"CityJSONFeature","id":"b","CityObjects":{)" + building(surface("2", "[[[0,1,2]]]")) + "}," + vertices + "}";
+  const Reading r =
+      read_text("a.jsonl", "{\n \"type\": \"CityJSON\",\n \"CityObjects\": {},\n \"vertices\": []\n}\r\n" + feature);
+  EXPECT_EQ(r.city().buildings().size(), 1u);
 }
 
 TEST(CityJson, LevelZeroIsRaisedByTheMeasuredHeight) {
@@ -144,6 +236,28 @@ TEST(CityJson, PartsMayBeNestedDeeperThanTheStack) {
   EXPECT_EQ(r.city().buildings().size(), 1u);
   EXPECT_EQ(r.city().facets().size(), 1u);
   EXPECT_TRUE(r.codes().empty());
+}
+
+/// What is deeper than any city is refused before a tree of it would overflow the stack.
+TEST(CityJson, NestingHasAnEnd) {
+  constexpr std::size_t depth = 1'000'000;
+  const std::string deep = std::string(depth, '[') + std::string(depth, ']');
+  const std::string semantics = surface("2", "[[[0,1,2]]]", R"(,"semantics":{"surfaces":[],"values":)" + deep + "}");
+  EXPECT_THROW((void)read_text("a.city.json", file_of(building(semantics))), InputError);
+  EXPECT_THROW((void)read_text("b.city.json", R"({"CityObjects":{},"vertices":[],"type":)" + deep + "}"), InputError);
+}
+
+TEST(CityJson, TemplatesThatWouldFillTheMemoryAreRefused) {
+  constexpr int corners = 100'000, uses = 101;
+  std::string ring = "0,1,2";
+  for (int k = 3; k < corners; ++k) ring += "," + std::to_string(k % 3);
+  const std::string instance =
+      R"({"type":"GeometryInstance","template":0,"boundaries":[0],"transformationMatrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]})";
+  std::string instances = instance;
+  for (int k = 1; k < uses; ++k) instances += "," + instance;
+  const std::string templates = R"("geometry-templates":{"templates":[)" + surface("2", "[[[" + ring + "]]]") +
+                                R"(],"vertices-templates":[[0,0,0],[1,0,0],[0,0,1]]},)";
+  EXPECT_THROW((void)read_text("a.city.json", file_of(building(instances), templates)), InputError);
 }
 
 }  // namespace

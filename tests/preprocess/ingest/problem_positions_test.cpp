@@ -31,6 +31,25 @@ TEST(ProblemPositions, OfABadRingAreItsFirstVertex) {
   w.polygon({{7, 8, 9}, {7, 8, 9}, {7, 8, 9}});
   w.writer.end_building();
   EXPECT_EQ(w.position(0), (Point3d{7, 8, 9}));
+  EXPECT_EQ(w.report.problems()[0].ring, "polygon 1, ring 0 (outer)");
+}
+
+TEST(ProblemPositions, NameTheRing) {
+  Writing w;
+  w.writer.begin_building("house");
+  const Ring hole{{1.1, 2.1, 3}, {1.2, 2.1, 3}, {1.1, 2.2, 3}, {1.1, 2.1, 3}};
+  Rings rings{triangle_at({1, 2, 3}), hole, {{7, 8, 9}}};
+  w.writer.add_polygon(rings, RingEnd::repeats_first, {.surface = {}, .name = "roof"});
+  w.polygon({{5, 6, 7}, {5, 6, 7}, {9, 6, 7}, {9, 9, 7}, {5, 6, 7}});
+  w.polygon({{1, 6, 7}, {9, 6, 7}, {9, 9, 7}});
+  w.writer.end_building();
+  ASSERT_EQ(w.report.problems().size(), 3U);
+  EXPECT_EQ(w.report.problems()[0].ring, "polygon roof, ring 2 (hole)");
+  EXPECT_EQ(w.report.problems()[1].code, ProblemCode::repeated_vertex);
+  EXPECT_EQ(w.report.problems()[1].ring, "polygon 1, ring 0 (outer)");
+  EXPECT_EQ(w.position(1), (Point3d{5, 6, 7}));
+  EXPECT_EQ(w.report.problems()[2].code, ProblemCode::ring_not_closed);
+  EXPECT_EQ(w.report.problems()[2].ring, "polygon 2, ring 0 (outer)");
 }
 
 TEST(ProblemPositions, AreNumbersWhateverTheRingHolds) {

@@ -50,6 +50,20 @@ TEST(UnusableInput, CityJsonWithoutBuildings) {
   expect_says(refusal(write_file("town.city.json", R"({"CityObjects":{}})")), {"CityJSON"});
 }
 
+TEST(UnusableInput, CityJsonOfAnotherThemeTellsWhichItIs) {
+  const std::string trees = R"({"type":"CityJSON","CityObjects":{"t":{"type":"SolitaryVegetationObject"}},"vertices":[]})";
+  expect_says(refusal(write_file("trees.city.json", trees)), {"holds no Building", "1 SolitaryVegetationObject"});
+}
+
+TEST(UnusableInput, JsonWithMoreBehindItsEnd) {
+  const std::string text = R"({"type":"CityJSON","CityObjects":{},"vertices":[]} and more)";
+  expect_says(refusal(write_file("town.city.json", text)), {"not JSON", "behind its end"});
+}
+
+TEST(UnusableInput, ArchivesThatAreNotOpened) {
+  expect_says(refusal(write_file("town.7z", "7z\xBC\xAF\x27\x1C")), {"town.7z", "archive", "unpack it first"});
+}
+
 TEST(UnusableInput, ObjWithoutFaces) { expect_says(refusal(write_file("town.obj", "v 0 0 0\n")), {"1 vertices", "no face"}); }
 
 TEST(UnusableInput, NothingThatGdalKnows) { expect_says(refusal(write_file("town.txt", "hello")), {"town.txt", "GDAL"}); }
