@@ -3,12 +3,15 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <memory>
 #include <new>
+#include <utility>
+#include <vector>
 
 #include "app/estimate_text.hpp"
 #include "app/pack_options.hpp"
@@ -56,6 +59,17 @@ void print_problems(const Report& report, const std::string& report_file) {
   if (!counts.empty() && report_file.empty()) fmt::print("  --report FILE.json lists each of them.\n");
 }
 
+/// What the files hold besides buildings and ground, most of it first.
+void print_passed_over(const PassedOver& passed_over) {
+  std::vector<std::pair<std::string, std::uint64_t>> rows(passed_over.begin(), passed_over.end());
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  constexpr std::size_t most_rows = 6;
+  for (std::size_t n = 0; n < std::min(rows.size(), most_rows); ++n)
+    fmt::print("{}{} {}", n == 0 ? "Not used: " : ", ", rows[n].second, rows[n].first);
+  if (rows.size() > most_rows) fmt::print(" and {} other kinds (--summary lists all)", rows.size() - most_rows);
+  if (!rows.empty()) fmt::print("\n");
+}
+
 void print_choice(const ChosenGrid& chosen, const PackOptions& options) {
   const double max_error = options.max_error.value_or(0.0);
   if (chosen.best) {
@@ -82,6 +96,8 @@ void print_result(const PackResult& result, const Report& report, const PackOpti
   if (result.facets > m.polygons) fmt::print(" (planar faces of {} facets)", result.facets);
   fmt::print(", {} problems\n", report.problems().size());
   print_problems(report, options.report_file);
+  print_passed_over(result.passed_over);
+  for (const std::string& note : result.notes) fmt::print("{}\n", note);
   const double bearing_deg = m.grid.rotation.bearing().degrees();
   fmt::print("CRS: {}\n", m.crs_name);
   fmt::print("Streets: {:.2f}° from grid north ({:.2f}° from true north), strength {:.2f}\n", result.alignment.bearing.degrees(),

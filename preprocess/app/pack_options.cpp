@@ -22,7 +22,7 @@ constexpr const char* description =
     "  farlod-pack footprints.geojson --height-field height -o town.farlod\n";
 constexpr const char* footer =
     "\nReads CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, OBJ, and footprints in any vector format of GDAL (GeoJSON, GeoPackage, "
-    "Shapefile …).\n"
+    "Shapefile …); also from folders, .zip and .gz. Several inputs become one city.\n"
     "Exit codes: 0 done, 1 internal, 2 usage, 3 an input cannot be read or used (with --strict: has a problem), 5 a limit was "
     "reached.";
 
@@ -30,7 +30,7 @@ constexpr const char* footer =
 struct RawOptions {
   std::vector<std::string> inputs;
   std::string output, origin, up = "z", lod = "best", align = "auto", assign = "clip", far_map = "horizon";
-  std::string terrain, height_field, base_field;
+  std::string terrain, height_field, base_field, storeys_field, roof_field;
   std::optional<double> cell_edge_m;
   std::optional<int> neighborhood;
   bool force = false, strict = false;
@@ -63,8 +63,11 @@ Point3d parse_origin(const std::string& text) {
 }
 
 void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
-  app.add_option("INPUT", raw.inputs, "City files; several are put together");
-  app.add_option("--crs", o.settings.georeference.crs, "CRS of inputs that do not say, as EPSG:n")->group("Input");
+  app.add_option("INPUT", raw.inputs,
+                 "City files, folders with city files, .zip or .gz archives; all are put together. A raster is a surface model");
+  app.add_option("--crs", o.settings.georeference.crs,
+                 "CRS of inputs that do not say, as EPSG:n; of all, where each says its own")
+      ->group("Input");
   app.add_option("--out-crs", o.settings.georeference.out_crs, "CRS of the package (default: the input's, or UTM for degrees)")
       ->group("Input");
   app.add_option("--origin", raw.origin, "X,Y[,Z] added to the coordinates of OBJ files")->group("Input");
@@ -75,8 +78,17 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("--height-field", raw.height_field, "Attribute with a footprint's height above its base, in metres")
       ->group("Input");
   app.add_option("--base-field", raw.base_field, "Attribute with the elevation of a footprint's base, in metres")->group("Input");
+  app.add_option("--roof-field", raw.roof_field,
+                 "Attribute with the elevation of a footprint's roof, in metres; without --base-field needs a terrain")
+      ->group("Input");
+  app.add_option("--storeys-field", raw.storeys_field, "Attribute with a footprint's number of storeys, where no height is known")
+      ->group("Input");
+  app.add_option("--floor-height", o.settings.ingest.floor_height_m, "Height of a storey, in metres")
+      ->check(between(1.0, 20.0))
+      ->capture_default_str()
+      ->group("Input");
   app.add_option("--default-height", o.settings.ingest.default_height_m, "Height of footprints that have none, in metres")
-      ->check(between(0.01, 10000.0))
+      ->check(between(0.01, 1000.0))
       ->group("Input");
   app.add_option("--lod", raw.lod, "Level of detail to read")
       ->check(CLI::IsMember({"best", "0", "1", "2", "3"}))
@@ -167,6 +179,8 @@ void understand(const RawOptions& raw, PackOptions& o) {
   if (raw.lod != "best") s.ingest.lod.exactly = std::stoi(raw.lod);
   if (!raw.height_field.empty()) s.ingest.height_field = raw.height_field;
   if (!raw.base_field.empty()) s.ingest.base_field = raw.base_field;
+  if (!raw.storeys_field.empty()) s.ingest.storeys_field = raw.storeys_field;
+  if (!raw.roof_field.empty()) s.ingest.roof_field = raw.roof_field;
   understand_alignment(raw.align, s.grid);
   s.far_map.kind = raw.far_map == "box" ? FarMapKind::box : FarMapKind::horizon;
   s.assign = raw.assign == "whole" ? Assign::whole : Assign::clip;

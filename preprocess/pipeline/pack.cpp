@@ -7,12 +7,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <map>
+#include <span>
 
 #include "city/input_error.hpp"
 #include "farlod/version.hpp"
 #include "georeference/problem_locator.hpp"
 #include "georeference/terrain_reader.hpp"
+#include "ingest/input_search.hpp"
 #include "package/file_stamp.hpp"
 
 namespace farlod {
@@ -41,6 +44,24 @@ Box2d outline_of(const TerrainRaster& terrain) {
   outline.add(terrain.first);
   outline.add(terrain.node(terrain.columns - 1, terrain.rows - 1));
   return outline;
+}
+
+Box2d outline_of(std::span<const Point3d> relief_points) {
+  Box2d outline;
+  for (const Point3d& p : relief_points) outline.add(horizontal(p));
+  return outline;
+}
+
+/// Of a city that is ground alone.
+Box2d ground_outline(const LocatedCity& located, const std::optional<TerrainRaster>& terrain) {
+  return terrain ? outline_of(*terrain) : outline_of(located.relief_points);
+}
+
+/// What becomes of it depends on what else there is: a raster that was asked for stands in for reliefs.
+void settle_relief(LocatedCity& located, bool has_terrain, PassedOver& passed_over) {
+  if (!has_terrain || located.relief_points.empty()) return;
+  passed_over["points of reliefs (the raster stands in for them)"] += located.relief_points.size();
+  located.relief_points.clear();
 }
 
 /// What can never be a folder is said before the long work, too.
@@ -73,7 +94,7 @@ class Packing {
     LocatedCity located = read_and_locate();
     if (settings_.choice) result_.chosen = timed("choice", [&] { return choose(located); });
     const auto [grid, terrain] = lay_grid_on_ground(located);
-    estimate(located.city, grid, terrain);
+    estimate(located, grid, terrain);
     describe_place(located, grid);
     result_.facets = located.city.facets().size();
     TileSet tiles = timed("tiles", [&, &grid = grid, &terrain = terrain] { return cut_city(std::move(located), grid, terrain); });
@@ -85,35 +106,73 @@ class Packing {
   }
 
  private:
-  LocatedCity read_and_locate() {
-    if (settings_.inputs.empty()) {
-      return {{}, timed("georeference", [&] { return georeference_of_terrain(*settings_.terrain, settings_.georeference); })};
+  /// The names that the user gave become the files behind them; a raster among them becomes the terrain.
+  std::vector<SourceCity> read_inputs() {
+    FoundInputs found = find_input_files(settings_.inputs, report_);
+    take_surface_model(found.surface_models);
+    settings_.inputs.clear();
+    for (const InputFile& file : found.files) settings_.inputs.push_back(file.on_disk);
+    // An archive is one input, however many of its files are read
+    settings_.inputs.erase(std::unique(settings_.inputs.begin(), settings_.inputs.end()), settings_.inputs.end());
+    std::vector<SourceCity> sources = ingest_all(found.files, settings_.ingest, report_);
+    result_.passed_over = std::move(found.passed_over);
+    for (SourceCity& source : sources) {
+      for (const auto& [what, count] : source.passed_over) result_.passed_over[what] += count;
+      std::move(source.notes.begin(), source.notes.end(), std::back_inserter(result_.notes));
     }
-    std::vector<SourceCity> sources = timed("ingest", [&] {
-      std::vector<SourceCity> read;
-      for (const auto& input : settings_.inputs) read.push_back(ingest(input, settings_.ingest, report_));
-      return read;
-    });
+    return sources;
+  }
+
+  void take_surface_model(const std::vector<InputFile>& surface_models) {
+    if (surface_models.empty()) return;
+    const std::string first = surface_models.front().name;
+    if (surface_models.size() > 1)
+      throw InputError(first + " and " + surface_models[1].name +
+                       " are both rasters of heights: give one of them, or their mosaic.");
+    if (settings_.terrain)
+      throw InputError(first + " is a raster of heights, and so is --terrain " + settings_.terrain->string() +
+                       ": give one of them.");
+    settings_.terrain = surface_models.front().path;
+    terrain_on_disk_ = surface_models.front().on_disk;
+  }
+
+  LocatedCity read_and_locate() {
+    std::vector<SourceCity> sources;
+    if (!settings_.inputs.empty()) sources = timed("ingest", [&] { return read_inputs(); });
+    if (sources.empty())
+      return {{}, timed("georeference", [&] { return georeference_of_terrain(*settings_.terrain, settings_.georeference); })};
+    settings_.georeference.crs_is_for_another |= settings_.terrain && read_terrain_extent(*settings_.terrain).crs_wkt.empty();
     LocatedCity located =
         timed("georeference", [&] { return georeference(std::move(sources), settings_.georeference, report_); });
-    if (located.city.buildings().empty())
+    if (located.city.buildings().empty() && located.relief_points.empty())
       throw InputError("No building is left to pack: see --report for what was wrong with each of them.");
+    settle_relief(located, settings_.terrain.has_value(), result_.passed_over);
+    require_ground_below_roofs(located);
     return located;
+  }
+
+  void require_ground_below_roofs(const LocatedCity& located) const {
+    const auto buildings = located.city.buildings();
+    const auto lacks_foot = [](const Building& b) { return b.footing == Footing::down_to_ground; };
+    if (settings_.terrain || !located.relief_points.empty() || std::none_of(buildings.begin(), buildings.end(), lacks_foot))
+      return;
+    throw InputError(
+        "--roof-field tells where roofs are, but not how far down the buildings reach: give --terrain DEM, or --base-field "
+        "NAME where the table knows the ground.");
   }
 
   /// Buildings decide where the grid lies, and of a terrain only what it covers is read; a terrain alone decides itself.
   std::pair<Grid, std::optional<TerrainRaster>> lay_grid_on_ground(const LocatedCity& located) {
-    const auto read = [&](const std::optional<Box2d>& wanted_city) {
-      return timed("terrain", [&] { return read_ground(located, wanted_city); });
-    };
     if (located.city.buildings().empty()) {
-      TerrainRaster terrain = read(std::nullopt);
-      const Grid grid = timed("align", [&] { return grid_over(outline_of(terrain), settings_.grid); });
+      std::optional<TerrainRaster> terrain;
+      if (settings_.terrain) terrain = timed("terrain", [&] { return read_ground(located, std::nullopt); });
+      const Grid grid = timed("align", [&] { return grid_over(ground_outline(located, terrain), settings_.grid); });
       return {grid, std::move(terrain)};
     }
     const GridAlignment aligned = timed("align", [&] { return align(located, settings_.grid, report_); });
     result_.alignment = aligned.streets;
-    return {aligned.grid, settings_.terrain ? std::optional(read(city_outline(aligned.grid))) : std::nullopt};
+    if (!settings_.terrain) return {aligned.grid, std::nullopt};
+    return {aligned.grid, timed("terrain", [&] { return read_ground(located, city_outline(aligned.grid)); })};
   }
 
   [[nodiscard]] TerrainRaster read_ground(const LocatedCity& located, const std::optional<Box2d>& wanted_city) const {
@@ -130,8 +189,9 @@ class Packing {
       GridSettings settings = settings_.grid;
       settings.cell_edge_m = cell_edge_m;
       if (located.city.buildings().empty()) {
-        TerrainRaster terrain = read_ground(located, std::nullopt);
-        return {grid_over(outline_of(terrain), settings), std::move(terrain)};
+        std::optional<TerrainRaster> terrain;
+        if (settings_.terrain) terrain = read_ground(located, std::nullopt);
+        return {grid_over(ground_outline(located, terrain), settings), std::move(terrain)};
       }
       const Grid grid = align(located, settings, unread).grid;
       return {grid, settings_.terrain ? std::optional(read_ground(located, city_outline(grid))) : std::nullopt};
@@ -144,10 +204,11 @@ class Packing {
     return {best, {}};
   }
 
-  void estimate(const CityModel& city, const Grid& grid, const std::optional<TerrainRaster>& terrain) {
+  void estimate(const LocatedCity& located, const Grid& grid, const std::optional<TerrainRaster>& terrain) {
     using oneapi::tbb::global_control;
     const std::size_t threads = global_control::active_value(global_control::max_allowed_parallelism);
-    result_.estimate = estimate_pack(city, terrain, grid, settings_.far_map.kind, threads);
+    const std::size_t ground_points = terrain ? terrain->height_m.size() : located.relief_points.size();
+    result_.estimate = estimate_pack(located.city, ground_points, grid, settings_.far_map.kind, threads);
     require_memory(result_.estimate, settings_.memory_limit_mib);
     if (tell_) tell_(result_.estimate);
   }
@@ -158,7 +219,7 @@ class Packing {
     const Georeference place = located.georeference;
     TileSet tiles = cut_into_tiles(std::move(located), grid, settings_.assign, terrain, report_);
     if (const auto crs = Crs::find(place.crs_wkt)) {
-      ProblemLocator locator(*crs, AxisOrder::as_usual, place.origin_m);
+      ProblemLocator locator(*crs, FileAxes{}, place.origin_m);
       for (Problem& problem : report_.since(known)) locator.locate(problem);
     }
     return tiles;
@@ -191,7 +252,7 @@ class Packing {
     m.assign = settings_.assign == Assign::clip ? "clip" : "whole";
     m.far_map = shape_of(settings_.far_map);
     for (const auto& input : settings_.inputs) m.inputs.push_back(input_file(input));
-    if (settings_.terrain) m.inputs.push_back(input_file(*settings_.terrain));
+    if (settings_.terrain) m.inputs.push_back(input_file(terrain_on_disk_.value_or(*settings_.terrain)));
   }
 
   void describe_tiles(const TileSet& tiles) {
@@ -235,6 +296,7 @@ class Packing {
   }
 
   PackSettings settings_;
+  std::optional<std::filesystem::path> terrain_on_disk_;  ///< the archive that it is in, if any
   Report& report_;
   const PackProgress& progress_;
   const TellEstimate& tell_;

@@ -34,7 +34,7 @@ class ProblemsRefused : public std::runtime_error {
 
 /// Everything that `farlod-pack` can be told.
 struct PackSettings {
-  std::vector<std::filesystem::path> inputs;  ///< may be empty when there is a terrain
+  std::vector<std::filesystem::path> inputs;  ///< files, folders and archives; may be empty when there is a terrain
   std::optional<std::filesystem::path> terrain;
   std::filesystem::path output;
   Overwrite overwrite = Overwrite::refuse;
@@ -62,7 +62,9 @@ struct PackResult {
   package::Manifest manifest;
   Alignment alignment;
   std::optional<ChosenGrid> chosen;
-  std::uint64_t facets = 0;  ///< polygons as the files have them: a surface of a mesh is made of several triangles
+  std::uint64_t facets = 0;        ///< polygons as the files have them: a surface of a mesh is made of several triangles
+  PassedOver passed_over;          ///< what the files hold that is not used
+  std::vector<std::string> notes;  ///< for the user: what was taken from small files beside the inputs
   std::uint64_t package_bytes = 0, far_map_bytes = 0;
   PackEstimate estimate;  ///< made when the grid was laid
   /// In the order in which the stages ran. The package is written while far maps are baked: together they take less than the sum.

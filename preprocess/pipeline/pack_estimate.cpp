@@ -15,8 +15,8 @@ namespace {
 /// Triangles in the tiles for each triangle of the buildings: the ground between them comes to two thirds of theirs, and borders
 /// cut them the more often the smaller the cells are.
 constexpr double tiles_per_city_triangle = 1.7, cut_by_borders_m = 55.0;
-/// A raster of n nodes makes 2n triangles; few of them cross borders.
-constexpr double tiles_per_terrain_node = 2.2;
+/// n points of the ground make 2n triangles; few of them cross borders.
+constexpr double tiles_per_ground_point = 2.2;
 
 /// Tiles, surfaces, horizon edges and the city model as long as it is cut; an index of rays needs as much again.
 constexpr double memory_bytes_per_triangle = 160.0, ray_index_bytes_per_triangle = 100.0;
@@ -32,19 +32,19 @@ constexpr double seconds_per_triangle = 4e-6, seconds_per_far_map = 4e-3;
 
 constexpr double bytes_per_mib = 1048576.0;
 
-double triangles_in_tiles(const CityModel& city, const std::optional<TerrainRaster>& terrain, const Grid& grid) {
+double triangles_in_tiles(const CityModel& city, std::size_t ground_points, const Grid& grid) {
   // A polygon of n corners has n − 2 triangles
   const double of_city = static_cast<double>(city.points().size()) - 2.0 * static_cast<double>(city.facets().size());
-  const double of_terrain = terrain ? tiles_per_terrain_node * static_cast<double>(terrain->height_m.size()) : 0.0;
+  const double of_terrain = tiles_per_ground_point * static_cast<double>(ground_points);
   return of_city * (tiles_per_city_triangle + cut_by_borders_m / grid.cell_edge_m) + of_terrain;
 }
 
 }  // namespace
 
-PackEstimate estimate_pack(const CityModel& city, const std::optional<TerrainRaster>& terrain, const Grid& grid,
-                           FarMapKind far_map, std::size_t threads) {
+PackEstimate estimate_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map,
+                           std::size_t threads) {
   const bool is_box = far_map == FarMapKind::box;
-  const double triangles = triangles_in_tiles(city, terrain, grid), cells = static_cast<double>(grid.cells.size());
+  const double triangles = triangles_in_tiles(city, ground_points, grid), cells = static_cast<double>(grid.cells.size());
   PackEstimate e;
   e.cells = static_cast<std::uint64_t>(grid.cells.size());
   e.seconds =

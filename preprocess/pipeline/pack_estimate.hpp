@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "city/city_model.hpp"
-#include "city/terrain_raster.hpp"
 #include "farlod/grid.hpp"
 #include "farmap/far_map_settings.hpp"
 
@@ -28,9 +27,10 @@ class MemoryLimitError : public std::runtime_error {
 };
 
 /// Expects memory and package within a factor of two, for cities whose buildings stand (Surface::stands): those of open shells
-/// have larger far maps. Time is that of a machine like that of docs/performance.md with nothing else to do.
-[[nodiscard]] PackEstimate estimate_pack(const CityModel& city, const std::optional<TerrainRaster>& terrain, const Grid& grid,
-                                         FarMapKind far_map, std::size_t threads);
+/// have larger far maps. `ground_points`: nodes of a terrain or points of a relief; 0 when buildings stand on their own. Time is
+/// that of a machine like that of docs/performance.md with nothing else to do.
+[[nodiscard]] PackEstimate estimate_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map,
+                                         std::size_t threads);
 
 /// Throws MemoryLimitError, which says what would help, when the estimate exceeds the limit.
 void require_memory(const PackEstimate& estimate, std::optional<std::uint64_t> limit_mib);

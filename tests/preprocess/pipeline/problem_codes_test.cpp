@@ -10,12 +10,19 @@
 namespace farlod::test {
 namespace {
 
+/// --crs, which files that do not say their CRS need, and two of the problems are of. It overrules one file only.
+GeoreferenceSettings georeference_of(const Fixture& fixture) {
+  const bool is_overruled = fixture.name.first == static_cast<int>(ProblemCode::crs_overruled);
+  return {"EPSG:32632", "", !is_overruled};
+}
+
 class BrokenFile : public testing::TestWithParam<Fixture> {};
 
 TEST_P(BrokenFile, HasExactlyItsProblemAndIsPacked) {
   const int code = GetParam().name.first;
   Packing p;
   p.settings.inputs = {GetParam().path};
+  p.settings.georeference = georeference_of(GetParam());
   p.run();
   EXPECT_EQ(p.codes(), std::set<int>{code});
   const std::vector<std::pair<int, std::uint64_t>> counts{{code, p.report.problems().size()}};
@@ -29,6 +36,7 @@ INSTANTIATE_TEST_SUITE_P(Pipeline, BrokenFile, testing::ValuesIn(fixtures_of_sta
 TEST_P(BrokenFile, IsRefusedWhereProblemsAre) {
   Packing p;
   p.settings.inputs = {GetParam().path};
+  p.settings.georeference = georeference_of(GetParam());
   p.settings.problems = ProblemPolicy::refuse;
   EXPECT_THROW(p.run(), ProblemsRefused);
   EXPECT_EQ(p.codes(), std::set<int>{GetParam().name.first});
@@ -37,10 +45,11 @@ TEST_P(BrokenFile, IsRefusedWhereProblemsAre) {
 class PlacedProblem : public testing::TestWithParam<Fixture> {};
 
 TEST_P(PlacedProblem, IsOnTheMapUnlessItIsOfNoPlace) {
-  const std::set<ProblemCode> without_vertex{ProblemCode::no_geometry, ProblemCode::no_dominant_direction};
+  const std::set<ProblemCode> without_vertex{ProblemCode::no_geometry, ProblemCode::no_dominant_direction,
+                                             ProblemCode::another_format, ProblemCode::empty_file, ProblemCode::unusable_file};
   Packing p;
-  p.settings.inputs = {GetParam().path};
-  p.settings.georeference.crs = "EPSG:32632";  // of OBJ files
+  p.settings.inputs = inputs_with(GetParam());
+  p.settings.georeference = georeference_of(GetParam());
   p.run();
   ASSERT_FALSE(p.report.problems().empty());
   for (const Problem& problem : p.report.problems()) {
@@ -62,16 +71,25 @@ struct Remains {
 TEST(BrokenFiles, LoseWhatIsLeftOutAndNothingElse) {
   const std::map<std::string, Remains> expected{
       {"outside_of_projection", {{"house", "neighbour"}, 12}},  // of three houses
+      {"far_away", {{"house", "neighbour"}, 12}},
+      {"axes_swapped", {{"house"}, 6}},
+      {"crs_overruled", {{"house"}, 6}},
+      {"crs_unknown", {{"house"}, 6}},
+      {"unlikely_place", {{"house"}, 6}},
+      {"zone_in_easting", {{"house"}, 6}},
       {"no_dominant_direction", {{"rotunda"}, 66}},
       {"zero_area", {{"house"}, 6}},  // of seven polygons
       {"self_intersecting", {{"house", "carport"}, 7}},
       {"not_planar", {{"house"}, 6}},
+      {"spike", {{"house"}, 6}},
+      {"hole_outside", {{"house"}, 6}},
   };
   for (const Fixture& fixture : fixtures_of_stages(2, 4)) {
     const auto remains = expected.find(fixture.name.second);
     ASSERT_NE(remains, expected.end()) << "say what is left of " << fixture.path;
     Packing p;
     p.settings.inputs = {fixture.path};
+    p.settings.georeference = georeference_of(fixture);
     p.run();
     EXPECT_EQ(ids_in(Package(p.settings.output)), remains->second.buildings) << fixture.path;
     EXPECT_EQ(p.result.manifest.polygons, remains->second.polygons) << fixture.path;
