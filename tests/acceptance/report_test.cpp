@@ -18,6 +18,7 @@ std::string town_with_problems() {
                                                                   {"unknown", {120.0, 0.0}, 20.0, 10.0},
                                                                   {"flat", {180.0, 0.0}, 20.0, 0.0}}));
   town["features"][2]["properties"]["height"] = nullptr;
+  town["features"][2]["properties"].erase("floors");
   town["features"].push_back({{"type", "Feature"},
                               {"properties", {{"id", "tree"}, {"height", 12.0}}},
                               {"geometry", {{"type", "Point"}, {"coordinates", {town_middle.x, town_middle.y}}}}});
@@ -36,7 +37,7 @@ TEST_F(Report, HasAnEntryForEachProblem) {
   ASSERT_EQ(report.size(), 3U);
   std::map<std::string, int> code_of;
   for (const nlohmann::json& entry : report) {
-    for (const char* key : {"code", "problem", "effect", "source", "place", "position", "detail"})
+    for (const char* key : {"code", "problem", "effect", "source", "place", "ring", "position", "detail"})
       EXPECT_TRUE(entry.contains(key)) << key;
     EXPECT_EQ(entry.at("source"), "town.geojson");
     EXPECT_EQ(entry.at("effect"), "left out");
