@@ -3,12 +3,12 @@
 #include "ingest/ingest.hpp"
 
 #include "city/input_error.hpp"
-#include "ingest/citygml_reader.hpp"
-#include "ingest/cityjson_reader.hpp"
-#include "ingest/file_format.hpp"
-#include "ingest/footprint_reader.hpp"
-#include "ingest/obj_placement.hpp"
-#include "ingest/obj_reader.hpp"
+#include "ingest/citygml/citygml_reader.hpp"
+#include "ingest/cityjson/cityjson_reader.hpp"
+#include "ingest/files/file_format.hpp"
+#include "ingest/footprints/footprint_reader.hpp"
+#include "ingest/obj/obj_placement.hpp"
+#include "ingest/obj/obj_reader.hpp"
 
 namespace farlod {
 namespace {

@@ -10,7 +10,7 @@
 #include "city/source.hpp"
 #include "farlod/point.hpp"
 #include "farlod/problem.hpp"
-#include "ingest/input_file.hpp"
+#include "ingest/files/input_file.hpp"
 #include "ingest/lod_choice.hpp"
 
 namespace farlod {

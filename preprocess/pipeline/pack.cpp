@@ -15,7 +15,7 @@
 #include "farlod/version.hpp"
 #include "georeference/problem_locator.hpp"
 #include "georeference/terrain_reader.hpp"
-#include "ingest/input_search.hpp"
+#include "ingest/files/input_search.hpp"
 #include "package/file_stamp.hpp"
 
 namespace farlod {

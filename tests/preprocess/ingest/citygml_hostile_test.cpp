@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "city/input_error.hpp"
 #include "citygml_text.hpp"
-#include "ingest/gml_references.hpp"
-#include "ingest/gml_surfaces_numbers.hpp"
+#include "ingest/citygml/gml_references.hpp"
+#include "ingest/citygml/gml_surfaces_numbers.hpp"
 
 namespace farlod::test {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ingest/citygml_passed_over.hpp"
+#include "ingest/citygml/citygml_passed_over.hpp"
 #include "city/input_error.hpp"
 #include "citygml_text.hpp"
 

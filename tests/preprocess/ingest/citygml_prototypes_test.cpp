@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include "citygml_text.hpp"
-#include "ingest/citygml_placement.hpp"
+#include "ingest/citygml/citygml_placement.hpp"
 
 namespace farlod::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ingest/citygml_reader.hpp"
+#include "ingest/citygml/citygml_reader.hpp"
 #include "reading.hpp"
 
 /// Small CityGML files, put together from their parts.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ingest/file_format.hpp"
+#include "ingest/files/file_format.hpp"
 
 #include "reading.hpp"
 #include "small_cities.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ingest/footprint_heights.hpp"
+#include "ingest/footprints/footprint_heights.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 
 #include "city/height_limits.hpp"
-#include "ingest/height_text.hpp"
+#include "ingest/footprints/height_text.hpp"
 
 namespace farlod {
 namespace {

@@ -3,7 +3,7 @@
 #include "reading.hpp"
 
 #include "city/input_error.hpp"
-#include "ingest/height_text.hpp"
+#include "ingest/footprints/height_text.hpp"
 
 namespace farlod::test {
 namespace {

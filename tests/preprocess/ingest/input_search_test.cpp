@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ingest/input_search.hpp"
+#include "ingest/files/input_search.hpp"
 
 #include <gmock/gmock.h>
 

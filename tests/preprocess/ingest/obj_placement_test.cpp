@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ingest/obj_placement.hpp"
+#include "ingest/obj/obj_placement.hpp"
 
 #include <gmock/gmock.h>
 
 #include "archive_writer.hpp"
-#include "ingest/input_search.hpp"
+#include "ingest/files/input_search.hpp"
 #include "reading.hpp"
 #include "small_cities.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ingest/planar_faces.hpp"
+#include "ingest/obj/planar_faces.hpp"
 
 #include <gtest/gtest.h>
 

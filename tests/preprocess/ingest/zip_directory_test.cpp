@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ingest/zip_directory.hpp"
+#include "ingest/files/zip_directory.hpp"
 
 #include "archive_writer.hpp"
 #include "reading.hpp"

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "farlod/surface_kind.hpp"
+#include "ingest/city_writer.hpp"
+#include "ingest/citygml/citygml_placement.hpp"
+#include "ingest/citygml/gml_references.hpp"
+#include "ingest/citygml/gml_surfaces.hpp"
+#include "ingest/lod_choice.hpp"
+
+namespace farlod {
+
+/// What a surface of a CityGML building is part of.
+enum class SurfaceRole {
+  boundary,      ///< a semantic surface: RoofSurface, WallSurface ...
+  shell,         ///< a solid or surface of the building itself, often a copy of the semantic ones
+  installation,  ///< a chimney, a dormer, a balcony
+  element,       ///< a pylon or a deck: bridges and tunnels may consist of nothing else
+  footprint,     ///< LoD 0, at the bottom
+  roof_edge,     ///< LoD 0, at the top
+  inside,        ///< stands inside, as turned out later: it is not used
+};
+
+struct SurfaceUse {
+  int lod = 0;
+  std::uint16_t part = 0;  ///< 0: the building itself
+  SurfaceRole role = SurfaceRole::shell;
+  SurfaceKind kind = SurfaceKind::unknown;
+  std::optional<std::size_t> placement = {};  ///< row in CityGmlBuilding::placements, where the surfaces are a prototype's
+};
+
+/// One building of a CityGML file with all its parts and all its levels of detail, as read.
+struct CityGmlBuilding {
+  std::string id;
+  std::vector<SurfaceUse> uses;
+  GmlSurfaces surfaces;
+  std::vector<std::optional<Placement>> placements;                    ///< empty: it cannot be placed, as `unread` tells
+  std::vector<std::optional<double>> measured_height_m{std::nullopt};  ///< of the building and of each part
+  std::map<std::string, std::size_t> unread;                           ///< what is not read, and how often it was met
+
+  /// Notes something that is not read. Few kinds are told apart, however many a file has.
+  void add_unread(std::string what);
+};
+
+/// The references of a building that nothing within it answers.
+[[nodiscard]] std::vector<std::string> foreign_references(const CityGmlBuilding& building);
+
+/// Chooses the level of detail and writes the building's polygons, each once, semantic surfaces first.
+void write_building(const CityGmlBuilding& building, const GmlSurfaces& foreign, LodChoice lod, Borrowing& borrowing,
+                    CityWriter& writer);
+
+}  // namespace farlod

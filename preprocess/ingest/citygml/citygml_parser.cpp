@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ingest/citygml/citygml_parser.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+#include "farlod/expects.hpp"
+#include "ingest/surface_names.hpp"
+
+namespace farlod {
+namespace {
+
+/// Of a height, or of a word: no more is needed, whatever a file has there.
+constexpr std::size_t most_words = 256;
+
+/// Terrains that are pictures or lines, and clouds of points, which lie in other files.
+bool is_unread_relief(std::string_view name) {
+  return name == "RasterRelief" || name == "BreaklineRelief" || name == "PointCloud";
+}
+
+bool is_read_relief(std::string_view name) { return name == "ReliefFeature" || name == "TINRelief" || name == "MassPointRelief"; }
+
+}  // namespace
+
+void CityGmlParser::start(const XmlElement& element) {
+  if (root_.empty()) root_ = element.name;
+  if (srs_name_.empty() && !element.srs_name.empty()) srs_name_ = element.srs_name;
+  if (depth_passed_over_ > 0) {
+    ++depth_passed_over_;
+  } else if (const MaybeMeaning meaning = meaning_of(element)) {
+    open_.push_back(*meaning);
+  } else {
+    depth_passed_over_ = 1;
+  }
+}
+
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_of(const XmlElement& element) {
+  if (in_surfaces_) return meaning_in_surfaces(element);
+  if (in_building_) return meaning_inside(element);
+  return in_relief_ ? meaning_in_relief(element) : meaning_outside(element);
+}
+
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_outside(const XmlElement& element) {
+  const Vocabulary vocabulary = vocabulary_of(element.space);
+  if (vocabulary == Vocabulary::constructions && is_construction_name(element.name)) {
+    begin_building(element);
+    return Meaning::building;
+  }
+  if (vocabulary == Vocabulary::relief && ReliefReader::is_point_property(element.name)) {
+    relief_.begin(element);
+    in_relief_ = true;
+    return Meaning::terrain;
+  }
+  const bool is_object = !open_.empty() && open_.back() == Meaning::members;
+  const bool is_read = vocabulary == Vocabulary::relief && is_read_relief(element.name);
+  const bool is_unread = vocabulary != Vocabulary::foreign && is_unread_relief(element.name);
+  if (is_unread || (is_object && !is_read)) passed_over_.add(element);
+  return is_member_name(element.name) ? Meaning::members : Meaning::nothing;
+}
+
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_in_relief(const XmlElement& element) {
+  return relief_.start(element) ? MaybeMeaning(Meaning::terrain) : std::nullopt;
+}
+
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_in_surfaces(const XmlElement& element) {
+  const Vocabulary vocabulary = vocabulary_of(element.space);
+  if (vocabulary == Vocabulary::foreign) passed_over_.add(element);
+  if (!may_hold_surfaces(vocabulary)) return std::nullopt;
+  const GmlSurfaceReader::Answer answer = reader_.start(element);
+  if (answer == GmlSurfaceReader::Answer::unsupported) building_.add_unread(std::string("a gml:").append(element.name));
+  return answer == GmlSurfaceReader::Answer::entered ? MaybeMeaning(Meaning::geometry) : std::nullopt;
+}
+
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_inside(const XmlElement& element) {
+  const Vocabulary vocabulary = vocabulary_of(element.space);
+  if (vocabulary == Vocabulary::foreign) passed_over_.add(element);
+  if (!may_hold_surfaces(vocabulary) || is_inner_name(element.name)) return std::nullopt;
+  if (in_prototype_) return meaning_in_prototype(element);
+  if (is_lod_property(element.name)) return meaning_of_lod_property(element);
+  return vocabulary == Vocabulary::gml ? Meaning::nothing : meaning_of_thing(element, vocabulary);
+}
+
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_of_thing(const XmlElement& element, Vocabulary vocabulary) {
+  const std::string_view name = element.name;
+  if (is_part_name(name)) {
+    begin_part();
+    return Meaning::part;
+  }
+  if (is_element_name(name) || is_installation_name(name) || name == "OtherConstruction") {
+    begin_installation(is_element_name(name) ? SurfaceRole::element : SurfaceRole::installation);
+    return Meaning::installation;
+  }
+  if (is_boundary_name(name)) {
+    ++boundaries_;
+    kinds_.push_back(kind_of_surface_name(name));
+    return Meaning::boundary;
+  }
+  if (name == "measuredHeight" || (name == "value" && vocabulary == Vocabulary::constructions))
+    return begin_words(Meaning::height);
+  if (name == "relationToConstruction" && !installations_.empty()) return begin_words(Meaning::relation);
+  return Meaning::nothing;
+}
+
+CityGmlParser::Meaning CityGmlParser::begin_words(Meaning meaning) {
+  words_.clear();
+  in_words_ = true;
+  return meaning;
+}
+
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_of_lod_property(const XmlElement& element) {
+  const int lod = element.name[3] - '0';
+  const std::string_view what = element.name.substr(4);
+  if (lod > 3) return std::nullopt;
+  if (what == "ImplicitRepresentation") {
+    prototype_.begin(element.name, {lod, parts_.back(), role_here(), kinds_.back(), building_.placements.size()});
+    in_prototype_ = true;
+    return Meaning::prototype;
+  }
+  const std::optional<SurfaceRole> role = role_of_lod_property(lod, what);
+  if (!role) return std::nullopt;
+  begin_surfaces({lod, parts_.back(), *role, kinds_.back()}, element);
+  return Meaning::surfaces;
+}
+
+SurfaceRole CityGmlParser::role_here() const {
+  if (!installations_.empty()) return installations_.back().role;
+  return boundaries_ > 0 ? SurfaceRole::boundary : SurfaceRole::shell;
+}
+
+std::optional<SurfaceRole> CityGmlParser::role_of_lod_property(int lod, std::string_view what) const {
+  if (what == "FootPrint") return SurfaceRole::footprint;
+  if (what == "RoofEdge") return SurfaceRole::roof_edge;
+  if (what != "Solid" && what != "MultiSurface" && what != "Geometry") return std::nullopt;
+  if (lod > 0) return role_here();
+  // CityGML 3.0 tells footprints and roof edges by the surface that has them
+  if (what != "MultiSurface" || !installations_.empty()) return std::nullopt;
+  if (boundaries_ == 0 || kinds_.back() == SurfaceKind::floor) return SurfaceRole::footprint;
+  return kinds_.back() == SurfaceKind::roof ? std::optional(SurfaceRole::roof_edge) : std::nullopt;
+}
+
+void CityGmlParser::begin_surfaces(const SurfaceUse& use, const XmlElement& element) {
+  reader_.begin_use(static_cast<std::uint32_t>(building_.uses.size()));
+  building_.uses.push_back(use);
+  if (!element.href.empty()) reader_.add_reference(element.href);
+  in_surfaces_ = true;
+}
+
+CityGmlParser::MaybeMeaning CityGmlParser::meaning_in_prototype(const XmlElement& element) {
+  if (open_.back() == Meaning::prototype_number) return std::nullopt;
+  if (prototype_.start(element.name)) return Meaning::prototype_number;
+  if (element.name == "libraryObject") prototype_.note_library_object();
+  if (element.name != "relativeGMLGeometry" && element.name != "relativeGeometry") return Meaning::nothing;
+  prototype_.note_surfaces();
+  begin_surfaces(prototype_.use(), element);
+  return Meaning::surfaces;
+}
+
+void CityGmlParser::begin_building(const XmlElement& element) {
+  ++buildings_;
+  building_.id = element.id.empty() ? "building " + std::to_string(buildings_) : std::string(element.id);
+  parts_ = {0};
+  kinds_ = {SurfaceKind::unknown};
+  in_building_ = true;
+}
+
+void CityGmlParser::begin_part() {
+  FARLOD_EXPECTS(!building_.measured_height_m.empty());
+  // More than 65,535 parts: the last number serves for the rest, as parts only matter to the question "inside?"
+  const std::size_t number = std::min<std::size_t>(building_.measured_height_m.size(), std::numeric_limits<std::uint16_t>::max());
+  building_.measured_height_m.resize(number + 1);
+  parts_.push_back(static_cast<std::uint16_t>(number));
+  kinds_.push_back(SurfaceKind::unknown);
+}
+
+void CityGmlParser::begin_installation(SurfaceRole role) {
+  installations_.push_back({role, building_.uses.size()});
+  kinds_.push_back(SurfaceKind::unknown);
+}
+
+void CityGmlParser::end(std::string_view name) {
+  if (depth_passed_over_ > 0) {
+    --depth_passed_over_;
+    return;
+  }
+  FARLOD_EXPECTS(!open_.empty());
+  const Meaning meaning = open_.back();
+  open_.pop_back();
+  undo(meaning, name);
+}
+
+void CityGmlParser::undo(Meaning meaning, std::string_view name) {
+  // Each of these put a kind on the stack when it began
+  if (meaning == Meaning::part || meaning == Meaning::boundary || meaning == Meaning::installation) kinds_.pop_back();
+  switch (meaning) {
+    case Meaning::nothing:
+    case Meaning::members:
+      break;
+    case Meaning::building:
+      return end_building();
+    case Meaning::part:
+      parts_.pop_back();
+      break;
+    case Meaning::boundary:
+      --boundaries_;
+      break;
+    case Meaning::installation:
+      return end_installation();
+    case Meaning::surfaces:
+      in_surfaces_ = false;
+      break;
+    case Meaning::geometry:
+      return reader_.end(name);
+    case Meaning::height:
+      return take_height();
+    case Meaning::relation:
+      in_words_ = false;
+      installations_.back().is_inside = words_ == "inside";
+      break;
+    case Meaning::prototype:
+      return end_prototype();
+    case Meaning::prototype_number:
+      return prototype_.end_numbers();
+    case Meaning::terrain:
+      relief_.end();
+      in_relief_ = !open_.empty() && open_.back() == Meaning::terrain;
+      break;
+  }
+}
+
+void CityGmlParser::end_building() {
+  take_(building_);
+  building_.uses.clear();
+  building_.unread.clear();
+  building_.placements.clear();
+  building_.surfaces = {};
+  building_.measured_height_m = {std::nullopt};
+  in_building_ = false;
+}
+
+void CityGmlParser::end_installation() {
+  // CityGML 3.0 says where an installation stands only behind its geometry
+  if (installations_.back().is_inside)
+    for (std::size_t k = installations_.back().first_use; k < building_.uses.size(); ++k)
+      building_.uses[k].role = SurfaceRole::inside;
+  installations_.pop_back();
+}
+
+void CityGmlParser::end_prototype() {
+  in_prototype_ = false;
+  std::string unread;
+  building_.placements.push_back(prototype_.placement(!srs_name_.empty(), unread));
+  if (!building_.placements.back()) building_.add_unread(std::move(unread));
+}
+
+void CityGmlParser::take_height() {
+  in_words_ = false;
+  const std::size_t begin = std::min(words_.find_first_not_of(" \t\r\n+"), words_.size());
+  double height_m = 0.0;
+  const auto [end, error] = std::from_chars(words_.data() + begin, words_.data() + words_.size(), height_m);
+  if (error == std::errc() && end != words_.data()) building_.measured_height_m[parts_.back()] = height_m;
+}
+
+void CityGmlParser::text(std::string_view piece) {
+  if (depth_passed_over_ > 0) return;
+  if (in_surfaces_)
+    reader_.text(piece);
+  else if (in_relief_)
+    relief_.text(piece);
+  else if (in_words_)
+    words_.append(piece.substr(0, most_words - std::min(most_words, words_.size())));
+  else if (!open_.empty() && open_.back() == Meaning::prototype_number)
+    prototype_.text(piece);
+}
+
+}  // namespace farlod

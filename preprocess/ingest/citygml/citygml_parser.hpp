@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ingest/citygml/citygml_building.hpp"
+#include "ingest/citygml/citygml_passed_over.hpp"
+#include "ingest/citygml/citygml_prototype.hpp"
+#include "ingest/citygml/citygml_relief.hpp"
+#include "ingest/citygml/citygml_vocabulary.hpp"
+#include "ingest/citygml/xml_element.hpp"
+
+namespace farlod {
+
+/// Understands CityGML 1.0, 2.0 and 3.0, building by building; holds one building at a time, and the points of the relief.
+/// Bridges, tunnels and other constructions are buildings to it. Elements of vocabularies that it does not know are passed
+/// over with all they hold, and counted; so are all other objects of the city.
+class CityGmlParser : public XmlListener {
+ public:
+  using TakeBuilding = std::function<void(const CityGmlBuilding&)>;
+  explicit CityGmlParser(TakeBuilding take) : take_(std::move(take)) {}
+
+  void start(const XmlElement& element) override;
+  void end(std::string_view name) override;
+  void text(std::string_view piece) override;
+
+  [[nodiscard]] const std::string& srs_name() const { return srs_name_; }
+  [[nodiscard]] const std::string& root() const { return root_; }
+  [[nodiscard]] ReliefReader& relief() { return relief_; }
+  [[nodiscard]] const PassedOver& passed_over() const { return passed_over_.counts(); }
+
+ private:
+  /// What an open element is to us; it is undone when the element ends.
+  enum class Meaning {
+    nothing,
+    members,  ///< holds an object of the city
+    building,
+    part,
+    boundary,
+    installation,
+    surfaces,
+    geometry,
+    height,
+    relation,   ///< tells whether an installation is inside
+    prototype,  ///< a geometry that is placed
+    prototype_number,
+    terrain,
+  };
+  /// Empty: the element is passed over, with all it holds.
+  using MaybeMeaning = std::optional<Meaning>;
+
+  [[nodiscard]] MaybeMeaning meaning_of(const XmlElement& element);
+  [[nodiscard]] MaybeMeaning meaning_outside(const XmlElement& element);
+  [[nodiscard]] MaybeMeaning meaning_in_relief(const XmlElement& element);
+  [[nodiscard]] MaybeMeaning meaning_inside(const XmlElement& element);
+  [[nodiscard]] MaybeMeaning meaning_in_surfaces(const XmlElement& element);
+  [[nodiscard]] MaybeMeaning meaning_in_prototype(const XmlElement& element);
+  [[nodiscard]] MaybeMeaning meaning_of_thing(const XmlElement& element, Vocabulary vocabulary);
+  [[nodiscard]] MaybeMeaning meaning_of_lod_property(const XmlElement& element);
+  [[nodiscard]] Meaning begin_words(Meaning meaning);
+  [[nodiscard]] std::optional<SurfaceRole> role_of_lod_property(int lod, std::string_view what) const;
+  [[nodiscard]] SurfaceRole role_here() const;
+  void begin_building(const XmlElement& element);
+  void begin_part();
+  void begin_installation(SurfaceRole role);
+  void begin_surfaces(const SurfaceUse& use, const XmlElement& element);
+  void end_building();
+  void end_installation();
+  void end_prototype();
+  void take_height();
+  void undo(Meaning meaning, std::string_view name);
+
+  /// A balcony, a pylon: something that stands at a building.
+  struct Installation {
+    SurfaceRole role = SurfaceRole::installation;
+    std::size_t first_use = 0;
+    bool is_inside = false;
+  };
+
+  TakeBuilding take_;
+  std::vector<Meaning> open_;
+  std::size_t depth_passed_over_ = 0;
+  PassedOverCount passed_over_;
+  CityGmlBuilding building_;
+  GmlSurfaceReader reader_{building_.surfaces};
+  ReliefReader relief_;
+  PrototypeReader prototype_;
+  bool in_building_ = false, in_surfaces_ = false, in_relief_ = false, in_prototype_ = false, in_words_ = false;
+  std::vector<std::uint16_t> parts_;
+  std::vector<SurfaceKind> kinds_;
+  std::vector<Installation> installations_;
+  std::size_t boundaries_ = 0, buildings_ = 0;
+  std::string words_, srs_name_, root_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ingest/citygml/citygml_relief.hpp"
+
+#include <cmath>
+
+#include "ingest/ring_cleaning.hpp"
+
+namespace farlod {
+namespace {
+
+bool is_readable(double coordinate) { return std::abs(coordinate) <= farthest_coordinate; }  // false for NaN
+
+}  // namespace
+
+void ReliefReader::begin(const XmlElement& property) {
+  dimension_ = property.srs_dimension == "2" ? 2 : 3;
+  in_list_ = false;
+}
+
+bool ReliefReader::start(const XmlElement& element) {
+  if (element.srs_dimension == "2") dimension_ = 2;
+  if (element.srs_dimension == "3") dimension_ = 3;
+  // The corners of an envelope are no points of the terrain
+  if (in_list_ || element.name == "boundedBy") return false;
+  if (element.name == "posList" || element.name == "pos" || element.name == "coordinates") {
+    in_list_ = true;
+    numbers_.clear();
+    first_of_list_.reset();
+    points_of_list_ = 0;
+  }
+  return true;
+}
+
+void ReliefReader::text(std::string_view piece) {
+  if (in_list_) scanner_.take(piece, [this](double number) { take_number(number); });
+}
+
+void ReliefReader::end() {
+  if (!in_list_) return;
+  in_list_ = false;
+  scanner_.end([this](double number) { take_number(number); });
+  if (!numbers_.empty()) ++unreadable_points_;
+  const bool is_closed = points_of_list_ > 1 && first_of_list_ == points_.back();
+  if (is_closed) points_.pop_back();
+}
+
+void ReliefReader::take_number(double number) {
+  numbers_.push_back(number);
+  if (numbers_.size() < dimension_) return;
+  add_point();
+  numbers_.clear();
+}
+
+void ReliefReader::add_point() {
+  if (dimension_ < 3 || !is_readable(numbers_[0]) || !is_readable(numbers_[1]) || !is_readable(numbers_[2])) {
+    ++unreadable_points_;
+    return;
+  }
+  points_.push_back({numbers_[0], numbers_[1], numbers_[2]});
+  if (points_of_list_++ == 0) first_of_list_ = points_.back();
+}
+
+}  // namespace farlod

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "farlod/point.hpp"
+#include "ingest/citygml/gml_surfaces_numbers.hpp"
+#include "ingest/citygml/xml_element.hpp"
+
+namespace farlod {
+
+/// Takes the points of a terrain: the corners of a TIN's triangles, its control points, or a cloud of points. Holds nothing
+/// but the points, which may repeat; a ring's closing point is left away.
+class ReliefReader {
+ public:
+  /// Whether a property of CityGML's relief module holds points of the terrain.
+  [[nodiscard]] static bool is_point_property(std::string_view name) { return name == "tin" || name == "reliefPoints"; }
+
+  /// A new property with points begins.
+  void begin(const XmlElement& property);
+  /// False: the caller passes neither the element's content nor its end.
+  [[nodiscard]] bool start(const XmlElement& element);
+  void end();
+  void text(std::string_view piece);
+
+  [[nodiscard]] std::vector<Point3d>& points() { return points_; }
+  /// Points left out, since a coordinate is missing, is not a number, or lies beyond the Earth.
+  [[nodiscard]] std::size_t unreadable_points() const { return unreadable_points_; }
+
+ private:
+  void take_number(double number);
+  void add_point();
+
+  NumberScanner scanner_;
+  std::size_t dimension_ = 3;
+  bool in_list_ = false;
+  std::vector<double> numbers_;  ///< of the point that is not yet whole
+  std::optional<Point3d> first_of_list_;
+  std::size_t points_of_list_ = 0;
+  std::vector<Point3d> points_;
+  std::size_t unreadable_points_ = 0;
+};
+
+}  // namespace farlod

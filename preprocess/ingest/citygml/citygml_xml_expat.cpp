@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <expat.h>
+#include <iconv.h>
+
+#include <array>
+#include <exception>
+#include <istream>
+#include <memory>
+#include <new>
+
+#include "city/input_error.hpp"
+#include "ingest/citygml/citygml_xml.hpp"
+
+namespace farlod {
+namespace {
+
+/// Between a namespace and a name, in what Expat hands out: it cannot occur in either.
+constexpr char name_separator = '\n';
+constexpr std::string_view gml_space = "http://www.opengis.net/gml";
+constexpr std::size_t piece_bytes = std::size_t{1} << 16;
+/// Real cities that we have seen go to 14.
+constexpr std::size_t deepest_element = 256;
+/// Expat holds a tag or a comment whole, and looks at it again with each piece.
+constexpr std::size_t most_bytes_of_tag = std::size_t{1} << 22;
+
+/// What Expat's functions are given back.
+struct Parsing {
+  XML_Parser parser;
+  XmlListener& listener;
+  std::size_t depth = 0;
+  std::string refusal = {};           ///< why the file is not read on
+  std::exception_ptr exception = {};  ///< of the listener: it must not fly through a library written in C
+};
+
+void refuse(Parsing& parsing, std::string why) {
+  if (parsing.refusal.empty()) parsing.refusal = std::move(why);
+  XML_StopParser(parsing.parser, XML_FALSE);
+}
+
+template <class Call>
+void tell(Parsing& parsing, const Call& call) {
+  // Expat may hand out a little more after it was stopped
+  if (parsing.exception || !parsing.refusal.empty()) return;
+  try {
+    call(parsing.listener);
+  } catch (...) {
+    parsing.exception = std::current_exception();
+    XML_StopParser(parsing.parser, XML_FALSE);
+  }
+}
+
+struct QualifiedName {
+  std::string_view space, name;
+};
+
+QualifiedName split(std::string_view text) {
+  const std::size_t at = text.rfind(name_separator);
+  return at == text.npos ? QualifiedName{{}, text} : QualifiedName{text.substr(0, at), text.substr(at + 1)};
+}
+
+XmlElement element_of(const XML_Char* name, const XML_Char** attributes) {
+  const QualifiedName element_name = split(name);
+  XmlElement element{.space = element_name.space,
+                     .name = element_name.name,
+                     .id = {},
+                     .href = {},
+                     .srs_name = {},
+                     .srs_dimension = {},
+                     .orientation = {}};
+  for (; *attributes != nullptr; attributes += 2) {
+    const QualifiedName attribute = split(attributes[0]);
+    if (attribute.name == "id" && attribute.space.starts_with(gml_space))
+      element.id = attributes[1];
+    else if (attribute.name == "href")
+      element.href = attributes[1];
+    else if (attribute.name == "srsName")
+      element.srs_name = attributes[1];
+    else if (attribute.name == "srsDimension")
+      element.srs_dimension = attributes[1];
+    else if (attribute.name == "orientation")
+      element.orientation = attributes[1];
+  }
+  return element;
+}
+
+void XMLCALL on_start(void* user, const XML_Char* name, const XML_Char** attributes) {
+  Parsing& parsing = *static_cast<Parsing*>(user);
+  if (++parsing.depth > deepest_element)
+    return refuse(parsing, "its elements are nested deeper than " + std::to_string(deepest_element) + ", as in no city model");
+  tell(parsing, [&](XmlListener& listener) { listener.start(element_of(name, attributes)); });
+}
+
+void XMLCALL on_end(void* user, const XML_Char* name) {
+  Parsing& parsing = *static_cast<Parsing*>(user);
+  --parsing.depth;
+  tell(parsing, [&](XmlListener& listener) { listener.end(split(name).name); });
+}
+
+void XMLCALL on_text(void* user, const XML_Char* text, int length) {
+  tell(*static_cast<Parsing*>(user), [&](XmlListener& listener) { listener.text({text, static_cast<std::size_t>(length)}); });
+}
+
+/// Entities may unfold to more than any memory holds, default attributes likewise, and external ones lead to other files.
+constexpr const char* has_declarations =
+    "it declares entities, or has other declarations in its DOCTYPE: CityGML has no use for them, and they can make a small "
+    "file endless; delete the <!DOCTYPE ...>";
+
+void XMLCALL on_doctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*, int has_internal_subset) {
+  if (has_internal_subset != 0) refuse(*static_cast<Parsing*>(user), has_declarations);
+}
+
+void XMLCALL on_skipped_entity(void* user, const XML_Char* name, int) {
+  refuse(*static_cast<Parsing*>(user),
+         "it uses the entity &" + std::string(name).substr(0, 64) + "; which another file declares; entities are not read");
+}
+
+/// Expat knows UTF-8, UTF-16 and Latin-1; iconv tells what the bytes of any other one-byte encoding mean.
+int XMLCALL on_unknown_encoding(void*, const XML_Char* name, XML_Encoding* encoding) {
+  const iconv_t converter = iconv_open("UTF-32LE", name);
+  if (converter == reinterpret_cast<iconv_t>(-1)) return XML_STATUS_ERROR;
+  for (int byte = 0; byte < 256; ++byte) {
+    char in = static_cast<char>(byte);
+    std::array<unsigned char, 4> code_point{};
+    char *from = &in, *to = reinterpret_cast<char*>(code_point.data());
+    std::size_t from_left = 1, to_left = code_point.size();
+    const bool is_known = iconv(converter, &from, &from_left, &to, &to_left) != static_cast<std::size_t>(-1) && to_left == 0;
+    encoding->map[byte] = is_known ? code_point[0] | code_point[1] << 8 | code_point[2] << 16 : -1;
+    iconv(converter, nullptr, nullptr, nullptr, nullptr);
+  }
+  iconv_close(converter);
+  return XML_STATUS_OK;
+}
+
+std::string place_of(XML_Parser parser) {
+  return "line " + std::to_string(XML_GetCurrentLineNumber(parser)) + ", column " +
+         std::to_string(XML_GetCurrentColumnNumber(parser) + 1);
+}
+
+[[noreturn]] void throw_failure(const InputFile& file, const Parsing& parsing) {
+  if (parsing.exception) std::rethrow_exception(parsing.exception);
+  if (!parsing.refusal.empty())
+    throw InputError(file.name + " is not read: " + parsing.refusal + " (" + place_of(parsing.parser) + ").");
+  throw InputError(file.name + " is not well-formed XML: " + place_of(parsing.parser) + ": " +
+                   XML_ErrorString(XML_GetErrorCode(parsing.parser)) +
+                   ". Was it cut short? An XML checker (xmllint) shows the place.");
+}
+
+void set_handlers(Parsing& parsing) {
+  XML_Parser parser = parsing.parser;
+  XML_SetUserData(parser, &parsing);
+  XML_SetElementHandler(parser, on_start, on_end);
+  XML_SetCharacterDataHandler(parser, on_text);
+  XML_SetStartDoctypeDeclHandler(parser, on_doctype);
+  XML_SetSkippedEntityHandler(parser, on_skipped_entity);
+  XML_SetUnknownEncodingHandler(parser, on_unknown_encoding, nullptr);
+}
+
+}  // namespace
+
+void parse_xml(const InputFile& file, XmlListener& listener) {
+  const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(XML_ParserCreateNS(nullptr, name_separator),
+                                                                            &XML_ParserFree);
+  if (!parser) throw std::bad_alloc();
+  Parsing parsing{.parser = parser.get(), .listener = listener};
+  set_handlers(parsing);
+  const std::unique_ptr<std::istream> stream = open_input(file);
+  *stream >> std::ws;  // an XML declaration must come first, and some exports begin with blank lines
+  XML_Index bytes_read = 0;
+  for (bool is_last = false; !is_last;) {
+    void* buffer = XML_GetBuffer(parser.get(), static_cast<int>(piece_bytes));
+    if (buffer == nullptr) throw std::bad_alloc();
+    stream->read(static_cast<char*>(buffer), static_cast<std::streamsize>(piece_bytes));
+    is_last = !*stream;
+    bytes_read += static_cast<XML_Index>(stream->gcount());
+    if (XML_ParseBuffer(parser.get(), static_cast<int>(stream->gcount()), is_last) != XML_STATUS_OK) throw_failure(file, parsing);
+    // What is held back is the tag that has not ended yet
+    if (bytes_read - XML_GetCurrentByteIndex(parser.get()) > static_cast<XML_Index>(most_bytes_of_tag)) {
+      parsing.refusal = "it has a tag or a comment of more than " + std::to_string(most_bytes_of_tag) + " bytes";
+      throw_failure(file, parsing);
+    }
+  }
+}
+
+}  // namespace farlod

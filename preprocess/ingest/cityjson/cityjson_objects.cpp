@@ -1,0 +1,336 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ingest/cityjson/cityjson_objects.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include "city/input_error.hpp"
+#include "ingest/seen_polygons.hpp"
+
+namespace farlod {
+namespace {
+
+/// Prefabricated buildings of a whole city have fewer: templates are for lamps and trees.
+constexpr std::uint64_t most_template_corners = 10'000'000;
+
+enum class ObjectRole { none, building, part, installation, element, relief };
+
+ObjectRole role_of(std::string_view type) {
+  if (type == "TINRelief") return ObjectRole::relief;
+  if (type == "OtherConstruction") return ObjectRole::building;
+  for (const std::string_view kind : {"Building", "Bridge", "Tunnel"}) {
+    if (!type.starts_with(kind)) continue;
+    const std::string_view rest = type.substr(kind.size());
+    if (rest.empty()) return ObjectRole::building;
+    if (rest == "Part") return ObjectRole::part;
+    if (rest == "Installation") return ObjectRole::installation;
+    // CityJSON 1.0 says ConstructionElement
+    if (rest == "ConstructiveElement" || rest == "ConstructionElement") return ObjectRole::element;
+  }
+  return ObjectRole::none;
+}
+
+bool hides_the_sky(const CityJsonObject& object) {
+  const ObjectRole role = role_of(object.type);
+  return role != ObjectRole::none && role != ObjectRole::relief;
+}
+
+bool has_surfaces(std::string_view type) {
+  for (const std::string_view name : {"MultiSurface", "CompositeSurface", "Solid", "MultiSolid", "CompositeSolid"})
+    if (type == name) return true;
+  return false;
+}
+
+/// A geometry with its template looked up.
+struct Shape {
+  const CityJsonGeometry* geometry = nullptr;
+  const CityJsonInstance* instance = nullptr;
+  const CityJsonObject* object = nullptr;
+  std::uint16_t part = 0;
+  ObjectRole role = ObjectRole::building;  ///< a lone chimney decides no level of detail
+};
+
+bool is_usable(const CityJsonPolygon& polygon) {
+  if (polygon.rings.empty()) return false;
+  return std::set<std::int64_t>(polygon.rings[0].begin(), polygon.rings[0].end()).size() >= 3;
+}
+
+/// Who belongs to whom. Files say it in `children`, in `parents`, or in both.
+class Family {
+ public:
+  explicit Family(const std::vector<CityJsonObject>& objects)
+      : objects_(objects), children_(objects.size()), has_parent_(objects.size()) {
+    for (std::size_t k = 0; k < objects.size(); ++k) row_of_.try_emplace(objects[k].id, k);
+    for (std::size_t k = 0; k < objects.size(); ++k) {
+      for (const std::string& child : objects[k].children) link(k, find(child));
+      for (const std::string& parent : objects[k].parents)
+        if (const auto row = find(parent)) link(*row, k);
+    }
+  }
+
+  std::optional<std::size_t> find(const std::string& id) const {
+    const auto found = row_of_.find(id);
+    return found == row_of_.end() ? std::nullopt : std::optional(found->second);
+  }
+  const std::set<std::size_t>& children_of(std::size_t k) const { return children_[k]; }
+  bool has_parent(std::size_t k) const { return has_parent_[k]; }
+
+ private:
+  void link(std::size_t parent, std::optional<std::size_t> child) {
+    // Only what hides the sky can adopt: a building within a group is still a building
+    if (!child || *child == parent || !hides_the_sky(objects_[parent])) return;
+    children_[parent].insert(*child);
+    has_parent_[*child] = true;
+  }
+
+  const std::vector<CityJsonObject>& objects_;
+  std::unordered_map<std::string, std::size_t> row_of_;
+  std::vector<std::set<std::size_t>> children_;
+  std::vector<bool> has_parent_;
+};
+
+class BuildingWriter {
+ public:
+  BuildingWriter(const std::vector<CityJsonObject>& objects, const Family& family, const std::vector<Point3d>& vertices,
+                 const CityJsonTemplates& templates, std::vector<bool>& visited, CityWriter& writer, ObjectAccount& account)
+      : objects_(objects),
+        family_(family),
+        vertices_(vertices),
+        templates_(templates),
+        visited_(visited),
+        writer_(writer),
+        account_(account) {}
+
+  void write(std::size_t root, LodChoice lod) {
+    root_ = &objects_[root];
+    writer_.begin_building(objects_[root].id);
+    gather(root);
+    const std::vector<std::vector<double>> lods = usable_lods();
+    const std::vector<std::optional<double>> chosen = choose_lods(lods, lod);
+    std::vector<const Shape*> wanted;
+    std::size_t others = 0;
+    for (const Shape& shape : shapes_) {
+      const bool is_chosen = chosen[shape.part] && *chosen[shape.part] == shape.geometry->lod;
+      if (is_chosen) wanted.push_back(&shape);
+      others += is_chosen ? 0 : shape.geometry->polygons.size();
+    }
+    for (const Shape* shape : wanted) write(*shape, wanted.size() == 1);
+    if (!wanted.empty() && others > 0) writer_.add_problem(ProblemCode::other_level_of_detail, unused_polygons(others, lods));
+    writer_.end_building("no usable surface in the level of detail asked for; it has LoD " + list_lods(lods));
+  }
+
+ private:
+  /// Depth first, with a list of its own: a file may nest its parts deeper than the program's stack is.
+  void gather(std::size_t root) {
+    std::vector<std::pair<std::size_t, std::uint16_t>> waiting{{root, 0}};
+    while (!waiting.empty()) {
+      const auto [k, part_of_parent] = waiting.back();
+      waiting.pop_back();
+      if (visited_[k]) continue;
+      visited_[k] = true;
+      const ObjectRole role = role_of(objects_[k].type);
+      const bool shares_part = k == root || role == ObjectRole::installation || role == ObjectRole::element;
+      const std::uint16_t part = shares_part ? part_of_parent : next_part();
+      gather_own(objects_[k], part);
+      const std::set<std::size_t>& children = family_.children_of(k);
+      for (auto child = children.rbegin(); child != children.rend(); ++child)
+        if (hides_the_sky(objects_[*child])) waiting.emplace_back(*child, part);
+    }
+  }
+
+  void gather_own(const CityJsonObject& object, std::uint16_t part) {
+    if (!object.malformed.empty()) writer_.add_problem(ProblemCode::malformed_feature, object.id + ": " + object.malformed);
+    for (const CityJsonGeometry& geometry : object.geometries) add_shape(object, geometry, part);
+    for (const std::vector<std::string>* relatives : {&object.parents, &object.children})
+      for (const std::string& id : *relatives)
+        if (!family_.find(id)) writer_.add_problem(ProblemCode::dangling_reference, object.id + " refers to " + id);
+  }
+
+  std::uint16_t next_part() {
+    if (parts_ < std::numeric_limits<std::uint16_t>::max()) ++parts_;
+    return parts_;
+  }
+
+  void add_shape(const CityJsonObject& object, const CityJsonGeometry& geometry, std::uint16_t part) {
+    Shape shape{&geometry, nullptr, &object, part, &object == root_ ? ObjectRole::building : role_of(object.type)};
+    if (geometry.instance) {
+      if (geometry.instance->template_row >= templates_.geometries.size()) {
+        writer_.add_problem(ProblemCode::dangling_reference,
+                            "there is no template " + std::to_string(geometry.instance->template_row));
+        return;
+      }
+      shape.instance = &*geometry.instance;
+      shape.geometry = &templates_.geometries[geometry.instance->template_row];
+    }
+    if (has_surfaces(shape.geometry->type))
+      shapes_.push_back(shape);
+    else
+      writer_.add_problem(ProblemCode::unsupported_geometry, "a " + shape.geometry->type + " is not read");
+  }
+
+  /// A bridge may consist of constructive elements; where there is anything else, they follow it.
+  std::vector<std::vector<double>> usable_lods() const {
+    const auto lods = lods_of([](ObjectRole role) { return role == ObjectRole::building || role == ObjectRole::part; });
+    const bool has_any = std::any_of(lods.begin(), lods.end(), [](const auto& of_part) { return !of_part.empty(); });
+    return has_any ? lods : lods_of([](ObjectRole role) { return role == ObjectRole::element; });
+  }
+
+  template <class Decides>
+  std::vector<std::vector<double>> lods_of(const Decides& decides) const {
+    std::vector<std::vector<double>> lods(static_cast<std::size_t>(parts_) + 1);
+    for (const Shape& shape : shapes_) {
+      const auto& polygons = shape.geometry->polygons;
+      if (decides(shape.role) && std::any_of(polygons.begin(), polygons.end(), is_usable))
+        lods[shape.part].push_back(shape.geometry->lod);
+    }
+    return lods;
+  }
+
+  void write(const Shape& shape, bool is_alone) {
+    // Within one geometry two equal polygons are the author's; over several they are one surface told twice
+    std::vector<Rings> fresh;
+    for (const CityJsonPolygon& polygon : shape.geometry->polygons) {
+      std::optional<Rings> rings = points_of(polygon, shape);
+      if (!rings || (!is_alone && seen_.contains(*rings))) continue;
+      if (!is_alone) fresh.push_back(*rings);
+      if (shape.geometry->lod < 1.0)
+        write_footprint(*rings, shape);
+      else
+        writer_.add_polygon(*rings, RingEnd::implied, {.kind = polygon.kind, .part = shape.part, .surface = {}, .name = {}});
+    }
+    for (const Rings& rings : fresh) (void)seen_.insert(rings);
+  }
+
+  std::optional<Rings> points_of(const CityJsonPolygon& polygon, const Shape& shape) {
+    const std::vector<Point3d>& vertices = shape.instance ? templates_.vertices : vertices_;
+    Rings rings;
+    for (const std::vector<std::int64_t>& rows : polygon.rings) {
+      if (shape.instance) count_unfolded(rows.size());
+      Ring& ring = rings.emplace_back();
+      for (const std::int64_t row : rows) {
+        const std::optional<Point3d> p = vertex(vertices, row);
+        const std::optional<Point3d> anchor = shape.instance ? vertex(vertices_, shape.instance->anchor) : Point3d{};
+        if (!p || !anchor) {
+          writer_.add_problem(ProblemCode::vertex_index_out_of_range,
+                              "a ring names vertex " + std::to_string(p ? shape.instance->anchor : row) + " of " +
+                                  std::to_string(p ? vertices_.size() : vertices.size()));
+          return std::nullopt;
+        }
+        ring.push_back(shape.instance ? placed(*p, shape.instance->matrix) + *anchor : *p);
+      }
+    }
+    return rings;
+  }
+
+  /// A small file could otherwise fill the memory: each use of a template is as large as the template.
+  void count_unfolded(std::size_t corners) {
+    account_.template_corners += corners;
+    if (account_.template_corners > most_template_corners)
+      throw InputError(writer_.source() + ": its geometry templates unfold to more than " +
+                       std::to_string(most_template_corners) + " corners of buildings. Split it into tiles.");
+  }
+
+  static std::optional<Point3d> vertex(const std::vector<Point3d>& vertices, std::int64_t row) {
+    if (row < 0 || row >= static_cast<std::int64_t>(vertices.size())) return std::nullopt;
+    return vertices[static_cast<std::size_t>(row)];
+  }
+
+  static Point3d placed(const Point3d& p, const std::array<double, 16>& m) {
+    const auto row = [&](std::size_t r) { return m[r] * p.x + m[r + 1] * p.y + m[r + 2] * p.z + m[r + 3]; };
+    const double w = row(12);
+    return {row(0) / w, row(4) / w, row(8) / w};
+  }
+
+  /// LoD 0 has no volume: it is raised by the measured height.
+  void write_footprint(Rings& rings, const Shape& shape) {
+    const std::optional<double> height_m = shape.object->measured_height_m;
+    const double base_m = rings.empty() || rings[0].empty() ? 0.0 : rings[0][0].z;
+    if (!height_m)
+      writer_.add_problem(ProblemCode::no_height, "LoD 0 needs the attribute measuredHeight", first_readable(rings));
+    else if (!(*height_m > 0.0))
+      writer_.add_problem(ProblemCode::height_not_positive, "measuredHeight is " + std::to_string(*height_m),
+                          first_readable(rings));
+    else
+      writer_.add_prism(rings, RingEnd::implied, base_m, base_m + *height_m, shape.part);
+  }
+
+  const std::vector<CityJsonObject>& objects_;
+  const Family& family_;
+  const std::vector<Point3d>& vertices_;
+  const CityJsonTemplates& templates_;
+  std::vector<bool>& visited_;
+  CityWriter& writer_;
+  ObjectAccount& account_;
+  const CityJsonObject* root_ = nullptr;
+  std::vector<Shape> shapes_;
+  SeenPolygons seen_;
+  std::uint16_t parts_ = 0;
+};
+
+bool is_on_earth(const Point3d& p) {
+  // NaN is no less than anything
+  return std::abs(p.x) <= farthest_coordinate && std::abs(p.y) <= farthest_coordinate && std::abs(p.z) <= farthest_coordinate;
+}
+
+/// Triangles of terrain share their corners: each row of the vertex list counts once.
+class ReliefWriter {
+ public:
+  ReliefWriter(const std::vector<Point3d>& vertices, CityWriter& writer, std::vector<Point3d>& points)
+      : vertices_(vertices), is_taken_(vertices.size()), writer_(writer), points_(points) {}
+
+  void write(const CityJsonObject& relief) {
+    if (!relief.malformed.empty()) writer_.add_problem_at(relief.id, ProblemCode::malformed_feature, relief.malformed);
+    double best = -1.0;
+    for (const CityJsonGeometry& geometry : relief.geometries) best = std::max(best, geometry.lod);
+    std::size_t unknown = 0;
+    for (const CityJsonGeometry& geometry : relief.geometries)
+      if (geometry.lod == best)
+        for (const CityJsonPolygon& polygon : geometry.polygons)
+          for (const auto& ring : polygon.rings)
+            for (const std::int64_t row : ring) unknown += take(row) ? 0 : 1;
+    if (unknown > 0)
+      writer_.add_problem_at(relief.id, ProblemCode::vertex_index_out_of_range,
+                             std::to_string(unknown) + " corners of its triangles are not among the " +
+                                 std::to_string(vertices_.size()) + " vertices, or not numbers");
+  }
+
+ private:
+  bool take(std::int64_t row) {
+    const auto k = static_cast<std::size_t>(row);
+    if (row < 0 || k >= vertices_.size() || !is_on_earth(vertices_[k])) return false;
+    if (!is_taken_[k]) points_.push_back(vertices_[k]);
+    is_taken_[k] = true;
+    return true;
+  }
+
+  const std::vector<Point3d>& vertices_;
+  std::vector<bool> is_taken_;
+  CityWriter& writer_;
+  std::vector<Point3d>& points_;
+};
+
+}  // namespace
+
+void write_objects(const std::vector<CityJsonObject>& objects, const std::vector<Point3d>& vertices,
+                   const CityJsonTemplates& templates, LodChoice lod, CityWriter& writer, ObjectAccount& account) {
+  const Family family(objects);
+  std::vector<bool> visited(objects.size());
+  // What is left by the first round are circles of parents
+  for (const bool is_first_round : {true, false})
+    for (std::size_t k = 0; k < objects.size(); ++k)
+      if (hides_the_sky(objects[k]) && !visited[k] && (!is_first_round || !family.has_parent(k)))
+        BuildingWriter(objects, family, vertices, templates, visited, writer, account).write(k, lod);
+  ReliefWriter relief(vertices, writer, account.relief_points);
+  for (const CityJsonObject& object : objects) {
+    if (role_of(object.type) == ObjectRole::relief) relief.write(object);
+    if (role_of(object.type) == ObjectRole::none)
+      ++account.passed_over[object.type.empty() ? "objects without a type" : object.type];
+  }
+}
+
+}  // namespace farlod

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "city/source.hpp"
+#include "farlod/problem.hpp"
+#include "ingest/files/input_file.hpp"
+#include "ingest/lod_choice.hpp"
+
+namespace farlod {
+
+/// Whether a file is CityJSON or CityJSONSeq: it begins with a JSON object that says so. Reads no farther than needed. What is no
+/// JSON up to there is none.
+[[nodiscard]] bool is_cityjson(const InputFile& file);
+
+/// Reads CityJSON 1.0 to 2.0, or CityJSONSeq line by line. Throws InputError for what is not JSON (with line and column),
+/// not CityJSON, or holds neither buildings nor a relief.
+[[nodiscard]] SourceCity read_cityjson(const InputFile& file, LodChoice lod, Report& report);
+
+}  // namespace farlod

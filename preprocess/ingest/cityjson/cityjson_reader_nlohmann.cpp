@@ -1,0 +1,387 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <charconv>
+#include <cmath>
+#include <istream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "city/input_error.hpp"
+#include "ingest/city_writer.hpp"
+#include "ingest/cityjson/cityjson_objects.hpp"
+#include "ingest/cityjson/cityjson_reader.hpp"
+#include "ingest/surface_names.hpp"
+
+namespace farlod {
+namespace {
+
+using nlohmann::json;
+
+constexpr double unreadable = std::numeric_limits<double>::quiet_NaN();
+
+/// No city is nested as deep as this; trees that are cannot be copied or deleted within the stack.
+constexpr std::size_t deepest_nesting = 500;
+
+/// What a JSON text turned out not to be.
+class JsonFlaw : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What turned out to be no JSON.
+class SyntaxFlaw : public JsonFlaw {
+  using JsonFlaw::JsonFlaw;
+};
+
+/// nlohmann's messages begin with their own number in brackets.
+std::string plain(std::string_view message) {
+  const std::size_t at = message.find("] ");
+  return std::string(at == message.npos ? message : message.substr(at + 2));
+}
+
+double lod_from(const json& geometry) {
+  const auto lod = geometry.find("lod");
+  if (lod == geometry.end()) return 0.0;
+  if (lod->is_number()) return lod->get<double>();
+  const auto& text = lod->get_ref<const std::string&>();
+  double value = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return std::isfinite(value) ? value : 0.0;
+}
+
+/// How many lists lie around the surfaces of a geometry; nothing for what has no surfaces.
+std::optional<int> nesting_of(std::string_view type) {
+  if (type == "MultiSurface" || type == "CompositeSurface") return 0;
+  if (type == "Solid") return 1;
+  if (type == "MultiSolid" || type == "CompositeSolid") return 2;
+  return std::nullopt;
+}
+
+std::vector<SurfaceKind> kinds_from(const json& geometry) {
+  std::vector<SurfaceKind> kinds;
+  const auto semantics = geometry.find("semantics");
+  if (semantics == geometry.end() || !semantics->contains("surfaces")) return kinds;
+  for (const json& surface : semantics->at("surfaces")) kinds.push_back(kind_of_surface_name(surface.value("type", "")));
+  return kinds;
+}
+
+/// Numbers of semantics, nested like the boundaries; null when there are none.
+const json& semantic_values_of(const json& geometry) {
+  static const json nothing;
+  const auto semantics = geometry.find("semantics");
+  if (semantics == geometry.end() || !semantics->is_object()) return nothing;
+  const auto values = semantics->find("values");
+  return values == semantics->end() ? nothing : *values;
+}
+
+/// nlohmann would cut off a fraction, and has no answer for what no integer can hold.
+std::int64_t whole_number_from(const json& number) {
+  if (!number.is_number_integer()) throw JsonFlaw("the number of a vertex or a template is not whole");
+  return number.get<std::int64_t>();
+}
+
+std::vector<std::vector<std::int64_t>> rings_from(const json& surface) {
+  std::vector<std::vector<std::int64_t>> rings;
+  for (const json& ring : surface.get_ref<const json::array_t&>()) {
+    std::vector<std::int64_t>& rows = rings.emplace_back();
+    for (const json& row : ring.get_ref<const json::array_t&>()) rows.push_back(whole_number_from(row));
+  }
+  return rings;
+}
+
+/// Flattens solids and shells; `values` numbers the semantics of the surfaces in the same nesting, or is null at any depth.
+void add_polygons(const json& boundaries, const json& values, int nesting, const std::vector<SurfaceKind>& kinds,
+                  std::vector<CityJsonPolygon>& polygons) {
+  static const json nothing;
+  if (!boundaries.is_array()) throw JsonFlaw("the boundaries of a geometry are not nested as its type asks for");
+  const auto& list = boundaries.get_ref<const json::array_t&>();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const json& value = values.is_array() && i < values.size() ? values[i] : nothing;
+    if (nesting > 0) {
+      add_polygons(list[i], value, nesting - 1, kinds, polygons);
+      continue;
+    }
+    const auto row = value.is_number_unsigned() ? value.get<std::size_t>() : kinds.size();
+    polygons.push_back({rings_from(list[i]), row < kinds.size() ? kinds[row] : SurfaceKind::unknown});
+  }
+}
+
+CityJsonGeometry geometry_from(const json& j) {
+  CityJsonGeometry geometry{j.at("type").get<std::string>(), lod_from(j), {}, std::nullopt};
+  if (geometry.type == "GeometryInstance") {
+    geometry.instance = {static_cast<std::size_t>(whole_number_from(j.at("template"))),
+                         j.at("transformationMatrix").get<std::array<double, 16>>(), whole_number_from(j.at("boundaries").at(0))};
+  } else if (const std::optional<int> nesting = nesting_of(geometry.type)) {
+    add_polygons(j.at("boundaries"), semantic_values_of(j), *nesting, kinds_from(j), geometry.polygons);
+  }
+  return geometry;
+}
+
+CityJsonObject object_from(std::string id, const json& j) {
+  CityJsonObject object;
+  object.id = std::move(id);
+  try {
+    object.type = j.at("type").get<std::string>();
+    object.parents = j.value("parents", std::vector<std::string>());
+    object.children = j.value("children", std::vector<std::string>());
+    if (const auto attributes = j.find("attributes"); attributes != j.end() && attributes->is_object())
+      if (const auto height = attributes->find("measuredHeight"); height != attributes->end() && height->is_number())
+        object.measured_height_m = height->get<double>();
+    if (const auto geometries = j.find("geometry"); geometries != j.end())
+      for (const json& geometry : *geometries) object.geometries.push_back(geometry_from(geometry));
+  } catch (const std::exception& flaw) {
+    object.malformed = plain(flaw.what());
+    object.geometries.clear();
+  }
+  return object;
+}
+
+/// A reference system as the versions of CityJSON and its forerunners write it: a URL, a URN, "EPSG:n" or n alone, {"epsg": n},
+/// or a name in GeoJSON's way. Empty when it is none of these.
+std::string crs_definition_of(const json& crs) {
+  if (crs.is_string()) return crs.get<std::string>();
+  if (crs.is_number_unsigned()) return "EPSG:" + std::to_string(crs.get<std::uint64_t>());
+  if (!crs.is_object()) return {};
+  if (const auto code = crs.find("epsg"); code != crs.end()) return crs_definition_of(*code);
+  const auto properties = crs.find("properties");
+  if (properties == crs.end() || !properties->is_object() || !properties->contains("name")) return {};
+  return crs_definition_of(properties->at("name"));
+}
+
+std::string reference_system_of(const json& file) {
+  const json none = json::object();
+  const auto metadata = file.find("metadata");
+  for (const json* holder : {metadata != file.end() && metadata->is_object() ? &*metadata : &none, &file})
+    for (const char* key : {"referenceSystem", "crs"})
+      if (const auto crs = holder->find(key); crs != holder->end())
+        if (std::string definition = crs_definition_of(*crs); !definition.empty()) return definition;
+  return {};
+}
+
+/// One JSON text of CityJSON: a file, or a line of a sequence. Vertices are still whole numbers where the file says so.
+struct CityJsonText {
+  std::vector<CityJsonObject> objects;
+  std::vector<Point3d> vertices;
+  json rest = json::object();  ///< the other members, by name
+};
+
+/// Takes a CityJSON text apart while it is parsed: a tree of all its vertices would need ten times their memory, and
+/// would forget the order of the objects, and those whose id comes twice.
+class CityJsonCollector : public nlohmann::json_sax<json> {
+ public:
+  bool null() override { return take(json()); }
+  bool boolean(bool value) override { return take(json(value)); }
+  bool number_integer(number_integer_t value) override { return take_number(value); }
+  bool number_unsigned(number_unsigned_t value) override { return take_number(value); }
+  bool number_float(number_float_t value, const string_t&) override { return take_number(value); }
+  bool string(string_t& value) override { return take(json(std::move(value))); }
+  bool binary(binary_t&) override { return true; }
+
+  bool start_object(std::size_t) override { return open(json::object()); }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t) override { return open(json::array()); }
+  bool end_array() override { return close(); }
+  bool key(string_t& name) override {
+    if (depth_ == 1) begin_member(name);
+    if (depth_ == 2 && stack_.empty()) object_ = name;
+    key_ = std::move(name);
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& flaw) override {
+    is_json_ = false;
+    return fail(plain(flaw.what()));
+  }
+
+  [[nodiscard]] const std::string& flaw() const { return flaw_; }
+  [[nodiscard]] bool is_json() const { return is_json_; }
+  [[nodiscard]] CityJsonText text() { return std::move(text_); }
+
+ private:
+  /// Of the outermost object.
+  enum class Member { vertices, objects, other };
+
+  bool in_vertices() const { return depth_ >= 2 && kind_ == Member::vertices; }
+  bool among_objects() const { return depth_ == 2 && kind_ == Member::objects; }
+
+  void begin_member(const std::string& name) {
+    member_ = name;
+    kind_ = name == "vertices" ? Member::vertices : name == "CityObjects" ? Member::objects : Member::other;
+  }
+
+  template <class Number>
+  bool take_number(Number value) {
+    if (!in_vertices()) return take(json(value));
+    vertex_.push_back(static_cast<double>(value));
+    return true;
+  }
+
+  bool take(json value) {
+    if (depth_ == 0) return fail("it is no JSON object");
+    if (in_vertices())
+      vertex_.push_back(unreadable);
+    else if (!stack_.empty())
+      attach(std::move(value));
+    else
+      complete(std::move(value));
+    return true;
+  }
+
+  bool open(json container) {
+    if (depth_ == 0 && !container.is_object()) return fail("it is no JSON object");
+    if (depth_ == deepest_nesting) return fail("it is nested deeper than any city");
+    const bool is_ours = depth_ == 0 || in_vertices() || (depth_ == 1 && kind_ != Member::other);
+    ++depth_;
+    if (in_vertices() && depth_ == 3) vertex_.clear();
+    if (is_ours) return true;
+    if (stack_.empty()) tree_ = std::move(container);
+    stack_.push_back(stack_.empty() ? &tree_ : attach(std::move(container)));
+    return true;
+  }
+
+  bool close() {
+    if (in_vertices() && depth_ == 3) add_vertex();
+    --depth_;
+    if (stack_.empty()) return true;
+    stack_.pop_back();
+    if (stack_.empty()) complete(std::move(tree_));
+    return true;
+  }
+
+  json* attach(json value) {
+    json& top = *stack_.back();
+    if (top.is_array()) return &top.emplace_back(std::move(value));
+    return &(top[key_] = std::move(value));
+  }
+
+  void complete(json value) {
+    if (among_objects())
+      text_.objects.push_back(object_from(object_, value));
+    else if (depth_ == 1 && member_ != "appearance")
+      text_.rest[member_] = std::move(value);
+  }
+
+  void add_vertex() {
+    const bool is_point = vertex_.size() == 3;
+    text_.vertices.push_back(is_point ? Point3d{vertex_[0], vertex_[1], vertex_[2]}
+                                      : Point3d{unreadable, unreadable, unreadable});
+  }
+
+  bool fail(std::string what) {
+    flaw_ = std::move(what);
+    return false;
+  }
+
+  CityJsonText text_;
+  std::string member_, object_, key_, flaw_;
+  Member kind_ = Member::other;
+  bool is_json_ = true;
+  std::size_t depth_ = 0;
+  std::vector<double> vertex_;
+  json tree_;
+  std::vector<json*> stack_;
+};
+
+/// ", but 15 SolitaryVegetationObject": what there is instead.
+std::string said(const PassedOver& passed_over) {
+  std::string text;
+  for (const auto& [type, count] : passed_over) text += (text.empty() ? ", but " : ", ") + std::to_string(count) + " " + type;
+  return text;
+}
+
+class CityJsonFile {
+ public:
+  CityJsonFile(const InputFile& file, LodChoice lod, CityWriter& writer) : file_(file), lod_(lod), writer_(writer) {}
+
+  /// The first text says where the city lies; in a sequence the features follow, one a line.
+  void read() {
+    const std::unique_ptr<std::istream> stream = open_input(file_);
+    take_header(parse(*stream));
+    *stream >> std::ws;
+    if (stream->peek() == std::istream::traits_type::eof()) return;
+    if (stream->peek() != '{') throw SyntaxFlaw("there is more text behind its end");
+    std::string line;
+    for (number_ = 2; std::getline(*stream, line); ++number_)
+      if (line.find_first_not_of(" \t\r") != line.npos) take_feature(line);
+  }
+
+  std::string reference_system;
+  ObjectAccount account;
+
+ private:
+  /// Of a stream the first text only: where it ends, the stream stands.
+  template <class Text>
+  CityJsonText parse(Text&& text) {
+    constexpr bool is_stream = std::is_base_of_v<std::istream, std::remove_cvref_t<Text>>;
+    CityJsonCollector collector;
+    if (json::sax_parse(text, &collector, json::input_format_t::json, !is_stream)) return collector.text();
+    if (collector.is_json()) throw JsonFlaw(collector.flaw());
+    throw SyntaxFlaw(collector.flaw());
+  }
+
+  void take_header(CityJsonText text) {
+    if (text.rest.value("type", json()) != "CityJSON") throw JsonFlaw("it does not say \"type\": \"CityJSON\"");
+    if (text.rest.contains("transform")) {
+      scale_ = text.rest.at("transform").at("scale").get<std::array<double, 3>>();
+      translate_ = text.rest.at("transform").at("translate").get<std::array<double, 3>>();
+    }
+    reference_system = reference_system_of(text.rest);
+    if (text.rest.contains("geometry-templates")) take_templates(text.rest.at("geometry-templates"));
+    write(text);
+  }
+
+  void take_templates(const json& j) {
+    for (const json& geometry : j.at("templates")) templates_.geometries.push_back(geometry_from(geometry));
+    for (const auto& p : j.at("vertices-templates").get<std::vector<std::array<double, 3>>>())
+      templates_.vertices.push_back({p[0], p[1], p[2]});
+  }
+
+  /// A line that is no JSON costs its feature, not the city.
+  void take_feature(const std::string& line) {
+    try {
+      CityJsonText text = parse(line);
+      if (text.rest.value("type", json()) != "CityJSONFeature") throw JsonFlaw("it is no CityJSONFeature");
+      write(text);
+    } catch (const JsonFlaw& flaw) {
+      writer_.add_problem_at("line " + std::to_string(number_), ProblemCode::malformed_feature, flaw.what());
+    }
+  }
+
+  void write(CityJsonText& text) {
+    for (Point3d& p : text.vertices)
+      p = {p.x * scale_[0] + translate_[0], p.y * scale_[1] + translate_[1], p.z * scale_[2] + translate_[2]};
+    write_objects(text.objects, text.vertices, templates_, lod_, writer_, account);
+  }
+
+  const InputFile& file_;
+  LodChoice lod_;
+  CityWriter& writer_;
+  std::size_t number_ = 1;
+  std::array<double, 3> scale_{1.0, 1.0, 1.0}, translate_{};
+  CityJsonTemplates templates_;
+};
+
+}  // namespace
+
+SourceCity read_cityjson(const InputFile& file, LodChoice lod, Report& report) {
+  CityWriter writer(file.name, report);
+  CityJsonFile reader(file, lod, writer);
+  try {
+    reader.read();
+  } catch (const SyntaxFlaw& flaw) {
+    throw InputError(file.name + " is not JSON: " + flaw.what() + ". Was it cut short? The validator cjval tells more.");
+  } catch (const JsonFlaw& flaw) {
+    throw InputError(file.name + " is not CityJSON: " + flaw.what() + ". The validator cjval tells more.");
+  } catch (const json::exception& flaw) {
+    throw InputError(file.name + " is not CityJSON: " + plain(flaw.what()) + ". The validator cjval tells more.");
+  }
+  if (writer.buildings_met() == 0 && reader.account.relief_points.empty())
+    throw InputError(file.name + " holds no Building, Bridge, Tunnel, OtherConstruction or TINRelief" +
+                     said(reader.account.passed_over) + ". Is it another theme of the city model?");
+  return {.source = file.name,
+          .crs = {reader.reference_system, false, false},
+          .city = writer.take_city(),
+          .relief_points = std::move(reader.account.relief_points),
+          .passed_over = std::move(reader.account.passed_over)};
+}
+
+}  // namespace farlod

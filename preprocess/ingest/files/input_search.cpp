@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ingest/files/input_search.hpp"
+
+#include <algorithm>
+#include <string>
+#include <unordered_set>
+#include <utility>
+
+#include "city/input_error.hpp"
+#include "ingest/files/file_beginning.hpp"
+#include "ingest/files/file_ending.hpp"
+#include "ingest/files/file_format.hpp"
+#include "ingest/files/map_kind.hpp"
+#include "ingest/files/zip_directory.hpp"
+#include "ingest/files/zip_members.hpp"
+
+namespace farlod {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Enough to know an archive.
+constexpr std::size_t mark_bytes = 512;
+
+/// Endings that only cities and footprints have. `.xml` and `.json` may be anything, and are looked into.
+bool has_city_ending(const std::string& name) {
+  return ends_with_any(name, {".gml", ".citygml", ".cityjson", ".city.json", ".jsonl", ".obj", ".geojson", ".geojsonl",
+                              ".geojsons", ".gpkg", ".shp", ".fgb", ".kml", ".kmz", ".tab", ".mif", ".sqlite", ".topojson"});
+}
+
+/// Companions of city files: parts of shapefiles and of MapInfo tables, textures, styles, schemas, documents, traces of systems.
+bool is_companion(const std::string& name) {
+  return ends_with_any(
+      name, {".shx",  ".dbf", ".prj", ".cpg", ".qix",  ".sbn", ".sbx",  ".qmd",  ".qml", ".qpj",  ".shp.xml", ".aux.xml",
+             ".lyr",  ".sld", ".mid", ".dat", ".map",  ".id",  ".ind",  ".gfs",  ".xsd", ".xsl",  ".mtl",     ".jpg",
+             ".jpeg", ".png", ".bmp", ".gif", ".tga",  ".dds", ".webp", ".jgw",  ".pgw", ".tfw",  ".wld",     ".offset",
+             ".txt",  ".md",  ".pdf", ".htm", ".html", ".css", ".doc",  ".docx", ".xls", ".xlsx", ".db",      ".properties"});
+}
+
+bool is_hidden(const fs::path& relative) {
+  return std::any_of(relative.begin(), relative.end(), [](const fs::path& name) {
+    const std::string text = name.string();
+    return text == "__MACOSX" || (text.starts_with('.') && text != "." && text != "..");
+  });
+}
+
+bool is_geodatabase(const fs::path& folder) { return ends_with_any(folder.filename().string(), {".gdb"}); }
+
+/// The plain files below a folder, and the folders that are one data set, by name.
+std::vector<fs::path> entries_below(const fs::path& folder) {
+  std::vector<fs::path> entries;
+  std::error_code error;
+  fs::recursive_directory_iterator entry(folder, error);
+  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    std::error_code vanished;
+    const bool is_folder = entry->is_directory(vanished), is_whole = is_folder && is_geodatabase(entry->path());
+    if (is_whole) entry.disable_recursion_pending();
+    const bool is_wanted = is_whole || (!is_folder && entry->is_regular_file(vanished));
+    if (is_wanted && !is_hidden(entry->path().lexically_relative(folder))) entries.push_back(entry->path());
+  }
+  if (error) throw InputError(folder.string() + " cannot be searched: " + error.message() + ". Check its permissions.");
+  std::sort(entries.begin(), entries.end());
+  return entries;
+}
+
+/// A geodatabase is a folder in an archive, too: its files stand for it.
+InputFile whole_of(const InputFile& member) {
+  fs::path inner = fs::path(member.name).lexically_relative(member.on_disk), outer = inner;
+  while (!outer.empty() && !is_geodatabase(outer)) outer = outer.parent_path();
+  if (outer.empty()) return member;
+  fs::path path = member.path;
+  for (; inner != outer; inner = inner.parent_path()) path = path.parent_path();
+  return {(member.on_disk / outer).string(), path, member.on_disk};
+}
+
+InputFile gzip_member(const fs::path& file) {
+  return {file.string(), "/vsigzip/" + fs::absolute(file).lexically_normal().string(), file};
+}
+
+class InputSearch {
+ public:
+  explicit InputSearch(Report& report) : report_(report) {}
+
+  FoundInputs search(std::span<const fs::path> inputs) {
+    std::error_code error;
+    for (const fs::path& input : inputs)
+      if (!fs::exists(input, error)) throw InputError(input.string() + " does not exist. Check the path.");
+    for (const fs::path& input : inputs) {
+      rasters_.clear();
+      const std::size_t known = found_.files.size();
+      attempt(input, [&] { take_named(input); });
+      settle_rasters(found_.files.size() == known);
+    }
+    require_something(inputs);
+    for (const auto& [name, reason] : unusable_) report_.add({ProblemCode::unusable_file, name, "the whole file", reason});
+    return std::move(found_);
+  }
+
+ private:
+  /// Whether it costs the run or only its share is known when all have been looked at.
+  template <class Work>
+  void attempt(const fs::path& what, const Work& work) {
+    try {
+      work();
+    } catch (const InputError& error) {
+      unusable_.emplace_back(what.string(), error.what());
+    }
+  }
+
+  void take_named(const fs::path& input) {
+    if (!fs::is_directory(input)) return take_file(input, [this](const InputFile& file) { take_as_named(file); });
+    if (is_geodatabase(input)) return add(input);
+    const std::size_t known = found_.files.size();
+    for (const fs::path& entry : entries_below(input))
+      attempt(entry, [&] { take_file(entry, [this](const InputFile& file) { take_if_city(file); }); });
+    const bool is_empty = found_.files.size() == known && rasters_.empty();
+    if (is_empty && map_kind_of(input) == MapKind::features) add(input);
+  }
+
+  /// Opens an archive, if it is one. What is within an archive is never taken for being named itself.
+  template <class Take>
+  void take_file(const fs::path& file, const Take& take) {
+    if (fs::is_directory(file)) return add(file);
+    const std::string beginning = read_beginning(file, mark_bytes);
+    if (is_zip(beginning) && !ends_with_any(file.string(), {".kmz", ".xlsx", ".ods", ".shz"}))
+      take_archive(file);
+    else
+      take(is_gzip(beginning) ? gzip_member(file) : InputFile(file));
+  }
+
+  void take_archive(const fs::path& archive) {
+    locked_.clear();
+    for (const ZipListing& listing : zip_listings(archive)) {
+      if (listing.is_locked) locked_.insert(listing.name);
+      if (!leads_outside(listing.name)) continue;
+      const std::string name = (archive / fs::path(listing.name).relative_path()).string();
+      unusable_.emplace_back(name, name + " is not opened: its name, \"" + listing.name + "\", leads out of the archive.");
+    }
+    for (const InputFile& member : files_in_zip(archive)) take_member(member);
+  }
+
+  void take_member(const InputFile& member) {
+    const fs::path inside = fs::path(member.name).lexically_relative(member.on_disk);
+    const InputFile whole = whole_of(member);
+    if (is_hidden(inside) || leads_outside(inside.generic_string())) return;
+    if (whole.path != member.path)
+      add(whole);
+    else if (!locked_.contains(inside.generic_string()))
+      take_if_city(member);
+    else if (!is_companion(member.unpacked_name()))
+      unusable_.emplace_back(member.name, member.name + " is locked by a password: unpack it first.");
+  }
+
+  void take_as_named(const InputFile& file) {
+    if (!has_city_ending(file.unpacked_name()) && format_by_content(file) == FileFormat::raster)
+      rasters_.push_back(file);
+    else
+      add(file);
+  }
+
+  void take_if_city(const InputFile& file) {
+    const std::string name = file.unpacked_name();
+    if (is_companion(name)) return;
+    const bool is_xml = ends_with_any(name, {".xml"}), is_json = ends_with_any(name, {".json"});
+    const bool is_empty_city = (is_xml || is_json) && read_beginning(file, 1).empty();
+    if (has_city_ending(name) || is_empty_city) return add(file);
+    const FileFormat format = format_by_content(file);
+    const bool is_table = format == FileFormat::features, is_none = format == FileFormat::unknown;
+    if (format == FileFormat::raster)
+      rasters_.push_back(file);
+    else if (!is_none && (!is_table || is_json))
+      add(file);
+    else if (!is_xml && !is_json)
+      pass_over(file);
+  }
+
+  void add(const InputFile& file) {
+    if (is_new(file)) found_.files.push_back(file);
+  }
+
+  bool is_new(const InputFile& file) {
+    const std::string inside = file.name.substr(std::min(file.name.size(), file.on_disk.string().size()));
+    return known_.insert(fs::canonical(file.on_disk).string() + '\n' + inside).second;
+  }
+
+  void pass_over(const InputFile& file) {
+    const std::string ending = in_lower_case(fs::path(file.unpacked_name()).extension().string());
+    ++found_.passed_over[ending.empty() ? "files without an ending" : ending + " files"];
+  }
+
+  /// A single raster is a surface model; several, or one beside cities, may be pictures of them.
+  void settle_rasters(bool is_alone) {
+    if (is_alone && rasters_.size() == 1) {
+      if (is_new(rasters_.front())) found_.surface_models.push_back(rasters_.front());
+    } else {
+      for (const InputFile& raster : rasters_) pass_over(raster);
+    }
+  }
+
+  void require_something(std::span<const fs::path> inputs) const {
+    if (inputs.empty() || !found_.files.empty() || !found_.surface_models.empty()) return;
+    if (!unusable_.empty()) throw InputError(unusable_.front().second);
+    std::string others;
+    for (const auto& [what, count] : found_.passed_over)
+      others += (others.empty() ? " It holds " : ", ") + std::to_string(count) + " " + what;
+    throw InputError(inputs.front().string() + " holds no file of a city: no CityGML, CityJSON, OBJ or footprints." + others +
+                     (others.empty() ? "" : "."));
+  }
+
+  Report& report_;
+  FoundInputs found_;
+  std::vector<InputFile> rasters_;                             ///< of the input at hand
+  std::unordered_set<std::string> known_, locked_;             ///< files that were met; names in the archive at hand
+  std::vector<std::pair<std::string, std::string>> unusable_;  ///< names and reasons
+};
+
+}  // namespace
+
+FoundInputs find_input_files(std::span<const fs::path> inputs, Report& report) { return InputSearch(report).search(inputs); }
+
+}  // namespace farlod

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ingest/files/zip_directory.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <system_error>
+
+namespace farlod {
+namespace {
+
+// The format is described in APPNOTE.TXT of PKWARE: 4.3.16 the end of the list, 4.3.12 its entries
+constexpr std::size_t end_bytes = 22, longest_comment = 0xFFFF, entry_bytes = 46;
+constexpr std::string_view end_mark = "PK\5\6", entry_mark = "PK\1\2";
+constexpr std::uint32_t in_large_format = 0xFFFFFFFF, locked_bit = 1;
+
+/// A number of `count` bytes, lowest first.
+std::uint32_t number_at(std::string_view bytes, std::size_t at, std::size_t count) {
+  std::uint32_t number = 0;
+  for (std::size_t k = count; k-- > 0;) number = number << 8 | static_cast<unsigned char>(bytes[at + k]);
+  return number;
+}
+
+std::string read_at(std::ifstream& stream, std::uintmax_t place, std::size_t bytes) {
+  std::string text(bytes, '\0');
+  stream.seekg(static_cast<std::streamoff>(place));
+  stream.read(text.data(), static_cast<std::streamsize>(bytes));
+  return stream ? text : std::string();
+}
+
+/// The list as it lies in the file; it is no longer than the file, which is checked before it is read.
+std::string list_of(const std::filesystem::path& archive) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(archive, error);
+  std::ifstream stream(archive, std::ios::binary);
+  if (error || !stream || size < end_bytes) return {};
+  const std::size_t tail_bytes = static_cast<std::size_t>(std::min<std::uintmax_t>(size, end_bytes + longest_comment));
+  const std::string tail = read_at(stream, size - tail_bytes, tail_bytes);
+  const std::size_t end = tail.rfind(end_mark);
+  if (end == tail.npos || end + end_bytes > tail.size()) return {};
+  const std::uint32_t bytes = number_at(tail, end + 12, 4), place = number_at(tail, end + 16, 4);
+  if (place == in_large_format || bytes > size || place > size - bytes) return {};
+  return read_at(stream, place, bytes);
+}
+
+}  // namespace
+
+std::vector<ZipListing> zip_listings(const std::filesystem::path& archive) {
+  const std::string list = list_of(archive);
+  std::vector<ZipListing> listings;
+  for (std::string_view rest = list; rest.size() >= entry_bytes && rest.starts_with(entry_mark);) {
+    const std::size_t name_bytes = number_at(rest, 28, 2), more_bytes = number_at(rest, 30, 2) + number_at(rest, 32, 2);
+    listings.push_back({printable(rest.substr(entry_bytes, name_bytes)), (number_at(rest, 8, 2) & locked_bit) != 0});
+    rest.remove_prefix(std::min(rest.size(), entry_bytes + name_bytes + more_bytes));
+  }
+  return listings;
+}
+
+std::string printable(std::string_view name) {
+  std::string text(name);
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7F; }, '?');
+  return text;
+}
+
+bool leads_outside(std::string_view name) {
+  if (name.starts_with('/') || name.starts_with('\\') || name.substr(0, 2).ends_with(':')) return true;
+  while (!name.empty()) {
+    const std::size_t end = std::min(name.find_first_of("/\\"), name.size());
+    if (name.substr(0, end) == "..") return true;
+    name.remove_prefix(std::min(end + 1, name.size()));
+  }
+  return false;
+}
+
+}  // namespace farlod

@@ -1,0 +1,338 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cpl_error.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <variant>
+
+#include "city/input_error.hpp"
+#include "farlod/angle.hpp"
+#include "ingest/city_writer.hpp"
+#include "ingest/footprints/footprint_heights.hpp"
+#include "ingest/footprints/footprint_reader.hpp"
+#include "ingest/footprints/height_text.hpp"
+
+namespace farlod {
+namespace {
+
+/// Keeps GDAL from printing: its errors become ours.
+class GdalMessages {
+ public:
+  GdalMessages() { CPLPushErrorHandlerEx(&keep, this); }
+  ~GdalMessages() { CPLPopErrorHandler(); }
+  GdalMessages(const GdalMessages&) = delete;
+  GdalMessages& operator=(const GdalMessages&) = delete;
+
+  [[nodiscard]] std::vector<std::string> take() { return std::exchange(errors_, {}); }
+
+ private:
+  static void CPL_STDCALL keep(CPLErr level, CPLErrorNum, const char* message) {
+    if (level >= CE_Failure) static_cast<GdalMessages*>(CPLGetErrorHandlerUserData())->errors_.emplace_back(message);
+  }
+  std::vector<std::string> errors_;
+};
+
+constexpr std::array<const char*, 10> id_field_names{"gml_id",      "@id", "id",         "osm_id",   "osm_way_id",
+                                                     "building_id", "bin", "identifier", "objectid", "fid"};
+/// Enough to tell whether a text column holds lengths, and whether features are bodies.
+constexpr int most_features_to_sample = 100;
+/// Of latitude, to three digits.
+constexpr double metres_in_a_degree = 111e3;
+
+struct FeatureDeleter {
+  void operator()(OGRFeature* feature) const { OGRFeature::DestroyFeature(feature); }
+};
+using Feature = std::unique_ptr<OGRFeature, FeatureDeleter>;
+Feature next_feature(OGRLayer& layer) { return Feature(layer.GetNextFeature()); }
+
+bool is_set(const OGRFeature& feature, int field) { return field >= 0 && feature.IsFieldSetAndNotNull(field); }
+
+FieldValue value_of(const OGRFeature& feature, int field) {
+  if (!is_set(feature, field)) return {};
+  const OGRFieldType type = feature.GetFieldDefnRef(field)->GetType();
+  if (type == OFTReal || type == OFTInteger || type == OFTInteger64) return {feature.GetFieldAsDouble(field), {}, true};
+  return {std::nullopt, feature.GetFieldAsString(field), true};
+}
+
+bool is_length(const FieldValue& value) { return value.number || (value.is_set && length_m_from(value.text)); }
+
+bool holds_areas(OGRLayer& layer) {
+  const OGRwkbGeometryType type = wkbFlatten(layer.GetGeomType());
+  return type == wkbUnknown || type == wkbGeometryCollection || OGR_GT_IsSubClassOf(type, wkbSurface) ||
+         OGR_GT_IsSubClassOf(type, wkbMultiSurface);
+}
+
+/// Names of the fields whose values are lengths, for the user to choose from.
+std::string numeric_fields(OGRLayer& layer) {
+  std::vector<bool> is_numeric(static_cast<std::size_t>(layer.GetLayerDefn()->GetFieldCount()), false);
+  layer.ResetReading();
+  Feature feature = next_feature(layer);
+  for (int n = 0; feature && n < most_features_to_sample; feature = next_feature(layer), ++n)
+    for (std::size_t f = 0; f < is_numeric.size(); ++f)
+      if (is_length(value_of(*feature, static_cast<int>(f)))) is_numeric[f] = true;
+  std::string names;
+  for (std::size_t f = 0; f < is_numeric.size(); ++f)
+    if (is_numeric[f])
+      names.append(names.empty() ? "" : ", ").append(layer.GetLayerDefn()->GetFieldDefn(static_cast<int>(f))->GetNameRef());
+  return names.empty() ? "no field with numbers" : "fields with numbers: " + names;
+}
+
+std::string wkt_of(OGRLayer& layer) {
+  const OGRSpatialReference* reference = layer.GetSpatialRef();
+  if (reference == nullptr) return {};
+  char* wkt = nullptr;
+  const std::array<const char*, 2> options{"FORMAT=WKT2_2019", nullptr};
+  const bool is_good = reference->exportToWkt(&wkt, options.data()) == OGRERR_NONE;
+  const std::string text = is_good && wkt != nullptr ? wkt : "";
+  CPLFree(wkt);
+  return text;
+}
+
+Ring ring_from(const OGRLinearRing& line) {
+  Ring ring;
+  for (int k = 0; k < line.getNumPoints(); ++k) ring.push_back({line.getX(k), line.getY(k), line.getZ(k)});
+  return ring;
+}
+
+/// Of a feature that has no rings to be found by.
+std::optional<Point3d> middle_of(const OGRGeometry& geometry) {
+  OGREnvelope box;
+  geometry.getEnvelope(&box);
+  const Ring middle{{0.5 * (box.MinX + box.MaxX), 0.5 * (box.MinY + box.MaxY), 0.0}};
+  return first_readable({&middle, 1});
+}
+
+/// The areas of a feature.
+struct Areas {
+  std::vector<Rings> polygons;
+  bool holds_others = false;      ///< something that is no area
+  bool is_made_of_faces = false;  ///< a polyhedral surface or a network of triangles
+  bool is_body = false;           ///< not an area on the ground
+};
+
+/// Collects the polygons of a geometry; false when it holds something that is no area.
+bool add_polygons(const OGRGeometry& geometry, Areas& areas) {
+  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+  if (OGR_GT_IsSubClassOf(type, wkbPolygon)) {
+    Rings& rings = areas.polygons.emplace_back();
+    for (const OGRLinearRing* ring : *geometry.toPolygon()) rings.push_back(ring_from(*ring));
+    return true;
+  }
+  if (OGR_GT_IsSubClassOf(type, wkbPolyhedralSurface)) {
+    areas.is_made_of_faces = true;
+    const OGRPolyhedralSurface& surface = *geometry.toPolyhedralSurface();
+    for (int n = 0; n < surface.getNumGeometries(); ++n) add_polygons(*surface.getGeometryRef(n), areas);
+    return true;
+  }
+  if (type != wkbMultiPolygon && type != wkbGeometryCollection) return false;
+  bool all = true;
+  for (const OGRGeometry* member : *geometry.toGeometryCollection()) all = add_polygons(*member, areas) && all;
+  return all;
+}
+
+void flatten(Rings& rings) {
+  for (Ring& ring : rings)
+    for (Point3d& p : ring) p.z = 0.0;
+}
+
+class FootprintLayer {
+ public:
+  FootprintLayer(OGRLayer& layer, const IngestSettings& settings, CityWriter& writer)
+      : layer_(layer), writer_(writer), heights_(field_names(), with_fields_checked(settings)) {
+    for (const char* name : id_field_names)
+      if (const int field = index_of(name); field >= 0) id_fields_.push_back(field);
+    holds_bodies_ = find_bodies();
+    if (!holds_bodies_ && !heights_.can_tell())
+      throw InputError(writer_.source() + " does not say how high its footprints are: " + numeric_fields(layer_) +
+                       ". Name the field with --height-field or --storeys-field, or give all one --default-height.");
+  }
+
+  void read(GdalMessages& messages) {
+    layer_.ResetReading();
+    for (Feature feature = next_feature(layer_); feature; feature = next_feature(layer_)) {
+      read_feature(*feature);
+      report(messages, id_of(*feature));
+    }
+    report(messages, layer_.GetName());
+  }
+
+  /// Whether the features are surfaces in space, which stand where they are, and not areas to be raised.
+  [[nodiscard]] bool holds_bodies() const { return holds_bodies_; }
+
+ private:
+  int index_of(const char* name) const { return layer_.GetLayerDefn()->GetFieldIndex(name); }
+
+  std::vector<std::string> field_names() const {
+    std::vector<std::string> names;
+    for (int field = 0; field < layer_.GetLayerDefn()->GetFieldCount(); ++field)
+      names.emplace_back(layer_.GetLayerDefn()->GetFieldDefn(field)->GetNameRef());
+    return names;
+  }
+
+  const IngestSettings& with_fields_checked(const IngestSettings& settings) {
+    check_field(settings.height_field, "--height-field");
+    check_field(settings.base_field, "--base-field");
+    check_field(settings.storeys_field, "--storeys-field");
+    check_field(settings.roof_field, "--roof-field");
+    return settings;
+  }
+
+  void check_field(const std::optional<std::string>& name, const char* option) {
+    if (!name || index_of(name->c_str()) >= 0) return;
+    throw InputError(writer_.source() + " has no field \"" + *name + "\" (" + numeric_fields(layer_) + "). Give one of them as " +
+                     option + ".");
+  }
+
+  bool find_bodies() {
+    layer_.ResetReading();
+    Feature feature = next_feature(layer_);
+    for (int n = 0; feature && n < most_features_to_sample; feature = next_feature(layer_), ++n)
+      if (feature->GetGeometryRef() != nullptr && areas_of(*feature->GetGeometryRef()).is_body) return true;
+    return false;
+  }
+
+  std::string id_of(const OGRFeature& feature) const {
+    for (const int field : id_fields_)
+      if (is_set(feature, field)) return feature.GetFieldAsString(field);
+    return std::to_string(feature.GetFID());
+  }
+
+  void report(GdalMessages& messages, const std::string& place) {
+    for (std::string& message : messages.take())
+      writer_.add_problem_at(place, ProblemCode::malformed_feature, std::move(message));
+  }
+
+  void read_feature(const OGRFeature& feature) {
+    const std::string id = id_of(feature);
+    const OGRGeometry* geometry = feature.GetGeometryRef();
+    if (geometry == nullptr || geometry->IsEmpty()) {
+      writer_.add_problem_at(id, ProblemCode::no_geometry, "the feature has no geometry");
+      return;
+    }
+    Areas areas = areas_of(*geometry);
+    if (areas.holds_others)
+      writer_.add_problem_at(id, ProblemCode::not_an_area, std::string("it is, or holds, a ") + geometry->getGeometryName(),
+                             middle_of(*geometry));
+    if (areas.polygons.empty()) return;
+    if (holds_bodies_)
+      write_body(id, areas.polygons);
+    else if (areas.is_body)
+      writer_.add_problem_at(id, ProblemCode::unsupported_geometry, "a body in space among footprints is not read",
+                             first_readable(areas.polygons.front()));
+    else
+      raise(feature, id, areas.polygons);
+  }
+
+  void write_body(const std::string& id, std::vector<Rings>& polygons) {
+    writer_.begin_building(id);
+    for (Rings& rings : polygons) writer_.add_polygon(rings, RingEnd::repeats_first, {});
+    writer_.end_building("none of its polygons is usable");
+  }
+
+  void raise(const OGRFeature& feature, const std::string& id, std::vector<Rings>& polygons) {
+    for (Rings& rings : polygons) flatten(rings);
+    const auto answer = heights_.of([&](std::size_t field) { return value_of(feature, static_cast<int>(field)); });
+    if (const auto* reason = std::get_if<Unraised>(&answer)) {
+      writer_.add_problem_at(id, reason->code, reason->detail, first_readable(polygons.front()));
+      return;
+    }
+    const auto& extent = std::get<PrismExtent>(answer);
+    writer_.begin_building(id, extent.footing);
+    for (std::size_t part = 0; part < polygons.size(); ++part)
+      writer_.add_prism(polygons[part], RingEnd::repeats_first, extent.base_m, extent.top_m, static_cast<std::uint16_t>(part));
+    writer_.end_building("none of its rings is usable");
+  }
+
+  /// What a polygon's plan has to be multiplied with to be in the unit of its heights, near enough to tell a wall from a floor.
+  [[nodiscard]] Point2d plan_scale(Point2d p) const {
+    const OGRSpatialReference* reference = layer_.GetSpatialRef();
+    if (reference == nullptr || reference->IsGeographic() == 0) return {1.0, 1.0};
+    return {metres_in_a_degree * std::cos(Angle::degrees(p.y).radians()), metres_in_a_degree};
+  }
+
+  /// Whether a polygon is steeper than 45°, as walls are, and as no footprint is that was laid over the terrain.
+  [[nodiscard]] bool is_steep(const Ring& ring) const {
+    if (ring.empty()) return false;
+    const Point2d scale = plan_scale(horizontal(ring.front()));
+    const auto from_first = [&](const Point3d& p) {
+      const Point3d d = p - ring.front();
+      return Point3d{scale.x * d.x, scale.y * d.y, d.z};
+    };
+    Point3d sum;
+    for (std::size_t k = 2; k < ring.size(); ++k) sum = sum + cross(from_first(ring[k - 1]), from_first(ring[k]));
+    return std::hypot(sum.x, sum.y) > std::abs(sum.z);
+  }
+
+  [[nodiscard]] Areas areas_of(const OGRGeometry& geometry) const {
+    // Arcs become chords, as fine as GDAL's own default
+    const std::unique_ptr<OGRGeometry> straight(geometry.getLinearGeometry());
+    Areas areas;
+    areas.holds_others = !straight || !add_polygons(*straight, areas);
+    const auto steep = [this](const Rings& rings) { return !rings.empty() && is_steep(rings.front()); };
+    const bool is_surface =
+        areas.is_made_of_faces || (areas.polygons.size() > 1 && std::any_of(areas.polygons.begin(), areas.polygons.end(), steep));
+    areas.is_body = geometry.Is3D() != 0 && is_surface;
+    return areas;
+  }
+
+  OGRLayer& layer_;
+  CityWriter& writer_;
+  FootprintHeights heights_;
+  std::vector<int> id_fields_;
+  bool holds_bodies_ = false;
+};
+
+/// The first layer of areas, by preference one that has the height field asked for.
+OGRLayer* choose_layer(GDALDataset& dataset, const IngestSettings& settings) {
+  OGRLayer* first = nullptr;
+  for (OGRLayer* layer : dataset.GetLayers()) {
+    if (!holds_areas(*layer)) continue;
+    const bool has_field = !settings.height_field || layer->GetLayerDefn()->GetFieldIndex(settings.height_field->c_str()) >= 0;
+    if (has_field) return layer;
+    if (first == nullptr) first = layer;
+  }
+  return first;
+}
+
+void report_other_layers(GDALDataset& dataset, OGRLayer* chosen, CityWriter& writer) {
+  for (OGRLayer* layer : dataset.GetLayers())
+    if (layer != chosen)
+      writer.add_problem_at(std::string("layer ") + layer->GetName(), ProblemCode::unsupported_geometry,
+                            std::string("only one layer of a file is read, and that is ") + chosen->GetName());
+}
+
+GDALDatasetUniquePtr open(const InputFile& file, GdalMessages& messages) {
+  static std::once_flag once;
+  std::call_once(once, GDALAllRegister);
+  // Of GML: nothing is written beside the input, and nothing fetched from a place that the input names
+  constexpr std::array<const char*, 3> options{"WRITE_GFS=NO", "DOWNLOAD_SCHEMA=NO", nullptr};
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(file.path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, options.data()));
+  const std::vector<std::string> errors = messages.take();
+  if (!dataset)
+    throw InputError(file.name +
+                     " cannot be read as a city: it is no CityGML, CityJSON or OBJ, and GDAL finds no footprints in it" +
+                     (errors.empty() ? "." : " (" + errors.front() + ")."));
+  return dataset;
+}
+
+}  // namespace
+
+SourceCity read_footprints(const InputFile& file, const IngestSettings& settings, Report& report) {
+  GdalMessages messages;
+  const GDALDatasetUniquePtr dataset = open(file, messages);
+  OGRLayer* layer = choose_layer(*dataset, settings);
+  if (layer == nullptr) throw InputError(file.name + " holds no layer of polygons: footprints are areas.");
+  CityWriter writer(file.name, report);
+  report_other_layers(*dataset, layer, writer);
+  FootprintLayer footprints(*layer, settings, writer);
+  footprints.read(messages);
+  // Attributes are in metres; elevations of vertices are in the unit of the reference system
+  return {.source = file.name, .crs = {wkt_of(*layer), true, !footprints.holds_bodies()}, .city = writer.take_city()};
+}
+
+}  // namespace farlod

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ingest/obj/obj_reader.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "city/input_error.hpp"
+#include "ingest/obj/disjoint_sets.hpp"
+#include "ingest/obj/obj_mesh.hpp"
+#include "ingest/obj/planar_faces.hpp"
+
+namespace farlod {
+namespace {
+
+/// The faces of each building, in the order of the file.
+struct FacesByBuilding {
+  std::vector<std::uint32_t> faces;
+  std::vector<std::size_t> begin;  ///< of each building in `faces`, and one past the last
+  std::vector<std::string> ids;
+};
+
+bool is_in_range(const ObjMesh& mesh, std::int64_t corner) {
+  return corner >= 0 && corner < static_cast<std::int64_t>(mesh.vertices.size());
+}
+
+/// For each face the first face that shares a point with it, directly or through others.
+std::vector<std::uint32_t> components(const ObjMesh& mesh) {
+  const std::vector<std::uint32_t> point_of = weld(mesh.vertices);
+  std::vector<std::uint32_t> first_face(mesh.vertices.size(), 0xFFFFFFFF), roots;
+  DisjointSets sets(mesh.faces.size());
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f)
+    for (std::uint32_t c = 0; c < mesh.faces[f].corner_count; ++c) {
+      const std::int64_t corner = mesh.corners[mesh.faces[f].first_corner + c];
+      if (!is_in_range(mesh, corner)) continue;
+      std::uint32_t& first = first_face[point_of[static_cast<std::size_t>(corner)]];
+      if (first == 0xFFFFFFFF) first = f;
+      sets.join(first, f);
+    }
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) roots.push_back(sets.find(f));
+  return roots;
+}
+
+/// Sorts the faces by a key; buildings come in the order of their first face.
+FacesByBuilding sort_by(const std::vector<std::uint32_t>& key_of_face, std::size_t key_count) {
+  FacesByBuilding sorted;
+  std::vector<std::uint32_t> building_of_key(key_count, 0xFFFFFFFF), building_of_face;
+  std::uint32_t buildings = 0;
+  for (const std::uint32_t key : key_of_face) {
+    if (building_of_key[key] == 0xFFFFFFFF) building_of_key[key] = buildings++;
+    building_of_face.push_back(building_of_key[key]);
+  }
+  sorted.begin.assign(buildings + 1, 0);
+  for (const std::uint32_t b : building_of_face) ++sorted.begin[b + 1];
+  std::partial_sum(sorted.begin.begin(), sorted.begin.end(), sorted.begin.begin());
+  sorted.faces.resize(key_of_face.size());
+  std::vector<std::size_t> next = sorted.begin;
+  for (std::uint32_t f = 0; f < key_of_face.size(); ++f) sorted.faces[next[building_of_face[f]]++] = f;
+  return sorted;
+}
+
+FacesByBuilding group_faces(const ObjMesh& mesh) {
+  const bool has_objects = mesh.objects.size() > 2, has_names = mesh.objects.size() > 1 || mesh.groups.size() > 1;
+  const bool by_object = has_objects || mesh.groups.size() == 1;
+  std::vector<std::uint32_t> keys;
+  if (has_names)
+    for (const ObjFace& face : mesh.faces) keys.push_back(by_object ? face.object : face.group);
+  else
+    keys = components(mesh);
+  FacesByBuilding sorted = sort_by(keys, std::max({mesh.faces.size(), mesh.groups.size(), mesh.objects.size()}));
+  for (std::size_t b = 0; b + 1 < sorted.begin.size(); ++b) {
+    const std::uint32_t key = keys[sorted.faces[sorted.begin[b]]];
+    const std::string name = !has_names ? "" : by_object ? mesh.objects[key] : mesh.groups[key];
+    sorted.ids.push_back(!name.empty() ? name : has_names ? "unnamed" : "component " + std::to_string(b + 1));
+  }
+  return sorted;
+}
+
+class ObjBuildings {
+ public:
+  ObjBuildings(const ObjMesh& mesh, const ObjFrame& frame, CityWriter& writer) : mesh_(mesh), frame_(frame), writer_(writer) {}
+
+  void write(const std::string& id, std::span<const std::uint32_t> faces) {
+    writer_.begin_building(id);
+    gather(faces);
+    const std::vector<std::uint32_t> surface = number_planar_faces(corners_);
+    for (std::size_t k = 0; k < corners_.face_count(); ++k) {
+      const std::string name = "of line " + std::to_string(mesh_.faces[kept_[k]].line);
+      rings_.resize(1);
+      rings_[0].assign(corners_.face(k).begin(), corners_.face(k).end());
+      writer_.add_polygon(rings_, RingEnd::implied, {.kind = SurfaceKind::unknown, .surface = surface[k], .name = name});
+    }
+    writer_.end_building("none of its faces is usable");
+  }
+
+ private:
+  void gather(std::span<const std::uint32_t> faces) {
+    corners_ = {};
+    kept_.clear();
+    for (const std::uint32_t f : faces) {
+      const ObjFace& face = mesh_.faces[f];
+      const auto numbers = std::span(mesh_.corners).subspan(face.first_corner, face.corner_count);
+      if (!std::all_of(numbers.begin(), numbers.end(), [&](std::int64_t corner) { return is_in_range(mesh_, corner); })) {
+        writer_.add_problem(ProblemCode::vertex_index_out_of_range,
+                            "the face of line " + std::to_string(face.line) + " names a vertex that is not among the " +
+                                std::to_string(mesh_.vertices.size()) + " of the file",
+                            {}, "polygon of line " + std::to_string(face.line) + ", ring 0 (outer)");
+        continue;
+      }
+      for (const std::int64_t corner : numbers)
+        corners_.points.push_back(placed(mesh_.vertices[static_cast<std::size_t>(corner)]));
+      corners_.end_face();
+      kept_.push_back(f);
+    }
+  }
+
+  Point3d placed(const Point3d& p) const { return frame_.origin + (frame_.up == UpAxis::y ? Point3d{p.x, -p.z, p.y} : p); }
+
+  const ObjMesh& mesh_;
+  const ObjFrame frame_;
+  CityWriter& writer_;
+  FaceCorners corners_;
+  std::vector<std::uint32_t> kept_;
+  Rings rings_;
+};
+
+void report_unread(const ObjMesh& mesh, CityWriter& writer) {
+  for (const std::uint64_t line : mesh.malformed_lines)
+    writer.add_problem_at("line " + std::to_string(line), ProblemCode::malformed_feature,
+                          "a face's corners are not vertex numbers");
+  if (mesh.unread_elements > 0)
+    writer.add_problem_at(
+        "line " + std::to_string(mesh.first_unread_line), ProblemCode::unsupported_geometry,
+        std::to_string(mesh.unread_elements) + " points, lines or curved surfaces from here on; only faces (f) are read");
+}
+
+}  // namespace
+
+void read_obj(const InputFile& file, const ObjFrame& frame, CityWriter& writer) {
+  const ObjMesh mesh = scan_obj(read_whole(file));
+  report_unread(mesh, writer);
+  if (mesh.faces.empty())
+    throw InputError(file.name + " holds " + std::to_string(mesh.vertices.size()) +
+                     " vertices and no face: it is not an OBJ file, or it is a point cloud. Export it as a polygon mesh.");
+  const FacesByBuilding sorted = group_faces(mesh);
+  ObjBuildings buildings(mesh, frame, writer);
+  for (std::size_t b = 0; b < sorted.ids.size(); ++b)
+    buildings.write(sorted.ids[b], std::span(sorted.faces).subspan(sorted.begin[b], sorted.begin[b + 1] - sorted.begin[b]));
+}
+
+}  // namespace farlod
