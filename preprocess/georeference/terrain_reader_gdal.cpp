@@ -47,7 +47,9 @@ Dataset open_raster(const std::filesystem::path& file) {
   CPLErrorReset();
   Dataset dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
   if (!dataset || dataset->GetRasterCount() < 1)
-    fail(file, "is not a raster of heights that can be read: give a GeoTIFF, an ESRI ASCII grid or another format of GDAL");
+    fail(file,
+         "is not a raster of heights that can be read: give a GeoTIFF, an ESRI ASCII grid or another format of GDAL; a relief "
+         "of CityGML or CityJSON goes among the inputs");
   return dataset;
 }
 

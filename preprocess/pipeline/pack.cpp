@@ -46,9 +46,9 @@ Box2d outline_of(const TerrainRaster& terrain) {
   return outline;
 }
 
-Box2d outline_of(std::span<const Point3d> relief_points) {
+Box2d outline_of(std::span<const Point3d> points) {
   Box2d outline;
-  for (const Point3d& p : relief_points) outline.add(horizontal(p));
+  for (const Point3d& p : points) outline.add(horizontal(p));
   return outline;
 }
 
@@ -57,10 +57,19 @@ Box2d ground_outline(const LocatedCity& located, const std::optional<TerrainRast
   return terrain ? outline_of(*terrain) : outline_of(located.relief_points);
 }
 
-/// What becomes of it depends on what else there is: a raster that was asked for stands in for reliefs.
+bool overlap(const Box2d& a, const Box2d& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
+/// What becomes of it depends on what else there is: a raster that was asked for stands in for reliefs, and a relief of another
+/// place says nothing about this one.
 void settle_relief(LocatedCity& located, bool has_terrain, PassedOver& passed_over) {
-  if (!has_terrain || located.relief_points.empty()) return;
-  passed_over["points of reliefs (the raster stands in for them)"] += located.relief_points.size();
+  if (located.relief_points.empty()) return;
+  const bool is_elsewhere = !located.city.buildings().empty() &&
+                            !overlap(outline_of(located.relief_points), outline_of(std::as_const(located.city).points()));
+  if (!has_terrain && !is_elsewhere) return;
+  const char* reason = has_terrain ? " (the raster stands in for them)" : " (none lies where the city is)";
+  passed_over[std::string("points of reliefs") + reason] += located.relief_points.size();
   located.relief_points.clear();
 }
 

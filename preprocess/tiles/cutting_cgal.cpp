@@ -29,6 +29,23 @@ Point3f rounded(const ExactCorner& corner, const std::array<Point3d, 3>& triangl
   return {round(corner.p_grid.x, south_west.x), round(corner.p_grid.y, south_west.y), round(corner.p_grid.z, height_origin_m)};
 }
 
+std::vector<CellPiece> cut(const std::array<Point3d, 3>& triangle, const Grid& grid, double height_origin_m,
+                           const CellRange& wanted) {
+  if (const auto cell = only_cell(triangle, grid)) {
+    if (!wanted.contains(*cell)) return {};
+    std::vector<Point3f> polygon;
+    for (const Point3d& p : triangle) polygon.push_back(cell_from_grid(p, *cell, grid, height_origin_m));
+    return {{*cell, std::move(polygon)}};
+  }
+  std::vector<CellPiece> pieces;
+  for (const ExactPiece& exact : cut_exactly(triangle, grid, wanted)) {
+    CellPiece& piece = pieces.emplace_back(CellPiece{exact.cell, {}});
+    for (const ExactCorner& corner : exact.polygon)
+      piece.polygon.push_back(rounded(corner, triangle, exact.cell, grid, height_origin_m));
+  }
+  return pieces;
+}
+
 }  // namespace
 
 Point3f cell_from_grid(const Point3d& p_grid, Cell cell, const Grid& grid, double height_origin_m) {
@@ -38,18 +55,11 @@ Point3f cell_from_grid(const Point3d& p_grid, Cell cell, const Grid& grid, doubl
 }
 
 std::vector<CellPiece> cut(const std::array<Point3d, 3>& triangle, const Grid& grid, double height_origin_m) {
-  if (const auto cell = only_cell(triangle, grid)) {
-    std::vector<Point3f> polygon;
-    for (const Point3d& p : triangle) polygon.push_back(cell_from_grid(p, *cell, grid, height_origin_m));
-    return {{*cell, std::move(polygon)}};
-  }
-  std::vector<CellPiece> pieces;
-  for (const ExactPiece& exact : cut_exactly(triangle, grid)) {
-    CellPiece& piece = pieces.emplace_back(CellPiece{exact.cell, {}});
-    for (const ExactCorner& corner : exact.polygon)
-      piece.polygon.push_back(rounded(corner, triangle, exact.cell, grid, height_origin_m));
-  }
-  return pieces;
+  return cut(triangle, grid, height_origin_m, all_cells);
+}
+
+std::vector<CellPiece> cut_within(const std::array<Point3d, 3>& triangle, const Grid& grid, double height_origin_m) {
+  return cut(triangle, grid, height_origin_m, grid.cells);
 }
 
 }  // namespace farlod

@@ -55,10 +55,20 @@ std::pair<std::int32_t, std::int32_t> intervals(const Polygon& polygon, Axis axi
   return {first, last};
 }
 
-/// Cuts along all borders of one axis, and hands each part on with its interval.
+/// Intervals from `begin` to before `end`.
+struct Wanted {
+  std::int32_t begin, end;
+};
+
+/// Cuts along the borders of one axis, and hands each part that is wanted on with its interval.
 template <class Sink>
-void cut_along(Axis axis, Polygon polygon, const Grid& grid, const Sink& sink) {
-  const auto [first, last] = intervals(polygon, axis, grid);
+void cut_along(Axis axis, Polygon polygon, const Grid& grid, Wanted wanted, const Sink& sink) {
+  auto [first, last] = intervals(polygon, axis, grid);
+  if (last < wanted.begin || first >= wanted.end) return;
+  if (first < wanted.begin) polygon = split(polygon, axis, Rational(grid.border_m(wanted.begin))).second;
+  if (last >= wanted.end) polygon = split(polygon, axis, Rational(grid.border_m(wanted.end))).first;
+  first = std::max(first, wanted.begin);
+  last = std::min(last, wanted.end - 1);
   for (std::int32_t k = first; k < last; ++k) {
     auto [below, above] = split(polygon, axis, Rational(grid.border_m(k + 1)));
     sink(k, std::move(below));
@@ -69,15 +79,15 @@ void cut_along(Axis axis, Polygon polygon, const Grid& grid, const Sink& sink) {
 
 }  // namespace
 
-std::vector<ExactPiece> cut_exactly(const std::array<Point3d, 3>& triangle_grid, const Grid& grid) {
+std::vector<ExactPiece> cut_exactly(const std::array<Point3d, 3>& triangle_grid, const Grid& grid, const CellRange& wanted) {
   Polygon triangle;
   for (std::int8_t n = 0; n < 3; ++n) {
     const Point3d& p = triangle_grid[static_cast<std::size_t>(n)];
     triangle.push_back({{Rational(p.x), Rational(p.y), Rational(p.z)}, n});
   }
   std::vector<ExactPiece> pieces;
-  cut_along(Axis::x, std::move(triangle), grid, [&](std::int32_t i, Polygon column) {
-    cut_along(Axis::y, std::move(column), grid, [&](std::int32_t j, Polygon piece) {
+  cut_along(Axis::x, std::move(triangle), grid, {wanted.i_begin, wanted.i_end}, [&](std::int32_t i, Polygon column) {
+    cut_along(Axis::y, std::move(column), grid, {wanted.j_begin, wanted.j_end}, [&](std::int32_t j, Polygon piece) {
       pieces.push_back({{i, j}, std::move(piece)});
     });
   });

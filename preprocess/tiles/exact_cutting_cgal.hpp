@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "farlod/grid.hpp"
@@ -25,6 +26,10 @@ struct ExactCorner {
   std::int8_t original = -1;
 };
 
+/// Whatever cells a triangle reaches.
+inline constexpr CellRange all_cells{std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::min(),
+                                     std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max()};
+
 /// A convex part of a triangle, in one cell.
 struct ExactPiece {
   Cell cell;
@@ -36,7 +41,9 @@ struct ExactPiece {
 ///   (2) the exact area vectors of the pieces sum to the triangle's own: equality, not tolerance
 ///   (3) a piece on a border belongs to one cell, the one to its east or north
 ///   (4) two triangles that share an edge are cut at the same points of it
-[[nodiscard]] std::vector<ExactPiece> cut_exactly(const std::array<Point3d, 3>& triangle_grid, const Grid& grid);
+/// Only pieces in the cells `wanted` are returned, and time is spent on no others.
+[[nodiscard]] std::vector<ExactPiece> cut_exactly(const std::array<Point3d, 3>& triangle_grid, const Grid& grid,
+                                                  const CellRange& wanted = all_cells);
 
 /// Twice the area vector of a closed polygon.
 [[nodiscard]] ExactPoint twice_area_vector(const std::vector<ExactCorner>& polygon);

@@ -14,7 +14,7 @@ namespace farlod {
 
 /// How far the ground reaches.
 enum class GroundExtent {
-  rectangle,  ///< over the whole rectangle: its corners get the height of the nearest point
+  rectangle,  ///< over the whole rectangle: where the points do not reach its corners, these get the height of the nearest
   points      ///< no farther than the points themselves: beyond them nothing is known
 };
 

@@ -59,11 +59,11 @@ Ground::Ground(std::vector<Point3d> points, const Box2d& rectangle, GroundExtent
   Network& network = impl_->network;
   network.insert(input.begin(), input.end());
   if (extent == GroundExtent::points) return;
-  // All heights first, so that one corner is not another's nearest point
+  // All heights first, so that one corner is not another's nearest point. Within the network they change nothing
   std::vector<Kernel::Point_3> corners;
   for (const Point2d c :
        {rectangle.low, Point2d{rectangle.high.x, rectangle.low.y}, rectangle.high, Point2d{rectangle.low.x, rectangle.high.y}})
-    corners.emplace_back(c.x, c.y, height_of_nearest(network, c));
+    corners.emplace_back(c.x, c.y, height_at(c));
   // A corner that is a point already keeps that point's height
   for (const Kernel::Point_3& corner : corners) network.insert(corner);
 }

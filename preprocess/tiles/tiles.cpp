@@ -14,6 +14,7 @@
 #include "tiles/building_pieces.hpp"
 #include "tiles/ground.hpp"
 #include "tiles/lift_onto_terrain.hpp"
+#include "tiles/relief_thinning.hpp"
 
 namespace farlod {
 namespace {
@@ -35,26 +36,15 @@ std::vector<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& 
   return nodes;
 }
 
-/// Reliefs come in tiles far larger than a city. What lies farther from the rectangle than its longer side shapes nothing in it,
-/// unless the relief has no points nearer by.
-Box2d with_surroundings(const Box2d& rectangle) {
-  const Point2d size_m = rectangle.high - rectangle.low;
-  const double reach_m = std::max(size_m.x, size_m.y);
-  return {rectangle.low - Point2d{reach_m, reach_m}, rectangle.high + Point2d{reach_m, reach_m}};
-}
-
-/// Through the nodes of a raster, else through the points of a relief; empty when neither has any here.
+/// Through the nodes of a raster, else through the points of a relief; empty when there is neither.
 std::optional<Ground> surveyed_ground(const std::optional<TerrainRaster>& terrain, std::span<const Point3d> relief_points_city,
                                       const Grid& grid, GroundExtent extent) {
   if (terrain) return Ground(nodes_of(*terrain, grid.rotation), grid.rectangle(), extent);
   if (relief_points_city.empty()) return std::nullopt;
-  const Box2d shaping = with_surroundings(grid.rectangle());
   std::vector<Point3d> points_grid;
-  for (const Point3d& p_city : relief_points_city)
-    if (const Point3d p_grid = grid.rotation.grid_from_city(p_city); shaping.contains(horizontal(p_grid)))
-      points_grid.push_back(p_grid);
-  if (points_grid.empty()) return std::nullopt;
-  return Ground(std::move(points_grid), grid.rectangle(), extent);
+  points_grid.reserve(relief_points_city.size());
+  for (const Point3d& p_city : relief_points_city) points_grid.push_back(grid.rotation.grid_from_city(p_city));
+  return Ground(thinned_relief(std::move(points_grid), grid.rectangle()), grid.rectangle(), extent);
 }
 
 /// Calls place(n, made) for each n below `count`, in order and one at a time, with what make(n) returns. Making goes on in
@@ -122,7 +112,7 @@ class TileCutter {
     tiles_.surfaces.push_back({ground_building, 0, 0, SurfaceKind::ground, {0.0, 0.0, 1.0}, 0.0});
     const std::vector<std::array<Point3d, 3>> triangles = std::move(ground_triangles_);  // let go of before the buildings come
     make_and_place(
-        triangles.size(), [&](std::size_t n) { return cut(triangles[n], grid_, tiles_.height_origin_m); },
+        triangles.size(), [&](std::size_t n) { return cut_within(triangles[n], grid_, tiles_.height_origin_m); },
         [&](std::size_t n, const std::vector<CellPiece>& pieces) {
           const auto& [a, b, c] = triangles[n];
           tiles_.surfaces[ground_surface].area_m2 += 0.5 * norm(cross(b - a, c - a));

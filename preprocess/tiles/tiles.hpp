@@ -27,9 +27,9 @@ inline constexpr double least_overhang_m = 0.5;
 ///   (1) the tiles partition the city: the exact area vectors of a facet's pieces sum to its own, and no piece lies in two tiles
 ///   (2) a facet that is not in the tiles is in the report
 ///   (3) the result does not depend on the number of threads
-/// The ground is a network through the nodes of the terrain's raster; without one, through the points of the city's relief; without
-/// both, through the buildings' base points. Onto raster or relief those buildings are lifted that know only their height above
-/// ground.
+/// The ground is a network through the nodes of the terrain's raster; without one, through the points of the city's relief;
+/// without both, through the buildings' base points. Onto raster or relief those buildings are lifted that know only their height
+/// above ground.
 [[nodiscard]] TileSet cut_into_tiles(LocatedCity city, const Grid& grid, Assign assign,
                                      const std::optional<TerrainRaster>& terrain, Report& report);
 

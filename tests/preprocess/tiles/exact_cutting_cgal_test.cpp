@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
 
@@ -74,6 +75,30 @@ TEST_P(CutExactly, AreaVectorsAddUpToTheTrianglesOwn) {
     EXPECT_TRUE(sum == twice_area_vector_of(t));
   }
   EXPECT_GT(pieces_in_all, 300U);
+}
+
+bool have_the_same_corners(const ExactPiece& a, const ExactPiece& b) {
+  return std::equal(a.polygon.begin(), a.polygon.end(), b.polygon.begin(), b.polygon.end(),
+                    [](const ExactCorner& p, const ExactCorner& q) { return p.p_grid == q.p_grid && p.original == q.original; });
+}
+
+/// Corner for corner, so that they are rounded alike.
+TEST_P(CutExactly, PiecesOfWantedCellsAreThoseOfTheWholeTriangle) {
+  const Grid grid = grid_of(GetParam());
+  const CellRange wanted{-2, -3, 3, 2};
+  std::size_t pieces_in_all = 0;
+  for (const TriangleOfPoints& t : random_triangles(grid, 300)) {
+    std::vector<ExactPiece> expected = cut_exactly(t, grid);
+    std::erase_if(expected, [&](const ExactPiece& piece) { return !wanted.contains(piece.cell); });
+    const std::vector<ExactPiece> found = cut_exactly(t, grid, wanted);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t n = 0; n < found.size(); ++n) {
+      EXPECT_EQ(found[n].cell, expected[n].cell);
+      EXPECT_TRUE(have_the_same_corners(found[n], expected[n]));
+    }
+    pieces_in_all += found.size();
+  }
+  EXPECT_GT(pieces_in_all, 100U);
 }
 
 TEST_P(CutExactly, EachPieceHasOneOwner) {

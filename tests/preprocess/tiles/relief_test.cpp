@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "tests/scenes/packed_city.hpp"
+#include "tiles/relief_thinning.hpp"
 #include "tiles/tiles.hpp"
 
 namespace farlod {
@@ -89,14 +91,34 @@ TEST(Relief, GivesTheSameGroundAsARasterOfTheSamePlane) {
         << n;
 }
 
-TEST(Relief, FarAwayShapesNothing) {
-  std::vector<Point3d> relief = plane(-200, 300);
-  relief.push_back({50'000, 50, -1000.0});
-  EXPECT_EQ(heights_of(tiles_on(relief), 0), heights_of(tiles_on(plane(-200, 300)), 0));
-  // Nothing but that: the building's own foot is the ground then
-  const auto [lowest, highest] = heights_of(tiles_on({{50'000, 50, -1000.0}}), 0);
-  EXPECT_EQ(lowest, 9.0);
-  EXPECT_EQ(highest, 9.0);
+/// A city's grid lies within a single triangle.
+TEST(Relief, MayBeAsCoarseAsTheCityIsSmall) {
+  std::vector<Point3d> corners;
+  for (const Point2d p : {Point2d{-20'000, -20'000}, {20'000, -20'000}, {20'000, 20'000}, {-20'000, 20'000}})
+    corners.push_back({p.x, p.y, slope_m(p.x)});
+  const TileSet coarse = tiles_on(corners), fine = tiles_on(plane(-200, 300));
+  // Its lowest corner, 1,900 m below 0, is the zero of all heights
+  constexpr double rounding_coarse_m = 4096.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
+  for (std::size_t n = 0; n < coarse.tiles.size(); ++n)
+    EXPECT_NEAR(coarse.height_origin_m + coarse.tiles[n].ground_at_centre_m,
+                fine.height_origin_m + fine.tiles[n].ground_at_centre_m, rounding_coarse_m)
+        << n;
+}
+
+TEST(ThinnedRelief, KeepsAllThatIsNearAndALittleOfWhatIsFar) {
+  std::vector<Point3d> points;
+  for (int i = -200; i < 200; ++i)
+    for (int j = -200; j < 200; ++j) points.push_back({10.0 * i, 10.0 * j, 1.0});
+  const Box2d rectangle{{-50, -50}, {50, 50}};
+  const std::vector<Point3d> thinned = thinned_relief(points, rectangle);
+  const auto is_near = [](const Point3d& p) { return std::abs(p.x) <= 150 && std::abs(p.y) <= 150; };
+  EXPECT_EQ(std::count_if(thinned.begin(), thinned.end(), is_near), 31 * 31);
+  // At distances from 100 m to 200, 400, 800, 1,600 and 1,950 m: squares of 25 m in 500 m by 500 m, then of 50 m in 900 m by 900
+  // m ...
+  EXPECT_LT(thinned.size(), 31U * 31U + 4U * 22U * 22U + 41U * 41U);
+  EXPECT_GT(thinned.size(), 31U * 31U + 400U);
+  std::reverse(points.begin(), points.end());
+  EXPECT_EQ(thinned_relief(points, rectangle), thinned);
 }
 
 }  // namespace
