@@ -78,17 +78,20 @@ TEST(Relief, CarriesBuildingsThatKnowOnlyTheirHeight) {
   EXPECT_NEAR(highest, slope_m(40.0) + 9.0, rounding_m);
 }
 
+void expect_same_ground(const TileSet& found, const TileSet& expected, double tolerance_m) {
+  ASSERT_EQ(found.tiles.size(), expected.tiles.size());
+  for (std::size_t n = 0; n < found.tiles.size(); ++n)
+    EXPECT_NEAR(found.height_origin_m + found.tiles[n].ground_at_centre_m,
+                expected.height_origin_m + expected.tiles[n].ground_at_centre_m, tolerance_m)
+        << n;
+}
+
 TEST(Relief, GivesTheSameGroundAsARasterOfTheSamePlane) {
   TerrainRaster raster{{-200, -200}, {20, 20}, 26, 26, {}};
   for (std::size_t row = 0; row < raster.rows; ++row)
     for (std::size_t column = 0; column < raster.columns; ++column)
       raster.height_m.emplace_back(static_cast<float>(slope_m(raster.node(column, row).x)));
-  const TileSet of_relief = tiles_on(plane(-200, 300)), of_raster = tiles_on({}, raster);
-  ASSERT_EQ(of_relief.tiles.size(), of_raster.tiles.size());
-  for (std::size_t n = 0; n < of_relief.tiles.size(); ++n)
-    EXPECT_NEAR(of_relief.height_origin_m + of_relief.tiles[n].ground_at_centre_m,
-                of_raster.height_origin_m + of_raster.tiles[n].ground_at_centre_m, rounding_m)
-        << n;
+  expect_same_ground(tiles_on(plane(-200, 300)), tiles_on({}, raster), rounding_m);
 }
 
 /// A city's grid lies within a single triangle.
@@ -96,13 +99,9 @@ TEST(Relief, MayBeAsCoarseAsTheCityIsSmall) {
   std::vector<Point3d> corners;
   for (const Point2d p : {Point2d{-20'000, -20'000}, {20'000, -20'000}, {20'000, 20'000}, {-20'000, 20'000}})
     corners.push_back({p.x, p.y, slope_m(p.x)});
-  const TileSet coarse = tiles_on(corners), fine = tiles_on(plane(-200, 300));
   // Its lowest corner, 1,900 m below 0, is the zero of all heights
-  constexpr double rounding_coarse_m = 4096.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
-  for (std::size_t n = 0; n < coarse.tiles.size(); ++n)
-    EXPECT_NEAR(coarse.height_origin_m + coarse.tiles[n].ground_at_centre_m,
-                fine.height_origin_m + fine.tiles[n].ground_at_centre_m, rounding_coarse_m)
-        << n;
+  expect_same_ground(tiles_on(corners), tiles_on(plane(-200, 300)),
+                     4096.0 * static_cast<double>(std::numeric_limits<float>::epsilon()));
 }
 
 TEST(ThinnedRelief, KeepsAllThatIsNearAndALittleOfWhatIsFar) {
