@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <ostream>
 
 #include "tests/acceptance/work_folder.hpp"
 
@@ -27,27 +28,43 @@ std::vector<std::string> fenced_blocks(const std::filesystem::path& page) {
   return blocks;
 }
 
-bool is_command(const std::string& block) { return block.starts_with("build/bin/") || block.starts_with("awk "); }
+bool is_command(const std::string& block) {
+  return block.starts_with("build/bin/") || block.starts_with("awk ") || block.starts_with("gzip ");
+}
 
-TEST(FacadesTutorial, SaysWhatTheProgramsSay) {
+struct Tutorial {
+  const char* page;
+  std::size_t commands;
+  std::vector<const char*> tables;  ///< that its commands write, and that it shows
+};
+void PrintTo(const Tutorial& tutorial, std::ostream* out) { *out << tutorial.page; }
+
+class Tutorials : public testing::TestWithParam<Tutorial> {};
+
+TEST_P(Tutorials, SayWhatTheProgramsSay) {
   const WorkFolder folder;
   folder.must(std::string("ln -s '") + FARLOD_SOURCE_DIR + "/datasets' datasets && mkdir build && ln -s '" + FARLOD_BIN_DIR +
               "' build/bin");
   std::string said;
   std::size_t commands = 0;
-  for (const std::string& block : fenced_blocks(std::filesystem::path(FARLOD_SOURCE_DIR) / "docs/tutorials/facades.md")) {
+  for (const std::string& block : fenced_blocks(std::filesystem::path(FARLOD_SOURCE_DIR) / "docs/tutorials" / GetParam().page)) {
     if (is_command(block)) {
       const Outcome outcome = folder.run(block);
       ASSERT_EQ(outcome.exit_code, 0) << block << outcome.err;
       said = outcome.out;
-      for (const char* table : {"facades.csv", "facades.surfaces.csv", "facades.buildings.csv"}) said += folder.text_of(table);
+      for (const char* table : GetParam().tables) said += folder.text_of(table);
       ++commands;
       continue;
     }
     for (const std::string& line : lines_of(block)) EXPECT_THAT(said, testing::HasSubstr(line));
   }
-  EXPECT_EQ(commands, 3U);
+  EXPECT_EQ(commands, GetParam().commands);
 }
+
+INSTANTIATE_TEST_SUITE_P(All, Tutorials,
+                         testing::Values(Tutorial{"city_files.md", 5, {}},
+                                         Tutorial{
+                                             "facades.md", 3, {"facades.csv", "facades.surfaces.csv", "facades.buildings.csv"}}));
 
 }  // namespace
 }  // namespace farlod::acceptance
