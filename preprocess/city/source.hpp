@@ -32,7 +32,7 @@ struct SourceCity {
   CityModel city;
   std::vector<Point3d> relief_points = {};  ///< corners of the triangles that the file gives as terrain; may repeat
   PassedOver passed_over = {};
-  std::vector<std::string> notes = {};  ///< for the user: what was taken from small files beside this one
+  std::vector<std::string> notes = {};  ///< for the user: what was taken from elsewhere, or guessed
 };
 
 }  // namespace farlod

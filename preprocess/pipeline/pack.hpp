@@ -64,7 +64,7 @@ struct PackResult {
   std::optional<ChosenGrid> chosen;
   std::uint64_t facets = 0;        ///< polygons as the files have them: a surface of a mesh is made of several triangles
   PassedOver passed_over;          ///< what the files hold that is not used
-  std::vector<std::string> notes;  ///< for the user: what was taken from small files beside the inputs
+  std::vector<std::string> notes;  ///< for the user: what was taken from beside the inputs, or guessed
   std::uint64_t package_bytes = 0, far_map_bytes = 0;
   PackEstimate estimate;  ///< made when the grid was laid
   /// In the order in which the stages ran. The package is written while far maps are baked: together they take less than the sum.

@@ -119,7 +119,8 @@ std::optional<FootprintHeights::Height> FootprintHeights::storeys_in(const std::
     const FieldValue value = value_of(field);
     if (!value.is_set) continue;
     const std::optional<double> count = value.number ? value.number : number_from(value.text);
-    if (count && std::isfinite(*count)) return Height{*count * floor_height_m_, said(names_[field], value)};
+    if (count && std::isfinite(*count))
+      return Height{*count * floor_height_m_, said(names_[field], value), HeightSource::storeys};
   }
   return std::nullopt;
 }
@@ -127,7 +128,9 @@ std::optional<FootprintHeights::Height> FootprintHeights::storeys_in(const std::
 std::optional<FootprintHeights::Height> FootprintHeights::height_above_base(const FieldLookup& value_of) const {
   if (auto height = length_in(heights_, value_of)) return height;
   if (auto height = storeys_in(storeys_, value_of)) return height;
-  if (default_height_m_) return Height{*default_height_m_, "the default height is " + std::to_string(*default_height_m_)};
+  if (default_height_m_)
+    return Height{*default_height_m_, "the default height is " + std::to_string(*default_height_m_),
+                  HeightSource::default_height};
   return std::nullopt;
 }
 
@@ -160,11 +163,11 @@ std::variant<PrismExtent, Unraised> FootprintHeights::above_base(const Height& h
     return Unraised{ProblemCode::height_not_positive,
                     height.said + ", and it begins only above that: " + what_they_say(lowest_heights_, value_of) +
                         what_they_say(lowest_storeys_, value_of)};
-  if (base_.empty()) return PrismExtent{lowest_m, height.value_m, Footing::on_ground};
+  if (base_.empty()) return PrismExtent{lowest_m, height.value_m, Footing::on_ground, height.source};
   const std::optional<Height> base = length_in(base_, value_of);
   if (!base) return Unraised{ProblemCode::no_height, what_they_say(base_, value_of)};
   if (!is_elevation(base->value_m)) return no_elevation(base->said);
-  return PrismExtent{base->value_m + lowest_m, base->value_m + height.value_m, Footing::elevation};
+  return PrismExtent{base->value_m + lowest_m, base->value_m + height.value_m, Footing::elevation, height.source};
 }
 
 std::variant<PrismExtent, Unraised> FootprintHeights::of(const FieldLookup& value_of) const {

@@ -25,10 +25,18 @@ struct FieldValue {
 };
 using FieldLookup = std::function<FieldValue(std::size_t field)>;
 
+/// Who says how high a footprint is.
+enum class HeightSource {
+  measured,        ///< the table: a height, or the elevation of a roof
+  storeys,         ///< the table, in storeys
+  default_height,  ///< the user, for all that the table knows nothing of
+};
+
 /// From where to where a footprint is raised.
 struct PrismExtent {
   double base_m = 0.0, top_m = 0.0;
   Footing footing = Footing::on_ground;
+  HeightSource source = HeightSource::measured;
 };
 
 /// Why a footprint is not raised.
@@ -56,6 +64,7 @@ class FootprintHeights {
   struct Height {
     double value_m = 0.0;
     std::string said;  ///< as the feature has it, for the report
+    HeightSource source = HeightSource::measured;
   };
 
   [[nodiscard]] std::optional<Height> length_in(const std::vector<std::size_t>& fields, const FieldLookup& value_of) const;

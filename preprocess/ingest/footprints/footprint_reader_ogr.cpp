@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <sstream>
 #include <variant>
 
 #include "city/input_error.hpp"
@@ -161,6 +162,17 @@ class FootprintLayer {
     report(messages, layer_.GetName());
   }
 
+  /// What is not as the table measured it.
+  [[nodiscard]] std::vector<std::string> notes(double floor_height_m) const {
+    std::vector<std::string> notes;
+    std::ostringstream storeys;
+    storeys << writer_.source() << ": " << raised_by_storeys_ << " heights are storeys of " << floor_height_m << " m";
+    if (raised_by_storeys_ > 0) notes.push_back(std::move(storeys).str());
+    if (raised_by_default_ > 0)
+      notes.push_back(writer_.source() + ": " + std::to_string(raised_by_default_) + " heights are the default height");
+    return notes;
+  }
+
   /// Whether the features are surfaces in space, which stand where they are, and not areas to be raised.
   [[nodiscard]] bool holds_bodies() const { return holds_bodies_; }
 
@@ -242,6 +254,8 @@ class FootprintLayer {
       return;
     }
     const auto& extent = std::get<PrismExtent>(answer);
+    raised_by_storeys_ += extent.source == HeightSource::storeys ? 1 : 0;
+    raised_by_default_ += extent.source == HeightSource::default_height ? 1 : 0;
     writer_.begin_building(id, extent.footing);
     for (std::size_t part = 0; part < polygons.size(); ++part)
       writer_.add_prism(polygons[part], RingEnd::repeats_first, extent.base_m, extent.top_m, static_cast<std::uint16_t>(part));
@@ -285,6 +299,7 @@ class FootprintLayer {
   FootprintHeights heights_;
   std::vector<int> id_fields_;
   bool holds_bodies_ = false;
+  std::size_t raised_by_storeys_ = 0, raised_by_default_ = 0;
 };
 
 /// The first layer of areas, by preference one that has the height field asked for.
@@ -332,7 +347,10 @@ SourceCity read_footprints(const InputFile& file, const IngestSettings& settings
   FootprintLayer footprints(*layer, settings, writer);
   footprints.read(messages);
   // Attributes are in metres; elevations of vertices are in the unit of the reference system
-  return {.source = file.name, .crs = {wkt_of(*layer), true, !footprints.holds_bodies()}, .city = writer.take_city()};
+  return {.source = file.name,
+          .crs = {wkt_of(*layer), true, !footprints.holds_bodies()},
+          .city = writer.take_city(),
+          .notes = footprints.notes(settings.floor_height_m)};
 }
 
 }  // namespace farlod

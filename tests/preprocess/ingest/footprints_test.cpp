@@ -34,6 +34,21 @@ double volume(const CityModel& city) {
   return sum / 6.0;
 }
 
+TEST(Footprints, SayHowManyHeightsWereNotMeasured) {
+  IngestSettings settings;
+  settings.default_height_m = 5.0;
+  settings.floor_height_m = 2.5;
+  const Reading r =
+      read_text("a.geojson",
+                collection({feature(R"("height":3)", "Polygon", square), feature(R"("levels":4)", "Polygon", square),
+                            feature(R"("levels":2)", "Polygon", square), feature("", "Polygon", square)}),
+                settings);
+  ASSERT_EQ(r.source.notes.size(), 2u);
+  EXPECT_TRUE(r.source.notes[0].ends_with("a.geojson: 2 heights are storeys of 2.5 m")) << r.source.notes[0];
+  EXPECT_TRUE(r.source.notes[1].ends_with("a.geojson: 1 heights are the default height")) << r.source.notes[1];
+  EXPECT_TRUE(read_text("a.geojson", collection({feature(R"("height":3)", "Polygon", square)})).source.notes.empty());
+}
+
 TEST(Footprints, BecomePrismsThatFaceOutwards) {
   const Reading r = read_text("a.geojson", collection({feature(R"("height":3)", "Polygon", square)}));
   ASSERT_EQ(r.city().buildings().size(), 1u);
