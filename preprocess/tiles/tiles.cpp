@@ -230,7 +230,8 @@ TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, con
   const GroundExtent extent = located.city.buildings().empty() ? GroundExtent::points : GroundExtent::rectangle;
   std::optional<Ground> surveyed = surveyed_ground(terrain, located.relief_points, grid, extent);
   const auto ground_height = [&](Point2d p_city) -> std::optional<double> {
-    if (terrain) return terrain->height_at(p_city);
+    // In the gaps of a raster, and beyond it, the ground goes on as its network does
+    if (const auto height_m = terrain ? terrain->height_at(p_city) : std::nullopt) return height_m;
     return surveyed ? std::optional(surveyed->height_at(grid.rotation.grid_from_city(p_city))) : std::nullopt;
   };
   lift_onto_terrain(located, ground_height, report);

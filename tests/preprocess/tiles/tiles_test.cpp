@@ -194,5 +194,23 @@ TEST(Tiles, BuildingsThatKnowOnlyTheirHeightStandOnTheTerrain) {
   EXPECT_NEAR(tiles.tile({0, 0}).ground_at_centre_m + tiles.height_origin_m, 107.5, 200 * std::numeric_limits<float>::epsilon());
 }
 
+TEST(Tiles, BuildingsInAGapOfTheTerrainStandOnTheGroundAroundIt) {
+  CityModel city;
+  city.begin_building("boathouse", Footing::on_ground);
+  city.begin_facet(SurfaceKind::roof, 0);
+  city.add_ring(std::vector<Point3d>{{45, 45, 9}, {55, 45, 9}, {55, 55, 9}, {45, 55, 9}});
+  // Level ground at 100 m, and a lake of 40 m without data
+  TerrainRaster terrain{{-50, -50}, {10, 10}, 21, 21, {}};
+  for (std::size_t n = 0; n < 21 * 21; ++n) {
+    const Point2d node = terrain.node(n % 21, n / 21);
+    const bool is_lake = std::abs(node.x - 50) <= 20 && std::abs(node.y - 50) <= 20;
+    terrain.height_m.push_back(is_lake ? std::nullopt : std::optional(100.0F));
+  }
+  const TileSet tiles = tiles_of(city, scenes::grid_covering(city, {}, 50, 3), Assign::clip, terrain);
+  float roof_m = 0.0F;
+  for (const Tile& tile : tiles.tiles) roof_m = std::max(roof_m, tile.z_high_m);
+  EXPECT_EQ(roof_m + tiles.height_origin_m, 109.0);
+}
+
 }  // namespace
 }  // namespace farlod
