@@ -94,7 +94,7 @@ void print_result(const PackResult& result, const Report& report, const PackOpti
   const package::Manifest& m = result.manifest;
   fmt::print("{} buildings, {} polygons", m.buildings, m.polygons);
   if (result.facets > m.polygons) fmt::print(" (planar faces of {} facets)", result.facets);
-  fmt::print(", {} problems\n", report.problems().size());
+  fmt::print(", {} {}\n", report.problems().size(), report.problems().size() == 1 ? "problem" : "problems");
   print_problems(report, options.report_file);
   print_passed_over(result.passed_over);
   for (const std::string& note : result.notes) fmt::print("{}\n", note);
