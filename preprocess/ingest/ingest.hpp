@@ -2,33 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "city/source.hpp"
-#include "farlod/point.hpp"
 #include "farlod/problem.hpp"
 #include "ingest/files/input_file.hpp"
-#include "ingest/lod_choice.hpp"
+#include "ingest/ingest_settings.hpp"
 
 namespace farlod {
-
-/// Which axis of an OBJ file points upwards.
-enum class UpAxis { z, y };
-
-struct IngestSettings {
-  std::optional<std::string> height_field;        ///< attribute of footprints: height above the base
-  std::optional<std::string> base_field;          ///< attribute of footprints: elevation of the base
-  std::optional<std::string> storeys_field = {};  ///< attribute of footprints: number of storeys
-  double floor_height_m = 3.0;                    ///< of a storey, for footprints that only say how many they have
-  std::optional<std::string> roof_field = {};     ///< attribute of footprints: elevation of the roof
-  std::optional<double> default_height_m;         ///< of footprints without a height of their own
-  LodChoice lod;                                  ///< CityGML and CityJSON
-  std::optional<Point3d> obj_origin;              ///< added to the coordinates of OBJ files, after turning them upright
-  UpAxis up = UpAxis::z;                          ///< OBJ
-};
 
 /// Reads one file of a city: CityGML, CityJSON, OBJ, or footprints in any format that GDAL knows. For every file:
 ///   (1) coordinates are handed on as the file has them, in its own axis order;

@@ -9,10 +9,6 @@
 
 namespace farlod {
 
-/// Whether a file is CityJSON or CityJSONSeq: it begins with a JSON object that says so. Reads no farther than needed. What is no
-/// JSON up to there is none.
-[[nodiscard]] bool is_cityjson(const InputFile& file);
-
 /// Reads CityJSON 1.0 to 2.0, or CityJSONSeq line by line. Throws InputError for what is not JSON (with line and column),
 /// not CityJSON, or holds neither buildings nor a relief.
 [[nodiscard]] SourceCity read_cityjson(const InputFile& file, LodChoice lod, Report& report);

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "ingest/cityjson/cityjson_reader.hpp"
 #include "ingest/files/file_beginning.hpp"
 #include "ingest/files/file_ending.hpp"
+#include "ingest/files/json_kind.hpp"
 #include "ingest/files/map_kind.hpp"
 
 namespace farlod {

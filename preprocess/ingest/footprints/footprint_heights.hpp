@@ -10,7 +10,7 @@
 
 #include "city/city_model.hpp"
 #include "farlod/problem.hpp"
-#include "ingest/ingest.hpp"
+#include "ingest/ingest_settings.hpp"
 
 namespace farlod {
 

@@ -4,7 +4,7 @@
 
 #include "city/source.hpp"
 #include "ingest/files/input_file.hpp"
-#include "ingest/ingest.hpp"
+#include "ingest/ingest_settings.hpp"
 
 namespace farlod {
 

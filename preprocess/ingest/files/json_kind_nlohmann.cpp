@@ -3,7 +3,7 @@
 #include <istream>
 #include <nlohmann/json.hpp>
 
-#include "ingest/cityjson/cityjson_reader.hpp"
+#include "ingest/files/json_kind.hpp"
 
 namespace farlod {
 namespace {
