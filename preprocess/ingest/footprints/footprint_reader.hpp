@@ -3,6 +3,7 @@
 #pragma once
 
 #include "city/source.hpp"
+#include "farlod/problem.hpp"
 #include "ingest/files/input_file.hpp"
 #include "ingest/ingest_settings.hpp"
 
