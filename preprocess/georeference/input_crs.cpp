@@ -56,15 +56,16 @@ bool mean_the_same(const SourceCity& source, const NamedCrs& own, const NamedCrs
 }
 
 InputCrs overruled(const SourceCity& source, const NamedCrs& own, const NamedCrs& given) {
-  if (mean_the_same(source, own, given)) return {own, std::nullopt, {}};
-  return {given, ProblemCode::crs_overruled,
-          "the file says " + label_of(own) + "; --crs says " + label_of(given) + ", which holds"};
+  if (mean_the_same(source, own, given)) return {own};
+  const std::string file_says = "the file says " + label_of(own), option_says = "--crs says " + label_of(given);
+  return {given, ProblemCode::two_crs, file_says + "; " + option_says + ", which holds",
+          InputCrs::Own{own, file_says + ", which holds; " + option_says + ", in which its coordinates cannot be"}};
 }
 
 /// Of a source that says nothing, or nothing that is known.
 InputCrs stood_in_for(const SourceCity& source, const Found& given, const std::string& given_text) {
   const std::string& own = source.crs.definition;
-  InputCrs input{given ? *given : crs_of_input(source.source, own, given_text), std::nullopt, {}};
+  InputCrs input{given ? *given : crs_of_input(source.source, own, given_text)};
   if (own.empty()) return input;
   input.problem = ProblemCode::crs_unknown;
   input.detail = "nobody knows the CRS \"" + shortened(own) + "\": --crs stands in, " + label_of(input.named);
@@ -103,7 +104,7 @@ std::vector<InputCrs> crs_of_inputs(std::span<const SourceCity> sources, const G
     else if (overrules)
       inputs.push_back(overruled(sources[n], *own[n], *given));
     else
-      inputs.push_back({*own[n], std::nullopt, {}});
+      inputs.push_back({*own[n]});
   }
   return inputs;
 }

@@ -30,8 +30,14 @@ struct NamedCrs {
 /// The CRS that holds for an input, and what the user has to know of it.
 struct InputCrs {
   NamedCrs named;
-  std::optional<ProblemCode> problem;  ///< crs_overruled or crs_unknown
-  std::string detail;                  ///< of the problem
+  std::optional<ProblemCode> problem = {};  ///< two_crs or crs_unknown
+  std::string detail = {};                  ///< of the problem
+  /// What the file says itself, where --crs overrules it, and the words for when it holds after all.
+  struct Own {
+    NamedCrs named;
+    std::string detail;
+  };
+  std::optional<Own> own = {};
 };
 
 /// The CRS of each source, in order. The one of --crs (`settings.crs`)

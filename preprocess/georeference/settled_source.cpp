@@ -61,21 +61,22 @@ void settle_points(std::span<Point3d> points, const FileAxes& axes) {
   for (Point3d& p : points) p = axes.p_map(p);
 }
 
-std::string advice_for(const InputCrs& input) {
-  return input.problem == ProblemCode::crs_overruled
-             ? "--crs overrules what the file says itself: leave it out, or use --out-crs for the CRS of the package"
-             : "name the CRS that they are in, in the file or with --crs EPSG:n";
+/// What --crs says holds, unless the coordinates can only be of what the file says itself.
+InputCrs decided(const InputCrs& input, const TypicalPlace& typical) {
+  if (!input.own || may_count_in(typical, input.named.crs) || !may_count_in(typical, input.own->named.crs)) return input;
+  return {input.own->named, input.problem, input.own->detail};
 }
 
 }  // namespace
 
-SettledSource settle(SourceCity source, const InputCrs& input, Report& report) {
+SettledSource settle(SourceCity source, const InputCrs& given, Report& report) {
+  const TypicalPlace typical = typical_place(source);
+  const InputCrs input = decided(given, typical);
   const Crs& crs = input.named.crs;
   const bool longitude_first = source.crs.longitude_first || input.named.longitude_first;
-  const TypicalPlace typical = typical_place(source);
   FileReport of_file(source, typical, report);
   if (input.problem) of_file.add(*input.problem, input.detail);
-  check_units(source, typical, crs, advice_for(input));
+  check_units(source, typical, crs, "name the CRS that they are in, in the file or with --crs EPSG:n");
   FileAxes axes = find_axes(horizontal(typical.place), crs, longitude_first);
   axes.height_unit_m = source.crs.heights_in_metres ? 1.0 : crs.height_unit_m();
   if (is_swapped(axes, crs, longitude_first)) of_file.add(ProblemCode::axes_swapped, detail_of_swap(axes, crs, typical.place));

@@ -18,7 +18,7 @@ struct SettledSource {
   FileAxes axes;    ///< how the file counts
 };
 
-/// Settles buildings and relief of a source that has either. Reports what is said of its CRS (crs_overruled, crs_unknown), and
+/// Settles buildings and relief of a source that has either. Reports what is said of its CRS (two_crs, crs_unknown), and
 /// what is odd about its coordinates (axes_swapped, zone_in_easting, unlikely_place), each once for the whole file.
 /// Throws InputError when degrees stand where metres should, or the other way round.
 [[nodiscard]] SettledSource settle(SourceCity source, const InputCrs& input, Report& report);

@@ -109,12 +109,15 @@ FileAxes find_axes(Point2d typical_place, const Crs& crs, bool longitude_first) 
   return usual;
 }
 
+bool may_count_in(const TypicalPlace& typical, const Crs& crs) {
+  if (!typical.grain) return true;
+  const bool looks_like_degrees = may_be_lon_lat(horizontal(typical.place)) && *typical.grain < between_degrees_and_metres;
+  return crs.is_projected() == !looks_like_degrees;
+}
+
 void check_units(const SourceCity& source, const TypicalPlace& typical, const Crs& crs, const std::string& advice) {
-  if (!typical.grain) return;
-  const Point2d place = horizontal(typical.place);
-  const bool looks_like_degrees = may_be_lon_lat(place) && *typical.grain < between_degrees_and_metres;
-  if (crs.is_projected() == !looks_like_degrees) return;
-  const std::string end = " (" + text_of(place) + "): " + advice;
+  if (may_count_in(typical, crs)) return;
+  const std::string end = " (" + text_of(horizontal(typical.place)) + "): " + advice;
   if (crs.is_projected())
     throw InputError(source.source + ": its CRS " + crs.name() + " is projected, but its coordinates look like degrees" + end);
   throw InputError(source.source + ": its CRS " + crs.name() + " counts in degrees, but its coordinates cannot be degrees" + end);

@@ -33,8 +33,11 @@ struct TypicalPlace {
 ///       of use; a place that is possible is never second-guessed
 [[nodiscard]] FileAxes find_axes(Point2d typical_place, const Crs& crs, bool longitude_first);
 
-/// Throws InputError when the coordinates look like degrees in a file that claims a projected CRS, or the other way round.
-/// `advice` ends the message.
+/// Whether the coordinates can be of that CRS: degrees of a geographic one, and nothing like degrees of a projected one.
+[[nodiscard]] bool may_count_in(const TypicalPlace& typical, const Crs& crs);
+
+/// Throws InputError when they cannot: when the coordinates look like degrees in a file that claims a projected CRS, or the other
+/// way round. `advice` ends the message.
 void check_units(const SourceCity& source, const TypicalPlace& typical, const Crs& crs, const std::string& advice);
 
 }  // namespace farlod

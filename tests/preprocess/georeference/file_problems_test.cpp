@@ -235,16 +235,26 @@ TEST(GivenCrs, MustBeKnownWhereItOverrules) {
   EXPECT_THROW((void)georeference({source_with("EPSG:25832", bonn, 10.0)}, {"Germany", ""}, report), InputError);
 }
 
-TEST(GivenCrs, IsInTheReportOfARunThatItEnds) {
+TEST(GivenCrs, YieldsToTheFileWhoseCoordinatesItCannotHave) {
+  const Georeferencing degrees = run("EPSG:4326", {50.7, 7.1, 60.0}, ten_metres_deg, {"EPSG:25832", ""});
+  EXPECT_THAT(degrees.codes(), ElementsAre(203));
+  EXPECT_THAT(degrees.detail(), HasSubstr("EPSG:4326 (WGS 84), which holds"));
+  EXPECT_EQ(degrees.located.georeference.epsg, 32632);
+  const Georeferencing metres = run("EPSG:25832", bonn, 10.0, {"EPSG:4326", ""});
+  EXPECT_THAT(metres.codes(), ElementsAre(203));
+  EXPECT_EQ(metres.located.georeference.epsg, 25832);
+}
+
+TEST(GivenCrs, IsInTheReportOfARunThatEnds) {
   Report report;
   std::string message;
   try {
-    (void)georeference({source_with("EPSG:4326", {50.7, 7.1, 60.0}, ten_metres_deg)}, {"EPSG:25832", ""}, report);
+    (void)georeference({source_with("EPSG:32632", {50.7, 7.1, 60.0}, ten_metres_deg)}, {"EPSG:25832", ""}, report);
   } catch (const InputError& error) {
     message = error.what();
   }
-  EXPECT_THAT(message, AllOf(HasSubstr("look like degrees"), HasSubstr("--crs overrules"), HasSubstr("--out-crs")));
-  EXPECT_EQ(report.count(ProblemCode::crs_overruled), 1u);
+  EXPECT_THAT(message, HasSubstr("look like degrees"));
+  EXPECT_EQ(report.count(ProblemCode::two_crs), 1u);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 /// --crs, which files that do not say their CRS need, and two of the problems are of. It overrules one file only.
 GeoreferenceSettings georeference_of(const Fixture& fixture) {
-  const bool is_overruled = fixture.name.first == static_cast<int>(ProblemCode::crs_overruled);
+  const bool is_overruled = fixture.name.first == static_cast<int>(ProblemCode::two_crs);
   return {"EPSG:32632", "", !is_overruled};
 }
 
@@ -73,7 +73,7 @@ TEST(BrokenFiles, LoseWhatIsLeftOutAndNothingElse) {
       {"outside_of_projection", {{"house", "neighbour"}, 12}},  // of three houses
       {"far_away", {{"house", "neighbour"}, 12}},
       {"axes_swapped", {{"house"}, 6}},
-      {"crs_overruled", {{"house"}, 6}},
+      {"two_crs", {{"house"}, 6}},
       {"crs_unknown", {{"house"}, 6}},
       {"unlikely_place", {{"house"}, 6}},
       {"zone_in_easting", {{"house"}, 6}},
