@@ -57,19 +57,27 @@ void CityModel::drop_last_building() {
   buildings_.pop_back();
 }
 
-void CityModel::drop(std::span<const std::size_t> buildings) {
-  if (buildings.empty()) return;
+void CityModel::drop_facets(const std::vector<bool>& is_dropped) {
+  FARLOD_EXPECTS(is_dropped.size() == facets_.size());
+  if (std::find(is_dropped.begin(), is_dropped.end(), true) == is_dropped.end()) return;
   CityModel kept;
-  for (std::size_t n = 0; n < buildings_.size(); ++n) {
-    if (std::binary_search(buildings.begin(), buildings.end(), n)) continue;
-    const Building& b = buildings_[n];
+  for (const Building& b : buildings_) {
     kept.begin_building(b.id, b.footing, b.source);
-    for (const Facet& f : facets_of(b)) {
+    for (std::uint64_t n = b.first_facet; n < b.first_facet + b.facet_count; ++n) {
+      if (is_dropped[n]) continue;
+      const Facet& f = facets_[n];
       kept.begin_facet(f.kind, f.surface, f.part);
       for (std::uint32_t k = 0; k < f.ring_count; ++k) kept.add_ring(ring(f, k));
     }
+    if (kept.buildings_.back().facet_count == 0) kept.drop_last_building();
   }
   *this = std::move(kept);
+}
+
+std::span<Point3d> CityModel::points_of(const Building& b) {
+  const auto points = std::as_const(*this).points_of(b);
+  if (points.empty()) return {};
+  return std::span(points_).subspan(static_cast<std::size_t>(points.data() - points_.data()), points.size());
 }
 
 void CityModel::set_source(std::uint32_t source) {

@@ -55,6 +55,7 @@ class CityModel {
     return points_of_ring(f.first_ring + k);
   }
   [[nodiscard]] std::span<const Point3d> points_of(const Building& b) const;
+  [[nodiscard]] std::span<Point3d> points_of(const Building& b);
   [[nodiscard]] std::span<const Point3d> points() const { return points_; }
   [[nodiscard]] std::span<Point3d> points() { return points_; }
   /// Distinct surfaces over all buildings: what users call polygons.
@@ -66,8 +67,8 @@ class CityModel {
   void add_ring(std::span<const Point3d> points);
   /// Takes back the building begun last, with all that it has.
   void drop_last_building();
-  /// Takes back buildings, given by their places in ascending order.
-  void drop(std::span<const std::size_t> buildings);
+  /// Takes back facets, with `is_dropped` for each of them, and buildings that have no others.
+  void drop_facets(const std::vector<bool>& is_dropped);
   void set_source(std::uint32_t source);  ///< of all buildings
   /// Appends the buildings of another model; takes it over whole where there is nothing yet.
   void append(CityModel&& other);

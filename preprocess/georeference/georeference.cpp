@@ -67,20 +67,13 @@ void locate_problems(const SettledSource& settled, Report& report) {
     if (problem.source == settled.source.source) locator.locate(problem);
 }
 
-/// The building's points, to be changed.
-std::span<Point3d> mutable_points_of(CityModel& city, const Building& b) {
-  const auto points = std::as_const(city).points_of(b);
-  if (points.empty()) return {};
-  return city.points().subspan(static_cast<std::size_t>(points.data() - city.points().data()), points.size());
-}
-
 /// Projects a file's buildings, one by one. What lies nowhere is reported, and no longer finite.
 void project_buildings(SettledSource& settled, const Projection& projection, const Crs& output, Report& report) {
   std::vector<Point3d> before;
   CityModel& city = settled.source.city;
   for (std::size_t n = 0; n < city.buildings().size(); ++n) {
     const Building& b = city.buildings()[n];
-    const auto points = mutable_points_of(city, b);
+    const std::span<Point3d> points = city.points_of(b);
     before.assign(points.begin(), points.end());
     projection(points);
     const auto bad = std::find_if_not(points.begin(), points.end(), is_on_a_map);
@@ -134,18 +127,16 @@ void append(std::vector<Point3d>& points, std::vector<Point3d>&& more) {
 void leave_out_misplaced(LocatedCity& located, const Crs& output, Report& report) {
   const std::vector<MisplacedFacets> misplaced = find_misplaced(located.city);
   if (misplaced.empty()) return;
-  CityModel kept = without(located.city, misplaced);
   const std::size_t known = report.problems().size();
   for (const MisplacedFacets& m : misplaced) {
     if (!std::isfinite(m.first_vertex.x)) continue;  // that is reported already, as the file has it
     const Building& b = located.city.buildings()[m.building];
     report.add({ProblemCode::far_away, located.sources[b.source], b.id, detail_of(m), m.first_vertex});
   }
-  if (!kept.points().empty()) {
-    ProblemLocator locator(output, FileAxes{}, horizontal(kept.points().front()));
-    for (Problem& problem : report.since(known)) locator.locate(problem);
-  }
-  located.city = std::move(kept);
+  leave_out(located.city, misplaced);
+  if (located.city.points().empty()) return;
+  ProblemLocator locator(output, FileAxes{}, horizontal(located.city.points().front()));
+  for (Problem& problem : report.since(known)) locator.locate(problem);
 }
 
 /// From the projected frame into the city frame. Buildings decide where its origin is; a relief alone decides itself.

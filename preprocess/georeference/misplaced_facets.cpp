@@ -150,22 +150,11 @@ std::vector<MisplacedFacets> find_misplaced(const CityModel& city) {
   return misplaced;
 }
 
-CityModel without(const CityModel& city, const std::vector<MisplacedFacets>& misplaced) {
-  std::vector<bool> is_left_out(city.facets().size(), false);
+void leave_out(CityModel& city, const std::vector<MisplacedFacets>& misplaced) {
+  std::vector<bool> is_misplaced(city.facets().size(), false);
   for (const MisplacedFacets& m : misplaced)
-    for (const std::size_t f : m.facets) is_left_out[f] = true;
-  CityModel kept;
-  for (const Building& b : city.buildings()) {
-    kept.begin_building(b.id, b.footing, b.source);
-    for (std::uint64_t f = b.first_facet; f < b.first_facet + b.facet_count; ++f) {
-      if (is_left_out[f]) continue;
-      const Facet& facet = city.facets()[f];
-      kept.begin_facet(facet.kind, facet.surface, facet.part);
-      for (std::uint32_t k = 0; k < facet.ring_count; ++k) kept.add_ring(city.ring(facet, k));
-    }
-    if (kept.buildings().back().facet_count == 0) kept.drop_last_building();
-  }
-  return kept;
+    for (const std::size_t f : m.facets) is_misplaced[f] = true;
+  city.drop_facets(is_misplaced);
 }
 
 }  // namespace farlod

@@ -28,7 +28,7 @@ struct MisplacedFacets {
 ///   (3) where such a facet has one vertex in the city, and so bounds the building with another, the building is misplaced whole
 [[nodiscard]] std::vector<MisplacedFacets> find_misplaced(const CityModel& city);
 
-/// The city without those facets, and without buildings that have no others.
-[[nodiscard]] CityModel without(const CityModel& city, const std::vector<MisplacedFacets>& misplaced);
+/// Takes those facets out of the city, and buildings that have no others.
+void leave_out(CityModel& city, const std::vector<MisplacedFacets>& misplaced);
 
 }  // namespace farlod

@@ -19,7 +19,7 @@ class FileReport {
       : source_(source), typical_(typical), report_(report) {}
 
   void add(ProblemCode code, const std::string& detail) {
-    report_.add({code, source_.source, "whole file", detail, typical_.place});
+    report_.add({code, source_.source, "the whole file", detail, typical_.place});
   }
 
  private:

@@ -13,11 +13,6 @@
 namespace farlod {
 namespace {
 
-std::span<Point3d> mutable_points_of(CityModel& city, const Building& b) {
-  const auto points = std::as_const(city).points_of(b);
-  return city.points().subspan(static_cast<std::size_t>(points.data() - city.points().data()), points.size());
-}
-
 /// The lowest ground under a building's outline.
 std::optional<double> lowest_ground_m(std::span<const Point3d> points, const GroundHeight& ground_height) {
   std::optional<double> lowest_m;
@@ -57,20 +52,20 @@ Problem problem_of(const LocatedCity& located, const Building& b, Refusal refusa
 
 void lift_onto_terrain(LocatedCity& located, const GroundHeight& ground_height, Report& report) {
   CityModel& city = located.city;
-  std::vector<std::size_t> lost;
-  for (std::size_t n = 0; n < city.buildings().size(); ++n) {
-    const Building& b = city.buildings()[n];
+  std::vector<bool> is_lost(city.facets().size(), false);
+  for (const Building& b : city.buildings()) {
     if (b.footing == Footing::elevation || b.facet_count == 0) continue;
-    const std::span<Point3d> points = mutable_points_of(city, b);
+    const std::span<Point3d> points = city.points_of(b);
     const std::optional<double> ground_m = lowest_ground_m(points, ground_height);
     if (b.footing == Footing::on_ground) {
       for (Point3d& p : points) p.z += ground_m.value_or(0.0);
     } else if (auto refusal = reach_down(points, ground_m)) {
       report.add(problem_of(located, b, std::move(*refusal), points.front()));
-      lost.push_back(n);
+      const auto first = is_lost.begin() + static_cast<std::ptrdiff_t>(b.first_facet);
+      std::fill_n(first, b.facet_count, true);
     }
   }
-  city.drop(lost);
+  city.drop_facets(is_lost);
 }
 
 }  // namespace farlod

@@ -60,7 +60,7 @@ TEST(AxesSwapped, IsSaidOfLatitudesBeyondThePoles) {
   EXPECT_EQ(tokyo.located.georeference.epsg, 6691);
   const Problem& problem = tokyo.report.problems()[0];
   EXPECT_EQ(problem.source, "town.gml");
-  EXPECT_EQ(problem.place, "whole file");
+  EXPECT_EQ(problem.place, "the whole file");
   EXPECT_EQ(problem.position, (Point3d{139.7937, 35.5327, 3.0})) << "as the file has it";
   ASSERT_TRUE(problem.lon_lat_deg);
   EXPECT_NEAR(problem.lon_lat_deg->x, 139.7937, ten_metres_deg);

@@ -27,7 +27,8 @@ class MisplacedFacetsOf : public testing::Test {
   /// Ids of the buildings that are left, and how many facets each still has.
   [[nodiscard]] std::vector<std::pair<std::string, std::uint32_t>> kept() const {
     std::vector<std::pair<std::string, std::uint32_t>> rows;
-    const CityModel rest = without(city, find_misplaced(city));
+    CityModel rest = city;
+    leave_out(rest, find_misplaced(city));
     for (const Building& b : rest.buildings()) rows.emplace_back(b.id, b.facet_count);
     return rows;
   }
