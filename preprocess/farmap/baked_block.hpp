@@ -24,20 +24,22 @@ struct BakedBox {
 /// The far map of a cell, of the kind `horizon`: a few obstacles by name, and what all the others can do at the most, do at
 /// the least, and likely do. Slopes are tangents of elevations, a row of azimuth bins for each patch.
 ///   (1) from every place in a patch, all of the far city that is not named lies below `upper`
-///   (2) from every place in a patch, everything below `lower` is hidden
+///   (2) from every place in a patch, everything below `lower` is hidden, unless it lies below `overhang` or below a lower border
+///   that is named or near
 ///   (3) `likely` is what is seen of the unnamed on average on the patch's floor; between two floors it changes evenly with the
 ///   height
+///   (4) from every place in a patch, no lower border of the unnamed (EdgeRole::underside) rises above `overhang`, but those that
+///   stand before unnamed grounded things that are higher
 struct BakedHorizon {
   ReceiverPatches patches;
-  std::vector<package::NamedObstacle> named_edges, named_triangles;
-  std::vector<float> lower, likely, upper;
+  std::vector<package::NamedObstacle> named_edges;
+  std::vector<float> lower, likely, upper, overhang;
 };
 
 /// A block's far maps, in the order of CellRange::index_of.
 using BakedBoxes = std::vector<BakedBox>;
 struct BakedHorizons {
-  std::vector<HorizonEdge> edges;               ///< what its cells name, in the frame of its south-west cell
-  std::vector<package::FarTriangle> triangles;  ///< likewise
+  std::vector<HorizonEdge> edges;  ///< what its cells name, in the frame of its south-west cell
   std::vector<BakedHorizon> cells;
 };
 using BakedBlock = std::variant<BakedBoxes, BakedHorizons>;

@@ -10,10 +10,8 @@ void BlockObstacles::renumber(std::vector<package::NamedObstacle>& named) {
 
 std::uint32_t BlockObstacles::row_of(std::uint32_t number) {
   const Obstacle& o = city_.obstacles()[number];
-  const auto next = static_cast<std::uint32_t>(o.is_edge ? edges.size() : triangles.size());
-  const auto [entry, is_new] = rows_.try_emplace(number, next);
-  if (is_new && o.is_edge) edges.push_back({placed(o.corners[0]), placed(o.corners[1]), o.rises});
-  if (is_new && !o.is_edge) triangles.push_back({placed(o.corners[0]), placed(o.corners[1]), placed(o.corners[2])});
+  const auto [entry, is_new] = rows_.try_emplace(number, static_cast<std::uint32_t>(edges.size()));
+  if (is_new) edges.push_back({placed(o.a), placed(o.b), o.rises, o.role});
   return entry->second;
 }
 

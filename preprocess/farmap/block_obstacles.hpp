@@ -18,10 +18,9 @@ class BlockObstacles {
   /// `corner` is the block's, in the frame of the city, which must outlive this.
   BlockObstacles(const CityHorizon& city, Point2d corner) : city_(city), corner_(corner) {}
 
-  /// From numbers in the city to rows of `edges` or `triangles`.
+  /// From numbers in the city to rows of `edges`.
   void renumber(std::vector<package::NamedObstacle>& named);
   std::vector<HorizonEdge> edges;
-  std::vector<package::FarTriangle> triangles;
 
  private:
   [[nodiscard]] std::uint32_t row_of(std::uint32_t number);

@@ -10,11 +10,7 @@ namespace {
 
 std::size_t obstacle_count(const TileSet& tiles) {
   std::size_t count = 0;
-  for (const Tile& tile : tiles.tiles) {
-    count += tile.horizon_edges.size();
-    count += static_cast<std::size_t>(std::count_if(tile.triangle_surfaces.begin(), tile.triangle_surfaces.end(),
-                                                    [&](std::uint32_t s) { return !tiles.surfaces[s].stands; }));
-  }
+  for (const Tile& tile : tiles.tiles) count += tile.horizon_edges.size();
   return count;
 }
 
@@ -25,7 +21,7 @@ CityHorizon::CityHorizon(const TileSet& tiles, const Grid& grid)
   obstacles_.reserve(obstacle_count(tiles));
   for (std::size_t n = 0; n < tiles.tiles.size(); ++n) {
     first_of_cell_.push_back(static_cast<std::uint32_t>(obstacles_.size()));
-    gather(tiles.tiles[n], tiles.surfaces, cells_.cell_at(n));
+    gather(tiles.tiles[n], cells_.cell_at(n));
   }
   first_of_cell_.push_back(static_cast<std::uint32_t>(obstacles_.size()));
   if (obstacles_.empty()) return;
@@ -33,20 +29,15 @@ CityHorizon::CityHorizon(const TileSet& tiles, const Grid& grid)
   build(0, cells_);
 }
 
-void CityHorizon::gather(const Tile& tile, const std::vector<Surface>& surfaces, Cell cell) {
+void CityHorizon::gather(const Tile& tile, Cell cell) {
   const Point2d corner = corner_of(cell);
   const auto placed = [corner](const Point3f& p) { return Point3d{corner.x + p.x, corner.y + p.y, p.z}; };
-  for (const HorizonEdge& e : tile.horizon_edges) obstacles_.push_back({{placed(e.a), placed(e.b), placed(e.b)}, true, e.rises});
-  for (std::size_t n = 0; n < tile.triangles.size(); ++n) {
-    if (surfaces[tile.triangle_surfaces[n]].stands) continue;
-    const Triangle& t = tile.triangles[n];
-    obstacles_.push_back({{placed(tile.vertices[t.a]), placed(tile.vertices[t.b]), placed(tile.vertices[t.c])}, false, {}});
-  }
+  for (const HorizonEdge& e : tile.horizon_edges) obstacles_.push_back({placed(e.a), placed(e.b), e.rises, e.role});
 }
 
 void CityHorizon::build(std::uint32_t n, const CellRange& range) {
   Node node;
-  node.z_high_m = -std::numeric_limits<double>::infinity();
+  node.z_high_m = node.z_underside_m = -std::numeric_limits<double>::infinity();
   if (range.size() == 1) {
     node.cell = {range.i_begin, range.j_begin};
     const std::size_t place = cells_.index_of(node.cell);
@@ -54,7 +45,8 @@ void CityHorizon::build(std::uint32_t n, const CellRange& range) {
     node.obstacle_count = first_of_cell_[place + 1] - first_of_cell_[place];
     for (const Obstacle& o : obstacles().subspan(node.first_obstacle, node.obstacle_count)) {
       node.z_high_m = std::max(node.z_high_m, o.z_high_m());
-      for (const Point3d& p : o.corners) node.outline.add(horizontal(p));
+      if (!o.is_upper()) node.z_underside_m = std::max(node.z_underside_m, o.z_high_m());
+      for (const Point3d& p : {o.a, o.b}) node.outline.add(horizontal(p));
     }
     nodes_[n] = node;
     return;
@@ -71,6 +63,7 @@ void CityHorizon::build(std::uint32_t n, const CellRange& range) {
   build(node.children + 1, high);
   for (const Node& child : {nodes_[node.children], nodes_[node.children + 1]}) {
     node.z_high_m = std::max(node.z_high_m, child.z_high_m);
+    node.z_underside_m = std::max(node.z_underside_m, child.z_underside_m);
     if (child.outline.empty()) continue;
     node.outline.add(child.outline.low);
     node.outline.add(child.outline.high);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,19 +14,18 @@
 
 namespace farlod {
 
-/// A thing of the far city that can hide the sky, in the frame of CityHorizon: an edge with all that is below it, or a triangle
-/// by itself.
+/// An edge of the far city that can be a silhouette, in the frame of CityHorizon.
 struct Obstacle {
-  std::array<Point3d, 3> corners;  ///< of an edge, the third repeats the second
-  bool is_edge = true;
-  EdgeRises rises = {};  ///< of an edge
+  Point3d a, b;
+  EdgeRises rises = {};
+  EdgeRole role = EdgeRole::grounded;
 
-  [[nodiscard]] double z_high_m() const { return std::max({corners[0].z, corners[1].z, corners[2].z}); }
-  [[nodiscard]] std::uint32_t edge_count() const { return is_edge ? 1 : 3; }
-  /// The corners in a frame whose origin is moved.
-  [[nodiscard]] std::array<Point3d, 3> corners_from(Point2d origin) const {
+  [[nodiscard]] bool is_upper() const { return role != EdgeRole::underside; }
+  [[nodiscard]] double z_high_m() const { return std::max(a.z, b.z); }
+  /// In a frame whose origin is moved.
+  [[nodiscard]] Obstacle from(Point2d origin) const {
     const Point3d shift{origin.x, origin.y, 0.0};
-    return {corners[0] - shift, corners[1] - shift, corners[2] - shift};
+    return {a - shift, b - shift, rises, role};
   }
 };
 
@@ -41,6 +39,7 @@ class CityHorizon {
   struct Node {
     Box2d outline;
     double z_high_m = 0.0;
+    double z_underside_m = 0.0;  ///< of the highest underside; less than any height where there is none
     Cell cell;                   ///< of a leaf
     std::uint32_t children = 0;  ///< place of the first of two; 0 for a leaf
     std::uint32_t first_obstacle = 0, obstacle_count = 0;
@@ -51,7 +50,7 @@ class CityHorizon {
   [[nodiscard]] Point2d corner_of(Cell cell) const { return grid_.corner_of(cell) - origin_grid_; }
 
  private:
-  void gather(const Tile& tile, const std::vector<Surface>& surfaces, Cell cell);
+  void gather(const Tile& tile, Cell cell);
   void build(std::uint32_t node, const CellRange& range);
 
   const Grid& grid_;

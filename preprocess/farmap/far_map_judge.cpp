@@ -58,12 +58,11 @@ class Judge {
   [[nodiscard]] CellVerdict judge(Cell cell, std::uint64_t seed) const {
     const BakedHorizons baked = baker_.bake(std::array{cell});
     const BakedHorizon& map = baked.cells.front();
-    const FarHorizon far{map.patches, AzimuthBins{settings_.azimuth_bins},
-                         map.lower,   map.likely,
-                         map.upper,   {baked.edges, baked.triangles, map.named_edges, map.named_triangles, {}}};
+    const FarHorizon far{map.patches, AzimuthBins{settings_.azimuth_bins}, map.lower, map.likely, map.upper, map.overhang,
+                         {baked.edges, map.named_edges, {}}};
     FarView view(fan_, far);
     CellVerdict verdict;
-    verdict.named = map.named_edges.size() + map.named_triangles.size();
+    verdict.named = map.named_edges.size();
     verdict.near_triangles = near_triangles(cell);
     Random random(seed);
     for (std::size_t n = 0; n < how_.receivers_per_cell; ++n)
@@ -108,8 +107,7 @@ class Judge {
       const auto hit = city_.occluder().nearest(ray);
       if (hit && grid_.neighborhood_of(cell).contains(city_.cell_of_triangle(hit->triangle))) continue;
       const bool open = verdicts[n] <= FarVerdict::likely_free;
-      // What does not stand is met by itself where the map names it, and in doubt where it does not
-      if (!hit || city_.surface_of(hit->triangle).stands) difference += (open ? 1 : 0) - (hit ? 0 : 1);
+      difference += (open ? 1 : 0) - (hit ? 0 : 1);
       doubt_up += verdicts[n] == FarVerdict::likely_blocked ? 1 : 0;
       doubt_down += verdicts[n] == FarVerdict::likely_free ? 1 : 0;
     }

@@ -41,13 +41,15 @@ std::vector<float> levels_of(const Tile& tile, const std::vector<Surface>& surfa
 }
 
 /// A map that names nothing, above what was hidden at first sight. That holds from all over the cell: for each square alike.
-BakedHorizon empty_map(const ReceiverPatches& patches, const std::vector<float>& hidden) {
-  const std::size_t bins = hidden.size() / patches.layers();
-  BakedHorizon map{patches, {}, {}, std::vector<float>(patches.count() * bins, 0.0F), {}, {}};
+BakedHorizon empty_map(const ReceiverPatches& patches, const Surroundings& around) {
+  const std::size_t bins = around.hidden.size() / patches.layers();
+  BakedHorizon map{patches, {}, std::vector<float>(patches.count() * bins, 0.0F), {}, {}, {}};
   map.likely = map.lower;
   for (std::uint32_t patch = 0; patch < patches.count(); ++patch) {
-    const auto row = hidden.begin() + static_cast<std::ptrdiff_t>(patch / patches.squares() * bins);
-    map.upper.insert(map.upper.end(), row, row + static_cast<std::ptrdiff_t>(bins));
+    const auto begin = static_cast<std::ptrdiff_t>(patch / patches.squares() * bins);
+    const auto end = begin + static_cast<std::ptrdiff_t>(bins);
+    map.upper.insert(map.upper.end(), around.hidden.begin() + begin, around.hidden.begin() + end);
+    map.overhang.insert(map.overhang.end(), around.overhang.begin() + begin, around.overhang.begin() + end);
   }
   return map;
 }
@@ -90,11 +92,9 @@ BakedHorizons HorizonMapBaker::bake(std::span<const Cell> cells) const {
   BakedHorizons result;
   for (std::optional<BakedHorizon>& cell : baked) {
     obstacles.renumber(cell->named_edges);
-    obstacles.renumber(cell->named_triangles);
     result.cells.push_back(std::move(*cell));
   }
   result.edges = std::move(obstacles.edges);
-  result.triangles = std::move(obstacles.triangles);
   return result;
 }
 
@@ -105,18 +105,18 @@ BakedHorizon HorizonMapBaker::bake_cell(Cell cell) const {
       {{0.0, 0.0}, {grid_.cell_edge_m, grid_.cell_edge_m}},
       {grid_.cell_edge_m, settings_.squares_per_edge, levels_of(tiles_.tile(cell), tiles_.surfaces, settings_.layers)}};
   const Surroundings around = LookAround(city_, place, borders_, settings_).run();
-  BakedHorizon map = empty_map(place.patches, around.hidden);
+  BakedHorizon map = empty_map(place.patches, around);
   ObstacleJudge judge(city_, place, around.views, borders_, settings_.tolerance, map);
   ViewpointHorizons unnamed(grid_.cell_edge_m, place.patches, borders_);
   const auto leave_unnamed = [&](std::uint32_t number, std::uint32_t levels) {
-    const Obstacle& obstacle = city_.obstacles()[number];
-    const auto p = obstacle.corners_from(place.corner);
-    if (obstacle.is_edge) unnamed.add(p[0], p[1], levels);
+    const Obstacle obstacle = city_.obstacles()[number].from(place.corner);
+    if (obstacle.is_upper()) unnamed.add(obstacle.a, obstacle.b, levels);
   };
   for (const std::uint32_t number : around.candidates) leave_unnamed(number, ~judge.judge(number));
   for (const std::uint32_t number : around.faint) leave_unnamed(number, ViewpointHorizons::all_levels);
   // A thing may be at least as high as another is at the most: both are rounded
   for (std::size_t n = 0; n < map.lower.size(); ++n) map.lower[n] = std::min(map.lower[n], map.upper[n]);
+  judge.drop_hidden_overhangs();
   estimate(unnamed, map);
   return map;
 }

@@ -39,10 +39,11 @@ LookAround::LookAround(const CityHorizon& city, const CellPlace& place, const Bi
       bins_(borders.bins()),
       tolerance_(settings.tolerance),
       faintest_(settings.faintest * settings.tolerance),
-      found_{{}, {}, ViewpointHorizons(place.square.high.x, place.patches, borders), {}},
+      found_{{}, {}, ViewpointHorizons(place.square.high.x, place.patches, borders), {}, {}},
       settled_(place.patches.layers(), 0.0),
       over_cell_(borders_) {
   found_.hidden.assign(std::size_t{place.patches.layers()} * bins_.count, 0.0F);
+  found_.overhang = found_.hidden;
   floors_.assign(found_.hidden.size(), -1.0F);
   faint_over_.resize(found_.hidden.size());
   notable_over_.resize(found_.hidden.size());
@@ -99,12 +100,20 @@ bool LookAround::hide_node(const CityHorizon::Node& node, double distance_m) {
     for_each_bin(bins_, range.first, range.count,
                  [&](std::size_t, std::uint32_t bin) { hidden = hidden && slope <= faint_over[bin]; });
   }
-  for (std::size_t l = 0; l < levels_m.size() && hidden && node.z_high_m > levels_m[l]; ++l) {
-    const auto slope = static_cast<float>(slope_at_most(node.z_high_m - levels_m[l], distance_m));
-    float* row = &found_.hidden[l * bins_.count];
+  if (!hidden) return false;
+  raise_rows(range, node.z_high_m, distance_m, found_.hidden);
+  raise_rows(range, node.z_underside_m, distance_m, found_.overhang);
+  return true;
+}
+
+/// By what is so high, and nowhere nearer than this.
+void LookAround::raise_rows(const BinRange& range, double z_high_m, double nearest_m, std::vector<float>& rows) {
+  const std::vector<float>& levels_m = place_.patches.levels_m();
+  for (std::size_t l = 0; l < levels_m.size() && z_high_m > levels_m[l]; ++l) {
+    const auto slope = static_cast<float>(slope_at_most(z_high_m - levels_m[l], nearest_m));
+    float* row = &rows[l * bins_.count];
     for_each_bin(bins_, range.first, range.count, [&](std::size_t, std::uint32_t bin) { row[bin] = std::max(row[bin], slope); });
   }
-  return hidden;
 }
 
 void LookAround::add_leaf(const CityHorizon::Node& leaf, double distance_m) {
@@ -116,11 +125,10 @@ void LookAround::add_leaf(const CityHorizon::Node& leaf, double distance_m) {
     if (faces_away(obstacle) || is_settled(obstacle)) continue;
     const Rise rise = look_at(obstacle);
     if (rise == Rise::notable) found_.candidates.push_back(n);
-    // What does not stand may be seen under: it hides nothing for certain
-    if (rise == Rise::hidden || !obstacle.is_edge) continue;
+    if (rise == Rise::hidden || !obstacle.is_upper()) continue;
     if (rise == Rise::faint) found_.faint.push_back(n);
-    const auto p = obstacle.corners_from(place_.corner);
-    found_.views.add(p[0], p[1]);
+    const Obstacle placed = obstacle.from(place_.corner);
+    found_.views.add(placed.a, placed.b);
     drawn = true;
   }
   if (drawn) update_limits(range);
@@ -138,19 +146,22 @@ void LookAround::remember_what_is_settled(const BinRange& range) {
   }
 }
 
-/// Whether an edge can be no horizon for anybody in the cell: what hides it, or rises behind it, is there by its own edges.
+/// Whether an edge can be no silhouette for anybody in the cell: what hides it, or goes on beyond it, is there by its own edges.
 bool LookAround::faces_away(const Obstacle& obstacle) const {
   const double lowest_m = place_.patches.levels_m().front();
-  if (!obstacle.is_edge || obstacle.z_high_m() <= lowest_m) return false;
-  const auto p = obstacle.corners_from(place_.corner);
-  return !may_be_horizon(p[0], p[1], obstacle.rises, place_.square, lowest_m, obstacle.z_high_m());
+  if (obstacle.z_high_m() <= lowest_m) return false;
+  const Obstacle placed = obstacle.from(place_.corner);
+  return !may_be_silhouette(placed.a, placed.b, placed.rises, placed.role, place_.square, lowest_m, placed.z_high_m());
 }
 
-/// Whether an obstacle is so low that `hidden` bounds it already, wherever in the leaf at hand it stands. A bound without
+/// Whether an upper border is so low that `hidden` bounds it already, wherever in the leaf at hand it stands. A bound without
 /// azimuths is enough to tell for most.
 bool LookAround::is_settled(const Obstacle& obstacle) const {
+  if (!obstacle.is_upper()) return false;
+  const Obstacle placed = obstacle.from(place_.corner);
   Box2d outline;
-  for (const Point3d& p : obstacle.corners_from(place_.corner)) outline.add(horizontal(p));
+  outline.add(horizontal(placed.a));
+  outline.add(horizontal(placed.b));
   const double nearest_m = distance_m(outline, place_.square), z_high_m = obstacle.z_high_m();
   for (std::size_t l = 0; l < settled_.size() && z_high_m > place_.patches.levels_m()[l]; ++l)
     if (!(slope_at_most(z_high_m - place_.patches.levels_m()[l], nearest_m) <= settled_[l])) return false;
@@ -158,9 +169,10 @@ bool LookAround::is_settled(const Obstacle& obstacle) const {
 }
 
 LookAround::Rise LookAround::look_at(const Obstacle& obstacle) {
-  over_cell_.look_at(obstacle, place_.corner, place_.square);
+  const Obstacle placed = obstacle.from(place_.corner);
+  over_cell_.look_at(placed.a, placed.b, place_.square);
   const Rise rise = over_cell_.surrounds() ? Rise::notable : rise_of(obstacle);
-  if (rise != Rise::notable) hide(obstacle);
+  if (rise != Rise::notable) hide(obstacle, obstacle.is_upper() ? found_.hidden : found_.overhang);
   return rise;
 }
 
@@ -169,29 +181,27 @@ LookAround::Rise LookAround::rise_of(const Obstacle& obstacle) {
   const std::vector<float>& levels_m = place_.patches.levels_m();
   bool faint = false, notable = false;
   bounds_.clear();
-  for (EdgeOverSquare& edge : over_cell_.edges())
-    for (std::size_t l = 0; l < levels_m.size() && !notable && obstacle.z_high_m() > levels_m[l]; ++l) {
-      const std::span<const double> upper = edge.upper(levels_m[l]);
-      const double *faint_over = &faint_over_[l * bins_.count], *notable_over = &notable_over_[l * bins_.count];
-      for_each_bin(bins_, edge.first_bin(), upper.size(), [&](std::size_t n, std::uint32_t bin) {
-        faint = faint || upper[n] > faint_over[bin];
-        notable = notable || upper[n] > notable_over[bin];
-      });
-      bounds_.insert(bounds_.end(), upper.begin(), upper.end());
-    }
+  for (std::size_t l = 0; l < levels_m.size() && !notable && obstacle.z_high_m() > levels_m[l]; ++l) {
+    const std::span<const double> upper = over_cell_.upper(levels_m[l]);
+    const double *faint_over = &faint_over_[l * bins_.count], *notable_over = &notable_over_[l * bins_.count];
+    for_each_bin(bins_, over_cell_.first_bin(), upper.size(), [&](std::size_t n, std::uint32_t bin) {
+      faint = faint || upper[n] > faint_over[bin];
+      notable = notable || upper[n] > notable_over[bin];
+    });
+    bounds_.insert(bounds_.end(), upper.begin(), upper.end());
+  }
   return notable ? Rise::notable : faint ? Rise::faint : Rise::hidden;
 }
 
 /// Notes the bounds that are kept of the obstacle at hand.
-void LookAround::hide(const Obstacle& obstacle) {
+void LookAround::hide(const Obstacle& obstacle, std::vector<float>& rows) {
   const std::vector<float>& levels_m = place_.patches.levels_m();
   const double* bound = bounds_.data();
-  for (const EdgeOverSquare& edge : over_cell_.edges())
-    for (std::size_t l = 0; l < levels_m.size() && obstacle.z_high_m() > levels_m[l]; ++l, bound += edge.bin_count()) {
-      float* row = &found_.hidden[l * bins_.count];
-      for_each_bin(bins_, edge.first_bin(), edge.bin_count(),
-                   [&](std::size_t n, std::uint32_t bin) { row[bin] = std::max(row[bin], static_cast<float>(bound[n])); });
-    }
+  for (std::size_t l = 0; l < levels_m.size() && obstacle.z_high_m() > levels_m[l]; ++l, bound += over_cell_.bin_count()) {
+    float* row = &rows[l * bins_.count];
+    for_each_bin(bins_, over_cell_.first_bin(), over_cell_.bin_count(),
+                 [&](std::size_t n, std::uint32_t bin) { row[bin] = std::max(row[bin], static_cast<float>(bound[n])); });
+  }
 }
 
 void LookAround::update_limits(const BinRange& range) {

@@ -9,20 +9,21 @@
 #include "farmap/cell_place.hpp"
 #include "farmap/city_horizon.hpp"
 #include "farmap/far_map_settings.hpp"
-#include "farmap/obstacle_over_square.hpp"
+#include "farmap/edge_over_square.hpp"
 #include "farmap/viewpoint_horizons.hpp"
 
 namespace farlod {
 
 /// The far city of a cell, looked at from near to far.
-///   (1) each obstacle outside of the neighbourhood is a candidate, or from all over the cell it lies below `hidden`
+///   (1) each upper border outside of the neighbourhood is a candidate, or from all over the cell it lies below `hidden`
 ///   (2) what is hidden rises by no more than the tolerance over what the viewpoints above see of what was found before it
 ///   (3) what is hidden and not faint rises by no more than `faintest` of the tolerance
+///   (4) each lower border outside of the neighbourhood is a candidate, or lies likewise below `overhang`
 struct Surroundings {
   std::vector<std::uint32_t> candidates;  ///< numbers of obstacles, from near to far
-  std::vector<std::uint32_t> faint;       ///< likewise: those that stand, and are hidden, but likely seen
-  ViewpointHorizons views;                ///< of the candidates that stand, and of the faint
-  std::vector<float> hidden;              ///< slopes: a row of azimuth bins for each layer
+  std::vector<std::uint32_t> faint;       ///< likewise: upper borders that are hidden, but likely seen
+  ViewpointHorizons views;                ///< of the upper borders among the candidates, and of the faint
+  std::vector<float> hidden, overhang;    ///< slopes: a row of azimuth bins for each layer
 };
 
 /// Looks around from a cell. Whole quarters that are hidden are passed over at once.
@@ -44,7 +45,8 @@ class LookAround {
   enum class Rise : std::uint8_t { hidden, faint, notable };
   Rise look_at(const Obstacle& obstacle);
   [[nodiscard]] Rise rise_of(const Obstacle& obstacle);
-  void hide(const Obstacle& obstacle);
+  void hide(const Obstacle& obstacle, std::vector<float>& rows);
+  void raise_rows(const BinRange& bins, double z_high_m, double nearest_m, std::vector<float>& rows);
   void update_limits(const BinRange& bins);
 
   const CityHorizon& city_;
@@ -58,8 +60,8 @@ class LookAround {
   std::vector<float> floors_;
   std::vector<double> faint_over_, notable_over_;
   std::vector<double> settled_;   ///< for each layer, a slope that is hidden and not faint in all bins of the leaf at hand
-  ObstacleOverSquare over_cell_;  ///< the obstacle at hand
-  std::vector<double> bounds_;    ///< of the obstacle at hand: `upper` of its edges, level by level
+  EdgeOverSquare over_cell_;      ///< the obstacle at hand
+  std::vector<double> bounds_;    ///< of the obstacle at hand: its `upper`, level by level
 };
 
 }  // namespace farlod

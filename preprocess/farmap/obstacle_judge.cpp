@@ -23,7 +23,8 @@ ObstacleJudge::ObstacleJudge(const CityHorizon& city, const CellPlace& place, co
       map_(map),
       seen_(map.upper.size()),
       limits_(map.upper.size()),
-      over_square_(borders) {
+      grounded_(map.upper.size()),
+      edge_(borders) {
   for (std::uint32_t patch = 0; patch < place_.patches.count(); ++patch) see_from(patch);
 }
 
@@ -47,50 +48,58 @@ std::uint32_t ObstacleJudge::judge(std::uint32_t number) {
   package::NamedObstacle named{number, 0, 0};
   for (std::uint32_t square = 0; square < place_.patches.squares(); ++square) {
     const PatchBox box = place_.patches.box(square);
-    over_square_.look_at(obstacle, place_.corner, {box.low, box.high});
-    const auto edges = over_square_.edges();
+    const Obstacle placed = obstacle.from(place_.corner);
+    edge_.look_at(placed.a, placed.b, {box.low, box.high});
     for (std::uint32_t layer = 0; layer < place_.patches.layers(); ++layer) {
       // What does not rise above the floor hides nothing there
       if (obstacle.z_high_m() <= place_.patches.levels_m()[layer]) break;
       const std::uint32_t patch = place_.patches.number(square, layer);
-      if (over_square_.surrounds() ||
-          std::any_of(edges.begin(), edges.end(), [&](EdgeOverSquare& edge) { return matters(edge, patch); })) {
+      if (edge_.surrounds() || matters(patch, obstacle.role)) {
         named.squares = static_cast<std::uint16_t>(named.squares | (1U << square));
         named.layers = static_cast<std::uint16_t>(named.layers | (1U << layer));
       } else {
-        for (EdgeOverSquare& edge : edges) leave_unnamed(edge, patch, obstacle.is_edge);
+        leave_unnamed(patch, obstacle.role);
       }
     }
   }
-  if (named.squares != 0) (obstacle.is_edge ? map_.named_edges : map_.named_triangles).push_back(named);
+  if (named.squares != 0) map_.named_edges.push_back(named);
   return named.layers;
 }
 
-/// Whether an edge can rise notably above what is seen anyway, by an amount that its bounds do not settle.
-bool ObstacleJudge::matters(EdgeOverSquare& edge, std::uint32_t patch) const {
+/// Whether the edge at hand can rise notably above what is seen anyway, by an amount that its bounds do not settle.
+bool ObstacleJudge::matters(std::uint32_t patch, EdgeRole role) {
   const std::uint32_t layer = patch / place_.patches.squares();
   const std::size_t row = std::size_t{patch} * bins_.count;
-  const std::span<const double> upper = edge.upper(place_.patches.levels_m()[layer]);
-  const std::span<const double> lower = edge.lower(place_.patches.ceiling_m(layer));
+  const std::span<const double> upper = edge_.upper(place_.patches.levels_m()[layer]);
+  const std::span<const double> lower = edge_.lower(place_.patches.ceiling_m(layer));
   bool matters = false;
-  for_each_bin(bins_, edge.first_bin(), upper.size(), [&](std::size_t n, std::uint32_t bin) {
+  for_each_bin(bins_, edge_.first_bin(), upper.size(), [&](std::size_t n, std::uint32_t bin) {
     if (matters || upper[n] <= limits_[row + bin]) return;
-    const double least = std::max(static_cast<double>(seen_[row + bin]), lower[n]);
+    // A lower border settles nothing: what is below it is open
+    const double hidden = role == EdgeRole::underside ? 0.0 : lower[n];
+    const double least = std::max(static_cast<double>(seen_[row + bin]), hidden);
     matters = upper[n] > least && sine_of_slope(upper[n]) - sine_of_slope(least) > tolerance_;
   });
   return matters;
 }
 
-void ObstacleJudge::leave_unnamed(EdgeOverSquare& edge, std::uint32_t patch, bool stands) {
+void ObstacleJudge::leave_unnamed(std::uint32_t patch, EdgeRole role) {
   const std::uint32_t layer = patch / place_.patches.squares();
   const std::size_t row = std::size_t{patch} * bins_.count;
   const auto raise = [&](std::vector<float>& rows, std::span<const double> slopes) {
-    for_each_bin(bins_, edge.first_bin(), slopes.size(), [&](std::size_t n, std::uint32_t bin) {
+    for_each_bin(bins_, edge_.first_bin(), slopes.size(), [&](std::size_t n, std::uint32_t bin) {
       rows[row + bin] = std::max(rows[row + bin], static_cast<float>(slopes[n]));
     });
   };
-  raise(map_.upper, edge.upper(place_.patches.levels_m()[layer]));
-  if (stands) raise(map_.lower, edge.lower(place_.patches.ceiling_m(layer)));
+  if (role == EdgeRole::underside) return raise(map_.overhang, edge_.upper(place_.patches.levels_m()[layer]));
+  raise(map_.upper, edge_.upper(place_.patches.levels_m()[layer]));
+  raise(map_.lower, edge_.lower(place_.patches.ceiling_m(layer)));
+  if (role == EdgeRole::grounded) raise(grounded_, edge_.lower(place_.patches.ceiling_m(layer)));
+}
+
+void ObstacleJudge::drop_hidden_overhangs() {
+  for (std::size_t n = 0; n < grounded_.size(); ++n)
+    if (map_.overhang[n] <= grounded_[n]) map_.overhang[n] = 0.0F;
 }
 
 }  // namespace farlod

@@ -9,7 +9,7 @@
 #include "farmap/bin_borders.hpp"
 #include "farmap/cell_place.hpp"
 #include "farmap/city_horizon.hpp"
-#include "farmap/obstacle_over_square.hpp"
+#include "farmap/edge_over_square.hpp"
 #include "farmap/viewpoint_horizons.hpp"
 
 namespace farlod {
@@ -24,11 +24,13 @@ class ObstacleJudge {
   /// Names an obstacle (by its number in the city) for the patches where that is worth it, and bounds it for the others. Returns
   /// the layers in which it is named, as bits.
   std::uint32_t judge(std::uint32_t obstacle);
+  /// Lower borders below what is surely hidden show no sky: takes them out of the map. To be called last.
+  void drop_hidden_overhangs();
 
  private:
   void see_from(std::uint32_t patch);
-  [[nodiscard]] bool matters(EdgeOverSquare& edge, std::uint32_t patch) const;
-  void leave_unnamed(EdgeOverSquare& edge, std::uint32_t patch, bool stands);
+  [[nodiscard]] bool matters(std::uint32_t patch, EdgeRole role);
+  void leave_unnamed(std::uint32_t patch, EdgeRole role);
 
   const CityHorizon& city_;
   const CellPlace& place_;
@@ -38,7 +40,8 @@ class ObstacleJudge {
   BakedHorizon& map_;
   std::vector<float> seen_;     ///< rows as in the map: what receivers in the patch likely cannot see over
   std::vector<double> limits_;  ///< likewise: what stays below this does not matter
-  ObstacleOverSquare over_square_;
+  std::vector<float> grounded_;  ///< likewise: below this, unnamed grounded things hide everything for certain
+  EdgeOverSquare edge_;          ///< the obstacle at hand
 };
 
 }  // namespace farlod

@@ -51,13 +51,15 @@ half rounded_down(float slope) {
 }
 
 Picture picture_of(const BakedHorizon& map, std::uint32_t, std::uint32_t) {
-  std::vector<half> lower, likely, upper;
+  std::vector<half> lower, likely, upper, overhang;
   for (const float slope : map.lower) lower.push_back(rounded_down(slope));
   for (const float slope : map.upper) upper.push_back(rounded_up(slope));
   for (const float slope : map.likely) likely.emplace_back(slope);
+  for (const float slope : map.overhang) overhang.push_back(rounded_up(slope));
   return {{package::lower_channel, std::move(lower)},
           {package::likely_channel, std::move(likely)},
-          {package::upper_channel, std::move(upper)}};
+          {package::upper_channel, std::move(upper)},
+          {package::overhang_channel, std::move(overhang)}};
 }
 
 /// One cell's picture after the other, in a file of tiles.

@@ -32,10 +32,9 @@ void require_package_or_empty(const fs::path& folder) {
 std::uint64_t named_bytes(const BakedBlock& maps) {
   const auto* horizons = std::get_if<BakedHorizons>(&maps);
   if (horizons == nullptr) return 0;
-  std::uint64_t bytes = horizons->edges.size() * sizeof(HorizonEdge) + horizons->triangles.size() * sizeof(package::FarTriangle);
+  std::uint64_t bytes = horizons->edges.size() * sizeof(HorizonEdge);
   for (const BakedHorizon& cell : horizons->cells)
-    bytes +=
-        sizeof(package::FarCellRecord) + (cell.named_edges.size() + cell.named_triangles.size()) * sizeof(package::NamedObstacle);
+    bytes += sizeof(package::FarCellRecord) + cell.named_edges.size() * sizeof(package::NamedObstacle);
   return bytes;
 }
 

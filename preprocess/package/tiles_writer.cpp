@@ -3,6 +3,7 @@
 #include "package/tiles_writer.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <string>
@@ -53,22 +54,18 @@ class BlockSections {
   void add_map(const BakedHorizon& map) {
     FarCellRecord record{};
     record.first_named_edge = named_edges.size();
-    record.first_named_triangle = named_triangles.size();
     record.named_edge_count = static_cast<std::uint32_t>(map.named_edges.size());
-    record.named_triangle_count = static_cast<std::uint32_t>(map.named_triangles.size());
     const std::vector<float>& levels_m = map.patches.levels_m();
     FARLOD_EXPECTS(levels_m.size() <= record.levels_m.size());
     for (std::size_t l = 0; l < record.levels_m.size(); ++l) record.levels_m[l] = levels_m[std::min(l, levels_m.size() - 1)];
     far_cells.push_back(record);
     named_edges.insert(named_edges.end(), map.named_edges.begin(), map.named_edges.end());
-    named_triangles.insert(named_triangles.end(), map.named_triangles.begin(), map.named_triangles.end());
   }
 
   std::vector<CellRecord> cells;
   std::vector<FarCellRecord> far_cells;
   std::vector<HorizonEdge> far_edges;
-  std::vector<FarTriangle> far_triangles;
-  std::vector<NamedObstacle> named_edges, named_triangles;
+  std::vector<NamedObstacle> named_edges;
   std::vector<Point3f> vertices;
   std::vector<Triangle> triangles;
   std::vector<SurfaceRun> surface_runs;
@@ -83,7 +80,16 @@ class BlockSections {
     SharedVertices shared;
     const auto corner = [&](std::uint32_t vertex) { return shared.number_of(tile.vertices[vertex]); };
     for (const Triangle& t : tile.triangles) triangles.push_back(Triangle{corner(t.a), corner(t.b), corner(t.c)});
-    add_edges(side_edges(tile.horizon_edges, std::span(triangles).last(tile.triangles.size()), shared), cell);
+    for (std::size_t role = 0; role < edge_role_count; ++role) {
+      std::vector<HorizonEdge> edges;
+      std::copy_if(tile.horizon_edges.begin(), tile.horizon_edges.end(), std::back_inserter(edges),
+                   [role](const HorizonEdge& e) { return static_cast<std::size_t>(e.role) == role; });
+      const SideEdges placed = side_edges(edges, std::span(triangles).last(tile.triangles.size()), shared);
+      cell.edge_counts[role] = static_cast<std::uint32_t>(placed.sides.size());
+      cell.loose_edge_count += static_cast<std::uint32_t>(placed.loose.size());
+      tile_edges.insert(tile_edges.end(), placed.sides.begin(), placed.sides.end());
+      loose_edges.insert(loose_edges.end(), placed.loose.begin(), placed.loose.end());
+    }
     cell.vertex_count = static_cast<std::uint32_t>(shared.vertices().size());
     cell.z_low_m = std::numeric_limits<float>::infinity();
     cell.z_high_m = -cell.z_low_m;
@@ -92,13 +98,6 @@ class BlockSections {
       cell.z_high_m = std::max(cell.z_high_m, p.z);
     }
     vertices.insert(vertices.end(), shared.vertices().begin(), shared.vertices().end());
-  }
-
-  void add_edges(const SideEdges& edges, CellRecord& cell) {
-    cell.edge_count = static_cast<std::uint32_t>(edges.sides.size());
-    cell.loose_edge_count = static_cast<std::uint32_t>(edges.loose.size());
-    tile_edges.insert(tile_edges.end(), edges.sides.begin(), edges.sides.end());
-    loose_edges.insert(loose_edges.end(), edges.loose.begin(), edges.loose.end());
   }
 
   void add_runs(const Tile& tile) {
@@ -115,7 +114,7 @@ class BlockSections {
     record.number = s.number;
     record.part = s.part;
     record.kind = s.kind;
-    record.stands = s.stands ? 1 : 0;
+    record.grounded = s.grounded ? 1 : 0;
     const StoredDirection normal = StoredDirection::nearest_to(s.normal);
     record.normal_u = normal.u & StoredDirection::largest;
     record.normal_v = normal.v & StoredDirection::largest;
@@ -181,7 +180,6 @@ void add_far_maps(BlockSections& sections, const BakedBlock& maps) {
   FARLOD_EXPECTS(horizons.cells.size() == sections.cells.size());
   for (const BakedHorizon& map : horizons.cells) sections.add_map(map);
   sections.far_edges = horizons.edges;
-  sections.far_triangles = horizons.triangles;
 }
 
 }  // namespace
@@ -201,9 +199,7 @@ std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, 
   file.add(SectionKind::text, sections.text);
   file.add(SectionKind::far_cells, sections.far_cells);
   file.add(SectionKind::far_edges, sections.far_edges);
-  file.add(SectionKind::far_triangles, sections.far_triangles);
   file.add(SectionKind::named_edges, sections.named_edges);
-  file.add(SectionKind::named_triangles, sections.named_triangles);
   file.add(SectionKind::tile_edges, sections.tile_edges);
   file.add(SectionKind::loose_edges, sections.loose_edges);
   return file.finish();

@@ -10,8 +10,8 @@
 #include "tiles/facet_repair.hpp"
 #include "tiles/facet_triangulation.hpp"
 #include "tiles/metres_text.hpp"
-#include "tiles/open_ends.hpp"
 #include "tiles/solid_orientation.hpp"
+#include "tiles/undersides.hpp"
 
 namespace farlod {
 namespace {
@@ -20,6 +20,8 @@ struct TriangulatedFacet {
   const Facet* facet;
   Triangulation triangulation;
   Point3d area_vector_m2;
+  bool has_one_ring;
+  double outward = 1.0;  ///< −1 where it was drawn with its normal inward
 };
 
 class BuildingCutter {
@@ -30,9 +32,9 @@ class BuildingCutter {
   BuildingPieces run() {
     for (const Facet& f : city_.facets_of(building_)) triangulate_facet(f);
     make_surfaces();
-    const std::optional<Cell> only_cell = assign_ == Assign::whole ? std::optional(cell_of_footprint()) : std::nullopt;
-    for (const TriangulatedFacet& f : facets_) cut_facet(f, only_cell);
-    find_edges(only_cell);
+    if (assign_ == Assign::whole) result_.only_cell = cell_of_footprint();
+    for (const TriangulatedFacet& f : facets_) cut_facet(f);
+    find_borders();
     return std::move(result_);
   }
 
@@ -61,7 +63,8 @@ class BuildingCutter {
     const Point3d area_vector_m2 = t.rings_cross ? area_vector(t) : area_vector(rings);
     if (const double d = distance_from_plane_m(rings, normalized(area_vector_m2)); d > planarity_tolerance_m)
       report(ProblemCode::not_planar, facet, "a point is " + metres(d) + " off its plane");
-    facets_.push_back({&facet, std::move(t), area_vector_m2});
+    const bool has_one_ring = rings.size() == 1 && !t.rings_cross;
+    facets_.push_back({&facet, std::move(t), area_vector_m2, has_one_ring});
   }
 
   void make_surfaces() {
@@ -76,14 +79,15 @@ class BuildingCutter {
         result_.surfaces.push_back({{0, facet.surface, facet.part, facet.kind, {}, 0.0}, {}});
         total_vectors.emplace_back();
       }
-      add_to_surface(entry->second, facets_[n], outward[n], total_vectors[entry->second]);
+      facets_[n].outward = outward[n];
+      add_to_surface(entry->second, facets_[n], total_vectors[entry->second]);
     }
     for (std::size_t s = 0; s < result_.surfaces.size(); ++s) finish_surface(result_.surfaces[s], total_vectors[s]);
   }
 
-  void add_to_surface(std::size_t s, const TriangulatedFacet& f, double outward, Point3d& total_vector) {
+  void add_to_surface(std::size_t s, const TriangulatedFacet& f, Point3d& total_vector) {
     BuildingSurface& surface = result_.surfaces[s];
-    total_vector = total_vector + outward * f.area_vector_m2;
+    total_vector = total_vector + f.outward * f.area_vector_m2;
     for (const Triangle& t : f.triangulation.triangles) {
       const Point3d &a = f.triangulation.points[t.a], &b = f.triangulation.points[t.b], &c = f.triangulation.points[t.c];
       const double area = 0.5 * norm(cross(b - a, c - a));
@@ -114,7 +118,8 @@ class BuildingCutter {
     return grid_.cell_of(area > 0.0 ? (1.0 / area) * weighted : horizontal(points.front()));
   }
 
-  void cut_facet(const TriangulatedFacet& f, const std::optional<Cell>& only_cell) {
+  void cut_facet(const TriangulatedFacet& f) {
+    const std::optional<Cell>& only_cell = result_.only_cell;
     const auto surface = static_cast<std::uint32_t>(place_of_surface_.at(f.facet->surface));
     for (const Triangle& t : f.triangulation.triangles) {
       const std::array corners{f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c]};
@@ -129,17 +134,24 @@ class BuildingCutter {
     }
   }
 
-  void find_edges(const std::optional<Cell>& only_cell) {
+  void find_borders() {
     EdgeTable table;
-    for (const TriangulatedFacet& f : facets_)
+    for (const TriangulatedFacet& f : facets_) {
+      const FacetLook look = f.outward * f.area_vector_m2.z > 0.0 ? FacetLook::up : FacetLook::down;
       for (const Triangle& t : f.triangulation.triangles)
-        table.add_triangle(f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c]);
-    result_.open_ends = open_ends(table.open_edges());
-    for (const HorizonSegment& edge : table.horizon_edges()) {
-      const auto pieces = only_cell ? std::vector{whole_edge(edge, *only_cell, grid_, height_origin_m_)}
-                                    : cut_edge(edge, grid_, height_origin_m_);
-      result_.horizon_edges.insert(result_.horizon_edges.end(), pieces.begin(), pieces.end());
+        table.add_triangle(f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c], look);
     }
+    for (const HorizonSegment& edge : table.horizon_edges()) {
+      const auto pieces = result_.only_cell ? std::vector{whole_edge(edge, *result_.only_cell, grid_, height_origin_m_)}
+                                            : cut_edge(edge, grid_, height_origin_m_);
+      result_.upper_pieces.insert(result_.upper_pieces.end(), pieces.begin(), pieces.end());
+      result_.upper_borders.push_back({edge.segment, result_.upper_pieces.size()});
+    }
+    result_.undersides = undersides(table.edges());
+    if (result_.undersides.empty()) return;
+    for (const TriangulatedFacet& f : facets_)
+      if (auto wall = f.has_one_ring ? wall_profile(f.triangulation.points) : std::nullopt)
+        result_.walls.push_back(std::move(*wall));
   }
 
   const CityModel& city_;

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "city/city_model.hpp"
 #include "farlod/grid.hpp"
 #include "farlod/problem.hpp"
 #include "tiles/cutting.hpp"
+#include "tiles/grounded_walls.hpp"
 #include "tiles/horizon_edges.hpp"
 #include "tiles/tile_set.hpp"
 #include "tiles/tiles.hpp"
@@ -26,13 +28,22 @@ struct SurfacePiece {
   std::uint32_t surface = 0;  ///< place in BuildingPieces::surfaces
 };
 
+/// An edge that can be a horizon.
+struct UpperBorder {
+  Segment3d segment;              ///< grid frame
+  std::size_t pieces_end = 0;     ///< in BuildingPieces::upper_pieces, where its pieces end and the next one's begin
+};
+
 /// What one building comes to. Depends on nothing but the building, the grid and the settings.
 struct BuildingPieces {
   std::vector<BuildingSurface> surfaces;
   std::vector<SurfacePiece> pieces;
-  std::vector<CellEdge> horizon_edges;  ///< if it stands
-  std::vector<Point3d> open_ends;       ///< where it is open: it stands only if these are at the ground; grid frame
-  std::vector<Problem> problems;        ///< without the source, which a building alone does not know; grid frame
+  std::vector<UpperBorder> upper_borders;
+  std::vector<CellEdge> upper_pieces;         ///< of the upper borders, one after the other
+  std::vector<HorizonSegment> undersides;     ///< those at the ground among them; grid frame
+  std::vector<WallProfile> walls;             ///< if there are undersides
+  std::optional<Cell> only_cell;              ///< to which it all goes, if it is not cut
+  std::vector<Problem> problems;              ///< without the source, which a building alone does not know; grid frame
 };
 
 /// Triangulates and cuts one building, given in the grid frame.

@@ -105,8 +105,8 @@ std::vector<HorizonSegment> Ground::horizon_edges() const {
       const bool has_two_faces = !network.is_infinite(mirrored.first);
       if (has_two_faces && std::pair(b.x, b.y) < std::pair(a.x, a.y)) continue;  // the other face brings it
       EdgeSides edge(a, b);
-      edge.add(from_cgal(face->vertex(opposite)->point()));
-      if (has_two_faces) edge.add(from_cgal(mirrored.first->vertex(mirrored.second)->point()));
+      edge.add(from_cgal(face->vertex(opposite)->point()), FacetLook::up);
+      if (has_two_faces) edge.add(from_cgal(mirrored.first->vertex(mirrored.second)->point()), FacetLook::up);
       if (edge.can_be_horizon()) result.push_back({edge.edge(), edge.rises()});
     }
   return result;

@@ -30,7 +30,7 @@ void add_crossings(double a, double b, const Grid& grid, std::vector<double>& pl
 
 }  // namespace
 
-void EdgeSides::add(const Point3d& opposite) {
+void EdgeSides::add(const Point3d& opposite, FacetLook look) {
   ++triangle_count_;
   const Point3d along = edge_.b - edge_.a, v = opposite - edge_.a;
   const double run_m = norm(horizontal(along)), length_m = norm(along);
@@ -41,12 +41,46 @@ void EdgeSides::add(const Point3d& opposite) {
   // At right angles to the edge: horizontally, and upwards
   const double rise_m = (v.z * run_m - ahead_m * along.z) / length_m;
   const double rise_rad = std::atan2(rise_m, std::abs(aside_m));
+  const bool is_left = aside_m > 0.0;
+  // A wall that rises from the edge leaves it to the other facets what is seen below
+  if (std::abs(aside_m) <= leaning_wall_z * std::abs(rise_m)) {
+    over_wall_ |= rise_m < 0.0;
+  } else {
+    double& low_rad = is_left ? left_low_rad_ : right_low_rad_;
+    low_rad = std::min(low_rad, rise_rad);
+    (look == FacetLook::up ? has_roof_ : has_soffit_) = true;
+  }
   if (std::abs(aside_m) <= angle_tolerance_rad * std::abs(rise_m)) {
     under_wall_ |= rise_m > 0.0;
     return;
   }
-  double& side_rad = aside_m > 0.0 ? left_rad_ : right_rad_;
+  double& side_rad = is_left ? left_rad_ : right_rad_;
   side_rad = std::max(side_rad, rise_rad);
+}
+
+void EdgeSides::add_sides_of(const EdgeSides& other) {
+  const Point2d along = horizontal(edge_.b - edge_.a), other_along = horizontal(other.edge_.b - other.edge_.a);
+  const bool same_way = dot(along, other_along) >= 0.0;
+  left_low_rad_ = std::min(left_low_rad_, same_way ? other.left_low_rad_ : other.right_low_rad_);
+  right_low_rad_ = std::min(right_low_rad_, same_way ? other.right_low_rad_ : other.left_low_rad_);
+  over_wall_ |= other.over_wall_;
+  has_roof_ |= other.has_roof_;
+  has_soffit_ |= other.has_soffit_;
+  triangle_count_ += other.triangle_count_;
+}
+
+EdgeRises EdgeSides::lowest_rises() const {
+  if (triangle_count_ < 2) return {EdgeRises::straight_up, EdgeRises::straight_up};
+  constexpr double give_rad = 4.0 * slight_bend_rad;
+  return {EdgeRises::rounded_up(left_low_rad_ + give_rad), EdgeRises::rounded_up(right_low_rad_ + give_rad)};
+}
+
+bool EdgeSides::can_be_underside() const {
+  const Point3d along = edge_.b - edge_.a;
+  if (norm(horizontal(along)) <= std::max(least_extent_m, leaning_wall_z * norm(along)) || over_wall_) return false;
+  // Below facets that look up there is the inside of the building
+  if (triangle_count_ > 1 && has_roof_ && !has_soffit_) return false;
+  return left_low_rad_ + right_low_rad_ > slight_bend_rad;
 }
 
 bool EdgeSides::can_be_horizon() const {
@@ -61,18 +95,18 @@ std::size_t EdgeTable::Hash::operator()(const Segment3d& s) const {
   return seed;
 }
 
-void EdgeTable::add_edge(const Point3d& a, const Point3d& b, const Point3d& opposite) {
+void EdgeTable::add_edge(const Point3d& a, const Point3d& b, const Point3d& opposite, FacetLook look) {
   const Segment3d key = comes_first(a, b) ? Segment3d{a, b} : Segment3d{b, a};
   const auto [entry, is_new] = place_of_.try_emplace(key, edges_.size());
   if (is_new) edges_.emplace_back(key.a, key.b);
-  edges_[entry->second].add(opposite);
+  edges_[entry->second].add(opposite, look);
 }
 
-void EdgeTable::add_triangle(const Point3d& corner_a, const Point3d& corner_b, const Point3d& corner_c) {
+void EdgeTable::add_triangle(const Point3d& corner_a, const Point3d& corner_b, const Point3d& corner_c, FacetLook look) {
   const Point3d a = without_minus_zero(corner_a), b = without_minus_zero(corner_b), c = without_minus_zero(corner_c);
-  add_edge(a, b, c);
-  add_edge(b, c, a);
-  add_edge(c, a, b);
+  add_edge(a, b, c, look);
+  add_edge(b, c, a, look);
+  add_edge(c, a, b, look);
 }
 
 std::vector<HorizonSegment> EdgeTable::horizon_edges() const {
@@ -82,17 +116,10 @@ std::vector<HorizonSegment> EdgeTable::horizon_edges() const {
   return result;
 }
 
-std::vector<Segment3d> EdgeTable::open_edges() const {
-  std::vector<Segment3d> result;
-  for (const EdgeSides& e : edges_)
-    if (e.triangle_count() % 2 == 1) result.push_back(e.edge());
-  return result;
-}
-
 CellEdge whole_edge(const HorizonSegment& edge, Cell cell, const Grid& grid, double height_origin_m) {
   return {cell,
           {cell_from_grid(edge.segment.a, cell, grid, height_origin_m),
-           cell_from_grid(edge.segment.b, cell, grid, height_origin_m), edge.rises}};
+           cell_from_grid(edge.segment.b, cell, grid, height_origin_m), edge.rises, edge.role}};
 }
 
 std::vector<CellEdge> cut_edge(const HorizonSegment& horizon, const Grid& grid, double height_origin_m) {
@@ -108,7 +135,8 @@ std::vector<CellEdge> cut_edge(const HorizonSegment& horizon, const Grid& grid, 
   for (std::size_t n = 1; n < places.size(); ++n) {
     const Cell owner = grid.cell_of(horizontal(point_at(edge, 0.5 * (places[n - 1] + places[n]))));
     pieces.push_back(
-        whole_edge({{point_at(edge, places[n - 1]), point_at(edge, places[n])}, horizon.rises}, owner, grid, height_origin_m));
+        whole_edge({{point_at(edge, places[n - 1]), point_at(edge, places[n])}, horizon.rises, horizon.role}, owner, grid,
+                   height_origin_m));
   }
   return pieces;
 }

@@ -20,7 +20,7 @@ struct Tile {
   std::vector<Point3f> vertices;
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> triangle_surfaces;  ///< for each triangle, its number in TileSet::surfaces
-  /// What can be a horizon: edges of the ground and of buildings that stand solidly (Surface::stands), cut at the cell's borders.
+  /// What can be a silhouette: edges of the ground and of buildings, cut at the cell's borders.
   std::vector<HorizonEdge> horizon_edges;
   float z_low_m = std::numeric_limits<float>::infinity();
   float z_high_m = -std::numeric_limits<float>::infinity();
@@ -40,9 +40,8 @@ struct Surface {
   SurfaceKind kind = SurfaceKind::unknown;
   Point3d normal;  ///< outward, length 1, grid frame
   double area_m2 = 0.0;
-  /// It belongs to a closed body under which nothing is open: its horizon edges stand for it. What else there is (bridges, eaves,
-  /// open shells) must be met triangle by triangle.
-  bool stands = true;
+  /// It belongs to a building that can be seen under nowhere: all its edges are EdgeRole::grounded.
+  bool grounded = true;
 };
 
 inline constexpr std::uint32_t ground_building = 0xFFFFFFFF;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tiles/tiles.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 
 #include <algorithm>
@@ -12,7 +13,9 @@
 #include "farlod/expects.hpp"
 #include "tiles/base_points.hpp"
 #include "tiles/building_pieces.hpp"
+#include "tiles/contacts.hpp"
 #include "tiles/ground.hpp"
+#include "tiles/ground_contact.hpp"
 #include "tiles/lift_onto_terrain.hpp"
 #include "tiles/relief_thinning.hpp"
 
@@ -22,9 +25,6 @@ namespace {
 /// Things that are cut by one thread at a stretch, and stretches that may wait to be put in place. Bounds the memory of what
 /// waits.
 constexpr std::size_t batch_size = 256, batches_at_once = 16;
-/// A surface that looks down by less than this (cosine) is a wall that was surveyed a little off.
-constexpr double overhang_normal_z = -0.01;
-
 std::vector<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& rotation) {
   std::vector<Point3d> nodes;
   for (std::size_t row = 0; row < terrain.rows; ++row)
@@ -96,10 +96,20 @@ class TileCutter {
         buildings.size(),
         [&](std::size_t n) { return cut_building(city_, buildings[n], grid_, assign_, tiles_.height_origin_m); },
         [&](std::size_t n, BuildingPieces& pieces) { place_building(buildings[n], pieces, report); });
+    place_overhanging_buildings();
     return std::move(tiles_);
   }
 
  private:
+  /// A building with lower borders that nothing of its own closes.
+  struct OverhangingBuilding {
+    BuildingPieces pieces;  ///< its borders and walls
+    std::vector<CellEdge> undersides;
+    struct {
+      std::uint32_t begin = 0, end = 0;
+    } surfaces;  ///< in TileSet::surfaces
+  };
+
   [[nodiscard]] double lowest_whole_metre() const {
     double lowest = std::numeric_limits<double>::infinity();
     for (const Point3d& p : city_.points()) lowest = std::min(lowest, p.z);
@@ -168,7 +178,9 @@ class TileCutter {
 
   void place(const CellEdge& piece) {
     FARLOD_EXPECTS(grid_.cells.contains(piece.cell));
-    tiles_.tile(piece.cell).horizon_edges.push_back(piece.edge);
+    Tile& tile = tiles_.tile(piece.cell);
+    tile.horizon_edges.push_back(piece.edge);
+    tile.has_overhang = tile.has_overhang || piece.edge.role == EdgeRole::underside;
   }
 
   void place_building(const Building& building, BuildingPieces& cut_building, Report& report) {
@@ -181,35 +193,86 @@ class TileCutter {
     const auto first_surface = static_cast<std::uint32_t>(tiles_.surfaces.size());
     tiles_.building_ids.push_back(building.id);
     tiles_.polygon_count += cut_building.surfaces.size();
-    std::vector<bool> overhangs;
-    for (const BuildingSurface& s : cut_building.surfaces) overhangs.push_back(is_overhang(s));
-    const bool stands = std::find(overhangs.begin(), overhangs.end(), true) == overhangs.end() && is_closed(cut_building);
     for (BuildingSurface& s : cut_building.surfaces) {
       s.surface.building = number;
-      s.surface.stands = stands;
       tiles_.surfaces.push_back(s.surface);
     }
-    if (stands)
-      for (const CellEdge& edge : cut_building.horizon_edges) place(edge);
-    for (const SurfacePiece& p : cut_building.pieces) {
-      place(p.piece, first_surface + p.surface);
-      if (overhangs[p.surface]) tiles_.tile(p.piece.cell).has_overhang = true;
+    for (const SurfacePiece& p : cut_building.pieces) place(p.piece, first_surface + p.surface);
+    const std::vector<HorizonSegment> undersides = above_ground(cut_building.undersides);
+    if (undersides.empty()) return place_upper_borders(cut_building, nullptr);
+    OverhangingBuilding& overhanging = overhanging_.emplace_back();
+    overhanging.surfaces = {first_surface, static_cast<std::uint32_t>(tiles_.surfaces.size())};
+    for (const HorizonSegment& underside : undersides) {
+      const auto edges = cut_building.only_cell
+                             ? std::vector{whole_edge(underside, *cut_building.only_cell, grid_, tiles_.height_origin_m)}
+                             : cut_edge(underside, grid_, tiles_.height_origin_m);
+      overhanging.undersides.insert(overhanging.undersides.end(), edges.begin(), edges.end());
     }
+    cut_building.surfaces = {};
+    cut_building.pieces = {};
+    overhanging.pieces = std::move(cut_building);
+  }
+
+  /// What touches a lower border may be of any building: only when all are in place can one tell what overhangs.
+  void place_overhanging_buildings() {
+    oneapi::tbb::parallel_for(std::size_t{0}, overhanging_.size(), [this](std::size_t n) {
+      std::vector<CellEdge> open;
+      for (const CellEdge& underside : overhanging_[n].undersides)
+        for (const HorizonEdge& part : without_contacts(underside.edge, tiles_.tile(underside.cell)))
+          open.push_back({underside.cell, part});
+      overhanging_[n].undersides = std::move(open);
+    });
+    for (OverhangingBuilding& building : overhanging_) {
+      if (building.undersides.empty()) {
+        place_upper_borders(building.pieces, nullptr);
+        continue;
+      }
+      for (std::uint32_t s = building.surfaces.begin; s < building.surfaces.end; ++s) tiles_.surfaces[s].grounded = false;
+      const GroundedWalls walls(std::move(building.pieces.walls), [this](Point2d p) { return ground_.height_at(p); });
+      place_upper_borders(building.pieces, &walls);
+      for (const CellEdge& underside : building.undersides) place(underside);
+    }
+    overhanging_.clear();
+  }
+
+  /// Where a building can be seen under, only its walls that reach the ground hide all that is below them.
+  void place_upper_borders(BuildingPieces& building, const GroundedWalls* walls) {
+    std::size_t piece = 0;
+    for (const UpperBorder& border : building.upper_borders) {
+      const bool is_grounded = walls == nullptr || walls->close_below(border.segment);
+      for (; piece < border.pieces_end; ++piece) {
+        CellEdge& edge = building.upper_pieces[piece];
+        edge.edge.role = is_grounded ? EdgeRole::grounded : EdgeRole::overhang;
+        place(edge);
+      }
+    }
+  }
+
+  /// The parts of undersides below which there is air.
+  [[nodiscard]] std::vector<HorizonSegment> above_ground(const std::vector<HorizonSegment>& undersides) const {
+    std::vector<HorizonSegment> result;
+    for (const HorizonSegment& underside : undersides) {
+      const auto& [a, b] = underside.segment;
+      const auto steps = static_cast<int>(std::ceil(std::max(1.0, norm(horizontal(b - a)) / ground_asked_every_m)));
+      const auto point_at = [&](int step) { return a + static_cast<double>(step) / steps * (b - a); };
+      std::vector<bool> is_above;
+      for (int k = 0; k <= steps; ++k) {
+        const Point3d p = point_at(k);
+        is_above.push_back(p.z > ground_.height_at(horizontal(p)) + ground_contact_m);
+      }
+      // Between two places, one of which is above, the border counts as above
+      for (int from = 0, to = 0; from < steps; from = to + 1) {
+        for (to = from; to < steps && (is_above[to] || is_above[to + 1]); ++to) {
+        }
+        if (to > from) result.push_back({{point_at(from), point_at(to)}, underside.rises, underside.role});
+      }
+    }
+    return result;
   }
 
   [[nodiscard]] Point3d p_projected(const Point3d& p_grid) const {
     const Point2d p = origin_m_ + grid_.rotation.city_from_grid(horizontal(p_grid));
     return {p.x, p.y, p_grid.z};
-  }
-
-  [[nodiscard]] bool is_overhang(const BuildingSurface& s) const {
-    return s.surface.normal.z < overhang_normal_z && s.middle.z - ground_.height_at(horizontal(s.middle)) > least_overhang_m;
-  }
-
-  /// Closed but for its foot, which the ground closes.
-  [[nodiscard]] bool is_closed(const BuildingPieces& building) const {
-    return std::all_of(building.open_ends.begin(), building.open_ends.end(),
-                       [this](const Point3d& p) { return p.z <= ground_.height_at(horizontal(p)) + least_overhang_m; });
   }
 
   const CityModel& city_;
@@ -219,6 +282,7 @@ class TileCutter {
   Assign assign_;
   Ground ground_;
   std::vector<std::array<Point3d, 3>> ground_triangles_;
+  std::vector<OverhangingBuilding> overhanging_;
   TileSet tiles_;
 };
 

@@ -20,8 +20,6 @@ enum class Assign {
 
 /// A facet farther than this from its plane is reported (the default tolerance of val3dity).
 inline constexpr double planarity_tolerance_m = 0.01;
-/// A floor that hangs higher than this above the ground counts as an overhang: less than that hides no sky that matters.
-inline constexpr double least_overhang_m = 0.5;
 
 /// Triangulates the city and its ground and cuts them into the cells of the grid.
 ///   (1) the tiles partition the city: the exact area vectors of a facet's pieces sum to its own, and no piece lies in two tiles

@@ -16,8 +16,8 @@
 #include "evaluate/visibility.hpp"
 #include "farlod/expects.hpp"
 #include "horizon/cell_skyline.hpp"
-#include "horizon/hanging_city.hpp"
 #include "horizon/horizon_engine.hpp"
+#include "horizon/overhang_geometry.hpp"
 #include "horizon/ray_engine.hpp"
 #include "horizon/receiver_packets.hpp"
 #include "package/package_error.hpp"
@@ -140,15 +140,15 @@ struct SkyEvaluator::CellSight {
   CellSight(const Package& package, const CellReceivers& cell)
       : far(package.far_horizon(cell.cell)),
         skyline(cell_skyline(package, cell.cell, far, box_around(cell.receivers))),
-        hanging(skyline.hanging) {}
+        overhangs(package, cell.cell) {}
   FarHorizon far;
   CellSkyline skyline;
-  HangingCity hanging;
+  OverhangGeometry overhangs;
 };
 
 void SkyEvaluator::evaluate_with_horizon(const CellReceivers& cell, const SkyAnswers& answers) const {
   const auto start = Clock::now();
-  const CellSight sight(package_, cell);
+  CellSight sight(package_, cell);
   const auto scene_ready = Clock::now();
   Numbers by_rays;
   if (settings_.engine == Engine::rays) {
@@ -163,19 +163,25 @@ void SkyEvaluator::evaluate_with_horizon(const CellReceivers& cell, const SkyAns
 }
 
 /// Returns the numbers of those that horizons are not enough for.
-SkyEvaluator::Numbers SkyEvaluator::answer_by_horizons(const CellSight& sight, const CellReceivers& cell,
+SkyEvaluator::Numbers SkyEvaluator::answer_by_horizons(CellSight& sight, const CellReceivers& cell,
                                                        const SkyAnswers& answers) const {
-  HorizonEngine engine(ring_, settings_.weight, sight.far, sight.skyline, sight.hanging);
+  const std::size_t rays_per_azimuth = std::max<std::size_t>(1, (settings_.rays + settings_.azimuths / 2) / settings_.azimuths);
+  HorizonEngine engine(ring_, settings_.weight, sight.far, sight.skyline, sight.overhangs,
+                       {static_cast<float>(0.5 * azimuth_error(settings_.azimuths)), rays_per_azimuth});
   Numbers by_rays;
   const auto answer_packet = [&](const ReceiverPacket& packet, std::span<const std::uint32_t> numbers) {
     std::array<BoundedShare, ReceiverPacket::lanes> room;
     const std::span shares = std::span(room).first(numbers.size());
     const bool bounds = wants_bounds(answers);
-    const std::uint32_t see_hanging = bounds ? engine.evaluate_with_bounds(packet, shares) : engine.evaluate(packet, shares);
-    if (see_hanging != 0) require_standing(cell.cell);
+    const std::uint32_t traced = bounds ? engine.evaluate_with_bounds(packet, shares) : engine.evaluate(packet, shares);
+    if (traced != 0) require_rays_allowed(cell.cell);
     for (std::size_t l = 0; l < numbers.size(); ++l) {
       answer(answers, cell.receivers[numbers[l]].index, shares[l]);
-      if (((see_hanging >> l) & 1U) != 0 || is_doubtful(shares[l])) by_rays.push_back(numbers[l]);
+      if (is_doubtful(shares[l])) {
+        by_rays.push_back(numbers[l]);
+      } else {
+        by_rays_ += (traced >> l) & 1U;
+      }
     }
   };
   for_each_packet(cell.receivers, packet_order(cell.receivers), answer_packet);
@@ -187,18 +193,17 @@ bool SkyEvaluator::is_doubtful(const BoundedShare& s) const {
   return settings_.max_far_error && std::max(s.high - s.likely, s.likely - s.low) > *settings_.max_far_error;
 }
 
-void SkyEvaluator::require_standing(Cell cell) const {
+void SkyEvaluator::require_rays_allowed(Cell cell) const {
   if (settings_.engine != Engine::horizon) return;
   throw PackageUnusable(
-      "The engine horizon cannot see under what hangs over open ground (bridges, eaves, open shells), and there are such "
-      "things in sight of cell " +
+      "The engine horizon cannot tell how much sky is seen below bridges, balconies and projecting floors, and there is too "
+      "much of it in sight of cell " +
       std::to_string(cell.i) + "," + std::to_string(cell.j) + ": use --engine auto.");
 }
 
-void SkyEvaluator::answer_by_rays(const CellSight& sight, const CellReceivers& cell, const Numbers& numbers,
+void SkyEvaluator::answer_by_rays(CellSight& sight, const CellReceivers& cell, const Numbers& numbers,
                                   const SkyAnswers& answers) const {
   by_rays_ += numbers.size();
-  const Occluder scene = sight.hanging.scene();
   std::vector<Receiver> receivers;
   for (const std::uint32_t n : numbers) receivers.push_back(cell.receivers[n]);
   std::stable_sort(receivers.begin(), receivers.end(), [](const Receiver& a, const Receiver& b) {
@@ -211,7 +216,7 @@ void SkyEvaluator::answer_by_rays(const CellSight& sight, const CellReceivers& c
       return;
     }
     const RayFan fan(directions);
-    RayEngine engine(fan, sight.far, sight.skyline, sight.hanging, scene, wants_bounds(answers));
+    RayEngine engine(fan, sight.far, sight.skyline, sight.overhangs, wants_bounds(answers));
     for (std::size_t first = 0; first < run.size(); first += ReceiverPacket::lanes) {
       const auto some = run.subspan(first, std::min(ReceiverPacket::lanes, run.size() - first));
       std::vector<FreeRays> free = engine.count(some);

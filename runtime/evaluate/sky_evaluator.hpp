@@ -23,9 +23,9 @@ struct BoundedShare;
 struct FreeRays;
 
 enum class Engine {
-  automatic,  ///< horizons where a receiver sees nothing but what stands solidly, rays elsewhere
-  horizon,    ///< horizons alone: what does not stand solidly cannot be
-  rays,       ///< rays, as in the paper (Listing 1); only what hangs is traced, all else is told from horizons
+  automatic,  ///< horizons, and rays where too much sky may be seen below something
+  horizon,    ///< horizons alone
+  rays,       ///< rays, as in the paper (Listing 1); only those that may pass below something are traced
   exact,      ///< rays against all tiles: the reference
   near_only   ///< the far field dropped, as by tools that cut a city into tiles: to measure what it is worth
 };
@@ -62,7 +62,7 @@ class SkyEvaluator {
   /// against the whole city, whatever the engine. Packages with far maps of the kind `box` know no horizons: `automatic` is
   /// `rays`. Where `low` and `high` are wanted, the truth of the same azimuths or rays lies between them, up to the rounding of
   /// floats (docs/concepts.md, "Bounds of a sky view factor"); only with far maps of the kind `horizon`. Throws PackageUnusable
-  /// where the engine `horizon` meets a receiver that sees something which does not stand solidly.
+  /// where the engine `horizon` meets a receiver that may see too much sky below something.
   void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const;
   void evaluate(const CellReceivers& cell, std::span<float> svf) const { evaluate(cell, SkyAnswers(svf)); }
 
@@ -82,11 +82,11 @@ class SkyEvaluator {
 
   struct CellSight;
   using Numbers = std::vector<std::uint32_t>;
-  [[nodiscard]] Numbers answer_by_horizons(const CellSight& sight, const CellReceivers& cell, const SkyAnswers& answers) const;
+  [[nodiscard]] Numbers answer_by_horizons(CellSight& sight, const CellReceivers& cell, const SkyAnswers& answers) const;
   [[nodiscard]] bool is_doubtful(const BoundedShare& share) const;
-  /// Called where a receiver sees something that does not stand solidly: the engine `horizon` ends there.
-  void require_standing(Cell cell) const;
-  void answer_by_rays(const CellSight& sight, const CellReceivers& cell, const Numbers& numbers, const SkyAnswers& answers) const;
+  /// Called where horizons are not enough: the engine `horizon` ends there.
+  void require_rays_allowed(Cell cell) const;
+  void answer_by_rays(CellSight& sight, const CellReceivers& cell, const Numbers& numbers, const SkyAnswers& answers) const;
   [[nodiscard]] bool wants_bounds(const SkyAnswers& answers) const {
     return !answers.low.empty() || settings_.max_far_error.has_value();
   }

@@ -14,30 +14,21 @@ Point3f moved(const Point3f& p, Point2d shift_m) {
   return {static_cast<float>(p.x + shift_m.x), static_cast<float>(p.y + shift_m.y), p.z};
 }
 
-void add_tile(const TileView& tile, Point2d shift_m, CellSkyline& skyline) {
-  const auto vertex = [&](std::uint32_t n) { return moved(tile.mesh.vertices[n], shift_m); };
-  tile.visit_edges([&](const HorizonEdge& e) { skyline.standing.add({moved(e.a, shift_m), moved(e.b, shift_m), e.rises}); });
-  std::uint32_t first = 0;
-  for (const package::SurfaceRun& run : tile.surface_runs) {
-    if (tile.surfaces[run.surface].stands == 0)
-      for (const Triangle& t : tile.mesh.triangles.subspan(first, run.end - first))
-        skyline.hanging.push_back({vertex(t.a), vertex(t.b), vertex(t.c)});
-    first = run.end;
+void add(const HorizonEdge& edge, Point2d shift_m, CellSkyline& skyline) {
+  const HorizonEdge placed{moved(edge.a, shift_m), moved(edge.b, shift_m), edge.rises, edge.role};
+  switch (edge.role) {
+    case EdgeRole::grounded:
+      return skyline.grounded.add(placed);
+    case EdgeRole::overhang:
+      return skyline.overhangs.add(placed);
+    case EdgeRole::underside:
+      return skyline.undersides.add(placed);
   }
 }
 
-/// What does not stand, and is named in any layer, counts in all: without it, it would be open where it is not named.
 void add_named(const NamedObstacles& named, std::uint32_t layers, CellSkyline& skyline) {
-  const Point2d shift_m = named.cell_from_block_m;
-  for (const package::NamedObstacle& n : named.named_edges) {
-    if ((n.layers & layers) == 0) continue;
-    const HorizonEdge& e = named.edges[n.row];
-    skyline.standing.add({moved(e.a, shift_m), moved(e.b, shift_m), e.rises});
-  }
-  for (const package::NamedObstacle& n : named.named_triangles) {
-    const package::FarTriangle& t = named.triangles[n.row];
-    skyline.hanging.push_back({moved(t[0], shift_m), moved(t[1], shift_m), moved(t[2], shift_m)});
-  }
+  for (const package::NamedObstacle& n : named.named_edges)
+    if ((n.layers & layers) != 0) add(named.edges[n.row], named.cell_from_block_m, skyline);
 }
 
 }  // namespace
@@ -46,14 +37,17 @@ CellSkyline cell_skyline(const Package& package, Cell cell, const FarHorizon& fa
   CellSkyline skyline;
   const Grid& grid = package.grid();
   // The most part of what is seen is far
-  skyline.standing.reserve(2 * far.named.named_edges.size());
+  skyline.grounded.reserve(2 * far.named.named_edges.size());
   const CellRange near = grid.neighborhood_of(cell).intersection(grid.cells);
   for (std::size_t n = 0; n < static_cast<std::size_t>(near.size()); ++n) {
     const Cell neighbour = near.cell_at(n);
-    add_tile(package.tile(neighbour), grid.corner_of(neighbour) - grid.corner_of(cell), skyline);
+    const Point2d shift_m = grid.corner_of(neighbour) - grid.corner_of(cell);
+    package.tile(neighbour).visit_edges([&](const HorizonEdge& e) { add(e, shift_m, skyline); });
   }
   add_named(far.named, far.layers_met_from(box.low.z, box.high.z), skyline);
-  skyline.standing = skyline.standing.facing(box);
+  skyline.grounded = skyline.grounded.facing(box, EdgeRole::grounded);
+  skyline.overhangs = skyline.overhangs.facing(box, EdgeRole::overhang);
+  skyline.undersides = skyline.undersides.facing(box, EdgeRole::underside);
   return skyline;
 }
 

@@ -2,24 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
 #include "farlod/far_map/far_horizon.hpp"
 #include "farlod/grid.hpp"
-#include "farlod/point.hpp"
 #include "horizon/skyline_edges.hpp"
 #include "package/package.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {
 
-/// What receivers of one cell may see of the city, apart from what its far map leaves unnamed. Cell frame. What stands solidly
-/// (SurfaceRecord::stands) is there by its edges, all else by its triangles, since it may be seen under.
+/// What receivers of one cell may see of the city, apart from what its far map leaves unnamed: edges by their roles (EdgeRole), cell
+/// frame.
 struct CellSkyline {
-  SkylineEdges standing;
-  std::vector<std::array<Point3f, 3>> hanging;
+  SkylineEdges grounded, overhangs, undersides;
 };
 
 /// The neighbourhood and what the far map names, for receivers in a box: edges that face away from all of them are left out.

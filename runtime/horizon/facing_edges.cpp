@@ -49,7 +49,7 @@ Facets facets_of(std::span<const EdgeRises> rises) {
   return facets;
 }
 
-/// Edges as the middle of the eyes sees them. What follows is as in may_be_horizon, times the edge's horizontal length: there is
+/// Edges as the middle of the eyes sees them. What follows is as in may_be_silhouette, times the edge's horizontal length: there is
 /// less to divide.
 struct SeenEdges {
   Floats eye_x, eye_y;  ///< the middle, from the first end
@@ -91,16 +91,17 @@ FARLOD_LANES Floats most_over(const SeenEdges& s, const EyeBox& eyes, float sign
          s.give * (1.0F + magnitude(slope));
 }
 
-/// More than 0 for the edges that may be a horizon.
-FARLOD_LANES Floats may_be_horizon(const SeenEdges& s, const Facets& facets, const EyeBox& eyes) {
+/// More than 0 for the edges that may be a silhouette. A lower border is an upper one upside down.
+FARLOD_LANES Floats may_be_silhouette(const SeenEdges& s, const Facets& facets, const EyeBox& eyes, bool is_upper) {
   const Floats left = loaded(facets.left.data()), right = loaded(facets.right.data());
   const Floats near_slope = s.left > 0.0F ? left : right, far_slope = s.left > 0.0F ? right : left;
   const Floats below_edge = s.first_z + greatest(s.along_z, all(0.0F)) - 2.0F * slack_m;
-  const Floats over_near = most_over(s, eyes, 1.0F, least(all(eyes.high_z), below_edge), near_slope);
-  const Floats under_far = most_over(s, eyes, -1.0F, all(eyes.low_z), far_slope);
+  const Floats highest = least(all(eyes.high_z), below_edge), lowest = all(eyes.low_z);
+  const Floats past_near = is_upper ? most_over(s, eyes, 1.0F, highest, near_slope) : most_over(s, eyes, -1.0F, lowest, -near_slope);
+  const Floats past_far = is_upper ? most_over(s, eyes, -1.0F, lowest, far_slope) : most_over(s, eyes, 1.0F, highest, -far_slope);
   const Floats aside = magnitude(s.left) - magnitude(s.along_y) * eyes.half_x - magnitude(s.along_x) * eyes.half_y;
   // Eyes on both sides, or an upright edge: it has none
-  return aside > s.give ? least(over_near, under_far) : all(1.0F);
+  return aside > s.give ? least(past_near, past_far) : all(1.0F);
 }
 
 FARLOD_LANES Floats distance_of(const SeenEdges& s) {
@@ -111,23 +112,24 @@ FARLOD_LANES Floats distance_of(const SeenEdges& s) {
 }
 
 FARLOD_FOR_EACH_PROCESSOR
-void find_facing_lanes(const SkylineEdges::Batch& edges, const Facets& facets, const EyeBox& eyes, float* distances_m) {
+void find_facing_lanes(const SkylineEdges::Batch& edges, const Facets& facets, const EyeBox& eyes, bool is_upper,
+                       float* distances_m) {
   const SeenEdges s = seen_edges(edges, eyes);
   const Floats highest = greatest(s.along_z, all(0.0F)) + s.first_z;
-  const Floats kept = highest > eyes.low_z ? may_be_horizon(s, facets, eyes) : all(-1.0F);
+  const Floats kept = highest > eyes.low_z ? may_be_silhouette(s, facets, eyes, is_upper) : all(-1.0F);
   store(kept > 0.0F ? distance_of(s) : all(-1.0F), distances_m);
 }
 
 }  // namespace
 
-void find_facing(std::span<const SkylineEdges::Batch> edges, std::span<const EdgeRises> rises, const ReceiverBox& box,
-                 std::span<float> distances_m) {
+void find_facing(std::span<const SkylineEdges::Batch> edges, std::span<const EdgeRises> rises, EdgeRole role,
+                 const ReceiverBox& box, std::span<float> distances_m) {
   FARLOD_EXPECTS(distances_m.size() == edges.size() * lane_count && rises.size() <= distances_m.size());
   const EyeBox eyes = eye_box(box);
   for (std::size_t n = 0; n < edges.size(); ++n) {
     const std::size_t first = n * lane_count;
     const auto of_batch = rises.subspan(first, std::min(lane_count, rises.size() - first));
-    find_facing_lanes(edges[n], facets_of(of_batch), eyes, distances_m.data() + first);
+    find_facing_lanes(edges[n], facets_of(of_batch), eyes, role != EdgeRole::underside, distances_m.data() + first);
   }
 }
 

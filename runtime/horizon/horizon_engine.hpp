@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,41 +11,58 @@
 #include "farlod/sky/sky_partition.hpp"
 #include "horizon/azimuth_ring.hpp"
 #include "horizon/cell_skyline.hpp"
-#include "horizon/hanging_city.hpp"
+#include "horizon/overhang_geometry.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/unnamed_city.hpp"
 
 namespace farlod {
 
-/// A sky view factor, and the bounds that the far map leaves it.
+/// A sky view factor, and the bounds that are certain for the same azimuths.
 struct BoundedShare {
   float low = 0.0F, likely = 0.0F, high = 0.0F;
 };
 
+/// What is done where sky may be seen below something that overhangs.
+struct GapSettings {
+  /// Sky view factors that are certain to so much need no rays: the middle is taken.
+  float tolerance = 0.0F;
+  std::size_t rays_per_azimuth = 4;
+};
+
 /// Sky view factors from horizons: edges are drawn from where each receiver stands, and the sky above them is integrated. For
-/// receivers of one cell.
+/// receivers of one cell. docs/concepts.md, "What is grounded, and what overhangs".
 class HorizonEngine {
  public:
   /// All must outlive it.
   HorizonEngine(const AzimuthRing& ring, SkyWeight weight, const FarHorizon& far, const CellSkyline& skyline,
-                const HangingCity& hanging);
+                OverhangGeometry& overhangs, const GapSettings& gaps);
 
-  /// Answers the receivers of a packet in `shares`, in their order; low = likely = high. Returns a bit for each that sees
-  /// something over its horizon that does not stand solidly: its answer is too high.
+  /// Answers the receivers of a packet in `shares`, in their order; low = likely = high. Returns a bit for each that needed rays.
   [[nodiscard]] std::uint32_t evaluate(const ReceiverPacket& receivers, std::span<BoundedShare> shares);
   /// The same with bounds.
   [[nodiscard]] std::uint32_t evaluate_with_bounds(const ReceiverPacket& receivers, std::span<BoundedShare> shares);
 
  private:
-  /// Who sees something hanging above the horizon as drawn.
-  [[nodiscard]] std::uint32_t see_hanging(const ReceiverPacket& receivers);
+  using Lanes = PacketHorizon::Lanes;
+  /// Sky that is seen below something, and who needed rays for that.
+  struct BelowBorders {
+    Lanes sky{};
+    std::uint32_t by_rays = 0;
+  };
+  /// With the grounded horizons and the upper ones (`grounded_`, `upper_`).
+  [[nodiscard]] BelowBorders look_below(const ReceiverPacket& receivers);
+  /// How much sky lies between the grounded horizons and `borders_`, at the most.
+  [[nodiscard]] Lanes sky_below_borders(const ReceiverPacket& receivers);
 
+  const AzimuthRing& ring_;
   SkyWeight weight_;
   const CellSkyline& skyline_;
-  const HangingCity& hanging_;
+  OverhangGeometry& overhangs_;
+  GapSettings gaps_;
   UnnamedCity unnamed_;
-  PacketHorizon horizon_, outlines_;
+  PacketHorizon grounded_, upper_, borders_;
+  std::vector<PacketHorizon::Row> gap_rows_;
 };
 
 }  // namespace farlod

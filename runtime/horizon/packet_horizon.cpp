@@ -92,6 +92,57 @@ void sum_solid_angle(const float* slopes, const ReceiverPacket& receivers, const
   store(sum, sums);
 }
 
+/// What one azimuth adds to the sky view factor above a slope, and how it follows from the receivers' normals.
+FARLOD_LANES Floats sky_of_azimuth(const Floats& slope, const Normals& n, float cosine, float sine, bool is_solid) {
+  const Floats outward = n.x * cosine + n.y * sine;
+  const LookedAt between = looked_at(outward, n.z);
+  const Floats t = least(greatest(slope, between.lowest), between.highest);
+  return is_solid ? solid_angle_above(t) : cosine_above(t, outward, n.z);
+}
+
+FARLOD_FOR_EACH_PROCESSOR
+void sky_between(const float* low, const float* high, const ReceiverPacket& receivers, const AzimuthRing& ring, bool is_solid,
+                 float* rows) {
+  const Normals n{loaded(receivers.normal_x.data()), loaded(receivers.normal_y.data()), loaded(receivers.normal_z.data())};
+  const float share = 1.0F / static_cast<float>(ring.size());
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Floats from = loaded(low + k * lane_count), to = loaded(high + k * lane_count);
+    float* row = rows + k * lane_count;
+    if (greatest_lane(to - from) == 0.0F) {
+      store(Floats{}, row);
+      continue;
+    }
+    const float cosine = ring.cosine()[k], sine = ring.sine()[k];
+    const Floats sky = sky_of_azimuth(from, n, cosine, sine, is_solid) - sky_of_azimuth(to, n, cosine, sine, is_solid);
+    store(greatest(sky, all(0.0F)) * share, row);
+  }
+}
+
+FARLOD_FOR_EACH_PROCESSOR
+void find_sky_of_azimuth(const float* slopes, const ReceiverPacket& receivers, float cosine, float sine, bool is_solid, float* sky) {
+  const Normals n{loaded(receivers.normal_x.data()), loaded(receivers.normal_y.data()), loaded(receivers.normal_z.data())};
+  const Floats outward = n.x * cosine + n.y * sine;
+  const Floats beyond = looked_at(outward, n.z).highest;
+  const Floats above = sky_of_azimuth(loaded(slopes), n, cosine, sine, is_solid), behind = sky_of_azimuth(beyond, n, cosine, sine, is_solid);
+  store(above - behind, sky);
+}
+
+FARLOD_FOR_EACH_PROCESSOR
+void lower_rows(const float* other, std::size_t azimuth_count, float* slopes) {
+  for (std::size_t k = 0; k < azimuth_count; ++k) {
+    float* row = slopes + k * lane_count;
+    store(least(loaded(row), loaded(other + k * lane_count)), row);
+  }
+}
+
+FARLOD_FOR_EACH_PROCESSOR
+void find_greatest_difference(const float* slopes, const float* other, std::size_t azimuth_count, float* differences) {
+  Floats greatest_yet = all(-1.0F);
+  for (std::size_t k = 0; k < azimuth_count; ++k)
+    greatest_yet = greatest(greatest_yet, loaded(slopes + k * lane_count) - loaded(other + k * lane_count));
+  store(greatest_yet, differences);
+}
+
 FARLOD_FOR_EACH_PROCESSOR
 void raise_between(const PacketHorizon::RowsBetween& rows, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count,
                    float* slopes) {
@@ -149,6 +200,15 @@ bool look_level(const ReceiverPacket& r) {
 
 }  // namespace
 
+ReceiverPacket::Lanes sky_of_azimuth(const AzimuthRing& ring, std::size_t azimuth, const Lanes& slopes, SkyWeight weight,
+                                     const ReceiverPacket& receivers) {
+  alignas(64) Lanes sky;
+  find_sky_of_azimuth(slopes.data(), receivers, ring.cosine()[azimuth], ring.sine()[azimuth], weight == SkyWeight::solid_angle,
+                      sky.data());
+  for (float& s : sky) s /= static_cast<float>(ring.size());
+  return sky;
+}
+
 void PacketHorizon::clear() { std::fill(slopes_.begin(), slopes_.end(), Row{}); }
 
 void PacketHorizon::raise(std::span<const float> row, const Lanes& caps, std::span<const std::uint32_t> bin_of_azimuth) {
@@ -182,10 +242,31 @@ void PacketHorizon::find_between(const PacketHorizon& outline, std::span<const f
 
 std::uint32_t PacketHorizon::above(const PacketHorizon& other) const {
   FARLOD_EXPECTS(other.slopes_.size() == slopes_.size());
+  Lanes differences;
+  find_greatest_difference(slopes_.front().data(), other.slopes_.front().data(), slopes_.size(), differences.data());
   std::uint32_t bits = 0;
-  for (std::size_t k = 0; k < slopes_.size(); ++k)
-    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) bits |= slopes_[k][l] > other.slopes_[k][l] ? 1U << l : 0U;
+  for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) bits |= differences[l] > 0.0F ? 1U << l : 0U;
   return bits;
+}
+
+void PacketHorizon::close(std::uint32_t receivers) {
+  if (receivers == 0) return;
+  for (Row& row : slopes_)
+    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
+      if (((receivers >> l) & 1U) != 0) row[l] = straight_up;
+}
+
+void PacketHorizon::lower_to(const PacketHorizon& other) {
+  FARLOD_EXPECTS(other.slopes_.size() == slopes_.size());
+  lower_rows(other.slopes_.front().data(), slopes_.size(), slopes_.front().data());
+}
+
+void PacketHorizon::find_sky_below(const PacketHorizon& higher, SkyWeight weight, const ReceiverPacket& receivers,
+                                   std::vector<Row>& rows) const {
+  FARLOD_EXPECTS(higher.slopes_.size() == slopes_.size());
+  rows.resize(slopes_.size());
+  sky_between(slopes_.front().data(), higher.slopes_.front().data(), receivers, *ring_, weight == SkyWeight::solid_angle,
+              rows.front().data());
 }
 
 PacketHorizon::Lanes PacketHorizon::sky_above(SkyWeight weight, const ReceiverPacket& receivers) const {

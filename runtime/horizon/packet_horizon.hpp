@@ -15,11 +15,16 @@
 
 namespace farlod {
 
+/// What one azimuth of a ring adds to the sky view factors of a packet's receivers, above slopes of its own for each.
+[[nodiscard]] ReceiverPacket::Lanes sky_of_azimuth(const AzimuthRing& ring, std::size_t azimuth, const ReceiverPacket::Lanes& slopes,
+                                                   SkyWeight weight, const ReceiverPacket& receivers);
+
 /// The horizons of a packet of receivers: for each azimuth of a ring the slope (tangent of the elevation, at least 0) below which
 /// no sky is seen. docs/concepts.md, "Above a horizon".
 class PacketHorizon {
  public:
   using Lanes = ReceiverPacket::Lanes;
+  struct alignas(64) Row : Lanes {};  ///< a value for each receiver
 
   /// The ring must outlive it. All horizons are level.
   explicit PacketHorizon(const AzimuthRing& ring) : ring_(&ring), slopes_(ring.size()) {}
@@ -39,6 +44,11 @@ class PacketHorizon {
   /// Raises each receiver's horizon by what it sees of some edges: fastest if they come from near to far, since those that lie
   /// below the horizons of all receivers already are passed over.
   void raise(const SkylineEdges& edges, const ReceiverPacket& receivers);
+  /// Lets those receivers see no sky at all whose bits are set.
+  void close(std::uint32_t receivers);
+  /// Lowers them to other ones where these are lower.
+  void lower_to(const PacketHorizon& other);
+  [[nodiscard]] const Row& row(std::size_t azimuth) const { return slopes_[azimuth]; }
   /// Of directions with these slopes, one at each azimuth, how many pass over each receiver's horizon.
   [[nodiscard]] Lanes count_over(std::span<const float> slopes) const;
   /// The azimuths at which somebody's direction passes over this horizon, and not over `outline`.
@@ -53,9 +63,12 @@ class PacketHorizon {
   }
   /// The view factors of the sky above the horizons, for each receiver's normal, in [0, 1].
   [[nodiscard]] Lanes sky_above(SkyWeight weight, const ReceiverPacket& receivers) const;
+  /// For each azimuth, the view factor of the sky between these horizons and higher ones: as shares of the turn, so that over all
+  /// azimuths they sum to the difference of both sky_above.
+  void find_sky_below(const PacketHorizon& higher, SkyWeight weight, const ReceiverPacket& receivers,
+                      std::vector<Row>& rows) const;
 
  private:
-  struct alignas(64) Row : Lanes {};
   const AzimuthRing* ring_;
   std::vector<Row> slopes_;  ///< a row of receivers for each azimuth
 };

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 
 #include "farlod/expects.hpp"
 
@@ -17,18 +16,19 @@ std::uint32_t whole(float count) { return static_cast<std::uint32_t>(count); }
 
 }  // namespace
 
-RayEngine::RayEngine(const RayFan& fan, const FarHorizon& far, const CellSkyline& skyline, const HangingCity& hanging,
-                     const Occluder& scene, bool wants_bounds)
+RayEngine::RayEngine(const RayFan& fan, const FarHorizon& far, const CellSkyline& skyline, OverhangGeometry& overhangs,
+                     bool wants_bounds)
     : fan_(fan),
       skyline_(skyline),
-      hanging_(hanging),
-      scene_(scene),
+      overhangs_(overhangs),
       wants_bounds_(wants_bounds),
       unnamed_(far, fan.ring()),
+      grounded_(fan.ring()),
+      borders_(fan.ring()),
       hidden_(fan.ring()),
       likely_(fan.ring()),
       open_(fan.ring()),
-      outlines_(fan.ring()) {}
+      unnamed_likely_(fan.ring()) {}
 
 std::vector<FreeRays> RayEngine::count(std::span<const Receiver> receivers) {
   FARLOD_EXPECTS(!receivers.empty() && receivers.size() <= ReceiverPacket::lanes);
@@ -39,16 +39,13 @@ std::vector<FreeRays> RayEngine::count(std::span<const Receiver> receivers) {
   const PacketHorizon::Lanes low = wants_bounds_ ? open_.count_over(fan_.slopes()) : high;
   std::vector<FreeRays> free;
   for (std::size_t l = 0; l < receivers.size(); ++l) free.push_back({whole(low[l]), whole(likely[l]), whole(high[l])});
-  for (const Blocked& b : blocked_) {
-    const float slope = fan_.slopes()[b.azimuth];
-    const std::uint32_t were_likely = wants_bounds_ ? b.bits & likely_.below(b.azimuth, slope) : b.bits,
-                        were_certain = wants_bounds_ ? b.bits & open_.below(b.azimuth, slope) : b.bits;
+  for (const Passing& p : passing_)
     for (std::size_t l = 0; l < free.size(); ++l) {
-      free[l].high -= (b.bits & bit_of(l)) != 0 ? 1U : 0U;
-      free[l].likely -= (were_likely & bit_of(l)) != 0 ? 1U : 0U;
-      free[l].low -= (were_certain & bit_of(l)) != 0 ? 1U : 0U;
+      free[l].high += (p.bits & bit_of(l)) != 0 ? 1U : 0U;
+      free[l].likely += (p.likely & bit_of(l)) != 0 ? 1U : 0U;
+      // What lies behind is not certain
+      free[l].low += !wants_bounds_ && (p.bits & bit_of(l)) != 0 ? 1U : 0U;
     }
-  }
   return free;
 }
 
@@ -56,16 +53,24 @@ void RayEngine::look(std::span<const Receiver> receivers) {
   packet_ = {};
   for (const Receiver& r : receivers) packet_.add(r);
   origins_ = {packet_.x, packet_.y, packet_.z};
-  hidden_.clear();
-  if (wants_bounds_)
-    unnamed_.raise_lower(packet_, hidden_);
-  else
-    unnamed_.raise_likely(packet_, hidden_);
-  hidden_.raise(skyline_.standing, packet_);
+  const std::uint32_t covered = overhangs_.covered(packet_);
+  grounded_.clear();
+  if (!wants_bounds_) unnamed_.raise_likely(packet_, grounded_);
+  grounded_.raise(skyline_.grounded, packet_);
+  hidden_ = grounded_;
+  if (wants_bounds_) unnamed_.raise_lower(packet_, hidden_);
+  hidden_.raise(skyline_.overhangs, packet_);
+  hidden_.close(covered);
+  borders_ = grounded_;
+  borders_.raise(skyline_.undersides, packet_);
   if (wants_bounds_) look_unnamed();
+  borders_.lower_to(hidden_);
 }
 
 void RayEngine::look_unnamed() {
+  unnamed_.raise_overhang(packet_, borders_);
+  unnamed_likely_.clear();
+  unnamed_.raise_likely(packet_, unnamed_likely_);
   likely_ = hidden_;
   unnamed_.raise_likely(packet_, likely_);
   open_ = likely_;
@@ -73,39 +78,30 @@ void RayEngine::look_unnamed() {
 }
 
 void RayEngine::trace() {
-  blocked_.clear();
-  if (hanging_.empty()) return;
-  outlines_.clear();
-  hanging_.raise(packet_, outlines_);
-  const std::uint32_t covered = hanging_.covered(packet_);
-  hidden_.find_between(outlines_, fan_.slopes(), azimuths_);
-  if (covered != 0) {
-    azimuths_.resize(fan_.size());
-    std::iota(azimuths_.begin(), azimuths_.end(), 0U);
-  }
+  passing_.clear();
+  if (borders_.above(grounded_) == 0) return;
+  grounded_.find_between(borders_, fan_.slopes(), azimuths_);
   for (const std::uint32_t k : azimuths_) {
     const float slope = fan_.slopes()[k];
-    trace(k, hidden_.below(k, slope) & (~outlines_.below(k, slope) | covered));
+    const std::uint32_t wanted = grounded_.below(k, slope) & ~borders_.below(k, slope);
+    const std::uint32_t bits = wanted & ~overhangs_.scene().blocked(origins_, fan_.direction(k), least_distance_m, wanted);
+    const std::uint32_t likely = wants_bounds_ ? bits & unnamed_likely_.below(k, slope) : bits;
+    if (bits != 0) passing_.push_back({k, bits, likely});
   }
-}
-
-void RayEngine::trace(std::size_t azimuth, std::uint32_t wanted) {
-  const std::uint32_t bits = scene_.blocked(origins_, fan_.direction(azimuth), least_distance_m, wanted);
-  if (bits != 0) blocked_.push_back({static_cast<std::uint32_t>(azimuth), bits});
 }
 
 std::uint64_t RayEngine::settle(const Occluder& city, const RayOrigins& origins, std::uint32_t doubtful,
                                 std::span<FreeRays> free) const {
   FARLOD_EXPECTS(wants_bounds_);
   std::uint64_t rays = 0;
-  auto blocked = blocked_.begin();
+  auto passing = passing_.begin();
   for (std::size_t l = 0; l < free.size(); ++l)
     if ((doubtful & bit_of(l)) != 0) free[l].high = free[l].low;
   for (std::uint32_t k = 0; k < fan_.size(); ++k) {
     const float slope = fan_.slopes()[k];
-    const bool meets_hanging = blocked != blocked_.end() && blocked->azimuth == k;
-    const std::uint32_t met = meets_hanging ? (blocked++)->bits : 0;
-    const std::uint32_t wanted = hidden_.below(k, slope) & ~open_.below(k, slope) & ~met & doubtful;
+    const bool passes = passing != passing_.end() && passing->azimuth == k;
+    const std::uint32_t below = passes ? (passing++)->bits : 0;
+    const std::uint32_t wanted = ((hidden_.below(k, slope) & ~open_.below(k, slope)) | below) & doubtful;
     rays += static_cast<std::uint64_t>(std::popcount(wanted));
     const std::uint32_t open = wanted & ~city.blocked(origins, fan_.direction(k), least_distance_m, wanted);
     for (std::size_t l = 0; l < free.size(); ++l) free[l].high += (open & bit_of(l)) != 0 ? 1U : 0U;

@@ -10,7 +10,7 @@
 
 #include "farlod/far_map/far_horizon.hpp"
 #include "horizon/cell_skyline.hpp"
-#include "horizon/hanging_city.hpp"
+#include "horizon/overhang_geometry.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/ray_fan.hpp"
 #include "horizon/receiver_packet.hpp"
@@ -25,15 +25,13 @@ struct FreeRays {
   std::uint32_t low = 0, likely = 0, high = 0;
 };
 
-/// Counts the rays that reach the sky, for packets of receivers that look in the same directions. What stands solidly is told
-/// from the receivers' horizons, and so is the far city; only rays that pass below the outline of something that hangs are
-/// traced.
+/// Counts the rays that reach the sky, for packets of receivers that look in the same directions. Whether a ray is blocked follows
+/// from the receivers' horizons; only rays that may pass below something that overhangs are traced.
 class RayEngine {
  public:
-  /// All must outlive it; `scene` holds the triangles of `hanging`. For receivers of one cell. Without `wants_bounds`, low = high
-  /// = likely.
-  RayEngine(const RayFan& fan, const FarHorizon& far, const CellSkyline& skyline, const HangingCity& hanging,
-            const Occluder& scene, bool wants_bounds);
+  /// All must outlive it. For receivers of one cell. Without `wants_bounds`, low = high = likely.
+  RayEngine(const RayFan& fan, const FarHorizon& far, const CellSkyline& skyline, OverhangGeometry& overhangs,
+            bool wants_bounds);
 
   /// For up to ReceiverPacket::lanes receivers.
   [[nodiscard]] std::vector<FreeRays> count(std::span<const Receiver> receivers);
@@ -45,27 +43,25 @@ class RayEngine {
  private:
   void look(std::span<const Receiver> receivers);
   void look_unnamed();
-  /// Finds the rays that meet something hanging.
+  /// Finds the rays that pass below something.
   void trace();
-  void trace(std::size_t azimuth, std::uint32_t wanted);
 
-  /// Rays that pass over what is hidden for certain, and meet something hanging, by bits of receivers.
-  struct Blocked {
-    std::uint32_t azimuth, bits;
+  /// Rays that pass below something, by bits of receivers: all, and those that no unnamed thing likely hides.
+  struct Passing {
+    std::uint32_t azimuth, bits, likely;
   };
 
   const RayFan& fan_;
   const CellSkyline& skyline_;
-  const HangingCity& hanging_;
-  const Occluder& scene_;
+  OverhangGeometry& overhangs_;
   bool wants_bounds_;
   UnnamedCity unnamed_;
   ReceiverPacket packet_;
   RayOrigins origins_;
-  /// Below `hidden_` nothing is free, above `open_` the far map lets everything pass, and `likely_` lies between. Without bounds,
-  /// only `likely_` is known, and `hidden_` is the same.
-  PacketHorizon hidden_, likely_, open_, outlines_;
-  std::vector<Blocked> blocked_;
+  /// Below `hidden_` nothing is free, but between `grounded_` and `borders_`; above `open_` everything passes, and `likely_` lies
+  /// between. Without bounds, only `likely_` is known, and `hidden_` is the same.
+  PacketHorizon grounded_, borders_, hidden_, likely_, open_, unnamed_likely_;
+  std::vector<Passing> passing_;
   std::vector<std::uint32_t> azimuths_;
 };
 

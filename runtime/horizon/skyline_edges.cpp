@@ -34,9 +34,9 @@ std::vector<std::uint32_t> from_near_to_far(std::span<const float> distances_m) 
 
 }  // namespace
 
-SkylineEdges SkylineEdges::facing(const ReceiverBox& box) const {
+SkylineEdges SkylineEdges::facing(const ReceiverBox& box, EdgeRole role) const {
   std::vector<float> distances_m(batches_.size() * lanes);
-  find_facing(batches_, rises_, box, distances_m);
+  find_facing(batches_, rises_, role, box, distances_m);
   const std::vector<std::uint32_t> order = from_near_to_far(std::span(distances_m).first(size()));
   SkylineEdges result;
   result.batches_.resize((order.size() + lanes - 1) / lanes);

@@ -16,7 +16,7 @@ struct ReceiverBox {
   Point3f low, high;
 };
 
-/// Edges that can be a horizon, in batches that are computed at once, coordinate by coordinate. Cell frame.
+/// Edges that can be a silhouette, in batches that are computed at once, coordinate by coordinate. Cell frame.
 class SkylineEdges {
  public:
   static constexpr std::size_t lanes = 16;
@@ -51,8 +51,9 @@ class SkylineEdges {
     return {{batch.ax[lane], batch.ay[lane], batch.az[lane]}, {batch.bx[lane], batch.by[lane], batch.bz[lane]}, rises_[n]};
   }
   [[nodiscard]] std::span<const Batch> batches() const { return batches_; }
-  /// Those that can be a horizon for receivers in a box, from near to far as seen from its middle, in steps of 3 %.
-  [[nodiscard]] SkylineEdges facing(const ReceiverBox& box) const;
+  /// Those that can be a silhouette for receivers in a box, from near to far as seen from its middle, in steps of 3 %. All edges
+  /// must have this role.
+  [[nodiscard]] SkylineEdges facing(const ReceiverBox& box, EdgeRole role) const;
 
  private:
   static void put(std::size_t lane, const Point3f& a, const Point3f& b, Batch& batch) {

@@ -25,6 +25,8 @@ class UnnamedCity {
   void raise_lower(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
   void raise_likely(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
   void raise_upper(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
+  /// To where sky may be seen below something that is not named, at the most.
+  void raise_overhang(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
 
  private:
   using Patch = std::optional<std::uint32_t>;
@@ -37,8 +39,12 @@ class UnnamedCity {
   [[nodiscard]] std::span<const float> upper_row(Patch patch) const {
     return patch ? map_.row(map_.upper, *patch) : std::span<const float>(infinite_);
   }
+  [[nodiscard]] std::span<const float> overhang_row(Patch patch) const {
+    return patch ? map_.row(map_.overhang, *patch) : std::span<const float>(infinite_);
+  }
 
   const FarHorizon& map_;
+  bool is_grounded_;  ///< none of it overhangs
   std::vector<std::uint32_t> bin_of_azimuth_;
   std::vector<float> level_, infinite_;
 };

@@ -67,6 +67,13 @@ class Occluder {
   [[nodiscard]] std::uint32_t blocked(const RayOrigins& origins, const Point3f& direction, float begin,
                                       std::uint32_t wanted) const;
 
+  /// The same, each ray with a direction of its own: neighbouring directions, as origins are neighbours.
+  struct Directions {
+    alignas(64) std::array<float, RayOrigins::lanes> x{}, y{}, z{};
+  };
+  [[nodiscard]] std::uint32_t blocked(const RayOrigins& origins, const Directions& directions, float begin,
+                                      std::uint32_t wanted) const;
+
   [[nodiscard]] std::optional<Hit> nearest(const Ray& ray) const;
   /// The nearest among the triangles that `counts` says yes to.
   [[nodiscard]] std::optional<Hit> nearest(const Ray& ray, const std::function<bool(std::uint32_t triangle)>& counts) const;

@@ -166,6 +166,15 @@ void Occluder::blocks(std::span<const Ray> rays, std::span<std::uint8_t> blocked
 }
 
 std::uint32_t Occluder::blocked(const RayOrigins& origins, const Point3f& direction, float begin, std::uint32_t wanted) const {
+  Directions alike;
+  alike.x.fill(direction.x);
+  alike.y.fill(direction.y);
+  alike.z.fill(direction.z);
+  return blocked(origins, alike, begin, wanted);
+}
+
+std::uint32_t Occluder::blocked(const RayOrigins& origins, const Directions& directions, float begin,
+                                std::uint32_t wanted) const {
   static_assert(RayOrigins::lanes == packet_size);
   if (impl_->scene == nullptr || wanted == 0) return 0;
   RTCIntersectContext context;
@@ -178,9 +187,9 @@ std::uint32_t Occluder::blocked(const RayOrigins& origins, const Point3f& direct
     packet.org_x[lane] = origins.x[lane];
     packet.org_y[lane] = origins.y[lane];
     packet.org_z[lane] = origins.z[lane];
-    packet.dir_x[lane] = direction.x;
-    packet.dir_y[lane] = direction.y;
-    packet.dir_z[lane] = direction.z;
+    packet.dir_x[lane] = directions.x[lane];
+    packet.dir_y[lane] = directions.y[lane];
+    packet.dir_z[lane] = directions.z[lane];
     packet.tnear[lane] = begin;
     packet.tfar[lane] = std::numeric_limits<float>::infinity();
     packet.time[lane] = 0.0F;

@@ -65,9 +65,7 @@ void BlockTiles::find_sections() {
   text_ = {text.data(), text.size()};
   far_cells_ = section<FarCellRecord>(SectionKind::far_cells);
   far_edges_ = section<HorizonEdge>(SectionKind::far_edges);
-  far_triangles_ = section<FarTriangle>(SectionKind::far_triangles);
   named_edges_ = section<NamedObstacle>(SectionKind::named_edges);
-  named_triangles_ = section<NamedObstacle>(SectionKind::named_triangles);
 }
 
 template <class T>
@@ -115,7 +113,8 @@ void BlockTiles::place_tiles() {
     tile.mesh.vertices = cut_off(vertices, c.vertex_count, "a cell's vertices reach beyond the end");
     tile.mesh.triangles = cut_off(triangles, c.triangle_count, "a cell's triangles reach beyond the end");
     tile.surface_runs = cut_off(runs, run_count(runs, c.triangle_count), "a cell's surfaces reach beyond the end");
-    tile.edge_sides = cut_off(edges, c.edge_count, "a cell's edges reach beyond the end");
+    for (std::size_t role = 0; role < edge_role_count; ++role)
+      tile.edge_sides[role] = cut_off(edges, c.edge_counts[role], "a cell's edges reach beyond the end");
     tile.loose_edges = cut_off(loose_edges, c.loose_edge_count, "a cell's loose edges reach beyond the end");
     tiles_.push_back(tile);
   }
@@ -161,12 +160,14 @@ void BlockTiles::check_tile(const TileView& tile) const {
 }
 
 void BlockTiles::check_edges(const TileView& tile) const {
-  std::uint64_t sides = 0;
-  for (const TileEdge& e : tile.edge_sides) {
-    sides += e.sides_passed + (e.sides_passed == TileEdge::only_passes ? 0U : 1U);
-    require(are_angles(e.rises), "something beside an edge rises beyond a right angle");
+  for (const std::span<const TileEdge> of_role : tile.edge_sides) {
+    std::uint64_t sides = 0;
+    for (const TileEdge& e : of_role) {
+      sides += e.sides_passed + (e.sides_passed == TileEdge::only_passes ? 0U : 1U);
+      require(are_angles(e.rises), "something beside an edge rises beyond a right angle");
+    }
+    require(sides <= 3 * tile.mesh.triangles.size(), "an edge is a side of a triangle that does not exist");
   }
-  require(sides <= 3 * tile.mesh.triangles.size(), "an edge is a side of a triangle that does not exist");
   check_places(tile.loose_edges);
 }
 
@@ -174,6 +175,7 @@ void BlockTiles::check_places(std::span<const HorizonEdge> edges) const {
   for (const HorizonEdge& e : edges) {
     require(is_on_earth(e.a) && is_on_earth(e.b), "an edge lies nowhere on Earth");
     require(are_angles(e.rises), "something beside an edge rises beyond a right angle");
+    require(static_cast<std::size_t>(e.role) < edge_role_count, "an edge has a role that does not exist");
   }
 }
 
@@ -182,29 +184,19 @@ void BlockTiles::check_far_cells() const {
   for (const FarCellRecord& c : far_cells_) {
     require(c.first_named_edge <= named_edges_.size() && c.named_edge_count <= named_edges_.size() - c.first_named_edge,
             "a far map's edges reach beyond the end");
-    require(c.first_named_triangle <= named_triangles_.size() &&
-                c.named_triangle_count <= named_triangles_.size() - c.first_named_triangle,
-            "a far map's triangles reach beyond the end");
     for (std::size_t l = 0; l < c.levels_m.size(); ++l)
       require(std::abs(c.levels_m[l]) <= farthest_m && (l == 0 || c.levels_m[l - 1] <= c.levels_m[l]),
               "the levels of a far map are not in order");
   }
   for (const NamedObstacle& n : named_edges_) require(n.row < far_edges_.size(), "a far map names an edge that does not exist");
-  for (const NamedObstacle& n : named_triangles_)
-    require(n.row < far_triangles_.size(), "a far map names a triangle that does not exist");
 }
 
-void BlockTiles::check_far_places() const {
-  check_places(far_edges_);
-  for (const FarTriangle& t : far_triangles_)
-    for (const Point3f& p : t) require(is_on_earth(p), "a far triangle lies nowhere on Earth");
-}
+void BlockTiles::check_far_places() const { check_places(far_edges_); }
 
 NamedObstacles BlockTiles::named_obstacles(Cell cell, double cell_edge_m) const {
   FARLOD_EXPECTS(range_.contains(cell) && has_far_cells());
   const FarCellRecord& c = far_cells_[range_.index_of(cell)];
-  return {far_edges_, far_triangles_, named_edges_.subspan(c.first_named_edge, c.named_edge_count),
-          named_triangles_.subspan(c.first_named_triangle, c.named_triangle_count),
+  return {far_edges_, named_edges_.subspan(c.first_named_edge, c.named_edge_count),
           Point2d{(range_.i_begin - cell.i) * cell_edge_m, (range_.j_begin - cell.j) * cell_edge_m}};
 }
 

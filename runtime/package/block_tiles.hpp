@@ -25,26 +25,28 @@ struct TileView {
   std::span<const package::SurfaceRun> surface_runs;  ///< cover the triangles, in order
   std::span<const package::SurfaceRecord> surfaces;   ///< of the whole block
   std::span<const package::BuildingRecord> buildings;
-  std::span<const package::TileEdge> edge_sides;  ///< the horizon of what stands (SurfaceRecord::stands): see visit_edges
-  std::span<const HorizonEdge> loose_edges;       ///< the rest of it
+  std::array<std::span<const package::TileEdge>, edge_role_count> edge_sides;  ///< for each role; see visit_edges
+  std::span<const HorizonEdge> loose_edges;                                    ///< the rest of the edges
 
   [[nodiscard]] const package::SurfaceRecord& surface_of(std::uint32_t triangle) const {
     const auto run = std::upper_bound(surface_runs.begin(), surface_runs.end(), triangle,
                                       [](std::uint32_t t, const package::SurfaceRun& r) { return t < r.end; });
     return surfaces[run->surface];
   }
-  /// Calls `visit` with each HorizonEdge of what stands, cell frame. In no particular order, running either way.
+  /// Calls `visit` with each HorizonEdge, cell frame. In no particular order, running either way.
   template <class Visitor>
   void visit_edges(const Visitor& visit) const {
     static constexpr std::array<std::ptrdiff_t, 3> to_next{1, 1, -2};  // from a corner of a triangle
     const auto* corner = reinterpret_cast<const std::uint32_t*>(mesh.triangles.data());
-    std::size_t side = 0;
-    for (const package::TileEdge& e : edge_sides) {
-      side += e.sides_passed;
-      if (e.sides_passed == package::TileEdge::only_passes) continue;
-      const std::uint32_t* from = corner + side;
-      visit(HorizonEdge{mesh.vertices[*from], mesh.vertices[from[to_next[side % 3]]], e.rises});
-      ++side;
+    for (std::size_t role = 0; role < edge_role_count; ++role) {
+      std::size_t side = 0;
+      for (const package::TileEdge& e : edge_sides[role]) {
+        side += e.sides_passed;
+        if (e.sides_passed == package::TileEdge::only_passes) continue;
+        const std::uint32_t* from = corner + side;
+        visit(HorizonEdge{mesh.vertices[*from], mesh.vertices[from[to_next[side % 3]]], e.rises, static_cast<EdgeRole>(role)});
+        ++side;
+      }
     }
     for (const HorizonEdge& e : loose_edges) visit(e);
   }
@@ -103,8 +105,7 @@ class BlockTiles {
   std::vector<TileView> tiles_;  ///< as many and in the same order as cells_
   std::span<const package::FarCellRecord> far_cells_;
   std::span<const HorizonEdge> far_edges_;
-  std::span<const package::FarTriangle> far_triangles_;
-  std::span<const package::NamedObstacle> named_edges_, named_triangles_;
+  std::span<const package::NamedObstacle> named_edges_;
 };
 
 }  // namespace farlod

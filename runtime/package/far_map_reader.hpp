@@ -50,7 +50,7 @@ class FarMapReader {
 
   /// Of the kind `box`; `top` is BoxMap::top. Throws PackageDamaged.
   [[nodiscard]] BoxFarMap read_box(Cell cell, float top) const;
-  /// Of the kind `horizon`: fills lower, likely and upper. Throws PackageDamaged.
+  /// Of the kind `horizon`: fills lower, likely, upper and overhang. Throws PackageDamaged.
   void read_slopes(Cell cell, FarHorizon& map) const;
 
  private:

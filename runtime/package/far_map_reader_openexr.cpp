@@ -132,7 +132,7 @@ struct FarMapReader::Impl {
       return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return wanted == entry.name.str; });
     };
     if (shape.is_box() && !has(package::distance_channel)) damaged("it has no distances");
-    for (const char* slopes : {package::lower_channel, package::likely_channel, package::upper_channel})
+    for (const char* slopes : {package::lower_channel, package::likely_channel, package::upper_channel, package::overhang_channel})
       if (!shape.is_box() && !has(slopes)) damaged("it has no slopes");
   }
   /// The pixels of one cell, in the file's order of rows.
@@ -174,10 +174,11 @@ BoxFarMap FarMapReader::read_box(Cell cell, float top) const {
 void FarMapReader::read_slopes(Cell cell, FarHorizon& map) const {
   FARLOD_EXPECTS(impl_->cells.contains(cell) && !impl_->shape.is_box());
   impl_->read(cell, std::array{Wanted{package::lower_channel, &map.lower}, Wanted{package::likely_channel, &map.likely},
-                               Wanted{package::upper_channel, &map.upper}});
+                               Wanted{package::upper_channel, &map.upper}, Wanted{package::overhang_channel, &map.overhang}});
   std::size_t in_order = 0;
   for (std::size_t n = 0; n < map.lower.size(); ++n)
-    in_order += (map.lower[n] >= 0.0F ? 1U : 0U) & (map.lower[n] <= map.upper[n] ? 1U : 0U) & (map.likely[n] >= 0.0F ? 1U : 0U);
+    in_order += (map.lower[n] >= 0.0F ? 1U : 0U) & (map.lower[n] <= map.upper[n] ? 1U : 0U) & (map.likely[n] >= 0.0F ? 1U : 0U) &
+                (map.overhang[n] >= 0.0F ? 1U : 0U);
   if (in_order != map.lower.size()) impl_->damaged("its bounds are not in order");
 }
 

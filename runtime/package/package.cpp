@@ -139,6 +139,7 @@ FarHorizon Package::far_horizon(Cell cell) const {
                  {},
                  {},
                  {},
+                 {},
                  tiles.named_obstacles(cell, cell_edge_m)};
   impl_->far_maps(n)->read_slopes(cell, map);
   return map;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/raster_writer_gdal.hpp"
 
+#include <gdal_frmts.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 
@@ -18,7 +19,7 @@ namespace farlod {
 namespace {
 
 GDALDatasetUniquePtr create_tiff(const RasterFrame& raster, const AtomicFile& file, const GdalErrors& errors) {
-  GDALAllRegister();
+  GDALRegister_GTiff();  // all drivers would take longer than a small map
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   if (driver == nullptr) throw OutputError(file.destination(), "this GDAL cannot write GeoTIFF");
   // Predictor 3 is the one for floats: it halves what DEFLATE alone leaves

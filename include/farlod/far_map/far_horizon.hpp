@@ -18,25 +18,27 @@ namespace farlod {
 
 /// The obstacles that a cell's far map names, still in the mapped file.
 struct NamedObstacles {
-  std::span<const HorizonEdge> edges;               ///< of the whole block, block frame
-  std::span<const package::FarTriangle> triangles;  ///< likewise
-  std::span<const package::NamedObstacle> named_edges, named_triangles;
+  std::span<const HorizonEdge> edges;  ///< of the whole block, block frame
+  std::span<const package::NamedObstacle> named_edges;
   Point2d cell_from_block_m;  ///< added to a place of the block frame, gives the cell frame
 };
 
 /// The far map of a cell, of the kind `horizon`: what the city beyond the neighbourhood hides. Slopes are tangents of elevations,
 /// for each patch a row of azimuth bins (grid frame).
 ///   (1) from every place in a patch, all of the far city that is not named lies below `upper`
-///   (2) from every place in a patch, everything below `lower` is hidden
+///   (2) from every place in a patch, everything below `lower` is hidden, unless it lies below `overhang` or below a lower border
+///   that is named or near
 ///   (3) `likely` is what is seen of the unnamed on average on the patch's floor; between two floors it changes evenly with the
 ///   height
+///   (4) from every place in a patch, no lower border of the unnamed (EdgeRole::underside) rises above `overhang`, but those that
+///   stand before unnamed grounded things that are higher
 struct FarHorizon {
   ReceiverPatches patches;
   AzimuthBins bins;
-  std::vector<float> lower, likely, upper;
+  std::vector<float> lower, likely, upper, overhang;
   NamedObstacles named;
 
-  /// The bins of a patch, in `lower`, `likely` or `upper`.
+  /// The bins of a patch, in `lower`, `likely`, `upper` or `overhang`.
   [[nodiscard]] std::span<const float> row(const std::vector<float>& slopes, std::uint32_t patch) const {
     return std::span(slopes).subspan(static_cast<std::size_t>(patch) * bins.count, bins.count);
   }

@@ -26,8 +26,8 @@ enum class FarVerdict : std::uint8_t {
   blocked          ///< hides the sky there, for certain
 };
 
-/// Judges the directions of a fan for receivers of one cell, from its far map of the kind `horizon`. Named triangles are not its
-/// business: they stand in the near scene.
+/// Judges the directions of a fan for receivers of one cell, from its far map of the kind `horizon`, as if all of the far city were
+/// grounded.
 class FarView {
  public:
   /// Fan and map must outlive it.
@@ -101,9 +101,11 @@ inline void FarView::draw_named(const Point3f& p_cell, std::optional<std::uint32
   std::fill(upper_.begin(), upper_.end(), 0.0F);
   const Point3d eye{p_cell.x, p_cell.y, p_cell.z};
   const std::uint32_t squares = map_.patches.squares();
-  for (std::size_t n = 0; n < edges_cell_.size(); ++n)
-    if (!patch || map_.named.named_edges[n].matters(*patch % squares, *patch / squares))
-      draw({edges_cell_[n].a - eye, edges_cell_[n].b - eye});
+  for (std::size_t n = 0; n < edges_cell_.size(); ++n) {
+    const package::NamedObstacle& named = map_.named.named_edges[n];
+    if (map_.named.edges[named.row].role == EdgeRole::underside) continue;
+    if (!patch || named.matters(*patch % squares, *patch / squares)) draw({edges_cell_[n].a - eye, edges_cell_[n].b - eye});
+  }
 }
 
 inline void FarView::draw(const EdgeView& given) {

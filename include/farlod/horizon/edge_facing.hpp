@@ -17,10 +17,11 @@ namespace farlod {
 /// origin.
 inline constexpr double facing_slack_m = 0.001;
 
-/// Whether the edge can be a horizon for some eye in a box, as far as the facets beside it tell: not if each eye looks at it
-/// through the solid, or sees the solid rise behind it. Proof in docs/concepts.md, "Edges that face away".
-[[nodiscard]] inline bool may_be_horizon(const Point3d& a, const Point3d& b, EdgeRises rises, const Box2d& eyes_plan,
-                                         double eyes_low_m, double eyes_high_m) {
+/// Whether an upper border can be a horizon for some eye in a box, as far as the facets beside it tell: not if each eye looks at
+/// it through the solid, or sees the solid rise behind it. And whether a lower border can be a lower silhouette: not if for each
+/// eye a facet beside it reaches lower. Proof in docs/concepts.md, "Edges that face away".
+[[nodiscard]] inline bool may_be_silhouette(const Point3d& a, const Point3d& b, EdgeRises rises, EdgeRole role,
+                                            const Box2d& eyes_plan, double eyes_low_m, double eyes_high_m) {
   const Point3d along = b - a;
   const double run_m = norm(horizontal(along)), length_m = norm(along);
   if (run_m == 0.0) return true;
@@ -34,19 +35,26 @@ inline constexpr double facing_slack_m = 0.001;
     most_left_m = std::max(most_left_m, left_m);
   }
   if (least_left_m <= facing_slack_m && most_left_m >= -facing_slack_m) return true;
-  const bool eyes_left = least_left_m > 0.0;
+  const bool eyes_left = least_left_m > 0.0, is_upper = role != EdgeRole::underside;
   const double near_slope = EdgeRises::slope(eyes_left ? rises.left : rises.right),
                far_slope = EdgeRises::slope(eyes_left ? rises.right : rises.left);
+  // No eye above the edge has it above the level
   const double highest_eye_m = std::min(eyes_high_m, std::max(a.z, b.z) - 2.0 * facing_slack_m);
-  bool over_near = false, under_far = false;
+  bool near_lets_see = false, far_lets_see = false;
   for (const Point2d corner : corners) {
     const Point2d v = corner - horizontal(a);
     const double aside_m = std::abs(along.x * v.y - along.y * v.x) / run_m, ahead_m = dot(horizontal(along), v) / run_m;
     const auto rise_m = [&](double z_m) { return ((z_m - a.z) * run_m - ahead_m * along.z) / length_m; };
-    over_near = over_near || rise_m(highest_eye_m) > aside_m * near_slope - facing_slack_m;
-    under_far = under_far || rise_m(eyes_low_m) < -aside_m * far_slope + facing_slack_m;
+    const double lowest_rise_m = rise_m(eyes_low_m), highest_rise_m = rise_m(highest_eye_m);
+    if (is_upper) {
+      near_lets_see = near_lets_see || highest_rise_m > aside_m * near_slope - facing_slack_m;
+      far_lets_see = far_lets_see || lowest_rise_m < -aside_m * far_slope + facing_slack_m;
+    } else {
+      near_lets_see = near_lets_see || lowest_rise_m < aside_m * near_slope + facing_slack_m;
+      far_lets_see = far_lets_see || highest_rise_m > -aside_m * far_slope - facing_slack_m;
+    }
   }
-  return over_near && under_far;
+  return near_lets_see && far_lets_see;
 }
 
 }  // namespace farlod

@@ -17,11 +17,16 @@ namespace farlod {
 /// end to its second, seen from above. Rounded down, to 127ths of a right angle.
 struct EdgeRises {
   static constexpr std::int8_t straight_down = -127;  ///< a wall, or unknown: it hides nothing of the edge
+  static constexpr std::int8_t straight_up = 127;     ///< the same for the lower border of something
   std::int8_t left = straight_down, right = straight_down;
   bool operator==(const EdgeRises&) const = default;
 
   [[nodiscard]] static std::int8_t rounded_down(double rise_rad) {
     const double steps = std::floor(rise_rad / (0.5 * std::numbers::pi) * 127.0);
+    return static_cast<std::int8_t>(std::clamp(steps, -127.0, 127.0));
+  }
+  [[nodiscard]] static std::int8_t rounded_up(double rise_rad) {
+    const double steps = std::ceil(rise_rad / (0.5 * std::numbers::pi) * 127.0);
     return static_cast<std::int8_t>(std::clamp(steps, -127.0, 127.0));
   }
   /// The tangent of the angle; beyond all slopes of a city where that is straight down or up.
@@ -36,12 +41,23 @@ struct EdgeRises {
   }
 };
 
-/// An edge of the city below which everything is solid, down to the ground: whoever looks below it sees no sky. Where the whole
-/// city stands so, the horizon of a receiver is the upper envelope of these edges.
+/// What an edge says about the sky below it. In the upright half-plane of an azimuth, a connected piece of the city hides all
+/// slopes between its lowest and its highest one. Proof and use: docs/concepts.md, "What is grounded, and what overhangs".
+enum class EdgeRole : std::uint16_t {
+  grounded = 0,   ///< an upper border: everything below it is hidden, down to the ground
+  overhang = 1,   ///< an upper border of something that may be seen under
+  underside = 2,  ///< a lower border of such a thing: sky may be seen below it
+};
+inline constexpr std::size_t edge_role_count = 3;
+
+/// An edge of the city that can be a silhouette. The upper envelope of `grounded` and `overhang` edges is a receiver's horizon;
+/// above the upper envelope of the `underside` edges, nothing floats.
+/// `rises` tells of the steepest facets beside an upper border, and of the flattest ones beside a lower border, where
+/// EdgeRises::straight_up stands for a wall or for none.
 struct HorizonEdge {
   Point3f a, b;
   EdgeRises rises{};
-  std::uint16_t reserved = 0;
+  EdgeRole role = EdgeRole::grounded;
   bool operator==(const HorizonEdge&) const = default;
 };
 static_assert(sizeof(HorizonEdge) == 28);

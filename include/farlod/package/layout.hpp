@@ -22,7 +22,7 @@ namespace farlod::package {
 static_assert(std::endian::native == std::endian::little,
               "packages are mapped, not decoded: a big-endian reader must swap bytes");
 
-inline constexpr std::uint32_t format_version = 4;
+inline constexpr std::uint32_t format_version = 5;
 inline constexpr std::array<char, 8> magic{'F', 'A', 'R', 'L', 'O', 'D', 'T', '\n'};
 inline constexpr std::uint64_t section_alignment = 64;
 inline constexpr std::uint64_t end_padding = 16;
@@ -38,14 +38,12 @@ enum class SectionKind : std::uint32_t {
   // Far maps of the kind `horizon`; without elements for the kind `box`
   far_cells = 8,         ///< FarCellRecord, as many and in the same order as `cells`
   far_edges = 9,         ///< HorizonEdge, block frame: what the cells' far maps name
-  far_triangles = 10,    ///< FarTriangle, block frame
   named_edges = 11,      ///< NamedObstacle: rows of `far_edges`, cell by cell
-  named_triangles = 12,  ///< NamedObstacle: rows of `far_triangles`, cell by cell
   // Of the tiles again
-  tile_edges = 13,  ///< TileEdge, cell by cell
+  tile_edges = 13,  ///< TileEdge, cell by cell, and within a cell role by role, in the order of EdgeRole
   loose_edges = 14  ///< HorizonEdge, cell frame, cell by cell: those that are no side of a triangle
 };
-inline constexpr std::uint32_t section_count = 14;
+inline constexpr std::uint32_t section_count = 12;
 
 struct Header {
   std::array<char, 8> magic;
@@ -74,17 +72,18 @@ inline constexpr std::uint32_t cell_has_overhang = 1;  ///< a surface of the til
 struct CellRecord {
   std::int32_t i, j;
   std::uint32_t vertex_count, triangle_count;
-  std::uint32_t edge_count, loose_edge_count;   ///< rows of `tile_edges` and `loose_edges`
+  std::array<std::uint32_t, edge_role_count> edge_counts;  ///< rows of `tile_edges`, for each EdgeRole
+  std::uint32_t loose_edge_count;                          ///< rows of `loose_edges`
   float z_low_m, z_high_m;                      ///< of the tile's vertices; low > high when it is empty
   float capture_x_m, capture_y_m, capture_z_m;  ///< where the far map was captured, cell frame
   float far_map_top;                            ///< BoxMap::top; 0 when the cell has no far field above the horizontal
   std::uint32_t flags;
 };
-static_assert(sizeof(CellRecord) == 52);
+static_assert(sizeof(CellRecord) == 60);
 
-/// An edge of a tile below which everything is solid (HorizonEdge), as a side of one of its triangles. The sides of a cell are
-/// counted triangle by triangle, three each: from the first corner to the second, on to the third, and back. Each row passes some
-/// sides that are no edges, and is the next one; a row that passes 255 is none.
+/// An edge of a tile (HorizonEdge), as a side of one of its triangles. The sides of a cell are counted triangle by triangle,
+/// three each: from the first corner to the second, on to the third, and back. Each row stores the number of sides to skip before
+/// the next edge of its role. The value 255 skips 255 sides and stores no edge. Each role counts from the first side.
 struct TileEdge {
   static constexpr std::uint8_t only_passes = 255;
   std::uint8_t sides_passed;
@@ -103,13 +102,13 @@ static_assert(sizeof(SurfaceRun) == 8);
 
 inline constexpr std::uint32_t no_building = 0xFFFFFFFF;
 
-/// The bits of kind, stands and normal follow one another from the lowest on, as compilers for Linux lay them out; a test looks.
+/// The bits of kind, grounded and normal follow one another from the lowest on, as compilers for Linux lay them out; a test looks.
 struct SurfaceRecord {
   std::uint32_t building;  ///< row in `buildings`; no_building for the ground
   std::uint32_t number;    ///< of the surface, within its building
   std::uint16_t part;      ///< closed part of the building, for the question "inside?"
   SurfaceKind kind : 3;
-  std::uint8_t stands : 1;  ///< 1: the tiles' edges stand for it; 0: it must be met triangle by triangle
+  std::uint8_t grounded : 1;  ///< 1: it belongs to a building that can be seen under nowhere (EdgeRole::grounded)
   std::uint64_t normal_u : StoredDirection::bits;
   std::uint64_t normal_v : StoredDirection::bits;
 
@@ -133,12 +132,12 @@ inline constexpr std::uint32_t most_layers = 8;
 
 /// What a cell's far map names, and the heights of its layers (ReceiverPatches). Levels beyond the last repeat it.
 struct FarCellRecord {
-  std::uint64_t first_named_edge, first_named_triangle;
-  std::uint32_t named_edge_count, named_triangle_count;
+  std::uint64_t first_named_edge;
+  std::uint32_t named_edge_count;
   std::array<float, most_layers> levels_m;
-  std::uint64_t reserved;  ///< zero
+  std::uint32_t reserved;  ///< zero
 };
-static_assert(sizeof(FarCellRecord) == 64);
+static_assert(sizeof(FarCellRecord) == 48);
 
 /// An obstacle that receivers in some patches of a cell must meet by itself: in the squares and in the layers whose bits are set.
 struct NamedObstacle {
@@ -151,8 +150,7 @@ struct NamedObstacle {
 };
 static_assert(sizeof(NamedObstacle) == 8);
 
-using FarTriangle = std::array<Point3f, 3>;
-static_assert(sizeof(FarTriangle) == 36 && sizeof(HorizonEdge) == 28 && sizeof(EdgeRises) == 2);
+static_assert(sizeof(HorizonEdge) == 28 && sizeof(EdgeRises) == 2);
 
 /// The folder of a block within a package, and its two files.
 [[nodiscard]] inline std::string block_folder(Block b) { return "blocks/" + std::to_string(b.i) + "_" + std::to_string(b.j); }
@@ -163,11 +161,13 @@ inline constexpr const char* manifest_file = "manifest.json";
 /// Channels of far.exr, all half. Of the kind `box`: Y is 1 where the sky is seen and 0 where the far city hides it, so that any
 /// viewer shows the map; Z is the distance in metres from the capture point to what hides the sky, infinite where nothing does.
 /// Of the kind `horizon`: slopes (tangents of elevations) of what is not named, a column for each azimuth bin, a row for each
-/// patch from the first; `lower` and `upper` are certain all over the patch, Y is what is likely on the floor of the patch.
+/// patch from the first; `lower`, `upper` and `overhang` are certain all over the patch, Y is what is likely on the floor of the
+/// patch.
 inline constexpr const char* sky_channel = "Y";
 inline constexpr const char* distance_channel = "Z";
 inline constexpr const char* likely_channel = "Y";
 inline constexpr const char* lower_channel = "lower";
 inline constexpr const char* upper_channel = "upper";
+inline constexpr const char* overhang_channel = "overhang";
 
 }  // namespace farlod::package

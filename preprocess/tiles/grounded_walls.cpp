@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tiles/grounded_walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "tiles/ground_contact.hpp"
+#include "tiles/undersides.hpp"
+
+namespace farlod {
+namespace {
+
+/// A facet whose points lie this near to a line in the plan is upright.
+constexpr double upright_offset_m = 0.03;
+
+double across(Point2d a, Point2d b) { return a.x * b.y - a.y * b.x; }
+
+/// Index of the point farthest from another one in the plan.
+std::size_t farthest_from(Point2d p, std::span<const Point3d> ring) {
+  const auto distance = [&](const Point3d& q) { return norm(horizontal(q) - p); };
+  return static_cast<std::size_t>(
+      std::max_element(ring.begin(), ring.end(), [&](const Point3d& a, const Point3d& b) { return distance(a) < distance(b); }) -
+      ring.begin());
+}
+
+/// One way round a ring, from its point `from` to its point `to`.
+std::vector<WallPoint> way(std::span<const WallPoint> ring, std::size_t from, std::size_t to, std::size_t step) {
+  std::vector<WallPoint> points{ring[from]};
+  for (std::size_t n = from; n != to; points.push_back(ring[n])) n = (n + step) % ring.size();
+  return points;
+}
+
+bool ascends(std::span<const WallPoint> border) {
+  return std::is_sorted(border.begin(), border.end(),
+                        [](const WallPoint& a, const WallPoint& b) { return a.along_m < b.along_m - on_line_m; });
+}
+
+double middle_height(std::span<const WallPoint> border) {
+  double area = 0.0, length = 0.0;
+  for (std::size_t n = 1; n < border.size(); ++n) {
+    const double step = border[n].along_m - border[n - 1].along_m;
+    area += 0.5 * step * (border[n].z_m + border[n - 1].z_m);
+    length += step;
+  }
+  return length > 0.0 ? area / length : border.front().z_m;
+}
+
+/// The upright ends of a wall belong to neither border: of what stands one above the other there, the outermost counts.
+template <class IsFarther>
+std::vector<WallPoint> without_ends(std::vector<WallPoint> border, const IsFarther& is_farther) {
+  const auto keep_outermost = [&](auto begin, auto end) {
+    const double end_m = begin->along_m;
+    auto beyond = std::find_if(begin, end, [&](const WallPoint& p) { return std::abs(p.along_m - end_m) > on_line_m; });
+    return std::max_element(begin, beyond, [&](const WallPoint& a, const WallPoint& b) { return is_farther(b.z_m, a.z_m); });
+  };
+  border.erase(border.begin(), keep_outermost(border.begin(), border.end()));
+  border.erase(keep_outermost(border.rbegin(), border.rend()).base(), border.end());
+  return border;
+}
+
+/// The heights of a border at a place, handed to `choose` where it steps there.
+template <class Choose>
+double height_at(std::span<const WallPoint> border, double along_m, const Choose& choose) {
+  std::optional<double> height_m;
+  const auto take = [&](double z_m) { height_m = height_m ? choose(*height_m, z_m) : z_m; };
+  for (std::size_t n = 1; n < border.size(); ++n) {
+    const WallPoint &a = border[n - 1], &b = border[n];
+    if (along_m < a.along_m - on_line_m || along_m > b.along_m + on_line_m) continue;
+    if (b.along_m - a.along_m <= on_line_m) {
+      take(choose(a.z_m, b.z_m));
+    } else {
+      take(std::lerp(a.z_m, b.z_m, std::clamp((along_m - a.along_m) / (b.along_m - a.along_m), 0.0, 1.0)));
+    }
+  }
+  return height_m.value_or(border.front().z_m);
+}
+
+/// Places along a wall at which its lower border is looked at: its own points, and others no farther apart than the ground is
+/// asked.
+std::vector<double> places_along(std::span<const WallPoint> border) {
+  std::vector<double> places;
+  for (std::size_t n = 1; n < border.size(); ++n) {
+    const double from = border[n - 1].along_m, to = border[n].along_m;
+    const auto steps = static_cast<int>(std::ceil(std::max(1.0, (to - from) / ground_asked_every_m)));
+    for (int k = 0; k <= steps; ++k) places.push_back(std::lerp(from, to, static_cast<double>(k) / steps));
+  }
+  return places;
+}
+
+}  // namespace
+
+double WallProfile::lower_m(double along_m) const {
+  return height_at(lower, along_m, [](double a, double b) { return std::max(a, b); });
+}
+
+double WallProfile::upper_m(double along_m) const {
+  return height_at(upper, along_m, [](double a, double b) { return std::min(a, b); });
+}
+
+std::optional<WallProfile> wall_profile(std::span<const Point3d> ring) {
+  if (ring.size() < 3) return std::nullopt;
+  const Point2d begin = horizontal(ring[farthest_from(horizontal(ring.front()), ring)]);
+  const Point2d along = horizontal(ring[farthest_from(begin, ring)]) - begin;
+  WallProfile wall{begin, {}, norm(along), {}, {}};
+  if (wall.length_m <= on_line_m) return std::nullopt;
+  wall.direction = (1.0 / wall.length_m) * along;
+  std::vector<WallPoint> points;
+  for (const Point3d& p : ring) {
+    const Point2d from_begin = horizontal(p) - begin;
+    if (std::abs(across(wall.direction, from_begin)) > upright_offset_m) return std::nullopt;
+    points.push_back({dot(wall.direction, from_begin), p.z});
+  }
+  const auto before = [](const WallPoint& a, const WallPoint& b) { return a.along_m < b.along_m; };
+  const auto [first, last] = std::minmax_element(points.begin(), points.end(), before);
+  const auto from = static_cast<std::size_t>(first - points.begin()), to = static_cast<std::size_t>(last - points.begin());
+  wall.lower = way(points, from, to, 1);
+  wall.upper = way(points, from, to, points.size() - 1);
+  if (!ascends(wall.lower) || !ascends(wall.upper)) return std::nullopt;
+  if (middle_height(wall.lower) > middle_height(wall.upper)) std::swap(wall.lower, wall.upper);
+  wall.lower = without_ends(std::move(wall.lower), std::less<>());
+  wall.upper = without_ends(std::move(wall.upper), std::greater<>());
+  return wall;
+}
+
+GroundedWalls::GroundedWalls(std::vector<WallProfile> walls, const GroundHeightAt& ground_height) {
+  const auto is_grounded = [&](const WallProfile& wall) {
+    const std::vector<double> places = places_along(wall.lower);
+    return std::all_of(places.begin(), places.end(), [&](double along_m) {
+      const Point2d p = wall.place(along_m);
+      const double z_m = wall.lower_m(along_m);
+      return z_m <= ground_height(p) + ground_contact_m || reach_up_to(p, z_m);
+    });
+  };
+  // A wall may stand on another one, which stands on a third
+  for (bool more = true; more;) {
+    const auto rest = std::stable_partition(walls.begin(), walls.end(), is_grounded);
+    more = rest != walls.begin();
+    std::move(walls.begin(), rest, std::back_inserter(grounded_));
+    walls.erase(walls.begin(), rest);
+  }
+}
+
+bool GroundedWalls::reach_up_to(Point2d p, double z_m) const {
+  return std::any_of(grounded_.begin(), grounded_.end(), [&](const WallProfile& wall) {
+    const Point2d from_begin = p - wall.begin;
+    const double along_m = dot(wall.direction, from_begin);
+    return std::abs(across(wall.direction, from_begin)) <= on_line_m && along_m >= -on_line_m &&
+           along_m <= wall.length_m + on_line_m && wall.upper_m(along_m) >= z_m - on_line_m;
+  });
+}
+
+bool GroundedWalls::close_below(const Segment3d& s) const {
+  return std::any_of(grounded_.begin(), grounded_.end(), [&](const WallProfile& wall) {
+    const Point2d a = horizontal(s.a) - wall.begin, b = horizontal(s.b) - wall.begin;
+    double from = dot(wall.direction, a), to = dot(wall.direction, b);
+    if (std::abs(across(wall.direction, a)) > upright_offset_m || std::abs(across(wall.direction, b)) > upright_offset_m ||
+        std::min(from, to) < -on_line_m || std::max(from, to) > wall.length_m + on_line_m)
+      return false;
+    const auto is_below = [&](double share) {
+      return std::lerp(s.a.z, s.b.z, share) <= wall.upper_m(std::lerp(from, to, share)) + on_line_m;
+    };
+    // Between the points of the border both are straight
+    if (!is_below(0.0) || !is_below(1.0)) return false;
+    return std::all_of(wall.upper.begin(), wall.upper.end(), [&](const WallPoint& p) {
+      const double share = (p.along_m - from) / (to - from);
+      return std::abs(to - from) <= on_line_m || share <= 0.0 || share >= 1.0 || is_below(share);
+    });
+  });
+}
+
+}  // namespace farlod

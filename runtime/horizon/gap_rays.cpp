@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "horizon/gap_rays.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace farlod {
+namespace {
+
+using Lanes = PacketHorizon::Lanes;
+
+/// Rays of neighbouring azimuths pass at other heights: fractions of the multiples of the golden ratio spread evenly.
+float offset_of(std::size_t azimuth) {
+  constexpr double golden = 0.61803398874989485;
+  const double multiple = golden * static_cast<double>(azimuth);
+  return static_cast<float>(multiple - std::floor(multiple));
+}
+
+/// The share of the sky above a slope, cosine-weighted: rays are spread evenly over it.
+float share_above(float slope) { return 1.0F / (1.0F + slope * slope); }
+float slope_of(float share) { return std::sqrt(1.0F / share - 1.0F); }
+
+/// A gap that takes a larger share of what an azimuth can see gets more rays.
+std::size_t rays_in(float share, std::size_t rays_per_azimuth) {
+  const float wanted = std::ceil(2.0F * share * static_cast<float>(rays_per_azimuth));
+  return static_cast<std::size_t>(std::max(1.0F, wanted));
+}
+
+}  // namespace
+
+Lanes trace_gaps(const Gaps& gaps, const AzimuthRing& ring, SkyWeight weight, const ReceiverPacket& receivers, std::uint32_t wanted,
+                 std::size_t rays_per_azimuth, const Occluder& scene) {
+  const RayOrigins origins{receivers.x, receivers.y, receivers.z};
+  Lanes seen{};
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    // Who has a gap here
+    const PacketHorizon::Row& sky = gaps.sky[k];
+    std::uint32_t open = 0;
+    float widest = 0.0F;
+    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) {
+      const bool is_open = sky[l] > 0.0F && ((wanted >> l) & 1U) != 0;
+      open |= is_open ? 1U << l : 0U;
+      widest = std::max(widest, is_open ? sky[l] : 0.0F);
+    }
+    if (open == 0) continue;
+    const std::size_t count = rays_in(widest * static_cast<float>(ring.size()), rays_per_azimuth);
+    const float part = 1.0F / static_cast<float>(count);
+    // The gap, by the sky above its ends
+    Lanes from{}, to{};
+    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) {
+      from[l] = share_above(gaps.from.row(k)[l]);
+      to[l] = share_above(gaps.to.row(k)[l]);
+    }
+    // Each ray stands for a part of it
+    const auto slopes_at = [&](float place) {
+      Lanes slopes;
+      for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) slopes[l] = slope_of(from[l] + place * (to[l] - from[l]));
+      return slopes;
+    };
+    Lanes above_part = sky_of_azimuth(ring, k, gaps.from.row(k), weight, receivers);
+    for (std::size_t n = 0; n < count; ++n) {
+      const bool is_last = n + 1 == count;
+      const Lanes end = is_last ? static_cast<Lanes>(gaps.to.row(k)) : slopes_at(static_cast<float>(n + 1) * part);
+      const Lanes above_end = sky_of_azimuth(ring, k, end, weight, receivers);
+      Occluder::Directions directions;
+      directions.x.fill(ring.cosine()[k]);
+      directions.y.fill(ring.sine()[k]);
+      directions.z = slopes_at((static_cast<float>(n) + offset_of(k)) * part);
+      const std::uint32_t free = open & ~scene.blocked(origins, directions, least_distance_m, open);
+      for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
+        seen[l] += ((free >> l) & 1U) != 0 ? above_part[l] - above_end[l] : 0.0F;
+      above_part = above_end;
+    }
+  }
+  return seen;
+}
+
+}  // namespace farlod

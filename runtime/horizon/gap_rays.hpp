@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "horizon/azimuth_ring.hpp"
+#include "horizon/packet_horizon.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "occlusion/occluder.hpp"
+
+namespace farlod {
+
+/// The sky that a packet's receivers may see below something: for each azimuth, from one horizon up to another one.
+struct Gaps {
+  const PacketHorizon& from;
+  const PacketHorizon& to;
+  std::span<const PacketHorizon::Row> sky;  ///< how much that is (PacketHorizon::find_sky_below)
+};
+
+/// Traces `rays_per_azimuth` rays in the gaps of the receivers whose bits are set, and returns how much sky is seen through them.
+[[nodiscard]] PacketHorizon::Lanes trace_gaps(const Gaps& gaps, const AzimuthRing& ring, SkyWeight weight,
+                                              const ReceiverPacket& receivers, std::uint32_t wanted, std::size_t rays_per_azimuth,
+                                              const Occluder& scene);
+
+}  // namespace farlod

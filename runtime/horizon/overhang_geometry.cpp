@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "horizon/overhang_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace farlod {
+namespace {
+
+/// What is less than this above a receiver is not overhead: as for rays (least_distance_m).
+constexpr float least_clearance_m = least_distance_m;
+
+struct Box {
+  Point3f low, high;
+};
+
+Box box_of(const OverhangGeometry::TriangleCorners& t) {
+  Box box{t[0], t[0]};
+  for (const Point3f& p : t) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+  }
+  return box;
+}
+
+/// Distance to the left of the line from a to b, times the line's length.
+float left_of(const Point3f& a, const Point3f& b, float x, float y) { return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x); }
+
+/// Whether a triangle hangs over a place of the plan.
+bool hangs_over(const OverhangGeometry::TriangleCorners& t, float x, float y, float z) {
+  int left = 0, right = 0;
+  for (std::size_t n = 0; n < 3; ++n) {
+    const Point3f &a = t[n], &b = t[(n + 1) % 3];
+    const float side = left_of(a, b, x, y);
+    left += side >= 0.0F ? 1 : 0;
+    right += side <= 0.0F ? 1 : 0;
+  }
+  if (left != 3 && right != 3) return false;
+  const Point3f n = cross(t[1] - t[0], t[2] - t[0]);
+  return t[0].z - (n.x * (x - t[0].x) + n.y * (y - t[0].y)) / n.z > z + least_clearance_m;
+}
+
+/// Upright triangles hang over nothing.
+bool is_upright(const OverhangGeometry::TriangleCorners& t) {
+  const Point3f n = cross(t[1] - t[0], t[2] - t[0]);
+  return std::abs(n.z) <= 1e-3F * norm(n);
+}
+
+}  // namespace
+
+OverhangGeometry::OverhangGeometry(const Package& package, Cell cell) : package_(package), cell_(cell) {
+  // What is cut at the borders of cells hangs over its own cell alone
+  const bool is_cut = package.manifest().assign != "whole";
+  overhead_ = triangles_in(is_cut ? CellRange{cell.i, cell.j, cell.i + 1, cell.j + 1} : package.grid().neighborhood_of(cell));
+  std::erase_if(overhead_, is_upright);
+}
+
+std::vector<OverhangGeometry::TriangleCorners> OverhangGeometry::triangles_in(const CellRange& cells) const {
+  const Grid& grid = package_.grid();
+  const CellRange range = cells.intersection(grid.cells);
+  std::vector<TriangleCorners> result;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) {
+    const TileView tile = package_.tile(range.cell_at(n));
+    const Point2d shift_m = grid.corner_of(range.cell_at(n)) - grid.corner_of(cell_);
+    // Offsets are added in double and rounded once, as for other scenes
+    const auto corner = [&](std::uint32_t v) {
+      const Point3f& p = tile.mesh.vertices[v];
+      return Point3f{static_cast<float>(p.x + shift_m.x), static_cast<float>(p.y + shift_m.y), p.z};
+    };
+    std::uint32_t first = 0;
+    for (const package::SurfaceRun& run : tile.surface_runs) {
+      if (tile.surfaces[run.surface].grounded == 0)
+        for (const Triangle& t : tile.mesh.triangles.subspan(first, run.end - first))
+          result.push_back({corner(t.a), corner(t.b), corner(t.c)});
+      first = run.end;
+    }
+  }
+  return result;
+}
+
+const Occluder& OverhangGeometry::scene() {
+  if (scene_) return *scene_;
+  std::vector<Point3f> vertices;
+  std::vector<Triangle> triangles;
+  for (const TriangleCorners& t : triangles_in(package_.grid().neighborhood_of(cell_))) {
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    vertices.insert(vertices.end(), t.begin(), t.end());
+    triangles.push_back({first, first + 1, first + 2});
+  }
+  return scene_.emplace(std::move(vertices), std::move(triangles));
+}
+
+std::uint32_t OverhangGeometry::covered(const ReceiverPacket& r) const {
+  if (overhead_.empty()) return 0;
+  const auto [west, east] = std::minmax_element(r.x.begin(), r.x.end());
+  const auto [south, north] = std::minmax_element(r.y.begin(), r.y.end());
+  const float lowest_z = r.lowest_z();
+  std::uint32_t bits = 0;
+  for (const TriangleCorners& t : overhead_) {
+    const Box box = box_of(t);
+    if (box.high.z <= lowest_z || box.high.x < *west || box.low.x > *east || box.high.y < *south || box.low.y > *north) continue;
+    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
+      if (hangs_over(t, r.x[l], r.y[l], r.z[l])) bits |= 1U << l;
+  }
+  return bits;
+}
+
+}  // namespace farlod
