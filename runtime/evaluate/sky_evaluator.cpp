@@ -167,7 +167,7 @@ SkyEvaluator::Numbers SkyEvaluator::answer_by_horizons(CellSight& sight, const C
                                                        const SkyAnswers& answers) const {
   const std::size_t rays_per_azimuth = std::max<std::size_t>(1, (settings_.rays + settings_.azimuths / 2) / settings_.azimuths);
   HorizonEngine engine(ring_, settings_.weight, sight.far, sight.skyline, sight.overhangs,
-                       {static_cast<float>(0.5 * azimuth_error(settings_.azimuths)), rays_per_azimuth});
+                       {static_cast<float>(azimuth_error(settings_.azimuths)), rays_per_azimuth});
   Numbers by_rays;
   const auto answer_packet = [&](const ReceiverPacket& packet, std::span<const std::uint32_t> numbers) {
     std::array<BoundedShare, ReceiverPacket::lanes> room;

@@ -14,21 +14,21 @@ Point3f moved(const Point3f& p, Point2d shift_m) {
   return {static_cast<float>(p.x + shift_m.x), static_cast<float>(p.y + shift_m.y), p.z};
 }
 
-void add(const HorizonEdge& edge, Point2d shift_m, CellSkyline& skyline) {
+void add(const HorizonEdge& edge, Point2d shift_m, CellSkyline& skyline, OverhangEdges& overhangs) {
   const HorizonEdge placed{moved(edge.a, shift_m), moved(edge.b, shift_m), edge.rises, edge.role};
   switch (edge.role) {
     case EdgeRole::grounded:
       return skyline.grounded.add(placed);
     case EdgeRole::overhang:
-      return skyline.overhangs.add(placed);
+      return overhangs.upper.add(placed);
     case EdgeRole::underside:
-      return skyline.undersides.add(placed);
+      return overhangs.lower.add(placed);
   }
 }
 
-void add_named(const NamedObstacles& named, std::uint32_t layers, CellSkyline& skyline) {
-  for (const package::NamedObstacle& n : named.named_edges)
-    if ((n.layers & layers) != 0) add(named.edges[n.row], named.cell_from_block_m, skyline);
+void keep_facing(OverhangEdges& edges, const ReceiverBox& box) {
+  edges.upper = edges.upper.facing(box, EdgeRole::overhang);
+  edges.lower = edges.lower.facing(box, EdgeRole::underside);
 }
 
 }  // namespace
@@ -42,12 +42,14 @@ CellSkyline cell_skyline(const Package& package, Cell cell, const FarHorizon& fa
   for (std::size_t n = 0; n < static_cast<std::size_t>(near.size()); ++n) {
     const Cell neighbour = near.cell_at(n);
     const Point2d shift_m = grid.corner_of(neighbour) - grid.corner_of(cell);
-    package.tile(neighbour).visit_edges([&](const HorizonEdge& e) { add(e, shift_m, skyline); });
+    package.tile(neighbour).visit_edges([&](const HorizonEdge& e) { add(e, shift_m, skyline, skyline.near); });
   }
-  add_named(far.named, far.layers_met_from(box.low.z, box.high.z), skyline);
+  const std::uint32_t layers = far.layers_met_from(box.low.z, box.high.z);
+  for (const package::NamedObstacle& n : far.named.named_edges)
+    if ((n.layers & layers) != 0) add(far.named.edges[n.row], far.named.cell_from_block_m, skyline, skyline.far);
   skyline.grounded = skyline.grounded.facing(box, EdgeRole::grounded);
-  skyline.overhangs = skyline.overhangs.facing(box, EdgeRole::overhang);
-  skyline.undersides = skyline.undersides.facing(box, EdgeRole::underside);
+  keep_facing(skyline.near, box);
+  keep_facing(skyline.far, box);
   return skyline;
 }
 

@@ -13,10 +13,16 @@
 
 namespace farlod {
 
-/// What receivers of one cell may see of the city, apart from what its far map leaves unnamed: edges by their roles (EdgeRole), cell
-/// frame.
+/// Borders of what may be seen under: EdgeRole::overhang and EdgeRole::underside.
+struct OverhangEdges {
+  SkylineEdges upper, lower;
+  [[nodiscard]] bool empty() const { return upper.empty() && lower.empty(); }
+};
+
+/// What receivers of one cell may see of the city, apart from what its far map leaves unnamed. Cell frame.
 struct CellSkyline {
-  SkylineEdges grounded, overhangs, undersides;
+  SkylineEdges grounded;  ///< near and far
+  OverhangEdges near, far;
 };
 
 /// The neighbourhood and what the far map names, for receivers in a box: edges that face away from all of them are left out.

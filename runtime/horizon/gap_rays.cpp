@@ -21,6 +21,14 @@ float offset_of(std::size_t azimuth) {
 float share_above(float slope) { return 1.0F / (1.0F + slope * slope); }
 float slope_of(float share) { return std::sqrt(1.0F / share - 1.0F); }
 
+/// A bit for each receiver whose direction passes where nothing is seen.
+std::uint32_t filled(const Gaps& gaps, std::size_t azimuth, const Lanes& slopes) {
+  const PacketHorizon::Row &from = gaps.filled_from.row(azimuth), &to = gaps.filled_to.row(azimuth);
+  std::uint32_t bits = 0;
+  for (std::size_t l = 0; l < slopes.size(); ++l) bits |= slopes[l] >= from[l] && slopes[l] < to[l] ? 1U << l : 0U;
+  return bits;
+}
+
 /// A gap that takes a larger share of what an azimuth can see gets more rays.
 std::size_t rays_in(float share, std::size_t rays_per_azimuth) {
   const float wanted = std::ceil(2.0F * share * static_cast<float>(rays_per_azimuth));
@@ -67,7 +75,8 @@ Lanes trace_gaps(const Gaps& gaps, const AzimuthRing& ring, SkyWeight weight, co
       directions.x.fill(ring.cosine()[k]);
       directions.y.fill(ring.sine()[k]);
       directions.z = slopes_at((static_cast<float>(n) + offset_of(k)) * part);
-      const std::uint32_t free = open & ~scene.blocked(origins, directions, least_distance_m, open);
+      const std::uint32_t asked = open & ~filled(gaps, k, directions.z);
+      const std::uint32_t free = asked & ~scene.blocked(origins, directions, least_distance_m, asked);
       for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
         seen[l] += ((free >> l) & 1U) != 0 ? above_part[l] - above_end[l] : 0.0F;
       above_part = above_end;

@@ -13,11 +13,11 @@
 
 namespace farlod {
 
-/// The sky that a packet's receivers may see below something: for each azimuth, from one horizon up to another one.
+/// The sky that a packet's receivers may see below something: for each azimuth between two horizons, but not between two others.
 struct Gaps {
-  const PacketHorizon& from;
-  const PacketHorizon& to;
-  std::span<const PacketHorizon::Row> sky;  ///< how much that is (PacketHorizon::find_sky_below)
+  const PacketHorizon &from, &to;
+  const PacketHorizon &filled_from, &filled_to;
+  std::span<const PacketHorizon::Row> sky;  ///< how much that is
 };
 
 /// Traces `rays_per_azimuth` rays in the gaps of the receivers whose bits are set, and returns how much sky is seen through them.

@@ -73,18 +73,46 @@ FARLOD_LANES void raise_rows(const EdgeSeen& s, float steepest, const RingView& 
   }
 }
 
+/// Horizons that rise to the edges.
+struct Rising {
+  float* slopes;
+  FARLOD_LANES void draw(const EdgeSeen& s, float steepest, const RingView& ring, std::uint32_t first, std::uint32_t end) const {
+    raise_rows(s, steepest, ring, first, end, slopes);
+  }
+};
+
+/// Slopes that sink to the edges above some floors.
+struct Sinking {
+  const float* floors;
+  float* slopes;
+  FARLOD_LANES void draw(const EdgeSeen& s, float steepest, const RingView& ring, std::uint32_t first, std::uint32_t end) const {
+    for (std::uint32_t k = first; k < end; ++k) {
+      const float dx = ring.cosine[k], dy = ring.sine[k];
+      const Floats u = (s.px * dy - s.py * dx) * s.inverse_turn, v = (s.qy * dx - s.qx * dy) * s.inverse_turn;
+      const Floats slope = least(s.pz * v + s.qz * u, all(steepest));
+      const Floats over = slope - loaded(floors + std::size_t{k} * lane_count), counts = least(least(u, v), over);
+      float* row = slopes + std::size_t{k} * lane_count;
+      const Floats now = loaded(row), low = least(now, slope);
+      // An edge that begins at the floor is no higher than it
+      store(least(counts, over - 1e-9F) > 0.0F ? low : now, row);
+    }
+  }
+};
+
 /// The same from azimuth to azimuth, counted on from turn to turn.
-FARLOD_LANES void raise_rows_around(const EdgeSeen& s, float steepest, const RingView& ring, std::uint32_t first,
-                                    std::uint32_t end, float* slopes) {
+template <class Drawing>
+FARLOD_LANES void draw_around(const EdgeSeen& s, float steepest, const RingView& ring, std::uint32_t first, std::uint32_t end,
+                              const Drawing& drawing) {
   const std::uint32_t turn = first < ring.size ? 0 : first < 2 * ring.size ? ring.size : 2 * ring.size;
   const std::uint32_t begin = first - turn, stop = end - turn;
-  raise_rows(s, steepest, ring, begin, std::min(stop, ring.size), slopes);
-  if (stop > ring.size) raise_rows(s, steepest, ring, 0, stop - ring.size, slopes);
+  drawing.draw(s, steepest, ring, begin, std::min(stop, ring.size));
+  if (stop > ring.size) drawing.draw(s, steepest, ring, 0, stop - ring.size);
 }
 
-/// Draws those edges of a batch that may rise over somebody's horizon.
-FARLOD_LANES void raise_over_batch(const SkylineEdges::Batch& edges, const Eyes& eyes, const PacketBounds& bounds,
-                                   const RingView& ring, const SectorFloors& floors, float* slopes) {
+/// Draws those edges of a batch that may rise over somebody's floors.
+template <class Drawing>
+FARLOD_LANES void draw_batch(const SkylineEdges::Batch& edges, const Eyes& eyes, const PacketBounds& bounds, const RingView& ring,
+                             const SectorFloors& floors, const Drawing& drawing) {
   const EdgeReach reach = reach_of(edges, bounds);
   std::array<std::uint8_t, lane_count> risers;
   const std::size_t count = find_risers(reach, floors, risers);
@@ -95,11 +123,11 @@ FARLOD_LANES void raise_over_batch(const SkylineEdges::Batch& edges, const Eyes&
     see(edges, lane, eyes, seen);
     if (reach.steepest[lane] == EdgeReach::anything) {
       turn_along_near(seen);
-      raise_rows(seen, EdgeReach::anything, ring, 0, ring.size, slopes);
+      drawing.draw(seen, EdgeReach::anything, ring, 0, ring.size);
     } else {
       turn_along(seen);
-      raise_rows_around(seen, reach.steepest[lane], ring, ring.first_of_slot[first_slot[lane]],
-                        ring.first_of_slot[end_slot[lane]], slopes);
+      draw_around(seen, reach.steepest[lane], ring, ring.first_of_slot[first_slot[lane]], ring.first_of_slot[end_slot[lane]],
+                  drawing);
     }
   }
 }
@@ -117,8 +145,18 @@ void raise_over(const SkylineEdges& edges, const ReceiverPacket& receivers, cons
       next_look = begin + looks_apart;
       looks_apart *= 2;
     }
-    raise_over_batch(edges.batches()[begin / lane_count], eyes, bounds, ring, floors, slopes);
+    draw_batch(edges.batches()[begin / lane_count], eyes, bounds, ring, floors, Rising{slopes});
   }
+}
+
+FARLOD_FOR_EACH_PROCESSOR
+void sink_over(const SkylineEdges& edges, const ReceiverPacket& receivers, const PacketBounds& bounds, const RingView& ring,
+               const float* floor_slopes, float* slopes) {
+  const Eyes eyes{loaded(receivers.x.data()), loaded(receivers.y.data()), loaded(receivers.z.data())};
+  SectorFloors floors;
+  find_floors(floor_slopes, ring.first_of_sector, floors);
+  for (std::size_t begin = 0; begin < edges.size(); begin += lane_count)
+    draw_batch(edges.batches()[begin / lane_count], eyes, bounds, ring, floors, Sinking{floor_slopes, slopes});
 }
 
 /// Receivers that look the same way, and not down, have the plane through the hindmost of them: what lies behind it, with all
@@ -137,6 +175,15 @@ void add_plane(const ReceiverPacket& r, PacketBounds& b) {
   b.normal_z = r.normal_z[0];
 }
 
+RingView view_of(const AzimuthRing& ring) {
+  return {ring.cosine(),
+          ring.sine(),
+          ring.first_of_slot(),
+          ring.first_of_sector(),
+          static_cast<std::uint32_t>(ring.size()),
+          static_cast<float>(ring.slots())};
+}
+
 PacketBounds bounds_of(const ReceiverPacket& r) {
   PacketBounds b;
   const auto [west, east] = std::minmax_element(r.x.begin(), r.x.end());
@@ -153,13 +200,14 @@ PacketBounds bounds_of(const ReceiverPacket& r) {
 }  // namespace
 
 void raise_horizons(const SkylineEdges& edges, const ReceiverPacket& receivers, const AzimuthRing& ring, float* slopes) {
-  const RingView view{ring.cosine(),
-                      ring.sine(),
-                      ring.first_of_slot(),
-                      ring.first_of_sector(),
-                      static_cast<std::uint32_t>(ring.size()),
-                      static_cast<float>(ring.slots())};
-  raise_over(edges, receivers, bounds_of(receivers), view, slopes);
+  if (edges.empty()) return;
+  raise_over(edges, receivers, bounds_of(receivers), view_of(ring), slopes);
+}
+
+void lower_to_edges(const SkylineEdges& edges, const ReceiverPacket& receivers, const AzimuthRing& ring, const float* floors,
+                    float* lowest) {
+  if (edges.empty()) return;
+  sink_over(edges, receivers, bounds_of(receivers), view_of(ring), floors, lowest);
 }
 
 }  // namespace farlod

@@ -12,4 +12,8 @@ namespace farlod {
 /// some edges.
 void raise_horizons(const SkylineEdges& edges, const ReceiverPacket& receivers, const AzimuthRing& ring, float* slopes);
 
+/// Lowers `lowest` to what the receivers see of some edges above `floors`.
+void lower_to_edges(const SkylineEdges& edges, const ReceiverPacket& receivers, const AzimuthRing& ring, const float* floors,
+                    float* lowest);
+
 }  // namespace farlod

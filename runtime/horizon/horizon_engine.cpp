@@ -3,11 +3,22 @@
 #include "horizon/horizon_engine.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "farlod/expects.hpp"
 #include "horizon/gap_rays.hpp"
 
 namespace farlod {
+namespace {
+
+PacketHorizon::Lanes sum(std::span<const PacketHorizon::Row> rows) {
+  PacketHorizon::Lanes sums{};
+  for (const PacketHorizon::Row& row : rows)
+    for (std::size_t l = 0; l < sums.size(); ++l) sums[l] += row[l];
+  return sums;
+}
+
+}  // namespace
 
 HorizonEngine::HorizonEngine(const AzimuthRing& ring, SkyWeight weight, const FarHorizon& far, const CellSkyline& skyline,
                              OverhangGeometry& overhangs, const GapSettings& gaps)
@@ -17,26 +28,24 @@ HorizonEngine::HorizonEngine(const AzimuthRing& ring, SkyWeight weight, const Fa
       overhangs_(overhangs),
       gaps_(gaps),
       unnamed_(far, ring),
-      grounded_(ring),
-      upper_(ring),
-      borders_(ring) {}
+      horizons_(ring),
+      near_and_named_(ring) {}
 
 std::uint32_t HorizonEngine::evaluate(const ReceiverPacket& receivers, std::span<BoundedShare> shares) {
   FARLOD_EXPECTS(shares.size() == receivers.count);
   const std::uint32_t covered = overhangs_.covered(receivers);
   // What hides much first: what lies below is passed over
-  grounded_.clear();
-  unnamed_.raise_likely(receivers, grounded_);
-  grounded_.raise(skyline_.grounded, receivers);
-  if (covered == 0 && skyline_.overhangs.empty()) {
-    const Lanes sky = grounded_.sky_above(weight_, receivers);
+  horizons_.grounded.clear();
+  unnamed_.raise_likely(receivers, horizons_.grounded);
+  horizons_.grounded.raise(skyline_.grounded, receivers);
+  if (covered == 0 && skyline_.near.empty() && skyline_.far.empty()) {
+    const Lanes sky = horizons_.grounded.sky_above(weight_, receivers);
     for (std::size_t l = 0; l < shares.size(); ++l) shares[l] = {sky[l], sky[l], sky[l]};
     return 0;
   }
-  upper_ = grounded_;
-  upper_.raise(skyline_.overhangs, receivers);
-  upper_.close(covered);
-  const Lanes sky = upper_.sky_above(weight_, receivers);
+  horizons_.upper = horizons_.borders = horizons_.grounded;
+  horizons_.draw_overhangs(skyline_, receivers, covered, FarGaps::likely);
+  const Lanes sky = horizons_.upper.sky_above(weight_, receivers);
   const BelowBorders below = look_below(receivers);
   for (std::size_t l = 0; l < shares.size(); ++l) {
     const float svf = std::min(sky[l] + below.sky[l], 1.0F);
@@ -48,25 +57,25 @@ std::uint32_t HorizonEngine::evaluate(const ReceiverPacket& receivers, std::span
 std::uint32_t HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, std::span<BoundedShare> shares) {
   FARLOD_EXPECTS(shares.size() == receivers.count);
   const std::uint32_t covered = overhangs_.covered(receivers);
-  // What is certain: sky below the borders at the most, and above the lowest horizons
-  grounded_.clear();
-  grounded_.raise(skyline_.grounded, receivers);
-  upper_ = grounded_;
-  unnamed_.raise_lower(receivers, upper_);
-  upper_.raise(skyline_.overhangs, receivers);
-  upper_.close(covered);
-  borders_ = grounded_;
-  borders_.raise(skyline_.undersides, receivers);
-  unnamed_.raise_overhang(receivers, borders_);
-  const Lanes highest_below = sky_below_borders(receivers), highest = upper_.sky_above(weight_, receivers);
-  // What is likely
-  unnamed_.raise_likely(receivers, grounded_);
-  unnamed_.raise_likely(receivers, upper_);
-  const Lanes likely = upper_.sky_above(weight_, receivers);
+  // What is certain: the sky above the lowest horizons, and below the borders at the most
+  horizons_.grounded.clear();
+  horizons_.grounded.raise(skyline_.grounded, receivers);
+  near_and_named_ = horizons_.upper = horizons_.borders = horizons_.grounded;
+  unnamed_.raise_lower(receivers, horizons_.upper);
+  unnamed_.raise_overhang(receivers, horizons_.borders);
+  horizons_.draw_overhangs(skyline_, receivers, covered, FarGaps::possible);
+  const Lanes highest_below = sum(horizons_.find_sky_below_borders(weight_, receivers, gap_rows_)),
+              highest = horizons_.upper.sky_above(weight_, receivers);
+  // What is likely: the unnamed is grounded
+  std::swap(horizons_.grounded, near_and_named_);
+  unnamed_.raise_likely(receivers, horizons_.grounded);
+  horizons_.upper = horizons_.borders = horizons_.grounded;
+  horizons_.draw_overhangs(skyline_, receivers, covered, FarGaps::likely);
+  const Lanes likely = horizons_.upper.sky_above(weight_, receivers);
   const BelowBorders below = look_below(receivers);
   // Above the highest horizons all is open
-  unnamed_.raise_upper(receivers, upper_);
-  const Lanes low = upper_.sky_above(weight_, receivers);
+  unnamed_.raise_upper(receivers, horizons_.upper);
+  const Lanes low = horizons_.upper.sky_above(weight_, receivers);
   for (std::size_t l = 0; l < shares.size(); ++l) {
     const float high = std::min(highest[l] + highest_below[l], 1.0F);
     shares[l] = {low[l], std::clamp(likely[l] + below.sky[l], low[l], std::max(low[l], high)), high};
@@ -74,30 +83,15 @@ std::uint32_t HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receiver
   return below.by_rays;
 }
 
-HorizonEngine::Lanes HorizonEngine::sky_below_borders(const ReceiverPacket& receivers) {
-  Lanes sum{};
-  if (borders_.above(grounded_) == 0) return sum;
-  // Above the highest border and below the upper horizon, nothing is open
-  borders_.lower_to(upper_);
-  grounded_.find_sky_below(borders_, weight_, receivers, gap_rows_);
-  for (const PacketHorizon::Row& row : gap_rows_)
-    for (std::size_t l = 0; l < sum.size(); ++l) sum[l] += row[l];
-  return sum;
-}
-
 HorizonEngine::BelowBorders HorizonEngine::look_below(const ReceiverPacket& receivers) {
   BelowBorders below;
-  if (skyline_.undersides.empty()) return below;
-  borders_ = grounded_;
-  borders_.raise(skyline_.undersides, receivers);
-  const Lanes most = sky_below_borders(receivers);
+  const Lanes most = sum(horizons_.find_sky_below_borders(weight_, receivers, gap_rows_));
   for (std::size_t l = 0; l < receivers.count; ++l) below.by_rays |= most[l] > gaps_.tolerance ? 1U << l : 0U;
   Lanes seen{};
   if (below.by_rays != 0)
-    seen = trace_gaps({grounded_, borders_, gap_rows_}, ring_, weight_, receivers, below.by_rays, gaps_.rays_per_azimuth,
-                      overhangs_.scene());
-  for (std::size_t l = 0; l < most.size(); ++l)
-    below.sky[l] = ((below.by_rays >> l) & 1U) != 0 ? seen[l] : 0.5F * most[l];
+    seen = trace_gaps({horizons_.grounded, horizons_.borders, horizons_.far_borders, horizons_.far_upper, gap_rows_}, ring_, weight_, receivers, below.by_rays,
+                      gaps_.rays_per_azimuth, overhangs_.scene());
+  for (std::size_t l = 0; l < most.size(); ++l) below.sky[l] = ((below.by_rays >> l) & 1U) != 0 ? seen[l] : 0.5F * most[l];
   return below;
 }
 

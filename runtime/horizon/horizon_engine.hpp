@@ -12,6 +12,7 @@
 #include "horizon/azimuth_ring.hpp"
 #include "horizon/cell_skyline.hpp"
 #include "horizon/overhang_geometry.hpp"
+#include "horizon/overhang_horizons.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/unnamed_city.hpp"
@@ -50,10 +51,8 @@ class HorizonEngine {
     Lanes sky{};
     std::uint32_t by_rays = 0;
   };
-  /// With the grounded horizons and the upper ones (`grounded_`, `upper_`).
+  /// Between the grounded horizons and the borders, as drawn.
   [[nodiscard]] BelowBorders look_below(const ReceiverPacket& receivers);
-  /// How much sky lies between the grounded horizons and `borders_`, at the most.
-  [[nodiscard]] Lanes sky_below_borders(const ReceiverPacket& receivers);
 
   const AzimuthRing& ring_;
   SkyWeight weight_;
@@ -61,7 +60,8 @@ class HorizonEngine {
   OverhangGeometry& overhangs_;
   GapSettings gaps_;
   UnnamedCity unnamed_;
-  PacketHorizon grounded_, upper_, borders_;
+  OverhangHorizons horizons_;
+  PacketHorizon near_and_named_;
   std::vector<PacketHorizon::Row> gap_rows_;
 };
 

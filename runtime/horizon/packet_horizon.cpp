@@ -3,6 +3,7 @@
 #include "horizon/packet_horizon.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "farlod/expects.hpp"
 #include "horizon/horizon_drawing.hpp"
@@ -136,6 +137,32 @@ void lower_rows(const float* other, std::size_t azimuth_count, float* slopes) {
 }
 
 FARLOD_FOR_EACH_PROCESSOR
+void raise_rows_to(const float* other, std::size_t azimuth_count, float* slopes) {
+  for (std::size_t k = 0; k < azimuth_count; ++k) {
+    float* row = slopes + k * lane_count;
+    store(greatest(loaded(row), loaded(other + k * lane_count)), row);
+  }
+}
+
+FARLOD_FOR_EACH_PROCESSOR
+void replace_rows(float what, const float* by, std::size_t azimuth_count, float* slopes) {
+  for (std::size_t k = 0; k < azimuth_count; ++k) {
+    float* row = slopes + k * lane_count;
+    const Floats now = loaded(row);
+    store(now < what ? now : loaded(by + k * lane_count), row);
+  }
+}
+
+FARLOD_FOR_EACH_PROCESSOR
+void join_rows(const float* lower, const float* upper, std::size_t azimuth_count, float* slopes) {
+  for (std::size_t k = 0; k < azimuth_count; ++k) {
+    float* row = slopes + k * lane_count;
+    const Floats here = loaded(row), begin = loaded(lower + k * lane_count), end = loaded(upper + k * lane_count);
+    store(begin <= here ? greatest(here, end) : here, row);
+  }
+}
+
+FARLOD_FOR_EACH_PROCESSOR
 void find_greatest_difference(const float* slopes, const float* other, std::size_t azimuth_count, float* differences) {
   Floats greatest_yet = all(-1.0F);
   for (std::size_t k = 0; k < azimuth_count; ++k)
@@ -254,6 +281,26 @@ void PacketHorizon::close(std::uint32_t receivers) {
   for (Row& row : slopes_)
     for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
       if (((receivers >> l) & 1U) != 0) row[l] = straight_up;
+}
+
+void PacketHorizon::raise_to(const PacketHorizon& other) {
+  FARLOD_EXPECTS(other.slopes_.size() == slopes_.size());
+  raise_rows_to(other.slopes_.front().data(), slopes_.size(), slopes_.front().data());
+}
+
+void PacketHorizon::join(const PacketHorizon& lower, const PacketHorizon& upper) {
+  FARLOD_EXPECTS(lower.slopes_.size() == slopes_.size() && upper.slopes_.size() == slopes_.size());
+  join_rows(lower.slopes_.front().data(), upper.slopes_.front().data(), slopes_.size(), slopes_.front().data());
+}
+
+void PacketHorizon::become_lowest(const SkylineEdges& edges, const ReceiverPacket& receivers, const PacketHorizon& floors) {
+  constexpr float none = std::numeric_limits<float>::infinity();
+  Row nothing;
+  nothing.fill(none);
+  std::fill(slopes_.begin(), slopes_.end(), nothing);
+  const float* floor_slopes = floors.slopes_.front().data();
+  lower_to_edges(edges, receivers, *ring_, floor_slopes, slopes_.front().data());
+  replace_rows(none, floor_slopes, slopes_.size(), slopes_.front().data());
 }
 
 void PacketHorizon::lower_to(const PacketHorizon& other) {

@@ -46,9 +46,16 @@ class PacketHorizon {
   void raise(const SkylineEdges& edges, const ReceiverPacket& receivers);
   /// Lets those receivers see no sky at all whose bits are set.
   void close(std::uint32_t receivers);
+  /// Raises them to other ones where these are higher.
+  void raise_to(const PacketHorizon& other);
+  /// Raises them to `upper` where `lower` is not above them: what begins below a horizon, and reaches above it without a gap, is
+  /// one with it.
+  void join(const PacketHorizon& lower, const PacketHorizon& upper);
   /// Lowers them to other ones where these are lower.
   void lower_to(const PacketHorizon& other);
   [[nodiscard]] const Row& row(std::size_t azimuth) const { return slopes_[azimuth]; }
+  /// Becomes, for each receiver and azimuth, the lowest of some edges that is seen above `floors`; `floors` where none is.
+  void become_lowest(const SkylineEdges& edges, const ReceiverPacket& receivers, const PacketHorizon& floors);
   /// Of directions with these slopes, one at each azimuth, how many pass over each receiver's horizon.
   [[nodiscard]] Lanes count_over(std::span<const float> slopes) const;
   /// The azimuths at which somebody's direction passes over this horizon, and not over `outline`.

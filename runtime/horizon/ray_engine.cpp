@@ -23,9 +23,7 @@ RayEngine::RayEngine(const RayFan& fan, const FarHorizon& far, const CellSkyline
       overhangs_(overhangs),
       wants_bounds_(wants_bounds),
       unnamed_(far, fan.ring()),
-      grounded_(fan.ring()),
-      borders_(fan.ring()),
-      hidden_(fan.ring()),
+      horizons_(fan.ring()),
       likely_(fan.ring()),
       open_(fan.ring()),
       unnamed_likely_(fan.ring()) {}
@@ -34,7 +32,7 @@ std::vector<FreeRays> RayEngine::count(std::span<const Receiver> receivers) {
   FARLOD_EXPECTS(!receivers.empty() && receivers.size() <= ReceiverPacket::lanes);
   look(receivers);
   trace();
-  const PacketHorizon::Lanes high = hidden_.count_over(fan_.slopes());
+  const PacketHorizon::Lanes high = horizons_.upper.count_over(fan_.slopes());
   const PacketHorizon::Lanes likely = wants_bounds_ ? likely_.count_over(fan_.slopes()) : high;
   const PacketHorizon::Lanes low = wants_bounds_ ? open_.count_over(fan_.slopes()) : high;
   std::vector<FreeRays> free;
@@ -54,24 +52,23 @@ void RayEngine::look(std::span<const Receiver> receivers) {
   for (const Receiver& r : receivers) packet_.add(r);
   origins_ = {packet_.x, packet_.y, packet_.z};
   const std::uint32_t covered = overhangs_.covered(packet_);
-  grounded_.clear();
-  if (!wants_bounds_) unnamed_.raise_likely(packet_, grounded_);
-  grounded_.raise(skyline_.grounded, packet_);
-  hidden_ = grounded_;
-  if (wants_bounds_) unnamed_.raise_lower(packet_, hidden_);
-  hidden_.raise(skyline_.overhangs, packet_);
-  hidden_.close(covered);
-  borders_ = grounded_;
-  borders_.raise(skyline_.undersides, packet_);
+  horizons_.grounded.clear();
+  if (!wants_bounds_) unnamed_.raise_likely(packet_, horizons_.grounded);
+  horizons_.grounded.raise(skyline_.grounded, packet_);
+  horizons_.upper = horizons_.borders = horizons_.grounded;
+  if (wants_bounds_) {
+    unnamed_.raise_lower(packet_, horizons_.upper);
+    unnamed_.raise_overhang(packet_, horizons_.borders);
+  }
+  horizons_.draw_overhangs(skyline_, packet_, covered, wants_bounds_ ? FarGaps::possible : FarGaps::likely);
+  horizons_.borders.lower_to(horizons_.upper);
   if (wants_bounds_) look_unnamed();
-  borders_.lower_to(hidden_);
 }
 
 void RayEngine::look_unnamed() {
-  unnamed_.raise_overhang(packet_, borders_);
   unnamed_likely_.clear();
   unnamed_.raise_likely(packet_, unnamed_likely_);
-  likely_ = hidden_;
+  likely_ = horizons_.upper;
   unnamed_.raise_likely(packet_, likely_);
   open_ = likely_;
   unnamed_.raise_upper(packet_, open_);
@@ -79,11 +76,12 @@ void RayEngine::look_unnamed() {
 
 void RayEngine::trace() {
   passing_.clear();
-  if (borders_.above(grounded_) == 0) return;
-  grounded_.find_between(borders_, fan_.slopes(), azimuths_);
+  if (horizons_.borders.above(horizons_.grounded) == 0) return;
+  horizons_.grounded.find_between(horizons_.borders, fan_.slopes(), azimuths_);
   for (const std::uint32_t k : azimuths_) {
     const float slope = fan_.slopes()[k];
-    const std::uint32_t wanted = grounded_.below(k, slope) & ~borders_.below(k, slope);
+    const std::uint32_t in_far = horizons_.far_borders.below(k, slope) & ~horizons_.far_upper.below(k, slope);
+    const std::uint32_t wanted = horizons_.grounded.below(k, slope) & ~horizons_.borders.below(k, slope) & ~in_far;
     const std::uint32_t bits = wanted & ~overhangs_.scene().blocked(origins_, fan_.direction(k), least_distance_m, wanted);
     const std::uint32_t likely = wants_bounds_ ? bits & unnamed_likely_.below(k, slope) : bits;
     if (bits != 0) passing_.push_back({k, bits, likely});
@@ -101,7 +99,7 @@ std::uint64_t RayEngine::settle(const Occluder& city, const RayOrigins& origins,
     const float slope = fan_.slopes()[k];
     const bool passes = passing != passing_.end() && passing->azimuth == k;
     const std::uint32_t below = passes ? (passing++)->bits : 0;
-    const std::uint32_t wanted = ((hidden_.below(k, slope) & ~open_.below(k, slope)) | below) & doubtful;
+    const std::uint32_t wanted = ((horizons_.upper.below(k, slope) & ~open_.below(k, slope)) | below) & doubtful;
     rays += static_cast<std::uint64_t>(std::popcount(wanted));
     const std::uint32_t open = wanted & ~city.blocked(origins, fan_.direction(k), least_distance_m, wanted);
     for (std::size_t l = 0; l < free.size(); ++l) free[l].high += (open & bit_of(l)) != 0 ? 1U : 0U;

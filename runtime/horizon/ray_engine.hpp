@@ -11,6 +11,7 @@
 #include "farlod/far_map/far_horizon.hpp"
 #include "horizon/cell_skyline.hpp"
 #include "horizon/overhang_geometry.hpp"
+#include "horizon/overhang_horizons.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/ray_fan.hpp"
 #include "horizon/receiver_packet.hpp"
@@ -58,9 +59,10 @@ class RayEngine {
   UnnamedCity unnamed_;
   ReceiverPacket packet_;
   RayOrigins origins_;
-  /// Below `hidden_` nothing is free, but between `grounded_` and `borders_`; above `open_` everything passes, and `likely_` lies
-  /// between. Without bounds, only `likely_` is known, and `hidden_` is the same.
-  PacketHorizon grounded_, borders_, hidden_, likely_, open_, unnamed_likely_;
+  /// Below `horizons_.upper` nothing is free, but what passes below borders; above `open_` everything passes, and `likely_` lies
+  /// between. Without bounds, only what is likely is known.
+  OverhangHorizons horizons_;
+  PacketHorizon likely_, open_, unnamed_likely_;
   std::vector<Passing> passing_;
   std::vector<std::uint32_t> azimuths_;
 };
