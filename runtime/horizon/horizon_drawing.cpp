@@ -91,10 +91,9 @@ struct Sinking {
       const Floats u = (s.px * dy - s.py * dx) * s.inverse_turn, v = (s.qy * dx - s.qx * dy) * s.inverse_turn;
       const Floats slope = least(s.pz * v + s.qz * u, all(steepest));
       const Floats over = slope - loaded(floors + std::size_t{k} * lane_count), counts = least(least(u, v), over);
+      const Floats seen = counts > 0.0F ? slope : all(std::numeric_limits<float>::infinity());
       float* row = slopes + std::size_t{k} * lane_count;
-      const Floats now = loaded(row), low = least(now, slope);
-      // An edge that begins at the floor is no higher than it
-      store(least(counts, over - 1e-9F) > 0.0F ? low : now, row);
+      store(least(loaded(row), seen), row);
     }
   }
 };

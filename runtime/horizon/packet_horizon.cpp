@@ -157,8 +157,9 @@ FARLOD_FOR_EACH_PROCESSOR
 void join_rows(const float* lower, const float* upper, std::size_t azimuth_count, float* slopes) {
   for (std::size_t k = 0; k < azimuth_count; ++k) {
     float* row = slopes + k * lane_count;
-    const Floats here = loaded(row), begin = loaded(lower + k * lane_count), end = loaded(upper + k * lane_count);
-    store(begin <= here ? greatest(here, end) : here, row);
+    const Floats here = loaded(row), begin = loaded(lower + k * lane_count);
+    const Floats end = begin > here ? all(0.0F) : loaded(upper + k * lane_count);
+    store(greatest(here, end), row);
   }
 }
 

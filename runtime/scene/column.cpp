@@ -7,8 +7,6 @@
 #include <map>
 #include <utility>
 
-#include "occlusion/placed_mesh.hpp"
-
 namespace farlod {
 namespace {
 
@@ -24,11 +22,18 @@ std::vector<TileView> tiles_around(const Package& package, Cell cell) {
   return tiles;
 }
 
-Occluder occluder_of_tiles(std::span<const TileView> tiles, const Grid& grid, Cell cell) {
-  std::vector<PlacedMesh> placed;
-  for (const TileView& tile : tiles)
-    placed.push_back({tile.mesh, grid.corner_of({tile.cell->i, tile.cell->j}) - grid.corner_of(cell)});
-  return occluder_of(placed);
+/// Offsets are added in double and rounded once, as for a scene.
+std::vector<PlanIndex::Corners> triangles_of(std::span<const TileView> tiles, const Grid& grid, Cell cell) {
+  std::vector<PlanIndex::Corners> triangles;
+  for (const TileView& tile : tiles) {
+    const Point2d shift_m = grid.corner_of({tile.cell->i, tile.cell->j}) - grid.corner_of(cell);
+    const auto corner = [&](std::uint32_t v) {
+      const Point3f& p = tile.mesh.vertices[v];
+      return Point3f{static_cast<float>(p.x + shift_m.x), static_cast<float>(p.y + shift_m.y), p.z};
+    };
+    for (const Triangle& t : tile.mesh.triangles) triangles.push_back({corner(t.a), corner(t.b), corner(t.c)});
+  }
+  return triangles;
 }
 
 }  // namespace
@@ -62,24 +67,23 @@ bool Column::is_inside_building(float height_m) const {
 }
 
 CellColumns::CellColumns(const Package& package, Cell cell)
-    : tiles_(tiles_around(package, cell)), occluder_(occluder_of_tiles(tiles_, package.grid(), cell)) {
-  for (const TileView& tile : tiles_)
-    if (tile.cell->triangle_count > 0) below_all_m_ = std::min(below_all_m_, tile.cell->z_low_m);
-  below_all_m_ -= 1.0F;  // a ray that begins on a surface may miss it
-}
-
-Column::Crossing CellColumns::crossing(const Hit& hit) const {
-  std::uint32_t triangle = hit.triangle;
-  auto tile = tiles_.begin();
-  for (; triangle >= tile->mesh.triangles.size(); ++tile) triangle -= static_cast<std::uint32_t>(tile->mesh.triangles.size());
-  const package::SurfaceRecord& surface = tile->surface_of(triangle);
-  return {below_all_m_ + hit.distance, tile->building_number(surface), surface.part, surface.normal().looks_up()};
+    : tiles_(tiles_around(package, cell)), index_(triangles_of(tiles_, package.grid(), cell)) {
+  for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile)
+    for (std::uint32_t t = 0; t < tiles_[tile].mesh.triangles.size(); ++t) places_.emplace_back(tile, t);
 }
 
 Column CellColumns::at(float x_cell, float y_cell) const {
+  std::vector<PlanIndex::Crossing> found;
+  index_.find(x_cell, y_cell, found);
   std::vector<Column::Crossing> crossings;
-  for (const Hit& hit : occluder_.all_hits({{x_cell, y_cell, below_all_m_}, {0.0F, 0.0F, 1.0F}}))
-    crossings.push_back(crossing(hit));
+  crossings.reserve(found.size());
+  for (const PlanIndex::Crossing& c : found) {
+    const auto [tile, triangle] = places_[c.triangle];
+    const package::SurfaceRecord& surface = tiles_[tile].surface_of(triangle);
+    crossings.push_back({c.height_m, tiles_[tile].building_number(surface), surface.part, surface.normal().looks_up()});
+  }
+  std::stable_sort(crossings.begin(), crossings.end(),
+                   [](const Column::Crossing& a, const Column::Crossing& b) { return a.height_m < b.height_m; });
   return Column(std::move(crossings));
 }
 

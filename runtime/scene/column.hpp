@@ -3,12 +3,13 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "farlod/grid.hpp"
 #include "farlod/package/layout.hpp"
-#include "occlusion/occluder.hpp"
 #include "package/package.hpp"
+#include "scene/plan_index.hpp"
 
 namespace farlod {
 
@@ -48,11 +49,9 @@ class CellColumns {
   static constexpr std::int32_t reach_of_whole_buildings = 2;
 
  private:
-  [[nodiscard]] Column::Crossing crossing(const Hit& hit) const;
-
   std::vector<TileView> tiles_;
-  Occluder occluder_;
-  float below_all_m_ = 0.0F;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> places_;  ///< of each triangle: its tile, and its number there
+  PlanIndex index_;
 };
 
 }  // namespace farlod
