@@ -16,6 +16,7 @@ enum class SurfaceKind : std::uint8_t {
   roof = 2,
   wall = 3,
   floor = 4,  ///< looks down: the ground slab of a building, the underside of a bridge
+  foundation = 5,  ///< of no file: what closes the gap between a building's lowest floor and the ground
 };
 
 /// A surface whose outward normal is at least this steep counts as a wall (cosine of 75° to the vertical).

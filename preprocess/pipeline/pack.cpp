@@ -270,6 +270,9 @@ class Packing {
     m.buildings = tiles.building_ids.size();
     m.polygons = tiles.polygon_count;
     m.triangles = tiles.triangle_count();
+    if (tiles.foundation_count > 0)
+      result_.notes.push_back(std::to_string(tiles.foundation_count) +
+                              " buildings have their lowest floor above the ground somewhere: it was closed down to the ground.");
     std::map<int, std::uint64_t> counts;
     for (const Problem& p : report_.problems()) ++counts[static_cast<int>(p.code)];
     m.problem_counts.assign(counts.begin(), counts.end());

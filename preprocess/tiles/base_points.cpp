@@ -13,13 +13,13 @@
 namespace farlod {
 namespace {
 
-struct Base {
+struct Footprint {
   Box2d outline;
   double height_m = std::numeric_limits<double>::infinity();
 };
 
-Base base_of(std::span<const Point3d> points) {
-  Base base;
+Footprint footprint_of(std::span<const Point3d> points) {
+  Footprint base;
   for (const Point3d& p : points) {
     base.outline.add(horizontal(p));
     base.height_m = std::min(base.height_m, p.z);
@@ -36,27 +36,72 @@ double distance_m(const Box2d& a, const Box2d& b) {
 /// Buildings by the squares of a coarse net that their outlines touch.
 class Neighbours {
  public:
-  explicit Neighbours(const std::vector<Base>& bases) : bases_(bases) {
+  explicit Neighbours(const std::vector<Footprint>& bases) : bases_(bases) {
     for (std::uint32_t n = 0; n < bases.size(); ++n)
-      for_each_square(bases[n].outline, 0.0, [&](std::uint64_t square) { squares_[square].push_back(n); });
+      if (!bases[n].outline.empty())
+        for_each_square(bases[n].outline, 0.0, [&](std::uint64_t square) { squares_[square].push_back(n); });
   }
 
-  /// Whether a neighbour stands so much lower that this one must hang.
-  [[nodiscard]] bool hangs(const Base& base) const {
-    bool lower_found = false;
-    for_each_square(base.outline, base_search_radius_m, [&](std::uint64_t square) {
-      const auto found = squares_.find(square);
-      if (lower_found || found == squares_.end()) return;
-      for (const std::uint32_t n : found->second) {
-        const double distance = distance_m(base.outline, bases_[n].outline);
-        if (distance > base_search_radius_m) continue;
-        lower_found |= base.height_m - bases_[n].height_m > steepest_ground * distance + least_clearance_m;
-      }
+  /// Whether most neighbours, and two at least, are higher than a slope explains.
+  [[nodiscard]] bool is_below_ground(std::uint32_t number) const {
+    const Footprint& here = bases_[number];
+    int higher = 0, all = 0;
+    visit_near(number, [&](std::uint32_t n, double distance) {
+      ++all;
+      higher += bases_[n].height_m - here.height_m > steepest_rise_m(distance + depth_m(here)) ? 1 : 0;
     });
-    return lower_found;
+    return higher >= 2 && 2 * higher > all;
+  }
+
+  /// Whether neighbours are so much lower that it must be a bridge. `bases` tells which of them are known to be wrong.
+  [[nodiscard]] bool is_above_ground(std::uint32_t number, std::span<const Base> bases) const {
+    const Footprint& here = bases_[number];
+    std::vector<Point2d> lower;  // directions to those that are lower by a clearance
+    bool lower_than_slope = false;
+    visit_near(number, [&](std::uint32_t n, double distance) {
+      if (bases[n] == Base::below_ground) return;
+      const double drop_m = here.height_m - bases_[n].height_m;
+      if (drop_m > steepest_ground * distance + least_clearance_m) lower.push_back(towards(here, bases_[n]));
+      lower_than_slope |= drop_m > steepest_rise_m(distance + depth_m(bases_[n]));
+    });
+    return lower_than_slope || lie_opposite(lower);
   }
 
  private:
+  static double steepest_rise_m(double run_m) { return steepest_ground * run_m + kerb_m + least_clearance_m; }
+  /// Houses on a hill may have their bases at their lower ends: a house further down.
+  static double depth_m(const Footprint& f) {
+    return std::max(f.outline.high.x - f.outline.low.x, f.outline.high.y - f.outline.low.y);
+  }
+  static Point2d towards(const Footprint& from, const Footprint& to) {
+    const Point2d way = to.outline.low + to.outline.high - from.outline.low - from.outline.high;
+    const double length = norm(way);
+    return length > 0.0 ? (1.0 / length) * way : Point2d{};
+  }
+  static bool lie_opposite(const std::vector<Point2d>& directions) {
+    constexpr double cosine_of_opposite = -0.5;
+    for (const Point2d a : directions)
+      for (const Point2d b : directions)
+        if (dot(a, b) < cosine_of_opposite) return true;
+    return false;
+  }
+
+  /// Each neighbour once.
+  template <class Visit>
+  void visit_near(std::uint32_t number, const Visit& visit) const {
+    std::vector<std::uint32_t> near;
+    for_each_square(bases_[number].outline, base_search_radius_m, [&](std::uint64_t square) {
+      if (const auto found = squares_.find(square); found != squares_.end())
+        near.insert(near.end(), found->second.begin(), found->second.end());
+    });
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    for (const std::uint32_t n : near) {
+      const double distance = distance_m(bases_[number].outline, bases_[n].outline);
+      if (n != number && distance <= base_search_radius_m) visit(n, distance);
+    }
+  }
+
   template <class Visit>
   static void for_each_square(const Box2d& outline, double margin, const Visit& visit) {
     const auto square_of = [](double x) { return static_cast<std::int64_t>(std::floor(x / base_search_radius_m)); };
@@ -65,22 +110,35 @@ class Neighbours {
         visit((static_cast<std::uint64_t>(j) << 32) ^ (static_cast<std::uint64_t>(i) & 0xFFFFFFFF));
   }
 
-  const std::vector<Base>& bases_;
+  const std::vector<Footprint>& bases_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> squares_;
 };
 
 }  // namespace
 
-std::vector<Point3d> base_points(const CityModel& city) {
-  std::vector<Base> bases;
-  bases.reserve(city.buildings().size());
-  for (const Building& b : city.buildings()) bases.push_back(base_of(city.points_of(b)));
-  const Neighbours neighbours(bases);
+std::vector<Base> bases_of(const CityModel& city) {
+  std::vector<Footprint> footprints;
+  footprints.reserve(city.buildings().size());
+  for (const Building& b : city.buildings()) footprints.push_back(footprint_of(city.points_of(b)));
+  const Neighbours neighbours(footprints);
+  std::vector<Base> result(footprints.size(), Base::on_ground);
+  for (std::uint32_t n = 0; n < footprints.size(); ++n)
+    if (!footprints[n].outline.empty() && neighbours.is_below_ground(n)) result[n] = Base::below_ground;
+  for (std::uint32_t n = 0; n < footprints.size(); ++n)
+    if (!footprints[n].outline.empty() && result[n] == Base::on_ground && neighbours.is_above_ground(n, result))
+      result[n] = Base::above_ground;
+  return result;
+}
+
+std::vector<Point3d> base_points(const CityModel& city, std::span<const Base> bases) {
   std::vector<Point3d> result;
   for (std::size_t n = 0; n < bases.size(); ++n) {
-    if (bases[n].outline.empty() || neighbours.hangs(bases[n])) continue;
-    for (const Point3d& p : city.points_of(city.buildings()[n]))
-      if (p.z <= bases[n].height_m + base_thickness_m) result.push_back(p);
+    if (bases[n] != Base::on_ground) continue;
+    const std::span<const Point3d> points = city.points_of(city.buildings()[n]);
+    double lowest_m = std::numeric_limits<double>::infinity();
+    for (const Point3d& p : points) lowest_m = std::min(lowest_m, p.z);
+    for (const Point3d& p : points)
+      if (p.z <= lowest_m + base_thickness_m) result.push_back(p);
   }
   return result;
 }

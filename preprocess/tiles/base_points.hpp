@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "city/city_model.hpp"
@@ -9,16 +11,27 @@
 
 namespace farlod {
 
-/// The points where buildings meet the ground: for each building, its points within `base_thickness_m` of the lowest.
-///
-/// A bridge between two houses does not stand on the ground, although it has a lowest point too. A building is taken for
-/// hanging when another one nearby has its base lower by more than a slope of `steepest_ground` over their distance, plus
-/// `least_clearance_m` (the slope filter of Vosselman 2000, used there to tell ground from objects in laser scans).
-[[nodiscard]] std::vector<Point3d> base_points(const CityModel& city);
+/// What a building's lowest points say of the ground.
+enum class Base : std::uint8_t {
+  on_ground,
+  above_ground,  ///< it is a bridge, or a roof without walls
+  below_ground   ///< its base is lower than the ground can be: an error in the file
+};
+
+/// What the base of each building is, told by its neighbours (docs/decisions/0004): the slope filter of Vosselman (2000), used there
+/// to tell ground from objects in laser scans, for a ground that climbs by `steepest_ground` at the most.
+///   (1) a bridge has neighbours on opposite sides whose bases are lower by `least_clearance_m`, or one that is lower than any slope
+///       between them explains
+///   (2) below the ground is a base when most of its neighbours, and two at least, are higher than any slope explains
+[[nodiscard]] std::vector<Base> bases_of(const CityModel& city);
+
+/// The points where buildings meet the ground: of each building on the ground, its points within `base_thickness_m` of the lowest.
+[[nodiscard]] std::vector<Point3d> base_points(const CityModel& city, std::span<const Base> bases);
 
 inline constexpr double base_thickness_m = 0.01;  ///< a slab drawn to the centimetre
 inline constexpr double steepest_ground = 0.5;    ///< 27°: steeper streets are stairs
-inline constexpr double least_clearance_m = 1.5;  ///< of something that one can walk under, less the kerb and the step
+inline constexpr double least_clearance_m = 2.5;  ///< of something that one can walk under
+inline constexpr double kerb_m = 1.5;             ///< steps, kerbs, plinths: bases differ by so much on level ground
 inline constexpr double base_search_radius_m = 30.0;
 
 }  // namespace farlod

@@ -55,7 +55,8 @@ struct TileSet {
   std::vector<Tile> tiles;  ///< one for each cell, in the order of CellRange::index_of
   std::vector<Surface> surfaces;
   std::vector<std::string> building_ids;
-  std::uint64_t polygon_count = 0;  ///< surfaces of buildings
+  std::uint64_t polygon_count = 0;     ///< surfaces of buildings
+  std::uint64_t foundation_count = 0;  ///< buildings whose lowest floor was closed down to the ground
 
   [[nodiscard]] const Tile& tile(Cell c) const { return tiles[cells.index_of(c)]; }
   [[nodiscard]] Tile& tile(Cell c) { return tiles[cells.index_of(c)]; }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "tiles/base_points.hpp"
 #include "tiles/building_pieces.hpp"
 #include "tiles/contacts.hpp"
+#include "tiles/foundations.hpp"
 #include "tiles/ground.hpp"
 #include "tiles/ground_contact.hpp"
 #include "tiles/lift_onto_terrain.hpp"
@@ -74,13 +76,15 @@ void make_and_place(std::size_t count, const Make& make, const Place& place) {
 
 class TileCutter {
  public:
-  TileCutter(const CityModel& city_grid, const LocatedCity& located, const Grid& grid, Assign assign, Ground ground)
+  TileCutter(const CityModel& city_grid, const LocatedCity& located, const Grid& grid, Assign assign, Ground ground,
+             std::span<const Base> bases)
       : city_(city_grid),
         sources_(located.sources),
         origin_m_(located.georeference.origin_m),
         grid_(grid),
         assign_(assign),
         ground_(std::move(ground)),
+        bases_(bases),
         ground_triangles_(ground_.triangles()) {
     tiles_.cells = grid.cells;
     tiles_.tiles.resize(static_cast<std::size_t>(grid.cells.size()));
@@ -105,6 +109,7 @@ class TileCutter {
   struct OverhangingBuilding {
     BuildingPieces pieces;  ///< its borders and walls
     std::vector<CellEdge> undersides;
+    double foundation_top_m = -std::numeric_limits<double>::infinity();
     struct {
       std::uint32_t begin = 0, end = 0;
     } surfaces;  ///< in TileSet::surfaces
@@ -198,9 +203,13 @@ class TileCutter {
       tiles_.surfaces.push_back(s.surface);
     }
     for (const SurfacePiece& p : cut_building.pieces) place(p.piece, first_surface + p.surface);
-    const std::vector<HorizonSegment> undersides = above_ground(cut_building.undersides);
+    std::vector<HorizonSegment> undersides = above_ground(cut_building.undersides);
+    double foundation_top_m = -std::numeric_limits<double>::infinity();
+    if (!undersides.empty() && bases_[number] != Base::above_ground)
+      foundation_top_m = close_foot(building, cut_building, undersides);
     if (undersides.empty()) return place_upper_borders(cut_building, nullptr);
     OverhangingBuilding& overhanging = overhanging_.emplace_back();
+    overhanging.foundation_top_m = foundation_top_m;
     overhanging.surfaces = {first_surface, static_cast<std::uint32_t>(tiles_.surfaces.size())};
     for (const HorizonSegment& underside : undersides) {
       const auto edges = cut_building.only_cell
@@ -211,6 +220,53 @@ class TileCutter {
     cut_building.surfaces = {};
     cut_building.pieces = {};
     overhanging.pieces = std::move(cut_building);
+  }
+
+  /// The lowest floor of a building that is no bridge goes down to the ground, whatever the ground between known points is: closes
+  /// the gap, and takes its borders out of `undersides`. Returns the height down to which the building is closed by it.
+  double close_foot(const Building& building, BuildingPieces& pieces, std::vector<HorizonSegment>& undersides) {
+    double lowest_m = std::numeric_limits<double>::infinity();
+    for (const Point3d& p : city_.points_of(building)) lowest_m = std::min(lowest_m, p.z);
+    const double floor_m = lowest_m + lowest_floor_thickness_m;
+    const auto is_foot = [floor_m](const HorizonSegment& s) { return std::max(s.segment.a.z, s.segment.b.z) <= floor_m; };
+    const auto foot = std::stable_partition(undersides.begin(), undersides.end(), std::not_fn(is_foot));
+    if (foot == undersides.end()) return -std::numeric_limits<double>::infinity();
+    Surface surface = tiles_.surfaces.back();
+    ++surface.number;
+    surface.kind = SurfaceKind::foundation;
+    surface.normal = {0.0, 0.0, 1.0};
+    surface.part = static_cast<std::uint16_t>(last_part(pieces) + 1);
+    const auto number = static_cast<std::uint32_t>(tiles_.surfaces.size());
+    tiles_.surfaces.push_back(surface);
+    for (const auto& triangle : foundation_walls({foot, undersides.end()}, ground_height()))
+      for (const CellPiece& piece : pieces_of(triangle, pieces.only_cell))
+        if (grid_.cells.contains(piece.cell)) place(piece, number);
+    // Below the floor is inside, too: the same floor is the foundation's lid
+    const auto low = static_cast<float>(floor_m - tiles_.height_origin_m);
+    for (const SurfacePiece& p : pieces.pieces)
+      if (pieces.surfaces[p.surface].surface.kind == SurfaceKind::floor &&
+          std::all_of(p.piece.polygon.begin(), p.piece.polygon.end(), [low](const Point3f& v) { return v.z <= low; }))
+        place(p.piece, number);
+    ++tiles_.foundation_count;
+    undersides.erase(foot, undersides.end());
+    return floor_m;
+  }
+
+  static std::uint16_t last_part(const BuildingPieces& pieces) {
+    std::uint16_t last = 0;
+    for (const BuildingSurface& s : pieces.surfaces) last = std::max(last, s.surface.part);
+    return last;
+  }
+
+  [[nodiscard]] GroundHeightAt ground_height() const {
+    return [this](Point2d p_grid) { return ground_.height_at(p_grid); };
+  }
+
+  [[nodiscard]] std::vector<CellPiece> pieces_of(const std::array<Point3d, 3>& triangle, const std::optional<Cell>& only_cell) const {
+    if (!only_cell) return cut(triangle, grid_, tiles_.height_origin_m);
+    CellPiece piece{*only_cell, {}};
+    for (const Point3d& p : triangle) piece.polygon.push_back(cell_from_grid(p, *only_cell, grid_, tiles_.height_origin_m));
+    return {piece};
   }
 
   /// What touches a lower border may be of any building: only when all are in place can one tell what overhangs.
@@ -228,7 +284,9 @@ class TileCutter {
         continue;
       }
       for (std::uint32_t s = building.surfaces.begin; s < building.surfaces.end; ++s) tiles_.surfaces[s].grounded = false;
-      const GroundedWalls walls(std::move(building.pieces.walls), [this](Point2d p) { return ground_.height_at(p); });
+      const GroundedWalls walls(std::move(building.pieces.walls), [this, &building](Point2d p) {
+        return std::max(ground_.height_at(p), building.foundation_top_m);
+      });
       place_upper_borders(building.pieces, &walls);
       for (const CellEdge& underside : building.undersides) place(underside);
     }
@@ -281,6 +339,7 @@ class TileCutter {
   const Grid& grid_;
   Assign assign_;
   Ground ground_;
+  std::span<const Base> bases_;  ///< for each building
   std::vector<std::array<Point3d, 3>> ground_triangles_;
   std::vector<OverhangingBuilding> overhanging_;
   TileSet tiles_;
@@ -301,8 +360,9 @@ TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, con
   lift_onto_terrain(located, ground_height, report);
   CityModel city = std::move(located.city);
   for (Point3d& p : city.points()) p = grid.rotation.grid_from_city(p);  // exactness begins here
-  Ground ground = surveyed ? std::move(*surveyed) : Ground(base_points(city), grid.rectangle(), extent);
-  return TileCutter(city, located, grid, assign, std::move(ground)).run(report);
+  const std::vector<Base> bases = bases_of(city);
+  Ground ground = surveyed ? std::move(*surveyed) : Ground(base_points(city, bases), grid.rectangle(), extent);
+  return TileCutter(city, located, grid, assign, std::move(ground), bases).run(report);
 }
 
 }  // namespace farlod

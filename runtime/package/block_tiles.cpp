@@ -87,7 +87,7 @@ void BlockTiles::check_surfaces() const {
             "a building's id reaches beyond the text");
   for (const SurfaceRecord& s : surfaces_) {
     require(s.building == no_building || s.building < buildings_.size(), "a surface names a building that does not exist");
-    require(s.kind >= SurfaceKind::ground && s.kind <= SurfaceKind::floor, "a surface is of a kind that does not exist");
+    require(s.kind >= SurfaceKind::ground && s.kind <= SurfaceKind::foundation, "a surface is of a kind that does not exist");
   }
 }
 

@@ -14,7 +14,7 @@ std::optional<float> standing_height_m(const Column& column, HeightAbove above, 
 std::optional<Point3f> stand(const CellColumns& columns, float x_cell, float y_cell, HeightAbove above, float height_m) {
   const Column column = columns.at(x_cell, y_cell);
   const auto z_m = standing_height_m(column, above, height_m);
-  if (!z_m || column.is_inside_building(*z_m)) return std::nullopt;
+  if (!z_m || column.is_buried(*z_m)) return std::nullopt;
   return Point3f{x_cell, y_cell, *z_m};
 }
 

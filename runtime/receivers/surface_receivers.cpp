@@ -34,7 +34,7 @@ class ColumnsAround {
  public:
   ColumnsAround(const Package& package, Cell cell) : package_(package), cell_(cell) {}
 
-  [[nodiscard]] bool is_inside_building(const Point3f& p_cell) {
+  [[nodiscard]] bool is_buried(const Point3f& p_cell) {
     const Grid& grid = package_.grid();
     const auto edge_m = static_cast<float>(grid.cell_edge_m);
     const auto step = [edge_m](float x) { return x < 0.0F ? -1 : x >= edge_m ? 1 : 0; };
@@ -42,7 +42,7 @@ class ColumnsAround {
     if (!grid.cells.contains(there)) return false;
     const CellColumns& columns = columns_.try_emplace(there, package_, there).first->second;
     const Point2d p = Point2d{p_cell.x, p_cell.y} + grid.corner_of(cell_) - grid.corner_of(there);
-    return columns.at(static_cast<float>(p.x), static_cast<float>(p.y)).is_inside_building(p_cell.z);
+    return columns.at(static_cast<float>(p.x), static_cast<float>(p.y)).is_buried(p_cell.z);
   }
 
  private:
@@ -63,7 +63,7 @@ void spread(const TileView& tile, std::uint32_t t, double spacing_m, ColumnsArou
   for (std::size_t n = 0; n < count; ++n) {
     const Point2d w = place_in_triangle(n, count);
     const Point3f p = a + static_cast<float>(w.x) * ab + static_cast<float>(w.y) * ac + surface_offset_m * normal;
-    receivers.push_back({t, area_m2 / static_cast<float>(count), p, normal, columns.is_inside_building(p)});
+    receivers.push_back({t, area_m2 / static_cast<float>(count), p, normal, columns.is_buried(p)});
   }
 }
 

@@ -22,7 +22,7 @@ struct SurfaceReceiver {
   float area_m2 = 0.0F;
   Point3f p_cell;                   ///< off the surface by surface_offset_m
   Point3f normal;                   ///< the surface's, grid frame
-  bool is_inside_building = false;  ///< covered by another building: a party wall
+  bool is_inside_building = false;  ///< or below the ground: a party wall, a cellar
 };
 
 /// Spreads receivers over the pieces of surfaces in one tile: each triangle of area A has ⌈A/spacing²⌉ of them, at least one,

@@ -30,6 +30,8 @@ std::string word_for(SurfaceKind kind) {
       return "roof";
     case SurfaceKind::wall:
       return "wall";
+    case SurfaceKind::foundation:
+      return "foundation";
     case SurfaceKind::floor:
       return "floor";
     case SurfaceKind::unknown:

@@ -32,10 +32,10 @@ void SurfaceAverages::add(PlaceInRun place, const SurfacePointRow& r) {
     surface.first = place;
     std::tie(surface.row.kind, surface.row.azimuth, surface.row.tilt) = std::tie(r.kind, r.azimuth, r.tilt);
   }
-  surface.row.area_m2 += r.area_m2;
   ++surface.row.receivers;
   surface.row.nodata += r.svf ? 0 : 1;
   if (!r.svf) return;
+  surface.row.area_m2 += r.area_m2;
   surface.mean.add(*r.svf, r.area_m2);
   add_extremes(surface.row, *r.svf);
 }
@@ -55,10 +55,11 @@ void BuildingAverages::add(PlaceInRun place, const SurfacePointRow& r) {
   Building& building = buildings_[entry->second];
   building.first = std::min(building.first, place);
   const bool is_roof = r.kind == SurfaceKind::roof;
-  (is_roof ? building.row.roof_area_m2 : building.row.wall_area_m2) += r.area_m2;
   ++building.row.receivers;
   building.row.nodata += r.svf ? 0 : 1;
-  if (r.svf) (is_roof ? building.roofs : building.walls).add(*r.svf, r.area_m2);
+  if (!r.svf) return;
+  (is_roof ? building.row.roof_area_m2 : building.row.wall_area_m2) += r.area_m2;
+  (is_roof ? building.roofs : building.walls).add(*r.svf, r.area_m2);
 }
 
 std::vector<BuildingRow> BuildingAverages::rows() const {

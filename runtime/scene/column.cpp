@@ -66,6 +66,11 @@ bool Column::is_inside_building(float height_m) const {
   return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.second.up_minus_down > 0; });
 }
 
+bool Column::is_buried(float height_m) const {
+  const std::optional<float> ground = ground_m();
+  return (ground && height_m < *ground) || is_inside_building(height_m);
+}
+
 CellColumns::CellColumns(const Package& package, Cell cell)
     : tiles_(tiles_around(package, cell)), index_(triangles_of(tiles_, package.grid(), cell)) {
   for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile)

@@ -32,6 +32,8 @@ class Column {
   /// down. Under a bridge or an arcade they are equally many; a part without a roof encloses nothing. (Odd and even would be
   /// fooled by a main roof that runs on under a rooftop structure.)
   [[nodiscard]] bool is_inside_building(float height_m) const;
+  /// Whether a point at this height has no answer: it is within a building, or below the ground.
+  [[nodiscard]] bool is_buried(float height_m) const;
 
  private:
   std::vector<Crossing> crossings_;
