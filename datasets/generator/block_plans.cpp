@@ -39,6 +39,12 @@ Box2d plan_rectangle(const BuildingPlan& plan) {
   return box;
 }
 
+std::vector<Point2d> footprint_ring(const BuildingPlan& plan) {
+  const double w = plan.width_m, d = plan.depth_m, t = plan.wing_m;
+  if (plan.shape == FootprintShape::l_shape) return {{0, 0}, {w, 0}, {w, t}, {t, t}, {t, d}, {0, d}};
+  return {{0, 0}, {w, 0}, {w, d}, {0, d}};
+}
+
 double base_m(const UrbanField& field, const BuildingPlan& plan) {
   const Box2d box = plan_rectangle(plan);
   const double south_m = std::min(field.ground_m(box.low), field.ground_m({box.high.x, box.low.y}));

@@ -45,8 +45,15 @@ struct BuildingPlan {
   BuildingKind kind = BuildingKind::detached;
 };
 
+/// Gabled or hipped.
+[[nodiscard]] inline bool has_pitched_roof(const BuildingPlan& plan) {
+  return plan.roof == RoofShape::gabled || plan.roof == RoofShape::hipped;
+}
+
 /// The rectangle around a building's footprint.
 [[nodiscard]] Box2d plan_rectangle(const BuildingPlan& plan);
+/// The footprint in the lot's frame, counter-clockwise from the lot's corner, without the court.
+[[nodiscard]] std::vector<Point2d> footprint_ring(const BuildingPlan& plan);
 
 /// What stands on a block: the same plans whatever the level of detail, and whatever was asked for before.
 ///   (1) no building leaves the block's rectangle

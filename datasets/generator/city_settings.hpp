@@ -63,6 +63,12 @@ struct CitySettings {
     setting("centre-northing", self.centre_northing_m, SettingRange{-2e7, 2e7}, "Place",
             "Northing of the city's centre, in metres");
   }
+
+  /// Names each switch once, as `describe` does for numbers: `flag` is called with (name, value, help).
+  template <class Self, class Visitor>
+  static void describe_switches(Self& self, Visitor&& flag) {
+    flag("overhangs", self.overhangs, "Add pedestrian bridges across streets, and arcades under upper floors");
+  }
 };
 
 /// A setting cannot be used. The message names it as on the command line, its value, and what is allowed.

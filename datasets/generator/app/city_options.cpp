@@ -52,8 +52,9 @@ void add_other_options(CLI::App& app, RawOptions& raw, CityOptions& o) {
   app.add_option("--buildings", raw.buildings, "Choose the size such that the city has about so many buildings")
       ->excludes("--size")
       ->group("City");
-  app.add_flag("--overhangs", o.settings.overhangs, "Add pedestrian bridges across streets, and arcades under upper floors")
-      ->group("Buildings");
+  CitySettings::describe_switches(o.settings, [&app](const char* name, bool& value, const char* help) {
+    app.add_flag(std::string("--") + name, value, help)->group("Buildings");
+  });
   app.add_option("--crs", raw.crs, "CRS that the file names, as EPSG:n: projected, in metres, easting first")
       ->capture_default_str()
       ->group("Place");

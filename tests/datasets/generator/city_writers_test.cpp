@@ -45,21 +45,37 @@ PlaceMm placed(const CitySettings& settings, std::int64_t x_mm, std::int64_t y_m
 enum class Polygons { facets, convex_faces, none };
 enum class Places { solid, footprint };
 
-/// The city as the library makes it, in the terms of a format.
+/// The city as the library makes it, in the terms of a format: `Polygons::facets` stands for formats that know solids and
+/// components, and `Places::footprint` for those that have a feature for each part.
 WrittenCity expected_city(const CitySettings& settings, Polygons polygons, Places places) {
   WrittenCity city{settings.epsg, {}};
+  const auto add_footprint = [&](const GeneratedComponent& c) {
+    if (c.kind == ComponentKind::installation) return;
+    WrittenBuilding& b = city.buildings[c.id];
+    b.base_mm = c.base_mm;
+    b.height_mm = c.top_mm - c.base_mm;
+    for (const auto* ring : {&c.footprint, &c.footprint_hole})
+      for (const PlanPointMm& p : *ring) b.places.insert({placed(settings, p[0], p[1], 0)});
+  };
   visit_city(settings, {.building = [&](const GeneratedBuilding& building) {
+               if (places == Places::footprint) {
+                 for (const GeneratedComponent& c : building.components) add_footprint(c);
+                 return;
+               }
                WrittenBuilding& b = city.buildings[building.id];
                b.base_mm = building.base_mm;
                b.height_mm = building.top_mm - building.base_mm;
-               if (polygons == Polygons::facets) b.polygons = building.facets.size();
-               if (polygons == Polygons::convex_faces)
+               for (const PointMm& p : building.vertices) b.places.insert(placed(settings, p.x, p.y, p.z));
+               if (polygons == Polygons::convex_faces) {
                  for (const GeneratedFacet& facet : building.facets) b.polygons += convex_faces(facet, building.vertices).size();
-               if (places == Places::solid)
-                 for (const PointMm& p : building.vertices) b.places.insert(placed(settings, p.x, p.y, p.z));
-               if (places == Places::footprint)
-                 for (const auto* ring : {&building.footprint, &building.footprint_hole})
-                   for (const PlanPointMm& p : *ring) b.places.insert({placed(settings, p[0], p[1], 0)});
+                 return;
+               }
+               b.polygons = building.facets.size();
+               for (const GeneratedComponent& c : building.components) {
+                 b.solids += c.closed ? 1 : 0;
+                 if (c.kind != ComponentKind::body) b.children.insert(c.id);
+               }
+               b.said_by_children = b.children;
              }});
   return city;
 }
@@ -74,7 +90,10 @@ void expect_same(const WrittenCity& read, const WrittenCity& expected) {
     EXPECT_EQ(found.base_mm, building.base_mm) << id;
     EXPECT_EQ(found.height_mm, building.height_mm) << id;
     EXPECT_EQ(found.polygons, building.polygons) << id;
+    EXPECT_EQ(found.solids, building.solids) << id;
     EXPECT_EQ(found.places, building.places) << id;
+    EXPECT_EQ(found.children, building.children) << id;
+    EXPECT_EQ(found.said_by_children, building.said_by_children) << id;
   }
 }
 

@@ -101,7 +101,7 @@ TEST_F(FarlodCity, WrongUsageIsTwoAndSaysWhat) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_THAT(outcome.text, HasSubstr(said)) << arguments;
-    EXPECT_FALSE(fs::exists(folder_ / "town.obj")) << arguments;
+    for (const char* name : {"town.obj", "town.geojson"}) EXPECT_FALSE(fs::exists(folder_ / name)) << arguments;
   }
 }
 

@@ -27,11 +27,23 @@ double thickness_along(const Point3d& unit_normal, std::span<const PointMm> poin
 
 std::vector<RingNumbers> rings_of(const GeneratedBuilding& building) {
   std::vector<RingNumbers> rings;
-  for (const GeneratedFacet& facet : building.facets) {
+  for (const GeneratedComponent& component : building.components)
+    for (RingNumbers& ring : rings_of(building, component)) rings.push_back(std::move(ring));
+  return rings;
+}
+
+std::vector<RingNumbers> rings_of(const GeneratedBuilding& building, const GeneratedComponent& component) {
+  std::vector<RingNumbers> rings;
+  for (const GeneratedFacet& facet : facets_of(building, component)) {
     rings.push_back(facet.outer);
     if (!facet.hole.empty()) rings.push_back(facet.hole);
+    rings.insert(rings.end(), facet.openings.begin(), facet.openings.end());
   }
   return rings;
+}
+
+std::span<const GeneratedFacet> facets_of(const GeneratedBuilding& building, const GeneratedComponent& component) {
+  return std::span(building.facets).subspan(component.first_facet, component.facet_count);
 }
 
 bool is_closed(std::span<const RingNumbers> rings) {

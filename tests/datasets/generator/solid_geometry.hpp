@@ -12,8 +12,11 @@ namespace farlod {
 
 using RingNumbers = std::vector<std::uint32_t>;
 
-/// All rings of all facets, outer ones and holes.
+/// All rings of all facets: outer ones, holes and openings.
 [[nodiscard]] std::vector<RingNumbers> rings_of(const GeneratedBuilding& building);
+[[nodiscard]] std::vector<RingNumbers> rings_of(const GeneratedBuilding& building, const GeneratedComponent& component);
+/// The facets of a component.
+[[nodiscard]] std::span<const GeneratedFacet> facets_of(const GeneratedBuilding& building, const GeneratedComponent& component);
 /// Whether each edge is used once in each direction.
 [[nodiscard]] bool is_closed(std::span<const RingNumbers> rings);
 /// Six times the volume that the rings enclose, in cubic millimetres; exact. Positive if they look outwards.
@@ -30,5 +33,4 @@ using RingNumbers = std::vector<std::uint32_t>;
 [[nodiscard]] std::vector<GeneratedBuilding> all_buildings(const CitySettings& settings);
 /// Cities that together have every kind of roof and overhang, turned and not, on flat ground and on hills.
 [[nodiscard]] std::vector<CitySettings> cities_of_all_shapes();
-
 }  // namespace farlod
