@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "generator/building_solid.hpp"
+#include "generator/open_shells.hpp"
 
 namespace farlod {
 namespace {
@@ -20,6 +21,7 @@ class BlockRaiser {
   [[nodiscard]] std::vector<PlanBuilding> buildings() const {
     std::vector<PlanBuilding> result;
     for (std::size_t row = 0; row < plans_.size(); ++row) result.push_back(building(row));
+    if (settings_.open_shells) open_shells(result);
     const std::vector<BuildingPlan> bridges = bridges_of_block(settings_, block_);
     for (std::size_t k = 0; k < bridges.size(); ++k) {
       result.push_back(named("bridge", k, bridges[k]));

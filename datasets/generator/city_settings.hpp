@@ -30,6 +30,7 @@ struct CitySettings {
   double terrain_relief_m = 0.0;
   int lod = 1;
   bool overhangs = false;
+  bool open_shells = false;
   int epsg = 32632;
   double centre_easting_m = 550000.0;
   double centre_northing_m = 5500000.0;
@@ -68,6 +69,8 @@ struct CitySettings {
   template <class Self, class Visitor>
   static void describe_switches(Self& self, Visitor&& flag) {
     flag("overhangs", self.overhangs, "Add pedestrian bridges across streets, and arcades under upper floors");
+    flag("open-shells", self.open_shells,
+         "Leave out the floors, and of the walls what a touching building covers; bridges stay whole");
   }
 };
 

@@ -62,6 +62,14 @@ void add_other_options(CLI::App& app, RawOptions& raw, CityOptions& o) {
   app.get_option("--threads")->description("As for the other programs; a city is written by one thread");
 }
 
+/// GeoJSON holds footprints with heights: it refuses what neither a footprint nor its height can show.
+void check_geojson(const CitySettings& settings) {
+  const std::pair<const char*, bool> lost[] = {{"--open-shells", settings.open_shells}};
+  for (const auto& [option, is_asked] : lost)
+    if (is_asked)
+      throw CLI::ValidationError(option, "cannot be shown by the footprints of .geojson; write .gml, .city.json or .obj");
+}
+
 void understand(const RawOptions& raw, const CLI::App& app, CityOptions& o) {
   o.output = raw.output;
   const auto format = city_format_of(o.output);
@@ -72,6 +80,7 @@ void understand(const RawOptions& raw, const CLI::App& app, CityOptions& o) {
   if (!epsg) throw CLI::ValidationError("--crs", "\"" + raw.crs + "\" is not like EPSG:32632");
   o.settings.epsg = *epsg;
   check(o.settings);
+  if (o.format == CityFormat::geojson) check_geojson(o.settings);
   if (app.count("--buildings") > 0) o.settings.size_m = size_for_buildings_m(o.settings, raw.buildings);
 }
 

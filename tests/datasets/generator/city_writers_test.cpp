@@ -11,6 +11,7 @@
 #include "generator/city_writer.hpp"
 #include "generator/convex_faces.hpp"
 #include "generator/generated_city.hpp"
+#include "tests/datasets/generator/solid_geometry.hpp"
 #include "tests/datasets/generator/written_city.hpp"
 
 namespace farlod {
@@ -127,6 +128,39 @@ TEST_P(CityWriters, GeoJsonHoldsTheFootprints) {
 TEST_P(CityWriters, NothingIsLeftBesideTheCity) {
   for (const char* name : {"city.gml", "city.city.json", "city.obj", "city.geojson"}) write(settings_, folder_ / name);
   EXPECT_EQ(folder_.file_count(), 4U);
+}
+
+class CityWritersOfOptions : public ::testing::TestWithParam<int> {
+ protected:
+  ScratchFolder folder_;
+  CitySettings settings_ = cities_with_each_option().at(static_cast<std::size_t>(GetParam()));
+};
+INSTANTIATE_TEST_SUITE_P(Option, CityWritersOfOptions, ::testing::Range(0, 2));
+
+TEST_P(CityWritersOfOptions, EachFormatHoldsTheCity) {
+  settings_.size_m = 350.0;
+  const WrittenCity expected = expected_city(settings_, Polygons::facets, Places::solid);
+  write(settings_, folder_ / "city.gml");
+  expect_same(read_citygml(folder_ / "city.gml"), expected);
+  write(settings_, folder_ / "city.city.json");
+  expect_same(read_cityjson(folder_ / "city.city.json"), expected);
+  write(settings_, folder_ / "city.obj");
+  expect_same(read_obj(folder_ / "city.obj"), expected_city(settings_, Polygons::convex_faces, Places::solid));
+  write(settings_, folder_ / "city.geojson");
+  expect_same(read_geojson(folder_ / "city.geojson"), expected_city(settings_, Polygons::none, Places::footprint));
+}
+
+TEST(CityGmlWriter, OpenShellsHaveNoSolid) {
+  const ScratchFolder folder;
+  for (const int lod : {1, 2}) {
+    CitySettings settings = small_city(lod);
+    settings.open_shells = true, settings.overhangs = false;
+    write(settings, folder / "city.gml");
+    const std::string text = text_of(folder / "city.gml");
+    EXPECT_EQ(count_of(text, "Solid>"), 0U);
+    EXPECT_EQ(count_of(text, "<bldg:lod1MultiSurface>") > 0, lod == 1);
+    EXPECT_EQ(count_of(text, "<bldg:lod2MultiSurface>") > 0, lod == 2);
+  }
 }
 
 TEST(CityGmlWriter, EnvelopeHoldsTheCityTightly) {

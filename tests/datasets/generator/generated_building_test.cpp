@@ -22,9 +22,12 @@ void for_each_building_of_all_shapes(Check check_building) {
     for (const GeneratedBuilding& building : all_buildings(settings)) check_building(building, settings);
 }
 
+/// Of the cities of all shapes, and of those with each option.
 template <class Check>
 void for_each_component(Check check_component) {
-  for (const CitySettings& settings : cities_of_all_shapes())
+  std::vector<CitySettings> cities = cities_of_all_shapes();
+  for (const CitySettings& settings : cities_with_each_option()) cities.push_back(settings);
+  for (const CitySettings& settings : cities)
     for (const GeneratedBuilding& building : all_buildings(settings))
       for (const GeneratedComponent& component : building.components) check_component(building, component, settings);
 }
@@ -40,6 +43,15 @@ TEST(GeneratedBuilding, IsClosed) {
 TEST(GeneratedBuilding, ComponentsAreClosedWhereTheySaySo) {
   for_each_component([](const GeneratedBuilding& building, const GeneratedComponent& component, const CitySettings&) {
     ASSERT_EQ(is_closed(rings_of(building, component)), component.closed) << component.id;
+  });
+}
+
+TEST(GeneratedBuilding, OnlyOpenShellsAreNotClosed) {
+  for_each_component([](const GeneratedBuilding& building, const GeneratedComponent& component, const CitySettings& settings) {
+    const bool may_be_open = settings.open_shells;
+    if (!may_be_open || component.kind == ComponentKind::installation || building.kind == BuildingKind::bridge) {
+      ASSERT_TRUE(component.closed) << component.id;
+    }
   });
 }
 

@@ -62,8 +62,12 @@ TEST(GeneratedCity, EverySwitchMatters) {
   });
 }
 
-TEST(GeneratedCity, BlocksDoNotDependOnTheirOrder) {
-  const CitySettings settings = cities_of_all_shapes()[2];
+class EachCity : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Overhangs, EachCity, ::testing::Values(0));
+INSTANTIATE_TEST_SUITE_P(AllOptions, EachCity, ::testing::Values(1));
+
+TEST_P(EachCity, BlocksDoNotDependOnTheirOrder) {
+  const CitySettings settings = GetParam() == 0 ? cities_of_all_shapes()[2] : cities_with_each_option().back();
   const std::vector<GeneratedBuilding> in_order = all_buildings(settings);
   const CityLayout layout(settings);
   std::size_t end = in_order.size();

@@ -50,7 +50,7 @@ TEST_F(FarlodCity, HelpStartsWithOneLineAndAnExample) {
   EXPECT_THAT(help.text, StartsWith("farlod-city — "));
   EXPECT_THAT(help.text.substr(help.text.find('\n')), StartsWith("\n\nTry this first:\n  farlod-city -o "));
   for (const char* option :
-       {"--size", "--seed", "--rotation", "--towers", "--lod", "--overhangs", "--crs", "--summary", "--quiet"})
+       {"--size", "--seed", "--rotation", "--towers", "--lod", "--overhangs", "--crs", "--summary", "--quiet", "--open-shells"})
     EXPECT_THAT(help.text, HasSubstr(option));
 }
 
@@ -96,6 +96,7 @@ TEST_F(FarlodCity, WrongUsageIsTwoAndSaysWhat) {
       {"-o town.obj --buildings 0", "--buildings is 0"},
       {"-o town.gml --obj-from-centre", ".obj"},
       {"-o town.obj --frobnicate", "--frobnicate"},
+      {"-o town.geojson --open-shells", "--open-shells: cannot be shown by the footprints of .geojson"},
   };
   for (const auto& [arguments, said] : wrong) {
     const Outcome outcome = run(arguments);

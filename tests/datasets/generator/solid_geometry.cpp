@@ -111,4 +111,26 @@ std::vector<CitySettings> cities_of_all_shapes() {
   return {blocks, roofs, overhangs, hills};
 }
 
+std::vector<CitySettings> cities_with_each_option() {
+  CitySettings plain;
+  plain.size_m = 700.0, plain.rotation_deg = 23.0, plain.lod = 2, plain.seed = 6;
+  std::vector<CitySettings> cities(2, plain);
+  cities[0].open_shells = true;
+  CitySettings& all = cities[1];
+  CitySettings::describe_switches(all, [](const char*, bool& value, const char*) { value = true; });
+  return cities;
+}
+
+BoxMm box_of(const GeneratedBuilding& building, std::span<const GeneratedFacet> facets) {
+  const PointMm first = building.vertices[facets.front().outer.front()];
+  BoxMm box{first, first};
+  for (const GeneratedFacet& facet : facets)
+    for (const std::uint32_t k : facet.outer) {
+      const PointMm& p = building.vertices[k];
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    }
+  return box;
+}
+
 }  // namespace farlod

@@ -33,4 +33,13 @@ using RingNumbers = std::vector<std::uint32_t>;
 [[nodiscard]] std::vector<GeneratedBuilding> all_buildings(const CitySettings& settings);
 /// Cities that together have every kind of roof and overhang, turned and not, on flat ground and on hills.
 [[nodiscard]] std::vector<CitySettings> cities_of_all_shapes();
+/// One city for each option that adds to buildings or takes from them, and one with all of them.
+[[nodiscard]] std::vector<CitySettings> cities_with_each_option();
+
+/// Where a building is, in millimetres.
+struct BoxMm {
+  PointMm low, high;
+};
+[[nodiscard]] BoxMm box_of(const GeneratedBuilding& building, std::span<const GeneratedFacet> facets);
+
 }  // namespace farlod
