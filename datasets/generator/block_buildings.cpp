@@ -8,15 +8,32 @@
 
 #include "generator/building_solid.hpp"
 #include "generator/open_shells.hpp"
+#include "generator/touching_walls.hpp"
 
 namespace farlod {
 namespace {
+
+/// The widest eaves of the steepest roof hang down by 1.25 m, and stay above the ground.
+constexpr double lowest_wall_with_eaves_m = 2.0;
+
+/// Roofs do not project over a neighbour that touches the wall.
+[[nodiscard]] Overhangs overhangs_of(const CitySettings& settings, const TouchingWalls& walls, std::size_t row,
+                                     const BuildingPlan& plan) {
+  Overhangs overhangs{};
+  if (settings.eaves_m == 0.0 || !has_pitched_roof(plan) || plan.wall_m < lowest_wall_with_eaves_m) return overhangs;
+  const std::vector<Point2d> ring = footprint_ring(plan);
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Point2d a = plan.lot.plan_from_lot(ring[k]), b = plan.lot.plan_from_lot(ring[(k + 1) % ring.size()]);
+    if (!walls.touches(row, a, b)) overhangs[k] = settings.eaves_m;
+  }
+  return overhangs;
+}
 
 /// Raises the buildings of one block.
 class BlockRaiser {
  public:
   BlockRaiser(const CitySettings& settings, CityBlock block)
-      : settings_(settings), block_(block), field_(settings), plans_(plans_of_block(settings, block)) {}
+      : settings_(settings), block_(block), field_(settings), plans_(plans_of_block(settings, block)), walls_(plans_) {}
 
   [[nodiscard]] std::vector<PlanBuilding> buildings() const {
     std::vector<PlanBuilding> result;
@@ -39,7 +56,7 @@ class BlockRaiser {
     const BuildingPlan& plan = plans_[row];
     PlanBuilding building = named("building", row, plan);
     const double ground_m = base_m(field_, plan);
-    building.solids.push_back(raise(plan, ground_m, settings_.lod));
+    building.solids.push_back(raise(plan, ground_m, settings_.lod, overhangs_of(settings_, walls_, row, plan)));
     return building;
   }
 
@@ -47,6 +64,7 @@ class BlockRaiser {
   CityBlock block_;
   UrbanField field_;
   std::vector<BuildingPlan> plans_;
+  TouchingWalls walls_;
 };
 
 }  // namespace

@@ -29,6 +29,7 @@ struct CitySettings {
   double height_scale = 1.0;
   double terrain_relief_m = 0.0;
   int lod = 1;
+  double eaves_m = 0.0;
   bool overhangs = false;
   bool open_shells = false;
   int epsg = 32632;
@@ -60,6 +61,9 @@ struct CitySettings {
             "Hills between 0 and this height, in metres; a building stands at the lowest ground under its corners");
     setting("lod", self.lod, SettingRange{1, 2}, "Buildings",
             "1: flat-roofed prisms; 2: gabled and hipped roofs on low buildings, stepped tops on towers");
+    setting("eaves", self.eaves_m, SettingRange{0.0, 1.0}, "Buildings",
+            "Pitched roofs project by this much beyond walls that no neighbour touches, in metres, as sheets without thickness; "
+            "needs --lod 2");
     setting("centre-easting", self.centre_easting_m, SettingRange{-1e7, 1e7}, "Place", "Easting of the city's centre, in metres");
     setting("centre-northing", self.centre_northing_m, SettingRange{-2e7, 2e7}, "Place",
             "Northing of the city's centre, in metres");

@@ -28,6 +28,16 @@ TEST(CitySettings, EachSettingIsRefusedBeyondItsRangeAndTheMessageNamesIt) {
   EXPECT_GT(settings_seen, 0);
 }
 
+TEST(CitySettings, RefusesOnPrismsWhatNeedsRoofsOrStoreys) {
+  CitySettings eaves;
+  eaves.eaves_m = 0.5;
+  for (auto& [settings, name] : {std::pair{&eaves, "--eaves"}}) {
+    EXPECT_THAT([&s = *settings] { check(s); }, ThrowsMessage<SettingsError>(HasSubstr(name)));
+    settings->lod = 2;
+    EXPECT_NO_THROW(check(*settings));
+  }
+}
+
 TEST(CitySettings, RefusesWhatIsNotANumber) {
   CitySettings settings;
   settings.size_m = std::numeric_limits<double>::quiet_NaN();

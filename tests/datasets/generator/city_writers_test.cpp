@@ -135,7 +135,7 @@ class CityWritersOfOptions : public ::testing::TestWithParam<int> {
   ScratchFolder folder_;
   CitySettings settings_ = cities_with_each_option().at(static_cast<std::size_t>(GetParam()));
 };
-INSTANTIATE_TEST_SUITE_P(Option, CityWritersOfOptions, ::testing::Range(0, 2));
+INSTANTIATE_TEST_SUITE_P(Option, CityWritersOfOptions, ::testing::Range(0, 3));
 
 TEST_P(CityWritersOfOptions, EachFormatHoldsTheCity) {
   settings_.size_m = 350.0;
@@ -150,6 +150,12 @@ TEST_P(CityWritersOfOptions, EachFormatHoldsTheCity) {
   expect_same(read_geojson(folder_ / "city.geojson"), expected_city(settings_, Polygons::none, Places::footprint));
 }
 
+CitySettings town(void (*switch_on)(CitySettings&)) {
+  CitySettings settings = small_city(2);
+  switch_on(settings);
+  return settings;
+}
+
 TEST(CityGmlWriter, OpenShellsHaveNoSolid) {
   const ScratchFolder folder;
   for (const int lod : {1, 2}) {
@@ -161,6 +167,23 @@ TEST(CityGmlWriter, OpenShellsHaveNoSolid) {
     EXPECT_EQ(count_of(text, "<bldg:lod1MultiSurface>") > 0, lod == 1);
     EXPECT_EQ(count_of(text, "<bldg:lod2MultiSurface>") > 0, lod == 2);
   }
+}
+
+TEST(CityJsonWriter, ShellsThatAreNotClosedAreMultiSurfacesWithSemantics) {
+  const ScratchFolder folder;
+  const CitySettings settings = town([](CitySettings& s) { s.eaves_m = 0.5; });
+  write(settings, folder / "city.city.json");
+  const auto json = nlohmann::json::parse(text_of(folder / "city.city.json"));
+  int open = 0;
+  visit_city(settings, {.building = [&](const GeneratedBuilding& building) {
+               const auto& geometry = json.at("CityObjects").at(building.id).at("geometry").at(0);
+               const bool closed = building.components.front().closed;
+               EXPECT_EQ(geometry.at("type"), closed ? "Solid" : "MultiSurface");
+               open += closed ? 0 : 1;
+               const auto& values = geometry.at("semantics").at("values");
+               EXPECT_EQ((closed ? values.at(0) : values).size(), building.facets.size());
+             }});
+  EXPECT_GT(open, 0);
 }
 
 TEST(CityGmlWriter, EnvelopeHoldsTheCityTightly) {

@@ -46,9 +46,9 @@ TEST(GeneratedBuilding, ComponentsAreClosedWhereTheySaySo) {
   });
 }
 
-TEST(GeneratedBuilding, OnlyOpenShellsAreNotClosed) {
+TEST(GeneratedBuilding, OnlyOpenShellsAndEavesAreNotClosed) {
   for_each_component([](const GeneratedBuilding& building, const GeneratedComponent& component, const CitySettings& settings) {
-    const bool may_be_open = settings.open_shells;
+    const bool may_be_open = settings.open_shells || settings.eaves_m > 0.0;
     if (!may_be_open || component.kind == ComponentKind::installation || building.kind == BuildingKind::bridge) {
       ASSERT_TRUE(component.closed) << component.id;
     }

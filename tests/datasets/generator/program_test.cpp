@@ -49,8 +49,8 @@ TEST_F(FarlodCity, HelpStartsWithOneLineAndAnExample) {
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_THAT(help.text, StartsWith("farlod-city — "));
   EXPECT_THAT(help.text.substr(help.text.find('\n')), StartsWith("\n\nTry this first:\n  farlod-city -o "));
-  for (const char* option :
-       {"--size", "--seed", "--rotation", "--towers", "--lod", "--overhangs", "--crs", "--summary", "--quiet", "--open-shells"})
+  for (const char* option : {"--size", "--seed", "--rotation", "--towers", "--lod", "--overhangs", "--crs", "--summary",
+                             "--quiet", "--open-shells", "--eaves"})
     EXPECT_THAT(help.text, HasSubstr(option));
 }
 
@@ -96,7 +96,9 @@ TEST_F(FarlodCity, WrongUsageIsTwoAndSaysWhat) {
       {"-o town.obj --buildings 0", "--buildings is 0"},
       {"-o town.gml --obj-from-centre", ".obj"},
       {"-o town.obj --frobnicate", "--frobnicate"},
+      {"-o town.obj --eaves 0.5", "--lod 2"},
       {"-o town.geojson --open-shells", "--open-shells: cannot be shown by the footprints of .geojson"},
+      {"-o town.geojson --lod 2 --eaves 0.5", "--eaves: cannot be shown"},
   };
   for (const auto& [arguments, said] : wrong) {
     const Outcome outcome = run(arguments);
