@@ -25,6 +25,7 @@ using BuildBlock = void (*)(BlockSite&);
   const bool roomy = std::min(site.width_m(), site.depth_m()) >= least_edge_of_street_fronts_m;
   if (draw < park_share && layout.block_count() >= least_blocks_with_park) return build_park;
   if (u >= UrbanField::core_urbanity) return build_core;
+  if (site.settings.hillside) return roomy && urban_draw < 0.5 ? build_street_fronts : build_terraces;
   if (roomy && u < 0.35 && draw > 1.0 - hall_share) return build_halls;
   if (roomy && u > 0.06 && draw > 1.0 - hall_share - slab_share) return build_slabs;
   return roomy && urban_draw < smooth_step(fewest_urban, mostly_urban, u) ? build_street_fronts : build_detached_houses;

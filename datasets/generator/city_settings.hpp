@@ -32,6 +32,7 @@ struct CitySettings {
   double eaves_m = 0.0;
   bool overhangs = false;
   bool open_shells = false;
+  bool hillside = false;
   int epsg = 32632;
   double centre_easting_m = 550000.0;
   double centre_northing_m = 5500000.0;
@@ -75,6 +76,8 @@ struct CitySettings {
     flag("overhangs", self.overhangs, "Add pedestrian bridges across streets, and arcades under upper floors");
     flag("open-shells", self.open_shells,
          "Leave out the floors, and of the walls what a touching building covers; bridges stay whole");
+    flag("hillside", self.hillside,
+         "Lay the city on slopes of 10 to 25 %, with closed fronts and terraces of touching houses, each on a base of its own");
   }
 };
 

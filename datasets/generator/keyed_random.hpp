@@ -49,7 +49,8 @@ enum class RandomStream : std::uint64_t {
   street_line,
   urbanity_noise,
   ground_noise,
-  sub_centre
+  sub_centre,
+  hillside_line
 };
 
 [[nodiscard]] constexpr std::uint64_t key_of(RandomStream stream) { return static_cast<std::uint64_t>(stream); }

@@ -38,6 +38,14 @@ TEST(CitySettings, RefusesOnPrismsWhatNeedsRoofsOrStoreys) {
   }
 }
 
+TEST(CitySettings, AHillsideIsTheOnlyGround) {
+  CitySettings settings;
+  settings.hillside = true;
+  EXPECT_NO_THROW(check(settings));
+  settings.terrain_relief_m = 20.0;
+  EXPECT_THAT([&] { check(settings); }, ThrowsMessage<SettingsError>(HasSubstr("--terrain-relief")));
+}
+
 TEST(CitySettings, RefusesWhatIsNotANumber) {
   CitySettings settings;
   settings.size_m = std::numeric_limits<double>::quiet_NaN();

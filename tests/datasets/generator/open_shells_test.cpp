@@ -18,7 +18,7 @@ namespace {
 
 CitySettings touching_city(int lod) {
   CitySettings settings;
-  settings.size_m = 900.0, settings.lod = lod, settings.seed = 2;
+  settings.size_m = 900.0, settings.lod = lod, settings.seed = 2, settings.hillside = true;
   return settings;
 }
 

@@ -50,7 +50,7 @@ TEST_F(FarlodCity, HelpStartsWithOneLineAndAnExample) {
   EXPECT_THAT(help.text, StartsWith("farlod-city — "));
   EXPECT_THAT(help.text.substr(help.text.find('\n')), StartsWith("\n\nTry this first:\n  farlod-city -o "));
   for (const char* option : {"--size", "--seed", "--rotation", "--towers", "--lod", "--overhangs", "--crs", "--summary",
-                             "--quiet", "--open-shells", "--eaves"})
+                             "--quiet", "--open-shells", "--eaves", "--hillside"})
     EXPECT_THAT(help.text, HasSubstr(option));
 }
 
@@ -97,6 +97,7 @@ TEST_F(FarlodCity, WrongUsageIsTwoAndSaysWhat) {
       {"-o town.gml --obj-from-centre", ".obj"},
       {"-o town.obj --frobnicate", "--frobnicate"},
       {"-o town.obj --eaves 0.5", "--lod 2"},
+      {"-o town.obj --hillside --terrain-relief 20", "--terrain-relief"},
       {"-o town.geojson --open-shells", "--open-shells: cannot be shown by the footprints of .geojson"},
       {"-o town.geojson --lod 2 --eaves 0.5", "--eaves: cannot be shown"},
   };
@@ -106,6 +107,11 @@ TEST_F(FarlodCity, WrongUsageIsTwoAndSaysWhat) {
     EXPECT_THAT(outcome.text, HasSubstr(said)) << arguments;
     for (const char* name : {"town.obj", "town.geojson"}) EXPECT_FALSE(fs::exists(folder_ / name)) << arguments;
   }
+}
+
+TEST_F(FarlodCity, FootprintsShowHillsides) {
+  const Outcome outcome = run("-o town.geojson --size 500 --hillside");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
 }
 
 TEST_F(FarlodCity, WhatCannotBeWrittenIsThree) {

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "generator/generated_city.hpp"
+#include "tests/datasets/generator/solid_geometry.hpp"
+
+namespace farlod {
+namespace {
+
+CitySettings plain_city() {
+  CitySettings settings;
+  settings.size_m = 1200.0, settings.lod = 2, settings.seed = 4;
+  return settings;
+}
+
+/// Two houses of a row: they share a wall across the row and stand on one front line.
+struct Neighbours {
+  BoxMm first, second;
+};
+
+std::vector<Neighbours> rows_of_touching_houses(const CitySettings& settings) {
+  std::vector<Neighbours> pairs;
+  const CityLayout layout(settings);
+  for (std::int64_t k = 0; k < layout.block_count(); ++k) {
+    const std::vector<GeneratedBuilding> block = buildings_of_block(settings, layout.block_at(k));
+    for (std::size_t n = 0; n + 1 < block.size(); ++n) {
+      const BoxMm a = box_of(block[n], block[n].facets), b = box_of(block[n + 1], block[n + 1].facets);
+      const bool one_shape = block[n].footprint.size() == 4 && block[n + 1].footprint.size() == 4;
+      if (one_shape && a.high.x == b.low.x && a.low.y == b.low.y && a.high.y == b.high.y) pairs.push_back({a, b});
+    }
+  }
+  return pairs;
+}
+
+TEST(Hillside, TouchingHousesStandOnTheSlopeEachOnItsOwnBase) {
+  CitySettings settings = plain_city();
+  settings.hillside = true;
+  const std::vector<Neighbours> pairs = rows_of_touching_houses(settings);
+  ASSERT_GT(pairs.size(), 200U);
+  std::size_t on_a_slope = 0, metres_apart = 0;
+  for (const auto& [west, east] : pairs) {
+    // The ground rises along (0.96, 0.28) or falls: the lowest corner of both is the south-western or the north-eastern one
+    const double rise_m = 1e-3 * static_cast<double>(east.low.z - west.low.z);
+    const double from_low_m = 0.96e-3 * static_cast<double>(east.low.x - west.low.x);
+    const double from_high_m = 0.96e-3 * static_cast<double>(east.high.x - west.high.x);
+    const double slope = rise_m > 0.0 ? rise_m / from_low_m : -rise_m / from_high_m;
+    // Both bases are rounded down to a centimetre
+    const double rounding = 0.01 / std::min(from_low_m, from_high_m);
+    on_a_slope += slope >= 0.10 - rounding && slope <= 0.25 + rounding ? 1 : 0;
+    metres_apart += std::abs(rise_m) >= 1.0 ? 1 : 0;
+    EXPECT_LE(slope, 0.25 + rounding);
+  }
+  // Houses on a ridge or in a valley, which come every 96 to 240 m, do not show a slope
+  EXPECT_GT(on_a_slope, pairs.size() * 8 / 10);
+  EXPECT_GT(metres_apart, pairs.size() / 3);
+}
+
+TEST(Hillside, WithoutItNeighboursStandLevel) {
+  for (const auto& [west, east] : rows_of_touching_houses(plain_city())) EXPECT_EQ(west.low.z, east.low.z);
+}
+
+}  // namespace
+}  // namespace farlod
