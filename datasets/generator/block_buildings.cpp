@@ -56,7 +56,13 @@ class BlockRaiser {
     const BuildingPlan& plan = plans_[row];
     PlanBuilding building = named("building", row, plan);
     const double ground_m = base_m(field_, plan);
-    building.solids.push_back(raise(plan, ground_m, settings_.lod, overhangs_of(settings_, walls_, row, plan)));
+    if (plan.parts.empty())
+      building.solids.push_back(raise(plan, ground_m, settings_.lod, overhangs_of(settings_, walls_, row, plan)));
+    for (const BuildingPlan& part : plan.parts) {
+      building.solids.push_back(raise(part, ground_m, settings_.lod, overhangs_of(settings_, walls_, row, part)));
+      building.solids.back().kind = ComponentKind::part;
+      building.solids.back().suffix = fmt::format("_part_{}", building.solids.size());
+    }
     return building;
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "generator/block_site.hpp"
+#include "generator/plan_features.hpp"
 
 namespace farlod {
 namespace {
@@ -64,6 +65,7 @@ std::vector<BuildingPlan> plans_of_block(const CitySettings& settings, CityBlock
                  {}};
   const BuildBlock build = draw_kind(site, layout);
   build(site);
+  divide_into_parts(settings, block, site.plans);
   return std::move(site.plans);
 }
 

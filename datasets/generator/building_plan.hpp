@@ -43,6 +43,8 @@ struct BuildingPlan {
   double clearance_m = 0.0;  ///< of a bridge: its underside above the ground under it
   int storeys = 1;
   BuildingKind kind = BuildingKind::detached;
+  /// If there are any, the building consists of them alone; they overlap, and lie in the building's rectangle.
+  std::vector<BuildingPlan> parts = {};
 };
 
 /// Gabled or hipped.

@@ -33,6 +33,7 @@ struct CitySettings {
   bool overhangs = false;
   bool open_shells = false;
   bool hillside = false;
+  bool overlapping_parts = false;
   int epsg = 32632;
   double centre_easting_m = 550000.0;
   double centre_northing_m = 5500000.0;
@@ -78,6 +79,8 @@ struct CitySettings {
          "Leave out the floors, and of the walls what a touching building covers; bridges stay whole");
     flag("hillside", self.hillside,
          "Lay the city on slopes of 10 to 25 %, with closed fronts and terraces of touching houses, each on a base of its own");
+    flag("overlapping-parts", self.overlapping_parts,
+         "Make some buildings of two or three parts whose volumes overlap: towers in podiums, annexes in houses");
   }
 };
 

@@ -50,7 +50,8 @@ enum class RandomStream : std::uint64_t {
   urbanity_noise,
   ground_noise,
   sub_centre,
-  hillside_line
+  hillside_line,
+  building_parts
 };
 
 [[nodiscard]] constexpr std::uint64_t key_of(RandomStream stream) { return static_cast<std::uint64_t>(stream); }

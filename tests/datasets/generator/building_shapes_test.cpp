@@ -18,6 +18,44 @@ CitySettings plain_city() {
   return settings;
 }
 
+bool are_same(const GeneratedBuilding& a, const GeneratedBuilding& b) {
+  return a.id == b.id && a.vertices == b.vertices && rings_of(a) == rings_of(b);
+}
+
+bool share_volume(const BoxMm& a, const BoxMm& b) {
+  return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y && a.low.z < b.high.z &&
+         b.low.z < a.high.z;
+}
+
+TEST(OverlappingParts, StandInEachOtherOnTheBuildingsGround) {
+  CitySettings settings = plain_city();
+  settings.overlapping_parts = true;
+  const std::vector<GeneratedBuilding> before = all_buildings(plain_city()), after = all_buildings(settings);
+  ASSERT_EQ(before.size(), after.size());
+  std::array<int, 4> with_parts{};
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    if (after[k].components.front().kind == ComponentKind::body) {
+      EXPECT_TRUE(are_same(before[k], after[k])) << after[k].id;
+      continue;
+    }
+    const std::vector<GeneratedComponent>& parts = after[k].components;
+    ASSERT_TRUE(parts.size() == 2 || parts.size() == 3) << after[k].id;
+    ++with_parts[parts.size()];
+    const BoxMm lot = box_of(before[k], before[k].facets);
+    const BoxMm first = box_of(after[k], facets_of(after[k], parts[0])), second = box_of(after[k], facets_of(after[k], parts[1]));
+    EXPECT_TRUE(share_volume(first, second)) << after[k].id;
+    for (std::size_t n = 0; n < parts.size(); ++n) {
+      const BoxMm box = box_of(after[k], facets_of(after[k], parts[n]));
+      EXPECT_EQ(parts[n].kind, ComponentKind::part);
+      EXPECT_EQ(parts[n].id, after[k].id + "_part_" + std::to_string(n + 1));
+      EXPECT_EQ(box.low.z, lot.low.z);
+      EXPECT_TRUE(lot.low.x <= box.low.x && lot.low.y <= box.low.y && box.high.x <= lot.high.x && box.high.y <= lot.high.y);
+    }
+  }
+  EXPECT_GT(with_parts[2], 20);
+  EXPECT_GT(with_parts[3], 20);
+}
+
 /// Two houses of a row: they share a wall across the row and stand on one front line.
 struct Neighbours {
   BoxMm first, second;

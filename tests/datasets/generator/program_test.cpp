@@ -50,7 +50,7 @@ TEST_F(FarlodCity, HelpStartsWithOneLineAndAnExample) {
   EXPECT_THAT(help.text, StartsWith("farlod-city — "));
   EXPECT_THAT(help.text.substr(help.text.find('\n')), StartsWith("\n\nTry this first:\n  farlod-city -o "));
   for (const char* option : {"--size", "--seed", "--rotation", "--towers", "--lod", "--overhangs", "--crs", "--summary",
-                             "--quiet", "--open-shells", "--eaves", "--hillside"})
+                             "--quiet", "--open-shells", "--eaves", "--hillside", "--overlapping-parts"})
     EXPECT_THAT(help.text, HasSubstr(option));
 }
 
@@ -109,8 +109,8 @@ TEST_F(FarlodCity, WrongUsageIsTwoAndSaysWhat) {
   }
 }
 
-TEST_F(FarlodCity, FootprintsShowHillsides) {
-  const Outcome outcome = run("-o town.geojson --size 500 --hillside");
+TEST_F(FarlodCity, FootprintsShowHillsidesAndParts) {
+  const Outcome outcome = run("-o town.geojson --size 500 --hillside --overlapping-parts");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
 }
 
