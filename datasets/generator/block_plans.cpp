@@ -66,6 +66,7 @@ std::vector<BuildingPlan> plans_of_block(const CitySettings& settings, CityBlock
   const BuildBlock build = draw_kind(site, layout);
   build(site);
   divide_into_parts(settings, block, site.plans);
+  let_floors_project(settings, block, site.plans);
   return std::move(site.plans);
 }
 

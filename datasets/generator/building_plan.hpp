@@ -40,7 +40,8 @@ struct BuildingPlan {
       0.0;  ///< gabled and hipped: from the eaves to the ridge; stepped: height of the narrower part, inside `wall_m`
   double arcade_depth_m = 0.0;  ///< the ground floor stands back from the street by this much (0: no arcade)
   double arcade_height_m = 0.0;
-  double clearance_m = 0.0;  ///< of a bridge: its underside above the ground under it
+  double projection_m = 0.0;  ///< the ground floor, `arcade_height_m` high, stands back on all sides by this much
+  double clearance_m = 0.0;   ///< of a bridge: its underside above the ground under it
   int storeys = 1;
   BuildingKind kind = BuildingKind::detached;
   /// If there are any, the building consists of them alone; they overlap, and lie in the building's rectangle.

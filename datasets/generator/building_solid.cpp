@@ -49,6 +49,18 @@ void raise_arcade(SolidBuilder& solid, const BuildingPlan& plan, double top_m) {
   solid.add_cap(FacetRole::roof, rectangle({0, 0}, {w, d}), top_m);
 }
 
+/// The upper floors project over the ground floor all around.
+void raise_projecting(SolidBuilder& solid, const BuildingPlan& plan, double top_m) {
+  const double back = plan.projection_m, open = plan.arcade_height_m;
+  const LotRing upper = footprint_ring(plan);
+  const LotRing lower = rectangle({back, back}, {plan.width_m - back, plan.depth_m - back});
+  solid.add_cap(FacetRole::ground, lower, 0.0);
+  solid.add_walls(lower, 0.0, open);
+  solid.add_cap(FacetRole::outer_ceiling, upper, open, lower);
+  solid.add_walls(upper, open, top_m);
+  solid.add_cap(FacetRole::roof, upper, top_m);
+}
+
 void raise_stepped(SolidBuilder& solid, const BuildingPlan& plan) {
   const double step_m = on_plan_grid_m(step_share * std::min(plan.width_m, plan.depth_m));
   const double shoulder_m = plan.wall_m - plan.roof_rise_m;
@@ -85,6 +97,8 @@ PlanSolid raise(const BuildingPlan& plan, double ground_m, int lod, const Overha
   SolidBuilder solid(plan.lot, ground_m);
   if (plan.arcade_depth_m > 0.0) {
     raise_arcade(solid, plan, plan.wall_m);
+  } else if (plan.projection_m > 0.0) {
+    raise_projecting(solid, plan, plan.wall_m);
   } else if (lod == 1) {
     raise_prism(solid, plan, prism_top_m(plan));
   } else {

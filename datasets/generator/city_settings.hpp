@@ -32,6 +32,7 @@ struct CitySettings {
   double eaves_m = 0.0;
   bool overhangs = false;
   bool open_shells = false;
+  bool projecting_floors = false;
   bool hillside = false;
   bool overlapping_parts = false;
   int epsg = 32632;
@@ -77,6 +78,8 @@ struct CitySettings {
     flag("overhangs", self.overhangs, "Add pedestrian bridges across streets, and arcades under upper floors");
     flag("open-shells", self.open_shells,
          "Leave out the floors, and of the walls what a touching building covers; bridges stay whole");
+    flag("projecting-floors", self.projecting_floors,
+         "Let the upper floors of some buildings project 0.5 to 2 m over the ground floor; their roofs are flat");
     flag("hillside", self.hillside,
          "Lay the city on slopes of 10 to 25 %, with closed fronts and terraces of touching houses, each on a base of its own");
     flag("overlapping-parts", self.overlapping_parts,

@@ -51,7 +51,8 @@ enum class RandomStream : std::uint64_t {
   ground_noise,
   sub_centre,
   hillside_line,
-  building_parts
+  building_parts,
+  projecting_floors
 };
 
 [[nodiscard]] constexpr std::uint64_t key_of(RandomStream stream) { return static_cast<std::uint64_t>(stream); }

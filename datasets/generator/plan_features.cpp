@@ -5,11 +5,16 @@
 #include <algorithm>
 
 #include "generator/block_site.hpp"
+#include "generator/touching_walls.hpp"
 
 namespace farlod {
 namespace {
 
 constexpr double divided_share = 0.3, third_part_share = 0.5;
+constexpr double projecting_share = 0.35, least_projection_m = 0.5, largest_projection_m = 2.0;
+/// Of the building's shorter side: a ground floor always remains.
+constexpr double largest_projection_share = 0.2;
+constexpr double highest_ground_floor_m = 4.2;
 /// The third part is a shaft of this edge, which rises above the others by this much.
 constexpr double shaft_edge_m = 3.0, shaft_rise_m = 2.5;
 
@@ -73,6 +78,12 @@ void divide(KeyedRandom& random, BuildingPlan& plan) {
   plan.parts = std::move(parts);
 }
 
+[[nodiscard]] bool can_project(const BuildingPlan& plan) {
+  const bool kind = plan.kind == BuildingKind::attached || plan.kind == BuildingKind::office ||
+                    plan.kind == BuildingKind::detached || plan.kind == BuildingKind::slab;
+  return kind && plan.shape == FootprintShape::rectangle && plan.parts.empty() && plan.arcade_depth_m == 0.0 && plan.storeys >= 2;
+}
+
 }  // namespace
 
 void divide_into_parts(const CitySettings& settings, CityBlock block, std::vector<BuildingPlan>& plans) {
@@ -81,6 +92,23 @@ void divide_into_parts(const CitySettings& settings, CityBlock block, std::vecto
     KeyedRandom random = random_of(settings, RandomStream::building_parts, block, k);
     const bool drawn = random.chance(divided_share);
     if (drawn && can_be_divided(plans[k])) divide(random, plans[k]);
+  }
+}
+
+void let_floors_project(const CitySettings& settings, CityBlock block, std::vector<BuildingPlan>& plans) {
+  if (!settings.projecting_floors) return;
+  const TouchingWalls walls(plans);
+  for (std::size_t k = 0; k < plans.size(); ++k) {
+    BuildingPlan& plan = plans[k];
+    KeyedRandom random = random_of(settings, RandomStream::projecting_floors, block, k);
+    const bool drawn = random.chance(projecting_share);
+    const double depth_m = on_plan_grid_m(random.between(least_projection_m, largest_projection_m));
+    if (!drawn || !can_project(plan)) continue;
+    (walls.touches_any(k) ? plan.arcade_depth_m : plan.projection_m) =
+        std::min(depth_m, on_plan_grid_m(largest_projection_share * std::min(plan.width_m, plan.depth_m)));
+    plan.arcade_height_m = std::min(highest_ground_floor_m, on_plan_grid_m(plan.wall_m / plan.storeys));
+    plan.roof = RoofShape::flat;
+    plan.roof_rise_m = 0.0;
   }
 }
 

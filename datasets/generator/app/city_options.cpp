@@ -64,7 +64,9 @@ void add_other_options(CLI::App& app, RawOptions& raw, CityOptions& o) {
 
 /// GeoJSON holds footprints with heights: it refuses what neither a footprint nor its height can show.
 void check_geojson(const CitySettings& settings) {
-  const std::pair<const char*, bool> lost[] = {{"--open-shells", settings.open_shells}, {"--eaves", settings.eaves_m > 0.0}};
+  const std::pair<const char*, bool> lost[] = {{"--open-shells", settings.open_shells},
+                                               {"--eaves", settings.eaves_m > 0.0},
+                                               {"--projecting-floors", settings.projecting_floors}};
   for (const auto& [option, is_asked] : lost)
     if (is_asked)
       throw CLI::ValidationError(option, "cannot be shown by the footprints of .geojson; write .gml, .city.json or .obj");

@@ -22,6 +22,41 @@ bool are_same(const GeneratedBuilding& a, const GeneratedBuilding& b) {
   return a.id == b.id && a.vertices == b.vertices && rings_of(a) == rings_of(b);
 }
 
+std::vector<GeneratedFacet> facets_with(const GeneratedBuilding& building, FacetRole role) {
+  std::vector<GeneratedFacet> result;
+  std::ranges::copy_if(building.facets, std::back_inserter(result), [role](const auto& facet) { return facet.role == role; });
+  return result;
+}
+
+TEST(ProjectingFloors, StandHalfAMetreToTwoMetresOverTheGroundFloor) {
+  CitySettings settings = plain_city();
+  settings.projecting_floors = true;
+  const std::vector<GeneratedBuilding> before = all_buildings(plain_city()), after = all_buildings(settings);
+  ASSERT_EQ(before.size(), after.size());
+  int all_around = 0, one_side = 0;
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    const std::vector<GeneratedFacet> soffits = facets_with(after[k], FacetRole::outer_ceiling);
+    if (soffits.empty()) {
+      EXPECT_TRUE(are_same(before[k], after[k])) << after[k].id;
+      continue;
+    }
+    const BoxMm ground = box_of(after[k], facets_with(after[k], FacetRole::ground)), upper = box_of(after[k], after[k].facets);
+    const BoxMm soffit = box_of(after[k], soffits);
+    EXPECT_EQ(soffits.size(), 1U);
+    EXPECT_EQ(soffit.low.z, soffit.high.z);
+    EXPECT_TRUE(soffit.low.z >= 2000 && soffit.low.z <= 4200) << soffit.low.z;
+    EXPECT_EQ(after[k].footprint, before[k].footprint);
+    std::vector<std::int64_t> sides{ground.low.x - upper.low.x, ground.low.y - upper.low.y, upper.high.x - ground.high.x,
+                                    upper.high.y - ground.high.y};
+    const auto projecting = std::ranges::count_if(sides, [](std::int64_t mm) { return mm > 0; });
+    EXPECT_TRUE(projecting == 1 || projecting == 4) << after[k].id;
+    for (const std::int64_t mm : sides) EXPECT_TRUE(mm == 0 || (mm >= 500 && mm <= 2000)) << after[k].id << ' ' << mm;
+    (projecting == 4 ? all_around : one_side) += 1;
+  }
+  EXPECT_GT(all_around, 50);
+  EXPECT_GT(one_side, 50);
+}
+
 bool share_volume(const BoxMm& a, const BoxMm& b) {
   return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y && a.low.z < b.high.z &&
          b.low.z < a.high.z;

@@ -101,6 +101,7 @@ Point3d some_point(KeyedRandom& random, const ConvexFace& face) {
 TEST(OpenShells, KeepWhatIsExposedAndNothingElse) {
   CitySettings closed = touching_city(2);
   closed.rotation_deg = 17.0;
+  closed.projecting_floors = true;
   constexpr double outside_mm = 10.0, tolerance_mm = 3.0;
   const CityLayout layout(closed);
   KeyedRandom random({5});

@@ -114,12 +114,13 @@ std::vector<CitySettings> cities_of_all_shapes() {
 std::vector<CitySettings> cities_with_each_option() {
   CitySettings plain;
   plain.size_m = 700.0, plain.rotation_deg = 23.0, plain.lod = 2, plain.seed = 6;
-  std::vector<CitySettings> cities(5, plain);
+  std::vector<CitySettings> cities(6, plain);
   cities[0].open_shells = true;
   cities[1].eaves_m = 0.6;
-  cities[2].hillside = true;
-  cities[3].overlapping_parts = true;
-  CitySettings& all = cities[4];
+  cities[2].projecting_floors = true;
+  cities[3].hillside = true;
+  cities[4].overlapping_parts = true;
+  CitySettings& all = cities[5];
   CitySettings::describe_switches(all, [](const char*, bool& value, const char*) { value = true; });
   all.eaves_m = 0.6;
   return cities;
