@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "generator/building_solid.hpp"
+#include "generator/keyed_random.hpp"
 #include "generator/open_shells.hpp"
 #include "generator/touching_walls.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 
 /// The widest eaves of the steepest roof hang down by 1.25 m, and stay above the ground.
 constexpr double lowest_wall_with_eaves_m = 2.0;
+constexpr double least_error_m = 10.0, largest_error_m = 40.0, share_at_zero = 0.5;
 
 /// Roofs do not project over a neighbour that touches the wall.
 [[nodiscard]] Overhangs overhangs_of(const CitySettings& settings, const TouchingWalls& walls, std::size_t row,
@@ -27,6 +29,25 @@ constexpr double lowest_wall_with_eaves_m = 2.0;
     if (!walls.touches(row, a, b)) overhangs[k] = settings.eaves_m;
   }
   return overhangs;
+}
+
+/// Lowers all that stands on the ground.
+void lower_base(PlanBuilding& building, double by_m) {
+  for (PlanSolid& solid : building.solids) {
+    if (solid.kind == ComponentKind::installation) continue;
+    for (PlanFacet& facet : solid.facets)
+      for (PlanRing* ring : {&facet.outer, &facet.hole})
+        for (Point3d& p : *ring)
+          if (p.z == 0.0) p.z = -by_m;
+  }
+}
+
+void maybe_lower_base(KeyedRandom random, double share, PlanBuilding& building) {
+  const bool drawn = random.chance(share), at_zero = random.chance(share_at_zero);
+  const double error_m = on_plan_grid_m(random.between(least_error_m, largest_error_m));
+  const double ground_m = building.solids.front().ground_m;
+  // Near z = 0 a base at z = 0 would not be wrong enough
+  if (drawn) lower_base(building, at_zero && ground_m >= least_error_m ? ground_m : error_m);
 }
 
 /// Raises the buildings of one block.
@@ -52,6 +73,10 @@ class BlockRaiser {
     return {.id = fmt::format("{}_{}_{}_{}", prefix, block_.i, block_.j, row), .kind = plan.kind, .storeys = plan.storeys};
   }
 
+  [[nodiscard]] KeyedRandom random(RandomStream stream, std::size_t row) const {
+    return KeyedRandom({settings_.seed, key_of(stream), key_of(block_.i), key_of(block_.j), row});
+  }
+
   [[nodiscard]] PlanBuilding building(std::size_t row) const {
     const BuildingPlan& plan = plans_[row];
     PlanBuilding building = named("building", row, plan);
@@ -63,6 +88,8 @@ class BlockRaiser {
       building.solids.back().kind = ComponentKind::part;
       building.solids.back().suffix = fmt::format("_part_{}", building.solids.size());
     }
+    if (settings_.wrong_base_share > 0.0)
+      maybe_lower_base(random(RandomStream::wrong_base, row), settings_.wrong_base_share, building);
     return building;
   }
 

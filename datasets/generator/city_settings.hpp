@@ -30,6 +30,7 @@ struct CitySettings {
   double terrain_relief_m = 0.0;
   int lod = 1;
   double eaves_m = 0.0;
+  double wrong_base_share = 0.0;
   bool overhangs = false;
   bool open_shells = false;
   bool projecting_floors = false;
@@ -67,6 +68,8 @@ struct CitySettings {
     setting("eaves", self.eaves_m, SettingRange{0.0, 1.0}, "Buildings",
             "Pitched roofs project by this much beyond walls that no neighbour touches, in metres, as sheets without thickness; "
             "needs --lod 2");
+    setting("wrong-bases", self.wrong_base_share, SettingRange{0.0, 1.0}, "Buildings",
+            "Share of the buildings that reach down to z = 0 or 10 to 40 m too low; their roofs stay where they are");
     setting("centre-easting", self.centre_easting_m, SettingRange{-1e7, 1e7}, "Place", "Easting of the city's centre, in metres");
     setting("centre-northing", self.centre_northing_m, SettingRange{-2e7, 2e7}, "Place",
             "Northing of the city's centre, in metres");

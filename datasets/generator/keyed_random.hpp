@@ -52,7 +52,8 @@ enum class RandomStream : std::uint64_t {
   sub_centre,
   hillside_line,
   building_parts,
-  projecting_floors
+  projecting_floors,
+  wrong_base
 };
 
 [[nodiscard]] constexpr std::uint64_t key_of(RandomStream stream) { return static_cast<std::uint64_t>(stream); }

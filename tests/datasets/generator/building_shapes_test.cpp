@@ -91,6 +91,41 @@ TEST(OverlappingParts, StandInEachOtherOnTheBuildingsGround) {
   EXPECT_GT(with_parts[3], 20);
 }
 
+TEST(WrongBases, HaveTheirShareAndLeaveTheRoofs) {
+  for (const double share : {0.0, 0.2, 1.0}) {
+    CitySettings settings = plain_city();
+    settings.terrain_relief_m = 60.0;
+    const std::vector<GeneratedBuilding> before = all_buildings(settings);
+    settings.wrong_base_share = share;
+    const std::vector<GeneratedBuilding> after = all_buildings(settings);
+    ASSERT_EQ(before.size(), after.size());
+    double wrong = 0.0;
+    int at_zero = 0, too_low = 0;
+    for (std::size_t k = 0; k < after.size(); ++k) {
+      if (are_same(before[k], after[k])) continue;
+      wrong += 1.0;
+      const std::int64_t by_mm = before[k].base_mm - after[k].base_mm;
+      EXPECT_TRUE(after[k].base_mm == 0 || (by_mm >= 10'000 && by_mm <= 40'000)) << after[k].id << ' ' << by_mm;
+      EXPECT_GE(by_mm, 10'000) << after[k].id;
+      (after[k].base_mm == 0 ? at_zero : too_low) += 1;
+      EXPECT_EQ(before[k].top_mm, after[k].top_mm);
+      EXPECT_EQ(before[k].footprint, after[k].footprint);
+      // All corners stay but those of the floor
+      for (const PointMm& p : before[k].vertices)
+        if (p.z != before[k].base_mm) {
+          EXPECT_EQ(std::ranges::count(after[k].vertices, p), 1) << after[k].id;
+        }
+    }
+    const auto all = static_cast<double>(after.size());
+    // Five standard deviations of a binomial count, none for never and always
+    EXPECT_LE(std::abs(wrong - share * all), 5.0 * std::sqrt(all * share * (1.0 - share))) << wrong << " of " << all;
+    if (share > 0.0) {
+      EXPECT_GT(at_zero, 20);
+      EXPECT_GT(too_low, 20);
+    }
+  }
+}
+
 /// Two houses of a row: they share a wall across the row and stand on one front line.
 struct Neighbours {
   BoxMm first, second;

@@ -49,8 +49,9 @@ TEST_F(FarlodCity, HelpStartsWithOneLineAndAnExample) {
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_THAT(help.text, StartsWith("farlod-city — "));
   EXPECT_THAT(help.text.substr(help.text.find('\n')), StartsWith("\n\nTry this first:\n  farlod-city -o "));
-  for (const char* option : {"--size", "--seed", "--rotation", "--towers", "--lod", "--overhangs", "--crs", "--summary",
-                             "--quiet", "--open-shells", "--eaves", "--projecting-floors", "--hillside", "--overlapping-parts"})
+  for (const char* option :
+       {"--size", "--seed", "--rotation", "--towers", "--lod", "--overhangs", "--crs", "--summary", "--quiet", "--open-shells",
+        "--eaves", "--projecting-floors", "--hillside", "--overlapping-parts", "--wrong-bases"})
     EXPECT_THAT(help.text, HasSubstr(option));
 }
 
@@ -110,8 +111,8 @@ TEST_F(FarlodCity, WrongUsageIsTwoAndSaysWhat) {
   }
 }
 
-TEST_F(FarlodCity, FootprintsShowHillsidesAndParts) {
-  const Outcome outcome = run("-o town.geojson --size 500 --hillside --overlapping-parts");
+TEST_F(FarlodCity, FootprintsShowHillsidesPartsAndWrongBases) {
+  const Outcome outcome = run("-o town.geojson --size 500 --hillside --overlapping-parts --wrong-bases 0.1");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
 }
 
