@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "generator/balconies.hpp"
 #include "generator/building_solid.hpp"
 #include "generator/keyed_random.hpp"
 #include "generator/open_shells.hpp"
@@ -81,8 +82,10 @@ class BlockRaiser {
     const BuildingPlan& plan = plans_[row];
     PlanBuilding building = named("building", row, plan);
     const double ground_m = base_m(field_, plan);
-    if (plan.parts.empty())
+    if (plan.parts.empty()) {
       building.solids.push_back(raise(plan, ground_m, settings_.lod, overhangs_of(settings_, walls_, row, plan)));
+      add_details(row, building);
+    }
     for (const BuildingPlan& part : plan.parts) {
       building.solids.push_back(raise(part, ground_m, settings_.lod, overhangs_of(settings_, walls_, row, part)));
       building.solids.back().kind = ComponentKind::part;
@@ -91,6 +94,12 @@ class BlockRaiser {
     if (settings_.wrong_base_share > 0.0)
       maybe_lower_base(random(RandomStream::wrong_base, row), settings_.wrong_base_share, building);
     return building;
+  }
+
+  void add_details(std::size_t row, PlanBuilding& building) const {
+    const BuildingPlan& plan = plans_[row];
+    KeyedRandom balconies = random(RandomStream::balconies, row);
+    if (settings_.balconies) maybe_add_balconies(balconies, plan, walls_, row, building);
   }
 
   const CitySettings& settings_;

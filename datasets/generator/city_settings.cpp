@@ -30,6 +30,7 @@ void check_combination(const CitySettings& settings) {
     if (asked && settings.lod < 2) throw SettingsError(fmt::format("--{} has no place on prisms: add --lod 2", name));
   };
   need_roofs("eaves", settings.eaves_m > 0.0);
+  need_roofs("balconies", settings.balconies);
   if (settings.hillside && settings.terrain_relief_m > 0.0)
     throw SettingsError("--hillside has slopes of its own: leave out --terrain-relief");
 }

@@ -33,6 +33,7 @@ struct CitySettings {
   double wrong_base_share = 0.0;
   bool overhangs = false;
   bool open_shells = false;
+  bool balconies = false;
   bool projecting_floors = false;
   bool hillside = false;
   bool overlapping_parts = false;
@@ -81,6 +82,7 @@ struct CitySettings {
     flag("overhangs", self.overhangs, "Add pedestrian bridges across streets, and arcades under upper floors");
     flag("open-shells", self.open_shells,
          "Leave out the floors, and of the walls what a touching building covers; bridges stay whole");
+    flag("balconies", self.balconies, "Add slabs of 3 x 1.2 x 0.2 m to some residential buildings, one a storey; needs --lod 2");
     flag("projecting-floors", self.projecting_floors,
          "Let the upper floors of some buildings project 0.5 to 2 m over the ground floor; their roofs are flat");
     flag("hillside", self.hillside,

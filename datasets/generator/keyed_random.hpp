@@ -53,7 +53,8 @@ enum class RandomStream : std::uint64_t {
   hillside_line,
   building_parts,
   projecting_floors,
-  wrong_base
+  wrong_base,
+  balconies
 };
 
 [[nodiscard]] constexpr std::uint64_t key_of(RandomStream stream) { return static_cast<std::uint64_t>(stream); }

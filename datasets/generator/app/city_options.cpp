@@ -66,6 +66,7 @@ void add_other_options(CLI::App& app, RawOptions& raw, CityOptions& o) {
 void check_geojson(const CitySettings& settings) {
   const std::pair<const char*, bool> lost[] = {{"--open-shells", settings.open_shells},
                                                {"--eaves", settings.eaves_m > 0.0},
+                                               {"--balconies", settings.balconies},
                                                {"--projecting-floors", settings.projecting_floors}};
   for (const auto& [option, is_asked] : lost)
     if (is_asked)

@@ -29,9 +29,9 @@ TEST(CitySettings, EachSettingIsRefusedBeyondItsRangeAndTheMessageNamesIt) {
 }
 
 TEST(CitySettings, RefusesOnPrismsWhatNeedsRoofsOrStoreys) {
-  CitySettings eaves;
-  eaves.eaves_m = 0.5;
-  for (auto& [settings, name] : {std::pair{&eaves, "--eaves"}}) {
+  CitySettings eaves, balconies;
+  eaves.eaves_m = 0.5, balconies.balconies = true;
+  for (auto& [settings, name] : {std::pair{&eaves, "--eaves"}, {&balconies, "--balconies"}}) {
     EXPECT_THAT([&s = *settings] { check(s); }, ThrowsMessage<SettingsError>(HasSubstr(name)));
     settings->lod = 2;
     EXPECT_NO_THROW(check(*settings));

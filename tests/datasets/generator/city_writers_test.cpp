@@ -135,7 +135,7 @@ class CityWritersOfOptions : public ::testing::TestWithParam<int> {
   ScratchFolder folder_;
   CitySettings settings_ = cities_with_each_option().at(static_cast<std::size_t>(GetParam()));
 };
-INSTANTIATE_TEST_SUITE_P(Option, CityWritersOfOptions, ::testing::Range(0, 7));
+INSTANTIATE_TEST_SUITE_P(Option, CityWritersOfOptions, ::testing::Range(0, 8));
 
 TEST_P(CityWritersOfOptions, EachFormatHoldsTheCity) {
   settings_.size_m = 350.0;

@@ -51,7 +51,7 @@ TEST_F(FarlodCity, HelpStartsWithOneLineAndAnExample) {
   EXPECT_THAT(help.text.substr(help.text.find('\n')), StartsWith("\n\nTry this first:\n  farlod-city -o "));
   for (const char* option :
        {"--size", "--seed", "--rotation", "--towers", "--lod", "--overhangs", "--crs", "--summary", "--quiet", "--open-shells",
-        "--eaves", "--projecting-floors", "--hillside", "--overlapping-parts", "--wrong-bases"})
+        "--eaves", "--balconies", "--projecting-floors", "--hillside", "--overlapping-parts", "--wrong-bases"})
     EXPECT_THAT(help.text, HasSubstr(option));
 }
 
@@ -101,6 +101,7 @@ TEST_F(FarlodCity, WrongUsageIsTwoAndSaysWhat) {
       {"-o town.obj --hillside --terrain-relief 20", "--terrain-relief"},
       {"-o town.geojson --open-shells", "--open-shells: cannot be shown by the footprints of .geojson"},
       {"-o town.geojson --lod 2 --eaves 0.5", "--eaves: cannot be shown"},
+      {"-o town.geojson --lod 2 --balconies", "--balconies: cannot be shown"},
       {"-o town.geojson --projecting-floors", "--projecting-floors: cannot be shown"},
   };
   for (const auto& [arguments, said] : wrong) {

@@ -114,14 +114,15 @@ std::vector<CitySettings> cities_of_all_shapes() {
 std::vector<CitySettings> cities_with_each_option() {
   CitySettings plain;
   plain.size_m = 700.0, plain.rotation_deg = 23.0, plain.lod = 2, plain.seed = 6;
-  std::vector<CitySettings> cities(7, plain);
+  std::vector<CitySettings> cities(8, plain);
   cities[0].open_shells = true;
   cities[1].eaves_m = 0.6;
-  cities[2].projecting_floors = true;
-  cities[3].hillside = true;
-  cities[4].overlapping_parts = true;
-  cities[5].wrong_base_share = 0.3;
-  CitySettings& all = cities[6];
+  cities[2].balconies = true;
+  cities[3].projecting_floors = true;
+  cities[4].hillside = true;
+  cities[5].overlapping_parts = true;
+  cities[6].wrong_base_share = 0.3;
+  CitySettings& all = cities[7];
   CitySettings::describe_switches(all, [](const char*, bool& value, const char*) { value = true; });
   all.eaves_m = 0.6, all.wrong_base_share = 0.3;
   return cities;
