@@ -8,8 +8,10 @@
 
 #include "generator/balconies.hpp"
 #include "generator/building_solid.hpp"
+#include "generator/facade_openings.hpp"
 #include "generator/keyed_random.hpp"
 #include "generator/open_shells.hpp"
+#include "generator/roof_installations.hpp"
 #include "generator/touching_walls.hpp"
 
 namespace farlod {
@@ -98,7 +100,13 @@ class BlockRaiser {
 
   void add_details(std::size_t row, PlanBuilding& building) const {
     const BuildingPlan& plan = plans_[row];
-    KeyedRandom balconies = random(RandomStream::balconies, row);
+    const bool has_windows =
+        plan.kind != BuildingKind::tower && plan.kind != BuildingKind::outbuilding && plan.kind != BuildingKind::hall;
+    KeyedRandom facade = random(RandomStream::facade, row), balconies = random(RandomStream::balconies, row);
+    if (settings_.facade_details && has_windows) {
+      add_openings(facade, plan, walls_, row, building.solids.front());
+      maybe_add_roof_installations(facade, plan, building);
+    }
     if (settings_.balconies) maybe_add_balconies(balconies, plan, walls_, row, building);
   }
 

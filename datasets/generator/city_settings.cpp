@@ -31,6 +31,7 @@ void check_combination(const CitySettings& settings) {
   };
   need_roofs("eaves", settings.eaves_m > 0.0);
   need_roofs("balconies", settings.balconies);
+  need_roofs("facade-details", settings.facade_details);
   if (settings.hillside && settings.terrain_relief_m > 0.0)
     throw SettingsError("--hillside has slopes of its own: leave out --terrain-relief");
 }

@@ -37,6 +37,7 @@ struct CitySettings {
   bool projecting_floors = false;
   bool hillside = false;
   bool overlapping_parts = false;
+  bool facade_details = false;
   int epsg = 32632;
   double centre_easting_m = 550000.0;
   double centre_northing_m = 5500000.0;
@@ -89,8 +90,13 @@ struct CitySettings {
          "Lay the city on slopes of 10 to 25 %, with closed fronts and terraces of touching houses, each on a base of its own");
     flag("overlapping-parts", self.overlapping_parts,
          "Make some buildings of two or three parts whose volumes overlap: towers in podiums, annexes in houses");
+    flag("facade-details", self.facade_details,
+         "Add windows, doors, dormers and chimneys, and name the level of detail 3; needs --lod 2");
   }
 };
+
+/// The level of detail that the files name.
+[[nodiscard]] inline int written_lod(const CitySettings& settings) { return settings.facade_details ? 3 : settings.lod; }
 
 /// A setting cannot be used. The message names it as on the command line, its value, and what is allowed.
 class SettingsError : public std::invalid_argument {

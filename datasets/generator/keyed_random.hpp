@@ -54,7 +54,8 @@ enum class RandomStream : std::uint64_t {
   building_parts,
   projecting_floors,
   wrong_base,
-  balconies
+  balconies,
+  facade
 };
 
 [[nodiscard]] constexpr std::uint64_t key_of(RandomStream stream) { return static_cast<std::uint64_t>(stream); }

@@ -67,7 +67,8 @@ void check_geojson(const CitySettings& settings) {
   const std::pair<const char*, bool> lost[] = {{"--open-shells", settings.open_shells},
                                                {"--eaves", settings.eaves_m > 0.0},
                                                {"--balconies", settings.balconies},
-                                               {"--projecting-floors", settings.projecting_floors}};
+                                               {"--projecting-floors", settings.projecting_floors},
+                                               {"--facade-details", settings.facade_details}};
   for (const auto& [option, is_asked] : lost)
     if (is_asked)
       throw CLI::ValidationError(option, "cannot be shown by the footprints of .geojson; write .gml, .city.json or .obj");

@@ -29,9 +29,9 @@ TEST(CitySettings, EachSettingIsRefusedBeyondItsRangeAndTheMessageNamesIt) {
 }
 
 TEST(CitySettings, RefusesOnPrismsWhatNeedsRoofsOrStoreys) {
-  CitySettings eaves, balconies;
-  eaves.eaves_m = 0.5, balconies.balconies = true;
-  for (auto& [settings, name] : {std::pair{&eaves, "--eaves"}, {&balconies, "--balconies"}}) {
+  CitySettings eaves, balconies, facades;
+  eaves.eaves_m = 0.5, balconies.balconies = true, facades.facade_details = true;
+  for (auto& [settings, name] : {std::pair{&eaves, "--eaves"}, {&balconies, "--balconies"}, {&facades, "--facade-details"}}) {
     EXPECT_THAT([&s = *settings] { check(s); }, ThrowsMessage<SettingsError>(HasSubstr(name)));
     settings->lod = 2;
     EXPECT_NO_THROW(check(*settings));
@@ -44,6 +44,14 @@ TEST(CitySettings, AHillsideIsTheOnlyGround) {
   EXPECT_NO_THROW(check(settings));
   settings.terrain_relief_m = 20.0;
   EXPECT_THAT([&] { check(settings); }, ThrowsMessage<SettingsError>(HasSubstr("--terrain-relief")));
+}
+
+TEST(CitySettings, FacadesAreLevelOfDetail3) {
+  CitySettings settings;
+  settings.lod = 2;
+  EXPECT_EQ(written_lod(settings), 2);
+  settings.facade_details = true;
+  EXPECT_EQ(written_lod(settings), 3);
 }
 
 TEST(CitySettings, RefusesWhatIsNotANumber) {

@@ -135,7 +135,7 @@ class CityWritersOfOptions : public ::testing::TestWithParam<int> {
   ScratchFolder folder_;
   CitySettings settings_ = cities_with_each_option().at(static_cast<std::size_t>(GetParam()));
 };
-INSTANTIATE_TEST_SUITE_P(Option, CityWritersOfOptions, ::testing::Range(0, 8));
+INSTANTIATE_TEST_SUITE_P(Option, CityWritersOfOptions, ::testing::Range(0, 9));
 
 TEST_P(CityWritersOfOptions, EachFormatHoldsTheCity) {
   settings_.size_m = 350.0;
@@ -167,6 +167,54 @@ TEST(CityGmlWriter, OpenShellsHaveNoSolid) {
     EXPECT_EQ(count_of(text, "<bldg:lod1MultiSurface>") > 0, lod == 1);
     EXPECT_EQ(count_of(text, "<bldg:lod2MultiSurface>") > 0, lod == 2);
   }
+}
+
+TEST(CityGmlWriter, WindowsAndDoorsAreOpeningsOfTheirWalls) {
+  const ScratchFolder folder;
+  const CitySettings settings = town([](CitySettings& s) { s.facade_details = true; });
+  write(settings, folder / "city.gml");
+  const std::string text = text_of(folder / "city.gml");
+  std::size_t windows = 0, doors = 0, holes = 0;
+  visit_city(settings, {.building = [&](const GeneratedBuilding& building) {
+               for (const GeneratedFacet& facet : building.facets) {
+                 windows += facet.filling == Filling::window ? 1 : 0;
+                 doors += facet.filling == Filling::door ? 1 : 0;
+                 holes += facet.openings.size() + (facet.hole.empty() ? 0 : 1);
+               }
+             }});
+  EXPECT_GT(windows, 0U);
+  EXPECT_GT(doors, 0U);
+  EXPECT_EQ(count_of(text, "<bldg:opening><bldg:Window gml:id="), windows);
+  EXPECT_EQ(count_of(text, "<bldg:opening><bldg:Door gml:id="), doors);
+  EXPECT_EQ(count_of(text, "<gml:interior>"), holes);
+  EXPECT_EQ(count_of(text, "lod2"), 0U);
+  EXPECT_GT(count_of(text, "<bldg:lod3Solid>"), 0U);
+  EXPECT_GT(count_of(text, "<bldg:lod3Geometry>"), 0U);
+  // An opening follows the polygon of its wall, and is followed by another or by the end of the wall
+  EXPECT_EQ(count_of(text, "</bldg:opening>\n<bldg:opening>") + count_of(text, "</bldg:opening></bldg:WallSurface>"),
+            windows + doors);
+}
+
+TEST(CityJsonWriter, NamesWindowsAndDoors) {
+  const ScratchFolder folder;
+  const CitySettings settings = town([](CitySettings& s) { s.facade_details = true; });
+  write(settings, folder / "city.city.json");
+  const auto json = nlohmann::json::parse(text_of(folder / "city.city.json"));
+  const std::map<Filling, std::string> type_of{{Filling::window, "Window"}, {Filling::door, "Door"}};
+  visit_city(settings, {.building = [&](const GeneratedBuilding& building) {
+               const auto& geometry = json.at("CityObjects").at(building.id).at("geometry").at(0);
+               EXPECT_EQ(geometry.at("lod"), "3");
+               const auto& semantics = geometry.at("semantics");
+               for (std::size_t k = 0; k < building.components.front().facet_count; ++k) {
+                 const std::string type =
+                     semantics.at("surfaces").at(semantics.at("values").at(0).at(k).get<std::size_t>()).at("type");
+                 const auto expected = type_of.find(building.facets[k].filling);
+                 EXPECT_EQ(type == "Window" || type == "Door", expected != type_of.end());
+                 if (expected != type_of.end()) {
+                   EXPECT_EQ(type, expected->second);
+                 }
+               }
+             }});
 }
 
 TEST(CityJsonWriter, ShellsThatAreNotClosedAreMultiSurfacesWithSemantics) {

@@ -49,9 +49,9 @@ TEST_F(FarlodCity, HelpStartsWithOneLineAndAnExample) {
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_THAT(help.text, StartsWith("farlod-city — "));
   EXPECT_THAT(help.text.substr(help.text.find('\n')), StartsWith("\n\nTry this first:\n  farlod-city -o "));
-  for (const char* option :
-       {"--size", "--seed", "--rotation", "--towers", "--lod", "--overhangs", "--crs", "--summary", "--quiet", "--open-shells",
-        "--eaves", "--balconies", "--projecting-floors", "--hillside", "--overlapping-parts", "--wrong-bases"})
+  for (const char* option : {"--size", "--seed", "--rotation", "--towers", "--lod", "--overhangs", "--crs", "--summary",
+                             "--quiet", "--open-shells", "--eaves", "--balconies", "--projecting-floors", "--hillside",
+                             "--overlapping-parts", "--wrong-bases", "--facade-details"})
     EXPECT_THAT(help.text, HasSubstr(option));
 }
 
@@ -103,6 +103,7 @@ TEST_F(FarlodCity, WrongUsageIsTwoAndSaysWhat) {
       {"-o town.geojson --lod 2 --eaves 0.5", "--eaves: cannot be shown"},
       {"-o town.geojson --lod 2 --balconies", "--balconies: cannot be shown"},
       {"-o town.geojson --projecting-floors", "--projecting-floors: cannot be shown"},
+      {"-o town.geojson --lod 2 --facade-details", "--facade-details: cannot be shown"},
   };
   for (const auto& [arguments, said] : wrong) {
     const Outcome outcome = run(arguments);

@@ -114,7 +114,7 @@ std::vector<CitySettings> cities_of_all_shapes() {
 std::vector<CitySettings> cities_with_each_option() {
   CitySettings plain;
   plain.size_m = 700.0, plain.rotation_deg = 23.0, plain.lod = 2, plain.seed = 6;
-  std::vector<CitySettings> cities(8, plain);
+  std::vector<CitySettings> cities(9, plain);
   cities[0].open_shells = true;
   cities[1].eaves_m = 0.6;
   cities[2].balconies = true;
@@ -122,7 +122,8 @@ std::vector<CitySettings> cities_with_each_option() {
   cities[4].hillside = true;
   cities[5].overlapping_parts = true;
   cities[6].wrong_base_share = 0.3;
-  CitySettings& all = cities[7];
+  cities[7].facade_details = true;
+  CitySettings& all = cities[8];
   CitySettings::describe_switches(all, [](const char*, bool& value, const char*) { value = true; });
   all.eaves_m = 0.6, all.wrong_base_share = 0.3;
   return cities;
