@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "generator/block_site.hpp"
+#include "generator/plan_features.hpp"
 
 namespace farlod {
 namespace {
@@ -25,6 +26,7 @@ using BuildBlock = void (*)(BlockSite&);
   const bool roomy = std::min(site.width_m(), site.depth_m()) >= least_edge_of_street_fronts_m;
   if (draw < park_share && layout.block_count() >= least_blocks_with_park) return build_park;
   if (u >= UrbanField::core_urbanity) return build_core;
+  if (site.settings.hillside) return roomy && urban_draw < 0.5 ? build_street_fronts : build_terraces;
   if (roomy && u < 0.35 && draw > 1.0 - hall_share) return build_halls;
   if (roomy && u > 0.06 && draw > 1.0 - hall_share - slab_share) return build_slabs;
   return roomy && urban_draw < smooth_step(fewest_urban, mostly_urban, u) ? build_street_fronts : build_detached_houses;
@@ -37,6 +39,12 @@ Box2d plan_rectangle(const BuildingPlan& plan) {
   box.add(plan.lot.plan_from_lot({0.0, 0.0}));
   box.add(plan.lot.plan_from_lot({plan.width_m, plan.depth_m}));
   return box;
+}
+
+std::vector<Point2d> footprint_ring(const BuildingPlan& plan) {
+  const double w = plan.width_m, d = plan.depth_m, t = plan.wing_m;
+  if (plan.shape == FootprintShape::l_shape) return {{0, 0}, {w, 0}, {w, t}, {t, t}, {t, d}, {0, d}};
+  return {{0, 0}, {w, 0}, {w, d}, {0, d}};
 }
 
 double base_m(const UrbanField& field, const BuildingPlan& plan) {
@@ -57,6 +65,8 @@ std::vector<BuildingPlan> plans_of_block(const CitySettings& settings, CityBlock
                  {}};
   const BuildBlock build = draw_kind(site, layout);
   build(site);
+  divide_into_parts(settings, block, site.plans);
+  let_floors_project(settings, block, site.plans);
   return std::move(site.plans);
 }
 

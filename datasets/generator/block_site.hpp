@@ -49,6 +49,8 @@ void maybe_add_arcade(BlockSite& site, BuildingPlan& plan, double share);
 
 /// Houses in gardens, one row along each of the longer sides, single or in pairs, some with an outbuilding.
 void build_detached_houses(BlockSite& site);
+/// Terraces of touching houses, one row along each of the longer sides, with gardens behind.
+void build_terraces(BlockSite& site);
 /// Closed street fronts around a yard, with L-shaped corner buildings and outbuildings in the yard.
 void build_street_fronts(BlockSite& site);
 /// Offices, courtyard buildings and towers on large lots.

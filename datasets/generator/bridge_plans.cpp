@@ -34,8 +34,8 @@ struct Facade {
   for (const BuildingPlan& plan : plans_of_block(settings, block)) {
     const Box2d box = plan_rectangle(plan);
     const double facade_m = north_south ? (far_side ? box.high.y : box.low.y) : (far_side ? box.high.x : box.low.x);
-    // Legs of an L and steps of a roof may leave the rectangle's border
-    if (plan.shape == FootprintShape::l_shape || on_plan_grid_m(facade_m - border_m) != 0.0) continue;
+    // Legs of an L, parts and steps of a roof may leave the rectangle's border
+    if (plan.shape == FootprintShape::l_shape || !plan.parts.empty() || on_plan_grid_m(facade_m - border_m) != 0.0) continue;
     const double ground_m = base_m(field, plan);
     result.push_back(
         {north_south ? box.low.x : box.low.y, north_south ? box.high.x : box.high.y, facade_m, ground_m, ground_m + plan.wall_m});

@@ -40,13 +40,23 @@ struct BuildingPlan {
       0.0;  ///< gabled and hipped: from the eaves to the ridge; stepped: height of the narrower part, inside `wall_m`
   double arcade_depth_m = 0.0;  ///< the ground floor stands back from the street by this much (0: no arcade)
   double arcade_height_m = 0.0;
-  double clearance_m = 0.0;  ///< of a bridge: its underside above the ground under it
+  double projection_m = 0.0;  ///< the ground floor, `arcade_height_m` high, stands back on all sides by this much
+  double clearance_m = 0.0;   ///< of a bridge: its underside above the ground under it
   int storeys = 1;
   BuildingKind kind = BuildingKind::detached;
+  /// If there are any, the building consists of them alone; they overlap, and lie in the building's rectangle.
+  std::vector<BuildingPlan> parts = {};
 };
+
+/// Gabled or hipped.
+[[nodiscard]] inline bool has_pitched_roof(const BuildingPlan& plan) {
+  return plan.roof == RoofShape::gabled || plan.roof == RoofShape::hipped;
+}
 
 /// The rectangle around a building's footprint.
 [[nodiscard]] Box2d plan_rectangle(const BuildingPlan& plan);
+/// The footprint in the lot's frame, counter-clockwise from the lot's corner, without the court.
+[[nodiscard]] std::vector<Point2d> footprint_ring(const BuildingPlan& plan);
 
 /// What stands on a block: the same plans whatever the level of detail, and whatever was asked for before.
 ///   (1) no building leaves the block's rectangle

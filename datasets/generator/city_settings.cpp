@@ -25,6 +25,17 @@ void check_street(std::string_view name, double width_m, double spacing_m) {
                     name, width_m, spacing_m));
 }
 
+void check_combination(const CitySettings& settings) {
+  const auto need_roofs = [&](std::string_view name, bool asked) {
+    if (asked && settings.lod < 2) throw SettingsError(fmt::format("--{} has no place on prisms: add --lod 2", name));
+  };
+  need_roofs("eaves", settings.eaves_m > 0.0);
+  need_roofs("balconies", settings.balconies);
+  need_roofs("facade-details", settings.facade_details);
+  if (settings.hillside && settings.terrain_relief_m > 0.0)
+    throw SettingsError("--hillside has slopes of its own: leave out --terrain-relief");
+}
+
 }  // namespace
 
 void check(const CitySettings& settings) {
@@ -38,6 +49,7 @@ void check(const CitySettings& settings) {
   // A city smaller than the spacing is one block
   check_street("avenue", settings.avenue_width_m, std::min(settings.avenue_spacing_m, settings.size_m));
   check_street("street", settings.street_width_m, std::min(settings.street_spacing_m, settings.size_m));
+  check_combination(settings);
   if (settings.epsg <= 0) throw SettingsError("--crs must be like EPSG:32632");
   if (std::ranges::count(well_known_geographic_codes, settings.epsg) > 0)
     throw SettingsError(

@@ -29,7 +29,15 @@ struct CitySettings {
   double height_scale = 1.0;
   double terrain_relief_m = 0.0;
   int lod = 1;
+  double eaves_m = 0.0;
+  double wrong_base_share = 0.0;
   bool overhangs = false;
+  bool open_shells = false;
+  bool balconies = false;
+  bool projecting_floors = false;
+  bool hillside = false;
+  bool overlapping_parts = false;
+  bool facade_details = false;
   int epsg = 32632;
   double centre_easting_m = 550000.0;
   double centre_northing_m = 5500000.0;
@@ -59,11 +67,36 @@ struct CitySettings {
             "Hills between 0 and this height, in metres; a building stands at the lowest ground under its corners");
     setting("lod", self.lod, SettingRange{1, 2}, "Buildings",
             "1: flat-roofed prisms; 2: gabled and hipped roofs on low buildings, stepped tops on towers");
+    setting("eaves", self.eaves_m, SettingRange{0.0, 1.0}, "Buildings",
+            "Pitched roofs project by this much beyond walls that no neighbour touches, in metres, as sheets without thickness; "
+            "needs --lod 2");
+    setting("wrong-bases", self.wrong_base_share, SettingRange{0.0, 1.0}, "Buildings",
+            "Share of the buildings that reach down to z = 0 or 10 to 40 m too low; their roofs stay where they are");
     setting("centre-easting", self.centre_easting_m, SettingRange{-1e7, 1e7}, "Place", "Easting of the city's centre, in metres");
     setting("centre-northing", self.centre_northing_m, SettingRange{-2e7, 2e7}, "Place",
             "Northing of the city's centre, in metres");
   }
+
+  /// Names each switch once, as `describe` does for numbers: `flag` is called with (name, value, help).
+  template <class Self, class Visitor>
+  static void describe_switches(Self& self, Visitor&& flag) {
+    flag("overhangs", self.overhangs, "Add pedestrian bridges across streets, and arcades under upper floors");
+    flag("open-shells", self.open_shells,
+         "Leave out the floors, and of the walls what a touching building covers; bridges stay whole");
+    flag("balconies", self.balconies, "Add slabs of 3 x 1.2 x 0.2 m to some residential buildings, one a storey; needs --lod 2");
+    flag("projecting-floors", self.projecting_floors,
+         "Let the upper floors of some buildings project 0.5 to 2 m over the ground floor; their roofs are flat");
+    flag("hillside", self.hillside,
+         "Lay the city on slopes of 10 to 25 %, with closed fronts and terraces of touching houses, each on a base of its own");
+    flag("overlapping-parts", self.overlapping_parts,
+         "Make some buildings of two or three parts whose volumes overlap: towers in podiums, annexes in houses");
+    flag("facade-details", self.facade_details,
+         "Add windows, doors, dormers and chimneys, and name the level of detail 3; needs --lod 2");
+  }
 };
+
+/// The level of detail that the files name.
+[[nodiscard]] inline int written_lod(const CitySettings& settings) { return settings.facade_details ? 3 : settings.lod; }
 
 /// A setting cannot be used. The message names it as on the command line, its value, and what is allowed.
 class SettingsError : public std::invalid_argument {

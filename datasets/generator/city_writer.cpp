@@ -33,7 +33,7 @@ namespace {
 }  // namespace
 
 CityHeader header_of(const CitySettings& settings, const std::filesystem::path& path) {
-  CityHeader header{.name = plain_name(path), .lod = settings.lod, .epsg = settings.epsg};
+  CityHeader header{.name = plain_name(path), .lod = written_lod(settings), .epsg = settings.epsg};
   header.centre_easting_mm = millimetres(settings.centre_easting_m);
   header.centre_northing_mm = millimetres(settings.centre_northing_m);
   return header;

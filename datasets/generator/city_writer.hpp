@@ -42,15 +42,18 @@ class GeneratedCityWriter {
 [[nodiscard]] std::unique_ptr<GeneratedCityWriter> make_city_writer(CityFormat format, const std::filesystem::path& path,
                                                                     const CityHeader& header);
 
-/// CityGML 2.0: lod1Solid, or thematic surfaces with an lod2Solid that refers to them.
+/// CityGML 2.0: lod1Solid, or thematic surfaces with an lod2Solid or lod3Solid that refers to them. A component that is not
+/// closed has no solid: in LoD1 it is an lod1MultiSurface. Parts are BuildingPart, installations BuildingInstallation with
+/// their polygons in lod2Geometry or lod3Geometry, windows and doors openings of their WallSurface.
 [[nodiscard]] std::unique_ptr<GeneratedCityWriter> make_citygml_writer(const std::filesystem::path& path,
                                                                        const CityHeader& header);
-/// CityJSON 2.0: solids, in LoD2 with the semantics of their surfaces. Vertices wait in a second file beside the first.
+/// CityJSON 2.0: solids, or a MultiSurface where a component is not closed, from LoD2 on with the semantics of their surfaces.
+/// Parts and installations are objects of their own. Vertices wait in a second file beside the first.
 [[nodiscard]] std::unique_ptr<GeneratedCityWriter> make_cityjson_writer(const std::filesystem::path& path,
                                                                         const CityHeader& header);
-/// Wavefront OBJ: one group a building, convex faces without holes, z up, metres.
+/// Wavefront OBJ: one group a building with all its components, convex faces without holes, z up, metres.
 [[nodiscard]] std::unique_ptr<GeneratedCityWriter> make_obj_writer(const std::filesystem::path& path, const CityHeader& header);
-/// GeoJSON footprints with `height` above `base`, in the CRS that the file names: roofs and overhangs are lost.
+/// GeoJSON footprints, one a part, with `height` above `base`, in the CRS that the file names: roofs and overhangs are lost.
 [[nodiscard]] std::unique_ptr<GeneratedCityWriter> make_geojson_writer(const std::filesystem::path& path,
                                                                        const CityHeader& header);
 

@@ -44,12 +44,11 @@ class CityGmlWriter final : public GeneratedCityWriter {
   }
 
   void add(const GeneratedBuilding& building) override {
-    fmt::format_to(out(), FMT_STRING("<core:cityObjectMember><bldg:Building gml:id=\"{}\">\n<bldg:measuredHeight uom=\"m\">"),
-                   building.id);
-    append_metres(file_.text(), building.top_mm - building.base_mm);
-    fmt::format_to(out(), FMT_STRING("</bldg:measuredHeight><bldg:storeysAboveGround>{}</bldg:storeysAboveGround>\n"),
-                   building.storeys);
-    header_.lod == 1 ? add_lod1(building) : add_lod2(building);
+    file_.text() += "<core:cityObjectMember>";
+    begin_building("Building", building.id, building.top_mm - building.base_mm);
+    fmt::format_to(out(), FMT_STRING("<bldg:storeysAboveGround>{}</bldg:storeysAboveGround>\n"), building.storeys);
+    if (building.components.front().kind == ComponentKind::body) add_body(building, building.components.front());
+    add_parts(building);
     file_.text() += "</bldg:Building></core:cityObjectMember>\n";
     for (const PointMm& p : building.vertices)
       extent_.add({static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
@@ -65,45 +64,118 @@ class CityGmlWriter final : public GeneratedCityWriter {
  private:
   [[nodiscard]] std::back_insert_iterator<std::string> out() { return std::back_inserter(file_.text()); }
 
-  void add_lod1(const GeneratedBuilding& building) {
-    file_.text() += "<bldg:lod1Solid><gml:Solid><gml:exterior><gml:CompositeSurface>\n";
-    for (const GeneratedFacet& facet : building.facets) {
+  void begin_building(std::string_view element, const std::string& id, std::int64_t height_mm) {
+    fmt::format_to(out(), FMT_STRING("<bldg:{} gml:id=\"{}\">\n<bldg:measuredHeight uom=\"m\">"), element, id);
+    append_metres(file_.text(), height_mm);
+    file_.text() += "</bldg:measuredHeight>";
+  }
+
+  void add_parts(const GeneratedBuilding& building) {
+    for (const GeneratedComponent& part : building.components) {
+      if (part.kind != ComponentKind::part) continue;
+      file_.text() += "<bldg:consistsOfBuildingPart>";
+      begin_building("BuildingPart", part.id, part.top_mm - part.base_mm);
+      file_.text() += '\n';
+      add_body(building, part);
+      file_.text() += "</bldg:BuildingPart></bldg:consistsOfBuildingPart>\n";
+    }
+  }
+
+  /// In the order of the schema: solids of LoD1 and 2, installations, surfaces, solids of LoD3.
+  void add_body(const GeneratedBuilding& building, const GeneratedComponent& body) {
+    if (header_.lod == 1) return add_lod1(building, body);
+    if (header_.lod == 2 && body.closed) add_solid_of_surfaces(body);
+    if (body.kind == ComponentKind::body) add_installations(building);
+    for (std::size_t k = 0; k < body.facet_count; ++k) add_surface(building, body, k);
+    if (header_.lod == 3 && body.closed) add_solid_of_surfaces(body);
+  }
+
+  void add_lod1(const GeneratedBuilding& building, const GeneratedComponent& body) {
+    if (body.closed) {
+      file_.text() += "<bldg:lod1Solid><gml:Solid><gml:exterior><gml:CompositeSurface>\n";
+      add_polygons(building, body);
+      file_.text() += "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod1Solid>\n";
+    } else {
+      file_.text() += "<bldg:lod1MultiSurface><gml:MultiSurface>\n";
+      add_polygons(building, body);
+      file_.text() += "</gml:MultiSurface></bldg:lod1MultiSurface>\n";
+    }
+  }
+
+  void add_polygons(const GeneratedBuilding& building, const GeneratedComponent& component) {
+    for (std::size_t k = 0; k < component.facet_count; ++k) {
       file_.text() += "<gml:surfaceMember><gml:Polygon>";
-      add_rings(facet, building.vertices);
+      add_rings(building.facets[component.first_facet + k], building.vertices);
       file_.text() += "</gml:Polygon></gml:surfaceMember>\n";
     }
-    file_.text() += "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod1Solid>\n";
   }
 
-  void add_lod2(const GeneratedBuilding& building) {
-    // The solid comes first, as the schema asks, and names the polygons of the surfaces below it
-    file_.text() += "<bldg:lod2Solid><gml:Solid><gml:exterior><gml:CompositeSurface>\n";
-    for (std::size_t k = 0; k < building.facets.size(); ++k)
-      fmt::format_to(out(), FMT_STRING("<gml:surfaceMember xlink:href=\"#{}_p{}\"/>\n"), building.id, k);
-    file_.text() += "</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod2Solid>\n";
-    for (std::size_t k = 0; k < building.facets.size(); ++k) add_surface(building, k);
+  /// Names the polygons of the surfaces: those of LoD2 stand behind it in the file, those of LoD3 before it.
+  void add_solid_of_surfaces(const GeneratedComponent& body) {
+    fmt::format_to(out(), FMT_STRING("<bldg:lod{}Solid><gml:Solid><gml:exterior><gml:CompositeSurface>\n"), header_.lod);
+    for (std::size_t k = 0; k < body.facet_count; ++k)
+      fmt::format_to(out(), FMT_STRING("<gml:surfaceMember xlink:href=\"#{}_p{}\"/>\n"), body.id, k);
+    fmt::format_to(out(), FMT_STRING("</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod{}Solid>\n"), header_.lod);
   }
 
-  void add_surface(const GeneratedBuilding& building, std::size_t k) {
-    const std::string_view element = surface_element(building.facets[k].role);
+  void add_installations(const GeneratedBuilding& building) {
+    for (const GeneratedComponent& c : building.components) {
+      if (c.kind != ComponentKind::installation) continue;
+      fmt::format_to(out(),
+                     FMT_STRING("<bldg:outerBuildingInstallation><bldg:BuildingInstallation gml:id=\"{}\"><bldg:lod{}Geometry>"
+                                "<gml:Solid><gml:exterior><gml:CompositeSurface>\n"),
+                     c.id, header_.lod);
+      add_polygons(building, c);
+      fmt::format_to(out(),
+                     FMT_STRING("</gml:CompositeSurface></gml:exterior></gml:Solid></bldg:lod{}Geometry>"
+                                "</bldg:BuildingInstallation></bldg:outerBuildingInstallation>\n"),
+                     header_.lod);
+    }
+  }
+
+  void add_surface(const GeneratedBuilding& building, const GeneratedComponent& body, std::size_t k) {
+    const GeneratedFacet& facet = building.facets[body.first_facet + k];
+    if (facet.filling != Filling::none) return;  // stands inside its wall
+    const std::string_view element = surface_element(facet.role);
+    file_.text() += "<bldg:boundedBy>";
+    begin_surface(building, body, k, element);
+    if (!facet.openings.empty()) add_fillings(building, body, body.first_facet + k);
+    fmt::format_to(out(), FMT_STRING("</bldg:{}></bldg:boundedBy>\n"), element);
+  }
+
+  void add_fillings(const GeneratedBuilding& building, const GeneratedComponent& body, std::size_t wall) {
+    for (std::size_t k = 0; k < body.facet_count; ++k) {
+      const GeneratedFacet& facet = building.facets[body.first_facet + k];
+      if (facet.filling == Filling::none || facet.in_wall != wall) continue;
+      const std::string_view element = facet.filling == Filling::door ? "Door" : "Window";
+      file_.text() += "\n<bldg:opening>";
+      begin_surface(building, body, k, element);
+      fmt::format_to(out(), FMT_STRING("</bldg:{}></bldg:opening>"), element);
+    }
+  }
+
+  /// The element with its polygon, but for its end.
+  void begin_surface(const GeneratedBuilding& building, const GeneratedComponent& body, std::size_t k, std::string_view element) {
     fmt::format_to(out(),
-                   FMT_STRING("<bldg:boundedBy><bldg:{0} gml:id=\"{1}_s{2}\"><bldg:lod2MultiSurface><gml:MultiSurface>"
+                   FMT_STRING("<bldg:{0} gml:id=\"{1}_s{2}\"><bldg:lod{3}MultiSurface><gml:MultiSurface>"
                               "<gml:surfaceMember><gml:Polygon gml:id=\"{1}_p{2}\">"),
-                   element, building.id, k);
-    add_rings(building.facets[k], building.vertices);
-    fmt::format_to(
-        out(),
-        FMT_STRING("</gml:Polygon></gml:surfaceMember></gml:MultiSurface></bldg:lod2MultiSurface></bldg:{}></bldg:boundedBy>\n"),
-        element);
+                   element, body.id, k, header_.lod);
+    add_rings(building.facets[body.first_facet + k], building.vertices);
+    fmt::format_to(out(), FMT_STRING("</gml:Polygon></gml:surfaceMember></gml:MultiSurface></bldg:lod{}MultiSurface>"),
+                   header_.lod);
   }
 
   void add_rings(const GeneratedFacet& facet, const std::vector<PointMm>& vertices) {
     file_.text() += "<gml:exterior>";
     add_ring(facet.outer, vertices);
     file_.text() += "</gml:exterior>";
-    if (facet.hole.empty()) return;
+    if (!facet.hole.empty()) add_interior(facet.hole, vertices);
+    for (const std::vector<std::uint32_t>& opening : facet.openings) add_interior(opening, vertices);
+  }
+
+  void add_interior(const std::vector<std::uint32_t>& ring, const std::vector<PointMm>& vertices) {
     file_.text() += "<gml:interior>";
-    add_ring(facet.hole, vertices);
+    add_ring(ring, vertices);
     file_.text() += "</gml:interior>";
   }
 

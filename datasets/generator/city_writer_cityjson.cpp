@@ -4,6 +4,7 @@
 
 #include <array>
 #include <iterator>
+#include <span>
 
 #include "generator/city_text_file.hpp"
 #include "generator/city_writer.hpp"
@@ -46,16 +47,19 @@ class CityJsonWriter final : public GeneratedCityWriter {
   }
 
   void add(const GeneratedBuilding& building) override {
-    fmt::format_to(out(), FMT_STRING("{}\n\"{}\":{{\"type\":\"Building\",\"attributes\":{{\"measuredHeight\":"),
-                   vertices_before_ == 0 ? "" : ",", building.id);
-    append_metres(objects_.text(), building.top_mm - building.base_mm);
-    fmt::format_to(out(),
-                   FMT_STRING(",\"storeysAboveGround\":{}}},\"geometry\":[{{\"type\":\"Solid\",\"lod\":\"{}\",\"boundaries\":[["),
-                   building.storeys, header_.lod);
-    add_boundaries(building);
-    objects_.text() += "]]";
-    if (header_.lod >= 2) add_semantics(building);
-    objects_.text() += "}]}";
+    const bool has_body = building.components.front().kind == ComponentKind::body;
+    begin_object("Building", building.id, building.top_mm - building.base_mm);
+    fmt::format_to(out(), FMT_STRING(",\"storeysAboveGround\":{}}}"), building.storeys);
+    if (has_body) add_geometry(building, building.components.front());
+    add_children(building);
+    objects_.text() += '}';
+    for (const GeneratedComponent& c : building.components) {
+      if (c.kind == ComponentKind::body) continue;
+      begin_object(c.kind == ComponentKind::part ? "BuildingPart" : "BuildingInstallation", c.id, c.top_mm - c.base_mm);
+      fmt::format_to(out(), FMT_STRING("}},\"parents\":[\"{}\"]"), building.id);
+      add_geometry(building, c);
+      objects_.text() += '}';
+    }
     add_vertices(building);
     objects_.drain();
     vertices_.drain();
@@ -71,16 +75,49 @@ class CityJsonWriter final : public GeneratedCityWriter {
  private:
   [[nodiscard]] std::back_insert_iterator<std::string> out() { return std::back_inserter(objects_.text()); }
 
-  void add_boundaries(const GeneratedBuilding& building) {
-    for (const GeneratedFacet& facet : building.facets) {
-      objects_.text() += &facet == &building.facets.front() ? "[" : ",[";
+  /// The object up to the first of its attributes.
+  void begin_object(std::string_view type, const std::string& id, std::int64_t height_mm) {
+    fmt::format_to(out(), FMT_STRING("{}\n\"{}\":{{\"type\":\"{}\",\"attributes\":{{\"measuredHeight\":"), is_first_ ? "" : ",",
+                   id, type);
+    is_first_ = false;
+    append_metres(objects_.text(), height_mm);
+  }
+
+  void add_children(const GeneratedBuilding& building) {
+    const std::size_t bodies = building.components.front().kind == ComponentKind::body ? 1 : 0;
+    if (building.components.size() == bodies) return;
+    for (std::size_t k = bodies; k < building.components.size(); ++k)
+      fmt::format_to(out(), FMT_STRING("{}\"{}\""), k == bodies ? ",\"children\":[" : ",", building.components[k].id);
+    objects_.text() += ']';
+  }
+
+  /// A shell that is not closed is a MultiSurface, whose arrays are one level less deep than those of a Solid.
+  void add_geometry(const GeneratedBuilding& building, const GeneratedComponent& component) {
+    fmt::format_to(out(), FMT_STRING(",\"geometry\":[{{\"type\":\"{}\",\"lod\":\"{}\",\"boundaries\":{}"),
+                   component.closed ? "Solid" : "MultiSurface", header_.lod, component.closed ? "[[" : "[");
+    add_boundaries(facets_of(building, component));
+    objects_.text() += component.closed ? "]]" : "]";
+    if (header_.lod >= 2) add_semantics(facets_of(building, component), component.closed);
+    objects_.text() += "}]";
+  }
+
+  [[nodiscard]] static std::span<const GeneratedFacet> facets_of(const GeneratedBuilding& building, const GeneratedComponent& c) {
+    return std::span(building.facets).subspan(c.first_facet, c.facet_count);
+  }
+
+  void add_boundaries(std::span<const GeneratedFacet> facets) {
+    for (const GeneratedFacet& facet : facets) {
+      objects_.text() += &facet == facets.data() ? "[" : ",[";
       add_ring(facet.outer);
-      if (!facet.hole.empty()) {
-        objects_.text() += ',';
-        add_ring(facet.hole);
-      }
+      if (!facet.hole.empty()) add_inner_ring(facet.hole);
+      for (const std::vector<std::uint32_t>& opening : facet.openings) add_inner_ring(opening);
       objects_.text() += ']';
     }
+  }
+
+  void add_inner_ring(const std::vector<std::uint32_t>& ring) {
+    objects_.text() += ',';
+    add_ring(ring);
   }
 
   void add_ring(const std::vector<std::uint32_t>& ring) {
@@ -89,16 +126,22 @@ class CityJsonWriter final : public GeneratedCityWriter {
     objects_.text() += ']';
   }
 
-  /// One entry for each role, and for each facet the number of its role.
-  void add_semantics(const GeneratedBuilding& building) {
+  /// One entry for each role, in LoD3 also for windows and doors, and for each facet the number of its entry.
+  void add_semantics(std::span<const GeneratedFacet> facets, bool closed) {
     constexpr std::array roles{FacetRole::roof, FacetRole::wall, FacetRole::ground, FacetRole::outer_ceiling};
     objects_.text() += ",\"semantics\":{\"surfaces\":[";
     for (const FacetRole role : roles)
       fmt::format_to(out(), FMT_STRING("{}{{\"type\":\"{}\"}}"), role == roles.front() ? "" : ",", surface_type(role));
-    objects_.text() += "],\"values\":[";
-    for (const GeneratedFacet& facet : building.facets)
-      fmt::format_to(out(), FMT_STRING("{}{}"), &facet == &building.facets.front() ? '[' : ',', static_cast<int>(facet.role));
-    objects_.text() += "]]}";
+    if (header_.lod >= 3) objects_.text() += R"(,{"type":"Window"},{"type":"Door"})";
+    objects_.text() += closed ? "],\"values\":[" : "],\"values\":";
+    for (const GeneratedFacet& facet : facets)
+      fmt::format_to(out(), FMT_STRING("{}{}"), &facet == facets.data() ? '[' : ',', semantic_number(facet));
+    objects_.text() += closed ? "]]}" : "]}";
+  }
+
+  [[nodiscard]] static int semantic_number(const GeneratedFacet& facet) {
+    if (facet.filling == Filling::none) return static_cast<int>(facet.role);
+    return facet.filling == Filling::window ? 4 : 5;
   }
 
   void add_vertices(const GeneratedBuilding& building) {
@@ -112,6 +155,7 @@ class CityJsonWriter final : public GeneratedCityWriter {
   CityHeader header_;
   CityTextFile objects_, vertices_;
   std::uint64_t vertices_before_ = 0;
+  bool is_first_ = true;
 };
 
 }  // namespace

@@ -25,20 +25,8 @@ class GeoJsonWriter final : public GeneratedCityWriter {
   }
 
   void add(const GeneratedBuilding& building) override {
-    std::string& text = file_.text();
-    text += first_ ? "\n" : ",\n";
-    first_ = false;
-    fmt::format_to(std::back_inserter(text), R"({{"type":"Feature","properties":{{"id":"{}","height":)", building.id);
-    append_metres(text, building.top_mm - building.base_mm);
-    text += R"(,"base":)";
-    append_metres(text, building.base_mm);
-    text += R"(},"geometry":{"type":"Polygon","coordinates":[)";
-    add_ring(building.footprint);
-    if (!building.footprint_hole.empty()) {
-      text += ',';
-      add_ring(building.footprint_hole);
-    }
-    text += "]}}";
+    for (const GeneratedComponent& component : building.components)
+      if (component.kind != ComponentKind::installation) add_feature(component);
     file_.drain();
   }
 
@@ -48,6 +36,23 @@ class GeoJsonWriter final : public GeneratedCityWriter {
   }
 
  private:
+  void add_feature(const GeneratedComponent& component) {
+    std::string& text = file_.text();
+    text += first_ ? "\n" : ",\n";
+    first_ = false;
+    fmt::format_to(std::back_inserter(text), R"({{"type":"Feature","properties":{{"id":"{}","height":)", component.id);
+    append_metres(text, component.top_mm - component.base_mm);
+    text += R"(,"base":)";
+    append_metres(text, component.base_mm);
+    text += R"(},"geometry":{"type":"Polygon","coordinates":[)";
+    add_ring(component.footprint);
+    if (!component.footprint_hole.empty()) {
+      text += ',';
+      add_ring(component.footprint_hole);
+    }
+    text += "]}}";
+  }
+
   void add_ring(const std::vector<PlanPointMm>& ring) {
     std::string& text = file_.text();
     // A ring of GeoJSON ends with its first point again

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "generator/convex_faces.hpp"
 
+#include <cmath>
 #include <optional>
+#include <utility>
 
 #include "farlod/expects.hpp"
+#include "generator/plane_polygons.hpp"
 
 namespace farlod {
 namespace {
@@ -43,9 +46,53 @@ namespace {
   return faces;
 }
 
+/// The facet's corners without the coordinate along which its normal is longest, so that its outer ring runs
+/// counter-clockwise.
+[[nodiscard]] std::vector<GridPoint> in_its_plane(const GeneratedFacet& facet, std::span<const PointMm> vertices,
+                                                  std::span<const std::uint32_t> numbers) {
+  PointMm normal;
+  for (std::size_t k = 1; k + 1 < facet.outer.size(); ++k)
+    normal = normal +
+             cross(vertices[facet.outer[k]] - vertices[facet.outer[0]], vertices[facet.outer[k + 1]] - vertices[facet.outer[0]]);
+  const double x = std::abs(static_cast<double>(normal.x)), y = std::abs(static_cast<double>(normal.y)),
+               z = std::abs(static_cast<double>(normal.z));
+  std::vector<GridPoint> result;
+  for (const std::uint32_t k : numbers) {
+    const PointMm& p = vertices[k];
+    if (x >= y && x >= z) {
+      result.push_back(normal.x > 0 ? GridPoint{p.y, p.z} : GridPoint{-p.y, p.z});
+    } else if (y >= z) {
+      result.push_back(normal.y > 0 ? GridPoint{-p.x, p.z} : GridPoint{p.x, p.z});
+    } else {
+      result.push_back(normal.z > 0 ? GridPoint{p.x, p.y} : GridPoint{-p.x, p.y});
+    }
+  }
+  return result;
+}
+
+[[nodiscard]] std::vector<FaceRing> triangles_around_openings(const GeneratedFacet& facet, std::span<const PointMm> vertices) {
+  FARLOD_EXPECTS(facet.hole.empty());
+  std::vector<std::uint32_t> numbers;
+  std::vector<std::vector<std::uint32_t>> rings;
+  const auto add = [&](const FaceRing& ring) {
+    std::vector<std::uint32_t>& rows = rings.emplace_back();
+    for (const std::uint32_t k : ring) {
+      rows.push_back(static_cast<std::uint32_t>(numbers.size()));
+      numbers.push_back(k);
+    }
+  };
+  add(facet.outer);
+  for (const FaceRing& opening : facet.openings) add(opening);
+  std::vector<FaceRing> faces;
+  for (const GridTriangle& t : triangles(in_its_plane(facet, vertices, numbers), std::move(rings)))
+    faces.push_back({numbers[t[0]], numbers[t[1]], numbers[t[2]]});
+  return faces;
+}
+
 }  // namespace
 
 std::vector<FaceRing> convex_faces(const GeneratedFacet& facet, std::span<const PointMm> vertices) {
+  if (!facet.openings.empty()) return triangles_around_openings(facet, vertices);
   if (!facet.hole.empty()) return frame_around_hole(facet);
   const std::optional<std::size_t> corner = reentrant_corner(facet.outer, vertices);
   if (!corner) return {facet.outer};

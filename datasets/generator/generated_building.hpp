@@ -15,31 +15,50 @@ namespace farlod {
 /// What a facet is to its building, in the words of CityGML.
 enum class FacetRole : std::uint8_t { roof, wall, ground, outer_ceiling };
 
+/// What a facet fills an opening of a wall with.
+enum class Filling : std::uint8_t { none, window, door };
+
 /// A planar polygon by vertex numbers, counter-clockwise seen from outside; rings are not closed. A facet with a hole has as
 /// many corners in the hole as in the outer ring, and hole corner (n − k) mod n lies opposite to outer corner k.
 struct GeneratedFacet {
   FacetRole role = FacetRole::wall;
-  std::vector<std::uint32_t> outer;
-  std::vector<std::uint32_t> hole;  ///< clockwise; empty if there is none
+  std::vector<std::uint32_t> outer = {};
+  std::vector<std::uint32_t> hole = {};                   ///< clockwise; empty if there is none
+  std::vector<std::vector<std::uint32_t>> openings = {};  ///< of a wall: further holes, clockwise
+  Filling filling = Filling::none;                        ///< the role of a window or a door is that of a wall
+  std::size_t in_wall = 0;                                ///< of a window or a door: the facet whose opening it fills
 };
 
 /// A point of a footprint, in whole millimetres.
 using PlanPointMm = std::array<std::int64_t, 2>;
 
-/// A building as a closed solid.
-///   (1) each edge of its facets is used twice, once in each direction
-///   (2) its facets look outwards
+/// What a component is to its building: all of it, a BuildingPart, or a BuildingInstallation.
+enum class ComponentKind : std::uint8_t { body, part, installation };
+
+/// A run of a building's facets that form one solid. Two components have no vertex in common.
+struct GeneratedComponent {
+  ComponentKind kind = ComponentKind::body;
+  std::string id;      ///< of the body: that of the building
+  bool closed = true;  ///< whether its facets enclose a volume without a gap
+  std::size_t first_facet = 0, facet_count = 0;
+  /// What it covers, seen from above: counter-clockwise, and clockwise around a court. Installations have none.
+  std::vector<PlanPointMm> footprint = {}, footprint_hole = {};
+  std::int64_t base_mm = 0, top_mm = 0;  ///< its lowest and highest elevation
+};
+
+/// A building: one body, or parts, and then installations.
+///   (1) each edge of a closed component's facets is used twice, once in each direction
+///   (2) facets look outwards
 ///   (3) the corners of a facet lie within `planarity_mm` of a plane, which rounding to millimetres alone spends
 struct GeneratedBuilding {
   std::string id;  ///< unique in the city; fit to be an XML id
   BuildingKind kind = BuildingKind::detached;
   int storeys = 1;
-  std::vector<PointMm> vertices;  ///< each place once, city frame
+  std::vector<PointMm> vertices;  ///< city frame; each place once in a component
   std::vector<GeneratedFacet> facets;
-  /// What the building covers, seen from above: counter-clockwise, and clockwise around a court.
-  std::vector<PlanPointMm> footprint;
-  std::vector<PlanPointMm> footprint_hole;
-  std::int64_t base_mm = 0, top_mm = 0;  ///< lowest and highest elevation of the solid
+  std::vector<GeneratedComponent> components;          ///< never empty; together they hold all facets, in order
+  std::vector<PlanPointMm> footprint, footprint_hole;  ///< of the first component
+  std::int64_t base_mm = 0, top_mm = 0;                ///< lowest and highest elevation of the building
 
   [[nodiscard]] double height_m() const { return static_cast<double>(top_mm - base_mm) * 1e-3; }
 };

@@ -7,7 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/building_solid.hpp"
+#include "generator/block_buildings.hpp"
+#include "generator/building_plan.hpp"
 
 namespace farlod {
 namespace {
@@ -26,17 +27,9 @@ constexpr std::int64_t counted_blocks = 1500;
 }  // namespace
 
 std::vector<GeneratedBuilding> buildings_of_block(const CitySettings& settings, CityBlock block) {
-  const UrbanField field(settings);
   const PlanRotation rotation(settings.rotation_deg);
   std::vector<GeneratedBuilding> result;
-  const auto add_all = [&](const char* prefix, const std::vector<BuildingPlan>& plans) {
-    for (std::size_t k = 0; k < plans.size(); ++k) {
-      result.push_back(raise(plans[k], base_m(field, plans[k]), rotation, settings.lod));
-      result.back().id = fmt::format("{}_{}_{}_{}", prefix, block.i, block.j, k);
-    }
-  };
-  add_all("building", plans_of_block(settings, block));
-  add_all("bridge", bridges_of_block(settings, block));
+  for (const PlanBuilding& building : raise_block(settings, block)) result.push_back(in_city(building, rotation));
   return result;
 }
 

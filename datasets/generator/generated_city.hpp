@@ -13,7 +13,7 @@ namespace farlod {
 
 /// All that stands on a block, and the bridges that start from it. A pure function: blocks can be made in any order.
 ///   (1) same settings and block, same buildings, on every machine
-///   (2) ids are unique in the city, and do not depend on rotation, level of detail or overhangs
+///   (2) ids are unique in the city, and do not depend on the rotation, the level of detail or what is added to buildings
 [[nodiscard]] std::vector<GeneratedBuilding> buildings_of_block(const CitySettings& settings, CityBlock block);
 
 /// Called with each building, and after each block with the number of blocks done.

@@ -49,7 +49,13 @@ enum class RandomStream : std::uint64_t {
   street_line,
   urbanity_noise,
   ground_noise,
-  sub_centre
+  sub_centre,
+  hillside_line,
+  building_parts,
+  projecting_floors,
+  wrong_base,
+  balconies,
+  facade
 };
 
 [[nodiscard]] constexpr std::uint64_t key_of(RandomStream stream) { return static_cast<std::uint64_t>(stream); }

@@ -12,6 +12,8 @@ constexpr double least_depth_of_two_rows_m = 44.0;
 /// Shares of lots, and of houses.
 constexpr double empty_lot_share = 0.06, pair_share = 0.25, l_share = 0.2, outbuilding_share = 0.45, gap_share = 0.04;
 constexpr double flat_house_share = 0.1, flat_front_share = 0.25;
+/// A terrace has a gap after about so many houses.
+constexpr double terrace_gap_share = 0.08;
 
 /// A row of lots along one side of a block.
 struct LotRow {
@@ -131,6 +133,25 @@ void build_detached_houses(BlockSite& site) {
         next = Placing::against_previous;
       }
       if (!empty) add_house(site, row, lots[k], placing);
+    }
+  }
+}
+
+void build_terraces(BlockSite& site) {
+  for (const LotRow& row : rows_of(site)) {
+    const double length_m = side_length_m(site.rectangle, row.frame.side);
+    const double garden_m = on_plan_grid_m(site.random.between(2.0, 5.0));
+    const double widest_depth_m = on_plan_grid_m(row.depth_m - garden_m - 2.0);
+    const double depth_m = std::min(on_plan_grid_m(site.random.between(8.5, 11.5)), widest_depth_m);
+    for (const LotSpan& lot : cut_into_lots(site.random, {0.0, length_m}, 6.0, 9.5)) {
+      BuildingPlan house{.lot = moved(row.frame, lot.begin_m, garden_m), .width_m = lot.width_m, .depth_m = depth_m};
+      house.kind = BuildingKind::attached;
+      set_storeys(site, house, site.random.whole(2, 3));
+      const bool flat = site.random.chance(flat_house_share);
+      set_pitched_roof(site, house, 1.0);
+      if (flat) house.roof = RoofShape::flat, house.roof_rise_m = 0.0;
+      const bool gap = site.random.chance(terrace_gap_share);
+      if (!gap && depth_m >= 5.0) site.plans.push_back(house);
     }
   }
 }

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "generator/solid_builder.hpp"
 
-#include <algorithm>
 #include <array>
 #include <utility>
+
+#include "farlod/expects.hpp"
 
 namespace farlod {
 namespace {
@@ -17,31 +18,20 @@ namespace {
 
 }  // namespace
 
-PointMm SolidBuilder::city_from_lot(const Point3d& p_lot) const {
-  const Point2d p_city = rotation_.city_from_plan(lot_.plan_from_lot(horizontal(p_lot)));
-  return {millimetres(p_city.x), millimetres(p_city.y), base_mm_ + millimetres(p_lot.z)};
-}
-
-std::uint32_t SolidBuilder::vertex(const Point3d& p_lot) {
-  const PointMm p = city_from_lot(p_lot);
-  // A building has a few dozen corners at most: walking over them is the fastest search
-  const auto known = std::ranges::find(building_.vertices, p);
-  const auto number = static_cast<std::uint32_t>(known - building_.vertices.begin());
-  if (known == building_.vertices.end()) building_.vertices.push_back(p);
-  return number;
-}
-
-std::vector<std::uint32_t> SolidBuilder::vertices(std::span<const Point3d> ring_lot) {
-  std::vector<std::uint32_t> numbers;
-  numbers.reserve(ring_lot.size());
-  for (const Point3d& p : ring_lot) numbers.push_back(vertex(p));
-  return numbers;
+PlanRing SolidBuilder::in_plan(std::span<const Point3d> ring_lot) const {
+  PlanRing result;
+  result.reserve(ring_lot.size());
+  for (const Point3d& p : ring_lot) {
+    const Point2d p_plan = lot_.plan_from_lot(horizontal(p));
+    result.push_back({p_plan.x, p_plan.y, p.z});
+  }
+  return result;
 }
 
 void SolidBuilder::add_facet(FacetRole role, std::span<const Point3d> outer_lot, std::span<const Point3d> hole_lot) {
   FARLOD_EXPECTS(hole_lot.empty() || hole_lot.size() == outer_lot.size());
-  std::vector<std::uint32_t> outer = vertices(outer_lot);
-  building_.facets.push_back({role, std::move(outer), vertices(hole_lot)});
+  PlanFacet facet{.role = role, .outer = in_plan(outer_lot), .hole = in_plan(hole_lot)};
+  solid_.facets.push_back(std::move(facet));
 }
 
 void SolidBuilder::add_cap(FacetRole role, const LotRing& ring, double z_m, const LotRing& hole) {
@@ -60,24 +50,13 @@ void SolidBuilder::add_walls(const LotRing& ring, double low_m, double high_m) {
 }
 
 void SolidBuilder::set_footprint(const LotRing& ring, const LotRing& hole) {
-  const auto in_city = [this](const LotRing& lot_ring) {
-    std::vector<PlanPointMm> result;
-    for (const Point2d p : lot_ring) {
-      const PointMm p_city = city_from_lot({p.x, p.y, 0.0});
-      result.push_back({p_city.x, p_city.y});
-    }
-    return result;
-  };
-  building_.footprint = in_city(ring);
-  building_.footprint_hole = in_city(reversed_ring(hole));
+  for (const Point2d p : ring) solid_.footprint.push_back(lot_.plan_from_lot(p));
+  for (const Point2d p : reversed_ring(hole)) solid_.footprint_hole.push_back(lot_.plan_from_lot(p));
 }
 
-GeneratedBuilding SolidBuilder::finish() {
-  FARLOD_EXPECTS(!building_.vertices.empty());
-  const auto [lowest, highest] = std::ranges::minmax_element(building_.vertices, {}, &PointMm::z);
-  building_.base_mm = lowest->z;
-  building_.top_mm = highest->z;
-  return std::exchange(building_, {});
+PlanSolid SolidBuilder::finish() {
+  FARLOD_EXPECTS(!solid_.facets.empty());
+  return std::move(solid_);
 }
 
 }  // namespace farlod

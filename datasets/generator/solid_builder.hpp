@@ -5,21 +5,16 @@
 #include <span>
 #include <vector>
 
-#include "farlod/expects.hpp"
-#include "generator/generated_building.hpp"
+#include "generator/plan_solid.hpp"
 
 namespace farlod {
 
-using LotRing = std::vector<Point2d>;
-
-/// Puts facets given in a lot's frame together to a solid in the city frame. Corners that are the same millimetre become one
-/// vertex, so that neighbouring facets share their edges.
+/// Puts facets given in a lot's frame together to a solid in the plan frame.
 class SolidBuilder {
  public:
-  SolidBuilder(const LotFrame& lot, const PlanRotation& rotation, double base_m)
-      : lot_(lot), rotation_(rotation), base_mm_(millimetres(base_m)) {}
+  SolidBuilder(const LotFrame& lot, double ground_m) : lot_(lot) { solid_.ground_m = ground_m; }
 
-  /// Corners counter-clockwise seen from outside; z counts from the base.
+  /// Corners counter-clockwise seen from outside; z counts from the ground.
   void add_facet(FacetRole role, std::span<const Point3d> outer_lot, std::span<const Point3d> hole_lot = {});
   /// A horizontal facet at height z over a counter-clockwise ring and around a counter-clockwise hole.
   void add_cap(FacetRole role, const LotRing& ring, double z_m, const LotRing& hole = {});
@@ -29,18 +24,17 @@ class SolidBuilder {
   void add_walls(const LotRing& ring, double low_m, double high_m);
   void set_footprint(const LotRing& ring, const LotRing& hole);
 
+  /// Notes that the facets do not enclose a volume.
+  void leave_open() { solid_.closed = false; }
+
   /// The solid; the builder is empty afterwards.
-  [[nodiscard]] GeneratedBuilding finish();
+  [[nodiscard]] PlanSolid finish();
 
  private:
-  [[nodiscard]] PointMm city_from_lot(const Point3d& p_lot) const;
-  [[nodiscard]] std::uint32_t vertex(const Point3d& p_lot);
-  [[nodiscard]] std::vector<std::uint32_t> vertices(std::span<const Point3d> ring_lot);
+  [[nodiscard]] PlanRing in_plan(std::span<const Point3d> ring_lot) const;
 
   LotFrame lot_;
-  PlanRotation rotation_;
-  std::int64_t base_mm_;
-  GeneratedBuilding building_;
+  PlanSolid solid_;
 };
 
 /// The ring walked the other way, from the same corner.

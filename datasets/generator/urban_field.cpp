@@ -12,6 +12,9 @@ namespace {
 
 /// Smaller centres: one in each square of this edge.
 constexpr double sub_centre_spacing_m = 4000.0;
+/// Slopes of a hillside along its direction, and how high its ridges are above its valleys.
+constexpr double gentlest_slope = 0.10, steepest_slope = 0.25, hillside_rise_m = 24.0;
+constexpr Point2d uphill{0.96, 0.28};
 
 /// Value noise in [0, 1): random numbers at the nodes of a square net, smoothly interpolated.
 [[nodiscard]] double smooth_noise(std::uint64_t seed, RandomStream stream, double net_m, Point2d p) {
@@ -42,6 +45,7 @@ double smooth_step(double low, double high, double x) {
 UrbanField::UrbanField(const CitySettings& settings)
     : seed_(settings.seed),
       relief_m_(settings.terrain_relief_m),
+      hillside_(settings.hillside),
       peak_(0.25 + 0.75 * smooth_step(120.0, 480.0, settings.size_m)),
       core_radius_m_(std::clamp(0.17 * settings.size_m, 120.0, 1500.0)) {}
 
@@ -71,7 +75,27 @@ double UrbanField::sub_centre_urbanity(Point2d p_plan) const {
   return densest;
 }
 
+/// Valleys (even numbers) and ridges (odd numbers), so far apart that every slope between them is in the range.
+double UrbanField::hillside_line_m(std::int64_t number) const {
+  constexpr double widest_m = hillside_rise_m / gentlest_slope, narrowest_m = hillside_rise_m / steepest_slope;
+  constexpr double shift_m = 0.25 * (widest_m - narrowest_m);
+  KeyedRandom random({seed_, key_of(RandomStream::hillside_line), key_of(number)});
+  return static_cast<double>(number) * 0.5 * (widest_m + narrowest_m) + random.between(-shift_m, shift_m);
+}
+
+double UrbanField::hillside_m(Point2d p_plan) const {
+  constexpr double mean_spacing_m = 0.5 * (hillside_rise_m / gentlest_slope + hillside_rise_m / steepest_slope);
+  const double along_m = dot(uphill, p_plan);
+  // Lines shift by less than half their spacing: the place lies between two of these
+  auto line = static_cast<std::int64_t>(std::floor(along_m / mean_spacing_m)) - 1;
+  while (hillside_line_m(line + 1) <= along_m) ++line;
+  const double low_m = hillside_line_m(line), high_m = hillside_line_m(line + 1);
+  const double share = (along_m - low_m) / (high_m - low_m);
+  return hillside_rise_m * (line % 2 == 0 ? share : 1.0 - share);
+}
+
 double UrbanField::ground_m(Point2d p_plan) const {
+  if (hillside_) return hillside_m(p_plan);
   if (relief_m_ == 0.0) return 0.0;
   const double hills = smooth_noise(seed_, RandomStream::ground_noise, 1100.0, p_plan);
   const double knolls = smooth_noise(seed_, RandomStream::ground_noise, 400.0, p_plan);

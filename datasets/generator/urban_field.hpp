@@ -15,7 +15,8 @@ class UrbanField {
   /// From 0 (the last houses) to 1 (the heart of the core). Falls with the square of the distance from the centre, and
   /// again from smaller centres some kilometres apart; modulated so that no two directions are alike.
   [[nodiscard]] double urbanity(Point2d p_plan) const;
-  /// Height of the ground, in [0, relief].
+  /// Height of the ground, in [0, relief]; on a hillside in [0, 24]. A hillside falls and rises along one direction, which
+  /// is oblique to the streets, by 10 to 25 %, with straight ridges and valleys.
   [[nodiscard]] double ground_m(Point2d p_plan) const;
 
   /// The core is where the urbanity is at least this.
@@ -23,9 +24,12 @@ class UrbanField {
 
  private:
   [[nodiscard]] double sub_centre_urbanity(Point2d p_plan) const;
+  [[nodiscard]] double hillside_m(Point2d p_plan) const;
+  [[nodiscard]] double hillside_line_m(std::int64_t number) const;
 
   std::uint64_t seed_;
   double relief_m_;
+  bool hillside_;
   double peak_;           ///< urbanity at the centre: a village has no core
   double core_radius_m_;  ///< where half of it is left
 };

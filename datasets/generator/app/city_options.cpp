@@ -52,13 +52,26 @@ void add_other_options(CLI::App& app, RawOptions& raw, CityOptions& o) {
   app.add_option("--buildings", raw.buildings, "Choose the size such that the city has about so many buildings")
       ->excludes("--size")
       ->group("City");
-  app.add_flag("--overhangs", o.settings.overhangs, "Add pedestrian bridges across streets, and arcades under upper floors")
-      ->group("Buildings");
+  CitySettings::describe_switches(o.settings, [&app](const char* name, bool& value, const char* help) {
+    app.add_flag(std::string("--") + name, value, help)->group("Buildings");
+  });
   app.add_option("--crs", raw.crs, "CRS that the file names, as EPSG:n: projected, in metres, easting first")
       ->capture_default_str()
       ->group("Place");
   add_run_options(app, "farlod-city", o.run);
   app.get_option("--threads")->description("As for the other programs; a city is written by one thread");
+}
+
+/// GeoJSON holds footprints with heights: it refuses what neither a footprint nor its height can show.
+void check_geojson(const CitySettings& settings) {
+  const std::pair<const char*, bool> lost[] = {{"--open-shells", settings.open_shells},
+                                               {"--eaves", settings.eaves_m > 0.0},
+                                               {"--balconies", settings.balconies},
+                                               {"--projecting-floors", settings.projecting_floors},
+                                               {"--facade-details", settings.facade_details}};
+  for (const auto& [option, is_asked] : lost)
+    if (is_asked)
+      throw CLI::ValidationError(option, "cannot be shown by the footprints of .geojson; write .gml, .city.json or .obj");
 }
 
 void understand(const RawOptions& raw, const CLI::App& app, CityOptions& o) {
@@ -71,6 +84,7 @@ void understand(const RawOptions& raw, const CLI::App& app, CityOptions& o) {
   if (!epsg) throw CLI::ValidationError("--crs", "\"" + raw.crs + "\" is not like EPSG:32632");
   o.settings.epsg = *epsg;
   check(o.settings);
+  if (o.format == CityFormat::geojson) check_geojson(o.settings);
   if (app.count("--buildings") > 0) o.settings.size_m = size_for_buildings_m(o.settings, raw.buildings);
 }
 

@@ -48,13 +48,14 @@ void for_each_block(const CitySettings& settings, Check check_block) {
 }
 
 std::vector<CitySettings> various_cities() {
-  CitySettings plain, towers, narrow, wide;
+  CitySettings plain, towers, narrow, wide, hillside;
   plain.size_m = 2000.0;
   towers.size_m = 700.0, towers.tower_share = 1.0, towers.seed = 5;
   narrow.size_m = 1200.0, narrow.avenue_spacing_m = narrow.street_spacing_m = 60.0;
   narrow.avenue_width_m = narrow.street_width_m = 15.0;
   wide.size_m = 3000.0, wide.avenue_spacing_m = 90.0, wide.street_spacing_m = 600.0, wide.seed = 9;
-  return {plain, towers, narrow, wide};
+  hillside.size_m = 1500.0, hillside.hillside = true, hillside.seed = 3;
+  return {plain, towers, narrow, wide, hillside};
 }
 
 TEST(BlockPlans, NoBuildingLeavesItsBlock) {
@@ -134,6 +135,18 @@ TEST(BlockPlans, TowersHaveTheirShareOfTheCore) {
     // Five standard deviations of a binomial count, none for never and always
     EXPECT_LE(std::abs(towers - share * all), 5.0 * std::sqrt(all * share * (1.0 - share))) << towers << " of " << all;
   }
+}
+
+TEST(BlockPlans, HillsidesHaveNoDetachedHouses) {
+  int attached = 0;
+  const CitySettings settings = various_cities()[4];
+  for_each_block(settings, [&](const CityLayout&, CityBlock block) {
+    for (const BuildingPlan& plan : plans_of_block(settings, block)) {
+      EXPECT_NE(plan.kind, BuildingKind::detached);
+      attached += plan.kind == BuildingKind::attached ? 1 : 0;
+    }
+  });
+  EXPECT_GT(attached, 1000);
 }
 
 TEST(BlockPlans, OverhangsChangeNothingButGroundFloors) {

@@ -28,6 +28,32 @@ TEST(CitySettings, EachSettingIsRefusedBeyondItsRangeAndTheMessageNamesIt) {
   EXPECT_GT(settings_seen, 0);
 }
 
+TEST(CitySettings, RefusesOnPrismsWhatNeedsRoofsOrStoreys) {
+  CitySettings eaves, balconies, facades;
+  eaves.eaves_m = 0.5, balconies.balconies = true, facades.facade_details = true;
+  for (auto& [settings, name] : {std::pair{&eaves, "--eaves"}, {&balconies, "--balconies"}, {&facades, "--facade-details"}}) {
+    EXPECT_THAT([&s = *settings] { check(s); }, ThrowsMessage<SettingsError>(HasSubstr(name)));
+    settings->lod = 2;
+    EXPECT_NO_THROW(check(*settings));
+  }
+}
+
+TEST(CitySettings, AHillsideIsTheOnlyGround) {
+  CitySettings settings;
+  settings.hillside = true;
+  EXPECT_NO_THROW(check(settings));
+  settings.terrain_relief_m = 20.0;
+  EXPECT_THAT([&] { check(settings); }, ThrowsMessage<SettingsError>(HasSubstr("--terrain-relief")));
+}
+
+TEST(CitySettings, FacadesAreLevelOfDetail3) {
+  CitySettings settings;
+  settings.lod = 2;
+  EXPECT_EQ(written_lod(settings), 2);
+  settings.facade_details = true;
+  EXPECT_EQ(written_lod(settings), 3);
+}
+
 TEST(CitySettings, RefusesWhatIsNotANumber) {
   CitySettings settings;
   settings.size_m = std::numeric_limits<double>::quiet_NaN();

@@ -11,6 +11,7 @@
 #include "generator/city_writer.hpp"
 #include "generator/convex_faces.hpp"
 #include "generator/generated_city.hpp"
+#include "tests/datasets/generator/solid_geometry.hpp"
 #include "tests/datasets/generator/written_city.hpp"
 
 namespace farlod {
@@ -45,21 +46,37 @@ PlaceMm placed(const CitySettings& settings, std::int64_t x_mm, std::int64_t y_m
 enum class Polygons { facets, convex_faces, none };
 enum class Places { solid, footprint };
 
-/// The city as the library makes it, in the terms of a format.
+/// The city as the library makes it, in the terms of a format: `Polygons::facets` stands for formats that know solids and
+/// components, and `Places::footprint` for those that have a feature for each part.
 WrittenCity expected_city(const CitySettings& settings, Polygons polygons, Places places) {
   WrittenCity city{settings.epsg, {}};
+  const auto add_footprint = [&](const GeneratedComponent& c) {
+    if (c.kind == ComponentKind::installation) return;
+    WrittenBuilding& b = city.buildings[c.id];
+    b.base_mm = c.base_mm;
+    b.height_mm = c.top_mm - c.base_mm;
+    for (const auto* ring : {&c.footprint, &c.footprint_hole})
+      for (const PlanPointMm& p : *ring) b.places.insert({placed(settings, p[0], p[1], 0)});
+  };
   visit_city(settings, {.building = [&](const GeneratedBuilding& building) {
+               if (places == Places::footprint) {
+                 for (const GeneratedComponent& c : building.components) add_footprint(c);
+                 return;
+               }
                WrittenBuilding& b = city.buildings[building.id];
                b.base_mm = building.base_mm;
                b.height_mm = building.top_mm - building.base_mm;
-               if (polygons == Polygons::facets) b.polygons = building.facets.size();
-               if (polygons == Polygons::convex_faces)
+               for (const PointMm& p : building.vertices) b.places.insert(placed(settings, p.x, p.y, p.z));
+               if (polygons == Polygons::convex_faces) {
                  for (const GeneratedFacet& facet : building.facets) b.polygons += convex_faces(facet, building.vertices).size();
-               if (places == Places::solid)
-                 for (const PointMm& p : building.vertices) b.places.insert(placed(settings, p.x, p.y, p.z));
-               if (places == Places::footprint)
-                 for (const auto* ring : {&building.footprint, &building.footprint_hole})
-                   for (const PlanPointMm& p : *ring) b.places.insert({placed(settings, p[0], p[1], 0)});
+                 return;
+               }
+               b.polygons = building.facets.size();
+               for (const GeneratedComponent& c : building.components) {
+                 b.solids += c.closed ? 1 : 0;
+                 if (c.kind != ComponentKind::body) b.children.insert(c.id);
+               }
+               b.said_by_children = b.children;
              }});
   return city;
 }
@@ -74,7 +91,10 @@ void expect_same(const WrittenCity& read, const WrittenCity& expected) {
     EXPECT_EQ(found.base_mm, building.base_mm) << id;
     EXPECT_EQ(found.height_mm, building.height_mm) << id;
     EXPECT_EQ(found.polygons, building.polygons) << id;
+    EXPECT_EQ(found.solids, building.solids) << id;
     EXPECT_EQ(found.places, building.places) << id;
+    EXPECT_EQ(found.children, building.children) << id;
+    EXPECT_EQ(found.said_by_children, building.said_by_children) << id;
   }
 }
 
@@ -108,6 +128,110 @@ TEST_P(CityWriters, GeoJsonHoldsTheFootprints) {
 TEST_P(CityWriters, NothingIsLeftBesideTheCity) {
   for (const char* name : {"city.gml", "city.city.json", "city.obj", "city.geojson"}) write(settings_, folder_ / name);
   EXPECT_EQ(folder_.file_count(), 4U);
+}
+
+class CityWritersOfOptions : public ::testing::TestWithParam<int> {
+ protected:
+  ScratchFolder folder_;
+  CitySettings settings_ = cities_with_each_option().at(static_cast<std::size_t>(GetParam()));
+};
+INSTANTIATE_TEST_SUITE_P(Option, CityWritersOfOptions, ::testing::Range(0, 9));
+
+TEST_P(CityWritersOfOptions, EachFormatHoldsTheCity) {
+  settings_.size_m = 350.0;
+  const WrittenCity expected = expected_city(settings_, Polygons::facets, Places::solid);
+  write(settings_, folder_ / "city.gml");
+  expect_same(read_citygml(folder_ / "city.gml"), expected);
+  write(settings_, folder_ / "city.city.json");
+  expect_same(read_cityjson(folder_ / "city.city.json"), expected);
+  write(settings_, folder_ / "city.obj");
+  expect_same(read_obj(folder_ / "city.obj"), expected_city(settings_, Polygons::convex_faces, Places::solid));
+  write(settings_, folder_ / "city.geojson");
+  expect_same(read_geojson(folder_ / "city.geojson"), expected_city(settings_, Polygons::none, Places::footprint));
+}
+
+CitySettings town(void (*switch_on)(CitySettings&)) {
+  CitySettings settings = small_city(2);
+  switch_on(settings);
+  return settings;
+}
+
+TEST(CityGmlWriter, OpenShellsHaveNoSolid) {
+  const ScratchFolder folder;
+  for (const int lod : {1, 2}) {
+    CitySettings settings = small_city(lod);
+    settings.open_shells = true, settings.overhangs = false;
+    write(settings, folder / "city.gml");
+    const std::string text = text_of(folder / "city.gml");
+    EXPECT_EQ(count_of(text, "Solid>"), 0U);
+    EXPECT_EQ(count_of(text, "<bldg:lod1MultiSurface>") > 0, lod == 1);
+    EXPECT_EQ(count_of(text, "<bldg:lod2MultiSurface>") > 0, lod == 2);
+  }
+}
+
+TEST(CityGmlWriter, WindowsAndDoorsAreOpeningsOfTheirWalls) {
+  const ScratchFolder folder;
+  const CitySettings settings = town([](CitySettings& s) { s.facade_details = true; });
+  write(settings, folder / "city.gml");
+  const std::string text = text_of(folder / "city.gml");
+  std::size_t windows = 0, doors = 0, holes = 0;
+  visit_city(settings, {.building = [&](const GeneratedBuilding& building) {
+               for (const GeneratedFacet& facet : building.facets) {
+                 windows += facet.filling == Filling::window ? 1 : 0;
+                 doors += facet.filling == Filling::door ? 1 : 0;
+                 holes += facet.openings.size() + (facet.hole.empty() ? 0 : 1);
+               }
+             }});
+  EXPECT_GT(windows, 0U);
+  EXPECT_GT(doors, 0U);
+  EXPECT_EQ(count_of(text, "<bldg:opening><bldg:Window gml:id="), windows);
+  EXPECT_EQ(count_of(text, "<bldg:opening><bldg:Door gml:id="), doors);
+  EXPECT_EQ(count_of(text, "<gml:interior>"), holes);
+  EXPECT_EQ(count_of(text, "lod2"), 0U);
+  EXPECT_GT(count_of(text, "<bldg:lod3Solid>"), 0U);
+  EXPECT_GT(count_of(text, "<bldg:lod3Geometry>"), 0U);
+  // An opening follows the polygon of its wall, and is followed by another or by the end of the wall
+  EXPECT_EQ(count_of(text, "</bldg:opening>\n<bldg:opening>") + count_of(text, "</bldg:opening></bldg:WallSurface>"),
+            windows + doors);
+}
+
+TEST(CityJsonWriter, NamesWindowsAndDoors) {
+  const ScratchFolder folder;
+  const CitySettings settings = town([](CitySettings& s) { s.facade_details = true; });
+  write(settings, folder / "city.city.json");
+  const auto json = nlohmann::json::parse(text_of(folder / "city.city.json"));
+  const std::map<Filling, std::string> type_of{{Filling::window, "Window"}, {Filling::door, "Door"}};
+  visit_city(settings, {.building = [&](const GeneratedBuilding& building) {
+               const auto& geometry = json.at("CityObjects").at(building.id).at("geometry").at(0);
+               EXPECT_EQ(geometry.at("lod"), "3");
+               const auto& semantics = geometry.at("semantics");
+               for (std::size_t k = 0; k < building.components.front().facet_count; ++k) {
+                 const std::string type =
+                     semantics.at("surfaces").at(semantics.at("values").at(0).at(k).get<std::size_t>()).at("type");
+                 const auto expected = type_of.find(building.facets[k].filling);
+                 EXPECT_EQ(type == "Window" || type == "Door", expected != type_of.end());
+                 if (expected != type_of.end()) {
+                   EXPECT_EQ(type, expected->second);
+                 }
+               }
+             }});
+}
+
+TEST(CityJsonWriter, ShellsThatAreNotClosedAreMultiSurfacesWithSemantics) {
+  const ScratchFolder folder;
+  const CitySettings settings = town([](CitySettings& s) { s.eaves_m = 0.5; });
+  write(settings, folder / "city.city.json");
+  const auto json = nlohmann::json::parse(text_of(folder / "city.city.json"));
+  int open = 0;
+  visit_city(settings, {.building = [&](const GeneratedBuilding& building) {
+               const auto& geometry = json.at("CityObjects").at(building.id).at("geometry").at(0);
+               const bool closed = building.components.front().closed;
+               EXPECT_EQ(geometry.at("type"), closed ? "Solid" : "MultiSurface");
+               open += closed ? 0 : 1;
+               const auto& values = geometry.at("semantics").at("values");
+               EXPECT_EQ((closed ? values.at(0) : values).size(), building.facets.size());
+             }});
+  EXPECT_GT(open, 0);
 }
 
 TEST(CityGmlWriter, EnvelopeHoldsTheCityTightly) {

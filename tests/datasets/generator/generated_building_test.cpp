@@ -22,35 +22,88 @@ void for_each_building_of_all_shapes(Check check_building) {
     for (const GeneratedBuilding& building : all_buildings(settings)) check_building(building, settings);
 }
 
+/// Of the cities of all shapes, and of those with each option.
+template <class Check>
+void for_each_component(Check check_component) {
+  std::vector<CitySettings> cities = cities_of_all_shapes();
+  for (const CitySettings& settings : cities_with_each_option()) cities.push_back(settings);
+  for (const CitySettings& settings : cities)
+    for (const GeneratedBuilding& building : all_buildings(settings))
+      for (const GeneratedComponent& component : building.components) check_component(building, component, settings);
+}
+
 TEST(GeneratedBuilding, IsClosed) {
-  for_each_building_of_all_shapes(
-      [](const GeneratedBuilding& building, const CitySettings&) { ASSERT_TRUE(is_closed(rings_of(building))) << building.id; });
+  for_each_building_of_all_shapes([](const GeneratedBuilding& building, const CitySettings&) {
+    ASSERT_EQ(building.components.size(), 1U);
+    ASSERT_TRUE(building.components.front().closed);
+    ASSERT_TRUE(is_closed(rings_of(building))) << building.id;
+  });
+}
+
+TEST(GeneratedBuilding, ComponentsAreClosedWhereTheySaySo) {
+  for_each_component([](const GeneratedBuilding& building, const GeneratedComponent& component, const CitySettings&) {
+    ASSERT_EQ(is_closed(rings_of(building, component)), component.closed) << component.id;
+  });
+}
+
+TEST(GeneratedBuilding, OnlyOpenShellsAndEavesAreNotClosed) {
+  for_each_component([](const GeneratedBuilding& building, const GeneratedComponent& component, const CitySettings& settings) {
+    const bool may_be_open = settings.open_shells || settings.eaves_m > 0.0;
+    if (!may_be_open || component.kind == ComponentKind::installation || building.kind == BuildingKind::bridge) {
+      ASSERT_TRUE(component.closed) << component.id;
+    }
+  });
 }
 
 TEST(GeneratedBuilding, LooksOutwards) {
-  for_each_building_of_all_shapes([](const GeneratedBuilding& building, const CitySettings&) {
-    ASSERT_GT(six_volumes_mm3(rings_of(building), building.vertices), 0) << building.id;
+  for_each_component([](const GeneratedBuilding& building, const GeneratedComponent& component, const CitySettings&) {
+    if (!component.closed) return;
+    ASSERT_GT(six_volumes_mm3(rings_of(building, component), building.vertices), 0) << component.id;
+  });
+}
+
+TEST(GeneratedBuilding, ComponentsHoldAllFacetsAndShareNoVertex) {
+  for_each_component([](const GeneratedBuilding& building, const GeneratedComponent& component, const CitySettings&) {
+    if (&component != &building.components.front()) return;
+    std::size_t facets = 0;
+    std::set<std::uint32_t> of_others;
+    for (const GeneratedComponent& c : building.components) {
+      ASSERT_EQ(c.first_facet, facets) << c.id;
+      facets += c.facet_count;
+      std::set<std::uint32_t> own;
+      for (const RingNumbers& ring : rings_of(building, c)) own.insert(ring.begin(), ring.end());
+      for (const std::uint32_t k : own) ASSERT_TRUE(of_others.insert(k).second) << c.id;
+    }
+    ASSERT_EQ(facets, building.facets.size());
+    ASSERT_EQ(of_others.size(), building.vertices.size());
   });
 }
 
 TEST(GeneratedBuilding, FacetsArePlanarToWhatRoundingSpends) {
-  for_each_building_of_all_shapes([](const GeneratedBuilding& building, const CitySettings&) {
-    for (const GeneratedFacet& facet : building.facets) {
+  for_each_component([](const GeneratedBuilding& building, const GeneratedComponent& component, const CitySettings&) {
+    for (const GeneratedFacet& facet : facets_of(building, component)) {
+      // The corners of openings are many, and the search is slow: a few stand for all
       std::vector<PointMm> points;
       for (const std::uint32_t k : facet.outer) points.push_back(building.vertices[k]);
       for (const std::uint32_t k : facet.hole) points.push_back(building.vertices[k]);
-      ASSERT_LE(least_thickness_mm(points), 2.0 * planarity_mm) << building.id;
+      if (!facet.openings.empty()) points.push_back(building.vertices[facet.openings.back()[2]]);
+      ASSERT_LE(least_thickness_mm(points), 2.0 * planarity_mm) << component.id;
     }
   });
 }
 
 TEST(GeneratedBuilding, VerticesAndFacetsAreNotDegenerate) {
-  for_each_building_of_all_shapes([](const GeneratedBuilding& building, const CitySettings&) {
+  for_each_component([](const GeneratedBuilding& building, const GeneratedComponent& component, const CitySettings&) {
+    std::set<std::uint32_t> numbers;
+    for (const RingNumbers& ring : rings_of(building, component)) {
+      numbers.insert(ring.begin(), ring.end());
+      ASSERT_EQ(std::set(ring.begin(), ring.end()).size(), ring.size()) << component.id;
+      ASSERT_NE(twice_area_mm2(ring, building.vertices), PointMm{}) << component.id;
+    }
     std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> places;
-    for (const PointMm& p : building.vertices) EXPECT_TRUE(places.insert({p.x, p.y, p.z}).second) << building.id;
-    for (const RingNumbers& ring : rings_of(building)) {
-      EXPECT_EQ(std::set(ring.begin(), ring.end()).size(), ring.size()) << building.id;
-      EXPECT_NE(twice_area_mm2(ring, building.vertices), PointMm{}) << building.id;
+    for (const std::uint32_t k : numbers) {
+      const PointMm& p = building.vertices[k];
+      ASSERT_TRUE(places.insert({p.x, p.y, p.z}).second) << component.id;
     }
   });
 }

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -41,15 +42,32 @@ TEST(GeneratedCity, EverySettingOfTheCityMatters) {
   CitySettings::describe(settings, [&](std::string_view name, auto& value, SettingRange range, auto&&...) {
     if (name.starts_with("centre")) return;  // the place of the centre is added by the writers
     const auto before = value;
-    value = static_cast<std::decay_t<decltype(value)>>(
-        static_cast<double>(before) * 0.7 >= range.low ? static_cast<double>(before) * 0.7 : range.low);
+    const double less = std::max(range.low, static_cast<double>(before) * 0.7);
+    const bool is_lowest = static_cast<double>(before) == range.low;
+    value = static_cast<std::decay_t<decltype(value)>>(is_lowest ? 0.5 * (range.low + range.high) : less);
     EXPECT_TRUE(seen.insert(fingerprint(settings)).second) << name;
     value = before;
   });
 }
 
-TEST(GeneratedCity, BlocksDoNotDependOnTheirOrder) {
-  const CitySettings settings = cities_of_all_shapes()[2];
+TEST(GeneratedCity, EverySwitchMatters) {
+  CitySettings settings;
+  settings.size_m = 600.0, settings.lod = 2;
+  std::set<std::uint64_t> seen{fingerprint(settings)};
+  CitySettings::describe_switches(settings, [&](const char* name, bool& value, const char*) {
+    value = true;
+    EXPECT_TRUE(seen.insert(fingerprint(settings)).second) << name;
+    EXPECT_EQ(fingerprint(settings), fingerprint(settings)) << name;
+    value = false;
+  });
+}
+
+class EachCity : public ::testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Overhangs, EachCity, ::testing::Values(0));
+INSTANTIATE_TEST_SUITE_P(AllOptions, EachCity, ::testing::Values(1));
+
+TEST_P(EachCity, BlocksDoNotDependOnTheirOrder) {
+  const CitySettings settings = GetParam() == 0 ? cities_of_all_shapes()[2] : cities_with_each_option().back();
   const std::vector<GeneratedBuilding> in_order = all_buildings(settings);
   const CityLayout layout(settings);
   std::size_t end = in_order.size();

@@ -49,8 +49,9 @@ TEST_F(FarlodCity, HelpStartsWithOneLineAndAnExample) {
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_THAT(help.text, StartsWith("farlod-city — "));
   EXPECT_THAT(help.text.substr(help.text.find('\n')), StartsWith("\n\nTry this first:\n  farlod-city -o "));
-  for (const char* option :
-       {"--size", "--seed", "--rotation", "--towers", "--lod", "--overhangs", "--crs", "--summary", "--quiet"})
+  for (const char* option : {"--size", "--seed", "--rotation", "--towers", "--lod", "--overhangs", "--crs", "--summary",
+                             "--quiet", "--open-shells", "--eaves", "--balconies", "--projecting-floors", "--hillside",
+                             "--overlapping-parts", "--wrong-bases", "--facade-details"})
     EXPECT_THAT(help.text, HasSubstr(option));
 }
 
@@ -96,13 +97,25 @@ TEST_F(FarlodCity, WrongUsageIsTwoAndSaysWhat) {
       {"-o town.obj --buildings 0", "--buildings is 0"},
       {"-o town.gml --obj-from-centre", ".obj"},
       {"-o town.obj --frobnicate", "--frobnicate"},
+      {"-o town.obj --eaves 0.5", "--lod 2"},
+      {"-o town.obj --hillside --terrain-relief 20", "--terrain-relief"},
+      {"-o town.geojson --open-shells", "--open-shells: cannot be shown by the footprints of .geojson"},
+      {"-o town.geojson --lod 2 --eaves 0.5", "--eaves: cannot be shown"},
+      {"-o town.geojson --lod 2 --balconies", "--balconies: cannot be shown"},
+      {"-o town.geojson --projecting-floors", "--projecting-floors: cannot be shown"},
+      {"-o town.geojson --lod 2 --facade-details", "--facade-details: cannot be shown"},
   };
   for (const auto& [arguments, said] : wrong) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_THAT(outcome.text, HasSubstr(said)) << arguments;
-    EXPECT_FALSE(fs::exists(folder_ / "town.obj")) << arguments;
+    for (const char* name : {"town.obj", "town.geojson"}) EXPECT_FALSE(fs::exists(folder_ / name)) << arguments;
   }
+}
+
+TEST_F(FarlodCity, FootprintsShowHillsidesPartsAndWrongBases) {
+  const Outcome outcome = run("-o town.geojson --size 500 --hillside --overlapping-parts --wrong-bases 0.1");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
 }
 
 TEST_F(FarlodCity, WhatCannotBeWrittenIsThree) {

@@ -27,11 +27,23 @@ double thickness_along(const Point3d& unit_normal, std::span<const PointMm> poin
 
 std::vector<RingNumbers> rings_of(const GeneratedBuilding& building) {
   std::vector<RingNumbers> rings;
-  for (const GeneratedFacet& facet : building.facets) {
+  for (const GeneratedComponent& component : building.components)
+    for (RingNumbers& ring : rings_of(building, component)) rings.push_back(std::move(ring));
+  return rings;
+}
+
+std::vector<RingNumbers> rings_of(const GeneratedBuilding& building, const GeneratedComponent& component) {
+  std::vector<RingNumbers> rings;
+  for (const GeneratedFacet& facet : facets_of(building, component)) {
     rings.push_back(facet.outer);
     if (!facet.hole.empty()) rings.push_back(facet.hole);
+    rings.insert(rings.end(), facet.openings.begin(), facet.openings.end());
   }
   return rings;
+}
+
+std::span<const GeneratedFacet> facets_of(const GeneratedBuilding& building, const GeneratedComponent& component) {
+  return std::span(building.facets).subspan(component.first_facet, component.facet_count);
 }
 
 bool is_closed(std::span<const RingNumbers> rings) {
@@ -97,6 +109,36 @@ std::vector<CitySettings> cities_of_all_shapes() {
   overhangs = roofs, overhangs.overhangs = true, overhangs.seed = 4, overhangs.rotation_deg = 0.0;
   hills = overhangs, hills.terrain_relief_m = 45.0, hills.rotation_deg = 61.7;
   return {blocks, roofs, overhangs, hills};
+}
+
+std::vector<CitySettings> cities_with_each_option() {
+  CitySettings plain;
+  plain.size_m = 700.0, plain.rotation_deg = 23.0, plain.lod = 2, plain.seed = 6;
+  std::vector<CitySettings> cities(9, plain);
+  cities[0].open_shells = true;
+  cities[1].eaves_m = 0.6;
+  cities[2].balconies = true;
+  cities[3].projecting_floors = true;
+  cities[4].hillside = true;
+  cities[5].overlapping_parts = true;
+  cities[6].wrong_base_share = 0.3;
+  cities[7].facade_details = true;
+  CitySettings& all = cities[8];
+  CitySettings::describe_switches(all, [](const char*, bool& value, const char*) { value = true; });
+  all.eaves_m = 0.6, all.wrong_base_share = 0.3;
+  return cities;
+}
+
+BoxMm box_of(const GeneratedBuilding& building, std::span<const GeneratedFacet> facets) {
+  const PointMm first = building.vertices[facets.front().outer.front()];
+  BoxMm box{first, first};
+  for (const GeneratedFacet& facet : facets)
+    for (const std::uint32_t k : facet.outer) {
+      const PointMm& p = building.vertices[k];
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    }
+  return box;
 }
 
 }  // namespace farlod

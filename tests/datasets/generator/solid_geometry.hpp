@@ -12,8 +12,11 @@ namespace farlod {
 
 using RingNumbers = std::vector<std::uint32_t>;
 
-/// All rings of all facets, outer ones and holes.
+/// All rings of all facets: outer ones, holes and openings.
 [[nodiscard]] std::vector<RingNumbers> rings_of(const GeneratedBuilding& building);
+[[nodiscard]] std::vector<RingNumbers> rings_of(const GeneratedBuilding& building, const GeneratedComponent& component);
+/// The facets of a component.
+[[nodiscard]] std::span<const GeneratedFacet> facets_of(const GeneratedBuilding& building, const GeneratedComponent& component);
 /// Whether each edge is used once in each direction.
 [[nodiscard]] bool is_closed(std::span<const RingNumbers> rings);
 /// Six times the volume that the rings enclose, in cubic millimetres; exact. Positive if they look outwards.
@@ -30,5 +33,13 @@ using RingNumbers = std::vector<std::uint32_t>;
 [[nodiscard]] std::vector<GeneratedBuilding> all_buildings(const CitySettings& settings);
 /// Cities that together have every kind of roof and overhang, turned and not, on flat ground and on hills.
 [[nodiscard]] std::vector<CitySettings> cities_of_all_shapes();
+/// One city for each option that adds to buildings or takes from them, and one with all of them.
+[[nodiscard]] std::vector<CitySettings> cities_with_each_option();
+
+/// Where a building is, in millimetres.
+struct BoxMm {
+  PointMm low, high;
+};
+[[nodiscard]] BoxMm box_of(const GeneratedBuilding& building, std::span<const GeneratedFacet> facets);
 
 }  // namespace farlod

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace farlod {
 namespace {
 
@@ -43,6 +45,29 @@ TEST(UrbanField, GroundStaysWithinItsRelief) {
     low_m = std::min(low_m, ground_m), high_m = std::max(high_m, ground_m);
   }
   EXPECT_GT(high_m - low_m, 20.0) << "hills of less than half the relief";
+}
+
+TEST(UrbanField, HillsidesRiseAndFallBy10To25Percent) {
+  CitySettings settings;
+  settings.hillside = true;
+  const UrbanField field(settings);
+  constexpr double step_m = 0.5;
+  // A difference of two heights of at most 24 m, divided by the step
+  constexpr double rounding = 4.0 * 24.0 * 2.2e-16 / step_m;
+  int steps = 0, kinks = 0, rising = 0;
+  for (double t = -4000.0; t < 4000.0; t += step_m, ++steps) {
+    const double low_m = field.ground_m({0.96 * t, 0.28 * t}),
+                 high_m = field.ground_m({0.96 * (t + step_m), 0.28 * (t + step_m)});
+    EXPECT_TRUE(low_m >= 0.0 && low_m <= 24.0);
+    const double slope = std::abs(high_m - low_m) / step_m;
+    EXPECT_LE(slope, 0.25 + rounding);
+    kinks += slope < 0.10 - rounding ? 1 : 0;
+    rising += high_m > low_m ? 1 : 0;
+    EXPECT_NEAR(field.ground_m({0.96 * t - 28.0, 0.28 * t + 96.0}), low_m, 1e-9) << "contours are straight";
+  }
+  // A ridge or a valley at least every 240 m and at most every 96 m
+  EXPECT_LE(kinks, static_cast<int>(steps * step_m / 96.0) + 1);
+  EXPECT_NEAR(rising, 0.5 * steps, 0.2 * steps);
 }
 
 }  // namespace

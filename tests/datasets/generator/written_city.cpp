@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/datasets/generator/written_city.hpp"
 
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -52,20 +53,35 @@ WrittenCity read_cityjson(const std::filesystem::path& path) {
   WrittenCity city{epsg_in(json.at("metadata").at("referenceSystem"), "/EPSG/0/(\\d+)$"), {}};
   const Json &scale = json.at("transform").at("scale"), &translate = json.at("transform").at("translate");
   for (const auto& [id, object] : json.at("CityObjects").items()) {
-    WrittenBuilding& building = city.buildings[id];
-    const Json& shell = object.at("geometry").at(0).at("boundaries").at(0);
-    building.polygons = shell.size();
-    for (const Json& facet : shell)
-      for (const Json& ring : facet)
-        for (const Json& vertex : ring) {
-          const Json& v = json.at("vertices").at(vertex.get<std::size_t>());
-          PlaceMm place;
-          for (std::size_t k = 0; k < 3; ++k)
-            place[k] = mm(v[k].get<double>() * scale[k].get<double>() + translate[k].get<double>());
-          building.places.insert(place);
-        }
+    if (object.at("type") == "Building") {
+      WrittenBuilding& building = city.buildings[id];
+      building.height_mm = mm(object.at("attributes").at("measuredHeight"));
+      for (const Json& child : object.value("children", Json::array())) building.children.insert(child.get<std::string>());
+    } else {
+      EXPECT_TRUE(city.buildings[object.at("parents").at(0)].said_by_children.insert(id).second);
+    }
+    WrittenBuilding& building =
+        city.buildings[object.at("type") == "Building" ? id : object.at("parents").at(0).get<std::string>()];
+    for (const Json& geometry : object.value("geometry", Json::array())) {
+      const Json& boundaries = geometry.at("boundaries");
+      const Json& shell = geometry.at("type") == "Solid" ? boundaries.at(0) : boundaries;
+      building.solids += geometry.at("type") == "Solid" ? 1 : 0;
+      building.polygons += shell.size();
+      for (const Json& facet : shell)
+        for (const Json& ring : facet)
+          for (const Json& vertex : ring) {
+            const Json& v = json.at("vertices").at(vertex.get<std::size_t>());
+            PlaceMm place;
+            for (std::size_t k = 0; k < 3; ++k)
+              place[k] = mm(v[k].get<double>() * scale[k].get<double>() + translate[k].get<double>());
+            building.places.insert(place);
+          }
+    }
+  }
+  for (auto& [id, building] : city.buildings) {
+    const std::int64_t height_mm = building.height_mm;
     set_base(building);
-    building.height_mm = mm(object.at("attributes").at("measuredHeight"));
+    building.height_mm = height_mm;
   }
   return city;
 }
@@ -104,6 +120,12 @@ WrittenCity read_obj(const std::filesystem::path& path) {
   return city;
 }
 
+std::size_t count_of(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + word.size())) ++count;
+  return count;
+}
+
 WrittenCity read_citygml(const std::filesystem::path& path) {
   const std::string text = text_of(path);
   WrittenCity city{epsg_in(text, "srsName=\"urn:ogc:def:crs:EPSG::(\\d+)\""), {}};
@@ -115,8 +137,13 @@ WrittenCity read_citygml(const std::filesystem::path& path) {
       std::istringstream numbers(list);
       for (double x, y, z; numbers >> x >> y >> z;) building.places.insert({mm(x), mm(y), mm(z)});
     }
-    for (std::size_t k = one.find("<gml:Polygon"); k != std::string::npos; k = one.find("<gml:Polygon", k + 1))
-      ++building.polygons;
+    building.polygons = count_of(one, "<gml:Polygon");
+    building.solids = count_of(one, "<gml:Solid>");
+    for (const char* element : {"<bldg:BuildingPart gml:id=\"", "<bldg:BuildingInstallation gml:id=\""}) {
+      std::size_t child_at = 0;
+      for (std::string id; !(id = between(one, child_at, element, "\"")).empty();) building.children.insert(id);
+    }
+    building.said_by_children = building.children;
     set_base(building);
     std::size_t height_at = 0;
     building.height_mm = mm(std::stod(between(one, height_at, "<bldg:measuredHeight uom=\"m\">", "<")));

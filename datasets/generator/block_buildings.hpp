@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "generator/city_layout.hpp"
+#include "generator/plan_solid.hpp"
+
+namespace farlod {
+
+/// The buildings of a block as solids with all that the settings ask for, then the bridges that start from it.
+[[nodiscard]] std::vector<PlanBuilding> raise_block(const CitySettings& settings, CityBlock block);
+
+}  // namespace farlod
