@@ -70,7 +70,6 @@ void EdgeSides::add_sides_of(const EdgeSides& other) {
 }
 
 EdgeRises EdgeSides::lowest_rises() const {
-  if (triangle_count_ < 2) return {EdgeRises::straight_up, EdgeRises::straight_up};
   constexpr double give_rad = 4.0 * slight_bend_rad;
   return {EdgeRises::rounded_up(left_low_rad_ + give_rad), EdgeRises::rounded_up(right_low_rad_ + give_rad)};
 }
@@ -78,9 +77,11 @@ EdgeRises EdgeSides::lowest_rises() const {
 bool EdgeSides::can_be_underside() const {
   const Point3d along = edge_.b - edge_.a;
   if (norm(horizontal(along)) <= std::max(least_extent_m, leaning_wall_z * norm(along)) || over_wall_) return false;
-  // Below facets that look up there is the inside of the building
-  if (triangle_count_ > 1 && has_roof_ && !has_soffit_) return false;
-  return left_low_rad_ + right_low_rad_ > slight_bend_rad;
+  return left_low_rad_ + right_low_rad_ > slight_bend_rad && !is_valley();
+}
+
+bool EdgeSides::is_valley() const {
+  return triangle_count_ > 1 && has_roof_ && !has_soffit_ && !over_wall_ && left_low_rad_ + right_low_rad_ > slight_bend_rad;
 }
 
 bool EdgeSides::can_be_horizon() const {

@@ -57,8 +57,10 @@ class EdgeSides {
   [[nodiscard]] EdgeRises rises() const { return {EdgeRises::rounded_down(left_rad_), EdgeRises::rounded_down(right_rad_)}; }
   /// False: whatever eye looks past the edge sees one of its triangles at least as high as the edge.
   [[nodiscard]] bool can_be_horizon() const;
-  /// As HorizonEdge::rises of a lower border. Where a facet ends, nothing goes on beside it that might reach lower.
+  /// As HorizonEdge::rises of a lower border.
   [[nodiscard]] EdgeRises lowest_rises() const;
+  /// Facets that look up bend upwards here, as in a valley between roofs. In a closed building nobody sees that from below.
+  [[nodiscard]] bool is_valley() const;
   /// False: whatever eye looks past the edge from below sees one of its triangles reach at least as low.
   [[nodiscard]] bool can_be_underside() const;
   /// A wall hangs from it, or a facet falls away from it: it may close what another edge in the same place leaves open.

@@ -83,29 +83,41 @@ class SortedEdges {
   double widest_m_ = 0.0;
 };
 
+/// The parts of an edge below which no other edge on the same line goes on.
+std::vector<Stretch> open_stretches(const EdgeSides& edge, const SortedEdges& closing) {
+  std::vector<Stretch> open{{}};
+  closing.visit_near(edge, [&](const EdgeSides& other) {
+    if (open.empty()) return;
+    EdgeSides both = edge;
+    both.add_sides_of(other);
+    if (both.can_be_underside()) return;
+    if (const auto shared = shared_stretch(edge.edge(), other.edge())) open = without(open, *shared);
+  });
+  return open;
+}
+
 }  // namespace
 
 std::vector<HorizonSegment> undersides(std::span<const EdgeSides> edges) {
   std::vector<const EdgeSides*> closing;
   for (const EdgeSides& e : edges)
     if (e.has_facet_below()) closing.push_back(&e);
-  const SortedEdges candidates(std::move(closing));
+  const SortedEdges closing_edges(std::move(closing));
   std::vector<HorizonSegment> result;
+  bool is_open = false;
   for (const EdgeSides& edge : edges) {
     if (!edge.can_be_underside()) continue;
-    std::vector<Stretch> open{{}};
-    candidates.visit_near(edge, [&](const EdgeSides& other) {
-      if (open.empty()) return;
-      EdgeSides both = edge;
-      both.add_sides_of(other);
-      if (both.can_be_underside()) return;
-      if (const auto shared = shared_stretch(edge.edge(), other.edge())) open = without(open, *shared);
-    });
     const double length_m = norm(edge.edge().b - edge.edge().a);
-    for (const Stretch& s : open)
-      if ((s.to - s.from) * length_m > on_line_m)
-        result.push_back({{point_at(edge.edge(), s.from), point_at(edge.edge(), s.to)}, edge.lowest_rises(), EdgeRole::underside});
+    for (const Stretch& s : open_stretches(edge, closing_edges)) {
+      if ((s.to - s.from) * length_m <= on_line_m) continue;
+      is_open |= edge.triangle_count() == 1;
+      result.push_back({{point_at(edge.edge(), s.from), point_at(edge.edge(), s.to)}, edge.lowest_rises(), EdgeRole::underside});
+    }
   }
+  // Where a sheet ends, one may look below it at the valleys of a roof
+  if (is_open)
+    for (const EdgeSides& edge : edges)
+      if (edge.is_valley()) result.push_back({edge.edge(), edge.lowest_rises(), EdgeRole::underside});
   return result;
 }
 
