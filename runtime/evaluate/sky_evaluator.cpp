@@ -29,6 +29,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// An index of the whole city takes some 150 bytes a triangle: 45 MB.
+constexpr std::uint64_t most_triangles_indexed_whole = 300'000;
+
 double seconds_between(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
 
 /// Calls `visit` for each run of receivers that look the same way: they share their directions.
@@ -137,10 +140,10 @@ void SkyEvaluator::evaluate_with_box(const CellReceivers& cell, const SkyAnswers
 
 /// What the receivers of a cell may see.
 struct SkyEvaluator::CellSight {
-  CellSight(const Package& package, const CellReceivers& cell)
+  CellSight(const Package& package, const CellReceivers& cell, OverhangGeometry::WholeScene whole_scene)
       : far(package.far_horizon(cell.cell)),
         skyline(cell_skyline(package, cell.cell, far, box_around(cell.receivers))),
-        overhangs(package, cell.cell) {}
+        overhangs(package, cell.cell, std::move(whole_scene)) {}
   FarHorizon far;
   CellSkyline skyline;
   OverhangGeometry overhangs;
@@ -148,7 +151,14 @@ struct SkyEvaluator::CellSight {
 
 void SkyEvaluator::evaluate_with_horizon(const CellReceivers& cell, const SkyAnswers& answers) const {
   const auto start = Clock::now();
-  CellSight sight(package_, cell);
+  // A small city is indexed once; of a large one, what a cell needs
+  OverhangGeometry::WholeScene whole_scene;
+  if (package_.manifest().triangles <= most_triangles_indexed_whole)
+    whole_scene = [this](Cell c) {
+      const WholeCity& city = city_->get(package_);
+      return PlacedScene{city.occluder(), city.scene_from_cell_m(c)};
+    };
+  CellSight sight(package_, cell, std::move(whole_scene));
   const auto scene_ready = Clock::now();
   Numbers by_rays;
   if (settings_.engine == Engine::rays) {

@@ -38,8 +38,8 @@ std::size_t rays_in(float share, std::size_t rays_per_azimuth) {
 }  // namespace
 
 Lanes trace_gaps(const Gaps& gaps, const AzimuthRing& ring, SkyWeight weight, const ReceiverPacket& receivers, std::uint32_t wanted,
-                 std::size_t rays_per_azimuth, const Occluder& scene) {
-  const RayOrigins origins{receivers.x, receivers.y, receivers.z};
+                 std::size_t rays_per_azimuth, const PlacedScene& scene) {
+  const RayOrigins origins = scene.origins_of(receivers);
   Lanes seen{};
   for (std::size_t k = 0; k < ring.size(); ++k) {
     // Who has a gap here
@@ -76,7 +76,7 @@ Lanes trace_gaps(const Gaps& gaps, const AzimuthRing& ring, SkyWeight weight, co
       directions.y.fill(ring.sine()[k]);
       directions.z = slopes_at((static_cast<float>(n) + offset_of(k)) * part);
       const std::uint32_t asked = open & ~filled(gaps, k, directions.z);
-      const std::uint32_t free = asked & ~scene.blocked(origins, directions, least_distance_m, asked);
+      const std::uint32_t free = asked & ~scene.occluder.blocked(origins, directions, least_distance_m, asked);
       for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
         seen[l] += ((free >> l) & 1U) != 0 ? above_part[l] - above_end[l] : 0.0F;
       above_part = above_end;

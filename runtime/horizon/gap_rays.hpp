@@ -7,9 +7,9 @@
 #include <span>
 
 #include "horizon/azimuth_ring.hpp"
+#include "horizon/overhang_geometry.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
-#include "occlusion/occluder.hpp"
 
 namespace farlod {
 
@@ -23,6 +23,6 @@ struct Gaps {
 /// Traces `rays_per_azimuth` rays in the gaps of the receivers whose bits are set, and returns how much sky is seen through them.
 [[nodiscard]] PacketHorizon::Lanes trace_gaps(const Gaps& gaps, const AzimuthRing& ring, SkyWeight weight,
                                               const ReceiverPacket& receivers, std::uint32_t wanted, std::size_t rays_per_azimuth,
-                                              const Occluder& scene);
+                                              const PlacedScene& scene);
 
 }  // namespace farlod

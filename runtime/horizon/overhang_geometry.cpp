@@ -50,7 +50,8 @@ bool is_upright(const OverhangGeometry::TriangleCorners& t) {
 
 }  // namespace
 
-OverhangGeometry::OverhangGeometry(const Package& package, Cell cell) : package_(package), cell_(cell) {
+OverhangGeometry::OverhangGeometry(const Package& package, Cell cell, WholeScene whole_scene)
+    : package_(package), cell_(cell), whole_scene_(std::move(whole_scene)) {
   // What is cut at the borders of cells hangs over its own cell alone
   const bool is_cut = package.manifest().assign != "whole";
   overhead_ = triangles_in(is_cut ? CellRange{cell.i, cell.j, cell.i + 1, cell.j + 1} : package.grid().neighborhood_of(cell));
@@ -80,8 +81,9 @@ std::vector<OverhangGeometry::TriangleCorners> OverhangGeometry::triangles_in(co
   return result;
 }
 
-const Occluder& OverhangGeometry::scene() {
-  if (scene_) return *scene_;
+PlacedScene OverhangGeometry::scene() {
+  if (whole_scene_) return whole_scene_(cell_);
+  if (scene_) return {*scene_, {}};
   std::vector<Point3f> vertices;
   std::vector<Triangle> triangles;
   for (const TriangleCorners& t : triangles_in(package_.grid().neighborhood_of(cell_))) {
@@ -89,7 +91,7 @@ const Occluder& OverhangGeometry::scene() {
     vertices.insert(vertices.end(), t.begin(), t.end());
     triangles.push_back({first, first + 1, first + 2});
   }
-  return scene_.emplace(std::move(vertices), std::move(triangles));
+  return {scene_.emplace(std::move(vertices), std::move(triangles)), {}};
 }
 
 std::uint32_t OverhangGeometry::covered(const ReceiverPacket& r) const {

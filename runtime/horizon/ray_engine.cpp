@@ -50,7 +50,6 @@ std::vector<FreeRays> RayEngine::count(std::span<const Receiver> receivers) {
 void RayEngine::look(std::span<const Receiver> receivers) {
   packet_ = {};
   for (const Receiver& r : receivers) packet_.add(r);
-  origins_ = {packet_.x, packet_.y, packet_.z};
   const std::uint32_t covered = overhangs_.covered(packet_);
   horizons_.grounded.clear();
   if (!wants_bounds_) unnamed_.raise_likely(packet_, horizons_.grounded);
@@ -78,11 +77,14 @@ void RayEngine::trace() {
   passing_.clear();
   if (horizons_.borders.above(horizons_.grounded) == 0) return;
   horizons_.grounded.find_between(horizons_.borders, fan_.slopes(), azimuths_);
+  if (azimuths_.empty()) return;
+  const PlacedScene scene = overhangs_.scene();
+  const RayOrigins origins = scene.origins_of(packet_);
   for (const std::uint32_t k : azimuths_) {
     const float slope = fan_.slopes()[k];
     const std::uint32_t in_far = horizons_.far_borders.below(k, slope) & ~horizons_.far_upper.below(k, slope);
     const std::uint32_t wanted = horizons_.grounded.below(k, slope) & ~horizons_.borders.below(k, slope) & ~in_far;
-    const std::uint32_t bits = wanted & ~overhangs_.scene().blocked(origins_, fan_.direction(k), least_distance_m, wanted);
+    const std::uint32_t bits = wanted & ~scene.occluder.blocked(origins, fan_.direction(k), least_distance_m, wanted);
     const std::uint32_t likely = wants_bounds_ ? bits & unnamed_likely_.below(k, slope) : bits;
     if (bits != 0) passing_.push_back({k, bits, likely});
   }

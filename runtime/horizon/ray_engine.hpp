@@ -58,7 +58,6 @@ class RayEngine {
   bool wants_bounds_;
   UnnamedCity unnamed_;
   ReceiverPacket packet_;
-  RayOrigins origins_;
   /// Below `horizons_.upper` nothing is free, but what passes below borders; above `open_` everything passes, and `likely_` lies
   /// between. Without bounds, only what is likely is known.
   OverhangHorizons horizons_;

@@ -15,6 +15,8 @@ class WholeCity {
   explicit WholeCity(const Package& package);
 
   [[nodiscard]] const Occluder& occluder() const { return occluder_; }
+  /// Added to a place of the frame of `cell`, gives one of this scene.
+  [[nodiscard]] Point2d scene_from_cell_m(Cell cell) const { return grid_.corner_of(cell) - origin_grid_; }
   /// A point of the frame of `cell` in the frame of this scene.
   [[nodiscard]] Point3f scene_from_cell(const Point3f& p_cell, Cell cell) const;
 
