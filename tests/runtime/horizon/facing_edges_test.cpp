@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <string>
 #include <vector>
 
 #include "farlod/horizon/edge_facing.hpp"
@@ -97,11 +99,12 @@ Tally compared(EdgeRole role, double reach_m, double length_m) {
 }
 
 class FacingEdges : public testing::TestWithParam<EdgeRole> {};
+std::string name_of_role(const testing::TestParamInfo<EdgeRole>& info) {
+  const std::array names{"Grounded", "Overhang", "Underside"};
+  return names.at(static_cast<std::size_t>(info.param));
+}
 INSTANTIATE_TEST_SUITE_P(Roles, FacingEdges, testing::Values(EdgeRole::grounded, EdgeRole::overhang, EdgeRole::underside),
-                         [](const auto& test) {
-                           const char* names[] = {"Grounded", "Overhang", "Underside"};
-                           return names[static_cast<std::size_t>(test.param)];
-                         });
+                         name_of_role);
 
 TEST_P(FacingEdges, NoneIsLostThatMayBeASilhouette) {
   // Near and far ones, and so short that they are next to nothing but rounding
