@@ -33,7 +33,7 @@ std::optional<Stretch> shared_stretch(const Segment3d& s, const Segment3d& other
   // Of a longer edge, what lies beside the segment counts alone
   const Point3d other_along = other.b - other.a;
   const auto on_other = [&](double share) {
-    const double t = dot(point_at(s, share) - other.a, other_along) / dot(other_along, other_along);
+    const double t = (share - share_of(other.a)) * square / dot(other_along, along);
     return point_at(other, std::clamp(t, 0.0, 1.0));
   };
   for (const double share : {shared.from, shared.to})

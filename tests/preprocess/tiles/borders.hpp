@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -50,8 +51,10 @@ inline std::vector<Segment3d> segments_of(const std::vector<HorizonSegment>& edg
   return segments;
 }
 
-/// A town of buildings on level ground at 0 m, in one cell of 50 m; a kerbstone in its south-west corner says where the ground
-/// is.
+/// Level ground at 0 m, far beyond cells of 50 m.
+inline TerrainRaster level_terrain() { return {{-200, -200}, {200, 200}, 3, 3, std::vector<std::optional<float>>(9, 0.0F)}; }
+
+/// A town of buildings on level ground at 0 m, in one cell of 50 m; number 0 is a kerbstone in its south-west corner.
 class SmallTown {
  public:
   SmallTown() { add_building(city_, "stone", box(0, 0, 0.5, 0.5, 0, 0.1)); }
@@ -59,7 +62,7 @@ class SmallTown {
   [[nodiscard]] const CityModel& city() const { return city_; }
   [[nodiscard]] TileSet tiles(Assign assign = Assign::clip) const {
     Report ignored;
-    return cut_into_tiles({city_, {}}, scenes::grid_covering(city_, {}, 50, 3), assign, {}, ignored);
+    return cut_into_tiles({city_, {}}, scenes::grid_covering(city_, {}, 50, 3), assign, level_terrain(), ignored);
   }
 
  private:
