@@ -27,13 +27,13 @@ std::optional<Stretch> shared_stretch(const Segment3d& s, const Segment3d& other
   const Point3d along = s.b - s.a;
   const double square = dot(along, along);
   const auto share_of = [&](const Point3d& p) { return dot(p - s.a, along) / square; };
-  const auto [low, high] = std::minmax(share_of(other.a), share_of(other.b));
+  const auto [low, high] = std::minmax({share_of(other.a), share_of(other.b)});
   const Stretch shared{std::max(low, 0.0), std::min(high, 1.0)};
   if ((shared.to - shared.from) * std::sqrt(square) <= on_line_m) return std::nullopt;
   // Of a longer edge, what lies beside the segment counts alone
   const Point3d other_along = other.b - other.a;
   const auto on_other = [&](double share) {
-    const double t = dot(point_at(s, share) - other.a, other_along) / dot(other_along, other_along);
+    const double t = (share - share_of(other.a)) * square / dot(other_along, along);
     return point_at(other, std::clamp(t, 0.0, 1.0));
   };
   for (const double share : {shared.from, shared.to})

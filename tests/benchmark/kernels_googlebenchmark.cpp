@@ -105,7 +105,7 @@ void draw_skyline(KernelCity& city, State& state) {
   PacketHorizon horizon(ring);
   for (auto _ : state) {
     horizon.clear();
-    horizon.raise(skyline.standing, packet);
+    horizon.raise(skyline.grounded, packet);
     ::benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(packet.count));

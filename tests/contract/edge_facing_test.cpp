@@ -22,14 +22,15 @@ Box2d around(Point2d middle, double half_m) {
 struct Edge {
   Point3d a, b;
   EdgeRises rises;
+  EdgeRole role = EdgeRole::grounded;
 
-  [[nodiscard]] bool may_be_horizon_for(const Box2d& plan, double low_m, double high_m) const {
-    return may_be_horizon(a, b, rises, plan, low_m, high_m);
+  [[nodiscard]] bool may_be_seen_by(const Box2d& plan, double low_m, double high_m) const {
+    return may_be_silhouette(a, b, rises, role, plan, low_m, high_m);
   }
-  [[nodiscard]] bool may_be_horizon_for(const Point3d& eye) const {
-    return may_be_horizon_for(around(horizontal(eye), 0.0), eye.z, eye.z);
+  [[nodiscard]] bool may_be_seen_by(const Point3d& eye) const {
+    return may_be_seen_by(around(horizontal(eye), 0.0), eye.z, eye.z);
   }
-  [[nodiscard]] Edge turned_round() const { return {b, a, {rises.right, rises.left}}; }
+  [[nodiscard]] Edge turned_round() const { return {b, a, {rises.right, rises.left}, role}; }
 };
 
 // A flat roof 5 m high over [0, 10]²: it lies to the left of its south edge, and to the right of its north edge
@@ -66,53 +67,98 @@ TEST(EdgeRises, EndAtTheVertical) {
 
 TEST(EdgeFacing, TellsTheFrontOfAFlatRoofFromItsBack) {
   const Point3d from_south{5, -20, 1.5}, from_north{5, 40, 1.5};
-  EXPECT_TRUE(south_edge.may_be_horizon_for(from_south));
-  EXPECT_FALSE(north_edge.may_be_horizon_for(from_south));
-  EXPECT_TRUE(north_edge.may_be_horizon_for(from_north));
-  EXPECT_FALSE(south_edge.may_be_horizon_for(from_north));
+  EXPECT_TRUE(south_edge.may_be_seen_by(from_south));
+  EXPECT_FALSE(north_edge.may_be_seen_by(from_south));
+  EXPECT_TRUE(north_edge.may_be_seen_by(from_north));
+  EXPECT_FALSE(south_edge.may_be_seen_by(from_north));
 }
 
 TEST(EdgeFacing, LeavesNoHorizonToWhoLooksDownOnARoof) {
   for (const Point3d& eye : {Point3d{5, -20, 8}, Point3d{5, 5, 6}, Point3d{5, 40, 8}})
-    for (const Edge& edge : {south_edge, north_edge}) EXPECT_FALSE(edge.may_be_horizon_for(eye));
+    for (const Edge& edge : {south_edge, north_edge}) EXPECT_FALSE(edge.may_be_seen_by(eye));
 }
 
 TEST(EdgeFacing, HidesARidgeBehindItsRoofUntilTheEyeIsAboveTheSlope) {
   for (const double side : {-1.0, 1.0}) {
-    EXPECT_FALSE(ridge.may_be_horizon_for({10, side * 10, 1.5})) << "the roof's plane is 3 m high here";
-    EXPECT_TRUE(ridge.may_be_horizon_for({10, side * 10, 4}));
-    EXPECT_TRUE(ridge.may_be_horizon_for({10, side * 30, 1.5})) << "the plane has met the ground";
+    EXPECT_FALSE(ridge.may_be_seen_by({10, side * 10, 1.5})) << "the roof's plane is 3 m high here";
+    EXPECT_TRUE(ridge.may_be_seen_by({10, side * 10, 4}));
+    EXPECT_TRUE(ridge.may_be_seen_by({10, side * 30, 1.5})) << "the plane has met the ground";
   }
 }
 
 TEST(EdgeFacing, HidesEavesBeforeARoofThatRisesBehindThem) {
   const std::int8_t rise = EdgeRises::rounded_down(std::atan2(3.0, 5.0));
   const Edge eaves{{0, 0, 6}, {20, 0, 6}, {rise, wall}};  // the roof is to the north
-  EXPECT_TRUE(eaves.may_be_horizon_for({10, -5, 1.5})) << "the plane of the roof passes overhead";
-  EXPECT_FALSE(eaves.may_be_horizon_for({10, -5, 4})) << "the roof is seen from above, and rises over its eaves";
-  EXPECT_FALSE(eaves.may_be_horizon_for({10, -30, 1.5}));
+  EXPECT_TRUE(eaves.may_be_seen_by({10, -5, 1.5})) << "the plane of the roof passes overhead";
+  EXPECT_FALSE(eaves.may_be_seen_by({10, -5, 4})) << "the roof is seen from above, and rises over its eaves";
+  EXPECT_FALSE(eaves.may_be_seen_by({10, -30, 1.5}));
 }
 
 TEST(EdgeFacing, FollowsTheSlopeOfTheEdgeItself) {
   // A roof that climbs to the east, 1 on 1: beyond its upper end its plane is high above
   const Edge north_rake{{0, 10, 2}, {10, 10, 12}, {wall, 0}};
-  EXPECT_FALSE(north_rake.may_be_horizon_for({5, -20, 1.5}));
-  EXPECT_TRUE(north_rake.may_be_horizon_for({-5, -20, 1.5})) << "the plane is at −3 m here, the eye above it";
+  EXPECT_FALSE(north_rake.may_be_seen_by({5, -20, 1.5}));
+  EXPECT_TRUE(north_rake.may_be_seen_by({-5, -20, 1.5})) << "the plane is at −3 m here, the eye above it";
 }
 
 TEST(EdgeFacing, IsUndecidedForEyesOnBothSides) {
   for (const Edge& edge : {south_edge, north_edge, ridge}) {
     const Point2d middle = 0.5 * (horizontal(edge.a) + horizontal(edge.b));
-    EXPECT_TRUE(edge.may_be_horizon_for(around(middle, 5.0), 0.0, 3.0));
-    EXPECT_TRUE(edge.may_be_horizon_for(around(middle, 0.5 * facing_slack_m), 0.0, 3.0));
-    EXPECT_TRUE(edge.may_be_horizon_for({middle.x + 100, middle.y + 0.9 * facing_slack_m, 1.5})) << "too near to tell the sides";
+    EXPECT_TRUE(edge.may_be_seen_by(around(middle, 5.0), 0.0, 3.0));
+    EXPECT_TRUE(edge.may_be_seen_by(around(middle, 0.5 * facing_slack_m), 0.0, 3.0));
+    EXPECT_TRUE(edge.may_be_seen_by({middle.x + 100, middle.y + 0.9 * facing_slack_m, 1.5})) << "too near to tell the sides";
   }
 }
 
 TEST(EdgeFacing, IsUndecidedWhereSomeEyesSeeTheEdge) {
-  EXPECT_FALSE(ridge.may_be_horizon_for(around({10, -10}, 1.0), 0.0, 2.0));
-  EXPECT_TRUE(ridge.may_be_horizon_for(around({10, -10}, 1.0), 0.0, 6.0)) << "those high up";
-  EXPECT_TRUE(ridge.may_be_horizon_for(around({10, -10}, 6.0), 0.0, 2.0)) << "those far away";
+  EXPECT_FALSE(ridge.may_be_seen_by(around({10, -10}, 1.0), 0.0, 2.0));
+  EXPECT_TRUE(ridge.may_be_seen_by(around({10, -10}, 1.0), 0.0, 6.0)) << "those high up";
+  EXPECT_TRUE(ridge.may_be_seen_by(around({10, -10}, 6.0), 0.0, 2.0)) << "those far away";
+}
+
+// A soffit 5 m high over [0, 10]²: of its south edge it lies to the left, of its north edge to the right
+constexpr std::int8_t none = EdgeRises::straight_up;
+const Edge south_border{{0, 0, 5}, {10, 0, 5}, {0, none}, EdgeRole::underside},
+    north_border{{0, 10, 5}, {10, 10, 5}, {none, 0}, EdgeRole::underside};
+
+TEST(EdgeFacing, TellsTheFarBorderOfASoffitFromTheNearOne) {
+  const Point3d from_south{5, -20, 1.5}, from_north{5, 40, 1.5}, below{5, 5, 1.5};
+  EXPECT_TRUE(north_border.may_be_seen_by(from_south)) << "below it the sky begins";
+  EXPECT_FALSE(south_border.may_be_seen_by(from_south)) << "the soffit goes on below the line of sight";
+  EXPECT_TRUE(south_border.may_be_seen_by(from_north));
+  EXPECT_FALSE(north_border.may_be_seen_by(from_north));
+  EXPECT_TRUE(south_border.may_be_seen_by(below) && north_border.may_be_seen_by(below));
+}
+
+TEST(EdgeFacing, LeavesNoLowerBorderToWhoLooksDownOnIt) {
+  for (const Point3d& eye : {Point3d{5, -20, 8}, Point3d{5, 5, 6}, Point3d{5, 40, 8}})
+    for (const Edge& border : {south_border, north_border}) EXPECT_FALSE(border.may_be_seen_by(eye));
+}
+
+TEST(EdgeFacing, HidesTheRidgeOfAVaultFromWhoSeesItsSideReachLower) {
+  // A vault, open below: both sides fall by 3 on 5 from its ridge
+  const std::int8_t falls = EdgeRises::rounded_up(-std::atan2(3.0, 5.0));
+  const Edge vault{{0, 0, 9}, {20, 0, 9}, {falls, falls}, EdgeRole::underside};
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_FALSE(vault.may_be_seen_by({10, side * 10, 1.5}));
+    EXPECT_FALSE(vault.may_be_seen_by({10, side * 1, 1.5})) << "within, the far side goes on below the line of sight";
+  }
+  // A trough: both sides rise from its bottom, which is lowest for those above the plane of its far side
+  const std::int8_t climbs = EdgeRises::rounded_up(std::atan2(3.0, 5.0));
+  const Edge trough{{0, 0, 9}, {20, 0, 9}, {climbs, climbs}, EdgeRole::underside};
+  EXPECT_TRUE(trough.may_be_seen_by({10, -10, 5}));
+  EXPECT_FALSE(trough.may_be_seen_by({10, -10, 1.5})) << "1.5 m lies below the plane of the far side, which is 3 m high here";
+}
+
+TEST(EdgeRises, OfLowerBordersAreRoundedUpByLessThanAStep) {
+  for (double rise_rad = -0.5 * std::numbers::pi; rise_rad < 0.5 * std::numbers::pi; rise_rad += 0.0137) {
+    const double kept_rad = std::atan(EdgeRises::slope(EdgeRises::rounded_up(rise_rad)));
+    const double rounding_rad = 6 * 2 * std::numeric_limits<double>::epsilon();
+    EXPECT_GE(kept_rad, rise_rad - rounding_rad);
+    EXPECT_LT(kept_rad, rise_rad + step_rad + rounding_rad);
+  }
+  EXPECT_EQ(EdgeRises::rounded_up(std::numeric_limits<double>::infinity()), EdgeRises::straight_up);
+  EXPECT_EQ(EdgeRises::rounded_up(-2.0), -127);
 }
 
 TEST(EdgeFacing, IsUndecidedWhereNothingIsKnownOfTheFacets) {
@@ -120,10 +166,12 @@ TEST(EdgeFacing, IsUndecidedWhereNothingIsKnownOfTheFacets) {
   const auto coordinate = [&random] { return static_cast<double>(random() % 1000) / 10.0; };
   for (int n = 0; n < 1000; ++n) {
     const Edge bare{{coordinate(), coordinate(), 101}, {coordinate(), coordinate(), 105}, {}};
-    EXPECT_TRUE(bare.may_be_horizon_for({coordinate(), coordinate(), coordinate()})) << n;
+    EXPECT_TRUE(bare.may_be_seen_by({coordinate(), coordinate(), coordinate()})) << n;
+    const Edge bare_border{bare.a, bare.b, {none, none}, EdgeRole::underside};
+    EXPECT_TRUE(bare_border.may_be_seen_by({coordinate(), coordinate(), coordinate()})) << n;
   }
   const Edge upright{{3, 3, 1}, {3, 3, 9}, {0, 0}};
-  EXPECT_TRUE(upright.may_be_horizon_for({20, 3, 1.5})) << "it has no sides";
+  EXPECT_TRUE(upright.may_be_seen_by({20, 3, 1.5})) << "it has no sides";
 }
 
 TEST(EdgeFacing, DoesNotDependOnTheOrderOfTheEnds) {
@@ -132,10 +180,12 @@ TEST(EdgeFacing, DoesNotDependOnTheOrderOfTheEnds) {
   const auto rise = [&random] { return static_cast<std::int8_t>(static_cast<int>(random() % 255) - 127); };
   int away = 0;
   for (int n = 0; n < 5000; ++n) {
-    const Edge edge{{coordinate(), coordinate(), coordinate()}, {coordinate(), coordinate(), coordinate()}, {rise(), rise()}};
+    const EdgeRole role = n % 2 == 0 ? EdgeRole::grounded : EdgeRole::underside;
+    const Edge edge{
+        {coordinate(), coordinate(), coordinate()}, {coordinate(), coordinate(), coordinate()}, {rise(), rise()}, role};
     const Point3d eye{coordinate(), coordinate(), coordinate()};
-    EXPECT_EQ(edge.may_be_horizon_for(eye), edge.turned_round().may_be_horizon_for(eye)) << n;
-    away += edge.may_be_horizon_for(eye) ? 0 : 1;
+    EXPECT_EQ(edge.may_be_seen_by(eye), edge.turned_round().may_be_seen_by(eye)) << n;
+    away += edge.may_be_seen_by(eye) ? 0 : 1;
   }
   EXPECT_GT(away, 500) << "the test tests nothing";
 }

@@ -20,11 +20,11 @@ class FarHorizonByHand {
   static constexpr double cell_m = 20.0;
 
   explicit FarHorizonByHand(std::vector<HorizonEdge> edges, std::vector<float> levels_m = {0.0F, 10.0F})
-      : edges_(std::move(edges)), map_{ReceiverPatches(cell_m, 1, std::move(levels_m)), AzimuthBins{8}, {}, {}, {}, {}} {
+      : edges_(std::move(edges)), map_{ReceiverPatches(cell_m, 1, std::move(levels_m)), AzimuthBins{8}, {}, {}, {}, {}, {}} {
     for (std::uint32_t n = 0; n < edges_.size(); ++n) named_.push_back({n, 0xFFFF, 0xFFFF});
     map_.lower.resize(std::size_t{map_.patches.count()} * map_.bins.count, 0.0F);
-    map_.likely = map_.upper = map_.lower;
-    map_.named = {edges_, {}, named_, {}, {}};
+    map_.likely = map_.upper = map_.overhang = map_.lower;
+    map_.named = {edges_, named_, {}};
   }
   FarHorizonByHand(const FarHorizonByHand&) = delete;
   FarHorizonByHand& operator=(const FarHorizonByHand&) = delete;

@@ -7,7 +7,7 @@
 namespace farlod {
 namespace {
 
-FarHorizon three_layers() { return {ReceiverPatches(20.0, 1, {-2.0F, 3.0F, 9.5F}), AzimuthBins{8}, {}, {}, {}, {}}; }
+FarHorizon three_layers() { return {ReceiverPatches(20.0, 1, {-2.0F, 3.0F, 9.5F}), AzimuthBins{8}, {}, {}, {}, {}, {}}; }
 
 TEST(FarHorizon, HeightsMeetWhatIsNamedInTheirLayersAndTheOneAbove) {
   const FarHorizon map = three_layers();

@@ -143,6 +143,13 @@ TEST(FarView, WhatLiesBelowTheReceiverHidesNothing) {
   for (const FarVerdict v : verdicts_of(far.map(), directions(), middle)) EXPECT_EQ(v, FarVerdict::free);
 }
 
+TEST(FarView, LowerBordersHideNothing) {
+  HorizonEdge border = edge_toward(1.0, 16.5F);
+  border.role = EdgeRole::underside;
+  FarHorizonByHand far({border});
+  for (const FarVerdict v : verdicts_of(far.map(), directions(), middle)) EXPECT_EQ(v, FarVerdict::free);
+}
+
 TEST(FarView, EdgesMatterInTheirPatchesAlone) {
   FarHorizonByHand far({edge_toward(1.0, 16.5F)});
   far.named()[0].layers = 2;

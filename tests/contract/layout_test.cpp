@@ -69,7 +69,7 @@ TEST(Layout, CellRecordIsDocumented) {
   EXPECT_DOCUMENTED(CellRecord, capture_z_m);
   EXPECT_DOCUMENTED(CellRecord, far_map_top);
   EXPECT_DOCUMENTED(CellRecord, flags);
-  EXPECT_DOCUMENTED(CellRecord, edge_count);
+  EXPECT_DOCUMENTED(CellRecord, edge_counts);
   EXPECT_DOCUMENTED(CellRecord, loose_edge_count);
 }
 
@@ -92,7 +92,7 @@ TEST(Layout, HorizonEdgeIsDocumented) {
   EXPECT_DOCUMENTED(HorizonEdge, a);
   EXPECT_DOCUMENTED(HorizonEdge, b);
   EXPECT_DOCUMENTED(HorizonEdge, rises);
-  EXPECT_DOCUMENTED(HorizonEdge, reserved);
+  EXPECT_DOCUMENTED(HorizonEdge, role);
 }
 
 TEST(Layout, SurfaceRecordIsDocumented) {
@@ -100,7 +100,7 @@ TEST(Layout, SurfaceRecordIsDocumented) {
   EXPECT_DOCUMENTED(SurfaceRecord, number);
   EXPECT_DOCUMENTED(SurfaceRecord, part);
   // The rest has no bytes of its own
-  for (const char* bits : {"| 0 | 3 | `kind` |", "| 3 | 1 | `stands` |", "| 4 | 22 | `normal_u` |", "| 26 | 22 | `normal_v` |"})
+  for (const char* bits : {"| 0 | 3 | `kind` |", "| 3 | 1 | `grounded` |", "| 4 | 22 | `normal_u` |", "| 26 | 22 | `normal_v` |"})
     EXPECT_NE(chapter("SurfaceRecord").find(bits), std::string::npos) << "docs/package_format.md, SurfaceRecord lacks: " << bits;
 }
 
@@ -117,7 +117,7 @@ TEST(Layout, BitsOfSurfaceRecordsLieWhereTheyAreDocumented) {
   record.kind = SurfaceKind{5};
   EXPECT_EQ(word(record), std::uint64_t{5} << 16U);
   record = {};
-  record.stands = 1;
+  record.grounded = 1;
   EXPECT_EQ(word(record), std::uint64_t{1} << 19U);
   record = {};
   record.normal_u = 0x3FFFFE;
@@ -135,9 +135,7 @@ TEST(Layout, BuildingRecordIsDocumented) {
 
 TEST(Layout, FarCellRecordIsDocumented) {
   EXPECT_DOCUMENTED(FarCellRecord, first_named_edge);
-  EXPECT_DOCUMENTED(FarCellRecord, first_named_triangle);
   EXPECT_DOCUMENTED(FarCellRecord, named_edge_count);
-  EXPECT_DOCUMENTED(FarCellRecord, named_triangle_count);
   EXPECT_DOCUMENTED(FarCellRecord, levels_m);
   EXPECT_DOCUMENTED(FarCellRecord, reserved);
 }
@@ -159,7 +157,7 @@ TEST(Layout, NamedObstaclesMatterWhereBothBitsAreSet) {
 TEST(Layout, VersionAndChannelsAreDocumented) {
   const std::string document = format_document();
   EXPECT_NE(document.find("# The package format, version " + std::to_string(format_version) + "\n"), std::string::npos);
-  for (const char* channel : {sky_channel, distance_channel, likely_channel, lower_channel, upper_channel})
+  for (const char* channel : {sky_channel, distance_channel, likely_channel, lower_channel, upper_channel, overhang_channel})
     EXPECT_NE(chapter("far.exr").find("| `" + std::string(channel) + "` |"), std::string::npos) << channel;
 }
 
@@ -177,9 +175,7 @@ TEST(Layout, SectionKindsAndElementSizesAreDocumented) {
                {SectionKind::text, "text", 1},
                {SectionKind::far_cells, "far_cells", sizeof(FarCellRecord)},
                {SectionKind::far_edges, "far_edges", sizeof(HorizonEdge)},
-               {SectionKind::far_triangles, "far_triangles", sizeof(FarTriangle)},
                {SectionKind::named_edges, "named_edges", sizeof(NamedObstacle)},
-               {SectionKind::named_triangles, "named_triangles", sizeof(NamedObstacle)},
                {SectionKind::tile_edges, "tile_edges", sizeof(TileEdge)},
                {SectionKind::loose_edges, "loose_edges", sizeof(HorizonEdge)}};
   EXPECT_EQ(std::size(kinds), section_count);
@@ -195,8 +191,7 @@ TEST(Layout, RecordsCanBeMapped) {
                 std::is_trivially_copyable_v<CellRecord> && std::is_trivially_copyable_v<SurfaceRecord> &&
                 std::is_trivially_copyable_v<BuildingRecord> && std::is_trivially_copyable_v<FarCellRecord> &&
                 std::is_trivially_copyable_v<NamedObstacle> && std::is_trivially_copyable_v<HorizonEdge> &&
-                std::is_trivially_copyable_v<FarTriangle> && std::is_trivially_copyable_v<SurfaceRun> &&
-                std::is_trivially_copyable_v<TileEdge>);
+                std::is_trivially_copyable_v<SurfaceRun> && std::is_trivially_copyable_v<TileEdge>);
   static_assert(section_alignment % alignof(CellRecord) == 0 && section_alignment % alignof(SurfaceRecord) == 0 &&
                 section_alignment % alignof(FarCellRecord) == 0);
   static_assert(end_padding >= 16 - sizeof(Point3f), "the last vertex is read as 16 bytes");

@@ -27,7 +27,7 @@ BakedBlock empty_maps(std::size_t cells, const Grid& grid, const FarMapSettings&
   const HorizonMapSettings& h = far_map.horizon;
   const ReceiverPatches patches(grid.cell_edge_m, h.squares_per_edge, std::vector<float>(h.layers, 0.0F));
   const std::vector<float> nothing(static_cast<std::size_t>(patches.count()) * h.azimuth_bins, 0.0F);
-  return BakedHorizons{{}, {}, {cells, BakedHorizon{patches, {}, {}, nothing, nothing, nothing}}};
+  return BakedHorizons{{}, {cells, BakedHorizon{patches, {}, nothing, nothing, nothing, nothing}}};
 }
 
 Grid with_block_edge(Grid grid, int block_edge) {
@@ -40,10 +40,8 @@ void put(BakedBoxes& block, BakedBoxes&& single, std::size_t place, const Point3
 void put(BakedHorizons& block, BakedHorizons&& single, std::size_t place, const Point3f& block_from_cell_m) {
   BakedHorizon& map = single.cells[0];
   for (package::NamedObstacle& n : map.named_edges) n.row += static_cast<std::uint32_t>(block.edges.size());
-  for (package::NamedObstacle& n : map.named_triangles) n.row += static_cast<std::uint32_t>(block.triangles.size());
-  for (const HorizonEdge& e : single.edges) block.edges.push_back({e.a + block_from_cell_m, e.b + block_from_cell_m});
-  for (const package::FarTriangle& t : single.triangles)
-    block.triangles.push_back({t[0] + block_from_cell_m, t[1] + block_from_cell_m, t[2] + block_from_cell_m});
+  for (const HorizonEdge& e : single.edges)
+    block.edges.push_back({e.a + block_from_cell_m, e.b + block_from_cell_m, e.rises, e.role});
   block.cells[place] = std::move(map);
 }
 

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -18,11 +21,11 @@ struct Town {
   TileSet tiles;
 };
 
-Town small_town(Assign assign = Assign::clip) {
+Town small_town(Assign assign = Assign::clip, bool overhangs = true) {
   CitySettings settings;
   settings.size_m = 300;
   settings.lod = 2;
-  settings.overhangs = true;
+  settings.overhangs = overhangs;
   const CityModel city = scenes::generated_town(settings);
   Report ignored;
   const Grid grid = scenes::grid_covering(city, Angle::degrees(17), 40, 3);
@@ -47,7 +50,10 @@ TEST(CityHorizon, NodesContainWhatIsBelowThem) {
       for_each_leaf(city, n, [&](const CityHorizon::Node& leaf) {
         for (const Obstacle& o : city.obstacles().subspan(leaf.first_obstacle, leaf.obstacle_count)) {
           ASSERT_LE(o.z_high_m(), node.z_high_m);
-          for (const Point3d& p : o.corners) ASSERT_TRUE(node.outline.contains(horizontal(p)));
+          if (!o.is_upper()) {
+            ASSERT_LE(o.z_high_m(), node.z_underside_m);
+          }
+          for (const Point3d& p : {o.a, o.b}) ASSERT_TRUE(node.outline.contains(horizontal(p)));
         }
       });
     }
@@ -67,23 +73,36 @@ TEST(CityHorizon, EveryObstacleIsInExactlyOneLeaf) {
   EXPECT_EQ(std::count(times.begin(), times.end(), 1), std::ssize(times));
 }
 
-TEST(CityHorizon, ObstaclesAreTheHorizonEdgesAndTheTrianglesOfWhatDoesNotStand) {
+TEST(CityHorizon, ObstaclesAreTheEdgesOfAllRoles) {
   const Town town = small_town();
   const CityHorizon city(town.tiles, town.grid);
+  std::array<int, edge_role_count> of_role{};
   for_each_leaf(city, 0, [&](const CityHorizon::Node& leaf) {
     const Tile& tile = town.tiles.tile(leaf.cell);
-    const auto hanging = std::count_if(tile.triangle_surfaces.begin(), tile.triangle_surfaces.end(),
-                                       [&](std::uint32_t s) { return !town.tiles.surfaces[s].stands; });
-    EXPECT_EQ(leaf.obstacle_count, tile.horizon_edges.size() + static_cast<std::size_t>(hanging));
-    // Triangles are cut exactly; an edge belongs to the cell of its middle
+    ASSERT_EQ(leaf.obstacle_count, tile.horizon_edges.size());
+    // An edge belongs to the cell of its middle
     const Point2d corner = city.corner_of(leaf.cell);
     const Box2d square{corner, corner + Point2d{town.grid.cell_edge_m, town.grid.cell_edge_m}};
-    for (const Obstacle& o : city.obstacles().subspan(leaf.first_obstacle, leaf.obstacle_count)) {
-      EXPECT_TRUE(square.contains(0.5 * (horizontal(o.corners[0]) + horizontal(o.corners[1]))));
-      for (const Point3d& p : o.corners) EXPECT_TRUE(o.is_edge || square.contains(horizontal(p)));
+    for (std::size_t n = 0; n < tile.horizon_edges.size(); ++n) {
+      const Obstacle& o = city.obstacles()[leaf.first_obstacle + n];
+      const HorizonEdge& e = tile.horizon_edges[n];
+      EXPECT_TRUE(square.contains(0.5 * (horizontal(o.a) + horizontal(o.b))));
+      const Obstacle placed = o.from(corner);
+      // Corners of cells are whole multiples of 40 m: moving there and back rounds nothing
+      EXPECT_EQ(placed.a, (Point3d{e.a.x, e.a.y, e.a.z}));
+      EXPECT_EQ(placed.b, (Point3d{e.b.x, e.b.y, e.b.z}));
+      EXPECT_EQ(o.rises, e.rises);
+      EXPECT_EQ(o.role, e.role);
+      ++of_role.at(static_cast<std::size_t>(e.role));
     }
   });
-  EXPECT_TRUE(std::any_of(city.obstacles().begin(), city.obstacles().end(), [](const Obstacle& o) { return !o.is_edge; }));
+  for (const int count : of_role) EXPECT_GT(count, 20) << "the town tests nothing";
+}
+
+TEST(CityHorizon, WhereNothingOverhangsNoUndersideIsHigh) {
+  const Town town = small_town(Assign::clip, false);
+  const CityHorizon city(town.tiles, town.grid);
+  for (const CityHorizon::Node& node : city.nodes()) EXPECT_EQ(node.z_underside_m, -std::numeric_limits<double>::infinity());
 }
 
 TEST(CityHorizon, WithoutObstaclesThereIsNoTree) {

@@ -79,6 +79,7 @@ struct Place {
   Point3d eye;
   [[nodiscard]] float lower(std::uint32_t bin, std::uint32_t bins) const { return map.lower[patch * bins + bin]; }
   [[nodiscard]] float upper(std::uint32_t bin, std::uint32_t bins) const { return map.upper[patch * bins + bin]; }
+  [[nodiscard]] float overhang(std::uint32_t bin, std::uint32_t bins) const { return map.overhang[patch * bins + bin]; }
 };
 
 Place random_place(const Baked& baked, Chance& chance) {
@@ -99,12 +100,12 @@ TEST_P(HorizonMaps, AllThatIsNotNamedAndDoesNotFaceAwayLiesBelowUpper) {
     const Place place = random_place(baked, chance);
     const auto names = test::named_in(baked.block, place.map, place.patch);
     for (const test::FarThing& thing : test::far_city(baked.tiles, baked.grid, place.cell)) {
+      if (!thing.is_upper()) continue;
       const bool faces_away = test::faces_away(thing, place.map, baked.grid.cell_edge_m);
       ++(faces_away ? away : names.contains(thing) ? named : bounded);
       if (faces_away || names.contains(thing)) continue;
-      const auto& [a, b, c] = thing.corners;
       for (const double share : {0.0, 1.0, chance.between(0, 1), chance.between(0, 1)}) {
-        const Point3d p = test::point_between(test::point_between(a, b, chance.between(0, 1)), c, share);
+        const Point3d p = test::point_between(thing.a, thing.b, share);
         const test::Sight sight = test::sight_of(p, place.eye, bins);
         ASSERT_LE(sight.slope, place.upper(sight.bin, bins.count)) << "place " << n << ", patch " << place.patch;
       }
@@ -113,6 +114,49 @@ TEST_P(HorizonMaps, AllThatIsNotNamedAndDoesNotFaceAwayLiesBelowUpper) {
   EXPECT_GT(named, 0U);
   EXPECT_GT(bounded, named) << "the test would not test much";
   EXPECT_GT(bounded, away / 2) << "the test would not test much";
+}
+
+/// The horizon that things make which are grounded and not named.
+double unnamed_ground(const std::vector<test::FarThing>& things, const std::set<test::FarThing>& names, const Point3d& eye,
+                      double azimuth) {
+  double horizon = 0.0;
+  for (const test::FarThing& thing : things)
+    if (thing.role == EdgeRole::grounded && !names.contains(thing))
+      horizon = std::max(horizon, test::slope_at(azimuth, thing.a, thing.b, eye).value_or(0.0));
+  return horizon;
+}
+
+TEST_P(HorizonMaps, LowerBordersThatAreNotNamedLieBelowOverhangOrBeforeHigherGroundedThings) {
+  const Baked baked = bake(GetParam());
+  const AzimuthBins bins;
+  Chance chance(11);
+  std::size_t bounded = 0, hidden = 0;
+  for (int n = 0; n < places_asked; ++n) {
+    const Place place = random_place(baked, chance);
+    const auto names = test::named_in(baked.block, place.map, place.patch);
+    const auto things = test::far_city(baked.tiles, baked.grid, place.cell);
+    for (const test::FarThing& thing : things) {
+      if (thing.is_upper() || names.contains(thing) || test::faces_away(thing, place.map, baked.grid.cell_edge_m)) continue;
+      const Point3d p = test::point_between(thing.a, thing.b, chance.between(0, 1));
+      const test::Sight sight = test::sight_of(p, place.eye, bins);
+      if (sight.slope <= place.overhang(sight.bin, bins.count)) {
+        ++bounded;
+        continue;
+      }
+      const Point2d way = horizontal(p) - horizontal(place.eye);
+      ASSERT_LE(sight.slope, unnamed_ground(things, names, place.eye, std::atan2(way.y, way.x)))
+          << "place " << n << ", patch " << place.patch;
+      ++hidden;
+    }
+  }
+  EXPECT_EQ(bounded + hidden > 100, GetParam().city.overhangs);
+}
+
+TEST_P(HorizonMaps, WhereNothingOverhangsTheRowsOfOverhangsAreLevel) {
+  if (GetParam().city.overhangs) return;
+  const Baked baked = bake(GetParam());
+  for (const BakedHorizon& map : baked.block.cells)
+    for (const float slope : map.overhang) ASSERT_EQ(slope, 0.0F);
 }
 
 TEST_P(HorizonMaps, AllBelowLowerIsHidden) {
@@ -132,8 +176,7 @@ TEST_P(HorizonMaps, AllBelowLowerIsHidden) {
       const double azimuth = (bin + chance.between(0, 1)) * bins.width_rad();
       double horizon = 0.0;
       for (const test::FarThing& thing : things)
-        if (thing.is_edge)
-          horizon = std::max(horizon, test::slope_at(azimuth, thing.corners[0], thing.corners[1], place.eye).value_or(0.0));
+        if (thing.is_upper()) horizon = std::max(horizon, test::slope_at(azimuth, thing.a, thing.b, place.eye).value_or(0.0));
       ASSERT_GE(horizon, place.lower(bin, bins.count)) << "place " << n << ", patch " << place.patch << ", bin " << bin;
     }
   }
@@ -164,9 +207,9 @@ CornerView view_from_corners(const std::vector<test::FarThing>& things, const st
   for (const Point2d at : {box.low, box.high, Point2d{box.low.x, box.high.y}, Point2d{box.high.x, box.low.y}}) {
     double horizon = 0.0;
     for (const test::FarThing& thing : things) {
-      if (!thing.is_edge) continue;
+      if (!thing.is_upper()) continue;
       const Point3d eye{at.x, at.y, box.z_low_m};
-      const double slope = test::slope_at(azimuth, thing.corners[0], thing.corners[1], eye).value_or(0.0);
+      const double slope = test::slope_at(azimuth, thing.a, thing.b, eye).value_or(0.0);
       if (names.contains(thing))
         view.names_nothing = view.names_nothing && slope == 0.0;
       else
@@ -206,16 +249,16 @@ TEST(HorizonMapBaker, LikelyKnowsOnlyTheUnnamedAndLeavesOutTheFaintest) {
 
 TEST(HorizonMapBaker, ABlockStoresEachNamedThingOnce) {
   const Baked baked = bake(towns()[1]);
-  std::vector<int> edge_uses(baked.block.edges.size(), 0), triangle_uses(baked.block.triangles.size(), 0);
-  for (const BakedHorizon& map : baked.block.cells) {
-    for (const package::NamedObstacle& named : map.named_edges) ++edge_uses.at(named.row);
-    for (const package::NamedObstacle& named : map.named_triangles) ++triangle_uses.at(named.row);
-  }
-  ASSERT_FALSE(edge_uses.empty());
-  EXPECT_EQ(std::count(edge_uses.begin(), edge_uses.end(), 0), 0);
-  EXPECT_EQ(std::count(triangle_uses.begin(), triangle_uses.end(), 0), 0);
-  EXPECT_GT(*std::max_element(edge_uses.begin(), edge_uses.end()), 1) << "cells share what they name";
-  EXPECT_FALSE(baked.block.triangles.empty()) << "bridges and eaves are met by themselves";
+  std::vector<int> uses(baked.block.edges.size(), 0);
+  for (const BakedHorizon& map : baked.block.cells)
+    for (const package::NamedObstacle& named : map.named_edges) ++uses.at(named.row);
+  ASSERT_FALSE(uses.empty());
+  EXPECT_EQ(std::count(uses.begin(), uses.end(), 0), 0);
+  EXPECT_GT(*std::max_element(uses.begin(), uses.end()), 1) << "cells share what they name";
+  for (const EdgeRole role : {EdgeRole::grounded, EdgeRole::overhang, EdgeRole::underside})
+    EXPECT_TRUE(std::any_of(baked.block.edges.begin(), baked.block.edges.end(), [&](const HorizonEdge& e) {
+      return e.role == role;
+    })) << static_cast<int>(role);
 }
 
 void expect_equal(const std::vector<package::NamedObstacle>& a, const std::vector<package::NamedObstacle>& b) {
@@ -229,14 +272,31 @@ TEST(HorizonMapBaker, TheNumberOfThreadsChangesNothing) {
   for (int n = 0; n < repeats; ++n) {
     const Baked again = with_threads(many_threads, [] { return bake(towns()[1]); });
     ASSERT_EQ(once.block.edges, again.block.edges);
-    ASSERT_EQ(once.block.triangles, again.block.triangles);
     for (std::size_t cell = 0; cell < once.block.cells.size(); ++cell) {
       const BakedHorizon &a = once.block.cells[cell], &b = again.block.cells[cell];
       expect_equal(a.named_edges, b.named_edges);
-      expect_equal(a.named_triangles, b.named_triangles);
-      ASSERT_EQ(std::tie(a.lower, a.likely, a.upper), std::tie(b.lower, b.likely, b.upper));
+      ASSERT_EQ(std::tie(a.lower, a.likely, a.upper, a.overhang), std::tie(b.lower, b.likely, b.upper, b.overhang));
     }
   }
+}
+
+/// The highest row of overhangs of a cell, with a slab that floats 1.5 km away, before a slab or a tower.
+float highest_overhang(double tower_foot_m) {
+  scenes::SceneBuilder scene;
+  scene.add_box({{0, 0}, {5, 5}}, 0.0, 3.0);
+  scene.add_box({{1500, -100}, {1510, 100}}, 5.0, 6.0);
+  scene.add_box({{1520, -400}, {1560, 400}}, tower_foot_m, 200.0);
+  Report ignored;
+  const Grid grid = scenes::grid_covering(scene.city(), {}, 50, 1);
+  const TileSet tiles = cut_into_tiles({scene.city(), {}}, grid, Assign::clip, {}, ignored);
+  const BakedHorizons maps = HorizonMapBaker(tiles, grid, {}).bake(grid.block_of({0, 0}));
+  const BakedHorizon& map = maps.cells.at(grid.cells_of(grid.block_of({0, 0})).index_of({0, 0}));
+  return *std::max_element(map.overhang.begin(), map.overhang.end());
+}
+
+TEST(HorizonMapBaker, LowerBordersThatAGroundedTowerHidesAreLeftOut) {
+  EXPECT_EQ(highest_overhang(0.0), 0.0F);
+  EXPECT_GE(highest_overhang(20.0), 20.0F / 1560.0F) << "the tower floats: its own lower border is highest";
 }
 
 TEST(HorizonMapBaker, WhereNothingRisesNothingIsNamed) {

@@ -35,7 +35,7 @@ void add(Bytes& sum, std::span<const std::byte> file) {
     Section section{};
     std::memcpy(&section, file.data() + sizeof header + n * sizeof section, sizeof section);
     const std::uint64_t bytes = section.count * section.element_bytes;
-    if (section.kind >= SectionKind::far_cells && section.kind <= SectionKind::named_triangles) sum.tiles -= bytes;
+    if (section.kind >= SectionKind::far_cells && section.kind <= SectionKind::named_edges) sum.tiles -= bytes;
     if (section.kind == SectionKind::vertices || section.kind == SectionKind::triangles) sum.bare_mesh += bytes;
   }
 }

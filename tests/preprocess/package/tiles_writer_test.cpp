@@ -76,23 +76,39 @@ TEST_F(TilesWriter, FindsTheSurfaceOfEachTriangle) {
   ASSERT_EQ(view.mesh.triangles.size(), kinds.size());
   for (std::uint32_t t = 0; t < kinds.size(); ++t) EXPECT_EQ(view.surface_of(t).kind, kinds[t]) << t;
   EXPECT_EQ(view.surface_runs.size(), 3U);
-  EXPECT_EQ(view.surface_of(0).stands, 0);
-  EXPECT_EQ(view.surface_of(1).stands, 1);
+  EXPECT_EQ(view.surface_of(0).grounded, 0);
+  EXPECT_EQ(view.surface_of(1).grounded, 1);
 }
 
 TEST_F(TilesWriter, NamesEdgesAsSidesOfTriangles) {
   tile().horizon_edges = {{corners_[3], corners_[0], {1, 2}}, {corners_[2], corners_[1], {3, 4}}};
   const TileView view = written();
-  EXPECT_TRUE(std::ranges::equal(view.edge_sides, std::vector<package::TileEdge>{{1, {4, 3}}, {3, {1, 2}}}));
+  EXPECT_TRUE(std::ranges::equal(view.edge_sides[0], std::vector<package::TileEdge>{{1, {4, 3}}, {3, {1, 2}}}));
   EXPECT_TRUE(view.loose_edges.empty());
+}
+
+TEST_F(TilesWriter, NamesTheEdgesOfEachRoleByThemselves) {
+  // An edge may be a horizon and a lower border at once
+  const HorizonEdge upper{corners_[3], corners_[0], {1, 2}, EdgeRole::overhang};
+  const HorizonEdge lower{corners_[3], corners_[0], {5, EdgeRises::straight_up}, EdgeRole::underside};
+  const HorizonEdge grounded{corners_[0], corners_[1], {3, 4}};
+  tile().horizon_edges = {lower, upper, grounded};
+  const TileView view = written();
+  EXPECT_TRUE(std::ranges::equal(view.edge_sides[0], std::vector<package::TileEdge>{{0, {3, 4}}}));
+  EXPECT_TRUE(std::ranges::equal(view.edge_sides[1], std::vector<package::TileEdge>{{5, {1, 2}}}));
+  EXPECT_TRUE(std::ranges::equal(view.edge_sides[2], std::vector<package::TileEdge>{{5, {5, EdgeRises::straight_up}}}));
+  EXPECT_TRUE(view.loose_edges.empty());
+  std::vector<HorizonEdge> read;
+  view.visit_edges([&](const HorizonEdge& e) { read.push_back(e); });
+  EXPECT_EQ(read, (std::vector<HorizonEdge>{grounded, upper, lower}));
 }
 
 TEST_F(TilesWriter, WritesAnEdgeThatEndsBesideTheMeshAsItIs) {
   const Point3f beside{2, 0, 0.5F};
-  tile().horizon_edges = {{corners_[0], beside, {5, -6}}, {beside, corners_[1]}};
+  tile().horizon_edges = {{corners_[0], beside, {5, -6}}, {beside, corners_[1], {}, EdgeRole::underside}};
   const TileView view = written();
   EXPECT_TRUE(std::ranges::equal(view.loose_edges, tile().horizon_edges));
-  EXPECT_TRUE(view.edge_sides.empty());
+  for (const auto& sides : view.edge_sides) EXPECT_TRUE(sides.empty());
   EXPECT_EQ(view.mesh.vertices.size(), corners_.size());
   EXPECT_EQ(view.cell->z_low_m, 1.0F) << "a cell's heights are those of its vertices";
 }
@@ -117,7 +133,8 @@ TEST_F(TilesWriter, WritesATileWithoutAnything) {
   tile() = {};
   const TileView view = written();
   EXPECT_TRUE(view.mesh.vertices.empty() && view.mesh.triangles.empty() && view.surface_runs.empty());
-  EXPECT_TRUE(view.edge_sides.empty() && view.loose_edges.empty());
+  for (const auto& sides : view.edge_sides) EXPECT_TRUE(sides.empty());
+  EXPECT_TRUE(view.loose_edges.empty());
 }
 
 }  // namespace

@@ -4,96 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <random>
 
 #include "farlod/horizon/edge_facing.hpp"
-#include "tests/preprocess/tiles/bodies.hpp"
+#include "tests/preprocess/tiles/random_bodies.hpp"
 #include "tiles/horizon_edges.hpp"
 
-// The judge of may_be_horizon: closed bodies that stand on the ground, eyes outside of them, and the horizon that each eye has
-// with and without the edges that are said to be none.
+// The judge of may_be_silhouette for upper borders: closed bodies that stand on the ground, eyes outside of them, and the horizon
+// that each eye has with and without the edges that are said to be none.
 
 namespace farlod {
 namespace {
 
+using test::Body;
+using test::Count;
+using test::EyeBox;
 using test::Face;
-
-/// A place within this many metres of the origin is rounded by a few times this.
-constexpr double reach_m = 128.0;
-constexpr double rounding_m = 8 * reach_m * std::numeric_limits<double>::epsilon();
-
-/// A convex body, each face convex and seen counter-clockwise from outside.
-using Body = std::vector<Face>;
-
-bool is_inside(const Body& body, const Point3d& p) {
-  return std::all_of(body.begin(), body.end(),
-                     [&](const Face& face) { return dot(cross(face[1] - face[0], face[2] - face[0]), p - face[0]) < 0.0; });
-}
-
-class RandomCity {
- public:
-  explicit RandomCity(std::uint64_t seed) : random_(seed) {}
-
-  [[nodiscard]] double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
-  }
-  [[nodiscard]] bool toss() { return random_() % 2 == 0; }
-  [[nodiscard]] Point2d place() { return {between(-50, 50), between(-50, 50)}; }
-
-  /// Upright walls below a roof that is one plane, level or not; or a level roof and sides that lean inwards.
-  [[nodiscard]] Body prism() {
-    const std::size_t corners = 3 + random_() % 5;
-    const Point2d middle = place(), radius{between(3, 20), between(3, 20)};
-    const double turn = between(0, 6), height_m = between(3, 30), shrink = toss() ? 1.0 : between(0.3, 0.95);
-    const bool is_level = shrink < 1.0 || toss();
-    const Point2d tilt{is_level ? 0.0 : between(-0.1, 0.1), is_level ? 0.0 : between(-0.1, 0.1)};
-    Face foot, top;
-    for (std::size_t k = 0; k < corners; ++k) {
-      const double angle = turn + 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(corners);
-      const Point2d out{radius.x * std::cos(angle), radius.y * std::sin(angle)};
-      foot.push_back({middle.x + out.x, middle.y + out.y, 0.0});
-      top.push_back({middle.x + shrink * out.x, middle.y + shrink * out.y, height_m + dot(tilt, out)});
-    }
-    Body body{top, Face(foot.rbegin(), foot.rend())};
-    for (std::size_t k = 0; k < corners; ++k) {
-      const std::size_t next = (k + 1) % corners;
-      body.push_back({foot[k], foot[next], top[next], top[k]});
-    }
-    return body;
-  }
-
-  /// A house with a gable at either end, or with hips.
-  [[nodiscard]] Body house() {
-    const Point2d middle = place();
-    const double x = between(4, 20), y = between(3, 10), eaves_m = between(2, 12), ridge_m = eaves_m + between(1, 8);
-    const double turn = between(0, 6), ridge_x = toss() ? x : between(0.1, 0.9) * x;
-    const auto p = [&](double east, double north, double up) {
-      return Point3d{middle.x + east * std::cos(turn) - north * std::sin(turn),
-                     middle.y + east * std::sin(turn) + north * std::cos(turn), up};
-    };
-    const Face foot{p(-x, -y, 0), p(x, -y, 0), p(x, y, 0), p(-x, y, 0)};
-    const Face eaves{p(-x, -y, eaves_m), p(x, -y, eaves_m), p(x, y, eaves_m), p(-x, y, eaves_m)};
-    const Point3d west = p(-ridge_x, 0, ridge_m), east = p(ridge_x, 0, ridge_m);
-    Body body{Face(foot.rbegin(), foot.rend()),
-              {eaves[0], eaves[1], east, west},
-              {eaves[2], eaves[3], west, east},
-              {eaves[1], eaves[2], east},
-              {eaves[3], eaves[0], west}};
-    for (std::size_t k = 0; k < 4; ++k) body.push_back({foot[k], foot[(k + 1) % 4], eaves[(k + 1) % 4], eaves[k]});
-    return body;
-  }
-
-  [[nodiscard]] std::vector<Body> bodies() {
-    std::vector<Body> result;
-    for (std::size_t n = 1 + random_() % 4; n > 0; --n) result.push_back(toss() ? prism() : house());
-    return result;
-  }
-
- private:
-  std::mt19937_64 random_;
-};
+using test::Highest;
+using test::RandomCity;
+using test::rounding_m;
 
 /// Fans of triangles, as far as they bear: a table knows each body by itself.
 std::vector<HorizonSegment> horizon_edges_of(const std::vector<Body>& bodies) {
@@ -101,17 +30,12 @@ std::vector<HorizonSegment> horizon_edges_of(const std::vector<Body>& bodies) {
   for (const Body& body : bodies) {
     EdgeTable table;
     for (const Face& face : body)
-      for (std::size_t n = 2; n < face.size(); ++n) table.add_triangle(face[0], face[n - 1], face[n]);
+      for (std::size_t n = 2; n < face.size(); ++n) table.add_triangle(face[0], face[n - 1], face[n], FacetLook::up);
     const auto own = table.horizon_edges();
     edges.insert(edges.end(), own.begin(), own.end());
   }
   return edges;
 }
-
-/// The highest thing above the horizontal at an azimuth, as slope, and how far away it is.
-struct Highest {
-  double slope = 0.0, distance_m = 0.0;
-};
 
 Highest highest_of(const std::vector<HorizonSegment>& edges, const Point3d& eye, Point2d ahead) {
   Highest highest;
@@ -125,15 +49,6 @@ Highest highest_of(const std::vector<HorizonSegment>& edges, const Point3d& eye,
   }
   return highest;
 }
-
-struct EyeBox {
-  Box2d plan;
-  double low_m, high_m;
-};
-
-struct Count {
-  int seen = 0, away = 0, looks = 0;
-};
 
 /// What an eye loses by the edges that were left out, in metres where they stand. Ends of edges less than two slacks above the
 /// eye are taken for no higher than it.
@@ -156,13 +71,13 @@ void judge(RandomCity& random, double box_edge_m, Count& count) {
   const EyeBox eyes{{corner, corner + Point2d{box_edge_m, box_edge_m}}, low_m, low_m + 0.5 * box_edge_m};
   std::vector<HorizonSegment> kept;
   for (const HorizonSegment& e : edges)
-    if (may_be_horizon(e.segment.a, e.segment.b, e.rises, eyes.plan, eyes.low_m, eyes.high_m)) kept.push_back(e);
+    if (may_be_silhouette(e.segment.a, e.segment.b, e.rises, e.role, eyes.plan, eyes.low_m, eyes.high_m)) kept.push_back(e);
   count.seen += static_cast<int>(edges.size());
   count.away += static_cast<int>(edges.size() - kept.size());
   for (int n = 0; n < (box_edge_m == 0.0 ? 1 : 5); ++n) {
     const Point3d eye{random.between(eyes.plan.low.x, eyes.plan.high.x), random.between(eyes.plan.low.y, eyes.plan.high.y),
                       random.between(eyes.low_m, eyes.high_m)};
-    if (std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) { return is_inside(body, eye); })) continue;
+    if (std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) { return test::is_inside(body, eye); })) continue;
     expect_nothing_lost(edges, kept, eye, random);
     ++count.looks;
   }

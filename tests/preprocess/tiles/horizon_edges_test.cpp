@@ -7,47 +7,31 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
-#include "tests/preprocess/tiles/bodies.hpp"
+#include "tests/preprocess/tiles/borders.hpp"
 #include "tiles/ground.hpp"
-#include "tiles/open_ends.hpp"
 
 namespace farlod {
 namespace {
 
 using test::Face;
-using testing::IsEmpty;
+using test::segments_of;
+using test::table_of;
 using testing::UnorderedElementsAre;
-
-/// Faces as fans of triangles: what diagonals they get, no test depends on.
-EdgeTable table_of(const std::vector<Face>& faces) {
-  EdgeTable table;
-  for (const Face& face : faces)
-    for (std::size_t n = 2; n < face.size(); ++n) table.add_triangle(face[0], face[n - 1], face[n]);
-  return table;
-}
-
-std::vector<Segment3d> segments_of(const std::vector<HorizonSegment>& edges) {
-  std::vector<Segment3d> segments;
-  for (const HorizonSegment& e : edges) segments.push_back(e.segment);
-  return segments;
-}
 
 std::vector<Segment3d> horizon_edges_of(const std::vector<Face>& faces) { return segments_of(table_of(faces).horizon_edges()); }
 
 /// What rises beside an edge, to the left and to the right of the way from a to b.
 EdgeRises rises_beside(const std::vector<HorizonSegment>& edges, const Segment3d& ab) {
-  for (const auto& [segment, rises] : edges) {
+  for (const auto& [segment, rises, role] : edges) {
+    EXPECT_EQ(role, EdgeRole::grounded) << "what overhangs is not known here";
     if (segment == ab) return rises;
     if (segment == Segment3d{ab.b, ab.a}) return {rises.right, rises.left};
   }
   ADD_FAILURE() << "no such edge";
   return {};
 }
-
-std::vector<Point3d> open_ends_of(const std::vector<Face>& faces) { return open_ends(table_of(faces).open_edges()); }
 
 /// Each edge from west to east, or from south to north: which end comes first means nothing.
 std::vector<Segment3d> directed(std::vector<Segment3d> edges) {
@@ -99,10 +83,10 @@ TEST(HorizonEdges, KeepTheFoldWhereASliverLiesBetweenTheSlopes) {
   // The middle of the ridge lies a hair beside it: the triangle between has no direction to be trusted
   const Point3d a{0, 0, 3}, b{10, 0, 3}, m{5, 1e-9, 3 + 1e-9};
   EdgeTable table;
-  table.add_triangle(a, b, {5, -5, 0});
-  table.add_triangle(a, m, b);
-  table.add_triangle(a, {5, 5, 0}, m);
-  table.add_triangle(m, {5, 5, 0}, b);
+  table.add_triangle(a, b, {5, -5, 0}, FacetLook::up);
+  table.add_triangle(a, m, b, FacetLook::up);
+  table.add_triangle(a, {5, 5, 0}, m, FacetLook::up);
+  table.add_triangle(m, {5, 5, 0}, b, FacetLook::up);
   EXPECT_THAT(segments_of(table.horizon_edges()), testing::Contains(Segment3d{a, b}));
 }
 
@@ -127,7 +111,7 @@ TEST(EdgeRises, OfAGabledHouseAreThePitchesOfItsRoof) {
 
 TEST(EdgeRises, WhereNoTriangleIsAreUnknown) {
   EdgeTable table;
-  table.add_triangle({0, 0, 5}, {10, 0, 5}, {5, 10, 4});
+  table.add_triangle({0, 0, 5}, {10, 0, 5}, {5, 10, 4}, FacetLook::up);
   EXPECT_EQ(rises_beside(table.horizon_edges(), {{0, 0, 5}, {10, 0, 5}}).right, EdgeRises::straight_down);
 }
 
@@ -163,41 +147,6 @@ TEST(HorizonEdges, OfFlatGroundAreItsBorder) {
   EXPECT_EQ(Ground({{20, 30, 5}, {70, 60, 5}, {40, 80, 5}}, {{0, 0}, {100, 100}}).horizon_edges().size(), 4U);
 }
 
-TEST(OpenEnds, OfClosedBodiesThereAreNone) {
-  EXPECT_THAT(open_ends_of(test::box(0, 0, 10, 20, 0, 5)), IsEmpty());
-  EXPECT_THAT(open_ends_of(test::gabled_house()), IsEmpty());
-  EXPECT_THAT(open_ends_of(test::stepped_box()), IsEmpty());
-}
-
-TEST(OpenEnds, OfAMissingFaceAreItsCorners) {
-  auto faces = test::box(0, 0, 10, 20, 0, 5);
-  faces.pop_back();
-  EXPECT_EQ(open_ends_of(faces).size(), 4U);
-}
-
-TEST(OpenEnds, AChainOfShorterEdgesClosesALongOne) {
-  const auto faces = test::box_with_t_junctions();
-  EXPECT_FALSE(table_of(faces).open_edges().empty());
-  EXPECT_THAT(open_ends_of(faces), IsEmpty());
-}
-
-TEST(OpenEnds, AChainThatMissesAPartDoesNot) {
-  const std::vector<Segment3d> edges{{{0, 0, 9}, {10, 0, 9}}, {{0, 0, 9}, {4, 0, 9}}, {{6, 0, 9}, {10, 0, 9}}};
-  EXPECT_THAT(open_ends(edges), UnorderedElementsAre(Point3d{4, 0, 9}, Point3d{6, 0, 9}));
-}
-
-TEST(OpenEnds, ARoundHoleIsNotALine) {
-  std::vector<Segment3d> circle;
-  const int sides = 720;  // so many that each step alone is straight within on_line_m
-  const auto corner = [](int n) {
-    const double turn = 2.0 * std::numbers::pi * (n % sides) / sides;
-    return Point3d{10 * std::cos(turn), 10 * std::sin(turn), 9.0};
-  };
-  ASSERT_LT(norm(corner(1) - corner(0)) * std::sin(2.0 * std::numbers::pi / sides), on_line_m);
-  for (int n = 0; n < sides; ++n) circle.push_back({corner(n), corner(n + 1)});
-  EXPECT_EQ(open_ends(circle).size(), static_cast<std::size_t>(sides));
-}
-
 class CutEdge : public testing::Test {
  protected:
   static Grid grid() {
@@ -214,12 +163,13 @@ class CutEdge : public testing::Test {
 
 TEST_F(CutEdge, PiecesLieInTheirCellsAndTheirLengthsSumToItsOwn) {
   const Segment3d edge{{-37.3, 12.9, 3}, {212.8, 171.4, 60}};
-  const auto pieces = cut_edge({edge, {-31, 17}}, grid(), 0.0);
+  const auto pieces = cut_edge({edge, {-31, 17}, EdgeRole::underside}, grid(), 0.0);
   ASSERT_EQ(pieces.size(), 9U);  // five columns (−1 to 4: five borders), three borders of rows
   double sum_m = 0.0;
   for (const CellEdge& piece : pieces) {
     sum_m += length_m(piece);
     EXPECT_EQ(piece.edge.rises, (EdgeRises{-31, 17}));
+    EXPECT_EQ(piece.edge.role, EdgeRole::underside);
     EXPECT_GT(piece.edge.b.x, piece.edge.a.x) << "turned round, left would be right";
     for (const Point3f& p : {piece.edge.a, piece.edge.b}) {
       const Point3d p_grid = grid_from_cell(p, piece.cell);

@@ -123,7 +123,7 @@ TEST_P(HorizonJudge, HorizonEdgesOfATownAreAsHighAsAllEdgesTogether) {
   const Grid grid = scenes::grid_covering(city, Angle::degrees(20.0), cell_edge_m, 3);
   Report ignored;
   const TileSet tiles = cut_into_tiles({city, {}}, grid, Assign::clip, {}, ignored);
-  ASSERT_TRUE(std::all_of(tiles.surfaces.begin(), tiles.surfaces.end(), [](const Surface& s) { return s.stands; }));
+  ASSERT_TRUE(std::all_of(tiles.surfaces.begin(), tiles.surfaces.end(), [](const Surface& s) { return s.grounded; }));
   expect_same_horizon(tiles, grid, GetParam().seed);
 }
 

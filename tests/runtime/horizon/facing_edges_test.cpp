@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <string>
 #include <vector>
 
 #include "farlod/horizon/edge_facing.hpp"
@@ -12,7 +14,7 @@
 #include "tests/runtime/horizon/horizon_judge.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
 
-// The judge is may_be_horizon, in doubles.
+// The judge is may_be_silhouette, in doubles.
 
 namespace farlod {
 namespace {
@@ -21,34 +23,37 @@ Point3d exactly(const Point3f& p) { return {p.x, p.y, p.z}; }
 
 bool is_kept_by_judge(const HorizonEdge& e, const ReceiverBox& box) {
   return std::max(e.a.z, e.b.z) > box.low.z &&
-         may_be_horizon(exactly(e.a), exactly(e.b), e.rises, {{box.low.x, box.low.y}, {box.high.x, box.high.y}}, box.low.z,
-                        box.high.z);
+         may_be_silhouette(exactly(e.a), exactly(e.b), e.rises, e.role, {{box.low.x, box.low.y}, {box.high.x, box.high.y}},
+                           box.low.z, box.high.z);
 }
 
-/// Distances, or less than 0, for a whole number of batches.
+/// Distances, or less than 0, for a whole number of batches. All edges have the role of the first.
 std::vector<float> found(const std::vector<HorizonEdge>& edges, const ReceiverBox& box) {
   std::vector<SkylineEdges::Batch> batches(edges.size() / SkylineEdges::lanes);
   std::vector<EdgeRises> rises;
   for (std::size_t n = 0; n < edges.size(); ++n) {
     SkylineEdges::Batch& batch = batches.at(n / SkylineEdges::lanes);
     const std::size_t lane = n % SkylineEdges::lanes;
-    const auto& [a, b, r, reserved] = edges[n];
+    const auto& [a, b, r, role] = edges[n];
+    EXPECT_EQ(role, edges.front().role);
     batch.ax[lane] = a.x, batch.ay[lane] = a.y, batch.az[lane] = a.z;
     batch.bx[lane] = b.x, batch.by[lane] = b.y, batch.bz[lane] = b.z;
     rises.push_back(r);
   }
   std::vector<float> distances_m(edges.size());
-  find_facing(batches, rises, box, distances_m);
+  find_facing(batches, rises, edges.front().role, box, distances_m);
   return distances_m;
 }
 
 class Edges {
  public:
+  explicit Edges(EdgeRole role) : role_(role) {}
+
   /// Between `reach_m` around the eyes, with facets of all angles on both sides, walls among them.
   [[nodiscard]] HorizonEdge edge(double reach_m, double length_m) {
     const Point3f a = random_.place(reach_m, -10.0, 60.0), way = random_.place(length_m, -1.0, 1.0);
     const float climb = random_.between(-1.0, 1.0) < 0.0F ? 0.0F : random_.between(-length_m, length_m);
-    return {a, {a.x + way.x, a.y + way.y, a.z + climb}, {rise(), rise()}};
+    return {a, {a.x + way.x, a.y + way.y, a.z + climb}, {rise(), rise()}, role_};
   }
   /// In line with a corner of the box: whether the eyes are on both sides is decided by less than the rounding of a place.
   [[nodiscard]] HorizonEdge aimed_edge(double reach_m, double length_m, const ReceiverBox& box) {
@@ -65,17 +70,18 @@ class Edges {
 
  private:
   [[nodiscard]] std::int8_t rise() {
-    return random_.between(-1.0, 1.0) < 0.0F ? EdgeRises::straight_down
-                                             : static_cast<std::int8_t>(random_.between(-127.0, 127.0));
+    const std::int8_t wall = role_ == EdgeRole::underside ? EdgeRises::straight_up : EdgeRises::straight_down;
+    return random_.between(-1.0, 1.0) < 0.0F ? wall : static_cast<std::int8_t>(random_.between(-127.0, 127.0));
   }
+  EdgeRole role_;
   RandomPlaces random_;
 };
 
 struct Tally {
   std::size_t kept = 0, away = 0, in_excess = 0;
 };
-Tally compared(double reach_m, double length_m) {
-  Edges random;
+Tally compared(EdgeRole role, double reach_m, double length_m) {
+  Edges random(role);
   Tally tally;
   for (int n = 0; n < 300; ++n) {
     const ReceiverBox box = random.box();
@@ -92,18 +98,26 @@ Tally compared(double reach_m, double length_m) {
   return tally;
 }
 
-TEST(FacingEdges, NoneIsLostThatMayBeAHorizon) {
+class FacingEdges : public testing::TestWithParam<EdgeRole> {};
+std::string name_of_role(const testing::TestParamInfo<EdgeRole>& info) {
+  const std::array names{"Grounded", "Overhang", "Underside"};
+  return names.at(static_cast<std::size_t>(info.param));
+}
+INSTANTIATE_TEST_SUITE_P(Roles, FacingEdges, testing::Values(EdgeRole::grounded, EdgeRole::overhang, EdgeRole::underside),
+                         name_of_role);
+
+TEST_P(FacingEdges, NoneIsLostThatMayBeASilhouette) {
   // Near and far ones, and so short that they are next to nothing but rounding
   for (const double reach_m : {30.0, 300.0, 20000.0})
     for (const double length_m : {0.001, 10.0, 100.0}) {
-      const Tally tally = compared(reach_m, length_m);
+      const Tally tally = compared(GetParam(), reach_m, length_m);
       EXPECT_GT(tally.kept, 1000U);
       EXPECT_GT(tally.away, 1000U);
     }
 }
 
-TEST(FacingEdges, RoundingLosesNone) {
-  Edges random;
+TEST_P(FacingEdges, RoundingLosesNone) {
+  Edges random(GetParam());
   std::size_t near_misses = 0;
   for (int n = 0; n < 300; ++n) {
     const ReceiverBox box = random.box();
@@ -118,13 +132,13 @@ TEST(FacingEdges, RoundingLosesNone) {
   EXPECT_GT(near_misses, 1000U) << "all are kept anyway";
 }
 
-TEST(FacingEdges, RoundingKeepsFewInExcess) {
+TEST_P(FacingEdges, RoundingKeepsFewInExcess) {
   // It decides about who is within millimetres of a plane, of edges tens of metres away
-  const Tally tally = compared(300.0, 30.0);
+  const Tally tally = compared(GetParam(), 300.0, 30.0);
   EXPECT_LT(1000 * tally.in_excess, tally.away);
 }
 
-TEST(FacingEdges, UprightAndBelow) {
+TEST(FacingEdgesOneByOne, UprightAndBelow) {
   const HorizonEdge upright{{10.0F, 0.0F, 0.0F}, {10.0F, 0.0F, 9.0F}, {0, 0}}, low{{10.0F, 0.0F, 1.0F}, {10.0F, 9.0F, 1.0F}};
   std::vector<HorizonEdge> edges(SkylineEdges::lanes, low);
   edges[3] = upright;
@@ -132,7 +146,7 @@ TEST(FacingEdges, UprightAndBelow) {
   for (std::size_t n = 0; n < edges.size(); ++n) EXPECT_EQ(distances_m[n], n == 3 ? 9.0F : -1.0F);
 }
 
-TEST(FacingEdges, DistancesAreFromTheMiddle) {
+TEST(FacingEdgesOneByOne, DistancesAreFromTheMiddle) {
   RandomPlaces random;
   std::vector<HorizonEdge> edges;
   for (int n = 0; n < 160; ++n) edges.push_back(random.edge(100.0, 5.0, 30.0));

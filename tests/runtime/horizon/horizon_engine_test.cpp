@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "tests/contract/far_horizon_by_hand.hpp"
+#include "tests/runtime/horizon/packed_overhangs.hpp"
 #include "tests/runtime/horizon/sky_judge.hpp"
 #include "tests/runtime/horizon/town_by_hand.hpp"
 
@@ -28,12 +29,21 @@ std::vector<Receiver> dense_receivers(const Point3f& normal) {
 /// A town in which horizons are known, and an engine over it.
 class KnownTown {
  public:
-  KnownTown(const TownByHand& town, SkyWeight weight)
-      : hanging_(town.skyline().hanging), skyline_(town.skyline()), engine_(ring_, weight, far_.map(), skyline_, hanging_) {}
+  KnownTown(const TownByHand& town, SkyWeight weight, const GapSettings& gaps = {})
+      : packed_(town.overhanging()),
+        overhangs_(packed_.geometry()),
+        skyline_(town.skyline()),
+        engine_(ring_, weight, far_.map(), skyline_, overhangs_, gaps) {}
+  /// With this far map. An engine looks once whether anything unnamed overhangs.
+  KnownTown(const TownByHand& town, SkyWeight weight, const GapSettings& gaps, const FarHorizon& map)
+      : packed_(town.overhanging()),
+        overhangs_(packed_.geometry()),
+        skyline_(town.skyline()),
+        engine_(ring_, weight, map, skyline_, overhangs_, gaps) {}
 
   [[nodiscard]] FarHorizon& map() { return far_.map(); }
   [[nodiscard]] const AzimuthRing& ring() const { return ring_; }
-  /// Answers receivers packet by packet; the numbers of those that see something hanging.
+  /// Answers receivers packet by packet; the numbers of those that needed rays.
   std::vector<std::uint32_t> evaluate(std::span<const Receiver> receivers, std::span<BoundedShare> shares) {
     return packet_by_packet(receivers, shares, &HorizonEngine::evaluate);
   }
@@ -45,21 +55,22 @@ class KnownTown {
   using Evaluate = std::uint32_t (HorizonEngine::*)(const ReceiverPacket&, std::span<BoundedShare>);
   std::vector<std::uint32_t> packet_by_packet(std::span<const Receiver> receivers, std::span<BoundedShare> shares,
                                               Evaluate answer) {
-    std::vector<std::uint32_t> see_hanging;
+    std::vector<std::uint32_t> by_rays;
     for (std::uint32_t first = 0; first < receivers.size(); first += ReceiverPacket::lanes) {
       const std::size_t count = std::min(ReceiverPacket::lanes, receivers.size() - first);
       ReceiverPacket packet;
       for (const Receiver& r : receivers.subspan(first, count)) packet.add(r);
       const std::uint32_t bits = (engine_.*answer)(packet, shares.subspan(first, count));
       for (std::uint32_t l = 0; l < count; ++l)
-        if (((bits >> l) & 1U) != 0) see_hanging.push_back(first + l);
+        if (((bits >> l) & 1U) != 0) by_rays.push_back(first + l);
     }
-    return see_hanging;
+    return by_rays;
   }
 
   AzimuthRing ring_ = AzimuthRing::even(azimuths, {});
   FarHorizonByHand far_{{}};
-  HangingCity hanging_;
+  PackedOverhangs packed_;
+  OverhangGeometry overhangs_;
   CellSkyline skyline_;
   HorizonEngine engine_;
 };
@@ -77,7 +88,7 @@ TEST(HorizonEngine, AnswersWhatIsAboveTheEdgesOfATown) {
       for (const Receiver& r : receivers) {
         const auto sky_above = [&](double SlopeRange::*end) {
           return judged_sky(weight, normal, known.ring(), [&](std::size_t k) {
-            return judged_horizon(town.standing(), r.p_cell, {known.ring().cosine()[k], known.ring().sine()[k]}).*end;
+            return judged_horizon(town.grounded(), r.p_cell, {known.ring().cosine()[k], known.ring().sine()[k]}).*end;
           });
         };
         const double rounding = sky_rounding(azimuths, normal);
@@ -166,7 +177,7 @@ TEST(HorizonEngine, BoundsHoldWhatIsLikely) {
     const auto sky_above = [&](double unnamed) {
       return judged_sky(SkyWeight::cosine, up, known.ring(), [&](std::size_t k) {
         const Point2d u{known.ring().cosine()[k], known.ring().sine()[k]};
-        return std::max(unnamed, judged_horizon(town.standing(), r.p_cell, u).high);
+        return std::max(unnamed, judged_horizon(town.grounded(), r.p_cell, u).high);
       });
     };
     // Where an edge ends within rounding of an azimuth, that azimuth's share may differ
@@ -179,54 +190,92 @@ TEST(HorizonEngine, BoundsHoldWhatIsLikely) {
   }
 }
 
-/// Whether something hangs over a receiver's horizon; neither when rounding may decide.
-struct Hangs {
+/// Houses in the east, and a slab behind them that those who stand near to the row do not see.
+TownByHand slab_behind_houses() {
+  TownByHand town;
+  town.add_box({22.0, -60.0}, {4.0, 140.0}, 12.0);
+  town.add_slab({40.0, 5.0}, {5.0, 9.0}, 22.0);
+  return town;
+}
+
+/// Whether a lower border rises over what is grounded; neither when rounding may decide.
+struct Gap {
   bool surely = false, surely_not = true;
 };
-Hangs hangs_over(const TownByHand& town, const AzimuthRing& ring, const Point3f& p) {
-  Hangs result;
+Gap gap_below(const TownByHand& town, const AzimuthRing& ring, const Point3f& p) {
+  const std::vector<HorizonEdge> ground = town.grounded(), borders = town.edges(EdgeRole::underside);
+  Gap result;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Point2d u{ring.cosine()[k], ring.sine()[k]};
-    const SlopeRange standing = judged_horizon(town.standing(), p, u), outline = judged_horizon(town.outlines(), p, u);
-    result.surely = result.surely || outline.low > standing.high;
-    result.surely_not = result.surely_not && outline.high < std::max(standing.low, std::numeric_limits<double>::min());
+    const SlopeRange grounded = judged_horizon(ground, p, u), border = judged_horizon(borders, p, u);
+    result.surely = result.surely || border.low > grounded.high;
+    result.surely_not = result.surely_not && border.high < std::max(grounded.low, std::numeric_limits<double>::min());
   }
   return result;
 }
 
-class WhatHangs : public testing::TestWithParam<std::size_t> {};
+class WhatOverhangs : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(WhatHangs, IsSeenByThoseWhoHaveItOverTheirHorizon) {
-  // A row of houses in the east hides a slab behind it from those who stand near to the row
-  TownByHand town;
-  town.add_box({22.0, -60.0}, {4.0, 140.0}, 12.0);
-  town.add_slab({40.0, 5.0}, {5.0, 9.0}, 22.0);
+TEST_P(WhatOverhangs, NeedsRaysOfThoseWhoMayLookBelowIt) {
+  const TownByHand town = slab_behind_houses();
   KnownTown known(town, SkyWeight::cosine);
   std::vector<Receiver> receivers = dense_receivers(up);
   receivers.resize(GetParam());
   std::vector<BoundedShare> shares(receivers.size());
-  const std::vector<std::uint32_t> seen = known.evaluate(receivers, shares);
-  int see_it = 0, see_nothing = 0;
+  const std::vector<std::uint32_t> traced = known.evaluate(receivers, shares);
+  int look_below = 0, see_nothing = 0;
   for (std::uint32_t n = 0; n < receivers.size(); ++n) {
-    const Hangs hangs = hangs_over(town, known.ring(), receivers[n].p_cell);
-    const auto times = std::count(seen.begin(), seen.end(), n);
+    const Gap gap = gap_below(town, known.ring(), receivers[n].p_cell);
+    const auto times = std::count(traced.begin(), traced.end(), n);
     EXPECT_LE(times, 1);
-    EXPECT_TRUE(times == 1 || !hangs.surely) << n;
-    EXPECT_TRUE(times == 0 || !hangs.surely_not) << n;
-    see_it += hangs.surely ? 1 : 0;
-    see_nothing += hangs.surely_not ? 1 : 0;
+    EXPECT_TRUE(times == 1 || !gap.surely) << n;
+    EXPECT_TRUE(times == 0 || !gap.surely_not) << n;
+    look_below += gap.surely ? 1 : 0;
+    see_nothing += gap.surely_not ? 1 : 0;
   }
   if (receivers.size() > 16) {
-    EXPECT_GT(std::min(see_it, see_nothing), 20) << "too few to tell";
+    EXPECT_GT(std::min(look_below, see_nothing), 20) << "too few to tell";
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(HorizonEngine, WhatHangs, testing::Values(3U, 16U, 400U));
+INSTANTIATE_TEST_SUITE_P(HorizonEngine, WhatOverhangs, testing::Values(3U, 16U, 400U));
 
-TEST(HorizonEngine, ASlabRightOverheadIsSeen) {
+TEST(HorizonEngine, WhereAGapIsSmallHalfOfItCounts) {
+  const TownByHand town = slab_behind_houses();
+  KnownTown exact(town, SkyWeight::cosine), lax(town, SkyWeight::cosine, {1.0F, 4});
+  const std::vector<Receiver> receivers = dense_receivers(up);
+  std::vector<BoundedShare> bounds(receivers.size()), halved(receivers.size());
+  EXPECT_FALSE(exact.evaluate_with_bounds(receivers, bounds).empty());
+  EXPECT_TRUE(lax.evaluate(receivers, halved).empty()) << "nobody needs rays";
+  int with_gap = 0;
+  for (std::size_t n = 0; n < receivers.size(); ++n) {
+    EXPECT_NEAR(halved[n].likely, 0.5F * (bounds[n].low + bounds[n].high), sky_rounding(azimuths, up)) << n;
+    with_gap += bounds[n].high > bounds[n].low ? 1 : 0;
+  }
+  EXPECT_GT(with_gap, 20) << "too few to tell";
+}
+
+TEST(HorizonEngine, TheToleranceBoundsTheErrorOfThoseWithoutRays) {
+  const TownByHand town = slab_behind_houses();
+  constexpr float tolerance = 0.001F;
+  KnownTown known(town, SkyWeight::cosine, {tolerance, 4});
+  const std::vector<Receiver> receivers = dense_receivers(up);
+  std::vector<BoundedShare> shares(receivers.size());
+  const std::vector<std::uint32_t> traced = known.evaluate_with_bounds(receivers, shares);
+  int narrow = 0;
+  for (std::uint32_t n = 0; n < receivers.size(); ++n) {
+    const bool by_rays = std::find(traced.begin(), traced.end(), n) != traced.end();
+    const float width = shares[n].high - shares[n].low;
+    EXPECT_EQ(by_rays, width > tolerance) << n << ": " << width;
+    narrow += !by_rays && width > 0.0F ? 1 : 0;
+  }
+  EXPECT_GT(narrow, 5) << "too few to tell";
+}
+
+TEST(HorizonEngine, ASlabRightOverheadHidesAllThatIsAboveItsBorders) {
   TownByHand town;
   town.add_slab({5.0, 5.0}, {4.0, 4.0}, 6.0);
-  // Walls all around so near and high that no outline shows over them but from below
+  // Walls all around so near and high that no border shows over them
   town.add_box({3.0, 3.0}, {0.5, 8.0}, 60.0);
   town.add_box({10.5, 3.0}, {0.5, 8.0}, 60.0);
   town.add_box({3.0, 10.5}, {8.0, 0.5}, 60.0);
@@ -234,8 +283,30 @@ TEST(HorizonEngine, ASlabRightOverheadIsSeen) {
   KnownTown known(town, SkyWeight::cosine);
   const std::vector<Receiver> receivers{{0, {7.0F, 7.0F, 1.5F}}, {1, {15.0F, 15.0F, 1.5F}}};
   std::vector<BoundedShare> shares(2);
-  EXPECT_EQ(known.evaluate(receivers, shares), std::vector<std::uint32_t>{0});
-  EXPECT_EQ(known.evaluate_with_bounds(receivers, shares), std::vector<std::uint32_t>{0});
+  for (const bool wants_bounds : {false, true}) {
+    EXPECT_TRUE((wants_bounds ? known.evaluate_with_bounds(receivers, shares) : known.evaluate(receivers, shares)).empty());
+    // What is left above a horizon that stands for the zenith is less than 1e-12
+    for (const float sky : {shares[0].low, shares[0].likely, shares[0].high}) EXPECT_NEAR(sky, 0.0F, 1e-12F);
+    EXPECT_GT(shares[1].likely, 0.1F);
+  }
+}
+
+TEST(HorizonEngine, UnnamedOverhangsLeaveTheSkyBelowThemOpen) {
+  // All around, something unnamed surely rises to 0.8, and may be open below 0.3
+  const TownByHand nothing;
+  KnownTown known(nothing, SkyWeight::cosine);
+  std::fill(known.map().lower.begin(), known.map().lower.end(), 0.8F);
+  std::fill(known.map().likely.begin(), known.map().likely.end(), 0.8F);
+  std::fill(known.map().upper.begin(), known.map().upper.end(), 0.8F);
+  std::fill(known.map().overhang.begin(), known.map().overhang.end(), 0.3F);
+  KnownTown reread(nothing, SkyWeight::cosine, {}, known.map());
+  const std::vector<Receiver> receiver{{0, {3.0F, 3.0F, 1.5F}}};
+  std::vector<BoundedShare> share(1);
+  EXPECT_TRUE(reread.evaluate_with_bounds(receiver, share).empty()) << "no ray could tell";
+  const double above = 1.0 / (1.0 + 0.8 * 0.8), below = 1.0 - 1.0 / (1.0 + 0.3 * 0.3), rounding = sky_rounding(azimuths, up);
+  EXPECT_NEAR(share[0].low, above, rounding);
+  EXPECT_NEAR(share[0].likely, above, rounding);
+  EXPECT_NEAR(share[0].high, above + below, rounding);
 }
 
 }  // namespace

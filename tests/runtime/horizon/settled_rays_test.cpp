@@ -8,24 +8,34 @@
 #include "farlod/sky/sky_partition.hpp"
 #include "horizon/ray_engine.hpp"
 #include "tests/contract/far_horizon_by_hand.hpp"
+#include "tests/runtime/horizon/packed_overhangs.hpp"
 
-// A wall to the east is near, standing or hanging; one to the west is far, once named, once bounded only.
+// A wall to the east is near, on the ground or floating; one to the west is far, once named, once bounded only.
 
 namespace farlod {
 namespace {
 
-constexpr float near_x = 25.0F, far_x = -40.0F, south = -50.0F, north = 70.0F, top = 30.0F;
+constexpr float near_x = 25.0F, far_x = -40.0F, south = -50.0F, north = 70.0F, top = 30.0F, gap = 6.0F;
 
-std::array<std::array<Point3f, 3>, 2> wall_at(float x) {
-  const Point3f a{x, south, 0.0F}, b{x, north, 0.0F}, c{x, north, top}, d{x, south, top};
+using Corners = std::array<Point3f, 3>;
+
+std::array<Corners, 2> wall_at(float x, float foot) {
+  const Point3f a{x, south, foot}, b{x, north, foot}, c{x, north, top}, d{x, south, top};
   return {{{a, b, c}, {a, c, d}}};
 }
 
-Occluder both_walls() {
+struct Walls {
+  const char* name;
+  bool near_floats, far_is_named;
+  [[nodiscard]] float near_foot() const { return near_floats ? gap : 0.0F; }
+};
+void PrintTo(const Walls& walls, std::ostream* out) { *out << walls.name; }
+
+Occluder both_walls(const Walls& walls) {
   std::vector<Point3f> vertices;
   std::vector<Triangle> triangles;
-  for (const float x : {near_x, far_x})
-    for (const auto& t : wall_at(x)) {
+  for (const auto& wall : {wall_at(near_x, walls.near_foot()), wall_at(far_x, 0.0F)})
+    for (const Corners& t : wall) {
       const auto first = static_cast<std::uint32_t>(vertices.size());
       vertices.insert(vertices.end(), t.begin(), t.end());
       triangles.push_back({first, first + 1, first + 2});
@@ -33,20 +43,15 @@ Occluder both_walls() {
   return {vertices, triangles};
 }
 
-struct Walls {
-  const char* name;
-  bool near_hangs, far_is_named;
-};
-void PrintTo(const Walls& walls, std::ostream* out) { *out << walls.name; }
-
 CellSkyline skyline_of(const Walls& walls) {
   CellSkyline skyline;
-  const auto near = wall_at(near_x);
-  if (walls.near_hangs)
-    skyline.hanging.assign(near.begin(), near.end());
-  else
-    skyline.standing.add({{near_x, south, top}, {near_x, north, top}});
-  if (walls.far_is_named) skyline.standing.add({{far_x, south, top}, {far_x, north, top}});
+  const HorizonEdge near_top{{near_x, south, top}, {near_x, north, top}};
+  (walls.near_floats ? skyline.overhangs : skyline.grounded).add(near_top);
+  if (walls.near_floats) {
+    constexpr EdgeRises nothing_beside{EdgeRises::straight_up, EdgeRises::straight_up};
+    skyline.undersides.add({{near_x, south, gap}, {near_x, north, gap}, nothing_beside, EdgeRole::underside});
+  }
+  if (walls.far_is_named) skyline.grounded.add({{far_x, south, top}, {far_x, north, top}});
   return skyline;
 }
 
@@ -66,14 +71,14 @@ class TwoWalls : public testing::TestWithParam<Walls> {
   }
   [[nodiscard]] std::vector<std::uint32_t> exact() const { return count_free(city_, places_, directions_); }
 
-  const Occluder city_ = both_walls();
+  const Occluder city_ = both_walls(GetParam());
   const std::vector<Point3d> directions_ = SkyPartition(SkyWeight::cosine, 1000).directions();
   const RayFan fan_{directions_};
   const CellSkyline skyline_ = skyline_of(GetParam());
-  const HangingCity hanging_{skyline_.hanging};
-  const Occluder scene_ = hanging_.scene();
+  const PackedOverhangs packed_{GetParam().near_floats ? wall_at(near_x, gap) : std::array<Corners, 2>{}};
+  OverhangGeometry overhangs_ = packed_.geometry();
   FarHorizonByHand far_{{}};
-  RayEngine engine_{fan_, far_.map(), skyline_, hanging_, scene_, true};
+  RayEngine engine_{fan_, far_.map(), skyline_, overhangs_, true};
   std::vector<Receiver> receivers_;
   std::vector<Point3f> places_;
   RayOrigins origins_;
@@ -113,7 +118,7 @@ TEST_P(TwoWalls, SettlingMakesTheDoubtfulExactAndLeavesTheRest) {
 }
 
 TEST_P(TwoWalls, WithoutBoundsTheLikelyCountIsTheSame) {
-  RayEngine without(fan_, far_.map(), skyline_, hanging_, scene_, false);
+  RayEngine without(fan_, far_.map(), skyline_, overhangs_, false);
   const std::vector<FreeRays> bounded = engine_.count(receivers_), plain = without.count(receivers_);
   for (std::size_t n = 0; n < receivers_.size(); ++n) {
     EXPECT_EQ(plain[n].likely, bounded[n].likely) << n;
@@ -146,8 +151,8 @@ TEST_P(TwoWalls, ReceiversAtDifferentHeightsAreJudgedEachAtItsOwn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(RayEngine, TwoWalls,
-                         testing::Values(Walls{"StandingAndBounded", false, false}, Walls{"StandingAndNamed", false, true},
-                                         Walls{"HangingAndBounded", true, false}, Walls{"HangingAndNamed", true, true}),
+                         testing::Values(Walls{"GroundedAndBounded", false, false}, Walls{"GroundedAndNamed", false, true},
+                                         Walls{"FloatingAndBounded", true, false}, Walls{"FloatingAndNamed", true, true}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -24,6 +24,7 @@ class TwoFloors : public testing::Test {
       map.lower[n] = 0.2F * slope_of(n);
       map.likely[n] = slope_of(n);
       map.upper[n] = 2.0F * slope_of(n);
+      map.overhang[n] = 0.5F * slope_of(n);
     }
   }
   [[nodiscard]] float slope_of(std::size_t row) const { return (row < 8 ? 1.0F : 0.75F) + 0.0625F * static_cast<float>(row % 8); }
@@ -71,6 +72,19 @@ TEST_F(TwoFloors, WhatIsCertainHoldsForAFloor) {
       return p.z < 0.0F ? std::numeric_limits<float>::infinity() : 2.0F * slope_of(p.z < 10.0F ? bin : 8 + bin);
     });
   }
+}
+
+TEST_F(TwoFloors, LowerBordersRiseToWhatHoldsForAFloor) {
+  for (const auto& heights_m : alike_and_not_)
+    expect_slopes(at_heights(heights_m), &UnnamedCity::raise_overhang, [this](const Point3f& p, std::uint32_t bin) {
+      return p.z < 0.0F ? std::numeric_limits<float>::infinity() : 0.5F * slope_of(p.z < 10.0F ? bin : 8 + bin);
+    });
+}
+
+TEST_F(TwoFloors, WhereNothingOverhangsNoBorderRises) {
+  std::fill(far_.map().overhang.begin(), far_.map().overhang.end(), 0.0F);
+  for (const auto& heights_m : alike_and_not_)
+    expect_slopes(at_heights(heights_m), &UnnamedCity::raise_overhang, [](const Point3f&, std::uint32_t) { return 0.0F; });
 }
 
 TEST_F(TwoFloors, WhatIsLikelyStaysBetweenWhatIsCertain) {

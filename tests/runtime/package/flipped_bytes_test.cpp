@@ -36,37 +36,42 @@ bool runs_cover_triangles(const TileView& tile) {
   return begin == tile.mesh.triangles.size();
 }
 
+bool is_finite(const Point3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+bool edge_is_sound(const HorizonEdge& e) {
+  return is_finite(e.a) && is_finite(e.b) && static_cast<std::size_t>(e.role) < edge_role_count;
+}
+
 bool tile_is_sound(const TileView& tile, const Bytes& bytes) {
   const auto is_inside = [&](const auto& part) { return lies_within(part, bytes); };
   if (!is_inside(tile.mesh.vertices) || !is_inside(tile.mesh.triangles) || !is_inside(tile.surface_runs) ||
-      !is_inside(tile.surfaces) || !is_inside(tile.buildings) || !is_inside(tile.edge_sides) || !is_inside(tile.loose_edges) ||
+      !is_inside(tile.surfaces) || !is_inside(tile.buildings) ||
+      !std::all_of(tile.edge_sides.begin(), tile.edge_sides.end(), is_inside) || !is_inside(tile.loose_edges) ||
       !runs_cover_triangles(tile))
     return false;
-  const auto vertex_is_finite = [](const Point3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
   const auto vertices_exist = [&](const Triangle& t) { return std::max({t.a, t.b, t.c}) < tile.mesh.vertices.size(); };
   const auto passed = [](std::size_t sum, const TileEdge& e) { return sum + e.sides_passed + (e.sides_passed < 255 ? 1U : 0U); };
-  const auto is_finite = [&](const HorizonEdge& e) { return vertex_is_finite(e.a) && vertex_is_finite(e.b); };
+  const auto sides_exist = [&](std::span<const TileEdge> sides) {
+    return std::accumulate(sides.begin(), sides.end(), std::size_t{0}, passed) <= 3 * tile.mesh.triangles.size();
+  };
   const auto surface_exists = [&](const SurfaceRun& r) {
     return r.surface < tile.surfaces.size() &&
            (tile.surfaces[r.surface].building == no_building || tile.surfaces[r.surface].building < tile.buildings.size());
   };
-  return std::all_of(tile.mesh.vertices.begin(), tile.mesh.vertices.end(), vertex_is_finite) &&
+  return std::all_of(tile.mesh.vertices.begin(), tile.mesh.vertices.end(), is_finite) &&
          std::all_of(tile.mesh.triangles.begin(), tile.mesh.triangles.end(), vertices_exist) &&
-         std::accumulate(tile.edge_sides.begin(), tile.edge_sides.end(), std::size_t{0}, passed) <=
-             3 * tile.mesh.triangles.size() &&
-         std::all_of(tile.loose_edges.begin(), tile.loose_edges.end(), is_finite) &&
+         std::all_of(tile.edge_sides.begin(), tile.edge_sides.end(), sides_exist) &&
+         std::all_of(tile.loose_edges.begin(), tile.loose_edges.end(), edge_is_sound) &&
          std::all_of(tile.surface_runs.begin(), tile.surface_runs.end(), surface_exists);
 }
 
 bool far_map_is_sound(const NamedObstacles& named, const std::vector<float>& levels_m, const Bytes& bytes) {
   const auto is_inside = [&](const auto& part) { return lies_within(part, bytes); };
-  if (!is_inside(named.edges) || !is_inside(named.triangles) || !is_inside(named.named_edges) ||
-      !is_inside(named.named_triangles))
-    return false;
+  if (!is_inside(named.edges) || !is_inside(named.named_edges)) return false;
   const auto exist = [](const std::span<const NamedObstacle>& list, std::size_t count) {
     return std::all_of(list.begin(), list.end(), [count](const NamedObstacle& n) { return n.row < count; });
   };
-  return exist(named.named_edges, named.edges.size()) && exist(named.named_triangles, named.triangles.size()) &&
+  return exist(named.named_edges, named.edges.size()) && std::all_of(named.edges.begin(), named.edges.end(), edge_is_sound) &&
          std::is_sorted(levels_m.begin(), levels_m.end()) && std::isfinite(levels_m.front() + levels_m.back());
 }
 

@@ -42,12 +42,12 @@ class OneRow {
     shape_.squares_per_edge = shape_.layers = 1;
   }
   [[nodiscard]] FarHorizon written_and_read(const std::vector<float>& lower, const std::vector<float>& likely,
-                                            const std::vector<float>& upper) const {
-    write_far_maps(file(), BakedHorizons{{}, {}, {BakedHorizon{patches_, {}, {}, lower, likely, upper}}}, cells_, shape_);
+                                            const std::vector<float>& upper, const std::vector<float>& overhang) const {
+    write_far_maps(file(), BakedHorizons{{}, {BakedHorizon{patches_, {}, lower, likely, upper, overhang}}}, cells_, shape_);
     return read();
   }
   [[nodiscard]] FarHorizon read() const {
-    FarHorizon map{patches_, AzimuthBins{shape_.azimuth_bins}, {}, {}, {}, {}};
+    FarHorizon map{patches_, AzimuthBins{shape_.azimuth_bins}, {}, {}, {}, {}, {}};
     FarMapReader(file(), cells_, shape_).read_slopes({0, 0}, map);
     return map;
   }
@@ -70,10 +70,11 @@ TEST(HorizonFile, BoundsAreRoundedOutwards) {
   const std::vector<float> slopes{0.0F, 1e-9F,    0x1p-24F, 0x1.8p-24F, 1e-5F,    1.0F / 3.0F, 1.0F,    1.0005F, 1.0F + 0x1p-10F,
                                   2.7F, 65504.0F, 65505.0F, 65519.9F,   65520.0F, 1e9F,        infinite};
   const OneRow row(static_cast<std::uint32_t>(slopes.size()));
-  const FarHorizon map = row.written_and_read(slopes, slopes, slopes);
+  const FarHorizon map = row.written_and_read(slopes, slopes, slopes, slopes);
   for (std::size_t n = 0; n < slopes.size(); ++n) {
     EXPECT_LE(map.lower[n], slopes[n]);
     EXPECT_GE(map.upper[n], slopes[n]);
+    EXPECT_EQ(map.overhang[n], map.upper[n]);
     // No half lies between the two but the slope itself
     const half low(map.lower[n]), high(map.upper[n]);
     EXPECT_TRUE(low == high ? static_cast<float>(low) == slopes[n] : next(low) == high) << slopes[n];
@@ -81,9 +82,10 @@ TEST(HorizonFile, BoundsAreRoundedOutwards) {
 }
 
 TEST(HorizonFile, ZeroStaysZero) {
-  const FarHorizon map = OneRow(1).written_and_read({0.0F}, {0.0F}, {0.0F});
+  const FarHorizon map = OneRow(1).written_and_read({0.0F}, {0.0F}, {0.0F}, {0.0F});
   EXPECT_EQ(map.upper[0], 0.0F);
   EXPECT_EQ(map.lower[0], 0.0F);
+  EXPECT_EQ(map.overhang[0], 0.0F) << "a map without overhangs is told by its zeros";
 }
 
 TEST(HorizonFile, PatchesRunDownwardsFromTheFirst) {
@@ -121,7 +123,7 @@ class ThreeTiles {
     header.compression() = compression;
     header.setTileDescription(Imf::TileDescription(columns, rows, Imf::ONE_LEVEL));
     Imf::FrameBuffer frame;
-    for (const auto& [name, pixels] : {std::pair{"Y", &noise_}, {"lower", &zeros_}, {"upper", &noise_}}) {
+    for (const auto& [name, pixels] : {std::pair{"Y", &noise_}, {"lower", &zeros_}, {"overhang", &noise_}, {"upper", &noise_}}) {
       header.channels().insert(name, Imf::Channel(Imf::HALF));
       frame.insert(name, Imf::Slice::Make(Imf::HALF, pixels->data(), header.dataWindow()));
     }
@@ -131,7 +133,7 @@ class ThreeTiles {
   }
   [[nodiscard]] FarMapReader reader() const { return {path(), {0, 0, 3, 1}, shape_}; }
   [[nodiscard]] static FarHorizon read(const FarMapReader& reader, std::int32_t tile) {
-    FarHorizon map{ReceiverPatches(20.0, 2, std::vector<float>(rows / 4)), AzimuthBins{columns}, {}, {}, {}, {}};
+    FarHorizon map{ReceiverPatches(20.0, 2, std::vector<float>(rows / 4)), AzimuthBins{columns}, {}, {}, {}, {}, {}};
     reader.read_slopes({tile, 0}, map);
     return map;
   }
@@ -161,6 +163,7 @@ TEST(HorizonFile, AnyCompressionThatLosesNothing) {
       const FarHorizon map = ThreeTiles::read(reader, tile);
       EXPECT_EQ(map.likely, file.written(tile)) << "compression " << compression << ", tile " << tile;
       EXPECT_EQ(map.upper, map.likely);
+      EXPECT_EQ(map.overhang, map.likely);
       EXPECT_EQ(map.lower, std::vector<float>(map.upper.size()));
     }
   }
@@ -197,13 +200,14 @@ TEST(HorizonFile, DamagedTilesAreToldAndNothingIsPrinted) {
 
 TEST(HorizonFile, BoundsOutOfOrder) {
   const struct {
-    float lower, likely, upper;
-  } rows[] = {{2.0F, 1.0F, 1.0F},         {-0.5F, 0.0F, 1.0F}, {0.0F, -0.5F, 1.0F},       {not_a_number, 0.0F, 1.0F},
-              {0.0F, not_a_number, 1.0F}, {-1.0F, 0.0F, 1.0F}, {0.0F, 0.0F, not_a_number}};
+    float lower, likely, upper, overhang = 0.0F;
+  } rows[] = {{2.0F, 1.0F, 1.0F},         {-0.5F, 0.0F, 1.0F},        {0.0F, -0.5F, 1.0F},
+              {not_a_number, 0.0F, 1.0F}, {0.0F, not_a_number, 1.0F}, {-1.0F, 0.0F, 1.0F},
+              {0.0F, 0.0F, not_a_number}, {0.0F, 0.0F, 1.0F, -0.5F},  {0.0F, 0.0F, 1.0F, not_a_number}};
   const OneRow row(2);
-  for (const auto& [lower, likely, upper] : rows) {
-    const auto read = [&, lo = lower, li = likely, up = upper] {
-      (void)row.written_and_read({0.0F, lo}, {0.0F, li}, {1.0F, up});
+  for (const auto& [lower, likely, upper, overhang] : rows) {
+    const auto read = [&, lo = lower, li = likely, up = upper, over = overhang] {
+      (void)row.written_and_read({0.0F, lo}, {0.0F, li}, {1.0F, up}, {0.0F, over});
     };
     EXPECT_THAT(damage_met_by(read), HasSubstr("its bounds are not in order")) << lower << ", " << likely << ", " << upper;
   }
@@ -211,7 +215,12 @@ TEST(HorizonFile, BoundsOutOfOrder) {
 
 TEST(HorizonFile, WhatIsLikelyMayLieOutsideOfTheBounds) {
   // Viewpoints are samples: who reads puts them between the bounds
-  EXPECT_EQ(OneRow(1).written_and_read({0.5F}, {0.25F}, {1.0F}).likely[0], 0.25F);
+  EXPECT_EQ(OneRow(1).written_and_read({0.5F}, {0.25F}, {1.0F}, {0.0F}).likely[0], 0.25F);
+}
+
+TEST(HorizonFile, OverhangsMayRiseAboveAllThatHides) {
+  // What is named hides, and is not in the rows
+  EXPECT_EQ(OneRow(1).written_and_read({0.5F}, {0.5F}, {1.0F}, {4.0F}).overhang[0], 4.0F);
 }
 
 /// A file with these channels alone, all zero.
@@ -230,8 +239,11 @@ void write_picture(const std::string& path, int columns, const std::vector<std::
 
 TEST(HorizonFile, MissingChannels) {
   const OneRow row(4);
-  for (const std::vector<std::string>& some :
-       {std::vector<std::string>{"lower", "upper"}, {"Y", "upper"}, {"Y", "lower"}, {"Y", "Z"}}) {
+  for (const std::vector<std::string>& some : {std::vector<std::string>{"lower", "upper", "overhang"},
+                                               {"Y", "upper", "overhang"},
+                                               {"Y", "lower", "overhang"},
+                                               {"Y", "lower", "upper"},
+                                               {"Y", "Z"}}) {
     write_picture(row.file(), 4, some);
     EXPECT_THAT(damage_met_by([&] { (void)row.read(); }), HasSubstr("it has no slopes"));
   }
@@ -241,8 +253,8 @@ TEST(HorizonFile, UnknownChannelsAreSkipped) {
   const OneRow row(4);
   // Before, among and after the known ones, and of each type
   const std::pair<const char*, Imf::PixelType> channels[] = {{"A", Imf::FLOAT},    {"Y", Imf::HALF},      {"Z", Imf::UINT},
-                                                             {"lower", Imf::HALF}, {"middle", Imf::HALF}, {"upper", Imf::HALF},
-                                                             {"vague", Imf::UINT}};
+                                                             {"lower", Imf::HALF}, {"middle", Imf::HALF}, {"overhang", Imf::HALF},
+                                                             {"upper", Imf::HALF}, {"vague", Imf::UINT}};
   Imf::Header header(4, 1);
   Imf::FrameBuffer frame;
   std::array<std::uint32_t, 4> ones{0x3C003C00, 0x3C003C00, 0x3C003C00, 0x3C003C00};  // halfs of 1, in pairs
@@ -257,7 +269,7 @@ TEST(HorizonFile, UnknownChannelsAreSkipped) {
     file.writeTile(0, 0);
   }
   const FarHorizon map = row.read();
-  for (const auto* slopes : {&map.lower, &map.likely, &map.upper}) EXPECT_EQ(*slopes, std::vector<float>(4, 1.0F));
+  for (const auto* slopes : {&map.lower, &map.likely, &map.upper, &map.overhang}) EXPECT_EQ(*slopes, std::vector<float>(4, 1.0F));
 }
 
 }  // namespace

@@ -95,16 +95,19 @@ TEST_P(RoundTrip, TilesAreTheSame) {
 TEST_P(RoundTrip, EdgesAreTheSame) {
   const TileSet before = tiles();
   const Package package(path_of(FarMapKind::box));
-  std::size_t edges = 0, level = 0;
+  std::array<std::size_t, edge_role_count> edges{};
+  std::size_t level = 0;
   for (std::size_t n = 0; n < before.tiles.size(); ++n) {
     const TileView view = package.tile(before.cells.cell_at(n));
     std::vector<HorizonEdge> read;
     view.visit_edges([&](const HorizonEdge& e) { read.push_back(e); });
     EXPECT_EQ(scenes::edges_as_set(read), scenes::edges_as_set(before.tiles[n].horizon_edges));
-    edges += read.size();
+    for (const HorizonEdge& e : read) ++edges.at(static_cast<std::size_t>(e.role));
     for (const HorizonEdge& e : read) level += e.rises.left == 0 || e.rises.right == 0 ? 1U : 0U;
   }
-  EXPECT_GT(edges, 50U) << "the scene tests nothing";
+  EXPECT_GT(edges[static_cast<std::size_t>(EdgeRole::grounded)], 50U) << "the scene tests nothing";
+  for (const EdgeRole role : {EdgeRole::overhang, EdgeRole::underside})
+    EXPECT_GE(edges[static_cast<std::size_t>(role)], 4U) << "the scene tests nothing";
   EXPECT_GT(level, 10U) << "the scene tests nothing";
 }
 
@@ -120,7 +123,7 @@ TEST_P(RoundTrip, VerticesOfATileDiffer) {
 TEST_P(RoundTrip, SurfacesAndBuildingsAreTheSame) {
   const TileSet before = tiles();
   const Package package(path_of(FarMapKind::horizon));
-  std::size_t standing = 0, hanging = 0;
+  std::size_t grounded = 0, overhanging = 0;
   for (std::size_t n = 0; n < before.tiles.size(); ++n) {
     const Cell cell = before.cells.cell_at(n);
     const BlockTiles& block = package.block_tiles(cell);
@@ -131,16 +134,16 @@ TEST_P(RoundTrip, SurfacesAndBuildingsAreTheSame) {
       EXPECT_EQ(view.building_number(record), surface.building);
       EXPECT_EQ(std::pair(record.number, record.part), std::pair(surface.number, surface.part));
       EXPECT_EQ(record.kind, surface.kind);
-      EXPECT_EQ(record.stands, surface.stands ? 1 : 0);
-      standing += record.stands;
-      hanging += 1U - record.stands;
+      EXPECT_EQ(record.grounded, surface.grounded ? 1 : 0);
+      grounded += record.grounded;
+      overhanging += 1U - record.grounded;
       EXPECT_EQ(record.normal(), package::StoredDirection::nearest_to(surface.normal));
       if (record.building == package::no_building) continue;
       EXPECT_EQ(block.id_of(view.buildings[record.building]), before.building_ids[surface.building]);
     }
   }
-  EXPECT_GT(standing, 50U) << "the scene tests nothing";
-  EXPECT_GT(hanging, 10U) << "the scene tests nothing";
+  EXPECT_GT(grounded, 50U) << "the scene tests nothing";
+  EXPECT_GT(overhanging, 10U) << "the scene tests nothing";
 }
 
 TEST_P(RoundTrip, BoxMapsAreTheSameToHalfPrecision) {
@@ -169,10 +172,9 @@ TEST_P(RoundTrip, BoxMapsAreTheSameToHalfPrecision) {
   EXPECT_GT(blocked, 100U) << "the scene tests nothing";
 }
 
-/// What names are worth: rows may be numbered anew, obstacles stay.
-template <class Obstacle>
-void expect_same_names(std::span<const package::NamedObstacle> a, std::span<const Obstacle> of_a,
-                       std::span<const package::NamedObstacle> b, std::span<const Obstacle> of_b) {
+/// What names are worth: rows may be numbered anew, edges stay.
+void expect_same_names(std::span<const package::NamedObstacle> a, std::span<const HorizonEdge> of_a,
+                       std::span<const package::NamedObstacle> b, std::span<const HorizonEdge> of_b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t n = 0; n < a.size(); ++n) {
     EXPECT_EQ(of_a[a[n].row], of_b[b[n].row]);
@@ -184,7 +186,7 @@ TEST_P(RoundTrip, WhatHorizonsNameIsTheSame) {
   const TileSet before = tiles();
   const FarMapBaker baker(before, grid_, GetParam(), maps_of(FarMapKind::horizon));
   const Package package(path_of(FarMapKind::horizon));
-  std::size_t edges = 0, triangles = 0;
+  std::array<std::size_t, edge_role_count> edges{};
   for (const Block block : grid_.blocks()) {
     const auto maps = std::get<BakedHorizons>(baker.bake(block));
     const CellRange cells = grid_.cells_of(block);
@@ -192,23 +194,22 @@ TEST_P(RoundTrip, WhatHorizonsNameIsTheSame) {
       const FarHorizon map = package.far_horizon(cells.cell_at(n));
       EXPECT_EQ(map.patches.levels_m(), maps.cells[n].patches.levels_m());
       EXPECT_EQ(map.patches.squares_per_edge(), maps.cells[n].patches.squares_per_edge());
-      expect_same_names<HorizonEdge>(map.named.named_edges, map.named.edges, maps.cells[n].named_edges, maps.edges);
-      expect_same_names<package::FarTriangle>(map.named.named_triangles, map.named.triangles, maps.cells[n].named_triangles,
-                                              maps.triangles);
+      expect_same_names(map.named.named_edges, map.named.edges, maps.cells[n].named_edges, maps.edges);
       EXPECT_EQ(map.named.cell_from_block_m, grid_.corner_of(cells.cell_at(0)) - grid_.corner_of(cells.cell_at(n)));
-      edges += map.named.named_edges.size();
-      triangles += map.named.named_triangles.size();
+      for (const package::NamedObstacle& named : map.named.named_edges)
+        ++edges.at(static_cast<std::size_t>(map.named.edges[named.row].role));
     }
   }
-  EXPECT_GT(edges, 100U) << "the scene tests nothing";
-  EXPECT_GT(triangles, 10U) << "the scene tests nothing";
+  EXPECT_GT(edges[static_cast<std::size_t>(EdgeRole::grounded)], 100U) << "the scene tests nothing";
+  for (const EdgeRole role : {EdgeRole::overhang, EdgeRole::underside})
+    EXPECT_GT(edges[static_cast<std::size_t>(role)], 10U) << "the scene tests nothing";
 }
 
 TEST_P(RoundTrip, SlopesAreRoundedOutwardsToHalfPrecision) {
   const TileSet before = tiles();
   const FarMapBaker baker(before, grid_, GetParam(), maps_of(FarMapKind::horizon));
   const Package package(path_of(FarMapKind::horizon));
-  std::size_t uncertain = 0;
+  std::size_t uncertain = 0, overhung = 0;
   for (const Block block : grid_.blocks()) {
     const auto maps = std::get<BakedHorizons>(baker.bake(block));
     for (std::size_t n = 0; n < maps.cells.size(); ++n) {
@@ -218,15 +219,19 @@ TEST_P(RoundTrip, SlopesAreRoundedOutwardsToHalfPrecision) {
       for (std::size_t k = 0; k < written.upper.size(); ++k) {
         EXPECT_LE(read.lower[k], written.lower[k]);
         EXPECT_GE(read.upper[k], written.upper[k]);
+        EXPECT_GE(read.overhang[k], written.overhang[k]);
         // Outwards, by one of the last digits of a half at the most
         EXPECT_NEAR(read.lower[k], written.lower[k], 4 * half_precision * written.lower[k] + smallest_half);
         EXPECT_NEAR(read.upper[k], written.upper[k], 4 * half_precision * written.upper[k] + smallest_half);
+        EXPECT_NEAR(read.overhang[k], written.overhang[k], 4 * half_precision * written.overhang[k] + smallest_half);
         EXPECT_NEAR(read.likely[k], written.likely[k], 2 * half_precision * written.likely[k] + smallest_half);
         uncertain += written.upper[k] > written.lower[k] ? 1U : 0U;
+        overhung += written.overhang[k] > 0.0F ? 1U : 0U;
       }
     }
   }
   EXPECT_GT(uncertain, 100U) << "the scene tests nothing";
+  EXPECT_GT(overhung, 10U) << "the scene tests nothing";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RoundTrip, testing::Values(Assign::clip, Assign::whole),

@@ -64,13 +64,46 @@ TEST(TileEdges, RowsThatOnlyPassAreNoEdges) {
   const std::vector<Triangle> many(100, t);
   const std::vector<TileEdge> rows{{TileEdge::only_passes, {}}, {2, {1, 2}}, {0, {3, 4}}};
   view.mesh.triangles = many;
-  view.edge_sides = rows;
+  view.edge_sides = {rows};
   view.loose_edges = {};
   std::vector<HorizonEdge> read;
   view.visit_edges([&](const HorizonEdge& e) { read.push_back(e); });
   const auto corners = view.mesh.vertices;
   // 257 is the third side of triangle 85, 258 the first of the next
   EXPECT_EQ(read, (std::vector<HorizonEdge>{{corners[2], corners[0], {1, 2}}, {corners[0], corners[1], {3, 4}}}));
+}
+
+std::vector<HorizonEdge> read_from(TilesBytes& file, Cell from) {
+  const BlockTiles tiles = open(file);
+  std::vector<HorizonEdge> read;
+  tiles.tile(from).visit_edges([&](const HorizonEdge& e) { read.push_back(e); });
+  return read;
+}
+
+TEST(TileEdges, EachRoleCountsFromTheFirstSide) {
+  TilesBytes file = whole_file();
+  std::vector<HorizonEdge> expected = read_from(file, {1, 0});
+  ASSERT_EQ(expected.size(), 4U);
+  // The two rows of the cell become the only ones of other roles: the second one passes five sides by itself
+  const std::size_t first = file.section(SectionKind::tile_edges).count - 2;
+  cell(file, 1).edge_counts = {0, 1, 1};
+  side(file, first + 1).sides_passed = 5;
+  expected[0].role = EdgeRole::overhang;
+  expected[1].role = EdgeRole::underside;
+  EXPECT_EQ(read_from(file, {1, 0}), expected);
+}
+
+TEST(TileEdges, RolesAreKept) {
+  for (const EdgeRole role : {EdgeRole::grounded, EdgeRole::overhang, EdgeRole::underside}) {
+    TilesBytes file = whole_file();
+    loose(file, 3).role = role;
+    EXPECT_EQ(read_from(file, {1, 0}).back().role, role);
+  }
+}
+
+TEST(TileEdges, ARoleThatDoesNotExist) {
+  for (const std::uint16_t bad : {std::uint16_t{edge_role_count}, std::uint16_t{256}, std::uint16_t{0xFFFF}})
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { loose(f, 3).role = EdgeRole{bad}; }), HasSubstr("role that does not exist"));
 }
 
 TEST(TileEdges, SideOfAMissingTriangle) {
@@ -85,6 +118,18 @@ TEST(TileEdges, SideOfAMissingTriangle) {
     }
   EXPECT_THAT(damage_after([](TilesBytes& f) { side(f, 1).sides_passed = TileEdge::only_passes; }),
               HasSubstr("side of a triangle that does not exist"));
+}
+
+TEST(TileEdges, SideOfAMissingTriangleInAnyRole) {
+  for (std::size_t role = 1; role < edge_role_count; ++role) {
+    // The last row of the cell is alone in its role, and passes no more than the sides of two triangles
+    const auto change = [role](TilesBytes& f, std::uint8_t passed) {
+      cell(f, 1).edge_counts[0] = cell(f, 1).edge_counts[role] = 1;
+      side(f, 3).sides_passed = passed;
+    };
+    EXPECT_EQ(damage_after([&](TilesBytes& f) { change(f, 5); }), "no damage");
+    EXPECT_THAT(damage_after([&](TilesBytes& f) { change(f, 6); }), HasSubstr("side of a triangle that does not exist"));
+  }
 }
 
 TEST(TileEdges, RisesBeyondARightAngle) {
@@ -111,7 +156,9 @@ TEST(TileEdges, NowhereOnEarth) {
 
 TEST(TileEdges, CellsOwnMoreThanTheFileHolds) {
   for (const std::uint32_t more : {1U, 1000U, 0xFFFF0000U}) {
-    EXPECT_THAT(damage_after([=](TilesBytes& f) { cell(f, 1).edge_count += more; }), HasSubstr("cell's edges reach beyond"));
+    for (std::size_t role = 0; role < edge_role_count; ++role)
+      EXPECT_THAT(damage_after([=](TilesBytes& f) { cell(f, 1).edge_counts[role] += more; }),
+                  HasSubstr("cell's edges reach beyond"));
     EXPECT_THAT(damage_after([=](TilesBytes& f) { cell(f, 1).loose_edge_count += more; }),
                 HasSubstr("cell's loose edges reach beyond"));
   }
@@ -121,7 +168,7 @@ TEST(TileEdges, CellsOwnMoreThanTheFileHolds) {
 }
 
 TEST(TileEdges, CellsOwnLessThanTheFileHolds) {
-  EXPECT_THAT(damage_after([](TilesBytes& f) { --cell(f, 1).edge_count; }), HasSubstr("more than its cells own"));
+  EXPECT_THAT(damage_after([](TilesBytes& f) { --cell(f, 1).edge_counts[0]; }), HasSubstr("more than its cells own"));
   EXPECT_THAT(damage_after([](TilesBytes& f) { --cell(f, 1).loose_edge_count; }), HasSubstr("more than its cells own"));
 }
 

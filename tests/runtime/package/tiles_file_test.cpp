@@ -28,6 +28,11 @@ TilesBytes whole_file() {
 
 BlockTiles open(TilesBytes& file) { return {file.bytes(), SmallPackage::cells_of_two, "small/tiles.bin"}; }
 
+constexpr std::array<SectionKind, section_count> all_kinds{
+    SectionKind::cells,     SectionKind::vertices,    SectionKind::triangles,  SectionKind::surface_runs,
+    SectionKind::surfaces,  SectionKind::buildings,   SectionKind::text,       SectionKind::far_cells,
+    SectionKind::far_edges, SectionKind::named_edges, SectionKind::tile_edges, SectionKind::loose_edges};
+
 std::string damage_of(TilesBytes& file) {
   return damage_met_by([&] { (void)open(file); });
 }
@@ -86,8 +91,8 @@ TEST(Package, Truncated) {
   TilesBytes whole = whole_file();
   std::vector<std::size_t> cuts{
       0, 1, sizeof(Header) - 1, sizeof(Header), sizeof(Header) + 1, sizeof(Header) + section_count * sizeof(Section)};
-  for (std::uint32_t kind = 1; kind <= section_count; ++kind) {
-    const Section& s = whole.section(SectionKind{kind});
+  for (const SectionKind kind : all_kinds) {
+    const Section& s = whole.section(kind);
     for (const std::uint64_t border : {s.offset, s.offset + s.count * s.element_bytes})
       for (const std::uint64_t cut : {border - 1, border, border + 1}) cuts.push_back(cut);
   }
@@ -100,14 +105,14 @@ TEST(Package, Truncated) {
 
 TEST(Package, TruncatedByAWriterThatKnowsIt) {
   TilesBytes whole = whole_file();
-  for (std::uint32_t kind = 1; kind <= section_count; ++kind) {
-    const Section& s = whole.section(SectionKind{kind});
+  for (const SectionKind kind : all_kinds) {
+    const Section& s = whole.section(kind);
     const std::size_t cut = s.offset + s.count * s.element_bytes - 1;
     const auto cut_off = [cut](TilesBytes& f) {
       f.bytes().resize(cut);
       f.header().file_bytes = cut;
     };
-    EXPECT_THAT(damage_after(cut_off), HasSubstr("reaches beyond the end")) << "section " << kind;
+    EXPECT_THAT(damage_after(cut_off), HasSubstr("reaches beyond the end")) << "section " << static_cast<int>(kind);
   }
 }
 
@@ -123,39 +128,36 @@ TEST(Package, FutureSectionIsSkipped) {
 }
 
 TEST(Package, MissingSection) {
-  for (std::uint32_t kind = 1; kind <= section_count; ++kind)
-    EXPECT_THAT(damage_after([kind](TilesBytes& f) { f.section(SectionKind{kind}).kind = SectionKind{99}; }),
-                HasSubstr("section is missing"));
+  for (const SectionKind kind : all_kinds)
+    EXPECT_THAT(damage_after([kind](TilesBytes& f) { f.section(kind).kind = SectionKind{99}; }), HasSubstr("section is missing"));
 }
 
 TEST(Package, ElementsOfAnotherSize) {
-  for (std::uint32_t kind = 1; kind <= section_count; ++kind)
-    EXPECT_THAT(damage_after([kind](TilesBytes& f) { ++f.section(SectionKind{kind}).element_bytes; }), HasSubstr("another size"));
+  for (const SectionKind kind : all_kinds)
+    EXPECT_THAT(damage_after([kind](TilesBytes& f) { ++f.section(kind).element_bytes; }), HasSubstr("another size"));
 }
 
 TEST(Package, Misaligned) {
-  for (std::uint32_t kind = 1; kind <= section_count; ++kind)
+  for (const SectionKind kind : all_kinds)
     for (const std::uint64_t shift : {1, 4, 32})
-      EXPECT_THAT(damage_after([=](TilesBytes& f) { f.section(SectionKind{kind}).offset -= shift; }), HasSubstr("not aligned"));
+      EXPECT_THAT(damage_after([=](TilesBytes& f) { f.section(kind).offset -= shift; }), HasSubstr("not aligned"));
 }
 
 TEST(Package, OffsetsBeyondTheEnd) {
-  for (std::uint32_t kind = 1; kind <= section_count; ++kind)
+  for (const SectionKind kind : all_kinds)
     for (const std::uint64_t offset :
          {std::uint64_t{1} << 20, std::uint64_t{1} << 32, std::uint64_t{1} << 63, ~std::uint64_t{63}})
-      EXPECT_THAT(damage_after([=](TilesBytes& f) { f.section(SectionKind{kind}).offset = offset; }), HasSubstr("beyond the end"))
-          << offset;
+      EXPECT_THAT(damage_after([=](TilesBytes& f) { f.section(kind).offset = offset; }), HasSubstr("beyond the end")) << offset;
 }
 
 TEST(Package, CountsThatOverflow) {
-  for (std::uint32_t kind = 1; kind <= section_count; ++kind) {
-    const std::uint64_t bytes = whole_file().section(SectionKind{kind}).element_bytes;
+  for (const SectionKind kind : all_kinds) {
+    const std::uint64_t bytes = whole_file().section(kind).element_bytes;
     std::vector<std::uint64_t> counts{std::uint64_t{1} << 32, ~std::uint64_t{0}};
     // With this many, count · bytes wraps around to next to nothing; a byte of text cannot
     if (bytes > 1) counts.push_back(~std::uint64_t{0} / bytes + 1);
     for (const std::uint64_t count : counts)
-      EXPECT_THAT(damage_after([=](TilesBytes& f) { f.section(SectionKind{kind}).count = count; }), HasSubstr("beyond the end"))
-          << count;
+      EXPECT_THAT(damage_after([=](TilesBytes& f) { f.section(kind).count = count; }), HasSubstr("beyond the end")) << count;
   }
 }
 
@@ -261,8 +263,6 @@ TEST(Package, NotANumber) {
                   HasSubstr("cell's heights"));
     EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<HorizonEdge>(SectionKind::far_edges, 0).b.y = bad; }),
                 HasSubstr("an edge lies nowhere on Earth"));
-    EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<FarTriangle>(SectionKind::far_triangles, 0)[2].z = bad; }),
-                HasSubstr("far triangle lies nowhere on Earth"));
   }
 }
 
@@ -283,15 +283,10 @@ TEST(Package, HeightsThatAreNotTheVertices) {
 
 TEST(Package, FarPlacesNowhereOnEarth) {
   for (const float huge : {2e7F, -1e20F})
-    for (auto part : {&Point3f::x, &Point3f::y, &Point3f::z}) {
+    for (auto part : {&Point3f::x, &Point3f::y, &Point3f::z})
       for (auto end : {&HorizonEdge::a, &HorizonEdge::b})
         EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<HorizonEdge>(SectionKind::far_edges, 0).*end.*part = huge; }),
                     HasSubstr("an edge lies nowhere on Earth"));
-      for (const std::size_t corner : {0U, 1U, 2U})
-        EXPECT_THAT(
-            damage_after([=](TilesBytes& f) { f.element<FarTriangle>(SectionKind::far_triangles, 0)[corner].*part = huge; }),
-            HasSubstr("far triangle lies nowhere on Earth"));
-    }
 }
 
 TEST(Package, NotEveryCellHasAFarMap) {
@@ -299,8 +294,7 @@ TEST(Package, NotEveryCellHasAFarMap) {
               HasSubstr("not every cell has a far map"));
   // None at all is the other kind
   TilesBytes file = whole_file();
-  for (const SectionKind kind : {SectionKind::far_cells, SectionKind::far_edges, SectionKind::far_triangles,
-                                 SectionKind::named_edges, SectionKind::named_triangles})
+  for (const SectionKind kind : {SectionKind::far_cells, SectionKind::far_edges, SectionKind::named_edges})
     file.section(kind).count = 0;
   EXPECT_EQ(damage_of(file), "no damage");
   EXPECT_FALSE(open(file).has_far_cells());
@@ -308,27 +302,18 @@ TEST(Package, NotEveryCellHasAFarMap) {
 
 TEST(Package, FarMapReachesBeyondItsSections) {
   const auto cell = [](TilesBytes& f) -> FarCellRecord& { return f.element<FarCellRecord>(SectionKind::far_cells, 1); };
-  for (const std::uint64_t first : {std::uint64_t{1} << 33, ~std::uint64_t{0}}) {
+  for (const std::uint64_t first : {std::uint64_t{1} << 33, ~std::uint64_t{0}})
     EXPECT_THAT(damage_after([=](TilesBytes& f) { cell(f).first_named_edge = first; }), HasSubstr("edges reach beyond"));
-    EXPECT_THAT(damage_after([=](TilesBytes& f) { cell(f).first_named_triangle = first; }), HasSubstr("triangles reach beyond"));
-  }
   EXPECT_THAT(damage_after([=](TilesBytes& f) { ++cell(f).named_edge_count; }), HasSubstr("edges reach beyond"));
-  EXPECT_THAT(damage_after([=](TilesBytes& f) { ++cell(f).named_triangle_count; }), HasSubstr("triangles reach beyond"));
 }
 
 TEST(Package, FarMapNamesWhatDoesNotExist) {
   TilesBytes whole = whole_file();
   const auto edges = static_cast<std::uint32_t>(whole.section(SectionKind::far_edges).count);
-  const auto triangles = static_cast<std::uint32_t>(whole.section(SectionKind::far_triangles).count);
   ASSERT_GT(edges, 0U);
-  ASSERT_GT(triangles, 0U);
-  for (const std::uint32_t beyond : {0U, 7U}) {
+  for (const std::uint32_t beyond : {0U, 7U})
     EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<NamedObstacle>(SectionKind::named_edges, 0).row = edges + beyond; }),
                 HasSubstr("names an edge that does not exist"));
-    EXPECT_THAT(
-        damage_after([=](TilesBytes& f) { f.element<NamedObstacle>(SectionKind::named_triangles, 0).row = triangles + beyond; }),
-        HasSubstr("names a triangle that does not exist"));
-  }
 }
 
 TEST(Package, LevelsOfAFarMapOutOfOrder) {
@@ -350,7 +335,6 @@ TEST(Package, ReservedFieldsAndUnknownFlagsAreSkipped) {
               f.section(SectionKind::cells).reserved = 1;
               f.element<CellRecord>(SectionKind::cells, 0).flags = 0xFFFFFFFF;
               f.element<FarCellRecord>(SectionKind::far_cells, 1).reserved = 1;
-              f.element<HorizonEdge>(SectionKind::far_edges, 0).reserved = 1;
               f.element<NamedObstacle>(SectionKind::named_edges, 0).squares = 0xFFFF;
               f.element<NamedObstacle>(SectionKind::named_edges, 0).layers = 0xFFFF;
             }),

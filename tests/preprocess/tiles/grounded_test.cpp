@@ -3,13 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <set>
 
 #include "tests/determinism/threads.hpp"
-#include "tests/preprocess/tiles/bodies.hpp"
+#include "tests/preprocess/tiles/borders.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"
+#include "tiles/ground_contact.hpp"
 #include "tiles/tiles.hpp"
 
 namespace farlod {
@@ -22,55 +23,85 @@ TileSet tiles_of(const CityModel& city, Assign assign = Assign::clip) {
   return cut_into_tiles({city, {}}, scenes::grid_covering(city, {}, 50, 3), assign, {}, ignored);
 }
 
-/// Whether one body stands, beside a house that says where the ground is.
-bool stands(const std::vector<Face>& faces) {
-  CityModel city;
-  test::add_building(city, "neighbour", test::box(15, 10, 19, 20, 0, 3));
-  test::add_building(city, "body", faces);
-  const TileSet tiles = tiles_of(city);
-  std::set<bool> verdicts;
-  for (const Surface& s : tiles.surfaces)
-    if (s.building == 1) verdicts.insert(s.stands);
-  EXPECT_EQ(verdicts.size(), 1U) << "a building stands whole or not at all";
-  return *verdicts.begin();
+/// Whether one body is grounded, on level ground.
+bool is_grounded(const std::vector<Face>& faces) {
+  test::SmallTown town;
+  town.add("body", faces);
+  return test::is_grounded(town.tiles(), 1);
 }
 
-std::size_t edge_count(const TileSet& tiles) {
-  std::size_t count = 0;
-  for (const Tile& tile : tiles.tiles) count += tile.horizon_edges.size();
-  return count;
+/// Of all tiles, how many edges above the ground have each role.
+std::array<std::size_t, edge_role_count> edge_counts(const TileSet& tiles) {
+  std::array<std::size_t, edge_role_count> counts{};
+  for (const Tile& tile : tiles.tiles)
+    for (const HorizonEdge& e : tile.horizon_edges)
+      if (std::max(e.a.z, e.b.z) > 0.1F) ++counts.at(static_cast<std::size_t>(e.role));
+  return counts;
 }
 
-TEST(Standing, AreSolidsWithOrWithoutAFloor) {
-  EXPECT_TRUE(stands(test::gabled_house()));
-  EXPECT_TRUE(stands(test::stepped_box()));
+TEST(Grounded, AreSolidsWithOrWithoutAFloor) {
+  EXPECT_TRUE(is_grounded(test::gabled_house()));
+  EXPECT_TRUE(is_grounded(test::stepped_box()));
   auto without_floor = test::gabled_house();
   without_floor.pop_back();
-  EXPECT_TRUE(stands(without_floor));
+  EXPECT_TRUE(is_grounded(without_floor));
 }
 
-TEST(Standing, AreSolidsWhoseFacesMeetInTJunctions) { EXPECT_TRUE(stands(test::box_with_t_junctions())); }
+TEST(Grounded, AreSolidsWhoseFacesMeetInTJunctions) { EXPECT_TRUE(is_grounded(test::box_with_t_junctions())); }
 
-TEST(Standing, AreNeitherShellsNorBridgesNorEaves) {
+TEST(Grounded, AreSheetsThatReachTheGround) {
+  EXPECT_TRUE(is_grounded({{{0, 0, 0}, {10, 0, 0}, {10, 0, 5}, {0, 0, 5}}})) << "a wall";
+}
+
+TEST(Grounded, AreNeitherOpenShellsNorBridgesNorEaves) {
   auto shell = test::box(0, 0, 10, 20, 0, 5);
   shell.erase(shell.begin() + 1);  // the south wall
-  EXPECT_FALSE(stands(shell));
-  EXPECT_FALSE(stands(test::box(0, 0, 10, 20, 4, 7)));
+  EXPECT_FALSE(is_grounded(shell));
+  EXPECT_FALSE(is_grounded(test::box(0, 0, 10, 20, 4, 7)));
   auto house_with_eaves = test::box(0, 0, 10, 20, 0, 5);
   house_with_eaves.push_back({{-1, 0, 5}, {0, 0, 5}, {0, 20, 5}, {-1, 20, 5}});
-  EXPECT_FALSE(stands(house_with_eaves));
+  EXPECT_FALSE(is_grounded(house_with_eaves));
+  EXPECT_FALSE(is_grounded({{{0, 0, 0}, {10, 0, 0}, {10, 4, 5}, {0, 4, 5}}, {{10, 4, 5}, {10, 8, 0}, {0, 8, 0}, {0, 4, 5}}}))
+      << "a tent with open ends";
 }
 
-TEST(Standing, OnlyWhatStandsGivesHorizonEdges) {
+TEST(Grounded, WithinTheAccuracyOfTerrains) {
+  EXPECT_TRUE(is_grounded(test::box(0, 0, 10, 10, 0.9 * ground_contact_m, 7)));
+  EXPECT_FALSE(is_grounded(test::box(0, 0, 10, 10, 1.2 * ground_contact_m, 7)));
+  EXPECT_TRUE(is_grounded(test::box(0, 0, 10, 10, -3, 7))) << "its foot is below the ground";
+}
+
+TEST(Grounded, OverAHollowSomethingThatReachesItsRimsIsNot) {
+  // Ground that dips by 4 m between x = 10 and 30, and a bridge from rim to rim
+  TerrainRaster terrain{{-25, -25}, {5, 5}, 21, 21, {}};
+  for (std::size_t n = 0; n < 21 * 21; ++n) {
+    const double x = -25.0 + 5.0 * static_cast<double>(n % 21);
+    terrain.height_m.emplace_back(x > 10.0 && x < 30.0 ? 1.0F : 5.0F);
+  }
   CityModel city;
-  test::add_building(city, "house", test::box(1, 1, 49, 20, 0, 12));
-  const std::size_t ground_and_house = edge_count(tiles_of(city));
-  EXPECT_EQ(ground_and_house, 4U + 4U);  // one cell, whose border no piece crosses
-  test::add_building(city, "bridge", test::box(10, 20, 15, 40, 4, 7));
-  EXPECT_EQ(edge_count(tiles_of(city)), ground_and_house);
+  test::add_building(city, "bridge", test::box(5, 5, 35, 9, 5, 6));
+  Report ignored;
+  const TileSet tiles = cut_into_tiles({city, {}}, scenes::grid_covering(city, {}, 50, 3), Assign::clip, terrain, ignored);
+  EXPECT_FALSE(test::is_grounded(tiles, 0));
+  // Both sides are open over the hollow alone, to the next place at which the ground is looked at
+  double open_m = 0.0;
+  for (const HorizonEdge& e : tiles.tile({0, 0}).horizon_edges)
+    if (e.role == EdgeRole::underside) open_m += std::abs(e.b.x - e.a.x);
+  EXPECT_NEAR(open_m, 2.0 * 20.0, 4.0 * ground_asked_every_m);
 }
 
-TEST(Standing, AssignWholeKeepsAllEdgesOfABuildingInOneCell) {
+TEST(Grounded, RolesOfEdgesFollow) {
+  test::SmallTown town;
+  town.add("house", test::box(1, 1, 49, 20, 0, 12));
+  EXPECT_EQ(edge_counts(town.tiles()), (std::array<std::size_t, 3>{4, 0, 0}));
+  EXPECT_FALSE(town.tiles().tile({0, 0}).has_overhang);
+  town.add("bridge", test::box(10, 25, 15, 40, 4, 7));
+  const TileSet tiles = town.tiles();
+  EXPECT_EQ(edge_counts(tiles), (std::array<std::size_t, 3>{4, 4, 4}));
+  EXPECT_TRUE(tiles.tile({0, 0}).has_overhang);
+}
+
+TEST(Grounded, AssignWholeKeepsAllEdgesOfABuildingInOneCell) {
   CityModel city;
   test::add_building(city, "house", test::box(40, 10, 90, 20, 0, 12));  // its centroid is at x = 65
   const TileSet clipped = tiles_of(city), whole = tiles_of(city, Assign::whole);
@@ -83,7 +114,7 @@ TEST(Standing, AssignWholeKeepsAllEdgesOfABuildingInOneCell) {
   EXPECT_EQ(high_edges(whole.tile({1, 0})), 4);
 }
 
-TEST(Standing, HorizonEdgesDoNotDependOnTheNumberOfThreads) {
+TEST(Grounded, HorizonEdgesDoNotDependOnTheNumberOfThreads) {
   CitySettings settings;
   settings.size_m = 300.0;
   settings.lod = 2;
@@ -95,7 +126,7 @@ TEST(Standing, HorizonEdgesDoNotDependOnTheNumberOfThreads) {
   }
 }
 
-TEST(Standing, ATerrainAloneHasItsBorderAndItsRidges) {
+TEST(Grounded, ATerrainAloneHasItsBorderAndItsRidges) {
   // A ridge along y = 20 that rises to 3 m, known between 5 and 45 m
   TerrainRaster terrain{{5, 5}, {5, 5}, 9, 9, {}};
   for (std::size_t n = 0; n < 81; ++n) terrain.height_m.emplace_back(n / 9 == 3 ? 3.0F : 0.0F);
@@ -108,7 +139,7 @@ TEST(Standing, ATerrainAloneHasItsBorderAndItsRidges) {
   EXPECT_EQ(edges.size(), 8U + 32U);  // the ridge and the border, node by node; neither the feet nor the diagonals
 }
 
-TEST(Standing, ATerrainThatTheGridCutsOffEndsAtTheCut) {
+TEST(Grounded, ATerrainThatTheGridCutsOffEndsAtTheCut) {
   // A valley along x = 25 whose slopes go on rising beyond the one cell of the grid
   TerrainRaster terrain{{-25, -25}, {50, 25}, 3, 5, {}};
   for (std::size_t n = 0; n < 15; ++n) terrain.height_m.emplace_back(n % 3 == 1 ? 0.0F : 10.0F);

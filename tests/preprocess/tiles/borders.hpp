@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "farlod/grid.hpp"
+#include "tests/preprocess/tiles/bodies.hpp"
+#include "tests/scenes/packed_city.hpp"
+#include "tiles/horizon_edges.hpp"
+#include "tiles/tiles.hpp"
+
+namespace farlod::test {
+
+/// Faces as fans of triangles: what diagonals they get, no test depends on. A face that is seen counter-clockwise from above
+/// looks up.
+inline EdgeTable table_of(const std::vector<Face>& faces) {
+  EdgeTable table;
+  for (const Face& face : faces) {
+    double twice_area = 0.0;
+    for (std::size_t n = 0; n < face.size(); ++n) {
+      const Point3d &a = face[n], &b = face[(n + 1) % face.size()];
+      twice_area += a.x * b.y - a.y * b.x;
+    }
+    const FacetLook look = twice_area > 0.0 ? FacetLook::up : FacetLook::down;
+    for (std::size_t n = 2; n < face.size(); ++n) table.add_triangle(face[0], face[n - 1], face[n], look);
+  }
+  return table;
+}
+
+/// Each from its lesser end, sorted: in what order borders come, and from which end, means nothing.
+inline std::vector<Segment3d> as_set(std::vector<Segment3d> edges) {
+  const auto place = [](const Point3d& p) { return std::tie(p.x, p.y, p.z); };
+  for (Segment3d& e : edges)
+    if (place(e.b) < place(e.a)) std::swap(e.a, e.b);
+  std::sort(edges.begin(), edges.end(), [&](const Segment3d& s, const Segment3d& t) {
+    return std::pair(place(s.a), place(s.b)) < std::pair(place(t.a), place(t.b));
+  });
+  return edges;
+}
+
+inline std::vector<Segment3d> segments_of(const std::vector<HorizonSegment>& edges) {
+  std::vector<Segment3d> segments;
+  for (const HorizonSegment& e : edges) segments.push_back(e.segment);
+  return segments;
+}
+
+/// Level ground at 0 m, far beyond cells of 50 m.
+inline TerrainRaster level_terrain() { return {{-200, -200}, {200, 200}, 3, 3, std::vector<std::optional<float>>(9, 0.0F)}; }
+
+/// A town of buildings on level ground at 0 m, in one cell of 50 m; number 0 is a kerbstone in its south-west corner.
+class SmallTown {
+ public:
+  SmallTown() { add_building(city_, "stone", box(0, 0, 0.5, 0.5, 0, 0.1)); }
+  void add(const std::string& id, const std::vector<Face>& faces) { add_building(city_, id, faces); }
+  [[nodiscard]] const CityModel& city() const { return city_; }
+  [[nodiscard]] TileSet tiles(Assign assign = Assign::clip) const {
+    Report ignored;
+    return cut_into_tiles({city_, {}}, scenes::grid_covering(city_, {}, 50, 3), assign, level_terrain(), ignored);
+  }
+
+ private:
+  CityModel city_;
+};
+
+/// The edges of a role in the first cell that do not lie on the ground.
+inline std::vector<Segment3d> edges_of(const TileSet& tiles, EdgeRole role) {
+  const auto exactly = [](const Point3f& p) { return Point3d{p.x, p.y, p.z}; };
+  std::vector<Segment3d> edges;
+  for (const HorizonEdge& e : tiles.tile({0, 0}).horizon_edges)
+    if (e.role == role && std::max(e.a.z, e.b.z) > 0.1F) edges.push_back({exactly(e.a), exactly(e.b)});
+  return as_set(std::move(edges));
+}
+
+/// Whether all surfaces of the building with this number are grounded; they must agree.
+inline bool is_grounded(const TileSet& tiles, std::uint32_t building) {
+  bool some = false, all = true;
+  for (const Surface& s : tiles.surfaces)
+    if (s.building == building) {
+      some = some || s.grounded;
+      all = all && s.grounded;
+    }
+  if (some != all) throw std::logic_error("a building is grounded as a whole or not at all");
+  return all;
+}
+
+}  // namespace farlod::test

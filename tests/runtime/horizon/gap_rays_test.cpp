@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "horizon/gap_rays.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/runtime/horizon/random_places.hpp"
+#include "tests/runtime/horizon/sky_judge.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr std::size_t azimuths = 96;
+constexpr std::uint32_t all_receivers = 0xFFFF;
+constexpr Point3f normals[] = {{0.0F, 0.0F, 1.0F}, {0.6F, 0.0F, 0.8F}, {0.0F, -1.0F, 0.0F}, {0.0F, 0.8F, -0.6F}};
+
+/// A wall without thickness from one height up to another one, all around the middle of the cell, as a square of 40 m.
+Occluder fence(float low_m, float high_m) {
+  const std::array<std::array<float, 2>, 4> plan{{{-20, -20}, {20, -20}, {20, 20}, {-20, 20}}};
+  std::vector<Point3f> vertices;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t n = 0; n < 4; ++n) {
+    const auto [px, py] = plan[n];
+    const auto [qx, qy] = plan[(n + 1) % 4];
+    vertices.insert(vertices.end(), {{px, py, low_m}, {qx, qy, low_m}, {qx, qy, high_m}, {px, py, high_m}});
+    triangles.push_back({4 * n, 4 * n + 1, 4 * n + 2});
+    triangles.push_back({4 * n, 4 * n + 2, 4 * n + 3});
+  }
+  return {vertices, triangles};
+}
+
+/// Gaps between horizons that differ from azimuth to azimuth and from bin to bin; in every fifth azimuth there is none.
+class GapRays : public testing::Test {
+ protected:
+  GapRays() {
+    std::vector<std::uint32_t> each(azimuths);
+    std::vector<float> low(azimuths), high(azimuths);
+    for (std::uint32_t k = 0; k < azimuths; ++k) {
+      each[k] = k;
+      low[k] = 0.05F * static_cast<float>(k % 7);
+      high[k] = k % 5 == 0 ? low[k] : low[k] + 0.1F + 0.02F * static_cast<float>(k % 11);
+    }
+    from_.raise(low, everybody, each);
+    to_.raise(high, everybody, each);
+  }
+  [[nodiscard]] ReceiverPacket receivers(const Point3f& normal) const {
+    std::vector<Point3f> places;
+    for (int n = 0; n < 16; ++n) places.push_back({static_cast<float>(n % 4) - 2.0F, static_cast<float>(n / 4) - 2.0F, 1.5F});
+    return packet_of(places, normal);
+  }
+  [[nodiscard]] PacketHorizon::Lanes traced(const Occluder& scene, SkyWeight weight, const ReceiverPacket& packet,
+                                            std::uint32_t wanted = all_receivers, std::size_t rays = 4) {
+    from_.find_sky_below(to_, weight, packet, sky_);
+    return trace_gaps({from_, to_, sky_}, ring_, weight, packet, wanted, rays, scene);
+  }
+  [[nodiscard]] double sum_of_sky(std::size_t lane) const {
+    double sum = 0.0;
+    for (const PacketHorizon::Row& row : sky_) sum += row[lane];
+    return sum;
+  }
+
+  const AzimuthRing ring_ = AzimuthRing::even(azimuths, {});
+  PacketHorizon from_{ring_}, to_{ring_};
+  std::vector<PacketHorizon::Row> sky_;
+};
+
+TEST_F(GapRays, WhereNothingIsMetAllOfTheGapsIsSeen) {
+  const Occluder nothing({}, {});
+  for (const SkyWeight weight : {SkyWeight::cosine, SkyWeight::solid_angle})
+    for (const Point3f& normal : normals)
+      for (const std::size_t rays : {1U, 4U, 9U}) {
+        const ReceiverPacket packet = receivers(normal);
+        const PacketHorizon::Lanes seen = traced(nothing, weight, packet, all_receivers, rays);
+        // Each part of a gap is a difference of its own
+        const double rounding = static_cast<double>(2 * rays) * sky_rounding(azimuths, normal);
+        for (std::size_t l = 0; l < seen.size(); ++l) {
+          EXPECT_NEAR(seen[l], sum_of_sky(l), 2.0 * rounding) << rays << " rays, receiver " << l;
+          EXPECT_NEAR(seen[l], from_.sky_above(weight, packet)[l] - to_.sky_above(weight, packet)[l], 2.0 * rounding);
+        }
+      }
+}
+
+TEST_F(GapRays, WhereAllIsHiddenNothingIsSeen) {
+  const ReceiverPacket packet = receivers(normals[0]);
+  for (const float sky : traced(fence(-50.0F, 200.0F), SkyWeight::cosine, packet)) EXPECT_EQ(sky, 0.0F);
+}
+
+TEST_F(GapRays, OnlyThoseAreAskedWhoAreMeant) {
+  constexpr std::uint32_t wanted = 0b1010'0000'0001'0110;
+  const ReceiverPacket packet = receivers(normals[0]);
+  const PacketHorizon::Lanes all = traced(Occluder({}, {}), SkyWeight::cosine, packet),
+                             some = traced(Occluder({}, {}), SkyWeight::cosine, packet, wanted);
+  for (std::size_t l = 0; l < all.size(); ++l) EXPECT_EQ(some[l], ((wanted >> l) & 1U) != 0 ? all[l] : 0.0F) << l;
+}
+
+TEST_F(GapRays, WhatIsMetIsHiddenToTheWidthOfARay) {
+  // The fence hides the slopes above where it begins: each azimuth's gap is cut once, and errs by one of its parts at the most
+  const Occluder scene = fence(4.5F, 200.0F);
+  const ReceiverPacket packet = receivers(normals[0]);
+  double error_before = 1.0;
+  for (const std::size_t rays : {4U, 16U, 64U, 256U}) {
+    const PacketHorizon::Lanes seen = traced(scene, SkyWeight::cosine, packet, all_receivers, rays);
+    double greatest = 0.0;
+    for (std::size_t l = 0; l < seen.size(); ++l) {
+      double truth = 0.0, one_part = 0.0;
+      for (std::size_t k = 0; k < azimuths; ++k) {
+        const double c = ring_.cosine()[k], s = ring_.sine()[k];
+        // To the side of the square that the azimuth meets first
+        const double distance = std::min((c > 0.0 ? 20.0 - packet.x[l] : 20.0 + packet.x[l]) / std::abs(c),
+                                         (s > 0.0 ? 20.0 - packet.y[l] : 20.0 + packet.y[l]) / std::abs(s));
+        const double low = from_.row(k)[l], high = to_.row(k)[l], foot = std::clamp(3.0 / distance, low, high);
+        const auto sky_above = [](double slope) { return 1.0 / (1.0 + slope * slope) / static_cast<double>(azimuths); };
+        truth += sky_above(low) - sky_above(foot);
+        // rays_in: twice the share of the azimuth's sky that the widest gap takes, at least one ray
+        const double sky = sky_above(low) - sky_above(high);
+        one_part += sky / std::max(1.0, 2.0 * sky * static_cast<double>(azimuths) * static_cast<double>(rays));
+      }
+      EXPECT_NEAR(seen[l], truth, one_part + sky_rounding(azimuths, normals[0])) << rays << " rays, receiver " << l;
+      greatest = std::max(greatest, std::abs(seen[l] - truth));
+    }
+    EXPECT_LT(greatest, error_before);
+    error_before = greatest;
+  }
+  // Offsets differ from azimuth to azimuth: errors of single azimuths have either sign
+  EXPECT_LT(error_before, 1e-4);
+}
+
+}  // namespace
+}  // namespace farlod

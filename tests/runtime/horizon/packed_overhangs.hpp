@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <span>
+
+#include "horizon/overhang_geometry.hpp"
+#include "package/package.hpp"
+#include "tests/scenes/packed_city.hpp"
+
+namespace farlod {
+
+/// A package of one cell that owns some triangles of a building that can be seen under, wherever they lie; the ground beside
+/// them hangs over nobody.
+class PackedOverhangs {
+ public:
+  static constexpr Cell cell{0, 0};
+
+  explicit PackedOverhangs(std::span<const std::array<Point3f, 3>> triangles) : package_(packed(triangles)) {}
+  [[nodiscard]] OverhangGeometry geometry() const { return {package_, cell}; }
+
+ private:
+  [[nodiscard]] Package packed(std::span<const std::array<Point3f, 3>> triangles) const {
+    Grid grid;
+    grid.cell_edge_m = 20.0;
+    grid.neighborhood = 1;
+    grid.cells = {0, 0, 1, 1};
+    TileSet tiles;
+    tiles.cells = grid.cells;
+    tiles.tiles.resize(1);
+    tiles.building_ids = {"overhanging", "grounded"};
+    tiles.surfaces = {{ground_building, 0, 0, SurfaceKind::ground, {0, 0, 1}, 8.0},
+                      {0, 0, 0, SurfaceKind::roof, {0, 0, 1}, 8.0, false},
+                      {1, 0, 0, SurfaceKind::roof, {0, 0, 1}, 8.0, true}};
+    Tile& tile = tiles.tiles[0];
+    tile.add_polygon({{0, 0, 0}, {20, 0, 0}, {20, 20, 0}, {0, 20, 0}}, ground_surface);
+    // A grounded roof over all of the cell is no overhang, whoever is below it
+    tile.add_polygon({{0, 0, 90}, {20, 0, 90}, {20, 20, 90}, {0, 20, 90}}, 2);
+    for (const auto& t : triangles) tile.add_polygon({t[0], t[1], t[2]}, 1);
+    const std::filesystem::path path = folder_.path() / "town.farlod";
+    FarMapSettings settings;
+    settings.horizon.azimuth_bins = 8;
+    scenes::pack_tiles(tiles, grid, path, settings, Assign::clip, std::vector<Cell>{});
+    return Package(path);
+  }
+
+  scenes::TemporaryFolder folder_;
+  Package package_;
+};
+
+}  // namespace farlod
