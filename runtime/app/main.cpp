@@ -69,7 +69,7 @@ void print_run(const SvfRun& run, const SvfOptions& options, double total_s) {
     fmt::print("{} receivers lie outside of the grid, where there is no far map: they were traced against the whole city.\n",
                run.outside_of_grid);
   if (options.sky.engine == Engine::automatic && run.by_rays > 0)
-    fmt::print("{} of the receivers were answered by {} rays each: they see something that hangs over open ground{}.\n",
+    fmt::print("{} of the receivers needed rays ({} each at the most, about): they may see sky below something that overhangs{}.\n",
                run.by_rays, options.sky.rays,
                options.max_error ? ", or the far map leaves them more uncertain than allowed" : "");
   if (options.max_error)

@@ -51,7 +51,8 @@ class GapRays : public testing::Test {
   [[nodiscard]] PacketHorizon::Lanes traced(const Occluder& scene, SkyWeight weight, const ReceiverPacket& packet,
                                             std::uint32_t wanted = all_receivers, std::size_t rays = 4) {
     from_.find_sky_below(to_, weight, packet, sky_);
-    return trace_gaps({from_, to_, sky_}, ring_, weight, packet, wanted, rays, scene);
+    // Nothing fills the gaps
+    return trace_gaps({from_, to_, to_, to_, sky_}, ring_, weight, packet, wanted, rays, {scene, {}});
   }
   [[nodiscard]] double sum_of_sky(std::size_t lane) const {
     double sum = 0.0;
@@ -83,6 +84,14 @@ TEST_F(GapRays, WhereNothingIsMetAllOfTheGapsIsSeen) {
 TEST_F(GapRays, WhereAllIsHiddenNothingIsSeen) {
   const ReceiverPacket packet = receivers(normals[0]);
   for (const float sky : traced(fence(-50.0F, 200.0F), SkyWeight::cosine, packet)) EXPECT_EQ(sky, 0.0F);
+}
+
+TEST_F(GapRays, WhatIsFilledIsNotSeen) {
+  const ReceiverPacket packet = receivers(normals[0]);
+  from_.find_sky_below(to_, SkyWeight::cosine, packet, sky_);
+  const Occluder nothing({}, {});
+  const Gaps filled{from_, to_, from_, to_, sky_};
+  for (const float sky : trace_gaps(filled, ring_, SkyWeight::cosine, packet, all_receivers, 4, {nothing, {}})) EXPECT_EQ(sky, 0.0F);
 }
 
 TEST_F(GapRays, OnlyThoseAreAskedWhoAreMeant) {

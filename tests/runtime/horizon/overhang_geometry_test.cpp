@@ -104,12 +104,12 @@ TEST(OverhangGeometry, RaysMeetWhatFloatsBelowItsUpperBordersAndAboveTheLowerOne
     const std::vector<Point3f> eyes = random_eyes(random);
     const ReceiverPacket packet = packet_of(eyes);
     PacketHorizon upper(fan.ring()), lower(fan.ring());
-    upper.raise(town.skyline().overhangs, packet);
+    upper.raise(town.skyline().near.upper, packet);
     upper.close(overhangs.covered(packet));
-    lower.raise(town.skyline().undersides, packet);
+    lower.raise(town.skyline().near.lower, packet);
     for (std::size_t l = 0; l < eyes.size(); ++l)
       for (std::size_t k = 0; k < fan.size(); ++k) {
-        const RayVerdict ray = verdict(overhangs.scene(), eyes[l], fan.direction(k));
+        const RayVerdict ray = verdict(overhangs.scene().occluder, eyes[l], fan.direction(k));
         const bool is_above_upper = ((upper.below(k, fan.slopes()[k]) >> l) & 1U) != 0;
         const bool is_above_lower = ((lower.below(k, fan.slopes()[k]) >> l) & 1U) != 0;
         ++(is_above_upper ? free_above : is_above_lower ? hidden_between : open);
@@ -125,14 +125,14 @@ TEST(OverhangGeometry, ItsSceneIsWhatOverhangsAlone) {
   const std::vector<TriangleCorners> triangles = random_triangles(random, 7);
   const PackedOverhangs packed(triangles);
   OverhangGeometry overhangs = packed.geometry();
-  EXPECT_EQ(overhangs.scene().triangle_count(), 7U);
-  EXPECT_EQ(&overhangs.scene(), &overhangs.scene()) << "it is made once";
+  EXPECT_EQ(overhangs.scene().occluder.triangle_count(), 7U);
+  EXPECT_EQ(&overhangs.scene().occluder, &overhangs.scene().occluder) << "it is made once";
 }
 
 TEST(OverhangGeometry, NothingHangsFromNothing) {
   const PackedOverhangs packed({});
   OverhangGeometry none = packed.geometry();
-  EXPECT_EQ(none.scene().triangle_count(), 0U);
+  EXPECT_EQ(none.scene().occluder.triangle_count(), 0U);
   const std::vector<Point3f> eyes{{5.0F, 5.0F, 1.0F}};
   EXPECT_EQ(none.covered(packet_of(eyes)), 0U);
 }

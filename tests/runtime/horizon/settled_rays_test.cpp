@@ -46,10 +46,10 @@ Occluder both_walls(const Walls& walls) {
 CellSkyline skyline_of(const Walls& walls) {
   CellSkyline skyline;
   const HorizonEdge near_top{{near_x, south, top}, {near_x, north, top}};
-  (walls.near_floats ? skyline.overhangs : skyline.grounded).add(near_top);
+  (walls.near_floats ? skyline.near.upper : skyline.grounded).add(near_top);
   if (walls.near_floats) {
     constexpr EdgeRises nothing_beside{EdgeRises::straight_up, EdgeRises::straight_up};
-    skyline.undersides.add({{near_x, south, gap}, {near_x, north, gap}, nothing_beside, EdgeRole::underside});
+    skyline.near.lower.add({{near_x, south, gap}, {near_x, north, gap}, nothing_beside, EdgeRole::underside});
   }
   if (walls.far_is_named) skyline.grounded.add({{far_x, south, top}, {far_x, north, top}});
   return skyline;

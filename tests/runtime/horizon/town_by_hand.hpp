@@ -75,8 +75,8 @@ class TownByHand {
   void add_edge(const HorizonEdge& e) {
     edges_.push_back(e);
     (e.role == EdgeRole::grounded   ? skyline_.grounded
-     : e.role == EdgeRole::overhang ? skyline_.overhangs
-                                    : skyline_.undersides)
+     : e.role == EdgeRole::overhang ? skyline_.near.upper
+                                    : skyline_.near.lower)
         .add(e);
   }
 

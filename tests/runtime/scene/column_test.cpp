@@ -42,6 +42,23 @@ TEST(Column, WithoutGroundThereIsNoGroundHeight) {
 
 TEST(Column, TheGroundEnclosesNothing) { EXPECT_FALSE(Column({ground_at(1.0F)}).is_inside_building(0.5F)); }
 
+TEST(Column, BelowTheGroundAndInsideAreBuried) {
+  const Column house({floor_at(0.9F, 4), ground_at(1.0F), roof_at(7.0F, 4)});
+  EXPECT_TRUE(house.is_buried(0.5F)) << "below floor and ground";
+  EXPECT_TRUE(house.is_buried(2.5F));
+  EXPECT_FALSE(house.is_buried(7.5F));
+  EXPECT_FALSE(Column({ground_at(1.0F)}).is_buried(1.0F)) << "on the ground";
+  EXPECT_FALSE(Column({floor_at(0.0F, 4)}).is_buried(-1.0F)) << "nobody knows where the ground is";
+}
+
+TEST(Column, BelowAFloorOnAFoundationIsBuried) {
+  // The foundation's lid is the floor once more, as a part of its own
+  const Column house({ground_at(0.0F), floor_at(3.0F, 4), roof_at(3.0F, 4, 1), roof_at(9.0F, 4)});
+  EXPECT_TRUE(house.is_buried(1.5F));
+  EXPECT_TRUE(house.is_buried(5.0F));
+  EXPECT_FALSE(house.is_buried(9.5F));
+}
+
 TEST(Column, UnderABridgeIsOutside) {
   const Column bridge({ground_at(0.0F), floor_at(5.0F, 4), roof_at(6.0F, 4)});
   EXPECT_FALSE(bridge.is_inside_building(1.5F));
