@@ -107,14 +107,14 @@ TEST_F(DamagedPackage, ManifestOfSomethingElse) {
 }
 
 TEST_F(DamagedPackage, ANewerVersionIsNoDamage) {
-  edit_manifest("\"version\": 4", "\"version\": 5");
-  expect_refusal(evaluate(), exit_unusable_input, {"manifest.json has format version 5", "reads version 4", "newer farlod-svf"});
+  edit_manifest("\"version\": 5", "\"version\": 6");
+  expect_refusal(evaluate(), exit_unusable_input, {"manifest.json has format version 6", "reads version 5", "newer farlod-svf"});
 }
 
 TEST_F(DamagedPackage, AnOlderVersionIsNoDamage) {
-  edit_manifest("\"version\": 4", "\"version\": 3");
+  edit_manifest("\"version\": 5", "\"version\": 4");
   expect_refusal(evaluate(), exit_unusable_input,
-                 {"manifest.json has format version 3", "reads version 4", "Pack the city again"});
+                 {"manifest.json has format version 4", "reads version 5", "Pack the city again"});
 }
 
 TEST_F(DamagedPackage, AnInterruptedPackingIsNoDamage) {

@@ -132,6 +132,71 @@ Scene overhang(const std::string& name, double h, double e, bool under) {
           true};
 }
 
+/// What a level rectangle h above the eye hides, from the signed parts of its quadrants.
+template <class Quadrant>
+double hidden_by_rectangle(Point2d low, Point2d high, double h, const Quadrant& quadrant) {
+  const auto part = [&](double a, double b) {
+    const double size = quadrant(std::abs(a), std::abs(b), h);
+    return (a < 0.0) != (b < 0.0) ? -size : size;
+  };
+  return part(high.x, high.y) - part(low.x, high.y) - part(high.x, low.y) + part(low.x, low.y);
+}
+
+/// A slab that floats; places are relative to the eye.
+Scene floating_slab(const std::string& name, Point2d low, Point2d high, double h) {
+  return {name,
+          [=](Stage& s) {
+            s.add_polygon({{low.x, low.y, h}, {high.x, low.y, h}, {high.x, high.y, h}, {low.x, high.y, h}});
+          },
+          1.0 - hidden_by_rectangle(low, high, h, oracles::court_quadrant_cos),
+          1.0 - hidden_by_rectangle(low, high, h, oracles::court_quadrant_solid),
+          h,
+          std::hypot(std::max(-low.x, high.x), std::max(-low.y, high.y)),
+          0.0,
+          0.0,
+          {0.0, 0.0, 1.0},
+          true};
+}
+
+/// A roof h overhead from a wall behind the eye to an open front, e away. It is cut off far to both sides: through an end no more
+/// is seen than an endless wall of its height hides there.
+Scene arcade(double h, double back, double e) {
+  const double far = 60 * h;
+  return {"Arcade",
+          [=](Stage& s) {
+            s.add_polygon({{-back, -far, h}, {e, -far, h}, {e, far, h}, {-back, far, h}});
+            s.add_wall({-back, -far}, {-back, far}, h);
+          },
+          oracles::overhang_cos(h, e, true),
+          no_closed_form,
+          std::min(back, e),
+          far,
+          0.0,
+          2 * (1 - oracles::wall_cos(h, far)),
+          {0.0, 0.0, 1.0},
+          true};
+}
+
+/// Three walls and a roof; in the south, d away, it is open: the sky is seen where a wall in the place of the opening would hide
+/// it.
+Scene open_shell(double west, double east, double north, double d, double h) {
+  return {"OpenShell",
+          [=](Stage& s) {
+            s.add_polygon({{-west, -d, h}, {east, -d, h}, {east, north, h}, {-west, north, h}});
+            s.add_wall({-west, -d}, {-west, north}, h);
+            s.add_wall({east, -d}, {east, north}, h);
+            s.add_wall({-west, north}, {east, north}, h);
+          },
+          1.0 - oracles::finite_wall_cos(h, d, west, east),
+          1.0 - oracles::finite_wall_solid(h, d, west, east),
+          std::min({west, east, north, d}),
+          std::hypot(std::max(west, east), std::max(north, d)),
+          0.0,
+          0.0,
+          {0.0, 0.0, 1.0},
+          true};
+}
+
 }  // namespace
 
 void Stage::add_wall(Point2d a, Point2d b, double high_m) {
@@ -155,7 +220,11 @@ std::vector<Scene> all_scenes() {
           tilted_in_the_open(35),
           tilted_in_the_open(90),
           overhang("UnderOverhang", 4, 3, true),
-          overhang("BesideOverhang", 4, 3, false)};
+          overhang("BesideOverhang", 4, 3, false),
+          floating_slab("UnderSlab", {-3, -2}, {5, 4}, 4),
+          floating_slab("BesideSlab", {2, -3}, {9, 4}, 4),
+          arcade(4, 5, 3),
+          open_shell(5, 7, 5, 3, 4)};
 }
 
 }  // namespace farlod::analytic

@@ -15,7 +15,7 @@ namespace farlod::analytic {
 inline constexpr double eye_m = 1.5;      // receivers stand this high, as the far maps are captured
 inline constexpr double ground = -eye_m;  // scenes are drawn around the eye
 
-/// What walls are made of: sheets, which can be seen under as far as anybody knows, or houses that stand.
+/// What walls are made of: sheets from the ground up, or houses.
 enum class Walls { sheets, houses };
 
 /// Where a scene is set up.

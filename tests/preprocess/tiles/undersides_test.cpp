@@ -77,6 +77,17 @@ TEST(Undersides, OfASheetOfWallAreItsFoot) {
   EXPECT_THAT(undersides_of({{{0, 0, 2}, {10, 0, 2}, {10, 0, 5}, {0, 0, 5}}}), ElementsAre(Segment3d{{0, 0, 2}, {10, 0, 2}}));
 }
 
+TEST(Undersides, AnEdgeThatLeavesFromItsEndClosesNothing) {
+  // A pier whose sides lean inwards by 0.2 m on 20 m: near to its foot, the edges at its corners hardly leave the foot's
+  const auto corner = [](int n, double inset_m, double z) {
+    return Point3d{n % 4 == 1 || n % 4 == 2 ? 10 - inset_m : inset_m, n % 4 >= 2 ? 10 - inset_m : inset_m, z};
+  };
+  std::vector<Face> pier{{corner(3, 0, 4), corner(2, 0, 4), corner(1, 0, 4), corner(0, 0, 4)},
+                         {corner(0, 0.2, 24), corner(1, 0.2, 24), corner(2, 0.2, 24), corner(3, 0.2, 24)}};
+  for (int n = 0; n < 4; ++n) pier.push_back({corner(n, 0, 4), corner(n + 1, 0, 4), corner(n + 1, 0.2, 24), corner(n, 0.2, 24)});
+  EXPECT_EQ(undersides_of(pier), rectangle(0, 0, 10, 10, 4));
+}
+
 TEST(Undersides, ATJunctionCloses) { EXPECT_THAT(raised_undersides_of(test::box_with_t_junctions()), IsEmpty()); }
 
 /// A wall from 3 to 6 m in three strips, above a wall in some strips of its own.

@@ -176,7 +176,7 @@ TEST_P(SkyBounds, AskingForThemChangesNoAnswer) {
     const SkyEvaluator evaluator(package_, {engine, SkyWeight::cosine, rays});
     std::vector<float> plain(bounded.svf.size());
     for (const CellReceivers& cell : places_) evaluator.evaluate(cell, plain);
-    // With bounds, rays answer for a few more of those who may see something hanging
+    // With bounds, rays answer for a few more of those who may look below something
     const double most = engine == Engine::rays ? 0.0 : between_looks;
     for (std::size_t n = 0; n < plain.size(); ++n) EXPECT_NEAR(plain[n], bounded.svf[n], most) << "receiver " << n;
   }

@@ -221,20 +221,22 @@ CityModel under_a_slab() {
   return builder.city();
 }
 
-TEST(SkyEvaluatorByHorizons, RaysAnswerWhereSomethingHangsOverTheHorizonAndNowhereElse) {
+TEST(SkyEvaluatorByHorizons, RaysAreNeededWhereSkyMayBeSeenBelowSomethingAndNowhereElse) {
   const PackedScene scene(under_a_slab(), grid_of({-3, -3, 4, 4}, 7), FarMapKind::horizon);
   const auto both = [&](Cell cell) {
     const SkyEvaluator automatic(scene.package(), {Engine::automatic}), rays(scene.package(), {Engine::rays});
     std::vector<float> a(25), b(25);
     automatic.evaluate(spread_over(cell), a);
     rays.evaluate(spread_over(cell), b);
-    return std::tuple(a == b, automatic.effort().by_rays, rays.effort().by_rays);
+    for (std::size_t n = 0; n < a.size(); ++n)
+      EXPECT_NEAR(a[n], b[n], sampling_error_of({Engine::automatic}) + sampling_error_of({Engine::rays})) << n;
+    return std::tuple(automatic.effort().by_rays, rays.effort().by_rays);
   };
-  EXPECT_EQ(both({-2, 0}), std::tuple(true, 25U, 25U)) << "below the slab";
-  EXPECT_EQ(both({0, 0}), std::tuple(false, 0U, 25U)) << "behind the houses";
+  EXPECT_EQ(both({-2, 0}), std::tuple(25U, 25U)) << "below the slab";
+  EXPECT_EQ(both({0, 0}), std::tuple(0U, 25U)) << "behind the houses";
 }
 
-TEST(SkyEvaluatorByHorizons, TheEngineHorizonRefusesWhatHangs) {
+TEST(SkyEvaluatorByHorizons, TheEngineHorizonRefusesToLookBelow) {
   const PackedScene scene(under_a_slab(), grid_of({-3, -3, 4, 4}, 7), FarMapKind::horizon);
   EXPECT_THROW((void)scene.svf(spread_over({-2, 0}), {Engine::horizon}), PackageUnusable);
   EXPECT_NO_THROW((void)scene.svf(spread_over({0, 0}), {Engine::horizon})) << "behind the houses nothing of it is seen";
