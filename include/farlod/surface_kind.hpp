@@ -15,7 +15,7 @@ enum class SurfaceKind : std::uint8_t {
   ground = 1,   ///< the terrain, of no building
   roof = 2,
   wall = 3,
-  floor = 4,  ///< looks down: the ground slab of a building, the underside of a bridge
+  floor = 4,       ///< looks down: the ground slab of a building, the underside of a bridge
   foundation = 5,  ///< of no file: what closes the gap between a building's lowest floor and the ground
 };
 

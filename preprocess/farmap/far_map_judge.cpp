@@ -58,8 +58,8 @@ class Judge {
   [[nodiscard]] CellVerdict judge(Cell cell, std::uint64_t seed) const {
     const BakedHorizons baked = baker_.bake(std::array{cell});
     const BakedHorizon& map = baked.cells.front();
-    const FarHorizon far{map.patches, AzimuthBins{settings_.azimuth_bins}, map.lower, map.likely, map.upper, map.overhang,
-                         {baked.edges, map.named_edges, {}}};
+    const FarHorizon far{map.patches,  AzimuthBins{settings_.azimuth_bins}, map.lower, map.likely, map.upper,
+                         map.overhang, {baked.edges, map.named_edges, {}}};
     FarView view(fan_, far);
     CellVerdict verdict;
     verdict.named = map.named_edges.size();

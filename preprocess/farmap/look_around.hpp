@@ -8,8 +8,8 @@
 #include "farmap/bin_borders.hpp"
 #include "farmap/cell_place.hpp"
 #include "farmap/city_horizon.hpp"
-#include "farmap/far_map_settings.hpp"
 #include "farmap/edge_over_square.hpp"
+#include "farmap/far_map_settings.hpp"
 #include "farmap/viewpoint_horizons.hpp"
 
 namespace farlod {
@@ -59,9 +59,9 @@ class LookAround {
   /// notable.
   std::vector<float> floors_;
   std::vector<double> faint_over_, notable_over_;
-  std::vector<double> settled_;   ///< for each layer, a slope that is hidden and not faint in all bins of the leaf at hand
-  EdgeOverSquare over_cell_;      ///< the obstacle at hand
-  std::vector<double> bounds_;    ///< of the obstacle at hand: its `upper`, level by level
+  std::vector<double> settled_;  ///< for each layer, a slope that is hidden and not faint in all bins of the leaf at hand
+  EdgeOverSquare over_cell_;     ///< the obstacle at hand
+  std::vector<double> bounds_;   ///< of the obstacle at hand: its `upper`, level by level
 };
 
 }  // namespace farlod

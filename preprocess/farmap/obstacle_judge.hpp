@@ -38,8 +38,8 @@ class ObstacleJudge {
   const AzimuthBins& bins_;
   double tolerance_;
   BakedHorizon& map_;
-  std::vector<float> seen_;     ///< rows as in the map: what receivers in the patch likely cannot see over
-  std::vector<double> limits_;  ///< likewise: what stays below this does not matter
+  std::vector<float> seen_;      ///< rows as in the map: what receivers in the patch likely cannot see over
+  std::vector<double> limits_;   ///< likewise: what stays below this does not matter
   std::vector<float> grounded_;  ///< likewise: below this, unnamed grounded things hide everything for certain
   EdgeOverSquare edge_;          ///< the obstacle at hand
 };

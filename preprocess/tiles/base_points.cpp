@@ -68,7 +68,7 @@ class Neighbours {
   }
 
  private:
-  static double steepest_rise_m(double run_m) { return steepest_ground * run_m + kerb_m + least_clearance_m; }
+  static double steepest_rise_m(double run_m) { return steepest_ground * run_m + kerb_m; }
   /// Houses on a hill may have their bases at their lower ends: a house further down.
   static double depth_m(const Footprint& f) {
     return std::max(f.outline.high.x - f.outline.low.x, f.outline.high.y - f.outline.low.y);

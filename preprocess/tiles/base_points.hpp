@@ -18,14 +18,16 @@ enum class Base : std::uint8_t {
   below_ground   ///< its base is lower than the ground can be: an error in the file
 };
 
-/// What the base of each building is, told by its neighbours (docs/decisions/0004): the slope filter of Vosselman (2000), used there
-/// to tell ground from objects in laser scans, for a ground that climbs by `steepest_ground` at the most.
-///   (1) a bridge has neighbours on opposite sides whose bases are lower by `least_clearance_m`, or one that is lower than any slope
+/// What the base of each building is, told by its neighbours (docs/decisions/0004): the slope filter of Vosselman (2000), used
+/// there to tell ground from objects in laser scans, for a ground that climbs by `steepest_ground` at the most.
+///   (1) a bridge has neighbours on opposite sides whose bases are lower by `least_clearance_m`, or one that is lower than any
+///   slope
 ///       between them explains
 ///   (2) below the ground is a base when most of its neighbours, and two at least, are higher than any slope explains
 [[nodiscard]] std::vector<Base> bases_of(const CityModel& city);
 
-/// The points where buildings meet the ground: of each building on the ground, its points within `base_thickness_m` of the lowest.
+/// The points where buildings meet the ground: of each building on the ground, its points within `base_thickness_m` of the
+/// lowest.
 [[nodiscard]] std::vector<Point3d> base_points(const CityModel& city, std::span<const Base> bases);
 
 inline constexpr double base_thickness_m = 0.01;  ///< a slab drawn to the centimetre

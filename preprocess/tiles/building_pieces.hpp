@@ -30,8 +30,8 @@ struct SurfacePiece {
 
 /// An edge that can be a horizon.
 struct UpperBorder {
-  Segment3d segment;              ///< grid frame
-  std::size_t pieces_end = 0;     ///< in BuildingPieces::upper_pieces, where its pieces end and the next one's begin
+  Segment3d segment;           ///< grid frame
+  std::size_t pieces_end = 0;  ///< in BuildingPieces::upper_pieces, where its pieces end and the next one's begin
 };
 
 /// What one building comes to. Depends on nothing but the building, the grid and the settings.
@@ -39,11 +39,11 @@ struct BuildingPieces {
   std::vector<BuildingSurface> surfaces;
   std::vector<SurfacePiece> pieces;
   std::vector<UpperBorder> upper_borders;
-  std::vector<CellEdge> upper_pieces;         ///< of the upper borders, one after the other
-  std::vector<HorizonSegment> undersides;     ///< those at the ground among them; grid frame
-  std::vector<WallProfile> walls;             ///< if there are undersides
-  std::optional<Cell> only_cell;              ///< to which it all goes, if it is not cut
-  std::vector<Problem> problems;              ///< without the source, which a building alone does not know; grid frame
+  std::vector<CellEdge> upper_pieces;      ///< of the upper borders, one after the other
+  std::vector<HorizonSegment> undersides;  ///< those at the ground among them; grid frame
+  std::vector<WallProfile> walls;          ///< if there are undersides
+  std::optional<Cell> only_cell;           ///< to which it all goes, if it is not cut
+  std::vector<Problem> problems;           ///< without the source, which a building alone does not know; grid frame
 };
 
 /// Triangulates and cuts one building, given in the grid frame.

@@ -108,7 +108,8 @@ CrossSection section_at(const Corners& t, double at_m) {
 
 std::vector<Contact> contacts_of(const HorizonEdge& edge, const EdgeFrame& frame, const Tile& tile) {
   constexpr auto give = static_cast<float>(contact_m);
-  const Point3f low{std::min(edge.a.x, edge.b.x) - give, std::min(edge.a.y, edge.b.y) - give, std::min(edge.a.z, edge.b.z) - give};
+  const Point3f low{std::min(edge.a.x, edge.b.x) - give, std::min(edge.a.y, edge.b.y) - give,
+                    std::min(edge.a.z, edge.b.z) - give};
   const Point3f high{std::max(edge.a.x, edge.b.x) + give, std::max(edge.a.y, edge.b.y) + give,
                      std::max(edge.a.z, edge.b.z) + give};
   std::vector<Contact> contacts;

@@ -135,9 +135,8 @@ std::vector<CellEdge> cut_edge(const HorizonSegment& horizon, const Grid& grid, 
   std::vector<CellEdge> pieces;
   for (std::size_t n = 1; n < places.size(); ++n) {
     const Cell owner = grid.cell_of(horizontal(point_at(edge, 0.5 * (places[n - 1] + places[n]))));
-    pieces.push_back(
-        whole_edge({{point_at(edge, places[n - 1]), point_at(edge, places[n])}, horizon.rises, horizon.role}, owner, grid,
-                   height_origin_m));
+    pieces.push_back(whole_edge({{point_at(edge, places[n - 1]), point_at(edge, places[n])}, horizon.rises, horizon.role}, owner,
+                                grid, height_origin_m));
   }
   return pieces;
 }

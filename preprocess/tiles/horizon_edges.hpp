@@ -71,8 +71,8 @@ class EdgeSides {
  private:
   Segment3d edge_;
   std::uint32_t triangle_count_ = 0;
-  bool under_wall_ = false;  ///< a vertical triangle rises from it
-  bool over_wall_ = false;   ///< a triangle that is vertical, or nearly, hangs from it
+  bool under_wall_ = false;                     ///< a vertical triangle rises from it
+  bool over_wall_ = false;                      ///< a triangle that is vertical, or nearly, hangs from it
   bool has_roof_ = false, has_soffit_ = false;  ///< a triangle that is not, and looks up, or down
   /// The steepest triangle on either side, as seen from above: the angle by which it rises away from the edge.
   double left_rad_ = -std::numeric_limits<double>::infinity(), right_rad_ = -std::numeric_limits<double>::infinity();

@@ -40,7 +40,7 @@ struct Surface {
   SurfaceKind kind = SurfaceKind::unknown;
   Point3d normal;  ///< outward, length 1, grid frame
   double area_m2 = 0.0;
-  /// It belongs to a building that can be seen under nowhere: all its edges are EdgeRole::grounded.
+  /// It belongs to a building that has no lower borders of its own above the ground: nobody outside has it overhead.
   bool grounded = true;
 };
 

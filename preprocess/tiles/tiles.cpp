@@ -222,12 +222,16 @@ class TileCutter {
     overhanging.pieces = std::move(cut_building);
   }
 
-  /// The lowest floor of a building that is no bridge goes down to the ground, whatever the ground between known points is: closes
-  /// the gap, and takes its borders out of `undersides`. Returns the height down to which the building is closed by it.
+  /// The lowest floor of a building that is no bridge goes down to the ground, whatever the ground between known points is:
+  /// closes the gap, and takes its borders out of `undersides`. Returns the height down to which the building is closed by it.
   double close_foot(const Building& building, BuildingPieces& pieces, std::vector<HorizonSegment>& undersides) {
-    double lowest_m = std::numeric_limits<double>::infinity();
+    double lowest_m = std::numeric_limits<double>::infinity(), least_gap_m = lowest_m;
     for (const Point3d& p : city_.points_of(building)) lowest_m = std::min(lowest_m, p.z);
     const double floor_m = lowest_m + lowest_floor_thickness_m;
+    for (const Point3d& p : city_.points_of(building))
+      if (p.z <= floor_m) least_gap_m = std::min(least_gap_m, p.z - ground_.height_at(horizontal(p)));
+    // One can walk under it from all sides: a roof without walls, or a bridge that no neighbour tells of
+    if (least_gap_m > least_clearance_m) return -std::numeric_limits<double>::infinity();
     const auto is_foot = [floor_m](const HorizonSegment& s) { return std::max(s.segment.a.z, s.segment.b.z) <= floor_m; };
     const auto foot = std::stable_partition(undersides.begin(), undersides.end(), std::not_fn(is_foot));
     if (foot == undersides.end()) return -std::numeric_limits<double>::infinity();
@@ -262,7 +266,8 @@ class TileCutter {
     return [this](Point2d p_grid) { return ground_.height_at(p_grid); };
   }
 
-  [[nodiscard]] std::vector<CellPiece> pieces_of(const std::array<Point3d, 3>& triangle, const std::optional<Cell>& only_cell) const {
+  [[nodiscard]] std::vector<CellPiece> pieces_of(const std::array<Point3d, 3>& triangle,
+                                                 const std::optional<Cell>& only_cell) const {
     if (!only_cell) return cut(triangle, grid_, tiles_.height_origin_m);
     CellPiece piece{*only_cell, {}};
     for (const Point3d& p : triangle) piece.polygon.push_back(cell_from_grid(p, *only_cell, grid_, tiles_.height_origin_m));
@@ -279,11 +284,12 @@ class TileCutter {
       overhanging_[n].undersides = std::move(open);
     });
     for (OverhangingBuilding& building : overhanging_) {
+      // A roof whose borders all touch walls shows no sky below them, but is overhead all the same
+      for (std::uint32_t s = building.surfaces.begin; s < building.surfaces.end; ++s) tiles_.surfaces[s].grounded = false;
       if (building.undersides.empty()) {
         place_upper_borders(building.pieces, nullptr);
         continue;
       }
-      for (std::uint32_t s = building.surfaces.begin; s < building.surfaces.end; ++s) tiles_.surfaces[s].grounded = false;
       const GroundedWalls walls(std::move(building.pieces.walls), [this, &building](Point2d p) {
         return std::max(ground_.height_at(p), building.foundation_top_m);
       });

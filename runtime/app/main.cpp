@@ -69,9 +69,9 @@ void print_run(const SvfRun& run, const SvfOptions& options, double total_s) {
     fmt::print("{} receivers lie outside of the grid, where there is no far map: they were traced against the whole city.\n",
                run.outside_of_grid);
   if (options.sky.engine == Engine::automatic && run.by_rays > 0)
-    fmt::print("{} of the receivers needed rays ({} each at the most, about): they may see sky below something that overhangs{}.\n",
-               run.by_rays, options.sky.rays,
-               options.max_error ? ", or the far map leaves them more uncertain than allowed" : "");
+    fmt::print(
+        "{} of the receivers needed rays ({} each at the most, about): they may see sky below something that overhangs{}.\n",
+        run.by_rays, options.sky.rays, options.max_error ? ", or the far map leaves them more uncertain than allowed" : "");
   if (options.max_error)
     fmt::print(
         "Error of {:g} at the most: {} azimuths, {} rays where horizons are not enough, {} rays traced against the whole city\n",

@@ -49,8 +49,8 @@ Facets facets_of(std::span<const EdgeRises> rises) {
   return facets;
 }
 
-/// Edges as the middle of the eyes sees them. What follows is as in may_be_silhouette, times the edge's horizontal length: there is
-/// less to divide.
+/// Edges as the middle of the eyes sees them. What follows is as in may_be_silhouette, times the edge's horizontal length: there
+/// is less to divide.
 struct SeenEdges {
   Floats eye_x, eye_y;  ///< the middle, from the first end
   Floats first_z, along_x, along_y, along_z, run;
@@ -97,7 +97,8 @@ FARLOD_LANES Floats may_be_silhouette(const SeenEdges& s, const Facets& facets, 
   const Floats near_slope = s.left > 0.0F ? left : right, far_slope = s.left > 0.0F ? right : left;
   const Floats below_edge = s.first_z + greatest(s.along_z, all(0.0F)) - 2.0F * slack_m;
   const Floats highest = least(all(eyes.high_z), below_edge), lowest = all(eyes.low_z);
-  const Floats past_near = is_upper ? most_over(s, eyes, 1.0F, highest, near_slope) : most_over(s, eyes, -1.0F, lowest, -near_slope);
+  const Floats past_near =
+      is_upper ? most_over(s, eyes, 1.0F, highest, near_slope) : most_over(s, eyes, -1.0F, lowest, -near_slope);
   const Floats past_far = is_upper ? most_over(s, eyes, -1.0F, lowest, far_slope) : most_over(s, eyes, 1.0F, highest, -far_slope);
   const Floats aside = magnitude(s.left) - magnitude(s.along_y) * eyes.half_x - magnitude(s.along_x) * eyes.half_y;
   // Eyes on both sides, or an upright edge: it has none

@@ -37,8 +37,8 @@ std::size_t rays_in(float share, std::size_t rays_per_azimuth) {
 
 }  // namespace
 
-Lanes trace_gaps(const Gaps& gaps, const AzimuthRing& ring, SkyWeight weight, const ReceiverPacket& receivers, std::uint32_t wanted,
-                 std::size_t rays_per_azimuth, const PlacedScene& scene) {
+Lanes trace_gaps(const Gaps& gaps, const AzimuthRing& ring, SkyWeight weight, const ReceiverPacket& receivers,
+                 std::uint32_t wanted, std::size_t rays_per_azimuth, const PlacedScene& scene) {
   const RayOrigins origins = scene.origins_of(receivers);
   Lanes seen{};
   for (std::size_t k = 0; k < ring.size(); ++k) {

@@ -89,8 +89,8 @@ HorizonEngine::BelowBorders HorizonEngine::look_below(const ReceiverPacket& rece
   for (std::size_t l = 0; l < receivers.count; ++l) below.by_rays |= most[l] > gaps_.tolerance ? 1U << l : 0U;
   Lanes seen{};
   if (below.by_rays != 0)
-    seen = trace_gaps({horizons_.grounded, horizons_.borders, horizons_.far_borders, horizons_.far_upper, gap_rows_}, ring_, weight_, receivers, below.by_rays,
-                      gaps_.rays_per_azimuth, overhangs_.scene());
+    seen = trace_gaps({horizons_.grounded, horizons_.borders, horizons_.far_borders, horizons_.far_upper, gap_rows_}, ring_,
+                      weight_, receivers, below.by_rays, gaps_.rays_per_azimuth, overhangs_.scene());
   for (std::size_t l = 0; l < most.size(); ++l) below.sky[l] = ((below.by_rays >> l) & 1U) != 0 ? seen[l] : 0.5F * most[l];
   return below;
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "scene/column.hpp"
+
 namespace farlod {
 namespace {
 
@@ -54,7 +56,12 @@ OverhangGeometry::OverhangGeometry(const Package& package, Cell cell, WholeScene
     : package_(package), cell_(cell), whole_scene_(std::move(whole_scene)) {
   // What is cut at the borders of cells hangs over its own cell alone
   const bool is_cut = package.manifest().assign != "whole";
-  overhead_ = triangles_in(is_cut ? CellRange{cell.i, cell.j, cell.i + 1, cell.j + 1} : package.grid().neighborhood_of(cell));
+  constexpr std::int32_t reach = CellColumns::reach_of_whole_buildings;
+  const CellRange near = package.grid().neighborhood_of(cell);
+  overhead_ =
+      triangles_in(is_cut ? CellRange{cell.i, cell.j, cell.i + 1, cell.j + 1}
+                          : CellRange{std::min(near.i_begin, cell.i - reach), std::min(near.j_begin, cell.j - reach),
+                                      std::max(near.i_end, cell.i + reach + 1), std::max(near.j_end, cell.j + reach + 1)});
   std::erase_if(overhead_, is_upright);
 }
 

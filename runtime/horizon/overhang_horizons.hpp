@@ -20,8 +20,8 @@ enum class FarGaps : std::uint8_t {
   likely     ///< below the lowest of them: what is above is one building's
 };
 
-/// Between which slopes a packet's receivers may see sky, where something overhangs. docs/concepts.md, "What is grounded, and what
-/// overhangs".
+/// Between which slopes a packet's receivers may see sky, where something overhangs. docs/concepts.md, "What is grounded, and
+/// what overhangs".
 struct OverhangHorizons {
   explicit OverhangHorizons(const AzimuthRing& ring)
       : grounded(ring), borders(ring), upper(ring), far_borders(ring), far_upper(ring) {}
@@ -34,8 +34,8 @@ struct OverhangHorizons {
   /// Draws what overhangs over `grounded`; `covered` are the bits of the receivers that have something overhead. `borders` and
   /// `upper` may hold what is known of the unnamed far city already; they must not be lower than `grounded`.
   void draw_overhangs(const CellSkyline& skyline, const ReceiverPacket& receivers, std::uint32_t covered, FarGaps far_gaps);
-  /// How much sky lies between `grounded` and `borders`, a row for each azimuth; none where there is nothing. Afterwards `borders` and the far
-  /// horizons tell of that sky alone.
+  /// How much sky lies between `grounded` and `borders`, a row for each azimuth; none where there is nothing. Afterwards
+  /// `borders` and the far horizons tell of that sky alone.
   [[nodiscard]] std::span<const PacketHorizon::Row> find_sky_below_borders(SkyWeight weight, const ReceiverPacket& receivers,
                                                                            std::vector<PacketHorizon::Row>& rows);
 

@@ -120,11 +120,13 @@ void sky_between(const float* low, const float* high, const ReceiverPacket& rece
 }
 
 FARLOD_FOR_EACH_PROCESSOR
-void find_sky_of_azimuth(const float* slopes, const ReceiverPacket& receivers, float cosine, float sine, bool is_solid, float* sky) {
+void find_sky_of_azimuth(const float* slopes, const ReceiverPacket& receivers, float cosine, float sine, bool is_solid,
+                         float* sky) {
   const Normals n{loaded(receivers.normal_x.data()), loaded(receivers.normal_y.data()), loaded(receivers.normal_z.data())};
   const Floats outward = n.x * cosine + n.y * sine;
   const Floats beyond = looked_at(outward, n.z).highest;
-  const Floats above = sky_of_azimuth(loaded(slopes), n, cosine, sine, is_solid), behind = sky_of_azimuth(beyond, n, cosine, sine, is_solid);
+  const Floats above = sky_of_azimuth(loaded(slopes), n, cosine, sine, is_solid),
+               behind = sky_of_azimuth(beyond, n, cosine, sine, is_solid);
   store(above - behind, sky);
 }
 
@@ -201,20 +203,6 @@ void count_rows(const float* rows, const float* slopes, std::size_t azimuth_coun
   store(count, counts);
 }
 
-/// Returns how many azimuths were written.
-FARLOD_FOR_EACH_PROCESSOR
-std::size_t find_rows_between(const float* rows, const float* outline, const float* slopes, std::size_t azimuth_count,
-                              std::uint32_t* azimuths) {
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < azimuth_count; ++k) {
-    const Floats row = loaded(rows + k * lane_count), top = loaded(outline + k * lane_count);
-    const Floats is_between = row < slopes[k] ? top - slopes[k] : all(-1.0F);
-    azimuths[count] = static_cast<std::uint32_t>(k);
-    count += greatest_lane(is_between) >= 0.0F ? 1U : 0U;
-  }
-  return count;
-}
-
 bool look_straight_up(const ReceiverPacket& r) {
   bool all_do = true;
   for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
@@ -260,14 +248,6 @@ PacketHorizon::Lanes PacketHorizon::count_over(std::span<const float> slopes) co
   return counts;
 }
 
-void PacketHorizon::find_between(const PacketHorizon& outline, std::span<const float> slopes,
-                                 std::vector<std::uint32_t>& azimuths) const {
-  FARLOD_EXPECTS(slopes.size() == slopes_.size() && outline.slopes_.size() == slopes_.size());
-  azimuths.resize(slopes_.size() + 1);
-  azimuths.resize(
-      find_rows_between(slopes_.front().data(), outline.slopes_.front().data(), slopes.data(), slopes_.size(), azimuths.data()));
-}
-
 std::uint32_t PacketHorizon::above(const PacketHorizon& other) const {
   FARLOD_EXPECTS(other.slopes_.size() == slopes_.size());
   Lanes differences;
@@ -281,7 +261,7 @@ void PacketHorizon::close(std::uint32_t receivers) {
   if (receivers == 0) return;
   for (Row& row : slopes_)
     for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
-      if (((receivers >> l) & 1U) != 0) row[l] = straight_up;
+      if (((receivers >> l) & 1U) != 0) row[l] = std::numeric_limits<float>::infinity();
 }
 
 void PacketHorizon::raise_to(const PacketHorizon& other) {

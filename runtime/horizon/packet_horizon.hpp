@@ -16,8 +16,9 @@
 namespace farlod {
 
 /// What one azimuth of a ring adds to the sky view factors of a packet's receivers, above slopes of its own for each.
-[[nodiscard]] ReceiverPacket::Lanes sky_of_azimuth(const AzimuthRing& ring, std::size_t azimuth, const ReceiverPacket::Lanes& slopes,
-                                                   SkyWeight weight, const ReceiverPacket& receivers);
+[[nodiscard]] ReceiverPacket::Lanes sky_of_azimuth(const AzimuthRing& ring, std::size_t azimuth,
+                                                   const ReceiverPacket::Lanes& slopes, SkyWeight weight,
+                                                   const ReceiverPacket& receivers);
 
 /// The horizons of a packet of receivers: for each azimuth of a ring the slope (tangent of the elevation, at least 0) below which
 /// no sky is seen. docs/concepts.md, "Above a horizon".
@@ -58,8 +59,6 @@ class PacketHorizon {
   void become_lowest(const SkylineEdges& edges, const ReceiverPacket& receivers, const PacketHorizon& floors);
   /// Of directions with these slopes, one at each azimuth, how many pass over each receiver's horizon.
   [[nodiscard]] Lanes count_over(std::span<const float> slopes) const;
-  /// The azimuths at which somebody's direction passes over this horizon, and not over `outline`.
-  void find_between(const PacketHorizon& outline, std::span<const float> slopes, std::vector<std::uint32_t>& azimuths) const;
   /// A bit for each receiver whose horizon is higher than the other one of its own, at some azimuth.
   [[nodiscard]] std::uint32_t above(const PacketHorizon& other) const;
   /// A bit for each receiver whose horizon lies below a slope at one azimuth.

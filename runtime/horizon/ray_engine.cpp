@@ -23,27 +23,26 @@ RayEngine::RayEngine(const RayFan& fan, const FarHorizon& far, const CellSkyline
       overhangs_(overhangs),
       wants_bounds_(wants_bounds),
       unnamed_(far, fan.ring()),
-      horizons_(fan.ring()),
       likely_(fan.ring()),
-      open_(fan.ring()),
-      unnamed_likely_(fan.ring()) {}
+      certain_(fan.ring()),
+      open_(fan.ring()) {}
 
 std::vector<FreeRays> RayEngine::count(std::span<const Receiver> receivers) {
   FARLOD_EXPECTS(!receivers.empty() && receivers.size() <= ReceiverPacket::lanes);
   look(receivers);
   trace();
-  const PacketHorizon::Lanes high = horizons_.upper.count_over(fan_.slopes());
-  const PacketHorizon::Lanes likely = wants_bounds_ ? likely_.count_over(fan_.slopes()) : high;
-  const PacketHorizon::Lanes low = wants_bounds_ ? open_.count_over(fan_.slopes()) : high;
+  const PacketHorizon::Lanes likely = likely_.upper.count_over(fan_.slopes());
+  const PacketHorizon::Lanes high = wants_bounds_ ? certain_.upper.count_over(fan_.slopes()) : likely;
+  const PacketHorizon::Lanes low = wants_bounds_ ? open_.count_over(fan_.slopes()) : likely;
   std::vector<FreeRays> free;
   for (std::size_t l = 0; l < receivers.size(); ++l) free.push_back({whole(low[l]), whole(likely[l]), whole(high[l])});
   for (const Passing& p : passing_)
     for (std::size_t l = 0; l < free.size(); ++l) {
-      free[l].high += (p.bits & bit_of(l)) != 0 ? 1U : 0U;
       free[l].likely += (p.likely & bit_of(l)) != 0 ? 1U : 0U;
-      // What lies behind is not certain
-      free[l].low += !wants_bounds_ && (p.bits & bit_of(l)) != 0 ? 1U : 0U;
+      free[l].high += (p.possible & bit_of(l)) != 0 ? 1U : 0U;
     }
+  if (!wants_bounds_)
+    for (FreeRays& f : free) f.low = f.high = f.likely;
   return free;
 }
 
@@ -51,42 +50,45 @@ void RayEngine::look(std::span<const Receiver> receivers) {
   packet_ = {};
   for (const Receiver& r : receivers) packet_.add(r);
   const std::uint32_t covered = overhangs_.covered(packet_);
-  horizons_.grounded.clear();
-  if (!wants_bounds_) unnamed_.raise_likely(packet_, horizons_.grounded);
-  horizons_.grounded.raise(skyline_.grounded, packet_);
-  horizons_.upper = horizons_.borders = horizons_.grounded;
-  if (wants_bounds_) {
-    unnamed_.raise_lower(packet_, horizons_.upper);
-    unnamed_.raise_overhang(packet_, horizons_.borders);
-  }
-  horizons_.draw_overhangs(skyline_, packet_, covered, wants_bounds_ ? FarGaps::possible : FarGaps::likely);
-  horizons_.borders.lower_to(horizons_.upper);
-  if (wants_bounds_) look_unnamed();
+  // What is likely: the unnamed is grounded
+  likely_.grounded.clear();
+  unnamed_.raise_likely(packet_, likely_.grounded);
+  likely_.grounded.raise(skyline_.grounded, packet_);
+  likely_.upper = likely_.borders = likely_.grounded;
+  likely_.draw_overhangs(skyline_, packet_, covered, FarGaps::likely);
+  likely_.borders.lower_to(likely_.upper);
+  if (!wants_bounds_) return;
+  // What is certain
+  certain_.grounded.clear();
+  certain_.grounded.raise(skyline_.grounded, packet_);
+  certain_.upper = certain_.borders = certain_.grounded;
+  unnamed_.raise_lower(packet_, certain_.upper);
+  unnamed_.raise_overhang(packet_, certain_.borders);
+  certain_.draw_overhangs(skyline_, packet_, covered, FarGaps::possible);
+  certain_.borders.lower_to(certain_.upper);
+  open_ = likely_.upper;
+  unnamed_.raise_upper(packet_, open_);
 }
 
-void RayEngine::look_unnamed() {
-  unnamed_likely_.clear();
-  unnamed_.raise_likely(packet_, unnamed_likely_);
-  likely_ = horizons_.upper;
-  unnamed_.raise_likely(packet_, likely_);
-  open_ = likely_;
-  unnamed_.raise_upper(packet_, open_);
+std::uint32_t RayEngine::in_gap(const OverhangHorizons& h, std::uint32_t azimuth, float slope) {
+  const std::uint32_t in_far = h.far_borders.below(azimuth, slope) & ~h.far_upper.below(azimuth, slope);
+  return h.grounded.below(azimuth, slope) & ~h.borders.below(azimuth, slope) & ~in_far;
 }
 
 void RayEngine::trace() {
   passing_.clear();
-  if (horizons_.borders.above(horizons_.grounded) == 0) return;
-  horizons_.grounded.find_between(horizons_.borders, fan_.slopes(), azimuths_);
-  if (azimuths_.empty()) return;
+  const bool has_gaps =
+      likely_.borders.above(likely_.grounded) != 0 || (wants_bounds_ && certain_.borders.above(certain_.grounded) != 0);
+  if (!has_gaps) return;
   const PlacedScene scene = overhangs_.scene();
   const RayOrigins origins = scene.origins_of(packet_);
-  for (const std::uint32_t k : azimuths_) {
+  for (std::uint32_t k = 0; k < fan_.size(); ++k) {
     const float slope = fan_.slopes()[k];
-    const std::uint32_t in_far = horizons_.far_borders.below(k, slope) & ~horizons_.far_upper.below(k, slope);
-    const std::uint32_t wanted = horizons_.grounded.below(k, slope) & ~horizons_.borders.below(k, slope) & ~in_far;
-    const std::uint32_t bits = wanted & ~scene.occluder.blocked(origins, fan_.direction(k), least_distance_m, wanted);
-    const std::uint32_t likely = wants_bounds_ ? bits & unnamed_likely_.below(k, slope) : bits;
-    if (bits != 0) passing_.push_back({k, bits, likely});
+    const std::uint32_t likely = in_gap(likely_, k, slope), possible = wants_bounds_ ? in_gap(certain_, k, slope) : 0U;
+    const std::uint32_t wanted = likely | possible;
+    if (wanted == 0) continue;
+    const std::uint32_t free = wanted & ~scene.occluder.blocked(origins, fan_.direction(k), least_distance_m, wanted);
+    if (free != 0) passing_.push_back({k, free & likely, free & possible});
   }
 }
 
@@ -100,8 +102,8 @@ std::uint64_t RayEngine::settle(const Occluder& city, const RayOrigins& origins,
   for (std::uint32_t k = 0; k < fan_.size(); ++k) {
     const float slope = fan_.slopes()[k];
     const bool passes = passing != passing_.end() && passing->azimuth == k;
-    const std::uint32_t below = passes ? (passing++)->bits : 0;
-    const std::uint32_t wanted = ((horizons_.upper.below(k, slope) & ~open_.below(k, slope)) | below) & doubtful;
+    const std::uint32_t below = passes ? (passing++)->possible : 0;
+    const std::uint32_t wanted = ((certain_.upper.below(k, slope) & ~open_.below(k, slope)) | below) & doubtful;
     rays += static_cast<std::uint64_t>(std::popcount(wanted));
     const std::uint32_t open = wanted & ~city.blocked(origins, fan_.direction(k), least_distance_m, wanted);
     for (std::size_t l = 0; l < free.size(); ++l) free[l].high += (open & bit_of(l)) != 0 ? 1U : 0U;

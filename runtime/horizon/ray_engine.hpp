@@ -26,13 +26,12 @@ struct FreeRays {
   std::uint32_t low = 0, likely = 0, high = 0;
 };
 
-/// Counts the rays that reach the sky, for packets of receivers that look in the same directions. Whether a ray is blocked follows
-/// from the receivers' horizons; only rays that may pass below something that overhangs are traced.
+/// Counts the rays that reach the sky, for packets of receivers that look in the same directions. Whether a ray is blocked
+/// follows from the receivers' horizons; only rays that may pass below something that overhangs are traced.
 class RayEngine {
  public:
   /// All must outlive it. For receivers of one cell. Without `wants_bounds`, low = high = likely.
-  RayEngine(const RayFan& fan, const FarHorizon& far, const CellSkyline& skyline, OverhangGeometry& overhangs,
-            bool wants_bounds);
+  RayEngine(const RayFan& fan, const FarHorizon& far, const CellSkyline& skyline, OverhangGeometry& overhangs, bool wants_bounds);
 
   /// For up to ReceiverPacket::lanes receivers.
   [[nodiscard]] std::vector<FreeRays> count(std::span<const Receiver> receivers);
@@ -43,13 +42,14 @@ class RayEngine {
 
  private:
   void look(std::span<const Receiver> receivers);
-  void look_unnamed();
   /// Finds the rays that pass below something.
   void trace();
+  /// A bit for each receiver whose ray passes below a border.
+  [[nodiscard]] static std::uint32_t in_gap(const OverhangHorizons& horizons, std::uint32_t azimuth, float slope);
 
-  /// Rays that pass below something, by bits of receivers: all, and those that no unnamed thing likely hides.
+  /// Rays that pass below something and meet nothing near, by bits of receivers: likely, and possibly.
   struct Passing {
-    std::uint32_t azimuth, bits, likely;
+    std::uint32_t azimuth, likely, possible;
   };
 
   const RayFan& fan_;
@@ -58,12 +58,10 @@ class RayEngine {
   bool wants_bounds_;
   UnnamedCity unnamed_;
   ReceiverPacket packet_;
-  /// Below `horizons_.upper` nothing is free, but what passes below borders; above `open_` everything passes, and `likely_` lies
-  /// between. Without bounds, only what is likely is known.
-  OverhangHorizons horizons_;
-  PacketHorizon likely_, open_, unnamed_likely_;
+  /// Without bounds, only what is likely is known. Above `open_` everything passes.
+  OverhangHorizons likely_, certain_;
+  PacketHorizon open_;
   std::vector<Passing> passing_;
-  std::vector<std::uint32_t> azimuths_;
 };
 
 }  // namespace farlod

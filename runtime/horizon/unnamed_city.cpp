@@ -34,7 +34,8 @@ void for_each_patch(const PatchOf& patch_of, const Raise& raise) {
 UnnamedCity::UnnamedCity(const FarHorizon& map, const AzimuthRing& ring)
     : map_(map),
       is_grounded_(std::all_of(map.overhang.begin(), map.overhang.end(), [](float slope) { return slope == 0.0F; })),
-      level_(map.bins.count, 0.0F), infinite_(map.bins.count, std::numeric_limits<float>::infinity()) {
+      level_(map.bins.count, 0.0F),
+      infinite_(map.bins.count, std::numeric_limits<float>::infinity()) {
   for (std::size_t k = 0; k < ring.size(); ++k) bin_of_azimuth_.push_back(map.bins.bin_of({ring.cosine()[k], ring.sine()[k]}));
 }
 
@@ -58,8 +59,9 @@ void UnnamedCity::raise_upper(const ReceiverPacket& r, PacketHorizon& horizon) c
 
 void UnnamedCity::raise_overhang(const ReceiverPacket& r, PacketHorizon& horizon) const {
   if (is_grounded_) return;
-  for_each_patch([&](std::size_t lane) { return patch_of(r, lane); },
-                 [&](Patch patch, const PacketHorizon::Lanes& caps) { horizon.raise(overhang_row(patch), caps, bin_of_azimuth_); });
+  for_each_patch(
+      [&](std::size_t lane) { return patch_of(r, lane); },
+      [&](Patch patch, const PacketHorizon::Lanes& caps) { horizon.raise(overhang_row(patch), caps, bin_of_azimuth_); });
 }
 
 void UnnamedCity::raise_likely(const ReceiverPacket& r, PacketHorizon& horizon) const {

@@ -132,7 +132,8 @@ struct FarMapReader::Impl {
       return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return wanted == entry.name.str; });
     };
     if (shape.is_box() && !has(package::distance_channel)) damaged("it has no distances");
-    for (const char* slopes : {package::lower_channel, package::likely_channel, package::upper_channel, package::overhang_channel})
+    for (const char* slopes :
+         {package::lower_channel, package::likely_channel, package::upper_channel, package::overhang_channel})
       if (!shape.is_box() && !has(slopes)) damaged("it has no slopes");
   }
   /// The pixels of one cell, in the file's order of rows.

@@ -61,8 +61,8 @@ PlanIndex::PlanIndex(std::vector<Corners> triangles) : triangles_(std::move(tria
   }
   low_ = {all.west, all.south, 0.0F};
   // As many squares as triangles, so that each holds few
-  edge_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(static_cast<double>(triangles_.size()))), 1,
-                                  most_squares_along);
+  edge_ =
+      std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(static_cast<double>(triangles_.size()))), 1, most_squares_along);
   const auto per_metre = [this](float length) { return length > 0.0F ? static_cast<float>(edge_) / length : 0.0F; };
   per_x_ = per_metre(all.east - all.west);
   per_y_ = per_metre(all.north - all.south);

@@ -36,7 +36,7 @@ class PlanIndex {
   std::vector<Corners> triangles_;
   Point3f low_;
   float per_x_ = 0.0F, per_y_ = 0.0F;
-  std::size_t edge_ = 0;                    ///< squares along either side
+  std::size_t edge_ = 0;                           ///< squares along either side
   std::vector<std::uint32_t> first_of_, numbers_;  ///< the triangles of each square, row by row
 };
 

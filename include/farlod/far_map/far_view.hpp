@@ -26,8 +26,8 @@ enum class FarVerdict : std::uint8_t {
   blocked          ///< hides the sky there, for certain
 };
 
-/// Judges the directions of a fan for receivers of one cell, from its far map of the kind `horizon`, as if all of the far city were
-/// grounded.
+/// Judges the directions of a fan for receivers of one cell, from its far map of the kind `horizon`, as if all of the far city
+/// were grounded.
 class FarView {
  public:
   /// Fan and map must outlive it.

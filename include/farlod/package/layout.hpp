@@ -36,9 +36,9 @@ enum class SectionKind : std::uint32_t {
   buildings = 6,     ///< BuildingRecord
   text = 7,          ///< bytes, UTF-8: the ids of buildings
   // Far maps of the kind `horizon`; without elements for the kind `box`
-  far_cells = 8,         ///< FarCellRecord, as many and in the same order as `cells`
-  far_edges = 9,         ///< HorizonEdge, block frame: what the cells' far maps name
-  named_edges = 11,      ///< NamedObstacle: rows of `far_edges`, cell by cell
+  far_cells = 8,     ///< FarCellRecord, as many and in the same order as `cells`
+  far_edges = 9,     ///< HorizonEdge, block frame: what the cells' far maps name
+  named_edges = 11,  ///< NamedObstacle: rows of `far_edges`, cell by cell
   // Of the tiles again
   tile_edges = 13,  ///< TileEdge, cell by cell, and within a cell role by role, in the order of EdgeRole
   loose_edges = 14  ///< HorizonEdge, cell frame, cell by cell: those that are no side of a triangle
@@ -74,9 +74,9 @@ struct CellRecord {
   std::uint32_t vertex_count, triangle_count;
   std::array<std::uint32_t, edge_role_count> edge_counts;  ///< rows of `tile_edges`, for each EdgeRole
   std::uint32_t loose_edge_count;                          ///< rows of `loose_edges`
-  float z_low_m, z_high_m;                      ///< of the tile's vertices; low > high when it is empty
-  float capture_x_m, capture_y_m, capture_z_m;  ///< where the far map was captured, cell frame
-  float far_map_top;                            ///< BoxMap::top; 0 when the cell has no far field above the horizontal
+  float z_low_m, z_high_m;                                 ///< of the tile's vertices; low > high when it is empty
+  float capture_x_m, capture_y_m, capture_z_m;             ///< where the far map was captured, cell frame
+  float far_map_top;                                       ///< BoxMap::top; 0 when the cell has no far field above the horizontal
   std::uint32_t flags;
 };
 static_assert(sizeof(CellRecord) == 60);
@@ -102,13 +102,14 @@ static_assert(sizeof(SurfaceRun) == 8);
 
 inline constexpr std::uint32_t no_building = 0xFFFFFFFF;
 
-/// The bits of kind, grounded and normal follow one another from the lowest on, as compilers for Linux lay them out; a test looks.
+/// The bits of kind, grounded and normal follow one another from the lowest on, as compilers for Linux lay them out; a test
+/// looks.
 struct SurfaceRecord {
   std::uint32_t building;  ///< row in `buildings`; no_building for the ground
   std::uint32_t number;    ///< of the surface, within its building
   std::uint16_t part;      ///< closed part of the building, for the question "inside?"
   SurfaceKind kind : 3;
-  std::uint8_t grounded : 1;  ///< 1: it belongs to a building that can be seen under nowhere (EdgeRole::grounded)
+  std::uint8_t grounded : 1;  ///< 1: nobody outside has its building overhead, and no gap is seen below it
   std::uint64_t normal_u : StoredDirection::bits;
   std::uint64_t normal_v : StoredDirection::bits;
 

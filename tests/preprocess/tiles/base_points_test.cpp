@@ -53,7 +53,8 @@ TEST(BasePoints, TouchingHousesOnAHillStandOnTheGround) {
   for (const double turn : {1.0, -1.0}) {
     scenes::SceneBuilder town;
     for (int n = 0; n < 8; ++n)
-      town.add_box({{width_m * n, 0}, {width_m * (n + 1), 12}}, 100 + turn * slope * width_m * n, 120 + turn * slope * width_m * n);
+      town.add_box({{width_m * n, 0}, {width_m * (n + 1), 12}}, 100 + turn * slope * width_m * n,
+                   120 + turn * slope * width_m * n);
     const std::vector<Base> bases = bases_of(town.city());
     EXPECT_EQ(std::count(bases.begin(), bases.end(), Base::on_ground), 8) << turn;
   }

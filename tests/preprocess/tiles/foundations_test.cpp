@@ -36,7 +36,8 @@ TileSet house_over_plain(double base_m) {
 
 std::size_t edges_of(const TileSet& tiles, EdgeRole role) {
   const auto& edges = tiles.tiles[0].horizon_edges;
-  return static_cast<std::size_t>(std::count_if(edges.begin(), edges.end(), [role](const HorizonEdge& e) { return e.role == role; }));
+  return static_cast<std::size_t>(
+      std::count_if(edges.begin(), edges.end(), [role](const HorizonEdge& e) { return e.role == role; }));
 }
 
 double area_of(const TileSet& tiles, SurfaceKind kind) {
@@ -59,13 +60,19 @@ TEST(Foundations, AHouseOnTheGroundNeedsNone) {
 }
 
 TEST(Foundations, CloseAFloorThatFloats) {
-  const TileSet tiles = house_over_plain(3.0);
+  const TileSet tiles = house_over_plain(2.0);
   EXPECT_EQ(tiles.foundation_count, 1U);
   EXPECT_EQ(edges_of(tiles, EdgeRole::underside), 0U) << "nothing is seen below the house";
   EXPECT_EQ(edges_of(tiles, EdgeRole::overhang), 0U);
-  // Four walls of 10 m, from the floor at 3 m to a little below the ground, and the floor again as their lid
-  EXPECT_GT(area_of(tiles, SurfaceKind::foundation), 4 * 10.0 * 3.0 + 100.0);
+  // Four walls of 10 m, from the floor at 2 m to a little below the ground, and the floor again as their lid
+  EXPECT_GT(area_of(tiles, SurfaceKind::foundation), 4 * 10.0 * 2.0 + 100.0);
   for (const Surface& s : tiles.surfaces) EXPECT_TRUE(s.grounded);
+}
+
+TEST(Foundations, WhatOneCanWalkUnderFromAllSidesGetsNone) {
+  const TileSet tiles = house_over_plain(4.0);
+  EXPECT_EQ(tiles.foundation_count, 0U);
+  EXPECT_GT(edges_of(tiles, EdgeRole::underside), 0U);
 }
 
 TEST(Foundations, WallsReachBelowTheGroundAllAlong) {

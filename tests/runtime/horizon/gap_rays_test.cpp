@@ -91,7 +91,8 @@ TEST_F(GapRays, WhatIsFilledIsNotSeen) {
   from_.find_sky_below(to_, SkyWeight::cosine, packet, sky_);
   const Occluder nothing({}, {});
   const Gaps filled{from_, to_, from_, to_, sky_};
-  for (const float sky : trace_gaps(filled, ring_, SkyWeight::cosine, packet, all_receivers, 4, {nothing, {}})) EXPECT_EQ(sky, 0.0F);
+  for (const float sky : trace_gaps(filled, ring_, SkyWeight::cosine, packet, all_receivers, 4, {nothing, {}}))
+    EXPECT_EQ(sky, 0.0F);
 }
 
 TEST_F(GapRays, OnlyThoseAreAskedWhoAreMeant) {
