@@ -71,10 +71,14 @@ class Neighbours {
   static double steepest_rise_m(double run_m) { return steepest_ground * run_m + kerb_m; }
   /// Houses on a hill may have their bases at their lower ends: a house further down.
   static double depth_m(const Footprint& f) {
-    return std::max(f.outline.high.x - f.outline.low.x, f.outline.high.y - f.outline.low.y);
+    return std::min(f.outline.high.x - f.outline.low.x, f.outline.high.y - f.outline.low.y);
   }
+  /// From the middle of one outline to the nearest place of another one.
   static Point2d towards(const Footprint& from, const Footprint& to) {
-    const Point2d way = to.outline.low + to.outline.high - from.outline.low - from.outline.high;
+    const Point2d middle = 0.5 * (from.outline.low + from.outline.high);
+    const Point2d nearest{std::clamp(middle.x, to.outline.low.x, to.outline.high.x),
+                          std::clamp(middle.y, to.outline.low.y, to.outline.high.y)};
+    const Point2d way = nearest - middle;
     const double length = norm(way);
     return length > 0.0 ? (1.0 / length) * way : Point2d{};
   }

@@ -226,7 +226,11 @@ class TileCutter {
   /// closes the gap, and takes its borders out of `undersides`. Returns the height down to which the building is closed by it.
   double close_foot(const Building& building, BuildingPieces& pieces, std::vector<HorizonSegment>& undersides) {
     double lowest_m = std::numeric_limits<double>::infinity(), least_gap_m = lowest_m;
-    for (const Point3d& p : city_.points_of(building)) lowest_m = std::min(lowest_m, p.z);
+    double highest_m = -lowest_m;
+    for (const Point3d& p : city_.points_of(building)) {
+      lowest_m = std::min(lowest_m, p.z);
+      highest_m = std::max(highest_m, p.z);
+    }
     const double floor_m = lowest_m + lowest_floor_thickness_m;
     for (const Point3d& p : city_.points_of(building))
       if (p.z <= floor_m) least_gap_m = std::min(least_gap_m, p.z - ground_.height_at(horizontal(p)));
@@ -235,6 +239,9 @@ class TileCutter {
     const auto is_foot = [floor_m](const HorizonSegment& s) { return std::max(s.segment.a.z, s.segment.b.z) <= floor_m; };
     const auto foot = std::stable_partition(undersides.begin(), undersides.end(), std::not_fn(is_foot));
     if (foot == undersides.end()) return -std::numeric_limits<double>::infinity();
+    // What is thinner than the gap below it spans it: a bridge from bank to bank
+    if (largest_gap_m({foot, undersides.end()}, ground_height()) > highest_m - lowest_m)
+      return -std::numeric_limits<double>::infinity();
     Surface surface = tiles_.surfaces.back();
     ++surface.number;
     surface.kind = SurfaceKind::foundation;

@@ -240,6 +240,13 @@ std::vector<Scene> scenes_with(bool walls, bool something_overhead) {
 }
 
 /// All that can be made of houses.
+/// Beside a half plane overhead, the sky below its far end is less than the accuracy of horizons.
+std::vector<Scene> scenes_that_need_rays() {
+  std::vector<Scene> scenes = scenes_with(false, true);
+  std::erase_if(scenes, [](const Scene& scene) { return scene.name == "BesideOverhang"; });
+  return scenes;
+}
+
 std::vector<Scene> scenes_without_overhang() {
   std::vector<Scene> scenes = analytic::all_scenes();
   std::erase_if(scenes, [](const Scene& s) { return s.is_overhead; });
@@ -277,7 +284,7 @@ INSTANTIATE_TEST_SUITE_P(Houses, AnalyticBounds,
                                  ValuesIn(with_walls_of(setups_with_bounds(), Walls::houses))),
                          name_of_case);
 INSTANTIATE_TEST_SUITE_P(Overhangs, AnalyticRefusal,
-                         Combine(ValuesIn(scenes_with(false, true)), ValuesIn(setups_with_sheets(Engine::horizon))),
+                         Combine(ValuesIn(scenes_that_need_rays()), ValuesIn(setups_with_sheets(Engine::horizon))),
                          name_of_case);
 
 }  // namespace

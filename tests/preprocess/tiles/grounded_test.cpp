@@ -10,6 +10,7 @@
 #include "tests/preprocess/tiles/borders.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"
+#include "tiles/base_points.hpp"
 #include "tiles/ground_contact.hpp"
 #include "tiles/tiles.hpp"
 
@@ -67,7 +68,8 @@ TEST(Grounded, AreNeitherOpenShellsNorBridgesNorEaves) {
 
 TEST(Grounded, WithinTheAccuracyOfTerrains) {
   EXPECT_TRUE(is_grounded(test::box(0, 0, 10, 10, 0.9 * ground_contact_m, 7)));
-  EXPECT_FALSE(is_grounded(test::box(0, 0, 10, 10, 1.2 * ground_contact_m, 7)));
+  EXPECT_TRUE(is_grounded(test::box(0, 0, 10, 10, 1.2 * ground_contact_m, 7))) << "a foundation closes what is more";
+  EXPECT_FALSE(is_grounded(test::box(0, 0, 10, 10, 1.1 * least_clearance_m, 7))) << "one can walk under it";
   EXPECT_TRUE(is_grounded(test::box(0, 0, 10, 10, -3, 7))) << "its foot is below the ground";
 }
 

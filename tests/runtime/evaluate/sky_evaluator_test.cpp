@@ -232,7 +232,9 @@ TEST(SkyEvaluatorByHorizons, RaysAreNeededWhereSkyMayBeSeenBelowSomethingAndNowh
       EXPECT_NEAR(a[n], b[n], sampling_error_of({Engine::automatic}) + sampling_error_of({Engine::rays})) << n;
     return std::tuple(automatic.effort().by_rays, rays.effort().by_rays);
   };
-  EXPECT_EQ(both({-2, 0}), std::tuple(25U, 25U)) << "below the slab";
+  const auto [below_slab, all] = both({-2, 0});
+  EXPECT_GT(below_slab, 15U) << "most of those below the slab see more below it than the accuracy allows";
+  EXPECT_EQ(all, 25U);
   EXPECT_EQ(both({0, 0}), std::tuple(0U, 25U)) << "behind the houses";
 }
 

@@ -235,7 +235,7 @@ TEST(Package, SurfaceNamesMissingBuilding) {
 }
 
 TEST(Package, SurfaceOfUnknownKind) {
-  for (const SurfaceKind kind : {SurfaceKind{0}, SurfaceKind{5}, SurfaceKind{7}})
+  for (const SurfaceKind kind : {SurfaceKind{0}, SurfaceKind{6}, SurfaceKind{7}})
     EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<SurfaceRecord>(SectionKind::surfaces, 1).kind = kind; }),
                 HasSubstr("of a kind that does not exist"));
 }
