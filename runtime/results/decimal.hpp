@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace farlod {
@@ -13,5 +14,10 @@ namespace farlod {
 [[nodiscard]] std::string millimetre_decimal(double value);
 /// With six digits after the point: view factors.
 [[nodiscard]] std::string share_decimal(double value);
+
+/// The same at the end of a text.
+void append_millimetres(std::string& text, double value);
+void append_share(std::string& text, double value);
+void append_whole(std::string& text, std::uint64_t number);
 
 }  // namespace farlod

@@ -2,27 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/sky_table_csv.hpp"
 
+#include <initializer_list>
 #include <ostream>
-#include <sstream>
+#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "farlod/expects.hpp"
 #include "results/atomic_file.hpp"
-#include "results/csv_row.hpp"
-#include "results/decimal.hpp"
+#include "results/csv_text.hpp"
 
 namespace farlod {
 namespace {
 
-using Fields = std::vector<std::string>;
-
-std::string share(const std::optional<double>& svf) { return svf ? share_decimal(*svf) : std::string(); }
-
 // A thousandth of a degree is 1.7 cm over a kilometre
-std::string degrees(Angle angle) { return millimetre_decimal(angle.degrees()); }
+double degrees(Angle angle) { return angle.degrees(); }
 
-std::string word_for(SurfaceKind kind) {
+std::string_view word_for(SurfaceKind kind) {
   switch (kind) {
     case SurfaceKind::ground:
       return "ground";
@@ -40,68 +35,57 @@ std::string word_for(SurfaceKind kind) {
   return "unknown";
 }
 
+/// Rows as text, a few at a time.
+constexpr std::size_t rows_at_once = 1024;
+
 template <class Row>
-void write_table(const std::filesystem::path& path, const Fields& header, std::span<const Row> rows,
-                 Fields (*fields_of)(const Row&)) {
+void write_table(const std::filesystem::path& path, std::initializer_list<std::string_view> header, std::span<const Row> rows,
+                 void (*add)(const Row&, CsvText&)) {
   write_text_atomically(path, [&](std::ostream& out) {
-    write_csv_row(out, header);
-    for (const Row& row : rows) write_csv_row(out, fields_of(row));
+    CsvText text;
+    text.fields(header).end_row();
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      add(rows[n], text);
+      if (n % rows_at_once == 0) out << std::exchange(text, {}).bytes();
+    }
+    out << text.bytes();
   });
 }
 
 /// The columns of a table of receivers: who and where each is, then its answer, then its bounds where they are wanted.
-Fields receiver_header(Fields header, const std::string& quantity, BoundsColumns bounds) {
-  header.push_back(quantity);
-  if (bounds == BoundsColumns::yes) header.insert(header.end(), {quantity + "_low", quantity + "_high"});
-  return header;
+void add_receiver_header(std::initializer_list<std::string_view> identity, const std::string& quantity, BoundsColumns bounds,
+                         CsvText& text) {
+  text.fields(identity).field(quantity);
+  if (bounds == BoundsColumns::yes) text.fields({quantity + "_low", quantity + "_high"});
+  text.end_row();
 }
 
 template <class Row>
-void write_receiver(std::ostream& out, Fields identity, const Row& row, BoundsColumns bounds) {
-  identity.push_back(share(row.svf));
-  if (bounds == BoundsColumns::yes) identity.insert(identity.end(), {share(row.low), share(row.high)});
-  write_csv_row(out, identity);
+void add_answer(const Row& row, BoundsColumns bounds, CsvText& text) {
+  text.share(row.svf);
+  if (bounds == BoundsColumns::yes) text.share(row.low).share(row.high);
+  text.end_row();
 }
 
-Fields point_fields(const PointRow& r) {
-  return {r.id, millimetre_decimal(r.p_projected.x), millimetre_decimal(r.p_projected.y),
-          r.height_m ? millimetre_decimal(*r.height_m) : std::string()};
+void add_point(const PointRow& r, CsvText& text) {
+  text.field(r.id).millimetres(r.p_projected.x).millimetres(r.p_projected.y).millimetres(r.height_m);
 }
 
-Fields surface_point_fields(const SurfacePointRow& r) {
-  return {r.building,
-          std::to_string(r.surface),
-          word_for(r.kind),
-          millimetre_decimal(r.p_projected.x),
-          millimetre_decimal(r.p_projected.y),
-          millimetre_decimal(r.p_projected.z),
-          degrees(r.azimuth),
-          degrees(r.tilt),
-          millimetre_decimal(r.area_m2)};
+void add_surface_point(const SurfacePointRow& r, CsvText& text) {
+  text.field(r.building).whole(r.surface).field(word_for(r.kind));
+  text.millimetres(r.p_projected.x).millimetres(r.p_projected.y).millimetres(r.p_projected.z);
+  text.millimetres(degrees(r.azimuth)).millimetres(degrees(r.tilt)).millimetres(r.area_m2);
 }
 
-Fields surface_fields(const SurfaceRow& r) {
-  return {r.building,
-          std::to_string(r.surface),
-          word_for(r.kind),
-          degrees(r.azimuth),
-          degrees(r.tilt),
-          millimetre_decimal(r.area_m2),
-          std::to_string(r.receivers),
-          std::to_string(r.nodata),
-          share(r.svf_mean),
-          share(r.svf_min),
-          share(r.svf_max)};
+void add_surface(const SurfaceRow& r, CsvText& text) {
+  text.field(r.building).whole(r.surface).field(word_for(r.kind));
+  text.millimetres(degrees(r.azimuth)).millimetres(degrees(r.tilt)).millimetres(r.area_m2);
+  text.whole(r.receivers).whole(r.nodata).share(r.svf_mean).share(r.svf_min).share(r.svf_max).end_row();
 }
 
-Fields building_fields(const BuildingRow& r) {
-  return {r.building,
-          millimetre_decimal(r.roof_area_m2),
-          millimetre_decimal(r.wall_area_m2),
-          std::to_string(r.receivers),
-          std::to_string(r.nodata),
-          share(r.svf_roofs),
-          share(r.svf_walls)};
+void add_building(const BuildingRow& r, CsvText& text) {
+  text.field(r.building).millimetres(r.roof_area_m2).millimetres(r.wall_area_m2);
+  text.whole(r.receivers).whole(r.nodata).share(r.svf_roofs).share(r.svf_walls).end_row();
 }
 
 }  // namespace
@@ -109,11 +93,15 @@ Fields building_fields(const BuildingRow& r) {
 void write_points_csv(std::size_t count, const std::function<PointRow(std::size_t n)>& row_of, const std::string& quantity,
                       BoundsColumns bounds, const std::filesystem::path& path) {
   write_text_atomically(path, [&](std::ostream& out) {
-    write_csv_row(out, receiver_header({"id", "x_m", "y_m", "z_m"}, quantity, bounds));
+    CsvText text;
+    add_receiver_header({"id", "x_m", "y_m", "z_m"}, quantity, bounds, text);
     for (std::size_t n = 0; n < count; ++n) {
       const PointRow row = row_of(n);
-      write_receiver(out, point_fields(row), row, bounds);
+      add_point(row, text);
+      add_answer(row, bounds, text);
+      if (n % rows_at_once == 0) out << std::exchange(text, {}).bytes();
     }
+    out << text.bytes();
   });
 }
 
@@ -125,18 +113,20 @@ void write_points_csv(std::span<const PointRow> rows, const std::string& quantit
 
 SurfacePointsCsv::SurfacePointsCsv(const std::filesystem::path& path, const std::string& quantity, BoundsColumns bounds)
     : path_(path), bounds_(bounds), waiting_(path) {
-  std::ostringstream header;
-  write_csv_row(header,
-                receiver_header({"building", "surface", "kind", "x_m", "y_m", "z_m", "azimuth_deg", "tilt_deg", "area_m2"},
-                                quantity, bounds));
-  header_ = header.str();
+  CsvText header;
+  add_receiver_header({"building", "surface", "kind", "x_m", "y_m", "z_m", "azimuth_deg", "tilt_deg", "area_m2"}, quantity,
+                      bounds, header);
+  header_ = header.bytes();
 }
 
 void SurfacePointsCsv::write_part(std::size_t part, std::span<const SurfacePointRow> rows) {
   if (rows.empty()) return;
-  std::ostringstream text;
-  for (const SurfacePointRow& row : rows) write_receiver(text, surface_point_fields(row), row, bounds_);
-  const std::string bytes = text.str();
+  CsvText text;
+  for (const SurfacePointRow& row : rows) {
+    add_surface_point(row, text);
+    add_answer(row, bounds_, text);
+  }
+  const std::string& bytes = text.bytes();
   const bool is_new = parts_.emplace(part, Place{waiting_.append(std::as_bytes(std::span(bytes))), bytes.size()}).second;
   FARLOD_EXPECTS(is_new);
 }
@@ -164,12 +154,12 @@ void write_surfaces_csv(std::span<const SurfaceRow> rows, const std::string& qua
   write_table(path,
               {"building", "surface", "kind", "azimuth_deg", "tilt_deg", "area_m2", "receivers", "nodata", quantity + "_mean",
                quantity + "_min", quantity + "_max"},
-              rows, surface_fields);
+              rows, add_surface);
 }
 
 void write_buildings_csv(std::span<const BuildingRow> rows, const std::string& quantity, const std::filesystem::path& path) {
   write_table(path, {"building", "roof_area_m2", "wall_area_m2", "receivers", "nodata", quantity + "_roofs", quantity + "_walls"},
-              rows, building_fields);
+              rows, add_building);
 }
 
 }  // namespace farlod

@@ -31,6 +31,11 @@ TEST(Decimal, CoordinatesEndAtTheMillimetre) {
   EXPECT_EQ(millimetre_decimal(5700010.123456), "5700010.123");
   EXPECT_EQ(millimetre_decimal(1.5), "1.5");
   EXPECT_EQ(millimetre_decimal(2.0), "2");
+  EXPECT_EQ(millimetre_decimal(-0.05), "-0.05");
+  EXPECT_EQ(millimetre_decimal(-12.345678), "-12.346");
+  EXPECT_EQ(millimetre_decimal(999999999999.9995), "1000000000000");
+  EXPECT_EQ(millimetre_decimal(1e15 + 0.25), "1000000000000000.2");
+  EXPECT_EQ(millimetre_decimal(0.001), "0.001");
 }
 
 TEST(Decimal, SharesHaveSixDigits) {

@@ -5,11 +5,17 @@
 #include <gtest/gtest.h>
 
 #include "receivers/point_reader.hpp"
-#include "results/csv_row.hpp"
+#include "results/csv_text.hpp"
 #include "tests/runtime/results/scratch_folder.hpp"
 
 namespace farlod {
 namespace {
+
+std::string csv_field(std::string_view text) {
+  CsvText csv;
+  csv.field(text);
+  return csv.bytes();
+}
 
 TEST(CsvField, IsQuotedWhereItMustBe) {
   EXPECT_EQ(csv_field("plain text"), "plain text");
@@ -17,6 +23,13 @@ TEST(CsvField, IsQuotedWhereItMustBe) {
   EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
   EXPECT_EQ(csv_field("the \"old\" town"), "\"the \"\"old\"\" town\"");
   EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
+}
+
+TEST(CsvText, SeparatesFieldsAndEndsRows) {
+  CsvText csv;
+  csv.field("").whole(7).millimetres(std::nullopt).end_row();
+  csv.share(std::nullopt).share(0.5).millimetres(1.25).end_row();
+  EXPECT_EQ(csv.bytes(), ",7,\n,0.500000,1.25\n");
 }
 
 TEST(PointsCsv, IsAsDocumented) {
