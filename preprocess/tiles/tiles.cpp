@@ -314,6 +314,8 @@ class TileCutter {
       for (; piece < border.pieces_end; ++piece) {
         CellEdge& edge = building.upper_pieces[piece];
         edge.edge.role = is_grounded ? EdgeRole::grounded : EdgeRole::overhang;
+        // Of what is beside it, only the wall is known to be grounded: the roof that rises behind it hides nothing of it here
+        if (is_grounded && walls != nullptr) edge.edge.rises = {};
         place(edge);
       }
     }
