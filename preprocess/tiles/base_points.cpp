@@ -42,15 +42,17 @@ class Neighbours {
         for_each_square(bases[n].outline, 0.0, [&](std::uint64_t square) { squares_[square].push_back(n); });
   }
 
-  /// Whether most neighbours, and two at least, are higher than a slope explains.
+  /// Whether more neighbours, and two at least, are higher than a slope explains than are on its level. Those across a wide
+  /// street may be neither.
   [[nodiscard]] bool is_below_ground(std::uint32_t number) const {
     const Footprint& here = bases_[number];
-    int higher = 0, all = 0;
+    int higher = 0, alike = 0;
     visit_near(number, [&](std::uint32_t n, double distance) {
-      ++all;
-      higher += bases_[n].height_m - here.height_m > steepest_rise_m(distance + depth_m(here)) ? 1 : 0;
+      const double rise_m = bases_[n].height_m - here.height_m;
+      higher += rise_m > steepest_rise_m(distance + depth_m(here)) ? 1 : 0;
+      alike += std::abs(rise_m) <= gentle_ground * distance + kerb_m ? 1 : 0;
     });
-    return higher >= 2 && 2 * higher > all;
+    return higher >= 2 && higher > alike;
   }
 
   /// Whether neighbours are so much lower that it must be a bridge. `bases` tells which of them are known to be wrong.

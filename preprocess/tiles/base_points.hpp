@@ -23,7 +23,8 @@ enum class Base : std::uint8_t {
 ///   (1) a bridge has neighbours on opposite sides whose bases are lower by `least_clearance_m`, or one that is lower than any
 ///   slope
 ///       between them explains
-///   (2) below the ground is a base when most of its neighbours, and two at least, are higher than any slope explains
+///   (2) below the ground is a base when more of its neighbours, and two at least, are higher than any slope explains than are on
+///       its level, as far as a gentle slope goes
 [[nodiscard]] std::vector<Base> bases_of(const CityModel& city);
 
 /// The points where buildings meet the ground: of each building on the ground, its points within `base_thickness_m` of the
@@ -32,6 +33,7 @@ enum class Base : std::uint8_t {
 
 inline constexpr double base_thickness_m = 0.01;  ///< a slab drawn to the centimetre
 inline constexpr double steepest_ground = 0.5;    ///< 27°: steeper streets are stairs
+inline constexpr double gentle_ground = 0.2;      ///< 11°: streets seldom climb more
 inline constexpr double least_clearance_m = 2.5;  ///< of something that one can walk under
 inline constexpr double kerb_m = 1.5;             ///< steps, kerbs, plinths: bases differ by so much on level ground
 inline constexpr double base_search_radius_m = 30.0;
