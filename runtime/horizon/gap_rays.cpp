@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
+
+#include "horizon/lanes.hpp"
 
 namespace farlod {
 namespace {
@@ -17,9 +21,19 @@ float offset_of(std::size_t azimuth) {
   return static_cast<float>(multiple - std::floor(multiple));
 }
 
-/// The share of the sky above a slope, cosine-weighted: rays are spread evenly over it.
-float share_above(float slope) { return 1.0F / (1.0F + slope * slope); }
-float slope_of(float share) { return std::sqrt(1.0F / share - 1.0F); }
+/// The share of the sky above slopes, cosine-weighted: rays are spread evenly over it.
+FARLOD_FOR_EACH_PROCESSOR
+void find_shares_above(const float* slopes, float* shares) {
+  const Floats t = loaded(slopes);
+  store(1.0F / (1.0F + t * t), shares);
+}
+
+/// The slopes above which so much of the sky lies, on the way from one share to another.
+FARLOD_FOR_EACH_PROCESSOR
+void find_slopes(const float* from_share, const float* to_share, float place, float* slopes) {
+  const Floats from = loaded(from_share), share = from + place * (loaded(to_share) - from);
+  store(root(greatest(1.0F / share - 1.0F, all(0.0F))), slopes);
+}
 
 /// A bit for each receiver whose direction passes where nothing is seen.
 std::uint32_t filled(const Gaps& gaps, std::size_t azimuth, const Lanes& slopes) {
@@ -31,11 +45,29 @@ std::uint32_t filled(const Gaps& gaps, std::size_t azimuth, const Lanes& slopes)
 
 /// A gap that takes a larger share of what an azimuth can see gets more rays.
 std::size_t rays_in(float share, std::size_t rays_per_azimuth) {
-  const float wanted = std::ceil(2.0F * share * static_cast<float>(rays_per_azimuth));
+  const float wanted = std::ceil(share * static_cast<float>(rays_per_azimuth));
   return static_cast<std::size_t>(std::max(1.0F, wanted));
 }
 
 }  // namespace
+
+float close_smallest(std::span<PacketHorizon::Row> sky, std::size_t lane, float most) {
+  std::vector<float> sizes;
+  for (const PacketHorizon::Row& row : sky)
+    if (row[lane] > 0.0F) sizes.push_back(row[lane]);
+  std::sort(sizes.begin(), sizes.end());
+  float sum = 0.0F, largest = 0.0F;
+  for (const float size : sizes) {
+    if (sum + size > most) break;
+    sum += size;
+    largest = size;
+  }
+  // Of several of that size, the last may be too many
+  float closed = 0.0F;
+  for (PacketHorizon::Row& row : sky)
+    if (row[lane] <= largest && closed + row[lane] <= most) closed += std::exchange(row[lane], 0.0F);
+  return closed;
+}
 
 Lanes trace_gaps(const Gaps& gaps, const AzimuthRing& ring, SkyWeight weight, const ReceiverPacket& receivers,
                  std::uint32_t wanted, std::size_t rays_per_azimuth, const PlacedScene& scene) {
@@ -55,15 +87,13 @@ Lanes trace_gaps(const Gaps& gaps, const AzimuthRing& ring, SkyWeight weight, co
     const std::size_t count = rays_in(widest * static_cast<float>(ring.size()), rays_per_azimuth);
     const float part = 1.0F / static_cast<float>(count);
     // The gap, by the sky above its ends
-    Lanes from{}, to{};
-    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) {
-      from[l] = share_above(gaps.from.row(k)[l]);
-      to[l] = share_above(gaps.to.row(k)[l]);
-    }
+    PacketHorizon::Row from, to;
+    find_shares_above(gaps.from.row(k).data(), from.data());
+    find_shares_above(gaps.to.row(k).data(), to.data());
     // Each ray stands for a part of it
     const auto slopes_at = [&](float place) {
       Lanes slopes;
-      for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) slopes[l] = slope_of(from[l] + place * (to[l] - from[l]));
+      find_slopes(from.data(), to.data(), place, slopes.data());
       return slopes;
     };
     Lanes above_part = sky_of_azimuth(ring, k, gaps.from.row(k), weight, receivers);

@@ -20,6 +20,9 @@ struct Gaps {
   std::span<const PacketHorizon::Row> sky;  ///< how much that is
 };
 
+/// Closes the smallest gaps of a receiver, of no more sky than `most` altogether, and returns how much that is.
+[[nodiscard]] float close_smallest(std::span<PacketHorizon::Row> sky, std::size_t lane, float most);
+
 /// Traces `rays_per_azimuth` rays in the gaps of the receivers whose bits are set, and returns how much sky is seen through them.
 [[nodiscard]] PacketHorizon::Lanes trace_gaps(const Gaps& gaps, const AzimuthRing& ring, SkyWeight weight,
                                               const ReceiverPacket& receivers, std::uint32_t wanted, std::size_t rays_per_azimuth,

@@ -18,6 +18,10 @@ PacketHorizon::Lanes sum(std::span<const PacketHorizon::Row> rows) {
   return sums;
 }
 
+/// Of a receiver that needs rays, the smallest gaps are not traced, as long as they hold no more of the tolerance than this. They
+/// are filled more often than large ones: that so much of them is sky is right on average (docs/decisions/0012).
+constexpr float untraced_of_tolerance = 0.5F, sky_in_untraced = 0.25F;
+
 }  // namespace
 
 HorizonEngine::HorizonEngine(const AzimuthRing& ring, SkyWeight weight, const FarHorizon& far, const CellSkyline& skyline,
@@ -87,11 +91,17 @@ HorizonEngine::BelowBorders HorizonEngine::look_below(const ReceiverPacket& rece
   BelowBorders below;
   const Lanes most = sum(horizons_.find_sky_below_borders(weight_, receivers, gap_rows_));
   for (std::size_t l = 0; l < receivers.count; ++l) below.by_rays |= most[l] > gaps_.tolerance ? 1U << l : 0U;
-  Lanes seen{};
-  if (below.by_rays != 0)
-    seen = trace_gaps({horizons_.grounded, horizons_.borders, horizons_.far_borders, horizons_.far_upper, gap_rows_}, ring_,
-                      weight_, receivers, below.by_rays, gaps_.rays_per_azimuth, overhangs_.scene());
-  for (std::size_t l = 0; l < most.size(); ++l) below.sky[l] = ((below.by_rays >> l) & 1U) != 0 ? seen[l] : 0.5F * most[l];
+  if (below.by_rays == 0) {
+    for (std::size_t l = 0; l < most.size(); ++l) below.sky[l] = 0.5F * most[l];
+    return below;
+  }
+  Lanes untraced{};
+  for (std::size_t l = 0; l < receivers.count; ++l)
+    if (((below.by_rays >> l) & 1U) != 0) untraced[l] = close_smallest(gap_rows_, l, untraced_of_tolerance * gaps_.tolerance);
+  const Lanes seen = trace_gaps({horizons_.grounded, horizons_.borders, horizons_.far_borders, horizons_.far_upper, gap_rows_},
+                                ring_, weight_, receivers, below.by_rays, gaps_.rays_per_azimuth, overhangs_.scene());
+  for (std::size_t l = 0; l < most.size(); ++l)
+    below.sky[l] = ((below.by_rays >> l) & 1U) != 0 ? seen[l] + sky_in_untraced * untraced[l] : 0.5F * most[l];
   return below;
 }
 

@@ -121,9 +121,9 @@ TEST_F(GapRays, WhatIsMetIsHiddenToTheWidthOfARay) {
         const double low = from_.row(k)[l], high = to_.row(k)[l], foot = std::clamp(3.0 / distance, low, high);
         const auto sky_above = [](double slope) { return 1.0 / (1.0 + slope * slope) / static_cast<double>(azimuths); };
         truth += sky_above(low) - sky_above(foot);
-        // rays_in: twice the share of the azimuth's sky that the widest gap takes, at least one ray
+        // rays_in: the share of the azimuth's sky that the widest gap takes, at least one ray
         const double sky = sky_above(low) - sky_above(high);
-        one_part += sky / std::max(1.0, 2.0 * sky * static_cast<double>(azimuths) * static_cast<double>(rays));
+        one_part += sky / std::max(1.0, sky * static_cast<double>(azimuths) * static_cast<double>(rays));
       }
       EXPECT_NEAR(seen[l], truth, one_part + sky_rounding(azimuths, normals[0])) << rays << " rays, receiver " << l;
       greatest = std::max(greatest, std::abs(seen[l] - truth));
@@ -133,6 +133,21 @@ TEST_F(GapRays, WhatIsMetIsHiddenToTheWidthOfARay) {
   }
   // Offsets differ from azimuth to azimuth: errors of single azimuths have either sign
   EXPECT_LT(error_before, 1e-4);
+}
+
+TEST(CloseSmallest, ClosesNoMoreThanAsked) {
+  std::vector<PacketHorizon::Row> sky(5);
+  const std::array sizes{0.004F, 0.001F, 0.0F, 0.002F, 0.001F};
+  for (std::size_t k = 0; k < sky.size(); ++k) sky[k][3] = sky[k][4] = sizes[k];
+  EXPECT_FLOAT_EQ(close_smallest(sky, 3, 0.0035F), 0.002F);
+  const std::array left{0.004F, 0.0F, 0.0F, 0.002F, 0.0F};
+  for (std::size_t k = 0; k < sky.size(); ++k) {
+    EXPECT_EQ(sky[k][3], left[k]);
+    EXPECT_EQ(sky[k][4], sizes[k]) << "another receiver's";
+  }
+  EXPECT_FLOAT_EQ(close_smallest(sky, 4, 0.0015F), 0.001F) << "one of the two smallest";
+  EXPECT_FLOAT_EQ(close_smallest(sky, 4, 1.0F), 0.007F);
+  EXPECT_EQ(close_smallest(sky, 4, 1.0F), 0.0F);
 }
 
 }  // namespace
