@@ -27,8 +27,8 @@ void add(const HorizonEdge& edge, Point2d shift_m, CellSkyline& skyline, Overhan
 }
 
 void keep_facing(OverhangEdges& edges, const ReceiverBox& box) {
-  edges.upper = edges.upper.facing(box, EdgeRole::overhang);
-  edges.lower = edges.lower.facing(box, EdgeRole::underside);
+  edges.upper = edges.upper.facing(box);
+  edges.lower = edges.lower.facing(box);
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ CellSkyline cell_skyline(const Package& package, Cell cell, const FarHorizon& fa
   const std::uint32_t layers = far.layers_met_from(box.low.z, box.high.z);
   for (const package::NamedObstacle& n : far.named.named_edges)
     if ((n.layers & layers) != 0) add(far.named.edges[n.row], far.named.cell_from_block_m, skyline, skyline.far);
-  skyline.grounded = skyline.grounded.facing(box, EdgeRole::grounded);
+  skyline.grounded = skyline.grounded.facing(box);
   keep_facing(skyline.near, box);
   keep_facing(skyline.far, box);
   return skyline;

@@ -15,7 +15,7 @@ namespace farlod {
 
 /// Borders of what may be seen under: EdgeRole::overhang and EdgeRole::underside.
 struct OverhangEdges {
-  SkylineEdges upper, lower;
+  SkylineEdges upper{EdgeRole::overhang}, lower{EdgeRole::underside};
   [[nodiscard]] bool empty() const { return upper.empty() && lower.empty(); }
 };
 

@@ -12,9 +12,9 @@
 namespace farlod {
 
 /// What the receivers of a packet have in common: an upright box around them, given by the middle of its plan, half its sides and
-/// its floor; and a plane behind which none of them looks: normal · p ≤ depth.
+/// its floor and top; and a plane behind which none of them looks: normal · p ≤ depth.
 struct PacketBounds {
-  float x = 0.0F, y = 0.0F, half_x = 0.0F, half_y = 0.0F, lowest_z = 0.0F;
+  float x = 0.0F, y = 0.0F, half_x = 0.0F, half_y = 0.0F, lowest_z = 0.0F, highest_z = 0.0F;
   float normal_x = 0.0F, normal_y = 0.0F, normal_z = 0.0F, depth = 0.0F;
 };
 

@@ -3,106 +3,20 @@
 #include "horizon/facing_edges.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 #include "farlod/expects.hpp"
-#include "farlod/horizon/edge_facing.hpp"
 #include "horizon/lanes.hpp"
+#include "horizon/silhouette_lanes.hpp"
 
 namespace farlod {
 namespace {
 
 static_assert(SkylineEdges::lanes == lane_count);
 
-constexpr auto slack_m = static_cast<float>(facing_slack_m);
-/// Of the coordinates that go into a sum, more than the rounding of all its operations, 16 times 2^-24.
-constexpr float rounding = 0x1p-20F;
-
-/// Where the eyes may be: the plan's middle and half its sides, and the heights.
-struct EyeBox {
-  float x, y, half_x, half_y, low_z, high_z;
-};
-
 EyeBox eye_box(const ReceiverBox& b) {
   const float x = 0.5F * (b.low.x + b.high.x), y = 0.5F * (b.low.y + b.high.y);
   return {x, y, std::max(b.high.x - x, x - b.low.x), std::max(b.high.y - y, y - b.low.y), b.low.z, b.high.z};
-}
-
-/// The steepness of the facets beside some edges.
-struct Facets {
-  alignas(64) std::array<float, lane_count> left{}, right{};
-};
-
-Facets facets_of(std::span<const EdgeRises> rises) {
-  static const std::array<float, 256> slopes = [] {
-    std::array<float, 256> all{};
-    for (int rise = -128; rise < 128; ++rise)
-      all[static_cast<std::uint8_t>(rise)] = static_cast<float>(EdgeRises::slope(static_cast<std::int8_t>(rise)));
-    return all;
-  }();
-  Facets facets;
-  for (std::size_t l = 0; l < rises.size(); ++l) {
-    facets.left[l] = slopes[static_cast<std::uint8_t>(rises[l].left)];
-    facets.right[l] = slopes[static_cast<std::uint8_t>(rises[l].right)];
-  }
-  return facets;
-}
-
-/// Edges as the middle of the eyes sees them. What follows is as in may_be_silhouette, times the edge's horizontal length: there
-/// is less to divide.
-struct SeenEdges {
-  Floats eye_x, eye_y;  ///< the middle, from the first end
-  Floats first_z, along_x, along_y, along_z, run;
-  Floats level, tilt;  ///< run and rise, as shares of the length
-  Floats ahead, left;  ///< of the middle
-  Floats give;         ///< the slack, and the rounding
-};
-
-FARLOD_LANES SeenEdges seen_edges(const SkylineEdges::Batch& e, const EyeBox& eyes) {
-  SeenEdges s;
-  const Floats ax = loaded(e.ax.data()), ay = loaded(e.ay.data()), bz = loaded(e.bz.data());
-  s.first_z = loaded(e.az.data());
-  s.along_x = loaded(e.bx.data()) - ax;
-  s.along_y = loaded(e.by.data()) - ay;
-  s.along_z = bz - s.first_z;
-  s.eye_x = eyes.x - ax;
-  s.eye_y = eyes.y - ay;
-  const Floats run_square = s.along_x * s.along_x + s.along_y * s.along_y;
-  s.run = root(run_square);
-  const Floats length = greatest(root(run_square + s.along_z * s.along_z), all(1e-12F));
-  s.level = s.run / length;
-  s.tilt = s.along_z / length;
-  s.ahead = s.along_x * s.eye_x + s.along_y * s.eye_y;
-  s.left = s.along_x * s.eye_y - s.along_y * s.eye_x;
-  const Floats coordinates = magnitude(s.eye_x) + magnitude(s.eye_y) + (eyes.half_x + eyes.half_y) +
-                             magnitude(eyes.low_z - s.first_z) + magnitude(eyes.high_z - s.first_z) + magnitude(s.along_z);
-  s.give = s.run * (slack_m + rounding * coordinates);
-  return s;
-}
-
-/// Over the box, the most of `sign` times the rise over the edge of an eye at the height z, less the rise of a facet of this
-/// slope below or above the eye. All eyes are on one side.
-FARLOD_LANES Floats most_over(const SeenEdges& s, const EyeBox& eyes, float sign, const Floats& z, const Floats& slope) {
-  const Floats rise = (z - s.first_z) * s.run * s.level - s.ahead * s.tilt;
-  const Floats towards_left = s.left > 0.0F ? slope : -slope, tilt = sign * s.tilt;
-  const Floats per_x = towards_left * s.along_y - tilt * s.along_x, per_y = -towards_left * s.along_x - tilt * s.along_y;
-  return sign * rise - s.left * towards_left + magnitude(per_x) * eyes.half_x + magnitude(per_y) * eyes.half_y +
-         s.give * (1.0F + magnitude(slope));
-}
-
-/// More than 0 for the edges that may be a silhouette. A lower border is an upper one upside down.
-FARLOD_LANES Floats may_be_silhouette(const SeenEdges& s, const Facets& facets, const EyeBox& eyes, bool is_upper) {
-  const Floats left = loaded(facets.left.data()), right = loaded(facets.right.data());
-  const Floats near_slope = s.left > 0.0F ? left : right, far_slope = s.left > 0.0F ? right : left;
-  const Floats below_edge = s.first_z + greatest(s.along_z, all(0.0F)) - 2.0F * slack_m;
-  const Floats highest = least(all(eyes.high_z), below_edge), lowest = all(eyes.low_z);
-  const Floats past_near =
-      is_upper ? most_over(s, eyes, 1.0F, highest, near_slope) : most_over(s, eyes, -1.0F, lowest, -near_slope);
-  const Floats past_far = is_upper ? most_over(s, eyes, -1.0F, lowest, far_slope) : most_over(s, eyes, 1.0F, highest, -far_slope);
-  const Floats aside = magnitude(s.left) - magnitude(s.along_y) * eyes.half_x - magnitude(s.along_x) * eyes.half_y;
-  // Eyes on both sides, or an upright edge: it has none
-  return aside > s.give ? least(past_near, past_far) : all(1.0F);
 }
 
 FARLOD_LANES Floats distance_of(const SeenEdges& s) {
@@ -113,25 +27,21 @@ FARLOD_LANES Floats distance_of(const SeenEdges& s) {
 }
 
 FARLOD_FOR_EACH_PROCESSOR
-void find_facing_lanes(const SkylineEdges::Batch& edges, const Facets& facets, const EyeBox& eyes, bool is_upper,
-                       float* distances_m) {
+void find_facing_lanes(const SkylineEdges::Batch& edges, const EyeBox& eyes, bool is_upper, float* distances_m) {
   const SeenEdges s = seen_edges(edges, eyes);
   const Floats highest = greatest(s.along_z, all(0.0F)) + s.first_z;
-  const Floats kept = highest > eyes.low_z ? may_be_silhouette(s, facets, eyes, is_upper) : all(-1.0F);
+  const Floats kept = highest > eyes.low_z ? may_be_silhouette(s, edges, eyes, is_upper) : all(-1.0F);
   store(kept > 0.0F ? distance_of(s) : all(-1.0F), distances_m);
 }
 
 }  // namespace
 
-void find_facing(std::span<const SkylineEdges::Batch> edges, std::span<const EdgeRises> rises, EdgeRole role,
-                 const ReceiverBox& box, std::span<float> distances_m) {
-  FARLOD_EXPECTS(distances_m.size() == edges.size() * lane_count && rises.size() <= distances_m.size());
+void find_facing(std::span<const SkylineEdges::Batch> edges, EdgeRole role, const ReceiverBox& box,
+                 std::span<float> distances_m) {
+  FARLOD_EXPECTS(distances_m.size() == edges.size() * lane_count);
   const EyeBox eyes = eye_box(box);
-  for (std::size_t n = 0; n < edges.size(); ++n) {
-    const std::size_t first = n * lane_count;
-    const auto of_batch = rises.subspan(first, std::min(lane_count, rises.size() - first));
-    find_facing_lanes(edges[n], facets_of(of_batch), eyes, role != EdgeRole::underside, distances_m.data() + first);
-  }
+  for (std::size_t n = 0; n < edges.size(); ++n)
+    find_facing_lanes(edges[n], eyes, role != EdgeRole::underside, distances_m.data() + n * lane_count);
 }
 
 }  // namespace farlod

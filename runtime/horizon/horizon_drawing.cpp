@@ -8,6 +8,7 @@
 #include "horizon/edge_reach.hpp"
 #include "horizon/lanes.hpp"
 #include "horizon/sector_floors.hpp"
+#include "horizon/silhouette_lanes.hpp"
 
 namespace farlod {
 namespace {
@@ -110,9 +111,12 @@ FARLOD_LANES void draw_around(const EdgeSeen& s, float steepest, const RingView&
 
 /// Draws those edges of a batch that may rise over somebody's floors.
 template <class Drawing>
-FARLOD_LANES void draw_batch(const SkylineEdges::Batch& edges, const Eyes& eyes, const PacketBounds& bounds, const RingView& ring,
-                             const SectorFloors& floors, const Drawing& drawing) {
-  const EdgeReach reach = reach_of(edges, bounds);
+FARLOD_LANES void draw_batch(const SkylineEdges::Batch& edges, const Eyes& eyes, const PacketBounds& bounds, bool is_upper,
+                             const RingView& ring, const SectorFloors& floors, const Drawing& drawing) {
+  EdgeReach reach = reach_of(edges, bounds);
+  if (greatest_lane(reach.steepest) <= 0.0F) return;
+  const EyeBox box{bounds.x, bounds.y, bounds.half_x, bounds.half_y, bounds.lowest_z, bounds.highest_z};
+  reach.steepest = may_be_silhouette(seen_edges(edges, box), edges, box, is_upper) > 0.0F ? reach.steepest : all(-1.0F);
   std::array<std::uint8_t, lane_count> risers;
   const std::size_t count = find_risers(reach, floors, risers);
   const Wholes first_slot = truncated(reach.from * ring.slots), end_slot = truncated(reach.to * ring.slots) + 1;
@@ -135,6 +139,7 @@ FARLOD_FOR_EACH_PROCESSOR
 void raise_over(const SkylineEdges& edges, const ReceiverPacket& receivers, const PacketBounds& bounds, const RingView& ring,
                 float* slopes) {
   const Eyes eyes{loaded(receivers.x.data()), loaded(receivers.y.data()), loaded(receivers.z.data())};
+  const bool is_upper = edges.role() != EdgeRole::underside;
   SectorFloors floors;
   // The nearest hide the most: what is hidden is found out again soon, then seldom
   std::size_t next_look = 0, looks_apart = 2 * lane_count;
@@ -144,7 +149,7 @@ void raise_over(const SkylineEdges& edges, const ReceiverPacket& receivers, cons
       next_look = begin + looks_apart;
       looks_apart *= 2;
     }
-    draw_batch(edges.batches()[begin / lane_count], eyes, bounds, ring, floors, Rising{slopes});
+    draw_batch(edges.batches()[begin / lane_count], eyes, bounds, is_upper, ring, floors, Rising{slopes});
   }
 }
 
@@ -152,10 +157,11 @@ FARLOD_FOR_EACH_PROCESSOR
 void sink_over(const SkylineEdges& edges, const ReceiverPacket& receivers, const PacketBounds& bounds, const RingView& ring,
                const float* floor_slopes, float* slopes) {
   const Eyes eyes{loaded(receivers.x.data()), loaded(receivers.y.data()), loaded(receivers.z.data())};
+  const bool is_upper = edges.role() != EdgeRole::underside;
   SectorFloors floors;
   find_floors(floor_slopes, ring.first_of_sector, floors);
   for (std::size_t begin = 0; begin < edges.size(); begin += lane_count)
-    draw_batch(edges.batches()[begin / lane_count], eyes, bounds, ring, floors, Sinking{floor_slopes, slopes});
+    draw_batch(edges.batches()[begin / lane_count], eyes, bounds, is_upper, ring, floors, Sinking{floor_slopes, slopes});
 }
 
 /// Receivers that look the same way, and not down, have the plane through the hindmost of them: what lies behind it, with all
@@ -192,6 +198,7 @@ PacketBounds bounds_of(const ReceiverPacket& r) {
   b.half_x = 0.5F * (*east - *west);
   b.half_y = 0.5F * (*north - *south);
   b.lowest_z = r.lowest_z();
+  b.highest_z = *std::max_element(r.z.begin(), r.z.end());
   add_plane(r, b);
   return b;
 }

@@ -5,32 +5,14 @@
 #include <algorithm>
 
 namespace farlod {
-namespace {
-
-ReceiverBox box_around(const ReceiverPacket& r) {
-  const auto [west, east] = std::minmax_element(r.x.begin(), r.x.end());
-  const auto [south, north] = std::minmax_element(r.y.begin(), r.y.end());
-  const auto [bottom, top] = std::minmax_element(r.z.begin(), r.z.end());
-  return {{*west, *south, *bottom}, {*east, *north, *top}};
-}
-
-/// Lower borders are many where balconies are, and most face away from a few neighbouring receivers.
-SkylineEdges facing(const SkylineEdges& lower, const ReceiverBox& box) {
-  return lower.empty() ? SkylineEdges() : lower.facing(box, EdgeRole::underside);
-}
-
-}  // namespace
-
 void OverhangHorizons::draw_overhangs(const CellSkyline& skyline, const ReceiverPacket& receivers, std::uint32_t covered,
                                       FarGaps far_gaps) {
-  const ReceiverBox box = box_around(receivers);
-  const SkylineEdges far_lower = facing(skyline.far.lower, box), near_lower = facing(skyline.near.lower, box);
   // The far city by itself: where nothing of it is seen to float, it goes on below what is near
   upper.raise(skyline.far.upper, receivers);
-  if (far_gaps == FarGaps::likely && !far_lower.empty())
-    borders.become_lowest(far_lower, receivers, grounded);
+  if (far_gaps == FarGaps::likely && !skyline.far.lower.empty())
+    borders.become_lowest(skyline.far.lower, receivers, grounded);
   else
-    borders.raise(far_lower, receivers);
+    borders.raise(skyline.far.lower, receivers);
   grounded.join(borders, upper);
   far_borders = borders;
   far_upper = upper;
@@ -38,7 +20,7 @@ void OverhangHorizons::draw_overhangs(const CellSkyline& skyline, const Receiver
   borders.raise_to(grounded);
   upper.raise(skyline.near.upper, receivers);
   upper.close(covered);
-  borders.raise(near_lower, receivers);
+  borders.raise(skyline.near.lower, receivers);
 }
 
 std::span<const PacketHorizon::Row> OverhangHorizons::find_sky_below_borders(SkyWeight weight, const ReceiverPacket& receivers,

@@ -34,17 +34,16 @@ std::vector<std::uint32_t> from_near_to_far(std::span<const float> distances_m) 
 
 }  // namespace
 
-SkylineEdges SkylineEdges::facing(const ReceiverBox& box, EdgeRole role) const {
+SkylineEdges SkylineEdges::facing(const ReceiverBox& box) const {
   std::vector<float> distances_m(batches_.size() * lanes);
-  find_facing(batches_, rises_, role, box, distances_m);
+  find_facing(batches_, role_, box, distances_m);
   const std::vector<std::uint32_t> order = from_near_to_far(std::span(distances_m).first(size()));
-  SkylineEdges result;
+  SkylineEdges result(role_);
   result.batches_.resize((order.size() + lanes - 1) / lanes);
   result.rises_.resize(order.size());
   for (std::size_t n = 0; n < order.size(); ++n) {
-    const HorizonEdge e = at(order[n]);
-    put(n % lanes, e.a, e.b, result.batches_[n / lanes]);
-    result.rises_[n] = e.rises;
+    result.batches_[n / lanes].copy_lane(n % lanes, batches_[order[n] / lanes], order[n] % lanes);
+    result.rises_[n] = rises_[order[n]];
   }
   return result;
 }

@@ -30,7 +30,6 @@ bool is_kept_by_judge(const HorizonEdge& e, const ReceiverBox& box) {
 /// Distances, or less than 0, for a whole number of batches. All edges have the role of the first.
 std::vector<float> found(const std::vector<HorizonEdge>& edges, const ReceiverBox& box) {
   std::vector<SkylineEdges::Batch> batches(edges.size() / SkylineEdges::lanes);
-  std::vector<EdgeRises> rises;
   for (std::size_t n = 0; n < edges.size(); ++n) {
     SkylineEdges::Batch& batch = batches.at(n / SkylineEdges::lanes);
     const std::size_t lane = n % SkylineEdges::lanes;
@@ -38,10 +37,11 @@ std::vector<float> found(const std::vector<HorizonEdge>& edges, const ReceiverBo
     EXPECT_EQ(role, edges.front().role);
     batch.ax[lane] = a.x, batch.ay[lane] = a.y, batch.az[lane] = a.z;
     batch.bx[lane] = b.x, batch.by[lane] = b.y, batch.bz[lane] = b.z;
-    rises.push_back(r);
+    batch.left[lane] = static_cast<float>(EdgeRises::slope(r.left)),
+    batch.right[lane] = static_cast<float>(EdgeRises::slope(r.right));
   }
   std::vector<float> distances_m(edges.size());
-  find_facing(batches, rises, edges.front().role, box, distances_m);
+  find_facing(batches, edges.front().role, box, distances_m);
   return distances_m;
 }
 

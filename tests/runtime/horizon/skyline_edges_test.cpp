@@ -45,7 +45,7 @@ TEST(SkylineEdges, ThoseThatFaceAwayHideNothing) {
       box.low = {std::min(box.low.x, r.p_cell.x), std::min(box.low.y, r.p_cell.y), std::min(box.low.z, r.p_cell.z)};
       box.high = {std::max(box.high.x, r.p_cell.x), std::max(box.high.y, r.p_cell.y), std::max(box.high.z, r.p_cell.z)};
     }
-    const std::vector<HorizonEdge> facing = all_of(town.skyline().grounded.facing(box, EdgeRole::grounded));
+    const std::vector<HorizonEdge> facing = all_of(town.skyline().grounded.facing(box));
     all += town.grounded().size();
     kept += facing.size();
     const AzimuthRing ring = AzimuthRing::even(64, {});
@@ -63,7 +63,7 @@ std::size_t eaves_kept(double roof_deg) {
   SkylineEdges edges;
   const std::int8_t roof = EdgeRises::rounded_down(roof_deg / 180.0 * std::numbers::pi);
   edges.add({{10.0F, -5.0F, 6.0F}, {10.0F, 5.0F, 6.0F}, {EdgeRises::straight_down, roof}});
-  return edges.facing({{-1.0F, -1.0F, 1.5F}, {0.0F, 1.0F, 1.5F}}, EdgeRole::grounded).size();
+  return edges.facing({{-1.0F, -1.0F, 1.5F}, {0.0F, 1.0F, 1.5F}}).size();
 }
 
 TEST(SkylineEdges, AnEaveUnderASteeperRoofIsNoHorizon) {
@@ -80,7 +80,7 @@ TEST(SkylineEdges, ComeFromNearToFar) {
   // From the next metre to beyond all steps
   for (const double reach_m : {1.5, 15.0, 90.0, 2000.0, 500000.0})
     for (int n = 0; n < 100; ++n) edges.add(random.edge(reach_m, 5.0, 30.0));
-  const std::vector<HorizonEdge> ordered = all_of(edges.facing({{-1.0F, -1.0F, 1.0F}, {1.0F, 1.0F, 2.0F}}, EdgeRole::grounded));
+  const std::vector<HorizonEdge> ordered = all_of(edges.facing({{-1.0F, -1.0F, 1.0F}, {1.0F, 1.0F, 2.0F}}));
   EXPECT_EQ(ordered.size(), 500U);
   constexpr double nearest_step_m = 0.25, farthest_step_m = 131072.0, step = 1.0 + 1.0 / 32;
   const auto distance = [&](const HorizonEdge& e) {
@@ -93,7 +93,7 @@ TEST(SkylineEdges, ComeFromNearToFar) {
 TEST(SkylineEdges, ThoseOfOneDistanceStayInOrder) {
   SkylineEdges edges;
   for (int n = 0; n < 40; ++n) edges.add({{10.0F, -5.0F, 8.0F + static_cast<float>(n)}, {10.0F, 5.0F, 8.0F}});
-  const std::vector<HorizonEdge> ordered = all_of(edges.facing({{0.0F, 0.0F, 0.0F}, {5.0F, 5.0F, 2.0F}}, EdgeRole::grounded));
+  const std::vector<HorizonEdge> ordered = all_of(edges.facing({{0.0F, 0.0F, 0.0F}, {5.0F, 5.0F, 2.0F}}));
   EXPECT_EQ(ordered, all_of(edges));
 }
 
@@ -108,8 +108,8 @@ TEST(SkylineEdges, WallsAreToTheRight) {
 TEST(SkylineEdges, WallsWithoutThicknessFaceBothWays) {
   SkylineEdges edges;
   edges.add({{10.0F, -5.0F, 8.0F}, {10.0F, 5.0F, 8.0F}});
-  EXPECT_EQ(edges.facing({{0.0F, 0.0F, 0.0F}, {5.0F, 5.0F, 2.0F}}, EdgeRole::grounded).size(), 1U);
-  EXPECT_EQ(edges.facing({{15.0F, 0.0F, 0.0F}, {20.0F, 5.0F, 2.0F}}, EdgeRole::grounded).size(), 1U);
+  EXPECT_EQ(edges.facing({{0.0F, 0.0F, 0.0F}, {5.0F, 5.0F, 2.0F}}).size(), 1U);
+  EXPECT_EQ(edges.facing({{15.0F, 0.0F, 0.0F}, {20.0F, 5.0F, 2.0F}}).size(), 1U);
 }
 
 }  // namespace
