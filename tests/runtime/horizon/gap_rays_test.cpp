@@ -108,7 +108,7 @@ TEST_F(GapRays, WhatIsMetIsHiddenToTheWidthOfARay) {
   const Occluder scene = fence(4.5F, 200.0F);
   const ReceiverPacket packet = receivers(normals[0]);
   double error_before = 1.0;
-  for (const std::size_t rays : {4U, 16U, 64U, 256U}) {
+  for (const std::size_t rays : {8U, 32U, 128U, 512U}) {
     const PacketHorizon::Lanes seen = traced(scene, SkyWeight::cosine, packet, all_receivers, rays);
     double greatest = 0.0;
     for (std::size_t l = 0; l < seen.size(); ++l) {
