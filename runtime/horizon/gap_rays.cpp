@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "horizon/lanes.hpp"
+#include "horizon/sky_lanes.hpp"
 
 namespace farlod {
 namespace {
@@ -21,18 +22,49 @@ float offset_of(std::size_t azimuth) {
   return static_cast<float>(multiple - std::floor(multiple));
 }
 
-/// The share of the sky above slopes, cosine-weighted: rays are spread evenly over it.
+/// Of an azimuth's gap its ends, as sines of the elevation, and the sky above them.
+struct GapEnds {
+  alignas(64) Lanes sine_from, sine_to, sky_from, sky_to;
+};
+
+FARLOD_LANES Floats sine_of(const Floats& slope) { return slope / root(1.0F + slope * slope); }
+FARLOD_LANES Floats slope_of(const Floats& sine) { return sine / root(greatest(1.0F - sine * sine, all(1e-12F))); }
+
+/// The directions of an azimuth.
+struct Azimuth {
+  float cosine, sine;
+  bool is_solid;  ///< its sky is weighed by solid angle
+};
+
 FARLOD_FOR_EACH_PROCESSOR
-void find_shares_above(const float* slopes, float* shares) {
-  const Floats t = loaded(slopes);
-  store(1.0F / (1.0F + t * t), shares);
+void find_ends(const float* from, const float* to, const ReceiverPacket& receivers, const Azimuth& azimuth, GapEnds& ends) {
+  const Normals n = normals_of(receivers);
+  const LookedAt between = looked_at(n.x * azimuth.cosine + n.y * azimuth.sine, n.z);
+  const Floats begin = least(greatest(loaded(from), between.lowest), between.highest),
+               end = least(greatest(loaded(to), between.lowest), between.highest);
+  store(sine_of(begin), ends.sine_from.data());
+  store(sine_of(end), ends.sine_to.data());
+  store(sky_of_azimuth(begin, n, azimuth.cosine, azimuth.sine, azimuth.is_solid), ends.sky_from.data());
+  store(sky_of_azimuth(end, n, azimuth.cosine, azimuth.sine, azimuth.is_solid), ends.sky_to.data());
 }
 
-/// The slopes above which so much of the sky lies, on the way from one share to another.
+/// The slopes below which such a share of a gap's sky lies: Newton's method from the share of the sines.
 FARLOD_FOR_EACH_PROCESSOR
-void find_slopes(const float* from_share, const float* to_share, float place, float* slopes) {
-  const Floats from = loaded(from_share), share = from + place * (loaded(to_share) - from);
-  store(root(greatest(1.0F / share - 1.0F, all(0.0F))), slopes);
+void find_slopes(const GapEnds& ends, const ReceiverPacket& receivers, const Azimuth& azimuth, float share, float* slopes) {
+  constexpr int steps = 3;
+  const Floats from = loaded(ends.sine_from.data()), to = loaded(ends.sine_to.data()), sky_from = loaded(ends.sky_from.data());
+  const Floats sky = sky_from + share * (loaded(ends.sky_to.data()) - sky_from);
+  Floats sine = from + share * (to - from);
+  if (!azimuth.is_solid) {
+    const Normals n = normals_of(receivers);
+    const Floats outward = n.x * azimuth.cosine + n.y * azimuth.sine;
+    for (int step = 0; step < steps; ++step) {
+      const Floats above = cosine_above(slope_of(sine), outward, n.z);
+      const Floats decline = 2.0F * (outward * root(greatest(1.0F - sine * sine, all(0.0F))) + n.z * sine);
+      sine = least(greatest(sine + (above - sky) / greatest(decline, all(0.01F)), from), to);
+    }
+  }
+  store(slope_of(sine), slopes);
 }
 
 /// A bit for each receiver whose direction passes where nothing is seen.
@@ -85,32 +117,24 @@ Lanes trace_gaps(const Gaps& gaps, const AzimuthRing& ring, SkyWeight weight, co
     }
     if (open == 0) continue;
     const std::size_t count = rays_in(widest * static_cast<float>(ring.size()), rays_per_azimuth);
-    const float part = 1.0F / static_cast<float>(count);
-    // The gap, by the sky above its ends
-    PacketHorizon::Row from, to;
-    find_shares_above(gaps.from.row(k).data(), from.data());
-    find_shares_above(gaps.to.row(k).data(), to.data());
-    // Each ray stands for a part of it
-    const auto slopes_at = [&](float place) {
-      Lanes slopes;
-      find_slopes(from.data(), to.data(), place, slopes.data());
-      return slopes;
-    };
-    Lanes above_part = sky_of_azimuth(ring, k, gaps.from.row(k), weight, receivers);
+    // Each ray stands for as much of its receiver's sky as the others
+    const Azimuth azimuth{ring.cosine()[k], ring.sine()[k], weight == SkyWeight::solid_angle};
+    GapEnds ends;
+    find_ends(gaps.from.row(k).data(), gaps.to.row(k).data(), receivers, azimuth, ends);
+    Lanes free_rays{};
     for (std::size_t n = 0; n < count; ++n) {
-      const bool is_last = n + 1 == count;
-      const Lanes end = is_last ? static_cast<Lanes>(gaps.to.row(k)) : slopes_at(static_cast<float>(n + 1) * part);
-      const Lanes above_end = sky_of_azimuth(ring, k, end, weight, receivers);
       Occluder::Directions directions;
-      directions.x.fill(ring.cosine()[k]);
-      directions.y.fill(ring.sine()[k]);
-      directions.z = slopes_at((static_cast<float>(n) + offset_of(k)) * part);
+      directions.x.fill(azimuth.cosine);
+      directions.y.fill(azimuth.sine);
+      find_slopes(ends, receivers, azimuth, (static_cast<float>(n) + offset_of(k)) / static_cast<float>(count),
+                  directions.z.data());
       const std::uint32_t asked = open & ~filled(gaps, k, directions.z);
       const std::uint32_t free = asked & ~scene.occluder.blocked(origins, directions, least_distance_m, asked);
-      for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
-        seen[l] += ((free >> l) & 1U) != 0 ? above_part[l] - above_end[l] : 0.0F;
-      above_part = above_end;
+      for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) free_rays[l] += ((free >> l) & 1U) != 0 ? 1.0F : 0.0F;
     }
+    const float ray_share = 1.0F / static_cast<float>(count * ring.size());
+    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
+      seen[l] += free_rays[l] * (ends.sky_from[l] - ends.sky_to[l]) * ray_share;
   }
   return seen;
 }

@@ -8,41 +8,12 @@
 #include "farlod/expects.hpp"
 #include "horizon/horizon_drawing.hpp"
 #include "horizon/lanes.hpp"
+#include "horizon/sky_lanes.hpp"
 
 namespace farlod {
 namespace {
 
 using Lanes = ReceiverPacket::Lanes;
-
-/// Twice ∫ (outward · cos θ + upward · sin θ) cos θ dθ from the slope t ≥ 0 to the zenith.
-FARLOD_LANES Floats cosine_above(const Floats& t, const Floats& outward, const Floats& upward) {
-  constexpr float half_pi = 1.57079632679F;
-  const Floats arc = arc_tangent_of_share(t < 1.0F ? t : 1.0F / greatest(t, all(1.0F)));
-  const Floats zenith_distance = t < 1.0F ? half_pi - arc : arc, cos_square = 1.0F / (1.0F + t * t);
-  return outward * (zenith_distance - t * cos_square) + upward * cos_square;
-}
-
-/// 1 − sin θ of the slope t.
-FARLOD_LANES Floats solid_angle_above(const Floats& t) { return 1.0F - t / root(1.0F + t * t); }
-
-/// Stands for an infinite slope: less than 1e-12 of the sky lies above it, and no power of its inverse gets so small that the
-/// processor takes its slow way.
-constexpr float straight_up = 1e6F;
-
-/// Of a receiver that looks along `outward` and `upward`, the slopes between which the directions lie that it looks into.
-struct LookedAt {
-  Floats lowest, highest;
-};
-FARLOD_LANES LookedAt looked_at(const Floats& outward, const Floats& upward) {
-  const Floats safe = upward == 0.0F ? all(1e-30F) : upward;
-  const Floats border = least(magnitude(outward / safe), all(straight_up));
-  const Floats behind = upward > 0.0F ? border : all(straight_up);
-  return {outward > 0.0F ? all(0.0F) : behind, least(outward, -upward) > 0.0F ? border : all(straight_up)};
-}
-
-struct Normals {
-  Floats x, y, z;
-};
 
 FARLOD_FOR_EACH_PROCESSOR
 void sum_cosine_up(const float* slopes, std::size_t azimuth_count, float* sums) {
@@ -70,7 +41,7 @@ void sum_cosine_level(const float* slopes, const ReceiverPacket& receivers, cons
 
 FARLOD_FOR_EACH_PROCESSOR
 void sum_cosine(const float* slopes, const ReceiverPacket& receivers, const AzimuthRing& ring, float* sums) {
-  const Normals n{loaded(receivers.normal_x.data()), loaded(receivers.normal_y.data()), loaded(receivers.normal_z.data())};
+  const Normals n = normals_of(receivers);
   Floats sum{};
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Floats outward = n.x * ring.cosine()[k] + n.y * ring.sine()[k];
@@ -83,7 +54,7 @@ void sum_cosine(const float* slopes, const ReceiverPacket& receivers, const Azim
 
 FARLOD_FOR_EACH_PROCESSOR
 void sum_solid_angle(const float* slopes, const ReceiverPacket& receivers, const AzimuthRing& ring, float* sums) {
-  const Normals n{loaded(receivers.normal_x.data()), loaded(receivers.normal_y.data()), loaded(receivers.normal_z.data())};
+  const Normals n = normals_of(receivers);
   Floats sum{};
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const LookedAt between = looked_at(n.x * ring.cosine()[k] + n.y * ring.sine()[k], n.z);
@@ -93,18 +64,10 @@ void sum_solid_angle(const float* slopes, const ReceiverPacket& receivers, const
   store(sum, sums);
 }
 
-/// What one azimuth adds to the sky view factor above a slope, and how it follows from the receivers' normals.
-FARLOD_LANES Floats sky_of_azimuth(const Floats& slope, const Normals& n, float cosine, float sine, bool is_solid) {
-  const Floats outward = n.x * cosine + n.y * sine;
-  const LookedAt between = looked_at(outward, n.z);
-  const Floats t = least(greatest(slope, between.lowest), between.highest);
-  return is_solid ? solid_angle_above(t) : cosine_above(t, outward, n.z);
-}
-
 FARLOD_FOR_EACH_PROCESSOR
 void sky_between(const float* low, const float* high, const ReceiverPacket& receivers, const AzimuthRing& ring, bool is_solid,
                  float* rows) {
-  const Normals n{loaded(receivers.normal_x.data()), loaded(receivers.normal_y.data()), loaded(receivers.normal_z.data())};
+  const Normals n = normals_of(receivers);
   const float share = 1.0F / static_cast<float>(ring.size());
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Floats from = loaded(low + k * lane_count), to = loaded(high + k * lane_count);
@@ -117,17 +80,6 @@ void sky_between(const float* low, const float* high, const ReceiverPacket& rece
     const Floats sky = sky_of_azimuth(from, n, cosine, sine, is_solid) - sky_of_azimuth(to, n, cosine, sine, is_solid);
     store(greatest(sky, all(0.0F)) * share, row);
   }
-}
-
-FARLOD_FOR_EACH_PROCESSOR
-void find_sky_of_azimuth(const float* slopes, const ReceiverPacket& receivers, float cosine, float sine, bool is_solid,
-                         float* sky) {
-  const Normals n{loaded(receivers.normal_x.data()), loaded(receivers.normal_y.data()), loaded(receivers.normal_z.data())};
-  const Floats outward = n.x * cosine + n.y * sine;
-  const Floats beyond = looked_at(outward, n.z).highest;
-  const Floats above = sky_of_azimuth(loaded(slopes), n, cosine, sine, is_solid),
-               behind = sky_of_azimuth(beyond, n, cosine, sine, is_solid);
-  store(above - behind, sky);
 }
 
 FARLOD_FOR_EACH_PROCESSOR
@@ -215,15 +167,6 @@ bool look_level(const ReceiverPacket& r) {
 }
 
 }  // namespace
-
-ReceiverPacket::Lanes sky_of_azimuth(const AzimuthRing& ring, std::size_t azimuth, const Lanes& slopes, SkyWeight weight,
-                                     const ReceiverPacket& receivers) {
-  alignas(64) Lanes sky;
-  find_sky_of_azimuth(slopes.data(), receivers, ring.cosine()[azimuth], ring.sine()[azimuth], weight == SkyWeight::solid_angle,
-                      sky.data());
-  for (float& s : sky) s /= static_cast<float>(ring.size());
-  return sky;
-}
 
 void PacketHorizon::clear() { std::fill(slopes_.begin(), slopes_.end(), Row{}); }
 

@@ -15,11 +15,6 @@
 
 namespace farlod {
 
-/// What one azimuth of a ring adds to the sky view factors of a packet's receivers, above slopes of its own for each.
-[[nodiscard]] ReceiverPacket::Lanes sky_of_azimuth(const AzimuthRing& ring, std::size_t azimuth,
-                                                   const ReceiverPacket::Lanes& slopes, SkyWeight weight,
-                                                   const ReceiverPacket& receivers);
-
 /// The horizons of a packet of receivers: for each azimuth of a ring the slope (tangent of the elevation, at least 0) below which
 /// no sky is seen. docs/concepts.md, "Above a horizon".
 class PacketHorizon {

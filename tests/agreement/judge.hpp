@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
+#include <span>
 
 #include "city/city_model.hpp"
 #include "farlod/point.hpp"
@@ -13,7 +15,10 @@ namespace farlod {
 /// cut or rounded.
 class Judge {
  public:
-  explicit Judge(const CityModel& city);
+  using Corners = std::array<Point3d, 3>;
+
+  /// `ground` are triangles beside the city's facets. City frame.
+  explicit Judge(const CityModel& city, std::span<const Corners> ground = {});
   ~Judge();
 
   /// Whether the ray from `origin` meets a facet. City frame.

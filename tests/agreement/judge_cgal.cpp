@@ -37,7 +37,12 @@ struct Judge::Impl {
   explicit Impl(Triangles t) : triangles(std::move(t)), tree(triangles.cbegin(), triangles.cend()) {}
 };
 
-Judge::Judge(const CityModel& city) : impl_(std::make_unique<Impl>(triangles_of(city))) {}
+Judge::Judge(const CityModel& city, std::span<const Corners> ground) {
+  Triangles triangles = triangles_of(city);
+  const auto exactly = [](const Point3d& p) { return Kernel::Point_3(p.x, p.y, p.z); };
+  for (const Corners& t : ground) triangles.emplace_back(exactly(t[0]), exactly(t[1]), exactly(t[2]));
+  impl_ = std::make_unique<Impl>(std::move(triangles));
+}
 Judge::~Judge() = default;
 
 bool Judge::blocks(const Point3d& o, const Point3d& d) const {
