@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "farlod/ground_contact.hpp"
+
 namespace farlod {
 namespace {
 
@@ -68,7 +70,14 @@ bool Column::is_inside_building(float height_m) const {
 
 bool Column::is_buried(float height_m) const {
   const std::optional<float> ground = ground_m();
-  return (ground && height_m < *ground) || is_inside_building(height_m);
+  return (ground && (height_m < *ground || is_below_standing_floor(height_m, *ground))) || is_inside_building(height_m);
+}
+
+bool Column::is_below_standing_floor(float height_m, float ground_m) const {
+  const float highest_m = ground_m + static_cast<float>(ground_contact_m);
+  return std::any_of(crossings_.begin(), crossings_.end(), [=](const Crossing& c) {
+    return c.building != package::no_building && !c.looks_up && c.height_m > height_m && c.height_m <= highest_m;
+  });
 }
 
 CellColumns::CellColumns(const Package& package, Cell cell)

@@ -32,10 +32,13 @@ class Column {
   /// down. Under a bridge or an arcade they are equally many; a part without a roof encloses nothing. (Odd and even would be
   /// fooled by a main roof that runs on under a rooftop structure.)
   [[nodiscard]] bool is_inside_building(float height_m) const;
-  /// Whether a point at this height has no answer: it is within a building, or below the ground.
+  /// Whether a point at this height has no answer: it is within a building, below the ground, or between the ground and a floor
+  /// that stands on it.
   [[nodiscard]] bool is_buried(float height_m) const;
 
  private:
+  [[nodiscard]] bool is_below_standing_floor(float height_m, float ground_m) const;
+
   std::vector<Crossing> crossings_;
 };
 

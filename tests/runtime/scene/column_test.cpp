@@ -59,6 +59,13 @@ TEST(Column, BelowAFloorOnAFoundationIsBuried) {
   EXPECT_FALSE(house.is_buried(9.5F));
 }
 
+TEST(Column, BetweenTheGroundAndAFloorThatStandsOnItIsBuried) {
+  const Column house({ground_at(34.58F), floor_at(34.627F, 4), roof_at(41.7F, 4)});
+  EXPECT_TRUE(house.is_buried(34.59F));
+  const Column slab({ground_at(34.58F), floor_at(34.65F, 4), roof_at(41.7F, 4)});
+  EXPECT_FALSE(slab.is_buried(34.59F)) << "it does not stand on the ground";
+}
+
 TEST(Column, UnderABridgeIsOutside) {
   const Column bridge({ground_at(0.0F), floor_at(5.0F, 4), roof_at(6.0F, 4)});
   EXPECT_FALSE(bridge.is_inside_building(1.5F));
