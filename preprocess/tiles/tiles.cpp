@@ -375,7 +375,8 @@ TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, con
   lift_onto_terrain(located, ground_height, report);
   CityModel city = std::move(located.city);
   for (Point3d& p : city.points()) p = grid.rotation.grid_from_city(p);  // exactness begins here
-  const std::vector<Base> bases = bases_of(city);
+  // Where the ground is known, neighbours need not tell
+  const std::vector<Base> bases = surveyed ? std::vector(city.buildings().size(), Base::on_ground) : bases_of(city);
   Ground ground = surveyed ? std::move(*surveyed) : Ground(base_points(city, bases), grid.rectangle(), extent);
   return TileCutter(city, located, grid, assign, std::move(ground), bases).run(report);
 }

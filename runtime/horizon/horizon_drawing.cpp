@@ -41,10 +41,12 @@ FARLOD_LANES void turn_along(EdgeSeen& s) {
 }
 
 /// The same of an edge that may come as near as one likes. An eye within this (sine) of its line looks along it, or stands right
-/// below it. Looked along, it has no width, and its plane gets no slope. From right below, it hides the side that it faces
-/// away from (SkylineEdges), as if the eye stood 1 mm in front.
-FARLOD_LANES void turn_along_near(EdgeSeen& s) {
-  constexpr float least_sine = 1e-5F, looked_along = std::numeric_limits<float>::infinity(), right_below = -1e-3F;
+/// below it. Looked along, it has no width, and its plane gets no slope. From right below, it is seen as if the eye stood 1 mm
+/// beside it.
+enum class Beside { front, back };
+FARLOD_LANES void turn_along_near(EdgeSeen& s, Beside from_below) {
+  constexpr float least_sine = 1e-5F, looked_along = std::numeric_limits<float>::infinity();
+  const float right_below = from_below == Beside::front ? -1e-3F : 1e-3F;
   const Floats turn = s.px * s.qy - s.py * s.qx, squares = (s.px * s.px + s.py * s.py) * (s.qx * s.qx + s.qy * s.qy);
   const Floats off_line = turn * turn - least_sine * least_sine * squares;
   const Floats is_below = least(-off_line, -(s.px * s.qx + s.py * s.qy));
@@ -125,8 +127,13 @@ FARLOD_LANES void draw_batch(const SkylineEdges::Batch& edges, const Eyes& eyes,
     const std::size_t lane = risers[n];
     see(edges, lane, eyes, seen);
     if (reach.steepest[lane] == EdgeReach::anything) {
-      turn_along_near(seen);
+      // An upper border hides the side that it faces away from (SkylineEdges); below a lower one, sky may be seen on both
+      turn_along_near(seen, Beside::front);
       drawing.draw(seen, EdgeReach::anything, ring, 0, ring.size);
+      if (!is_upper) {
+        turn_along_near(seen, Beside::back);
+        drawing.draw(seen, EdgeReach::anything, ring, 0, ring.size);
+      }
     } else {
       turn_along(seen);
       draw_around(seen, reach.steepest[lane], ring, ring.first_of_slot[first_slot[lane]], ring.first_of_slot[end_slot[lane]],

@@ -19,7 +19,7 @@ PacketHorizon::Lanes sum(std::span<const PacketHorizon::Row> rows) {
 }
 
 /// Of a receiver that needs rays, the smallest gaps are not traced, as long as they hold no more of the tolerance than this. They
-/// are filled more often than large ones: that so much of them is sky is right on average (docs/decisions/0012).
+/// are filled more often than large ones: that so much of them is sky is right on average (docs/decisions/0014).
 constexpr float untraced_of_tolerance = 0.5F, sky_in_untraced = 0.25F;
 
 }  // namespace

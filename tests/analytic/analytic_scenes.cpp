@@ -197,6 +197,28 @@ Scene open_shell(double west, double east, double north, double d, double h) {
           true};
 }
 
+/// The corner of a large house, whose flat roof reaches beyond its walls: the eye stands below the eaves, `west` and `south` of
+/// which they end; the walls begin at `corner`. In the quadrant of the house nothing is seen; elsewhere the sky below the eaves,
+/// as much as walls in the place of their borders would hide.
+Scene eave_at_corner(double west, double south, Point2d corner, double h) {
+  const double far = 20 * h;
+  return {"EaveAtCorner",
+          [=](Stage& s) {
+            s.add_polygon({{-west, -south, h}, {far, -south, h}, {far, far, h}, {-west, far, h}});
+            s.add_wall(corner, {far, corner.y}, h);
+            s.add_wall({corner.x, far}, corner, h);
+          },
+          2.0 - oracles::finite_wall_cos(h, west, south, far) - oracles::finite_wall_cos(h, south, west, far),
+          2.0 - oracles::finite_wall_solid(h, west, south, far) - oracles::finite_wall_solid(h, south, west, far),
+          std::min({west, south, corner.x, corner.y}),
+          far,
+          0.0,
+          // The walls' azimuths end a little before those of endless ones
+          (corner.x + corner.y) / far + 2 * (1 - oracles::wall_cos(h, far)),
+          {0.0, 0.0, 1.0},
+          true};
+}
+
 }  // namespace
 
 void Stage::add_wall(Point2d a, Point2d b, double high_m) {
@@ -224,7 +246,8 @@ std::vector<Scene> all_scenes() {
           floating_slab("UnderSlab", {-3, -2}, {5, 4}, 4),
           floating_slab("BesideSlab", {2, -3}, {9, 4}, 4),
           arcade(4, 5, 3),
-          open_shell(5, 7, 5, 3, 4)};
+          open_shell(5, 7, 5, 3, 4),
+          eave_at_corner(4, 4.5, {3, 3.2}, 4)};
 }
 
 }  // namespace farlod::analytic

@@ -284,8 +284,7 @@ INSTANTIATE_TEST_SUITE_P(Houses, AnalyticBounds,
                                  ValuesIn(with_walls_of(setups_with_bounds(), Walls::houses))),
                          name_of_case);
 INSTANTIATE_TEST_SUITE_P(Overhangs, AnalyticRefusal,
-                         Combine(ValuesIn(scenes_that_need_rays()), ValuesIn(setups_with_sheets(Engine::horizon))),
-                         name_of_case);
+                         Combine(ValuesIn(scenes_that_need_rays()), ValuesIn(setups_with_sheets(Engine::horizon))), name_of_case);
 
 }  // namespace
 }  // namespace farlod
