@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <span>
 
@@ -103,6 +104,16 @@ Extent quick_extent() {
   extent.sampling_reference_rays = 20000;
   extent.sampling_rays = {250, 1000, 4000};
   return extent;
+}
+
+Extent extent_of_model(const Extent& extent) {
+  Extent less = extent;
+  less.generated_size_m = std::min(extent.generated_size_m, 600.0);
+  less.cell_edges_m = {50.0};
+  less.neighborhoods = {3};
+  less.receivers = less.fewer_receivers;
+  less.surface_receivers = less.fewer_receivers;
+  return less;
 }
 
 void tell(const std::string& what) { std::fprintf(stderr, "%s\n", what.c_str()); }

@@ -27,6 +27,8 @@ struct Extent {
   std::vector<std::size_t> sampling_rays{250, 500, 1000, 2000, 4000, 8000, 16000};
 };
 [[nodiscard]] Extent quick_extent();
+/// Of one city among many: cells of 50 m, N = 3.
+[[nodiscard]] Extent extent_of_model(const Extent& extent);
 
 /// Says what is being done; studies take minutes.
 void tell(const std::string& what);

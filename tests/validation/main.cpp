@@ -35,6 +35,23 @@ std::vector<StudiedCity> cities_of(const Options& options, const Extent& extent)
   return cities;
 }
 
+/// Models of other kinds than prisms.
+std::vector<CityStudy> study_models(const Options& options, const Extent& of_city) {
+  const Extent extent = extent_of_model(of_city);
+  std::vector<StudiedCity> models = generated_models(extent.generated_size_m);
+  const auto add = [&](const std::string& name, const std::string& file) {
+    if (std::filesystem::exists(options.data / file)) models.push_back(building_city(name, options.data / file));
+  };
+  add("rotterdam", "rotterdam/delfshaven.city.json");
+  add("tokyo", "tokyo/53392633_bldg_6697_2_op.gml");
+  add("nrw", "nrw/LoD2_32_280_5657_1_NW.gml");
+  add("berlin", "trees/berlin_lidar/lod2_buildings_berlin_test_area.gml");
+  add("zurich", "zurich/zurich_subset.city.json");
+  std::vector<CityStudy> studies;
+  for (const StudiedCity& city : models) studies.push_back(study_far_field(city, choose_sites(city, extent), extent));
+  return studies;
+}
+
 CityResults study(const StudiedCity& city, const Extent& extent) {
   const StudySites sites = choose_sites(city, extent);
   return {study_far_field(city, sites, extent), study_sampling(city, sites, extent), study_alignment(city, extent)};
@@ -44,7 +61,7 @@ int run(const Options& options) {
   const Extent extent = options.quick ? quick_extent() : Extent();
   std::filesystem::create_directories(options.figures);
   const std::vector<StudiedCity> cities = cities_of(options, extent);
-  Results results{extent, {}, cities.size() < city_count, cities.front().name, {}};
+  Results results{extent, {}, study_models(options, extent), cities.size() < city_count, cities.front().name, {}};
   for (const StudiedCity& city : cities) results.cities.push_back(study(city, extent));
   results.settings = study_settings(cities.front(), extent);
   write_plots(results, options.figures);

@@ -22,6 +22,7 @@ struct CityResults {
 struct Results {
   Extent extent;
   std::vector<CityResults> cities;
+  std::vector<CityStudy> models;  ///< cells of 50 m, N = 3
   bool lacks_real_cities = false;
   std::string city_of_settings;
   std::vector<SettingRow> settings;
