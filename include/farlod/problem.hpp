@@ -52,6 +52,7 @@ enum class ProblemCode : std::uint16_t {
   not_planar = 403,
   spike = 404,
   hole_outside = 405,
+  floor_in_the_air = 406,
 };
 
 /// What happened to the thing that has the problem.
@@ -123,6 +124,8 @@ inline constexpr std::array problem_descriptions{
     ProblemDescription{ProblemCode::spike, "spike", Effect::repaired, "a ring goes out and comes back the same way"},
     ProblemDescription{ProblemCode::hole_outside, "hole_outside", Effect::left_out,
                        "a hole lies outside of the facet that it is a hole of"},
+    ProblemDescription{ProblemCode::floor_in_the_air, "floor_in_the_air", Effect::repaired,
+                       "a building's lowest floor is more than a storey above the ground"},
 };
 
 [[nodiscard]] constexpr const ProblemDescription& describe(ProblemCode code) {

@@ -54,6 +54,7 @@ std::string pack_summary_json(const PackResult& result, const Report& report, do
             {"facets", result.facets},
             {"triangles", m.triangles},
             {"problems", report.problems().size()},
+            {"foundations", result.foundations},
             {"cells", m.grid.cells.size()},
             {"grid_rotation_deg", m.grid.rotation.bearing().degrees()},
             {"alignment_strength", result.alignment.strength},

@@ -270,6 +270,7 @@ class Packing {
     m.buildings = tiles.building_ids.size();
     m.polygons = tiles.polygon_count;
     m.triangles = tiles.triangle_count();
+    result_.foundations = tiles.foundation_count;
     if (tiles.foundation_count > 0)
       result_.notes.push_back(std::to_string(tiles.foundation_count) +
                               " buildings have their lowest floor above the ground somewhere: it was closed down to the ground.");

@@ -15,6 +15,9 @@ namespace farlod {
 /// A building's lowest floor is what lies within this above its lowest point: floors of half a step less are one.
 inline constexpr double lowest_floor_thickness_m = 0.5;
 
+/// A floor that is so much above the ground is more likely at the wrong height than on a foundation.
+inline constexpr double storey_m = 3.0;
+
 /// How far the borders are above the ground, at the most.
 [[nodiscard]] double largest_gap_m(std::span<const HorizonSegment> foot, const GroundHeightAt& ground_height);
 

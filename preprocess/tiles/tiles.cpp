@@ -19,6 +19,7 @@
 #include "tiles/ground.hpp"
 #include "tiles/ground_contact.hpp"
 #include "tiles/lift_onto_terrain.hpp"
+#include "tiles/metres_text.hpp"
 #include "tiles/relief_thinning.hpp"
 
 namespace farlod {
@@ -206,7 +207,7 @@ class TileCutter {
     std::vector<HorizonSegment> undersides = above_ground(cut_building.undersides);
     double foundation_top_m = -std::numeric_limits<double>::infinity();
     if (!undersides.empty() && bases_[number] != Base::above_ground)
-      foundation_top_m = close_foot(building, cut_building, undersides);
+      foundation_top_m = close_foot(building, cut_building, undersides, report);
     if (undersides.empty()) return place_upper_borders(cut_building, nullptr);
     OverhangingBuilding& overhanging = overhanging_.emplace_back();
     overhanging.foundation_top_m = foundation_top_m;
@@ -224,7 +225,7 @@ class TileCutter {
 
   /// The lowest floor of a building that is no bridge goes down to the ground, whatever the ground between known points is:
   /// closes the gap, and takes its borders out of `undersides`. Returns the height down to which the building is closed by it.
-  double close_foot(const Building& building, BuildingPieces& pieces, std::vector<HorizonSegment>& undersides) {
+  double close_foot(const Building& building, BuildingPieces& pieces, std::vector<HorizonSegment>& undersides, Report& report) {
     double lowest_m = std::numeric_limits<double>::infinity(), least_gap_m = lowest_m;
     double highest_m = -lowest_m;
     for (const Point3d& p : city_.points_of(building)) {
@@ -240,8 +241,17 @@ class TileCutter {
     const auto foot = std::stable_partition(undersides.begin(), undersides.end(), std::not_fn(is_foot));
     if (foot == undersides.end()) return -std::numeric_limits<double>::infinity();
     // What is thinner than the gap below it spans it: a bridge from bank to bank
-    if (largest_gap_m({foot, undersides.end()}, ground_height()) > highest_m - lowest_m)
-      return -std::numeric_limits<double>::infinity();
+    const double gap_m = largest_gap_m({foot, undersides.end()}, ground_height());
+    if (gap_m > highest_m - lowest_m) return -std::numeric_limits<double>::infinity();
+    if (gap_m > storey_m) {
+      Problem problem{ProblemCode::floor_in_the_air,
+                      {},
+                      building.id,
+                      "the lowest floor is up to " + metres(gap_m) + " above the ground: closed down to it"};
+      if (building.source < sources_.size()) problem.source = sources_[building.source];
+      problem.position = p_projected(foot->segment.a);
+      report.add(std::move(problem));
+    }
     Surface surface = tiles_.surfaces.back();
     ++surface.number;
     surface.kind = SurfaceKind::foundation;
