@@ -42,9 +42,9 @@ FARLOD_LANES void turn_along(EdgeSeen& s) {
 
 /// The same of an edge that may come as near as one likes. An eye within this (sine) of its line looks along it, or stands right
 /// below it. Looked along, it has no width, and its plane gets no slope. From right below, it is seen as if the eye stood 1 mm
-/// beside it.
+/// beside it. Returns whether any does.
 enum class Beside { front, back };
-FARLOD_LANES void turn_along_near(EdgeSeen& s, Beside from_below) {
+FARLOD_LANES bool turn_along_near(EdgeSeen& s, Beside from_below) {
   constexpr float least_sine = 1e-5F, looked_along = std::numeric_limits<float>::infinity();
   const float right_below = from_below == Beside::front ? -1e-3F : 1e-3F;
   const Floats turn = s.px * s.qy - s.py * s.qx, squares = (s.px * s.px + s.py * s.py) * (s.qx * s.qx + s.qy * s.qy);
@@ -52,6 +52,7 @@ FARLOD_LANES void turn_along_near(EdgeSeen& s, Beside from_below) {
   const Floats is_below = least(-off_line, -(s.px * s.qx + s.py * s.qy));
   const Floats wide = off_line > 0.0F ? turn : all(looked_along);
   s.inverse_turn = 1.0F / (is_below > 0.0F ? all(right_below) : wide);
+  return greatest_lane(is_below) > 0.0F;
 }
 
 struct RingView {
@@ -128,9 +129,9 @@ FARLOD_LANES void draw_batch(const SkylineEdges::Batch& edges, const Eyes& eyes,
     see(edges, lane, eyes, seen);
     if (reach.steepest[lane] == EdgeReach::anything) {
       // An upper border hides the side that it faces away from (SkylineEdges); below a lower one, sky may be seen on both
-      turn_along_near(seen, Beside::front);
+      const bool is_overhead = turn_along_near(seen, Beside::front);
       drawing.draw(seen, EdgeReach::anything, ring, 0, ring.size);
-      if (!is_upper) {
+      if (is_overhead && !is_upper) {
         turn_along_near(seen, Beside::back);
         drawing.draw(seen, EdgeReach::anything, ring, 0, ring.size);
       }
