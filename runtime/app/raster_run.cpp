@@ -102,7 +102,8 @@ RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const pa
           plan.rows,
           options.bounds ? RasterBands::answers_and_bounds : RasterBands::answers,
           quantity_name(options.sky.weight),
-          manifest.crs_wkt};
+          manifest.crs_wkt,
+          manifest.epsg};
 }
 
 /// The way of a raster's cells: from their receivers to the tiles of its files.

@@ -40,7 +40,9 @@ void place(GDALDataset& dataset, const RasterFrame& raster) {
   dataset.SetGeoTransform(geotransform.data());
   if (raster.crs_wkt.empty()) return;
   OGRSpatialReference crs;
-  if (crs.importFromWkt(raster.crs_wkt.c_str()) == OGRERR_NONE)
+  // Of a code PROJ knows the names already; for WKT it looks each of them up, which takes longer than a small map
+  const bool is_known = raster.epsg && crs.importFromEPSG(*raster.epsg) == OGRERR_NONE;
+  if (is_known || crs.importFromWkt(raster.crs_wkt.c_str()) == OGRERR_NONE)
     dataset.SetSpatialRef(&crs);
   else
     CPLError(CE_Failure, CPLE_AppDefined, "the coordinate reference system is not valid WKT");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct RasterFrame {
   RasterBands bands = RasterBands::answers;
   std::string quantity;  ///< "svf" or "svf_solid": the name of the first band; `_low` and `_high` are those of the bounds
   std::string crs_wkt;
+  std::optional<int> epsg = {};  ///< the same CRS by its code, where it has one
 
   [[nodiscard]] Point2d centre_m(std::size_t column, std::size_t row) const {
     return {north_west_m.x + (static_cast<double>(column) + 0.5) * step_m,
