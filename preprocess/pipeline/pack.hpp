@@ -63,7 +63,7 @@ struct PackResult {
   Alignment alignment;
   std::optional<ChosenGrid> chosen;
   std::uint64_t facets = 0;        ///< polygons as the files have them: a surface of a mesh is made of several triangles
-  std::uint64_t foundations = 0;  ///< buildings whose lowest floor was closed down to the ground
+  std::uint64_t foundations = 0;   ///< buildings whose lowest floor was closed down to the ground
   PassedOver passed_over;          ///< what the files hold that is not used
   std::vector<std::string> notes;  ///< for the user: what was taken from beside the inputs, or guessed
   std::uint64_t package_bytes = 0, far_map_bytes = 0;
