@@ -22,8 +22,9 @@ constexpr std::size_t azimuths = 128;
 /// A raster of 1 m over a cell of 20 m, 1.5 m above the ground.
 std::vector<Receiver> dense_receivers(const Point3f& normal) {
   std::vector<Receiver> receivers;
-  for (std::size_t n = 0; n < 400; ++n)
-    receivers.push_back({n, {0.5F + static_cast<float>(n % 20), 0.5F + static_cast<float>(n / 20), 1.5F}, normal});
+  for (std::size_t n = 0; n < 1600; ++n)
+    receivers.push_back(
+        {n, {0.25F + 0.5F * static_cast<float>(n % 40), 0.25F + 0.5F * static_cast<float>(n / 40), 1.5F}, normal});
   return receivers;
 }
 
@@ -241,11 +242,11 @@ TEST_P(WhatOverhangs, NeedsRaysOfThoseWhoMayLookBelowIt) {
     see_nothing += gap.surely_not ? 1 : 0;
   }
   if (receivers.size() > 16) {
-    EXPECT_GT(std::min(look_below, see_nothing), 5) << "too few to tell";
+    EXPECT_GT(std::min(look_below, see_nothing), 20) << "too few to tell";
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(HorizonEngine, WhatOverhangs, testing::Values(3U, 16U, 400U));
+INSTANTIATE_TEST_SUITE_P(HorizonEngine, WhatOverhangs, testing::Values(3U, 16U, 1600U));
 
 TEST(HorizonEngine, WhereAGapIsSmallHalfOfItCounts) {
   const TownByHand town = slab_behind_houses();
@@ -259,7 +260,7 @@ TEST(HorizonEngine, WhereAGapIsSmallHalfOfItCounts) {
     EXPECT_NEAR(halved[n].likely, 0.5F * (bounds[n].low + bounds[n].high), sky_rounding(azimuths, up)) << n;
     with_gap += bounds[n].high > bounds[n].low ? 1 : 0;
   }
-  EXPECT_GT(with_gap, 5) << "too few to tell";
+  EXPECT_GT(with_gap, 20) << "too few to tell";
 }
 
 TEST(HorizonEngine, TheToleranceBoundsTheErrorOfThoseWithoutRays) {
@@ -276,7 +277,7 @@ TEST(HorizonEngine, TheToleranceBoundsTheErrorOfThoseWithoutRays) {
     EXPECT_EQ(by_rays, width > tolerance) << n << ": " << width;
     narrow += !by_rays && width > 0.0F ? 1 : 0;
   }
-  EXPECT_GT(narrow, 5) << "too few to tell";
+  EXPECT_GT(narrow, 20) << "too few to tell";
 }
 
 TEST(HorizonEngine, ASlabRightOverheadHidesAllThatIsAboveItsBorders) {
