@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace farlod {
@@ -51,19 +52,43 @@ class ColumnsAround {
   std::map<Cell, CellColumns> columns_;
 };
 
-void spread(const TileView& tile, std::uint32_t t, double spacing_m, ColumnsAround& columns,
+/// Triangles of one surface in a tile.
+struct Piece {
+  std::uint32_t begin = 0, end = 0;
+  Point3f normal;
+  float top_m = -std::numeric_limits<float>::infinity();
+};
+
+Piece piece_of(const TileView& tile, std::uint32_t begin, const package::SurfaceRun& run) {
+  Piece piece{begin, run.end, tile.surfaces[run.surface].normal().direction()};
+  for (std::uint32_t t = begin; t < run.end; ++t) {
+    const Triangle& corners = tile.mesh.triangles[t];
+    for (const std::uint32_t v : {corners.a, corners.b, corners.c}) piece.top_m = std::max(piece.top_m, tile.mesh.vertices[v].z);
+  }
+  return piece;
+}
+
+/// How far the top of a wall that leans out stands ahead of a point of it. None where that is more than surveys err by: such a
+/// wall overhangs the receiver.
+float lean_ahead_m(const Piece& wall, float z_m) {
+  if (wall.normal.z >= 0.0F) return 0.0F;
+  const float ahead_m = (wall.top_m - z_m) * -wall.normal.z / std::hypot(wall.normal.x, wall.normal.y);
+  return ahead_m <= most_lean_m ? ahead_m : 0.0F;
+}
+
+void spread(const TileView& tile, const Piece& piece, std::uint32_t t, double spacing_m, ColumnsAround& columns,
             std::vector<SurfaceReceiver>& receivers) {
   const Triangle& corners = tile.mesh.triangles[t];
   const Point3f a = tile.mesh.vertices[corners.a];
   const Point3f ab = tile.mesh.vertices[corners.b] - a, ac = tile.mesh.vertices[corners.c] - a;
   const float area_m2 = 0.5F * norm(cross(ab, ac));
   if (area_m2 == 0.0F) return;  // rounded away: it holds no share of the surface
-  const Point3f normal = tile.surface_of(t).normal().direction();
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(area_m2) / (spacing_m * spacing_m))));
   for (std::size_t n = 0; n < count; ++n) {
     const Point2d w = place_in_triangle(n, count);
-    const Point3f p = a + static_cast<float>(w.x) * ab + static_cast<float>(w.y) * ac + surface_offset_m * normal;
-    receivers.push_back({t, area_m2 / static_cast<float>(count), p, normal, columns.is_buried(p)});
+    const Point3f on_surface = a + static_cast<float>(w.x) * ab + static_cast<float>(w.y) * ac;
+    const Point3f p = on_surface + (surface_offset_m + lean_ahead_m(piece, on_surface.z)) * piece.normal;
+    receivers.push_back({t, area_m2 / static_cast<float>(count), p, piece.normal, columns.is_buried(p)});
   }
 }
 
@@ -73,8 +98,14 @@ std::vector<SurfaceReceiver> surface_receivers(const Package& package, Cell cell
   const TileView tile = package.tile(cell);
   ColumnsAround columns(package, cell);
   std::vector<SurfaceReceiver> receivers;
-  for (std::uint32_t t = 0; t < tile.mesh.triangles.size(); ++t)
-    if (is_chosen(tile.surface_of(t).kind, choice)) spread(tile, t, spacing_m, columns, receivers);
+  std::uint32_t begin = 0;
+  for (const package::SurfaceRun& run : tile.surface_runs) {
+    if (is_chosen(tile.surfaces[run.surface].kind, choice)) {
+      const Piece piece = piece_of(tile, begin, run);
+      for (std::uint32_t t = begin; t < run.end; ++t) spread(tile, piece, t, spacing_m, columns, receivers);
+    }
+    begin = run.end;
+  }
   return receivers;
 }
 

@@ -16,11 +16,15 @@ enum class SurfaceChoice { roofs, walls, all };
 /// coordinate in a scene of 10 km (0.5 mm would do), and a fiftieth of a window's reveal.
 inline constexpr float surface_offset_m = 0.01F;
 
+/// A wall whose top leans out over one of its points by less than this is upright: it was surveyed a little off. Its receivers
+/// stand ahead of its top, so that they do not lie below the roof that ends there.
+inline constexpr float most_lean_m = 0.05F;
+
 /// A receiver on a surface, and the area that it stands for.
 struct SurfaceReceiver {
   std::uint32_t triangle = 0;  ///< of the cell's tile
   float area_m2 = 0.0F;
-  Point3f p_cell;                   ///< off the surface by surface_offset_m
+  Point3f p_cell;                   ///< off the surface by surface_offset_m, or ahead of its top by as much
   Point3f normal;                   ///< the surface's, grid frame
   bool is_inside_building = false;  ///< or below the ground: a party wall, a cellar
 };

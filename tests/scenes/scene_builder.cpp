@@ -22,18 +22,21 @@ void SceneBuilder::add_polygon(const std::vector<Point3d>& points) {
 }
 
 void SceneBuilder::add_prism(const std::vector<Point2d>& outline, double low_m, double high_m) {
+  add_frustum(outline, low_m, outline, high_m);
+}
+
+void SceneBuilder::add_frustum(const std::vector<Point2d>& foot, double low_m, const std::vector<Point2d>& top, double high_m) {
   city_.begin_building("box " + std::to_string(city_.buildings().size()));
   next_surface_ = 0;
   std::vector<Point3d> roof, floor;
-  for (const Point2d p : outline) {
-    roof.push_back({p.x, p.y, high_m});
-    floor.insert(floor.begin(), {p.x, p.y, low_m});
-  }
+  for (const Point2d p : top) roof.push_back({p.x, p.y, high_m});
+  for (const Point2d p : foot) floor.insert(floor.begin(), {p.x, p.y, low_m});
   add_facet(roof, SurfaceKind::roof);
   add_facet(floor, SurfaceKind::floor);
-  for (std::size_t n = 0; n < outline.size(); ++n) {
-    const Point2d a = outline[n], b = outline[(n + 1) % outline.size()];
-    add_facet({{a.x, a.y, low_m}, {b.x, b.y, low_m}, {b.x, b.y, high_m}, {a.x, a.y, high_m}}, SurfaceKind::wall);
+  for (std::size_t n = 0; n < foot.size(); ++n) {
+    const std::size_t next = (n + 1) % foot.size();
+    const Point2d a = foot[n], b = foot[next], c = top[next], d = top[n];
+    add_facet({{a.x, a.y, low_m}, {b.x, b.y, low_m}, {c.x, c.y, high_m}, {d.x, d.y, high_m}}, SurfaceKind::wall);
   }
 }
 

@@ -24,6 +24,8 @@ class SceneBuilder {
   void add_polygon(const std::vector<Point3d>& points);
   /// A closed body with a flat roof over a counter-clockwise outline.
   void add_prism(const std::vector<Point2d>& outline, double low_m, double high_m);
+  /// A closed body between two levels, with outlines of as many points; each wall is one facet.
+  void add_frustum(const std::vector<Point2d>& foot, double low_m, const std::vector<Point2d>& top, double high_m);
   /// A closed box.
   void add_box(const Box2d& outline, double low_m, double high_m);
 
