@@ -21,7 +21,7 @@ namespace {
 constexpr double lowest_wall_with_eaves_m = 2.0;
 constexpr double least_error_m = 10.0, largest_error_m = 40.0, share_at_zero = 0.5;
 
-/// Roofs do not project over a neighbour that touches the wall.
+/// Roofs do not project over a neighbor that touches the wall.
 [[nodiscard]] Overhangs overhangs_of(const CitySettings& settings, const TouchingWalls& walls, std::size_t row,
                                      const BuildingPlan& plan) {
   Overhangs overhangs{};

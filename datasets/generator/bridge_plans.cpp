@@ -14,7 +14,7 @@ constexpr double bridge_width_m = 3.5, bridge_height_m = 3.2, least_clearance_m 
 constexpr double shoulder_m = 1.5;
 constexpr double share_across_street = 0.5, share_across_avenue = 0.2;
 
-/// The direction from a block to its neighbour: which coordinate the bridge runs along.
+/// The direction from a block to its neighbor: which coordinate the bridge runs along.
 enum class Across { street, avenue };
 
 /// Seen from the bridge: `low` and `high` along the street, and where the façade stands across it.
@@ -73,14 +73,14 @@ struct Facade {
 }
 
 void add_bridge(const CitySettings& settings, CityBlock block, Across across, std::vector<BuildingPlan>& bridges) {
-  const CityBlock neighbour = across == Across::street ? CityBlock{block.i, block.j + 1} : CityBlock{block.i + 1, block.j};
-  if (!CityLayout(settings).contains(neighbour)) return;
+  const CityBlock neighbor = across == Across::street ? CityBlock{block.i, block.j + 1} : CityBlock{block.i + 1, block.j};
+  if (!CityLayout(settings).contains(neighbor)) return;
   KeyedRandom random(
       {settings.seed, key_of(RandomStream::bridges), key_of(block.i), key_of(block.j), static_cast<std::uint64_t>(across)});
   if (!random.chance(across == Across::street ? share_across_street : share_across_avenue)) return;
   const UrbanField field(settings);
   std::vector<BuildingPlan> possible;
-  const std::vector<Facade> far_facades = facades(settings, neighbour, across, false);
+  const std::vector<Facade> far_facades = facades(settings, neighbor, across, false);
   for (const Facade& near : facades(settings, block, across, true))
     for (const Facade& far : far_facades)
       if (const auto bridge = bridge_between(field, near, far, across)) possible.push_back(*bridge);

@@ -64,7 +64,7 @@ struct BuildingPlan {
 ///   (3) `overhangs` changes nothing but the ground floors of some buildings, which also get a flat roof
 [[nodiscard]] std::vector<BuildingPlan> plans_of_block(const CitySettings& settings, CityBlock block);
 
-/// The pedestrian bridges that start from a block, towards its northern and eastern neighbours: from wall to wall across the
+/// The pedestrian bridges that start from a block, towards its northern and eastern neighbors: from wall to wall across the
 /// street, between buildings that are tall enough. None without `overhangs`.
 [[nodiscard]] std::vector<BuildingPlan> bridges_of_block(const CitySettings& settings, CityBlock block);
 

@@ -20,7 +20,7 @@ struct CityBlock {
 /// The streets of a city, and the blocks between them. Any street is found without walking over the others, so that a city
 /// of any size can be made block by block.
 ///   (1) blocks lie within the square of the city, and do not touch each other
-///   (2) between neighbouring blocks lies a street at least as wide as asked for
+///   (2) between neighboring blocks lies a street at least as wide as asked for
 class CityLayout {
  public:
   explicit CityLayout(const CitySettings& settings);

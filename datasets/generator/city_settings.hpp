@@ -68,7 +68,7 @@ struct CitySettings {
     setting("lod", self.lod, SettingRange{1, 2}, "Buildings",
             "1: flat-roofed prisms; 2: gabled and hipped roofs on low buildings, stepped tops on towers");
     setting("eaves", self.eaves_m, SettingRange{0.0, 1.0}, "Buildings",
-            "Pitched roofs project by this much beyond walls that no neighbour touches, in metres, as sheets without thickness; "
+            "Pitched roofs project by this much beyond walls that no neighbor touches, in metres, as sheets without thickness; "
             "needs --lod 2");
     setting("wrong-bases", self.wrong_base_share, SettingRange{0.0, 1.0}, "Buildings",
             "Share of the buildings that reach down to z = 0 or 10 to 40 m too low; their roofs stay where they are");

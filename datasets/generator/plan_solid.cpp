@@ -11,7 +11,7 @@ namespace farlod {
 namespace {
 
 /// Gathers the components of a building. Corners of a component that are the same millimetre become one vertex, so that
-/// neighbouring facets share their edges; two components share none.
+/// neighboring facets share their edges; two components share none.
 class CityBuilder {
  public:
   explicit CityBuilder(const PlanRotation& rotation) : rotation_(rotation) {}

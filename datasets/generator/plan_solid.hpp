@@ -23,7 +23,7 @@ struct PlanFacet {
   std::size_t in_wall = 0;  ///< of a window or a door: the facet of the same solid whose opening it fills
 };
 
-/// A solid before its corners are rounded to millimetres: still in the frame in which walls are axis-parallel and neighbours
+/// A solid before its corners are rounded to millimetres: still in the frame in which walls are axis-parallel and neighbors
 /// touch exactly.
 struct PlanSolid {
   ComponentKind kind = ComponentKind::body;

@@ -68,7 +68,7 @@ struct Grid {
 
   [[nodiscard]] std::int32_t interval_of(double x_grid) const {
     auto k = static_cast<std::int32_t>(std::floor(x_grid / cell_edge_m));
-    // The division rounds: settle on the side that the exact borders say
+    // The division rounds: choose the side that the exact borders say
     while (border_m(k) > x_grid) --k;
     while (border_m(k + 1) <= x_grid) ++k;
     return k;
@@ -93,7 +93,7 @@ struct Grid {
     const std::int32_t r = neighborhood / 2;
     return {c.i - r, c.j - r, c.i + r + 1, c.j + r + 1};
   }
-  /// Half the edge of the neighbourhood's square: how far from a cell's centre the far field begins.
+  /// Half the edge of the neighborhood's square: how far from a cell's centre the far field begins.
   [[nodiscard]] double neighborhood_half_edge_m() const { return 0.5 * neighborhood * cell_edge_m; }
 
   [[nodiscard]] Block block_of(Cell c) const { return {floor_divide(c.i, block_edge), floor_divide(c.j, block_edge)}; }

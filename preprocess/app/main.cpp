@@ -60,8 +60,8 @@ void print_problems(const Report& report, const std::string& report_file) {
 }
 
 /// What the files hold besides buildings and ground, most of it first.
-void print_passed_over(const PassedOver& passed_over) {
-  std::vector<std::pair<std::string, std::uint64_t>> rows(passed_over.begin(), passed_over.end());
+void print_skipped(const SkippedFeatures& skipped) {
+  std::vector<std::pair<std::string, std::uint64_t>> rows(skipped.begin(), skipped.end());
   std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   constexpr std::size_t most_rows = 6;
   for (std::size_t n = 0; n < std::min(rows.size(), most_rows); ++n)
@@ -75,17 +75,17 @@ void print_choice(const ChosenGrid& chosen, const PackOptions& options) {
   if (chosen.best) {
     const GridChoice& b = *chosen.best;
     fmt::print(
-        "Chosen for errors up to {:g}: cells of {:g} m, neighbourhood {} × {}, far maps to {:g}; expected of the far maps: at "
+        "Chosen for errors up to {:g}: cells of {:g} m, neighborhood {} × {}, far maps to {:g}; expected of the far maps: at "
         "the "
         "most {:.4f}, certain to {:.4f} for 99 %\n",
         max_error, b.cell_edge_m, b.neighborhood, b.neighborhood, b.tolerance, b.verdict.max_error, b.verdict.p99_doubt);
   } else {
     fmt::print(
-        "No cells and no neighbourhood keep an error of {:g} with far maps alone: farlod-svf --max-error {:g} will trace more "
+        "No cells and no neighborhood keep an error of {:g} with far maps alone: farlod-svf --max-error {:g} will trace more "
         "rays exactly.\n",
         max_error, max_error);
   }
-  const FarMapVerdict& m = chosen.measured;
+  const FarErrorEstimate& m = chosen.measured;
   fmt::print("Measured on {} other random receivers against exact: mean {:.4f}, at the most {:.4f}, certain to {:.4f} for 99 %\n",
              m.receivers, m.mean_error, m.max_error, m.p99_doubt);
 }
@@ -96,13 +96,13 @@ void print_result(const PackResult& result, const Report& report, const PackOpti
   if (result.facets > m.polygons) fmt::print(" (planar faces of {} facets)", result.facets);
   fmt::print(", {} {}\n", report.problems().size(), report.problems().size() == 1 ? "problem" : "problems");
   print_problems(report, options.report_file);
-  print_passed_over(result.passed_over);
+  print_skipped(result.skipped);
   for (const std::string& note : result.notes) fmt::print("{}\n", note);
   const double bearing_deg = m.grid.rotation.bearing().degrees();
   fmt::print("CRS: {}\n", m.crs_name);
   fmt::print("Streets: {:.2f}° from grid north ({:.2f}° from true north), strength {:.2f}\n", result.alignment.bearing.degrees(),
              (result.alignment.bearing + m.convergence).degrees(), result.alignment.strength);
-  fmt::print("Grid: turned by {:.2f}°, {} × {} cells of {:g} m, neighbourhood {} × {}\n", bearing_deg, m.grid.cells.width(),
+  fmt::print("Grid: turned by {:.2f}°, {} × {} cells of {:g} m, neighborhood {} × {}\n", bearing_deg, m.grid.cells.width(),
              m.grid.cells.height(), m.grid.cell_edge_m, m.grid.neighborhood, m.grid.neighborhood);
   if (result.chosen) print_choice(*result.chosen, options);
   fmt::print("{}: {:.1f} MiB ({:.1f} MiB far maps), {} triangles, {:.1f} s\n", options.settings.output.string(),

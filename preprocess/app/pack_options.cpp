@@ -106,7 +106,7 @@ void add_grid_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->check(CLI::Range(1, 999))
       ->group("Grid");
   app.add_option("--max-error", o.max_error,
-                 "Choose cells and neighbourhood so that sky view factors keep this error; tell farlod-svf the same")
+                 "Choose cells and neighborhood so that sky view factors keep this error; tell farlod-svf the same")
       ->check(between(0.0001, 1.0))
       ->group("Grid");
   app.add_option("--align", raw.align, "auto: along the streets; none: grid north; or degrees clockwise from grid north")
@@ -137,7 +137,7 @@ void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   add_run_options(app, "farlod-pack", o.run);
 }
 
-void understand_alignment(const std::string& text, GridSettings& grid) {
+void resolve_alignment(const std::string& text, GridSettings& grid) {
   if (text == "auto") {
     grid.align = AlignMode::automatic;
   } else if (text == "none") {
@@ -151,7 +151,7 @@ void understand_alignment(const std::string& text, GridSettings& grid) {
 }
 
 /// Half of the error is left for the sky between the rays of farlod-svf. What the user fixes is not chosen.
-void understand_choice(const RawOptions& raw, double max_error, PackSettings& s) {
+void resolve_choice(const RawOptions& raw, double max_error, PackSettings& s) {
   if (s.far_map.kind == FarMapKind::box)
     throw CLI::ValidationError("--max-error", "far maps of the kind box keep no error: leave --far-map out");
   s.choice.emplace();
@@ -173,7 +173,7 @@ void understand(const RawOptions& raw, PackOptions& o) {
   if (raw.neighborhood) s.grid.neighborhood = *raw.neighborhood;
   if (s.grid.neighborhood % 2 == 0)
     throw CLI::ValidationError("--neighborhood", std::to_string(s.grid.neighborhood) +
-                                                     " is even: a neighbourhood has a cell in its middle, give an odd number");
+                                                     " is even: a neighborhood has a cell in its middle, give an odd number");
   if (!raw.origin.empty()) s.ingest.obj_origin = parse_origin(raw.origin);
   s.ingest.up = raw.up == "y" ? UpAxis::y : UpAxis::z;
   if (raw.lod != "best") s.ingest.lod.exactly = std::stoi(raw.lod);
@@ -181,10 +181,10 @@ void understand(const RawOptions& raw, PackOptions& o) {
   if (!raw.base_field.empty()) s.ingest.base_field = raw.base_field;
   if (!raw.storeys_field.empty()) s.ingest.storeys_field = raw.storeys_field;
   if (!raw.roof_field.empty()) s.ingest.roof_field = raw.roof_field;
-  understand_alignment(raw.align, s.grid);
+  resolve_alignment(raw.align, s.grid);
   s.far_map.kind = raw.far_map == "box" ? FarMapKind::box : FarMapKind::horizon;
   s.assign = raw.assign == "whole" ? Assign::whole : Assign::clip;
-  if (o.max_error) understand_choice(raw, *o.max_error, s);
+  if (o.max_error) resolve_choice(raw, *o.max_error, s);
 }
 
 }  // namespace

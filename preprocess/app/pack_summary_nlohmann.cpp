@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 
 std::string text_of(const Json& j) { return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
-Json json_of(const FarMapVerdict& v) {
+Json json_of(const FarErrorEstimate& v) {
   return {{"receivers", v.receivers}, {"mean_error", v.mean_error}, {"max_error", v.max_error}, {"p99_doubt", v.p99_doubt}};
 }
 
@@ -68,7 +68,7 @@ std::string pack_summary_json(const PackResult& result, const Report& report, do
              {{"seconds", result.estimate.seconds},
               {"memory_mib", result.estimate.memory_mib},
               {"package_mib", result.estimate.package_mib}}}};
-  if (!result.passed_over.empty()) j["passed_over"] = result.passed_over;
+  if (!result.skipped.empty()) j["skipped"] = result.skipped;
   if (result.chosen) j["chosen"] = json_of(*result.chosen);
   return text_of(j);
 }

@@ -28,7 +28,7 @@ std::uint64_t CityModel::surface_count() const {
   return count;
 }
 
-void CityModel::begin_building(std::string id, Footing footing, std::uint32_t source) {
+void CityModel::begin_building(std::string id, HeightReference footing, std::uint32_t source) {
   buildings_.push_back({std::move(id), facets_.size(), 0, footing, source});
 }
 

@@ -26,7 +26,7 @@ struct Facet {
 };
 
 /// What the heights of a building count from.
-enum class Footing : std::uint8_t {
+enum class HeightReference : std::uint8_t {
   elevation,       ///< the zero of the CRS: the file knows where the building stands
   on_ground,       ///< the ground, which only a terrain can tell
   down_to_ground,  ///< the roof has an elevation; what is nearer to the foot than to the roof has yet to be put on the ground
@@ -36,7 +36,7 @@ struct Building {
   std::string id;
   std::uint64_t first_facet = 0;
   std::uint32_t facet_count = 0;
-  Footing footing = Footing::elevation;
+  HeightReference footing = HeightReference::elevation;
   std::uint32_t source = 0;  ///< place in LocatedCity::sources of the file that it comes from
 };
 
@@ -62,7 +62,7 @@ class CityModel {
   [[nodiscard]] std::uint64_t surface_count() const;
 
   /// Building up: a building, then its facets, each with its rings, outer ring first.
-  void begin_building(std::string id, Footing footing = Footing::elevation, std::uint32_t source = 0);
+  void begin_building(std::string id, HeightReference footing = HeightReference::elevation, std::uint32_t source = 0);
   void begin_facet(SurfaceKind kind, std::uint32_t surface, std::uint16_t part = 0);
   void add_ring(std::span<const Point3d> points);
   /// Takes back the building begun last, with all that it has.

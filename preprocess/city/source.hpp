@@ -23,7 +23,7 @@ struct SourceCrs {
 };
 
 /// How often something was met that is not used, by what it is: vegetation, water, elements of extensions.
-using PassedOver = std::map<std::string, std::uint64_t>;
+using SkippedFeatures = std::map<std::string, std::uint64_t>;
 
 /// One input file, read: coordinates are still those of the file.
 struct SourceCity {
@@ -31,7 +31,7 @@ struct SourceCity {
   SourceCrs crs;
   CityModel city;
   std::vector<Point3d> relief_points = {};  ///< corners of the triangles that the file gives as terrain; may repeat
-  PassedOver passed_over = {};
+  SkippedFeatures skipped = {};
   std::vector<std::string> notes = {};  ///< for the user: what was taken from elsewhere, or guessed
 };
 

@@ -21,19 +21,19 @@ struct BakedBox {
       distance_m;  ///< texel rows from the horizontal upwards; infinite where the sky is seen; empty when all is sky
 };
 
-/// The far map of a cell, of the kind `horizon`: a few obstacles by name, and what all the others can do at the most, do at
+/// The far map of a cell, of the kind `horizon`: a few occluders by name, and what all the others can do at the most, do at
 /// the least, and likely do. Slopes are tangents of elevations, a row of azimuth bins for each patch.
-///   (1) from every place in a patch, all of the far city that is not named lies below `upper`
-///   (2) from every place in a patch, everything below `lower` is hidden, unless it lies below `overhang` or below a lower border
-///   that is named or near
-///   (3) `likely` is what is seen of the unnamed on average on the patch's floor; between two floors it changes evenly with the
+///   (1) from every place in a patch, all of the far city of the residual city lies below `high`
+///   (2) from every place in a patch, everything below `low` is hidden, unless it lies below `overhang` or below a lower border
+///   that is explicit or near
+///   (3) `estimate` is what is seen of the residual city on average on the patch's floor; between two floors it changes evenly with the
 ///   height
-///   (4) from every place in a patch, no lower border of the unnamed (EdgeRole::underside) rises above `overhang`, but those that
-///   stand before unnamed grounded things that are higher
+///   (4) from every place in a patch, no lower border of the residual city (EdgeRole::underside) rises above `overhang`, but those that
+///   stand before residual grounded things that are higher
 struct BakedHorizon {
   ReceiverPatches patches;
-  std::vector<package::NamedObstacle> named_edges;
-  std::vector<float> lower, likely, upper, overhang;
+  std::vector<package::ExplicitOccluder> explicit_edges;
+  std::vector<float> low, estimate, high, overhang;
 };
 
 /// A block's far maps, in the order of CellRange::index_of.

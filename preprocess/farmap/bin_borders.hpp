@@ -44,7 +44,7 @@ class BinBorders {
   /// The bin of a direction other than zero, from half a turn before the x axis to half a turn after it. As AzimuthBins::bin_of,
   /// but without an arc tangent: a guess, and a look at the border above it.
   [[nodiscard]] std::int64_t bin_of(Point2d direction) const {
-    std::int64_t bin = guesses_[static_cast<std::size_t>(diamond_angle(direction) * guesses_per_diamond())];
+    std::int64_t bin = guesses_[static_cast<std::size_t>(pseudo_angle(direction) * guesses_per_turn())];
     bin += cosines_from(bin + 1)[0] * direction.y - sines_from(bin + 1)[0] * direction.x >= 0.0 ? 1 : 0;
     return 2 * bin < bins_.count ? bin : bin - bins_.count;
   }
@@ -63,28 +63,28 @@ class BinBorders {
     return static_cast<std::size_t>(bin + bins_.count);
   }
 
-  /// Guesses are so close that at most one border lies between two: what spans δ of the diamond's perimeter of 4 spans at most 2δ
-  /// of azimuth, and 2 · 4/16 is less than the 2π of a bin (both over the number of bins).
+  /// Guesses are so close that at most one border lies between two: what spans δ of pseudo-angle spans at most 8δ of
+  /// azimuth, and 8/16 is less than the 2π of a bin (both over the number of bins).
   static constexpr std::uint32_t guesses_per_bin = 16;
-  [[nodiscard]] double guesses_per_diamond() const { return 0.25 * guesses_per_bin * bins_.count; }
+  [[nodiscard]] double guesses_per_turn() const { return double{guesses_per_bin} * bins_.count; }
   void fill_guesses() {
     const std::size_t count = std::size_t{guesses_per_bin} * bins_.count;
     std::int64_t bin = 0;
     for (std::size_t n = 0; n < count; ++n) {
-      const double begin = static_cast<double>(n) / guesses_per_diamond();
-      while (bin + 1 < bins_.count && diamond_of_border(bin + 1) <= begin) ++bin;
+      const double begin = static_cast<double>(n) / guesses_per_turn();
+      while (bin + 1 < bins_.count && pseudo_angle_of_border(bin + 1) <= begin) ++bin;
       guesses_.push_back(bin);
     }
     guesses_.push_back(bins_.count - 1);  // a direction just below the x axis may be rounded to the whole turn
   }
-  [[nodiscard]] double diamond_of_border(std::int64_t bin) const {
-    return diamond_angle({cosine_[place(bin)], sine_[place(bin)]});
+  [[nodiscard]] double pseudo_angle_of_border(std::int64_t bin) const {
+    return pseudo_angle({cosine_[place(bin)], sine_[place(bin)]});
   }
 
   AzimuthBins bins_;
   double cos_half_bin_;
   std::vector<double> cosine_, sine_;
-  std::vector<std::int64_t> guesses_;  ///< for equal parts of the diamond's perimeter, the bin in which each begins
+  std::vector<std::int64_t> guesses_;  ///< for equal parts of the pseudo-angle, the bin in which each begins
 };
 
 /// A direction, turned counter-clockwise by an angle so small that it equals its tangent.

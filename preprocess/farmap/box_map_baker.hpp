@@ -9,19 +9,19 @@
 #include "farmap/baked_block.hpp"
 #include "farmap/city_occluder.hpp"
 #include "farmap/far_map_settings.hpp"
-#include "farmap/far_skyline.hpp"
+#include "farmap/far_height_bound.hpp"
 #include "tiles/tile_set.hpp"
 #include "tiles/tiles.hpp"
 
 namespace farlod {
 
 /// Captures the far maps of a block's cells, in the order of CellRange::index_of: what the city outside of each cell's
-/// neighbourhood hides, one ray a texel from the cell's centre (paper, Section 3; on a box that has no lid instead of a cube).
+/// neighborhood hides, one ray a texel from the cell's centre (paper, Section 3; on a box that has no lid instead of a cube).
 class BoxMapBaker {
  public:
   /// The tiles and the grid must outlive the baker.
   BoxMapBaker(const TileSet& tiles, const Grid& grid, Assign assign, const BoxMapSettings& settings)
-      : tiles_(tiles), grid_(grid), assign_(assign), settings_(settings), city_(tiles, grid), skyline_(tiles, grid) {}
+      : tiles_(tiles), grid_(grid), assign_(assign), settings_(settings), city_(tiles, grid), silhouettes_(tiles, grid) {}
 
   [[nodiscard]] BakedBoxes bake(Block block) const;
 
@@ -34,7 +34,7 @@ class BoxMapBaker {
   Assign assign_;
   BoxMapSettings settings_;
   CityOccluder city_;
-  FarSkyline skyline_;
+  FarHeightBound silhouettes_;
 };
 
 }  // namespace farlod

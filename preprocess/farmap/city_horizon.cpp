@@ -8,7 +8,7 @@
 namespace farlod {
 namespace {
 
-std::size_t obstacle_count(const TileSet& tiles) {
+std::size_t occluder_count(const TileSet& tiles) {
   std::size_t count = 0;
   for (const Tile& tile : tiles.tiles) count += tile.horizon_edges.size();
   return count;
@@ -18,13 +18,13 @@ std::size_t obstacle_count(const TileSet& tiles) {
 
 CityHorizon::CityHorizon(const TileSet& tiles, const Grid& grid)
     : grid_(grid), origin_grid_(grid.middle_corner()), cells_(tiles.cells) {
-  obstacles_.reserve(obstacle_count(tiles));
+  occluders_.reserve(occluder_count(tiles));
   for (std::size_t n = 0; n < tiles.tiles.size(); ++n) {
-    first_of_cell_.push_back(static_cast<std::uint32_t>(obstacles_.size()));
+    first_of_cell_.push_back(static_cast<std::uint32_t>(occluders_.size()));
     gather(tiles.tiles[n], cells_.cell_at(n));
   }
-  first_of_cell_.push_back(static_cast<std::uint32_t>(obstacles_.size()));
-  if (obstacles_.empty()) return;
+  first_of_cell_.push_back(static_cast<std::uint32_t>(occluders_.size()));
+  if (occluders_.empty()) return;
   nodes_.emplace_back();
   build(0, cells_);
 }
@@ -32,7 +32,7 @@ CityHorizon::CityHorizon(const TileSet& tiles, const Grid& grid)
 void CityHorizon::gather(const Tile& tile, Cell cell) {
   const Point2d corner = corner_of(cell);
   const auto placed = [corner](const Point3f& p) { return Point3d{corner.x + p.x, corner.y + p.y, p.z}; };
-  for (const HorizonEdge& e : tile.horizon_edges) obstacles_.push_back({placed(e.a), placed(e.b), e.rises, e.role});
+  for (const HorizonEdge& e : tile.horizon_edges) occluders_.push_back({placed(e.a), placed(e.b), e.adjacent, e.role});
 }
 
 void CityHorizon::build(std::uint32_t n, const CellRange& range) {
@@ -41,9 +41,9 @@ void CityHorizon::build(std::uint32_t n, const CellRange& range) {
   if (range.size() == 1) {
     node.cell = {range.i_begin, range.j_begin};
     const std::size_t place = cells_.index_of(node.cell);
-    node.first_obstacle = first_of_cell_[place];
-    node.obstacle_count = first_of_cell_[place + 1] - first_of_cell_[place];
-    for (const Obstacle& o : obstacles().subspan(node.first_obstacle, node.obstacle_count)) {
+    node.first_occluder = first_of_cell_[place];
+    node.occluder_count = first_of_cell_[place + 1] - first_of_cell_[place];
+    for (const OccluderEdge& o : occluders().subspan(node.first_occluder, node.occluder_count)) {
       node.z_high_m = std::max(node.z_high_m, o.z_high_m());
       if (!o.is_upper()) node.z_underside_m = std::max(node.z_underside_m, o.z_high_m());
       for (const Point3d& p : {o.a, o.b}) node.outline.add(horizontal(p));

@@ -15,21 +15,21 @@
 namespace farlod {
 
 /// An edge of the far city that can be a silhouette, in the frame of CityHorizon.
-struct Obstacle {
+struct OccluderEdge {
   Point3d a, b;
-  EdgeRises rises = {};
+  AdjacentSlopes adjacent = {};
   EdgeRole role = EdgeRole::grounded;
 
   [[nodiscard]] bool is_upper() const { return role != EdgeRole::underside; }
   [[nodiscard]] double z_high_m() const { return std::max(a.z, b.z); }
   /// In a frame whose origin is moved.
-  [[nodiscard]] Obstacle from(Point2d origin) const {
+  [[nodiscard]] OccluderEdge from(Point2d origin) const {
     const Point3d shift{origin.x, origin.y, 0.0};
-    return {a - shift, b - shift, rises, role};
+    return {a - shift, b - shift, adjacent, role};
   }
 };
 
-/// All obstacles of a city, by cell, with a tree of boxes above them so that whole quarters can be told to be hidden at once.
+/// All occluders of a city, by cell, with a tree of boxes above them so that whole quarters can be told to be hidden at once.
 /// Frame: the grid frame moved to the corner of the middle cell, with heights as in the tiles.
 class CityHorizon {
  public:
@@ -42,11 +42,11 @@ class CityHorizon {
     double z_underside_m = 0.0;  ///< of the highest underside; less than any height where there is none
     Cell cell;                   ///< of a leaf
     std::uint32_t children = 0;  ///< place of the first of two; 0 for a leaf
-    std::uint32_t first_obstacle = 0, obstacle_count = 0;
+    std::uint32_t first_occluder = 0, occluder_count = 0;
   };
   /// The root is the first, unless the city is empty.
   [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
-  [[nodiscard]] std::span<const Obstacle> obstacles() const { return obstacles_; }
+  [[nodiscard]] std::span<const OccluderEdge> occluders() const { return occluders_; }
   [[nodiscard]] Point2d corner_of(Cell cell) const { return grid_.corner_of(cell) - origin_grid_; }
 
  private:
@@ -56,7 +56,7 @@ class CityHorizon {
   const Grid& grid_;
   Point2d origin_grid_;
   CellRange cells_;
-  std::vector<Obstacle> obstacles_;
+  std::vector<OccluderEdge> occluders_;
   std::vector<std::uint32_t> first_of_cell_;  ///< one more than there are cells
   std::vector<Node> nodes_;
 };

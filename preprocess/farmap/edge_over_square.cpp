@@ -117,7 +117,7 @@ void EdgeOverSquare::evaluate_borders() {
   }
 }
 
-std::span<const double> EdgeOverSquare::upper(double z_m) {
+std::span<const double> EdgeOverSquare::high(double z_m) {
   if (z_m == upper_at_m_) return upper_;
   upper_at_m_ = z_m;
   const double rise_m = std::max(a_.z, b_.z) - z_m, anywhere = rise_m / nearest_m_;
@@ -142,7 +142,7 @@ std::span<const double> EdgeOverSquare::upper(double z_m) {
   return upper_;
 }
 
-std::span<const double> EdgeOverSquare::lower(double z_m) {
+std::span<const double> EdgeOverSquare::low(double z_m) {
   if (z_m == lower_at_m_) return lower_;
   lower_at_m_ = z_m;
   lower_.assign(bin_count_, 0.0);

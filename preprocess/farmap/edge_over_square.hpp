@@ -35,10 +35,10 @@ class EdgeOverSquare {
 
   /// For each bin: no eye at `z_m` or above, anywhere in the square, sees the edge steeper than this within the bin. At least 0.
   /// Valid until the next call of it.
-  [[nodiscard]] std::span<const double> upper(double z_m);
+  [[nodiscard]] std::span<const double> high(double z_m);
   /// For each bin: every eye at `z_m` or below, anywhere in the square, sees the edge at least this steep, all over the bin;
   /// 0 when some eye does not see it there. Valid until the next call of it.
-  [[nodiscard]] std::span<const double> lower(double z_m);
+  [[nodiscard]] std::span<const double> low(double z_m);
 
  private:
   /// For each border, slope = rise − z · per_metre of the edge's line, seen from one corner of the square; infinite where the

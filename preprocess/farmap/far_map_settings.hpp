@@ -7,7 +7,7 @@
 namespace farlod {
 
 enum class FarMapKind : std::uint8_t {
-  horizon,  ///< obstacles by name and bounds for the rest: without parallax
+  horizon,  ///< occluders by name and bounds for the rest: without parallax
   box       ///< the paper's: a picture on the walls of a box, looked up by direction alone
 };
 
@@ -23,11 +23,11 @@ struct HorizonMapSettings {
   std::uint32_t azimuth_bins = 256;
   std::uint32_t squares_per_edge = 1;  ///< 1 to 4
   std::uint32_t layers = 8;            ///< 2 to package::most_layers
-  /// An obstacle is named where it may rise higher than this (sine of the elevation) over what surely or likely hides the sky.
+  /// An occluder is explicit where it may rise higher than this (sine of the elevation) over what surely or likely hides the sky.
   double tolerance = 0.05;
-  /// An obstacle that rises less than this share of the tolerance over what all viewpoints see is not looked at for what is
+  /// An occluder that rises less than this share of the tolerance over what all viewpoints see is not looked at for what is
   /// likely.
-  double faintest = 0.6;
+  double weakest = 0.6;
 };
 
 struct FarMapSettings {

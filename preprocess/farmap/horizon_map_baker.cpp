@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "farlod/expects.hpp"
-#include "farmap/block_obstacles.hpp"
-#include "farmap/look_around.hpp"
-#include "farmap/obstacle_judge.hpp"
+#include "farmap/block_occluders.hpp"
+#include "farmap/occlusion_culler.hpp"
+#include "farmap/occluder_classifier.hpp"
 
 namespace farlod {
 namespace {
@@ -41,14 +41,14 @@ std::vector<float> levels_of(const Tile& tile, const std::vector<Surface>& surfa
 }
 
 /// A map that names nothing, above what was hidden at first sight. That holds from all over the cell: for each square alike.
-BakedHorizon empty_map(const ReceiverPatches& patches, const Surroundings& around) {
+BakedHorizon empty_map(const ReceiverPatches& patches, const CullResult& around) {
   const std::size_t bins = around.hidden.size() / patches.layers();
   BakedHorizon map{patches, {}, std::vector<float>(patches.count() * bins, 0.0F), {}, {}, {}};
-  map.likely = map.lower;
+  map.estimate = map.low;
   for (std::uint32_t patch = 0; patch < patches.count(); ++patch) {
     const auto begin = static_cast<std::ptrdiff_t>(patch / patches.squares() * bins);
     const auto end = begin + static_cast<std::ptrdiff_t>(bins);
-    map.upper.insert(map.upper.end(), around.hidden.begin() + begin, around.hidden.begin() + end);
+    map.high.insert(map.high.end(), around.hidden.begin() + begin, around.hidden.begin() + end);
     map.overhang.insert(map.overhang.end(), around.overhang.begin() + begin, around.overhang.begin() + end);
   }
   return map;
@@ -57,14 +57,14 @@ BakedHorizon empty_map(const ReceiverPatches& patches, const Surroundings& aroun
 /// What the viewpoints at the corners of a patch's floor see on average.
 void estimate(const ViewpointHorizons& views, BakedHorizon& map) {
   const std::uint32_t n = map.patches.squares_per_edge();
-  const auto bins = static_cast<std::uint32_t>(map.likely.size() / map.patches.count());
+  const auto bins = static_cast<std::uint32_t>(map.estimate.size() / map.patches.count());
   for (std::uint32_t patch = 0; patch < map.patches.count(); ++patch) {
     const std::uint32_t square = patch % map.patches.squares(), layer = patch / map.patches.squares();
     for (std::uint32_t bin = 0; bin < bins; ++bin) {
       float sum = 0.0F;
       for (std::uint32_t corner = 0; corner < 4; ++corner)
         sum += views.slope(square % n + (corner & 1U), square / n + (corner >> 1U), layer, bin);
-      map.likely[patch * bins + bin] = 0.25F * sum;
+      map.estimate[patch * bins + bin] = 0.25F * sum;
     }
   }
 }
@@ -73,7 +73,7 @@ void estimate(const ViewpointHorizons& views, BakedHorizon& map) {
 
 HorizonMapBaker::HorizonMapBaker(const TileSet& tiles, const Grid& grid, const HorizonMapSettings& settings)
     : tiles_(tiles), grid_(grid), settings_(settings), city_(tiles, grid), borders_({settings.azimuth_bins}) {
-  // Squares and layers must fit the bits of package::NamedObstacle; the street and the roofs are two layers
+  // Squares and layers must fit the bits of package::ExplicitOccluder; the street and the roofs are two layers
   FARLOD_EXPECTS(settings.squares_per_edge >= 1 && settings.squares_per_edge <= 4 && settings.layers >= 2 &&
                  settings.layers <= package::most_layers);
 }
@@ -88,13 +88,13 @@ BakedHorizons HorizonMapBaker::bake(Block block) const {
 BakedHorizons HorizonMapBaker::bake(std::span<const Cell> cells) const {
   std::vector<std::optional<BakedHorizon>> baked(cells.size());
   oneapi::tbb::parallel_for(std::size_t{0}, baked.size(), [&](std::size_t n) { baked[n] = bake_cell(cells[n]); });
-  BlockObstacles obstacles(city_, city_.corner_of(cells.front()));
+  BlockOccluders occluders(city_, city_.corner_of(cells.front()));
   BakedHorizons result;
   for (std::optional<BakedHorizon>& cell : baked) {
-    obstacles.renumber(cell->named_edges);
+    occluders.renumber(cell->explicit_edges);
     result.cells.push_back(std::move(*cell));
   }
-  result.edges = std::move(obstacles.edges);
+  result.edges = std::move(occluders.edges);
   return result;
 }
 
@@ -104,20 +104,20 @@ BakedHorizon HorizonMapBaker::bake_cell(Cell cell) const {
       grid_.neighborhood_of(cell),
       {{0.0, 0.0}, {grid_.cell_edge_m, grid_.cell_edge_m}},
       {grid_.cell_edge_m, settings_.squares_per_edge, levels_of(tiles_.tile(cell), tiles_.surfaces, settings_.layers)}};
-  const Surroundings around = LookAround(city_, place, borders_, settings_).run();
+  const CullResult around = OcclusionCuller(city_, place, borders_, settings_).run();
   BakedHorizon map = empty_map(place.patches, around);
-  ObstacleJudge judge(city_, place, around.views, borders_, settings_.tolerance, map);
-  ViewpointHorizons unnamed(grid_.cell_edge_m, place.patches, borders_);
-  const auto leave_unnamed = [&](std::uint32_t number, std::uint32_t levels) {
-    const Obstacle obstacle = city_.obstacles()[number].from(place.corner);
-    if (obstacle.is_upper()) unnamed.add(obstacle.a, obstacle.b, levels);
+  OccluderClassifier judge(city_, place, around.views, borders_, settings_.tolerance, map);
+  ViewpointHorizons residual(grid_.cell_edge_m, place.patches, borders_);
+  const auto add_to_residual = [&](std::uint32_t number, std::uint32_t levels) {
+    const OccluderEdge occluder = city_.occluders()[number].from(place.corner);
+    if (occluder.is_upper()) residual.add(occluder.a, occluder.b, levels);
   };
-  for (const std::uint32_t number : around.candidates) leave_unnamed(number, ~judge.judge(number));
-  for (const std::uint32_t number : around.faint) leave_unnamed(number, ViewpointHorizons::all_levels);
+  for (const std::uint32_t number : around.candidates) add_to_residual(number, ~judge.judge(number));
+  for (const std::uint32_t number : around.weak) add_to_residual(number, ViewpointHorizons::all_levels);
   // A thing may be at least as high as another is at the most: both are rounded
-  for (std::size_t n = 0; n < map.lower.size(); ++n) map.lower[n] = std::min(map.lower[n], map.upper[n]);
+  for (std::size_t n = 0; n < map.low.size(); ++n) map.low[n] = std::min(map.low[n], map.high[n]);
   judge.drop_hidden_overhangs();
-  estimate(unnamed, map);
+  estimate(residual, map);
   return map;
 }
 

@@ -13,7 +13,7 @@
 
 namespace farlod {
 
-/// Bakes far maps without parallax: obstacles that move against each other within a patch are named, so that the runtime can draw
+/// Bakes far maps without parallax: occluders that move against each other within a patch are explicit, so that the runtime can draw
 /// them from where the receiver is; the rest is bounded. docs/stages/farmap.md.
 class HorizonMapBaker {
  public:

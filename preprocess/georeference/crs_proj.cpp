@@ -326,8 +326,8 @@ CrsTransformation::CrsTransformation(const Crs& from, const Crs& to, Point2d typ
       proj_create_crs_to_crs_from_pj(impl->context.get(), from.impl_->shifted.get(), to.impl_->shifted.get(), nullptr, nullptr));
   if (any) {
     (void)proj_trans(any.get(), PJ_FWD, proj_coord(typical.x, typical.y, 0.0, HUGE_VAL));
-    Object settled(proj_trans_get_last_used_operation(any.get()));
-    impl->operation = settled ? std::move(settled) : std::move(any);
+    Object resolved(proj_trans_get_last_used_operation(any.get()));
+    impl->operation = resolved ? std::move(resolved) : std::move(any);
   }
   impl_ = std::move(impl);
 }

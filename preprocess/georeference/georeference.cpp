@@ -16,7 +16,7 @@
 #include "georeference/misplaced_facets.hpp"
 #include "georeference/output_crs.hpp"
 #include "georeference/problem_locator.hpp"
-#include "georeference/settled_source.hpp"
+#include "georeference/resolved_source.hpp"
 
 namespace farlod {
 namespace {
@@ -61,16 +61,16 @@ std::string detail_of(const MisplacedFacets& misplaced) {
   return std::to_string(misplaced.facets.size()) + (misplaced.all_of_it ? " polygons, the whole building" : " of its polygons");
 }
 
-void locate_problems(const SettledSource& settled, Report& report) {
-  ProblemLocator locator(settled.crs, settled.axes, settled.typical);
+void locate_problems(const ResolvedSource& resolved, Report& report) {
+  ProblemLocator locator(resolved.crs, resolved.axes, resolved.typical);
   for (Problem& problem : report.since(0))
-    if (problem.source == settled.source.source) locator.locate(problem);
+    if (problem.source == resolved.source.source) locator.locate(problem);
 }
 
 /// Projects a file's buildings, one by one. What lies nowhere is reported, and no longer finite.
-void project_buildings(SettledSource& settled, const Projection& projection, const Crs& output, Report& report) {
+void project_buildings(ResolvedSource& resolved, const Projection& projection, const Crs& output, Report& report) {
   std::vector<Point3d> before;
-  CityModel& city = settled.source.city;
+  CityModel& city = resolved.source.city;
   for (std::size_t n = 0; n < city.buildings().size(); ++n) {
     const Building& b = city.buildings()[n];
     const std::span<Point3d> points = city.points_of(b);
@@ -80,7 +80,7 @@ void project_buildings(SettledSource& settled, const Projection& projection, con
     if (bad == points.end()) continue;
     const Point3d& given = before[static_cast<std::size_t>(bad - points.begin())];
     report.add(
-        {ProblemCode::outside_of_projection, settled.source.source, b.id, detail_of(given, output), settled.axes.p_file(given)});
+        {ProblemCode::outside_of_projection, resolved.source.source, b.id, detail_of(given, output), resolved.axes.p_file(given)});
     for (Point3d& p : points)
       if (!is_on_a_map(p)) p.x = p.y = std::numeric_limits<double>::infinity();
   }
@@ -91,8 +91,8 @@ std::string detail_of(std::size_t lost, std::size_t all, const Point3d& first, c
 }
 
 /// Projects a file's relief. Points that lie nowhere are left out, and reported together.
-void project_relief(SettledSource& settled, const Projection& projection, const Crs& output, Report& report) {
-  std::vector<Point3d>& points = settled.source.relief_points;
+void project_relief(ResolvedSource& resolved, const Projection& projection, const Crs& output, Report& report) {
+  std::vector<Point3d>& points = resolved.source.relief_points;
   const std::size_t all = points.size();
   std::optional<Point3d> first_lost;
   std::size_t kept = 0;
@@ -106,14 +106,14 @@ void project_relief(SettledSource& settled, const Projection& projection, const 
   }
   points.resize(kept);
   if (first_lost)
-    report.add({ProblemCode::outside_of_projection, settled.source.source, "relief",
-                detail_of(all - kept, all, *first_lost, output), settled.axes.p_file(*first_lost)});
+    report.add({ProblemCode::outside_of_projection, resolved.source.source, "relief",
+                detail_of(all - kept, all, *first_lost, output), resolved.axes.p_file(*first_lost)});
 }
 
-void project(SettledSource& settled, const Crs& output, Report& report) {
-  const Projection projection = make_projection(settled.crs, output, settled.typical);
-  project_buildings(settled, projection, output, report);
-  project_relief(settled, projection, output, report);
+void project(ResolvedSource& resolved, const Crs& output, Report& report) {
+  const Projection projection = make_projection(resolved.crs, output, resolved.typical);
+  project_buildings(resolved, projection, output, report);
+  project_relief(resolved, projection, output, report);
 }
 
 void append(std::vector<Point3d>& points, std::vector<Point3d>&& more) {
@@ -160,14 +160,14 @@ LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSett
   LocatedCity located;
   std::optional<Crs> output;
   for (std::size_t n = 0; n < sources.size(); ++n) {
-    SettledSource settled = settle(std::move(sources[n]), inputs[n], report);
-    if (!output) output = choose_output_crs(settled.crs, settled.typical, settings.out_crs);
-    project(settled, *output, report);
-    locate_problems(settled, report);
-    settled.source.city.set_source(static_cast<std::uint32_t>(located.sources.size()));
-    located.sources.push_back(settled.source.source);
-    located.city.append(std::move(settled.source.city));
-    append(located.relief_points, std::move(settled.source.relief_points));
+    ResolvedSource resolved = resolve(std::move(sources[n]), inputs[n], report);
+    if (!output) output = choose_output_crs(resolved.crs, resolved.typical, settings.out_crs);
+    project(resolved, *output, report);
+    locate_problems(resolved, report);
+    resolved.source.city.set_source(static_cast<std::uint32_t>(located.sources.size()));
+    located.sources.push_back(resolved.source.source);
+    located.city.append(std::move(resolved.source.city));
+    append(located.relief_points, std::move(resolved.source.relief_points));
   }
   if (output) leave_out_misplaced(located, *output, report);
   if (located.city.points().empty() && located.relief_points.empty())

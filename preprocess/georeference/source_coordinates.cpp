@@ -59,7 +59,7 @@ TypicalPlace typical_of_buildings(const CityModel& city) {
       {median(std::move(x)), median(std::move(y)), median(std::move(z))}, median(std::move(extent)), median(std::move(grain))};
 }
 
-/// Triangles and rows of a relief are written one after the other, so that most of its points follow a neighbour.
+/// Triangles and rows of a relief are written one after the other, so that most of its points follow a neighbor.
 TypicalPlace typical_of_relief(std::span<const Point3d> points) {
   constexpr std::size_t enough = 10'000;
   const std::size_t stride = std::max<std::size_t>(points.size() / enough, 1);

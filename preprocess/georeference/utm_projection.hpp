@@ -24,7 +24,7 @@ struct UtmZone {
 [[nodiscard]] UtmZone utm_zone_of(Point2d lon_lat_deg);
 
 /// UTM on the ellipsoid of one's own datum, so that no datum is shifted on the way.
-///   (1) accurate to nanometres within the zone and its neighbours (Karney 2011, series of order 6)
+///   (1) accurate to nanometres within the zone and its neighbors (Karney 2011, series of order 6)
 ///   (2) a point without a place, or more than 500 km from the zone's meridian, where UTM ends, has no projection
 class UtmProjection {
  public:

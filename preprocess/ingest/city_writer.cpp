@@ -34,7 +34,7 @@ std::string counted(std::size_t n, const char* thing) { return std::to_string(n)
 
 }  // namespace
 
-void CityWriter::begin_building(std::string id, Footing footing) {
+void CityWriter::begin_building(std::string id, HeightReference footing) {
   id_ = std::move(id);
   ++buildings_met_;
   next_surface_ = 0;

@@ -30,7 +30,7 @@ class CityWriter {
  public:
   CityWriter(std::string source, Report& report) : source_(std::move(source)), report_(report) {}
 
-  void begin_building(std::string id, Footing footing = Footing::elevation);
+  void begin_building(std::string id, HeightReference footing = HeightReference::elevation);
   /// Cleans the rings in place, and adds the polygon unless its outer ring is unusable or the building's part has the same
   /// polygon already; unusable holes are filled.
   void add_polygon(Rings& rings, RingEnd end, const PolygonTraits& traits);

@@ -51,14 +51,14 @@ half rounded_down(float slope) {
 }
 
 Picture picture_of(const BakedHorizon& map, std::uint32_t, std::uint32_t) {
-  std::vector<half> lower, likely, upper, overhang;
-  for (const float slope : map.lower) lower.push_back(rounded_down(slope));
-  for (const float slope : map.upper) upper.push_back(rounded_up(slope));
-  for (const float slope : map.likely) likely.emplace_back(slope);
+  std::vector<half> low, estimate, high, overhang;
+  for (const float slope : map.low) low.push_back(rounded_down(slope));
+  for (const float slope : map.high) high.push_back(rounded_up(slope));
+  for (const float slope : map.estimate) estimate.emplace_back(slope);
   for (const float slope : map.overhang) overhang.push_back(rounded_up(slope));
-  return {{package::lower_channel, std::move(lower)},
-          {package::likely_channel, std::move(likely)},
-          {package::upper_channel, std::move(upper)},
+  return {{package::low_channel, std::move(low)},
+          {package::estimate_channel, std::move(estimate)},
+          {package::high_channel, std::move(high)},
           {package::overhang_channel, std::move(overhang)}};
 }
 

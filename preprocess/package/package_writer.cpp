@@ -34,7 +34,7 @@ std::uint64_t named_bytes(const BakedBlock& maps) {
   if (horizons == nullptr) return 0;
   std::uint64_t bytes = horizons->edges.size() * sizeof(HorizonEdge);
   for (const BakedHorizon& cell : horizons->cells)
-    bytes += sizeof(package::FarCellRecord) + cell.named_edges.size() * sizeof(package::NamedObstacle);
+    bytes += sizeof(package::FarCellRecord) + cell.explicit_edges.size() * sizeof(package::ExplicitOccluder);
   return bytes;
 }
 

@@ -35,7 +35,7 @@ class SharedVertices {
   static Bits bits_of(const Point3f& p) { return std::bit_cast<Bits>(p); }
   struct Hash {
     std::size_t operator()(const Bits& bits) const {
-      // The multiplier of splitmix64 (Steele et al. 2014), so that the few bits in which neighbours differ reach all others
+      // The multiplier of splitmix64 (Steele et al. 2014), so that the few bits in which neighbors differ reach all others
       std::uint64_t sum = 0;
       for (const std::uint32_t part : bits) {
         sum = (sum ^ part) * 0xBF58476D1CE4E5B9U;

@@ -29,14 +29,14 @@ class UnmetEdges {
   }
 
   /// The rises along the side, if it is an edge; the first one, if it is several.
-  std::optional<EdgeRises> meet(std::uint32_t from, std::uint32_t to) {
+  std::optional<AdjacentSlopes> meet(std::uint32_t from, std::uint32_t to) {
     const auto found = by_ends_.lower_bound(ends_of(from, to));
     if (found == by_ends_.end() || found->first != ends_of(from, to)) return std::nullopt;
     const auto [n, edge_from] = found->second;
     by_ends_.erase(found);
     is_met_[n] = true;
-    const EdgeRises rises = edges_[n].rises;
-    return edge_from == from ? rises : EdgeRises{rises.right, rises.left};
+    const AdjacentSlopes adjacent = edges_[n].adjacent;
+    return edge_from == from ? adjacent : AdjacentSlopes{adjacent.right, adjacent.left};
   }
 
   [[nodiscard]] std::vector<HorizonEdge> rest() const {
@@ -64,14 +64,14 @@ SideEdges side_edges(std::span<const HorizonEdge> edges, std::span<const Triangl
   std::size_t passed = 0;
   for (const Triangle& t : triangles)
     for (const auto& [from, to] : {std::pair(t.a, t.b), std::pair(t.b, t.c), std::pair(t.c, t.a)}) {
-      const std::optional<EdgeRises> rises = unmet.meet(from, to);
-      if (!rises) {
+      const std::optional<AdjacentSlopes> adjacent = unmet.meet(from, to);
+      if (!adjacent) {
         ++passed;
         continue;
       }
       for (; passed >= TileEdge::only_passes; passed -= TileEdge::only_passes)
-        result.sides.push_back({TileEdge::only_passes, EdgeRises{0, 0}});
-      result.sides.push_back({static_cast<std::uint8_t>(passed), *rises});
+        result.sides.push_back({TileEdge::only_passes, AdjacentSlopes{0, 0}});
+      result.sides.push_back({static_cast<std::uint8_t>(passed), *adjacent});
       passed = 0;
     }
   result.loose = unmet.rest();

@@ -53,19 +53,19 @@ class BlockSections {
 
   void add_map(const BakedHorizon& map) {
     FarCellRecord record{};
-    record.first_named_edge = named_edges.size();
-    record.named_edge_count = static_cast<std::uint32_t>(map.named_edges.size());
+    record.first_explicit_edge = explicit_edges.size();
+    record.explicit_edge_count = static_cast<std::uint32_t>(map.explicit_edges.size());
     const std::vector<float>& levels_m = map.patches.levels_m();
     FARLOD_EXPECTS(levels_m.size() <= record.levels_m.size());
     for (std::size_t l = 0; l < record.levels_m.size(); ++l) record.levels_m[l] = levels_m[std::min(l, levels_m.size() - 1)];
     far_cells.push_back(record);
-    named_edges.insert(named_edges.end(), map.named_edges.begin(), map.named_edges.end());
+    explicit_edges.insert(explicit_edges.end(), map.explicit_edges.begin(), map.explicit_edges.end());
   }
 
   std::vector<CellRecord> cells;
   std::vector<FarCellRecord> far_cells;
   std::vector<HorizonEdge> far_edges;
-  std::vector<NamedObstacle> named_edges;
+  std::vector<ExplicitOccluder> explicit_edges;
   std::vector<Point3f> vertices;
   std::vector<Triangle> triangles;
   std::vector<SurfaceRun> surface_runs;
@@ -115,9 +115,9 @@ class BlockSections {
     record.part = s.part;
     record.kind = s.kind;
     record.grounded = s.grounded ? 1 : 0;
-    const StoredDirection normal = StoredDirection::nearest_to(s.normal);
-    record.normal_u = normal.u & StoredDirection::largest;
-    record.normal_v = normal.v & StoredDirection::largest;
+    const OctNormal normal = OctNormal::nearest_to(s.normal);
+    record.normal_u = normal.u & OctNormal::largest;
+    record.normal_v = normal.v & OctNormal::largest;
     return record;
   }
   std::uint32_t row_of_building(std::uint32_t number) {
@@ -199,7 +199,7 @@ std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, 
   file.add(SectionKind::text, sections.text);
   file.add(SectionKind::far_cells, sections.far_cells);
   file.add(SectionKind::far_edges, sections.far_edges);
-  file.add(SectionKind::named_edges, sections.named_edges);
+  file.add(SectionKind::explicit_edges, sections.explicit_edges);
   file.add(SectionKind::tile_edges, sections.tile_edges);
   file.add(SectionKind::loose_edges, sections.loose_edges);
   return file.finish();

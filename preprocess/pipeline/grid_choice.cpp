@@ -8,18 +8,18 @@
 namespace farlod {
 namespace {
 
-/// What a map of 2 m costs for each of its receivers: rays that descend a tree of the near triangles, named obstacles that are
+/// What a map of 2 m costs for each of its receivers: rays that descend a tree of the near triangles, named occluders that are
 /// drawn, and a share of the cell's scene and of its far map. Constants from docs/decisions/0010; only their ratios matter.
-double expected_receiver_us(const FarMapVerdict& verdict, double cell_edge_m) {
+double expected_receiver_us(const FarErrorEstimate& verdict, double cell_edge_m) {
   constexpr double rays = 1000.0, ray_us = 0.02, level_us = 0.002, named_us = 0.02;
   constexpr double bake_us = 10000.0, scene_us = 400.0, build_us = 0.3, grid_step_m = 2.0;
   const double triangles = std::max(2.0, verdict.near_triangles_per_cell);
   const double receivers = std::max(1.0, cell_edge_m * cell_edge_m / (grid_step_m * grid_step_m));
-  return rays * (ray_us + level_us * std::log2(triangles)) + named_us * verdict.named_per_cell +
+  return rays * (ray_us + level_us * std::log2(triangles)) + named_us * verdict.explicit_per_cell +
          (bake_us + scene_us + build_us * triangles) / receivers;
 }
 
-bool keeps(const FarMapVerdict& verdict, double max_far_error) {
+bool keeps(const FarErrorEstimate& verdict, double max_far_error) {
   return verdict.receivers > 0 && verdict.max_error <= max_far_error && verdict.p99_doubt <= max_far_error;
 }
 
@@ -45,7 +45,7 @@ class GridChooser {
     for (const double tolerance : settings_.tolerances) {
       HorizonMapSettings far_map = far_map_;
       far_map.tolerance = tolerance;
-      GridChoice choice{grid.cell_edge_m, grid.neighborhood, tolerance, judge_far_maps(tiles, grid, far_map, settings_.judge),
+      GridChoice choice{grid.cell_edge_m, grid.neighborhood, tolerance, estimate_far_error(tiles, grid, far_map, settings_.judge),
                         0.0};
       choice.receiver_us = expected_receiver_us(choice.verdict, grid.cell_edge_m);
       if (!keeps(choice.verdict, settings_.max_far_error)) continue;

@@ -10,18 +10,18 @@
 #include "align/align.hpp"
 #include "city/located_city.hpp"
 #include "city/terrain_raster.hpp"
-#include "farmap/far_map_judge.hpp"
+#include "farmap/far_error_estimate.hpp"
 #include "farmap/far_map_settings.hpp"
 #include "tiles/tiles.hpp"
 
 namespace farlod {
 
-/// A cell size, a neighbourhood and how finely its far maps name obstacles; what that was found to do, and what a receiver costs.
+/// A cell size, a neighborhood and how finely its far maps name occluders; what that was found to do, and what a receiver costs.
 struct GridChoice {
   double cell_edge_m = 0.0;
   int neighborhood = 0;
   double tolerance = 0.0;
-  FarMapVerdict verdict;
+  FarErrorEstimate verdict;
   double receiver_us =
       0.0;  ///< expected, packing included, at 1,000 rays on a 2 m grid: to compare choices with, not to plan a run by
 };
@@ -32,7 +32,7 @@ struct ChoiceSettings {
   std::vector<double> cell_edges_m{25.0, 50.0, 100.0, 200.0};
   std::vector<int> neighborhoods{1, 3, 5};
   std::vector<double> tolerances{0.1, 0.05, 0.02, 0.01};  ///< descending
-  JudgeSettings judge;
+  FarErrorSettings judge;
 };
 
 /// Lays a grid with these cells over the city; the ground that belongs to it.

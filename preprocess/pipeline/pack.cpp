@@ -63,13 +63,13 @@ bool overlap(const Box2d& a, const Box2d& b) {
 
 /// What becomes of it depends on what else there is: a raster that was asked for stands in for reliefs, and a relief of another
 /// place says nothing about this one.
-void settle_relief(LocatedCity& located, bool has_terrain, PassedOver& passed_over) {
+void resolve_relief(LocatedCity& located, bool has_terrain, SkippedFeatures& skipped) {
   if (located.relief_points.empty()) return;
   const bool is_elsewhere = !located.city.buildings().empty() &&
                             !overlap(outline_of(located.relief_points), outline_of(std::as_const(located.city).points()));
   if (!has_terrain && !is_elsewhere) return;
   const char* reason = has_terrain ? " (the raster stands in for them)" : " (none lies where the city is)";
-  passed_over[std::string("points of reliefs") + reason] += located.relief_points.size();
+  skipped[std::string("points of reliefs") + reason] += located.relief_points.size();
   located.relief_points.clear();
 }
 
@@ -124,9 +124,9 @@ class Packing {
     // An archive is one input, however many of its files are read
     settings_.inputs.erase(std::unique(settings_.inputs.begin(), settings_.inputs.end()), settings_.inputs.end());
     std::vector<SourceCity> sources = ingest_all(found.files, settings_.ingest, report_);
-    result_.passed_over = std::move(found.passed_over);
+    result_.skipped = std::move(found.skipped);
     for (SourceCity& source : sources) {
-      for (const auto& [what, count] : source.passed_over) result_.passed_over[what] += count;
+      for (const auto& [what, count] : source.skipped) result_.skipped[what] += count;
       std::move(source.notes.begin(), source.notes.end(), std::back_inserter(result_.notes));
     }
     return sources;
@@ -155,14 +155,14 @@ class Packing {
         timed("georeference", [&] { return georeference(std::move(sources), settings_.georeference, report_); });
     if (located.city.buildings().empty() && located.relief_points.empty())
       throw InputError("No building is left to pack: see --report for what was wrong with each of them.");
-    settle_relief(located, settings_.terrain.has_value(), result_.passed_over);
+    resolve_relief(located, settings_.terrain.has_value(), result_.skipped);
     require_ground_below_roofs(located);
     return located;
   }
 
   void require_ground_below_roofs(const LocatedCity& located) const {
     const auto buildings = located.city.buildings();
-    const auto lacks_foot = [](const Building& b) { return b.footing == Footing::down_to_ground; };
+    const auto lacks_foot = [](const Building& b) { return b.footing == HeightReference::down_to_ground; };
     if (settings_.terrain || !located.relief_points.empty() || std::none_of(buildings.begin(), buildings.end(), lacks_foot))
       return;
     throw InputError(
@@ -241,11 +241,11 @@ class Packing {
     throw ProblemsRefused("the city has " + std::to_string(count) + (count == 1 ? " problem" : " problems"));
   }
 
-  [[nodiscard]] FarMapVerdict measure(const TileSet& tiles, const Grid& grid) const {
-    JudgeSettings others = settings_.choice->judge;
+  [[nodiscard]] FarErrorEstimate measure(const TileSet& tiles, const Grid& grid) const {
+    FarErrorSettings others = settings_.choice->judge;
     others.seed += 1;
     others.cells *= 2;
-    return judge_far_maps(tiles, grid, settings_.far_map.horizon, others);
+    return estimate_far_error(tiles, grid, settings_.far_map.horizon, others);
   }
 
   void describe_place(const LocatedCity& located, const Grid& grid) {

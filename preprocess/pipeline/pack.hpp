@@ -44,7 +44,7 @@ struct PackSettings {
   Assign assign = Assign::clip;
   FarMapSettings far_map;
   ProblemPolicy problems = ProblemPolicy::pack;
-  /// Choose the cells, the neighbourhood and the far maps' tolerance such that an error is kept, instead of taking them from
+  /// Choose the cells, the neighborhood and the far maps' tolerance such that an error is kept, instead of taking them from
   /// `grid` and `far_map`.
   std::optional<ChoiceSettings> choice;
   /// End the run before the long work when it is expected to need more.
@@ -54,7 +54,7 @@ struct PackSettings {
 /// What was chosen to keep an error, and what it was then measured to do with receivers that did not take part in the choice.
 struct ChosenGrid {
   std::optional<GridChoice> best;  ///< none: nothing keeps the error, and the settings were taken as they are
-  FarMapVerdict measured;
+  FarErrorEstimate measured;
 };
 
 /// What came of it.
@@ -64,7 +64,7 @@ struct PackResult {
   std::optional<ChosenGrid> chosen;
   std::uint64_t facets = 0;        ///< polygons as the files have them: a surface of a mesh is made of several triangles
   std::uint64_t foundations = 0;   ///< buildings whose lowest floor was closed down to the ground
-  PassedOver passed_over;          ///< what the files hold that is not used
+  SkippedFeatures skipped;          ///< what the files hold that is not used
   std::vector<std::string> notes;  ///< for the user: what was taken from beside the inputs, or guessed
   std::uint64_t package_bytes = 0, far_map_bytes = 0;
   PackEstimate estimate;  ///< made when the grid was laid

@@ -26,7 +26,7 @@ class MemoryLimitError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Expects memory and package within a factor of two, for cities whose buildings stand (Surface::stands): those of open shells
+/// Expects memory and package within a factor of two, for cities whose buildings stand (Surface::is_grounded): those of open shells
 /// have larger far maps. `ground_points`: nodes of a terrain or points of a relief; 0 when buildings stand on their own. Time is
 /// that of a machine like that of docs/performance.md with nothing else to do.
 [[nodiscard]] PackEstimate estimate_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map,

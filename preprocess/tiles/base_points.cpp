@@ -34,15 +34,15 @@ double distance_m(const Box2d& a, const Box2d& b) {
 }
 
 /// Buildings by the squares of a coarse net that their outlines touch.
-class Neighbours {
+class Neighbors {
  public:
-  explicit Neighbours(const std::vector<Footprint>& bases) : bases_(bases) {
+  explicit Neighbors(const std::vector<Footprint>& bases) : bases_(bases) {
     for (std::uint32_t n = 0; n < bases.size(); ++n)
       if (!bases[n].outline.empty())
         for_each_square(bases[n].outline, 0.0, [&](std::uint64_t square) { squares_[square].push_back(n); });
   }
 
-  /// Whether more neighbours, and two at least, are higher than a slope explains than are on its level. Those across a wide
+  /// Whether more neighbors, and two at least, are higher than a slope explains than are on its level. Those across a wide
   /// street may be neither.
   [[nodiscard]] bool is_below_ground(std::uint32_t number) const {
     const Footprint& here = bases_[number];
@@ -55,7 +55,7 @@ class Neighbours {
     return higher >= 2 && higher > alike;
   }
 
-  /// Whether neighbours are so much lower that it must be a bridge. `bases` tells which of them are known to be wrong.
+  /// Whether neighbors are so much lower that it must be a bridge. `bases` tells which of them are known to be wrong.
   [[nodiscard]] bool is_above_ground(std::uint32_t number, std::span<const Base> bases) const {
     const Footprint& here = bases_[number];
     std::vector<Point2d> lower;  // directions to those that are lower by a clearance
@@ -92,7 +92,7 @@ class Neighbours {
     return false;
   }
 
-  /// Each neighbour once.
+  /// Each neighbor once.
   template <class Visit>
   void visit_near(std::uint32_t number, const Visit& visit) const {
     std::vector<std::uint32_t> near;
@@ -126,12 +126,12 @@ std::vector<Base> bases_of(const CityModel& city) {
   std::vector<Footprint> footprints;
   footprints.reserve(city.buildings().size());
   for (const Building& b : city.buildings()) footprints.push_back(footprint_of(city.points_of(b)));
-  const Neighbours neighbours(footprints);
+  const Neighbors neighbors(footprints);
   std::vector<Base> result(footprints.size(), Base::on_ground);
   for (std::uint32_t n = 0; n < footprints.size(); ++n)
-    if (!footprints[n].outline.empty() && neighbours.is_below_ground(n)) result[n] = Base::below_ground;
+    if (!footprints[n].outline.empty() && neighbors.is_below_ground(n)) result[n] = Base::below_ground;
   for (std::uint32_t n = 0; n < footprints.size(); ++n)
-    if (!footprints[n].outline.empty() && result[n] == Base::on_ground && neighbours.is_above_ground(n, result))
+    if (!footprints[n].outline.empty() && result[n] == Base::on_ground && neighbors.is_above_ground(n, result))
       result[n] = Base::above_ground;
   return result;
 }

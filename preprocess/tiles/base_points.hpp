@@ -18,12 +18,12 @@ enum class Base : std::uint8_t {
   below_ground   ///< its base is lower than the ground can be: an error in the file
 };
 
-/// What the base of each building is, told by its neighbours (docs/decisions/0004): the slope filter of Vosselman (2000), used
+/// What the base of each building is, told by its neighbors (docs/decisions/0004): the slope filter of Vosselman (2000), used
 /// there to tell ground from objects in laser scans, for a ground that climbs by `steepest_ground` at the most.
-///   (1) a bridge has neighbours on opposite sides whose bases are lower by `least_clearance_m`, or one that is lower than any
+///   (1) a bridge has neighbors on opposite sides whose bases are lower by `least_clearance_m`, or one that is lower than any
 ///   slope
 ///       between them explains
-///   (2) below the ground is a base when more of its neighbours, and two at least, are higher than any slope explains than are on
+///   (2) below the ground is a base when more of its neighbors, and two at least, are higher than any slope explains than are on
 ///       its level, as far as a gentle slope goes
 [[nodiscard]] std::vector<Base> bases_of(const CityModel& city);
 

@@ -131,7 +131,7 @@ HorizonEdge part_of(const HorizonEdge& edge, double from, double to) {
                    static_cast<float>(std::lerp(double{edge.a.y}, double{edge.b.y}, share)),
                    static_cast<float>(std::lerp(double{edge.a.z}, double{edge.b.z}, share))};
   };
-  return {at(from), at(to), edge.rises, edge.role};
+  return {at(from), at(to), edge.adjacent, edge.role};
 }
 
 }  // namespace

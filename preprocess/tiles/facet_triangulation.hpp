@@ -17,7 +17,7 @@ struct Triangulation {
   bool rings_cross = false;  ///< the rings touch or cross each other; what lies inside was decided by even and odd
 };
 
-/// Area vector of closed rings (Newell): half the sum of the cross products of neighbouring points, taken from the first point so
+/// Area vector of closed rings (Newell): half the sum of the cross products of neighboring points, taken from the first point so
 /// that large coordinates do not cancel. The first ring counts as drawn; each other ring counts as a hole.
 [[nodiscard]] Point3d area_vector(std::span<const std::span<const Point3d>> rings);
 

@@ -107,7 +107,7 @@ std::vector<HorizonSegment> Ground::horizon_edges() const {
       EdgeSides edge(a, b);
       edge.add(from_cgal(face->vertex(opposite)->point()), FacetLook::up);
       if (has_two_faces) edge.add(from_cgal(mirrored.first->vertex(mirrored.second)->point()), FacetLook::up);
-      if (edge.can_be_horizon()) result.push_back({edge.edge(), edge.rises()});
+      if (edge.can_be_horizon()) result.push_back({edge.edge(), edge.adjacent()});
     }
   return result;
 }

@@ -69,9 +69,9 @@ void EdgeSides::add_sides_of(const EdgeSides& other) {
   triangle_count_ += other.triangle_count_;
 }
 
-EdgeRises EdgeSides::lowest_rises() const {
+AdjacentSlopes EdgeSides::lowest_adjacent_slopes() const {
   constexpr double give_rad = 4.0 * slight_bend_rad;
-  return {EdgeRises::rounded_up(left_low_rad_ + give_rad), EdgeRises::rounded_up(right_low_rad_ + give_rad)};
+  return {AdjacentSlopes::rounded_up(left_low_rad_ + give_rad), AdjacentSlopes::rounded_up(right_low_rad_ + give_rad)};
 }
 
 bool EdgeSides::can_be_underside() const {
@@ -113,14 +113,14 @@ void EdgeTable::add_triangle(const Point3d& corner_a, const Point3d& corner_b, c
 std::vector<HorizonSegment> EdgeTable::horizon_edges() const {
   std::vector<HorizonSegment> result;
   for (const EdgeSides& e : edges_)
-    if (e.can_be_horizon()) result.push_back({e.edge(), e.rises()});
+    if (e.can_be_horizon()) result.push_back({e.edge(), e.adjacent()});
   return result;
 }
 
 CellEdge whole_edge(const HorizonSegment& edge, Cell cell, const Grid& grid, double height_origin_m) {
   return {cell,
           {cell_from_grid(edge.segment.a, cell, grid, height_origin_m),
-           cell_from_grid(edge.segment.b, cell, grid, height_origin_m), edge.rises, edge.role}};
+           cell_from_grid(edge.segment.b, cell, grid, height_origin_m), edge.adjacent, edge.role}};
 }
 
 std::vector<CellEdge> cut_edge(const HorizonSegment& horizon, const Grid& grid, double height_origin_m) {
@@ -135,7 +135,7 @@ std::vector<CellEdge> cut_edge(const HorizonSegment& horizon, const Grid& grid, 
   std::vector<CellEdge> pieces;
   for (std::size_t n = 1; n < places.size(); ++n) {
     const Cell owner = grid.cell_of(horizontal(point_at(edge, 0.5 * (places[n - 1] + places[n]))));
-    pieces.push_back(whole_edge({{point_at(edge, places[n - 1]), point_at(edge, places[n])}, horizon.rises, horizon.role}, owner,
+    pieces.push_back(whole_edge({{point_at(edge, places[n - 1]), point_at(edge, places[n])}, horizon.adjacent, horizon.role}, owner,
                                 grid, height_origin_m));
   }
   return pieces;

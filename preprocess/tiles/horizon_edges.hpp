@@ -23,7 +23,7 @@ struct Segment3d {
 /// A segment that can be a silhouette, and the facets beside it.
 struct HorizonSegment {
   Segment3d segment;
-  EdgeRises rises;
+  AdjacentSlopes adjacent;
   EdgeRole role = EdgeRole::grounded;
   bool operator==(const HorizonSegment&) const = default;
 };
@@ -54,11 +54,11 @@ class EdgeSides {
   void add(const Point3d& opposite, FacetLook look);
   [[nodiscard]] const Segment3d& edge() const { return edge_; }
   [[nodiscard]] std::uint32_t triangle_count() const { return triangle_count_; }
-  [[nodiscard]] EdgeRises rises() const { return {EdgeRises::rounded_down(left_rad_), EdgeRises::rounded_down(right_rad_)}; }
+  [[nodiscard]] AdjacentSlopes adjacent() const { return {AdjacentSlopes::rounded_down(left_rad_), AdjacentSlopes::rounded_down(right_rad_)}; }
   /// False: whatever eye looks past the edge sees one of its triangles at least as high as the edge.
   [[nodiscard]] bool can_be_horizon() const;
   /// As HorizonEdge::rises of a lower border.
-  [[nodiscard]] EdgeRises lowest_rises() const;
+  [[nodiscard]] AdjacentSlopes lowest_adjacent_slopes() const;
   /// Facets that look up bend upwards here, as in a valley between roofs. In a closed building nobody sees that from below.
   [[nodiscard]] bool is_valley() const;
   /// False: whatever eye looks past the edge from below sees one of its triangles reach at least as low.

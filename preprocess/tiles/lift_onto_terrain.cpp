@@ -54,10 +54,10 @@ void lift_onto_terrain(LocatedCity& located, const GroundHeight& ground_height, 
   CityModel& city = located.city;
   std::vector<bool> is_lost(city.facets().size(), false);
   for (const Building& b : city.buildings()) {
-    if (b.footing == Footing::elevation || b.facet_count == 0) continue;
+    if (b.footing == HeightReference::elevation || b.facet_count == 0) continue;
     const std::span<Point3d> points = city.points_of(b);
     const std::optional<double> ground_m = lowest_ground_m(points, ground_height);
-    if (b.footing == Footing::on_ground) {
+    if (b.footing == HeightReference::on_ground) {
       for (Point3d& p : points) p.z += ground_m.value_or(0.0);
     } else if (auto refusal = reach_down(points, ground_m)) {
       report.add(problem_of(located, b, std::move(*refusal), points.front()));

@@ -14,7 +14,7 @@ struct Corner {
   std::size_t number = 0;
 };
 
-/// How far a ring runs there and back at `tip`, between its neighbours; 0 where it does not.
+/// How far a ring runs there and back at `tip`, between its neighbors; 0 where it does not.
 double length_of_spike_m(const Point3d& before, const Point3d& tip, const Point3d& after) {
   const Point3d there = before - tip, back = after - tip;
   if (dot(there, back) <= 0.0) return 0.0;  // nearly all corners of buildings
@@ -30,7 +30,7 @@ class Despiking {
   }
 
   DespikedRing run() {
-    // A tip that is gone may leave its neighbours as the next one: the walk steps back, and ends when all around is clean
+    // A tip that is gone may leave its neighbors as the next one: the walk steps back, and ends when all around is clean
     std::size_t clean = 0;
     for (auto corner = corners_.begin(); corners_.size() >= 3 && clean < corners_.size();) {
       const double length_m = length_of_spike_m(before(corner)->p, corner->p, after(corner)->p);
@@ -41,7 +41,7 @@ class Despiking {
       }
       spikes_.push_back({corner->number, corner->p, length_m});
       corner = remove(corner);
-      // The corner stepped back to has a new neighbour; so has the one ahead, where the walk is all around already
+      // The corner stepped back to has a new neighbor; so has the one ahead, where the walk is all around already
       clean = std::min(clean - std::min<std::size_t>(clean, 1), corners_.size() - 2);
     }
     DespikedRing result{{}, std::move(spikes_)};

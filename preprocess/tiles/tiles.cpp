@@ -235,7 +235,7 @@ class TileCutter {
     const double floor_m = lowest_m + lowest_floor_thickness_m;
     for (const Point3d& p : city_.points_of(building))
       if (p.z <= floor_m) least_gap_m = std::min(least_gap_m, p.z - ground_.height_at(horizontal(p)));
-    // One can walk under it from all sides: a roof without walls, or a bridge that no neighbour tells of
+    // One can walk under it from all sides: a roof without walls, or a bridge that no neighbor tells of
     if (least_gap_m > least_clearance_m) return -std::numeric_limits<double>::infinity();
     const auto is_foot = [floor_m](const HorizonSegment& s) { return std::max(s.segment.a.z, s.segment.b.z) <= floor_m; };
     const auto foot = std::stable_partition(undersides.begin(), undersides.end(), std::not_fn(is_foot));
@@ -325,7 +325,7 @@ class TileCutter {
         CellEdge& edge = building.upper_pieces[piece];
         edge.edge.role = is_grounded ? EdgeRole::grounded : EdgeRole::overhang;
         // Of what is beside it, only the wall is known to be grounded: the roof that rises behind it hides nothing of it here
-        if (is_grounded && walls != nullptr) edge.edge.rises = {};
+        if (is_grounded && walls != nullptr) edge.edge.adjacent = {};
         place(edge);
       }
     }
@@ -347,7 +347,7 @@ class TileCutter {
       for (int from = 0, to = 0; from < steps; from = to + 1) {
         for (to = from; to < steps && (is_above[to] || is_above[to + 1]); ++to) {
         }
-        if (to > from) result.push_back({{point_at(from), point_at(to)}, underside.rises, underside.role});
+        if (to > from) result.push_back({{point_at(from), point_at(to)}, underside.adjacent, underside.role});
       }
     }
     return result;
@@ -385,7 +385,7 @@ TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, con
   lift_onto_terrain(located, ground_height, report);
   CityModel city = std::move(located.city);
   for (Point3d& p : city.points()) p = grid.rotation.grid_from_city(p);  // exactness begins here
-  // Where the ground is known, neighbours need not tell
+  // Where the ground is known, neighbors need not tell
   const std::vector<Base> bases = surveyed ? std::vector(city.buildings().size(), Base::on_ground) : bases_of(city);
   Ground ground = surveyed ? std::move(*surveyed) : Ground(base_points(city, bases), grid.rectangle(), extent);
   return TileCutter(city, located, grid, assign, std::move(ground), bases).run(report);

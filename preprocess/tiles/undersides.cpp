@@ -111,13 +111,13 @@ std::vector<HorizonSegment> undersides(std::span<const EdgeSides> edges) {
     for (const Stretch& s : open_stretches(edge, closing_edges)) {
       if ((s.to - s.from) * length_m <= on_line_m) continue;
       is_open |= edge.triangle_count() == 1;
-      result.push_back({{point_at(edge.edge(), s.from), point_at(edge.edge(), s.to)}, edge.lowest_rises(), EdgeRole::underside});
+      result.push_back({{point_at(edge.edge(), s.from), point_at(edge.edge(), s.to)}, edge.lowest_adjacent_slopes(), EdgeRole::underside});
     }
   }
   // Where a sheet ends, one may look below it at the valleys of a roof
   if (is_open)
     for (const EdgeSides& edge : edges)
-      if (edge.is_valley()) result.push_back({edge.edge(), edge.lowest_rises(), EdgeRole::underside});
+      if (edge.is_valley()) result.push_back({edge.edge(), edge.lowest_adjacent_slopes(), EdgeRole::underside});
   return result;
 }
 

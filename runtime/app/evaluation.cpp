@@ -51,7 +51,7 @@ Figures figures_of(const AnswerTable& answers) {
   return figures;
 }
 
-void tell_figures(const Figures& all, bool bounds, SvfRun& run) {
+void store_figures(const Figures& all, bool bounds, SvfRun& run) {
   run.receivers = all.count;
   if (all.count == 0) return;
   run.svf_min = all.min;
@@ -159,8 +159,8 @@ struct Tally {
 };
 
 /// Threads share the wall clock in proportion to what each part took of them.
-void tell_seconds(double wall_s, const SkyEvaluator::Effort& effort, double take_s, RunSeconds& seconds) {
-  const double busy_s = effort.scenes_s + effort.rays_s + take_s;
+void store_seconds(double wall_s, const SkyEvaluator::Effort& effort, double take_s, RunSeconds& seconds) {
+  const double busy_s = effort.scenes_s + effort.evaluate_s + take_s;
   const double scene_share = busy_s > 0.0 ? effort.scenes_s / busy_s : 0.0;
   const double take_share = busy_s > 0.0 ? take_s / busy_s : 0.0;
   seconds.scenes = wall_s * scene_share;
@@ -195,11 +195,11 @@ void evaluate_cells(const Package& package, const SvfOptions& options, std::size
   const SkyEvaluator evaluator(package, options.sky);
   const auto start = Clock::now();
   const Tally tally = evaluate_and_take(package, options, evaluator, cell_count, receivers_of, take);
-  tell_seconds(seconds_since(start), evaluator.effort(), tally.take_s, run.seconds);
+  store_seconds(seconds_since(start), evaluator.effort(), tally.take_s, run.seconds);
   run.outside_of_grid = tally.outside_of_grid;
   run.by_rays = evaluator.effort().by_rays;
-  run.settled_rays = evaluator.effort().settled_rays;
-  tell_figures(tally.figures, options.bounds, run);
+  run.retraced_rays = evaluator.effort().retraced_rays;
+  store_figures(tally.figures, options.bounds, run);
   if (options.verify_count > 0) run.errors = verify(package, options, evaluator, tally.counts, receivers_of);
 }
 

@@ -60,7 +60,7 @@ struct SvfRun {
   std::optional<double> svf_min, svf_mean, svf_max;
   std::optional<BoundsWidth> bounds;
   std::uint64_t by_rays = 0;       ///< receivers that the engine `auto` answered by rays, since horizons were not enough
-  std::uint64_t settled_rays = 0;  ///< traced against the whole city because the far map was not enough (--max-error)
+  std::uint64_t retraced_rays = 0;  ///< traced against the whole city because the far map was not enough (--max-error)
   std::optional<ErrorSummary> errors;
   std::vector<std::filesystem::path> files;
 };

@@ -75,7 +75,7 @@ void print_run(const SvfRun& run, const SvfOptions& options, double total_s) {
   if (options.max_error)
     fmt::print(
         "Error of {:g} at the most: {} azimuths, {} rays where horizons are not enough, {} rays traced against the whole city\n",
-        *options.max_error, options.sky.azimuths, options.sky.rays, run.settled_rays);
+        *options.max_error, options.sky.azimuths, options.sky.rays, run.retraced_rays);
   if (run.bounds)
     fmt::print("Certain intervals: {:.4f} wide on average, {:.4f} at the most\n", run.bounds->mean, run.bounds->max);
   if (run.errors)

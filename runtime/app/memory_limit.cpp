@@ -17,7 +17,7 @@ constexpr std::uint64_t thread_bytes = 12 * mib;   // scenes of cells, and what 
 constexpr std::uint64_t receiver_bytes = 128;      // a receiver on its way, with its answers
 constexpr std::uint64_t triangle_bytes = 224;      // of the whole city's scene: the triangle, its corners, Embree's tree
 
-/// The cells in flight lie side by side along the curve, and their neighbourhoods touch four blocks at the most: with fewer, each
+/// The cells in flight lie side by side along the curve, and their neighborhoods touch four blocks at the most: with fewer, each
 /// cell would read them anew; more would only lie there, since the curve leaves a block when all of its cells are done.
 std::uint64_t bytes_of_blocks_at_work(const package::Manifest& manifest) {
   constexpr std::uint64_t blocks_at_work = 4;

@@ -116,7 +116,7 @@ void add_other_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   add_run_options(app, "farlod-svf", o.run);
 }
 
-void understand_place(const RawOptions& raw, SvfOptions& o) {
+void resolve_place(const RawOptions& raw, SvfOptions& o) {
   if (!raw.at.empty()) {
     const auto n = numbers_in(raw.at, "--at", "X,Y or X,Y,Z");
     if (n.size() != 2 && n.size() != 3) throw CLI::ValidationError("--at", "give X,Y or X,Y,Z");
@@ -142,7 +142,7 @@ void understand_place(const RawOptions& raw, SvfOptions& o) {
     throw CLI::ValidationError("--bbox", "too many pixels: give a smaller part, or a larger --grid");
 }
 
-void understand_output(const RawOptions& raw, SvfOptions& o) {
+void resolve_output(const RawOptions& raw, SvfOptions& o) {
   o.output = raw.output;
   const auto format = output_format_of(o.output);
   if (!format)
@@ -164,9 +164,9 @@ void understand_output(const RawOptions& raw, SvfOptions& o) {
     throw CLI::ValidationError("--points-crs", "it goes with --points");
 }
 
-/// Half of the allowed error is for the sky between the samples, half for what the far map does not settle; where the user fixes
+/// Half of the allowed error is for the sky between the samples, half for what the far map does not decide; where the user fixes
 /// the samples, the map gets what they leave.
-void understand_accuracy(const RawOptions& raw, SvfOptions& o) {
+void resolve_accuracy(const RawOptions& raw, SvfOptions& o) {
   if (raw.rays) o.sky.rays = *raw.rays;
   if (raw.azimuths) o.sky.azimuths = *raw.azimuths;
   if (!o.max_error) return;
@@ -191,14 +191,14 @@ Engine engine_of(const std::string& name) {
 
 void understand(const RawOptions& raw, SvfOptions& o) {
   o.package = raw.package;
-  understand_place(raw, o);
-  understand_output(raw, o);
+  resolve_place(raw, o);
+  resolve_output(raw, o);
   // On the surface itself a receiver would see nothing but that surface
   o.height_m = std::max(o.height_m, static_cast<double>(surface_offset_m));
   o.height_above = raw.on_surface ? HeightAbove::highest_surface : HeightAbove::ground;
   o.sky.directions = raw.directions == "fibonacci" ? DirectionSet::fibonacci : DirectionSet::partition;
   o.sky.engine = engine_of(raw.engine);
-  understand_accuracy(raw, o);
+  resolve_accuracy(raw, o);
   o.sky.weight = raw.sky == "solid" ? SkyWeight::solid_angle : SkyWeight::cosine;
 }
 

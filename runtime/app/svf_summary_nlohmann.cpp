@@ -54,7 +54,7 @@ std::string svf_summary_json(const SvfRun& run, const SvfOptions& options, doubl
     j["max_error"] = {{"allowed", *options.max_error},
                       {"sampling_share", sampling_error_of(options.sky)},
                       {"far_share", *options.sky.max_far_error},
-                      {"rays_traced_exactly", run.settled_rays}};
+                      {"rays_traced_exactly", run.retraced_rays}};
   if (run.bounds) j["bounds"] = {{"mean_width", run.bounds->mean}, {"max_width", run.bounds->max}};
   if (run.errors)
     j["verify"] = {{"count", run.errors->count},

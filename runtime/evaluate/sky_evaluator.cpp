@@ -15,7 +15,7 @@
 #include "evaluate/error_budget.hpp"
 #include "evaluate/visibility.hpp"
 #include "farlod/expects.hpp"
-#include "horizon/cell_skyline.hpp"
+#include "horizon/cell_silhouettes.hpp"
 #include "horizon/horizon_engine.hpp"
 #include "horizon/overhang_geometry.hpp"
 #include "horizon/ray_engine.hpp"
@@ -56,15 +56,15 @@ std::vector<Point3f> places_of(std::span<const Receiver> receivers) {
   return places;
 }
 
-BoundedShare shares_of(const FreeRays& free, std::size_t ray_count) {
+SvfInterval shares_of(const FreeRays& free, std::size_t ray_count) {
   const auto share = [ray_count](std::uint32_t n) {
     return static_cast<float>(static_cast<double>(n) / static_cast<double>(ray_count));
   };
-  return {share(free.low), share(free.likely), share(free.high)};
+  return {share(free.low), share(free.estimate), share(free.high)};
 }
 
-void answer(const SkyAnswers& answers, std::size_t index, const BoundedShare& share) {
-  answers.svf[index] = share.likely;
+void answer(const SkyAnswers& answers, std::size_t index, const SvfInterval& share) {
+  answers.svf[index] = share.estimate;
   if (answers.low.empty()) return;
   answers.low[index] = share.low;
   answers.high[index] = share.high;
@@ -118,7 +118,7 @@ void SkyEvaluator::evaluate_exactly(const CellReceivers& cell, const SkyAnswers&
       answer(answers, run[n].index, shares_of({free[n], free[n], free[n]}, directions_.ray_count()));
   });
   scenes_s_ += seconds_between(start, scene_ready);
-  rays_s_ += seconds_between(scene_ready, Clock::now());
+  evaluate_s_ += seconds_between(scene_ready, Clock::now());
 }
 
 void SkyEvaluator::evaluate_with_box(const CellReceivers& cell, const SkyAnswers& answers) const {
@@ -135,17 +135,17 @@ void SkyEvaluator::evaluate_with_box(const CellReceivers& cell, const SkyAnswers
       answer(answers, run[n].index, shares_of({free[n], free[n], free[n]}, directions_.ray_count()));
   });
   scenes_s_ += seconds_between(start, scene_ready);
-  rays_s_ += seconds_between(scene_ready, Clock::now());
+  evaluate_s_ += seconds_between(scene_ready, Clock::now());
 }
 
 /// What the receivers of a cell may see.
 struct SkyEvaluator::CellSight {
   CellSight(const Package& package, const CellReceivers& cell, OverhangGeometry::WholeScene whole_scene)
       : far(package.far_horizon(cell.cell)),
-        skyline(cell_skyline(package, cell.cell, far, box_around(cell.receivers))),
+        silhouettes(cell_silhouettes(package, cell.cell, far, bounding_box(cell.receivers))),
         overhangs(package, cell.cell, std::move(whole_scene)) {}
   FarHorizon far;
-  CellSkyline skyline;
+  CellSilhouettes silhouettes;
   OverhangGeometry overhangs;
 };
 
@@ -169,18 +169,18 @@ void SkyEvaluator::evaluate_with_horizon(const CellReceivers& cell, const SkyAns
   }
   if (!by_rays.empty()) answer_by_rays(sight, cell, by_rays, answers);
   scenes_s_ += seconds_between(start, scene_ready);
-  rays_s_ += seconds_between(scene_ready, Clock::now());
+  evaluate_s_ += seconds_between(scene_ready, Clock::now());
 }
 
 /// Returns the numbers of those that horizons are not enough for.
 SkyEvaluator::Numbers SkyEvaluator::answer_by_horizons(CellSight& sight, const CellReceivers& cell,
                                                        const SkyAnswers& answers) const {
   const std::size_t rays_per_azimuth = std::max<std::size_t>(1, (settings_.rays + settings_.azimuths / 2) / settings_.azimuths);
-  HorizonEngine engine(ring_, settings_.weight, sight.far, sight.skyline, sight.overhangs,
+  HorizonEngine engine(ring_, settings_.weight, sight.far, sight.silhouettes, sight.overhangs,
                        {static_cast<float>(azimuth_error(settings_.azimuths)), rays_per_azimuth});
   Numbers by_rays;
   const auto answer_packet = [&](const ReceiverPacket& packet, std::span<const std::uint32_t> numbers) {
-    std::array<BoundedShare, ReceiverPacket::lanes> room;
+    std::array<SvfInterval, ReceiverPacket::lanes> room;
     const std::span shares = std::span(room).first(numbers.size());
     const bool bounds = wants_bounds(answers);
     const std::uint32_t traced = bounds ? engine.evaluate_with_bounds(packet, shares) : engine.evaluate(packet, shares);
@@ -199,8 +199,8 @@ SkyEvaluator::Numbers SkyEvaluator::answer_by_horizons(CellSight& sight, const C
 }
 
 /// Whether the far map leaves an answer more uncertain than the user wants.
-bool SkyEvaluator::is_doubtful(const BoundedShare& s) const {
-  return settings_.max_far_error && std::max(s.high - s.likely, s.likely - s.low) > *settings_.max_far_error;
+bool SkyEvaluator::is_doubtful(const SvfInterval& s) const {
+  return settings_.max_far_error && std::max(s.high - s.estimate, s.estimate - s.low) > *settings_.max_far_error;
 }
 
 void SkyEvaluator::require_rays_allowed(Cell cell) const {
@@ -222,26 +222,26 @@ void SkyEvaluator::answer_by_rays(CellSight& sight, const CellReceivers& cell, c
   for_each_run(receivers, [&](std::span<const Receiver> run) {
     const std::vector<Point3d> directions = directions_of(directions_, run.front().normal);
     if (directions.empty()) {
-      for (const Receiver& r : run) answer(answers, r.index, BoundedShare{});
+      for (const Receiver& r : run) answer(answers, r.index, SvfInterval{});
       return;
     }
     const RayFan fan(directions);
-    RayEngine engine(fan, sight.far, sight.skyline, sight.overhangs, wants_bounds(answers));
+    RayEngine engine(fan, sight.far, sight.silhouettes, sight.overhangs, wants_bounds(answers));
     for (std::size_t first = 0; first < run.size(); first += ReceiverPacket::lanes) {
       const auto some = run.subspan(first, std::min(ReceiverPacket::lanes, run.size() - first));
       std::vector<FreeRays> free = engine.count(some);
-      if (settings_.max_far_error) settle(cell.cell, some, engine, free);
+      if (settings_.max_far_error) retrace(cell.cell, some, engine, free);
       for (std::size_t n = 0; n < some.size(); ++n) answer(answers, some[n].index, shares_of(free[n], directions_.ray_count()));
     }
   });
 }
 
-void SkyEvaluator::settle(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine,
+void SkyEvaluator::retrace(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine,
                           std::span<FreeRays> free) const {
   const double most = *settings_.max_far_error * static_cast<double>(directions_.ray_count());
   std::uint32_t doubtful = 0;
   for (std::size_t l = 0; l < free.size(); ++l)
-    if (std::max(free[l].high - free[l].likely, free[l].likely - free[l].low) > most) doubtful |= 1U << l;
+    if (std::max(free[l].high - free[l].estimate, free[l].estimate - free[l].low) > most) doubtful |= 1U << l;
   if (doubtful == 0) return;
   const WholeCity& city = city_->get(package_);
   RayOrigins origins;
@@ -251,9 +251,9 @@ void SkyEvaluator::settle(Cell cell, std::span<const Receiver> receivers, const 
     origins.y[l] = p.y;
     origins.z[l] = p.z;
   }
-  settled_rays_ += engine.settle(city.occluder(), origins, doubtful, free);
+  retraced_rays_ += engine.retrace(city.occluder(), origins, doubtful, free);
 }
 
-SkyEvaluator::Effort SkyEvaluator::effort() const { return {scenes_s_, rays_s_, by_rays_, settled_rays_}; }
+SkyEvaluator::Effort SkyEvaluator::effort() const { return {scenes_s_, evaluate_s_, by_rays_, retraced_rays_}; }
 
 }  // namespace farlod

@@ -19,7 +19,7 @@
 namespace farlod {
 
 class RayEngine;
-struct BoundedShare;
+struct SvfInterval;
 struct FreeRays;
 
 enum class Engine {
@@ -67,10 +67,10 @@ class SkyEvaluator {
   void evaluate(const CellReceivers& cell, std::span<float> svf) const { evaluate(cell, SkyAnswers(svf)); }
 
   /// Seconds spent so far, summed over threads; receivers answered by rays rather than by horizons; and rays traced against the
-  /// whole city because the far map did not settle them.
+  /// whole city because the far map did not decide them.
   struct Effort {
-    double scenes_s = 0.0, rays_s = 0.0;
-    std::uint64_t by_rays = 0, settled_rays = 0;
+    double scenes_s = 0.0, evaluate_s = 0.0;
+    std::uint64_t by_rays = 0, retraced_rays = 0;
   };
   [[nodiscard]] Effort effort() const;
 
@@ -83,22 +83,22 @@ class SkyEvaluator {
   struct CellSight;
   using Numbers = std::vector<std::uint32_t>;
   [[nodiscard]] Numbers answer_by_horizons(CellSight& sight, const CellReceivers& cell, const SkyAnswers& answers) const;
-  [[nodiscard]] bool is_doubtful(const BoundedShare& share) const;
+  [[nodiscard]] bool is_doubtful(const SvfInterval& share) const;
   /// Called where horizons are not enough: the engine `horizon` ends there.
   void require_rays_allowed(Cell cell) const;
   void answer_by_rays(CellSight& sight, const CellReceivers& cell, const Numbers& numbers, const SkyAnswers& answers) const;
   [[nodiscard]] bool wants_bounds(const SkyAnswers& answers) const {
     return !answers.low.empty() || settings_.max_far_error.has_value();
   }
-  void settle(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine, std::span<FreeRays> free) const;
+  void retrace(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine, std::span<FreeRays> free) const;
 
   const Package& package_;
   SkySettings settings_;
   SkyDirections directions_;
   AzimuthRing ring_;
   std::unique_ptr<WholeCityOnDemand> city_;
-  mutable std::atomic<double> scenes_s_ = 0.0, rays_s_ = 0.0;
-  mutable std::atomic<std::uint64_t> by_rays_ = 0, settled_rays_ = 0;
+  mutable std::atomic<double> scenes_s_ = 0.0, evaluate_s_ = 0.0;
+  mutable std::atomic<std::uint64_t> by_rays_ = 0, retraced_rays_ = 0;
 };
 
 }  // namespace farlod

@@ -15,7 +15,7 @@ namespace farlod {
 namespace {
 
 float turns_to(Point2d d) {
-  const float turns = diamond_turns(all(static_cast<float>(d.x)), all(static_cast<float>(d.y)))[0];
+  const float turns = pseudo_angle(broadcast(static_cast<float>(d.x)), broadcast(static_cast<float>(d.y)))[0];
   return turns < 1.0F ? turns : 0.0F;
 }
 

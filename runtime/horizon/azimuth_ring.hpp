@@ -27,7 +27,7 @@ class AzimuthRing {
   /// For each azimuth, which of those that were given it is.
   [[nodiscard]] std::span<const std::uint32_t> place() const { return place_; }
 
-  /// Sixty-four equal parts of the turn, as `diamond_turns` (lanes.hpp) count, and for each the first azimuth at or beyond its
+  /// Sixty-four equal parts of the turn, as `pseudo_angle` (lanes.hpp) count, and for each the first azimuth at or beyond its
   /// beginning; one more for the end.
   static constexpr std::size_t sectors = 64;
   [[nodiscard]] const std::uint32_t* first_of_sector() const { return first_of_sector_.data(); }
@@ -41,7 +41,7 @@ class AzimuthRing {
   /// Of unit vectors; order does not matter.
   explicit AzimuthRing(std::span<const Point2d> directions);
 
-  std::vector<float> turns_;  ///< diamond_turns, less than 1
+  std::vector<float> turns_;  ///< pseudo_angle, less than 1
   std::vector<float> cosine_, sine_;
   std::vector<std::uint32_t> place_, first_of_slot_, first_of_sector_;
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "horizon/lanes.hpp"
-#include "horizon/skyline_edges.hpp"
+#include "horizon/silhouette_edges.hpp"
 
 /// From where the receivers of a packet can see edges, sixteen edges at once. Proof in docs/concepts.md, "Edges that a packet
 /// passes over".
@@ -19,7 +19,7 @@ struct PacketBounds {
 };
 
 /// Of some edges: how steep any receiver can see them, at the most: less than 0 for those that nobody sees, `anything` for those
-/// that are too near to tell. And between which azimuths, as diamond_turns from 0 to 3, counted on from turn to turn; of edges
+/// that are too near to tell. And between which azimuths, as pseudo_angle from 0 to 3, counted on from turn to turn; of edges
 /// that are too near, they say nothing.
 struct EdgeReach {
   static constexpr float anything = std::numeric_limits<float>::infinity();
@@ -27,7 +27,7 @@ struct EdgeReach {
 };
 
 /// Bounds give way by this share, and azimuths by this many turns: many times the rounding of floats.
-inline constexpr float reach_give = 1e-4F;
+inline constexpr float reach_margin = 1e-4F;
 /// An edge that comes this near to the box, or into it, may be seen anywhere around: many times the rounding of floats, too.
 inline constexpr float least_clear_m = 0.01F;
 
@@ -35,19 +35,19 @@ FARLOD_LANES Floats within_half_a_turn(const Floats& turns) {
   return turns > 0.5F ? turns - 1.0F : turns < -0.5F ? turns + 1.0F : turns;
 }
 
-/// The outermost azimuths, as diamond_turns, at which a rectangle around the origin sees points outside it: those of two corners.
+/// The outermost azimuths, as pseudo_angle, at which a rectangle around the origin sees points outside it: those of two corners.
 /// If the point lies beyond both sides of a corner, the corners to the left and right of that one; else the two of the side
 /// that it lies in front of.
 struct Outermost {
   Floats from, to;
 };
 FARLOD_LANES Outermost outermost(const Floats& x, const Floats& y, float half_x, float half_y) {
-  const Floats x_towards_x = x < 0.0F ? all(-half_x) : all(half_x), x_towards_y = y < 0.0F ? all(-half_x) : all(half_x);
-  const Floats y_towards_x = x < 0.0F ? all(-half_y) : all(half_y), y_towards_y = y < 0.0F ? all(-half_y) : all(half_y);
-  const Floats beyond_x = magnitude(x) - half_x, beyond_y = magnitude(y) - half_y;
+  const Floats x_towards_x = x < 0.0F ? broadcast(-half_x) : broadcast(half_x), x_towards_y = y < 0.0F ? broadcast(-half_x) : broadcast(half_x);
+  const Floats y_towards_x = x < 0.0F ? broadcast(-half_y) : broadcast(half_y), y_towards_y = y < 0.0F ? broadcast(-half_y) : broadcast(half_y);
+  const Floats beyond_x = abs(x) - half_x, beyond_y = abs(y) - half_y;
   const Floats from_x = beyond_y > 0.0F ? -x_towards_y : x_towards_x, from_y = beyond_x > 0.0F ? y_towards_x : y_towards_y;
   const Floats to_x = beyond_y > 0.0F ? x_towards_y : x_towards_x, to_y = beyond_x > 0.0F ? -y_towards_x : y_towards_y;
-  return {diamond_turns(x - from_x, y - from_y), diamond_turns(x - to_x, y - to_y)};
+  return {pseudo_angle(x - from_x, y - from_y), pseudo_angle(x - to_x, y - to_y)};
 }
 
 /// Edges as the middle of the box sees them in the plan.
@@ -58,35 +58,35 @@ struct EdgesFromMiddle {
 /// High over the box's floor, how steep they are at the most.
 FARLOD_LANES Floats steepest_slope(const EdgesFromMiddle& e, const Floats& high, const PacketBounds& box) {
   const Floats along_x = e.qx - e.px, along_y = e.qy - e.py, along_square = along_x * along_x + along_y * along_y;
-  const Floats share = -(e.px * along_x + e.py * along_y) / (along_square > 0.0F ? along_square : all(1.0F));
-  const Floats s = least(greatest(share, all(0.0F)), all(1.0F));
+  const Floats share = -(e.px * along_x + e.py * along_y) / (along_square > 0.0F ? along_square : broadcast(1.0F));
+  const Floats s = min(max(share, broadcast(0.0F)), broadcast(1.0F));
   const Floats nearest_x = e.px + s * along_x, nearest_y = e.py + s * along_y;
-  const Floats square = nearest_x * nearest_x + nearest_y * nearest_y, distance = root(square);
+  const Floats square = nearest_x * nearest_x + nearest_y * nearest_y, distance = sqrt(square);
   // Both times the distance: what lies between box and edge on the shortest way, and the least that is enough
-  const Floats clear = square - magnitude(nearest_x) * box.half_x - magnitude(nearest_y) * box.half_y;
+  const Floats clear = square - abs(nearest_x) * box.half_x - abs(nearest_y) * box.half_y;
   const Floats enough = least_clear_m * distance;
-  const Floats bound = high * distance / greatest(clear, all(least_clear_m * least_clear_m)) * (1.0F + reach_give) + reach_give;
-  return clear > enough ? bound : all(EdgeReach::anything);
+  const Floats bound = high * distance / max(clear, broadcast(least_clear_m * least_clear_m)) * (1.0F + reach_margin) + reach_margin;
+  return clear > enough ? bound : broadcast(EdgeReach::anything);
 }
 
-FARLOD_LANES EdgeReach reach_of(const SkylineEdges::Batch& edges, const PacketBounds& box) {
-  const Floats ax = loaded(edges.ax.data()), ay = loaded(edges.ay.data()), az = loaded(edges.az.data());
-  const Floats bx = loaded(edges.bx.data()), by = loaded(edges.by.data()), bz = loaded(edges.bz.data());
+FARLOD_LANES EdgeReach reach_of(const SilhouetteEdges::Batch& edges, const PacketBounds& box) {
+  const Floats ax = load(edges.ax.data()), ay = load(edges.ay.data()), az = load(edges.az.data());
+  const Floats bx = load(edges.bx.data()), by = load(edges.by.data()), bz = load(edges.bz.data());
   const EdgesFromMiddle e{ax - box.x, ay - box.y, bx - box.x, by - box.y};
-  const Floats high = greatest(az, bz) - box.lowest_z;
-  const Floats front = greatest(box.normal_x * ax + box.normal_y * ay + box.normal_z * az,
+  const Floats high = max(az, bz) - box.lowest_z;
+  const Floats front = max(box.normal_x * ax + box.normal_y * ay + box.normal_z * az,
                                 box.normal_x * bx + box.normal_y * by + box.normal_z * bz) -
                        box.depth;
   EdgeReach reach;
   const Floats bound = steepest_slope(e, high, box);
-  reach.steepest = least(high, front) > 0.0F ? bound : all(-1.0F);
+  reach.steepest = min(high, front) > 0.0F ? bound : broadcast(-1.0F);
   const Outermost a = outermost(e.px, e.py, box.half_x, box.half_y), b = outermost(e.qx, e.qy, box.half_x, box.half_y);
   // All lie within half a turn of each other, since box and edge can be parted by a line
   const Floats a_to = a.from + within_half_a_turn(a.to - a.from);
   const Floats b_from = a.from + within_half_a_turn(b.from - a.from), b_to = a.from + within_half_a_turn(b.to - a.from);
   // A turn more, so that whole parts round down
-  reach.from = least(a.from, b_from) + (1.0F - reach_give);
-  reach.to = greatest(a_to, b_to) + (1.0F + reach_give);
+  reach.from = min(a.from, b_from) + (1.0F - reach_margin);
+  reach.to = max(a_to, b_to) + (1.0F + reach_margin);
   return reach;
 }
 

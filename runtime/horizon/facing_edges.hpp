@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "horizon/skyline_edges.hpp"
+#include "horizon/silhouette_edges.hpp"
 
 namespace farlod {
 
@@ -13,6 +13,6 @@ namespace farlod {
 ///   (1) an edge that may_be_silhouette keeps is kept, unless no end rises over the box's floor
 ///   (2) others are kept by rounding alone
 /// `distances_m` has as many places as the batches have lanes; those without an edge mean nothing.
-void find_facing(std::span<const SkylineEdges::Batch> edges, EdgeRole role, const ReceiverBox& box, std::span<float> distances_m);
+void find_facing(std::span<const SilhouetteEdges::Batch> edges, EdgeRole role, const ReceiverBox& box, std::span<float> distances_m);
 
 }  // namespace farlod

@@ -15,7 +15,7 @@ namespace {
 
 using Lanes = PacketHorizon::Lanes;
 
-/// Rays of neighbouring azimuths pass at other heights: fractions of the multiples of the golden ratio spread evenly.
+/// Rays of neighboring azimuths pass at other heights: fractions of the multiples of the golden ratio spread evenly.
 float offset_of(std::size_t azimuth) {
   constexpr double golden = 0.61803398874989485;
   const double multiple = golden * static_cast<double>(azimuth);
@@ -27,8 +27,8 @@ struct GapEnds {
   alignas(64) Lanes sine_from, sine_to, sky_from, sky_to;
 };
 
-FARLOD_LANES Floats sine_of(const Floats& slope) { return slope / root(1.0F + slope * slope); }
-FARLOD_LANES Floats slope_of(const Floats& sine) { return sine / root(greatest(1.0F - sine * sine, all(1e-12F))); }
+FARLOD_LANES Floats sine_of(const Floats& slope) { return slope / sqrt(1.0F + slope * slope); }
+FARLOD_LANES Floats slope_of(const Floats& sine) { return sine / sqrt(max(1.0F - sine * sine, broadcast(1e-12F))); }
 
 /// The directions of an azimuth.
 struct Azimuth {
@@ -40,8 +40,8 @@ FARLOD_FOR_EACH_PROCESSOR
 void find_ends(const float* from, const float* to, const ReceiverPacket& receivers, const Azimuth& azimuth, GapEnds& ends) {
   const Normals n = normals_of(receivers);
   const LookedAt between = looked_at(n.x * azimuth.cosine + n.y * azimuth.sine, n.z);
-  const Floats begin = least(greatest(loaded(from), between.lowest), between.highest),
-               end = least(greatest(loaded(to), between.lowest), between.highest);
+  const Floats begin = min(max(load(from), between.lowest), between.highest),
+               end = min(max(load(to), between.lowest), between.highest);
   store(sine_of(begin), ends.sine_from.data());
   store(sine_of(end), ends.sine_to.data());
   store(sky_of_azimuth(begin, n, azimuth.cosine, azimuth.sine, azimuth.is_solid), ends.sky_from.data());
@@ -52,16 +52,16 @@ void find_ends(const float* from, const float* to, const ReceiverPacket& receive
 FARLOD_FOR_EACH_PROCESSOR
 void find_slopes(const GapEnds& ends, const ReceiverPacket& receivers, const Azimuth& azimuth, float share, float* slopes) {
   constexpr int steps = 3;
-  const Floats from = loaded(ends.sine_from.data()), to = loaded(ends.sine_to.data()), sky_from = loaded(ends.sky_from.data());
-  const Floats sky = sky_from + share * (loaded(ends.sky_to.data()) - sky_from);
+  const Floats from = load(ends.sine_from.data()), to = load(ends.sine_to.data()), sky_from = load(ends.sky_from.data());
+  const Floats sky = sky_from + share * (load(ends.sky_to.data()) - sky_from);
   Floats sine = from + share * (to - from);
   if (!azimuth.is_solid) {
     const Normals n = normals_of(receivers);
     const Floats outward = n.x * azimuth.cosine + n.y * azimuth.sine;
     for (int step = 0; step < steps; ++step) {
       const Floats above = cosine_above(slope_of(sine), outward, n.z);
-      const Floats decline = 2.0F * (outward * root(greatest(1.0F - sine * sine, all(0.0F))) + n.z * sine);
-      sine = least(greatest(sine + (above - sky) / greatest(decline, all(0.01F)), from), to);
+      const Floats decline = 2.0F * (outward * sqrt(max(1.0F - sine * sine, broadcast(0.0F))) + n.z * sine);
+      sine = min(max(sine + (above - sky) / max(decline, broadcast(0.01F)), from), to);
     }
   }
   store(slope_of(sine), slopes);

@@ -24,31 +24,31 @@ constexpr float untraced_of_tolerance = 0.5F, sky_in_untraced = 0.25F;
 
 }  // namespace
 
-HorizonEngine::HorizonEngine(const AzimuthRing& ring, SkyWeight weight, const FarHorizon& far, const CellSkyline& skyline,
+HorizonEngine::HorizonEngine(const AzimuthRing& ring, SkyWeight weight, const FarHorizon& far, const CellSilhouettes& silhouettes,
                              OverhangGeometry& overhangs, const GapSettings& gaps)
     : ring_(ring),
       weight_(weight),
-      skyline_(skyline),
+      silhouettes_(silhouettes),
       overhangs_(overhangs),
       gaps_(gaps),
-      unnamed_(far, ring),
+      residual_(far, ring),
       horizons_(ring),
-      near_and_named_(ring) {}
+      near_and_explicit_(ring) {}
 
-std::uint32_t HorizonEngine::evaluate(const ReceiverPacket& receivers, std::span<BoundedShare> shares) {
+std::uint32_t HorizonEngine::evaluate(const ReceiverPacket& receivers, std::span<SvfInterval> shares) {
   FARLOD_EXPECTS(shares.size() == receivers.count);
   const std::uint32_t covered = overhangs_.covered(receivers);
   // What hides much first: what lies below is passed over
   horizons_.grounded.clear();
-  unnamed_.raise_likely(receivers, horizons_.grounded);
-  horizons_.grounded.raise(skyline_.grounded, receivers);
-  if (covered == 0 && skyline_.near.empty() && skyline_.far.empty()) {
+  residual_.raise_to_estimate(receivers, horizons_.grounded);
+  horizons_.grounded.raise(silhouettes_.grounded, receivers);
+  if (covered == 0 && silhouettes_.near.empty() && silhouettes_.far.empty()) {
     const Lanes sky = horizons_.grounded.sky_above(weight_, receivers);
     for (std::size_t l = 0; l < shares.size(); ++l) shares[l] = {sky[l], sky[l], sky[l]};
     return 0;
   }
   horizons_.upper = horizons_.borders = horizons_.grounded;
-  horizons_.draw_overhangs(skyline_, receivers, covered, FarGaps::likely);
+  horizons_.draw_overhangs(silhouettes_, receivers, covered, FarGaps::estimate);
   const Lanes sky = horizons_.upper.sky_above(weight_, receivers);
   const BelowBorders below = look_below(receivers);
   for (std::size_t l = 0; l < shares.size(); ++l) {
@@ -58,31 +58,31 @@ std::uint32_t HorizonEngine::evaluate(const ReceiverPacket& receivers, std::span
   return below.by_rays;
 }
 
-std::uint32_t HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, std::span<BoundedShare> shares) {
+std::uint32_t HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, std::span<SvfInterval> shares) {
   FARLOD_EXPECTS(shares.size() == receivers.count);
   const std::uint32_t covered = overhangs_.covered(receivers);
   // What is certain: the sky above the lowest horizons, and below the borders at the most
   horizons_.grounded.clear();
-  horizons_.grounded.raise(skyline_.grounded, receivers);
-  near_and_named_ = horizons_.upper = horizons_.borders = horizons_.grounded;
-  unnamed_.raise_lower(receivers, horizons_.upper);
-  unnamed_.raise_overhang(receivers, horizons_.borders);
-  horizons_.draw_overhangs(skyline_, receivers, covered, FarGaps::possible);
+  horizons_.grounded.raise(silhouettes_.grounded, receivers);
+  near_and_explicit_ = horizons_.upper = horizons_.borders = horizons_.grounded;
+  residual_.raise_to_low(receivers, horizons_.upper);
+  residual_.raise_to_overhang(receivers, horizons_.borders);
+  horizons_.draw_overhangs(silhouettes_, receivers, covered, FarGaps::possible);
   const Lanes highest_below = sum(horizons_.find_sky_below_borders(weight_, receivers, gap_rows_)),
               highest = horizons_.upper.sky_above(weight_, receivers);
-  // What is likely: the unnamed is grounded
-  std::swap(horizons_.grounded, near_and_named_);
-  unnamed_.raise_likely(receivers, horizons_.grounded);
+  // The estimate: the residual city is grounded
+  std::swap(horizons_.grounded, near_and_explicit_);
+  residual_.raise_to_estimate(receivers, horizons_.grounded);
   horizons_.upper = horizons_.borders = horizons_.grounded;
-  horizons_.draw_overhangs(skyline_, receivers, covered, FarGaps::likely);
-  const Lanes likely = horizons_.upper.sky_above(weight_, receivers);
+  horizons_.draw_overhangs(silhouettes_, receivers, covered, FarGaps::estimate);
+  const Lanes estimate = horizons_.upper.sky_above(weight_, receivers);
   const BelowBorders below = look_below(receivers);
   // Above the highest horizons all is open
-  unnamed_.raise_upper(receivers, horizons_.upper);
+  residual_.raise_to_high(receivers, horizons_.upper);
   const Lanes low = horizons_.upper.sky_above(weight_, receivers);
   for (std::size_t l = 0; l < shares.size(); ++l) {
     const float high = std::min(highest[l] + highest_below[l], 1.0F);
-    shares[l] = {low[l], std::clamp(likely[l] + below.sky[l], low[l], std::max(low[l], high)), high};
+    shares[l] = {low[l], std::clamp(estimate[l] + below.sky[l], low[l], std::max(low[l], high)), high};
   }
   return below.by_rays;
 }

@@ -10,18 +10,18 @@
 #include "farlod/far_map/far_horizon.hpp"
 #include "farlod/sky/sky_partition.hpp"
 #include "horizon/azimuth_ring.hpp"
-#include "horizon/cell_skyline.hpp"
+#include "horizon/cell_silhouettes.hpp"
 #include "horizon/overhang_geometry.hpp"
 #include "horizon/overhang_horizons.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
-#include "horizon/unnamed_city.hpp"
+#include "horizon/residual_horizon.hpp"
 
 namespace farlod {
 
 /// A sky view factor, and the bounds that are certain for the same azimuths.
-struct BoundedShare {
-  float low = 0.0F, likely = 0.0F, high = 0.0F;
+struct SvfInterval {
+  float low = 0.0F, estimate = 0.0F, high = 0.0F;
 };
 
 /// What is done where sky may be seen below something that overhangs.
@@ -36,13 +36,13 @@ struct GapSettings {
 class HorizonEngine {
  public:
   /// All must outlive it.
-  HorizonEngine(const AzimuthRing& ring, SkyWeight weight, const FarHorizon& far, const CellSkyline& skyline,
+  HorizonEngine(const AzimuthRing& ring, SkyWeight weight, const FarHorizon& far, const CellSilhouettes& silhouettes,
                 OverhangGeometry& overhangs, const GapSettings& gaps);
 
-  /// Answers the receivers of a packet in `shares`, in their order; low = likely = high. Returns a bit for each that needed rays.
-  [[nodiscard]] std::uint32_t evaluate(const ReceiverPacket& receivers, std::span<BoundedShare> shares);
+  /// Answers the receivers of a packet in `shares`, in their order; low = estimate = high. Returns a bit for each that needed rays.
+  [[nodiscard]] std::uint32_t evaluate(const ReceiverPacket& receivers, std::span<SvfInterval> shares);
   /// The same with bounds.
-  [[nodiscard]] std::uint32_t evaluate_with_bounds(const ReceiverPacket& receivers, std::span<BoundedShare> shares);
+  [[nodiscard]] std::uint32_t evaluate_with_bounds(const ReceiverPacket& receivers, std::span<SvfInterval> shares);
 
  private:
   using Lanes = PacketHorizon::Lanes;
@@ -56,12 +56,12 @@ class HorizonEngine {
 
   const AzimuthRing& ring_;
   SkyWeight weight_;
-  const CellSkyline& skyline_;
+  const CellSilhouettes& silhouettes_;
   OverhangGeometry& overhangs_;
   GapSettings gaps_;
-  UnnamedCity unnamed_;
+  ResidualHorizon residual_;
   OverhangHorizons horizons_;
-  PacketHorizon near_and_named_;
+  PacketHorizon near_and_explicit_;
   std::vector<PacketHorizon::Row> gap_rows_;
 };
 

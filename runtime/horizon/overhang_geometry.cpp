@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "scene/column.hpp"
+#include "scene/vertical_profile.hpp"
 
 namespace farlod {
 namespace {
@@ -56,7 +56,7 @@ OverhangGeometry::OverhangGeometry(const Package& package, Cell cell, WholeScene
     : package_(package), cell_(cell), whole_scene_(std::move(whole_scene)) {
   // What is cut at the borders of cells hangs over its own cell alone
   const bool is_cut = package.manifest().assign != "whole";
-  constexpr std::int32_t reach = CellColumns::reach_of_whole_buildings;
+  constexpr std::int32_t reach = PointLocator::reach_of_whole_buildings;
   const CellRange near = package.grid().neighborhood_of(cell);
   overhead_ =
       triangles_in(is_cut ? CellRange{cell.i, cell.j, cell.i + 1, cell.j + 1}

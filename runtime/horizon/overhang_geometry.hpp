@@ -46,7 +46,7 @@ class OverhangGeometry {
 
   /// A bit for each receiver that has something overhead.
   [[nodiscard]] std::uint32_t covered(const ReceiverPacket& receivers) const;
-  /// All of it in the neighbourhood, for rays, or the whole city. Made when it is first asked for.
+  /// All of it in the neighborhood, for rays, or the whole city. Made when it is first asked for.
   [[nodiscard]] PlacedScene scene();
 
  private:

@@ -5,22 +5,22 @@
 #include <algorithm>
 
 namespace farlod {
-void OverhangHorizons::draw_overhangs(const CellSkyline& skyline, const ReceiverPacket& receivers, std::uint32_t covered,
+void OverhangHorizons::draw_overhangs(const CellSilhouettes& silhouettes, const ReceiverPacket& receivers, std::uint32_t covered,
                                       FarGaps far_gaps) {
   // The far city by itself: where nothing of it is seen to float, it goes on below what is near
-  upper.raise(skyline.far.upper, receivers);
-  if (far_gaps == FarGaps::likely && !skyline.far.lower.empty())
-    borders.become_lowest(skyline.far.lower, receivers, grounded);
+  upper.raise(silhouettes.far.overhangs, receivers);
+  if (far_gaps == FarGaps::estimate && !silhouettes.far.undersides.empty())
+    borders.become_lowest(silhouettes.far.undersides, receivers, grounded);
   else
-    borders.raise(skyline.far.lower, receivers);
+    borders.raise(silhouettes.far.undersides, receivers);
   grounded.join(borders, upper);
   far_borders = borders;
   far_upper = upper;
   // Then what is near
   borders.raise_to(grounded);
-  upper.raise(skyline.near.upper, receivers);
+  upper.raise(silhouettes.near.overhangs, receivers);
   upper.close(covered);
-  borders.raise(skyline.near.lower, receivers);
+  borders.raise(silhouettes.near.undersides, receivers);
 }
 
 std::span<const PacketHorizon::Row> OverhangHorizons::find_sky_below_borders(SkyWeight weight, const ReceiverPacket& receivers,

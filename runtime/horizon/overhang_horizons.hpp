@@ -8,7 +8,7 @@
 
 #include "farlod/sky/sky_partition.hpp"
 #include "horizon/azimuth_ring.hpp"
-#include "horizon/cell_skyline.hpp"
+#include "horizon/cell_silhouettes.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 
@@ -17,7 +17,7 @@ namespace farlod {
 /// Where sky may be seen below what is far and has several lower borders one above the other.
 enum class FarGaps : std::uint8_t {
   possible,  ///< below the highest of them
-  likely     ///< below the lowest of them: what is above is one building's
+  estimate     ///< below the lowest of them: what is above is one building's
 };
 
 /// Between which slopes a packet's receivers may see sky, where something overhangs. docs/concepts.md, "What is grounded, and
@@ -32,8 +32,8 @@ struct OverhangHorizons {
   PacketHorizon far_borders, far_upper;  ///< of the far city alone: between them there is no sky either
 
   /// Draws what overhangs over `grounded`; `covered` are the bits of the receivers that have something overhead. `borders` and
-  /// `upper` may hold what is known of the unnamed far city already; they must not be lower than `grounded`.
-  void draw_overhangs(const CellSkyline& skyline, const ReceiverPacket& receivers, std::uint32_t covered, FarGaps far_gaps);
+  /// `upper` may hold what is known of the residual horizon already; they must not be lower than `grounded`.
+  void draw_overhangs(const CellSilhouettes& silhouettes, const ReceiverPacket& receivers, std::uint32_t covered, FarGaps far_gaps);
   /// How much sky lies between `grounded` and `borders`, a row for each azimuth; none where there is nothing. Afterwards
   /// `borders` and the far horizons tell of that sky alone.
   [[nodiscard]] std::span<const PacketHorizon::Row> find_sky_below_borders(SkyWeight weight, const ReceiverPacket& receivers,

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "farlod/expects.hpp"
-#include "horizon/horizon_drawing.hpp"
+#include "horizon/horizon_kernel.hpp"
 #include "horizon/lanes.hpp"
 #include "horizon/sky_lanes.hpp"
 
@@ -19,7 +19,7 @@ FARLOD_FOR_EACH_PROCESSOR
 void sum_cosine_up(const float* slopes, std::size_t azimuth_count, float* sums) {
   Floats sum{};
   for (std::size_t k = 0; k < azimuth_count; ++k) {
-    const Floats t = loaded(slopes + k * lane_count);
+    const Floats t = load(slopes + k * lane_count);
     sum += 1.0F / (1.0F + t * t);
   }
   store(sum, sums);
@@ -28,13 +28,13 @@ void sum_cosine_up(const float* slopes, std::size_t azimuth_count, float* sums) 
 /// Of receivers that look level, as on walls: only the azimuths in front count, up to the zenith.
 FARLOD_FOR_EACH_PROCESSOR
 void sum_cosine_level(const float* slopes, const ReceiverPacket& receivers, const AzimuthRing& ring, float* sums) {
-  const Floats x = loaded(receivers.normal_x.data()), y = loaded(receivers.normal_y.data());
+  const Floats x = load(receivers.normal_x.data()), y = load(receivers.normal_y.data());
   Floats sum{};
   for (std::size_t k = 0; k < ring.size(); ++k) {
-    const Floats outward = greatest(x * ring.cosine()[k] + y * ring.sine()[k], all(0.0F));
-    if (greatest_lane(outward) == 0.0F) continue;
-    const Floats t = least(loaded(slopes + k * lane_count), all(straight_up));
-    sum += cosine_above(t, outward, all(0.0F));
+    const Floats outward = max(x * ring.cosine()[k] + y * ring.sine()[k], broadcast(0.0F));
+    if (max_lane(outward) == 0.0F) continue;
+    const Floats t = min(load(slopes + k * lane_count), broadcast(straight_up));
+    sum += cosine_above(t, outward, broadcast(0.0F));
   }
   store(sum, sums);
 }
@@ -46,7 +46,7 @@ void sum_cosine(const float* slopes, const ReceiverPacket& receivers, const Azim
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Floats outward = n.x * ring.cosine()[k] + n.y * ring.sine()[k];
     const LookedAt between = looked_at(outward, n.z);
-    const Floats t = least(greatest(loaded(slopes + k * lane_count), between.lowest), between.highest);
+    const Floats t = min(max(load(slopes + k * lane_count), between.lowest), between.highest);
     sum += cosine_above(t, outward, n.z) - cosine_above(between.highest, outward, n.z);
   }
   store(sum, sums);
@@ -58,7 +58,7 @@ void sum_solid_angle(const float* slopes, const ReceiverPacket& receivers, const
   Floats sum{};
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const LookedAt between = looked_at(n.x * ring.cosine()[k] + n.y * ring.sine()[k], n.z);
-    const Floats t = least(greatest(loaded(slopes + k * lane_count), between.lowest), between.highest);
+    const Floats t = min(max(load(slopes + k * lane_count), between.lowest), between.highest);
     sum += solid_angle_above(t) - solid_angle_above(between.highest);
   }
   store(sum, sums);
@@ -70,15 +70,15 @@ void sky_between(const float* low, const float* high, const ReceiverPacket& rece
   const Normals n = normals_of(receivers);
   const float share = 1.0F / static_cast<float>(ring.size());
   for (std::size_t k = 0; k < ring.size(); ++k) {
-    const Floats from = loaded(low + k * lane_count), to = loaded(high + k * lane_count);
+    const Floats from = load(low + k * lane_count), to = load(high + k * lane_count);
     float* row = rows + k * lane_count;
-    if (greatest_lane(to - from) == 0.0F) {
+    if (max_lane(to - from) == 0.0F) {
       store(Floats{}, row);
       continue;
     }
     const float cosine = ring.cosine()[k], sine = ring.sine()[k];
     const Floats sky = sky_of_azimuth(from, n, cosine, sine, is_solid) - sky_of_azimuth(to, n, cosine, sine, is_solid);
-    store(greatest(sky, all(0.0F)) * share, row);
+    store(max(sky, broadcast(0.0F)) * share, row);
   }
 }
 
@@ -86,7 +86,7 @@ FARLOD_FOR_EACH_PROCESSOR
 void lower_rows(const float* other, std::size_t azimuth_count, float* slopes) {
   for (std::size_t k = 0; k < azimuth_count; ++k) {
     float* row = slopes + k * lane_count;
-    store(least(loaded(row), loaded(other + k * lane_count)), row);
+    store(min(load(row), load(other + k * lane_count)), row);
   }
 }
 
@@ -94,7 +94,7 @@ FARLOD_FOR_EACH_PROCESSOR
 void raise_rows_to(const float* other, std::size_t azimuth_count, float* slopes) {
   for (std::size_t k = 0; k < azimuth_count; ++k) {
     float* row = slopes + k * lane_count;
-    store(greatest(loaded(row), loaded(other + k * lane_count)), row);
+    store(max(load(row), load(other + k * lane_count)), row);
   }
 }
 
@@ -102,8 +102,8 @@ FARLOD_FOR_EACH_PROCESSOR
 void replace_rows(float what, const float* by, std::size_t azimuth_count, float* slopes) {
   for (std::size_t k = 0; k < azimuth_count; ++k) {
     float* row = slopes + k * lane_count;
-    const Floats now = loaded(row);
-    store(now < what ? now : loaded(by + k * lane_count), row);
+    const Floats now = load(row);
+    store(now < what ? now : load(by + k * lane_count), row);
   }
 }
 
@@ -111,47 +111,47 @@ FARLOD_FOR_EACH_PROCESSOR
 void join_rows(const float* lower, const float* upper, std::size_t azimuth_count, float* slopes) {
   for (std::size_t k = 0; k < azimuth_count; ++k) {
     float* row = slopes + k * lane_count;
-    const Floats here = loaded(row), begin = loaded(lower + k * lane_count);
-    const Floats end = begin > here ? all(0.0F) : loaded(upper + k * lane_count);
-    store(greatest(here, end), row);
+    const Floats here = load(row), begin = load(lower + k * lane_count);
+    const Floats end = begin > here ? broadcast(0.0F) : load(upper + k * lane_count);
+    store(max(here, end), row);
   }
 }
 
 FARLOD_FOR_EACH_PROCESSOR
 void find_greatest_difference(const float* slopes, const float* other, std::size_t azimuth_count, float* differences) {
-  Floats greatest_yet = all(-1.0F);
+  Floats greatest_yet = broadcast(-1.0F);
   for (std::size_t k = 0; k < azimuth_count; ++k)
-    greatest_yet = greatest(greatest_yet, loaded(slopes + k * lane_count) - loaded(other + k * lane_count));
+    greatest_yet = max(greatest_yet, load(slopes + k * lane_count) - load(other + k * lane_count));
   store(greatest_yet, differences);
 }
 
 FARLOD_FOR_EACH_PROCESSOR
 void raise_between(const PacketHorizon::RowsBetween& rows, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count,
                    float* slopes) {
-  const Floats shares = loaded(rows.shares.data()), caps = loaded(rows.caps.data());
+  const Floats shares = load(rows.shares.data()), caps = load(rows.caps.data());
   for (std::size_t k = 0; k < azimuth_count; ++k) {
     const std::uint32_t bin = bin_of_azimuth[k];
     const float here = rows.here[bin], rise = rows.above[bin] - here;
-    const Floats likely = least(greatest(here + shares * rise, all(rows.lower[bin])), all(rows.upper[bin]));
+    const Floats estimate = min(max(here + shares * rise, broadcast(rows.lower[bin])), broadcast(rows.upper[bin]));
     float* row = slopes + k * lane_count;
-    store(greatest(loaded(row), least(likely, caps)), row);
+    store(max(load(row), min(estimate, caps)), row);
   }
 }
 
 FARLOD_FOR_EACH_PROCESSOR
 void raise_alike(const float* row, const float* caps, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count,
                  float* slopes) {
-  const Floats highest = loaded(caps);
+  const Floats highest = load(caps);
   for (std::size_t k = 0; k < azimuth_count; ++k) {
     float* lanes = slopes + k * lane_count;
-    store(greatest(loaded(lanes), least(all(row[bin_of_azimuth[k]]), highest)), lanes);
+    store(max(load(lanes), min(broadcast(row[bin_of_azimuth[k]]), highest)), lanes);
   }
 }
 
 FARLOD_FOR_EACH_PROCESSOR
 void count_rows(const float* rows, const float* slopes, std::size_t azimuth_count, float* counts) {
   Floats count{};
-  for (std::size_t k = 0; k < azimuth_count; ++k) count += loaded(rows + k * lane_count) < slopes[k] ? all(1.0F) : all(0.0F);
+  for (std::size_t k = 0; k < azimuth_count; ++k) count += load(rows + k * lane_count) < slopes[k] ? broadcast(1.0F) : broadcast(0.0F);
   store(count, counts);
 }
 
@@ -180,7 +180,7 @@ void PacketHorizon::raise(const RowsBetween& rows, std::span<const std::uint32_t
   raise_between(rows, bin_of_azimuth.data(), slopes_.size(), slopes_.front().data());
 }
 
-void PacketHorizon::raise(const SkylineEdges& edges, const ReceiverPacket& receivers) {
+void PacketHorizon::raise(const SilhouetteEdges& edges, const ReceiverPacket& receivers) {
   raise_horizons(edges, receivers, *ring_, slopes_.front().data());
 }
 
@@ -217,7 +217,7 @@ void PacketHorizon::join(const PacketHorizon& lower, const PacketHorizon& upper)
   join_rows(lower.slopes_.front().data(), upper.slopes_.front().data(), slopes_.size(), slopes_.front().data());
 }
 
-void PacketHorizon::become_lowest(const SkylineEdges& edges, const ReceiverPacket& receivers, const PacketHorizon& floors) {
+void PacketHorizon::become_lowest(const SilhouetteEdges& edges, const ReceiverPacket& receivers, const PacketHorizon& floors) {
   constexpr float none = std::numeric_limits<float>::infinity();
   Row nothing;
   nothing.fill(none);

@@ -11,7 +11,7 @@
 #include "farlod/sky/sky_partition.hpp"
 #include "horizon/azimuth_ring.hpp"
 #include "horizon/receiver_packet.hpp"
-#include "horizon/skyline_edges.hpp"
+#include "horizon/silhouette_edges.hpp"
 
 namespace farlod {
 
@@ -39,7 +39,7 @@ class PacketHorizon {
   void raise(const RowsBetween& rows, std::span<const std::uint32_t> bin_of_azimuth);
   /// Raises each receiver's horizon by what it sees of some edges: fastest if they come from near to far, since those that lie
   /// below the horizons of all receivers already are passed over.
-  void raise(const SkylineEdges& edges, const ReceiverPacket& receivers);
+  void raise(const SilhouetteEdges& edges, const ReceiverPacket& receivers);
   /// Lets those receivers see no sky at all whose bits are set.
   void close(std::uint32_t receivers);
   /// Raises them to other ones where these are higher.
@@ -51,7 +51,7 @@ class PacketHorizon {
   void lower_to(const PacketHorizon& other);
   [[nodiscard]] const Row& row(std::size_t azimuth) const { return slopes_[azimuth]; }
   /// Becomes, for each receiver and azimuth, the lowest of some edges that is seen above `floors`; `floors` where none is.
-  void become_lowest(const SkylineEdges& edges, const ReceiverPacket& receivers, const PacketHorizon& floors);
+  void become_lowest(const SilhouetteEdges& edges, const ReceiverPacket& receivers, const PacketHorizon& floors);
   /// Of directions with these slopes, one at each azimuth, how many pass over each receiver's horizon.
   [[nodiscard]] Lanes count_over(std::span<const float> slopes) const;
   /// A bit for each receiver whose horizon is higher than the other one of its own, at some azimuth.

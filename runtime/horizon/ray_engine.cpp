@@ -16,14 +16,14 @@ std::uint32_t whole(float count) { return static_cast<std::uint32_t>(count); }
 
 }  // namespace
 
-RayEngine::RayEngine(const RayFan& fan, const FarHorizon& far, const CellSkyline& skyline, OverhangGeometry& overhangs,
+RayEngine::RayEngine(const RayFan& fan, const FarHorizon& far, const CellSilhouettes& silhouettes, OverhangGeometry& overhangs,
                      bool wants_bounds)
     : fan_(fan),
-      skyline_(skyline),
+      silhouettes_(silhouettes),
       overhangs_(overhangs),
       wants_bounds_(wants_bounds),
-      unnamed_(far, fan.ring()),
-      likely_(fan.ring()),
+      residual_(far, fan.ring()),
+      estimate_(fan.ring()),
       certain_(fan.ring()),
       open_(fan.ring()) {}
 
@@ -31,18 +31,18 @@ std::vector<FreeRays> RayEngine::count(std::span<const Receiver> receivers) {
   FARLOD_EXPECTS(!receivers.empty() && receivers.size() <= ReceiverPacket::lanes);
   look(receivers);
   trace();
-  const PacketHorizon::Lanes likely = likely_.upper.count_over(fan_.slopes());
-  const PacketHorizon::Lanes high = wants_bounds_ ? certain_.upper.count_over(fan_.slopes()) : likely;
-  const PacketHorizon::Lanes low = wants_bounds_ ? open_.count_over(fan_.slopes()) : likely;
+  const PacketHorizon::Lanes estimate = estimate_.upper.count_over(fan_.slopes());
+  const PacketHorizon::Lanes high = wants_bounds_ ? certain_.upper.count_over(fan_.slopes()) : estimate;
+  const PacketHorizon::Lanes low = wants_bounds_ ? open_.count_over(fan_.slopes()) : estimate;
   std::vector<FreeRays> free;
-  for (std::size_t l = 0; l < receivers.size(); ++l) free.push_back({whole(low[l]), whole(likely[l]), whole(high[l])});
+  for (std::size_t l = 0; l < receivers.size(); ++l) free.push_back({whole(low[l]), whole(estimate[l]), whole(high[l])});
   for (const Passing& p : passing_)
     for (std::size_t l = 0; l < free.size(); ++l) {
-      free[l].likely += (p.likely & bit_of(l)) != 0 ? 1U : 0U;
+      free[l].estimate += (p.estimate & bit_of(l)) != 0 ? 1U : 0U;
       free[l].high += (p.possible & bit_of(l)) != 0 ? 1U : 0U;
     }
   if (!wants_bounds_)
-    for (FreeRays& f : free) f.low = f.high = f.likely;
+    for (FreeRays& f : free) f.low = f.high = f.estimate;
   return free;
 }
 
@@ -50,24 +50,24 @@ void RayEngine::look(std::span<const Receiver> receivers) {
   packet_ = {};
   for (const Receiver& r : receivers) packet_.add(r);
   const std::uint32_t covered = overhangs_.covered(packet_);
-  // What is likely: the unnamed is grounded
-  likely_.grounded.clear();
-  unnamed_.raise_likely(packet_, likely_.grounded);
-  likely_.grounded.raise(skyline_.grounded, packet_);
-  likely_.upper = likely_.borders = likely_.grounded;
-  likely_.draw_overhangs(skyline_, packet_, covered, FarGaps::likely);
-  likely_.borders.lower_to(likely_.upper);
+  // The estimate: the residual city is grounded
+  estimate_.grounded.clear();
+  residual_.raise_to_estimate(packet_, estimate_.grounded);
+  estimate_.grounded.raise(silhouettes_.grounded, packet_);
+  estimate_.upper = estimate_.borders = estimate_.grounded;
+  estimate_.draw_overhangs(silhouettes_, packet_, covered, FarGaps::estimate);
+  estimate_.borders.lower_to(estimate_.upper);
   if (!wants_bounds_) return;
   // What is certain
   certain_.grounded.clear();
-  certain_.grounded.raise(skyline_.grounded, packet_);
+  certain_.grounded.raise(silhouettes_.grounded, packet_);
   certain_.upper = certain_.borders = certain_.grounded;
-  unnamed_.raise_lower(packet_, certain_.upper);
-  unnamed_.raise_overhang(packet_, certain_.borders);
-  certain_.draw_overhangs(skyline_, packet_, covered, FarGaps::possible);
+  residual_.raise_to_low(packet_, certain_.upper);
+  residual_.raise_to_overhang(packet_, certain_.borders);
+  certain_.draw_overhangs(silhouettes_, packet_, covered, FarGaps::possible);
   certain_.borders.lower_to(certain_.upper);
-  open_ = likely_.upper;
-  unnamed_.raise_upper(packet_, open_);
+  open_ = estimate_.upper;
+  residual_.raise_to_high(packet_, open_);
 }
 
 std::uint32_t RayEngine::in_gap(const OverhangHorizons& h, std::uint32_t azimuth, float slope) {
@@ -78,21 +78,21 @@ std::uint32_t RayEngine::in_gap(const OverhangHorizons& h, std::uint32_t azimuth
 void RayEngine::trace() {
   passing_.clear();
   const bool has_gaps =
-      likely_.borders.above(likely_.grounded) != 0 || (wants_bounds_ && certain_.borders.above(certain_.grounded) != 0);
+      estimate_.borders.above(estimate_.grounded) != 0 || (wants_bounds_ && certain_.borders.above(certain_.grounded) != 0);
   if (!has_gaps) return;
   const PlacedScene scene = overhangs_.scene();
   const RayOrigins origins = scene.origins_of(packet_);
   for (std::uint32_t k = 0; k < fan_.size(); ++k) {
     const float slope = fan_.slopes()[k];
-    const std::uint32_t likely = in_gap(likely_, k, slope), possible = wants_bounds_ ? in_gap(certain_, k, slope) : 0U;
-    const std::uint32_t wanted = likely | possible;
+    const std::uint32_t estimate = in_gap(estimate_, k, slope), possible = wants_bounds_ ? in_gap(certain_, k, slope) : 0U;
+    const std::uint32_t wanted = estimate | possible;
     if (wanted == 0) continue;
     const std::uint32_t free = wanted & ~scene.occluder.blocked(origins, fan_.direction(k), least_distance_m, wanted);
-    if (free != 0) passing_.push_back({k, free & likely, free & possible});
+    if (free != 0) passing_.push_back({k, free & estimate, free & possible});
   }
 }
 
-std::uint64_t RayEngine::settle(const Occluder& city, const RayOrigins& origins, std::uint32_t doubtful,
+std::uint64_t RayEngine::retrace(const Occluder& city, const RayOrigins& origins, std::uint32_t doubtful,
                                 std::span<FreeRays> free) const {
   FARLOD_EXPECTS(wants_bounds_);
   std::uint64_t rays = 0;
@@ -109,7 +109,7 @@ std::uint64_t RayEngine::settle(const Occluder& city, const RayOrigins& origins,
     for (std::size_t l = 0; l < free.size(); ++l) free[l].high += (open & bit_of(l)) != 0 ? 1U : 0U;
   }
   for (std::size_t l = 0; l < free.size(); ++l)
-    if ((doubtful & bit_of(l)) != 0) free[l].low = free[l].likely = free[l].high;
+    if ((doubtful & bit_of(l)) != 0) free[l].low = free[l].estimate = free[l].high;
   return rays;
 }
 

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "farlod/far_map/far_horizon.hpp"
-#include "horizon/cell_skyline.hpp"
+#include "horizon/cell_silhouettes.hpp"
 #include "horizon/overhang_geometry.hpp"
 #include "horizon/overhang_horizons.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/ray_fan.hpp"
 #include "horizon/receiver_packet.hpp"
-#include "horizon/unnamed_city.hpp"
+#include "horizon/residual_horizon.hpp"
 #include "occlusion/occluder.hpp"
 #include "receivers/receiver.hpp"
 
@@ -23,7 +23,7 @@ namespace farlod {
 
 /// Of a receiver's rays, how many reach the sky: at the least, likely, and at the most.
 struct FreeRays {
-  std::uint32_t low = 0, likely = 0, high = 0;
+  std::uint32_t low = 0, estimate = 0, high = 0;
 };
 
 /// Counts the rays that reach the sky, for packets of receivers that look in the same directions. Whether a ray is blocked
@@ -31,14 +31,14 @@ struct FreeRays {
 class RayEngine {
  public:
   /// All must outlive it. For receivers of one cell. Without `wants_bounds`, low = high = likely.
-  RayEngine(const RayFan& fan, const FarHorizon& far, const CellSkyline& skyline, OverhangGeometry& overhangs, bool wants_bounds);
+  RayEngine(const RayFan& fan, const FarHorizon& far, const CellSilhouettes& silhouettes, OverhangGeometry& overhangs, bool wants_bounds);
 
   /// For up to ReceiverPacket::lanes receivers.
   [[nodiscard]] std::vector<FreeRays> count(std::span<const Receiver> receivers);
 
   /// Traces what the far map left open for the doubtful (by bits) among the receivers that were counted last, against everything;
   /// `origins` are the same receivers in the frame of `city`. Needs `wants_bounds`. Returns the number of rays.
-  std::uint64_t settle(const Occluder& city, const RayOrigins& origins, std::uint32_t doubtful, std::span<FreeRays> free) const;
+  std::uint64_t retrace(const Occluder& city, const RayOrigins& origins, std::uint32_t doubtful, std::span<FreeRays> free) const;
 
  private:
   void look(std::span<const Receiver> receivers);
@@ -49,17 +49,17 @@ class RayEngine {
 
   /// Rays that pass below something and meet nothing near, by bits of receivers: likely, and possibly.
   struct Passing {
-    std::uint32_t azimuth, likely, possible;
+    std::uint32_t azimuth, estimate, possible;
   };
 
   const RayFan& fan_;
-  const CellSkyline& skyline_;
+  const CellSilhouettes& silhouettes_;
   OverhangGeometry& overhangs_;
   bool wants_bounds_;
-  UnnamedCity unnamed_;
+  ResidualHorizon residual_;
   ReceiverPacket packet_;
   /// Without bounds, only what is likely is known. Above `open_` everything passes.
-  OverhangHorizons likely_, certain_;
+  OverhangHorizons estimate_, certain_;
   PacketHorizon open_;
   std::vector<Passing> passing_;
 };

@@ -4,7 +4,7 @@
 
 #include "farlod/horizon/edge_facing.hpp"
 #include "horizon/lanes.hpp"
-#include "horizon/skyline_edges.hpp"
+#include "horizon/silhouette_edges.hpp"
 
 /// may_be_silhouette (farlod/horizon/edge_facing.hpp) for sixteen edges at once.
 namespace farlod {
@@ -28,24 +28,24 @@ struct SeenEdges {
   Floats give;         ///< the slack, and the rounding
 };
 
-FARLOD_LANES SeenEdges seen_edges(const SkylineEdges::Batch& e, const EyeBox& eyes) {
+FARLOD_LANES SeenEdges seen_edges(const SilhouetteEdges::Batch& e, const EyeBox& eyes) {
   SeenEdges s;
-  const Floats ax = loaded(e.ax.data()), ay = loaded(e.ay.data()), bz = loaded(e.bz.data());
-  s.first_z = loaded(e.az.data());
-  s.along_x = loaded(e.bx.data()) - ax;
-  s.along_y = loaded(e.by.data()) - ay;
+  const Floats ax = load(e.ax.data()), ay = load(e.ay.data()), bz = load(e.bz.data());
+  s.first_z = load(e.az.data());
+  s.along_x = load(e.bx.data()) - ax;
+  s.along_y = load(e.by.data()) - ay;
   s.along_z = bz - s.first_z;
   s.eye_x = eyes.x - ax;
   s.eye_y = eyes.y - ay;
   const Floats run_square = s.along_x * s.along_x + s.along_y * s.along_y;
-  s.run = root(run_square);
-  const Floats length = greatest(root(run_square + s.along_z * s.along_z), all(1e-12F));
+  s.run = sqrt(run_square);
+  const Floats length = max(sqrt(run_square + s.along_z * s.along_z), broadcast(1e-12F));
   s.level = s.run / length;
   s.tilt = s.along_z / length;
   s.ahead = s.along_x * s.eye_x + s.along_y * s.eye_y;
   s.left = s.along_x * s.eye_y - s.along_y * s.eye_x;
-  const Floats coordinates = magnitude(s.eye_x) + magnitude(s.eye_y) + (eyes.half_x + eyes.half_y) +
-                             magnitude(eyes.low_z - s.first_z) + magnitude(eyes.high_z - s.first_z) + magnitude(s.along_z);
+  const Floats coordinates = abs(s.eye_x) + abs(s.eye_y) + (eyes.half_x + eyes.half_y) +
+                             abs(eyes.low_z - s.first_z) + abs(eyes.high_z - s.first_z) + abs(s.along_z);
   s.give = s.run * (silhouette_slack_m + silhouette_rounding * coordinates);
   return s;
 }
@@ -56,22 +56,22 @@ FARLOD_LANES Floats most_over(const SeenEdges& s, const EyeBox& eyes, float sign
   const Floats rise = (z - s.first_z) * s.run * s.level - s.ahead * s.tilt;
   const Floats towards_left = s.left > 0.0F ? slope : -slope, tilt = sign * s.tilt;
   const Floats per_x = towards_left * s.along_y - tilt * s.along_x, per_y = -towards_left * s.along_x - tilt * s.along_y;
-  return sign * rise - s.left * towards_left + magnitude(per_x) * eyes.half_x + magnitude(per_y) * eyes.half_y +
-         s.give * (1.0F + magnitude(slope));
+  return sign * rise - s.left * towards_left + abs(per_x) * eyes.half_x + abs(per_y) * eyes.half_y +
+         s.give * (1.0F + abs(slope));
 }
 
 /// More than 0 for the edges that may be a silhouette. A lower border is an upper one upside down.
-FARLOD_LANES Floats may_be_silhouette(const SeenEdges& s, const SkylineEdges::Batch& e, const EyeBox& eyes, bool is_upper) {
-  const Floats left = loaded(e.left.data()), right = loaded(e.right.data());
+FARLOD_LANES Floats may_be_silhouette(const SeenEdges& s, const SilhouetteEdges::Batch& e, const EyeBox& eyes, bool is_upper) {
+  const Floats left = load(e.left.data()), right = load(e.right.data());
   const Floats near_slope = s.left > 0.0F ? left : right, far_slope = s.left > 0.0F ? right : left;
-  const Floats below_edge = s.first_z + greatest(s.along_z, all(0.0F)) - 2.0F * silhouette_slack_m;
-  const Floats highest = least(all(eyes.high_z), below_edge), lowest = all(eyes.low_z);
+  const Floats below_edge = s.first_z + max(s.along_z, broadcast(0.0F)) - 2.0F * silhouette_slack_m;
+  const Floats highest = min(broadcast(eyes.high_z), below_edge), lowest = broadcast(eyes.low_z);
   const Floats past_near =
       is_upper ? most_over(s, eyes, 1.0F, highest, near_slope) : most_over(s, eyes, -1.0F, lowest, -near_slope);
   const Floats past_far = is_upper ? most_over(s, eyes, -1.0F, lowest, far_slope) : most_over(s, eyes, 1.0F, highest, -far_slope);
-  const Floats aside = magnitude(s.left) - magnitude(s.along_y) * eyes.half_x - magnitude(s.along_x) * eyes.half_y;
+  const Floats aside = abs(s.left) - abs(s.along_y) * eyes.half_x - abs(s.along_x) * eyes.half_y;
   // Eyes on both sides, or an upright edge: it has none
-  return aside > s.give ? least(past_near, past_far) : all(1.0F);
+  return aside > s.give ? min(past_near, past_far) : broadcast(1.0F);
 }
 
 }  // namespace farlod

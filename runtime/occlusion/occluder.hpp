@@ -26,7 +26,7 @@ struct Ray {
   float end = std::numeric_limits<float>::infinity();
 };
 
-/// Where rays begin that share their directions: neighbouring places, coordinate by coordinate.
+/// Where rays begin that share their directions: neighboring places, coordinate by coordinate.
 struct RayOrigins {
   static constexpr std::size_t lanes = 16;
   alignas(64) std::array<float, lanes> x{}, y{}, z{};
@@ -46,7 +46,7 @@ class OcclusionError : public std::runtime_error {
 /// Answers "what does this ray meet?" for a set of triangles. Both sides of a triangle count. Immutable; all questions may
 /// be asked from many threads. The only door to Embree.
 ///
-/// Neighbouring triangles are watertight (Embree's robust mode): a ray through a shared edge meets one of them. Whether a ray
+/// Neighboring triangles are watertight (Embree's robust mode): a ray through a shared edge meets one of them. Whether a ray
 /// that ends or begins on a triangle meets it is not specified.
 class Occluder {
  public:
@@ -67,7 +67,7 @@ class Occluder {
   [[nodiscard]] std::uint32_t blocked(const RayOrigins& origins, const Point3f& direction, float begin,
                                       std::uint32_t wanted) const;
 
-  /// The same, each ray with a direction of its own: neighbouring directions, as origins are neighbours.
+  /// The same, each ray with a direction of its own: neighboring directions, as origins are neighbors.
   struct Directions {
     alignas(64) std::array<float, RayOrigins::lanes> x{}, y{}, z{};
   };

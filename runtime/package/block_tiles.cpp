@@ -26,7 +26,7 @@ bool is_on_earth(const Point3f& p) {
 }
 
 /// −128 is no angle: its tangent would come out on the other side of the vertical.
-bool are_angles(EdgeRises rises) { return rises.left >= EdgeRises::straight_down && rises.right >= EdgeRises::straight_down; }
+bool are_angles(AdjacentSlopes adjacent) { return adjacent.left >= AdjacentSlopes::straight_down && adjacent.right >= AdjacentSlopes::straight_down; }
 
 }  // namespace
 
@@ -65,7 +65,7 @@ void BlockTiles::find_sections() {
   text_ = {text.data(), text.size()};
   far_cells_ = section<FarCellRecord>(SectionKind::far_cells);
   far_edges_ = section<HorizonEdge>(SectionKind::far_edges);
-  named_edges_ = section<NamedObstacle>(SectionKind::named_edges);
+  explicit_edges_ = section<ExplicitOccluder>(SectionKind::explicit_edges);
 }
 
 template <class T>
@@ -164,7 +164,7 @@ void BlockTiles::check_edges(const TileView& tile) const {
     std::uint64_t sides = 0;
     for (const TileEdge& e : of_role) {
       sides += e.sides_passed + (e.sides_passed == TileEdge::only_passes ? 0U : 1U);
-      require(are_angles(e.rises), "something beside an edge rises beyond a right angle");
+      require(are_angles(e.adjacent), "something beside an edge rises beyond a right angle");
     }
     require(sides <= 3 * tile.mesh.triangles.size(), "an edge is a side of a triangle that does not exist");
   }
@@ -174,7 +174,7 @@ void BlockTiles::check_edges(const TileView& tile) const {
 void BlockTiles::check_places(std::span<const HorizonEdge> edges) const {
   for (const HorizonEdge& e : edges) {
     require(is_on_earth(e.a) && is_on_earth(e.b), "an edge lies nowhere on Earth");
-    require(are_angles(e.rises), "something beside an edge rises beyond a right angle");
+    require(are_angles(e.adjacent), "something beside an edge rises beyond a right angle");
     require(static_cast<std::size_t>(e.role) < edge_role_count, "an edge has a role that does not exist");
   }
 }
@@ -182,21 +182,21 @@ void BlockTiles::check_places(std::span<const HorizonEdge> edges) const {
 void BlockTiles::check_far_cells() const {
   require(far_cells_.empty() || far_cells_.size() == cells_.size(), "not every cell has a far map");
   for (const FarCellRecord& c : far_cells_) {
-    require(c.first_named_edge <= named_edges_.size() && c.named_edge_count <= named_edges_.size() - c.first_named_edge,
+    require(c.first_explicit_edge <= explicit_edges_.size() && c.explicit_edge_count <= explicit_edges_.size() - c.first_explicit_edge,
             "a far map's edges reach beyond the end");
     for (std::size_t l = 0; l < c.levels_m.size(); ++l)
       require(std::abs(c.levels_m[l]) <= farthest_m && (l == 0 || c.levels_m[l - 1] <= c.levels_m[l]),
               "the levels of a far map are not in order");
   }
-  for (const NamedObstacle& n : named_edges_) require(n.row < far_edges_.size(), "a far map names an edge that does not exist");
+  for (const ExplicitOccluder& n : explicit_edges_) require(n.row < far_edges_.size(), "a far map names an edge that does not exist");
 }
 
 void BlockTiles::check_far_places() const { check_places(far_edges_); }
 
-NamedObstacles BlockTiles::named_obstacles(Cell cell, double cell_edge_m) const {
+ExplicitOccluders BlockTiles::explicit_occluders(Cell cell, double cell_edge_m) const {
   FARLOD_EXPECTS(range_.contains(cell) && has_far_cells());
   const FarCellRecord& c = far_cells_[range_.index_of(cell)];
-  return {far_edges_, named_edges_.subspan(c.first_named_edge, c.named_edge_count),
+  return {far_edges_, explicit_edges_.subspan(c.first_explicit_edge, c.explicit_edge_count),
           Point2d{(range_.i_begin - cell.i) * cell_edge_m, (range_.j_begin - cell.j) * cell_edge_m}};
 }
 

@@ -44,7 +44,7 @@ struct TileView {
         side += e.sides_passed;
         if (e.sides_passed == package::TileEdge::only_passes) continue;
         const std::uint32_t* from = corner + side;
-        visit(HorizonEdge{mesh.vertices[*from], mesh.vertices[from[to_next[side % 3]]], e.rises, static_cast<EdgeRole>(role)});
+        visit(HorizonEdge{mesh.vertices[*from], mesh.vertices[from[to_next[side % 3]]], e.adjacent, static_cast<EdgeRole>(role)});
         ++side;
       }
     }
@@ -67,7 +67,7 @@ class BlockTiles {
   [[nodiscard]] TileView tile(Cell cell) const;  ///< `cell` must be one of the block's
   /// What the far map of a cell names, and the levels of its layers. Only where far maps are of the kind `horizon`:
   /// has_far_cells().
-  [[nodiscard]] NamedObstacles named_obstacles(Cell cell, double cell_edge_m) const;
+  [[nodiscard]] ExplicitOccluders explicit_occluders(Cell cell, double cell_edge_m) const;
   [[nodiscard]] std::vector<float> levels_m(Cell cell, std::uint32_t layers) const;
   [[nodiscard]] bool has_far_cells() const { return !far_cells_.empty(); }
   [[nodiscard]] std::span<const package::SurfaceRecord> surfaces() const { return surfaces_; }
@@ -105,7 +105,7 @@ class BlockTiles {
   std::vector<TileView> tiles_;  ///< as many and in the same order as cells_
   std::span<const package::FarCellRecord> far_cells_;
   std::span<const HorizonEdge> far_edges_;
-  std::span<const package::NamedObstacle> named_edges_;
+  std::span<const package::ExplicitOccluder> explicit_edges_;
 };
 
 }  // namespace farlod

@@ -14,7 +14,7 @@
 
 namespace farlod {
 
-/// The far map of one cell, of the kind `box`: what the city beyond the neighbourhood hides, seen from the capture point.
+/// The far map of one cell, of the kind `box`: what the city beyond the neighborhood hides, seen from the capture point.
 class BoxFarMap {
  public:
   /// A far field that hides nothing.
@@ -50,7 +50,7 @@ class FarMapReader {
 
   /// Of the kind `box`; `top` is BoxMap::top. Throws PackageDamaged.
   [[nodiscard]] BoxFarMap read_box(Cell cell, float top) const;
-  /// Of the kind `horizon`: fills lower, likely, upper and overhang. Throws PackageDamaged.
+  /// Of the kind `horizon`: fills low, estimate, high and overhang. Throws PackageDamaged.
   void read_slopes(Cell cell, FarHorizon& map) const;
 
  private:

@@ -133,7 +133,7 @@ struct FarMapReader::Impl {
     };
     if (shape.is_box() && !has(package::distance_channel)) damaged("it has no distances");
     for (const char* slopes :
-         {package::lower_channel, package::likely_channel, package::upper_channel, package::overhang_channel})
+         {package::low_channel, package::estimate_channel, package::high_channel, package::overhang_channel})
       if (!shape.is_box() && !has(slopes)) damaged("it has no slopes");
   }
   /// The pixels of one cell, in the file's order of rows.
@@ -174,13 +174,13 @@ BoxFarMap FarMapReader::read_box(Cell cell, float top) const {
 
 void FarMapReader::read_slopes(Cell cell, FarHorizon& map) const {
   FARLOD_EXPECTS(impl_->cells.contains(cell) && !impl_->shape.is_box());
-  impl_->read(cell, std::array{Wanted{package::lower_channel, &map.lower}, Wanted{package::likely_channel, &map.likely},
-                               Wanted{package::upper_channel, &map.upper}, Wanted{package::overhang_channel, &map.overhang}});
+  impl_->read(cell, std::array{Wanted{package::low_channel, &map.low}, Wanted{package::estimate_channel, &map.estimate},
+                               Wanted{package::high_channel, &map.high}, Wanted{package::overhang_channel, &map.overhang}});
   std::size_t in_order = 0;
-  for (std::size_t n = 0; n < map.lower.size(); ++n)
-    in_order += (map.lower[n] >= 0.0F ? 1U : 0U) & (map.lower[n] <= map.upper[n] ? 1U : 0U) & (map.likely[n] >= 0.0F ? 1U : 0U) &
+  for (std::size_t n = 0; n < map.low.size(); ++n)
+    in_order += (map.low[n] >= 0.0F ? 1U : 0U) & (map.low[n] <= map.high[n] ? 1U : 0U) & (map.estimate[n] >= 0.0F ? 1U : 0U) &
                 (map.overhang[n] >= 0.0F ? 1U : 0U);
-  if (in_order != map.lower.size()) impl_->damaged("its bounds are not in order");
+  if (in_order != map.low.size()) impl_->damaged("its bounds are not in order");
 }
 
 }  // namespace farlod

@@ -80,7 +80,7 @@ Grid grid_from(const json& j, double rotation_deg) {
   require(grid.cell_edge_m >= 0.01 && grid.cell_edge_m <= 1e6 && grid.cell_edge_m == exact_cell_edge_m(grid.cell_edge_m),
           "the cell edge is impossible");
   require(grid.neighborhood >= 1 && grid.neighborhood % 2 == 1 && grid.neighborhood < 10000,
-          "the neighbourhood is not an odd number");
+          "the neighborhood is not an odd number");
   require(grid.block_edge >= 1 && grid.block_edge <= 4096, "the block edge is impossible");
   return grid;
 }

@@ -13,7 +13,7 @@
 #include "package/manifest_reader.hpp"
 #include "package/mapped_file.hpp"
 #include "package/package_error.hpp"
-#include "package/recently_used.hpp"
+#include "package/lru_cache.hpp"
 
 namespace farlod {
 namespace {
@@ -36,12 +36,12 @@ struct OpenBlock {
   std::once_flag tiles_once, far_map_checked;
   std::optional<MappedFile> tiles_bytes;
   std::optional<BlockTiles> tiles;
-  std::mutex far_map_door;
+  std::mutex far_map_mutex;
   std::shared_ptr<const FarMapReader> far_map;
 
   void let_go() {
     if (tiles_bytes) tiles_bytes->let_go();
-    const std::lock_guard lock(far_map_door);
+    const std::lock_guard lock(far_map_mutex);
     far_map.reset();
   }
 };
@@ -53,7 +53,7 @@ struct Package::Impl {
   package::Manifest manifest;
   std::vector<OpenBlock> blocks;
   std::mutex held_door;
-  RecentlyUsed held;
+  LruCache held;
 
   explicit Impl(std::filesystem::path f)
       : folder(std::move(f)), manifest(read_manifest(folder)), blocks(manifest.blocks.size()) {}
@@ -103,7 +103,7 @@ struct Package::Impl {
     OpenBlock& open = blocks[n];
     const auto path = path_of(n, package::far_map_file);
     std::call_once(open.far_map_checked, [&] { check_stamp(path, MappedFile(path).bytes(), manifest.blocks[n].far_map); });
-    const std::lock_guard lock(open.far_map_door);
+    const std::lock_guard lock(open.far_map_mutex);
     if (!open.far_map)
       open.far_map =
           std::make_shared<const FarMapReader>(path, manifest.grid.cells_of(manifest.blocks[n].block), manifest.far_map);
@@ -140,7 +140,7 @@ FarHorizon Package::far_horizon(Cell cell) const {
                  {},
                  {},
                  {},
-                 tiles.named_obstacles(cell, cell_edge_m)};
+                 tiles.explicit_occluders(cell, cell_edge_m)};
   impl_->far_maps(n)->read_slopes(cell, map);
   return map;
 }

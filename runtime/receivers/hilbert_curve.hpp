@@ -15,7 +15,7 @@ namespace farlod {
 ///   (2) cells that follow each other along the curve share an edge
 [[nodiscard]] std::uint64_t hilbert_index(Cell cell, int order);
 
-/// Orders cells along Hilbert's curve through them all, so that few neighbourhoods are needed at any time. The order is the same
+/// Orders cells along Hilbert's curve through them all, so that few neighborhoods are needed at any time. The order is the same
 /// for the same cells, however they are given. Where a block's edge is a power of two, as it is unless somebody wished otherwise,
 /// the curve leaves a block only when it has met all of its cells.
 [[nodiscard]] std::vector<Cell> along_hilbert_curve(std::vector<Cell> cells, std::int32_t block_edge);

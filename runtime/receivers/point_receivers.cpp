@@ -22,9 +22,9 @@ Point2d cell_point_within(Point2d p_grid, Cell cell, const Grid& grid) {
 }
 
 /// Out there is no building to be inside of, nor a roof to stand on, even where one ends at the very border of the grid.
-std::optional<Point3f> stand_outside(const CellColumns& columns, Point2d p_cell, Point2d at_border, HeightAbove above,
+std::optional<Point3f> stand_outside(const PointLocator& columns, Point2d p_cell, Point2d at_border, HeightAbove above,
                                      float height_m) {
-  const Column column = columns.at(static_cast<float>(at_border.x), static_cast<float>(at_border.y));
+  const VerticalProfile column = columns.at(static_cast<float>(at_border.x), static_cast<float>(at_border.y));
   const auto z_m = standing_height_m(column, above == HeightAbove::highest_surface ? HeightAbove::ground : above, height_m);
   if (!z_m) return std::nullopt;
   return Point3f{static_cast<float>(p_cell.x), static_cast<float>(p_cell.y), *z_m};
@@ -44,7 +44,7 @@ CellReceivers receivers_at(const Package& package, Cell cell, std::span<const Pl
                            std::span<const std::size_t> chosen, HeightAbove above, float height_m) {
   const Grid& grid = package.grid();
   const Cell existing = nearest_existing(cell, grid.cells);
-  const CellColumns columns(package, existing);
+  const PointLocator columns(package, existing);
   CellReceivers result{cell, {}};
   for (const std::size_t n : chosen) {
     const Point2d p_grid = package.manifest().grid_from_projected(places[n].p_projected);

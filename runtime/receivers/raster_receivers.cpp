@@ -68,7 +68,7 @@ void RasterReceivers::for_each_pixel(Cell cell, const Visit& visit) const {
 }
 
 CellReceivers RasterReceivers::in_cell(const Package& package, Cell cell, HeightAbove above, float height_m) const {
-  const CellColumns columns(package, cell);
+  const PointLocator columns(package, cell);
   CellReceivers result{cell, {}};
   for_each_pixel(cell, [&](std::size_t index, Point2d p_grid) {
     const Point2d p = p_grid - manifest_.grid.corner_of(cell);

@@ -25,7 +25,7 @@ struct RasterPlan {
 };
 
 /// The raster over `wanted` (projected frame), or over all cells of the grid. Pixels begin at multiples of the step, so that
-/// rasters of neighbouring runs fit together.
+/// rasters of neighboring runs fit together.
 [[nodiscard]] RasterPlan plan_raster(const package::Manifest& manifest, double step_m,
                                      const std::optional<Box2d>& wanted_projected);
 
@@ -45,7 +45,7 @@ class RasterReceivers {
   [[nodiscard]] std::vector<Cell> cells() const;
   /// All pixels whose centres a cell holds lie in this range, and others do.
   [[nodiscard]] PixelRange range_of(Cell cell) const;
-  /// The receivers of one cell; pixels inside buildings are left out. Neighbours in the plane are neighbours in the list.
+  /// The receivers of one cell; pixels inside buildings are left out. Neighbors in the plane are neighbors in the list.
   [[nodiscard]] CellReceivers in_cell(const Package& package, Cell cell, HeightAbove above, float height_m) const;
   /// How many pixels have their centres in a cell, inside buildings or not.
   [[nodiscard]] std::size_t pixel_count(Cell cell) const;

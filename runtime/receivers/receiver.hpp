@@ -8,7 +8,7 @@
 
 #include "farlod/grid.hpp"
 #include "farlod/point.hpp"
-#include "scene/column.hpp"
+#include "scene/vertical_profile.hpp"
 
 namespace farlod {
 
@@ -33,12 +33,12 @@ struct CellReceivers {
 enum class HeightAbove { ground, highest_surface, sea_level };
 
 /// How high that is; nowhere when the surface that the height counts from is not there.
-[[nodiscard]] std::optional<float> standing_height_m(const Column& column, HeightAbove above, float height_m);
+[[nodiscard]] std::optional<float> standing_height_m(const VerticalProfile& column, HeightAbove above, float height_m);
 
 /// Where a receiver stands above a place of a cell; nowhere when that is inside a building, or when its height counts from a
 /// surface that is not there (beyond a terrain). `height_m` counts from `above`; for `sea_level`, from the package's height
 /// origin.
-[[nodiscard]] std::optional<Point3f> stand(const CellColumns& columns, float x_cell, float y_cell, HeightAbove above,
+[[nodiscard]] std::optional<Point3f> stand(const PointLocator& columns, float x_cell, float y_cell, HeightAbove above,
                                            float height_m);
 
 }  // namespace farlod

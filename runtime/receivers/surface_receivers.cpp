@@ -30,10 +30,10 @@ Point2d place_in_triangle(std::size_t n, std::size_t count) {
   return count == 1 ? Point2d{1.0 / 3.0, 1.0 / 3.0} : in_triangle(n);
 }
 
-/// Columns of a cell and of its neighbours: a receiver that stands off a wall on the cell's border is in the next.
-class ColumnsAround {
+/// Columns of a cell and of its neighbors: a receiver that stands off a wall on the cell's border is in the next.
+class LocatorsAround {
  public:
-  ColumnsAround(const Package& package, Cell cell) : package_(package), cell_(cell) {}
+  LocatorsAround(const Package& package, Cell cell) : package_(package), cell_(cell) {}
 
   [[nodiscard]] bool is_buried(const Point3f& p_cell) {
     const Grid& grid = package_.grid();
@@ -41,7 +41,7 @@ class ColumnsAround {
     const auto step = [edge_m](float x) { return x < 0.0F ? -1 : x >= edge_m ? 1 : 0; };
     const Cell there{cell_.i + step(p_cell.x), cell_.j + step(p_cell.y)};
     if (!grid.cells.contains(there)) return false;
-    const CellColumns& columns = columns_.try_emplace(there, package_, there).first->second;
+    const PointLocator& columns = columns_.try_emplace(there, package_, there).first->second;
     const Point2d p = Point2d{p_cell.x, p_cell.y} + grid.corner_of(cell_) - grid.corner_of(there);
     return columns.at(static_cast<float>(p.x), static_cast<float>(p.y)).is_buried(p_cell.z);
   }
@@ -49,7 +49,7 @@ class ColumnsAround {
  private:
   const Package& package_;
   Cell cell_;
-  std::map<Cell, CellColumns> columns_;
+  std::map<Cell, PointLocator> columns_;
 };
 
 /// Triangles of one surface in a tile.
@@ -76,7 +76,7 @@ float lean_ahead_m(const Piece& wall, float z_m) {
   return ahead_m <= most_lean_m ? ahead_m : 0.0F;
 }
 
-void spread(const TileView& tile, const Piece& piece, std::uint32_t t, double spacing_m, ColumnsAround& columns,
+void spread(const TileView& tile, const Piece& piece, std::uint32_t t, double spacing_m, LocatorsAround& columns,
             std::vector<SurfaceReceiver>& receivers) {
   const Triangle& corners = tile.mesh.triangles[t];
   const Point3f a = tile.mesh.vertices[corners.a];
@@ -96,7 +96,7 @@ void spread(const TileView& tile, const Piece& piece, std::uint32_t t, double sp
 
 std::vector<SurfaceReceiver> surface_receivers(const Package& package, Cell cell, SurfaceChoice choice, double spacing_m) {
   const TileView tile = package.tile(cell);
-  ColumnsAround columns(package, cell);
+  LocatorsAround columns(package, cell);
   std::vector<SurfaceReceiver> receivers;
   std::uint32_t begin = 0;
   for (const package::SurfaceRun& run : tile.surface_runs) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "results/raster_writer.hpp"
-#include "results/waiting_file.hpp"
+#include "results/spool_file.hpp"
 
 namespace farlod {
 
@@ -29,7 +29,7 @@ class EsriAsciiWriter : public RasterWriter {
 
   RasterFrame frame_;
   std::filesystem::path path_;
-  WaitingFile waiting_;
+  SpoolFile waiting_;
   std::map<TilePlace, std::uint64_t> waiting_tiles_;  ///< where they wait
 };
 

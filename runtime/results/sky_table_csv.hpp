@@ -11,7 +11,7 @@
 #include <string>
 
 #include "results/sky_table.hpp"
-#include "results/waiting_file.hpp"
+#include "results/spool_file.hpp"
 
 namespace farlod {
 
@@ -45,7 +45,7 @@ class SurfacePointsCsv {
   std::filesystem::path path_;
   std::string header_;
   BoundsColumns bounds_;
-  WaitingFile waiting_;
+  SpoolFile waiting_;
   std::map<std::size_t, Place> parts_;
 };
 

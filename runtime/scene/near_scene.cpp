@@ -14,8 +14,8 @@ std::vector<PlacedMesh> near_tiles(const Package& package, Cell cell) {
   const CellRange near = grid.neighborhood_of(cell).intersection(grid.cells);
   std::vector<PlacedMesh> placed;
   for (std::size_t n = 0; n < static_cast<std::size_t>(near.size()); ++n) {
-    const Cell neighbour = near.cell_at(n);
-    placed.push_back({package.tile(neighbour).mesh, grid.corner_of(neighbour) - grid.corner_of(cell)});
+    const Cell neighbor = near.cell_at(n);
+    placed.push_back({package.tile(neighbor).mesh, grid.corner_of(neighbor) - grid.corner_of(cell)});
   }
   return placed;
 }

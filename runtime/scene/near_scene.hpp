@@ -8,7 +8,7 @@
 
 namespace farlod {
 
-/// The tiles of the neighbourhood of `cell`, in the frame of `cell`. Neighbours that do not exist are empty.
+/// The tiles of the neighborhood of `cell`, in the frame of `cell`. Neighbors that do not exist are empty.
 [[nodiscard]] Occluder near_scene(const Package& package, Cell cell);
 
 }  // namespace farlod

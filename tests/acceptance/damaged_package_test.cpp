@@ -98,7 +98,7 @@ TEST_F(DamagedPackage, ManifestWithAnImpossibleCell) {
 
 TEST_F(DamagedPackage, ManifestWithAnEvenNeighborhood) {
   edit_manifest("\"neighborhood\": 3", "\"neighborhood\": 4");
-  expect_damage({"manifest.json is damaged", "neighbourhood"});
+  expect_damage({"manifest.json is damaged", "neighborhood"});
 }
 
 TEST_F(DamagedPackage, ManifestOfSomethingElse) {
@@ -107,14 +107,14 @@ TEST_F(DamagedPackage, ManifestOfSomethingElse) {
 }
 
 TEST_F(DamagedPackage, ANewerVersionIsNoDamage) {
-  edit_manifest("\"version\": 5", "\"version\": 6");
-  expect_refusal(evaluate(), exit_unusable_input, {"manifest.json has format version 6", "reads version 5", "newer farlod-svf"});
+  edit_manifest("\"version\": 6", "\"version\": 7");
+  expect_refusal(evaluate(), exit_unusable_input, {"manifest.json has format version 7", "reads version 6", "newer farlod-svf"});
 }
 
 TEST_F(DamagedPackage, AnOlderVersionIsNoDamage) {
-  edit_manifest("\"version\": 5", "\"version\": 4");
+  edit_manifest("\"version\": 6", "\"version\": 5");
   expect_refusal(evaluate(), exit_unusable_input,
-                 {"manifest.json has format version 4", "reads version 5", "Pack the city again"});
+                 {"manifest.json has format version 5", "reads version 6", "Pack the city again"});
 }
 
 TEST_F(DamagedPackage, AnInterruptedPackingIsNoDamage) {

@@ -71,7 +71,7 @@ TEST_F(SurfaceModel, RectangularCourt) {
 TEST_F(SurfaceModel, RoundCourt) {
   constexpr double radius_m = 25.0;
   pack([](Point2d p) { return norm(p) >= radius_m; });
-  // Roof pixels lie outside of the circle; what joins two neighbours reaches into it by a chord's sagitta at most. A point that
+  // Roof pixels lie outside of the circle; what joins two neighbors reaches into it by a chord's sagitta at most. A point that
   // is farther than a pixel's diagonal outside has roof pixels all around.
   const double diagonal_m = std::sqrt(2.0) * pixel_m;
   const double least_radius_m = radius_m - diagonal_m * diagonal_m / (8.0 * radius_m), largest_radius_m = radius_m + diagonal_m;

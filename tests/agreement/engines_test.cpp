@@ -22,7 +22,7 @@ CityModel town(bool overhangs) {
   return scenes::generated_town(settings);
 }
 
-TEST(Agreement, ANeighbourhoodThatCoversTheCityIsTheCity) {
+TEST(Agreement, ANeighborhoodThatCoversTheCityIsTheCity) {
   const CityModel city = town(true);
   const Grid grid = scenes::grid_covering(city, Angle::degrees(23.0), 50.0, 41);
   ASSERT_LE(grid.cells.width(), 20);

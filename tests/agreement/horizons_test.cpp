@@ -18,7 +18,7 @@
 namespace farlod {
 namespace {
 
-/// The town, with this neighbourhood; with bridges and upper floors that hang over the street, or without.
+/// The town, with this neighborhood; with bridges and upper floors that hang over the street, or without.
 class PackedTown {
  public:
   PackedTown(int neighborhood, bool overhangs) : package_(packed(neighborhood, overhangs)) {}
@@ -48,7 +48,7 @@ Receivers in_streets(const Package& package, std::size_t groups) {
   std::size_t index = 0;
   for (std::size_t group = 0; group < groups; ++group) {
     const CellReceivers first = random.receiver(package);
-    const CellColumns columns(package, first.cell);
+    const PointLocator columns(package, first.cell);
     receivers.push_back({first.cell, {}});
     for (int n = 0; n < 16; ++n) {
       const Point3f& p = first.receivers[0].p_cell;
@@ -162,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Where{"Walls", [](const Package& p) { return on_surfaces(p, SurfaceChoice::walls, 400); }}),
     [](const auto& test) { return test.param.name; });
 
-TEST(Agreement, RaysInANeighbourhoodThatCoversTheCityAreExactRays) {
+TEST(Agreement, RaysInANeighborhoodThatCoversTheCityAreExactRays) {
   const PackedTown town(41, true);
   const Package& package = town.package();
   constexpr std::size_t rays_each = 5000;

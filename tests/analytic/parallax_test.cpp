@@ -8,7 +8,7 @@
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
 
-// Oracle 10: the error of the paper's map has a closed form where a wall stands on the border of the neighbourhood and the
+// Oracle 10: the error of the paper's map has a closed form where a wall stands on the border of the neighborhood and the
 // receiver is half a cell nearer to it than the capture point. The map must show exactly that error, no more and no less.
 
 namespace farlod {

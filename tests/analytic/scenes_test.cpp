@@ -78,13 +78,13 @@ class PackedScene {
                    {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)}}}};
   }
   struct Svf {
-    double likely, low, high;
+    double estimate, low, high;
   };
   [[nodiscard]] Svf evaluate(Engine engine, SkyWeight weight, std::optional<double> max_far_error = std::nullopt) const {
-    std::vector<float> likely(1), low(1), high(1);
+    std::vector<float> estimate(1), low(1), high(1);
     SkyEvaluator(package_, {engine, weight, rays, max_far_error, DirectionSet::partition, azimuths})
-        .evaluate(receiver_, SkyAnswers(likely, low, high));
-    return {likely[0], low[0], high[0]};
+        .evaluate(receiver_, SkyAnswers(estimate, low, high));
+    return {estimate[0], low[0], high[0]};
   }
   [[nodiscard]] const Package& package() const { return package_; }
 
@@ -141,7 +141,7 @@ TEST_P(AnalyticScene, HasItsKnownSkyViewFactor) {
     if (std::isnan(expected)) continue;
     // What the far map of the kind `horizon` leaves open is traced: its own error is nothing
     const bool settles = setup.engine != Engine::exact && setup.kind == FarMapKind::horizon;
-    const double svf = packed.evaluate(setup.engine, weight, settles ? std::optional(0.0) : std::nullopt).likely;
+    const double svf = packed.evaluate(setup.engine, weight, settles ? std::optional(0.0) : std::nullopt).estimate;
     const double steepest = weight == SkyWeight::cosine ? steepest_cos : steepest_solid;
     double tolerance = allowed_error(scene, setup, weight);
     if (setup.engine == Engine::rays && setup.kind == FarMapKind::box && setup.share != Share::all_near)
@@ -158,9 +158,9 @@ TEST_P(AnalyticBounds, HoldTheKnownSkyViewFactor) {
   for (const SkyWeight weight : both_weights) {
     const double expected = known_answer(scene, weight);
     if (std::isnan(expected)) continue;
-    const auto [likely, low, high] = packed.evaluate(setup.engine, weight);
-    EXPECT_LE(low, likely);
-    EXPECT_LE(likely, high);
+    const auto [estimate, low, high] = packed.evaluate(setup.engine, weight);
+    EXPECT_LE(low, estimate);
+    EXPECT_LE(estimate, high);
     EXPECT_LE(low, expected + allowed_error(scene, setup, weight));
     EXPECT_GE(high, expected - allowed_error(scene, setup, weight));
     // Only what is far, or overhangs, leaves anything open

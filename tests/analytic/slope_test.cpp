@@ -7,7 +7,7 @@
 
 #include "evaluate/sky_evaluator.hpp"
 #include "receivers/receiver.hpp"
-#include "scene/column.hpp"
+#include "scene/vertical_profile.hpp"
 #include "tests/analytic/oracles.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tiles/tiles.hpp"
@@ -71,7 +71,7 @@ class FloorOnASlope : public testing::TestWithParam<double> {
     const Point2d p = grid.rotation.grid_from_city(p_city);
     const Cell cell = grid.cell_of(p);
     const Point2d in_cell = p - grid.corner_of(cell);
-    const auto place = stand(CellColumns(*package_, cell), static_cast<float>(in_cell.x), static_cast<float>(in_cell.y),
+    const auto place = stand(PointLocator(*package_, cell), static_cast<float>(in_cell.x), static_cast<float>(in_cell.y),
                              HeightAbove::ground, static_cast<float>(eye_m));
     if (!place) return std::nullopt;
     return CellReceivers{cell, {{0, *place, {0.0F, 0.0F, 1.0F}}}};

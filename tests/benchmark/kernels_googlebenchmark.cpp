@@ -8,14 +8,14 @@
 
 #include "evaluate/sky_directions.hpp"
 #include "evaluate/visibility.hpp"
-#include "horizon/cell_skyline.hpp"
+#include "horizon/cell_silhouettes.hpp"
 #include "horizon/packet_horizon.hpp"
-#include "scene/column.hpp"
+#include "scene/vertical_profile.hpp"
 #include "scene/near_scene.hpp"
 #include "tests/benchmark/contest.hpp"
 
 // Times the parts that an answer is made of, one thread:
-//   build/bin/farlod-kernels city.farlod --benchmark_filter="skyline"
+//   build/bin/farlod-kernels city.farlod --benchmark_filter="silhouettes"
 // A kernel is a function of the city and of Google Benchmark's state; the list at the end names them all.
 
 namespace farlod::benchmark {
@@ -54,13 +54,13 @@ void read_far_map(KernelCity& city, State& state) {
 }
 
 /// For the receivers of its cell, all of them together.
-void build_skyline(KernelCity& city, State& state) {
+void build_silhouettes(KernelCity& city, State& state) {
   for (auto _ : state) {
     state.PauseTiming();
     const CellReceivers& cell = inhabited_cell(city);
     const FarHorizon far = city.package.far_horizon(cell.cell);
     state.ResumeTiming();
-    ::benchmark::DoNotOptimize(cell_skyline(city.package, cell.cell, far, box_around(cell.receivers)));
+    ::benchmark::DoNotOptimize(cell_silhouettes(city.package, cell.cell, far, bounding_box(cell.receivers)));
   }
 }
 
@@ -71,15 +71,15 @@ void build_near_scene(KernelCity& city, State& state) {
   }
 }
 
-void build_columns(KernelCity& city, State& state) {
+void build_locator(KernelCity& city, State& state) {
   for (auto _ : state) {
-    const CellColumns columns(city.package, city.next_cell());
+    const PointLocator columns(city.package, city.next_cell());
     ::benchmark::DoNotOptimize(&columns);
   }
 }
 
 void look_up_column(KernelCity& city, State& state) {
-  const CellColumns columns(city.package, city.cells[city.cells.size() / 2]);
+  const PointLocator columns(city.package, city.cells[city.cells.size() / 2]);
   const auto edge_m = static_cast<float>(city.package.grid().cell_edge_m);
   float x = 0.5F, y = 0.5F;
   for (auto _ : state) {
@@ -96,22 +96,22 @@ ReceiverPacket first_packet(const CellReceivers& cell) {
   return packet;
 }
 
-void draw_skyline(KernelCity& city, State& state) {
+void draw_silhouettes(KernelCity& city, State& state) {
   const CellReceivers& cell = inhabited_cell(city);
   const FarHorizon far = city.package.far_horizon(cell.cell);
-  const CellSkyline skyline = cell_skyline(city.package, cell.cell, far, box_around(cell.receivers));
+  const CellSilhouettes silhouettes = cell_silhouettes(city.package, cell.cell, far, bounding_box(cell.receivers));
   const AzimuthRing ring = AzimuthRing::even(SkySettings().azimuths, city.package.grid().rotation);
   const ReceiverPacket packet = first_packet(cell);
   PacketHorizon horizon(ring);
   for (auto _ : state) {
     horizon.clear();
-    horizon.raise(skyline.grounded, packet);
+    horizon.raise(silhouettes.grounded, packet);
     ::benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(packet.count));
 }
 
-/// One direction from 16 neighbouring receivers in each packet.
+/// One direction from 16 neighboring receivers in each packet.
 void trace_near_packets(KernelCity& city, State& state) {
   const CellReceivers& cell = inhabited_cell(city);
   const Occluder near = near_scene(city.package, cell.cell);
@@ -140,11 +140,11 @@ void answer_by_rays(KernelCity& city, State& state) { answer_cell(city, state, E
 
 using Kernel = void (*)(KernelCity& city, State& state);
 constexpr std::pair<const char*, Kernel> kernels[] = {{"read far map of a cell", read_far_map},
-                                                      {"build skyline of a cell", build_skyline},
+                                                      {"build silhouettes of a cell", build_silhouettes},
                                                       {"build near scene of a cell", build_near_scene},
-                                                      {"build columns of a cell", build_columns},
+                                                      {"build columns of a cell", build_locator},
                                                       {"look up column", look_up_column},
-                                                      {"draw skyline of a packet", draw_skyline},
+                                                      {"draw silhouettes of a packet", draw_silhouettes},
                                                       {"trace near rays in packets", trace_near_packets},
                                                       {"answer a cell, engine auto", answer_automatically},
                                                       {"answer a cell, engine rays", answer_by_rays}};

@@ -53,7 +53,7 @@ TEST(BreakEven, CountsPackingAgainstIndexing) {
   EXPECT_FALSE(row.break_even().has_value());
 }
 
-TEST(PlaneCurve, WalksFromSquareToNeighbouringSquare) {
+TEST(PlaneCurve, WalksFromSquareToNeighboringSquare) {
   constexpr int edge = 8;
   std::array<std::pair<int, int>, edge * edge> walk;
   for (int column = 0; column < edge; ++column)

@@ -19,7 +19,7 @@ struct OurEngine {
   Engine engine = Engine::rays;
   std::string sample_name;  ///< what the accuracy counts
   std::vector<std::size_t> ladder;
-  /// Answers of neighbours may share work: errors are then those of the whole set, not of a few receivers asked alone.
+  /// Answers of neighbors may share work: errors are then those of the whole set, not of a few receivers asked alone.
   bool shares_work = false;
 
   [[nodiscard]] SkySettings settings(std::size_t samples) const;

@@ -94,7 +94,7 @@ std::string sweep_table(const SweepStudy& study) {
 
 std::string variants_table(const VariantTable& table) {
   std::string text = fmt::format(
-      "\n## The rival at its best\n\nPackets of 16 neighbouring receivers that share a direction (on roofs and façades, "
+      "\n## The rival at its best\n\nPackets of 16 neighboring receivers that share a direction (on roofs and façades, "
       "receivers "
       "of one surface), directions from a spherical Fibonacci lattice mapped to the disk and traced along a curve over it, "
       "`rtcOccluded16`, coherent flag, scene without the robust flag. What else was tried, with {} rays; time relative to the "

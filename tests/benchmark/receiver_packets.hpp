@@ -15,7 +15,7 @@ namespace farlod::benchmark {
 /// One packet of Embree.
 inline constexpr std::size_t packet_lanes = 16;
 
-/// Neighbouring receivers that look the same way, so that they can share each direction. In the frame of WholeCity.
+/// Neighboring receivers that look the same way, so that they can share each direction. In the frame of WholeCity.
 struct SharedPacket {
   Point3f normal;
   std::size_t count = 0;

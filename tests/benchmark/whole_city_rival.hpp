@@ -34,7 +34,7 @@ struct CityTriangles {
 };
 [[nodiscard]] CityTriangles triangles_of(const Package& package);
 
-/// What a far map has to beat: the whole city in one scene of Embree, asked in packets of one direction from 16 neighbouring
+/// What a far map has to beat: the whole city in one scene of Embree, asked in packets of one direction from 16 neighboring
 /// receivers.
 class WholeCityRival {
  public:

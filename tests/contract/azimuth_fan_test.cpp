@@ -17,12 +17,12 @@ constexpr float float_rounding = std::numeric_limits<float>::epsilon();
 
 std::vector<Point3d> directions() { return SkyPartition(SkyWeight::cosine, 290).directions(); }
 
-double diamond_of(const Point3d& d) { return diamond_angle({d.x, d.y}); }
+double pseudo_angle_of(const Point3d& d) { return pseudo_angle({d.x, d.y}); }
 
 /// One after the other, as the definition says.
-std::size_t first_by_hand(const AzimuthFan& fan, const std::vector<Point3d>& given, double diamond) {
+std::size_t first_by_hand(const AzimuthFan& fan, const std::vector<Point3d>& given, double angle) {
   std::size_t n = 0;
-  while (n < fan.size() && diamond_of(given[fan.place()[n]]) < diamond) ++n;
+  while (n < fan.size() && pseudo_angle_of(given[fan.place()[n]]) < angle) ++n;
   return n;
 }
 
@@ -32,7 +32,7 @@ TEST(AzimuthFan, HoldsEachDirectionOnceInTheOrderOfAzimuths) {
   ASSERT_EQ(fan.size(), given.size());
   EXPECT_EQ(std::set<std::uint32_t>(fan.place().begin(), fan.place().end()).size(), given.size());
   for (std::size_t n = 0; n + 1 < fan.size(); ++n)
-    EXPECT_LE(diamond_of(given[fan.place()[n]]), diamond_of(given[fan.place()[n + 1]])) << n;
+    EXPECT_LE(pseudo_angle_of(given[fan.place()[n]]), pseudo_angle_of(given[fan.place()[n + 1]])) << n;
 }
 
 TEST(AzimuthFan, KnowsAzimuthAndSlopeOfEach) {
@@ -61,10 +61,10 @@ TEST(AzimuthFan, FindsTheFirstFromEachDirectionAndBesideIt) {
   std::vector<double> asked{0.0, 4.0, 1.0, 2.0, 3.0};
   for (const Point3d& d : given)
     for (const double to : {0.0, 2.0, 4.0}) {
-      asked.push_back(diamond_of(d));
-      asked.push_back(std::nextafter(diamond_of(d), to));
+      asked.push_back(pseudo_angle_of(d));
+      asked.push_back(std::nextafter(pseudo_angle_of(d), to));
     }
-  for (const double diamond : asked) EXPECT_EQ(fan.first_from(diamond), first_by_hand(fan, given, diamond)) << diamond;
+  for (const double angle : asked) EXPECT_EQ(fan.first_from(angle), first_by_hand(fan, given, angle)) << angle;
 }
 
 TEST(AzimuthFan, AtTheEndsOfTheTurn) {
@@ -77,15 +77,15 @@ TEST(AzimuthFan, AtTheEndsOfTheTurn) {
 TEST(AzimuthFan, WhereAllLookTheSameWay) {
   const std::vector<Point3d> given(50, Point3d{-0.3, -0.4, 0.5});
   const AzimuthFan fan(given);
-  const double diamond = diamond_of(given[0]);
-  EXPECT_EQ(fan.first_from(diamond), 0U);
-  EXPECT_EQ(fan.first_from(std::nextafter(diamond, 4.0)), 50U);
+  const double angle = pseudo_angle_of(given[0]);
+  EXPECT_EQ(fan.first_from(angle), 0U);
+  EXPECT_EQ(fan.first_from(std::nextafter(angle, 4.0)), 50U);
 }
 
 TEST(AzimuthFan, MayBeEmpty) {
   const AzimuthFan fan({});
   EXPECT_EQ(fan.size(), 0U);
-  for (const double diamond : {0.0, 1.7, 4.0}) EXPECT_EQ(fan.first_from(diamond), 0U);
+  for (const double angle : {0.0, 1.7, 4.0}) EXPECT_EQ(fan.first_from(angle), 0U);
 }
 
 TEST(AzimuthFan, BinsAreThoseOfTheAzimuths) {

@@ -12,7 +12,7 @@ namespace farlod {
 namespace {
 
 constexpr double step_rad = 0.5 * std::numbers::pi / 127.0;
-constexpr std::int8_t wall = EdgeRises::straight_down;
+constexpr std::int8_t wall = AdjacentSlopes::straight_down;
 
 Box2d around(Point2d middle, double half_m) {
   return {{middle.x - half_m, middle.y - half_m}, {middle.x + half_m, middle.y + half_m}};
@@ -21,27 +21,27 @@ Box2d around(Point2d middle, double half_m) {
 /// An edge with the facets beside it, asked by one eye or by a box of eyes.
 struct Edge {
   Point3d a, b;
-  EdgeRises rises;
+  AdjacentSlopes adjacent;
   EdgeRole role = EdgeRole::grounded;
 
   [[nodiscard]] bool may_be_seen_by(const Box2d& plan, double low_m, double high_m) const {
-    return may_be_silhouette(a, b, rises, role, plan, low_m, high_m);
+    return may_be_silhouette(a, b, adjacent, role, plan, low_m, high_m);
   }
   [[nodiscard]] bool may_be_seen_by(const Point3d& eye) const {
     return may_be_seen_by(around(horizontal(eye), 0.0), eye.z, eye.z);
   }
-  [[nodiscard]] Edge turned_round() const { return {b, a, {rises.right, rises.left}, role}; }
+  [[nodiscard]] Edge turned_round() const { return {b, a, {adjacent.right, adjacent.left}, role}; }
 };
 
 // A flat roof 5 m high over [0, 10]²: it lies to the left of its south edge, and to the right of its north edge
 const Edge south_edge{{0, 0, 5}, {10, 0, 5}, {0, wall}}, north_edge{{0, 10, 5}, {10, 10, 5}, {wall, 0}};
 // A ridge 9 m high along the x axis, between roofs that fall by 3 on 5
-const std::int8_t fall = EdgeRises::rounded_down(-std::atan2(3.0, 5.0));
+const std::int8_t fall = AdjacentSlopes::rounded_down(-std::atan2(3.0, 5.0));
 const Edge ridge{{0, 0, 9}, {20, 0, 9}, {fall, fall}};
 
-TEST(EdgeRises, AreRoundedDownByLessThanAStep) {
+TEST(AdjacentSlopes, AreRoundedDownByLessThanAStep) {
   for (double rise_rad = -0.5 * std::numbers::pi; rise_rad < 0.5 * std::numbers::pi; rise_rad += 0.0137) {
-    const double kept_rad = std::atan(EdgeRises::slope(EdgeRises::rounded_down(rise_rad)));
+    const double kept_rad = std::atan(AdjacentSlopes::slope(AdjacentSlopes::rounded_down(rise_rad)));
     // Each of the two is the product of three roundings of numbers below 2
     const double rounding_rad = 6 * 2 * std::numeric_limits<double>::epsilon();
     EXPECT_LE(kept_rad, rise_rad + rounding_rad);
@@ -49,20 +49,20 @@ TEST(EdgeRises, AreRoundedDownByLessThanAStep) {
   }
 }
 
-TEST(EdgeRises, OfWhatFallsAreRoundedTowardsTheVertical) {
-  EXPECT_EQ(EdgeRises::rounded_down(0.9 * step_rad), 0);
-  EXPECT_EQ(EdgeRises::rounded_down(-0.1 * step_rad), -1);
-  EXPECT_EQ(EdgeRises::rounded_down(-41.5 * step_rad), -42);
+TEST(AdjacentSlopes, OfWhatFallsAreRoundedTowardsTheVertical) {
+  EXPECT_EQ(AdjacentSlopes::rounded_down(0.9 * step_rad), 0);
+  EXPECT_EQ(AdjacentSlopes::rounded_down(-0.1 * step_rad), -1);
+  EXPECT_EQ(AdjacentSlopes::rounded_down(-41.5 * step_rad), -42);
 }
 
-TEST(EdgeRises, EndAtTheVertical) {
-  EXPECT_EQ(EdgeRises::rounded_down(-std::numeric_limits<double>::infinity()), EdgeRises::straight_down);
-  EXPECT_EQ(EdgeRises::rounded_down(-2.0), EdgeRises::straight_down);
-  EXPECT_EQ(EdgeRises::rounded_down(2.0), 127);
+TEST(AdjacentSlopes, EndAtTheVertical) {
+  EXPECT_EQ(AdjacentSlopes::rounded_down(-std::numeric_limits<double>::infinity()), AdjacentSlopes::straight_down);
+  EXPECT_EQ(AdjacentSlopes::rounded_down(-2.0), AdjacentSlopes::straight_down);
+  EXPECT_EQ(AdjacentSlopes::rounded_down(2.0), 127);
   // A tower 10 km high, a millimetre away, is not as steep
-  EXPECT_LT(EdgeRises::slope(EdgeRises::straight_down), -1e7);
-  EXPECT_GT(EdgeRises::slope(127), 1e7);
-  EXPECT_EQ(EdgeRises::slope(0), 0.0);
+  EXPECT_LT(AdjacentSlopes::slope(AdjacentSlopes::straight_down), -1e7);
+  EXPECT_GT(AdjacentSlopes::slope(127), 1e7);
+  EXPECT_EQ(AdjacentSlopes::slope(0), 0.0);
 }
 
 TEST(EdgeFacing, TellsTheFrontOfAFlatRoofFromItsBack) {
@@ -87,7 +87,7 @@ TEST(EdgeFacing, HidesARidgeBehindItsRoofUntilTheEyeIsAboveTheSlope) {
 }
 
 TEST(EdgeFacing, HidesEavesBeforeARoofThatRisesBehindThem) {
-  const std::int8_t rise = EdgeRises::rounded_down(std::atan2(3.0, 5.0));
+  const std::int8_t rise = AdjacentSlopes::rounded_down(std::atan2(3.0, 5.0));
   const Edge eaves{{0, 0, 6}, {20, 0, 6}, {rise, wall}};  // the roof is to the north
   EXPECT_TRUE(eaves.may_be_seen_by({10, -5, 1.5})) << "the plane of the roof passes overhead";
   EXPECT_FALSE(eaves.may_be_seen_by({10, -5, 4})) << "the roof is seen from above, and rises over its eaves";
@@ -117,7 +117,7 @@ TEST(EdgeFacing, IsUndecidedWhereSomeEyesSeeTheEdge) {
 }
 
 // A soffit 5 m high over [0, 10]²: of its south edge it lies to the left, of its north edge to the right
-constexpr std::int8_t none = EdgeRises::straight_up;
+constexpr std::int8_t none = AdjacentSlopes::straight_up;
 const Edge south_border{{0, 0, 5}, {10, 0, 5}, {0, none}, EdgeRole::underside},
     north_border{{0, 10, 5}, {10, 10, 5}, {none, 0}, EdgeRole::underside};
 
@@ -137,28 +137,28 @@ TEST(EdgeFacing, LeavesNoLowerBorderToWhoLooksDownOnIt) {
 
 TEST(EdgeFacing, HidesTheRidgeOfAVaultFromWhoSeesItsSideReachLower) {
   // A vault, open below: both sides fall by 3 on 5 from its ridge
-  const std::int8_t falls = EdgeRises::rounded_up(-std::atan2(3.0, 5.0));
+  const std::int8_t falls = AdjacentSlopes::rounded_up(-std::atan2(3.0, 5.0));
   const Edge vault{{0, 0, 9}, {20, 0, 9}, {falls, falls}, EdgeRole::underside};
   for (const double side : {-1.0, 1.0}) {
     EXPECT_FALSE(vault.may_be_seen_by({10, side * 10, 1.5}));
     EXPECT_FALSE(vault.may_be_seen_by({10, side * 1, 1.5})) << "within, the far side goes on below the line of sight";
   }
   // A trough: both sides rise from its bottom, which is lowest for those above the plane of its far side
-  const std::int8_t climbs = EdgeRises::rounded_up(std::atan2(3.0, 5.0));
+  const std::int8_t climbs = AdjacentSlopes::rounded_up(std::atan2(3.0, 5.0));
   const Edge trough{{0, 0, 9}, {20, 0, 9}, {climbs, climbs}, EdgeRole::underside};
   EXPECT_TRUE(trough.may_be_seen_by({10, -10, 5}));
   EXPECT_FALSE(trough.may_be_seen_by({10, -10, 1.5})) << "1.5 m lies below the plane of the far side, which is 3 m high here";
 }
 
-TEST(EdgeRises, OfLowerBordersAreRoundedUpByLessThanAStep) {
+TEST(AdjacentSlopes, OfLowerBordersAreRoundedUpByLessThanAStep) {
   for (double rise_rad = -0.5 * std::numbers::pi; rise_rad < 0.5 * std::numbers::pi; rise_rad += 0.0137) {
-    const double kept_rad = std::atan(EdgeRises::slope(EdgeRises::rounded_up(rise_rad)));
+    const double kept_rad = std::atan(AdjacentSlopes::slope(AdjacentSlopes::rounded_up(rise_rad)));
     const double rounding_rad = 6 * 2 * std::numeric_limits<double>::epsilon();
     EXPECT_GE(kept_rad, rise_rad - rounding_rad);
     EXPECT_LT(kept_rad, rise_rad + step_rad + rounding_rad);
   }
-  EXPECT_EQ(EdgeRises::rounded_up(std::numeric_limits<double>::infinity()), EdgeRises::straight_up);
-  EXPECT_EQ(EdgeRises::rounded_up(-2.0), -127);
+  EXPECT_EQ(AdjacentSlopes::rounded_up(std::numeric_limits<double>::infinity()), AdjacentSlopes::straight_up);
+  EXPECT_EQ(AdjacentSlopes::rounded_up(-2.0), -127);
 }
 
 TEST(EdgeFacing, IsUndecidedWhereNothingIsKnownOfTheFacets) {

@@ -14,7 +14,7 @@
 
 namespace farlod {
 
-/// A far map of the kind `horizon`, made by hand: all edges matter everywhere, and what is not named hides nothing.
+/// A far map of the kind `horizon`, made by hand: all edges matter everywhere, and the residual city hides nothing.
 class FarHorizonByHand {
  public:
   static constexpr double cell_m = 20.0;
@@ -22,17 +22,17 @@ class FarHorizonByHand {
   explicit FarHorizonByHand(std::vector<HorizonEdge> edges, std::vector<float> levels_m = {0.0F, 10.0F})
       : edges_(std::move(edges)), map_{ReceiverPatches(cell_m, 1, std::move(levels_m)), AzimuthBins{8}, {}, {}, {}, {}, {}} {
     for (std::uint32_t n = 0; n < edges_.size(); ++n) named_.push_back({n, 0xFFFF, 0xFFFF});
-    map_.lower.resize(std::size_t{map_.patches.count()} * map_.bins.count, 0.0F);
-    map_.likely = map_.upper = map_.overhang = map_.lower;
-    map_.named = {edges_, named_, {}};
+    map_.low.resize(std::size_t{map_.patches.count()} * map_.bins.count, 0.0F);
+    map_.estimate = map_.high = map_.overhang = map_.low;
+    map_.occluders = {edges_, named_, {}};
   }
   FarHorizonByHand(const FarHorizonByHand&) = delete;
   FarHorizonByHand& operator=(const FarHorizonByHand&) = delete;
 
   [[nodiscard]] FarHorizon& map() { return map_; }
-  [[nodiscard]] std::vector<package::NamedObstacle>& named() { return named_; }
+  [[nodiscard]] std::vector<package::ExplicitOccluder>& named() { return named_; }
 
-  /// What the named edges hide in a direction, ray by ray: the greatest slope at which it meets one of them; 0 where it meets
+  /// What the explicit edges hide in a direction, ray by ray: the greatest slope at which it meets one of them; 0 where it meets
   /// none.
   [[nodiscard]] double horizon(const Point3f& p_cell, const Point3d& direction) const {
     double highest = 0.0;
@@ -54,7 +54,7 @@ class FarHorizonByHand {
   }
 
   std::vector<HorizonEdge> edges_;
-  std::vector<package::NamedObstacle> named_;
+  std::vector<package::ExplicitOccluder> named_;
   FarHorizon map_;
 };
 

@@ -83,7 +83,7 @@ TEST(FarView, WhatIsCertainIsTrueForRandomEdges) {
   EXPECT_GT(met[static_cast<std::size_t>(FarVerdict::blocked)], 10000U);
   EXPECT_GT(met[static_cast<std::size_t>(FarVerdict::free)], 10000U);
   // A corner's rounding of half a millimetre, 5 m away or more, opens 2e-4 of a turn or of a slope: of 800,000 directions few
-  EXPECT_LT(met[static_cast<std::size_t>(FarVerdict::likely_free)] + met[static_cast<std::size_t>(FarVerdict::likely_blocked)],
+  EXPECT_LT(met[static_cast<std::size_t>(FarVerdict::estimated_free)] + met[static_cast<std::size_t>(FarVerdict::estimated_blocked)],
             looks.size() * 200 / 1000);
 }
 
@@ -126,7 +126,7 @@ TEST(FarView, AnEdgeThatIsLookedAlongIsNeverCertainlyBlocked) {
     FarHorizonByHand far({HorizonEdge{at(30.0), at(50.0)}});
     const std::vector<FarVerdict> verdicts =
         verdicts_of(far.map(), {toward(azimuth, 0.49), toward(azimuth, 0.51), toward(azimuth + 0.001, 0.1)}, middle);
-    EXPECT_TRUE(verdicts[0] == FarVerdict::likely_free || verdicts[0] == FarVerdict::likely_blocked) << k;
+    EXPECT_TRUE(verdicts[0] == FarVerdict::estimated_free || verdicts[0] == FarVerdict::estimated_blocked) << k;
     EXPECT_EQ(verdicts[1], FarVerdict::free) << k;
     EXPECT_EQ(verdicts[2], FarVerdict::free) << k;
   }
@@ -135,7 +135,7 @@ TEST(FarView, AnEdgeThatIsLookedAlongIsNeverCertainlyBlocked) {
 TEST(FarView, AnEdgeThatTouchesTheReceiverSettlesNothing) {
   FarHorizonByHand far({HorizonEdge{{10.0F, 10.0F, 16.5F}, {10.0F, 40.0F, 16.5F}}});
   for (const FarVerdict v : verdicts_of(far.map(), {toward(0.3, 5.0), toward(2.0, 0.1), toward(4.0, 0.1)}, middle))
-    EXPECT_TRUE(v == FarVerdict::likely_free || v == FarVerdict::likely_blocked);
+    EXPECT_TRUE(v == FarVerdict::estimated_free || v == FarVerdict::estimated_blocked);
 }
 
 TEST(FarView, WhatLiesBelowTheReceiverHidesNothing) {
@@ -152,7 +152,7 @@ TEST(FarView, LowerBordersHideNothing) {
 
 TEST(FarView, EdgesMatterInTheirPatchesAlone) {
   FarHorizonByHand far({edge_toward(1.0, 16.5F)});
-  far.named()[0].layers = 2;
+  far.occluders()[0].layers = 2;
   const std::vector<Point3d> below{toward(1.0, 0.01)};
   EXPECT_EQ(verdicts_of(far.map(), below, middle)[0], FarVerdict::free);
   EXPECT_EQ(verdicts_of(far.map(), below, {10.0F, 10.0F, 12.0F})[0], FarVerdict::blocked);
@@ -161,13 +161,13 @@ TEST(FarView, EdgesMatterInTheirPatchesAlone) {
 }
 
 /// The same bounds in each bin of a patch.
-void fill(FarHorizon& map, std::uint32_t patch, float lower, float likely, float upper) {
+void fill(FarHorizon& map, std::uint32_t patch, float lower, float estimate, float upper) {
   const auto row = [&](std::vector<float>& slopes, float slope) {
     std::fill_n(slopes.begin() + static_cast<std::ptrdiff_t>(patch) * map.bins.count, map.bins.count, slope);
   };
-  row(map.lower, lower);
-  row(map.likely, likely);
-  row(map.upper, upper);
+  row(map.low, lower);
+  row(map.estimate, estimate);
+  row(map.high, upper);
 }
 
 TEST(FarView, WhatIsNotNamedIsJudgedByItsBounds) {
@@ -175,11 +175,11 @@ TEST(FarView, WhatIsNotNamedIsJudgedByItsBounds) {
   fill(far.map(), 0, 0.1F, 0.3F, 0.6F);
   fill(far.map(), 1, 0.0F, 0.3F, infinite);
   const std::vector<Point3d> looks{toward(1.0, 0.09), toward(1.0, 0.29), toward(1.0, 0.31), toward(1.0, 0.61)};
-  EXPECT_EQ(verdicts_of(far.map(), looks, middle), (std::vector<FarVerdict>{FarVerdict::blocked, FarVerdict::likely_blocked,
-                                                                            FarVerdict::likely_free, FarVerdict::free}));
+  EXPECT_EQ(verdicts_of(far.map(), looks, middle), (std::vector<FarVerdict>{FarVerdict::blocked, FarVerdict::estimated_blocked,
+                                                                            FarVerdict::estimated_free, FarVerdict::free}));
   EXPECT_EQ(verdicts_of(far.map(), looks, {10.0F, 10.0F, 12.0F}),
-            (std::vector<FarVerdict>{FarVerdict::likely_blocked, FarVerdict::likely_blocked, FarVerdict::likely_free,
-                                     FarVerdict::likely_free}));
+            (std::vector<FarVerdict>{FarVerdict::estimated_blocked, FarVerdict::estimated_blocked, FarVerdict::estimated_free,
+                                     FarVerdict::estimated_free}));
 }
 
 TEST(FarView, WhatIsLikelyChangesEvenlyBetweenTwoFloors) {
@@ -189,14 +189,14 @@ TEST(FarView, WhatIsLikelyChangesEvenlyBetweenTwoFloors) {
   // At a quarter of the way from 0 m to 10 m: 0.35
   const Point3f p{10.0F, 10.0F, 2.5F};
   EXPECT_EQ(verdicts_of(far.map(), {toward(1.0, 0.34), toward(1.0, 0.36)}, p),
-            (std::vector<FarVerdict>{FarVerdict::likely_blocked, FarVerdict::likely_free}));
+            (std::vector<FarVerdict>{FarVerdict::estimated_blocked, FarVerdict::estimated_free}));
 }
 
 TEST(FarView, BelowTheLowestLevelNothingUnnamedIsCertain) {
   FarHorizonByHand far({});
   fill(far.map(), 0, 0.1F, 0.3F, 0.6F);
   EXPECT_EQ(verdicts_of(far.map(), {toward(1.0, 0.05), toward(1.0, 2.0)}, {10.0F, 10.0F, -0.5F}),
-            (std::vector<FarVerdict>{FarVerdict::likely_blocked, FarVerdict::likely_free}));
+            (std::vector<FarVerdict>{FarVerdict::estimated_blocked, FarVerdict::estimated_free}));
 }
 
 TEST(FarView, AReceiverDoesNotRememberTheOneBefore) {

@@ -31,7 +31,7 @@ TEST(Grid, BordersAreExact) {
   }
 }
 
-TEST(Grid, NeighbouringBordersAreOneEdgeApart) {
+TEST(Grid, NeighboringBordersAreOneEdgeApart) {
   for (const double wish_m : wished_edges_m) {
     const Grid grid = grid_of(wish_m);
     for (const std::int32_t k : borders) EXPECT_EQ(grid.border_m(k + 1) - grid.border_m(k), grid.cell_edge_m);
@@ -58,7 +58,7 @@ TEST(Grid, ACellHoldsItsCentreAndItsSouthWestCorner) {
   }
 }
 
-TEST(Grid, TheNeighbourhoodIsCentred) {
+TEST(Grid, TheNeighborhoodIsCentred) {
   Grid grid = grid_of(50.0);
   for (const int n : {1, 3, 5, 9}) {
     grid.neighborhood = n;

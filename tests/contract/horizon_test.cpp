@@ -43,12 +43,12 @@ TEST(AzimuthBins, WrapAnyNumberOfTurns) {
 }
 
 TEST(DiamondAngle, CountsQuarterTurns) {
-  EXPECT_EQ(diamond_angle({7.0, 0.0}), 0.0);
-  EXPECT_EQ(diamond_angle({0.0, 0.1}), 1.0);
-  EXPECT_EQ(diamond_angle({-3.0, 0.0}), 2.0);
-  EXPECT_EQ(diamond_angle({0.0, -2.0}), 3.0);
-  EXPECT_EQ(diamond_angle({2.0, 2.0}), 0.5);
-  EXPECT_EQ(diamond_angle({2.0, -2.0}), 3.5);
+  EXPECT_EQ(pseudo_angle({7.0, 0.0}), 0.0);
+  EXPECT_EQ(pseudo_angle({0.0, 0.1}), 1.0);
+  EXPECT_EQ(pseudo_angle({-3.0, 0.0}), 2.0);
+  EXPECT_EQ(pseudo_angle({0.0, -2.0}), 3.0);
+  EXPECT_EQ(pseudo_angle({2.0, 2.0}), 0.5);
+  EXPECT_EQ(pseudo_angle({2.0, -2.0}), 3.5);
 }
 
 TEST(DiamondAngle, GrowsBetweenHalfAndOnceAsFastAsTheAngle) {
@@ -57,7 +57,7 @@ TEST(DiamondAngle, GrowsBetweenHalfAndOnceAsFastAsTheAngle) {
   // Each of the two values is the sum of a few roundings, none of a number above 4
   constexpr double rounding = 8 * 4 * epsilon;
   for (int n = 0; n + 1 < steps; ++n) {
-    const double growth = diamond_angle(unit((n + 1) * step_rad)) - diamond_angle(unit(n * step_rad));
+    const double growth = pseudo_angle(unit((n + 1) * step_rad)) - pseudo_angle(unit(n * step_rad));
     EXPECT_GE(growth, 0.5 * step_rad - rounding) << n;
     EXPECT_LE(growth, step_rad + rounding) << n;
   }
@@ -65,7 +65,7 @@ TEST(DiamondAngle, GrowsBetweenHalfAndOnceAsFastAsTheAngle) {
 
 TEST(DiamondAngle, DoesNotDependOnTheLength) {
   for (const double length : {1e-6, 1.0, 3e5})
-    EXPECT_NEAR(diamond_angle(length * Point2d{-0.6, 0.8}), diamond_angle({-0.6, 0.8}), 4 * epsilon);
+    EXPECT_NEAR(pseudo_angle(length * Point2d{-0.6, 0.8}), pseudo_angle({-0.6, 0.8}), 4 * epsilon);
 }
 
 TEST(EdgeView, TurnsCounterClockwiseForPositive) {

@@ -80,18 +80,18 @@ TEST(Layout, SurfaceRunIsDocumented) {
 
 TEST(Layout, TileEdgeIsDocumented) {
   EXPECT_DOCUMENTED(TileEdge, sides_passed);
-  EXPECT_DOCUMENTED(TileEdge, rises);
+  EXPECT_DOCUMENTED(TileEdge, adjacent);
 }
 
 TEST(Layout, EdgeRisesAreDocumented) {
-  EXPECT_DOCUMENTED(EdgeRises, left);
-  EXPECT_DOCUMENTED(EdgeRises, right);
+  EXPECT_DOCUMENTED(AdjacentSlopes, left);
+  EXPECT_DOCUMENTED(AdjacentSlopes, right);
 }
 
 TEST(Layout, HorizonEdgeIsDocumented) {
   EXPECT_DOCUMENTED(HorizonEdge, a);
   EXPECT_DOCUMENTED(HorizonEdge, b);
-  EXPECT_DOCUMENTED(HorizonEdge, rises);
+  EXPECT_DOCUMENTED(HorizonEdge, adjacent);
   EXPECT_DOCUMENTED(HorizonEdge, role);
 }
 
@@ -134,30 +134,30 @@ TEST(Layout, BuildingRecordIsDocumented) {
 }
 
 TEST(Layout, FarCellRecordIsDocumented) {
-  EXPECT_DOCUMENTED(FarCellRecord, first_named_edge);
-  EXPECT_DOCUMENTED(FarCellRecord, named_edge_count);
+  EXPECT_DOCUMENTED(FarCellRecord, first_explicit_edge);
+  EXPECT_DOCUMENTED(FarCellRecord, explicit_edge_count);
   EXPECT_DOCUMENTED(FarCellRecord, levels_m);
   EXPECT_DOCUMENTED(FarCellRecord, reserved);
 }
 
 TEST(Layout, NamedObstacleIsDocumented) {
-  EXPECT_DOCUMENTED(NamedObstacle, row);
-  EXPECT_DOCUMENTED(NamedObstacle, squares);
-  EXPECT_DOCUMENTED(NamedObstacle, layers);
+  EXPECT_DOCUMENTED(ExplicitOccluder, row);
+  EXPECT_DOCUMENTED(ExplicitOccluder, squares);
+  EXPECT_DOCUMENTED(ExplicitOccluder, layers);
 }
 
 TEST(Layout, NamedObstaclesMatterWhereBothBitsAreSet) {
-  const NamedObstacle named{0, 0b0101, 0b10};
-  EXPECT_TRUE(named.matters(0, 1));
-  EXPECT_TRUE(named.matters(2, 1));
-  EXPECT_FALSE(named.matters(1, 1));
-  EXPECT_FALSE(named.matters(0, 0));
+  const ExplicitOccluder occluder{0, 0b0101, 0b10};
+  EXPECT_TRUE(occluder.matters(0, 1));
+  EXPECT_TRUE(occluder.matters(2, 1));
+  EXPECT_FALSE(occluder.matters(1, 1));
+  EXPECT_FALSE(occluder.matters(0, 0));
 }
 
 TEST(Layout, VersionAndChannelsAreDocumented) {
   const std::string document = format_document();
   EXPECT_NE(document.find("# The package format, version " + std::to_string(format_version) + "\n"), std::string::npos);
-  for (const char* channel : {sky_channel, distance_channel, likely_channel, lower_channel, upper_channel, overhang_channel})
+  for (const char* channel : {sky_channel, distance_channel, estimate_channel, low_channel, high_channel, overhang_channel})
     EXPECT_NE(chapter("far.exr").find("| `" + std::string(channel) + "` |"), std::string::npos) << channel;
 }
 
@@ -175,7 +175,7 @@ TEST(Layout, SectionKindsAndElementSizesAreDocumented) {
                {SectionKind::text, "text", 1},
                {SectionKind::far_cells, "far_cells", sizeof(FarCellRecord)},
                {SectionKind::far_edges, "far_edges", sizeof(HorizonEdge)},
-               {SectionKind::named_edges, "named_edges", sizeof(NamedObstacle)},
+               {SectionKind::explicit_edges, "explicit_edges", sizeof(ExplicitOccluder)},
                {SectionKind::tile_edges, "tile_edges", sizeof(TileEdge)},
                {SectionKind::loose_edges, "loose_edges", sizeof(HorizonEdge)}};
   EXPECT_EQ(std::size(kinds), section_count);
@@ -190,7 +190,7 @@ TEST(Layout, RecordsCanBeMapped) {
   static_assert(std::is_trivially_copyable_v<Header> && std::is_trivially_copyable_v<Section> &&
                 std::is_trivially_copyable_v<CellRecord> && std::is_trivially_copyable_v<SurfaceRecord> &&
                 std::is_trivially_copyable_v<BuildingRecord> && std::is_trivially_copyable_v<FarCellRecord> &&
-                std::is_trivially_copyable_v<NamedObstacle> && std::is_trivially_copyable_v<HorizonEdge> &&
+                std::is_trivially_copyable_v<ExplicitOccluder> && std::is_trivially_copyable_v<HorizonEdge> &&
                 std::is_trivially_copyable_v<SurfaceRun> && std::is_trivially_copyable_v<TileEdge>);
   static_assert(section_alignment % alignof(CellRecord) == 0 && section_alignment % alignof(SurfaceRecord) == 0 &&
                 section_alignment % alignof(FarCellRecord) == 0);

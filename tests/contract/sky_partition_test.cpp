@@ -100,7 +100,7 @@ TEST(SkyPartition, EachSectorOfARingHasOneDirection) {
         std::sort(azimuths.begin(), azimuths.end());
         const double sector = 2.0 * std::numbers::pi / static_cast<double>(azimuths.size());
         azimuths.push_back(azimuths.front() + 2.0 * std::numbers::pi);
-        // Equally wide sectors with a direction at the same place of each: neighbours are one sector apart
+        // Equally wide sectors with a direction at the same place of each: neighbors are one sector apart
         for (std::size_t n = 1; n < azimuths.size(); ++n) EXPECT_NEAR(azimuths[n] - azimuths[n - 1], sector, 2 * rounding);
       }
 }

@@ -14,9 +14,9 @@ namespace farlod::scenes {
 [[nodiscard]] inline std::vector<HorizonEdge> edges_as_set(std::vector<HorizonEdge> edges) {
   const auto place = [](const Point3f& p) { return std::tie(p.x, p.y, p.z); };
   for (HorizonEdge& e : edges)
-    if (place(e.b) < place(e.a)) e = {e.b, e.a, {e.rises.right, e.rises.left}, e.role};
+    if (place(e.b) < place(e.a)) e = {e.b, e.a, {e.adjacent.right, e.adjacent.left}, e.role};
   std::ranges::sort(edges, std::less{}, [&](const HorizonEdge& e) {
-    return std::tuple(place(e.a), place(e.b), e.rises.left, e.rises.right, e.role);
+    return std::tuple(place(e.a), place(e.b), e.adjacent.left, e.adjacent.right, e.role);
   });
   return edges;
 }

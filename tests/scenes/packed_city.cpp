@@ -39,9 +39,9 @@ Grid with_block_edge(Grid grid, int block_edge) {
 void put(BakedBoxes& block, BakedBoxes&& single, std::size_t place, const Point3f&) { block[place] = std::move(single[0]); }
 void put(BakedHorizons& block, BakedHorizons&& single, std::size_t place, const Point3f& block_from_cell_m) {
   BakedHorizon& map = single.cells[0];
-  for (package::NamedObstacle& n : map.named_edges) n.row += static_cast<std::uint32_t>(block.edges.size());
+  for (package::ExplicitOccluder& n : map.explicit_edges) n.row += static_cast<std::uint32_t>(block.edges.size());
   for (const HorizonEdge& e : single.edges)
-    block.edges.push_back({e.a + block_from_cell_m, e.b + block_from_cell_m, e.rises, e.role});
+    block.edges.push_back({e.a + block_from_cell_m, e.b + block_from_cell_m, e.adjacent, e.role});
   block.cells[place] = std::move(map);
 }
 

@@ -34,7 +34,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// The grid with this rotation, cell and neighbourhood that covers a city (given in the city frame).
+/// The grid with this rotation, cell and neighborhood that covers a city (given in the city frame).
 [[nodiscard]] Grid grid_covering(const CityModel& city, Angle bearing, double cell_edge_m, int neighborhood, int block_edge = 32);
 
 /// Far maps of the kind `box`, captured 1.5 m above the ground.

@@ -13,7 +13,7 @@
 
 #include "evaluate/sky_evaluator.hpp"
 #include "receivers/surface_receivers.hpp"
-#include "scene/column.hpp"
+#include "scene/vertical_profile.hpp"
 
 // Asks whether certain bounds hold: for random receivers of a package, on the ground, on whatever is highest, on roofs, on walls
 // and above roofs, is `exact` with the same rays within [low, high]?
@@ -55,7 +55,7 @@ std::vector<Receiver> random_receivers(const Package& package, Cell cell, Kind k
   }
   constexpr float eye_m = 1.5F, on_it_m = 0.05F;
   const double edge_m = package.grid().cell_edge_m;
-  const CellColumns columns(package, cell);
+  const PointLocator columns(package, cell);
   for (std::size_t n = 0; n < count; ++n) {
     const auto x = static_cast<float>(random.uniform(0.0, edge_m)), y = static_cast<float>(random.uniform(0.0, edge_m));
     const auto above_m = kind == above_roofs ? static_cast<float>(random.uniform(0.5, 40.0)) : kind == ground ? eye_m : on_it_m;

@@ -13,7 +13,7 @@
 namespace farlod::validation {
 namespace {
 
-/// The paper's own cells and neighbourhood: what the requirements are about.
+/// The paper's own cells and neighborhood: what the requirements are about.
 bool is_required(double cell_edge_m, int neighborhood) {
   return (cell_edge_m == 50.0 || cell_edge_m == 100.0) && neighborhood == 3;
 }

@@ -20,7 +20,7 @@ struct Extent {
   std::vector<double> cell_edges_m{25.0, 50.0, 100.0, 200.0};
   std::vector<int> neighborhoods{1, 3, 5, 7, 9};
   std::size_t receivers = 2000;       ///< with cells of 50 and 100 m, N = 3
-  std::size_t fewer_receivers = 500;  ///< at the other cell edges and neighbourhoods
+  std::size_t fewer_receivers = 500;  ///< at the other cell edges and neighborhoods
   std::size_t surface_receivers = 1000;
   std::size_t reference_rays = 20000;
   std::size_t sampling_reference_rays = 60000;
@@ -50,7 +50,7 @@ struct RaysErrors {
   ErrorSummary horizon;
 };
 
-/// One cell edge and neighbourhood.
+/// One cell edge and neighborhood.
 struct FarFieldRow {
   double cell_edge_m = 0.0;
   int neighborhood = 0;
@@ -68,7 +68,7 @@ struct CityStudy {
 
 /// The places of a city; they depend on nothing but the city.
 [[nodiscard]] StudySites choose_sites(const StudiedCity& city, const Extent& extent);
-/// Dropped, the paper's map and ours, at all cell edges and neighbourhoods.
+/// Dropped, the paper's map and ours, at all cell edges and neighborhoods.
 [[nodiscard]] CityStudy study_far_field(const StudiedCity& city, const StudySites& sites, const Extent& extent);
 
 }  // namespace farlod::validation

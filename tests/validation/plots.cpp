@@ -17,7 +17,7 @@ using ErrorOf = double (*)(const ErrorSummary&);
 double mean_of(const ErrorSummary& e) { return e.mean_abs_error; }
 double max_of(const ErrorSummary& e) { return e.max_abs_error; }
 
-/// Errors against the neighbourhood, with cells of 50 m.
+/// Errors against the neighborhood, with cells of 50 m.
 Plot far_field_plot(const CityStudy& study) {
   Plot plot{study.name + ": error of the far field, cells of 50 m",
             {"N (cells along the edge of the near field)", Scale::linear},

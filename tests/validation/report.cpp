@@ -230,7 +230,7 @@ std::string markdown(const Results& results) {
   std::string text =
       "## Near field, far field\n\nThe paper keeps the true geometry of N × N cells around a receiver and takes the rest of the "
       "city from "
-      "a picture captured at the cell's centre (`--far-map box`). Ours (`--far-map horizon`, the default) names the obstacles "
+      "a picture captured at the cell's centre (`--far-map box`). Ours (`--far-map horizon`, the default) names the occluders "
       "that "
       "move against each other within a cell, and bounds the rest. *Dropped*: the far field is left out, as by tools that cut a "
       "city "

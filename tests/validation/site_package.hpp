@@ -13,7 +13,7 @@
 
 namespace farlod::validation {
 
-/// A city cut into cells. The cut does not depend on the neighbourhood, which a package decides.
+/// A city cut into cells. The cut does not depend on the neighborhood, which a package decides.
 struct CutCity {
   Grid grid;
   TileSet tiles;

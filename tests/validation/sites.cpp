@@ -53,13 +53,13 @@ std::vector<CellReceivers> receivers_of(const Package& package, std::span<const 
 std::vector<Site> ground_sites(const Package& package, std::span<const Cell> cells, std::size_t count) {
   std::mt19937_64 random(20120901);
   const auto uniform = [&random](double end) { return end * static_cast<double>(random() >> 11) * 0x1p-53; };
-  std::map<Cell, CellColumns> columns;
+  std::map<Cell, PointLocator> columns;
   std::vector<Site> sites;
   while (sites.size() < count) {
     const Cell cell = cells[static_cast<std::size_t>(uniform(static_cast<double>(cells.size())))];
     const double edge_m = package.grid().cell_edge_m;
     const auto x = static_cast<float>(uniform(edge_m)), y = static_cast<float>(uniform(edge_m));
-    const CellColumns& here = columns.try_emplace(cell, package, cell).first->second;
+    const PointLocator& here = columns.try_emplace(cell, package, cell).first->second;
     const auto p_cell = stand(here, x, y, HeightAbove::ground, head_m);
     if (p_cell) sites.push_back(site_of(package, cell, *p_cell, {0.0F, 0.0F, 1.0F}));
   }

@@ -11,7 +11,7 @@
 
 namespace farlod {
 
-/// The four walls of the box around a neighbourhood, unrolled into one picture: east, north, west, south.
+/// The four walls of the box around a neighborhood, unrolled into one picture: east, north, west, south.
 enum class BoxSide : std::uint8_t { east = 0, north = 1, west = 2, south = 3 };
 
 /// A pixel of a far map. Columns run through the four sides, rows upwards from the horizontal.

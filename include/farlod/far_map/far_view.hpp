@@ -21,8 +21,8 @@ namespace farlod {
 /// What the far city does to a direction, as far as its map knows.
 enum class FarVerdict : std::uint8_t {
   free,            ///< hides nothing there, for certain
-  likely_free,     ///< may hide the sky there, and likely does not
-  likely_blocked,  ///< may leave the sky open there, and likely does not
+  estimated_free,     ///< may hide the sky there, and likely does not
+  estimated_blocked,  ///< may leave the sky open there, and likely does not
   blocked          ///< hides the sky there, for certain
 };
 
@@ -47,31 +47,31 @@ class FarView {
 
   /// Without std::hypot's care for numbers that no city has: a tenth of the whole time went into it.
   [[nodiscard]] static double length(Point2d v) { return std::sqrt(dot(v, v)); }
-  void draw_named(const Point3f& p_cell, std::optional<std::uint32_t> patch);
+  void draw_explicit(const Point3f& p_cell, std::optional<std::uint32_t> patch);
   void draw(const EdgeView& edge);
-  /// The directions that an edge covers, by diamond angle, and how far its ends may lie from there.
+  /// The directions that an edge covers, by pseudo-angle, and how far its ends may lie from there.
   struct Span {
     double from, to, before, after;
     /// Covered even if both ends move inwards.
-    [[nodiscard]] bool surely_covers(double diamond) const;
+    [[nodiscard]] bool surely_covers(double angle) const;
   };
-  static constexpr double full_turn = 4.0;  ///< of diamond angles
+  static constexpr double full_turn = 1.0;
   void raise(const SlopePlane& plane, double give, const Span& span, bool hides);
   void raise_row(const SlopePlane& plane, double give, const Span& span, bool hides, std::size_t first, std::size_t end);
 
   const AzimuthFan& fan_;
   const FarHorizon& map_;
   std::vector<std::uint32_t> bins_;
-  std::vector<EdgeView> edges_cell_;  ///< the named edges, cell frame
-  std::vector<float> lower_, upper_;  ///< of the named edges, for each direction
+  std::vector<EdgeView> edges_cell_;  ///< the explicit edges, cell frame
+  std::vector<float> low_, high_;  ///< of the explicit edges, for each direction
 };
 
 inline FarView::FarView(const AzimuthFan& fan, const FarHorizon& map)
-    : fan_(fan), map_(map), bins_(fan.bins(map.bins)), lower_(fan.size()), upper_(fan.size()) {
-  const Point3d shift{map.named.cell_from_block_m.x, map.named.cell_from_block_m.y, 0.0};
+    : fan_(fan), map_(map), bins_(fan.bins(map.bins)), low_(fan.size()), high_(fan.size()) {
+  const Point3d shift{map.occluders.cell_from_block_m.x, map.occluders.cell_from_block_m.y, 0.0};
   const auto placed = [&shift](const Point3f& p) { return shift + Point3d{p.x, p.y, p.z}; };
-  for (const package::NamedObstacle& named : map.named.named_edges) {
-    const HorizonEdge& edge = map.named.edges[named.row];
+  for (const package::ExplicitOccluder& occluder : map.occluders.explicit_edges) {
+    const HorizonEdge& edge = map.occluders.edges[occluder.row];
     edges_cell_.push_back({placed(edge.a), placed(edge.b)});
   }
 }
@@ -79,32 +79,32 @@ inline FarView::FarView(const AzimuthFan& fan, const FarHorizon& map)
 inline void FarView::judge(const Point3f& p_cell, std::span<FarVerdict> verdicts) {
   FARLOD_EXPECTS(verdicts.size() == fan_.size());
   const std::optional<std::uint32_t> patch = map_.patches.patch_of(p_cell);
-  draw_named(p_cell, patch);
+  draw_explicit(p_cell, patch);
   const std::size_t bins = map_.bins.count, row = patch.value_or(0) * bins;
   const auto [next_row, share] = map_.floor_above(patch.value_or(0), p_cell.z);
   for (std::size_t n = 0; n < fan_.size(); ++n) {
     const std::size_t bin = bins_[n];
-    const float here = map_.likely[row + bin], above = map_.likely[next_row * bins + bin];
-    // Below the lowest level nothing is certain of the unnamed
-    const float lower = patch ? map_.lower[row + bin] : 0.0F;
-    const float upper = patch ? map_.upper[row + bin] : std::numeric_limits<float>::infinity();
-    const float likely = std::clamp(here + share * (above - here), lower, upper), slope = fan_.slope()[n];
-    verdicts[n] = slope < std::max(lower_[n], lower)    ? FarVerdict::blocked
-                  : slope > std::max(upper_[n], upper)  ? FarVerdict::free
-                  : slope > std::max(upper_[n], likely) ? FarVerdict::likely_free
-                                                        : FarVerdict::likely_blocked;
+    const float here = map_.estimate[row + bin], above = map_.estimate[next_row * bins + bin];
+    // Below the lowest level nothing is certain of the residual city
+    const float low = patch ? map_.low[row + bin] : 0.0F;
+    const float high = patch ? map_.high[row + bin] : std::numeric_limits<float>::infinity();
+    const float estimate = std::clamp(here + share * (above - here), low, high), slope = fan_.slope()[n];
+    verdicts[n] = slope < std::max(low_[n], low)    ? FarVerdict::blocked
+                  : slope > std::max(high_[n], high)  ? FarVerdict::free
+                  : slope > std::max(high_[n], estimate) ? FarVerdict::estimated_free
+                                                        : FarVerdict::estimated_blocked;
   }
 }
 
-inline void FarView::draw_named(const Point3f& p_cell, std::optional<std::uint32_t> patch) {
-  std::fill(lower_.begin(), lower_.end(), 0.0F);
-  std::fill(upper_.begin(), upper_.end(), 0.0F);
+inline void FarView::draw_explicit(const Point3f& p_cell, std::optional<std::uint32_t> patch) {
+  std::fill(low_.begin(), low_.end(), 0.0F);
+  std::fill(high_.begin(), high_.end(), 0.0F);
   const Point3d eye{p_cell.x, p_cell.y, p_cell.z};
   const std::uint32_t squares = map_.patches.squares();
   for (std::size_t n = 0; n < edges_cell_.size(); ++n) {
-    const package::NamedObstacle& named = map_.named.named_edges[n];
-    if (map_.named.edges[named.row].role == EdgeRole::underside) continue;
-    if (!patch || named.matters(*patch % squares, *patch / squares)) draw({edges_cell_[n].a - eye, edges_cell_[n].b - eye});
+    const package::ExplicitOccluder& occluder = map_.occluders.explicit_edges[n];
+    if (map_.occluders.edges[occluder.row].role == EdgeRole::underside) continue;
+    if (!patch || occluder.matters(*patch % squares, *patch / squares)) draw({edges_cell_[n].a - eye, edges_cell_[n].b - eye});
   }
 }
 
@@ -115,12 +115,13 @@ inline void FarView::draw(const EdgeView& given) {
   const Point2d a = horizontal(edge.a), b = horizontal(edge.b);
   const double nearest_m = distance_to_segment(a, b);
   if (nearest_m < too_close_m) {
-    std::fill(upper_.begin(), upper_.end(), std::numeric_limits<float>::infinity());
+    std::fill(high_.begin(), high_.end(), std::numeric_limits<float>::infinity());
     return;
   }
   const double steepest = std::max({edge.a.z, edge.b.z, 0.0}) / nearest_m;
-  const double turn_a = rounding_m / length(a) + rounding, turn_b = rounding_m / length(b) + rounding;
-  const double from = diamond_angle(a), to = diamond_angle(b);
+  // A pseudo-angle grows by a quarter of a turn per radian at the most
+  const double turn_a = 0.25 * (rounding_m / length(a) + rounding), turn_b = 0.25 * (rounding_m / length(b) + rounding);
+  const double from = pseudo_angle(a), to = pseudo_angle(b);
   // What moves by the rounding rises so much at the distance, and shows another place of its plane, as much steeper as that is
   const auto give = [&](double gradient) { return (rounding_m / nearest_m + rounding) * (1.0 + steepest + gradient); };
   const Span span{from, to, turn_a, turn_b};
@@ -130,13 +131,13 @@ inline void FarView::draw(const EdgeView& given) {
   raise(plane, give(length({plane.along_x, plane.along_y})), span, true);
 }
 
-inline bool FarView::Span::surely_covers(double diamond) const {
+inline bool FarView::Span::surely_covers(double angle) const {
   const auto turn = [](double difference) {
     return difference < -0.5 * full_turn  ? difference + full_turn
            : difference > 0.5 * full_turn ? difference - full_turn
                                           : difference;
   };
-  return turn(diamond - from) >= before && turn(to - diamond) >= after;
+  return turn(angle - from) >= before && turn(to - angle) >= after;
 }
 
 inline void FarView::raise(const SlopePlane& plane, double give, const Span& span, bool hides) {
@@ -161,13 +162,13 @@ inline void FarView::raise_row(const SlopePlane& plane, double give, const Span&
                                std::size_t end) {
   const auto x = static_cast<float>(plane.along_x), y = static_cast<float>(plane.along_y), g = static_cast<float>(give);
   const float *cosine = fan_.cosine().data(), *sine = fan_.sine().data();
-  float *const upper = upper_.data(), *const lower = lower_.data();
-  for (std::size_t n = first; n < end; ++n) upper[n] = std::max(upper[n], x * cosine[n] + y * sine[n] + g);
+  float *const high = high_.data(), *const low = low_.data();
+  for (std::size_t n = first; n < end; ++n) high[n] = std::max(high[n], x * cosine[n] + y * sine[n] + g);
   if (!hides) return;
   // Only at its ends is a row in doubt
-  while (first < end && !span.surely_covers(fan_.diamond()[first])) ++first;
-  while (end > first && !span.surely_covers(fan_.diamond()[end - 1])) --end;
-  for (std::size_t n = first; n < end; ++n) lower[n] = std::max(lower[n], x * cosine[n] + y * sine[n] - g);
+  while (first < end && !span.surely_covers(fan_.pseudo_angles()[first])) ++first;
+  while (end > first && !span.surely_covers(fan_.pseudo_angles()[end - 1])) --end;
+  for (std::size_t n = first; n < end; ++n) low[n] = std::max(low[n], x * cosine[n] + y * sine[n] - g);
 }
 
 }  // namespace farlod

@@ -28,12 +28,13 @@ struct AzimuthBins {
   }
 };
 
-/// Grows with the azimuth as the angle does, from 0 to 4 counter-clockwise from the x axis, without an arc tangent: the
-/// perimeter of the square |x| + |y| = 1 up to the direction. Its slope against the angle lies between ½ and 1.
-[[nodiscard]] inline double diamond_angle(Point2d d) {
-  const double across = d.y / (std::abs(d.x) + std::abs(d.y));
-  if (d.x < 0.0) return 2.0 - across;
-  return d.y < 0.0 ? 4.0 + across : across;
+/// Pseudo-angle of a direction, in turns: 0 to 1, counter-clockwise from the x axis. It grows with the azimuth and needs no arc
+/// tangent: it is the length along the perimeter of the square |x| + |y| = 1, as a fraction of the whole. Opposite directions are
+/// half a turn apart. Its derivative by the azimuth lies between 1/8 and 1/4 of a turn per radian.
+[[nodiscard]] inline double pseudo_angle(Point2d d) {
+  const double across = 0.25 * d.y / (std::abs(d.x) + std::abs(d.y));
+  if (d.x < 0.0) return 0.5 - across;
+  return d.y < 0.0 ? 1.0 + across : across;
 }
 
 }  // namespace farlod

@@ -20,7 +20,7 @@ inline constexpr double facing_slack_m = 0.001;
 /// Whether an upper border can be a horizon for some eye in a box, as far as the facets beside it tell: not if each eye looks at
 /// it through the solid, or sees the solid rise behind it. And whether a lower border can be a lower silhouette: not if for each
 /// eye a facet beside it reaches lower. Proof in docs/concepts.md, "Edges that face away".
-[[nodiscard]] inline bool may_be_silhouette(const Point3d& a, const Point3d& b, EdgeRises rises, EdgeRole role,
+[[nodiscard]] inline bool may_be_silhouette(const Point3d& a, const Point3d& b, AdjacentSlopes adjacent, EdgeRole role,
                                             const Box2d& eyes_plan, double eyes_low_m, double eyes_high_m) {
   const Point3d along = b - a;
   const double run_m = norm(horizontal(along)), length_m = norm(along);
@@ -36,8 +36,8 @@ inline constexpr double facing_slack_m = 0.001;
   }
   if (least_left_m <= facing_slack_m && most_left_m >= -facing_slack_m) return true;
   const bool eyes_left = least_left_m > 0.0, is_upper = role != EdgeRole::underside;
-  const double near_slope = EdgeRises::slope(eyes_left ? rises.left : rises.right),
-               far_slope = EdgeRises::slope(eyes_left ? rises.right : rises.left);
+  const double near_slope = AdjacentSlopes::slope(eyes_left ? adjacent.left : adjacent.right),
+               far_slope = AdjacentSlopes::slope(eyes_left ? adjacent.right : adjacent.left);
   // No eye above the edge has it above the level
   const double highest_eye_m = std::min(eyes_high_m, std::max(a.z, b.z) - 2.0 * facing_slack_m);
   bool near_lets_see = false, far_lets_see = false;

@@ -15,11 +15,11 @@ namespace farlod {
 
 /// How steeply the solid rises away from an edge, at right angles to it, to the left and to the right of the way from its first
 /// end to its second, seen from above. Rounded down, to 127ths of a right angle.
-struct EdgeRises {
+struct AdjacentSlopes {
   static constexpr std::int8_t straight_down = -127;  ///< a wall, or unknown: it hides nothing of the edge
   static constexpr std::int8_t straight_up = 127;     ///< the same for the lower border of something
   std::int8_t left = straight_down, right = straight_down;
-  bool operator==(const EdgeRises&) const = default;
+  bool operator==(const AdjacentSlopes&) const = default;
 
   [[nodiscard]] static std::int8_t rounded_down(double rise_rad) {
     const double steps = std::floor(rise_rad / (0.5 * std::numbers::pi) * 127.0);
@@ -53,10 +53,10 @@ inline constexpr std::size_t edge_role_count = 3;
 /// An edge of the city that can be a silhouette. The upper envelope of `grounded` and `overhang` edges is a receiver's horizon;
 /// above the upper envelope of the `underside` edges, nothing floats.
 /// `rises` tells of the steepest facets beside an upper border, and of the flattest ones beside a lower border, where
-/// EdgeRises::straight_up stands for a wall or for none.
+/// AdjacentSlopes::straight_up stands for a wall or for none.
 struct HorizonEdge {
   Point3f a, b;
-  EdgeRises rises{};
+  AdjacentSlopes adjacent{};
   EdgeRole role = EdgeRole::grounded;
   bool operator==(const HorizonEdge&) const = default;
 };

@@ -11,7 +11,7 @@
 #include "farlod/grid.hpp"
 #include "farlod/horizon/horizon_edge.hpp"
 #include "farlod/mesh_view.hpp"
-#include "farlod/package/stored_direction.hpp"
+#include "farlod/package/oct_normal.hpp"
 #include "farlod/surface_kind.hpp"
 
 /// The bytes of `tiles.bin`. docs/package_format.md tells the same in words; where they differ, this file wins.
@@ -22,7 +22,7 @@ namespace farlod::package {
 static_assert(std::endian::native == std::endian::little,
               "packages are mapped, not decoded: a big-endian reader must swap bytes");
 
-inline constexpr std::uint32_t format_version = 5;
+inline constexpr std::uint32_t format_version = 6;
 inline constexpr std::array<char, 8> magic{'F', 'A', 'R', 'L', 'O', 'D', 'T', '\n'};
 inline constexpr std::uint64_t section_alignment = 64;
 inline constexpr std::uint64_t end_padding = 16;
@@ -38,7 +38,7 @@ enum class SectionKind : std::uint32_t {
   // Far maps of the kind `horizon`; without elements for the kind `box`
   far_cells = 8,     ///< FarCellRecord, as many and in the same order as `cells`
   far_edges = 9,     ///< HorizonEdge, block frame: what the cells' far maps name
-  named_edges = 11,  ///< NamedObstacle: rows of `far_edges`, cell by cell
+  explicit_edges = 11,  ///< ExplicitOccluder: rows of `far_edges`, cell by cell
   // Of the tiles again
   tile_edges = 13,  ///< TileEdge, cell by cell, and within a cell role by role, in the order of EdgeRole
   loose_edges = 14  ///< HorizonEdge, cell frame, cell by cell: those that are no side of a triangle
@@ -87,7 +87,7 @@ static_assert(sizeof(CellRecord) == 60);
 struct TileEdge {
   static constexpr std::uint8_t only_passes = 255;
   std::uint8_t sides_passed;
-  EdgeRises rises;  ///< along the side
+  AdjacentSlopes adjacent;  ///< along the side
   bool operator==(const TileEdge&) const = default;
 };
 static_assert(sizeof(TileEdge) == 3);
@@ -110,11 +110,11 @@ struct SurfaceRecord {
   std::uint16_t part;      ///< closed part of the building, for the question "inside?"
   SurfaceKind kind : 3;
   std::uint8_t grounded : 1;  ///< 1: nobody outside has its building overhead, and no gap is seen below it
-  std::uint64_t normal_u : StoredDirection::bits;
-  std::uint64_t normal_v : StoredDirection::bits;
+  std::uint64_t normal_u : OctNormal::bits;
+  std::uint64_t normal_v : OctNormal::bits;
 
   /// Outward, grid frame.
-  [[nodiscard]] StoredDirection normal() const {
+  [[nodiscard]] OctNormal normal() const {
     return {static_cast<std::uint32_t>(normal_u), static_cast<std::uint32_t>(normal_v)};
   }
 };
@@ -133,15 +133,15 @@ inline constexpr std::uint32_t most_layers = 8;
 
 /// What a cell's far map names, and the heights of its layers (ReceiverPatches). Levels beyond the last repeat it.
 struct FarCellRecord {
-  std::uint64_t first_named_edge;
-  std::uint32_t named_edge_count;
+  std::uint64_t first_explicit_edge;
+  std::uint32_t explicit_edge_count;
   std::array<float, most_layers> levels_m;
   std::uint32_t reserved;  ///< zero
 };
 static_assert(sizeof(FarCellRecord) == 48);
 
-/// An obstacle that receivers in some patches of a cell must meet by itself: in the squares and in the layers whose bits are set.
-struct NamedObstacle {
+/// An occluder that receivers in some patches of a cell must meet by itself: in the squares and in the layers whose bits are set.
+struct ExplicitOccluder {
   std::uint32_t row;
   std::uint16_t squares;
   std::uint16_t layers;
@@ -149,9 +149,9 @@ struct NamedObstacle {
     return ((squares >> square) & 1U) != 0 && ((layers >> layer) & 1U) != 0;
   }
 };
-static_assert(sizeof(NamedObstacle) == 8);
+static_assert(sizeof(ExplicitOccluder) == 8);
 
-static_assert(sizeof(HorizonEdge) == 28 && sizeof(EdgeRises) == 2);
+static_assert(sizeof(HorizonEdge) == 28 && sizeof(AdjacentSlopes) == 2);
 
 /// The folder of a block within a package, and its two files.
 [[nodiscard]] inline std::string block_folder(Block b) { return "blocks/" + std::to_string(b.i) + "_" + std::to_string(b.j); }
@@ -161,14 +161,14 @@ inline constexpr const char* manifest_file = "manifest.json";
 
 /// Channels of far.exr, all half. Of the kind `box`: Y is 1 where the sky is seen and 0 where the far city hides it, so that any
 /// viewer shows the map; Z is the distance in metres from the capture point to what hides the sky, infinite where nothing does.
-/// Of the kind `horizon`: slopes (tangents of elevations) of what is not named, a column for each azimuth bin, a row for each
-/// patch from the first; `lower`, `upper` and `overhang` are certain all over the patch, Y is what is likely on the floor of the
+/// Of the kind `horizon`: slopes (tangents of elevations) of the residual city, a column for each azimuth bin, a row for each
+/// patch from the first; `low`, `high` and `overhang` are certain all over the patch, Y is what is likely on the floor of the
 /// patch.
 inline constexpr const char* sky_channel = "Y";
 inline constexpr const char* distance_channel = "Z";
-inline constexpr const char* likely_channel = "Y";
-inline constexpr const char* lower_channel = "lower";
-inline constexpr const char* upper_channel = "upper";
+inline constexpr const char* estimate_channel = "Y";
+inline constexpr const char* low_channel = "low";
+inline constexpr const char* high_channel = "high";
 inline constexpr const char* overhang_channel = "overhang";
 
 }  // namespace farlod::package

@@ -21,34 +21,34 @@ class AzimuthFan {
 
   [[nodiscard]] std::size_t size() const { return slope_.size(); }
   /// Of the n-th direction: its place among those given, cosine and sine of its azimuth, the tangent of its elevation, and its
-  /// diamond angle.
+  /// pseudo-angle.
   [[nodiscard]] std::span<const std::uint32_t> place() const { return place_; }
   [[nodiscard]] std::span<const float> cosine() const { return cosine_; }
   [[nodiscard]] std::span<const float> sine() const { return sine_; }
   [[nodiscard]] std::span<const float> slope() const { return slope_; }
-  [[nodiscard]] std::span<const double> diamond() const { return diamond_; }
+  [[nodiscard]] std::span<const double> pseudo_angles() const { return pseudo_angles_; }
   /// For each direction the bin of its azimuth.
   [[nodiscard]] std::vector<std::uint32_t> bins(const AzimuthBins& bins) const;
-  /// The first direction whose diamond angle is at least this; size() when there is none. Any angle from 0 to 4.
-  [[nodiscard]] std::size_t first_from(double diamond) const;
+  /// The first direction whose pseudo-angle is at least this; size() when there is none. Any pseudo-angle from 0 to 1.
+  [[nodiscard]] std::size_t first_from(double angle) const;
 
  private:
   /// A direction straight up has no azimuth; any will do, since no horizon is as steep.
-  [[nodiscard]] static double diamond_of(const Point3d& d) { return d.x == 0.0 && d.y == 0.0 ? 0.0 : diamond_angle({d.x, d.y}); }
+  [[nodiscard]] static double pseudo_angle_of(const Point3d& d) { return d.x == 0.0 && d.y == 0.0 ? 0.0 : pseudo_angle({d.x, d.y}); }
 
   std::vector<std::uint32_t> place_, first_of_slot_;
-  std::vector<double> diamond_;
+  std::vector<double> pseudo_angles_;
   std::vector<float> cosine_, sine_, slope_;
 };
 
 inline AzimuthFan::AzimuthFan(std::span<const Point3d> directions) : place_(directions.size()) {
   std::iota(place_.begin(), place_.end(), 0U);
   std::stable_sort(place_.begin(), place_.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return diamond_of(directions[a]) < diamond_of(directions[b]); });
+                   [&](std::uint32_t a, std::uint32_t b) { return pseudo_angle_of(directions[a]) < pseudo_angle_of(directions[b]); });
   for (const std::uint32_t n : place_) {
     const Point3d& d = directions[n];
     const double across = std::hypot(d.x, d.y);
-    diamond_.push_back(diamond_of(d));
+    pseudo_angles_.push_back(pseudo_angle_of(d));
     cosine_.push_back(static_cast<float>(across > 0.0 ? d.x / across : 1.0));
     sine_.push_back(static_cast<float>(across > 0.0 ? d.y / across : 0.0));
     slope_.push_back(static_cast<float>(d.z / across));
@@ -56,9 +56,9 @@ inline AzimuthFan::AzimuthFan(std::span<const Point3d> directions) : place_(dire
   // A slot for each direction on average: a look-up finds its place within a step or two
   first_of_slot_.resize(directions.size() + 2);
   for (std::size_t slot = 0; slot < first_of_slot_.size(); ++slot) {
-    const double from = 4.0 * static_cast<double>(slot) / static_cast<double>(directions.size() + 1);
+    const double from = static_cast<double>(slot) / static_cast<double>(directions.size() + 1);
     first_of_slot_[slot] =
-        static_cast<std::uint32_t>(std::lower_bound(diamond_.begin(), diamond_.end(), from) - diamond_.begin());
+        static_cast<std::uint32_t>(std::lower_bound(pseudo_angles_.begin(), pseudo_angles_.end(), from) - pseudo_angles_.begin());
   }
 }
 
@@ -68,11 +68,11 @@ inline std::vector<std::uint32_t> AzimuthFan::bins(const AzimuthBins& bins) cons
   return result;
 }
 
-inline std::size_t AzimuthFan::first_from(double diamond) const {
-  const auto slot = static_cast<std::size_t>(diamond * 0.25 * static_cast<double>(size() + 1));
+inline std::size_t AzimuthFan::first_from(double angle) const {
+  const auto slot = static_cast<std::size_t>(angle * static_cast<double>(size() + 1));
   std::size_t n = first_of_slot_[std::min(slot, first_of_slot_.size() - 1)];
-  while (n > 0 && diamond_[n - 1] >= diamond) --n;
-  while (n < diamond_.size() && diamond_[n] < diamond) ++n;
+  while (n > 0 && pseudo_angles_[n - 1] >= angle) --n;
+  while (n < pseudo_angles_.size() && pseudo_angles_[n] < angle) ++n;
   return n;
 }
 

@@ -27,12 +27,12 @@ bool is_read_relief(std::string_view name) { return name == "ReliefFeature" || n
 void CityGmlParser::start(const XmlElement& element) {
   if (root_.empty()) root_ = element.name;
   if (srs_name_.empty() && !element.srs_name.empty()) srs_name_ = element.srs_name;
-  if (depth_passed_over_ > 0) {
-    ++depth_passed_over_;
+  if (skipped_depth_ > 0) {
+    ++skipped_depth_;
   } else if (const MaybeMeaning meaning = meaning_of(element)) {
     open_.push_back(*meaning);
   } else {
-    depth_passed_over_ = 1;
+    skipped_depth_ = 1;
   }
 }
 
@@ -56,7 +56,7 @@ CityGmlParser::MaybeMeaning CityGmlParser::meaning_outside(const XmlElement& ele
   const bool is_object = !open_.empty() && open_.back() == Meaning::members;
   const bool is_read = vocabulary == Vocabulary::relief && is_read_relief(element.name);
   const bool is_unread = vocabulary != Vocabulary::foreign && is_unread_relief(element.name);
-  if (is_unread || (is_object && !is_read)) passed_over_.add(element);
+  if (is_unread || (is_object && !is_read)) skipped_.add(element);
   return is_member_name(element.name) ? Meaning::members : Meaning::nothing;
 }
 
@@ -66,7 +66,7 @@ CityGmlParser::MaybeMeaning CityGmlParser::meaning_in_relief(const XmlElement& e
 
 CityGmlParser::MaybeMeaning CityGmlParser::meaning_in_surfaces(const XmlElement& element) {
   const Vocabulary vocabulary = vocabulary_of(element.space);
-  if (vocabulary == Vocabulary::foreign) passed_over_.add(element);
+  if (vocabulary == Vocabulary::foreign) skipped_.add(element);
   if (!may_hold_surfaces(vocabulary)) return std::nullopt;
   const GmlSurfaceReader::Answer answer = reader_.start(element);
   if (answer == GmlSurfaceReader::Answer::unsupported) building_.add_unread(std::string("a gml:").append(element.name));
@@ -75,7 +75,7 @@ CityGmlParser::MaybeMeaning CityGmlParser::meaning_in_surfaces(const XmlElement&
 
 CityGmlParser::MaybeMeaning CityGmlParser::meaning_inside(const XmlElement& element) {
   const Vocabulary vocabulary = vocabulary_of(element.space);
-  if (vocabulary == Vocabulary::foreign) passed_over_.add(element);
+  if (vocabulary == Vocabulary::foreign) skipped_.add(element);
   if (!may_hold_surfaces(vocabulary) || is_inner_name(element.name)) return std::nullopt;
   if (in_prototype_) return meaning_in_prototype(element);
   if (is_lod_property(element.name)) return meaning_of_lod_property(element);
@@ -180,8 +180,8 @@ void CityGmlParser::begin_installation(SurfaceRole role) {
 }
 
 void CityGmlParser::end(std::string_view name) {
-  if (depth_passed_over_ > 0) {
-    --depth_passed_over_;
+  if (skipped_depth_ > 0) {
+    --skipped_depth_;
     return;
   }
   FARLOD_EXPECTS(!open_.empty());
@@ -263,7 +263,7 @@ void CityGmlParser::take_height() {
 }
 
 void CityGmlParser::text(std::string_view piece) {
-  if (depth_passed_over_ > 0) return;
+  if (skipped_depth_ > 0) return;
   if (in_surfaces_)
     reader_.text(piece);
   else if (in_relief_)

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ingest/citygml/citygml_building.hpp"
-#include "ingest/citygml/citygml_passed_over.hpp"
+#include "ingest/citygml/citygml_skipped.hpp"
 #include "ingest/citygml/citygml_prototype.hpp"
 #include "ingest/citygml/citygml_relief.hpp"
 #include "ingest/citygml/citygml_vocabulary.hpp"
@@ -32,7 +32,7 @@ class CityGmlParser : public XmlListener {
   [[nodiscard]] const std::string& srs_name() const { return srs_name_; }
   [[nodiscard]] const std::string& root() const { return root_; }
   [[nodiscard]] ReliefReader& relief() { return relief_; }
-  [[nodiscard]] const PassedOver& passed_over() const { return passed_over_.counts(); }
+  [[nodiscard]] const SkippedFeatures& skipped() const { return skipped_.counts(); }
 
  private:
   /// What an open element is to us; it is undone when the element ends.
@@ -84,8 +84,8 @@ class CityGmlParser : public XmlListener {
 
   TakeBuilding take_;
   std::vector<Meaning> open_;
-  std::size_t depth_passed_over_ = 0;
-  PassedOverCount passed_over_;
+  std::size_t skipped_depth_ = 0;
+  SkippedCount skipped_;
   CityGmlBuilding building_;
   GmlSurfaceReader reader_{building_.surfaces};
   ReliefReader relief_;

@@ -23,11 +23,11 @@ struct Reading {
   std::unordered_set<std::string> foreign_hrefs;
 };
 
-std::string list(const PassedOver& passed_over) {
+std::string list(const SkippedFeatures& skipped) {
   constexpr std::size_t most_listed = 5;
   std::string text;
   std::size_t listed = 0;
-  for (const auto& [name, count] : passed_over) {
+  for (const auto& [name, count] : skipped) {
     if (listed++ == most_listed) return text + ", ...";
     text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + name;
   }
@@ -38,7 +38,7 @@ std::string list(const PassedOver& passed_over) {
   if (parser.root() != "CityModel")
     throw InputError(file.name + " is XML, but not CityGML: it begins with <" + parser.root() + ">.");
   throw InputError(file.name + " holds no Building, Bridge, Tunnel, OtherConstruction or relief" +
-                   (parser.passed_over().empty() ? "." : ", but " + list(parser.passed_over()) + ".") +
+                   (parser.skipped().empty() ? "." : ", but " + list(parser.skipped()) + ".") +
                    " Is it another theme of the city model?");
 }
 
@@ -65,7 +65,7 @@ Reading read_buildings(const InputFile& file, LodChoice lod, const GmlSurfaces& 
   reading.city.crs.definition = parser.srs_name();
   reading.city.city = writer.take_city();
   reading.city.relief_points = std::move(relief.points());
-  reading.city.passed_over = parser.passed_over();
+  reading.city.skipped = parser.skipped();
   return reading;
 }
 

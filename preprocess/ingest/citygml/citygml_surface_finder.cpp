@@ -11,19 +11,19 @@ bool GmlSurfaceFinder::is_wanted(std::string_view id) {
 }
 
 void GmlSurfaceFinder::start(const XmlElement& element) {
-  if (depth_passed_over_ > 0) {
-    ++depth_passed_over_;
+  if (skipped_depth_ > 0) {
+    ++skipped_depth_;
   } else if (wanted_depth_ > 0 || is_wanted(element.id)) {
     if (reader_.start(element) == GmlSurfaceReader::Answer::entered)
       ++wanted_depth_;
     else
-      ++depth_passed_over_;
+      ++skipped_depth_;
   }
 }
 
 void GmlSurfaceFinder::end(std::string_view name) {
-  if (depth_passed_over_ > 0) {
-    --depth_passed_over_;
+  if (skipped_depth_ > 0) {
+    --skipped_depth_;
   } else if (wanted_depth_ > 0) {
     reader_.end(name);
     --wanted_depth_;
@@ -31,7 +31,7 @@ void GmlSurfaceFinder::end(std::string_view name) {
 }
 
 void GmlSurfaceFinder::text(std::string_view piece) {
-  if (wanted_depth_ > 0 && depth_passed_over_ == 0) reader_.text(piece);
+  if (wanted_depth_ > 0 && skipped_depth_ == 0) reader_.text(piece);
 }
 
 }  // namespace farlod

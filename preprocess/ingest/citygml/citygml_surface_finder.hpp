@@ -29,7 +29,7 @@ class GmlSurfaceFinder : public XmlListener {
   const std::unordered_set<std::string>& hrefs_;
   GmlSurfaces found_;
   GmlSurfaceReader reader_{found_};
-  std::size_t wanted_depth_ = 0, depth_passed_over_ = 0;
+  std::size_t wanted_depth_ = 0, skipped_depth_ = 0;
   std::string href_;  ///< what a reference to the id in hand looks like
 };
 

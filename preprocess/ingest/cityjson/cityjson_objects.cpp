@@ -329,7 +329,7 @@ void write_objects(const std::vector<CityJsonObject>& objects, const std::vector
   for (const CityJsonObject& object : objects) {
     if (role_of(object.type) == ObjectRole::relief) relief.write(object);
     if (role_of(object.type) == ObjectRole::none)
-      ++account.passed_over[object.type.empty() ? "objects without a type" : object.type];
+      ++account.skipped[object.type.empty() ? "objects without a type" : object.type];
   }
 }
 

@@ -52,7 +52,7 @@ struct CityJsonTemplates {
 /// What the objects hold besides buildings.
 struct ObjectAccount {
   std::vector<Point3d> relief_points;  ///< corners of the triangles of terrain, in its best level of detail
-  PassedOver passed_over;              ///< types of the objects that are not used
+  SkippedFeatures skipped;              ///< types of the objects that are not used
   std::uint64_t template_corners = 0;  ///< written by using templates
 };
 

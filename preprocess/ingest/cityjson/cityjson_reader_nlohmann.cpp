@@ -282,9 +282,9 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
 };
 
 /// ", but 15 SolitaryVegetationObject": what there is instead.
-std::string said(const PassedOver& passed_over) {
+std::string said(const SkippedFeatures& skipped) {
   std::string text;
-  for (const auto& [type, count] : passed_over) text += (text.empty() ? ", but " : ", ") + std::to_string(count) + " " + type;
+  for (const auto& [type, count] : skipped) text += (text.empty() ? ", but " : ", ") + std::to_string(count) + " " + type;
   return text;
 }
 
@@ -376,12 +376,12 @@ SourceCity read_cityjson(const InputFile& file, LodChoice lod, Report& report) {
   }
   if (writer.buildings_met() == 0 && reader.account.relief_points.empty())
     throw InputError(file.name + " holds no Building, Bridge, Tunnel, OtherConstruction or TINRelief" +
-                     said(reader.account.passed_over) + ". Is it another theme of the city model?");
+                     said(reader.account.skipped) + ". Is it another theme of the city model?");
   return {.source = file.name,
           .crs = {reader.reference_system, false, false},
           .city = writer.take_city(),
           .relief_points = std::move(reader.account.relief_points),
-          .passed_over = std::move(reader.account.passed_over)};
+          .skipped = std::move(reader.account.skipped)};
 }
 
 }  // namespace farlod

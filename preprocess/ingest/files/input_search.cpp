@@ -90,7 +90,7 @@ class InputSearch {
       rasters_.clear();
       const std::size_t known = found_.files.size();
       attempt(input, [&] { take_named(input); });
-      settle_rasters(found_.files.size() == known);
+      resolve_rasters(found_.files.size() == known);
     }
     require_something(inputs);
     for (const auto& [name, reason] : unusable_) report_.add({ProblemCode::unusable_file, name, "the whole file", reason});
@@ -186,11 +186,11 @@ class InputSearch {
 
   void pass_over(const InputFile& file) {
     const std::string ending = in_lower_case(fs::path(file.unpacked_name()).extension().string());
-    ++found_.passed_over[ending.empty() ? "files without an ending" : ending + " files"];
+    ++found_.skipped[ending.empty() ? "files without an ending" : ending + " files"];
   }
 
   /// A single raster is a surface model; several, or one beside cities, may be pictures of them.
-  void settle_rasters(bool is_alone) {
+  void resolve_rasters(bool is_alone) {
     if (is_alone && rasters_.size() == 1) {
       if (is_new(rasters_.front())) found_.surface_models.push_back(rasters_.front());
     } else {
@@ -202,7 +202,7 @@ class InputSearch {
     if (inputs.empty() || !found_.files.empty() || !found_.surface_models.empty()) return;
     if (!unusable_.empty()) throw InputError(unusable_.front().second);
     std::string others;
-    for (const auto& [what, count] : found_.passed_over)
+    for (const auto& [what, count] : found_.skipped)
       others += (others.empty() ? " It holds " : ", ") + std::to_string(count) + " " + what;
     throw InputError(inputs.front().string() + " holds no file of a city: no CityGML, CityJSON, OBJ or footprints." + others +
                      (others.empty() ? "" : "."));

@@ -16,7 +16,7 @@ namespace farlod {
 struct FoundInputs {
   std::vector<InputFile> files;           ///< cities and footprints, in the order of the names, and of their own within a folder
   std::vector<InputFile> surface_models;  ///< rasters, which are read as a terrain is
-  PassedOver passed_over;                 ///< files of folders and archives that are of no format of a city, by their endings
+  SkippedFeatures skipped;                 ///< files of folders and archives that are of no format of a city, by their endings
 };
 
 /// Looks into folders, with all that is below them, and into zip and gzip archives. For every file:

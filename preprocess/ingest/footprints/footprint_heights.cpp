@@ -148,12 +148,12 @@ std::string FootprintHeights::what_they_say(const std::vector<std::size_t>& fiel
 
 std::variant<PrismExtent, Unraised> FootprintHeights::below_roof(const Height& roof, const FieldLookup& value_of) const {
   if (!is_elevation(roof.value_m)) return no_elevation(roof.said);
-  if (base_.empty()) return PrismExtent{roof.value_m - provisional_height_m, roof.value_m, Footing::down_to_ground};
+  if (base_.empty()) return PrismExtent{roof.value_m - provisional_height_m, roof.value_m, HeightReference::down_to_ground};
   const std::optional<Height> base = length_in(base_, value_of);
   if (!base) return Unraised{ProblemCode::no_height, what_they_say(base_, value_of)};
   if (!is_elevation(base->value_m)) return no_elevation(base->said);
   if (auto objection = objection_to(roof.value_m - base->value_m, roof.said + " and " + base->said)) return *objection;
-  return PrismExtent{base->value_m, roof.value_m, Footing::elevation};
+  return PrismExtent{base->value_m, roof.value_m, HeightReference::elevation};
 }
 
 std::variant<PrismExtent, Unraised> FootprintHeights::above_base(const Height& height, const FieldLookup& value_of) const {
@@ -163,11 +163,11 @@ std::variant<PrismExtent, Unraised> FootprintHeights::above_base(const Height& h
     return Unraised{ProblemCode::height_not_positive,
                     height.said + ", and it begins only above that: " + what_they_say(lowest_heights_, value_of) +
                         what_they_say(lowest_storeys_, value_of)};
-  if (base_.empty()) return PrismExtent{lowest_m, height.value_m, Footing::on_ground, height.source};
+  if (base_.empty()) return PrismExtent{lowest_m, height.value_m, HeightReference::on_ground, height.source};
   const std::optional<Height> base = length_in(base_, value_of);
   if (!base) return Unraised{ProblemCode::no_height, what_they_say(base_, value_of)};
   if (!is_elevation(base->value_m)) return no_elevation(base->said);
-  return PrismExtent{base->value_m + lowest_m, base->value_m + height.value_m, Footing::elevation, height.source};
+  return PrismExtent{base->value_m + lowest_m, base->value_m + height.value_m, HeightReference::elevation, height.source};
 }
 
 std::variant<PrismExtent, Unraised> FootprintHeights::of(const FieldLookup& value_of) const {

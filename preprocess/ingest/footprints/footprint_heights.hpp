@@ -35,7 +35,7 @@ enum class HeightSource {
 /// From where to where a footprint is raised.
 struct PrismExtent {
   double base_m = 0.0, top_m = 0.0;
-  Footing footing = Footing::on_ground;
+  HeightReference footing = HeightReference::on_ground;
   HeightSource source = HeightSource::measured;
 };
 

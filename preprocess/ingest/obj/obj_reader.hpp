@@ -15,7 +15,7 @@ struct ObjFrame {
 };
 
 /// Reads an OBJ file. Each group (`g`) is a building, or each object (`o`) where it has more than one; without either, what
-/// hangs together. A name that comes again starts another building. Coplanar neighbours share a surface number. Throws InputError
+/// hangs together. A name that comes again starts another building. Coplanar neighbors share a surface number. Throws InputError
 /// when there are no faces.
 void read_obj(const InputFile& file, const ObjFrame& frame, CityWriter& writer);
 

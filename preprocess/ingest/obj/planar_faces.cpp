@@ -22,7 +22,7 @@ struct Edge {
 };
 
 /// An edge where hundreds of faces meet is no surface of a building; trying all their pairs would never end.
-constexpr std::size_t most_neighbours_at_an_edge = 8;
+constexpr std::size_t most_neighbors_at_an_edge = 8;
 
 double distance_to_line(const Point3d& p, const Point3d& a, const Point3d& b) {
   const double length = norm(b - a);
@@ -102,7 +102,7 @@ class PlanarFaces {
     a_point_.resize(mesh_.points.size());
     for (std::uint32_t c = 0; c < mesh_.points.size(); ++c) a_point_[point_of_[c]] = mesh_.points[c];
     for (std::uint32_t f = 0; f < mesh_.face_count(); ++f) {
-      if (!is_finite(mesh_.face(f))) continue;  // it has no plane, and no neighbours then
+      if (!is_finite(mesh_.face(f))) continue;  // it has no plane, and no neighbors then
       const std::uint32_t begin = mesh_.first_corner[f], end = mesh_.first_corner[f + 1];
       for (std::uint32_t c = begin; c < end; ++c) {
         const std::uint32_t p = point_of_[c], q = point_of_[c + 1 < end ? c + 1 : begin];
@@ -115,7 +115,7 @@ class PlanarFaces {
   template <class Use>
   void for_each_pair(Use use) {
     for (std::size_t i = 0; i < edges_.size(); ++i)
-      for (std::size_t j = i + 1; j < edges_.size() && j <= i + most_neighbours_at_an_edge && edges_[i].same_place(edges_[j]);
+      for (std::size_t j = i + 1; j < edges_.size() && j <= i + most_neighbors_at_an_edge && edges_[i].same_place(edges_[j]);
            ++j)
         if (edges_[i].face != edges_[j].face) use(edges_[i], edges_[j]);
   }

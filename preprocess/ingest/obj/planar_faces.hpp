@@ -35,7 +35,7 @@ struct FaceCorners {
 /// The number of the planar face that each face of the mesh is a piece of, counted in the order of the faces.
 ///   (1) Faces belong together when they share an edge and are coplanar as far as rounded coordinates can tell: the apex of
 ///       one lies no farther from the plane of the other than half a rounding step of all four points explains.
-///   (2) A face thinner than rounding has no plane: it joins one neighbour, and never links two.
+///   (2) A face thinner than rounding has no plane: it joins one neighbor, and never links two.
 [[nodiscard]] std::vector<std::uint32_t> number_planar_faces(const FaceCorners& mesh);
 
 }  // namespace farlod

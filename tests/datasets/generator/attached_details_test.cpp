@@ -104,10 +104,10 @@ TEST_F(FacadeDetails, EachOpeningIsFilledFlushOrSetBack) {
   EXPECT_GT(fillings[Filling::door], 500);
 }
 
-TEST_F(FacadeDetails, NoWindowLooksAtATouchingNeighbour) {
+TEST_F(FacadeDetails, NoWindowLooksAtATouchingNeighbor) {
   CitySettings open = detailed_city();
   open.facade_details = open.open_shells = true;
-  // Walls with openings are never cut, since no neighbour touches them: cutting the others leaves all windows
+  // Walls with openings are never cut, since no neighbor touches them: cutting the others leaves all windows
   const std::vector<GeneratedBuilding> before = buildings(), after = all_buildings(open);
   CitySettings plain = detailed_city();
   plain.open_shells = true;

@@ -41,13 +41,13 @@ bool any_covers(const CitySettings& settings, CityBlock block, const BuildingPla
 void check_bridge(const CitySettings& settings, CityBlock block, const BuildingPlan& bridge) {
   const Box2d deck = plan_rectangle(bridge), own = CityLayout(settings).rectangle(block);
   const bool north_south = cm(deck.low.y) == cm(own.high.y);
-  const CityBlock neighbour = north_south ? CityBlock{block.i, block.j + 1} : CityBlock{block.i + 1, block.j};
+  const CityBlock neighbor = north_south ? CityBlock{block.i, block.j + 1} : CityBlock{block.i + 1, block.j};
   const UrbanField field(settings);
   for (const Point2d p : {deck.low, deck.high, Point2d{deck.low.x, deck.high.y}, Point2d{deck.high.x, deck.low.y}})
     EXPECT_GE(base_m(field, bridge) + bridge.clearance_m, field.ground_m(p) + 5.0);
   EXPECT_GT(bridge.wall_m, bridge.clearance_m);
   EXPECT_TRUE(any_covers(settings, block, bridge, north_south, north_south ? deck.low.y : deck.low.x));
-  EXPECT_TRUE(any_covers(settings, neighbour, bridge, north_south, north_south ? deck.high.y : deck.high.x));
+  EXPECT_TRUE(any_covers(settings, neighbor, bridge, north_south, north_south ? deck.high.y : deck.high.x));
 }
 
 TEST(BridgePlans, RunFromWallToWallAboveTheStreet) {

@@ -127,12 +127,12 @@ TEST(WrongBases, HaveTheirShareAndLeaveTheRoofs) {
 }
 
 /// Two houses of a row: they share a wall across the row and stand on one front line.
-struct Neighbours {
+struct Neighbors {
   BoxMm first, second;
 };
 
-std::vector<Neighbours> rows_of_touching_houses(const CitySettings& settings) {
-  std::vector<Neighbours> pairs;
+std::vector<Neighbors> rows_of_touching_houses(const CitySettings& settings) {
+  std::vector<Neighbors> pairs;
   const CityLayout layout(settings);
   for (std::int64_t k = 0; k < layout.block_count(); ++k) {
     const std::vector<GeneratedBuilding> block = buildings_of_block(settings, layout.block_at(k));
@@ -148,7 +148,7 @@ std::vector<Neighbours> rows_of_touching_houses(const CitySettings& settings) {
 TEST(Hillside, TouchingHousesStandOnTheSlopeEachOnItsOwnBase) {
   CitySettings settings = plain_city();
   settings.hillside = true;
-  const std::vector<Neighbours> pairs = rows_of_touching_houses(settings);
+  const std::vector<Neighbors> pairs = rows_of_touching_houses(settings);
   ASSERT_GT(pairs.size(), 200U);
   std::size_t on_a_slope = 0, metres_apart = 0;
   for (const auto& [west, east] : pairs) {
@@ -168,7 +168,7 @@ TEST(Hillside, TouchingHousesStandOnTheSlopeEachOnItsOwnBase) {
   EXPECT_GT(metres_apart, pairs.size() / 3);
 }
 
-TEST(Hillside, WithoutItNeighboursStandLevel) {
+TEST(Hillside, WithoutItNeighborsStandLevel) {
   for (const auto& [west, east] : rows_of_touching_houses(plain_city())) EXPECT_EQ(west.low.z, east.low.z);
 }
 

@@ -36,7 +36,7 @@ RoofBorder border_of(const GeneratedBuilding& building) {
   return {{walls.low.x - roof.low.x, walls.low.y - roof.low.y, roof.high.x - walls.high.x, roof.high.y - walls.high.y}};
 }
 
-TEST(Eaves, ProjectByWhatIsAskedForWhereNoNeighbourTouches) {
+TEST(Eaves, ProjectByWhatIsAskedForWhereNoNeighborTouches) {
   int free_standing = 0, one_sided = 0;
   for (const GeneratedBuilding& building : all_buildings(city_with_eaves(0.6))) {
     if (building.components.front().closed) {
@@ -56,7 +56,7 @@ TEST(Eaves, ProjectByWhatIsAskedForWhereNoNeighbourTouches) {
   EXPECT_GT(one_sided, 100);
 }
 
-/// No roof hangs over the neighbour that its own wall touches.
+/// No roof hangs over the neighbor that its own wall touches.
 TEST(Eaves, DoNotReachIntoTouchingBuildings) {
   const CitySettings settings = city_with_eaves(0.6);
   const CityLayout layout(settings);

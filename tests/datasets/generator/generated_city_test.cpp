@@ -121,7 +121,7 @@ TEST(SizeForBuildings, FindsTheSizeBetweenTooFewAndTooMany) {
   };
   for (const std::int64_t wanted : {300, 2000, 5000}) {
     const double size_m = size_for_buildings_m(CitySettings{}, wanted);
-    // Sizes are tried in steps of 10 m, and the nearer neighbour of the wanted number wins
+    // Sizes are tried in steps of 10 m, and the nearer neighbor of the wanted number wins
     EXPECT_LE(count_at(size_m - 10.0), wanted);
     EXPECT_GE(count_at(size_m + 10.0), wanted);
   }

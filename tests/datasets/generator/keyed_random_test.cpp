@@ -18,7 +18,7 @@ TEST(KeyedRandom, SameKeySameNumbersOnEveryMachine) {
   EXPECT_EQ(random.bits(), 0x06C45D188009454FU);
 }
 
-TEST(KeyedRandom, NeighbouringKeysShareNoNumbers) {
+TEST(KeyedRandom, NeighboringKeysShareNoNumbers) {
   std::set<std::uint64_t> seen;
   for (std::uint64_t i = 0; i < 50; ++i)
     for (std::uint64_t j = 0; j < 50; ++j) EXPECT_TRUE(seen.insert(KeyedRandom({1, i, j}).bits()).second) << i << ' ' << j;

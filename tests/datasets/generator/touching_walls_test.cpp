@@ -20,8 +20,8 @@ TEST(TouchingWalls, SharedStretchesTouch) {
   EXPECT_TRUE(walls.touches(0, {10, 8}, {10, 0}));
   EXPECT_TRUE(walls.touches(1, {10, 2}, {10, 14}));
   EXPECT_FALSE(walls.touches(0, {0, 0}, {10, 0}));
-  EXPECT_FALSE(walls.touches(0, {10, 0}, {10, 2})) << "below the neighbour's corner";
-  EXPECT_FALSE(walls.touches(1, {10, 8}, {10, 14})) << "beyond the neighbour's corner";
+  EXPECT_FALSE(walls.touches(0, {10, 0}, {10, 2})) << "below the neighbor's corner";
+  EXPECT_FALSE(walls.touches(1, {10, 8}, {10, 14})) << "beyond the neighbor's corner";
   EXPECT_TRUE(walls.touches_any(0));
   EXPECT_TRUE(walls.touches_any(1));
   EXPECT_FALSE(walls.touches_any(2));

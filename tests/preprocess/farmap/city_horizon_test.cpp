@@ -48,7 +48,7 @@ TEST(CityHorizon, NodesContainWhatIsBelowThem) {
     for (std::uint32_t n = 0; n < city.nodes().size(); ++n) {
       const CityHorizon::Node& node = city.nodes()[n];
       for_each_leaf(city, n, [&](const CityHorizon::Node& leaf) {
-        for (const Obstacle& o : city.obstacles().subspan(leaf.first_obstacle, leaf.obstacle_count)) {
+        for (const OccluderEdge& o : city.occluders().subspan(leaf.first_occluder, leaf.occluder_count)) {
           ASSERT_LE(o.z_high_m(), node.z_high_m);
           if (!o.is_upper()) {
             ASSERT_LE(o.z_high_m(), node.z_underside_m);
@@ -63,11 +63,11 @@ TEST(CityHorizon, NodesContainWhatIsBelowThem) {
 TEST(CityHorizon, EveryObstacleIsInExactlyOneLeaf) {
   const Town town = small_town();
   const CityHorizon city(town.tiles, town.grid);
-  std::vector<int> times(city.obstacles().size(), 0);
+  std::vector<int> times(city.occluders().size(), 0);
   std::set<Cell> cells;
   for_each_leaf(city, 0, [&](const CityHorizon::Node& leaf) {
     EXPECT_TRUE(cells.insert(leaf.cell).second);
-    for (std::uint32_t o = 0; o < leaf.obstacle_count; ++o) ++times[leaf.first_obstacle + o];
+    for (std::uint32_t o = 0; o < leaf.occluder_count; ++o) ++times[leaf.first_occluder + o];
   });
   EXPECT_EQ(cells.size(), static_cast<std::size_t>(town.grid.cells.size()));
   EXPECT_EQ(std::count(times.begin(), times.end(), 1), std::ssize(times));
@@ -79,19 +79,19 @@ TEST(CityHorizon, ObstaclesAreTheEdgesOfAllRoles) {
   std::array<int, edge_role_count> of_role{};
   for_each_leaf(city, 0, [&](const CityHorizon::Node& leaf) {
     const Tile& tile = town.tiles.tile(leaf.cell);
-    ASSERT_EQ(leaf.obstacle_count, tile.horizon_edges.size());
+    ASSERT_EQ(leaf.occluder_count, tile.horizon_edges.size());
     // An edge belongs to the cell of its middle
     const Point2d corner = city.corner_of(leaf.cell);
     const Box2d square{corner, corner + Point2d{town.grid.cell_edge_m, town.grid.cell_edge_m}};
     for (std::size_t n = 0; n < tile.horizon_edges.size(); ++n) {
-      const Obstacle& o = city.obstacles()[leaf.first_obstacle + n];
+      const OccluderEdge& o = city.occluders()[leaf.first_occluder + n];
       const HorizonEdge& e = tile.horizon_edges[n];
       EXPECT_TRUE(square.contains(0.5 * (horizontal(o.a) + horizontal(o.b))));
-      const Obstacle placed = o.from(corner);
+      const OccluderEdge placed = o.from(corner);
       // Corners of cells are whole multiples of 40 m: moving there and back rounds nothing
       EXPECT_EQ(placed.a, (Point3d{e.a.x, e.a.y, e.a.z}));
       EXPECT_EQ(placed.b, (Point3d{e.b.x, e.b.y, e.b.z}));
-      EXPECT_EQ(o.rises, e.rises);
+      EXPECT_EQ(o.adjacent, e.adjacent);
       EXPECT_EQ(o.role, e.role);
       ++of_role.at(static_cast<std::size_t>(e.role));
     }

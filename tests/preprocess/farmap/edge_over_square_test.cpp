@@ -57,7 +57,7 @@ std::optional<std::size_t> place_of(std::uint32_t bin, const EdgeOverSquare& edg
 }
 
 void expect_below_upper(const View& view, EdgeOverSquare& edge, const AzimuthBins& bins, double z_m, Chance& chance) {
-  const std::span<const double> upper = edge.upper(z_m);
+  const std::span<const double> upper = edge.high(z_m);
   for (const Point2d place : places_in(view.square, chance)) {
     const Point3d eye{place.x, place.y, chance.below(2) == 0 ? z_m : z_m + chance.between(0.0, 40.0)};
     for (const double share : {0.0, 1.0, chance.between(0, 1), chance.between(0, 1), chance.between(0, 1)}) {
@@ -71,7 +71,7 @@ void expect_below_upper(const View& view, EdgeOverSquare& edge, const AzimuthBin
 
 /// Returns in how many bins something is promised.
 int expect_above_lower(const View& view, EdgeOverSquare& edge, const AzimuthBins& bins, double z_m, Chance& chance) {
-  const std::span<const double> all = edge.lower(z_m);
+  const std::span<const double> all = edge.low(z_m);
   int promises = 0;
   for (std::size_t n = 0; n < edge.bin_count(); ++n) {
     const double lower = all[n];
@@ -126,16 +126,16 @@ TEST(EdgeOverSquare, NothingIsCertainOfAnEdgeThatAnEyeLooksAlong) {
   EdgeOverSquare edge(fine);
   edge.look_at({100, 0, 20}, {300, 0, 20}, {{0, 0}, {25, 25}});
   ASSERT_FALSE(edge.surrounds());
-  for (std::size_t n = 0; n < edge.bin_count(); ++n) EXPECT_EQ(edge.lower(0.0)[n], 0.0);
+  for (std::size_t n = 0; n < edge.bin_count(); ++n) EXPECT_EQ(edge.low(0.0)[n], 0.0);
 }
 
 TEST(EdgeOverSquare, WhatIsNotAboveTheEyesHidesNothing) {
   EdgeOverSquare edge(fine);
   edge.look_at({100, -50, 20}, {100, 50, 20}, {{0, 0}, {25, 25}});
   for (std::size_t n = 0; n < edge.bin_count(); ++n) {
-    EXPECT_EQ(edge.upper(20.0)[n], 0.0);
-    EXPECT_EQ(edge.lower(20.0)[n], 0.0);
-    EXPECT_EQ(edge.lower(std::numeric_limits<double>::infinity())[n], 0.0) << "a layer without a lid";
+    EXPECT_EQ(edge.high(20.0)[n], 0.0);
+    EXPECT_EQ(edge.low(20.0)[n], 0.0);
+    EXPECT_EQ(edge.low(std::numeric_limits<double>::infinity())[n], 0.0) << "a layer without a lid";
   }
 }
 
@@ -146,8 +146,8 @@ TEST(EdgeOverSquare, BoundsOfABroadEdgeAreAsTightAsGeometryAllows) {
   for (const std::int64_t bin : {-1, 0}) {
     const auto n = static_cast<std::size_t>(bin - edge.first_bin());
     const double steepest = 30.0 / 75.0, flattest = 30.0 / 100.0 * std::cos(fine.bins().width_rad());
-    EXPECT_NEAR(edge.upper(0.0)[n], steepest, 1.001 * bound_rounding * (1.0 + steepest));
-    EXPECT_NEAR(edge.lower(0.0)[n], flattest, 1.001 * bound_rounding * (1.0 + flattest));
+    EXPECT_NEAR(edge.high(0.0)[n], steepest, 1.001 * bound_rounding * (1.0 + steepest));
+    EXPECT_NEAR(edge.low(0.0)[n], flattest, 1.001 * bound_rounding * (1.0 + flattest));
   }
 }
 

@@ -20,14 +20,14 @@ namespace farlod::test {
 struct FarThing {
   Point3d a, b;
   std::array<std::array<float, 3>, 2> stored;  ///< both ends in the frame of the block's south-west cell
-  EdgeRises rises = {};
+  AdjacentSlopes adjacent = {};
   EdgeRole role = EdgeRole::grounded;
 
   [[nodiscard]] bool is_upper() const { return role != EdgeRole::underside; }
   auto operator<=>(const FarThing& o) const { return std::tie(role, stored) <=> std::tie(o.role, o.stored); }
 };
 
-/// Everything outside of a cell's neighbourhood, tile by tile.
+/// Everything outside of a cell's neighborhood, tile by tile.
 [[nodiscard]] inline std::vector<FarThing> far_city(const TileSet& tiles, const Grid& grid, Cell cell) {
   const Point2d block_corner = grid.corner_of(grid.cells_of(grid.block_of(cell)).cell_at(0));
   std::vector<FarThing> things;
@@ -40,25 +40,25 @@ struct FarThing {
       return std::array<float, 3>{static_cast<float>(p.x + in_block.x), static_cast<float>(p.y + in_block.y), p.z};
     };
     for (const HorizonEdge& e : tiles.tiles[n].horizon_edges)
-      things.push_back({placed(e.a), placed(e.b), {stored(e.a), stored(e.b)}, e.rises, e.role});
+      things.push_back({placed(e.a), placed(e.b), {stored(e.a), stored(e.b)}, e.adjacent, e.role});
   }
   return things;
 }
 
 /// Whether an edge is no silhouette for anybody in a cell: what goes on beyond it is there by other edges.
 [[nodiscard]] inline bool faces_away(const FarThing& t, const BakedHorizon& map, double cell_edge_m) {
-  return !may_be_silhouette(t.a, t.b, t.rises, t.role, {{0.0, 0.0}, {cell_edge_m, cell_edge_m}}, map.patches.levels_m().front(),
+  return !may_be_silhouette(t.a, t.b, t.adjacent, t.role, {{0.0, 0.0}, {cell_edge_m, cell_edge_m}}, map.patches.levels_m().front(),
                             std::max(t.a.z, t.b.z));
 }
 
 /// What a cell's map names for one of its patches.
-[[nodiscard]] inline std::set<FarThing> named_in(const BakedHorizons& block, const BakedHorizon& map, std::uint32_t patch) {
+[[nodiscard]] inline std::set<FarThing> explicit_in(const BakedHorizons& block, const BakedHorizon& map, std::uint32_t patch) {
   const std::uint32_t square = patch % map.patches.squares(), layer = patch / map.patches.squares();
   const auto stored = [](const Point3f& p) { return std::array<float, 3>{p.x, p.y, p.z}; };
   std::set<FarThing> things;
-  for (const package::NamedObstacle& named : map.named_edges) {
-    const HorizonEdge& e = block.edges[named.row];
-    if (named.matters(square, layer)) things.insert({{}, {}, {stored(e.a), stored(e.b)}, e.rises, e.role});
+  for (const package::ExplicitOccluder& occluder : map.explicit_edges) {
+    const HorizonEdge& e = block.edges[occluder.row];
+    if (occluder.matters(square, layer)) things.insert({{}, {}, {stored(e.a), stored(e.b)}, e.adjacent, e.role});
   }
   return things;
 }

@@ -77,8 +77,8 @@ struct Place {
   const BakedHorizon& map;
   std::uint32_t patch;
   Point3d eye;
-  [[nodiscard]] float lower(std::uint32_t bin, std::uint32_t bins) const { return map.lower[patch * bins + bin]; }
-  [[nodiscard]] float upper(std::uint32_t bin, std::uint32_t bins) const { return map.upper[patch * bins + bin]; }
+  [[nodiscard]] float lower(std::uint32_t bin, std::uint32_t bins) const { return map.low[patch * bins + bin]; }
+  [[nodiscard]] float upper(std::uint32_t bin, std::uint32_t bins) const { return map.high[patch * bins + bin]; }
   [[nodiscard]] float overhang(std::uint32_t bin, std::uint32_t bins) const { return map.overhang[patch * bins + bin]; }
 };
 
@@ -98,7 +98,7 @@ TEST_P(HorizonMaps, AllThatIsNotNamedAndDoesNotFaceAwayLiesBelowUpper) {
   std::size_t named = 0, bounded = 0, away = 0;
   for (int n = 0; n < places_asked; ++n) {
     const Place place = random_place(baked, chance);
-    const auto names = test::named_in(baked.block, place.map, place.patch);
+    const auto names = test::explicit_in(baked.block, place.map, place.patch);
     for (const test::FarThing& thing : test::far_city(baked.tiles, baked.grid, place.cell)) {
       if (!thing.is_upper()) continue;
       const bool faces_away = test::faces_away(thing, place.map, baked.grid.cell_edge_m);
@@ -117,7 +117,7 @@ TEST_P(HorizonMaps, AllThatIsNotNamedAndDoesNotFaceAwayLiesBelowUpper) {
 }
 
 /// The horizon that things make which are grounded and not named.
-double unnamed_ground(const std::vector<test::FarThing>& things, const std::set<test::FarThing>& names, const Point3d& eye,
+double residual_ground(const std::vector<test::FarThing>& things, const std::set<test::FarThing>& names, const Point3d& eye,
                       double azimuth) {
   double horizon = 0.0;
   for (const test::FarThing& thing : things)
@@ -133,7 +133,7 @@ TEST_P(HorizonMaps, LowerBordersThatAreNotNamedLieBelowOverhangOrBeforeHigherGro
   std::size_t bounded = 0, hidden = 0;
   for (int n = 0; n < places_asked; ++n) {
     const Place place = random_place(baked, chance);
-    const auto names = test::named_in(baked.block, place.map, place.patch);
+    const auto names = test::explicit_in(baked.block, place.map, place.patch);
     const auto things = test::far_city(baked.tiles, baked.grid, place.cell);
     for (const test::FarThing& thing : things) {
       if (thing.is_upper() || names.contains(thing) || test::faces_away(thing, place.map, baked.grid.cell_edge_m)) continue;
@@ -144,7 +144,7 @@ TEST_P(HorizonMaps, LowerBordersThatAreNotNamedLieBelowOverhangOrBeforeHigherGro
         continue;
       }
       const Point2d way = horizontal(p) - horizontal(place.eye);
-      ASSERT_LE(sight.slope, unnamed_ground(things, names, place.eye, std::atan2(way.y, way.x)))
+      ASSERT_LE(sight.slope, residual_ground(things, names, place.eye, std::atan2(way.y, way.x)))
           << "place " << n << ", patch " << place.patch;
       ++hidden;
     }
@@ -186,7 +186,7 @@ TEST_P(HorizonMaps, AllBelowLowerIsHidden) {
 TEST_P(HorizonMaps, LowerIsNotAboveUpper) {
   const Baked baked = bake(GetParam());
   for (const BakedHorizon& map : baked.block.cells)
-    for (std::size_t n = 0; n < map.upper.size(); ++n) ASSERT_LE(map.lower[n], map.upper[n]);
+    for (std::size_t n = 0; n < map.high.size(); ++n) ASSERT_LE(map.low[n], map.high[n]);
 }
 
 INSTANTIATE_TEST_SUITE_P(, HorizonMaps, testing::ValuesIn(towns()), [](const auto& town) { return town.param.name; });
@@ -196,13 +196,13 @@ constexpr double average_rounding = 4.0 * std::numeric_limits<float>::epsilon();
 
 /// What the corners of a patch's floor see at one azimuth.
 struct CornerView {
-  double unnamed = 0.0;   ///< slope, the average of the corners
+  double residual = 0.0;   ///< slope, the average of the corners
   double left_out = 0.0;  ///< by how much that may be less, if what is nearly hidden is not looked at
   bool names_nothing = true;
 };
 
 CornerView view_from_corners(const std::vector<test::FarThing>& things, const std::set<test::FarThing>& names,
-                             const PatchBox& box, double azimuth, double faintest_sine) {
+                             const PatchBox& box, double azimuth, double weakest_sine) {
   CornerView view;
   for (const Point2d at : {box.low, box.high, Point2d{box.low.x, box.high.y}, Point2d{box.high.x, box.low.y}}) {
     double horizon = 0.0;
@@ -215,8 +215,8 @@ CornerView view_from_corners(const std::vector<test::FarThing>& things, const st
       else
         horizon = std::max(horizon, slope);
     }
-    view.unnamed += 0.25 * horizon;
-    view.left_out += 0.25 * (horizon - slope_of_sine(std::max(0.0, sine_of_slope(horizon) - faintest_sine)));
+    view.residual += 0.25 * horizon;
+    view.left_out += 0.25 * (horizon - slope_of_sine(std::max(0.0, sine_of_slope(horizon) - weakest_sine)));
   }
   return view;
 }
@@ -226,32 +226,32 @@ TEST(HorizonMapBaker, LikelyKnowsOnlyTheUnnamedAndLeavesOutTheFaintest) {
   const Baked baked = bake(towns()[1], settings);
   const AzimuthBins bins;
   Chance chance(9);
-  int faint = 0;
+  int weak = 0;
   for (int n = 0; n < places_asked; ++n) {
     const Place place = random_place(baked, chance);
-    const auto names = test::named_in(baked.block, place.map, place.patch);
+    const auto names = test::explicit_in(baked.block, place.map, place.patch);
     auto things = test::far_city(baked.tiles, baked.grid, place.cell);
     std::erase_if(things, [&](const auto& t) { return test::faces_away(t, place.map, baked.grid.cell_edge_m); });
     const PatchBox box = place.map.patches.box(place.patch);
     for (std::uint32_t bin = 0; bin < bins.count; bin += 5) {
-      const double azimuth = (bin + 0.5) * bins.width_rad(), likely = place.map.likely[place.patch * bins.count + bin];
-      const CornerView seen = view_from_corners(things, names, box, azimuth, settings.faintest * settings.tolerance);
-      const double rounding = average_rounding * (1.0 + seen.unnamed);
-      ASSERT_LE(likely, seen.unnamed + rounding) << "place " << n;
+      const double azimuth = (bin + 0.5) * bins.width_rad(), estimate = place.map.estimate[place.patch * bins.count + bin];
+      const CornerView seen = view_from_corners(things, names, box, azimuth, settings.weakest * settings.tolerance);
+      const double rounding = average_rounding * (1.0 + seen.residual);
+      ASSERT_LE(estimate, seen.residual + rounding) << "place " << n;
       // Where something is named, what it nearly hides is left out, however high that is
       if (!seen.names_nothing) continue;
-      ASSERT_GE(likely, seen.unnamed - seen.left_out - rounding) << "place " << n;
-      faint += likely > 0.0 && sine_of_slope(likely) < settings.tolerance ? 1 : 0;
+      ASSERT_GE(estimate, seen.residual - seen.left_out - rounding) << "place " << n;
+      weak += estimate > 0.0 && sine_of_slope(estimate) < settings.tolerance ? 1 : 0;
     }
   }
-  EXPECT_GT(faint, 20) << "the test would not test much";
+  EXPECT_GT(weak, 20) << "the test would not test much";
 }
 
 TEST(HorizonMapBaker, ABlockStoresEachNamedThingOnce) {
   const Baked baked = bake(towns()[1]);
   std::vector<int> uses(baked.block.edges.size(), 0);
   for (const BakedHorizon& map : baked.block.cells)
-    for (const package::NamedObstacle& named : map.named_edges) ++uses.at(named.row);
+    for (const package::ExplicitOccluder& occluder : map.explicit_edges) ++uses.at(occluder.row);
   ASSERT_FALSE(uses.empty());
   EXPECT_EQ(std::count(uses.begin(), uses.end(), 0), 0);
   EXPECT_GT(*std::max_element(uses.begin(), uses.end()), 1) << "cells share what they name";
@@ -261,7 +261,7 @@ TEST(HorizonMapBaker, ABlockStoresEachNamedThingOnce) {
     })) << static_cast<int>(role);
 }
 
-void expect_equal(const std::vector<package::NamedObstacle>& a, const std::vector<package::NamedObstacle>& b) {
+void expect_equal(const std::vector<package::ExplicitOccluder>& a, const std::vector<package::ExplicitOccluder>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t n = 0; n < a.size(); ++n)
     ASSERT_EQ(std::tuple(a[n].row, a[n].squares, a[n].layers), std::tuple(b[n].row, b[n].squares, b[n].layers));
@@ -274,8 +274,8 @@ TEST(HorizonMapBaker, TheNumberOfThreadsChangesNothing) {
     ASSERT_EQ(once.block.edges, again.block.edges);
     for (std::size_t cell = 0; cell < once.block.cells.size(); ++cell) {
       const BakedHorizon &a = once.block.cells[cell], &b = again.block.cells[cell];
-      expect_equal(a.named_edges, b.named_edges);
-      ASSERT_EQ(std::tie(a.lower, a.likely, a.upper, a.overhang), std::tie(b.lower, b.likely, b.upper, b.overhang));
+      expect_equal(a.explicit_edges, b.explicit_edges);
+      ASSERT_EQ(std::tie(a.low, a.estimate, a.high, a.overhang), std::tie(b.low, b.estimate, b.high, b.overhang));
     }
   }
 }
@@ -309,8 +309,8 @@ TEST(HorizonMapBaker, WhereNothingRisesNothingIsNamed) {
   const TileSet tiles = cut_into_tiles({scene.city(), {}}, grid, Assign::clip, {}, ignored);
   const BakedHorizons maps = HorizonMapBaker(tiles, grid, {}).bake({0, 0});
   const BakedHorizon& far_away = maps.cells.at(grid.cells_of({0, 0}).index_of({4, 4}));
-  EXPECT_TRUE(far_away.named_edges.empty());
-  EXPECT_GT(*std::max_element(far_away.upper.begin(), far_away.upper.end()), 0.0F) << "but it is bounded";
+  EXPECT_TRUE(far_away.explicit_edges.empty());
+  EXPECT_GT(*std::max_element(far_away.high.begin(), far_away.high.end()), 0.0F) << "but it is bounded";
 }
 
 }  // namespace

@@ -246,7 +246,7 @@ TEST(Georeference, BringsFilesOfDifferentCrssTogether) {
 TEST(Georeference, KeepsAllOfABuilding) {
   SourceCity source;
   source.crs.definition = "EPSG:28992";
-  source.city.begin_building("with a hole", Footing::on_ground);
+  source.city.begin_building("with a hole", HeightReference::on_ground);
   source.city.begin_facet(SurfaceKind::roof, 7, 2);
   source.city.add_ring(std::vector<Point3d>{{92461, 436007, 3}, {92471, 436007, 3}, {92471, 436017, 3}});
   source.city.add_ring(std::vector<Point3d>{{92469, 436009, 3}, {92470, 436009, 3}, {92470, 436010, 3}});
@@ -255,7 +255,7 @@ TEST(Georeference, KeepsAllOfABuilding) {
   Report report;
   const CityModel city = georeference(std::move(sources), {}, report).city;
   ASSERT_EQ(city.buildings().size(), 1u);
-  EXPECT_EQ(city.buildings()[0].footing, Footing::on_ground);
+  EXPECT_EQ(city.buildings()[0].footing, HeightReference::on_ground);
   ASSERT_EQ(city.facets().size(), 1u);
   EXPECT_EQ(city.facets()[0].kind, SurfaceKind::roof);
   EXPECT_EQ(city.facets()[0].surface, 7u);

@@ -22,7 +22,7 @@ TEST(CityGmlConstructions, ATunnelIsWhatOneSeesOfIt) {
   EXPECT_EQ(r.city().facets()[0].kind, SurfaceKind::roof);
   EXPECT_EQ(r.city().facets()[2].part, 1u);
   EXPECT_TRUE(r.codes().empty());
-  EXPECT_TRUE(r.source.passed_over.empty());
+  EXPECT_TRUE(r.source.skipped.empty());
 }
 
 TEST(CityGmlConstructions, APartThatStandsAloneIsABuilding) {
@@ -35,7 +35,7 @@ TEST(CityGmlConstructions, OtherConstructionsStandOnTheirOwn) {
   const std::string generic = within("cityObjectMember gen:GenericOccupiedSpace", surface("core:lod2MultiSurface", "b", "2"));
   const Reading r = read_citygml_text(model_3(wall + generic));
   EXPECT_EQ(heights(r.city()), std::vector<double>{1});
-  EXPECT_EQ(r.source.passed_over, (PassedOver{{"GenericOccupiedSpace", 1}}));
+  EXPECT_EQ(r.source.skipped, (SkippedFeatures{{"GenericOccupiedSpace", 1}}));
 }
 
 TEST(CityGmlConstructions, BuildingsOfVersion3) {

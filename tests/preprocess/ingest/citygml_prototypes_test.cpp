@@ -38,8 +38,8 @@ TEST(CityGmlPrototypes, APrototypeIsThereOnceForEachOfItsPlaces) {
   const std::string again = R"(<core:relativeGMLGeometry xlink:href="#p"/>)";
   const std::string first = dormer(prototype("p") + reference_point("1000 2000 30"));
   const std::string second = dormer(again + reference_point("1000 2000 40"));
-  const Reading r = read_citygml_text(model(building(first + second + walls) + building(second + walls, "neighbour")));
-  EXPECT_EQ(heights(r.city()), (std::vector<double>{35, 45, 0, 45, 0})) << "the neighbour refers to another building's";
+  const Reading r = read_citygml_text(model(building(first + second + walls) + building(second + walls, "neighbor")));
+  EXPECT_EQ(heights(r.city()), (std::vector<double>{35, 45, 0, 45, 0})) << "the neighbor refers to another building's";
   EXPECT_TRUE(r.codes().empty());
 }
 

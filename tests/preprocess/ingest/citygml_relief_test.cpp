@@ -17,7 +17,7 @@ TEST(CityGmlRelief, ATerrainAloneIsACityWithoutBuildings) {
     const Reading r = read_citygml_text(file);
     EXPECT_TRUE(r.city().buildings().empty());
     EXPECT_EQ(r.source.relief_points, corners_at_5) << "without the point that closes the ring";
-    EXPECT_TRUE(r.source.passed_over.empty());
+    EXPECT_TRUE(r.source.skipped.empty());
     EXPECT_TRUE(r.codes().empty());
   }
 }
@@ -51,7 +51,7 @@ TEST(CityGmlRelief, RastersAreCounted) {
   const Reading r = read_citygml_text(
       model(within("cityObjectMember dem:ReliefFeature", raster + lines) + building(surface("bldg:lod1MultiSurface", "a", "1"))));
   EXPECT_TRUE(r.source.relief_points.empty());
-  EXPECT_EQ(r.source.passed_over, (PassedOver{{"BreaklineRelief", 1}, {"RasterRelief", 1}}));
+  EXPECT_EQ(r.source.skipped, (SkippedFeatures{{"BreaklineRelief", 1}, {"RasterRelief", 1}}));
 }
 
 TEST(CityGmlRelief, UnreadablePointsAreLeftOut) {

@@ -89,8 +89,8 @@ TEST(CityJson, OtherThemesAreCounted) {
     objects += std::string(",") + object;
   const Reading r = read_text("a.city.json", file_of(objects));
   EXPECT_EQ(r.city().buildings().size(), 1u);
-  EXPECT_EQ(r.source.passed_over,
-            (PassedOver{{"+NoiseWall", 1}, {"BuildingRoom", 1}, {"SolitaryVegetationObject", 2}, {"WaterBody", 1}}));
+  EXPECT_EQ(r.source.skipped,
+            (SkippedFeatures{{"+NoiseWall", 1}, {"BuildingRoom", 1}, {"SolitaryVegetationObject", 2}, {"WaterBody", 1}}));
   EXPECT_TRUE(r.codes().empty());
 }
 
@@ -104,7 +104,7 @@ TEST(CityJson, BridgesTunnelsAndWallsHideTheSkyToo) {
   EXPECT_EQ(r.city().buildings()[0].id, "b");
   EXPECT_EQ(r.city().buildings()[1].id, "t");
   EXPECT_EQ(r.city().buildings()[2].id, "w");
-  EXPECT_TRUE(r.source.passed_over.empty());
+  EXPECT_TRUE(r.source.skipped.empty());
 }
 
 TEST(CityJson, ABridgeMayConsistOfItsElements) {

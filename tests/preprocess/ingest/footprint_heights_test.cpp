@@ -97,7 +97,7 @@ TEST(FootprintHeights, APartThatHangsBeginsAboveItsBase) {
   const PrismExtent arch = Feature().number("height", 20).text("min_height", "12 m").extent();
   EXPECT_EQ(arch.base_m, 12.0);
   EXPECT_EQ(arch.top_m, 20.0);
-  EXPECT_EQ(arch.footing, Footing::on_ground);
+  EXPECT_EQ(arch.footing, HeightReference::on_ground);
   EXPECT_EQ(Feature().text("building:levels", "5").text("building:min_level", "4").extent().base_m, 12.0);
   EXPECT_EQ(Feature().text("building:levels", "5").text("min_level", "1").extent().base_m, 0.0);
   EXPECT_EQ(Feature().number("height", 9).number("min_height", -3).extent().base_m, 0.0);
@@ -113,13 +113,13 @@ TEST(FootprintHeights, ARoofsElevationCountsFromTheBaseOrReachesDown) {
   const PrismExtent free = Feature().number("eaves", 120).number("height", 7).extent(settings);
   EXPECT_EQ(free.top_m, 120.0);
   EXPECT_EQ(free.base_m, 120.0 - provisional_height_m);
-  EXPECT_EQ(free.footing, Footing::down_to_ground);
+  EXPECT_EQ(free.footing, HeightReference::down_to_ground);
   EXPECT_EQ(Feature().empty("eaves").number("height", 7).extent(settings).top_m, 7.0);
   settings.base_field = "ground";
   const PrismExtent held = Feature().number("eaves", 120).number("ground", 100).extent(settings);
   EXPECT_EQ(held.base_m, 100.0);
   EXPECT_EQ(held.top_m, 120.0);
-  EXPECT_EQ(held.footing, Footing::elevation);
+  EXPECT_EQ(held.footing, HeightReference::elevation);
   EXPECT_EQ(Feature().number("eaves", 99).number("ground", 100).reason(settings).code, ProblemCode::height_not_positive);
   EXPECT_EQ(Feature().number("eaves", 120).empty("ground").reason(settings).code, ProblemCode::no_height);
 }

@@ -58,7 +58,7 @@ TEST(Footprints, BecomePrismsThatFaceOutwards) {
     const Point3d n = double_area_vector(r.city(), f);
     EXPECT_EQ(kind_of_normal(normalized(n)), f.kind);
   }
-  EXPECT_EQ(r.city().buildings()[0].footing, Footing::on_ground);
+  EXPECT_EQ(r.city().buildings()[0].footing, HeightReference::on_ground);
   EXPECT_TRUE(r.source.crs.longitude_first);
   EXPECT_TRUE(r.source.crs.heights_in_metres);
   EXPECT_NE(r.source.crs.definition.find("WGS 84"), std::string::npos);
@@ -83,7 +83,7 @@ TEST(Footprints, TheBaseComesFromItsOwnField) {
   IngestSettings settings{
       .height_field = "h", .base_field = "ground", .default_height_m = {}, .lod = {}, .obj_origin = {}, .up = UpAxis::z};
   const Reading r = read_text("a.geojson", collection({feature(R"("h":"10 ft","ground":100)", "Polygon", square)}), settings);
-  EXPECT_EQ(r.city().buildings()[0].footing, Footing::elevation);
+  EXPECT_EQ(r.city().buildings()[0].footing, HeightReference::elevation);
   EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[0].z, 100.0 + 10.0 * 0.3048);
 }
 
@@ -161,7 +161,7 @@ TEST(Footprints, OfWhichOnlyTheRoofIsKnownReachDownToTheGround) {
   IngestSettings settings;
   settings.roof_field = "roof";
   const Reading r = read_text("a.geojson", collection({feature(R"("roof":"412,5")", "Polygon", court)}), settings);
-  EXPECT_EQ(r.city().buildings()[0].footing, Footing::down_to_ground);
+  EXPECT_EQ(r.city().buildings()[0].footing, HeightReference::down_to_ground);
   EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[0].z, 412.5);
 }
 
@@ -184,7 +184,7 @@ std::string cube_sides() {
 TEST(Footprints, BodiesInSpaceStandAsTheyAre) {
   const Reading r = read_text("a.geojson", collection({feature(R"("name":"cube")", "MultiPolygon", cube_sides())}));
   ASSERT_EQ(r.city().buildings().size(), 1u);
-  EXPECT_EQ(r.city().buildings()[0].footing, Footing::elevation);
+  EXPECT_EQ(r.city().buildings()[0].footing, HeightReference::elevation);
   EXPECT_EQ(r.city().facets().size(), 6u);
   EXPECT_FALSE(r.source.crs.heights_in_metres);
   for (const Point3d& p : r.city().points()) EXPECT_TRUE(p.z == 100 || p.z == 102);
@@ -206,7 +206,7 @@ TEST(Footprints, DrapedOverTheTerrainAreNoBodies) {
       "[[[[8.4,49,50],[8.4001,49,53],[8.4001,49.0001,55],[8.4,49,50]]],"
       "[[[8.41,49,50],[8.4101,49,51],[8.4101,49.0001,52],[8.41,49,50]]]]";
   const Reading r = read_text("a.geojson", collection({feature(R"("height":3)", "MultiPolygon", draped)}));
-  EXPECT_EQ(r.city().buildings()[0].footing, Footing::on_ground);
+  EXPECT_EQ(r.city().buildings()[0].footing, HeightReference::on_ground);
   EXPECT_EQ(r.city().facets().size(), 10u);
   // A hut of 1 m on a cliff is steep, but still a footprint: one polygon makes no body
   const std::string hut = "[[[8.4,49,50],[8.40001,49,50],[8.40001,49.00001,57],[8.4,49,50]]]";

@@ -75,7 +75,7 @@ TEST_F(InputSearch, CompanionsAreSilentlyNoCitiesAndTheUnknownAreCounted) {
   for (const char* name : {"town/a.xyz", "town/b.XYZ", "town/LICENSE"}) write(name, "nothing");
   const FoundInputs inputs = find({folder / "town"});
   EXPECT_THAT(names(inputs.files), ElementsAre("town/a.gml"));
-  EXPECT_THAT(inputs.passed_over, ElementsAre(Pair(".xyz files", 2), Pair("files without an ending", 1)));
+  EXPECT_THAT(inputs.skipped, ElementsAre(Pair(".xyz files", 2), Pair("files without an ending", 1)));
   EXPECT_TRUE(report.problems().empty());
 }
 
@@ -236,7 +236,7 @@ TEST_F(InputSearch, ARasterBesideCitiesIsCounted) {
   write("town/dsm.asc", elevations);
   const FoundInputs inputs = find({folder / "town"});
   EXPECT_TRUE(inputs.surface_models.empty());
-  EXPECT_THAT(inputs.passed_over, ElementsAre(Pair(".asc files", 1)));
+  EXPECT_THAT(inputs.skipped, ElementsAre(Pair(".asc files", 1)));
 }
 
 TEST_F(InputSearch, AFolderThatIsOneDataSetStaysOneInput) {
@@ -245,7 +245,7 @@ TEST_F(InputSearch, AFolderThatIsOneDataSetStaysOneInput) {
   write("town/a.gml", citygml_of("a"));
   const FoundInputs town = find({folder / "town"});
   EXPECT_THAT(names(town.files), ElementsAre("town/a.gml", "town/land.gdb"));
-  EXPECT_TRUE(town.passed_over.empty());
+  EXPECT_TRUE(town.skipped.empty());
   const fs::path zip = write("land.zip", zip_of({{"data/land.gdb/a.gdbtable", "x"}, {"data/land.gdb/b.gdbtable", "x"}}));
   const FoundInputs inputs = find({zip});
   EXPECT_THAT(names(inputs.files), ElementsAre("land.zip/data/land.gdb"));

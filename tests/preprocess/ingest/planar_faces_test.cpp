@@ -38,7 +38,7 @@ TEST(PlanarFaces, ParallelFacesWithoutACommonEdgeStayApart) {
   EXPECT_EQ(number_planar_faces(faces({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{1, 0, 0}, {2, 0, 0}, {1, -1, 0}}})), (Numbers{0, 1}));
 }
 
-TEST(PlanarFaces, AThinFaceJoinsOneNeighbourAndLinksNone) {
+TEST(PlanarFaces, AThinFaceJoinsOneNeighborAndLinksNone) {
   const Point3d a{0, 0, 0}, b{10, 0, 0}, on_edge{5, 0, 0};
   const FaceCorners mesh = faces({{a, b, {5, 10, 0}}, {a, on_edge, b}, {on_edge, a, {2, 0, -10}}});
   EXPECT_EQ(number_planar_faces(mesh), (Numbers{0, 1, 1}));

@@ -19,7 +19,7 @@ using package::TileEdge;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr EdgeRises passing{0, 0};
+constexpr AdjacentSlopes passing{0, 0};
 
 /// A fan of triangles around its first corner, in the plane.
 class FanOfTriangles : public testing::Test {
@@ -29,8 +29,8 @@ class FanOfTriangles : public testing::Test {
       (void)vertices_.number_of({static_cast<float>(n), static_cast<float>(n % 7), 0});
     for (std::uint32_t n = 0; n < count; ++n) triangles_.push_back({0, n + 1, n + 2});
   }
-  [[nodiscard]] HorizonEdge edge(std::uint32_t from, std::uint32_t to, EdgeRises rises) const {
-    return {vertices_.vertices()[from], vertices_.vertices()[to], rises};
+  [[nodiscard]] HorizonEdge edge(std::uint32_t from, std::uint32_t to, AdjacentSlopes adjacent) const {
+    return {vertices_.vertices()[from], vertices_.vertices()[to], adjacent};
   }
   [[nodiscard]] SideEdges written(const std::vector<HorizonEdge>& edges) const {
     return side_edges(edges, triangles_, vertices_);

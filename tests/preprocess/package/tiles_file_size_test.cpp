@@ -35,7 +35,7 @@ void add(Bytes& sum, std::span<const std::byte> file) {
     Section section{};
     std::memcpy(&section, file.data() + sizeof header + n * sizeof section, sizeof section);
     const std::uint64_t bytes = section.count * section.element_bytes;
-    if (section.kind >= SectionKind::far_cells && section.kind <= SectionKind::named_edges) sum.tiles -= bytes;
+    if (section.kind >= SectionKind::far_cells && section.kind <= SectionKind::explicit_edges) sum.tiles -= bytes;
     if (section.kind == SectionKind::vertices || section.kind == SectionKind::triangles) sum.bare_mesh += bytes;
   }
 }
@@ -57,7 +57,7 @@ TEST_P(TilesFileSize, IsCloseToThatOfTheBareMesh) {
     const BakedBoxes no_far_city(static_cast<std::size_t>(grid.cells_of(block).size()));
     add(bytes, tiles_file(tiles, no_far_city, grid, block));
   }
-  // All triangles are written, and neighbours share their vertices: there are fewer of those than of triangles
+  // All triangles are written, and neighbors share their vertices: there are fewer of those than of triangles
   EXPECT_GT(bytes.bare_mesh, tiles.triangle_count() * sizeof(Triangle));
   EXPECT_LT(bytes.bare_mesh, tiles.triangle_count() * (sizeof(Triangle) + sizeof(Point3f)));
   EXPECT_LE(static_cast<double>(bytes.tiles), most_bytes_of_bare_mesh * static_cast<double>(bytes.bare_mesh))

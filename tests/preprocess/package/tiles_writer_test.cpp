@@ -23,11 +23,11 @@ TEST(SharedVertices, AreOneOnlyWhereTheyAreEqual) {
   EXPECT_EQ(shared.number_of(p), 0U);
   for (auto coordinate : {&Point3f::x, &Point3f::y, &Point3f::z})
     for (const float towards : {-infinite, infinite}) {
-      Point3f neighbour = p;
-      neighbour.*coordinate = std::nextafter(neighbour.*coordinate, towards);
+      Point3f neighbor = p;
+      neighbor.*coordinate = std::nextafter(neighbor.*coordinate, towards);
       const auto next = static_cast<std::uint32_t>(shared.vertices().size());
-      EXPECT_EQ(shared.number_of(neighbour), next);
-      EXPECT_EQ(shared.vertices().back(), neighbour);
+      EXPECT_EQ(shared.number_of(neighbor), next);
+      EXPECT_EQ(shared.vertices().back(), neighbor);
     }
   EXPECT_EQ(shared.number_of(p), 0U);
   EXPECT_EQ(shared.vertices().size(), 7U);
@@ -61,7 +61,7 @@ class TilesWriter : public testing::Test {
   std::optional<BlockTiles> block_;
 };
 
-TEST_F(TilesWriter, WritesTheVerticesOfNeighbouringTrianglesOnce) {
+TEST_F(TilesWriter, WritesTheVerticesOfNeighboringTrianglesOnce) {
   const TileView view = written();
   EXPECT_TRUE(std::equal(view.mesh.vertices.begin(), view.mesh.vertices.end(), corners_.begin(), corners_.end()));
   ASSERT_EQ(view.mesh.triangles.size(), 2U);
@@ -90,13 +90,13 @@ TEST_F(TilesWriter, NamesEdgesAsSidesOfTriangles) {
 TEST_F(TilesWriter, NamesTheEdgesOfEachRoleByThemselves) {
   // An edge may be a horizon and a lower border at once
   const HorizonEdge upper{corners_[3], corners_[0], {1, 2}, EdgeRole::overhang};
-  const HorizonEdge lower{corners_[3], corners_[0], {5, EdgeRises::straight_up}, EdgeRole::underside};
+  const HorizonEdge lower{corners_[3], corners_[0], {5, AdjacentSlopes::straight_up}, EdgeRole::underside};
   const HorizonEdge grounded{corners_[0], corners_[1], {3, 4}};
   tile().horizon_edges = {lower, upper, grounded};
   const TileView view = written();
   EXPECT_TRUE(std::ranges::equal(view.edge_sides[0], std::vector<package::TileEdge>{{0, {3, 4}}}));
   EXPECT_TRUE(std::ranges::equal(view.edge_sides[1], std::vector<package::TileEdge>{{5, {1, 2}}}));
-  EXPECT_TRUE(std::ranges::equal(view.edge_sides[2], std::vector<package::TileEdge>{{5, {5, EdgeRises::straight_up}}}));
+  EXPECT_TRUE(std::ranges::equal(view.edge_sides[2], std::vector<package::TileEdge>{{5, {5, AdjacentSlopes::straight_up}}}));
   EXPECT_TRUE(view.loose_edges.empty());
   std::vector<HorizonEdge> read;
   view.visit_edges([&](const HorizonEdge& e) { read.push_back(e); });

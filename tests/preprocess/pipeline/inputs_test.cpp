@@ -53,7 +53,7 @@ TEST_F(PackInputs, AFolderIsTheFilesInIt) {
   packing.run();
   EXPECT_THAT(inputs_named(), ElementsAre("a.gml", "b.city.json"));
   EXPECT_EQ(packing.codes(), std::set<int>{118});
-  EXPECT_EQ(packing.result.passed_over, (PassedOver{{".pyc files", 1}}));
+  EXPECT_EQ(packing.result.skipped, (SkippedFeatures{{".pyc files", 1}}));
 }
 
 TEST_F(PackInputs, ARasterIsASurfaceModel) {

@@ -114,7 +114,7 @@ std::uint64_t far_bytes_in_tiles(const fs::path& path) {
   for (std::uint32_t n = 0; n < header.section_count; ++n) {
     package::Section section{};
     file.read(reinterpret_cast<char*>(&section), sizeof section);
-    if (section.kind >= package::SectionKind::far_cells && section.kind <= package::SectionKind::named_edges)
+    if (section.kind >= package::SectionKind::far_cells && section.kind <= package::SectionKind::explicit_edges)
       bytes += section.count * section.element_bytes;
   }
   return bytes;

@@ -60,7 +60,7 @@ TEST(BasePoints, TouchingHousesOnAHillStandOnTheGround) {
   }
 }
 
-TEST(BasePoints, ARoofFarAboveItsOneNeighbourHangs) {
+TEST(BasePoints, ARoofFarAboveItsOneNeighborHangs) {
   scenes::SceneBuilder town;
   town.add_box({{0, 0}, {10, 10}}, 0.0, 20.0);
   town.add_box({{10, 0}, {14, 4}}, 15.0, 16.0);

@@ -101,7 +101,7 @@ void judge(RandomCity& random, double box_edge_m, Count& count) {
   const EyeBox eyes{{corner, corner + Point2d{box_edge_m, box_edge_m}}, low_m, low_m + 0.5 * box_edge_m};
   for (const HorizonSegment& e : borders) {
     EXPECT_EQ(e.role, EdgeRole::underside);
-    if (may_be_silhouette(e.segment.a, e.segment.b, e.rises, e.role, eyes.plan, eyes.low_m, eyes.high_m)) kept.push_back(e);
+    if (may_be_silhouette(e.segment.a, e.segment.b, e.adjacent, e.role, eyes.plan, eyes.low_m, eyes.high_m)) kept.push_back(e);
   }
   count.seen += static_cast<int>(borders.size());
   count.away += static_cast<int>(borders.size() - kept.size());

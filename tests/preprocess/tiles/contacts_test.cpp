@@ -13,7 +13,7 @@ namespace {
 using testing::IsEmpty;
 
 /// A lower border 10 m long, 5 m up, along the x axis.
-const HorizonEdge border{{2, 4, 5}, {12, 4, 5}, {3, EdgeRises::straight_up}, EdgeRole::underside};
+const HorizonEdge border{{2, 4, 5}, {12, 4, 5}, {3, AdjacentSlopes::straight_up}, EdgeRole::underside};
 
 std::vector<HorizonEdge> open_parts(const std::vector<std::vector<Point3f>>& polygons) {
   Tile tile;
@@ -80,7 +80,7 @@ TEST(Contacts, WhatTouchesAPartClosesThatPart) {
     EXPECT_NEAR(open[n].a.x, expected[n].first, 1.5 * contact_m);
     EXPECT_NEAR(open[n].b.x, expected[n].second, 1.5 * contact_m);
     for (const Point3f& p : {open[n].a, open[n].b}) EXPECT_EQ((Point3f{0, p.y, p.z}), (Point3f{0, 4, 5}));
-    EXPECT_EQ(open[n].rises, border.rises);
+    EXPECT_EQ(open[n].adjacent, border.adjacent);
     EXPECT_EQ(open[n].role, EdgeRole::underside);
   }
 }

@@ -71,7 +71,7 @@ void judge(RandomCity& random, double box_edge_m, Count& count) {
   const EyeBox eyes{{corner, corner + Point2d{box_edge_m, box_edge_m}}, low_m, low_m + 0.5 * box_edge_m};
   std::vector<HorizonSegment> kept;
   for (const HorizonSegment& e : edges)
-    if (may_be_silhouette(e.segment.a, e.segment.b, e.rises, e.role, eyes.plan, eyes.low_m, eyes.high_m)) kept.push_back(e);
+    if (may_be_silhouette(e.segment.a, e.segment.b, e.adjacent, e.role, eyes.plan, eyes.low_m, eyes.high_m)) kept.push_back(e);
   count.seen += static_cast<int>(edges.size());
   count.away += static_cast<int>(edges.size() - kept.size());
   for (int n = 0; n < (box_edge_m == 0.0 ? 1 : 5); ++n) {

@@ -120,7 +120,7 @@ TEST_P(CutExactly, APieceOnABorderBelongsToTheCellEastOrNorth) {
   EXPECT_EQ(north[0].cell, (Cell{0, -2}));
 }
 
-TEST_P(CutExactly, NeighboursAreCutAtTheSamePointsOfTheirCommonEdge) {
+TEST_P(CutExactly, NeighborsAreCutAtTheSamePointsOfTheirCommonEdge) {
   const Grid grid = grid_of(GetParam());
   for (const TriangleOfPoints& t : random_triangles(grid, 100)) {
     const auto points_on_edge = [&grid](const Point3d& a, const Point3d& b, const Point3d& other) {
@@ -133,7 +133,7 @@ TEST_P(CutExactly, NeighboursAreCutAtTheSamePointsOfTheirCommonEdge) {
         }
       return points;
     };
-    // The neighbour runs along the edge the other way, and lies on its other side
+    // The neighbor runs along the edge the other way, and lies on its other side
     const Point3d beyond = t[0] + t[1] - t[2];
     EXPECT_TRUE(points_on_edge(t[0], t[1], t[2]) == points_on_edge(t[1], t[0], beyond));
   }

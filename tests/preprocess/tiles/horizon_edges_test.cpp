@@ -23,11 +23,11 @@ using testing::UnorderedElementsAre;
 std::vector<Segment3d> horizon_edges_of(const std::vector<Face>& faces) { return segments_of(table_of(faces).horizon_edges()); }
 
 /// What rises beside an edge, to the left and to the right of the way from a to b.
-EdgeRises rises_beside(const std::vector<HorizonSegment>& edges, const Segment3d& ab) {
-  for (const auto& [segment, rises, role] : edges) {
+AdjacentSlopes slopes_beside(const std::vector<HorizonSegment>& edges, const Segment3d& ab) {
+  for (const auto& [segment, adjacent, role] : edges) {
     EXPECT_EQ(role, EdgeRole::grounded) << "what overhangs is not known here";
-    if (segment == ab) return rises;
-    if (segment == Segment3d{ab.b, ab.a}) return {rises.right, rises.left};
+    if (segment == ab) return adjacent;
+    if (segment == Segment3d{ab.b, ab.a}) return {adjacent.right, adjacent.left};
   }
   ADD_FAILURE() << "no such edge";
   return {};
@@ -90,38 +90,38 @@ TEST(HorizonEdges, KeepTheFoldWhereASliverLiesBetweenTheSlopes) {
   EXPECT_THAT(segments_of(table.horizon_edges()), testing::Contains(Segment3d{a, b}));
 }
 
-TEST(EdgeRises, OfAFlatRoofAreLevelInwardsAndAWallOutwards) {
+TEST(AdjacentSlopes, OfAFlatRoofAreLevelInwardsAndAWallOutwards) {
   const auto edges = table_of(test::box(0, 0, 10, 20, 0, 5)).horizon_edges();
-  EXPECT_EQ(rises_beside(edges, {{0, 0, 5}, {10, 0, 5}}), (EdgeRises{0, EdgeRises::straight_down}));
-  EXPECT_EQ(rises_beside(edges, {{0, 20, 5}, {10, 20, 5}}), (EdgeRises{EdgeRises::straight_down, 0}));
-  EXPECT_EQ(rises_beside(edges, {{0, 0, 5}, {0, 20, 5}}), (EdgeRises{EdgeRises::straight_down, 0}));
-  EXPECT_EQ(rises_beside(edges, {{10, 0, 5}, {10, 20, 5}}), (EdgeRises{0, EdgeRises::straight_down}));
+  EXPECT_EQ(slopes_beside(edges, {{0, 0, 5}, {10, 0, 5}}), (AdjacentSlopes{0, AdjacentSlopes::straight_down}));
+  EXPECT_EQ(slopes_beside(edges, {{0, 20, 5}, {10, 20, 5}}), (AdjacentSlopes{AdjacentSlopes::straight_down, 0}));
+  EXPECT_EQ(slopes_beside(edges, {{0, 0, 5}, {0, 20, 5}}), (AdjacentSlopes{AdjacentSlopes::straight_down, 0}));
+  EXPECT_EQ(slopes_beside(edges, {{10, 0, 5}, {10, 20, 5}}), (AdjacentSlopes{0, AdjacentSlopes::straight_down}));
 }
 
-TEST(EdgeRises, OfAGabledHouseAreThePitchesOfItsRoof) {
+TEST(AdjacentSlopes, OfAGabledHouseAreThePitchesOfItsRoof) {
   const auto edges = table_of(test::gabled_house()).horizon_edges();
   const double pitch_rad = std::atan2(3.0, 5.0);
-  const std::int8_t up = EdgeRises::rounded_down(pitch_rad), down = EdgeRises::rounded_down(-pitch_rad);
-  EXPECT_EQ(rises_beside(edges, {{0, 5, 9}, {20, 5, 9}}), (EdgeRises{down, down}));
-  EXPECT_EQ(rises_beside(edges, {{0, 0, 6}, {20, 0, 6}}), (EdgeRises{up, EdgeRises::straight_down}));
-  EXPECT_EQ(rises_beside(edges, {{0, 10, 6}, {20, 10, 6}}), (EdgeRises{EdgeRises::straight_down, up}));
+  const std::int8_t up = AdjacentSlopes::rounded_down(pitch_rad), down = AdjacentSlopes::rounded_down(-pitch_rad);
+  EXPECT_EQ(slopes_beside(edges, {{0, 5, 9}, {20, 5, 9}}), (AdjacentSlopes{down, down}));
+  EXPECT_EQ(slopes_beside(edges, {{0, 0, 6}, {20, 0, 6}}), (AdjacentSlopes{up, AdjacentSlopes::straight_down}));
+  EXPECT_EQ(slopes_beside(edges, {{0, 10, 6}, {20, 10, 6}}), (AdjacentSlopes{AdjacentSlopes::straight_down, up}));
   // Along a gable's edge the roof climbs, but not away from it
-  EXPECT_EQ(rises_beside(edges, {{0, 0, 6}, {0, 5, 9}}), (EdgeRises{EdgeRises::straight_down, 0}));
+  EXPECT_EQ(slopes_beside(edges, {{0, 0, 6}, {0, 5, 9}}), (AdjacentSlopes{AdjacentSlopes::straight_down, 0}));
 }
 
-TEST(EdgeRises, WhereNoTriangleIsAreUnknown) {
+TEST(AdjacentSlopes, WhereNoTriangleIsAreUnknown) {
   EdgeTable table;
   table.add_triangle({0, 0, 5}, {10, 0, 5}, {5, 10, 4}, FacetLook::up);
-  EXPECT_EQ(rises_beside(table.horizon_edges(), {{0, 0, 5}, {10, 0, 5}}).right, EdgeRises::straight_down);
+  EXPECT_EQ(slopes_beside(table.horizon_edges(), {{0, 0, 5}, {10, 0, 5}}).right, AdjacentSlopes::straight_down);
 }
 
-TEST(EdgeRises, OfAHillArePlainAndSlope) {
+TEST(AdjacentSlopes, OfAHillArePlainAndSlope) {
   // A dam along the x axis, 2 m high, whose sides climb at 45° and at less
   const Ground ground({{0, 50, 2}, {100, 50, 2}, {0, 48, 0}, {100, 48, 0}, {0, 60, 0}, {100, 60, 0}}, {{0, 0}, {100, 100}});
   const auto edges = ground.horizon_edges();
-  const std::int8_t steep = EdgeRises::rounded_down(-std::atan(1.0)), gentle = EdgeRises::rounded_down(-std::atan2(2.0, 10.0));
-  EXPECT_EQ(rises_beside(edges, {{0, 50, 2}, {100, 50, 2}}), (EdgeRises{gentle, steep}));
-  EXPECT_EQ(rises_beside(edges, {{0, 0, 0}, {100, 0, 0}}), (EdgeRises{0, EdgeRises::straight_down}));
+  const std::int8_t steep = AdjacentSlopes::rounded_down(-std::atan(1.0)), gentle = AdjacentSlopes::rounded_down(-std::atan2(2.0, 10.0));
+  EXPECT_EQ(slopes_beside(edges, {{0, 50, 2}, {100, 50, 2}}), (AdjacentSlopes{gentle, steep}));
+  EXPECT_EQ(slopes_beside(edges, {{0, 0, 0}, {100, 0, 0}}), (AdjacentSlopes{0, AdjacentSlopes::straight_down}));
 }
 
 TEST(HorizonEdges, ComeInTheOrderOfTheirTriangles) {
@@ -168,7 +168,7 @@ TEST_F(CutEdge, PiecesLieInTheirCellsAndTheirLengthsSumToItsOwn) {
   double sum_m = 0.0;
   for (const CellEdge& piece : pieces) {
     sum_m += length_m(piece);
-    EXPECT_EQ(piece.edge.rises, (EdgeRises{-31, 17}));
+    EXPECT_EQ(piece.edge.adjacent, (AdjacentSlopes{-31, 17}));
     EXPECT_EQ(piece.edge.role, EdgeRole::underside);
     EXPECT_GT(piece.edge.b.x, piece.edge.a.x) << "turned round, left would be right";
     for (const Point3f& p : {piece.edge.a, piece.edge.b}) {

@@ -20,7 +20,7 @@ struct Posts {
     located.georeference.origin_m = {1000.0, 2000.0};
     located.sources = {"town.geojson"};
   }
-  void add(const std::string& id, Footing footing, double base_m, double top_m) {
+  void add(const std::string& id, HeightReference footing, double base_m, double top_m) {
     located.city.begin_building(id, footing);
     located.city.begin_facet(SurfaceKind::wall, 0);
     located.city.add_ring(std::vector<Point3d>{{10, 0, base_m}, {20, 0, base_m}, {20, 0, top_m}, {10, 0, top_m}});
@@ -40,10 +40,10 @@ using Heights = std::pair<double, double>;
 
 TEST(LiftOntoTerrain, MovesEachBuildingAsItsHeightsCount) {
   Posts posts;
-  posts.add("surveyed", Footing::elevation, 50, 60);
-  posts.add("house", Footing::on_ground, 0, 9);
-  posts.add("skyway", Footing::on_ground, 4, 9);
-  posts.add("hall", Footing::down_to_ground, 119, 120);
+  posts.add("surveyed", HeightReference::elevation, 50, 60);
+  posts.add("house", HeightReference::on_ground, 0, 9);
+  posts.add("skyway", HeightReference::on_ground, 4, 9);
+  posts.add("hall", HeightReference::down_to_ground, 119, 120);
   posts.lift(100);
   EXPECT_EQ(posts.base_and_top_m(0), Heights(50, 60));
   EXPECT_EQ(posts.base_and_top_m(1), Heights(101, 110));
@@ -54,16 +54,16 @@ TEST(LiftOntoTerrain, MovesEachBuildingAsItsHeightsCount) {
 
 TEST(LiftOntoTerrain, ReachesDownFromHighRoofsToo) {
   Posts posts;
-  posts.add("tower", Footing::down_to_ground, 219, 220);
+  posts.add("tower", HeightReference::down_to_ground, 219, 220);
   posts.lift(0);
   EXPECT_EQ(posts.base_and_top_m(0), Heights(1, 220));
 }
 
 TEST(LiftOntoTerrain, LeavesOutRoofsThatLieBelowTheGround) {
   Posts posts;
-  posts.add("hall", Footing::down_to_ground, 119, 120);
-  posts.add("cellar", Footing::down_to_ground, 89, 90);
-  posts.add("house", Footing::on_ground, 0, 9);
+  posts.add("hall", HeightReference::down_to_ground, 119, 120);
+  posts.add("cellar", HeightReference::down_to_ground, 89, 90);
+  posts.add("house", HeightReference::on_ground, 0, 9);
   posts.lift(100);
   ASSERT_EQ(posts.located.city.buildings().size(), 2U);
   EXPECT_EQ(posts.located.city.buildings()[1].id, "house");
@@ -80,8 +80,8 @@ TEST(LiftOntoTerrain, LeavesOutRoofsThatLieBelowTheGround) {
 
 TEST(LiftOntoTerrain, LeavesOutRoofsHigherThanAnyBuilding) {
   Posts posts;
-  posts.add("kite", Footing::down_to_ground, 0, 1.0 + highest_building_m);
-  posts.add("record", Footing::down_to_ground, 0, 2.0 + highest_building_m);
+  posts.add("kite", HeightReference::down_to_ground, 0, 1.0 + highest_building_m);
+  posts.add("record", HeightReference::down_to_ground, 0, 2.0 + highest_building_m);
   posts.lift(1.0 - 10.0 / 10.0);  // the ground at x = 10 is at 1 m
   ASSERT_EQ(posts.located.city.buildings().size(), 1U);
   EXPECT_EQ(posts.located.city.buildings()[0].id, "kite");
@@ -90,8 +90,8 @@ TEST(LiftOntoTerrain, LeavesOutRoofsHigherThanAnyBuilding) {
 
 TEST(LiftOntoTerrain, KnowsNoFootWhereTheGroundIsUnknown) {
   Posts posts;
-  posts.add("house", Footing::on_ground, 0, 9);
-  posts.add("hall", Footing::down_to_ground, 119, 120);
+  posts.add("house", HeightReference::on_ground, 0, 9);
+  posts.add("hall", HeightReference::down_to_ground, 119, 120);
   lift_onto_terrain(
       posts.located, [](Point2d) { return std::optional<double>(); }, posts.report);
   ASSERT_EQ(posts.located.city.buildings().size(), 1U);

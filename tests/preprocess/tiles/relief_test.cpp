@@ -19,7 +19,7 @@ double slope_m(double x_city) { return height_at_origin_m + slope * x_city; }
 /// A flat roof 9 m above a ground that the file does not know, from 40 to 60 m.
 LocatedCity house_on_ground() {
   LocatedCity located;
-  located.city.begin_building("house", Footing::on_ground);
+  located.city.begin_building("house", HeightReference::on_ground);
   located.city.begin_facet(SurfaceKind::roof, 0);
   located.city.add_ring(std::vector<Point3d>{{40, 40, 9}, {60, 40, 9}, {60, 60, 9}, {40, 60, 9}});
   return located;

@@ -179,7 +179,7 @@ TEST(Tiles, FlagCellsWithOverhangsOnly) {
 
 TEST(Tiles, BuildingsThatKnowOnlyTheirHeightStandOnTheTerrain) {
   CityModel city;
-  city.begin_building("house", Footing::on_ground);
+  city.begin_building("house", HeightReference::on_ground);
   city.begin_facet(SurfaceKind::roof, 0);
   city.add_ring(std::vector<Point3d>{{40, 40, 9}, {60, 40, 9}, {60, 60, 9}, {40, 60, 9}});
   // A slope that rises by 1 m in 10 m to the east, from 100 m
@@ -196,7 +196,7 @@ TEST(Tiles, BuildingsThatKnowOnlyTheirHeightStandOnTheTerrain) {
 
 TEST(Tiles, BuildingsInAGapOfTheTerrainStandOnTheGroundAroundIt) {
   CityModel city;
-  city.begin_building("boathouse", Footing::on_ground);
+  city.begin_building("boathouse", HeightReference::on_ground);
   city.begin_facet(SurfaceKind::roof, 0);
   city.add_ring(std::vector<Point3d>{{45, 45, 9}, {55, 45, 9}, {55, 55, 9}, {45, 55, 9}});
   // Level ground at 100 m, and a lake of 40 m without data

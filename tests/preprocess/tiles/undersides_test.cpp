@@ -138,19 +138,19 @@ TEST(Undersides, TheDiagonalOfABentRoofIsNone) {
 
 TEST(Undersides, WhereAFacetEndsNothingIsBesideItOnOneSide) {
   for (const HorizonSegment& e : undersides(test::table_of({{{0, 0, 5}, {0, 10, 5}, {10, 10, 5}, {10, 0, 5}}}).edges()))
-    EXPECT_NE(e.rises.left == EdgeRises::straight_up, e.rises.right == EdgeRises::straight_up);
+    EXPECT_NE(e.adjacent.left == AdjacentSlopes::straight_up, e.adjacent.right == AdjacentSlopes::straight_up);
 }
 
 TEST(Undersides, RisesAreTheFlattestFacetsAndALittleMore) {
   const auto borders = undersides(test::table_of(test::box(0, 0, 10, 20, 4, 7)).edges());
-  const std::int8_t give = EdgeRises::rounded_up(4.0 * slight_bend_rad);
+  const std::int8_t give = AdjacentSlopes::rounded_up(4.0 * slight_bend_rad);
   ASSERT_EQ(borders.size(), 4U);
   for (const HorizonSegment& e : borders) {
     // Of the way from a to b, the soffit lies to the left if the middle of the bridge does
     const Point3d along = e.segment.b - e.segment.a, in = Point3d{5, 10, 4} - e.segment.a;
     const bool left = along.x * in.y - along.y * in.x > 0.0;
-    EXPECT_EQ(left ? e.rises.left : e.rises.right, give);
-    EXPECT_EQ(left ? e.rises.right : e.rises.left, EdgeRises::straight_up);
+    EXPECT_EQ(left ? e.adjacent.left : e.adjacent.right, give);
+    EXPECT_EQ(left ? e.adjacent.right : e.adjacent.left, AdjacentSlopes::straight_up);
   }
 }
 

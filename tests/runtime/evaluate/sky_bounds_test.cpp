@@ -68,7 +68,7 @@ class SkyBounds : public testing::TestWithParam<Town> {
     const Grid& grid = package_.grid();
     std::vector<CellReceivers> places;
     for (std::size_t n = 0; n < static_cast<std::size_t>(grid.cells.size()); ++n) {
-      const CellColumns columns(package_, grid.cells.cell_at(n));
+      const PointLocator columns(package_, grid.cells.cell_at(n));
       CellReceivers cell{grid.cells.cell_at(n), {}};
       const auto add = [&](float x, HeightAbove above, float height_m, const Point3f& normal) {
         const auto p = stand(columns, x, between(0, grid.cell_edge_m), above, height_m);
@@ -156,18 +156,18 @@ TEST_P(SkyBounds, OfHorizonsAreSettledByRays) {
 }
 
 TEST_P(SkyBounds, WithoutAnyFarErrorTheAnswerIsExact) {
-  const Answers exact = answers(Engine::exact), settled = answers(Engine::rays, 0.0);
+  const Answers exact = answers(Engine::exact), resolved = answers(Engine::rays, 0.0);
   for (std::size_t n = 0; n < exact.svf.size(); ++n) {
-    EXPECT_NEAR(settled.svf[n], exact.svf[n], one_ray) << "receiver " << n;
-    EXPECT_EQ(settled.low[n], settled.high[n]) << "receiver " << n;
+    EXPECT_NEAR(resolved.svf[n], exact.svf[n], one_ray) << "receiver " << n;
+    EXPECT_EQ(resolved.low[n], resolved.high[n]) << "receiver " << n;
   }
 }
 
 TEST_P(SkyBounds, TheFarErrorStaysBelowTheMost) {
   constexpr double most = 0.005;
-  const Answers exact = answers(Engine::exact), settled = answers(Engine::rays, most);
+  const Answers exact = answers(Engine::exact), resolved = answers(Engine::rays, most);
   for (std::size_t n = 0; n < exact.svf.size(); ++n)
-    EXPECT_NEAR(settled.svf[n], exact.svf[n], most + one_ray) << "receiver " << n;
+    EXPECT_NEAR(resolved.svf[n], exact.svf[n], most + one_ray) << "receiver " << n;
 }
 
 TEST_P(SkyBounds, AskingForThemChangesNoAnswer) {
@@ -190,8 +190,8 @@ TEST_P(SkyBounds, RaysAreTracedAgainstTheWholeCityOnlyWhereTheyMust) {
     lax.evaluate(cell, svf);
     strict.evaluate(cell, svf);
   }
-  EXPECT_EQ(lax.effort().settled_rays, 0U);
-  EXPECT_LT(strict.effort().settled_rays, rays * svf.size() / 4);
+  EXPECT_EQ(lax.effort().retraced_rays, 0U);
+  EXPECT_LT(strict.effort().retraced_rays, rays * svf.size() / 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -199,7 +199,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Town{"Plain", 50, 3, 0.0, 0.0, false, 0.05}, Town{"Towers", 50, 3, 1.0, 0.0, false, 0.05},
                     Town{"Bridges", 50, 3, 0.3, 0.0, true, 0.05}, Town{"BridgesOverHills", 50, 3, 0.3, 60.0, true, 0.05},
                     Town{"BridgesWholeBuildings", 50, 3, 0.3, 0.0, true, 0.05, Assign::whole},
-                    Town{"SmallNeighbourhood", 100, 1, 0.5, 20.0, true, 0.05}, Town{"CoarseMap", 50, 3, 0.5, 0.0, true, 0.5},
+                    Town{"SmallNeighborhood", 100, 1, 0.5, 20.0, true, 0.05}, Town{"CoarseMap", 50, 3, 0.5, 0.0, true, 0.5},
                     Town{"FineMap", 50, 3, 0.5, 0.0, true, 0.0}),
     [](const auto& test) { return test.param.name; });
 

@@ -121,7 +121,7 @@ TEST_P(SkyEvaluatorOfKind, InAClosedRoomThereIsNoSky) {
 }
 
 TEST_P(SkyEvaluatorOfKind, AnotherBuildingNeverOpensTheSky) {
-  // A neighbourhood that holds the city: what hides the sky is geometry, in both engines
+  // A neighborhood that holds the city: what hides the sky is geometry, in both engines
   const Grid all_near = grid_of(around_the_middle, 7);
   for (const Engine engine : engines_of(GetParam())) {
     std::vector<float> before(25, 1.0F);

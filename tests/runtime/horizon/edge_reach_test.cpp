@@ -16,7 +16,7 @@ namespace farlod {
 namespace {
 
 /// Azimuths and bounds give way by this; their rounding is a thousandth of it.
-constexpr double give = reach_give;
+constexpr double give = reach_margin;
 
 struct Scene {
   PacketBounds box;
@@ -36,7 +36,7 @@ Scene random_scene(RandomPlaces& random) {
   return s;
 }
 
-EdgeReach reach(const Scene& s) { return reach_of(skyline_of(std::vector{s.edge}).batches()[0], s.box); }
+EdgeReach reach(const Scene& s) { return reach_of(silhouettes_of(std::vector{s.edge}).batches()[0], s.box); }
 
 Point3d place(const Point3f& p) { return {p.x, p.y, p.z}; }
 
@@ -53,9 +53,9 @@ std::vector<Point3d> eyes_in(const PacketBounds& box, RandomPlaces& random) {
   return eyes;
 }
 
-/// The diamond angle of a direction in turns, on the turn that is nearest to `about`.
+/// The pseudo-angle of a direction in turns, on the turn that is nearest to `about`.
 double turns_about(Point2d direction, double about) {
-  const double turns = 0.25 * diamond_angle(direction);
+  const double turns = 0.25 * pseudo_angle(direction);
   return turns + std::round(about - turns);
 }
 

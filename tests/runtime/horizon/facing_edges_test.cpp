@@ -23,22 +23,22 @@ Point3d exactly(const Point3f& p) { return {p.x, p.y, p.z}; }
 
 bool is_kept_by_judge(const HorizonEdge& e, const ReceiverBox& box) {
   return std::max(e.a.z, e.b.z) > box.low.z &&
-         may_be_silhouette(exactly(e.a), exactly(e.b), e.rises, e.role, {{box.low.x, box.low.y}, {box.high.x, box.high.y}},
+         may_be_silhouette(exactly(e.a), exactly(e.b), e.adjacent, e.role, {{box.low.x, box.low.y}, {box.high.x, box.high.y}},
                            box.low.z, box.high.z);
 }
 
 /// Distances, or less than 0, for a whole number of batches. All edges have the role of the first.
 std::vector<float> found(const std::vector<HorizonEdge>& edges, const ReceiverBox& box) {
-  std::vector<SkylineEdges::Batch> batches(edges.size() / SkylineEdges::lanes);
+  std::vector<SilhouetteEdges::Batch> batches(edges.size() / SilhouetteEdges::lanes);
   for (std::size_t n = 0; n < edges.size(); ++n) {
-    SkylineEdges::Batch& batch = batches.at(n / SkylineEdges::lanes);
-    const std::size_t lane = n % SkylineEdges::lanes;
+    SilhouetteEdges::Batch& batch = batches.at(n / SilhouetteEdges::lanes);
+    const std::size_t lane = n % SilhouetteEdges::lanes;
     const auto& [a, b, r, role] = edges[n];
     EXPECT_EQ(role, edges.front().role);
     batch.ax[lane] = a.x, batch.ay[lane] = a.y, batch.az[lane] = a.z;
     batch.bx[lane] = b.x, batch.by[lane] = b.y, batch.bz[lane] = b.z;
-    batch.left[lane] = static_cast<float>(EdgeRises::slope(r.left)),
-    batch.right[lane] = static_cast<float>(EdgeRises::slope(r.right));
+    batch.left[lane] = static_cast<float>(AdjacentSlopes::slope(r.left)),
+    batch.right[lane] = static_cast<float>(AdjacentSlopes::slope(r.right));
   }
   std::vector<float> distances_m(edges.size());
   find_facing(batches, edges.front().role, box, distances_m);
@@ -70,7 +70,7 @@ class Edges {
 
  private:
   [[nodiscard]] std::int8_t rise() {
-    const std::int8_t wall = role_ == EdgeRole::underside ? EdgeRises::straight_up : EdgeRises::straight_down;
+    const std::int8_t wall = role_ == EdgeRole::underside ? AdjacentSlopes::straight_up : AdjacentSlopes::straight_down;
     return random_.between(-1.0, 1.0) < 0.0F ? wall : static_cast<std::int8_t>(random_.between(-127.0, 127.0));
   }
   EdgeRole role_;
@@ -140,7 +140,7 @@ TEST_P(FacingEdges, RoundingKeepsFewInExcess) {
 
 TEST(FacingEdgesOneByOne, UprightAndBelow) {
   const HorizonEdge upright{{10.0F, 0.0F, 0.0F}, {10.0F, 0.0F, 9.0F}, {0, 0}}, low{{10.0F, 0.0F, 1.0F}, {10.0F, 9.0F, 1.0F}};
-  std::vector<HorizonEdge> edges(SkylineEdges::lanes, low);
+  std::vector<HorizonEdge> edges(SilhouetteEdges::lanes, low);
   edges[3] = upright;
   const std::vector<float> distances_m = found(edges, {{0.0F, 0.0F, 1.0F}, {2.0F, 0.0F, 5.0F}});
   for (std::size_t n = 0; n < edges.size(); ++n) EXPECT_EQ(distances_m[n], n == 3 ? 9.0F : -1.0F);

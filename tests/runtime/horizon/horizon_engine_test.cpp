@@ -34,28 +34,28 @@ class KnownTown {
   KnownTown(const TownByHand& town, SkyWeight weight, const GapSettings& gaps = {})
       : packed_(town.overhanging()),
         overhangs_(packed_.geometry()),
-        skyline_(town.skyline()),
-        engine_(ring_, weight, far_.map(), skyline_, overhangs_, gaps) {}
-  /// With this far map. An engine looks once whether anything unnamed overhangs.
+        silhouettes_(town.silhouettes()),
+        engine_(ring_, weight, far_.map(), silhouettes_, overhangs_, gaps) {}
+  /// With this far map. An engine looks once whether anything residual overhangs.
   KnownTown(const TownByHand& town, SkyWeight weight, const GapSettings& gaps, const FarHorizon& map)
       : packed_(town.overhanging()),
         overhangs_(packed_.geometry()),
-        skyline_(town.skyline()),
-        engine_(ring_, weight, map, skyline_, overhangs_, gaps) {}
+        silhouettes_(town.silhouettes()),
+        engine_(ring_, weight, map, silhouettes_, overhangs_, gaps) {}
 
   [[nodiscard]] FarHorizon& map() { return far_.map(); }
   [[nodiscard]] const AzimuthRing& ring() const { return ring_; }
   /// Answers receivers packet by packet; the numbers of those that needed rays.
-  std::vector<std::uint32_t> evaluate(std::span<const Receiver> receivers, std::span<BoundedShare> shares) {
+  std::vector<std::uint32_t> evaluate(std::span<const Receiver> receivers, std::span<SvfInterval> shares) {
     return packet_by_packet(receivers, shares, &HorizonEngine::evaluate);
   }
-  std::vector<std::uint32_t> evaluate_with_bounds(std::span<const Receiver> receivers, std::span<BoundedShare> shares) {
+  std::vector<std::uint32_t> evaluate_with_bounds(std::span<const Receiver> receivers, std::span<SvfInterval> shares) {
     return packet_by_packet(receivers, shares, &HorizonEngine::evaluate_with_bounds);
   }
 
  private:
-  using Evaluate = std::uint32_t (HorizonEngine::*)(const ReceiverPacket&, std::span<BoundedShare>);
-  std::vector<std::uint32_t> packet_by_packet(std::span<const Receiver> receivers, std::span<BoundedShare> shares,
+  using Evaluate = std::uint32_t (HorizonEngine::*)(const ReceiverPacket&, std::span<SvfInterval>);
+  std::vector<std::uint32_t> packet_by_packet(std::span<const Receiver> receivers, std::span<SvfInterval> shares,
                                               Evaluate answer) {
     std::vector<std::uint32_t> by_rays;
     for (std::uint32_t first = 0; first < receivers.size(); first += ReceiverPacket::lanes) {
@@ -73,7 +73,7 @@ class KnownTown {
   FarHorizonByHand far_{{}};
   PackedOverhangs packed_;
   OverhangGeometry overhangs_;
-  CellSkyline skyline_;
+  CellSilhouettes silhouettes_;
   HorizonEngine engine_;
 };
 
@@ -85,7 +85,7 @@ TEST(HorizonEngine, AnswersWhatIsAboveTheEdgesOfATown) {
     for (const Point3f& normal : {up, Point3f{0.6F, 0.0F, 0.8F}, {0.0F, -1.0F, 0.0F}, {0.0F, 0.8F, -0.6F}}) {
       KnownTown known(town, weight);
       const std::vector<Receiver> receivers = receivers_in_a_square(random, normal);
-      std::vector<BoundedShare> shares(receivers.size());
+      std::vector<SvfInterval> shares(receivers.size());
       EXPECT_TRUE(known.evaluate(receivers, shares).empty());
       for (const Receiver& r : receivers) {
         const auto sky_above = [&](double SlopeRange::*end) {
@@ -94,8 +94,8 @@ TEST(HorizonEngine, AnswersWhatIsAboveTheEdgesOfATown) {
           });
         };
         const double rounding = sky_rounding(azimuths, normal);
-        EXPECT_LE(shares[r.index].likely, sky_above(&SlopeRange::low) + rounding) << r.index;
-        EXPECT_GE(shares[r.index].likely, sky_above(&SlopeRange::high) - rounding) << r.index;
+        EXPECT_LE(shares[r.index].estimate, sky_above(&SlopeRange::low) + rounding) << r.index;
+        EXPECT_GE(shares[r.index].estimate, sky_above(&SlopeRange::high) - rounding) << r.index;
       }
     }
 }
@@ -107,13 +107,13 @@ TEST(HorizonEngine, AReceiverSeesTheSameWhoeverStandsBesideIt) {
   for (const Point3f& normal : {up, Point3f{0.6F, 0.0F, 0.8F}}) {
     KnownTown known(town, SkyWeight::cosine);
     const std::vector<Receiver> receivers = dense_receivers(normal);
-    std::vector<BoundedShare> together(receivers.size()), with_bounds(receivers.size()), alone(1);
+    std::vector<SvfInterval> together(receivers.size()), with_bounds(receivers.size()), alone(1);
     EXPECT_TRUE(known.evaluate(receivers, together).empty());
     EXPECT_TRUE(known.evaluate_with_bounds(receivers, with_bounds).empty());
     for (std::size_t n = 0; n < receivers.size(); ++n) {
       EXPECT_TRUE(known.evaluate(std::span(receivers).subspan(n, 1), alone).empty());
-      EXPECT_EQ(alone[0].likely, together[n].likely) << n;
-      EXPECT_EQ(with_bounds[n].likely, together[n].likely) << n;
+      EXPECT_EQ(alone[0].estimate, together[n].estimate) << n;
+      EXPECT_EQ(with_bounds[n].estimate, together[n].estimate) << n;
     }
   }
 }
@@ -122,38 +122,38 @@ TEST(HorizonEngine, WhatIsLikelyChangesEvenlyFromFloorToFloor) {
   KnownTown known(TownByHand(), SkyWeight::cosine);
   FarHorizon& map = known.map();
   // Each bin has its own
-  for (std::size_t n = 0; n < map.likely.size(); ++n)
-    map.likely[n] = (n < map.bins.count ? 1.0F : 0.5F) + 0.1F * static_cast<float>(n % map.bins.count);
-  std::fill(map.upper.begin(), map.upper.end(), 2.0F);
+  for (std::size_t n = 0; n < map.estimate.size(); ++n)
+    map.estimate[n] = (n < map.bins.count ? 1.0F : 0.5F) + 0.1F * static_cast<float>(n % map.bins.count);
+  std::fill(map.high.begin(), map.high.end(), 2.0F);
   // Floors at 0 and 10 m; below the lowest nobody knows: as on it
   for (const float z : {-3.0F, 0.0F, 2.5F, 5.0F, 7.5F, 10.0F, 99.0F}) {
     const std::vector<Receiver> receiver{{0, {3.0F, 3.0F, z}}};
-    std::vector<BoundedShare> share(1);
+    std::vector<SvfInterval> share(1);
     known.evaluate(receiver, share);
     const double between = 1.0 - 0.05 * double{std::clamp(z, 0.0F, 10.0F)};
     const double expected = judged_sky(SkyWeight::cosine, up, known.ring(), [&](std::size_t k) {
       return between + 0.1 * map.bins.bin_of({known.ring().cosine()[k], known.ring().sine()[k]});
     });
-    EXPECT_NEAR(share[0].likely, expected, sky_rounding(azimuths, up)) << z << " m";
+    EXPECT_NEAR(share[0].estimate, expected, sky_rounding(azimuths, up)) << z << " m";
   }
 }
 
 TEST(HorizonEngine, ReceiversOfOnePacketMayStandOnDifferentFloors) {
   KnownTown known(TownByHand(), SkyWeight::cosine);
   FarHorizon& map = known.map();
-  for (std::size_t n = 0; n < map.likely.size(); ++n) {
-    map.lower[n] = n < map.bins.count ? 0.5F : 0.0F;
-    map.likely[n] = n < map.bins.count ? 1.0F : 0.25F;
-    map.upper[n] = n < map.bins.count ? 2.0F : 0.5F;
+  for (std::size_t n = 0; n < map.estimate.size(); ++n) {
+    map.low[n] = n < map.bins.count ? 0.5F : 0.0F;
+    map.estimate[n] = n < map.bins.count ? 1.0F : 0.25F;
+    map.high[n] = n < map.bins.count ? 2.0F : 0.5F;
   }
   std::vector<Receiver> receivers;
   for (std::size_t n = 0; n < 11; ++n) receivers.push_back({n, {3.0F, 3.0F, -7.0F + 2.0F * static_cast<float>(n)}});
-  std::vector<BoundedShare> together(receivers.size()), alone(1);
+  std::vector<SvfInterval> together(receivers.size()), alone(1);
   known.evaluate_with_bounds(receivers, together);
   for (std::size_t n = 0; n < receivers.size(); ++n) {
     known.evaluate_with_bounds(std::span(receivers).subspan(n, 1), alone);
     EXPECT_EQ(alone[0].low, together[n].low) << n;
-    EXPECT_EQ(alone[0].likely, together[n].likely) << n;
+    EXPECT_EQ(alone[0].estimate, together[n].estimate) << n;
     EXPECT_EQ(alone[0].high, together[n].high) << n;
   }
   // Below the lowest floor nothing is certain
@@ -166,29 +166,29 @@ TEST(HorizonEngine, BoundsHoldWhatIsLikely) {
   TownByHand town;
   add_random_boxes(random, 20, town);
   KnownTown known(town, SkyWeight::cosine);
-  std::fill(known.map().lower.begin(), known.map().lower.end(), 0.2F);
-  std::fill(known.map().likely.begin(), known.map().likely.end(), 0.5F);
-  std::fill(known.map().upper.begin(), known.map().upper.end(), 0.9F);
+  std::fill(known.map().low.begin(), known.map().low.end(), 0.2F);
+  std::fill(known.map().estimate.begin(), known.map().estimate.end(), 0.5F);
+  std::fill(known.map().high.begin(), known.map().high.end(), 0.9F);
   const std::vector<Receiver> receivers = receivers_in_a_square(random, up);
-  std::vector<BoundedShare> bounded(receivers.size()), plain(receivers.size());
+  std::vector<SvfInterval> bounded(receivers.size()), plain(receivers.size());
   known.evaluate_with_bounds(receivers, bounded);
   known.evaluate(receivers, plain);
   for (const Receiver& r : receivers) {
-    const BoundedShare& share = bounded[r.index];
-    EXPECT_EQ(share.likely, plain[r.index].likely);
-    const auto sky_above = [&](double unnamed) {
+    const SvfInterval& share = bounded[r.index];
+    EXPECT_EQ(share.estimate, plain[r.index].estimate);
+    const auto sky_above = [&](double residual) {
       return judged_sky(SkyWeight::cosine, up, known.ring(), [&](std::size_t k) {
         const Point2d u{known.ring().cosine()[k], known.ring().sine()[k]};
-        return std::max(unnamed, judged_horizon(town.grounded(), r.p_cell, u).high);
+        return std::max(residual, judged_horizon(town.grounded(), r.p_cell, u).high);
       });
     };
     // Where an edge ends within rounding of an azimuth, that azimuth's share may differ
     const double tolerance = sky_rounding(azimuths, up) + 1.0 / azimuths;
     EXPECT_NEAR(share.high, sky_above(0.2F), tolerance);
-    EXPECT_NEAR(share.likely, sky_above(0.5F), tolerance);
+    EXPECT_NEAR(share.estimate, sky_above(0.5F), tolerance);
     EXPECT_NEAR(share.low, sky_above(0.9F), tolerance);
-    EXPECT_LT(share.low, share.likely);
-    EXPECT_LT(share.likely, share.high);
+    EXPECT_LT(share.low, share.estimate);
+    EXPECT_LT(share.estimate, share.high);
   }
 }
 
@@ -210,7 +210,7 @@ Gap gap_below(const TownByHand& town, const AzimuthRing& ring, const Point3f& p)
   std::vector<HorizonEdge> facing;
   const auto exactly = [](const Point3f& q) { return Point3d{q.x, q.y, q.z}; };
   std::copy_if(borders.begin(), borders.end(), std::back_inserter(facing), [&](const HorizonEdge& e) {
-    return may_be_silhouette(exactly(e.a), exactly(e.b), e.rises, e.role, {{p.x, p.y}, {p.x, p.y}}, p.z, p.z);
+    return may_be_silhouette(exactly(e.a), exactly(e.b), e.adjacent, e.role, {{p.x, p.y}, {p.x, p.y}}, p.z, p.z);
   });
   Gap result;
   for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -229,7 +229,7 @@ TEST_P(WhatOverhangs, NeedsRaysOfThoseWhoMayLookBelowIt) {
   KnownTown known(town, SkyWeight::cosine);
   std::vector<Receiver> receivers = dense_receivers(up);
   receivers.resize(GetParam());
-  std::vector<BoundedShare> shares(receivers.size());
+  std::vector<SvfInterval> shares(receivers.size());
   const std::vector<std::uint32_t> traced = known.evaluate(receivers, shares);
   int look_below = 0, see_nothing = 0;
   for (std::uint32_t n = 0; n < receivers.size(); ++n) {
@@ -252,12 +252,12 @@ TEST(HorizonEngine, WhereAGapIsSmallHalfOfItCounts) {
   const TownByHand town = slab_behind_houses();
   KnownTown exact(town, SkyWeight::cosine), lax(town, SkyWeight::cosine, {1.0F, 4});
   const std::vector<Receiver> receivers = dense_receivers(up);
-  std::vector<BoundedShare> bounds(receivers.size()), halved(receivers.size());
+  std::vector<SvfInterval> bounds(receivers.size()), halved(receivers.size());
   EXPECT_FALSE(exact.evaluate_with_bounds(receivers, bounds).empty());
   EXPECT_TRUE(lax.evaluate(receivers, halved).empty()) << "nobody needs rays";
   int with_gap = 0;
   for (std::size_t n = 0; n < receivers.size(); ++n) {
-    EXPECT_NEAR(halved[n].likely, 0.5F * (bounds[n].low + bounds[n].high), sky_rounding(azimuths, up)) << n;
+    EXPECT_NEAR(halved[n].estimate, 0.5F * (bounds[n].low + bounds[n].high), sky_rounding(azimuths, up)) << n;
     with_gap += bounds[n].high > bounds[n].low ? 1 : 0;
   }
   EXPECT_GT(with_gap, 20) << "too few to tell";
@@ -268,7 +268,7 @@ TEST(HorizonEngine, TheToleranceBoundsTheErrorOfThoseWithoutRays) {
   constexpr float tolerance = 0.001F;
   KnownTown known(town, SkyWeight::cosine, {tolerance, 4});
   const std::vector<Receiver> receivers = dense_receivers(up);
-  std::vector<BoundedShare> shares(receivers.size());
+  std::vector<SvfInterval> shares(receivers.size());
   const std::vector<std::uint32_t> traced = known.evaluate_with_bounds(receivers, shares);
   int narrow = 0;
   for (std::uint32_t n = 0; n < receivers.size(); ++n) {
@@ -290,30 +290,30 @@ TEST(HorizonEngine, ASlabRightOverheadHidesAllThatIsAboveItsBorders) {
   town.add_box({3.0, 3.0}, {8.0, 0.5}, 60.0);
   KnownTown known(town, SkyWeight::cosine);
   const std::vector<Receiver> receivers{{0, {7.0F, 7.0F, 1.5F}}, {1, {15.0F, 15.0F, 1.5F}}};
-  std::vector<BoundedShare> shares(2);
+  std::vector<SvfInterval> shares(2);
   for (const bool wants_bounds : {false, true}) {
     EXPECT_TRUE((wants_bounds ? known.evaluate_with_bounds(receivers, shares) : known.evaluate(receivers, shares)).empty());
     // What is left above a horizon that stands for the zenith is less than 1e-12
-    for (const float sky : {shares[0].low, shares[0].likely, shares[0].high}) EXPECT_NEAR(sky, 0.0F, 1e-12F);
-    EXPECT_GT(shares[1].likely, 0.1F);
+    for (const float sky : {shares[0].low, shares[0].estimate, shares[0].high}) EXPECT_NEAR(sky, 0.0F, 1e-12F);
+    EXPECT_GT(shares[1].estimate, 0.1F);
   }
 }
 
 TEST(HorizonEngine, UnnamedOverhangsLeaveTheSkyBelowThemOpen) {
-  // All around, something unnamed surely rises to 0.8, and may be open below 0.3
+  // All around, something residual surely rises to 0.8, and may be open below 0.3
   const TownByHand nothing;
   KnownTown known(nothing, SkyWeight::cosine);
-  std::fill(known.map().lower.begin(), known.map().lower.end(), 0.8F);
-  std::fill(known.map().likely.begin(), known.map().likely.end(), 0.8F);
-  std::fill(known.map().upper.begin(), known.map().upper.end(), 0.8F);
+  std::fill(known.map().low.begin(), known.map().low.end(), 0.8F);
+  std::fill(known.map().estimate.begin(), known.map().estimate.end(), 0.8F);
+  std::fill(known.map().high.begin(), known.map().high.end(), 0.8F);
   std::fill(known.map().overhang.begin(), known.map().overhang.end(), 0.3F);
   KnownTown reread(nothing, SkyWeight::cosine, {}, known.map());
   const std::vector<Receiver> receiver{{0, {3.0F, 3.0F, 1.5F}}};
-  std::vector<BoundedShare> share(1);
+  std::vector<SvfInterval> share(1);
   EXPECT_TRUE(reread.evaluate_with_bounds(receiver, share).empty()) << "no ray could tell";
   const double above = 1.0 / (1.0 + 0.8 * 0.8), below = 1.0 - 1.0 / (1.0 + 0.3 * 0.3), rounding = sky_rounding(azimuths, up);
   EXPECT_NEAR(share[0].low, above, rounding);
-  EXPECT_NEAR(share[0].likely, above, rounding);
+  EXPECT_NEAR(share[0].estimate, above, rounding);
   EXPECT_NEAR(share[0].high, above + below, rounding);
 }
 

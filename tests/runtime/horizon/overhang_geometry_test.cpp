@@ -104,9 +104,9 @@ TEST(OverhangGeometry, RaysMeetWhatFloatsBelowItsUpperBordersAndAboveTheLowerOne
     const std::vector<Point3f> eyes = random_eyes(random);
     const ReceiverPacket packet = packet_of(eyes);
     PacketHorizon upper(fan.ring()), lower(fan.ring());
-    upper.raise(town.skyline().near.upper, packet);
+    upper.raise(town.silhouettes().near.overhangs, packet);
     upper.close(overhangs.covered(packet));
-    lower.raise(town.skyline().near.lower, packet);
+    lower.raise(town.silhouettes().near.undersides, packet);
     for (std::size_t l = 0; l < eyes.size(); ++l)
       for (std::size_t k = 0; k < fan.size(); ++k) {
         const RayVerdict ray = verdict(overhangs.scene().occluder, eyes[l], fan.direction(k));

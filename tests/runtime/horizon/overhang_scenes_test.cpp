@@ -89,7 +89,7 @@ Scene arcade_without_pillars() {
   scene.town.add_border_of_slab(a, b);
   scene.town.add_border_of_slab(b, c);
   scene.town.add_border_of_slab(d, a);
-  scene.town.add_edge({d, c, {EdgeRises::straight_down, 0}, EdgeRole::grounded});
+  scene.town.add_edge({d, c, {AdjacentSlopes::straight_down, 0}, EdgeRole::grounded});
   for (const double e : {5.5, 3.0, 0.5})
     scene.known.push_back({{static_cast<float>(10.0 - e), 5.0F, eye_m}, oracles::overhang_cos(height_m - eye_m, e, true)});
   // In front of it, it is a wall as high as its roof's edge, and below that the wall of its back
@@ -110,7 +110,7 @@ Scene open_shell() {
   scene.town.add_facet({sw, se, ne, nw}, false);
   for (const auto& [a, b] : {std::pair{se, ne}, {ne, nw}, {nw, sw}}) {
     scene.town.add_facet({foot(a), foot(b), b, a}, false);
-    scene.town.add_edge({a, b, {0, EdgeRises::straight_down}, EdgeRole::grounded});
+    scene.town.add_edge({a, b, {0, AdjacentSlopes::straight_down}, EdgeRole::grounded});
   }
   scene.town.add_border_of_slab(sw, se);
   const double h = height_m - eye_m;
@@ -140,13 +140,13 @@ class OverhangScenes : public testing::TestWithParam<Scene> {
     for (const Point3f& p : places) result.push_back({result.size(), p, up});
     return result;
   }
-  [[nodiscard]] std::vector<BoundedShare> evaluate(const std::vector<Point3f>& places, bool wants_bounds) const {
+  [[nodiscard]] std::vector<SvfInterval> evaluate(const std::vector<Point3f>& places, bool wants_bounds) const {
     const PackedOverhangs packed(GetParam().town.overhanging());
     OverhangGeometry overhangs = packed.geometry();
     const AzimuthRing ring = AzimuthRing::even(azimuths, {});
     FarHorizonByHand far({});
-    HorizonEngine engine(ring, SkyWeight::cosine, far.map(), GetParam().town.skyline(), overhangs, {0.0F, rays_per_azimuth});
-    std::vector<BoundedShare> shares(places.size());
+    HorizonEngine engine(ring, SkyWeight::cosine, far.map(), GetParam().town.silhouettes(), overhangs, {0.0F, rays_per_azimuth});
+    std::vector<SvfInterval> shares(places.size());
     for (std::size_t first = 0; first < places.size(); first += ReceiverPacket::lanes) {
       const std::size_t count = std::min(ReceiverPacket::lanes, places.size() - first);
       ReceiverPacket packet;
@@ -161,12 +161,12 @@ class OverhangScenes : public testing::TestWithParam<Scene> {
 TEST_P(OverhangScenes, HaveTheirKnownSkyViewFactors) {
   std::vector<Point3f> places;
   for (const Known& known : GetParam().known) places.push_back(known.p);
-  const std::vector<BoundedShare> plain = evaluate(places, false), bounded = evaluate(places, true);
+  const std::vector<SvfInterval> plain = evaluate(places, false), bounded = evaluate(places, true);
   const double tolerance = azimuth_rounding + GetParam().extra_error;
   for (std::size_t n = 0; n < places.size(); ++n) {
     const double expected = GetParam().known[n].svf;
-    EXPECT_NEAR(plain[n].likely, expected, tolerance) << n;
-    EXPECT_NEAR(bounded[n].likely, plain[n].likely, summing_error) << n;
+    EXPECT_NEAR(plain[n].estimate, expected, tolerance) << n;
+    EXPECT_NEAR(bounded[n].estimate, plain[n].estimate, summing_error) << n;
     EXPECT_LE(bounded[n].low, expected + tolerance) << n;
     EXPECT_GE(bounded[n].high, expected - tolerance) << n;
   }
@@ -180,7 +180,7 @@ TEST_P(OverhangScenes, AreWhatRaysSee) {
   RandomPlaces random;
   for (int n = 0; n < 64; ++n)
     places.push_back({random.between(0.0, 20.0), random.between(-4.0, 11.5), random.between(0.5, 3.0)});
-  const std::vector<BoundedShare> shares = evaluate(places, true);
+  const std::vector<SvfInterval> shares = evaluate(places, true);
   const Occluder city = GetParam().town.city();
   const std::vector<Point3d> directions = SkyPartition(SkyWeight::cosine, rays).directions();
   const std::vector<std::uint32_t> free = count_free(city, places, directions);
@@ -188,11 +188,11 @@ TEST_P(OverhangScenes, AreWhatRaysSee) {
   int open = 0;
   for (std::size_t n = 0; n < places.size(); ++n) {
     const double truth = static_cast<double>(free[n]) / static_cast<double>(rays);
-    EXPECT_NEAR(shares[n].likely, truth, tolerance) << n;
+    EXPECT_NEAR(shares[n].estimate, truth, tolerance) << n;
     EXPECT_LE(shares[n].low, truth + tolerance) << n;
     EXPECT_GE(shares[n].high, truth - tolerance) << n;
-    EXPECT_LE(shares[n].low, shares[n].likely) << n;
-    EXPECT_LE(shares[n].likely, shares[n].high) << n;
+    EXPECT_LE(shares[n].low, shares[n].estimate) << n;
+    EXPECT_LE(shares[n].estimate, shares[n].high) << n;
     open += shares[n].high > shares[n].low + 0.001F ? 1 : 0;
   }
   EXPECT_GT(open, 5) << "nothing is seen below anything";

@@ -38,7 +38,7 @@ std::size_t judge(const std::vector<HorizonEdge>& edges, const std::vector<Point
   std::size_t raised = 0;
   for (const AzimuthRing& ring : some_rings()) {
     PacketHorizon horizon(ring);
-    horizon.raise(skyline_of(edges), packet_of(eyes));
+    horizon.raise(silhouettes_of(edges), packet_of(eyes));
     for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane)
       for (std::size_t k = 0; k < ring.size(); ++k) {
         const SlopeRange range = judged_horizon(edges, eyes[std::min(lane, eyes.size() - 1)], azimuth(ring, k));
@@ -147,7 +147,7 @@ TEST(PacketHorizon, LookingAlongAnEdgeNothingIsSteeperThanItsNearEndCanBe) {
     const auto end = [&](float s) { return Point3f{eye.x + s * along.x, eye.y + s * along.y, eye.z + rise_m}; };
     const AzimuthRing ring = AzimuthRing::of(std::vector{Point3d{along.x, along.y, 0.0}});
     PacketHorizon horizon(ring);
-    horizon.raise(skyline_of(std::vector<HorizonEdge>{{end(near_m), end(far_m)}}), packet_of(std::vector{eye}));
+    horizon.raise(silhouettes_of(std::vector<HorizonEdge>{{end(near_m), end(far_m)}}), packet_of(std::vector{eye}));
     EXPECT_NE(horizon.below(0, 1.01F * rise_m / near_m), 0U) << n;
     raised += horizon.below(0, 1e-6F) == 0 ? 1 : 0;
   }
@@ -174,12 +174,12 @@ TEST(PacketHorizon, AnEyeInLineWithAnEdgeSeesNothingOfIt) {
 
 TEST(PacketHorizon, RightBelowTheTopOfAWallTheHouseIsHiddenAndNotTheStreet) {
   // Whichever way the edge runs, the house is in the west
-  const EdgeRises house_left{0, EdgeRises::straight_down}, house_right{EdgeRises::straight_down, 0};
+  const AdjacentSlopes house_left{0, AdjacentSlopes::straight_down}, house_right{AdjacentSlopes::straight_down, 0};
   const Point3f south{10.0F, -5.0F, 6.0F}, north{10.0F, 5.0F, 6.0F};
   const AzimuthRing ring = AzimuthRing::even(64, {});
   for (const HorizonEdge& edge : {HorizonEdge{south, north, house_left}, HorizonEdge{north, south, house_right}}) {
     PacketHorizon horizon(ring);
-    horizon.raise(skyline_of(std::vector{edge}), packet_of(std::vector{Point3f{10.0F, 1.0F, 1.5F}}));
+    horizon.raise(silhouettes_of(std::vector{edge}), packet_of(std::vector{Point3f{10.0F, 1.0F, 1.5F}}));
     for (std::size_t k = 0; k < ring.size(); ++k) {
       // As if the eye stood a millimetre in the street: 4.5 m up, that far away
       const float steep = 0.99F * 4.5F / 0.001F * -ring.cosine()[k];
@@ -194,7 +194,7 @@ TEST(PacketHorizon, WhatIsNotAboveTheEyeRaisesNothing) {
   PacketHorizon horizon(ring);
   std::vector<HorizonEdge> edges;
   for (int e = 0; e < 100; ++e) edges.push_back(random.edge(50.0, -40.0, 2.0));
-  horizon.raise(skyline_of(edges), packet_of(eyes_in_a_row({0.0F, 0.0F, 2.0F}, 16)));
+  horizon.raise(silhouettes_of(edges), packet_of(eyes_in_a_row({0.0F, 0.0F, 2.0F}, 16)));
   EXPECT_EQ(horizon.above(PacketHorizon(ring)), 0U);
 }
 
@@ -214,9 +214,9 @@ TEST(PacketHorizon, NeitherTheOrderOfEdgesNorOfTheirEndsMatters) {
   for (int e = 0; e < 30; ++e) edges.push_back(random.edge(60.0, 0.0, 40.0));
   const ReceiverPacket eyes = packet_of(eyes_in_a_row({0.0F, 0.0F, 1.5F}, 16));
   PacketHorizon forwards(ring), backwards(ring);
-  forwards.raise(skyline_of(edges), eyes);
+  forwards.raise(silhouettes_of(edges), eyes);
   std::reverse(edges.begin(), edges.end());
-  backwards.raise(skyline_of(edges), eyes);
+  backwards.raise(silhouettes_of(edges), eyes);
   EXPECT_EQ(forwards.above(backwards) | backwards.above(forwards), 0U);
 }
 
@@ -245,7 +245,7 @@ TEST(PacketHorizon, RaisingNeverLowers) {
   PacketHorizon horizon(ring);
   for (int n = 0; n < 50; ++n) {
     const PacketHorizon before = horizon;
-    horizon.raise(skyline_of(std::vector{random.edge(60.0, 0.0, 30.0)}), eyes);
+    horizon.raise(silhouettes_of(std::vector{random.edge(60.0, 0.0, 30.0)}), eyes);
     EXPECT_EQ(before.above(horizon), 0U);
   }
   EXPECT_NE(horizon.above(PacketHorizon(ring)), 0U);

@@ -13,7 +13,7 @@
 #include "farlod/horizon/horizon_edge.hpp"
 #include "farlod/point.hpp"
 #include "horizon/receiver_packet.hpp"
-#include "horizon/skyline_edges.hpp"
+#include "horizon/silhouette_edges.hpp"
 
 namespace farlod {
 
@@ -42,10 +42,10 @@ class RandomPlaces {
   std::mt19937_64 random_{20120901};
 };
 
-[[nodiscard]] inline SkylineEdges skyline_of(std::span<const HorizonEdge> edges) {
-  SkylineEdges skyline;
-  for (const HorizonEdge& e : edges) skyline.add(e);
-  return skyline;
+[[nodiscard]] inline SilhouetteEdges silhouettes_of(std::span<const HorizonEdge> edges) {
+  SilhouetteEdges silhouettes;
+  for (const HorizonEdge& e : edges) silhouettes.add(e);
+  return silhouettes;
 }
 
 [[nodiscard]] inline ReceiverPacket packet_of(std::span<const Point3f> places, const Point3f& normal = {0.0F, 0.0F, 1.0F}) {

@@ -40,8 +40,8 @@ TEST_P(RayEngineInTown, CountsWhatTheWholeSceneLeavesFree) {
   const PackedOverhangs packed(town_.overhanging());
   OverhangGeometry overhangs = packed.geometry();
   const RayFan fan(SkyPartition(SkyWeight::cosine, ray_count).directions());
-  RayEngine engine(fan, far_.map(), town_.skyline(), overhangs, true),
-      without_bounds(fan, far_.map(), town_.skyline(), overhangs, false);
+  RayEngine engine(fan, far_.map(), town_.silhouettes(), overhangs, true),
+      without_bounds(fan, far_.map(), town_.silhouettes(), overhangs, false);
   std::uint32_t grazing = 0, hidden = 0, through_gaps = 0;
   constexpr int packets = 30;
   for (int n = 0; n < packets; ++n) {
@@ -54,18 +54,18 @@ TEST_P(RayEngineInTown, CountsWhatTheWholeSceneLeavesFree) {
         surely_free += ray.is_free && !ray.grazes ? 1 : 0;
         perhaps_free += ray.is_free || ray.grazes ? 1 : 0;
       }
-      EXPECT_GE(free[l].likely, surely_free) << n << ", receiver " << l;
-      EXPECT_LE(free[l].likely, perhaps_free) << n << ", receiver " << l;
+      EXPECT_GE(free[l].estimate, surely_free) << n << ", receiver " << l;
+      EXPECT_LE(free[l].estimate, perhaps_free) << n << ", receiver " << l;
       // Through a gap something that is not near may still be met
       if (GetParam().overhangs == 0) {
-        EXPECT_EQ(free[l].low, free[l].likely) << "nothing is unnamed";
+        EXPECT_EQ(free[l].low, free[l].estimate) << "nothing is residual";
       }
-      EXPECT_LE(free[l].low, free[l].likely);
-      EXPECT_EQ(plain[l].low, free[l].likely);
-      EXPECT_EQ(plain[l].likely, free[l].likely);
-      EXPECT_EQ(plain[l].high, free[l].likely);
-      through_gaps += free[l].likely - free[l].low;
-      EXPECT_EQ(free[l].high, free[l].likely) << "nothing is unnamed";
+      EXPECT_LE(free[l].low, free[l].estimate);
+      EXPECT_EQ(plain[l].low, free[l].estimate);
+      EXPECT_EQ(plain[l].estimate, free[l].estimate);
+      EXPECT_EQ(plain[l].high, free[l].estimate);
+      through_gaps += free[l].estimate - free[l].low;
+      EXPECT_EQ(free[l].high, free[l].estimate) << "nothing is residual";
       grazing += perhaps_free - surely_free;
       hidden += static_cast<std::uint32_t>(ray_count) - perhaps_free;
     }
@@ -86,7 +86,7 @@ TEST(RayEngine, AnEmptyTownHidesNothing) {
   const PackedOverhangs packed(empty.overhanging());
   OverhangGeometry overhangs = packed.geometry();
   const RayFan fan(SkyPartition(SkyWeight::solid_angle, 145).directions());
-  RayEngine engine(fan, far.map(), empty.skyline(), overhangs, true);
+  RayEngine engine(fan, far.map(), empty.silhouettes(), overhangs, true);
   const std::vector<Receiver> receivers{{0, {3.0F, 3.0F, 1.5F}}, {1, {4.0F, 3.0F, 1.5F}}};
   for (const FreeRays& free : engine.count(receivers)) {
     EXPECT_EQ(free.low, 145U);

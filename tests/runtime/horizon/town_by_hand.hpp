@@ -11,13 +11,13 @@
 #include "farlod/horizon/horizon_edge.hpp"
 #include "farlod/mesh_view.hpp"
 #include "farlod/point.hpp"
-#include "horizon/cell_skyline.hpp"
+#include "horizon/cell_silhouettes.hpp"
 #include "occlusion/occluder.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
 
 namespace farlod {
 
-/// A town of boxes that stand on the ground and of bodies that float: as a skyline, and as triangles for a judge.
+/// A town of boxes that stand on the ground and of bodies that float: as a silhouettes, and as triangles for a judge.
 class TownByHand {
  public:
   using Corners = std::array<Point3f, 3>;
@@ -57,7 +57,7 @@ class TownByHand {
     city_.push_back(t);
     for (std::size_t n = 0; n < 3; ++n) {
       add_edge({t[n], t[(n + 1) % 3], {}, EdgeRole::overhang});
-      add_edge({t[n], t[(n + 1) % 3], {EdgeRises::straight_up, EdgeRises::straight_up}, EdgeRole::underside});
+      add_edge({t[n], t[(n + 1) % 3], {AdjacentSlopes::straight_up, AdjacentSlopes::straight_up}, EdgeRole::underside});
     }
   }
   /// The edges are the caller's business.
@@ -74,13 +74,13 @@ class TownByHand {
   }
   void add_edge(const HorizonEdge& e) {
     edges_.push_back(e);
-    (e.role == EdgeRole::grounded   ? skyline_.grounded
-     : e.role == EdgeRole::overhang ? skyline_.near.upper
-                                    : skyline_.near.lower)
+    (e.role == EdgeRole::grounded   ? silhouettes_.grounded
+     : e.role == EdgeRole::overhang ? silhouettes_.near.overhangs
+                                    : silhouettes_.near.undersides)
         .add(e);
   }
 
-  [[nodiscard]] const CellSkyline& skyline() const { return skyline_; }
+  [[nodiscard]] const CellSilhouettes& silhouettes() const { return silhouettes_; }
   [[nodiscard]] std::vector<HorizonEdge> edges(EdgeRole role) const {
     std::vector<HorizonEdge> result;
     std::copy_if(edges_.begin(), edges_.end(), std::back_inserter(result),
@@ -103,7 +103,7 @@ class TownByHand {
 
  private:
   // Counter-clockwise around a roof or a slab: it goes on level to the left; to the right a wall goes down, or nothing is
-  static constexpr EdgeRises level_and_down{0, EdgeRises::straight_down}, level_and_none{0, EdgeRises::straight_up};
+  static constexpr AdjacentSlopes level_and_down{0, AdjacentSlopes::straight_down}, level_and_none{0, AdjacentSlopes::straight_up};
 
   static std::array<Point3f, 8> corners(Point2d low, Point2d size, double low_m, double high_m) {
     std::array<Point3f, 8> result;
@@ -115,7 +115,7 @@ class TownByHand {
     return result;
   }
 
-  CellSkyline skyline_;
+  CellSilhouettes silhouettes_;
   std::vector<HorizonEdge> edges_;
   std::vector<Corners> city_, overhanging_;
 };

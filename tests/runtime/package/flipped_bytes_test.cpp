@@ -65,13 +65,13 @@ bool tile_is_sound(const TileView& tile, const Bytes& bytes) {
          std::all_of(tile.surface_runs.begin(), tile.surface_runs.end(), surface_exists);
 }
 
-bool far_map_is_sound(const NamedObstacles& named, const std::vector<float>& levels_m, const Bytes& bytes) {
+bool far_map_is_sound(const ExplicitOccluders& named, const std::vector<float>& levels_m, const Bytes& bytes) {
   const auto is_inside = [&](const auto& part) { return lies_within(part, bytes); };
-  if (!is_inside(named.edges) || !is_inside(named.named_edges)) return false;
-  const auto exist = [](const std::span<const NamedObstacle>& list, std::size_t count) {
-    return std::all_of(list.begin(), list.end(), [count](const NamedObstacle& n) { return n.row < count; });
+  if (!is_inside(named.edges) || !is_inside(named.explicit_edges)) return false;
+  const auto exist = [](const std::span<const ExplicitOccluder>& list, std::size_t count) {
+    return std::all_of(list.begin(), list.end(), [count](const ExplicitOccluder& n) { return n.row < count; });
   };
-  return exist(named.named_edges, named.edges.size()) && std::all_of(named.edges.begin(), named.edges.end(), edge_is_sound) &&
+  return exist(named.explicit_edges, named.edges.size()) && std::all_of(named.edges.begin(), named.edges.end(), edge_is_sound) &&
          std::is_sorted(levels_m.begin(), levels_m.end()) && std::isfinite(levels_m.front() + levels_m.back());
 }
 
@@ -80,7 +80,7 @@ bool is_sound(const BlockTiles& tiles, const Bytes& bytes) {
     const Cell cell = SmallPackage::cells_of_two.cell_at(n);
     if (!tile_is_sound(tiles.tile(cell), bytes)) return false;
     if (!tiles.has_far_cells()) continue;
-    if (!far_map_is_sound(tiles.named_obstacles(cell, 20.0), tiles.levels_m(cell, most_layers), bytes)) return false;
+    if (!far_map_is_sound(tiles.explicit_occluders(cell, 20.0), tiles.levels_m(cell, most_layers), bytes)) return false;
   }
   return std::all_of(tiles.buildings().begin(), tiles.buildings().end(), [&](const BuildingRecord& b) {
     const std::string_view id = tiles.id_of(b);

@@ -41,9 +41,9 @@ class OneRow {
     shape_.azimuth_bins = bins;
     shape_.squares_per_edge = shape_.layers = 1;
   }
-  [[nodiscard]] FarHorizon written_and_read(const std::vector<float>& lower, const std::vector<float>& likely,
+  [[nodiscard]] FarHorizon written_and_read(const std::vector<float>& lower, const std::vector<float>& estimate,
                                             const std::vector<float>& upper, const std::vector<float>& overhang) const {
-    write_far_maps(file(), BakedHorizons{{}, {BakedHorizon{patches_, {}, lower, likely, upper, overhang}}}, cells_, shape_);
+    write_far_maps(file(), BakedHorizons{{}, {BakedHorizon{patches_, {}, lower, estimate, upper, overhang}}}, cells_, shape_);
     return read();
   }
   [[nodiscard]] FarHorizon read() const {
@@ -72,19 +72,19 @@ TEST(HorizonFile, BoundsAreRoundedOutwards) {
   const OneRow row(static_cast<std::uint32_t>(slopes.size()));
   const FarHorizon map = row.written_and_read(slopes, slopes, slopes, slopes);
   for (std::size_t n = 0; n < slopes.size(); ++n) {
-    EXPECT_LE(map.lower[n], slopes[n]);
-    EXPECT_GE(map.upper[n], slopes[n]);
-    EXPECT_EQ(map.overhang[n], map.upper[n]);
+    EXPECT_LE(map.low[n], slopes[n]);
+    EXPECT_GE(map.high[n], slopes[n]);
+    EXPECT_EQ(map.overhang[n], map.high[n]);
     // No half lies between the two but the slope itself
-    const half low(map.lower[n]), high(map.upper[n]);
+    const half low(map.low[n]), high(map.high[n]);
     EXPECT_TRUE(low == high ? static_cast<float>(low) == slopes[n] : next(low) == high) << slopes[n];
   }
 }
 
 TEST(HorizonFile, ZeroStaysZero) {
   const FarHorizon map = OneRow(1).written_and_read({0.0F}, {0.0F}, {0.0F}, {0.0F});
-  EXPECT_EQ(map.upper[0], 0.0F);
-  EXPECT_EQ(map.lower[0], 0.0F);
+  EXPECT_EQ(map.high[0], 0.0F);
+  EXPECT_EQ(map.low[0], 0.0F);
   EXPECT_EQ(map.overhang[0], 0.0F) << "a map without overhangs is told by its zeros";
 }
 
@@ -96,12 +96,12 @@ TEST(HorizonFile, PatchesRunDownwardsFromTheFirst) {
   const auto columns = static_cast<int>(map.bins.count), rows = static_cast<int>(map.patches.count());
   ASSERT_EQ(static_cast<int>(file.tileXSize()), columns);
   ASSERT_EQ(static_cast<int>(file.tileYSize()), rows);
-  std::vector<float> upper(map.upper.size());
+  std::vector<float> upper(map.high.size());
   Imf::FrameBuffer frame;
-  frame.insert("upper", Imf::Slice::Make(Imf::FLOAT, upper.data(), Imath::V2i(columns, 0), columns, rows));
+  frame.insert("high", Imf::Slice::Make(Imf::FLOAT, upper.data(), Imath::V2i(columns, 0), columns, rows));
   file.setFrameBuffer(frame);
   file.readTile(1, 0);
-  EXPECT_EQ(upper, map.upper);
+  EXPECT_EQ(upper, map.high);
 }
 
 /// A file of three tiles in a row: 0, long runs, and next to no runs.
@@ -123,7 +123,7 @@ class ThreeTiles {
     header.compression() = compression;
     header.setTileDescription(Imf::TileDescription(columns, rows, Imf::ONE_LEVEL));
     Imf::FrameBuffer frame;
-    for (const auto& [name, pixels] : {std::pair{"Y", &noise_}, {"lower", &zeros_}, {"overhang", &noise_}, {"upper", &noise_}}) {
+    for (const auto& [name, pixels] : {std::pair{"Y", &noise_}, {"low", &zeros_}, {"overhang", &noise_}, {"high", &noise_}}) {
       header.channels().insert(name, Imf::Channel(Imf::HALF));
       frame.insert(name, Imf::Slice::Make(Imf::HALF, pixels->data(), header.dataWindow()));
     }
@@ -161,10 +161,10 @@ TEST(HorizonFile, AnyCompressionThatLosesNothing) {
     const FarMapReader reader = file.reader();
     for (std::int32_t tile = 0; tile < 3; ++tile) {
       const FarHorizon map = ThreeTiles::read(reader, tile);
-      EXPECT_EQ(map.likely, file.written(tile)) << "compression " << compression << ", tile " << tile;
-      EXPECT_EQ(map.upper, map.likely);
-      EXPECT_EQ(map.overhang, map.likely);
-      EXPECT_EQ(map.lower, std::vector<float>(map.upper.size()));
+      EXPECT_EQ(map.estimate, file.written(tile)) << "compression " << compression << ", tile " << tile;
+      EXPECT_EQ(map.high, map.estimate);
+      EXPECT_EQ(map.overhang, map.estimate);
+      EXPECT_EQ(map.low, std::vector<float>(map.high.size()));
     }
   }
 }
@@ -177,7 +177,7 @@ TEST(HorizonFile, ManyThreadsReadOneFile) {
   std::atomic<int> alike = 0;
   for (std::thread& thread : threads)
     thread = std::thread([&] {
-      for (std::int32_t n = 0; n < 300; ++n) alike += ThreeTiles::read(reader, n % 3).likely == file.written(n % 3) ? 1 : 0;
+      for (std::int32_t n = 0; n < 300; ++n) alike += ThreeTiles::read(reader, n % 3).estimate == file.written(n % 3) ? 1 : 0;
     });
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(alike, 1200);
@@ -200,22 +200,22 @@ TEST(HorizonFile, DamagedTilesAreToldAndNothingIsPrinted) {
 
 TEST(HorizonFile, BoundsOutOfOrder) {
   const struct {
-    float lower, likely, upper, overhang = 0.0F;
+    float lower, estimate, upper, overhang = 0.0F;
   } rows[] = {{2.0F, 1.0F, 1.0F},         {-0.5F, 0.0F, 1.0F},        {0.0F, -0.5F, 1.0F},
               {not_a_number, 0.0F, 1.0F}, {0.0F, not_a_number, 1.0F}, {-1.0F, 0.0F, 1.0F},
               {0.0F, 0.0F, not_a_number}, {0.0F, 0.0F, 1.0F, -0.5F},  {0.0F, 0.0F, 1.0F, not_a_number}};
   const OneRow row(2);
-  for (const auto& [lower, likely, upper, overhang] : rows) {
-    const auto read = [&, lo = lower, li = likely, up = upper, over = overhang] {
+  for (const auto& [lower, estimate, upper, overhang] : rows) {
+    const auto read = [&, lo = lower, li = estimate, up = upper, over = overhang] {
       (void)row.written_and_read({0.0F, lo}, {0.0F, li}, {1.0F, up}, {0.0F, over});
     };
-    EXPECT_THAT(damage_met_by(read), HasSubstr("its bounds are not in order")) << lower << ", " << likely << ", " << upper;
+    EXPECT_THAT(damage_met_by(read), HasSubstr("its bounds are not in order")) << lower << ", " << estimate << ", " << upper;
   }
 }
 
 TEST(HorizonFile, WhatIsLikelyMayLieOutsideOfTheBounds) {
   // Viewpoints are samples: who reads puts them between the bounds
-  EXPECT_EQ(OneRow(1).written_and_read({0.5F}, {0.25F}, {1.0F}, {0.0F}).likely[0], 0.25F);
+  EXPECT_EQ(OneRow(1).written_and_read({0.5F}, {0.25F}, {1.0F}, {0.0F}).estimate[0], 0.25F);
 }
 
 TEST(HorizonFile, OverhangsMayRiseAboveAllThatHides) {
@@ -239,10 +239,10 @@ void write_picture(const std::string& path, int columns, const std::vector<std::
 
 TEST(HorizonFile, MissingChannels) {
   const OneRow row(4);
-  for (const std::vector<std::string>& some : {std::vector<std::string>{"lower", "upper", "overhang"},
-                                               {"Y", "upper", "overhang"},
-                                               {"Y", "lower", "overhang"},
-                                               {"Y", "lower", "upper"},
+  for (const std::vector<std::string>& some : {std::vector<std::string>{"low", "high", "overhang"},
+                                               {"Y", "high", "overhang"},
+                                               {"Y", "low", "overhang"},
+                                               {"Y", "low", "high"},
                                                {"Y", "Z"}}) {
     write_picture(row.file(), 4, some);
     EXPECT_THAT(damage_met_by([&] { (void)row.read(); }), HasSubstr("it has no slopes"));
@@ -253,8 +253,8 @@ TEST(HorizonFile, UnknownChannelsAreSkipped) {
   const OneRow row(4);
   // Before, among and after the known ones, and of each type
   const std::pair<const char*, Imf::PixelType> channels[] = {{"A", Imf::FLOAT},    {"Y", Imf::HALF},      {"Z", Imf::UINT},
-                                                             {"lower", Imf::HALF}, {"middle", Imf::HALF}, {"overhang", Imf::HALF},
-                                                             {"upper", Imf::HALF}, {"vague", Imf::UINT}};
+                                                             {"low", Imf::HALF}, {"middle", Imf::HALF}, {"overhang", Imf::HALF},
+                                                             {"high", Imf::HALF}, {"vague", Imf::UINT}};
   Imf::Header header(4, 1);
   Imf::FrameBuffer frame;
   std::array<std::uint32_t, 4> ones{0x3C003C00, 0x3C003C00, 0x3C003C00, 0x3C003C00};  // halfs of 1, in pairs
@@ -269,7 +269,7 @@ TEST(HorizonFile, UnknownChannelsAreSkipped) {
     file.writeTile(0, 0);
   }
   const FarHorizon map = row.read();
-  for (const auto* slopes : {&map.lower, &map.likely, &map.upper, &map.overhang}) EXPECT_EQ(*slopes, std::vector<float>(4, 1.0F));
+  for (const auto* slopes : {&map.low, &map.estimate, &map.high, &map.overhang}) EXPECT_EQ(*slopes, std::vector<float>(4, 1.0F));
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST_P(RoundTrip, EdgesAreTheSame) {
     view.visit_edges([&](const HorizonEdge& e) { read.push_back(e); });
     EXPECT_EQ(scenes::edges_as_set(read), scenes::edges_as_set(before.tiles[n].horizon_edges));
     for (const HorizonEdge& e : read) ++edges.at(static_cast<std::size_t>(e.role));
-    for (const HorizonEdge& e : read) level += e.rises.left == 0 || e.rises.right == 0 ? 1U : 0U;
+    for (const HorizonEdge& e : read) level += e.adjacent.left == 0 || e.adjacent.right == 0 ? 1U : 0U;
   }
   EXPECT_GT(edges[static_cast<std::size_t>(EdgeRole::grounded)], 50U) << "the scene tests nothing";
   for (const EdgeRole role : {EdgeRole::overhang, EdgeRole::underside})
@@ -137,7 +137,7 @@ TEST_P(RoundTrip, SurfacesAndBuildingsAreTheSame) {
       EXPECT_EQ(record.grounded, surface.grounded ? 1 : 0);
       grounded += record.grounded;
       overhanging += 1U - record.grounded;
-      EXPECT_EQ(record.normal(), package::StoredDirection::nearest_to(surface.normal));
+      EXPECT_EQ(record.normal(), package::OctNormal::nearest_to(surface.normal));
       if (record.building == package::no_building) continue;
       EXPECT_EQ(block.id_of(view.buildings[record.building]), before.building_ids[surface.building]);
     }
@@ -173,8 +173,8 @@ TEST_P(RoundTrip, BoxMapsAreTheSameToHalfPrecision) {
 }
 
 /// What names are worth: rows may be numbered anew, edges stay.
-void expect_same_names(std::span<const package::NamedObstacle> a, std::span<const HorizonEdge> of_a,
-                       std::span<const package::NamedObstacle> b, std::span<const HorizonEdge> of_b) {
+void expect_same_names(std::span<const package::ExplicitOccluder> a, std::span<const HorizonEdge> of_a,
+                       std::span<const package::ExplicitOccluder> b, std::span<const HorizonEdge> of_b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t n = 0; n < a.size(); ++n) {
     EXPECT_EQ(of_a[a[n].row], of_b[b[n].row]);
@@ -194,10 +194,10 @@ TEST_P(RoundTrip, WhatHorizonsNameIsTheSame) {
       const FarHorizon map = package.far_horizon(cells.cell_at(n));
       EXPECT_EQ(map.patches.levels_m(), maps.cells[n].patches.levels_m());
       EXPECT_EQ(map.patches.squares_per_edge(), maps.cells[n].patches.squares_per_edge());
-      expect_same_names(map.named.named_edges, map.named.edges, maps.cells[n].named_edges, maps.edges);
-      EXPECT_EQ(map.named.cell_from_block_m, grid_.corner_of(cells.cell_at(0)) - grid_.corner_of(cells.cell_at(n)));
-      for (const package::NamedObstacle& named : map.named.named_edges)
-        ++edges.at(static_cast<std::size_t>(map.named.edges[named.row].role));
+      expect_same_names(map.occluders.explicit_edges, map.occluders.edges, maps.cells[n].explicit_edges, maps.edges);
+      EXPECT_EQ(map.occluders.cell_from_block_m, grid_.corner_of(cells.cell_at(0)) - grid_.corner_of(cells.cell_at(n)));
+      for (const package::ExplicitOccluder& occluder : map.occluders.explicit_edges)
+        ++edges.at(static_cast<std::size_t>(map.occluders.edges[occluder.row].role));
     }
   }
   EXPECT_GT(edges[static_cast<std::size_t>(EdgeRole::grounded)], 100U) << "the scene tests nothing";
@@ -215,17 +215,17 @@ TEST_P(RoundTrip, SlopesAreRoundedOutwardsToHalfPrecision) {
     for (std::size_t n = 0; n < maps.cells.size(); ++n) {
       const FarHorizon read = package.far_horizon(grid_.cells_of(block).cell_at(n));
       const BakedHorizon& written = maps.cells[n];
-      ASSERT_EQ(read.upper.size(), written.upper.size());
-      for (std::size_t k = 0; k < written.upper.size(); ++k) {
-        EXPECT_LE(read.lower[k], written.lower[k]);
-        EXPECT_GE(read.upper[k], written.upper[k]);
+      ASSERT_EQ(read.high.size(), written.high.size());
+      for (std::size_t k = 0; k < written.high.size(); ++k) {
+        EXPECT_LE(read.low[k], written.low[k]);
+        EXPECT_GE(read.high[k], written.high[k]);
         EXPECT_GE(read.overhang[k], written.overhang[k]);
         // Outwards, by one of the last digits of a half at the most
-        EXPECT_NEAR(read.lower[k], written.lower[k], 4 * half_precision * written.lower[k] + smallest_half);
-        EXPECT_NEAR(read.upper[k], written.upper[k], 4 * half_precision * written.upper[k] + smallest_half);
+        EXPECT_NEAR(read.low[k], written.low[k], 4 * half_precision * written.low[k] + smallest_half);
+        EXPECT_NEAR(read.high[k], written.high[k], 4 * half_precision * written.high[k] + smallest_half);
         EXPECT_NEAR(read.overhang[k], written.overhang[k], 4 * half_precision * written.overhang[k] + smallest_half);
-        EXPECT_NEAR(read.likely[k], written.likely[k], 2 * half_precision * written.likely[k] + smallest_half);
-        uncertain += written.upper[k] > written.lower[k] ? 1U : 0U;
+        EXPECT_NEAR(read.estimate[k], written.estimate[k], 2 * half_precision * written.estimate[k] + smallest_half);
+        uncertain += written.high[k] > written.low[k] ? 1U : 0U;
         overhung += written.overhang[k] > 0.0F ? 1U : 0U;
       }
     }

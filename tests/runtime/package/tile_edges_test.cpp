@@ -134,13 +134,13 @@ TEST(TileEdges, SideOfAMissingTriangleInAnyRole) {
 
 TEST(TileEdges, RisesBeyondARightAngle) {
   constexpr std::int8_t beyond = -128;
-  for (auto direction : {&EdgeRises::left, &EdgeRises::right}) {
-    EXPECT_THAT(damage_after([=](TilesBytes& f) { side(f, 1).rises.*direction = beyond; }), HasSubstr("beyond a right angle"));
-    EXPECT_THAT(damage_after([=](TilesBytes& f) { loose(f, 1).rises.*direction = beyond; }), HasSubstr("beyond a right angle"));
+  for (auto direction : {&AdjacentSlopes::left, &AdjacentSlopes::right}) {
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { side(f, 1).adjacent.*direction = beyond; }), HasSubstr("beyond a right angle"));
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { loose(f, 1).adjacent.*direction = beyond; }), HasSubstr("beyond a right angle"));
     for (const std::int8_t right : {std::int8_t{-127}, std::int8_t{127}})
       EXPECT_EQ(damage_after([=](TilesBytes& f) {
-                  side(f, 1).rises.*direction = right;
-                  loose(f, 1).rises.*direction = right;
+                  side(f, 1).adjacent.*direction = right;
+                  loose(f, 1).adjacent.*direction = right;
                 }),
                 "no damage");
   }

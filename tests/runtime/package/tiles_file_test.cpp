@@ -31,7 +31,7 @@ BlockTiles open(TilesBytes& file) { return {file.bytes(), SmallPackage::cells_of
 constexpr std::array<SectionKind, section_count> all_kinds{
     SectionKind::cells,     SectionKind::vertices,    SectionKind::triangles,  SectionKind::surface_runs,
     SectionKind::surfaces,  SectionKind::buildings,   SectionKind::text,       SectionKind::far_cells,
-    SectionKind::far_edges, SectionKind::named_edges, SectionKind::tile_edges, SectionKind::loose_edges};
+    SectionKind::far_edges, SectionKind::explicit_edges, SectionKind::tile_edges, SectionKind::loose_edges};
 
 std::string damage_of(TilesBytes& file) {
   return damage_met_by([&] { (void)open(file); });
@@ -217,11 +217,11 @@ TEST(Package, RunsOfTrianglesOutOfOrder) {
 
 TEST(Package, RisesBesideFarEdgesBeyondARightAngle) {
   constexpr std::int8_t beyond = -128;
-  for (auto side : {&EdgeRises::left, &EdgeRises::right}) {
-    EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<HorizonEdge>(SectionKind::far_edges, 0).rises.*side = beyond; }),
+  for (auto side : {&AdjacentSlopes::left, &AdjacentSlopes::right}) {
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<HorizonEdge>(SectionKind::far_edges, 0).adjacent.*side = beyond; }),
                 HasSubstr("beyond a right angle"));
     for (const std::int8_t right : {std::int8_t{-127}, std::int8_t{127}})
-      EXPECT_EQ(damage_after([=](TilesBytes& f) { f.element<HorizonEdge>(SectionKind::far_edges, 0).rises.*side = right; }),
+      EXPECT_EQ(damage_after([=](TilesBytes& f) { f.element<HorizonEdge>(SectionKind::far_edges, 0).adjacent.*side = right; }),
                 "no damage");
   }
 }
@@ -294,7 +294,7 @@ TEST(Package, NotEveryCellHasAFarMap) {
               HasSubstr("not every cell has a far map"));
   // None at all is the other kind
   TilesBytes file = whole_file();
-  for (const SectionKind kind : {SectionKind::far_cells, SectionKind::far_edges, SectionKind::named_edges})
+  for (const SectionKind kind : {SectionKind::far_cells, SectionKind::far_edges, SectionKind::explicit_edges})
     file.section(kind).count = 0;
   EXPECT_EQ(damage_of(file), "no damage");
   EXPECT_FALSE(open(file).has_far_cells());
@@ -303,8 +303,8 @@ TEST(Package, NotEveryCellHasAFarMap) {
 TEST(Package, FarMapReachesBeyondItsSections) {
   const auto cell = [](TilesBytes& f) -> FarCellRecord& { return f.element<FarCellRecord>(SectionKind::far_cells, 1); };
   for (const std::uint64_t first : {std::uint64_t{1} << 33, ~std::uint64_t{0}})
-    EXPECT_THAT(damage_after([=](TilesBytes& f) { cell(f).first_named_edge = first; }), HasSubstr("edges reach beyond"));
-  EXPECT_THAT(damage_after([=](TilesBytes& f) { ++cell(f).named_edge_count; }), HasSubstr("edges reach beyond"));
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { cell(f).first_explicit_edge = first; }), HasSubstr("edges reach beyond"));
+  EXPECT_THAT(damage_after([=](TilesBytes& f) { ++cell(f).explicit_edge_count; }), HasSubstr("edges reach beyond"));
 }
 
 TEST(Package, FarMapNamesWhatDoesNotExist) {
@@ -312,7 +312,7 @@ TEST(Package, FarMapNamesWhatDoesNotExist) {
   const auto edges = static_cast<std::uint32_t>(whole.section(SectionKind::far_edges).count);
   ASSERT_GT(edges, 0U);
   for (const std::uint32_t beyond : {0U, 7U})
-    EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<NamedObstacle>(SectionKind::named_edges, 0).row = edges + beyond; }),
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<ExplicitOccluder>(SectionKind::explicit_edges, 0).row = edges + beyond; }),
                 HasSubstr("names an edge that does not exist"));
 }
 
@@ -335,8 +335,8 @@ TEST(Package, ReservedFieldsAndUnknownFlagsAreSkipped) {
               f.section(SectionKind::cells).reserved = 1;
               f.element<CellRecord>(SectionKind::cells, 0).flags = 0xFFFFFFFF;
               f.element<FarCellRecord>(SectionKind::far_cells, 1).reserved = 1;
-              f.element<NamedObstacle>(SectionKind::named_edges, 0).squares = 0xFFFF;
-              f.element<NamedObstacle>(SectionKind::named_edges, 0).layers = 0xFFFF;
+              f.element<ExplicitOccluder>(SectionKind::explicit_edges, 0).squares = 0xFFFF;
+              f.element<ExplicitOccluder>(SectionKind::explicit_edges, 0).layers = 0xFFFF;
             }),
             "no damage");
 }

@@ -56,7 +56,7 @@ class RasterOfATown : public testing::TestWithParam<double> {
 
   /// Every pixel in turn, without patches and ranges.
   std::map<std::size_t, Point3f> one_by_one(const RasterPlan& plan, HeightAbove above, float height_m) const {
-    std::map<Cell, CellColumns> columns;
+    std::map<Cell, PointLocator> columns;
     std::map<std::size_t, Point3f> result;
     for (std::size_t n = 0; n < plan.columns * plan.rows; ++n) {
       const Point2d p_grid = manifest_.grid_from_projected(plan.centre_m(n % plan.columns, n / plan.columns));

@@ -49,7 +49,7 @@ TEST(PlanIndex, UprightTrianglesCoverNothing) {
 }
 
 /// (1): whatever the slope of an edge, a place next to it is on one side of it or on the other.
-TEST(PlanIndex, NoPlaceFallsBetweenNeighbours) {
+TEST(PlanIndex, NoPlaceFallsBetweenNeighbors) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> coordinate(0.0F, 50.0F), share(0.0F, 1.0F);
   for (int n = 0; n < 2000; ++n) {

@@ -58,7 +58,7 @@ TEST_F(Pillars, TheWholeCityHoldsEachTileInItsPlace) {
   }
 }
 
-TEST_F(Pillars, TheNearSceneHoldsTheNeighbourhoodAndNothingElse) {
+TEST_F(Pillars, TheNearSceneHoldsTheNeighborhoodAndNothingElse) {
   for (const Cell cell : {Cell{0, 2}, {-3, 0}, {3, 4}}) {
     const Occluder near = near_scene(package_, cell);
     for (std::size_t n = 0; n < static_cast<std::size_t>(grid_.cells.size()); ++n) {

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "city/source.hpp"
+#include "farlod/problem.hpp"
+#include "georeference/crs.hpp"
+#include "georeference/file_axes.hpp"
+#include "georeference/input_crs.hpp"
+
+namespace farlod {
+
+/// A file whose x is the easting or longitude, and whose heights are in metres.
+struct ResolvedSource {
+  SourceCity source;
+  Crs crs;
+  Point2d typical;  ///< a place of it
+  FileAxes axes;    ///< how the file counts
+};
+
+/// Settles buildings and relief of a source that has either. Reports what is said of its CRS (two_crs, crs_unknown), and
+/// what is odd about its coordinates (axes_swapped, zone_in_easting, unlikely_place), each once for the whole file.
+/// Throws InputError when degrees stand where metres should, or the other way round.
+[[nodiscard]] ResolvedSource resolve(SourceCity source, const InputCrs& input, Report& report);
+
+}  // namespace farlod

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "horizon/cell_silhouettes.hpp"
+
+#include <algorithm>
+
+#include "farlod/expects.hpp"
+
+namespace farlod {
+namespace {
+
+/// Offsets are added in double and rounded once, as for a scene of triangles.
+Point3f moved(const Point3f& p, Point2d shift_m) {
+  return {static_cast<float>(p.x + shift_m.x), static_cast<float>(p.y + shift_m.y), p.z};
+}
+
+void add(const HorizonEdge& edge, Point2d shift_m, CellSilhouettes& silhouettes, OverhangEdges& overhangs) {
+  const HorizonEdge placed{moved(edge.a, shift_m), moved(edge.b, shift_m), edge.adjacent, edge.role};
+  switch (edge.role) {
+    case EdgeRole::grounded:
+      return silhouettes.grounded.add(placed);
+    case EdgeRole::overhang:
+      return overhangs.overhangs.add(placed);
+    case EdgeRole::underside:
+      return overhangs.undersides.add(placed);
+  }
+}
+
+void keep_facing(OverhangEdges& edges, const ReceiverBox& box) {
+  edges.overhangs = edges.overhangs.facing(box);
+  edges.undersides = edges.undersides.facing(box);
+}
+
+}  // namespace
+
+CellSilhouettes cell_silhouettes(const Package& package, Cell cell, const FarHorizon& far, const ReceiverBox& box) {
+  CellSilhouettes silhouettes;
+  const Grid& grid = package.grid();
+  // The most part of what is seen is far
+  silhouettes.grounded.reserve(2 * far.occluders.explicit_edges.size());
+  const CellRange near = grid.neighborhood_of(cell).intersection(grid.cells);
+  for (std::size_t n = 0; n < static_cast<std::size_t>(near.size()); ++n) {
+    const Cell neighbor = near.cell_at(n);
+    const Point2d shift_m = grid.corner_of(neighbor) - grid.corner_of(cell);
+    package.tile(neighbor).visit_edges([&](const HorizonEdge& e) { add(e, shift_m, silhouettes, silhouettes.near); });
+  }
+  const std::uint32_t layers = far.layers_met_from(box.low.z, box.high.z);
+  for (const package::ExplicitOccluder& n : far.occluders.explicit_edges)
+    if ((n.layers & layers) != 0) add(far.occluders.edges[n.row], far.occluders.cell_from_block_m, silhouettes, silhouettes.far);
+  silhouettes.grounded = silhouettes.grounded.facing(box);
+  keep_facing(silhouettes.near, box);
+  keep_facing(silhouettes.far, box);
+  return silhouettes;
+}
+
+ReceiverBox bounding_box(std::span<const Receiver> receivers) {
+  FARLOD_EXPECTS(!receivers.empty());
+  ReceiverBox box{receivers[0].p_cell, receivers[0].p_cell};
+  for (const Receiver& r : receivers) {
+    const Point3f& p = r.p_cell;
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+  }
+  return box;
+}
+
+}  // namespace farlod

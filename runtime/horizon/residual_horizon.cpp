@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "horizon/residual_horizon.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <span>
+#include <tuple>
+
+namespace farlod {
+namespace {
+
+/// Calls `raise(patch, caps)` for each patch that receivers stand in (`patch_of(lane)`), with the caps of a PacketHorizon that
+/// raise those alone.
+template <class PatchOf, class Raise>
+void for_each_patch(const PatchOf& patch_of, const Raise& raise) {
+  std::array<std::optional<std::uint32_t>, ReceiverPacket::lanes> patches;
+  for (std::size_t l = 0; l < patches.size(); ++l) patches[l] = patch_of(l);
+  for (std::size_t first = 0; first < patches.size(); ++first) {
+    const auto patch = patches[first];
+    const auto before = std::span(patches).first(first);
+    if (std::find(before.begin(), before.end(), patch) != before.end()) continue;
+    PacketHorizon::Lanes caps;
+    for (std::size_t l = 0; l < patches.size(); ++l)
+      caps[l] = patches[l] == patch ? std::numeric_limits<float>::infinity() : 0.0F;
+    raise(patch, caps);
+  }
+}
+
+}  // namespace
+
+ResidualHorizon::ResidualHorizon(const FarHorizon& map, const AzimuthRing& ring)
+    : map_(map),
+      is_grounded_(std::all_of(map.overhang.begin(), map.overhang.end(), [](float slope) { return slope == 0.0F; })),
+      level_(map.bins.count, 0.0F),
+      infinite_(map.bins.count, std::numeric_limits<float>::infinity()) {
+  for (std::size_t k = 0; k < ring.size(); ++k) bin_of_azimuth_.push_back(map.bins.bin_of({ring.cosine()[k], ring.sine()[k]}));
+}
+
+ResidualHorizon::Patch ResidualHorizon::patch_of(const ReceiverPacket& r, std::size_t lane) const {
+  return map_.patches.patch_of({r.x[lane], r.y[lane], r.z[lane]});
+}
+
+ResidualHorizon::Patch ResidualHorizon::patch_or_lowest(const ReceiverPacket& r, std::size_t lane) const {
+  return map_.patches.patch_of({r.x[lane], r.y[lane], std::max(r.z[lane], map_.patches.levels_m().front())});
+}
+
+void ResidualHorizon::raise_to_low(const ReceiverPacket& r, PacketHorizon& horizon) const {
+  for_each_patch([&](std::size_t lane) { return patch_of(r, lane); },
+                 [&](Patch patch, const PacketHorizon::Lanes& caps) { horizon.raise(low_row(patch), caps, bin_of_azimuth_); });
+}
+
+void ResidualHorizon::raise_to_high(const ReceiverPacket& r, PacketHorizon& horizon) const {
+  for_each_patch([&](std::size_t lane) { return patch_of(r, lane); },
+                 [&](Patch patch, const PacketHorizon::Lanes& caps) { horizon.raise(high_row(patch), caps, bin_of_azimuth_); });
+}
+
+void ResidualHorizon::raise_to_overhang(const ReceiverPacket& r, PacketHorizon& horizon) const {
+  if (is_grounded_) return;
+  for_each_patch(
+      [&](std::size_t lane) { return patch_of(r, lane); },
+      [&](Patch patch, const PacketHorizon::Lanes& caps) { horizon.raise(overhang_row(patch), caps, bin_of_azimuth_); });
+}
+
+void ResidualHorizon::raise_to_estimate(const ReceiverPacket& r, PacketHorizon& horizon) const {
+  const auto raise = [&](Patch patch, const PacketHorizon::Lanes& caps) {
+    PacketHorizon::RowsBetween rows{map_.row(map_.estimate, *patch), {}, low_row(patch), high_row(patch), {}, caps};
+    std::uint32_t above = *patch;
+    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) std::tie(above, rows.shares[l]) = map_.floor_above(*patch, r.z[l]);
+    rows.above = map_.row(map_.estimate, above);
+    horizon.raise(rows, bin_of_azimuth_);
+  };
+  for_each_patch([&](std::size_t lane) { return patch_or_lowest(r, lane); }, raise);
+}
+
+}  // namespace farlod

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "horizon/silhouette_edges.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "horizon/facing_edges.hpp"
+
+namespace farlod {
+namespace {
+
+/// Sorting by distance need not be fine to be worth it: steps, 32 from each distance to its double, from 0.25 m to 130 km.
+constexpr std::uint32_t step_bits = 18, step_count = 19 * 32, nearest_step = std::bit_cast<std::uint32_t>(0.25F) >> step_bits;
+
+std::size_t step_of(float distance_m) {
+  const std::uint32_t step = std::bit_cast<std::uint32_t>(distance_m) >> step_bits;
+  return std::min(std::max(step, nearest_step) - nearest_step, step_count - 1);
+}
+
+/// The numbers of the distances that are not less than 0, from near to far, step by step; in a step, as they come.
+std::vector<std::uint32_t> from_near_to_far(std::span<const float> distances_m) {
+  std::vector<std::uint32_t> place_of_step(step_count + 1);
+  for (const float d : distances_m)
+    if (d >= 0.0F) ++place_of_step[step_of(d) + 1];
+  for (std::size_t step = 0; step < step_count; ++step) place_of_step[step + 1] += place_of_step[step];
+  std::vector<std::uint32_t> order(place_of_step.back());
+  for (std::size_t n = 0; n < distances_m.size(); ++n)
+    if (distances_m[n] >= 0.0F) order[place_of_step[step_of(distances_m[n])]++] = static_cast<std::uint32_t>(n);
+  return order;
+}
+
+}  // namespace
+
+SilhouetteEdges SilhouetteEdges::facing(const ReceiverBox& box) const {
+  std::vector<float> distances_m(batches_.size() * lanes);
+  find_facing(batches_, role_, box, distances_m);
+  const std::vector<std::uint32_t> order = from_near_to_far(std::span(distances_m).first(size()));
+  SilhouetteEdges result(role_);
+  result.batches_.resize((order.size() + lanes - 1) / lanes);
+  result.adjacent_.resize(order.size());
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    result.batches_[n / lanes].copy_lane(n % lanes, batches_[order[n] / lanes], order[n] % lanes);
+    result.adjacent_[n] = adjacent_[order[n]];
+  }
+  return result;
+}
+
+}  // namespace farlod

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "farlod/horizon/horizon_edge.hpp"
+
+namespace farlod {
+
+/// A box that holds some receivers, cell frame.
+struct ReceiverBox {
+  Point3f low, high;
+};
+
+/// Edges of one role that can be a silhouette, in batches that are computed at once, coordinate by coordinate. Cell frame.
+class SilhouetteEdges {
+ public:
+  static constexpr std::size_t lanes = 16;
+  /// Lanes without an edge hold nothing that is seen: both ends are one point.
+  struct Batch {
+    using Lanes = std::array<float, lanes>;
+    alignas(64) Lanes ax{}, ay{}, az{}, bx{}, by{}, bz{};
+    Lanes left{}, right{};  ///< slopes of the facets beside: AdjacentSlopes::slope
+
+    void copy_lane(std::size_t lane, const Batch& from, std::size_t of) {
+      for (const auto member :
+           {&Batch::ax, &Batch::ay, &Batch::az, &Batch::bx, &Batch::by, &Batch::bz, &Batch::left, &Batch::right})
+        (this->*member)[lane] = (from.*member)[of];
+    }
+  };
+
+  explicit SilhouetteEdges(EdgeRole role = EdgeRole::grounded) : role_(role) {}
+
+  [[nodiscard]] EdgeRole role() const { return role_; }
+  [[nodiscard]] std::size_t size() const { return adjacent_.size(); }
+  [[nodiscard]] bool empty() const { return size() == 0; }
+  /// Makes room for so many.
+  void reserve(std::size_t count) {
+    batches_.reserve((count + lanes - 1) / lanes);
+    adjacent_.reserve(count);
+  }
+  /// Turns an edge round if need be: if only one side is a wall, that is to the right of the way from a to b. Its role must be
+  /// that of all.
+  void add(const HorizonEdge& e) {
+    const bool turns = (e.adjacent.left == AdjacentSlopes::straight_down) & (e.adjacent.right != AdjacentSlopes::straight_down);
+    const std::size_t lane = size() % lanes;
+    if (lane == 0) batches_.emplace_back();
+    // Both ends by their number: a branch would be guessed wrong for every other edge
+    const std::size_t a = turns ? 1 : 0, b = 1 - a;
+    const std::array x{e.a.x, e.b.x}, y{e.a.y, e.b.y}, z{e.a.z, e.b.z};
+    const std::array sides{e.adjacent.left, e.adjacent.right};
+    put(lane, {{x[a], y[a], z[a]}, {x[b], y[b], z[b]}, {sides[a], sides[b]}, role_}, batches_.back());
+    adjacent_.push_back({sides[a], sides[b]});
+  }
+  [[nodiscard]] HorizonEdge at(std::size_t n) const {
+    const Batch& batch = batches_[n / lanes];
+    const std::size_t lane = n % lanes;
+    return {{batch.ax[lane], batch.ay[lane], batch.az[lane]}, {batch.bx[lane], batch.by[lane], batch.bz[lane]}, adjacent_[n], role_};
+  }
+  [[nodiscard]] std::span<const Batch> batches() const { return batches_; }
+  /// Those that can be a silhouette for receivers in a box, from near to far as seen from its middle, in steps of 3 %.
+  [[nodiscard]] SilhouetteEdges facing(const ReceiverBox& box) const;
+
+ private:
+  static void put(std::size_t lane, const HorizonEdge& e, Batch& batch) {
+    batch.ax[lane] = e.a.x;
+    batch.ay[lane] = e.a.y;
+    batch.az[lane] = e.a.z;
+    batch.bx[lane] = e.b.x;
+    batch.by[lane] = e.b.y;
+    batch.bz[lane] = e.b.z;
+    batch.left[lane] = static_cast<float>(AdjacentSlopes::slope(e.adjacent.left));
+    batch.right[lane] = static_cast<float>(AdjacentSlopes::slope(e.adjacent.right));
+  }
+
+  EdgeRole role_;
+  std::vector<Batch> batches_;
+  std::vector<AdjacentSlopes> adjacent_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "farlod/grid.hpp"
+#include "farlod/package/layout.hpp"
+#include "package/package.hpp"
+#include "scene/plan_index.hpp"
+
+namespace farlod {
+
+/// Everything above and below one place, from low to high. Heights are those on disk.
+class VerticalProfile {
+ public:
+  struct Crossing {
+    float height_m;
+    std::uint32_t building;  ///< number within the city; package::no_building for the ground
+    std::uint16_t part;      ///< closed part of the building
+    bool looks_up;           ///< its outward normal does
+  };
+  explicit VerticalProfile(std::vector<Crossing> crossings) : crossings_(std::move(crossings)) {}
+
+  /// The highest ground; none outside of the ground that the package holds.
+  [[nodiscard]] std::optional<float> ground_m() const;
+  /// The highest of all: a roof, a bridge, or the ground.
+  [[nodiscard]] std::optional<float> highest_m() const;
+  /// Whether a point at this height is within a part of a building: above it, more of the part's surfaces look up than
+  /// down. Under a bridge or an arcade they are equally many; a part without a roof encloses nothing. (Odd and even would be
+  /// fooled by a main roof that runs on under a rooftop structure.)
+  [[nodiscard]] bool is_inside_building(float height_m) const;
+  /// Whether a point at this height has no answer: it is within a building, below the ground, or between the ground and a floor
+  /// that stands on it.
+  [[nodiscard]] bool is_buried(float height_m) const;
+
+ private:
+  [[nodiscard]] bool is_below_standing_floor(float height_m, float ground_m) const;
+
+  std::vector<Crossing> crossings_;
+};
+
+/// Answers what lies above and below places of one cell.
+class PointLocator {
+ public:
+  /// Reads the cell's own tile: what is cut at the borders lies nowhere else. Where buildings were assigned whole,
+  /// the tiles within `reach_of_whole_buildings` cells are read too.
+  PointLocator(const Package& package, Cell cell);
+
+  [[nodiscard]] VerticalProfile at(float x_cell, float y_cell) const;
+
+  static constexpr std::int32_t reach_of_whole_buildings = 2;
+
+ private:
+  std::vector<TileView> tiles_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> places_;  ///< of each triangle: its tile, and its number there
+  PlanIndex index_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "package/lru_cache.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/runtime/package/small_package.hpp"
+
+namespace farlod {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST(LruCache, KeepsEverythingWithoutALimit) {
+  LruCache used;
+  for (std::size_t n = 0; n < 100; ++n) EXPECT_THAT(used.use(n, 1'000'000'000'000), IsEmpty());
+  EXPECT_EQ(used.count(), 100U);
+}
+
+TEST(LruCache, WhatWasNotUsedTheLongestGoesFirst) {
+  LruCache used;
+  used.keep_at_most(30);
+  for (const std::size_t n : {1, 2, 3, 1}) EXPECT_THAT(used.use(n, 10), IsEmpty());
+  EXPECT_THAT(used.use(4, 10), ElementsAre(2U));
+  EXPECT_THAT(used.use(5, 20), ElementsAre(3U, 1U));
+  EXPECT_EQ(used.count(), 2U);
+  EXPECT_EQ(used.bytes(), 30U);
+}
+
+TEST(LruCache, ASingleThingIsKeptHoweverLarge) {
+  LruCache used;
+  used.keep_at_most(10);
+  EXPECT_THAT(used.use(1, 5), IsEmpty());
+  EXPECT_THAT(used.use(2, 1000), ElementsAre(1U));
+  EXPECT_EQ(used.bytes(), 1000U);
+}
+
+TEST(LruCache, ALowerLimitCountsFromTheNextUse) {
+  LruCache used;
+  for (const std::size_t n : {1, 2, 3}) EXPECT_THAT(used.use(n, 10), IsEmpty());
+  used.keep_at_most(10);
+  EXPECT_EQ(used.count(), 3U);
+  EXPECT_THAT(used.use(2, 10), ElementsAre(1U, 3U));
+}
+
+class HeldBlocks : public testing::TestWithParam<FarMapKind> {};
+
+TEST_P(HeldBlocks, AllAreHeldWithoutALimit) {
+  const SmallPackage small(GetParam());
+  const Package package(small.folder());
+  EXPECT_EQ(package.held().blocks, 0U);
+  for (const Cell cell : {Cell{0, 0}, {1, 0}, {2, 0}}) (void)package.tile(cell);
+  EXPECT_EQ(package.held().blocks, 2U);
+  EXPECT_GE(package.held().bytes, bytes_of(small.file(SmallPackage::one_cell, package::tiles_file)).size() +
+                                      bytes_of(small.file(SmallPackage::two_cells, package::tiles_file)).size());
+}
+
+TEST_P(HeldBlocks, OneBlockAtATimeGivesTheSameAnswers) {
+  const SmallPackage small(GetParam());
+  const Package roomy(small.folder());
+  Package tight(small.folder());
+  tight.hold_at_most(1);
+  for (int round = 0; round < 3; ++round)
+    for (const Cell cell : {Cell{0, 0}, {2, 0}, {1, 0}}) {
+      const TileView expected = roomy.tile(cell), tile = tight.tile(cell);
+      EXPECT_EQ(tight.held().blocks, 1U);
+      EXPECT_TRUE(std::equal(tile.mesh.vertices.begin(), tile.mesh.vertices.end(), expected.mesh.vertices.begin(),
+                             expected.mesh.vertices.end()));
+      if (GetParam() == FarMapKind::box) {
+        const Point3d direction = normalized(Point3d{1.0, 0.1, 0.1});
+        EXPECT_EQ(tight.box_far_map(cell).distance_m(direction), roomy.box_far_map(cell).distance_m(direction));
+      } else {
+        EXPECT_EQ(tight.far_horizon(cell).high, roomy.far_horizon(cell).high);
+      }
+    }
+}
+
+TEST_P(HeldBlocks, WhatWasHandedOutStaysReadable) {
+  const SmallPackage small(GetParam());
+  Package package(small.folder());
+  package.hold_at_most(1);
+  const TileView first = package.tile({0, 0});
+  const std::vector<Point3f> before(first.mesh.vertices.begin(), first.mesh.vertices.end());
+  (void)package.tile({2, 0});
+  EXPECT_EQ(package.held().blocks, 1U);
+  EXPECT_TRUE(std::equal(before.begin(), before.end(), first.mesh.vertices.begin(), first.mesh.vertices.end()));
+  EXPECT_EQ(package.tile({0, 0}).mesh.vertices.data(), first.mesh.vertices.data());
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, HeldBlocks, testing::Values(FarMapKind::box, FarMapKind::horizon),
+                         [](const auto& test) { return scenes::name_of(test.param); });
+
+}  // namespace
+}  // namespace farlod
