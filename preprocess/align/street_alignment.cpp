@@ -94,7 +94,7 @@ std::complex<double> mean_around(const std::vector<Wall>& walls, std::complex<do
 
 /// Moves the window to the mean of what it shows until it stays (mean shift, Cheng 1995), so that where the bins of the
 /// histogram began is forgotten.
-std::complex<double> settle(const std::vector<Wall>& walls, std::complex<double> centre) {
+std::complex<double> refine(const std::vector<Wall>& walls, std::complex<double> centre) {
   constexpr int most_moves = 100;  // the walls in the window are a finite choice: real cities need about ten
   for (int move = 0; move < most_moves; ++move) {
     const std::complex<double> next = mean_around(walls, centre);
@@ -121,7 +121,7 @@ Alignment street_alignment(const CityModel& city) {
     sum += w.length_m * w.fourfold;
   }
   if (!(length_m > 0.0)) return {};
-  return {bearing_of(settle(walls, peak_of(walls))), std::min(std::abs(sum) / length_m, 1.0)};
+  return {bearing_of(refine(walls, peak_of(walls))), std::min(std::abs(sum) / length_m, 1.0)};
 }
 
 }  // namespace farlod

@@ -45,7 +45,7 @@ void OccluderClassifier::see_from(std::uint32_t patch) {
 
 std::uint32_t OccluderClassifier::judge(std::uint32_t number) {
   const OccluderEdge& occluder = city_.occluders()[number];
-  package::ExplicitOccluder occluder{number, 0, 0};
+  package::ExplicitOccluder entry{number, 0, 0};
   for (std::uint32_t square = 0; square < place_.patches.squares(); ++square) {
     const PatchBox box = place_.patches.box(square);
     const OccluderEdge placed = occluder.from(place_.corner);
@@ -55,15 +55,15 @@ std::uint32_t OccluderClassifier::judge(std::uint32_t number) {
       if (occluder.z_high_m() <= place_.patches.levels_m()[layer]) break;
       const std::uint32_t patch = place_.patches.number(square, layer);
       if (edge_.surrounds() || matters(patch, occluder.role)) {
-        occluder.squares = static_cast<std::uint16_t>(occluder.squares | (1U << square));
-        occluder.layers = static_cast<std::uint16_t>(occluder.layers | (1U << layer));
+        entry.squares = static_cast<std::uint16_t>(entry.squares | (1U << square));
+        entry.layers = static_cast<std::uint16_t>(entry.layers | (1U << layer));
       } else {
         add_to_residual(patch, occluder.role);
       }
     }
   }
-  if (occluder.squares != 0) map_.explicit_edges.push_back(occluder);
-  return occluder.layers;
+  if (entry.squares != 0) map_.explicit_edges.push_back(entry);
+  return entry.layers;
 }
 
 /// Whether the edge at hand can rise significantly above what is seen anyway, by an amount that its bounds do not decide.
