@@ -205,4 +205,8 @@ void evaluate_cells(const Package& package, const SvfOptions& options, std::size
 
 std::string quantity_name(SkyWeight weight) { return weight == SkyWeight::cosine ? "svf" : "svf_solid"; }
 
+AnswerColumns answer_columns(const SvfOptions& options) {
+  return {quantity_name(options.sky.weight), options.bounds ? BoundsColumns::yes : BoundsColumns::no};
+}
+
 }  // namespace farlod

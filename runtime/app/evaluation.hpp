@@ -59,7 +59,7 @@ struct SvfRun {
   RunSeconds seconds;
   std::optional<double> svf_min, svf_mean, svf_max;
   std::optional<BoundsWidth> bounds;
-  std::uint64_t by_rays = 0;       ///< receivers that the engine `auto` answered by rays, since horizons were not enough
+  std::uint64_t by_rays = 0;        ///< receivers that the engine `auto` answered by rays, since horizons were not enough
   std::uint64_t retraced_rays = 0;  ///< traced against the whole city because the far map was not enough (--max-error)
   std::optional<ErrorSummary> errors;
   std::vector<std::filesystem::path> files;
@@ -92,5 +92,8 @@ template <class Run>
 
 /// "svf" or "svf_solid": never one ambiguous name.
 [[nodiscard]] std::string quantity_name(SkyWeight weight);
+
+/// The columns of the answers in tables of receivers.
+[[nodiscard]] AnswerColumns answer_columns(const SvfOptions& options);
 
 }  // namespace farlod

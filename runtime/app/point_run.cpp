@@ -10,9 +10,8 @@
 #include "app/memory_limit.hpp"
 #include "receivers/hilbert_curve.hpp"
 #include "receivers/point_reader.hpp"
-#include "results/sky_table_csv.hpp"
 #ifdef FARLOD_WITH_GDAL
-#include "results/reproject_gdal.hpp"
+#include "receivers/reproject_gdal.hpp"
 #endif
 
 namespace farlod {
@@ -88,7 +87,7 @@ MemoryNeeds needs_of(const Package& package, const NamedPlaces& named, const Pla
   return needs;
 }
 
-/// The way of named points: cell by cell to their answers, then row by row to their table.
+/// A run over named points. Answers are computed cell by cell, and written in the order of the points.
 class PointRun {
  public:
   PointRun(Package& package, const SvfOptions& options)
@@ -126,8 +125,7 @@ class PointRun {
                       AnswerTable::value(answers_.low, n),
                       AnswerTable::value(answers_.high, n)};
     };
-    write_points_csv(named_.places.size(), row_of, quantity_name(options_.sky.weight),
-                     options_.bounds ? BoundsColumns::yes : BoundsColumns::no, options_.output);
+    options_.format->write_points({named_.places.size(), row_of}, answer_columns(options_), options_.output);
     run.files = {options_.output};
   }
 

@@ -11,51 +11,30 @@
 #include "app/memory_limit.hpp"
 #include "receivers/hilbert_curve.hpp"
 #include "receivers/raster_receivers.hpp"
-#include "results/open_tiles.hpp"
-#include "results/raster_preview.hpp"
-#include "results/raster_writer_esri_ascii.hpp"
-#ifdef FARLOD_WITH_GDAL
-#include "results/esri_wkt_gdal.hpp"
-#include "results/raster_writer_gdal.hpp"
-#endif
+#include "results/raster/open_tiles.hpp"
 
 namespace farlod {
 namespace {
 
-/// GIS programs read the `.prj` beside an ASCII grid only in Esri's dialect; without GDAL it stays as the package has it.
-RasterFrame with_esri_wkt(RasterFrame frame) {
-#ifdef FARLOD_WITH_GDAL
-  frame.crs_wkt = esri_wkt_of(frame.crs_wkt);
-#endif
-  return frame;
+struct OutputFile {
+  const OutputFormat* format;
+  std::filesystem::path path;
+};
+
+std::vector<OutputFile> output_files(const SvfOptions& options) {
+  std::vector<OutputFile> files{{options.format, options.output}};
+  if (!options.preview_file.empty()) files.push_back({options.preview_format, options.preview_file});
+  return files;
 }
 
-std::unique_ptr<RasterWriter> writer_for(const RasterFrame& frame, const SvfOptions& options) {
-  switch (options.format) {
-    case OutputFormat::png:
-      return std::make_unique<PngPreviewWriter>(frame, options.output);
-    case OutputFormat::esri_ascii:
-      return std::make_unique<EsriAsciiWriter>(with_esri_wkt(frame), options.output);
-    case OutputFormat::geotiff:
-#ifdef FARLOD_WITH_GDAL
-      return std::make_unique<GeotiffWriter>(frame, options.output);
-#endif
-    case OutputFormat::csv:
-      break;
-  }
-  FARLOD_EXPECTS(!"the options allow only formats that this build writes");
-  return nullptr;
-}
-
-/// The raster of a run: it goes to its files tile by tile, as its cells are evaluated.
+/// The files of a raster run, which are written tile by tile while its cells are evaluated.
 class RasterFiles {
  public:
   RasterFiles(const RasterFrame& frame, const SvfOptions& options) {
-    writers_.push_back(writer_for(frame, options));
-    files_.push_back(options.output);
-    if (options.preview_file.empty()) return;
-    writers_.push_back(std::make_unique<PngPreviewWriter>(frame, options.preview_file));
-    files_.emplace_back(options.preview_file);
+    for (const OutputFile& file : output_files(options)) {
+      writers_.push_back(file.format->raster_writer(frame, file.path));
+      paths_.push_back(file.path);
+    }
   }
 
   void write(const RasterTile& tile) const {
@@ -63,12 +42,12 @@ class RasterFiles {
   }
   [[nodiscard]] const std::vector<std::filesystem::path>& commit() const {
     for (const auto& writer : writers_) writer->commit();
-    return files_;
+    return paths_;
   }
 
  private:
   std::vector<std::unique_ptr<RasterWriter>> writers_;
-  std::vector<std::filesystem::path> files_;
+  std::vector<std::filesystem::path> paths_;
 };
 
 TileRange tiles_over(const PixelRange& pixels) {
@@ -84,12 +63,10 @@ std::vector<TileRange> tiles_of_cells(const RasterReceivers& receivers, std::spa
 }
 
 MemoryNeeds needs_of(const RasterFrame& frame, std::span<const TileRange> tiles, const Grid& grid, const SvfOptions& options) {
-  const std::uint64_t bytes_of_pixel = (frame.bands == RasterBands::answers ? 1 : 3) * sizeof(float);
+  const std::uint64_t bytes_of_pixel = (frame.bands == RasterBands::svf ? 1 : 3) * sizeof(float);
   MemoryNeeds needs;
   needs.results = OpenTiles::most_open(frame, tiles) * raster_tile_edge * raster_tile_edge * bytes_of_pixel;
-  const bool draws = options.format == OutputFormat::png || !options.preview_file.empty();
-  if (draws) needs.results += ScreenFit::bytes_for(frame) + bytes_of_largest_preview;
-  if (options.format == OutputFormat::esri_ascii) needs.results += frame.columns * raster_tile_edge * sizeof(float);
+  for (const OutputFile& file : output_files(options)) needs.results += file.format->raster_writer_bytes(frame);
   const double along_edge = std::ceil(grid.cell_edge_m / frame.step_m);
   needs.receivers_of_cell = static_cast<std::uint64_t>(along_edge * along_edge);
   return needs;
@@ -100,13 +77,13 @@ RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const pa
           plan.step_m,
           plan.columns,
           plan.rows,
-          options.bounds ? RasterBands::answers_and_bounds : RasterBands::answers,
+          options.bounds ? RasterBands::svf_and_bounds : RasterBands::svf,
           quantity_name(options.sky.weight),
           manifest.crs_wkt,
           manifest.epsg};
 }
 
-/// The way of a raster's cells: from their receivers to the tiles of its files.
+/// A run over the pixels of a raster.
 class RasterRun {
  public:
   RasterRun(Package& package, const SvfOptions& options)

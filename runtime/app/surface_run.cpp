@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "app/evaluation.hpp"
 #include "app/memory_limit.hpp"
 #include "receivers/hilbert_curve.hpp"
 #include "receivers/surface_receivers.hpp"
-#include "results/sky_table_csv.hpp"
-#include "results/surface_averages.hpp"
+#include "results/table/surface_averages.hpp"
 
 namespace farlod {
 namespace {
@@ -61,37 +61,23 @@ std::vector<SurfacePointRow> rows_of(const Package& package, Cell cell, std::spa
   return rows;
 }
 
-/// OUT.csv → OUT.surfaces.csv
-std::filesystem::path beside(const std::filesystem::path& output, const std::string& what) {
-  return std::filesystem::path(output).replace_extension(what + output.extension().string());
-}
-
-/// The three tables of a run. Rows come cell by cell along a curve, and stand in the order of CellRange::index_of.
+/// The tables of a run. Rows come cell by cell along a curve, and are written in the order of CellRange::index_of.
 class SurfaceTables {
  public:
   explicit SurfaceTables(const SvfOptions& options)
-      : quantity_(quantity_name(options.sky.weight)),
-        files_{options.output, beside(options.output, ".surfaces"), beside(options.output, ".buildings")},
-        receivers_(options.output, quantity_, options.bounds ? BoundsColumns::yes : BoundsColumns::no) {}
+      : writer_(options.format->surface_tables_writer(answer_columns(options), options.output)) {}
 
   void add(std::size_t cell_index, std::span<const SurfacePointRow> rows) {
-    receivers_.write_part(cell_index, rows);
+    writer_->write_part(cell_index, rows);
     for (std::size_t k = 0; k < rows.size(); ++k) {
       surfaces_.add({cell_index, k}, rows[k]);
       buildings_.add({cell_index, k}, rows[k]);
     }
   }
-  [[nodiscard]] const std::vector<std::filesystem::path>& commit() {
-    receivers_.commit();
-    write_surfaces_csv(surfaces_.rows(), quantity_, files_[1]);
-    write_buildings_csv(buildings_.rows(), quantity_, files_[2]);
-    return files_;
-  }
+  [[nodiscard]] std::vector<std::filesystem::path> commit() { return writer_->commit(surfaces_.rows(), buildings_.rows()); }
 
  private:
-  std::string quantity_;
-  std::vector<std::filesystem::path> files_;
-  SurfacePointsCsv receivers_;
+  std::unique_ptr<SurfaceTablesWriter> writer_;
   SurfaceAverages surfaces_;
   BuildingAverages buildings_;
 };
@@ -108,7 +94,7 @@ MemoryNeeds needs_of(const package::Manifest& manifest) {
   return {manifest.polygons * bytes_of_surface + manifest.buildings * bytes_of_building, 0, false};
 }
 
-/// The way of a city's surfaces: cell by cell from their receivers to the three tables.
+/// A run over the surfaces of a city.
 class SurfaceRun {
  public:
   SurfaceRun(Package& package, const SvfOptions& options)

@@ -24,6 +24,10 @@ constexpr const char* footer =
     "\nReceivers inside a building get no answer: the declared no-data value in a raster, an empty field in a table.\n"
     "Exit codes: 0 done, 1 internal, 2 usage, 3 an input cannot be read or used, 4 a damaged package, 5 a limit was reached.";
 
+std::string known_endings() {
+  return endings_where([](const OutputFormat&) { return true; });
+}
+
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
   std::string package, output, points, surfaces, at, bbox, engine = "auto", sky = "cosine", directions = "partition";
@@ -73,15 +77,19 @@ void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_option("--bbox", raw.bbox, "X0,Y0,X1,Y1: only this part of --grid")->group("Placing");
 }
 
-void add_other_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
+void add_output_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_option("PACKAGE", raw.package, "A folder that farlod-pack made")->required();
-  app.add_option("-o,--output", raw.output, "File to write; its ending says the format: " + known_output_endings())
+  app.add_option("-o,--output", raw.output, "File to write; its ending says the format: " + known_endings())
       ->required()
       ->group("Output");
   app.add_option("--preview", o.preview_file, "Also draw the raster as this PNG, with a colour scale")->group("Output");
+}
+
+/// The options of SkySettings.
+void add_sky_options(CLI::App& app, RawOptions& raw) {
   app.add_option("--engine", raw.engine,
-                 "auto: horizons where they are all that is seen, rays elsewhere; horizon: horizons alone; rays: near tiles and "
-                 "far map; exact: all tiles, the reference")
+                 "auto: horizons, and rays in the gaps below what overhangs; horizon: horizons alone; rays: directions of rays "
+                 "compared with horizons, and traced in those gaps; exact: rays against all tiles, the reference")
       ->check(CLI::IsMember({"auto", "horizon", "rays", "exact"}))
       ->capture_default_str()
       ->group("Accuracy");
@@ -96,24 +104,29 @@ void add_other_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_option("--azimuths", raw.azimuths, "Azimuths of a horizon (default: 256, or as many as --max-error needs)")
       ->check(CLI::Range(4, 1000000))
       ->group("Accuracy");
+  app.add_option("--sky", raw.sky, "Weight of the sky: cosine (svf) or solid (svf_solid)")
+      ->check(CLI::IsMember({"cosine", "solid"}))
+      ->capture_default_str()
+      ->group("Accuracy");
+}
+
+void add_error_options(CLI::App& app, SvfOptions& o) {
   app.add_option("--max-error", o.max_error,
                  "Largest error allowed: chooses azimuths and rays, and traces exactly where the far map is not enough")
       ->check(between(0.0001, 1.0))
       ->group("Accuracy");
   app.add_flag("--bounds", o.bounds, "Also write a certain lower and upper bound of each value, with these azimuths or rays")
       ->group("Accuracy");
-  app.add_option("--sky", raw.sky, "Weight of the sky: cosine (svf) or solid (svf_solid)")
-      ->check(CLI::IsMember({"cosine", "solid"}))
-      ->capture_default_str()
-      ->group("Accuracy");
   app.add_option("--verify", o.verify_count, "Also compute this many random receivers exactly, and report the errors")
       ->check(CLI::Range(0, 1000000000))
       ->group("Accuracy");
+}
+
+void add_memory_option(CLI::App& app, SvfOptions& o) {
   app.add_option("--memory-limit", o.memory_limit_mib,
                  "Refuse to begin when the run needs more than this many MiB (default: no limit)")
       ->check(CLI::Range(1, 1 << 30))
       ->group("Run");
-  add_run_options(app, "farlod-svf", o.run);
 }
 
 void resolve_place(const RawOptions& raw, SvfOptions& o) {
@@ -142,24 +155,47 @@ void resolve_place(const RawOptions& raw, SvfOptions& o) {
     throw CLI::ValidationError("--bbox", "too many pixels: give a smaller part, or a larger --grid");
 }
 
+bool fits(const OutputFormat& format, ReceiverSource source) {
+  return (format.kind == OutputKind::table) == (source != ReceiverSource::grid);
+}
+
+/// "choose .csv", or "choose one of .tif, .tiff"; says so when this build has no such format.
+template <class Condition>
+std::string advice(const Condition& condition) {
+  const std::string endings = endings_where(condition);
+  if (endings.empty()) return "this farlod-svf was built without such a format";
+  return (endings.find(',') == std::string::npos ? "choose " : "choose one of ") + endings;
+}
+
+void require_format_that_fits(const SvfOptions& o) {
+  const auto fits_source = [&o](const OutputFormat& f) { return fits(f, o.source); };
+  const std::string ending = o.output.extension().string();
+  if (!fits_source(*o.format) && o.source == ReceiverSource::grid)
+    throw CLI::ValidationError("-o", "--grid makes a raster, which " + ending + " cannot hold: " + advice(fits_source));
+  if (!fits_source(*o.format))
+    throw CLI::ValidationError("-o", "only --grid makes a raster: " + advice(fits_source) + " for points and surfaces");
+  const auto holds_bounds = [&](const OutputFormat& f) { return fits_source(f) && f.holds_bounds; };
+  if (o.bounds && !o.format->holds_bounds)
+    throw CLI::ValidationError("--bounds", "a file that ends in " + ending + " has no room for bounds: " + advice(holds_bounds));
+}
+
+void resolve_preview(SvfOptions& o) {
+  if (o.preview_file.empty()) return;
+  if (o.source != ReceiverSource::grid) throw CLI::ValidationError("--preview", "it goes with --grid");
+  const auto is_picture = [](const OutputFormat& f) { return f.kind == OutputKind::picture; };
+  o.preview_format = output_format_of(o.preview_file);
+  if (o.preview_format == nullptr || !is_picture(*o.preview_format))
+    throw CLI::ValidationError("--preview", "\"" + o.preview_file + "\" is not the name of a picture: " + advice(is_picture));
+}
+
 void resolve_output(const RawOptions& raw, SvfOptions& o) {
   o.output = raw.output;
-  const auto format = output_format_of(o.output);
-  if (!format)
+  o.format = output_format_of(o.output);
+  if (o.format == nullptr)
     throw CLI::ValidationError(
-        "-o", "the ending of \"" + raw.output + "\" is not one that can be written here: use one of " + known_output_endings());
-  o.format = *format;
-  const bool is_table = *format == OutputFormat::csv;
-  if (o.source == ReceiverSource::grid && is_table)
-    throw CLI::ValidationError("-o", "--grid makes a raster: choose a raster's ending instead of .csv");
-  if (o.bounds && !is_table && *format != OutputFormat::geotiff)
-    throw CLI::ValidationError("--bounds", "a file that ends in " + o.output.extension().string() +
-                                               " holds one value a pixel: choose .tif, which has bands for the bounds");
-  if (o.source != ReceiverSource::grid && !is_table)
-    throw CLI::ValidationError("-o", "only --grid makes a raster: choose .csv for points and surfaces");
-  if (!o.preview_file.empty() && o.source != ReceiverSource::grid) throw CLI::ValidationError("--preview", "it goes with --grid");
-  if (!o.preview_file.empty() && output_format_of(o.preview_file) != OutputFormat::png)
-    throw CLI::ValidationError("--preview", "the ending of \"" + o.preview_file + "\" is not .png");
+        "-o", "the ending of \"" + raw.output + "\" is not one that can be written here: use one of " + known_endings());
+  require_format_that_fits(o);
+  resolve_preview(o);
   if (!o.points_crs.empty() && o.source != ReceiverSource::points)
     throw CLI::ValidationError("--points-crs", "it goes with --points");
 }
@@ -210,7 +246,11 @@ ParsedSvfOptions parse_svf_options(int argc, char** argv) {
   RawOptions raw;
   SvfOptions options;
   add_receiver_options(app, raw, options);
-  add_other_options(app, raw, options);
+  add_output_options(app, raw, options);
+  add_sky_options(app, raw);
+  add_error_options(app, options);
+  add_memory_option(app, options);
+  add_run_options(app, "farlod-svf", options.run);
   if (const auto exit_code = parse_command_line(app, argc, argv, [&] { understand(raw, options); }))
     return {std::nullopt, *exit_code};
   return {std::move(options), exit_done};

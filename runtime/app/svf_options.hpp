@@ -23,7 +23,8 @@ enum class ReceiverSource { grid, points, surfaces, at };
 /// The command line of farlod-svf, understood.
 struct SvfOptions {
   std::filesystem::path package, output;
-  OutputFormat format = OutputFormat::csv;
+  const OutputFormat* format = nullptr;          ///< of `output`; never null once the options are understood
+  const OutputFormat* preview_format = nullptr;  ///< of `preview_file`; null when there is none
   ReceiverSource source = ReceiverSource::grid;
   double grid_step_m = 0.0;
   std::filesystem::path points_file;

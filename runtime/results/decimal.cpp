@@ -33,7 +33,7 @@ std::string fixed(auto value, Precision... precision) {
   return text;
 }
 
-/// Below it, three digits after the point are never more than a double tells: they are its shortest decimal.
+/// Below this, a double has more than three certain digits after the point, so that rounding to three is exact.
 constexpr double most_metres_as_millimetres = 1e12;
 
 }  // namespace
@@ -45,7 +45,7 @@ std::string millimetre_decimal(double value) {
   append_millimetres(text, value);
   return text;
 }
-std::string share_decimal(double value) { return fixed(value, 6); }
+std::string svf_decimal(double value) { return fixed(value, 6); }
 
 void append_millimetres(std::string& text, double value) {
   FARLOD_EXPECTS(std::isfinite(value));
@@ -60,7 +60,7 @@ void append_millimetres(std::string& text, double value) {
   for (std::uint64_t unit = 100; rest != 0; rest %= unit, unit /= 10) text += static_cast<char>('0' + rest / unit);
 }
 
-void append_share(std::string& text, double value) { append_fixed(text, value, 6); }
+void append_svf(std::string& text, double value) { append_fixed(text, value, 6); }
 
 void append_whole(std::string& text, std::uint64_t number) {
   std::array<char, std::numeric_limits<std::uint64_t>::digits10 + 1> digits;

@@ -10,14 +10,14 @@ namespace farlod {
 /// The shortest decimal number, without an exponent, that reads back as `value` (which is finite).
 [[nodiscard]] std::string shortest_decimal(double value);
 [[nodiscard]] std::string shortest_decimal(float value);
-/// Rounded to the millimetre, without trailing zeros: coordinates and areas mean no more than that.
+/// Rounded to the millimetre, without trailing zeros: coordinates and areas have no more certain digits.
 [[nodiscard]] std::string millimetre_decimal(double value);
-/// With six digits after the point: view factors.
-[[nodiscard]] std::string share_decimal(double value);
+/// A view factor, with six digits after the point.
+[[nodiscard]] std::string svf_decimal(double value);
 
-/// The same at the end of a text.
+/// The same, appended to a text.
 void append_millimetres(std::string& text, double value);
-void append_share(std::string& text, double value);
+void append_svf(std::string& text, double value);
 void append_whole(std::string& text, std::uint64_t number);
 
 }  // namespace farlod

@@ -3,38 +3,91 @@
 #include "results/output_format.hpp"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
-#include <utility>
+
+#include "results/picture/raster_preview.hpp"
+#include "results/raster/raster_writer_esri_ascii.hpp"
+#include "results/table/sky_table_csv.hpp"
+#ifdef FARLOD_WITH_GDAL
+#include "results/raster/esri_wkt_gdal.hpp"
+#include "results/raster/raster_writer_gdal.hpp"
+#endif
 
 namespace farlod {
 namespace {
 
-constexpr std::array endings{
+template <class Writer>
+std::unique_ptr<RasterWriter> make(const RasterFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<Writer>(frame, path);
+}
+
+/// GIS programs read the `.prj` beside an ASCII grid only in Esri's dialect. Without GDAL it stays as the package has it.
+std::unique_ptr<RasterWriter> make_esri_ascii(RasterFrame frame, const std::filesystem::path& path) {
 #ifdef FARLOD_WITH_GDAL
-    std::pair<std::string_view, OutputFormat>{".tif", OutputFormat::geotiff},
-    std::pair<std::string_view, OutputFormat>{".tiff", OutputFormat::geotiff},
+  frame.crs_wkt = esri_wkt_of(frame.crs_wkt);
 #endif
-    std::pair<std::string_view, OutputFormat>{".csv", OutputFormat::csv},
-    std::pair<std::string_view, OutputFormat>{".png", OutputFormat::png},
-    std::pair<std::string_view, OutputFormat>{".asc", OutputFormat::esri_ascii},
+  return std::make_unique<EsriAsciiWriter>(frame, path);
+}
+
+std::unique_ptr<SurfaceTablesWriter> make_surface_tables_csv(const AnswerColumns& columns, const std::filesystem::path& path) {
+  return std::make_unique<SurfaceTablesCsv>(columns, path);
+}
+
+// name, endings, kind, holds bounds; for rasters and pictures: writer, its memory; for tables: points, surfaces
+constexpr OutputFormat formats[] = {
+#ifdef FARLOD_WITH_GDAL
+    {"GeoTIFF", {".tif", ".tiff"}, OutputKind::raster, true, make<GeotiffWriter>, GeotiffWriter::bytes_for, nullptr, nullptr},
+#endif
+    {"CSV", {".csv", ""}, OutputKind::table, true, nullptr, nullptr, write_points_csv, make_surface_tables_csv},
+    {"PNG", {".png", ""}, OutputKind::picture, false, make<PngPreviewWriter>, PngPreviewWriter::bytes_for, nullptr, nullptr},
+    {"ESRI ASCII grid",
+     {".asc", ""},
+     OutputKind::raster,
+     false,
+     [](const RasterFrame& frame, const std::filesystem::path& path) { return make_esri_ascii(frame, path); },
+     EsriAsciiWriter::bytes_for,
+     nullptr,
+     nullptr},
 };
+
+constexpr bool is_ending(std::string_view text) {
+  return text.size() > 1 && text[0] == '.' && std::none_of(text.begin(), text.end(), [](char c) { return 'A' <= c && c <= 'Z'; });
+}
+
+/// A row that lacks what its kind needs, or has what its kind cannot use, does not compile.
+constexpr bool is_complete(const OutputFormat& f) {
+  const bool is_table = f.kind == OutputKind::table;
+  return !f.name.empty() && is_ending(f.endings[0]) && (f.endings[1].empty() || is_ending(f.endings[1])) &&
+         (f.raster_writer == nullptr) == is_table && (f.raster_writer_bytes == nullptr) == is_table &&
+         (f.write_points != nullptr) == is_table && (f.surface_tables_writer != nullptr) == is_table;
+}
+static_assert(std::all_of(std::begin(formats), std::end(formats), is_complete));
+
+/// Number of endings of all formats that are `ending`.
+constexpr auto count_of(std::string_view ending) {
+  std::ptrdiff_t count = 0;
+  for (const OutputFormat& f : formats) count += std::count(f.endings.begin(), f.endings.end(), ending);
+  return count;
+}
+static_assert(std::all_of(std::begin(formats), std::end(formats), [](const OutputFormat& f) {
+  return count_of(f.endings[0]) == 1 && (f.endings[1].empty() || count_of(f.endings[1]) == 1);
+}));
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return text;
+}
 
 }  // namespace
 
-std::optional<OutputFormat> output_format_of(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  for (const auto& [known, format] : endings)
-    if (ending == known) return format;
-  return std::nullopt;
-}
+std::span<const OutputFormat> output_formats() { return formats; }
 
-std::string known_output_endings() {
-  std::string list;
-  for (const auto& [known, format] : endings) list.append(list.empty() ? "" : ", ").append(known);
-  return list;
+const OutputFormat* output_format_of(const std::filesystem::path& path) {
+  const std::string ending = lower_case(path.extension().string());
+  if (ending.empty()) return nullptr;
+  for (const OutputFormat& format : formats)
+    if (ending == format.endings[0] || ending == format.endings[1]) return &format;
+  return nullptr;
 }
 
 }  // namespace farlod

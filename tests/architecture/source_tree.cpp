@@ -10,7 +10,8 @@
 namespace farlod {
 namespace {
 
-constexpr std::array code_folders{"include", "console", "preprocess", "runtime", "datasets", "tests", "cmake", "scripts", ".ci"};
+constexpr std::array code_folders{"include",  "console", "gdal",  "preprocess", "runtime",
+                                  "datasets", "tests",   "cmake", "scripts",    ".ci"};
 
 bool is_code(const std::filesystem::path& path) {
   const std::string folder = path.parent_path().filename().string(), ending = path.extension().string();

@@ -39,8 +39,8 @@ TEST(Decimal, CoordinatesEndAtTheMillimetre) {
 }
 
 TEST(Decimal, SharesHaveSixDigits) {
-  EXPECT_EQ(share_decimal(1.0), "1.000000");
-  EXPECT_EQ(share_decimal(0.3390174), "0.339017");
+  EXPECT_EQ(svf_decimal(1.0), "1.000000");
+  EXPECT_EQ(svf_decimal(0.3390174), "0.339017");
 }
 
 }  // namespace

@@ -2,31 +2,97 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/output_format.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+
+#include "tests/runtime/results/raster/whole_raster.hpp"
+#include "tests/runtime/results/scratch_folder.hpp"
 
 namespace farlod {
 namespace {
 
+std::string_view name_of(const std::filesystem::path& path) {
+  const OutputFormat* format = output_format_of(path);
+  return format == nullptr ? "none" : format->name;
+}
+
 TEST(OutputFormat, FollowsTheEndingInAnyCase) {
-  EXPECT_EQ(output_format_of("out/a.csv"), OutputFormat::csv);
-  EXPECT_EQ(output_format_of("A.CSV"), OutputFormat::csv);
-  EXPECT_EQ(output_format_of("a.b.Png"), OutputFormat::png);
-  EXPECT_EQ(output_format_of("a.asc"), OutputFormat::esri_ascii);
+  EXPECT_EQ(name_of("out/a.csv"), "CSV");
+  EXPECT_EQ(name_of("A.CSV"), "CSV");
+  EXPECT_EQ(name_of("a.b.Png"), "PNG");
+  EXPECT_EQ(name_of("a.asc"), "ESRI ASCII grid");
 }
 
 TEST(OutputFormat, UnknownEndingsHaveNone) {
-  for (const char* path : {"a", "a.csv.gz", "a.", "csv", "folder.csv/a", ""})
-    EXPECT_EQ(output_format_of(path), std::nullopt) << path;
+  for (const char* path : {"a", "a.csv.gz", "a.", "csv", "folder.csv/a", ""}) EXPECT_EQ(name_of(path), "none") << path;
 }
 
 TEST(OutputFormat, GeoTiffNeedsGdal) {
+  const auto all = [](const OutputFormat&) { return true; };
 #ifdef FARLOD_WITH_GDAL
-  EXPECT_EQ(output_format_of("a.tif"), OutputFormat::geotiff);
-  EXPECT_EQ(output_format_of("a.TIFF"), OutputFormat::geotiff);
-  EXPECT_EQ(known_output_endings(), ".tif, .tiff, .csv, .png, .asc");
+  EXPECT_EQ(name_of("a.tif"), "GeoTIFF");
+  EXPECT_EQ(name_of("a.TIFF"), "GeoTIFF");
+  EXPECT_EQ(endings_where(all), ".tif, .tiff, .csv, .png, .asc");
 #else
-  EXPECT_EQ(output_format_of("a.tif"), std::nullopt);
-  EXPECT_EQ(known_output_endings(), ".csv, .png, .asc");
+  EXPECT_EQ(name_of("a.tif"), "none");
+  EXPECT_EQ(endings_where(all), ".csv, .png, .asc");
+#endif
+}
+
+/// One row of tiles and a pixel.
+WholeRaster raster_with_bounds() {
+  WholeRaster raster;
+  raster.columns = 2 * raster_tile_edge;
+  raster.rows = raster_tile_edge + 1;
+  raster.quantity = "svf";
+  raster.bands = RasterBands::svf_and_bounds;
+  raster.svf.assign(raster.columns * raster.rows, 0.5F);
+  raster.low = raster.high = raster.svf;
+  return raster;
+}
+
+std::string pixels_file(const OutputFormat& format, WholeRaster raster, const ScratchFolder& folder) {
+  const std::filesystem::path path = folder.file("a" + std::string(format.endings[0]));
+  {
+    const auto writer = format.raster_writer(raster, path);
+    for (const RasterTile& tile : tiles_of(raster)) writer->write(tile);
+    writer->commit();
+  }
+  return text_of(path);
+}
+
+TEST(OutputFormat, EachWritesAFileOfItsEnding) {
+  const ScratchFolder folder;
+  for (const OutputFormat& format : output_formats()) {
+    if (format.kind != OutputKind::table) {
+      EXPECT_NE(pixels_file(format, raster_with_bounds(), folder), "") << format.name;
+      continue;
+    }
+    const std::filesystem::path path = folder.file("a" + std::string(format.endings[0]));
+    format.write_points({1, [](std::size_t) { return PointRow{}; }}, {"svf", BoundsColumns::yes}, path);
+    EXPECT_NE(text_of(path), "") << format.name;
+    EXPECT_EQ(format.surface_tables_writer({"svf", BoundsColumns::yes}, path)->commit({}, {}).front(), path) << format.name;
+  }
+}
+
+TEST(OutputFormat, ARasterThatHoldsBoundsWritesThem) {
+  const ScratchFolder folder;
+  for (const OutputFormat& format : output_formats()) {
+    if (format.kind == OutputKind::table) continue;
+    WholeRaster raster = raster_with_bounds();
+    const std::string before = pixels_file(format, raster, folder);
+    raster.low[0] = 0.25F;
+    EXPECT_EQ(pixels_file(format, raster, folder) != before, format.holds_bounds) << format.name;
+  }
+}
+
+TEST(OutputFormat, WritersSayWhatTheyHold) {
+  const WholeRaster raster = raster_with_bounds();
+  const auto bytes_of = [&](const char* path) { return output_format_of(path)->raster_writer_bytes(raster); };
+  EXPECT_EQ(bytes_of("a.asc"), 2 * raster_tile_edge * raster_tile_edge * sizeof(float));
+  // A sum and a count for each pixel of this small raster, and the picture
+  EXPECT_GT(bytes_of("a.png"), raster.columns * raster.rows * (sizeof(double) + sizeof(std::uint32_t)));
+#ifdef FARLOD_WITH_GDAL
+  EXPECT_EQ(bytes_of("a.tif"), 0U);
 #endif
 }
 

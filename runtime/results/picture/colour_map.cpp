@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results/picture/colour_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "farlod/expects.hpp"
+
+namespace farlod {
+namespace {
+
+// Viridis (S. van der Walt and N. Smith, 2015, placed in the public domain) at every eighth
+constexpr std::array<Colour, 9> viridis{{{68, 1, 84},
+                                         {71, 44, 122},
+                                         {59, 81, 139},
+                                         {44, 113, 142},
+                                         {33, 144, 141},
+                                         {39, 173, 129},
+                                         {92, 200, 99},
+                                         {170, 220, 50},
+                                         {253, 231, 37}}};
+
+std::uint8_t mix(std::uint8_t a, std::uint8_t b, double share_of_b) {
+  return static_cast<std::uint8_t>(std::lround((1.0 - share_of_b) * a + share_of_b * b));
+}
+
+}  // namespace
+
+Colour colour_of_svf(double svf) {
+  FARLOD_EXPECTS(!std::isnan(svf));
+  const double place = std::clamp(svf, 0.0, 1.0) * (viridis.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(place), viridis.size() - 2);
+  const Colour a = viridis[below], b = viridis[below + 1];
+  const double t = place - static_cast<double>(below);
+  return {mix(a.red, b.red, t), mix(a.green, b.green, t), mix(a.blue, b.blue, t)};
+}
+
+}  // namespace farlod

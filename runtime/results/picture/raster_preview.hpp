@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "results/picture/picture.hpp"
+#include "results/picture/preview_raster.hpp"
+#include "results/raster/raster_writer.hpp"
+
+namespace farlod {
+
+/// Where the parts of a preview lie: the title above the map, the colour scale to its right, scale bar and legend below.
+struct PreviewLayout {
+  PixelSize picture;
+  Pixel map;
+  PixelSize map_size;
+  Pixel colour_bar;
+  PixelSize colour_bar_size;
+  Pixel footer;
+};
+
+[[nodiscard]] PreviewLayout preview_layout(PixelSize map_size);
+
+/// A length of 1, 2 or 5 times a power of ten, the longest that is not above `limit_m` (which is positive).
+[[nodiscard]] double round_length_m(double limit_m);
+
+/// Draws a raster as a map with a title, a colour scale from 0 to 1, a scale bar in metres and a north arrow.
+[[nodiscard]] Picture draw_preview(const PreviewRaster& raster, const std::string& quantity);
+
+/// Draws the raster and writes it as PNG, without bounds.
+class PngPreviewWriter : public RasterWriter {
+ public:
+  PngPreviewWriter(const RasterFrame& frame, std::filesystem::path path);
+  void write(const RasterTile& tile) override { fit_.add(tile); }
+  void commit() override;
+  /// The sums of the preview's pixels, and the picture that commit() draws.
+  [[nodiscard]] static std::uint64_t bytes_for(const RasterFrame& frame) {
+    return ScreenFit::bytes_for(frame) + bytes_of_largest_preview;
+  }
+
+ private:
+  ScreenFit fit_;
+  std::string quantity_;
+  std::filesystem::path path_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "farlod/point.hpp"
+
+namespace farlod {
+
+/// The bands of a raster: the sky view factor, or the sky view factor, its lower and its upper bound.
+enum class RasterBands { svf, svf_and_bounds };
+
+/// Place, size and bands of a north-up raster in the output CRS, without its values. Row 0 is the northernmost.
+struct RasterFrame {
+  Point2d north_west_m;  ///< the outer corner of the first pixel, projected frame
+  double step_m = 1.0;   ///< edge of a pixel
+  std::size_t columns = 0, rows = 0;
+  RasterBands bands = RasterBands::svf;
+  std::string quantity;  ///< "svf" or "svf_solid": the name of the first band; `_low` and `_high` are those of the bounds
+  std::string crs_wkt;
+  std::optional<int> epsg = {};  ///< the same CRS by its code, where it has one
+};
+
+}  // namespace farlod

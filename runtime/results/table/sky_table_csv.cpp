@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results/table/sky_table_csv.hpp"
+
+#include <initializer_list>
+#include <ostream>
+#include <string_view>
+#include <utility>
+
+#include "farlod/expects.hpp"
+#include "results/atomic_file.hpp"
+#include "results/table/csv_text.hpp"
+
+namespace farlod {
+namespace {
+
+// A thousandth of a degree is 1.7 cm over a kilometre
+double degrees(Angle angle) { return angle.degrees(); }
+
+std::string_view word_for(SurfaceKind kind) {
+  switch (kind) {
+    case SurfaceKind::ground:
+      return "ground";
+    case SurfaceKind::roof:
+      return "roof";
+    case SurfaceKind::wall:
+      return "wall";
+    case SurfaceKind::foundation:
+      return "foundation";
+    case SurfaceKind::floor:
+      return "floor";
+    case SurfaceKind::unknown:
+      break;
+  }
+  return "unknown";
+}
+
+/// Number of rows that are kept as text before they are written.
+constexpr std::size_t rows_at_once = 1024;
+
+template <class Row>
+void write_table(const std::filesystem::path& path, std::initializer_list<std::string_view> header, std::span<const Row> rows,
+                 void (*add)(const Row&, CsvText&)) {
+  write_text_atomically(path, [&](std::ostream& out) {
+    CsvText text;
+    text.fields(header).end_row();
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+      add(rows[n], text);
+      if (n % rows_at_once == 0) out << std::exchange(text, {}).bytes();
+    }
+    out << text.bytes();
+  });
+}
+
+/// The columns of a table of receivers: identity and place, answer, and bounds where they are wanted.
+void add_receiver_header(std::initializer_list<std::string_view> identity, const AnswerColumns& columns, CsvText& text) {
+  text.fields(identity).field(columns.quantity);
+  if (columns.bounds == BoundsColumns::yes) text.fields({columns.quantity + "_low", columns.quantity + "_high"});
+  text.end_row();
+}
+
+template <class Row>
+void add_answer(const Row& row, BoundsColumns bounds, CsvText& text) {
+  text.svf(row.svf);
+  if (bounds == BoundsColumns::yes) text.svf(row.low).svf(row.high);
+  text.end_row();
+}
+
+void add_point(const PointRow& r, CsvText& text) {
+  text.field(r.id).millimetres(r.p_projected.x).millimetres(r.p_projected.y).millimetres(r.height_m);
+}
+
+void add_surface_point(const SurfacePointRow& r, CsvText& text) {
+  text.field(r.building).whole(r.surface).field(word_for(r.kind));
+  text.millimetres(r.p_projected.x).millimetres(r.p_projected.y).millimetres(r.p_projected.z);
+  text.millimetres(degrees(r.azimuth)).millimetres(degrees(r.tilt)).millimetres(r.area_m2);
+}
+
+void add_surface(const SurfaceRow& r, CsvText& text) {
+  text.field(r.building).whole(r.surface).field(word_for(r.kind));
+  text.millimetres(degrees(r.azimuth)).millimetres(degrees(r.tilt)).millimetres(r.area_m2);
+  text.whole(r.receivers).whole(r.nodata).svf(r.svf_mean).svf(r.svf_min).svf(r.svf_max).end_row();
+}
+
+void add_building(const BuildingRow& r, CsvText& text) {
+  text.field(r.building).millimetres(r.roof_area_m2).millimetres(r.wall_area_m2);
+  text.whole(r.receivers).whole(r.nodata).svf(r.svf_roofs).svf(r.svf_walls).end_row();
+}
+
+/// OUT.csv → OUT.surfaces.csv
+std::filesystem::path beside(const std::filesystem::path& output, const std::string& what) {
+  return std::filesystem::path(output).replace_extension(what + output.extension().string());
+}
+
+}  // namespace
+
+void write_points_csv(const PointRows& rows, const AnswerColumns& columns, const std::filesystem::path& path) {
+  write_text_atomically(path, [&](std::ostream& out) {
+    CsvText text;
+    add_receiver_header({"id", "x_m", "y_m", "z_m"}, columns, text);
+    for (std::size_t n = 0; n < rows.count; ++n) {
+      const PointRow row = rows.row(n);
+      add_point(row, text);
+      add_answer(row, columns.bounds, text);
+      if (n % rows_at_once == 0) out << std::exchange(text, {}).bytes();
+    }
+    out << text.bytes();
+  });
+}
+
+SurfacePointsCsv::SurfacePointsCsv(const AnswerColumns& columns, const std::filesystem::path& path)
+    : path_(path), bounds_(columns.bounds), spool_(path) {
+  CsvText header;
+  add_receiver_header({"building", "surface", "kind", "x_m", "y_m", "z_m", "azimuth_deg", "tilt_deg", "area_m2"}, columns,
+                      header);
+  header_ = header.bytes();
+}
+
+void SurfacePointsCsv::write_part(std::size_t part, std::span<const SurfacePointRow> rows) {
+  if (rows.empty()) return;
+  CsvText text;
+  for (const SurfacePointRow& row : rows) {
+    add_surface_point(row, text);
+    add_answer(row, bounds_, text);
+  }
+  const std::string& bytes = text.bytes();
+  const bool is_new = parts_.emplace(part, Place{spool_.append(std::as_bytes(std::span(bytes))), bytes.size()}).second;
+  FARLOD_EXPECTS(is_new);
+}
+
+void SurfacePointsCsv::commit() {
+  write_text_atomically(path_, [this](std::ostream& out) {
+    out << header_;
+    std::string bytes;
+    for (const auto& [part, place] : parts_) {
+      bytes.resize(place.bytes);
+      spool_.read(place.begin, std::as_writable_bytes(std::span(bytes)));
+      out << bytes;
+    }
+  });
+}
+
+void write_surfaces_csv(std::span<const SurfaceRow> rows, const std::string& quantity, const std::filesystem::path& path) {
+  write_table(path,
+              {"building", "surface", "kind", "azimuth_deg", "tilt_deg", "area_m2", "receivers", "nodata", quantity + "_mean",
+               quantity + "_min", quantity + "_max"},
+              rows, add_surface);
+}
+
+void write_buildings_csv(std::span<const BuildingRow> rows, const std::string& quantity, const std::filesystem::path& path) {
+  write_table(path, {"building", "roof_area_m2", "wall_area_m2", "receivers", "nodata", quantity + "_roofs", quantity + "_walls"},
+              rows, add_building);
+}
+
+std::vector<std::filesystem::path> SurfaceTablesCsv::commit(std::span<const SurfaceRow> surfaces,
+                                                            std::span<const BuildingRow> buildings) {
+  const std::vector<std::filesystem::path> files{path_, beside(path_, ".surfaces"), beside(path_, ".buildings")};
+  receivers_.commit();
+  write_surfaces_csv(surfaces, quantity_, files[1]);
+  write_buildings_csv(buildings, quantity_, files[2]);
+  return files;
+}
+
+}  // namespace farlod

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "results/spool_file.hpp"
+#include "results/table/table_writer.hpp"
+
+namespace farlod {
+
+// Tables as CSV; docs/stages/results.md says how rows, numbers and missing answers are written. All functions throw OutputError.
+
+/// Columns: id, x_m, y_m, z_m, then the answers.
+void write_points_csv(const PointRows& rows, const AnswerColumns& columns, const std::filesystem::path& path);
+
+/// Columns: building, surface, kind, x_m, y_m, z_m, azimuth_deg, tilt_deg, area_m2, then the answers. Rows come in parts, in any
+/// order; until it is committed, they wait in a spool file.
+class SurfacePointsCsv {
+ public:
+  SurfacePointsCsv(const AnswerColumns& columns, const std::filesystem::path& path);
+  /// Each part comes once at the most.
+  void write_part(std::size_t part, std::span<const SurfacePointRow> rows);
+  /// Writes the parts in the order of their numbers. The file appears now.
+  void commit();
+
+ private:
+  struct Place {
+    std::uint64_t begin, bytes;
+  };
+  std::filesystem::path path_;
+  std::string header_;
+  BoundsColumns bounds_;
+  SpoolFile spool_;
+  std::map<std::size_t, Place> parts_;
+};
+
+/// Columns: building, surface, kind, azimuth_deg, tilt_deg, area_m2, receivers, nodata, QUANTITY_mean, QUANTITY_min,
+/// QUANTITY_max.
+void write_surfaces_csv(std::span<const SurfaceRow> rows, const std::string& quantity, const std::filesystem::path& path);
+
+/// Columns: building, roof_area_m2, wall_area_m2, receivers, nodata, QUANTITY_roofs, QUANTITY_walls.
+void write_buildings_csv(std::span<const BuildingRow> rows, const std::string& quantity, const std::filesystem::path& path);
+
+/// The three tables of surfaces: NAME.csv, NAME.surfaces.csv, NAME.buildings.csv.
+class SurfaceTablesCsv : public SurfaceTablesWriter {
+ public:
+  SurfaceTablesCsv(const AnswerColumns& columns, const std::filesystem::path& path)
+      : quantity_(columns.quantity), path_(path), receivers_(columns, path) {}
+  void write_part(std::size_t part, std::span<const SurfacePointRow> rows) override { receivers_.write_part(part, rows); }
+  [[nodiscard]] std::vector<std::filesystem::path> commit(std::span<const SurfaceRow> surfaces,
+                                                          std::span<const BuildingRow> buildings) override;
+
+ private:
+  std::string quantity_;
+  std::filesystem::path path_;
+  SurfacePointsCsv receivers_;
+};
+
+}  // namespace farlod

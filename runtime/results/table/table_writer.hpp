@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "results/table/sky_table.hpp"
+
+namespace farlod {
+
+/// Whether tables of receivers have columns for the bounds.
+enum class BoundsColumns { no, yes };
+
+/// The columns of the answers: QUANTITY, and with bounds QUANTITY_low and QUANTITY_high.
+struct AnswerColumns {
+  std::string quantity;  ///< "svf" or "svf_solid"
+  BoundsColumns bounds = BoundsColumns::no;
+};
+
+/// The rows of a table of points, made one by one, so that nobody has to hold them all.
+struct PointRows {
+  std::size_t count = 0;
+  std::function<PointRow(std::size_t n)> row;
+};
+
+/// Writes the tables of --surfaces: one of receivers, one of surfaces, one of buildings. All functions throw OutputError.
+class SurfaceTablesWriter {
+ public:
+  SurfaceTablesWriter() = default;
+  virtual ~SurfaceTablesWriter() = default;
+  SurfaceTablesWriter(const SurfaceTablesWriter&) = delete;
+  SurfaceTablesWriter& operator=(const SurfaceTablesWriter&) = delete;
+
+  /// Receivers come in parts, in any order, each part once at the most. In the table, parts are ordered by their numbers.
+  virtual void write_part(std::size_t part, std::span<const SurfacePointRow> rows) = 0;
+  /// Writes the other two tables. The files appear now, and not before. Returns their paths.
+  [[nodiscard]] virtual std::vector<std::filesystem::path> commit(std::span<const SurfaceRow> surfaces,
+                                                                  std::span<const BuildingRow> buildings) = 0;
+};
+
+}  // namespace farlod

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <png.h>
+
+#include <cmath>
+#include <limits>
+
+#include "results/output_error.hpp"
+#include "results/picture/bitmap_font.hpp"
+#include "results/picture/colour_map.hpp"
+#include "results/picture/png_writer.hpp"
+#include "results/picture/raster_preview.hpp"
+#include "tests/runtime/results/raster/small_raster.hpp"
+#include "tests/runtime/results/scratch_folder.hpp"
+
+namespace farlod {
+namespace {
+
+Picture decode_png(const std::filesystem::path& path) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  EXPECT_NE(png_image_begin_read_from_file(&image, path.c_str()), 0) << image.message;
+  image.format = PNG_FORMAT_RGB;
+  std::vector<Colour> pixels(static_cast<std::size_t>(image.width) * image.height);
+  EXPECT_NE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr), 0) << image.message;
+  Picture picture({image.width, image.height}, {});
+  for (std::size_t n = 0; n < pixels.size(); ++n) picture.set({n % image.width, n / image.width}, pixels[n]);
+  return picture;
+}
+
+/// Relative luminance of an sRGB colour (IEC 61966-2-1).
+double luminance(Colour colour) {
+  const auto linear = [](std::uint8_t c) {
+    const double v = c / 255.0;
+    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(colour.red) + 0.7152 * linear(colour.green) + 0.0722 * linear(colour.blue);
+}
+
+PreviewRaster fit_to_screen(const WholeRaster& raster) {
+  ScreenFit fit(raster);
+  for (const RasterTile& tile : tiles_of(raster)) fit.add(tile);
+  return fit.preview();
+}
+
+WholeRaster raster_of(std::size_t columns, std::size_t rows, float svf) {
+  WholeRaster raster;
+  raster.columns = columns;
+  raster.rows = rows;
+  raster.svf.assign(columns * rows, svf);
+  raster.quantity = "svf";
+  return raster;
+}
+
+TEST(ColourMap, LuminanceRisesWithTheShare) {
+  // A hundredth is the finest step that a preview is read for
+  for (int n = 1; n <= 100; ++n) EXPECT_GT(luminance(colour_of_svf(n / 100.0)), luminance(colour_of_svf((n - 1) / 100.0))) << n;
+}
+
+TEST(ColourMap, ValuesOutsideTakeTheNearerEnd) {
+  EXPECT_EQ(colour_of_svf(-0.5), colour_of_svf(0.0));
+  EXPECT_EQ(colour_of_svf(1.5), colour_of_svf(1.0));
+}
+
+TEST(ColourMap, HasNotTheGreyOfNoData) {
+  for (int n = 0; n <= 1000; ++n) EXPECT_NE(colour_of_svf(n / 1000.0), nodata_colour);
+}
+
+TEST(BitmapFont, WritesInsideOfItsRoom) {
+  const TextStyle style{3, {0, 0, 0}};
+  const std::string text = "gjpqy_NW (0.8)";
+  const PixelSize room = text_size(text, style);
+  EXPECT_EQ(room, (PixelSize{(14 * 6 - 1) * 3, 27}));
+  Picture tight(room, {255, 255, 255}), wide({room.width + 50, room.height + 50}, {255, 255, 255});
+  draw_text(tight, {0, 0}, text, style);
+  draw_text(wide, {0, 0}, text, style);
+  const auto dark = [](const Picture& p) { return std::count(p.pixels().begin(), p.pixels().end(), Colour{0, 0, 0}); };
+  EXPECT_GT(dark(tight), 0);
+  EXPECT_EQ(dark(tight), dark(wide));
+}
+
+TEST(PreviewRaster, LargeRastersAreAveraged) {
+  WholeRaster raster = raster_of(4001, 4, 0.25F);
+  raster.step_m = 2.0;
+  for (std::size_t n = 0; n < raster.svf.size(); n += 2) raster.svf[n] = 0.75F;
+  const PreviewRaster fitted = fit_to_screen(raster);
+  EXPECT_EQ(fitted.columns, 1334U);  // 4001 pixels by three
+  EXPECT_EQ(fitted.rows, 2U);
+  EXPECT_EQ(fitted.metres_per_pixel, 6.0);
+  EXPECT_FLOAT_EQ(fitted.svf[0], (5 * 0.75F + 4 * 0.25F) / 9);
+  EXPECT_FLOAT_EQ(fitted.svf[1], (4 * 0.75F + 5 * 0.25F) / 9);
+}
+
+TEST(PreviewRaster, MostOfASquareDecidesWhetherItHasAnAnswer) {
+  WholeRaster raster = raster_of(4000, 2, 0.5F);
+  for (const std::size_t n : {0, 1, 4000, 2, 3}) raster.svf[n] = std::numeric_limits<float>::quiet_NaN();
+  const PreviewRaster fitted = fit_to_screen(raster);
+  EXPECT_TRUE(std::isnan(fitted.svf[0]));  // three of four have none
+  EXPECT_EQ(fitted.svf[1], 0.5F);          // two of four
+}
+
+TEST(PreviewRaster, SmallRastersAreEnlarged) {
+  const PreviewRaster fitted = fit_to_screen(small_raster());
+  EXPECT_EQ(fitted.columns, 1000U);
+  EXPECT_EQ(fitted.rows, 600U);
+  EXPECT_EQ(fitted.metres_per_pixel, 0.01);
+  EXPECT_EQ(fitted.svf[2 * 200], 0.1F);
+  EXPECT_EQ(fitted.svf[599 * 1000 + 999], 0.33333334F);
+}
+
+TEST(PreviewLayout, HoldsAllItsParts) {
+  for (const PixelSize map : {PixelSize{1, 1}, PixelSize{1000, 1}, PixelSize{1, 2000}, PixelSize{2000, 2000}}) {
+    const PreviewLayout layout = preview_layout(map);
+    EXPECT_LT(layout.map.x + map.width, layout.colour_bar.x);
+    EXPECT_LT(layout.map.y + map.height, layout.footer.y);
+    EXPECT_LT(layout.colour_bar.y + layout.colour_bar_size.height, layout.footer.y);
+    EXPECT_LT(layout.colour_bar.x + layout.colour_bar_size.width, layout.picture.width);
+    EXPECT_LT(layout.footer.y, layout.picture.height);
+  }
+}
+
+TEST(Preview, DecodesToTheStatedSizeAndColours) {
+  const ScratchFolder folder;
+  write_whole<PngPreviewWriter>(small_raster(), folder.file("a.png"));
+  EXPECT_THAT(folder.names(), testing::ElementsAre("a.png"));
+  const Picture picture = decode_png(folder.file("a.png"));
+  const PreviewLayout layout = preview_layout({1000, 600});
+  EXPECT_EQ(picture.size(), layout.picture);
+  const auto middle_of = [&](std::size_t column, std::size_t row) {
+    return picture.at({layout.map.x + column * 200 + 100, layout.map.y + row * 200 + 100});
+  };
+  EXPECT_EQ(middle_of(0, 0), colour_of_svf(1.0));
+  EXPECT_EQ(middle_of(1, 0), nodata_colour);
+  EXPECT_EQ(middle_of(0, 1), colour_of_svf(0.0));
+  EXPECT_EQ(middle_of(2, 2), nodata_colour);
+  EXPECT_EQ(picture.at(layout.colour_bar), colour_of_svf(1.0));
+}
+
+TEST(Preview, LeavesNothingBehindOnFailure) {
+  const ScratchFolder folder;
+  std::filesystem::create_directories(folder.file("a.png") / "inside");
+  EXPECT_THROW(write_png(Picture({2, 2}, {}), folder.file("a.png")), OutputError);
+  EXPECT_THAT(folder.names(), testing::ElementsAre("a.png"));
+}
+
+TEST(ScaleBar, IsRoundAndAsLongAsItMayBe) {
+  EXPECT_EQ(round_length_m(199.0), 100.0);
+  EXPECT_EQ(round_length_m(200.0), 200.0);
+  EXPECT_EQ(round_length_m(9.9), 5.0);
+  EXPECT_EQ(round_length_m(1.0), 1.0);
+  EXPECT_EQ(round_length_m(0.3), 0.2);
+}
+
+}  // namespace
+}  // namespace farlod

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+// Rasters of many tiles, as the programs write them: read back by GDAL.
+#include <gdal_priv.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "results/picture/raster_preview.hpp"
+#include "results/raster/raster_writer_esri_ascii.hpp"
+#include "results/raster/raster_writer_gdal.hpp"
+#include "tests/runtime/results/raster/whole_raster.hpp"
+#include "tests/runtime/results/scratch_folder.hpp"
+
+namespace farlod {
+namespace {
+
+using testing::ElementsAre;
+using testing::NanSensitiveFloatEq;
+using testing::Pointwise;
+
+/// Two tiles by three, of which the last are cut; each pixel another value, some without.
+WholeRaster raster_of_six_tiles() {
+  WholeRaster raster;
+  raster.north_west_m = {1000.0, 2000.0};
+  raster.columns = raster_tile_edge + 30;
+  raster.rows = 2 * raster_tile_edge + 3;
+  raster.quantity = "svf";
+  raster.bands = RasterBands::svf_and_bounds;
+  const auto count = static_cast<float>(raster.columns * raster.rows);
+  for (std::size_t n = 0; n < raster.columns * raster.rows; ++n) {
+    const float svf = n % 7 == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(n) / count;
+    raster.svf.push_back(svf);
+    raster.low.push_back(0.5F * svf);
+    raster.high.push_back(0.5F * svf + 0.5F);
+  }
+  return raster;
+}
+
+std::vector<float> band_of(const std::filesystem::path& path, int band) {
+  GDALAllRegister();
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));
+  EXPECT_NE(dataset, nullptr);
+  const int columns = dataset->GetRasterXSize(), rows = dataset->GetRasterYSize();
+  std::vector<float> pixels(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  EXPECT_EQ(dataset->GetRasterBand(band)->RasterIO(GF_Read, 0, 0, columns, rows, pixels.data(), columns, rows, GDT_Float32, 0, 0,
+                                                   nullptr),
+            CE_None);
+  return pixels;
+}
+
+/// The tiles of the raster, the last first.
+std::vector<RasterTile> backwards(const WholeRaster& raster) {
+  std::vector<RasterTile> tiles = tiles_of(raster);
+  std::reverse(tiles.begin(), tiles.end());
+  return tiles;
+}
+
+void write_backwards(RasterWriter& writer, const WholeRaster& raster) {
+  for (const RasterTile& tile : backwards(raster)) writer.write(tile);
+  writer.commit();
+}
+
+TEST(GeotiffTiles, HoldTheSameValuesInWhateverOrderTheyCome) {
+  const ScratchFolder folder;
+  const WholeRaster raster = raster_of_six_tiles();
+  GeotiffWriter writer(raster, folder.file("a.tif"));
+  write_backwards(writer, raster);
+  EXPECT_THAT(folder.names(), ElementsAre("a.tif"));
+  EXPECT_THAT(band_of(folder.file("a.tif"), 1), Pointwise(NanSensitiveFloatEq(), raster.svf));
+  EXPECT_THAT(band_of(folder.file("a.tif"), 2), Pointwise(NanSensitiveFloatEq(), raster.low));
+  EXPECT_THAT(band_of(folder.file("a.tif"), 3), Pointwise(NanSensitiveFloatEq(), raster.high));
+}
+
+TEST(GeotiffTiles, TheSameOrderMakesTheSameBytes) {
+  const ScratchFolder folder;
+  const WholeRaster raster = raster_of_six_tiles();
+  for (const char* name : {"a.tif", "b.tif"}) {
+    GeotiffWriter writer(raster, folder.file(name));
+    write_backwards(writer, raster);
+  }
+  EXPECT_EQ(text_of(folder.file("a.tif")), text_of(folder.file("b.tif")));
+}
+
+/// A raster without the first of its tiles, which is without answers in it.
+struct WithoutOneTile {
+  WholeRaster raster = raster_of_six_tiles();
+  std::vector<RasterTile> tiles = backwards(raster);
+
+  WithoutOneTile() {
+    tiles.pop_back();
+    for (std::size_t row = 0; row < raster_tile_edge; ++row)
+      for (std::size_t column = 0; column < raster_tile_edge; ++column)
+        for (auto* band : {&raster.svf, &raster.low, &raster.high})
+          (*band)[row * raster.columns + column] = std::numeric_limits<float>::quiet_NaN();
+  }
+};
+
+TEST(GeotiffTiles, WhatDoesNotComeHasNoData) {
+  const ScratchFolder folder;
+  const WithoutOneTile without;
+  GeotiffWriter writer(without.raster, folder.file("a.tif"));
+  for (const RasterTile& tile : without.tiles) writer.write(tile);
+  writer.commit();
+  for (const int band : {1, 2, 3})
+    EXPECT_THAT(band_of(folder.file("a.tif"), band), Pointwise(NanSensitiveFloatEq(), band == 1   ? without.raster.svf
+                                                                                      : band == 2 ? without.raster.low
+                                                                                                  : without.raster.high));
+}
+
+TEST(EsriAsciiTiles, MakeTheSameFileInWhateverOrderTheyCome) {
+  const ScratchFolder folder;
+  const WholeRaster raster = raster_of_six_tiles();
+  {
+    EsriAsciiWriter writer(raster, folder.file("a.asc"));
+    write_backwards(writer, raster);
+  }
+  write_whole<EsriAsciiWriter>(raster, folder.file("b.asc"));
+  EXPECT_THAT(folder.names(), testing::UnorderedElementsAre("a.asc", "b.asc"));
+  EXPECT_EQ(text_of(folder.file("a.asc")), text_of(folder.file("b.asc")));
+  std::vector<float> expected = raster.svf;
+  for (float& svf : expected) svf = std::isnan(svf) ? -9999.0F : svf;
+  EXPECT_EQ(band_of(folder.file("a.asc"), 1), expected);
+}
+
+TEST(EsriAsciiTiles, WhatDoesNotComeHasNoData) {
+  const ScratchFolder folder;
+  const WithoutOneTile without;
+  EsriAsciiWriter writer(without.raster, folder.file("a.asc"));
+  for (const RasterTile& tile : without.tiles) writer.write(tile);
+  writer.commit();
+  write_whole<EsriAsciiWriter>(without.raster, folder.file("b.asc"));
+  EXPECT_EQ(text_of(folder.file("a.asc")), text_of(folder.file("b.asc")));
+}
+
+TEST(EsriAsciiTiles, NothingIsLeftOfAFileThatIsGivenUp) {
+  const ScratchFolder folder;
+  const WholeRaster raster = raster_of_six_tiles();
+  {
+    EsriAsciiWriter ascii(raster, folder.file("a.asc"));
+    GeotiffWriter geotiff(raster, folder.file("a.tif"));
+    for (const RasterTile& tile : tiles_of(raster)) {
+      ascii.write(tile);
+      geotiff.write(tile);
+    }
+  }
+  EXPECT_THAT(folder.names(), testing::IsEmpty());
+}
+
+TEST(PngTiles, MakeTheSamePictureInWhateverOrderTheyCome) {
+  const ScratchFolder folder;
+  const WholeRaster raster = raster_of_six_tiles();
+  PngPreviewWriter writer(raster, folder.file("a.png"));
+  write_backwards(writer, raster);
+  write_whole<PngPreviewWriter>(raster, folder.file("b.png"));
+  EXPECT_EQ(text_of(folder.file("a.png")), text_of(folder.file("b.png")));
+}
+
+}  // namespace
+}  // namespace farlod

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+// What we write is read back by GDAL, which most of those who open our files use.
+#include <gdal_priv.h>
+#include <gmock/gmock.h>
+#include <ogr_spatialref.h>
+
+#include <array>
+#include <cmath>
+
+#include "results/output_error.hpp"
+#include "results/raster/esri_wkt_gdal.hpp"
+#include "results/raster/raster_writer_esri_ascii.hpp"
+#include "results/raster/raster_writer_gdal.hpp"
+#include "tests/runtime/results/raster/small_raster.hpp"
+#include "tests/runtime/results/scratch_folder.hpp"
+
+namespace farlod {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::UnorderedElementsAre;
+
+GDALDatasetUniquePtr open_raster(const std::filesystem::path& path) {
+  GDALAllRegister();
+  return GDALDatasetUniquePtr(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));
+}
+
+std::vector<float> pixels_of(GDALDataset& dataset) {
+  const int columns = dataset.GetRasterXSize(), rows = dataset.GetRasterYSize();
+  std::vector<float> pixels(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  EXPECT_EQ(
+      dataset.GetRasterBand(1)->RasterIO(GF_Read, 0, 0, columns, rows, pixels.data(), columns, rows, GDT_Float32, 0, 0, nullptr),
+      CE_None);
+  return pixels;
+}
+
+void expect_place_of(const WholeRaster& raster, GDALDataset& dataset) {
+  EXPECT_EQ(dataset.GetRasterXSize(), static_cast<int>(raster.columns));
+  EXPECT_EQ(dataset.GetRasterYSize(), static_cast<int>(raster.rows));
+  std::array<double, 6> geotransform{};
+  ASSERT_EQ(dataset.GetGeoTransform(geotransform.data()), CE_None);
+  EXPECT_THAT(geotransform, ElementsAre(raster.north_west_m.x, raster.step_m, 0.0, raster.north_west_m.y, 0.0, -raster.step_m));
+  ASSERT_NE(dataset.GetSpatialRef(), nullptr);
+  OGRSpatialReference expected;
+  ASSERT_EQ(expected.importFromWkt(raster.crs_wkt.c_str()), OGRERR_NONE);
+  EXPECT_TRUE(dataset.GetSpatialRef()->IsSame(&expected));
+}
+
+TEST(GeoTiff, LiesWhereTheRasterLies) {
+  const ScratchFolder folder;
+  write_whole<GeotiffWriter>(small_raster(), folder.file("a.tif"));
+  EXPECT_THAT(folder.names(), ElementsAre("a.tif"));
+  const auto dataset = open_raster(folder.file("a.tif"));
+  ASSERT_NE(dataset, nullptr);
+  expect_place_of(small_raster(), *dataset);
+}
+
+TEST(GeoTiff, HoldsTheValuesAndDeclaresNoData) {
+  const ScratchFolder folder;
+  write_whole<GeotiffWriter>(small_raster(), folder.file("a.tif"));
+  const auto dataset = open_raster(folder.file("a.tif"));
+  ASSERT_NE(dataset, nullptr);
+  EXPECT_THAT(pixels_of(*dataset), testing::Pointwise(testing::NanSensitiveFloatEq(), small_raster().svf));
+  GDALRasterBand& band = *dataset->GetRasterBand(1);
+  int declared = 0;
+  EXPECT_TRUE(std::isnan(band.GetNoDataValue(&declared)));
+  EXPECT_TRUE(declared);
+  EXPECT_STREQ(band.GetDescription(), "svf");
+  EXPECT_EQ(band.GetRasterDataType(), GDT_Float32);
+}
+
+TEST(GeoTiff, HasTheSameBytesEachTime) {
+  const ScratchFolder folder;
+  write_whole<GeotiffWriter>(small_raster(), folder.file("a.tif"));
+  write_whole<GeotiffWriter>(small_raster(), folder.file("b.tif"));
+  EXPECT_EQ(text_of(folder.file("a.tif")), text_of(folder.file("b.tif")));
+}
+
+TEST(GeoTiff, KeepsACrsWithoutACode) {
+  const ScratchFolder folder;
+  WholeRaster raster = small_raster();
+  raster.crs_wkt =
+      R"(PROJCS["town",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",48.25],PARAMETER["central_meridian",11.5],PARAMETER["scale_factor",1],PARAMETER["false_easting",0],PARAMETER["false_northing",0],UNIT["metre",1]])";
+  write_whole<GeotiffWriter>(raster, folder.file("a.tif"));
+  EXPECT_THAT(folder.names(), ElementsAre("a.tif"));
+  expect_place_of(raster, *open_raster(folder.file("a.tif")));
+}
+
+TEST(GeoTiff, LeavesNothingBehindOnFailure) {
+  const ScratchFolder folder;
+  WholeRaster raster = small_raster();
+  raster.crs_wkt = "PROJCS[";
+  EXPECT_THROW(write_whole<GeotiffWriter>(raster, folder.file("a.tif")), OutputError);
+  EXPECT_THAT(folder.names(), IsEmpty());
+}
+
+TEST(GeoTiff, NamesTheFileThatCannotBeWritten) {
+  const ScratchFolder folder;
+  try {
+    write_whole<GeotiffWriter>(small_raster(), folder.file("missing") / "a.tif");
+    FAIL() << "a folder that does not exist was written to";
+  } catch (const OutputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("missing/a.tif: "));
+  }
+}
+
+TEST(EsriAscii, IsReadByGdalAsTheSameRaster) {
+  const ScratchFolder folder;
+  write_whole<EsriAsciiWriter>(small_raster(), folder.file("a.asc"));
+  EXPECT_THAT(folder.names(), UnorderedElementsAre("a.asc", "a.prj"));
+  const auto dataset = open_raster(folder.file("a.asc"));
+  ASSERT_NE(dataset, nullptr);
+  expect_place_of(small_raster(), *dataset);
+  EXPECT_EQ(dataset->GetRasterBand(1)->GetRasterDataType(), GDT_Float32);
+  const auto nodata = static_cast<float>(dataset->GetRasterBand(1)->GetNoDataValue());
+  std::vector<float> expected = small_raster().svf;
+  for (float& svf : expected) svf = std::isnan(svf) ? nodata : svf;
+  EXPECT_EQ(pixels_of(*dataset), expected);
+}
+
+TEST(EsriAscii, TheCrsOfAPackageIsReadByGdal) {
+  const ScratchFolder folder;
+  // Packages say their CRS in WKT 2
+  OGRSpatialReference crs;
+  ASSERT_EQ(crs.importFromEPSG(25832), OGRERR_NONE);
+  WholeRaster raster = small_raster();
+  char* wkt2 = nullptr;
+  constexpr std::array<const char*, 2> options{"FORMAT=WKT2_2019", nullptr};
+  ASSERT_EQ(crs.exportToWkt(&wkt2, options.data()), OGRERR_NONE);
+  raster.crs_wkt = wkt2;
+  CPLFree(wkt2);
+  ASSERT_THAT(raster.crs_wkt, testing::StartsWith("PROJCRS["));
+  raster.crs_wkt = esri_wkt_of(raster.crs_wkt);
+  write_whole<EsriAsciiWriter>(raster, folder.file("a.asc"));
+  const auto dataset = open_raster(folder.file("a.asc"));
+  ASSERT_NE(dataset->GetSpatialRef(), nullptr);
+  EXPECT_TRUE(dataset->GetSpatialRef()->IsSame(&crs));
+}
+
+TEST(EsriWkt, WhatIsNoWktComesBackAsItIs) { EXPECT_EQ(esri_wkt_of("no WKT"), "no WKT"); }
+
+TEST(EsriAscii, OpenFieldIsNotTakenForIntegers) {
+  const ScratchFolder folder;
+  WholeRaster raster = small_raster();
+  raster.svf.assign(raster.svf.size(), 1.0F);
+  write_whole<EsriAsciiWriter>(raster, folder.file("a.asc"));
+  EXPECT_EQ(open_raster(folder.file("a.asc"))->GetRasterBand(1)->GetRasterDataType(), GDT_Float32);
+}
+
+TEST(EsriAscii, WithoutCrsHasNoPrj) {
+  const ScratchFolder folder;
+  WholeRaster raster = small_raster();
+  raster.crs_wkt.clear();
+  write_whole<EsriAsciiWriter>(raster, folder.file("a.asc"));
+  EXPECT_THAT(folder.names(), ElementsAre("a.asc"));
+}
+
+}  // namespace
+}  // namespace farlod

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results/table/sky_table_csv.hpp"
+
+#include <gtest/gtest.h>
+
+#include "receivers/point_reader.hpp"
+#include "results/table/csv_text.hpp"
+#include "tests/runtime/results/scratch_folder.hpp"
+
+namespace farlod {
+namespace {
+
+std::string csv_field(std::string_view text) {
+  CsvText csv;
+  csv.field(text);
+  return csv.bytes();
+}
+
+PointRows point_rows(const std::vector<PointRow>& rows) {
+  return {rows.size(), [&rows](std::size_t n) { return rows[n]; }};
+}
+
+void write_surface_points(const std::vector<SurfacePointRow>& rows, const AnswerColumns& columns,
+                          const std::filesystem::path& path) {
+  SurfacePointsCsv table(columns, path);
+  table.write_part(0, rows);
+  table.commit();
+}
+
+TEST(CsvField, IsQuotedWhereItMustBe) {
+  EXPECT_EQ(csv_field("plain text"), "plain text");
+  EXPECT_EQ(csv_field(""), "");
+  EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
+  EXPECT_EQ(csv_field("the \"old\" town"), "\"the \"\"old\"\" town\"");
+  EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
+}
+
+TEST(CsvText, SeparatesFieldsAndEndsRows) {
+  CsvText csv;
+  csv.field("").whole(7).millimetres(std::nullopt).end_row();
+  csv.svf(std::nullopt).svf(0.5).millimetres(1.25).end_row();
+  EXPECT_EQ(csv.bytes(), ",7,\n,0.500000,1.25\n");
+}
+
+TEST(PointsCsv, IsAsDocumented) {
+  const ScratchFolder folder;
+  const std::vector<PointRow> rows{{"square, north", {500000.12345, 5700010.0}, 1.5, 0.5, 0.25, 0.75},
+                                   {"inside", {1.0, -2.25}, {}, {}, {}, {}}};
+  write_points_csv(point_rows(rows), {"svf_solid", BoundsColumns::no}, folder.file("a.csv"));
+  EXPECT_EQ(text_of(folder.file("a.csv")),
+            "id,x_m,y_m,z_m,svf_solid\n"
+            "\"square, north\",500000.123,5700010,1.5,0.500000\n"
+            "inside,1,-2.25,,\n");
+  write_points_csv(point_rows(rows), {"svf", BoundsColumns::yes}, folder.file("b.csv"));
+  EXPECT_EQ(text_of(folder.file("b.csv")),
+            "id,x_m,y_m,z_m,svf,svf_low,svf_high\n"
+            "\"square, north\",500000.123,5700010,1.5,0.500000,0.250000,0.750000\n"
+            "inside,1,-2.25,,,,\n");
+}
+
+TEST(PointsCsv, CanBeReadAsPointsAgain) {
+  const ScratchFolder folder;
+  const std::vector<PointRow> rows{{"the \"first\", quoted\nover two lines", {500000.125, 5700010.25}, 1.5, 0.5, {}, {}},
+                                   {"2nd", {1.0, -2.25}, {}, {}, {}, {}}};
+  write_points_csv(point_rows(rows), {"svf", BoundsColumns::no}, folder.file("a.csv"));
+  const std::vector<RequestedPoint> points = read_points_csv(folder.file("a.csv"));
+  ASSERT_EQ(points.size(), rows.size());
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    EXPECT_EQ(points[n].id, rows[n].id);
+    EXPECT_EQ((Point2d{points[n].x, points[n].y}), rows[n].p_projected);
+    EXPECT_EQ(points[n].z, rows[n].height_m);
+  }
+}
+
+TEST(SurfacePointsCsv, IsAsDocumented) {
+  const ScratchFolder folder;
+  const std::vector<SurfacePointRow> rows{
+      {"b1", 7, SurfaceKind::wall, {10.0, 20.0, 3.125}, Angle::degrees(181.25), Angle::degrees(90.0), 4.0, 0.25, 0.125, 0.5}};
+  write_surface_points(rows, {"svf", BoundsColumns::no}, folder.file("a.csv"));
+  EXPECT_EQ(text_of(folder.file("a.csv")),
+            "building,surface,kind,x_m,y_m,z_m,azimuth_deg,tilt_deg,area_m2,svf\n"
+            "b1,7,wall,10,20,3.125,181.25,90,4,0.250000\n");
+  write_surface_points(rows, {"svf", BoundsColumns::yes}, folder.file("b.csv"));
+  EXPECT_EQ(text_of(folder.file("b.csv")),
+            "building,surface,kind,x_m,y_m,z_m,azimuth_deg,tilt_deg,area_m2,svf,svf_low,svf_high\n"
+            "b1,7,wall,10,20,3.125,181.25,90,4,0.250000,0.125000,0.500000\n");
+}
+
+TEST(SurfacePointsCsv, PartsStandInOrderHoweverTheyCome) {
+  const ScratchFolder folder;
+  std::vector<SurfacePointRow> rows(5);
+  for (std::size_t n = 0; n < rows.size(); ++n) rows[n].surface = static_cast<std::uint32_t>(n);
+  const std::span<const SurfacePointRow> all(rows);
+  {
+    SurfacePointsCsv table({"svf", BoundsColumns::no}, folder.file("a.csv"));
+    table.write_part(70, all.subspan(4));
+    table.write_part(5, all.subspan(0, 2));
+    table.write_part(9, {});
+    table.write_part(12, all.subspan(2, 2));
+    table.commit();
+  }
+  write_surface_points(rows, {"svf", BoundsColumns::no}, folder.file("b.csv"));
+  EXPECT_EQ(text_of(folder.file("a.csv")), text_of(folder.file("b.csv")));
+  EXPECT_EQ(folder.names().size(), 2U);
+}
+
+TEST(SurfacesCsv, IsAsDocumented) {
+  const ScratchFolder folder;
+  std::vector<SurfaceRow> rows(2);
+  rows[0] = {"b1", 0, SurfaceKind::roof, Angle::degrees(0.0), Angle::degrees(0.0), 100.5, 25, 1, 0.75, 0.5, 1.0};
+  rows[1].building = "b2";
+  write_surfaces_csv(rows, "svf", folder.file("a.csv"));
+  EXPECT_EQ(text_of(folder.file("a.csv")),
+            "building,surface,kind,azimuth_deg,tilt_deg,area_m2,receivers,nodata,svf_mean,svf_min,svf_max\n"
+            "b1,0,roof,0,0,100.5,25,1,0.750000,0.500000,1.000000\n"
+            "b2,0,unknown,0,0,0,0,0,,,\n");
+}
+
+TEST(SurfaceTablesCsv, AreThreeFilesThatAppearTogether) {
+  const ScratchFolder folder;
+  const std::vector<SurfacePointRow> rows(1);
+  SurfaceTablesCsv tables({"svf", BoundsColumns::yes}, folder.file("a.b.csv"));
+  tables.write_part(3, rows);
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.b.csv")));
+  const std::vector<std::filesystem::path> files = tables.commit({}, {});
+  const std::vector<std::filesystem::path> expected{folder.file("a.b.csv"), folder.file("a.b.surfaces.csv"),
+                                                    folder.file("a.b.buildings.csv")};
+  EXPECT_EQ(files, expected);
+  for (const auto& file : expected) EXPECT_NE(text_of(file), "") << file;
+}
+
+TEST(BuildingsCsv, IsAsDocumented) {
+  const ScratchFolder folder;
+  const std::vector<BuildingRow> rows{{"b1", 100.0, 0.0, 25, 0, 0.75, std::nullopt}};
+  write_buildings_csv(rows, "svf", folder.file("a.csv"));
+  EXPECT_EQ(text_of(folder.file("a.csv")),
+            "building,roof_area_m2,wall_area_m2,receivers,nodata,svf_roofs,svf_walls\n"
+            "b1,100,0,25,0,0.750000,\n");
+}
+
+}  // namespace
+}  // namespace farlod
