@@ -16,6 +16,7 @@
 
 #include "city/input_error.hpp"
 #include "farlod/expects.hpp"
+#include "gdal/gdal_errors.hpp"
 #include "georeference/crs.hpp"
 #include "georeference/input_crs.hpp"
 #include "georeference/terrain_reader.hpp"
@@ -27,15 +28,6 @@ struct DatasetDeleter {
   void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 };
 using Dataset = std::unique_ptr<GDALDataset, DatasetDeleter>;
-
-/// Keeps GDAL from printing: what it has to say goes into our exceptions.
-class QuietGdal {
- public:
-  QuietGdal() { CPLPushErrorHandler(CPLQuietErrorHandler); }
-  ~QuietGdal() { CPLPopErrorHandler(); }
-  QuietGdal(const QuietGdal&) = delete;
-  QuietGdal& operator=(const QuietGdal&) = delete;
-};
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
   const std::string reason = CPLGetLastErrorMsg();
@@ -190,7 +182,7 @@ ReadyRaster make_ready(const std::filesystem::path& file, const std::string& fal
 }  // namespace
 
 TerrainExtent read_terrain_extent(const std::filesystem::path& file) {
-  const QuietGdal quiet;
+  const GdalErrors quiet;
   const Dataset dataset = open_raster(file);
   const GeoTransform t = geo_transform(*dataset, file);
   TerrainExtent extent{wkt_of(*dataset), {}};
@@ -202,7 +194,7 @@ TerrainExtent read_terrain_extent(const std::filesystem::path& file) {
 
 TerrainRaster read_terrain(const std::filesystem::path& file, const std::string& fallback_crs, const Georeference& georeference,
                            std::optional<Box2d> wanted_city) {
-  const QuietGdal quiet;
+  const GdalErrors quiet;
   const auto output = Crs::find(georeference.crs_wkt);
   FARLOD_EXPECTS(output.has_value());
   const ReadyRaster ready = make_ready(file, fallback_crs, *output);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "city/input_error.hpp"
+#include "gdal/gdal_errors.hpp"
 #include "ingest/files/input_file.hpp"
 
 namespace farlod {
@@ -19,18 +20,6 @@ struct CloseFile {
   void operator()(VSILFILE* file) const { VSIFCloseL(file); }
 };
 using PackedFile = std::unique_ptr<VSILFILE, CloseFile>;
-
-/// Keeps GDAL from printing, and from writing what it learnt of a .gz beside it.
-class QuietGdal {
- public:
-  QuietGdal() {
-    CPLPushErrorHandler(CPLQuietErrorHandler);
-    CPLSetConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
-  }
-  ~QuietGdal() { CPLPopErrorHandler(); }
-  QuietGdal(const QuietGdal&) = delete;
-  QuietGdal& operator=(const QuietGdal&) = delete;
-};
 
 /// Unpacks while it is read. Keeps count: neither is an archive's word taken for its size, nor does it end before that.
 class UnpackingBuffer : public std::streambuf {
@@ -44,8 +33,7 @@ class UnpackingBuffer : public std::streambuf {
 
  protected:
   int_type underflow() override {
-    const QuietGdal quiet;
-    CPLErrorReset();
+    const GdalErrors errors;
     const std::size_t count = VSIFReadL(piece_.data(), 1, piece_.size(), file_.get());
     read_bytes_ += count;
     if (read_bytes_ > most_bytes_)
@@ -87,7 +75,9 @@ std::unique_ptr<std::istream> try_to_open(const InputFile& file) {
     auto stream = std::make_unique<std::ifstream>(file.path, std::ios::binary);
     return *stream ? std::move(stream) : nullptr;
   }
-  const QuietGdal quiet;
+  const GdalErrors quiet;
+  // Otherwise GDAL writes what it learnt of a .gz beside it
+  CPLSetConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
   PackedFile packed(VSIFOpenL(file.path.c_str(), "rb"));
   return packed ? std::make_unique<UnpackingStream>(std::move(packed), file) : nullptr;
 }

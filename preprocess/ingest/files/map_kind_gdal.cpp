@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cpl_error.h>
 #include <gdal_priv.h>
 
 #include <array>
 #include <mutex>
 
+#include "gdal/gdal_errors.hpp"
 #include "ingest/files/map_kind.hpp"
 
 namespace farlod {
@@ -26,10 +26,7 @@ bool lies_on_the_map(const InputFile& file) {
 MapKind map_kind_of(const InputFile& file) {
   static std::once_flag once;
   std::call_once(once, GDALAllRegister);
-  CPLPushErrorHandler(CPLQuietErrorHandler);
-  struct Restore {
-    ~Restore() { CPLPopErrorHandler(); }
-  } restore;
+  const GdalErrors quiet;
   if (is_known(file, GDAL_OF_VECTOR)) return MapKind::features;
   return is_known(file, GDAL_OF_RASTER) && lies_on_the_map(file) ? MapKind::raster : MapKind::unknown;
 }

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cpl_error.h>
 #include <cpl_vsi.h>
 
 #include <algorithm>
 #include <string>
 
 #include "city/input_error.hpp"
+#include "gdal/gdal_errors.hpp"
 #include "ingest/files/zip_directory.hpp"
 #include "ingest/files/zip_members.hpp"
 
@@ -56,10 +56,7 @@ std::vector<InputFile> list(const fs::path& archive) {
 }  // namespace
 
 std::vector<InputFile> files_in_zip(const fs::path& archive) {
-  CPLPushErrorHandler(CPLQuietErrorHandler);
-  struct Restore {
-    ~Restore() { CPLPopErrorHandler(); }
-  } restore;
+  const GdalErrors quiet;
   std::vector<InputFile> files = list(archive);
   std::sort(files.begin(), files.end(), [](const InputFile& a, const InputFile& b) { return a.name < b.name; });
   return files;

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cpl_error.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
@@ -13,6 +12,7 @@
 
 #include "city/input_error.hpp"
 #include "farlod/angle.hpp"
+#include "gdal/gdal_errors.hpp"
 #include "ingest/city_writer.hpp"
 #include "ingest/footprints/footprint_heights.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
@@ -20,23 +20,6 @@
 
 namespace farlod {
 namespace {
-
-/// Keeps GDAL from printing: its errors become ours.
-class GdalMessages {
- public:
-  GdalMessages() { CPLPushErrorHandlerEx(&keep, this); }
-  ~GdalMessages() { CPLPopErrorHandler(); }
-  GdalMessages(const GdalMessages&) = delete;
-  GdalMessages& operator=(const GdalMessages&) = delete;
-
-  [[nodiscard]] std::vector<std::string> take() { return std::exchange(errors_, {}); }
-
- private:
-  static void CPL_STDCALL keep(CPLErr level, CPLErrorNum, const char* message) {
-    if (level >= CE_Failure) static_cast<GdalMessages*>(CPLGetErrorHandlerUserData())->errors_.emplace_back(message);
-  }
-  std::vector<std::string> errors_;
-};
 
 constexpr std::array<const char*, 10> id_field_names{"gml_id",      "@id", "id",         "osm_id",   "osm_way_id",
                                                      "building_id", "bin", "identifier", "objectid", "fid"};
@@ -153,7 +136,7 @@ class FootprintLayer {
                        ". Name the field with --height-field or --storeys-field, or give all one --default-height.");
   }
 
-  void read(GdalMessages& messages) {
+  void read(GdalErrors& messages) {
     layer_.ResetReading();
     for (Feature feature = next_feature(layer_); feature; feature = next_feature(layer_)) {
       read_feature(*feature);
@@ -214,7 +197,7 @@ class FootprintLayer {
     return std::to_string(feature.GetFID());
   }
 
-  void report(GdalMessages& messages, const std::string& place) {
+  void report(GdalErrors& messages, const std::string& place) {
     for (std::string& message : messages.take())
       writer_.add_problem_at(place, ProblemCode::malformed_feature, std::move(message));
   }
@@ -321,7 +304,7 @@ void report_other_layers(GDALDataset& dataset, OGRLayer* chosen, CityWriter& wri
                             std::string("only one layer of a file is read, and that is ") + chosen->GetName());
 }
 
-GDALDatasetUniquePtr open(const InputFile& file, GdalMessages& messages) {
+GDALDatasetUniquePtr open(const InputFile& file, GdalErrors& messages) {
   static std::once_flag once;
   std::call_once(once, GDALAllRegister);
   // Of GML: nothing is written beside the input, and nothing fetched from a place that the input names
@@ -338,7 +321,7 @@ GDALDatasetUniquePtr open(const InputFile& file, GdalMessages& messages) {
 }  // namespace
 
 SourceCity read_footprints(const InputFile& file, const IngestSettings& settings, Report& report) {
-  GdalMessages messages;
+  GdalErrors messages;
   const GDALDatasetUniquePtr dataset = open(file, messages);
   OGRLayer* layer = choose_layer(*dataset, settings);
   if (layer == nullptr) throw InputError(file.name + " holds no layer of polygons: footprints are areas.");
