@@ -95,7 +95,7 @@ class PointRun {
         options_(options),
         named_(read_places(options, package.manifest())),
         cells_(places_along_curve(package, named_.places)),
-        answers_(named_.places.size(), options.bounds),
+        values_(named_.places.size(), options.bounds),
         height_m_(named_.places.size()) {
     share_memory(package, options, needs_of(package, named_, cells_));
   }
@@ -105,14 +105,14 @@ class PointRun {
     return receivers_at(package_, cells_[n].first, named_.places, cells_[n].second, options_.height_above,
                         static_cast<float>(options_.height_m));
   }
-  void take(std::size_t, const CellReceivers& cell, const AnswerTable& answers) {
+  void store(std::size_t, const CellReceivers& cell, const SvfValues& values) {
     for (std::size_t k = 0; k < cell.receivers.size(); ++k) {
       const std::size_t n = cell.receivers[k].index;
       height_m_[n] = cell.receivers[k].p_cell.z + package_.manifest().height_origin_m;
-      answers_.svf[n] = answers.svf[k];
-      if (answers.low.empty()) continue;
-      answers_.low[n] = answers.low[k];
-      answers_.high[n] = answers.high[k];
+      values_.svf[n] = values.svf[k];
+      if (values.low.empty()) continue;
+      values_.low[n] = values.low[k];
+      values_.high[n] = values.high[k];
     }
   }
   void finish(SvfRun& run) const {
@@ -121,9 +121,9 @@ class PointRun {
       return PointRow{named_.ids[n],
                       named_.places[n].p_projected,
                       height_m_[n],
-                      AnswerTable::value(answers_.svf, n),
-                      AnswerTable::value(answers_.low, n),
-                      AnswerTable::value(answers_.high, n)};
+                      SvfValues::value(values_.svf, n),
+                      SvfValues::value(values_.low, n),
+                      SvfValues::value(values_.high, n)};
     };
     options_.format->write_points({named_.places.size(), row_of}, answer_columns(options_), options_.output);
     run.files = {options_.output};
@@ -134,7 +134,7 @@ class PointRun {
   const SvfOptions& options_;
   NamedPlaces named_;
   PlacesByCell cells_;
-  AnswerTable answers_;
+  SvfValues values_;
   std::vector<std::optional<double>> height_m_;  ///< where a receiver stands is known once its cell is read
 };
 

@@ -103,12 +103,12 @@ class RasterRun {
   [[nodiscard]] CellReceivers receivers_of(std::size_t n) const {
     return receivers_.in_cell(package_, cells_[n], options_.height_above, static_cast<float>(options_.height_m));
   }
-  void take(std::size_t n, const CellReceivers& cell, const AnswerTable& answers) {
-    const bool bounds = !answers.low.empty();
+  void store(std::size_t n, const CellReceivers& cell, const SvfValues& values) {
+    const bool bounds = !values.low.empty();
     for (std::size_t k = 0; k < cell.receivers.size(); ++k) {
       const std::size_t pixel = cell.receivers[k].index;
       open_tiles_->put(pixel % plan_.columns, pixel / plan_.columns,
-                       {answers.svf[k], bounds ? answers.low[k] : 0.0F, bounds ? answers.high[k] : 0.0F});
+                       {values.svf[k], bounds ? values.low[k] : 0.0F, bounds ? values.high[k] : 0.0F});
     }
     open_tiles_->part_done();
     pixels_in_grid_ += receivers_.pixel_count(cells_[n]);

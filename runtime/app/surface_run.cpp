@@ -47,16 +47,16 @@ SurfacePointRow row_of(const Package& package, Cell cell, const BlockTiles& bloc
 
 /// All receivers of a cell, those with an answer and those without.
 std::vector<SurfacePointRow> rows_of(const Package& package, Cell cell, std::span<const SurfaceReceiver> receivers,
-                                     std::span<const Receiver> answered, const AnswerTable& answers) {
+                                     std::span<const Receiver> answered, const SvfValues& values) {
   const BlockTiles& block = package.block_tiles(cell);
   std::vector<SurfacePointRow> rows;
   rows.reserve(receivers.size());
   for (const SurfaceReceiver& r : receivers) rows.push_back(row_of(package, cell, block, r));
   for (std::size_t k = 0; k < answered.size(); ++k) {
     SurfacePointRow& row = rows[answered[k].index];
-    row.svf = AnswerTable::value(answers.svf, k);
-    row.low = AnswerTable::value(answers.low, k);
-    row.high = AnswerTable::value(answers.high, k);
+    row.svf = SvfValues::value(values.svf, k);
+    row.low = SvfValues::value(values.low, k);
+    row.high = SvfValues::value(values.high, k);
   }
   return rows;
 }
@@ -111,8 +111,8 @@ class SurfaceRun {
     placed_[n] = surface_receivers(package_, cells_[n], options_.surfaces, options_.spacing_m);
     return answerable(cells_[n], placed_[n]);
   }
-  void take(std::size_t n, const CellReceivers& cell, const AnswerTable& answers) {
-    tables_.add(package_.grid().cells.index_of(cells_[n]), rows_of(package_, cells_[n], placed_[n], cell.receivers, answers));
+  void store(std::size_t n, const CellReceivers& cell, const SvfValues& values) {
+    tables_.add(package_.grid().cells.index_of(cells_[n]), rows_of(package_, cells_[n], placed_[n], cell.receivers, values));
     receiver_count_ += placed_[n].size();
     placed_[n] = {};
   }

@@ -26,14 +26,14 @@ std::vector<Point3d> fibonacci_directions(SkyWeight weight, std::size_t n) {
 SkyDirections::SkyDirections(SkyWeight weight, std::size_t ray_count, const GridRotation& rotation, DirectionSet set)
     : local_(set == DirectionSet::partition ? SkyPartition(weight, ray_count).directions()
                                             : fibonacci_directions(weight, ray_count)) {
-  horizontal_.reserve(local_.size());
-  for (const Point3d& d : local_) horizontal_.push_back(rotation.grid_from_city(d));
+  facing_up_.reserve(local_.size());
+  for (const Point3d& d : local_) facing_up_.push_back(rotation.grid_from_city(d));
 }
 
-std::vector<Point3d> SkyDirections::around(const Point3d& normal) const {
+std::vector<Point3d> SkyDirections::facing(const Point3d& normal) const {
   // The receiver's own axes: one along the contour line, one up the slope
   const Point3d contour = normalized(cross(Point3d{0.0, 0.0, 1.0}, normal));
-  if (contour == Point3d{}) return normal.z > 0.0 ? horizontal_ : std::vector<Point3d>{};
+  if (contour == Point3d{}) return normal.z > 0.0 ? facing_up_ : std::vector<Point3d>{};
   const Point3d upslope = cross(normal, contour);
   std::vector<Point3d> result;
   for (const Point3d& d : local_) {

@@ -11,7 +11,7 @@
 
 namespace farlod {
 
-/// Where in the sky rays go.
+/// The set of directions in which rays are sent.
 enum class DirectionSet {
   partition,  ///< one ray in each cell of the Beckers & Beckers partition (SkyPartition), as in the paper
   fibonacci   ///< a spherical Fibonacci lattice with the sky's weight: fixed, of low discrepancy
@@ -24,16 +24,16 @@ class SkyDirections {
   SkyDirections(SkyWeight weight, std::size_t ray_count, const GridRotation& rotation,
                 DirectionSet set = DirectionSet::partition);
 
-  /// All rays of the hemisphere, whether or not they reach the sky: what a view factor is a share of.
+  /// Number of rays of the hemisphere, above the horizon or below it: the denominator of a view factor.
   [[nodiscard]] std::size_t ray_count() const { return local_.size(); }
-  /// For a horizontal receiver: all rays, all above the horizon.
-  [[nodiscard]] std::span<const Point3d> horizontal() const { return horizontal_; }
-  /// For a receiver with this normal (length 1, grid frame): those of its rays that point above the horizon.
-  [[nodiscard]] std::vector<Point3d> around(const Point3d& normal) const;
+  /// The directions of a receiver whose normal points straight up: all rays, all above the horizon.
+  [[nodiscard]] std::span<const Point3d> facing_up() const { return facing_up_; }
+  /// The directions of a receiver with this normal (length 1, grid frame): those of its rays that point above the horizon.
+  [[nodiscard]] std::vector<Point3d> facing(const Point3d& normal) const;
 
  private:
   std::vector<Point3d> local_;  ///< around the receiver's own axis
-  std::vector<Point3d> horizontal_;
+  std::vector<Point3d> facing_up_;
 };
 
 }  // namespace farlod

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -27,16 +26,12 @@
 namespace farlod {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// An index of the whole city takes some 150 bytes a triangle: 45 MB.
 constexpr std::uint64_t most_triangles_indexed_whole = 300'000;
 
-double seconds_between(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
-
-/// Calls `visit` for each run of receivers that look the same way: they share their directions.
+/// Calls `visit` for each group of consecutive receivers with the same normal: they share their directions.
 template <class Visit>
-void for_each_run(std::span<const Receiver> receivers, const Visit& visit) {
+void for_each_normal(std::span<const Receiver> receivers, const Visit& visit) {
   for (std::size_t first = 0; first < receivers.size();) {
     std::size_t end = first + 1;
     while (end < receivers.size() && receivers[end].normal == receivers[first].normal) ++end;
@@ -46,8 +41,8 @@ void for_each_run(std::span<const Receiver> receivers, const Visit& visit) {
 }
 
 std::vector<Point3d> directions_of(const SkyDirections& all, const Point3f& normal) {
-  if (normal == Point3f{0.0F, 0.0F, 1.0F}) return {all.horizontal().begin(), all.horizontal().end()};
-  return all.around(normalized(Point3d{normal.x, normal.y, normal.z}));
+  if (normal == Point3f{0.0F, 0.0F, 1.0F}) return {all.facing_up().begin(), all.facing_up().end()};
+  return all.facing(normalized(Point3d{normal.x, normal.y, normal.z}));
 }
 
 std::vector<Point3f> places_of(std::span<const Receiver> receivers) {
@@ -56,21 +51,39 @@ std::vector<Point3f> places_of(std::span<const Receiver> receivers) {
   return places;
 }
 
-SvfInterval shares_of(const FreeRays& free, std::size_t ray_count) {
-  const auto share = [ray_count](std::uint32_t n) {
+SvfInterval svf_of(const FreeRays& free, std::size_t ray_count) {
+  const auto part = [ray_count](std::uint32_t n) {
     return static_cast<float>(static_cast<double>(n) / static_cast<double>(ray_count));
   };
-  return {share(free.low), share(free.estimate), share(free.high)};
+  return {part(free.low), part(free.estimate), part(free.high)};
 }
 
-void answer(const SkyAnswers& answers, std::size_t index, const SvfInterval& share) {
-  answers.svf[index] = share.estimate;
+void store(const SvfInterval& svf, std::size_t index, const SkyAnswers& answers) {
+  answers.svf[index] = svf.estimate;
   if (answers.low.empty()) return;
-  answers.low[index] = share.low;
-  answers.high[index] = share.high;
+  answers.low[index] = svf.low;
+  answers.high[index] = svf.high;
+}
+
+/// Counts the free ones of the directions by tracing, and stores the answers; `origins` are those of the receivers in the frame
+/// of the occluder.
+void count_and_store(const Occluder& occluder, std::span<const Point3f> origins, std::span<const Point3d> directions,
+                     std::span<const Receiver> receivers, std::size_t ray_count, const SkyAnswers& answers) {
+  const std::vector<std::uint32_t> free = count_free(occluder, origins, directions);
+  for (std::size_t n = 0; n < receivers.size(); ++n)
+    store(svf_of({free[n], free[n], free[n]}, ray_count), receivers[n].index, answers);
 }
 
 }  // namespace
+
+EvaluationMethod method_of(Engine engine, FarMapKind far_map) {
+  using enum EvaluationMethod;
+  if (far_map == FarMapKind::none || engine == Engine::exact) return whole_city;
+  if (engine == Engine::near_only) return near_scene_alone;
+  if (far_map == FarMapKind::box) return near_scene_and_box;
+  if (engine == Engine::rays) return rays_against_horizons;
+  return engine == Engine::horizon ? horizons_alone : horizons_and_rays;
+}
 
 double sampling_error_of(const SkySettings& settings) {
   const double of_rays = settings.engine == Engine::horizon ? 0.0 : sampling_error(settings.rays);
@@ -99,48 +112,64 @@ SkyEvaluator::SkyEvaluator(const Package& package, const SkySettings& settings)
 }
 SkyEvaluator::~SkyEvaluator() = default;
 
-void SkyEvaluator::evaluate(const CellReceivers& cell, const SkyAnswers& answers) const {
-  if (cell.receivers.empty()) return;
-  if (settings_.engine == Engine::exact || !package_.grid().cells.contains(cell.cell)) return evaluate_exactly(cell, answers);
-  if (settings_.engine == Engine::near_only || package_.manifest().far_map.is_box()) return evaluate_with_box(cell, answers);
-  evaluate_with_horizon(cell, answers);
+EvaluationMethod SkyEvaluator::method_for(Cell cell) const {
+  if (!package_.grid().cells.contains(cell)) return method_of(settings_.engine, FarMapKind::none);
+  return method_of(settings_.engine, package_.manifest().far_map.is_box() ? FarMapKind::box : FarMapKind::horizon);
 }
 
-void SkyEvaluator::evaluate_exactly(const CellReceivers& cell, const SkyAnswers& answers) const {
+void SkyEvaluator::evaluate(const CellReceivers& cell, const SkyAnswers& answers) const {
+  if (cell.receivers.empty()) return;
+  switch (method_for(cell.cell)) {
+    case EvaluationMethod::horizons_and_rays:
+    case EvaluationMethod::horizons_alone:
+      return evaluate_by_horizons(cell, answers);
+    case EvaluationMethod::rays_against_horizons:
+      return evaluate_by_rays_against_horizons(cell, answers);
+    case EvaluationMethod::near_scene_and_box:
+    case EvaluationMethod::near_scene_alone:
+      return evaluate_by_near_scene(cell, answers);
+    case EvaluationMethod::whole_city:
+      return evaluate_by_whole_city(cell, answers);
+  }
+}
+
+void SkyEvaluator::add_times(Clock::time_point start, Clock::time_point scene_ready) const {
+  const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
+  scenes_s_ += seconds(scene_ready - start);
+  evaluate_s_ += seconds(Clock::now() - scene_ready);
+}
+
+void SkyEvaluator::evaluate_by_whole_city(const CellReceivers& cell, const SkyAnswers& answers) const {
   const auto start = Clock::now();
   const WholeCity& city = city_->get(package_);
   const auto scene_ready = Clock::now();
-  for_each_run(cell.receivers, [&](std::span<const Receiver> run) {
+  for_each_normal(cell.receivers, [&](std::span<const Receiver> group) {
     std::vector<Point3f> origins;
-    for (const Receiver& r : run) origins.push_back(city.scene_from_cell(r.p_cell, cell.cell));
-    const auto free = count_free(city.occluder(), origins, directions_of(directions_, run.front().normal));
-    for (std::size_t n = 0; n < run.size(); ++n)
-      answer(answers, run[n].index, shares_of({free[n], free[n], free[n]}, directions_.ray_count()));
+    for (const Receiver& r : group) origins.push_back(city.scene_from_cell(r.p_cell, cell.cell));
+    const std::vector<Point3d> directions = directions_of(directions_, group.front().normal);
+    count_and_store(city.occluder(), origins, directions, group, directions_.ray_count(), answers);
   });
-  scenes_s_ += seconds_between(start, scene_ready);
-  evaluate_s_ += seconds_between(scene_ready, Clock::now());
+  add_times(start, scene_ready);
 }
 
-void SkyEvaluator::evaluate_with_box(const CellReceivers& cell, const SkyAnswers& answers) const {
+void SkyEvaluator::evaluate_by_near_scene(const CellReceivers& cell, const SkyAnswers& answers) const {
   const auto start = Clock::now();
   const Occluder near = near_scene(package_, cell.cell);
-  const BoxFarMap far = settings_.engine == Engine::near_only ? BoxFarMap() : package_.box_far_map(cell.cell);
+  const bool has_box = method_for(cell.cell) == EvaluationMethod::near_scene_and_box;
+  const BoxFarMap far = has_box ? package_.box_far_map(cell.cell) : BoxFarMap();
   const auto scene_ready = Clock::now();
-  for_each_run(cell.receivers, [&](std::span<const Receiver> run) {
-    std::vector<Point3d> directions = directions_of(directions_, run.front().normal);
-    // What the far city hides needs no ray: the map is looked up by direction alone, hence alike for the whole run
+  for_each_normal(cell.receivers, [&](std::span<const Receiver> group) {
+    std::vector<Point3d> directions = directions_of(directions_, group.front().normal);
+    // A box map is looked up by direction alone: what it blocks is blocked for the whole group, and needs no ray
     std::erase_if(directions, [&far](const Point3d& d) { return far.blocks(d); });
-    const std::vector<std::uint32_t> free = count_free(near, places_of(run), directions);
-    for (std::size_t n = 0; n < run.size(); ++n)
-      answer(answers, run[n].index, shares_of({free[n], free[n], free[n]}, directions_.ray_count()));
+    count_and_store(near, places_of(group), directions, group, directions_.ray_count(), answers);
   });
-  scenes_s_ += seconds_between(start, scene_ready);
-  evaluate_s_ += seconds_between(scene_ready, Clock::now());
+  add_times(start, scene_ready);
 }
 
 /// What the receivers of a cell may see.
-struct SkyEvaluator::CellSight {
-  CellSight(const Package& package, const CellReceivers& cell, OverhangGeometry::WholeScene whole_scene)
+struct SkyEvaluator::CellGeometry {
+  CellGeometry(const Package& package, const CellReceivers& cell, OverhangGeometry::WholeScene whole_scene)
       : far(package.far_horizon(cell.cell)),
         silhouettes(cell_silhouettes(package, cell.cell, far, bounding_box(cell.receivers))),
         overhangs(package, cell.cell, std::move(whole_scene)) {}
@@ -149,100 +178,105 @@ struct SkyEvaluator::CellSight {
   OverhangGeometry overhangs;
 };
 
-void SkyEvaluator::evaluate_with_horizon(const CellReceivers& cell, const SkyAnswers& answers) const {
-  const auto start = Clock::now();
-  // A small city is indexed once; of a large one, what a cell needs
+SkyEvaluator::CellGeometry SkyEvaluator::geometry_of(const CellReceivers& cell) const {
+  // Of a small city, one scene is indexed for all cells; of a large one, what each cell needs
   OverhangGeometry::WholeScene whole_scene;
   if (package_.manifest().triangles <= most_triangles_indexed_whole)
     whole_scene = [this](Cell c) {
       const WholeCity& city = city_->get(package_);
       return PlacedScene{city.occluder(), city.scene_from_cell_m(c)};
     };
-  CellSight sight(package_, cell, std::move(whole_scene));
-  const auto scene_ready = Clock::now();
-  Numbers by_rays;
-  if (settings_.engine == Engine::rays) {
-    by_rays.resize(cell.receivers.size());
-    std::iota(by_rays.begin(), by_rays.end(), 0U);
-  } else {
-    by_rays = answer_by_horizons(sight, cell, answers);
-  }
-  if (!by_rays.empty()) answer_by_rays(sight, cell, by_rays, answers);
-  scenes_s_ += seconds_between(start, scene_ready);
-  evaluate_s_ += seconds_between(scene_ready, Clock::now());
+  return {package_, cell, std::move(whole_scene)};
 }
 
-/// Returns the numbers of those that horizons are not enough for.
-SkyEvaluator::Numbers SkyEvaluator::answer_by_horizons(CellSight& sight, const CellReceivers& cell,
-                                                       const SkyAnswers& answers) const {
+void SkyEvaluator::evaluate_by_horizons(const CellReceivers& cell, const SkyAnswers& answers) const {
+  const auto start = Clock::now();
+  CellGeometry geometry = geometry_of(cell);
+  const auto scene_ready = Clock::now();
+  const Numbers uncertain = draw_horizons(geometry, cell, answers);
+  if (!uncertain.empty()) count_rays(geometry, cell, uncertain, answers);
+  add_times(start, scene_ready);
+}
+
+void SkyEvaluator::evaluate_by_rays_against_horizons(const CellReceivers& cell, const SkyAnswers& answers) const {
+  const auto start = Clock::now();
+  CellGeometry geometry = geometry_of(cell);
+  const auto scene_ready = Clock::now();
+  Numbers all(cell.receivers.size());
+  std::iota(all.begin(), all.end(), 0U);
+  count_rays(geometry, cell, all, answers);
+  add_times(start, scene_ready);
+}
+
+SkyEvaluator::Numbers SkyEvaluator::draw_horizons(CellGeometry& geometry, const CellReceivers& cell,
+                                                  const SkyAnswers& answers) const {
   const std::size_t rays_per_azimuth = std::max<std::size_t>(1, (settings_.rays + settings_.azimuths / 2) / settings_.azimuths);
-  HorizonEngine engine(ring_, settings_.weight, sight.far, sight.silhouettes, sight.overhangs,
+  HorizonEngine engine(ring_, settings_.weight, geometry.far, geometry.silhouettes, geometry.overhangs,
                        {static_cast<float>(azimuth_error(settings_.azimuths)), rays_per_azimuth});
-  Numbers by_rays;
+  Numbers uncertain;
   const auto answer_packet = [&](const ReceiverPacket& packet, std::span<const std::uint32_t> numbers) {
-    std::array<SvfInterval, ReceiverPacket::lanes> room;
-    const std::span shares = std::span(room).first(numbers.size());
+    std::array<SvfInterval, ReceiverPacket::lanes> lanes;
+    const std::span svf = std::span(lanes).first(numbers.size());
     const bool bounds = wants_bounds(answers);
-    const std::uint32_t traced = bounds ? engine.evaluate_with_bounds(packet, shares) : engine.evaluate(packet, shares);
+    const std::uint32_t traced = bounds ? engine.evaluate_with_bounds(packet, svf) : engine.evaluate(packet, svf);
     if (traced != 0) require_rays_allowed(cell.cell);
     for (std::size_t l = 0; l < numbers.size(); ++l) {
-      answer(answers, cell.receivers[numbers[l]].index, shares[l]);
-      if (is_doubtful(shares[l])) {
-        by_rays.push_back(numbers[l]);
+      store(svf[l], cell.receivers[numbers[l]].index, answers);
+      if (exceeds_allowed_error(svf[l])) {
+        uncertain.push_back(numbers[l]);
       } else {
         by_rays_ += (traced >> l) & 1U;
       }
     }
   };
   for_each_packet(cell.receivers, packet_order(cell.receivers), answer_packet);
-  return by_rays;
+  return uncertain;
 }
 
-/// Whether the far map leaves an answer more uncertain than the user wants.
-bool SkyEvaluator::is_doubtful(const SvfInterval& s) const {
-  return settings_.max_far_error && std::max(s.high - s.estimate, s.estimate - s.low) > *settings_.max_far_error;
+bool SkyEvaluator::exceeds_allowed_error(const SvfInterval& svf) const {
+  return settings_.max_far_error && std::max(svf.high - svf.estimate, svf.estimate - svf.low) > *settings_.max_far_error;
 }
 
 void SkyEvaluator::require_rays_allowed(Cell cell) const {
-  if (settings_.engine != Engine::horizon) return;
+  if (method_for(cell) != EvaluationMethod::horizons_alone) return;
   throw PackageUnusable(
       "The engine horizon cannot tell how much sky is seen below bridges, balconies and projecting floors, and there is too "
       "much of it in sight of cell " +
       std::to_string(cell.i) + "," + std::to_string(cell.j) + ": use --engine auto.");
 }
 
-void SkyEvaluator::answer_by_rays(CellSight& sight, const CellReceivers& cell, const Numbers& numbers,
-                                  const SkyAnswers& answers) const {
+void SkyEvaluator::count_rays(CellGeometry& geometry, const CellReceivers& cell, const Numbers& numbers,
+                              const SkyAnswers& answers) const {
   by_rays_ += numbers.size();
   std::vector<Receiver> receivers;
   for (const std::uint32_t n : numbers) receivers.push_back(cell.receivers[n]);
   std::stable_sort(receivers.begin(), receivers.end(), [](const Receiver& a, const Receiver& b) {
     return std::tie(a.normal.x, a.normal.y, a.normal.z) < std::tie(b.normal.x, b.normal.y, b.normal.z);
   });
-  for_each_run(receivers, [&](std::span<const Receiver> run) {
-    const std::vector<Point3d> directions = directions_of(directions_, run.front().normal);
+  for_each_normal(receivers, [&](std::span<const Receiver> group) {
+    const std::vector<Point3d> directions = directions_of(directions_, group.front().normal);
     if (directions.empty()) {
-      for (const Receiver& r : run) answer(answers, r.index, SvfInterval{});
+      for (const Receiver& r : group) store(SvfInterval{}, r.index, answers);
       return;
     }
     const RayFan fan(directions);
-    RayEngine engine(fan, sight.far, sight.silhouettes, sight.overhangs, wants_bounds(answers));
-    for (std::size_t first = 0; first < run.size(); first += ReceiverPacket::lanes) {
-      const auto some = run.subspan(first, std::min(ReceiverPacket::lanes, run.size() - first));
+    RayEngine engine(fan, geometry.far, geometry.silhouettes, geometry.overhangs, wants_bounds(answers));
+    for (std::size_t first = 0; first < group.size(); first += ReceiverPacket::lanes) {
+      const auto some = group.subspan(first, std::min(ReceiverPacket::lanes, group.size() - first));
       std::vector<FreeRays> free = engine.count(some);
       if (settings_.max_far_error) retrace(cell.cell, some, engine, free);
-      for (std::size_t n = 0; n < some.size(); ++n) answer(answers, some[n].index, shares_of(free[n], directions_.ray_count()));
+      for (std::size_t n = 0; n < some.size(); ++n) store(svf_of(free[n], directions_.ray_count()), some[n].index, answers);
     }
   });
 }
 
 void SkyEvaluator::retrace(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine,
-                          std::span<FreeRays> free) const {
+                           std::span<FreeRays> free) const {
   const double most = *settings_.max_far_error * static_cast<double>(directions_.ray_count());
-  std::uint32_t doubtful = 0;
+  std::uint32_t uncertain = 0;
   for (std::size_t l = 0; l < free.size(); ++l)
-    if (std::max(free[l].high - free[l].estimate, free[l].estimate - free[l].low) > most) doubtful |= 1U << l;
-  if (doubtful == 0) return;
+    if (std::max(free[l].high - free[l].estimate, free[l].estimate - free[l].low) > most) uncertain |= 1U << l;
+  if (uncertain == 0) return;
   const WholeCity& city = city_->get(package_);
   RayOrigins origins;
   for (std::size_t l = 0; l < receivers.size(); ++l) {
@@ -251,9 +285,9 @@ void SkyEvaluator::retrace(Cell cell, std::span<const Receiver> receivers, const
     origins.y[l] = p.y;
     origins.z[l] = p.z;
   }
-  retraced_rays_ += engine.retrace(city.occluder(), origins, doubtful, free);
+  retraced_rays_ += engine.retrace(city.occluder(), origins, uncertain, free);
 }
 
-SkyEvaluator::Effort SkyEvaluator::effort() const { return {scenes_s_, evaluate_s_, by_rays_, retraced_rays_}; }
+EvaluationStatistics SkyEvaluator::statistics() const { return {scenes_s_, evaluate_s_, by_rays_, retraced_rays_}; }
 
 }  // namespace farlod

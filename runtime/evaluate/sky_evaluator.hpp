@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -23,74 +24,109 @@ struct SvfInterval;
 struct FreeRays;
 
 enum class Engine {
-  automatic,  ///< horizons, and rays where too much sky may be seen below something
+  automatic,  ///< horizons, and rays where too much sky may be seen below something that overhangs
   horizon,    ///< horizons alone
-  rays,       ///< rays, as in the paper (Listing 1); only those that may pass below something are traced
+  rays,       ///< rays, as in the paper (Listing 1), compared with horizons; only those in gaps are traced
   exact,      ///< rays against all tiles: the reference
-  near_only   ///< the far field dropped, as by tools that cut a city into tiles: to measure what it is worth
+  near_only   ///< the far city left out, as by tools that cut a city into tiles: to measure what the far map is worth
 };
+
+/// The far map of a cell; cells outside of the grid have none.
+enum class FarMapKind { horizon, box, none };
+
+/// How the receivers of a cell are answered. A direction is free when
+enum class EvaluationMethod {
+  horizons_and_rays,      ///< it lies above the horizon, or a ray through the gap below an overhang meets nothing
+  horizons_alone,         ///< it lies above the horizon; throws PackageUnusable where a gap would need rays
+  rays_against_horizons,  ///< the same as horizons_and_rays, asked for each of --rays directions instead of each azimuth
+  near_scene_and_box,     ///< its ray meets no near tile, and the box far map has no obstacle in this direction
+  near_scene_alone,       ///< its ray meets no near tile
+  whole_city              ///< its ray meets no tile of the package
+};
+
+/// The only place that decides which method answers a cell:
+///
+///   engine      far map `horizon`       far map `box`        none (outside of the grid)
+///   automatic   horizons_and_rays       near_scene_and_box   whole_city
+///   horizon     horizons_alone          near_scene_and_box   whole_city
+///   rays        rays_against_horizons   near_scene_and_box   whole_city
+///   exact       whole_city              whole_city           whole_city
+///   near_only   near_scene_alone        near_scene_alone     whole_city
+[[nodiscard]] EvaluationMethod method_of(Engine engine, FarMapKind far_map);
 
 struct SkySettings {
   Engine engine = Engine::automatic;
   SkyWeight weight = SkyWeight::cosine;
   std::size_t rays = 1000;
-  /// Where the far map leaves an answer more uncertain than this, the directions that it leaves open are traced against the whole
-  /// city. Needs far maps of the kind `horizon`.
+  /// Allowed error of the far map: where the interval of an answer is wider, the directions that the far map leaves open are
+  /// traced against the whole city. Needs far maps of the kind `horizon`.
   std::optional<double> max_far_error = std::nullopt;
   DirectionSet directions = DirectionSet::partition;
   std::size_t azimuths = 256;  ///< of horizons
 };
 
-/// How far the samples of the sky alone may lead astray: of rays, or of azimuths, whichever errs more and may be used.
+/// Upper bound of the sampling error, without the error of the far map: that of the azimuths or that of the rays, whichever is
+/// larger among those that the engine uses.
 [[nodiscard]] double sampling_error_of(const SkySettings& settings);
 
-/// Where answers go, by Receiver::index. `low` and `high` are wanted or empty.
+/// Arrays that take the answers, indexed by Receiver::index. `low` and `high` are empty where bounds are not wanted.
 struct SkyAnswers {
   std::span<float> svf, low, high;
   explicit SkyAnswers(std::span<float> s, std::span<float> l = {}, std::span<float> h = {}) : svf(s), low(l), high(h) {}
 };
 
-/// Computes sky view factors from a package. May be asked from many threads; the same receivers give the same answers whatever
-/// else is asked, up to the rounding of floats (docs/concepts.md, "Edges that a packet passes over").
+/// What an evaluator has done so far.
+struct EvaluationStatistics {
+  double scenes_s = 0.0, evaluate_s = 0.0;  ///< summed over threads
+  std::uint64_t by_rays = 0;                ///< receivers that needed rays
+  std::uint64_t retraced_rays = 0;          ///< rays traced against the whole city because the far map did not decide them
+};
+
+/// Computes sky view factors from a package. Thread-safe. The same receivers give the same answers whatever else is evaluated, up
+/// to the rounding of floats (docs/concepts.md, "Edges that a packet passes over").
 class SkyEvaluator {
  public:
   /// The package must outlive the evaluator.
   SkyEvaluator(const Package& package, const SkySettings& settings);
   ~SkyEvaluator();
 
-  /// Writes the sky view factor of each receiver, in [0, 1]. A cell outside of the grid has no far map: its receivers are traced
-  /// against the whole city, whatever the engine. Packages with far maps of the kind `box` know no horizons: `automatic` is
-  /// `rays`. Where `low` and `high` are wanted, the truth of the same azimuths or rays lies between them, up to the rounding of
-  /// floats (docs/concepts.md, "Bounds of a sky view factor"); only with far maps of the kind `horizon`. Throws PackageUnusable
-  /// where the engine `horizon` meets a receiver that may see too much sky below something.
+  /// Writes the sky view factor of each receiver, in [0, 1], by the method of the cell (method_of). Where `low` and `high` are
+  /// wanted, the value for the same azimuths or rays and the true far city lies between them, up to the rounding of floats
+  /// (docs/concepts.md, "Bounds of a sky view factor"); bounds need far maps of the kind `horizon` or the method `whole_city`.
+  /// Throws PackageUnusable where `horizons_alone` meets a receiver that may see too much sky below an overhang.
   void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const;
   void evaluate(const CellReceivers& cell, std::span<float> svf) const { evaluate(cell, SkyAnswers(svf)); }
 
-  /// Seconds spent so far, summed over threads; receivers answered by rays rather than by horizons; and rays traced against the
-  /// whole city because the far map did not decide them.
-  struct Effort {
-    double scenes_s = 0.0, evaluate_s = 0.0;
-    std::uint64_t by_rays = 0, retraced_rays = 0;
-  };
-  [[nodiscard]] Effort effort() const;
+  [[nodiscard]] EvaluationStatistics statistics() const;
+  [[nodiscard]] const Package& package() const { return package_; }
+  [[nodiscard]] const SkySettings& settings() const { return settings_; }
 
  private:
-  struct WholeCityOnDemand;
-  void evaluate_exactly(const CellReceivers& cell, const SkyAnswers& answers) const;
-  void evaluate_with_box(const CellReceivers& cell, const SkyAnswers& answers) const;
-  void evaluate_with_horizon(const CellReceivers& cell, const SkyAnswers& answers) const;
-
-  struct CellSight;
+  using Clock = std::chrono::steady_clock;
   using Numbers = std::vector<std::uint32_t>;
-  [[nodiscard]] Numbers answer_by_horizons(CellSight& sight, const CellReceivers& cell, const SkyAnswers& answers) const;
-  [[nodiscard]] bool is_doubtful(const SvfInterval& share) const;
-  /// Called where horizons are not enough: the engine `horizon` ends there.
+  struct WholeCityOnDemand;
+  struct CellGeometry;
+
+  [[nodiscard]] EvaluationMethod method_for(Cell cell) const;
+  // One function for each method, or for two that differ little
+  void evaluate_by_horizons(const CellReceivers& cell, const SkyAnswers& answers) const;
+  void evaluate_by_rays_against_horizons(const CellReceivers& cell, const SkyAnswers& answers) const;
+  void evaluate_by_near_scene(const CellReceivers& cell, const SkyAnswers& answers) const;
+  void evaluate_by_whole_city(const CellReceivers& cell, const SkyAnswers& answers) const;
+
+  [[nodiscard]] CellGeometry geometry_of(const CellReceivers& cell) const;
+  /// Returns the numbers of the receivers whose intervals are wider than the allowed error.
+  [[nodiscard]] Numbers draw_horizons(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const;
+  /// Answers the receivers with these numbers.
+  void count_rays(CellGeometry& geometry, const CellReceivers& cell, const Numbers& numbers, const SkyAnswers& answers) const;
+  /// Traces the rays that the far map leaves open, for receivers whose intervals are wider than the allowed error.
+  void retrace(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine, std::span<FreeRays> free) const;
+  [[nodiscard]] bool exceeds_allowed_error(const SvfInterval& svf) const;
   void require_rays_allowed(Cell cell) const;
-  void answer_by_rays(CellSight& sight, const CellReceivers& cell, const Numbers& numbers, const SkyAnswers& answers) const;
   [[nodiscard]] bool wants_bounds(const SkyAnswers& answers) const {
     return !answers.low.empty() || settings_.max_far_error.has_value();
   }
-  void retrace(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine, std::span<FreeRays> free) const;
+  void add_times(Clock::time_point start, Clock::time_point scene_ready) const;
 
   const Package& package_;
   SkySettings settings_;

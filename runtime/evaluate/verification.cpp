@@ -2,15 +2,45 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/verification.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <random>
 #include <set>
 
 #include "farlod/expects.hpp"
 
 namespace farlod {
+namespace {
+
+/// Random receivers among all: for each cell, their numbers within the cell.
+std::vector<std::vector<std::size_t>> choose_receivers(std::span<const std::size_t> counts, std::size_t wanted) {
+  std::vector<std::vector<std::size_t>> chosen(counts.size());
+  std::size_t cell = 0, first = 0;
+  for (const std::size_t n : choose_some(std::accumulate(counts.begin(), counts.end(), std::size_t{0}), wanted)) {
+    while (n >= first + counts[cell]) first += counts[cell++];
+    chosen[cell].push_back(n - first);
+  }
+  return chosen;
+}
+
+SkySettings reference_settings(SkySettings settings) {
+  settings.engine = Engine::exact;
+  settings.rays = std::max(verify_rays, settings.rays);
+  settings.max_far_error.reset();
+  return settings;
+}
+
+std::vector<double> joined(const std::vector<std::vector<float>>& parts) {
+  std::vector<double> all;
+  for (const std::vector<float>& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+}  // namespace
 
 ErrorSummary summarize_errors(std::span<const double> answers, std::span<const double> exact) {
   FARLOD_EXPECTS(answers.size() == exact.size());
@@ -43,6 +73,23 @@ std::vector<std::size_t> choose_some(std::size_t size, std::size_t count) {
     chosen.insert(chosen.contains(candidate) ? last : candidate);
   }
   return {chosen.begin(), chosen.end()};
+}
+
+ErrorSummary verify(const SkyEvaluator& evaluator, const VerifySettings& settings, std::span<const std::size_t> counts,
+                    const ReceiversOfCell& receivers_of) {
+  const SkyEvaluator reference(evaluator.package(), reference_settings(evaluator.settings()));
+  const auto chosen = choose_receivers(counts, settings.receivers);
+  std::vector<std::vector<float>> answers(counts.size()), exact(counts.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t n) {
+    if (chosen[n].empty()) return;
+    const CellReceivers all = receivers_of(n);
+    CellReceivers some{all.cell, {}};
+    for (const std::size_t k : chosen[n]) some.receivers.push_back(all.receivers[k]);
+    const std::vector<float> answers_of_all = values_of(evaluator, all, settings.bounds).svf;
+    for (const std::size_t k : chosen[n]) answers[n].push_back(answers_of_all[k]);
+    exact[n] = values_of(reference, some, false).svf;
+  });
+  return summarize_errors(joined(answers), joined(exact));
 }
 
 }  // namespace farlod

@@ -6,9 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "evaluate/svf_values.hpp"
+
 namespace farlod {
 
-/// How far answers are from the exact ones: |difference| summed up, and the mean difference (bias, answer − exact).
+/// Errors of answers against the exact ones: of the absolute error its mean, 99th percentile and maximum; bias is the mean of
+/// answer − exact.
 struct ErrorSummary {
   std::size_t count = 0;
   double mean_abs_error = 0.0, p99_abs_error = 0.0, max_abs_error = 0.0, bias = 0.0;
@@ -20,5 +23,20 @@ struct ErrorSummary {
 /// `count` different numbers below `size` (all of them when there are fewer), ascending. The same for the same arguments,
 /// on every machine.
 [[nodiscard]] std::vector<std::size_t> choose_some(std::size_t size, std::size_t count);
+
+/// Rays of each receiver that --verify computes again: the root mean square of their sampling error is below .001.
+inline constexpr std::size_t verify_rays = 20000;
+
+/// How a run is verified.
+struct VerifySettings {
+  std::size_t receivers = 0;  ///< number of receivers to verify; all when the run has fewer
+  bool bounds = false;        ///< whether the run computed bounds
+};
+
+/// What --verify does: chooses random receivers among those of all cells (`counts` are the receivers of each cell), computes them
+/// again by the engine `exact` with `verify_rays` rays or more, and compares. The answers of the run are not kept: each cell with
+/// a chosen receiver is evaluated again as a whole, as in the run, so that packets and answers are the same.
+[[nodiscard]] ErrorSummary verify(const SkyEvaluator& evaluator, const VerifySettings& settings,
+                                  std::span<const std::size_t> counts, const ReceiversOfCell& receivers_of);
 
 }  // namespace farlod

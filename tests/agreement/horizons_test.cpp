@@ -123,7 +123,7 @@ TEST_P(Horizons, WhereAllIsNearAndStandsAreWithinTheirBudget) {
   for (const std::size_t azimuths : {128U, 256U, 512U}) {
     const SkyEvaluator evaluator(town.package(), automatic_with(azimuths));
     const ErrorSummary errors = summarize_errors(svf_of(evaluator, receivers), exact);
-    EXPECT_EQ(evaluator.effort().by_rays, 0U) << "nothing hangs: no rays need to stand in";
+    EXPECT_EQ(evaluator.statistics().by_rays, 0U) << "nothing hangs: no rays need to stand in";
     RecordProperty("max_error_" + std::to_string(azimuths), std::to_string(errors.max_abs_error));
     RecordProperty("mean_error_" + std::to_string(azimuths), std::to_string(errors.mean_abs_error));
     const double most = azimuth_error(azimuths) + sampling_error(many);

@@ -118,7 +118,7 @@ void expect_agreement(const JudgedCity& city, const Chosen& chosen, const std::s
   std::vector<double> errors;
   for (const CellReceivers& r : chosen.cells) {
     const Point3f& n = r.receivers[0].normal;
-    const std::vector<Point3d> around = directions.around(normalized(Point3d{n.x, n.y, n.z}));
+    const std::vector<Point3d> around = directions.facing(normalized(Point3d{n.x, n.y, n.z}));
     const double judged = city.judged(r.cell, r.receivers[0], around, directions.ray_count());
     std::array<float, 1> by_exact{}, by_auto{};
     exactly.evaluate(r, by_exact);

@@ -110,7 +110,7 @@ std::vector<ContestRow> same_directions_contest(const City& city, const Extent& 
   const Field field = prepare_field(city, Place::ground, extent);
   const SkySettings ours = engine_named("rays").settings(rays);
   const SkyDirections all(ours.weight, rays, city.package.grid().rotation);
-  const std::vector<Point3d> directions(all.horizontal().begin(), all.horizontal().end());
+  const std::vector<Point3d> directions(all.facing_up().begin(), all.facing_up().end());
   std::vector<float> our_svf(field.sample.count), rival_svf(our_svf);
   evaluate(city.package, ours, field.sample, our_svf);
   city.rival.evaluate(field.sample_packets, directions, rival_svf);

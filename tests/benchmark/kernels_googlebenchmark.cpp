@@ -10,8 +10,8 @@
 #include "evaluate/visibility.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/packet_horizon.hpp"
-#include "scene/vertical_profile.hpp"
 #include "scene/near_scene.hpp"
+#include "scene/vertical_profile.hpp"
 #include "tests/benchmark/contest.hpp"
 
 // Times the parts that an answer is made of, one thread:
@@ -117,7 +117,7 @@ void trace_near_packets(KernelCity& city, State& state) {
   const Occluder near = near_scene(city.package, cell.cell);
   std::vector<Point3f> origins;
   for (std::size_t n = 0; n < packet_lanes; ++n) origins.push_back(cell.receivers[n].p_cell);
-  for (auto _ : state) ::benchmark::DoNotOptimize(count_free(near, origins, city.directions.horizontal()));
+  for (auto _ : state) ::benchmark::DoNotOptimize(count_free(near, origins, city.directions.facing_up()));
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(origins.size() * rays));
 }
 

@@ -43,7 +43,7 @@ class Town : public testing::Test {
   static std::vector<float> rival_answers(const WholeCityRival& rival, const CityReceivers& receivers) {
     const SkyDirections all(SkyWeight::cosine, rays, town->package.grid().rotation);
     std::vector<float> svf(receivers.count, -1.0F);
-    rival.evaluate(packets_of(town->package.grid(), receivers), {all.horizontal().begin(), all.horizontal().end()}, svf);
+    rival.evaluate(packets_of(town->package.grid(), receivers), {all.facing_up().begin(), all.facing_up().end()}, svf);
     return svf;
   }
   static std::unique_ptr<scenes::TemporaryFolder> folder;

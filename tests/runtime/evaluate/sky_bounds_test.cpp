@@ -190,8 +190,8 @@ TEST_P(SkyBounds, RaysAreTracedAgainstTheWholeCityOnlyWhereTheyMust) {
     lax.evaluate(cell, svf);
     strict.evaluate(cell, svf);
   }
-  EXPECT_EQ(lax.effort().retraced_rays, 0U);
-  EXPECT_LT(strict.effort().retraced_rays, rays * svf.size() / 4);
+  EXPECT_EQ(lax.statistics().retraced_rays, 0U);
+  EXPECT_LT(strict.statistics().retraced_rays, rays * svf.size() / 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -30,9 +30,9 @@ TEST(SkyDirections, HorizontalIsThePartitionInTheGridFrame) {
   const GridRotation rotation(Angle::degrees(20));
   const SkyDirections sky(SkyWeight::solid_angle, ray_count, rotation);
   const std::vector<Point3d> expected = SkyPartition(SkyWeight::solid_angle, ray_count).directions();
-  ASSERT_EQ(sky.horizontal().size(), expected.size());
+  ASSERT_EQ(sky.facing_up().size(), expected.size());
   EXPECT_EQ(sky.ray_count(), expected.size());
-  for (std::size_t n = 0; n < expected.size(); ++n) EXPECT_EQ(sky.horizontal()[n], rotation.grid_from_city(expected[n]));
+  for (std::size_t n = 0; n < expected.size(); ++n) EXPECT_EQ(sky.facing_up()[n], rotation.grid_from_city(expected[n]));
 }
 
 TEST(SkyDirections, TurningTheGridDoesNotTurnThem) {
@@ -40,7 +40,7 @@ TEST(SkyDirections, TurningTheGridDoesNotTurnThem) {
     const GridRotation rotation(Angle::degrees(bearing_deg));
     const SkyDirections turned(SkyWeight::cosine, ray_count, rotation), north(SkyWeight::cosine, ray_count, {});
     for (std::size_t n = 0; n < ray_count; ++n)
-      EXPECT_LE(norm(rotation.city_from_grid(turned.horizontal()[n]) - north.horizontal()[n]), rounding);
+      EXPECT_LE(norm(rotation.city_from_grid(turned.facing_up()[n]) - north.facing_up()[n]), rounding);
   }
 }
 
@@ -50,7 +50,7 @@ TEST(SkyDirections, AroundANormalEachKeepsItsAngleToIt) {
   for (const Point3d& normal : normals) {
     std::size_t n = 0;
     // Rays below the horizon are left out; what is left comes in the order of the partition
-    for (const Point3d& d : sky.around(normal)) {
+    for (const Point3d& d : sky.facing(normal)) {
       EXPECT_GT(d.z, 0.0);
       EXPECT_NEAR(norm(d), 1.0, rounding);
       while (n < local.size() && std::abs(local[n].z - dot(d, normal)) > rounding) ++n;
@@ -65,7 +65,7 @@ TEST(SkyDirections, AreTurnedAndNotMirrored) {
   const std::vector<Point3d> local = SkyPartition(SkyWeight::cosine, 300).directions();
   // Tilted so little that no ray is lost
   const Point3d normal = normalized(Point3d{0.01, 0.02, 1.0});
-  const std::vector<Point3d> tilted = sky.around(normal);
+  const std::vector<Point3d> tilted = sky.facing(normal);
   ASSERT_EQ(tilted.size(), local.size()) << "choose a smaller tilt";
   for (std::size_t n = 2; n < local.size(); ++n) {
     EXPECT_NEAR(dot(tilted[n], tilted[n - 1]), dot(local[n], local[n - 1]), rounding);
@@ -81,7 +81,7 @@ TEST(SkyDirections, ATiltedPlaneInTheOpenSeesItsShareOfTheSky) {
       // The border is the horizon: half an ellipse on the disk, half a great circle on the hemisphere
       const double error = sampling_error(ray_count, std::numbers::pi);
       const auto share = [&](SkyWeight weight) {
-        return static_cast<double>(SkyDirections(weight, ray_count, {}).around(normal).size()) / static_cast<double>(ray_count);
+        return static_cast<double>(SkyDirections(weight, ray_count, {}).facing(normal).size()) / static_cast<double>(ray_count);
       };
       EXPECT_NEAR(share(SkyWeight::cosine), oracles::tilted_cos(tilt.radians()), error) << tilt_deg;
       EXPECT_NEAR(share(SkyWeight::solid_angle), 1.0 - tilt.radians() / std::numbers::pi, error) << tilt_deg;
@@ -90,8 +90,8 @@ TEST(SkyDirections, ATiltedPlaneInTheOpenSeesItsShareOfTheSky) {
 
 TEST(SkyDirections, AFloorSeesNoSkyAndARoofAll) {
   const SkyDirections sky(SkyWeight::cosine, 145, {});
-  EXPECT_TRUE(sky.around({0.0, 0.0, -1.0}).empty());
-  EXPECT_EQ(sky.around({0.0, 0.0, 1.0}).size(), 145U);
+  EXPECT_TRUE(sky.facing({0.0, 0.0, -1.0}).empty());
+  EXPECT_EQ(sky.facing({0.0, 0.0, 1.0}).size(), 145U);
 }
 
 constexpr SkyWeight both_weights[] = {SkyWeight::cosine, SkyWeight::solid_angle};
@@ -103,8 +103,8 @@ TEST(FibonacciDirections, AreAsManyAsAskedForAndAllAbove) {
     for (const std::size_t rays : {1U, 2U, 145U, 1000U}) {
       const SkyDirections sky = fibonacci(weight, rays);
       EXPECT_EQ(sky.ray_count(), rays);
-      ASSERT_EQ(sky.horizontal().size(), rays);
-      for (const Point3d& d : sky.horizontal()) {
+      ASSERT_EQ(sky.facing_up().size(), rays);
+      for (const Point3d& d : sky.facing_up()) {
         EXPECT_GT(d.z, 0.0);
         EXPECT_NEAR(norm(d), 1.0, rounding);
       }
@@ -119,7 +119,7 @@ TEST(FibonacciDirections, EachBandHasItsShare) {
         const double share = sky_share_above(weight, d);
         return share >= from && share < to;
       };
-      const auto count = std::count_if(sky.horizontal().begin(), sky.horizontal().end(), inside);
+      const auto count = std::count_if(sky.facing_up().begin(), sky.facing_up().end(), inside);
       EXPECT_NEAR(static_cast<double>(count), (high - low) * ray_count, 1.0);
     }
   }
@@ -143,7 +143,7 @@ TEST(FibonacciDirections, EachSectorOfABandHasItsShare) {
                          share = sky_share_above(weight, d);
             return share >= from && share < to && turns >= begin && turns < begin + sector;
           };
-          const auto count = std::count_if(sky.horizontal().begin(), sky.horizontal().end(), inside);
+          const auto count = std::count_if(sky.facing_up().begin(), sky.facing_up().end(), inside);
           EXPECT_NEAR(static_cast<double>(count), (high - low) * sector * many, most_off(many)) << sector;
         }
   }
@@ -154,7 +154,7 @@ TEST(FibonacciDirections, TurningTheGridDoesNotTurnThem) {
   const SkyDirections turned(SkyWeight::cosine, 500, rotation, DirectionSet::fibonacci),
       north = fibonacci(SkyWeight::cosine, 500);
   for (std::size_t n = 0; n < 500; ++n)
-    EXPECT_LE(norm(rotation.city_from_grid(turned.horizontal()[n]) - north.horizontal()[n]), rounding);
+    EXPECT_LE(norm(rotation.city_from_grid(turned.facing_up()[n]) - north.facing_up()[n]), rounding);
 }
 
 /// Root of the mean square of the errors that some directions make of finite walls, of many heights and at many azimuths.
@@ -170,7 +170,7 @@ double error_of_walls(SkyWeight weight, DirectionSet set, std::size_t rays) {
         if (across <= 0.0 || along * d / across < -left || along * d / across > right) return true;
         return s.z * d / across > H;
       };
-      const auto free = std::count_if(sky.horizontal().begin(), sky.horizontal().end(), is_free);
+      const auto free = std::count_if(sky.facing_up().begin(), sky.facing_up().end(), is_free);
       const double truth = weight == SkyWeight::cosine ? oracles::finite_wall_cos(H, d, left, right)
                                                        : oracles::finite_wall_solid(H, d, left, right);
       sum += std::pow(static_cast<double>(free) / static_cast<double>(rays) - truth, 2);

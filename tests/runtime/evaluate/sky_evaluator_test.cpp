@@ -168,7 +168,7 @@ TEST_P(SkyEvaluatorOfKind, ATiltedReceiverSharesAllOfItsRays) {
   CellReceivers wall = spread_over({1, 0});
   for (Receiver& r : wall.receivers) r.normal = {0.0F, 1.0F, 0.0F};
   // Half of a wall's rays point below the horizon: they count, and see no sky
-  const auto seen = static_cast<float>(SkyDirections(SkyWeight::cosine, 1000, {}).around({0.0, 1.0, 0.0}).size());
+  const auto seen = static_cast<float>(SkyDirections(SkyWeight::cosine, 1000, {}).facing({0.0, 1.0, 0.0}).size());
   for (const Engine engine : {Engine::rays, Engine::exact})
     EXPECT_EQ(field.svf(wall, {engine}), std::vector<float>(25, seen / 1000.0F));
   if (GetParam() == FarMapKind::box) return;
@@ -230,7 +230,7 @@ TEST(SkyEvaluatorByHorizons, RaysAreNeededWhereSkyMayBeSeenBelowSomethingAndNowh
     rays.evaluate(spread_over(cell), b);
     for (std::size_t n = 0; n < a.size(); ++n)
       EXPECT_NEAR(a[n], b[n], sampling_error_of({Engine::automatic}) + sampling_error_of({Engine::rays})) << n;
-    return std::tuple(automatic.effort().by_rays, rays.effort().by_rays);
+    return std::tuple(automatic.statistics().by_rays, rays.statistics().by_rays);
   };
   const auto [below_slab, all] = both({-2, 0});
   EXPECT_GT(below_slab, 15U) << "most of those below the slab see more below it than the accuracy allows";

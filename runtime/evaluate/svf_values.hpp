@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "evaluate/sky_evaluator.hpp"
+
+namespace farlod {
+
+/// Sky view factors of receivers by their numbers, with bounds where they are wanted (otherwise `low` and `high` are empty).
+struct SvfValues {
+  static constexpr float no_data = std::numeric_limits<float>::quiet_NaN();
+  std::vector<float> svf, low, high;
+
+  SvfValues(std::size_t size, bool bounds) : svf(size, no_data), low(bounds ? size : 0, no_data), high(low) {}
+  /// The n-th of `svf`, `low` or `high`; nothing where it is no data, or where bounds are not wanted.
+  [[nodiscard]] static std::optional<double> value(const std::vector<float>& values, std::size_t n) {
+    return values.empty() || std::isnan(values[n]) ? std::nullopt : std::optional<double>(values[n]);
+  }
+};
+
+/// The receivers of the n-th cell of a run. Must give the same receivers at each call, on any thread.
+using ReceiversOfCell = std::function<CellReceivers(std::size_t n)>;
+
+/// Evaluates all receivers of a cell. The values are in the order of the receivers, whatever their indices.
+[[nodiscard]] inline SvfValues values_of(const SkyEvaluator& evaluator, CellReceivers cell, bool bounds) {
+  SvfValues values(cell.receivers.size(), bounds);
+  for (std::size_t k = 0; k < cell.receivers.size(); ++k) cell.receivers[k].index = k;
+  evaluator.evaluate(cell, SkyAnswers(values.svf, values.low, values.high));
+  return values;
+}
+
+}  // namespace farlod
