@@ -76,11 +76,11 @@ void count_and_store(const Occluder& occluder, std::span<const Point3f> origins,
 
 }  // namespace
 
-EvaluationMethod method_of(Engine engine, FarMapKind far_map) {
+EvaluationMethod method_of(Engine engine, FarMapOfCell far_map) {
   using enum EvaluationMethod;
-  if (far_map == FarMapKind::none || engine == Engine::exact) return whole_city;
+  if (far_map == FarMapOfCell::none || engine == Engine::exact) return whole_city;
   if (engine == Engine::near_only) return near_scene_alone;
-  if (far_map == FarMapKind::box) return near_scene_and_box;
+  if (far_map == FarMapOfCell::box) return near_scene_and_box;
   if (engine == Engine::rays) return rays_against_horizons;
   return engine == Engine::horizon ? horizons_alone : horizons_and_rays;
 }
@@ -113,8 +113,8 @@ SkyEvaluator::SkyEvaluator(const Package& package, const SkySettings& settings)
 SkyEvaluator::~SkyEvaluator() = default;
 
 EvaluationMethod SkyEvaluator::method_for(Cell cell) const {
-  if (!package_.grid().cells.contains(cell)) return method_of(settings_.engine, FarMapKind::none);
-  return method_of(settings_.engine, package_.manifest().far_map.is_box() ? FarMapKind::box : FarMapKind::horizon);
+  if (!package_.grid().cells.contains(cell)) return method_of(settings_.engine, FarMapOfCell::none);
+  return method_of(settings_.engine, package_.manifest().far_map.is_box() ? FarMapOfCell::box : FarMapOfCell::horizon);
 }
 
 void SkyEvaluator::evaluate(const CellReceivers& cell, const SkyAnswers& answers) const {

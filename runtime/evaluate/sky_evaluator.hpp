@@ -32,7 +32,7 @@ enum class Engine {
 };
 
 /// The far map of a cell; cells outside of the grid have none.
-enum class FarMapKind { horizon, box, none };
+enum class FarMapOfCell { horizon, box, none };
 
 /// How the receivers of a cell are answered. A direction is free when
 enum class EvaluationMethod {
@@ -52,7 +52,7 @@ enum class EvaluationMethod {
 ///   rays        rays_against_horizons   near_scene_and_box   whole_city
 ///   exact       whole_city              whole_city           whole_city
 ///   near_only   near_scene_alone        near_scene_alone     whole_city
-[[nodiscard]] EvaluationMethod method_of(Engine engine, FarMapKind far_map);
+[[nodiscard]] EvaluationMethod method_of(Engine engine, FarMapOfCell far_map);
 
 struct SkySettings {
   Engine engine = Engine::automatic;
