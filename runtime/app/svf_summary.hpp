@@ -8,7 +8,7 @@
 
 namespace farlod {
 
-/// The text of `--summary`.
+/// The text of `--summary`; its keys are listed in docs/stages/results.md.
 [[nodiscard]] std::string svf_summary_json(const SvfRun& run, const SvfOptions& options, double total_seconds);
 
 }  // namespace farlod

@@ -29,6 +29,30 @@ const char* name_of(Engine engine) {
   return "rays";
 }
 
+Json json_of(const RunSeconds& seconds, double total) {
+  return {{"total", total},
+          {"open", seconds.open},
+          {"scenes", seconds.scenes},
+          {"evaluate", seconds.evaluate},
+          {"write", seconds.write}};
+}
+
+Json error_budget_json(const SvfRun& run, const SvfOptions& options) {
+  return {{"allowed", *options.max_error},
+          {"sampling_share", sampling_error_of(options.sky)},
+          {"far_share", *options.sky.max_far_error},
+          {"rays_traced_exactly", run.retraced_rays}};
+}
+
+Json json_of(const ErrorSummary& errors, std::size_t rays) {
+  return {{"count", errors.count},
+          {"rays", rays},
+          {"mean_abs_error", errors.mean_abs_error},
+          {"p99_abs_error", errors.p99_abs_error},
+          {"max_abs_error", errors.max_abs_error},
+          {"bias", errors.bias}};
+}
+
 }  // namespace
 
 std::string svf_summary_json(const SvfRun& run, const SvfOptions& options, double total_seconds) {
@@ -37,12 +61,7 @@ std::string svf_summary_json(const SvfRun& run, const SvfOptions& options, doubl
       {"receivers", run.receivers},
       {"nodata", run.inside_buildings + run.beyond_grid},
       {"engine", name_of(options.sky.engine)},
-      {"seconds",
-       {{"total", total_seconds},
-        {"open", run.seconds.open},
-        {"scenes", run.seconds.scenes},
-        {"evaluate", run.seconds.evaluate},
-        {"write", run.seconds.write}}},
+      {"seconds", json_of(run.seconds, total_seconds)},
       {"receivers_per_second", busy_s > 0.0 ? static_cast<double>(run.receivers) / busy_s : 0.0},
       {"rays", options.sky.rays},
       {"azimuths", options.sky.azimuths},
@@ -50,19 +69,9 @@ std::string svf_summary_json(const SvfRun& run, const SvfOptions& options, doubl
       {"peak_memory_mib", peak_memory_mib()},
       {"svf",
        {{"min", number_or_null(run.svf_min)}, {"mean", number_or_null(run.svf_mean)}, {"max", number_or_null(run.svf_max)}}}};
-  if (options.max_error)
-    j["max_error"] = {{"allowed", *options.max_error},
-                      {"sampling_share", sampling_error_of(options.sky)},
-                      {"far_share", *options.sky.max_far_error},
-                      {"rays_traced_exactly", run.retraced_rays}};
+  if (options.max_error) j["max_error"] = error_budget_json(run, options);
   if (run.bounds) j["bounds"] = {{"mean_width", run.bounds->mean}, {"max_width", run.bounds->max}};
-  if (run.errors)
-    j["verify"] = {{"count", run.errors->count},
-                   {"rays", std::max(verify_rays, options.sky.rays)},
-                   {"mean_abs_error", run.errors->mean_abs_error},
-                   {"p99_abs_error", run.errors->p99_abs_error},
-                   {"max_abs_error", run.errors->max_abs_error},
-                   {"bias", run.errors->bias}};
+  if (run.errors) j["verify"] = json_of(*run.errors, std::max(verify_rays, options.sky.rays));
   return j.dump(1) + "\n";
 }
 

@@ -6,19 +6,19 @@
 
 namespace farlod {
 
-/// The largest error seen among thousands of receivers in streets, on roofs and on walls follows this times rays^(−3/4)
-/// (docs/validation.md, "Shares of the error", measures it anew).
+/// The largest error measured among thousands of receivers in streets, on roofs and on walls is this times rays^(−3/4)
+/// (docs/validation.md, "Shares of the error").
 inline constexpr double sampling_error_factor = 2.4;
 
-/// How far an answer of so many rays is from the truth at the most, because the sky between the rays is not looked at: what was
-/// seen, and a quarter more. Not a certain bound.
+/// Upper estimate of the sampling error of an answer from this many rays: the largest error that was measured, and a quarter
+/// more. Not a certain bound.
 [[nodiscard]] double sampling_error(std::size_t rays);
 
 /// The fewest rays whose sampling error is at most this.
 [[nodiscard]] std::size_t rays_for_sampling_error(double error);
 
-/// The largest error seen among thousands of receivers whose horizons are known in so many azimuths is this over their
-/// number: 1.2 in streets, 1.7 on roofs, 1.9 on walls (docs/concepts.md, "Above a horizon").
+/// The largest error measured among thousands of receivers is this over the number of azimuths of their horizons: 1.2 in
+/// streets, 1.7 on roofs, 1.9 on walls (docs/concepts.md, "Above a horizon").
 inline constexpr double azimuth_error_factor = 1.9;
 
 /// The same for horizons: the error of so many azimuths at the most, and the fewest azimuths whose error is at most this.

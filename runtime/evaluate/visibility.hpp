@@ -11,8 +11,8 @@
 
 namespace farlod {
 
-/// For each origin, how many of the directions meet nothing. Neighboring origins should see alike: 16 of them share a
-/// direction in one packet.
+/// For each origin, the number of directions in which a ray hits nothing. Origins are traced in packets of 16 that share a
+/// direction, which is fast when the origins lie side by side.
 [[nodiscard]] std::vector<std::uint32_t> count_free(const Occluder& occluder, std::span<const Point3f> origins,
                                                     std::span<const Point3d> directions);
 

@@ -21,11 +21,12 @@ Point2d cell_point_within(Point2d p_grid, Cell cell, const Grid& grid) {
   return {std::clamp(p.x, 0.0, last_m), std::clamp(p.y, 0.0, last_m)};
 }
 
-/// Out there is no building to be inside of, nor a roof to stand on, even where one ends at the very border of the grid.
-std::optional<Point3f> stand_outside(const PointLocator& columns, Point2d p_cell, Point2d at_border, HeightAbove above,
+/// For a point outside of the grid: the ground is that at the border of the grid. There are no buildings, even where one ends at
+/// the border.
+std::optional<Point3f> stand_outside(const PointLocator& locator, Point2d p_cell, Point2d at_border, HeightAbove above,
                                      float height_m) {
-  const VerticalProfile column = columns.at(static_cast<float>(at_border.x), static_cast<float>(at_border.y));
-  const auto z_m = standing_height_m(column, above == HeightAbove::highest_surface ? HeightAbove::ground : above, height_m);
+  const VerticalProfile profile = locator.at(static_cast<float>(at_border.x), static_cast<float>(at_border.y));
+  const auto z_m = standing_height_m(profile, above == HeightAbove::highest_surface ? HeightAbove::ground : above, height_m);
   if (!z_m) return std::nullopt;
   return Point3f{static_cast<float>(p_cell.x), static_cast<float>(p_cell.y), *z_m};
 }
@@ -44,7 +45,7 @@ CellReceivers receivers_at(const Package& package, Cell cell, std::span<const Pl
                            std::span<const std::size_t> chosen, HeightAbove above, float height_m) {
   const Grid& grid = package.grid();
   const Cell existing = nearest_existing(cell, grid.cells);
-  const PointLocator columns(package, existing);
+  const PointLocator locator(package, existing);
   CellReceivers result{cell, {}};
   for (const std::size_t n : chosen) {
     const Point2d p_grid = package.manifest().grid_from_projected(places[n].p_projected);
@@ -54,8 +55,8 @@ CellReceivers receivers_at(const Package& package, Cell cell, std::span<const Pl
     const HeightAbove from = has_height ? HeightAbove::sea_level : above;
     const float height = has_height ? static_cast<float>(*places[n].height_m - package.manifest().height_origin_m) : height_m;
     const auto standing = cell == existing
-                              ? stand(columns, x, y, from, height)
-                              : stand_outside(columns, {x, y}, cell_point_within(p_grid, existing, grid), from, height);
+                              ? stand(locator, x, y, from, height)
+                              : stand_outside(locator, {x, y}, cell_point_within(p_grid, existing, grid), from, height);
     if (standing) result.receivers.push_back({n, *standing});
   }
   return result;

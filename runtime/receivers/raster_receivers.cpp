@@ -68,11 +68,11 @@ void RasterReceivers::for_each_pixel(Cell cell, const Visit& visit) const {
 }
 
 CellReceivers RasterReceivers::in_cell(const Package& package, Cell cell, HeightAbove above, float height_m) const {
-  const PointLocator columns(package, cell);
+  const PointLocator locator(package, cell);
   CellReceivers result{cell, {}};
   for_each_pixel(cell, [&](std::size_t index, Point2d p_grid) {
     const Point2d p = p_grid - manifest_.grid.corner_of(cell);
-    if (const auto p_cell = stand(columns, static_cast<float>(p.x), static_cast<float>(p.y), above, height_m))
+    if (const auto p_cell = stand(locator, static_cast<float>(p.x), static_cast<float>(p.y), above, height_m))
       result.receivers.push_back({index, *p_cell});
   });
   return result;

@@ -4,17 +4,17 @@
 
 namespace farlod {
 
-std::optional<float> standing_height_m(const VerticalProfile& column, HeightAbove above, float height_m) {
-  const std::optional<float> from_m = above == HeightAbove::ground            ? column.ground_m()
-                                      : above == HeightAbove::highest_surface ? column.highest_m()
+std::optional<float> standing_height_m(const VerticalProfile& profile, HeightAbove above, float height_m) {
+  const std::optional<float> from_m = above == HeightAbove::ground            ? profile.ground_m()
+                                      : above == HeightAbove::highest_surface ? profile.highest_m()
                                                                               : 0.0F;
   return from_m ? std::optional(*from_m + height_m) : std::nullopt;
 }
 
-std::optional<Point3f> stand(const PointLocator& columns, float x_cell, float y_cell, HeightAbove above, float height_m) {
-  const VerticalProfile column = columns.at(x_cell, y_cell);
-  const auto z_m = standing_height_m(column, above, height_m);
-  if (!z_m || column.is_buried(*z_m)) return std::nullopt;
+std::optional<Point3f> stand(const PointLocator& locator, float x_cell, float y_cell, HeightAbove above, float height_m) {
+  const VerticalProfile profile = locator.at(x_cell, y_cell);
+  const auto z_m = standing_height_m(profile, above, height_m);
+  if (!z_m || profile.is_buried(*z_m)) return std::nullopt;
   return Point3f{x_cell, y_cell, *z_m};
 }
 

@@ -12,13 +12,13 @@
 
 namespace farlod {
 
-/// What is nearer than this is not seen: a receiver that stands exactly on a surface would see nothing else. Twice the rounding
-/// of a coordinate 5 km from a scene's origin.
+/// Rays begin at this distance, because a receiver that stands exactly on a surface would be blocked by it. Twice the rounding of
+/// a coordinate 5 km from a scene's origin.
 inline constexpr float least_distance_m = 0.001F;
 
 /// A point that looks at the sky.
 struct Receiver {
-  std::size_t index = 0;             ///< where its answer goes
+  std::size_t index = 0;             ///< of its answer
   Point3f p_cell;                    ///< in the frame of the cell that it belongs to
   Point3f normal{0.0F, 0.0F, 1.0F};  ///< length 1, grid frame
 };
@@ -32,13 +32,13 @@ struct CellReceivers {
 /// What a receiver's height counts from.
 enum class HeightAbove { ground, highest_surface, sea_level };
 
-/// How high that is; nowhere when the surface that the height counts from is not there.
-[[nodiscard]] std::optional<float> standing_height_m(const VerticalProfile& column, HeightAbove above, float height_m);
+/// The height of a receiver in the package's heights; none where the surface that its height counts from does not exist.
+[[nodiscard]] std::optional<float> standing_height_m(const VerticalProfile& profile, HeightAbove above, float height_m);
 
-/// Where a receiver stands above a place of a cell; nowhere when that is inside a building, or when its height counts from a
-/// surface that is not there (beyond a terrain). `height_m` counts from `above`; for `sea_level`, from the package's height
-/// origin.
-[[nodiscard]] std::optional<Point3f> stand(const PointLocator& columns, float x_cell, float y_cell, HeightAbove above,
+/// The position of a receiver above a point of a cell; none when that is inside a building or below the ground, or when the
+/// surface that its height counts from does not exist (beyond a terrain). `height_m` counts from `above`; for `sea_level`, from
+/// the package's height origin.
+[[nodiscard]] std::optional<Point3f> stand(const PointLocator& locator, float x_cell, float y_cell, HeightAbove above,
                                            float height_m);
 
 }  // namespace farlod

@@ -25,12 +25,12 @@ Point2d in_triangle(std::size_t n) {
   return u + v <= 1.0 ? Point2d{u, v} : Point2d{1.0 - u, 1.0 - v};
 }
 
-/// One receiver stands in the middle; more are spread.
+/// A single receiver stands in the middle.
 Point2d place_in_triangle(std::size_t n, std::size_t count) {
   return count == 1 ? Point2d{1.0 / 3.0, 1.0 / 3.0} : in_triangle(n);
 }
 
-/// Columns of a cell and of its neighbors: a receiver that stands off a wall on the cell's border is in the next.
+/// Locators of a cell and of its neighbors: a receiver that stands off a wall on the border of the cell lies in the next cell.
 class LocatorsAround {
  public:
   LocatorsAround(const Package& package, Cell cell) : package_(package), cell_(cell) {}
@@ -41,15 +41,15 @@ class LocatorsAround {
     const auto step = [edge_m](float x) { return x < 0.0F ? -1 : x >= edge_m ? 1 : 0; };
     const Cell there{cell_.i + step(p_cell.x), cell_.j + step(p_cell.y)};
     if (!grid.cells.contains(there)) return false;
-    const PointLocator& columns = columns_.try_emplace(there, package_, there).first->second;
+    const PointLocator& locator = locators_.try_emplace(there, package_, there).first->second;
     const Point2d p = Point2d{p_cell.x, p_cell.y} + grid.corner_of(cell_) - grid.corner_of(there);
-    return columns.at(static_cast<float>(p.x), static_cast<float>(p.y)).is_buried(p_cell.z);
+    return locator.at(static_cast<float>(p.x), static_cast<float>(p.y)).is_buried(p_cell.z);
   }
 
  private:
   const Package& package_;
   Cell cell_;
-  std::map<Cell, PointLocator> columns_;
+  std::map<Cell, PointLocator> locators_;
 };
 
 /// Triangles of one surface in a tile.
@@ -68,27 +68,27 @@ Piece piece_of(const TileView& tile, std::uint32_t begin, const package::Surface
   return piece;
 }
 
-/// How far the top of a wall that leans out stands ahead of a point of it. None where that is more than surveys err by: such a
-/// wall overhangs the receiver.
+/// Horizontal distance by which the top of a wall that leans out lies ahead of a point of the wall at height z_m. 0 where it is
+/// more than most_lean_m, the error of surveys: such a wall overhangs the receiver.
 float lean_ahead_m(const Piece& wall, float z_m) {
   if (wall.normal.z >= 0.0F) return 0.0F;
   const float ahead_m = (wall.top_m - z_m) * -wall.normal.z / std::hypot(wall.normal.x, wall.normal.y);
   return ahead_m <= most_lean_m ? ahead_m : 0.0F;
 }
 
-void spread(const TileView& tile, const Piece& piece, std::uint32_t t, double spacing_m, LocatorsAround& columns,
+void spread(const TileView& tile, const Piece& piece, std::uint32_t t, double spacing_m, LocatorsAround& locators,
             std::vector<SurfaceReceiver>& receivers) {
   const Triangle& corners = tile.mesh.triangles[t];
   const Point3f a = tile.mesh.vertices[corners.a];
   const Point3f ab = tile.mesh.vertices[corners.b] - a, ac = tile.mesh.vertices[corners.c] - a;
   const float area_m2 = 0.5F * norm(cross(ab, ac));
-  if (area_m2 == 0.0F) return;  // rounded away: it holds no share of the surface
+  if (area_m2 == 0.0F) return;  // rounded to nothing: it has no area to stand for
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(area_m2) / (spacing_m * spacing_m))));
   for (std::size_t n = 0; n < count; ++n) {
     const Point2d w = place_in_triangle(n, count);
     const Point3f on_surface = a + static_cast<float>(w.x) * ab + static_cast<float>(w.y) * ac;
     const Point3f p = on_surface + (surface_offset_m + lean_ahead_m(piece, on_surface.z)) * piece.normal;
-    receivers.push_back({t, area_m2 / static_cast<float>(count), p, piece.normal, columns.is_buried(p)});
+    receivers.push_back({t, area_m2 / static_cast<float>(count), p, piece.normal, locators.is_buried(p)});
   }
 }
 
@@ -96,13 +96,13 @@ void spread(const TileView& tile, const Piece& piece, std::uint32_t t, double sp
 
 std::vector<SurfaceReceiver> surface_receivers(const Package& package, Cell cell, SurfaceChoice choice, double spacing_m) {
   const TileView tile = package.tile(cell);
-  LocatorsAround columns(package, cell);
+  LocatorsAround locators(package, cell);
   std::vector<SurfaceReceiver> receivers;
   std::uint32_t begin = 0;
   for (const package::SurfaceRun& run : tile.surface_runs) {
     if (is_chosen(tile.surfaces[run.surface].kind, choice)) {
       const Piece piece = piece_of(tile, begin, run);
-      for (std::uint32_t t = begin; t < run.end; ++t) spread(tile, piece, t, spacing_m, columns, receivers);
+      for (std::uint32_t t = begin; t < run.end; ++t) spread(tile, piece, t, spacing_m, locators, receivers);
     }
     begin = run.end;
   }

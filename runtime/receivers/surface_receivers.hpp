@@ -12,12 +12,12 @@ namespace farlod {
 
 enum class SurfaceChoice { roofs, walls, all };
 
-/// How far a receiver stands off its surface, so that it does not see the surface itself: a hundred times the rounding of a
+/// Distance of a receiver from its surface, so that the surface itself does not block it: a hundred times the rounding of a
 /// coordinate in a scene of 10 km (0.5 mm would do), and a fiftieth of a window's reveal.
 inline constexpr float surface_offset_m = 0.01F;
 
-/// A wall whose top leans out over one of its points by less than this is upright: it was surveyed a little off. Its receivers
-/// stand ahead of its top, so that they do not lie below the roof that ends there.
+/// A wall whose top leans out over one of its points by no more than this counts as vertical, with errors of the survey. Its
+/// receivers stand ahead of its top, so that they do not lie below the roof that ends there.
 inline constexpr float most_lean_m = 0.05F;
 
 /// A receiver on a surface, and the area that it stands for.

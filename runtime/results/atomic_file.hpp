@@ -8,8 +8,8 @@
 
 namespace farlod {
 
-/// A file that appears under its name only when it is whole: it is written under a temporary name in the same folder, and
-/// renamed by commit(). What is not committed is removed.
+/// A file that appears under its name only when it is complete: it is written under a temporary name in the same folder and
+/// renamed by commit(). Without commit() it is removed.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path destination);
@@ -18,16 +18,16 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   [[nodiscard]] const std::filesystem::path& destination() const { return destination_; }
-  /// Where to write. Nothing is there yet.
+  /// The path to write to. No file exists there yet.
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
-  /// Gives the file its name, replacing what had it. Throws OutputError.
+  /// Renames the file, replacing an older one of this name. Throws OutputError.
   void commit();
 
  private:
   std::filesystem::path destination_, temporary_;
 };
 
-/// Writes a text file as a whole or not at all: `write` fills the stream. Throws OutputError.
+/// Writes a complete text file or none: `write` fills the stream. Throws OutputError.
 void write_text_atomically(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
 }  // namespace farlod

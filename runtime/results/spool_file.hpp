@@ -12,15 +12,15 @@
 
 namespace farlod {
 
-/// Bytes of a result that come before their turn wait on the disk, in a file beside the result that goes when this does.
+/// A temporary file beside a result, for bytes that are computed before their turn to be written. Removed by the destructor.
 class SpoolFile {
  public:
-  /// Throws OutputError about the result, as do the other functions.
+  /// All functions throw OutputError, which names the result.
   explicit SpoolFile(const std::filesystem::path& result);
 
-  /// Returns where the bytes are from now on.
+  /// Returns the position of the bytes.
   [[nodiscard]] std::uint64_t append(std::span<const std::byte> bytes);
-  /// Fills `bytes` with what was appended there.
+  /// Fills `bytes` from this position.
   void read(std::uint64_t place, std::span<std::byte> bytes);
 
  private:

@@ -51,8 +51,29 @@ float height_at(const PlanIndex::Corners& t, float x, float y) {
 
 }  // namespace
 
+template <class Visit>
+void PlanIndex::for_each_square(const Visit& visit) const {
+  for (std::uint32_t n = 0; n < triangles_.size(); ++n) {
+    if (plan_area(triangles_[n]) == 0.0) continue;
+    const Outline o = outline_of(triangles_[n]);
+    for (std::size_t row = row_of(o.south); row <= row_of(o.north); ++row)
+      for (std::size_t column = column_of(o.west); column <= column_of(o.east); ++column) visit(row * edge_ + column, n);
+  }
+}
+
 PlanIndex::PlanIndex(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
   if (triangles_.empty()) return;
+  lay_out_squares();
+  // Count the triangles of each square, sum up where each square begins, then place the numbers
+  first_of_.assign(edge_ * edge_ + 1, 0);
+  for_each_square([this](std::size_t square, std::uint32_t) { ++first_of_[square + 1]; });
+  for (std::size_t square = 1; square < first_of_.size(); ++square) first_of_[square] += first_of_[square - 1];
+  numbers_.resize(first_of_.back());
+  std::vector<std::uint32_t> next(first_of_.begin(), first_of_.end() - 1);
+  for_each_square([&](std::size_t square, std::uint32_t n) { numbers_[next[square]++] = n; });
+}
+
+void PlanIndex::lay_out_squares() {
   Outline all{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
               std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
   for (const Corners& t : triangles_) {
@@ -66,21 +87,6 @@ PlanIndex::PlanIndex(std::vector<Corners> triangles) : triangles_(std::move(tria
   const auto per_metre = [this](float length) { return length > 0.0F ? static_cast<float>(edge_) / length : 0.0F; };
   per_x_ = per_metre(all.east - all.west);
   per_y_ = per_metre(all.north - all.south);
-  // Counted, then placed
-  const auto for_each_square = [this](const auto& visit) {
-    for (std::uint32_t n = 0; n < triangles_.size(); ++n) {
-      if (plan_area(triangles_[n]) == 0.0) continue;
-      const Outline o = outline_of(triangles_[n]);
-      for (std::size_t row = row_of(o.south); row <= row_of(o.north); ++row)
-        for (std::size_t column = column_of(o.west); column <= column_of(o.east); ++column) visit(row * edge_ + column, n);
-    }
-  };
-  first_of_.assign(edge_ * edge_ + 1, 0);
-  for_each_square([this](std::size_t square, std::uint32_t) { ++first_of_[square + 1]; });
-  for (std::size_t square = 1; square < first_of_.size(); ++square) first_of_[square] += first_of_[square - 1];
-  numbers_.resize(first_of_.back());
-  std::vector<std::uint32_t> next(first_of_.begin(), first_of_.end() - 1);
-  for_each_square([&](std::size_t square, std::uint32_t n) { numbers_[next[square]++] = n; });
 }
 
 std::size_t PlanIndex::column_of(float x) const {

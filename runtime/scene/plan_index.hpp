@@ -11,9 +11,9 @@
 
 namespace farlod {
 
-/// Finds the triangles above and below places of the plan. Upright triangles, which cover nothing in the plan, do not count.
-///   (1) a place on the common edge of two triangles is in both, and no place falls between them: the side of an edge that a
-///       place is on does not depend on the triangle
+/// Finds the triangles above and below points of the plan. Vertical triangles, whose area in the plan is 0, are left out.
+///   (1) a point on the common edge of two triangles lies in both, and no point falls between them: on which side of an edge a
+///       point lies does not depend on the triangle
 class PlanIndex {
  public:
   using Corners = std::array<Point3f, 3>;
@@ -30,6 +30,11 @@ class PlanIndex {
   void find(float x, float y, std::vector<Crossing>& crossings) const;
 
  private:
+  /// Chooses the squares: how many there are along an edge, and where they lie.
+  void lay_out_squares();
+  /// Calls `visit(square, triangle)` for each square that the outline of a triangle touches.
+  template <class Visit>
+  void for_each_square(const Visit& visit) const;
   [[nodiscard]] std::size_t column_of(float x) const;
   [[nodiscard]] std::size_t row_of(float y) const;
 

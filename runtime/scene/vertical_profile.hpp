@@ -13,7 +13,7 @@
 
 namespace farlod {
 
-/// Everything above and below one place, from low to high. Heights are those on disk.
+/// The surfaces above and below one point of the plan, from low to high. Heights are those of the package.
 class VerticalProfile {
  public:
   struct Crossing {
@@ -24,16 +24,16 @@ class VerticalProfile {
   };
   explicit VerticalProfile(std::vector<Crossing> crossings) : crossings_(std::move(crossings)) {}
 
-  /// The highest ground; none outside of the ground that the package holds.
+  /// The height of the highest ground; none where the package has no ground.
   [[nodiscard]] std::optional<float> ground_m() const;
-  /// The highest of all: a roof, a bridge, or the ground.
+  /// The height of the highest surface: a roof, a bridge, or the ground.
   [[nodiscard]] std::optional<float> highest_m() const;
-  /// Whether a point at this height is within a part of a building: above it, more of the part's surfaces look up than
-  /// down. Under a bridge or an arcade they are equally many; a part without a roof encloses nothing. (Odd and even would be
-  /// fooled by a main roof that runs on under a rooftop structure.)
+  /// Whether a point at this height lies inside a part of a building: above the point, more surfaces of the part look up than
+  /// down. Under a bridge or an arcade there are as many of both; a part without a roof encloses nothing. (Counting odd and even
+  /// would fail where a main roof continues below a rooftop structure.)
   [[nodiscard]] bool is_inside_building(float height_m) const;
-  /// Whether a point at this height has no answer: it is within a building, below the ground, or between the ground and a floor
-  /// that stands on it.
+  /// Whether a receiver at this height has no data: it lies inside a building, below the ground, or between the ground and a
+  /// floor that stands on it.
   [[nodiscard]] bool is_buried(float height_m) const;
 
  private:
@@ -42,11 +42,11 @@ class VerticalProfile {
   std::vector<Crossing> crossings_;
 };
 
-/// Answers what lies above and below places of one cell.
+/// Makes the vertical profiles of points in one cell.
 class PointLocator {
  public:
-  /// Reads the cell's own tile: what is cut at the borders lies nowhere else. Where buildings were assigned whole,
-  /// the tiles within `reach_of_whole_buildings` cells are read too.
+  /// Reads the cell's own tile, which holds everything in the cell when buildings are cut at the borders. Where buildings were
+  /// assigned whole, the tiles within `reach_of_whole_buildings` cells are read, too.
   PointLocator(const Package& package, Cell cell);
 
   [[nodiscard]] VerticalProfile at(float x_cell, float y_cell) const;

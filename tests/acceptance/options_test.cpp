@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <regex>
+#include <set>
+
 #include "console/exit_code.hpp"
 #include "farlod/version.hpp"
 #include "tests/acceptance/packed_town.hpp"
@@ -14,16 +17,21 @@ using testing::StartsWith;
 
 std::string a_place() { return text_of(p_projected({-60.0, 0.0})); }
 
-std::vector<std::string> keys_of(const nlohmann::json& object) {
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : object.items()) keys.push_back(key);
-  return keys;
-}
-
 struct Program {
   const char* name;
-  std::vector<const char*> options;
+  std::set<std::string> options;  ///< all of them
 };
+
+/// The long names at the beginnings of the lines of a help text.
+std::set<std::string> options_in(const std::string& help) {
+  static const std::regex option("^ +(?:-[a-z],)?(--[a-z0-9-]+).*");
+  std::set<std::string> options;
+  for (const std::string& line : lines_of(help)) {
+    std::smatch found;
+    if (std::regex_match(line, found, option)) options.insert(found[1]);
+  }
+  return options;
+}
 
 class EachProgram : public testing::TestWithParam<Program> {
  protected:
@@ -44,22 +52,24 @@ TEST_P(EachProgram, HelpBeginsWithWhatItIsAndWhatToTry) {
   ASSERT_GT(lines.size(), 3U);
   EXPECT_EQ(lines[2], "Try this first:");
   EXPECT_THAT(lines[3], StartsWith("  " + std::string(GetParam().name) + " "));
-  for (const char* option : GetParam().options) EXPECT_THAT(outcome.out, HasSubstr(option));
+  EXPECT_EQ(options_in(outcome.out), GetParam().options);
   EXPECT_THAT(outcome.out, HasSubstr("Exit codes: 0 done"));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Options, EachProgram,
-    testing::Values(Program{"farlod-pack", {"--crs",          "--out-crs",        "--origin",  "--up",      "--height-field",
-                                            "--base-field",   "--default-height", "--lod",     "--terrain", "--cell",
-                                            "--neighborhood", "--align",          "--assign",  "--far-map", "--output",
-                                            "--force",        "--memory-limit",   "--report",  "--summary", "--quiet",
-                                            "--threads",      "--config",         "--version", "--strict",  "--storeys-field",
-                                            "--floor-height", "--roof-field"}},
-                    Program{"farlod-svf",
-                            {"--grid",       "--points", "--surfaces", "--at",      "--height",  "--on-surface", "--spacing",
-                             "--points-crs", "--bbox",   "--output",   "--preview", "--summary", "--engine",     "--rays",
-                             "--sky",        "--verify", "--quiet",    "--threads", "--config",  "--version"}}),
+    testing::Values(Program{"farlod-pack",
+                            {"--help",         "--version",        "--crs",        "--out-crs",       "--origin",    "--up",
+                             "--height-field", "--base-field",     "--roof-field", "--storeys-field", "--lod",       "--terrain",
+                             "--floor-height", "--default-height", "--cell",       "--neighborhood",  "--max-error", "--align",
+                             "--assign",       "--far-map",        "--output",     "--force",         "--report",    "--strict",
+                             "--summary",      "--memory-limit",   "--quiet",      "--threads",       "--config"}},
+                    Program{
+                        "farlod-svf",
+                        {"--help",       "--version",      "--grid",       "--points",   "--surfaces", "--at",        "--height",
+                         "--on-surface", "--spacing",      "--points-crs", "--bbox",     "--output",   "--preview",   "--summary",
+                         "--engine",     "--rays",         "--directions", "--azimuths", "--sky",      "--max-error", "--bounds",
+                         "--verify",     "--memory-limit", "--quiet",      "--threads",  "--config"}}),
     [](const auto& program) { return program.param.name + 7; });  // what follows "farlod-"
 
 TEST_F(PackedTown, QuietSaysNothing) {
@@ -88,12 +98,9 @@ TEST_F(PackedTown, WhatIsTypedWinsOverTheFile) {
   EXPECT_EQ(folder.json_of("s.json").at("cell_m"), 40.0);
 }
 
-TEST_F(PackedTown, SummaryOfPackHasAllKeys) {
+TEST_F(PackedTown, SummaryOfPackTellsTheFiguresOfThePackage) {
   folder.must("farlod-pack town.geojson -o b.farlod --summary s.json");
   const nlohmann::json summary = folder.json_of("s.json");
-  for (const char* key : {"buildings", "polygons", "triangles", "problems", "cells", "grid_rotation_deg", "alignment_strength",
-                          "cell_m", "neighborhood", "seconds", "peak_memory_mib", "package_bytes", "far_map_bytes"})
-    EXPECT_TRUE(summary.contains(key)) << key;
   EXPECT_EQ(summary.at("buildings"), 36);
   EXPECT_EQ(summary.at("polygons"), 36 * 6);
   EXPECT_EQ(summary.at("problems"), 0);
@@ -106,8 +113,6 @@ TEST_F(PackedTown, SummaryOfPackHasAllKeys) {
 TEST_F(PackedTown, SecondsOfThePackStagesFitIntoTheTotal) {
   folder.must("farlod-pack town.geojson -o b.farlod --summary s.json");
   const nlohmann::json seconds = folder.json_of("s.json").at("seconds");
-  EXPECT_THAT(keys_of(seconds),
-              testing::IsSupersetOf({"total", "ingest", "georeference", "align", "tiles", "far_maps", "package"}));
   // Blocks are written while the next far maps are baked
   double one_after_the_other = 0.0;
   for (const auto& [stage, value] : seconds.items())
@@ -118,16 +123,9 @@ TEST_F(PackedTown, SecondsOfThePackStagesFitIntoTheTotal) {
   EXPECT_LE(seconds.at("package"), seconds.at("total"));
 }
 
-TEST_F(PackedTown, SummaryOfSvfHasAllKeys) {
-  folder.must("farlod-svf a.farlod -o o.asc --grid 10 --verify 20 --summary s.json");
+TEST_F(PackedTown, SummaryOfSvfCountsPixels) {
+  folder.must("farlod-svf a.farlod -o o.asc --grid 10 --summary s.json");
   const nlohmann::json summary = folder.json_of("s.json");
-  for (const char* key : {"receivers", "nodata", "engine", "seconds", "receivers_per_second", "rays", "azimuths",
-                          "receivers_by_rays", "peak_memory_mib", "svf", "verify"})
-    EXPECT_TRUE(summary.contains(key)) << key;
-  EXPECT_THAT(keys_of(summary.at("seconds")), testing::UnorderedElementsAre("total", "open", "scenes", "evaluate", "write"));
-  EXPECT_THAT(keys_of(summary.at("svf")), testing::UnorderedElementsAre("min", "mean", "max"));
-  EXPECT_THAT(keys_of(summary.at("verify")),
-              testing::UnorderedElementsAre("count", "rays", "mean_abs_error", "p99_abs_error", "max_abs_error", "bias"));
   const RasterFile map = raster("o.asc");
   EXPECT_EQ(summary.at("receivers").get<std::size_t>() + summary.at("nodata").get<std::size_t>(), map.values.size());
   EXPECT_EQ(summary.at("rays"), default_rays);

@@ -61,7 +61,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refused{"NoOutput", "a.farlod --at 1,2", exit_usage, {"--output is required"}},
         Refused{"NoPackage", "-o o.csv --at 1,2", exit_usage, {"PACKAGE is required"}},
-        Refused{"UnknownEnding", "a.farlod -o o.xyz --at 1,2", exit_usage, {"o.xyz", ".csv", ".png", ".asc"}},
+        Refused{
+            "UnknownEnding", "a.farlod -o o.no_such_format --at 1,2", exit_usage, {"o.no_such_format", ".csv", ".png", ".asc"}},
         Refused{"NoEnding", "a.farlod -o o --at 1,2", exit_usage, {"\"o\"", ".csv", ".png", ".asc"}},
         Refused{"GridAsTable", "a.farlod -o o.csv --grid 5", exit_usage, {"-o", "--grid makes a raster", ".csv"}},
         Refused{"PointsAsRaster", "a.farlod -o o.png --points word.csv", exit_usage, {"-o", "choose .csv"}},
@@ -135,17 +136,19 @@ INSTANTIATE_TEST_SUITE_P(
 #ifdef FARLOD_WITH_GDAL
 INSTANTIATE_TEST_SUITE_P(
     Gdal, SvfRefuses,
-    testing::Values(
-        Refused{"PointsAsGeotiff", "a.farlod -o o.tif --points word.csv", exit_usage, {"-o", "choose .csv"}},
-        Refused{"UnknownEndingListsTif", "a.farlod -o o.xyz --grid 5", exit_usage, {"o.xyz", ".tif", ".csv", ".png", ".asc"}},
-        Refused{"BeyondThePole",
-                "a.farlod -o o.csv --points pole.csv --points-crs EPSG:4326",
-                exit_unusable_input,
-                {"point 1 at (9, 95)", "x is the longitude"}},
-        Refused{"UnknownPointsCrs",
-                "a.farlod -o o.csv --points pole.csv --points-crs EPSG:99999",
-                exit_unusable_input,
-                {"EPSG:99999", "not known", "EPSG:4326"}}),
+    testing::Values(Refused{"PointsAsGeotiff", "a.farlod -o o.tif --points word.csv", exit_usage, {"-o", "choose .csv"}},
+                    Refused{"UnknownEndingListsTif",
+                            "a.farlod -o o.no_such_format --grid 5",
+                            exit_usage,
+                            {"o.no_such_format", ".tif", ".csv", ".png", ".asc"}},
+                    Refused{"BeyondThePole",
+                            "a.farlod -o o.csv --points pole.csv --points-crs EPSG:4326",
+                            exit_unusable_input,
+                            {"point 1 at (9, 95)", "x is the longitude"}},
+                    Refused{"UnknownPointsCrs",
+                            "a.farlod -o o.csv --points pole.csv --points-crs EPSG:99999",
+                            exit_unusable_input,
+                            {"EPSG:99999", "not known", "EPSG:4326"}}),
     name_of);
 #endif
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <regex>
 #include <string_view>
 #include <utility>
@@ -11,10 +12,25 @@
 namespace farlod {
 namespace {
 
-constexpr std::size_t longest_file = 400;
+constexpr std::size_t longest_file = 400, longest_function = 25;
 
 /// Path and reason of each file that may be longer. Nobody has needed it so far.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 0> long_for_a_reason{};
+
+struct LongFunction {
+  std::string_view path, name, reason;
+};
+constexpr LongFunction long_functions[] = {
+    {"datasets/generator/city_settings.hpp", "describe", "a list: one line for each setting"},
+    {"preprocess/app/pack_options.cpp", "add_input_options", "a list: one statement for each option"},
+    {"preprocess/ingest/citygml/citygml_parser.cpp", "undo", "a switch: one case for each meaning of an element"},
+    {"include/farlod/horizon/edge_facing.hpp", "may_be_silhouette", "a proof, case by case"},
+    {"preprocess/farmap/city_horizon.cpp", "build", "one loop over edges that fills three arrays at once"},
+    {"preprocess/pipeline/pack.cpp", "write_package", "one pipeline whose steps share what they measure"},
+    {"preprocess/tiles/tiles.cpp", "close_foot", "one decision after the other about the same floor"},
+    {"preprocess/tiles/tiles.cpp", "place_building", "one building's way through cutting, which shares a dozen values"},
+    {"runtime/horizon/gap_rays.cpp", "trace_gaps", "a kernel: its steps share vectors of 16 lanes"},
+};
 
 bool begins_with_licence(const SourceFile& file, std::string_view mark) {
   const std::string licence = file.path.starts_with("preprocess/") ? "GPL-3.0-or-later" : "Apache-2.0";
@@ -45,6 +61,63 @@ std::vector<std::string> files_too_long(const std::vector<SourceFile>& tree) {
         std::any_of(long_for_a_reason.begin(), long_for_a_reason.end(), [&](const auto& e) { return e.first == file.path; });
     return is_cpp(file) && file.lines.size() > longest_file && !excused;
   });
+}
+
+namespace {
+
+std::size_t indentation(const std::string& line) { return std::min(line.find_first_not_of(' '), line.size()); }
+
+bool ends_statement(const std::string& line) {
+  static const std::regex end("^\\s*(|//.*|#.*|.*[;{}:])$");
+  return std::regex_match(line, end);
+}
+
+/// The name of the function that the lines [begin, brace] open the body of; empty when they open something else.
+std::string function_opened_by(const SourceFile& file, std::size_t begin, std::size_t brace) {
+  std::string head;
+  for (std::size_t n = begin; n <= brace; ++n) head.append(file.lines[n].substr(indentation(file.lines[n]))).append(" ");
+  static const std::regex other(
+      "^(namespace|class|struct|union|enum|extern|if|for|while|switch|do|else|try|catch|return|case|default|"
+      "static_assert|TEST|INSTANTIATE)\\b|^\\}|[=(,]\\s*(\\w|::)*\\{ $|=\\s*\\[");
+  static const std::regex name("(~?\\w+|operator\\S+)\\(");
+  std::smatch match;
+  if (std::regex_search(head, other) || !std::regex_search(head, match, name)) return "";
+  return match[1];
+}
+
+bool is_code(const std::string& line) {
+  const std::size_t begin = line.find_first_not_of(' ');
+  return begin != std::string::npos && line.compare(begin, 2, "//") != 0;
+}
+
+bool may_be_long(const std::string& path, const std::string& name) {
+  return std::any_of(std::begin(long_functions), std::end(long_functions),
+                     [&](const LongFunction& f) { return f.path == path && f.name == name; });
+}
+
+void add_long_functions(const SourceFile& file, std::vector<std::string>& found) {
+  for (std::size_t brace = 0; brace < file.lines.size(); ++brace) {
+    if (!file.lines[brace].ends_with(" {")) continue;
+    std::size_t begin = brace;
+    while (begin > 0 && !ends_statement(file.lines[begin - 1])) --begin;
+    const std::string name = function_opened_by(file, begin, brace);
+    if (name.empty()) continue;
+    const std::string close = std::string(indentation(file.lines[begin]), ' ') + "}";
+    std::size_t end = brace + 1, code = 0;
+    for (; end < file.lines.size() && !file.lines[end].starts_with(close); ++end) code += is_code(file.lines[end]) ? 1 : 0;
+    if (code > longest_function && !may_be_long(file.path, name))
+      found.push_back(file.path + ":" + std::to_string(begin + 1) + " " + name + " has " + std::to_string(code) + " lines");
+    brace = end;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> functions_too_long(const std::vector<SourceFile>& tree) {
+  std::vector<std::string> found;
+  for (const SourceFile& file : tree)
+    if (is_cpp(file) && !file.path.starts_with("tests/")) add_long_functions(file, found);
+  return found;
 }
 
 std::vector<std::string> files_with_empty_names(const std::vector<SourceFile>& tree) {

@@ -18,6 +18,8 @@ TEST(HouseRules, EachFileNamesItsLicence) { EXPECT_THAT(files_without_licence(re
 
 TEST(HouseRules, NoFileIsTooLong) { EXPECT_THAT(files_too_long(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty()); }
 
+TEST(HouseRules, NoFunctionIsTooLong) { EXPECT_THAT(functions_too_long(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty()); }
+
 TEST(HouseRules, FileNamesSayWhatIsInside) {
   EXPECT_THAT(files_with_empty_names(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty());
 }
@@ -38,6 +40,25 @@ TEST(HouseRules, AMissingOrWrongLicenceIsFound) {
 TEST(HouseRules, ALongFileIsFound) {
   EXPECT_THAT(files_too_long({{"a.cpp", std::vector<std::string>(400)}, {"b.cpp", std::vector<std::string>(401)}}),
               ElementsAre("b.cpp"));
+}
+
+/// A file whose lines are `before`, `lines` statements, a comment, a blank line and `after`.
+SourceFile file_with(const std::string& path, std::vector<std::string> before, std::size_t lines, const std::string& after) {
+  for (std::size_t n = 0; n < lines; ++n) before.push_back(after.substr(0, after.find('}')) + "  call();");
+  before.insert(before.end(), {"  // why", "", after});
+  return {path, before};
+}
+
+TEST(HouseRules, ALongFunctionIsFound) {
+  const std::vector<std::string> plain{"int f(int a) {"},
+      wrapped{"", "std::vector<int> C::f(int a,", "                      int b) const {"},
+      constructor{"C::C(int a)", "    : a_(a) {"}, member{"class C {", "  int g() {"}, not_one{"constexpr int a[] = {"};
+  EXPECT_THAT(
+      functions_too_long({file_with("a.cpp", plain, 25, "}"), file_with("b.cpp", plain, 26, "}"),
+                          file_with("c.cpp", wrapped, 26, "}"), file_with("d.cpp", constructor, 26, "}"),
+                          file_with("e.hpp", member, 26, "  }"), file_with("f.cpp", not_one, 26, "};"),
+                          file_with("tests/g.cpp", plain, 26, "}")}),
+      ElementsAre("b.cpp:1 f has 26 lines", "c.cpp:2 f has 26 lines", "d.cpp:1 C has 26 lines", "e.hpp:2 g has 26 lines"));
 }
 
 TEST(HouseRules, AnEmptyNameIsFound) {

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <regex>
+#include <set>
+
+#include "results/output_format.hpp"
+#include "tests/acceptance/packed_town.hpp"
+
+// docs/stages/results.md against what the programs write.
+
+namespace farlod::acceptance {
+namespace {
+
+using nlohmann::json;
+using Keys = std::set<std::string>;
+
+/// The lines of a section of the document, without its subsections' titles.
+std::vector<std::string> section(const std::string& title) {
+  std::ifstream file(std::filesystem::path(FARLOD_SOURCE_DIR) / "docs/stages/results.md");
+  std::vector<std::string> lines;
+  bool inside = false;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("## ")) inside = line == "## " + title;
+    if (inside) lines.push_back(line);
+  }
+  EXPECT_GT(lines.size(), 5U) << title;
+  return lines;
+}
+
+/// The keys of a table of the document: those that are always there, or all.
+Keys documented_keys(const std::string& title, bool always_only) {
+  static const std::regex row("^\\| `([a-z0-9_.]+)` \\| ([^|]+) \\|.*");
+  Keys keys;
+  for (const std::string& line : section(title)) {
+    std::smatch cells;
+    if (std::regex_match(line, cells, row) && (!always_only || cells[2] == "always")) keys.insert(cells[1]);
+  }
+  return keys;
+}
+
+/// Keys with dots; an object that the document names as a whole counts as one key.
+void add_keys(const json& object, const std::string& prefix, const Keys& documented, Keys& keys) {
+  for (const auto& [key, value] : object.items()) {
+    if (value.is_object() && !documented.contains(prefix + key))
+      add_keys(value, prefix + key + ".", documented, keys);
+    else
+      keys.insert(prefix + key);
+  }
+}
+
+Keys keys_of(const json& summary, const std::string& title) {
+  Keys keys;
+  add_keys(summary, "", documented_keys(title, false), keys);
+  return keys;
+}
+
+using DocumentedResults = PackedTown;
+
+TEST_F(DocumentedResults, SummaryOfSvfHasTheDocumentedKeysAndNoOthers) {
+  const std::string title = "Summary of farlod-svf";
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces roofs --spacing 10 --summary s.json");
+  EXPECT_EQ(keys_of(folder.json_of("s.json"), title), documented_keys(title, true));
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces roofs --spacing 10 --bounds --max-error 0.05 --verify 3 --summary s.json");
+  EXPECT_EQ(keys_of(folder.json_of("s.json"), title), documented_keys(title, false));
+}
+
+TEST_F(DocumentedResults, SummaryOfPackHasTheDocumentedKeysAndNoOthers) {
+  const std::string title = "Summary of farlod-pack";
+  folder.must("farlod-pack town.geojson -o b.farlod --summary s.json");
+  EXPECT_EQ(keys_of(folder.json_of("s.json"), title), documented_keys(title, true));
+  // A tree is no part of the city
+  const std::string city =
+      R"({"type": "CityJSON", "version": "1.1", "transform": {"scale": [1, 1, 1], "translate": [500000, 5500000, 0]},
+    "metadata": {"referenceSystem": "https://www.opengis.net/def/crs/EPSG/0/25832"},
+    "vertices": [[0, 0, 0], [9, 0, 0], [9, 9, 0], [0, 9, 0], [0, 0, 5], [9, 0, 5], [9, 9, 5], [0, 9, 5]],
+    "CityObjects": {"tree": {"type": "SolitaryVegetationObject"}, "house": {"type": "Building", "geometry": [{"type": "Solid", "lod": "1",
+    "boundaries": [[[[0, 3, 2, 1]], [[4, 5, 6, 7]], [[0, 1, 5, 4]], [[1, 2, 6, 5]], [[2, 3, 7, 6]], [[3, 0, 4, 7]]]]}]}}})";
+  folder.write("house.city.json", city);
+  folder.must("farlod-pack house.city.json -o c.farlod --max-error 0.05 --summary s.json");
+  EXPECT_EQ(keys_of(folder.json_of("s.json"), title), documented_keys(title, false));
+}
+
+TEST(DocumentedFormats, AreThoseOfTheProgram) {
+  static const std::regex row("^\\| (`\\.[^|]+`) \\| ([^|(]+?) (?:\\(needs GDAL\\) )?\\|([^|]+)\\|([^|]+)\\|.*");
+  std::vector<std::string> documented, found;
+  for (const std::string& line : section("Formats")) {
+    std::smatch cells;
+    if (!std::regex_match(line, cells, row)) continue;
+    const bool table = cells[3].str().find("--points") != std::string::npos;
+    const bool picture = cells[3].str().find("--preview") != std::string::npos;
+    documented.push_back(cells[1].str() + " " + cells[2].str() +
+                         (table     ? " table"
+                          : picture ? " picture"
+                                    : " raster") +
+                         (cells[4] == " none " ? "" : " with bounds"));
+  }
+  for (const OutputFormat& f : output_formats()) {
+    const std::string endings =
+        "`" + std::string(f.endings[0]) + "`" + (f.endings[1].empty() ? "" : ", `" + std::string(f.endings[1]) + "`");
+    const char* kind = f.kind == OutputKind::table ? " table" : f.kind == OutputKind::picture ? " picture" : " raster";
+    found.push_back(endings + " " + std::string(f.name) + kind + (f.holds_bounds ? " with bounds" : ""));
+  }
+#ifdef FARLOD_WITH_GDAL
+  EXPECT_EQ(found, documented);
+#else
+  EXPECT_THAT(documented, testing::IsSupersetOf(found));
+#endif
+}
+
+/// The columns in the row of a table of the document that begins with `file`.
+std::vector<std::string> documented_columns(const std::string& file) {
+  std::vector<std::string> columns;
+  for (const std::string& line : section("Tables")) {
+    if (!line.starts_with("| " + file)) continue;
+    const std::size_t begin = line.find('|', 2), end = line.find('|', begin + 1);
+    static const std::regex name("`([a-z0-9_]+)`");
+    const std::string cell = line.substr(begin, end - begin);
+    for (std::sregex_iterator match(cell.begin(), cell.end(), name); match != std::sregex_iterator(); ++match)
+      columns.push_back((*match)[1]);
+  }
+  return columns;
+}
+
+TEST_F(DocumentedResults, TablesHaveTheDocumentedColumns) {
+  folder.must("farlod-svf a.farlod -o s.csv --surfaces roofs --spacing 10");
+  folder.must("farlod-svf a.farlod -o p.csv --at " + text_of(p_projected({-60.0, 0.0})));
+  EXPECT_EQ(table("p.csv").header(), documented_columns("`--points`"));
+  EXPECT_EQ(table("s.csv").header(), documented_columns("`--surfaces`"));
+  EXPECT_EQ(table("s.surfaces.csv").header(), documented_columns("`OUT.surfaces.csv`"));
+  EXPECT_EQ(table("s.buildings.csv").header(), documented_columns("`OUT.buildings.csv`"));
+}
+
+}  // namespace
+}  // namespace farlod::acceptance
