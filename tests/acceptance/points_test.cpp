@@ -39,6 +39,13 @@ TEST_F(PackedTown, AtStandsAboveTheGroundUnlessItHasAHeight) {
   EXPECT_EQ(table("o.csv").number(0, "z_m"), 12.0);
 }
 
+TEST_F(PackedTown, HeightsOfATableCountFromWhereTheCrsCounts) {
+  folder.write("ground.asc", "ncols 2\nnrows 2\nxllcorner 499000\nyllcorner 5499000\ncellsize 1000\n100.0 100.0\n100.0 100.0\n");
+  folder.must("farlod-pack town.geojson -o high.farlod --terrain ground.asc");
+  folder.must("farlod-svf high.farlod -o o.csv --at " + text_of(crossing));
+  EXPECT_EQ(table("o.csv").number(0, "z_m"), 101.5);
+}
+
 TEST_F(PackedTown, TheHigherTheMoreSky) {
   const double low = svf_at(text_of(Point3d{crossing.x, crossing.y, 1.5}), "--engine exact");
   const double high = svf_at(text_of(Point3d{crossing.x, crossing.y, 15.0}), "--engine exact");

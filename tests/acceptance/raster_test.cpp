@@ -152,6 +152,14 @@ TEST_F(PackedTown, VerifyTellsTheErrorOfTheFarMap) {
   EXPECT_GT(mean_errors[1], mean_errors[2]);
 }
 
+TEST_F(PackedTown, VerifyTracesManyMoreRaysThanTheRun) {
+  const std::string run = "farlod-svf a.farlod -o o.asc --grid 20 --engine exact --verify 20 --summary s.json --rays ";
+  folder.must(run + "100");
+  EXPECT_GT(folder.json_of("s.json").at("verify").at("mean_abs_error"), 0.0);
+  folder.must(run + "20000");
+  EXPECT_EQ(folder.json_of("s.json").at("verify").at("max_abs_error"), 0.0) << "the same rays";
+}
+
 TEST_F(PackedTown, ThreadsChangeNothing) {
   folder.must("farlod-svf a.farlod -o one.asc --grid 4 --threads 1 --summary one.json");
   folder.must("farlod-svf a.farlod -o four.asc --grid 4 --threads 4 --summary four.json");

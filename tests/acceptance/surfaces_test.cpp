@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "tests/acceptance/packed_town.hpp"
@@ -110,6 +111,37 @@ TEST_F(PackedTown, WallsFaceAlongTheStreets) {
     const double turn = std::remainder(surfaces.number(n, "azimuth_deg") - town_bearing.degrees(), 90.0);
     EXPECT_NEAR(turn, 0.0, tolerance_deg + 0.0005) << surfaces.text(n, "building");
     EXPECT_NEAR(surfaces.number(n, "tilt_deg"), 90.0, 0.0005);
+  }
+}
+
+TEST_F(PackedTown, RoofsLookUp) {
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces roofs --spacing 8");
+  const CsvTable receivers = table("o.csv");
+  ASSERT_GT(receivers.size(), 0U);
+  for (std::size_t n = 0; n < receivers.size(); ++n) {
+    EXPECT_EQ(receivers.text(n, "tilt_deg"), "0");
+    EXPECT_EQ(receivers.text(n, "azimuth_deg"), "0");
+  }
+}
+
+TEST(LoneBox, AzimuthsAreTrueFarFromTheCentralMeridian) {
+  const WorkFolder folder;
+  const Block block{"box", {200000.0, 0.0}, 20.0, 10.0};
+  folder.write("box.geojson", footprints_geojson({block}));
+  folder.must("farlod-pack box.geojson -o a.farlod");
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces walls");
+  // On a sphere of the Earth's radius, the convergence is atan(tan(x/R / cos φ) · sin φ); the ellipsoid changes it by a hundredth
+  constexpr double radius_m = 6.38e6, quarter_m = 1.0e7, scale = 0.9996;
+  const Point2d p = p_projected(block.centre);
+  const double latitude = 0.5 * std::numbers::pi * p.y / scale / quarter_m;
+  const double longitude = (p.x - 500000.0) / scale / radius_m / std::cos(latitude);
+  const Angle convergence = Angle::radians(std::atan(std::tan(longitude) * std::sin(latitude)));
+  ASSERT_GT(convergence.degrees(), 1.0);
+  const CsvTable walls(folder.text_of("o.surfaces.csv"));
+  ASSERT_EQ(walls.size(), 4U);
+  for (std::size_t n = 0; n < walls.size(); ++n) {
+    const double turn = std::remainder(walls.number(n, "azimuth_deg") - town_bearing.degrees(), 90.0);
+    EXPECT_NEAR(turn, convergence.degrees(), 0.02 * convergence.degrees()) << n;
   }
 }
 
