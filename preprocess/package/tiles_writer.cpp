@@ -113,11 +113,7 @@ class BlockSections {
     record.building = s.building == ground_building ? no_building : row_of_building(s.building);
     record.number = s.number;
     record.part = s.part;
-    record.kind = s.kind;
-    record.grounded = s.grounded ? 1 : 0;
-    const OctNormal normal = OctNormal::nearest_to(s.normal);
-    record.normal_u = normal.u & OctNormal::largest;
-    record.normal_v = normal.v & OctNormal::largest;
+    record.pack(s.kind, s.grounded, OctNormal::nearest_to(s.normal));
     return record;
   }
   std::uint32_t row_of_building(std::uint32_t number) {

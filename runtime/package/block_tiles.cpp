@@ -87,7 +87,7 @@ void BlockTiles::check_surfaces() const {
             "a building's id reaches beyond the text");
   for (const SurfaceRecord& s : surfaces_) {
     require(s.building == no_building || s.building < buildings_.size(), "a surface names a building that does not exist");
-    require(s.kind >= SurfaceKind::ground && s.kind <= SurfaceKind::foundation, "a surface is of a kind that does not exist");
+    require(s.kind() >= SurfaceKind::ground && s.kind() <= SurfaceKind::foundation, "a surface is of a kind that does not exist");
   }
 }
 
@@ -163,7 +163,7 @@ void BlockTiles::check_edges(const TileView& tile) const {
   for (const std::span<const TileEdge> of_role : tile.edge_sides) {
     std::uint64_t sides = 0;
     for (const TileEdge& e : of_role) {
-      sides += e.sides_passed + (e.sides_passed == TileEdge::only_passes ? 0U : 1U);
+      sides += e.sides_skipped + (e.sides_skipped == TileEdge::skip_only ? 0U : 1U);
       require(are_angles(e.adjacent), "something beside an edge rises beyond a right angle");
     }
     require(sides <= 3 * tile.mesh.triangles.size(), "an edge is a side of a triangle that does not exist");

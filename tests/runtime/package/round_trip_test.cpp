@@ -133,10 +133,9 @@ TEST_P(RoundTrip, SurfacesAndBuildingsAreTheSame) {
       const package::SurfaceRecord& record = view.surface_of(t);
       EXPECT_EQ(view.building_number(record), surface.building);
       EXPECT_EQ(std::pair(record.number, record.part), std::pair(surface.number, surface.part));
-      EXPECT_EQ(record.kind, surface.kind);
-      EXPECT_EQ(record.grounded, surface.grounded ? 1 : 0);
-      grounded += record.grounded;
-      overhanging += 1U - record.grounded;
+      EXPECT_EQ(record.kind(), surface.kind);
+      EXPECT_EQ(record.is_grounded(), surface.grounded);
+      ++(record.is_grounded() ? grounded : overhanging);
       EXPECT_EQ(record.normal(), package::OctNormal::nearest_to(surface.normal));
       if (record.building == package::no_building) continue;
       EXPECT_EQ(block.id_of(view.buildings[record.building]), before.building_ids[surface.building]);
