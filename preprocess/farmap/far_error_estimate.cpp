@@ -11,10 +11,10 @@
 #include <random>
 #include <vector>
 
-#include "farlod/far_map/far_view.hpp"
-#include "farlod/sky/sky_partition.hpp"
 #include "farmap/city_occluder.hpp"
 #include "farmap/horizon_map_baker.hpp"
+#include "horizon/sky_partition.hpp"
+#include "tests/oracles/far_view.hpp"
 
 namespace farlod {
 namespace {

@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "farlod/far_map/far_horizon.hpp"
 #include "farlod/grid.hpp"
 #include "farlod/mesh_view.hpp"
 #include "farlod/package/layout.hpp"
+#include "package/far_horizon.hpp"
 
 namespace farlod {
 

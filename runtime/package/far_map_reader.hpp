@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "farlod/far_map/box_map.hpp"
-#include "farlod/far_map/far_horizon.hpp"
 #include "farlod/grid.hpp"
 #include "farlod/package/manifest.hpp"
+#include "package/far_horizon.hpp"
 
 namespace farlod {
 

@@ -12,9 +12,10 @@
 #include <vector>
 
 #include "farlod/expects.hpp"
-#include "farlod/far_map/far_horizon.hpp"
 #include "farlod/horizon/edge_view.hpp"
-#include "farlod/sky/azimuth_fan.hpp"
+#include "package/far_horizon.hpp"
+#include "tests/oracles/azimuth_fan.hpp"
+#include "tests/oracles/distance_to_segment.hpp"
 
 namespace farlod {
 

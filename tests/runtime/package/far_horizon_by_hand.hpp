@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "farlod/far_map/far_horizon.hpp"
 #include "farlod/horizon/edge_view.hpp"
+#include "package/far_horizon.hpp"
 
 namespace farlod {
 
