@@ -26,10 +26,9 @@ struct BakedBox {
 ///   (1) from every place in a patch, all of the far city of the residual city lies below `high`
 ///   (2) from every place in a patch, everything below `low` is hidden, unless it lies below `overhang` or below a lower border
 ///   that is explicit or near
-///   (3) `estimate` is what is seen of the residual city on average on the patch's floor; between two floors it changes evenly with the
-///   height
-///   (4) from every place in a patch, no lower border of the residual city (EdgeRole::underside) rises above `overhang`, but those that
-///   stand before residual grounded things that are higher
+///   (3) `estimate` is what is seen of the residual city on average on the patch's floor; between two floors it changes evenly
+///   with the height (4) from every place in a patch, no lower border of the residual city (EdgeRole::underside) rises above
+///   `overhang`, but those that stand before residual grounded things that are higher
 struct BakedHorizon {
   ReceiverPatches patches;
   std::vector<package::ExplicitOccluder> explicit_edges;

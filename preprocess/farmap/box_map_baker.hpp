@@ -8,8 +8,8 @@
 #include "farlod/grid.hpp"
 #include "farmap/baked_block.hpp"
 #include "farmap/city_occluder.hpp"
-#include "farmap/far_map_settings.hpp"
 #include "farmap/far_height_bound.hpp"
+#include "farmap/far_map_settings.hpp"
 #include "tiles/tile_set.hpp"
 #include "tiles/tiles.hpp"
 

@@ -10,8 +10,8 @@
 
 #include "farlod/expects.hpp"
 #include "farmap/block_occluders.hpp"
-#include "farmap/occlusion_culler.hpp"
 #include "farmap/occluder_classifier.hpp"
+#include "farmap/occlusion_culler.hpp"
 
 namespace farlod {
 namespace {

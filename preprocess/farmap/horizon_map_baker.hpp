@@ -13,8 +13,8 @@
 
 namespace farlod {
 
-/// Bakes far maps without parallax: occluders that move against each other within a patch are explicit, so that the runtime can draw
-/// them from where the receiver is; the rest is bounded. docs/stages/farmap.md.
+/// Bakes far maps without parallax: occluders that move against each other within a patch are explicit, so that the runtime can
+/// draw them from where the receiver is; the rest is bounded. docs/stages/farmap.md.
 class HorizonMapBaker {
  public:
   /// The tiles and the grid must outlive the baker.

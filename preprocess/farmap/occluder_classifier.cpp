@@ -14,7 +14,7 @@ constexpr double just_below = 1.0 - 1e-9;
 }  // namespace
 
 OccluderClassifier::OccluderClassifier(const CityHorizon& city, const CellPlace& place, const ViewpointHorizons& views,
-                             const BinBorders& borders, double tolerance, BakedHorizon& map)
+                                       const BinBorders& borders, double tolerance, BakedHorizon& map)
     : city_(city),
       place_(place),
       views_(views),

@@ -19,7 +19,7 @@ class OccluderClassifier {
  public:
   /// All must outlive it; `map` gets names and bounds. The tolerance is HorizonMapSettings::tolerance.
   OccluderClassifier(const CityHorizon& city, const CellPlace& place, const ViewpointHorizons& views, const BinBorders& borders,
-                double tolerance, BakedHorizon& map);
+                     double tolerance, BakedHorizon& map);
 
   /// Names an occluder (by its number in the city) for the patches where that is worth it, and bounds it for the others. Returns
   /// the layers in which it is explicit, as bits.

@@ -32,7 +32,7 @@ struct Waiting {
 }  // namespace
 
 OcclusionCuller::OcclusionCuller(const CityHorizon& city, const CellPlace& place, const BinBorders& borders,
-                       const HorizonMapSettings& settings)
+                                 const HorizonMapSettings& settings)
     : city_(city),
       place_(place),
       borders_(borders),

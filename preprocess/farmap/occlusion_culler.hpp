@@ -21,7 +21,7 @@ namespace farlod {
 ///   (4) each lower border outside of the neighborhood is a candidate, or lies likewise below `overhang`
 struct CullResult {
   std::vector<std::uint32_t> candidates;  ///< numbers of occluders, from near to far
-  std::vector<std::uint32_t> weak;       ///< likewise: upper borders that are hidden, but likely seen
+  std::vector<std::uint32_t> weak;        ///< likewise: upper borders that are hidden, but likely seen
   ViewpointHorizons views;                ///< of the upper borders among the candidates, and of the weak
   std::vector<float> hidden, overhang;    ///< slopes: a row of azimuth bins for each layer
 };
@@ -60,8 +60,8 @@ class OcclusionCuller {
   std::vector<float> floors_;
   std::vector<double> weak_over_, significant_over_;
   std::vector<double> bounded_slope_;  ///< for each layer, a slope that is hidden and not weak in all bins of the leaf at hand
-  EdgeOverSquare over_cell_;     ///< the occluder at hand
-  std::vector<double> bounds_;   ///< of the occluder at hand: its `upper`, level by level
+  EdgeOverSquare over_cell_;           ///< the occluder at hand
+  std::vector<double> bounds_;         ///< of the occluder at hand: its `upper`, level by level
 };
 
 }  // namespace farlod

@@ -201,4 +201,9 @@ std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, 
   return file.finish();
 }
 
+std::vector<std::byte> tiles_file_without_maps(const TileSet& tiles, const Grid& grid, Block block) {
+  // Far maps of the kind `box` add nothing but their capture points
+  return farlod::tiles_file(tiles, BakedBoxes(static_cast<std::size_t>(grid.cells_of(block).size())), grid, block);
+}
+
 }  // namespace farlod

@@ -26,7 +26,9 @@ bool is_on_earth(const Point3f& p) {
 }
 
 /// −128 is no angle: its tangent would come out on the other side of the vertical.
-bool are_angles(AdjacentSlopes adjacent) { return adjacent.left >= AdjacentSlopes::straight_down && adjacent.right >= AdjacentSlopes::straight_down; }
+bool are_angles(AdjacentSlopes adjacent) {
+  return adjacent.left >= AdjacentSlopes::straight_down && adjacent.right >= AdjacentSlopes::straight_down;
+}
 
 }  // namespace
 
@@ -182,13 +184,15 @@ void BlockTiles::check_places(std::span<const HorizonEdge> edges) const {
 void BlockTiles::check_far_cells() const {
   require(far_cells_.empty() || far_cells_.size() == cells_.size(), "not every cell has a far map");
   for (const FarCellRecord& c : far_cells_) {
-    require(c.first_explicit_edge <= explicit_edges_.size() && c.explicit_edge_count <= explicit_edges_.size() - c.first_explicit_edge,
+    require(c.first_explicit_edge <= explicit_edges_.size() &&
+                c.explicit_edge_count <= explicit_edges_.size() - c.first_explicit_edge,
             "a far map's edges reach beyond the end");
     for (std::size_t l = 0; l < c.levels_m.size(); ++l)
       require(std::abs(c.levels_m[l]) <= farthest_m && (l == 0 || c.levels_m[l - 1] <= c.levels_m[l]),
               "the levels of a far map are not in order");
   }
-  for (const ExplicitOccluder& n : explicit_edges_) require(n.row < far_edges_.size(), "a far map names an edge that does not exist");
+  for (const ExplicitOccluder& n : explicit_edges_)
+    require(n.row < far_edges_.size(), "a far map names an edge that does not exist");
 }
 
 void BlockTiles::check_far_places() const { check_places(far_edges_); }

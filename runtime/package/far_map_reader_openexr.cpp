@@ -132,8 +132,7 @@ struct FarMapReader::Impl {
       return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return wanted == entry.name.str; });
     };
     if (shape.is_box() && !has(package::distance_channel)) damaged("it has no distances");
-    for (const char* slopes :
-         {package::low_channel, package::estimate_channel, package::high_channel, package::overhang_channel})
+    for (const char* slopes : {package::low_channel, package::estimate_channel, package::high_channel, package::overhang_channel})
       if (!shape.is_box() && !has(slopes)) damaged("it has no slopes");
   }
   /// The pixels of one cell, in the file's order of rows.

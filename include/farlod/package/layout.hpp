@@ -36,8 +36,8 @@ enum class SectionKind : std::uint32_t {
   buildings = 6,     ///< BuildingRecord
   text = 7,          ///< bytes, UTF-8: the ids of buildings
   // Far maps of the kind `horizon`; without elements for the kind `box`
-  far_cells = 8,     ///< FarCellRecord, as many and in the same order as `cells`
-  far_edges = 9,     ///< HorizonEdge, block frame: the explicit occluders of the cells' far maps
+  far_cells = 8,        ///< FarCellRecord, as many and in the same order as `cells`
+  far_edges = 9,        ///< HorizonEdge, block frame: the explicit occluders of the cells' far maps
   explicit_edges = 11,  ///< ExplicitOccluder: rows of `far_edges`, cell by cell
   // Of the tiles again
   tile_edges = 13,  ///< TileEdge, cell by cell, and within a cell role by role, in the order of EdgeRole
@@ -81,9 +81,9 @@ struct CellRecord {
 };
 static_assert(sizeof(CellRecord) == 60);
 
-/// An edge of a tile (HorizonEdge), as a side of one of its triangles. The sides of a cell are numbered triangle by triangle, three
-/// each: from corner a to b, from b to c, from c to a. Each entry stores the number of sides to skip before the next edge of its
-/// role. The value 255 skips 255 sides and stores no edge. Each role counts from side 0.
+/// An edge of a tile (HorizonEdge), as a side of one of its triangles. The sides of a cell are numbered triangle by triangle,
+/// three each: from corner a to b, from b to c, from c to a. Each entry stores the number of sides to skip before the next edge
+/// of its role. The value 255 skips 255 sides and stores no edge. Each role counts from side 0.
 struct TileEdge {
   static constexpr std::uint8_t skip_only = 255;
   std::uint8_t sides_skipped;
@@ -104,9 +104,9 @@ inline constexpr std::uint32_t no_building = 0xFFFFFFFF;
 
 /// A surface. Its last six bytes are one number of 48 bits: kind, grounded and normal, packed from the lowest bit on.
 struct SurfaceRecord {
-  std::uint32_t building;              ///< row in `buildings`; no_building for the ground
-  std::uint32_t number;                ///< of the surface, within its building
-  std::uint16_t part;                  ///< closed part of the building, for the question "inside?"
+  std::uint32_t building;               ///< row in `buildings`; no_building for the ground
+  std::uint32_t number;                 ///< of the surface, within its building
+  std::uint16_t part;                   ///< closed part of the building, for the question "inside?"
   std::array<std::uint16_t, 3> packed;  ///< the number of 48 bits, its lowest 16 first
 
   [[nodiscard]] SurfaceKind kind() const { return static_cast<SurfaceKind>(unpacked(kind_shift, kind_bits)); }
@@ -180,8 +180,8 @@ inline constexpr const char* manifest_file = "manifest.json";
 // Of the kind `box`:
 inline constexpr const char* sky_channel = "Y";       ///< 1 where the sky is seen, 0 where the far city hides it
 inline constexpr const char* distance_channel = "Z";  ///< metres from the capture point to what hides the sky; infinite for sky
-// Of the kind `horizon`: slopes (tangents of elevations) of the residual city; a column for each azimuth bin, a row for each patch
-// from the first. Three are bounds all over the patch, and Y is an estimate on the floor of the patch.
+// Of the kind `horizon`: slopes (tangents of elevations) of the residual city; a column for each azimuth bin, a row for each
+// patch from the first. Three are bounds all over the patch, and Y is an estimate on the floor of the patch.
 inline constexpr const char* estimate_channel = "Y";
 inline constexpr const char* low_channel = "low";
 inline constexpr const char* high_channel = "high";
