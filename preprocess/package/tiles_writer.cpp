@@ -38,7 +38,6 @@ class BlockSections {
     record.i = cell.i;
     record.j = cell.j;
     record.triangle_count = static_cast<std::uint32_t>(tile.triangles.size());
-    record.flags = tile.has_overhang ? cell_has_overhang : 0;
     add_geometry(tile, record);
     add_runs(tile);
     cells.push_back(record);

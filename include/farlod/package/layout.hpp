@@ -64,9 +64,6 @@ struct Section {
 };
 static_assert(sizeof(Section) == 32);
 
-/// Bits of CellRecord::flags.
-inline constexpr std::uint32_t cell_has_overhang = 1;  ///< a surface of the tile looks down onto something below it
-
 /// What a cell owns of `vertices`, `triangles`, `surface_runs`, `tile_edges` and `loose_edges` follows what the cell before owns,
 /// without a gap.
 struct CellRecord {
@@ -77,7 +74,7 @@ struct CellRecord {
   float z_low_m, z_high_m;                                 ///< of the tile's vertices; low > high when it is empty
   float capture_x_m, capture_y_m, capture_z_m;             ///< where the far map was captured, cell frame
   float far_map_top;                                       ///< BoxMap::top; 0 when the cell has no far field above the horizontal
-  std::uint32_t flags;
+  std::uint32_t flags;  ///< zero; bit 0 is taken: packages of earlier releases set it where the tile holds a lower border
 };
 static_assert(sizeof(CellRecord) == 60);
 

@@ -86,7 +86,6 @@ TEST_P(RoundTrip, TilesAreTheSame) {
       EXPECT_EQ((std::array{vertices[read.a], vertices[read.b], vertices[read.c]}),
                 (std::array{old[written.a], old[written.b], old[written.c]}));
     }
-    EXPECT_EQ(view.cell->flags & package::cell_has_overhang, tile.has_overhang ? package::cell_has_overhang : 0);
     EXPECT_EQ(view.cell->z_low_m, tile.z_low_m);
     EXPECT_EQ(view.cell->z_high_m, tile.z_high_m);
   }
