@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -12,6 +13,8 @@ namespace farlod {
 /// Three vertices by number.
 struct Triangle {
   std::uint32_t a = 0, b = 0, c = 0;
+  /// Its corners in turn, from 0 on: a, b, c, and a again.
+  [[nodiscard]] std::uint32_t corner(std::size_t n) const { return n == 1 ? b : n == 2 ? c : a; }
   bool operator==(const Triangle&) const = default;
 };
 

@@ -4,9 +4,9 @@
 
 #include "align/street_alignment.hpp"
 #include "city/located_city.hpp"
+#include "city/problem.hpp"
 #include "farlod/box.hpp"
 #include "farlod/grid.hpp"
-#include "farlod/problem.hpp"
 
 namespace farlod {
 

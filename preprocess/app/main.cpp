@@ -78,7 +78,7 @@ void print_choice(const ChosenGrid& chosen, const PackOptions& options) {
         "Chosen for errors up to {:g}: cells of {:g} m, neighborhood {} × {}, far maps to {:g}; expected of the far maps: at "
         "the "
         "most {:.4f}, certain to {:.4f} for 99 %\n",
-        max_error, b.cell_edge_m, b.neighborhood, b.neighborhood, b.tolerance, b.verdict.max_error, b.verdict.p99_doubt);
+        max_error, b.cell_edge_m, b.neighborhood, b.neighborhood, b.tolerance, b.verdict.max_error, b.verdict.p99_half_width);
   } else {
     fmt::print(
         "No cells and no neighborhood keep an error of {:g} with far maps alone: farlod-svf --max-error {:g} will trace more "
@@ -87,7 +87,7 @@ void print_choice(const ChosenGrid& chosen, const PackOptions& options) {
   }
   const FarErrorEstimate& m = chosen.measured;
   fmt::print("Measured on {} other random receivers against exact: mean {:.4f}, at the most {:.4f}, certain to {:.4f} for 99 %\n",
-             m.receivers, m.mean_error, m.max_error, m.p99_doubt);
+             m.receivers, m.mean_error, m.max_error, m.p99_half_width);
 }
 
 void print_result(const PackResult& result, const Report& report, const PackOptions& options, double seconds) {

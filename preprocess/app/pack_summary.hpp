@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "farlod/problem.hpp"
+#include "city/problem.hpp"
 #include "pipeline/pack.hpp"
 
 namespace farlod {

@@ -17,19 +17,18 @@ namespace farlod {
 struct BakedBox {
   Point3f capture_cell;  ///< capture point, cell frame
   BoxMap shape;
-  std::vector<float>
-      distance_m;  ///< texel rows from the horizontal upwards; infinite where the sky is seen; empty when all is sky
+  /// Texel rows from the horizontal upwards; infinite where the sky is seen; empty when all is sky.
+  std::vector<float> distance_m;
 };
 
-/// The far map of a cell, of the kind `horizon`: a few occluders by name, and what all the others can do at the most, do at
-/// the least, and likely do. Slopes are tangents of elevations, a row of azimuth bins for each patch.
-///   (1) from every place in a patch, all of the far city of the residual city lies below `high`
+/// The far map of a cell, of the kind `horizon`: a few explicit occluders, and bounds and an estimate for the residual city,
+/// which is all of the far city that is not explicit. Slopes are tangents of elevations, a row of azimuth bins for each patch.
+///   (1) from every place in a patch, all of the residual city lies below `high`
 ///   (2) from every place in a patch, everything below `low` is hidden, unless it lies below `overhang` or below a lower border
-///   that is explicit or near
-///   (3) `estimate` is what is seen of the residual city on average on the patch's floor; between two floors it changes evenly with the
-///   height
-///   (4) from every place in a patch, no lower border of the residual city (EdgeRole::underside) rises above `overhang`, but those that
-///   stand before residual grounded things that are higher
+///       that is explicit or near
+///   (3) `estimate` is the horizon of the residual city, averaged over the patch's floor; between two floors it is interpolated
+///   (4) from every place in a patch, no lower border of the residual city (EdgeRole::underside) rises above `overhang`, but
+///       those that stand before residual grounded edges that are higher
 struct BakedHorizon {
   ReceiverPatches patches;
   std::vector<package::ExplicitOccluder> explicit_edges;
@@ -39,7 +38,7 @@ struct BakedHorizon {
 /// A block's far maps, in the order of CellRange::index_of.
 using BakedBoxes = std::vector<BakedBox>;
 struct BakedHorizons {
-  std::vector<HorizonEdge> edges;  ///< what its cells name, in the frame of its south-west cell
+  std::vector<HorizonEdge> edges;  ///< the explicit ones of its cells, in the frame of its south-west cell
   std::vector<BakedHorizon> cells;
 };
 using BakedBlock = std::variant<BakedBoxes, BakedHorizons>;

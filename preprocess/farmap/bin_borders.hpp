@@ -19,13 +19,13 @@ namespace farlod {
   return static_cast<std::uint32_t>(bin < 0 ? bin + turn : bin < turn ? bin : bin - turn);
 }
 
-/// Unwrapped bins, one after the other. The first lies less than a turn off.
+/// Consecutive bins, which may pass the end of the turn: the first is unwrapped, and lies less than a turn off.
 struct BinRange {
   std::int64_t first = 0;
   std::size_t count = 0;
 };
 
-/// The directions of the borders between azimuth bins, ready for use: there are few of them, and a city asks for them often.
+/// The directions of the borders between azimuth bins, tabulated: there are few of them, and each edge of a city needs some.
 class BinBorders {
  public:
   /// A bin must be narrower than half a turn.
@@ -42,7 +42,7 @@ class BinBorders {
   [[nodiscard]] const AzimuthBins& bins() const { return bins_; }
   [[nodiscard]] double cos_half_bin() const { return cos_half_bin_; }
   /// The bin of a direction other than zero, from half a turn before the x axis to half a turn after it. As AzimuthBins::bin_of,
-  /// but without an arc tangent: a guess, and a look at the border above it.
+  /// but without an arc tangent: the pseudo-angle gives a guess, and the border above it decides between that bin and the next.
   [[nodiscard]] std::int64_t bin_of(Point2d direction) const {
     std::int64_t bin = guesses_[static_cast<std::size_t>(pseudo_angle(direction) * guesses_per_turn())];
     bin += cosines_from(bin + 1)[0] * direction.y - sines_from(bin + 1)[0] * direction.x >= 0.0 ? 1 : 0;
@@ -54,16 +54,16 @@ class BinBorders {
     return {first, std::size_t{wrapped_once(bins_, bin_of(to) - first)} + 1};
   }
   /// Cosines and sines of a bin's lower border and of those that follow, up to two turns from the x axis.
-  [[nodiscard]] const double* cosines_from(std::int64_t bin) const { return &cosine_[place(bin)]; }
-  [[nodiscard]] const double* sines_from(std::int64_t bin) const { return &sine_[place(bin)]; }
+  [[nodiscard]] const double* cosines_from(std::int64_t bin) const { return &cosine_[index_of(bin)]; }
+  [[nodiscard]] const double* sines_from(std::int64_t bin) const { return &sine_[index_of(bin)]; }
 
  private:
-  [[nodiscard]] std::size_t place(std::int64_t bin) const {
+  [[nodiscard]] std::size_t index_of(std::int64_t bin) const {
     FARLOD_EXPECTS(bin >= -std::int64_t{bins_.count} && bin <= 2 * std::int64_t{bins_.count});
     return static_cast<std::size_t>(bin + bins_.count);
   }
 
-  /// Guesses are so close that at most one border lies between two: what spans δ of pseudo-angle spans at most 8δ of
+  /// Guesses are so dense that at most one border lies between two: what spans δ of pseudo-angle spans at most 8δ of
   /// azimuth, and 8/16 is less than the 2π of a bin (both over the number of bins).
   static constexpr std::uint32_t guesses_per_bin = 16;
   [[nodiscard]] double guesses_per_turn() const { return double{guesses_per_bin} * bins_.count; }
@@ -78,7 +78,7 @@ class BinBorders {
     guesses_.push_back(bins_.count - 1);  // a direction just below the x axis may be rounded to the whole turn
   }
   [[nodiscard]] double pseudo_angle_of_border(std::int64_t bin) const {
-    return pseudo_angle({cosine_[place(bin)], sine_[place(bin)]});
+    return pseudo_angle({cosine_[index_of(bin)], sine_[index_of(bin)]});
   }
 
   AzimuthBins bins_;

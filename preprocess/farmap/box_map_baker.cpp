@@ -25,7 +25,7 @@ BakedBoxes BoxMapBaker::bake(Block block) const {
 BakedBox BoxMapBaker::bake_cell(Cell cell) const {
   const auto half_edge = static_cast<float>(0.5 * grid_.cell_edge_m);
   const float height_m = tiles_.tile(cell).ground_at_centre_m + static_cast<float>(settings_.capture_height_m);
-  BakedBox map{{half_edge, half_edge, height_m}, {settings_.side_columns, settings_.rows, silhouettes_.top(cell, height_m)}, {}};
+  BakedBox map{{half_edge, half_edge, height_m}, {settings_.side_columns, settings_.rows, height_bound_.top(cell, height_m)}, {}};
   if (map.shape.top == 0.0F) return map;
   const Point3f capture = city_.frame_from_grid(grid_.centre_of(cell), height_m);
   const CellRange near = grid_.neighborhood_of(cell);

@@ -8,8 +8,8 @@
 #include "farlod/grid.hpp"
 #include "farmap/baked_block.hpp"
 #include "farmap/city_occluder.hpp"
-#include "farmap/far_map_settings.hpp"
 #include "farmap/far_height_bound.hpp"
+#include "farmap/far_map_settings.hpp"
 #include "tiles/tile_set.hpp"
 #include "tiles/tiles.hpp"
 
@@ -21,7 +21,7 @@ class BoxMapBaker {
  public:
   /// The tiles and the grid must outlive the baker.
   BoxMapBaker(const TileSet& tiles, const Grid& grid, Assign assign, const BoxMapSettings& settings)
-      : tiles_(tiles), grid_(grid), assign_(assign), settings_(settings), city_(tiles, grid), silhouettes_(tiles, grid) {}
+      : tiles_(tiles), grid_(grid), assign_(assign), settings_(settings), city_(tiles, grid), height_bound_(tiles, grid) {}
 
   [[nodiscard]] BakedBoxes bake(Block block) const;
 
@@ -34,7 +34,7 @@ class BoxMapBaker {
   Assign assign_;
   BoxMapSettings settings_;
   CityOccluder city_;
-  FarHeightBound silhouettes_;
+  FarHeightBound height_bound_;
 };
 
 }  // namespace farlod

@@ -40,9 +40,10 @@ void CityHorizon::build(std::uint32_t n, const CellRange& range) {
   node.z_high_m = node.z_underside_m = -std::numeric_limits<double>::infinity();
   if (range.size() == 1) {
     node.cell = {range.i_begin, range.j_begin};
-    const std::size_t place = cells_.index_of(node.cell);
-    node.first_occluder = first_of_cell_[place];
-    node.occluder_count = first_of_cell_[place + 1] - first_of_cell_[place];
+    // A leaf is a cell: its box is that of its occluders
+    const std::size_t index = cells_.index_of(node.cell);
+    node.first_occluder = first_of_cell_[index];
+    node.occluder_count = first_of_cell_[index + 1] - first_of_cell_[index];
     for (const OccluderEdge& o : occluders().subspan(node.first_occluder, node.occluder_count)) {
       node.z_high_m = std::max(node.z_high_m, o.z_high_m());
       if (!o.is_upper()) node.z_underside_m = std::max(node.z_underside_m, o.z_high_m());
@@ -51,16 +52,19 @@ void CityHorizon::build(std::uint32_t n, const CellRange& range) {
     nodes_[n] = node;
     return;
   }
+  // Halve the longer side of the rectangle
   CellRange low = range, high = range;
   if (range.width() >= range.height()) {
     low.i_end = high.i_begin = range.i_begin + static_cast<std::int32_t>(range.width() / 2);
   } else {
     low.j_end = high.j_begin = range.j_begin + static_cast<std::int32_t>(range.height() / 2);
   }
+  // Siblings stand side by side
   node.children = static_cast<std::uint32_t>(nodes_.size());
   nodes_.resize(nodes_.size() + 2);
   build(node.children, low);
   build(node.children + 1, high);
+  // The box of a node encloses those of its children
   for (const Node& child : {nodes_[node.children], nodes_[node.children + 1]}) {
     node.z_high_m = std::max(node.z_high_m, child.z_high_m);
     node.z_underside_m = std::max(node.z_underside_m, child.z_underside_m);

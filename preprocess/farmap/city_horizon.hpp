@@ -29,7 +29,7 @@ struct OccluderEdge {
   }
 };
 
-/// All occluders of a city, by cell, with a tree of boxes above them so that whole quarters can be told to be hidden at once.
+/// All occluders of a city, by cell, below a tree of boxes (a bounding volume hierarchy), so that whole subtrees can be culled.
 /// Frame: the grid frame moved to the corner of the middle cell, with heights as in the tiles.
 class CityHorizon {
  public:
@@ -41,7 +41,7 @@ class CityHorizon {
     double z_high_m = 0.0;
     double z_underside_m = 0.0;  ///< of the highest underside; less than any height where there is none
     Cell cell;                   ///< of a leaf
-    std::uint32_t children = 0;  ///< place of the first of two; 0 for a leaf
+    std::uint32_t children = 0;  ///< index of the first of two; 0 for a leaf
     std::uint32_t first_occluder = 0, occluder_count = 0;
   };
   /// The root is the first, unless the city is empty.

@@ -15,7 +15,6 @@ namespace farlod {
 /// in the city, with heights as in the tiles.
 class CityOccluder {
  public:
-  /// The tiles must outlive it.
   CityOccluder(const TileSet& tiles, const Grid& grid);
 
   [[nodiscard]] const Occluder& occluder() const { return occluder_; }
@@ -24,13 +23,8 @@ class CityOccluder {
   }
   /// The cell whose tile holds a triangle of the occluder.
   [[nodiscard]] Cell cell_of_triangle(std::uint32_t triangle) const;
-  /// The surface that a triangle of the occluder is part of.
-  [[nodiscard]] const Surface& surface_of(std::uint32_t triangle) const;
 
  private:
-  [[nodiscard]] std::size_t tile_of(std::uint32_t triangle) const;
-
-  const TileSet& tiles_;
   CellRange cells_;
   Point2d origin_grid_;
   std::vector<std::uint32_t> first_triangle_;  ///< of each tile

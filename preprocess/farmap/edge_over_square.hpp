@@ -19,16 +19,16 @@ namespace farlod {
 /// places to floats, seen from a distance. docs/concepts.md, "Bounds from a region".
 inline constexpr double bound_rounding = 1e-5;
 
-/// What eyes anywhere in a square see of an edge: in which azimuth bins it can stand, and how steep it can be at the most and is
-/// at the least. Proof in docs/concepts.md, "Bounds from a region". One object looks at many edges, and keeps its memory.
+/// How an edge is seen from anywhere in a square: the azimuth bins in which it can be, and upper and lower bounds of its slope in
+/// each. Proof in docs/concepts.md, "Bounds from a region". One object serves many edges, and keeps its memory.
 class EdgeOverSquare {
  public:
   /// The borders must outlive it.
   explicit EdgeOverSquare(const BinBorders& borders) : borders_(&borders) {}
-  void look_at(const Point3d& a, const Point3d& b, const Box2d& square);
+  void set_edge(const Point3d& a, const Point3d& b, const Box2d& square);
 
-  /// The edge is so close that it can stand in any direction: nothing can be said.
-  [[nodiscard]] bool surrounds() const { return surrounds_; }
+  /// The edge is so close that it can be in any direction: nothing bounds it.
+  [[nodiscard]] bool is_unbounded() const { return is_unbounded_; }
   /// The bins that the edge touches for some eye, counted from `first_bin`, which may lie outside of a turn.
   [[nodiscard]] std::int64_t first_bin() const { return first_bin_; }
   [[nodiscard]] std::size_t bin_count() const { return bin_count_; }
@@ -41,17 +41,19 @@ class EdgeOverSquare {
   [[nodiscard]] std::span<const double> low(double z_m);
 
  private:
-  /// For each border, slope = rise − z · per_metre of the edge's line, seen from one corner of the square; infinite where the
-  /// line does not lie in front.
+  /// The line through the edge, seen from one corner of the square at the height z: its slope is slope_at_0 − z · per_metre, for
+  /// each border between bins. Infinite where the line does not lie in front.
   struct FromCorner {
-    std::vector<double> rise, per_metre;
+    std::vector<double> slope_at_0, per_metre;
   };
-  /// How far to the left of a direction another one lies, by less than a right angle: compared without an arc tangent.
+  /// The tangent, aside / ahead, of the angle from one direction counter-clockwise to another, by less than a right angle:
+  /// compared without a division.
   struct Turn {
     double aside = 0.0, ahead = 1.0;
     bool operator<(const Turn& o) const { return aside * o.ahead < o.aside * ahead; }
   };
-  /// From the middle's azimuth to the ends, over all eyes; and those that the edge covers for each eye.
+  /// Between these angles the edge lies for some eye of the square; between the common ones, if any, for all eyes. Counted from
+  /// the direction between the centres of square and edge.
   struct Turns {
     Turn from, to, common_from, common_to;
   };
@@ -64,19 +66,19 @@ class EdgeOverSquare {
   }
   /// None when an end can lie beside or behind.
   [[nodiscard]] std::optional<Turns> turns_over(Point2d toward);
-  void find_range(const Turns& turns, Point2d toward);
+  void find_bins(const Turns& turns, Point2d toward);
   void evaluate_borders();
 
   const BinBorders* borders_;
   Point3d a_, b_;
   std::array<Point2d, 4> corners_;
   double nearest_m_ = 0.0;
-  bool surrounds_ = false, one_sided_ = false, borders_known_ = false;
+  bool is_unbounded_ = false, one_sided_ = false, borders_known_ = false;
   std::int64_t first_bin_ = 0;
   std::size_t bin_count_ = 0, common_begin_ = 0, common_end_ = 0;
   std::array<FromCorner, 4> from_corner_;
-  double upper_at_m_ = 0.0, lower_at_m_ = 0.0;  ///< the heights that `upper_` and `lower_` are for
-  std::vector<double> across_, steepest_, upper_, lower_;
+  double high_at_m_ = 0.0, low_at_m_ = 0.0;  ///< the heights that `high_` and `low_` are for
+  std::vector<double> across_, steepest_, high_, low_;
 };
 
 }  // namespace farlod

@@ -32,7 +32,7 @@ class FarMapBaker {
   std::unique_ptr<HorizonMapBaker> horizon_;
 };
 
-/// What the manifest says of far maps that are baked so.
+/// What the manifest says of far maps with these settings.
 [[nodiscard]] package::FarMapShape shape_of(const FarMapSettings& settings);
 
 }  // namespace farlod

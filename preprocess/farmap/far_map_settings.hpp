@@ -7,7 +7,7 @@
 namespace farlod {
 
 enum class FarMapKind : std::uint8_t {
-  horizon,  ///< occluders by name and bounds for the rest: without parallax
+  horizon,  ///< explicit occluders, and bounds for the rest of the far city: without parallax
   box       ///< the paper's: a picture on the walls of a box, looked up by direction alone
 };
 
@@ -23,11 +23,10 @@ struct HorizonMapSettings {
   std::uint32_t azimuth_bins = 256;
   std::uint32_t squares_per_edge = 1;  ///< 1 to 4
   std::uint32_t layers = 8;            ///< 2 to package::most_layers
-  /// An occluder is explicit where it may rise higher than this (sine of the elevation) over what surely or likely hides the sky.
+  /// An occluder is explicit where it may rise by more than this (sine of the elevation) over what hides the sky anyway.
   double tolerance = 0.05;
-  /// An occluder that rises less than this share of the tolerance over what all viewpoints see is not looked at for what is
-  /// likely.
-  double weakest = 0.6;
+  /// A hidden occluder is weak, and counts for the estimate, where it may rise by more than this share of the tolerance.
+  double weak_share = 0.6;
 };
 
 struct FarMapSettings {

@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
 #include "farlod/expects.hpp"
-#include "farmap/block_occluders.hpp"
-#include "farmap/occlusion_culler.hpp"
 #include "farmap/occluder_classifier.hpp"
+#include "farmap/occlusion_culler.hpp"
 
 namespace farlod {
 namespace {
@@ -21,7 +21,8 @@ constexpr float street_layer_m = 2.0F;
 /// Roofs bear receivers too, a little above them.
 constexpr float above_roofs_m = 0.5F;
 
-/// Levels of a cell's layers: the street first, then up to the highest roof, finer below, where most roofs are.
+/// The floors of a cell's layers. The street is the first layer; the others reach up to the highest roof. Their floors are spaced
+/// quadratically: finer below, where most roofs are.
 std::vector<float> levels_of(const Tile& tile, const std::vector<Surface>& surfaces, std::uint32_t layers) {
   float ground_low = tile.ground_at_centre_m, ground_high = tile.ground_at_centre_m;
   for (std::size_t n = 0; n < tile.triangles.size(); ++n) {
@@ -40,22 +41,23 @@ std::vector<float> levels_of(const Tile& tile, const std::vector<Surface>& surfa
   return levels;
 }
 
-/// A map that names nothing, above what was hidden at first sight. That holds from all over the cell: for each square alike.
-BakedHorizon empty_map(const ReceiverPatches& patches, const CullResult& around) {
-  const std::size_t bins = around.hidden.size() / patches.layers();
+/// A map without explicit occluders, whose upper bounds are those of what is hidden. These hold all over the cell: for each
+/// square alike.
+BakedHorizon map_of_culled(const ReceiverPatches& patches, const CullResult& culled) {
+  const std::size_t bins = culled.high.size() / patches.layers();
   BakedHorizon map{patches, {}, std::vector<float>(patches.count() * bins, 0.0F), {}, {}, {}};
   map.estimate = map.low;
   for (std::uint32_t patch = 0; patch < patches.count(); ++patch) {
     const auto begin = static_cast<std::ptrdiff_t>(patch / patches.squares() * bins);
     const auto end = begin + static_cast<std::ptrdiff_t>(bins);
-    map.high.insert(map.high.end(), around.hidden.begin() + begin, around.hidden.begin() + end);
-    map.overhang.insert(map.overhang.end(), around.overhang.begin() + begin, around.overhang.begin() + end);
+    map.high.insert(map.high.end(), culled.high.begin() + begin, culled.high.begin() + end);
+    map.overhang.insert(map.overhang.end(), culled.overhang.begin() + begin, culled.overhang.begin() + end);
   }
   return map;
 }
 
-/// What the viewpoints at the corners of a patch's floor see on average.
-void estimate(const ViewpointHorizons& views, BakedHorizon& map) {
+/// The estimate of a patch: the average horizon of the viewpoints at the four corners of its floor.
+void estimate(const ViewpointHorizons& viewpoints, BakedHorizon& map) {
   const std::uint32_t n = map.patches.squares_per_edge();
   const auto bins = static_cast<std::uint32_t>(map.estimate.size() / map.patches.count());
   for (std::uint32_t patch = 0; patch < map.patches.count(); ++patch) {
@@ -63,11 +65,39 @@ void estimate(const ViewpointHorizons& views, BakedHorizon& map) {
     for (std::uint32_t bin = 0; bin < bins; ++bin) {
       float sum = 0.0F;
       for (std::uint32_t corner = 0; corner < 4; ++corner)
-        sum += views.slope(square % n + (corner & 1U), square / n + (corner >> 1U), layer, bin);
+        sum += viewpoints.slope(square % n + (corner & 1U), square / n + (corner >> 1U), layer, bin);
       map.estimate[patch * bins + bin] = 0.25F * sum;
     }
   }
 }
+
+/// Gathers the explicit occluders of a block's cells, each once, and numbers them anew.
+class BlockOccluders {
+ public:
+  /// `corner` is the block's, in the frame of the city, which must outlive this.
+  BlockOccluders(const CityHorizon& city, Point2d corner) : city_(city), corner_(corner) {}
+
+  /// From numbers in the city to rows of `edges`.
+  void renumber(std::vector<package::ExplicitOccluder>& occluders) {
+    for (package::ExplicitOccluder& n : occluders) n.row = row_of(n.row);
+  }
+  std::vector<HorizonEdge> edges;
+
+ private:
+  [[nodiscard]] std::uint32_t row_of(std::uint32_t number) {
+    const OccluderEdge& o = city_.occluders()[number];
+    const auto [entry, is_new] = rows_.try_emplace(number, static_cast<std::uint32_t>(edges.size()));
+    if (is_new) edges.push_back({placed(o.a), placed(o.b), o.adjacent, o.role});
+    return entry->second;
+  }
+  [[nodiscard]] Point3f placed(const Point3d& p) const {
+    return {static_cast<float>(p.x - corner_.x), static_cast<float>(p.y - corner_.y), static_cast<float>(p.z)};
+  }
+
+  const CityHorizon& city_;
+  Point2d corner_;
+  std::unordered_map<std::uint32_t, std::uint32_t> rows_;
+};
 
 }  // namespace
 
@@ -99,24 +129,27 @@ BakedHorizons HorizonMapBaker::bake(std::span<const Cell> cells) const {
 }
 
 BakedHorizon HorizonMapBaker::bake_cell(Cell cell) const {
-  const CellPlace place{
+  const ReceiverCell receivers{
       city_.corner_of(cell),
       grid_.neighborhood_of(cell),
       {{0.0, 0.0}, {grid_.cell_edge_m, grid_.cell_edge_m}},
       {grid_.cell_edge_m, settings_.squares_per_edge, levels_of(tiles_.tile(cell), tiles_.surfaces, settings_.layers)}};
-  const CullResult around = OcclusionCuller(city_, place, borders_, settings_).run();
-  BakedHorizon map = empty_map(place.patches, around);
-  OccluderClassifier judge(city_, place, around.views, borders_, settings_.tolerance, map);
-  ViewpointHorizons residual(grid_.cell_edge_m, place.patches, borders_);
+  // Cull what the nearer city hides, and bound it
+  const CullResult culled = OcclusionCuller(city_, receivers, borders_, settings_).run();
+  BakedHorizon map = map_of_culled(receivers.patches, culled);
+  // Make the significant candidates explicit, and bound the others
+  OccluderClassifier classifier(city_, receivers, culled.viewpoints, borders_, settings_.tolerance, map);
+  // Draw the horizon of the residual city: candidates at the levels where they are not explicit, and all that is weak
+  ViewpointHorizons residual(grid_.cell_edge_m, receivers.patches, borders_);
   const auto add_to_residual = [&](std::uint32_t number, std::uint32_t levels) {
-    const OccluderEdge occluder = city_.occluders()[number].from(place.corner);
+    const OccluderEdge occluder = city_.occluders()[number].from(receivers.corner);
     if (occluder.is_upper()) residual.add(occluder.a, occluder.b, levels);
   };
-  for (const std::uint32_t number : around.candidates) add_to_residual(number, ~judge.judge(number));
-  for (const std::uint32_t number : around.weak) add_to_residual(number, ViewpointHorizons::all_levels);
-  // A thing may be at least as high as another is at the most: both are rounded
+  for (const std::uint32_t number : culled.candidates) add_to_residual(number, ~classifier.classify(number));
+  for (const std::uint32_t number : culled.weak) add_to_residual(number, ViewpointHorizons::all_levels);
+  // Two bounds that are equal may have been rounded past each other
   for (std::size_t n = 0; n < map.low.size(); ++n) map.low[n] = std::min(map.low[n], map.high[n]);
-  judge.drop_hidden_overhangs();
+  classifier.drop_hidden_overhangs();
   estimate(residual, map);
   return map;
 }

@@ -13,15 +13,15 @@
 
 namespace farlod {
 
-/// Bakes far maps without parallax: occluders that move against each other within a patch are explicit, so that the runtime can draw
-/// them from where the receiver is; the rest is bounded. docs/stages/farmap.md.
+/// Bakes far maps without parallax: occluders that shift against the horizon behind them within a patch are explicit, so that the
+/// runtime draws them from where each receiver stands; the residual city is bounded. docs/stages/farmap.md.
 class HorizonMapBaker {
  public:
   /// The tiles and the grid must outlive the baker.
   HorizonMapBaker(const TileSet& tiles, const Grid& grid, const HorizonMapSettings& settings);
 
   [[nodiscard]] BakedHorizons bake(Block block) const;
-  /// Of some cells; what they name is in the frame of the first.
+  /// Of some cells. Their explicit occluders are in the frame of the first.
   [[nodiscard]] BakedHorizons bake(std::span<const Cell> cells) const;
 
  private:

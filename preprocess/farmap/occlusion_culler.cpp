@@ -20,65 +20,68 @@ double distance_m(const Box2d& a, const Box2d& b) {
   return std::sqrt(x * x + y * y);
 }
 
-/// What rises so high, nowhere nearer than this, stays below this slope.
+/// An upper bound of the slope of what rises so high and is nowhere nearer than this.
 double slope_at_most(double rise_m, double nearest_m) { return rise_m / nearest_m * (1.0 + bound_rounding) + bound_rounding; }
 
-struct Waiting {
+/// A node of the tree that waits to be visited. In a priority queue, the nearest comes first, equal ones in a fixed order.
+struct QueuedNode {
   double distance_m;
   std::uint32_t node;
-  bool operator<(const Waiting& o) const { return std::pair(distance_m, node) > std::pair(o.distance_m, o.node); }
+  bool operator<(const QueuedNode& o) const { return std::pair(distance_m, node) > std::pair(o.distance_m, o.node); }
 };
 
 }  // namespace
 
-OcclusionCuller::OcclusionCuller(const CityHorizon& city, const CellPlace& place, const BinBorders& borders,
-                       const HorizonMapSettings& settings)
+OcclusionCuller::OcclusionCuller(const CityHorizon& city, const ReceiverCell& cell, const BinBorders& borders,
+                                 const HorizonMapSettings& settings)
     : city_(city),
-      place_(place),
+      cell_(cell),
       borders_(borders),
       bins_(borders.bins()),
       tolerance_(settings.tolerance),
-      weakest_(settings.weakest * settings.tolerance),
-      found_{{}, {}, ViewpointHorizons(place.square.high.x, place.patches, borders), {}, {}},
-      bounded_slope_(place.patches.layers(), 0.0),
-      over_cell_(borders_) {
-  found_.hidden.assign(std::size_t{place.patches.layers()} * bins_.count, 0.0F);
-  found_.overhang = found_.hidden;
-  floors_.assign(found_.hidden.size(), -1.0F);
-  weak_over_.resize(found_.hidden.size());
-  significant_over_.resize(found_.hidden.size());
-  update_limits({0, bins_.count});
+      weak_tolerance_(settings.weak_share * settings.tolerance),
+      result_{{}, {}, ViewpointHorizons(cell.square.high.x, cell.patches, borders), {}, {}},
+      leaf_bound_(cell.patches.layers(), 0.0),
+      edge_(borders_) {
+  result_.high.assign(std::size_t{cell.patches.layers()} * bins_.count, 0.0F);
+  result_.overhang = result_.high;
+  lowest_horizon_.assign(result_.high.size(), -1.0F);
+  weak_above_.resize(result_.high.size());
+  significant_above_.resize(result_.high.size());
+  update_thresholds({0, bins_.count});
 }
 
 CullResult OcclusionCuller::run() && {
-  std::priority_queue<Waiting> waiting;
+  // Visit the tree of boxes from near to far: what is nearer hides what is farther
+  std::priority_queue<QueuedNode> queue;
   const auto push = [&](std::uint32_t n) {
-    if (!city_.nodes()[n].outline.empty()) waiting.push({distance_m(outline_of(city_.nodes()[n]), place_.square), n});
+    if (!city_.nodes()[n].outline.empty()) queue.push({distance_m(outline_of(city_.nodes()[n]), cell_.square), n});
   };
   if (!city_.nodes().empty()) push(0);
-  while (!waiting.empty()) {
-    const auto [distance_m, n] = waiting.top();
-    waiting.pop();
+  while (!queue.empty()) {
+    const auto [distance_m, n] = queue.top();
+    queue.pop();
     const CityHorizon::Node& node = city_.nodes()[n];
-    if (hide_node(node, distance_m)) continue;
+    // Cull a node as a whole, descend into it, or visit the occluders of its cell, unless that is near
+    if (cull_node(node, distance_m)) continue;
     if (node.children != 0) {
       push(node.children);
       push(node.children + 1);
-    } else if (!place_.near.contains(node.cell)) {
-      add_leaf(node, distance_m);
+    } else if (!cell_.near.contains(node.cell)) {
+      visit_leaf(node, distance_m);
     }
   }
-  return std::move(found_);
+  return std::move(result_);
 }
 
 Box2d OcclusionCuller::outline_of(const CityHorizon::Node& node) const {
-  return {node.outline.low - place_.corner, node.outline.high - place_.corner};
+  return {node.outline.low - cell_.corner, node.outline.high - cell_.corner};
 }
 
 /// The bins in which some place of a box can be seen from some place of the cell, which it does not meet.
 BinRange OcclusionCuller::bins_of(const Box2d& box) const {
   // The difference of the two boxes is a box without the origin: its corners bound the azimuths, within half a turn
-  const Box2d difference{box.low - place_.square.high, box.high - place_.square.low};
+  const Box2d difference{box.low - cell_.square.high, box.high - cell_.square.low};
   Point2d from = difference.low, to = from;
   for (const Point2d d :
        {Point2d{difference.high.x, difference.low.y}, difference.high, Point2d{difference.low.x, difference.high.y}}) {
@@ -88,27 +91,31 @@ BinRange OcclusionCuller::bins_of(const Box2d& box) const {
   return borders_.between(turned(from, -bound_rounding), turned(to, bound_rounding));
 }
 
-/// When all of a node is surely below what stands before it, its bound is noted, and it is done.
-bool OcclusionCuller::hide_node(const CityHorizon::Node& node, double distance_m) {
-  const std::vector<float>& levels_m = place_.patches.levels_m();
+/// Culls a node when its whole box stays below `weak_above_`, and returns whether it did.
+bool OcclusionCuller::cull_node(const CityHorizon::Node& node, double distance_m) {
+  const std::vector<float>& levels_m = cell_.patches.levels_m();
+  // What does not rise above the lowest receiver hides nothing; what meets the cell cannot be bounded
   if (node.z_high_m <= levels_m.front()) return true;
   if (distance_m <= 0.0) return false;
+  // Compare the slope of the box's top at its nearest place, layer by layer, in all bins that the box touches
   const BinRange range = bins_of(outline_of(node));
-  bool hidden = true;
-  for (std::size_t l = 0; l < levels_m.size() && hidden && node.z_high_m > levels_m[l]; ++l) {
-    const double slope = slope_at_most(node.z_high_m - levels_m[l], distance_m), *weak_over = &weak_over_[l * bins_.count];
+  bool culled = true;
+  for (std::size_t l = 0; l < levels_m.size() && culled && node.z_high_m > levels_m[l]; ++l) {
+    const double slope = slope_at_most(node.z_high_m - levels_m[l], distance_m);
+    const double* weak_above = &weak_above_[l * bins_.count];
     for_each_bin(bins_, range.first, range.count,
-                 [&](std::size_t, std::uint32_t bin) { hidden = hidden && slope <= weak_over[bin]; });
+                 [&](std::size_t, std::uint32_t bin) { culled = culled && slope <= weak_above[bin]; });
   }
-  if (!hidden) return false;
-  raise_rows(range, node.z_high_m, distance_m, found_.hidden);
-  raise_rows(range, node.z_underside_m, distance_m, found_.overhang);
+  if (!culled) return false;
+  // Keep that slope as the bound of all that is in the box
+  raise_by_box(range, node.z_high_m, distance_m, result_.high);
+  raise_by_box(range, node.z_underside_m, distance_m, result_.overhang);
   return true;
 }
 
-/// By what is so high, and nowhere nearer than this.
-void OcclusionCuller::raise_rows(const BinRange& range, double z_high_m, double nearest_m, std::vector<float>& rows) {
-  const std::vector<float>& levels_m = place_.patches.levels_m();
+/// Raises rows to the bound of a box that is so high and nowhere nearer than this.
+void OcclusionCuller::raise_by_box(const BinRange& range, double z_high_m, double nearest_m, std::vector<float>& rows) {
+  const std::vector<float>& levels_m = cell_.patches.levels_m();
   for (std::size_t l = 0; l < levels_m.size() && z_high_m > levels_m[l]; ++l) {
     const auto slope = static_cast<float>(slope_at_most(z_high_m - levels_m[l], nearest_m));
     float* row = &rows[l * bins_.count];
@@ -116,105 +123,113 @@ void OcclusionCuller::raise_rows(const BinRange& range, double z_high_m, double 
   }
 }
 
-void OcclusionCuller::add_leaf(const CityHorizon::Node& leaf, double distance_m) {
+/// Classifies the occluders of a far cell, and draws those that count into the horizons of the viewpoints.
+void OcclusionCuller::visit_leaf(const CityHorizon::Node& leaf, double distance_m) {
   const BinRange range = distance_m > 0.0 ? bins_of(outline_of(leaf)) : BinRange{0, bins_.count};
-  update_bounded(range);
+  update_leaf_bound(range);
   bool drawn = false;
   for (std::uint32_t n = leaf.first_occluder; n < leaf.first_occluder + leaf.occluder_count; ++n) {
     const OccluderEdge& occluder = city_.occluders()[n];
-    if (faces_away(occluder) || is_bounded(occluder)) continue;
-    const Rise rise = look_at(occluder);
-    if (rise == Rise::significant) found_.candidates.push_back(n);
-    if (rise == Rise::hidden || !occluder.is_upper()) continue;
-    if (rise == Rise::weak) found_.weak.push_back(n);
-    const OccluderEdge placed = occluder.from(place_.corner);
-    found_.views.add(placed.a, placed.b);
+    // Skip what is no silhouette, and what is bounded already
+    if (faces_away(occluder) || is_below_leaf_bound(occluder)) continue;
+    const Visibility visibility = classify(occluder);
+    if (visibility == Visibility::significant) result_.candidates.push_back(n);
+    // Only upper borders raise horizons
+    if (visibility == Visibility::hidden || !occluder.is_upper()) continue;
+    if (visibility == Visibility::weak) result_.weak.push_back(n);
+    const OccluderEdge placed = occluder.from(cell_.corner);
+    result_.viewpoints.add(placed.a, placed.b);
     drawn = true;
   }
-  if (drawn) update_limits(range);
-}
-
-void OcclusionCuller::update_bounded(const BinRange& range) {
-  for (std::size_t l = 0; l < bounded_slope_.size(); ++l) {
-    double lowest = std::numeric_limits<double>::infinity();
-    const float* row = &found_.hidden[l * bins_.count];
-    const double* weak_over = &weak_over_[l * bins_.count];
-    for_each_bin(bins_, range.first, range.count, [&](std::size_t, std::uint32_t bin) {
-      lowest = std::min({lowest, double{row[bin]}, weak_over[bin]});
-    });
-    bounded_slope_[l] = lowest;
-  }
+  // Once for the whole leaf: its occluders do not cull each other
+  if (drawn) update_thresholds(range);
 }
 
 /// Whether an edge can be no silhouette for anybody in the cell: what hides it, or goes on beyond it, is there by its own edges.
 bool OcclusionCuller::faces_away(const OccluderEdge& occluder) const {
-  const double lowest_m = place_.patches.levels_m().front();
+  const double lowest_m = cell_.patches.levels_m().front();
   if (occluder.z_high_m() <= lowest_m) return false;
-  const OccluderEdge placed = occluder.from(place_.corner);
-  return !may_be_silhouette(placed.a, placed.b, placed.adjacent, placed.role, place_.square, lowest_m, placed.z_high_m());
+  const OccluderEdge placed = occluder.from(cell_.corner);
+  return !may_be_silhouette(placed.a, placed.b, placed.adjacent, placed.role, cell_.square, lowest_m, placed.z_high_m());
 }
 
-/// Whether an upper border is so low that `hidden` bounds it already, wherever in the leaf at hand it stands. A bound without
-/// azimuths is enough to tell for most.
-bool OcclusionCuller::is_bounded(const OccluderEdge& occluder) const {
+/// Finds for each layer the largest slope that is culled, and bounded by `high` already, in all bins of the leaf.
+void OcclusionCuller::update_leaf_bound(const BinRange& range) {
+  for (std::size_t l = 0; l < leaf_bound_.size(); ++l) {
+    double lowest = std::numeric_limits<double>::infinity();
+    const float* row = &result_.high[l * bins_.count];
+    const double* weak_above = &weak_above_[l * bins_.count];
+    for_each_bin(bins_, range.first, range.count, [&](std::size_t, std::uint32_t bin) {
+      lowest = std::min({lowest, double{row[bin]}, weak_above[bin]});
+    });
+    leaf_bound_[l] = lowest;
+  }
+}
+
+/// Whether an upper border is so low that `high` bounds it already, wherever in the leaf it stands. Most are: its azimuths need
+/// not be found.
+bool OcclusionCuller::is_below_leaf_bound(const OccluderEdge& occluder) const {
   if (!occluder.is_upper()) return false;
-  const OccluderEdge placed = occluder.from(place_.corner);
+  const OccluderEdge placed = occluder.from(cell_.corner);
   Box2d outline;
   outline.add(horizontal(placed.a));
   outline.add(horizontal(placed.b));
-  const double nearest_m = distance_m(outline, place_.square), z_high_m = occluder.z_high_m();
-  for (std::size_t l = 0; l < bounded_slope_.size() && z_high_m > place_.patches.levels_m()[l]; ++l)
-    if (!(slope_at_most(z_high_m - place_.patches.levels_m()[l], nearest_m) <= bounded_slope_[l])) return false;
+  const double nearest_m = distance_m(outline, cell_.square), z_high_m = occluder.z_high_m();
+  for (std::size_t l = 0; l < leaf_bound_.size() && z_high_m > cell_.patches.levels_m()[l]; ++l)
+    if (!(slope_at_most(z_high_m - cell_.patches.levels_m()[l], nearest_m) <= leaf_bound_[l])) return false;
   return true;
 }
 
-OcclusionCuller::Rise OcclusionCuller::look_at(const OccluderEdge& occluder) {
-  const OccluderEdge placed = occluder.from(place_.corner);
-  over_cell_.look_at(placed.a, placed.b, place_.square);
-  const Rise rise = over_cell_.surrounds() ? Rise::significant : rise_of(occluder);
-  if (rise != Rise::significant) hide(occluder, occluder.is_upper() ? found_.hidden : found_.overhang);
-  return rise;
+/// Makes an occluder the current one. Unless it is significant, its bounds are kept.
+OcclusionCuller::Visibility OcclusionCuller::classify(const OccluderEdge& occluder) {
+  const OccluderEdge placed = occluder.from(cell_.corner);
+  edge_.set_edge(placed.a, placed.b, cell_.square);
+  const Visibility visibility = edge_.is_unbounded() ? Visibility::significant : visibility_of(occluder);
+  if (visibility != Visibility::significant) raise_by_bounds(occluder, occluder.is_upper() ? result_.high : result_.overhang);
+  return visibility;
 }
 
-/// How far the occluder at hand may be seen over what stands before it. Unless that is significant, its bounds are kept.
-OcclusionCuller::Rise OcclusionCuller::rise_of(const OccluderEdge& occluder) {
-  const std::vector<float>& levels_m = place_.patches.levels_m();
+/// Compares the upper bounds of the current occluder with the thresholds, level by level, and remembers them.
+OcclusionCuller::Visibility OcclusionCuller::visibility_of(const OccluderEdge& occluder) {
+  const std::vector<float>& levels_m = cell_.patches.levels_m();
   bool weak = false, significant = false;
   bounds_.clear();
   for (std::size_t l = 0; l < levels_m.size() && !significant && occluder.z_high_m() > levels_m[l]; ++l) {
-    const std::span<const double> upper = over_cell_.high(levels_m[l]);
-    const double *weak_over = &weak_over_[l * bins_.count], *significant_over = &significant_over_[l * bins_.count];
-    for_each_bin(bins_, over_cell_.first_bin(), upper.size(), [&](std::size_t n, std::uint32_t bin) {
-      weak = weak || upper[n] > weak_over[bin];
-      significant = significant || upper[n] > significant_over[bin];
+    const std::span<const double> high = edge_.high(levels_m[l]);
+    const double *weak_above = &weak_above_[l * bins_.count], *significant_above = &significant_above_[l * bins_.count];
+    for_each_bin(bins_, edge_.first_bin(), high.size(), [&](std::size_t n, std::uint32_t bin) {
+      weak = weak || high[n] > weak_above[bin];
+      significant = significant || high[n] > significant_above[bin];
     });
-    bounds_.insert(bounds_.end(), upper.begin(), upper.end());
+    bounds_.insert(bounds_.end(), high.begin(), high.end());
   }
-  return significant ? Rise::significant : weak ? Rise::weak : Rise::hidden;
+  return significant ? Visibility::significant : weak ? Visibility::weak : Visibility::hidden;
 }
 
-/// Notes the bounds that are kept of the occluder at hand.
-void OcclusionCuller::hide(const OccluderEdge& occluder, std::vector<float>& rows) {
-  const std::vector<float>& levels_m = place_.patches.levels_m();
+/// Raises rows to the remembered bounds of the current occluder.
+void OcclusionCuller::raise_by_bounds(const OccluderEdge& occluder, std::vector<float>& rows) {
+  const std::vector<float>& levels_m = cell_.patches.levels_m();
   const double* bound = bounds_.data();
-  for (std::size_t l = 0; l < levels_m.size() && occluder.z_high_m() > levels_m[l]; ++l, bound += over_cell_.bin_count()) {
+  for (std::size_t l = 0; l < levels_m.size() && occluder.z_high_m() > levels_m[l]; ++l, bound += edge_.bin_count()) {
     float* row = &rows[l * bins_.count];
-    for_each_bin(bins_, over_cell_.first_bin(), over_cell_.bin_count(),
+    for_each_bin(bins_, edge_.first_bin(), edge_.bin_count(),
                  [&](std::size_t n, std::uint32_t bin) { row[bin] = std::max(row[bin], static_cast<float>(bound[n])); });
   }
 }
 
-void OcclusionCuller::update_limits(const BinRange& range) {
+/// Adds the tolerances to the lowest horizon of the viewpoints, where that has risen. Of a layer, the viewpoints at its ceiling
+/// count: they see the lowest horizon.
+void OcclusionCuller::update_thresholds(const BinRange& range) {
   for_each_bin(bins_, range.first, range.count, [&](std::size_t, std::uint32_t bin) {
-    const std::span<const float> floors = found_.views.lowest(bin);
-    for (std::uint32_t l = 0; l < place_.patches.layers(); ++l) {
-      const float floor = floors[place_.ceiling_level(l)];
-      const std::size_t place = std::size_t{l} * bins_.count + bin;
-      if (floor == floors_[place]) continue;
-      floors_[place] = floor;
-      const double sine = sine_of_slope(floor);
-      weak_over_[place] = std::max<double>(floor, slope_of_sine(sine + weakest_));
-      significant_over_[place] = std::max<double>(floor, slope_of_sine(sine + tolerance_));
+    const std::span<const float> lowest_of_level = result_.viewpoints.lowest(bin);
+    for (std::uint32_t l = 0; l < cell_.patches.layers(); ++l) {
+      const float lowest = lowest_of_level[cell_.ceiling_level(l)];
+      const std::size_t index = std::size_t{l} * bins_.count + bin;
+      if (lowest == lowest_horizon_[index]) continue;
+      lowest_horizon_[index] = lowest;
+      const double sine = sine_of_slope(lowest);
+      weak_above_[index] = std::max<double>(lowest, slope_of_sine(sine + weak_tolerance_));
+      significant_above_[index] = std::max<double>(lowest, slope_of_sine(sine + tolerance_));
     }
   });
 }

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include "farlod/box.hpp"
+#include "farlod/far_map/receiver_patches.hpp"
+#include "farlod/grid.hpp"
 #include "farmap/bin_borders.hpp"
-#include "farmap/cell_place.hpp"
 #include "farmap/city_horizon.hpp"
 #include "farmap/edge_over_square.hpp"
 #include "farmap/far_map_settings.hpp"
@@ -14,54 +19,74 @@
 
 namespace farlod {
 
-/// The far city of a cell, looked at from near to far.
-///   (1) each upper border outside of the neighborhood is a candidate, or from all over the cell it lies below `hidden`
-///   (2) what is hidden rises by no more than the tolerance over what the viewpoints above see of what was found before it
-///   (3) what is hidden and not weak rises by no more than `weakest` of the tolerance
+/// A cell whose far map is baked: where it lies in the frame of CityHorizon, and where its receivers may be.
+struct ReceiverCell {
+  Point2d corner;
+  CellRange near;
+  Box2d square;  ///< cell frame
+  ReceiverPatches patches;
+
+  /// The number of the level that bounds a layer from above. The uppermost layer has no lid: its floor stands in.
+  [[nodiscard]] std::uint32_t ceiling_level(std::uint32_t layer) const { return std::min(layer + 1, patches.layers() - 1); }
+};
+
+/// The sine of an elevation, from its tangent.
+[[nodiscard]] inline double sine_of_slope(double slope) { return slope / std::sqrt(1.0 + slope * slope); }
+/// And back; infinite for sines that no slope reaches.
+[[nodiscard]] inline double slope_of_sine(double sine) {
+  return sine < 1.0 ? sine / std::sqrt(1.0 - sine * sine) : std::numeric_limits<double>::infinity();
+}
+
+/// The far city of a cell, divided into what may be explicit and what is only bounded.
+///   (1) each upper border outside of the neighborhood is a candidate, or lies below `high` from all over the cell
+///   (2) an upper border that is no candidate rises by no more than the tolerance over what the viewpoints see of the nearer city
+///   (3) one that is not weak either rises by no more than HorizonMapSettings::weak_share of the tolerance
 ///   (4) each lower border outside of the neighborhood is a candidate, or lies likewise below `overhang`
 struct CullResult {
   std::vector<std::uint32_t> candidates;  ///< numbers of occluders, from near to far
-  std::vector<std::uint32_t> weak;       ///< likewise: upper borders that are hidden, but likely seen
-  ViewpointHorizons views;                ///< of the upper borders among the candidates, and of the weak
-  std::vector<float> hidden, overhang;    ///< slopes: a row of azimuth bins for each layer
+  std::vector<std::uint32_t> weak;        ///< likewise: upper borders that are hidden, but count for the estimate
+  ViewpointHorizons viewpoints;           ///< of the upper borders among the candidates, and of the weak ones
+  std::vector<float> high, overhang;      ///< slopes that bound what is hidden: a row of azimuth bins for each layer
 };
 
-/// Looks around from a cell. Whole quarters that are hidden are passed over at once.
+/// Occlusion culling for one cell: visits the far city from near to far, and culls what the nearer city hides nearly everywhere.
+/// Whole subtrees of CityHorizon are culled at once.
 class OcclusionCuller {
  public:
   /// All must outlive it.
-  OcclusionCuller(const CityHorizon& city, const CellPlace& place, const BinBorders& borders, const HorizonMapSettings& settings);
+  OcclusionCuller(const CityHorizon& city, const ReceiverCell& cell, const BinBorders& borders,
+                  const HorizonMapSettings& settings);
 
   [[nodiscard]] CullResult run() &&;
 
  private:
   [[nodiscard]] Box2d outline_of(const CityHorizon::Node& node) const;
   [[nodiscard]] BinRange bins_of(const Box2d& box) const;
-  bool hide_node(const CityHorizon::Node& node, double distance_m);
-  void add_leaf(const CityHorizon::Node& leaf, double distance_m);
-  void update_bounded(const BinRange& bins);
+  bool cull_node(const CityHorizon::Node& node, double distance_m);
+  void visit_leaf(const CityHorizon::Node& leaf, double distance_m);
   [[nodiscard]] bool faces_away(const OccluderEdge& occluder) const;
-  [[nodiscard]] bool is_bounded(const OccluderEdge& occluder) const;
-  enum class Rise : std::uint8_t { hidden, weak, significant };
-  Rise look_at(const OccluderEdge& occluder);
-  [[nodiscard]] Rise rise_of(const OccluderEdge& occluder);
-  void hide(const OccluderEdge& occluder, std::vector<float>& rows);
-  void raise_rows(const BinRange& bins, double z_high_m, double nearest_m, std::vector<float>& rows);
-  void update_limits(const BinRange& bins);
+  void update_leaf_bound(const BinRange& bins);
+  [[nodiscard]] bool is_below_leaf_bound(const OccluderEdge& occluder) const;
+  enum class Visibility : std::uint8_t { hidden, weak, significant };
+  Visibility classify(const OccluderEdge& occluder);
+  [[nodiscard]] Visibility visibility_of(const OccluderEdge& occluder);
+  void raise_by_bounds(const OccluderEdge& occluder, std::vector<float>& rows);
+  void raise_by_box(const BinRange& bins, double z_high_m, double nearest_m, std::vector<float>& rows);
+  void update_thresholds(const BinRange& bins);
 
   const CityHorizon& city_;
-  const CellPlace& place_;
+  const ReceiverCell& cell_;
   const BinBorders& borders_;
   const AzimuthBins& bins_;
-  double tolerance_, weakest_;
-  CullResult found_;
-  /// As CullResult::hidden: the slope over which all viewpoints see nothing yet, and those over which a rise is weak or
-  /// significant.
-  std::vector<float> floors_;
-  std::vector<double> weak_over_, significant_over_;
-  std::vector<double> bounded_slope_;  ///< for each layer, a slope that is hidden and not weak in all bins of the leaf at hand
-  EdgeOverSquare over_cell_;     ///< the occluder at hand
-  std::vector<double> bounds_;   ///< of the occluder at hand: its `upper`, level by level
+  double tolerance_, weak_tolerance_;  ///< sines of elevations
+  CullResult result_;
+  /// Rows as in CullResult::high. The lowest horizon of all viewpoints so far; and the slopes above which an occluder is weak or
+  /// significant: that horizon and the two tolerances on top of it.
+  std::vector<float> lowest_horizon_;
+  std::vector<double> weak_above_, significant_above_;
+  std::vector<double> leaf_bound_;  ///< for each layer: what stays below this slope is culled and bounded in all bins of the leaf
+  EdgeOverSquare edge_;             ///< the current occluder, seen from all over the cell
+  std::vector<double> bounds_;      ///< of the current occluder: EdgeOverSquare::high, level by level
 };
 
 }  // namespace farlod

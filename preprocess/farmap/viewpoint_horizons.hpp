@@ -12,7 +12,7 @@
 
 namespace farlod {
 
-/// The horizons of sample viewpoints: at every corner of the patches' squares, at every level. Each is sampled at the middles of
+/// The horizons of sample viewpoints: at every corner of the patches' squares, at every level. Each is sampled at the centres of
 /// the azimuth bins, as slopes; 0 where nothing rises above the horizontal.
 class ViewpointHorizons {
  public:
@@ -24,25 +24,25 @@ class ViewpointHorizons {
   void add(const Point3d& a, const Point3d& b, std::uint32_t levels = all_levels);
   /// The horizon of the viewpoint at corner (i, j), counted from the south-west, at a level, in a bin.
   [[nodiscard]] float slope(std::uint32_t i, std::uint32_t j, std::uint32_t level, std::uint32_t bin) const {
-    return slopes_[place(i, j, bin) + level];
+    return slopes_[index_of(i, j, bin) + level];
   }
   /// In a bin, for each level the lowest horizon of all viewpoints. Valid until the next call.
   [[nodiscard]] std::span<const float> lowest(std::uint32_t bin);
 
  private:
-  /// Of the lowest level; the others follow, since an edge is drawn at all of them.
-  [[nodiscard]] std::size_t place(std::uint32_t i, std::uint32_t j, std::uint32_t bin) const {
-    return ((static_cast<std::size_t>(j) * corners_per_edge_ + i) * middles_.size() + bin) * levels_m_.size();
+  /// Of the lowest level. The others follow: an edge is drawn at all levels in one pass.
+  [[nodiscard]] std::size_t index_of(std::uint32_t i, std::uint32_t j, std::uint32_t bin) const {
+    return ((static_cast<std::size_t>(j) * corners_per_edge_ + i) * centres_.size() + bin) * levels_m_.size();
   }
   void add_at(std::uint32_t i, std::uint32_t j, const Point3d& a, const Point3d& b);
-  [[nodiscard]] BinRange middles_between(Point2d from, Point2d to) const;
+  [[nodiscard]] BinRange centres_between(Point2d from, Point2d to) const;
 
   const BinBorders* borders_;
   std::uint32_t corners_per_edge_;
   double square_edge_m_;
   std::vector<float> levels_m_;
-  std::vector<double> shown_m_;   ///< the levels at which the edge at hand is drawn; infinite for those that it is not drawn at
-  std::vector<Point2d> middles_;  ///< unit vectors through the middles of the bins
+  std::vector<double> drawn_m_;   ///< the levels at which the current edge is drawn; infinite where it is not
+  std::vector<Point2d> centres_;  ///< unit vectors through the centres of the bins
   std::vector<float> slopes_, lowest_;
 };
 

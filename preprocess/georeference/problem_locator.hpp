@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "farlod/problem.hpp"
+#include "city/problem.hpp"
 #include "georeference/crs.hpp"
 #include "georeference/file_axes.hpp"
 

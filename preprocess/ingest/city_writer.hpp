@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "city/city_model.hpp"
-#include "farlod/problem.hpp"
+#include "city/problem.hpp"
 #include "ingest/ring_cleaning.hpp"
 #include "ingest/written_polygons.hpp"
 

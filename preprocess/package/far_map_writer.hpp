@@ -17,4 +17,7 @@ namespace farlod {
 void write_far_maps(const std::filesystem::path& file, const BakedBlock& maps, const CellRange& cells,
                     const package::FarMapShape& shape);
 
+/// Slopes as they come back from the file, where they are half floats: bounds rounded outwards, estimates to the nearest.
+void round_as_stored(BakedHorizon& map);
+
 }  // namespace farlod

@@ -6,6 +6,7 @@
 #include <OpenEXR/ImfTiledOutputFile.h>
 #include <half.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -113,6 +114,13 @@ void write_all(const std::filesystem::path& path, const Maps& maps, const CellRa
 }
 
 }  // namespace
+
+void round_as_stored(BakedHorizon& map) {
+  for (float& slope : map.low) slope = rounded_down(slope);
+  for (float& slope : map.estimate) slope = half(slope);
+  for (float& slope : map.high) slope = rounded_up(slope);
+  for (float& slope : map.overhang) slope = rounded_up(slope);
+}
 
 void write_far_maps(const std::filesystem::path& path, const BakedBlock& maps, const CellRange& cells,
                     const package::FarMapShape& shape) {

@@ -61,18 +61,19 @@ class UnmetEdges {
 SideEdges side_edges(std::span<const HorizonEdge> edges, std::span<const Triangle> triangles, const SharedVertices& vertices) {
   UnmetEdges unmet(edges, vertices);
   SideEdges result;
-  std::size_t passed = 0;
+  std::size_t skipped = 0;
   for (const Triangle& t : triangles)
     for (const auto& [from, to] : {std::pair(t.a, t.b), std::pair(t.b, t.c), std::pair(t.c, t.a)}) {
       const std::optional<AdjacentSlopes> adjacent = unmet.meet(from, to);
       if (!adjacent) {
-        ++passed;
+        ++skipped;
         continue;
       }
-      for (; passed >= TileEdge::only_passes; passed -= TileEdge::only_passes)
-        result.sides.push_back({TileEdge::only_passes, AdjacentSlopes{0, 0}});
-      result.sides.push_back({static_cast<std::uint8_t>(passed), *adjacent});
-      passed = 0;
+      // What one entry cannot skip, entries without an edge do
+      for (; skipped >= TileEdge::skip_only; skipped -= TileEdge::skip_only)
+        result.sides.push_back({TileEdge::skip_only, AdjacentSlopes{0, 0}});
+      result.sides.push_back({static_cast<std::uint8_t>(skipped), *adjacent});
+      skipped = 0;
     }
   result.loose = unmet.rest();
   return result;

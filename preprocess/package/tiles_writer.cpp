@@ -38,7 +38,6 @@ class BlockSections {
     record.i = cell.i;
     record.j = cell.j;
     record.triangle_count = static_cast<std::uint32_t>(tile.triangles.size());
-    record.flags = tile.has_overhang ? cell_has_overhang : 0;
     add_geometry(tile, record);
     add_runs(tile);
     cells.push_back(record);
@@ -113,11 +112,7 @@ class BlockSections {
     record.building = s.building == ground_building ? no_building : row_of_building(s.building);
     record.number = s.number;
     record.part = s.part;
-    record.kind = s.kind;
-    record.grounded = s.grounded ? 1 : 0;
-    const OctNormal normal = OctNormal::nearest_to(s.normal);
-    record.normal_u = normal.u & OctNormal::largest;
-    record.normal_v = normal.v & OctNormal::largest;
+    record.pack(s.kind, s.grounded, OctNormal::nearest_to(s.normal));
     return record;
   }
   std::uint32_t row_of_building(std::uint32_t number) {
@@ -203,6 +198,11 @@ std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, 
   file.add(SectionKind::tile_edges, sections.tile_edges);
   file.add(SectionKind::loose_edges, sections.loose_edges);
   return file.finish();
+}
+
+std::vector<std::byte> tiles_file_without_maps(const TileSet& tiles, const Grid& grid, Block block) {
+  // Far maps of the kind `box` add nothing but their capture points
+  return farlod::tiles_file(tiles, BakedBoxes(static_cast<std::size_t>(grid.cells_of(block).size())), grid, block);
 }
 
 }  // namespace farlod

@@ -11,7 +11,10 @@
 
 namespace farlod {
 
-/// The bytes of a block's `tiles.bin` (include/farlod/package/layout.hpp), with what its far maps name.
+/// The bytes of a block's `tiles.bin` (include/farlod/package/layout.hpp), with the explicit occluders of its far maps.
 [[nodiscard]] std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, const Grid& grid, Block block);
+
+/// The same without far maps: to be read together with maps that are not in a file.
+[[nodiscard]] std::vector<std::byte> tiles_file_without_maps(const TileSet& tiles, const Grid& grid, Block block);
 
 }  // namespace farlod

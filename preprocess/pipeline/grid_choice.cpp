@@ -15,12 +15,12 @@ double expected_receiver_us(const FarErrorEstimate& verdict, double cell_edge_m)
   constexpr double bake_us = 10000.0, scene_us = 400.0, build_us = 0.3, grid_step_m = 2.0;
   const double triangles = std::max(2.0, verdict.near_triangles_per_cell);
   const double receivers = std::max(1.0, cell_edge_m * cell_edge_m / (grid_step_m * grid_step_m));
-  return rays * (ray_us + level_us * std::log2(triangles)) + named_us * verdict.explicit_per_cell +
+  return rays * (ray_us + level_us * std::log2(triangles)) + named_us * verdict.explicit_edges_per_cell +
          (bake_us + scene_us + build_us * triangles) / receivers;
 }
 
 bool keeps(const FarErrorEstimate& verdict, double max_far_error) {
-  return verdict.receivers > 0 && verdict.max_error <= max_far_error && verdict.p99_doubt <= max_far_error;
+  return verdict.receivers > 0 && verdict.max_error <= max_far_error && verdict.p99_half_width <= max_far_error;
 }
 
 class GridChooser {
@@ -32,22 +32,19 @@ class GridChooser {
     auto [grid, terrain] = lay(cell_edge_m);
     Report unread;  // the run itself reports what it finds
     const TileSet tiles = cut_into_tiles(city_, grid, assign_, terrain, unread);
-    for (const int neighborhood : settings_.neighborhoods) {
-      grid.neighborhood = neighborhood;
-      try_tolerances(tiles, grid);
-    }
+    const FarMapTrial trial(tiles, grid, assign_, settings_.judge);
+    for (const int neighborhood : settings_.neighborhoods) try_tolerances(trial, grid.cell_edge_m, neighborhood);
   }
   std::optional<GridChoice> best;
 
  private:
   /// The coarsest that is fine enough.
-  void try_tolerances(const TileSet& tiles, const Grid& grid) {
+  void try_tolerances(const FarMapTrial& trial, double cell_edge_m, int neighborhood) {
     for (const double tolerance : settings_.tolerances) {
       HorizonMapSettings far_map = far_map_;
       far_map.tolerance = tolerance;
-      GridChoice choice{grid.cell_edge_m, grid.neighborhood, tolerance, estimate_far_error(tiles, grid, far_map, settings_.judge),
-                        0.0};
-      choice.receiver_us = expected_receiver_us(choice.verdict, grid.cell_edge_m);
+      GridChoice choice{cell_edge_m, neighborhood, tolerance, trial.run(neighborhood, far_map), 0.0};
+      choice.receiver_us = expected_receiver_us(choice.verdict, cell_edge_m);
       if (!keeps(choice.verdict, settings_.max_far_error)) continue;
       if (!best || choice.receiver_us < best->receiver_us) best = choice;
       return;

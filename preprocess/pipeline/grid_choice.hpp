@@ -10,9 +10,9 @@
 #include "align/align.hpp"
 #include "city/located_city.hpp"
 #include "city/terrain_raster.hpp"
-#include "farmap/far_error_estimate.hpp"
 #include "farmap/far_map_settings.hpp"
 #include "tiles/tiles.hpp"
+#include "trial/far_map_trial.hpp"
 
 namespace farlod {
 

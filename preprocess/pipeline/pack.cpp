@@ -245,7 +245,7 @@ class Packing {
     FarErrorSettings others = settings_.choice->judge;
     others.seed += 1;
     others.cells *= 2;
-    return estimate_far_error(tiles, grid, settings_.far_map.horizon, others);
+    return FarMapTrial(tiles, grid, settings_.assign, others).run(grid.neighborhood, settings_.far_map.horizon);
   }
 
   void describe_place(const LocatedCity& located, const Grid& grid) {

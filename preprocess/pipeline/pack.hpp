@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "align/align.hpp"
-#include "farlod/problem.hpp"
+#include "city/problem.hpp"
 #include "farmap/far_map_baker.hpp"
 #include "georeference/georeference.hpp"
 #include "ingest/ingest.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "city/located_city.hpp"
-#include "farlod/problem.hpp"
+#include "city/problem.hpp"
 
 namespace farlod {
 

@@ -25,7 +25,6 @@ struct Tile {
   float z_low_m = std::numeric_limits<float>::infinity();
   float z_high_m = -std::numeric_limits<float>::infinity();
   float ground_at_centre_m = 0.0F;
-  bool has_overhang = false;
 
   [[nodiscard]] MeshView mesh() const { return {vertices, triangles}; }
   /// Adds a convex polygon as a fan of triangles.

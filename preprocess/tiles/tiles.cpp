@@ -184,9 +184,7 @@ class TileCutter {
 
   void place(const CellEdge& piece) {
     FARLOD_EXPECTS(grid_.cells.contains(piece.cell));
-    Tile& tile = tiles_.tile(piece.cell);
-    tile.horizon_edges.push_back(piece.edge);
-    tile.has_overhang = tile.has_overhang || piece.edge.role == EdgeRole::underside;
+    tiles_.tile(piece.cell).horizon_edges.push_back(piece.edge);
   }
 
   void place_building(const Building& building, BuildingPieces& cut_building, Report& report) {

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "city/located_city.hpp"
+#include "city/problem.hpp"
 #include "city/terrain_raster.hpp"
 #include "farlod/grid.hpp"
-#include "farlod/problem.hpp"
 #include "tiles/tile_set.hpp"
 
 namespace farlod {

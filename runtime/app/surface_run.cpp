@@ -37,7 +37,7 @@ SurfacePointRow row_of(const Package& package, Cell cell, const BlockTiles& bloc
   SurfacePointRow row;
   row.building = block.id_of(block.buildings()[surface.building]);
   row.surface = surface.number;
-  row.kind = surface.kind;
+  row.kind = surface.kind();
   row.p_projected = m.projected_from_grid({corner.x + r.p_cell.x, corner.y + r.p_cell.y, r.p_cell.z + m.height_origin_m});
   row.azimuth = true_azimuth(normal, m);
   row.tilt = Angle::radians(std::acos(std::clamp(normal.z, -1.0, 1.0)));

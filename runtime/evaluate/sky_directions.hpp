@@ -7,7 +7,7 @@
 
 #include "farlod/frame.hpp"
 #include "farlod/point.hpp"
-#include "farlod/sky/sky_partition.hpp"
+#include "horizon/sky_partition.hpp"
 
 namespace farlod {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "evaluate/sky_directions.hpp"
-#include "farlod/sky/sky_partition.hpp"
 #include "horizon/azimuth_ring.hpp"
+#include "horizon/sky_partition.hpp"
 #include "package/package.hpp"
 #include "receivers/receiver.hpp"
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "farlod/far_map/far_horizon.hpp"
 #include "farlod/grid.hpp"
 #include "horizon/silhouette_edges.hpp"
+#include "package/far_horizon.hpp"
 #include "package/package.hpp"
 #include "receivers/receiver.hpp"
 

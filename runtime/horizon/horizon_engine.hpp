@@ -7,8 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "farlod/far_map/far_horizon.hpp"
-#include "farlod/sky/sky_partition.hpp"
 #include "horizon/azimuth_ring.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/overhang_geometry.hpp"
@@ -16,6 +14,8 @@
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/residual_horizon.hpp"
+#include "horizon/sky_partition.hpp"
+#include "package/far_horizon.hpp"
 
 namespace farlod {
 

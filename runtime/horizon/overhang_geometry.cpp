@@ -79,7 +79,7 @@ std::vector<OverhangGeometry::TriangleCorners> OverhangGeometry::triangles_in(co
     };
     std::uint32_t first = 0;
     for (const package::SurfaceRun& run : tile.surface_runs) {
-      if (tile.surfaces[run.surface].grounded == 0)
+      if (!tile.surfaces[run.surface].is_grounded())
         for (const Triangle& t : tile.mesh.triangles.subspan(first, run.end - first))
           result.push_back({corner(t.a), corner(t.b), corner(t.c)});
       first = run.end;

@@ -32,7 +32,7 @@ struct PlacedScene {
   }
 };
 
-/// The buildings around a cell that can be seen under somewhere (SurfaceRecord::grounded is 0), triangle by triangle. Cell frame.
+/// The buildings around a cell that can be seen under somewhere (not SurfaceRecord::is_grounded), triangle by triangle. Cell frame.
 /// Of one thread.
 class OverhangGeometry {
  public:

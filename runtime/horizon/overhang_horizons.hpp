@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "farlod/sky/sky_partition.hpp"
 #include "horizon/azimuth_ring.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
+#include "horizon/sky_partition.hpp"
 
 namespace farlod {
 

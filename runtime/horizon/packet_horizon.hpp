@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "farlod/sky/sky_partition.hpp"
 #include "horizon/azimuth_ring.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/silhouette_edges.hpp"
+#include "horizon/sky_partition.hpp"
 
 namespace farlod {
 

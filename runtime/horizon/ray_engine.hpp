@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "farlod/far_map/far_horizon.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/overhang_geometry.hpp"
 #include "horizon/overhang_horizons.hpp"
@@ -17,6 +16,7 @@
 #include "horizon/receiver_packet.hpp"
 #include "horizon/residual_horizon.hpp"
 #include "occlusion/occluder.hpp"
+#include "package/far_horizon.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {

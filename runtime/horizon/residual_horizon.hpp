@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "farlod/far_map/far_horizon.hpp"
 #include "horizon/azimuth_ring.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
+#include "package/far_horizon.hpp"
 
 namespace farlod {
 

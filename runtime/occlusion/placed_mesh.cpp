@@ -29,4 +29,14 @@ Occluder occluder_of(std::span<const PlacedMesh> tiles) {
   return {std::move(vertices), std::move(triangles)};
 }
 
+Occluder occluder_of_cells(const Grid& grid, const CellRange& cells, Point2d origin_grid,
+                           const std::function<MeshView(Cell)>& mesh_of) {
+  std::vector<PlacedMesh> placed;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(cells.size()); ++n) {
+    const Cell cell = cells.cell_at(n);
+    placed.push_back({mesh_of(cell), grid.corner_of(cell) - origin_grid});
+  }
+  return occluder_of(placed);
+}
+
 }  // namespace farlod

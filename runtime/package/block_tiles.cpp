@@ -26,7 +26,9 @@ bool is_on_earth(const Point3f& p) {
 }
 
 /// −128 is no angle: its tangent would come out on the other side of the vertical.
-bool are_angles(AdjacentSlopes adjacent) { return adjacent.left >= AdjacentSlopes::straight_down && adjacent.right >= AdjacentSlopes::straight_down; }
+bool are_angles(AdjacentSlopes adjacent) {
+  return adjacent.left >= AdjacentSlopes::straight_down && adjacent.right >= AdjacentSlopes::straight_down;
+}
 
 }  // namespace
 
@@ -87,7 +89,7 @@ void BlockTiles::check_surfaces() const {
             "a building's id reaches beyond the text");
   for (const SurfaceRecord& s : surfaces_) {
     require(s.building == no_building || s.building < buildings_.size(), "a surface names a building that does not exist");
-    require(s.kind >= SurfaceKind::ground && s.kind <= SurfaceKind::foundation, "a surface is of a kind that does not exist");
+    require(s.kind() >= SurfaceKind::ground && s.kind() <= SurfaceKind::foundation, "a surface is of a kind that does not exist");
   }
 }
 
@@ -163,7 +165,7 @@ void BlockTiles::check_edges(const TileView& tile) const {
   for (const std::span<const TileEdge> of_role : tile.edge_sides) {
     std::uint64_t sides = 0;
     for (const TileEdge& e : of_role) {
-      sides += e.sides_passed + (e.sides_passed == TileEdge::only_passes ? 0U : 1U);
+      sides += e.sides_skipped + (e.sides_skipped == TileEdge::skip_only ? 0U : 1U);
       require(are_angles(e.adjacent), "something beside an edge rises beyond a right angle");
     }
     require(sides <= 3 * tile.mesh.triangles.size(), "an edge is a side of a triangle that does not exist");
@@ -182,13 +184,15 @@ void BlockTiles::check_places(std::span<const HorizonEdge> edges) const {
 void BlockTiles::check_far_cells() const {
   require(far_cells_.empty() || far_cells_.size() == cells_.size(), "not every cell has a far map");
   for (const FarCellRecord& c : far_cells_) {
-    require(c.first_explicit_edge <= explicit_edges_.size() && c.explicit_edge_count <= explicit_edges_.size() - c.first_explicit_edge,
+    require(c.first_explicit_edge <= explicit_edges_.size() &&
+                c.explicit_edge_count <= explicit_edges_.size() - c.first_explicit_edge,
             "a far map's edges reach beyond the end");
     for (std::size_t l = 0; l < c.levels_m.size(); ++l)
       require(std::abs(c.levels_m[l]) <= farthest_m && (l == 0 || c.levels_m[l - 1] <= c.levels_m[l]),
               "the levels of a far map are not in order");
   }
-  for (const ExplicitOccluder& n : explicit_edges_) require(n.row < far_edges_.size(), "a far map names an edge that does not exist");
+  for (const ExplicitOccluder& n : explicit_edges_)
+    require(n.row < far_edges_.size(), "a far map names an edge that does not exist");
 }
 
 void BlockTiles::check_far_places() const { check_places(far_edges_); }

@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "farlod/far_map/far_horizon.hpp"
 #include "farlod/grid.hpp"
 #include "farlod/mesh_view.hpp"
 #include "farlod/package/layout.hpp"
+#include "package/far_horizon.hpp"
 
 namespace farlod {
 
@@ -36,15 +36,15 @@ struct TileView {
   /// Calls `visit` with each HorizonEdge, cell frame. In no particular order, running either way.
   template <class Visitor>
   void visit_edges(const Visitor& visit) const {
-    static constexpr std::array<std::ptrdiff_t, 3> to_next{1, 1, -2};  // from a corner of a triangle
-    const auto* corner = reinterpret_cast<const std::uint32_t*>(mesh.triangles.data());
     for (std::size_t role = 0; role < edge_role_count; ++role) {
-      std::size_t side = 0;
+      std::size_t side = 0;  // numbered through all triangles
       for (const package::TileEdge& e : edge_sides[role]) {
-        side += e.sides_passed;
-        if (e.sides_passed == package::TileEdge::only_passes) continue;
-        const std::uint32_t* from = corner + side;
-        visit(HorizonEdge{mesh.vertices[*from], mesh.vertices[from[to_next[side % 3]]], e.adjacent, static_cast<EdgeRole>(role)});
+        side += e.sides_skipped;
+        if (e.sides_skipped == package::TileEdge::skip_only) continue;
+        const Triangle& t = mesh.triangles[side / 3];
+        const std::size_t corner = side % 3;
+        visit(HorizonEdge{mesh.vertices[t.corner(corner)], mesh.vertices[t.corner(corner + 1)], e.adjacent,
+                          static_cast<EdgeRole>(role)});
         ++side;
       }
     }

@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "farlod/far_map/box_map.hpp"
-#include "farlod/far_map/far_horizon.hpp"
 #include "farlod/grid.hpp"
 #include "farlod/package/manifest.hpp"
+#include "package/far_horizon.hpp"
 
 namespace farlod {
 
-/// The far map of one cell, of the kind `box`: what the city beyond the neighborhood hides, seen from the capture point.
+/// The far map of one cell, of the kind `box`: which directions the city beyond the neighborhood hides, seen from the capture
+/// point.
 class BoxFarMap {
  public:
   /// A far field that hides nothing.
@@ -48,9 +49,9 @@ class FarMapReader {
   FarMapReader& operator=(FarMapReader&&) noexcept;
   ~FarMapReader();
 
-  /// Of the kind `box`; `top` is BoxMap::top. Throws PackageDamaged.
+  /// Reads a far map of the kind `box`; `top` is BoxMap::top. Throws PackageDamaged.
   [[nodiscard]] BoxFarMap read_box(Cell cell, float top) const;
-  /// Of the kind `horizon`: fills low, estimate, high and overhang. Throws PackageDamaged.
+  /// Reads the slopes of a far map of the kind `horizon`: fills low, estimate, high and overhang. Throws PackageDamaged.
   void read_slopes(Cell cell, FarHorizon& map) const;
 
  private:

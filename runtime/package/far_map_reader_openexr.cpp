@@ -13,34 +13,36 @@
 #include "package/far_map_reader.hpp"
 #include "package/package_error.hpp"
 
-// OpenEXR's core library: a third of its C++ classes' time for a tile, and any number of threads may read one file at once.
+// Reads with OpenEXR's core library (in C): it takes a third of the time of the C++ classes for a tile, and any number of threads
+// may read one file at once.
 
 namespace farlod {
 namespace {
 
 constexpr int only_part = 0, only_level = 0;
 
-/// Libraries never print. What went wrong comes back as a number.
-void keep_silent(exr_const_context_t, exr_result_t, const char*) {}
+/// An error handler: OpenEXR's own prints, and a library never does. The result codes tell what went wrong.
+void ignore_message(exr_const_context_t, exr_result_t, const char*) {}
 
-/// A channel to read, and where to.
-struct Wanted {
+/// A channel to read, and where its pixels go.
+struct ChannelTarget {
   const char* channel;
   std::vector<float>* pixels;
 };
 
-/// The decoding of one tile.
-class Decoding {
+/// Decodes one tile.
+class TileDecoder {
  public:
-  Decoding(exr_const_context_t file, const exr_chunk_info_t& chunk) : file_(file) {
+  TileDecoder(exr_const_context_t file, const exr_chunk_info_t& chunk) : file_(file) {
     state_ = exr_decoding_initialize(file_, only_part, &chunk, &pipeline_);
   }
-  Decoding(const Decoding&) = delete;
-  Decoding& operator=(const Decoding&) = delete;
-  ~Decoding() { exr_decoding_destroy(file_, &pipeline_); }
+  TileDecoder(const TileDecoder&) = delete;
+  TileDecoder& operator=(const TileDecoder&) = delete;
+  ~TileDecoder() { exr_decoding_destroy(file_, &pipeline_); }
 
-  exr_result_t run(std::span<const Wanted> wanted) {
+  exr_result_t run(std::span<const ChannelTarget> wanted) {
     if (state_ != EXR_ERR_SUCCESS) return state_;
+    // Give each channel of the file a place, wanted or not
     const std::span channels(pipeline_.channels, static_cast<std::size_t>(pipeline_.channel_count));
     unwanted_.resize(channels.size());
     for (std::size_t n = 0; n < channels.size(); ++n)
@@ -50,12 +52,14 @@ class Decoding {
   }
 
  private:
-  /// OpenEXR 3.1 does not leave out channels without a place as it promises: it writes to no place at all.
-  static std::vector<float>& pixels_of(std::string_view channel, std::span<const Wanted> wanted, std::vector<float>& otherwise) {
-    for (const Wanted& w : wanted)
+  /// Channels that nobody wants get a place too: OpenEXR 3.1 promises to skip a channel without one, and does not.
+  static std::vector<float>& pixels_of(std::string_view channel, std::span<const ChannelTarget> wanted,
+                                       std::vector<float>& otherwise) {
+    for (const ChannelTarget& w : wanted)
       if (channel == w.channel) return *w.pixels;
     return otherwise;
   }
+  /// Tells OpenEXR to convert a channel to floats, row by row without gaps.
   static void direct(exr_coding_channel_info_t& channel, std::vector<float>& pixels) {
     pixels.resize(static_cast<std::size_t>(channel.width) * static_cast<std::size_t>(channel.height));
     channel.decode_to_ptr = reinterpret_cast<std::uint8_t*>(pixels.data());
@@ -82,7 +86,7 @@ struct FarMapReader::Impl {
   Impl(const std::filesystem::path& path, const CellRange& c, const package::FarMapShape& s)
       : name(path.string()), cells(c), shape(s) {
     exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    how.error_handler_fn = keep_silent;
+    how.error_handler_fn = ignore_message;
     const exr_result_t result = exr_start_read(&file, name.c_str(), &how);
     if (result == EXR_ERR_SUCCESS) return;
     exr_finish(&file);
@@ -99,6 +103,7 @@ struct FarMapReader::Impl {
   void require(exr_result_t result) const {
     if (result != EXR_ERR_SUCCESS) damaged(exr_get_default_error_message(result));
   }
+  /// Checks once what all tiles have in common. Must be called before the object is shared between threads.
   void check() {
     int parts = 0;
     exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
@@ -107,7 +112,7 @@ struct FarMapReader::Impl {
     if (parts != 1 || storage != EXR_STORAGE_TILED) damaged("it is not one picture of tiles");
     check_places();
     check_channels();
-    // OpenEXR reads where the tiles lie with the first of them: before many threads come
+    // OpenEXR reads its table of tiles with the first tile that is asked for: ask now, while there is one thread
     exr_chunk_info_t chunk;
     require(exr_read_tile_chunk_info(file, only_part, 0, 0, only_level, only_level, &chunk));
   }
@@ -132,17 +137,16 @@ struct FarMapReader::Impl {
       return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return wanted == entry.name.str; });
     };
     if (shape.is_box() && !has(package::distance_channel)) damaged("it has no distances");
-    for (const char* slopes :
-         {package::low_channel, package::estimate_channel, package::high_channel, package::overhang_channel})
+    for (const char* slopes : {package::low_channel, package::estimate_channel, package::high_channel, package::overhang_channel})
       if (!shape.is_box() && !has(slopes)) damaged("it has no slopes");
   }
   /// The pixels of one cell, in the file's order of rows.
-  void read(Cell cell, std::span<const Wanted> wanted) const {
+  void read(Cell cell, std::span<const ChannelTarget> wanted) const {
     const auto tile_x = static_cast<int>(cell.i - cells.i_begin), tile_y = static_cast<int>(cell.j - cells.j_begin);
     exr_chunk_info_t chunk;
     require(exr_read_tile_chunk_info(file, only_part, tile_x, tile_y, only_level, only_level, &chunk));
-    require(Decoding(file, chunk).run(wanted));
-    for (const Wanted& w : wanted)
+    require(TileDecoder(file, chunk).run(wanted));
+    for (const ChannelTarget& w : wanted)
       if (w.pixels->size() != static_cast<std::size_t>(shape.picture_columns()) * shape.picture_rows())
         damaged("a channel does not have a value for each pixel");
   }
@@ -161,7 +165,7 @@ BoxFarMap FarMapReader::read_box(Cell cell, float top) const {
   if (top <= 0.0F) return {};
   const std::size_t w = impl_->shape.picture_columns(), h = impl_->shape.picture_rows();
   std::vector<float> from_top_down;
-  impl_->read(cell, std::array{Wanted{package::distance_channel, &from_top_down}});
+  impl_->read(cell, std::array{ChannelTarget{package::distance_channel, &from_top_down}});
   for (const float d : from_top_down)
     if (!(d > 0.0F)) impl_->damaged("a distance is not a positive number");
   // Pictures run downwards, maps upwards
@@ -174,9 +178,11 @@ BoxFarMap FarMapReader::read_box(Cell cell, float top) const {
 
 void FarMapReader::read_slopes(Cell cell, FarHorizon& map) const {
   FARLOD_EXPECTS(impl_->cells.contains(cell) && !impl_->shape.is_box());
-  impl_->read(cell, std::array{Wanted{package::low_channel, &map.low}, Wanted{package::estimate_channel, &map.estimate},
-                               Wanted{package::high_channel, &map.high}, Wanted{package::overhang_channel, &map.overhang}});
+  impl_->read(
+      cell, std::array{ChannelTarget{package::low_channel, &map.low}, ChannelTarget{package::estimate_channel, &map.estimate},
+                       ChannelTarget{package::high_channel, &map.high}, ChannelTarget{package::overhang_channel, &map.overhang}});
   std::size_t in_order = 0;
+  // Count without branches, so that the loop can be vectorised: it runs for each cell that is evaluated
   for (std::size_t n = 0; n < map.low.size(); ++n)
     in_order += (map.low[n] >= 0.0F ? 1U : 0U) & (map.low[n] <= map.high[n] ? 1U : 0U) & (map.estimate[n] >= 0.0F ? 1U : 0U) &
                 (map.overhang[n] >= 0.0F ? 1U : 0U);

@@ -4,23 +4,25 @@
 
 namespace farlod {
 
-std::vector<std::size_t> LruCache::use(std::size_t thing, std::uint64_t bytes) {
-  const auto known = places_.find(thing);
-  if (known != places_.end()) {
-    order_.splice(order_.begin(), order_, known->second);
+std::vector<std::size_t> LruCache::use(std::size_t item, std::uint64_t bytes) {
+  // Move the item to the front, or put it there
+  const auto known = entries_.find(item);
+  if (known != entries_.end()) {
+    by_use_.splice(by_use_.begin(), by_use_, known->second);
   } else {
-    order_.push_front({thing, bytes});
-    places_[thing] = order_.begin();
+    by_use_.push_front({item, bytes});
+    entries_[item] = by_use_.begin();
     bytes_ += bytes;
   }
-  std::vector<std::size_t> to_go;
-  while (bytes_ > most_bytes_ && order_.size() > 1) {
-    to_go.push_back(order_.back().thing);
-    bytes_ -= order_.back().bytes;
-    places_.erase(order_.back().thing);
-    order_.pop_back();
+  // Evict from the back until the rest fits; the item itself stays
+  std::vector<std::size_t> evicted;
+  while (bytes_ > limit_bytes_ && by_use_.size() > 1) {
+    evicted.push_back(by_use_.back().item);
+    bytes_ -= by_use_.back().bytes;
+    entries_.erase(by_use_.back().item);
+    by_use_.pop_back();
   }
-  return to_go;
+  return evicted;
 }
 
 }  // namespace farlod

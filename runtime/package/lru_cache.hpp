@@ -11,28 +11,28 @@
 
 namespace farlod {
 
-/// Which of many things to keep when not all of them fit: those that were used last. It counts; keeping and letting go are the
-/// caller's.
-///   (1) together, what is kept weighs no more than the limit, unless it is a single thing
-///   (2) what was used last is kept
+/// Decides which items stay in memory when not all of them fit: the least recently used are evicted. It only counts; the caller
+/// loads and releases the items.
+///   (1) the items that are kept hold no more bytes than the limit together, unless it is a single item
+///   (2) the item that was used last is kept
 class LruCache {
  public:
-  /// There is no limit before this is called; what is too much goes with the next use.
-  void keep_at_most(std::uint64_t bytes) { most_bytes_ = bytes; }
-  /// Something is used, and kept from now on. Returns what has to go for it, the longest unused first.
-  [[nodiscard]] std::vector<std::size_t> use(std::size_t thing, std::uint64_t bytes);
+  /// Without a call there is no limit. What is too much now is evicted with the next use.
+  void keep_at_most(std::uint64_t bytes) { limit_bytes_ = bytes; }
+  /// An item is used, and is kept from now on. Returns the items that are evicted for it, the longest unused first.
+  [[nodiscard]] std::vector<std::size_t> use(std::size_t item, std::uint64_t bytes);
 
-  [[nodiscard]] std::size_t count() const { return order_.size(); }
+  [[nodiscard]] std::size_t count() const { return by_use_.size(); }
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
  private:
   struct Kept {
-    std::size_t thing;
+    std::size_t item;
     std::uint64_t bytes;
   };
-  std::uint64_t most_bytes_ = std::numeric_limits<std::uint64_t>::max(), bytes_ = 0;
-  std::list<Kept> order_;  ///< the last used first
-  std::unordered_map<std::size_t, std::list<Kept>::iterator> places_;
+  std::uint64_t limit_bytes_ = std::numeric_limits<std::uint64_t>::max(), bytes_ = 0;
+  std::list<Kept> by_use_;  ///< the last used first
+  std::unordered_map<std::size_t, std::list<Kept>::iterator> entries_;
 };
 
 }  // namespace farlod

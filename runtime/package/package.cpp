@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "farlod/expects.hpp"
+#include "package/lru_cache.hpp"
 #include "package/manifest_reader.hpp"
 #include "package/mapped_file.hpp"
 #include "package/package_error.hpp"
-#include "package/lru_cache.hpp"
 
 namespace farlod {
 namespace {
@@ -52,11 +52,17 @@ struct Package::Impl {
   std::filesystem::path folder;
   package::Manifest manifest;
   std::vector<OpenBlock> blocks;
-  std::mutex held_door;
+  std::mutex held_mutex;
   LruCache held;
+
+  std::optional<PackageInMemory> memory;
 
   explicit Impl(std::filesystem::path f)
       : folder(std::move(f)), manifest(read_manifest(folder)), blocks(manifest.blocks.size()) {}
+  explicit Impl(PackageInMemory contents)
+      : manifest(std::move(contents.manifest)), blocks(manifest.blocks.size()), memory(std::move(contents)) {
+    FARLOD_EXPECTS(memory->tiles.size() == blocks.size());
+  }
 
   std::size_t index_of(Cell cell) const {
     FARLOD_EXPECTS(manifest.grid.cells.contains(cell));
@@ -82,7 +88,7 @@ struct Package::Impl {
 
   /// A block that is open is being used; others may have to go.
   void use(std::size_t n) {
-    const std::lock_guard lock(held_door);
+    const std::lock_guard lock(held_mutex);
     for (const std::size_t other : held.use(n, bytes_of(n))) blocks[other].let_go();
   }
 
@@ -90,11 +96,16 @@ struct Package::Impl {
     OpenBlock& open = blocks[n];
     std::call_once(open.tiles_once, [&] {
       const auto path = path_of(n, package::tiles_file);
+      const CellRange cells = manifest.grid.cells_of(manifest.blocks[n].block);
+      if (memory) {
+        open.tiles.emplace(memory->tiles[n], cells, path.string());
+        return;
+      }
       open.tiles_bytes.emplace(path);
       check_stamp(path, open.tiles_bytes->bytes(), manifest.blocks[n].tiles);
-      open.tiles.emplace(open.tiles_bytes->bytes(), manifest.grid.cells_of(manifest.blocks[n].block), path.string());
+      open.tiles.emplace(open.tiles_bytes->bytes(), cells, path.string());
     });
-    use(n);
+    if (!memory) use(n);
     return *open.tiles;
   }
 
@@ -112,6 +123,7 @@ struct Package::Impl {
 };
 
 Package::Package(std::filesystem::path folder) : impl_(std::make_unique<Impl>(std::move(folder))) {}
+Package::Package(PackageInMemory contents) : impl_(std::make_unique<Impl>(std::move(contents))) {}
 Package::Package(Package&&) noexcept = default;
 Package& Package::operator=(Package&&) noexcept = default;
 Package::~Package() = default;
@@ -121,12 +133,14 @@ const package::Manifest& Package::manifest() const { return impl_->manifest; }
 const BlockTiles& Package::block_tiles(Cell cell) const { return impl_->tiles(impl_->index_of(cell)); }
 
 BoxFarMap Package::box_far_map(Cell cell) const {
+  FARLOD_EXPECTS(!impl_->memory);
   const std::size_t n = impl_->index_of(cell);
   const float top = impl_->tiles(n).tile(cell).cell->far_map_top;
   return impl_->far_maps(n)->read_box(cell, top);
 }
 
 FarHorizon Package::far_horizon(Cell cell) const {
+  if (impl_->memory) return impl_->memory->far_horizons.at(cell);
   const std::size_t n = impl_->index_of(cell);
   const package::FarMapShape& shape = impl_->manifest.far_map;
   const BlockTiles& tiles = impl_->tiles(n);
@@ -146,12 +160,12 @@ FarHorizon Package::far_horizon(Cell cell) const {
 }
 
 void Package::hold_at_most(std::uint64_t bytes) {
-  const std::lock_guard lock(impl_->held_door);
+  const std::lock_guard lock(impl_->held_mutex);
   impl_->held.keep_at_most(bytes);
 }
 
 Package::Held Package::held() const {
-  const std::lock_guard lock(impl_->held_door);
+  const std::lock_guard lock(impl_->held_mutex);
   return {impl_->held.count(), impl_->held.bytes()};
 }
 

@@ -100,7 +100,7 @@ std::vector<SurfaceReceiver> surface_receivers(const Package& package, Cell cell
   std::vector<SurfaceReceiver> receivers;
   std::uint32_t begin = 0;
   for (const package::SurfaceRun& run : tile.surface_runs) {
-    if (is_chosen(tile.surfaces[run.surface].kind, choice)) {
+    if (is_chosen(tile.surfaces[run.surface].kind(), choice)) {
       const Piece piece = piece_of(tile, begin, run);
       for (std::uint32_t t = begin; t < run.end; ++t) spread(tile, piece, t, spacing_m, locators, receivers);
     }

@@ -34,7 +34,7 @@ Areas areas_of(const Package& package) {
     const Cell cell = cells.cell_at(n);
     const TileView tile = package.tile(cell);
     for (std::uint32_t t = 0; t < tile.mesh.triangles.size(); ++t)
-      areas[{cell.i, cell.j, static_cast<SurfaceKind>(tile.surface_of(t).kind)}] += area_m2(tile, tile.mesh.triangles[t]);
+      areas[{cell.i, cell.j, static_cast<SurfaceKind>(tile.surface_of(t).kind())}] += area_m2(tile, tile.mesh.triangles[t]);
   }
   return areas;
 }

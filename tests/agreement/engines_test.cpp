@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "farlod/far_map/far_view.hpp"
 #include "scene/near_scene.hpp"
 #include "scene/whole_city.hpp"
 #include "tests/agreement/random_receivers.hpp"
+#include "tests/oracles/far_view.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"
 

@@ -61,8 +61,13 @@ constexpr Wall walls[] = {
 };
 
 /// In the order in which the data goes through them.
-constexpr std::array<std::string_view, 9> stages{"city",   "ingest",  "georeference", "align", "tiles",
-                                                 "farmap", "package", "pipeline",     "app"};
+constexpr std::array<std::string_view, 10> stages{"city",   "ingest",  "georeference", "align",    "tiles",
+                                                  "farmap", "package", "trial",        "pipeline", "app"};
+
+/// The headers of the runtime that preprocess/trial may include: it measures far maps with the evaluator that users will run, and
+/// with nothing of its own that could differ from it.
+constexpr std::array<std::string_view, 3> runtime_headers_of_trial{"evaluate/sky_evaluator.hpp", "package/package.hpp",
+                                                                   "receivers/receiver.hpp"};
 
 std::size_t stage_of(std::string_view path_in_preprocess) {
   const std::string_view folder = path_in_preprocess.substr(0, path_in_preprocess.find('/'));
@@ -101,14 +106,15 @@ void check_stage_order(const SourceFile& file, std::vector<std::string>& breache
 
 /// What a file may name in quotes besides the contract: the headers of its own side (both sides have a room `package` and a room
 /// `app`, so that the name alone does not say whose header is meant), the console from a program, the errors of GDAL, rays from
-/// preprocess.
+/// preprocess, the evaluator from its stage `trial`.
 bool may_quote(const SourceFile& file, const std::string& target, const std::set<std::string>& paths) {
   const std::string side = file.path.substr(0, file.path.find('/'));
   if (target.starts_with("farlod/") || paths.contains(side + "/" + target)) return true;
   if (side == "datasets" && paths.contains("datasets/generator/" + target)) return true;
   if (target.starts_with("console/")) return side == "console" || file.path.find("/app/") != std::string::npos;
-  // The walls above let only GDAL's doors through
+  // The walls above let only the wrappers of GDAL through
   if (target.starts_with("gdal/")) return side == "gdal" || side == "preprocess" || side == "runtime";
+  if (file.path.starts_with("preprocess/trial/") && std::ranges::count(runtime_headers_of_trial, target) > 0) return true;
   return side == "preprocess" && target.starts_with("occlusion/");
 }
 

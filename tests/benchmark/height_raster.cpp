@@ -28,7 +28,7 @@ class Rasteriser {
     for (std::uint32_t t = 0; t < tile.mesh.triangles.size(); ++t) {
       const Triangle& triangle = tile.mesh.triangles[t];
       const auto corner = [&](std::uint32_t vertex) { return pixel_corner(tile.mesh.vertices[vertex], corner_grid); };
-      const bool is_ground = tile.surface_of(t).kind == SurfaceKind::ground;
+      const bool is_ground = tile.surface_of(t).kind() == SurfaceKind::ground;
       fill({corner(triangle.a), corner(triangle.b), corner(triangle.c)}, is_ground ? raster_.ground_m : raster_.surface_m);
     }
   }

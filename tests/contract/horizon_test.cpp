@@ -42,28 +42,28 @@ TEST(AzimuthBins, WrapAnyNumberOfTurns) {
   EXPECT_EQ(bins.unwrapped_bin_of(2.0 * pi + 1.5 * bins.width_rad()), 65);
 }
 
-TEST(DiamondAngle, CountsQuarterTurns) {
+TEST(PseudoAngle, CountsTurns) {
   EXPECT_EQ(pseudo_angle({7.0, 0.0}), 0.0);
-  EXPECT_EQ(pseudo_angle({0.0, 0.1}), 1.0);
-  EXPECT_EQ(pseudo_angle({-3.0, 0.0}), 2.0);
-  EXPECT_EQ(pseudo_angle({0.0, -2.0}), 3.0);
-  EXPECT_EQ(pseudo_angle({2.0, 2.0}), 0.5);
-  EXPECT_EQ(pseudo_angle({2.0, -2.0}), 3.5);
+  EXPECT_EQ(pseudo_angle({0.0, 0.1}), 0.25);
+  EXPECT_EQ(pseudo_angle({-3.0, 0.0}), 0.5);
+  EXPECT_EQ(pseudo_angle({0.0, -2.0}), 0.75);
+  EXPECT_EQ(pseudo_angle({2.0, 2.0}), 0.125);
+  EXPECT_EQ(pseudo_angle({2.0, -2.0}), 0.875);
 }
 
-TEST(DiamondAngle, GrowsBetweenHalfAndOnceAsFastAsTheAngle) {
+TEST(PseudoAngle, GrowsByAnEighthToAQuarterOfATurnPerRadian) {
   constexpr int steps = 5000;
   constexpr double step_rad = 2.0 * pi / steps;
-  // Each of the two values is the sum of a few roundings, none of a number above 4
-  constexpr double rounding = 8 * 4 * epsilon;
+  // Each of the two values is the sum of a few roundings, none of a number above 1
+  constexpr double rounding = 8 * epsilon;
   for (int n = 0; n + 1 < steps; ++n) {
     const double growth = pseudo_angle(unit((n + 1) * step_rad)) - pseudo_angle(unit(n * step_rad));
-    EXPECT_GE(growth, 0.5 * step_rad - rounding) << n;
-    EXPECT_LE(growth, step_rad + rounding) << n;
+    EXPECT_GE(growth, 0.125 * step_rad - rounding) << n;
+    EXPECT_LE(growth, 0.25 * step_rad + rounding) << n;
   }
 }
 
-TEST(DiamondAngle, DoesNotDependOnTheLength) {
+TEST(PseudoAngle, DoesNotDependOnTheLength) {
   for (const double length : {1e-6, 1.0, 3e5})
     EXPECT_NEAR(pseudo_angle(length * Point2d{-0.6, 0.8}), pseudo_angle({-0.6, 0.8}), 4 * epsilon);
 }
@@ -99,14 +99,6 @@ TEST(SlopePlane, DoesNotDependOnTheOrderOfTheEnds) {
   const EdgeView edge{{40.0, -3.0, 12.0}, {31.0, 26.0, 20.0}}, other{edge.b, edge.a};
   EXPECT_DOUBLE_EQ(edge.plane().along_x, other.plane().along_x);
   EXPECT_DOUBLE_EQ(edge.plane().along_y, other.plane().along_y);
-}
-
-TEST(DistanceToSegment, IsThatOfTheNearestPlace) {
-  EXPECT_EQ(distance_to_segment({3.0, -10.0}, {3.0, 10.0}), 3.0);
-  EXPECT_EQ(distance_to_segment({3.0, 4.0}, {30.0, 40.0}), 5.0);
-  EXPECT_EQ(distance_to_segment({30.0, 40.0}, {3.0, 4.0}), 5.0);
-  EXPECT_EQ(distance_to_segment({3.0, 4.0}, {3.0, 4.0}), 5.0) << "both ends in one place";
-  EXPECT_EQ(distance_to_segment({-1.0, 0.0}, {2.0, 0.0}), 0.0);
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ TEST(Layout, SurfaceRunIsDocumented) {
 }
 
 TEST(Layout, TileEdgeIsDocumented) {
-  EXPECT_DOCUMENTED(TileEdge, sides_passed);
+  EXPECT_DOCUMENTED(TileEdge, sides_skipped);
   EXPECT_DOCUMENTED(TileEdge, adjacent);
 }
 
@@ -99,7 +99,7 @@ TEST(Layout, SurfaceRecordIsDocumented) {
   EXPECT_DOCUMENTED(SurfaceRecord, building);
   EXPECT_DOCUMENTED(SurfaceRecord, number);
   EXPECT_DOCUMENTED(SurfaceRecord, part);
-  // The rest has no bytes of its own
+  EXPECT_DOCUMENTED(SurfaceRecord, packed);
   for (const char* bits : {"| 0 | 3 | `kind` |", "| 3 | 1 | `grounded` |", "| 4 | 22 | `normal_u` |", "| 26 | 22 | `normal_v` |"})
     EXPECT_NE(chapter("SurfaceRecord").find(bits), std::string::npos) << "docs/package_format.md, SurfaceRecord lacks: " << bits;
 }
@@ -114,17 +114,28 @@ TEST(Layout, BitsOfSurfaceRecordsLieWhereTheyAreDocumented) {
   record.part = 0xFFFF;
   EXPECT_EQ(word(record), 0xFFFFU);
   record = {};
-  record.kind = SurfaceKind{5};
+  record.pack(SurfaceKind{5}, false, {0, 0});
   EXPECT_EQ(word(record), std::uint64_t{5} << 16U);
-  record = {};
-  record.grounded = 1;
+  record.pack(SurfaceKind{0}, true, {0, 0});
   EXPECT_EQ(word(record), std::uint64_t{1} << 19U);
-  record = {};
-  record.normal_u = 0x3FFFFE;
+  record.pack(SurfaceKind{0}, false, {0x3FFFFE, 0});
   EXPECT_EQ(word(record), std::uint64_t{0x3FFFFE} << 20U);
-  record = {};
-  record.normal_v = 0x3FFFFE;
+  record.pack(SurfaceKind{0}, false, {0, 0x3FFFFE});
   EXPECT_EQ(word(record), std::uint64_t{0x3FFFFE} << 42U);
+}
+
+TEST(Layout, SurfaceRecordsGiveBackWhatWasPacked) {
+  SurfaceRecord record{};
+  record.part = 0x1234;
+  for (const SurfaceKind kind : {SurfaceKind::ground, SurfaceKind::floor, SurfaceKind::foundation})
+    for (const bool is_grounded : {false, true})
+      for (const OctNormal normal : {OctNormal{0, 2 * OctNormal::steps}, OctNormal{2 * OctNormal::steps, 0}, OctNormal{1, 0x155555}}) {
+        record.pack(kind, is_grounded, normal);
+        EXPECT_EQ(record.kind(), kind);
+        EXPECT_EQ(record.is_grounded(), is_grounded);
+        EXPECT_EQ(record.normal(), normal);
+        EXPECT_EQ(record.part, 0x1234);
+      }
 }
 
 TEST(Layout, BuildingRecordIsDocumented) {
@@ -140,18 +151,18 @@ TEST(Layout, FarCellRecordIsDocumented) {
   EXPECT_DOCUMENTED(FarCellRecord, reserved);
 }
 
-TEST(Layout, NamedObstacleIsDocumented) {
+TEST(Layout, ExplicitOccluderIsDocumented) {
   EXPECT_DOCUMENTED(ExplicitOccluder, row);
   EXPECT_DOCUMENTED(ExplicitOccluder, squares);
   EXPECT_DOCUMENTED(ExplicitOccluder, layers);
 }
 
-TEST(Layout, NamedObstaclesMatterWhereBothBitsAreSet) {
+TEST(Layout, ExplicitOccludersAreDrawnWhereBothBitsAreSet) {
   const ExplicitOccluder occluder{0, 0b0101, 0b10};
-  EXPECT_TRUE(occluder.matters(0, 1));
-  EXPECT_TRUE(occluder.matters(2, 1));
-  EXPECT_FALSE(occluder.matters(1, 1));
-  EXPECT_FALSE(occluder.matters(0, 0));
+  EXPECT_TRUE(occluder.is_in(0, 1));
+  EXPECT_TRUE(occluder.is_in(2, 1));
+  EXPECT_FALSE(occluder.is_in(1, 1));
+  EXPECT_FALSE(occluder.is_in(0, 0));
 }
 
 TEST(Layout, VersionAndChannelsAreDocumented) {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "farlod/problem.hpp"
+#include "city/problem.hpp"
 
 namespace farlod::test {
 

@@ -13,8 +13,8 @@
 
 namespace farlod {
 
-/// How steeply the solid rises away from an edge, at right angles to it, to the left and to the right of the way from its first
-/// end to its second, seen from above. Rounded down, to 127ths of a right angle.
+/// The angles at which the solid rises away from an edge: at right angles to the edge, to the left and to the right of the way
+/// from its first end to its second, seen from above. In 127ths of a right angle, rounded down (of lower borders, up).
 struct AdjacentSlopes {
   static constexpr std::int8_t straight_down = -127;  ///< a wall, or unknown: it hides nothing of the edge
   static constexpr std::int8_t straight_up = 127;     ///< the same for the lower border of something
@@ -52,7 +52,7 @@ inline constexpr std::size_t edge_role_count = 3;
 
 /// An edge of the city that can be a silhouette. The upper envelope of `grounded` and `overhang` edges is a receiver's horizon;
 /// above the upper envelope of the `underside` edges, nothing floats.
-/// `rises` tells of the steepest facets beside an upper border, and of the flattest ones beside a lower border, where
+/// `adjacent` is that of the steepest facets beside an upper border, and of the flattest ones beside a lower border; there,
 /// AdjacentSlopes::straight_up stands for a wall or for none.
 struct HorizonEdge {
   Point3f a, b;

@@ -36,8 +36,8 @@ enum class SectionKind : std::uint32_t {
   buildings = 6,     ///< BuildingRecord
   text = 7,          ///< bytes, UTF-8: the ids of buildings
   // Far maps of the kind `horizon`; without elements for the kind `box`
-  far_cells = 8,     ///< FarCellRecord, as many and in the same order as `cells`
-  far_edges = 9,     ///< HorizonEdge, block frame: what the cells' far maps name
+  far_cells = 8,        ///< FarCellRecord, as many and in the same order as `cells`
+  far_edges = 9,        ///< HorizonEdge, block frame: the explicit occluders of the cells' far maps
   explicit_edges = 11,  ///< ExplicitOccluder: rows of `far_edges`, cell by cell
   // Of the tiles again
   tile_edges = 13,  ///< TileEdge, cell by cell, and within a cell role by role, in the order of EdgeRole
@@ -64,9 +64,6 @@ struct Section {
 };
 static_assert(sizeof(Section) == 32);
 
-/// Bits of CellRecord::flags.
-inline constexpr std::uint32_t cell_has_overhang = 1;  ///< a surface of the tile looks down onto something below it
-
 /// What a cell owns of `vertices`, `triangles`, `surface_runs`, `tile_edges` and `loose_edges` follows what the cell before owns,
 /// without a gap.
 struct CellRecord {
@@ -77,16 +74,16 @@ struct CellRecord {
   float z_low_m, z_high_m;                                 ///< of the tile's vertices; low > high when it is empty
   float capture_x_m, capture_y_m, capture_z_m;             ///< where the far map was captured, cell frame
   float far_map_top;                                       ///< BoxMap::top; 0 when the cell has no far field above the horizontal
-  std::uint32_t flags;
+  std::uint32_t flags;  ///< zero; bit 0 is taken: packages of earlier releases set it where the tile holds a lower border
 };
 static_assert(sizeof(CellRecord) == 60);
 
-/// An edge of a tile (HorizonEdge), as a side of one of its triangles. The sides of a cell are counted triangle by triangle,
-/// three each: from the first corner to the second, on to the third, and back. Each row stores the number of sides to skip before
-/// the next edge of its role. The value 255 skips 255 sides and stores no edge. Each role counts from the first side.
+/// An edge of a tile (HorizonEdge), as a side of one of its triangles. The sides of a cell are numbered triangle by triangle,
+/// three each: from corner a to b, from b to c, from c to a. Each entry stores the number of sides to skip before the next edge
+/// of its role. The value 255 skips 255 sides and stores no edge. Each role counts from side 0.
 struct TileEdge {
-  static constexpr std::uint8_t only_passes = 255;
-  std::uint8_t sides_passed;
+  static constexpr std::uint8_t skip_only = 255;
+  std::uint8_t sides_skipped;
   AdjacentSlopes adjacent;  ///< along the side
   bool operator==(const TileEdge&) const = default;
 };
@@ -102,20 +99,35 @@ static_assert(sizeof(SurfaceRun) == 8);
 
 inline constexpr std::uint32_t no_building = 0xFFFFFFFF;
 
-/// The bits of kind, grounded and normal follow one another from the lowest on, as compilers for Linux lay them out; a test
-/// looks.
+/// A surface. Its last six bytes are one number of 48 bits: kind, grounded and normal, packed from the lowest bit on.
 struct SurfaceRecord {
-  std::uint32_t building;  ///< row in `buildings`; no_building for the ground
-  std::uint32_t number;    ///< of the surface, within its building
-  std::uint16_t part;      ///< closed part of the building, for the question "inside?"
-  SurfaceKind kind : 3;
-  std::uint8_t grounded : 1;  ///< 1: nobody outside has its building overhead, and no gap is seen below it
-  std::uint64_t normal_u : OctNormal::bits;
-  std::uint64_t normal_v : OctNormal::bits;
+  std::uint32_t building;               ///< row in `buildings`; no_building for the ground
+  std::uint32_t number;                 ///< of the surface, within its building
+  std::uint16_t part;                   ///< closed part of the building, for the question "inside?"
+  std::array<std::uint16_t, 3> packed;  ///< the number of 48 bits, its lowest 16 first
 
+  [[nodiscard]] SurfaceKind kind() const { return static_cast<SurfaceKind>(unpacked(kind_shift, kind_bits)); }
+  /// Nobody outside has the surface's building overhead, and no gap is seen below it.
+  [[nodiscard]] bool is_grounded() const { return unpacked(grounded_shift, 1) != 0; }
   /// Outward, grid frame.
   [[nodiscard]] OctNormal normal() const {
-    return {static_cast<std::uint32_t>(normal_u), static_cast<std::uint32_t>(normal_v)};
+    return {unpacked(normal_u_shift, OctNormal::bits), unpacked(normal_v_shift, OctNormal::bits)};
+  }
+  void pack(SurfaceKind kind, bool is_grounded, OctNormal normal) {
+    const std::uint64_t all = (std::uint64_t{static_cast<std::uint8_t>(kind)} << kind_shift) |
+                              (std::uint64_t{is_grounded ? 1U : 0U} << grounded_shift) |
+                              (std::uint64_t{normal.u} << normal_u_shift) | (std::uint64_t{normal.v} << normal_v_shift);
+    for (std::size_t word = 0; word < packed.size(); ++word) packed[word] = static_cast<std::uint16_t>(all >> (16 * word));
+  }
+
+ private:
+  static constexpr std::uint32_t kind_shift = 0, kind_bits = 3, grounded_shift = 3, normal_u_shift = 4,
+                                 normal_v_shift = normal_u_shift + OctNormal::bits;
+  static_assert(normal_v_shift + OctNormal::bits == 48);
+
+  [[nodiscard]] std::uint32_t unpacked(std::uint32_t shift, std::uint32_t bits) const {
+    const std::uint64_t all = packed[0] | (std::uint64_t{packed[1]} << 16U) | (std::uint64_t{packed[2]} << 32U);
+    return static_cast<std::uint32_t>((all >> shift) & ((std::uint64_t{1} << bits) - 1));
   }
 };
 static_assert(sizeof(SurfaceRecord) == 16);
@@ -131,7 +143,7 @@ static_assert(sizeof(Point3f) == 12 && sizeof(Triangle) == 12);
 /// Layers of a far map of the kind `horizon`, at the most.
 inline constexpr std::uint32_t most_layers = 8;
 
-/// What a cell's far map names, and the heights of its layers (ReceiverPatches). Levels beyond the last repeat it.
+/// The explicit occluders of a cell's far map, and the heights of its layers (ReceiverPatches). Levels beyond the last repeat it.
 struct FarCellRecord {
   std::uint64_t first_explicit_edge;
   std::uint32_t explicit_edge_count;
@@ -140,12 +152,13 @@ struct FarCellRecord {
 };
 static_assert(sizeof(FarCellRecord) == 48);
 
-/// An occluder that receivers in some patches of a cell must meet by itself: in the squares and in the layers whose bits are set.
+/// An occluder that is drawn from where each receiver stands, in some patches of a cell: those in the squares and in the layers
+/// whose bits are set.
 struct ExplicitOccluder {
   std::uint32_t row;
   std::uint16_t squares;
   std::uint16_t layers;
-  [[nodiscard]] bool matters(std::uint32_t square, std::uint32_t layer) const {
+  [[nodiscard]] bool is_in(std::uint32_t square, std::uint32_t layer) const {
     return ((squares >> square) & 1U) != 0 && ((layers >> layer) & 1U) != 0;
   }
 };
@@ -159,13 +172,13 @@ inline constexpr const char* tiles_file = "tiles.bin";
 inline constexpr const char* far_map_file = "far.exr";
 inline constexpr const char* manifest_file = "manifest.json";
 
-/// Channels of far.exr, all half. Of the kind `box`: Y is 1 where the sky is seen and 0 where the far city hides it, so that any
-/// viewer shows the map; Z is the distance in metres from the capture point to what hides the sky, infinite where nothing does.
-/// Of the kind `horizon`: slopes (tangents of elevations) of the residual city, a column for each azimuth bin, a row for each
-/// patch from the first; `low`, `high` and `overhang` are certain all over the patch, Y is what is likely on the floor of the
-/// patch.
-inline constexpr const char* sky_channel = "Y";
-inline constexpr const char* distance_channel = "Z";
+// Channels of far.exr, all half. Either kind has a channel Y, which any viewer shows as a grey picture.
+//
+// Of the kind `box`:
+inline constexpr const char* sky_channel = "Y";       ///< 1 where the sky is seen, 0 where the far city hides it
+inline constexpr const char* distance_channel = "Z";  ///< metres from the capture point to what hides the sky; infinite for sky
+// Of the kind `horizon`: slopes (tangents of elevations) of the residual city; a column for each azimuth bin, a row for each
+// patch from the first. Three are bounds all over the patch, and Y is an estimate on the floor of the patch.
 inline constexpr const char* estimate_channel = "Y";
 inline constexpr const char* low_channel = "low";
 inline constexpr const char* high_channel = "high";

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "city/city_model.hpp"
-#include "farlod/problem.hpp"
+#include "city/problem.hpp"
 #include "ingest/ingest_settings.hpp"
 
 namespace farlod {

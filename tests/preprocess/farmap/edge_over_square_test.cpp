@@ -98,9 +98,9 @@ TEST(EdgeOverSquare, NoEyeSeesTheEdgeSteeperThanUpper) {
     const View view = random_view(chance);
     const BinBorders& borders = chance.below(2) == 0 ? coarse : fine;
     EdgeOverSquare edge(borders);
-    edge.look_at(view.a, view.b, view.square);
+    edge.set_edge(view.a, view.b, view.square);
     const double z_m = chance.between(-5.0, 110.0);
-    if (edge.surrounds()) continue;
+    if (edge.is_unbounded()) continue;
     ++bounded;
     expect_below_upper(view, edge, borders.bins(), z_m, chance);
   }
@@ -115,8 +115,8 @@ TEST(EdgeOverSquare, EveryEyeSeesTheEdgeAtLeastAsSteepAsLowerAllOverTheBin) {
     const View view = random_view(chance);
     const BinBorders& borders = chance.below(2) == 0 ? coarse : fine;
     EdgeOverSquare edge(borders);
-    edge.look_at(view.a, view.b, view.square);
-    if (!edge.surrounds()) promises += expect_above_lower(view, edge, borders.bins(), chance.between(-5.0, 110.0), chance);
+    edge.set_edge(view.a, view.b, view.square);
+    if (!edge.is_unbounded()) promises += expect_above_lower(view, edge, borders.bins(), chance.between(-5.0, 110.0), chance);
   }
   EXPECT_GT(promises, trials / 2);
 }
@@ -124,14 +124,14 @@ TEST(EdgeOverSquare, EveryEyeSeesTheEdgeAtLeastAsSteepAsLowerAllOverTheBin) {
 TEST(EdgeOverSquare, NothingIsCertainOfAnEdgeThatAnEyeLooksAlong) {
   // The south side of the square lies in line with it: eyes there see it as a point
   EdgeOverSquare edge(fine);
-  edge.look_at({100, 0, 20}, {300, 0, 20}, {{0, 0}, {25, 25}});
-  ASSERT_FALSE(edge.surrounds());
+  edge.set_edge({100, 0, 20}, {300, 0, 20}, {{0, 0}, {25, 25}});
+  ASSERT_FALSE(edge.is_unbounded());
   for (std::size_t n = 0; n < edge.bin_count(); ++n) EXPECT_EQ(edge.low(0.0)[n], 0.0);
 }
 
 TEST(EdgeOverSquare, WhatIsNotAboveTheEyesHidesNothing) {
   EdgeOverSquare edge(fine);
-  edge.look_at({100, -50, 20}, {100, 50, 20}, {{0, 0}, {25, 25}});
+  edge.set_edge({100, -50, 20}, {100, 50, 20}, {{0, 0}, {25, 25}});
   for (std::size_t n = 0; n < edge.bin_count(); ++n) {
     EXPECT_EQ(edge.high(20.0)[n], 0.0);
     EXPECT_EQ(edge.low(20.0)[n], 0.0);
@@ -142,7 +142,7 @@ TEST(EdgeOverSquare, WhatIsNotAboveTheEyesHidesNothing) {
 TEST(EdgeOverSquare, BoundsOfABroadEdgeAreAsTightAsGeometryAllows) {
   // Due east, so broad that every eye sees it in the bins beside the x axis: nearest from x = 25, farthest from x = 0
   EdgeOverSquare edge(fine);
-  edge.look_at({100, -300, 30}, {100, 300, 30}, {{0, 0}, {25, 25}});
+  edge.set_edge({100, -300, 30}, {100, 300, 30}, {{0, 0}, {25, 25}});
   for (const std::int64_t bin : {-1, 0}) {
     const auto n = static_cast<std::size_t>(bin - edge.first_bin());
     const double steepest = 30.0 / 75.0, flattest = 30.0 / 100.0 * std::cos(fine.bins().width_rad());
@@ -153,8 +153,8 @@ TEST(EdgeOverSquare, BoundsOfABroadEdgeAreAsTightAsGeometryAllows) {
 
 bool surrounds(const Point3d& a, const Point3d& b, const Box2d& square) {
   EdgeOverSquare edge(fine);
-  edge.look_at(a, b, square);
-  return edge.surrounds();
+  edge.set_edge(a, b, square);
+  return edge.is_unbounded();
 }
 
 TEST(EdgeOverSquare, OnlyEdgesThatAreCloseSurround) {

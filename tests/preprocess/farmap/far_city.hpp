@@ -58,7 +58,7 @@ struct FarThing {
   std::set<FarThing> things;
   for (const package::ExplicitOccluder& occluder : map.explicit_edges) {
     const HorizonEdge& e = block.edges[occluder.row];
-    if (occluder.matters(square, layer)) things.insert({{}, {}, {stored(e.a), stored(e.b)}, e.adjacent, e.role});
+    if (occluder.is_in(square, layer)) things.insert({{}, {}, {stored(e.a), stored(e.b)}, e.adjacent, e.role});
   }
   return things;
 }

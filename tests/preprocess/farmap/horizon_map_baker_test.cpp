@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "farmap/cell_place.hpp"
+#include "farmap/occlusion_culler.hpp"
 #include "tests/determinism/threads.hpp"
 #include "tests/preprocess/farmap/far_city.hpp"
 #include "tests/scenes/generated_town.hpp"
@@ -202,7 +202,7 @@ struct CornerView {
 };
 
 CornerView view_from_corners(const std::vector<test::FarThing>& things, const std::set<test::FarThing>& names,
-                             const PatchBox& box, double azimuth, double weakest_sine) {
+                             const PatchBox& box, double azimuth, double weak_sine) {
   CornerView view;
   for (const Point2d at : {box.low, box.high, Point2d{box.low.x, box.high.y}, Point2d{box.high.x, box.low.y}}) {
     double horizon = 0.0;
@@ -216,7 +216,7 @@ CornerView view_from_corners(const std::vector<test::FarThing>& things, const st
         horizon = std::max(horizon, slope);
     }
     view.residual += 0.25 * horizon;
-    view.left_out += 0.25 * (horizon - slope_of_sine(std::max(0.0, sine_of_slope(horizon) - weakest_sine)));
+    view.left_out += 0.25 * (horizon - slope_of_sine(std::max(0.0, sine_of_slope(horizon) - weak_sine)));
   }
   return view;
 }
@@ -235,7 +235,7 @@ TEST(HorizonMapBaker, LikelyKnowsOnlyTheUnnamedAndLeavesOutTheFaintest) {
     const PatchBox box = place.map.patches.box(place.patch);
     for (std::uint32_t bin = 0; bin < bins.count; bin += 5) {
       const double azimuth = (bin + 0.5) * bins.width_rad(), estimate = place.map.estimate[place.patch * bins.count + bin];
-      const CornerView seen = view_from_corners(things, names, box, azimuth, settings.weakest * settings.tolerance);
+      const CornerView seen = view_from_corners(things, names, box, azimuth, settings.weak_share * settings.tolerance);
       const double rounding = average_rounding * (1.0 + seen.residual);
       ASSERT_LE(estimate, seen.residual + rounding) << "place " << n;
       // Where something is named, what it nearly hides is left out, however high that is

@@ -74,10 +74,10 @@ TEST_F(TilesWriter, FindsTheSurfaceOfEachTriangle) {
   const TileView view = written();
   const std::vector<SurfaceKind> kinds{SurfaceKind::roof, SurfaceKind::ground, SurfaceKind::roof, SurfaceKind::roof};
   ASSERT_EQ(view.mesh.triangles.size(), kinds.size());
-  for (std::uint32_t t = 0; t < kinds.size(); ++t) EXPECT_EQ(view.surface_of(t).kind, kinds[t]) << t;
+  for (std::uint32_t t = 0; t < kinds.size(); ++t) EXPECT_EQ(view.surface_of(t).kind(), kinds[t]) << t;
   EXPECT_EQ(view.surface_runs.size(), 3U);
-  EXPECT_EQ(view.surface_of(0).grounded, 0);
-  EXPECT_EQ(view.surface_of(1).grounded, 1);
+  EXPECT_FALSE(view.surface_of(0).is_grounded());
+  EXPECT_TRUE(view.surface_of(1).is_grounded());
 }
 
 TEST_F(TilesWriter, NamesEdgesAsSidesOfTriangles) {

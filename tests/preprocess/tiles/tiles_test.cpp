@@ -164,7 +164,12 @@ TEST(Tiles, PlaceProblemsInTheCrsOfThePackage) {
   EXPECT_EQ(p.z, 7.0);
 }
 
-TEST(Tiles, FlagCellsWithOverhangsOnly) {
+bool has_underside(const Tile& tile) {
+  return std::any_of(tile.horizon_edges.begin(), tile.horizon_edges.end(),
+                     [](const HorizonEdge& e) { return e.role == EdgeRole::underside; });
+}
+
+TEST(Tiles, HaveUndersidesWhereSomethingOverhangsOnly) {
   SceneBuilder town;
   town.add_box({{1, 1}, {49, 20}}, 0.0, 12.0);
   town.add_box({{51, 1}, {99, 20}}, 0.0, 12.0);
@@ -172,8 +177,8 @@ TEST(Tiles, FlagCellsWithOverhangsOnly) {
   town.add_box({{51, 40}, {99, 49}}, 0.0, 12.0);
   const Grid grid = scenes::grid_covering(town.city(), {}, 50, 3);
   const TileSet tiles = tiles_of(town.city(), grid);
-  EXPECT_FALSE(tiles.tile({0, 0}).has_overhang);
-  EXPECT_TRUE(tiles.tile({1, 0}).has_overhang);
+  EXPECT_FALSE(has_underside(tiles.tile({0, 0})));
+  EXPECT_TRUE(has_underside(tiles.tile({1, 0})));
   EXPECT_EQ(tiles.tile({1, 0}).ground_at_centre_m, 0.0F);  // the bridge does not lift the ground
 }
 

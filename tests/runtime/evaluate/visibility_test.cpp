@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "farlod/sky/sky_partition.hpp"
+#include "horizon/sky_partition.hpp"
 
 namespace farlod {
 namespace {

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "farlod/angle.hpp"
-#include "farlod/sky/sky_partition.hpp"
+#include "horizon/sky_partition.hpp"
 #include "tests/runtime/horizon/horizon_judge.hpp"
 
 namespace farlod {

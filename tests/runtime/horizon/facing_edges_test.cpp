@@ -11,6 +11,7 @@
 
 #include "farlod/horizon/edge_facing.hpp"
 #include "farlod/horizon/edge_view.hpp"
+#include "tests/oracles/distance_to_segment.hpp"
 #include "tests/runtime/horizon/horizon_judge.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
 

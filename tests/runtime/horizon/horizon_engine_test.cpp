@@ -7,10 +7,10 @@
 #include <algorithm>
 
 #include "farlod/horizon/edge_facing.hpp"
-#include "tests/contract/far_horizon_by_hand.hpp"
 #include "tests/runtime/horizon/packed_overhangs.hpp"
 #include "tests/runtime/horizon/sky_judge.hpp"
 #include "tests/runtime/horizon/town_by_hand.hpp"
+#include "tests/runtime/package/far_horizon_by_hand.hpp"
 
 namespace farlod {
 namespace {

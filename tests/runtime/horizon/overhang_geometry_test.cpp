@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <bit>
 
-#include "farlod/sky/sky_partition.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/ray_fan.hpp"
+#include "horizon/sky_partition.hpp"
 #include "tests/runtime/horizon/grazing_rays.hpp"
 #include "tests/runtime/horizon/packed_overhangs.hpp"
 #include "tests/runtime/horizon/town_by_hand.hpp"

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/contract/far_horizon_by_hand.hpp"
 #include "tests/runtime/horizon/horizon_judge.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
+#include "tests/runtime/package/far_horizon_by_hand.hpp"
 
 namespace farlod {
 namespace {

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "evaluate/visibility.hpp"
-#include "farlod/sky/sky_partition.hpp"
 #include "horizon/ray_engine.hpp"
-#include "tests/contract/far_horizon_by_hand.hpp"
+#include "horizon/sky_partition.hpp"
 #include "tests/runtime/horizon/packed_overhangs.hpp"
+#include "tests/runtime/package/far_horizon_by_hand.hpp"
 
 // A wall to the east is near, on the ground or floating; one to the west is far, once named, once bounded only.
 

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "horizon/packet_horizon.hpp"
+#include "tests/oracles/distance_to_segment.hpp"
 #include "tests/runtime/horizon/horizon_judge.hpp"
 #include "tests/runtime/horizon/town_by_hand.hpp"
 

@@ -10,8 +10,8 @@
 #include <span>
 
 #include "farlod/point.hpp"
-#include "farlod/sky/sky_partition.hpp"
 #include "horizon/azimuth_ring.hpp"
+#include "horizon/sky_partition.hpp"
 #include "tests/runtime/horizon/horizon_judge.hpp"
 
 // Sky view factors above horizons, by quadrature in double.

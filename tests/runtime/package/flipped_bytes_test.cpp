@@ -50,7 +50,7 @@ bool tile_is_sound(const TileView& tile, const Bytes& bytes) {
       !runs_cover_triangles(tile))
     return false;
   const auto vertices_exist = [&](const Triangle& t) { return std::max({t.a, t.b, t.c}) < tile.mesh.vertices.size(); };
-  const auto passed = [](std::size_t sum, const TileEdge& e) { return sum + e.sides_passed + (e.sides_passed < 255 ? 1U : 0U); };
+  const auto passed = [](std::size_t sum, const TileEdge& e) { return sum + e.sides_skipped + (e.sides_skipped < 255 ? 1U : 0U); };
   const auto sides_exist = [&](std::span<const TileEdge> sides) {
     return std::accumulate(sides.begin(), sides.end(), std::size_t{0}, passed) <= 3 * tile.mesh.triangles.size();
   };

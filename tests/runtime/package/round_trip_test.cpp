@@ -86,7 +86,6 @@ TEST_P(RoundTrip, TilesAreTheSame) {
       EXPECT_EQ((std::array{vertices[read.a], vertices[read.b], vertices[read.c]}),
                 (std::array{old[written.a], old[written.b], old[written.c]}));
     }
-    EXPECT_EQ(view.cell->flags & package::cell_has_overhang, tile.has_overhang ? package::cell_has_overhang : 0);
     EXPECT_EQ(view.cell->z_low_m, tile.z_low_m);
     EXPECT_EQ(view.cell->z_high_m, tile.z_high_m);
   }
@@ -133,10 +132,9 @@ TEST_P(RoundTrip, SurfacesAndBuildingsAreTheSame) {
       const package::SurfaceRecord& record = view.surface_of(t);
       EXPECT_EQ(view.building_number(record), surface.building);
       EXPECT_EQ(std::pair(record.number, record.part), std::pair(surface.number, surface.part));
-      EXPECT_EQ(record.kind, surface.kind);
-      EXPECT_EQ(record.grounded, surface.grounded ? 1 : 0);
-      grounded += record.grounded;
-      overhanging += 1U - record.grounded;
+      EXPECT_EQ(record.kind(), surface.kind);
+      EXPECT_EQ(record.is_grounded(), surface.grounded);
+      ++(record.is_grounded() ? grounded : overhanging);
       EXPECT_EQ(record.normal(), package::OctNormal::nearest_to(surface.normal));
       if (record.building == package::no_building) continue;
       EXPECT_EQ(block.id_of(view.buildings[record.building]), before.building_ids[surface.building]);

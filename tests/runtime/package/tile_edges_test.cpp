@@ -62,7 +62,7 @@ TEST(TileEdges, RowsThatOnlyPassAreNoEdges) {
   const Triangle t{0, 1, 2};
   TileView view = open(file).tile({0, 0});
   const std::vector<Triangle> many(100, t);
-  const std::vector<TileEdge> rows{{TileEdge::only_passes, {}}, {2, {1, 2}}, {0, {3, 4}}};
+  const std::vector<TileEdge> rows{{TileEdge::skip_only, {}}, {2, {1, 2}}, {0, {3, 4}}};
   view.mesh.triangles = many;
   view.edge_sides = {rows};
   view.loose_edges = {};
@@ -87,7 +87,7 @@ TEST(TileEdges, EachRoleCountsFromTheFirstSide) {
   // The two rows of the cell become the only ones of other roles: the second one passes five sides by itself
   const std::size_t first = file.section(SectionKind::tile_edges).count - 2;
   cell(file, 1).edge_counts = {0, 1, 1};
-  side(file, first + 1).sides_passed = 5;
+  side(file, first + 1).sides_skipped = 5;
   expected[0].role = EdgeRole::overhang;
   expected[1].role = EdgeRole::underside;
   EXPECT_EQ(read_from(file, {1, 0}), expected);
@@ -108,15 +108,15 @@ TEST(TileEdges, ARoleThatDoesNotExist) {
 
 TEST(TileEdges, SideOfAMissingTriangle) {
   // The last one of the cell's two rows is side 5, the last of its two triangles
-  EXPECT_EQ(damage_after([](TilesBytes& f) { --side(f, 1).sides_passed; }), "no damage");
+  EXPECT_EQ(damage_after([](TilesBytes& f) { --side(f, 1).sides_skipped; }), "no damage");
   for (const std::size_t n : {0U, 1U, 3U})
     for (const int more : {1, 100}) {
       const auto pass_more = [=](TilesBytes& f) {
-        side(f, n).sides_passed = static_cast<std::uint8_t>(side(f, n).sides_passed + more);
+        side(f, n).sides_skipped = static_cast<std::uint8_t>(side(f, n).sides_skipped + more);
       };
       EXPECT_THAT(damage_after(pass_more), HasSubstr("side of a triangle that does not exist")) << n;
     }
-  EXPECT_THAT(damage_after([](TilesBytes& f) { side(f, 1).sides_passed = TileEdge::only_passes; }),
+  EXPECT_THAT(damage_after([](TilesBytes& f) { side(f, 1).sides_skipped = TileEdge::skip_only; }),
               HasSubstr("side of a triangle that does not exist"));
 }
 
@@ -125,7 +125,7 @@ TEST(TileEdges, SideOfAMissingTriangleInAnyRole) {
     // The last row of the cell is alone in its role, and passes no more than the sides of two triangles
     const auto change = [role](TilesBytes& f, std::uint8_t passed) {
       cell(f, 1).edge_counts[0] = cell(f, 1).edge_counts[role] = 1;
-      side(f, 3).sides_passed = passed;
+      side(f, 3).sides_skipped = passed;
     };
     EXPECT_EQ(damage_after([&](TilesBytes& f) { change(f, 5); }), "no damage");
     EXPECT_THAT(damage_after([&](TilesBytes& f) { change(f, 6); }), HasSubstr("side of a triangle that does not exist"));

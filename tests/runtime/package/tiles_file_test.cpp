@@ -236,7 +236,7 @@ TEST(Package, SurfaceNamesMissingBuilding) {
 
 TEST(Package, SurfaceOfUnknownKind) {
   for (const SurfaceKind kind : {SurfaceKind{0}, SurfaceKind{6}, SurfaceKind{7}})
-    EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<SurfaceRecord>(SectionKind::surfaces, 1).kind = kind; }),
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<SurfaceRecord>(SectionKind::surfaces, 1).pack(kind, true, {}); }),
                 HasSubstr("of a kind that does not exist"));
 }
 

@@ -69,11 +69,11 @@ TEST_F(TouchingHouses, AreasAddUpToTheSurfaces) {
 TEST_F(TouchingHouses, RoofsAndWallsAreWhatIsAskedFor) {
   std::map<SurfaceKind, int> roofs, walls, all;
   for_each(SurfaceChoice::roofs, 2.0,
-           [&](Cell, const TileView& t, const SurfaceReceiver& r) { ++roofs[t.surface_of(r.triangle).kind]; });
+           [&](Cell, const TileView& t, const SurfaceReceiver& r) { ++roofs[t.surface_of(r.triangle).kind()]; });
   for_each(SurfaceChoice::walls, 2.0,
-           [&](Cell, const TileView& t, const SurfaceReceiver& r) { ++walls[t.surface_of(r.triangle).kind]; });
+           [&](Cell, const TileView& t, const SurfaceReceiver& r) { ++walls[t.surface_of(r.triangle).kind()]; });
   for_each(SurfaceChoice::all, 2.0,
-           [&](Cell, const TileView& t, const SurfaceReceiver& r) { ++all[t.surface_of(r.triangle).kind]; });
+           [&](Cell, const TileView& t, const SurfaceReceiver& r) { ++all[t.surface_of(r.triangle).kind()]; });
   EXPECT_EQ(roofs.size(), 1U);
   EXPECT_EQ(walls.size(), 1U);
   EXPECT_EQ(all, (std::map<SurfaceKind, int>{{SurfaceKind::roof, roofs[SurfaceKind::roof]},
@@ -97,7 +97,7 @@ TEST_F(TouchingHouses, ReceiversStandJustOffTheirTriangle) {
 
 TEST_F(TouchingHouses, NormalsLookOutward) {
   for_each(SurfaceChoice::all, 2.0, [&](Cell cell, const TileView& tile, const SurfaceReceiver& r) {
-    if (tile.surface_of(r.triangle).kind == SurfaceKind::roof) {
+    if (tile.surface_of(r.triangle).kind() == SurfaceKind::roof) {
       EXPECT_EQ(r.normal, (Point3f{0.0F, 0.0F, 1.0F}));
       return;
     }

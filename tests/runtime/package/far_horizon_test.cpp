@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "farlod/far_map/far_horizon.hpp"
+#include "package/far_horizon.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "farlod/far_map/far_horizon.hpp"
 #include "farlod/horizon/edge_view.hpp"
+#include "package/far_horizon.hpp"
 
 namespace farlod {
 
@@ -21,16 +21,16 @@ class FarHorizonByHand {
 
   explicit FarHorizonByHand(std::vector<HorizonEdge> edges, std::vector<float> levels_m = {0.0F, 10.0F})
       : edges_(std::move(edges)), map_{ReceiverPatches(cell_m, 1, std::move(levels_m)), AzimuthBins{8}, {}, {}, {}, {}, {}} {
-    for (std::uint32_t n = 0; n < edges_.size(); ++n) named_.push_back({n, 0xFFFF, 0xFFFF});
+    for (std::uint32_t n = 0; n < edges_.size(); ++n) occluders_.push_back({n, 0xFFFF, 0xFFFF});
     map_.low.resize(std::size_t{map_.patches.count()} * map_.bins.count, 0.0F);
     map_.estimate = map_.high = map_.overhang = map_.low;
-    map_.occluders = {edges_, named_, {}};
+    map_.occluders = {edges_, occluders_, {}};
   }
   FarHorizonByHand(const FarHorizonByHand&) = delete;
   FarHorizonByHand& operator=(const FarHorizonByHand&) = delete;
 
   [[nodiscard]] FarHorizon& map() { return map_; }
-  [[nodiscard]] std::vector<package::ExplicitOccluder>& named() { return named_; }
+  [[nodiscard]] std::vector<package::ExplicitOccluder>& occluders() { return occluders_; }
 
   /// What the explicit edges hide in a direction, ray by ray: the greatest slope at which it meets one of them; 0 where it meets
   /// none.
@@ -54,7 +54,7 @@ class FarHorizonByHand {
   }
 
   std::vector<HorizonEdge> edges_;
-  std::vector<package::ExplicitOccluder> named_;
+  std::vector<package::ExplicitOccluder> occluders_;
   FarHorizon map_;
 };
 

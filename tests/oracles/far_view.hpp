@@ -12,9 +12,10 @@
 #include <vector>
 
 #include "farlod/expects.hpp"
-#include "farlod/far_map/far_horizon.hpp"
 #include "farlod/horizon/edge_view.hpp"
-#include "farlod/sky/azimuth_fan.hpp"
+#include "package/far_horizon.hpp"
+#include "tests/oracles/azimuth_fan.hpp"
+#include "tests/oracles/distance_to_segment.hpp"
 
 namespace farlod {
 
@@ -104,7 +105,7 @@ inline void FarView::draw_explicit(const Point3f& p_cell, std::optional<std::uin
   for (std::size_t n = 0; n < edges_cell_.size(); ++n) {
     const package::ExplicitOccluder& occluder = map_.occluders.explicit_edges[n];
     if (map_.occluders.edges[occluder.row].role == EdgeRole::underside) continue;
-    if (!patch || occluder.matters(*patch % squares, *patch / squares)) draw({edges_cell_[n].a - eye, edges_cell_[n].b - eye});
+    if (!patch || occluder.is_in(*patch % squares, *patch / squares)) draw({edges_cell_[n].a - eye, edges_cell_[n].b - eye});
   }
 }
 

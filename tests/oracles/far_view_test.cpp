@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "farlod/far_map/far_view.hpp"
+#include "tests/oracles/far_view.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,9 @@
 #include <numbers>
 #include <random>
 
-#include "farlod/sky/sky_partition.hpp"
-#include "tests/contract/far_horizon_by_hand.hpp"
+#include "horizon/sky_partition.hpp"
+#include "tests/oracles/distance_to_segment.hpp"
+#include "tests/runtime/package/far_horizon_by_hand.hpp"
 
 // What a far map names is judged against each edge and each direction one by one.
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "farlod/sky/azimuth_fan.hpp"
+#include "tests/oracles/azimuth_fan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <set>
 
-#include "farlod/sky/sky_partition.hpp"
+#include "horizon/sky_partition.hpp"
 
 namespace farlod {
 namespace {

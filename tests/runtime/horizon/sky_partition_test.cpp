@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "farlod/sky/sky_partition.hpp"
+#include "horizon/sky_partition.hpp"
 
 #include <gtest/gtest.h>
 

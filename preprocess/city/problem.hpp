@@ -1,5 +1,5 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
-// SPDX-License-Identifier: Apache-2.0
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <array>
