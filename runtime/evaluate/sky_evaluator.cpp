@@ -16,10 +16,10 @@
 #include "farlod/expects.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/horizon_engine.hpp"
-#include "horizon/overhang_geometry.hpp"
-#include "horizon/ray_engine.hpp"
-#include "horizon/receiver_packets.hpp"
+#include "horizon/overhangs.hpp"
+#include "horizon/receiver_packet.hpp"
 #include "package/package_error.hpp"
+#include "rays/ray_engine.hpp"
 #include "scene/near_scene.hpp"
 #include "scene/whole_city.hpp"
 
@@ -105,7 +105,7 @@ SkyEvaluator::SkyEvaluator(const Package& package, const SkySettings& settings)
     : package_(package),
       settings_(settings),
       directions_(settings.weight, settings.rays, package.grid().rotation, settings.directions),
-      ring_(AzimuthRing::even(settings.azimuths, package.grid().rotation)),
+      ring_(AzimuthSampling::even(settings.azimuths, package.grid().rotation)),
       city_(std::make_unique<WholeCityOnDemand>()) {
   FARLOD_EXPECTS(!settings.max_far_error || settings.engine == Engine::exact || settings.engine == Engine::near_only ||
                  !package.manifest().far_map.is_box());
@@ -259,8 +259,8 @@ void SkyEvaluator::count_rays(CellGeometry& geometry, const CellReceivers& cell,
       for (const Receiver& r : group) store(SvfInterval{}, r.index, answers);
       return;
     }
-    const RayFan fan(directions);
-    RayEngine engine(fan, geometry.far, geometry.silhouettes, geometry.overhangs, wants_bounds(answers));
+    const DirectionSampling sampling(directions);
+    RayEngine engine(sampling, geometry.far, geometry.silhouettes, geometry.overhangs, wants_bounds(answers));
     for (std::size_t first = 0; first < group.size(); first += ReceiverPacket::lanes) {
       const auto some = group.subspan(first, std::min(ReceiverPacket::lanes, group.size() - first));
       std::vector<FreeRays> free = engine.count(some);

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "evaluate/sky_directions.hpp"
-#include "horizon/azimuth_ring.hpp"
+#include "horizon/azimuth_sampling.hpp"
 #include "horizon/sky_partition.hpp"
 #include "package/package.hpp"
 #include "receivers/receiver.hpp"
@@ -131,7 +131,7 @@ class SkyEvaluator {
   const Package& package_;
   SkySettings settings_;
   SkyDirections directions_;
-  AzimuthRing ring_;
+  AzimuthSampling ring_;
   std::unique_ptr<WholeCityOnDemand> city_;
   mutable std::atomic<double> scenes_s_ = 0.0, evaluate_s_ = 0.0;
   mutable std::atomic<std::uint64_t> by_rays_ = 0, retraced_rays_ = 0;

@@ -36,17 +36,20 @@ void keep_facing(OverhangEdges& edges, const ReceiverBox& box) {
 CellSilhouettes cell_silhouettes(const Package& package, Cell cell, const FarHorizon& far, const ReceiverBox& box) {
   CellSilhouettes silhouettes;
   const Grid& grid = package.grid();
-  // The most part of what is seen is far
+  // Most edges are far
   silhouettes.grounded.reserve(2 * far.occluders.explicit_edges.size());
+  // Near: the edges of all tiles of the neighborhood
   const CellRange near = grid.neighborhood_of(cell).intersection(grid.cells);
   for (std::size_t n = 0; n < static_cast<std::size_t>(near.size()); ++n) {
     const Cell neighbor = near.cell_at(n);
     const Point2d shift_m = grid.corner_of(neighbor) - grid.corner_of(cell);
     package.tile(neighbor).visit_edges([&](const HorizonEdge& e) { add(e, shift_m, silhouettes, silhouettes.near); });
   }
+  // Far: the explicit edges that matter in the receivers' layers
   const std::uint32_t layers = far.layers_met_from(box.low.z, box.high.z);
   for (const package::ExplicitOccluder& n : far.occluders.explicit_edges)
     if ((n.layers & layers) != 0) add(far.occluders.edges[n.row], far.occluders.cell_from_block_m, silhouettes, silhouettes.far);
+  // Leave out what faces away, and sort from near to far
   silhouettes.grounded = silhouettes.grounded.facing(box);
   keep_facing(silhouettes.near, box);
   keep_facing(silhouettes.far, box);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "farlod/grid.hpp"
 #include "horizon/silhouette_edges.hpp"
@@ -13,19 +12,20 @@
 
 namespace farlod {
 
-/// Borders of what may be seen under: EdgeRole::overhang and EdgeRole::underside.
+/// Upper and lower borders of overhangs: EdgeRole::overhang and EdgeRole::underside.
 struct OverhangEdges {
   SilhouetteEdges overhangs{EdgeRole::overhang}, undersides{EdgeRole::underside};
   [[nodiscard]] bool empty() const { return overhangs.empty() && undersides.empty(); }
 };
 
-/// What receivers of one cell may see of the city, apart from what its far map leaves to the residual horizon. Cell frame.
+/// The silhouette edges of the city for receivers of one cell, but for those that its far map merged into the residual horizon.
+/// Cell frame.
 struct CellSilhouettes {
   SilhouetteEdges grounded;  ///< near and far
   OverhangEdges near, far;
 };
 
-/// The neighborhood and what the far map names, for receivers in a box: edges that face away from all of them are left out.
+/// The edges of the neighborhood and the explicit edges of the far map, without those that face away from all receivers in a box.
 [[nodiscard]] CellSilhouettes cell_silhouettes(const Package& package, Cell cell, const FarHorizon& far, const ReceiverBox& box);
 
 /// The box around some receivers.

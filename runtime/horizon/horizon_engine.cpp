@@ -3,106 +3,201 @@
 #include "horizon/horizon_engine.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "farlod/expects.hpp"
-#include "horizon/gap_rays.hpp"
+#include "horizon/kernels.hpp"
 
 namespace farlod {
 namespace {
 
-PacketHorizon::Lanes sum(std::span<const PacketHorizon::Row> rows) {
-  PacketHorizon::Lanes sums{};
+using Lanes = PacketHorizon::Lanes;
+
+/// Of a receiver that needs rays, the smallest gaps are not traced, as long as they hold no more of the tolerance than this. They
+/// are filled more often than large ones: a quarter of them is sky on average (docs/decisions/0014).
+constexpr float untraced_of_tolerance = 0.5F, sky_in_untraced = 0.25F;
+
+Lanes sum(std::span<const PacketHorizon::Row> rows) {
+  Lanes sums{};
   for (const PacketHorizon::Row& row : rows)
     for (std::size_t l = 0; l < sums.size(); ++l) sums[l] += row[l];
   return sums;
 }
 
-/// Of a receiver that needs rays, the smallest gaps are not traced, as long as they hold no more of the tolerance than this. They
-/// are filled more often than large ones: that so much of them is sky is right on average (docs/decisions/0014).
-constexpr float untraced_of_tolerance = 0.5F, sky_in_untraced = 0.25F;
+bool has_bit(std::uint32_t bits, std::size_t lane) { return ((bits >> lane) & 1U) != 0; }
+
+/// Offsets of the rays of neighboring azimuths within their parts of a gap: fractional parts of the multiples of the golden
+/// ratio, which spread evenly.
+float offset_of(std::size_t azimuth) {
+  constexpr double golden = 0.61803398874989485;
+  const double multiple = golden * static_cast<double>(azimuth);
+  return static_cast<float>(multiple - std::floor(multiple));
+}
+
+/// A bit for each receiver whose slope lies between the two `filled` horizons.
+std::uint32_t in_filled(const Gaps& gaps, std::size_t azimuth, const Lanes& slopes) {
+  const PacketHorizon::Row &from = gaps.filled_from.row(azimuth), &to = gaps.filled_to.row(azimuth);
+  std::uint32_t bits = 0;
+  for (std::size_t l = 0; l < slopes.size(); ++l) bits |= slopes[l] >= from[l] && slopes[l] < to[l] ? 1U << l : 0U;
+  return bits;
+}
+
+/// The receivers with a gap at one azimuth, and the largest of the gaps.
+struct OpenLanes {
+  std::uint32_t bits = 0;
+  float max_sky = 0.0F;
+};
+OpenLanes open_lanes(const PacketHorizon::Row& sky, std::uint32_t wanted) {
+  OpenLanes open;
+  for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) {
+    if (sky[l] <= 0.0F || !has_bit(wanted, l)) continue;
+    open.bits |= 1U << l;
+    open.max_sky = std::max(open.max_sky, sky[l]);
+  }
+  return open;
+}
+
+std::size_t ray_count(float share_of_azimuth, std::size_t rays_per_azimuth) {
+  const float wanted = std::ceil(share_of_azimuth * static_cast<float>(rays_per_azimuth));
+  return static_cast<std::size_t>(std::max(1.0F, wanted));
+}
 
 }  // namespace
 
-HorizonEngine::HorizonEngine(const AzimuthRing& ring, SkyWeight weight, const FarHorizon& far, const CellSilhouettes& silhouettes,
-                             OverhangGeometry& overhangs, const GapSettings& gaps)
-    : ring_(ring),
+HorizonEngine::HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, const FarHorizon& far,
+                             const CellSilhouettes& silhouettes, OverhangGeometry& overhangs, const GapSettings& gaps)
+    : azimuths_(azimuths),
       weight_(weight),
       silhouettes_(silhouettes),
       overhangs_(overhangs),
       gaps_(gaps),
-      residual_(far, ring),
-      horizons_(ring),
-      near_and_explicit_(ring) {}
+      residual_(far, azimuths),
+      horizons_(azimuths),
+      without_residual_(azimuths) {}
 
-std::uint32_t HorizonEngine::evaluate(const ReceiverPacket& receivers, std::span<SvfInterval> shares) {
-  FARLOD_EXPECTS(shares.size() == receivers.count);
-  const std::uint32_t covered = overhangs_.covered(receivers);
-  // What hides much first: what lies below is passed over
+std::uint32_t HorizonEngine::evaluate(const ReceiverPacket& receivers, std::span<SvfInterval> svf) {
+  FARLOD_EXPECTS(svf.size() == receivers.count);
+  const std::uint32_t below = overhangs_.receivers_below(receivers);
+  // Draw the grounded horizon. The residual comes first: it is cheap, and culls edges
   horizons_.grounded.clear();
   residual_.raise_to_estimate(receivers, horizons_.grounded);
   horizons_.grounded.raise(silhouettes_.grounded, receivers);
-  if (covered == 0 && silhouettes_.near.empty() && silhouettes_.far.empty()) {
+  // Without overhangs in sight, the sky above it is the answer
+  if (below == 0 && silhouettes_.near.empty() && silhouettes_.far.empty()) {
     const Lanes sky = horizons_.grounded.sky_above(weight_, receivers);
-    for (std::size_t l = 0; l < shares.size(); ++l) shares[l] = {sky[l], sky[l], sky[l]};
+    for (std::size_t l = 0; l < svf.size(); ++l) svf[l] = {sky[l], sky[l], sky[l]};
     return 0;
   }
-  horizons_.upper = horizons_.borders = horizons_.grounded;
-  horizons_.draw_overhangs(silhouettes_, receivers, covered, FarGaps::estimate);
-  const Lanes sky = horizons_.upper.sky_above(weight_, receivers);
-  const BelowBorders below = look_below(receivers);
-  for (std::size_t l = 0; l < shares.size(); ++l) {
-    const float svf = std::min(sky[l] + below.sky[l], 1.0F);
-    shares[l] = {svf, svf, svf};
+  // Else it is the sky above the upper borders, plus what is seen in the gaps below the lower borders
+  horizons_.upper_borders = horizons_.lower_borders = horizons_.grounded;
+  horizons_.draw_overhangs(silhouettes_, receivers, below, FarGapEnd::lowest);
+  const Lanes sky = horizons_.upper_borders.sky_above(weight_, receivers);
+  const SkyInGaps gaps = sky_in_gaps(receivers);
+  for (std::size_t l = 0; l < svf.size(); ++l) {
+    const float sum = std::min(sky[l] + gaps.sky[l], 1.0F);
+    svf[l] = {sum, sum, sum};
   }
-  return below.by_rays;
+  return gaps.by_rays;
 }
 
-std::uint32_t HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, std::span<SvfInterval> shares) {
-  FARLOD_EXPECTS(shares.size() == receivers.count);
-  const std::uint32_t covered = overhangs_.covered(receivers);
-  // What is certain: the sky above the lowest horizons, and below the borders at the most
+std::uint32_t HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, std::span<SvfInterval> svf) {
+  FARLOD_EXPECTS(svf.size() == receivers.count);
+  const std::uint32_t below = overhangs_.receivers_below(receivers);
+  // The high SVF: sky above the residual's low bound, and all of the gaps, up to the highest borders
   horizons_.grounded.clear();
   horizons_.grounded.raise(silhouettes_.grounded, receivers);
-  near_and_explicit_ = horizons_.upper = horizons_.borders = horizons_.grounded;
-  residual_.raise_to_low(receivers, horizons_.upper);
-  residual_.raise_to_overhang(receivers, horizons_.borders);
-  horizons_.draw_overhangs(silhouettes_, receivers, covered, FarGaps::possible);
-  const Lanes highest_below = sum(horizons_.find_sky_below_borders(weight_, receivers, gap_rows_)),
-              highest = horizons_.upper.sky_above(weight_, receivers);
-  // The estimate: the residual city is grounded
-  std::swap(horizons_.grounded, near_and_explicit_);
+  without_residual_ = horizons_.upper_borders = horizons_.lower_borders = horizons_.grounded;
+  residual_.raise_to_low(receivers, horizons_.upper_borders);
+  residual_.raise_to_overhang(receivers, horizons_.lower_borders);
+  horizons_.draw_overhangs(silhouettes_, receivers, below, FarGapEnd::highest);
+  const Lanes most_in_gaps = sum(horizons_.find_sky_in_gaps(weight_, receivers, gap_rows_)),
+              most_above = horizons_.upper_borders.sky_above(weight_, receivers);
+  // The estimate, as in evaluate(): the residual city is grounded
+  std::swap(horizons_.grounded, without_residual_);
   residual_.raise_to_estimate(receivers, horizons_.grounded);
-  horizons_.upper = horizons_.borders = horizons_.grounded;
-  horizons_.draw_overhangs(silhouettes_, receivers, covered, FarGaps::estimate);
-  const Lanes estimate = horizons_.upper.sky_above(weight_, receivers);
-  const BelowBorders below = look_below(receivers);
-  // Above the highest horizons all is open
-  residual_.raise_to_high(receivers, horizons_.upper);
-  const Lanes low = horizons_.upper.sky_above(weight_, receivers);
-  for (std::size_t l = 0; l < shares.size(); ++l) {
-    const float high = std::min(highest[l] + highest_below[l], 1.0F);
-    shares[l] = {low[l], std::clamp(estimate[l] + below.sky[l], low[l], std::max(low[l], high)), high};
+  horizons_.upper_borders = horizons_.lower_borders = horizons_.grounded;
+  horizons_.draw_overhangs(silhouettes_, receivers, below, FarGapEnd::lowest);
+  const Lanes estimate = horizons_.upper_borders.sky_above(weight_, receivers);
+  const SkyInGaps gaps = sky_in_gaps(receivers);
+  // The low SVF: sky above the residual's high bound, and nothing of the gaps
+  residual_.raise_to_high(receivers, horizons_.upper_borders);
+  const Lanes low = horizons_.upper_borders.sky_above(weight_, receivers);
+  for (std::size_t l = 0; l < svf.size(); ++l) {
+    const float high = std::min(most_above[l] + most_in_gaps[l], 1.0F);
+    svf[l] = {low[l], std::clamp(estimate[l] + gaps.sky[l], low[l], std::max(low[l], high)), high};
   }
-  return below.by_rays;
+  return gaps.by_rays;
 }
 
-HorizonEngine::BelowBorders HorizonEngine::look_below(const ReceiverPacket& receivers) {
-  BelowBorders below;
-  const Lanes most = sum(horizons_.find_sky_below_borders(weight_, receivers, gap_rows_));
-  for (std::size_t l = 0; l < receivers.count; ++l) below.by_rays |= most[l] > gaps_.tolerance ? 1U << l : 0U;
-  if (below.by_rays == 0) {
-    for (std::size_t l = 0; l < most.size(); ++l) below.sky[l] = 0.5F * most[l];
-    return below;
-  }
+HorizonEngine::SkyInGaps HorizonEngine::sky_in_gaps(const ReceiverPacket& receivers) {
+  SkyInGaps gaps;
+  // Receivers with little sky in gaps: half of it counts
+  const Lanes most = sum(horizons_.find_sky_in_gaps(weight_, receivers, gap_rows_));
+  for (std::size_t l = 0; l < receivers.count; ++l) gaps.by_rays |= most[l] > gaps_.tolerance ? 1U << l : 0U;
+  for (std::size_t l = 0; l < most.size(); ++l) gaps.sky[l] = 0.5F * most[l];
+  if (gaps.by_rays == 0) return gaps;
+  // The others: trace all gaps but the smallest
   Lanes untraced{};
   for (std::size_t l = 0; l < receivers.count; ++l)
-    if (((below.by_rays >> l) & 1U) != 0) untraced[l] = close_smallest(gap_rows_, l, untraced_of_tolerance * gaps_.tolerance);
-  const Lanes seen = trace_gaps({horizons_.grounded, horizons_.borders, horizons_.far_borders, horizons_.far_upper, gap_rows_},
-                                ring_, weight_, receivers, below.by_rays, gaps_.rays_per_azimuth, overhangs_.scene());
+    if (has_bit(gaps.by_rays, l)) untraced[l] = remove_smallest_gaps(gap_rows_, l, untraced_of_tolerance * gaps_.tolerance);
+  const Lanes seen = trace_gaps(
+      {horizons_.grounded, horizons_.lower_borders, horizons_.far_lower_borders, horizons_.far_upper_borders, gap_rows_},
+      azimuths_, weight_, receivers, gaps.by_rays, gaps_.rays_per_azimuth, overhangs_.scene());
   for (std::size_t l = 0; l < most.size(); ++l)
-    below.sky[l] = ((below.by_rays >> l) & 1U) != 0 ? seen[l] + sky_in_untraced * untraced[l] : 0.5F * most[l];
-  return below;
+    if (has_bit(gaps.by_rays, l)) gaps.sky[l] = seen[l] + sky_in_untraced * untraced[l];
+  return gaps;
+}
+
+float remove_smallest_gaps(std::span<PacketHorizon::Row> sky, std::size_t lane, float max_sky) {
+  // The size of the largest gap that can be removed
+  std::vector<float> sizes;
+  for (const PacketHorizon::Row& row : sky)
+    if (row[lane] > 0.0F) sizes.push_back(row[lane]);
+  std::sort(sizes.begin(), sizes.end());
+  float total = 0.0F, largest = 0.0F;
+  for (const float size : sizes) {
+    if (total + size > max_sky) break;
+    total += size;
+    largest = size;
+  }
+  // Remove the gaps up to that size. Of several of that size, the last may be too many
+  float removed = 0.0F;
+  for (PacketHorizon::Row& row : sky)
+    if (row[lane] <= largest && removed + row[lane] <= max_sky) removed += std::exchange(row[lane], 0.0F);
+  return removed;
+}
+
+Lanes trace_gaps(const Gaps& gaps, const AzimuthSampling& azimuths, SkyWeight weight, const ReceiverPacket& receivers,
+                 std::uint32_t wanted, std::size_t rays_per_azimuth, const PlacedScene& scene) {
+  const SkyKernels& kernels = sky_kernels();
+  const RayOrigins origins = scene.origins_of(receivers);
+  Lanes seen{};
+  for (std::size_t k = 0; k < azimuths.size(); ++k) {
+    const OpenLanes open = open_lanes(gaps.sky[k], wanted);
+    if (open.bits == 0) continue;
+    // Divide each receiver's gap into parts of equal sky, with a ray in each: all rays of a receiver count alike
+    const std::size_t count = ray_count(open.max_sky * static_cast<float>(azimuths.size()), rays_per_azimuth);
+    const GapAzimuth azimuth{azimuths.cosine()[k], azimuths.sine()[k], weight == SkyWeight::solid_angle};
+    GapEnds ends;
+    kernels.find_gap_ends(gaps.from.row(k).data(), gaps.to.row(k).data(), receivers, azimuth, ends);
+    Lanes free_rays{};
+    for (std::size_t n = 0; n < count; ++n) {
+      Occluder::Directions directions;
+      directions.x.fill(azimuth.cosine);
+      directions.y.fill(azimuth.sine);
+      kernels.find_gap_slopes(ends, receivers, azimuth, (static_cast<float>(n) + offset_of(k)) / static_cast<float>(count),
+                              directions.z.data());
+      const std::uint32_t asked = open.bits & ~in_filled(gaps, k, directions.z);
+      const std::uint32_t free = asked & ~scene.occluder.blocked(origins, directions, least_distance_m, asked);
+      for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) free_rays[l] += has_bit(free, l) ? 1.0F : 0.0F;
+    }
+    // (sky of the gap) · (free rays / rays), as a share of the turn
+    const float ray_share = 1.0F / static_cast<float>(count * azimuths.size());
+    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
+      seen[l] += free_rays[l] * (ends.sky_from[l] - ends.sky_to[l]) * ray_share;
+  }
+  return seen;
 }
 
 }  // namespace farlod

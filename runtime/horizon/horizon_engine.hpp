@@ -7,10 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "horizon/azimuth_ring.hpp"
+#include "horizon/azimuth_sampling.hpp"
 #include "horizon/cell_silhouettes.hpp"
-#include "horizon/overhang_geometry.hpp"
-#include "horizon/overhang_horizons.hpp"
+#include "horizon/overhangs.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/residual_horizon.hpp"
@@ -24,44 +23,63 @@ struct SvfInterval {
   float low = 0.0F, estimate = 0.0F, high = 0.0F;
 };
 
-/// What is done where sky may be seen below something that overhangs.
+/// The gaps below overhangs in which a packet's receivers may see sky: for each azimuth between two horizons, but not between two
+/// others, `filled`.
+struct Gaps {
+  const PacketHorizon &from, &to;
+  const PacketHorizon &filled_from, &filled_to;
+  std::span<const PacketHorizon::Row> sky;  ///< view factor of each gap; 0 where there is none
+};
+
+/// Removes the smallest gaps of a receiver, of no more sky than `max_sky` in all, and returns their sky.
+[[nodiscard]] float remove_smallest_gaps(std::span<PacketHorizon::Row> sky, std::size_t lane, float max_sky);
+
+/// Traces rays in the gaps of the receivers with set bits, and returns the sky that is seen through them. A gap that is all of
+/// its azimuth's sky gets `rays_per_azimuth` rays, a smaller one its share, and at least one.
+[[nodiscard]] PacketHorizon::Lanes trace_gaps(const Gaps& gaps, const AzimuthSampling& azimuths, SkyWeight weight,
+                                              const ReceiverPacket& receivers, std::uint32_t wanted, std::size_t rays_per_azimuth,
+                                              const PlacedScene& scene);
+
+/// How gaps are treated.
 struct GapSettings {
-  /// Sky view factors that are certain to so much need no rays: the middle is taken.
+  /// A receiver with at most so much sky in its gaps needs no rays: half of it counts.
   float tolerance = 0.0F;
   std::size_t rays_per_azimuth = 4;
 };
 
-/// Sky view factors from horizons: edges are drawn from where each receiver stands, and the sky above them is integrated. For
-/// receivers of one cell. docs/concepts.md, "What is grounded, and what overhangs".
+/// Sky view factors from horizons: edges are drawn for each receiver, and the sky above them is integrated in closed form. For
+/// receivers of one cell. docs/concepts.md, "Above a horizon" and "What is grounded, and what overhangs".
 class HorizonEngine {
  public:
   /// All must outlive it.
-  HorizonEngine(const AzimuthRing& ring, SkyWeight weight, const FarHorizon& far, const CellSilhouettes& silhouettes,
+  HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, const FarHorizon& far, const CellSilhouettes& silhouettes,
                 OverhangGeometry& overhangs, const GapSettings& gaps);
 
-  /// Answers the receivers of a packet in `shares`, in their order; low = estimate = high. Returns a bit for each that needed rays.
-  [[nodiscard]] std::uint32_t evaluate(const ReceiverPacket& receivers, std::span<SvfInterval> shares);
+  /// Computes the receivers of a packet into `svf`, in their order; low = estimate = high. Returns a bit for each that needed
+  /// rays.
+  [[nodiscard]] std::uint32_t evaluate(const ReceiverPacket& receivers, std::span<SvfInterval> svf);
   /// The same with bounds.
-  [[nodiscard]] std::uint32_t evaluate_with_bounds(const ReceiverPacket& receivers, std::span<SvfInterval> shares);
+  [[nodiscard]] std::uint32_t evaluate_with_bounds(const ReceiverPacket& receivers, std::span<SvfInterval> svf);
 
  private:
   using Lanes = PacketHorizon::Lanes;
-  /// Sky that is seen below something, and who needed rays for that.
-  struct BelowBorders {
+  /// The sky seen in gaps, and a bit for each receiver that needed rays for it.
+  struct SkyInGaps {
     Lanes sky{};
     std::uint32_t by_rays = 0;
   };
-  /// Between the grounded horizons and the borders, as drawn.
-  [[nodiscard]] BelowBorders look_below(const ReceiverPacket& receivers);
+  /// Of the gaps in `horizons_`, as drawn.
+  [[nodiscard]] SkyInGaps sky_in_gaps(const ReceiverPacket& receivers);
 
-  const AzimuthRing& ring_;
+  const AzimuthSampling& azimuths_;
   SkyWeight weight_;
   const CellSilhouettes& silhouettes_;
   OverhangGeometry& overhangs_;
   GapSettings gaps_;
   ResidualHorizon residual_;
+  // Working memory, kept from packet to packet
   OverhangHorizons horizons_;
-  PacketHorizon near_and_explicit_;
+  PacketHorizon without_residual_;
   std::vector<PacketHorizon::Row> gap_rows_;
 };
 

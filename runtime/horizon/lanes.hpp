@@ -6,26 +6,24 @@
 #include <cstdint>
 #include <cstring>
 
-/// Compiles a function for several generations of processors; the one that fits is chosen when the program starts. Vectors of 16
-/// lanes become one, two or four of the processor's registers, without fused multiply-add, so that all of them give the same
-/// bits.
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__)
-#define FARLOD_FOR_EACH_PROCESSOR __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define FARLOD_FOR_EACH_PROCESSOR
-#endif
-/// For the parts of such functions: only what is inlined is compiled for each processor.
+/// Vectors of sixteen lanes for the kernels (kernels.hpp), which are compiled once for each generation of processors. g++ and
+/// clang split such a vector into one, two or four registers of the processor. There is no fused multiply-add
+/// (-ffp-contract=off), so that all processors give the same bits.
+///
+/// Each function is inlined always: none is emitted on its own, so that no code for a newer processor can take the place of the
+/// same function for an older one.
 #define FARLOD_LANES inline __attribute__((always_inline))
 
 namespace farlod {
 
 inline constexpr std::size_t lane_count = 16;
-/// Sixteen numbers at once. A comparison must stand within the one choice that it makes (a < b ? x : y): g++ 12 takes one apart
-/// lane by lane that is kept in a variable, or joined with another (also by nesting choices with the same last value).
+/// Sixteen numbers at once. A comparison must stand within the one choice that it makes (a < b ? x : y): g++ 12 computes it lane
+/// by lane if it is stored in a variable, or joined with another (also by nesting choices with the same last value).
 using Floats = float __attribute__((vector_size(64)));
 using Ints = std::int32_t __attribute__((vector_size(64)));
 
 FARLOD_LANES Floats broadcast(float x) { return Floats{} + x; }
+FARLOD_LANES Ints broadcast(std::int32_t n) { return Ints{} + n; }
 FARLOD_LANES Floats load(const float* from) {
   Floats v;
   std::memcpy(&v, from, sizeof v);
@@ -44,7 +42,7 @@ FARLOD_LANES Floats sqrt(const Floats& a) {
 }
 FARLOD_LANES Ints truncate(const Floats& a) { return __builtin_convertvector(a, Ints); }
 
-/// The least, or the greatest, of all lanes.
+/// The least, or the greatest, of all lanes: fold the vector in half four times.
 template <class V>
 FARLOD_LANES auto min_lane(const V& v) {
   V m = min(v, __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15, 0, 1, 2, 3, 4, 5, 6, 7));
@@ -58,7 +56,15 @@ FARLOD_LANES auto max_lane(const V& v) {
   return -min_lane(-v);
 }
 
-/// Arc tangent of 0 ≤ t ≤ 1, within 2e-8 (Abramowitz & Stegun, 4.4.49).
+/// floor(log2(n)) of n ≥ 1: the exponent of n as a float.
+FARLOD_LANES Ints floor_log2(const Ints& n) {
+  const Floats value = __builtin_convertvector(n, Floats);
+  Ints bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  return (bits >> 23) - 127;
+}
+
+/// arctan t of 0 ≤ t ≤ 1, within 2e-8 (Abramowitz & Stegun, 4.4.49): t + t³ P(t²), P by Horner's rule.
 FARLOD_LANES Floats atan_of_fraction(const Floats& t) {
   const Floats s = t * t;
   Floats p = broadcast(0.0028662257F);
@@ -72,13 +78,14 @@ FARLOD_LANES Floats atan_of_fraction(const Floats& t) {
   return t + t * s * p;
 }
 
-/// Grows with the azimuth of (x, y), counter-clockwise from the x axis, from 0 to 1 in a turn: a quarter of the pseudo-angle
-/// (farlod/horizon/azimuth.hpp), as floats. Opposite directions are half a turn apart. Of (0, 0) it is 0.
+/// The azimuth of (x, y) as a pseudo-angle in turns: it increases with the azimuth, counter-clockwise from the x axis, from 0 to
+/// 1. The pseudo-angle of farlod/horizon/azimuth.hpp, as floats. Opposite directions differ by half a turn. The pseudo-angle of
+/// (0, 0) is 0.
 FARLOD_LANES Floats pseudo_angle(const Floats& x, const Floats& y) {
   const Floats sum = abs(x) + abs(y);
-  const Floats across = 0.25F * y / (sum > 0.0F ? sum : broadcast(1.0F));
-  const Floats right = y < 0.0F ? 1.0F + across : across;
-  return x < 0.0F ? 0.5F - across : right;
+  const Floats quarter = 0.25F * y / (sum > 0.0F ? sum : broadcast(1.0F));
+  const Floats right = y < 0.0F ? 1.0F + quarter : quarter;
+  return x < 0.0F ? 0.5F - quarter : right;
 }
 
 }  // namespace farlod

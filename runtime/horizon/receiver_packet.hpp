@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "farlod/expects.hpp"
 #include "receivers/receiver.hpp"
@@ -34,5 +36,43 @@ struct ReceiverPacket {
   }
   [[nodiscard]] float lowest_z() const { return *std::min_element(z.begin(), z.end()); }
 };
+
+/// An upright box around receivers: the centre of its plan, half its sides, and its lowest and highest z.
+struct CenteredBox {
+  float x = 0.0F, y = 0.0F, half_x = 0.0F, half_y = 0.0F, low_z = 0.0F, high_z = 0.0F;
+};
+
+/// Bounds of a packet: a box around its receivers, and a plane normal · p = depth that all of them lie on or in front of. No
+/// receiver counts sky behind the plane. Without such a plane the normal is 0 and the depth −1: all places are in front.
+struct PacketBounds {
+  CenteredBox box;
+  float normal_x = 0.0F, normal_y = 0.0F, normal_z = 0.0F, depth = -1.0F;
+};
+[[nodiscard]] PacketBounds bounds_of(const ReceiverPacket& receivers);
+
+/// The receivers of a cell, divided into packets. A packet is computed the faster, the nearer its receivers are to each other and
+/// the more alike their normals.
+struct PacketOrder {
+  std::vector<std::uint32_t> numbers;  ///< places of the receivers in their list, packet by packet
+  std::vector<std::uint32_t> ends;     ///< of each packet, in `numbers`
+};
+
+///   (1) each receiver is in one packet
+///   (2) a packet has between one and ReceiverPacket::lanes receivers
+///   (3) the order depends on the receivers alone
+[[nodiscard]] PacketOrder packet_order(std::span<const Receiver> receivers);
+
+/// Calls `visit(packet, numbers)` for each packet.
+template <class Visit>
+void for_each_packet(std::span<const Receiver> receivers, const PacketOrder& order, const Visit& visit) {
+  std::size_t first = 0;
+  for (const std::uint32_t end : order.ends) {
+    const auto numbers = std::span(order.numbers).subspan(first, end - first);
+    ReceiverPacket packet;
+    for (const std::uint32_t n : numbers) packet.add(receivers[n]);
+    visit(packet, numbers);
+    first = end;
+  }
+}
 
 }  // namespace farlod

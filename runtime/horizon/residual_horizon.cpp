@@ -12,8 +12,8 @@
 namespace farlod {
 namespace {
 
-/// Calls `raise(patch, caps)` for each patch that receivers stand in (`patch_of(lane)`), with the caps of a PacketHorizon that
-/// raise those alone.
+/// Calls `raise(patch, caps)` once for each patch that receivers are in (`patch_of(lane)`), with caps that raise the horizons of
+/// the receivers in it alone (PacketHorizon::raise).
 template <class PatchOf, class Raise>
 void for_each_patch(const PatchOf& patch_of, const Raise& raise) {
   std::array<std::optional<std::uint32_t>, ReceiverPacket::lanes> patches;
@@ -31,12 +31,13 @@ void for_each_patch(const PatchOf& patch_of, const Raise& raise) {
 
 }  // namespace
 
-ResidualHorizon::ResidualHorizon(const FarHorizon& map, const AzimuthRing& ring)
+ResidualHorizon::ResidualHorizon(const FarHorizon& map, const AzimuthSampling& azimuths)
     : map_(map),
       is_grounded_(std::all_of(map.overhang.begin(), map.overhang.end(), [](float slope) { return slope == 0.0F; })),
       level_(map.bins.count, 0.0F),
       infinite_(map.bins.count, std::numeric_limits<float>::infinity()) {
-  for (std::size_t k = 0; k < ring.size(); ++k) bin_of_azimuth_.push_back(map.bins.bin_of({ring.cosine()[k], ring.sine()[k]}));
+  for (std::size_t k = 0; k < azimuths.size(); ++k)
+    bin_of_azimuth_.push_back(map.bins.bin_of({azimuths.cosine()[k], azimuths.sine()[k]}));
 }
 
 ResidualHorizon::Patch ResidualHorizon::patch_of(const ReceiverPacket& r, std::size_t lane) const {
@@ -65,8 +66,9 @@ void ResidualHorizon::raise_to_overhang(const ReceiverPacket& r, PacketHorizon& 
 }
 
 void ResidualHorizon::raise_to_estimate(const ReceiverPacket& r, PacketHorizon& horizon) const {
+  // Interpolate between the level of the patch and the next one above, each receiver at its own height
   const auto raise = [&](Patch patch, const PacketHorizon::Lanes& caps) {
-    PacketHorizon::RowsBetween rows{map_.row(map_.estimate, *patch), {}, low_row(patch), high_row(patch), {}, caps};
+    ResidualRows rows{map_.row(map_.estimate, *patch), {}, low_row(patch), high_row(patch), {}, caps};
     std::uint32_t above = *patch;
     for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) std::tie(above, rows.shares[l]) = map_.floor_above(*patch, r.z[l]);
     rows.above = map_.row(map_.estimate, above);

@@ -7,31 +7,31 @@
 #include <span>
 #include <vector>
 
-#include "horizon/azimuth_ring.hpp"
+#include "horizon/azimuth_sampling.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "package/far_horizon.hpp"
 
 namespace farlod {
 
-/// What a far map says of the city that it does not name, along the azimuths of a ring.
+/// The residual horizon of a far map, of all occluders that it does not store one by one, at the azimuths of a sampling.
 class ResidualHorizon {
  public:
   /// The map must outlive it.
-  ResidualHorizon(const FarHorizon& map, const AzimuthRing& ring);
+  ResidualHorizon(const FarHorizon& map, const AzimuthSampling& azimuths);
 
-  /// Raise horizons to what hides the sky for certain, likely, and at the most. Below the lowest level of the map nothing is
-  /// certain, and what is likely is taken from that level.
+  /// Raise horizons to the residual's low bound, its estimate and its high bound. Below the lowest level of the map, the bounds
+  /// are 0 and infinite, and the estimate is that of the lowest level.
   void raise_to_low(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
   void raise_to_estimate(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
   void raise_to_high(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
-  /// To where sky may be seen below something of the residual city, at the most.
+  /// To the upper bound of the residual's lower borders: below it, sky may be seen under an overhang.
   void raise_to_overhang(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
 
  private:
   using Patch = std::optional<std::uint32_t>;
   [[nodiscard]] Patch patch_of(const ReceiverPacket& receivers, std::size_t lane) const;
-  /// The same, but that of the lowest level for those below it.
+  /// The same, but the lowest patch for receivers below it.
   [[nodiscard]] Patch patch_or_lowest(const ReceiverPacket& receivers, std::size_t lane) const;
   [[nodiscard]] std::span<const float> low_row(Patch patch) const {
     return patch ? map_.row(map_.low, *patch) : std::span<const float>(level_);
@@ -44,7 +44,7 @@ class ResidualHorizon {
   }
 
   const FarHorizon& map_;
-  bool is_grounded_;  ///< none of it overhangs
+  bool is_grounded_;  ///< the residual has no overhangs
   std::vector<std::uint32_t> bin_of_azimuth_;
   std::vector<float> level_, infinite_;
 };

@@ -7,12 +7,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "horizon/facing_edges.hpp"
+#include "horizon/kernels.hpp"
 
 namespace farlod {
 namespace {
 
-/// Sorting by distance need not be fine to be worth it: steps, 32 from each distance to its double, from 0.25 m to 130 km.
+/// A coarse order by distance is enough: 32 steps from each distance to its double, from 0.25 m to 130 km. The bits of a float
+/// above the 18 lowest are its exponent and 5 bits of its fraction: they count these steps.
 constexpr std::uint32_t step_bits = 18, step_count = 19 * 32, nearest_step = std::bit_cast<std::uint32_t>(0.25F) >> step_bits;
 
 std::size_t step_of(float distance_m) {
@@ -20,9 +21,15 @@ std::size_t step_of(float distance_m) {
   return std::min(std::max(step, nearest_step) - nearest_step, step_count - 1);
 }
 
-/// The numbers of the distances that are not less than 0, from near to far, step by step; in a step, as they come.
+CenteredBox centered(const ReceiverBox& b) {
+  const float x = 0.5F * (b.low.x + b.high.x), y = 0.5F * (b.low.y + b.high.y);
+  return {x, y, std::max(b.high.x - x, x - b.low.x), std::max(b.high.y - y, y - b.low.y), b.low.z, b.high.z};
+}
+
+/// A counting sort: the numbers of the distances ≥ 0, from near to far by steps, and in their order within a step.
 std::vector<std::uint32_t> from_near_to_far(std::span<const float> distances_m) {
   std::vector<std::uint32_t> place_of_step(step_count + 1);
+  // Count each step, sum up where each begins, and put each number there
   for (const float d : distances_m)
     if (d >= 0.0F) ++place_of_step[step_of(d) + 1];
   for (std::size_t step = 0; step < step_count; ++step) place_of_step[step + 1] += place_of_step[step];
@@ -36,7 +43,7 @@ std::vector<std::uint32_t> from_near_to_far(std::span<const float> distances_m) 
 
 SilhouetteEdges SilhouetteEdges::facing(const ReceiverBox& box) const {
   std::vector<float> distances_m(batches_.size() * lanes);
-  find_facing(batches_, role_, box, distances_m);
+  edge_kernels().find_facing({batches_, role_}, centered(box), distances_m.data());
   const std::vector<std::uint32_t> order = from_near_to_far(std::span(distances_m).first(size()));
   SilhouetteEdges result(role_);
   result.batches_.resize((order.size() + lanes - 1) / lanes);

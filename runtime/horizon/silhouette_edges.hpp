@@ -16,15 +16,16 @@ struct ReceiverBox {
   Point3f low, high;
 };
 
-/// Edges of one role that can be a silhouette, in batches that are computed at once, coordinate by coordinate. Cell frame.
+/// Edges of one role that can be a silhouette, in batches of 16 that are computed at once: an array for each coordinate. Cell
+/// frame.
 class SilhouetteEdges {
  public:
   static constexpr std::size_t lanes = 16;
-  /// Lanes without an edge hold nothing that is seen: both ends are one point.
+  /// Both ends of a lane without an edge are one point, which no receiver sees.
   struct Batch {
     using Lanes = std::array<float, lanes>;
     alignas(64) Lanes ax{}, ay{}, az{}, bx{}, by{}, bz{};
-    Lanes left{}, right{};  ///< slopes of the facets beside: AdjacentSlopes::slope
+    Lanes left{}, right{};  ///< slopes of the adjacent facets: AdjacentSlopes::slope
 
     void copy_lane(std::size_t lane, const Batch& from, std::size_t of) {
       for (const auto member :
@@ -38,19 +39,19 @@ class SilhouetteEdges {
   [[nodiscard]] EdgeRole role() const { return role_; }
   [[nodiscard]] std::size_t size() const { return adjacent_.size(); }
   [[nodiscard]] bool empty() const { return size() == 0; }
-  /// Makes room for so many.
+  /// Allocates memory for so many.
   void reserve(std::size_t count) {
     batches_.reserve((count + lanes - 1) / lanes);
     adjacent_.reserve(count);
   }
-  /// Turns an edge round if need be: if only one side is a wall, that is to the right of the way from a to b. Its role must be
-  /// that of all.
+  /// Swaps the ends if only the facet to the left of the way from a to b is a wall: then it is to the right. Of an edge right
+  /// above a receiver, the left side hides the sky. The edge must have the role of all.
   void add(const HorizonEdge& e) {
-    const bool turns = (e.adjacent.left == AdjacentSlopes::straight_down) & (e.adjacent.right != AdjacentSlopes::straight_down);
+    const bool swaps = (e.adjacent.left == AdjacentSlopes::straight_down) & (e.adjacent.right != AdjacentSlopes::straight_down);
     const std::size_t lane = size() % lanes;
     if (lane == 0) batches_.emplace_back();
-    // Both ends by their number: a branch would be guessed wrong for every other edge
-    const std::size_t a = turns ? 1 : 0, b = 1 - a;
+    // Swap by indexing: a branch would be mispredicted for every other edge
+    const std::size_t a = swaps ? 1 : 0, b = 1 - a;
     const std::array x{e.a.x, e.b.x}, y{e.a.y, e.b.y}, z{e.a.z, e.b.z};
     const std::array sides{e.adjacent.left, e.adjacent.right};
     put(lane, {{x[a], y[a], z[a]}, {x[b], y[b], z[b]}, {sides[a], sides[b]}, role_}, batches_.back());
@@ -59,10 +60,12 @@ class SilhouetteEdges {
   [[nodiscard]] HorizonEdge at(std::size_t n) const {
     const Batch& batch = batches_[n / lanes];
     const std::size_t lane = n % lanes;
-    return {{batch.ax[lane], batch.ay[lane], batch.az[lane]}, {batch.bx[lane], batch.by[lane], batch.bz[lane]}, adjacent_[n], role_};
+    return {
+        {batch.ax[lane], batch.ay[lane], batch.az[lane]}, {batch.bx[lane], batch.by[lane], batch.bz[lane]}, adjacent_[n], role_};
   }
   [[nodiscard]] std::span<const Batch> batches() const { return batches_; }
-  /// Those that can be a silhouette for receivers in a box, from near to far as seen from its middle, in steps of 3 %.
+  /// The edges that can be a silhouette for some receiver in a box, from near to far in the plan from its centre, in steps of 3
+  /// %.
   [[nodiscard]] SilhouetteEdges facing(const ReceiverBox& box) const;
 
  private:

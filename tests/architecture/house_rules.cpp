@@ -29,7 +29,7 @@ constexpr LongFunction long_functions[] = {
     {"preprocess/pipeline/pack.cpp", "write_package", "one pipeline whose steps share what they measure"},
     {"preprocess/tiles/tiles.cpp", "close_foot", "one decision after the other about the same floor"},
     {"preprocess/tiles/tiles.cpp", "place_building", "one building's way through cutting, which shares a dozen values"},
-    {"runtime/horizon/gap_rays.cpp", "trace_gaps", "a kernel: its steps share vectors of 16 lanes"},
+    {"runtime/horizon/horizon_engine.cpp", "trace_gaps", "a kernel: its steps share vectors of 16 lanes"},
 };
 
 bool begins_with_licence(const SourceFile& file, std::string_view mark) {

@@ -100,9 +100,9 @@ void draw_silhouettes(KernelCity& city, State& state) {
   const CellReceivers& cell = inhabited_cell(city);
   const FarHorizon far = city.package.far_horizon(cell.cell);
   const CellSilhouettes silhouettes = cell_silhouettes(city.package, cell.cell, far, bounding_box(cell.receivers));
-  const AzimuthRing ring = AzimuthRing::even(SkySettings().azimuths, city.package.grid().rotation);
+  const AzimuthSampling azimuths = AzimuthSampling::even(SkySettings().azimuths, city.package.grid().rotation);
   const ReceiverPacket packet = first_packet(cell);
-  PacketHorizon horizon(ring);
+  PacketHorizon horizon(azimuths);
   for (auto _ : state) {
     horizon.clear();
     horizon.raise(silhouettes.grounded, packet);

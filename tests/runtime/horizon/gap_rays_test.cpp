@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "horizon/gap_rays.hpp"
+#include "horizon/horizon_engine.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/runtime/horizon/random_places.hpp"
-#include "tests/runtime/horizon/sky_judge.hpp"
+#include "tests/runtime/horizon/sky_oracle.hpp"
 
 namespace farlod {
 namespace {
@@ -60,7 +60,7 @@ class GapRays : public testing::Test {
     return sum;
   }
 
-  const AzimuthRing ring_ = AzimuthRing::even(azimuths, {});
+  const AzimuthSampling ring_ = AzimuthSampling::even(azimuths, {});
   PacketHorizon from_{ring_}, to_{ring_};
   std::vector<PacketHorizon::Row> sky_;
 };
@@ -139,15 +139,15 @@ TEST(CloseSmallest, ClosesNoMoreThanAsked) {
   std::vector<PacketHorizon::Row> sky(5);
   const std::array sizes{0.004F, 0.001F, 0.0F, 0.002F, 0.001F};
   for (std::size_t k = 0; k < sky.size(); ++k) sky[k][3] = sky[k][4] = sizes[k];
-  EXPECT_FLOAT_EQ(close_smallest(sky, 3, 0.0035F), 0.002F);
+  EXPECT_FLOAT_EQ(remove_smallest_gaps(sky, 3, 0.0035F), 0.002F);
   const std::array left{0.004F, 0.0F, 0.0F, 0.002F, 0.0F};
   for (std::size_t k = 0; k < sky.size(); ++k) {
     EXPECT_EQ(sky[k][3], left[k]);
     EXPECT_EQ(sky[k][4], sizes[k]) << "another receiver's";
   }
-  EXPECT_FLOAT_EQ(close_smallest(sky, 4, 0.0015F), 0.001F) << "one of the two smallest";
-  EXPECT_FLOAT_EQ(close_smallest(sky, 4, 1.0F), 0.007F);
-  EXPECT_EQ(close_smallest(sky, 4, 1.0F), 0.0F);
+  EXPECT_FLOAT_EQ(remove_smallest_gaps(sky, 4, 0.0015F), 0.001F) << "one of the two smallest";
+  EXPECT_FLOAT_EQ(remove_smallest_gaps(sky, 4, 1.0F), 0.007F);
+  EXPECT_EQ(remove_smallest_gaps(sky, 4, 1.0F), 0.0F);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "farlod/horizon/edge_facing.hpp"
 #include "tests/runtime/horizon/packed_overhangs.hpp"
-#include "tests/runtime/horizon/sky_judge.hpp"
+#include "tests/runtime/horizon/sky_oracle.hpp"
 #include "tests/runtime/horizon/town_by_hand.hpp"
 #include "tests/runtime/package/far_horizon_by_hand.hpp"
 
@@ -44,7 +44,7 @@ class KnownTown {
         engine_(ring_, weight, map, silhouettes_, overhangs_, gaps) {}
 
   [[nodiscard]] FarHorizon& map() { return far_.map(); }
-  [[nodiscard]] const AzimuthRing& ring() const { return ring_; }
+  [[nodiscard]] const AzimuthSampling& ring() const { return ring_; }
   /// Answers receivers packet by packet; the numbers of those that needed rays.
   std::vector<std::uint32_t> evaluate(std::span<const Receiver> receivers, std::span<SvfInterval> shares) {
     return packet_by_packet(receivers, shares, &HorizonEngine::evaluate);
@@ -69,7 +69,7 @@ class KnownTown {
     return by_rays;
   }
 
-  AzimuthRing ring_ = AzimuthRing::even(azimuths, {});
+  AzimuthSampling ring_ = AzimuthSampling::even(azimuths, {});
   FarHorizonByHand far_{{}};
   PackedOverhangs packed_;
   OverhangGeometry overhangs_;
@@ -89,8 +89,8 @@ TEST(HorizonEngine, AnswersWhatIsAboveTheEdgesOfATown) {
       EXPECT_TRUE(known.evaluate(receivers, shares).empty());
       for (const Receiver& r : receivers) {
         const auto sky_above = [&](double SlopeRange::*end) {
-          return judged_sky(weight, normal, known.ring(), [&](std::size_t k) {
-            return judged_horizon(town.grounded(), r.p_cell, {known.ring().cosine()[k], known.ring().sine()[k]}).*end;
+          return expected_sky(weight, normal, known.ring(), [&](std::size_t k) {
+            return expected_horizon(town.grounded(), r.p_cell, {known.ring().cosine()[k], known.ring().sine()[k]}).*end;
           });
         };
         const double rounding = sky_rounding(azimuths, normal);
@@ -131,7 +131,7 @@ TEST(HorizonEngine, WhatIsLikelyChangesEvenlyFromFloorToFloor) {
     std::vector<SvfInterval> share(1);
     known.evaluate(receiver, share);
     const double between = 1.0 - 0.05 * double{std::clamp(z, 0.0F, 10.0F)};
-    const double expected = judged_sky(SkyWeight::cosine, up, known.ring(), [&](std::size_t k) {
+    const double expected = expected_sky(SkyWeight::cosine, up, known.ring(), [&](std::size_t k) {
       return between + 0.1 * map.bins.bin_of({known.ring().cosine()[k], known.ring().sine()[k]});
     });
     EXPECT_NEAR(share[0].estimate, expected, sky_rounding(azimuths, up)) << z << " m";
@@ -177,9 +177,9 @@ TEST(HorizonEngine, BoundsHoldWhatIsLikely) {
     const SvfInterval& share = bounded[r.index];
     EXPECT_EQ(share.estimate, plain[r.index].estimate);
     const auto sky_above = [&](double residual) {
-      return judged_sky(SkyWeight::cosine, up, known.ring(), [&](std::size_t k) {
+      return expected_sky(SkyWeight::cosine, up, known.ring(), [&](std::size_t k) {
         const Point2d u{known.ring().cosine()[k], known.ring().sine()[k]};
-        return std::max(residual, judged_horizon(town.grounded(), r.p_cell, u).high);
+        return std::max(residual, expected_horizon(town.grounded(), r.p_cell, u).high);
       });
     };
     // Where an edge ends within rounding of an azimuth, that azimuth's share may differ
@@ -204,7 +204,7 @@ TownByHand slab_behind_houses() {
 struct Gap {
   bool surely = false, surely_not = true;
 };
-Gap gap_below(const TownByHand& town, const AzimuthRing& ring, const Point3f& p) {
+Gap gap_below(const TownByHand& town, const AzimuthSampling& ring, const Point3f& p) {
   const std::vector<HorizonEdge> ground = town.grounded(), borders = town.edges(EdgeRole::underside);
   // A border beside which a facet reaches lower shows nothing
   std::vector<HorizonEdge> facing;
@@ -215,8 +215,8 @@ Gap gap_below(const TownByHand& town, const AzimuthRing& ring, const Point3f& p)
   Gap result;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Point2d u{ring.cosine()[k], ring.sine()[k]};
-    const SlopeRange grounded = judged_horizon(ground, p, u), border = judged_horizon(borders, p, u);
-    result.surely = result.surely || judged_horizon(facing, p, u).low > grounded.high;
+    const SlopeRange grounded = expected_horizon(ground, p, u), border = expected_horizon(borders, p, u);
+    result.surely = result.surely || expected_horizon(facing, p, u).low > grounded.high;
     result.surely_not = result.surely_not && border.high < std::max(grounded.low, std::numeric_limits<double>::min());
   }
   return result;

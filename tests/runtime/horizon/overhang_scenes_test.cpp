@@ -143,7 +143,7 @@ class OverhangScenes : public testing::TestWithParam<Scene> {
   [[nodiscard]] std::vector<SvfInterval> evaluate(const std::vector<Point3f>& places, bool wants_bounds) const {
     const PackedOverhangs packed(GetParam().town.overhanging());
     OverhangGeometry overhangs = packed.geometry();
-    const AzimuthRing ring = AzimuthRing::even(azimuths, {});
+    const AzimuthSampling ring = AzimuthSampling::even(azimuths, {});
     FarHorizonByHand far({});
     HorizonEngine engine(ring, SkyWeight::cosine, far.map(), GetParam().town.silhouettes(), overhangs, {0.0F, rays_per_azimuth});
     std::vector<SvfInterval> shares(places.size());

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <span>
 
-#include "horizon/overhang_geometry.hpp"
+#include "horizon/overhangs.hpp"
 #include "package/package.hpp"
 #include "tests/scenes/packed_city.hpp"
 

@@ -7,25 +7,26 @@
 #include <numeric>
 
 #include "farlod/angle.hpp"
-#include "horizon/ray_fan.hpp"
-#include "tests/runtime/horizon/horizon_judge.hpp"
+#include "horizon/azimuth_sampling.hpp"
+#include "tests/runtime/horizon/horizon_oracle.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
 
 namespace farlod {
 namespace {
 
-std::vector<AzimuthRing> some_rings() {
-  return {AzimuthRing::even(1, {}), AzimuthRing::even(16, {}), AzimuthRing::even(256, GridRotation(Angle::degrees(20.0))),
-          RayFan(SkyPartition(SkyWeight::cosine, 290).directions()).ring(),
-          RayFan(SkyPartition(SkyWeight::solid_angle, 1).directions()).ring()};
+std::vector<AzimuthSampling> some_rings() {
+  return {AzimuthSampling::even(1, {}), AzimuthSampling::even(16, {}),
+          AzimuthSampling::even(256, GridRotation(Angle::degrees(20.0))),
+          DirectionSampling(SkyPartition(SkyWeight::cosine, 290).directions()).azimuths(),
+          DirectionSampling(SkyPartition(SkyWeight::solid_angle, 1).directions()).azimuths()};
 }
 
-Point2d azimuth(const AzimuthRing& ring, std::size_t k) { return {ring.cosine()[k], ring.sine()[k]}; }
+Point2d azimuth(const AzimuthSampling& ring, std::size_t k) { return {ring.cosine()[k], ring.sine()[k]}; }
 
 float just_above(double slope) { return std::nextafter(static_cast<float>(slope), std::numeric_limits<float>::infinity()); }
 float just_below(double slope) { return std::nextafter(static_cast<float>(slope), 0.0F); }
 
-/// Whether the horizon of one receiver lies where the judge says, at one azimuth.
+/// Whether the horizon of one receiver lies where the oracle says, at one azimuth.
 testing::AssertionResult lies_in(const PacketHorizon& horizon, std::size_t lane, std::size_t k, const SlopeRange& range) {
   const auto is_below = [&](float slope) { return ((horizon.below(k, slope) >> lane) & 1U) != 0; };
   if (is_below(just_above(range.high)) && !is_below(just_below(range.low))) return testing::AssertionSuccess();
@@ -33,15 +34,16 @@ testing::AssertionResult lies_in(const PacketHorizon& horizon, std::size_t lane,
                                      << range.high;
 }
 
-/// Draws edges for a packet on some rings, and judges every slope. Returns how many rise above the horizontal.
-std::size_t judge(const std::vector<HorizonEdge>& edges, const std::vector<Point3f>& eyes) {
+/// Draws edges for a packet on some samplings, and compares every slope with the oracle. Returns how many rise above the
+/// horizontal.
+std::size_t compare_with_oracle(const std::vector<HorizonEdge>& edges, const std::vector<Point3f>& eyes) {
   std::size_t raised = 0;
-  for (const AzimuthRing& ring : some_rings()) {
+  for (const AzimuthSampling& ring : some_rings()) {
     PacketHorizon horizon(ring);
     horizon.raise(silhouettes_of(edges), packet_of(eyes));
     for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane)
       for (std::size_t k = 0; k < ring.size(); ++k) {
-        const SlopeRange range = judged_horizon(edges, eyes[std::min(lane, eyes.size() - 1)], azimuth(ring, k));
+        const SlopeRange range = expected_horizon(edges, eyes[std::min(lane, eyes.size() - 1)], azimuth(ring, k));
         EXPECT_TRUE(lies_in(horizon, lane, k, range));
         raised += range.low > 0.0 ? 1 : 0;
       }
@@ -63,7 +65,7 @@ TEST(PacketHorizon, EdgesAnywhere) {
   for (int n = 0; n < 40; ++n) {
     std::vector<HorizonEdge> edges;
     for (int e = 0; e < 20; ++e) edges.push_back(random.edge(60.0, -5.0, 40.0));
-    raised += judge(edges, eyes_in_a_row(random.place(30.0, 0.0, 20.0), 16));
+    raised += compare_with_oracle(edges, eyes_in_a_row(random.place(30.0, 0.0, 20.0), 16));
   }
   EXPECT_GT(raised, 10000U) << "the edges hide too little to tell";
 }
@@ -72,7 +74,7 @@ TEST(PacketHorizon, OneEdgeAtATime) {
   RandomPlaces random;
   for (int n = 0; n < 300; ++n) {
     const HorizonEdge edge = random.edge(60.0, -5.0, 40.0);
-    judge({edge}, eyes_in_a_row(random.place(30.0, 0.0, 20.0), 16));
+    compare_with_oracle({edge}, eyes_in_a_row(random.place(30.0, 0.0, 20.0), 16));
   }
 }
 
@@ -83,7 +85,7 @@ TEST(PacketHorizon, ReceiversThatSeeAnEdgeInVeryDifferentDirections) {
     const HorizonEdge edge = random.edge(8.0, 5.0, 40.0);
     std::vector<Point3f> eyes;
     for (int e = 0; e < 16; ++e) eyes.push_back(random.place(12.0, 0.0, 20.0));
-    judge({edge}, eyes);
+    compare_with_oracle({edge}, eyes);
   }
 }
 
@@ -96,7 +98,7 @@ TEST(PacketHorizon, EdgesAfarAreWhereTheyMoveToEvenly) {
     const Point3f middle{distance_m * aside.x, distance_m * aside.y, 0.0F};
     const auto end = [&](float s) { return Point3f{middle.x + s * along.x, middle.y + s * along.y, random.between(3.0, 90.0)}; };
     const Point3f a = end(-half_m);
-    raised += judge({{a, end(half_m)}}, eyes_in_a_row({0.0F, 0.0F, 1.5F}, 16));
+    raised += compare_with_oracle({{a, end(half_m)}}, eyes_in_a_row({0.0F, 0.0F, 1.5F}, 16));
   }
   EXPECT_GT(raised, 10000U) << "the edges hide too little to tell";
 }
@@ -106,7 +108,7 @@ TEST(PacketHorizon, PartialPacketsRepeatTheirLastReceiver) {
   for (const std::size_t count : {1U, 2U, 5U, 15U}) {
     std::vector<HorizonEdge> edges;
     for (int e = 0; e < 10; ++e) edges.push_back(random.edge(60.0, 0.0, 40.0));
-    judge(edges, eyes_in_a_row(random.place(10.0, 0.0, 5.0), count));
+    compare_with_oracle(edges, eyes_in_a_row(random.place(10.0, 0.0, 5.0), count));
   }
 }
 
@@ -117,11 +119,11 @@ TEST(PacketHorizon, EdgesAcrossTheBeginningOfTheTurn) {
     const float south = random.between(-30.0, -0.1);
     const HorizonEdge across{{x, south, z}, {x, random.between(0.1, 30.0), z}};
     // Some eyes see all of it on one side of azimuth 0
-    judge({across}, eyes_in_a_row({0.0F, random.between(-40.0, 40.0), 1.5F}, 16));
+    compare_with_oracle({across}, eyes_in_a_row({0.0F, random.between(-40.0, 40.0), 1.5F}, 16));
   }
   // From end to end, on all of the turn but half: beside the eye, whichever way it runs
-  judge({{{0.5F, -1000.0F, 9.0F}, {0.5F, 1000.0F, 9.0F}}}, eyes_in_a_row({0.0F, 0.0F, 1.5F}, 16));
-  judge({{{-0.5F, 1000.0F, 9.0F}, {-0.5F, -1000.0F, 9.0F}}}, eyes_in_a_row({0.0F, 0.0F, 1.5F}, 16));
+  compare_with_oracle({{{0.5F, -1000.0F, 9.0F}, {0.5F, 1000.0F, 9.0F}}}, eyes_in_a_row({0.0F, 0.0F, 1.5F}, 16));
+  compare_with_oracle({{{-0.5F, 1000.0F, 9.0F}, {-0.5F, -1000.0F, 9.0F}}}, eyes_in_a_row({0.0F, 0.0F, 1.5F}, 16));
 }
 
 TEST(PacketHorizon, EdgesSeenEndOn) {
@@ -132,7 +134,7 @@ TEST(PacketHorizon, EdgesSeenEndOn) {
     const HorizonEdge edge{{eye.x + begin * along.x, eye.y + begin * along.y, 10.0F},
                            {eye.x + (begin + length) * along.x - aside * along.y,
                             eye.y + (begin + length) * along.y + aside * along.x, random.between(5.0, 20.0)}};
-    judge({edge}, eyes_in_a_row(eye, 3));
+    compare_with_oracle({edge}, eyes_in_a_row(eye, 3));
   }
 }
 
@@ -145,7 +147,7 @@ TEST(PacketHorizon, LookingAlongAnEdgeNothingIsSteeperThanItsNearEndCanBe) {
     const float near_m = random.between(1.0, 50.0), far_m = near_m + random.between(0.1, 50.0),
                 rise_m = random.between(1.0, 20.0);
     const auto end = [&](float s) { return Point3f{eye.x + s * along.x, eye.y + s * along.y, eye.z + rise_m}; };
-    const AzimuthRing ring = AzimuthRing::of(std::vector{Point3d{along.x, along.y, 0.0}});
+    const AzimuthSampling ring = AzimuthSampling(std::vector{Point3d{along.x, along.y, 0.0}});
     PacketHorizon horizon(ring);
     horizon.raise(silhouettes_of(std::vector<HorizonEdge>{{end(near_m), end(far_m)}}), packet_of(std::vector{eye}));
     EXPECT_NE(horizon.below(0, 1.01F * rise_m / near_m), 0U) << n;
@@ -163,20 +165,20 @@ TEST(PacketHorizon, EdgesRightBesideAnEye) {
       return Point3f{eye.x + s * along.x - aside * along.y, eye.y + s * along.y + aside * along.x, z};
     };
     const float back_z = random.between(5.1, 30.0);
-    judge({{at(-back, back_z), at(on, random.between(5.1, 30.0))}}, eyes_in_a_row(eye, 2));
+    compare_with_oracle({{at(-back, back_z), at(on, random.between(5.1, 30.0))}}, eyes_in_a_row(eye, 2));
   }
 }
 
 TEST(PacketHorizon, AnEyeInLineWithAnEdgeSeesNothingOfIt) {
   const HorizonEdge edge{{3.0F, 4.0F, 10.0F}, {9.0F, 4.0F, 10.0F}};
-  judge({edge}, {{3.0F, 4.0F, 1.5F}, {9.0F, 4.0F, 1.5F}, {2.0F, 4.0F, 1.5F}, {3.0F, 4.0F, 10.0F}});
+  compare_with_oracle({edge}, {{3.0F, 4.0F, 1.5F}, {9.0F, 4.0F, 1.5F}, {2.0F, 4.0F, 1.5F}, {3.0F, 4.0F, 10.0F}});
 }
 
 TEST(PacketHorizon, RightBelowTheTopOfAWallTheHouseIsHiddenAndNotTheStreet) {
   // Whichever way the edge runs, the house is in the west
   const AdjacentSlopes house_left{0, AdjacentSlopes::straight_down}, house_right{AdjacentSlopes::straight_down, 0};
   const Point3f south{10.0F, -5.0F, 6.0F}, north{10.0F, 5.0F, 6.0F};
-  const AzimuthRing ring = AzimuthRing::even(64, {});
+  const AzimuthSampling ring = AzimuthSampling::even(64, {});
   for (const HorizonEdge& edge : {HorizonEdge{south, north, house_left}, HorizonEdge{north, south, house_right}}) {
     PacketHorizon horizon(ring);
     horizon.raise(silhouettes_of(std::vector{edge}), packet_of(std::vector{Point3f{10.0F, 1.0F, 1.5F}}));
@@ -189,13 +191,13 @@ TEST(PacketHorizon, RightBelowTheTopOfAWallTheHouseIsHiddenAndNotTheStreet) {
 }
 
 TEST(PacketHorizon, WhatIsNotAboveTheEyeRaisesNothing) {
-  const AzimuthRing ring = AzimuthRing::even(64, {});
+  const AzimuthSampling ring = AzimuthSampling::even(64, {});
   RandomPlaces random;
   PacketHorizon horizon(ring);
   std::vector<HorizonEdge> edges;
   for (int e = 0; e < 100; ++e) edges.push_back(random.edge(50.0, -40.0, 2.0));
   horizon.raise(silhouettes_of(edges), packet_of(eyes_in_a_row({0.0F, 0.0F, 2.0F}, 16)));
-  EXPECT_EQ(horizon.above(PacketHorizon(ring)), 0U);
+  EXPECT_EQ(horizon.exceeds(PacketHorizon(ring)), 0U);
 }
 
 TEST(PacketHorizon, ReceiversAtManyHeightsSeeWhatIsAboveEach) {
@@ -203,13 +205,13 @@ TEST(PacketHorizon, ReceiversAtManyHeightsSeeWhatIsAboveEach) {
   for (int n = 0; n < 50; ++n) {
     std::vector<Point3f> eyes;
     for (int e = 0; e < 16; ++e) eyes.push_back({random.between(0.0, 3.0), random.between(0.0, 3.0), random.between(0.0, 60.0)});
-    judge({random.edge(40.0, 0.0, 60.0), random.edge(40.0, 0.0, 60.0)}, eyes);
+    compare_with_oracle({random.edge(40.0, 0.0, 60.0), random.edge(40.0, 0.0, 60.0)}, eyes);
   }
 }
 
 TEST(PacketHorizon, NeitherTheOrderOfEdgesNorOfTheirEndsMatters) {
   RandomPlaces random;
-  const AzimuthRing ring = AzimuthRing::even(128, {});
+  const AzimuthSampling ring = AzimuthSampling::even(128, {});
   std::vector<HorizonEdge> edges;
   for (int e = 0; e < 30; ++e) edges.push_back(random.edge(60.0, 0.0, 40.0));
   const ReceiverPacket eyes = packet_of(eyes_in_a_row({0.0F, 0.0F, 1.5F}, 16));
@@ -217,38 +219,38 @@ TEST(PacketHorizon, NeitherTheOrderOfEdgesNorOfTheirEndsMatters) {
   forwards.raise(silhouettes_of(edges), eyes);
   std::reverse(edges.begin(), edges.end());
   backwards.raise(silhouettes_of(edges), eyes);
-  EXPECT_EQ(forwards.above(backwards) | backwards.above(forwards), 0U);
+  EXPECT_EQ(forwards.exceeds(backwards) | backwards.exceeds(forwards), 0U);
 }
 
 TEST(PacketHorizon, RowsRaiseOneReceiverOrAll) {
-  const AzimuthRing ring = AzimuthRing::even(32, {});
+  const AzimuthSampling ring = AzimuthSampling::even(32, {});
   const std::vector<float> row{0.5F, 2.0F};
   std::vector<std::uint32_t> bins(32);
   for (std::uint32_t k = 0; k < 32; ++k) bins[k] = k / 16;
   PacketHorizon one(ring), all(ring);
   one.raise(row, only(5), bins);
   all.raise(row, everybody, bins);
-  EXPECT_EQ(one.above(PacketHorizon(ring)), 1U << 5);
-  EXPECT_EQ(all.above(one), 0xFFFFU & ~(1U << 5));
+  EXPECT_EQ(one.exceeds(PacketHorizon(ring)), 1U << 5);
+  EXPECT_EQ(all.exceeds(one), 0xFFFFU & ~(1U << 5));
   for (std::size_t k = 0; k < 32; ++k) {
     EXPECT_EQ(all.below(k, row[bins[k]]), 0U);
     EXPECT_EQ(all.below(k, just_above(row[bins[k]])), 0xFFFFU);
   }
   one.clear();
-  EXPECT_EQ(one.above(PacketHorizon(ring)), 0U);
+  EXPECT_EQ(one.exceeds(PacketHorizon(ring)), 0U);
 }
 
 TEST(PacketHorizon, RaisingNeverLowers) {
-  const AzimuthRing ring = AzimuthRing::even(64, {});
+  const AzimuthSampling ring = AzimuthSampling::even(64, {});
   RandomPlaces random;
   const ReceiverPacket eyes = packet_of(eyes_in_a_row({0.0F, 0.0F, 1.5F}, 16));
   PacketHorizon horizon(ring);
   for (int n = 0; n < 50; ++n) {
     const PacketHorizon before = horizon;
     horizon.raise(silhouettes_of(std::vector{random.edge(60.0, 0.0, 30.0)}), eyes);
-    EXPECT_EQ(before.above(horizon), 0U);
+    EXPECT_EQ(before.exceeds(horizon), 0U);
   }
-  EXPECT_NE(horizon.above(PacketHorizon(ring)), 0U);
+  EXPECT_NE(horizon.exceeds(PacketHorizon(ring)), 0U);
 }
 
 }  // namespace

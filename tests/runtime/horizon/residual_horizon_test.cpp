@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/runtime/horizon/horizon_judge.hpp"
+#include "tests/runtime/horizon/horizon_oracle.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
 #include "tests/runtime/package/far_horizon_by_hand.hpp"
 
@@ -50,7 +50,7 @@ class TwoFloors : public testing::Test {
   }
 
   FarHorizonByHand far_{{}};
-  const AzimuthRing ring_ = AzimuthRing::even(40, {});
+  const AzimuthSampling ring_ = AzimuthSampling::even(40, {});
   const std::vector<std::vector<float>> alike_and_not_{{2.5F},  {2.5F, 2.5F, 2.5F},          {1.0F, 9.0F, 3.0F},
                                                        {-2.0F}, {0.0F, 10.0F, 50.0F, -1.0F}, {9.9F, 10.1F}};
 };

@@ -5,12 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <numbers>
+#include <string>
+#include <vector>
 
+#include "farlod/horizon/edge_facing.hpp"
+#include "farlod/horizon/edge_view.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "tests/oracles/distance_to_segment.hpp"
-#include "tests/runtime/horizon/horizon_judge.hpp"
+#include "tests/runtime/horizon/horizon_oracle.hpp"
+#include "tests/runtime/horizon/random_places.hpp"
 #include "tests/runtime/horizon/town_by_hand.hpp"
 
 namespace farlod {
@@ -49,11 +55,12 @@ TEST(SilhouetteEdges, ThoseThatFaceAwayHideNothing) {
     const std::vector<HorizonEdge> facing = all_of(town.silhouettes().grounded.facing(box));
     all += town.grounded().size();
     kept += facing.size();
-    const AzimuthRing ring = AzimuthRing::even(64, {});
+    const AzimuthSampling ring = AzimuthSampling::even(64, {});
     for (const Receiver& r : receivers)
       for (std::size_t k = 0; k < ring.size(); ++k) {
         const Point2d u{ring.cosine()[k], ring.sine()[k]};
-        EXPECT_GE(judged_horizon(facing, r.p_cell, u).high, judged_horizon(town.grounded(), r.p_cell, u).low) << "azimuth " << k;
+        EXPECT_GE(expected_horizon(facing, r.p_cell, u).high, expected_horizon(town.grounded(), r.p_cell, u).low)
+            << "azimuth " << k;
       }
   }
   EXPECT_LT(kept, all * 3 / 4) << "too few are left out to tell";
@@ -111,6 +118,153 @@ TEST(SilhouetteEdges, WallsWithoutThicknessFaceBothWays) {
   edges.add({{10.0F, -5.0F, 8.0F}, {10.0F, 5.0F, 8.0F}});
   EXPECT_EQ(edges.facing({{0.0F, 0.0F, 0.0F}, {5.0F, 5.0F, 2.0F}}).size(), 1U);
   EXPECT_EQ(edges.facing({{15.0F, 0.0F, 0.0F}, {20.0F, 5.0F, 2.0F}}).size(), 1U);
+}
+
+// Which edges face receivers: the oracle is may_be_silhouette, in doubles.
+
+Point3d exactly(const Point3f& p) { return {p.x, p.y, p.z}; }
+
+bool is_kept_by_oracle(const HorizonEdge& e, const ReceiverBox& box) {
+  return std::max(e.a.z, e.b.z) > box.low.z &&
+         may_be_silhouette(exactly(e.a), exactly(e.b), e.adjacent, e.role, {{box.low.x, box.low.y}, {box.high.x, box.high.y}},
+                           box.low.z, box.high.z);
+}
+
+/// Distances, or less than 0, for a whole number of batches. All edges have the role of the first.
+std::vector<float> found(const std::vector<HorizonEdge>& edges, const ReceiverBox& box) {
+  std::vector<SilhouetteEdges::Batch> batches(edges.size() / SilhouetteEdges::lanes);
+  for (std::size_t n = 0; n < edges.size(); ++n) {
+    SilhouetteEdges::Batch& batch = batches.at(n / SilhouetteEdges::lanes);
+    const std::size_t lane = n % SilhouetteEdges::lanes;
+    const auto& [a, b, r, role] = edges[n];
+    EXPECT_EQ(role, edges.front().role);
+    batch.ax[lane] = a.x, batch.ay[lane] = a.y, batch.az[lane] = a.z;
+    batch.bx[lane] = b.x, batch.by[lane] = b.y, batch.bz[lane] = b.z;
+    batch.left[lane] = static_cast<float>(AdjacentSlopes::slope(r.left)),
+    batch.right[lane] = static_cast<float>(AdjacentSlopes::slope(r.right));
+  }
+  std::vector<float> distances_m(edges.size());
+  const float x = 0.5F * (box.low.x + box.high.x), y = 0.5F * (box.low.y + box.high.y);
+  edge_kernels().find_facing(
+      {batches, edges.front().role},
+      {x, y, std::max(box.high.x - x, x - box.low.x), std::max(box.high.y - y, y - box.low.y), box.low.z, box.high.z},
+      distances_m.data());
+  return distances_m;
+}
+
+class Edges {
+ public:
+  explicit Edges(EdgeRole role) : role_(role) {}
+
+  /// Between `reach_m` around the eyes, with facets of all angles on both sides, walls among them.
+  [[nodiscard]] HorizonEdge edge(double reach_m, double length_m) {
+    const Point3f a = random_.place(reach_m, -10.0, 60.0), way = random_.place(length_m, -1.0, 1.0);
+    const float climb = random_.between(-1.0, 1.0) < 0.0F ? 0.0F : random_.between(-length_m, length_m);
+    return {a, {a.x + way.x, a.y + way.y, a.z + climb}, {rise(), rise()}, role_};
+  }
+  /// In line with a corner of the box: whether the eyes are on both sides is decided by less than the rounding of a place.
+  [[nodiscard]] HorizonEdge aimed_edge(double reach_m, double length_m, const ReceiverBox& box) {
+    HorizonEdge e = edge(reach_m, length_m);
+    const Point2d way = Point2d{box.high.x, box.low.y} - Point2d{e.a.x, e.a.y};
+    const double share = length_m / norm(way);
+    e.b = {static_cast<float>(e.a.x + share * way.x), static_cast<float>(e.a.y + share * way.y), e.a.z};
+    return e;
+  }
+  [[nodiscard]] ReceiverBox box() {
+    const Point3f p = random_.place(40.0, -5.0, 40.0);
+    return {p, {p.x + random_.between(0.0, 50.0), p.y + random_.between(0.0, 50.0), p.z + random_.between(0.0, 30.0)}};
+  }
+
+ private:
+  [[nodiscard]] std::int8_t rise() {
+    const std::int8_t wall = role_ == EdgeRole::underside ? AdjacentSlopes::straight_up : AdjacentSlopes::straight_down;
+    return random_.between(-1.0, 1.0) < 0.0F ? wall : static_cast<std::int8_t>(random_.between(-127.0, 127.0));
+  }
+  EdgeRole role_;
+  RandomPlaces random_;
+};
+
+struct Tally {
+  std::size_t kept = 0, away = 0, in_excess = 0;
+};
+Tally compared(EdgeRole role, double reach_m, double length_m) {
+  Edges random(role);
+  Tally tally;
+  for (int n = 0; n < 300; ++n) {
+    const ReceiverBox box = random.box();
+    std::vector<HorizonEdge> edges;
+    for (int k = 0; k < 320; ++k) edges.push_back(random.edge(reach_m, length_m));
+    const std::vector<float> distances_m = found(edges, box);
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      const bool wanted = is_kept_by_oracle(edges[k], box), kept = distances_m[k] >= 0.0F;
+      EXPECT_TRUE(kept || !wanted) << "edge " << k << " of box " << n;
+      (wanted ? tally.kept : tally.away) += 1;
+      tally.in_excess += kept && !wanted ? 1 : 0;
+    }
+  }
+  return tally;
+}
+
+class FacingEdges : public testing::TestWithParam<EdgeRole> {};
+std::string name_of_role(const testing::TestParamInfo<EdgeRole>& info) {
+  const std::array names{"Grounded", "Overhang", "Underside"};
+  return names.at(static_cast<std::size_t>(info.param));
+}
+INSTANTIATE_TEST_SUITE_P(Roles, FacingEdges, testing::Values(EdgeRole::grounded, EdgeRole::overhang, EdgeRole::underside),
+                         name_of_role);
+
+TEST_P(FacingEdges, NoneIsLostThatMayBeASilhouette) {
+  // Near and far ones, and so short that they are next to nothing but rounding
+  for (const double reach_m : {30.0, 300.0, 20000.0})
+    for (const double length_m : {0.001, 10.0, 100.0}) {
+      const Tally tally = compared(GetParam(), reach_m, length_m);
+      EXPECT_GT(tally.kept, 1000U);
+      EXPECT_GT(tally.away, 1000U);
+    }
+}
+
+TEST_P(FacingEdges, RoundingLosesNone) {
+  Edges random(GetParam());
+  std::size_t near_misses = 0;
+  for (int n = 0; n < 300; ++n) {
+    const ReceiverBox box = random.box();
+    std::vector<HorizonEdge> edges;
+    for (int k = 0; k < 320; ++k) edges.push_back(random.aimed_edge(20000.0, 10.0, box));
+    const std::vector<float> distances_m = found(edges, box);
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      EXPECT_TRUE(distances_m[k] >= 0.0F || !is_kept_by_oracle(edges[k], box)) << "edge " << k << " of box " << n;
+      near_misses += is_kept_by_oracle(edges[k], box) ? 0 : 1;
+    }
+  }
+  EXPECT_GT(near_misses, 1000U) << "all are kept anyway";
+}
+
+TEST_P(FacingEdges, RoundingKeepsFewInExcess) {
+  // It decides about who is within millimetres of a plane, of edges tens of metres away
+  const Tally tally = compared(GetParam(), 300.0, 30.0);
+  EXPECT_LT(1000 * tally.in_excess, tally.away);
+}
+
+TEST(FacingEdgesOneByOne, UprightAndBelow) {
+  const HorizonEdge upright{{10.0F, 0.0F, 0.0F}, {10.0F, 0.0F, 9.0F}, {0, 0}}, low{{10.0F, 0.0F, 1.0F}, {10.0F, 9.0F, 1.0F}};
+  std::vector<HorizonEdge> edges(SilhouetteEdges::lanes, low);
+  edges[3] = upright;
+  const std::vector<float> distances_m = found(edges, {{0.0F, 0.0F, 1.0F}, {2.0F, 0.0F, 5.0F}});
+  for (std::size_t n = 0; n < edges.size(); ++n) EXPECT_EQ(distances_m[n], n == 3 ? 9.0F : -1.0F);
+}
+
+TEST(FacingEdgesOneByOne, DistancesAreFromTheMiddle) {
+  RandomPlaces random;
+  std::vector<HorizonEdge> edges;
+  for (int n = 0; n < 160; ++n) edges.push_back(random.edge(100.0, 5.0, 30.0));
+  const std::vector<float> distances_m = found(edges, {{-1.0F, -5.0F, 0.0F}, {3.0F, 7.0F, 1.0F}});
+  const Point2d middle{1.0, 1.0};
+  // A coordinate of up to 101 m is rounded at each of ten steps, and the way along an edge of up to 283 m
+  constexpr double rounding_m = (10.0 * 101.0 + 3.0 * 283.0) * float_rounding;
+  for (std::size_t n = 0; n < edges.size(); ++n)
+    EXPECT_NEAR(distances_m[n],
+                distance_to_segment(horizontal(exactly(edges[n].a)) - middle, horizontal(exactly(edges[n].b)) - middle),
+                rounding_m);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "farlod/angle.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
-#include "tests/runtime/horizon/sky_judge.hpp"
+#include "tests/runtime/horizon/sky_oracle.hpp"
 
 namespace farlod {
 namespace {
@@ -26,7 +26,7 @@ std::vector<Point3f> some_normals(RandomPlaces& random) {
 /// A receiver in each lane, each with a normal and a horizon of its own: level parts, low and high ones, some up to the zenith.
 class RandomHorizons {
  public:
-  explicit RandomHorizons(const AzimuthRing& ring) : ring_(ring), horizon_(ring) {
+  explicit RandomHorizons(const AzimuthSampling& ring) : ring_(ring), horizon_(ring) {
     std::vector<std::uint32_t> bins(ring.size());
     std::iota(bins.begin(), bins.end(), 0U);
     for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane) {
@@ -35,8 +35,8 @@ class RandomHorizons {
     }
   }
   [[nodiscard]] const PacketHorizon& horizon() const { return horizon_; }
-  [[nodiscard]] double judged(SkyWeight weight, std::size_t lane, const Point3f& normal) const {
-    return judged_sky(weight, normal, ring_, [&](std::size_t k) { return double{slopes_[lane][k]}; });
+  [[nodiscard]] double expected(SkyWeight weight, std::size_t lane, const Point3f& normal) const {
+    return expected_sky(weight, normal, ring_, [&](std::size_t k) { return double{slopes_[lane][k]}; });
   }
 
  private:
@@ -46,7 +46,7 @@ class RandomHorizons {
     if (kind > 0.97F) return std::numeric_limits<float>::infinity();
     return std::tan(random_.between(0.0, kind < 0.5F ? 0.2 : 1.55));
   }
-  const AzimuthRing& ring_;
+  const AzimuthSampling& ring_;
   RandomPlaces random_;
   PacketHorizon horizon_;
   std::array<std::vector<float>, ReceiverPacket::lanes> slopes_;
@@ -61,27 +61,27 @@ ReceiverPacket packet_with(std::span<const Point3f> normals) {
 TEST(SkyAbove, IsTheIntegralOverRandomHorizons) {
   RandomPlaces random;
   for (const std::size_t azimuths : {1U, 8U, 64U, 256U}) {
-    const AzimuthRing ring = AzimuthRing::even(azimuths, GridRotation(Angle::degrees(11.0)));
+    const AzimuthSampling ring = AzimuthSampling::even(azimuths, GridRotation(Angle::degrees(11.0)));
     const RandomHorizons random_horizons(ring);
     const std::vector<Point3f> normals = some_normals(random);
     for (const SkyWeight weight : both_weights) {
       const auto sky = random_horizons.horizon().sky_above(weight, packet_with(normals));
       for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane)
-        EXPECT_NEAR(sky[lane], random_horizons.judged(weight, lane, normals[lane]), sky_rounding(azimuths, normals[lane]))
+        EXPECT_NEAR(sky[lane], random_horizons.expected(weight, lane, normals[lane]), sky_rounding(azimuths, normals[lane]))
             << "lane " << lane << ", normal z " << normals[lane].z;
     }
   }
 }
 
 TEST(SkyAbove, WhereAllLookUpAsWellAsWhereOneDoesNot) {
-  const AzimuthRing ring = AzimuthRing::even(64, {});
+  const AzimuthSampling ring = AzimuthSampling::even(64, {});
   const RandomHorizons random_horizons(ring);
   std::vector<Point3f> normals(ReceiverPacket::lanes, up);
   const auto alone = random_horizons.horizon().sky_above(SkyWeight::cosine, packet_with(normals));
   normals.back() = {0.6F, 0.0F, 0.8F};
   const auto mixed = random_horizons.horizon().sky_above(SkyWeight::cosine, packet_with(normals));
   for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane) {
-    EXPECT_NEAR(alone[lane], random_horizons.judged(SkyWeight::cosine, lane, up), sky_rounding(64, up));
+    EXPECT_NEAR(alone[lane], random_horizons.expected(SkyWeight::cosine, lane, up), sky_rounding(64, up));
     if (lane + 1 < ReceiverPacket::lanes) {
       EXPECT_NEAR(mixed[lane], alone[lane], 2.0 * sky_rounding(64, up));
     }
@@ -90,7 +90,7 @@ TEST(SkyAbove, WhereAllLookUpAsWellAsWhereOneDoesNot) {
 
 TEST(SkyAbove, WhereAllLookLevelAsWellAsWhereOneDoesNot) {
   RandomPlaces random;
-  const AzimuthRing ring = AzimuthRing::even(64, {});
+  const AzimuthSampling ring = AzimuthSampling::even(64, {});
   const RandomHorizons random_horizons(ring);
   // Of one wall, and of many
   for (const bool alike : {true, false}) {
@@ -99,12 +99,12 @@ TEST(SkyAbove, WhereAllLookLevelAsWellAsWhereOneDoesNot) {
       for (Point3f& normal : normals) normal = random.direction_at(0.0);
     const auto sky = random_horizons.horizon().sky_above(SkyWeight::cosine, packet_with(normals));
     for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane)
-      EXPECT_NEAR(sky[lane], random_horizons.judged(SkyWeight::cosine, lane, normals[lane]), sky_rounding(64, normals[lane]));
+      EXPECT_NEAR(sky[lane], random_horizons.expected(SkyWeight::cosine, lane, normals[lane]), sky_rounding(64, normals[lane]));
   }
 }
 
 TEST(SkyAbove, ALevelHorizonLeavesAllAndAnEndlessOneNothing) {
-  const AzimuthRing ring = AzimuthRing::even(256, {});
+  const AzimuthSampling ring = AzimuthSampling::even(256, {});
   PacketHorizon horizon(ring);
   const std::vector<Point3f> ups(ReceiverPacket::lanes, up), downs(ReceiverPacket::lanes, down);
   for (const SkyWeight weight : both_weights) {

@@ -17,7 +17,7 @@
 
 namespace farlod {
 
-/// A town of boxes that stand on the ground and of bodies that float: as a silhouettes, and as triangles for a judge.
+/// A town of boxes that stand on the ground and of bodies that float: as silhouette edges, and as triangles for rays.
 class TownByHand {
  public:
   using Corners = std::array<Point3f, 3>;
@@ -103,7 +103,8 @@ class TownByHand {
 
  private:
   // Counter-clockwise around a roof or a slab: it goes on level to the left; to the right a wall goes down, or nothing is
-  static constexpr AdjacentSlopes level_and_down{0, AdjacentSlopes::straight_down}, level_and_none{0, AdjacentSlopes::straight_up};
+  static constexpr AdjacentSlopes level_and_down{0, AdjacentSlopes::straight_down},
+      level_and_none{0, AdjacentSlopes::straight_up};
 
   static std::array<Point3f, 8> corners(Point2d low, Point2d size, double low_m, double high_m) {
     std::array<Point3f, 8> result;

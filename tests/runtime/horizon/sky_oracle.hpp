@@ -10,9 +10,9 @@
 #include <span>
 
 #include "farlod/point.hpp"
-#include "horizon/azimuth_ring.hpp"
+#include "horizon/azimuth_sampling.hpp"
 #include "horizon/sky_partition.hpp"
-#include "tests/runtime/horizon/horizon_judge.hpp"
+#include "tests/runtime/horizon/horizon_oracle.hpp"
 
 // Sky view factors above horizons, by quadrature in double.
 
@@ -21,7 +21,7 @@ namespace farlod {
 /// What one azimuth gives, where the normal has the parts `outward` along it and `upward`, above a slope: cosine 2∫ n·d cos θ dθ,
 /// solid angle ∫ cos θ dθ, over the elevations θ that are looked at and free. Simpson's rule with 200 intervals of at most π/400:
 /// its error is below (π/400)⁴·(π/2)/180·16·2 < 2e-9.
-[[nodiscard]] inline double judged_sky_of_azimuth(SkyWeight weight, double outward, double upward, double slope) {
+[[nodiscard]] inline double expected_sky_of_azimuth(SkyWeight weight, double outward, double upward, double slope) {
   double from = std::atan(slope), to = 0.5 * std::numbers::pi;
   if (outward <= 0.0 && upward <= 0.0) return 0.0;
   if (outward < 0.0) from = std::max(from, std::atan2(-outward, upward));
@@ -41,11 +41,11 @@ inline constexpr double quadrature_error = 2e-9;
 
 /// The mean over the azimuths of a ring.
 template <class SlopeAt>
-[[nodiscard]] double judged_sky(SkyWeight weight, const Point3f& normal, const AzimuthRing& ring, const SlopeAt& slope_at) {
+[[nodiscard]] double expected_sky(SkyWeight weight, const Point3f& normal, const AzimuthSampling& ring, const SlopeAt& slope_at) {
   double sum = 0.0;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const double outward = double{normal.x} * double{ring.cosine()[k]} + double{normal.y} * double{ring.sine()[k]};
-    sum += judged_sky_of_azimuth(weight, outward, normal.z, slope_at(k));
+    sum += expected_sky_of_azimuth(weight, outward, normal.z, slope_at(k));
   }
   return std::clamp(sum / static_cast<double>(ring.size()), 0.0, 1.0);
 }

@@ -32,9 +32,9 @@ struct SlopeRange {
 };
 
 /// An edge relative to an eye. Both have float coordinates: their differences are exact here.
-class JudgedEdge {
+class EdgeOracle {
  public:
-  JudgedEdge(const HorizonEdge& e, const Point3f& eye, double error_rad)
+  EdgeOracle(const HorizonEdge& e, const Point3f& eye, double error_rad)
       : a_(seen(e.a, eye)), b_(seen(e.b, eye)), error_rad_(error_rad) {}
 
   /// Between which slopes the horizon lies that this edge alone makes, at the azimuth of a unit vector.
@@ -79,10 +79,10 @@ class JudgedEdge {
 };
 
 /// The same for many edges together.
-[[nodiscard]] inline SlopeRange judged_horizon(std::span<const HorizonEdge> edges, const Point3f& eye, Point2d u) {
+[[nodiscard]] inline SlopeRange expected_horizon(std::span<const HorizonEdge> edges, const Point3f& eye, Point2d u) {
   SlopeRange all;
   for (const HorizonEdge& e : edges) {
-    const SlopeRange one = JudgedEdge(e, eye, azimuth_rounding_rad).at(u);
+    const SlopeRange one = EdgeOracle(e, eye, azimuth_rounding_rad).at(u);
     all = {std::max(all.low, one.low), std::max(all.high, one.high)};
   }
   return all;

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "horizon/overhang_geometry.hpp"
+#include "horizon/overhangs.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <bit>
 
+#include "horizon/azimuth_sampling.hpp"
 #include "horizon/packet_horizon.hpp"
-#include "horizon/ray_fan.hpp"
 #include "horizon/sky_partition.hpp"
 #include "tests/runtime/horizon/grazing_rays.hpp"
 #include "tests/runtime/horizon/packed_overhangs.hpp"
@@ -65,7 +65,7 @@ TEST(OverhangGeometry, CoversThoseWhoStandBelow) {
   for (int n = 0; n < 200; ++n) {
     const std::vector<TriangleCorners> triangles = random_triangles(random, 4);
     const std::vector<Point3f> eyes = random_eyes(random);
-    const std::uint32_t bits = PackedOverhangs(triangles).geometry().covered(packet_of(eyes));
+    const std::uint32_t bits = PackedOverhangs(triangles).geometry().receivers_below(packet_of(eyes));
     for (std::size_t l = 0; l < eyes.size(); ++l) {
       bool must = false, may = false;
       for (const TriangleCorners& t : triangles) {
@@ -87,14 +87,14 @@ TEST(OverhangGeometry, CoversThoseWhoStandBelow) {
 TEST(OverhangGeometry, AVerticalWallCoversNobodyBesideIt) {
   const std::vector<TriangleCorners> wall{{{{5.0F, 0.0F, 2.0F}, {5.0F, 8.0F, 2.0F}, {5.0F, 8.0F, 9.0F}}}};
   const std::vector<Point3f> eyes{{4.9F, 4.0F, 1.0F}, {5.1F, 4.0F, 1.0F}};
-  EXPECT_EQ(PackedOverhangs(wall).geometry().covered(packet_of(eyes)), 0U);
+  EXPECT_EQ(PackedOverhangs(wall).geometry().receivers_below(packet_of(eyes)), 0U);
 }
 
 /// The roles of edges by their definition, ray by ray: above the upper borders all is free, and between the highest lower border
 /// and the highest upper one all is hidden.
 TEST(OverhangGeometry, RaysMeetWhatFloatsBelowItsUpperBordersAndAboveTheLowerOnes) {
   RandomPlaces random;
-  const RayFan fan(SkyPartition(SkyWeight::solid_angle, 500).directions());
+  const DirectionSampling fan(SkyPartition(SkyWeight::solid_angle, 500).directions());
   std::size_t free_above = 0, hidden_between = 0, open = 0;
   for (int n = 0; n < 300; ++n) {
     TownByHand town;
@@ -103,9 +103,9 @@ TEST(OverhangGeometry, RaysMeetWhatFloatsBelowItsUpperBordersAndAboveTheLowerOne
     OverhangGeometry overhangs = packed.geometry();
     const std::vector<Point3f> eyes = random_eyes(random);
     const ReceiverPacket packet = packet_of(eyes);
-    PacketHorizon upper(fan.ring()), lower(fan.ring());
+    PacketHorizon upper(fan.azimuths()), lower(fan.azimuths());
     upper.raise(town.silhouettes().near.overhangs, packet);
-    upper.close(overhangs.covered(packet));
+    upper.close(overhangs.receivers_below(packet));
     lower.raise(town.silhouettes().near.undersides, packet);
     for (std::size_t l = 0; l < eyes.size(); ++l)
       for (std::size_t k = 0; k < fan.size(); ++k) {
@@ -134,7 +134,7 @@ TEST(OverhangGeometry, NothingHangsFromNothing) {
   OverhangGeometry none = packed.geometry();
   EXPECT_EQ(none.scene().occluder.triangle_count(), 0U);
   const std::vector<Point3f> eyes{{5.0F, 5.0F, 1.0F}};
-  EXPECT_EQ(none.covered(packet_of(eyes)), 0U);
+  EXPECT_EQ(none.receivers_below(packet_of(eyes)), 0U);
 }
 
 }  // namespace

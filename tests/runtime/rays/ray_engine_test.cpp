@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "horizon/ray_engine.hpp"
+#include "rays/ray_engine.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ TEST_P(RayEngineInTown, CountsWhatTheWholeSceneLeavesFree) {
   const Occluder city = town_.city();
   const PackedOverhangs packed(town_.overhanging());
   OverhangGeometry overhangs = packed.geometry();
-  const RayFan fan(SkyPartition(SkyWeight::cosine, ray_count).directions());
+  const DirectionSampling fan(SkyPartition(SkyWeight::cosine, ray_count).directions());
   RayEngine engine(fan, far_.map(), town_.silhouettes(), overhangs, true),
       without_bounds(fan, far_.map(), town_.silhouettes(), overhangs, false);
   std::uint32_t grazing = 0, hidden = 0, through_gaps = 0;
@@ -85,7 +85,7 @@ TEST(RayEngine, AnEmptyTownHidesNothing) {
   FarHorizonByHand far({});
   const PackedOverhangs packed(empty.overhanging());
   OverhangGeometry overhangs = packed.geometry();
-  const RayFan fan(SkyPartition(SkyWeight::solid_angle, 145).directions());
+  const DirectionSampling fan(SkyPartition(SkyWeight::solid_angle, 145).directions());
   RayEngine engine(fan, far.map(), empty.silhouettes(), overhangs, true);
   const std::vector<Receiver> receivers{{0, {3.0F, 3.0F, 1.5F}}, {1, {4.0F, 3.0F, 1.5F}}};
   for (const FreeRays& free : engine.count(receivers)) {

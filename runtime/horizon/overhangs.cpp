@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "horizon/overhang_geometry.hpp"
+#include "horizon/overhangs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 namespace farlod {
 namespace {
 
-/// What is less than this above a receiver is not overhead: as for rays (least_distance_m).
-constexpr float least_clearance_m = least_distance_m;
+/// An overhang less than this above a receiver is not overhead, as for rays (least_distance_m).
+constexpr float min_clearance_m = least_distance_m;
 
 struct Box {
   Point3f low, high;
@@ -30,8 +30,9 @@ Box box_of(const OverhangGeometry::TriangleCorners& t) {
 /// Distance to the left of the line from a to b, times the line's length.
 float left_of(const Point3f& a, const Point3f& b, float x, float y) { return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x); }
 
-/// Whether a triangle hangs over a place of the plan.
-bool hangs_over(const OverhangGeometry::TriangleCorners& t, float x, float y, float z) {
+/// Whether a triangle is above a place: the place lies in it in the plan, and its plane is higher there,
+/// z(x, y) = t0_z − (n_x (x − t0_x) + n_y (y − t0_y)) / n_z.
+bool is_above(const OverhangGeometry::TriangleCorners& t, float x, float y, float z) {
   int left = 0, right = 0;
   for (std::size_t n = 0; n < 3; ++n) {
     const Point3f &a = t[n], &b = t[(n + 1) % 3];
@@ -41,10 +42,10 @@ bool hangs_over(const OverhangGeometry::TriangleCorners& t, float x, float y, fl
   }
   if (left != 3 && right != 3) return false;
   const Point3f n = cross(t[1] - t[0], t[2] - t[0]);
-  return t[0].z - (n.x * (x - t[0].x) + n.y * (y - t[0].y)) / n.z > z + least_clearance_m;
+  return t[0].z - (n.x * (x - t[0].x) + n.y * (y - t[0].y)) / n.z > z + min_clearance_m;
 }
 
-/// Upright triangles hang over nothing.
+/// Upright triangles are above nothing.
 bool is_upright(const OverhangGeometry::TriangleCorners& t) {
   const Point3f n = cross(t[1] - t[0], t[2] - t[0]);
   return std::abs(n.z) <= 1e-3F * norm(n);
@@ -54,7 +55,7 @@ bool is_upright(const OverhangGeometry::TriangleCorners& t) {
 
 OverhangGeometry::OverhangGeometry(const Package& package, Cell cell, WholeScene whole_scene)
     : package_(package), cell_(cell), whole_scene_(std::move(whole_scene)) {
-  // What is cut at the borders of cells hangs over its own cell alone
+  // Buildings that are cut at the borders of cells are above their own cell alone
   const bool is_cut = package.manifest().assign != "whole";
   constexpr std::int32_t reach = PointLocator::reach_of_whole_buildings;
   const CellRange near = package.grid().neighborhood_of(cell);
@@ -101,7 +102,7 @@ PlacedScene OverhangGeometry::scene() {
   return {scene_.emplace(std::move(vertices), std::move(triangles)), {}};
 }
 
-std::uint32_t OverhangGeometry::covered(const ReceiverPacket& r) const {
+std::uint32_t OverhangGeometry::receivers_below(const ReceiverPacket& r) const {
   if (overhead_.empty()) return 0;
   const auto [west, east] = std::minmax_element(r.x.begin(), r.x.end());
   const auto [south, north] = std::minmax_element(r.y.begin(), r.y.end());
@@ -111,9 +112,44 @@ std::uint32_t OverhangGeometry::covered(const ReceiverPacket& r) const {
     const Box box = box_of(t);
     if (box.high.z <= lowest_z || box.high.x < *west || box.low.x > *east || box.high.y < *south || box.low.y > *north) continue;
     for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
-      if (hangs_over(t, r.x[l], r.y[l], r.z[l])) bits |= 1U << l;
+      if (is_above(t, r.x[l], r.y[l], r.z[l])) bits |= 1U << l;
   }
   return bits;
+}
+
+void OverhangHorizons::draw_overhangs(const CellSilhouettes& silhouettes, const ReceiverPacket& receivers, std::uint32_t below,
+                                      FarGapEnd far_end) {
+  // First the far city by itself. Where no lower border of it is above the grounded horizon, it is joined with what is near
+  upper_borders.raise(silhouettes.far.overhangs, receivers);
+  if (far_end == FarGapEnd::lowest && !silhouettes.far.undersides.empty())
+    lower_borders.set_to_lowest(silhouettes.far.undersides, receivers, grounded);
+  else
+    lower_borders.raise(silhouettes.far.undersides, receivers);
+  grounded.join(lower_borders, upper_borders);
+  far_lower_borders = lower_borders;
+  far_upper_borders = upper_borders;
+  // Then the near overhangs; a receiver below one sees no sky above it
+  lower_borders.raise_to(grounded);
+  upper_borders.raise(silhouettes.near.overhangs, receivers);
+  upper_borders.close(below);
+  lower_borders.raise(silhouettes.near.undersides, receivers);
+}
+
+std::span<const PacketHorizon::Row> OverhangHorizons::find_sky_in_gaps(SkyWeight weight, const ReceiverPacket& receivers,
+                                                                       std::vector<PacketHorizon::Row>& rows) {
+  if (lower_borders.exceeds(grounded) == 0) return {};
+  // The sky between grounded and lower borders; what is above the upper borders counts already
+  lower_borders.lower_to(upper_borders);
+  grounded.find_sky_below(lower_borders, weight, receivers, rows);
+  // Less the far occluders in it, between their borders clamped to the gap
+  far_lower_borders.raise_to(grounded);
+  far_upper_borders.lower_to(lower_borders);
+  far_upper_borders.raise_to(far_lower_borders);
+  if (far_upper_borders.exceeds(far_lower_borders) == 0) return rows;
+  far_lower_borders.find_sky_below(far_upper_borders, weight, receivers, far_sky_);
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    for (std::size_t l = 0; l < rows[k].size(); ++l) rows[k][l] = std::max(0.0F, rows[k][l] - far_sky_[k][l]);
+  return rows;
 }
 
 }  // namespace farlod

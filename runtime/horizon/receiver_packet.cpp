@@ -1,31 +1,32 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "horizon/receiver_packets.hpp"
+#include "horizon/receiver_packet.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 namespace farlod {
 namespace {
 
-// What sets receivers apart, as lengths: found by trying, on streets, roofs and façades 2 m apart.
-/// One metre higher changes what is seen as much as so many metres aside.
+// Distances between receivers, as lengths: weights found by trial, on streets, roofs and façades 2 m apart.
+/// One metre of height counts as so many metres in the plan.
 constexpr float height_weight = 1.5F;
-/// Looking at right angles to each other sets receivers apart as much as so many metres, times √2.
-constexpr float look_weight_m = 60.0F;
+/// Normals at right angles to each other count as so many metres, times √2.
+constexpr float normal_weight_m = 60.0F;
 
-/// Everything that receivers may differ in.
+/// The coordinates of a receiver in which packets are compact: x, y, weighted z, weighted normal.
 using Traits = std::array<float, 5>;
 Traits traits_of(const Receiver& r) {
-  return {r.p_cell.x, r.p_cell.y, r.p_cell.z * height_weight, r.normal.x * look_weight_m, r.normal.y * look_weight_m};
+  return {r.p_cell.x, r.p_cell.y, r.p_cell.z * height_weight, r.normal.x * normal_weight_m, r.normal.y * normal_weight_m};
 }
 
 using Numbers = std::span<std::uint32_t>;
 
-/// Along one trait, where the receivers of a part lie.
+/// The interval that the receivers of a part take of one trait.
 struct Extent {
   std::size_t trait = 0;
   float low = 0.0F, width = 0.0F;
@@ -53,7 +54,7 @@ WidestTwo widest_two(std::span<const Traits> traits, Numbers part) {
   return widest;
 }
 
-/// A part is cut where it is widest: the extent is divided into bins, and the cut falls into one of them or between two.
+/// The histogram of a part along its widest trait. The part is cut within one of its bins, or between two.
 constexpr std::size_t bin_count = 32;
 class Bins {
  public:
@@ -65,7 +66,7 @@ class Bins {
     return static_cast<std::size_t>((traits_[number][extent_.trait] - extent_.low) * per_length_);
   }
   [[nodiscard]] std::uint32_t count(std::size_t bin) const { return counts_[bin]; }
-  /// How many bins without anybody are a gap of such a width.
+  /// The number of empty bins in a row that make a gap of this width.
   [[nodiscard]] std::size_t least_empty(float width) const { return static_cast<std::size_t>(width * per_length_) + 1; }
 
  private:
@@ -75,12 +76,12 @@ class Bins {
   std::array<std::uint32_t, bin_count> counts_{};
 };
 
-/// All of the bins before `bin` go to the one side, and so many of it.
+/// The first side of a cut: all bins before `bin`, and `of_bin` receivers of that bin; `count` in all.
 struct Cut {
   std::size_t bin = 0, of_bin = 0, count = 0;
 };
 
-/// Halves a part into whole packets, but for the last.
+/// Cuts a part in half at a multiple of a packet, so that only the last packet may be partly filled.
 Cut half_of(const Bins& bins, std::size_t count) {
   const std::size_t packets = (count + ReceiverPacket::lanes - 1) / ReceiverPacket::lanes;
   Cut cut{0, 0, packets / 2 * ReceiverPacket::lanes};
@@ -90,8 +91,8 @@ Cut half_of(const Bins& bins, std::size_t count) {
   return cut;
 }
 
-/// A gap as wide as a packet would be is worth a packet more, if there is something on both sides of it. The count is 0 when
-/// there is no such gap.
+/// The cut at the widest gap that is at least as wide as a packet would be, with at least a quarter of a packet on both sides.
+/// Such a gap is worth a packet more. The count is 0 when there is no such gap.
 Cut widest_gap(const Bins& bins, std::size_t count, float packet_width) {
   constexpr std::size_t least = ReceiverPacket::lanes / 4;
   Cut cut;
@@ -135,14 +136,14 @@ class Division {
     divide(part.first(count));
     divide(part.subspan(count));
   }
-  /// Returns how many are on the one side; they come first then. Neither side is empty.
+  /// Sorts the first side of the cut to the front, and returns its size. Neither side is empty.
   std::size_t cut(Numbers part) {
     const auto [widest, second] = widest_two(traits_, part);
     const Bins bins(traits_, widest, part);
     const float packet_share = static_cast<float>(ReceiverPacket::lanes) / static_cast<float>(part.size());
     const Cut gap = widest_gap(bins, part.size(), std::sqrt(widest.width * second.width * packet_share));
     const Cut cut = gap.count > 0 ? gap : half_of(bins, part.size());
-    // In the order in which they come. Without a branch, which would be guessed wrong every other time
+    // A stable partition without a branch, which would be mispredicted every other time
     std::size_t here = 0, beyond = 0, of_bin = cut.of_bin;
     for (const std::uint32_t number : part) {
       const std::size_t bin = bins.bin_of(number), is_of_bin = bin == cut.bin ? 1 : 0;
@@ -161,7 +162,34 @@ class Division {
   std::vector<std::uint32_t> room_;
 };
 
+/// The plane through the rearmost receiver, at right angles to the normal n that all share, n_z ≥ 0. What lies behind it, and
+/// below what lies behind it, is behind every receiver.
+void set_plane(const ReceiverPacket& r, PacketBounds& b) {
+  bool is_shared = r.normal_z[0] >= 0.0F;
+  float depth = std::numeric_limits<float>::infinity();
+  for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) {
+    is_shared = is_shared && r.normal_x[l] == r.normal_x[0] && r.normal_y[l] == r.normal_y[0] && r.normal_z[l] == r.normal_z[0];
+    depth = std::min(depth, r.normal_x[0] * r.x[l] + r.normal_y[0] * r.y[l] + r.normal_z[0] * r.z[l]);
+  }
+  if (!is_shared) return;
+  b.depth = depth;
+  b.normal_x = r.normal_x[0];
+  b.normal_y = r.normal_y[0];
+  b.normal_z = r.normal_z[0];
+}
+
 }  // namespace
+
+PacketBounds bounds_of(const ReceiverPacket& r) {
+  PacketBounds b;
+  const auto [west, east] = std::minmax_element(r.x.begin(), r.x.end());
+  const auto [south, north] = std::minmax_element(r.y.begin(), r.y.end());
+  b.box = {0.5F * (*west + *east), 0.5F * (*south + *north),
+           0.5F * (*east - *west), 0.5F * (*north - *south),
+           r.lowest_z(),           *std::max_element(r.z.begin(), r.z.end())};
+  set_plane(r, b);
+  return b;
+}
 
 PacketOrder packet_order(std::span<const Receiver> receivers) { return Division(receivers).divided(); }
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "evaluate/visibility.hpp"
-#include "horizon/ray_engine.hpp"
 #include "horizon/sky_partition.hpp"
+#include "rays/ray_engine.hpp"
 #include "tests/runtime/horizon/packed_overhangs.hpp"
 #include "tests/runtime/package/far_horizon_by_hand.hpp"
 
@@ -73,7 +73,7 @@ class TwoWalls : public testing::TestWithParam<Walls> {
 
   const Occluder city_ = both_walls(GetParam());
   const std::vector<Point3d> directions_ = SkyPartition(SkyWeight::cosine, 1000).directions();
-  const RayFan fan_{directions_};
+  const DirectionSampling fan_{directions_};
   const CellSilhouettes silhouettes_ = silhouettes_of(GetParam());
   const PackedOverhangs packed_{GetParam().near_floats ? wall_at(near_x, gap) : std::array<Corners, 2>{}};
   OverhangGeometry overhangs_ = packed_.geometry();
@@ -138,7 +138,7 @@ TEST_P(TwoWalls, APacketDoesNotRememberTheOneBefore) {
   }
 }
 
-TEST_P(TwoWalls, ReceiversAtDifferentHeightsAreJudgedEachAtItsOwn) {
+TEST_P(TwoWalls, ReceiversAtDifferentHeightsSeeEachAtItsOwn) {
   for (std::size_t n = 0; n < receivers_.size(); ++n) receivers_[n].p_cell.z = 1.5F + 1.5F * static_cast<float>(n);
   const std::vector<FreeRays> together = engine_.count(receivers_);
   for (std::size_t n = 0; n < receivers_.size(); ++n) {

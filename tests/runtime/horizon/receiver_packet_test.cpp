@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "horizon/receiver_packets.hpp"
+#include "horizon/receiver_packet.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "horizon/azimuth_ring.hpp"
+#include "horizon/azimuth_sampling.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,13 +10,13 @@
 
 #include "farlod/angle.hpp"
 #include "horizon/sky_partition.hpp"
-#include "tests/runtime/horizon/horizon_judge.hpp"
+#include "tests/runtime/horizon/horizon_oracle.hpp"
 
 namespace farlod {
 namespace {
 
 /// Azimuths of the city frame in turns, ascending.
-std::vector<double> city_turns(const AzimuthRing& ring, const GridRotation& rotation) {
+std::vector<double> city_turns(const AzimuthSampling& ring, const GridRotation& rotation) {
   std::vector<double> turns;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Point2d u = rotation.city_from_grid(Point2d{ring.cosine()[k], ring.sine()[k]});
@@ -27,11 +27,11 @@ std::vector<double> city_turns(const AzimuthRing& ring, const GridRotation& rota
   return turns;
 }
 
-TEST(AzimuthRing, EvenRingsDoNotTurnWithTheGrid) {
+TEST(AzimuthSampling, EvenRingsDoNotTurnWithTheGrid) {
   for (const std::size_t count : {1U, 7U, 64U, 256U})
     for (const double bearing_deg : {0.0, 17.0, 45.0, -123.4, 90.0}) {
       const GridRotation rotation(Angle::degrees(bearing_deg));
-      const std::vector<double> turns = city_turns(AzimuthRing::even(count, rotation), rotation);
+      const std::vector<double> turns = city_turns(AzimuthSampling::even(count, rotation), rotation);
       ASSERT_EQ(turns.size(), count);
       for (std::size_t k = 0; k < count; ++k)
         EXPECT_NEAR(turns[k], (static_cast<double>(k) + 0.5) / static_cast<double>(count), 2.0 * float_rounding) << bearing_deg;
@@ -39,12 +39,12 @@ TEST(AzimuthRing, EvenRingsDoNotTurnWithTheGrid) {
 }
 
 /// In turns, from 0 to less than 1.
-double azimuth(const AzimuthRing& ring, std::size_t k) {
+double azimuth(const AzimuthSampling& ring, std::size_t k) {
   const double turns = std::atan2(double{ring.sine()[k]}, double{ring.cosine()[k]}) / (2.0 * std::numbers::pi);
   return turns < 0.0 ? turns + 1.0 : turns;
 }
 
-void expect_consistent(const AzimuthRing& ring) {
+void expect_consistent(const AzimuthSampling& ring) {
   for (std::size_t k = 0; k < ring.size(); ++k) {
     EXPECT_NEAR(std::hypot(ring.cosine()[k], ring.sine()[k]), 1.0, 4.0 * float_rounding);
     if (k == 0) continue;
@@ -52,20 +52,20 @@ void expect_consistent(const AzimuthRing& ring) {
   }
 }
 
-TEST(AzimuthRing, AscendsOnceAround) {
+TEST(AzimuthSampling, AscendsOnceAround) {
   for (const std::size_t count : {1U, 3U, 100U, 256U})
-    expect_consistent(AzimuthRing::even(count, GridRotation(Angle::degrees(3.0))));
+    expect_consistent(AzimuthSampling::even(count, GridRotation(Angle::degrees(3.0))));
   for (const std::size_t count : {1U, 10U, 1000U})
-    expect_consistent(AzimuthRing::of(SkyPartition(SkyWeight::cosine, count).directions()));
+    expect_consistent(AzimuthSampling(SkyPartition(SkyWeight::cosine, count).directions()));
 }
 
-TEST(AzimuthRing, OfDirectionsSaysWhichIsWhere) {
+TEST(AzimuthSampling, OfDirectionsSaysWhichIsWhere) {
   std::vector<Point3d> directions = SkyPartition(SkyWeight::solid_angle, 500).directions();
   directions.push_back({1.0, 0.0, 0.0});
   directions.push_back({std::cos(1e-12), -std::sin(1e-12), 0.0});  // rounds to a whole turn
-  const AzimuthRing ring = AzimuthRing::of(directions);
+  const AzimuthSampling ring = AzimuthSampling(directions);
   ASSERT_EQ(ring.size(), directions.size());
-  std::vector<std::uint32_t> places(ring.place().begin(), ring.place().end());
+  std::vector<std::uint32_t> places(ring.order().begin(), ring.order().end());
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Point3d& d = directions[places[k]];
     const double across = std::hypot(d.x, d.y);
@@ -76,9 +76,9 @@ TEST(AzimuthRing, OfDirectionsSaysWhichIsWhere) {
   for (std::uint32_t n = 0; n < places.size(); ++n) EXPECT_EQ(places[n], n);
 }
 
-TEST(AzimuthRing, StraightUpGetsAnAzimuthToo) {
+TEST(AzimuthSampling, StraightUpGetsAnAzimuthToo) {
   const std::vector<Point3d> up{{0.0, 0.0, 1.0}};
-  const AzimuthRing ring = AzimuthRing::of(up);
+  const AzimuthSampling ring = AzimuthSampling(up);
   ASSERT_EQ(ring.size(), 1U);
   expect_consistent(ring);
 }

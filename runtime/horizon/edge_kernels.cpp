@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "horizon/edge_culling.hpp"
+#include "horizon/kernels.hpp"
+#include "horizon/lanes.hpp"
+
+// Compiled once for each target, which CMakeLists.txt names as FARLOD_TARGET. Everything here has internal linkage or is inlined
+// always, but for the table at the end.
+
+namespace farlod {
+namespace {
+
+static_assert(ReceiverPacket::lanes == lane_count && SilhouetteEdges::lanes == lane_count);
+
+/// The places of the receivers, one a lane.
+struct Places {
+  Floats x, y, z;
+};
+
+/// One edge relative to each receiver: p = a − r and q = b − r, and 1 / (p × q) in the plan.
+struct RelativeEdge {
+  Floats px, py, pz, qx, qy, qz, inverse_cross;
+};
+
+FARLOD_LANES void set_ends(const SilhouetteEdges::Batch& edges, std::size_t lane, const Places& r, RelativeEdge& e) {
+  e.px = edges.ax[lane] - r.x;
+  e.py = edges.ay[lane] - r.y;
+  e.pz = edges.az[lane] - r.z;
+  e.qx = edges.bx[lane] - r.x;
+  e.qy = edges.by[lane] - r.y;
+  e.qz = edges.bz[lane] - r.z;
+}
+
+/// Of an edge clear of the packet. A receiver in line with the edge sees no width of it: its inverse is 0, which gives the slope
+/// 0.
+FARLOD_LANES void invert_cross(RelativeEdge& e) {
+  const Floats cross = e.px * e.qy - e.py * e.qx, inverse = 1.0F / cross;
+  e.inverse_cross = cross * cross > 0.0F ? inverse : broadcast(0.0F);
+}
+
+/// On which side of an edge right above it a receiver is taken to stand.
+enum class Beside { front, back };
+
+/// Of an edge that may be close, or above a receiver. A receiver within `min_sine` of the edge's line
+///   * in front of both ends, or behind both, sees the edge end-on: it has no width, and the slope 0;
+///   * between the ends stands right below the edge: p × q is replaced as if it stood 1 mm beside it.
+/// Returns whether any receiver stands right below.
+FARLOD_LANES bool invert_cross_nearby(RelativeEdge& e, Beside side) {
+  constexpr float min_sine = 1e-5F, no_width = std::numeric_limits<float>::infinity();
+  const float cross_below = side == Beside::front ? -1e-3F : 1e-3F;
+  // |p × q| = |p| |q| sine: compare squares, which takes no root
+  const Floats cross = e.px * e.qy - e.py * e.qx, squares = (e.px * e.px + e.py * e.py) * (e.qx * e.qx + e.qy * e.qy);
+  const Floats off_line = cross * cross - min_sine * min_sine * squares;
+  // p · q < 0: the receiver is between the ends
+  const Floats is_below = min(-off_line, -(e.px * e.qx + e.py * e.qy));
+  const Floats wide = off_line > 0.0F ? cross : broadcast(no_width);
+  e.inverse_cross = 1.0F / (is_below > 0.0F ? broadcast(cross_below) : wide);
+  return max_lane(is_below) > 0.0F;
+}
+
+/// Where an azimuth d meets an edge: u = (p × d) / (p × q), v = (d × q) / (p × q). The distance is 1 / (u + v), and the edge is
+/// divided as u to v; d hits it, between its ends and in front, where u ≥ 0 and v ≥ 0. The slope there is t = p_z v + q_z u.
+/// Neighboring edges share p × d of their common end, but for the sign, so that no azimuth falls between them.
+struct Crossing {
+  Floats inside, slope;  ///< min(u, v); t
+};
+FARLOD_LANES Crossing crossing_of(const RelativeEdge& e, float max_slope, float dx, float dy) {
+  const Floats u = (e.px * dy - e.py * dx) * e.inverse_cross, v = (e.qy * dx - e.qx * dy) * e.inverse_cross;
+  // For a receiver almost in line with the edge, t is mostly rounding: it never exceeds the bound of the packet
+  return {min(u, v), min(e.pz * v + e.qz * u, broadcast(max_slope))};
+}
+
+/// Horizons that rise to the edges: t_k = max(t_k, slope) where d_k hits the edge.
+struct RaiseHorizon {
+  float* slopes;
+  FARLOD_LANES void draw(const RelativeEdge& e, float max_slope, const AzimuthView& a, std::uint32_t first,
+                         std::uint32_t end) const {
+    for (std::uint32_t k = first; k < end; ++k) {
+      const Crossing c = crossing_of(e, max_slope, a.cosine[k], a.sine[k]);
+      float* row = slopes + std::size_t{k} * lane_count;
+      store(max(load(row), c.inside >= 0.0F ? c.slope : broadcast(0.0F)), row);
+    }
+  }
+};
+
+/// Horizons that are lowered to the edges above the minimum m: t_k = min(t_k, slope) where d_k hits the edge and slope > m_k.
+struct LowerHorizon {
+  const float* min_slopes;
+  float* slopes;
+  FARLOD_LANES void draw(const RelativeEdge& e, float max_slope, const AzimuthView& a, std::uint32_t first,
+                         std::uint32_t end) const {
+    for (std::uint32_t k = first; k < end; ++k) {
+      const Crossing c = crossing_of(e, max_slope, a.cosine[k], a.sine[k]);
+      // One condition: a receiver in line with the edge has u = v = 0, and must not see it here
+      const Floats counts = min(c.inside, c.slope - load(min_slopes + std::size_t{k} * lane_count));
+      const Floats seen = counts > 0.0F ? c.slope : broadcast(std::numeric_limits<float>::infinity());
+      float* row = slopes + std::size_t{k} * lane_count;
+      store(min(load(row), seen), row);
+    }
+  }
+};
+
+/// Draws an edge at the azimuths from `first` to `end`, counted on over three turns: at most two runs of one turn.
+template <class Horizon>
+FARLOD_LANES void draw_interval(const RelativeEdge& e, float max_slope, const AzimuthView& a, std::uint32_t first,
+                                std::uint32_t end, const Horizon& horizon) {
+  const std::uint32_t turn = first < a.size ? 0 : first < 2 * a.size ? a.size : 2 * a.size;
+  const std::uint32_t begin = first - turn, stop = end - turn;
+  horizon.draw(e, max_slope, a, begin, std::min(stop, a.size));
+  if (stop > a.size) horizon.draw(e, max_slope, a, 0, stop - a.size);
+}
+
+/// Draws an edge that is too close for bounds at all azimuths.
+template <class Horizon>
+FARLOD_LANES void draw_nearby(RelativeEdge& e, bool is_upper, const AzimuthView& a, const Horizon& horizon) {
+  // An upper border hides the side that it faces away from (SilhouetteEdges::add); below a lower one, sky may be seen on both
+  const bool is_overhead = invert_cross_nearby(e, Beside::front);
+  horizon.draw(e, EdgeReach::unbounded, a, 0, a.size);
+  if (is_overhead && !is_upper) {
+    invert_cross_nearby(e, Beside::back);
+    horizon.draw(e, EdgeReach::unbounded, a, 0, a.size);
+  }
+}
+
+/// Draws those edges of a batch that can change a horizon above `min_horizon`.
+template <class Horizon>
+FARLOD_LANES void draw_batch(const SilhouetteEdges::Batch& edges, bool is_upper, const Places& receivers,
+                             const PacketBounds& bounds, const AzimuthView& azimuths, const SectorMinHorizon& min_horizon,
+                             const Horizon& horizon) {
+  // Reach first: most batches are below all receivers, or behind them
+  EdgeReach reach = reach_of(edges, bounds);
+  if (max_lane(reach.max_slope) <= 0.0F) return;
+  // Leave out what faces away from all receivers, and what is hidden already
+  const Floats facing = may_be_silhouette(facing_terms(edges, bounds.box), edges, bounds.box, is_upper);
+  reach.max_slope = facing > 0.0F ? reach.max_slope : broadcast(-1.0F);
+  std::array<std::uint8_t, lane_count> kept;
+  const std::size_t count = cull(reach, min_horizon, kept);
+  // Draw the others one by one, each for sixteen receivers, between its first and last slot
+  const Ints first_slot = truncate(reach.from * azimuths.slots), end_slot = truncate(reach.to * azimuths.slots) + 1;
+  RelativeEdge e;
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t lane = kept[n];
+    set_ends(edges, lane, receivers, e);
+    if (reach.max_slope[lane] == EdgeReach::unbounded) {
+      draw_nearby(e, is_upper, azimuths, horizon);
+    } else {
+      invert_cross(e);
+      draw_interval(e, reach.max_slope[lane], azimuths, azimuths.first_of_slot[first_slot[lane]],
+                    azimuths.first_of_slot[end_slot[lane]], horizon);
+    }
+  }
+}
+
+FARLOD_LANES Places places_of(const ReceiverPacket& r) { return {load(r.x.data()), load(r.y.data()), load(r.z.data())}; }
+
+void raise_to_edges(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
+                    const AzimuthView& azimuths, float* slopes) {
+  const Places places = places_of(receivers);
+  const bool is_upper = edges.role != EdgeRole::underside;
+  // Edges come from near to far, and the nearest hide the most: minima are renewed after 2, 4, 8 … more batches. Minima that are
+  // out of date are too low, and let more edges be drawn, never fewer
+  SectorMinHorizon min_horizon;
+  std::size_t next_update = 0, batches_apart = 2;
+  for (std::size_t n = 0; n < edges.batches.size(); ++n) {
+    if (n >= next_update) {
+      find_sector_minima(slopes, azimuths.first_of_sector, min_horizon);
+      next_update = n + batches_apart;
+      batches_apart *= 2;
+    }
+    draw_batch(edges.batches[n], is_upper, places, bounds, azimuths, min_horizon, RaiseHorizon{slopes});
+  }
+}
+
+void lower_to_edges(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
+                    const AzimuthView& azimuths, const float* min_slopes, float* slopes) {
+  const Places places = places_of(receivers);
+  const bool is_upper = edges.role != EdgeRole::underside;
+  // The minimum does not change while edges are drawn
+  SectorMinHorizon min_horizon;
+  find_sector_minima(min_slopes, azimuths.first_of_sector, min_horizon);
+  for (const SilhouetteEdges::Batch& batch : edges.batches)
+    draw_batch(batch, is_upper, places, bounds, azimuths, min_horizon, LowerHorizon{min_slopes, slopes});
+}
+
+void find_facing(const EdgeBatches& edges, const CenteredBox& box, float* distances_m) {
+  const bool is_upper = edges.role != EdgeRole::underside;
+  for (const SilhouetteEdges::Batch& batch : edges.batches) {
+    const FacingTerms t = facing_terms(batch, box);
+    // An edge below all receivers is no silhouette
+    const Floats highest = max(t.along_z, broadcast(0.0F)) + t.a_z;
+    const Floats kept = highest > box.low_z ? may_be_silhouette(t, batch, box, is_upper) : broadcast(-1.0F);
+    store(kept > 0.0F ? distance_from_center(t) : broadcast(-1.0F), distances_m);
+    distances_m += lane_count;
+  }
+}
+
+}  // namespace
+
+namespace FARLOD_TARGET {
+extern const EdgeKernels edge_kernels;
+constexpr EdgeKernels edge_kernels{find_facing, raise_to_edges, lower_to_edges};
+}  // namespace FARLOD_TARGET
+
+}  // namespace farlod

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "horizon/kernels.hpp"
+
+#include <vector>
+
+namespace farlod {
+
+// What CMakeLists.txt compiles for each target
+#define FARLOD_DECLARE_TARGET(target)    \
+  namespace target {                     \
+  extern const EdgeKernels edge_kernels; \
+  extern const SkyKernels sky_kernels;   \
+  }
+FARLOD_DECLARE_TARGET(baseline)
+#ifdef FARLOD_X86_TARGETS
+FARLOD_DECLARE_TARGET(avx2)
+FARLOD_DECLARE_TARGET(avx512)
+#endif
+#undef FARLOD_DECLARE_TARGET
+
+namespace {
+
+#ifdef FARLOD_X86_TARGETS
+// Exactly the extensions that CMakeLists.txt compiles the targets with
+bool runs_avx2() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2"); }
+bool runs_avx512() {
+  return runs_avx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+}
+#endif
+
+std::vector<KernelTarget> find_runnable_kernels() {
+  std::vector<KernelTarget> targets;
+#ifdef FARLOD_X86_TARGETS
+  if (runs_avx512()) targets.push_back({"avx512", &avx512::edge_kernels, &avx512::sky_kernels});
+  if (runs_avx2()) targets.push_back({"avx2", &avx2::edge_kernels, &avx2::sky_kernels});
+#endif
+  targets.push_back({"baseline", &baseline::edge_kernels, &baseline::sky_kernels});
+  return targets;
+}
+
+}  // namespace
+
+std::span<const KernelTarget> runnable_kernels() {
+  static const std::vector<KernelTarget> targets = find_runnable_kernels();
+  return targets;
+}
+
+const EdgeKernels& edge_kernels() {
+  static const EdgeKernels& fastest = *runnable_kernels().front().edge;
+  return fastest;
+}
+
+const SkyKernels& sky_kernels() {
+  static const SkyKernels& fastest = *runnable_kernels().front().sky;
+  return fastest;
+}
+
+}  // namespace farlod

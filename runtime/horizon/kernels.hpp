@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "farlod/horizon/horizon_edge.hpp"
+#include "horizon/azimuth_sampling.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "horizon/silhouette_edges.hpp"
+
+/// The inner loops of the horizon engine, for sixteen receivers or edges at once. edge_kernels.cpp and sky_kernels.cpp are
+/// compiled once for each target, a generation of processors; all targets give the same bits.
+/// docs/decisions/0015-portable-kernels.md.
+///
+/// Horizons, and rows of horizons, are arrays float[azimuth][receiver], with 16 receivers: value k * 16 + l is that of the
+/// receiver l at the azimuth k. A slope is the tangent of an elevation, at least 0.
+namespace farlod {
+
+/// Edges of one role, 16 a batch (SilhouetteEdges).
+struct EdgeBatches {
+  std::span<const SilhouetteEdges::Batch> batches;
+  EdgeRole role;
+};
+
+struct EdgeKernels {
+  /// For each edge its distance in the plan from the centre of a box of receivers, or −1 if it can be a silhouette for none of
+  /// them: may_be_silhouette (farlod/horizon/edge_facing.hpp) and a test of its height, in floats.
+  ///   (1) an edge that may_be_silhouette keeps is kept, unless no end is above the box's floor
+  ///   (2) other edges are kept only within rounding
+  /// distances_m[batch][lane]; lanes without an edge mean nothing.
+  void (*find_facing)(const EdgeBatches& edges, const CenteredBox& box, float* distances_m);
+  /// Raises horizons to edges: slopes = max(slopes, slope of each edge where a receiver sees it).
+  void (*raise_to_edges)(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
+                         const AzimuthView& azimuths, float* slopes);
+  /// Lowers horizons to the edges above `min_slopes`: slopes = min(slopes, slope of each edge that is steeper than min_slopes).
+  void (*lower_to_edges)(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
+                         const AzimuthView& azimuths, const float* min_slopes, float* slopes);
+};
+
+/// Slopes of a far map's bins between two of its levels, for PacketHorizon::raise.
+struct ResidualRows {
+  std::span<const float> here, above, lower, upper;
+  ReceiverPacket::Lanes shares, caps;
+};
+
+/// One azimuth d of a gap, and whether its sky is weighted by solid angle instead of the cosine.
+struct GapAzimuth {
+  float cosine, sine;
+  bool is_solid;
+};
+
+/// The ends of a gap at one azimuth: sines of the elevation, and the sky above them.
+struct GapEnds {
+  alignas(64) ReceiverPacket::Lanes sine_from, sine_to, sky_from, sky_to;
+};
+
+struct SkyKernels {
+  /// Σ over the azimuths of the sky above each horizon, F(φ) of docs/concepts.md, "Above a horizon": for receivers whose normals
+  /// point straight up; for level normals; for any; and by solid angle for any. sums[receiver].
+  void (*sum_cosine_up)(const float* slopes, std::size_t azimuth_count, float* sums);
+  void (*sum_cosine_level)(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums);
+  void (*sum_cosine)(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums);
+  void (*sum_solid_angle)(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums);
+  /// rows[k] = share of the SVF between the slopes low[k] and high[k], at least 0.
+  void (*find_sky_between)(const float* low, const float* high, const ReceiverPacket& receivers, const AzimuthView& azimuths,
+                           bool is_solid, float* rows);
+
+  /// slopes = min(slopes, other), and the maximum.
+  void (*lower)(const float* other, std::size_t azimuth_count, float* slopes);
+  void (*raise)(const float* other, std::size_t azimuth_count, float* slopes);
+  /// slopes = slopes where they are finite, otherwise `other`.
+  void (*replace_infinite)(const float* other, std::size_t azimuth_count, float* slopes);
+  /// slopes = max(slopes, upper) where lower ≤ slopes.
+  void (*join)(const float* lower, const float* upper, std::size_t azimuth_count, float* slopes);
+  /// differences[receiver] = max over the azimuths of slopes − other, at least −1.
+  void (*find_max_difference)(const float* slopes, const float* other, std::size_t azimuth_count, float* differences);
+  /// counts[receiver] = number of azimuths k at which the horizon lies below ray_slopes[k].
+  void (*count_above)(const float* slopes, const float* ray_slopes, std::size_t azimuth_count, float* counts);
+
+  /// slopes = max(slopes, min(row[bin of the azimuth], caps)).
+  void (*raise_to_row)(const float* row, const float* caps, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count,
+                       float* slopes);
+  /// The same to here + shares (above − here), clamped to [lower, upper].
+  void (*raise_between_rows)(const ResidualRows& rows, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count,
+                             float* slopes);
+
+  /// The ends of a gap between two slopes, within what each receiver's normal sees.
+  void (*find_gap_ends)(const float* from, const float* to, const ReceiverPacket& receivers, const GapAzimuth& azimuth,
+                        GapEnds& ends);
+  /// The slopes below which this share of a gap's sky lies.
+  void (*find_gap_slopes)(const GapEnds& ends, const ReceiverPacket& receivers, const GapAzimuth& azimuth, float share,
+                          float* slopes);
+};
+
+/// All kernels, compiled for one target.
+struct KernelTarget {
+  const char* name;
+  const EdgeKernels* edge;
+  const SkyKernels* sky;
+};
+
+/// The targets that this processor can run, the fastest first; the last one is `baseline`, which any can.
+[[nodiscard]] std::span<const KernelTarget> runnable_kernels();
+
+/// The fastest of them.
+[[nodiscard]] const EdgeKernels& edge_kernels();
+[[nodiscard]] const SkyKernels& sky_kernels();
+
+}  // namespace farlod

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "farlod/grid.hpp"
+#include "farlod/point.hpp"
+#include "horizon/azimuth_sampling.hpp"
+#include "horizon/cell_silhouettes.hpp"
+#include "horizon/packet_horizon.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "horizon/sky_partition.hpp"
+#include "occlusion/occluder.hpp"
+#include "package/package.hpp"
+
+/// Overhangs: occluders that sky may be seen below. docs/concepts.md, "What is grounded, and what overhangs".
+namespace farlod {
+
+/// A scene, and the place of its frame: added to a place of the cell frame, gives one of the scene.
+struct PlacedScene {
+  const Occluder& occluder;
+  Point2d scene_from_cell_m;
+
+  [[nodiscard]] RayOrigins origins_of(const ReceiverPacket& receivers) const {
+    RayOrigins origins{receivers.x, receivers.y, receivers.z};
+    for (std::size_t l = 0; l < RayOrigins::lanes; ++l) {
+      origins.x[l] = static_cast<float>(origins.x[l] + scene_from_cell_m.x);
+      origins.y[l] = static_cast<float>(origins.y[l] + scene_from_cell_m.y);
+    }
+    return origins;
+  }
+};
+
+/// The overhanging buildings around a cell (not SurfaceRecord::is_grounded), triangle by triangle. Cell frame. Of one thread.
+class OverhangGeometry {
+ public:
+  using TriangleCorners = std::array<Point3f, 3>;
+
+  /// Answers with a scene of the whole city.
+  using WholeScene = std::function<PlacedScene(Cell)>;
+
+  /// The package must outlive it. With `whole_scene`, rays are traced against that instead of a scene of the cell's own.
+  OverhangGeometry(const Package& package, Cell cell, WholeScene whole_scene = {});
+
+  /// A bit for each receiver that is below an overhang.
+  [[nodiscard]] std::uint32_t receivers_below(const ReceiverPacket& receivers) const;
+  /// All overhangs of the neighborhood, for rays, or the whole city. Built at the first call.
+  [[nodiscard]] PlacedScene scene();
+
+ private:
+  [[nodiscard]] std::vector<TriangleCorners> triangles_in(const CellRange& cells) const;
+
+  const Package& package_;
+  Cell cell_;
+  WholeScene whole_scene_;
+  std::vector<TriangleCorners> overhead_;  ///< what may lie above receivers of the cell
+  std::optional<Occluder> scene_;
+};
+
+/// Which of several lower borders of the far city, one above the other, a gap ends at.
+enum class FarGapEnd : std::uint8_t {
+  highest,  ///< an upper bound of the sky: all below the highest border may be open
+  lowest    ///< the estimate: the borders above the lowest one belong to the same building
+};
+
+/// The slopes between which a packet's receivers may see sky, where something overhangs. Each azimuth is divided, from below:
+///
+///     0 … grounded                      hidden
+///     grounded … lower_borders          a gap: sky may be seen, but for the slopes between the two far borders
+///     lower_borders … upper_borders     hidden
+///     upper_borders … ∞                 sky
+struct OverhangHorizons {
+  explicit OverhangHorizons(const AzimuthSampling& azimuths)
+      : grounded(azimuths),
+        lower_borders(azimuths),
+        upper_borders(azimuths),
+        far_lower_borders(azimuths),
+        far_upper_borders(azimuths) {}
+
+  PacketHorizon grounded;
+  PacketHorizon lower_borders, upper_borders;
+  PacketHorizon far_lower_borders, far_upper_borders;  ///< of the far city alone
+
+  /// Draws overhangs above `grounded`. `below` are the bits of the receivers below an overhang. `lower_borders` and
+  /// `upper_borders` may hold the residual horizon's already; they must not be lower than `grounded`.
+  void draw_overhangs(const CellSilhouettes& silhouettes, const ReceiverPacket& receivers, std::uint32_t below,
+                      FarGapEnd far_end);
+  /// The sky in the gaps, a row for each azimuth; no rows where there is no gap. Afterwards `lower_borders` and the far horizons
+  /// are the ends of these gaps.
+  [[nodiscard]] std::span<const PacketHorizon::Row> find_sky_in_gaps(SkyWeight weight, const ReceiverPacket& receivers,
+                                                                     std::vector<PacketHorizon::Row>& rows);
+
+ private:
+  std::vector<PacketHorizon::Row> far_sky_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "rays/ray_engine.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "farlod/expects.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr std::uint32_t bit_of(std::size_t lane) { return 1U << lane; }
+
+std::uint32_t whole(float count) { return static_cast<std::uint32_t>(count); }
+
+}  // namespace
+
+RayEngine::RayEngine(const DirectionSampling& directions, const FarHorizon& far, const CellSilhouettes& silhouettes,
+                     OverhangGeometry& overhangs, bool wants_bounds)
+    : directions_(directions),
+      silhouettes_(silhouettes),
+      overhangs_(overhangs),
+      wants_bounds_(wants_bounds),
+      residual_(far, directions.azimuths()),
+      for_estimate_(directions.azimuths()),
+      for_high_(directions.azimuths()),
+      for_low_(directions.azimuths()) {}
+
+std::vector<FreeRays> RayEngine::count(std::span<const Receiver> receivers) {
+  FARLOD_EXPECTS(!receivers.empty() && receivers.size() <= ReceiverPacket::lanes);
+  draw_horizons(receivers);
+  trace_gaps();
+  const PacketHorizon::Lanes estimate = for_estimate_.upper_borders.count_above(directions_.slopes());
+  const PacketHorizon::Lanes high = wants_bounds_ ? for_high_.upper_borders.count_above(directions_.slopes()) : estimate;
+  const PacketHorizon::Lanes low = wants_bounds_ ? for_low_.count_above(directions_.slopes()) : estimate;
+  // Rays above the upper borders, and those that pass through gaps
+  std::vector<FreeRays> free;
+  for (std::size_t l = 0; l < receivers.size(); ++l) free.push_back({whole(low[l]), whole(estimate[l]), whole(high[l])});
+  for (const GapRay& ray : gap_rays_)
+    for (std::size_t l = 0; l < free.size(); ++l) {
+      free[l].estimate += (ray.estimate & bit_of(l)) != 0 ? 1U : 0U;
+      free[l].high += (ray.high & bit_of(l)) != 0 ? 1U : 0U;
+    }
+  if (!wants_bounds_)
+    for (FreeRays& f : free) f.low = f.high = f.estimate;
+  return free;
+}
+
+void RayEngine::draw_horizons(std::span<const Receiver> receivers) {
+  packet_ = {};
+  for (const Receiver& r : receivers) packet_.add(r);
+  const std::uint32_t below = overhangs_.receivers_below(packet_);
+  // The estimate: the residual city is grounded
+  for_estimate_.grounded.clear();
+  residual_.raise_to_estimate(packet_, for_estimate_.grounded);
+  for_estimate_.grounded.raise(silhouettes_.grounded, packet_);
+  for_estimate_.upper_borders = for_estimate_.lower_borders = for_estimate_.grounded;
+  for_estimate_.draw_overhangs(silhouettes_, packet_, below, FarGapEnd::lowest);
+  for_estimate_.lower_borders.lower_to(for_estimate_.upper_borders);
+  if (!wants_bounds_) return;
+  // The high count: the residual's low bound, and gaps up to the highest borders
+  for_high_.grounded.clear();
+  for_high_.grounded.raise(silhouettes_.grounded, packet_);
+  for_high_.upper_borders = for_high_.lower_borders = for_high_.grounded;
+  residual_.raise_to_low(packet_, for_high_.upper_borders);
+  residual_.raise_to_overhang(packet_, for_high_.lower_borders);
+  for_high_.draw_overhangs(silhouettes_, packet_, below, FarGapEnd::highest);
+  for_high_.lower_borders.lower_to(for_high_.upper_borders);
+  // The low count: the residual's high bound, and no gaps
+  for_low_ = for_estimate_.upper_borders;
+  residual_.raise_to_high(packet_, for_low_);
+}
+
+std::uint32_t RayEngine::in_gap(const OverhangHorizons& h, std::uint32_t azimuth, float slope) {
+  const std::uint32_t in_far = h.far_lower_borders.below(azimuth, slope) & ~h.far_upper_borders.below(azimuth, slope);
+  return h.grounded.below(azimuth, slope) & ~h.lower_borders.below(azimuth, slope) & ~in_far;
+}
+
+void RayEngine::trace_gaps() {
+  gap_rays_.clear();
+  const bool has_gaps = for_estimate_.lower_borders.exceeds(for_estimate_.grounded) != 0 ||
+                        (wants_bounds_ && for_high_.lower_borders.exceeds(for_high_.grounded) != 0);
+  if (!has_gaps) return;
+  const PlacedScene scene = overhangs_.scene();
+  const RayOrigins origins = scene.origins_of(packet_);
+  for (std::uint32_t k = 0; k < directions_.size(); ++k) {
+    const float slope = directions_.slopes()[k];
+    const std::uint32_t estimate = in_gap(for_estimate_, k, slope), high = wants_bounds_ ? in_gap(for_high_, k, slope) : 0U;
+    const std::uint32_t wanted = estimate | high;
+    if (wanted == 0) continue;
+    const std::uint32_t free = wanted & ~scene.occluder.blocked(origins, directions_.direction(k), least_distance_m, wanted);
+    if (free != 0) gap_rays_.push_back({k, free & estimate, free & high});
+  }
+}
+
+std::uint64_t RayEngine::retrace(const Occluder& city, const RayOrigins& origins, std::uint32_t doubtful,
+                                 std::span<FreeRays> free) const {
+  FARLOD_EXPECTS(wants_bounds_);
+  // Count anew from the low count: rays above `for_low_` are free for certain
+  std::uint64_t rays = 0;
+  auto gap_ray = gap_rays_.begin();
+  for (std::size_t l = 0; l < free.size(); ++l)
+    if ((doubtful & bit_of(l)) != 0) free[l].high = free[l].low;
+  for (std::uint32_t k = 0; k < directions_.size(); ++k) {
+    const float slope = directions_.slopes()[k];
+    // Trace the rays between the horizons of both bounds, and those in gaps
+    const bool is_gap_ray = gap_ray != gap_rays_.end() && gap_ray->azimuth == k;
+    const std::uint32_t in_gap = is_gap_ray ? (gap_ray++)->high : 0;
+    const std::uint32_t wanted = ((for_high_.upper_borders.below(k, slope) & ~for_low_.below(k, slope)) | in_gap) & doubtful;
+    rays += static_cast<std::uint64_t>(std::popcount(wanted));
+    const std::uint32_t is_free = wanted & ~city.blocked(origins, directions_.direction(k), least_distance_m, wanted);
+    for (std::size_t l = 0; l < free.size(); ++l) free[l].high += (is_free & bit_of(l)) != 0 ? 1U : 0U;
+  }
+  for (std::size_t l = 0; l < free.size(); ++l)
+    if ((doubtful & bit_of(l)) != 0) free[l].low = free[l].estimate = free[l].high;
+  return rays;
+}
+
+}  // namespace farlod

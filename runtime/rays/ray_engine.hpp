@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "horizon/azimuth_sampling.hpp"
+#include "horizon/cell_silhouettes.hpp"
+#include "horizon/overhangs.hpp"
+#include "horizon/packet_horizon.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "horizon/residual_horizon.hpp"
+#include "occlusion/occluder.hpp"
+#include "package/far_horizon.hpp"
+#include "receivers/receiver.hpp"
+
+namespace farlod {
+
+/// How many of a receiver's rays reach the sky: the estimate, and its bounds.
+struct FreeRays {
+  std::uint32_t low = 0, estimate = 0, high = 0;
+};
+
+/// Counts the rays that reach the sky, for packets of receivers that share their directions. A ray above a receiver's horizon is
+/// free; only rays in the gaps below overhangs are traced.
+class RayEngine {
+ public:
+  /// All must outlive it. For receivers of one cell. Without `wants_bounds`, low = high = estimate.
+  RayEngine(const DirectionSampling& directions, const FarHorizon& far, const CellSilhouettes& silhouettes,
+            OverhangGeometry& overhangs, bool wants_bounds);
+
+  /// For up to ReceiverPacket::lanes receivers.
+  [[nodiscard]] std::vector<FreeRays> count(std::span<const Receiver> receivers);
+
+  /// For the receivers of the last count with bits in `doubtful`: traces the rays that the far map does not decide, against the
+  /// whole city, so that low = estimate = high. `origins` are the same receivers in the frame of `city`. Needs `wants_bounds`.
+  /// Returns the number of rays.
+  std::uint64_t retrace(const Occluder& city, const RayOrigins& origins, std::uint32_t doubtful, std::span<FreeRays> free) const;
+
+ private:
+  void draw_horizons(std::span<const Receiver> receivers);
+  /// Finds the rays that pass through gaps.
+  void trace_gaps();
+  /// A bit for each receiver whose ray lies in a gap.
+  [[nodiscard]] static std::uint32_t in_gap(const OverhangHorizons& horizons, std::uint32_t azimuth, float slope);
+
+  /// A ray in a gap that no near occluder blocks: bits of the receivers for which it is free, by the estimate and by the high
+  /// bound.
+  struct GapRay {
+    std::uint32_t azimuth, estimate, high;
+  };
+
+  const DirectionSampling& directions_;
+  const CellSilhouettes& silhouettes_;
+  OverhangGeometry& overhangs_;
+  bool wants_bounds_;
+  ResidualHorizon residual_;
+  ReceiverPacket packet_;
+  /// The horizons that give the estimate, the high count and the low count. A low horizon gives a high count. Without bounds,
+  /// only the first are drawn.
+  OverhangHorizons for_estimate_, for_high_;
+  PacketHorizon for_low_;
+  std::vector<GapRay> gap_rays_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "horizon/edge_culling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "farlod/angle.hpp"
+#include "farlod/horizon/azimuth.hpp"
+#include "farlod/horizon/edge_view.hpp"
+#include "tests/oracles/distance_to_segment.hpp"
+#include "tests/runtime/horizon/random_places.hpp"
+
+namespace farlod {
+namespace {
+
+/// Intervals and bounds are widened by this; their rounding is a thousandth of it.
+constexpr double margin = reach_margin;
+
+struct Scene {
+  PacketBounds bounds;
+  HorizonEdge edge;
+};
+
+/// Boxes of many shapes, down to a point, and edges near and far, across their axes and beside them.
+Scene random_scene(RandomPlaces& random) {
+  Scene s;
+  s.bounds.box.x = random.between(-5.0, 5.0);
+  s.bounds.box.y = random.between(-5.0, 5.0);
+  s.bounds.box.half_x = std::max(0.0F, random.between(-2.0, 8.0));
+  s.bounds.box.half_y = std::max(0.0F, random.between(-2.0, 8.0));
+  s.bounds.box.low_z = random.between(-2.0, 2.0);
+  s.bounds.depth = -1.0F;
+  s.edge = random.edge(random.between(5.0, 100.0), -5.0, 40.0);
+  return s;
+}
+
+EdgeReach reach(const Scene& s) { return reach_of(silhouettes_of(std::vector{s.edge}).batches()[0], s.bounds); }
+
+Point3d place(const Point3f& p) { return {p.x, p.y, p.z}; }
+
+/// The corners first, then places within the box.
+std::vector<Point3d> eyes_in(const CenteredBox& box, RandomPlaces& random) {
+  std::vector<Point3d> eyes;
+  const auto add = [&](double x, double y) { eyes.push_back({box.x + x * box.half_x, box.y + y * box.half_y, box.low_z}); };
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0}) add(x, y);
+  for (int n = 0; n < 20; ++n) {
+    const float x = random.between(-1.0, 1.0);
+    add(x, random.between(-1.0, 1.0));
+  }
+  return eyes;
+}
+
+/// The pseudo-angle of a direction in turns, on the turn that is nearest to `about`.
+double turns_about(Point2d direction, double about) {
+  const double turns = pseudo_angle(direction);
+  return turns + std::round(about - turns);
+}
+
+struct Seen {
+  double steepest = 0.0, from = 3.0, to = 0.0;
+  void add(const Point3d& eye, const Point3d& p, double about) {
+    const Point2d way = horizontal(p) - horizontal(eye);
+    steepest = std::max(steepest, (p.z - eye.z) / norm(way));
+    from = std::min(from, turns_about(way, about));
+    to = std::max(to, turns_about(way, about));
+  }
+};
+
+/// What some receivers see of an edge that is clear of them, at its ends and between.
+Seen seen(const Scene& s, double about, RandomPlaces& random) {
+  const Point3d a = place(s.edge.a), b = place(s.edge.b);
+  Seen result;
+  for (const Point3d& eye : eyes_in(s.bounds.box, random)) {
+    result.add(eye, a, about);
+    result.add(eye, b, about);
+    for (int n = 0; n < 20; ++n) result.add(eye, a + double{random.between(0.0, 1.0)} * (b - a), about);
+  }
+  return result;
+}
+
+/// Of the circle around the box, for which alone no edge is steeper.
+double slope_from_circle(const Scene& s) {
+  const Point2d middle{s.bounds.box.x, s.bounds.box.y};
+  const double distance = distance_to_segment(horizontal(place(s.edge.a)) - middle, horizontal(place(s.edge.b)) - middle);
+  const double radius = std::hypot(s.bounds.box.half_x, s.bounds.box.half_y);
+  const double high = std::max(s.edge.a.z, s.edge.b.z) - double{s.bounds.box.low_z};
+  return distance > radius ? high / (distance - radius) : std::numeric_limits<double>::infinity();
+}
+
+TEST(EdgeReach, HoldsWhatAnyReceiverSeesAndNoMoreAzimuthsThanThat) {
+  RandomPlaces random;
+  int told = 0;
+  for (int n = 0; n < 5000; ++n) {
+    const Scene s = random_scene(random);
+    const EdgeReach r = reach(s);
+    const bool is_above = std::max(s.edge.a.z, s.edge.b.z) > s.bounds.box.low_z;
+    EXPECT_EQ(r.max_slope[0] > 0.0F, is_above);
+    if (r.max_slope[0] < 0.0F || r.max_slope[0] == EdgeReach::unbounded) continue;
+    ++told;
+    const double from = r.from[0], to = r.to[0];
+    const Seen what = seen(s, 0.5 * (from + to), random);
+    EXPECT_LE(what.steepest, r.max_slope[0]);
+    EXPECT_LE(r.max_slope[0], slope_from_circle(s) * (1.0 + 2.0 * margin) + 2.0 * margin);
+    EXPECT_GE(what.from, from);
+    EXPECT_LE(what.to, to);
+    EXPECT_NEAR(what.from, from, 2.0 * margin);
+    EXPECT_NEAR(what.to, to, 2.0 * margin);
+    EXPECT_GE(from, 0.0);
+    EXPECT_LT(to, 3.0);
+  }
+  EXPECT_GT(told, 1000);
+}
+
+TEST(EdgeReach, OfAnEdgeThatCrossesTheBoxItCannotTell) {
+  Scene s;
+  s.bounds.box = {.x = 10.0F, .y = 20.0F, .half_x = 3.0F, .half_y = 1.0F, .low_z = 1.5F};
+  const auto steepest = [&s](const Point3f& a, const Point3f& b) {
+    s.edge = {a, b};
+    return reach(s).max_slope[0];
+  };
+  EXPECT_EQ(steepest({6.0F, 20.5F, 9.0F}, {14.0F, 20.5F, 9.0F}), EdgeReach::unbounded);
+  EXPECT_EQ(steepest({10.0F, 20.0F, 9.0F}, {50.0F, 20.0F, 9.0F}), EdgeReach::unbounded);
+  EXPECT_EQ(steepest({6.0F, 21.0F, 9.0F}, {14.0F, 21.0F, 9.0F}), EdgeReach::unbounded);
+  // Past the short sides, and beside the long ones, by two metres
+  constexpr double slope = 7.5 / 2.0, off = 2.0 * margin * (slope + 1.0);
+  EXPECT_NEAR(steepest({15.0F, 0.0F, 9.0F}, {15.0F, 40.0F, 9.0F}), slope, off);
+  EXPECT_NEAR(steepest({0.0F, 23.0F, 9.0F}, {40.0F, 23.0F, 9.0F}), slope, off);
+}
+
+TEST(EdgeReach, WhatLiesBehindAllIsSeenByNobody) {
+  Scene s;
+  s.bounds = {.box = {.half_x = 1.0F, .half_y = 1.0F}, .normal_x = 1.0F};
+  s.edge = {{-2.0F, -5.0F, 9.0F}, {-2.0F, 5.0F, 9.0F}};
+  EXPECT_LT(reach(s).max_slope[0], 0.0F);
+  s.edge.b.x = -0.5F;
+  EXPECT_GT(reach(s).max_slope[0], 0.0F);
+}
+
+TEST(EdgeReach, LanesWithoutAnEdgeAreSeenByNobodyAboveTheirHeight) {
+  const Scene s{{.box = {.x = 50.0F, .half_x = 1.0F, .half_y = 1.0F}}, {{1.0F, 2.0F, 3.0F}, {3.0F, 2.0F, 3.0F}}};
+  EXPECT_LT(reach(s).max_slope[1], 0.0F);
+}
+
+constexpr std::size_t sectors = SectorMinHorizon::sectors;
+
+struct alignas(64) Row : std::array<float, lane_count> {};
+
+/// Random slopes, many of them level.
+std::vector<Row> random_rows(std::size_t count, RandomPlaces& random) {
+  std::vector<Row> rows(count);
+  for (Row& row : rows)
+    for (float& slope : row) slope = std::max(0.0F, random.between(-0.3, 5.0));
+  return rows;
+}
+
+SectorMinHorizon minima_of(const std::vector<Row>& rows, const AzimuthSampling& ring) {
+  SectorMinHorizon min_horizon;
+  find_sector_minima(rows.front().data(), ring.first_of_sector(), min_horizon);
+  return min_horizon;
+}
+
+/// The lowest slope at the azimuths of the sectors from first to last, counted on over the end of the turn.
+float expected_minimum(const std::vector<Row>& rows, const AzimuthSampling& ring, std::size_t first, std::size_t last) {
+  float lowest = std::numeric_limits<float>::max();
+  for (std::size_t s = first; s <= last; ++s)
+    for (std::size_t k = ring.first_of_sector()[s % sectors]; k < ring.first_of_sector()[s % sectors + 1]; ++k)
+      lowest = std::min(lowest, *std::min_element(rows[k].begin(), rows[k].end()));
+  return lowest;
+}
+
+std::set<std::size_t> edges_above(const EdgeReach& reach, const SectorMinHorizon& min_horizon) {
+  std::array<std::uint8_t, lane_count> lanes;
+  const std::size_t count = cull(reach, min_horizon, lanes);
+  return {lanes.begin(), lanes.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+TEST(SectorMinHorizon, FindWhatRisesOverSomebodysHorizonInAnySectorThatItTouches) {
+  RandomPlaces random;
+  std::size_t found = 0;
+  for (const std::size_t azimuths : {8U, 96U, 256U}) {
+    const AzimuthSampling ring = AzimuthSampling::even(azimuths, GridRotation(Angle::degrees(20.0)));
+    const std::vector<Row> rows = random_rows(azimuths, random);
+    const SectorMinHorizon min_horizon = minima_of(rows, ring);
+    for (int n = 0; n < 300; ++n) {
+      EdgeReach reach;
+      std::set<std::size_t> expected;
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        const float from = random.between(0.0, 1.9), to = from + random.between(0.0, 1.0) * random.between(0.0, 0.99);
+        reach.from[l] = from;
+        reach.to[l] = to;
+        reach.max_slope[l] = random.between(-0.5, 0.5);
+        const auto sector_at = [](float turns) { return static_cast<std::size_t>(turns * static_cast<float>(sectors)); };
+        if (reach.max_slope[l] > expected_minimum(rows, ring, sector_at(from), sector_at(to))) expected.insert(l);
+      }
+      EXPECT_EQ(edges_above(reach, min_horizon), expected);
+      found += expected.size();
+    }
+  }
+  EXPECT_GT(found, 1000U);
+}
+
+TEST(SectorMinHorizon, WhatIsTooNearToTellRisesAnywhere) {
+  const AzimuthSampling ring = AzimuthSampling::even(1, {});
+  const SectorMinHorizon min_horizon = minima_of(std::vector<Row>(1), ring);
+  EdgeReach reach{broadcast(EdgeReach::unbounded), broadcast(0.1F), broadcast(2.9F)};
+  EXPECT_EQ(edges_above(reach, min_horizon).size(), lane_count);
+  reach.max_slope = broadcast(-1.0F);
+  EXPECT_TRUE(edges_above(reach, min_horizon).empty());
+}
+
+}  // namespace
+}  // namespace farlod
