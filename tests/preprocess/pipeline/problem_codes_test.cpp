@@ -86,7 +86,7 @@ TEST(BrokenFiles, LoseWhatIsLeftOutAndNothingElse) {
       {"not_planar", {{"house"}, 6}},
       {"spike", {{"house"}, 6}},
       {"hole_outside", {{"house"}, 6}},
-      {"floor_in_the_air", {{"low", "high"}, 12}},
+      {"floor_in_the_air", {{"lower", "upper"}, 12}},
   };
   for (const Fixture& fixture : fixtures_of_stages(2, 4)) {
     const auto remains = expected.find(fixture.name.second);
