@@ -27,10 +27,9 @@ struct RunOptions {
 /// Adds --summary, --quiet, --threads, --config and --version. The options must outlive the parsing.
 void add_run_options(CLI::App& app, const std::string& program, RunOptions& options);
 
-/// Parses the command line, then lets `understand` make sense of it (it may throw CLI::ValidationError).
+/// Parses the command line, then calls `resolve`, which may throw CLI::ValidationError.
 /// Returns the exit code when the program has nothing left to do: after --help and --version, or when the command line is wrong;
 /// what there is to say has been said then.
-[[nodiscard]] std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv,
-                                                    const std::function<void()>& understand);
+[[nodiscard]] std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv, const std::function<void()>& resolve);
 
 }  // namespace farlod

@@ -26,10 +26,10 @@ void add_run_options(CLI::App& app, const std::string& program, RunOptions& o) {
   app.get_formatter()->column_width(34);
 }
 
-std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv, const std::function<void()>& understand) {
+std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv, const std::function<void()>& resolve) {
   try {
     app.parse(argc, argv);
-    understand();
+    resolve();
   } catch (const CLI::ConfigError& error) {
     app.exit(
         CLI::ValidationError("--config", std::string(error.what()) + ": name its options as --help does, without the dashes"));

@@ -9,7 +9,7 @@
 #include "city/input_error.hpp"
 #include "farlod/expects.hpp"
 
-namespace farlod {
+namespace farlod::align {
 namespace {
 
 /// 200 km by 200 km of cells of 50 m. Each cell has a tile and a far map: beyond, a stray building is likelier than a city.
@@ -26,7 +26,7 @@ Grid empty_grid(Angle bearing, const GridSettings& settings) {
   return grid;
 }
 
-/// Before any cell is numbered: a number of 32 bits may not hold them.
+/// Runs before cells are numbered: 32 bits may be too few.
 void check_extent(const Box2d& box_grid, double cell_edge_m) {
   const Point2d size_m = box_grid.high - box_grid.low;
   const double cells = (size_m.x / cell_edge_m + 1.0) * (size_m.y / cell_edge_m + 1.0);
@@ -81,4 +81,4 @@ Grid grid_over(const Box2d& box_city, const GridSettings& settings) {
   return grid;
 }
 
-}  // namespace farlod
+}  // namespace farlod::align

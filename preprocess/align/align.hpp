@@ -8,7 +8,7 @@
 #include "farlod/box.hpp"
 #include "farlod/grid.hpp"
 
-namespace farlod {
+namespace farlod::align {
 
 enum class AlignMode {
   automatic,  ///< along the dominant street direction, if there is one
@@ -45,4 +45,4 @@ struct GridAlignment {
 /// bearing. Same promises.
 [[nodiscard]] Grid grid_over(const Box2d& box_city, const GridSettings& settings);
 
-}  // namespace farlod
+}  // namespace farlod::align

@@ -11,7 +11,7 @@
 
 #include "farlod/surface_kind.hpp"
 
-namespace farlod {
+namespace farlod::align {
 namespace {
 
 /// A wall as seen from above. Its direction modulo 90° is that of a right-angled grid, so four times the angle is kept.
@@ -124,4 +124,4 @@ Alignment street_alignment(const CityModel& city) {
   return {bearing_of(refine(walls, peak_of(walls))), std::min(std::abs(sum) / length_m, 1.0)};
 }
 
-}  // namespace farlod
+}  // namespace farlod::align

@@ -5,7 +5,7 @@
 #include "city/city_model.hpp"
 #include "farlod/angle.hpp"
 
-namespace farlod {
+namespace farlod::align {
 
 /// How the buildings of a city lie along its streets.
 struct Alignment {
@@ -23,4 +23,4 @@ struct Alignment {
 /// `city` is in the city frame.
 [[nodiscard]] Alignment street_alignment(const CityModel& city);
 
-}  // namespace farlod
+}  // namespace farlod::align

@@ -9,6 +9,6 @@
 namespace farlod {
 
 /// What is told before the long work: a line, rounded to what an estimate can know.
-[[nodiscard]] std::string estimate_text(const PackEstimate& estimate);
+[[nodiscard]] std::string estimate_text(const pipeline::PackEstimate& estimate);
 
 }  // namespace farlod

@@ -43,7 +43,7 @@ void write_report(const Report& report, const std::string& path) {
 }
 
 /// What --strict says.
-InputError refusal(const ProblemsRefused& refused, const std::string& report_file) {
+InputError refusal(const pipeline::ProblemsRefused& refused, const std::string& report_file) {
   const std::string list = report_file.empty() ? "--report FILE.json lists each of them" : report_file + " lists them one by one";
   return InputError(std::string(refused.what()) + ", and --strict allows none: no package is written; " + list + ".");
 }
@@ -70,15 +70,15 @@ void print_skipped(const SkippedFeatures& skipped) {
   if (!rows.empty()) fmt::print("\n");
 }
 
-void print_choice(const ChosenGrid& chosen, const PackOptions& options) {
+void print_choice(const pipeline::ChosenGrid& chosen, const PackOptions& options) {
   const double max_error = options.max_error.value_or(0.0);
   if (chosen.best) {
-    const GridChoice& b = *chosen.best;
+    const pipeline::GridChoice& b = *chosen.best;
     fmt::print(
         "Chosen for errors up to {:g}: cells of {:g} m, neighborhood {} × {}, far maps to {:g}; expected of the far maps: at "
         "the "
         "most {:.4f}, certain to {:.4f} for 99 %\n",
-        max_error, b.cell_edge_m, b.neighborhood, b.neighborhood, b.tolerance, b.verdict.max_error, b.verdict.p99_half_width);
+        max_error, b.cell_edge_m, b.neighborhood, b.neighborhood, b.tolerance, b.far_error.max_error, b.far_error.p99_half_width);
   } else {
     fmt::print(
         "No cells and no neighborhood keep an error of {:g} with far maps alone: farlod-svf --max-error {:g} will trace more "
@@ -90,7 +90,7 @@ void print_choice(const ChosenGrid& chosen, const PackOptions& options) {
              m.receivers, m.mean_error, m.max_error, m.p99_half_width);
 }
 
-void print_result(const PackResult& result, const Report& report, const PackOptions& options, double seconds) {
+void print_result(const pipeline::PackResult& result, const Report& report, const PackOptions& options, double seconds) {
   const package::Manifest& m = result.manifest;
   fmt::print("{} buildings, {} polygons", m.buildings, m.polygons);
   if (result.facets > m.polygons) fmt::print(" (planar faces of {} facets)", result.facets);
@@ -122,7 +122,7 @@ class StageProgress {
     }
     line_->update(done, all);
   }
-  void tell(const PackEstimate& estimate) {
+  void tell(const pipeline::PackEstimate& estimate) {
     line_.reset();
     if (verbosity_ == Verbosity::normal) fmt::print("{}\n", estimate_text(estimate));
     std::fflush(stdout);
@@ -134,11 +134,12 @@ class StageProgress {
   std::unique_ptr<Progress> line_;
 };
 
-PackResult pack_as_told(const PackOptions& options, Report& report) {
+pipeline::PackResult pack_as_told(const PackOptions& options, Report& report) {
   StageProgress progress(options.run.verbosity);
   try {
-    return pack(options.settings, report, std::ref(progress), [&](const PackEstimate& e) { progress.tell(e); });
-  } catch (const ProblemsRefused& refused) {
+    return pipeline::pack(options.settings, report, std::ref(progress),
+                          [&](const pipeline::PackEstimate& e) { progress.tell(e); });
+  } catch (const pipeline::ProblemsRefused& refused) {
     throw refusal(refused, options.report_file);
   }
 }
@@ -149,7 +150,7 @@ int run(const PackOptions& options) {
   require_folder_of(options.run.summary_file);
   const auto start = std::chrono::steady_clock::now();
   Report report;
-  std::optional<PackResult> result;
+  std::optional<pipeline::PackResult> result;
   try {
     result = pack_as_told(options, report);
   } catch (...) {
@@ -177,7 +178,7 @@ int main(int argc, char** argv) {
   } catch (const PackageWriteError& error) {
     fmt::print(stderr, "farlod-pack: {}\n", error.what());
     return exit_unusable_input;
-  } catch (const MemoryLimitError& error) {
+  } catch (const pipeline::MemoryLimitError& error) {
     fmt::print(stderr, "farlod-pack: {}\n", error.what());
     return exit_limit_reached;
   } catch (const std::bad_alloc&) {

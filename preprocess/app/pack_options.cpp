@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pack_options.hpp"
 
-#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "console/exit_code.hpp"
+#include "console/number_range.hpp"
 
 namespace farlod {
 namespace {
@@ -26,7 +26,7 @@ constexpr const char* footer =
     "Exit codes: 0 done, 1 internal, 2 usage, 3 an input cannot be read or used (with --strict: has a problem), 5 a limit was "
     "reached.";
 
-/// Options whose text must be understood after CLI11 has taken them.
+/// Options whose text is resolved after CLI11 has parsed them.
 struct RawOptions {
   std::vector<std::string> inputs;
   std::string output, origin, up = "z", lod = "best", align = "auto", assign = "clip", far_map = "horizon";
@@ -35,16 +35,6 @@ struct RawOptions {
   std::optional<int> neighborhood;
   bool force = false, strict = false;
 };
-
-/// A finite number. CLI11's own Range lets NaN through, which is neither below nor above.
-CLI::Validator between(double low, double high) {
-  const auto complaint = [low, high](const std::string& text) {
-    double value = 0.0;
-    const bool fits = CLI::detail::lexical_cast(text, value) && low <= value && value <= high;
-    return fits ? std::string() : fmt::format("{} is not a number from {:g} to {:g}", text, low, high);
-  };
-  return {complaint, fmt::format("[{:g}, {:g}]", low, high), "between"};
-}
 
 double number_in(const std::string& text, const std::string& option, const std::string& remedy) {
   char* end = nullptr;
@@ -83,11 +73,12 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->group("Input");
   app.add_option("--storeys-field", raw.storeys_field, "Attribute with a footprint's number of storeys, where no height is known")
       ->group("Input");
-  app.add_option("--floor-height", o.settings.ingest.floor_height_m, "Height of a storey, in metres")
+  app.add_option("--floor-height", o.settings.ingest.footprints.floor_height_m, "Height of a storey, in metres")
       ->check(between(1.0, 20.0))
       ->capture_default_str()
       ->group("Input");
-  app.add_option("--default-height", o.settings.ingest.default_height_m, "Height of footprints that have none, in metres")
+  app.add_option("--default-height", o.settings.ingest.footprints.default_height_m,
+                 "Height of footprints that have none, in metres")
       ->check(between(0.01, 1000.0))
       ->group("Input");
   app.add_option("--lod", raw.lod, "Level of detail to read")
@@ -137,13 +128,13 @@ void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   add_run_options(app, "farlod-pack", o.run);
 }
 
-void resolve_alignment(const std::string& text, GridSettings& grid) {
+void resolve_alignment(const std::string& text, align::GridSettings& grid) {
   if (text == "auto") {
-    grid.align = AlignMode::automatic;
+    grid.align = align::AlignMode::automatic;
   } else if (text == "none") {
-    grid.align = AlignMode::none;
+    grid.align = align::AlignMode::none;
   } else {
-    grid.align = AlignMode::fixed;
+    grid.align = align::AlignMode::fixed;
     const double bearing_deg = number_in(text, "--align", "give auto, none, or degrees clockwise from grid north");
     if (std::abs(bearing_deg) > 360.0) throw CLI::ValidationError("--align", "\"" + text + "\" is more than a full turn");
     grid.fixed_bearing = Angle::degrees(bearing_deg);
@@ -151,7 +142,7 @@ void resolve_alignment(const std::string& text, GridSettings& grid) {
 }
 
 /// Half of the error is left for the sky between the rays of farlod-svf. What the user fixes is not chosen.
-void resolve_choice(const RawOptions& raw, double max_error, PackSettings& s) {
+void resolve_choice(const RawOptions& raw, double max_error, pipeline::PackSettings& s) {
   if (s.far_map.kind == FarMapKind::box)
     throw CLI::ValidationError("--max-error", "far maps of the kind box keep no error: leave --far-map out");
   s.choice.emplace();
@@ -160,13 +151,13 @@ void resolve_choice(const RawOptions& raw, double max_error, PackSettings& s) {
   if (raw.neighborhood) s.choice->neighborhoods = {*raw.neighborhood};
 }
 
-void understand(const RawOptions& raw, PackOptions& o) {
-  PackSettings& s = o.settings;
+void resolve(const RawOptions& raw, PackOptions& o) {
+  pipeline::PackSettings& s = o.settings;
   s.inputs.assign(raw.inputs.begin(), raw.inputs.end());
   if (raw.output.empty()) throw CLI::ValidationError("-o", "the name is empty: give the folder of the package, NAME.farlod");
   s.output = raw.output;
   s.overwrite = raw.force ? Overwrite::replace : Overwrite::refuse;
-  s.problems = raw.strict ? ProblemPolicy::refuse : ProblemPolicy::pack;
+  s.problems = raw.strict ? pipeline::ProblemPolicy::refuse : pipeline::ProblemPolicy::pack;
   if (!raw.terrain.empty()) s.terrain = raw.terrain;
   if (s.inputs.empty() && !s.terrain) throw CLI::RequiredError("INPUT");
   if (raw.cell_edge_m) s.grid.cell_edge_m = *raw.cell_edge_m;
@@ -175,12 +166,12 @@ void understand(const RawOptions& raw, PackOptions& o) {
     throw CLI::ValidationError("--neighborhood", std::to_string(s.grid.neighborhood) +
                                                      " is even: a neighborhood has a cell in its middle, give an odd number");
   if (!raw.origin.empty()) s.ingest.obj_origin = parse_origin(raw.origin);
-  s.ingest.up = raw.up == "y" ? UpAxis::y : UpAxis::z;
+  s.ingest.up = raw.up == "y" ? ingest::UpAxis::y : ingest::UpAxis::z;
   if (raw.lod != "best") s.ingest.lod.exactly = std::stoi(raw.lod);
-  if (!raw.height_field.empty()) s.ingest.height_field = raw.height_field;
-  if (!raw.base_field.empty()) s.ingest.base_field = raw.base_field;
-  if (!raw.storeys_field.empty()) s.ingest.storeys_field = raw.storeys_field;
-  if (!raw.roof_field.empty()) s.ingest.roof_field = raw.roof_field;
+  if (!raw.height_field.empty()) s.ingest.footprints.height_field = raw.height_field;
+  if (!raw.base_field.empty()) s.ingest.footprints.base_field = raw.base_field;
+  if (!raw.storeys_field.empty()) s.ingest.footprints.storeys_field = raw.storeys_field;
+  if (!raw.roof_field.empty()) s.ingest.footprints.roof_field = raw.roof_field;
   resolve_alignment(raw.align, s.grid);
   s.far_map.kind = raw.far_map == "box" ? FarMapKind::box : FarMapKind::horizon;
   s.assign = raw.assign == "whole" ? Assign::whole : Assign::clip;
@@ -197,7 +188,7 @@ ParsedPackOptions parse_pack_options(int argc, char** argv) {
   add_input_options(app, raw, options);
   add_grid_options(app, raw, options);
   add_output_options(app, raw, options);
-  if (const auto exit_code = parse_command_line(app, argc, argv, [&] { understand(raw, options); }))
+  if (const auto exit_code = parse_command_line(app, argc, argv, [&] { resolve(raw, options); }))
     return {std::nullopt, *exit_code};
   return {std::move(options), exit_done};
 }

@@ -10,9 +10,9 @@
 
 namespace farlod {
 
-/// The command line of farlod-pack, understood.
+/// The command line of farlod-pack, resolved.
 struct PackOptions {
-  PackSettings settings;
+  pipeline::PackSettings settings;
   std::optional<double> max_error;  ///< what the user asked for; settings.choice says what follows from it
   std::string report_file;
   RunOptions run;

@@ -16,11 +16,11 @@ Json json_of(const FarErrorEstimate& v) {
   return {{"receivers", v.receivers}, {"mean_error", v.mean_error}, {"max_error", v.max_error}, {"p99_half_width", v.p99_half_width}};
 }
 
-Json json_of(const ChosenGrid& chosen) {
+Json json_of(const pipeline::ChosenGrid& chosen) {
   Json j = {{"keeps_error", chosen.best.has_value()}};
   if (chosen.best) {
     j["tolerance"] = chosen.best->tolerance;
-    j["expected"] = json_of(chosen.best->verdict);
+    j["expected"] = json_of(chosen.best->far_error);
   }
   j["measured"] = json_of(chosen.measured);
   return j;
@@ -45,7 +45,7 @@ Json point_of(const std::optional<Point2d>& lon_lat_deg) {
 
 }  // namespace
 
-std::string pack_summary_json(const PackResult& result, const Report& report, double total_seconds) {
+std::string pack_summary_json(const pipeline::PackResult& result, const Report& report, double total_seconds) {
   const package::Manifest& m = result.manifest;
   Json seconds = {{"total", total_seconds}};
   for (const auto& [stage, value] : result.stage_seconds) seconds[stage] = value;

@@ -16,20 +16,8 @@ std::span<const Point3d> CityModel::points_of(const Building& b) const {
   return std::span(points_).subspan(begin, end - begin);
 }
 
-std::uint64_t CityModel::surface_count() const {
-  std::uint64_t count = 0;
-  std::vector<std::uint32_t> surfaces;
-  for (const Building& b : buildings_) {
-    surfaces.clear();
-    for (const Facet& f : facets_of(b)) surfaces.push_back(f.surface);
-    std::sort(surfaces.begin(), surfaces.end());
-    count += static_cast<std::uint64_t>(std::unique(surfaces.begin(), surfaces.end()) - surfaces.begin());
-  }
-  return count;
-}
-
-void CityModel::begin_building(std::string id, HeightReference footing, std::uint32_t source) {
-  buildings_.push_back({std::move(id), facets_.size(), 0, footing, source});
+void CityModel::begin_building(std::string id, HeightReference height_reference, std::uint32_t source) {
+  buildings_.push_back({std::move(id), facets_.size(), 0, height_reference, source});
 }
 
 void CityModel::begin_facet(SurfaceKind kind, std::uint32_t surface, std::uint16_t part) {
@@ -62,7 +50,7 @@ void CityModel::drop_facets(const std::vector<bool>& is_dropped) {
   if (std::find(is_dropped.begin(), is_dropped.end(), true) == is_dropped.end()) return;
   CityModel kept;
   for (const Building& b : buildings_) {
-    kept.begin_building(b.id, b.footing, b.source);
+    kept.begin_building(b.id, b.height_reference, b.source);
     for (std::uint64_t n = b.first_facet; n < b.first_facet + b.facet_count; ++n) {
       if (is_dropped[n]) continue;
       const Facet& f = facets_[n];

@@ -25,18 +25,18 @@ struct Facet {
   SurfaceKind kind = SurfaceKind::unknown;
 };
 
-/// What the heights of a building count from.
+/// The reference of a building's heights.
 enum class HeightReference : std::uint8_t {
-  elevation,       ///< the zero of the CRS: the file knows where the building stands
-  on_ground,       ///< the ground, which only a terrain can tell
-  down_to_ground,  ///< the roof has an elevation; what is nearer to the foot than to the roof has yet to be put on the ground
+  elevation,       ///< the zero of the CRS: the file gives elevations
+  on_ground,       ///< the ground below the building, which only a terrain gives
+  down_to_ground,  ///< the roof has an elevation; the points nearer to the base than to the roof still have to move to the ground
 };
 
 struct Building {
   std::string id;
   std::uint64_t first_facet = 0;
   std::uint32_t facet_count = 0;
-  HeightReference footing = HeightReference::elevation;
+  HeightReference height_reference = HeightReference::elevation;
   std::uint32_t source = 0;  ///< place in LocatedCity::sources of the file that it comes from
 };
 
@@ -58,16 +58,14 @@ class CityModel {
   [[nodiscard]] std::span<Point3d> points_of(const Building& b);
   [[nodiscard]] std::span<const Point3d> points() const { return points_; }
   [[nodiscard]] std::span<Point3d> points() { return points_; }
-  /// Distinct surfaces over all buildings: what users call polygons.
-  [[nodiscard]] std::uint64_t surface_count() const;
 
   /// Building up: a building, then its facets, each with its rings, outer ring first.
-  void begin_building(std::string id, HeightReference footing = HeightReference::elevation, std::uint32_t source = 0);
+  void begin_building(std::string id, HeightReference height_reference = HeightReference::elevation, std::uint32_t source = 0);
   void begin_facet(SurfaceKind kind, std::uint32_t surface, std::uint16_t part = 0);
   void add_ring(std::span<const Point3d> points);
-  /// Takes back the building begun last, with all that it has.
+  /// Removes the building begun last with all its facets.
   void drop_last_building();
-  /// Takes back facets, with `is_dropped` for each of them, and buildings that have no others.
+  /// Removes the facets for which `is_dropped` is true, and buildings without other facets.
   void drop_facets(const std::vector<bool>& is_dropped);
   void set_source(std::uint32_t source);  ///< of all buildings
   /// Appends the buildings of another model; takes it over whole where there is nothing yet.

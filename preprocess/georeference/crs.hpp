@@ -12,7 +12,7 @@
 #include "farlod/point.hpp"
 #include "georeference/utm_projection.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 
 /// Where a CRS is meant to be used. Its west may be greater than its east, across the antimeridian.
 struct AreaOfUse {
@@ -117,4 +117,4 @@ class CrsTransformation {
   std::shared_ptr<const Impl> impl_;
 };
 
-}  // namespace farlod
+}  // namespace farlod::georeference

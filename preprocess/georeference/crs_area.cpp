@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 /// Areas of use are the upright rectangles of countries and zones, and towns at a border reach over it.
@@ -26,4 +26,4 @@ bool may_be_used_at(const Crs& crs, Point2d p) {
   return place && (!area || area->contains(*place, lon_margin_deg, least_margin_deg));
 }
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -5,7 +5,7 @@
 #include "farlod/point.hpp"
 #include "georeference/crs.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 
 /// Surely a place that the CRS is meant for. Of degrees whose area is not known, any on the Earth.
 [[nodiscard]] bool lies_in_area_of_use(const Crs& crs, Point2d p);
@@ -14,4 +14,4 @@ namespace farlod {
 /// there are zones: surveys keep one of them for a whole country.
 [[nodiscard]] bool may_be_used_at(const Crs& crs, Point2d p);
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 constexpr auto ignoring_case = std::regex::ECMAScript | std::regex::icase;
@@ -216,4 +216,4 @@ std::optional<CrsDefinition> parse_crs_definition(std::string_view text) {
   return std::nullopt;
 }
 
-}  // namespace farlod
+}  // namespace farlod::georeference

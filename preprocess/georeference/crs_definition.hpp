@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace farlod {
+namespace farlod::georeference {
 
 /// What a file's name for its CRS means, in words that PROJ knows.
 struct CrsDefinition {
@@ -25,4 +25,4 @@ struct CrsDefinition {
 /// Empty for anything else. Says nothing on whether a code or a name exists.
 [[nodiscard]] std::optional<CrsDefinition> parse_crs_definition(std::string_view text);
 
-}  // namespace farlod
+}  // namespace farlod::georeference

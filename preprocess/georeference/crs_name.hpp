@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace farlod {
+namespace farlod::georeference {
 
 /// The entry of PROJ's registers that a bare name means, as "EPSG:n" or "EPSG:n+m": "ETRS89 / UTM zone 32N",
 /// "Amersfoort / RD New + NAP height".
@@ -15,4 +15,4 @@ namespace farlod {
 /// Empty when no entry is meant, or more than one.
 [[nodiscard]] std::optional<std::string> code_of_crs_name(const std::string& name);
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -12,7 +12,7 @@
 
 #include "georeference/crs_name.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 constexpr PJ_TYPE horizontal_types[] = {PJ_TYPE_GEOGRAPHIC_2D_CRS, PJ_TYPE_PROJECTED_CRS};
@@ -97,4 +97,4 @@ std::optional<std::string> code_of_crs_name(const std::string& name) {
   return horizontal && vertical ? std::optional(*horizontal + "+" + *vertical) : std::nullopt;
 }
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -13,7 +13,7 @@
 #include "farlod/expects.hpp"
 #include "georeference/crs.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 struct ContextDeleter {
@@ -347,4 +347,4 @@ std::optional<Point2d> CrsTransformation::apply(Point2d point) const {
   return Point2d{there.xy.x, there.xy.y};
 }
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -4,7 +4,7 @@
 
 #include "farlod/point.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 
 enum class AxisOrder { easting_first, northing_first };
 
@@ -25,4 +25,4 @@ struct FileAxes {
   }
 };
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -18,7 +18,7 @@
 #include "georeference/problem_locator.hpp"
 #include "georeference/resolved_source.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 using Projection = std::function<void(std::span<Point3d>)>;
@@ -79,8 +79,8 @@ void project_buildings(ResolvedSource& resolved, const Projection& projection, c
     const auto bad = std::find_if_not(points.begin(), points.end(), is_on_a_map);
     if (bad == points.end()) continue;
     const Point3d& given = before[static_cast<std::size_t>(bad - points.begin())];
-    report.add(
-        {ProblemCode::outside_of_projection, resolved.source.source, b.id, detail_of(given, output), resolved.axes.p_file(given)});
+    report.add({ProblemCode::outside_of_projection, resolved.source.source, b.id, detail_of(given, output),
+                resolved.axes.p_file(given)});
     for (Point3d& p : points)
       if (!is_on_a_map(p)) p.x = p.y = std::numeric_limits<double>::infinity();
   }
@@ -176,4 +176,4 @@ LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSett
   return located;
 }
 
-}  // namespace farlod
+}  // namespace farlod::georeference

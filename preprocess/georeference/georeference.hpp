@@ -9,7 +9,7 @@
 #include "city/problem.hpp"
 #include "city/source.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 
 struct GeoreferenceSettings {
   std::string crs;      ///< of inputs that do not say theirs; of all, where every one of them does; empty: there is none
@@ -28,4 +28,4 @@ struct GeoreferenceSettings {
 /// is not projected in metres, and when neither a building nor a point of a relief is left. What was found by then is reported.
 [[nodiscard]] LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSettings& settings, Report& report);
 
-}  // namespace farlod
+}  // namespace farlod::georeference

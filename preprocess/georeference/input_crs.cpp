@@ -10,7 +10,7 @@
 #include "georeference/crs_definition.hpp"
 #include "georeference/crs_name.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 using Found = std::optional<NamedCrs>;
@@ -109,4 +109,4 @@ std::vector<InputCrs> crs_of_inputs(std::span<const SourceCity> sources, const G
   return inputs;
 }
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -12,7 +12,7 @@
 #include "georeference/crs.hpp"
 #include "georeference/georeference.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 
 /// A CRS as an input or an option names it.
 struct NamedCrs {
@@ -47,4 +47,4 @@ struct InputCrs {
 /// Throws InputError when a source is left without.
 [[nodiscard]] std::vector<InputCrs> crs_of_inputs(std::span<const SourceCity> sources, const GeoreferenceSettings& settings);
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -14,7 +14,7 @@
 
 #include "farlod/box.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 /// A few buildings far away are a slip; more of them are a town.
@@ -157,4 +157,4 @@ void leave_out(CityModel& city, const std::vector<MisplacedFacets>& misplaced) {
   city.drop_facets(is_misplaced);
 }
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -7,7 +7,7 @@
 
 #include "city/city_model.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 
 /// No facet of a city is wider than this, and no city has a gap of twice as much between a few buildings and all others.
 inline constexpr double city_square_m = 10'000.0;
@@ -31,4 +31,4 @@ struct MisplacedFacets {
 /// Takes those facets out of the city, and buildings that have no others.
 void leave_out(CityModel& city, const std::vector<MisplacedFacets>& misplaced);
 
-}  // namespace farlod
+}  // namespace farlod::georeference

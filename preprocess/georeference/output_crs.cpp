@@ -9,7 +9,7 @@
 #include "city/input_error.hpp"
 #include "georeference/input_crs.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 /// How far a metre of the output CRS may be from a metre. UTM stays below 0.1 % in its zone, Lambert-93 below 0.3 %; at 1 % a
@@ -78,4 +78,4 @@ Georeference georeference_around(Point2d centre, const Crs& output) {
   return g;
 }
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -8,7 +8,7 @@
 #include "farlod/point.hpp"
 #include "georeference/crs.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 
 /// The CRS that the city is put into: `wish` where there is one, else the input's own when it is projected in metres, its
 /// metric twin when projected in feet, else UTM on its datum. `typical` is a place of the city in `input`.
@@ -18,4 +18,4 @@ namespace farlod {
 /// The city frame whose origin is `centre`, rounded to whole metres.
 [[nodiscard]] Georeference georeference_around(Point2d centre, const Crs& output);
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -6,7 +6,7 @@
 
 #include "farlod/expects.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 bool is_on_earth(Point2d lon_lat_deg) { return std::abs(lon_lat_deg.x) <= 180.0 && std::abs(lon_lat_deg.y) <= 90.0; }
@@ -26,4 +26,4 @@ void ProblemLocator::locate(Problem& problem) {
   if (lon_lat_deg && is_on_earth(*lon_lat_deg)) problem.lon_lat_deg = lon_lat_deg;
 }
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -9,7 +9,7 @@
 #include "georeference/crs.hpp"
 #include "georeference/file_axes.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 
 /// Finds the longitudes and latitudes of problems whose positions are in one CRS, as a file counts. `typical`: a place in it,
 /// the easting or longitude first.
@@ -26,4 +26,4 @@ class ProblemLocator {
   std::optional<CrsTransformation> lon_lat_from_crs_;  ///< made for the first problem: most cities need it not
 };
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -9,7 +9,7 @@
 #include "georeference/source_coordinates.hpp"
 #include "georeference/unlikely_place.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 /// Says something of a whole file.
@@ -62,7 +62,7 @@ void normalize_points(std::span<Point3d> points, const FileAxes& axes) {
 }
 
 /// What --crs says holds, unless the coordinates can only be of what the file says itself.
-InputCrs decided(const InputCrs& input, const TypicalPlace& typical) {
+InputCrs resolved_crs(const InputCrs& input, const TypicalPlace& typical) {
   if (!input.own || may_count_in(typical, input.named.crs) || !may_count_in(typical, input.own->named.crs)) return input;
   return {input.own->named, input.problem, input.own->detail};
 }
@@ -71,7 +71,7 @@ InputCrs decided(const InputCrs& input, const TypicalPlace& typical) {
 
 ResolvedSource resolve(SourceCity source, const InputCrs& given, Report& report) {
   const TypicalPlace typical = typical_place(source);
-  const InputCrs input = decided(given, typical);
+  const InputCrs input = resolved_crs(given, typical);
   const Crs& crs = input.named.crs;
   const bool longitude_first = source.crs.longitude_first || input.named.longitude_first;
   FileReport of_file(source, typical, report);
@@ -88,4 +88,4 @@ ResolvedSource resolve(SourceCity source, const InputCrs& given, Report& report)
   return {std::move(source), crs, place, axes};
 }
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -8,7 +8,7 @@
 #include "georeference/file_axes.hpp"
 #include "georeference/input_crs.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 
 /// A file whose x is the easting or longitude, and whose heights are in metres.
 struct ResolvedSource {
@@ -18,9 +18,9 @@ struct ResolvedSource {
   FileAxes axes;    ///< how the file counts
 };
 
-/// Settles buildings and relief of a source that has either. Reports what is said of its CRS (two_crs, crs_unknown), and
-/// what is odd about its coordinates (axes_swapped, zone_in_easting, unlikely_place), each once for the whole file.
-/// Throws InputError when degrees stand where metres should, or the other way round.
+/// Resolves CRS, axes and units of a source that has buildings or a relief. Reports what is said of its CRS (two_crs,
+/// crs_unknown), and what is odd about its coordinates (axes_swapped, zone_in_easting, unlikely_place), each once for the whole
+/// file. Throws InputError when the coordinates are degrees and the CRS counts in metres, or the other way round.
 [[nodiscard]] ResolvedSource resolve(SourceCity source, const InputCrs& input, Report& report);
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -13,7 +13,7 @@
 #include "farlod/expects.hpp"
 #include "georeference/crs_area.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 /// Most facets are neither as small as 5 cm nor as large as 0.05° (5 km), and no relief has its points as close or as far from
@@ -123,4 +123,4 @@ void check_units(const SourceCity& source, const TypicalPlace& typical, const Cr
   throw InputError(source.source + ": its CRS " + crs.name() + " counts in degrees, but its coordinates cannot be degrees" + end);
 }
 
-}  // namespace farlod
+}  // namespace farlod::georeference

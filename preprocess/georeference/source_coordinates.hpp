@@ -8,7 +8,7 @@
 #include "georeference/crs.hpp"
 #include "georeference/file_axes.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 
 /// What holds for most of a file, whatever a few stray buildings say.
 struct TypicalPlace {
@@ -40,4 +40,4 @@ struct TypicalPlace {
 /// way round. `advice` ends the message.
 void check_units(const SourceCity& source, const TypicalPlace& typical, const Crs& crs, const std::string& advice);
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -11,7 +11,7 @@
 #include "farlod/box.hpp"
 #include "georeference/georeference.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 
 /// Where a raster of heights lies, as it says itself.
 struct TerrainExtent {
@@ -37,4 +37,4 @@ struct TerrainExtent {
 [[nodiscard]] TerrainRaster read_terrain(const std::filesystem::path& file, const std::string& fallback_crs,
                                          const Georeference& georeference, std::optional<Box2d> wanted_city);
 
-}  // namespace farlod
+}  // namespace farlod::georeference

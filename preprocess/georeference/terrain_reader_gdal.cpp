@@ -19,9 +19,10 @@
 #include "gdal/gdal_errors.hpp"
 #include "georeference/crs.hpp"
 #include "georeference/input_crs.hpp"
+#include "georeference/output_crs.hpp"
 #include "georeference/terrain_reader.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 struct DatasetDeleter {
@@ -192,6 +193,16 @@ TerrainExtent read_terrain_extent(const std::filesystem::path& file) {
   return extent;
 }
 
+Georeference georeference_of_terrain(const std::filesystem::path& file, const GeoreferenceSettings& settings) {
+  const TerrainExtent extent = read_terrain_extent(file);
+  const Crs input = crs_of_input(file.string(), extent.crs_wkt, settings.crs).crs;
+  const Point2d centre = 0.5 * (extent.box.low + extent.box.high);
+  const Crs output = choose_output_crs(input, centre, settings.out_crs);
+  const auto place = input.equals(output) ? centre : CrsTransformation(input, output, centre).apply(centre);
+  if (!place) throw InputError(file.string() + ": its centre has no place in " + output.name() + ": check its CRS");
+  return georeference_around(*place, output);
+}
+
 TerrainRaster read_terrain(const std::filesystem::path& file, const std::string& fallback_crs, const Georeference& georeference,
                            std::optional<Box2d> wanted_city) {
   const GdalErrors quiet;
@@ -210,4 +221,4 @@ TerrainRaster read_terrain(const std::filesystem::path& file, const std::string&
   return std::move(*terrain);
 }
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -11,7 +11,7 @@
 
 #include "georeference/crs_area.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 /// A model of a site is drawn around its own zero; no site is as large as this.
@@ -80,4 +80,4 @@ std::optional<std::string> doubt_about_place(const Crs& crs, Point2d p_map, std:
   return text.str();
 }
 
-}  // namespace farlod
+}  // namespace farlod::georeference

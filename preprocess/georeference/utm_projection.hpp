@@ -7,7 +7,7 @@
 #include "farlod/angle.hpp"
 #include "farlod/point.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 
 struct Ellipsoid {
   double semi_major_m = 0.0;
@@ -40,4 +40,4 @@ class UtmProjection {
   Ellipsoid ellipsoid_;
 };
 
-}  // namespace farlod
+}  // namespace farlod::georeference

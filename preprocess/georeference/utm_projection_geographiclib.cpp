@@ -6,7 +6,7 @@
 
 #include "georeference/utm_projection.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 constexpr double false_easting_m = 500000.0;
@@ -49,4 +49,4 @@ Angle UtmProjection::convergence_at(Point2d p_projected) const {
   return Angle::degrees(convergence_deg);
 }
 
-}  // namespace farlod
+}  // namespace farlod::georeference

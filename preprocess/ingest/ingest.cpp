@@ -10,7 +10,7 @@
 #include "ingest/obj/obj_placement.hpp"
 #include "ingest/obj/obj_reader.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,12 +45,12 @@ FileFormat format_of(const InputFile& file, Report& report) {
 SourceCity ingest_obj(const InputFile& file, const IngestSettings& settings, Report& report) {
   const ObjPlacement placement = find_obj_placement(file);
   const Point3d origin = settings.obj_origin ? *settings.obj_origin : placement.origin.value_or(Point3d{});
-  CityWriter writer(file.name, report);
-  read_obj(file, {origin, settings.up}, writer);
+  CityModelBuilder builder(file.name, report);
+  read_obj(file, {origin, settings.up}, builder);
   // Meshes are drawn with x to the east, whatever order of axes an authority gives to the system
   return {.source = file.name,
           .crs = {placement.crs, true, false},
-          .city = writer.take_city(),
+          .city = builder.take_city(),
           .notes = notes_of(placement, file, settings.obj_origin.has_value())};
 }
 
@@ -79,7 +79,7 @@ SourceCity read(const InputFile& file, const IngestSettings& settings, Report& r
       break;
   }
   require_city_size(file);
-  return read_footprints(file, settings, report);
+  return read_footprints(file, settings.footprints, report);
 }
 
 /// Of several files one that cannot be used costs itself only.
@@ -124,4 +124,4 @@ std::vector<SourceCity> ingest_all(std::span<const InputFile> files, const Inges
   return cities;
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -10,7 +10,7 @@
 #include "ingest/files/input_file.hpp"
 #include "ingest/ingest_settings.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// Reads one file of a city: CityGML, CityJSON, OBJ, or footprints in any format that GDAL knows. For every file:
 ///   (1) coordinates are handed on as the file has them, in its own axis order;
@@ -26,4 +26,4 @@ namespace farlod {
 [[nodiscard]] std::vector<SourceCity> ingest_all(std::span<const InputFile> files, const IngestSettings& settings,
                                                  Report& report);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

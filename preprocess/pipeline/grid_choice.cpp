@@ -5,22 +5,22 @@
 #include <algorithm>
 #include <cmath>
 
-namespace farlod {
+namespace farlod::pipeline {
 namespace {
 
 /// What a map of 2 m costs for each of its receivers: rays that descend a tree of the near triangles, named occluders that are
 /// drawn, and a share of the cell's scene and of its far map. Constants from docs/decisions/0010; only their ratios matter.
-double expected_receiver_us(const FarErrorEstimate& verdict, double cell_edge_m) {
+double expected_receiver_us(const FarErrorEstimate& far_error, double cell_edge_m) {
   constexpr double rays = 1000.0, ray_us = 0.02, level_us = 0.002, named_us = 0.02;
   constexpr double bake_us = 10000.0, scene_us = 400.0, build_us = 0.3, grid_step_m = 2.0;
-  const double triangles = std::max(2.0, verdict.near_triangles_per_cell);
+  const double triangles = std::max(2.0, far_error.near_triangles_per_cell);
   const double receivers = std::max(1.0, cell_edge_m * cell_edge_m / (grid_step_m * grid_step_m));
-  return rays * (ray_us + level_us * std::log2(triangles)) + named_us * verdict.explicit_edges_per_cell +
+  return rays * (ray_us + level_us * std::log2(triangles)) + named_us * far_error.explicit_edges_per_cell +
          (bake_us + scene_us + build_us * triangles) / receivers;
 }
 
-bool keeps(const FarErrorEstimate& verdict, double max_far_error) {
-  return verdict.receivers > 0 && verdict.max_error <= max_far_error && verdict.p99_half_width <= max_far_error;
+bool keeps(const FarErrorEstimate& far_error, double max_far_error) {
+  return far_error.receivers > 0 && far_error.max_error <= max_far_error && far_error.p99_half_width <= max_far_error;
 }
 
 class GridChooser {
@@ -31,8 +31,8 @@ class GridChooser {
   void try_cells(double cell_edge_m, const LayGrid& lay) {
     auto [grid, terrain] = lay(cell_edge_m);
     Report unread;  // the run itself reports what it finds
-    const TileSet tiles = cut_into_tiles(city_, grid, assign_, terrain, unread);
-    const FarMapTrial trial(tiles, grid, assign_, settings_.judge);
+    const TileSet tiles = tiles::cut_into_tiles(city_, grid, assign_, terrain, unread);
+    const FarMapTrial trial(tiles, grid, assign_, settings_.error_sampling);
     for (const int neighborhood : settings_.neighborhoods) try_tolerances(trial, grid.cell_edge_m, neighborhood);
   }
   std::optional<GridChoice> best;
@@ -44,8 +44,8 @@ class GridChooser {
       HorizonMapSettings far_map = far_map_;
       far_map.tolerance = tolerance;
       GridChoice choice{cell_edge_m, neighborhood, tolerance, trial.run(neighborhood, far_map), 0.0};
-      choice.receiver_us = expected_receiver_us(choice.verdict, cell_edge_m);
-      if (!keeps(choice.verdict, settings_.max_far_error)) continue;
+      choice.receiver_us = expected_receiver_us(choice.far_error, cell_edge_m);
+      if (!keeps(choice.far_error, settings_.max_far_error)) continue;
       if (!best || choice.receiver_us < best->receiver_us) best = choice;
       return;
     }
@@ -66,4 +66,4 @@ std::optional<GridChoice> choose_grid(const LocatedCity& city, const LayGrid& la
   return chooser.best;
 }
 
-}  // namespace farlod
+}  // namespace farlod::pipeline

@@ -14,14 +14,14 @@
 #include "tiles/tiles.hpp"
 #include "trial/far_map_trial.hpp"
 
-namespace farlod {
+namespace farlod::pipeline {
 
 /// A cell size, a neighborhood and how finely its far maps name occluders; what that was found to do, and what a receiver costs.
 struct GridChoice {
   double cell_edge_m = 0.0;
   int neighborhood = 0;
   double tolerance = 0.0;
-  FarErrorEstimate verdict;
+  FarErrorEstimate far_error;
   double receiver_us =
       0.0;  ///< expected, packing included, at 1,000 rays on a 2 m grid: to compare choices with, not to plan a run by
 };
@@ -32,7 +32,7 @@ struct ChoiceSettings {
   std::vector<double> cell_edges_m{25.0, 50.0, 100.0, 200.0};
   std::vector<int> neighborhoods{1, 3, 5};
   std::vector<double> tolerances{0.1, 0.05, 0.02, 0.01};  ///< descending
-  FarErrorSettings judge;
+  FarErrorSettings error_sampling;                        ///< which receivers the errors are estimated with
 };
 
 /// Lays a grid with these cells over the city; the ground that belongs to it.
@@ -44,4 +44,4 @@ using LayGrid = std::function<std::pair<Grid, std::optional<TerrainRaster>>(doub
 [[nodiscard]] std::optional<GridChoice> choose_grid(const LocatedCity& city, const LayGrid& lay, Assign assign,
                                                     const HorizonMapSettings& far_map, const ChoiceSettings& settings);
 
-}  // namespace farlod
+}  // namespace farlod::pipeline

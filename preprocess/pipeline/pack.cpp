@@ -18,7 +18,7 @@
 #include "ingest/files/input_search.hpp"
 #include "package/file_stamp.hpp"
 
-namespace farlod {
+namespace farlod::pipeline {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -61,8 +61,7 @@ bool overlap(const Box2d& a, const Box2d& b) {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
 
-/// What becomes of it depends on what else there is: a raster that was asked for stands in for reliefs, and a relief of another
-/// place says nothing about this one.
+/// Drops a relief that is not used: a raster replaces it, or it lies elsewhere than the city. Counts its points as skipped.
 void resolve_relief(LocatedCity& located, bool has_terrain, SkippedFeatures& skipped) {
   if (located.relief_points.empty()) return;
   const bool is_elsewhere = !located.city.buildings().empty() &&
@@ -81,12 +80,29 @@ void require_folders_above(const std::filesystem::path& output) {
       throw PackageWriteError(output.string() + " cannot be written: " + above.string() + ": Not a directory");
 }
 
-/// Runs the stages one after the other, and remembers how long each took.
-class Packing {
- public:
-  Packing(const PackSettings& settings, Report& report, const PackProgress& progress, const TellEstimate& tell)
-      : settings_(settings), report_(report), progress_(progress), tell_(tell) {}
+/// What the names that the user gave lead to.
+struct ResolvedInputs {
+  std::vector<SourceCity> sources;
+  std::vector<std::filesystem::path> files;              ///< on disk: an archive is one input, however many of its files are read
+  std::optional<std::filesystem::path> terrain;          ///< as GDAL opens it
+  std::optional<std::filesystem::path> terrain_on_disk;  ///< the file, or the archive that holds it
+};
 
+/// The settings of the grid and of the far maps, after the choice where there was one.
+struct ResolvedGridSettings {
+  align::GridSettings grid;
+  FarMapSettings far_map;
+};
+
+/// A grid, and the ground below it where a raster is read.
+struct GridOnGround {
+  Grid grid;
+  std::optional<TerrainRaster> terrain;
+};
+
+/// Runs the stages one after the other, and measures how long each takes.
+class Packing {
+  // Before its first use, since its result type is deduced
   template <class Work>
   auto timed(const std::string& stage, const Work& work) {
     progress_(stage, 0, 1);
@@ -96,159 +112,182 @@ class Packing {
     return value;
   }
 
+ public:
+  Packing(const PackSettings& settings, Report& report, const PackProgress& progress, const TellEstimate& tell)
+      : settings_(settings), report_(report), progress_(progress), tell_(tell) {}
+
   PackResult run() {
     // A folder that may not be written ends the run before the long work; one that may be is swept only after it
     require_folders_above(settings_.output);
     require_room(settings_.output, settings_.overwrite);
-    LocatedCity located = read_and_locate();
-    if (settings_.choice) result_.chosen = timed("choice", [&] { return choose(located); });
-    const auto [grid, terrain] = lay_grid_on_ground(located);
-    estimate(located, grid, terrain);
-    describe_place(located, grid);
+    ResolvedInputs inputs = resolve_inputs();
+    LocatedCity located = locate(inputs);
+    const ResolvedGridSettings resolved = resolve_grid_settings(located, inputs);
+    const GridOnGround ground = lay_grid_on_ground(located, inputs, resolved.grid);
+    estimate(located, ground, resolved.far_map);
+    describe_place(located, ground.grid, resolved.far_map, inputs);
     result_.facets = located.city.facets().size();
-    TileSet tiles = timed("tiles", [&, &grid = grid, &terrain = terrain] { return cut_city(std::move(located), grid, terrain); });
+    TileSet tiles = timed("tiles", [&] { return cut_city(std::move(located), ground); });
     require_no_problems();
     describe_tiles(tiles);
-    if (result_.chosen) result_.chosen->measured = timed("measure", [&] { return measure(tiles, grid); });
-    write_package(tiles, grid);
+    if (result_.chosen)
+      result_.chosen->measured = timed("measure", [&] { return measure(tiles, ground.grid, resolved.far_map); });
+    write_package(tiles, ground.grid, resolved.far_map);
     return std::move(result_);
   }
 
  private:
+  ResolvedInputs resolve_inputs() {
+    if (!settings_.inputs.empty()) return timed("ingest", [this] { return read_inputs(); });
+    return {{}, {}, settings_.terrain, settings_.terrain};
+  }
+
   /// The names that the user gave become the files behind them; a raster among them becomes the terrain.
-  std::vector<SourceCity> read_inputs() {
-    FoundInputs found = find_input_files(settings_.inputs, report_);
-    take_surface_model(found.surface_models);
-    settings_.inputs.clear();
-    for (const InputFile& file : found.files) settings_.inputs.push_back(file.on_disk);
-    // An archive is one input, however many of its files are read
-    settings_.inputs.erase(std::unique(settings_.inputs.begin(), settings_.inputs.end()), settings_.inputs.end());
-    std::vector<SourceCity> sources = ingest_all(found.files, settings_.ingest, report_);
+  ResolvedInputs read_inputs() {
+    ingest::FoundInputs found = ingest::find_input_files(settings_.inputs, report_);
+    ResolvedInputs inputs{{}, {}, settings_.terrain, settings_.terrain};
+    if (!found.surface_models.empty()) {
+      require_one_raster(found.surface_models);
+      inputs.terrain = found.surface_models.front().path;
+      inputs.terrain_on_disk = found.surface_models.front().on_disk;
+    }
+    for (const ingest::InputFile& file : found.files) inputs.files.push_back(file.on_disk);
+    inputs.files.erase(std::unique(inputs.files.begin(), inputs.files.end()), inputs.files.end());
+    inputs.sources = ingest::ingest_all(found.files, settings_.ingest, report_);
     result_.skipped = std::move(found.skipped);
-    for (SourceCity& source : sources) {
+    for (SourceCity& source : inputs.sources) {
       for (const auto& [what, count] : source.skipped) result_.skipped[what] += count;
       std::move(source.notes.begin(), source.notes.end(), std::back_inserter(result_.notes));
     }
-    return sources;
+    return inputs;
   }
 
-  void take_surface_model(const std::vector<InputFile>& surface_models) {
-    if (surface_models.empty()) return;
-    const std::string first = surface_models.front().name;
+  void require_one_raster(const std::vector<ingest::InputFile>& surface_models) const {
+    const std::string& first = surface_models.front().name;
     if (surface_models.size() > 1)
       throw InputError(first + " and " + surface_models[1].name +
                        " are both rasters of heights: give one of them, or their mosaic.");
     if (settings_.terrain)
       throw InputError(first + " is a raster of heights, and so is --terrain " + settings_.terrain->string() +
                        ": give one of them.");
-    settings_.terrain = surface_models.front().path;
-    terrain_on_disk_ = surface_models.front().on_disk;
   }
 
-  LocatedCity read_and_locate() {
-    std::vector<SourceCity> sources;
-    if (!settings_.inputs.empty()) sources = timed("ingest", [&] { return read_inputs(); });
-    if (sources.empty())
-      return {{}, timed("georeference", [&] { return georeference_of_terrain(*settings_.terrain, settings_.georeference); })};
-    settings_.georeference.crs_is_for_another |= settings_.terrain && read_terrain_extent(*settings_.terrain).crs_wkt.empty();
+  /// Takes the sources out of `inputs`.
+  LocatedCity locate(ResolvedInputs& inputs) {
+    georeference::GeoreferenceSettings settings = settings_.georeference;
+    if (inputs.sources.empty())
+      return {{}, timed("georeference", [&] { return georeference::georeference_of_terrain(*inputs.terrain, settings); })};
+    settings.crs_is_for_another |= inputs.terrain && georeference::read_terrain_extent(*inputs.terrain).crs_wkt.empty();
     LocatedCity located =
-        timed("georeference", [&] { return georeference(std::move(sources), settings_.georeference, report_); });
+        timed("georeference", [&] { return georeference::georeference(std::move(inputs.sources), settings, report_); });
     if (located.city.buildings().empty() && located.relief_points.empty())
       throw InputError("No building is left to pack: see --report for what was wrong with each of them.");
-    resolve_relief(located, settings_.terrain.has_value(), result_.skipped);
-    require_ground_below_roofs(located);
+    resolve_relief(located, inputs.terrain.has_value(), result_.skipped);
+    if (!inputs.terrain && located.relief_points.empty()) require_ground_below_roofs(located.city);
     return located;
   }
 
-  void require_ground_below_roofs(const LocatedCity& located) const {
-    const auto buildings = located.city.buildings();
-    const auto lacks_foot = [](const Building& b) { return b.footing == HeightReference::down_to_ground; };
-    if (settings_.terrain || !located.relief_points.empty() || std::none_of(buildings.begin(), buildings.end(), lacks_foot))
-      return;
+  static void require_ground_below_roofs(const CityModel& city) {
+    const auto buildings = city.buildings();
+    const auto lacks_foot = [](const Building& b) { return b.height_reference == HeightReference::down_to_ground; };
+    if (std::none_of(buildings.begin(), buildings.end(), lacks_foot)) return;
     throw InputError(
         "--roof-field tells where roofs are, but not how far down the buildings reach: give --terrain DEM, or --base-field "
         "NAME where the table knows the ground.");
   }
 
-  /// Buildings decide where the grid lies, and of a terrain only what it covers is read; a terrain alone decides itself.
-  std::pair<Grid, std::optional<TerrainRaster>> lay_grid_on_ground(const LocatedCity& located) {
-    if (located.city.buildings().empty()) {
-      std::optional<TerrainRaster> terrain;
-      if (settings_.terrain) terrain = timed("terrain", [&] { return read_ground(located, std::nullopt); });
-      const Grid grid = timed("align", [&] { return grid_over(ground_outline(located, terrain), settings_.grid); });
-      return {grid, std::move(terrain)};
-    }
-    const GridAlignment aligned = timed("align", [&] { return align(located, settings_.grid, report_); });
-    result_.alignment = aligned.streets;
-    if (!settings_.terrain) return {aligned.grid, std::nullopt};
-    return {aligned.grid, timed("terrain", [&] { return read_ground(located, city_outline(aligned.grid)); })};
-  }
-
-  [[nodiscard]] TerrainRaster read_ground(const LocatedCity& located, const std::optional<Box2d>& wanted_city) const {
-    TerrainRaster terrain = read_terrain(*settings_.terrain, settings_.georeference.crs, located.georeference, wanted_city);
+  [[nodiscard]] TerrainRaster read_ground(const std::filesystem::path& file, const LocatedCity& located,
+                                          const std::optional<Box2d>& wanted_city) const {
+    TerrainRaster terrain = georeference::read_terrain(file, settings_.georeference.crs, located.georeference, wanted_city);
     if (std::none_of(terrain.height_m.begin(), terrain.height_m.end(), [](const auto& height) { return height.has_value(); }))
-      throw InputError(settings_.terrain->string() + " has no heights where the city lies: give a terrain that covers it.");
+      throw InputError(file.string() + " has no heights where the city lies: give a terrain that covers it.");
     return terrain;
   }
 
-  /// Tries grids, and takes the best into the settings. What is wrong with the city is reported once, when it is packed.
-  ChosenGrid choose(const LocatedCity& located) {
-    Report unread;
-    const auto lay = [&](double cell_edge_m) -> std::pair<Grid, std::optional<TerrainRaster>> {
-      GridSettings settings = settings_.grid;
-      settings.cell_edge_m = cell_edge_m;
-      if (located.city.buildings().empty()) {
-        std::optional<TerrainRaster> terrain;
-        if (settings_.terrain) terrain = read_ground(located, std::nullopt);
-        return {grid_over(ground_outline(located, terrain), settings), std::move(terrain)};
-      }
-      const Grid grid = align(located, settings, unread).grid;
-      return {grid, settings_.terrain ? std::optional(read_ground(located, city_outline(grid))) : std::nullopt};
+  /// Buildings decide where the grid lies, and of a terrain only what it covers is read; a terrain alone decides itself.
+  GridOnGround lay_grid_on_ground(const LocatedCity& located, const ResolvedInputs& inputs, const align::GridSettings& settings) {
+    const auto read = [&](const std::optional<Box2d>& wanted_city) -> std::optional<TerrainRaster> {
+      if (!inputs.terrain) return std::nullopt;
+      return timed("terrain", [&] { return read_ground(*inputs.terrain, located, wanted_city); });
     };
-    const auto best = choose_grid(located, lay, settings_.assign, settings_.far_map.horizon, *settings_.choice);
-    if (!best) return {};
-    settings_.grid.cell_edge_m = best->cell_edge_m;
-    settings_.grid.neighborhood = best->neighborhood;
-    settings_.far_map.horizon.tolerance = best->tolerance;
-    return {best, {}};
+    if (located.city.buildings().empty()) {
+      std::optional<TerrainRaster> terrain = read(std::nullopt);
+      const Grid grid = timed("align", [&] { return align::grid_over(ground_outline(located, terrain), settings); });
+      return {grid, std::move(terrain)};
+    }
+    const align::GridAlignment aligned = timed("align", [&] { return align::align(located, settings, report_); });
+    result_.alignment = aligned.streets;
+    return {aligned.grid, read(city_outline(aligned.grid))};
   }
 
-  void estimate(const LocatedCity& located, const Grid& grid, const std::optional<TerrainRaster>& terrain) {
+  ResolvedGridSettings resolve_grid_settings(const LocatedCity& located, const ResolvedInputs& inputs) {
+    ResolvedGridSettings resolved{settings_.grid, settings_.far_map};
+    if (!settings_.choice) return resolved;
+    const std::optional<GridChoice> best = timed("choice", [&] { return choose(located, inputs, *settings_.choice); });
+    result_.chosen = ChosenGrid{best, {}};
+    if (!best) return resolved;
+    resolved.grid.cell_edge_m = best->cell_edge_m;
+    resolved.grid.neighborhood = best->neighborhood;
+    resolved.far_map.horizon.tolerance = best->tolerance;
+    return resolved;
+  }
+
+  /// Tries grids. What is wrong with the city is reported once, when it is packed.
+  std::optional<GridChoice> choose(const LocatedCity& located, const ResolvedInputs& inputs, const ChoiceSettings& choice) const {
+    Report unread;
+    const auto lay = [&](double cell_edge_m) -> std::pair<Grid, std::optional<TerrainRaster>> {
+      align::GridSettings settings = settings_.grid;
+      settings.cell_edge_m = cell_edge_m;
+      const auto read = [&](const std::optional<Box2d>& wanted_city) {
+        return inputs.terrain ? std::optional(read_ground(*inputs.terrain, located, wanted_city)) : std::nullopt;
+      };
+      if (located.city.buildings().empty()) {
+        std::optional<TerrainRaster> terrain = read(std::nullopt);
+        const Grid grid = align::grid_over(ground_outline(located, terrain), settings);
+        return {grid, std::move(terrain)};
+      }
+      const Grid grid = align::align(located, settings, unread).grid;
+      return {grid, read(city_outline(grid))};
+    };
+    return choose_grid(located, lay, settings_.assign, settings_.far_map.horizon, choice);
+  }
+
+  void estimate(const LocatedCity& located, const GridOnGround& ground, const FarMapSettings& far_map) {
     using oneapi::tbb::global_control;
     const std::size_t threads = global_control::active_value(global_control::max_allowed_parallelism);
-    const std::size_t ground_points = terrain ? terrain->height_m.size() : located.relief_points.size();
-    result_.estimate = estimate_pack(located.city, ground_points, grid, settings_.far_map.kind, threads);
+    const std::size_t ground_points = ground.terrain ? ground.terrain->height_m.size() : located.relief_points.size();
+    result_.estimate = estimate_pack(located.city, ground_points, ground.grid, far_map.kind, threads);
     require_memory(result_.estimate, settings_.memory_limit_mib);
     if (tell_) tell_(result_.estimate);
   }
 
   /// What is found here is placed in the CRS of the package.
-  TileSet cut_city(LocatedCity located, const Grid& grid, const std::optional<TerrainRaster>& terrain) {
+  TileSet cut_city(LocatedCity located, const GridOnGround& ground) {
     const std::size_t known = report_.problems().size();
     const Georeference place = located.georeference;
-    TileSet tiles = cut_into_tiles(std::move(located), grid, settings_.assign, terrain, report_);
-    if (const auto crs = Crs::find(place.crs_wkt)) {
-      ProblemLocator locator(*crs, FileAxes{}, place.origin_m);
+    TileSet tiles = tiles::cut_into_tiles(std::move(located), ground.grid, settings_.assign, ground.terrain, report_);
+    if (const auto crs = georeference::Crs::find(place.crs_wkt)) {
+      georeference::ProblemLocator locator(*crs, georeference::FileAxes{}, place.origin_m);
       for (Problem& problem : report_.since(known)) locator.locate(problem);
     }
     return tiles;
   }
 
-  /// Later stages find no more of them, and take long.
+  /// Called before the long stages, which find no more problems.
   void require_no_problems() const {
     const std::size_t count = report_.problems().size();
     if (settings_.problems == ProblemPolicy::pack || count == 0) return;
     throw ProblemsRefused("the city has " + std::to_string(count) + (count == 1 ? " problem" : " problems"));
   }
 
-  [[nodiscard]] FarErrorEstimate measure(const TileSet& tiles, const Grid& grid) const {
-    FarErrorSettings others = settings_.choice->judge;
+  [[nodiscard]] FarErrorEstimate measure(const TileSet& tiles, const Grid& grid, const FarMapSettings& far_map) const {
+    FarErrorSettings others = settings_.choice->error_sampling;
     others.seed += 1;
     others.cells *= 2;
-    return FarMapTrial(tiles, grid, settings_.assign, others).run(grid.neighborhood, settings_.far_map.horizon);
+    return FarMapTrial(tiles, grid, settings_.assign, others).run(grid.neighborhood, far_map.horizon);
   }
 
-  void describe_place(const LocatedCity& located, const Grid& grid) {
+  void describe_place(const LocatedCity& located, const Grid& grid, const FarMapSettings& far_map, const ResolvedInputs& inputs) {
     package::Manifest& m = result_.manifest;
     const Georeference& place = located.georeference;
     m.software = std::string("farlod-pack ") + software_version;
@@ -259,9 +298,9 @@ class Packing {
     m.convergence = place.convergence;
     m.grid = grid;
     m.assign = settings_.assign == Assign::clip ? "clip" : "whole";
-    m.far_map = shape_of(settings_.far_map);
-    for (const auto& input : settings_.inputs) m.inputs.push_back(input_file(input));
-    if (settings_.terrain) m.inputs.push_back(input_file(terrain_on_disk_.value_or(*settings_.terrain)));
+    m.far_map = shape_of(far_map);
+    for (const auto& file : inputs.files) m.inputs.push_back(input_file(file));
+    if (inputs.terrain_on_disk) m.inputs.push_back(input_file(*inputs.terrain_on_disk));
   }
 
   void describe_tiles(const TileSet& tiles) {
@@ -279,9 +318,9 @@ class Packing {
     m.problem_counts.assign(counts.begin(), counts.end());
   }
 
-  void write_package(const TileSet& tiles, const Grid& grid) {
+  void write_package(const TileSet& tiles, const Grid& grid, const FarMapSettings& far_map) {
     PackageWriter writer(settings_.output, settings_.overwrite);
-    const FarMapBaker baker = timed("city_index", [&] { return FarMapBaker(tiles, grid, settings_.assign, settings_.far_map); });
+    const FarMapBaker baker = timed("city_index", [&] { return FarMapBaker(tiles, grid, settings_.assign, far_map); });
     const std::vector<Block> blocks = grid.blocks();
     double bake_s = 0.0, write_s = 0.0;
     BakedBlock to_write;
@@ -308,8 +347,7 @@ class Packing {
     result_.far_map_bytes = writer.far_map_bytes();
   }
 
-  PackSettings settings_;
-  std::optional<std::filesystem::path> terrain_on_disk_;  ///< the archive that it is in, if any
+  const PackSettings& settings_;
   Report& report_;
   const PackProgress& progress_;
   const TellEstimate& tell_;
@@ -322,4 +360,4 @@ PackResult pack(const PackSettings& settings, Report& report, const PackProgress
   return Packing(settings, report, progress, tell).run();
 }
 
-}  // namespace farlod
+}  // namespace farlod::pipeline

@@ -21,7 +21,7 @@
 #include "pipeline/pack_estimate.hpp"
 #include "tiles/tiles.hpp"
 
-namespace farlod {
+namespace farlod::pipeline {
 
 /// What to do with a city that has problems.
 enum class ProblemPolicy { pack, refuse };
@@ -38,9 +38,9 @@ struct PackSettings {
   std::optional<std::filesystem::path> terrain;
   std::filesystem::path output;
   Overwrite overwrite = Overwrite::refuse;
-  IngestSettings ingest;
-  GeoreferenceSettings georeference;
-  GridSettings grid;
+  ingest::IngestSettings ingest;
+  georeference::GeoreferenceSettings georeference;
+  align::GridSettings grid;
   Assign assign = Assign::clip;
   FarMapSettings far_map;
   ProblemPolicy problems = ProblemPolicy::pack;
@@ -60,11 +60,11 @@ struct ChosenGrid {
 /// What came of it.
 struct PackResult {
   package::Manifest manifest;
-  Alignment alignment;
+  align::Alignment alignment;
   std::optional<ChosenGrid> chosen;
   std::uint64_t facets = 0;        ///< polygons as the files have them: a surface of a mesh is made of several triangles
   std::uint64_t foundations = 0;   ///< buildings whose lowest floor was closed down to the ground
-  SkippedFeatures skipped;          ///< what the files hold that is not used
+  SkippedFeatures skipped;         ///< what the files hold that is not used
   std::vector<std::string> notes;  ///< for the user: what was taken from beside the inputs, or guessed
   std::uint64_t package_bytes = 0, far_map_bytes = 0;
   PackEstimate estimate;  ///< made when the grid was laid
@@ -83,4 +83,4 @@ using TellEstimate = std::function<void(const PackEstimate&)>;
 /// maps, and with nothing written.
 PackResult pack(const PackSettings& settings, Report& report, const PackProgress& progress, const TellEstimate& tell = {});
 
-}  // namespace farlod
+}  // namespace farlod::pipeline

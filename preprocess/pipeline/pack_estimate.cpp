@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-namespace farlod {
+namespace farlod::pipeline {
 namespace {
 
 // Measured with `farlod-pack --summary` on generated cities of 35,000 to 10 million polygons (`farlod-city --towers 0.3`) with
@@ -65,4 +65,4 @@ void require_memory(const PackEstimate& estimate, std::optional<std::uint64_t> l
                          ": choose larger cells (--cell), pack fewer inputs at a time, or raise the limit.");
 }
 
-}  // namespace farlod
+}  // namespace farlod::pipeline

@@ -11,9 +11,9 @@
 #include "farlod/grid.hpp"
 #include "farmap/far_map_settings.hpp"
 
-namespace farlod {
+namespace farlod::pipeline {
 
-/// What a run will need, expected once the grid is laid: to plan by, not to rely on.
+/// The expected cost of a run, estimated once the grid is laid. An estimate to plan by, not a bound.
 struct PackEstimate {
   std::uint64_t cells = 0;
   double seconds = 0.0;  ///< from the tiles on
@@ -26,13 +26,13 @@ class MemoryLimitError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Expects memory and package within a factor of two, for cities whose buildings stand (Surface::is_grounded): those of open shells
-/// have larger far maps. `ground_points`: nodes of a terrain or points of a relief; 0 when buildings stand on their own. Time is
-/// that of a machine like that of docs/performance.md with nothing else to do.
+/// Estimates memory and package size within a factor of two for cities of grounded buildings (Surface::grounded); cities of open
+/// shells have larger far maps. `ground_points`: nodes of a terrain or points of a relief, 0 without either. The time is that of
+/// an idle machine like the one of docs/performance.md.
 [[nodiscard]] PackEstimate estimate_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map,
                                          std::size_t threads);
 
 /// Throws MemoryLimitError, which says what would help, when the estimate exceeds the limit.
 void require_memory(const PackEstimate& estimate, std::optional<std::uint64_t> limit_mib);
 
-}  // namespace farlod
+}  // namespace farlod::pipeline

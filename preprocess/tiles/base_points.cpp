@@ -10,9 +10,10 @@
 
 #include "farlod/box.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
+/// The bounding rectangle of a building in plan, and the height of its base.
 struct Footprint {
   Box2d outline;
   double height_m = std::numeric_limits<double>::infinity();
@@ -33,7 +34,7 @@ double distance_m(const Box2d& a, const Box2d& b) {
   return std::hypot(dx, dy);
 }
 
-/// Buildings by the squares of a coarse net that their outlines touch.
+/// Finds the buildings near a building: buildings are listed by the squares of a coarse grid that their outlines touch.
 class Neighbors {
  public:
   explicit Neighbors(const std::vector<Footprint>& bases) : bases_(bases) {
@@ -42,8 +43,7 @@ class Neighbors {
         for_each_square(bases[n].outline, 0.0, [&](std::uint64_t square) { squares_[square].push_back(n); });
   }
 
-  /// Whether more neighbors, and two at least, are higher than a slope explains than are on its level. Those across a wide
-  /// street may be neither.
+  /// Promise (2) of bases_of. A neighbor across a wide street may be neither higher nor on the same level.
   [[nodiscard]] bool is_below_ground(std::uint32_t number) const {
     const Footprint& here = bases_[number];
     int higher = 0, alike = 0;
@@ -55,10 +55,10 @@ class Neighbors {
     return higher >= 2 && higher > alike;
   }
 
-  /// Whether neighbors are so much lower that it must be a bridge. `bases` tells which of them are known to be wrong.
+  /// Promise (1) of bases_of. Neighbors that `bases` knows to be below the ground do not count.
   [[nodiscard]] bool is_above_ground(std::uint32_t number, std::span<const Base> bases) const {
     const Footprint& here = bases_[number];
-    std::vector<Point2d> lower;  // directions to those that are lower by a clearance
+    std::vector<Point2d> lower;  // directions to the neighbors that are lower by a clearance
     bool lower_than_slope = false;
     visit_near(number, [&](std::uint32_t n, double distance) {
       if (bases[n] == Base::below_ground) return;
@@ -70,12 +70,13 @@ class Neighbors {
   }
 
  private:
+  /// The largest difference of two bases at a distance of `run_m`.
   static double steepest_rise_m(double run_m) { return steepest_ground * run_m + kerb_m; }
-  /// Houses on a hill may have their bases at their lower ends: a house further down.
+  /// A house on a hill may have its base at its downhill end, so its own depth adds to the distance.
   static double depth_m(const Footprint& f) {
     return std::min(f.outline.high.x - f.outline.low.x, f.outline.high.y - f.outline.low.y);
   }
-  /// From the middle of one outline to the nearest place of another one.
+  /// Unit vector from the middle of one outline to the nearest point of another one.
   static Point2d towards(const Footprint& from, const Footprint& to) {
     const Point2d middle = 0.5 * (from.outline.low + from.outline.high);
     const Point2d nearest{std::clamp(middle.x, to.outline.low.x, to.outline.high.x),
@@ -92,7 +93,7 @@ class Neighbors {
     return false;
   }
 
-  /// Each neighbor once.
+  /// Calls `visit` once for each building within the search radius, with its distance.
   template <class Visit>
   void visit_near(std::uint32_t number, const Visit& visit) const {
     std::vector<std::uint32_t> near;
@@ -100,6 +101,7 @@ class Neighbors {
       if (const auto found = squares_.find(square); found != squares_.end())
         near.insert(near.end(), found->second.begin(), found->second.end());
     });
+    // A building may touch several squares
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
     for (const std::uint32_t n : near) {
@@ -127,6 +129,7 @@ std::vector<Base> bases_of(const CityModel& city) {
   footprints.reserve(city.buildings().size());
   for (const Building& b : city.buildings()) footprints.push_back(footprint_of(city.points_of(b)));
   const Neighbors neighbors(footprints);
+  // Find the bases below the ground first: they must not make bridges of their neighbors
   std::vector<Base> result(footprints.size(), Base::on_ground);
   for (std::uint32_t n = 0; n < footprints.size(); ++n)
     if (!footprints[n].outline.empty() && neighbors.is_below_ground(n)) result[n] = Base::below_ground;
@@ -149,4 +152,4 @@ std::vector<Point3d> base_points(const CityModel& city, std::span<const Base> ba
   return result;
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

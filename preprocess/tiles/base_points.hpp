@@ -9,33 +9,32 @@
 #include "city/city_model.hpp"
 #include "farlod/point.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 
-/// What a building's lowest points say of the ground.
+/// Whether the base of a building, its lowest points, lies on the ground.
 enum class Base : std::uint8_t {
   on_ground,
-  above_ground,  ///< it is a bridge, or a roof without walls
-  below_ground   ///< its base is lower than the ground can be: an error in the file
+  above_ground,  ///< a bridge, or a roof without walls
+  below_ground   ///< lower than the ground can be: an error in the file
 };
 
-/// What the base of each building is, told by its neighbors (docs/decisions/0004): the slope filter of Vosselman (2000), used
-/// there to tell ground from objects in laser scans, for a ground that climbs by `steepest_ground` at the most.
-///   (1) a bridge has neighbors on opposite sides whose bases are lower by `least_clearance_m`, or one that is lower than any
-///   slope
-///       between them explains
-///   (2) below the ground is a base when more of its neighbors, and two at least, are higher than any slope explains than are on
-///       its level, as far as a gentle slope goes
+/// Classifies the base of each building by those of its neighbors (docs/decisions/0004). The test is the slope filter of
+/// Vosselman (2000), which separates ground from objects in laser scans, for a ground whose slope is at most `steepest_ground`.
+///   (1) A base is above the ground when neighbors on opposite sides have lower bases, by more than `least_clearance_m` plus the
+///       slope, or when one neighbor is lower than any slope between the two allows.
+///   (2) A base is below the ground when at least two neighbors are higher than any slope allows, and more of them than neighbors
+///       whose bases agree with it up to a gentle slope.
 [[nodiscard]] std::vector<Base> bases_of(const CityModel& city);
 
-/// The points where buildings meet the ground: of each building on the ground, its points within `base_thickness_m` of the
-/// lowest.
+/// The points at which buildings meet the ground: the points of each building on the ground that are at most `base_thickness_m`
+/// above its lowest point.
 [[nodiscard]] std::vector<Point3d> base_points(const CityModel& city, std::span<const Base> bases);
 
-inline constexpr double base_thickness_m = 0.01;  ///< a slab drawn to the centimetre
+inline constexpr double base_thickness_m = 0.01;  ///< bases are drawn to the centimetre
 inline constexpr double steepest_ground = 0.5;    ///< 27°: steeper streets are stairs
-inline constexpr double gentle_ground = 0.2;      ///< 11°: streets seldom climb more
-inline constexpr double least_clearance_m = 2.5;  ///< of something that one can walk under
-inline constexpr double kerb_m = 1.5;             ///< steps, kerbs, plinths: bases differ by so much on level ground
+inline constexpr double gentle_ground = 0.2;      ///< 11°: streets are seldom steeper
+inline constexpr double least_clearance_m = 2.5;  ///< height under which a person can walk
+inline constexpr double kerb_m = 1.5;             ///< steps, kerbs and plinths: difference of bases on level ground
 inline constexpr double base_search_radius_m = 30.0;
 
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -9,11 +9,11 @@
 
 #include "tiles/facet_repair.hpp"
 #include "tiles/facet_triangulation.hpp"
+#include "tiles/horizon_edges.hpp"
 #include "tiles/metres_text.hpp"
 #include "tiles/solid_orientation.hpp"
-#include "tiles/undersides.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 struct TriangulatedFacet {
@@ -96,7 +96,7 @@ class BuildingCutter {
     }
   }
 
-  /// The file's word for a surface counts more than the way it was drawn: a roof looks up.
+  /// The kind that the file gives overrules the orientation of the polygon: the normal of a roof points upwards.
   static void finish_surface(BuildingSurface& s, const Point3d& total_vector) {
     Point3d normal = normalized(total_vector);
     SurfaceKind& kind = s.surface.kind;
@@ -171,4 +171,4 @@ BuildingPieces cut_building(const CityModel& city_grid, const Building& building
   return BuildingCutter(city_grid, building, grid, assign, height_origin_m).run();
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -15,7 +15,7 @@
 #include "tiles/tile_set.hpp"
 #include "tiles/tiles.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 
 /// A surface of one building, whole.
 struct BuildingSurface {
@@ -34,15 +34,15 @@ struct UpperBorder {
   std::size_t pieces_end = 0;  ///< in BuildingPieces::upper_pieces, where its pieces end and the next one's begin
 };
 
-/// What one building comes to. Depends on nothing but the building, the grid and the settings.
+/// One building, triangulated and cut. Depends only on the building, the grid and the settings.
 struct BuildingPieces {
   std::vector<BuildingSurface> surfaces;
   std::vector<SurfacePiece> pieces;
   std::vector<UpperBorder> upper_borders;
   std::vector<CellEdge> upper_pieces;      ///< of the upper borders, one after the other
-  std::vector<HorizonSegment> undersides;  ///< those at the ground among them; grid frame
-  std::vector<WallProfile> walls;          ///< if there are undersides
-  std::optional<Cell> only_cell;           ///< to which it all goes, if it is not cut
+  std::vector<HorizonSegment> undersides;  ///< including those on the ground; grid frame
+  std::vector<WallProfile> walls;          ///< empty when there are no undersides
+  std::optional<Cell> only_cell;           ///< the cell of the whole building when it is not cut
   std::vector<Problem> problems;           ///< without the source, which a building alone does not know; grid frame
 };
 
@@ -50,4 +50,4 @@ struct BuildingPieces {
 [[nodiscard]] BuildingPieces cut_building(const CityModel& city_grid, const Building& building, const Grid& grid, Assign assign,
                                           double height_origin_m);
 
-}  // namespace farlod
+}  // namespace farlod::tiles

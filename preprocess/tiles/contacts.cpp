@@ -9,22 +9,22 @@
 #include <optional>
 
 #include "tiles/horizon_edges.hpp"
-#include "tiles/undersides.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 Point3d exactly(const Point3f& p) { return {p.x, p.y, p.z}; }
 
-/// Part of an edge, in metres from its first end.
+/// A part of an edge, in metres from its first end.
 struct Stretch {
   double from_m = 0.0, to_m = 0.0;
 };
 
-/// How the facets beside a stretch go on in the plane at right angles to it.
+/// The triangles beside a stretch, in the plane perpendicular to the edge.
 struct CrossSection {
-  double left_rad = std::numeric_limits<double>::infinity(), right_rad = left_rad;  ///< the lowest; as EdgeSides
-  bool goes_down = false;                                                           ///< an upright one hangs from it
+  /// The smallest rise on either side, as in EdgeSides.
+  double left_rad = std::numeric_limits<double>::infinity(), right_rad = left_rad;
+  bool goes_down = false;  ///< a vertical triangle lies below the edge
 
   void add(const CrossSection& o) {
     left_rad = std::min(left_rad, o.left_rad);
@@ -39,7 +39,7 @@ struct Contact {
   CrossSection section;
 };
 
-/// An edge, with axes along it, to its left, and at right angles to both.
+/// Coordinates of an edge: x along the edge, y horizontally to its left, z perpendicular to both, upwards.
 class EdgeFrame {
  public:
   explicit EdgeFrame(const HorizonEdge& e) : a_(exactly(e.a)) {
@@ -51,7 +51,6 @@ class EdgeFrame {
     up_ = cross(along_, left_);
   }
   [[nodiscard]] double length_m() const { return length_m_; }
-  /// x along, y to the left, z upwards.
   [[nodiscard]] Point3d seen(const Point3f& p) const {
     const Point3d v = exactly(p) - a_;
     return {dot(v, along_), dot(v, left_), dot(v, up_)};
@@ -64,38 +63,45 @@ class EdgeFrame {
 
 using Corners = std::array<Point3d, 3>;  ///< in an EdgeFrame
 
-/// Where along the edge the triangle is no farther from it than `contact_m`, in its own plane and off it.
+/// The stretch of the edge (the x axis) that is within `contact_m` of the triangle, measured in its plane and perpendicular to
+/// it; nothing when the stretch is too short to count.
 std::optional<Stretch> touched(const Corners& t, double length_m) {
   const Point3d normal = normalized(cross(t[1] - t[0], t[2] - t[0]));
   if (normal == Point3d{}) return std::nullopt;
+  // Each condition is linear along the edge, s·rate ≤ room, and cuts the stretch at one end
   Stretch s{0.0, length_m};
-  // s·rate ≤ room
   const auto limit = [&s](double rate, double room) {
     if (rate > 0.0) s.to_m = std::min(s.to_m, room / rate);
     if (rate < 0.0) s.from_m = std::max(s.from_m, room / rate);
     if (rate == 0.0 && room < 0.0) s.to_m = -1.0;
   };
+  // The distance from the triangle's plane is at most contact_m on either side
   const double off_plane = dot(normal, t[0]);
   limit(normal.x, off_plane + contact_m);
   limit(-normal.x, -off_plane + contact_m);
+  // The distance beyond each side of the triangle is at most contact_m
   for (std::size_t n = 0; n < 3; ++n) {
     const Point3d side = t[(n + 1) % 3] - t[n];
     const Point3d outward = normalized(cross(side, normal));
     limit(outward.x, dot(outward, t[n]) + contact_m);
   }
+  // A triangle that meets the edge in a point touches it along 2·contact_m: that is no contact
   if (s.to_m - s.from_m <= 2.0 * contact_m && s.to_m - s.from_m < 0.5 * length_m) return std::nullopt;
   return s;
 }
 
-/// The part of the triangle beside a place of the edge, as seen along it.
+/// The cross section of the triangle with the plane perpendicular to the edge at `at_m`.
 CrossSection section_at(const Corners& t, double at_m) {
   CrossSection section;
   for (std::size_t n = 0; n < 3; ++n) {
     const Point3d &a = t[n], &b = t[(n + 1) % 3];
+    // Intersect a side of the triangle with that plane
     const double da = a.x - at_m, db = b.x - at_m;
     if (da * db > 0.0 || da == db) continue;
     const double share = da / (da - db), aside_m = a.y + share * (b.y - a.y), rise_m = a.z + share * (b.z - a.z);
+    // The end at the edge itself has no direction
     if (std::hypot(aside_m, rise_m) <= 2.0 * contact_m) continue;
+    // A nearly vertical triangle closes the edge when it lies below, and has no effect when it rises
     if (std::abs(aside_m) <= std::max(leaning_wall_z * std::abs(rise_m), contact_m) && std::abs(rise_m) > std::abs(aside_m)) {
       section.goes_down |= rise_m < 0.0;
       continue;
@@ -107,6 +113,7 @@ CrossSection section_at(const Corners& t, double at_m) {
 }
 
 std::vector<Contact> contacts_of(const HorizonEdge& edge, const EdgeFrame& frame, const Tile& tile) {
+  // Compare bounding boxes first: most triangles of the tile are far away
   constexpr auto give = static_cast<float>(contact_m);
   const Point3f low{std::min(edge.a.x, edge.b.x) - give, std::min(edge.a.y, edge.b.y) - give,
                     std::min(edge.a.z, edge.b.z) - give};
@@ -140,13 +147,14 @@ std::vector<HorizonEdge> without_contacts(const HorizonEdge& edge, const Tile& t
   const EdgeFrame frame(edge);
   if (!(frame.length_m() > on_line_m)) return {};
   const std::vector<Contact> contacts = contacts_of(edge, frame, tile);
-  // Between the places where contacts begin and end, the same ones touch the edge
+  // Cut the edge where contacts begin and end: on each interval between, the set of contacts is constant
   std::vector<double> places{0.0, frame.length_m()};
   for (const Contact& c : contacts) {
     places.push_back(std::max(c.stretch.from_m, 0.0));
     places.push_back(std::min(c.stretch.to_m, frame.length_m()));
   }
   std::sort(places.begin(), places.end());
+  // Join consecutive open intervals, and keep those that are longer than the tolerance
   std::vector<HorizonEdge> open;
   std::optional<double> open_from;
   for (std::size_t n = 1; n < places.size(); ++n) {
@@ -165,4 +173,4 @@ std::vector<HorizonEdge> without_contacts(const HorizonEdge& edge, const Tile& t
   return open;
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -8,13 +8,14 @@
 #include "farlod/horizon/horizon_edge.hpp"
 #include "tiles/tile_set.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 
-/// What touches an edge to this goes on there: walls that end on a roof, balconies that end at a wall.
+/// A triangle touches an edge when it is nearer than this: walls end on roofs, and balconies at walls, with gaps of about a
+/// centimetre.
 inline constexpr double contact_m = 0.02;
 
-/// The parts of a lower border that nothing closes: along all others, facets of the tile touch it, of whatever building, that go
-/// on below. The border and the tile are in the frame of the same cell.
+/// The parts of a lower border that stay open: no triangle of the tile, of any building, touches the border there and continues
+/// below it. The border and the tile are in the frame of the same cell.
 [[nodiscard]] std::vector<HorizonEdge> without_contacts(const HorizonEdge& underside, const Tile& tile);
 
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -8,7 +8,7 @@
 #include "farlod/grid.hpp"
 #include "farlod/point.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 
 /// A convex polygon in one cell, rounded to the cell frame.
 struct CellPiece {
@@ -27,4 +27,4 @@ struct CellPiece {
 [[nodiscard]] std::vector<CellPiece> cut_within(const std::array<Point3d, 3>& triangle_grid, const Grid& grid,
                                                 double height_origin_m);
 
-}  // namespace farlod
+}  // namespace farlod::tiles

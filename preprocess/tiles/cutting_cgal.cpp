@@ -1,17 +1,113 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tiles/cutting.hpp"
-
 #include <algorithm>
 #include <optional>
 #include <utility>
 
+#include "tiles/cutting.hpp"
 #include "tiles/exact_cutting_cgal.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
-/// The one cell that holds the whole triangle, when there is one and no corner touches a border.
+using Polygon = std::vector<ExactCorner>;
+enum class Axis : std::uint8_t { x, y };
+
+const Rational& along(Axis axis, const ExactCorner& c) { return axis == Axis::x ? c.p_grid.x : c.p_grid.y; }
+
+/// The point at which the edge a–b crosses the line at `border`. It is exact, hence the same for both triangles of the edge.
+ExactCorner crossing(Axis axis, const ExactCorner& a, const ExactCorner& b, const Rational& border) {
+  // t = (border − a) / (b − a), p = a + t·(b − a)
+  const Rational t = (border - along(axis, a)) / (along(axis, b) - along(axis, a));
+  ExactPoint p{a.p_grid.x + t * (b.p_grid.x - a.p_grid.x), a.p_grid.y + t * (b.p_grid.y - a.p_grid.y),
+               a.p_grid.z + t * (b.p_grid.z - a.p_grid.z)};
+  return {std::move(p), -1};
+}
+
+/// Splits a convex polygon that lies on both sides of a border into the part below and the part above (Sutherland and Hodgman
+/// 1974).
+std::pair<Polygon, Polygon> split(const Polygon& polygon, Axis axis, const Rational& border) {
+  std::pair<Polygon, Polygon> parts;
+  // Walk round the polygon, edge by edge from corner a to corner b
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const ExactCorner& a = polygon[k];
+    const ExactCorner& b = polygon[(k + 1) % polygon.size()];
+    const auto side_a = CGAL::compare(along(axis, a), border), side_b = CGAL::compare(along(axis, b), border);
+    // A corner on the border belongs to both parts
+    if (side_a != CGAL::LARGER) parts.first.push_back(a);
+    if (side_a != CGAL::SMALLER) parts.second.push_back(a);
+    // An edge that crosses the border ends one part and begins the other, at the same point
+    if (side_a * side_b != -1) continue;
+    const ExactCorner c = crossing(axis, a, b, border);
+    parts.first.push_back(c);
+    parts.second.push_back(c);
+  }
+  return parts;
+}
+
+/// The first and the last interval between borders that a polygon reaches into. A polygon that lies wholly on a border belongs to
+/// the interval above the border. A polygon that only ends there does not reach into that interval.
+std::pair<std::int32_t, std::int32_t> intervals(const Polygon& polygon, Axis axis, const Grid& grid) {
+  const auto less = [axis](const ExactCorner& a, const ExactCorner& b) { return along(axis, a) < along(axis, b); };
+  const auto [low, high] = std::minmax_element(polygon.begin(), polygon.end(), less);
+  // Estimate the interval in double precision, then correct it with exact comparisons
+  const auto interval_of = [&grid](const Rational& x) {
+    std::int32_t k = grid.interval_of(CGAL::to_double(x));
+    while (Rational(grid.border_m(k)) > x) --k;
+    while (Rational(grid.border_m(k + 1)) <= x) ++k;
+    return k;
+  };
+  const std::int32_t first = interval_of(along(axis, *low));
+  std::int32_t last = interval_of(along(axis, *high));
+  if (last > first && along(axis, *high) == Rational(grid.border_m(last))) --last;
+  return {first, last};
+}
+
+/// Intervals from `begin` to before `end`.
+struct Wanted {
+  std::int32_t begin, end;
+};
+
+/// Cuts along the borders of one axis, and hands each part that is wanted on with its interval.
+template <class Sink>
+void cut_along(Axis axis, Polygon polygon, const Grid& grid, Wanted wanted, const Sink& sink) {
+  // Clip the polygon to the wanted range first: no time is spent on cells that nobody wants
+  auto [first, last] = intervals(polygon, axis, grid);
+  if (last < wanted.begin || first >= wanted.end) return;
+  if (first < wanted.begin) polygon = split(polygon, axis, Rational(grid.border_m(wanted.begin))).second;
+  if (last >= wanted.end) polygon = split(polygon, axis, Rational(grid.border_m(wanted.end))).first;
+  first = std::max(first, wanted.begin);
+  last = std::min(last, wanted.end - 1);
+  // Cut off one interval after the other, from low to high
+  for (std::int32_t k = first; k < last; ++k) {
+    auto [below, above] = split(polygon, axis, Rational(grid.border_m(k + 1)));
+    sink(k, std::move(below));
+    polygon = std::move(above);
+  }
+  sink(last, std::move(polygon));
+}
+
+}  // namespace
+
+std::vector<ExactPiece> cut_exactly(const std::array<Point3d, 3>& triangle_grid, const Grid& grid, const CellRange& wanted) {
+  Polygon triangle;
+  for (std::int8_t n = 0; n < 3; ++n) {
+    const Point3d& p = triangle_grid[static_cast<std::size_t>(n)];
+    triangle.push_back({{Rational(p.x), Rational(p.y), Rational(p.z)}, n});
+  }
+  // Cut into columns along x, and each column into cells along y
+  std::vector<ExactPiece> pieces;
+  cut_along(Axis::x, std::move(triangle), grid, {wanted.i_begin, wanted.i_end}, [&](std::int32_t i, Polygon column) {
+    cut_along(Axis::y, std::move(column), grid, {wanted.j_begin, wanted.j_end}, [&](std::int32_t j, Polygon piece) {
+      pieces.push_back({{i, j}, std::move(piece)});
+    });
+  });
+  return pieces;
+}
+
+namespace {
+
+/// The cell that contains the whole triangle, if there is one.
 std::optional<Cell> only_cell(const std::array<Point3d, 3>& t, const Grid& grid) {
   const Cell low = grid.cell_of({std::min({t[0].x, t[1].x, t[2].x}), std::min({t[0].y, t[1].y, t[2].y})});
   const Cell high = grid.cell_of({std::max({t[0].x, t[1].x, t[2].x}), std::max({t[0].y, t[1].y, t[2].y})});
@@ -20,8 +116,10 @@ std::optional<Cell> only_cell(const std::array<Point3d, 3>& t, const Grid& grid)
 
 Point3f rounded(const ExactCorner& corner, const std::array<Point3d, 3>& triangle, Cell cell, const Grid& grid,
                 double height_origin_m) {
+  // A corner of the triangle is rounded as in a triangle that was never cut
   if (corner.original >= 0)
     return cell_from_grid(triangle[static_cast<std::size_t>(corner.original)], cell, grid, height_origin_m);
+  // A corner that the cut made is rounded once, after the exact subtraction of the cell's corner
   const Point2d south_west = grid.corner_of(cell);
   const auto round = [](const Rational& exact, double origin) {
     return static_cast<float>(CGAL::to_double(exact - Rational(origin)));
@@ -31,6 +129,7 @@ Point3f rounded(const ExactCorner& corner, const std::array<Point3d, 3>& triangl
 
 std::vector<CellPiece> cut(const std::array<Point3d, 3>& triangle, const Grid& grid, double height_origin_m,
                            const CellRange& wanted) {
+  // A triangle inside one cell needs no exact arithmetic
   if (const auto cell = only_cell(triangle, grid)) {
     if (!wanted.contains(*cell)) return {};
     std::vector<Point3f> polygon;
@@ -62,4 +161,4 @@ std::vector<CellPiece> cut_within(const std::array<Point3d, 3>& triangle, const 
   return cut(triangle, grid, height_origin_m, grid.cells);
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

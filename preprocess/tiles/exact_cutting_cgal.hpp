@@ -12,9 +12,9 @@
 #include "farlod/grid.hpp"
 #include "farlod/point.hpp"
 
-// Private to the doors of CGAL and to their tests: the one header of this stage that names its number type.
+// Private to the wrappers of CGAL and to their tests: the only header of this stage that names its number type.
 
-namespace farlod {
+namespace farlod::tiles {
 
 using Rational = CGAL::Exact_rational;
 using ExactPoint = Point3<Rational>;
@@ -45,7 +45,4 @@ struct ExactPiece {
 [[nodiscard]] std::vector<ExactPiece> cut_exactly(const std::array<Point3d, 3>& triangle_grid, const Grid& grid,
                                                   const CellRange& wanted = all_cells);
 
-/// Twice the area vector of a closed polygon.
-[[nodiscard]] ExactPoint twice_area_vector(const std::vector<ExactCorner>& polygon);
-
-}  // namespace farlod
+}  // namespace farlod::tiles

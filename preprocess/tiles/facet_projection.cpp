@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace farlod {
+namespace farlod::tiles {
 
 FacetProjection FacetProjection::dropping_a_coordinate(const Point3d& normal) {
   FacetProjection p;
@@ -56,4 +56,4 @@ Point3d FacetProjection::lift(Point2d q, const Point3d& origin) const {
   return {q.x, q.y, origin.z - (n.x * (q.x - origin.x) + n.y * (q.y - origin.y)) / n.z};
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

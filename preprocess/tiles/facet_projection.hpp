@@ -4,16 +4,16 @@
 
 #include "farlod/point.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 
-/// Lays the points of a facet into a plane and back.
+/// Projects the points of a facet onto a plane, and back.
 class FacetProjection {
  public:
-  /// Drops the coordinate along which the facet is seen largest: no arithmetic, so nothing is rounded. Of a planar facet this is
-  /// its own plane, only stretched: rings cross, touch and surround each other in one as they do in the other.
+  /// Drops the coordinate with the largest component of the normal. No arithmetic is done, so nothing is rounded. For a planar
+  /// facet this is an affine map of its own plane: rings cross, touch and surround each other in both alike.
   [[nodiscard]] static FacetProjection dropping_a_coordinate(const Point3d& normal);
-  /// Perpendicular onto the plane through `origin`, for facets that are not planar: there, dropping a coordinate may let rings
-  /// cross that do not cross when one looks along the normal.
+  /// Projects along the normal onto the plane through `origin`. For facets that are not planar: if a coordinate is dropped, rings
+  /// may cross that do not cross along the normal.
   [[nodiscard]] static FacetProjection onto_plane(const Point3d& origin, const Point3d& normal);
 
   [[nodiscard]] Point2d operator()(const Point3d& p) const;
@@ -30,4 +30,4 @@ class FacetProjection {
   Point3d normal_, origin_, u_, v_;
 };
 
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -9,7 +9,7 @@
 #include "tiles/misplaced_holes.hpp"
 #include "tiles/spikes.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 void remove_spikes(RepairedFacet& facet) {
@@ -54,4 +54,4 @@ RepairedFacet repaired_rings(const CityModel& city, const Facet& facet) {
 
 std::string name_of_ring(std::size_t ring) { return ", ring " + std::to_string(ring) + (ring == 0 ? " (outer)" : " (hole)"); }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

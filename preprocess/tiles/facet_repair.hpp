@@ -11,7 +11,7 @@
 #include "city/city_model.hpp"
 #include "city/problem.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 
 /// What is wrong with a ring of a facet.
 struct FacetFinding {
@@ -21,18 +21,18 @@ struct FacetFinding {
   Point3d position;
 };
 
-/// The rings of a facet without what encloses nothing or takes nothing away.
+/// The rings of a facet without spikes, which enclose nothing, and without misplaced holes, which remove nothing.
 struct RepairedFacet {
   std::vector<std::span<const Point3d>> rings;  ///< the outer one first; into the city, or into `changed`
   std::list<std::vector<Point3d>> changed;
   std::vector<FacetFinding> findings;
 };
 
-/// Takes spikes out of rings, leaves misplaced holes out, and puts the outer ring first where a hole was written in its place.
-/// What cannot be repaired with certainty stays for the triangulation to find.
+/// Removes spikes from rings, removes misplaced holes, and exchanges the outer ring with a hole where the file confuses them.
+/// Rings that cannot be repaired with certainty stay as they are: the triangulation reports them.
 [[nodiscard]] RepairedFacet repaired_rings(const CityModel& city, const Facet& facet);
 
 /// What a ring is called in the report: ", ring 1 (hole)".
 [[nodiscard]] std::string name_of_ring(std::size_t ring);
 
-}  // namespace farlod
+}  // namespace farlod::tiles

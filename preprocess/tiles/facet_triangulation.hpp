@@ -8,7 +8,7 @@
 #include "farlod/mesh_view.hpp"
 #include "farlod/point.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 
 /// The triangles of a facet.
 struct Triangulation {
@@ -22,9 +22,12 @@ struct Triangulation {
 [[nodiscard]] Point3d area_vector(std::span<const std::span<const Point3d>> rings);
 
 /// Triangulates a facet with holes. For every facet whose rings do not cross:
-///   (1) the corners of the triangles are the facet's points, unchanged: the exact area vectors of the triangles sum to the
-///   facet's own (2) triangles run round as the outer ring does (3) a facet without area has no triangles
-/// Where the rings cross, in the facet's own plane, the inside is what an odd number of rings surrounds.
+///   (1) The corners of the triangles are the facet's points, unchanged, so that the exact area vectors of the triangles sum to
+///   the
+///       area vector of the facet.
+///   (2) The triangles have the orientation of the outer ring.
+///   (3) A facet without area has no triangles.
+/// Where rings cross, in the facet's own plane, the inside is where an odd number of rings surrounds it.
 [[nodiscard]] Triangulation triangulate(std::span<const std::span<const Point3d>> rings);
 
 /// Sum of the triangles' area vectors: the facet's own, but where rings cross, for there it says what was kept.
@@ -33,4 +36,4 @@ struct Triangulation {
 /// Largest distance of a facet's points from the plane through its first point along `unit_normal`.
 [[nodiscard]] double distance_from_plane_m(std::span<const std::span<const Point3d>> rings, const Point3d& unit_normal);
 
-}  // namespace farlod
+}  // namespace farlod::tiles

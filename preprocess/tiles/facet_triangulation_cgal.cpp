@@ -14,7 +14,7 @@
 #include "tiles/facet_projection.hpp"
 #include "tiles/facet_triangulation.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -34,7 +34,7 @@ using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, DataStructur
 /// Knows how many rings run along an edge, so that a keyhole's bridge (drawn there and back) bounds nothing.
 using Rings = CGAL::Constrained_triangulation_plus_2<Delaunay>;
 
-/// A facet whose points are less than this off its plane is as good as planar: files round to millimetres.
+/// A facet whose points are nearer to its plane than this counts as planar: files round to millimetres.
 constexpr double bent_m = 0.001;
 
 Kernel::Point_2 flat(const Point3d& p, const FacetProjection& project) {
@@ -42,7 +42,7 @@ Kernel::Point_2 flat(const Point3d& p, const FacetProjection& project) {
   return {q.x, q.y};
 }
 
-/// Convex rings of up to four points need no triangulation: most walls and all triangles.
+/// Splits a convex ring of up to four points into a fan: most walls and all triangles. False for other rings.
 bool add_convex_fan(Triangulation& result, const FacetProjection& project) {
   const std::size_t n = result.points.size();
   if (n > 4) return false;
@@ -56,7 +56,7 @@ bool add_convex_fan(Triangulation& result, const FacetProjection& project) {
   return true;
 }
 
-/// Draws the rings into the triangulation; numbers their vertices as in `points`.
+/// Inserts the rings as constraints into the triangulation, and numbers their vertices as in `points`.
 void draw(Rings& plane, std::span<const std::span<const Point3d>> rings, const FacetProjection& project) {
   std::uint32_t number = 0;
   std::vector<Rings::Vertex_handle> corners;
@@ -75,13 +75,13 @@ void draw(Rings& plane, std::span<const std::span<const Point3d>> rings, const F
   }
 }
 
-/// Whether stepping over this edge changes between inside and outside.
+/// Whether the edge separates inside from outside: an odd number of rings runs along it.
 bool is_border(const Rings& plane, const Rings::Face_handle& face, int edge) {
   if (!face->is_constrained(edge)) return false;
   return plane.number_of_enclosing_constraints(face->vertex(plane.cw(edge)), face->vertex(plane.ccw(edge))) % 2 == 1;
 }
 
-/// Walks over all faces from the infinite one, which is outside.
+/// Marks all faces as inside or outside, by breadth-first search from the infinite face, which is outside.
 void mark_sides(Rings& plane) {
   std::deque<Rings::Face_handle> open{plane.infinite_face()};
   open.front()->info().value = Side::outside;
@@ -98,7 +98,7 @@ void mark_sides(Rings& plane) {
   }
 }
 
-/// Points that the drawing had to invent, where rings cross, lie in the facet's plane.
+/// Numbers the vertices that CGAL inserted where rings cross, and lifts them into the facet's plane.
 void number_crossings(Rings& plane, Triangulation& result, const FacetProjection& project) {
   for (auto v = plane.finite_vertices_begin(); v != plane.finite_vertices_end(); ++v) {
     if (v->info().value != no_number) continue;
@@ -117,7 +117,8 @@ void collect_inside(const Rings& plane, Triangulation& result, bool mirrored) {
   }
 }
 
-/// A direction in which the facet has area, where its area vector cancels: the wings of a bow tie run round opposite ways.
+/// A normal for a facet whose area vector vanishes, as the two wings of a bow tie cancel each other: that of its largest corner
+/// triangle.
 Point3d normal_of_wings(std::span<const Point3d> ring) {
   Point3d largest;
   for (std::size_t k = 2; k < ring.size(); ++k) {
@@ -135,7 +136,7 @@ Point3d area_vector(std::span<const std::span<const Point3d>> rings) {
     const auto ring = rings[r];
     Point3d sum;
     for (std::size_t k = 2; k < ring.size(); ++k) sum = sum + 0.5 * cross(ring[k - 1] - ring[0], ring[k] - ring[0]);
-    // Files do not agree on which way holes run: a hole takes area away whichever way it is drawn
+    // A hole removes area whatever its orientation, which differs from file to file
     total = r == 0 || dot(sum, total) < 0.0 ? total + sum : total - sum;
   }
   return total;
@@ -170,7 +171,7 @@ Triangulation triangulate(std::span<const std::span<const Point3d>> rings) {
   if (norm(normal) == 0.0) normal = normal_of_wings(rings[0]);
   if (norm(normal) == 0.0) return {};
   Triangulation result = triangulate_in(FacetProjection::dropping_a_coordinate(normal), rings);
-  // Of a bent facet the coordinate planes show something else than its own plane
+  // In a coordinate plane the rings of a bent facet may cross, although they do not in its own plane: try again there
   if (result.rings_cross && distance_from_plane_m(rings, normalized(normal)) > bent_m)
     return triangulate_in(FacetProjection::onto_plane(rings[0][0], normal), rings);
   return result;
@@ -183,4 +184,4 @@ double distance_from_plane_m(std::span<const std::span<const Point3d>> rings, co
   return largest;
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

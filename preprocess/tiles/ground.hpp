@@ -3,34 +3,42 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "farlod/box.hpp"
+#include "farlod/ground_contact.hpp"
 #include "farlod/point.hpp"
 #include "tiles/horizon_edges.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 
-/// How far the ground reaches.
+/// The area that the ground covers.
 enum class GroundExtent {
-  rectangle,  ///< over the whole rectangle: where the points do not reach its corners, these get the height of the nearest
-  points      ///< no farther than the points themselves: beyond them nothing is known
+  rectangle,  ///< the whole rectangle: a corner beyond the points gets the height of the nearest point
+  points      ///< the convex hull of the points: nothing is known beyond it
 };
 
+/// The height of the ground at a place.
+using GroundHeightAt = std::function<double(Point2d p_grid)>;
+
+/// The largest distance between two places of a border at which its height is compared with the ground.
+inline constexpr double ground_sampling_step_m = 1.0;
+
 /// The ground: a triangulated irregular network (Delaunay in the plane) through points of known height.
-///   (1) of points one above the other, the lowest counts
-///   (2) it covers the rectangle whole, or the convex hull of its points, as its extent says
-///   (3) the same points in another order give the same ground
+///   (1) Of several points at one place in the plane, the lowest counts.
+///   (2) It covers the rectangle, or the convex hull of its points, according to its extent.
+///   (3) It does not depend on the order of the points.
 class Ground {
  public:
-  /// `points_grid` may lie anywhere; those outside of the rectangle shape the ground at its edge. None: flat at height 0.
+  /// Points outside of the rectangle shape the ground at its edge. Without points the ground is flat at height 0.
   Ground(std::vector<Point3d> points_grid, const Box2d& rectangle, GroundExtent extent = GroundExtent::rectangle);
   Ground(Ground&&) noexcept;
   Ground& operator=(Ground&&) noexcept;
   ~Ground();
 
-  /// Height of the ground; beyond it, that of the nearest point. Not for several threads at once.
+  /// Height of the ground; beyond it, the height of the nearest point. Not thread-safe.
   [[nodiscard]] double height_at(Point2d p_grid) const;
   /// All triangles, counter-clockwise seen from above, in a fixed order.
   [[nodiscard]] std::vector<std::array<Point3d, 3>> triangles() const;
@@ -42,4 +50,4 @@ class Ground {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -13,13 +13,13 @@
 #include "farlod/expects.hpp"
 #include "tiles/ground.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Network = CGAL::Delaunay_triangulation_2<CGAL::Projection_traits_xy_3<Kernel>>;
 
-/// By place, lowest first, so that the lowest of several at one place is the first of them.
+/// Sorts the points by place and height, and keeps the lowest point of each place.
 void keep_lowest(std::vector<Point3d>& points) {
   std::sort(points.begin(), points.end(),
             [](const Point3d& a, const Point3d& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
@@ -28,7 +28,7 @@ void keep_lowest(std::vector<Point3d>& points) {
       points.end());
 }
 
-/// Over points without area CGAL has no nearest one; a city of one post is rare enough to look through them all.
+/// CGAL finds no nearest point while all points lie on a line. Such cities are rare and small: compare all points.
 double height_of_nearest(const Network& network, Point2d p) {
   if (network.dimension() == 2) return network.nearest_vertex(Kernel::Point_3(p.x, p.y, 0.0))->point().z();
   double height = 0.0, least = std::numeric_limits<double>::infinity();
@@ -59,12 +59,13 @@ Ground::Ground(std::vector<Point3d> points, const Box2d& rectangle, GroundExtent
   Network& network = impl_->network;
   network.insert(input.begin(), input.end());
   if (extent == GroundExtent::points) return;
-  // All heights first, so that one corner is not another's nearest point. Within the network they change nothing
+  // Compute all heights before the first insertion, so that no corner is the nearest point of another one. Corners inside the
+  // network do not change it
   std::vector<Kernel::Point_3> corners;
   for (const Point2d c :
        {rectangle.low, Point2d{rectangle.high.x, rectangle.low.y}, rectangle.high, Point2d{rectangle.low.x, rectangle.high.y}})
     corners.emplace_back(c.x, c.y, height_at(c));
-  // A corner that is a point already keeps that point's height
+  // CGAL ignores a corner at the place of an existing point
   for (const Kernel::Point_3& corner : corners) network.insert(corner);
 }
 Ground::Ground(Ground&&) noexcept = default;
@@ -96,14 +97,14 @@ std::vector<HorizonSegment> Ground::horizon_edges() const {
   const Network& network = impl_->network;
   std::vector<HorizonSegment> result;
   if (network.dimension() < 2) return result;
-  // Not finite_edges: of an edge's two faces it takes the one that lies lower in memory, and no two runs agree on that
+  // Iterate over faces: finite_edges chooses between the two faces of an edge by their addresses, which differ from run to run
   for (auto face = network.finite_faces_begin(); face != network.finite_faces_end(); ++face)
     for (int opposite = 0; opposite < 3; ++opposite) {
       const Point3d a = from_cgal(face->vertex(Network::ccw(opposite))->point());
       const Point3d b = from_cgal(face->vertex(Network::cw(opposite))->point());
       const Network::Edge mirrored = network.mirror_edge({face, opposite});
       const bool has_two_faces = !network.is_infinite(mirrored.first);
-      if (has_two_faces && std::pair(b.x, b.y) < std::pair(a.x, a.y)) continue;  // the other face brings it
+      if (has_two_faces && std::pair(b.x, b.y) < std::pair(a.x, a.y)) continue;  // added by the other face
       EdgeSides edge(a, b);
       edge.add(from_cgal(face->vertex(opposite)->point()), FacetLook::up);
       if (has_two_faces) edge.add(from_cgal(mirrored.first->vertex(mirrored.second)->point()), FacetLook::up);
@@ -112,4 +113,4 @@ std::vector<HorizonSegment> Ground::horizon_edges() const {
   return result;
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -7,18 +7,15 @@
 #include <iterator>
 #include <utility>
 
-#include "tiles/ground_contact.hpp"
-#include "tiles/undersides.hpp"
-
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
-/// A facet whose points lie this near to a line in the plan is upright.
+/// A facet is vertical when all its points lie within this distance of a line in plan.
 constexpr double upright_offset_m = 0.03;
 
 double across(Point2d a, Point2d b) { return a.x * b.y - a.y * b.x; }
 
-/// Index of the point farthest from another one in the plan.
+/// Index of the point of the ring that is farthest from `p` in plan.
 std::size_t farthest_from(Point2d p, std::span<const Point3d> ring) {
   const auto distance = [&](const Point3d& q) { return norm(horizontal(q) - p); };
   return static_cast<std::size_t>(
@@ -26,19 +23,21 @@ std::size_t farthest_from(Point2d p, std::span<const Point3d> ring) {
       ring.begin());
 }
 
-/// One way round a ring, from its point `from` to its point `to`.
-std::vector<WallPoint> way(std::span<const WallPoint> ring, std::size_t from, std::size_t to, std::size_t step) {
+/// The points of a ring from index `from` to index `to`, in steps of `step`.
+std::vector<WallPoint> chain(std::span<const WallPoint> ring, std::size_t from, std::size_t to, std::size_t step) {
   std::vector<WallPoint> points{ring[from]};
   for (std::size_t n = from; n != to; points.push_back(ring[n])) n = (n + step) % ring.size();
   return points;
 }
 
+/// Whether the points are sorted along the wall, up to the tolerance.
 bool ascends(std::span<const WallPoint> border) {
   return std::is_sorted(border.begin(), border.end(),
                         [](const WallPoint& a, const WallPoint& b) { return a.along_m < b.along_m - on_line_m; });
 }
 
-double middle_height(std::span<const WallPoint> border) {
+/// Mean height of a border, weighted by length.
+double mean_height(std::span<const WallPoint> border) {
   double area = 0.0, length = 0.0;
   for (std::size_t n = 1; n < border.size(); ++n) {
     const double step = border[n].along_m - border[n - 1].along_m;
@@ -48,7 +47,7 @@ double middle_height(std::span<const WallPoint> border) {
   return length > 0.0 ? area / length : border.front().z_m;
 }
 
-/// The upright ends of a wall belong to neither border: of what stands one above the other there, the outermost counts.
+/// The vertical edges at both ends of a wall belong to neither border. Of the points at an end, keeps the outermost one.
 template <class IsFarther>
 std::vector<WallPoint> without_ends(std::vector<WallPoint> border, const IsFarther& is_farther) {
   const auto keep_outermost = [&](auto begin, auto end) {
@@ -61,7 +60,7 @@ std::vector<WallPoint> without_ends(std::vector<WallPoint> border, const IsFarth
   return border;
 }
 
-/// The heights of a border at a place, handed to `choose` where it steps there.
+/// The height of a border at a place. `choose` selects between the two heights of a step.
 template <class Choose>
 double height_at(std::span<const WallPoint> border, double along_m, const Choose& choose) {
   std::optional<double> height_m;
@@ -78,13 +77,13 @@ double height_at(std::span<const WallPoint> border, double along_m, const Choose
   return height_m.value_or(border.front().z_m);
 }
 
-/// Places along a wall at which its lower border is looked at: its own points, and others no farther apart than the ground is
-/// asked.
+/// Places along a wall at which its lower border is compared with the ground: the points of the border, and places between them
+/// that are no farther apart than the sampling step.
 std::vector<double> places_along(std::span<const WallPoint> border) {
   std::vector<double> places;
   for (std::size_t n = 1; n < border.size(); ++n) {
     const double from = border[n - 1].along_m, to = border[n].along_m;
-    const auto steps = static_cast<int>(std::ceil(std::max(1.0, (to - from) / ground_asked_every_m)));
+    const auto steps = static_cast<int>(std::ceil(std::max(1.0, (to - from) / ground_sampling_step_m)));
     for (int k = 0; k <= steps; ++k) places.push_back(std::lerp(from, to, static_cast<double>(k) / steps));
   }
   return places;
@@ -102,24 +101,28 @@ double WallProfile::upper_m(double along_m) const {
 
 std::optional<WallProfile> wall_profile(std::span<const Point3d> ring) {
   if (ring.size() < 3) return std::nullopt;
+  // The line of the wall runs between the two points that are farthest from each other in plan
   const Point2d begin = horizontal(ring[farthest_from(horizontal(ring.front()), ring)]);
   const Point2d along = horizontal(ring[farthest_from(begin, ring)]) - begin;
   WallProfile wall{begin, {}, norm(along), {}, {}};
   if (wall.length_m <= on_line_m) return std::nullopt;
   wall.direction = (1.0 / wall.length_m) * along;
+  // Express the ring along that line. The facet is not vertical when a point is too far from the line
   std::vector<WallPoint> points;
   for (const Point3d& p : ring) {
     const Point2d from_begin = horizontal(p) - begin;
     if (std::abs(across(wall.direction, from_begin)) > upright_offset_m) return std::nullopt;
     points.push_back({dot(wall.direction, from_begin), p.z});
   }
+  // Split the ring at its first and its last point into two borders
   const auto before = [](const WallPoint& a, const WallPoint& b) { return a.along_m < b.along_m; };
   const auto [first, last] = std::minmax_element(points.begin(), points.end(), before);
   const auto from = static_cast<std::size_t>(first - points.begin()), to = static_cast<std::size_t>(last - points.begin());
-  wall.lower = way(points, from, to, 1);
-  wall.upper = way(points, from, to, points.size() - 1);
+  wall.lower = chain(points, from, to, 1);
+  wall.upper = chain(points, from, to, points.size() - 1);
+  // A border that turns back would let a vertical line meet the facet in several pieces
   if (!ascends(wall.lower) || !ascends(wall.upper)) return std::nullopt;
-  if (middle_height(wall.lower) > middle_height(wall.upper)) std::swap(wall.lower, wall.upper);
+  if (mean_height(wall.lower) > mean_height(wall.upper)) std::swap(wall.lower, wall.upper);
   wall.lower = without_ends(std::move(wall.lower), std::less<>());
   wall.upper = without_ends(std::move(wall.upper), std::greater<>());
   return wall;
@@ -134,7 +137,7 @@ GroundedWalls::GroundedWalls(std::vector<WallProfile> walls, const GroundHeightA
       return z_m <= ground_height(p) + ground_contact_m || reach_up_to(p, z_m);
     });
   };
-  // A wall may stand on another one, which stands on a third
+  // A wall may rest on another wall, and this one on a third: repeat until no more walls are found
   for (bool more = true; more;) {
     const auto rest = std::stable_partition(walls.begin(), walls.end(), is_grounded);
     more = rest != walls.begin();
@@ -154,6 +157,7 @@ bool GroundedWalls::reach_up_to(Point2d p, double z_m) const {
 
 bool GroundedWalls::close_below(const Segment3d& s) const {
   return std::any_of(grounded_.begin(), grounded_.end(), [&](const WallProfile& wall) {
+    // The segment must lie in the plane of the wall, between its ends
     const Point2d a = horizontal(s.a) - wall.begin, b = horizontal(s.b) - wall.begin;
     double from = dot(wall.direction, a), to = dot(wall.direction, b);
     if (std::abs(across(wall.direction, a)) > upright_offset_m || std::abs(across(wall.direction, b)) > upright_offset_m ||
@@ -162,7 +166,7 @@ bool GroundedWalls::close_below(const Segment3d& s) const {
     const auto is_below = [&](double share) {
       return std::lerp(s.a.z, s.b.z, share) <= wall.upper_m(std::lerp(from, to, share)) + on_line_m;
     };
-    // Between the points of the border both are straight
+    // Both are straight between the points of the border: compare at the ends of the segment and at these points
     if (!is_below(0.0) || !is_below(1.0)) return false;
     return std::all_of(wall.upper.begin(), wall.upper.end(), [&](const WallPoint& p) {
       const double share = (p.along_m - from) / (to - from);
@@ -171,4 +175,4 @@ bool GroundedWalls::close_below(const Segment3d& s) const {
   });
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -5,27 +5,116 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 #include "tiles/cutting.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
-/// Minus zero equals zero, but has other bits.
+/// -0.0 equals 0.0, but its bits differ.
 Point3d without_minus_zero(const Point3d& p) { return {p.x + 0.0, p.y + 0.0, p.z + 0.0}; }
 
 bool comes_first(const Point3d& a, const Point3d& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
-/// A point of the edge; its ends exactly, and nothing beyond them.
-Point3d point_at(const Segment3d& s, double t) {
+/// The point at the share `t` of a segment. Both ends are exact, and no point lies beyond them.
+Point3d lerped(const Segment3d& s, double t) {
   return {std::lerp(s.a.x, s.b.x, t), std::lerp(s.a.y, s.b.y, t), std::lerp(s.a.z, s.b.z, t)};
 }
 
-/// Where, between 0 and 1, a coordinate that runs from `a` to `b` meets the borders of the grid.
+/// Appends the shares, between 0 and 1, at which a coordinate that runs from `a` to `b` crosses a border of the grid.
 void add_crossings(double a, double b, const Grid& grid, std::vector<double>& places) {
   const std::int32_t last = grid.interval_of(std::max(a, b));
   for (std::int32_t k = grid.interval_of(std::min(a, b)) + 1; k <= last; ++k) places.push_back((grid.border_m(k) - a) / (b - a));
+}
+
+double distance_from_line_m(const Point3d& p, const Segment3d& s) {
+  const Point3d along = s.b - s.a;
+  return norm(cross(along, p - s.a)) / norm(along);
+}
+
+Point3d point_at(const Segment3d& s, double share) { return s.a + share * (s.b - s.a); }
+
+/// A part of a segment, in shares of its length.
+struct Stretch {
+  double from = 0.0, to = 1.0;
+};
+
+/// The part of `s` that `other` covers, where both lie on one line; nothing where they do not.
+std::optional<Stretch> shared_stretch(const Segment3d& s, const Segment3d& other) {
+  // Project the ends of the other segment onto this one
+  const Point3d along = s.b - s.a;
+  const double square = dot(along, along);
+  const auto share_of = [&](const Point3d& p) { return dot(p - s.a, along) / square; };
+  const auto [low, high] = std::minmax({share_of(other.a), share_of(other.b)});
+  const Stretch shared{std::max(low, 0.0), std::min(high, 1.0)};
+  if ((shared.to - shared.from) * std::sqrt(square) <= on_line_m) return std::nullopt;
+  // Test the distance of the other segment from the line at the ends of the shared part: beyond them it may be anywhere
+  const Point3d other_along = other.b - other.a;
+  const auto on_other = [&](double share) {
+    const double t = (share - share_of(other.a)) * square / dot(other_along, along);
+    return point_at(other, std::clamp(t, 0.0, 1.0));
+  };
+  for (const double share : {shared.from, shared.to})
+    if (distance_from_line_m(on_other(share), s) > on_line_m) return std::nullopt;
+  return shared;
+}
+
+/// `stretches` without the part `taken`.
+std::vector<Stretch> without(const std::vector<Stretch>& stretches, const Stretch& taken) {
+  std::vector<Stretch> rest;
+  for (const Stretch& s : stretches) {
+    if (s.from < taken.from) rest.push_back({s.from, std::min(s.to, taken.from)});
+    if (s.to > taken.to) rest.push_back({std::max(s.from, taken.to), s.to});
+  }
+  return rest;
+}
+
+/// Edges ordered by their west end, to find those near an edge.
+class SortedEdges {
+ public:
+  explicit SortedEdges(std::vector<const EdgeSides*> edges) : edges_(std::move(edges)) {
+    std::stable_sort(edges_.begin(), edges_.end(),
+                     [](const EdgeSides* a, const EdgeSides* b) { return west_of(*a) < west_of(*b); });
+    for (const EdgeSides* e : edges_) widest_m_ = std::max(widest_m_, east_of(*e) - west_of(*e));
+  }
+
+  template <class Visit>
+  void visit_near(const EdgeSides& edge, const Visit& visit) const {
+    const double west_m = west_of(edge) - on_line_m, east_m = east_of(edge) + on_line_m;
+    auto e = std::lower_bound(edges_.begin(), edges_.end(), west_m - widest_m_,
+                              [](const EdgeSides* other, double x) { return west_of(*other) < x; });
+    for (; e != edges_.end() && west_of(**e) <= east_m; ++e)
+      if (*e != &edge && east_of(**e) >= west_m && overlap(edge.edge(), (*e)->edge())) visit(**e);
+  }
+
+ private:
+  static double west_of(const EdgeSides& e) { return std::min(e.edge().a.x, e.edge().b.x); }
+  static double east_of(const EdgeSides& e) { return std::max(e.edge().a.x, e.edge().b.x); }
+  static bool overlap(const Segment3d& s, const Segment3d& t) {
+    const auto apart = [](double a, double b, double c, double d) {
+      return std::max(a, b) + on_line_m < std::min(c, d) || std::max(c, d) + on_line_m < std::min(a, b);
+    };
+    return !apart(s.a.y, s.b.y, t.a.y, t.b.y) && !apart(s.a.z, s.b.z, t.a.z, t.b.z);
+  }
+
+  std::vector<const EdgeSides*> edges_;
+  double widest_m_ = 0.0;
+};
+
+/// The parts of an edge at which it stays an underside when the facets of each other edge on the same line are added.
+std::vector<Stretch> open_stretches(const EdgeSides& edge, const SortedEdges& closing) {
+  std::vector<Stretch> open{{}};
+  closing.visit_near(edge, [&](const EdgeSides& other) {
+    if (open.empty()) return;
+    EdgeSides both = edge;
+    both.add_sides_of(other);
+    if (both.can_be_underside()) return;
+    if (const auto shared = shared_stretch(edge.edge(), other.edge())) open = without(open, *shared);
+  });
+  return open;
 }
 
 }  // namespace
@@ -34,15 +123,16 @@ void EdgeSides::add(const Point3d& opposite, FacetLook look) {
   ++triangle_count_;
   const Point3d along = edge_.b - edge_.a, v = opposite - edge_.a;
   const double run_m = norm(horizontal(along)), length_m = norm(along);
-  // Rounding decides which way the planes of slivers look: they say nothing
+  // Ignore slivers: rounding decides the direction of their planes
   if (run_m < least_extent_m || norm(cross(along, v)) < least_extent_m * length_m) return;
+  // Horizontal distance of the third corner from the edge, positive to the left
   const double aside_m = (along.x * v.y - along.y * v.x) / run_m;
+  // Height of the third corner above the edge, perpendicular to the edge in its vertical plane
   const double ahead_m = dot(horizontal(along), horizontal(v)) / run_m;
-  // At right angles to the edge: horizontally, and upwards
   const double rise_m = (v.z * run_m - ahead_m * along.z) / length_m;
   const double rise_rad = std::atan2(rise_m, std::abs(aside_m));
   const bool is_left = aside_m > 0.0;
-  // A wall that rises from the edge leaves it to the other facets what is seen below
+  // For undersides: a nearly vertical triangle closes the edge when it lies below, and has no effect when it rises
   if (std::abs(aside_m) <= leaning_wall_z * std::abs(rise_m)) {
     over_wall_ |= rise_m < 0.0;
   } else {
@@ -50,6 +140,7 @@ void EdgeSides::add(const Point3d& opposite, FacetLook look) {
     low_rad = std::min(low_rad, rise_rad);
     (look == FacetLook::up ? has_roof_ : has_soffit_) = true;
   }
+  // For horizons: a vertical triangle hides the edge when it rises, and has no effect when it lies below
   if (std::abs(aside_m) <= angle_tolerance_rad * std::abs(rise_m)) {
     under_wall_ |= rise_m > 0.0;
     return;
@@ -59,6 +150,7 @@ void EdgeSides::add(const Point3d& opposite, FacetLook look) {
 }
 
 void EdgeSides::add_sides_of(const EdgeSides& other) {
+  // The other edge may run the opposite way: its left is then our right
   const Point2d along = horizontal(edge_.b - edge_.a), other_along = horizontal(other.edge_.b - other.edge_.a);
   const bool same_way = dot(along, other_along) >= 0.0;
   left_low_rad_ = std::min(left_low_rad_, same_way ? other.left_low_rad_ : other.right_low_rad_);
@@ -75,8 +167,10 @@ AdjacentSlopes EdgeSides::lowest_adjacent_slopes() const {
 }
 
 bool EdgeSides::can_be_underside() const {
+  // A vertical edge has no lower side, and a wall below the edge closes it
   const Point3d along = edge_.b - edge_.a;
   if (norm(horizontal(along)) <= std::max(least_extent_m, leaning_wall_z * norm(along)) || over_wall_) return false;
+  // The lowest triangles on both sides bend upwards: below the edge there is no facet
   return left_low_rad_ + right_low_rad_ > slight_bend_rad && !is_valley();
 }
 
@@ -86,6 +180,7 @@ bool EdgeSides::is_valley() const {
 
 bool EdgeSides::can_be_horizon() const {
   if (norm(horizontal(edge_.b - edge_.a)) <= upright_m || under_wall_) return false;
+  // The highest triangles on both sides bend downwards: the edge is convex
   return left_rad_ + right_rad_ < -angle_tolerance_rad;
 }
 
@@ -117,6 +212,32 @@ std::vector<HorizonSegment> EdgeTable::horizon_edges() const {
   return result;
 }
 
+std::vector<HorizonSegment> undersides(std::span<const EdgeSides> edges) {
+  // Collect the edges that can close another one: a facet continues below them
+  std::vector<const EdgeSides*> closing;
+  for (const EdgeSides& e : edges)
+    if (e.has_facet_below()) closing.push_back(&e);
+  const SortedEdges closing_edges(std::move(closing));
+  // Keep the open parts of each underside
+  std::vector<HorizonSegment> result;
+  bool is_open = false;  // the building has a facet that ends in the air
+  for (const EdgeSides& edge : edges) {
+    if (!edge.can_be_underside()) continue;
+    const double length_m = norm(edge.edge().b - edge.edge().a);
+    for (const Stretch& s : open_stretches(edge, closing_edges)) {
+      if ((s.to - s.from) * length_m <= on_line_m) continue;
+      is_open |= edge.triangle_count() == 1;
+      result.push_back(
+          {{point_at(edge.edge(), s.from), point_at(edge.edge(), s.to)}, edge.lowest_adjacent_slopes(), EdgeRole::underside});
+    }
+  }
+  // Through an open border an eye may look up at the valleys of the roof from below
+  if (is_open)
+    for (const EdgeSides& edge : edges)
+      if (edge.is_valley()) result.push_back({edge.edge(), edge.lowest_adjacent_slopes(), EdgeRole::underside});
+  return result;
+}
+
 CellEdge whole_edge(const HorizonSegment& edge, Cell cell, const Grid& grid, double height_origin_m) {
   return {cell,
           {cell_from_grid(edge.segment.a, cell, grid, height_origin_m),
@@ -127,18 +248,20 @@ std::vector<CellEdge> cut_edge(const HorizonSegment& horizon, const Grid& grid, 
   const Segment3d& edge = horizon.segment;
   const Cell cell = grid.cell_of(horizontal(edge.a));
   if (cell == grid.cell_of(horizontal(edge.b))) return {whole_edge(horizon, cell, grid, height_origin_m)};
+  // Shares of the edge at which it crosses a border
   std::vector<double> places{0.0, 1.0};
   add_crossings(edge.a.x, edge.b.x, grid, places);
   add_crossings(edge.a.y, edge.b.y, grid, places);
   std::sort(places.begin(), places.end());
   places.erase(std::unique(places.begin(), places.end()), places.end());
+  // A piece between two crossings belongs to the cell of its midpoint
   std::vector<CellEdge> pieces;
   for (std::size_t n = 1; n < places.size(); ++n) {
-    const Cell owner = grid.cell_of(horizontal(point_at(edge, 0.5 * (places[n - 1] + places[n]))));
-    pieces.push_back(whole_edge({{point_at(edge, places[n - 1]), point_at(edge, places[n])}, horizon.adjacent, horizon.role}, owner,
+    const Cell owner = grid.cell_of(horizontal(lerped(edge, 0.5 * (places[n - 1] + places[n]))));
+    pieces.push_back(whole_edge({{lerped(edge, places[n - 1]), lerped(edge, places[n])}, horizon.adjacent, horizon.role}, owner,
                                 grid, height_origin_m));
   }
   return pieces;
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -12,15 +13,15 @@
 #include "farlod/horizon/horizon_edge.hpp"
 #include "farlod/point.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 
-/// A straight piece in the grid frame.
+/// A straight segment in the grid frame.
 struct Segment3d {
   Point3d a, b;
   bool operator==(const Segment3d&) const = default;
 };
 
-/// A segment that can be a silhouette, and the facets beside it.
+/// A segment that can be a silhouette, and the slopes of the facets beside it.
 struct HorizonSegment {
   Segment3d segment;
   AdjacentSlopes adjacent;
@@ -28,66 +29,72 @@ struct HorizonSegment {
   bool operator==(const HorizonSegment&) const = default;
 };
 
-/// Two directions closer than this cannot be told apart. Turning a city into the grid frame rounds its points by less than
-/// 1e-10 m (a double has 53 bits, a city less than 400 km); over `least_extent_m` that makes this angle.
+/// Two directions that differ by less than this count as one. The rotation into the grid frame rounds a point by less than
+/// 1e-10 m (53 bits of a double, a city below 400 km); over `least_extent_m` this gives the angle.
 inline constexpr double angle_tolerance_rad = 1e-6;
 inline constexpr double least_extent_m = 1e-4;
-/// An edge that covers less ground than this is upright: rounding to the floats of a tile moves its ends farther.
+/// An edge with a shorter horizontal run than this is vertical: the rounding to the floats of a tile moves its ends farther.
 inline constexpr double upright_m = 1e-6;
-/// A facet that leans by less than this (cosine) counts as upright where something might be seen under it: it was surveyed a
-/// little off.
+/// For undersides, a facet counts as vertical when its tangent from the vertical is below this. Surveyed walls lean by as much.
 inline constexpr double leaning_wall_z = 0.01;
-/// Facets that bend by less than this are one where they might be seen under; and the facets beside a lower border count as
-/// flatter by four times as much, so that it stands for the bends nearby that are left out.
+/// For undersides, two facets that meet at a smaller angle than this count as one plane. A lower border stands for such bends
+/// nearby, which are not stored; its adjacent slopes are therefore stored four times this angle higher.
 inline constexpr double slight_bend_rad = 0.005;
+/// For undersides, a point lies on the line of an edge when it is nearer than this. Rounding to millimetres moves each of the
+/// three points by up to √3/2 mm.
+inline constexpr double on_line_m = 0.002;
 
-/// Which side of a facet is outside.
+/// Whether the outward normal of a facet points upwards or downwards. A soffit looks down.
 enum class FacetLook : std::uint8_t { up, down };
 
-/// An edge and what its triangles do beside it: enough to tell whether it can ever be a horizon.
-/// Proof in docs/stages/tiles.md, "Horizon edges".
+/// An edge and the triangles beside it, as far as silhouettes need them. A side of the edge is left or right of the direction
+/// from `a` to `b`, seen from above. The rise of a triangle is the angle at which it leaves the edge, measured in the plane
+/// perpendicular to the edge: 0 is horizontal, positive is upwards. Proof in docs/stages/tiles.md, "Horizon edges".
 class EdgeSides {
  public:
   EdgeSides(const Point3d& a, const Point3d& b) : edge_{a, b} {}
 
-  /// Takes in a triangle of the edge, by its third corner, and by what it looks at outwards: a soffit looks down.
+  /// Adds a triangle of the edge, given by its third corner.
   void add(const Point3d& opposite, FacetLook look);
   [[nodiscard]] const Segment3d& edge() const { return edge_; }
   [[nodiscard]] std::uint32_t triangle_count() const { return triangle_count_; }
-  [[nodiscard]] AdjacentSlopes adjacent() const { return {AdjacentSlopes::rounded_down(left_rad_), AdjacentSlopes::rounded_down(right_rad_)}; }
-  /// False: whatever eye looks past the edge sees one of its triangles at least as high as the edge.
+  [[nodiscard]] AdjacentSlopes adjacent() const {
+    return {AdjacentSlopes::rounded_down(left_rad_), AdjacentSlopes::rounded_down(right_rad_)};
+  }
+  /// False: from every eye, one of the triangles reaches at least as high as the edge wherever the edge is seen.
   [[nodiscard]] bool can_be_horizon() const;
-  /// As HorizonEdge::rises of a lower border.
+  /// The slopes that HorizonEdge::adjacent holds for a lower border.
   [[nodiscard]] AdjacentSlopes lowest_adjacent_slopes() const;
-  /// Facets that look up bend upwards here, as in a valley between roofs. In a closed building nobody sees that from below.
+  /// The edge is a valley between facets that look up, as between two roofs. Below it lies the inside of a closed building.
   [[nodiscard]] bool is_valley() const;
-  /// False: whatever eye looks past the edge from below sees one of its triangles reach at least as low.
+  /// False: from every eye below the edge, one of the triangles reaches at least as low as the edge wherever the edge is seen.
   [[nodiscard]] bool can_be_underside() const;
-  /// A wall hangs from it, or a facet falls away from it: it may close what another edge in the same place leaves open.
+  /// A triangle continues below the edge: a wall, or a facet that falls. It may close what another edge on the same line leaves
+  /// open.
   [[nodiscard]] bool has_facet_below() const { return over_wall_ || left_low_rad_ < 0.0 || right_low_rad_ < 0.0; }
-  /// Takes in the facets beside another edge on the same line.
+  /// Adds the triangles of another edge on the same line.
   void add_sides_of(const EdgeSides& other);
 
  private:
   Segment3d edge_;
   std::uint32_t triangle_count_ = 0;
-  bool under_wall_ = false;                     ///< a vertical triangle rises from it
-  bool over_wall_ = false;                      ///< a triangle that is vertical, or nearly, hangs from it
-  bool has_roof_ = false, has_soffit_ = false;  ///< a triangle that is not, and looks up, or down
-  /// The steepest triangle on either side, as seen from above: the angle by which it rises away from the edge.
+  bool under_wall_ = false;                     ///< a vertical triangle rises from the edge
+  bool over_wall_ = false;                      ///< a vertical or nearly vertical triangle lies below the edge
+  bool has_roof_ = false, has_soffit_ = false;  ///< a triangle that is not vertical looks up, or down
+  /// The largest rise on either side; -infinity without a triangle.
   double left_rad_ = -std::numeric_limits<double>::infinity(), right_rad_ = -std::numeric_limits<double>::infinity();
-  /// The flattest, or the one that falls steepest, likewise.
+  /// The smallest rise on either side; infinity without a triangle.
   double left_low_rad_ = std::numeric_limits<double>::infinity(), right_low_rad_ = std::numeric_limits<double>::infinity();
 };
 
-/// The edges of a heap of triangles. Edges are one when both their ends are equal, bit for bit.
+/// The edges of a set of triangles. Two edges are the same when both ends are equal, bit for bit.
 class EdgeTable {
  public:
   void add_triangle(const Point3d& a, const Point3d& b, const Point3d& c, FacetLook look);
 
-  /// Each edge, once, in the order in which they were added.
+  /// Each edge once, in the order of insertion.
   [[nodiscard]] const std::vector<EdgeSides>& edges() const { return edges_; }
-  /// Those that can be a horizon.
+  /// The edges that can be a horizon.
   [[nodiscard]] std::vector<HorizonSegment> horizon_edges() const;
 
  private:
@@ -100,17 +107,24 @@ class EdgeTable {
   std::unordered_map<Segment3d, std::size_t, Hash> place_of_;
 };
 
-/// A horizon edge, or what of it lies in one cell, rounded to the cell frame.
+/// The lower borders of the facets of a building: the edges, or parts of edges, below which no facet continues.
+///   (1) Cut the building by the vertical half-plane through any eye outside of it. Each connected piece of the cut ends below on
+///       one of these borders, or is connected with a piece that does not.
+///   (2) Where a long edge meets a chain of shorter ones (a T-junction), the facets of both count.
+/// A border on the ground shows no sky below it. The ground is not known here, so such borders are among the result.
+[[nodiscard]] std::vector<HorizonSegment> undersides(std::span<const EdgeSides> edges);
+
+/// A horizon edge, or its part in one cell, rounded to the cell frame.
 struct CellEdge {
   Cell cell;
   HorizonEdge edge;
 };
 
-/// Cuts an edge at the borders of the grid, and rounds the ends of the pieces once. A piece belongs to the cell of its
-/// middle: along a border, to the one to its east or north.
+/// Cuts an edge at the borders of the grid, and rounds the ends of each piece once. A piece belongs to the cell of its midpoint;
+/// on a border, to the cell to the east or north.
 [[nodiscard]] std::vector<CellEdge> cut_edge(const HorizonSegment& edge_grid, const Grid& grid, double height_origin_m);
 
-/// An edge left whole, in the frame of `cell`.
+/// An edge that is not cut, in the frame of `cell`.
 [[nodiscard]] CellEdge whole_edge(const HorizonSegment& edge_grid, Cell cell, const Grid& grid, double height_origin_m);
 
-}  // namespace farlod
+}  // namespace farlod::tiles

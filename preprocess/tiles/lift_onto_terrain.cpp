@@ -10,7 +10,7 @@
 
 #include "city/height_limits.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 /// The lowest ground under a building's outline.
@@ -26,7 +26,7 @@ struct Refusal {
   std::string detail;
 };
 
-/// Moves what is nearer to the foot than to the roof to the ground, unless there is a reason against it.
+/// Moves the points that are nearer to the base than to the roof to the ground, or says why it cannot.
 std::optional<Refusal> reach_down(std::span<Point3d> points, std::optional<double> ground_m) {
   const auto by_height = [](const Point3d& a, const Point3d& b) { return a.z < b.z; };
   const auto [lowest, highest] = std::minmax_element(points.begin(), points.end(), by_height);
@@ -54,10 +54,10 @@ void lift_onto_terrain(LocatedCity& located, const GroundHeight& ground_height, 
   CityModel& city = located.city;
   std::vector<bool> is_lost(city.facets().size(), false);
   for (const Building& b : city.buildings()) {
-    if (b.footing == HeightReference::elevation || b.facet_count == 0) continue;
+    if (b.height_reference == HeightReference::elevation || b.facet_count == 0) continue;
     const std::span<Point3d> points = city.points_of(b);
     const std::optional<double> ground_m = lowest_ground_m(points, ground_height);
-    if (b.footing == HeightReference::on_ground) {
+    if (b.height_reference == HeightReference::on_ground) {
       for (Point3d& p : points) p.z += ground_m.value_or(0.0);
     } else if (auto refusal = reach_down(points, ground_m)) {
       report.add(problem_of(located, b, std::move(*refusal), points.front()));
@@ -68,4 +68,4 @@ void lift_onto_terrain(LocatedCity& located, const GroundHeight& ground_height, 
   city.drop_facets(is_lost);
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

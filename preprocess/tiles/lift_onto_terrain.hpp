@@ -8,16 +8,17 @@
 #include "city/located_city.hpp"
 #include "city/problem.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 
 /// Height of the ground at a place of the city frame, where it is known.
 using GroundHeight = std::function<std::optional<double>(Point2d p_city)>;
 
-/// Puts buildings onto the ground: the lowest of it under their outline, so that nothing floats.
-///   (1) what counts from the ground is lifted by it; where the ground is unknown, it stays
-///   (2) of what reaches down to the ground the foot moves there; where the ground is unknown, above the roof, or so far below
-///   it as no building is high, the building is left out and reported
-///   (3) what has an elevation stays
+/// Moves buildings onto the ground: the lowest ground below their outlines, so that nothing floats. By HeightReference:
+///   (1) on_ground: the building is lifted by the height of the ground; where that is unknown, the building does not move.
+///   (2) down_to_ground: the base moves to the ground. Where the ground is unknown, above the roof, or farther below the roof
+///   than
+///       any building is high, the building is left out and reported.
+///   (3) elevation: the building does not move.
 void lift_onto_terrain(LocatedCity& located, const GroundHeight& ground_height, Report& report);
 
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace farlod {
+namespace farlod::tiles {
 
 /// Figures in messages: three digits after the point are a millimetre.
 [[nodiscard]] inline std::string metres(double value) {
@@ -12,4 +12,4 @@ namespace farlod {
   return text.substr(0, text.find('.') + 4) + " m";
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

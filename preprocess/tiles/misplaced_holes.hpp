@@ -10,25 +10,25 @@
 
 #include "farlod/point.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 
-/// A hole that takes nothing away from its facet.
+/// A hole that removes no area from its facet.
 struct MisplacedHole {
   std::size_t ring = 0;
   std::string_view reason;
 };
 
-/// How the rings of a facet lie to each other, where that is not as it should be.
+/// The rings of a facet whose positions relative to each other are wrong.
 struct RingPlaces {
-  /// The hole that surrounds the first ring: the two were exchanged when the facet was written.
+  /// The hole that surrounds the first ring: the file exchanges the two.
   std::optional<std::size_t> true_outer;
   std::vector<MisplacedHole> misplaced;  ///< by ring
 };
 
-/// Finds holes that would add area if even and odd were asked, where a hole only ever takes away:
-///   (1) holes wholly outside of the outer ring, and holes wholly within another hole
-///   (2) holes that are another hole once more, and those that are the outer ring once more, which would leave nothing
-/// Rings that cross each other are none of these. Exact: a hole may touch what it lies beside.
+/// Finds holes that would add area under the even-odd rule, although a hole can only remove area:
+///   (1) holes completely outside of the outer ring, and holes completely inside another hole
+///   (2) copies of another hole, and copies of the outer ring, which would leave no area
+/// Rings that cross each other are not reported. The tests are exact: a hole may touch another ring.
 [[nodiscard]] RingPlaces places_of_rings(std::span<const std::span<const Point3d>> rings);
 
-}  // namespace farlod
+}  // namespace farlod::tiles

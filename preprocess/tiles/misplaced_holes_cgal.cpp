@@ -10,7 +10,7 @@
 #include "tiles/facet_triangulation.hpp"
 #include "tiles/misplaced_holes.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -53,7 +53,8 @@ CGAL::Bounded_side side_of(const Point& p, const Outline& ring) {
   return CGAL::bounded_side_2(ring.begin(), ring.end(), p, Kernel());
 }
 
-/// On which side of a ring another one lies that does not cross it: its first corner, or middle of an edge, that is not on it.
+/// On which side of a ring another ring lies that does not cross it: the side of its first corner that is not on the ring, else
+/// of the first midpoint of an edge that is not.
 CGAL::Bounded_side side_of(const Outline& other, const Outline& ring) {
   for (const Point& p : other)
     if (const auto side = side_of(p, ring); side != CGAL::ON_BOUNDARY) return side;
@@ -63,7 +64,7 @@ CGAL::Bounded_side side_of(const Outline& other, const Outline& ring) {
   return CGAL::ON_BOUNDARY;
 }
 
-/// Whether two edges cross, each running from one side of the other to its other side.
+/// Whether two edges cross properly: the ends of each lie on different sides of the other.
 bool edges_cross(const Point& a, const Point& b, const Point& c, const Point& d) {
   return CGAL::orientation(a, b, c) * CGAL::orientation(a, b, d) < 0 &&
          CGAL::orientation(c, d, a) * CGAL::orientation(c, d, b) < 0;
@@ -111,7 +112,7 @@ class Placing {
   void compare_with_outer(std::size_t outer, std::size_t k) {
     if (!boxes_meet(rings_[outer].box, rings_[k].box)) return note(k, "it lies outside of the outer ring");
     if (are_same(ring(outer), ring(k))) return note(k, "it is the outer ring once more");
-    // Nearly always the first corner says that all is well
+    // Test the first corner before the crossing of rings: it nearly always lies inside
     if (side_of(ring(k), ring(outer)) == CGAL::ON_UNBOUNDED_SIDE && !rings_cross(ring(outer), ring(k)))
       note(k, "it lies outside of the outer ring");
   }
@@ -147,4 +148,4 @@ RingPlaces places_of_rings(std::span<const std::span<const Point3d>> rings) {
   return Placing(std::move(flat_rings)).run();
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

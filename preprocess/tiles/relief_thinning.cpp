@@ -8,13 +8,13 @@
 #include <set>
 #include <tuple>
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
-/// A square among those of its size.
+/// A square: the number of doublings of its side, its column and its row.
 using Square = std::tuple<int, std::int64_t, std::int64_t>;
 
-/// Along the axis along which it is the greater; 0 within.
+/// The larger of the distances along x and y; 0 inside the rectangle.
 double distance_from(const Box2d& rectangle, const Point3d& p) {
   return std::max({rectangle.low.x - p.x, p.x - rectangle.high.x, rectangle.low.y - p.y, p.y - rectangle.high.y, 0.0});
 }
@@ -39,4 +39,4 @@ std::vector<Point3d> thinned_relief(std::vector<Point3d> points, const Box2d& re
   return points;
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -7,13 +7,14 @@
 #include "farlod/box.hpp"
 #include "farlod/point.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 
-/// Reliefs come in tiles far larger than a city. Of their points these shape the ground of a rectangle:
-///   (1) all that are no farther from it than its longer side
-///   (2) beyond, one for each square of a quarter of that side, of half of it from twice as far on, and so on: so that a coarse
-///       relief keeps its shape, as all of its points are far from each other, and a fine one loses no more than it has too much
-///   (3) the same points in another order give the same, ordered by place
+/// Selects the points of a relief that shape the ground of a rectangle. Reliefs come in tiles that are far larger than a city.
+///   (1) All points within a distance of L of the rectangle are kept, where L is the longer side of the rectangle.
+///   (2) Between L and 2L one point is kept for each square of side L/4, between 2L and 4L one for each square of side L/2, and
+///   so
+///       on. A coarse relief keeps all its points, and a fine one keeps enough of them.
+///   (3) The result is sorted by place, and does not depend on the order of the points.
 [[nodiscard]] std::vector<Point3d> thinned_relief(std::vector<Point3d> points_grid, const Box2d& rectangle);
 
-}  // namespace farlod
+}  // namespace farlod::tiles

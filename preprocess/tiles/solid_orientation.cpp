@@ -4,7 +4,7 @@
 
 #include <map>
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 struct Part {
@@ -35,4 +35,4 @@ std::vector<double> outward_signs(std::span<const OrientedArea> facets) {
   return signs;
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

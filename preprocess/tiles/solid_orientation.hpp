@@ -9,9 +9,9 @@
 #include "city/city_model.hpp"
 #include "farlod/point.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 
-/// A facet's area vector and a point of it, which is all that orientation needs.
+/// The area vector of a facet, and one of its points.
 struct OrientedArea {
   Point3d area_vector_m2;
   Point3d point;
@@ -23,4 +23,4 @@ struct OrientedArea {
 /// the part's volume, taken about its middle so that a missing facet changes little, decides for all of them.
 [[nodiscard]] std::vector<double> outward_signs(std::span<const OrientedArea> facets);
 
-}  // namespace farlod
+}  // namespace farlod::tiles

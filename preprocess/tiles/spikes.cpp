@@ -6,7 +6,7 @@
 #include <iterator>
 #include <list>
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 struct Corner {
@@ -14,7 +14,7 @@ struct Corner {
   std::size_t number = 0;
 };
 
-/// How far a ring runs there and back at `tip`, between its neighbors; 0 where it does not.
+/// Length of the spike at `tip` between its neighbors; 0 when there is none.
 double length_of_spike_m(const Point3d& before, const Point3d& tip, const Point3d& after) {
   const Point3d there = before - tip, back = after - tip;
   if (dot(there, back) <= 0.0) return 0.0;  // nearly all corners of buildings
@@ -30,7 +30,8 @@ class Despiking {
   }
 
   DespikedRing run() {
-    // A tip that is gone may leave its neighbors as the next one: the walk steps back, and ends when all around is clean
+    // The removal of a tip may turn a neighbor into the next tip: step back after each removal, and end when a whole round is
+    // clean
     std::size_t clean = 0;
     for (auto corner = corners_.begin(); corners_.size() >= 3 && clean < corners_.size();) {
       const double length_m = length_of_spike_m(before(corner)->p, corner->p, after(corner)->p);
@@ -41,7 +42,7 @@ class Despiking {
       }
       spikes_.push_back({corner->number, corner->p, length_m});
       corner = remove(corner);
-      // The corner stepped back to has a new neighbor; so has the one ahead, where the walk is all around already
+      // Both corners beside the removed tip have a new neighbor: test them again
       clean = std::min(clean - std::min<std::size_t>(clean, 1), corners_.size() - 2);
     }
     DespikedRing result{{}, std::move(spikes_)};
@@ -55,7 +56,7 @@ class Despiking {
   Place before(Place corner) { return std::prev(corner == corners_.begin() ? corners_.end() : corner); }
   Place after(Place corner) { return std::next(corner) == corners_.end() ? corners_.begin() : std::next(corner); }
 
-  /// Takes a tip out, and the corner behind it where that is the corner before it. Returns the corner before.
+  /// Removes a tip, and the corner after it when that equals the corner before the tip. Returns the corner before.
   Place remove(Place tip) {
     const Place left = before(tip), right = after(tip);
     const bool is_shut = norm(left->p - right->p) <= spike_width_m;
@@ -78,11 +79,11 @@ bool has_spike(std::span<const Point3d> ring) {
 }  // namespace
 
 std::optional<DespikedRing> without_spikes(std::span<const Point3d> ring) {
-  // Of a triangle nothing would remain: slivers of a mesh are nothing but spike
+  // A triangle is never changed: nothing would remain of the slivers of a mesh
   if (ring.size() <= 3 || !has_spike(ring)) return std::nullopt;
   DespikedRing despiked = Despiking(ring).run();
   if (despiked.ring.size() < 3) return std::nullopt;
   return despiked;
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

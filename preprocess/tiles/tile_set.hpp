@@ -14,13 +14,19 @@
 
 namespace farlod {
 
+/// Which cell a building's geometry goes to.
+enum class Assign {
+  clip,  ///< cut exactly at the cells' borders
+  whole  ///< as in the paper: each building whole, to the cell of its footprint's centroid
+};
+
 /// The geometry that one cell owns. Vertices are in the cell frame: x and y from the cell's south-west corner, heights
 /// from TileSet::height_origin_m.
 struct Tile {
   std::vector<Point3f> vertices;
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> triangle_surfaces;  ///< for each triangle, its number in TileSet::surfaces
-  /// What can be a silhouette: edges of the ground and of buildings, cut at the cell's borders.
+  /// The edges of the ground and of buildings that can be silhouettes, cut at the cell's borders.
   std::vector<HorizonEdge> horizon_edges;
   float z_low_m = std::numeric_limits<float>::infinity();
   float z_high_m = -std::numeric_limits<float>::infinity();
@@ -31,7 +37,7 @@ struct Tile {
   void add_polygon(const std::vector<Point3f>& polygon, std::uint32_t surface);
 };
 
-/// A surface of a building, or the ground, whole: its pieces may lie in several tiles.
+/// A whole surface of a building, or the ground. Its pieces may lie in several tiles.
 struct Surface {
   std::uint32_t building = 0;  ///< place in TileSet::building_ids; `ground_building` for the ground
   std::uint32_t number = 0;    ///< within the building
@@ -39,7 +45,7 @@ struct Surface {
   SurfaceKind kind = SurfaceKind::unknown;
   Point3d normal;  ///< outward, length 1, grid frame
   double area_m2 = 0.0;
-  /// It belongs to a building that has no lower borders of its own above the ground: nobody outside has it overhead.
+  /// The building has no lower borders above the ground: no receiver outside of it has the surface overhead.
   bool grounded = true;
 };
 
@@ -47,7 +53,7 @@ inline constexpr std::uint32_t ground_building = 0xFFFFFFFF;
 /// The ground is the first surface of every tile set.
 inline constexpr std::uint32_t ground_surface = 0;
 
-/// The whole city, cut into the cells of the grid. The tiles partition it: nothing twice, nothing left.
+/// The whole city, cut into the cells of the grid. The tiles are a partition of it.
 struct TileSet {
   double height_origin_m = 0.0;
   CellRange cells;

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <utility>
 
@@ -17,17 +16,16 @@
 #include "tiles/contacts.hpp"
 #include "tiles/foundations.hpp"
 #include "tiles/ground.hpp"
-#include "tiles/ground_contact.hpp"
 #include "tiles/lift_onto_terrain.hpp"
 #include "tiles/metres_text.hpp"
 #include "tiles/relief_thinning.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
-/// Things that are cut by one thread at a stretch, and stretches that may wait to be put in place. Bounds the memory of what
-/// waits.
+/// Objects that one thread cuts in one batch, and batches that may wait to be placed. This bounds the memory of what waits.
 constexpr std::size_t batch_size = 256, batches_at_once = 16;
+
 std::vector<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& rotation) {
   std::vector<Point3d> nodes;
   for (std::size_t row = 0; row < terrain.rows; ++row)
@@ -39,7 +37,7 @@ std::vector<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& 
   return nodes;
 }
 
-/// Through the nodes of a raster, else through the points of a relief; empty when there is neither.
+/// The ground through the nodes of a raster, or through the points of a relief; nothing when there is neither.
 std::optional<Ground> surveyed_ground(const std::optional<TerrainRaster>& terrain, std::span<const Point3d> relief_points_city,
                                       const Grid& grid, GroundExtent extent) {
   if (terrain) return Ground(nodes_of(*terrain, grid.rotation), grid.rectangle(), extent);
@@ -50,8 +48,8 @@ std::optional<Ground> surveyed_ground(const std::optional<TerrainRaster>& terrai
   return Ground(thinned_relief(std::move(points_grid), grid.rectangle()), grid.rectangle(), extent);
 }
 
-/// Calls place(n, made) for each n below `count`, in order and one at a time, with what make(n) returns. Making goes on in
-/// parallel meanwhile.
+/// Calls place(n, make(n)) for each n below `count`. The calls of `make` run in parallel; those of `place` run in order, one at a
+/// time.
 template <class Make, class Place>
 void make_and_place(std::size_t count, const Make& make, const Place& place) {
   namespace tbb = oneapi::tbb;
@@ -106,7 +104,7 @@ class TileCutter {
   }
 
  private:
-  /// A building with lower borders that nothing of its own closes.
+  /// A building with lower borders that none of its own facets closes.
   struct OverhangingBuilding {
     BuildingPieces pieces;  ///< its borders and walls
     std::vector<CellEdge> undersides;
@@ -126,7 +124,7 @@ class TileCutter {
 
   void place_ground() {
     tiles_.surfaces.push_back({ground_building, 0, 0, SurfaceKind::ground, {0.0, 0.0, 1.0}, 0.0});
-    const std::vector<std::array<Point3d, 3>> triangles = std::move(ground_triangles_);  // let go of before the buildings come
+    const std::vector<std::array<Point3d, 3>> triangles = std::move(ground_triangles_);  // freed before the buildings are cut
     make_and_place(
         triangles.size(), [&](std::size_t n) { return cut_within(triangles[n], grid_, tiles_.height_origin_m); },
         [&](std::size_t n, const std::vector<CellPiece>& pieces) {
@@ -159,13 +157,13 @@ class TileCutter {
     }
   }
 
-  /// The grid covers the buildings: a piece beyond it would be our mistake.
+  /// The grid covers all buildings: a piece beyond it would be a bug.
   void place(const CellPiece& piece, std::uint32_t surface) {
     FARLOD_EXPECTS(grid_.cells.contains(piece.cell));
     tiles_.tile(piece.cell).add_polygon(piece.polygon, surface);
   }
 
-  /// Where the grid cuts the ground off, the cut is an edge of what is left.
+  /// The cut along the outer border of the grid is an edge of the remaining ground.
   void place_rim(const CellPiece& piece) {
     for (std::size_t k = 0; k < piece.polygon.size(); ++k) {
       const CellEdge side{piece.cell, {piece.polygon[k], piece.polygon[(k + 1) % piece.polygon.size()], {}}};
@@ -205,7 +203,10 @@ class TileCutter {
     std::vector<HorizonSegment> undersides = above_ground(cut_building.undersides);
     double foundation_top_m = -std::numeric_limits<double>::infinity();
     if (!undersides.empty() && bases_[number] != Base::above_ground)
-      foundation_top_m = close_foot(building, cut_building, undersides, report);
+      if (const auto foundation = take_foundation(city_.points_of(building), undersides, ground_height())) {
+        place_foundation(building, cut_building, *foundation, report);
+        foundation_top_m = foundation->top_m;
+      }
     if (undersides.empty()) return place_upper_borders(cut_building, nullptr);
     OverhangingBuilding& overhanging = overhanging_.emplace_back();
     overhanging.foundation_top_m = foundation_top_m;
@@ -221,35 +222,9 @@ class TileCutter {
     overhanging.pieces = std::move(cut_building);
   }
 
-  /// The lowest floor of a building that is no bridge goes down to the ground, whatever the ground between known points is:
-  /// closes the gap, and takes its borders out of `undersides`. Returns the height down to which the building is closed by it.
-  double close_foot(const Building& building, BuildingPieces& pieces, std::vector<HorizonSegment>& undersides, Report& report) {
-    double lowest_m = std::numeric_limits<double>::infinity(), least_gap_m = lowest_m;
-    double highest_m = -lowest_m;
-    for (const Point3d& p : city_.points_of(building)) {
-      lowest_m = std::min(lowest_m, p.z);
-      highest_m = std::max(highest_m, p.z);
-    }
-    const double floor_m = lowest_m + lowest_floor_thickness_m;
-    for (const Point3d& p : city_.points_of(building))
-      if (p.z <= floor_m) least_gap_m = std::min(least_gap_m, p.z - ground_.height_at(horizontal(p)));
-    // One can walk under it from all sides: a roof without walls, or a bridge that no neighbor tells of
-    if (least_gap_m > least_clearance_m) return -std::numeric_limits<double>::infinity();
-    const auto is_foot = [floor_m](const HorizonSegment& s) { return std::max(s.segment.a.z, s.segment.b.z) <= floor_m; };
-    const auto foot = std::stable_partition(undersides.begin(), undersides.end(), std::not_fn(is_foot));
-    if (foot == undersides.end()) return -std::numeric_limits<double>::infinity();
-    // What is thinner than the gap below it spans it: a bridge from bank to bank
-    const double gap_m = largest_gap_m({foot, undersides.end()}, ground_height());
-    if (gap_m > highest_m - lowest_m) return -std::numeric_limits<double>::infinity();
-    if (gap_m > storey_m) {
-      Problem problem{ProblemCode::floor_in_the_air,
-                      {},
-                      building.id,
-                      "the lowest floor is up to " + metres(gap_m) + " above the ground: closed down to it"};
-      if (building.source < sources_.size()) problem.source = sources_[building.source];
-      problem.position = p_projected(foot->segment.a);
-      report.add(std::move(problem));
-    }
+  /// Places the walls and the lid of a foundation as one more surface of the building that was placed last.
+  void place_foundation(const Building& building, const BuildingPieces& pieces, const Foundation& foundation, Report& report) {
+    if (foundation.gap_m > storey_m) report_gap(building, foundation, report);
     Surface surface = tiles_.surfaces.back();
     ++surface.number;
     surface.kind = SurfaceKind::foundation;
@@ -257,18 +232,26 @@ class TileCutter {
     surface.part = static_cast<std::uint16_t>(last_part(pieces) + 1);
     const auto number = static_cast<std::uint32_t>(tiles_.surfaces.size());
     tiles_.surfaces.push_back(surface);
-    for (const auto& triangle : foundation_walls({foot, undersides.end()}, ground_height()))
+    for (const auto& triangle : foundation.walls)
       for (const CellPiece& piece : pieces_of(triangle, pieces.only_cell))
         if (grid_.cells.contains(piece.cell)) place(piece, number);
-    // Below the floor is inside, too: the same floor is the foundation's lid
-    const auto low = static_cast<float>(floor_m - tiles_.height_origin_m);
+    // The floor is the lid of the foundation too, so that the space below the floor counts as inside
+    const auto low = static_cast<float>(foundation.top_m - tiles_.height_origin_m);
     for (const SurfacePiece& p : pieces.pieces)
       if (pieces.surfaces[p.surface].surface.kind == SurfaceKind::floor &&
           std::all_of(p.piece.polygon.begin(), p.piece.polygon.end(), [low](const Point3f& v) { return v.z <= low; }))
         place(p.piece, number);
     ++tiles_.foundation_count;
-    undersides.erase(foot, undersides.end());
-    return floor_m;
+  }
+
+  void report_gap(const Building& building, const Foundation& foundation, Report& report) const {
+    Problem problem{ProblemCode::floor_in_the_air,
+                    {},
+                    building.id,
+                    "the lowest floor is up to " + metres(foundation.gap_m) + " above the ground: closed down to it"};
+    if (building.source < sources_.size()) problem.source = sources_[building.source];
+    problem.position = p_projected(foundation.place);
+    report.add(std::move(problem));
   }
 
   static std::uint16_t last_part(const BuildingPieces& pieces) {
@@ -289,7 +272,7 @@ class TileCutter {
     return {piece};
   }
 
-  /// What touches a lower border may be of any building: only when all are in place can one tell what overhangs.
+  /// Runs after all buildings are placed: the triangles that close a lower border may belong to any building.
   void place_overhanging_buildings() {
     oneapi::tbb::parallel_for(std::size_t{0}, overhanging_.size(), [this](std::size_t n) {
       std::vector<CellEdge> open;
@@ -299,7 +282,7 @@ class TileCutter {
       overhanging_[n].undersides = std::move(open);
     });
     for (OverhangingBuilding& building : overhanging_) {
-      // A roof whose borders all touch walls shows no sky below them, but is overhead all the same
+      // A roof whose borders all touch walls shows no sky below them. A receiver below it still has it overhead
       for (std::uint32_t s = building.surfaces.begin; s < building.surfaces.end; ++s) tiles_.surfaces[s].grounded = false;
       if (building.undersides.empty()) {
         place_upper_borders(building.pieces, nullptr);
@@ -314,7 +297,8 @@ class TileCutter {
     overhanging_.clear();
   }
 
-  /// Where a building can be seen under, only its walls that reach the ground hide all that is below them.
+  /// `walls`: the grounded walls of a building that has open lower borders; null for a building that is grounded as a whole. Of a
+  /// building with open lower borders, only the grounded walls hide everything below them.
   void place_upper_borders(BuildingPieces& building, const GroundedWalls* walls) {
     std::size_t piece = 0;
     for (const UpperBorder& border : building.upper_borders) {
@@ -322,26 +306,26 @@ class TileCutter {
       for (; piece < border.pieces_end; ++piece) {
         CellEdge& edge = building.upper_pieces[piece];
         edge.edge.role = is_grounded ? EdgeRole::grounded : EdgeRole::overhang;
-        // Of what is beside it, only the wall is known to be grounded: the roof that rises behind it hides nothing of it here
+        // Only the wall is known to be grounded, not the roof behind it: the border faces all eyes
         if (is_grounded && walls != nullptr) edge.edge.adjacent = {};
         place(edge);
       }
     }
   }
 
-  /// The parts of undersides below which there is air.
+  /// The parts of undersides that are above the ground.
   [[nodiscard]] std::vector<HorizonSegment> above_ground(const std::vector<HorizonSegment>& undersides) const {
     std::vector<HorizonSegment> result;
     for (const HorizonSegment& underside : undersides) {
       const auto& [a, b] = underside.segment;
-      const auto steps = static_cast<int>(std::ceil(std::max(1.0, norm(horizontal(b - a)) / ground_asked_every_m)));
+      const auto steps = static_cast<int>(std::ceil(std::max(1.0, norm(horizontal(b - a)) / ground_sampling_step_m)));
       const auto point_at = [&](int step) { return a + static_cast<double>(step) / steps * (b - a); };
       std::vector<bool> is_above;
       for (int k = 0; k <= steps; ++k) {
         const Point3d p = point_at(k);
         is_above.push_back(p.z > ground_.height_at(horizontal(p)) + ground_contact_m);
       }
-      // Between two places, one of which is above, the border counts as above
+      // An interval counts as above the ground when one of its ends is; join consecutive intervals
       for (int from = 0, to = 0; from < steps; from = to + 1) {
         for (to = from; to < steps && (is_above[to] || is_above[to + 1]); ++to) {
         }
@@ -372,21 +356,21 @@ class TileCutter {
 
 TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, const std::optional<TerrainRaster>& terrain,
                        Report& report) {
-  // Between and around buildings there is ground; beyond a terrain that stands for itself, nobody knows
+  // The ground covers the whole grid between and around buildings. Of a terrain alone nothing is known beyond its points
   const GroundExtent extent = located.city.buildings().empty() ? GroundExtent::points : GroundExtent::rectangle;
   std::optional<Ground> surveyed = surveyed_ground(terrain, located.relief_points, grid, extent);
   const auto ground_height = [&](Point2d p_city) -> std::optional<double> {
-    // In the gaps of a raster, and beyond it, the ground goes on as its network does
+    // Gaps of the raster, and places beyond it, get the height of the network through its nodes
     if (const auto height_m = terrain ? terrain->height_at(p_city) : std::nullopt) return height_m;
     return surveyed ? std::optional(surveyed->height_at(grid.rotation.grid_from_city(p_city))) : std::nullopt;
   };
   lift_onto_terrain(located, ground_height, report);
   CityModel city = std::move(located.city);
   for (Point3d& p : city.points()) p = grid.rotation.grid_from_city(p);  // exactness begins here
-  // Where the ground is known, neighbors need not tell
+  // The bases of buildings define the ground only where no survey does
   const std::vector<Base> bases = surveyed ? std::vector(city.buildings().size(), Base::on_ground) : bases_of(city);
   Ground ground = surveyed ? std::move(*surveyed) : Ground(base_points(city, bases), grid.rectangle(), extent);
   return TileCutter(city, located, grid, assign, std::move(ground), bases).run(report);
 }
 
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -10,13 +10,7 @@
 #include "farlod/grid.hpp"
 #include "tiles/tile_set.hpp"
 
-namespace farlod {
-
-/// Which cell a building's geometry goes to.
-enum class Assign {
-  clip,  ///< cut exactly at the cells' borders
-  whole  ///< as in the paper: each building whole, to the cell of its footprint's centroid
-};
+namespace farlod::tiles {
 
 /// A facet farther than this from its plane is reported (the default tolerance of val3dity).
 inline constexpr double planarity_tolerance_m = 0.01;
@@ -31,4 +25,4 @@ inline constexpr double planarity_tolerance_m = 0.01;
 [[nodiscard]] TileSet cut_into_tiles(LocatedCity city, const Grid& grid, Assign assign,
                                      const std::optional<TerrainRaster>& terrain, Report& report);
 
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -10,6 +10,7 @@
 #include <cstdlib>
 
 #include "console/exit_code.hpp"
+#include "console/number_range.hpp"
 #include "evaluate/error_budget.hpp"
 
 namespace farlod {
@@ -34,16 +35,6 @@ struct RawOptions {
   std::optional<std::size_t> rays, azimuths;
   bool on_surface = false;
 };
-
-/// A finite number. CLI11's own Range lets NaN through, which is neither below nor above.
-CLI::Validator between(double low, double high) {
-  const auto complaint = [low, high](const std::string& text) {
-    double value = 0.0;
-    const bool fits = CLI::detail::lexical_cast(text, value) && low <= value && value <= high;
-    return fits ? std::string() : fmt::format("{} is not a number from {:g} to {:g}", text, low, high);
-  };
-  return {complaint, fmt::format("[{:g}, {:g}]", low, high), "between"};
-}
 
 std::vector<double> numbers_in(const std::string& text, const std::string& option, const std::string& form) {
   std::vector<double> numbers;

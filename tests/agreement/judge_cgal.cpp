@@ -22,7 +22,7 @@ Triangles triangles_of(const CityModel& city) {
   for (const Facet& facet : city.facets()) {
     std::vector<std::span<const Point3d>> rings;
     for (std::uint32_t k = 0; k < facet.ring_count; ++k) rings.push_back(city.ring(facet, k));
-    const Triangulation t = triangulate(rings);
+    const tiles::Triangulation t = tiles::triangulate(rings);
     const auto corner = [&t](std::uint32_t n) { return Kernel::Point_3(t.points[n].x, t.points[n].y, t.points[n].z); };
     for (const Triangle& c : t.triangles) triangles.emplace_back(corner(c.a), corner(c.b), corner(c.c));
   }

@@ -34,12 +34,12 @@ class JudgedCity {
   JudgedCity(const std::filesystem::path& file, const std::filesystem::path& folder) {
     Report report;
     const std::vector inputs{file};
-    GeoreferenceSettings georeference_settings;
-    LocatedCity located =
-        georeference(ingest_all(find_input_files(inputs, report).files, {}, report), georeference_settings, report);
-    const Grid grid = align(located, {}, report).grid;
+    georeference::GeoreferenceSettings georeference_settings;
+    LocatedCity located = georeference::georeference(
+        ingest::ingest_all(ingest::find_input_files(inputs, report).files, {}, report), georeference_settings, report);
+    const Grid grid = align::align(located, {}, report).grid;
     const CityModel city = located.city;
-    const TileSet tiles = cut_into_tiles(std::move(located), grid, Assign::clip, std::nullopt, report);
+    const TileSet tiles = tiles::cut_into_tiles(std::move(located), grid, Assign::clip, std::nullopt, report);
     scenes::pack_tiles(tiles, grid, folder, {});
     package_.emplace(folder);
     judge_.emplace(city, ground_of(tiles, grid));

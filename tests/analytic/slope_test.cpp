@@ -60,7 +60,7 @@ class FloorOnASlope : public testing::TestWithParam<double> {
     LocatedCity located{houses(), {}};
     const Grid grid = scenes::grid_covering(located.city, Angle::degrees(GetParam()), 25.0, 3);
     Report report;
-    const TileSet tiles = cut_into_tiles(std::move(located), grid, Assign::clip, slope(), report);
+    const TileSet tiles = tiles::cut_into_tiles(std::move(located), grid, Assign::clip, slope(), report);
     foundations_ = tiles.foundation_count;
     scenes::pack_tiles(tiles, grid, folder_.path() / "slope.farlod", {});
     package_.emplace(folder_.path() / "slope.farlod");

@@ -11,6 +11,7 @@
 
 #include "console/peak_memory.hpp"
 #include "ingest/ingest.hpp"
+#include "tests/scenes/surface_count.hpp"
 
 namespace farlod {
 namespace {
@@ -20,16 +21,16 @@ constexpr double bytes_per_mb = 1e6;
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// One row of the table. Reading uses one core; its time is the processor's, which other programs do not lengthen.
-void measure(const std::filesystem::path& file, const IngestSettings& settings, int turns) {
+void measure(const std::filesystem::path& file, const ingest::IngestSettings& settings, int turns) {
   std::vector<double> seconds;
   std::size_t buildings = 0, polygons = 0, problems = 0;
   for (int turn = 0; turn < turns; ++turn) {
     Report report;
     const double start = processor_seconds();
-    const SourceCity source = ingest(file, settings, report);
+    const SourceCity source = ingest::ingest(file, settings, report);
     seconds.push_back(processor_seconds() - start);
     buildings = source.city.buildings().size();
-    polygons = source.city.surface_count();
+    polygons = surface_count(source.city);
     problems = report.problems().size();
   }
   std::nth_element(seconds.begin(), seconds.begin() + turns / 2, seconds.end());
@@ -45,9 +46,9 @@ void measure(const std::filesystem::path& file, const IngestSettings& settings, 
 /// FILE [TURNS [HEIGHT_FIELD]]
 int main(int argc, char** argv) {
   try {
-    farlod::IngestSettings settings;
-    settings.default_height_m = 10.0;
-    if (argc > 3) settings.height_field = argv[3];
+    farlod::ingest::IngestSettings settings;
+    settings.footprints.default_height_m = 10.0;
+    if (argc > 3) settings.footprints.height_field = argv[3];
     if (argc < 2) throw std::invalid_argument("give FILE [TURNS [HEIGHT_FIELD]]");
     farlod::measure(argv[1], settings, argc > 2 ? std::stoi(argv[2]) : 1);
     return 0;

@@ -62,7 +62,7 @@ TEST_P(PackageBytes, DoNotDependOnTheNumberOfThreads) {
 Files blocks_written_in(const std::vector<Block>& order, FarMapKind kind) {
   const Grid grid = crooked_grid();
   Report report;
-  const TileSet tiles = cut_into_tiles({crooked_town(), {}}, grid, Assign::clip, std::nullopt, report);
+  const TileSet tiles = tiles::cut_into_tiles({crooked_town(), {}}, grid, Assign::clip, std::nullopt, report);
   const FarMapSettings settings = scenes::small_maps(kind);
   const FarMapBaker baker(tiles, grid, Assign::clip, settings);
   const scenes::TemporaryFolder folder;

@@ -4,11 +4,11 @@
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::span bytes(data, size);
-  farlod::IngestSettings settings;
-  settings.default_height_m = 10.0;
+  farlod::ingest::IngestSettings settings;
+  settings.footprints.default_height_m = 10.0;
   // With this ending our own reader refuses what is no JSON, before GDAL tries all of its formats on it
   farlod::ingest_bytes(bytes, ".json", settings);
-  settings.base_field = "base";
+  settings.footprints.base_field = "base";
   farlod::ingest_bytes(bytes, ".json", settings);
   return 0;
 }

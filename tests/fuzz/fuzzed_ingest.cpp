@@ -68,10 +68,10 @@ void expect_promises_kept(const SourceCity& source) {
 
 }  // namespace
 
-void ingest_bytes(std::span<const std::uint8_t> bytes, std::string_view ending, const IngestSettings& settings) {
+void ingest_bytes(std::span<const std::uint8_t> bytes, std::string_view ending, const ingest::IngestSettings& settings) {
   Report report;
   try {
-    expect_promises_kept(ingest(write_file(bytes, ending), settings, report));
+    expect_promises_kept(ingest::ingest(write_file(bytes, ending), settings, report));
   } catch (const InputError& refusal) {
     FARLOD_EXPECTS(!std::string_view(refusal.what()).empty());
   }

@@ -16,6 +16,6 @@ namespace farlod {
 
 /// Has `bytes` read as a file whose name ends with `ending`. Either InputError refuses the file, with a message, or the city
 /// keeps the promises of ingest.hpp: a breach aborts. Any other exception is passed on.
-void ingest_bytes(std::span<const std::uint8_t> bytes, std::string_view ending, const IngestSettings& settings);
+void ingest_bytes(std::span<const std::uint8_t> bytes, std::string_view ending, const ingest::IngestSettings& settings);
 
 }  // namespace farlod

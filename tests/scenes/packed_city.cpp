@@ -154,7 +154,7 @@ FarMapCost pack_tiles(const TileSet& tiles, const Grid& grid, const std::filesys
 void pack_city(const CityModel& city, const Grid& grid, const std::filesystem::path& folder, const FarMapSettings& far_map,
                Assign assign, const ChosenCells& only) {
   Report report;
-  pack_tiles(cut_into_tiles({city, {}}, grid, assign, std::nullopt, report), grid, folder, far_map, assign, only);
+  pack_tiles(tiles::cut_into_tiles({city, {}}, grid, assign, std::nullopt, report), grid, folder, far_map, assign, only);
 }
 
 }  // namespace farlod::scenes

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <span>
 
+#include "tests/scenes/surface_count.hpp"
 #include "tests/validation/site_package.hpp"
 
 namespace farlod::validation {
@@ -129,7 +130,7 @@ StudySites choose_sites(const StudiedCity& city, const Extent& extent) {
 }
 
 CityStudy study_far_field(const StudiedCity& city, const StudySites& sites, const Extent& extent) {
-  CityStudy study{city.name, city.city.buildings().size(), city.city.surface_count(), {}};
+  CityStudy study{city.name, city.city.buildings().size(), surface_count(city.city), {}};
   std::optional<Reference> exact;
   for (const double cell_edge_m : extent.cell_edges_m) {
     const CutCity pieces = cut(city, city.streets, cell_edge_m);

@@ -18,7 +18,7 @@ Grid with_neighborhood(Grid grid, int neighborhood) {
 CutCity cut(const StudiedCity& city, Angle bearing, double cell_edge_m, int block_edge) {
   Report report;
   const Grid grid = scenes::grid_covering(city.city, bearing, cell_edge_m, 1, block_edge);
-  return {grid, cut_into_tiles({city.city, {}}, grid, Assign::clip, std::nullopt, report)};
+  return {grid, tiles::cut_into_tiles({city.city, {}}, grid, Assign::clip, std::nullopt, report)};
 }
 
 FarMapSettings of_kind(FarMapKind kind) {

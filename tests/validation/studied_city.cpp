@@ -66,13 +66,13 @@ StudiedCity building_city(const std::string& name, const std::filesystem::path& 
 
 StudiedCity footprint_city(const std::string& name, const std::filesystem::path& file, const std::string& height_field) {
   Report report;
-  IngestSettings ingest_settings;
-  if (!height_field.empty()) ingest_settings.height_field = height_field;
+  ingest::IngestSettings ingest_settings;
+  if (!height_field.empty()) ingest_settings.footprints.height_field = height_field;
   std::vector<SourceCity> sources;
-  sources.push_back(ingest(file, ingest_settings, report));
-  LocatedCity located = georeference(std::move(sources), {}, report);
+  sources.push_back(ingest::ingest(file, ingest_settings, report));
+  LocatedCity located = georeference::georeference(std::move(sources), {}, report);
   move_middle_to_origin(located.city);
-  const Angle streets = street_alignment(located.city).bearing;
+  const Angle streets = align::street_alignment(located.city).bearing;
   return {name, std::move(located.city), streets};
 }
 

@@ -26,7 +26,7 @@ constexpr const char* footer =
     "has its underside as base. Its coordinates are in the CRS that the file names, since the city is not in degrees.\n"
     "Exit codes: 0 done, 1 internal, 2 usage, 3 the output cannot be written.";
 
-/// Options whose text must be understood after CLI11 has taken them.
+/// Options whose text is resolved after CLI11 has parsed them.
 struct RawOptions {
   std::string output, crs = "EPSG:32632";
   std::int64_t buildings = 0;
@@ -74,7 +74,7 @@ void check_geojson(const CitySettings& settings) {
       throw CLI::ValidationError(option, "cannot be shown by the footprints of .geojson; write .gml, .city.json or .obj");
 }
 
-void understand(const RawOptions& raw, const CLI::App& app, CityOptions& o) {
+void resolve(const RawOptions& raw, const CLI::App& app, CityOptions& o) {
   o.output = raw.output;
   const auto format = city_format_of(o.output);
   if (!format) throw CLI::ValidationError("--output", raw.output + " must end in .gml, .city.json, .obj or .geojson");
@@ -98,7 +98,7 @@ ParsedCityOptions parse_city_options(int argc, char** argv) {
   add_settings(app, options.settings);
   add_other_options(app, raw, options);
   try {
-    if (const auto exit_code = parse_command_line(app, argc, argv, [&] { understand(raw, app, options); }))
+    if (const auto exit_code = parse_command_line(app, argc, argv, [&] { resolve(raw, app, options); }))
       return {std::nullopt, *exit_code};
   } catch (const SettingsError& error) {
     fmt::print(stderr, "farlod-city: {}\n", error.what());

@@ -7,9 +7,9 @@
 #include <set>
 #include <unordered_set>
 
-#include "ingest/seen_polygons.hpp"
+#include "ingest/model_builder/polygon_deduplicator.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 struct WantedPolygon {
@@ -29,21 +29,21 @@ bool makes_a_building(SurfaceRole role) { return role != SurfaceRole::installati
 
 bool is_element(SurfaceRole role) { return role == SurfaceRole::element; }
 
-class BuildingWriter {
+class BuildingAssembler {
  public:
-  BuildingWriter(const CityGmlBuilding& building, const GmlSurfaces& foreign, Borrowing& borrowing, CityWriter& writer)
-      : building_(building), foreign_(foreign), borrowing_(borrowing), writer_(writer) {}
+  BuildingAssembler(const CityGmlBuilding& building, const GmlSurfaces& foreign, Borrowing& borrowing, CityModelBuilder& builder)
+      : building_(building), foreign_(foreign), borrowing_(borrowing), builder_(builder) {}
 
-  void write(LodChoice lod) {
+  void add(LodChoice lod) {
     const std::vector<std::vector<double>> lods = usable_lods();
     chosen_ = choose_lods(lods, lod);
-    writer_.begin_building(building_.id);
+    builder_.begin_building(building_.id);
     collect_wanted();
     report_unread();
     for (const WantedPolygon& p : wanted_)
-      if (!is_copy(p)) write(p);
+      if (!is_copy(p)) add(p);
     report_other_lods(lods);
-    writer_.end_building("no usable surface in the level of detail asked for; it has LoD " + list_lods(lods));
+    builder_.end_building("no usable surface in the level of detail asked for; it has LoD " + list_lods(lods));
   }
 
  private:
@@ -95,22 +95,25 @@ class BuildingWriter {
   /// copies, since two parts may well share a wall.
   bool is_copy(const WantedPolygon& p) {
     if (p.use->placement) return false;
-    const bool is_first = seen_by_part_[p.use->part].insert(p.resolved.polygon->rings);
+    const Rings& rings = p.resolved.polygon->rings;
+    const auto rings_at = [this](std::uint64_t number) { return spans_of(*compared_[number]); };
+    compared_.push_back(&rings);
+    const bool is_first = !seen_.find_or_insert(rings, p.use->part, compared_.size() - 1, rings_at);
     return !is_first && p.use->role == SurfaceRole::shell;
   }
 
-  void write(const WantedPolygon& p) {
+  void add(const WantedPolygon& p) {
     const GmlPolygon& polygon = *p.resolved.polygon;
     if (const std::string flaw = flaw_of(polygon); !flaw.empty()) {
-      writer_.add_problem(ProblemCode::unsupported_geometry, "polygon " + polygon.id + flaw);
+      builder_.add_problem(ProblemCode::unsupported_geometry, "polygon " + polygon.id + flaw);
       return;
     }
     Rings rings = p.use->placement ? building_.placements[*p.use->placement]->place(polygon.rings) : polygon.rings;
-    if (p.use->lod == 0) return write_footprint(rings, *p.use);
+    if (p.use->lod == 0) return add_footprint(rings, *p.use);
     if (p.resolved.is_reversed)
       for (Ring& ring : rings) std::reverse(ring.begin(), ring.end());
-    writer_.add_polygon(rings, RingEnd::repeats_first,
-                        {.kind = p.use->kind, .part = p.use->part, .surface = {}, .name = polygon.id});
+    builder_.add_polygon(rings, RingEnd::repeats_first,
+                         {.kind = p.use->kind, .part = p.use->part, .surface = {}, .name = polygon.id});
   }
 
   static std::string flaw_of(const GmlPolygon& polygon) {
@@ -120,31 +123,31 @@ class BuildingWriter {
   }
 
   /// LoD 0 has no volume: a footprint is raised by the measured height, a roof edge lowered by it.
-  void write_footprint(Rings& rings, const SurfaceUse& use) {
+  void add_footprint(Rings& rings, const SurfaceUse& use) {
     if (use.role == SurfaceRole::roof_edge && parts_with_footprint_.contains(use.part)) return;
     const std::optional<double> height_m = building_.measured_height_m[use.part];
     const double z = rings.empty() || rings.front().empty() ? 0.0 : rings.front().front().z;
     if (!height_m || std::isnan(z))
-      writer_.add_problem(ProblemCode::no_height, std::isnan(z) ? "its LoD 0 has no elevation" : "LoD 0 needs a measuredHeight",
-                          first_readable(rings));
+      builder_.add_problem(ProblemCode::no_height, std::isnan(z) ? "its LoD 0 has no elevation" : "LoD 0 needs a measuredHeight",
+                           first_readable(rings));
     else if (!(*height_m > 0.0))
-      writer_.add_problem(ProblemCode::height_not_positive, "its measuredHeight is " + std::to_string(*height_m),
-                          first_readable(rings));
+      builder_.add_problem(ProblemCode::height_not_positive, "its measuredHeight is " + std::to_string(*height_m),
+                           first_readable(rings));
     else
-      writer_.add_prism(rings, RingEnd::repeats_first, use.role == SurfaceRole::roof_edge ? z - *height_m : z,
-                        use.role == SurfaceRole::roof_edge ? z : z + *height_m, use.part);
+      builder_.add_prism(rings, RingEnd::repeats_first, use.role == SurfaceRole::roof_edge ? z - *height_m : z,
+                         use.role == SurfaceRole::roof_edge ? z : z + *height_m, use.part);
   }
 
   void report_unread() {
     for (const std::string& href : dangling_)
-      writer_.add_problem(ProblemCode::dangling_reference, "nothing in the file is called " + href);
+      builder_.add_problem(ProblemCode::dangling_reference, "nothing in the file is called " + href);
     for (const auto& [what, times] : building_.unread)
-      writer_.add_problem(ProblemCode::unsupported_geometry,
-                          what + " is not read" + (times > 1 ? " (" + std::to_string(times) + " times)" : ""));
+      builder_.add_problem(ProblemCode::unsupported_geometry,
+                           what + " is not read" + (times > 1 ? " (" + std::to_string(times) + " times)" : ""));
     if (borrowing_.refusals() > refusals_before_)
-      writer_.add_problem(ProblemCode::unsupported_geometry,
-                          "some of what it refers to is left out: the references of this file have brought in " +
-                              std::to_string(borrowing_.most_points()) + " points, and no more are read");
+      builder_.add_problem(ProblemCode::unsupported_geometry,
+                           "some of what it refers to is left out: the references of this file have brought in " +
+                               std::to_string(borrowing_.most_points()) + " points, and no more are read");
   }
 
   void report_other_lods(const std::vector<std::vector<double>>& lods) {
@@ -154,19 +157,20 @@ class BuildingWriter {
     for (const GmlMember& member : building_.surfaces.members)
       if (const SurfaceUse& use = building_.uses[member.use]; can_be_used(use) && !is_chosen(use))
         walk.each(member, [&](const ResolvedPolygon&) { ++others; });
-    if (others > 0) writer_.add_problem(ProblemCode::other_level_of_detail, unused_polygons(others, lods));
+    if (others > 0) builder_.add_problem(ProblemCode::other_level_of_detail, unused_polygons(others, lods));
   }
 
   const CityGmlBuilding& building_;
   const GmlSurfaces& foreign_;
   Borrowing& borrowing_;
   const std::size_t refusals_before_ = borrowing_.refusals();
-  CityWriter& writer_;
+  CityModelBuilder& builder_;
   std::vector<std::optional<double>> chosen_;
   std::vector<WantedPolygon> wanted_;
   std::set<std::uint16_t> parts_with_footprint_;
   std::set<std::string> dangling_;
-  std::vector<SeenPolygons> seen_by_part_ = std::vector<SeenPolygons>(building_.measured_height_m.size());
+  PolygonDeduplicator seen_{SamePolygon::corners};
+  std::vector<const Rings*> compared_;  ///< by the numbers of `seen_`
 };
 
 }  // namespace
@@ -185,9 +189,9 @@ std::vector<std::string> foreign_references(const CityGmlBuilding& building) {
   return walk.dangling();
 }
 
-void write_building(const CityGmlBuilding& building, const GmlSurfaces& foreign, LodChoice lod, Borrowing& borrowing,
-                    CityWriter& writer) {
-  BuildingWriter(building, foreign, borrowing, writer).write(lod);
+void add_building(const CityGmlBuilding& building, const GmlSurfaces& foreign, LodChoice lod, Borrowing& borrowing,
+                  CityModelBuilder& builder) {
+  BuildingAssembler(building, foreign, borrowing, builder).add(lod);
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

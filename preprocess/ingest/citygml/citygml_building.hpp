@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "farlod/surface_kind.hpp"
-#include "ingest/city_writer.hpp"
 #include "ingest/citygml/citygml_placement.hpp"
 #include "ingest/citygml/gml_references.hpp"
 #include "ingest/citygml/gml_surfaces.hpp"
-#include "ingest/lod_choice.hpp"
+#include "ingest/model_builder/city_model_builder.hpp"
+#include "ingest/model_builder/lod_choice.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// What a surface of a CityGML building is part of.
 enum class SurfaceRole {
@@ -25,7 +25,7 @@ enum class SurfaceRole {
   element,       ///< a pylon or a deck: bridges and tunnels may consist of nothing else
   footprint,     ///< LoD 0, at the bottom
   roof_edge,     ///< LoD 0, at the top
-  inside,        ///< stands inside, as turned out later: it is not used
+  inside,        ///< inside the building, as the file says only behind the geometry: it is not used
 };
 
 struct SurfaceUse {
@@ -52,8 +52,8 @@ struct CityGmlBuilding {
 /// The references of a building that nothing within it answers.
 [[nodiscard]] std::vector<std::string> foreign_references(const CityGmlBuilding& building);
 
-/// Chooses the level of detail and writes the building's polygons, each once, semantic surfaces first.
-void write_building(const CityGmlBuilding& building, const GmlSurfaces& foreign, LodChoice lod, Borrowing& borrowing,
-                    CityWriter& writer);
+/// Chooses the level of detail, and adds the building's polygons to the model: each once, semantic surfaces first.
+void add_building(const CityGmlBuilding& building, const GmlSurfaces& foreign, LodChoice lod, Borrowing& borrowing,
+                  CityModelBuilder& builder);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "farlod/expects.hpp"
-#include "ingest/surface_names.hpp"
+#include "ingest/model_builder/surface_names.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 /// Of a height, or of a word: no more is needed, whatever a file has there.
@@ -274,4 +274,4 @@ void CityGmlParser::text(std::string_view piece) {
     prototype_.text(piece);
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

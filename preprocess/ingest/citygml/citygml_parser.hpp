@@ -9,17 +9,17 @@
 #include <vector>
 
 #include "ingest/citygml/citygml_building.hpp"
-#include "ingest/citygml/citygml_skipped.hpp"
 #include "ingest/citygml/citygml_prototype.hpp"
 #include "ingest/citygml/citygml_relief.hpp"
+#include "ingest/citygml/citygml_skipped.hpp"
 #include "ingest/citygml/citygml_vocabulary.hpp"
 #include "ingest/citygml/xml_element.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
-/// Understands CityGML 1.0, 2.0 and 3.0, building by building; holds one building at a time, and the points of the relief.
-/// Bridges, tunnels and other constructions are buildings to it. Elements of vocabularies that it does not know are passed
-/// over with all they hold, and counted; so are all other objects of the city.
+/// Parses CityGML 1.0, 2.0 and 3.0, building by building. Holds one building at a time, and the points of the relief.
+/// Bridges, tunnels and other constructions count as buildings. Elements of unknown vocabularies, and all other objects of the
+/// city, are skipped with everything inside them, and counted.
 class CityGmlParser : public XmlListener {
  public:
   using TakeBuilding = std::function<void(const CityGmlBuilding&)>;
@@ -35,7 +35,7 @@ class CityGmlParser : public XmlListener {
   [[nodiscard]] const SkippedFeatures& skipped() const { return skipped_.counts(); }
 
  private:
-  /// What an open element is to us; it is undone when the element ends.
+  /// The role of an open element. It is undone when the element ends.
   enum class Meaning {
     nothing,
     members,  ///< holds an object of the city
@@ -51,7 +51,7 @@ class CityGmlParser : public XmlListener {
     prototype_number,
     terrain,
   };
-  /// Empty: the element is passed over, with all it holds.
+  /// Empty: the element is skipped, with everything inside it.
   using MaybeMeaning = std::optional<Meaning>;
 
   [[nodiscard]] MaybeMeaning meaning_of(const XmlElement& element);
@@ -75,7 +75,7 @@ class CityGmlParser : public XmlListener {
   void take_height();
   void undo(Meaning meaning, std::string_view name);
 
-  /// A balcony, a pylon: something that stands at a building.
+  /// A part outside of a building: a balcony, a pylon.
   struct Installation {
     SurfaceRole role = SurfaceRole::installation;
     std::size_t first_use = 0;
@@ -98,4 +98,4 @@ class CityGmlParser : public XmlListener {
   std::string words_, srs_name_, root_;
 };
 
-}  // namespace farlod
+}  // namespace farlod::ingest

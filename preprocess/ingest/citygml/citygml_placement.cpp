@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace farlod {
+namespace farlod::ingest {
 
 std::optional<Placement> Placement::from(std::span<const double> m, const Point3d& reference_point) {
   if (m.empty()) return Placement({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, reference_point);
@@ -25,4 +25,4 @@ Rings Placement::place(const Rings& rings_prototype) const {
   return rings;
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

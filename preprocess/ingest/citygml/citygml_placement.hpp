@@ -6,9 +6,9 @@
 #include <span>
 
 #include "farlod/point.hpp"
-#include "ingest/ring_cleaning.hpp"
+#include "ingest/model_builder/ring_cleaning.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// Where a prototype (CityGML's implicit geometry) stands: turned and scaled in metres, then moved to its reference point.
 class Placement {
@@ -28,4 +28,4 @@ class Placement {
   Point3d x_axis_, y_axis_, z_axis_, origin_;
 };
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -6,7 +6,7 @@
 
 #include "farlod/expects.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 /// One more than a matrix has, so that a longer one shows.
@@ -68,4 +68,4 @@ std::optional<Placement> PrototypeReader::placement(bool has_crs, std::string& u
   return std::nullopt;
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

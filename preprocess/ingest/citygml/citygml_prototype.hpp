@@ -12,7 +12,7 @@
 #include "ingest/citygml/citygml_placement.hpp"
 #include "ingest/citygml/gml_surfaces_numbers.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// Reads what CityGML's ImplicitGeometry has besides surfaces: the matrix and the point that place a prototype.
 class PrototypeReader {
@@ -40,4 +40,4 @@ class PrototypeReader {
   bool is_elsewhere_ = false, has_surfaces_ = false;
 };
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -2,20 +2,69 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ingest/citygml/citygml_reader.hpp"
 
+#include <string>
+#include <string_view>
 #include <unordered_set>
 #include <utility>
 
 #include "city/input_error.hpp"
 #include "ingest/citygml/citygml_parser.hpp"
-#include "ingest/citygml/citygml_surface_finder.hpp"
 #include "ingest/citygml/citygml_xml.hpp"
+#include "ingest/citygml/gml_surfaces.hpp"
+#include "ingest/citygml/xml_element.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 /// References that lead to references that lead on: each step is one more reading of the file, and none that we know of
 /// takes more than two.
 constexpr int most_searches = 6;
+
+/// Finds the surfaces with certain ids anywhere in a file, for buildings that refer to surfaces of other objects.
+class GmlSurfaceFinder : public XmlListener {
+ public:
+  /// `hrefs` are references as the file writes them. References into other files ("town.gml#a") are never found.
+  explicit GmlSurfaceFinder(const std::unordered_set<std::string>& hrefs) : hrefs_(hrefs) {}
+
+  void start(const XmlElement& element) override {
+    if (skipped_depth_ > 0) {
+      ++skipped_depth_;
+    } else if (wanted_depth_ > 0 || is_wanted(element.id)) {
+      if (reader_.start(element) == GmlSurfaceReader::Answer::entered)
+        ++wanted_depth_;
+      else
+        ++skipped_depth_;
+    }
+  }
+
+  void end(std::string_view name) override {
+    if (skipped_depth_ > 0) {
+      --skipped_depth_;
+    } else if (wanted_depth_ > 0) {
+      reader_.end(name);
+      --wanted_depth_;
+    }
+  }
+
+  void text(std::string_view piece) override {
+    if (wanted_depth_ > 0 && skipped_depth_ == 0) reader_.text(piece);
+  }
+
+  [[nodiscard]] GmlSurfaces& found() { return found_; }
+
+ private:
+  [[nodiscard]] bool is_wanted(std::string_view id) {
+    if (id.empty()) return false;
+    href_.assign(1, '#').append(id);
+    return hrefs_.contains(href_);
+  }
+
+  const std::unordered_set<std::string>& hrefs_;
+  GmlSurfaces found_;
+  GmlSurfaceReader reader_{found_};
+  std::size_t wanted_depth_ = 0, skipped_depth_ = 0;
+  std::string href_;  ///< the reference that would lead to the id of the current element
+};
 
 struct Reading {
   SourceCity city;
@@ -42,28 +91,29 @@ std::string list(const SkippedFeatures& skipped) {
                    " Is it another theme of the city model?");
 }
 
-void report_unreadable_relief(std::size_t points, CityWriter& writer) {
+void report_unreadable_relief(std::size_t points, CityModelBuilder& builder) {
   if (points > 0)
-    writer.add_problem_at("relief", ProblemCode::unreadable_coordinate,
-                          "points of the terrain that miss a coordinate, or have one that is not a number or beyond the Earth: " +
-                              std::to_string(points));
+    builder.add_problem_at(
+        "relief", ProblemCode::unreadable_coordinate,
+        "points of the terrain that miss a coordinate, or have one that is not a number or beyond the Earth: " +
+            std::to_string(points));
 }
 
 Reading read_buildings(const InputFile& file, LodChoice lod, const GmlSurfaces& foreign) {
   Reading reading;
   Borrowing borrowing(foreign);
-  CityWriter writer(file.name, reading.report);
+  CityModelBuilder builder(file.name, reading.report);
   CityGmlParser parser([&](const CityGmlBuilding& building) {
     for (std::string& href : foreign_references(building)) reading.foreign_hrefs.insert(std::move(href));
-    write_building(building, foreign, lod, borrowing, writer);
+    add_building(building, foreign, lod, borrowing, builder);
   });
   parse_xml(file, parser);
   ReliefReader& relief = parser.relief();
-  if (writer.buildings_met() == 0 && relief.points().empty()) throw_nothing_there(file, parser);
-  report_unreadable_relief(relief.unreadable_points(), writer);
+  if (builder.buildings_met() == 0 && relief.points().empty()) throw_nothing_there(file, parser);
+  report_unreadable_relief(relief.unreadable_points(), builder);
   reading.city.source = file.name;
   reading.city.crs.definition = parser.srs_name();
-  reading.city.city = writer.take_city();
+  reading.city.city = builder.take_city();
   reading.city.relief_points = std::move(relief.points());
   reading.city.skipped = parser.skipped();
   return reading;
@@ -99,4 +149,4 @@ SourceCity read_citygml(const InputFile& file, LodChoice lod, Report& report) {
   return hand_over(read_buildings(file, lod, find_surfaces(file, std::move(foreign_hrefs))), report);
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "city/source.hpp"
-#include "ingest/city_writer.hpp"
 #include "ingest/files/input_file.hpp"
-#include "ingest/lod_choice.hpp"
+#include "ingest/model_builder/city_model_builder.hpp"
+#include "ingest/model_builder/lod_choice.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// Streams a CityGML file: memory is one building's, besides the city itself. Reads the file again only when buildings
 /// refer to surfaces outside of themselves. A file of terrain alone is a city without buildings. Throws InputError for what
@@ -15,4 +15,4 @@ namespace farlod {
 /// to do harm (see parse_xml).
 [[nodiscard]] SourceCity read_citygml(const InputFile& file, LodChoice lod, Report& report);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "ingest/ring_cleaning.hpp"
+#include "ingest/model_builder/ring_cleaning.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 bool is_readable(double coordinate) { return std::abs(coordinate) <= farthest_coordinate; }  // false for NaN
@@ -61,4 +61,4 @@ void ReliefReader::add_point() {
   if (points_of_list_++ == 0) first_of_list_ = points_.back();
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -10,7 +10,7 @@
 #include "ingest/citygml/gml_surfaces_numbers.hpp"
 #include "ingest/citygml/xml_element.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// Takes the points of a terrain: the corners of a TIN's triangles, its control points, or a cloud of points. Holds nothing
 /// but the points, which may repeat; a ring's closing point is left away.
@@ -44,4 +44,4 @@ class ReliefReader {
   std::size_t unreadable_points_ = 0;
 };
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -6,7 +6,7 @@
 
 #include "ingest/citygml/citygml_vocabulary.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 constexpr std::size_t longest_name = 200;
@@ -29,4 +29,4 @@ void SkippedCount::add(const XmlElement& element) {
   ++counts_[is_told_apart ? name : other_names];
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

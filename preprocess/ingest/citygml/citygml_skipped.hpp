@@ -5,7 +5,7 @@
 #include "city/source.hpp"
 #include "ingest/citygml/xml_element.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// Counts what a CityGML file has and we do not use, by the name of the element without its prefix. Elements of extensions
 /// have their namespace behind the name: "RiverFloodingRiskAttribute (https://www.geospatial.jp/iur/uro/2.0)".
@@ -22,4 +22,4 @@ class SkippedCount {
   SkippedFeatures counts_;
 };
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 
-#include "ingest/surface_names.hpp"
+#include "ingest/model_builder/surface_names.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 constexpr std::string_view gml = "http://www.opengis.net/gml";
@@ -66,4 +66,4 @@ bool is_lod_property(std::string_view name) {
 
 bool is_member_name(std::string_view name) { return is_one_of(name, member_names); }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

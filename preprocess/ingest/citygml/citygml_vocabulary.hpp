@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// What the namespace of an element tells, whatever the version of CityGML and of GML.
 enum class Vocabulary {
@@ -40,4 +40,4 @@ enum class Vocabulary {
 /// Properties that hold objects of a city, each of which is one.
 [[nodiscard]] bool is_member_name(std::string_view name);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -5,12 +5,12 @@
 #include "ingest/citygml/xml_element.hpp"
 #include "ingest/files/input_file.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
-/// Passes a whole XML file by a listener, piece by piece; UTF-8, UTF-16, and any encoding of one byte a character. The only
-/// door to Expat. Throws InputError, with line and column, for what is not well-formed; and for what no CityGML file has,
-/// while a hostile one may: declarations in a DOCTYPE (entities that unfold without end or lead to other files), elements
-/// nested deeper than 256, a tag of more than 4 MiB.
+/// Parses a whole XML file, and calls a listener for each element and text: UTF-8, UTF-16, and any encoding of one byte a
+/// character. The only wrapper of Expat. Throws InputError, with line and column, for what is not well-formed; and for what no
+/// CityGML file has, while a hostile one may: declarations in a DOCTYPE (entities that unfold without end or lead to other
+/// files), elements nested deeper than 256, a tag of more than 4 MiB.
 void parse_xml(const InputFile& file, XmlListener& listener);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

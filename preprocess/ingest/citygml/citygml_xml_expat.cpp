@@ -12,7 +12,7 @@
 #include "city/input_error.hpp"
 #include "ingest/citygml/citygml_xml.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 /// Between a namespace and a name, in what Expat hands out: it cannot occur in either.
@@ -182,4 +182,4 @@ void parse_xml(const InputFile& file, XmlListener& listener) {
   }
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

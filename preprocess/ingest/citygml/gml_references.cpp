@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ingest/citygml/gml_references.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 constexpr std::size_t points_of_prototypes = 5'000'000;
@@ -73,4 +73,4 @@ bool ReferenceWalk::enter(const std::string& href, bool is_reversed) {
   return false;
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -11,7 +11,7 @@
 
 #include "ingest/citygml/gml_surfaces.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// How much of a file may be borrowed by reference: a wall that two buildings share is there twice, and a small file whose
 /// many buildings all refer to one large thing would have no end.
@@ -73,4 +73,4 @@ class ReferenceWalk {
   std::vector<std::string> dangling_;
 };
 
-}  // namespace farlod
+}  // namespace farlod::ingest

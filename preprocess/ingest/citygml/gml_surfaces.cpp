@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 constexpr double unreadable = std::numeric_limits<double>::quiet_NaN();
@@ -156,4 +156,4 @@ void GmlSurfaceReader::note_dimension(std::string_view srs_dimension) {
   if (srs_dimension == "3") dimension_ = 3;
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -11,9 +11,9 @@
 
 #include "ingest/citygml/gml_surfaces_numbers.hpp"
 #include "ingest/citygml/xml_element.hpp"
-#include "ingest/ring_cleaning.hpp"
+#include "ingest/model_builder/ring_cleaning.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// The longest ring that is read. No wall has a million corners, and a file must not fill the memory with one list.
 inline constexpr std::size_t most_points_of_ring = std::size_t{1} << 20;
@@ -53,8 +53,8 @@ struct GmlSurfaces {
   std::unordered_map<std::string, GmlRange> ranges;
 };
 
-/// Understands GML's surfaces and solids, element by element: 3.1 and 3.2, and the rings of GML 2. Knows nothing of XML
-/// syntax and nothing of buildings.
+/// Reads GML's surfaces and solids, element by element: 3.1 and 3.2, and the rings of GML 2. It knows neither XML syntax nor
+/// buildings.
 class GmlSurfaceReader {
  public:
   enum class Answer { entered, skip, unsupported };
@@ -95,4 +95,4 @@ class GmlSurfaceReader {
   std::vector<double> numbers_;  ///< of the list that is being read
 };
 
-}  // namespace farlod
+}  // namespace farlod::ingest

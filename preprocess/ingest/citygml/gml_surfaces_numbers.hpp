@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// Reads the numbers of a text that comes in pieces, which may be broken within a number. Holds one word, never the text.
 class NumberScanner {
@@ -67,4 +67,4 @@ class NumberScanner {
   std::string begun_word_;
 };
 
-}  // namespace farlod
+}  // namespace farlod::ingest

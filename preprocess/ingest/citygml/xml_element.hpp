@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// The beginning of an XML element, with the attributes that matter in CityGML. Valid only while it is being handled.
 struct XmlElement {
@@ -25,4 +25,4 @@ class XmlListener {
   virtual void text(std::string_view piece) = 0;
 };
 
-}  // namespace farlod
+}  // namespace farlod::ingest

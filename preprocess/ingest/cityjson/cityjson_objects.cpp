@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "city/input_error.hpp"
-#include "ingest/seen_polygons.hpp"
+#include "ingest/model_builder/polygon_deduplicator.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 /// Prefabricated buildings of a whole city have fewer: templates are for lamps and trees.
@@ -94,21 +94,22 @@ class Family {
   std::vector<bool> has_parent_;
 };
 
-class BuildingWriter {
+class BuildingAssembler {
  public:
-  BuildingWriter(const std::vector<CityJsonObject>& objects, const Family& family, const std::vector<Point3d>& vertices,
-                 const CityJsonTemplates& templates, std::vector<bool>& visited, CityWriter& writer, ObjectAccount& account)
+  BuildingAssembler(const std::vector<CityJsonObject>& objects, const Family& family, const std::vector<Point3d>& vertices,
+                    const CityJsonTemplates& templates, std::vector<bool>& visited, CityModelBuilder& builder,
+                    ObjectAccount& account)
       : objects_(objects),
         family_(family),
         vertices_(vertices),
         templates_(templates),
         visited_(visited),
-        writer_(writer),
+        builder_(builder),
         account_(account) {}
 
-  void write(std::size_t root, LodChoice lod) {
+  void add(std::size_t root, LodChoice lod) {
     root_ = &objects_[root];
-    writer_.begin_building(objects_[root].id);
+    builder_.begin_building(objects_[root].id);
     gather(root);
     const std::vector<std::vector<double>> lods = usable_lods();
     const std::vector<std::optional<double>> chosen = choose_lods(lods, lod);
@@ -119,9 +120,9 @@ class BuildingWriter {
       if (is_chosen) wanted.push_back(&shape);
       others += is_chosen ? 0 : shape.geometry->polygons.size();
     }
-    for (const Shape* shape : wanted) write(*shape, wanted.size() == 1);
-    if (!wanted.empty() && others > 0) writer_.add_problem(ProblemCode::other_level_of_detail, unused_polygons(others, lods));
-    writer_.end_building("no usable surface in the level of detail asked for; it has LoD " + list_lods(lods));
+    for (const Shape* shape : wanted) add(*shape, wanted.size() == 1);
+    if (!wanted.empty() && others > 0) builder_.add_problem(ProblemCode::other_level_of_detail, unused_polygons(others, lods));
+    builder_.end_building("no usable surface in the level of detail asked for; it has LoD " + list_lods(lods));
   }
 
  private:
@@ -144,11 +145,11 @@ class BuildingWriter {
   }
 
   void gather_own(const CityJsonObject& object, std::uint16_t part) {
-    if (!object.malformed.empty()) writer_.add_problem(ProblemCode::malformed_feature, object.id + ": " + object.malformed);
+    if (!object.malformed.empty()) builder_.add_problem(ProblemCode::malformed_feature, object.id + ": " + object.malformed);
     for (const CityJsonGeometry& geometry : object.geometries) add_shape(object, geometry, part);
     for (const std::vector<std::string>* relatives : {&object.parents, &object.children})
       for (const std::string& id : *relatives)
-        if (!family_.find(id)) writer_.add_problem(ProblemCode::dangling_reference, object.id + " refers to " + id);
+        if (!family_.find(id)) builder_.add_problem(ProblemCode::dangling_reference, object.id + " refers to " + id);
   }
 
   std::uint16_t next_part() {
@@ -160,8 +161,8 @@ class BuildingWriter {
     Shape shape{&geometry, nullptr, &object, part, &object == root_ ? ObjectRole::building : role_of(object.type)};
     if (geometry.instance) {
       if (geometry.instance->template_row >= templates_.geometries.size()) {
-        writer_.add_problem(ProblemCode::dangling_reference,
-                            "there is no template " + std::to_string(geometry.instance->template_row));
+        builder_.add_problem(ProblemCode::dangling_reference,
+                             "there is no template " + std::to_string(geometry.instance->template_row));
         return;
       }
       shape.instance = &*geometry.instance;
@@ -170,7 +171,7 @@ class BuildingWriter {
     if (has_surfaces(shape.geometry->type))
       shapes_.push_back(shape);
     else
-      writer_.add_problem(ProblemCode::unsupported_geometry, "a " + shape.geometry->type + " is not read");
+      builder_.add_problem(ProblemCode::unsupported_geometry, "a " + shape.geometry->type + " is not read");
   }
 
   /// A bridge may consist of constructive elements; where there is anything else, they follow it.
@@ -191,19 +192,32 @@ class BuildingWriter {
     return lods;
   }
 
-  void write(const Shape& shape, bool is_alone) {
+  void add(const Shape& shape, bool is_alone) {
     // Within one geometry two equal polygons are the author's; over several they are one surface told twice
     std::vector<Rings> fresh;
     for (const CityJsonPolygon& polygon : shape.geometry->polygons) {
       std::optional<Rings> rings = points_of(polygon, shape);
-      if (!rings || (!is_alone && seen_.contains(*rings))) continue;
+      if (!rings || (!is_alone && is_seen(*rings))) continue;
       if (!is_alone) fresh.push_back(*rings);
       if (shape.geometry->lod < 1.0)
-        write_footprint(*rings, shape);
+        add_footprint(*rings, shape);
       else
-        writer_.add_polygon(*rings, RingEnd::implied, {.kind = polygon.kind, .part = shape.part, .surface = {}, .name = {}});
+        builder_.add_polygon(*rings, RingEnd::implied, {.kind = polygon.kind, .part = shape.part, .surface = {}, .name = {}});
     }
-    for (const Rings& rings : fresh) (void)seen_.insert(rings);
+    for (Rings& rings : fresh) note_seen(std::move(rings));
+  }
+
+  [[nodiscard]] std::vector<std::span<const Point3d>> seen_at(std::uint64_t number) const {
+    return spans_of(seen_rings_[number]);
+  }
+
+  [[nodiscard]] bool is_seen(const Rings& rings) const {
+    return seen_.find(rings, 0, [this](std::uint64_t n) { return seen_at(n); }).has_value();
+  }
+
+  void note_seen(Rings&& rings) {
+    if (!seen_.find_or_insert(rings, 0, seen_rings_.size(), [this](std::uint64_t n) { return seen_at(n); }))
+      seen_rings_.push_back(std::move(rings));
   }
 
   std::optional<Rings> points_of(const CityJsonPolygon& polygon, const Shape& shape) {
@@ -216,9 +230,9 @@ class BuildingWriter {
         const std::optional<Point3d> p = vertex(vertices, row);
         const std::optional<Point3d> anchor = shape.instance ? vertex(vertices_, shape.instance->anchor) : Point3d{};
         if (!p || !anchor) {
-          writer_.add_problem(ProblemCode::vertex_index_out_of_range,
-                              "a ring names vertex " + std::to_string(p ? shape.instance->anchor : row) + " of " +
-                                  std::to_string(p ? vertices_.size() : vertices.size()));
+          builder_.add_problem(ProblemCode::vertex_index_out_of_range,
+                               "a ring names vertex " + std::to_string(p ? shape.instance->anchor : row) + " of " +
+                                   std::to_string(p ? vertices_.size() : vertices.size()));
           return std::nullopt;
         }
         ring.push_back(shape.instance ? placed(*p, shape.instance->matrix) + *anchor : *p);
@@ -231,7 +245,7 @@ class BuildingWriter {
   void count_unfolded(std::size_t corners) {
     account_.template_corners += corners;
     if (account_.template_corners > most_template_corners)
-      throw InputError(writer_.source() + ": its geometry templates unfold to more than " +
+      throw InputError(builder_.source() + ": its geometry templates unfold to more than " +
                        std::to_string(most_template_corners) + " corners of buildings. Split it into tiles.");
   }
 
@@ -247,16 +261,16 @@ class BuildingWriter {
   }
 
   /// LoD 0 has no volume: it is raised by the measured height.
-  void write_footprint(Rings& rings, const Shape& shape) {
+  void add_footprint(Rings& rings, const Shape& shape) {
     const std::optional<double> height_m = shape.object->measured_height_m;
     const double base_m = rings.empty() || rings[0].empty() ? 0.0 : rings[0][0].z;
     if (!height_m)
-      writer_.add_problem(ProblemCode::no_height, "LoD 0 needs the attribute measuredHeight", first_readable(rings));
+      builder_.add_problem(ProblemCode::no_height, "LoD 0 needs the attribute measuredHeight", first_readable(rings));
     else if (!(*height_m > 0.0))
-      writer_.add_problem(ProblemCode::height_not_positive, "measuredHeight is " + std::to_string(*height_m),
-                          first_readable(rings));
+      builder_.add_problem(ProblemCode::height_not_positive, "measuredHeight is " + std::to_string(*height_m),
+                           first_readable(rings));
     else
-      writer_.add_prism(rings, RingEnd::implied, base_m, base_m + *height_m, shape.part);
+      builder_.add_prism(rings, RingEnd::implied, base_m, base_m + *height_m, shape.part);
   }
 
   const std::vector<CityJsonObject>& objects_;
@@ -264,11 +278,12 @@ class BuildingWriter {
   const std::vector<Point3d>& vertices_;
   const CityJsonTemplates& templates_;
   std::vector<bool>& visited_;
-  CityWriter& writer_;
+  CityModelBuilder& builder_;
   ObjectAccount& account_;
   const CityJsonObject* root_ = nullptr;
   std::vector<Shape> shapes_;
-  SeenPolygons seen_;
+  PolygonDeduplicator seen_{SamePolygon::corners};
+  std::vector<Rings> seen_rings_;  ///< by the numbers of `seen_`
   std::uint16_t parts_ = 0;
 };
 
@@ -278,13 +293,13 @@ bool is_on_earth(const Point3d& p) {
 }
 
 /// Triangles of terrain share their corners: each row of the vertex list counts once.
-class ReliefWriter {
+class ReliefCollector {
  public:
-  ReliefWriter(const std::vector<Point3d>& vertices, CityWriter& writer, std::vector<Point3d>& points)
-      : vertices_(vertices), is_taken_(vertices.size()), writer_(writer), points_(points) {}
+  ReliefCollector(const std::vector<Point3d>& vertices, CityModelBuilder& builder, std::vector<Point3d>& points)
+      : vertices_(vertices), is_taken_(vertices.size()), builder_(builder), points_(points) {}
 
-  void write(const CityJsonObject& relief) {
-    if (!relief.malformed.empty()) writer_.add_problem_at(relief.id, ProblemCode::malformed_feature, relief.malformed);
+  void add(const CityJsonObject& relief) {
+    if (!relief.malformed.empty()) builder_.add_problem_at(relief.id, ProblemCode::malformed_feature, relief.malformed);
     double best = -1.0;
     for (const CityJsonGeometry& geometry : relief.geometries) best = std::max(best, geometry.lod);
     std::size_t unknown = 0;
@@ -294,9 +309,9 @@ class ReliefWriter {
           for (const auto& ring : polygon.rings)
             for (const std::int64_t row : ring) unknown += take(row) ? 0 : 1;
     if (unknown > 0)
-      writer_.add_problem_at(relief.id, ProblemCode::vertex_index_out_of_range,
-                             std::to_string(unknown) + " corners of its triangles are not among the " +
-                                 std::to_string(vertices_.size()) + " vertices, or not numbers");
+      builder_.add_problem_at(relief.id, ProblemCode::vertex_index_out_of_range,
+                              std::to_string(unknown) + " corners of its triangles are not among the " +
+                                  std::to_string(vertices_.size()) + " vertices, or not numbers");
   }
 
  private:
@@ -310,27 +325,26 @@ class ReliefWriter {
 
   const std::vector<Point3d>& vertices_;
   std::vector<bool> is_taken_;
-  CityWriter& writer_;
+  CityModelBuilder& builder_;
   std::vector<Point3d>& points_;
 };
 
 }  // namespace
 
-void write_objects(const std::vector<CityJsonObject>& objects, const std::vector<Point3d>& vertices,
-                   const CityJsonTemplates& templates, LodChoice lod, CityWriter& writer, ObjectAccount& account) {
+void add_objects(const std::vector<CityJsonObject>& objects, const std::vector<Point3d>& vertices,
+                 const CityJsonTemplates& templates, LodChoice lod, CityModelBuilder& builder, ObjectAccount& account) {
   const Family family(objects);
   std::vector<bool> visited(objects.size());
   // What is left by the first round are circles of parents
   for (const bool is_first_round : {true, false})
     for (std::size_t k = 0; k < objects.size(); ++k)
       if (hides_the_sky(objects[k]) && !visited[k] && (!is_first_round || !family.has_parent(k)))
-        BuildingWriter(objects, family, vertices, templates, visited, writer, account).write(k, lod);
-  ReliefWriter relief(vertices, writer, account.relief_points);
+        BuildingAssembler(objects, family, vertices, templates, visited, builder, account).add(k, lod);
+  ReliefCollector relief(vertices, builder, account.relief_points);
   for (const CityJsonObject& object : objects) {
-    if (role_of(object.type) == ObjectRole::relief) relief.write(object);
-    if (role_of(object.type) == ObjectRole::none)
-      ++account.skipped[object.type.empty() ? "objects without a type" : object.type];
+    if (role_of(object.type) == ObjectRole::relief) relief.add(object);
+    if (role_of(object.type) == ObjectRole::none) ++account.skipped[object.type.empty() ? "objects without a type" : object.type];
   }
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -11,10 +11,10 @@
 #include "city/source.hpp"
 #include "farlod/point.hpp"
 #include "farlod/surface_kind.hpp"
-#include "ingest/city_writer.hpp"
-#include "ingest/lod_choice.hpp"
+#include "ingest/model_builder/city_model_builder.hpp"
+#include "ingest/model_builder/lod_choice.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 struct CityJsonPolygon {
   std::vector<std::vector<std::int64_t>> rings;  ///< rows of the vertex list; the file may be wrong about them
@@ -52,14 +52,14 @@ struct CityJsonTemplates {
 /// What the objects hold besides buildings.
 struct ObjectAccount {
   std::vector<Point3d> relief_points;  ///< corners of the triangles of terrain, in its best level of detail
-  SkippedFeatures skipped;              ///< types of the objects that are not used
+  SkippedFeatures skipped;             ///< types of the objects that are not used
   std::uint64_t template_corners = 0;  ///< written by using templates
 };
 
 /// Writes the buildings among the objects of one vertex list: of a CityJSON file, or of one line of a CityJSONSeq.
 /// Buildings, bridges, tunnels and other constructions hide the sky, with their parts and outer installations. Terrain is ground;
 /// plants, rooms, types of extensions and all else are counted. An object belongs to one building at the most.
-void write_objects(const std::vector<CityJsonObject>& objects, const std::vector<Point3d>& vertices,
-                   const CityJsonTemplates& templates, LodChoice lod, CityWriter& writer, ObjectAccount& account);
+void add_objects(const std::vector<CityJsonObject>& objects, const std::vector<Point3d>& vertices,
+                 const CityJsonTemplates& templates, LodChoice lod, CityModelBuilder& builder, ObjectAccount& account);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -5,12 +5,12 @@
 #include "city/problem.hpp"
 #include "city/source.hpp"
 #include "ingest/files/input_file.hpp"
-#include "ingest/lod_choice.hpp"
+#include "ingest/model_builder/lod_choice.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// Reads CityJSON 1.0 to 2.0, or CityJSONSeq line by line. Throws InputError for what is not JSON (with line and column),
 /// not CityJSON, or holds neither buildings nor a relief.
 [[nodiscard]] SourceCity read_cityjson(const InputFile& file, LodChoice lod, Report& report);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -8,12 +8,12 @@
 #include <type_traits>
 
 #include "city/input_error.hpp"
-#include "ingest/city_writer.hpp"
 #include "ingest/cityjson/cityjson_objects.hpp"
 #include "ingest/cityjson/cityjson_reader.hpp"
-#include "ingest/surface_names.hpp"
+#include "ingest/model_builder/city_model_builder.hpp"
+#include "ingest/model_builder/surface_names.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 using nlohmann::json;
@@ -290,7 +290,7 @@ std::string said(const SkippedFeatures& skipped) {
 
 class CityJsonFile {
  public:
-  CityJsonFile(const InputFile& file, LodChoice lod, CityWriter& writer) : file_(file), lod_(lod), writer_(writer) {}
+  CityJsonFile(const InputFile& file, LodChoice lod, CityModelBuilder& builder) : file_(file), lod_(lod), builder_(builder) {}
 
   /// The first text says where the city lies; in a sequence the features follow, one a line.
   void read() {
@@ -326,7 +326,7 @@ class CityJsonFile {
     }
     reference_system = reference_system_of(text.rest);
     if (text.rest.contains("geometry-templates")) take_templates(text.rest.at("geometry-templates"));
-    write(text);
+    add_to_model(text);
   }
 
   void take_templates(const json& j) {
@@ -340,21 +340,21 @@ class CityJsonFile {
     try {
       CityJsonText text = parse(line);
       if (text.rest.value("type", json()) != "CityJSONFeature") throw JsonFlaw("it is no CityJSONFeature");
-      write(text);
+      add_to_model(text);
     } catch (const JsonFlaw& flaw) {
-      writer_.add_problem_at("line " + std::to_string(number_), ProblemCode::malformed_feature, flaw.what());
+      builder_.add_problem_at("line " + std::to_string(number_), ProblemCode::malformed_feature, flaw.what());
     }
   }
 
-  void write(CityJsonText& text) {
+  void add_to_model(CityJsonText& text) {
     for (Point3d& p : text.vertices)
       p = {p.x * scale_[0] + translate_[0], p.y * scale_[1] + translate_[1], p.z * scale_[2] + translate_[2]};
-    write_objects(text.objects, text.vertices, templates_, lod_, writer_, account);
+    add_objects(text.objects, text.vertices, templates_, lod_, builder_, account);
   }
 
   const InputFile& file_;
   LodChoice lod_;
-  CityWriter& writer_;
+  CityModelBuilder& builder_;
   std::size_t number_ = 1;
   std::array<double, 3> scale_{1.0, 1.0, 1.0}, translate_{};
   CityJsonTemplates templates_;
@@ -363,8 +363,8 @@ class CityJsonFile {
 }  // namespace
 
 SourceCity read_cityjson(const InputFile& file, LodChoice lod, Report& report) {
-  CityWriter writer(file.name, report);
-  CityJsonFile reader(file, lod, writer);
+  CityModelBuilder builder(file.name, report);
+  CityJsonFile reader(file, lod, builder);
   try {
     reader.read();
   } catch (const SyntaxFlaw& flaw) {
@@ -374,14 +374,14 @@ SourceCity read_cityjson(const InputFile& file, LodChoice lod, Report& report) {
   } catch (const json::exception& flaw) {
     throw InputError(file.name + " is not CityJSON: " + plain(flaw.what()) + ". The validator cjval tells more.");
   }
-  if (writer.buildings_met() == 0 && reader.account.relief_points.empty())
+  if (builder.buildings_met() == 0 && reader.account.relief_points.empty())
     throw InputError(file.name + " holds no Building, Bridge, Tunnel, OtherConstruction or TINRelief" +
                      said(reader.account.skipped) + ". Is it another theme of the city model?");
   return {.source = file.name,
           .crs = {reader.reference_system, false, false},
-          .city = writer.take_city(),
+          .city = builder.take_city(),
           .relief_points = std::move(reader.account.relief_points),
           .skipped = std::move(reader.account.skipped)};
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

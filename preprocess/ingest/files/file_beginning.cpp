@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 using namespace std::string_view_literals;
@@ -105,4 +105,4 @@ bool is_archive(std::string_view bytes) {
   return is_zip(bytes) || is_gzip(bytes);
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

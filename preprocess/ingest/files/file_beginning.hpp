@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// The beginning of a text in plain letters: without byte order mark and leading blanks, UTF-16 with every other byte gone (what
 /// is looked for is ASCII).
@@ -27,4 +27,4 @@ namespace farlod {
 [[nodiscard]] bool is_zip(std::string_view bytes);
 [[nodiscard]] bool is_gzip(std::string_view bytes);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

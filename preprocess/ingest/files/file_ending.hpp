@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// Letters of names and formats are ASCII; others stay as they are.
 [[nodiscard]] inline std::string in_lower_case(std::string_view text) {
@@ -23,4 +23,4 @@ namespace farlod {
   return std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return lower.ends_with(ending); });
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -10,7 +10,7 @@
 #include "ingest/files/json_kind.hpp"
 #include "ingest/files/map_kind.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 /// The root of an XML file comes after comments, licences and a long list of namespaces.
@@ -76,4 +76,4 @@ bool name_allows(std::string_view file_name, FileFormat format) {
   return true;
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

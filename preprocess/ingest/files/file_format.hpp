@@ -6,7 +6,7 @@
 
 #include "ingest/files/input_file.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// Which reader a file is for.
 enum class FileFormat {
@@ -33,4 +33,4 @@ enum class FileFormat {
 /// Whether a file of this name may be of this format without surprise. Endings like `.gml` and `.json` belong to several.
 [[nodiscard]] bool name_allows(std::string_view file_name, FileFormat format);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -7,7 +7,7 @@
 
 #include "ingest/files/file_ending.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 constexpr std::uintmax_t most_times_smaller = 100;
@@ -51,4 +51,4 @@ std::string read_beginning(const InputFile& file, std::size_t most_bytes) { retu
 
 std::string read_whole(const InputFile& file) { return read_beginning(file, std::numeric_limits<std::size_t>::max()); }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

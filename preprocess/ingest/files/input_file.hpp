@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// One file of a city, wherever it lies: on its own, or within an archive.
 struct InputFile {
@@ -47,4 +47,4 @@ struct InputFile {
 /// The same for a file that need not exist, as small files beside a city do.
 [[nodiscard]] std::optional<std::string> find_beginning(const InputFile& file, std::size_t most_bytes);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

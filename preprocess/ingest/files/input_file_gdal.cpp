@@ -13,7 +13,7 @@
 #include "gdal/gdal_errors.hpp"
 #include "ingest/files/input_file.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 struct CloseFile {
@@ -98,4 +98,4 @@ std::optional<std::string> find_beginning(const InputFile& file, std::size_t mos
   return read_beginning(file, most_bytes);
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -15,7 +15,7 @@
 #include "ingest/files/zip_directory.hpp"
 #include "ingest/files/zip_members.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,7 +64,7 @@ std::vector<fs::path> entries_below(const fs::path& folder) {
   return entries;
 }
 
-/// A geodatabase is a folder in an archive, too: its files stand for it.
+/// A geodatabase in an archive is a folder, too: any of its files leads to it.
 InputFile whole_of(const InputFile& member) {
   fs::path inner = fs::path(member.name).lexically_relative(member.on_disk), outer = inner;
   while (!outer.empty() && !is_geodatabase(outer)) outer = outer.parent_path();
@@ -172,7 +172,7 @@ class InputSearch {
     else if (!is_none && (!is_table || is_json))
       add(file);
     else if (!is_xml && !is_json)
-      pass_over(file);
+      skip(file);
   }
 
   void add(const InputFile& file) {
@@ -184,7 +184,7 @@ class InputSearch {
     return known_.insert(fs::canonical(file.on_disk).string() + '\n' + inside).second;
   }
 
-  void pass_over(const InputFile& file) {
+  void skip(const InputFile& file) {
     const std::string ending = in_lower_case(fs::path(file.unpacked_name()).extension().string());
     ++found_.skipped[ending.empty() ? "files without an ending" : ending + " files"];
   }
@@ -194,7 +194,7 @@ class InputSearch {
     if (is_alone && rasters_.size() == 1) {
       if (is_new(rasters_.front())) found_.surface_models.push_back(rasters_.front());
     } else {
-      for (const InputFile& raster : rasters_) pass_over(raster);
+      for (const InputFile& raster : rasters_) skip(raster);
     }
   }
 
@@ -219,4 +219,4 @@ class InputSearch {
 
 FoundInputs find_input_files(std::span<const fs::path> inputs, Report& report) { return InputSearch(report).search(inputs); }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

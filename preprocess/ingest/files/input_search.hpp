@@ -10,13 +10,13 @@
 #include "city/source.hpp"
 #include "ingest/files/input_file.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// What lies behind the names that a user gave.
 struct FoundInputs {
   std::vector<InputFile> files;           ///< cities and footprints, in the order of the names, and of their own within a folder
   std::vector<InputFile> surface_models;  ///< rasters, which are read as a terrain is
-  SkippedFeatures skipped;                 ///< files of folders and archives that are of no format of a city, by their endings
+  SkippedFeatures skipped;                ///< files of folders and archives that are of no format of a city, by their endings
 };
 
 /// Looks into folders, with all that is below them, and into zip and gzip archives. For every file:
@@ -29,4 +29,4 @@ struct FoundInputs {
 /// cannot be opened beside others that can is reported as unusable_file.
 [[nodiscard]] FoundInputs find_input_files(std::span<const std::filesystem::path> inputs, Report& report);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -4,10 +4,10 @@
 
 #include "ingest/files/input_file.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// Whether a file is CityJSON or CityJSONSeq: it begins with a JSON object that says so. Reads no farther than needed. What is no
 /// JSON up to there is none.
 [[nodiscard]] bool is_cityjson(const InputFile& file);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -5,7 +5,7 @@
 
 #include "ingest/files/json_kind.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 using nlohmann::json;
@@ -57,4 +57,4 @@ bool is_cityjson(const InputFile& file) {
   return finder.is_cityjson;
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

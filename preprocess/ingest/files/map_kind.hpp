@@ -4,7 +4,7 @@
 
 #include "ingest/files/input_file.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// What GDAL takes a file, or a folder, for.
 enum class MapKind { unknown, features, raster };
@@ -13,4 +13,4 @@ enum class MapKind { unknown, features, raster };
 /// on the map: a photograph is none.
 [[nodiscard]] MapKind map_kind_of(const InputFile& file);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

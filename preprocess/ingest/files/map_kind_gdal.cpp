@@ -8,7 +8,7 @@
 #include "gdal/gdal_errors.hpp"
 #include "ingest/files/map_kind.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 bool is_known(const InputFile& file, unsigned int kind) {
@@ -31,4 +31,4 @@ MapKind map_kind_of(const InputFile& file) {
   return is_known(file, GDAL_OF_RASTER) && lies_on_the_map(file) ? MapKind::raster : MapKind::unknown;
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <system_error>
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 // The format is described in APPNOTE.TXT of PKWARE: 4.3.16 the end of the list, 4.3.12 its entries
@@ -74,4 +74,4 @@ bool leads_outside(std::string_view name) {
   return false;
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

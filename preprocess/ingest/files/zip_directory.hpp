@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// A file as the list at the end of a zip archive names it.
 struct ZipListing {
@@ -24,4 +24,4 @@ struct ZipListing {
 /// Whether a name leads out of the archive that it is in: absolute, with a drive, or with `..`.
 [[nodiscard]] bool leads_outside(std::string_view name);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -7,7 +7,7 @@
 
 #include "ingest/files/input_file.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// The files in a zip archive, by name; nothing is unpacked for that, and nothing is ever written. Names that lead out of the
 /// archive (leads_outside) are not among them, and links are files that hold the name of another, which is not followed.
@@ -15,4 +15,4 @@ namespace farlod {
 /// most_unpacked_bytes.
 [[nodiscard]] std::vector<InputFile> files_in_zip(const std::filesystem::path& archive);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

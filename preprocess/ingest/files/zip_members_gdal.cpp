@@ -10,7 +10,7 @@
 #include "ingest/files/zip_directory.hpp"
 #include "ingest/files/zip_members.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 namespace fs = std::filesystem;
@@ -62,4 +62,4 @@ std::vector<InputFile> files_in_zip(const fs::path& archive) {
   return files;
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

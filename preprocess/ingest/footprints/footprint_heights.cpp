@@ -13,7 +13,7 @@
 #include "farlod/expects.hpp"
 #include "ingest/footprints/height_text.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 /// Names under which tables give heights above the ground, most telling first.
@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 16> storeys_names{
     "building:levels", "levels",      "num_floors",         "numfloors", "number_of_floors", "floors",    "storeys",
     "stories",         "num_storeys", "storeysaboveground", "nb_etages", "nombre_d_etages",  "geschosse", "anzahl_geschosse",
     "plantas",         "pisos"};
-/// How far above the ground a part begins that hangs: an arch, a skyway.
+/// Height above the ground at which a floating part begins: an arch, a skyway.
 constexpr std::array<std::string_view, 2> lowest_height_names{"min_height", "building:min_height"};
 /// A plain `min_level` counts storeys within, and in America the ground is 1.
 constexpr std::array<std::string_view, 1> lowest_storeys_names{"building:min_level"};
@@ -87,7 +87,7 @@ Unraised no_elevation(const std::string& said) {
 
 }  // namespace
 
-FootprintHeights::FootprintHeights(std::vector<std::string> field_names, const IngestSettings& settings)
+FootprintHeights::FootprintHeights(std::vector<std::string> field_names, const FootprintSettings& settings)
     : names_(std::move(field_names)),
       default_height_m_(settings.default_height_m),
       floor_height_m_(settings.floor_height_m),
@@ -179,4 +179,4 @@ std::variant<PrismExtent, Unraised> FootprintHeights::of(const FieldLookup& valu
   return Unraised{ProblemCode::no_height, what_they_say(asked, value_of)};
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

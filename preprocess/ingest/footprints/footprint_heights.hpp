@@ -10,9 +10,9 @@
 
 #include "city/city_model.hpp"
 #include "city/problem.hpp"
-#include "ingest/ingest_settings.hpp"
+#include "ingest/footprints/footprint_settings.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// How far below its roof a building ends of which only the elevation of the roof is known, until the ground is known.
 inline constexpr double provisional_height_m = 1.0;
@@ -35,7 +35,7 @@ enum class HeightSource {
 /// From where to where a footprint is raised.
 struct PrismExtent {
   double base_m = 0.0, top_m = 0.0;
-  HeightReference footing = HeightReference::on_ground;
+  HeightReference height_reference = HeightReference::on_ground;
   HeightSource source = HeightSource::measured;
 };
 
@@ -54,7 +54,7 @@ struct Unraised {
 class FootprintHeights {
  public:
   /// Fields that the settings ask for are among the names.
-  FootprintHeights(std::vector<std::string> field_names, const IngestSettings& settings);
+  FootprintHeights(std::vector<std::string> field_names, const FootprintSettings& settings);
 
   /// Whether features can say how high they are at all.
   [[nodiscard]] bool can_tell() const;
@@ -81,4 +81,4 @@ class FootprintHeights {
   std::vector<std::size_t> roof_, base_, heights_, storeys_, lowest_heights_, lowest_storeys_;
 };
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -13,12 +13,12 @@
 #include "city/input_error.hpp"
 #include "farlod/angle.hpp"
 #include "gdal/gdal_errors.hpp"
-#include "ingest/city_writer.hpp"
 #include "ingest/footprints/footprint_heights.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
 #include "ingest/footprints/height_text.hpp"
+#include "ingest/model_builder/city_model_builder.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 constexpr std::array<const char*, 10> id_field_names{"gml_id",      "@id", "id",         "osm_id",   "osm_way_id",
@@ -126,13 +126,13 @@ void flatten(Rings& rings) {
 
 class FootprintLayer {
  public:
-  FootprintLayer(OGRLayer& layer, const IngestSettings& settings, CityWriter& writer)
-      : layer_(layer), writer_(writer), heights_(field_names(), with_fields_checked(settings)) {
+  FootprintLayer(OGRLayer& layer, const FootprintSettings& settings, CityModelBuilder& builder)
+      : layer_(layer), builder_(builder), heights_(field_names(), with_fields_checked(settings)) {
     for (const char* name : id_field_names)
       if (const int field = index_of(name); field >= 0) id_fields_.push_back(field);
     holds_bodies_ = find_bodies();
     if (!holds_bodies_ && !heights_.can_tell())
-      throw InputError(writer_.source() + " does not say how high its footprints are: " + numeric_fields(layer_) +
+      throw InputError(builder_.source() + " does not say how high its footprints are: " + numeric_fields(layer_) +
                        ". Name the field with --height-field or --storeys-field, or give all one --default-height.");
   }
 
@@ -149,10 +149,10 @@ class FootprintLayer {
   [[nodiscard]] std::vector<std::string> notes(double floor_height_m) const {
     std::vector<std::string> notes;
     std::ostringstream storeys;
-    storeys << writer_.source() << ": " << raised_by_storeys_ << " heights are storeys of " << floor_height_m << " m";
+    storeys << builder_.source() << ": " << raised_by_storeys_ << " heights are storeys of " << floor_height_m << " m";
     if (raised_by_storeys_ > 0) notes.push_back(std::move(storeys).str());
     if (raised_by_default_ > 0)
-      notes.push_back(writer_.source() + ": " + std::to_string(raised_by_default_) + " heights are the default height");
+      notes.push_back(builder_.source() + ": " + std::to_string(raised_by_default_) + " heights are the default height");
     return notes;
   }
 
@@ -169,7 +169,7 @@ class FootprintLayer {
     return names;
   }
 
-  const IngestSettings& with_fields_checked(const IngestSettings& settings) {
+  const FootprintSettings& with_fields_checked(const FootprintSettings& settings) {
     check_field(settings.height_field, "--height-field");
     check_field(settings.base_field, "--base-field");
     check_field(settings.storeys_field, "--storeys-field");
@@ -179,8 +179,8 @@ class FootprintLayer {
 
   void check_field(const std::optional<std::string>& name, const char* option) {
     if (!name || index_of(name->c_str()) >= 0) return;
-    throw InputError(writer_.source() + " has no field \"" + *name + "\" (" + numeric_fields(layer_) + "). Give one of them as " +
-                     option + ".");
+    throw InputError(builder_.source() + " has no field \"" + *name + "\" (" + numeric_fields(layer_) +
+                     "). Give one of them as " + option + ".");
   }
 
   bool find_bodies() {
@@ -199,50 +199,50 @@ class FootprintLayer {
 
   void report(GdalErrors& messages, const std::string& place) {
     for (std::string& message : messages.take())
-      writer_.add_problem_at(place, ProblemCode::malformed_feature, std::move(message));
+      builder_.add_problem_at(place, ProblemCode::malformed_feature, std::move(message));
   }
 
   void read_feature(const OGRFeature& feature) {
     const std::string id = id_of(feature);
     const OGRGeometry* geometry = feature.GetGeometryRef();
     if (geometry == nullptr || geometry->IsEmpty()) {
-      writer_.add_problem_at(id, ProblemCode::no_geometry, "the feature has no geometry");
+      builder_.add_problem_at(id, ProblemCode::no_geometry, "the feature has no geometry");
       return;
     }
     Areas areas = areas_of(*geometry);
     if (areas.holds_others)
-      writer_.add_problem_at(id, ProblemCode::not_an_area, std::string("it is, or holds, a ") + geometry->getGeometryName(),
-                             middle_of(*geometry));
+      builder_.add_problem_at(id, ProblemCode::not_an_area, std::string("it is, or holds, a ") + geometry->getGeometryName(),
+                              middle_of(*geometry));
     if (areas.polygons.empty()) return;
     if (holds_bodies_)
-      write_body(id, areas.polygons);
+      add_body(id, areas.polygons);
     else if (areas.is_body)
-      writer_.add_problem_at(id, ProblemCode::unsupported_geometry, "a body in space among footprints is not read",
-                             first_readable(areas.polygons.front()));
+      builder_.add_problem_at(id, ProblemCode::unsupported_geometry, "a body in space among footprints is not read",
+                              first_readable(areas.polygons.front()));
     else
       raise(feature, id, areas.polygons);
   }
 
-  void write_body(const std::string& id, std::vector<Rings>& polygons) {
-    writer_.begin_building(id);
-    for (Rings& rings : polygons) writer_.add_polygon(rings, RingEnd::repeats_first, {});
-    writer_.end_building("none of its polygons is usable");
+  void add_body(const std::string& id, std::vector<Rings>& polygons) {
+    builder_.begin_building(id);
+    for (Rings& rings : polygons) builder_.add_polygon(rings, RingEnd::repeats_first, {});
+    builder_.end_building("none of its polygons is usable");
   }
 
   void raise(const OGRFeature& feature, const std::string& id, std::vector<Rings>& polygons) {
     for (Rings& rings : polygons) flatten(rings);
     const auto answer = heights_.of([&](std::size_t field) { return value_of(feature, static_cast<int>(field)); });
     if (const auto* reason = std::get_if<Unraised>(&answer)) {
-      writer_.add_problem_at(id, reason->code, reason->detail, first_readable(polygons.front()));
+      builder_.add_problem_at(id, reason->code, reason->detail, first_readable(polygons.front()));
       return;
     }
     const auto& extent = std::get<PrismExtent>(answer);
     raised_by_storeys_ += extent.source == HeightSource::storeys ? 1 : 0;
     raised_by_default_ += extent.source == HeightSource::default_height ? 1 : 0;
-    writer_.begin_building(id, extent.footing);
+    builder_.begin_building(id, extent.height_reference);
     for (std::size_t part = 0; part < polygons.size(); ++part)
-      writer_.add_prism(polygons[part], RingEnd::repeats_first, extent.base_m, extent.top_m, static_cast<std::uint16_t>(part));
-    writer_.end_building("none of its rings is usable");
+      builder_.add_prism(polygons[part], RingEnd::repeats_first, extent.base_m, extent.top_m, static_cast<std::uint16_t>(part));
+    builder_.end_building("none of its rings is usable");
   }
 
   /// What a polygon's plan has to be multiplied with to be in the unit of its heights, near enough to tell a wall from a floor.
@@ -278,7 +278,7 @@ class FootprintLayer {
   }
 
   OGRLayer& layer_;
-  CityWriter& writer_;
+  CityModelBuilder& builder_;
   FootprintHeights heights_;
   std::vector<int> id_fields_;
   bool holds_bodies_ = false;
@@ -286,7 +286,7 @@ class FootprintLayer {
 };
 
 /// The first layer of areas, by preference one that has the height field asked for.
-OGRLayer* choose_layer(GDALDataset& dataset, const IngestSettings& settings) {
+OGRLayer* choose_layer(GDALDataset& dataset, const FootprintSettings& settings) {
   OGRLayer* first = nullptr;
   for (OGRLayer* layer : dataset.GetLayers()) {
     if (!holds_areas(*layer)) continue;
@@ -297,11 +297,11 @@ OGRLayer* choose_layer(GDALDataset& dataset, const IngestSettings& settings) {
   return first;
 }
 
-void report_other_layers(GDALDataset& dataset, OGRLayer* chosen, CityWriter& writer) {
+void report_other_layers(GDALDataset& dataset, OGRLayer* chosen, CityModelBuilder& builder) {
   for (OGRLayer* layer : dataset.GetLayers())
     if (layer != chosen)
-      writer.add_problem_at(std::string("layer ") + layer->GetName(), ProblemCode::unsupported_geometry,
-                            std::string("only one layer of a file is read, and that is ") + chosen->GetName());
+      builder.add_problem_at(std::string("layer ") + layer->GetName(), ProblemCode::unsupported_geometry,
+                             std::string("only one layer of a file is read, and that is ") + chosen->GetName());
 }
 
 GDALDatasetUniquePtr open(const InputFile& file, GdalErrors& messages) {
@@ -320,20 +320,20 @@ GDALDatasetUniquePtr open(const InputFile& file, GdalErrors& messages) {
 
 }  // namespace
 
-SourceCity read_footprints(const InputFile& file, const IngestSettings& settings, Report& report) {
+SourceCity read_footprints(const InputFile& file, const FootprintSettings& settings, Report& report) {
   GdalErrors messages;
   const GDALDatasetUniquePtr dataset = open(file, messages);
   OGRLayer* layer = choose_layer(*dataset, settings);
   if (layer == nullptr) throw InputError(file.name + " holds no layer of polygons: footprints are areas.");
-  CityWriter writer(file.name, report);
-  report_other_layers(*dataset, layer, writer);
-  FootprintLayer footprints(*layer, settings, writer);
+  CityModelBuilder builder(file.name, report);
+  report_other_layers(*dataset, layer, builder);
+  FootprintLayer footprints(*layer, settings, builder);
   footprints.read(messages);
   // Attributes are in metres; elevations of vertices are in the unit of the reference system
   return {.source = file.name,
           .crs = {wkt_of(*layer), true, !footprints.holds_bodies()},
-          .city = writer.take_city(),
+          .city = builder.take_city(),
           .notes = footprints.notes(settings.floor_height_m)};
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 constexpr double metres_in_a_foot = 0.3048;
@@ -68,4 +68,4 @@ std::optional<double> number_from(std::string_view text) {
   return text.empty() ? number : std::nullopt;
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// What a number without a unit counts.
 enum class LengthUnit { metre, foot };
@@ -19,4 +19,4 @@ enum class LengthUnit { metre, foot };
 /// The number that a text from an attribute table means: "3", "2.5", "2,5", "~3". Empty for anything else.
 [[nodiscard]] std::optional<double> number_from(std::string_view text);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// Union-find. The representative of a set is its smallest member, so that numbering never depends on the order of joins.
 class DisjointSets {
@@ -27,4 +27,4 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace farlod
+}  // namespace farlod::ingest

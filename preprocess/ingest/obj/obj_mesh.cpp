@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\v\f", byte_order_mark = "\xEF\xBB\xBF";
@@ -112,4 +112,4 @@ class ObjScanner {
 
 ObjMesh scan_obj(std::string_view text) { return ObjScanner().scan(text); }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

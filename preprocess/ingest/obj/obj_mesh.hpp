@@ -9,7 +9,7 @@
 
 #include "farlod/point.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 struct ObjFace {
   std::uint64_t first_corner = 0;
@@ -32,4 +32,4 @@ struct ObjMesh {
 /// Reads the text of an OBJ file; never fails. Knows comments, CRLF, tabs, continued lines and relative vertex numbers.
 [[nodiscard]] ObjMesh scan_obj(std::string_view text);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

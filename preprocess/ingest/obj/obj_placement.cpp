@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string_view>
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 /// What is longer is not one of these small files.
@@ -140,4 +140,4 @@ std::vector<std::string> notes_of(const ObjPlacement& placement, const InputFile
   return notes;
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

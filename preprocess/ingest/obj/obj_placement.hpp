@@ -9,7 +9,7 @@
 #include "farlod/point.hpp"
 #include "ingest/files/input_file.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// Where an OBJ file lies on the map. The format has no place for it; by custom small files beside it tell.
 struct ObjPlacement {
@@ -29,4 +29,4 @@ struct ObjPlacement {
 /// What the user is told of it. `has_origin`: one was given, and holds.
 [[nodiscard]] std::vector<std::string> notes_of(const ObjPlacement& placement, const InputFile& file, bool has_origin);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

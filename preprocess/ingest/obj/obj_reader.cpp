@@ -10,7 +10,7 @@
 #include "ingest/obj/obj_mesh.hpp"
 #include "ingest/obj/planar_faces.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 /// The faces of each building, in the order of the file.
@@ -78,19 +78,20 @@ FacesByBuilding group_faces(const ObjMesh& mesh) {
 
 class ObjBuildings {
  public:
-  ObjBuildings(const ObjMesh& mesh, const ObjFrame& frame, CityWriter& writer) : mesh_(mesh), frame_(frame), writer_(writer) {}
+  ObjBuildings(const ObjMesh& mesh, const ObjFrame& frame, CityModelBuilder& builder)
+      : mesh_(mesh), frame_(frame), builder_(builder) {}
 
-  void write(const std::string& id, std::span<const std::uint32_t> faces) {
-    writer_.begin_building(id);
+  void add(const std::string& id, std::span<const std::uint32_t> faces) {
+    builder_.begin_building(id);
     gather(faces);
     const std::vector<std::uint32_t> surface = number_planar_faces(corners_);
     for (std::size_t k = 0; k < corners_.face_count(); ++k) {
       const std::string name = "of line " + std::to_string(mesh_.faces[kept_[k]].line);
       rings_.resize(1);
       rings_[0].assign(corners_.face(k).begin(), corners_.face(k).end());
-      writer_.add_polygon(rings_, RingEnd::implied, {.kind = SurfaceKind::unknown, .surface = surface[k], .name = name});
+      builder_.add_polygon(rings_, RingEnd::implied, {.kind = SurfaceKind::unknown, .surface = surface[k], .name = name});
     }
-    writer_.end_building("none of its faces is usable");
+    builder_.end_building("none of its faces is usable");
   }
 
  private:
@@ -101,10 +102,10 @@ class ObjBuildings {
       const ObjFace& face = mesh_.faces[f];
       const auto numbers = std::span(mesh_.corners).subspan(face.first_corner, face.corner_count);
       if (!std::all_of(numbers.begin(), numbers.end(), [&](std::int64_t corner) { return is_in_range(mesh_, corner); })) {
-        writer_.add_problem(ProblemCode::vertex_index_out_of_range,
-                            "the face of line " + std::to_string(face.line) + " names a vertex that is not among the " +
-                                std::to_string(mesh_.vertices.size()) + " of the file",
-                            {}, "polygon of line " + std::to_string(face.line) + ", ring 0 (outer)");
+        builder_.add_problem(ProblemCode::vertex_index_out_of_range,
+                             "the face of line " + std::to_string(face.line) + " names a vertex that is not among the " +
+                                 std::to_string(mesh_.vertices.size()) + " of the file",
+                             {}, "polygon of line " + std::to_string(face.line) + ", ring 0 (outer)");
         continue;
       }
       for (const std::int64_t corner : numbers)
@@ -118,34 +119,34 @@ class ObjBuildings {
 
   const ObjMesh& mesh_;
   const ObjFrame frame_;
-  CityWriter& writer_;
+  CityModelBuilder& builder_;
   FaceCorners corners_;
   std::vector<std::uint32_t> kept_;
   Rings rings_;
 };
 
-void report_unread(const ObjMesh& mesh, CityWriter& writer) {
+void report_unread(const ObjMesh& mesh, CityModelBuilder& builder) {
   for (const std::uint64_t line : mesh.malformed_lines)
-    writer.add_problem_at("line " + std::to_string(line), ProblemCode::malformed_feature,
-                          "a face's corners are not vertex numbers");
+    builder.add_problem_at("line " + std::to_string(line), ProblemCode::malformed_feature,
+                           "a face's corners are not vertex numbers");
   if (mesh.unread_elements > 0)
-    writer.add_problem_at(
+    builder.add_problem_at(
         "line " + std::to_string(mesh.first_unread_line), ProblemCode::unsupported_geometry,
         std::to_string(mesh.unread_elements) + " points, lines or curved surfaces from here on; only faces (f) are read");
 }
 
 }  // namespace
 
-void read_obj(const InputFile& file, const ObjFrame& frame, CityWriter& writer) {
+void read_obj(const InputFile& file, const ObjFrame& frame, CityModelBuilder& builder) {
   const ObjMesh mesh = scan_obj(read_whole(file));
-  report_unread(mesh, writer);
+  report_unread(mesh, builder);
   if (mesh.faces.empty())
     throw InputError(file.name + " holds " + std::to_string(mesh.vertices.size()) +
                      " vertices and no face: it is not an OBJ file, or it is a point cloud. Export it as a polygon mesh.");
   const FacesByBuilding sorted = group_faces(mesh);
-  ObjBuildings buildings(mesh, frame, writer);
+  ObjBuildings buildings(mesh, frame, builder);
   for (std::size_t b = 0; b < sorted.ids.size(); ++b)
-    buildings.write(sorted.ids[b], std::span(sorted.faces).subspan(sorted.begin[b], sorted.begin[b + 1] - sorted.begin[b]));
+    buildings.add(sorted.ids[b], std::span(sorted.faces).subspan(sorted.begin[b], sorted.begin[b + 1] - sorted.begin[b]));
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

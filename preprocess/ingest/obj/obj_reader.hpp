@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "ingest/city_writer.hpp"
 #include "ingest/files/input_file.hpp"
-#include "ingest/ingest_settings.hpp"
+#include "ingest/model_builder/city_model_builder.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
+
+/// Which axis of an OBJ file points upwards.
+enum class UpAxis { z, y };
 
 /// How the coordinates of a mesh lie in its CRS.
 struct ObjFrame {
@@ -14,9 +16,9 @@ struct ObjFrame {
   UpAxis up = UpAxis::z;
 };
 
-/// Reads an OBJ file. Each group (`g`) is a building, or each object (`o`) where it has more than one; without either, what
-/// hangs together. A name that comes again starts another building. Coplanar neighbors share a surface number. Throws InputError
-/// when there are no faces.
-void read_obj(const InputFile& file, const ObjFrame& frame, CityWriter& writer);
+/// Reads an OBJ file. Each group (`g`) is a building, or each object (`o`) where it has more than one; without either, each
+/// connected component. A name that comes again starts another building. Coplanar neighbors share a surface number. Throws
+/// InputError when there are no faces.
+void read_obj(const InputFile& file, const ObjFrame& frame, CityModelBuilder& builder);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

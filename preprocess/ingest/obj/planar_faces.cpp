@@ -11,7 +11,7 @@
 
 #include "ingest/obj/disjoint_sets.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 struct Edge {
@@ -115,8 +115,7 @@ class PlanarFaces {
   template <class Use>
   void for_each_pair(Use use) {
     for (std::size_t i = 0; i < edges_.size(); ++i)
-      for (std::size_t j = i + 1; j < edges_.size() && j <= i + most_neighbors_at_an_edge && edges_[i].same_place(edges_[j]);
-           ++j)
+      for (std::size_t j = i + 1; j < edges_.size() && j <= i + most_neighbors_at_an_edge && edges_[i].same_place(edges_[j]); ++j)
         if (edges_[i].face != edges_[j].face) use(edges_[i], edges_[j]);
   }
 
@@ -164,4 +163,4 @@ std::vector<std::uint32_t> weld(std::span<const Point3d> points) {
 
 std::vector<std::uint32_t> number_planar_faces(const FaceCorners& mesh) { return PlanarFaces(mesh).numbers(); }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

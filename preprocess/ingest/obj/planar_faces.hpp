@@ -8,7 +8,7 @@
 
 #include "farlod/point.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// Exporters of meshes round coordinates to the millimetre.
 inline constexpr double coordinate_rounding_m = 1e-3;
@@ -38,4 +38,4 @@ struct FaceCorners {
 ///   (2) A face thinner than rounding has no plane: it joins one neighbor, and never links two.
 [[nodiscard]] std::vector<std::uint32_t> number_planar_faces(const FaceCorners& mesh);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

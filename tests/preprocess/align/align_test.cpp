@@ -7,7 +7,7 @@
 #include "city/input_error.hpp"
 #include "tests/preprocess/align/extruded_town.hpp"
 
-namespace farlod {
+namespace farlod::align {
 namespace {
 
 using testing::HasSubstr;
@@ -106,4 +106,4 @@ TEST(GridOver, CoversARectangleAtAnyBearing) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::align

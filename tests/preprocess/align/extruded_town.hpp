@@ -11,7 +11,7 @@
 #include "city/city_model.hpp"
 #include "farlod/angle.hpp"
 
-namespace farlod {
+namespace farlod::align {
 
 /// How a wall comes out of a file.
 enum class WallCut { whole, rising_diagonal, falling_diagonal };
@@ -61,4 +61,4 @@ inline void add_round(CityModel& city, int sides) {
   add_extruded(city, ring, 10.0);
 }
 
-}  // namespace farlod
+}  // namespace farlod::align

@@ -11,7 +11,7 @@
 #include "georeference/georeference.hpp"
 #include "tests/preprocess/align/extruded_town.hpp"
 
-namespace farlod {
+namespace farlod::align {
 namespace {
 
 using Json = nlohmann::json;
@@ -38,7 +38,7 @@ LocatedCity read_footprints(const std::filesystem::path& path) {
   std::vector<SourceCity> sources;
   sources.push_back(std::move(source));
   Report report;
-  return georeference(std::move(sources), {}, report);
+  return georeference::georeference(std::move(sources), {}, report);
 }
 
 std::filesystem::path shared(const std::string& name) { return std::string(FARLOD_SHARED_DATA_DIR) + "/" + name; }
@@ -66,4 +66,4 @@ TEST(RealStreets, OmiyaIsWeakerThanManhattan) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::align

@@ -10,7 +10,7 @@
 
 #include "tests/preprocess/align/extruded_town.hpp"
 
-namespace farlod {
+namespace farlod::align {
 namespace {
 
 /// Directions of walls of 12 m between coordinates below 1,024 m, whose last bit is 1.2e-13 m, and sums of 400 of them.
@@ -160,4 +160,4 @@ TEST(StreetAlignment, DoesNotDependOnOrder) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::align

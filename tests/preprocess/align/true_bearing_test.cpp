@@ -9,7 +9,7 @@
 #include "georeference/georeference.hpp"
 #include "tests/preprocess/align/extruded_town.hpp"
 
-namespace farlod {
+namespace farlod::align {
 namespace {
 
 /// A town of 450 m by 150 m in Queens, in the metric CRS of Long Island.
@@ -25,7 +25,7 @@ double true_bearing_deg(const std::string& out_crs) {
   std::vector<SourceCity> sources;
   sources.push_back(town_in_queens());
   Report report;
-  const LocatedCity located = georeference(std::move(sources), {"", out_crs}, report);
+  const LocatedCity located = georeference::georeference(std::move(sources), {"", out_crs}, report);
   return (street_alignment(located.city).bearing + located.georeference.convergence).degrees();
 }
 
@@ -39,4 +39,4 @@ TEST(TrueBearing, IsTheSameOnEveryMap) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::align

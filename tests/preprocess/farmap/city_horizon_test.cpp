@@ -29,7 +29,7 @@ Town small_town(Assign assign = Assign::clip, bool overhangs = true) {
   const CityModel city = scenes::generated_town(settings);
   Report ignored;
   const Grid grid = scenes::grid_covering(city, Angle::degrees(17), 40, 3);
-  return {grid, cut_into_tiles({city, {}}, grid, assign, {}, ignored)};
+  return {grid, tiles::cut_into_tiles({city, {}}, grid, assign, {}, ignored)};
 }
 
 /// Calls `visit` for each leaf below a node, itself perhaps.

@@ -64,7 +64,7 @@ Baked bake(const Town& town, const HorizonMapSettings& settings = {}) {
   Report ignored;
   Baked baked;
   baked.grid = scenes::grid_covering(city, Angle::degrees(4), town.cell_edge_m, town.neighborhood, 5);
-  baked.tiles = cut_into_tiles({city, {}}, baked.grid, town.assign, {}, ignored);
+  baked.tiles = tiles::cut_into_tiles({city, {}}, baked.grid, town.assign, {}, ignored);
   const Block middle = baked.grid.block_of(baked.grid.cell_of({0, 0}));
   baked.cells = baked.grid.cells_of(middle);
   baked.block = HorizonMapBaker(baked.tiles, baked.grid, settings).bake(middle);
@@ -118,7 +118,7 @@ TEST_P(HorizonMaps, AllThatIsNotNamedAndDoesNotFaceAwayLiesBelowUpper) {
 
 /// The horizon that things make which are grounded and not named.
 double residual_ground(const std::vector<test::FarThing>& things, const std::set<test::FarThing>& names, const Point3d& eye,
-                      double azimuth) {
+                       double azimuth) {
   double horizon = 0.0;
   for (const test::FarThing& thing : things)
     if (thing.role == EdgeRole::grounded && !names.contains(thing))
@@ -196,7 +196,7 @@ constexpr double average_rounding = 4.0 * std::numeric_limits<float>::epsilon();
 
 /// What the corners of a patch's floor see at one azimuth.
 struct CornerView {
-  double residual = 0.0;   ///< slope, the average of the corners
+  double residual = 0.0;  ///< slope, the average of the corners
   double left_out = 0.0;  ///< by how much that may be less, if what is nearly hidden is not looked at
   bool names_nothing = true;
 };
@@ -288,7 +288,7 @@ float highest_overhang(double tower_foot_m) {
   scene.add_box({{1520, -400}, {1560, 400}}, tower_foot_m, 200.0);
   Report ignored;
   const Grid grid = scenes::grid_covering(scene.city(), {}, 50, 1);
-  const TileSet tiles = cut_into_tiles({scene.city(), {}}, grid, Assign::clip, {}, ignored);
+  const TileSet tiles = tiles::cut_into_tiles({scene.city(), {}}, grid, Assign::clip, {}, ignored);
   const BakedHorizons maps = HorizonMapBaker(tiles, grid, {}).bake(grid.block_of({0, 0}));
   const BakedHorizon& map = maps.cells.at(grid.cells_of(grid.block_of({0, 0})).index_of({0, 0}));
   return *std::max_element(map.overhang.begin(), map.overhang.end());
@@ -306,7 +306,7 @@ TEST(HorizonMapBaker, WhereNothingRisesNothingIsNamed) {
   scene.add_box({{400, 400}, {405, 405}}, 0.0, 3.0);
   Report ignored;
   const Grid grid = scenes::grid_covering(scene.city(), {}, 50, 3);
-  const TileSet tiles = cut_into_tiles({scene.city(), {}}, grid, Assign::clip, {}, ignored);
+  const TileSet tiles = tiles::cut_into_tiles({scene.city(), {}}, grid, Assign::clip, {}, ignored);
   const BakedHorizons maps = HorizonMapBaker(tiles, grid, {}).bake({0, 0});
   const BakedHorizon& far_away = maps.cells.at(grid.cells_of({0, 0}).index_of({4, 4}));
   EXPECT_TRUE(far_away.explicit_edges.empty());

@@ -7,7 +7,7 @@
 #include <ostream>
 #include <string>
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 struct Naming {
@@ -138,4 +138,4 @@ TEST(CrsDefinition, ShowsNoEndlessNestingToProj) {
 TEST(CrsDefinition, SurvivesALongText) { EXPECT_FALSE(parse_crs_definition(std::string(1'000'000, 'E')).has_value()); }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::georeference

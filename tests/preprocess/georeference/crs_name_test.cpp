@@ -6,7 +6,7 @@
 
 #include <map>
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 TEST(CrsName, IsThatOfTheRegister) {
@@ -47,4 +47,4 @@ TEST(CrsName, MeansNothingWhenSeveralWouldDo) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::georeference

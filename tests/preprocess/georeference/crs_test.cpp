@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 constexpr double us_survey_foot_m = 1200.0 / 3937.0;
@@ -206,4 +206,4 @@ TEST(CrsTransformation, KeepsTheShiftThatOldDefinitionsCarry) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 TEST(FileAxes, LeadToTheMapAndBack) {
@@ -19,4 +19,4 @@ TEST(FileAxes, LeadToTheMapAndBack) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::georeference

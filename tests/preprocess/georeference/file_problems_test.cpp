@@ -7,7 +7,7 @@
 #include "georeference/georeference.hpp"
 #include "tests/preprocess/georeference/small_source.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 using testing::AllOf;
@@ -258,4 +258,4 @@ TEST(GivenCrs, IsInTheReportOfARunThatEnds) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::georeference

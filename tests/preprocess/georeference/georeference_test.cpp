@@ -12,7 +12,7 @@
 #include "georeference/crs.hpp"
 #include "tests/preprocess/georeference/small_source.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 using testing::AllOf;
@@ -255,7 +255,7 @@ TEST(Georeference, KeepsAllOfABuilding) {
   Report report;
   const CityModel city = georeference(std::move(sources), {}, report).city;
   ASSERT_EQ(city.buildings().size(), 1u);
-  EXPECT_EQ(city.buildings()[0].footing, HeightReference::on_ground);
+  EXPECT_EQ(city.buildings()[0].height_reference, HeightReference::on_ground);
   ASSERT_EQ(city.facets().size(), 1u);
   EXPECT_EQ(city.facets()[0].kind, SurfaceKind::roof);
   EXPECT_EQ(city.facets()[0].surface, 7u);
@@ -274,4 +274,4 @@ TEST(Georeference, StatesTheConvergence) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -15,18 +15,21 @@
 #include "tests/preprocess/georeference/small_source.hpp"
 #include "tests/preprocess/ingest/reading.hpp"
 
-namespace farlod::test {
+namespace farlod::georeference::test {
 namespace {
+
+using ingest::test::shared_data;
+using ingest::test::write_file;
 
 /// The values below are written to a tenth of a millimetre.
 constexpr double written_to_m = 0.5e-4;
 /// One rounding of a coordinate below 8,000 km, moved to the origin and back: two ulps.
 constexpr double rounding_m = 2.0 * 9.4e-10;
 
-LocatedCity locate(const std::filesystem::path& file, const IngestSettings& ingest_settings, const GeoreferenceSettings& settings,
-                   Report& report) {
+LocatedCity locate(const std::filesystem::path& file, const ingest::IngestSettings& ingest_settings,
+                   const GeoreferenceSettings& settings, Report& report) {
   std::vector<SourceCity> sources;
-  sources.push_back(ingest(file, ingest_settings, report));
+  sources.push_back(ingest::ingest(file, ingest_settings, report));
   return georeference(std::move(sources), settings, report);
 }
 
@@ -113,7 +116,7 @@ std::filesystem::path some_of_queens(std::size_t buildings, double factor) {
 
 LocatedCity locate_queens(const std::filesystem::path& file, const std::string& crs, const Point3d& origin,
                           const std::string& out_crs = "") {
-  IngestSettings settings;
+  ingest::IngestSettings settings;
   settings.obj_origin = origin;
   Report report;
   LocatedCity located = locate(file, settings, {crs, out_crs}, report);
@@ -174,8 +177,8 @@ TEST(KnownCorners, StayWhereTheyAreWhenFilesOfSeveralSystemsComeTogether) {
   Report report;
   std::vector<SourceCity> sources;
   // German metres first; Dutch metres on another ellipsoid into the same zone, 170 km away
-  sources.push_back(ingest(shared_data("nrw/LoD2_32_280_5657_1_NW.gml"), {}, report));
-  sources.push_back(ingest(shared_data("rotterdam/delfshaven.city.json"), {}, report));
+  sources.push_back(ingest::ingest(shared_data("nrw/LoD2_32_280_5657_1_NW.gml"), {}, report));
+  sources.push_back(ingest::ingest(shared_data("rotterdam/delfshaven.city.json"), {}, report));
   const LocatedCity both = georeference(std::move(sources), {}, report);
   EXPECT_EQ(both.georeference.epsg, 25832) << "the first file's";
   EXPECT_LT(distance_to(both, "DENW43AL00001j2W", {280928.215, 5657501.743}), 2.0 * rounding_m);
@@ -185,4 +188,4 @@ TEST(KnownCorners, StayWhereTheyAreWhenFilesOfSeveralSystemsComeTogether) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::georeference::test

@@ -6,7 +6,7 @@
 
 #include "georeference/misplaced_facets.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
@@ -90,4 +90,4 @@ TEST_F(MisplacedFacetsOf, ABuildingThatIsTornApartAreAllOfIt) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -7,7 +7,7 @@
 #include "georeference/georeference.hpp"
 #include "tests/preprocess/georeference/small_source.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 Problem problem_at(const std::string& source, std::optional<Point3d> position) {
@@ -71,4 +71,4 @@ TEST(Georeference, TellsWhereAStrayBuildingLiesInTheFilesOwnAxes) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -9,7 +9,7 @@
 #include "georeference/georeference.hpp"
 #include "tests/preprocess/georeference/small_source.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 using testing::AllOf;
@@ -98,4 +98,4 @@ TEST(Relief, MayBeOnePoint) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::georeference

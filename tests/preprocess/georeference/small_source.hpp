@@ -8,7 +8,7 @@
 
 #include "city/source.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 
 /// One triangle that stands for a building: enough to be put on a map.
 inline void add_building(CityModel& city, const std::string& id, const std::vector<Point3d>& ring) {
@@ -29,4 +29,4 @@ inline SourceCity source_with(const std::string& crs, const Point3d& first, doub
 /// About 10 m of latitude.
 inline constexpr double ten_metres_deg = 1e-4;
 
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -13,7 +13,7 @@
 #include "city/input_error.hpp"
 #include "georeference/output_crs.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 using testing::ElementsAre;
@@ -205,4 +205,4 @@ TEST_F(TerrainReader, ReadsTheSurfaceModelOfGothenburg) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::georeference

@@ -9,7 +9,7 @@
 
 #include "georeference/crs.hpp"
 
-namespace farlod {
+namespace farlod::georeference {
 namespace {
 
 constexpr Ellipsoid wgs84{6378137.0, 298.257223563};
@@ -83,4 +83,4 @@ TEST(Convergence, TurnsGridAzimuthsIntoTrueOnes) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::georeference

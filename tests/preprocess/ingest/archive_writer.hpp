@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 
 /// How zlib frames what it packs: a zip archive has its own frame around bare bytes.
 enum class PackedAs { bare = -MAX_WBITS, gzip = MAX_WBITS + 16 };
@@ -87,4 +87,4 @@ inline std::string zip_of(const std::vector<ZipEntry>& entries) {
   return files + list + end;
 }
 
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

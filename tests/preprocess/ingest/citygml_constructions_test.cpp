@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include "citygml_text.hpp"
+#include "tests/scenes/surface_count.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 const std::string outside = "<con:relationToConstruction>outside</con:relationToConstruction>";
@@ -83,7 +84,7 @@ TEST(CityGmlConstructions, LevelZeroOfVersion3IsToldByItsSurfaces) {
   const std::string wall = within("core:boundary con:WallSurface", surface("core:lod0MultiSurface", "w", "20"));
   const auto top_and_floor = [&](const std::string& content) {
     const Reading r = read_citygml_text(model_3(within("cityObjectMember bldg:Building", height + content)), LodChoice{0});
-    EXPECT_EQ(r.city().surface_count(), 5u);
+    EXPECT_EQ(surface_count(r.city()), 5u);
     return std::pair(heights(r.city()).front(), heights(r.city()).back());
   };
   EXPECT_EQ(top_and_floor(ground + wall), std::pair(7.0, 3.0));
@@ -106,4 +107,4 @@ TEST(CityGmlConstructions, TheSameHouseInAllThreeVersions) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

@@ -5,7 +5,7 @@
 #include "ingest/citygml/gml_references.hpp"
 #include "ingest/citygml/gml_surfaces_numbers.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 const std::string house = building(surface("bldg:lod1MultiSurface", "a", "1"));
@@ -233,4 +233,4 @@ TEST(CityGmlHostile, WordsThatAreNoNumbersAreNaN) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

@@ -3,7 +3,7 @@
 #include "citygml_text.hpp"
 #include "ingest/citygml/citygml_placement.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 const std::string matrix_turned = "0 -2 0 1  2 0 0 2  0 0 2 3  0 0 0 1";  // a quarter turn, twice as large, moved by 1, 2, 3
@@ -96,4 +96,4 @@ TEST(CityGmlPrototypes, NumbersWithinNumbersAreNone) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include "citygml_text.hpp"
+#include "tests/scenes/surface_count.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 std::string triangle(const std::string& z) { return within("gml:Triangle gml:exterior", ring(z)); }
@@ -71,10 +72,10 @@ TEST(CityGmlRelief, ARealFileHasHouseAndGround) {
   FARLOD_NEEDS_DATA("formats");
   Reading r;
   r.source = read_citygml(shared_data("formats/Building_LOD3-EPSG25832.gml"), {}, r.report);
-  EXPECT_EQ(r.city().surface_count(), 24u);
+  EXPECT_EQ(surface_count(r.city()), 24u);
   ASSERT_EQ(r.source.relief_points.size(), 27u) << "nine triangles";
   EXPECT_EQ(r.source.relief_points[2], (Point3d{458883, 5438362, 114}));
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

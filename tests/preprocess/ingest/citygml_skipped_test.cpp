@@ -4,7 +4,7 @@
 #include "city/input_error.hpp"
 #include "citygml_text.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 const std::string house = building(surface("bldg:lod1MultiSurface", "a", "1"));
@@ -67,4 +67,4 @@ TEST(CityGmlSkipped, AFileOfOtherThemesSaysWhatItHas) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include "citygml_text.hpp"
+#include "tests/scenes/surface_count.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 TEST(CityGml, ReadsRingsHolesAndTheReferenceSystem) {
@@ -129,7 +130,7 @@ TEST(CityGml, LevelZeroIsRaisedByTheMeasuredHeight) {
   IngestSettings settings;
   settings.lod.exactly = 0;
   const Reading r = read_text("a.gml", model(building(content)), settings);
-  EXPECT_EQ(r.city().surface_count(), 5u);
+  EXPECT_EQ(surface_count(r.city()), 5u);
   EXPECT_EQ(r.city().ring(r.city().facets().front(), 0)[0].z, 10.0);
   EXPECT_EQ(r.city().ring(r.city().facets().back(), 0)[0].z, 6.0);
 }
@@ -161,4 +162,4 @@ TEST(CityGml, OneByteEncodingsAreUnderstood) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

@@ -9,7 +9,7 @@
 #include "reading.hpp"
 
 /// Small CityGML files, put together from their parts.
-namespace farlod::test {
+namespace farlod::ingest::test {
 
 inline std::string model(const std::string& members) {
   return R"(<?xml version="1.0"?><CityModel xmlns="http://www.opengis.net/citygml/2.0" xmlns:gml="http://www.opengis.net/gml")"
@@ -81,4 +81,4 @@ inline Reading read_citygml_text(const std::string& text, LodChoice lod = {}) {
   return reading;
 }
 
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

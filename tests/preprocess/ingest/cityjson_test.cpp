@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "city/input_error.hpp"
 #include "reading.hpp"
+#include "tests/scenes/surface_count.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 const std::string head =
@@ -201,7 +202,7 @@ TEST(CityJson, LevelZeroIsRaisedByTheMeasuredHeight) {
   settings.lod.exactly = 0;
   const Reading r = read_text(
       "a.city.json", file_of(building(surface("0", "[[[0,1,2,3]]]"), R"(,"attributes":{"measuredHeight":5})")), settings);
-  EXPECT_EQ(r.city().surface_count(), 6u);
+  EXPECT_EQ(surface_count(r.city()), 6u);
   EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[0].z, 35.0);
 }
 
@@ -261,4 +262,4 @@ TEST(CityJson, TemplatesThatWouldFillTheMemoryAreRefused) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

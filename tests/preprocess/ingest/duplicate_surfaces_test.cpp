@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "ingest/city_writer.hpp"
+#include "ingest/model_builder/city_model_builder.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 const Ring square{{0, 0, 3}, {4, 0, 3}, {4, 4, 3}, {0, 4, 3}};
@@ -24,26 +24,26 @@ Ring reversed(Ring ring) {
 /// Facets of a building of two polygons.
 std::size_t facets_of(const Rings& a, const Rings& b, std::uint16_t part_of_b = 0) {
   Report report;
-  CityWriter writer("town.gml", report);
-  writer.begin_building("house");
+  CityModelBuilder builder("town.gml", report);
+  builder.begin_building("house");
   Rings first = a, second = b;
-  writer.add_polygon(first, RingEnd::implied, {.surface = {}, .name = {}});
-  writer.add_polygon(second, RingEnd::implied, {.part = part_of_b, .surface = {}, .name = {}});
-  writer.end_building();
-  return writer.take_city().facets().size();
+  builder.add_polygon(first, RingEnd::implied, {.surface = {}, .name = {}});
+  builder.add_polygon(second, RingEnd::implied, {.part = part_of_b, .surface = {}, .name = {}});
+  builder.end_building();
+  return builder.take_city().facets().size();
 }
 
 TEST(DuplicateSurfaces, AreLeftOutWhereverTheirRingsBegin) {
   for (std::ptrdiff_t by = 0; by < 4; ++by) {
     Report report;
-    CityWriter writer("town.gml", report);
-    writer.begin_building("house");
+    CityModelBuilder builder("town.gml", report);
+    builder.begin_building("house");
     for (const Ring& ring : {square, turned(square, by)}) {
       Rings rings{ring};
-      writer.add_polygon(rings, RingEnd::implied, {.surface = {}, .name = {}});
+      builder.add_polygon(rings, RingEnd::implied, {.surface = {}, .name = {}});
     }
-    writer.end_building();
-    EXPECT_EQ(writer.take_city().facets().size(), 1U) << by;
+    builder.end_building();
+    EXPECT_EQ(builder.take_city().facets().size(), 1U) << by;
     ASSERT_EQ(report.problems().size(), 1U);
     const Problem& problem = report.problems()[0];
     EXPECT_EQ(problem.code, ProblemCode::duplicate_surface);
@@ -70,16 +70,16 @@ TEST(DuplicateSurfaces, TheTwoZerosAreOne) {
 
 TEST(DuplicateSurfaces, AreOnlySoughtWithinABuilding) {
   Report report;
-  CityWriter writer("town.gml", report);
+  CityModelBuilder builder("town.gml", report);
   for (const char* id : {"left", "right"}) {
     Rings rings{square};
-    writer.begin_building(id);
-    writer.add_polygon(rings, RingEnd::implied, {.surface = {}, .name = {}});
-    writer.end_building();
+    builder.begin_building(id);
+    builder.add_polygon(rings, RingEnd::implied, {.surface = {}, .name = {}});
+    builder.end_building();
   }
   EXPECT_TRUE(report.problems().empty());
-  EXPECT_EQ(writer.take_city().facets().size(), 2U);
+  EXPECT_EQ(builder.take_city().facets().size(), 2U);
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -5,7 +5,7 @@
 #include "reading.hpp"
 #include "small_cities.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 FileFormat format_of(const std::string& text) { return format_by_content(write_file("no_ending", text)); }
@@ -83,4 +83,4 @@ TEST(FileFormat, Utf16AndLeadingBlanksAreRead) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

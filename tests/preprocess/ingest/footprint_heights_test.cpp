@@ -10,7 +10,7 @@
 #include "city/height_limits.hpp"
 #include "ingest/footprints/height_text.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 constexpr double foot_m = 0.3048;
@@ -31,17 +31,17 @@ struct Feature {
     fields.push_back({name, {}});
     return *this;
   }
-  [[nodiscard]] std::variant<PrismExtent, Unraised> asked(const IngestSettings& settings = {}) const {
+  [[nodiscard]] std::variant<PrismExtent, Unraised> asked(const FootprintSettings& settings = {}) const {
     std::vector<std::string> names;
     for (const auto& [name, value] : fields) names.push_back(name);
     return FootprintHeights(names, settings).of([&](std::size_t field) { return fields[field].second; });
   }
-  [[nodiscard]] PrismExtent extent(const IngestSettings& settings = {}) const {
+  [[nodiscard]] PrismExtent extent(const FootprintSettings& settings = {}) const {
     const auto answer = asked(settings);
     EXPECT_TRUE(std::holds_alternative<PrismExtent>(answer)) << std::get<Unraised>(answer).detail;
     return std::get<PrismExtent>(answer);
   }
-  [[nodiscard]] Unraised reason(const IngestSettings& settings = {}) const {
+  [[nodiscard]] Unraised reason(const FootprintSettings& settings = {}) const {
     const auto answer = asked(settings);
     EXPECT_TRUE(std::holds_alternative<Unraised>(answer));
     return std::get<Unraised>(answer);
@@ -49,7 +49,7 @@ struct Feature {
 };
 
 TEST(FootprintHeights, AreTrustedInOneOrder) {
-  IngestSettings settings;
+  FootprintSettings settings;
   settings.height_field = "Survey";
   settings.storeys_field = "Flats";
   settings.default_height_m = 5.0;
@@ -75,7 +75,7 @@ TEST(FootprintHeights, ATextThatIsNoLengthSaysNothing) {
 }
 
 TEST(FootprintHeights, StoreysAreAsHighAsToldAndRoofLevelsAreNone) {
-  IngestSettings settings;
+  FootprintSettings settings;
   settings.floor_height_m = 3.5;
   EXPECT_EQ(Feature().text("Building:Levels", "4").text("roof:levels", "2").extent(settings).top_m, 14.0);
   EXPECT_FALSE(FootprintHeights({"roof:levels", "name"}, settings).can_tell());
@@ -83,7 +83,7 @@ TEST(FootprintHeights, StoreysAreAsHighAsToldAndRoofLevelsAreNone) {
 }
 
 TEST(FootprintHeights, AColumnsNameMayTellFeet) {
-  IngestSettings settings;
+  FootprintSettings settings;
   settings.height_field = "roof_FT";
   EXPECT_EQ(Feature().number("roof_ft", 100).extent(settings).top_m, 100 * foot_m);
   EXPECT_EQ(Feature().text("roof_ft", "100").extent(settings).top_m, 100 * foot_m);
@@ -97,29 +97,29 @@ TEST(FootprintHeights, APartThatHangsBeginsAboveItsBase) {
   const PrismExtent arch = Feature().number("height", 20).text("min_height", "12 m").extent();
   EXPECT_EQ(arch.base_m, 12.0);
   EXPECT_EQ(arch.top_m, 20.0);
-  EXPECT_EQ(arch.footing, HeightReference::on_ground);
+  EXPECT_EQ(arch.height_reference, HeightReference::on_ground);
   EXPECT_EQ(Feature().text("building:levels", "5").text("building:min_level", "4").extent().base_m, 12.0);
   EXPECT_EQ(Feature().text("building:levels", "5").text("min_level", "1").extent().base_m, 0.0);
   EXPECT_EQ(Feature().number("height", 9).number("min_height", -3).extent().base_m, 0.0);
   EXPECT_EQ(Feature().number("height", 9).number("min_height", 9).reason().code, ProblemCode::height_not_positive);
-  IngestSettings settings;
+  FootprintSettings settings;
   settings.base_field = "ground";
   EXPECT_EQ(Feature().number("height", 20).number("min_height", 12).number("ground", 100).extent(settings).base_m, 112.0);
 }
 
 TEST(FootprintHeights, ARoofsElevationCountsFromTheBaseOrReachesDown) {
-  IngestSettings settings;
+  FootprintSettings settings;
   settings.roof_field = "eaves";
   const PrismExtent free = Feature().number("eaves", 120).number("height", 7).extent(settings);
   EXPECT_EQ(free.top_m, 120.0);
   EXPECT_EQ(free.base_m, 120.0 - provisional_height_m);
-  EXPECT_EQ(free.footing, HeightReference::down_to_ground);
+  EXPECT_EQ(free.height_reference, HeightReference::down_to_ground);
   EXPECT_EQ(Feature().empty("eaves").number("height", 7).extent(settings).top_m, 7.0);
   settings.base_field = "ground";
   const PrismExtent held = Feature().number("eaves", 120).number("ground", 100).extent(settings);
   EXPECT_EQ(held.base_m, 100.0);
   EXPECT_EQ(held.top_m, 120.0);
-  EXPECT_EQ(held.footing, HeightReference::elevation);
+  EXPECT_EQ(held.height_reference, HeightReference::elevation);
   EXPECT_EQ(Feature().number("eaves", 99).number("ground", 100).reason(settings).code, ProblemCode::height_not_positive);
   EXPECT_EQ(Feature().number("eaves", 120).empty("ground").reason(settings).code, ProblemCode::no_height);
 }
@@ -135,7 +135,7 @@ TEST(FootprintHeights, NumbersThatNoBuildingHasAreAbsurd) {
 }
 
 TEST(FootprintHeights, ElevationsAreThoseOfTheEarth) {
-  IngestSettings settings;
+  FootprintSettings settings;
   settings.roof_field = "roof";
   EXPECT_EQ(Feature().number("roof", 4150).extent(settings).top_m, 4150.0);  // El Alto
   for (const double absurd : {-9999.0, highest_elevation_m + 1, lowest_elevation_m - 1})
@@ -169,4 +169,4 @@ TEST(HeightText, ReadsWhatPeopleWrite) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::ingest

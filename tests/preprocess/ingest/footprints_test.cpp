@@ -4,8 +4,9 @@
 
 #include "city/input_error.hpp"
 #include "ingest/footprints/height_text.hpp"
+#include "tests/scenes/surface_count.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 std::string feature(const std::string& properties, const std::string& type, const std::string& coordinates) {
@@ -36,8 +37,8 @@ double volume(const CityModel& city) {
 
 TEST(Footprints, SayHowManyHeightsWereNotMeasured) {
   IngestSettings settings;
-  settings.default_height_m = 5.0;
-  settings.floor_height_m = 2.5;
+  settings.footprints.default_height_m = 5.0;
+  settings.footprints.floor_height_m = 2.5;
   const Reading r =
       read_text("a.geojson",
                 collection({feature(R"("height":3)", "Polygon", square), feature(R"("levels":4)", "Polygon", square),
@@ -52,13 +53,13 @@ TEST(Footprints, SayHowManyHeightsWereNotMeasured) {
 TEST(Footprints, BecomePrismsThatFaceOutwards) {
   const Reading r = read_text("a.geojson", collection({feature(R"("height":3)", "Polygon", square)}));
   ASSERT_EQ(r.city().buildings().size(), 1u);
-  EXPECT_EQ(r.city().surface_count(), 6u);
+  EXPECT_EQ(surface_count(r.city()), 6u);
   EXPECT_EQ(volume(r.city()), 48.0);
   for (const Facet& f : r.city().facets()) {
     const Point3d n = double_area_vector(r.city(), f);
     EXPECT_EQ(kind_of_normal(normalized(n)), f.kind);
   }
-  EXPECT_EQ(r.city().buildings()[0].footing, HeightReference::on_ground);
+  EXPECT_EQ(r.city().buildings()[0].height_reference, HeightReference::on_ground);
   EXPECT_TRUE(r.source.crs.longitude_first);
   EXPECT_TRUE(r.source.crs.heights_in_metres);
   EXPECT_NE(r.source.crs.definition.find("WGS 84"), std::string::npos);
@@ -66,7 +67,7 @@ TEST(Footprints, BecomePrismsThatFaceOutwards) {
 
 TEST(Footprints, HolesGetWallsTooWhicheverWayTheyRun) {
   const Reading r = read_text("a.geojson", collection({feature(R"("height":2)", "Polygon", court)}));
-  EXPECT_EQ(r.city().surface_count(), 10u);
+  EXPECT_EQ(surface_count(r.city()), 10u);
   EXPECT_EQ(volume(r.city()), (16.0 - 4.0) * 2.0);
 }
 
@@ -76,20 +77,20 @@ TEST(Footprints, AFeatureOfSeveralPolygonsIsOneBuildingWithParts) {
   ASSERT_EQ(r.city().buildings().size(), 1u);
   EXPECT_EQ(r.city().facets().front().part, 0);
   EXPECT_EQ(r.city().facets().back().part, 1);
-  EXPECT_EQ(r.city().surface_count(), 11u);
+  EXPECT_EQ(surface_count(r.city()), 11u);
 }
 
 TEST(Footprints, TheBaseComesFromItsOwnField) {
-  IngestSettings settings{
-      .height_field = "h", .base_field = "ground", .default_height_m = {}, .lod = {}, .obj_origin = {}, .up = UpAxis::z};
+  IngestSettings settings;
+  settings.footprints = {.height_field = "h", .base_field = "ground"};
   const Reading r = read_text("a.geojson", collection({feature(R"("h":"10 ft","ground":100)", "Polygon", square)}), settings);
-  EXPECT_EQ(r.city().buildings()[0].footing, HeightReference::elevation);
+  EXPECT_EQ(r.city().buildings()[0].height_reference, HeightReference::elevation);
   EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[0].z, 100.0 + 10.0 * 0.3048);
 }
 
 TEST(Footprints, ADefaultHeightServesThoseWithoutOne) {
   IngestSettings settings;
-  settings.default_height_m = 7.0;
+  settings.footprints.default_height_m = 7.0;
   const Reading r =
       read_text("a.geojson", collection({feature("", "Polygon", square), feature(R"("height":3)", "Polygon", square)}), settings);
   EXPECT_EQ(r.city().buildings().size(), 2u);
@@ -113,10 +114,9 @@ TEST(Footprints, ElevationsOfVerticesAreIgnored) {
 TEST(Footprints, ATableWithoutHeightsNamesItsNumbers) {
   const std::filesystem::path file =
       write_file("a.geojson", collection({feature(R"("rooms":3,"area":"4.5","use":"school")", "Polygon", square)}));
-  for (const IngestSettings& settings :
-       {IngestSettings{},
-        IngestSettings{
-            .height_field = "TAKASA", .base_field = {}, .default_height_m = {}, .lod = {}, .obj_origin = {}, .up = UpAxis::z}}) {
+  for (const FootprintSettings& footprints : {FootprintSettings{}, FootprintSettings{.height_field = "TAKASA"}}) {
+    IngestSettings settings;
+    settings.footprints = footprints;
     try {
       (void)read_file(file, settings);
       FAIL() << "an InputError was due";
@@ -130,7 +130,7 @@ TEST(Footprints, ATableWithoutHeightsNamesItsNumbers) {
 
 TEST(Footprints, StoreysServeThoseWithoutAHeight) {
   IngestSettings settings;
-  settings.floor_height_m = 3.25;
+  settings.footprints.floor_height_m = 3.25;
   const Reading r = read_text("a.geojson",
                               collection({feature(R"("height":"17.5 m","building:levels":"9")", "Polygon", square),
                                           feature(R"("height":null,"building:levels":"4")", "Polygon", square),
@@ -146,7 +146,7 @@ TEST(Footprints, StoreysServeThoseWithoutAHeight) {
 TEST(Footprints, FieldsThatAreAskedForMustBeThere) {
   const std::filesystem::path file = write_file("a.geojson", collection({feature(R"("height":3)", "Polygon", square)}));
   IngestSettings storeys, roof;
-  storeys.storeys_field = roof.roof_field = "nowhere";
+  storeys.footprints.storeys_field = roof.footprints.roof_field = "nowhere";
   for (const auto& [settings, option] : {std::pair(storeys, "--storeys-field"), std::pair(roof, "--roof-field")}) {
     try {
       (void)read_file(file, settings);
@@ -159,9 +159,9 @@ TEST(Footprints, FieldsThatAreAskedForMustBeThere) {
 
 TEST(Footprints, OfWhichOnlyTheRoofIsKnownReachDownToTheGround) {
   IngestSettings settings;
-  settings.roof_field = "roof";
+  settings.footprints.roof_field = "roof";
   const Reading r = read_text("a.geojson", collection({feature(R"("roof":"412,5")", "Polygon", court)}), settings);
-  EXPECT_EQ(r.city().buildings()[0].footing, HeightReference::down_to_ground);
+  EXPECT_EQ(r.city().buildings()[0].height_reference, HeightReference::down_to_ground);
   EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[0].z, 412.5);
 }
 
@@ -184,7 +184,7 @@ std::string cube_sides() {
 TEST(Footprints, BodiesInSpaceStandAsTheyAre) {
   const Reading r = read_text("a.geojson", collection({feature(R"("name":"cube")", "MultiPolygon", cube_sides())}));
   ASSERT_EQ(r.city().buildings().size(), 1u);
-  EXPECT_EQ(r.city().buildings()[0].footing, HeightReference::elevation);
+  EXPECT_EQ(r.city().buildings()[0].height_reference, HeightReference::elevation);
   EXPECT_EQ(r.city().facets().size(), 6u);
   EXPECT_FALSE(r.source.crs.heights_in_metres);
   for (const Point3d& p : r.city().points()) EXPECT_TRUE(p.z == 100 || p.z == 102);
@@ -206,7 +206,7 @@ TEST(Footprints, DrapedOverTheTerrainAreNoBodies) {
       "[[[[8.4,49,50],[8.4001,49,53],[8.4001,49.0001,55],[8.4,49,50]]],"
       "[[[8.41,49,50],[8.4101,49,51],[8.4101,49.0001,52],[8.41,49,50]]]]";
   const Reading r = read_text("a.geojson", collection({feature(R"("height":3)", "MultiPolygon", draped)}));
-  EXPECT_EQ(r.city().buildings()[0].footing, HeightReference::on_ground);
+  EXPECT_EQ(r.city().buildings()[0].height_reference, HeightReference::on_ground);
   EXPECT_EQ(r.city().facets().size(), 10u);
   // A hut of 1 m on a cliff is steep, but still a footprint: one polygon makes no body
   const std::string hut = "[[[8.4,49,50],[8.40001,49,50],[8.40001,49.00001,57],[8.4,49,50]]]";
@@ -234,4 +234,4 @@ TEST(Footprints, HeightsInAllNotations) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

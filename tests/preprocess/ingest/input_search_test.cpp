@@ -9,7 +9,7 @@
 #include "reading.hpp"
 #include "small_cities.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 using testing::ElementsAre;
@@ -260,4 +260,4 @@ TEST_F(InputSearch, NothingToReadIsSaid) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

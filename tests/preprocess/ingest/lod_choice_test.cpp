@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ingest/lod_choice.hpp"
+#include "ingest/model_builder/lod_choice.hpp"
 
 #include <gtest/gtest.h>
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 using Lods = std::vector<std::vector<double>>;
@@ -40,4 +40,4 @@ TEST(LodChoice, ListsWhatThereIs) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -9,7 +9,7 @@
 #include "reading.hpp"
 #include "small_cities.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 using testing::ElementsAre;
@@ -101,4 +101,4 @@ TEST_F(ObjPlaced, WithinAnArchiveAndBesideAPackedFile) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include "reading.hpp"
+#include "tests/scenes/surface_count.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
@@ -55,7 +56,7 @@ TEST(Obj, IsTurnedUprightAndThenMoved) {
 TEST(Obj, CoplanarTrianglesShareASurface) {
   const Reading r = read_text("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\nf 1 2 5\n");
   EXPECT_EQ(r.city().facets().size(), 3u);
-  EXPECT_EQ(r.city().surface_count(), 2u);
+  EXPECT_EQ(surface_count(r.city()), 2u);
 }
 
 TEST(Obj, TheReferenceSystemLiesBeside) {
@@ -73,4 +74,4 @@ TEST(Obj, FacesWithoutNumbersAndLinesAreReported) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 using Numbers = std::vector<std::uint32_t>;
@@ -60,4 +60,4 @@ TEST(PlanarFaces, WeldingFindsEqualPoints) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -3,8 +3,12 @@
 #include "reading.hpp"
 #include "tests/problems/problem_lists.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
+
+using farlod::test::Fixture;
+using farlod::test::fixtures_of_stages;
+using farlod::test::good_city;
 
 std::vector<Fixture> fixtures_of_ingest(bool in_company) {
   std::vector<Fixture> files = fixtures_of_stages(1, 1);
@@ -43,4 +47,4 @@ INSTANTIATE_TEST_SUITE_P(Ingest, BrokenAmongOthers, testing::ValuesIn(fixtures_o
                          [](const auto& test) { return test.param.name.second; });
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

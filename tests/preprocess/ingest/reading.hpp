@@ -13,7 +13,7 @@
 
 #include "ingest/ingest.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 
 struct Reading {
   SourceCity source;
@@ -62,9 +62,9 @@ inline std::size_t count_kind(const CityModel& city, SurfaceKind kind) {
 
 inline std::filesystem::path shared_data(const std::string& name) { return std::filesystem::path(FARLOD_SHARED_DATA_DIR) / name; }
 
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test
 
-/// Real data lies outside of the project; where it is absent the test says so and passes over.
-#define FARLOD_NEEDS_DATA(name)                                  \
-  if (!std::filesystem::exists(farlod::test::shared_data(name))) \
-  GTEST_SKIP() << "needs real data: " << farlod::test::shared_data(name)
+/// Real data lies outside of the project; where it is absent the test says so and skips.
+#define FARLOD_NEEDS_DATA(name)                                          \
+  if (!std::filesystem::exists(farlod::ingest::test::shared_data(name))) \
+  GTEST_SKIP() << "needs real data: " << farlod::ingest::test::shared_data(name)

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include "reading.hpp"
+#include "tests/scenes/surface_count.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 TEST(RealCities, Tokyo) {
@@ -12,11 +13,11 @@ TEST(RealCities, Tokyo) {
   EXPECT_EQ(best.city().buildings().size(), 9u);
   EXPECT_EQ(best.source.crs.definition, "http://www.opengis.net/def/crs/EPSG/0/6697");
   // The 1,083 polygons of the file are 9 roof edges, 177 in LoD 1 and 897 in LoD 2: one level may count
-  EXPECT_EQ(best.city().surface_count(), 897u);
+  EXPECT_EQ(surface_count(best.city()), 897u);
   EXPECT_EQ(best.codes(), std::set<int>{114});
   IngestSettings settings;
   settings.lod.exactly = 1;
-  EXPECT_EQ(read_file(file, settings).city().surface_count(), 177u);
+  EXPECT_EQ(surface_count(read_file(file, settings).city()), 177u);
 }
 
 TEST(RealCities, NorthRhineWestphalia) {
@@ -27,7 +28,7 @@ TEST(RealCities, NorthRhineWestphalia) {
     const Reading r = read_file(shared_data(name));
     EXPECT_TRUE(r.codes().empty());
     buildings += r.city().buildings().size();
-    polygons += r.city().surface_count();
+    polygons += surface_count(r.city());
     for (const Building& b : r.city().buildings()) {
       std::set<std::uint16_t> numbers;
       for (const Facet& f : r.city().facets_of(b)) numbers.insert(f.part);
@@ -45,7 +46,7 @@ TEST(RealCities, Rotterdam) {
   const Reading r = read_file(shared_data("rotterdam/delfshaven.city.json"));
   EXPECT_EQ(r.city().buildings().size(), 853u);
   EXPECT_EQ(r.report.count(ProblemCode::too_few_points), 633u);
-  EXPECT_EQ(r.city().surface_count() + r.report.count(ProblemCode::too_few_points), 15482u);
+  EXPECT_EQ(surface_count(r.city()) + r.report.count(ProblemCode::too_few_points), 15482u);
 }
 
 TEST(RealCities, Queens) {
@@ -55,17 +56,17 @@ TEST(RealCities, Queens) {
   EXPECT_EQ(r.city().facets().size() + r.report.count(ProblemCode::too_few_points), 401110u);
   // One building number stands for all 929 buildings without a number
   EXPECT_EQ(r.report.count(ProblemCode::repeated_id), 928u);
-  EXPECT_EQ(r.city().surface_count(), 153851u);
+  EXPECT_EQ(surface_count(r.city()), 153851u);
 }
 
 TEST(RealCities, Omiya) {
   FARLOD_NEEDS_DATA("omiya");
   IngestSettings settings;
-  settings.height_field = "TAKASA";
+  settings.footprints.height_field = "TAKASA";
   const Reading r = read_file(shared_data("omiya/omiya.geojson"), settings);
   EXPECT_EQ(r.city().buildings().size(), 10213u);
   // 101,722 sides and lids, of which 669 walls stand between a vertex and its repetition: they are no surfaces
-  EXPECT_EQ(r.city().surface_count(), 101722u - 669u);
+  EXPECT_EQ(surface_count(r.city()), 101722u - 669u);
   EXPECT_EQ(r.report.count(ProblemCode::repeated_vertex), 88u);
 }
 
@@ -74,7 +75,7 @@ TEST(RealCities, Manhattan) {
   const Reading r = read_file(shared_data("manhattan/manhattan.geojson"));
   // Of 11 without a height two have building:levels, and 5 and 4 walls
   EXPECT_EQ(r.city().buildings().size(), 1239u - 9u);
-  EXPECT_EQ(r.city().surface_count(), 15091u + 7u + 6u);
+  EXPECT_EQ(surface_count(r.city()), 15091u + 7u + 6u);
   EXPECT_EQ(r.report.count(ProblemCode::no_height), 9u);
   EXPECT_EQ(r.report.count(ProblemCode::not_an_area), 47u);
 }
@@ -83,16 +84,16 @@ TEST(RealCities, BuildingAndGarageShareAWallOnce) {
   FARLOD_NEEDS_DATA("formats");
   const Reading r = read_file(shared_data("formats/Building_and_garage_LOD2-EPSG25832.gml"));
   EXPECT_EQ(r.city().buildings().size(), 1u);
-  EXPECT_EQ(r.city().surface_count(), 13u);
+  EXPECT_EQ(surface_count(r.city()), 13u);
   EXPECT_TRUE(r.codes().empty());
 }
 
 TEST(RealCities, OpeningsFillTheWallsOfLod3) {
   FARLOD_NEEDS_DATA("formats");
   const Reading r = read_file(shared_data("formats/Building_LOD3-EPSG25832.gml"));
-  EXPECT_EQ(r.city().surface_count(), 24u);
+  EXPECT_EQ(surface_count(r.city()), 24u);
   EXPECT_TRUE(r.codes().empty());
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

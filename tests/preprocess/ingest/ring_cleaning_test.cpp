@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "ingest/ring_cleaning.hpp"
+#include "ingest/model_builder/ring_cleaning.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 const Point3d a{0, 0, 0}, b{1, 0, 0}, c{1, 1, 0}, d{0, 1, 0};
@@ -56,4 +56,4 @@ TEST(RingCleaning, CoordinatesMustBeFiniteAndOnEarth) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -6,7 +6,7 @@
 #include "reading.hpp"
 #include "small_cities.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 using testing::HasSubstr;
@@ -53,4 +53,4 @@ TEST(SeveralFiles, ASingleFileEndsTheRunItself) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 
 /// The least that each format calls a city: a building of one triangle, called after the argument.
 inline std::string cityjson_of(const std::string& id) {
@@ -43,4 +43,4 @@ inline std::string features_in_gml_of(const std::string& id) {
 inline const std::string elevations =
     "ncols 2\nnrows 2\nxllcorner 500000\nyllcorner 5400000\ncellsize 10\nNODATA_value -9999\n1 2\n3 4\n";
 
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "city/input_error.hpp"
 #include "reading.hpp"
+#include "tests/scenes/surface_count.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 /// What the user is told.
@@ -76,9 +77,9 @@ TEST(UnusableInput, NoBuildingLeftTellsTheFirstReason) {
 TEST(UnusableInput, NoneOfTheKnownBrokenFilesIsLostInSilence) {
   FARLOD_NEEDS_DATA("broken");
   IngestSettings settings;
-  settings.default_height_m = 10.0;
+  settings.footprints.default_height_m = 10.0;
   std::size_t files = 0;
-  // These are wrong in ways that ingest does not judge: planes, crossings, volumes
+  // These are wrong in ways that ingest does not test: planes, crossings, volumes
   const std::set<std::string> left_to_later_stages{
       "citygml30_invalid_building.gml", "interiors_as_pos.gml", "val3dity_data_obj_nonmanifold.obj",
       "val3dity_data_test_duplicates_cube_tol_1.obj", "val3dity_test_file_format_invalid_citygml_3.gml"};
@@ -87,7 +88,7 @@ TEST(UnusableInput, NoneOfTheKnownBrokenFilesIsLostInSilence) {
     try {
       const Reading r = read_file(entry.path(), settings);
       EXPECT_EQ(r.report.problems().empty(), left_to_later_stages.contains(entry.path().filename())) << entry.path();
-      EXPECT_GT(r.city().surface_count(), 0u) << entry.path();
+      EXPECT_GT(surface_count(r.city()), 0u) << entry.path();
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(entry.path().filename().string()), std::string::npos);
     }
@@ -96,4 +97,4 @@ TEST(UnusableInput, NoneOfTheKnownBrokenFilesIsLostInSilence) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

@@ -5,7 +5,7 @@
 #include "archive_writer.hpp"
 #include "reading.hpp"
 
-namespace farlod::test {
+namespace farlod::ingest::test {
 namespace {
 
 TEST(ZipDirectory, NamesEachFileAndItsLock) {
@@ -36,4 +36,4 @@ TEST(ZipDirectory, KnowsNamesThatLeadOutside) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::ingest::test

@@ -102,7 +102,7 @@ TEST_P(EdgesOfATown, ComeBackAsTheSameSet) {
   const CityModel city = scenes::generated_town(settings);
   const Grid grid = scenes::grid_covering(city, Angle::degrees(17.0), 50.0, 3);
   Report ignored;
-  const TileSet tiles = cut_into_tiles({city, {}}, grid, GetParam(), {}, ignored);
+  const TileSet tiles = tiles::cut_into_tiles({city, {}}, grid, GetParam(), {}, ignored);
   std::size_t sides = 0, loose = 0;
   for (const Block block : grid.blocks()) {
     const CellRange cells = grid.cells_of(block);

@@ -51,7 +51,7 @@ TEST_P(TilesFileSize, IsCloseToThatOfTheBareMesh) {
   const CityModel city = scenes::generated_town(GetParam().settings);
   const Grid grid = scenes::grid_covering(city, Angle::degrees(17.0), GetParam().cell_edge_m, 3);
   Report ignored;
-  const TileSet tiles = cut_into_tiles({city, {}}, grid, Assign::clip, {}, ignored);
+  const TileSet tiles = tiles::cut_into_tiles({city, {}}, grid, Assign::clip, {}, ignored);
   Bytes bytes;
   for (const Block block : grid.blocks()) {
     const BakedBoxes no_far_city(static_cast<std::size_t>(grid.cells_of(block).size()));

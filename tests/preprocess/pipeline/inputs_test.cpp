@@ -10,8 +10,10 @@
 
 // What the names that a user gives may lead to
 
-namespace farlod::test {
+namespace farlod::pipeline::test {
 namespace {
+
+using farlod::test::good_city;
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -92,4 +94,4 @@ TEST_F(PackInputs, WhatWasTakenFromBesideAMeshIsSaid) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::pipeline::test

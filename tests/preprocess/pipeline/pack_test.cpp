@@ -13,7 +13,7 @@
 #include "package/file_stamp.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
 
-namespace farlod::test {
+namespace farlod::pipeline::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -257,4 +257,4 @@ TEST(Pack, ATerrainAloneIsACityWithoutBuildings) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::pipeline::test

@@ -12,7 +12,7 @@
 #include "pipeline/pack.hpp"
 #include "tests/scenes/packed_city.hpp"
 
-namespace farlod::test {
+namespace farlod::pipeline::test {
 
 /// What a call of the pipeline's progress said.
 struct Told {
@@ -64,4 +64,4 @@ inline std::set<std::string> ids_in(const Package& package) {
   return ids;
 }
 
-}  // namespace farlod::test
+}  // namespace farlod::pipeline::test

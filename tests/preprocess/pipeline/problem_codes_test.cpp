@@ -7,11 +7,14 @@
 #include "tests/preprocess/pipeline/packing.hpp"
 #include "tests/problems/problem_lists.hpp"
 
-namespace farlod::test {
+namespace farlod::pipeline::test {
 namespace {
 
+using farlod::test::Fixture;
+using farlod::test::fixtures_of_stages;
+
 /// --crs, which files that do not say their CRS need, and two of the problems are of. It overrules one file only.
-GeoreferenceSettings georeference_of(const Fixture& fixture) {
+georeference::GeoreferenceSettings georeference_of(const Fixture& fixture) {
   const bool is_overruled = fixture.name.first == static_cast<int>(ProblemCode::two_crs);
   return {"EPSG:32632", "", !is_overruled};
 }
@@ -83,7 +86,7 @@ TEST(BrokenFiles, LoseWhatIsLeftOutAndNothingElse) {
       {"not_planar", {{"house"}, 6}},
       {"spike", {{"house"}, 6}},
       {"hole_outside", {{"house"}, 6}},
-      {"floor_in_the_air", {{"low", "high"}, 12}},
+      {"floor_in_the_air", {{"lower", "upper"}, 12}},
   };
   for (const Fixture& fixture : fixtures_of_stages(2, 4)) {
     const auto remains = expected.find(fixture.name.second);
@@ -98,4 +101,4 @@ TEST(BrokenFiles, LoseWhatIsLeftOutAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::pipeline::test

@@ -8,7 +8,7 @@
 #include "city/input_error.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
 
-namespace farlod::test {
+namespace farlod::pipeline::test {
 namespace {
 
 /// Two footprints of 7 m by 11 m in UTM 32N, which know the elevations of their roofs.
@@ -26,7 +26,7 @@ constexpr const char* plain =
 struct RoofPacking : Packing {
   RoofPacking() {
     settings.inputs = {write("town.geojson", footprints)};
-    settings.ingest.roof_field = "roof";
+    settings.ingest.footprints.roof_field = "roof";
   }
   void run_on_plain() {
     settings.terrain = write("dem.asc", plain);
@@ -77,4 +77,4 @@ TEST(RoofElevations, NeedAGround) {
 }
 
 }  // namespace
-}  // namespace farlod::test
+}  // namespace farlod::pipeline::test

@@ -9,14 +9,14 @@
 
 #include "tests/scenes/scene_builder.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 bool has_point_at(const std::vector<Point3d>& points, double height_m) {
   return std::any_of(points.begin(), points.end(), [height_m](const Point3d& p) { return p.z == height_m; });
 }
 
-std::vector<Point3d> base_points(const CityModel& city) { return farlod::base_points(city, bases_of(city)); }
+std::vector<Point3d> base_points(const CityModel& city) { return tiles::base_points(city, bases_of(city)); }
 
 TEST(BasePoints, AreTheLowestOfEachBuilding) {
   scenes::SceneBuilder town;
@@ -83,4 +83,4 @@ TEST(BasePoints, OneHouseBelowAnotherIsNoError) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -8,7 +8,7 @@
 #include "city/city_model.hpp"
 #include "farlod/point.hpp"
 
-namespace farlod::test {
+namespace farlod::tiles::test {
 
 /// A convex polygon of a body.
 using Face = std::vector<Point3d>;
@@ -65,4 +65,4 @@ inline void add_building(CityModel& city, const std::string& id, const std::vect
   }
 }
 
-}  // namespace farlod::test
+}  // namespace farlod::tiles::test

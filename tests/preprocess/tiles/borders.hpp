@@ -16,7 +16,7 @@
 #include "tiles/horizon_edges.hpp"
 #include "tiles/tiles.hpp"
 
-namespace farlod::test {
+namespace farlod::tiles::test {
 
 /// Faces as fans of triangles: what diagonals they get, no test depends on. A face that is seen counter-clockwise from above
 /// looks up.
@@ -90,4 +90,4 @@ inline bool is_grounded(const TileSet& tiles, std::uint32_t building) {
   return all;
 }
 
-}  // namespace farlod::test
+}  // namespace farlod::tiles::test

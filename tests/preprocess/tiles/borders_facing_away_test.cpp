@@ -10,13 +10,13 @@
 #include "farlod/horizon/edge_facing.hpp"
 #include "tests/preprocess/tiles/borders.hpp"
 #include "tests/preprocess/tiles/random_bodies.hpp"
-#include "tiles/undersides.hpp"
+#include "tiles/horizon_edges.hpp"
 
-// The judge of may_be_silhouette for lower borders: closed convex bodies that float, eyes outside of them. In the upright
+// The oracle of may_be_silhouette for lower borders: closed convex bodies that float, eyes outside of them. In the upright
 // half-plane of an azimuth each body hides the slopes from its lowest one on; no body may begin above the highest lower border
 // that is kept.
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using test::Body;
@@ -88,7 +88,7 @@ void expect_nothing_lost(const std::vector<Body>& bodies, const std::vector<Hori
   }
 }
 
-void judge(RandomCity& random, double box_edge_m, Count& count) {
+void compare(RandomCity& random, double box_edge_m, Count& count) {
   std::vector<Body> bodies;
   std::vector<HorizonSegment> borders, kept;
   for (const Body& body : random.bodies()) {
@@ -119,7 +119,7 @@ class BordersFacingAway : public testing::TestWithParam<double> {};
 TEST_P(BordersFacingAway, AreLowestForNoEyeOutside) {
   RandomCity random(43);
   Count count;
-  for (int n = 0; n < 4000 && !HasFailure(); ++n) judge(random, GetParam(), count);
+  for (int n = 0; n < 4000 && !HasFailure(); ++n) compare(random, GetParam(), count);
   EXPECT_GT(count.looks, 2000) << "the test tests nothing";
   EXPECT_GT(count.away, count.seen / 4) << "the test tests nothing";
 }
@@ -128,4 +128,4 @@ INSTANTIATE_TEST_SUITE_P(BoxesOfEyes, BordersFacingAway, testing::Values(0.0, 1.
                          [](const auto& instance) { return "Edge" + std::to_string(static_cast<int>(instance.param)) + "m"; });
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -7,7 +7,7 @@
 
 #include "tests/preprocess/tiles/borders.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using testing::IsEmpty;
@@ -139,4 +139,4 @@ TEST(Contacts, TwoFloatingDuplicatesStayOpen) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -10,10 +10,10 @@
 #include "tests/preprocess/tiles/random_bodies.hpp"
 #include "tiles/horizon_edges.hpp"
 
-// The judge of may_be_silhouette for upper borders: closed bodies that stand on the ground, eyes outside of them, and the horizon
+// The oracle of may_be_silhouette for upper borders: closed bodies that stand on the ground, eyes outside of them, and the horizon
 // that each eye has with and without the edges that are said to be none.
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using test::Body;
@@ -63,7 +63,7 @@ void expect_nothing_lost(const std::vector<HorizonSegment>& all, const std::vect
   }
 }
 
-void judge(RandomCity& random, double box_edge_m, Count& count) {
+void compare(RandomCity& random, double box_edge_m, Count& count) {
   const std::vector<Body> bodies = random.bodies();
   const std::vector<HorizonSegment> edges = horizon_edges_of(bodies);
   const Point2d corner = random.place();
@@ -88,7 +88,7 @@ class EdgesFacingAway : public testing::TestWithParam<double> {};
 TEST_P(EdgesFacingAway, AreNoHorizonForAnyEyeOutside) {
   RandomCity random(42);
   Count count;
-  for (int n = 0; n < 4000 && !HasFailure(); ++n) judge(random, GetParam(), count);
+  for (int n = 0; n < 4000 && !HasFailure(); ++n) compare(random, GetParam(), count);
   EXPECT_GT(count.looks, 2000) << "the test tests nothing";
   EXPECT_GT(count.away, count.seen / 4) << "the test tests nothing";
 }
@@ -97,4 +97,4 @@ INSTANTIATE_TEST_SUITE_P(BoxesOfEyes, EdgesFacingAway, testing::Values(0.0, 1.0,
                          [](const auto& instance) { return "Edge" + std::to_string(static_cast<int>(instance.param)) + "m"; });
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include "tiles/exact_cutting_cgal.hpp"
+#include "tests/preprocess/tiles/twice_area_vector.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@
 
 #include "tiles/cutting.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using TriangleOfPoints = std::array<Point3d, 3>;
@@ -166,4 +167,4 @@ TEST(Cut, RoundsBothSidesOfABorderAlike) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 /// Coordinates below 16, normals of length 1 of which the largest part is at least 1/√3: a dozen sums and products, one quotient.
@@ -47,4 +47,4 @@ TEST(FacetProjection, KeepsDistancesInItsOwnPlaneOnly) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using Rings = std::vector<std::vector<Point3d>>;
@@ -56,4 +56,4 @@ TEST(FacetRepair, CountsRingsAsTheFacetHasThem) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

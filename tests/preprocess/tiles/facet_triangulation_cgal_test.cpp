@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/preprocess/tiles/twice_area_vector.hpp"
 #include "tiles/facet_triangulation.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +11,7 @@
 
 #include "tiles/exact_cutting_cgal.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using Ring = std::vector<Point3d>;
@@ -140,4 +141,4 @@ TEST(DistanceFromPlane, IsThatOfTheWorstPoint) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

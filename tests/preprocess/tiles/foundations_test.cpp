@@ -9,7 +9,7 @@
 #include "tests/scenes/scene_builder.hpp"
 #include "tiles/tiles.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 Grid one_cell() {
@@ -88,4 +88,4 @@ TEST(Foundations, WallsReachBelowTheGroundAllAlong) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 const Box2d rectangle{{0, 0}, {100, 100}};
@@ -75,4 +75,4 @@ TEST(Ground, MayEndWhereItsPointsEnd) {
 TEST(Ground, WithoutPointsIsFlatAtZero) { EXPECT_EQ(Ground({}, rectangle).height_at({33, 44}), 0.0); }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

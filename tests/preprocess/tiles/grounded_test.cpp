@@ -11,10 +11,10 @@
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tiles/base_points.hpp"
-#include "tiles/ground_contact.hpp"
+#include "tiles/ground.hpp"
 #include "tiles/tiles.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using test::Face;
@@ -89,7 +89,7 @@ TEST(Grounded, OverAHollowSomethingThatReachesItsRimsIsNot) {
   double open_m = 0.0;
   for (const HorizonEdge& e : tiles.tile({0, 0}).horizon_edges)
     if (e.role == EdgeRole::underside) open_m += std::abs(e.b.x - e.a.x);
-  EXPECT_NEAR(open_m, 2.0 * 20.0, 4.0 * ground_asked_every_m);
+  EXPECT_NEAR(open_m, 2.0 * 20.0, 4.0 * ground_sampling_step_m);
 }
 
 TEST(Grounded, RolesOfEdgesFollow) {
@@ -159,4 +159,4 @@ TEST(Grounded, ATerrainThatTheGridCutsOffEndsAtTheCut) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

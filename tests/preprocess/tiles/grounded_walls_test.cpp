@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "tests/preprocess/tiles/borders.hpp"
-#include "tiles/ground_contact.hpp"
+#include "tiles/ground.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using test::Face;
@@ -151,7 +151,7 @@ TEST(GroundedWalls, FollowTheGround) {
   EXPECT_FALSE(walls_of({wall(0, 10, 2, 6)}, slope).close_below(level_segment(0, 10, 6)));
   EXPECT_TRUE(walls_of({wall(0, 10, 0.9 * ground_contact_m, 6)}).close_below(level_segment(0, 10, 6)));
   // A hollow as wide as the ground is asked
-  const GroundHeightAt hollow = [](Point2d p) { return std::abs(p.x - 5.3) < 0.6 * ground_asked_every_m ? -1.0 : 0.0; };
+  const GroundHeightAt hollow = [](Point2d p) { return std::abs(p.x - 5.3) < 0.6 * ground_sampling_step_m ? -1.0 : 0.0; };
   EXPECT_FALSE(walls_of({wall(0, 10, 0, 6)}, hollow).close_below(level_segment(0, 10, 6)));
 }
 
@@ -189,4 +189,4 @@ TEST(GroundedWalls, OfAnOpenShellKeepThreeEdgesOfItsRoofGrounded) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

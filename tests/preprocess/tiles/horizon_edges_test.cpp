@@ -12,7 +12,7 @@
 #include "tests/preprocess/tiles/borders.hpp"
 #include "tiles/ground.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using test::Face;
@@ -119,7 +119,8 @@ TEST(AdjacentSlopes, OfAHillArePlainAndSlope) {
   // A dam along the x axis, 2 m high, whose sides climb at 45° and at less
   const Ground ground({{0, 50, 2}, {100, 50, 2}, {0, 48, 0}, {100, 48, 0}, {0, 60, 0}, {100, 60, 0}}, {{0, 0}, {100, 100}});
   const auto edges = ground.horizon_edges();
-  const std::int8_t steep = AdjacentSlopes::rounded_down(-std::atan(1.0)), gentle = AdjacentSlopes::rounded_down(-std::atan2(2.0, 10.0));
+  const std::int8_t steep = AdjacentSlopes::rounded_down(-std::atan(1.0)),
+                    gentle = AdjacentSlopes::rounded_down(-std::atan2(2.0, 10.0));
   EXPECT_EQ(slopes_beside(edges, {{0, 50, 2}, {100, 50, 2}}), (AdjacentSlopes{gentle, steep}));
   EXPECT_EQ(slopes_beside(edges, {{0, 0, 0}, {100, 0, 0}}), (AdjacentSlopes{0, AdjacentSlopes::straight_down}));
 }
@@ -202,4 +203,4 @@ TEST_F(CutEdge, ThatOnlyEndsOnABorderStaysWhole) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

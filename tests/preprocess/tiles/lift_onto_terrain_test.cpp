@@ -8,7 +8,7 @@
 
 #include "city/height_limits.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 /// A city of posts: a wall from x = 10 to 20 between two heights.
@@ -20,8 +20,8 @@ struct Posts {
     located.georeference.origin_m = {1000.0, 2000.0};
     located.sources = {"town.geojson"};
   }
-  void add(const std::string& id, HeightReference footing, double base_m, double top_m) {
-    located.city.begin_building(id, footing);
+  void add(const std::string& id, HeightReference height_reference, double base_m, double top_m) {
+    located.city.begin_building(id, height_reference);
     located.city.begin_facet(SurfaceKind::wall, 0);
     located.city.add_ring(std::vector<Point3d>{{10, 0, base_m}, {20, 0, base_m}, {20, 0, top_m}, {10, 0, top_m}});
   }
@@ -100,4 +100,4 @@ TEST(LiftOntoTerrain, KnowsNoFootWhereTheGroundIsUnknown) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using Ring = std::vector<Point3d>;
@@ -83,9 +83,9 @@ TEST(MisplacedHoles, ThatSurroundTheFirstRingAreTheOuterOne) {
   EXPECT_TRUE(exchanged.misplaced.empty());
 }
 
-TEST(MisplacedHoles, OfAFacetWithoutAreaAreNotJudged) {
+TEST(MisplacedHoles, OfAFacetWithoutAreaAreNotTested) {
   EXPECT_EQ(misplaced({{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, square(5, 5, 1)}), Numbers{});
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -13,7 +13,7 @@
 #include "farlod/box.hpp"
 #include "tests/preprocess/tiles/bodies.hpp"
 
-namespace farlod::test {
+namespace farlod::tiles::test {
 
 /// A place within this many metres of the origin is rounded by a few times this.
 inline constexpr double reach_m = 128.0;
@@ -105,4 +105,4 @@ struct Count {
   int seen = 0, away = 0, looks = 0;
 };
 
-}  // namespace farlod::test
+}  // namespace farlod::tiles::test

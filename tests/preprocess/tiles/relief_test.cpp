@@ -10,7 +10,7 @@
 #include "tiles/relief_thinning.hpp"
 #include "tiles/tiles.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 constexpr double slope = 0.1, height_at_origin_m = 100.0;
@@ -121,4 +121,4 @@ TEST(ThinnedRelief, KeepsAllThatIsNearAndALittleOfWhatIsFar) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

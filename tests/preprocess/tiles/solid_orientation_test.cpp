@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 /// The six sides of a box, looking out (+1) or in (−1).
@@ -37,4 +37,4 @@ TEST(OutwardSigns, EachPartDecidesForItself) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

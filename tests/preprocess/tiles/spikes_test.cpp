@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using Ring = std::vector<Point3d>;
@@ -100,4 +100,4 @@ TEST(Spikes, OfWhichNothingElseIsLeftStay) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -11,7 +11,7 @@
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using scenes::SceneBuilder;
@@ -218,4 +218,4 @@ TEST(Tiles, BuildingsInAGapOfTheTerrainStandOnTheGroundAroundIt) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tiles/undersides.hpp"
+#include "tiles/horizon_edges.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "tests/preprocess/tiles/borders.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 using test::as_set;
@@ -166,4 +166,4 @@ TEST(Undersides, TheTileStageKeepsThoseAboveTheGround) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

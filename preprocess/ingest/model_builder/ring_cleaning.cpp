@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ingest/ring_cleaning.hpp"
+#include "ingest/model_builder/ring_cleaning.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 bool is_readable(double coordinate) { return std::abs(coordinate) <= farthest_coordinate; }  // false for NaN
@@ -48,4 +48,4 @@ RingFindings clean_ring(Ring& ring, RingEnd end) {
   return findings;
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

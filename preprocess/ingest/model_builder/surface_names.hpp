@@ -6,7 +6,7 @@
 
 #include "farlod/surface_kind.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// The kind that CityGML's and CityJSON's name of a boundary surface speaks for; unknown for names that do not tell.
 /// Outer ceilings look down and outer floors look up: they are the undersides and the terraces of a building.
@@ -23,4 +23,4 @@ namespace farlod {
   return name == "InteriorWallSurface" || name == "CeilingSurface" || name == "FloorSurface";
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ingest/city_writer.hpp"
+#include "ingest/model_builder/city_model_builder.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 /// Twice the area that a ring encloses in plan; positive when it runs counter-clockwise.
@@ -34,20 +34,20 @@ std::string counted(std::size_t n, const char* thing) { return std::to_string(n)
 
 }  // namespace
 
-void CityWriter::begin_building(std::string id, HeightReference footing) {
+void CityModelBuilder::begin_building(std::string id, HeightReference height_reference) {
   id_ = std::move(id);
   ++buildings_met_;
   next_surface_ = 0;
   repeated_vertices_ = open_rings_ = 0;
   largest_gap_ = 0.0;
   at_repeating_ring_ = at_largest_gap_ = first_vertex_ = std::nullopt;
-  written_ = {};
+  added_.clear();
   problems_before_ = report_.problems().size();
-  city_.begin_building(id_, footing);
+  city_.begin_building(id_, height_reference);
   if (!ids_.insert(id_).second) add_problem(ProblemCode::repeated_id, "an earlier building of this file has the same id");
 }
 
-void CityWriter::add_problem(ProblemCode code, std::string detail, std::optional<Point3d> position, std::string ring) {
+void CityModelBuilder::add_problem(ProblemCode code, std::string detail, std::optional<Point3d> position, std::string ring) {
   report_.add({.code = code,
                .source = source_,
                .place = id_,
@@ -56,16 +56,16 @@ void CityWriter::add_problem(ProblemCode code, std::string detail, std::optional
                .ring = std::move(ring)});
 }
 
-void CityWriter::add_problem_at(std::string place, ProblemCode code, std::string detail, std::optional<Point3d> position) {
+void CityModelBuilder::add_problem_at(std::string place, ProblemCode code, std::string detail, std::optional<Point3d> position) {
   report_.add({code, source_, std::move(place), std::move(detail), position});
 }
 
-std::string CityWriter::name_of_ring(std::string_view polygon, std::size_t k) const {
+std::string CityModelBuilder::name_of_ring(std::string_view polygon, std::size_t k) const {
   return "polygon " + (polygon.empty() ? std::to_string(next_surface_) : std::string(polygon)) + ", ring " + std::to_string(k) +
          (k == 0 ? " (outer)" : " (hole)");
 }
 
-bool CityWriter::clean(Ring& ring, RingEnd end, std::string_view polygon, std::size_t k) {
+bool CityModelBuilder::clean(Ring& ring, RingEnd end, std::string_view polygon, std::size_t k) {
   const std::size_t points = ring.size();
   const std::optional<Point3d> position = first_readable({&ring, 1});
   if (!first_vertex_) first_vertex_ = position;
@@ -84,8 +84,8 @@ bool CityWriter::clean(Ring& ring, RingEnd end, std::string_view polygon, std::s
   return false;
 }
 
-void CityWriter::note_repairs(const RingFindings& findings, const std::optional<Point3d>& position, std::string_view polygon,
-                              std::size_t k) {
+void CityModelBuilder::note_repairs(const RingFindings& findings, const std::optional<Point3d>& position,
+                                    std::string_view polygon, std::size_t k) {
   if (findings.repeated_vertices > 0 && repeated_vertices_ == 0) {
     repeating_ring_ = name_of_ring(polygon, k);
     at_repeating_ring_ = position;
@@ -99,7 +99,7 @@ void CityWriter::note_repairs(const RingFindings& findings, const std::optional<
   largest_gap_ = std::max(largest_gap_, findings.gap);
 }
 
-bool CityWriter::clean_polygon(Rings& rings, RingEnd end, std::string_view name) {
+bool CityModelBuilder::clean_polygon(Rings& rings, RingEnd end, std::string_view name) {
   if (rings.empty()) rings.emplace_back();
   if (!clean(rings.front(), end, name, 0)) return false;
   std::size_t k = 0;
@@ -108,18 +108,24 @@ bool CityWriter::clean_polygon(Rings& rings, RingEnd end, std::string_view name)
   return true;
 }
 
-void CityWriter::add_facet(const Rings& rings, SurfaceKind kind, std::uint32_t surface, std::uint16_t part) {
+void CityModelBuilder::add_facet(const Rings& rings, SurfaceKind kind, std::uint32_t surface, std::uint16_t part) {
   city_.begin_facet(kind, surface, part);
   for (const Ring& ring : rings) city_.add_ring(ring);
 }
 
-void CityWriter::add_polygon(Rings& rings, RingEnd end, const PolygonTraits& traits) {
+void CityModelBuilder::add_polygon(Rings& rings, RingEnd end, const PolygonTraits& traits) {
   if (clean_polygon(rings, end, traits.name)) add_once(rings, traits);
   ++next_surface_;
 }
 
-void CityWriter::add_once(const Rings& rings, const PolygonTraits& traits) {
-  if (const auto same = written_.find_or_remember(city_, rings, traits.part)) {
+void CityModelBuilder::add_once(const Rings& rings, const PolygonTraits& traits) {
+  const auto rings_of_facet = [this](std::uint64_t facet) {
+    const Facet& f = city_.facets()[facet];
+    std::vector<std::span<const Point3d>> spans;
+    for (std::uint32_t k = 0; k < f.ring_count; ++k) spans.push_back(city_.ring(f, k));
+    return spans;
+  };
+  if (const auto same = added_.find_or_insert(rings, traits.part, city_.facets().size(), rings_of_facet)) {
     const std::string ring = name_of_ring(traits.name, 0);
     add_problem(ProblemCode::duplicate_surface,
                 ring + ": the building has a polygon with the same corners, the same way round, as its surface " +
@@ -130,7 +136,7 @@ void CityWriter::add_once(const Rings& rings, const PolygonTraits& traits) {
   add_facet(rings, traits.kind, traits.surface.value_or(next_surface_), traits.part);
 }
 
-void CityWriter::add_walls(const Ring& ring, double base_m, double top_m, std::uint16_t part) {
+void CityModelBuilder::add_walls(const Ring& ring, double base_m, double top_m, std::uint16_t part) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point3d &a = ring[i], &b = ring[(i + 1) % ring.size()];
     wall_ = {{a.x, a.y, base_m}, {b.x, b.y, base_m}, {b.x, b.y, top_m}, {a.x, a.y, top_m}};
@@ -139,7 +145,7 @@ void CityWriter::add_walls(const Ring& ring, double base_m, double top_m, std::u
   }
 }
 
-bool CityWriter::leaves_room_for_walls(double base_m, double top_m) {
+bool CityModelBuilder::leaves_room_for_walls(double base_m, double top_m) {
   const bool is_on_earth = std::abs(base_m) <= farthest_coordinate;
   if (is_on_earth && base_m < top_m) return true;
   std::ostringstream detail;
@@ -148,7 +154,7 @@ bool CityWriter::leaves_room_for_walls(double base_m, double top_m) {
   return false;
 }
 
-void CityWriter::add_prism(Rings& rings, RingEnd end, double base_m, double top_m, std::uint16_t part) {
+void CityModelBuilder::add_prism(Rings& rings, RingEnd end, double base_m, double top_m, std::uint16_t part) {
   lift(rings, top_m);
   if (!clean_polygon(rings, end, "footprint")) return;
   if (!leaves_room_for_walls(base_m, top_m)) return;
@@ -160,7 +166,7 @@ void CityWriter::add_prism(Rings& rings, RingEnd end, double base_m, double top_
   add_facet(rings, SurfaceKind::floor, next_surface_++, part);
 }
 
-void CityWriter::report_repairs() {
+void CityModelBuilder::report_repairs() {
   if (repeated_vertices_ > 0)
     add_problem(ProblemCode::repeated_vertex, "taken out: " + counted(repeated_vertices_, "repetition"), at_repeating_ring_,
                 repeating_ring_);
@@ -172,12 +178,12 @@ void CityWriter::report_repairs() {
   }
 }
 
-void CityWriter::place_problems() {
+void CityModelBuilder::place_problems() {
   for (Problem& problem : report_.since(problems_before_))
     if (!problem.position) problem.position = first_vertex_;
 }
 
-void CityWriter::end_building(std::string_view missing) {
+void CityModelBuilder::end_building(std::string_view missing) {
   report_repairs();
   if (city_.buildings().back().facet_count == 0) {
     city_.drop_last_building();
@@ -186,4 +192,4 @@ void CityWriter::end_building(std::string_view missing) {
   place_problems();
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

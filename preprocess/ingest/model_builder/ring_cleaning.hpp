@@ -9,7 +9,7 @@
 
 #include "farlod/point.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 using Ring = std::vector<Point3d>;
 /// A polygon: the outer ring first, then its holes.
@@ -34,7 +34,7 @@ inline constexpr double farthest_coordinate = 1e9;
 [[nodiscard]] std::optional<Point3d> first_readable(std::span<const Ring> rings);
 
 /// Brings a ring into the form that CityModel promises: not closed, no vertex twice in a row, at least three different
-/// points. The one place where rings are judged, whatever the format. A ring that is not usable is left half-way.
+/// points. Rings of all formats are checked here, and nowhere else. A ring that is not usable is left partly changed.
 [[nodiscard]] RingFindings clean_ring(Ring& ring, RingEnd end);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -16,7 +16,7 @@
 #include "tiles/horizon_edges.hpp"
 #include "tiles/tiles.hpp"
 
-namespace farlod {
+namespace farlod::tiles {
 namespace {
 
 constexpr double cell_edge_m = 50.0;
@@ -91,7 +91,7 @@ double surface_height_m(const std::vector<Segment3d>& edges, Point2d place) {
   return height_m;
 }
 
-/// The judge: from places in the streets, on the roofs and in the air above, the upper edges of a city must be as high as all
+/// The oracle: from places in the streets, on the roofs and in the air above, the upper edges of a city must be as high as all
 /// its edges together. Whoever has something overhead has no horizon, and is not asked.
 void expect_same_horizon(const TileSet& tiles, const Grid& grid, std::uint64_t seed) {
   const Edges edges = edges_of(tiles, grid);
@@ -117,9 +117,9 @@ void expect_same_horizon(const TileSet& tiles, const Grid& grid, std::uint64_t s
   }
 }
 
-class HorizonJudge : public testing::TestWithParam<CitySettings> {};
+class HorizonOracle : public testing::TestWithParam<CitySettings> {};
 
-TEST_P(HorizonJudge, HorizonEdgesOfATownAreAsHighAsAllEdgesTogether) {
+TEST_P(HorizonOracle, HorizonEdgesOfATownAreAsHighAsAllEdgesTogether) {
   const CityModel city = scenes::generated_town(GetParam());
   const Grid grid = scenes::grid_covering(city, Angle::degrees(20.0), cell_edge_m, 3);
   Report ignored;
@@ -136,7 +136,7 @@ CitySettings town(std::uint64_t seed, int lod, double relief_m) {
   return settings;
 }
 
-TEST_P(HorizonJudge, AllOfATownWithoutOverhangsIsGrounded) {
+TEST_P(HorizonOracle, AllOfATownWithoutOverhangsIsGrounded) {
   const CityModel city = scenes::generated_town(GetParam());
   Report ignored;
   const TileSet tiles =
@@ -147,11 +147,11 @@ TEST_P(HorizonJudge, AllOfATownWithoutOverhangsIsGrounded) {
   EXPECT_EQ(overhanging.size(), 0U) << "of " << tiles.building_ids.size() << " buildings";
 }
 
-INSTANTIATE_TEST_SUITE_P(Towns, HorizonJudge,
+INSTANTIATE_TEST_SUITE_P(Towns, HorizonOracle,
                          testing::Values(town(1, 1, 0.0), town(2, 1, 0.0), town(3, 2, 0.0), town(4, 2, 0.0), town(5, 2, 20.0)),
                          [](const auto& instance) { return "seed_" + std::to_string(instance.param.seed); });
 
-TEST(HorizonJudge, HorizonEdgesOfATerrainAreAsHighAsAllEdgesTogether) {
+TEST(HorizonOracle, HorizonEdgesOfATerrainAreAsHighAsAllEdgesTogether) {
   // Rough land that reaches beyond the grid in the south and west, and ends before it in the north and east
   TerrainRaster terrain{{-30, -30}, {4, 4}, 40, 40, {}};
   std::mt19937_64 random(7);
@@ -164,4 +164,4 @@ TEST(HorizonJudge, HorizonEdgesOfATerrainAreAsHighAsAllEdgesTogether) {
 }
 
 }  // namespace
-}  // namespace farlod
+}  // namespace farlod::tiles

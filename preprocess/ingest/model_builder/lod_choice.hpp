@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// Which level of detail of a building is taken.
 struct LodChoice {
@@ -27,4 +27,4 @@ struct LodChoice {
 /// What the report says of the polygons of the levels that were not chosen.
 [[nodiscard]] std::string unused_polygons(std::size_t count, std::span<const std::vector<double>> lods_of_parts);
 
-}  // namespace farlod
+}  // namespace farlod::ingest

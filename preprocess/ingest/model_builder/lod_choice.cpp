@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ingest/lod_choice.hpp"
+#include "ingest/model_builder/lod_choice.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
 
-namespace farlod {
+namespace farlod::ingest {
 namespace {
 
 bool is_wanted(double lod, LodChoice choice) {
@@ -52,4 +52,4 @@ std::string unused_polygons(std::size_t count, std::span<const std::vector<doubl
   return std::to_string(count) + " polygons of other levels are not used; it has LoD " + list_lods(lods_of_parts);
 }
 
-}  // namespace farlod
+}  // namespace farlod::ingest

@@ -11,10 +11,10 @@
 
 #include "city/city_model.hpp"
 #include "city/problem.hpp"
-#include "ingest/ring_cleaning.hpp"
-#include "ingest/written_polygons.hpp"
+#include "ingest/model_builder/polygon_deduplicator.hpp"
+#include "ingest/model_builder/ring_cleaning.hpp"
 
-namespace farlod {
+namespace farlod::ingest {
 
 /// What is known of a polygon besides its points.
 struct PolygonTraits {
@@ -24,13 +24,13 @@ struct PolygonTraits {
   std::string_view name;                 ///< for the report; empty: its number
 };
 
-/// Writes the buildings of one file: cleans what the readers bring, and keeps the account of what is wrong with it.
-/// All formats pass through here, so that the same town gives the same model and the same problems in each.
-class CityWriter {
+/// Builds the CityModel of one file from what a reader finds: cleans the rings, and reports what is wrong with them.
+/// The readers of all formats use it, so that the same town gives the same model and the same problems in each.
+class CityModelBuilder {
  public:
-  CityWriter(std::string source, Report& report) : source_(std::move(source)), report_(report) {}
+  CityModelBuilder(std::string source, Report& report) : source_(std::move(source)), report_(report) {}
 
-  void begin_building(std::string id, HeightReference footing = HeightReference::elevation);
+  void begin_building(std::string id, HeightReference height_reference = HeightReference::elevation);
   /// Cleans the rings in place, and adds the polygon unless its outer ring is unusable or the building's part has the same
   /// polygon already; unusable holes are filled.
   void add_polygon(Rings& rings, RingEnd end, const PolygonTraits& traits);
@@ -69,7 +69,7 @@ class CityWriter {
   std::string id_;
   std::size_t buildings_met_ = 0;
   std::uint32_t next_surface_ = 0;
-  WrittenPolygons written_;
+  PolygonDeduplicator added_{SamePolygon::rings};
   std::size_t repeated_vertices_ = 0, open_rings_ = 0;
   double largest_gap_ = 0.0;
   std::string repeating_ring_, widest_open_ring_;
@@ -78,4 +78,4 @@ class CityWriter {
   Ring wall_ = Ring(4);
 };
 
-}  // namespace farlod
+}  // namespace farlod::ingest
