@@ -27,7 +27,6 @@ constexpr LongFunction long_functions[] = {
     {"include/farlod/horizon/edge_facing.hpp", "may_be_silhouette", "a proof, case by case"},
     {"preprocess/farmap/city_horizon.cpp", "build", "one loop over edges that fills three arrays at once"},
     {"preprocess/pipeline/pack.cpp", "write_package", "one pipeline whose steps share what they measure"},
-    {"preprocess/tiles/tiles.cpp", "close_foot", "one decision after the other about the same floor"},
     {"preprocess/tiles/tiles.cpp", "place_building", "one building's way through cutting, which shares a dozen values"},
     {"runtime/horizon/horizon_engine.cpp", "trace_gaps", "a kernel: its steps share vectors of 16 lanes"},
 };

@@ -32,7 +32,7 @@ Town town(Assign assign = Assign::clip) {
   Town result;
   result.grid = scenes::grid_covering(city, Angle::degrees(7), 30.0, 3);
   Report ignored;
-  result.tiles = cut_into_tiles({city, {}}, result.grid, assign, {}, ignored);
+  result.tiles = tiles::cut_into_tiles({city, {}}, result.grid, assign, {}, ignored);
   return result;
 }
 
