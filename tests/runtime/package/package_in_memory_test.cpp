@@ -31,7 +31,7 @@ class InMemory : public testing::Test {
 
   [[nodiscard]] static TileSet cut(const CityModel& city, const Grid& grid) {
     Report ignored;
-    return cut_into_tiles({city, {}}, grid, Assign::clip, {}, ignored);
+    return tiles::cut_into_tiles({city, {}}, grid, Assign::clip, {}, ignored);
   }
   [[nodiscard]] PackageInMemory contents_of(const Package& disk) {
     PackageInMemory memory{disk.manifest(), {}, {}};

@@ -52,7 +52,7 @@ class RoundTrip : public testing::TestWithParam<Assign> {
 
   [[nodiscard]] TileSet tiles() const {
     Report report;
-    return cut_into_tiles({town_, {}}, grid_, GetParam(), std::nullopt, report);
+    return tiles::cut_into_tiles({town_, {}}, grid_, GetParam(), std::nullopt, report);
   }
 
   const CityModel town_ = small_town();
