@@ -39,7 +39,7 @@ enum class EvaluationMethod {
   horizons_and_rays,      ///< it lies above the horizon, or a ray through the gap below an overhang meets nothing
   horizons_alone,         ///< it lies above the horizon; throws PackageUnusable where a gap would need rays
   rays_against_horizons,  ///< the same as horizons_and_rays, asked for each of --rays directions instead of each azimuth
-  near_scene_and_box,     ///< its ray meets no near tile, and the box far map has no obstacle in this direction
+  near_scene_and_box,     ///< its ray meets no near tile, and the box far map has no occluder in this direction
   near_scene_alone,       ///< its ray meets no near tile
   whole_city              ///< its ray meets no tile of the package
 };

@@ -169,10 +169,10 @@ void join(const float* lower, const float* upper, std::size_t azimuth_count, flo
 }
 
 void find_max_difference(const float* slopes, const float* other, std::size_t azimuth_count, float* differences) {
-  Floats greatest = broadcast(-1.0F);
+  Floats largest = broadcast(-1.0F);
   for (std::size_t k = 0; k < azimuth_count; ++k)
-    greatest = max(greatest, load(slopes + k * lane_count) - load(other + k * lane_count));
-  store(greatest, differences);
+    largest = max(largest, load(slopes + k * lane_count) - load(other + k * lane_count));
+  store(largest, differences);
 }
 
 void count_above(const float* slopes, const float* ray_slopes, std::size_t azimuth_count, float* counts) {

@@ -136,7 +136,7 @@ TEST_P(Horizons, WhereAllIsNearAndStandsAreWithinTheirBudget) {
   }
 }
 
-TEST_P(Horizons, WithRaysForWhatHangsAreWithinTheirBoundsAndTheirBudget) {
+TEST_P(Horizons, WithRaysForOverhangsAreWithinTheirBoundsAndTheirBudget) {
   const PackedTown town(3, true);
   const Receivers receivers = GetParam().receivers(town.package());
   const std::vector<double> exact = truth_of(town.package(), receivers);

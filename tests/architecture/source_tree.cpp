@@ -40,6 +40,15 @@ std::vector<SourceFile> read_source_tree(const std::filesystem::path& root) {
   return files;
 }
 
+std::vector<SourceFile> read_documents(const std::filesystem::path& root) {
+  std::vector<SourceFile> files;
+  for (const char* name : {"README.md", "CONTRIBUTING.md"}) files.push_back(read(root, root / name));
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "docs"))
+    if (entry.is_regular_file() && entry.path().extension() == ".md") files.push_back(read(root, entry.path()));
+  std::sort(files.begin(), files.end(), [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
+  return files;
+}
+
 std::vector<Include> includes_of(const SourceFile& file) {
   static const std::regex include(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
   std::vector<Include> includes;

@@ -24,6 +24,9 @@ struct Include {
 /// The files that people write code in (C++, CMake, scripts), ordered by path. Build folders are left out.
 [[nodiscard]] std::vector<SourceFile> read_source_tree(const std::filesystem::path& root);
 
+/// The files that people read (Markdown, ordered by path): README, CONTRIBUTING and what is below docs.
+[[nodiscard]] std::vector<SourceFile> read_documents(const std::filesystem::path& root);
+
 [[nodiscard]] std::vector<Include> includes_of(const SourceFile& file);
 
 /// .hpp and .cpp

@@ -83,7 +83,7 @@ TEST(Layout, TileEdgeIsDocumented) {
   EXPECT_DOCUMENTED(TileEdge, adjacent);
 }
 
-TEST(Layout, EdgeRisesAreDocumented) {
+TEST(Layout, AdjacentSlopesAreDocumented) {
   EXPECT_DOCUMENTED(AdjacentSlopes, left);
   EXPECT_DOCUMENTED(AdjacentSlopes, right);
 }

@@ -89,10 +89,10 @@ TEST_P(SkyViewFactors, DoNotDependOnWhatElseIsAsked) {
 INSTANTIATE_TEST_SUITE_P(Ways, SkyViewFactors,
                          testing::Values(Way{"RaysBox", Engine::rays, FarMapKind::box},
                                          Way{"RaysHorizon", Engine::rays, FarMapKind::horizon},
-                                         Way{"RaysHorizonSettled", Engine::rays, FarMapKind::horizon, 0.01},
+                                         Way{"RaysHorizonRetraced", Engine::rays, FarMapKind::horizon, 0.01},
                                          Way{"FibonacciRays", Engine::rays, FarMapKind::horizon, 0.01, DirectionSet::fibonacci},
                                          Way{"AutomaticHorizon", Engine::automatic, FarMapKind::horizon},
-                                         Way{"AutomaticHorizonSettled", Engine::automatic, FarMapKind::horizon, 0.01},
+                                         Way{"AutomaticHorizonRetraced", Engine::automatic, FarMapKind::horizon, 0.01},
                                          Way{"HorizonOnly", Engine::horizon, FarMapKind::horizon},
                                          Way{"Exact", Engine::exact, FarMapKind::horizon}),
                          [](const auto& test) { return test.param.name; });

@@ -35,7 +35,7 @@ class FarView {
   FarView(const AzimuthFan& fan, const FarHorizon& map);
 
   /// `verdicts[n]` for the n-th direction of the fan, seen from a receiver (cell frame).
-  void judge(const Point3f& p_cell, std::span<FarVerdict> verdicts);
+  void classify(const Point3f& p_cell, std::span<FarVerdict> verdicts);
 
  private:
   /// How far a corner may lie from where the exact engine sees it: both round to floats, in frames whose origins are a city apart
@@ -77,7 +77,7 @@ inline FarView::FarView(const AzimuthFan& fan, const FarHorizon& map)
   }
 }
 
-inline void FarView::judge(const Point3f& p_cell, std::span<FarVerdict> verdicts) {
+inline void FarView::classify(const Point3f& p_cell, std::span<FarVerdict> verdicts) {
   FARLOD_EXPECTS(verdicts.size() == fan_.size());
   const std::optional<std::uint32_t> patch = map_.patches.patch_of(p_cell);
   draw_explicit(p_cell, patch);

@@ -29,7 +29,7 @@ Point3d toward(double azimuth_rad, double slope) { return {std::cos(azimuth_rad)
 std::vector<FarVerdict> verdicts_of(const FarHorizon& map, const std::vector<Point3d>& directions, const Point3f& p_cell) {
   const AzimuthFan fan(directions);
   std::vector<FarVerdict> by_azimuth(directions.size()), verdicts(directions.size());
-  FarView(fan, map).judge(p_cell, by_azimuth);
+  FarView(fan, map).classify(p_cell, by_azimuth);
   for (std::size_t n = 0; n < fan.size(); ++n) verdicts[fan.place()[n]] = by_azimuth[n];
   return verdicts;
 }
@@ -206,9 +206,9 @@ TEST(FarView, AReceiverDoesNotRememberTheOneBefore) {
   const AzimuthFan fan(looks);
   FarView view(fan, far.map());
   std::vector<FarVerdict> first(looks.size()), again(looks.size()), other(looks.size());
-  view.judge(middle, first);
-  view.judge({1.0F, 19.0F, 12.0F}, other);
-  view.judge(middle, again);
+  view.classify(middle, first);
+  view.classify({1.0F, 19.0F, 12.0F}, other);
+  view.classify(middle, again);
   EXPECT_EQ(first, again);
   EXPECT_NE(first, other);
 }

@@ -301,14 +301,14 @@ TEST(ObjWriter, CountsFromTheCentreWhenAsked) {
   EXPECT_THAT(text_of(folder / "local.obj"), HasSubstr("# Origin, to be added to x and y: 566000.250,5500000.000\n"));
 }
 
-TEST(CityWriter, NamesTheFolderThatIsNotThere) {
+TEST(GeneratedCityWriter, NamesTheFolderThatIsNotThere) {
   const CityHeader header;
   EXPECT_THAT([&] { (void)make_obj_writer("/no/such/folder/city.obj", header); },
               ::testing::ThrowsMessage<CityWriteError>(
                   ::testing::AllOf(HasSubstr("/no/such/folder/city.obj"), HasSubstr("No such file or directory"))));
 }
 
-TEST(CityWriter, AnUnfinishedCityLeavesNothing) {
+TEST(GeneratedCityWriter, AnUnfinishedCityLeavesNothing) {
   const ScratchFolder folder;
   {
     const auto writer = make_cityjson_writer(folder / "city.city.json", CityHeader{});
@@ -317,7 +317,7 @@ TEST(CityWriter, AnUnfinishedCityLeavesNothing) {
   EXPECT_EQ(folder.file_count(), 0U);
 }
 
-TEST(CityWriter, OddFileNamesDoNotSpoilTheFile) {
+TEST(GeneratedCityWriter, OddFileNamesDoNotSpoilTheFile) {
   const ScratchFolder folder;
   const std::string name = "a\"<&>\n\xFFz.city.json";
   write(small_city(1), folder / name);

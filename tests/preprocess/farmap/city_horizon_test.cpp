@@ -60,7 +60,7 @@ TEST(CityHorizon, NodesContainWhatIsBelowThem) {
   }
 }
 
-TEST(CityHorizon, EveryObstacleIsInExactlyOneLeaf) {
+TEST(CityHorizon, EveryOccluderIsInExactlyOneLeaf) {
   const Town town = small_town();
   const CityHorizon city(town.tiles, town.grid);
   std::vector<int> times(city.occluders().size(), 0);

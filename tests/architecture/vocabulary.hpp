@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tests/architecture/source_tree.hpp"
+
+namespace farlod {
+
+/// A word that the project no longer uses, and the term of docs/glossary.md that replaces it.
+///   (1) between backticks it is an identifier, and is found where it stands as a whole in code, not in comments
+///   (2) otherwise it is a phrase, and is found in names and in prose, however it is written: "unnamed city" also in UnnamedCity
+///       and unnamed_city
+struct RetiredWord {
+  std::string word, use_instead;
+  bool is_identifier = false;
+};
+
+/// The rows of the table "Retired words" of docs/glossary.md. Throws std::runtime_error where there is none.
+[[nodiscard]] std::vector<RetiredWord> read_retired_words(const std::filesystem::path& glossary);
+
+/// "path:line: word -> term" for each retired word in a file.
+[[nodiscard]] std::vector<std::string> find_retired_words(const std::vector<SourceFile>& files,
+                                                          const std::vector<RetiredWord>& words);
+
+/// The words of a line in lower case, parted by single blanks, with one before and behind: of names, too.
+[[nodiscard]] std::string words_of(std::string_view line);
+
+}  // namespace farlod
