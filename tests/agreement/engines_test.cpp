@@ -98,7 +98,7 @@ TEST_P(NearAndFar, AreNeverCertainOfWhatIsNotSo) {
     for (int k = 0; k < rays_each; ++k) directions.push_back(random.direction_above_horizon());
     const AzimuthFan fan(directions);
     std::vector<FarVerdict> verdicts(directions.size());
-    FarView(fan, far).judge(p, verdicts);
+    FarView(fan, far).classify(p, verdicts);
     for (std::size_t k = 0; k < directions.size(); ++k) {
       if (verdicts[k] != FarVerdict::free && verdicts[k] != FarVerdict::blocked) continue;
       ++certain;

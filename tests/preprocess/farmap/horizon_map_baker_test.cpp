@@ -221,7 +221,7 @@ CornerView view_from_corners(const std::vector<test::FarThing>& things, const st
   return view;
 }
 
-TEST(HorizonMapBaker, LikelyKnowsOnlyTheUnnamedAndLeavesOutTheFaintest) {
+TEST(HorizonMapBaker, TheEstimateKnowsOnlyTheResidualCityAndLeavesOutTheWeakest) {
   const HorizonMapSettings settings;
   const Baked baked = bake(towns()[1], settings);
   const AzimuthBins bins;

@@ -143,7 +143,7 @@ TEST_P(SkyBounds, OfHorizonsHoldTheExactAnswerUpToWhatIsBetweenAzimuths) {
   }
 }
 
-TEST_P(SkyBounds, OfHorizonsAreSettledByRays) {
+TEST_P(SkyBounds, OfHorizonsAreDecidedByRays) {
   constexpr double most = 0.005;
   const Answers exact = answers(Engine::exact), none = answers(Engine::automatic, 0.0), some = answers(Engine::automatic, most);
   for (std::size_t n = 0; n < exact.svf.size(); ++n) {

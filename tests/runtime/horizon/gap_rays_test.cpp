@@ -110,7 +110,7 @@ TEST_F(GapRays, WhatIsMetIsHiddenToTheWidthOfARay) {
   double error_before = 1.0;
   for (const std::size_t rays : {8U, 32U, 128U, 512U}) {
     const PacketHorizon::Lanes seen = traced(scene, SkyWeight::cosine, packet, all_receivers, rays);
-    double greatest = 0.0;
+    double largest = 0.0;
     for (std::size_t l = 0; l < seen.size(); ++l) {
       double truth = 0.0, one_part = 0.0;
       for (std::size_t k = 0; k < azimuths; ++k) {
@@ -126,10 +126,10 @@ TEST_F(GapRays, WhatIsMetIsHiddenToTheWidthOfARay) {
         one_part += sky / std::max(1.0, sky * static_cast<double>(azimuths) * static_cast<double>(rays));
       }
       EXPECT_NEAR(seen[l], truth, one_part + sky_rounding(azimuths, normals[0])) << rays << " rays, receiver " << l;
-      greatest = std::max(greatest, std::abs(seen[l] - truth));
+      largest = std::max(largest, std::abs(seen[l] - truth));
     }
-    EXPECT_LT(greatest, error_before);
-    error_before = greatest;
+    EXPECT_LT(largest, error_before);
+    error_before = largest;
   }
   // Offsets differ from azimuth to azimuth: errors of single azimuths have either sign
   EXPECT_LT(error_before, 1e-4);
