@@ -24,7 +24,7 @@ function(farlod_public_headers target)
     file(GLOB_RECURSE found CONFIGURE_DEPENDS ${H_BASE}/${folder}/*.hpp)
     list(APPEND headers ${found})
   endforeach()
-  # A header named for its library belongs to that library's door
+  # A header named for its library belongs to that library's wrapper
   list(FILTER headers EXCLUDE REGEX "_cgal\\.hpp$")
   target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS ${H_BASE} FILES ${headers})
   set_target_properties(${target} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)

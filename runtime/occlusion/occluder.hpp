@@ -44,7 +44,7 @@ class OcclusionError : public std::runtime_error {
 };
 
 /// Answers "what does this ray meet?" for a set of triangles. Both sides of a triangle count. Immutable; all questions may
-/// be asked from many threads. The only door to Embree.
+/// be asked from many threads. The only wrapper of Embree.
 ///
 /// Neighboring triangles are watertight (Embree's robust mode): a ray through a shared edge meets one of them. Whether a ray
 /// that ends or begins on a triangle meets it is not specified.
