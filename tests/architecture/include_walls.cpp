@@ -32,8 +32,8 @@ constexpr Wall walls[] = {
 
     {"^runtime/", NOWHERE, "^(" CGAL_HEADERS "|" PROJ_HEADERS "|" XML_HEADERS "|GeographicLib/)",
      "the runtime ships without the geometry stack"},
-    {"^runtime/", "^runtime/(receivers|results)/[a-z_/]+_gdal\\.cpp$", "^(" GDAL_HEADERS ")",
-     "the runtime library never needs GDAL; receivers/ and results/*_gdal.cpp are a library apart"},
+    {"^runtime/", "^runtime/results/[a-z_/]+_gdal\\.cpp$", "^(" GDAL_HEADERS ")",
+     "the runtime library never needs GDAL; results/*_gdal.cpp are a library apart"},
     {"^runtime/", "^runtime/occlusion/[a-z_]+_embree\\.cpp$", "^embree", "occlusion is the only wrapper of Embree"},
     {"^runtime/", "^runtime/package/[a-z_]+\\.cpp$", "^(" EXR_HEADERS "|" MAPPING_HEADERS ")",
      "only the package room knows how far maps and tiles lie on disk"},
