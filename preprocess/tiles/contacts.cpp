@@ -90,8 +90,20 @@ std::optional<Stretch> touched(const Corners& t, double length_m) {
   return s;
 }
 
+/// Whether a triangle counts as vertical for the edge, as in EdgeSides: judged by its plane, since its cross section may be short.
+bool counts_as_vertical(const Corners& t) {
+  const Point3d normal = cross(t[1] - t[0], t[2] - t[0]);
+  const auto [low, high] = std::minmax({t[0].z, t[1].z, t[2].z});
+  const double longest_m = std::max({norm(t[1] - t[0]), norm(t[2] - t[1]), norm(t[0] - t[2])});
+  // Corners are rounded: over the smallest height of the triangle, this turns its plane
+  const double rounding = longest_m * on_line_m / norm(normal);
+  const double lean = std::abs(normal.z) / std::abs(normal.y);
+  return lean <= std::max(leaning_wall_z, rounding) && lean * (high - low) <= max_lean_m;
+}
+
 /// The cross section of the triangle with the plane perpendicular to the edge at `at_m`.
 CrossSection section_at(const Corners& t, double at_m) {
+  const bool is_wall = counts_as_vertical(t);
   CrossSection section;
   for (std::size_t n = 0; n < 3; ++n) {
     const Point3d &a = t[n], &b = t[(n + 1) % 3];
@@ -102,7 +114,7 @@ CrossSection section_at(const Corners& t, double at_m) {
     // The end at the edge itself has no direction
     if (std::hypot(aside_m, rise_m) <= 2.0 * contact_m) continue;
     // A nearly vertical triangle closes the edge when it lies below, and has no effect when it rises
-    if (std::abs(aside_m) <= std::max(leaning_wall_z * std::abs(rise_m), contact_m) && std::abs(rise_m) > std::abs(aside_m)) {
+    if (is_wall && std::abs(rise_m) > std::abs(aside_m)) {
       section.goes_down |= rise_m < 0.0;
       continue;
     }

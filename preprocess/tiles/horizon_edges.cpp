@@ -133,7 +133,7 @@ void EdgeSides::add(const Point3d& opposite, FacetLook look) {
   const double rise_rad = std::atan2(rise_m, std::abs(aside_m));
   const bool is_left = aside_m > 0.0;
   // For undersides: a nearly vertical triangle closes the edge when it lies below, and has no effect when it rises
-  if (std::abs(aside_m) <= leaning_wall_z * std::abs(rise_m)) {
+  if (std::abs(aside_m) <= std::min(leaning_wall_z * std::abs(rise_m), max_lean_m)) {
     over_wall_ |= rise_m < 0.0;
   } else {
     double& low_rad = is_left ? left_low_rad_ : right_low_rad_;
@@ -169,7 +169,8 @@ AdjacentSlopes EdgeSides::lowest_adjacent_slopes() const {
 bool EdgeSides::can_be_underside() const {
   // A vertical edge has no lower side, and a wall below the edge closes it
   const Point3d along = edge_.b - edge_.a;
-  if (norm(horizontal(along)) <= std::max(least_extent_m, leaning_wall_z * norm(along)) || over_wall_) return false;
+  const double upright_run_m = std::max(least_extent_m, std::min(leaning_wall_z * norm(along), max_lean_m));
+  if (norm(horizontal(along)) <= upright_run_m || over_wall_) return false;
   // The lowest triangles on both sides bend upwards: below the edge there is no facet
   return left_low_rad_ + right_low_rad_ > slight_bend_rad && !is_valley();
 }

@@ -35,7 +35,8 @@ inline constexpr double angle_tolerance_rad = 1e-6;
 inline constexpr double least_extent_m = 1e-4;
 /// An edge with a shorter horizontal run than this is vertical: the rounding to the floats of a tile moves its ends farther.
 inline constexpr double upright_m = 1e-6;
-/// For undersides, a facet counts as vertical when its tangent from the vertical is below this. Surveyed walls lean by as much.
+/// For undersides, a facet or an edge counts as vertical when its tangent from the vertical is below this, and when it leans by
+/// no more than max_lean_m in all. Surveyed walls lean by as much.
 inline constexpr double leaning_wall_z = 0.01;
 /// For undersides, two facets that meet at a smaller angle than this count as one plane. A lower border stands for such bends
 /// nearby, which are not stored; its adjacent slopes are therefore stored four times this angle higher.

@@ -7,6 +7,8 @@
 #include <limits>
 #include <map>
 
+#include "farlod/horizon/horizon_edge.hpp"
+
 namespace farlod {
 namespace {
 
@@ -69,11 +71,11 @@ Piece piece_of(const TileView& tile, std::uint32_t begin, const package::Surface
 }
 
 /// Horizontal distance by which the top of a wall that leans out lies ahead of a point of the wall at height z_m. 0 where it is
-/// more than most_lean_m, the error of surveys: such a wall overhangs the receiver.
+/// more than max_lean_m: such a wall overhangs the receiver.
 float lean_ahead_m(const Piece& wall, float z_m) {
   if (wall.normal.z >= 0.0F) return 0.0F;
   const float ahead_m = (wall.top_m - z_m) * -wall.normal.z / std::hypot(wall.normal.x, wall.normal.y);
-  return ahead_m <= most_lean_m ? ahead_m : 0.0F;
+  return ahead_m <= static_cast<float>(max_lean_m) ? ahead_m : 0.0F;
 }
 
 void spread(const TileView& tile, const Piece& piece, std::uint32_t t, double spacing_m, LocatorsAround& locators,

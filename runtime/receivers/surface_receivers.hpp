@@ -16,10 +16,6 @@ enum class SurfaceChoice { roofs, walls, all };
 /// coordinate in a scene of 10 km (0.5 mm would do), and a fiftieth of a window's reveal.
 inline constexpr float surface_offset_m = 0.01F;
 
-/// A wall whose top leans out over one of its points by no more than this counts as vertical, with errors of the survey. Its
-/// receivers stand ahead of its top, so that they do not lie below the roof that ends there.
-inline constexpr float most_lean_m = 0.05F;
-
 /// A receiver on a surface, and the area that it stands for.
 struct SurfaceReceiver {
   std::uint32_t triangle = 0;  ///< of the cell's tile

@@ -41,6 +41,10 @@ struct AdjacentSlopes {
   }
 };
 
+/// A facet that leans out by no more than this over its height, an error of surveys, counts as vertical: no lower border tells
+/// that sky may be seen below its top. Its receivers therefore stand ahead of its top.
+inline constexpr double max_lean_m = 0.05;
+
 /// What an edge says about the sky below it. In the upright half-plane of an azimuth, a connected piece of the city hides all
 /// slopes between its lowest and its highest one. Proof and use: docs/concepts.md, "What is grounded, and what overhangs".
 enum class EdgeRole : std::uint16_t {

@@ -50,6 +50,17 @@ TEST(Contacts, AWallBelowOrAcrossCloses) {
   EXPECT_THAT(open_parts({upright(4, 0, 20, 0, 30)}), IsEmpty());
 }
 
+TEST(Contacts, AWallThatLeansByLittleCloses) {
+  // Its corners are rounded, and its top stands a centimetre beside the border
+  EXPECT_THAT(open_parts({{{2, 4.01F, 5}, {12, 4.01F, 5}, {12, 4.03F, 1}, {2, 4.03F, 1}}}), IsEmpty());
+  EXPECT_THAT(open_parts({{{2, 4, 5}, {12, 4, 5}, {12, 4.001F, 4.9F}, {2, 4.001F, 4.9F}}}), IsEmpty());
+}
+
+TEST(Contacts, AWallThatLeansByMoreDoesNotEvenWhereItsSectionIsShort) {
+  // The triangle below the border ends 4 m to the west of it and 4 m lower: across the border it is only centimetres high
+  expect_whole(open_parts({{{2, 4, 5}, {12, 4, 5}, {-30, 4.08F, 1}}}));
+}
+
 TEST(Contacts, ARoofThatGoesOnOnBothSidesCloses) {
   EXPECT_THAT(open_parts({level(0, 0, 20, 20, 5)}), IsEmpty());
   // One side may be the border's own facet
