@@ -3,7 +3,6 @@
 #include "tiles/foundations.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -19,8 +18,8 @@ constexpr double below_ground_m = 0.5;
 template <class Visit>
 void visit_places(const HorizonSegment& border, const Visit& visit) {
   const auto& [a, b] = border.segment;
-  const auto steps = static_cast<int>(std::ceil(std::max(1.0, norm(horizontal(b - a)) / ground_sampling_step_m)));
-  for (int k = 0; k <= steps; ++k) visit(a + static_cast<double>(k) / steps * (b - a));
+  const int intervals = ground_sampling_intervals(norm(horizontal(b - a)));
+  for (int k = 0; k <= intervals; ++k) visit(a + static_cast<double>(k) / intervals * (b - a));
 }
 
 }  // namespace

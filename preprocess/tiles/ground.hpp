@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -25,6 +27,10 @@ using GroundHeightAt = std::function<double(Point2d p_grid)>;
 
 /// The largest distance between two places of a border at which its height is compared with the ground.
 inline constexpr double ground_sampling_step_m = 1.0;
+/// The number of intervals into which a border of this horizontal length is divided by such places.
+[[nodiscard]] inline int ground_sampling_intervals(double run_m) {
+  return static_cast<int>(std::ceil(std::max(1.0, run_m / ground_sampling_step_m)));
+}
 
 /// The ground: a triangulated irregular network (Delaunay in the plane) through points of known height.
 ///   (1) Of several points at one place in the plane, the lowest counts.

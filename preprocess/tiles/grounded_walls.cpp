@@ -83,8 +83,8 @@ std::vector<double> places_along(std::span<const WallPoint> border) {
   std::vector<double> places;
   for (std::size_t n = 1; n < border.size(); ++n) {
     const double from = border[n - 1].along_m, to = border[n].along_m;
-    const auto steps = static_cast<int>(std::ceil(std::max(1.0, (to - from) / ground_sampling_step_m)));
-    for (int k = 0; k <= steps; ++k) places.push_back(std::lerp(from, to, static_cast<double>(k) / steps));
+    const int intervals = ground_sampling_intervals(to - from);
+    for (int k = 0; k <= intervals; ++k) places.push_back(std::lerp(from, to, static_cast<double>(k) / intervals));
   }
   return places;
 }

@@ -318,16 +318,16 @@ class TileCutter {
     std::vector<HorizonSegment> result;
     for (const HorizonSegment& underside : undersides) {
       const auto& [a, b] = underside.segment;
-      const auto steps = static_cast<int>(std::ceil(std::max(1.0, norm(horizontal(b - a)) / ground_sampling_step_m)));
-      const auto point_at = [&](int step) { return a + static_cast<double>(step) / steps * (b - a); };
+      const int intervals = ground_sampling_intervals(norm(horizontal(b - a)));
+      const auto point_at = [&](int k) { return a + static_cast<double>(k) / intervals * (b - a); };
       std::vector<bool> is_above;
-      for (int k = 0; k <= steps; ++k) {
+      for (int k = 0; k <= intervals; ++k) {
         const Point3d p = point_at(k);
         is_above.push_back(p.z > ground_.height_at(horizontal(p)) + ground_contact_m);
       }
       // An interval counts as above the ground when one of its ends is; join consecutive intervals
-      for (int from = 0, to = 0; from < steps; from = to + 1) {
-        for (to = from; to < steps && (is_above[to] || is_above[to + 1]); ++to) {
+      for (int from = 0, to = 0; from < intervals; from = to + 1) {
+        for (to = from; to < intervals && (is_above[to] || is_above[to + 1]); ++to) {
         }
         if (to > from) result.push_back({{point_at(from), point_at(to)}, underside.adjacent, underside.role});
       }
