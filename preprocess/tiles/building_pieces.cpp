@@ -119,18 +119,11 @@ class BuildingCutter {
   }
 
   void cut_facet(const TriangulatedFacet& f) {
-    const std::optional<Cell>& only_cell = result_.only_cell;
     const auto surface = static_cast<std::uint32_t>(place_of_surface_.at(f.facet->surface));
     for (const Triangle& t : f.triangulation.triangles) {
       const std::array corners{f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c]};
-      if (only_cell) {
-        std::vector<Point3f> polygon;
-        polygon.reserve(corners.size());
-        for (const Point3d& p : corners) polygon.push_back(cell_from_grid(p, *only_cell, grid_, height_origin_m_));
-        result_.pieces.push_back({{*only_cell, std::move(polygon)}, surface});
-        continue;
-      }
-      for (CellPiece& piece : cut(corners, grid_, height_origin_m_)) result_.pieces.push_back({std::move(piece), surface});
+      for (CellPiece& piece : cut_unless_whole(corners, result_.only_cell, grid_, height_origin_m_))
+        result_.pieces.push_back({std::move(piece), surface});
     }
   }
 
@@ -142,8 +135,7 @@ class BuildingCutter {
         table.add_triangle(f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c], look);
     }
     for (const HorizonSegment& edge : table.horizon_edges()) {
-      const auto pieces = result_.only_cell ? std::vector{whole_edge(edge, *result_.only_cell, grid_, height_origin_m_)}
-                                            : cut_edge(edge, grid_, height_origin_m_);
+      const auto pieces = cut_edge_unless_whole(edge, result_.only_cell, grid_, height_origin_m_);
       result_.upper_pieces.insert(result_.upper_pieces.end(), pieces.begin(), pieces.end());
       result_.upper_borders.push_back({edge.segment, result_.upper_pieces.size()});
     }

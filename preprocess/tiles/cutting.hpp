@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "farlod/grid.hpp"
@@ -23,6 +24,10 @@ struct CellPiece {
 /// Corners on a border are rounded alike in both cells, so that the pieces still touch. A triangle inside one cell
 /// costs no arithmetic beyond the rounding.
 [[nodiscard]] std::vector<CellPiece> cut(const std::array<Point3d, 3>& triangle_grid, const Grid& grid, double height_origin_m);
+/// As `cut`; but where there is an `only_cell`, the triangle goes whole to it, and wherever it lies.
+[[nodiscard]] std::vector<CellPiece> cut_unless_whole(const std::array<Point3d, 3>& triangle_grid,
+                                                      const std::optional<Cell>& only_cell, const Grid& grid,
+                                                      double height_origin_m);
 /// The same for a triangle that may reach beyond the grid, as terrains do: only the pieces in cells of the grid.
 [[nodiscard]] std::vector<CellPiece> cut_within(const std::array<Point3d, 3>& triangle_grid, const Grid& grid,
                                                 double height_origin_m);

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "tiles/cutting.hpp"
@@ -108,7 +107,7 @@ std::vector<ExactPiece> cut_exactly(const std::array<Point3d, 3>& triangle_grid,
 namespace {
 
 /// The cell that contains the whole triangle, if there is one.
-std::optional<Cell> only_cell(const std::array<Point3d, 3>& t, const Grid& grid) {
+std::optional<Cell> cell_of_all(const std::array<Point3d, 3>& t, const Grid& grid) {
   const Cell low = grid.cell_of({std::min({t[0].x, t[1].x, t[2].x}), std::min({t[0].y, t[1].y, t[2].y})});
   const Cell high = grid.cell_of({std::max({t[0].x, t[1].x, t[2].x}), std::max({t[0].y, t[1].y, t[2].y})});
   return low == high ? std::optional(low) : std::nullopt;
@@ -127,14 +126,19 @@ Point3f rounded(const ExactCorner& corner, const std::array<Point3d, 3>& triangl
   return {round(corner.p_grid.x, south_west.x), round(corner.p_grid.y, south_west.y), round(corner.p_grid.z, height_origin_m)};
 }
 
+CellPiece whole_triangle(const std::array<Point3d, 3>& triangle, Cell cell, const Grid& grid, double height_origin_m) {
+  CellPiece piece{cell, {}};
+  piece.polygon.reserve(triangle.size());
+  for (const Point3d& p : triangle) piece.polygon.push_back(cell_from_grid(p, cell, grid, height_origin_m));
+  return piece;
+}
+
 std::vector<CellPiece> cut(const std::array<Point3d, 3>& triangle, const Grid& grid, double height_origin_m,
                            const CellRange& wanted) {
   // A triangle inside one cell needs no exact arithmetic
-  if (const auto cell = only_cell(triangle, grid)) {
+  if (const auto cell = cell_of_all(triangle, grid)) {
     if (!wanted.contains(*cell)) return {};
-    std::vector<Point3f> polygon;
-    for (const Point3d& p : triangle) polygon.push_back(cell_from_grid(p, *cell, grid, height_origin_m));
-    return {{*cell, std::move(polygon)}};
+    return {whole_triangle(triangle, *cell, grid, height_origin_m)};
   }
   std::vector<CellPiece> pieces;
   for (const ExactPiece& exact : cut_exactly(triangle, grid, wanted)) {
@@ -155,6 +159,12 @@ Point3f cell_from_grid(const Point3d& p_grid, Cell cell, const Grid& grid, doubl
 
 std::vector<CellPiece> cut(const std::array<Point3d, 3>& triangle, const Grid& grid, double height_origin_m) {
   return cut(triangle, grid, height_origin_m, all_cells);
+}
+
+std::vector<CellPiece> cut_unless_whole(const std::array<Point3d, 3>& triangle, const std::optional<Cell>& only_cell,
+                                        const Grid& grid, double height_origin_m) {
+  if (only_cell) return {whole_triangle(triangle, *only_cell, grid, height_origin_m)};
+  return cut(triangle, grid, height_origin_m);
 }
 
 std::vector<CellPiece> cut_within(const std::array<Point3d, 3>& triangle, const Grid& grid, double height_origin_m) {

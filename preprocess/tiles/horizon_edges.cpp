@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -115,6 +114,13 @@ std::vector<Stretch> open_stretches(const EdgeSides& edge, const SortedEdges& cl
     if (const auto shared = shared_stretch(edge.edge(), other.edge())) open = without(open, *shared);
   });
   return open;
+}
+
+/// An edge that is not cut, in the frame of `cell`.
+CellEdge whole_edge(const HorizonSegment& edge, Cell cell, const Grid& grid, double height_origin_m) {
+  return {cell,
+          {cell_from_grid(edge.segment.a, cell, grid, height_origin_m),
+           cell_from_grid(edge.segment.b, cell, grid, height_origin_m), edge.adjacent, edge.role}};
 }
 
 }  // namespace
@@ -239,12 +245,6 @@ std::vector<HorizonSegment> undersides(std::span<const EdgeSides> edges) {
   return result;
 }
 
-CellEdge whole_edge(const HorizonSegment& edge, Cell cell, const Grid& grid, double height_origin_m) {
-  return {cell,
-          {cell_from_grid(edge.segment.a, cell, grid, height_origin_m),
-           cell_from_grid(edge.segment.b, cell, grid, height_origin_m), edge.adjacent, edge.role}};
-}
-
 std::vector<CellEdge> cut_edge(const HorizonSegment& horizon, const Grid& grid, double height_origin_m) {
   const Segment3d& edge = horizon.segment;
   const Cell cell = grid.cell_of(horizontal(edge.a));
@@ -263,6 +263,12 @@ std::vector<CellEdge> cut_edge(const HorizonSegment& horizon, const Grid& grid, 
                                 grid, height_origin_m));
   }
   return pieces;
+}
+
+std::vector<CellEdge> cut_edge_unless_whole(const HorizonSegment& edge, const std::optional<Cell>& only_cell, const Grid& grid,
+                                            double height_origin_m) {
+  if (only_cell) return {whole_edge(edge, *only_cell, grid, height_origin_m)};
+  return cut_edge(edge, grid, height_origin_m);
 }
 
 }  // namespace farlod::tiles

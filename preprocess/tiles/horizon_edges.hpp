@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -125,7 +126,8 @@ struct CellEdge {
 /// on a border, to the cell to the east or north.
 [[nodiscard]] std::vector<CellEdge> cut_edge(const HorizonSegment& edge_grid, const Grid& grid, double height_origin_m);
 
-/// An edge that is not cut, in the frame of `cell`.
-[[nodiscard]] CellEdge whole_edge(const HorizonSegment& edge_grid, Cell cell, const Grid& grid, double height_origin_m);
+/// As `cut_edge`; but where there is an `only_cell`, the edge goes whole to it, and wherever it lies.
+[[nodiscard]] std::vector<CellEdge> cut_edge_unless_whole(const HorizonSegment& edge_grid, const std::optional<Cell>& only_cell,
+                                                          const Grid& grid, double height_origin_m);
 
 }  // namespace farlod::tiles

@@ -212,9 +212,7 @@ class TileCutter {
     overhanging.foundation_top_m = foundation_top_m;
     overhanging.surfaces = {first_surface, static_cast<std::uint32_t>(tiles_.surfaces.size())};
     for (const HorizonSegment& underside : undersides) {
-      const auto edges = cut_building.only_cell
-                             ? std::vector{whole_edge(underside, *cut_building.only_cell, grid_, tiles_.height_origin_m)}
-                             : cut_edge(underside, grid_, tiles_.height_origin_m);
+      const auto edges = cut_edge_unless_whole(underside, cut_building.only_cell, grid_, tiles_.height_origin_m);
       overhanging.undersides.insert(overhanging.undersides.end(), edges.begin(), edges.end());
     }
     cut_building.surfaces = {};
@@ -233,7 +231,7 @@ class TileCutter {
     const auto number = static_cast<std::uint32_t>(tiles_.surfaces.size());
     tiles_.surfaces.push_back(surface);
     for (const auto& triangle : foundation.walls)
-      for (const CellPiece& piece : pieces_of(triangle, pieces.only_cell))
+      for (const CellPiece& piece : cut_unless_whole(triangle, pieces.only_cell, grid_, tiles_.height_origin_m))
         if (grid_.cells.contains(piece.cell)) place(piece, number);
     // The floor is the lid of the foundation too, so that the space below the floor counts as inside
     const auto low = static_cast<float>(foundation.top_m - tiles_.height_origin_m);
@@ -262,14 +260,6 @@ class TileCutter {
 
   [[nodiscard]] GroundHeightAt ground_height() const {
     return [this](Point2d p_grid) { return ground_.height_at(p_grid); };
-  }
-
-  [[nodiscard]] std::vector<CellPiece> pieces_of(const std::array<Point3d, 3>& triangle,
-                                                 const std::optional<Cell>& only_cell) const {
-    if (!only_cell) return cut(triangle, grid_, tiles_.height_origin_m);
-    CellPiece piece{*only_cell, {}};
-    for (const Point3d& p : triangle) piece.polygon.push_back(cell_from_grid(p, *only_cell, grid_, tiles_.height_origin_m));
-    return {piece};
   }
 
   /// Runs after all buildings are placed: the triangles that close a lower border may belong to any building.
