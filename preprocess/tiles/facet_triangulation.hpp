@@ -23,8 +23,7 @@ struct Triangulation {
 
 /// Triangulates a facet with holes. For every facet whose rings do not cross:
 ///   (1) The corners of the triangles are the facet's points, unchanged, so that the exact area vectors of the triangles sum to
-///   the
-///       area vector of the facet.
+///       the area vector of the facet.
 ///   (2) The triangles have the orientation of the outer ring.
 ///   (3) A facet without area has no triangles.
 /// Where rings cross, in the facet's own plane, the inside is where an odd number of rings surrounds it.
