@@ -22,6 +22,14 @@ void visit_places(const HorizonSegment& border, const Visit& visit) {
   for (int k = 0; k <= intervals; ++k) visit(a + static_cast<double>(k) / intervals * (b - a));
 }
 
+/// The largest height of the borders above the ground.
+double largest_gap_m(std::span<const HorizonSegment> foot, const GroundHeightAt& ground_height) {
+  double largest_m = 0.0;
+  for (const HorizonSegment& border : foot)
+    visit_places(border, [&](const Point3d& p) { largest_m = std::max(largest_m, p.z - ground_height(horizontal(p))); });
+  return largest_m;
+}
+
 }  // namespace
 
 std::optional<Foundation> take_foundation(std::span<const Point3d> building_points, std::vector<HorizonSegment>& undersides,
@@ -48,13 +56,6 @@ std::optional<Foundation> take_foundation(std::span<const Point3d> building_poin
   foundation.walls = foundation_walls({foot, undersides.end()}, ground_height);
   undersides.erase(foot, undersides.end());
   return foundation;
-}
-
-double largest_gap_m(std::span<const HorizonSegment> foot, const GroundHeightAt& ground_height) {
-  double largest_m = 0.0;
-  for (const HorizonSegment& border : foot)
-    visit_places(border, [&](const Point3d& p) { largest_m = std::max(largest_m, p.z - ground_height(horizontal(p))); });
-  return largest_m;
 }
 
 std::vector<std::array<Point3d, 3>> foundation_walls(std::span<const HorizonSegment> foot, const GroundHeightAt& ground_height) {

@@ -38,9 +38,6 @@ struct Foundation {
                                                         std::vector<HorizonSegment>& undersides,
                                                         const GroundHeightAt& ground_height);
 
-/// The largest height of the borders above the ground.
-[[nodiscard]] double largest_gap_m(std::span<const HorizonSegment> foot, const GroundHeightAt& ground_height);
-
 /// Vertical triangles from the borders of the lowest floor down to the ground, in the grid frame. They end a little below the
 /// ground. `foot` are the parts of lower borders that are above the ground.
 [[nodiscard]] std::vector<std::array<Point3d, 3>> foundation_walls(std::span<const HorizonSegment> foot,
