@@ -48,6 +48,13 @@ std::optional<Ground> surveyed_ground(const std::optional<TerrainRaster>& terrai
   return Ground(thinned_relief(std::move(points_grid), grid.rectangle()), grid.rectangle(), extent);
 }
 
+double area_of(std::span<const Point3f> convex_polygon) {
+  double area_m2 = 0.0;
+  for (std::size_t n = 2; n < convex_polygon.size(); ++n)
+    area_m2 += 0.5 * norm(cross(convex_polygon[n - 1] - convex_polygon[0], convex_polygon[n] - convex_polygon[0]));
+  return area_m2;
+}
+
 /// Calls place(n, make(n)) for each n below `count`. The calls of `make` run in parallel; those of `place` run in order, one at a
 /// time.
 template <class Make, class Place>
@@ -223,22 +230,25 @@ class TileCutter {
   /// Places the walls and the lid of a foundation as one more surface of the building that was placed last.
   void place_foundation(const Building& building, const BuildingPieces& pieces, const Foundation& foundation, Report& report) {
     if (foundation.gap_m > storey_m) report_gap(building, foundation, report);
-    Surface surface = tiles_.surfaces.back();
-    ++surface.number;
-    surface.kind = SurfaceKind::foundation;
-    surface.normal = {0.0, 0.0, 1.0};
-    surface.part = static_cast<std::uint16_t>(last_part(pieces) + 1);
+    const Surface& last = tiles_.surfaces.back();
+    const auto part = static_cast<std::uint16_t>(last_part(pieces) + 1);
+    const Surface surface{last.building, last.number + 1, part, SurfaceKind::foundation, {0.0, 0.0, 1.0}, 0.0};
     const auto number = static_cast<std::uint32_t>(tiles_.surfaces.size());
     tiles_.surfaces.push_back(surface);
+    const auto place_piece = [&](const CellPiece& piece) {
+      place(piece, number);
+      tiles_.surfaces[number].area_m2 += area_of(piece.polygon);
+    };
+    // The ends of a border were computed, and may lie beyond the grid by their rounding
     for (const auto& triangle : foundation.walls)
       for (const CellPiece& piece : cut_unless_whole(triangle, pieces.only_cell, grid_, tiles_.height_origin_m))
-        if (grid_.cells.contains(piece.cell)) place(piece, number);
+        if (grid_.cells.contains(piece.cell)) place_piece(piece);
     // The floor is the lid of the foundation too, so that the space below the floor counts as inside
     const auto low = static_cast<float>(foundation.top_m - tiles_.height_origin_m);
     for (const SurfacePiece& p : pieces.pieces)
       if (pieces.surfaces[p.surface].surface.kind == SurfaceKind::floor &&
           std::all_of(p.piece.polygon.begin(), p.piece.polygon.end(), [low](const Point3f& v) { return v.z <= low; }))
-        place(p.piece, number);
+        place_piece(p.piece);
     ++tiles_.foundation_count;
   }
 

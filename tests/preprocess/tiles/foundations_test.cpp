@@ -20,9 +20,9 @@ Grid one_cell() {
 }
 
 /// A house of 10 m by 10 m whose base is at this height, above a plain at 0.
-TileSet house_over_plain(double base_m) {
+TileSet house_over_plain(double base_m, double height_m = 10.0) {
   scenes::SceneBuilder town;
-  town.add_box({{40, 40}, {50, 50}}, base_m, base_m + 10.0);
+  town.add_box({{40, 40}, {50, 50}}, base_m, base_m + height_m);
   LocatedCity city;
   city.city = town.city();
   TerrainRaster plain;
@@ -67,10 +67,20 @@ TEST(Foundations, CloseAFloorThatFloats) {
   // Four walls of 10 m, from the floor at 2 m to a little below the ground, and the floor again as their lid
   EXPECT_GT(area_of(tiles, SurfaceKind::foundation), 4 * 10.0 * 2.0 + 100.0);
   for (const Surface& s : tiles.surfaces) EXPECT_TRUE(s.grounded);
+  const Surface& foundation = tiles.surfaces.back();
+  ASSERT_EQ(foundation.kind, SurfaceKind::foundation);
+  EXPECT_DOUBLE_EQ(foundation.area_m2, area_of(tiles, SurfaceKind::foundation));
 }
 
 TEST(Foundations, WhatOneCanWalkUnderFromAllSidesGetsNone) {
   const TileSet tiles = house_over_plain(4.0);
+  EXPECT_EQ(tiles.foundation_count, 0U);
+  EXPECT_GT(edges_of(tiles, EdgeRole::underside), 0U);
+}
+
+TEST(Foundations, WhatIsThinnerThanTheGapBelowItGetsNone) {
+  EXPECT_EQ(house_over_plain(2.0, 2.1).foundation_count, 1U);
+  const TileSet tiles = house_over_plain(2.0, 1.9);
   EXPECT_EQ(tiles.foundation_count, 0U);
   EXPECT_GT(edges_of(tiles, EdgeRole::underside), 0U);
 }
