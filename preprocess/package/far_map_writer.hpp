@@ -13,7 +13,7 @@ namespace farlod {
 /// Writes a block's `far.exr`: a tiled picture whose tile (i, j) is the map of the block's cell (i, j) from its south-west
 /// corner. Tiles run upwards with j; within a tile of the kind `box`, pictures run downwards, so row 0 is the map's highest; of
 /// the kind `horizon`, row 0 is the first patch. Bounds are rounded outwards.
-/// Throws std::runtime_error when the file cannot be written.
+/// Throws std::runtime_error, which says why, when the file cannot be written.
 void write_far_maps(const std::filesystem::path& file, const BakedBlock& maps, const CellRange& cells,
                     const package::FarMapShape& shape);
 

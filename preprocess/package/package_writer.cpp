@@ -29,7 +29,7 @@ void require_package_or_empty(const fs::path& folder) {
 }
 
 /// What far maps of the kind `horizon` add to the tiles file.
-std::uint64_t named_bytes(const BakedBlock& maps) {
+std::uint64_t explicit_occluder_bytes(const BakedBlock& maps) {
   const auto* horizons = std::get_if<BakedHorizons>(&maps);
   if (horizons == nullptr) return 0;
   std::uint64_t bytes = horizons->edges.size() * sizeof(HorizonEdge);
@@ -39,6 +39,16 @@ std::uint64_t named_bytes(const BakedBlock& maps) {
 }
 
 fs::path temporary_name(const fs::path& path) { return path.string() + ".part"; }
+
+/// Makes a folder, moves or removes something; what the file system refuses is told as PackageWriteError.
+template <class Work>
+void change_on_disk(const fs::path& path, const Work& work) {
+  try {
+    work();
+  } catch (const fs::filesystem_error& reason) {
+    throw PackageWriteError(path.string() + " cannot be written: " + reason.code().message());
+  }
+}
 
 }  // namespace
 
@@ -51,14 +61,12 @@ void require_room(const fs::path& folder, Overwrite overwrite) {
 }
 
 PackageWriter::PackageWriter(fs::path folder, Overwrite overwrite) : folder_(std::move(folder)) {
-  try {
+  change_on_disk(folder_, [&] {
     require_room(folder_, overwrite);
     fs::remove(folder_ / package::manifest_file);  // first, so that a half-swept package is none
     fs::remove_all(folder_ / blocks_folder);
     fs::create_directories(folder_ / blocks_folder);
-  } catch (const fs::filesystem_error& reason) {
-    throw PackageWriteError(folder_.string() + " cannot be written: " + reason.code().message());
-  }
+  });
 }
 
 package::FileStamp PackageWriter::write_file(const fs::path& path, std::span<const std::byte> bytes) {
@@ -67,7 +75,7 @@ package::FileStamp PackageWriter::write_file(const fs::path& path, std::span<con
   file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   file.close();
   if (!file) throw PackageWriteError(path.string() + " cannot be written. Is the disk full?");
-  fs::rename(part, path);
+  change_on_disk(path, [&] { fs::rename(part, path); });
   bytes_written_ += bytes.size();
   return stamp_of(bytes);
 }
@@ -75,14 +83,19 @@ package::FileStamp PackageWriter::write_file(const fs::path& path, std::span<con
 package::BlockFiles PackageWriter::write_block(const TileSet& tiles, const BakedBlock& maps, const Grid& grid, Block block,
                                                const package::FarMapShape& shape) {
   const fs::path folder = folder_ / package::block_folder(block);
-  fs::create_directories(folder);
+  change_on_disk(folder, [&] { fs::create_directories(folder); });
   package::BlockFiles files{block, write_file(folder / package::tiles_file, tiles_file(tiles, maps, grid, block)), {}};
   const fs::path far = folder / package::far_map_file;
-  write_far_maps(temporary_name(far), maps, grid.cells_of(block), shape);
-  files.far_map = stamp_of(temporary_name(far));
-  fs::rename(temporary_name(far), far);
+  const fs::path part = temporary_name(far);
+  try {
+    write_far_maps(part, maps, grid.cells_of(block), shape);
+  } catch (const std::runtime_error& reason) {
+    throw PackageWriteError(std::string(reason.what()) + " Is the disk full?");
+  }
+  files.far_map = stamp_of(part);
+  change_on_disk(far, [&] { fs::rename(part, far); });
   bytes_written_ += files.far_map.bytes;
-  far_map_bytes_ += files.far_map.bytes + named_bytes(maps);
+  far_map_bytes_ += files.far_map.bytes + explicit_occluder_bytes(maps);
   return files;
 }
 

@@ -40,7 +40,7 @@ class PackageWriter {
   void finish(const package::Manifest& manifest);
 
   [[nodiscard]] std::uint64_t bytes_written() const { return bytes_written_; }
-  /// Of all far maps: their pictures, and what they name.
+  /// Of all far maps: their pictures, and their explicit occluders.
   [[nodiscard]] std::uint64_t far_map_bytes() const { return far_map_bytes_; }
 
  private:
