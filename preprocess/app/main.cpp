@@ -75,9 +75,8 @@ void print_choice(const pipeline::ChosenGrid& chosen, const PackOptions& options
   if (chosen.best) {
     const pipeline::GridChoice& b = *chosen.best;
     fmt::print(
-        "Chosen for errors up to {:g}: cells of {:g} m, neighborhood {} × {}, far maps to {:g}; expected of the far maps: at "
-        "the "
-        "most {:.4f}, certain to {:.4f} for 99 %\n",
+        "Chosen for errors up to {:g}: cells of {:g} m, neighborhood {} × {}, far maps to {:g}; expected of the far maps: "
+        "at the most {:.4f}, certain to {:.4f} for 99 %\n",
         max_error, b.cell_edge_m, b.neighborhood, b.neighborhood, b.tolerance, b.far_error.max_error, b.far_error.p99_half_width);
   } else {
     fmt::print(

@@ -16,14 +16,14 @@
 
 namespace farlod::pipeline {
 
-/// A cell size, a neighborhood and how finely its far maps name occluders; what that was found to do, and what a receiver costs.
+/// A cell size, a neighborhood and the tolerance of its far maps; what these were found to do, and what a receiver costs.
 struct GridChoice {
   double cell_edge_m = 0.0;
   int neighborhood = 0;
   double tolerance = 0.0;
   FarErrorEstimate far_error;
-  double receiver_us =
-      0.0;  ///< expected, packing included, at 1,000 rays on a 2 m grid: to compare choices with, not to plan a run by
+  /// Expected, packing included, at 1,000 rays on a 2 m grid: to compare choices with, not to plan a run by.
+  double receiver_us = 0.0;
 };
 
 /// What may be chosen from.
