@@ -94,10 +94,11 @@ struct ResolvedGridSettings {
   FarMapSettings far_map;
 };
 
-/// A grid, and the ground below it where a raster is read.
+/// A grid, the ground below it where a raster is read, and how the streets lie.
 struct GridOnGround {
   Grid grid;
   std::optional<TerrainRaster> terrain;
+  align::Alignment streets = {};
 };
 
 /// Runs the stages one after the other, and measures how long each takes.
@@ -123,7 +124,9 @@ class Packing {
     ResolvedInputs inputs = resolve_inputs();
     LocatedCity located = locate(inputs);
     const ResolvedGridSettings resolved = resolve_grid_settings(located, inputs);
-    const GridOnGround ground = lay_grid_on_ground(located, inputs, resolved.grid);
+    const auto run_stage = [this](const std::string& stage, const auto& work) { return timed(stage, work); };
+    const GridOnGround ground = lay_grid_on_ground(located, inputs, resolved.grid, report_, run_stage);
+    result_.alignment = ground.streets;
     estimate(located, ground, resolved.far_map);
     describe_place(located, ground.grid, resolved.far_map, inputs);
     result_.facets = located.city.facets().size();
@@ -204,20 +207,23 @@ class Packing {
     return terrain;
   }
 
-  /// Buildings decide where the grid lies, and of a terrain only what it covers is read; a terrain alone decides itself.
-  GridOnGround lay_grid_on_ground(const LocatedCity& located, const ResolvedInputs& inputs, const align::GridSettings& settings) {
+  /// Buildings decide where the grid lies, and of a terrain only what it covers is read; a terrain alone decides itself. Each
+  /// stage is run by `run_stage(name, work)`.
+  template <class RunStage>
+  [[nodiscard]] GridOnGround lay_grid_on_ground(const LocatedCity& located, const ResolvedInputs& inputs,
+                                                const align::GridSettings& settings, Report& report,
+                                                const RunStage& run_stage) const {
     const auto read = [&](const std::optional<Box2d>& wanted_city) -> std::optional<TerrainRaster> {
       if (!inputs.terrain) return std::nullopt;
-      return timed("terrain", [&] { return read_ground(*inputs.terrain, located, wanted_city); });
+      return run_stage("terrain", [&] { return read_ground(*inputs.terrain, located, wanted_city); });
     };
     if (located.city.buildings().empty()) {
       std::optional<TerrainRaster> terrain = read(std::nullopt);
-      const Grid grid = timed("align", [&] { return align::grid_over(ground_outline(located, terrain), settings); });
+      const Grid grid = run_stage("align", [&] { return align::grid_over(ground_outline(located, terrain), settings); });
       return {grid, std::move(terrain)};
     }
-    const align::GridAlignment aligned = timed("align", [&] { return align::align(located, settings, report_); });
-    result_.alignment = aligned.streets;
-    return {aligned.grid, read(city_outline(aligned.grid))};
+    const align::GridAlignment aligned = run_stage("align", [&] { return align::align(located, settings, report); });
+    return {aligned.grid, read(city_outline(aligned.grid)), aligned.streets};
   }
 
   ResolvedGridSettings resolve_grid_settings(const LocatedCity& located, const ResolvedInputs& inputs) {
@@ -235,19 +241,12 @@ class Packing {
   /// Tries grids. What is wrong with the city is reported once, when it is packed.
   std::optional<GridChoice> choose(const LocatedCity& located, const ResolvedInputs& inputs, const ChoiceSettings& choice) const {
     Report unread;
-    const auto lay = [&](double cell_edge_m) -> std::pair<Grid, std::optional<TerrainRaster>> {
+    const auto run_untimed = [](const std::string&, const auto& work) { return work(); };
+    const auto lay = [&](double cell_edge_m) {
       align::GridSettings settings = settings_.grid;
       settings.cell_edge_m = cell_edge_m;
-      const auto read = [&](const std::optional<Box2d>& wanted_city) {
-        return inputs.terrain ? std::optional(read_ground(*inputs.terrain, located, wanted_city)) : std::nullopt;
-      };
-      if (located.city.buildings().empty()) {
-        std::optional<TerrainRaster> terrain = read(std::nullopt);
-        const Grid grid = align::grid_over(ground_outline(located, terrain), settings);
-        return {grid, std::move(terrain)};
-      }
-      const Grid grid = align::align(located, settings, unread).grid;
-      return {grid, read(city_outline(grid))};
+      GridOnGround ground = lay_grid_on_ground(located, inputs, settings, unread, run_untimed);
+      return std::pair(ground.grid, std::move(ground.terrain));
     };
     return choose_grid(located, lay, settings_.assign, settings_.far_map.horizon, choice);
   }
