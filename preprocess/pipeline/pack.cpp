@@ -310,8 +310,9 @@ class Packing {
     m.triangles = tiles.triangle_count();
     result_.foundations = tiles.foundation_count;
     if (tiles.foundation_count > 0)
-      result_.notes.push_back(std::to_string(tiles.foundation_count) +
-                              " buildings have their lowest floor above the ground somewhere: it was closed down to the ground.");
+      result_.notes.push_back(
+          "Closed down to the ground, since the lowest floor is above it somewhere: " + std::to_string(tiles.foundation_count) +
+          " of " + std::to_string(tiles.building_ids.size()) + " buildings.");
     std::map<int, std::uint64_t> counts;
     for (const Problem& p : report_.problems()) ++counts[static_cast<int>(p.code)];
     m.problem_counts.assign(counts.begin(), counts.end());
