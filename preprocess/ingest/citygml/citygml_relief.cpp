@@ -2,16 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ingest/citygml/citygml_relief.hpp"
 
-#include <cmath>
-
 #include "ingest/model_builder/ring_cleaning.hpp"
 
 namespace farlod::ingest {
-namespace {
-
-bool is_readable(double coordinate) { return std::abs(coordinate) <= farthest_coordinate; }  // false for NaN
-
-}  // namespace
 
 void ReliefReader::begin(const XmlElement& property) {
   dimension_ = property.srs_dimension == "2" ? 2 : 3;
@@ -53,11 +46,12 @@ void ReliefReader::take_number(double number) {
 }
 
 void ReliefReader::add_point() {
-  if (dimension_ < 3 || !is_readable(numbers_[0]) || !is_readable(numbers_[1]) || !is_readable(numbers_[2])) {
+  const std::optional<Point3d> p = dimension_ < 3 ? std::nullopt : std::optional(Point3d{numbers_[0], numbers_[1], numbers_[2]});
+  if (!p || !is_readable(*p)) {
     ++unreadable_points_;
     return;
   }
-  points_.push_back({numbers_[0], numbers_[1], numbers_[2]});
+  points_.push_back(*p);
   if (points_of_list_++ == 0) first_of_list_ = points_.back();
 }
 

@@ -3,7 +3,6 @@
 #include "ingest/cityjson/cityjson_objects.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 #include <unordered_map>
@@ -287,11 +286,6 @@ class BuildingAssembler {
   std::uint16_t parts_ = 0;
 };
 
-bool is_on_earth(const Point3d& p) {
-  // NaN is no less than anything
-  return std::abs(p.x) <= farthest_coordinate && std::abs(p.y) <= farthest_coordinate && std::abs(p.z) <= farthest_coordinate;
-}
-
 /// Triangles of terrain share their corners: each row of the vertex list counts once.
 class ReliefCollector {
  public:
@@ -317,7 +311,7 @@ class ReliefCollector {
  private:
   bool take(std::int64_t row) {
     const auto k = static_cast<std::size_t>(row);
-    if (row < 0 || k >= vertices_.size() || !is_on_earth(vertices_[k])) return false;
+    if (row < 0 || k >= vertices_.size() || !is_readable(vertices_[k])) return false;
     if (!is_taken_[k]) points_.push_back(vertices_[k]);
     is_taken_[k] = true;
     return true;

@@ -10,14 +10,14 @@ namespace {
 
 bool is_readable(double coordinate) { return std::abs(coordinate) <= farthest_coordinate; }  // false for NaN
 
-bool is_readable(const Point3d& p) { return is_readable(p.x) && is_readable(p.y) && is_readable(p.z); }
-
 bool has_three_different(const Ring& ring) {
   return ring.size() >= 3 &&
          std::any_of(ring.begin() + 2, ring.end(), [&](const Point3d& p) { return p != ring[0] && p != ring[1]; });
 }
 
 }  // namespace
+
+bool is_readable(const Point3d& p) { return is_readable(p.x) && is_readable(p.y) && is_readable(p.z); }
 
 std::optional<Point3d> first_readable(std::span<const Ring> rings) {
   for (const Ring& ring : rings)

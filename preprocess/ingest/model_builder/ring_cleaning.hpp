@@ -30,7 +30,10 @@ struct RingFindings {
 /// No reference system of the Earth reaches this far, in metres or in feet: a larger number is a slip.
 inline constexpr double farthest_coordinate = 1e9;
 
-/// The first vertex that lies on the Earth.
+/// Whether all coordinates are numbers, and none lies beyond the Earth.
+[[nodiscard]] bool is_readable(const Point3d& p);
+
+/// The first vertex that is readable.
 [[nodiscard]] std::optional<Point3d> first_readable(std::span<const Ring> rings);
 
 /// Brings a ring into the form that CityModel promises: not closed, no vertex twice in a row, at least three different
