@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <unordered_set>
 
 #include "ingest/model_builder/polygon_deduplicator.hpp"
 

@@ -16,15 +16,14 @@ namespace {
 /// The root of an XML file comes after comments, licences and a long list of namespaces.
 constexpr std::size_t beginning_bytes = std::size_t{1} << 16;
 
-/// Formats of their own that are zip archives inside: GDAL opens them.
-bool is_map_in_zip(const std::string& name) { return ends_with_any(name, {".kmz", ".xlsx", ".ods", ".shz"}); }
-
 FileFormat format_by_map_kind(const InputFile& file) {
   const MapKind kind = map_kind_of(file);
   return kind == MapKind::features ? FileFormat::features : kind == MapKind::raster ? FileFormat::raster : FileFormat::unknown;
 }
 
 }  // namespace
+
+bool is_map_in_zip(std::string_view file_name) { return ends_with_any(file_name, {".kmz", ".xlsx", ".ods", ".shz"}); }
 
 std::string_view name_of(FileFormat format) {
   switch (format) {

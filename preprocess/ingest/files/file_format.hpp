@@ -19,6 +19,9 @@ enum class FileFormat {
   unknown,   ///< no format of a city
 };
 
+/// Whether a file of this name is of a format of its own, although it is a zip archive inside: GDAL opens it.
+[[nodiscard]] bool is_map_in_zip(std::string_view file_name);
+
 /// For messages: "CityGML".
 [[nodiscard]] std::string_view name_of(FileFormat format);
 

@@ -123,7 +123,7 @@ class InputSearch {
   void take_file(const fs::path& file, const Take& take) {
     if (fs::is_directory(file)) return add(file);
     const std::string beginning = read_beginning(file, mark_bytes);
-    if (is_zip(beginning) && !ends_with_any(file.string(), {".kmz", ".xlsx", ".ods", ".shz"}))
+    if (is_zip(beginning) && !is_map_in_zip(file.string()))
       take_archive(file);
     else
       take(is_gzip(beginning) ? gzip_member(file) : InputFile(file));
