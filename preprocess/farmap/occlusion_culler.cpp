@@ -8,17 +8,11 @@
 #include <queue>
 #include <utility>
 
+#include "city/plan_boxes.hpp"
 #include "farlod/horizon/edge_facing.hpp"
 
 namespace farlod {
 namespace {
-
-/// Between two boxes in the plane; 0 where they meet.
-double distance_m(const Box2d& a, const Box2d& b) {
-  const double x = std::max({a.low.x - b.high.x, b.low.x - a.high.x, 0.0});
-  const double y = std::max({a.low.y - b.high.y, b.low.y - a.high.y, 0.0});
-  return std::sqrt(x * x + y * y);
-}
 
 /// An upper bound of the slope of what rises so high and is nowhere nearer than this.
 double slope_at_most(double rise_m, double nearest_m) { return rise_m / nearest_m * (1.0 + bound_rounding) + bound_rounding; }

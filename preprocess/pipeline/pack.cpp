@@ -12,6 +12,7 @@
 #include <span>
 
 #include "city/input_error.hpp"
+#include "city/plan_boxes.hpp"
 #include "farlod/version.hpp"
 #include "georeference/problem_locator.hpp"
 #include "georeference/terrain_reader.hpp"
@@ -57,15 +58,11 @@ Box2d ground_outline(const LocatedCity& located, const std::optional<TerrainRast
   return terrain ? outline_of(*terrain) : outline_of(located.relief_points);
 }
 
-bool overlap(const Box2d& a, const Box2d& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
-}
-
 /// Drops a relief that is not used: a raster replaces it, or it lies elsewhere than the city. Counts its points as skipped.
 void resolve_relief(LocatedCity& located, bool has_terrain, SkippedFeatures& skipped) {
   if (located.relief_points.empty()) return;
   const bool is_elsewhere = !located.city.buildings().empty() &&
-                            !overlap(outline_of(located.relief_points), outline_of(std::as_const(located.city).points()));
+                            !boxes_meet(outline_of(located.relief_points), outline_of(std::as_const(located.city).points()));
   if (!has_terrain && !is_elsewhere) return;
   const char* reason = has_terrain ? " (the raster stands in for them)" : " (none lies where the city is)";
   skipped[std::string("points of reliefs") + reason] += located.relief_points.size();

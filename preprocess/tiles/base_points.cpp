@@ -8,6 +8,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "city/plan_boxes.hpp"
 #include "farlod/box.hpp"
 
 namespace farlod::tiles {
@@ -26,12 +27,6 @@ Footprint footprint_of(std::span<const Point3d> points) {
     base.height_m = std::min(base.height_m, p.z);
   }
   return base;
-}
-
-double distance_m(const Box2d& a, const Box2d& b) {
-  const double dx = std::max({0.0, a.low.x - b.high.x, b.low.x - a.high.x});
-  const double dy = std::max({0.0, a.low.y - b.high.y, b.low.y - a.high.y});
-  return std::hypot(dx, dy);
 }
 
 /// Finds the buildings near a building: buildings are listed by the squares of a coarse grid that their outlines touch.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "city/plan_boxes.hpp"
 #include "farlod/box.hpp"
 #include "tiles/facet_projection.hpp"
 #include "tiles/facet_triangulation.hpp"
@@ -30,10 +31,6 @@ FlatRing flat(std::span<const Point3d> ring, const FacetProjection& project) {
     result.box.add(q);
   }
   return result;
-}
-
-bool boxes_meet(const Box2d& a, const Box2d& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
 
 bool are_same(const Outline& a, Outline b) {
