@@ -56,7 +56,7 @@ std::optional<std::size_t> place_of(std::uint32_t bin, const EdgeOverSquare& edg
   return std::nullopt;
 }
 
-void expect_below_upper(const View& view, EdgeOverSquare& edge, const AzimuthBins& bins, double z_m, Chance& chance) {
+void expect_below_high(const View& view, EdgeOverSquare& edge, const AzimuthBins& bins, double z_m, Chance& chance) {
   const std::span<const double> upper = edge.high(z_m);
   for (const Point2d place : places_in(view.square, chance)) {
     const Point3d eye{place.x, place.y, chance.below(2) == 0 ? z_m : z_m + chance.between(0.0, 40.0)};
@@ -70,7 +70,7 @@ void expect_below_upper(const View& view, EdgeOverSquare& edge, const AzimuthBin
 }
 
 /// Returns in how many bins something is promised.
-int expect_above_lower(const View& view, EdgeOverSquare& edge, const AzimuthBins& bins, double z_m, Chance& chance) {
+int expect_above_low(const View& view, EdgeOverSquare& edge, const AzimuthBins& bins, double z_m, Chance& chance) {
   const std::span<const double> all = edge.low(z_m);
   int promises = 0;
   for (std::size_t n = 0; n < edge.bin_count(); ++n) {
@@ -90,7 +90,7 @@ int expect_above_lower(const View& view, EdgeOverSquare& edge, const AzimuthBins
   return promises;
 }
 
-TEST(EdgeOverSquare, NoEyeSeesTheEdgeSteeperThanUpper) {
+TEST(EdgeOverSquare, NoEyeSeesTheEdgeSteeperThanHigh) {
   Chance chance(1);
   int bounded = 0;
   for (int trial = 0; trial < trials && !HasFailure(); ++trial) {
@@ -102,12 +102,12 @@ TEST(EdgeOverSquare, NoEyeSeesTheEdgeSteeperThanUpper) {
     const double z_m = chance.between(-5.0, 110.0);
     if (edge.is_unbounded()) continue;
     ++bounded;
-    expect_below_upper(view, edge, borders.bins(), z_m, chance);
+    expect_below_high(view, edge, borders.bins(), z_m, chance);
   }
   EXPECT_GT(bounded, trials / 2);
 }
 
-TEST(EdgeOverSquare, EveryEyeSeesTheEdgeAtLeastAsSteepAsLowerAllOverTheBin) {
+TEST(EdgeOverSquare, EveryEyeSeesTheEdgeAtLeastAsSteepAsLowAllOverTheBin) {
   Chance chance(2);
   int promises = 0;
   for (int trial = 0; trial < trials && !HasFailure(); ++trial) {
@@ -116,7 +116,7 @@ TEST(EdgeOverSquare, EveryEyeSeesTheEdgeAtLeastAsSteepAsLowerAllOverTheBin) {
     const BinBorders& borders = chance.below(2) == 0 ? coarse : fine;
     EdgeOverSquare edge(borders);
     edge.set_edge(view.a, view.b, view.square);
-    if (!edge.is_unbounded()) promises += expect_above_lower(view, edge, borders.bins(), chance.between(-5.0, 110.0), chance);
+    if (!edge.is_unbounded()) promises += expect_above_low(view, edge, borders.bins(), chance.between(-5.0, 110.0), chance);
   }
   EXPECT_GT(promises, trials / 2);
 }

@@ -16,7 +16,7 @@
 
 namespace farlod::test {
 
-/// An edge of the far city of a cell (frame of that cell), and how a block would store it if it were named.
+/// An edge of the far city of a cell (frame of that cell), and how a block would store it if it were explicit.
 struct FarThing {
   Point3d a, b;
   std::array<std::array<float, 3>, 2> stored;  ///< both ends in the frame of the block's south-west cell
@@ -47,11 +47,11 @@ struct FarThing {
 
 /// Whether an edge is no silhouette for anybody in a cell: what goes on beyond it is there by other edges.
 [[nodiscard]] inline bool faces_away(const FarThing& t, const BakedHorizon& map, double cell_edge_m) {
-  return !may_be_silhouette(t.a, t.b, t.adjacent, t.role, {{0.0, 0.0}, {cell_edge_m, cell_edge_m}}, map.patches.levels_m().front(),
-                            std::max(t.a.z, t.b.z));
+  return !may_be_silhouette(t.a, t.b, t.adjacent, t.role, {{0.0, 0.0}, {cell_edge_m, cell_edge_m}},
+                            map.patches.levels_m().front(), std::max(t.a.z, t.b.z));
 }
 
-/// What a cell's map names for one of its patches.
+/// What is explicit in one patch of a cell's map.
 [[nodiscard]] inline std::set<FarThing> explicit_in(const BakedHorizons& block, const BakedHorizon& map, std::uint32_t patch) {
   const std::uint32_t square = patch % map.patches.squares(), layer = patch / map.patches.squares();
   const auto stored = [](const Point3f& p) { return std::array<float, 3>{p.x, p.y, p.z}; };

@@ -77,8 +77,8 @@ struct Place {
   const BakedHorizon& map;
   std::uint32_t patch;
   Point3d eye;
-  [[nodiscard]] float lower(std::uint32_t bin, std::uint32_t bins) const { return map.low[patch * bins + bin]; }
-  [[nodiscard]] float upper(std::uint32_t bin, std::uint32_t bins) const { return map.high[patch * bins + bin]; }
+  [[nodiscard]] float low(std::uint32_t bin, std::uint32_t bins) const { return map.low[patch * bins + bin]; }
+  [[nodiscard]] float high(std::uint32_t bin, std::uint32_t bins) const { return map.high[patch * bins + bin]; }
   [[nodiscard]] float overhang(std::uint32_t bin, std::uint32_t bins) const { return map.overhang[patch * bins + bin]; }
 };
 
@@ -91,52 +91,53 @@ Place random_place(const Baked& baked, Chance& chance) {
 
 class HorizonMaps : public testing::TestWithParam<Town> {};
 
-TEST_P(HorizonMaps, AllThatIsNotNamedAndDoesNotFaceAwayLiesBelowUpper) {
+TEST_P(HorizonMaps, AllThatIsResidualAndDoesNotFaceAwayLiesBelowHigh) {
   const Baked baked = bake(GetParam());
   const AzimuthBins bins;
   Chance chance(7);
-  std::size_t named = 0, bounded = 0, away = 0;
+  std::size_t explicit_count = 0, bounded = 0, away = 0;
   for (int n = 0; n < places_asked; ++n) {
     const Place place = random_place(baked, chance);
-    const auto names = test::explicit_in(baked.block, place.map, place.patch);
+    const auto explicit_things = test::explicit_in(baked.block, place.map, place.patch);
     for (const test::FarThing& thing : test::far_city(baked.tiles, baked.grid, place.cell)) {
       if (!thing.is_upper()) continue;
       const bool faces_away = test::faces_away(thing, place.map, baked.grid.cell_edge_m);
-      ++(faces_away ? away : names.contains(thing) ? named : bounded);
-      if (faces_away || names.contains(thing)) continue;
+      ++(faces_away ? away : explicit_things.contains(thing) ? explicit_count : bounded);
+      if (faces_away || explicit_things.contains(thing)) continue;
       for (const double share : {0.0, 1.0, chance.between(0, 1), chance.between(0, 1)}) {
         const Point3d p = test::point_between(thing.a, thing.b, share);
         const test::Sight sight = test::sight_of(p, place.eye, bins);
-        ASSERT_LE(sight.slope, place.upper(sight.bin, bins.count)) << "place " << n << ", patch " << place.patch;
+        ASSERT_LE(sight.slope, place.high(sight.bin, bins.count)) << "place " << n << ", patch " << place.patch;
       }
     }
   }
-  EXPECT_GT(named, 0U);
-  EXPECT_GT(bounded, named) << "the test would not test much";
+  EXPECT_GT(explicit_count, 0U);
+  EXPECT_GT(bounded, explicit_count) << "the test would not test much";
   EXPECT_GT(bounded, away / 2) << "the test would not test much";
 }
 
-/// The horizon that things make which are grounded and not named.
-double residual_ground(const std::vector<test::FarThing>& things, const std::set<test::FarThing>& names, const Point3d& eye,
-                       double azimuth) {
+/// The horizon that residual things make which are grounded.
+double residual_ground(const std::vector<test::FarThing>& things, const std::set<test::FarThing>& explicit_things,
+                       const Point3d& eye, double azimuth) {
   double horizon = 0.0;
   for (const test::FarThing& thing : things)
-    if (thing.role == EdgeRole::grounded && !names.contains(thing))
+    if (thing.role == EdgeRole::grounded && !explicit_things.contains(thing))
       horizon = std::max(horizon, test::slope_at(azimuth, thing.a, thing.b, eye).value_or(0.0));
   return horizon;
 }
 
-TEST_P(HorizonMaps, LowerBordersThatAreNotNamedLieBelowOverhangOrBeforeHigherGroundedThings) {
+TEST_P(HorizonMaps, ResidualLowerBordersLieBelowOverhangOrBeforeHigherGroundedThings) {
   const Baked baked = bake(GetParam());
   const AzimuthBins bins;
   Chance chance(11);
   std::size_t bounded = 0, hidden = 0;
   for (int n = 0; n < places_asked; ++n) {
     const Place place = random_place(baked, chance);
-    const auto names = test::explicit_in(baked.block, place.map, place.patch);
+    const auto explicit_things = test::explicit_in(baked.block, place.map, place.patch);
     const auto things = test::far_city(baked.tiles, baked.grid, place.cell);
     for (const test::FarThing& thing : things) {
-      if (thing.is_upper() || names.contains(thing) || test::faces_away(thing, place.map, baked.grid.cell_edge_m)) continue;
+      if (thing.is_upper() || explicit_things.contains(thing) || test::faces_away(thing, place.map, baked.grid.cell_edge_m))
+        continue;
       const Point3d p = test::point_between(thing.a, thing.b, chance.between(0, 1));
       const test::Sight sight = test::sight_of(p, place.eye, bins);
       if (sight.slope <= place.overhang(sight.bin, bins.count)) {
@@ -144,7 +145,7 @@ TEST_P(HorizonMaps, LowerBordersThatAreNotNamedLieBelowOverhangOrBeforeHigherGro
         continue;
       }
       const Point2d way = horizontal(p) - horizontal(place.eye);
-      ASSERT_LE(sight.slope, residual_ground(things, names, place.eye, std::atan2(way.y, way.x)))
+      ASSERT_LE(sight.slope, residual_ground(things, explicit_things, place.eye, std::atan2(way.y, way.x)))
           << "place " << n << ", patch " << place.patch;
       ++hidden;
     }
@@ -159,7 +160,7 @@ TEST_P(HorizonMaps, WhereNothingOverhangsTheRowsOfOverhangsAreLevel) {
     for (const float slope : map.overhang) ASSERT_EQ(slope, 0.0F);
 }
 
-TEST_P(HorizonMaps, AllBelowLowerIsHidden) {
+TEST_P(HorizonMaps, AllBelowLowIsHidden) {
   // Small squares: the less eyes move, the more is promised
   HorizonMapSettings settings;
   settings.squares_per_edge = 4;
@@ -171,19 +172,19 @@ TEST_P(HorizonMaps, AllBelowLowerIsHidden) {
     const Place place = random_place(baked, chance);
     const auto things = test::far_city(baked.tiles, baked.grid, place.cell);
     for (std::uint32_t bin = 0; bin < bins.count; ++bin) {
-      if (place.lower(bin, bins.count) == 0.0F) continue;
+      if (place.low(bin, bins.count) == 0.0F) continue;
       ++promises;
       const double azimuth = (bin + chance.between(0, 1)) * bins.width_rad();
       double horizon = 0.0;
       for (const test::FarThing& thing : things)
         if (thing.is_upper()) horizon = std::max(horizon, test::slope_at(azimuth, thing.a, thing.b, place.eye).value_or(0.0));
-      ASSERT_GE(horizon, place.lower(bin, bins.count)) << "place " << n << ", patch " << place.patch << ", bin " << bin;
+      ASSERT_GE(horizon, place.low(bin, bins.count)) << "place " << n << ", patch " << place.patch << ", bin " << bin;
     }
   }
   EXPECT_GT(promises, places_asked);
 }
 
-TEST_P(HorizonMaps, LowerIsNotAboveUpper) {
+TEST_P(HorizonMaps, LowIsNotAboveHigh) {
   const Baked baked = bake(GetParam());
   for (const BakedHorizon& map : baked.block.cells)
     for (std::size_t n = 0; n < map.high.size(); ++n) ASSERT_LE(map.low[n], map.high[n]);
@@ -198,10 +199,10 @@ constexpr double average_rounding = 4.0 * std::numeric_limits<float>::epsilon();
 struct CornerView {
   double residual = 0.0;  ///< slope, the average of the corners
   double left_out = 0.0;  ///< by how much that may be less, if what is nearly hidden is not looked at
-  bool names_nothing = true;
+  bool sees_no_explicit = true;
 };
 
-CornerView view_from_corners(const std::vector<test::FarThing>& things, const std::set<test::FarThing>& names,
+CornerView view_from_corners(const std::vector<test::FarThing>& things, const std::set<test::FarThing>& explicit_things,
                              const PatchBox& box, double azimuth, double weak_sine) {
   CornerView view;
   for (const Point2d at : {box.low, box.high, Point2d{box.low.x, box.high.y}, Point2d{box.high.x, box.low.y}}) {
@@ -210,8 +211,8 @@ CornerView view_from_corners(const std::vector<test::FarThing>& things, const st
       if (!thing.is_upper()) continue;
       const Point3d eye{at.x, at.y, box.z_low_m};
       const double slope = test::slope_at(azimuth, thing.a, thing.b, eye).value_or(0.0);
-      if (names.contains(thing))
-        view.names_nothing = view.names_nothing && slope == 0.0;
+      if (explicit_things.contains(thing))
+        view.sees_no_explicit = view.sees_no_explicit && slope == 0.0;
       else
         horizon = std::max(horizon, slope);
     }
@@ -229,17 +230,17 @@ TEST(HorizonMapBaker, TheEstimateKnowsOnlyTheResidualCityAndLeavesOutTheWeakest)
   int weak = 0;
   for (int n = 0; n < places_asked; ++n) {
     const Place place = random_place(baked, chance);
-    const auto names = test::explicit_in(baked.block, place.map, place.patch);
+    const auto explicit_things = test::explicit_in(baked.block, place.map, place.patch);
     auto things = test::far_city(baked.tiles, baked.grid, place.cell);
     std::erase_if(things, [&](const auto& t) { return test::faces_away(t, place.map, baked.grid.cell_edge_m); });
     const PatchBox box = place.map.patches.box(place.patch);
     for (std::uint32_t bin = 0; bin < bins.count; bin += 5) {
       const double azimuth = (bin + 0.5) * bins.width_rad(), estimate = place.map.estimate[place.patch * bins.count + bin];
-      const CornerView seen = view_from_corners(things, names, box, azimuth, settings.weak_share * settings.tolerance);
+      const CornerView seen = view_from_corners(things, explicit_things, box, azimuth, settings.weak_share * settings.tolerance);
       const double rounding = average_rounding * (1.0 + seen.residual);
       ASSERT_LE(estimate, seen.residual + rounding) << "place " << n;
-      // Where something is named, what it nearly hides is left out, however high that is
-      if (!seen.names_nothing) continue;
+      // Where something explicit is seen, what it nearly hides is left out, however high that is
+      if (!seen.sees_no_explicit) continue;
       ASSERT_GE(estimate, seen.residual - seen.left_out - rounding) << "place " << n;
       weak += estimate > 0.0 && sine_of_slope(estimate) < settings.tolerance ? 1 : 0;
     }
@@ -247,14 +248,14 @@ TEST(HorizonMapBaker, TheEstimateKnowsOnlyTheResidualCityAndLeavesOutTheWeakest)
   EXPECT_GT(weak, 20) << "the test would not test much";
 }
 
-TEST(HorizonMapBaker, ABlockStoresEachNamedThingOnce) {
+TEST(HorizonMapBaker, ABlockStoresEachExplicitOccluderOnce) {
   const Baked baked = bake(towns()[1]);
   std::vector<int> uses(baked.block.edges.size(), 0);
   for (const BakedHorizon& map : baked.block.cells)
     for (const package::ExplicitOccluder& occluder : map.explicit_edges) ++uses.at(occluder.row);
   ASSERT_FALSE(uses.empty());
   EXPECT_EQ(std::count(uses.begin(), uses.end(), 0), 0);
-  EXPECT_GT(*std::max_element(uses.begin(), uses.end()), 1) << "cells share what they name";
+  EXPECT_GT(*std::max_element(uses.begin(), uses.end()), 1) << "cells share their explicit occluders";
   for (const EdgeRole role : {EdgeRole::grounded, EdgeRole::overhang, EdgeRole::underside})
     EXPECT_TRUE(std::any_of(baked.block.edges.begin(), baked.block.edges.end(), [&](const HorizonEdge& e) {
       return e.role == role;
@@ -299,7 +300,7 @@ TEST(HorizonMapBaker, LowerBordersThatAGroundedTowerHidesAreLeftOut) {
   EXPECT_GE(highest_overhang(20.0), 20.0F / 1560.0F) << "the tower floats: its own lower border is highest";
 }
 
-TEST(HorizonMapBaker, WhereNothingRisesNothingIsNamed) {
+TEST(HorizonMapBaker, WhereNothingRisesNothingIsExplicit) {
   // One low house in a wide plain: from the far cells, nothing rises by more than the tolerance
   scenes::SceneBuilder scene;
   scene.add_box({{-5, -5}, {5, 5}}, 0.0, 4.0);
