@@ -21,7 +21,6 @@ namespace {
 
 using test::Body;
 using test::Count;
-using test::EyeBox;
 using test::Face;
 using test::Highest;
 using test::RandomCity;
@@ -90,28 +89,15 @@ void expect_nothing_lost(const std::vector<Body>& bodies, const std::vector<Hori
 
 void compare(RandomCity& random, double box_edge_m, Count& count) {
   std::vector<Body> bodies;
-  std::vector<HorizonSegment> borders, kept;
+  std::vector<HorizonSegment> borders;
   for (const Body& body : random.bodies()) {
     bodies.push_back(floating(body, random));
     const std::vector<HorizonSegment> own = undersides(test::table_of(bodies.back()).edges());
     borders.insert(borders.end(), own.begin(), own.end());
   }
-  const Point2d corner = random.place();
-  const double low_m = random.between(0.0, 20.0);
-  const EyeBox eyes{{corner, corner + Point2d{box_edge_m, box_edge_m}}, low_m, low_m + 0.5 * box_edge_m};
-  for (const HorizonSegment& e : borders) {
-    EXPECT_EQ(e.role, EdgeRole::underside);
-    if (may_be_silhouette(e.segment.a, e.segment.b, e.adjacent, e.role, eyes.plan, eyes.low_m, eyes.high_m)) kept.push_back(e);
-  }
-  count.seen += static_cast<int>(borders.size());
-  count.away += static_cast<int>(borders.size() - kept.size());
-  for (int n = 0; n < (box_edge_m == 0.0 ? 1 : 5); ++n) {
-    const Point3d eye{random.between(eyes.plan.low.x, eyes.plan.high.x), random.between(eyes.plan.low.y, eyes.plan.high.y),
-                      random.between(eyes.low_m, eyes.high_m)};
-    if (std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) { return test::is_inside(body, eye); })) continue;
-    expect_nothing_lost(bodies, kept, eye, random);
-    ++count.looks;
-  }
+  for (const HorizonSegment& e : borders) EXPECT_EQ(e.role, EdgeRole::underside);
+  test::compare_for_a_box(bodies, borders, box_edge_m, random, count,
+                          [&](const auto& kept, const Point3d& eye) { expect_nothing_lost(bodies, kept, eye, random); });
 }
 
 class BordersFacingAway : public testing::TestWithParam<double> {};

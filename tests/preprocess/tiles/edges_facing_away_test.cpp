@@ -18,7 +18,6 @@ namespace {
 
 using test::Body;
 using test::Count;
-using test::EyeBox;
 using test::Face;
 using test::Highest;
 using test::RandomCity;
@@ -66,21 +65,8 @@ void expect_nothing_lost(const std::vector<HorizonSegment>& all, const std::vect
 void compare(RandomCity& random, double box_edge_m, Count& count) {
   const std::vector<Body> bodies = random.bodies();
   const std::vector<HorizonSegment> edges = horizon_edges_of(bodies);
-  const Point2d corner = random.place();
-  const double low_m = random.between(0.0, 20.0);
-  const EyeBox eyes{{corner, corner + Point2d{box_edge_m, box_edge_m}}, low_m, low_m + 0.5 * box_edge_m};
-  std::vector<HorizonSegment> kept;
-  for (const HorizonSegment& e : edges)
-    if (may_be_silhouette(e.segment.a, e.segment.b, e.adjacent, e.role, eyes.plan, eyes.low_m, eyes.high_m)) kept.push_back(e);
-  count.seen += static_cast<int>(edges.size());
-  count.away += static_cast<int>(edges.size() - kept.size());
-  for (int n = 0; n < (box_edge_m == 0.0 ? 1 : 5); ++n) {
-    const Point3d eye{random.between(eyes.plan.low.x, eyes.plan.high.x), random.between(eyes.plan.low.y, eyes.plan.high.y),
-                      random.between(eyes.low_m, eyes.high_m)};
-    if (std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) { return test::is_inside(body, eye); })) continue;
-    expect_nothing_lost(edges, kept, eye, random);
-    ++count.looks;
-  }
+  test::compare_for_a_box(bodies, edges, box_edge_m, random, count,
+                          [&](const auto& kept, const Point3d& eye) { expect_nothing_lost(edges, kept, eye, random); });
 }
 
 class EdgesFacingAway : public testing::TestWithParam<double> {};

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "farlod/box.hpp"
+#include "farlod/horizon/edge_facing.hpp"
 #include "tests/preprocess/tiles/bodies.hpp"
+#include "tiles/horizon_edges.hpp"
 
 namespace farlod::tiles::test {
 
@@ -104,5 +106,27 @@ struct EyeBox {
 struct Count {
   int seen = 0, away = 0, looks = 0;
 };
+
+/// Leaves out the edges that face away from all eyes of a random box, and calls expect_nothing_lost(kept, eye) for some eyes of
+/// the box that are outside of the bodies.
+template <class ExpectNothingLost>
+void compare_for_a_box(const std::vector<Body>& bodies, const std::vector<HorizonSegment>& edges, double box_edge_m,
+                       RandomCity& random, Count& count, const ExpectNothingLost& expect_nothing_lost) {
+  const Point2d corner = random.place();
+  const double low_m = random.between(0.0, 20.0);
+  const EyeBox eyes{{corner, corner + Point2d{box_edge_m, box_edge_m}}, low_m, low_m + 0.5 * box_edge_m};
+  std::vector<HorizonSegment> kept;
+  for (const HorizonSegment& e : edges)
+    if (may_be_silhouette(e.segment.a, e.segment.b, e.adjacent, e.role, eyes.plan, eyes.low_m, eyes.high_m)) kept.push_back(e);
+  count.seen += static_cast<int>(edges.size());
+  count.away += static_cast<int>(edges.size() - kept.size());
+  for (int n = 0; n < (box_edge_m == 0.0 ? 1 : 5); ++n) {
+    const Point3d eye{random.between(eyes.plan.low.x, eyes.plan.high.x), random.between(eyes.plan.low.y, eyes.plan.high.y),
+                      random.between(eyes.low_m, eyes.high_m)};
+    if (std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) { return is_inside(body, eye); })) continue;
+    expect_nothing_lost(kept, eye);
+    ++count.looks;
+  }
+}
 
 }  // namespace farlod::tiles::test
