@@ -13,7 +13,8 @@ using Json = nlohmann::ordered_json;
 std::string text_of(const Json& j) { return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 Json json_of(const FarErrorEstimate& v) {
-  return {{"receivers", v.receivers}, {"mean_error", v.mean_error}, {"max_error", v.max_error}, {"p99_half_width", v.p99_half_width}};
+  return {
+      {"receivers", v.receivers}, {"mean_error", v.mean_error}, {"max_error", v.max_error}, {"p99_half_width", v.p99_half_width}};
 }
 
 Json json_of(const pipeline::ChosenGrid& chosen) {

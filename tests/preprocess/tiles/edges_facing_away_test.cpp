@@ -10,8 +10,8 @@
 #include "tests/preprocess/tiles/random_bodies.hpp"
 #include "tiles/horizon_edges.hpp"
 
-// The oracle of may_be_silhouette for upper borders: closed bodies that stand on the ground, eyes outside of them, and the horizon
-// that each eye has with and without the edges that are said to be none.
+// The oracle of may_be_silhouette for upper borders: closed bodies on the ground, eyes outside of them, and the horizon that each
+// eye has with and without the edges that are said to be none.
 
 namespace farlod::tiles {
 namespace {
