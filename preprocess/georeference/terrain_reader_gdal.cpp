@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cpl_error.h>
-#include <cpl_vsi.h>
 #include <gdal.h>
 #include <gdal_priv.h>
 #include <gdal_utils.h>
-#include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +15,7 @@
 #include "city/input_error.hpp"
 #include "farlod/expects.hpp"
 #include "gdal/gdal_errors.hpp"
+#include "gdal/wkt_gdal.hpp"
 #include "georeference/crs.hpp"
 #include "georeference/input_crs.hpp"
 #include "georeference/output_crs.hpp"
@@ -57,15 +56,6 @@ GeoTransform geo_transform(GDALDataset& dataset, const std::filesystem::path& fi
 }
 
 bool is_north_up(const GeoTransform& t) { return t[1] > 0.0 && t[2] == 0.0 && t[4] == 0.0 && t[5] < 0.0; }
-
-std::string wkt_of(GDALDataset& dataset) {
-  const OGRSpatialReference* reference = dataset.GetSpatialRef();
-  const char* const options[] = {"FORMAT=WKT2_2019", nullptr};
-  char* text = nullptr;
-  if (reference != nullptr) reference->exportToWkt(&text, options);
-  const std::unique_ptr<char, void (*)(void*)> owner(text, VSIFree);
-  return text == nullptr ? "" : text;
-}
 
 /// Metres for one unit of the band, where it names one.
 std::optional<double> named_unit_m(GDALRasterBand& band) {
@@ -171,7 +161,7 @@ struct ReadyRaster {
 
 ReadyRaster make_ready(const std::filesystem::path& file, const std::string& fallback_crs, const Crs& output) {
   ReadyRaster ready{open_raster(file), nullptr, {}};
-  const std::string own_wkt = wkt_of(*ready.file);
+  const std::string own_wkt = wkt_of(ready.file->GetSpatialRef());
   const bool unnamed = own_wkt.empty() && fallback_crs.empty();
   const Crs crs = unnamed ? output : crs_of_input(file.string(), own_wkt, fallback_crs).crs;
   ready.scale = height_scale(*ready.file->GetRasterBand(1), crs);
@@ -186,7 +176,7 @@ TerrainExtent read_terrain_extent(const std::filesystem::path& file) {
   const GdalErrors quiet;
   const Dataset dataset = open_raster(file);
   const GeoTransform t = geo_transform(*dataset, file);
-  TerrainExtent extent{wkt_of(*dataset), {}};
+  TerrainExtent extent{wkt_of(dataset->GetSpatialRef()), {}};
   for (const double column : {0.0, static_cast<double>(dataset->GetRasterXSize())})
     for (const double row : {0.0, static_cast<double>(dataset->GetRasterYSize())})
       extent.box.add({t[0] + column * t[1] + row * t[2], t[3] + column * t[4] + row * t[5]});

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cpl_conv.h>
-#include <cpl_error.h>
 #include <cpl_vsi.h>
 
 #include <array>
@@ -39,14 +38,14 @@ class UnpackingBuffer : public std::streambuf {
     if (read_bytes_ > most_bytes_)
       throw InputError(name_ + " unpacks to more than " + std::to_string(most_bytes_ >> 20) +
                        " MiB, a hundred times its size: that is no city. Unpack it yourself if you trust it.");
-    if (count == 0) require_end();
+    if (count == 0) require_end(errors);
     setg(piece_.data(), piece_.data(), piece_.data() + count);
     return count == 0 ? traits_type::eof() : traits_type::to_int_type(piece_[0]);
   }
 
  private:
-  void require_end() const {
-    if (CPLGetLastErrorType() < CE_Failure && (!declared_bytes_ || read_bytes_ == *declared_bytes_)) return;
+  void require_end(const GdalErrors& errors) const {
+    if (!errors.any() && (!declared_bytes_ || read_bytes_ == *declared_bytes_)) return;
     throw InputError(name_ + " cannot be unpacked beyond " + std::to_string(read_bytes_) +
                      " bytes: the archive is damaged, cut short or locked by a password.");
   }

@@ -13,6 +13,7 @@
 #include "city/input_error.hpp"
 #include "farlod/angle.hpp"
 #include "gdal/gdal_errors.hpp"
+#include "gdal/wkt_gdal.hpp"
 #include "ingest/footprints/footprint_heights.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
 #include "ingest/footprints/height_text.hpp"
@@ -64,17 +65,6 @@ std::string numeric_fields(OGRLayer& layer) {
     if (is_numeric[f])
       names.append(names.empty() ? "" : ", ").append(layer.GetLayerDefn()->GetFieldDefn(static_cast<int>(f))->GetNameRef());
   return names.empty() ? "no field with numbers" : "fields with numbers: " + names;
-}
-
-std::string wkt_of(OGRLayer& layer) {
-  const OGRSpatialReference* reference = layer.GetSpatialRef();
-  if (reference == nullptr) return {};
-  char* wkt = nullptr;
-  const std::array<const char*, 2> options{"FORMAT=WKT2_2019", nullptr};
-  const bool is_good = reference->exportToWkt(&wkt, options.data()) == OGRERR_NONE;
-  const std::string text = is_good && wkt != nullptr ? wkt : "";
-  CPLFree(wkt);
-  return text;
 }
 
 Ring ring_from(const OGRLinearRing& line) {
@@ -331,7 +321,7 @@ SourceCity read_footprints(const InputFile& file, const FootprintSettings& setti
   footprints.read(messages);
   // Attributes are in metres; elevations of vertices are in the unit of the reference system
   return {.source = file.name,
-          .crs = {wkt_of(*layer), true, !footprints.holds_bodies()},
+          .crs = {wkt_of(layer->GetSpatialRef()), true, !footprints.holds_bodies()},
           .city = builder.take_city(),
           .notes = footprints.notes(settings.floor_height_m)};
 }
