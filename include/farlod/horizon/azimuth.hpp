@@ -15,16 +15,14 @@ struct AzimuthBins {
   std::uint32_t count = 256;
 
   [[nodiscard]] double width_rad() const { return 2.0 * std::numbers::pi / count; }
-  /// The bin of an azimuth of any number of turns, itself any number of turns away: see `wrapped`.
-  [[nodiscard]] std::int64_t unwrapped_bin_of(double azimuth_rad) const {
-    return static_cast<std::int64_t>(std::floor(azimuth_rad / width_rad()));
-  }
+  /// The bin itself of one that was counted on for any number of turns, or back.
   [[nodiscard]] std::uint32_t wrapped(std::int64_t bin) const {
     const std::int64_t n = count;
     return static_cast<std::uint32_t>(((bin % n) + n) % n);
   }
   [[nodiscard]] std::uint32_t bin_of(Point2d direction) const {
-    return wrapped(unwrapped_bin_of(std::atan2(direction.y, direction.x)));
+    const double azimuth_rad = std::atan2(direction.y, direction.x);
+    return wrapped(static_cast<std::int64_t>(std::floor(azimuth_rad / width_rad())));
   }
 };
 
