@@ -14,7 +14,7 @@ namespace farlod::tiles {
 namespace {
 
 /// The lowest ground under a building's outline.
-std::optional<double> lowest_ground_m(std::span<const Point3d> points, const GroundHeight& ground_height) {
+std::optional<double> lowest_ground_m(std::span<const Point3d> points, const KnownGroundHeightAt& ground_height) {
   std::optional<double> lowest_m;
   for (const Point3d& p : points)
     if (const auto height_m = ground_height(horizontal(p)); height_m && (!lowest_m || *height_m < *lowest_m)) lowest_m = height_m;
@@ -50,7 +50,7 @@ Problem problem_of(const LocatedCity& located, const Building& b, Refusal refusa
 
 }  // namespace
 
-void lift_onto_terrain(LocatedCity& located, const GroundHeight& ground_height, Report& report) {
+void lift_onto_terrain(LocatedCity& located, const KnownGroundHeightAt& ground_height, Report& report) {
   CityModel& city = located.city;
   std::vector<bool> is_lost(city.facets().size(), false);
   for (const Building& b : city.buildings()) {
