@@ -116,6 +116,7 @@ BakedHorizons HorizonMapBaker::bake(Block block) const {
 }
 
 BakedHorizons HorizonMapBaker::bake(std::span<const Cell> cells) const {
+  FARLOD_EXPECTS(!cells.empty());
   std::vector<std::optional<BakedHorizon>> baked(cells.size());
   oneapi::tbb::parallel_for(std::size_t{0}, baked.size(), [&](std::size_t n) { baked[n] = bake_cell(cells[n]); });
   BlockOccluders occluders(city_, city_.corner_of(cells.front()));

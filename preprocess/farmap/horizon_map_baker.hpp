@@ -21,7 +21,7 @@ class HorizonMapBaker {
   HorizonMapBaker(const TileSet& tiles, const Grid& grid, const HorizonMapSettings& settings);
 
   [[nodiscard]] BakedHorizons bake(Block block) const;
-  /// Of some cells. Their explicit occluders are in the frame of the first.
+  /// Of at least one cell. The explicit occluders are in the frame of the first.
   [[nodiscard]] BakedHorizons bake(std::span<const Cell> cells) const;
 
  private:

@@ -45,10 +45,10 @@ void OccluderClassifier::set_thresholds(std::uint32_t patch) {
 
 std::uint32_t OccluderClassifier::classify(std::uint32_t number) {
   const OccluderEdge& occluder = city_.occluders()[number];
+  const OccluderEdge placed = occluder.from(cell_.corner);
   package::ExplicitOccluder explicit_in{number, 0, 0};
   for (std::uint32_t square = 0; square < cell_.patches.squares(); ++square) {
     const PatchBox box = cell_.patches.box(square);
-    const OccluderEdge placed = occluder.from(cell_.corner);
     edge_.set_edge(placed.a, placed.b, {box.low, box.high});
     for (std::uint32_t layer = 0; layer < cell_.patches.layers(); ++layer) {
       // What does not rise above the floor hides nothing there, nor in the layers above

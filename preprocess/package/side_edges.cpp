@@ -28,7 +28,7 @@ class UnmetEdges {
     }
   }
 
-  /// The rises along the side, if it is an edge; the first one, if it is several.
+  /// The adjacent slopes along the side, if it is an edge; those of the first one, if it is several.
   std::optional<AdjacentSlopes> meet(std::uint32_t from, std::uint32_t to) {
     const auto found = by_ends_.lower_bound(ends_of(from, to));
     if (found == by_ends_.end() || found->first != ends_of(from, to)) return std::nullopt;
