@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
-#include "farlod/box.hpp"
+#include "farlod/point.hpp"
 #include "generator/city_text_file.hpp"
 #include "generator/city_writer.hpp"
 
@@ -29,6 +30,18 @@ constexpr std::string_view prologue = R"(<?xml version="1.0" encoding="UTF-8"?>
   }
   return "OuterCeilingSurface";
 }
+
+/// An upright box of space. Starts empty (low > high), and grows.
+struct Box3d {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  Point3d low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+
+  [[nodiscard]] bool empty() const { return !(low.x <= high.x && low.y <= high.y && low.z <= high.z); }
+  void add(const Point3d& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+};
 
 class CityGmlWriter final : public GeneratedCityWriter {
  public:

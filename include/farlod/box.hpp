@@ -25,19 +25,4 @@ struct Box2d {
   }
 };
 
-/// An upright box of space. Starts empty (low > high), and grows.
-struct Box3d {
-  Point3d low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-              std::numeric_limits<double>::infinity()};
-  Point3d high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-               -std::numeric_limits<double>::infinity()};
-  bool operator==(const Box3d&) const = default;
-
-  [[nodiscard]] constexpr bool empty() const { return !(low.x <= high.x && low.y <= high.y && low.z <= high.z); }
-  constexpr void add(const Point3d& p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-};
-
 }  // namespace farlod
