@@ -17,20 +17,6 @@ constexpr std::string_view prologue = R"(<?xml version="1.0" encoding="UTF-8"?>
 <core:CityModel xmlns:core="http://www.opengis.net/citygml/2.0" xmlns:bldg="http://www.opengis.net/citygml/building/2.0" xmlns:gml="http://www.opengis.net/gml" xmlns:xlink="http://www.w3.org/1999/xlink" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:schemaLocation="http://www.opengis.net/citygml/building/2.0 http://schemas.opengis.net/citygml/building/2.0/building.xsd">
 )";
 
-[[nodiscard]] std::string_view surface_element(FacetRole role) {
-  switch (role) {
-    case FacetRole::roof:
-      return "RoofSurface";
-    case FacetRole::wall:
-      return "WallSurface";
-    case FacetRole::ground:
-      return "GroundSurface";
-    case FacetRole::outer_ceiling:
-      break;
-  }
-  return "OuterCeilingSurface";
-}
-
 /// An upright box of space. Starts empty (low > high), and grows.
 struct Box3d {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -149,7 +135,7 @@ class CityGmlWriter final : public GeneratedCityWriter {
   void add_surface(const GeneratedBuilding& building, const GeneratedComponent& body, std::size_t k) {
     const GeneratedFacet& facet = building.facets[body.first_facet + k];
     if (facet.filling != Filling::none) return;  // stands inside its wall
-    const std::string_view element = surface_element(facet.role);
+    const std::string_view element = surface_name_of(facet.role);
     file_.text() += "<bldg:boundedBy>";
     begin_surface(building, body, k, element);
     if (!facet.openings.empty()) add_fillings(building, body, body.first_facet + k);

@@ -12,20 +12,6 @@
 namespace farlod {
 namespace {
 
-[[nodiscard]] std::string_view surface_type(FacetRole role) {
-  switch (role) {
-    case FacetRole::roof:
-      return "RoofSurface";
-    case FacetRole::wall:
-      return "WallSurface";
-    case FacetRole::ground:
-      return "GroundSurface";
-    case FacetRole::outer_ceiling:
-      break;
-  }
-  return "OuterCeilingSurface";
-}
-
 /// The vertices of CityJSON are one array for the whole file. They wait in a file of their own until all objects are written.
 class CityJsonWriter final : public GeneratedCityWriter {
  public:
@@ -131,7 +117,7 @@ class CityJsonWriter final : public GeneratedCityWriter {
     constexpr std::array roles{FacetRole::roof, FacetRole::wall, FacetRole::ground, FacetRole::outer_ceiling};
     objects_.text() += ",\"semantics\":{\"surfaces\":[";
     for (const FacetRole role : roles)
-      fmt::format_to(out(), FMT_STRING("{}{{\"type\":\"{}\"}}"), role == roles.front() ? "" : ",", surface_type(role));
+      fmt::format_to(out(), FMT_STRING("{}{{\"type\":\"{}\"}}"), role == roles.front() ? "" : ",", surface_name_of(role));
     if (header_.lod >= 3) objects_.text() += R"(,{"type":"Window"},{"type":"Door"})";
     objects_.text() += closed ? "],\"values\":[" : "],\"values\":";
     for (const GeneratedFacet& facet : facets)

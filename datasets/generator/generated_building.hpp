@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "generator/building_plan.hpp"
@@ -14,6 +15,21 @@ namespace farlod {
 
 /// What a facet is to its building, in the words of CityGML.
 enum class FacetRole : std::uint8_t { roof, wall, ground, outer_ceiling };
+
+/// What CityGML and CityJSON call a surface of this role.
+[[nodiscard]] constexpr std::string_view surface_name_of(FacetRole role) {
+  switch (role) {
+    case FacetRole::roof:
+      return "RoofSurface";
+    case FacetRole::wall:
+      return "WallSurface";
+    case FacetRole::ground:
+      return "GroundSurface";
+    case FacetRole::outer_ceiling:
+      break;
+  }
+  return "OuterCeilingSurface";
+}
 
 /// What a facet fills an opening of a wall with.
 enum class Filling : std::uint8_t { none, window, door };
