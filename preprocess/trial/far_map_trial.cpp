@@ -174,7 +174,6 @@ struct FarMapTrial::Impl {
 
 FarMapTrial::FarMapTrial(const TileSet& tiles, const Grid& grid, Assign assign, const FarErrorSettings& settings)
     : impl_(std::make_unique<Impl>(tiles, grid, assign, settings)) {}
-FarMapTrial::FarMapTrial(FarMapTrial&&) noexcept = default;
 FarMapTrial::~FarMapTrial() = default;
 
 FarErrorEstimate FarMapTrial::run(int neighborhood, const HorizonMapSettings& far_map) const {

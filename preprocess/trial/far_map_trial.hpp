@@ -39,7 +39,6 @@ class FarMapTrial {
  public:
   /// The tiles must outlive it.
   FarMapTrial(const TileSet& tiles, const Grid& grid, Assign assign, const FarErrorSettings& settings);
-  FarMapTrial(FarMapTrial&&) noexcept;
   ~FarMapTrial();
 
   /// The same for the same arguments, on every machine and for any number of threads.
