@@ -9,7 +9,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -59,9 +58,6 @@ class Occluder {
   [[nodiscard]] std::size_t triangle_count() const;
 
   [[nodiscard]] bool blocks(const Ray& ray) const;
-  /// The same for many rays at once; `blocked[n]` becomes 1 or 0. Fastest when 16 rays in a row are alike.
-  void blocks(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const;
-
   /// A bit for each origin whose ray in this direction meets something beyond `begin`; `wanted` are the bits of those that are
   /// asked.
   [[nodiscard]] std::uint32_t blocked(const RayOrigins& origins, const Point3f& direction, float begin,
@@ -77,8 +73,6 @@ class Occluder {
   [[nodiscard]] std::optional<Hit> nearest(const Ray& ray) const;
   /// The nearest among the triangles that `counts` says yes to.
   [[nodiscard]] std::optional<Hit> nearest(const Ray& ray, const std::function<bool(std::uint32_t triangle)>& counts) const;
-  /// All triangles along the ray, from near to far. A shared edge that is hit may yield both of its triangles.
-  [[nodiscard]] std::vector<Hit> all_hits(const Ray& ray) const;
 
  private:
   struct Impl;

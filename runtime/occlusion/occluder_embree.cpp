@@ -2,19 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <embree3/rtcore.h>
 
-#include <algorithm>
 #include <array>
 #include <limits>
 #include <string>
 #include <utility>
 
-#include "farlod/expects.hpp"
 #include "occlusion/occluder.hpp"
 
 namespace farlod {
 namespace {
-
-constexpr std::size_t packet_size = 16;
 
 /// One device for the process: Embree's threads and caches are shared by all scenes.
 RTCDevice shared_device() {
@@ -35,17 +31,15 @@ RTCDevice shared_device() {
 /// Embree hands the context of a query back to the filter; ours carries the question that the filter shall ask.
 struct QueryContext {
   RTCIntersectContext embree;
-  const std::function<bool(const Hit&)>* accepts = nullptr;
+  const std::function<bool(std::uint32_t triangle)>* counts = nullptr;
 };
 
 void ask_query(const RTCFilterFunctionNArguments* arguments) {
   const auto* context = reinterpret_cast<const QueryContext*>(arguments->context);
-  if (context->accepts == nullptr) return;
-  for (unsigned n = 0; n < arguments->N; ++n) {
-    if (arguments->valid[n] != -1) continue;
-    const Hit hit{RTCRayN_tfar(arguments->ray, arguments->N, n), RTCHitN_primID(arguments->hit, arguments->N, n)};
-    if (!(*context->accepts)(hit)) arguments->valid[n] = 0;
-  }
+  if (context->counts == nullptr) return;
+  for (unsigned n = 0; n < arguments->N; ++n)
+    if (arguments->valid[n] == -1 && !(*context->counts)(RTCHitN_primID(arguments->hit, arguments->N, n)))
+      arguments->valid[n] = 0;
 }
 
 RTCRayHit embree_ray(const Ray& ray) {
@@ -64,18 +58,6 @@ RTCRayHit embree_ray(const Ray& ray) {
                0};
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   return query;
-}
-
-void load(RTCRay16& packet, std::size_t lane, const Ray& ray) {
-  packet.org_x[lane] = ray.origin.x;
-  packet.org_y[lane] = ray.origin.y;
-  packet.org_z[lane] = ray.origin.z;
-  packet.dir_x[lane] = ray.direction.x;
-  packet.dir_y[lane] = ray.direction.y;
-  packet.dir_z[lane] = ray.direction.z;
-  packet.tnear[lane] = ray.begin;
-  packet.tfar[lane] = ray.end;
-  packet.mask[lane] = 0xFFFFFFFF;
 }
 
 }  // namespace
@@ -114,11 +96,12 @@ struct Occluder::Impl {
                            std::to_string(error) + ")");
   }
 
-  std::optional<Hit> nearest_accepted(const Ray& ray, const std::function<bool(const Hit&)>* accepts) const {
+  /// The nearest of all triangles where `counts` is null.
+  std::optional<Hit> nearest(const Ray& ray, const std::function<bool(std::uint32_t)>* counts) const {
     if (scene == nullptr) return std::nullopt;
     QueryContext context;
     rtcInitIntersectContext(&context.embree);
-    context.accepts = accepts;
+    context.counts = counts;
     RTCRayHit query = embree_ray(ray);
     rtcIntersect1(scene, &context.embree, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
@@ -143,28 +126,6 @@ bool Occluder::blocks(const Ray& ray) const {
   return query.tfar < 0.0F;  // Embree's sign for "blocked"
 }
 
-void Occluder::blocks(std::span<const Ray> rays, std::span<std::uint8_t> blocked) const {
-  FARLOD_EXPECTS(rays.size() == blocked.size());
-  if (impl_->scene == nullptr) {
-    std::fill(blocked.begin(), blocked.end(), std::uint8_t{0});
-    return;
-  }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  RTCRay16 packet{};
-  for (std::size_t first = 0; first < rays.size(); first += packet_size) {
-    const std::size_t count = std::min(packet_size, rays.size() - first);
-    alignas(64) std::array<int, packet_size> valid{};
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      load(packet, lane, rays[first + lane]);
-      valid[lane] = -1;
-    }
-    rtcOccluded16(valid.data(), impl_->scene, &context, &packet);
-    for (std::size_t lane = 0; lane < count; ++lane) blocked[first + lane] = packet.tfar[lane] < 0.0F ? 1 : 0;
-  }
-}
-
 std::uint32_t Occluder::blocked(const RayOrigins& origins, const Point3f& direction, float begin, std::uint32_t wanted) const {
   Directions alike;
   alike.x.fill(direction.x);
@@ -175,14 +136,14 @@ std::uint32_t Occluder::blocked(const RayOrigins& origins, const Point3f& direct
 
 std::uint32_t Occluder::blocked(const RayOrigins& origins, const Directions& directions, float begin,
                                 std::uint32_t wanted) const {
-  static_assert(RayOrigins::lanes == packet_size);
+  static_assert(RayOrigins::lanes == 16);
   if (impl_->scene == nullptr || wanted == 0) return 0;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   RTCRay16 packet;
-  alignas(64) std::array<int, packet_size> valid;
-  for (std::size_t lane = 0; lane < packet_size; ++lane) {
+  alignas(64) std::array<int, RayOrigins::lanes> valid;
+  for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane) {
     valid[lane] = ((wanted >> lane) & 1U) != 0 ? -1 : 0;
     packet.org_x[lane] = origins.x[lane];
     packet.org_y[lane] = origins.y[lane];
@@ -198,32 +159,14 @@ std::uint32_t Occluder::blocked(const RayOrigins& origins, const Directions& dir
   }
   rtcOccluded16(valid.data(), impl_->scene, &context, &packet);
   std::uint32_t bits = 0;
-  for (std::size_t lane = 0; lane < packet_size; ++lane) bits |= packet.tfar[lane] < 0.0F ? 1U << lane : 0U;
+  for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane) bits |= packet.tfar[lane] < 0.0F ? 1U << lane : 0U;
   return bits & wanted;
 }
 
-std::optional<Hit> Occluder::nearest(const Ray& ray) const { return impl_->nearest_accepted(ray, nullptr); }
+std::optional<Hit> Occluder::nearest(const Ray& ray) const { return impl_->nearest(ray, nullptr); }
 
 std::optional<Hit> Occluder::nearest(const Ray& ray, const std::function<bool(std::uint32_t)>& counts) const {
-  const std::function<bool(const Hit&)> accepts = [&counts](const Hit& hit) { return counts(hit.triangle); };
-  return impl_->nearest_accepted(ray, &accepts);
-}
-
-std::vector<Hit> Occluder::all_hits(const Ray& ray) const {
-  std::vector<Hit> hits;
-  // Refuse each hit, so that the traversal goes on to the next
-  const std::function<bool(const Hit&)> accepts = [&hits](const Hit& hit) {
-    hits.push_back(hit);
-    return false;
-  };
-  impl_->nearest_accepted(ray, &accepts);
-  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
-    return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
-  });
-  // A triangle that lies in two leaves of the index may be reported twice
-  hits.erase(std::unique(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.triangle == b.triangle; }),
-             hits.end());
-  return hits;
+  return impl_->nearest(ray, &counts);
 }
 
 }  // namespace farlod

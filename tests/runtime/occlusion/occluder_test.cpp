@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "occlusion/occluder.hpp"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
+#include <cmath>
 #include <random>
 
 #include "occlusion/placed_mesh.hpp"
 
 namespace farlod {
 namespace {
-
-using testing::ElementsAre;
-using testing::IsEmpty;
 
 constexpr Point3f up{0.0F, 0.0F, 1.0F}, down{0.0F, 0.0F, -1.0F};
 
@@ -27,12 +26,6 @@ Occluder layers(const std::vector<float>& heights_m) {
     triangles.push_back({first, first + 1, first + 2});
   }
   return {std::move(vertices), std::move(triangles)};
-}
-
-std::vector<std::uint32_t> triangles_of(const std::vector<Hit>& hits) {
-  std::vector<std::uint32_t> triangles;
-  for (const Hit& hit : hits) triangles.push_back(hit.triangle);
-  return triangles;
 }
 
 TEST(Occluder, BlocksWhatMeetsATriangleFromEitherSide) {
@@ -50,7 +43,6 @@ TEST(Occluder, WhatLiesBehindDoesNotCount) {
   const Ray from_above{{0.1F, 0.2F, 3.0F}, up};
   EXPECT_FALSE(occluder.blocks(from_above));
   EXPECT_FALSE(occluder.nearest(from_above));
-  EXPECT_THAT(occluder.all_hits(from_above), IsEmpty());
 }
 
 TEST(Occluder, RaysBeginAndEndWhereTheySay) {
@@ -61,7 +53,7 @@ TEST(Occluder, RaysBeginAndEndWhereTheySay) {
   EXPECT_TRUE(occluder.blocks({origin, up, 1.5F}));
   EXPECT_FALSE(occluder.blocks({origin, up, 2.5F}));
   EXPECT_EQ(occluder.nearest({origin, up, 1.5F})->triangle, 1U);
-  EXPECT_THAT(triangles_of(occluder.all_hits({origin, up, 0.0F, 1.5F})), ElementsAre(0U));
+  EXPECT_EQ(occluder.nearest({origin, up, 0.0F, 1.5F})->triangle, 0U);
 }
 
 TEST(Occluder, DistancesCountInTheLengthOfTheDirection) {
@@ -79,34 +71,33 @@ TEST(Occluder, NearestIsTheFirstOfThoseThatCount) {
   EXPECT_FALSE(occluder.nearest(ray, [](std::uint32_t) { return false; }));
 }
 
-TEST(Occluder, AllHitsComeFromNearToFar) {
-  const Occluder occluder = layers({3.0F, 1.0F, 2.0F});
-  EXPECT_THAT(triangles_of(occluder.all_hits({{0.1F, 0.2F, 0.0F}, up})), ElementsAre(1U, 2U, 0U));
-  EXPECT_THAT(triangles_of(occluder.all_hits({{0.1F, 0.2F, 9.0F}, down})), ElementsAre(0U, 2U, 1U));
-}
-
-TEST(Occluder, AllHitsForgetNoneOfMany) {
-  std::vector<float> heights_m;
-  for (int n = 0; n < 1000; ++n) heights_m.push_back(1.0F + 0.25F * static_cast<float>(n));
-  const std::vector<Hit> hits = layers(heights_m).all_hits({{0.1F, 0.2F, 0.0F}, up});
-  ASSERT_EQ(hits.size(), heights_m.size());
-  for (std::uint32_t n = 0; n < hits.size(); ++n) EXPECT_EQ(hits[n].triangle, n);
-}
+constexpr std::uint32_t all_lanes = 0xFFFF;
 
 TEST(Occluder, NothingHidesNothing) {
   const Occluder nothing({}, {});
   const Occluder points_only({{1.0F, 2.0F, 3.0F}}, {});
   for (const Occluder* occluder : {&nothing, &points_only}) {
-    const std::array<Ray, 3> rays{Ray{{}, up}, {{}, down}, {{}, {1.0F, 0.0F, 0.0F}}};
-    std::array<std::uint8_t, 3> blocked{9, 9, 9};
-    occluder->blocks(rays, blocked);
-    EXPECT_THAT(blocked, ElementsAre(0, 0, 0));
-    EXPECT_FALSE(occluder->blocks(rays[0]));
-    EXPECT_FALSE(occluder->nearest(rays[0]));
-    EXPECT_THAT(occluder->all_hits(rays[0]), IsEmpty());
+    EXPECT_EQ(occluder->blocked(RayOrigins{}, up, 0.0F, all_lanes), 0U);
+    EXPECT_FALSE(occluder->blocks({{}, up}));
+    EXPECT_FALSE(occluder->nearest({{}, up}));
     EXPECT_EQ(occluder->triangle_count(), 0U);
   }
 }
+
+/// Sixteen rays, as the engines trace them.
+struct Packet {
+  RayOrigins origins;
+  Occluder::Directions directions;
+
+  void set(std::size_t lane, const Ray& ray) {
+    origins.x[lane] = ray.origin.x;
+    origins.y[lane] = ray.origin.y;
+    origins.z[lane] = ray.origin.z;
+    directions.x[lane] = ray.direction.x;
+    directions.y[lane] = ray.direction.y;
+    directions.z[lane] = ray.direction.z;
+  }
+};
 
 class RandomScene : public testing::Test {
  protected:
@@ -131,29 +122,37 @@ class RandomScene : public testing::Test {
 
 TEST_F(RandomScene, PacketsAnswerAsSingleRaysDo) {
   const Occluder occluder = triangles(400);
-  for (const std::size_t count : {std::size_t{1}, std::size_t{15}, std::size_t{16}, std::size_t{17}, std::size_t{20000}}) {
-    std::vector<Ray> rays;
-    for (std::size_t n = 0; n < count; ++n) rays.push_back({point(60.0F), point(1.0F)});
-    std::vector<std::uint8_t> blocked(count, 9);
-    occluder.blocks(rays, blocked);
-    std::size_t blocked_count = 0;
-    for (std::size_t n = 0; n < count; ++n) {
-      EXPECT_EQ(blocked[n], occluder.blocks(rays[n]) ? 1 : 0) << "ray " << n << " of " << count;
-      blocked_count += blocked[n];
+  constexpr float begin = 5.0F;
+  std::size_t blocked_count = 0, asked_count = 0;
+  for (std::uint32_t n = 0; n < 2000; ++n) {
+    // Of each pattern of lanes that are asked, many packets; with one direction for all, and with one for each
+    const std::uint32_t wanted = n % 3 == 0 ? all_lanes : (n * 2654435761U) >> 16;
+    const Point3f shared = point(1.0F);
+    Packet packet;
+    std::uint32_t expected = 0, expected_shared = 0;
+    for (std::size_t l = 0; l < RayOrigins::lanes; ++l) {
+      const Ray ray{point(60.0F), point(1.0F), begin};
+      packet.set(l, ray);
+      expected |= occluder.blocks(ray) ? 1U << l : 0U;
+      expected_shared |= occluder.blocks({ray.origin, shared, begin}) ? 1U << l : 0U;
     }
-    EXPECT_TRUE(count < 1000 || (blocked_count > count / 10 && blocked_count < 9 * count / 10)) << "the scene tests little";
+    EXPECT_EQ(occluder.blocked(packet.origins, packet.directions, begin, wanted), expected & wanted) << n;
+    EXPECT_EQ(occluder.blocked(packet.origins, shared, begin, wanted), expected_shared & wanted) << n;
+    blocked_count += static_cast<std::size_t>(std::popcount(expected & wanted));
+    asked_count += static_cast<std::size_t>(std::popcount(wanted));
   }
+  EXPECT_TRUE(blocked_count > asked_count / 10 && blocked_count < 9 * asked_count / 10) << "the scene tests little";
 }
 
-TEST_F(RandomScene, NearestIsTheFirstOfAllHits) {
+TEST_F(RandomScene, WhatBlocksIsTheNearestOfAll) {
   const Occluder occluder = triangles(400);
   for (int n = 0; n < 5000; ++n) {
     const Ray ray{point(60.0F), point(1.0F)};
-    const std::vector<Hit> all = occluder.all_hits(ray);
     const auto nearest = occluder.nearest(ray);
-    ASSERT_EQ(nearest.has_value(), !all.empty());
     EXPECT_EQ(occluder.blocks(ray), nearest.has_value());
-    EXPECT_TRUE(!nearest || nearest->triangle == all.front().triangle);
+    if (!nearest) continue;
+    const auto next = occluder.nearest(ray, [&](std::uint32_t t) { return t != nearest->triangle; });
+    EXPECT_TRUE(!next || next->distance >= nearest->distance) << n;
   }
 }
 
@@ -189,10 +188,9 @@ TEST_F(Fan, SharedEdgesAndASharedVertexLetNothingThrough) {
   for (std::size_t n = 0; n < 50000; ++n) {
     const Ray ray = ray_to_spoke(n);
     EXPECT_TRUE(fan.blocks(ray)) << n;
-    const std::array<Ray, 2> pair{ray, ray};
-    std::array<std::uint8_t, 2> blocked{};
-    fan.blocks(pair, blocked);
-    EXPECT_THAT(blocked, ElementsAre(1, 1)) << n;
+    Packet packet;
+    for (std::size_t l = 0; l < RayOrigins::lanes; ++l) packet.set(l, ray);
+    EXPECT_EQ(fan.blocked(packet.origins, packet.directions, 0.0F, all_lanes), all_lanes) << n;
   }
 }
 
