@@ -199,6 +199,7 @@ void resolve_accuracy(const RawOptions& raw, SvfOptions& o) {
   if (!o.max_error) return;
   if (!raw.rays) o.sky.rays = rays_for_sampling_error(0.5 * *o.max_error);
   if (!raw.azimuths) o.sky.azimuths = azimuths_for_error(0.5 * *o.max_error);
+  o.sky.max_far_error = *o.max_error;
   const double left = *o.max_error - sampling_error_of(o.sky);
   if (left <= 0.0)
     throw CLI::ValidationError(

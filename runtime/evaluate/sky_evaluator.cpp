@@ -86,9 +86,10 @@ EvaluationMethod method_of(Engine engine, FarMapOfCell far_map) {
 }
 
 double sampling_error_of(const SkySettings& settings) {
-  const double of_rays = settings.engine == Engine::horizon ? 0.0 : sampling_error(settings.rays);
+  // With an allowed far error, rays answer receivers of the engine `horizon`, too
+  const bool has_rays = settings.engine != Engine::horizon || settings.max_far_error.has_value();
   const bool has_horizons = settings.engine == Engine::horizon || settings.engine == Engine::automatic;
-  return std::max(of_rays, has_horizons ? azimuth_error(settings.azimuths) : 0.0);
+  return std::max(has_rays ? sampling_error(settings.rays) : 0.0, has_horizons ? azimuth_error(settings.azimuths) : 0.0);
 }
 
 struct SkyEvaluator::WholeCityOnDemand {

@@ -66,7 +66,7 @@ struct SkySettings {
 };
 
 /// Upper bound of the sampling error, without the error of the far map: that of the azimuths or that of the rays, whichever is
-/// larger among those that the engine uses.
+/// larger among those that the engine uses. Whether there is an allowed far error counts, not how large it is.
 [[nodiscard]] double sampling_error_of(const SkySettings& settings);
 
 /// Arrays that take the answers, indexed by Receiver::index. `low` and `high` are empty where bounds are not wanted.
