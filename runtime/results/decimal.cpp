@@ -40,11 +40,6 @@ constexpr double most_metres_as_millimetres = 1e12;
 
 std::string shortest_decimal(double value) { return fixed(value); }
 std::string shortest_decimal(float value) { return fixed(value); }
-std::string millimetre_decimal(double value) {
-  std::string text;
-  append_millimetres(text, value);
-  return text;
-}
 std::string svf_decimal(double value) { return fixed(value, 6); }
 
 void append_millimetres(std::string& text, double value) {

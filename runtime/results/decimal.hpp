@@ -10,13 +10,14 @@ namespace farlod {
 /// The shortest decimal number, without an exponent, that reads back as `value` (which is finite).
 [[nodiscard]] std::string shortest_decimal(double value);
 [[nodiscard]] std::string shortest_decimal(float value);
-/// Rounded to the millimetre, without trailing zeros: coordinates and areas have no more certain digits.
-[[nodiscard]] std::string millimetre_decimal(double value);
 /// A view factor, with six digits after the point.
 [[nodiscard]] std::string svf_decimal(double value);
 
-/// The same, appended to a text.
+// Appended to a text, since tables have many numbers:
+
+/// Rounded to the millimetre, without trailing zeros: coordinates and areas have no more certain digits.
 void append_millimetres(std::string& text, double value);
+/// As svf_decimal.
 void append_svf(std::string& text, double value);
 void append_whole(std::string& text, std::uint64_t number);
 

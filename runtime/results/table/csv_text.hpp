@@ -16,10 +16,10 @@ class CsvText {
   /// Quoted, with quotes doubled, where RFC 4180 demands it.
   CsvText& field(std::string_view text);
   CsvText& whole(std::uint64_t number);
-  /// As millimetre_decimal; empty where there is no value.
+  /// As append_millimetres; empty where there is no value.
   CsvText& millimetres(double value);
   CsvText& millimetres(std::optional<double> value);
-  /// As svf_decimal; empty where there is no answer.
+  /// As append_svf; empty where there is no answer.
   CsvText& svf(std::optional<double> value);
   CsvText& fields(std::initializer_list<std::string_view> texts);
   void end_row();

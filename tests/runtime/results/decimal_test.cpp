@@ -10,6 +10,12 @@
 namespace farlod {
 namespace {
 
+std::string millimetre_decimal(double value) {
+  std::string text;
+  append_millimetres(text, value);
+  return text;
+}
+
 TEST(Decimal, ShortestReadsBackAsTheSame) {
   for (const double value : {0.1, 1.0 / 3.0, 5700010.123456789, -1e-7, 1e22, std::numeric_limits<double>::denorm_min()})
     EXPECT_EQ(std::strtod(shortest_decimal(value).c_str(), nullptr), value);
