@@ -38,14 +38,13 @@ std::string_view word_for(SurfaceKind kind) {
 /// Number of rows that are kept as text before they are written.
 constexpr std::size_t rows_at_once = 1024;
 
-template <class Row>
-void write_table(const std::filesystem::path& path, std::initializer_list<std::string_view> header, std::span<const Row> rows,
-                 void (*add)(const Row&, CsvText&)) {
+/// Writes a header and `count` rows; `add_row(n, text)` adds the n-th one.
+template <class AddRow>
+void write_table(const std::filesystem::path& path, CsvText header, std::size_t count, const AddRow& add_row) {
   write_text_atomically(path, [&](std::ostream& out) {
-    CsvText text;
-    text.fields(header).end_row();
-    for (std::size_t n = 0; n < rows.size(); ++n) {
-      add(rows[n], text);
+    CsvText text = std::move(header);
+    for (std::size_t n = 0; n < count; ++n) {
+      add_row(n, text);
       if (n % rows_at_once == 0) out << std::exchange(text, {}).bytes();
     }
     out << text.bytes();
@@ -53,10 +52,12 @@ void write_table(const std::filesystem::path& path, std::initializer_list<std::s
 }
 
 /// The columns of a table of receivers: identity and place, answer, and bounds where they are wanted.
-void add_receiver_header(std::initializer_list<std::string_view> identity, const AnswerColumns& columns, CsvText& text) {
+CsvText receiver_header(std::initializer_list<std::string_view> identity, const AnswerColumns& columns) {
+  CsvText text;
   text.fields(identity).field(columns.quantity);
   if (columns.bounds == BoundsColumns::yes) text.fields({columns.quantity + "_low", columns.quantity + "_high"});
   text.end_row();
+  return text;
 }
 
 template <class Row>
@@ -95,26 +96,19 @@ std::filesystem::path beside(const std::filesystem::path& output, const std::str
 }  // namespace
 
 void write_points_csv(const PointRows& rows, const AnswerColumns& columns, const std::filesystem::path& path) {
-  write_text_atomically(path, [&](std::ostream& out) {
-    CsvText text;
-    add_receiver_header({"id", "x_m", "y_m", "z_m"}, columns, text);
-    for (std::size_t n = 0; n < rows.count; ++n) {
-      const PointRow row = rows.row(n);
-      add_point(row, text);
-      add_answer(row, columns.bounds, text);
-      if (n % rows_at_once == 0) out << std::exchange(text, {}).bytes();
-    }
-    out << text.bytes();
+  write_table(path, receiver_header({"id", "x_m", "y_m", "z_m"}, columns), rows.count, [&](std::size_t n, CsvText& text) {
+    const PointRow row = rows.row(n);
+    add_point(row, text);
+    add_answer(row, columns.bounds, text);
   });
 }
 
 SurfacePointsCsv::SurfacePointsCsv(const AnswerColumns& columns, const std::filesystem::path& path)
-    : path_(path), bounds_(columns.bounds), spool_(path) {
-  CsvText header;
-  add_receiver_header({"building", "surface", "kind", "x_m", "y_m", "z_m", "azimuth_deg", "tilt_deg", "area_m2"}, columns,
-                      header);
-  header_ = header.bytes();
-}
+    : path_(path),
+      header_(receiver_header({"building", "surface", "kind", "x_m", "y_m", "z_m", "azimuth_deg", "tilt_deg", "area_m2"}, columns)
+                  .bytes()),
+      bounds_(columns.bounds),
+      spool_(path) {}
 
 void SurfacePointsCsv::write_part(std::size_t part, std::span<const SurfacePointRow> rows) {
   if (rows.empty()) return;
@@ -141,15 +135,18 @@ void SurfacePointsCsv::commit() {
 }
 
 void write_surfaces_csv(std::span<const SurfaceRow> rows, const std::string& quantity, const std::filesystem::path& path) {
-  write_table(path,
-              {"building", "surface", "kind", "azimuth_deg", "tilt_deg", "area_m2", "receivers", "nodata", quantity + "_mean",
-               quantity + "_min", quantity + "_max"},
-              rows, add_surface);
+  CsvText header;
+  header.fields({"building", "surface", "kind", "azimuth_deg", "tilt_deg", "area_m2", "receivers", "nodata", quantity + "_mean",
+                 quantity + "_min", quantity + "_max"});
+  header.end_row();
+  write_table(path, std::move(header), rows.size(), [&](std::size_t n, CsvText& text) { add_surface(rows[n], text); });
 }
 
 void write_buildings_csv(std::span<const BuildingRow> rows, const std::string& quantity, const std::filesystem::path& path) {
-  write_table(path, {"building", "roof_area_m2", "wall_area_m2", "receivers", "nodata", quantity + "_roofs", quantity + "_walls"},
-              rows, add_building);
+  CsvText header;
+  header.fields({"building", "roof_area_m2", "wall_area_m2", "receivers", "nodata", quantity + "_roofs", quantity + "_walls"});
+  header.end_row();
+  write_table(path, std::move(header), rows.size(), [&](std::size_t n, CsvText& text) { add_building(rows[n], text); });
 }
 
 std::vector<std::filesystem::path> SurfaceTablesCsv::commit(std::span<const SurfaceRow> surfaces,
