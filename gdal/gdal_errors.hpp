@@ -15,9 +15,9 @@ class GdalErrors {
   GdalErrors(const GdalErrors&) = delete;
   GdalErrors& operator=(const GdalErrors&) = delete;
 
-  /// Whether GDAL's last error state is a failure.
-  [[nodiscard]] bool any() const;
-  /// GDAL's message about the last failure.
+  /// Whether there was a failure since the last take().
+  [[nodiscard]] bool any() const { return !messages_.empty(); }
+  /// GDAL's message about the last one.
   [[nodiscard]] std::string last() const;
   /// The messages of all failures since the last call, in order.
   [[nodiscard]] std::vector<std::string> take();

@@ -22,12 +22,7 @@ GdalErrors::GdalErrors() {
 
 GdalErrors::~GdalErrors() { CPLPopErrorHandler(); }
 
-bool GdalErrors::any() const { return CPLGetLastErrorType() >= CE_Failure; }
-
-std::string GdalErrors::last() const {
-  const std::string message = CPLGetLastErrorMsg();
-  return message.empty() ? "GDAL gives no reason" : message;
-}
+std::string GdalErrors::last() const { return messages_.empty() ? "GDAL gives no reason" : messages_.back(); }
 
 std::vector<std::string> GdalErrors::take() { return std::exchange(messages_, {}); }
 
