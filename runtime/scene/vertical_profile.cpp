@@ -96,8 +96,9 @@ VerticalProfile PointLocator::at(float x_cell, float y_cell) const {
     const package::SurfaceRecord& surface = tiles_[tile].surface_of(triangle);
     crossings.push_back({c.height_m, tiles_[tile].building_number(surface), surface.part, surface.normal().looks_up()});
   }
-  std::stable_sort(crossings.begin(), crossings.end(),
-                   [](const VerticalProfile::Crossing& a, const VerticalProfile::Crossing& b) { return a.height_m < b.height_m; });
+  std::stable_sort(
+      crossings.begin(), crossings.end(),
+      [](const VerticalProfile::Crossing& a, const VerticalProfile::Crossing& b) { return a.height_m < b.height_m; });
   return VerticalProfile(std::move(crossings));
 }
 

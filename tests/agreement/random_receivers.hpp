@@ -28,8 +28,8 @@ class RandomSky {
     while (true) {
       const Cell cell = cells.cell_at(static_cast<std::size_t>(uniform(0.0, static_cast<double>(cells.size()))));
       const auto edge = package.grid().cell_edge_m;
-      const auto p = stand(PointLocator(package, cell), static_cast<float>(uniform(0, edge)), static_cast<float>(uniform(0, edge)),
-                           HeightAbove::ground, 1.5F);
+      const auto p = stand(PointLocator(package, cell), static_cast<float>(uniform(0, edge)),
+                           static_cast<float>(uniform(0, edge)), HeightAbove::ground, 1.5F);
       if (p) return {cell, {{0, *p}}};
     }
   }

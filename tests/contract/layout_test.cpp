@@ -129,7 +129,8 @@ TEST(Layout, SurfaceRecordsGiveBackWhatWasPacked) {
   record.part = 0x1234;
   for (const SurfaceKind kind : {SurfaceKind::ground, SurfaceKind::floor, SurfaceKind::foundation})
     for (const bool is_grounded : {false, true})
-      for (const OctNormal normal : {OctNormal{0, 2 * OctNormal::steps}, OctNormal{2 * OctNormal::steps, 0}, OctNormal{1, 0x155555}}) {
+      for (const OctNormal normal :
+           {OctNormal{0, 2 * OctNormal::steps}, OctNormal{2 * OctNormal::steps, 0}, OctNormal{1, 0x155555}}) {
         record.pack(kind, is_grounded, normal);
         EXPECT_EQ(record.kind(), kind);
         EXPECT_EQ(record.is_grounded(), is_grounded);

@@ -34,7 +34,9 @@ class AzimuthFan {
 
  private:
   /// A direction straight up has no azimuth; any will do, since no horizon is as steep.
-  [[nodiscard]] static double pseudo_angle_of(const Point3d& d) { return d.x == 0.0 && d.y == 0.0 ? 0.0 : pseudo_angle({d.x, d.y}); }
+  [[nodiscard]] static double pseudo_angle_of(const Point3d& d) {
+    return d.x == 0.0 && d.y == 0.0 ? 0.0 : pseudo_angle({d.x, d.y});
+  }
 
   std::vector<std::uint32_t> place_, first_of_slot_;
   std::vector<double> pseudo_angles_;
@@ -43,8 +45,9 @@ class AzimuthFan {
 
 inline AzimuthFan::AzimuthFan(std::span<const Point3d> directions) : place_(directions.size()) {
   std::iota(place_.begin(), place_.end(), 0U);
-  std::stable_sort(place_.begin(), place_.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return pseudo_angle_of(directions[a]) < pseudo_angle_of(directions[b]); });
+  std::stable_sort(place_.begin(), place_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return pseudo_angle_of(directions[a]) < pseudo_angle_of(directions[b]);
+  });
   for (const std::uint32_t n : place_) {
     const Point3d& d = directions[n];
     const double across = std::hypot(d.x, d.y);

@@ -29,8 +29,8 @@ TilesBytes whole_file() {
 BlockTiles open(TilesBytes& file) { return {file.bytes(), SmallPackage::cells_of_two, "small/tiles.bin"}; }
 
 constexpr std::array<SectionKind, section_count> all_kinds{
-    SectionKind::cells,     SectionKind::vertices,    SectionKind::triangles,  SectionKind::surface_runs,
-    SectionKind::surfaces,  SectionKind::buildings,   SectionKind::text,       SectionKind::far_cells,
+    SectionKind::cells,     SectionKind::vertices,       SectionKind::triangles,  SectionKind::surface_runs,
+    SectionKind::surfaces,  SectionKind::buildings,      SectionKind::text,       SectionKind::far_cells,
     SectionKind::far_edges, SectionKind::explicit_edges, SectionKind::tile_edges, SectionKind::loose_edges};
 
 std::string damage_of(TilesBytes& file) {
@@ -312,8 +312,9 @@ TEST(Package, FarMapNamesWhatDoesNotExist) {
   const auto edges = static_cast<std::uint32_t>(whole.section(SectionKind::far_edges).count);
   ASSERT_GT(edges, 0U);
   for (const std::uint32_t beyond : {0U, 7U})
-    EXPECT_THAT(damage_after([=](TilesBytes& f) { f.element<ExplicitOccluder>(SectionKind::explicit_edges, 0).row = edges + beyond; }),
-                HasSubstr("names an edge that does not exist"));
+    EXPECT_THAT(
+        damage_after([=](TilesBytes& f) { f.element<ExplicitOccluder>(SectionKind::explicit_edges, 0).row = edges + beyond; }),
+        HasSubstr("names an edge that does not exist"));
 }
 
 TEST(Package, LevelsOfAFarMapOutOfOrder) {
