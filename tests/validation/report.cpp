@@ -121,7 +121,7 @@ std::string bounds_section(const Results& results) {
 
 std::string bytes_section(const Results& results) {
   std::string text =
-      "\n## Size of far maps\n\nMean over all cells of the city, c = 50 m, N = 3: the picture and what it names.\n\n"
+      "\n## Size of far maps\n\nMean over all cells of the city, c = 50 m, N = 3: the picture and its explicit occluders.\n\n"
       "| city | paper's map, bytes a cell | ours, bytes a cell |\n|---|---|---|\n";
   for (const CityResults& city : results.cities)
     for (const FarFieldRow& row : city.far_field.rows)
@@ -230,9 +230,9 @@ std::string markdown(const Results& results) {
   std::string text =
       "## Near field, far field\n\nThe paper keeps the true geometry of N × N cells around a receiver and takes the rest of the "
       "city from "
-      "a picture captured at the cell's centre (`--far-map box`). Ours (`--far-map horizon`, the default) names the occluders "
-      "that "
-      "move against each other within a cell, and bounds the rest. *Dropped*: the far field is left out, as by tools that cut a "
+      "a picture captured at the cell's centre (`--far-map box`). Ours (`--far-map horizon`, the default) stores the "
+      "occluders that move against each other within a cell one by one, and bounds the rest. *Dropped*: the far field is left "
+      "out, as by tools that cut a "
       "city "
       "into tiles.\n\n";
   text += intro(results);
