@@ -48,12 +48,12 @@ Receivers in_streets(const Package& package, std::size_t groups) {
   std::size_t index = 0;
   for (std::size_t group = 0; group < groups; ++group) {
     const CellReceivers first = random.receiver(package);
-    const PointLocator columns(package, first.cell);
+    const PointLocator locator(package, first.cell);
     receivers.push_back({first.cell, {}});
     for (int n = 0; n < 16; ++n) {
       const Point3f& p = first.receivers[0].p_cell;
       const float x = p.x + static_cast<float>(n % 4), y = p.y + static_cast<float>(n / 4);
-      const auto place = stand(columns, x, y, HeightAbove::ground, 1.5F);
+      const auto place = stand(locator, x, y, HeightAbove::ground, 1.5F);
       const bool is_in_cell = std::max(x, y) < static_cast<float>(package.grid().cell_edge_m);
       if (place && is_in_cell) receivers.back().receivers.push_back({index++, *place});
     }

@@ -16,8 +16,8 @@
 #include "ingest/ingest.hpp"
 #include "receivers/surface_receivers.hpp"
 #include "scene/whole_city.hpp"
-#include "tests/agreement/judge.hpp"
 #include "tests/agreement/random_receivers.hpp"
+#include "tests/agreement/ray_oracle.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tiles/tiles.hpp"
 
@@ -28,10 +28,10 @@ namespace {
 
 constexpr std::size_t rays = 1000, receivers_of_kind = 120;
 
-/// A city from its file to its package, and what judges it.
-class JudgedCity {
+/// A city from its file to its package, and its oracle.
+class CityWithOracle {
  public:
-  JudgedCity(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  CityWithOracle(const std::filesystem::path& file, const std::filesystem::path& folder) {
     Report report;
     const std::vector inputs{file};
     georeference::GeoreferenceSettings georeference_settings;
@@ -42,25 +42,25 @@ class JudgedCity {
     const TileSet tiles = tiles::cut_into_tiles(std::move(located), grid, Assign::clip, std::nullopt, report);
     scenes::pack_tiles(tiles, grid, folder, {});
     package_.emplace(folder);
-    judge_.emplace(city, ground_of(tiles, grid));
+    oracle_.emplace(city, ground_of(tiles, grid));
   }
 
   [[nodiscard]] const Package& package() const { return *package_; }
   /// The share of a receiver's rays that meet nothing.
-  [[nodiscard]] double judged(Cell cell, const Receiver& r, std::span<const Point3d> directions_grid, std::size_t all) const {
+  [[nodiscard]] double free_share(Cell cell, const Receiver& r, std::span<const Point3d> directions_grid, std::size_t all) const {
     const Grid& grid = package_->grid();
     const Point2d corner = grid.corner_of(cell);
     const Point3d p_city = grid.rotation.city_from_grid(
         Point3d{corner.x + r.p_cell.x, corner.y + r.p_cell.y, r.p_cell.z + package_->manifest().height_origin_m});
     std::size_t free = 0;
-    for (const Point3d& d : directions_grid) free += judge_->blocks(p_city, grid.rotation.city_from_grid(d)) ? 0 : 1;
+    for (const Point3d& d : directions_grid) free += oracle_->blocks(p_city, grid.rotation.city_from_grid(d)) ? 0 : 1;
     return static_cast<double>(free) / static_cast<double>(all);
   }
 
  private:
   /// The ground between the buildings, and what closes their feet, are of the package's making.
-  static std::vector<Judge::Corners> ground_of(const TileSet& tiles, const Grid& grid) {
-    std::vector<Judge::Corners> ground;
+  static std::vector<RayOracle::Corners> ground_of(const TileSet& tiles, const Grid& grid) {
+    std::vector<RayOracle::Corners> ground;
     for (std::size_t n = 0; n < tiles.tiles.size(); ++n) {
       const Tile& tile = tiles.tiles[n];
       const Point2d corner = grid.corner_of(grid.cells.cell_at(n));
@@ -79,7 +79,7 @@ class JudgedCity {
   }
 
   std::optional<Package> package_;
-  std::optional<Judge> judge_;
+  std::optional<RayOracle> oracle_;
 };
 
 /// Receivers of a kind, spread over the city.
@@ -104,7 +104,7 @@ Chosen some_of_surfaces(const Package& package, SurfaceChoice choice) {
   return chosen;
 }
 
-void expect_agreement(const JudgedCity& city, const Chosen& chosen, const std::string& kind) {
+void expect_agreement(const CityWithOracle& city, const Chosen& chosen, const std::string& kind) {
   const Package& package = city.package();
   SkySettings exact, horizons;
   exact.engine = Engine::exact;
@@ -119,16 +119,16 @@ void expect_agreement(const JudgedCity& city, const Chosen& chosen, const std::s
   for (const CellReceivers& r : chosen.cells) {
     const Point3f& n = r.receivers[0].normal;
     const std::vector<Point3d> around = directions.facing(normalized(Point3d{n.x, n.y, n.z}));
-    const double judged = city.judged(r.cell, r.receivers[0], around, directions.ray_count());
+    const double expected = city.free_share(r.cell, r.receivers[0], around, directions.ray_count());
     std::array<float, 1> by_exact{}, by_auto{};
     exactly.evaluate(r, by_exact);
     by_horizons.evaluate(r, by_auto);
     const Point3f& p = r.receivers[0].p_cell;
-    EXPECT_NEAR(by_exact[0], judged, grazing)
+    EXPECT_NEAR(by_exact[0], expected, grazing)
         << kind << " of cell " << r.cell.i << "," << r.cell.j << " at " << p.x << " " << p.y << " " << p.z;
-    EXPECT_NEAR(by_auto[0], judged, sampling)
+    EXPECT_NEAR(by_auto[0], expected, sampling)
         << kind << " of cell " << r.cell.i << "," << r.cell.j << " at " << p.x << " " << p.y << " " << p.z;
-    errors.push_back(std::abs(by_auto[0] - judged));
+    errors.push_back(std::abs(by_auto[0] - expected));
   }
   ASSERT_GE(errors.size(), receivers_of_kind);
   const double mean = std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
@@ -141,7 +141,7 @@ TEST_P(RealCityAgreement, EnginesSeeWhatCgalSees) {
   const std::filesystem::path file = std::string(FARLOD_SHARED_DATA_DIR) + "/" + GetParam();
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << ": this test runs where the shared data is";
   const scenes::TemporaryFolder folder;
-  const JudgedCity city(file, folder.path() / "city.farlod");
+  const CityWithOracle city(file, folder.path() / "city.farlod");
   expect_agreement(city, some_of_ground(city.package()), "ground");
   expect_agreement(city, some_of_surfaces(city.package(), SurfaceChoice::roofs), "roof");
   expect_agreement(city, some_of_surfaces(city.package(), SurfaceChoice::walls), "wall");

@@ -8,7 +8,7 @@
 #include <limits>
 #include <sstream>
 
-// The closed forms are judged against each other and against printed figures before they judge anything.
+// The closed forms are compared with each other and with printed figures before anything is compared with them.
 
 namespace farlod::oracles {
 namespace {

@@ -21,7 +21,7 @@ Grid grid_of(double wish_m) {
 }
 
 TEST(Grid, BordersAreExact) {
-  static_assert(std::numeric_limits<long double>::digits >= 24 + 29, "the product must be exact in the judge's type");
+  static_assert(std::numeric_limits<long double>::digits >= 24 + 29, "the product must be exact in the oracle's type");
   for (const double wish_m : wished_edges_m) {
     const Grid grid = grid_of(wish_m);
     EXPECT_NEAR(grid.cell_edge_m, wish_m, wish_m * std::numeric_limits<float>::epsilon() / 2);

@@ -21,14 +21,14 @@ namespace farlod {
 
 /// What the far city does to a direction, as far as its map knows.
 enum class FarVerdict : std::uint8_t {
-  free,            ///< hides nothing there, for certain
+  free,               ///< hides nothing there, for certain
   estimated_free,     ///< may hide the sky there, and likely does not
   estimated_blocked,  ///< may leave the sky open there, and likely does not
-  blocked          ///< hides the sky there, for certain
+  blocked             ///< hides the sky there, for certain
 };
 
-/// Judges the directions of a fan for receivers of one cell, from its far map of the kind `horizon`, as if all of the far city
-/// were grounded.
+/// Classifies the directions of a fan for receivers of one cell, from its far map of the kind `horizon`, as if all of the far
+/// city were grounded.
 class FarView {
  public:
   /// Fan and map must outlive it.
@@ -64,7 +64,7 @@ class FarView {
   const FarHorizon& map_;
   std::vector<std::uint32_t> bins_;
   std::vector<EdgeView> edges_cell_;  ///< the explicit edges, cell frame
-  std::vector<float> low_, high_;  ///< of the explicit edges, for each direction
+  std::vector<float> low_, high_;     ///< of the explicit edges, for each direction
 };
 
 inline FarView::FarView(const AzimuthFan& fan, const FarHorizon& map)
@@ -90,10 +90,10 @@ inline void FarView::classify(const Point3f& p_cell, std::span<FarVerdict> verdi
     const float low = patch ? map_.low[row + bin] : 0.0F;
     const float high = patch ? map_.high[row + bin] : std::numeric_limits<float>::infinity();
     const float estimate = std::clamp(here + share * (above - here), low, high), slope = fan_.slope()[n];
-    verdicts[n] = slope < std::max(low_[n], low)    ? FarVerdict::blocked
-                  : slope > std::max(high_[n], high)  ? FarVerdict::free
+    verdicts[n] = slope < std::max(low_[n], low)         ? FarVerdict::blocked
+                  : slope > std::max(high_[n], high)     ? FarVerdict::free
                   : slope > std::max(high_[n], estimate) ? FarVerdict::estimated_free
-                                                        : FarVerdict::estimated_blocked;
+                                                         : FarVerdict::estimated_blocked;
   }
 }
 

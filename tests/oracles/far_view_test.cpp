@@ -12,7 +12,7 @@
 #include "tests/oracles/distance_to_segment.hpp"
 #include "tests/runtime/package/far_horizon_by_hand.hpp"
 
-// What a far map names is judged against each edge and each direction one by one.
+// What a far map says is compared with each edge, direction by direction.
 
 namespace farlod {
 namespace {
@@ -84,8 +84,9 @@ TEST(FarView, WhatIsCertainIsTrueForRandomEdges) {
   EXPECT_GT(met[static_cast<std::size_t>(FarVerdict::blocked)], 10000U);
   EXPECT_GT(met[static_cast<std::size_t>(FarVerdict::free)], 10000U);
   // A corner's rounding of half a millimetre, 5 m away or more, opens 2e-4 of a turn or of a slope: of 800,000 directions few
-  EXPECT_LT(met[static_cast<std::size_t>(FarVerdict::estimated_free)] + met[static_cast<std::size_t>(FarVerdict::estimated_blocked)],
-            looks.size() * 200 / 1000);
+  EXPECT_LT(
+      met[static_cast<std::size_t>(FarVerdict::estimated_free)] + met[static_cast<std::size_t>(FarVerdict::estimated_blocked)],
+      looks.size() * 200 / 1000);
 }
 
 TEST(FarView, BelowAnEdgeIsBlockedAndAboveItIsFree) {

@@ -5,8 +5,8 @@
 #include <array>
 
 #include "scene/whole_city.hpp"
-#include "tests/agreement/judge.hpp"
 #include "tests/agreement/random_receivers.hpp"
+#include "tests/agreement/ray_oracle.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"
 
@@ -22,10 +22,10 @@ std::array<Point3d, 4> turned_a_little(const Point3d& d) {
   return {d + edge_angle_rad * u, d - edge_angle_rad * u, d + edge_angle_rad * v, d - edge_angle_rad * v};
 }
 
-bool is_away_from_edges(const Judge& judge, const Point3d& origin, const Point3d& d) {
-  const bool blocked = judge.blocks(origin, d);
+bool is_away_from_edges(const RayOracle& oracle, const Point3d& origin, const Point3d& d) {
+  const bool blocked = oracle.blocks(origin, d);
   for (const Point3d& turned : turned_a_little(d))
-    if (judge.blocks(origin, turned) != blocked) return false;
+    if (oracle.blocks(origin, turned) != blocked) return false;
   return true;
 }
 
@@ -40,7 +40,7 @@ TEST(Agreement, CgalAndEmbreeSeeTheSameTownRayForRay) {
   scenes::pack_city(city, grid, folder.path() / "town.farlod", scenes::box_maps(8, 8));
   const Package package(folder.path() / "town.farlod");
   const WholeCity whole(package);
-  const Judge judge(city);
+  const RayOracle oracle(city);
   RandomSky random;
   int away_from_edges = 0, blocked = 0;
   constexpr int rays = 2000;
@@ -52,9 +52,9 @@ TEST(Agreement, CgalAndEmbreeSeeTheSameTownRayForRay) {
     const Point2d corner = grid.corner_of(r.cell);
     const Point3d p_city =
         grid.rotation.city_from_grid(Point3d{corner.x + p.x, corner.y + p.y, p.z + package.manifest().height_origin_m});
-    if (!is_away_from_edges(judge, p_city, d_city)) continue;
+    if (!is_away_from_edges(oracle, p_city, d_city)) continue;
     ++away_from_edges;
-    const bool is_blocked = judge.blocks(p_city, d_city);
+    const bool is_blocked = oracle.blocks(p_city, d_city);
     blocked += is_blocked ? 1 : 0;
     EXPECT_EQ(
         whole.occluder().blocks({whole.scene_from_cell(p, r.cell),

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "tests/agreement/judge.hpp"
+#include "tests/agreement/ray_oracle.hpp"
 #include "tiles/facet_triangulation.hpp"
 
 namespace farlod {
@@ -31,21 +31,21 @@ Triangles triangles_of(const CityModel& city) {
 
 }  // namespace
 
-struct Judge::Impl {
+struct RayOracle::Impl {
   Triangles triangles;
   Tree tree;
   explicit Impl(Triangles t) : triangles(std::move(t)), tree(triangles.cbegin(), triangles.cend()) {}
 };
 
-Judge::Judge(const CityModel& city, std::span<const Corners> ground) {
+RayOracle::RayOracle(const CityModel& city, std::span<const Corners> ground) {
   Triangles triangles = triangles_of(city);
   const auto exactly = [](const Point3d& p) { return Kernel::Point_3(p.x, p.y, p.z); };
   for (const Corners& t : ground) triangles.emplace_back(exactly(t[0]), exactly(t[1]), exactly(t[2]));
   impl_ = std::make_unique<Impl>(std::move(triangles));
 }
-Judge::~Judge() = default;
+RayOracle::~RayOracle() = default;
 
-bool Judge::blocks(const Point3d& o, const Point3d& d) const {
+bool RayOracle::blocks(const Point3d& o, const Point3d& d) const {
   return impl_->tree.do_intersect(Kernel::Ray_3({o.x, o.y, o.z}, Kernel::Vector_3(d.x, d.y, d.z)));
 }
 
