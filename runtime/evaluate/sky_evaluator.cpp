@@ -106,7 +106,7 @@ SkyEvaluator::SkyEvaluator(const Package& package, const SkySettings& settings)
     : package_(package),
       settings_(settings),
       directions_(settings.weight, settings.rays, package.grid().rotation, settings.directions),
-      ring_(AzimuthSampling::even(settings.azimuths, package.grid().rotation)),
+      azimuths_(AzimuthSampling::even(settings.azimuths, package.grid().rotation)),
       city_(std::make_unique<WholeCityOnDemand>()) {
   FARLOD_EXPECTS(!settings.max_far_error || settings.engine == Engine::exact || settings.engine == Engine::near_only ||
                  !package.manifest().far_map.is_box());
@@ -212,7 +212,7 @@ void SkyEvaluator::evaluate_by_rays_against_horizons(const CellReceivers& cell, 
 SkyEvaluator::Numbers SkyEvaluator::draw_horizons(CellGeometry& geometry, const CellReceivers& cell,
                                                   const SkyAnswers& answers) const {
   const std::size_t rays_per_azimuth = std::max<std::size_t>(1, (settings_.rays + settings_.azimuths / 2) / settings_.azimuths);
-  HorizonEngine engine(ring_, settings_.weight, geometry.far, geometry.silhouettes, geometry.overhangs,
+  HorizonEngine engine(azimuths_, settings_.weight, geometry.far, geometry.silhouettes, geometry.overhangs,
                        {static_cast<float>(azimuth_error(settings_.azimuths)), rays_per_azimuth});
   Numbers uncertain;
   const auto answer_packet = [&](const ReceiverPacket& packet, std::span<const std::uint32_t> numbers) {

@@ -131,7 +131,7 @@ class SkyEvaluator {
   const Package& package_;
   SkySettings settings_;
   SkyDirections directions_;
-  AzimuthSampling ring_;
+  AzimuthSampling azimuths_;
   std::unique_ptr<WholeCityOnDemand> city_;
   mutable std::atomic<double> scenes_s_ = 0.0, evaluate_s_ = 0.0;
   mutable std::atomic<std::uint64_t> by_rays_ = 0, retraced_rays_ = 0;

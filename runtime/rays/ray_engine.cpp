@@ -94,26 +94,26 @@ void RayEngine::trace_gaps() {
   }
 }
 
-std::uint64_t RayEngine::retrace(const Occluder& city, const RayOrigins& origins, std::uint32_t doubtful,
+std::uint64_t RayEngine::retrace(const Occluder& city, const RayOrigins& origins, std::uint32_t uncertain,
                                  std::span<FreeRays> free) const {
   FARLOD_EXPECTS(wants_bounds_);
   // Count anew from the low count: rays above `for_low_` are free for certain
   std::uint64_t rays = 0;
   auto gap_ray = gap_rays_.begin();
   for (std::size_t l = 0; l < free.size(); ++l)
-    if ((doubtful & bit_of(l)) != 0) free[l].high = free[l].low;
+    if ((uncertain & bit_of(l)) != 0) free[l].high = free[l].low;
   for (std::uint32_t k = 0; k < directions_.size(); ++k) {
     const float slope = directions_.slopes()[k];
     // Trace the rays between the horizons of both bounds, and those in gaps
     const bool is_gap_ray = gap_ray != gap_rays_.end() && gap_ray->azimuth == k;
     const std::uint32_t in_gap = is_gap_ray ? (gap_ray++)->high : 0;
-    const std::uint32_t wanted = ((for_high_.upper_borders.below(k, slope) & ~for_low_.below(k, slope)) | in_gap) & doubtful;
+    const std::uint32_t wanted = ((for_high_.upper_borders.below(k, slope) & ~for_low_.below(k, slope)) | in_gap) & uncertain;
     rays += static_cast<std::uint64_t>(std::popcount(wanted));
     const std::uint32_t is_free = wanted & ~city.blocked(origins, directions_.direction(k), least_distance_m, wanted);
     for (std::size_t l = 0; l < free.size(); ++l) free[l].high += (is_free & bit_of(l)) != 0 ? 1U : 0U;
   }
   for (std::size_t l = 0; l < free.size(); ++l)
-    if ((doubtful & bit_of(l)) != 0) free[l].low = free[l].estimate = free[l].high;
+    if ((uncertain & bit_of(l)) != 0) free[l].low = free[l].estimate = free[l].high;
   return rays;
 }
 

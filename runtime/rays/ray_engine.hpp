@@ -34,10 +34,10 @@ class RayEngine {
   /// For up to ReceiverPacket::lanes receivers.
   [[nodiscard]] std::vector<FreeRays> count(std::span<const Receiver> receivers);
 
-  /// For the receivers of the last count with bits in `doubtful`: traces the rays that the far map does not decide, against the
+  /// For the receivers of the last count with bits in `uncertain`: traces the rays that the far map does not decide, against the
   /// whole city, so that low = estimate = high. `origins` are the same receivers in the frame of `city`. Needs `wants_bounds`.
   /// Returns the number of rays.
-  std::uint64_t retrace(const Occluder& city, const RayOrigins& origins, std::uint32_t doubtful, std::span<FreeRays> free) const;
+  std::uint64_t retrace(const Occluder& city, const RayOrigins& origins, std::uint32_t uncertain, std::span<FreeRays> free) const;
 
  private:
   void draw_horizons(std::span<const Receiver> receivers);

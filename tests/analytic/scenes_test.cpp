@@ -140,8 +140,8 @@ TEST_P(AnalyticScene, HasItsKnownSkyViewFactor) {
     const double expected = known_answer(scene, weight);
     if (std::isnan(expected)) continue;
     // What the far map of the kind `horizon` leaves open is traced: its own error is nothing
-    const bool settles = setup.engine != Engine::exact && setup.kind == FarMapKind::horizon;
-    const double svf = packed.evaluate(setup.engine, weight, settles ? std::optional(0.0) : std::nullopt).estimate;
+    const bool retraces = setup.engine != Engine::exact && setup.kind == FarMapKind::horizon;
+    const double svf = packed.evaluate(setup.engine, weight, retraces ? std::optional(0.0) : std::nullopt).estimate;
     const double steepest = weight == SkyWeight::cosine ? steepest_cos : steepest_solid;
     double tolerance = allowed_error(scene, setup, weight);
     if (setup.engine == Engine::rays && setup.kind == FarMapKind::box && setup.share != Share::all_near)
@@ -239,7 +239,6 @@ std::vector<Scene> scenes_with(bool walls, bool something_overhead) {
   return scenes;
 }
 
-/// All that can be made of houses.
 /// Beside a half plane overhead, the sky below its far end is less than the accuracy of horizons.
 std::vector<Scene> scenes_that_need_rays() {
   std::vector<Scene> scenes = scenes_with(false, true);
@@ -247,6 +246,7 @@ std::vector<Scene> scenes_that_need_rays() {
   return scenes;
 }
 
+/// All that can be made of houses.
 std::vector<Scene> scenes_without_overhang() {
   std::vector<Scene> scenes = analytic::all_scenes();
   std::erase_if(scenes, [](const Scene& s) { return s.is_overhead; });

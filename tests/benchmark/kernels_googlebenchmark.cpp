@@ -73,17 +73,17 @@ void build_near_scene(KernelCity& city, State& state) {
 
 void build_locator(KernelCity& city, State& state) {
   for (auto _ : state) {
-    const PointLocator columns(city.package, city.next_cell());
-    ::benchmark::DoNotOptimize(&columns);
+    const PointLocator locator(city.package, city.next_cell());
+    ::benchmark::DoNotOptimize(&locator);
   }
 }
 
-void look_up_column(KernelCity& city, State& state) {
-  const PointLocator columns(city.package, city.cells[city.cells.size() / 2]);
+void look_up_profile(KernelCity& city, State& state) {
+  const PointLocator locator(city.package, city.cells[city.cells.size() / 2]);
   const auto edge_m = static_cast<float>(city.package.grid().cell_edge_m);
   float x = 0.5F, y = 0.5F;
   for (auto _ : state) {
-    ::benchmark::DoNotOptimize(columns.at(x, y).highest_m());
+    ::benchmark::DoNotOptimize(locator.at(x, y).highest_m());
     x = x + 1.0F < edge_m ? x + 1.0F : 0.5F;
     y = x > 1.0F ? y : y + 1.0F < edge_m ? y + 1.0F : 0.5F;
   }
@@ -139,15 +139,12 @@ void answer_automatically(KernelCity& city, State& state) { answer_cell(city, st
 void answer_by_rays(KernelCity& city, State& state) { answer_cell(city, state, Engine::rays); }
 
 using Kernel = void (*)(KernelCity& city, State& state);
-constexpr std::pair<const char*, Kernel> kernels[] = {{"read far map of a cell", read_far_map},
-                                                      {"build silhouettes of a cell", build_silhouettes},
-                                                      {"build near scene of a cell", build_near_scene},
-                                                      {"build columns of a cell", build_locator},
-                                                      {"look up column", look_up_column},
-                                                      {"draw silhouettes of a packet", draw_silhouettes},
-                                                      {"trace near rays in packets", trace_near_packets},
-                                                      {"answer a cell, engine auto", answer_automatically},
-                                                      {"answer a cell, engine rays", answer_by_rays}};
+constexpr std::pair<const char*, Kernel> kernels[] = {
+    {"read far map of a cell", read_far_map},           {"build silhouettes of a cell", build_silhouettes},
+    {"build near scene of a cell", build_near_scene},   {"build point locator of a cell", build_locator},
+    {"look up vertical profile", look_up_profile},      {"draw silhouettes of a packet", draw_silhouettes},
+    {"trace near rays in packets", trace_near_packets}, {"answer a cell, engine auto", answer_automatically},
+    {"answer a cell, engine rays", answer_by_rays}};
 
 }  // namespace
 }  // namespace farlod::benchmark

@@ -55,11 +55,11 @@ std::vector<Receiver> random_receivers(const Package& package, Cell cell, Kind k
   }
   constexpr float eye_m = 1.5F, on_it_m = 0.05F;
   const double edge_m = package.grid().cell_edge_m;
-  const PointLocator columns(package, cell);
+  const PointLocator locator(package, cell);
   for (std::size_t n = 0; n < count; ++n) {
     const auto x = static_cast<float>(random.uniform(0.0, edge_m)), y = static_cast<float>(random.uniform(0.0, edge_m));
     const auto above_m = kind == above_roofs ? static_cast<float>(random.uniform(0.5, 40.0)) : kind == ground ? eye_m : on_it_m;
-    const auto p = stand(columns, x, y, kind == ground ? HeightAbove::ground : HeightAbove::highest_surface, above_m);
+    const auto p = stand(locator, x, y, kind == ground ? HeightAbove::ground : HeightAbove::highest_surface, above_m);
     if (p) chosen.push_back({chosen.size(), *p, {0.0F, 0.0F, 1.0F}});
   }
   return chosen;

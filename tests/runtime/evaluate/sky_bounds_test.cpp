@@ -68,10 +68,10 @@ class SkyBounds : public testing::TestWithParam<Town> {
     const Grid& grid = package_.grid();
     std::vector<CellReceivers> places;
     for (std::size_t n = 0; n < static_cast<std::size_t>(grid.cells.size()); ++n) {
-      const PointLocator columns(package_, grid.cells.cell_at(n));
+      const PointLocator locator(package_, grid.cells.cell_at(n));
       CellReceivers cell{grid.cells.cell_at(n), {}};
       const auto add = [&](float x, HeightAbove above, float height_m, const Point3f& normal) {
-        const auto p = stand(columns, x, between(0, grid.cell_edge_m), above, height_m);
+        const auto p = stand(locator, x, between(0, grid.cell_edge_m), above, height_m);
         if (p) cell.receivers.push_back({count_++, *p, normal});
       };
       const auto edge = grid.cell_edge_m;

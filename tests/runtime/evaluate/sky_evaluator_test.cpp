@@ -188,7 +188,7 @@ TEST_P(SkyEvaluatorOfKind, WhatIsFarHidesTheSkyToo) {
   const float exact = town.svf(middle, {Engine::exact, SkyWeight::cosine, many})[0];
   EXPECT_LT(exact, 0.9F);
   if (GetParam() == FarMapKind::horizon) {
-    // A single wall is named, and seen without any error but that of rounding: a ray may pass it on the other side
+    // A single wall is explicit, and seen without any error but that of rounding: a ray may pass it on the other side
     EXPECT_NEAR(rays, exact, 1.5 / many);
     return;
   }

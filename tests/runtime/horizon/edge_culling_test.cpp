@@ -11,7 +11,6 @@
 
 #include "farlod/angle.hpp"
 #include "farlod/horizon/azimuth.hpp"
-#include "farlod/horizon/edge_view.hpp"
 #include "tests/oracles/distance_to_segment.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
 

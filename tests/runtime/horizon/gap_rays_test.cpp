@@ -121,7 +121,7 @@ TEST_F(GapRays, WhatIsMetIsHiddenToTheWidthOfARay) {
         const double low = from_.row(k)[l], high = to_.row(k)[l], foot = std::clamp(3.0 / distance, low, high);
         const auto sky_above = [](double slope) { return 1.0 / (1.0 + slope * slope) / static_cast<double>(azimuths); };
         truth += sky_above(low) - sky_above(foot);
-        // rays_in: the share of the azimuth's sky that the widest gap takes, at least one ray
+        // ray_count: the share of the azimuth's sky that the widest gap takes, at least one ray
         const double sky = sky_above(low) - sky_above(high);
         one_part += sky / std::max(1.0, sky * static_cast<double>(azimuths) * static_cast<double>(rays));
       }
@@ -135,7 +135,7 @@ TEST_F(GapRays, WhatIsMetIsHiddenToTheWidthOfARay) {
   EXPECT_LT(error_before, 1e-4);
 }
 
-TEST(CloseSmallest, ClosesNoMoreThanAsked) {
+TEST(SmallestGaps, NoMoreAreRemovedThanAsked) {
   std::vector<PacketHorizon::Row> sky(5);
   const std::array sizes{0.004F, 0.001F, 0.0F, 0.002F, 0.001F};
   for (std::size_t k = 0; k < sky.size(); ++k) sky[k][3] = sky[k][4] = sizes[k];

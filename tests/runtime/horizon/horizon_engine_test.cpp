@@ -46,23 +46,23 @@ class KnownTown {
   [[nodiscard]] FarHorizon& map() { return far_.map(); }
   [[nodiscard]] const AzimuthSampling& ring() const { return ring_; }
   /// Answers receivers packet by packet; the numbers of those that needed rays.
-  std::vector<std::uint32_t> evaluate(std::span<const Receiver> receivers, std::span<SvfInterval> shares) {
-    return packet_by_packet(receivers, shares, &HorizonEngine::evaluate);
+  std::vector<std::uint32_t> evaluate(std::span<const Receiver> receivers, std::span<SvfInterval> intervals) {
+    return packet_by_packet(receivers, intervals, &HorizonEngine::evaluate);
   }
-  std::vector<std::uint32_t> evaluate_with_bounds(std::span<const Receiver> receivers, std::span<SvfInterval> shares) {
-    return packet_by_packet(receivers, shares, &HorizonEngine::evaluate_with_bounds);
+  std::vector<std::uint32_t> evaluate_with_bounds(std::span<const Receiver> receivers, std::span<SvfInterval> intervals) {
+    return packet_by_packet(receivers, intervals, &HorizonEngine::evaluate_with_bounds);
   }
 
  private:
   using Evaluate = std::uint32_t (HorizonEngine::*)(const ReceiverPacket&, std::span<SvfInterval>);
-  std::vector<std::uint32_t> packet_by_packet(std::span<const Receiver> receivers, std::span<SvfInterval> shares,
+  std::vector<std::uint32_t> packet_by_packet(std::span<const Receiver> receivers, std::span<SvfInterval> intervals,
                                               Evaluate answer) {
     std::vector<std::uint32_t> by_rays;
     for (std::uint32_t first = 0; first < receivers.size(); first += ReceiverPacket::lanes) {
       const std::size_t count = std::min(ReceiverPacket::lanes, receivers.size() - first);
       ReceiverPacket packet;
       for (const Receiver& r : receivers.subspan(first, count)) packet.add(r);
-      const std::uint32_t bits = (engine_.*answer)(packet, shares.subspan(first, count));
+      const std::uint32_t bits = (engine_.*answer)(packet, intervals.subspan(first, count));
       for (std::uint32_t l = 0; l < count; ++l)
         if (((bits >> l) & 1U) != 0) by_rays.push_back(first + l);
     }
@@ -85,8 +85,8 @@ TEST(HorizonEngine, AnswersWhatIsAboveTheEdgesOfATown) {
     for (const Point3f& normal : {up, Point3f{0.6F, 0.0F, 0.8F}, {0.0F, -1.0F, 0.0F}, {0.0F, 0.8F, -0.6F}}) {
       KnownTown known(town, weight);
       const std::vector<Receiver> receivers = receivers_in_a_square(random, normal);
-      std::vector<SvfInterval> shares(receivers.size());
-      EXPECT_TRUE(known.evaluate(receivers, shares).empty());
+      std::vector<SvfInterval> intervals(receivers.size());
+      EXPECT_TRUE(known.evaluate(receivers, intervals).empty());
       for (const Receiver& r : receivers) {
         const auto sky_above = [&](double SlopeRange::*end) {
           return expected_sky(weight, normal, known.ring(), [&](std::size_t k) {
@@ -94,8 +94,8 @@ TEST(HorizonEngine, AnswersWhatIsAboveTheEdgesOfATown) {
           });
         };
         const double rounding = sky_rounding(azimuths, normal);
-        EXPECT_LE(shares[r.index].estimate, sky_above(&SlopeRange::low) + rounding) << r.index;
-        EXPECT_GE(shares[r.index].estimate, sky_above(&SlopeRange::high) - rounding) << r.index;
+        EXPECT_LE(intervals[r.index].estimate, sky_above(&SlopeRange::low) + rounding) << r.index;
+        EXPECT_GE(intervals[r.index].estimate, sky_above(&SlopeRange::high) - rounding) << r.index;
       }
     }
 }
@@ -118,7 +118,7 @@ TEST(HorizonEngine, AReceiverSeesTheSameWhoeverStandsBesideIt) {
   }
 }
 
-TEST(HorizonEngine, WhatIsLikelyChangesEvenlyFromFloorToFloor) {
+TEST(HorizonEngine, TheEstimateChangesEvenlyFromFloorToFloor) {
   KnownTown known(TownByHand(), SkyWeight::cosine);
   FarHorizon& map = known.map();
   // Each bin has its own
@@ -128,13 +128,13 @@ TEST(HorizonEngine, WhatIsLikelyChangesEvenlyFromFloorToFloor) {
   // Floors at 0 and 10 m; below the lowest nobody knows: as on it
   for (const float z : {-3.0F, 0.0F, 2.5F, 5.0F, 7.5F, 10.0F, 99.0F}) {
     const std::vector<Receiver> receiver{{0, {3.0F, 3.0F, z}}};
-    std::vector<SvfInterval> share(1);
-    known.evaluate(receiver, share);
+    std::vector<SvfInterval> interval(1);
+    known.evaluate(receiver, interval);
     const double between = 1.0 - 0.05 * double{std::clamp(z, 0.0F, 10.0F)};
     const double expected = expected_sky(SkyWeight::cosine, up, known.ring(), [&](std::size_t k) {
       return between + 0.1 * map.bins.bin_of({known.ring().cosine()[k], known.ring().sine()[k]});
     });
-    EXPECT_NEAR(share[0].estimate, expected, sky_rounding(azimuths, up)) << z << " m";
+    EXPECT_NEAR(interval[0].estimate, expected, sky_rounding(azimuths, up)) << z << " m";
   }
 }
 
@@ -161,7 +161,7 @@ TEST(HorizonEngine, ReceiversOfOnePacketMayStandOnDifferentFloors) {
   EXPECT_EQ(together.front().high, 1.0F);
 }
 
-TEST(HorizonEngine, BoundsHoldWhatIsLikely) {
+TEST(HorizonEngine, BoundsHoldTheEstimate) {
   RandomPlaces random;
   TownByHand town;
   add_random_boxes(random, 20, town);
@@ -174,8 +174,8 @@ TEST(HorizonEngine, BoundsHoldWhatIsLikely) {
   known.evaluate_with_bounds(receivers, bounded);
   known.evaluate(receivers, plain);
   for (const Receiver& r : receivers) {
-    const SvfInterval& share = bounded[r.index];
-    EXPECT_EQ(share.estimate, plain[r.index].estimate);
+    const SvfInterval& interval = bounded[r.index];
+    EXPECT_EQ(interval.estimate, plain[r.index].estimate);
     const auto sky_above = [&](double residual) {
       return expected_sky(SkyWeight::cosine, up, known.ring(), [&](std::size_t k) {
         const Point2d u{known.ring().cosine()[k], known.ring().sine()[k]};
@@ -184,11 +184,11 @@ TEST(HorizonEngine, BoundsHoldWhatIsLikely) {
     };
     // Where an edge ends within rounding of an azimuth, that azimuth's share may differ
     const double tolerance = sky_rounding(azimuths, up) + 1.0 / azimuths;
-    EXPECT_NEAR(share.high, sky_above(0.2F), tolerance);
-    EXPECT_NEAR(share.estimate, sky_above(0.5F), tolerance);
-    EXPECT_NEAR(share.low, sky_above(0.9F), tolerance);
-    EXPECT_LT(share.low, share.estimate);
-    EXPECT_LT(share.estimate, share.high);
+    EXPECT_NEAR(interval.high, sky_above(0.2F), tolerance);
+    EXPECT_NEAR(interval.estimate, sky_above(0.5F), tolerance);
+    EXPECT_NEAR(interval.low, sky_above(0.9F), tolerance);
+    EXPECT_LT(interval.low, interval.estimate);
+    EXPECT_LT(interval.estimate, interval.high);
   }
 }
 
@@ -229,8 +229,8 @@ TEST_P(WhatOverhangs, NeedsRaysOfThoseWhoMayLookBelowIt) {
   KnownTown known(town, SkyWeight::cosine);
   std::vector<Receiver> receivers = dense_receivers(up);
   receivers.resize(GetParam());
-  std::vector<SvfInterval> shares(receivers.size());
-  const std::vector<std::uint32_t> traced = known.evaluate(receivers, shares);
+  std::vector<SvfInterval> intervals(receivers.size());
+  const std::vector<std::uint32_t> traced = known.evaluate(receivers, intervals);
   int look_below = 0, see_nothing = 0;
   for (std::uint32_t n = 0; n < receivers.size(); ++n) {
     const Gap gap = gap_below(town, known.ring(), receivers[n].p_cell);
@@ -268,12 +268,12 @@ TEST(HorizonEngine, TheToleranceBoundsTheErrorOfThoseWithoutRays) {
   constexpr float tolerance = 0.001F;
   KnownTown known(town, SkyWeight::cosine, {tolerance, 4});
   const std::vector<Receiver> receivers = dense_receivers(up);
-  std::vector<SvfInterval> shares(receivers.size());
-  const std::vector<std::uint32_t> traced = known.evaluate_with_bounds(receivers, shares);
+  std::vector<SvfInterval> intervals(receivers.size());
+  const std::vector<std::uint32_t> traced = known.evaluate_with_bounds(receivers, intervals);
   int narrow = 0;
   for (std::uint32_t n = 0; n < receivers.size(); ++n) {
     const bool by_rays = std::find(traced.begin(), traced.end(), n) != traced.end();
-    const float width = shares[n].high - shares[n].low;
+    const float width = intervals[n].high - intervals[n].low;
     EXPECT_EQ(by_rays, width > tolerance) << n << ": " << width;
     narrow += !by_rays && width > 0.0F ? 1 : 0;
   }
@@ -290,16 +290,16 @@ TEST(HorizonEngine, ASlabRightOverheadHidesAllThatIsAboveItsBorders) {
   town.add_box({3.0, 3.0}, {8.0, 0.5}, 60.0);
   KnownTown known(town, SkyWeight::cosine);
   const std::vector<Receiver> receivers{{0, {7.0F, 7.0F, 1.5F}}, {1, {15.0F, 15.0F, 1.5F}}};
-  std::vector<SvfInterval> shares(2);
+  std::vector<SvfInterval> intervals(2);
   for (const bool wants_bounds : {false, true}) {
-    EXPECT_TRUE((wants_bounds ? known.evaluate_with_bounds(receivers, shares) : known.evaluate(receivers, shares)).empty());
+    EXPECT_TRUE((wants_bounds ? known.evaluate_with_bounds(receivers, intervals) : known.evaluate(receivers, intervals)).empty());
     // What is left above a horizon that stands for the zenith is less than 1e-12
-    for (const float sky : {shares[0].low, shares[0].estimate, shares[0].high}) EXPECT_NEAR(sky, 0.0F, 1e-12F);
-    EXPECT_GT(shares[1].estimate, 0.1F);
+    for (const float sky : {intervals[0].low, intervals[0].estimate, intervals[0].high}) EXPECT_NEAR(sky, 0.0F, 1e-12F);
+    EXPECT_GT(intervals[1].estimate, 0.1F);
   }
 }
 
-TEST(HorizonEngine, UnnamedOverhangsLeaveTheSkyBelowThemOpen) {
+TEST(HorizonEngine, ResidualOverhangsLeaveTheSkyBelowThemOpen) {
   // All around, something residual surely rises to 0.8, and may be open below 0.3
   const TownByHand nothing;
   KnownTown known(nothing, SkyWeight::cosine);
@@ -309,12 +309,12 @@ TEST(HorizonEngine, UnnamedOverhangsLeaveTheSkyBelowThemOpen) {
   std::fill(known.map().overhang.begin(), known.map().overhang.end(), 0.3F);
   KnownTown reread(nothing, SkyWeight::cosine, {}, known.map());
   const std::vector<Receiver> receiver{{0, {3.0F, 3.0F, 1.5F}}};
-  std::vector<SvfInterval> share(1);
-  EXPECT_TRUE(reread.evaluate_with_bounds(receiver, share).empty()) << "no ray could tell";
+  std::vector<SvfInterval> interval(1);
+  EXPECT_TRUE(reread.evaluate_with_bounds(receiver, interval).empty()) << "no ray could tell";
   const double above = 1.0 / (1.0 + 0.8 * 0.8), below = 1.0 - 1.0 / (1.0 + 0.3 * 0.3), rounding = sky_rounding(azimuths, up);
-  EXPECT_NEAR(share[0].low, above, rounding);
-  EXPECT_NEAR(share[0].estimate, above, rounding);
-  EXPECT_NEAR(share[0].high, above + below, rounding);
+  EXPECT_NEAR(interval[0].low, above, rounding);
+  EXPECT_NEAR(interval[0].estimate, above, rounding);
+  EXPECT_NEAR(interval[0].high, above + below, rounding);
 }
 
 }  // namespace

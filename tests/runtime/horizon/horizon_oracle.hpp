@@ -9,7 +9,6 @@
 #include <span>
 
 #include "farlod/box.hpp"
-#include "farlod/horizon/edge_view.hpp"
 #include "farlod/horizon/horizon_edge.hpp"
 #include "farlod/point.hpp"
 

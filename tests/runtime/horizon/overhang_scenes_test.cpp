@@ -146,15 +146,15 @@ class OverhangScenes : public testing::TestWithParam<Scene> {
     const AzimuthSampling ring = AzimuthSampling::even(azimuths, {});
     FarHorizonByHand far({});
     HorizonEngine engine(ring, SkyWeight::cosine, far.map(), GetParam().town.silhouettes(), overhangs, {0.0F, rays_per_azimuth});
-    std::vector<SvfInterval> shares(places.size());
+    std::vector<SvfInterval> intervals(places.size());
     for (std::size_t first = 0; first < places.size(); first += ReceiverPacket::lanes) {
       const std::size_t count = std::min(ReceiverPacket::lanes, places.size() - first);
       ReceiverPacket packet;
       for (std::size_t n = first; n < first + count; ++n) packet.add({n, places[n], up});
-      const auto some = std::span(shares).subspan(first, count);
+      const auto some = std::span(intervals).subspan(first, count);
       (void)(wants_bounds ? engine.evaluate_with_bounds(packet, some) : engine.evaluate(packet, some));
     }
-    return shares;
+    return intervals;
   }
 };
 
@@ -180,7 +180,7 @@ TEST_P(OverhangScenes, AreWhatRaysSee) {
   RandomPlaces random;
   for (int n = 0; n < 64; ++n)
     places.push_back({random.between(0.0, 20.0), random.between(-4.0, 11.5), random.between(0.5, 3.0)});
-  const std::vector<SvfInterval> shares = evaluate(places, true);
+  const std::vector<SvfInterval> intervals = evaluate(places, true);
   const Occluder city = GetParam().town.city();
   const std::vector<Point3d> directions = SkyPartition(SkyWeight::cosine, rays).directions();
   const std::vector<std::uint32_t> free = count_free(city, places, directions);
@@ -188,12 +188,12 @@ TEST_P(OverhangScenes, AreWhatRaysSee) {
   int open = 0;
   for (std::size_t n = 0; n < places.size(); ++n) {
     const double truth = static_cast<double>(free[n]) / static_cast<double>(rays);
-    EXPECT_NEAR(shares[n].estimate, truth, tolerance) << n;
-    EXPECT_LE(shares[n].low, truth + tolerance) << n;
-    EXPECT_GE(shares[n].high, truth - tolerance) << n;
-    EXPECT_LE(shares[n].low, shares[n].estimate) << n;
-    EXPECT_LE(shares[n].estimate, shares[n].high) << n;
-    open += shares[n].high > shares[n].low + 0.001F ? 1 : 0;
+    EXPECT_NEAR(intervals[n].estimate, truth, tolerance) << n;
+    EXPECT_LE(intervals[n].low, truth + tolerance) << n;
+    EXPECT_GE(intervals[n].high, truth - tolerance) << n;
+    EXPECT_LE(intervals[n].low, intervals[n].estimate) << n;
+    EXPECT_LE(intervals[n].estimate, intervals[n].high) << n;
+    open += intervals[n].high > intervals[n].low + 0.001F ? 1 : 0;
   }
   EXPECT_GT(open, 5) << "nothing is seen below anything";
 }

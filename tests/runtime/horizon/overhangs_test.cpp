@@ -94,7 +94,7 @@ TEST(OverhangGeometry, AVerticalWallCoversNobodyBesideIt) {
 /// and the highest upper one all is hidden.
 TEST(OverhangGeometry, RaysMeetWhatFloatsBelowItsUpperBordersAndAboveTheLowerOnes) {
   RandomPlaces random;
-  const DirectionSampling fan(SkyPartition(SkyWeight::solid_angle, 500).directions());
+  const DirectionSampling sampling(SkyPartition(SkyWeight::solid_angle, 500).directions());
   std::size_t free_above = 0, hidden_between = 0, open = 0;
   for (int n = 0; n < 300; ++n) {
     TownByHand town;
@@ -103,15 +103,15 @@ TEST(OverhangGeometry, RaysMeetWhatFloatsBelowItsUpperBordersAndAboveTheLowerOne
     OverhangGeometry overhangs = packed.geometry();
     const std::vector<Point3f> eyes = random_eyes(random);
     const ReceiverPacket packet = packet_of(eyes);
-    PacketHorizon upper(fan.azimuths()), lower(fan.azimuths());
+    PacketHorizon upper(sampling.azimuths()), lower(sampling.azimuths());
     upper.raise(town.silhouettes().near.overhangs, packet);
     upper.close(overhangs.receivers_below(packet));
     lower.raise(town.silhouettes().near.undersides, packet);
     for (std::size_t l = 0; l < eyes.size(); ++l)
-      for (std::size_t k = 0; k < fan.size(); ++k) {
-        const RayVerdict ray = verdict(overhangs.scene().occluder, eyes[l], fan.direction(k));
-        const bool is_above_upper = ((upper.below(k, fan.slopes()[k]) >> l) & 1U) != 0;
-        const bool is_above_lower = ((lower.below(k, fan.slopes()[k]) >> l) & 1U) != 0;
+      for (std::size_t k = 0; k < sampling.size(); ++k) {
+        const RayVerdict ray = verdict(overhangs.scene().occluder, eyes[l], sampling.direction(k));
+        const bool is_above_upper = ((upper.below(k, sampling.slopes()[k]) >> l) & 1U) != 0;
+        const bool is_above_lower = ((lower.below(k, sampling.slopes()[k]) >> l) & 1U) != 0;
         ++(is_above_upper ? free_above : is_above_lower ? hidden_between : open);
         if (ray.grazes || !(is_above_upper || is_above_lower)) continue;
         EXPECT_EQ(ray.is_free, is_above_upper) << n << ", receiver " << l << ", ray " << k;

@@ -55,7 +55,7 @@ class TwoFloors : public testing::Test {
                                                        {-2.0F}, {0.0F, 10.0F, 50.0F, -1.0F}, {9.9F, 10.1F}};
 };
 
-TEST_F(TwoFloors, WhatIsLikelyChangesEvenlyBetweenThem) {
+TEST_F(TwoFloors, TheEstimateChangesEvenlyBetweenThem) {
   for (const auto& heights_m : alike_and_not_)
     expect_slopes(at_heights(heights_m), &ResidualHorizon::raise_to_estimate, [this](const Point3f& p, std::uint32_t bin) {
       const float share = std::clamp(p.z / 10.0F, 0.0F, 1.0F);
@@ -63,7 +63,7 @@ TEST_F(TwoFloors, WhatIsLikelyChangesEvenlyBetweenThem) {
     });
 }
 
-TEST_F(TwoFloors, WhatIsCertainHoldsForAFloor) {
+TEST_F(TwoFloors, BoundsHoldForAFloor) {
   for (const auto& heights_m : alike_and_not_) {
     expect_slopes(at_heights(heights_m), &ResidualHorizon::raise_to_low, [this](const Point3f& p, std::uint32_t bin) {
       return p.z < 0.0F ? 0.0F : 0.2F * slope_of(p.z < 10.0F ? bin : 8 + bin);
@@ -87,7 +87,7 @@ TEST_F(TwoFloors, WhereNothingOverhangsNoBorderRises) {
     expect_slopes(at_heights(heights_m), &ResidualHorizon::raise_to_overhang, [](const Point3f&, std::uint32_t) { return 0.0F; });
 }
 
-TEST_F(TwoFloors, WhatIsLikelyStaysBetweenWhatIsCertain) {
+TEST_F(TwoFloors, TheEstimateStaysBetweenTheBounds) {
   std::fill(far_.map().estimate.begin(), far_.map().estimate.begin() + 8, 9.0F);
   std::fill(far_.map().estimate.begin() + 8, far_.map().estimate.end(), 0.0F);
   expect_slopes(at_heights({1.0F, 2.0F}), &ResidualHorizon::raise_to_estimate,

@@ -9,8 +9,8 @@
 
 #include "farlod/horizon/horizon_edge.hpp"
 #include "farlod/point.hpp"
-#include "horizon/sky_partition.hpp"
 #include "horizon/receiver_packet.hpp"
+#include "horizon/sky_partition.hpp"
 
 /// What the kernels (horizon/kernels.hpp) compute, for one receiver and one azimuth at a time: without lanes, culling or slots.
 /// The operations on floats come in the same order, so that the results must be equal bit for bit.

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "farlod/horizon/edge_facing.hpp"
-#include "farlod/horizon/edge_view.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "tests/oracles/distance_to_segment.hpp"
 #include "tests/runtime/horizon/horizon_oracle.hpp"

@@ -9,7 +9,6 @@
 #include <optional>
 #include <vector>
 
-#include "farlod/horizon/edge_view.hpp"
 #include "package/far_horizon.hpp"
 
 namespace farlod {

@@ -9,7 +9,7 @@ namespace {
 
 FarHorizon three_layers() { return {ReceiverPatches(20.0, 1, {-2.0F, 3.0F, 9.5F}), AzimuthBins{8}, {}, {}, {}, {}, {}}; }
 
-TEST(FarHorizon, HeightsMeetWhatIsNamedInTheirLayersAndTheOneAbove) {
+TEST(FarHorizon, HeightsMeetTheExplicitEdgesOfTheirLayersAndOfTheOneAbove) {
   const FarHorizon map = three_layers();
   EXPECT_EQ(map.layers_met_from(0.0F, 0.0F) & 0b111U, 0b011U);
   EXPECT_EQ(map.layers_met_from(3.0F, 9.4F) & 0b111U, 0b110U);

@@ -50,9 +50,11 @@ bool tile_is_sound(const TileView& tile, const Bytes& bytes) {
       !runs_cover_triangles(tile))
     return false;
   const auto vertices_exist = [&](const Triangle& t) { return std::max({t.a, t.b, t.c}) < tile.mesh.vertices.size(); };
-  const auto passed = [](std::size_t sum, const TileEdge& e) { return sum + e.sides_skipped + (e.sides_skipped < 255 ? 1U : 0U); };
+  const auto skipped = [](std::size_t sum, const TileEdge& e) {
+    return sum + e.sides_skipped + (e.sides_skipped < 255 ? 1U : 0U);
+  };
   const auto sides_exist = [&](std::span<const TileEdge> sides) {
-    return std::accumulate(sides.begin(), sides.end(), std::size_t{0}, passed) <= 3 * tile.mesh.triangles.size();
+    return std::accumulate(sides.begin(), sides.end(), std::size_t{0}, skipped) <= 3 * tile.mesh.triangles.size();
   };
   const auto surface_exists = [&](const SurfaceRun& r) {
     return r.surface < tile.surfaces.size() &&
@@ -65,13 +67,14 @@ bool tile_is_sound(const TileView& tile, const Bytes& bytes) {
          std::all_of(tile.surface_runs.begin(), tile.surface_runs.end(), surface_exists);
 }
 
-bool far_map_is_sound(const ExplicitOccluders& named, const std::vector<float>& levels_m, const Bytes& bytes) {
+bool far_map_is_sound(const ExplicitOccluders& occluders, const std::vector<float>& levels_m, const Bytes& bytes) {
   const auto is_inside = [&](const auto& part) { return lies_within(part, bytes); };
-  if (!is_inside(named.edges) || !is_inside(named.explicit_edges)) return false;
+  if (!is_inside(occluders.edges) || !is_inside(occluders.explicit_edges)) return false;
   const auto exist = [](const std::span<const ExplicitOccluder>& list, std::size_t count) {
     return std::all_of(list.begin(), list.end(), [count](const ExplicitOccluder& n) { return n.row < count; });
   };
-  return exist(named.explicit_edges, named.edges.size()) && std::all_of(named.edges.begin(), named.edges.end(), edge_is_sound) &&
+  return exist(occluders.explicit_edges, occluders.edges.size()) &&
+         std::all_of(occluders.edges.begin(), occluders.edges.end(), edge_is_sound) &&
          std::is_sorted(levels_m.begin(), levels_m.end()) && std::isfinite(levels_m.front() + levels_m.back());
 }
 

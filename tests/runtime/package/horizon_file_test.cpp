@@ -213,13 +213,13 @@ TEST(HorizonFile, BoundsOutOfOrder) {
   }
 }
 
-TEST(HorizonFile, WhatIsLikelyMayLieOutsideOfTheBounds) {
+TEST(HorizonFile, TheEstimateMayLieOutsideOfTheBounds) {
   // Viewpoints are samples: who reads puts them between the bounds
   EXPECT_EQ(OneRow(1).written_and_read({0.5F}, {0.25F}, {1.0F}, {0.0F}).estimate[0], 0.25F);
 }
 
 TEST(HorizonFile, OverhangsMayRiseAboveAllThatHides) {
-  // What is named hides, and is not in the rows
+  // What is explicit hides, and is not in the rows
   EXPECT_EQ(OneRow(1).written_and_read({0.5F}, {0.5F}, {1.0F}, {4.0F}).overhang[0], 4.0F);
 }
 
@@ -252,8 +252,8 @@ TEST(HorizonFile, MissingChannels) {
 TEST(HorizonFile, UnknownChannelsAreSkipped) {
   const OneRow row(4);
   // Before, among and after the known ones, and of each type
-  const std::pair<const char*, Imf::PixelType> channels[] = {{"A", Imf::FLOAT},    {"Y", Imf::HALF},      {"Z", Imf::UINT},
-                                                             {"low", Imf::HALF}, {"middle", Imf::HALF}, {"overhang", Imf::HALF},
+  const std::pair<const char*, Imf::PixelType> channels[] = {{"A", Imf::FLOAT},   {"Y", Imf::HALF},      {"Z", Imf::UINT},
+                                                             {"low", Imf::HALF},  {"middle", Imf::HALF}, {"overhang", Imf::HALF},
                                                              {"high", Imf::HALF}, {"vague", Imf::UINT}};
   Imf::Header header(4, 1);
   Imf::FrameBuffer frame;

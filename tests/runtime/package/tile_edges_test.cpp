@@ -56,9 +56,9 @@ TEST(TileEdges, WholeFileOpens) {
   EXPECT_EQ(damage_after([](TilesBytes&) {}), "no damage");
 }
 
-TEST(TileEdges, RowsThatOnlyPassAreNoEdges) {
+TEST(TileEdges, EntriesThatOnlySkipStoreNoEdge) {
   TilesBytes file = whole_file();
-  // The two rows become one that passes 255 sides and one that passes none, of a triangle that is repeated often enough
+  // The two entries become one that skips 255 sides and one that skips none, of a triangle that is repeated often enough
   const Triangle t{0, 1, 2};
   TileView view = open(file).tile({0, 0});
   const std::vector<Triangle> many(100, t);
@@ -84,7 +84,7 @@ TEST(TileEdges, EachRoleCountsFromTheFirstSide) {
   TilesBytes file = whole_file();
   std::vector<HorizonEdge> expected = read_from(file, {1, 0});
   ASSERT_EQ(expected.size(), 4U);
-  // The two rows of the cell become the only ones of other roles: the second one passes five sides by itself
+  // The two rows of the cell become the only ones of other roles: the second one skips five sides by itself
   const std::size_t first = file.section(SectionKind::tile_edges).count - 2;
   cell(file, 1).edge_counts = {0, 1, 1};
   side(file, first + 1).sides_skipped = 5;
@@ -111,10 +111,10 @@ TEST(TileEdges, SideOfAMissingTriangle) {
   EXPECT_EQ(damage_after([](TilesBytes& f) { --side(f, 1).sides_skipped; }), "no damage");
   for (const std::size_t n : {0U, 1U, 3U})
     for (const int more : {1, 100}) {
-      const auto pass_more = [=](TilesBytes& f) {
+      const auto skip_more = [=](TilesBytes& f) {
         side(f, n).sides_skipped = static_cast<std::uint8_t>(side(f, n).sides_skipped + more);
       };
-      EXPECT_THAT(damage_after(pass_more), HasSubstr("side of a triangle that does not exist")) << n;
+      EXPECT_THAT(damage_after(skip_more), HasSubstr("side of a triangle that does not exist")) << n;
     }
   EXPECT_THAT(damage_after([](TilesBytes& f) { side(f, 1).sides_skipped = TileEdge::skip_only; }),
               HasSubstr("side of a triangle that does not exist"));
@@ -122,10 +122,10 @@ TEST(TileEdges, SideOfAMissingTriangle) {
 
 TEST(TileEdges, SideOfAMissingTriangleInAnyRole) {
   for (std::size_t role = 1; role < edge_role_count; ++role) {
-    // The last row of the cell is alone in its role, and passes no more than the sides of two triangles
-    const auto change = [role](TilesBytes& f, std::uint8_t passed) {
+    // The last row of the cell is alone in its role, and skips no more than the sides of two triangles
+    const auto change = [role](TilesBytes& f, std::uint8_t skipped) {
       cell(f, 1).edge_counts[0] = cell(f, 1).edge_counts[role] = 1;
-      side(f, 3).sides_skipped = passed;
+      side(f, 3).sides_skipped = skipped;
     };
     EXPECT_EQ(damage_after([&](TilesBytes& f) { change(f, 5); }), "no damage");
     EXPECT_THAT(damage_after([&](TilesBytes& f) { change(f, 6); }), HasSubstr("side of a triangle that does not exist"));
@@ -136,7 +136,8 @@ TEST(TileEdges, RisesBeyondARightAngle) {
   constexpr std::int8_t beyond = -128;
   for (auto direction : {&AdjacentSlopes::left, &AdjacentSlopes::right}) {
     EXPECT_THAT(damage_after([=](TilesBytes& f) { side(f, 1).adjacent.*direction = beyond; }), HasSubstr("beyond a right angle"));
-    EXPECT_THAT(damage_after([=](TilesBytes& f) { loose(f, 1).adjacent.*direction = beyond; }), HasSubstr("beyond a right angle"));
+    EXPECT_THAT(damage_after([=](TilesBytes& f) { loose(f, 1).adjacent.*direction = beyond; }),
+                HasSubstr("beyond a right angle"));
     for (const std::int8_t right : {std::int8_t{-127}, std::int8_t{127}})
       EXPECT_EQ(damage_after([=](TilesBytes& f) {
                   side(f, 1).adjacent.*direction = right;

@@ -39,9 +39,9 @@ TEST_P(RayEngineInTown, CountsWhatTheWholeSceneLeavesFree) {
   const Occluder city = town_.city();
   const PackedOverhangs packed(town_.overhanging());
   OverhangGeometry overhangs = packed.geometry();
-  const DirectionSampling fan(SkyPartition(SkyWeight::cosine, ray_count).directions());
-  RayEngine engine(fan, far_.map(), town_.silhouettes(), overhangs, true),
-      without_bounds(fan, far_.map(), town_.silhouettes(), overhangs, false);
+  const DirectionSampling sampling(SkyPartition(SkyWeight::cosine, ray_count).directions());
+  RayEngine engine(sampling, far_.map(), town_.silhouettes(), overhangs, true),
+      without_bounds(sampling, far_.map(), town_.silhouettes(), overhangs, false);
   std::uint32_t grazing = 0, hidden = 0, through_gaps = 0;
   constexpr int packets = 30;
   for (int n = 0; n < packets; ++n) {
@@ -49,8 +49,8 @@ TEST_P(RayEngineInTown, CountsWhatTheWholeSceneLeavesFree) {
     const std::vector<FreeRays> free = engine.count(receivers), plain = without_bounds.count(receivers);
     for (std::size_t l = 0; l < receivers.size(); ++l) {
       std::uint32_t surely_free = 0, perhaps_free = 0;
-      for (std::size_t k = 0; k < fan.size(); ++k) {
-        const RayVerdict ray = verdict(city, receivers[l].p_cell, fan.direction(k));
+      for (std::size_t k = 0; k < sampling.size(); ++k) {
+        const RayVerdict ray = verdict(city, receivers[l].p_cell, sampling.direction(k));
         surely_free += ray.is_free && !ray.grazes ? 1 : 0;
         perhaps_free += ray.is_free || ray.grazes ? 1 : 0;
       }
@@ -85,8 +85,8 @@ TEST(RayEngine, AnEmptyTownHidesNothing) {
   FarHorizonByHand far({});
   const PackedOverhangs packed(empty.overhanging());
   OverhangGeometry overhangs = packed.geometry();
-  const DirectionSampling fan(SkyPartition(SkyWeight::solid_angle, 145).directions());
-  RayEngine engine(fan, far.map(), empty.silhouettes(), overhangs, true);
+  const DirectionSampling sampling(SkyPartition(SkyWeight::solid_angle, 145).directions());
+  RayEngine engine(sampling, far.map(), empty.silhouettes(), overhangs, true);
   const std::vector<Receiver> receivers{{0, {3.0F, 3.0F, 1.5F}}, {1, {4.0F, 3.0F, 1.5F}}};
   for (const FreeRays& free : engine.count(receivers)) {
     EXPECT_EQ(free.low, 145U);

@@ -10,7 +10,7 @@
 #include "tests/runtime/horizon/packed_overhangs.hpp"
 #include "tests/runtime/package/far_horizon_by_hand.hpp"
 
-// A wall to the east is near, on the ground or floating; one to the west is far, once named, once bounded only.
+// A wall to the east is near, on the ground or floating; one to the west is far, once explicit, once residual.
 
 namespace farlod {
 namespace {
@@ -58,7 +58,7 @@ CellSilhouettes silhouettes_of(const Walls& walls) {
 class TwoWalls : public testing::TestWithParam<Walls> {
  protected:
   TwoWalls() {
-    // Not named, the wall may hide all below 45° anywhere, and surely hides nothing
+    // Residual, the wall may hide all below 45° anywhere, and surely hides nothing
     std::fill(far_.map().high.begin(), far_.map().high.end(), 1.0F);
     std::fill(far_.map().estimate.begin(), far_.map().estimate.end(), 0.4F);
     for (std::size_t n = 0; n < 16; ++n) {
@@ -73,12 +73,12 @@ class TwoWalls : public testing::TestWithParam<Walls> {
 
   const Occluder city_ = both_walls(GetParam());
   const std::vector<Point3d> directions_ = SkyPartition(SkyWeight::cosine, 1000).directions();
-  const DirectionSampling fan_{directions_};
+  const DirectionSampling sampling_{directions_};
   const CellSilhouettes silhouettes_ = silhouettes_of(GetParam());
   const PackedOverhangs packed_{GetParam().near_floats ? wall_at(near_x, gap) : std::array<Corners, 2>{}};
   OverhangGeometry overhangs_ = packed_.geometry();
   FarHorizonByHand far_{{}};
-  RayEngine engine_{fan_, far_.map(), silhouettes_, overhangs_, true};
+  RayEngine engine_{sampling_, far_.map(), silhouettes_, overhangs_, true};
   std::vector<Receiver> receivers_;
   std::vector<Point3f> places_;
   RayOrigins origins_;
@@ -98,27 +98,27 @@ TEST_P(TwoWalls, TheExactCountLiesWithinTheBounds) {
   EXPECT_GT(open, 0U) << "nothing is left open to tell";
 }
 
-TEST_P(TwoWalls, SettlingMakesTheDoubtfulExactAndLeavesTheRest) {
+TEST_P(TwoWalls, RetracingMakesTheUncertainExactAndLeavesTheRest) {
   const std::vector<FreeRays> before = engine_.count(receivers_);
   std::vector<FreeRays> after = before;
-  std::uint32_t doubtful = 0;
+  std::uint32_t uncertain = 0;
   std::uint64_t open = 0;
   for (std::size_t n = 0; n < before.size(); n += 3) {
-    doubtful |= 1U << n;
+    uncertain |= 1U << n;
     open += before[n].high - before[n].low;
   }
-  EXPECT_EQ(engine_.retrace(city_, origins_, doubtful, after), open);
+  EXPECT_EQ(engine_.retrace(city_, origins_, uncertain, after), open);
   const std::vector<std::uint32_t> truth = exact();
   for (std::size_t n = 0; n < after.size(); ++n) {
-    const FreeRays expected = ((doubtful >> n) & 1U) != 0 ? FreeRays{truth[n], truth[n], truth[n]} : before[n];
+    const FreeRays expected = ((uncertain >> n) & 1U) != 0 ? FreeRays{truth[n], truth[n], truth[n]} : before[n];
     EXPECT_EQ(after[n].low, expected.low) << n;
     EXPECT_EQ(after[n].estimate, expected.estimate) << n;
     EXPECT_EQ(after[n].high, expected.high) << n;
   }
 }
 
-TEST_P(TwoWalls, WithoutBoundsTheLikelyCountIsTheSame) {
-  RayEngine without(fan_, far_.map(), silhouettes_, overhangs_, false);
+TEST_P(TwoWalls, WithoutBoundsTheEstimateIsTheSame) {
+  RayEngine without(sampling_, far_.map(), silhouettes_, overhangs_, false);
   const std::vector<FreeRays> bounded = engine_.count(receivers_), plain = without.count(receivers_);
   for (std::size_t n = 0; n < receivers_.size(); ++n) {
     EXPECT_EQ(plain[n].estimate, bounded[n].estimate) << n;
@@ -151,8 +151,8 @@ TEST_P(TwoWalls, ReceiversAtDifferentHeightsSeeEachAtItsOwn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(RayEngine, TwoWalls,
-                         testing::Values(Walls{"GroundedAndBounded", false, false}, Walls{"GroundedAndNamed", false, true},
-                                         Walls{"FloatingAndBounded", true, false}, Walls{"FloatingAndNamed", true, true}),
+                         testing::Values(Walls{"GroundedAndResidual", false, false}, Walls{"GroundedAndExplicit", false, true},
+                                         Walls{"FloatingAndResidual", true, false}, Walls{"FloatingAndExplicit", true, true}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
 
-// Columns of packed cities, at places where geometry is at its most awkward. Ground at 0, and no height needs rounding.
+// Vertical profiles of packed cities, at places where geometry is at its most awkward. Ground at 0, and no height needs rounding.
 
 namespace farlod {
 namespace {
@@ -26,7 +26,9 @@ class PackedLocator {
     const Point2d corner = grid_.corner_of(cell);
     return at(cell, static_cast<float>(x_grid - corner.x), static_cast<float>(y_grid - corner.y));
   }
-  [[nodiscard]] VerticalProfile at(Cell cell, float x_cell, float y_cell) const { return PointLocator(package_, cell).at(x_cell, y_cell); }
+  [[nodiscard]] VerticalProfile at(Cell cell, float x_cell, float y_cell) const {
+    return PointLocator(package_, cell).at(x_cell, y_cell);
+  }
   [[nodiscard]] const Grid& grid() const { return grid_; }
 
  private:
@@ -39,17 +41,17 @@ class PackedLocator {
   Package package_;
 };
 
-void expect_house(const VerticalProfile& column, float roof_m, const char* where) {
-  EXPECT_EQ(column.ground_m(), 0.0F) << where;
-  EXPECT_EQ(column.highest_m(), roof_m) << where;
-  EXPECT_TRUE(column.is_inside_building(0.5F * roof_m)) << where;
-  EXPECT_FALSE(column.is_inside_building(roof_m + 0.5F)) << where;
+void expect_house(const VerticalProfile& profile, float roof_m, const char* where) {
+  EXPECT_EQ(profile.ground_m(), 0.0F) << where;
+  EXPECT_EQ(profile.highest_m(), roof_m) << where;
+  EXPECT_TRUE(profile.is_inside_building(0.5F * roof_m)) << where;
+  EXPECT_FALSE(profile.is_inside_building(roof_m + 0.5F)) << where;
 }
 
-void expect_street(const VerticalProfile& column, const char* where) {
-  EXPECT_EQ(column.ground_m(), 0.0F) << where;
-  EXPECT_EQ(column.highest_m(), 0.0F) << where;
-  EXPECT_FALSE(column.is_inside_building(1.5F)) << where;
+void expect_street(const VerticalProfile& profile, const char* where) {
+  EXPECT_EQ(profile.ground_m(), 0.0F) << where;
+  EXPECT_EQ(profile.highest_m(), 0.0F) << where;
+  EXPECT_FALSE(profile.is_inside_building(1.5F)) << where;
 }
 
 /// A house of three by three cells' corners: every border and corner of cell (1, 1) runs through it.
@@ -60,37 +62,37 @@ CityModel house_over_borders() {
 }
 
 TEST(LocatorPlaces, InAndBesideAHouse) {
-  const PackedLocator columns(house_over_borders());
-  expect_house(columns.at(5.0, 7.25), 8.0F, "near the wall");
-  expect_house(columns.at(24.5, 29.75), 8.0F, "in the middle");
-  expect_street(columns.at(2.0, 24.0), "west of it");
-  expect_street(columns.at(46.5, 45.0), "north-east of it");
+  const PackedLocator locator(house_over_borders());
+  expect_house(locator.at(5.0, 7.25), 8.0F, "near the wall");
+  expect_house(locator.at(24.5, 29.75), 8.0F, "in the middle");
+  expect_street(locator.at(2.0, 24.0), "west of it");
+  expect_street(locator.at(46.5, 45.0), "north-east of it");
 }
 
 TEST(LocatorPlaces, OnTheEdgesBetweenTheTrianglesOfARoof) {
-  const PackedLocator columns(house_over_borders());
+  const PackedLocator locator(house_over_borders());
   // Both diagonals of the roof, and of each of its pieces: one of the two is an edge
   for (double t = 0.25; t < 40.0; t += 0.25) {
-    expect_house(columns.at(4.0 + t, 4.0 + t), 8.0F, "rising diagonal");
-    expect_house(columns.at(4.0 + t, 44.0 - t), 8.0F, "falling diagonal");
+    expect_house(locator.at(4.0 + t, 4.0 + t), 8.0F, "rising diagonal");
+    expect_house(locator.at(4.0 + t, 44.0 - t), 8.0F, "falling diagonal");
   }
 }
 
 TEST(LocatorPlaces, OnTheBordersOfTheGrid) {
-  const PackedLocator columns(house_over_borders());
+  const PackedLocator locator(house_over_borders());
   for (const double border : {16.0, 32.0})
     for (double t = 4.25; t < 44.0; t += 0.25) {
-      expect_house(columns.at(border, t), 8.0F, "a border from south to north");
-      expect_house(columns.at(t, border), 8.0F, "a border from west to east");
+      expect_house(locator.at(border, t), 8.0F, "a border from south to north");
+      expect_house(locator.at(t, border), 8.0F, "a border from west to east");
     }
 }
 
 TEST(LocatorPlaces, OnTheFarSideOfACellWhereFloatsRoundOntoTheBorder) {
-  const PackedLocator columns(house_over_borders());
+  const PackedLocator locator(house_over_borders());
   for (const float last : {std::nextafter(edge, 0.0F), edge})
     for (float t = 0.0F; t <= edge; t += 0.25F) {
-      expect_house(columns.at({1, 1}, last, t), 8.0F, "east side");
-      expect_house(columns.at({1, 1}, t, last), 8.0F, "north side");
+      expect_house(locator.at({1, 1}, last, t), 8.0F, "east side");
+      expect_house(locator.at({1, 1}, t, last), 8.0F, "north side");
     }
 }
 
@@ -120,11 +122,11 @@ CityModel house_with_court() {
 }
 
 TEST(LocatorPlaces, ACourtIsOutside) {
-  const PackedLocator columns(house_with_court());
-  expect_street(columns.at(24.0, 24.0), "in the court");
-  expect_street(columns.at(16.0, 16.0), "in the court, where cells meet");
-  expect_house(columns.at(9.0, 24.0), 8.0F, "in the west wing");
-  expect_house(columns.at(24.0, 39.0), 8.0F, "in the north wing");
+  const PackedLocator locator(house_with_court());
+  expect_street(locator.at(24.0, 24.0), "in the court");
+  expect_street(locator.at(16.0, 16.0), "in the court, where cells meet");
+  expect_house(locator.at(9.0, 24.0), 8.0F, "in the west wing");
+  expect_house(locator.at(24.0, 39.0), 8.0F, "in the north wing");
 }
 
 TEST(LocatorPlaces, UnderABridge) {
@@ -132,14 +134,14 @@ TEST(LocatorPlaces, UnderABridge) {
   builder.add_box({{2.0, 2.0}, {8.0, 14.0}}, 0.0, 12.0);
   builder.add_box({{40.0, 2.0}, {46.0, 14.0}}, 0.0, 12.0);
   builder.add_box({{8.0, 6.0}, {40.0, 10.0}}, 6.0, 8.0);
-  const PackedLocator columns(builder.city());
+  const PackedLocator locator(builder.city());
   for (const double x : {12.0, 16.0, 24.0, 31.5}) {
-    const VerticalProfile column = columns.at(x, 8.0);
-    EXPECT_EQ(column.ground_m(), 0.0F) << "the bridge does not stand on the ground";
-    EXPECT_EQ(column.highest_m(), 8.0F);
-    EXPECT_FALSE(column.is_inside_building(1.5F)) << x;
-    EXPECT_TRUE(column.is_inside_building(7.0F)) << x;
-    EXPECT_FALSE(column.is_inside_building(9.0F)) << x;
+    const VerticalProfile profile = locator.at(x, 8.0);
+    EXPECT_EQ(profile.ground_m(), 0.0F) << "the bridge does not stand on the ground";
+    EXPECT_EQ(profile.highest_m(), 8.0F);
+    EXPECT_FALSE(profile.is_inside_building(1.5F)) << x;
+    EXPECT_TRUE(profile.is_inside_building(7.0F)) << x;
+    EXPECT_FALSE(profile.is_inside_building(9.0F)) << x;
   }
 }
 
@@ -147,18 +149,18 @@ TEST(LocatorPlaces, WhereHousesOverlap) {
   scenes::SceneBuilder builder;
   builder.add_box({{2.0, 2.0}, {20.0, 14.0}}, 0.0, 8.0);
   builder.add_box({{10.0, 2.0}, {30.0, 14.0}}, 0.0, 12.0);
-  const PackedLocator columns(builder.city());
-  for (const double x : {11.0, 16.0, 19.0}) expect_house(columns.at(x, 8.0), 12.0F, "in both");
-  expect_house(columns.at(5.0, 8.0), 8.0F, "in the first");
-  expect_house(columns.at(25.0, 8.0), 12.0F, "in the second");
+  const PackedLocator locator(builder.city());
+  for (const double x : {11.0, 16.0, 19.0}) expect_house(locator.at(x, 8.0), 12.0F, "in both");
+  expect_house(locator.at(5.0, 8.0), 8.0F, "in the first");
+  expect_house(locator.at(25.0, 8.0), 12.0F, "in the second");
 }
 
 TEST(LocatorPlaces, BuildingsAssignedWholeReachIntoTheirNeighbors) {
-  const PackedLocator columns(house_over_borders(), Assign::whole);
+  const PackedLocator locator(house_over_borders(), Assign::whole);
   // The house belongs to cell (1, 1); these places lie in others
   for (const auto& [x, y] : {std::pair(5.0, 5.0), std::pair(40.0, 40.0), std::pair(24.0, 5.0), std::pair(16.0, 32.0)})
-    expect_house(columns.at(x, y), 8.0F, "beyond the cell of the house");
-  expect_street(columns.at(2.0, 24.0), "west of it");
+    expect_house(locator.at(x, y), 8.0F, "beyond the cell of the house");
+  expect_street(locator.at(2.0, 24.0), "west of it");
 }
 
 }  // namespace

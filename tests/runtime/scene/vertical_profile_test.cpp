@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-// What a column concludes from the surfaces that it crosses.
+// What a profile concludes from the surfaces that it crosses.
 
 namespace farlod {
 namespace {
