@@ -5,24 +5,20 @@
 #include <algorithm>
 
 #include "farlod/expects.hpp"
+#include "occlusion/placed_mesh.hpp"
 
 namespace farlod {
 namespace {
 
-/// Offsets are added in double and rounded once, as for a scene of triangles.
-Point3f moved(const Point3f& p, Point2d shift_m) {
-  return {static_cast<float>(p.x + shift_m.x), static_cast<float>(p.y + shift_m.y), p.z};
-}
-
 void add(const HorizonEdge& edge, Point2d shift_m, CellSilhouettes& silhouettes, OverhangEdges& overhangs) {
-  const HorizonEdge placed{moved(edge.a, shift_m), moved(edge.b, shift_m), edge.adjacent, edge.role};
+  const HorizonEdge in_cell{placed(edge.a, shift_m), placed(edge.b, shift_m), edge.adjacent, edge.role};
   switch (edge.role) {
     case EdgeRole::grounded:
-      return silhouettes.grounded.add(placed);
+      return silhouettes.grounded.add(in_cell);
     case EdgeRole::overhang:
-      return overhangs.overhangs.add(placed);
+      return overhangs.overhangs.add(in_cell);
     case EdgeRole::underside:
-      return overhangs.undersides.add(placed);
+      return overhangs.undersides.add(in_cell);
   }
 }
 

@@ -22,8 +22,7 @@ Occluder occluder_of(std::span<const PlacedMesh> tiles) {
   triangles.reserve(triangle_count);
   for (const PlacedMesh& tile : tiles) {
     const auto first = static_cast<std::uint32_t>(vertices.size());
-    for (const Point3f& p : tile.mesh.vertices)
-      vertices.push_back({static_cast<float>(p.x + tile.corner_m.x), static_cast<float>(p.y + tile.corner_m.y), p.z});
+    for (const Point3f& p : tile.mesh.vertices) vertices.push_back(placed(p, tile.corner_m));
     for (const Triangle& t : tile.mesh.triangles) triangles.push_back({t.a + first, t.b + first, t.c + first});
   }
   return {std::move(vertices), std::move(triangles)};

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "farlod/ground_contact.hpp"
+#include "occlusion/placed_mesh.hpp"
 
 namespace farlod {
 namespace {
@@ -24,15 +25,11 @@ std::vector<TileView> tiles_around(const Package& package, Cell cell) {
   return tiles;
 }
 
-/// Offsets are added in double and rounded once, as for a scene.
 std::vector<PlanIndex::Corners> triangles_of(std::span<const TileView> tiles, const Grid& grid, Cell cell) {
   std::vector<PlanIndex::Corners> triangles;
   for (const TileView& tile : tiles) {
     const Point2d shift_m = grid.corner_of({tile.cell->i, tile.cell->j}) - grid.corner_of(cell);
-    const auto corner = [&](std::uint32_t v) {
-      const Point3f& p = tile.mesh.vertices[v];
-      return Point3f{static_cast<float>(p.x + shift_m.x), static_cast<float>(p.y + shift_m.y), p.z};
-    };
+    const auto corner = [&](std::uint32_t v) { return placed(tile.mesh.vertices[v], shift_m); };
     for (const Triangle& t : tile.mesh.triangles) triangles.push_back({corner(t.a), corner(t.b), corner(t.c)});
   }
   return triangles;

@@ -11,9 +11,6 @@ WholeCity::WholeCity(const Package& package)
       origin_grid_(grid_.middle_corner()),
       occluder_(occluder_of_cells(grid_, grid_.cells, origin_grid_, [&](Cell c) { return package.tile(c).mesh; })) {}
 
-Point3f WholeCity::scene_from_cell(const Point3f& p_cell, Cell cell) const {
-  const Point2d shift = grid_.corner_of(cell) - origin_grid_;
-  return {static_cast<float>(p_cell.x + shift.x), static_cast<float>(p_cell.y + shift.y), p_cell.z};
-}
+Point3f WholeCity::scene_from_cell(const Point3f& p_cell, Cell cell) const { return placed(p_cell, scene_from_cell_m(cell)); }
 
 }  // namespace farlod
