@@ -66,53 +66,77 @@ FARLOD_LANES Floats sky_of_azimuth(const Floats& slope, const Normals& n, float 
 // --- The sky above horizons: sums over the azimuths, in their order
 // ----------------------------------------------------------------
 
+/// A float that is added to a sum of thousands is rounded to few of its bits, and the same way each time where the horizon is
+/// even. So terms are added up in blocks of 256, and the blocks with compensation (Kahan): rounding does not grow beyond that of
+/// one block, however many azimuths there are.
+struct Sum {
+  Floats sum{}, lost{}, block{};
+  std::size_t terms = 0;
+
+  FARLOD_LANES void add(const Floats& term) {
+    block += term;
+    if (++terms % 256 == 0) add_block();
+  }
+  FARLOD_LANES void add_block() {
+    // What rounding took from the sum before goes with this block; what it takes now shows in the difference of both sums
+    const Floats term = block - lost, next = sum + term;
+    lost = (next - sum) - term;
+    sum = next;
+    block = Floats{};
+  }
+  FARLOD_LANES Floats total() {
+    add_block();
+    return sum;
+  }
+};
+
 /// n = (0, 0, 1): F = cos²β = 1 / (1 + t²).
 void sum_cosine_up(const float* slopes, std::size_t azimuth_count, float* sums) {
-  Floats sum{};
+  Sum sum;
   for (std::size_t k = 0; k < azimuth_count; ++k) {
     const Floats t = load(slopes + k * lane_count);
-    sum += 1.0F / (1.0F + t * t);
+    sum.add(1.0F / (1.0F + t * t));
   }
-  store(sum, sums);
+  store(sum.total(), sums);
 }
 
 /// w = 0, as on walls: the azimuths in front count, o > 0, up to the zenith.
 void sum_cosine_level(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums) {
   const Floats x = load(receivers.normal_x.data()), y = load(receivers.normal_y.data());
-  Floats sum{};
+  Sum sum;
   for (std::size_t k = 0; k < azimuths.size; ++k) {
     // Skip the azimuths behind all sixteen
     const Floats outward = max(x * azimuths.cosine[k] + y * azimuths.sine[k], broadcast(0.0F));
     if (max_lane(outward) == 0.0F) continue;
     const Floats t = min(load(slopes + k * lane_count), broadcast(straight_up));
-    sum += cosine_above(t, outward, broadcast(0.0F));
+    sum.add(cosine_above(t, outward, broadcast(0.0F)));
   }
-  store(sum, sums);
+  store(sum.total(), sums);
 }
 
 /// F = A(t) − A(highest), with t clamped to the slopes in front.
 void sum_cosine(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums) {
   const Normals n = normals_of(receivers);
-  Floats sum{};
+  Sum sum;
   for (std::size_t k = 0; k < azimuths.size; ++k) {
     const Floats outward = n.x * azimuths.cosine[k] + n.y * azimuths.sine[k];
     const SlopeInterval in_front = slopes_in_front(outward, n.z);
     const Floats t = min(max(load(slopes + k * lane_count), in_front.lowest), in_front.highest);
-    sum += cosine_above(t, outward, n.z) - cosine_above(in_front.highest, outward, n.z);
+    sum.add(cosine_above(t, outward, n.z) - cosine_above(in_front.highest, outward, n.z));
   }
-  store(sum, sums);
+  store(sum.total(), sums);
 }
 
 /// The same by solid angle.
 void sum_solid_angle(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums) {
   const Normals n = normals_of(receivers);
-  Floats sum{};
+  Sum sum;
   for (std::size_t k = 0; k < azimuths.size; ++k) {
     const SlopeInterval in_front = slopes_in_front(n.x * azimuths.cosine[k] + n.y * azimuths.sine[k], n.z);
     const Floats t = min(max(load(slopes + k * lane_count), in_front.lowest), in_front.highest);
-    sum += solid_angle_above(t) - solid_angle_above(in_front.highest);
+    sum.add(solid_angle_above(t) - solid_angle_above(in_front.highest));
   }
-  store(sum, sums);
+  store(sum.total(), sums);
 }
 
 /// rows[k] = max(0, A(low) − A(high)) / K.

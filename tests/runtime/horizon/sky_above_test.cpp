@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "farlod/angle.hpp"
@@ -115,6 +117,28 @@ TEST(SkyAbove, ALevelHorizonLeavesAllAndAnEndlessOneNothing) {
   horizon.raise(endless, everybody, std::vector<std::uint32_t>(ring.size(), 0));
   for (const SkyWeight weight : both_weights)
     for (const float share : horizon.sky_above(weight, packet_with(ups))) EXPECT_EQ(share, 0.0F);
+}
+
+/// An even horizon is rounded the same way at each azimuth, so that errors add up and do not cancel.
+TEST(SkyAbove, ManyAzimuthsRoundNoMoreThanFew) {
+  constexpr std::size_t azimuths = 300'000;
+  const AzimuthSampling ring = AzimuthSampling::even(azimuths, {});
+  const std::vector<Point3f> ups(ReceiverPacket::lanes, up), level(ReceiverPacket::lanes, {1.0F, 0.0F, 0.0F}),
+      tilted(ReceiverPacket::lanes, {0.6F, 0.0F, 0.8F});
+  for (const float slope : {0.1F, 0.3F, 0.7F, 1.9F}) {
+    PacketHorizon horizon(ring);
+    horizon.raise(std::vector{slope}, everybody, std::vector<std::uint32_t>(azimuths, 0));
+    // Parts of the normal that point outwards average to 0, and those in front of a wall to 1/π
+    const double t = slope, upwards = 1.0 / (1.0 + t * t), wall = (std::atan(1.0 / t) - t * upwards) / std::numbers::pi;
+    EXPECT_NEAR(horizon.sky_above(SkyWeight::cosine, packet_with(ups))[0], upwards, sky_rounding(azimuths, up));
+    EXPECT_NEAR(horizon.sky_above(SkyWeight::cosine, packet_with(level))[0], wall, sky_rounding(azimuths, level[0]));
+    EXPECT_NEAR(horizon.sky_above(SkyWeight::solid_angle, packet_with(ups))[0], 1.0 - t / std::sqrt(1.0 + t * t),
+                sky_rounding(azimuths, up));
+    // Behind the tilted receiver, too, the sky is above its own plane of slope 0.75
+    if (slope > 0.75F) {
+      EXPECT_NEAR(horizon.sky_above(SkyWeight::cosine, packet_with(tilted))[0], 0.8 * upwards, sky_rounding(azimuths, tilted[0]));
+    }
+  }
 }
 
 }  // namespace

@@ -51,10 +51,11 @@ template <class SlopeAt>
 }
 
 /// What floats may be off: each azimuth gives at most 1 + π/2, by some thirty roundings of as much; adding them one by one rounds
-/// each sum. The slope at which a tilted receiver begins or ceases to look, −outward/upward, is rounded with the reciprocal of
-/// the normal's rise.
+/// each sum of a block of 256, and adding the blocks with compensation rounds twice. The slope at which a tilted receiver begins
+/// or ceases to look, −outward/upward, is rounded with the reciprocal of the normal's rise.
 [[nodiscard]] inline double sky_rounding(std::size_t azimuths, const Point3f& normal) {
-  const double terms = (1.0 + 0.5 * std::numbers::pi) * (static_cast<double>(azimuths) + 30.0) * float_rounding;
+  const double added = static_cast<double>(std::min<std::size_t>(azimuths, 256)) + 2.0;
+  const double terms = (1.0 + 0.5 * std::numbers::pi) * (added + 30.0) * float_rounding;
   const double ends = normal.z != 0.0F ? 4.0 * float_rounding / std::abs(double{normal.z}) : 0.0;
   return terms + ends + quadrature_error;
 }
