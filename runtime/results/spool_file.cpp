@@ -15,7 +15,7 @@ std::string reason() { return errno != 0 ? std::generic_category().message(errno
 
 }  // namespace
 
-SpoolFile::SpoolFile(const std::filesystem::path& result) : result_(result), file_(result.string() + ".waiting") {
+SpoolFile::SpoolFile(const std::filesystem::path& result) : result_(result), file_(result.string() + ".spool") {
   errno = 0;
   stream_.open(file_.temporary(), std::ios::binary | std::ios::in | std::ios::out | std::ios::trunc);
   if (!stream_) throw OutputError(result_, reason());

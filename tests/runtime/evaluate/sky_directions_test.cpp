@@ -26,7 +26,7 @@ const Point3d normals[] = {normalized(Point3d{0.3, -0.2, 0.9}),
                            {0.0, -1.0, 0.0},
                            normalized(Point3d{0.1, 0.2, -0.5})};
 
-TEST(SkyDirections, HorizontalIsThePartitionInTheGridFrame) {
+TEST(SkyDirections, FacingUpIsThePartitionInTheGridFrame) {
   const GridRotation rotation(Angle::degrees(20));
   const SkyDirections sky(SkyWeight::solid_angle, ray_count, rotation);
   const std::vector<Point3d> expected = SkyPartition(SkyWeight::solid_angle, ray_count).directions();
