@@ -38,7 +38,8 @@ struct RawOptions {
 
 std::vector<double> numbers_in(const std::string& text, const std::string& option, const std::string& form) {
   std::vector<double> numbers;
-  for (const std::string& part : CLI::detail::split(text, ',')) {
+  // split() drops what is empty after the last comma: with one more, that is the comma's own
+  for (const std::string& part : CLI::detail::split(text + ',', ',')) {
     char* end = nullptr;
     numbers.push_back(std::strtod(part.c_str(), &end));
     if (part.empty() || *end != '\0' || !std::isfinite(numbers.back()))

@@ -87,6 +87,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"HeightInSpace", "a.farlod -o o.asc --grid 5 --height 1e30", exit_usage, {"--height: 1e30", "from 0 to 10000"}},
         Refused{"SpacingIsNoNumber", "a.farlod -o o.csv --surfaces all --spacing nan", exit_usage, {"--spacing: nan"}},
         Refused{"BoxOfThreeNumbers", "a.farlod -o o.asc --grid 5 --bbox 1,2,3", exit_usage, {"--bbox", "X0,Y0,X1,Y1"}},
+        Refused{"BoxWithACommaTooMany", "a.farlod -o o.asc --grid 5 --bbox 1,2,3,4,", exit_usage, {"--bbox", "X0,Y0,X1,Y1"}},
+        Refused{"PlaceWithACommaTooMany", "a.farlod -o o.csv --at 1,2,", exit_usage, {"--at", "X,Y"}},
         Refused{"BoxInsideOut", "a.farlod -o o.asc --grid 5 --bbox 3,2,1,4", exit_usage, {"--bbox", "X0 < X1"}},
         Refused{"BoxBeyondAllMachines",
                 "a.farlod -o o.asc --grid 1 --bbox 0,0,1e300,1e300",
