@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "tests/acceptance/real_city.hpp"
-#include "tests/validation/raster_comparison.hpp"
+#include "validation/raster_comparison.hpp"
 
 namespace farlod::acceptance {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/benchmark/line_sweep.hpp"
+#include "benchmark/line_sweep.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/benchmark/measurement.hpp"
+#include "benchmark/measurement.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <string>
 
-#include "tests/benchmark/city_sizes.hpp"
-#include "tests/benchmark/error_ladder.hpp"
-#include "tests/benchmark/plane_curve.hpp"
+#include "benchmark/city_sizes.hpp"
+#include "benchmark/error_ladder.hpp"
+#include "benchmark/plane_curve.hpp"
 
 namespace farlod::benchmark {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/benchmark/whole_city_rival.hpp"
+#include "benchmark/whole_city_rival.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <memory>
 
+#include "benchmark/contest.hpp"
 #include "evaluate/sky_directions.hpp"
-#include "tests/benchmark/contest.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"
 

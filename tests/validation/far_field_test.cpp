@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "tests/validation/city_study.hpp"
+#include "validation/city_study.hpp"
 
 namespace farlod::validation {
 namespace {

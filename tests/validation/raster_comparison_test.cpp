@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/validation/raster_comparison.hpp"
+#include "validation/raster_comparison.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/validation/svg_plot.hpp"
+#include "validation/svg_plot.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "benchmark/line_sweep.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+namespace farlod::benchmark {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+/// A receiver's own pixel may be this much higher than its ground: both are interpolated in different triangles.
+constexpr float rounding_m = 0.01F;
+
+/// The upper convex hull of the posts that a line has passed.
+class Hull {
+ public:
+  explicit Hull(std::size_t most) : corners_(most) {}
+  void clear() { size_ = 0; }
+
+  void add(float along, float height_m) {
+    while (size_ > 1 && !is_above(corners_[size_ - 1], corners_[size_ - 2], {along, height_m})) --size_;
+    corners_[size_++] = {along, height_m};
+  }
+
+  /// The steepest slope up from an eye beyond all corners; 0 when nothing is higher.
+  [[nodiscard]] float steepest(float along, float eye_m) const {
+    if (size_ == 0) return 0.0F;
+    // On the hull, slopes rise up to the tangent and fall behind it. Compared without a division each
+    float rise = corners_[size_ - 1].height_m - eye_m, run = along - corners_[size_ - 1].along;
+    for (std::size_t n = size_ - 1; n > 0; --n) {
+      const float next_rise = corners_[n - 1].height_m - eye_m, next_run = along - corners_[n - 1].along;
+      if (next_rise * run < rise * next_run) break;
+      rise = next_rise;
+      run = next_run;
+    }
+    return std::max(0.0F, rise / run);
+  }
+
+ private:
+  struct Corner {
+    float along, height_m;
+  };
+  /// Whether the middle corner stands above the line from the one before it to the one after.
+  static bool is_above(const Corner& middle, const Corner& before, const Corner& after) {
+    return (middle.height_m - before.height_m) * (after.along - before.along) >
+           (after.height_m - before.height_m) * (middle.along - before.along);
+  }
+  std::vector<Corner> corners_;
+  std::size_t size_ = 0;
+};
+
+/// The lines of one azimuth. All climb alike: line k is at row k + climb[column].
+struct Lines {
+  std::vector<std::ptrdiff_t> climb;
+  float step_m = 0.0F;       ///< along the line, from column to column
+  bool sky_is_east = false;  ///< where receivers look: lines come from there
+};
+
+/// From west to east never descending, or never climbing.
+std::vector<std::ptrdiff_t> climbs(std::size_t columns, double slope) {
+  std::vector<std::ptrdiff_t> rows;
+  for (std::size_t column = 0; column < columns; ++column) rows.push_back(std::lround(static_cast<double>(column) * slope));
+  return rows;
+}
+
+/// Adds what each receiver on a line sees in this azimuth.
+template <class Field>
+void sweep_line(const Field& field, const Lines& lines, std::ptrdiff_t line, Hull& hull, std::vector<float>& sums) {
+  for (std::size_t n = 0; n < field.columns; ++n) {
+    const std::size_t column = lines.sky_is_east ? field.columns - 1 - n : n;
+    const std::ptrdiff_t row = line + lines.climb[column];
+    if (row < 0 || row >= static_cast<std::ptrdiff_t>(field.rows)) continue;
+    const std::size_t pixel = static_cast<std::size_t>(row) * field.columns + column;
+    const float along_m = static_cast<float>(n) * lines.step_m;
+    if (field.eye_m[pixel] < infinity) {
+      const float tangent = hull.steepest(along_m, field.eye_m[pixel]);
+      sums[pixel] += 1.0F / (1.0F + tangent * tangent);
+    }
+    // Later receivers look at the face on their own side
+    if (field.surface_m[pixel] > -infinity) hull.add(along_m + 0.5F * lines.step_m, field.surface_m[pixel]);
+  }
+}
+
+}  // namespace
+
+LineSweep::LineSweep(const HeightRaster& raster, float height_m)
+    : pixel_m_(raster.plan.step_m), field_{raster.plan.columns, raster.plan.rows, raster.surface_m, {}} {
+  field_.eye_m.assign(field_.surface_m.size(), infinity);
+  for (std::size_t n = 0; n < field_.eye_m.size(); ++n)
+    if (raster.ground_m[n] > -infinity && raster.surface_m[n] <= raster.ground_m[n] + rounding_m)
+      field_.eye_m[n] = raster.ground_m[n] + height_m;
+  transposed_ = transposed(field_);
+}
+
+std::size_t LineSweep::receiver_count() const {
+  return static_cast<std::size_t>(std::count_if(field_.eye_m.begin(), field_.eye_m.end(), [](float z) { return z < infinity; }));
+}
+
+LineSweep::Field LineSweep::transposed(const Field& field) {
+  Field result{field.rows, field.columns, field.surface_m, field.eye_m};
+  for (std::size_t row = 0; row < field.rows; ++row)
+    for (std::size_t column = 0; column < field.columns; ++column) {
+      result.surface_m[column * field.rows + row] = field.surface_m[row * field.columns + column];
+      result.eye_m[column * field.rows + row] = field.eye_m[row * field.columns + column];
+    }
+  return result;
+}
+
+void LineSweep::sweep(const Field& field, double column_step, double row_step, std::vector<float>& sums) const {
+  const double slope = row_step / column_step;
+  const Lines lines{climbs(field.columns, slope), static_cast<float>(pixel_m_ * std::hypot(1.0, slope)), column_step > 0.0};
+  const auto [lowest, highest] = std::minmax(lines.climb.front(), lines.climb.back());
+  const oneapi::tbb::blocked_range<std::ptrdiff_t> all(-highest, static_cast<std::ptrdiff_t>(field.rows) - lowest);
+  oneapi::tbb::parallel_for(all, [&](const oneapi::tbb::blocked_range<std::ptrdiff_t>& some) {
+    Hull hull(field.columns);
+    for (std::ptrdiff_t line = some.begin(); line < some.end(); ++line) {
+      hull.clear();
+      sweep_line(field, lines, line, hull, sums);
+    }
+  });
+}
+
+std::vector<float> LineSweep::sky_view_factors(std::size_t azimuths) const {
+  std::vector<float> sums(field_.surface_m.size(), 0.0F), transposed_sums = sums;
+  for (std::size_t k = 0; k < azimuths; ++k) {
+    const double azimuth = 2.0 * std::numbers::pi * (static_cast<double>(k) + 0.5) / static_cast<double>(azimuths);
+    const double east = std::sin(azimuth), south = -std::cos(azimuth);
+    if (std::abs(east) >= std::abs(south))
+      sweep(field_, east, south, sums);
+    else
+      sweep(transposed_, south, east, transposed_sums);
+  }
+  for (std::size_t row = 0; row < field_.rows; ++row)
+    for (std::size_t column = 0; column < field_.columns; ++column) {
+      float& sum = sums[row * field_.columns + column];
+      sum = (sum + transposed_sums[column * field_.rows + row]) / static_cast<float>(azimuths);
+    }
+  return sums;
+}
+
+}  // namespace farlod::benchmark

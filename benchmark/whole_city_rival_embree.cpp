@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <embree3/rtcore.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "benchmark/whole_city_rival.hpp"
+#include "receivers/receiver.hpp"
+
+namespace farlod::benchmark {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+/// Packets that a thread takes at a time.
+constexpr std::size_t packets_at_once = 16;
+
+bool count_bytes(void* total, ssize_t bytes, bool /*post*/) {
+  static_cast<std::atomic<ssize_t>*>(total)->fetch_add(bytes);
+  return true;
+}
+
+/// The rays of one packet of receivers. Origins are loaded once; only directions change.
+struct Lanes {
+  alignas(64) RTCRay16 rays{};
+  alignas(64) std::array<int, packet_lanes> valid{};
+  std::array<std::uint32_t, packet_lanes> free{};
+  std::size_t used = 0, directions = 0;  ///< so many directions are asked at once: a small packet fills its lanes with several
+
+  explicit Lanes(const SharedPacket& packet) : directions(packet_lanes / packet.count) {
+    used = directions * packet.count;
+    for (std::size_t lane = 0; lane < packet_lanes; ++lane) {
+      const Point3f& p = packet.p_scene[lane % packet.count];
+      rays.org_x[lane] = p.x;
+      rays.org_y[lane] = p.y;
+      rays.org_z[lane] = p.z;
+      rays.tnear[lane] = least_distance_m;
+      rays.mask[lane] = 0xFFFFFFFF;
+    }
+  }
+
+  void point(std::span<const Point3f> some, std::size_t receivers) {
+    for (std::size_t lane = 0; lane < packet_lanes; ++lane) {
+      const std::size_t d = lane / receivers;
+      const Point3f& direction = some[d < some.size() ? d : 0];
+      valid[lane] = lane < used && d < some.size() ? -1 : 0;
+      rays.dir_x[lane] = direction.x;
+      rays.dir_y[lane] = direction.y;
+      rays.dir_z[lane] = direction.z;
+    }
+  }
+  void end_at(float top_m) {
+    for (std::size_t lane = 0; lane < packet_lanes; ++lane) rays.tfar[lane] = (top_m - rays.org_z[lane]) / rays.dir_z[lane];
+  }
+};
+
+}  // namespace
+
+struct WholeCityRival::Impl {
+  RivalVariant variant;
+  std::atomic<ssize_t> bytes = 0;
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  float top_m = 0.0F;
+
+  Impl(const CityTriangles& city, RivalVariant v) : variant(std::move(v)), device(rtcNewDevice(variant.device.c_str())) {
+    if (device == nullptr) throw std::runtime_error("Embree could not be started");
+    rtcSetDeviceMemoryMonitorFunction(device, count_bytes, &bytes);
+    scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, variant.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    rtcSetSceneBuildQuality(scene, variant.high_quality ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
+    attach(city);
+    rtcCommitScene(scene);
+    for (const Point3f& p : city.vertices) top_m = std::max(top_m, p.z);
+    top_m += 1.0F;
+  }
+  ~Impl() {
+    rtcReleaseScene(scene);
+    rtcReleaseDevice(device);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void attach(const CityTriangles& city) {
+    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, city.vertices.data(), 0, sizeof(Point3f),
+                               city.vertices.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, city.triangles.data(), 0, sizeof(Triangle),
+                               city.triangles.size());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+  }
+
+  void trace(const SharedPacket& packet, std::span<const Point3f> directions, std::size_t ray_count, std::span<float> svf) const {
+    Lanes lanes(packet);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    if (variant.coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    for (std::size_t d = 0; d < directions.size(); d += lanes.directions) {
+      lanes.point(directions.subspan(d, std::min(lanes.directions, directions.size() - d)), packet.count);
+      ask(lanes, context);
+    }
+    for (std::size_t lane = 0; lane < lanes.used; ++lane)
+      if (lane >= packet.count) lanes.free[lane % packet.count] += lanes.free[lane];
+    for (std::size_t n = 0; n < packet.count; ++n)
+      svf[packet.index[n]] = static_cast<float>(lanes.free[n]) / static_cast<float>(ray_count);
+  }
+
+  void ask(Lanes& lanes, RTCIntersectContext& context) const {
+    if (variant.ends_above_city)
+      lanes.end_at(top_m);
+    else
+      std::fill_n(lanes.rays.tfar, packet_lanes, infinity);
+    if (variant.packets)
+      rtcOccluded16(lanes.valid.data(), scene, &context, &lanes.rays);
+    else
+      ask_one_by_one(lanes, context);
+    // Embree's sign for "blocked" is a negative end
+    for (std::size_t lane = 0; lane < packet_lanes; ++lane)
+      lanes.free[lane] += lanes.valid[lane] != 0 && lanes.rays.tfar[lane] >= 0.0F ? 1U : 0U;
+  }
+
+  void ask_one_by_one(Lanes& lanes, RTCIntersectContext& context) const {
+    for (std::size_t lane = 0; lane < packet_lanes; ++lane) {
+      if (lanes.valid[lane] == 0) continue;
+      RTCRay ray = rtcGetRayFromRayN(reinterpret_cast<RTCRayN*>(&lanes.rays), packet_lanes, static_cast<unsigned>(lane));
+      rtcOccluded1(scene, &context, &ray);
+      lanes.rays.tfar[lane] = ray.tfar;
+    }
+  }
+};
+
+WholeCityRival::WholeCityRival(const CityTriangles& city, RivalVariant variant)
+    : impl_(std::make_unique<Impl>(city, std::move(variant))) {}
+WholeCityRival::~WholeCityRival() = default;
+
+std::size_t WholeCityRival::index_bytes() const { return static_cast<std::size_t>(impl_->bytes.load()); }
+
+void WholeCityRival::evaluate(std::span<const SharedPacket> packets, std::vector<Point3d> directions,
+                              std::span<float> svf) const {
+  put_in_order(impl_->variant.order, directions);
+  const oneapi::tbb::blocked_range<std::size_t> all(0, packets.size(), packets_at_once);
+  oneapi::tbb::parallel_for(all, [&](const oneapi::tbb::blocked_range<std::size_t>& some) {
+    std::vector<Point3f> turned;
+    for (std::size_t n = some.begin(); n < some.end(); ++n) {
+      if (turned.empty() || packets[n].normal != packets[n - 1].normal) turned = directions_around(directions, packets[n].normal);
+      impl_->trace(packets[n], turned, directions.size(), svf);
+    }
+  });
+}
+
+}  // namespace farlod::benchmark

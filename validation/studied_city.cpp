@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "validation/studied_city.hpp"
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "align/street_alignment.hpp"
+#include "farlod/box.hpp"
+#include "georeference/georeference.hpp"
+#include "ingest/ingest.hpp"
+#include "tests/scenes/generated_town.hpp"
+
+namespace farlod::validation {
+namespace {
+
+void move_middle_to_origin(CityModel& city) {
+  Box2d outline;
+  for (const Point3d& p : city.points()) outline.add(horizontal(p));
+  const Point2d middle = 0.5 * (outline.low + outline.high);
+  for (Point3d& p : city.points()) p = p - Point3d{middle.x, middle.y, 0.0};
+}
+
+}  // namespace
+
+StudiedCity generated_city(double size_m) {
+  CitySettings settings;
+  settings.size_m = size_m;
+  settings.tower_share = 0.3;
+  settings.rotation_deg = 20;
+  return {"generated", scenes::generated_town(settings), Angle::degrees(settings.rotation_deg)};
+}
+
+std::vector<StudiedCity> generated_models(double size_m) {
+  std::vector<StudiedCity> models;
+  const auto add = [&](const std::string& options, const std::function<void(CitySettings&)>& choose) {
+    CitySettings settings;
+    settings.size_m = size_m;
+    settings.seed = 9;
+    settings.lod = 2;
+    choose(settings);
+    models.push_back({"`" + options + "`", scenes::generated_town(settings), Angle()});
+  };
+  add("--open-shells", [](CitySettings& s) { s.open_shells = true; });
+  add("--eaves 0.6", [](CitySettings& s) { s.eaves_m = 0.6; });
+  add("--balconies", [](CitySettings& s) { s.balconies = true; });
+  add("--projecting-floors", [](CitySettings& s) { s.projecting_floors = true; });
+  add("--hillside", [](CitySettings& s) {
+    s.lod = 1;
+    s.hillside = true;
+  });
+  add("--overlapping-parts", [](CitySettings& s) { s.overlapping_parts = true; });
+  add("--wrong-bases 0.1 --terrain-relief 40", [](CitySettings& s) {
+    s.wrong_base_share = 0.1;
+    s.terrain_relief_m = 40.0;
+  });
+  add("--overhangs --terrain-relief 100", [](CitySettings& s) {
+    s.overhangs = true;
+    s.terrain_relief_m = 100.0;
+  });
+  return models;
+}
+
+StudiedCity building_city(const std::string& name, const std::filesystem::path& file) { return footprint_city(name, file, ""); }
+
+StudiedCity footprint_city(const std::string& name, const std::filesystem::path& file, const std::string& height_field) {
+  Report report;
+  ingest::IngestSettings ingest_settings;
+  if (!height_field.empty()) ingest_settings.footprints.height_field = height_field;
+  std::vector<SourceCity> sources;
+  sources.push_back(ingest::ingest(file, ingest_settings, report));
+  LocatedCity located = georeference::georeference(std::move(sources), {}, report);
+  move_middle_to_origin(located.city);
+  const Angle streets = align::street_alignment(located.city).bearing;
+  return {name, std::move(located.city), streets};
+}
+
+}  // namespace farlod::validation
