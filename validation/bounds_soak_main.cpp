@@ -93,14 +93,16 @@ Outcome compare(const SkyEvaluator& ours, const SkyEvaluator& reference, const C
   return outcome;
 }
 
-int run(const Options& options) {
-  const Package package(options.package);
+using OutcomeOfKinds = std::array<Outcome, kind_count>;
+
+/// Over all cells of a package; about as many receivers as the options say.
+OutcomeOfKinds compare_everywhere(const Package& package, const Options& options) {
   const CellRange& cells = package.grid().cells;
   const SkyEvaluator ours(package, {Engine::rays, SkyWeight::cosine, options.rays, std::nullopt});
   const SkyEvaluator reference(package, {Engine::exact, SkyWeight::cosine, options.rays, std::nullopt});
   const auto cell_count = static_cast<std::size_t>(cells.size());
   const std::size_t of_kind = std::max<std::size_t>(1, options.receivers / (kind_count * cell_count));
-  std::vector<std::array<Outcome, kind_count>> by_cell(cell_count);
+  std::vector<OutcomeOfKinds> by_cell(cell_count);
   oneapi::tbb::parallel_for(std::size_t{0}, cell_count, [&](std::size_t n) {
     Random random(options.seed * 1'000'003 + n);
     for (std::size_t kind = 0; kind < kind_count; ++kind) {
@@ -109,10 +111,18 @@ int run(const Options& options) {
       if (!some.receivers.empty()) by_cell[n][kind] = compare(ours, reference, some, options.rays);
     }
   });
+  OutcomeOfKinds all;
+  for (const OutcomeOfKinds& of_cell : by_cell)
+    for (std::size_t kind = 0; kind < kind_count; ++kind) all[kind].add(of_cell[kind]);
+  return all;
+}
+
+int run(const Options& options) {
+  const Package package(options.package);
+  const OutcomeOfKinds outcomes = compare_everywhere(package, options);
   std::size_t outside = 0;
   for (std::size_t kind = 0; kind < kind_count; ++kind) {
-    Outcome all;
-    for (const auto& cell : by_cell) all.add(cell[kind]);
+    const Outcome& all = outcomes[kind];
     std::printf(
         "%-12s %8zu receivers, outside of their bounds %zu, by more than two rays %zu (worst %.4f); width mean %.4f, max %.4f\n",
         names[kind], all.receivers, all.outside_by_a_ray, all.outside_by_more, all.worst,

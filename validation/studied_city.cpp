@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "validation/studied_city.hpp"
 
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -22,6 +21,22 @@ void move_middle_to_origin(CityModel& city) {
   for (Point3d& p : city.points()) p = p - Point3d{middle.x, middle.y, 0.0};
 }
 
+/// What farlod-city is asked for, as options of its command line and as settings.
+struct GeneratedModel {
+  const char* options;
+  void (*choose)(CitySettings&);
+};
+constexpr GeneratedModel generated_model_kinds[] = {
+    {"--open-shells", [](CitySettings& s) { s.open_shells = true; }},
+    {"--eaves 0.6", [](CitySettings& s) { s.eaves_m = 0.6; }},
+    {"--balconies", [](CitySettings& s) { s.balconies = true; }},
+    {"--projecting-floors", [](CitySettings& s) { s.projecting_floors = true; }},
+    {"--hillside", [](CitySettings& s) { s.lod = 1, s.hillside = true; }},
+    {"--overlapping-parts", [](CitySettings& s) { s.overlapping_parts = true; }},
+    {"--wrong-bases 0.1 --terrain-relief 40", [](CitySettings& s) { s.wrong_base_share = 0.1, s.terrain_relief_m = 40.0; }},
+    {"--overhangs --terrain-relief 100", [](CitySettings& s) { s.overhangs = true, s.terrain_relief_m = 100.0; }},
+};
+
 }  // namespace
 
 StudiedCity generated_city(double size_m) {
@@ -34,31 +49,14 @@ StudiedCity generated_city(double size_m) {
 
 std::vector<StudiedCity> generated_models(double size_m) {
   std::vector<StudiedCity> models;
-  const auto add = [&](const std::string& options, const std::function<void(CitySettings&)>& choose) {
+  for (const GeneratedModel& model : generated_model_kinds) {
     CitySettings settings;
     settings.size_m = size_m;
     settings.seed = 9;
     settings.lod = 2;
-    choose(settings);
-    models.push_back({"`" + options + "`", scenes::generated_town(settings), Angle()});
-  };
-  add("--open-shells", [](CitySettings& s) { s.open_shells = true; });
-  add("--eaves 0.6", [](CitySettings& s) { s.eaves_m = 0.6; });
-  add("--balconies", [](CitySettings& s) { s.balconies = true; });
-  add("--projecting-floors", [](CitySettings& s) { s.projecting_floors = true; });
-  add("--hillside", [](CitySettings& s) {
-    s.lod = 1;
-    s.hillside = true;
-  });
-  add("--overlapping-parts", [](CitySettings& s) { s.overlapping_parts = true; });
-  add("--wrong-bases 0.1 --terrain-relief 40", [](CitySettings& s) {
-    s.wrong_base_share = 0.1;
-    s.terrain_relief_m = 40.0;
-  });
-  add("--overhangs --terrain-relief 100", [](CitySettings& s) {
-    s.overhangs = true;
-    s.terrain_relief_m = 100.0;
-  });
+    model.choose(settings);
+    models.push_back({std::string("`") + model.options + "`", scenes::generated_town(settings), Angle()});
+  }
   return models;
 }
 

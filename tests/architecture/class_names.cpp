@@ -67,7 +67,7 @@ class ScopeWalk {
 };
 
 bool is_of_a_library(const SourceFile& file) {
-  static const std::regex library("^(console|datasets|gdal|include|preprocess|runtime)/");
+  static const std::regex library("^(benchmark|console|datasets|gdal|include|preprocess|runtime|validation)/");
   return is_cpp(file) && std::regex_search(file.path, library);
 }
 

@@ -53,6 +53,8 @@ constexpr Wall walls[] = {
      "OpenEXR's wrappers are farmap/ and package/*_openexr.cpp"},
     {"^preprocess/(?!farmap/)", NOWHERE, "^occlusion/", "only farmap casts rays"},
 
+    {"^(benchmark|validation)/", NOWHERE, "^tests/(?!scenes/)", "what measures shares the scenes of the tests, and no test"},
+
     {"^(preprocess|runtime)/", "_libpng\\.cpp$", "^png\\.h", "libpng's wrapper is *_libpng.cpp"},
     {"^(preprocess|runtime)/", "/app/", "^(CLI/|spdlog/|iostream$|print$)", "libraries neither print nor read command lines"},
     {"^(preprocess|runtime)/.*\\.hpp$", "/app/|_cgal\\.hpp$", "^(?![a-z_0-9]+$|[a-z_]+/[a-z_0-9/]+\\.hpp$)",

@@ -66,6 +66,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Planted{"console/a.cpp", "#include \"package/reader.hpp\"", "own side"},
                     Planted{"console/a.cpp", "#include <gdal.h>", "not what about"},
                     Planted{"datasets/generator/a.cpp", "#include \"tiles/cutter.hpp\"", "own side"},
+                    Planted{"runtime/scene/a.cpp", "#include \"benchmark/contest.hpp\"", "own side"},
+                    Planted{"benchmark/a.cpp", "#include \"tests/oracles/far_view.hpp\"", "and no test"},
+                    Planted{"validation/a.hpp", "#include \"tests/analytic/oracles.hpp\"", "and no test"},
                     Planted{"runtime/scene/a.cpp", "#include \"../package/reader.hpp\"", "own side"}));
 
 INSTANTIATE_TEST_SUITE_P(
@@ -107,6 +110,7 @@ TEST(IncludeWalls, WrappersMayInclude) {
                           {"preprocess/farmap/a.cpp", "#include \"tiles/cutter.hpp\"", ""},
                           {"preprocess/farmap/a.cpp", "#include \"occlusion/occluder.hpp\"", ""},
                           {"preprocess/trial/a.cpp", "#include \"evaluate/sky_evaluator.hpp\"", ""},
+                          {"validation/a.hpp", "#include \"tests/scenes/packed_city.hpp\"", ""},
                           {"tests/agreement/a.cpp", "#include <CGAL/Gmpq.h>", ""}};
   for (const Planted& planted : allowed)
     EXPECT_THAT(breaches_of_include_walls(tree_with(planted.path, planted.include_line)), IsEmpty()) << planted.path;

@@ -6,16 +6,19 @@
 #include <array>
 #include <fstream>
 #include <regex>
+#include <string_view>
 
 namespace farlod {
 namespace {
 
-constexpr std::array code_folders{"include",  "console", "gdal",  "preprocess", "runtime",
-                                  "datasets", "tests",   "cmake", "scripts",    ".ci"};
+constexpr std::array code_folders{"include",    "console", "gdal",  "preprocess", "runtime", "datasets", "benchmark",
+                                  "validation", "tests",   "cmake", "docs",       "scripts", ".ci"};
+/// The names of the folders whose files without an ending are scripts.
+constexpr std::array<std::string_view, 4> script_folders{"benchmark", "figures", "scripts", ".ci"};
 
 bool is_code(const std::filesystem::path& path) {
   const std::string folder = path.parent_path().filename().string(), ending = path.extension().string();
-  const bool script = ending.empty() && (folder == "scripts" || folder == ".ci");
+  const bool script = ending.empty() && std::ranges::count(script_folders, folder) > 0;
   return ending == ".cpp" || ending == ".hpp" || ending == ".cmake" || path.filename() == "CMakeLists.txt" || script;
 }
 
