@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "console/wrapped_document.hpp"
+
 namespace farlod::benchmark {
 namespace {
 
@@ -48,7 +50,7 @@ std::string main_table(const Results& results) {
   for (const Contest& contest : results.contests)
     for (const ContestRow& row : contest.rows) text += contest_line(row);
   for (const ContestRow& row : results.same_directions) text += contest_line(row);
-  return text + "\nReceivers are placed alike for both, and before: ";
+  return text + "\nThe receivers are the same for both, and are placed beforehand: ";
 }
 
 std::string placing_sentence(const Results& results) {
@@ -82,9 +84,8 @@ std::string ladder_table(const char* who, const std::string& samples, const std:
 std::string sweep_table(const SweepStudy& study) {
   std::string text = fmt::format(
       "\n## Beside a line sweep over a raster\n\nThe same city as a north-up raster of {:g} m ({} pixels), all of it at once, "
-      "since a "
-      "sweep has to; receivers are the {} pixels of the ground. Errors are those at the receivers of the table above. Making the "
-      "raster takes {:.2f} s more.\n\n| azimuths | receivers/s | mean error | rms | max |\n|---|---|---|---|---|\n",
+      "since a sweep has to; receivers are the {} pixels of the ground. Errors are those at the receivers of the table above. "
+      "Making the raster takes {:.2f} s more.\n\n| azimuths | receivers/s | mean error | rms | max |\n|---|---|---|---|---|\n",
       study.pixel_m, count_text(study.pixels), count_text(study.receivers), study.raster_s);
   for (const SweepRow& row : study.rows)
     text += fmt::format("| {} | {} | {:.4f} | {:.4f} | {:.3f} |\n", row.azimuths, rate_text(study.receivers, row.seconds),
@@ -94,11 +95,11 @@ std::string sweep_table(const SweepStudy& study) {
 
 std::string variants_table(const VariantTable& table) {
   std::string text = fmt::format(
-      "\n## The rival at its best\n\nPackets of 16 neighboring receivers that share a direction (on roofs and façades, "
-      "receivers "
-      "of one surface), directions from a spherical Fibonacci lattice mapped to the disk and traced along a curve over it, "
-      "`rtcOccluded16`, coherent flag, scene without the robust flag. What else was tried, with {} rays; time relative to the "
-      "first line, each within one turn.\n\n| variant | index, s | ground: receivers/s | time | façades: receivers/s | time |\n"
+      "\n## The rival at its best\n\nPackets of 16 neighbouring receivers that share a direction (on roofs and façades, "
+      "receivers of one surface), directions from a spherical Fibonacci lattice mapped to the disk and traced along a curve over "
+      "it, `rtcOccluded16`, coherent flag, scene without the robust flag. What else was tried, with {} rays; time relative to "
+      "the first line, each within one turn.\n\n| variant | index, s | ground: receivers/s | time | façades: receivers/s | time "
+      "|\n"
       "|---|---|---|---|---|---|\n",
       table.rays);
   for (const VariantRow& row : table.rows)
@@ -122,9 +123,8 @@ std::string sizes_table(const std::vector<SizeRow>& rows) {
 
 std::string break_even_table(const std::vector<SizeRow>& rows) {
   std::string text =
-      "\n## When packing pays\n\nFrom so many receivers on, packing a city and asking the package takes less time than indexing "
-      "its "
-      "triangles (which are in memory already) and tracing them all.\n\n"
+      "\n## When packing pays\n\nBreak-even is the number of receivers from which on packing a city and evaluating its package "
+      "takes less time than indexing its triangles (which are in memory already) and tracing rays against all of them.\n\n"
       "| polygons | pack, s | open, s | rival: index, s | break-even, receivers | ground grid of the whole city "
       "|\n|---|---|---|---|---|---|\n";
   for (const SizeRow& row : rows) {
@@ -138,10 +138,11 @@ std::string break_even_table(const std::vector<SizeRow>& rows) {
 }  // namespace
 
 std::string markdown(const Results& results) {
-  return main_table(results) + placing_sentence(results) +
-         ladder_table("the rival", "rays", results.contests, &Contest::rival_ladder) +
-         ladder_table("ours", results.ours.sample_name, results.contests, &Contest::our_ladder) + sweep_table(results.sweep) +
-         variants_table(results.variants) + sizes_table(results.sizes) + break_even_table(results.sizes);
+  return wrapped_document(main_table(results) + placing_sentence(results) +
+                          ladder_table("the rival", "rays", results.contests, &Contest::rival_ladder) +
+                          ladder_table("ours", results.ours.sample_name, results.contests, &Contest::our_ladder) +
+                          sweep_table(results.sweep) + variants_table(results.variants) + sizes_table(results.sizes) +
+                          break_even_table(results.sizes));
 }
 
 }  // namespace farlod::benchmark

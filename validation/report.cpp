@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "console/wrapped_document.hpp"
 #include "evaluate/error_budget.hpp"
 
 namespace farlod::validation {
@@ -23,13 +24,11 @@ std::string intro(const Results& results) {
   const Extent& extent = results.extent;
   return text +
          fmt::format(
-             ".\n`generated` is `farlod-city --size {:g} --seed 1 --towers 0.3 --rotation 20 --lod 1`; the others are "
-             "real. The grid "
-             "follows the streets.\nReceivers are random places 1.5 m above the ground, {} with c = 50 and 100 m, N = 3, "
-             "and {} of them "
-             "elsewhere; all are compared with {} rays\nthat see the whole city, and have the same rays themselves: what "
-             "remains is the "
-             "error of the far field alone.\n",
+             ". `generated` is `farlod-city --size {:g} --seed 1 --towers 0.3 --rotation 20 --lod 1`; the others are real. "
+             "The grid follows the streets.\n\n"
+             "Receivers are random places 1.5 m above the ground: {} with c = 50 and 100 m, N = 3, and {} with other cells and "
+             "neighbourhoods. The reference traces {} rays against the whole city. Each kind of far map is evaluated with the "
+             "same rays, so that the difference is the error of the far field alone.\n",
              extent.generated_size_m, extent.receivers, extent.fewer_receivers, extent.reference_rays) +
          (results.lacks_real_cities
               ? "\nReal cities are left out here and below: their data was not there (`scripts/validate --data`).\n"
@@ -49,7 +48,7 @@ std::string far_field_table(const CityStudy& study) {
 
 std::string rays_table(const Results& results) {
   std::string text =
-      "\n### What users get\n\nThe same receivers; with fewer rays, the sampling of the sky adds its share to the error of our "
+      "\n### What users get\n\nThe same receivers with fewer rays: the error of the sampling comes on top of the error of our "
       "far "
       "maps.\n\n| city | c, m | N | rays | mean | 99 % | max |\n|---|---|---|---|---|---|---|\n";
   for (const CityResults& city : results.cities)
@@ -63,7 +62,7 @@ std::string rays_table(const Results& results) {
 std::string surfaces_section(const Results& results) {
   std::string text = fmt::format(
       "\n## Roofs and façades\n\nUp to {} random places each, 1 cm off the surface; c = 50 m, N = 3; {} rays on both sides. The "
-      "paper's map is captured 1.5 m above the ground, whatever the height of the receiver.\n\n"
+      "paper's map is captured 1.5 m above the ground, however high the receiver is.\n\n"
       "| city | receivers on | paper's map: mean | 99 % | max | ours: mean | 99 % | max |\n|---|---|---|---|---|---|---|---|\n",
       results.extent.surface_receivers, results.extent.reference_rays);
   for (const CityResults& city : results.cities)
@@ -80,12 +79,10 @@ std::string models_section(const Results& results) {
   const Extent extent = extent_of_model(results.extent);
   std::string text = fmt::format(
       "\n## Models as they exist\n\nOpen shells, eaves, balconies, projecting floors, hillsides: generated ones are `farlod-city "
-      "--size "
-      "{:g} --seed 9 --lod 2` with the options given (`--hillside` with `--lod 1`); the others are real. Up to {} receivers "
-      "each, c = 50 "
-      "m, N = 3; {} rays on both sides. *Outside* as [below](#certain-bounds).\n\n| city | buildings | receivers on | dropped: "
-      "mean | "
-      "99 % | max | ours: mean | 99 % | max | mean width of bounds | outside |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+      "--size {:g} --seed 9 --lod 2` with the options given (`--hillside` with `--lod 1`); the others are real. Up to {} "
+      "receivers each, c = 50 m, N = 3; {} rays on both sides. *Outside* as [below](#certain-bounds).\n\n"
+      "| city | buildings | receivers on | dropped: mean | 99 % | max | ours: mean | 99 % | max | mean width of bounds | outside "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|\n",
       extent.generated_size_m, extent.receivers, extent.reference_rays);
   for (const CityStudy& city : results.models)
     for (const FarFieldRow& row : city.rows) {
@@ -107,9 +104,10 @@ std::string bounds_row(const std::string& city, const FarFieldRow& row, const st
 
 std::string bounds_section(const Results& results) {
   std::string text =
-      "\n## Certain bounds\n\nOur far maps say between which values the answer of the engine `exact` with the same rays lies "
-      "(`--bounds`). *Outside*: receivers whose exact answer is beyond them by more than the one ray that may graze an "
-      "edge.\n\n| city | c, m | N | on | receivers | mean width | max width | outside |\n|---|---|---|---|---|---|---|---|\n";
+      "\n## Certain bounds\n\nOur far maps bound the answer of the engine `exact` with the same rays from below and from "
+      "above (`--bounds`). *Outside* counts the receivers whose exact answer is beyond these bounds by more than one ray, since "
+      "one may graze an edge.\n\n| city | c, m | N | on | receivers | mean width | max width | outside "
+      "|\n|---|---|---|---|---|---|---|---|\n";
   for (const CityResults& city : results.cities)
     for (const FarFieldRow& row : city.far_field.rows) {
       text += bounds_row(city.far_field.name, row, "ground", row.ground);
@@ -121,7 +119,8 @@ std::string bounds_section(const Results& results) {
 
 std::string bytes_section(const Results& results) {
   std::string text =
-      "\n## Size of far maps\n\nMean over all cells of the city, c = 50 m, N = 3: the picture and its explicit occluders.\n\n"
+      "\n## Size of far maps\n\nMean over all cells of the city, c = 50 m, N = 3: the picture, and with ours the explicit "
+      "occluders.\n\n"
       "| city | paper's map, bytes a cell | ours, bytes a cell |\n|---|---|---|\n";
   for (const CityResults& city : results.cities)
     for (const FarFieldRow& row : city.far_field.rows)
@@ -148,9 +147,9 @@ std::string sampling_table(const CityResults& city) {
 
 std::string sampling_section(const Results& results) {
   std::string text = fmt::format(
-      "\n## Shares of the error\n\n### The sampling of the sky\n\nEngine `exact` against itself with {} rays: there is no far "
-      "map in "
-      "this. The law is that of `sampling_error` (runtime/evaluate/error_budget.hpp), which adds a quarter to it.\n",
+      "\n## Shares of the error\n\n### The sampling of the sky\n\nEngine `exact` against itself with {} rays: no far map is "
+      "involved. The second column is the law of `sampling_error` (runtime/evaluate/error_budget.hpp), which adds a quarter to "
+      "it.\n",
       results.extent.sampling_reference_rays);
   for (const CityResults& city : results.cities) text += sampling_table(city);
   return text;
@@ -158,9 +157,8 @@ std::string sampling_section(const Results& results) {
 
 std::string settings_section(const Results& results) {
   std::string text = fmt::format(
-      "\n### The far map's own settings\n\nEach varied alone ({}, c = 50 m, N = 3, the 16 × 16 cells in the middle, {} rays on "
-      "both "
-      "sides, up to {} receivers each; **bold**: the default). Time is wall clock.\n\n"
+      "\n### The far map's own settings\n\nEach is varied alone ({}, c = 50 m, N = 3, the 16 × 16 cells in the middle, {} rays "
+      "on both sides, up to {} receivers each; **bold**: the default). Time is wall clock.\n\n"
       "| setting | value | ground: mean | max | façades: mean | max | mean width of bounds | bytes a cell | baking, ms a cell "
       "|\n|---|---|---|---|---|---|---|---|---|\n",
       results.city_of_settings, results.extent.reference_rays, results.extent.fewer_receivers);
@@ -180,20 +178,19 @@ std::string turned_summary(const CityResults& city) {
     for (std::size_t n = 1; n < rows.size(); ++n) sum += value(rows[n]);
     return sum / static_cast<double>(rows.size() - 1) / value(rows[0]);
   };
-  return fmt::format(
-      "* {}: mean error of the paper's map × {:.2f}, of ours × {:.2f}; bytes of the paper's map × {:.2f}, of ours × {:.2f}\n",
-      city.far_field.name, factor([](const TurnedRow& r) { return r.box.mean_abs_error; }),
-      factor([](const TurnedRow& r) { return r.horizon.mean_abs_error; }),
-      factor([](const TurnedRow& r) { return r.box_bytes_a_cell; }), factor([](const TurnedRow& r) { return r.bytes_a_cell; }));
+  return fmt::format("* {}: mean error × {:.2f} (paper's map), × {:.2f} (ours); bytes × {:.2f} (paper's map), × {:.2f} (ours)\n",
+                     city.far_field.name, factor([](const TurnedRow& r) { return r.box.mean_abs_error; }),
+                     factor([](const TurnedRow& r) { return r.horizon.mean_abs_error; }),
+                     factor([](const TurnedRow& r) { return r.box_bytes_a_cell; }),
+                     factor([](const TurnedRow& r) { return r.bytes_a_cell; }));
 }
 
 std::string alignment_section(const Results& results) {
   std::string text =
       "\n## Along the streets or not\n\nThe paper turns its grid along the streets. The same receivers, in the middle of each "
-      "city, with "
-      "the grid turned away from the streets (c = 50 m, N = 3):\n\n| city | turned by | paper's map: mean | max | ours: mean | "
-      "max | "
-      "paper's map, bytes a cell | ours, bytes a cell | baking ours, ms a cell |\n|---|---|---|---|---|---|---|---|---|\n";
+      "city, with the grid turned away from the streets (c = 50 m, N = 3):\n\n"
+      "| city | turned by | paper's map: mean | max | ours: mean | max | paper's map, bytes a cell | ours, bytes a cell | baking "
+      "ours, ms a cell |\n|---|---|---|---|---|---|---|---|---|\n";
   for (const CityResults& city : results.cities)
     for (const TurnedRow& row : city.alignment.turned)
       text += fmt::format("| {} | {:g}° | {:.5f} | {:.4f} | {:.5f} | {:.4f} | {:.0f} | {:.0f} | {:.1f} |\n", city.far_field.name,
@@ -208,10 +205,10 @@ std::string alignment_section(const Results& results) {
 
 std::string moved_section(const Results& results) {
   std::string text =
-      "\n### Another grid, the same answers\n\nHow much our answers change with the grid, and what their bounds allow: each "
-      "answer may "
-      "be as far from the exact one as its farther bound, so that two may differ by the sum. *Beyond*: receivers that change by "
-      "more than their own bounds allow.\n\n| city | grid | mean change | max change | most that bounds allow | beyond "
+      "\n### Another grid, the same answers\n\nHow much our answers change with the grid, and how much their bounds allow. "
+      "An answer differs from the exact one at most by the distance to its farther bound, and two answers at most by the sum of "
+      "these distances. *Beyond* counts the receivers whose answers differ by more.\n\n| city | grid | mean change | max change "
+      "| most that bounds allow | beyond "
       "|\n|---|---|---|---|---|---|\n";
   const auto add = [&text](const std::string& city, const std::string& what, const MovedGrid& m) {
     text += fmt::format("| {} | {} | {:.5f} | {:.4f} | {:.4f} | {} |\n", city, what, m.mean_change, m.max_change, m.max_stated,
@@ -229,12 +226,9 @@ std::string moved_section(const Results& results) {
 std::string markdown(const Results& results) {
   std::string text =
       "## Near field, far field\n\nThe paper keeps the true geometry of N × N cells around a receiver and takes the rest of the "
-      "city from "
-      "a picture captured at the cell's centre (`--far-map box`). Ours (`--far-map horizon`, the default) stores the "
-      "occluders that move against each other within a cell one by one, and bounds the rest. *Dropped*: the far field is left "
-      "out, as by tools that cut a "
-      "city "
-      "into tiles.\n\n";
+      "city from a picture captured at the cell's centre (`--far-map box`). Ours (`--far-map horizon`, the default) stores the "
+      "far edges whose direction changes within a cell one by one, as explicit occluders, and bounds the rest by a residual "
+      "horizon. *Dropped*: the far field is left out, as by tools that cut a city into tiles.\n\n";
   text += intro(results);
   for (const CityResults& city : results.cities) text += far_field_table(city.far_field);
   text += rays_table(results);
@@ -245,7 +239,7 @@ std::string markdown(const Results& results) {
   text += sampling_section(results);
   text += settings_section(results);
   text += alignment_section(results);
-  return text + moved_section(results);
+  return wrapped_document(text + moved_section(results));
 }
 
 }  // namespace farlod::validation
