@@ -12,7 +12,7 @@
 namespace farlod {
 namespace {
 
-constexpr std::size_t longest_file = 400, longest_function = 25;
+constexpr std::size_t longest_file = 400, longest_function = 25, longest_prose_line = 120;
 
 /// Path and reason of each file that may be longer. Nobody has needed it so far.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 0> long_for_a_reason{};
@@ -134,6 +134,26 @@ std::vector<std::string> files_with_notes_to_self(const std::vector<SourceFile>&
       "CK)\\b");
   const auto has_note = [](const std::string& line) { return std::regex_search(line, note); };
   return paths_where(tree, [&](const SourceFile& file) { return std::any_of(file.lines.begin(), file.lines.end(), has_note); });
+}
+
+namespace {
+
+/// Of UTF-8, whose bytes 10xxxxxx continue a character.
+std::size_t character_count(const std::string& line) {
+  return static_cast<std::size_t>(std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
+std::vector<std::string> prose_lines_too_long(const std::vector<SourceFile>& documents) {
+  std::vector<std::string> found;
+  for (const SourceFile& document : documents)
+    for (std::size_t n = 0; n < document.lines.size(); ++n) {
+      const std::size_t length = character_count(document.lines[n]);
+      if (length > longest_prose_line && !document.lines[n].starts_with("|"))
+        found.push_back(document.path + ":" + std::to_string(n + 1) + " has " + std::to_string(length) + " characters");
+    }
+  return found;
 }
 
 }  // namespace farlod

@@ -26,4 +26,8 @@ namespace farlod {
 /// C++ files that carry a note to do something later, which belongs into an issue.
 [[nodiscard]] std::vector<std::string> files_with_notes_to_self(const std::vector<SourceFile>& tree);
 
+/// Lines of prose in documents that have more than 120 characters: "path:line has n characters". Rows of tables may, since
+/// Markdown cannot break them.
+[[nodiscard]] std::vector<std::string> prose_lines_too_long(const std::vector<SourceFile>& documents);
+
 }  // namespace farlod

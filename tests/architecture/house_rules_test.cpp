@@ -26,6 +26,12 @@ TEST(HouseRules, FileNamesSayWhatIsInside) {
 
 TEST(HouseRules, NothingIsLeftForLater) { EXPECT_THAT(files_with_notes_to_self(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty()); }
 
+TEST(HouseRules, LinesOfDocumentsFitAScreen) {
+  const std::vector<SourceFile> documents = read_documents(FARLOD_SOURCE_DIR);
+  ASSERT_GT(documents.size(), 30U) << "the documents were not found at " << FARLOD_SOURCE_DIR;
+  EXPECT_THAT(prose_lines_too_long(documents), IsEmpty());
+}
+
 TEST(HouseRules, AMissingOrWrongLicenceIsFound) {
   EXPECT_THAT(files_without_licence({{"runtime/good.cpp", {"//" + authors, "//" + apache}},
                                      {"preprocess/good.cpp", {"//" + authors, "//" + gpl}},
@@ -59,6 +65,14 @@ TEST(HouseRules, ALongFunctionIsFound) {
                           file_with("e.hpp", member, 26, "  }"), file_with("f.cpp", not_one, 26, "};"),
                           file_with("tests/g.cpp", plain, 26, "}")}),
       ElementsAre("b.cpp:1 f has 26 lines", "c.cpp:2 f has 26 lines", "d.cpp:1 C has 26 lines", "e.hpp:2 g has 26 lines"));
+}
+
+TEST(HouseRules, ALongLineOfProseIsFound) {
+  std::string dashes;
+  for (int n = 0; n < 120; ++n) dashes += "–";
+  EXPECT_THAT(prose_lines_too_long({{"a.md", {std::string(120, 'a'), std::string(121, 'a'), dashes, dashes + "a"}},
+                                    {"b.md", {"| " + std::string(200, 'a') + " |", "", "* " + std::string(119, 'a')}}}),
+              ElementsAre("a.md:2 has 121 characters", "a.md:4 has 121 characters", "b.md:3 has 121 characters"));
 }
 
 TEST(HouseRules, AnEmptyNameIsFound) {

@@ -11,8 +11,8 @@
 namespace farlod {
 namespace {
 
-constexpr std::array code_folders{"include",    "console", "gdal",  "preprocess", "runtime", "datasets", "benchmark",
-                                  "validation", "tests",   "cmake", "docs",       "scripts", ".ci"};
+constexpr std::array folders{"include",    "console", "gdal",  "preprocess", "runtime", "datasets", "benchmark",
+                             "validation", "tests",   "cmake", "docs",       "scripts", ".ci"};
 /// The names of the folders whose files without an ending are scripts.
 constexpr std::array<std::string_view, 4> script_folders{"benchmark", "figures", "scripts", ".ci"};
 
@@ -22,6 +22,8 @@ bool is_code(const std::filesystem::path& path) {
   return ending == ".cpp" || ending == ".hpp" || ending == ".cmake" || path.filename() == "CMakeLists.txt" || script;
 }
 
+bool is_document(const std::filesystem::path& path) { return path.extension() == ".md"; }
+
 SourceFile read(const std::filesystem::path& root, const std::filesystem::path& path) {
   SourceFile file{std::filesystem::relative(path, root).generic_string(), {}};
   std::ifstream stream(path);
@@ -29,28 +31,26 @@ SourceFile read(const std::filesystem::path& root, const std::filesystem::path& 
   return file;
 }
 
+/// The files of the project, those right at its root included, for which a condition holds; ordered by path.
+template <class Condition>
+std::vector<SourceFile> read_where(const std::filesystem::path& root, Condition condition) {
+  std::vector<SourceFile> files;
+  const auto add = [&](const std::filesystem::directory_entry& entry) {
+    if (entry.is_regular_file() && condition(entry.path())) files.push_back(read(root, entry.path()));
+  };
+  for (const auto& entry : std::filesystem::directory_iterator(root)) add(entry);
+  for (const char* folder : folders)
+    if (std::filesystem::exists(root / folder))
+      for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) add(entry);
+  std::sort(files.begin(), files.end(), [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
+  return files;
+}
+
 }  // namespace
 
-std::vector<SourceFile> read_source_tree(const std::filesystem::path& root) {
-  std::vector<SourceFile> files;
-  if (std::filesystem::exists(root / "CMakeLists.txt")) files.push_back(read(root, root / "CMakeLists.txt"));
-  for (const char* folder : code_folders) {
-    if (!std::filesystem::exists(root / folder)) continue;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder))
-      if (entry.is_regular_file() && is_code(entry.path())) files.push_back(read(root, entry.path()));
-  }
-  std::sort(files.begin(), files.end(), [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
-  return files;
-}
+std::vector<SourceFile> read_source_tree(const std::filesystem::path& root) { return read_where(root, is_code); }
 
-std::vector<SourceFile> read_documents(const std::filesystem::path& root) {
-  std::vector<SourceFile> files;
-  for (const char* name : {"README.md", "CONTRIBUTING.md"}) files.push_back(read(root, root / name));
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "docs"))
-    if (entry.is_regular_file() && entry.path().extension() == ".md") files.push_back(read(root, entry.path()));
-  std::sort(files.begin(), files.end(), [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
-  return files;
-}
+std::vector<SourceFile> read_documents(const std::filesystem::path& root) { return read_where(root, is_document); }
 
 std::vector<Include> includes_of(const SourceFile& file) {
   static const std::regex include(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");

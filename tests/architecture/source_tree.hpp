@@ -24,7 +24,7 @@ struct Include {
 /// The files that people write code in (C++, CMake, scripts), ordered by path. Build folders are left out.
 [[nodiscard]] std::vector<SourceFile> read_source_tree(const std::filesystem::path& root);
 
-/// The files that people read (Markdown, ordered by path): README, CONTRIBUTING and what is below docs.
+/// The files that people read (Markdown), ordered by path. Build folders are left out.
 [[nodiscard]] std::vector<SourceFile> read_documents(const std::filesystem::path& root);
 
 [[nodiscard]] std::vector<Include> includes_of(const SourceFile& file);
