@@ -83,7 +83,7 @@ struct EvaluationStatistics {
 };
 
 /// Computes sky view factors from a package. Thread-safe. The same receivers give the same answers whatever else is evaluated, up
-/// to the rounding of floats (docs/concepts.md, "Edges that a packet passes over").
+/// to the rounding of floats (docs/concepts.md, "Culling edges for a packet").
 class SkyEvaluator {
  public:
   /// The package must outlive the evaluator.

@@ -18,7 +18,7 @@
 /// Which edges of a batch can change a horizon of a packet: three conservative tests, each for sixteen edges at once.
 ///   1. facing: can the edge be a silhouette for some receiver of the box? docs/concepts.md, "Edges that face away"
 ///   2. reach: at most how steep, and between which azimuths, does some receiver see it?
-///   3. culling: is that above the lowest horizon in those azimuths? docs/concepts.md, "Edges that a packet passes over"
+///   3. culling: is that above the lowest horizon in those azimuths? docs/concepts.md, "Culling edges for a packet"
 namespace farlod {
 
 // --- 1. Facing
