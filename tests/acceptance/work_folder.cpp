@@ -7,26 +7,15 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <sstream>
-#include <stdexcept>
 
 #include "console/exit_code.hpp"
 
 namespace farlod::acceptance {
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-WorkFolder::WorkFolder() {
-  std::string pattern = (fs::temp_directory_path() / "farlod-acceptance-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error(pattern + " cannot be made");
-  path_ = pattern;
-}
-
-WorkFolder::~WorkFolder() { fs::remove_all(path_); }
-
 Outcome WorkFolder::run(const std::string& command) const {
-  std::string line = "cd '" + path_.string() + "' && PATH='" + FARLOD_BIN_DIR + "':\"$PATH\" && export PATH && ( ";
+  std::string line = "cd '" + folder_.path().string() + "' && PATH='" + FARLOD_BIN_DIR + "':\"$PATH\" && export PATH && ( ";
   line.append(command).append(" ) > .out 2> .err");
   const int status = std::system(line.c_str());
   return {WEXITSTATUS(status), text_of(".out"), text_of(".err")};
@@ -38,16 +27,13 @@ void WorkFolder::must(const std::string& command) const {
 }
 
 void WorkFolder::write(const std::string& name, const std::string& text) const {
-  std::ofstream file(path_ / name, std::ios::binary);
+  std::ofstream file(path(name), std::ios::binary);
   file << text;
   file.close();
   ASSERT_TRUE(file) << name;
 }
 
-std::string WorkFolder::text_of(const std::string& name) const {
-  std::ifstream file(path_ / name, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+std::string WorkFolder::text_of(const std::string& name) const { return scenes::text_of(path(name)); }
 
 nlohmann::json WorkFolder::json_of(const std::string& name) const { return nlohmann::json::parse(text_of(name)); }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/scenes/temporary_folder.hpp"
+
 namespace farlod::acceptance {
 
 /// What came of a command.
@@ -18,11 +20,6 @@ struct Outcome {
 /// A folder in which commands run as a user would type them, and that is gone afterwards.
 class WorkFolder {
  public:
-  WorkFolder();
-  ~WorkFolder();
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-
   /// Runs a command line in this folder, by a shell that finds the programs of this build first.
   [[nodiscard]] Outcome run(const std::string& command) const;
   /// The same, for steps on the way: the test fails when the command does.
@@ -31,11 +28,11 @@ class WorkFolder {
   void write(const std::string& name, const std::string& text) const;
   [[nodiscard]] std::string text_of(const std::string& name) const;
   [[nodiscard]] nlohmann::json json_of(const std::string& name) const;
-  [[nodiscard]] std::filesystem::path path(const std::string& name) const { return path_ / name; }
-  [[nodiscard]] bool has(const std::string& name) const { return std::filesystem::exists(path_ / name); }
+  [[nodiscard]] std::filesystem::path path(const std::string& name) const { return folder_.file(name); }
+  [[nodiscard]] bool has(const std::string& name) const { return std::filesystem::exists(path(name)); }
 
  private:
-  std::filesystem::path path_;
+  scenes::TemporaryFolder folder_;
 };
 
 /// The lines of a text, without their ends.

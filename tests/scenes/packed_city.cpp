@@ -3,14 +3,11 @@
 #include "tests/scenes/packed_city.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <chrono>
 #include <span>
-#include <string>
 
-#include "farlod/expects.hpp"
 #include "farmap/far_map_baker.hpp"
 #include "package/package_writer.hpp"
 
@@ -104,17 +101,6 @@ package::Manifest manifest_of(const TileSet& tiles, const Grid& grid, const FarM
 }
 
 }  // namespace
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "farlod-test-XXXXXX").string();
-  FARLOD_EXPECTS(mkdtemp(name.data()) != nullptr);
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
 
 Grid grid_covering(const CityModel& city, Angle bearing, double cell_edge_m, int neighborhood, int block_edge) {
   Grid grid;

@@ -11,6 +11,7 @@
 #include "farlod/grid.hpp"
 #include "farmap/far_map_settings.hpp"
 #include "package/package.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 #include "tiles/tiles.hpp"
 
 namespace farlod {
@@ -20,19 +21,6 @@ inline void PrintTo(FarMapKind kind, std::ostream* out) { *out << (kind == FarMa
 }  // namespace farlod
 
 namespace farlod::scenes {
-
-/// A folder that exists as long as this does.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// The grid with this rotation, cell and neighborhood that covers a city (given in the city frame).
 [[nodiscard]] Grid grid_covering(const CityModel& city, Angle bearing, double cell_edge_m, int neighborhood, int block_edge = 32);

@@ -13,6 +13,7 @@
 #include "generator/generated_city.hpp"
 #include "tests/datasets/generator/solid_geometry.hpp"
 #include "tests/datasets/generator/written_city.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -100,39 +101,39 @@ void expect_same(const WrittenCity& read, const WrittenCity& expected) {
 
 class CityWriters : public ::testing::TestWithParam<int> {
  protected:
-  ScratchFolder folder_;
+  scenes::TemporaryFolder folder_;
   CitySettings settings_ = small_city(GetParam());
 };
 INSTANTIATE_TEST_SUITE_P(Lod, CityWriters, ::testing::Values(1, 2));
 
 TEST_P(CityWriters, CityGmlHoldsTheCity) {
-  write(settings_, folder_ / "city.gml");
-  expect_same(read_citygml(folder_ / "city.gml"), expected_city(settings_, Polygons::facets, Places::solid));
+  write(settings_, folder_.file("city.gml"));
+  expect_same(read_citygml(folder_.file("city.gml")), expected_city(settings_, Polygons::facets, Places::solid));
 }
 
 TEST_P(CityWriters, CityJsonHoldsTheCity) {
-  write(settings_, folder_ / "city.city.json");
-  expect_same(read_cityjson(folder_ / "city.city.json"), expected_city(settings_, Polygons::facets, Places::solid));
+  write(settings_, folder_.file("city.city.json"));
+  expect_same(read_cityjson(folder_.file("city.city.json")), expected_city(settings_, Polygons::facets, Places::solid));
 }
 
 TEST_P(CityWriters, ObjHoldsTheCity) {
-  write(settings_, folder_ / "city.obj");
-  expect_same(read_obj(folder_ / "city.obj"), expected_city(settings_, Polygons::convex_faces, Places::solid));
+  write(settings_, folder_.file("city.obj"));
+  expect_same(read_obj(folder_.file("city.obj")), expected_city(settings_, Polygons::convex_faces, Places::solid));
 }
 
 TEST_P(CityWriters, GeoJsonHoldsTheFootprints) {
-  write(settings_, folder_ / "city.geojson");
-  expect_same(read_geojson(folder_ / "city.geojson"), expected_city(settings_, Polygons::none, Places::footprint));
+  write(settings_, folder_.file("city.geojson"));
+  expect_same(read_geojson(folder_.file("city.geojson")), expected_city(settings_, Polygons::none, Places::footprint));
 }
 
 TEST_P(CityWriters, NothingIsLeftBesideTheCity) {
-  for (const char* name : {"city.gml", "city.city.json", "city.obj", "city.geojson"}) write(settings_, folder_ / name);
-  EXPECT_EQ(folder_.file_count(), 4U);
+  for (const char* name : {"city.gml", "city.city.json", "city.obj", "city.geojson"}) write(settings_, folder_.file(name));
+  EXPECT_EQ(folder_.names().size(), 4U);
 }
 
 class CityWritersOfOptions : public ::testing::TestWithParam<int> {
  protected:
-  ScratchFolder folder_;
+  scenes::TemporaryFolder folder_;
   CitySettings settings_ = cities_with_each_option().at(static_cast<std::size_t>(GetParam()));
 };
 INSTANTIATE_TEST_SUITE_P(Option, CityWritersOfOptions, ::testing::Range(0, 9));
@@ -140,14 +141,14 @@ INSTANTIATE_TEST_SUITE_P(Option, CityWritersOfOptions, ::testing::Range(0, 9));
 TEST_P(CityWritersOfOptions, EachFormatHoldsTheCity) {
   settings_.size_m = 350.0;
   const WrittenCity expected = expected_city(settings_, Polygons::facets, Places::solid);
-  write(settings_, folder_ / "city.gml");
-  expect_same(read_citygml(folder_ / "city.gml"), expected);
-  write(settings_, folder_ / "city.city.json");
-  expect_same(read_cityjson(folder_ / "city.city.json"), expected);
-  write(settings_, folder_ / "city.obj");
-  expect_same(read_obj(folder_ / "city.obj"), expected_city(settings_, Polygons::convex_faces, Places::solid));
-  write(settings_, folder_ / "city.geojson");
-  expect_same(read_geojson(folder_ / "city.geojson"), expected_city(settings_, Polygons::none, Places::footprint));
+  write(settings_, folder_.file("city.gml"));
+  expect_same(read_citygml(folder_.file("city.gml")), expected);
+  write(settings_, folder_.file("city.city.json"));
+  expect_same(read_cityjson(folder_.file("city.city.json")), expected);
+  write(settings_, folder_.file("city.obj"));
+  expect_same(read_obj(folder_.file("city.obj")), expected_city(settings_, Polygons::convex_faces, Places::solid));
+  write(settings_, folder_.file("city.geojson"));
+  expect_same(read_geojson(folder_.file("city.geojson")), expected_city(settings_, Polygons::none, Places::footprint));
 }
 
 CitySettings town(void (*switch_on)(CitySettings&)) {
@@ -157,12 +158,12 @@ CitySettings town(void (*switch_on)(CitySettings&)) {
 }
 
 TEST(CityGmlWriter, OpenShellsHaveNoSolid) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   for (const int lod : {1, 2}) {
     CitySettings settings = small_city(lod);
     settings.open_shells = true, settings.overhangs = false;
-    write(settings, folder / "city.gml");
-    const std::string text = text_of(folder / "city.gml");
+    write(settings, folder.file("city.gml"));
+    const std::string text = scenes::text_of(folder.file("city.gml"));
     EXPECT_EQ(count_of(text, "Solid>"), 0U);
     EXPECT_EQ(count_of(text, "<bldg:lod1MultiSurface>") > 0, lod == 1);
     EXPECT_EQ(count_of(text, "<bldg:lod2MultiSurface>") > 0, lod == 2);
@@ -170,10 +171,10 @@ TEST(CityGmlWriter, OpenShellsHaveNoSolid) {
 }
 
 TEST(CityGmlWriter, WindowsAndDoorsAreOpeningsOfTheirWalls) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const CitySettings settings = town([](CitySettings& s) { s.facade_details = true; });
-  write(settings, folder / "city.gml");
-  const std::string text = text_of(folder / "city.gml");
+  write(settings, folder.file("city.gml"));
+  const std::string text = scenes::text_of(folder.file("city.gml"));
   std::size_t windows = 0, doors = 0, holes = 0;
   visit_city(settings, {.building = [&](const GeneratedBuilding& building) {
                for (const GeneratedFacet& facet : building.facets) {
@@ -196,10 +197,10 @@ TEST(CityGmlWriter, WindowsAndDoorsAreOpeningsOfTheirWalls) {
 }
 
 TEST(CityJsonWriter, NamesWindowsAndDoors) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const CitySettings settings = town([](CitySettings& s) { s.facade_details = true; });
-  write(settings, folder / "city.city.json");
-  const auto json = nlohmann::json::parse(text_of(folder / "city.city.json"));
+  write(settings, folder.file("city.city.json"));
+  const auto json = nlohmann::json::parse(scenes::text_of(folder.file("city.city.json")));
   const std::map<Filling, std::string> type_of{{Filling::window, "Window"}, {Filling::door, "Door"}};
   visit_city(settings, {.building = [&](const GeneratedBuilding& building) {
                const auto& geometry = json.at("CityObjects").at(building.id).at("geometry").at(0);
@@ -218,10 +219,10 @@ TEST(CityJsonWriter, NamesWindowsAndDoors) {
 }
 
 TEST(CityJsonWriter, ShellsThatAreNotClosedAreMultiSurfacesWithSemantics) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const CitySettings settings = town([](CitySettings& s) { s.eaves_m = 0.5; });
-  write(settings, folder / "city.city.json");
-  const auto json = nlohmann::json::parse(text_of(folder / "city.city.json"));
+  write(settings, folder.file("city.city.json"));
+  const auto json = nlohmann::json::parse(scenes::text_of(folder.file("city.city.json")));
   int open = 0;
   visit_city(settings, {.building = [&](const GeneratedBuilding& building) {
                const auto& geometry = json.at("CityObjects").at(building.id).at("geometry").at(0);
@@ -235,11 +236,11 @@ TEST(CityJsonWriter, ShellsThatAreNotClosedAreMultiSurfacesWithSemantics) {
 }
 
 TEST(CityGmlWriter, EnvelopeHoldsTheCityTightly) {
-  const ScratchFolder folder;
-  write(small_city(2), folder / "city.gml");
-  const std::string text = text_of(folder / "city.gml");
+  const scenes::TemporaryFolder folder;
+  write(small_city(2), folder.file("city.gml"));
+  const std::string text = scenes::text_of(folder.file("city.gml"));
   PlaceMm low{INT64_MAX, INT64_MAX, INT64_MAX}, high{INT64_MIN, INT64_MIN, INT64_MIN};
-  for (const auto& [id, building] : read_citygml(folder / "city.gml").buildings)
+  for (const auto& [id, building] : read_citygml(folder.file("city.gml")).buildings)
     for (const PlaceMm& p : building.places)
       for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
   for (const auto& [element, corner] : {std::pair{"lowerCorner", low}, std::pair{"upperCorner", high}}) {
@@ -254,9 +255,9 @@ TEST(CityGmlWriter, EnvelopeHoldsTheCityTightly) {
 }
 
 TEST(CityGmlWriter, SolidsOfLod2ReferToAllTheirSurfaces) {
-  const ScratchFolder folder;
-  write(small_city(2), folder / "city.gml");
-  const std::string text = text_of(folder / "city.gml");
+  const scenes::TemporaryFolder folder;
+  write(small_city(2), folder.file("city.gml"));
+  const std::string text = scenes::text_of(folder.file("city.gml"));
   std::set<std::string> named, referred;
   const std::regex id("<gml:Polygon gml:id=\"([^\"]+)\""), reference("xlink:href=\"#([^\"]+)\"");
   for (std::sregex_iterator m(text.begin(), text.end(), id), end; m != end; ++m) EXPECT_TRUE(named.insert((*m)[1]).second);
@@ -267,9 +268,9 @@ TEST(CityGmlWriter, SolidsOfLod2ReferToAllTheirSurfaces) {
 }
 
 TEST(CityJsonWriter, SemanticsNameARoleForEachSurface) {
-  const ScratchFolder folder;
-  write(small_city(2), folder / "city.city.json");
-  const auto json = nlohmann::json::parse(text_of(folder / "city.city.json"));
+  const scenes::TemporaryFolder folder;
+  write(small_city(2), folder.file("city.city.json"));
+  const auto json = nlohmann::json::parse(scenes::text_of(folder.file("city.city.json")));
   EXPECT_EQ(json.at("version"), "2.0");
   std::map<std::string, FacetRole> role_of{{"RoofSurface", FacetRole::roof},
                                            {"WallSurface", FacetRole::wall},
@@ -287,18 +288,18 @@ TEST(CityJsonWriter, SemanticsNameARoleForEachSurface) {
 }
 
 TEST(ObjWriter, CountsFromTheCentreWhenAsked) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const CitySettings settings = small_city(1);
-  CityHeader header = header_of(settings, folder / "local.obj");
+  CityHeader header = header_of(settings, folder.file("local.obj"));
   header.obj_from_centre = true;
-  const auto writer = make_obj_writer(folder / "local.obj", header);
+  const auto writer = make_obj_writer(folder.file("local.obj"), header);
   writer->begin();
   const GeneratedBuilding building = buildings_of_block(settings, {0, 0}).at(0);
   writer->add(building);
   writer->end();
   const PointMm& p = building.vertices.front();
-  EXPECT_TRUE(read_obj(folder / "local.obj").buildings.at(building.id).places.contains({p.x, p.y, p.z}));
-  EXPECT_THAT(text_of(folder / "local.obj"), HasSubstr("# Origin, to be added to x and y: 566000.250,5500000.000\n"));
+  EXPECT_TRUE(read_obj(folder.file("local.obj")).buildings.at(building.id).places.contains({p.x, p.y, p.z}));
+  EXPECT_THAT(scenes::text_of(folder.file("local.obj")), HasSubstr("# Origin, to be added to x and y: 566000.250,5500000.000\n"));
 }
 
 TEST(GeneratedCityWriter, NamesTheFolderThatIsNotThere) {
@@ -309,19 +310,19 @@ TEST(GeneratedCityWriter, NamesTheFolderThatIsNotThere) {
 }
 
 TEST(GeneratedCityWriter, AnUnfinishedCityLeavesNothing) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   {
-    const auto writer = make_cityjson_writer(folder / "city.city.json", CityHeader{});
+    const auto writer = make_cityjson_writer(folder.file("city.city.json"), CityHeader{});
     writer->begin();
   }
-  EXPECT_EQ(folder.file_count(), 0U);
+  EXPECT_EQ(folder.names().size(), 0U);
 }
 
 TEST(GeneratedCityWriter, OddFileNamesDoNotSpoilTheFile) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const std::string name = "a\"<&>\n\xFFz.city.json";
-  write(small_city(1), folder / name);
-  EXPECT_EQ(nlohmann::json::parse(text_of(folder / name)).at("metadata").at("title"), "a______z");
+  write(small_city(1), folder.file(name));
+  EXPECT_EQ(nlohmann::json::parse(scenes::text_of(folder.file(name))).at("metadata").at("title"), "a______z");
 }
 
 TEST(CityFormatOf, KnowsTheEndings) {

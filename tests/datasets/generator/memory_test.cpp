@@ -9,6 +9,7 @@
 #include <string>
 
 #include "generator/plan_frame.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -39,11 +40,9 @@ TEST_P(Memory, DoesNotGrowWithTheCity) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "AddressSanitizer keeps freed memory";
 #endif
-  std::string pattern = (fs::temp_directory_path() / "farlod-memory-XXXXXX").string();
-  const fs::path folder = mkdtemp(pattern.data());
+  const scenes::TemporaryFolder folder;
   // Both cities are large enough to fill the writers' buffers, which are of fixed size
-  const CityRun small = make_city(folder, GetParam(), 3000), large = make_city(folder, GetParam(), 7000);
-  fs::remove_all(folder);
+  const CityRun small = make_city(folder.path(), GetParam(), 3000), large = make_city(folder.path(), GetParam(), 7000);
   ASSERT_GT(large.buildings, 2.0 * small.buildings);
   EXPECT_LT(large.peak_memory_bytes - small.peak_memory_bytes,
             least_bytes_of_a_kept_building * (large.buildings - small.buildings));

@@ -6,12 +6,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
 #include "tests/preprocess/app/help_options.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -27,24 +27,15 @@ struct Outcome {
 
 class FarlodCity : public ::testing::Test {
  protected:
-  FarlodCity() {
-    std::string pattern = (fs::temp_directory_path() / "farlod-city-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~FarlodCity() override { fs::remove_all(folder_); }
-
-  [[nodiscard]] std::string text_of(const std::string& name) const {
-    std::ifstream file(folder_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  [[nodiscard]] std::string text_of(const std::string& name) const { return scenes::text_of(folder_.file(name)); }
   [[nodiscard]] Outcome run(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" + std::string(FARLOD_BIN_DIR) + "/farlod-city' " + arguments + " > said.txt 2>&1";
+    const std::string command = "cd '" + folder_.path().string() + "' && '" + std::string(FARLOD_BIN_DIR) + "/farlod-city' " +
+                                arguments + " > said.txt 2>&1";
     const int status = std::system(command.c_str());
     return {WEXITSTATUS(status), text_of("said.txt")};
   }
 
-  fs::path folder_;
+  scenes::TemporaryFolder folder_;
 };
 
 TEST_F(FarlodCity, HelpStartsWithOneLineAndAnExample) {
@@ -102,7 +93,7 @@ TEST_F(FarlodCity, WritesACityAndASummary) {
   EXPECT_GT(summary.at("polygons"), summary.at("buildings"));
   EXPECT_GT(summary.at("tallest_m"), 0.0);
   EXPECT_GE(summary.at("seconds").at("total"), 0.0);
-  EXPECT_EQ(summary.at("output_bytes"), fs::file_size(folder_ / "town.obj"));
+  EXPECT_EQ(summary.at("output_bytes"), fs::file_size(folder_.file("town.obj")));
   EXPECT_THAT(outcome.text, HasSubstr(std::to_string(summary.at("buildings").get<int>()) + " buildings"));
 }
 
@@ -113,7 +104,7 @@ TEST_F(FarlodCity, QuietSaysNothing) {
 }
 
 TEST_F(FarlodCity, TakesOptionsFromAFile) {
-  std::ofstream(folder_ / "town.toml") << "size = 300\nseed = 9\n";
+  std::ofstream(folder_.file("town.toml")) << "size = 300\nseed = 9\n";
   EXPECT_EQ(run("-o a.obj --config town.toml --quiet").exit_code, 0);
   EXPECT_EQ(run("-o b.obj --size 300 --seed 9 --quiet").exit_code, 0);
   // The first line holds the file's name
@@ -146,7 +137,7 @@ TEST_F(FarlodCity, WrongUsageIsTwoAndSaysWhat) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_THAT(outcome.text, HasSubstr(said)) << arguments;
-    for (const char* name : {"town.obj", "town.geojson"}) EXPECT_FALSE(fs::exists(folder_ / name)) << arguments;
+    for (const char* name : {"town.obj", "town.geojson"}) EXPECT_FALSE(fs::exists(folder_.file(name))) << arguments;
   }
 }
 

@@ -4,11 +4,11 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <regex>
 #include <string>
+
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -17,14 +17,9 @@ namespace fs = std::filesystem;
 
 const fs::path datasets = fs::path(FARLOD_SOURCE_DIR) / "datasets";
 
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// The commands of the README's table, by the name of the sample that they make.
 std::map<std::string, std::string> commands() {
-  const std::string readme = text_of(datasets / "README.md");
+  const std::string readme = scenes::text_of(datasets / "README.md");
   const std::regex command("`farlod-city (-o samples/([^ `]+)[^`]*)`");
   std::map<std::string, std::string> result;
   for (std::sregex_iterator m(readme.begin(), readme.end(), command), end; m != end; ++m) result[(*m)[2]] = (*m)[1];
@@ -43,18 +38,16 @@ TEST(Samples, AreSmall) {
 }
 
 TEST(Samples, EachIsMadeAgainToTheByte) {
-  std::string pattern = (fs::temp_directory_path() / "farlod-samples-XXXXXX").string();
-  const fs::path folder = mkdtemp(pattern.data());
-  fs::create_directory(folder / "samples");
+  const scenes::TemporaryFolder folder;
+  fs::create_directory(folder.file("samples"));
   ASSERT_FALSE(commands().empty());
   for (const auto& [name, arguments] : commands()) {
     const std::string line =
-        "cd '" + folder.string() + "' && '" + std::string(FARLOD_BIN_DIR) + "/farlod-city' --quiet " + arguments;
+        "cd '" + folder.path().string() + "' && '" + std::string(FARLOD_BIN_DIR) + "/farlod-city' --quiet " + arguments;
     ASSERT_EQ(std::system(line.c_str()), 0) << line;
-    EXPECT_TRUE(text_of(folder / "samples" / name) == text_of(datasets / "samples" / name))
+    EXPECT_TRUE(scenes::text_of(folder.file("samples") / name) == scenes::text_of(datasets / "samples" / name))
         << name << " differs: if the generator was meant to change, run the README's commands in datasets/";
   }
-  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -3,15 +3,14 @@
 #include "tests/datasets/generator/written_city.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
 #include <vector>
+
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -43,13 +42,8 @@ void set_base(WrittenBuilding& building) {
 
 }  // namespace
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 WrittenCity read_cityjson(const std::filesystem::path& path) {
-  const Json json = Json::parse(text_of(path));
+  const Json json = Json::parse(scenes::text_of(path));
   WrittenCity city{epsg_in(json.at("metadata").at("referenceSystem"), "/EPSG/0/(\\d+)$"), {}};
   const Json &scale = json.at("transform").at("scale"), &translate = json.at("transform").at("translate");
   for (const auto& [id, object] : json.at("CityObjects").items()) {
@@ -87,7 +81,7 @@ WrittenCity read_cityjson(const std::filesystem::path& path) {
 }
 
 WrittenCity read_geojson(const std::filesystem::path& path) {
-  const Json json = Json::parse(text_of(path));
+  const Json json = Json::parse(scenes::text_of(path));
   WrittenCity city{epsg_in(json.at("crs").at("properties").at("name"), "EPSG::(\\d+)$"), {}};
   for (const Json& feature : json.at("features")) {
     WrittenBuilding& building = city.buildings[feature.at("properties").at("id")];
@@ -100,7 +94,7 @@ WrittenCity read_geojson(const std::filesystem::path& path) {
 }
 
 WrittenCity read_obj(const std::filesystem::path& path) {
-  const std::string text = text_of(path);
+  const std::string text = scenes::text_of(path);
   WrittenCity city{epsg_in(text, "# CRS: EPSG:(\\d+)\n"), {}};
   std::vector<PlaceMm> vertices;
   WrittenBuilding* building = nullptr;
@@ -127,7 +121,7 @@ std::size_t count_of(const std::string& text, const std::string& word) {
 }
 
 WrittenCity read_citygml(const std::filesystem::path& path) {
-  const std::string text = text_of(path);
+  const std::string text = scenes::text_of(path);
   WrittenCity city{epsg_in(text, "srsName=\"urn:ogc:def:crs:EPSG::(\\d+)\""), {}};
   std::size_t at = 0;
   for (std::string one; !(one = between(text, at, "<bldg:Building gml:id=\"", "</bldg:Building>")).empty();) {
@@ -149,21 +143,6 @@ WrittenCity read_citygml(const std::filesystem::path& path) {
     building.height_mm = mm(std::stod(between(one, height_at, "<bldg:measuredHeight uom=\"m\">", "<")));
   }
   return city;
-}
-
-ScratchFolder::ScratchFolder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "farlod-city-XXXXXX").string();
-  path_ = mkdtemp(pattern.data());
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code nothing_to_remove;
-  std::filesystem::remove_all(path_, nothing_to_remove);
-}
-
-std::size_t ScratchFolder::file_count() const {
-  return static_cast<std::size_t>(
-      std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator{}));
 }
 
 }  // namespace farlod

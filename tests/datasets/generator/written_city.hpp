@@ -27,25 +27,10 @@ struct WrittenCity {
   std::map<std::string, WrittenBuilding> buildings;
 };
 
-[[nodiscard]] std::string text_of(const std::filesystem::path& path);
 [[nodiscard]] std::size_t count_of(const std::string& text, const std::string& word);
 [[nodiscard]] WrittenCity read_cityjson(const std::filesystem::path& path);
 [[nodiscard]] WrittenCity read_geojson(const std::filesystem::path& path);
 [[nodiscard]] WrittenCity read_obj(const std::filesystem::path& path);
 [[nodiscard]] WrittenCity read_citygml(const std::filesystem::path& path);
-
-/// A folder that is gone after the test.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  [[nodiscard]] std::size_t file_count() const;
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace farlod

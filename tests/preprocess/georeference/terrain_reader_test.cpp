@@ -5,13 +5,13 @@
 #include <gdal_priv.h>
 #include <gmock/gmock.h>
 #include <ogr_spatialref.h>
-#include <unistd.h>
 
 #include <array>
 #include <fstream>
 
 #include "city/input_error.hpp"
 #include "georeference/output_crs.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod::georeference {
 namespace {
@@ -20,18 +20,11 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Optional;
 
-/// A folder that goes with its test.
 class TerrainReader : public testing::Test {
  protected:
-  void SetUp() override {
-    GDALAllRegister();
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() / ("farlod_" + std::string(test->name()) + "_" + std::to_string(getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void SetUp() override { GDALAllRegister(); }
 
-  [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+  [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_.file(name); }
 
   /// Three columns and two rows of 10 m, the north row first, south-west corner at (1000, 2000).
   [[nodiscard]] std::filesystem::path small_grid() const {
@@ -41,7 +34,7 @@ class TerrainReader : public testing::Test {
   }
 
  private:
-  std::filesystem::path folder_;
+  scenes::TemporaryFolder folder_;
 };
 
 /// A frame in `code` whose origin is (500, 1500), so that forgetting it shows.

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/runtime/results/scratch_folder.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -13,7 +13,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 std::vector<RequestedPoint> points_in(const std::string& text) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   std::ofstream(folder.file("points.csv"), std::ios::binary) << text;
   return read_points_csv(folder.file("points.csv"));
 }

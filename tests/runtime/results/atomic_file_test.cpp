@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "results/output_error.hpp"
-#include "tests/runtime/results/scratch_folder.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -17,24 +17,24 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST(AtomicFile, AppearsUnderItsNameOnly) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   write_text_atomically(folder.file("a.csv"), [&folder](std::ostream& out) {
     EXPECT_FALSE(std::filesystem::exists(folder.file("a.csv")));
     out << "whole";
   });
   EXPECT_THAT(folder.names(), ElementsAre("a.csv"));
-  EXPECT_EQ(text_of(folder.file("a.csv")), "whole");
+  EXPECT_EQ(scenes::text_of(folder.file("a.csv")), "whole");
 }
 
 TEST(AtomicFile, ReplacesAnOlderFile) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   for (const char* text : {"older and longer", "new"})
     write_text_atomically(folder.file("a.csv"), [text](std::ostream& out) { out << text; });
-  EXPECT_EQ(text_of(folder.file("a.csv")), "new");
+  EXPECT_EQ(scenes::text_of(folder.file("a.csv")), "new");
 }
 
 TEST(AtomicFile, LeavesNothingBehindWhenTheWriterFails) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const auto fail = [](std::ostream& out) {
     out << "half of it";
     throw std::runtime_error("no more");
@@ -44,21 +44,21 @@ TEST(AtomicFile, LeavesNothingBehindWhenTheWriterFails) {
 }
 
 TEST(AtomicFile, LeavesNothingBehindWhenTheDiskRefuses) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const auto refuse = [](std::ostream& out) { out.setstate(std::ios::badbit); };
   EXPECT_THROW(write_text_atomically(folder.file("a.csv"), refuse), OutputError);
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
 TEST(AtomicFile, LeavesNothingBehindWhenTheNameIsTaken) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   std::filesystem::create_directories(folder.file("a.csv") / "inside");
   EXPECT_THROW(write_text_atomically(folder.file("a.csv"), [](std::ostream& out) { out << "x"; }), OutputError);
   EXPECT_THAT(folder.names(), ElementsAre("a.csv"));
 }
 
 TEST(AtomicFile, NamesTheFileAndTheReason) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   try {
     write_text_atomically(folder.file("missing") / "a.csv", [](std::ostream& out) { out << "x"; });
     FAIL() << "a folder that does not exist was written to";

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/runtime/results/raster/whole_raster.hpp"
-#include "tests/runtime/results/scratch_folder.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -50,18 +50,18 @@ WholeRaster raster_with_bounds() {
   return raster;
 }
 
-std::string pixels_file(const OutputFormat& format, WholeRaster raster, const ScratchFolder& folder) {
+std::string pixels_file(const OutputFormat& format, WholeRaster raster, const scenes::TemporaryFolder& folder) {
   const std::filesystem::path path = folder.file("a" + std::string(format.endings[0]));
   {
     const auto writer = format.raster_writer(raster, path);
     for (const RasterTile& tile : tiles_of(raster)) writer->write(tile);
     writer->commit();
   }
-  return text_of(path);
+  return scenes::text_of(path);
 }
 
 TEST(OutputFormat, EachWritesAFileOfItsEnding) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   for (const OutputFormat& format : output_formats()) {
     if (format.kind != OutputKind::table) {
       EXPECT_NE(pixels_file(format, raster_with_bounds(), folder), "") << format.name;
@@ -69,13 +69,13 @@ TEST(OutputFormat, EachWritesAFileOfItsEnding) {
     }
     const std::filesystem::path path = folder.file("a" + std::string(format.endings[0]));
     format.write_points({1, [](std::size_t) { return PointRow{}; }}, {"svf", BoundsColumns::yes}, path);
-    EXPECT_NE(text_of(path), "") << format.name;
+    EXPECT_NE(scenes::text_of(path), "") << format.name;
     EXPECT_EQ(format.surface_tables_writer({"svf", BoundsColumns::yes}, path)->commit({}, {}).front(), path) << format.name;
   }
 }
 
 TEST(OutputFormat, ARasterThatHoldsBoundsWritesThem) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   for (const OutputFormat& format : output_formats()) {
     if (format.kind == OutputKind::table) continue;
     WholeRaster raster = raster_with_bounds();

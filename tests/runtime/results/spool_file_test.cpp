@@ -7,7 +7,7 @@
 #include <string>
 
 #include "results/output_error.hpp"
-#include "tests/runtime/results/scratch_folder.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -24,7 +24,7 @@ std::string read(SpoolFile& file, std::uint64_t place, std::size_t size) {
 }
 
 TEST(SpoolFile, GivesBackWhatWaitsInAnyOrder) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   SpoolFile file(folder.file("a.csv"));
   const auto first = append(file, "one"), second = append(file, "two"), nothing = append(file, "");
   EXPECT_EQ(read(file, second, 3), "two");
@@ -35,7 +35,7 @@ TEST(SpoolFile, GivesBackWhatWaitsInAnyOrder) {
 }
 
 TEST(SpoolFile, GoesWhenItsResultIsDone) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   {
     SpoolFile file(folder.file("a.csv"));
     (void)append(file, "one");
@@ -45,7 +45,7 @@ TEST(SpoolFile, GoesWhenItsResultIsDone) {
 }
 
 TEST(SpoolFile, SaysWhichResultItCannotWaitFor) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   try {
     const SpoolFile file(folder.file("missing") / "a.csv");
     FAIL() << "a folder that does not exist was written to";

@@ -12,7 +12,7 @@
 #include "results/picture/png_writer.hpp"
 #include "results/picture/raster_preview.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
-#include "tests/runtime/results/scratch_folder.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -121,7 +121,7 @@ TEST(PreviewLayout, HoldsAllItsParts) {
 }
 
 TEST(Preview, DecodesToTheStatedSizeAndColours) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   write_whole<PngPreviewWriter>(small_raster(), folder.file("a.png"));
   EXPECT_THAT(folder.names(), testing::ElementsAre("a.png"));
   const Picture picture = decode_png(folder.file("a.png"));
@@ -138,7 +138,7 @@ TEST(Preview, DecodesToTheStatedSizeAndColours) {
 }
 
 TEST(Preview, LeavesNothingBehindOnFailure) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   std::filesystem::create_directories(folder.file("a.png") / "inside");
   EXPECT_THROW(write_png(Picture({2, 2}, {}), folder.file("a.png")), OutputError);
   EXPECT_THAT(folder.names(), testing::ElementsAre("a.png"));

@@ -12,7 +12,7 @@
 #include "results/raster/raster_writer_esri_ascii.hpp"
 #include "results/raster/raster_writer_gdal.hpp"
 #include "tests/runtime/results/raster/whole_raster.hpp"
-#include "tests/runtime/results/scratch_folder.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -64,7 +64,7 @@ void write_backwards(RasterWriter& writer, const WholeRaster& raster) {
 }
 
 TEST(GeotiffTiles, HoldTheSameValuesInWhateverOrderTheyCome) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const WholeRaster raster = raster_of_six_tiles();
   GeotiffWriter writer(raster, folder.file("a.tif"));
   write_backwards(writer, raster);
@@ -75,13 +75,13 @@ TEST(GeotiffTiles, HoldTheSameValuesInWhateverOrderTheyCome) {
 }
 
 TEST(GeotiffTiles, TheSameOrderMakesTheSameBytes) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const WholeRaster raster = raster_of_six_tiles();
   for (const char* name : {"a.tif", "b.tif"}) {
     GeotiffWriter writer(raster, folder.file(name));
     write_backwards(writer, raster);
   }
-  EXPECT_EQ(text_of(folder.file("a.tif")), text_of(folder.file("b.tif")));
+  EXPECT_EQ(scenes::text_of(folder.file("a.tif")), scenes::text_of(folder.file("b.tif")));
 }
 
 /// A raster without the first of its tiles, which is without answers in it.
@@ -99,7 +99,7 @@ struct WithoutOneTile {
 };
 
 TEST(GeotiffTiles, WhatDoesNotComeHasNoData) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const WithoutOneTile without;
   GeotiffWriter writer(without.raster, folder.file("a.tif"));
   for (const RasterTile& tile : without.tiles) writer.write(tile);
@@ -111,7 +111,7 @@ TEST(GeotiffTiles, WhatDoesNotComeHasNoData) {
 }
 
 TEST(EsriAsciiTiles, MakeTheSameFileInWhateverOrderTheyCome) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const WholeRaster raster = raster_of_six_tiles();
   {
     EsriAsciiWriter writer(raster, folder.file("a.asc"));
@@ -119,24 +119,24 @@ TEST(EsriAsciiTiles, MakeTheSameFileInWhateverOrderTheyCome) {
   }
   write_whole<EsriAsciiWriter>(raster, folder.file("b.asc"));
   EXPECT_THAT(folder.names(), testing::UnorderedElementsAre("a.asc", "b.asc"));
-  EXPECT_EQ(text_of(folder.file("a.asc")), text_of(folder.file("b.asc")));
+  EXPECT_EQ(scenes::text_of(folder.file("a.asc")), scenes::text_of(folder.file("b.asc")));
   std::vector<float> expected = raster.svf;
   for (float& svf : expected) svf = std::isnan(svf) ? -9999.0F : svf;
   EXPECT_EQ(band_of(folder.file("a.asc"), 1), expected);
 }
 
 TEST(EsriAsciiTiles, WhatDoesNotComeHasNoData) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const WithoutOneTile without;
   EsriAsciiWriter writer(without.raster, folder.file("a.asc"));
   for (const RasterTile& tile : without.tiles) writer.write(tile);
   writer.commit();
   write_whole<EsriAsciiWriter>(without.raster, folder.file("b.asc"));
-  EXPECT_EQ(text_of(folder.file("a.asc")), text_of(folder.file("b.asc")));
+  EXPECT_EQ(scenes::text_of(folder.file("a.asc")), scenes::text_of(folder.file("b.asc")));
 }
 
 TEST(EsriAsciiTiles, NothingIsLeftOfAFileThatIsGivenUp) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const WholeRaster raster = raster_of_six_tiles();
   {
     EsriAsciiWriter ascii(raster, folder.file("a.asc"));
@@ -150,12 +150,12 @@ TEST(EsriAsciiTiles, NothingIsLeftOfAFileThatIsGivenUp) {
 }
 
 TEST(PngTiles, MakeTheSamePictureInWhateverOrderTheyCome) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const WholeRaster raster = raster_of_six_tiles();
   PngPreviewWriter writer(raster, folder.file("a.png"));
   write_backwards(writer, raster);
   write_whole<PngPreviewWriter>(raster, folder.file("b.png"));
-  EXPECT_EQ(text_of(folder.file("a.png")), text_of(folder.file("b.png")));
+  EXPECT_EQ(scenes::text_of(folder.file("a.png")), scenes::text_of(folder.file("b.png")));
 }
 
 }  // namespace

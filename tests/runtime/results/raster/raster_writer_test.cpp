@@ -13,7 +13,7 @@
 #include "results/raster/raster_writer_esri_ascii.hpp"
 #include "results/raster/raster_writer_gdal.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
-#include "tests/runtime/results/scratch_folder.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -50,7 +50,7 @@ void expect_place_of(const WholeRaster& raster, GDALDataset& dataset) {
 }
 
 TEST(GeoTiff, LiesWhereTheRasterLies) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   write_whole<GeotiffWriter>(small_raster(), folder.file("a.tif"));
   EXPECT_THAT(folder.names(), ElementsAre("a.tif"));
   const auto dataset = open_raster(folder.file("a.tif"));
@@ -59,7 +59,7 @@ TEST(GeoTiff, LiesWhereTheRasterLies) {
 }
 
 TEST(GeoTiff, HoldsTheValuesAndDeclaresNoData) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   write_whole<GeotiffWriter>(small_raster(), folder.file("a.tif"));
   const auto dataset = open_raster(folder.file("a.tif"));
   ASSERT_NE(dataset, nullptr);
@@ -73,14 +73,14 @@ TEST(GeoTiff, HoldsTheValuesAndDeclaresNoData) {
 }
 
 TEST(GeoTiff, HasTheSameBytesEachTime) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   write_whole<GeotiffWriter>(small_raster(), folder.file("a.tif"));
   write_whole<GeotiffWriter>(small_raster(), folder.file("b.tif"));
-  EXPECT_EQ(text_of(folder.file("a.tif")), text_of(folder.file("b.tif")));
+  EXPECT_EQ(scenes::text_of(folder.file("a.tif")), scenes::text_of(folder.file("b.tif")));
 }
 
 TEST(GeoTiff, KeepsACrsWithoutACode) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   WholeRaster raster = small_raster();
   raster.crs_wkt =
       R"(PROJCS["town",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",48.25],PARAMETER["central_meridian",11.5],PARAMETER["scale_factor",1],PARAMETER["false_easting",0],PARAMETER["false_northing",0],UNIT["metre",1]])";
@@ -90,7 +90,7 @@ TEST(GeoTiff, KeepsACrsWithoutACode) {
 }
 
 TEST(GeoTiff, LeavesNothingBehindOnFailure) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   WholeRaster raster = small_raster();
   raster.crs_wkt = "PROJCS[";
   EXPECT_THROW(write_whole<GeotiffWriter>(raster, folder.file("a.tif")), OutputError);
@@ -98,7 +98,7 @@ TEST(GeoTiff, LeavesNothingBehindOnFailure) {
 }
 
 TEST(GeoTiff, NamesTheFileThatCannotBeWritten) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   try {
     write_whole<GeotiffWriter>(small_raster(), folder.file("missing") / "a.tif");
     FAIL() << "a folder that does not exist was written to";
@@ -108,7 +108,7 @@ TEST(GeoTiff, NamesTheFileThatCannotBeWritten) {
 }
 
 TEST(EsriAscii, IsReadByGdalAsTheSameRaster) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   write_whole<EsriAsciiWriter>(small_raster(), folder.file("a.asc"));
   EXPECT_THAT(folder.names(), UnorderedElementsAre("a.asc", "a.prj"));
   const auto dataset = open_raster(folder.file("a.asc"));
@@ -122,7 +122,7 @@ TEST(EsriAscii, IsReadByGdalAsTheSameRaster) {
 }
 
 TEST(EsriAscii, TheCrsOfAPackageIsReadByGdal) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   // Packages say their CRS in WKT 2
   OGRSpatialReference crs;
   ASSERT_EQ(crs.importFromEPSG(25832), OGRERR_NONE);
@@ -143,7 +143,7 @@ TEST(EsriAscii, TheCrsOfAPackageIsReadByGdal) {
 TEST(EsriWkt, WhatIsNoWktComesBackAsItIs) { EXPECT_EQ(esri_wkt_of("no WKT"), "no WKT"); }
 
 TEST(EsriAscii, OpenFieldIsNotTakenForIntegers) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   WholeRaster raster = small_raster();
   raster.svf.assign(raster.svf.size(), 1.0F);
   write_whole<EsriAsciiWriter>(raster, folder.file("a.asc"));
@@ -151,7 +151,7 @@ TEST(EsriAscii, OpenFieldIsNotTakenForIntegers) {
 }
 
 TEST(EsriAscii, WithoutCrsHasNoPrj) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   WholeRaster raster = small_raster();
   raster.crs_wkt.clear();
   write_whole<EsriAsciiWriter>(raster, folder.file("a.asc"));

@@ -6,7 +6,7 @@
 
 #include "receivers/point_reader.hpp"
 #include "results/table/csv_text.hpp"
-#include "tests/runtime/results/scratch_folder.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -44,23 +44,23 @@ TEST(CsvText, SeparatesFieldsAndEndsRows) {
 }
 
 TEST(PointsCsv, IsAsDocumented) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const std::vector<PointRow> rows{{"square, north", {500000.12345, 5700010.0}, 1.5, 0.5, 0.25, 0.75},
                                    {"inside", {1.0, -2.25}, {}, {}, {}, {}}};
   write_points_csv(point_rows(rows), {"svf_solid", BoundsColumns::no}, folder.file("a.csv"));
-  EXPECT_EQ(text_of(folder.file("a.csv")),
+  EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
             "id,x_m,y_m,z_m,svf_solid\n"
             "\"square, north\",500000.123,5700010,1.5,0.500000\n"
             "inside,1,-2.25,,\n");
   write_points_csv(point_rows(rows), {"svf", BoundsColumns::yes}, folder.file("b.csv"));
-  EXPECT_EQ(text_of(folder.file("b.csv")),
+  EXPECT_EQ(scenes::text_of(folder.file("b.csv")),
             "id,x_m,y_m,z_m,svf,svf_low,svf_high\n"
             "\"square, north\",500000.123,5700010,1.5,0.500000,0.250000,0.750000\n"
             "inside,1,-2.25,,,,\n");
 }
 
 TEST(PointsCsv, CanBeReadAsPointsAgain) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const std::vector<PointRow> rows{{"the \"first\", quoted\nover two lines", {500000.125, 5700010.25}, 1.5, 0.5, {}, {}},
                                    {"2nd", {1.0, -2.25}, {}, {}, {}, {}}};
   write_points_csv(point_rows(rows), {"svf", BoundsColumns::no}, folder.file("a.csv"));
@@ -74,21 +74,21 @@ TEST(PointsCsv, CanBeReadAsPointsAgain) {
 }
 
 TEST(SurfacePointsCsv, IsAsDocumented) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const std::vector<SurfacePointRow> rows{
       {"b1", 7, SurfaceKind::wall, {10.0, 20.0, 3.125}, Angle::degrees(181.25), Angle::degrees(90.0), 4.0, 0.25, 0.125, 0.5}};
   write_surface_points(rows, {"svf", BoundsColumns::no}, folder.file("a.csv"));
-  EXPECT_EQ(text_of(folder.file("a.csv")),
+  EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
             "building,surface,kind,x_m,y_m,z_m,azimuth_deg,tilt_deg,area_m2,svf\n"
             "b1,7,wall,10,20,3.125,181.25,90,4,0.250000\n");
   write_surface_points(rows, {"svf", BoundsColumns::yes}, folder.file("b.csv"));
-  EXPECT_EQ(text_of(folder.file("b.csv")),
+  EXPECT_EQ(scenes::text_of(folder.file("b.csv")),
             "building,surface,kind,x_m,y_m,z_m,azimuth_deg,tilt_deg,area_m2,svf,svf_low,svf_high\n"
             "b1,7,wall,10,20,3.125,181.25,90,4,0.250000,0.125000,0.500000\n");
 }
 
 TEST(SurfacePointsCsv, PartsStandInOrderHoweverTheyCome) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   std::vector<SurfacePointRow> rows(5);
   for (std::size_t n = 0; n < rows.size(); ++n) rows[n].surface = static_cast<std::uint32_t>(n);
   const std::span<const SurfacePointRow> all(rows);
@@ -101,24 +101,24 @@ TEST(SurfacePointsCsv, PartsStandInOrderHoweverTheyCome) {
     table.commit();
   }
   write_surface_points(rows, {"svf", BoundsColumns::no}, folder.file("b.csv"));
-  EXPECT_EQ(text_of(folder.file("a.csv")), text_of(folder.file("b.csv")));
+  EXPECT_EQ(scenes::text_of(folder.file("a.csv")), scenes::text_of(folder.file("b.csv")));
   EXPECT_EQ(folder.names().size(), 2U);
 }
 
 TEST(SurfacesCsv, IsAsDocumented) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   std::vector<SurfaceRow> rows(2);
   rows[0] = {"b1", 0, SurfaceKind::roof, Angle::degrees(0.0), Angle::degrees(0.0), 100.5, 25, 1, 0.75, 0.5, 1.0};
   rows[1].building = "b2";
   write_surfaces_csv(rows, "svf", folder.file("a.csv"));
-  EXPECT_EQ(text_of(folder.file("a.csv")),
+  EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
             "building,surface,kind,azimuth_deg,tilt_deg,area_m2,receivers,nodata,svf_mean,svf_min,svf_max\n"
             "b1,0,roof,0,0,100.5,25,1,0.750000,0.500000,1.000000\n"
             "b2,0,unknown,0,0,0,0,0,,,\n");
 }
 
 TEST(SurfaceTablesCsv, AreThreeFilesThatAppearTogether) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const std::vector<SurfacePointRow> rows(1);
   SurfaceTablesCsv tables({"svf", BoundsColumns::yes}, folder.file("a.b.csv"));
   tables.write_part(3, rows);
@@ -127,14 +127,14 @@ TEST(SurfaceTablesCsv, AreThreeFilesThatAppearTogether) {
   const std::vector<std::filesystem::path> expected{folder.file("a.b.csv"), folder.file("a.b.surfaces.csv"),
                                                     folder.file("a.b.buildings.csv")};
   EXPECT_EQ(files, expected);
-  for (const auto& file : expected) EXPECT_NE(text_of(file), "") << file;
+  for (const auto& file : expected) EXPECT_NE(scenes::text_of(file), "") << file;
 }
 
 TEST(BuildingsCsv, IsAsDocumented) {
-  const ScratchFolder folder;
+  const scenes::TemporaryFolder folder;
   const std::vector<BuildingRow> rows{{"b1", 100.0, 0.0, 25, 0, 0.75, std::nullopt}};
   write_buildings_csv(rows, "svf", folder.file("a.csv"));
-  EXPECT_EQ(text_of(folder.file("a.csv")),
+  EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
             "building,roof_area_m2,wall_area_m2,receivers,nodata,svf_roofs,svf_walls\n"
             "b1,100,0,25,0,0.750000,\n");
 }
