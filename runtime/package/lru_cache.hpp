@@ -22,9 +22,6 @@ class LruCache {
   /// An item is used, and is kept from now on. Returns the items that are evicted for it, the longest unused first.
   [[nodiscard]] std::vector<std::size_t> use(std::size_t item, std::uint64_t bytes);
 
-  [[nodiscard]] std::size_t count() const { return by_use_.size(); }
-  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
-
  private:
   struct Kept {
     std::size_t item;

@@ -164,9 +164,4 @@ void Package::hold_at_most(std::uint64_t bytes) {
   impl_->held.keep_at_most(bytes);
 }
 
-Package::Held Package::held() const {
-  const std::lock_guard lock(impl_->held_mutex);
-  return {impl_->held.count(), impl_->held.bytes()};
-}
-
 }  // namespace farlod

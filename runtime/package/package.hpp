@@ -53,12 +53,6 @@ class Package {
   /// From the next question on, the blocks hold no more memory than this together, except that one block always has room. There
   /// is no such limit before.
   void hold_at_most(std::uint64_t bytes);
-  /// The blocks in memory now, and what they hold at the most.
-  struct Held {
-    std::size_t blocks = 0;
-    std::uint64_t bytes = 0;
-  };
-  [[nodiscard]] Held held() const;
 
  private:
   struct Impl;

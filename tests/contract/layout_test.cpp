@@ -158,14 +158,6 @@ TEST(Layout, ExplicitOccluderIsDocumented) {
   EXPECT_DOCUMENTED(ExplicitOccluder, layers);
 }
 
-TEST(Layout, ExplicitOccludersAreDrawnWhereBothBitsAreSet) {
-  const ExplicitOccluder occluder{0, 0b0101, 0b10};
-  EXPECT_TRUE(occluder.is_in(0, 1));
-  EXPECT_TRUE(occluder.is_in(2, 1));
-  EXPECT_FALSE(occluder.is_in(1, 1));
-  EXPECT_FALSE(occluder.is_in(0, 0));
-}
-
 TEST(Layout, VersionAndChannelsAreDocumented) {
   const std::string document = format_document();
   EXPECT_NE(document.find("# The package format, version " + std::to_string(format_version) + "\n"), std::string::npos);

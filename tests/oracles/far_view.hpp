@@ -16,6 +16,7 @@
 #include "package/far_horizon.hpp"
 #include "tests/oracles/azimuth_fan.hpp"
 #include "tests/oracles/distance_to_segment.hpp"
+#include "tests/oracles/explicit_in_patch.hpp"
 
 namespace farlod {
 
@@ -101,11 +102,10 @@ inline void FarView::draw_explicit(const Point3f& p_cell, std::optional<std::uin
   std::fill(low_.begin(), low_.end(), 0.0F);
   std::fill(high_.begin(), high_.end(), 0.0F);
   const Point3d eye{p_cell.x, p_cell.y, p_cell.z};
-  const std::uint32_t squares = map_.patches.squares();
   for (std::size_t n = 0; n < edges_cell_.size(); ++n) {
     const package::ExplicitOccluder& occluder = map_.occluders.explicit_edges[n];
     if (map_.occluders.edges[occluder.row].role == EdgeRole::underside) continue;
-    if (!patch || occluder.is_in(*patch % squares, *patch / squares)) draw({edges_cell_[n].a - eye, edges_cell_[n].b - eye});
+    if (!patch || is_explicit_in(occluder, map_.patches, *patch)) draw({edges_cell_[n].a - eye, edges_cell_[n].b - eye});
   }
 }
 

@@ -158,9 +158,6 @@ struct ExplicitOccluder {
   std::uint32_t row;
   std::uint16_t squares;
   std::uint16_t layers;
-  [[nodiscard]] bool is_in(std::uint32_t square, std::uint32_t layer) const {
-    return ((squares >> square) & 1U) != 0 && ((layers >> layer) & 1U) != 0;
-  }
 };
 static_assert(sizeof(ExplicitOccluder) == 8);
 

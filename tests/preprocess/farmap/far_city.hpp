@@ -11,6 +11,7 @@
 #include "farlod/grid.hpp"
 #include "farlod/horizon/edge_facing.hpp"
 #include "farmap/baked_block.hpp"
+#include "tests/oracles/explicit_in_patch.hpp"
 #include "tests/preprocess/farmap/sight.hpp"
 #include "tiles/tile_set.hpp"
 
@@ -51,14 +52,13 @@ struct FarThing {
                             map.patches.levels_m().front(), std::max(t.a.z, t.b.z));
 }
 
-/// What is explicit in one patch of a cell's map.
+/// The explicit occluders of a cell's map for one of its patches.
 [[nodiscard]] inline std::set<FarThing> explicit_in(const BakedHorizons& block, const BakedHorizon& map, std::uint32_t patch) {
-  const std::uint32_t square = patch % map.patches.squares(), layer = patch / map.patches.squares();
   const auto stored = [](const Point3f& p) { return std::array<float, 3>{p.x, p.y, p.z}; };
   std::set<FarThing> things;
   for (const package::ExplicitOccluder& occluder : map.explicit_edges) {
     const HorizonEdge& e = block.edges[occluder.row];
-    if (occluder.is_in(square, layer)) things.insert({{}, {}, {stored(e.a), stored(e.b)}, e.adjacent, e.role});
+    if (is_explicit_in(occluder, map.patches, patch)) things.insert({{}, {}, {stored(e.a), stored(e.b)}, e.adjacent, e.role});
   }
   return things;
 }
