@@ -41,7 +41,8 @@ CellSilhouettes cell_silhouettes(const Package& package, Cell cell, const FarHor
     const Point2d shift_m = grid.corner_of(neighbor) - grid.corner_of(cell);
     package.tile(neighbor).visit_edges([&](const HorizonEdge& e) { add(e, shift_m, silhouettes, silhouettes.near); });
   }
-  // Far: the explicit edges that matter in the receivers' layers
+  // Far: the explicit edges that matter in the receivers' layers. Their squares do not count: farlod-pack makes one square a
+  // cell, and an explicit edge drawn in another square hides what the city hides there too
   const std::uint32_t layers = far.layers_met_from(box.low.z, box.high.z);
   for (const package::ExplicitOccluder& n : far.occluders.explicit_edges)
     if ((n.layers & layers) != 0) add(far.occluders.edges[n.row], far.occluders.cell_from_block_m, silhouettes, silhouettes.far);
