@@ -20,7 +20,7 @@ bool is_folder(const InputFile& file) {
   return !file.is_packed() && fs::is_directory(file.path, error);
 }
 
-/// Some of GDAL's formats are folders.
+/// A folder is never empty: some formats of GDAL are folders.
 bool is_empty(const InputFile& file) {
   if (file.declared_bytes) return *file.declared_bytes == 0;
   return !is_folder(file) && read_beginning(file, 1).empty();
@@ -47,14 +47,14 @@ SourceCity ingest_obj(const InputFile& file, const IngestSettings& settings, Rep
   const Point3d origin = settings.obj_origin ? *settings.obj_origin : placement.origin.value_or(Point3d{});
   CityModelBuilder builder(file.name, report);
   read_obj(file, {origin, settings.up}, builder);
-  // Meshes are drawn with x to the east, whatever order of axes an authority gives to the system
+  // Meshes have x to the east, whatever the order of axes in the definition of the CRS
   return {.source = file.name,
           .crs = {placement.crs, true, false},
           .city = builder.take_city(),
           .notes = notes_of(placement, file, settings.obj_origin.has_value())};
 }
 
-/// GDAL unpacks as much as there is: an archive that unpacks without an end has to be known before.
+/// Throws InputError for an archive that unpacks to too much. GDAL, which reads the file next, has no such limit.
 void require_city_size(const InputFile& file) {
   if (!file.is_packed()) return;
   const std::unique_ptr<std::istream> stream = open_input(file);
@@ -82,7 +82,7 @@ SourceCity read(const InputFile& file, const IngestSettings& settings, Report& r
   return read_footprints(file, settings.footprints, report);
 }
 
-/// Of several files one that cannot be used costs itself only.
+/// Reads one of several files. A file that cannot be used is reported and does not end the run.
 void ingest_among_others(const InputFile& file, const IngestSettings& settings, Report& report, std::vector<SourceCity>& cities) {
   try {
     if (is_empty(file))

@@ -17,12 +17,12 @@ namespace farlod::ingest {
 ///   (2) a building comes in one level of detail, and each of its polygons once;
 ///   (3) rings have at least three different points, no vertex twice in a row, and only finite coordinates;
 ///   (4) what is left out or repaired is in the report;
-///   (5) its content says what format it is, and its name only what it was meant to be where the content does not tell.
+///   (5) its content decides which format it is; its name decides only where the content does not.
 /// Throws InputError when the file as a whole cannot be used, or when neither a building nor a point of a relief is left.
 [[nodiscard]] SourceCity ingest(const InputFile& file, const IngestSettings& settings, Report& report);
 
-/// Reads the files of a city one by one. Of several files one that is empty, or that cannot be used as a whole, is in the report
-/// and left out. Throws InputError when none is left; a single file is `ingest`'s.
+/// Reads the files of a city one by one. If there are several, a file that is empty or cannot be used as a whole is reported and
+/// left out. Throws InputError when none is left. A single file is read as `ingest` reads it.
 [[nodiscard]] std::vector<SourceCity> ingest_all(std::span<const InputFile> files, const IngestSettings& settings,
                                                  Report& report);
 

@@ -23,15 +23,16 @@ bool is_usable(const GmlPolygon& polygon) {
   return clean_ring(outer, RingEnd::repeats_first).state == RingState::usable;
 }
 
-/// Whether a level of detail may be chosen for the sake of such a surface: a lone chimney does not make a building.
+/// Whether a surface of this role makes its level of detail eligible. A chimney alone does not.
 bool makes_a_building(SurfaceRole role) { return role != SurfaceRole::installation && role != SurfaceRole::element; }
 
 bool is_element(SurfaceRole role) { return role == SurfaceRole::element; }
 
 class BuildingAssembler {
  public:
-  BuildingAssembler(const CityGmlBuilding& building, const GmlSurfaces& foreign, Borrowing& borrowing, CityModelBuilder& builder)
-      : building_(building), foreign_(foreign), borrowing_(borrowing), builder_(builder) {}
+  BuildingAssembler(const CityGmlBuilding& building, const GmlSurfaces& foreign, ReferenceBudget& budget,
+                    CityModelBuilder& builder)
+      : building_(building), foreign_(foreign), budget_(budget), builder_(builder) {}
 
   void add(LodChoice lod) {
     const std::vector<std::vector<double>> lods = usable_lods();
@@ -58,7 +59,7 @@ class BuildingAssembler {
 
   std::vector<std::vector<double>> usable_lods(bool (*counts)(SurfaceRole)) {
     std::vector<std::set<double>> found(building_.measured_height_m.size());
-    ReferenceWalk walk(building_.surfaces, foreign_, borrowing_);
+    ReferenceWalk walk(building_.surfaces, foreign_, budget_);
     for (const GmlMember& member : building_.surfaces.members) {
       const SurfaceUse& use = building_.uses[member.use];
       std::set<double>& lods = found[use.part];
@@ -71,27 +72,27 @@ class BuildingAssembler {
 
   bool is_chosen(const SurfaceUse& use) const { return can_be_used(use) && chosen_[use.part] && *chosen_[use.part] == use.lod; }
 
-  /// Semantic surfaces come first, so that it is their copies in solids which are found to be copies.
+  /// Semantic surfaces come first, so that of two equal polygons the one in the solid is the copy.
   void collect_wanted() {
-    std::map<std::optional<std::size_t>, ReferenceWalk> walks;  // A prototype is there once for each of its places
+    std::map<std::optional<std::size_t>, ReferenceWalk> walks;  // one for each placement: it places the same surfaces again
     for (const bool shells : {false, true})
       for (const GmlMember& member : building_.surfaces.members) {
         const SurfaceUse& use = building_.uses[member.use];
         if ((use.role == SurfaceRole::shell) != shells || !is_chosen(use)) continue;
-        ReferenceWalk& walk = walks.try_emplace(use.placement, building_.surfaces, foreign_, borrowing_).first->second;
+        ReferenceWalk& walk = walks.try_emplace(use.placement, building_.surfaces, foreign_, budget_).first->second;
         walk.each(member, [&](const ResolvedPolygon& p) { want({p, &use}); });
       }
     for (const auto& [placement, walk] : walks) dangling_.insert(walk.dangling().begin(), walk.dangling().end());
   }
 
   void want(const WantedPolygon& p) {
-    if (p.use->placement && !borrowing_.take(p.resolved.polygon->point_count())) return;
+    if (p.use->placement && !budget_.take(p.resolved.polygon->point_count())) return;
     if (p.use->role == SurfaceRole::footprint && is_usable(*p.resolved.polygon)) parts_with_footprint_.insert(p.use->part);
     wanted_.push_back(p);
   }
 
-  /// Of several solids, or of a solid and semantic surfaces: semantic surfaces and installations are never each other's
-  /// copies, since two parts may well share a wall.
+  /// Whether a polygon of a shell repeats an earlier polygon of its part. Semantic surfaces and installations are never copies of
+  /// each other, since two of them may share a wall.
   bool is_copy(const WantedPolygon& p) {
     if (p.use->placement) return false;
     const Rings& rings = p.resolved.polygon->rings;
@@ -139,20 +140,20 @@ class BuildingAssembler {
 
   void report_unread() {
     for (const std::string& href : dangling_)
-      builder_.add_problem(ProblemCode::dangling_reference, "nothing in the file is called " + href);
+      builder_.add_problem(ProblemCode::dangling_reference, "the reference " + href + " leads to nothing in the file");
     for (const auto& [what, times] : building_.unread)
       builder_.add_problem(ProblemCode::unsupported_geometry,
                            what + " is not read" + (times > 1 ? " (" + std::to_string(times) + " times)" : ""));
-    if (borrowing_.refusals() > refusals_before_)
+    if (budget_.refusals() > refusals_before_)
       builder_.add_problem(ProblemCode::unsupported_geometry,
                            "some of what it refers to is left out: the references of this file have brought in " +
-                               std::to_string(borrowing_.most_points()) + " points, and no more are read");
+                               std::to_string(budget_.most_points()) + " points, and no more are read");
   }
 
   void report_other_lods(const std::vector<std::vector<double>>& lods) {
     if (std::none_of(chosen_.begin(), chosen_.end(), [](const std::optional<double>& lod) { return lod.has_value(); })) return;
     std::size_t others = 0;
-    ReferenceWalk walk(building_.surfaces, foreign_, borrowing_);
+    ReferenceWalk walk(building_.surfaces, foreign_, budget_);
     for (const GmlMember& member : building_.surfaces.members)
       if (const SurfaceUse& use = building_.uses[member.use]; can_be_used(use) && !is_chosen(use))
         walk.each(member, [&](const ResolvedPolygon&) { ++others; });
@@ -161,15 +162,15 @@ class BuildingAssembler {
 
   const CityGmlBuilding& building_;
   const GmlSurfaces& foreign_;
-  Borrowing& borrowing_;
-  const std::size_t refusals_before_ = borrowing_.refusals();
+  ReferenceBudget& budget_;
+  const std::size_t refusals_before_ = budget_.refusals();
   CityModelBuilder& builder_;
   std::vector<std::optional<double>> chosen_;
   std::vector<WantedPolygon> wanted_;
   std::set<std::uint16_t> parts_with_footprint_;
   std::set<std::string> dangling_;
   PolygonDeduplicator seen_{SamePolygon::corners};
-  std::vector<const Rings*> compared_;  ///< by the numbers of `seen_`
+  std::vector<const Rings*> compared_;  ///< by their numbers in `seen_`
 };
 
 }  // namespace
@@ -182,15 +183,15 @@ void CityGmlBuilding::add_unread(std::string what) {
 
 std::vector<std::string> foreign_references(const CityGmlBuilding& building) {
   const GmlSurfaces none;
-  Borrowing borrowing(none);
-  ReferenceWalk walk(building.surfaces, none, borrowing);
+  ReferenceBudget budget(none);
+  ReferenceWalk walk(building.surfaces, none, budget);
   for (const GmlMember& member : building.surfaces.members) walk.each(member, [](const ResolvedPolygon&) {});
   return walk.dangling();
 }
 
-void add_building(const CityGmlBuilding& building, const GmlSurfaces& foreign, LodChoice lod, Borrowing& borrowing,
+void add_building(const CityGmlBuilding& building, const GmlSurfaces& foreign, LodChoice lod, ReferenceBudget& budget,
                   CityModelBuilder& builder) {
-  BuildingAssembler(building, foreign, borrowing, builder).add(lod);
+  BuildingAssembler(building, foreign, budget, builder).add(lod);
 }
 
 }  // namespace farlod::ingest

@@ -22,10 +22,10 @@ enum class SurfaceRole {
   boundary,      ///< a semantic surface: RoofSurface, WallSurface ...
   shell,         ///< a solid or surface of the building itself, often a copy of the semantic ones
   installation,  ///< a chimney, a dormer, a balcony
-  element,       ///< a pylon or a deck: bridges and tunnels may consist of nothing else
+  element,       ///< a pylon or a deck: a bridge or tunnel may consist of such elements alone
   footprint,     ///< LoD 0, at the bottom
   roof_edge,     ///< LoD 0, at the top
-  inside,        ///< inside the building, as the file says only behind the geometry: it is not used
+  inside,        ///< an installation inside the building, which the file says after its geometry; not used
 };
 
 struct SurfaceUse {
@@ -41,19 +41,19 @@ struct CityGmlBuilding {
   std::string id;
   std::vector<SurfaceUse> uses;
   GmlSurfaces surfaces;
-  std::vector<std::optional<Placement>> placements;                    ///< empty: it cannot be placed, as `unread` tells
+  std::vector<std::optional<Placement>> placements;                    ///< empty: cannot be placed; `unread` has the reason
   std::vector<std::optional<double>> measured_height_m{std::nullopt};  ///< of the building and of each part
-  std::map<std::string, std::size_t> unread;                           ///< what is not read, and how often it was met
+  std::map<std::string, std::size_t> unread;                           ///< what is not read, with its number
 
-  /// Notes something that is not read. Few kinds are told apart, however many a file has.
+  /// Counts something that is not read. After a few kinds, all others are counted as one.
   void add_unread(std::string what);
 };
 
-/// The references of a building that nothing within it answers.
+/// The references of a building to ids that it does not contain.
 [[nodiscard]] std::vector<std::string> foreign_references(const CityGmlBuilding& building);
 
 /// Chooses the level of detail, and adds the building's polygons to the model: each once, semantic surfaces first.
-void add_building(const CityGmlBuilding& building, const GmlSurfaces& foreign, LodChoice lod, Borrowing& borrowing,
+void add_building(const CityGmlBuilding& building, const GmlSurfaces& foreign, LodChoice lod, ReferenceBudget& budget,
                   CityModelBuilder& builder);
 
 }  // namespace farlod::ingest

@@ -12,10 +12,10 @@
 namespace farlod::ingest {
 namespace {
 
-/// Of a height, or of a word: no more is needed, whatever a file has there.
+/// The longest text of a height or a keyword that is kept.
 constexpr std::size_t most_words = 256;
 
-/// Terrains that are pictures or lines, and clouds of points, which lie in other files.
+/// Reliefs that are not read: rasters, break lines, and point clouds in other files.
 bool is_unread_relief(std::string_view name) {
   return name == "RasterRelief" || name == "BreaklineRelief" || name == "PointCloud";
 }
@@ -134,7 +134,7 @@ std::optional<SurfaceRole> CityGmlParser::role_of_lod_property(int lod, std::str
   if (what == "RoofEdge") return SurfaceRole::roof_edge;
   if (what != "Solid" && what != "MultiSurface" && what != "Geometry") return std::nullopt;
   if (lod > 0) return role_here();
-  // CityGML 3.0 tells footprints and roof edges by the surface that has them
+  // In CityGML 3.0, the kind of the surface tells footprints from roof edges
   if (what != "MultiSurface" || !installations_.empty()) return std::nullopt;
   if (boundaries_ == 0 || kinds_.back() == SurfaceKind::floor) return SurfaceRole::footprint;
   return kinds_.back() == SurfaceKind::roof ? std::optional(SurfaceRole::roof_edge) : std::nullopt;
@@ -167,7 +167,7 @@ void CityGmlParser::begin_building(const XmlElement& element) {
 
 void CityGmlParser::begin_part() {
   FARLOD_EXPECTS(!building_.measured_height_m.empty());
-  // More than 65,535 parts: the last number serves for the rest, as parts only matter to the question "inside?"
+  // All parts beyond 65,535 share the last number. They count as one volume
   const std::size_t number = std::min<std::size_t>(building_.measured_height_m.size(), std::numeric_limits<std::uint16_t>::max());
   building_.measured_height_m.resize(number + 1);
   parts_.push_back(static_cast<std::uint16_t>(number));
@@ -191,7 +191,7 @@ void CityGmlParser::end(std::string_view name) {
 }
 
 void CityGmlParser::undo(Meaning meaning, std::string_view name) {
-  // Each of these put a kind on the stack when it began
+  // The beginning of each of these pushed a kind
   if (meaning == Meaning::part || meaning == Meaning::boundary || meaning == Meaning::installation) kinds_.pop_back();
   switch (meaning) {
     case Meaning::nothing:
@@ -240,7 +240,7 @@ void CityGmlParser::end_building() {
 }
 
 void CityGmlParser::end_installation() {
-  // CityGML 3.0 says where an installation stands only behind its geometry
+  // CityGML 3.0 says only after the geometry whether an installation is inside
   if (installations_.back().is_inside)
     for (std::size_t k = installations_.back().first_use; k < building_.uses.size(); ++k)
       building_.uses[k].role = SurfaceRole::inside;

@@ -38,7 +38,7 @@ class CityGmlParser : public XmlListener {
   /// The role of an open element. It is undone when the element ends.
   enum class Meaning {
     nothing,
-    members,  ///< holds an object of the city
+    members,  ///< contains an object of the city
     building,
     part,
     boundary,
@@ -46,12 +46,12 @@ class CityGmlParser : public XmlListener {
     surfaces,
     geometry,
     height,
-    relation,   ///< tells whether an installation is inside
-    prototype,  ///< a geometry that is placed
+    relation,   ///< whether an installation is inside
+    prototype,  ///< implicit geometry
     prototype_number,
     terrain,
   };
-  /// Empty: the element is skipped, with everything inside it.
+  /// Empty: the element is skipped with everything inside it.
   using MaybeMeaning = std::optional<Meaning>;
 
   [[nodiscard]] MaybeMeaning meaning_of(const XmlElement& element);
@@ -75,7 +75,7 @@ class CityGmlParser : public XmlListener {
   void take_height();
   void undo(Meaning meaning, std::string_view name);
 
-  /// A part outside of a building: a balcony, a pylon.
+  /// An installation or element: a balcony, a pylon.
   struct Installation {
     SurfaceRole role = SurfaceRole::installation;
     std::size_t first_use = 0;

@@ -10,15 +10,15 @@
 
 namespace farlod::ingest {
 
-/// Where a prototype (CityGML's implicit geometry) stands: turned and scaled in metres, then moved to its reference point.
+/// The placement of a prototype (implicit geometry of CityGML): a matrix in metres, then a translation to the reference point.
 class Placement {
  public:
-  /// Of 16 numbers, row by row, of which the last row is not used; no matrix at all leaves the prototype as it is.
-  /// Empty when there are other than 16 numbers, or a number that is none.
+  /// From the 16 numbers of a matrix, row by row; the last row is not used. Without numbers, the matrix is the identity. Empty
+  /// when there are not 16 numbers, or when one is NaN.
   [[nodiscard]] static std::optional<Placement> from(std::span<const double> matrix, const Point3d& reference_point);
 
   [[nodiscard]] Point3d place(const Point3d& p_prototype) const;
-  /// Placed, and still facing the same way: a matrix that mirrors turns them round.
+  /// The placed rings. A matrix that mirrors also reverses them, so that they keep their outer side.
   [[nodiscard]] Rings place(const Rings& rings_prototype) const;
 
  private:

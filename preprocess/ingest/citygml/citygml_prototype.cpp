@@ -9,10 +9,10 @@
 namespace farlod::ingest {
 namespace {
 
-/// One more than a matrix has, so that a longer one shows.
+/// One more than a matrix has, so that a longer list is noticed.
 constexpr std::size_t most_numbers = 17;
 
-/// Longitudes end at 180. A projected city that close to the origin of its system is not known to us.
+/// Longitudes end at 180. No known projected city is that close to the origin of its CRS.
 bool reads_like_degrees(const Point3d& p) { return std::abs(p.x) <= 180.0 && std::abs(p.y) <= 180.0; }
 
 }  // namespace

@@ -14,12 +14,12 @@
 
 namespace farlod::ingest {
 
-/// Reads what CityGML's ImplicitGeometry has besides surfaces: the matrix and the point that place a prototype.
+/// Reads the placement of an ImplicitGeometry of CityGML: its matrix and its reference point.
 class PrototypeReader {
  public:
-  /// A property with a prototype begins, whose surfaces are for `use`.
+  /// Begins a property with a prototype whose surfaces have the use `use`.
   void begin(std::string_view property, const SurfaceUse& use);
-  /// Whether the element holds numbers of the placement.
+  /// Begins an element; returns whether it holds numbers of the placement.
   [[nodiscard]] bool start(std::string_view name);
   void end_numbers();
   void text(std::string_view piece);
@@ -27,14 +27,14 @@ class PrototypeReader {
   void note_surfaces() { has_surfaces_ = true; }
   [[nodiscard]] const SurfaceUse& use() const { return use_; }
 
-  /// Where the prototype stands; empty where that cannot be told, and `unread` says why. Files whose reference system is in
-  /// degrees have no place for a matrix in metres.
+  /// The placement of the prototype. Empty where there is none, with the reason added to `unread`. A matrix in metres cannot be
+  /// used in a file whose CRS is in degrees.
   [[nodiscard]] std::optional<Placement> placement(bool has_crs, std::string& unread) const;
 
  private:
   NumberScanner scanner_;
   std::vector<double> matrix_, position_;
-  std::vector<double>* numbers_ = nullptr;  ///< of these two, which one is being read
+  std::vector<double>* numbers_ = nullptr;  ///< which of the two lists is being read
   std::string property_;
   SurfaceUse use_;
   bool is_elsewhere_ = false, has_surfaces_ = false;

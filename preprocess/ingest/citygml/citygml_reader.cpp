@@ -16,14 +16,13 @@
 namespace farlod::ingest {
 namespace {
 
-/// References that lead to references that lead on: each step is one more reading of the file, and none that we know of
-/// takes more than two.
+/// The file is read once more for each step of a chain of references. Known files take at most two steps.
 constexpr int most_searches = 6;
 
-/// Finds the surfaces with certain ids anywhere in a file, for buildings that refer to surfaces of other objects.
+/// Finds the surfaces with given ids anywhere in a file, for buildings that refer to surfaces of other objects.
 class GmlSurfaceFinder : public XmlListener {
  public:
-  /// `hrefs` are references as the file writes them. References into other files ("town.gml#a") are never found.
+  /// `hrefs`: the references as written in the file. References into other files ("town.gml#a") are never found.
   explicit GmlSurfaceFinder(const std::unordered_set<std::string>& hrefs) : hrefs_(hrefs) {}
 
   void start(const XmlElement& element) override {
@@ -63,7 +62,7 @@ class GmlSurfaceFinder : public XmlListener {
   GmlSurfaces found_;
   GmlSurfaceReader reader_{found_};
   std::size_t wanted_depth_ = 0, skipped_depth_ = 0;
-  std::string href_;  ///< the reference that would lead to the id of the current element
+  std::string href_;  ///< the reference to the current element
 };
 
 struct Reading {
@@ -101,11 +100,11 @@ void report_unreadable_relief(std::size_t points, CityModelBuilder& builder) {
 
 Reading read_buildings(const InputFile& file, LodChoice lod, const GmlSurfaces& foreign) {
   Reading reading;
-  Borrowing borrowing(foreign);
+  ReferenceBudget budget(foreign);
   CityModelBuilder builder(file.name, reading.report);
   CityGmlParser parser([&](const CityGmlBuilding& building) {
     for (std::string& href : foreign_references(building)) reading.foreign_hrefs.insert(std::move(href));
-    add_building(building, foreign, lod, borrowing, builder);
+    add_building(building, foreign, lod, budget, builder);
   });
   parse_xml(file, parser);
   ReliefReader& relief = parser.relief();
@@ -119,7 +118,7 @@ Reading read_buildings(const InputFile& file, LodChoice lod, const GmlSurfaces& 
   return reading;
 }
 
-/// Surfaces found under foreign ids may refer on; the search goes on until it learns nothing new.
+/// Surfaces that are found may contain references themselves. The search ends when it finds no new ones.
 GmlSurfaces find_surfaces(const InputFile& file, std::unordered_set<std::string> hrefs) {
   for (int search = 1;; ++search) {
     GmlSurfaceFinder finder(hrefs);
@@ -141,7 +140,7 @@ SourceCity hand_over(Reading reading, Report& report) {
 SourceCity read_citygml(const InputFile& file, LodChoice lod, Report& report) {
   std::unordered_set<std::string> foreign_hrefs;
   {
-    // What was read goes before it is read anew: memory holds one city
+    // The first reading is dropped before the second begins, so that memory holds one city
     Reading reading = read_buildings(file, lod, {});
     if (reading.foreign_hrefs.empty()) return hand_over(std::move(reading), report);
     foreign_hrefs = std::move(reading.foreign_hrefs);

@@ -9,10 +9,10 @@
 
 namespace farlod::ingest {
 
-/// Streams a CityGML file: memory is one building's, besides the city itself. Reads the file again only when buildings
-/// refer to surfaces outside of themselves. A file of terrain alone is a city without buildings. Throws InputError for what
-/// is not well-formed XML (with line and column), not CityGML, or has neither buildings nor terrain; and for what is meant
-/// to do harm (see parse_xml).
+/// Reads a CityGML file as a stream: besides the city it holds one building in memory. Reads the file again only when buildings
+/// refer to surfaces outside of themselves. A file of terrain alone is a city without buildings. Throws InputError for a file
+/// that is not well-formed XML (with line and column), is not CityGML, or has neither buildings nor terrain, and for attacks on
+/// the parser (see parse_xml).
 [[nodiscard]] SourceCity read_citygml(const InputFile& file, LodChoice lod, Report& report);
 
 }  // namespace farlod::ingest

@@ -12,22 +12,22 @@
 
 namespace farlod::ingest {
 
-/// Takes the points of a terrain: the corners of a TIN's triangles, its control points, or a cloud of points. Holds nothing
-/// but the points, which may repeat; a ring's closing point is left away.
+/// Collects the points of a terrain: the corners of the triangles of a TIN, its control points, or a point cloud. Stores the
+/// points alone, which may repeat, without the closing points of rings.
 class ReliefReader {
  public:
-  /// Whether a property of CityGML's relief module holds points of the terrain.
+  /// Whether a property of the relief module of CityGML holds points of the terrain.
   [[nodiscard]] static bool is_point_property(std::string_view name) { return name == "tin" || name == "reliefPoints"; }
 
-  /// A new property with points begins.
+  /// Begins a property with points.
   void begin(const XmlElement& property);
-  /// False: the caller passes neither the element's content nor its end.
+  /// Begins an element. If it returns false, the caller passes neither the content of the element nor its end.
   [[nodiscard]] bool start(const XmlElement& element);
   void end();
   void text(std::string_view piece);
 
   [[nodiscard]] std::vector<Point3d>& points() { return points_; }
-  /// Points left out, since a coordinate is missing, is not a number, or lies beyond the Earth.
+  /// The number of points left out because a coordinate is missing, is not a number, or lies beyond the Earth.
   [[nodiscard]] std::size_t unreadable_points() const { return unreadable_points_; }
 
  private:
@@ -37,7 +37,7 @@ class ReliefReader {
   NumberScanner scanner_;
   std::size_t dimension_ = 3;
   bool in_list_ = false;
-  std::vector<double> numbers_;  ///< of the point that is not yet whole
+  std::vector<double> numbers_;  ///< of a point whose coordinates are not complete yet
   std::optional<Point3d> first_of_list_;
   std::size_t points_of_list_ = 0;
   std::vector<Point3d> points_;

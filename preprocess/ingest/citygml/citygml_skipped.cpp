@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t longest_name = 200;
 
-/// Whole characters of the beginning: a name cut within a UTF-8 character could not be written as JSON.
+/// The first characters. The cut is not inside a UTF-8 character, which could not be written as JSON.
 std::string beginning_of(std::string_view text) {
   if (text.size() <= longest_name) return std::string(text);
   std::size_t end = longest_name;

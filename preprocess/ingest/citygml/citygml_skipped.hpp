@@ -7,11 +7,11 @@
 
 namespace farlod::ingest {
 
-/// Counts what a CityGML file has and we do not use, by the name of the element without its prefix. Elements of extensions
-/// have their namespace behind the name: "RiverFloodingRiskAttribute (https://www.geospatial.jp/iur/uro/2.0)".
+/// Counts the skipped features of a CityGML file by the name of the element without its prefix. The namespace of an extension
+/// follows the name: "RiverFloodingRiskAttribute (https://www.geospatial.jp/iur/uro/2.0)".
 class SkippedCount {
  public:
-  /// Names beyond so many are counted together, so that no file can make the table grow without end.
+  /// All further names are counted as one, so that no file can make the table grow without limit.
   static constexpr std::size_t most_names = 100;
   static constexpr const char* other_names = "elements of still other names";
 

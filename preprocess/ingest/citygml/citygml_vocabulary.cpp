@@ -40,7 +40,7 @@ Vocabulary vocabulary_of(std::string_view space) {
   if (space.starts_with(gml)) return Vocabulary::gml;
   if (!space.starts_with(citygml)) return Vocabulary::foreign;
   const std::string_view module = space.substr(citygml.size());
-  // The core has its version where modules have a name
+  // In the namespace of the core, the version follows at once; in those of modules, the name of the module
   if (!module.empty() && module.front() >= '0' && module.front() <= '9') return Vocabulary::core;
   for (const std::string_view name : {"building/", "construction/", "bridge/", "tunnel/"})
     if (module.starts_with(name)) return Vocabulary::constructions;

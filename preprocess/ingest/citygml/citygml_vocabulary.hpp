@@ -6,38 +6,37 @@
 
 namespace farlod::ingest {
 
-/// What the namespace of an element tells, whatever the version of CityGML and of GML.
+/// The vocabulary that the namespace of an element belongs to, in any version of CityGML and GML.
 enum class Vocabulary {
   gml,
-  core,           ///< CityGML's core, and textured surfaces
+  core,           ///< the core of CityGML, and textured surfaces
   constructions,  ///< buildings, bridges, tunnels and other constructions
   relief,
-  other_citygml,  ///< a module that holds nothing of a construction: generics, appearance, vegetation ...
+  other_citygml,  ///< a module without parts of constructions: generics, appearance, vegetation ...
   foreign,        ///< an application domain extension (ADE)
 };
 
 [[nodiscard]] Vocabulary vocabulary_of(std::string_view space);
 
-/// Whether elements can lead to the surfaces of a construction.
+/// Whether elements of a vocabulary can contain surfaces of a construction.
 [[nodiscard]] inline bool may_hold_surfaces(Vocabulary vocabulary) {
   return vocabulary == Vocabulary::gml || vocabulary == Vocabulary::core || vocabulary == Vocabulary::constructions;
 }
 
-/// Building, Bridge, Tunnel, OtherConstruction: what is a building to us. Parts as well, since one that stands alone is as
-/// good as a building.
+/// Building, Bridge, Tunnel, OtherConstruction, which all count as buildings, and their parts, which may occur alone.
 [[nodiscard]] bool is_construction_name(std::string_view name);
 [[nodiscard]] bool is_part_name(std::string_view name);
-/// Balconies, chimneys, portals: what stands at the outside.
+/// Installations outside of a building: balconies, chimneys, portals.
 [[nodiscard]] bool is_installation_name(std::string_view name);
-/// Pylons, decks, walls, slabs: what a construction may wholly consist of.
+/// Constructive elements, of which a construction may consist entirely: pylons, decks, walls, slabs.
 [[nodiscard]] bool is_element_name(std::string_view name);
-/// Rooms, hollow spaces, furniture, addresses, and the properties that hold them or that lead to other buildings.
+/// Rooms, hollow spaces, furniture, addresses, and the properties that contain them or refer to other buildings.
 [[nodiscard]] bool is_inner_name(std::string_view name);
-/// RoofSurface, WallSurface, and all others of their kind.
+/// Semantic surfaces: RoofSurface, WallSurface ...
 [[nodiscard]] bool is_boundary_name(std::string_view name);
-/// lod0 to lod9 and something: a property with geometry.
+/// A property with geometry: lod0 to lod9, followed by the kind of geometry.
 [[nodiscard]] bool is_lod_property(std::string_view name);
-/// Properties that hold objects of a city, each of which is one.
+/// Properties that contain one object of the city each.
 [[nodiscard]] bool is_member_name(std::string_view name);
 
 }  // namespace farlod::ingest

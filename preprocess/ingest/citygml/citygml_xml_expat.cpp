@@ -15,22 +15,22 @@
 namespace farlod::ingest {
 namespace {
 
-/// Between a namespace and a name, in what Expat hands out: it cannot occur in either.
+/// Expat puts it between a namespace and a name. It cannot occur in either.
 constexpr char name_separator = '\n';
 constexpr std::string_view gml_space = "http://www.opengis.net/gml";
 constexpr std::size_t piece_bytes = std::size_t{1} << 16;
-/// Real cities that we have seen go to 14.
+/// Known cities are nested up to 14 levels deep.
 constexpr std::size_t deepest_element = 256;
-/// Expat holds a tag or a comment whole, and looks at it again with each piece.
+/// Expat keeps a tag or a comment in memory as a whole, and scans it again with each piece.
 constexpr std::size_t most_bytes_of_tag = std::size_t{1} << 22;
 
-/// What Expat's functions are given back.
+/// The user data of Expat's callbacks.
 struct Parsing {
   XML_Parser parser;
   XmlListener& listener;
   std::size_t depth = 0;
   std::string refusal = {};           ///< why the file is not read on
-  std::exception_ptr exception = {};  ///< of the listener: it must not fly through a library written in C
+  std::exception_ptr exception = {};  ///< of the listener: it must not pass through a library written in C
 };
 
 void refuse(Parsing& parsing, std::string why) {
@@ -40,7 +40,7 @@ void refuse(Parsing& parsing, std::string why) {
 
 template <class Call>
 void tell(Parsing& parsing, const Call& call) {
-  // Expat may hand out a little more after it was stopped
+  // Expat may call back once more after it was stopped
   if (parsing.exception || !parsing.refusal.empty()) return;
   try {
     call(parsing.listener);
@@ -101,7 +101,7 @@ void XMLCALL on_text(void* user, const XML_Char* text, int length) {
   tell(*static_cast<Parsing*>(user), [&](XmlListener& listener) { listener.text({text, static_cast<std::size_t>(length)}); });
 }
 
-/// Entities may unfold to more than any memory holds, default attributes likewise, and external ones lead to other files.
+/// Entities and default attributes may expand to more than the memory holds. External entities refer to other files.
 constexpr const char* has_declarations =
     "it declares entities, or has other declarations in its DOCTYPE: CityGML has no use for them, and they can make a small "
     "file endless; delete the <!DOCTYPE ...>";
@@ -115,7 +115,7 @@ void XMLCALL on_skipped_entity(void* user, const XML_Char* name, int) {
          "it uses the entity &" + std::string(name).substr(0, 64) + "; which another file declares; entities are not read");
 }
 
-/// Expat knows UTF-8, UTF-16 and Latin-1; iconv tells what the bytes of any other one-byte encoding mean.
+/// Expat knows UTF-8, UTF-16 and Latin-1. For any other one-byte encoding, iconv gives the character of each byte.
 int XMLCALL on_unknown_encoding(void*, const XML_Char* name, XML_Encoding* encoding) {
   const iconv_t converter = iconv_open("UTF-32LE", name);
   if (converter == reinterpret_cast<iconv_t>(-1)) return XML_STATUS_ERROR;
@@ -174,7 +174,7 @@ void parse_xml(const InputFile& file, XmlListener& listener) {
     is_last = !*stream;
     bytes_read += static_cast<XML_Index>(stream->gcount());
     if (XML_ParseBuffer(parser.get(), static_cast<int>(stream->gcount()), is_last) != XML_STATUS_OK) throw_failure(file, parsing);
-    // What is held back is the tag that has not ended yet
+    // The bytes that were read and not parsed yet belong to a tag that has not ended
     if (bytes_read - XML_GetCurrentByteIndex(parser.get()) > static_cast<XML_Index>(most_bytes_of_tag)) {
       parsing.refusal = "it has a tag or a comment of more than " + std::to_string(most_bytes_of_tag) + " bytes";
       throw_failure(file, parsing);

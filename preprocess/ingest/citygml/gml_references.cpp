@@ -6,17 +6,17 @@ namespace farlod::ingest {
 namespace {
 
 constexpr std::size_t points_of_prototypes = 5'000'000;
-/// A wall of four corners is looked at three times by each of the two or three buildings that share it.
-constexpr std::size_t looks_at_each_point = 16;
+/// Two or three buildings share a wall, and each visits it three times.
+constexpr std::size_t visits_of_each_point = 16;
 
 }  // namespace
 
-Borrowing::Borrowing(const GmlSurfaces& foreign) : most_points_(points_of_prototypes) {
-  for (const GmlPolygon& polygon : foreign.polygons) most_points_ += looks_at_each_point * polygon.point_count();
+ReferenceBudget::ReferenceBudget(const GmlSurfaces& foreign) : most_points_(points_of_prototypes) {
+  for (const GmlPolygon& polygon : foreign.polygons) most_points_ += visits_of_each_point * polygon.point_count();
   left_ = most_points_;
 }
 
-bool Borrowing::take(std::size_t points) {
+bool ReferenceBudget::take(std::size_t points) {
   if (points > left_) left_ = 0;
   if (left_ == 0) {
     ++refusals_;
@@ -54,7 +54,7 @@ bool ReferenceWalk::walk(const GmlMember& member, const IsEnough& is_enough) {
 
 bool ReferenceWalk::step(const GmlSurfaces& home, const GmlMember& member, bool is_reversed, const IsEnough& is_enough) {
   const bool turned = is_reversed != member.is_reversed;
-  if (&home == &foreign_ && !borrowing_.take(member.polygon ? home.polygons[*member.polygon].point_count() : 1)) return false;
+  if (&home == &foreign_ && !budget_.take(member.polygon ? home.polygons[*member.polygon].point_count() : 1)) return false;
   if (!member.polygon) return enter(member.href, turned);
   return is_enough({&home.polygons[*member.polygon], turned});
 }

@@ -13,14 +13,14 @@
 
 namespace farlod::ingest {
 
-/// How much of a file may be borrowed by reference: a wall that two buildings share is there twice, and a small file whose
-/// many buildings all refer to one large thing would have no end.
-class Borrowing {
+/// Limits the points that a file may add by reference. A wall that two buildings share is added twice. A small file could
+/// otherwise fill the memory, if its many buildings all referred to one large object.
+class ReferenceBudget {
  public:
-  /// Several times what there is to borrow, and some millions of points for prototypes that are placed.
-  explicit Borrowing(const GmlSurfaces& foreign);
+  /// The limit is several times the points that can be referred to, plus some millions for placed prototypes.
+  explicit ReferenceBudget(const GmlSurfaces& foreign);
 
-  /// False when that many points are no longer to be had; then nothing is, from here on.
+  /// Takes some points from what is left. Returns false when too few are left; then each later call returns false, too.
   [[nodiscard]] bool take(std::size_t points);
   [[nodiscard]] std::size_t refusals() const { return refusals_; }
   [[nodiscard]] std::size_t most_points() const { return most_points_; }
@@ -34,40 +34,40 @@ struct ResolvedPolygon {
   bool is_reversed = false;
 };
 
-/// Follows references: from members to the polygons that they stand for, looked up among `own`, then among `foreign`
-/// surfaces. What an id stands for is gone through once in the life of a walk, however often it is referred to. So a walk
-/// takes time in proportion to what there is, and circles and ever-doubling references end.
+/// Follows the references of members to polygons: first among the `own`, then among the `foreign` surfaces. A walk visits the
+/// members of an id once, however often it is referred to. Its time is therefore proportional to the number of surfaces, even if
+/// references form circles or double at each step.
 class ReferenceWalk {
  public:
-  ReferenceWalk(const GmlSurfaces& own, const GmlSurfaces& foreign, Borrowing& borrowing)
-      : own_(own), foreign_(foreign), borrowing_(borrowing) {}
+  ReferenceWalk(const GmlSurfaces& own, const GmlSurfaces& foreign, ReferenceBudget& budget)
+      : own_(own), foreign_(foreign), budget_(budget) {}
 
-  /// Gives each polygon that the member of `own` stands for to `visit`, once in the life of the walk.
+  /// Calls `visit` with each polygon of a member of `own`, at most once for each polygon in the life of the walk.
   void each(const GmlMember& member, const std::function<void(const ResolvedPolygon&)>& visit);
-  /// Whether the member stands for a polygon of which `is_it` holds. A walk must always be asked the same question.
+  /// Whether a member has a polygon for which `is_it` holds. All calls for one walk must pass the same condition.
   [[nodiscard]] bool any(const GmlMember& member, const std::function<bool(const GmlPolygon&)>& is_it);
-  /// References met that lead to nothing, as written in the file.
+  /// The references without target that were met, as written in the file.
   [[nodiscard]] const std::vector<std::string>& dangling() const { return dangling_; }
 
  private:
   using IsEnough = std::function<bool(const ResolvedPolygon&)>;
-  /// An id that is being gone through.
+  /// An id whose members are being visited.
   struct Level {
     const GmlSurfaces* home;
     std::size_t next, end;
     bool is_reversed;
-    bool* ends_walks;  ///< of the id: something behind it was enough
+    bool* ends_walks;  ///< the entry of the id in `entered_`
   };
 
-  /// True when something behind the member is enough.
+  /// Whether the member leads to a polygon for which `is_enough` holds; the walk ends at the first one.
   bool walk(const GmlMember& member, const IsEnough& is_enough);
   [[nodiscard]] bool step(const GmlSurfaces& home, const GmlMember& member, bool is_reversed, const IsEnough& is_enough);
-  /// True when the id is known to lead to something that is enough.
+  /// Begins to visit an id. Returns whether an earlier visit of it found a polygon that was enough.
   [[nodiscard]] bool enter(const std::string& href, bool is_reversed);
 
   const GmlSurfaces &own_, &foreign_;
-  Borrowing& borrowing_;
-  std::unordered_map<std::string, bool> entered_;  ///< ids, and whether something behind them was enough
+  ReferenceBudget& budget_;
+  std::unordered_map<std::string, bool> entered_;  ///< visited ids, and whether they led to a polygon that was enough
   std::unordered_set<const GmlPolygon*> reached_;
   std::vector<Level> levels_;
   std::vector<std::string> dangling_;

@@ -70,7 +70,7 @@ GmlSurfaceReader::Answer GmlSurfaceReader::start_property(const XmlElement& elem
     if (!element.href.empty()) add_reference(element.href);
     return Answer::entered;
   }
-  // Objects have capital letters; the rest is names, descriptions and the like
+  // Names of objects begin with a capital letter; other elements are names, descriptions and the like
   const bool is_object = !element.name.empty() && element.name.front() >= 'A' && element.name.front() <= 'Z';
   return is_object ? Answer::unsupported : Answer::skip;
 }
@@ -113,7 +113,7 @@ void GmlSurfaceReader::end_open() {
   Open& open = open_.back();
   open.range.end = surfaces_.members.size();
   if (open.reverses) is_reversed_ = !is_reversed_;
-  // The first of two equal ids wins; both keep their polygons where they stand
+  // Of two equal ids, references lead to the first. The polygons of both are read
   if (!open.id.empty()) surfaces_.ranges.try_emplace(std::move(open.id), open.range);
   open_.pop_back();
 }
@@ -123,7 +123,7 @@ void GmlSurfaceReader::text(std::string_view piece) {
 }
 
 void GmlSurfaceReader::take_number(double number) {
-  // One more than may be shows that it is too long
+  // A number beyond the limit marks the list as too long
   if (numbers_.size() <= 3 * most_points_of_ring) numbers_.push_back(number);
 }
 
@@ -136,7 +136,7 @@ void GmlSurfaceReader::take_coordinates(std::string_view name) {
   GmlPolygon& polygon = surfaces_.polygons.back();
   Ring& ring = polygon.rings.back();
   const std::size_t count = numbers_.size();
-  // A single position says its dimension by its length
+  // The dimension of a single position is the number of its coordinates
   const std::size_t dimension = name == "pos" && count >= 2 ? count : dimension_;
   const std::size_t points = (count + dimension - 1) / dimension;
   if (polygon.is_too_long || ring.size() + points > most_points_of_ring) {

@@ -15,16 +15,16 @@
 
 namespace farlod::ingest {
 
-/// The longest ring that is read. No wall has a million corners, and a file must not fill the memory with one list.
+/// The longest ring that is read, in points. The limit keeps a single list from filling the memory.
 inline constexpr std::size_t most_points_of_ring = std::size_t{1} << 20;
 
 struct GmlPolygon {
   std::string id;
   Rings rings;
   bool has_curves = false;   ///< bounded by a curve that is not a LinearRing
-  bool is_too_long = false;  ///< a ring had more than most_points_of_ring points, and is gone
+  bool is_too_long = false;  ///< a ring had more than most_points_of_ring points, and was dropped
 
-  /// What looking at it costs: its points, and one for itself.
+  /// The points that a visit counts: those of its rings, and one more.
   [[nodiscard]] std::size_t point_count() const {
     std::size_t points = 1;
     for (const Ring& ring : rings) points += ring.size();
@@ -32,15 +32,15 @@ struct GmlPolygon {
   }
 };
 
-/// One entry of a surface or solid: a polygon, or a reference to something that holds polygons.
+/// A member of a surface or solid: a polygon, or a reference to an object with polygons.
 struct GmlMember {
   std::optional<std::size_t> polygon;  ///< row in GmlSurfaces::polygons
   std::string href;                    ///< where there is no polygon
   bool is_reversed = false;
-  std::uint32_t use = 0;  ///< for the reader above: what the surface is used for
+  std::uint32_t use = 0;  ///< the number that the caller gave to begin_use
 };
 
-/// What a gml:id stands for: the members [begin, end), which were read with `was_reversed` around them.
+/// The members [begin, end) of the object with a gml:id, and whether an OrientableSurface around it reverses them.
 struct GmlRange {
   std::size_t begin = 0, end = 0;
   bool was_reversed = false;
@@ -53,17 +53,17 @@ struct GmlSurfaces {
   std::unordered_map<std::string, GmlRange> ranges;
 };
 
-/// Reads GML's surfaces and solids, element by element: 3.1 and 3.2, and the rings of GML 2. It knows neither XML syntax nor
-/// buildings.
+/// Reads surfaces and solids of GML 3.1 and 3.2, and the rings of GML 2, element by element. Neither the XML syntax nor buildings
+/// are its concern.
 class GmlSurfaceReader {
  public:
   enum class Answer { entered, skip, unsupported };
 
   explicit GmlSurfaceReader(GmlSurfaces& surfaces) : surfaces_(surfaces) {}
 
-  /// Surfaces from here on are used for `use`.
+  /// All following surfaces get the use `use`.
   void begin_use(std::uint32_t use);
-  /// `skip` and `unsupported`: the caller passes neither the element's content nor its end.
+  /// Begins an element. After `skip` and `unsupported`, the caller passes neither the content of the element nor its end.
   [[nodiscard]] Answer start(const XmlElement& element);
   void end(std::string_view name);
   void text(std::string_view piece);
@@ -92,7 +92,7 @@ class GmlSurfaceReader {
   std::uint32_t use_ = 0;
   std::size_t dimension_ = 3;
   NumberScanner scanner_;
-  std::vector<double> numbers_;  ///< of the list that is being read
+  std::vector<double> numbers_;  ///< of the current list
 };
 
 }  // namespace farlod::ingest

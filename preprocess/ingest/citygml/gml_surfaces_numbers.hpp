@@ -9,10 +9,10 @@
 
 namespace farlod::ingest {
 
-/// Reads the numbers of a text that comes in pieces, which may be broken within a number. Holds one word, never the text.
+/// Reads the numbers of a text that comes in pieces. A piece may end within a number. Stores one word, never the whole text.
 class NumberScanner {
  public:
-  /// Gives each number that is complete to `sink`; NaN for a word that is no number.
+  /// Calls `sink` with each complete number, and with NaN for each word that is not a number.
   template <class Sink>
   void take(std::string_view piece, Sink&& sink) {
     const char *p = piece.data(), *const end = p + piece.size();
@@ -33,7 +33,7 @@ class NumberScanner {
     }
   }
 
-  /// The text ends: so does its last word.
+  /// Ends the text, and with it the last word.
   template <class Sink>
   void end(Sink&& sink) {
     if (begun_word_.empty()) return;
@@ -42,12 +42,12 @@ class NumberScanner {
   }
 
  private:
-  /// No number is longer; what is, is none, and is not kept whole.
+  /// A longer word is not a number and is not kept as a whole.
   static constexpr std::size_t longest_word = 1024;
 
   static bool is_separator(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == ','; }
 
-  /// Appends to the word that was begun; gives it away if it ends within this piece.
+  /// Continues the last word of the piece before, and calls `sink` if the word ends within this piece.
   template <class Sink>
   const char* complete_word(const char* p, const char* end, Sink&& sink) {
     for (; p != end && !is_separator(*p); ++p)

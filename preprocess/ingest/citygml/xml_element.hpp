@@ -6,7 +6,7 @@
 
 namespace farlod::ingest {
 
-/// The beginning of an XML element, with the attributes that matter in CityGML. Valid only while it is being handled.
+/// The start tag of an XML element, with the attributes that matter in CityGML. Valid during the call of the listener alone.
 struct XmlElement {
   std::string_view space;  ///< the namespace's URI
   std::string_view name;   ///< without prefix
@@ -15,13 +15,13 @@ struct XmlElement {
   std::string_view srs_name, srs_dimension, orientation;
 };
 
-/// What listens to the elements of an XML file.
+/// Receives the elements of an XML file.
 class XmlListener {
  public:
   virtual ~XmlListener() = default;
   virtual void start(const XmlElement& element) = 0;
   virtual void end(std::string_view name) = 0;
-  /// A piece of text: where it is broken says nothing.
+  /// A piece of text. The pieces of one text may begin and end anywhere.
   virtual void text(std::string_view piece) = 0;
 };
 

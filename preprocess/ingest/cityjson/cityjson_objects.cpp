@@ -14,7 +14,7 @@
 namespace farlod::ingest {
 namespace {
 
-/// Prefabricated buildings of a whole city have fewer: templates are for lamps and trees.
+/// More than the prefabricated buildings of a whole city have. Most templates are lamps and trees.
 constexpr std::uint64_t most_template_corners = 10'000'000;
 
 enum class ObjectRole { none, building, part, installation, element, relief };
@@ -45,13 +45,13 @@ bool has_surfaces(std::string_view type) {
   return false;
 }
 
-/// A geometry with its template looked up.
+/// A geometry, or an instance with the geometry of its template.
 struct Shape {
   const CityJsonGeometry* geometry = nullptr;
   const CityJsonInstance* instance = nullptr;
   const CityJsonObject* object = nullptr;
   std::uint16_t part = 0;
-  ObjectRole role = ObjectRole::building;  ///< a lone chimney decides no level of detail
+  ObjectRole role = ObjectRole::building;  ///< decides whether it makes its level of detail eligible
 };
 
 bool is_usable(const CityJsonPolygon& polygon) {
@@ -59,7 +59,7 @@ bool is_usable(const CityJsonPolygon& polygon) {
   return std::set<std::int64_t>(polygon.rings[0].begin(), polygon.rings[0].end()).size() >= 3;
 }
 
-/// Who belongs to whom. Files say it in `children`, in `parents`, or in both.
+/// The hierarchy of objects, which files give in `children`, in `parents`, or in both.
 class Family {
  public:
   explicit Family(const std::vector<CityJsonObject>& objects)
@@ -81,7 +81,7 @@ class Family {
 
  private:
   void link(std::size_t parent, std::optional<std::size_t> child) {
-    // Only what hides the sky can adopt: a building within a group is still a building
+    // Only objects that hide the sky are parents here: a building in a CityObjectGroup has no parent
     if (!child || *child == parent || !hides_the_sky(objects_[parent])) return;
     children_[parent].insert(*child);
     has_parent_[*child] = true;
@@ -125,7 +125,7 @@ class BuildingAssembler {
   }
 
  private:
-  /// Depth first, with a list of its own: a file may nest its parts deeper than the program's stack is.
+  /// Visits the parts depth first, with a list instead of recursion: a file may nest them deeper than the stack of the program.
   void gather(std::size_t root) {
     std::vector<std::pair<std::size_t, std::uint16_t>> waiting{{root, 0}};
     while (!waiting.empty()) {
@@ -173,7 +173,7 @@ class BuildingAssembler {
       builder_.add_problem(ProblemCode::unsupported_geometry, "a " + shape.geometry->type + " is not read");
   }
 
-  /// A bridge may consist of constructive elements; where there is anything else, they follow it.
+  /// Constructive elements make a level of detail eligible only where there is nothing else, as in some bridges.
   std::vector<std::vector<double>> usable_lods() const {
     const auto lods = lods_of([](ObjectRole role) { return role == ObjectRole::building || role == ObjectRole::part; });
     const bool has_any = std::any_of(lods.begin(), lods.end(), [](const auto& of_part) { return !of_part.empty(); });
@@ -192,7 +192,7 @@ class BuildingAssembler {
   }
 
   void add(const Shape& shape, bool is_alone) {
-    // Within one geometry two equal polygons are the author's; over several they are one surface told twice
+    // Equal polygons of one geometry are kept. Those of two geometries are the same surface twice
     std::vector<Rings> fresh;
     for (const CityJsonPolygon& polygon : shape.geometry->polygons) {
       std::optional<Rings> rings = points_of(polygon, shape);
@@ -240,7 +240,7 @@ class BuildingAssembler {
     return rings;
   }
 
-  /// A small file could otherwise fill the memory: each use of a template is as large as the template.
+  /// Counts the corners that instances of templates add, which could otherwise fill the memory from a small file.
   void count_unfolded(std::size_t corners) {
     account_.template_corners += corners;
     if (account_.template_corners > most_template_corners)
@@ -259,7 +259,7 @@ class BuildingAssembler {
     return {row(0) / w, row(4) / w, row(8) / w};
   }
 
-  /// LoD 0 has no volume: it is raised by the measured height.
+  /// LoD 0 has no volume. The footprint becomes a prism of the measured height.
   void add_footprint(Rings& rings, const Shape& shape) {
     const std::optional<double> height_m = shape.object->measured_height_m;
     const double base_m = rings.empty() || rings[0].empty() ? 0.0 : rings[0][0].z;
@@ -282,11 +282,11 @@ class BuildingAssembler {
   const CityJsonObject* root_ = nullptr;
   std::vector<Shape> shapes_;
   PolygonDeduplicator seen_{SamePolygon::corners};
-  std::vector<Rings> seen_rings_;  ///< by the numbers of `seen_`
+  std::vector<Rings> seen_rings_;  ///< by their numbers in `seen_`
   std::uint16_t parts_ = 0;
 };
 
-/// Triangles of terrain share their corners: each row of the vertex list counts once.
+/// Collects the corners of the triangles of a terrain. Triangles share corners; each vertex of the file is collected once.
 class ReliefCollector {
  public:
   ReliefCollector(const std::vector<Point3d>& vertices, CityModelBuilder& builder, std::vector<Point3d>& points)
@@ -329,7 +329,7 @@ void add_objects(const std::vector<CityJsonObject>& objects, const std::vector<P
                  const CityJsonTemplates& templates, LodChoice lod, CityModelBuilder& builder, ObjectAccount& account) {
   const Family family(objects);
   std::vector<bool> visited(objects.size());
-  // What is left by the first round are circles of parents
+  // The first round begins at objects without parent. The objects that it leaves form circles of parents
   for (const bool is_first_round : {true, false})
     for (std::size_t k = 0; k < objects.size(); ++k)
       if (hides_the_sky(objects[k]) && !visited[k] && (!is_first_round || !family.has_parent(k)))

@@ -17,11 +17,11 @@
 namespace farlod::ingest {
 
 struct CityJsonPolygon {
-  std::vector<std::vector<std::int64_t>> rings;  ///< rows of the vertex list; the file may be wrong about them
+  std::vector<std::vector<std::int64_t>> rings;  ///< rows of the vertex list, not checked yet
   SurfaceKind kind = SurfaceKind::unknown;
 };
 
-/// A use of a template: turned and scaled by a matrix (row by row, 4 × 4), then moved to a vertex.
+/// An instance of a template: transformed by a 4 × 4 matrix (row by row), then moved to a vertex.
 struct CityJsonInstance {
   std::size_t template_row = 0;
   std::array<double, 16> matrix{};
@@ -32,7 +32,7 @@ struct CityJsonGeometry {
   std::string type;
   double lod = 0.0;
   std::vector<CityJsonPolygon> polygons;
-  std::optional<CityJsonInstance> instance;  ///< then the polygons are those of the template
+  std::optional<CityJsonInstance> instance;  ///< if set, the polygons are those of its template
 };
 
 struct CityJsonObject {
@@ -40,25 +40,25 @@ struct CityJsonObject {
   std::vector<std::string> parents, children;
   std::vector<CityJsonGeometry> geometries;
   std::optional<double> measured_height_m;
-  std::string malformed;  ///< what does not follow the format; then there are no geometries
+  std::string malformed;  ///< how it breaks the format; it has no geometries then
 };
 
-/// Templates, common to all objects of a file.
+/// The templates of a file, which all its objects may use.
 struct CityJsonTemplates {
   std::vector<CityJsonGeometry> geometries;
   std::vector<Point3d> vertices;
 };
 
-/// What the objects hold besides buildings.
+/// What was read or skipped besides buildings.
 struct ObjectAccount {
   std::vector<Point3d> relief_points;  ///< corners of the triangles of terrain, in its best level of detail
   SkippedFeatures skipped;             ///< types of the objects that are not used
-  std::uint64_t template_corners = 0;  ///< written by using templates
+  std::uint64_t template_corners = 0;  ///< corners that instances of templates added
 };
 
-/// Writes the buildings among the objects of one vertex list: of a CityJSON file, or of one line of a CityJSONSeq.
-/// Buildings, bridges, tunnels and other constructions hide the sky, with their parts and outer installations. Terrain is ground;
-/// plants, rooms, types of extensions and all else are counted. An object belongs to one building at the most.
+/// Adds the buildings among the objects that share a vertex list: those of a CityJSON file, or of a line of a CityJSONSeq.
+/// Buildings, bridges, tunnels and other constructions are read with their parts and outer installations. Terrain becomes relief
+/// points. Plants, rooms, types of extensions and all others are counted as skipped. An object belongs to at most one building.
 void add_objects(const std::vector<CityJsonObject>& objects, const std::vector<Point3d>& vertices,
                  const CityJsonTemplates& templates, LodChoice lod, CityModelBuilder& builder, ObjectAccount& account);
 

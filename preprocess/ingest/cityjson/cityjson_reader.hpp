@@ -9,8 +9,8 @@
 
 namespace farlod::ingest {
 
-/// Reads CityJSON 1.0 to 2.0, or CityJSONSeq line by line. Throws InputError for what is not JSON (with line and column),
-/// not CityJSON, or holds neither buildings nor a relief.
+/// Reads CityJSON 1.0 to 2.0, or CityJSONSeq line by line. Throws InputError for a file that is not JSON (with line and column),
+/// is not CityJSON, or has neither buildings nor a relief.
 [[nodiscard]] SourceCity read_cityjson(const InputFile& file, LodChoice lod, Report& report);
 
 }  // namespace farlod::ingest

@@ -20,20 +20,20 @@ using nlohmann::json;
 
 constexpr double unreadable = std::numeric_limits<double>::quiet_NaN();
 
-/// No city is nested as deep as this; trees that are cannot be copied or deleted within the stack.
+/// No city is nested this deep. nlohmann copies and deletes trees by recursion, which would overflow the stack.
 constexpr std::size_t deepest_nesting = 500;
 
-/// What a JSON text turned out not to be.
+/// A text that is JSON, but not CityJSON.
 class JsonFlaw : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What turned out to be no JSON.
+/// A text that is not JSON.
 class SyntaxFlaw : public JsonFlaw {
   using JsonFlaw::JsonFlaw;
 };
 
-/// nlohmann's messages begin with their own number in brackets.
+/// A message of nlohmann without the number in brackets that it begins with.
 std::string plain(std::string_view message) {
   const std::size_t at = message.find("] ");
   return std::string(at == message.npos ? message : message.substr(at + 2));
@@ -49,7 +49,7 @@ double lod_from(const json& geometry) {
   return std::isfinite(value) ? value : 0.0;
 }
 
-/// How many lists lie around the surfaces of a geometry; nothing for what has no surfaces.
+/// The number of nested lists around the surfaces of a geometry; empty for types without surfaces.
 std::optional<int> nesting_of(std::string_view type) {
   if (type == "MultiSurface" || type == "CompositeSurface") return 0;
   if (type == "Solid") return 1;
@@ -65,7 +65,7 @@ std::vector<SurfaceKind> kinds_from(const json& geometry) {
   return kinds;
 }
 
-/// Numbers of semantics, nested like the boundaries; null when there are none.
+/// The numbers of the semantics of the surfaces, nested like the boundaries; null when there are none.
 const json& semantic_values_of(const json& geometry) {
   static const json nothing;
   const auto semantics = geometry.find("semantics");
@@ -74,7 +74,7 @@ const json& semantic_values_of(const json& geometry) {
   return values == semantics->end() ? nothing : *values;
 }
 
-/// nlohmann would cut off a fraction, and has no answer for what no integer can hold.
+/// Refuses numbers that are not whole: nlohmann would cut off their fraction, and its conversion is undefined for large ones.
 std::int64_t whole_number_from(const json& number) {
   if (!number.is_number_integer()) throw JsonFlaw("the number of a vertex or a template is not whole");
   return number.get<std::int64_t>();
@@ -89,7 +89,8 @@ std::vector<std::vector<std::int64_t>> rings_from(const json& surface) {
   return rings;
 }
 
-/// Flattens solids and shells; `values` numbers the semantics of the surfaces in the same nesting, or is null at any depth.
+/// Collects the polygons of nested boundaries. `values` has the numbers of the semantics of the surfaces in the same nesting; it
+/// may be null at any depth.
 void add_polygons(const json& boundaries, const json& values, int nesting, const std::vector<SurfaceKind>& kinds,
                   std::vector<CityJsonPolygon>& polygons) {
   static const json nothing;
@@ -136,8 +137,8 @@ CityJsonObject object_from(std::string id, const json& j) {
   return object;
 }
 
-/// A reference system as the versions of CityJSON and its forerunners write it: a URL, a URN, "EPSG:n" or n alone, {"epsg": n},
-/// or a name in GeoJSON's way. Empty when it is none of these.
+/// The CRS as the versions of CityJSON and its predecessors write it: a URL, a URN, "EPSG:n" or n alone, {"epsg": n}, or a name
+/// as in GeoJSON. Empty when it is none of these.
 std::string crs_definition_of(const json& crs) {
   if (crs.is_string()) return crs.get<std::string>();
   if (crs.is_number_unsigned()) return "EPSG:" + std::to_string(crs.get<std::uint64_t>());
@@ -158,15 +159,15 @@ std::string reference_system_of(const json& file) {
   return {};
 }
 
-/// One JSON text of CityJSON: a file, or a line of a sequence. Vertices are still whole numbers where the file says so.
+/// One JSON text of CityJSON: a file, or a line of a sequence. The transform of the file is not applied to the vertices yet.
 struct CityJsonText {
   std::vector<CityJsonObject> objects;
   std::vector<Point3d> vertices;
   json rest = json::object();  ///< the other members, by name
 };
 
-/// Takes a CityJSON text apart while it is parsed: a tree of all its vertices would need ten times their memory, and
-/// would forget the order of the objects, and those whose id comes twice.
+/// Collects vertices and objects while a CityJSON text is parsed. A tree of the whole text would need ten times the memory of the
+/// vertices, and would lose the order of the objects and those with a repeated id.
 class CityJsonCollector : public nlohmann::json_sax<json> {
  public:
   bool null() override { return take(json()); }
@@ -197,7 +198,7 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
   [[nodiscard]] CityJsonText text() { return std::move(text_); }
 
  private:
-  /// Of the outermost object.
+  /// The member of the outermost object that is being parsed.
   enum class Member { vertices, objects, other };
 
   bool in_vertices() const { return depth_ >= 2 && kind_ == Member::vertices; }
@@ -281,7 +282,7 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
   std::vector<json*> stack_;
 };
 
-/// ", but 15 SolitaryVegetationObject": what there is instead.
+/// ", but 15 SolitaryVegetationObject": the objects of a file without buildings.
 std::string said(const SkippedFeatures& skipped) {
   std::string text;
   for (const auto& [type, count] : skipped) text += (text.empty() ? ", but " : ", ") + std::to_string(count) + " " + type;
@@ -292,7 +293,7 @@ class CityJsonFile {
  public:
   CityJsonFile(const InputFile& file, LodChoice lod, CityModelBuilder& builder) : file_(file), lod_(lod), builder_(builder) {}
 
-  /// The first text says where the city lies; in a sequence the features follow, one a line.
+  /// The first text has the CRS and the transform. In a sequence, the features follow, one a line.
   void read() {
     const std::unique_ptr<std::istream> stream = open_input(file_);
     take_header(parse(*stream));
@@ -308,7 +309,7 @@ class CityJsonFile {
   ObjectAccount account;
 
  private:
-  /// Of a stream the first text only: where it ends, the stream stands.
+  /// Parses the first JSON text of a stream, and leaves the stream at its end.
   template <class Text>
   CityJsonText parse(Text&& text) {
     constexpr bool is_stream = std::is_base_of_v<std::istream, std::remove_cvref_t<Text>>;
@@ -335,7 +336,7 @@ class CityJsonFile {
       templates_.vertices.push_back({p[0], p[1], p[2]});
   }
 
-  /// A line that is no JSON costs its feature, not the city.
+  /// A line that is not JSON is reported. The other features of the city are read.
   void take_feature(const std::string& line) {
     try {
       CityJsonText text = parse(line);

@@ -23,13 +23,13 @@ std::string every_other(std::string_view bytes, std::size_t first) {
   return text;
 }
 
-/// What comes after the first `mark`, or nothing.
+/// The text after the first `mark`; empty when there is no mark.
 std::string_view after(std::string_view text, std::string_view mark) {
   const std::size_t at = text.find(mark);
   return at == text.npos ? std::string_view() : text.substr(at + mark.size());
 }
 
-/// A document type may hold definitions in brackets, each with a tag's end of its own.
+/// The text after a document type. It may contain definitions in brackets, each of which has a `>` of its own.
 std::string_view after_document_type(std::string_view text) {
   const std::size_t bracket = text.find('['), end = text.find('>');
   return after(bracket < end ? after(text, "]") : text, ">");

@@ -9,7 +9,7 @@
 
 namespace farlod::ingest {
 
-/// Letters of names and formats are ASCII; others stay as they are.
+/// With ASCII letters in lower case. Other letters stay as they are.
 [[nodiscard]] inline std::string in_lower_case(std::string_view text) {
   std::string lower(text);
   std::transform(lower.begin(), lower.end(), lower.begin(),

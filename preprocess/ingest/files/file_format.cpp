@@ -13,7 +13,7 @@
 namespace farlod::ingest {
 namespace {
 
-/// The root of an XML file comes after comments, licences and a long list of namespaces.
+/// Enough to reach the root of an XML file, which follows comments and licences and has a long list of namespaces.
 constexpr std::size_t beginning_bytes = std::size_t{1} << 16;
 
 FileFormat format_by_map_kind(const InputFile& file) {

@@ -20,7 +20,7 @@ struct CloseFile {
 };
 using PackedFile = std::unique_ptr<VSILFILE, CloseFile>;
 
-/// Unpacks while it is read. Keeps count: neither is an archive's word taken for its size, nor does it end before that.
+/// Unpacks a file while it is read, and counts the bytes: they may neither exceed the limit nor end before the declared size.
 class UnpackingBuffer : public std::streambuf {
  public:
   UnpackingBuffer(PackedFile packed, const InputFile& file)
@@ -57,7 +57,7 @@ class UnpackingBuffer : public std::streambuf {
   std::array<char, std::size_t{1} << 16> piece_;
 };
 
-/// Passes on what its buffer throws: a stream would otherwise take a damaged archive for the end of the file.
+/// Rethrows the exceptions of its buffer. Without `badbit`, a stream treats them as the end of the file.
 class UnpackingStream : public std::istream {
  public:
   UnpackingStream(PackedFile packed, const InputFile& file) : std::istream(nullptr), buffer_(std::move(packed), file) {
@@ -75,7 +75,7 @@ std::unique_ptr<std::istream> try_to_open(const InputFile& file) {
     return *stream ? std::move(stream) : nullptr;
   }
   const GdalErrors quiet;
-  // Otherwise GDAL writes what it learnt of a .gz beside it
+  // GDAL would otherwise write a file with the properties of a .gz beside it
   CPLSetConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
   PackedFile packed(VSIFOpenL(file.path.c_str(), "rb"));
   return packed ? std::make_unique<UnpackingStream>(std::move(packed), file) : nullptr;

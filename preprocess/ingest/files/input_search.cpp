@@ -20,16 +20,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Enough to know an archive.
+/// Enough bytes to recognize an archive.
 constexpr std::size_t mark_bytes = 512;
 
-/// Endings that only cities and footprints have. `.xml` and `.json` may be anything, and are looked into.
+/// Endings of cities and footprints alone. The content of `.xml` and `.json` files decides about them instead.
 bool has_city_ending(const std::string& name) {
   return ends_with_any(name, {".gml", ".citygml", ".cityjson", ".city.json", ".jsonl", ".obj", ".geojson", ".geojsonl",
                               ".geojsons", ".gpkg", ".shp", ".fgb", ".kml", ".kmz", ".tab", ".mif", ".sqlite", ".topojson"});
 }
 
-/// Companions of city files: parts of shapefiles and of MapInfo tables, textures, styles, schemas, documents, traces of systems.
+/// Companions of city files: parts of shapefiles and MapInfo tables, textures, styles, schemas, documents, files of the system.
 bool is_companion(const std::string& name) {
   return ends_with_any(
       name, {".shx",  ".dbf", ".prj", ".cpg", ".qix",  ".sbn", ".sbx",  ".qmd",  ".qml", ".qpj",  ".shp.xml", ".aux.xml",
@@ -47,7 +47,7 @@ bool is_hidden(const fs::path& relative) {
 
 bool is_geodatabase(const fs::path& folder) { return ends_with_any(folder.filename().string(), {".gdb"}); }
 
-/// The plain files below a folder, and the folders that are one data set, by name.
+/// The regular files below a folder, and the folders that are one data set, ordered by name.
 std::vector<fs::path> entries_below(const fs::path& folder) {
   std::vector<fs::path> entries;
   std::error_code error;
@@ -64,7 +64,7 @@ std::vector<fs::path> entries_below(const fs::path& folder) {
   return entries;
 }
 
-/// A geodatabase in an archive is a folder, too: any of its files leads to it.
+/// The geodatabase that a member of an archive belongs to, which is a folder; otherwise the member itself.
 InputFile whole_of(const InputFile& member) {
   fs::path inner = fs::path(member.name).lexically_relative(member.on_disk), outer = inner;
   while (!outer.empty() && !is_geodatabase(outer)) outer = outer.parent_path();
@@ -98,7 +98,7 @@ class InputSearch {
   }
 
  private:
-  /// Whether it costs the run or only its share is known when all have been looked at.
+  /// Collects failures. Only after all inputs have been searched is it known whether they end the run.
   template <class Work>
   void attempt(const fs::path& what, const Work& work) {
     try {
@@ -118,7 +118,7 @@ class InputSearch {
     if (is_empty && map_kind_of(input) == MapKind::features) add(input);
   }
 
-  /// Opens an archive, if it is one. What is within an archive is never taken for being named itself.
+  /// Opens an archive and takes its members, which do not count as named by the user; hands any other file to `take`.
   template <class Take>
   void take_file(const fs::path& file, const Take& take) {
     if (fs::is_directory(file)) return add(file);
@@ -189,7 +189,7 @@ class InputSearch {
     ++found_.skipped[ending.empty() ? "files without an ending" : ending + " files"];
   }
 
-  /// A single raster is a surface model; several, or one beside cities, may be pictures of them.
+  /// A raster that is alone is a surface model. Several rasters, or one beside cities, may be pictures and are skipped.
   void resolve_rasters(bool is_alone) {
     if (is_alone && rasters_.size() == 1) {
       if (is_new(rasters_.front())) found_.surface_models.push_back(rasters_.front());
@@ -210,8 +210,8 @@ class InputSearch {
 
   Report& report_;
   FoundInputs found_;
-  std::vector<InputFile> rasters_;                             ///< of the input at hand
-  std::unordered_set<std::string> known_, locked_;             ///< files that were met; names in the archive at hand
+  std::vector<InputFile> rasters_;                             ///< of the current input
+  std::unordered_set<std::string> known_, locked_;             ///< files taken so far; locked names of the current archive
   std::vector<std::pair<std::string, std::string>> unusable_;  ///< names and reasons
 };
 

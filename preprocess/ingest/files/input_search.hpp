@@ -12,21 +12,22 @@
 
 namespace farlod::ingest {
 
-/// What lies behind the names that a user gave.
+/// The files that a user's inputs lead to.
 struct FoundInputs {
-  std::vector<InputFile> files;           ///< cities and footprints, in the order of the names, and of their own within a folder
-  std::vector<InputFile> surface_models;  ///< rasters, which are read as a terrain is
-  SkippedFeatures skipped;                ///< files of folders and archives that are of no format of a city, by their endings
+  std::vector<InputFile> files;           ///< cities and footprints, in the order of the inputs; within a folder, by name
+  std::vector<InputFile> surface_models;  ///< rasters, which are read like a terrain
+  SkippedFeatures skipped;                ///< files in folders and archives that have no format of a city, counted by ending
 };
 
-/// Looks into folders, with all that is below them, and into zip and gzip archives. For every file:
-///   (1) it comes once, however often and by whatever names it was given
-///   (2) what was named itself always comes; what was met is a city file by its ending or, where that is open, by its content
-///   (3) textures, code lists, metadata and other companions of city files are silently none
-///   (4) a raster comes when it was named itself, or is all that a folder or an archive holds
-/// Folders that are one data set, such as `.gdb`, stay one input. Archives within archives are not opened.
-/// Throws InputError for a name that leads nowhere, and when there is nothing to be read at all. An archive or a folder that
-/// cannot be opened beside others that can is reported as unusable_file.
+/// Searches folders, recursively, and zip and gzip archives.
+///   (1) a file is found once, even if several inputs lead to it
+///   (2) a file that is itself an input is always found; a file in a folder or archive is found if it is a city by its ending or,
+///       where the ending does not decide, by its content
+///   (3) textures, code lists, metadata and other companions of city files are neither found nor counted as skipped
+///   (4) a raster is found if it is itself an input, or the only usable file of a folder or archive
+/// A folder that is one data set, such as `.gdb`, is one file. Archives within archives are not opened. Throws InputError when an
+/// input does not exist, and when nothing is found. An archive or a folder that cannot be opened is reported as unusable_file if
+/// other inputs can be read.
 [[nodiscard]] FoundInputs find_input_files(std::span<const std::filesystem::path> inputs, Report& report);
 
 }  // namespace farlod::ingest

@@ -6,8 +6,8 @@
 
 namespace farlod::ingest {
 
-/// Whether a file is CityJSON or CityJSONSeq: it begins with a JSON object that says so. Reads no farther than needed. What is no
-/// JSON up to there is none.
+/// Whether a file is CityJSON or CityJSONSeq, by the members of its first JSON object. Reads no farther than needed. A file that
+/// is not JSON up to there is not CityJSON.
 [[nodiscard]] bool is_cityjson(const InputFile& file);
 
 }  // namespace farlod::ingest

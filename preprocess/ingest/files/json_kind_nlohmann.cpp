@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Stops where it is known what the outermost object is: at its member "type", or at one that only one format has.
+/// Parses until the kind of the outermost object is known: by its member "type", or by a member that only one format has.
 class KindFinder : public nlohmann::json_sax<json> {
  public:
   bool string(string_t& value) override {
@@ -25,7 +25,7 @@ class KindFinder : public nlohmann::json_sax<json> {
   }
   bool start_object(std::size_t) override { return ++depth_ > 0; }
   bool end_object() override { return --depth_ > 0; }
-  bool start_array(std::size_t) override { return ++depth_ > 1; }  // an outermost list is no city
+  bool start_array(std::size_t) override { return ++depth_ > 1; }  // a city is no list
   bool end_array() override { return --depth_ > 0; }
   bool null() override { return goes_on(); }
   bool boolean(bool) override { return goes_on(); }

@@ -6,11 +6,11 @@
 
 namespace farlod::ingest {
 
-/// What GDAL takes a file, or a folder, for.
+/// What a file or a folder is to GDAL.
 enum class MapKind { unknown, features, raster };
 
-/// By its content, and for some formats by its name. What can be both is taken for features. A raster counts when it has a place
-/// on the map: a photograph is none.
+/// By its content, and for some formats by its name. A file with features and a raster counts as features. A raster without a
+/// place on the map, such as a photograph, is `unknown`.
 [[nodiscard]] MapKind map_kind_of(const InputFile& file);
 
 }  // namespace farlod::ingest

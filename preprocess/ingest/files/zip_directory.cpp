@@ -10,12 +10,12 @@
 namespace farlod::ingest {
 namespace {
 
-// The format is described in APPNOTE.TXT of PKWARE: 4.3.16 the end of the list, 4.3.12 its entries
+// The format is described in APPNOTE.TXT of PKWARE: the end of the central directory in 4.3.16, its entries in 4.3.12
 constexpr std::size_t end_bytes = 22, longest_comment = 0xFFFF, entry_bytes = 46;
 constexpr std::string_view end_mark = "PK\5\6", entry_mark = "PK\1\2";
 constexpr std::uint32_t in_large_format = 0xFFFFFFFF, locked_bit = 1;
 
-/// A number of `count` bytes, lowest first.
+/// A number of `count` bytes, little-endian.
 std::uint32_t number_at(std::string_view bytes, std::size_t at, std::size_t count) {
   std::uint32_t number = 0;
   for (std::size_t k = count; k-- > 0;) number = number << 8 | static_cast<unsigned char>(bytes[at + k]);
@@ -29,7 +29,7 @@ std::string read_at(std::ifstream& stream, std::uintmax_t place, std::size_t byt
   return stream ? text : std::string();
 }
 
-/// The list as it lies in the file; it is no longer than the file, which is checked before it is read.
+/// The bytes of the central directory. Its declared length is checked against the file before it is read.
 std::string list_of(const std::filesystem::path& archive) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(archive, error);

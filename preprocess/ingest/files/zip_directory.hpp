@@ -9,19 +9,19 @@
 
 namespace farlod::ingest {
 
-/// A file as the list at the end of a zip archive names it.
+/// An entry of the central directory of a zip archive.
 struct ZipListing {
   std::string name;        ///< printable
-  bool is_locked = false;  ///< by a password
+  bool is_locked = false;  ///< encrypted with a password
 };
 
-/// Reads the list, and nothing else. Empty when there is none, or when it is of an archive of more than 4 GiB or 65,535 files.
+/// Reads the central directory alone. Empty when there is none, or when the archive has more than 4 GiB or 65,535 files.
 [[nodiscard]] std::vector<ZipListing> zip_listings(const std::filesystem::path& archive);
 
-/// A name as it may be shown: what would move a terminal's cursor becomes "?".
+/// A name that is safe to show: control characters become "?".
 [[nodiscard]] std::string printable(std::string_view name);
 
-/// Whether a name leads out of the archive that it is in: absolute, with a drive, or with `..`.
+/// Whether a name leads out of its archive: it is absolute, or has a drive or `..`.
 [[nodiscard]] bool leads_outside(std::string_view name);
 
 }  // namespace farlod::ingest

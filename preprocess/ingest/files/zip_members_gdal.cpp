@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// GDAL looks members up one by one in a list: beyond this the look-ups take longer than the reading.
+/// GDAL searches its list of members for each one. With more members, the searches take longer than the reading.
 constexpr std::size_t most_members = 100'000;
 
 struct CloseFolder {
@@ -44,7 +44,7 @@ std::vector<InputFile> list(const fs::path& archive) {
   std::uintmax_t unpacked_bytes = 0;
   while (const VSIDIREntry* entry = VSIGetNextDirEntry(folder.get())) {
     if (VSI_ISDIR(entry->nMode)) continue;
-    // The sum must not run over: each size alone may be any number
+    // The limit keeps the sum from overflowing: a declared size may be any number
     unpacked_bytes += std::min<std::uintmax_t>(entry->nSize, std::uintmax_t{1} << 46);
     require_city_size(archive, files.size(), unpacked_bytes);
     files.emplace_back((archive / printable(entry->pszName)).string(), fs::path(gdal_name) / entry->pszName, archive);

@@ -16,18 +16,18 @@
 namespace farlod::ingest {
 namespace {
 
-/// Names under which tables give heights above the ground, most telling first.
+/// Usual names of fields with heights above the ground, the most specific first.
 constexpr std::array<std::string_view, 11> height_names{"building:height", "height",  "measuredheight", "building_height",
                                                         "bldg_height",     "heightm", "height_m",       "height_ft",
                                                         "height_feet",     "hoehe",   "hauteur"};
-/// `roof:levels` is not among them: attics are part of the roof, and few count them.
+/// `roof:levels` is not among them: it counts storeys inside of the roof, and few buildings have it.
 constexpr std::array<std::string_view, 16> storeys_names{
     "building:levels", "levels",      "num_floors",         "numfloors", "number_of_floors", "floors",    "storeys",
     "stories",         "num_storeys", "storeysaboveground", "nb_etages", "nombre_d_etages",  "geschosse", "anzahl_geschosse",
     "plantas",         "pisos"};
-/// Height above the ground at which a floating part begins: an arch, a skyway.
+/// The height above the ground at which an elevated part begins, such as an arch or a skyway.
 constexpr std::array<std::string_view, 2> lowest_height_names{"min_height", "building:min_height"};
-/// A plain `min_level` counts storeys within, and in America the ground is 1.
+/// `min_level` is not among them: it numbers storeys inside of a building, and the ground is 1 in America.
 constexpr std::array<std::string_view, 1> lowest_storeys_names{"building:min_level"};
 
 std::string lower_case(std::string_view name) {
@@ -36,13 +36,14 @@ std::string lower_case(std::string_view name) {
   return lower;
 }
 
-/// A column of numbers says its unit in its name, or not at all.
+/// The unit of a column of numbers: its name ends with the unit, or it is in metres.
 LengthUnit unit_of(const std::string& field) {
   const std::string name = lower_case(field);
   return name.ends_with("_ft") || name.ends_with("_feet") ? LengthUnit::foot : LengthUnit::metre;
 }
 
-/// The fields with these names, in their order, the one asked for before all. Of equal names the first.
+/// The fields with known names, in the order of these names, after the field that the settings name. Of two fields with the same
+/// name, the first.
 std::vector<std::size_t> fields_called(const std::vector<std::string>& names, const std::optional<std::string>& asked,
                                        std::span<const std::string_view> known) {
   std::vector<std::size_t> fields;
@@ -71,7 +72,7 @@ std::string said(const std::string& name, const FieldValue& value) {
 
 bool is_elevation(double elevation_m) { return lowest_elevation_m <= elevation_m && elevation_m <= highest_elevation_m; }
 
-/// Whether walls of this height can be built; if not, why.
+/// Why walls of this height cannot be built; empty when they can.
 std::optional<Unraised> objection_to(double height_m, const std::string& said) {
   if (std::abs(height_m) > highest_building_m)
     return Unraised{ProblemCode::absurd_height,

@@ -14,56 +14,56 @@
 
 namespace farlod::ingest {
 
-/// How far below its roof a building ends of which only the elevation of the roof is known, until the ground is known.
+/// The height of a building of which only the elevation of the roof is known. The base is moved to the ground later.
 inline constexpr double provisional_height_m = 1.0;
 
-/// What a feature says in one field of its table.
+/// The value of one field of a feature.
 struct FieldValue {
-  std::optional<double> number;  ///< where the column holds numbers
-  std::string text;              ///< where it holds anything else
+  std::optional<double> number;  ///< if the column holds numbers
+  std::string text;              ///< if it holds anything else
   bool is_set = false;
 };
 using FieldLookup = std::function<FieldValue(std::size_t field)>;
 
-/// Who says how high a footprint is.
+/// Where the height of a footprint comes from.
 enum class HeightSource {
-  measured,        ///< the table: a height, or the elevation of a roof
-  storeys,         ///< the table, in storeys
-  default_height,  ///< the user, for all that the table knows nothing of
+  measured,        ///< a height, or the elevation of a roof, in the table
+  storeys,         ///< a number of storeys in the table
+  default_height,  ///< the default height, since the table has neither
 };
 
-/// From where to where a footprint is raised.
+/// The lower and the upper end of the prism over a footprint.
 struct PrismExtent {
   double base_m = 0.0, top_m = 0.0;
   HeightReference height_reference = HeightReference::on_ground;
   HeightSource source = HeightSource::measured;
 };
 
-/// Why a footprint is not raised.
+/// Why a footprint has no prism.
 struct Unraised {
   ProblemCode code;
   std::string detail;
 };
 
-/// Knows which fields of a table of footprints say how high they are. For each feature, the first that says something counts:
-///   (1) the elevation of the roof, if a field for it was asked for
-///   (2) the height: the field asked for, then those with a known name
-///   (3) the number of storeys times their height: the field asked for, then those with a known name
+/// Finds the heights of footprints in the fields of their table. For each feature, the first of these that has a value counts:
+///   (1) the elevation of the roof, if the settings name a field for it
+///   (2) the height: the field that the settings name, then those with a known name
+///   (3) the number of storeys times their height: the field that the settings name, then those with a known name
 ///   (4) the default height
-/// A field that is empty or holds no such number says nothing. Names are compared whatever the case.
+/// A field that is empty or has no such number has no value. Names are compared without regard to case.
 class FootprintHeights {
  public:
-  /// Fields that the settings ask for are among the names.
+  /// The fields that the settings name must be among the names.
   FootprintHeights(std::vector<std::string> field_names, const FootprintSettings& settings);
 
-  /// Whether features can say how high they are at all.
+  /// Whether there is any field with heights, or a default height.
   [[nodiscard]] bool can_tell() const;
   [[nodiscard]] std::variant<PrismExtent, Unraised> of(const FieldLookup& value_of) const;
 
  private:
   struct Height {
     double value_m = 0.0;
-    std::string said;  ///< as the feature has it, for the report
+    std::string said;  ///< the field and its value, for the report
     HeightSource source = HeightSource::measured;
   };
 

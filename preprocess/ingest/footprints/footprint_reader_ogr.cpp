@@ -24,9 +24,9 @@ namespace {
 
 constexpr std::array<const char*, 10> id_field_names{"gml_id",      "@id", "id",         "osm_id",   "osm_way_id",
                                                      "building_id", "bin", "identifier", "objectid", "fid"};
-/// Enough to tell whether a text column holds lengths, and whether features are bodies.
+/// Enough features to find out whether a text column holds lengths, and whether features are bodies.
 constexpr int most_features_to_sample = 100;
-/// Of latitude, to three digits.
+/// The length of a degree of latitude, to three digits.
 constexpr double metres_in_a_degree = 111e3;
 
 struct FeatureDeleter {
@@ -52,7 +52,7 @@ bool holds_areas(OGRLayer& layer) {
          OGR_GT_IsSubClassOf(type, wkbMultiSurface);
 }
 
-/// Names of the fields whose values are lengths, for the user to choose from.
+/// The names of the fields whose values are lengths, for a message.
 std::string numeric_fields(OGRLayer& layer) {
   std::vector<bool> is_numeric(static_cast<std::size_t>(layer.GetLayerDefn()->GetFieldCount()), false);
   layer.ResetReading();
@@ -73,7 +73,7 @@ Ring ring_from(const OGRLinearRing& line) {
   return ring;
 }
 
-/// Of a feature that has no rings to be found by.
+/// The position of a feature without rings, for the report.
 std::optional<Point3d> middle_of(const OGRGeometry& geometry) {
   OGREnvelope box;
   geometry.getEnvelope(&box);
@@ -84,12 +84,12 @@ std::optional<Point3d> middle_of(const OGRGeometry& geometry) {
 /// The areas of a feature.
 struct Areas {
   std::vector<Rings> polygons;
-  bool holds_others = false;      ///< something that is no area
-  bool is_made_of_faces = false;  ///< a polyhedral surface or a network of triangles
-  bool is_body = false;           ///< not an area on the ground
+  bool holds_others = false;      ///< also geometries that are not areas
+  bool is_made_of_faces = false;  ///< is a polyhedral surface or a TIN
+  bool is_body = false;           ///< is a body in space, not an area on the ground
 };
 
-/// Collects the polygons of a geometry; false when it holds something that is no area.
+/// Collects the polygons of a geometry. Returns false when it contains something that is not an area.
 bool add_polygons(const OGRGeometry& geometry, Areas& areas) {
   const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
   if (OGR_GT_IsSubClassOf(type, wkbPolygon)) {
@@ -135,7 +135,7 @@ class FootprintLayer {
     report(messages, layer_.GetName());
   }
 
-  /// What is not as the table measured it.
+  /// For the user: how many heights are not measured ones.
   [[nodiscard]] std::vector<std::string> notes(double floor_height_m) const {
     std::vector<std::string> notes;
     std::ostringstream storeys;
@@ -146,7 +146,7 @@ class FootprintLayer {
     return notes;
   }
 
-  /// Whether the features are surfaces in space, which stand where they are, and not areas to be raised.
+  /// Whether the features are bodies in space, which are read as they are, and not footprints.
   [[nodiscard]] bool holds_bodies() const { return holds_bodies_; }
 
  private:
@@ -235,14 +235,14 @@ class FootprintLayer {
     builder_.end_building("none of its rings is usable");
   }
 
-  /// What a polygon's plan has to be multiplied with to be in the unit of its heights, near enough to tell a wall from a floor.
+  /// The factors that bring plan coordinates to the unit of the elevations, exact enough to tell a wall from a floor.
   [[nodiscard]] Point2d plan_scale(Point2d p) const {
     const OGRSpatialReference* reference = layer_.GetSpatialRef();
     if (reference == nullptr || reference->IsGeographic() == 0) return {1.0, 1.0};
     return {metres_in_a_degree * std::cos(Angle::degrees(p.y).radians()), metres_in_a_degree};
   }
 
-  /// Whether a polygon is steeper than 45°, as walls are, and as no footprint is that was laid over the terrain.
+  /// Whether a polygon is steeper than 45°, as walls are. No footprint that follows the terrain is as steep.
   [[nodiscard]] bool is_steep(const Ring& ring) const {
     if (ring.empty()) return false;
     const Point2d scale = plan_scale(horizontal(ring.front()));
@@ -256,7 +256,7 @@ class FootprintLayer {
   }
 
   [[nodiscard]] Areas areas_of(const OGRGeometry& geometry) const {
-    // Arcs become chords, as fine as GDAL's own default
+    // Arcs become chords of the default length of GDAL
     const std::unique_ptr<OGRGeometry> straight(geometry.getLinearGeometry());
     Areas areas;
     areas.holds_others = !straight || !add_polygons(*straight, areas);
@@ -275,7 +275,7 @@ class FootprintLayer {
   std::size_t raised_by_storeys_ = 0, raised_by_default_ = 0;
 };
 
-/// The first layer of areas, by preference one that has the height field asked for.
+/// The first layer of areas with the height field that the settings name, else the first layer of areas.
 OGRLayer* choose_layer(GDALDataset& dataset, const FootprintSettings& settings) {
   OGRLayer* first = nullptr;
   for (OGRLayer* layer : dataset.GetLayers()) {
@@ -297,7 +297,7 @@ void report_other_layers(GDALDataset& dataset, OGRLayer* chosen, CityModelBuilde
 GDALDatasetUniquePtr open(const InputFile& file, GdalErrors& messages) {
   static std::once_flag once;
   std::call_once(once, GDALAllRegister);
-  // Of GML: nothing is written beside the input, and nothing fetched from a place that the input names
+  // For GML: GDAL must write nothing beside the input, and fetch no schema from an address in it
   constexpr std::array<const char*, 3> options{"WRITE_GFS=NO", "DOWNLOAD_SCHEMA=NO", nullptr};
   GDALDatasetUniquePtr dataset(GDALDataset::Open(file.path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, options.data()));
   const std::vector<std::string> errors = messages.take();

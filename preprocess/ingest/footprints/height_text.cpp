@@ -17,11 +17,11 @@ void skip_blanks(std::string_view& text) { text.remove_prefix(std::min(text.find
 
 std::optional<double> take_number(std::string_view& text) {
   skip_blanks(text);
-  // The best that is known is still the best
+  // An approximate height is taken as it is
   if (text.starts_with('~')) text.remove_prefix(1);
   skip_blanks(text);
   if (text.starts_with('+')) text.remove_prefix(1);
-  // A comma is a decimal point in half of the world; nobody writes thousands of metres with separators
+  // A comma is a decimal point, as in many countries: no height has so many metres that it needs a separator of thousands
   std::string pointed(text.substr(0, text.find_first_not_of("0123456789.,eE+-")));
   std::replace(pointed.begin(), pointed.end(), ',', '.');
   double value = 0.0;

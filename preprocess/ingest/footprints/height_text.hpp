@@ -7,16 +7,16 @@
 
 namespace farlod::ingest {
 
-/// What a number without a unit counts.
+/// The unit of a number that is written without one.
 enum class LengthUnit { metre, foot };
 
 [[nodiscard]] double metres_in(LengthUnit unit);
 
-/// The length that a text from an attribute table means, in metres: "17.5", "17,5", "17.5 m", "~17 m", "57 ft", 57', 57'6".
-/// Empty for anything else, a range among them: a guess would be worse than a reported gap.
+/// The length in a text of an attribute table, in metres: "17.5", "17,5", "17.5 m", "~17 m", "57 ft", 57', 57'6". Empty for any
+/// other text, such as a range: a reported gap is better than a guess.
 [[nodiscard]] std::optional<double> length_m_from(std::string_view text, LengthUnit plain = LengthUnit::metre);
 
-/// The number that a text from an attribute table means: "3", "2.5", "2,5", "~3". Empty for anything else.
+/// The number in a text of an attribute table: "3", "2.5", "2,5", "~3". Empty for any other text.
 [[nodiscard]] std::optional<double> number_from(std::string_view text);
 
 }  // namespace farlod::ingest

@@ -11,7 +11,7 @@ namespace {
 
 /// Twice the area that a ring encloses in plan; positive when it runs counter-clockwise.
 double signed_double_area(const Ring& ring) {
-  // Counted from the first point: far from the origin the products would lose the area in their rounding
+  // Coordinates are relative to the first point. Far from the origin, the rounding of the products would exceed the area
   double sum = 0.0;
   for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
     const Point3d a = ring[i] - ring[0], b = ring[i + 1] - ring[0];

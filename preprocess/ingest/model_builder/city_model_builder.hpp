@@ -16,31 +16,31 @@
 
 namespace farlod::ingest {
 
-/// What is known of a polygon besides its points.
+/// The properties of a polygon besides its points.
 struct PolygonTraits {
   SurfaceKind kind = SurfaceKind::unknown;
   std::uint16_t part = 0;
-  std::optional<std::uint32_t> surface;  ///< empty: a surface of its own
-  std::string_view name;                 ///< for the report; empty: its number
+  std::optional<std::uint32_t> surface;  ///< empty: the polygon is a surface by itself
+  std::string_view name;                 ///< in the report; empty: its number is used
 };
 
-/// Builds the CityModel of one file from what a reader finds: cleans the rings, and reports what is wrong with them.
-/// The readers of all formats use it, so that the same town gives the same model and the same problems in each.
+/// Builds the CityModel of one file from the polygons that a reader finds: cleans their rings, and reports the defects of these.
+/// The readers of all formats use it, so that the same town gives the same model and the same problems in each format.
 class CityModelBuilder {
  public:
   CityModelBuilder(std::string source, Report& report) : source_(std::move(source)), report_(report) {}
 
   void begin_building(std::string id, HeightReference height_reference = HeightReference::elevation);
-  /// Cleans the rings in place, and adds the polygon unless its outer ring is unusable or the building's part has the same
-  /// polygon already; unusable holes are filled.
+  /// Cleans the rings in place and adds the polygon, unless its outer ring is unusable or the part of the building already has
+  /// the same polygon. Unusable holes are filled.
   void add_polygon(Rings& rings, RingEnd end, const PolygonTraits& traits);
-  /// Adds a prism over a footprint (z of its rings is ignored): roof, floor, and a wall per edge, all facing outwards.
+  /// Adds a prism over a footprint: roof, floor, and a wall for each edge, all facing outwards. The z of the rings is ignored.
   void add_prism(Rings& rings, RingEnd end, double base_m, double top_m, std::uint16_t part);
-  /// Reports a problem of the building begun last; without a position of its own it is at the building's first vertex.
+  /// Reports a problem of the current building. Without a position, it is at the first vertex of the building.
   void add_problem(ProblemCode code, std::string detail, std::optional<Point3d> position = {}, std::string ring = {});
   /// Reports a problem of something that is not a building.
   void add_problem_at(std::string place, ProblemCode code, std::string detail, std::optional<Point3d> position = {});
-  /// Takes the building back when nothing of it is usable; `missing` then says what the reader knows about the reason.
+  /// Ends the current building. If nothing of it is usable, it is removed, and `missing` is the reason that the reader knows.
   void end_building(std::string_view missing = "it has no surfaces");
 
   [[nodiscard]] std::size_t buildings_met() const { return buildings_met_; }
@@ -50,13 +50,14 @@ class CityModelBuilder {
  private:
   [[nodiscard]] bool clean_polygon(Rings& rings, RingEnd end, std::string_view name);
   [[nodiscard]] bool clean(Ring& ring, RingEnd end, std::string_view polygon, std::size_t k);
-  /// What ring `k` of the polygon in hand is called in the report; a polygon without a name goes by its number.
+  /// The name of ring `k` of the current polygon in the report. A polygon without a name is called by its number.
   [[nodiscard]] std::string name_of_ring(std::string_view polygon, std::size_t k) const;
   void note_repairs(const RingFindings& findings, const std::optional<Point3d>& position, std::string_view polygon,
                     std::size_t k);
   void add_once(const Rings& rings, const PolygonTraits& traits);
   void add_facet(const Rings& rings, SurfaceKind kind, std::uint32_t surface, std::uint16_t part);
-  /// Elevations beyond the Earth, or so high that a small height is lost beside them, leave none.
+  /// Whether the base is on the Earth and below the top; reports it if not. The sum of a large base and a small height may be the
+  /// base itself.
   [[nodiscard]] bool leaves_room_for_walls(double base_m, double top_m);
   void add_walls(const Ring& ring, double base_m, double top_m, std::uint16_t part);
   void report_repairs();
@@ -74,7 +75,7 @@ class CityModelBuilder {
   double largest_gap_ = 0.0;
   std::string repeating_ring_, widest_open_ring_;
   std::optional<Point3d> at_repeating_ring_, at_largest_gap_, first_vertex_;
-  std::size_t problems_before_ = 0;  ///< in the report, when the building began
+  std::size_t problems_before_ = 0;  ///< problems in the report when the building began
   Ring wall_ = Ring(4);
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 using RingSpans = std::vector<std::span<const Point3d>>;
 
-/// Spreads the bits of a number over all of it (the finalizer of MurmurHash3).
+/// The finalizer of MurmurHash3: each bit of the number affects each bit of the result.
 std::uint64_t mixed(std::uint64_t x) {
   x = (x ^ (x >> 33)) * 0xff51afd7ed558ccdULL;
   x = (x ^ (x >> 33)) * 0xc4ceb9fe1a85ec53ULL;
@@ -21,7 +21,7 @@ std::uint64_t mixed(std::uint64_t x) {
 }
 
 std::uint64_t hash_of_point(double x, double y, double z) {
-  // Adding zero makes the two zeros one
+  // −0 + 0 is +0: the two zeros are equal coordinates
   std::uint64_t hash = mixed(std::bit_cast<std::uint64_t>(x + 0.0));
   hash = mixed(hash ^ std::bit_cast<std::uint64_t>(y + 0.0));
   return mixed(hash + std::bit_cast<std::uint64_t>(z + 0.0));
@@ -29,7 +29,7 @@ std::uint64_t hash_of_point(double x, double y, double z) {
 
 std::uint64_t hash_of_point(const Point3d& p) { return hash_of_point(p.x, p.y, p.z); }
 
-/// A sum over directed edges depends on the direction of a ring, and not on its first point.
+/// A sum over the directed edges: it depends on the direction of a ring, and not on its first point.
 std::uint64_t hash_of_rings(const Rings& rings) {
   std::uint64_t sum = 0;
   for (const Ring& ring : rings) {
@@ -59,10 +59,10 @@ bool have_same_rings(const RingSpans& a, const Rings& b) {
 
 using Corner = std::array<double, 3>;
 
-/// The distinct corners in ascending order. A format may repeat the first point of a ring, and a copy may begin elsewhere.
+/// The distinct corners in ascending order. They are the same for a ring that repeats its first point or begins at another one.
 template <class RingList>
 std::vector<Corner> corners_of(const RingList& rings) {
-  // NaN cannot be ordered
+  // NaN has no place in an order
   const auto ordered = [](double x) { return std::isnan(x) ? std::numeric_limits<double>::infinity() : x; };
   std::vector<Corner> corners;
   for (const auto& ring : rings)

@@ -13,24 +13,24 @@
 
 namespace farlod::ingest {
 
-/// When two polygons are the same.
+/// Which polygons count as the same.
 enum class SamePolygon {
-  corners,  ///< they have the same corners, in any order: files give one surface twice, which may then face either way
-  rings     ///< their rings have the same corners in the same cyclic order: the two sides of a wall differ
+  corners,  ///< those with the same corners in any order: a surface that is in a file twice may face both ways
+  rings     ///< those whose rings have the same corners in the same cyclic order: the two sides of a wall differ
 };
 
-/// Finds polygons that occur again in the same part of a building. Stores a hash and a number for each polygon. The polygons
-/// themselves stay with the caller, who looks them up by number, so that a large mesh is not held twice.
+/// Finds polygons that are repeated in the same part of a building. Stores a hash and a number for each polygon. The caller keeps
+/// the polygons and gives access to them by number, so that a large mesh is in memory once.
 class PolygonDeduplicator {
  public:
-  /// The rings of the polygon that was inserted with `number`.
+  /// Returns the rings of the polygon with a number.
   using PolygonAt = std::function<std::vector<std::span<const Point3d>>(std::uint64_t number)>;
 
   explicit PolygonDeduplicator(SamePolygon criterion) : criterion_(criterion) {}
 
-  /// The number of the polygon of this part that is the same, if one was inserted.
+  /// The number of the same polygon in this part, if it was inserted.
   [[nodiscard]] std::optional<std::uint64_t> find(const Rings& rings, std::uint16_t part, const PolygonAt& polygon_at) const;
-  /// As `find`; inserts the polygon as `number` where there is none.
+  /// As `find`. If there is none, inserts the polygon with `number`.
   std::optional<std::uint64_t> find_or_insert(const Rings& rings, std::uint16_t part, std::uint64_t number,
                                               const PolygonAt& polygon_at);
   void clear() { entries_by_hash_.clear(); }

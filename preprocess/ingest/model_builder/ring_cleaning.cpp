@@ -32,7 +32,7 @@ RingFindings clean_ring(Ring& ring, RingEnd end) {
     findings.state = RingState::unreadable_coordinate;
     return findings;
   }
-  // Take the closing point away; its absence is a finding only in a format that has one
+  // Remove the closing point. Its absence is a defect only in formats that require it
   if (end == RingEnd::repeats_first && ring.size() > 1) {
     findings.was_open = ring.front() != ring.back();
     if (findings.was_open)

@@ -8,8 +8,8 @@
 
 namespace farlod::ingest {
 
-/// The kind that CityGML's and CityJSON's name of a boundary surface speaks for; unknown for names that do not tell.
-/// Outer ceilings look down and outer floors look up: they are the undersides and the terraces of a building.
+/// The kind of surface that a class name of CityGML or CityJSON stands for; unknown for other names. Outer ceilings face down and
+/// outer floors face up: they are the undersides and the terraces of a building.
 [[nodiscard]] constexpr SurfaceKind kind_of_surface_name(std::string_view name) {
   if (name == "RoofSurface" || name == "OuterFloorSurface") return SurfaceKind::roof;
   if (name == "WallSurface" || name == "Window" || name == "Door" || name == "WindowSurface" || name == "DoorSurface")
@@ -18,7 +18,7 @@ namespace farlod::ingest {
   return SurfaceKind::unknown;
 }
 
-/// Surfaces inside rooms: they hide no sky that the building does not hide.
+/// Surfaces of rooms. They hide no sky that the building does not hide.
 [[nodiscard]] constexpr bool is_interior_surface_name(std::string_view name) {
   return name == "InteriorWallSurface" || name == "CeilingSurface" || name == "FloorSurface";
 }

@@ -8,7 +8,7 @@
 
 namespace farlod::ingest {
 
-/// Union-find. The representative of a set is its smallest member, so that numbering never depends on the order of joins.
+/// Union-find. The representative of a set is its smallest member, so that it does not depend on the order of joins.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }

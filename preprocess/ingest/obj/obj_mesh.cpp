@@ -24,7 +24,7 @@ std::string_view take_word(std::string_view& rest) {
   return word;
 }
 
-/// NaN stands for what is not a number: the ring that uses it is then found unreadable.
+/// NaN for a word that is not a number. The rings that use it are then reported as unreadable.
 double coordinate_from(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0.0;

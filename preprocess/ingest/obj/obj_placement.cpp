@@ -13,12 +13,12 @@
 namespace farlod::ingest {
 namespace {
 
-/// What is longer is not one of these small files.
+/// The largest file of a placement that is read.
 constexpr std::size_t most_bytes = std::size_t{1} << 16;
 
 constexpr std::string_view separators = " \t\r\n,;";
 
-/// All numbers of a text of numbers; nothing when there is anything else.
+/// The numbers of a text; empty when it contains anything else.
 std::optional<std::vector<double>> numbers_in(std::string_view text) {
   std::vector<double> numbers;
   while (true) {
@@ -98,7 +98,8 @@ class PlacementSearch {
     found_.origin_file = name;
   }
 
-  /// Positions of cameras follow. The model that is not called "geo" counts from the first camera, and knows of no place.
+  /// Reads the first lines; positions of cameras follow. `odm_textured_model` is the model without "geo": its coordinates are
+  /// relative to the first camera, so that the file does not apply to it.
   void take_opendronemap(const std::string& name) {
     const auto text = stem_ == "odm_textured_model" ? std::nullopt : text_of(name);
     if (!text) return;

@@ -11,22 +11,22 @@
 
 namespace farlod::ingest {
 
-/// Where an OBJ file lies on the map. The format has no place for it; by custom small files beside it tell.
+/// The place of an OBJ file on the map. The format cannot store it; by convention, small files beside it do.
 struct ObjPlacement {
-  std::string crs;                ///< as the file beside it says it; empty: none does
-  std::optional<Point3d> origin;  ///< to be added to the coordinates
+  std::string crs;                ///< as a file beside it defines it; empty: no file does
+  std::optional<Point3d> origin;  ///< is added to the coordinates
   std::string crs_file, origin_file;
 };
 
-/// Looks for the customs of several programs, the most particular first. `NAME` is the file's name without its ending:
+/// Searches for the files of several conventions, the most specific first. `NAME` is the name of the file without its ending:
 ///   NAME.prj                                              CRS
 ///   NAME.offset, NAME_offset.xyz, offset.xyz              one line of three numbers: the origin
 ///   coords.txt, ../odm_georeferencing/coords.txt          OpenDroneMap: "WGS84 UTM 32N", then easting and northing
 ///   metadata.xml, also one or two folders up              ContextCapture: <SRS> and <SRSOrigin>x,y,z</SRSOrigin>
-/// A file that is not as its custom asks for is no such file.
+/// A file that does not have the content of its convention is ignored.
 [[nodiscard]] ObjPlacement find_obj_placement(const InputFile& file);
 
-/// What the user is told of it. `has_origin`: one was given, and holds.
+/// Notes about the placement, for the user. `has_origin`: the user gave an origin, which is used instead.
 [[nodiscard]] std::vector<std::string> notes_of(const ObjPlacement& placement, const InputFile& file, bool has_origin);
 
 }  // namespace farlod::ingest

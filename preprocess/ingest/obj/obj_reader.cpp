@@ -24,7 +24,7 @@ bool is_in_range(const ObjMesh& mesh, std::int64_t corner) {
   return corner >= 0 && corner < static_cast<std::int64_t>(mesh.vertices.size());
 }
 
-/// For each face the first face that shares a point with it, directly or through others.
+/// For each face, the first face of its connected component. Faces are connected if they share a point.
 std::vector<std::uint32_t> components(const ObjMesh& mesh) {
   const std::vector<std::uint32_t> point_of = weld(mesh.vertices);
   std::vector<std::uint32_t> first_face(mesh.vertices.size(), 0xFFFFFFFF), roots;

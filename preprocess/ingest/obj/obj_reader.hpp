@@ -10,15 +10,15 @@ namespace farlod::ingest {
 /// Which axis of an OBJ file points upwards.
 enum class UpAxis { z, y };
 
-/// How the coordinates of a mesh lie in its CRS.
+/// How the coordinates of a mesh are brought into its CRS.
 struct ObjFrame {
-  Point3d origin;  ///< added to them, after turning them upright
+  Point3d origin;  ///< added to the coordinates after their vertical axis is z
   UpAxis up = UpAxis::z;
 };
 
-/// Reads an OBJ file. Each group (`g`) is a building, or each object (`o`) where it has more than one; without either, each
-/// connected component. A name that comes again starts another building. Coplanar neighbors share a surface number. Throws
-/// InputError when there are no faces.
+/// Reads an OBJ file. A building is a group (`g`); an object (`o`) if the file has more than one; or, without either, a connected
+/// component. A repeated name begins another building. Coplanar neighboring faces share a surface number. Throws InputError when
+/// there are no faces.
 void read_obj(const InputFile& file, const ObjFrame& frame, CityModelBuilder& builder);
 
 }  // namespace farlod::ingest

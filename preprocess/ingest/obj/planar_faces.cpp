@@ -21,7 +21,7 @@ struct Edge {
   bool same_place(const Edge& other) const { return low == other.low && high == other.high; }
 };
 
-/// An edge where hundreds of faces meet is no surface of a building; trying all their pairs would never end.
+/// Edges with more faces are not used: they do not occur on buildings, and the number of pairs of faces grows with the square.
 constexpr std::size_t most_neighbors_at_an_edge = 8;
 
 double distance_to_line(const Point3d& p, const Point3d& a, const Point3d& b) {
@@ -41,9 +41,9 @@ Point3d apex(std::span<const Point3d> face, const Point3d& a, const Point3d& b) 
   });
 }
 
-/// How far rounding can lift a point off the plane of three others, where (λ) are its barycentric coordinates among them:
-/// each point moves by half a step along each axis, so by half a step times the 1-norm of the unit normal, and the plane
-/// passes its corners' movements on with the weights λ.
+/// The largest distance by which rounding can move a point off the plane of three others. (λ) are its barycentric coordinates
+/// with respect to them. Rounding moves each point by up to half a step along each axis, hence along the unit normal by up to
+/// half a step times the 1-norm of the normal. The plane moves at the point by the movements of its corners with the weights λ.
 double rounding_bound(const Point3d& unit_normal, const std::array<double, 3>& barycentric) {
   const double one_norm = std::abs(unit_normal.x) + std::abs(unit_normal.y) + std::abs(unit_normal.z);
   return 0.5 * coordinate_rounding_m * one_norm *
@@ -62,7 +62,7 @@ bool are_coplanar(std::span<const Point3d> face_1, std::span<const Point3d> face
   return std::abs(dot(unit, w)) <= rounding_bound(unit, {1.0 - of_b - of_wide, of_b, of_wide});
 }
 
-/// Thickness of a face: its extent across its longest edge.
+/// The thickness of a face: its extent perpendicular to its longest edge.
 double thickness(std::span<const Point3d> face) {
   double longest = 0.0, across = 0.0;
   for (std::size_t i = 0; i < face.size(); ++i) {
@@ -80,7 +80,7 @@ class PlanarFaces {
     list_edges();
     for (std::size_t f = 0; f < mesh.face_count(); ++f) thin_.push_back(thickness(mesh.face(f)) <= thinnest_face_m);
     for_each_pair([&](const Edge& e, const Edge& other) { join_if_coplanar(e, other); });
-    // Thin faces come last, and each only once: they must not be bridges
+    // Thin faces join last, and each joins one neighbor, so that none connects two planar faces
     for_each_pair([&](const Edge& e, const Edge& other) { join_if_thin(e.face, other.face); });
   }
 
@@ -102,7 +102,7 @@ class PlanarFaces {
     a_point_.resize(mesh_.points.size());
     for (std::uint32_t c = 0; c < mesh_.points.size(); ++c) a_point_[point_of_[c]] = mesh_.points[c];
     for (std::uint32_t f = 0; f < mesh_.face_count(); ++f) {
-      if (!is_finite(mesh_.face(f))) continue;  // it has no plane, and no neighbors then
+      if (!is_finite(mesh_.face(f))) continue;  // without a plane it gets no neighbors
       const std::uint32_t begin = mesh_.first_corner[f], end = mesh_.first_corner[f + 1];
       for (std::uint32_t c = begin; c < end; ++c) {
         const std::uint32_t p = point_of_[c], q = point_of_[c + 1 < end ? c + 1 : begin];
@@ -143,7 +143,7 @@ class PlanarFaces {
 }  // namespace
 
 std::vector<std::uint32_t> weld(std::span<const Point3d> points) {
-  // weak_order knows a place for NaN, which `<` does not
+  // Unlike `<`, weak_order also orders NaN
   const auto less = [&](std::uint32_t i, std::uint32_t j) {
     const Point3d &p = points[i], &q = points[j];
     if (const auto x = std::weak_order(p.x, q.x); x != 0) return x < 0;

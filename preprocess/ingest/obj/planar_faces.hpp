@@ -10,14 +10,14 @@
 
 namespace farlod::ingest {
 
-/// Exporters of meshes round coordinates to the millimetre.
+/// The step to which exporters of meshes round coordinates.
 inline constexpr double coordinate_rounding_m = 1e-3;
 
-/// A triangle thinner than this has no normal: rounding moves each coordinate by half a step, so a point by √3/2 steps, and
-/// the two points that span the thickness can move against each other.
+/// A triangle thinner than this has no reliable normal. Rounding moves each coordinate by up to half a step, hence a point by up
+/// to √3/2 steps. The two points that span the thickness can move in opposite directions.
 inline constexpr double thinnest_face_m = 1.7320508075688772 * coordinate_rounding_m;
 
-/// Polygons of a mesh, corner by corner: face f has the corners [first_corner[f], first_corner[f + 1]).
+/// The corners of the polygons of a mesh: face f has the corners [first_corner[f], first_corner[f + 1]).
 struct FaceCorners {
   std::vector<Point3d> points;
   std::vector<std::uint32_t> first_corner{0};
@@ -29,13 +29,14 @@ struct FaceCorners {
   void end_face() { first_corner.push_back(static_cast<std::uint32_t>(points.size())); }
 };
 
-/// Numbers points: equal coordinates, equal number.
+/// Numbers points. Points with equal coordinates have the same number.
 [[nodiscard]] std::vector<std::uint32_t> weld(std::span<const Point3d> points);
 
-/// The number of the planar face that each face of the mesh is a piece of, counted in the order of the faces.
-///   (1) Faces belong together when they share an edge and are coplanar as far as rounded coordinates can tell: the apex of
-///       one lies no farther from the plane of the other than half a rounding step of all four points explains.
-///   (2) A face thinner than rounding has no plane: it joins one neighbor, and never links two.
+/// The number of the planar face that each face of the mesh belongs to, counted in the order of the faces.
+///   (1) Two faces belong together if they share an edge and are coplanar within the rounding of coordinates: the apex of one
+///   lies
+///       no farther from the plane of the other than a movement of all four points by half a rounding step can explain.
+///   (2) A face thinner than the rounding has no plane. It joins one neighbor, and never connects two.
 [[nodiscard]] std::vector<std::uint32_t> number_planar_faces(const FaceCorners& mesh);
 
 }  // namespace farlod::ingest

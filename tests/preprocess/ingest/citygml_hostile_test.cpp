@@ -145,9 +145,9 @@ TEST(CityGmlHostile, AReferenceIsGoneThroughOnce) {
   for (std::size_t k = 0; k < 100; ++k) surfaces.members.push_back({k, {}, false, 0});
   surfaces.ranges["all"] = {0, 100, false};
   const GmlMember all{std::nullopt, "#all", false, 0};
-  Borrowing borrowing({});
+  ReferenceBudget budget({});
   const GmlSurfaces none;
-  ReferenceWalk asking(surfaces, none, borrowing), visiting(surfaces, none, borrowing);
+  ReferenceWalk asking(surfaces, none, budget), visiting(surfaces, none, budget);
   std::size_t asked = 0, visited = 0;
   for (int k = 0; k < 10; ++k) {
     EXPECT_FALSE(asking.any(all, [&](const GmlPolygon&) { return ++asked == 0; }));
@@ -156,24 +156,24 @@ TEST(CityGmlHostile, AReferenceIsGoneThroughOnce) {
   for (const GmlMember& member : surfaces.members) visiting.each(member, [&](const ResolvedPolygon&) { ++visited; });
   EXPECT_EQ(asked, 100u);
   EXPECT_EQ(visited, 100u);
-  ReferenceWalk finding(surfaces, none, borrowing);
+  ReferenceWalk finding(surfaces, none, budget);
   for (int k = 0; k < 10; ++k) EXPECT_TRUE(finding.any(all, [](const GmlPolygon&) { return true; })) << "asked again: " << k;
 }
 
-TEST(CityGmlHostile, BorrowingHasAnEnd) {
-  Borrowing borrowing({});
-  EXPECT_TRUE(borrowing.take(borrowing.most_points() - 1));
-  EXPECT_EQ(borrowing.refusals(), 0u);
-  EXPECT_FALSE(borrowing.take(2));
-  EXPECT_FALSE(borrowing.take(1)) << "what was too much once ends it: small things after large ones would look whole";
-  EXPECT_EQ(borrowing.refusals(), 2u);
+TEST(CityGmlHostile, TheBudgetOfReferencesEnds) {
+  ReferenceBudget budget({});
+  EXPECT_TRUE(budget.take(budget.most_points() - 1));
+  EXPECT_EQ(budget.refusals(), 0u);
+  EXPECT_FALSE(budget.take(2));
+  EXPECT_FALSE(budget.take(1)) << "what was too much once ends it: small things after large ones would look whole";
+  EXPECT_EQ(budget.refusals(), 2u);
 }
 
-TEST(CityGmlHostile, HonestCitiesMayBorrowAllTheyHave) {
+TEST(CityGmlHostile, OrdinaryCitiesMayUseAllTheirReferences) {
   GmlSurfaces foreign;
   foreign.polygons.resize(1'000'000);
-  Borrowing borrowing(foreign);
-  EXPECT_EQ(borrowing.most_points(), 5'000'000u + 16u * 1'000'000u) << "a polygon without points counts as one";
+  ReferenceBudget budget(foreign);
+  EXPECT_EQ(budget.most_points(), 5'000'000u + 16u * 1'000'000u) << "a polygon without points counts as one";
 }
 
 TEST(CityGmlHostile, BuildingsThatAllShareALargeThingSayWhatIsMissing) {
