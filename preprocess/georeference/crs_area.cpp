@@ -7,7 +7,7 @@
 namespace farlod::georeference {
 namespace {
 
-/// Areas of use are the upright rectangles of countries and zones, and towns at a border reach over it.
+/// Areas of use are bounding boxes of countries and zones. Towns at a border extend beyond them.
 constexpr double least_margin_deg = 1.0;
 
 }  // namespace

@@ -7,11 +7,11 @@
 
 namespace farlod::georeference {
 
-/// Surely a place that the CRS is meant for. Of degrees whose area is not known, any on the Earth.
+/// Whether a place lies in the area of use of a CRS. If the area of a CRS in degrees is not known: whether it lies on the Earth.
 [[nodiscard]] bool lies_in_area_of_use(const Crs& crs, Point2d p);
 
-/// Nothing speaks against the place: the area of use is not known, or no farther than 1° away, or than the width of a zone where
-/// there are zones: surveys keep one of them for a whole country.
+/// Whether the CRS may be used at a place: the area of use is not known, or is at most 1° away. If the CRS has zones, it may be
+/// one zone away, since some surveys use one zone for a whole country.
 [[nodiscard]] bool may_be_used_at(const Crs& crs, Point2d p);
 
 }  // namespace farlod::georeference

@@ -21,12 +21,13 @@ std::string trimmed(std::string_view text) {
   return {first, last};
 }
 
-/// One entry of a register.
+/// A reference to an entry of a register.
 struct RegisterCode {
   std::string authority, code;
 };
 
-/// ESRI's codes are often told as EPSG's, whose own end at 32767; the number of Google's map is one that PROJ knows.
+/// The register that a code belongs to. Codes of ESRI are often given as codes of EPSG, which end at 32767. EPSG:900913 is an
+/// alias that PROJ knows.
 std::string authority_of(const RegisterCode& given) {
   constexpr int last_of_epsg = 32767;
   constexpr std::string_view google = "900913";
@@ -37,14 +38,14 @@ std::string authority_of(const RegisterCode& given) {
   return is_esri ? "ESRI" : authority;
 }
 
-/// EPSG's codes are numbers; those of others may be words with a number in them (LAMB93).
+/// Whether a text can be a code: codes of EPSG are numbers, those of other registers may be words with a digit (LAMB93).
 bool may_be_code(const RegisterCode& given) {
   static const std::regex number(R"(\d{4,7})"), word(R"([\w.-]*\d[\w.-]*)");
   static const std::regex epsg("(EPSG)?", ignoring_case);
   return std::regex_match(given.code, std::regex_match(given.authority, epsg) ? number : word);
 }
 
-/// A horizontal code and, where there is a second, a vertical one.
+/// From a horizontal code and, if there is a second one, a vertical code.
 std::optional<CrsDefinition> definition_of(const std::vector<RegisterCode>& codes) {
   if (codes.empty() || codes.size() > 2 || !std::all_of(codes.begin(), codes.end(), may_be_code)) return std::nullopt;
   const std::string authority = authority_of(codes[0]);
@@ -85,7 +86,7 @@ std::optional<CrsDefinition> parse_urn(const std::string& text) {
   return parse_parts(found.suffix(), separator, part);
 }
 
-/// The three characters that an address within an address has to write otherwise.
+/// Replaces the three escape sequences that occur in a URL inside of a URL.
 std::string unescaped(std::string text) {
   static const std::array<std::pair<std::regex, const char*>, 3> escapes{
       {{std::regex("%3A", ignoring_case), ":"}, {std::regex("%2F", ignoring_case), "/"}, {std::regex("&amp;"), "&"}}};
@@ -93,7 +94,7 @@ std::string unescaped(std::string text) {
   return text;
 }
 
-/// ".../def/crs/EPSG/0/n", the old ".../gml/srs/epsg.xml#n", and the pages of two well-known registers.
+/// ".../def/crs/EPSG/0/n", the old ".../gml/srs/epsg.xml#n", and pages of epsg.io and spatialreference.org.
 std::optional<RegisterCode> code_of_url(const std::string& url) {
   static const std::regex single(R"(https?://(?:www\.)?opengis\.net/def/crs/([A-Za-z]\w*)/[\d.]+/([\w.-]+)/?)", ignoring_case);
   static const std::regex old_single(R"(https?://(?:www\.)?opengis\.net/gml/srs/(epsg)\.xml#(\d+))", ignoring_case);
@@ -104,7 +105,7 @@ std::optional<RegisterCode> code_of_url(const std::string& url) {
   return std::nullopt;
 }
 
-/// An address, or two within one: ".../def/crs-compound?1=...&2=...".
+/// A URL, or a URL with two others: ".../def/crs-compound?1=...&2=...".
 std::optional<CrsDefinition> parse_url(const std::string& text) {
   static const std::regex compound(R"(https?://(?:www\.)?opengis\.net/def/crs-compound/?\?1=([^&]*)&2=([^&]*))", ignoring_case);
   const std::string url = unescaped(text);
@@ -117,7 +118,7 @@ std::optional<CrsDefinition> parse_url(const std::string& text) {
   return horizontal && vertical ? definition_of({*horizontal, *vertical}) : std::nullopt;
 }
 
-/// CRS84 and its kin are EPSG's geographic CRSs with the longitude first.
+/// CRS84, CRS84h and CRS83 are geographic CRSs of EPSG with the longitude first.
 std::optional<CrsDefinition> parse_longitude_first(const std::string& text) {
   static const std::regex form(
       R"((?:urn:(?:x-)?ogc:def:crs:OGC:[\d.]*:|https?://(?:www\.)?opengis\.net/def/crs/OGC/[\d.]+/|OGC:)?CRS(83|84h?))",
@@ -127,7 +128,8 @@ std::optional<CrsDefinition> parse_longitude_first(const std::string& text) {
   return CrsDefinition{found[1].str() == "83" ? "EPSG:4269" : "EPSG:4326", true};
 }
 
-/// "urn:adv:crs:ETRS89_UTM32*DE_DHHN2016_NH*GCG2016". A Land's own realisation ("DE_DHDN_3GK2_NW101") is the same CRS to EPSG.
+/// "urn:adv:crs:ETRS89_UTM32*DE_DHHN2016_NH*GCG2016". The realisation of a federal state ("DE_DHDN_3GK2_NW101") has the EPSG code
+/// of the national CRS.
 std::optional<CrsDefinition> parse_adv(const std::string& text) {
   static const std::regex form(R"((?:urn:)?adv:crs:([^*]+)(?:\*.*)?)", ignoring_case);
   static const std::regex utm(R"(ETRS89_UTM(2[89]|3[0-8]))", ignoring_case);
@@ -155,13 +157,13 @@ std::optional<CrsDefinition> parse_adv(const std::string& text) {
   return std::nullopt;
 }
 
-/// PROJ takes a string for a CRS only when it says that it is one.
+/// PROJ reads a PROJ string as a CRS only if it contains `+type=crs`.
 std::optional<CrsDefinition> parse_proj_string(const std::string& text) {
   if (!text.starts_with("+proj=") && !text.starts_with("+init=")) return std::nullopt;
   return CrsDefinition{text.find("+type=crs") == std::string::npos ? text + " +type=crs" : text};
 }
 
-/// A keyword and a bracket: PROJCS[…], GEOGCRS[…], BOUNDCRS[…]. Not by a regular expression: WKT can be long.
+/// A keyword and a bracket: PROJCS[…], GEOGCRS[…], BOUNDCRS[…]. No regular expression is used, since WKT can be long.
 std::optional<CrsDefinition> parse_wkt(const std::string& text) {
   const auto bracket = text.find_first_of("[(");
   if (bracket == std::string::npos || bracket < 3 || (text.back() != ']' && text.back() != ')')) return std::nullopt;
@@ -171,7 +173,7 @@ std::optional<CrsDefinition> parse_wkt(const std::string& text) {
   return is_keyword ? std::optional(CrsDefinition{text}) : std::nullopt;
 }
 
-/// PROJ follows nested objects by recursion: a text that nests deeper than any CRS is not shown to it.
+/// PROJ parses nested objects by recursion. A text that is nested deeper than any CRS must not get there.
 bool nests_deeply(const std::string& text) {
   constexpr int deepest = 64;
   int depth = 0;
@@ -183,14 +185,14 @@ bool nests_deeply(const std::string& text) {
   return false;
 }
 
-/// A JSON object that says that it is a CRS: "type": "ProjectedCRS".
+/// A JSON object whose type is a CRS: "type": "ProjectedCRS".
 std::optional<CrsDefinition> parse_projjson(const std::string& text) {
   if (text.front() != '{' || text.back() != '}' || nests_deeply(text)) return std::nullopt;
   const bool is_crs = text.find("\"type\"") != std::string::npos && text.find("CRS\"") != std::string::npos;
   return is_crs ? std::optional(CrsDefinition{text}) : std::nullopt;
 }
 
-/// Words, as the register writes them: nothing that is an address or the name of another scheme.
+/// A name of words, as in the register. Addresses and names of other schemes are refused.
 std::optional<CrsDefinition> parse_name(const std::string& text) {
   const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   const auto is_graphic = [](char c) { return static_cast<unsigned char>(c) >= ' '; };
@@ -208,7 +210,7 @@ std::optional<CrsDefinition> parse_crs_definition(std::string_view text) {
   if (auto wkt = parse_wkt(definition)) return wkt;
   if (auto proj_string = parse_proj_string(definition)) return proj_string;
   if (auto projjson = parse_projjson(definition)) return projjson;
-  // Names are short, and std::regex recurses for each character: do not show it a broken WKT
+  // std::regex recurses for each character. Names are short; a long text is a broken WKT
   constexpr std::size_t longest_name = 500;
   if (definition.size() > longest_name) return std::nullopt;
   for (const auto parse : {parse_longitude_first, parse_adv, parse_urn, parse_url, parse_code, parse_name})

@@ -26,7 +26,7 @@ struct Entry {
 
 enum class Search { exact, approximate };
 
-/// Entries whose name or alias is the text, or has its words.
+/// The entries whose name or alias is the text, or contains its words.
 std::vector<Entry> search(const std::string& text, std::span<const PJ_TYPE> types, Search kind) {
   constexpr std::size_t most = 100;
   const std::unique_ptr<PJ_CONTEXT, decltype(&proj_context_destroy)> context(proj_context_create(), &proj_context_destroy);
@@ -45,7 +45,7 @@ std::vector<Entry> search(const std::string& text, std::span<const PJ_TYPE> type
   return entries;
 }
 
-/// Letters and digits alone, small.
+/// The letters and digits of a name, in lower case.
 std::string letters_of(const std::string& name) {
   std::string letters;
   for (const char c : name)
@@ -54,7 +54,7 @@ std::string letters_of(const std::string& name) {
   return letters;
 }
 
-/// "WGS84 UTM 32N" as the register has it: "WGS84 / UTM zone 32N".
+/// A name in the spelling of the register: "WGS84 UTM 32N" becomes "WGS84 / UTM zone 32N".
 std::string with_usual_utm(const std::string& name) {
   static const std::regex utm(R"((.*?)[\s/_]+UTM[\s_]*(?:zone)?[\s_]*(\d{1,2})[\s_]*([NS]))",
                               std::regex::ECMAScript | std::regex::icase);
@@ -65,7 +65,7 @@ std::string with_usual_utm(const std::string& name) {
   return datum + " / UTM zone " + std::to_string(std::stoi(found[2])) + found[3].str();
 }
 
-/// Names that differ by other than spelling are not one: geographic CRSs in two and three dimensions share theirs.
+/// The code of the entries if all have the same name. Geographic CRSs in two and three dimensions share their name.
 std::optional<std::string> code_of_only_name(const std::vector<Entry>& entries) {
   const auto differs = [&](const Entry& e) { return e.name != entries.front().name; };
   if (entries.empty() || std::any_of(entries.begin(), entries.end(), differs)) return std::nullopt;
@@ -75,7 +75,7 @@ std::optional<std::string> code_of_only_name(const std::vector<Entry>& entries) 
 std::optional<std::string> code_in(std::span<const PJ_TYPE> types, const std::string& name) {
   if (auto exact = code_of_only_name(search(name, types, Search::exact))) return exact;
   const std::string letters = letters_of(name);
-  constexpr std::size_t least_letters = 5;  // fewer are in too many names
+  constexpr std::size_t least_letters = 5;  // fewer occur in too many names
   if (letters.size() < least_letters) return std::nullopt;
   std::vector<Entry> same, ending;
   for (Entry& entry : search(name, types, Search::approximate)) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <proj.h>
-// After proj.h, which it needs: making CRSs from parts
+// Builds CRSs from parts; needs proj.h before it
 #include <proj_experimental.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ struct ListDeleter {
 using Context = std::shared_ptr<PJ_CONTEXT>;
 using Object = std::unique_ptr<PJ, ObjectDeleter>;
 
-/// A context of its own for each CRS: PROJ's default one is shared, and may go to the network.
+/// A context for one CRS. The default context of PROJ is shared, and may use the network.
 Context make_context() {
   Context context(proj_context_create(), ContextDeleter{});
   proj_context_set_enable_network(context.get(), 0);
@@ -42,13 +42,13 @@ bool is_projected_or_geographic(PJ_TYPE type) {
   return type == PJ_TYPE_PROJECTED_CRS || type == PJ_TYPE_GEOGRAPHIC_2D_CRS || type == PJ_TYPE_GEOGRAPHIC_3D_CRS;
 }
 
-/// Takes the shift to WGS 84 off that old WKT and PROJ strings carry.
+/// Removes the shift to WGS 84 that old WKT and PROJ strings contain.
 Object without_shift(const Context& context, Object crs) {
   while (crs && proj_get_type(crs.get()) == PJ_TYPE_BOUND_CRS) crs.reset(proj_get_source_crs(context.get(), crs.get()));
   return crs;
 }
 
-/// The horizontal part of a compound CRS; anything else itself.
+/// The horizontal part of a compound CRS; any other CRS itself.
 Object horizontal_part(const Context& context, Object crs) {
   while (crs && proj_get_type(crs.get()) == PJ_TYPE_COMPOUND_CRS) crs.reset(proj_crs_get_sub_crs(context.get(), crs.get(), 0));
   return crs;
@@ -69,7 +69,7 @@ std::optional<Axis> axis_of(const Context& context, const PJ* crs, int index) {
   return Axis{direction, unit};
 }
 
-/// Unit of the vertical axis, where the CRS has one.
+/// The unit of the vertical axis, if the CRS has one.
 std::optional<double> vertical_unit_m(const Context& context, const PJ* crs) {
   if (proj_get_type(crs) == PJ_TYPE_COMPOUND_CRS) {
     const Object vertical = without_shift(context, Object(proj_crs_get_sub_crs(context.get(), crs, 1)));
@@ -81,9 +81,9 @@ std::optional<double> vertical_unit_m(const Context& context, const PJ* crs) {
   return axis ? std::optional(axis->unit) : std::nullopt;
 }
 
-/// The entry of the EPSG register that says the same, by name and by content.
+/// The entry of the EPSG register with the same name and content.
 Object entry_of_register(const Context& context, const PJ* crs) {
-  constexpr int surely = 90;  // what GDAL takes for certain, too
+  constexpr int surely = 90;  // the confidence that GDAL requires
   int* confidences = nullptr;
   const std::unique_ptr<PJ_OBJ_LIST, ListDeleter> list(proj_identify(context.get(), crs, "EPSG", nullptr, &confidences));
   Object entry;
@@ -98,7 +98,7 @@ bool has_code(const PJ* crs) {
   return authority != nullptr && std::string(authority) == "EPSG" && proj_get_id_code(crs, 0) != nullptr;
 }
 
-/// "NAD83 / New York Long Island (ftUS)" without the unit: the register names metric twins so.
+/// "NAD83 / New York Long Island (ftUS)" without the unit: the name of the same CRS in metres.
 std::string without_unit(std::string name) {
   const auto bracket = name.rfind(" (");
   if (bracket != std::string::npos) name.erase(bracket);
@@ -110,8 +110,8 @@ std::string without_unit(std::string name) {
 struct Crs::Impl {
   Context context;
   Object shifted;     ///< easting first, with its shift to WGS 84 if it has one: for transformations
-  Object plain;       ///< easting first, without
-  Object registered;  ///< the authority's own form: the EPSG register's entry, or what was given
+  Object plain;       ///< easting first, without that shift
+  Object registered;  ///< in the order of the authority: the entry of the EPSG register, or the given definition
   double height_unit_m = 1.0;
   bool says_height_unit = false;
   bool northing_first = false;
@@ -121,7 +121,7 @@ struct Crs::Impl {
     WayToGeographic(Crs geographic, CrsTransformation transformation)
         : base(std::move(geographic)), way(std::move(transformation)) {}
   };
-  mutable std::unique_ptr<const WayToGeographic> to_geographic;  ///< of a projected CRS, once it is asked for: it costs 20 ms
+  mutable std::unique_ptr<const WayToGeographic> to_geographic;  ///< of a projected CRS, made when first used: it takes 20 ms
   const WayToGeographic& way_to_geographic(const Crs& owner) const;
 
   /// Empty when `given` is neither geographic nor projected.
@@ -172,7 +172,7 @@ bool Crs::runs_east_and_north() const {
 
 namespace {
 
-/// Longitude of the prime meridian from Greenwich.
+/// The longitude of the prime meridian from Greenwich.
 std::optional<double> prime_meridian_deg(const Context& context, const PJ* crs) {
   const Object meridian(proj_get_prime_meridian(context.get(), crs));
   double longitude = 0.0, unit = 1.0;
@@ -185,13 +185,13 @@ std::optional<double> prime_meridian_deg(const Context& context, const PJ* crs) 
 
 bool Crs::is_in_degrees_from_greenwich() const {
   if (is_projected() || prime_meridian_deg(impl_->context, impl_->plain.get()) != 0.0) return false;
-  // A file may write the factor with fewer digits than a double has
+  // A definition may have fewer digits of the factor than a double
   constexpr double digits_of_files = 1e-9;
   return std::abs(unit() - std::numbers::pi / 180.0) < digits_of_files;
 }
 
 const Crs::Impl::WayToGeographic& Crs::Impl::way_to_geographic(const Crs& owner) const {
-  FARLOD_EXPECTS(owner.is_projected());  // a geographic CRS would hold itself, for ever
+  FARLOD_EXPECTS(owner.is_projected());  // a geographic CRS would own itself
   if (!to_geographic) {
     const Crs base = owner.geographic();
     to_geographic = std::make_unique<WayToGeographic>(base, CrsTransformation(owner, base, {}));
@@ -304,7 +304,7 @@ Crs Crs::utm(UtmZone zone) const {
 }
 
 std::optional<Crs::Distortion> Crs::distortion_at(Point2d p_projected) const {
-  // proj_factors of PROJ 9.1 forgets the unit of a CRS in feet
+  // proj_factors of PROJ 9.1 ignores the unit of a CRS in feet
   if (unit() != 1.0) return counted_in(metre).distortion_at(unit() * p_projected);
   const Crs base = geographic();
   const auto place = CrsTransformation(*this, base, p_projected).apply(p_projected);
@@ -317,7 +317,7 @@ std::optional<Crs::Distortion> Crs::distortion_at(Point2d p_projected) const {
 
 struct CrsTransformation::Impl {
   Context context = make_context();
-  Object operation;  ///< empty when PROJ knows no way between the two
+  Object operation;  ///< empty when PROJ has no operation between the two
 };
 
 CrsTransformation::CrsTransformation(const Crs& from, const Crs& to, Point2d typical) {

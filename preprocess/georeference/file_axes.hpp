@@ -8,10 +8,11 @@ namespace farlod::georeference {
 
 enum class AxisOrder { easting_first, northing_first };
 
-/// How a file counts, against the map of its CRS: x the easting or longitude, y the northing or latitude, z in metres.
+/// How the coordinates of a file differ from those on the map of its CRS, where x is the easting or longitude, y the northing or
+/// latitude, and z is in metres.
 struct FileAxes {
   AxisOrder order = AxisOrder::easting_first;
-  double before_easting = 0.0;  ///< what the file adds to each easting: 32,000,000 where it begins with the zone
+  double before_easting = 0.0;  ///< added to each easting by the file: 32,000,000 if it begins with the zone 32
   double height_unit_m = 1.0;
 
   [[nodiscard]] Point3d p_map(const Point3d& p_file) const {

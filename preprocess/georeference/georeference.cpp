@@ -23,7 +23,7 @@ namespace {
 
 using Projection = std::function<void(std::span<Point3d>)>;
 
-/// No map of the Earth has coordinates as large as this, zone numbers before the easting included.
+/// Larger than all coordinates of maps of the Earth, including eastings that begin with a zone number.
 constexpr double beyond_all_maps_m = 1e8;
 
 void project_to_utm(std::span<Point3d> points, const UtmProjection& utm) {
@@ -35,14 +35,14 @@ void project_to_utm(std::span<Point3d> points, const UtmProjection& utm) {
 }
 
 Projection make_projection(const Crs& from, const Crs& to, Point2d typical) {
-  // Coordinates that are in the output CRS already stay what they are, to the last bit
+  // Coordinates in the output CRS stay the same, to the last bit
   if (from.equals(to)) return [](std::span<Point3d>) {};
-  // Feet to metres is a factor, wherever the coordinates lie
+  // Between two units of the same projection, coordinates differ by a factor
   if (from.is_projected() && from.unit() != 1.0 && from.counted_in(metre).equals(to))
     return [unit_m = from.unit()](std::span<Point3d> points) {
       for (Point3d& p : points) p = {unit_m * p.x, unit_m * p.y, p.z};
     };
-  // UTM on the same datum is a formula: no datum shift can come between
+  // UTM on the same datum is a formula without a datum shift
   if (const auto zone = to.utm_zone(); zone && from.is_in_degrees_from_greenwich() && to.geographic().equals(from))
     return [utm = UtmProjection(*zone, to.ellipsoid())](std::span<Point3d> points) { project_to_utm(points, utm); };
   return [way = CrsTransformation(from, to, typical)](std::span<Point3d> points) { way.apply(points); };
@@ -67,7 +67,7 @@ void locate_problems(const ResolvedSource& resolved, Report& report) {
     if (problem.source == resolved.source.source) locator.locate(problem);
 }
 
-/// Projects a file's buildings, one by one. What lies nowhere is reported, and no longer finite.
+/// Projects the buildings of a file one by one. Points that have no place on the map are reported and become infinite.
 void project_buildings(ResolvedSource& resolved, const Projection& projection, const Crs& output, Report& report) {
   std::vector<Point3d> before;
   CityModel& city = resolved.source.city;
@@ -90,7 +90,7 @@ std::string detail_of(std::size_t lost, std::size_t all, const Point3d& first, c
   return std::to_string(lost) + " of " + std::to_string(all) + " points of the relief: " + detail_of(first, output);
 }
 
-/// Projects a file's relief. Points that lie nowhere are left out, and reported together.
+/// Projects the relief of a file. Points that have no place on the map are left out and reported together.
 void project_relief(ResolvedSource& resolved, const Projection& projection, const Crs& output, Report& report) {
   std::vector<Point3d>& points = resolved.source.relief_points;
   const std::size_t all = points.size();
@@ -123,13 +123,13 @@ void append(std::vector<Point3d>& points, std::vector<Point3d>&& more) {
     points.insert(points.end(), more.begin(), more.end());
 }
 
-/// Leaves out what lies nowhere, and what lies far from all the rest.
+/// Leaves out facets that have no place on the map, and facets far from the city.
 void leave_out_misplaced(LocatedCity& located, const Crs& output, Report& report) {
   const std::vector<MisplacedFacets> misplaced = find_misplaced(located.city);
   if (misplaced.empty()) return;
   const std::size_t known = report.problems().size();
   for (const MisplacedFacets& m : misplaced) {
-    if (!std::isfinite(m.first_vertex.x)) continue;  // that is reported already, as the file has it
+    if (!std::isfinite(m.first_vertex.x)) continue;  // already reported by project_buildings
     const Building& b = located.city.buildings()[m.building];
     report.add({ProblemCode::far_away, located.sources[b.source], b.id, detail_of(m), m.first_vertex});
   }
@@ -139,7 +139,8 @@ void leave_out_misplaced(LocatedCity& located, const Crs& output, Report& report
   for (Problem& problem : report.since(known)) locator.locate(problem);
 }
 
-/// From the projected frame into the city frame. Buildings decide where its origin is; a relief alone decides itself.
+/// Moves all points from the projected frame to the city frame. Its origin is the middle of the buildings, or of the relief if
+/// there are no buildings.
 void move_to_origin(LocatedCity& located, const Crs& output) {
   const std::span<Point3d> relief(located.relief_points), buildings = located.city.points();
   Box2d box;

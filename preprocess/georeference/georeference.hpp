@@ -12,20 +12,21 @@
 namespace farlod::georeference {
 
 struct GeoreferenceSettings {
-  std::string crs;      ///< of inputs that do not say theirs; of all, where every one of them does; empty: there is none
-  std::string out_crs;  ///< projected, in metres; empty: the first input's own, its metric twin, or UTM
-  /// There is an input that does not say its CRS and is none of the sources, such as a raster: then `crs` overrules none of them.
+  std::string crs;      ///< of inputs without a CRS; if all inputs have one, of all of them instead; may be empty
+  std::string out_crs;  ///< projected, in metres; empty: that of the first input, the same in metres, or UTM
+  /// An input that is not among the sources, such as a raster, has no CRS: `crs` is for it, and overrules none of the sources.
   bool crs_is_for_another = false;
 };
 
-/// Puts all files into one city frame. For every building of every file, and every point of its relief:
-///   (1) latitude and northing first is read as such, degrees are never taken for metres, nor feet for metres; where a file
-///       counts otherwise than its CRS says, that is reported (axes_swapped, zone_in_easting, unlikely_place)
-///   (2) in an input's own metric CRS the coordinates stay those of the file, minus the origin
-///   (3) it is in the city, or in the report as outside_of_projection
-/// Problems of files whose CRS is known by then get their longitude and latitude.
-/// Throws InputError when a file's CRS is missing, unknown or evidently not that of its coordinates, when the output CRS
-/// is not projected in metres, and when neither a building nor a point of a relief is left. What was found by then is reported.
+/// Brings all files into one city frame. For every building of every file, and every point of its relief:
+///   (1) the order of axes and the units are those of the CRS; where the coordinates of a file contradict its CRS, that is
+///   reported
+///       (axes_swapped, zone_in_easting, unlikely_place)
+///   (2) if the output CRS is that of the file, the coordinates are those of the file minus the origin
+///   (3) it is in the city, or is reported as outside_of_projection or far_away
+/// Problems of files with a known CRS get a longitude and latitude. Throws InputError when the CRS of a file is missing, unknown
+/// or obviously wrong for its coordinates, when the output CRS is not projected in metres, and when neither a building nor a
+/// point of a relief is left. The report is filled up to that point.
 [[nodiscard]] LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSettings& settings, Report& report);
 
 }  // namespace farlod::georeference

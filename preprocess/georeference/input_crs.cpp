@@ -15,7 +15,7 @@ namespace {
 
 using Found = std::optional<NamedCrs>;
 
-/// WKT is too long for a message.
+/// The beginning of a definition, for messages: WKT is long.
 std::string shortened(const std::string& definition) {
   constexpr std::size_t longest = 80;
   return definition.size() > longest ? definition.substr(0, longest) + "..." : definition;
@@ -28,7 +28,8 @@ std::string label_of(const NamedCrs& named) {
   return (code ? "EPSG:" + std::to_string(*code) + " (" + name + ")" : name) + (named.longitude_first ? ", longitude first" : "");
 }
 
-/// What each source says itself. Hundreds of tiles say the same, and each look into the register takes milliseconds.
+/// The CRS that each source defines. Each distinct definition is looked up once: it takes milliseconds, and a city may have
+/// hundreds of tiles.
 std::vector<Found> find_own(std::span<const SourceCity> sources) {
   std::map<std::string, Found> known;
   std::vector<Found> own;
@@ -44,7 +45,7 @@ std::vector<Found> find_own(std::span<const SourceCity> sources) {
   throw InputError("--crs " + given + ", for " + file + ": no such CRS is known: give EPSG:n");
 }
 
-/// A reader that knows the order itself is believed, whatever the name says.
+/// Whether the longitude comes first, by the format of the file or by the definition.
 bool has_longitude_first(const SourceCity& source, const NamedCrs& named) {
   return source.crs.longitude_first || named.longitude_first;
 }
@@ -58,17 +59,17 @@ bool mean_the_same(const SourceCity& source, const NamedCrs& own, const NamedCrs
 InputCrs overruled(const SourceCity& source, const NamedCrs& own, const NamedCrs& given) {
   if (mean_the_same(source, own, given)) return {own};
   const std::string file_says = "the file says " + label_of(own), option_says = "--crs says " + label_of(given);
-  return {given, ProblemCode::two_crs, file_says + "; " + option_says + ", which holds",
-          InputCrs::Own{own, file_says + ", which holds; " + option_says + ", in which its coordinates cannot be"}};
+  return {given, ProblemCode::two_crs, file_says + "; " + option_says + ", which is used",
+          InputCrs::Own{own, file_says + ", which is used; " + option_says + ", but its coordinates cannot be in that"}};
 }
 
-/// Of a source that says nothing, or nothing that is known.
-InputCrs stood_in_for(const SourceCity& source, const Found& given, const std::string& given_text) {
+/// The CRS of --crs for a source without a CRS or with an unknown one.
+InputCrs fallback_for(const SourceCity& source, const Found& given, const std::string& given_text) {
   const std::string& own = source.crs.definition;
   InputCrs input{given ? *given : crs_of_input(source.source, own, given_text)};
   if (own.empty()) return input;
   input.problem = ProblemCode::crs_unknown;
-  input.detail = "nobody knows the CRS \"" + shortened(own) + "\": --crs stands in, " + label_of(input.named);
+  input.detail = "the CRS \"" + shortened(own) + "\" is unknown; that of --crs is used, " + label_of(input.named);
   return input;
 }
 
@@ -100,7 +101,7 @@ std::vector<InputCrs> crs_of_inputs(std::span<const SourceCity> sources, const G
   std::vector<InputCrs> inputs;
   for (std::size_t n = 0; n < sources.size(); ++n) {
     if (!own[n])
-      inputs.push_back(stood_in_for(sources[n], given, settings.crs));
+      inputs.push_back(fallback_for(sources[n], given, settings.crs));
     else if (overrules)
       inputs.push_back(overruled(sources[n], *own[n], *given));
     else

@@ -14,25 +14,24 @@
 
 namespace farlod::georeference {
 
-/// A CRS as an input or an option names it.
+/// A CRS that an input or an option defines.
 struct NamedCrs {
   Crs crs;
-  bool longitude_first = false;  ///< the name itself says so
+  bool longitude_first = false;  ///< by the definition, such as CRS84
 };
 
-/// Empty when nobody knows the definition.
+/// Empty when the definition is unknown.
 [[nodiscard]] std::optional<NamedCrs> find_crs(const std::string& definition);
 
-/// The CRS of `file`: what it says itself (`definition`), or `fallback` where it says nothing or nothing that is known.
-/// Throws InputError when neither helps.
+/// The CRS of `file`: its own `definition`, or `fallback` where that is empty or unknown. Throws InputError when both are.
 [[nodiscard]] NamedCrs crs_of_input(const std::string& file, const std::string& definition, const std::string& fallback);
 
-/// The CRS that holds for an input, and what the user has to know of it.
+/// The CRS that is used for an input, and the problem to report about it.
 struct InputCrs {
   NamedCrs named;
   std::optional<ProblemCode> problem = {};  ///< two_crs or crs_unknown
   std::string detail = {};                  ///< of the problem
-  /// What the file says itself, where --crs overrules it, and the words for when it holds after all.
+  /// If --crs overrules the CRS of the file: the latter, and the detail of the problem if it is used after all.
   struct Own {
     NamedCrs named;
     std::string detail;
@@ -40,11 +39,11 @@ struct InputCrs {
   std::optional<Own> own = {};
 };
 
-/// The CRS of each source, in order. The one of --crs (`settings.crs`)
-///   (1) is that of sources that say none, and of those that name one which nobody knows
-///   (2) overrules the others when every input says its own; else those keep theirs
-///   (3) leaves the unit of heights to a source whose CRS is the same on the map, unless it says one itself
-/// Throws InputError when a source is left without.
+/// The CRS of each source, in order.
+///   (1) sources without a CRS, or with an unknown one, get that of --crs (`settings.crs`)
+///   (2) if every input has a known CRS, that of --crs overrules all of them; otherwise these sources keep theirs
+///   (3) a source whose CRS is horizontally the same keeps its unit of heights, unless --crs has a vertical axis
+/// Throws InputError when a source has no CRS by these rules.
 [[nodiscard]] std::vector<InputCrs> crs_of_inputs(std::span<const SourceCity> sources, const GeoreferenceSettings& settings);
 
 }  // namespace farlod::georeference

@@ -17,7 +17,7 @@
 namespace farlod::georeference {
 namespace {
 
-/// A few buildings far away are a slip; more of them are a town.
+/// A distant cluster of at most so many buildings is an error of the data. A larger one is a town.
 constexpr std::size_t most_stray_buildings = 10;
 
 using Square = std::pair<std::int64_t, std::int64_t>;
@@ -28,7 +28,7 @@ Square square_of(const Point3d& p) {
   return {static_cast<std::int64_t>(std::floor(p.x / city_square_m)), static_cast<std::int64_t>(std::floor(p.y / city_square_m))};
 }
 
-/// The outer ring tells where a facet lies.
+/// The outer ring of a facet, which is its place.
 std::span<const Point3d> outline_of(const CityModel& city, const Facet& facet) { return city.ring(facet, 0); }
 
 bool is_broken(std::span<const Point3d> outline) {
@@ -40,10 +40,10 @@ bool is_broken(std::span<const Point3d> outline) {
   return box.high.x - box.low.x > city_square_m || box.high.y - box.low.y > city_square_m;
 }
 
-/// What lies in a square, or in a cluster of squares that touch.
+/// The facets and buildings in a square, or in a cluster of squares that touch.
 struct Contents {
   std::size_t facets = 0;
-  std::set<std::size_t> buildings;  ///< no more than it takes to be a town
+  std::set<std::size_t> buildings;  ///< at most one more than most_stray_buildings
 
   void add(std::size_t building, std::size_t count) {
     facets += count;
@@ -68,7 +68,7 @@ std::map<Square, Contents> fill_squares(const CityModel& city) {
   return squares;
 }
 
-/// Takes a square out, and all that it touches, directly or through others.
+/// Removes the first square and all squares that are connected with it, and returns them.
 Cluster take_cluster(std::map<Square, Contents>& squares) {
   Cluster cluster;
   std::vector<Square> waiting{squares.begin()->first};
@@ -131,7 +131,7 @@ class MisplacementFinder {
   }
 
   bool is_in_city(const Point3d& p) const {
-    // What no square can be numbered for is in none
+    // Beyond this the number of a square is no std::int64_t
     constexpr double beyond_all_squares_m = 1e15;
     return std::abs(p.x) < beyond_all_squares_m && std::abs(p.y) < beyond_all_squares_m && squares_.contains(square_of(p));
   }

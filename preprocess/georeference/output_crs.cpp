@@ -12,11 +12,11 @@
 namespace farlod::georeference {
 namespace {
 
-/// How far a metre of the output CRS may be from a metre. UTM stays below 0.1 % in its zone, Lambert-93 below 0.3 %; at 1 % a
-/// wall's height over its distance, and with it the sky view factor, would be wrong by as much.
+/// The largest scale error of the output CRS. UTM has less than 0.1 % in its zone, Lambert-93 less than 0.3 %. At 1 %, the height
+/// of a wall over its distance is wrong by 1 %, and so is the sky view factor.
 constexpr double greatest_scale_error = 0.01;
 
-/// Empty when the city is not where the CRS is meant for: coordinates of a local site say nothing about a map's scale.
+/// Empty when the city is not in the area of use: for the coordinates of a local site, the scale of the map has no meaning.
 std::optional<double> scale_error_at(const Crs& crs, Point2d p) {
   const auto place = crs.lon_lat_deg(p);
   const auto area = crs.area_of_use();
@@ -52,7 +52,7 @@ Crs wished_crs(const Crs& input, Point2d typical, const std::string& wish) {
   return crs;
 }
 
-/// GeographicLib where the projection is UTM, PROJ for all others.
+/// By GeographicLib for UTM, by PROJ for all other projections.
 Angle convergence_at(const Crs& crs, Point2d p_projected) {
   if (const auto zone = crs.utm_zone()) return UtmProjection(*zone, crs.ellipsoid()).convergence_at(p_projected);
   const auto distortion = crs.distortion_at(p_projected);

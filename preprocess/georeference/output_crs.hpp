@@ -10,12 +10,12 @@
 
 namespace farlod::georeference {
 
-/// The CRS that the city is put into: `wish` where there is one, else the input's own when it is projected in metres, its
-/// metric twin when projected in feet, else UTM on its datum. `typical` is a place of the city in `input`.
-/// A projection whose metres are not metres at the city (Web Mercator) never serves. Throws InputError when `wish` cannot.
+/// The CRS of the city: `wish` if it is not empty; else the CRS of the input if it is projected in metres, the same in metres if
+/// it is projected in another unit, and UTM on its datum otherwise. `typical` is a place of the city in `input`. A projection
+/// with a large scale error at the city, such as Web Mercator, is not used. Throws InputError when `wish` cannot be used.
 [[nodiscard]] Crs choose_output_crs(const Crs& input, Point2d typical, const std::string& wish);
 
-/// The city frame whose origin is `centre`, rounded to whole metres.
+/// The city frame with its origin at `centre`, rounded to whole metres.
 [[nodiscard]] Georeference georeference_around(Point2d centre, const Crs& output);
 
 }  // namespace farlod::georeference

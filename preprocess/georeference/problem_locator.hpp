@@ -11,19 +11,19 @@
 
 namespace farlod::georeference {
 
-/// Finds the longitudes and latitudes of problems whose positions are in one CRS, as a file counts. `typical`: a place in it,
-/// the easting or longitude first.
+/// Computes the longitude and latitude of problems whose positions are in the CRS and with the axes of a file. `typical`: a place
+/// in that CRS, the easting or longitude first.
 class ProblemLocator {
  public:
   ProblemLocator(Crs crs, FileAxes axes, Point2d typical) : crs_(std::move(crs)), axes_(axes), typical_(typical) {}
-  /// Fills in lon_lat_deg, unless there is no position, or none that the CRS has on the Earth.
+  /// Sets lon_lat_deg, if the problem has a position and the CRS has that position on the Earth.
   void locate(Problem& problem);
 
  private:
   Crs crs_;
   FileAxes axes_;
   Point2d typical_;
-  std::optional<CrsTransformation> lon_lat_from_crs_;  ///< made for the first problem: most cities need it not
+  std::optional<CrsTransformation> lon_lat_from_crs_;  ///< made for the first problem: most cities have none
 };
 
 }  // namespace farlod::georeference

@@ -12,7 +12,7 @@
 namespace farlod::georeference {
 namespace {
 
-/// Says something of a whole file.
+/// Reports problems of a whole file.
 class FileReport {
  public:
   FileReport(const SourceCity& source, const TypicalPlace& typical, Report& report)
@@ -35,7 +35,8 @@ std::string text_of(const Point3d& place) {
   return text.str();
 }
 
-/// Northing first is an order that the authority states, or else a slip; easting first is what most files do.
+/// Whether the order of the file is an error. It is not if it is the order of the authority. Projected coordinates with the
+/// easting first are not an error either, since most files have that order.
 bool is_swapped(const FileAxes& axes, const Crs& crs, bool longitude_first) {
   const bool as_stated = axes.order == stated_order(crs, longitude_first);
   return !as_stated && (axes.order == AxisOrder::northing_first || !crs.is_projected());
@@ -61,7 +62,7 @@ void normalize_points(std::span<Point3d> points, const FileAxes& axes) {
   for (Point3d& p : points) p = axes.p_map(p);
 }
 
-/// What --crs says holds, unless the coordinates can only be of what the file says itself.
+/// The CRS of --crs, unless the coordinates can be in the CRS of the file and cannot be in that of --crs.
 InputCrs resolved_crs(const InputCrs& input, const TypicalPlace& typical) {
   if (!input.own || may_count_in(typical, input.named.crs) || !may_count_in(typical, input.own->named.crs)) return input;
   return {input.own->named, input.problem, input.own->detail};

@@ -10,17 +10,17 @@
 
 namespace farlod::georeference {
 
-/// A file whose x is the easting or longitude, and whose heights are in metres.
+/// A file with x as the easting or longitude and heights in metres.
 struct ResolvedSource {
   SourceCity source;
   Crs crs;
-  Point2d typical;  ///< a place of it
-  FileAxes axes;    ///< how the file counts
+  Point2d typical;  ///< a typical place of the file
+  FileAxes axes;    ///< the axes of the file before
 };
 
-/// Resolves CRS, axes and units of a source that has buildings or a relief. Reports what is said of its CRS (two_crs,
-/// crs_unknown), and what is odd about its coordinates (axes_swapped, zone_in_easting, unlikely_place), each once for the whole
-/// file. Throws InputError when the coordinates are degrees and the CRS counts in metres, or the other way round.
+/// Resolves CRS, axes and units of a source that has buildings or a relief. Reports problems of its CRS (two_crs, crs_unknown)
+/// and of its coordinates (axes_swapped, zone_in_easting, unlikely_place), each once for the whole file. Throws InputError when
+/// the coordinates are in degrees and the CRS is projected, or the other way round.
 [[nodiscard]] ResolvedSource resolve(SourceCity source, const InputCrs& input, Report& report);
 
 }  // namespace farlod::georeference

@@ -16,8 +16,8 @@
 namespace farlod::georeference {
 namespace {
 
-/// Most facets are neither as small as 5 cm nor as large as 0.05° (5 km), and no relief has its points as close or as far from
-/// each other: this tells metres and feet from degrees.
+/// Tells metres and feet from degrees: most facets, and the distances between points of a relief, are larger than 5 cm and
+/// smaller than 0.05° (5 km).
 constexpr double between_degrees_and_metres = 0.05;
 
 double median(std::vector<double> values) {
@@ -43,7 +43,7 @@ std::string text_of(Point2d p) {
   return text.str();
 }
 
-/// What a few stray buildings cannot change.
+/// By medians, which a few stray buildings do not change.
 TypicalPlace typical_of_buildings(const CityModel& city) {
   std::vector<double> x, y, z, extent, grain;
   for (const Building& b : city.buildings()) {
@@ -59,7 +59,7 @@ TypicalPlace typical_of_buildings(const CityModel& city) {
       {median(std::move(x)), median(std::move(y)), median(std::move(z))}, median(std::move(extent)), median(std::move(grain))};
 }
 
-/// Triangles and rows of a relief are written one after the other, so that most of its points follow a neighbor.
+/// By medians of a sample. Most points of a relief follow a neighboring point, since it is written by triangles or rows.
 TypicalPlace typical_of_relief(std::span<const Point3d> points) {
   constexpr std::size_t enough = 10'000;
   const std::size_t stride = std::max<std::size_t>(points.size() / enough, 1);
@@ -79,7 +79,8 @@ AxisOrder other(AxisOrder order) {
   return order == AxisOrder::easting_first ? AxisOrder::northing_first : AxisOrder::easting_first;
 }
 
-/// Eastings of UTM that begin with the number of their zone: 32,356,123. Without it, those of another zone lie nowhere near.
+/// The number added to eastings that begin with the number of their UTM zone: 32,356,123. With the number of another zone, they
+/// do not lie in the area of use.
 double zone_before_easting(const Crs& crs) {
   constexpr double one_zone = 1e6;  // no easting of UTM has as many digits
   const auto zone = crs.utm_zone();

@@ -10,34 +10,34 @@
 
 namespace farlod::georeference {
 
-/// What holds for most of a file, whatever a few stray buildings say.
+/// The typical coordinates of a file, which a few stray buildings do not change. In the units and axes of the file.
 struct TypicalPlace {
-  /// As the file has it: the median, by axis, of the buildings' first vertices; without buildings, of the relief's points.
+  /// The median, by axis, of the first vertices of the buildings; without buildings, of the points of the relief.
   Point3d place;
-  std::optional<double> building_extent;  ///< median of the larger side of the buildings' upright rectangles
-  /// What tells metres from degrees: the median of the larger side of facets, as one stray facet makes a building as large as
-  /// the Earth; without any, how far a point of the relief is from the next one.
+  std::optional<double> building_extent;  ///< median of the larger side of the bounding rectangles of the buildings
+  /// The median of the larger side of the facets; without facets, of the distances between consecutive points of the relief. It
+  /// tells metres from degrees. Facets are used, since one stray facet can make a building as large as the Earth.
   std::optional<double> grain;
 };
 
-/// Of a source with at least one point.
+/// The source must have at least one point.
 [[nodiscard]] TypicalPlace typical_place(const SourceCity& source);
 
-/// The order that the definition states. `longitude_first`: the name or the reader says so, whatever the authority does.
+/// The order of the axes by definition: that of the authority, or easting first if the name or the format requires
+/// `longitude_first`.
 [[nodiscard]] AxisOrder stated_order(const Crs& crs, bool longitude_first);
 
-/// How the file counts (heights aside).
-///   (1) degrees come in the stated order, projected coordinates easting first, which is what CityGML and CityJSON files do
-///       whatever the authority's order is
-///   (2) unless only without the number of a UTM zone before the easting, or only in the other order, they lie in the CRS's area
-///       of use; a place that is possible is never second-guessed
+/// The axes of the file, without the unit of heights.
+///   (1) degrees are in the stated order; projected coordinates have the easting first, as in CityGML and CityJSON files, even if
+///       the authority has the other order
+///   (2) if the CRS cannot be used at that place, another order or a zone number before the easting is assumed, provided that the
+///       place then lies in the area of use
 [[nodiscard]] FileAxes find_axes(Point2d typical_place, const Crs& crs, bool longitude_first);
 
-/// Whether the coordinates can be of that CRS: degrees of a geographic one, and nothing like degrees of a projected one.
+/// Whether the coordinates can be in a CRS: those of a geographic CRS look like degrees, those of a projected one do not.
 [[nodiscard]] bool may_count_in(const TypicalPlace& typical, const Crs& crs);
 
-/// Throws InputError when they cannot: when the coordinates look like degrees in a file that claims a projected CRS, or the other
-/// way round. `advice` ends the message.
+/// Throws InputError if the coordinates cannot be in the CRS (may_count_in). `advice` ends the message.
 void check_units(const SourceCity& source, const TypicalPlace& typical, const Crs& crs, const std::string& advice);
 
 }  // namespace farlod::georeference

@@ -57,7 +57,7 @@ GeoTransform geo_transform(GDALDataset& dataset, const std::filesystem::path& fi
 
 bool is_north_up(const GeoTransform& t) { return t[1] > 0.0 && t[2] == 0.0 && t[4] == 0.0 && t[5] < 0.0; }
 
-/// Metres for one unit of the band, where it names one.
+/// The unit of the band in metres, if it names a known one.
 std::optional<double> named_unit_m(GDALRasterBand& band) {
   const std::string unit = band.GetUnitType();
   constexpr double us_survey_foot_m = 1200.0 / 3937.0, foot_m = 0.3048;
@@ -70,10 +70,10 @@ std::optional<double> named_unit_m(GDALRasterBand& band) {
   return std::nullopt;
 }
 
-/// The raster in another CRS, computed only where it is read.
+/// The raster in another CRS. Pixels are computed when they are read.
 Dataset warped(GDALDataset& dataset, const Crs& from, const Crs& to, const std::filesystem::path& file) {
   const std::string from_wkt = from.wkt(), to_wkt = to.wkt();
-  // A scale of 1 keeps GDAL from widening the kernel where pixels get larger, which would bend a slope
+  // A scale of 1 keeps GDAL from widening the kernel where pixels get larger, which would change slopes
   const std::vector<std::string> words{"-of",        "VRT", "-s_srs", from_wkt,   "-t_srs",  to_wkt,    "-r",
                                        "bilinear",   "-et", "0",      "-ot",      "Float64", "-wt",     "Float64",
                                        "-dstnodata", "nan", "-wo",    "XSCALE=1", "-wo",     "YSCALE=1"};
@@ -88,12 +88,13 @@ Dataset warped(GDALDataset& dataset, const Crs& from, const Crs& to, const std::
   return result;
 }
 
-/// Half open ranges of pixels.
+/// Half-open ranges of columns and rows.
 struct Window {
   int column = 0, row = 0, column_end = 0, row_end = 0;
 };
 
-/// The pixels of `count` whose centres reach from `low` to `high`, in pixels from the first one's edge, and one around.
+/// Of `count` pixels, those whose centres lie between `low` and `high`, and one more at each end. Both are counted in pixels from
+/// the edge of the first pixel.
 std::pair<int, int> pixels_around(double low, double high, int count) {
   const double begin = std::clamp(std::floor(low - 0.5) - 1.0, 0.0, static_cast<double>(count));
   const double end = std::clamp(std::ceil(high - 0.5) + 2.0, 0.0, static_cast<double>(count));
@@ -108,7 +109,7 @@ Window window_of(GDALDataset& dataset, const GeoTransform& t, const std::optiona
   return {column, row, column_end, row_end};
 }
 
-/// From the numbers of a band to heights in metres.
+/// Converts the numbers of a band to heights in metres.
 struct HeightScale {
   double scale = 1.0, offset = 0.0;
 
@@ -120,7 +121,7 @@ HeightScale height_scale(GDALRasterBand& band, const Crs& crs) {
   return {unit_m * band.GetScale(), unit_m * band.GetOffset()};
 }
 
-/// Appends one row of pixels, with what is masked left empty. False when the file breaks off.
+/// Appends a row of pixels; masked pixels are empty. Returns false when the file is cut short.
 [[nodiscard]] bool append_row(GDALRasterBand& band, const Window& w, int row, const HeightScale& scale, TerrainRaster& terrain) {
   const int count = w.column_end - w.column;
   std::vector<double> values(static_cast<std::size_t>(count));
@@ -135,14 +136,14 @@ HeightScale height_scale(GDALRasterBand& band, const Crs& crs) {
   return true;
 }
 
-/// Empty when the file breaks off.
+/// Empty when the file is cut short.
 std::optional<TerrainRaster> read_window(GDALDataset& dataset, const GeoTransform& t, const Window& w, const HeightScale& scale,
                                          Point2d origin) {
   TerrainRaster terrain;
   terrain.columns = static_cast<std::size_t>(w.column_end - w.column);
   terrain.rows = static_cast<std::size_t>(w.row_end - w.row);
   terrain.step_m = {t[1], -t[5]};
-  // A file begins in the north, a terrain in the south
+  // The first row of a file is in the north, that of a terrain in the south
   terrain.first = Point2d{t[0] + (w.column + 0.5) * t[1], t[3] + (w.row_end - 0.5) * t[5]} - origin;
   terrain.height_m.reserve(terrain.columns * terrain.rows);
   for (int row = w.row_end - 1; row >= w.row; --row)
@@ -150,10 +151,10 @@ std::optional<TerrainRaster> read_window(GDALDataset& dataset, const GeoTransfor
   return terrain;
 }
 
-/// A raster in the output CRS, north up, and what its numbers mean.
+/// A raster in the output CRS, north up, and the scale of its heights.
 struct ReadyRaster {
-  Dataset file;    ///< what a resampled one reads from
-  Dataset warped;  ///< empty when the file serves as it is
+  Dataset file;    ///< the source of a resampled raster
+  Dataset warped;  ///< empty when the file is used as it is
   HeightScale scale;
 
   [[nodiscard]] GDALDataset& dataset() const { return warped ? *warped : *file; }

@@ -14,12 +14,12 @@
 namespace farlod::georeference {
 namespace {
 
-/// A model of a site is drawn around its own zero; no site is as large as this.
+/// The model of a site has its own origin, and no coordinate as large as this.
 constexpr double largest_site_m = 20'000.0;
-/// The largest buildings on Earth, factories and airports, stay below it; most are larger than the other.
+/// The sizes between which most buildings are. The largest ones are factories and airports.
 constexpr double largest_building_m = 2'000.0, smallest_building_m = 1.0;
 
-/// A unit, and what many of it are called.
+/// A unit, and its name in the plural.
 using CountedUnit = std::pair<LengthUnit, const char*>;
 
 const std::array<CountedUnit, 6>& units_of_files() {
@@ -37,16 +37,16 @@ bool is_of_a_site(const Crs& crs, Point2d p_map) {
          std::max(std::abs(p_map.x), std::abs(p_map.y)) * crs.unit() < largest_site_m && !lies_in_area_of_use(crs, p_map);
 }
 
-/// Whether the file would lie well if it counted in this unit.
+/// Whether the place and the buildings of the file would be plausible if it counted in this unit.
 bool would_fit(const LengthUnit& unit, const Crs& crs, Point2d p_map, std::optional<double> building_extent) {
-  constexpr double like_the_same = 1e-3;  // the two feet differ by less
+  constexpr double like_the_same = 1e-3;  // the two kinds of feet differ by less
   const double factor = unit.metres / crs.unit();
   if (std::abs(factor - 1.0) < like_the_same) return false;
   const double building_m = building_extent.value_or(smallest_building_m / unit.metres) * unit.metres;
   return smallest_building_m <= building_m && building_m <= largest_building_m && lies_in_area_of_use(crs, factor * p_map);
 }
 
-/// The unit that explains the place; first those for which the register has a CRS that one may have meant.
+/// A unit that would make the place plausible, preferably one for which the register has the CRS in that unit.
 std::optional<std::string> unit_that_fits(const Crs& crs, Point2d p_map, std::optional<double> building_extent) {
   std::optional<std::string> without_twin;
   for (const auto& [unit, many] : units_of_files()) {

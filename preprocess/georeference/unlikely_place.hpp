@@ -10,9 +10,9 @@
 
 namespace farlod::georeference {
 
-/// Says that a file does not lie where its CRS is meant for, or that its buildings are larger than any, and what would explain
-/// it: another unit, or a model of a site that has no place on the map. Empty when nothing speaks against the place.
-/// `p_map`: the typical place, easting or longitude first.
+/// A text that the file does not lie in the area of use of its CRS, or that its buildings are too large, with a possible reason:
+/// another unit, or a model of a site without a place on the map. Empty when the place is plausible. `p_map`: the typical place,
+/// easting or longitude first.
 [[nodiscard]] std::optional<std::string> doubt_about_place(const Crs& crs, Point2d p_map, std::optional<double> building_extent);
 
 }  // namespace farlod::georeference

@@ -20,12 +20,12 @@ struct UtmZone {
   bool operator==(const UtmZone&) const = default;
 };
 
-/// The zone that a place belongs to, with the exceptions of Norway and Svalbard; near the poles, the zone of its longitude.
+/// The UTM zone of a place, with the exceptions of Norway and Svalbard; near the poles, the zone of its longitude.
 [[nodiscard]] UtmZone utm_zone_of(Point2d lon_lat_deg);
 
-/// UTM on the ellipsoid of one's own datum, so that no datum is shifted on the way.
+/// UTM on the ellipsoid of the datum of the coordinates, without a datum shift.
 ///   (1) accurate to nanometres within the zone and its neighbors (Karney 2011, series of order 6)
-///   (2) a point without a place, or more than 500 km from the zone's meridian, where UTM ends, has no projection
+///   (2) a point that is not finite, or more than 500 km from the meridian of the zone, where UTM ends, has no projection
 class UtmProjection {
  public:
   UtmProjection(UtmZone zone, Ellipsoid ellipsoid) : zone_(zone), ellipsoid_(ellipsoid) {}

@@ -10,7 +10,7 @@ namespace farlod::georeference {
 namespace {
 
 constexpr double false_easting_m = 500000.0;
-/// A little beyond the pole, where northings on the meridian's own side of the Earth end.
+/// Slightly beyond the pole, where the northings of a hemisphere end.
 constexpr double farthest_northing_m = 1e7;
 
 double false_northing_m(UtmZone zone) { return zone.north ? 0.0 : 1e7; }

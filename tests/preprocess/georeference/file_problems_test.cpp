@@ -238,7 +238,7 @@ TEST(GivenCrs, MustBeKnownWhereItOverrules) {
 TEST(GivenCrs, YieldsToTheFileWhoseCoordinatesItCannotHave) {
   const Georeferencing degrees = run("EPSG:4326", {50.7, 7.1, 60.0}, ten_metres_deg, {"EPSG:25832", ""});
   EXPECT_THAT(degrees.codes(), ElementsAre(203));
-  EXPECT_THAT(degrees.detail(), HasSubstr("EPSG:4326 (WGS 84), which holds"));
+  EXPECT_THAT(degrees.detail(), HasSubstr("EPSG:4326 (WGS 84), which is used"));
   EXPECT_EQ(degrees.located.georeference.epsg, 32632);
   const Georeferencing metres = run("EPSG:25832", bonn, 10.0, {"EPSG:4326", ""});
   EXPECT_THAT(metres.codes(), ElementsAre(203));
