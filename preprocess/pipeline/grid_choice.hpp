@@ -26,7 +26,7 @@ struct GridChoice {
   double receiver_us = 0.0;
 };
 
-/// What may be chosen from.
+/// The error to keep, and the choices that may keep it.
 struct ChoiceSettings {
   double max_far_error = 0.01;  ///< of the far maps alone
   std::vector<double> cell_edges_m{25.0, 50.0, 100.0, 200.0};
@@ -35,12 +35,12 @@ struct ChoiceSettings {
   FarErrorSettings error_sampling;                        ///< which receivers the errors are estimated with
 };
 
-/// Lays a grid with these cells over the city; the ground that belongs to it.
+/// Lays a grid with cells of this edge over the city. Returns it with the ground below it.
 using LayGrid = std::function<std::pair<Grid, std::optional<TerrainRaster>>(double cell_edge_m)>;
 
-/// The cheapest choice whose far maps keep the error: none of the sampled receivers is farther from `exact` than `max_far_error`,
-/// and 99 % of them are certain not to be (farlod-svf traces the rest exactly when it is told the error, too). None when nothing
-/// keeps the error. Deterministic.
+/// The cheapest choice whose far maps keep the error. No sampled receiver may be farther from the engine `exact` than
+/// `max_far_error`, and the bounds of 99 % of them must guarantee it; farlod-svf --max-error retraces the rest. Empty when no
+/// choice keeps the error. Deterministic.
 [[nodiscard]] std::optional<GridChoice> choose_grid(const LocatedCity& city, const LayGrid& lay, Assign assign,
                                                     const HorizonMapSettings& far_map, const ChoiceSettings& settings);
 

@@ -31,7 +31,7 @@ package::InputFile input_file(const std::filesystem::path& path) {
   return {path.filename().string(), std::filesystem::is_regular_file(path) ? stamp_of(path) : package::FileStamp{}};
 }
 
-/// The grid's rectangle in the frame that it is turned against.
+/// The bounding rectangle of the grid in the city frame.
 Box2d city_outline(const Grid& grid) {
   const auto [low, high] = grid.rectangle();
   Box2d outline;
@@ -53,7 +53,7 @@ Box2d outline_of(std::span<const Point3d> points) {
   return outline;
 }
 
-/// Of a city that is ground alone.
+/// The outline of a city without buildings: that of its terrain or relief.
 Box2d ground_outline(const LocatedCity& located, const std::optional<TerrainRaster>& terrain) {
   return terrain ? outline_of(*terrain) : outline_of(located.relief_points);
 }
@@ -69,7 +69,7 @@ void resolve_relief(LocatedCity& located, bool has_terrain, SkippedFeatures& ski
   located.relief_points.clear();
 }
 
-/// What can never be a folder is said before the long work, too.
+/// Refuses an output below a file before the long stages.
 void require_folders_above(const std::filesystem::path& output) {
   for (std::filesystem::path above = std::filesystem::absolute(output).parent_path(); above.has_relative_path();
        above = above.parent_path())
@@ -77,7 +77,7 @@ void require_folders_above(const std::filesystem::path& output) {
       throw PackageWriteError(output.string() + " cannot be written: " + above.string() + ": Not a directory");
 }
 
-/// What the names that the user gave lead to.
+/// The files that the inputs of the user lead to.
 struct ResolvedInputs {
   std::vector<SourceCity> sources;
   std::vector<std::filesystem::path> files;              ///< on disk: an archive is one input, however many of its files are read
@@ -100,7 +100,7 @@ struct GridOnGround {
 
 /// Runs the stages one after the other, and measures how long each takes.
 class Packing {
-  // Before its first use, since its result type is deduced
+  // Defined before its first use, since its return type is deduced
   template <class Work>
   auto timed(const std::string& stage, const Work& work) {
     progress_(stage, 0, 1);
@@ -115,7 +115,7 @@ class Packing {
       : settings_(settings), report_(report), progress_(progress), tell_(tell) {}
 
   PackResult run() {
-    // A folder that may not be written ends the run before the long work; one that may be is swept only after it
+    // An output folder that must not be replaced ends the run before the long stages. One that may be is removed only after them
     require_folders_above(settings_.output);
     require_room(settings_.output, settings_.overwrite);
     ResolvedInputs inputs = resolve_inputs();
@@ -142,7 +142,7 @@ class Packing {
     return {{}, {}, settings_.terrain, settings_.terrain};
   }
 
-  /// The names that the user gave become the files behind them; a raster among them becomes the terrain.
+  /// Searches the inputs of the user for files. A raster among them becomes the terrain.
   ResolvedInputs read_inputs() {
     ingest::FoundInputs found = ingest::find_input_files(settings_.inputs, report_);
     ResolvedInputs inputs{{}, {}, settings_.terrain, settings_.terrain};
@@ -257,7 +257,7 @@ class Packing {
     if (tell_) tell_(result_.estimate);
   }
 
-  /// What is found here is placed in the CRS of the package.
+  /// The problems found here have positions in the CRS of the package.
   TileSet cut_city(LocatedCity located, const GridOnGround& ground) {
     const std::size_t known = report_.problems().size();
     const Georeference place = located.georeference;

@@ -23,16 +23,16 @@
 
 namespace farlod::pipeline {
 
-/// What to do with a city that has problems.
+/// Whether a city with problems is packed.
 enum class ProblemPolicy { pack, refuse };
 
-/// The city has problems, and was to have none.
+/// The city has problems, and ProblemPolicy refuses them.
 class ProblemsRefused : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Everything that `farlod-pack` can be told.
+/// The settings of a run of `farlod-pack`.
 struct PackSettings {
   std::vector<std::filesystem::path> inputs;  ///< files, folders and archives; may be empty when there is a terrain
   std::optional<std::filesystem::path> terrain;
@@ -44,43 +44,42 @@ struct PackSettings {
   Assign assign = Assign::clip;
   FarMapSettings far_map;
   ProblemPolicy problems = ProblemPolicy::pack;
-  /// Choose the cells, the neighborhood and the far maps' tolerance such that an error is kept, instead of taking them from
-  /// `grid` and `far_map`.
+  /// If set, the cells, the neighborhood and the tolerance of the far maps are chosen to keep an error, and those of `grid` and
+  /// `far_map` are not used.
   std::optional<ChoiceSettings> choice;
-  /// End the run before the long work when it is expected to need more.
+  /// If set, a run that is expected to need more memory ends before the long stages.
   std::optional<std::uint64_t> memory_limit_mib;
 };
 
-/// What was chosen to keep an error, and what it was then measured to do with receivers that did not take part in the choice.
+/// The grid that was chosen to keep an error, and its error at receivers that were not used for the choice.
 struct ChosenGrid {
   std::optional<GridChoice> best;  ///< none: nothing keeps the error, and the settings were taken as they are
   FarErrorEstimate measured;
 };
 
-/// What came of it.
+/// The counts and measurements of a run.
 struct PackResult {
   package::Manifest manifest;
   align::Alignment alignment;
   std::optional<ChosenGrid> chosen;
   std::uint64_t facets = 0;        ///< polygons as the files have them: a surface of a mesh is made of several triangles
   std::uint64_t foundations = 0;   ///< buildings whose lowest floor was closed down to the ground
-  SkippedFeatures skipped;         ///< what the files hold that is not used
-  std::vector<std::string> notes;  ///< for the user: what was taken from beside the inputs, or guessed
+  SkippedFeatures skipped;         ///< features of the files that are not used
+  std::vector<std::string> notes;  ///< for the user: what was read from files beside the inputs, or assumed
   std::uint64_t package_bytes = 0, far_map_bytes = 0;
   PackEstimate estimate;  ///< made when the grid was laid
-  /// In the order in which the stages ran. The package is written while far maps are baked: together they take less than the sum.
+  /// In the order in which the stages ran. The package is written while far maps are baked, so that these two overlap.
   std::vector<std::pair<std::string, double>> stage_seconds;
 };
 
-/// Is told how far the work is: the stage, and how much of it is done.
+/// Called with the progress of a run: the stage, and how much of it is done.
 using PackProgress = std::function<void(const std::string& stage, std::size_t done, std::size_t all)>;
-/// Is told, before the long work, what it will need.
+/// Called before the long stages with what they are expected to need.
 using TellEstimate = std::function<void(const PackEstimate&)>;
 
-/// From city files to a package: ingest, georeference, align, tiles, far maps, package.
-/// Throws InputError, PackageWriteError, MemoryLimitError or OcclusionError; what is wrong with single buildings goes to the
-/// report. Where problems are refused, throws ProblemsRefused as soon as the report is complete: after the tiles, before far
-/// maps, and with nothing written.
+/// Runs the stages from city files to a package: ingest, georeference, align, tiles, far maps, package. Problems of single
+/// buildings are reported. Throws InputError, PackageWriteError, MemoryLimitError or OcclusionError. If problems are refused,
+/// throws ProblemsRefused when the report is complete, after the tiles and before the far maps; nothing is written then.
 PackResult pack(const PackSettings& settings, Report& report, const PackProgress& progress, const TellEstimate& tell = {});
 
 }  // namespace farlod::pipeline

@@ -10,15 +10,15 @@ namespace farlod::pipeline {
 namespace {
 
 // Measured with `farlod-pack --summary` on generated cities of 35,000 to 10 million polygons (`farlod-city --towers 0.3`) with
-// cells of 35 to 100 m, and on Queens, Omiya and Manhattan; see docs/performance.md. Rounded, and rather high than low.
+// cells of 35 to 100 m, and on Queens, Omiya and Manhattan; see docs/performance.md. Rounded, mostly upwards.
 
-/// Triangles in the tiles for each triangle of the buildings: the ground between them comes to two thirds of theirs, and borders
-/// cut them the more often the smaller the cells are.
+/// Triangles in the tiles for each triangle of the buildings. The ground adds two thirds of their number. Borders of cells cut
+/// triangles, and the more of them the smaller the cells are.
 constexpr double tiles_per_city_triangle = 1.7, cut_by_borders_m = 55.0;
 /// n points of the ground make 2n triangles; few of them cross borders.
 constexpr double tiles_per_ground_point = 2.2;
 
-/// Tiles, surfaces, horizon edges and the city model as long as it is cut; an index of rays needs as much again.
+/// Tiles, surfaces, horizon edges, and the city model while it is cut; and an index of rays over the triangles.
 constexpr double memory_bytes_per_triangle = 160.0, ray_index_bytes_per_triangle = 100.0;
 /// The program itself; two blocks of far maps, one of them being written.
 constexpr double memory_mib_of_program = 50.0, memory_mib_of_blocks = 60.0;
@@ -27,7 +27,7 @@ constexpr double cells_of_a_block = 1024.0;
 constexpr double package_bytes_per_triangle = 28.0;
 constexpr double package_bytes_per_horizon_map = 10000.0, package_bytes_per_box_map = 6000.0;
 
-/// Of one core: cutting and writing a triangle; baking and writing a far map of either kind.
+/// On one core: cutting and writing a triangle; baking and writing a far map of either kind.
 constexpr double seconds_per_triangle = 4e-6, seconds_per_far_map = 4e-3;
 
 constexpr double bytes_per_mib = 1048576.0;

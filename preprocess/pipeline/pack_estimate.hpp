@@ -13,14 +13,14 @@
 
 namespace farlod::pipeline {
 
-/// The expected cost of a run, estimated once the grid is laid. An estimate to plan by, not a bound.
+/// The expected cost of a run, estimated when the grid is known. An estimate, not a bound.
 struct PackEstimate {
   std::uint64_t cells = 0;
-  double seconds = 0.0;  ///< from the tiles on
+  double seconds = 0.0;  ///< of the stages from the tiles on
   double memory_mib = 0.0, package_mib = 0.0;
 };
 
-/// The run would need more than it may.
+/// The run is expected to need more memory than its limit.
 class MemoryLimitError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -32,7 +32,7 @@ class MemoryLimitError : public std::runtime_error {
 [[nodiscard]] PackEstimate estimate_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map,
                                          std::size_t threads);
 
-/// Throws MemoryLimitError, which says what would help, when the estimate exceeds the limit.
+/// Throws MemoryLimitError, whose message has remedies, when the estimate exceeds the limit.
 void require_memory(const PackEstimate& estimate, std::optional<std::uint64_t> limit_mib);
 
 }  // namespace farlod::pipeline
