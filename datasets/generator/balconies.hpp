@@ -8,9 +8,9 @@
 
 namespace farlod {
 
-/// Draws whether a building gets balconies, and hangs them to its street front or its rear: closed boxes, one a storey and bay
-/// from the second storey upwards, as installations. Only street fronts, terraces and slabs of flats have them.
-/// `row` is the building's place in the block.
+/// Decides at random whether a building gets balconies, and adds them to its street front or its rear: closed boxes, one for each
+/// storey and bay from the second storey upwards, as installations. Only street fronts, terraces and slabs of flats have them.
+/// `row` is the number of the building in the block.
 void maybe_add_balconies(KeyedRandom& random, const BuildingPlan& plan, const TouchingWalls& walls, std::size_t row,
                          PlanBuilding& building);
 

@@ -17,11 +17,11 @@
 namespace farlod {
 namespace {
 
-/// The widest eaves of the steepest roof hang down by 1.25 m, and stay above the ground.
+/// The widest eaves of the steepest roof reach 1.25 m down. Above lower walls they could touch the ground.
 constexpr double lowest_wall_with_eaves_m = 2.0;
 constexpr double least_error_m = 10.0, largest_error_m = 40.0, share_at_zero = 0.5;
 
-/// Roofs do not project over a neighbor that touches the wall.
+/// The overhangs of a roof. It does not project over a wall that a neighbor touches.
 [[nodiscard]] Overhangs overhangs_of(const CitySettings& settings, const TouchingWalls& walls, std::size_t row,
                                      const BuildingPlan& plan) {
   Overhangs overhangs{};
@@ -34,7 +34,7 @@ constexpr double least_error_m = 10.0, largest_error_m = 40.0, share_at_zero = 0
   return overhangs;
 }
 
-/// Lowers all that stands on the ground.
+/// Lowers the base of all components that stand on the ground.
 void lower_base(PlanBuilding& building, double by_m) {
   for (PlanSolid& solid : building.solids) {
     if (solid.kind == ComponentKind::installation) continue;
@@ -49,7 +49,7 @@ void maybe_lower_base(KeyedRandom random, double share, PlanBuilding& building) 
   const bool drawn = random.chance(share), at_zero = random.chance(share_at_zero);
   const double error_m = on_plan_grid_m(random.between(least_error_m, largest_error_m));
   const double ground_m = building.solids.front().ground_m;
-  // Near z = 0 a base at z = 0 would not be wrong enough
+  // On ground near z = 0, a base at z = 0 would hardly be an error
   if (drawn) lower_base(building, at_zero && ground_m >= least_error_m ? ground_m : error_m);
 }
 

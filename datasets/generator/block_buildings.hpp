@@ -9,7 +9,7 @@
 
 namespace farlod {
 
-/// The buildings of a block as solids with all that the settings ask for, then the bridges that start from it.
+/// The buildings of a block as solids with the features of the settings, followed by the bridges that start from the block.
 [[nodiscard]] std::vector<PlanBuilding> raise_block(const CitySettings& settings, CityBlock block);
 
 }  // namespace farlod

@@ -10,15 +10,15 @@ namespace farlod {
 namespace {
 
 constexpr double park_share = 0.035, hall_share = 0.035, slab_share = 0.05;
-/// Cities with fewer blocks have no block to spare for a park.
+/// Cities with fewer blocks have no park.
 constexpr std::int64_t least_blocks_with_park = 9;
-/// Closed street fronts need room for four corners and what lies between them.
+/// Closed street fronts need room for four corner buildings and those between them.
 constexpr double least_edge_of_street_fronts_m = 48.0;
 constexpr double fewest_urban = 0.1, mostly_urban = 0.28;
 
 using BuildBlock = void (*)(BlockSite&);
 
-/// What kind of block it is: one draw decides, so that kinds keep their shares.
+/// Draws the kind of a block. A single random number decides, so that each kind has its share.
 [[nodiscard]] BuildBlock draw_kind(BlockSite& site, const CityLayout& layout) {
   const double draw = site.random.unit();
   const double urban_draw = site.random.unit();

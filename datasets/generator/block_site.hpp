@@ -10,7 +10,7 @@
 
 namespace farlod {
 
-/// A block while it is being built on.
+/// A block, the random numbers for it, and the plans of its buildings so far.
 struct BlockSite {
   const CitySettings& settings;
   Box2d rectangle;
@@ -24,15 +24,15 @@ struct BlockSite {
   [[nodiscard]] int long_side() const { return width_m() >= depth_m() ? 0 : 1; }
 };
 
-/// A lot is a part of a block's side: from u to u + width.
+/// The part of a side of a block that a lot occupies: from u to u + width.
 struct LotSpan {
   double begin_m, width_m;
 };
 
-/// Cuts a side from `begin_m` to `end_m` into lots of random width in about [narrowest, widest], without rest.
+/// Divides a side into lots of random width between about `narrowest_m` and `widest_m`, without remainder.
 [[nodiscard]] std::vector<LotSpan> cut_into_lots(KeyedRandom& random, LotSpan side, double narrowest_m, double widest_m);
 
-/// The frame of something that stands `u_m` along and `v_m` behind the corner of `lot`.
+/// The frame whose origin is `u_m` along and `v_m` behind the corner of `lot`.
 [[nodiscard]] LotFrame moved(const LotFrame& lot, double u_m, double v_m);
 
 /// Walls of so many storeys, with a parapet or a knee wall of random height.
@@ -41,11 +41,11 @@ void set_storeys(BlockSite& site, BuildingPlan& plan, int storeys);
 /// Puts a pitched roof on a low building: gabled or hipped, rising by a random pitch.
 void set_pitched_roof(BlockSite& site, BuildingPlan& plan, double gabled_share);
 
-/// Draws whether the ground floor stands back under the upper ones; has an effect where the settings ask for overhangs, and
-/// where the building is a tall enough rectangle. Its roof is flat then.
+/// Decides at random whether a building gets an arcade, which makes its roof flat. Only with `overhangs`, and only for rectangles
+/// that are high enough.
 void maybe_add_arcade(BlockSite& site, BuildingPlan& plan, double share);
 
-// The kinds of block. Each draws from the site's random numbers and appends to its plans.
+// The kinds of block. Each function uses the random numbers of the site and appends to its plans.
 
 /// Houses in gardens, one row along each of the longer sides, single or in pairs, some with an outbuilding.
 void build_detached_houses(BlockSite& site);

@@ -10,14 +10,14 @@ namespace farlod {
 namespace {
 
 constexpr double bridge_width_m = 3.5, bridge_height_m = 3.2, least_clearance_m = 5.0;
-/// A bridge meets a wall with at least this much of it on either side.
+/// The least width of wall to either side of a bridge.
 constexpr double shoulder_m = 1.5;
 constexpr double share_across_street = 0.5, share_across_avenue = 0.2;
 
 /// The direction from a block to its neighbor: which coordinate the bridge runs along.
 enum class Across { street, avenue };
 
-/// Seen from the bridge: `low` and `high` along the street, and where the façade stands across it.
+/// A façade along a street: its extent along the street, and its position across the street.
 struct Facade {
   double low_m, high_m, facade_m;
   double ground_m, top_m;
@@ -34,7 +34,7 @@ struct Facade {
   for (const BuildingPlan& plan : plans_of_block(settings, block)) {
     const Box2d box = plan_rectangle(plan);
     const double facade_m = north_south ? (far_side ? box.high.y : box.low.y) : (far_side ? box.high.x : box.low.x);
-    // Legs of an L, parts and steps of a roof may leave the rectangle's border
+    // Legs of an L and parts may lie behind the border of the rectangle
     if (plan.shape == FootprintShape::l_shape || !plan.parts.empty() || on_plan_grid_m(facade_m - border_m) != 0.0) continue;
     const double ground_m = base_m(field, plan);
     result.push_back(
@@ -49,7 +49,7 @@ struct Facade {
   return std::max(south_m, north_m);
 }
 
-/// A bridge from one façade to the other, if they face each other for long enough and are tall enough.
+/// A bridge between two façades, if the part along which they face each other is long enough and both are tall enough.
 [[nodiscard]] std::optional<BuildingPlan> bridge_between(const UrbanField& field, const Facade& near, const Facade& far,
                                                          Across across) {
   const double low_m = std::max(near.low_m, far.low_m) + shoulder_m;
@@ -61,7 +61,7 @@ struct Facade {
   bridge.lot = across == Across::street ? LotFrame{{begin_m, near.facade_m}, 0} : LotFrame{{near.facade_m, begin_m}, 0};
   bridge.width_m = across == Across::street ? bridge_width_m : span_m;
   bridge.depth_m = across == Across::street ? span_m : bridge_width_m;
-  // A slope may rise above both bases, which lie under the lowest corners of their buildings
+  // On a slope, the street may be higher than both bases, which are those of the lowest corners
   const double street_m = highest_ground_m(field, plan_rectangle(bridge));
   const double underside_m = std::max({near.ground_m, far.ground_m, street_m}) + least_clearance_m;
   const double ground_m = base_m(field, bridge);

@@ -11,7 +11,7 @@
 
 namespace farlod {
 
-/// What stands there. Decides nothing by itself; it is for tests, summaries and attributes.
+/// The kind of a building. It is for tests, summaries and attributes, and changes no geometry.
 enum class BuildingKind { detached, attached, outbuilding, slab, hall, courtyard, office, tower, pavilion, bridge };
 
 enum class FootprintShape {
@@ -58,17 +58,18 @@ struct BuildingPlan {
 /// The footprint in the lot's frame, counter-clockwise from the lot's corner, without the court.
 [[nodiscard]] std::vector<Point2d> footprint_ring(const BuildingPlan& plan);
 
-/// What stands on a block: the same plans whatever the level of detail, and whatever was asked for before.
-///   (1) no building leaves the block's rectangle
+/// The plans of the buildings of a block. They depend neither on the level of detail nor on the blocks planned before.
+///   (1) no building extends beyond the rectangle of the block
 ///   (2) no two buildings of a block overlap; attached ones share a wall line
-///   (3) `overhangs` changes nothing but the ground floors of some buildings, which also get a flat roof
+///   (3) `overhangs` changes only the ground floors of some buildings, and makes their roofs flat
 [[nodiscard]] std::vector<BuildingPlan> plans_of_block(const CitySettings& settings, CityBlock block);
 
-/// The pedestrian bridges that start from a block, towards its northern and eastern neighbors: from wall to wall across the
-/// street, between buildings that are tall enough. None without `overhangs`.
+/// The pedestrian bridges from a block to its northern and eastern neighbors: from wall to wall across the street, between
+/// buildings that are tall enough. None without `overhangs`.
 [[nodiscard]] std::vector<BuildingPlan> bridges_of_block(const CitySettings& settings, CityBlock block);
 
-/// Elevation of the ground that a building stands on: that under the lowest corner of its rectangle, down to a whole centimetre.
+/// The elevation of the base of a building: that of the ground at the lowest corner of its rectangle, rounded down to a
+/// centimetre.
 [[nodiscard]] double base_m(const UrbanField& field, const BuildingPlan& plan);
 
 }  // namespace farlod

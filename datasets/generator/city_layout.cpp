@@ -10,9 +10,9 @@
 namespace farlod {
 namespace {
 
-/// Streets shift from their even spacing by at most this share of it.
+/// The largest distance of a street from its place at even spacing, as a share of that spacing.
 constexpr double largest_shift = 0.18;
-/// Every so many, an avenue or a street is a main one, half as wide again.
+/// Every fourth avenue and every fifth street is a main one, which is 1.5 times as wide.
 constexpr int avenues_per_boulevard = 4, streets_per_main_street = 5;
 
 [[nodiscard]] std::int32_t intervals(double size_m, double spacing_m) {

@@ -17,8 +17,8 @@ struct CityBlock {
   bool operator==(const CityBlock&) const = default;
 };
 
-/// The streets of a city, and the blocks between them. Any street is found without walking over the others, so that a city
-/// of any size can be made block by block.
+/// The streets of a city, and the blocks between them. The place of a street is computed without that of the others, so that a
+/// city of any size can be made block by block.
 ///   (1) blocks lie within the square of the city, and do not touch each other
 ///   (2) between neighboring blocks lies a street at least as wide as asked for
 class CityLayout {

@@ -14,7 +14,7 @@ namespace {
 /// Streets wider than this share of their spacing would leave no room for a block between two wide ones.
 constexpr double largest_street_share = 0.25;
 
-/// Codes of degrees that people are likely to try. All others are believed, since only PROJ knows them all.
+/// Frequent codes of CRSs in degrees. Others are not recognized, since the generator does not use PROJ.
 constexpr std::array well_known_geographic_codes{4258, 4269, 4326, 4612, 4979, 6668, 6697};
 
 void check_street(std::string_view name, double width_m, double spacing_m) {
@@ -41,7 +41,7 @@ void check_combination(const CitySettings& settings) {
 void check(const CitySettings& settings) {
   CitySettings::describe(settings, [](std::string_view name, auto value, SettingRange range, auto&&...) {
     const auto number = static_cast<double>(value);
-    // Written so that NaN is refused as well
+    // The negation also refuses NaN
     if (!(number >= range.low && number <= range.high))
       throw SettingsError(
           fmt::format("--{} is {:.12g}; it must be between {:.12g} and {:.12g}", name, number, range.low, range.high));

@@ -10,12 +10,12 @@
 
 namespace farlod {
 
-/// The values that a setting may take, both ends included.
+/// The allowed values of a setting, both ends included.
 struct SettingRange {
   double low, high;
 };
 
-/// Everything that decides a generated city. Same settings, same city, on every machine.
+/// The settings of a generated city. The same settings give the same city on every machine.
 struct CitySettings {
   double size_m = 1000.0;
   std::uint64_t seed = 1;
@@ -42,8 +42,8 @@ struct CitySettings {
   double centre_easting_m = 550000.0;
   double centre_northing_m = 5500000.0;
 
-  /// Names each numeric setting once: the command line, the check of ranges and the help all walk this list.
-  /// `setting` is called with (name, value, range, group, help).
+  /// Lists each numeric setting once, for the command line, the check of ranges and the help. `setting` is called with
+  /// (name, value, range, group, help).
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& setting) {
     setting("size", self.size_m, SettingRange{100.0, 200'000.0}, "City", "Edge of the square city, in metres");
@@ -77,7 +77,7 @@ struct CitySettings {
             "Northing of the city's centre, in metres");
   }
 
-  /// Names each switch once, as `describe` does for numbers: `flag` is called with (name, value, help).
+  /// Lists each switch once: `flag` is called with (name, value, help).
   template <class Self, class Visitor>
   static void describe_switches(Self& self, Visitor&& flag) {
     flag("overhangs", self.overhangs, "Add pedestrian bridges across streets, and arcades under upper floors");
@@ -95,10 +95,10 @@ struct CitySettings {
   }
 };
 
-/// The level of detail that the files name.
+/// The level of detail that is written to the files.
 [[nodiscard]] inline int written_lod(const CitySettings& settings) { return settings.facade_details ? 3 : settings.lod; }
 
-/// A setting cannot be used. The message names it as on the command line, its value, and what is allowed.
+/// A setting is not allowed. The message has its name on the command line, its value and the allowed range.
 class SettingsError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;

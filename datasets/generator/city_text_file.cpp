@@ -17,7 +17,7 @@ CityWriteError::CityWriteError(const std::filesystem::path& path, const std::str
     : std::runtime_error(fmt::format("cannot write {}: {}", path.string(), reason)) {}
 
 CityTextFile::CityTextFile(std::filesystem::path destination) : destination_(std::move(destination)) {
-  // The process number keeps two runs that write the same file apart
+  // The process id separates two runs that write the same file
   temporary_ = destination_.parent_path() / fmt::format(".{}.{}.partial", destination_.filename().string(), getpid());
   errno = 0;
   file_.open(temporary_, std::ios::binary | std::ios::in | std::ios::out | std::ios::trunc);
@@ -67,7 +67,7 @@ void CityTextFile::flush() {
 }
 
 void CityTextFile::fail() const {
-  // The stream does not say why it failed; the system's last error does
+  // The stream has no reason of its failure; the last error of the system has
   throw CityWriteError(destination_, errno != 0 ? std::strerror(errno) : "the disk refused the data");
 }
 

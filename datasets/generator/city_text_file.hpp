@@ -11,14 +11,14 @@
 
 namespace farlod {
 
-/// The city cannot be written. The message names the file and the system's reason.
+/// The city cannot be written. The message has the file and the reason of the system.
 class CityWriteError : public std::runtime_error {
  public:
   CityWriteError(const std::filesystem::path& path, const std::string& reason);
 };
 
-/// A text that is appended to and appears under its name only when it is whole. Holds a buffer of fixed size, however long the
-/// text becomes. What is not committed is removed. All members throw CityWriteError.
+/// A text file that is written by appending and gets its name when it is committed. A file that is not committed is removed. Uses
+/// a buffer of fixed size. All members throw CityWriteError.
 class CityTextFile {
  public:
   explicit CityTextFile(std::filesystem::path destination);
@@ -26,17 +26,17 @@ class CityTextFile {
   CityTextFile(const CityTextFile&) = delete;
   CityTextFile& operator=(const CityTextFile&) = delete;
 
-  /// To append to; call `drain` after each building.
+  /// The buffer to append to. Call `drain` after each building.
   [[nodiscard]] std::string& text() { return buffer_; }
-  /// Empties the buffer into the file if it is full.
+  /// Writes the buffer to the file if it is full.
   void drain() {
     if (buffer_.size() >= buffer_bytes) flush();
   }
-  /// How much was appended so far.
+  /// The number of bytes appended so far.
   [[nodiscard]] std::uint64_t position() const { return flushed_bytes_ + buffer_.size(); }
-  /// Writes over what stands at `position`.
+  /// Overwrites the bytes from `position` on.
   void overwrite(std::uint64_t position, std::string_view text);
-  /// Appends all of another text, which stays uncommitted.
+  /// Appends the whole text of another file, which is not committed.
   void append(CityTextFile& other);
   void commit();
 

@@ -19,7 +19,7 @@ std::optional<CityFormat> city_format_of(const std::filesystem::path& path) {
 
 namespace {
 
-/// The file's name without its endings, free of what XML, JSON or OBJ would have to escape.
+/// The name of the file without its endings and without characters that XML, JSON or OBJ would have to escape.
 [[nodiscard]] std::string plain_name(const std::filesystem::path& path) {
   std::string name = path.filename().string();
   name.resize(std::min(name.size(), name.find('.', 1)));

@@ -15,22 +15,22 @@ namespace farlod {
 
 enum class CityFormat { citygml, cityjson, obj, geojson };
 
-/// The format that a file's ending stands for: .gml, .city.json (or .json), .obj, .geojson. Empty for all others.
+/// The format of a file by its ending: .gml, .city.json (or .json), .obj, .geojson. Empty for all others.
 [[nodiscard]] std::optional<CityFormat> city_format_of(const std::filesystem::path& path);
 
-/// What a writer needs to know before the first building.
+/// What a writer needs before the first building.
 struct CityHeader {
   std::string name;  ///< of the data set
   int lod = 1;
   int epsg = 0;
   std::int64_t centre_easting_mm = 0, centre_northing_mm = 0;
-  /// OBJ only: write coordinates from the city's centre, for viewers that compute in float.
+  /// OBJ only: coordinates are relative to the centre of the city, for viewers that compute in float.
   bool obj_from_centre = false;
 };
 [[nodiscard]] CityHeader header_of(const CitySettings& settings, const std::filesystem::path& path);
 
-/// Writes a city one building at a time: begin, add …, end. Memory does not grow with the city, and the file appears under
-/// its name at the end. All members throw CityWriteError.
+/// Writes a city building by building: begin, add …, end. Memory does not grow with the city. The file gets its name at the end.
+/// All members throw CityWriteError.
 class GeneratedCityWriter {
  public:
   virtual ~GeneratedCityWriter() = default;
@@ -48,12 +48,12 @@ class GeneratedCityWriter {
 [[nodiscard]] std::unique_ptr<GeneratedCityWriter> make_citygml_writer(const std::filesystem::path& path,
                                                                        const CityHeader& header);
 /// CityJSON 2.0: solids, or a MultiSurface where a component is not closed, from LoD2 on with the semantics of their surfaces.
-/// Parts and installations are objects of their own. Vertices wait in a second file beside the first.
+/// Parts and installations are objects of their own. Vertices are collected in a second, temporary file.
 [[nodiscard]] std::unique_ptr<GeneratedCityWriter> make_cityjson_writer(const std::filesystem::path& path,
                                                                         const CityHeader& header);
 /// Wavefront OBJ: one group a building with all its components, convex faces without holes, z up, metres.
 [[nodiscard]] std::unique_ptr<GeneratedCityWriter> make_obj_writer(const std::filesystem::path& path, const CityHeader& header);
-/// GeoJSON footprints, one a part, with `height` above `base`, in the CRS that the file names: roofs and overhangs are lost.
+/// GeoJSON footprints, one for each part, with `height` above `base`, in the CRS of the header. Roofs and overhangs are lost.
 [[nodiscard]] std::unique_ptr<GeneratedCityWriter> make_geojson_writer(const std::filesystem::path& path,
                                                                        const CityHeader& header);
 

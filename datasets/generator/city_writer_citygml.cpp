@@ -36,7 +36,7 @@ class CityGmlWriter final : public GeneratedCityWriter {
   void begin() override {
     file_.text() += prologue;
     fmt::format_to(out(), "<gml:name>{}</gml:name>\n", header_.name);
-    // What the envelope will be is known at the end, and stands here: blanks keep its place
+    // The envelope is known at the end. Blanks reserve its place
     envelope_at_ = file_.position();
     file_.text().append(envelope().size(), ' ');
     file_.text() += '\n';
@@ -109,7 +109,8 @@ class CityGmlWriter final : public GeneratedCityWriter {
     }
   }
 
-  /// Names the polygons of the surfaces: those of LoD2 stand behind it in the file, those of LoD3 before it.
+  /// Writes a solid of references to the polygons of the surfaces. In the file, those of LoD2 follow it and those of LoD3 precede
+  /// it.
   void add_solid_of_surfaces(const GeneratedComponent& body) {
     fmt::format_to(out(), FMT_STRING("<bldg:lod{}Solid><gml:Solid><gml:exterior><gml:CompositeSurface>\n"), header_.lod);
     for (std::size_t k = 0; k < body.facet_count; ++k)
@@ -134,7 +135,7 @@ class CityGmlWriter final : public GeneratedCityWriter {
 
   void add_surface(const GeneratedBuilding& building, const GeneratedComponent& body, std::size_t k) {
     const GeneratedFacet& facet = building.facets[body.first_facet + k];
-    if (facet.filling != Filling::none) return;  // stands inside its wall
+    if (facet.filling != Filling::none) return;  // written inside of its wall
     const std::string_view element = surface_name_of(facet.role);
     file_.text() += "<bldg:boundedBy>";
     begin_surface(building, body, k, element);
@@ -153,7 +154,7 @@ class CityGmlWriter final : public GeneratedCityWriter {
     }
   }
 
-  /// The element with its polygon, but for its end.
+  /// Writes the element with its polygon, without the end tag.
   void begin_surface(const GeneratedBuilding& building, const GeneratedComponent& body, std::size_t k, std::string_view element) {
     fmt::format_to(out(),
                    FMT_STRING("<bldg:{0} gml:id=\"{1}_s{2}\"><bldg:lod{3}MultiSurface><gml:MultiSurface>"
@@ -180,7 +181,7 @@ class CityGmlWriter final : public GeneratedCityWriter {
 
   void add_ring(const std::vector<std::uint32_t>& ring, const std::vector<PointMm>& vertices) {
     file_.text() += "<gml:LinearRing><gml:posList>";
-    // A ring of GML ends with its first point again
+    // A ring of GML repeats its first point at the end
     for (std::size_t k = 0; k <= ring.size(); ++k) add_point(vertices[ring[k % ring.size()]], k == 0 ? "" : " ");
     file_.text() += "</gml:posList></gml:LinearRing>";
   }
@@ -195,7 +196,7 @@ class CityGmlWriter final : public GeneratedCityWriter {
     append_metres(text, p_city.z);
   }
 
-  /// Always of the same length, whatever the numbers.
+  /// The text has the same length for all numbers.
   [[nodiscard]] std::string envelope() const {
     const Point3d centre{static_cast<double>(header_.centre_easting_mm), static_cast<double>(header_.centre_northing_mm), 0.0};
     const Box3d box = extent_.empty() ? Box3d{{}, {}} : extent_;

@@ -12,14 +12,14 @@
 namespace farlod {
 namespace {
 
-/// The vertices of CityJSON are one array for the whole file. They wait in a file of their own until all objects are written.
+/// CityJSON has one array of vertices after all objects. The vertices are collected in a temporary file until then.
 class CityJsonWriter final : public GeneratedCityWriter {
  public:
   CityJsonWriter(const std::filesystem::path& path, const CityHeader& header)
       : header_(header), objects_(path), vertices_(path.string() + ".vertices") {}
 
   void begin() override {
-    // Vertices are written as whole millimetres from the city's centre
+    // Vertices are whole millimetres from the centre of the city
     fmt::format_to(out(),
                    "{{\"type\":\"CityJSON\",\"version\":\"2.0\",\n\"transform\":{{\"scale\":[0.001,0.001,0.001],\"translate\":[");
     append_metres(objects_.text(), header_.centre_easting_mm);
@@ -61,7 +61,7 @@ class CityJsonWriter final : public GeneratedCityWriter {
  private:
   [[nodiscard]] std::back_insert_iterator<std::string> out() { return std::back_inserter(objects_.text()); }
 
-  /// The object up to the first of its attributes.
+  /// Writes an object up to its first attribute.
   void begin_object(std::string_view type, const std::string& id, std::int64_t height_mm) {
     fmt::format_to(out(), FMT_STRING("{}\n\"{}\":{{\"type\":\"{}\",\"attributes\":{{\"measuredHeight\":"), is_first_ ? "" : ",",
                    id, type);
@@ -77,7 +77,7 @@ class CityJsonWriter final : public GeneratedCityWriter {
     objects_.text() += ']';
   }
 
-  /// A shell that is not closed is a MultiSurface, whose arrays are one level less deep than those of a Solid.
+  /// A shell that is not closed is a MultiSurface, whose boundaries are nested one level less than those of a Solid.
   void add_geometry(const GeneratedBuilding& building, const GeneratedComponent& component) {
     fmt::format_to(out(), FMT_STRING(",\"geometry\":[{{\"type\":\"{}\",\"lod\":\"{}\",\"boundaries\":{}"),
                    component.closed ? "Solid" : "MultiSurface", header_.lod, component.closed ? "[[" : "[");

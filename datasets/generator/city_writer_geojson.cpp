@@ -15,7 +15,7 @@ class GeoJsonWriter final : public GeneratedCityWriter {
   GeoJsonWriter(const std::filesystem::path& path, const CityHeader& header) : header_(header), file_(path) {}
 
   void begin() override {
-    // RFC 7946 dropped the member `crs`, but projected coordinates cannot do without it, and GDAL reads it
+    // RFC 7946 removed the member `crs`. Projected coordinates need it, and GDAL reads it
     fmt::format_to(std::back_inserter(file_.text()),
                    R"({{"type":"FeatureCollection","name":"{}",)"
                    "\n"
@@ -55,7 +55,7 @@ class GeoJsonWriter final : public GeneratedCityWriter {
 
   void add_ring(const std::vector<PlanPointMm>& ring) {
     std::string& text = file_.text();
-    // A ring of GeoJSON ends with its first point again
+    // A ring of GeoJSON repeats its first point at the end
     for (std::size_t k = 0; k <= ring.size(); ++k) {
       text += k == 0 ? "[[" : ",[";
       append_metres(text, header_.centre_easting_mm + ring[k % ring.size()][0]);

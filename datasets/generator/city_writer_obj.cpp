@@ -50,7 +50,7 @@ class ObjWriter final : public GeneratedCityWriter {
 
   void add_face(const FaceRing& face) {
     file_.text() += 'f';
-    // OBJ counts vertices from one, through the whole file
+    // OBJ numbers the vertices of the whole file from 1
     for (const std::uint32_t k : face) fmt::format_to(out(), FMT_STRING(" {}"), vertices_before_ + k + 1);
     file_.text() += '\n';
   }

@@ -16,16 +16,16 @@ namespace {
   return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
 }
 
-/// At corner k of the ring: the cross product of the edges that meet there.
+/// The cross product of the edges that meet at corner k of the ring.
 [[nodiscard]] Point3d turn_at(const FaceRing& ring, std::size_t k, std::span<const PointMm> vertices) {
   const std::size_t n = ring.size();
   const PointMm &before = vertices[ring[(k + n - 1) % n]], &here = vertices[ring[k]], &after = vertices[ring[(k + 1) % n]];
   return cross(as_double(here - before), as_double(after - here));
 }
 
-/// The corner where the ring turns against its own sense, if there is one.
+/// The re-entrant corner of the ring, if there is one.
 [[nodiscard]] std::optional<std::size_t> reentrant_corner(const FaceRing& ring, std::span<const PointMm> vertices) {
-  // Only hexagons can be concave here, and their five other turns outweigh the re-entrant one
+  // Of the rings of the generator only hexagons can be concave. The sum of the turns is dominated by their five convex corners
   if (ring.size() != 6) return std::nullopt;
   Point3d sense;
   for (std::size_t k = 0; k < ring.size(); ++k) sense = sense + normalized(turn_at(ring, k, vertices));
@@ -34,7 +34,7 @@ namespace {
   return std::nullopt;
 }
 
-/// One quadrilateral between each edge of the ring and the edge of the hole opposite to it: a mitred frame.
+/// Quadrilaterals between each edge of the ring and the opposite edge of the hole.
 [[nodiscard]] std::vector<FaceRing> frame_around_hole(const GeneratedFacet& facet) {
   const std::size_t n = facet.outer.size();
   FARLOD_EXPECTS(facet.hole.size() == n);
@@ -46,8 +46,7 @@ namespace {
   return faces;
 }
 
-/// The facet's corners without the coordinate along which its normal is longest, so that its outer ring runs
-/// counter-clockwise.
+/// The corners of the facet without the coordinate in which its normal is largest, with an outer ring that is counter-clockwise.
 [[nodiscard]] std::vector<GridPoint> in_its_plane(const GeneratedFacet& facet, std::span<const PointMm> vertices,
                                                   std::span<const std::uint32_t> numbers) {
   PointMm normal;

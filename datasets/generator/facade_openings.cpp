@@ -12,12 +12,12 @@ namespace {
 constexpr double bay_m = 3.2, window_width_m = 1.2, sill_m = 0.9, head_m = 2.3;
 constexpr double door_width_m = 1.0, door_sill_m = 0.15, door_head_m = 2.25;
 constexpr double set_back_m = 0.12, set_back_share = 0.5;
-/// Low storeys share a row of windows.
+/// The least height of a row of windows. Lower storeys share one row.
 constexpr double least_row_m = 2.6;
-/// Between an opening and the border of its wall.
+/// The least distance between an opening and the border of its wall.
 constexpr double least_margin_m = 0.12;
 
-/// The upright rectangle over the lower edge of a wall, below its gable if it has one.
+/// The vertical rectangle above the lower edge of a wall, without its gable.
 struct WallRectangle {
   Point2d a, b;
   double low_m, high_m;
@@ -36,10 +36,10 @@ struct WallRectangle {
 
 struct Opening {
   Filling filling;
-  double middle_m, width_m, low_m, high_m;  ///< along the wall from its left end, and above the ground
+  double middle_m, width_m, low_m, high_m;  ///< distance along the wall from its left end; heights above the ground
 };
 
-/// Corners counter-clockwise seen from outside, so far behind the wall.
+/// The corners of an opening, counter-clockwise seen from outside, in the plane `behind_m` behind the wall.
 [[nodiscard]] PlanRing ring_of(const WallRectangle& wall, const Opening& o, double behind_m) {
   const Point2d inwards = behind_m * wall.inwards();
   const Point2d left = wall.a + (o.middle_m - 0.5 * o.width_m) * wall.along() + inwards;

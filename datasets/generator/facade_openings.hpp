@@ -8,9 +8,9 @@
 
 namespace farlod {
 
-/// Cuts windows, one a storey and bay, and a front door into the walls of a solid that no other building touches. Each opening
-/// is filled by a facet of its own: flush with the wall, or for half of the buildings set back, with a reveal around it. A
-/// closed solid stays closed. `row` is the building's place in the block.
+/// Cuts windows, one for each storey and bay, and a front door into the walls of a solid that no other building touches. A facet
+/// fills each opening: flush with the wall or, for half of the buildings, set back with a reveal around it. A closed solid stays
+/// closed. `row` is the number of the building in the block.
 void add_openings(KeyedRandom& random, const BuildingPlan& plan, const TouchingWalls& walls, std::size_t row, PlanSolid& solid);
 
 }  // namespace farlod

@@ -13,7 +13,7 @@
 
 namespace farlod {
 
-/// What a facet is to its building, in the words of CityGML.
+/// The role of a facet, by the semantic surfaces of CityGML.
 enum class FacetRole : std::uint8_t { roof, wall, ground, outer_ceiling };
 
 /// What CityGML and CityJSON call a surface of this role.
@@ -31,11 +31,11 @@ enum class FacetRole : std::uint8_t { roof, wall, ground, outer_ceiling };
   return "OuterCeilingSurface";
 }
 
-/// What a facet fills an opening of a wall with.
+/// What fills an opening of a wall: a facet may be a window or a door.
 enum class Filling : std::uint8_t { none, window, door };
 
-/// A planar polygon by vertex numbers, counter-clockwise seen from outside; rings are not closed. A facet with a hole has as
-/// many corners in the hole as in the outer ring, and hole corner (n − k) mod n lies opposite to outer corner k.
+/// A planar polygon by vertex numbers, counter-clockwise seen from outside; the first vertex is not repeated. A hole has as many
+/// corners as the outer ring, and its corner (n − k) mod n lies opposite to corner k of the outer ring.
 struct GeneratedFacet {
   FacetRole role = FacetRole::wall;
   std::vector<std::uint32_t> outer = {};
@@ -48,16 +48,16 @@ struct GeneratedFacet {
 /// A point of a footprint, in whole millimetres.
 using PlanPointMm = std::array<std::int64_t, 2>;
 
-/// What a component is to its building: all of it, a BuildingPart, or a BuildingInstallation.
+/// The role of a component: the whole building, a BuildingPart, or a BuildingInstallation.
 enum class ComponentKind : std::uint8_t { body, part, installation };
 
-/// A run of a building's facets that form one solid. Two components have no vertex in common.
+/// Consecutive facets of a building that form one solid. Two components have no vertex in common.
 struct GeneratedComponent {
   ComponentKind kind = ComponentKind::body;
   std::string id;      ///< of the body: that of the building
   bool closed = true;  ///< whether its facets enclose a volume without a gap
   std::size_t first_facet = 0, facet_count = 0;
-  /// What it covers, seen from above: counter-clockwise, and clockwise around a court. Installations have none.
+  /// The footprint: counter-clockwise, with a clockwise hole for a court. Installations have none.
   std::vector<PlanPointMm> footprint = {}, footprint_hole = {};
   std::int64_t base_mm = 0, top_mm = 0;  ///< its lowest and highest elevation
 };
@@ -65,7 +65,7 @@ struct GeneratedComponent {
 /// A building: one body, or parts, and then installations.
 ///   (1) each edge of a closed component's facets is used twice, once in each direction
 ///   (2) facets look outwards
-///   (3) the corners of a facet lie within `planarity_mm` of a plane, which rounding to millimetres alone spends
+///   (3) the corners of a facet lie within `planarity_mm` of a plane: only the rounding to millimetres moves them off it
 struct GeneratedBuilding {
   std::string id;  ///< unique in the city; fit to be an XML id
   BuildingKind kind = BuildingKind::detached;

@@ -13,7 +13,7 @@
 namespace farlod {
 namespace {
 
-/// So many blocks, evenly spread, stand for the whole city when its buildings are counted beforehand.
+/// The number of evenly spread blocks from which the buildings of a city are estimated.
 constexpr std::int64_t counted_blocks = 1500;
 
 [[nodiscard]] double estimated_buildings(const CitySettings& settings) {

@@ -11,9 +11,9 @@
 
 namespace farlod {
 
-/// All that stands on a block, and the bridges that start from it. A pure function: blocks can be made in any order.
+/// The buildings of a block, and the bridges that start from it. A pure function: blocks can be made in any order.
 ///   (1) same settings and block, same buildings, on every machine
-///   (2) ids are unique in the city, and do not depend on the rotation, the level of detail or what is added to buildings
+///   (2) ids are unique in the city; they depend neither on the rotation nor on the level of detail nor on added features
 [[nodiscard]] std::vector<GeneratedBuilding> buildings_of_block(const CitySettings& settings, CityBlock block);
 
 /// Called with each building, and after each block with the number of blocks done.
@@ -22,11 +22,11 @@ struct CityVisitor {
   std::function<void(std::int64_t)> block_done = [](std::int64_t) {};
 };
 
-/// Makes the whole city block by block, holding one block at a time. Throws SettingsError if the settings are not usable.
+/// Makes the whole city, with one block at a time in memory. Throws SettingsError if the settings cannot be used.
 void visit_city(const CitySettings& settings, const CityVisitor& visitor);
 
-/// An edge for the city such that it has about `buildings` of them (within some percent: whole blocks, counted by samples).
-/// Throws SettingsError if no allowed size comes near.
+/// The edge of a city with about `buildings` buildings, to some percent: cities consist of whole blocks, and the number is
+/// estimated from samples. Throws SettingsError if no allowed size has about as many.
 [[nodiscard]] double size_for_buildings_m(CitySettings settings, std::int64_t buildings);
 
 }  // namespace farlod

@@ -7,11 +7,11 @@
 
 namespace farlod {
 
-/// Random numbers that are a function of a key, the same on every machine (SplitMix64, Steele, Lea & Flood 2014).
-/// A block of the city draws from a key of its own, so that it does not matter which blocks were made before it.
-/// The distributions of the standard library differ between its implementations, and are not used.
+/// Random numbers that are a function of a key, the same on every machine (SplitMix64, Steele, Lea & Flood 2014). Each block of
+/// the city has its own key, so that its numbers do not depend on the blocks made before. The distributions of the standard
+/// library differ between implementations and are not used.
 ///
-/// Draw once per statement: C++ does not order the operands of an expression.
+/// Draw one number per statement: C++ does not order the operands of an expression.
 class KeyedRandom {
  public:
   explicit constexpr KeyedRandom(std::initializer_list<std::uint64_t> key) {
@@ -41,7 +41,7 @@ class KeyedRandom {
   std::uint64_t state_ = 0;
 };
 
-/// What a key is used for, so that two uses of the same block never share their numbers.
+/// The uses of the random numbers of a block. Each use has numbers of its own.
 enum class RandomStream : std::uint64_t {
   block = 1,
   bridges,

@@ -9,16 +9,16 @@ namespace {
 
 constexpr double courtyard_share = 0.35, pavilion_share = 0.6, stepped_share = 0.6;
 constexpr double lowest_tower_m = 50.0;
-/// A court narrower than this would be a shaft.
+/// The least width of a court.
 constexpr double least_court_m = 8.0;
 
-/// 0 at the border of the core, 1 in its heart.
+/// 0 at the border of the core, 1 in its centre.
 [[nodiscard]] double depth_into_core(double urbanity) {
   return std::clamp((urbanity - UrbanField::core_urbanity) / (1.0 - UrbanField::core_urbanity), 0.0, 1.0);
 }
 
 [[nodiscard]] double draw_tower_height_m(BlockSite& site) {
-  // A few reach the full height, so that a city's tallest does not hang on a single draw
+  // Several towers reach the full height, so that the tallest of a city does not depend on a single random number
   const double share = std::min(1.0, site.random.between(0.25, 1.1));
   const double strength = 0.3 + 0.7 * depth_into_core(site.urbanity);
   return on_plan_grid_m(lowest_tower_m + (site.settings.max_height_m - lowest_tower_m) * share * strength);
@@ -77,7 +77,7 @@ constexpr double least_court_m = 8.0;
   return plan;
 }
 
-/// Every building of the core is a tower by the same chance, whatever it would have been otherwise.
+/// Adds a tower with the probability of the settings, and another building of the core otherwise.
 void add_core_lot(BlockSite& site, const LotFrame& frame, const LotSpan& lot, double lot_depth_m, bool courtyard) {
   const bool is_tower = site.random.chance(site.settings.tower_share);
   const BuildingPlan tower = draw_tower(site, frame, lot, lot_depth_m);

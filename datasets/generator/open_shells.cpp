@@ -12,8 +12,8 @@
 namespace farlod {
 namespace {
 
-/// An upright plane of the plan and the side of it that a wall looks to. `s` runs along the wall, to the right for who looks at
-/// it from outside.
+/// The vertical plane of a wall, and the side that the wall faces. `s` is the coordinate along the wall, to the right as seen
+/// from outside.
 struct WallPlane {
   enum class Side { east, north, west, south } looks_to = Side::south;
   std::int64_t at_mm = 0;
@@ -36,7 +36,7 @@ struct WallPlane {
   }
 };
 
-/// The plane of a wall, which all walls of a block have along one of the plan's axes.
+/// The plane of a wall. All walls of a block are parallel to an axis of the plan.
 [[nodiscard]] WallPlane plane_of(const PlanRing& ring) {
   Point3d normal;
   for (std::size_t k = 1; k + 1 < ring.size(); ++k) normal = normal + cross(ring[k] - ring[0], ring[k + 1] - ring[0]);
@@ -61,7 +61,7 @@ struct WallPlane {
   return pieces;
 }
 
-/// A convex piece of a wall, as seen from behind it.
+/// A convex piece of a wall, in the plane of the walls that it covers, which face it.
 struct Cover {
   std::size_t building;
   WallPlane plane;  ///< of the walls that it covers

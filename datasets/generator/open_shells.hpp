@@ -8,9 +8,9 @@
 
 namespace farlod {
 
-/// Makes the buildings of a block open shells, as models from airborne scans have them: without floors, and without what a wall
-/// shares with a wall of another building that looks against it. What is left of a wall is cut into convex facets. Walls with
-/// openings, soffits and installations stay as they are.
+/// Makes the buildings of a block open shells, like models from airborne scans: without floors, and without those parts of walls
+/// that coincide with a facing wall of another building. The rest of such a wall is cut into convex facets. Walls with openings,
+/// soffits and installations are not changed.
 void open_shells(std::vector<PlanBuilding>& buildings);
 
 }  // namespace farlod

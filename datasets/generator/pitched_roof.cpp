@@ -9,20 +9,20 @@
 namespace farlod {
 namespace {
 
-/// How far the ends of a hip stand back, as a share of the longer side: a ridge always remains.
+/// The largest run of a hip, as a share of the longer side, so that a ridge remains.
 constexpr double longest_hip_share = 0.4;
 
 [[nodiscard]] Point2d middle(Point2d a, Point2d b) { return 0.5 * (a + b); }
 [[nodiscard]] Point3d raised(Point2d p, double z_m) { return {p.x, p.y, z_m}; }
 [[nodiscard]] Point2d direction(Point2d from, Point2d to) { return (1.0 / norm(to - from)) * (to - from); }
 
-/// A wall with a gable: it ends in the ridge's end above its middle.
+/// Adds a wall with a gable, whose top is the end of the ridge.
 void add_gable(SolidBuilder& solid, Point2d a, Point2d b, Point3d ridge_end, double eaves_m) {
   const std::array corners{raised(a, 0.0), raised(b, 0.0), raised(b, eaves_m), ridge_end, raised(a, eaves_m)};
   solid.add_facet(FacetRole::wall, corners);
 }
 
-/// A slope of the roof: from the lower border a → b up to the ridge, which is walked from above b to above a.
+/// Adds a slope of the roof: from the lower border a → b up to the ridge.
 void add_slope(SolidBuilder& solid, Point2d a, Point2d b, Point3d ridge_over_b, Point3d ridge_over_a, double border_m) {
   const std::array corners{raised(a, border_m), raised(b, border_m), ridge_over_b, ridge_over_a};
   solid.add_facet(FacetRole::roof, corners);
@@ -60,7 +60,7 @@ struct Slope {
           from_edge(c[3], end * frame.along)};
 }
 
-/// A hipped roof is the lowest of its four planes; beyond the walls as well.
+/// Adds a hipped roof with overhangs: the minimum of its four planes, also beyond the walls.
 void add_overhanging_hips(SolidBuilder& solid, const RidgeFrame& frame, const std::array<Slope, 4>& slopes, double eaves_m) {
   const auto& [c, o, along, across] = frame;
   const PlanePolygon outline{c[0] - o[3] * along - o[0] * across, c[1] + o[1] * along - o[0] * across,

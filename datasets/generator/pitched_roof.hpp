@@ -20,9 +20,9 @@ struct RidgeFrame {
 };
 [[nodiscard]] RidgeFrame ridge_frame(const BuildingPlan& plan, const Overhangs& overhangs);
 
-/// Raises a plan with a gabled or hipped roof. Where the roof overhangs, its planes go on beyond the walls and below the eaves,
-/// as sheets without thickness whose borders no wall meets; the solid is not closed then. The roof of an L projects over all its
-/// eaves by the least of their overhangs.
+/// Builds the solid of a plan with a gabled or hipped roof. Where the roof has an overhang, its planes continue beyond the walls
+/// and below the eaves, as sheets without thickness that touch no wall; the solid is not closed then. The roof of an L projects
+/// over all its eaves by the smallest of their overhangs.
 void raise_pitched(SolidBuilder& solid, const BuildingPlan& plan, const Overhangs& overhangs);
 
 }  // namespace farlod

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double divided_share = 0.3, third_part_share = 0.5;
 constexpr double projecting_share = 0.35, least_projection_m = 0.5, largest_projection_m = 2.0;
-/// Of the building's shorter side: a ground floor always remains.
+/// The largest projection, as a share of the shorter side of the building.
 constexpr double largest_projection_share = 0.2;
 constexpr double highest_ground_floor_m = 4.2;
-/// The third part is a shaft of this edge, which rises above the others by this much.
+/// The edge of the third part, a shaft, and its height above the other parts.
 constexpr double shaft_edge_m = 3.0, shaft_rise_m = 2.5;
 
 [[nodiscard]] KeyedRandom random_of(const CitySettings& settings, RandomStream stream, CityBlock block, std::size_t building) {
@@ -43,20 +43,20 @@ constexpr double shaft_edge_m = 3.0, shaft_rise_m = 2.5;
   return {podium, tower};
 }
 
-/// The house without its right end, and a lower annex in its place which begins inside the house.
+/// A house without its right end, and in its place a lower annex that begins inside of the house.
 [[nodiscard]] std::vector<BuildingPlan> house_and_annex(KeyedRandom& random, const BuildingPlan& plan) {
   const double house_m = random.between(0.6, 0.7) * plan.width_m;
   const double annex_m = random.between(0.35, 0.5) * plan.width_m;
   const double height_share = random.between(0.4, 0.8);
   BuildingPlan house = prism_part(plan, {}, {house_m, plan.depth_m}, plan.wall_m);
   house.roof = plan.roof;
-  // The pitch stays
+  // The pitch does not change
   const double span_share = std::min(house.width_m, house.depth_m) / std::min(plan.width_m, plan.depth_m);
   house.roof_rise_m = on_plan_grid_m(span_share * plan.roof_rise_m);
   return {house, prism_part(plan, {annex_m, 0.2 * plan.depth_m}, {plan.width_m, 0.8 * plan.depth_m}, height_share * plan.wall_m)};
 }
 
-/// Stands in what the first two parts share, and rises above both.
+/// The shaft, inside of both other parts and higher than both.
 [[nodiscard]] BuildingPlan shaft(const BuildingPlan& plan, Point2d middle) {
   const double half_m = 0.5 * shaft_edge_m;
   return prism_part(plan, {middle.x - half_m, middle.y - half_m}, {middle.x + half_m, middle.y + half_m},

@@ -29,7 +29,7 @@ std::int64_t millimetres(double value_m) { return std::llround(value_m * 1000.0)
 double on_plan_grid_m(double value_m) { return std::round(value_m * 100.0) / 100.0; }
 
 PlanRotation::PlanRotation(double bearing_deg) {
-  // Take whole quarters off exactly, so that 90° is a quarter turn to the last bit
+  // Subtract whole quarter turns, so that 90° is exact
   const double quarters = std::round(bearing_deg / 90.0);
   const double rest_rad = (bearing_deg - 90.0 * quarters) * (std::numbers::pi / 180.0);
   cos_ = cosine_of_eighth(rest_rad);

@@ -9,21 +9,21 @@
 namespace farlod {
 
 // The frames of the generator. All are right-handed, z up.
-//   plan   metres; origin at the city's centre, y along the avenues; where blocks, lots and roofs are laid out
-//   city   whole millimetres; origin at the city's centre, x east, y north; where buildings are handed out
+//   plan   metres; origin at the centre of the city, y along the avenues; for the layout of blocks, lots and roofs
+//   city   whole millimetres; origin at the centre of the city, x east, y north; for the finished buildings
 //   lot    metres; u along the street, v into the lot; see LotFrame
 
-/// A point in whole millimetres: what is written is exactly what was made, and equal corners are equal numbers.
+/// A point in whole millimetres. The written coordinates are therefore exact, and equal corners have equal numbers.
 using PointMm = Point3<std::int64_t>;
 
 /// The nearest whole millimetre.
 [[nodiscard]] std::int64_t millimetres(double value_m);
-/// The nearest whole centimetre, still in metres: plans are drawn on this grid.
+/// The nearest whole centimetre, in metres. All coordinates of plans are rounded so.
 [[nodiscard]] double on_plan_grid_m(double value_m);
 
-/// Turns the plan so that its avenues (y) have the given bearing, clockwise from grid north.
-/// Sine and cosine are computed here from additions and multiplications only: the mathematics libraries of two systems may
-/// differ in the last bit, and a millimetre could then round differently.
+/// The rotation of the plan that gives its avenues (y) a bearing, clockwise from grid north. Sine and cosine are computed by
+/// additions and multiplications: the results of mathematical libraries may differ in the last bit, and a millimetre could then
+/// be rounded differently.
 class PlanRotation {
  public:
   explicit PlanRotation(double bearing_deg);
@@ -39,13 +39,13 @@ class PlanRotation {
   double cos_ = 1.0, sin_ = 0.0;
 };
 
-/// Where a lot lies in the plan: its corner on the street, and which of the block's sides it faces.
-/// Side 0 faces south, then counter-clockwise: east, north, west.
+/// The place of a lot in the plan: its corner at the street, and the side of the block that it faces. Side 0 faces south; the
+/// others follow counter-clockwise: east, north, west.
 struct LotFrame {
   Point2d corner;
   int side = 0;
 
-  /// Turns by whole quarters, so that centimetres stay centimetres.
+  /// Rotations are multiples of 90°, so that whole centimetres stay whole.
   [[nodiscard]] Point2d plan_from_lot(Point2d p_lot) const {
     switch (side) {
       case 0:

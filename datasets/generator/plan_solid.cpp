@@ -10,8 +10,8 @@
 namespace farlod {
 namespace {
 
-/// Gathers the components of a building. Corners of a component that are the same millimetre become one vertex, so that
-/// neighboring facets share their edges; two components share none.
+/// Collects the components of a building. Corners of a component that round to the same millimetres become one vertex, so that
+/// neighboring facets share their edges. Two components share no vertex.
 class CityBuilder {
  public:
   explicit CityBuilder(const PlanRotation& rotation) : rotation_(rotation) {}
@@ -51,7 +51,7 @@ class CityBuilder {
 
   [[nodiscard]] std::uint32_t vertex(const Point3d& p_plan) {
     const PointMm p = in_city(p_plan);
-    // Most solids have a few dozen corners: walking over them is the fastest search
+    // A linear search is fastest, since most solids have a few dozen corners
     const auto begin = building_.vertices.begin() + static_cast<std::ptrdiff_t>(first_vertex_);
     const auto known = std::find(begin, building_.vertices.end(), p);
     const auto number = static_cast<std::uint32_t>(known - building_.vertices.begin());

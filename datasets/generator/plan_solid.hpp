@@ -10,11 +10,11 @@
 
 namespace farlod {
 
-/// A ring of plan points: in a lot's frame, or in the plan.
+/// A ring of points in the frame of a lot or of the plan.
 using LotRing = std::vector<Point2d>;
 using PlanRing = std::vector<Point3d>;
 
-/// A facet in the plan frame; z counts from `PlanSolid::ground_m`. Rings run as in GeneratedFacet.
+/// A facet in the plan frame; z is relative to `PlanSolid::ground_m`. Rings are oriented as in GeneratedFacet.
 struct PlanFacet {
   FacetRole role = FacetRole::wall;
   PlanRing outer = {}, hole = {};
@@ -23,11 +23,11 @@ struct PlanFacet {
   std::size_t in_wall = 0;  ///< of a window or a door: the facet of the same solid whose opening it fills
 };
 
-/// A solid before its corners are rounded to millimetres: still in the frame in which walls are axis-parallel and neighbors
-/// touch exactly.
+/// A solid in the plan frame, in which walls are parallel to the axes and neighbors touch exactly. Its corners are not rounded to
+/// millimetres yet.
 struct PlanSolid {
   ComponentKind kind = ComponentKind::body;
-  std::string suffix;  ///< what its id adds to the id of the building; empty for the body
+  std::string suffix;  ///< of its id, after the id of the building; empty for the body
   double ground_m = 0.0;
   bool closed = true;
   std::vector<PlanFacet> facets;

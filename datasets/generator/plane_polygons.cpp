@@ -13,7 +13,7 @@ namespace {
 
 using NumberRing = std::vector<std::uint32_t>;
 
-/// Pieces narrower than this are what rounding leaves where two edges should coincide.
+/// Narrower pieces are the result of rounding where two edges should coincide.
 constexpr double narrowest_m = 2e-3;
 
 [[nodiscard]] double cross(Point2d a, Point2d b) { return a.x * b.y - a.y * b.x; }
@@ -56,13 +56,13 @@ constexpr double narrowest_m = 2e-3;
   return sign(turn(a, b, c)) * sign(turn(a, b, d)) < 0 && sign(turn(c, d, a)) * sign(turn(c, d, b)) < 0;
 }
 
-/// Joins holes to the outer ring by bridges, so that one ring is left that touches itself.
+/// Joins holes to the outer ring by bridges. The result is one ring that touches itself.
 class HoleBridges {
  public:
   HoleBridges(std::span<const GridPoint> points, std::vector<NumberRing> rings) : points_(points), rings_(std::move(rings)) {}
 
   [[nodiscard]] NumberRing joined() {
-    // The hole that reaches farthest to the right sees the outer ring
+    // From the right end of the rightmost hole, a corner of the outer ring is visible
     const auto right_end = [this](const NumberRing& ring) {
       return *std::ranges::max_element(ring, {}, [this](std::uint32_t k) { return points_[k]; });
     };
@@ -73,7 +73,7 @@ class HoleBridges {
   }
 
  private:
-  /// Goes from the nearest corner that it sees around the first hole and back.
+  /// Connects corner `from` of a hole with the nearest visible corner of the ring, and inserts the hole there.
   void join(std::uint32_t from) {
     NumberRing& outer = rings_.front();
     const std::size_t at = nearest_visible(from);
@@ -100,7 +100,8 @@ class HoleBridges {
     return 0;
   }
 
-  /// Of the copies of a corner that bridges have made, the one whose inner angle holds the direction to `to`.
+  /// Whether the inner angle at corner k contains the direction to `to`. It chooses among the copies of a corner that bridges
+  /// made.
   [[nodiscard]] bool opens_towards(const NumberRing& ring, std::size_t k, std::uint32_t to) const {
     const std::size_t n = ring.size();
     const GridPoint &before = points_[ring[(k + n - 1) % n]], &here = points_[ring[k]], &after = points_[ring[(k + 1) % n]];
@@ -154,7 +155,7 @@ PlanePolygon clipped(const PlanePolygon& convex, const HalfPlane& half_plane) {
     if (at_a <= 0.0) result.push_back(a);
     if ((at_a < 0.0 && at_b > 0.0) || (at_a > 0.0 && at_b < 0.0)) result.push_back(a + (at_a / (at_a - at_b)) * (b - a));
   }
-  // Three lines that meet in a point meet in several points when computed
+  // The computed intersections of three lines through one point differ
   const auto last = std::unique(result.begin(), result.end(), are_one);
   result.erase(last, result.end());
   while (result.size() > 1 && are_one(result.front(), result.back())) result.pop_back();
@@ -164,7 +165,7 @@ PlanePolygon clipped(const PlanePolygon& convex, const HalfPlane& half_plane) {
 std::vector<PlanePolygon> without(const PlanePolygon& subject, const PlanePolygon& clip) {
   std::vector<PlanePolygon> outside;
   PlanePolygon rest = subject;
-  // Each edge cuts off what lies beyond it; what no edge cuts off lies inside
+  // Each edge cuts off the part beyond it. The part that no edge cuts off is inside
   for (std::size_t k = 0; k < clip.size() && !rest.empty(); ++k) {
     const HalfPlane beyond = right_of(clip[k], clip[(k + 1) % clip.size()]);
     if (PlanePolygon piece = clipped(rest, beyond); !is_sliver(piece)) outside.push_back(std::move(piece));
@@ -177,7 +178,7 @@ std::vector<PlanePolygon> without(const PlanePolygon& subject, const PlanePolygo
 std::vector<GridTriangle> triangles(std::span<const GridPoint> points, std::vector<std::vector<std::uint32_t>> rings) {
   NumberRing ring = HoleBridges(points, std::move(rings)).joined();
   std::vector<GridTriangle> result;
-  // Going on from the last ear keeps the search short: the next ear is mostly near
+  // Continue after the last ear: the next one is mostly near
   for (std::size_t k = 0, tried = 0; ring.size() > 3;) {
     const std::size_t n = ring.size();
     FARLOD_EXPECTS(tried <= n);

@@ -12,7 +12,7 @@ constexpr double least_depth_of_two_rows_m = 44.0;
 /// Shares of lots, and of houses.
 constexpr double empty_lot_share = 0.06, pair_share = 0.25, l_share = 0.2, outbuilding_share = 0.45, gap_share = 0.04;
 constexpr double flat_house_share = 0.1, flat_front_share = 0.25;
-/// A terrace has a gap after about so many houses.
+/// The share of houses of a terrace that are followed by a gap.
 constexpr double terrace_gap_share = 0.08;
 
 /// A row of lots along one side of a block.
@@ -29,7 +29,7 @@ struct LotRow {
   return {{side_frame(site.rectangle, side), half_m}, {side_frame(site.rectangle, side + 2), half_m}};
 }
 
-/// Where in its lot a house stands: a pair of houses meets on the border between their lots.
+/// The place of a house in its lot. The two houses of a pair touch at the border of their lots.
 enum class Placing { middle, against_next, against_previous };
 
 [[nodiscard]] double left_margin_m(BlockSite& site, Placing placing, double spare_m) {
@@ -81,7 +81,7 @@ void add_house(BlockSite& site, const LotRow& row, const LotSpan& lot, Placing p
   maybe_add_outbuilding(site, row, lot, garden_m + house.depth_m);
 }
 
-/// Reach of a corner building along the side that starts at its corner, and back along the side that ends there.
+/// The lengths of a corner building along the side that starts at its corner and along the side that ends there.
 struct CornerSize {
   double along_m, back_m;
 };
@@ -159,7 +159,7 @@ void build_terraces(BlockSite& site) {
 void build_street_fronts(BlockSite& site) {
   const double wing_m = on_plan_grid_m(site.random.between(10.0, 12.5));
   const int storeys = std::clamp(static_cast<int>(2.0 + 6.0 * site.urbanity), 2, 7);
-  // Corners first, since the rows fill what lies between them
+  // Corners first: the rows fill the space between them
   CornerSize corners[4];
   for (int side = 0; side < 4; ++side) {
     corners[side].along_m = on_plan_grid_m(site.random.between(16.0, 20.0));

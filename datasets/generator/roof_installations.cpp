@@ -16,7 +16,7 @@ namespace {
 constexpr double chimney_share = 0.7, dormer_share = 0.5;
 constexpr double chimney_edge_m = 0.6, chimney_from_ridge_m = 0.6, chimney_below_ridge_m = 1.4, chimney_above_ridge_m = 0.8;
 constexpr double dormer_width_m = 1.6, dormer_bay_m = 3.5, dormer_behind_wall_m = 0.8, dormer_front_m = 1.0, dormer_rise_m = 0.5;
-/// What a roof must rise for a dormer to end below its ridge.
+/// The least rise of a roof with dormers, which must end below its ridge.
 constexpr double least_rise_for_dormers_m = 3.0;
 
 [[nodiscard]] bool is_gabled_house(const BuildingPlan& plan) {
@@ -47,7 +47,7 @@ void add_chimney(const BuildingPlan& plan, const RidgeFrame& frame, double at_u_
   add_installation(building, solid, "_chimney");
 }
 
-/// A house of its own, which stands on the level of the eaves and whose ridge runs into the slope over the frame's first edge.
+/// Adds a dormer: a small gabled house on the level of the eaves, whose ridge ends in the slope over the first edge of the frame.
 void add_dormer(const BuildingPlan& plan, const RidgeFrame& frame, double middle_u_m, int number, PlanBuilding& building) {
   const double half_span_m = 0.5 * norm(frame.c[3] - frame.c[0]), pitch = plan.roof_rise_m / half_span_m;
   const double low_m = plan.wall_m, eaves_m = low_m + pitch * dormer_behind_wall_m + dormer_front_m;

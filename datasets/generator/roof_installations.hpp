@@ -8,8 +8,8 @@
 
 namespace farlod {
 
-/// Draws chimneys and gabled dormers for a house with a gabled rectangle as roof. They are installations: closed solids that
-/// begin inside the roof and come out through it.
+/// Adds chimneys and gabled dormers at random to a rectangular house with a gabled roof. They are installations: closed solids
+/// that begin inside of the roof and extend beyond it.
 void maybe_add_roof_installations(KeyedRandom& random, const BuildingPlan& plan, PlanBuilding& building);
 
 }  // namespace farlod

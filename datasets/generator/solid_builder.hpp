@@ -9,16 +9,16 @@
 
 namespace farlod {
 
-/// Puts facets given in a lot's frame together to a solid in the plan frame.
+/// Builds a solid in the plan frame from facets in the frame of a lot.
 class SolidBuilder {
  public:
   SolidBuilder(const LotFrame& lot, double ground_m) : lot_(lot) { solid_.ground_m = ground_m; }
 
-  /// Corners counter-clockwise seen from outside; z counts from the ground.
+  /// Corners are counter-clockwise seen from outside; z is relative to the ground.
   void add_facet(FacetRole role, std::span<const Point3d> outer_lot, std::span<const Point3d> hole_lot = {});
   /// A horizontal facet at height z over a counter-clockwise ring and around a counter-clockwise hole.
   void add_cap(FacetRole role, const LotRing& ring, double z_m, const LotRing& hole = {});
-  /// An upright rectangle over the edge from a to b; it looks to the right of that direction.
+  /// A vertical rectangle over the edge from a to b that faces to the right of that direction.
   void add_wall(Point2d a, Point2d b, double low_m, double high_m);
   /// Walls over all edges of a counter-clockwise ring.
   void add_walls(const LotRing& ring, double low_m, double high_m);
@@ -37,7 +37,7 @@ class SolidBuilder {
   PlanSolid solid_;
 };
 
-/// The ring walked the other way, from the same corner.
+/// The reversed ring, with the same first corner.
 template <class Point>
 [[nodiscard]] std::vector<Point> reversed_ring(const std::vector<Point>& ring) {
   if (ring.empty()) return {};

@@ -25,7 +25,7 @@ TouchingWalls::Line TouchingWalls::line_of(std::size_t building, Point2d a, Poin
 bool TouchingWalls::touches(const Line& line) const {
   return std::ranges::any_of(lines_, [&line](const Line& other) {
     if (other.building == line.building) return false;
-    // Two segments share a stretch if they overlap along one axis and are the same place on the other
+    // Two segments overlap if their intervals on one axis overlap and their positions on the other are equal
     for (const std::size_t across : {0U, 1U}) {
       const std::size_t along = 1 - across;
       const bool in_line = line.low_cm[across] == line.high_cm[across] && other.low_cm[across] == other.high_cm[across] &&

@@ -11,13 +11,13 @@
 
 namespace farlod {
 
-/// The lines on which the walls of a block stand, to ask which of them two buildings share. Plans lie on whole centimetres, so
-/// that the answer is exact.
+/// The walls of the buildings of a block in plan, to find where those of two buildings coincide. The answer is exact, since plans
+/// have whole centimetres.
 class TouchingWalls {
  public:
   explicit TouchingWalls(std::span<const BuildingPlan> plans);
 
-  /// Whether a wall of another building than `building` lies on some of the axis-parallel segment from a to b, in the plan frame.
+  /// Whether a wall of another building than `building` overlaps the axis-parallel segment from a to b (plan frame).
   [[nodiscard]] bool touches(std::size_t building, Point2d a, Point2d b) const;
   /// Whether a wall of another building touches any wall of this one.
   [[nodiscard]] bool touches_any(std::size_t building) const;

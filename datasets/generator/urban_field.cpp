@@ -10,7 +10,7 @@
 namespace farlod {
 namespace {
 
-/// Smaller centres: one in each square of this edge.
+/// There is one smaller centre in each square of this edge.
 constexpr double sub_centre_spacing_m = 4000.0;
 /// Slopes of a hillside along its direction, and how high its ridges are above its valleys.
 constexpr double gentlest_slope = 0.10, steepest_slope = 0.25, hillside_rise_m = 24.0;
@@ -52,7 +52,7 @@ UrbanField::UrbanField(const CitySettings& settings)
 double UrbanField::urbanity(Point2d p_plan) const {
   const double centre = decay(p_plan, core_radius_m_);
   const double noise = smooth_noise(seed_, RandomStream::urbanity_noise, 450.0, p_plan);
-  // The heart itself stays dense, however the noise falls
+  // At the centre, low noise does not reduce the urbanity
   const double modulation = 0.7 + 0.6 * noise;
   const double modulated = std::max(centre, sub_centre_urbanity(p_plan)) * modulation;
   return std::min(1.0, peak_ * std::max(modulated, centre * smooth_step(0.6, 0.9, centre)));
@@ -86,7 +86,7 @@ double UrbanField::hillside_line_m(std::int64_t number) const {
 double UrbanField::hillside_m(Point2d p_plan) const {
   constexpr double mean_spacing_m = 0.5 * (hillside_rise_m / gentlest_slope + hillside_rise_m / steepest_slope);
   const double along_m = dot(uphill, p_plan);
-  // Lines shift by less than half their spacing: the place lies between two of these
+  // Lines are less than half their spacing away from even places: the place lies between two of the next ones
   auto line = static_cast<std::int64_t>(std::floor(along_m / mean_spacing_m)) - 1;
   while (hillside_line_m(line + 1) <= along_m) ++line;
   const double low_m = hillside_line_m(line), high_m = hillside_line_m(line + 1);

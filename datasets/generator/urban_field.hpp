@@ -7,16 +7,16 @@
 
 namespace farlod {
 
-/// Where the city is dense and tall, and how high its ground is: smooth functions of the place in the plan.
+/// The density of the city and the height of its ground, as smooth functions of the place in the plan.
 class UrbanField {
  public:
   explicit UrbanField(const CitySettings& settings);
 
-  /// From 0 (the last houses) to 1 (the heart of the core). Falls with the square of the distance from the centre, and
-  /// again from smaller centres some kilometres apart; modulated so that no two directions are alike.
+  /// From 0 (the outermost houses) to 1 (the centre of the core). Falls with the square of the distance from the centre, and
+  /// likewise around smaller centres some kilometres apart. Noise makes directions differ.
   [[nodiscard]] double urbanity(Point2d p_plan) const;
-  /// Height of the ground, in [0, relief]; on a hillside in [0, 24]. A hillside falls and rises along one direction, which
-  /// is oblique to the streets, by 10 to 25 %, with straight ridges and valleys.
+  /// The height of the ground, in [0, relief]; on a hillside in [0, 24]. A hillside has slopes of 10 to 25 % along one direction,
+  /// which is oblique to the streets, and straight ridges and valleys.
   [[nodiscard]] double ground_m(Point2d p_plan) const;
 
   /// The core is where the urbanity is at least this.
@@ -30,8 +30,8 @@ class UrbanField {
   std::uint64_t seed_;
   double relief_m_;
   bool hillside_;
-  double peak_;           ///< urbanity at the centre: a village has no core
-  double core_radius_m_;  ///< where half of it is left
+  double peak_;           ///< urbanity at the centre; too low in a village for a core
+  double core_radius_m_;  ///< where it is half of that
 };
 
 /// 0 below `low`, 1 above `high`, smooth between.

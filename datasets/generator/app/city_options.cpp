@@ -26,13 +26,13 @@ constexpr const char* footer =
     "has its underside as base. Its coordinates are in the CRS that the file names, since the city is not in degrees.\n"
     "Exit codes: 0 done, 1 internal, 2 usage, 3 the output cannot be written.";
 
-/// Options whose text is resolved after CLI11 has parsed them.
+/// Options whose texts are resolved after parsing.
 struct RawOptions {
   std::string output, crs = "EPSG:32632";
   std::int64_t buildings = 0;
 };
 
-/// The numbers that the settings describe themselves; their ranges are checked when all options are known.
+/// Adds the options of the numeric settings. Their ranges are checked when all options are known.
 void add_settings(CLI::App& app, CitySettings& settings) {
   CitySettings::describe(settings,
                          [&app](const char* name, auto& value, SettingRange range, const char* group, const char* help) {
@@ -62,7 +62,7 @@ void add_other_options(CLI::App& app, RawOptions& raw, CityOptions& o) {
   app.get_option("--threads")->description("As for the other programs; a city is written by one thread");
 }
 
-/// GeoJSON holds footprints with heights: it refuses what neither a footprint nor its height can show.
+/// Refuses settings that footprints with heights cannot represent.
 void check_geojson(const CitySettings& settings) {
   const std::pair<const char*, bool> lost[] = {{"--open-shells", settings.open_shells},
                                                {"--eaves", settings.eaves_m > 0.0},

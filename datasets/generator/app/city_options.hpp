@@ -19,7 +19,7 @@ struct CityOptions {
   RunOptions run;
 };
 
-/// The options, or only the code to exit with: after --help, --version or an error that has been told.
+/// The options, or the exit code after --help, --version or an error that was printed.
 struct ParsedCityOptions {
   std::optional<CityOptions> options;
   int exit_code = 0;

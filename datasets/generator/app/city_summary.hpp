@@ -9,7 +9,7 @@
 
 namespace farlod {
 
-/// What a run made.
+/// The counts of a generated city.
 struct CityCounts {
   std::uint64_t buildings = 0, polygons = 0, towers = 0, bridges = 0;
   double tallest_m = 0.0;  ///< of one building, from its base
