@@ -17,7 +17,7 @@ namespace farlod::ingest {
   return lower;
 }
 
-/// Whether a file's name has one of the endings (in small letters, with their dots), whatever its case.
+/// Whether a file name in any case has one of the endings, which are in lower case with their dots.
 [[nodiscard]] inline bool ends_with_any(std::string_view name, std::initializer_list<std::string_view> endings) {
   const std::string lower = in_lower_case(name);
   return std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return lower.ends_with(ending); });
