@@ -10,8 +10,8 @@
 #include "app/memory_limit.hpp"
 #include "receivers/hilbert_curve.hpp"
 #include "receivers/point_reader.hpp"
-#include "results/reproject_gdal.hpp"
 #ifdef FARLOD_WITH_GDAL
+#include "results/reproject_gdal.hpp"
 #endif
 
 namespace farlod {

@@ -124,8 +124,9 @@ std::uint32_t HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receiver
   residual_.raise_to_high(receivers, horizons_.upper_borders);
   const Lanes low = horizons_.upper_borders.sky_above(weight_, receivers);
   for (std::size_t l = 0; l < svf.size(); ++l) {
-    const float high = std::min(most_above[l] + most_in_gaps[l], 1.0F);
-    svf[l] = {low[l], std::clamp(estimate[l] + gaps.sky[l], low[l], std::max(low[l], high)), high};
+    // Both are rounded: where the interval has no width, the sums may differ in their last bit
+    const float high = std::max(low[l], std::min(most_above[l] + most_in_gaps[l], 1.0F));
+    svf[l] = {low[l], std::clamp(estimate[l] + gaps.sky[l], low[l], high), high};
   }
   return gaps.by_rays;
 }

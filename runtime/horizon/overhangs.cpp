@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "occlusion/placed_mesh.hpp"
 #include "scene/vertical_profile.hpp"
 
 namespace farlod {
@@ -73,11 +74,7 @@ std::vector<OverhangGeometry::TriangleCorners> OverhangGeometry::triangles_in(co
   for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) {
     const TileView tile = package_.tile(range.cell_at(n));
     const Point2d shift_m = grid.corner_of(range.cell_at(n)) - grid.corner_of(cell_);
-    // Offsets are added in double and rounded once, as for other scenes
-    const auto corner = [&](std::uint32_t v) {
-      const Point3f& p = tile.mesh.vertices[v];
-      return Point3f{static_cast<float>(p.x + shift_m.x), static_cast<float>(p.y + shift_m.y), p.z};
-    };
+    const auto corner = [&](std::uint32_t v) { return placed(tile.mesh.vertices[v], shift_m); };
     std::uint32_t first = 0;
     for (const package::SurfaceRun& run : tile.surface_runs) {
       if (!tile.surfaces[run.surface].is_grounded())
