@@ -32,7 +32,7 @@ void AtomicFile::commit() {
   if (error) throw OutputError(destination_, error.message());
 }
 
-void write_text_atomically(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write) {
+void write_atomically(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write) {
   AtomicFile file(path);
   errno = 0;
   std::ofstream stream(file.temporary(), std::ios::binary);

@@ -27,7 +27,7 @@ class AtomicFile {
   std::filesystem::path destination_, temporary_;
 };
 
-/// Writes a complete text file or none: `write` fills the stream. Throws OutputError.
-void write_text_atomically(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+/// Writes a complete file, text or binary, or none: `write` fills the stream. Throws OutputError.
+void write_atomically(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
 }  // namespace farlod

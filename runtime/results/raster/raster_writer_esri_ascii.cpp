@@ -66,13 +66,13 @@ void EsriAsciiWriter::write_rows(std::ostream& out) {
 }
 
 void EsriAsciiWriter::commit() {
-  write_text_atomically(path_, [this](std::ostream& out) {
+  write_atomically(path_, [this](std::ostream& out) {
     write_header(out, frame_);
     write_rows(out);
   });
   if (frame_.crs_wkt.empty()) return;
   auto prj = path_;
-  write_text_atomically(prj.replace_extension(".prj"), [this](std::ostream& out) { out << frame_.crs_wkt << '\n'; });
+  write_atomically(prj.replace_extension(".prj"), [this](std::ostream& out) { out << frame_.crs_wkt << '\n'; });
 }
 
 }  // namespace farlod

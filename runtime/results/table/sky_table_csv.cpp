@@ -41,7 +41,7 @@ constexpr std::size_t rows_at_once = 1024;
 /// Writes a header and `count` rows; `add_row(n, text)` adds the n-th one.
 template <class AddRow>
 void write_table(const std::filesystem::path& path, CsvText header, std::size_t count, const AddRow& add_row) {
-  write_text_atomically(path, [&](std::ostream& out) {
+  write_atomically(path, [&](std::ostream& out) {
     CsvText text = std::move(header);
     for (std::size_t n = 0; n < count; ++n) {
       add_row(n, text);
@@ -123,7 +123,7 @@ void SurfacePointsCsv::write_part(std::size_t part, std::span<const SurfacePoint
 }
 
 void SurfacePointsCsv::commit() {
-  write_text_atomically(path_, [this](std::ostream& out) {
+  write_atomically(path_, [this](std::ostream& out) {
     out << header_;
     std::string bytes;
     for (const auto& [part, place] : parts_) {

@@ -18,7 +18,7 @@ using testing::IsEmpty;
 
 TEST(AtomicFile, AppearsUnderItsNameOnly) {
   const scenes::TemporaryFolder folder;
-  write_text_atomically(folder.file("a.csv"), [&folder](std::ostream& out) {
+  write_atomically(folder.file("a.csv"), [&folder](std::ostream& out) {
     EXPECT_FALSE(std::filesystem::exists(folder.file("a.csv")));
     out << "whole";
   });
@@ -29,7 +29,7 @@ TEST(AtomicFile, AppearsUnderItsNameOnly) {
 TEST(AtomicFile, ReplacesAnOlderFile) {
   const scenes::TemporaryFolder folder;
   for (const char* text : {"older and longer", "new"})
-    write_text_atomically(folder.file("a.csv"), [text](std::ostream& out) { out << text; });
+    write_atomically(folder.file("a.csv"), [text](std::ostream& out) { out << text; });
   EXPECT_EQ(scenes::text_of(folder.file("a.csv")), "new");
 }
 
@@ -39,28 +39,28 @@ TEST(AtomicFile, LeavesNothingBehindWhenTheWriterFails) {
     out << "half of it";
     throw std::runtime_error("no more");
   };
-  EXPECT_THROW(write_text_atomically(folder.file("a.csv"), fail), std::runtime_error);
+  EXPECT_THROW(write_atomically(folder.file("a.csv"), fail), std::runtime_error);
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
 TEST(AtomicFile, LeavesNothingBehindWhenTheDiskRefuses) {
   const scenes::TemporaryFolder folder;
   const auto refuse = [](std::ostream& out) { out.setstate(std::ios::badbit); };
-  EXPECT_THROW(write_text_atomically(folder.file("a.csv"), refuse), OutputError);
+  EXPECT_THROW(write_atomically(folder.file("a.csv"), refuse), OutputError);
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
 TEST(AtomicFile, LeavesNothingBehindWhenTheNameIsTaken) {
   const scenes::TemporaryFolder folder;
   std::filesystem::create_directories(folder.file("a.csv") / "inside");
-  EXPECT_THROW(write_text_atomically(folder.file("a.csv"), [](std::ostream& out) { out << "x"; }), OutputError);
+  EXPECT_THROW(write_atomically(folder.file("a.csv"), [](std::ostream& out) { out << "x"; }), OutputError);
   EXPECT_THAT(folder.names(), ElementsAre("a.csv"));
 }
 
 TEST(AtomicFile, NamesTheFileAndTheReason) {
   const scenes::TemporaryFolder folder;
   try {
-    write_text_atomically(folder.file("missing") / "a.csv", [](std::ostream& out) { out << "x"; });
+    write_atomically(folder.file("missing") / "a.csv", [](std::ostream& out) { out << "x"; });
     FAIL() << "a folder that does not exist was written to";
   } catch (const OutputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("missing/a.csv: No such file or directory"));
