@@ -20,12 +20,21 @@ std::unique_ptr<RasterWriter> make(const RasterFrame& frame, const std::filesyst
   return std::make_unique<Writer>(frame, path);
 }
 
-/// GIS programs read the `.prj` beside an ASCII grid only in Esri's dialect. Without GDAL it stays as the package has it.
-std::unique_ptr<RasterWriter> make_esri_ascii(RasterFrame frame, const std::filesystem::path& path) {
+/// GIS programs read a `.prj` file only in Esri's WKT 1. Without GDAL it stays as the package has it.
+std::string prj_wkt_of(const std::string& wkt) {
 #ifdef FARLOD_WITH_GDAL
-  frame.crs_wkt = esri_wkt_of(frame.crs_wkt);
+  return esri_wkt_of(wkt);
+#else
+  return wkt;
 #endif
-  return std::make_unique<EsriAsciiWriter>(frame, path);
+}
+
+/// For a format that writes a `.prj` file.
+template <class Writer>
+std::unique_ptr<RasterWriter> make_with_prj(const RasterFrame& frame, const std::filesystem::path& path) {
+  RasterFrame frame_of_prj = frame;
+  frame_of_prj.crs_wkt = prj_wkt_of(frame.crs_wkt);
+  return std::make_unique<Writer>(frame_of_prj, path);
 }
 
 std::unique_ptr<SurfaceTablesWriter> make_surface_tables_csv(const AnswerColumns& columns, const std::filesystem::path& path) {
@@ -43,7 +52,7 @@ constexpr OutputFormat formats[] = {
      {".asc", ""},
      OutputKind::raster,
      false,
-     [](const RasterFrame& frame, const std::filesystem::path& path) { return make_esri_ascii(frame, path); },
+     make_with_prj<EsriAsciiWriter>,
      EsriAsciiWriter::bytes_for,
      nullptr,
      nullptr},

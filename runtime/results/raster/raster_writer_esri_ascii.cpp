@@ -2,12 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/raster/raster_writer_esri_ascii.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <ostream>
-#include <span>
-#include <string>
 
 #include "results/atomic_file.hpp"
 #include "results/decimal.hpp"
@@ -15,7 +11,7 @@
 namespace farlod {
 namespace {
 
-// The decimal point makes readers take the grid for floats, even where each value is 1
+// With the decimal point, readers take the grid for floats even where each value is 1
 constexpr const char* nodata = "-9999.0";
 
 void write_header(std::ostream& out, const RasterFrame& raster) {
@@ -32,33 +28,21 @@ void write_pixel(std::ostream& out, float svf) {
     out << shortest_decimal(svf);
 }
 
+/// A raster without a CRS has no .prj file.
+void write_prj_beside(std::filesystem::path path, const RasterFrame& raster) {
+  if (raster.crs_wkt.empty()) return;
+  write_atomically(path.replace_extension(".prj"), [&](std::ostream& out) { out << raster.crs_wkt << '\n'; });
+}
+
 }  // namespace
 
 EsriAsciiWriter::EsriAsciiWriter(const RasterFrame& frame, const std::filesystem::path& path)
-    : frame_(frame), path_(path), spool_(path) {}
-
-void EsriAsciiWriter::write(const RasterTile& tile) {
-  places_.emplace(tile.place, spool_.append(std::as_bytes(std::span(tile.svf))));
-}
-
-std::vector<float> EsriAsciiWriter::band(std::size_t tile_row) {
-  std::vector<float> band(frame_.columns * pixels_of_tile(tile_row, frame_.rows), std::numeric_limits<float>::quiet_NaN());
-  std::vector<float> tile(raster_tile_edge * raster_tile_edge);
-  for (auto t = places_.lower_bound({tile_row, 0}); t != places_.end() && t->first.row == tile_row; ++t) {
-    spool_.read(t->second, std::as_writable_bytes(std::span(tile)));
-    const std::size_t column = t->first.column * raster_tile_edge;
-    for (std::size_t row = 0; row < band.size() / frame_.columns; ++row)
-      std::copy_n(tile.begin() + static_cast<std::ptrdiff_t>(row * raster_tile_edge),
-                  pixels_of_tile(t->first.column, frame_.columns),
-                  band.begin() + static_cast<std::ptrdiff_t>(row * frame_.columns + column));
-  }
-  return band;
-}
+    : frame_(frame), path_(path), tiles_(frame, path) {}
 
 void EsriAsciiWriter::write_rows(std::ostream& out) {
   for (std::size_t tile_row = 0; tile_row < tiles_along(frame_.rows); ++tile_row) {
     std::size_t pixels = 0;
-    for (const float svf : band(tile_row)) {
+    for (const float svf : tiles_.pixels_of_tile_row(tile_row)) {
       write_pixel(out, svf);
       out << (++pixels % frame_.columns == 0 ? '\n' : ' ');
     }
@@ -70,9 +54,7 @@ void EsriAsciiWriter::commit() {
     write_header(out, frame_);
     write_rows(out);
   });
-  if (frame_.crs_wkt.empty()) return;
-  auto prj = path_;
-  write_atomically(prj.replace_extension(".prj"), [this](std::ostream& out) { out << frame_.crs_wkt << '\n'; });
+  write_prj_beside(path_, frame_);
 }
 
 }  // namespace farlod
