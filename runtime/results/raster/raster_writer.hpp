@@ -6,7 +6,8 @@
 
 namespace farlod {
 
-/// Writes a raster tile by tile, so that nobody has to hold the whole raster. The file appears with commit(), and not before.
+/// Writes a raster tile by tile, so that nobody has to hold the whole raster. The file appears with commit(), and not before. A
+/// format of several files lets the others appear first.
 class RasterWriter {
  public:
   RasterWriter() = default;

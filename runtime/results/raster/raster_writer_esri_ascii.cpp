@@ -53,8 +53,9 @@ void EsriAsciiWriter::commit() {
   write_atomically(path_, [this](std::ostream& out) {
     write_header(out, frame_);
     write_rows(out);
+    // The grid appears last. A disk that refuses the grid gets no .prj file.
+    if (out.flush()) write_prj_beside(path_, frame_);
   });
-  write_prj_beside(path_, frame_);
 }
 
 }  // namespace farlod

@@ -152,9 +152,9 @@ void write_buildings_csv(std::span<const BuildingRow> rows, const std::string& q
 std::vector<std::filesystem::path> SurfaceTablesCsv::commit(std::span<const SurfaceRow> surfaces,
                                                             std::span<const BuildingRow> buildings) {
   const std::vector<std::filesystem::path> files{path_, beside(path_, ".surfaces"), beside(path_, ".buildings")};
-  receivers_.commit();
   write_surfaces_csv(surfaces, quantity_, files[1]);
   write_buildings_csv(buildings, quantity_, files[2]);
+  receivers_.commit();  // the file of -o appears last
   return files;
 }
 

@@ -4,7 +4,8 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/runtime/results/raster/whole_raster.hpp"
+#include "results/output_error.hpp"
+#include "tests/runtime/results/raster/small_raster.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
@@ -57,27 +58,55 @@ WholeRaster raster_with_bounds() {
   return raster;
 }
 
-std::string pixels_file(const OutputFormat& format, WholeRaster raster, const scenes::TemporaryFolder& folder) {
-  const std::filesystem::path path = folder.file("a" + std::string(format.endings[0]));
+std::filesystem::path output_of(const OutputFormat& format, const scenes::TemporaryFolder& folder) {
+  return folder.file("a" + std::string(format.endings[0]));
+}
+
+std::string pixels_file(const OutputFormat& format, const WholeRaster& raster, const scenes::TemporaryFolder& folder) {
   {
-    const auto writer = format.raster_writer(raster, path);
+    const auto writer = format.raster_writer(raster, output_of(format, folder));
     for (const RasterTile& tile : tiles_of(raster)) writer->write(tile);
     writer->commit();
   }
-  return scenes::text_of(path);
+  return scenes::text_of(output_of(format, folder));
+}
+
+/// Writes all files of a format: of a table those of --surfaces.
+void write_files(const OutputFormat& format, const scenes::TemporaryFolder& folder) {
+  const std::filesystem::path path = output_of(format, folder);
+  if (format.kind != OutputKind::table) {
+    WholeRaster raster = raster_with_bounds();
+    raster.crs_wkt = small_raster().crs_wkt;
+    (void)pixels_file(format, raster, folder);
+    return;
+  }
+  EXPECT_EQ(format.surface_tables_writer({"svf", BoundsColumns::yes}, path)->commit({}, {}).front(), path) << format.name;
 }
 
 TEST(OutputFormat, EachWritesAFileOfItsEnding) {
-  const scenes::TemporaryFolder folder;
   for (const OutputFormat& format : output_formats()) {
-    if (format.kind != OutputKind::table) {
-      EXPECT_NE(pixels_file(format, raster_with_bounds(), folder), "") << format.name;
-      continue;
+    const scenes::TemporaryFolder folder;
+    write_files(format, folder);
+    EXPECT_NE(scenes::text_of(output_of(format, folder)), "") << format.name;
+    if (format.kind != OutputKind::table) continue;
+    const std::filesystem::path points = folder.file("points" + std::string(format.endings[0]));
+    format.write_points({1, [](std::size_t) { return PointRow{}; }}, {"svf", BoundsColumns::yes}, points);
+    EXPECT_NE(scenes::text_of(points), "") << format.name;
+  }
+}
+
+TEST(OutputFormat, OfSeveralFilesTheOneOfTheOutputAppearsLast) {
+  for (const OutputFormat& format : output_formats()) {
+    const scenes::TemporaryFolder whole;
+    write_files(format, whole);
+    for (const std::string& name : whole.names()) {
+      if (name == output_of(format, whole).filename()) continue;
+      const scenes::TemporaryFolder folder;
+      // A file cannot replace a folder that holds something
+      std::filesystem::create_directories(folder.file(name) / "inside");
+      EXPECT_THROW(write_files(format, folder), OutputError) << name;
+      EXPECT_FALSE(std::filesystem::exists(output_of(format, folder))) << format.name << " without " << name;
     }
-    const std::filesystem::path path = folder.file("a" + std::string(format.endings[0]));
-    format.write_points({1, [](std::size_t) { return PointRow{}; }}, {"svf", BoundsColumns::yes}, path);
-    EXPECT_NE(scenes::text_of(path), "") << format.name;
-    EXPECT_EQ(format.surface_tables_writer({"svf", BoundsColumns::yes}, path)->commit({}, {}).front(), path) << format.name;
   }
 }
 
