@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "results/output_format.hpp"
 #include "results/picture/raster_preview.hpp"
-#include "results/raster/raster_writer_esri_ascii.hpp"
 #include "results/raster/raster_writer_gdal.hpp"
 #include "tests/runtime/results/raster/whole_raster.hpp"
 #include "tests/scenes/temporary_folder.hpp"
@@ -74,16 +74,6 @@ TEST(GeotiffTiles, HoldTheSameValuesInWhateverOrderTheyCome) {
   EXPECT_THAT(band_of(folder.file("a.tif"), 3), Pointwise(NanSensitiveFloatEq(), raster.high));
 }
 
-TEST(GeotiffTiles, TheSameOrderMakesTheSameBytes) {
-  const scenes::TemporaryFolder folder;
-  const WholeRaster raster = raster_of_six_tiles();
-  for (const char* name : {"a.tif", "b.tif"}) {
-    GeotiffWriter writer(raster, folder.file(name));
-    write_backwards(writer, raster);
-  }
-  EXPECT_EQ(scenes::text_of(folder.file("a.tif")), scenes::text_of(folder.file("b.tif")));
-}
-
 /// A raster without the first of its tiles, which is without answers in it.
 struct WithoutOneTile {
   WholeRaster raster = raster_of_six_tiles();
@@ -110,45 +100,6 @@ TEST(GeotiffTiles, WhatDoesNotComeHasNoData) {
                                                                                                   : without.raster.high));
 }
 
-TEST(EsriAsciiTiles, MakeTheSameFileInWhateverOrderTheyCome) {
-  const scenes::TemporaryFolder folder;
-  const WholeRaster raster = raster_of_six_tiles();
-  {
-    EsriAsciiWriter writer(raster, folder.file("a.asc"));
-    write_backwards(writer, raster);
-  }
-  write_whole<EsriAsciiWriter>(raster, folder.file("b.asc"));
-  EXPECT_THAT(folder.names(), testing::UnorderedElementsAre("a.asc", "b.asc"));
-  EXPECT_EQ(scenes::text_of(folder.file("a.asc")), scenes::text_of(folder.file("b.asc")));
-  std::vector<float> expected = raster.svf;
-  for (float& svf : expected) svf = std::isnan(svf) ? -9999.0F : svf;
-  EXPECT_EQ(band_of(folder.file("a.asc"), 1), expected);
-}
-
-TEST(EsriAsciiTiles, WhatDoesNotComeHasNoData) {
-  const scenes::TemporaryFolder folder;
-  const WithoutOneTile without;
-  EsriAsciiWriter writer(without.raster, folder.file("a.asc"));
-  for (const RasterTile& tile : without.tiles) writer.write(tile);
-  writer.commit();
-  write_whole<EsriAsciiWriter>(without.raster, folder.file("b.asc"));
-  EXPECT_EQ(scenes::text_of(folder.file("a.asc")), scenes::text_of(folder.file("b.asc")));
-}
-
-TEST(EsriAsciiTiles, NothingIsLeftOfAFileThatIsGivenUp) {
-  const scenes::TemporaryFolder folder;
-  const WholeRaster raster = raster_of_six_tiles();
-  {
-    EsriAsciiWriter ascii(raster, folder.file("a.asc"));
-    GeotiffWriter geotiff(raster, folder.file("a.tif"));
-    for (const RasterTile& tile : tiles_of(raster)) {
-      ascii.write(tile);
-      geotiff.write(tile);
-    }
-  }
-  EXPECT_THAT(folder.names(), testing::IsEmpty());
-}
-
 TEST(PngTiles, MakeTheSamePictureInWhateverOrderTheyCome) {
   const scenes::TemporaryFolder folder;
   const WholeRaster raster = raster_of_six_tiles();
@@ -156,6 +107,70 @@ TEST(PngTiles, MakeTheSamePictureInWhateverOrderTheyCome) {
   write_backwards(writer, raster);
   write_whole<PngPreviewWriter>(raster, folder.file("b.png"));
   EXPECT_EQ(scenes::text_of(folder.file("a.png")), scenes::text_of(folder.file("b.png")));
+}
+
+/// The formats of rasters and pictures, and a file of each.
+template <class Action>
+void for_each_raster_format(const Action& action) {
+  for (const OutputFormat& format : output_formats()) {
+    if (format.raster_writer == nullptr) continue;
+    SCOPED_TRACE(format.name);
+    const scenes::TemporaryFolder folder;
+    action(format, folder.file("a" + std::string(format.endings[0])));
+  }
+}
+
+/// The first band; NaN where the file declares that there is no data.
+std::vector<float> svf_of(const std::filesystem::path& path) {
+  std::vector<float> pixels = band_of(path, 1);
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));
+  const auto nodata = static_cast<float>(dataset->GetRasterBand(1)->GetNoDataValue());
+  std::replace(pixels.begin(), pixels.end(), nodata, std::numeric_limits<float>::quiet_NaN());
+  return pixels;
+}
+
+TEST(RasterFormats, HoldTheSameValuesInWhateverOrderTilesCome) {
+  for_each_raster_format([](const OutputFormat& format, const std::filesystem::path& path) {
+    if (format.kind != OutputKind::raster) return;
+    const WholeRaster raster = raster_of_six_tiles();
+    write_backwards(*format.raster_writer(raster, path), raster);
+    EXPECT_THAT(svf_of(path), Pointwise(NanSensitiveFloatEq(), raster.svf));
+  });
+}
+
+TEST(RasterFormats, WhatDoesNotComeHasNoData) {
+  for_each_raster_format([](const OutputFormat& format, const std::filesystem::path& path) {
+    if (format.kind != OutputKind::raster) return;
+    const WithoutOneTile without;
+    const auto writer = format.raster_writer(without.raster, path);
+    for (const RasterTile& tile : without.tiles) writer->write(tile);
+    writer->commit();
+    EXPECT_THAT(svf_of(path), Pointwise(NanSensitiveFloatEq(), without.raster.svf));
+  });
+}
+
+TEST(RasterFormats, TheSameOrderMakesTheSameBytes) {
+  for_each_raster_format([](const OutputFormat& format, const std::filesystem::path& path) {
+    const WholeRaster raster = raster_of_six_tiles();
+    const auto bytes = [&] {
+      write_backwards(*format.raster_writer(raster, path), raster);
+      return scenes::text_of(path);
+    };
+    const std::string first = bytes();
+    EXPECT_FALSE(first.empty());
+    EXPECT_TRUE(bytes() == first);
+  });
+}
+
+TEST(RasterFormats, NothingIsLeftOfAFileThatIsGivenUp) {
+  for_each_raster_format([](const OutputFormat& format, const std::filesystem::path& path) {
+    const WholeRaster raster = raster_of_six_tiles();
+    {
+      const auto writer = format.raster_writer(raster, path);
+      for (const RasterTile& tile : tiles_of(raster)) writer->write(tile);
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(path.parent_path()));
+  });
 }
 
 }  // namespace
