@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "console/exit_code.hpp"
+#include "results/output_format.hpp"
 #include "runtime/evaluate/error_budget.hpp"
 #include "tests/acceptance/packed_town.hpp"
 
@@ -143,8 +144,19 @@ TEST_F(ErrorControl, BoxMapsKnowNoErrors) {
   expect_refusal(folder.run("farlod-pack town.geojson -o c.farlod --far-map box --max-error 0.01"), exit_usage, {"--max-error"});
 }
 
+TEST_F(ErrorControl, FormatsWithoutRoomForBoundsAreRefused) {
+  for (const OutputFormat& format : output_formats()) {
+    if (format.holds_bounds) continue;
+    const std::string ending(format.endings[0]);
+    const bool is_table = format.kind == OutputKind::table;
+    const std::string with_room =
+        endings_where([&](const OutputFormat& f) { return f.holds_bounds && (f.kind == OutputKind::table) == is_table; });
+    expect_refusal(folder.run("farlod-svf a.farlod -o o" + ending + (is_table ? " --surfaces all" : " --grid 20") + " --bounds"),
+                   exit_usage, {"--bounds", "ends in " + ending, with_room});
+  }
+}
+
 TEST_F(ErrorControl, ImpossibleWishesAreRefused) {
-  expect_refusal(folder.run("farlod-svf a.farlod -o o.png --grid 20 --bounds"), exit_usage, {"--bounds", ".tif"});
   expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --surfaces all --rays 100 --max-error 0.01"), exit_usage,
                  {"--max-error", "100 rays", "leave --rays", "at least"});
   expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --surfaces all --engine horizon --rays 100 --max-error 0.01"),

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
 #include <cmath>
 
 #include "farlod/frame.hpp"
+#include "results/output_format.hpp"
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/analytic/tolerance.hpp"
 
@@ -78,27 +81,47 @@ TEST_F(PackedTown, APixelIsThePointAtItsCentre) {
   EXPECT_GT(compared, map.values.size() / 4);
 }
 
-TEST_F(PackedTown, EachFormatHoldsTheSameMap) {
-  folder.must("farlod-svf a.farlod -o o.asc --grid 4 --preview preview.png");
-  folder.must("farlod-svf a.farlod -o o.png --grid 4");
-  EXPECT_EQ(folder.text_of("o.png"), folder.text_of("preview.png"));
-  EXPECT_EQ(folder.text_of("o.png").substr(1, 3), "PNG");
-  EXPECT_TRUE(folder.has("o.prj"));
-#ifdef FARLOD_WITH_GDAL
-  folder.must("farlod-svf a.farlod -o o.tif --grid 4");
-  const RasterFile tif = raster("o.tif"), asc = raster("o.asc");
-  EXPECT_EQ(tif.epsg, 32632);
-  EXPECT_EQ(tif.north_west, asc.north_west);
-  ASSERT_EQ(tif.columns, asc.columns);
-  ASSERT_EQ(tif.rows, asc.rows);
-  // An ASCII grid holds the shortest decimal of each float; readers may keep it as a double
-  for (std::size_t n = 0; n < tif.values.size(); ++n) {
-    ASSERT_EQ(tif.values[n].has_value(), asc.values[n].has_value()) << n;
-    if (tif.values[n]) {
-      EXPECT_EQ(static_cast<float>(*tif.values[n]), static_cast<float>(*asc.values[n])) << n;
+/// Readers may keep the decimals of a file of text as doubles.
+void expect_same_map(const RasterFile& a, const RasterFile& b) {
+  EXPECT_EQ(a.north_west, b.north_west);
+  ASSERT_EQ(a.columns, b.columns);
+  ASSERT_EQ(a.rows, b.rows);
+  for (std::size_t n = 0; n < a.values.size(); ++n) {
+    ASSERT_EQ(a.values[n].has_value(), b.values[n].has_value()) << n;
+    if (a.values[n]) {
+      EXPECT_EQ(static_cast<float>(*a.values[n]), static_cast<float>(*b.values[n])) << n;
     }
   }
+}
+
+TEST_F(PackedTown, EachRasterFormatHoldsTheSameMap) {
+  folder.must("farlod-svf a.farlod -o map.asc --grid 4");
+  for (const OutputFormat& format : output_formats()) {
+    if (format.kind != OutputKind::raster) continue;
+    SCOPED_TRACE(format.name);
+    // No two formats share the files beside a raster
+    const std::string ending(format.endings[0]), name = "map_" + ending.substr(1);
+    folder.must("farlod-svf a.farlod -o " + name + ending + " --grid 4");
+    expect_same_map(raster(name + ending), raster("map.asc"));
+#ifdef FARLOD_WITH_GDAL
+    // GIS programs read .prj files in Esri's WKT 1; packages have WKT 2
+    if (folder.has(name + ".prj"))
+      EXPECT_THAT(folder.text_of(name + ".prj"), testing::StartsWith("PROJCS[\"WGS_1984_UTM_Zone_32N\""));
+    else
+      EXPECT_EQ(raster(name + ending).epsg, 32632);
 #endif
+  }
+}
+
+TEST_F(PackedTown, EachPictureFormatIsThatOfThePreview) {
+  for (const OutputFormat& format : output_formats()) {
+    if (format.kind != OutputKind::picture) continue;
+    const std::string ending(format.endings[0]);
+    folder.must("farlod-svf a.farlod -o map.asc --grid 4 --preview preview" + ending);
+    folder.must("farlod-svf a.farlod -o picture" + ending + " --grid 4");
+    EXPECT_FALSE(folder.text_of("picture" + ending).empty()) << format.name;
+    EXPECT_TRUE(folder.text_of("picture" + ending) == folder.text_of("preview" + ending)) << format.name;
+  }
 }
 
 TEST_F(PackedTown, ABoxCutsOutAPartOfTheSameMap) {

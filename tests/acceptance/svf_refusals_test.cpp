@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <set>
+
 #include "console/exit_code.hpp"
+#include "results/output_format.hpp"
 #include "tests/acceptance/small_town.hpp"
 #include "tests/acceptance/work_folder.hpp"
 
@@ -11,12 +14,17 @@ namespace {
 
 /// A command of farlod-svf that cannot be followed, and what the user must be told.
 struct Refused {
-  const char* name;
-  const char* arguments;
+  std::string name;
+  std::string arguments;
   int exit_code;
   std::vector<std::string> said;
 };
 void PrintTo(const Refused& refused, std::ostream* out) { *out << "farlod-svf " << refused.arguments; }
+
+std::string endings_of(const std::set<OutputKind>& kinds) {
+  return endings_where([&](const OutputFormat& format) { return kinds.contains(format.kind); });
+}
+std::string all_endings() { return endings_of({OutputKind::raster, OutputKind::picture, OutputKind::table}); }
 
 std::string name_of(const testing::TestParamInfo<Refused>& info) { return info.param.name; }
 
@@ -39,8 +47,9 @@ class SvfRefuses : public testing::TestWithParam<Refused> {
 };
 
 TEST_P(SvfRefuses, InOneLine) {
-  expect_refusal(folder.run(std::string("farlod-svf ") + GetParam().arguments), GetParam().exit_code, GetParam().said);
-  for (const char* result : {"o.csv", "o.tif", "o.asc", "o.png"}) EXPECT_FALSE(folder.has(result));
+  const std::vector<std::string> before = folder.names();
+  expect_refusal(folder.run("farlod-svf " + GetParam().arguments), GetParam().exit_code, GetParam().said);
+  EXPECT_EQ(folder.names(), before);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -61,12 +70,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refused{"NoOutput", "a.farlod --at 1,2", exit_usage, {"--output is required"}},
         Refused{"NoPackage", "-o o.csv --at 1,2", exit_usage, {"PACKAGE is required"}},
-        Refused{
-            "UnknownEnding", "a.farlod -o o.no_such_format --at 1,2", exit_usage, {"o.no_such_format", ".csv", ".png", ".asc"}},
-        Refused{"NoEnding", "a.farlod -o o --at 1,2", exit_usage, {"\"o\"", ".csv", ".png", ".asc"}},
-        Refused{"GridAsTable", "a.farlod -o o.csv --grid 5", exit_usage, {"-o", "--grid makes a raster", ".csv"}},
-        Refused{"PointsAsRaster", "a.farlod -o o.png --points word.csv", exit_usage, {"-o", "choose .csv"}},
-        Refused{"SurfacesAsRaster", "a.farlod -o o.asc --surfaces all", exit_usage, {"-o", "choose .csv"}},
+        Refused{"UnknownEnding", "a.farlod -o o.no_such_format --at 1,2", exit_usage, {"o.no_such_format", all_endings()}},
+        Refused{"NoEnding", "a.farlod -o o --at 1,2", exit_usage, {"\"o\"", all_endings()}},
         Refused{"NoReceivers", "a.farlod -o o.csv", exit_usage, {"--grid,--points,--surfaces,--at", "required"}},
         Refused{"TwoKindsOfReceivers",
                 "a.farlod -o o.csv --at 1,2 --surfaces all",
@@ -105,6 +110,31 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"UnknownOptionInConfig", "a.farlod -o o.asc --config typo.toml", exit_usage, {"--config", "rayz"}}),
     name_of);
 
+/// Each format with the receivers that it is not for.
+std::vector<Refused> formats_that_do_not_fit() {
+  const std::string tables = endings_of({OutputKind::table}), pictures = endings_of({OutputKind::picture});
+  const std::string rasters = endings_of({OutputKind::raster, OutputKind::picture});
+  std::vector<Refused> refused;
+  for (const OutputFormat& format : output_formats()) {
+    const std::string ending(format.endings[0]), name = ending.substr(1), command = "a.farlod -o o" + ending;
+    if (format.kind == OutputKind::table)
+      refused.push_back({"Grid_" + name, command + " --grid 5", exit_usage, {"-o", "--grid makes a raster", ending, rasters}});
+    else
+      for (const std::string receivers : {"--points word.csv", "--at 1,2", "--surfaces all"})
+        refused.push_back({receivers.substr(2, receivers.find(' ') - 2) + "_" + name,
+                           command + " " + receivers,
+                           exit_usage,
+                           {"-o", "only --grid makes a raster", tables}});
+    if (format.kind != OutputKind::picture)
+      refused.push_back({"Preview_" + name,
+                         "a.farlod -o o.asc --grid 5 --preview p" + ending,
+                         exit_usage,
+                         {"--preview", "p" + ending, pictures}});
+  }
+  return refused;
+}
+INSTANTIATE_TEST_SUITE_P(Formats, SvfRefuses, testing::ValuesIn(formats_that_do_not_fit()), name_of);
+
 INSTANTIATE_TEST_SUITE_P(
     Points, SvfRefuses,
     testing::Values(
@@ -136,22 +166,16 @@ INSTANTIATE_TEST_SUITE_P(
     name_of);
 
 #ifdef FARLOD_WITH_GDAL
-INSTANTIATE_TEST_SUITE_P(
-    Gdal, SvfRefuses,
-    testing::Values(Refused{"PointsAsGeotiff", "a.farlod -o o.tif --points word.csv", exit_usage, {"-o", "choose .csv"}},
-                    Refused{"UnknownEndingListsTif",
-                            "a.farlod -o o.no_such_format --grid 5",
-                            exit_usage,
-                            {"o.no_such_format", ".tif", ".csv", ".png", ".asc"}},
-                    Refused{"BeyondThePole",
-                            "a.farlod -o o.csv --points pole.csv --points-crs EPSG:4326",
-                            exit_unusable_input,
-                            {"point 1 at (9, 95)", "x is the longitude"}},
-                    Refused{"UnknownPointsCrs",
-                            "a.farlod -o o.csv --points pole.csv --points-crs EPSG:99999",
-                            exit_unusable_input,
-                            {"EPSG:99999", "not known", "EPSG:4326"}}),
-    name_of);
+INSTANTIATE_TEST_SUITE_P(Gdal, SvfRefuses,
+                         testing::Values(Refused{"BeyondThePole",
+                                                 "a.farlod -o o.csv --points pole.csv --points-crs EPSG:4326",
+                                                 exit_unusable_input,
+                                                 {"point 1 at (9, 95)", "x is the longitude"}},
+                                         Refused{"UnknownPointsCrs",
+                                                 "a.farlod -o o.csv --points pole.csv --points-crs EPSG:99999",
+                                                 exit_unusable_input,
+                                                 {"EPSG:99999", "not known", "EPSG:4326"}}),
+                         name_of);
 #endif
 
 TEST(SvfAnswersFromOutside, ABoxBesideTheCityIsAllNoData) {

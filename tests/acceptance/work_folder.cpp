@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -34,6 +35,13 @@ void WorkFolder::write(const std::string& name, const std::string& text) const {
 }
 
 std::string WorkFolder::text_of(const std::string& name) const { return scenes::text_of(path(name)); }
+
+std::vector<std::string> WorkFolder::names() const {
+  std::vector<std::string> names = folder_.names();
+  std::erase_if(names, [](const std::string& name) { return name == ".out" || name == ".err"; });
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 nlohmann::json WorkFolder::json_of(const std::string& name) const { return nlohmann::json::parse(text_of(name)); }
 

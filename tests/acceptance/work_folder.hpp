@@ -29,6 +29,8 @@ class WorkFolder {
   [[nodiscard]] std::string text_of(const std::string& name) const;
   [[nodiscard]] nlohmann::json json_of(const std::string& name) const;
   [[nodiscard]] std::filesystem::path path(const std::string& name) const { return folder_.file(name); }
+  /// Of all files and folders in it, sorted, except for those in which run() keeps what commands say.
+  [[nodiscard]] std::vector<std::string> names() const;
   [[nodiscard]] bool has(const std::string& name) const { return std::filesystem::exists(path(name)); }
 
  private:
