@@ -5,11 +5,12 @@
 #include <fstream>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "results/output_format.hpp"
 #include "tests/acceptance/packed_town.hpp"
 
-// docs/stages/results.md against what the programs write.
+// docs/stages/results.md, and the formats of README.md, against what the programs write.
 
 namespace farlod::acceptance {
 namespace {
@@ -108,6 +109,36 @@ TEST(DocumentedFormats, AreThoseOfTheProgram) {
   EXPECT_EQ(found, documented);
 #else
   EXPECT_THAT(documented, testing::IsSupersetOf(found));
+#endif
+}
+
+/// The words of a text, with one space between any two.
+std::string words_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::string words;
+  for (std::string word; stream >> word;) words.append(words.empty() ? "" : " ").append(word);
+  return words;
+}
+
+TEST(DocumentedFormats, EachHasAParagraph) {
+  for (const OutputFormat& f : output_formats()) {
+    std::string text;
+    for (const std::string& line : section(f.kind == OutputKind::table ? "Tables" : "Rasters and pictures")) text += line + "\n";
+    EXPECT_THAT(text, testing::HasSubstr(f.name));
+  }
+}
+
+TEST(DocumentedFormats, TheReadmeListsThem) {
+  const std::string readme = words_of(scenes::text_of(std::filesystem::path(FARLOD_SOURCE_DIR) / "README.md"));
+  static const std::regex sentence("`farlod-svf` writes these \\[formats\\]\\([^)]*\\): ([^.]+)\\.");
+  std::smatch list;
+  ASSERT_TRUE(std::regex_search(readme, list, sentence));
+  std::string names;
+  for (const OutputFormat& f : output_formats()) names.append(names.empty() ? "" : ", ").append(f.name);
+#ifdef FARLOD_WITH_GDAL
+  EXPECT_EQ(list[1], names);
+#else
+  EXPECT_EQ(list[1], "GeoTIFF, " + names);
 #endif
 }
 
