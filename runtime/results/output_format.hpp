@@ -47,7 +47,7 @@ struct OutputFormat {
 /// The format of a file by the ending of its name, in capitals or not; null when no format has this ending.
 [[nodiscard]] const OutputFormat* output_format_of(const std::filesystem::path& path);
 
-/// The endings of all formats that fulfil a condition, for messages: ".tif, .tiff, .csv, .png, .asc".
+/// The endings of all formats that fulfil a condition, for messages, such as ".tif, .tiff".
 template <class Condition>
 [[nodiscard]] std::string endings_where(const Condition& condition) {
   std::string list;
