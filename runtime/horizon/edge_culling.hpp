@@ -70,7 +70,7 @@ FARLOD_LANES Floats max_excess(const FacingTerms& t, const CenteredBox& box, flo
   // At the centre: rise = (z − a_z) run cosine − ahead sine
   const Floats rise = (z - t.a_z) * t.run * t.cosine - t.ahead * t.sine;
   // The excess is linear in x and y: half a side times its gradient is the most that it grows towards a corner
-  const Floats slope_to_left = t.left > 0.0F ? slope : -slope, sine = sign * t.sine;
+  const Floats slope_to_left = choose(t.left > 0.0F, slope, -slope), sine = sign * t.sine;
   const Floats per_x = slope_to_left * t.along_y - sine * t.along_x, per_y = -slope_to_left * t.along_x - sine * t.along_y;
   return sign * rise - t.left * slope_to_left + abs(per_x) * box.half_x + abs(per_y) * box.half_y +
          t.margin * (1.0F + abs(slope));
@@ -81,7 +81,7 @@ FARLOD_LANES Floats may_be_silhouette(const FacingTerms& t, const SilhouetteEdge
                                       bool is_upper) {
   // The facets towards and away from the receivers
   const Floats left = load(e.left.data()), right = load(e.right.data());
-  const Floats near_slope = t.left > 0.0F ? left : right, far_slope = t.left > 0.0F ? right : left;
+  const Floats near_slope = choose(t.left > 0.0F, left, right), far_slope = choose(t.left > 0.0F, right, left);
   // A receiver above the edge does not have it as a horizon: heights end below its higher end
   const Floats below_edge = t.a_z + max(t.along_z, broadcast(0.0F)) - 2.0F * facing_margin_m;
   const Floats highest = min(broadcast(box.high_z), below_edge), lowest = broadcast(box.low_z);
@@ -91,12 +91,12 @@ FARLOD_LANES Floats may_be_silhouette(const FacingTerms& t, const SilhouetteEdge
   const Floats over_far = is_upper ? max_excess(t, box, -1.0F, lowest, far_slope) : max_excess(t, box, 1.0F, highest, -far_slope);
   // With receivers on both sides, or for an upright edge, there is no near and far: keep the edge
   const Floats aside = abs(t.left) - abs(t.along_y) * box.half_x - abs(t.along_x) * box.half_y;
-  return aside > t.margin ? min(over_near, over_far) : broadcast(1.0F);
+  return choose(aside > t.margin, min(over_near, over_far), broadcast(1.0F));
 }
 
 /// Distance in the plan from the box's centre to the edge: |c − s e| with s = clamp(e · c / |e|², 0, 1).
 FARLOD_LANES Floats distance_from_center(const FacingTerms& t) {
-  const Floats square = t.run * t.run, share = t.ahead / (square > 0.0F ? square : broadcast(1.0F));
+  const Floats square = t.run * t.run, share = t.ahead / choose(square > 0.0F, square, broadcast(1.0F));
   const Floats s = min(max(share, broadcast(0.0F)), broadcast(1.0F));
   const Floats x = t.center_x - s * t.along_x, y = t.center_y - s * t.along_y;
   return sqrt(x * x + y * y);
@@ -120,7 +120,7 @@ inline constexpr float min_clearance_m = 0.01F;
 
 /// The representative in [−1/2, 1/2] of a difference of two azimuths in turns.
 FARLOD_LANES Floats within_half_a_turn(const Floats& turns) {
-  return turns > 0.5F ? turns - 1.0F : turns < -0.5F ? turns + 1.0F : turns;
+  return choose(turns > 0.5F, turns - 1.0F, choose(turns < -0.5F, turns + 1.0F, turns));
 }
 
 struct AzimuthInterval {
@@ -130,13 +130,15 @@ struct AzimuthInterval {
 /// azimuths from two corners. If the point lies beyond both sides that meet in the nearest corner, they are the corners left and
 /// right of that one; else they are the ends of the side that the point lies in front of.
 FARLOD_LANES AzimuthInterval azimuths_from_rectangle(const Floats& x, const Floats& y, float half_x, float half_y) {
-  const Floats x_towards_x = x < 0.0F ? broadcast(-half_x) : broadcast(half_x),
-               x_towards_y = y < 0.0F ? broadcast(-half_x) : broadcast(half_x);
-  const Floats y_towards_x = x < 0.0F ? broadcast(-half_y) : broadcast(half_y),
-               y_towards_y = y < 0.0F ? broadcast(-half_y) : broadcast(half_y);
+  const Floats x_towards_x = choose(x < 0.0F, broadcast(-half_x), broadcast(half_x)),
+               x_towards_y = choose(y < 0.0F, broadcast(-half_x), broadcast(half_x));
+  const Floats y_towards_x = choose(x < 0.0F, broadcast(-half_y), broadcast(half_y)),
+               y_towards_y = choose(y < 0.0F, broadcast(-half_y), broadcast(half_y));
   const Floats beyond_x = abs(x) - half_x, beyond_y = abs(y) - half_y;
-  const Floats from_x = beyond_y > 0.0F ? -x_towards_y : x_towards_x, from_y = beyond_x > 0.0F ? y_towards_x : y_towards_y;
-  const Floats to_x = beyond_y > 0.0F ? x_towards_y : x_towards_x, to_y = beyond_x > 0.0F ? -y_towards_x : y_towards_y;
+  const Floats from_x = choose(beyond_y > 0.0F, -x_towards_y, x_towards_x),
+               from_y = choose(beyond_x > 0.0F, y_towards_x, y_towards_y);
+  const Floats to_x = choose(beyond_y > 0.0F, x_towards_y, x_towards_x),
+               to_y = choose(beyond_x > 0.0F, -y_towards_x, y_towards_y);
   return {pseudo_angle(x - from_x, y - from_y), pseudo_angle(x - to_x, y - to_y)};
 }
 
@@ -150,7 +152,7 @@ struct EdgesFromCenter {
 FARLOD_LANES Floats slope_bound(const EdgesFromCenter& e, const Floats& rise, const CenteredBox& box) {
   // Nearest point: p + s (q − p), s = clamp(−p · (q − p) / |q − p|², 0, 1)
   const Floats along_x = e.qx - e.px, along_y = e.qy - e.py, along_square = along_x * along_x + along_y * along_y;
-  const Floats share = -(e.px * along_x + e.py * along_y) / (along_square > 0.0F ? along_square : broadcast(1.0F));
+  const Floats share = -(e.px * along_x + e.py * along_y) / choose(along_square > 0.0F, along_square, broadcast(1.0F));
   const Floats s = min(max(share, broadcast(0.0F)), broadcast(1.0F));
   const Floats nearest_x = e.px + s * along_x, nearest_y = e.py + s * along_y;
   const Floats square = nearest_x * nearest_x + nearest_y * nearest_y, distance = sqrt(square);
@@ -159,7 +161,7 @@ FARLOD_LANES Floats slope_bound(const EdgesFromCenter& e, const Floats& rise, co
   const Floats enough = min_clearance_m * distance;
   const Floats bound =
       rise * distance / max(clearance, broadcast(min_clearance_m * min_clearance_m)) * (1.0F + reach_margin) + reach_margin;
-  return clearance > enough ? bound : broadcast(EdgeReach::unbounded);
+  return choose(clearance > enough, bound, broadcast(EdgeReach::unbounded));
 }
 
 FARLOD_LANES EdgeReach reach_of(const SilhouetteEdges::Batch& edges, const PacketBounds& packet) {
@@ -174,7 +176,7 @@ FARLOD_LANES EdgeReach reach_of(const SilhouetteEdges::Batch& edges, const Packe
                           packet.depth;
   EdgeReach reach;
   const Floats bound = slope_bound(e, rise, box);
-  reach.max_slope = min(rise, in_front) > 0.0F ? bound : broadcast(-1.0F);
+  reach.max_slope = choose(min(rise, in_front) > 0.0F, bound, broadcast(-1.0F));
   // Azimuths: the hull of those of both ends. A line separates box and edge, so all lie within half a turn of each other
   const AzimuthInterval a = azimuths_from_rectangle(e.px, e.py, box.half_x, box.half_y),
                         b = azimuths_from_rectangle(e.qx, e.qy, box.half_x, box.half_y);
@@ -226,15 +228,16 @@ FARLOD_LANES std::size_t cull(const EdgeReach& reach, const SectorMinHorizon& ho
   const Ints first = truncate(reach.from * static_cast<float>(sectors)), last = truncate(reach.to * static_cast<float>(sectors));
   // Two runs of 2^level sectors, one from the first on and one up to the last, cover them
   const Ints level = floor_log2(min(max(last - first + 1, broadcast(1)), broadcast(sectors)));
-  const Ints begin = level * sectors + (first & (sectors - 1)),
-             end = level * sectors + ((last + 1 - (broadcast(1) << level)) & (sectors - 1));
+  const std::array begin = to_array(level * sectors + (first & (sectors - 1))),
+                   end = to_array(level * sectors + ((last + 1 - (1 << level)) & (sectors - 1)));
+  const std::array max_slope = to_array(reach.max_slope);
   // Compact without a branch: write each lane, and move on if it is kept
   std::size_t count = 0;
   for (std::size_t l = 0; l < lane_count; ++l) {
     const float min_horizon =
         std::min(horizon.minima[static_cast<std::size_t>(begin[l])], horizon.minima[static_cast<std::size_t>(end[l])]);
     kept[count] = static_cast<std::uint8_t>(l);
-    count += static_cast<std::size_t>(reach.max_slope[l] > min_horizon);
+    count += static_cast<std::size_t>(max_slope[l] > min_horizon);
   }
   return count;
 }

@@ -41,7 +41,7 @@ FARLOD_LANES void set_ends(const SilhouetteEdges::Batch& edges, std::size_t lane
 /// 0.
 FARLOD_LANES void invert_cross(RelativeEdge& e) {
   const Floats cross = e.px * e.qy - e.py * e.qx, inverse = 1.0F / cross;
-  e.inverse_cross = cross * cross > 0.0F ? inverse : broadcast(0.0F);
+  e.inverse_cross = choose(cross * cross > 0.0F, inverse, broadcast(0.0F));
 }
 
 /// On which side of an edge right above it a receiver is taken to stand.
@@ -59,8 +59,8 @@ FARLOD_LANES bool invert_cross_nearby(RelativeEdge& e, Beside side) {
   const Floats off_line = cross * cross - min_sine * min_sine * squares;
   // p · q < 0: the receiver is between the ends
   const Floats is_below = min(-off_line, -(e.px * e.qx + e.py * e.qy));
-  const Floats wide = off_line > 0.0F ? cross : broadcast(no_width);
-  e.inverse_cross = 1.0F / (is_below > 0.0F ? broadcast(cross_below) : wide);
+  const Floats wide = choose(off_line > 0.0F, cross, broadcast(no_width));
+  e.inverse_cross = 1.0F / choose(is_below > 0.0F, broadcast(cross_below), wide);
   return max_lane(is_below) > 0.0F;
 }
 
@@ -84,7 +84,7 @@ struct RaiseHorizon {
     for (std::uint32_t k = first; k < end; ++k) {
       const Crossing c = crossing_of(e, max_slope, a.cosine[k], a.sine[k]);
       float* row = slopes + std::size_t{k} * lane_count;
-      store(max(load(row), c.inside >= 0.0F ? c.slope : broadcast(0.0F)), row);
+      store(max(load(row), choose(c.inside >= 0.0F, c.slope, broadcast(0.0F))), row);
     }
   }
 };
@@ -99,7 +99,7 @@ struct LowerHorizon {
       const Crossing c = crossing_of(e, max_slope, a.cosine[k], a.sine[k]);
       // One condition: a receiver in line with the edge has u = v = 0, and must not see it here
       const Floats counts = min(c.inside, c.slope - load(min_slopes + std::size_t{k} * lane_count));
-      const Floats seen = counts > 0.0F ? c.slope : broadcast(std::numeric_limits<float>::infinity());
+      const Floats seen = choose(counts > 0.0F, c.slope, broadcast(std::numeric_limits<float>::infinity()));
       float* row = slopes + std::size_t{k} * lane_count;
       store(min(load(row), seen), row);
     }
@@ -138,20 +138,22 @@ FARLOD_LANES void draw_batch(const SilhouetteEdges::Batch& edges, bool is_upper,
   if (max_lane(reach.max_slope) <= 0.0F) return;
   // Leave out what faces away from all receivers, and what is hidden already
   const Floats facing = may_be_silhouette(facing_terms(edges, bounds.box), edges, bounds.box, is_upper);
-  reach.max_slope = facing > 0.0F ? reach.max_slope : broadcast(-1.0F);
+  reach.max_slope = choose(facing > 0.0F, reach.max_slope, broadcast(-1.0F));
   std::array<std::uint8_t, lane_count> kept;
   const std::size_t count = cull(reach, min_horizon, kept);
   // Draw the others one by one, each for sixteen receivers, between its first and last slot
-  const Ints first_slot = truncate(reach.from * azimuths.slots), end_slot = truncate(reach.to * azimuths.slots) + 1;
+  const std::array first_slot = to_array(truncate(reach.from * azimuths.slots)),
+                   end_slot = to_array(truncate(reach.to * azimuths.slots) + 1);
+  const std::array max_slope = to_array(reach.max_slope);
   RelativeEdge e;
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t lane = kept[n];
     set_ends(edges, lane, receivers, e);
-    if (reach.max_slope[lane] == EdgeReach::unbounded) {
+    if (max_slope[lane] == EdgeReach::unbounded) {
       draw_nearby(e, is_upper, azimuths, horizon);
     } else {
       invert_cross(e);
-      draw_interval(e, reach.max_slope[lane], azimuths, azimuths.first_of_slot[first_slot[lane]],
+      draw_interval(e, max_slope[lane], azimuths, azimuths.first_of_slot[first_slot[lane]],
                     azimuths.first_of_slot[end_slot[lane]], horizon);
     }
   }
@@ -194,8 +196,8 @@ void find_facing(const EdgeBatches& edges, const CenteredBox& box, float* distan
     const FacingTerms t = facing_terms(batch, box);
     // An edge below all receivers is no silhouette
     const Floats highest = max(t.along_z, broadcast(0.0F)) + t.a_z;
-    const Floats kept = highest > box.low_z ? may_be_silhouette(t, batch, box, is_upper) : broadcast(-1.0F);
-    store(kept > 0.0F ? distance_from_center(t) : broadcast(-1.0F), distances_m);
+    const Floats kept = choose(highest > box.low_z, may_be_silhouette(t, batch, box, is_upper), broadcast(-1.0F));
+    store(choose(kept > 0.0F, distance_from_center(t), broadcast(-1.0F)), distances_m);
     distances_m += lane_count;
   }
 }

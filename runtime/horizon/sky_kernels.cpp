@@ -23,8 +23,8 @@ static_assert(ReceiverPacket::lanes == lane_count);
 FARLOD_LANES Floats cosine_above(const Floats& t, const Floats& outward, const Floats& upward) {
   constexpr float half_pi = 1.57079632679F;
   // The zenith distance π/2 − arctan t, by the polynomial of t or of 1/t, whichever is at most 1
-  const Floats arc = atan_of_fraction(t < 1.0F ? t : 1.0F / max(t, broadcast(1.0F)));
-  const Floats zenith_distance = t < 1.0F ? half_pi - arc : arc, cos_square = 1.0F / (1.0F + t * t);
+  const Floats arc = atan_of_fraction(choose(t < 1.0F, t, 1.0F / max(t, broadcast(1.0F))));
+  const Floats zenith_distance = choose(t < 1.0F, half_pi - arc, arc), cos_square = 1.0F / (1.0F + t * t);
   return outward * (zenith_distance - t * cos_square) + upward * cos_square;
 }
 
@@ -41,11 +41,11 @@ struct SlopeInterval {
 };
 FARLOD_LANES SlopeInterval slopes_in_front(const Floats& outward, const Floats& upward) {
   // The slope on the receiver's own plane, |o / w|
-  const Floats nonzero = upward == 0.0F ? broadcast(1e-30F) : upward;
+  const Floats nonzero = choose(upward == 0.0F, broadcast(1e-30F), upward);
   const Floats border = min(abs(outward / nonzero), broadcast(straight_up));
   // o ≤ 0: from the border on, if the receiver is tilted up. o > 0, w < 0: up to the border. The table of "Above a horizon"
-  const Floats behind = upward > 0.0F ? border : broadcast(straight_up);
-  return {outward > 0.0F ? broadcast(0.0F) : behind, min(outward, -upward) > 0.0F ? border : broadcast(straight_up)};
+  const Floats behind = choose(upward > 0.0F, border, broadcast(straight_up));
+  return {choose(outward > 0.0F, broadcast(0.0F), behind), choose(min(outward, -upward) > 0.0F, border, broadcast(straight_up))};
 }
 
 struct Normals {
@@ -179,7 +179,7 @@ void replace_infinite(const float* other, std::size_t azimuth_count, float* slop
   for (std::size_t k = 0; k < azimuth_count; ++k) {
     float* row = slopes + k * lane_count;
     const Floats t = load(row);
-    store(t < std::numeric_limits<float>::infinity() ? t : load(other + k * lane_count), row);
+    store(choose(t < std::numeric_limits<float>::infinity(), t, load(other + k * lane_count)), row);
   }
 }
 
@@ -187,7 +187,7 @@ void join(const float* lower, const float* upper, std::size_t azimuth_count, flo
   for (std::size_t k = 0; k < azimuth_count; ++k) {
     float* row = slopes + k * lane_count;
     const Floats t = load(row), begin = load(lower + k * lane_count);
-    const Floats end = begin > t ? broadcast(0.0F) : load(upper + k * lane_count);
+    const Floats end = choose(begin > t, broadcast(0.0F), load(upper + k * lane_count));
     store(max(t, end), row);
   }
 }
@@ -202,7 +202,7 @@ void find_max_difference(const float* slopes, const float* other, std::size_t az
 void count_above(const float* slopes, const float* ray_slopes, std::size_t azimuth_count, float* counts) {
   Floats count{};
   for (std::size_t k = 0; k < azimuth_count; ++k)
-    count += load(slopes + k * lane_count) < ray_slopes[k] ? broadcast(1.0F) : broadcast(0.0F);
+    count += choose(load(slopes + k * lane_count) < ray_slopes[k], broadcast(1.0F), broadcast(0.0F));
   store(count, counts);
 }
 

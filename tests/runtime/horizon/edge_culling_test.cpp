@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -38,7 +39,14 @@ Scene random_scene(RandomPlaces& random) {
   return s;
 }
 
-EdgeReach reach(const Scene& s) { return reach_of(silhouettes_of(std::vector{s.edge}).batches()[0], s.bounds); }
+/// What EdgeReach holds, lane by lane; the edge is in the first one.
+struct ReachOfLanes {
+  std::array<float, lane_count> max_slope, from, to;
+};
+ReachOfLanes reach(const Scene& s) {
+  const EdgeReach r = reach_of(silhouettes_of(std::vector{s.edge}).batches()[0], s.bounds);
+  return {to_array(r.max_slope), to_array(r.from), to_array(r.to)};
+}
 
 Point3d place(const Point3f& p) { return {p.x, p.y, p.z}; }
 
@@ -97,7 +105,7 @@ TEST(EdgeReach, HoldsWhatAnyReceiverSeesAndNoMoreAzimuthsThanThat) {
   int told = 0;
   for (int n = 0; n < 5000; ++n) {
     const Scene s = random_scene(random);
-    const EdgeReach r = reach(s);
+    const ReachOfLanes r = reach(s);
     const bool is_above = std::max(s.edge.a.z, s.edge.b.z) > s.bounds.box.low_z;
     EXPECT_EQ(r.max_slope[0] > 0.0F, is_above);
     if (r.max_slope[0] < 0.0F || r.max_slope[0] == EdgeReach::unbounded) continue;
@@ -187,7 +195,7 @@ TEST(SectorMinHorizon, FindWhatRisesOverSomebodysHorizonInAnySectorThatItTouches
     const std::vector<Row> rows = random_rows(azimuths, random);
     const SectorMinHorizon min_horizon = minima_of(rows, ring);
     for (int n = 0; n < 300; ++n) {
-      EdgeReach reach;
+      ReachOfLanes reach;
       std::set<std::size_t> expected;
       for (std::size_t l = 0; l < lane_count; ++l) {
         const float from = random.between(0.0, 1.9), to = from + random.between(0.0, 1.0) * random.between(0.0, 0.99);
@@ -197,7 +205,8 @@ TEST(SectorMinHorizon, FindWhatRisesOverSomebodysHorizonInAnySectorThatItTouches
         const auto sector_at = [](float turns) { return static_cast<std::size_t>(turns * static_cast<float>(sectors)); };
         if (reach.max_slope[l] > expected_minimum(rows, ring, sector_at(from), sector_at(to))) expected.insert(l);
       }
-      EXPECT_EQ(edges_above(reach, min_horizon), expected);
+      const EdgeReach vectors{load(reach.max_slope.data()), load(reach.from.data()), load(reach.to.data())};
+      EXPECT_EQ(edges_above(vectors, min_horizon), expected);
       found += expected.size();
     }
   }
