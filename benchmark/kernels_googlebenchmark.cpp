@@ -2,21 +2,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "benchmark/contest.hpp"
 #include "evaluate/sky_directions.hpp"
 #include "evaluate/visibility.hpp"
 #include "horizon/cell_silhouettes.hpp"
+#include "horizon/kernels.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "scene/near_scene.hpp"
 #include "scene/vertical_profile.hpp"
 
 // Times the parts that an answer is made of, one thread:
 //   build/bin/farlod-kernels city.farlod --benchmark_filter="silhouettes"
-// A kernel is a function of the city and of Google Benchmark's state; the list at the end names them all.
+// A kernel is a function of the city and of Google Benchmark's state, those of the horizon also of a target; two lists name
+// them all.
 
 namespace farlod::benchmark {
 namespace {
@@ -96,19 +101,29 @@ ReceiverPacket first_packet(const CellReceivers& cell) {
   return packet;
 }
 
+/// A packet on the ground, and what it may see of the city.
+struct GroundPacket {
+  explicit GroundPacket(const KernelCity& city) : GroundPacket(city, inhabited_cell(city)) {}
+  GroundPacket(const KernelCity& city, const CellReceivers& cell)
+      : edges(cell_silhouettes(city.package, cell.cell, city.package.far_horizon(cell.cell), bounding_box(cell.receivers))
+                  .grounded),
+        azimuths(AzimuthSampling::even(SkySettings().azimuths, city.package.grid().rotation)),
+        receivers(first_packet(cell)) {}
+
+  SilhouetteEdges edges;
+  AzimuthSampling azimuths;
+  ReceiverPacket receivers;
+};
+
 void draw_silhouettes(KernelCity& city, State& state) {
-  const CellReceivers& cell = inhabited_cell(city);
-  const FarHorizon far = city.package.far_horizon(cell.cell);
-  const CellSilhouettes silhouettes = cell_silhouettes(city.package, cell.cell, far, bounding_box(cell.receivers));
-  const AzimuthSampling azimuths = AzimuthSampling::even(SkySettings().azimuths, city.package.grid().rotation);
-  const ReceiverPacket packet = first_packet(cell);
-  PacketHorizon horizon(azimuths);
+  const GroundPacket packet(city);
+  PacketHorizon horizon(packet.azimuths);
   for (auto _ : state) {
     horizon.clear();
-    horizon.raise(silhouettes.grounded, packet);
+    horizon.raise(packet.edges, packet.receivers);
     ::benchmark::ClobberMemory();
   }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(packet.count));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(packet.receivers.count));
 }
 
 /// One direction from 16 neighboring receivers in each packet.
@@ -146,6 +161,63 @@ constexpr std::pair<const char*, Kernel> kernels[] = {
     {"trace near rays in packets", trace_near_packets}, {"answer a cell, engine auto", answer_automatically},
     {"answer a cell, engine rays", answer_by_rays}};
 
+// --- Kernels of the horizon, of each target that this processor runs
+// ----------------------------------------------------------
+
+using Rows = std::vector<PacketHorizon::Row>;
+
+void find_facing(KernelCity& city, State& state, const KernelTarget& target) {
+  const GroundPacket packet(city);
+  const CenteredBox box = bounds_of(packet.receivers).box;
+  std::vector<float> distances_m(packet.edges.batches().size() * packet_lanes);
+  for (auto _ : state) {
+    target.edge->find_facing({packet.edges.batches(), EdgeRole::grounded}, box, distances_m.data());
+    ::benchmark::ClobberMemory();
+  }
+}
+
+void raise_to_edges(const GroundPacket& packet, const KernelTarget& target, Rows& slopes) {
+  target.edge->raise_to_edges({packet.edges.batches(), EdgeRole::grounded}, packet.receivers, bounds_of(packet.receivers),
+                              packet.azimuths.view(), slopes.front().data());
+}
+void raise_to_edges(KernelCity& city, State& state, const KernelTarget& target) {
+  const GroundPacket packet(city);
+  Rows slopes(packet.azimuths.size());
+  for (auto _ : state) {
+    std::fill(slopes.begin(), slopes.end(), PacketHorizon::Row{});
+    raise_to_edges(packet, target, slopes);
+    ::benchmark::ClobberMemory();
+  }
+}
+
+/// For receivers on an inclined roof.
+void sum_cosine(KernelCity& city, State& state, const KernelTarget& target) {
+  GroundPacket packet(city);
+  packet.receivers.normal_x.fill(0.6F);
+  packet.receivers.normal_z.fill(0.8F);
+  Rows slopes(packet.azimuths.size());
+  raise_to_edges(packet, target, slopes);
+  PacketHorizon::Lanes sums;
+  for (auto _ : state) {
+    target.sky->sum_cosine(slopes.front().data(), packet.receivers, packet.azimuths.view(), sums.data());
+    ::benchmark::ClobberMemory();
+  }
+}
+
+/// What a compiler makes slow for one target shows beside the others.
+using HorizonKernel = void (*)(KernelCity& city, State& state, const KernelTarget& target);
+constexpr std::pair<const char*, HorizonKernel> horizon_kernels[] = {
+    {"find facing edges", find_facing}, {"raise horizons to edges", raise_to_edges}, {"sum sky by cosine", sum_cosine}};
+
+void register_all(KernelCity& city) {
+  for (const auto& [name, kernel] : kernels)
+    ::benchmark::RegisterBenchmark(name, [&city, kernel = kernel](State& state) { kernel(city, state); });
+  for (const auto& [name, kernel] : horizon_kernels)
+    for (const KernelTarget& target : runnable_kernels())
+      ::benchmark::RegisterBenchmark((std::string(name) + ", " + target.name).c_str(),
+                                     [&city, kernel = kernel, &target](State& state) { kernel(city, state, target); });
+}
+
 }  // namespace
 }  // namespace farlod::benchmark
 
@@ -158,8 +230,7 @@ int main(int argc, char** argv) {
   }
   try {
     KernelCity city(argv[1]);
-    for (const auto& [name, kernel] : kernels)
-      ::benchmark::RegisterBenchmark(name, [&city, kernel = kernel](State& state) { kernel(city, state); });
+    register_all(city);
     ::benchmark::RunSpecifiedBenchmarks();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "farlod-kernels: %s\n", error.what());
