@@ -121,7 +121,7 @@ class StageProgress {
     }
     line_->update(done, all);
   }
-  void tell(const pipeline::PackEstimate& estimate) {
+  void show(const pipeline::PackEstimate& estimate) {
     line_.reset();
     if (verbosity_ == Verbosity::normal) fmt::print("{}\n", estimate_text(estimate));
     std::fflush(stdout);
@@ -137,7 +137,7 @@ pipeline::PackResult pack_as_told(const PackOptions& options, Report& report) {
   StageProgress progress(options.run.verbosity);
   try {
     return pipeline::pack(options.settings, report, std::ref(progress),
-                          [&](const pipeline::PackEstimate& e) { progress.tell(e); });
+                          [&](const pipeline::PackEstimate& e) { progress.show(e); });
   } catch (const pipeline::ProblemsRefused& refused) {
     throw refusal(refused, options.report_file);
   }

@@ -111,8 +111,8 @@ class Packing {
   }
 
  public:
-  Packing(const PackSettings& settings, Report& report, const PackProgress& progress, const TellEstimate& tell)
-      : settings_(settings), report_(report), progress_(progress), tell_(tell) {}
+  Packing(const PackSettings& settings, Report& report, const PackProgress& progress, const OnEstimate& on_estimate)
+      : settings_(settings), report_(report), progress_(progress), on_estimate_(on_estimate) {}
 
   PackResult run() {
     // An output folder that must not be replaced ends the run before the long stages. One that may be is removed only after them
@@ -254,7 +254,7 @@ class Packing {
     const std::size_t ground_points = ground.terrain ? ground.terrain->height_m.size() : located.relief_points.size();
     result_.estimate = estimate_pack(located.city, ground_points, ground.grid, far_map.kind, threads);
     require_memory(result_.estimate, settings_.memory_limit_mib);
-    if (tell_) tell_(result_.estimate);
+    if (on_estimate_) on_estimate_(result_.estimate);
   }
 
   /// The problems found here have positions in the CRS of the package.
@@ -347,14 +347,14 @@ class Packing {
   const PackSettings& settings_;
   Report& report_;
   const PackProgress& progress_;
-  const TellEstimate& tell_;
+  const OnEstimate& on_estimate_;
   PackResult result_;
 };
 
 }  // namespace
 
-PackResult pack(const PackSettings& settings, Report& report, const PackProgress& progress, const TellEstimate& tell) {
-  return Packing(settings, report, progress, tell).run();
+PackResult pack(const PackSettings& settings, Report& report, const PackProgress& progress, const OnEstimate& on_estimate) {
+  return Packing(settings, report, progress, on_estimate).run();
 }
 
 }  // namespace farlod::pipeline

@@ -75,11 +75,11 @@ struct PackResult {
 /// Called with the progress of a run: the stage, and how much of it is done.
 using PackProgress = std::function<void(const std::string& stage, std::size_t done, std::size_t all)>;
 /// Called before the long stages with what they are expected to need.
-using TellEstimate = std::function<void(const PackEstimate&)>;
+using OnEstimate = std::function<void(const PackEstimate&)>;
 
 /// Runs the stages from city files to a package: ingest, georeference, align, tiles, far maps, package. Problems of single
 /// buildings are reported. Throws InputError, PackageWriteError, MemoryLimitError or OcclusionError. If problems are refused,
 /// throws ProblemsRefused when the report is complete, after the tiles and before the far maps; nothing is written then.
-PackResult pack(const PackSettings& settings, Report& report, const PackProgress& progress, const TellEstimate& tell = {});
+PackResult pack(const PackSettings& settings, Report& report, const PackProgress& progress, const OnEstimate& on_estimate = {});
 
 }  // namespace farlod::pipeline

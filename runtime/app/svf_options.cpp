@@ -200,6 +200,7 @@ void resolve_accuracy(const RawOptions& raw, SvfOptions& o) {
   if (!o.max_error) return;
   if (!raw.rays) o.sky.rays = rays_for_sampling_error(0.5 * *o.max_error);
   if (!raw.azimuths) o.sky.azimuths = azimuths_for_error(0.5 * *o.max_error);
+  // That there is one decides whether the error of rays counts; how large it is follows from that
   o.sky.max_far_error = *o.max_error;
   const double left = *o.max_error - sampling_error_of(o.sky);
   if (left <= 0.0)
@@ -218,7 +219,7 @@ Engine engine_of(const std::string& name) {
   return name == "horizon" ? Engine::horizon : Engine::automatic;
 }
 
-void understand(const RawOptions& raw, SvfOptions& o) {
+void resolve(const RawOptions& raw, SvfOptions& o) {
   o.package = raw.package;
   resolve_place(raw, o);
   resolve_output(raw, o);
@@ -244,7 +245,7 @@ ParsedSvfOptions parse_svf_options(int argc, char** argv) {
   add_error_options(app, options);
   add_memory_option(app, options);
   add_run_options(app, "farlod-svf", options.run);
-  if (const auto exit_code = parse_command_line(app, argc, argv, [&] { understand(raw, options); }))
+  if (const auto exit_code = parse_command_line(app, argc, argv, [&] { resolve(raw, options); }))
     return {std::nullopt, *exit_code};
   return {std::move(options), exit_done};
 }

@@ -20,10 +20,10 @@ namespace farlod {
 /// Where the receivers are: exactly one of these.
 enum class ReceiverSource { grid, points, surfaces, at };
 
-/// The command line of farlod-svf, understood.
+/// The command line of farlod-svf, resolved.
 struct SvfOptions {
   std::filesystem::path package, output;
-  const OutputFormat* format = nullptr;          ///< of `output`; never null once the options are understood
+  const OutputFormat* format = nullptr;          ///< of `output`; never null once the options are resolved
   const OutputFormat* preview_format = nullptr;  ///< of `preview_file`; null when there is none
   ReceiverSource source = ReceiverSource::grid;
   double grid_step_m = 0.0;
