@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 
 namespace farlod::benchmark {
 

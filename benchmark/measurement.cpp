@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 
 namespace farlod::benchmark {
 

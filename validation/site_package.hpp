@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 #include "farmap/far_map_settings.hpp"
 #include "package/package.hpp"
 #include "tests/scenes/packed_city.hpp"

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
+#include "contract/expects.hpp"
 #include "farlod/box.hpp"
-#include "farlod/expects.hpp"
 #include "generator/city_settings.hpp"
 #include "generator/plan_frame.hpp"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "generator/plane_polygons.hpp"
 
 namespace farlod {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 
 namespace farlod {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "city/input_error.hpp"
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 
 namespace farlod::align {
 namespace {

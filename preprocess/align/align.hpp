@@ -5,8 +5,8 @@
 #include "align/street_alignment.hpp"
 #include "city/located_city.hpp"
 #include "city/problem.hpp"
+#include "contract/grid.hpp"
 #include "farlod/box.hpp"
-#include "farlod/grid.hpp"
 
 namespace farlod::align {
 

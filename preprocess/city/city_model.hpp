@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "farlod/point.hpp"
 #include "farlod/surface_kind.hpp"
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {

@@ -5,10 +5,10 @@
 #include <variant>
 #include <vector>
 
-#include "farlod/far_map/box_map.hpp"
-#include "farlod/far_map/receiver_patches.hpp"
-#include "farlod/horizon/horizon_edge.hpp"
-#include "farlod/package/layout.hpp"
+#include "contract/far_map/box_map.hpp"
+#include "contract/far_map/receiver_patches.hpp"
+#include "contract/horizon/horizon_edge.hpp"
+#include "contract/package/layout.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "contract/expects.hpp"
+#include "contract/horizon/azimuth.hpp"
 #include "farlod/box.hpp"
-#include "farlod/expects.hpp"
-#include "farlod/horizon/azimuth.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {

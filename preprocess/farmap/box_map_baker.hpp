@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 #include "farmap/baked_block.hpp"
 #include "farmap/city_occluder.hpp"
 #include "farmap/far_height_bound.hpp"

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "contract/grid.hpp"
+#include "contract/horizon/horizon_edge.hpp"
 #include "farlod/box.hpp"
-#include "farlod/grid.hpp"
-#include "farlod/horizon/horizon_edge.hpp"
 #include "tiles/tile_set.hpp"
 
 namespace farlod {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 #include "occlusion/occluder.hpp"
 #include "tiles/tile_set.hpp"
 

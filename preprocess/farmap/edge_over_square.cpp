@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "farlod/horizon/edge_view.hpp"
+#include "contract/horizon/edge_view.hpp"
 
 namespace farlod {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "contract/grid.hpp"
 #include "farlod/box.hpp"
-#include "farlod/grid.hpp"
 #include "tiles/tile_set.hpp"
 
 namespace farlod {

@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "farlod/grid.hpp"
-#include "farlod/package/manifest.hpp"
+#include "contract/grid.hpp"
+#include "contract/package/manifest.hpp"
 #include "farmap/baked_block.hpp"
 #include "farmap/far_map_settings.hpp"
 #include "tiles/tile_set.hpp"

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "farmap/occluder_classifier.hpp"
 #include "farmap/occlusion_culler.hpp"
 

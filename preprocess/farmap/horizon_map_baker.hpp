@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 #include "farmap/baked_block.hpp"
 #include "farmap/bin_borders.hpp"
 #include "farmap/city_horizon.hpp"

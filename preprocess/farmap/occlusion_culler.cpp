@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "city/plan_boxes.hpp"
-#include "farlod/horizon/edge_facing.hpp"
+#include "contract/horizon/edge_facing.hpp"
 
 namespace farlod {
 namespace {

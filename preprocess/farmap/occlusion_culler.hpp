@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
+#include "contract/far_map/receiver_patches.hpp"
+#include "contract/grid.hpp"
 #include "farlod/box.hpp"
-#include "farlod/far_map/receiver_patches.hpp"
-#include "farlod/grid.hpp"
 #include "farmap/bin_borders.hpp"
 #include "farmap/city_horizon.hpp"
 #include "farmap/edge_over_square.hpp"

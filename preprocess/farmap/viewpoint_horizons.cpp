@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "farlod/horizon/edge_view.hpp"
+#include "contract/horizon/edge_view.hpp"
 
 namespace farlod {
 

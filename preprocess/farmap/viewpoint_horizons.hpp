@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "farlod/far_map/receiver_patches.hpp"
+#include "contract/far_map/receiver_patches.hpp"
 #include "farlod/point.hpp"
 #include "farmap/bin_borders.hpp"
 

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <utility>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "georeference/crs.hpp"
 
 namespace farlod::georeference {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "city/input_error.hpp"
+#include "contract/expects.hpp"
 #include "farlod/box.hpp"
-#include "farlod/expects.hpp"
 #include "georeference/crs_area.hpp"
 
 namespace farlod::georeference {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "city/input_error.hpp"
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/wkt_gdal.hpp"
 #include "georeference/crs.hpp"

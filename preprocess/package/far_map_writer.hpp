@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "farlod/grid.hpp"
-#include "farlod/package/manifest.hpp"
+#include "contract/grid.hpp"
+#include "contract/package/manifest.hpp"
 #include "farmap/baked_block.hpp"
 
 namespace farlod {

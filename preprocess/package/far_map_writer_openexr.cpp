@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "farlod/expects.hpp"
-#include "farlod/package/layout.hpp"
+#include "contract/expects.hpp"
+#include "contract/package/layout.hpp"
 #include "package/far_map_writer.hpp"
 
 namespace farlod {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <span>
 
-#include "farlod/package/manifest.hpp"
+#include "contract/package/manifest.hpp"
 
 namespace farlod {
 

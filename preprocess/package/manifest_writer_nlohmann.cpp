@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "farlod/package/layout.hpp"
+#include "contract/package/layout.hpp"
 #include "package/manifest_writer.hpp"
 
 namespace farlod {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "farlod/package/layout.hpp"
+#include "contract/package/layout.hpp"
 #include "package/far_map_writer.hpp"
 #include "package/file_stamp.hpp"
 #include "package/manifest_writer.hpp"

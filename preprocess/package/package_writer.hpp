@@ -7,7 +7,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "farlod/package/manifest.hpp"
+#include "contract/package/manifest.hpp"
 #include "farmap/baked_block.hpp"
 #include "tiles/tile_set.hpp"
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "farlod/horizon/horizon_edge.hpp"
-#include "farlod/mesh_view.hpp"
-#include "farlod/package/layout.hpp"
+#include "contract/horizon/horizon_edge.hpp"
+#include "contract/mesh_view.hpp"
+#include "contract/package/layout.hpp"
 #include "package/shared_vertices.hpp"
 
 namespace farlod {

@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "farlod/expects.hpp"
-#include "farlod/package/layout.hpp"
+#include "contract/expects.hpp"
+#include "contract/package/layout.hpp"
 #include "package/shared_vertices.hpp"
 #include "package/side_edges.hpp"
 

@@ -5,13 +5,13 @@
 #include <cstddef>
 #include <vector>
 
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 #include "farmap/baked_block.hpp"
 #include "tiles/tile_set.hpp"
 
 namespace farlod {
 
-/// The bytes of a block's `tiles.bin` (include/farlod/package/layout.hpp), with the explicit occluders of its far maps.
+/// The bytes of a block's `tiles.bin` (contract/package/layout.hpp), with the explicit occluders of its far maps.
 [[nodiscard]] std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, const Grid& grid, Block block);
 
 /// The same without far maps: to be read together with maps that are not in a file.

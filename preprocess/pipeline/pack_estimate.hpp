@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "city/city_model.hpp"
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 #include "farmap/far_map_settings.hpp"
 
 namespace farlod::pipeline {

@@ -8,7 +8,7 @@
 
 #include "city/city_model.hpp"
 #include "city/problem.hpp"
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 #include "tiles/cutting.hpp"
 #include "tiles/grounded_walls.hpp"
 #include "tiles/horizon_edges.hpp"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "farlod/horizon/horizon_edge.hpp"
+#include "contract/horizon/horizon_edge.hpp"
 #include "tiles/tile_set.hpp"
 
 namespace farlod::tiles {

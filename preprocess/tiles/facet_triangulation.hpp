@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "farlod/mesh_view.hpp"
+#include "contract/mesh_view.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod::tiles {

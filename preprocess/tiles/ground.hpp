@@ -9,8 +9,8 @@
 #include <memory>
 #include <vector>
 
+#include "contract/ground_contact.hpp"
 #include "farlod/box.hpp"
-#include "farlod/ground_contact.hpp"
 #include "farlod/point.hpp"
 #include "tiles/horizon_edges.hpp"
 

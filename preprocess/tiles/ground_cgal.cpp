@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "tiles/ground.hpp"
 
 namespace farlod::tiles {

@@ -10,8 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "farlod/grid.hpp"
-#include "farlod/horizon/horizon_edge.hpp"
+#include "contract/grid.hpp"
+#include "contract/horizon/horizon_edge.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod::tiles {

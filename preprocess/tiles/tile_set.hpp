@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "farlod/grid.hpp"
-#include "farlod/horizon/horizon_edge.hpp"
-#include "farlod/mesh_view.hpp"
+#include "contract/grid.hpp"
+#include "contract/horizon/horizon_edge.hpp"
+#include "contract/mesh_view.hpp"
 #include "farlod/surface_kind.hpp"
 
 namespace farlod {

@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "tiles/base_points.hpp"
 #include "tiles/building_pieces.hpp"
 #include "tiles/contacts.hpp"

@@ -7,7 +7,7 @@
 #include "city/located_city.hpp"
 #include "city/problem.hpp"
 #include "city/terrain_raster.hpp"
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 #include "tiles/tile_set.hpp"
 
 namespace farlod::tiles {

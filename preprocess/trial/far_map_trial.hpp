@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 #include "farmap/far_map_settings.hpp"
 #include "tiles/tile_set.hpp"
 #include "tiles/tiles.hpp"

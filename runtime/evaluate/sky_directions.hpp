@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "farlod/frame.hpp"
+#include "contract/frame.hpp"
 #include "farlod/point.hpp"
 #include "horizon/sky_partition.hpp"
 

@@ -11,9 +11,9 @@
 #include <tuple>
 #include <vector>
 
+#include "contract/expects.hpp"
 #include "evaluate/error_budget.hpp"
 #include "evaluate/visibility.hpp"
-#include "farlod/expects.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/horizon_engine.hpp"
 #include "horizon/overhangs.hpp"

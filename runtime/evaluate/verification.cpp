@@ -11,7 +11,7 @@
 #include <random>
 #include <set>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 
 namespace farlod {
 namespace {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 
 namespace farlod {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "farlod/frame.hpp"
+#include "contract/frame.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {

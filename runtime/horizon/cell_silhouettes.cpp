@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "occlusion/placed_mesh.hpp"
 
 namespace farlod {

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 #include "horizon/silhouette_edges.hpp"
 #include "package/far_horizon.hpp"
 #include "package/package.hpp"

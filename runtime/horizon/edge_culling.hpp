@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "farlod/horizon/edge_facing.hpp"
+#include "contract/horizon/edge_facing.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/lanes.hpp"
 #include "horizon/receiver_packet.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "horizon/kernels.hpp"
 
 namespace farlod {

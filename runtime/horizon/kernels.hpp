@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "farlod/horizon/horizon_edge.hpp"
+#include "contract/horizon/horizon_edge.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/silhouette_edges.hpp"

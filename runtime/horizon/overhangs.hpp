@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 #include "farlod/point.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/cell_silhouettes.hpp"

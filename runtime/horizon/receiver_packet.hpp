@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "farlod/horizon/horizon_edge.hpp"
+#include "contract/horizon/horizon_edge.hpp"
 
 namespace farlod {
 

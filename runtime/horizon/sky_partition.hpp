@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {

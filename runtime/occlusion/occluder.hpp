@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "farlod/mesh_view.hpp"
+#include "contract/mesh_view.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 
 namespace farlod {
 

@@ -5,8 +5,8 @@
 #include <functional>
 #include <span>
 
-#include "farlod/grid.hpp"
-#include "farlod/mesh_view.hpp"
+#include "contract/grid.hpp"
+#include "contract/mesh_view.hpp"
 #include "farlod/point.hpp"
 #include "occlusion/occluder.hpp"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "package/package_error.hpp"
 
 namespace farlod {

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "farlod/grid.hpp"
-#include "farlod/mesh_view.hpp"
-#include "farlod/package/layout.hpp"
+#include "contract/grid.hpp"
+#include "contract/mesh_view.hpp"
+#include "contract/package/layout.hpp"
 #include "package/far_horizon.hpp"
 
 namespace farlod {

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "farlod/far_map/receiver_patches.hpp"
-#include "farlod/horizon/azimuth.hpp"
-#include "farlod/horizon/horizon_edge.hpp"
-#include "farlod/package/layout.hpp"
+#include "contract/far_map/receiver_patches.hpp"
+#include "contract/horizon/azimuth.hpp"
+#include "contract/horizon/horizon_edge.hpp"
+#include "contract/package/layout.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {

@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
-#include "farlod/far_map/box_map.hpp"
-#include "farlod/grid.hpp"
-#include "farlod/package/manifest.hpp"
+#include "contract/far_map/box_map.hpp"
+#include "contract/grid.hpp"
+#include "contract/package/manifest.hpp"
 #include "package/far_horizon.hpp"
 
 namespace farlod {

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "farlod/expects.hpp"
-#include "farlod/package/layout.hpp"
+#include "contract/expects.hpp"
+#include "contract/package/layout.hpp"
 #include "package/far_map_reader.hpp"
 #include "package/package_error.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "farlod/package/manifest.hpp"
+#include "contract/package/manifest.hpp"
 
 namespace farlod {
 

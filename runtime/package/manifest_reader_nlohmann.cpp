@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "farlod/package/layout.hpp"
+#include "contract/package/layout.hpp"
 #include "package/manifest_reader.hpp"
 #include "package/package_error.hpp"
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "package/lru_cache.hpp"
 #include "package/manifest_reader.hpp"
 #include "package/mapped_file.hpp"

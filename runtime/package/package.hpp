@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "farlod/package/manifest.hpp"
+#include "contract/package/manifest.hpp"
 #include "package/block_tiles.hpp"
 #include "package/far_horizon.hpp"
 #include "package/far_map_reader.hpp"

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "farlod/package/layout.hpp"
+#include "contract/package/layout.hpp"
 
 namespace farlod {
 

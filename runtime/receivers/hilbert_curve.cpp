@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 
 namespace farlod {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 
 namespace farlod {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "contract/package/manifest.hpp"
 #include "farlod/box.hpp"
-#include "farlod/package/manifest.hpp"
 #include "package/package.hpp"
 #include "receivers/receiver.hpp"
 

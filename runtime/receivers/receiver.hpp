@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 #include "farlod/point.hpp"
 #include "scene/vertical_profile.hpp"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "farlod/horizon/horizon_edge.hpp"
+#include "contract/horizon/horizon_edge.hpp"
 
 namespace farlod {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 
 namespace farlod {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 #include "occlusion/occluder.hpp"
 #include "package/package.hpp"
 

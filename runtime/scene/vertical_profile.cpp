@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "farlod/ground_contact.hpp"
+#include "contract/ground_contact.hpp"
 #include "occlusion/placed_mesh.hpp"
 
 namespace farlod {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "farlod/grid.hpp"
-#include "farlod/package/layout.hpp"
+#include "contract/grid.hpp"
+#include "contract/package/layout.hpp"
 #include "package/package.hpp"
 #include "scene/plan_index.hpp"
 

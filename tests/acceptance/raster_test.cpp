@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "farlod/frame.hpp"
+#include "contract/frame.hpp"
 #include "results/output_format.hpp"
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/analytic/tolerance.hpp"

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "farlod/frame.hpp"
+#include "contract/frame.hpp"
 
 namespace farlod::acceptance {
 namespace {

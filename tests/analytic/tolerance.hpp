@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "farlod/far_map/box_map.hpp"
+#include "contract/far_map/box_map.hpp"
 
 namespace farlod {
 

@@ -24,7 +24,7 @@ constexpr LongFunction long_functions[] = {
     {"datasets/generator/city_settings.hpp", "describe", "a list: one line for each setting"},
     {"preprocess/app/pack_options.cpp", "add_input_options", "a list: one statement for each option"},
     {"preprocess/ingest/citygml/citygml_parser.cpp", "undo", "a switch: one case for each meaning of an element"},
-    {"include/farlod/horizon/edge_facing.hpp", "may_be_silhouette", "a proof, case by case"},
+    {"contract/horizon/edge_facing.hpp", "may_be_silhouette", "a proof, case by case"},
     {"preprocess/farmap/city_horizon.cpp", "build", "one loop over edges that fills three arrays at once"},
     {"preprocess/pipeline/pack.cpp", "write_package", "one pipeline whose steps share what they measure"},
     {"preprocess/tiles/tiles.cpp", "place_building", "one building's way through cutting, which shares a dozen values"},

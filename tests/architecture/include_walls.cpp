@@ -28,7 +28,8 @@ struct Wall {
 #define NOWHERE "^$"
 
 constexpr Wall walls[] = {
-    {"^include/", NOWHERE, "^(?!farlod/|[a-z_0-9]+$)", "the contract knows the standard library only"},
+    {"^include/", NOWHERE, "^(?!farlod/|[a-z_0-9]+$)", "what users include knows the standard library only"},
+    {"^contract/", NOWHERE, "^(?!farlod/|contract/|[a-z_0-9]+$)", "the contract knows the standard library only"},
 
     {"^runtime/", NOWHERE, "^(" CGAL_HEADERS "|" PROJ_HEADERS "|" XML_HEADERS "|GeographicLib/)",
      "the runtime ships without the geometry stack"},
@@ -111,7 +112,7 @@ void check_stage_order(const SourceFile& file, std::vector<std::string>& breache
 /// preprocess, the evaluator from its stage `trial`.
 bool may_quote(const SourceFile& file, const std::string& target, const std::set<std::string>& paths) {
   const std::string side = file.path.substr(0, file.path.find('/'));
-  if (target.starts_with("farlod/") || paths.contains(side + "/" + target)) return true;
+  if (target.starts_with("farlod/") || target.starts_with("contract/") || paths.contains(side + "/" + target)) return true;
   if (side == "datasets" && paths.contains("datasets/generator/" + target)) return true;
   if (target.starts_with("console/")) return side == "console" || file.path.find("/app/") != std::string::npos;
   // The walls above let only the wrappers of GDAL through

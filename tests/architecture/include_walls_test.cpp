@@ -44,8 +44,9 @@ TEST_P(PlantedBreach, IsFound) {
 INSTANTIATE_TEST_SUITE_P(
     IncludeWalls, PlantedBreach,
     testing::Values(Planted{"include/farlod/a.hpp", "#include <boost/version.hpp>", "standard library only"},
-                    Planted{"include/farlod/a.hpp", "#include <expat.h>", "standard library only"},
-                    Planted{"include/farlod/a.hpp", "#include \"occlusion/occluder.hpp\"", "standard library only"},
+                    Planted{"include/farlod/a.hpp", "#include \"contract/grid.hpp\"", "standard library only"},
+                    Planted{"contract/a.hpp", "#include <expat.h>", "standard library only"},
+                    Planted{"contract/a.hpp", "#include \"occlusion/occluder.hpp\"", "standard library only"},
                     Planted{"runtime/scene/a.cpp", "#include <CGAL/Simple_cartesian.h>", "geometry stack"},
                     Planted{"runtime/scene/a.cpp", "#include <proj.h>", "geometry stack"},
                     Planted{"runtime/scene/a.cpp", "#include <expat.h>", "geometry stack"},
@@ -99,6 +100,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(IncludeWalls, WrappersMayInclude) {
   const Planted allowed[]{{"include/farlod/a.hpp", "#include <vector>", ""},
                           {"include/farlod/a.hpp", "#include \"farlod/point.hpp\"", ""},
+                          {"contract/a.hpp", "#include \"farlod/point.hpp\"", ""},
+                          {"contract/package/a.hpp", "#include \"contract/grid.hpp\"", ""},
                           {"runtime/results/raster/raster_writer_gdal.cpp", "#include <gdal_priv.h>", ""},
                           {"runtime/results/a_gdal.cpp", "#include \"gdal/gdal_errors.hpp\"", ""},
                           {"runtime/occlusion/occluder_embree.cpp", "#include <embree3/rtcore.h>", ""},

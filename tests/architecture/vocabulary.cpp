@@ -76,7 +76,8 @@ std::vector<std::string> find_retired_words(const std::vector<SourceFile>& files
     for (std::size_t n = 0; n < file.lines.size(); ++n) {
       const std::string plain = words_of(file.lines[n]);
       for (const RetiredWord& w : words)
-        if (w.is_identifier ? is_cpp(file) && holds_identifier(file.lines[n], w.word) : plain.find(words_of(w.word)) != std::string::npos)
+        if (w.is_identifier ? is_cpp(file) && holds_identifier(file.lines[n], w.word)
+                            : plain.find(words_of(w.word)) != std::string::npos)
           found.push_back(file.path + ":" + std::to_string(n + 1) + ": " + w.word + " -> " + w.use_instead);
     }
   return found;

@@ -34,8 +34,9 @@ TEST(Vocabulary, NamesAndProseAreReadAsWords) {
 
 TEST(Vocabulary, APhraseIsFoundHoweverItIsWritten) {
   const std::vector<RetiredWord> words{{"unnamed city", "residual horizon", false}};
-  EXPECT_THAT(find_retired_words({{"a.cpp", {"", "UnnamedCity city;", "the unnamed", "unnamed_city_", "// The unnamed city"}}}, words),
-              ElementsAre(HasSubstr("a.cpp:2: unnamed city -> residual horizon"), HasSubstr("a.cpp:4"), HasSubstr("a.cpp:5")));
+  EXPECT_THAT(
+      find_retired_words({{"a.cpp", {"", "UnnamedCity city;", "the unnamed", "unnamed_city_", "// The unnamed city"}}}, words),
+      ElementsAre(HasSubstr("a.cpp:2: unnamed city -> residual horizon"), HasSubstr("a.cpp:4"), HasSubstr("a.cpp:5")));
 }
 
 TEST(Vocabulary, AnIdentifierIsFoundAsAWhole) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "farlod/far_map/box_map.hpp"
+#include "contract/far_map/box_map.hpp"
 
 #include <gtest/gtest.h>
 

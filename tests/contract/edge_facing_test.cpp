@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "farlod/horizon/edge_facing.hpp"
+#include "contract/horizon/edge_facing.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "farlod/frame.hpp"
+#include "contract/frame.hpp"
 
 #include <gtest/gtest.h>
 

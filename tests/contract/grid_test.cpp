@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "farlod/horizon/azimuth.hpp"
-#include "farlod/horizon/edge_view.hpp"
+#include "contract/horizon/azimuth.hpp"
+#include "contract/horizon/edge_view.hpp"
 
 namespace farlod {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "farlod/package/layout.hpp"
+#include "contract/package/layout.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "farlod/far_map/receiver_patches.hpp"
+#include "contract/far_map/receiver_patches.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "farlod/horizon/azimuth.hpp"
+#include "contract/horizon/azimuth.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "farlod/far_map/receiver_patches.hpp"
-#include "farlod/package/layout.hpp"
+#include "contract/far_map/receiver_patches.hpp"
+#include "contract/package/layout.hpp"
 
 namespace farlod {
 

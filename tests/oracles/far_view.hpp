@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "farlod/expects.hpp"
-#include "farlod/horizon/edge_view.hpp"
+#include "contract/expects.hpp"
+#include "contract/horizon/edge_view.hpp"
 #include "package/far_horizon.hpp"
 #include "tests/oracles/azimuth_fan.hpp"
 #include "tests/oracles/distance_to_segment.hpp"

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "farlod/horizon/horizon_edge.hpp"
+#include "contract/horizon/horizon_edge.hpp"
 
 namespace farlod::scenes {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "city/city_model.hpp"
-#include "farlod/grid.hpp"
+#include "contract/grid.hpp"
 #include "farmap/far_map_settings.hpp"
 #include "package/package.hpp"
 #include "tests/scenes/temporary_folder.hpp"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "city/city_model.hpp"
+#include "contract/frame.hpp"
 #include "farlod/box.hpp"
-#include "farlod/frame.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod::scenes {

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <vector>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 
 namespace farlod::scenes {
 

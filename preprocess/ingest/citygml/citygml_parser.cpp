@@ -6,7 +6,7 @@
 #include <charconv>
 #include <limits>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "ingest/model_builder/surface_names.hpp"
 
 namespace farlod::ingest {

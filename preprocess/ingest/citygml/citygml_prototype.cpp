@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 
 namespace farlod::ingest {
 namespace {

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "city/height_limits.hpp"
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "ingest/footprints/height_text.hpp"
 
 namespace farlod::ingest {

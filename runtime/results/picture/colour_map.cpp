@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 
 namespace farlod {
 namespace {

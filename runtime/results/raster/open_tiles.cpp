@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 
 namespace farlod {
 namespace {

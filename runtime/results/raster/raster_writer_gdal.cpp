@@ -9,7 +9,7 @@
 #include <array>
 #include <limits>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "farlod/version.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "results/atomic_file.hpp"

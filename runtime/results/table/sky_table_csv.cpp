@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "results/atomic_file.hpp"
 #include "results/table/csv_text.hpp"
 

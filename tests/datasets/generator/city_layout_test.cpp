@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "farlod/frame.hpp"
+#include "contract/frame.hpp"
 
 namespace farlod {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "farlod/frame.hpp"
+#include "contract/frame.hpp"
 
 namespace farlod {
 namespace {

@@ -8,8 +8,8 @@
 #include <tuple>
 #include <vector>
 
-#include "farlod/grid.hpp"
-#include "farlod/horizon/edge_facing.hpp"
+#include "contract/grid.hpp"
+#include "contract/horizon/edge_facing.hpp"
 #include "farmap/baked_block.hpp"
 #include "tests/oracles/explicit_in_patch.hpp"
 #include "tests/preprocess/farmap/sight.hpp"

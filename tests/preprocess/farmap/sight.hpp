@@ -7,7 +7,7 @@
 #include <optional>
 #include <random>
 
-#include "farlod/horizon/azimuth.hpp"
+#include "contract/horizon/azimuth.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod::test {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "farlod/package/layout.hpp"
+#include "contract/package/layout.hpp"
 #include "tests/scenes/packed_city.hpp"
 
 namespace farlod {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-#include "farlod/package/layout.hpp"
+#include "contract/package/layout.hpp"
 #include "package/tiles_writer.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"

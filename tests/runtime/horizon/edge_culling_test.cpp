@@ -10,8 +10,8 @@
 #include <set>
 #include <vector>
 
+#include "contract/horizon/azimuth.hpp"
 #include "farlod/angle.hpp"
-#include "farlod/horizon/azimuth.hpp"
 #include "tests/oracles/distance_to_segment.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "farlod/horizon/edge_facing.hpp"
+#include "contract/horizon/edge_facing.hpp"
 #include "tests/runtime/horizon/packed_overhangs.hpp"
 #include "tests/runtime/horizon/sky_oracle.hpp"
 #include "tests/runtime/horizon/town_by_hand.hpp"

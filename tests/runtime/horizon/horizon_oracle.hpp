@@ -8,8 +8,8 @@
 #include <numbers>
 #include <span>
 
+#include "contract/horizon/horizon_edge.hpp"
 #include "farlod/box.hpp"
-#include "farlod/horizon/horizon_edge.hpp"
 #include "farlod/point.hpp"
 
 // Horizons edge by edge and azimuth by azimuth, in double: what the kernels must find, and how far floats may lead them astray.

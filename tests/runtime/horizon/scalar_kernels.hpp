@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "farlod/horizon/horizon_edge.hpp"
+#include "contract/horizon/horizon_edge.hpp"
 #include "farlod/point.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/sky_partition.hpp"

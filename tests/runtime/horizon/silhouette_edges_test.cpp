@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "farlod/horizon/edge_facing.hpp"
+#include "contract/horizon/edge_facing.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "tests/oracles/distance_to_segment.hpp"
 #include "tests/runtime/horizon/horizon_oracle.hpp"

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <string>
 
-#include "farlod/frame.hpp"
+#include "contract/frame.hpp"
 
 namespace farlod {
 namespace {

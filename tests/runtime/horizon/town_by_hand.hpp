@@ -8,8 +8,8 @@
 #include <iterator>
 #include <vector>
 
-#include "farlod/horizon/horizon_edge.hpp"
-#include "farlod/mesh_view.hpp"
+#include "contract/horizon/horizon_edge.hpp"
+#include "contract/mesh_view.hpp"
 #include "farlod/point.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "occlusion/occluder.hpp"

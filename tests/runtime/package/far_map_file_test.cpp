@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "farlod/package/layout.hpp"
+#include "contract/package/layout.hpp"
 #include "package/package.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"

@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "farlod/package/layout.hpp"
+#include "contract/package/layout.hpp"
 #include "package/far_map_reader.hpp"
 #include "package/far_map_writer.hpp"
 #include "tests/runtime/package/small_package.hpp"

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "package/file_stamp.hpp"
 #include "tests/scenes/scene_builder.hpp"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "farlod/package/layout.hpp"
+#include "contract/package/layout.hpp"
 #include "package/package_error.hpp"
 #include "tests/scenes/packed_city.hpp"
 

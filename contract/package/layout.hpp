@@ -8,10 +8,10 @@
 #include <cstring>
 #include <string>
 
-#include "farlod/grid.hpp"
-#include "farlod/horizon/horizon_edge.hpp"
-#include "farlod/mesh_view.hpp"
-#include "farlod/package/oct_normal.hpp"
+#include "contract/grid.hpp"
+#include "contract/horizon/horizon_edge.hpp"
+#include "contract/mesh_view.hpp"
+#include "contract/package/oct_normal.hpp"
 #include "farlod/surface_kind.hpp"
 
 /// The bytes of `tiles.bin`. docs/package_format.md tells the same in words; where they differ, this file wins.

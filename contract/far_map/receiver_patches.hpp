@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "farlod/expects.hpp"
+#include "contract/expects.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "contract/expects.hpp"
+#include "contract/frame.hpp"
 #include "farlod/box.hpp"
-#include "farlod/expects.hpp"
-#include "farlod/frame.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "contract/grid.hpp"
 #include "farlod/angle.hpp"
-#include "farlod/grid.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod::package {

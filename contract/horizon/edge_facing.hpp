@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "contract/horizon/horizon_edge.hpp"
 #include "farlod/box.hpp"
-#include "farlod/horizon/horizon_edge.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {
