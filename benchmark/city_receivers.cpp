@@ -16,7 +16,7 @@ namespace {
 
 constexpr float head_m = 1.5F;
 
-CellReceivers on_surfaces(const Package& package, Cell cell, SurfaceChoice choice, double spacing_m) {
+CellReceivers on_surfaces(const PackageReader& package, Cell cell, SurfaceChoice choice, double spacing_m) {
   CellReceivers result{cell, {}};
   for (const SurfaceReceiver& r : surface_receivers(package, cell, choice, spacing_m))
     if (!r.is_inside_building) result.receivers.push_back({0, r.p_cell, r.normal});
@@ -41,7 +41,7 @@ std::vector<Cell> spread_cells(const Grid& grid, std::size_t count) {
   return cells;
 }
 
-CityReceivers place_receivers(const Package& package, std::span<const Cell> cells, Place place, double spacing_m) {
+CityReceivers place_receivers(const PackageReader& package, std::span<const Cell> cells, Place place, double spacing_m) {
   const RasterReceivers raster(package.manifest(), plan_raster(package.manifest(), spacing_m, std::nullopt));
   CityReceivers city;
   city.cells.resize(cells.size());

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod::benchmark {
@@ -26,7 +26,8 @@ struct CityReceivers {
 };
 
 /// On the ground: pixels of `spacing_m`, 1.5 m above it. On surfaces: a receiver for each square of that edge.
-[[nodiscard]] CityReceivers place_receivers(const Package& package, std::span<const Cell> cells, Place place, double spacing_m);
+[[nodiscard]] CityReceivers place_receivers(const PackageReader& package, std::span<const Cell> cells, Place place,
+                                            double spacing_m);
 
 /// Random ones among them, those of choose_some(all.count, count), renumbered in the same order.
 [[nodiscard]] CityReceivers choose_receivers(const CityReceivers& all, std::size_t count);

@@ -10,14 +10,14 @@ namespace farlod::benchmark {
 namespace {
 
 void open_all(const std::filesystem::path& folder) {
-  const Package package(folder);
+  const PackageReader package(folder);
   const CellRange& cells = package.grid().cells;
   for (std::size_t n = 0; n < static_cast<std::size_t>(cells.size()); ++n) static_cast<void>(package.tile(cells.cell_at(n)));
 }
 
 SizeRow study_size(const SizedCity& sized, const OurEngine& ours, Accuracy accuracy, const Extent& extent) {
   const City city(sized.package);
-  const Package& package = city.package;
+  const PackageReader& package = city.package;
   tell("a city of " + std::to_string(package.manifest().polygons) + " polygons");
   const std::vector<Cell> cells = spread_cells(package.grid(), extent.cells);
   const CityReceivers receivers = place_receivers(package, cells, Place::ground, extent.ground_spacing_m);

@@ -4,7 +4,7 @@
 
 namespace farlod::benchmark {
 
-CityTriangles triangles_of(const Package& package) {
+CityTriangles triangles_of(const PackageReader& package) {
   const Grid& grid = package.grid();
   CityTriangles city;
   for (std::size_t n = 0; n < static_cast<std::size_t>(grid.cells.size()); ++n) {

@@ -29,7 +29,7 @@ struct Extent {
 /// A city, its package and its triangles, ready to be measured.
 struct City {
   explicit City(const std::filesystem::path& folder) : package(folder), triangles(triangles_of(package)), rival(triangles) {}
-  Package package;
+  PackageReader package;
   CityTriangles triangles;
   WholeCityRival rival;
 };

@@ -66,7 +66,7 @@ class Rasteriser {
 
 }  // namespace
 
-HeightRaster rasterise(const Package& package, double pixel_m) {
+HeightRaster rasterise(const PackageReader& package, double pixel_m) {
   HeightRaster raster{plan_raster(package.manifest(), pixel_m, std::nullopt), {}, {}};
   const std::size_t pixels = raster.plan.columns * raster.plan.rows;
   raster.surface_m.assign(pixels, -std::numeric_limits<float>::infinity());

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "receivers/raster_receivers.hpp"
 
 namespace farlod::benchmark {
@@ -15,6 +15,6 @@ struct HeightRaster {
   RasterPlan plan;
   std::vector<float> surface_m, ground_m;
 };
-[[nodiscard]] HeightRaster rasterise(const Package& package, double pixel_m);
+[[nodiscard]] HeightRaster rasterise(const PackageReader& package, double pixel_m);
 
 }  // namespace farlod::benchmark

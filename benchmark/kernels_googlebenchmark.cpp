@@ -38,7 +38,7 @@ struct KernelCity {
   /// One after the other, over and over.
   [[nodiscard]] Cell next_cell() { return cells[turn++ % cells.size()]; }
 
-  Package package;
+  PackageReader package;
   std::vector<Cell> cells;
   CityReceivers ground;
   SkyDirections directions;

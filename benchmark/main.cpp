@@ -44,7 +44,7 @@ Accuracy accuracy_of(const Contest& ground) {
   return {row.rival.value_or(ground.rival_ladder.back()).samples, row.ours.value_or(ground.our_ladder.back()).samples};
 }
 
-std::string described(const Package& package, const std::string& generator) {
+std::string described(const PackageReader& package, const std::string& generator) {
   return fmt::format("`farlod-city {}`, {} polygons, cells of {:g} m, N = {}", generator, package.manifest().polygons,
                      package.grid().cell_edge_m, package.grid().neighborhood);
 }

@@ -24,13 +24,13 @@ OurEngine engine_named(const std::string& name) {
   throw std::runtime_error("farlod-benchmark knows no engine '" + name + "'");
 }
 
-void evaluate(const Package& package, const SkySettings& settings, const CityReceivers& receivers, std::span<float> svf) {
+void evaluate(const PackageReader& package, const SkySettings& settings, const CityReceivers& receivers, std::span<float> svf) {
   const SkyEvaluator evaluator(package, settings);
   oneapi::tbb::parallel_for(std::size_t{0}, receivers.cells.size(),
                             [&](std::size_t n) { evaluator.evaluate(receivers.cells[n], svf); });
 }
 
-std::vector<float> exact_answers(const Package& package, const CityReceivers& receivers, std::size_t rays) {
+std::vector<float> exact_answers(const PackageReader& package, const CityReceivers& receivers, std::size_t rays) {
   SkySettings settings;
   settings.engine = Engine::exact;
   settings.rays = rays;

@@ -9,7 +9,7 @@
 
 #include "benchmark/city_receivers.hpp"
 #include "evaluate/sky_evaluator.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 
 namespace farlod::benchmark {
 
@@ -28,9 +28,9 @@ struct OurEngine {
 [[nodiscard]] OurEngine engine_named(const std::string& name);
 
 /// Evaluates the receivers as farlod-svf does, on all cores: reads far maps, builds near scenes.
-void evaluate(const Package& package, const SkySettings& settings, const CityReceivers& receivers, std::span<float> svf);
+void evaluate(const PackageReader& package, const SkySettings& settings, const CityReceivers& receivers, std::span<float> svf);
 
 /// The truth: so many rays against all tiles.
-[[nodiscard]] std::vector<float> exact_answers(const Package& package, const CityReceivers& receivers, std::size_t rays);
+[[nodiscard]] std::vector<float> exact_answers(const PackageReader& package, const CityReceivers& receivers, std::size_t rays);
 
 }  // namespace farlod::benchmark

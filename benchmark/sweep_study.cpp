@@ -14,7 +14,7 @@ constexpr std::array<std::size_t, 2> azimuth_counts{64, 128};
 constexpr float head_m = 1.5F;
 
 /// The pixels on whose centres receivers stand: both come from the same plan.
-std::vector<std::size_t> pixels_of(const Package& package, const RasterPlan& plan, const CityReceivers& receivers) {
+std::vector<std::size_t> pixels_of(const PackageReader& package, const RasterPlan& plan, const CityReceivers& receivers) {
   std::vector<std::size_t> pixels;
   for (const CellReceivers& cell : receivers.cells)
     for (const Receiver& r : cell.receivers) {

@@ -11,7 +11,7 @@
 #include "benchmark/receiver_packets.hpp"
 #include "benchmark/rival_directions.hpp"
 #include "farlod/point.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 
 namespace farlod::benchmark {
 
@@ -32,7 +32,7 @@ struct CityTriangles {
   std::vector<Point3f> vertices;
   std::vector<Triangle> triangles;
 };
-[[nodiscard]] CityTriangles triangles_of(const Package& package);
+[[nodiscard]] CityTriangles triangles_of(const PackageReader& package);
 
 /// What a far map has to beat: the whole city in one scene of Embree, asked in packets of one direction from 16 neighboring
 /// receivers.

@@ -30,10 +30,19 @@ function(farlod_public_headers target)
   set_target_properties(${target} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 endfunction()
 
+# What is to lie in a shared library shows nothing but what FARLOD_EXPORT marks.
+function(farlod_for_shared_library target)
+  if(BUILD_SHARED_LIBS)
+    set_target_properties(${target} PROPERTIES
+      POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  endif()
+endfunction()
+
 # A library of ours: its sources are listed by the folders below it.
 function(farlod_library name)
   add_library(farlod_${name} STATIC)
   add_library(farlod::${name} ALIAS farlod_${name})
   target_link_libraries(farlod_${name} PUBLIC farlod::contract)
   farlod_warnings(farlod_${name})
+  farlod_for_shared_library(farlod_${name})
 endfunction()

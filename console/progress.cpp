@@ -21,18 +21,18 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::string what, Verbosity verbosity)
+ProgressLine::ProgressLine(std::string what, Verbosity verbosity)
     : what_(std::move(what)),
       silent_(verbosity == Verbosity::quiet),
       on_terminal_(isatty(STDERR_FILENO) == 1),
       start_(Clock::now()),
       next_(start_ + (on_terminal_ ? 200ms : 10s)) {}
 
-Progress::~Progress() {
+ProgressLine::~ProgressLine() {
   if (line_open_) fmt::print(stderr, "\r\033[K");
 }
 
-void Progress::update(std::size_t done, std::size_t all) {
+void ProgressLine::update(std::size_t done, std::size_t all) {
   if (silent_ || done == 0) return;
   const std::lock_guard lock(mutex_);
   const Clock::time_point now = Clock::now();

@@ -13,12 +13,12 @@ enum class Verbosity { normal, quiet };
 
 /// Tells a user on standard error how far a long work is: one line that is drawn again on a terminal, a plain line every ten
 /// seconds elsewhere. May be told from many threads.
-class Progress {
+class ProgressLine {
  public:
-  Progress(std::string what, Verbosity verbosity);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  ProgressLine(std::string what, Verbosity verbosity);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
 
   void update(std::size_t done, std::size_t all);
 

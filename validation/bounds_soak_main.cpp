@@ -41,7 +41,7 @@ enum Kind : std::size_t { ground, surface, roofs, walls, above_roofs, kind_count
 constexpr std::array<const char*, kind_count> names{"ground", "surface", "roofs", "walls", "above roofs"};
 
 /// Receivers of one kind somewhere in a cell, at the most so many: places inside buildings have none.
-std::vector<Receiver> random_receivers(const Package& package, Cell cell, Kind kind, std::size_t count, Random& random) {
+std::vector<Receiver> random_receivers(const PackageReader& package, Cell cell, Kind kind, std::size_t count, Random& random) {
   std::vector<Receiver> chosen;
   if (kind == roofs || kind == walls) {
     constexpr double spacing_m = 2.0;
@@ -96,7 +96,7 @@ Outcome compare(const SkyEvaluator& ours, const SkyEvaluator& reference, const C
 using OutcomeOfKinds = std::array<Outcome, kind_count>;
 
 /// Over all cells of a package; about as many receivers as the options say.
-OutcomeOfKinds compare_everywhere(const Package& package, const Options& options) {
+OutcomeOfKinds compare_everywhere(const PackageReader& package, const Options& options) {
   const CellRange& cells = package.grid().cells;
   const SkyEvaluator ours(package, {Engine::rays, SkyWeight::cosine, options.rays, std::nullopt});
   const SkyEvaluator reference(package, {Engine::exact, SkyWeight::cosine, options.rays, std::nullopt});
@@ -118,7 +118,7 @@ OutcomeOfKinds compare_everywhere(const Package& package, const Options& options
 }
 
 int run(const Options& options) {
-  const Package package(options.package);
+  const PackageReader package(options.package);
   const OutcomeOfKinds outcomes = compare_everywhere(package, options);
   std::size_t outside = 0;
   for (std::size_t kind = 0; kind < kind_count; ++kind) {

@@ -122,7 +122,7 @@ void tell(const std::string& what) { std::fprintf(stderr, "%s\n", what.c_str());
 StudySites choose_sites(const StudiedCity& city, const Extent& extent) {
   const CutCity pieces = cut(city, city.streets, 50.0);
   const SitePackage nothing_baked = without_far_maps(pieces);
-  const Package& package = nothing_baked.package();
+  const PackageReader& package = nothing_baked.package();
   const std::vector<Cell> cells = all_cells(package.grid());
   return {ground_sites(package, cells, extent.receivers),
           surface_sites(package, cells, SurfaceChoice::roofs, extent.surface_receivers),

@@ -70,7 +70,7 @@ struct MiddleSites {
 MiddleSites middle_sites(const CutCity& pieces, std::span<const Cell> cells, const Extent& extent) {
   const SitePackage nothing_baked = without_far_maps(pieces);
   const SkySettings exact{Engine::exact, SkyWeight::cosine, extent.reference_rays, std::nullopt};
-  const Package& package = nothing_baked.package();
+  const PackageReader& package = nothing_baked.package();
   MiddleSites sites{ground_sites(package, cells, extent.fewer_receivers),
                     surface_sites(package, cells, SurfaceChoice::walls, extent.fewer_receivers),
                     {},
@@ -95,7 +95,8 @@ SettingRow measure(const Variation& variation, const SitePackage& baked, const M
 }
 
 /// Asks for so many rays, on the ground, on roofs and on façades.
-std::array<std::vector<double>, 3> ask(const Package& package, SkyWeight weight, std::size_t rays, const StudySites& sites) {
+std::array<std::vector<double>, 3> ask(const PackageReader& package, SkyWeight weight, std::size_t rays,
+                                       const StudySites& sites) {
   const SkySettings exact{Engine::exact, weight, rays, std::nullopt};
   const std::size_t ground_count = std::min(sites.ground.size(), sites.roofs.size());
   return {sky_at(package, exact, std::span(sites.ground).first(ground_count)).svf, sky_at(package, exact, sites.roofs).svf,

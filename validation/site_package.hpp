@@ -6,7 +6,7 @@
 
 #include "contract/grid.hpp"
 #include "farmap/far_map_settings.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tiles/tile_set.hpp"
 #include "validation/studied_city.hpp"
@@ -27,7 +27,7 @@ struct CutCity {
 class SitePackage {
  public:
   SitePackage(const CutCity& cut, int neighborhood, const FarMapSettings& far_map, const scenes::ChosenCells& only);
-  [[nodiscard]] const Package& package() const { return package_; }
+  [[nodiscard]] const PackageReader& package() const { return package_; }
   [[nodiscard]] const scenes::FarMapCost& cost() const { return cost_; }
   /// Over blocks that were baked whole.
   [[nodiscard]] double bytes_a_cell() const;
@@ -36,7 +36,7 @@ class SitePackage {
  private:
   scenes::TemporaryFolder folder_;
   scenes::FarMapCost cost_;
-  Package package_;
+  PackageReader package_;
 };
 
 /// For the engine `exact`, which needs no far maps.

@@ -17,7 +17,7 @@ namespace {
 constexpr double surface_spacing_m = 6.0;
 constexpr float head_m = 1.5F;
 
-Site site_of(const Package& package, Cell cell, const Point3f& p_cell, const Point3f& normal_grid) {
+Site site_of(const PackageReader& package, Cell cell, const Point3f& p_cell, const Point3f& normal_grid) {
   const Grid& grid = package.grid();
   const Point2d corner = grid.corner_of(cell);
   const Point3d p_grid{corner.x + p_cell.x, corner.y + p_cell.y, p_cell.z + package.manifest().height_origin_m};
@@ -25,7 +25,7 @@ Site site_of(const Package& package, Cell cell, const Point3f& p_cell, const Poi
           grid.rotation.city_from_grid(Point3d{normal_grid.x, normal_grid.y, normal_grid.z})};
 }
 
-Receiver receiver_of(const Package& package, Cell cell, const Site& site, std::size_t index) {
+Receiver receiver_of(const PackageReader& package, Cell cell, const Site& site, std::size_t index) {
   const Grid& grid = package.grid();
   const Point3d p = grid.rotation.grid_from_city(site.p_city), n = grid.rotation.grid_from_city(site.normal_city);
   const Point2d corner = grid.corner_of(cell);
@@ -37,7 +37,7 @@ Receiver receiver_of(const Package& package, Cell cell, const Site& site, std::s
 
 Cell cell_of(const Grid& grid, const Site& site) { return grid.cell_of(grid.rotation.grid_from_city(horizontal(site.p_city))); }
 
-std::vector<CellReceivers> receivers_of(const Package& package, std::span<const Site> sites) {
+std::vector<CellReceivers> receivers_of(const PackageReader& package, std::span<const Site> sites) {
   std::map<Cell, std::vector<Receiver>> by_cell;
   for (std::size_t n = 0; n < sites.size(); ++n) {
     const Cell cell = cell_of(package.grid(), sites[n]);
@@ -50,7 +50,7 @@ std::vector<CellReceivers> receivers_of(const Package& package, std::span<const 
 
 }  // namespace
 
-std::vector<Site> ground_sites(const Package& package, std::span<const Cell> cells, std::size_t count) {
+std::vector<Site> ground_sites(const PackageReader& package, std::span<const Cell> cells, std::size_t count) {
   std::mt19937_64 random(20120901);
   const auto uniform = [&random](double end) { return end * static_cast<double>(random() >> 11) * 0x1p-53; };
   std::map<Cell, PointLocator> columns;
@@ -66,7 +66,8 @@ std::vector<Site> ground_sites(const Package& package, std::span<const Cell> cel
   return sites;
 }
 
-std::vector<Site> surface_sites(const Package& package, std::span<const Cell> cells, SurfaceChoice choice, std::size_t count) {
+std::vector<Site> surface_sites(const PackageReader& package, std::span<const Cell> cells, SurfaceChoice choice,
+                                std::size_t count) {
   std::vector<std::vector<Site>> by_cell(cells.size());
   oneapi::tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t n) {
     for (const SurfaceReceiver& r : surface_receivers(package, cells[n], choice, surface_spacing_m))
@@ -92,7 +93,7 @@ std::vector<Cell> cells_of(const Grid& grid, std::span<const Site> sites) {
   return cells;
 }
 
-SkyFigures sky_at(const Package& package, const SkySettings& settings, std::span<const Site> sites) {
+SkyFigures sky_at(const PackageReader& package, const SkySettings& settings, std::span<const Site> sites) {
   const SkyEvaluator evaluator(package, settings);
   const std::vector<CellReceivers> receivers = receivers_of(package, sites);
   std::vector<float> svf(sites.size()), low(svf), high(svf);

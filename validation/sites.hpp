@@ -8,7 +8,7 @@
 
 #include "evaluate/sky_evaluator.hpp"
 #include "farlod/point.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "receivers/surface_receivers.hpp"
 
 namespace farlod::validation {
@@ -20,9 +20,9 @@ struct Site {
 };
 
 /// Random places of some cells, 1.5 m above the ground and outside of buildings.
-[[nodiscard]] std::vector<Site> ground_sites(const Package& package, std::span<const Cell> cells, std::size_t count);
+[[nodiscard]] std::vector<Site> ground_sites(const PackageReader& package, std::span<const Cell> cells, std::size_t count);
 /// Random places on the roofs or walls in some cells, party walls left out; all that there are when they are fewer.
-[[nodiscard]] std::vector<Site> surface_sites(const Package& package, std::span<const Cell> cells, SurfaceChoice choice,
+[[nodiscard]] std::vector<Site> surface_sites(const PackageReader& package, std::span<const Cell> cells, SurfaceChoice choice,
                                               std::size_t count);
 
 [[nodiscard]] std::vector<Cell> all_cells(const Grid& grid);
@@ -33,7 +33,7 @@ struct SkyFigures {
   std::vector<double> svf, low, high;
 };
 /// Sky view factors of sites, and their certain bounds.
-[[nodiscard]] SkyFigures sky_at(const Package& package, const SkySettings& settings, std::span<const Site> sites);
+[[nodiscard]] SkyFigures sky_at(const PackageReader& package, const SkySettings& settings, std::span<const Site> sites);
 
 /// How wide certain intervals are, and how many of the exact answers with the same rays are beyond them by more than a ray.
 struct BoundsSummary {

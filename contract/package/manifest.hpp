@@ -10,6 +10,7 @@
 
 #include "contract/grid.hpp"
 #include "farlod/angle.hpp"
+#include "farlod/box.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod::package {
@@ -64,6 +65,14 @@ struct Manifest {
   [[nodiscard]] Point3d projected_from_grid(const Point3d& p_grid) const {
     const Point2d p = origin_m + grid.rotation.city_from_grid(horizontal(p_grid));
     return {p.x, p.y, p_grid.z};
+  }
+  /// Around a rectangle of the grid frame.
+  [[nodiscard]] Box2d projected_outline(const Box2d& rectangle_grid) const {
+    const auto& [low, high] = rectangle_grid;
+    Box2d outline;
+    for (const Point2d corner : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}})
+      outline.add(horizontal(projected_from_grid({corner.x, corner.y, 0.0})));
+    return outline;
   }
   [[nodiscard]] Point2d grid_from_projected(Point2d p_projected) const {
     return grid.rotation.grid_from_city(p_projected - origin_m);

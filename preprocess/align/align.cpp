@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 
-#include "city/input_error.hpp"
 #include "contract/expects.hpp"
+#include "farlod/error.hpp"
 
 namespace farlod::align {
 namespace {

@@ -4,17 +4,12 @@
 
 #include "align/street_alignment.hpp"
 #include "city/located_city.hpp"
-#include "city/problem.hpp"
 #include "contract/grid.hpp"
 #include "farlod/box.hpp"
+#include "farlod/pack.hpp"
+#include "farlod/problem.hpp"
 
 namespace farlod::align {
-
-enum class AlignMode {
-  automatic,  ///< along the dominant street direction, if there is one
-  none,       ///< to grid north
-  fixed,      ///< along a given bearing
-};
 
 struct GridSettings {
   double cell_edge_m = 50.0;

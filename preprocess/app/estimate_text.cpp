@@ -36,7 +36,7 @@ std::string size(double mib) {
 
 }  // namespace
 
-std::string estimate_text(const pipeline::PackEstimate& e) {
+std::string estimate_text(const PackEstimate& e) {
   return fmt::format("{} cells: about {} from here on, {} of memory, and a package of {}", with_commas(e.cells),
                      duration(e.seconds), size(e.memory_mib), size(e.package_mib));
 }

@@ -4,11 +4,11 @@
 
 #include <string>
 
-#include "pipeline/pack_estimate.hpp"
+#include "farlod/pack.hpp"
 
 namespace farlod {
 
 /// What is told before the long work: a line, rounded to what an estimate can know.
-[[nodiscard]] std::string estimate_text(const pipeline::PackEstimate& estimate);
+[[nodiscard]] std::string estimate_text(const PackEstimate& estimate);
 
 }  // namespace farlod

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/core.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <chrono>
@@ -16,8 +15,8 @@
 #include "app/estimate_text.hpp"
 #include "app/pack_options.hpp"
 #include "app/pack_summary.hpp"
-#include "city/input_error.hpp"
 #include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 
 namespace farlod {
 namespace {
@@ -27,15 +26,15 @@ void write_text(const std::string& path, const std::string& text) {
   std::ofstream file(path);
   file << text;
   file.close();
-  if (!file) throw PackageWriteError(path + " cannot be written: is there room on the disk?");
+  if (!file) throw OutputError(path + " cannot be written: is there room on the disk?");
 }
 
 /// Asked before the work, which may take hours.
 void require_folder_of(const std::filesystem::path& file) {
   const auto folder = file.parent_path();
   if (folder.empty() || std::filesystem::is_directory(folder)) return;
-  throw PackageWriteError(file.string() + " cannot be written: there is no folder " + folder.string() +
-                          ". Make it first, or choose another.");
+  throw OutputError(file.string() + " cannot be written: there is no folder " + folder.string() +
+                    ". Make it first, or choose another.");
 }
 
 void write_report(const Report& report, const std::string& path) {
@@ -43,7 +42,7 @@ void write_report(const Report& report, const std::string& path) {
 }
 
 /// What --strict says.
-InputError refusal(const pipeline::ProblemsRefused& refused, const std::string& report_file) {
+InputError refusal(const ProblemsRefused& refused, const std::string& report_file) {
   const std::string list = report_file.empty() ? "--report FILE.json lists each of them" : report_file + " lists them one by one";
   return InputError(std::string(refused.what()) + ", and --strict allows none: no package is written; " + list + ".");
 }
@@ -70,10 +69,10 @@ void print_skipped(const SkippedFeatures& skipped) {
   if (!rows.empty()) fmt::print("\n");
 }
 
-void print_choice(const pipeline::ChosenGrid& chosen, const PackOptions& options) {
-  const double max_error = options.max_error.value_or(0.0);
+void print_choice(const ChosenGrid& chosen, const PackOptions& options) {
+  const double max_error = options.settings.max_error.value_or(0.0);
   if (chosen.best) {
-    const pipeline::GridChoice& b = *chosen.best;
+    const GridChoice& b = *chosen.best;
     fmt::print(
         "Chosen for errors up to {:g}: cells of {:g} m, neighborhood {} × {}, far maps to {:g}; expected of the far maps: "
         "at the most {:.4f}, certain to {:.4f} for 99 %\n",
@@ -89,20 +88,19 @@ void print_choice(const pipeline::ChosenGrid& chosen, const PackOptions& options
              m.receivers, m.mean_error, m.max_error, m.p99_half_width);
 }
 
-void print_result(const pipeline::PackResult& result, const Report& report, const PackOptions& options, double seconds) {
-  const package::Manifest& m = result.manifest;
+void print_result(const PackResult& result, const Report& report, const PackOptions& options, double seconds) {
+  const PackageDescription& m = result.package;
   fmt::print("{} buildings, {} polygons", m.buildings, m.polygons);
   if (result.facets > m.polygons) fmt::print(" (planar faces of {} facets)", result.facets);
   fmt::print(", {} {}\n", report.problems().size(), report.problems().size() == 1 ? "problem" : "problems");
   print_problems(report, options.report_file);
   print_skipped(result.skipped);
   for (const std::string& note : result.notes) fmt::print("{}\n", note);
-  const double bearing_deg = m.grid.rotation.bearing().degrees();
   fmt::print("CRS: {}\n", m.crs_name);
-  fmt::print("Streets: {:.2f}° from grid north ({:.2f}° from true north), strength {:.2f}\n", result.alignment.bearing.degrees(),
-             (result.alignment.bearing + m.convergence).degrees(), result.alignment.strength);
-  fmt::print("Grid: turned by {:.2f}°, {} × {} cells of {:g} m, neighborhood {} × {}\n", bearing_deg, m.grid.cells.width(),
-             m.grid.cells.height(), m.grid.cell_edge_m, m.grid.neighborhood, m.grid.neighborhood);
+  fmt::print("Streets: {:.2f}° from grid north ({:.2f}° from true north), strength {:.2f}\n", result.street_bearing.degrees(),
+             (result.street_bearing + m.convergence).degrees(), result.alignment_strength);
+  fmt::print("Grid: turned by {:.2f}°, {} × {} cells of {:g} m, neighborhood {} × {}\n", m.grid_bearing.degrees(), m.columns,
+             m.rows, m.cell_edge_m, m.neighborhood, m.neighborhood);
   if (result.chosen) print_choice(*result.chosen, options);
   fmt::print("{}: {:.1f} MiB ({:.1f} MiB far maps), {} triangles, {:.1f} s\n", options.settings.output.string(),
              static_cast<double>(result.package_bytes) / 1048576.0, static_cast<double>(result.far_map_bytes) / 1048576.0,
@@ -113,15 +111,15 @@ void print_result(const pipeline::PackResult& result, const Report& report, cons
 class StageProgress {
  public:
   explicit StageProgress(Verbosity verbosity) : verbosity_(verbosity) {}
-  void operator()(const std::string& stage, std::size_t done, std::size_t all) {
-    if (stage != stage_ || !line_) {
+  void update(const Progress& progress) {
+    if (progress.stage != stage_ || !line_) {
       line_.reset();
-      line_ = std::make_unique<Progress>(stage, verbosity_);
-      stage_ = stage;
+      stage_ = progress.stage;
+      line_ = std::make_unique<ProgressLine>(stage_, verbosity_);
     }
-    line_->update(done, all);
+    line_->update(progress.done, progress.all);
   }
-  void show(const pipeline::PackEstimate& estimate) {
+  void show(const PackEstimate& estimate) {
     line_.reset();
     if (verbosity_ == Verbosity::normal) fmt::print("{}\n", estimate_text(estimate));
     std::fflush(stdout);
@@ -130,26 +128,28 @@ class StageProgress {
  private:
   Verbosity verbosity_;
   std::string stage_;
-  std::unique_ptr<Progress> line_;
+  std::unique_ptr<ProgressLine> line_;
 };
 
-pipeline::PackResult pack_as_told(const PackOptions& options, Report& report) {
+PackResult pack_as_told(const PackOptions& options, Report& report) {
   StageProgress progress(options.run.verbosity);
+  RunSettings run;
+  run.threads = thread_count(options.run);
+  run.memory_limit_mib = options.memory_limit_mib;
+  run.on_progress = [&progress](const Progress& p) { progress.update(p); };
   try {
-    return pipeline::pack(options.settings, report, std::ref(progress),
-                          [&](const pipeline::PackEstimate& e) { progress.show(e); });
-  } catch (const pipeline::ProblemsRefused& refused) {
+    return pack(options.settings, report, run, [&](const PackEstimate& e) { progress.show(e); });
+  } catch (const ProblemsRefused& refused) {
     throw refusal(refused, options.report_file);
   }
 }
 
 int run(const PackOptions& options) {
-  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
   require_folder_of(options.report_file);
   require_folder_of(options.run.summary_file);
   const auto start = std::chrono::steady_clock::now();
   Report report;
-  std::optional<pipeline::PackResult> result;
+  std::optional<PackResult> result;
   try {
     result = pack_as_told(options, report);
   } catch (...) {
@@ -163,6 +163,11 @@ int run(const PackOptions& options) {
   return exit_done;
 }
 
+int complain(const std::exception& error, int exit_code) {
+  fmt::print(stderr, "farlod-pack: {}\n", error.what());
+  return exit_code;
+}
+
 }  // namespace
 }  // namespace farlod
 
@@ -171,20 +176,18 @@ int main(int argc, char** argv) {
   try {
     const ParsedPackOptions parsed = parse_pack_options(argc, argv);
     return parsed.options ? run(*parsed.options) : parsed.exit_code;
+  } catch (const InvalidArgument& error) {
+    return complain(error, exit_usage);
   } catch (const InputError& error) {
-    fmt::print(stderr, "farlod-pack: {}\n", error.what());
-    return exit_unusable_input;
-  } catch (const PackageWriteError& error) {
-    fmt::print(stderr, "farlod-pack: {}\n", error.what());
-    return exit_unusable_input;
-  } catch (const pipeline::MemoryLimitError& error) {
-    fmt::print(stderr, "farlod-pack: {}\n", error.what());
-    return exit_limit_reached;
+    return complain(error, exit_unusable_input);
+  } catch (const OutputError& error) {
+    return complain(error, exit_unusable_input);
+  } catch (const LimitReached& error) {
+    return complain(error, exit_limit_reached);
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "farlod-pack: out of memory. Pack the city in parts, or with larger cells.\n");
     return exit_limit_reached;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "farlod-pack: {}\n", error.what());
-    return exit_internal;
+    return complain(error, exit_internal);
   }
 }

@@ -31,8 +31,6 @@ struct RawOptions {
   std::vector<std::string> inputs;
   std::string output, origin, up = "z", lod = "best", align = "auto", assign = "clip", far_map = "horizon";
   std::string terrain, height_field, base_field, storeys_field, roof_field;
-  std::optional<double> cell_edge_m;
-  std::optional<int> neighborhood;
   bool force = false, strict = false;
 };
 
@@ -55,10 +53,9 @@ Point3d parse_origin(const std::string& text) {
 void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("INPUT", raw.inputs,
                  "City files, folders with city files, .zip or .gz archives; all are put together. A raster is a surface model");
-  app.add_option("--crs", o.settings.georeference.crs,
-                 "CRS of inputs that do not say, as EPSG:n; of all, where each says its own")
+  app.add_option("--crs", o.settings.crs, "CRS of inputs that do not say, as EPSG:n; of all, where each says its own")
       ->group("Input");
-  app.add_option("--out-crs", o.settings.georeference.out_crs, "CRS of the package (default: the input's, or UTM for degrees)")
+  app.add_option("--out-crs", o.settings.out_crs, "CRS of the package (default: the input's, or UTM for degrees)")
       ->group("Input");
   app.add_option("--origin", raw.origin, "X,Y[,Z] added to the coordinates of OBJ files")->group("Input");
   app.add_option("--up", raw.up, "Axis that points up in OBJ files")
@@ -73,12 +70,11 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->group("Input");
   app.add_option("--storeys-field", raw.storeys_field, "Attribute with a footprint's number of storeys, where no height is known")
       ->group("Input");
-  app.add_option("--floor-height", o.settings.ingest.footprints.floor_height_m, "Height of a storey, in metres")
+  app.add_option("--floor-height", o.settings.footprints.floor_height_m, "Height of a storey, in metres")
       ->check(between(1.0, 20.0))
       ->capture_default_str()
       ->group("Input");
-  app.add_option("--default-height", o.settings.ingest.footprints.default_height_m,
-                 "Height of footprints that have none, in metres")
+  app.add_option("--default-height", o.settings.footprints.default_height_m, "Height of footprints that have none, in metres")
       ->check(between(0.01, 1000.0))
       ->group("Input");
   app.add_option("--lod", raw.lod, "Level of detail to read")
@@ -89,14 +85,14 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
 }
 
 void add_grid_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
-  app.add_option("--cell", raw.cell_edge_m, "Edge of a cell in metres (default: 50, or what --max-error needs)")
+  app.add_option("--cell", o.settings.cell_edge_m, "Edge of a cell in metres (default: 50, or what --max-error needs)")
       ->check(between(0.5, 10000.0))
       ->group("Grid");
-  app.add_option("--neighborhood", raw.neighborhood,
+  app.add_option("--neighborhood", o.settings.neighborhood,
                  "Cells along the edge of the near field, N: odd (default: 3, or what --max-error needs)")
       ->check(CLI::Range(1, 999))
       ->group("Grid");
-  app.add_option("--max-error", o.max_error,
+  app.add_option("--max-error", o.settings.max_error,
                  "Choose cells and neighborhood so that sky view factors keep this error; tell farlod-svf the same")
       ->check(between(0.0001, 1.0))
       ->group("Grid");
@@ -117,7 +113,7 @@ void add_grid_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
 void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("-o,--output", raw.output, "Folder of the package, NAME.farlod")->required()->group("Output");
   app.add_flag("--force", raw.force, "Replace a package that is there already")->group("Output");
-  app.add_option("--memory-limit", o.settings.memory_limit_mib, "End before the long work when it would need more MiB than this")
+  app.add_option("--memory-limit", o.memory_limit_mib, "End before the long work when it would need more MiB than this")
       ->check(CLI::PositiveNumber)
       ->group("Output");
   app.add_option("--report", o.report_file,
@@ -128,54 +124,43 @@ void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   add_run_options(app, "farlod-pack", o.run);
 }
 
-void resolve_alignment(const std::string& text, align::GridSettings& grid) {
+void resolve_alignment(const std::string& text, PackSettings& s) {
   if (text == "auto") {
-    grid.align = align::AlignMode::automatic;
+    s.align = AlignMode::automatic;
   } else if (text == "none") {
-    grid.align = align::AlignMode::none;
+    s.align = AlignMode::none;
   } else {
-    grid.align = align::AlignMode::fixed;
+    s.align = AlignMode::fixed;
     const double bearing_deg = number_in(text, "--align", "give auto, none, or degrees clockwise from grid north");
     if (std::abs(bearing_deg) > 360.0) throw CLI::ValidationError("--align", "\"" + text + "\" is more than a full turn");
-    grid.fixed_bearing = Angle::degrees(bearing_deg);
+    s.fixed_bearing = Angle::degrees(bearing_deg);
   }
 }
 
-/// Half of the error is left for the sky between the rays of farlod-svf. What the user fixes is not chosen.
-void resolve_choice(const RawOptions& raw, double max_error, pipeline::PackSettings& s) {
-  if (s.far_map.kind == FarMapKind::box)
-    throw CLI::ValidationError("--max-error", "far maps of the kind box keep no error: leave --far-map out");
-  s.choice.emplace();
-  s.choice->max_far_error = 0.5 * max_error;
-  if (raw.cell_edge_m) s.choice->cell_edges_m = {*raw.cell_edge_m};
-  if (raw.neighborhood) s.choice->neighborhoods = {*raw.neighborhood};
-}
-
 void resolve(const RawOptions& raw, PackOptions& o) {
-  pipeline::PackSettings& s = o.settings;
+  PackSettings& s = o.settings;
   s.inputs.assign(raw.inputs.begin(), raw.inputs.end());
   if (raw.output.empty()) throw CLI::ValidationError("-o", "the name is empty: give the folder of the package, NAME.farlod");
   s.output = raw.output;
   s.overwrite = raw.force ? Overwrite::replace : Overwrite::refuse;
-  s.problems = raw.strict ? pipeline::ProblemPolicy::refuse : pipeline::ProblemPolicy::pack;
+  s.problems = raw.strict ? ProblemPolicy::refuse : ProblemPolicy::pack;
   if (!raw.terrain.empty()) s.terrain = raw.terrain;
   if (s.inputs.empty() && !s.terrain) throw CLI::RequiredError("INPUT");
-  if (raw.cell_edge_m) s.grid.cell_edge_m = *raw.cell_edge_m;
-  if (raw.neighborhood) s.grid.neighborhood = *raw.neighborhood;
-  if (s.grid.neighborhood % 2 == 0)
-    throw CLI::ValidationError("--neighborhood", std::to_string(s.grid.neighborhood) +
+  if (s.neighborhood && *s.neighborhood % 2 == 0)
+    throw CLI::ValidationError("--neighborhood", std::to_string(*s.neighborhood) +
                                                      " is even: a neighborhood has a cell in its middle, give an odd number");
-  if (!raw.origin.empty()) s.ingest.obj_origin = parse_origin(raw.origin);
-  s.ingest.up = raw.up == "y" ? ingest::UpAxis::y : ingest::UpAxis::z;
-  if (raw.lod != "best") s.ingest.lod.exactly = std::stoi(raw.lod);
-  if (!raw.height_field.empty()) s.ingest.footprints.height_field = raw.height_field;
-  if (!raw.base_field.empty()) s.ingest.footprints.base_field = raw.base_field;
-  if (!raw.storeys_field.empty()) s.ingest.footprints.storeys_field = raw.storeys_field;
-  if (!raw.roof_field.empty()) s.ingest.footprints.roof_field = raw.roof_field;
-  resolve_alignment(raw.align, s.grid);
-  s.far_map.kind = raw.far_map == "box" ? FarMapKind::box : FarMapKind::horizon;
+  if (!raw.origin.empty()) s.obj_origin = parse_origin(raw.origin);
+  s.up = raw.up == "y" ? UpAxis::y : UpAxis::z;
+  if (raw.lod != "best") s.lod = std::stoi(raw.lod);
+  if (!raw.height_field.empty()) s.footprints.height_field = raw.height_field;
+  if (!raw.base_field.empty()) s.footprints.base_field = raw.base_field;
+  if (!raw.storeys_field.empty()) s.footprints.storeys_field = raw.storeys_field;
+  if (!raw.roof_field.empty()) s.footprints.roof_field = raw.roof_field;
+  resolve_alignment(raw.align, s);
+  s.far_map = raw.far_map == "box" ? FarMapKind::box : FarMapKind::horizon;
   s.assign = raw.assign == "whole" ? Assign::whole : Assign::clip;
-  if (o.max_error) resolve_choice(raw, *o.max_error, s);
+  if (s.max_error && s.far_map == FarMapKind::box)
+    throw CLI::ValidationError("--max-error", "far maps of the kind box keep no error: leave --far-map out");
 }
 
 }  // namespace

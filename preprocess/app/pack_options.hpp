@@ -6,14 +6,14 @@
 #include <string>
 
 #include "console/run_options.hpp"
-#include "pipeline/pack.hpp"
+#include "farlod/pack.hpp"
 
 namespace farlod {
 
 /// The command line of farlod-pack, resolved.
 struct PackOptions {
-  pipeline::PackSettings settings;
-  std::optional<double> max_error;  ///< what the user asked for; settings.choice says what follows from it
+  PackSettings settings;
+  std::optional<std::uint64_t> memory_limit_mib;
   std::string report_file;
   RunOptions run;
 };

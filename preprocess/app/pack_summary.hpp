@@ -4,13 +4,13 @@
 
 #include <string>
 
-#include "city/problem.hpp"
-#include "pipeline/pack.hpp"
+#include "farlod/pack.hpp"
+#include "farlod/problem.hpp"
 
 namespace farlod {
 
 /// The text of `--summary`.
-[[nodiscard]] std::string pack_summary_json(const pipeline::PackResult& result, const Report& report, double total_seconds);
+[[nodiscard]] std::string pack_summary_json(const PackResult& result, const Report& report, double total_seconds);
 /// The text of `--report`: every problem, one entry each.
 [[nodiscard]] std::string report_json(const Report& report);
 /// The same as a FeatureCollection (RFC 7946): points in WGS 84, properties as in report_json; no geometry where no place is

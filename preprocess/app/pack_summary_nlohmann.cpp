@@ -17,7 +17,7 @@ Json json_of(const FarErrorEstimate& v) {
       {"receivers", v.receivers}, {"mean_error", v.mean_error}, {"max_error", v.max_error}, {"p99_half_width", v.p99_half_width}};
 }
 
-Json json_of(const pipeline::ChosenGrid& chosen) {
+Json json_of(const ChosenGrid& chosen) {
   Json j = {{"keeps_error", chosen.best.has_value()}};
   if (chosen.best) {
     j["tolerance"] = chosen.best->tolerance;
@@ -46,8 +46,8 @@ Json point_of(const std::optional<Point2d>& lon_lat_deg) {
 
 }  // namespace
 
-std::string pack_summary_json(const pipeline::PackResult& result, const Report& report, double total_seconds) {
-  const package::Manifest& m = result.manifest;
+std::string pack_summary_json(const PackResult& result, const Report& report, double total_seconds) {
+  const PackageDescription& m = result.package;
   Json seconds = {{"total", total_seconds}};
   for (const auto& [stage, value] : result.stage_seconds) seconds[stage] = value;
   Json j = {{"buildings", m.buildings},
@@ -56,11 +56,11 @@ std::string pack_summary_json(const pipeline::PackResult& result, const Report& 
             {"triangles", m.triangles},
             {"problems", report.problems().size()},
             {"foundations", result.foundations},
-            {"cells", m.grid.cells.size()},
-            {"grid_rotation_deg", m.grid.rotation.bearing().degrees()},
-            {"alignment_strength", result.alignment.strength},
-            {"cell_m", m.grid.cell_edge_m},
-            {"neighborhood", m.grid.neighborhood},
+            {"cells", m.columns * m.rows},
+            {"grid_rotation_deg", m.grid_bearing.degrees()},
+            {"alignment_strength", result.alignment_strength},
+            {"cell_m", m.cell_edge_m},
+            {"neighborhood", m.neighborhood},
             {"seconds", seconds},
             {"peak_memory_mib", peak_memory_mib()},
             {"package_bytes", result.package_bytes},

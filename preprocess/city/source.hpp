@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "city/city_model.hpp"
+#include "farlod/pack.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {
@@ -21,9 +20,6 @@ struct SourceCrs {
   /// z is in metres whatever the horizontal unit is (heights taken from an attribute).
   bool heights_in_metres = false;
 };
-
-/// How often something was met that is not used, by what it is: vegetation, water, elements of extensions.
-using SkippedFeatures = std::map<std::string, std::uint64_t>;
 
 /// One input file, read: coordinates are still those of the file.
 struct SourceCity {

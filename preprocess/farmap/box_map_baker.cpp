@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "farmap/box_map_baker.hpp"
+#include "contract/cancellation.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -15,10 +16,13 @@ constexpr double border_rounding = 4.0 * std::numeric_limits<float>::epsilon();
 
 }  // namespace
 
-BakedBoxes BoxMapBaker::bake(Block block) const {
+BakedBoxes BoxMapBaker::bake(Block block, const std::stop_token& stop) const {
   const CellRange cells = grid_.cells_of(block);
   BakedBoxes maps(static_cast<std::size_t>(cells.size()));
-  oneapi::tbb::parallel_for(std::size_t{0}, maps.size(), [&](std::size_t n) { maps[n] = bake_cell(cells.cell_at(n)); });
+  oneapi::tbb::parallel_for(std::size_t{0}, maps.size(), [&](std::size_t n) {
+    throw_if_cancelled(stop);
+    maps[n] = bake_cell(cells.cell_at(n));
+  });
   return maps;
 }
 

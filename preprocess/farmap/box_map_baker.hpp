@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include "contract/grid.hpp"
@@ -23,7 +24,7 @@ class BoxMapBaker {
   BoxMapBaker(const TileSet& tiles, const Grid& grid, Assign assign, const BoxMapSettings& settings)
       : tiles_(tiles), grid_(grid), assign_(assign), settings_(settings), city_(tiles, grid), height_bound_(tiles, grid) {}
 
-  [[nodiscard]] BakedBoxes bake(Block block) const;
+  [[nodiscard]] BakedBoxes bake(Block block, const std::stop_token& stop = {}) const;
 
  private:
   [[nodiscard]] BakedBox bake_cell(Cell cell) const;

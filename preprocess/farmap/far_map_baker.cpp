@@ -17,9 +17,9 @@ FarMapBaker::FarMapBaker(const TileSet& tiles, const Grid& grid, Assign assign, 
 FarMapBaker::FarMapBaker(FarMapBaker&&) noexcept = default;
 FarMapBaker::~FarMapBaker() = default;
 
-BakedBlock FarMapBaker::bake(Block block) const {
-  if (box_) return box_->bake(block);
-  return horizon_->bake(block);
+BakedBlock FarMapBaker::bake(Block block, const std::stop_token& stop) const {
+  if (box_) return box_->bake(block, stop);
+  return horizon_->bake(block, stop);
 }
 
 package::FarMapShape shape_of(const FarMapSettings& settings) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <stop_token>
 
 #include "contract/grid.hpp"
 #include "contract/package/manifest.hpp"
@@ -24,8 +25,8 @@ class FarMapBaker {
   FarMapBaker(FarMapBaker&&) noexcept;
   ~FarMapBaker();
 
-  /// In the order of CellRange::index_of. The same for any number of threads.
-  [[nodiscard]] BakedBlock bake(Block block) const;
+  /// In the order of CellRange::index_of. The same for any number of threads. Throws Cancelled when `stop` is asked for.
+  [[nodiscard]] BakedBlock bake(Block block, const std::stop_token& stop = {}) const;
 
  private:
   std::unique_ptr<BoxMapBaker> box_;

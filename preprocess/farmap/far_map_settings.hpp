@@ -4,12 +4,9 @@
 
 #include <cstdint>
 
-namespace farlod {
+#include "farlod/pack.hpp"
 
-enum class FarMapKind : std::uint8_t {
-  horizon,  ///< explicit occluders, and bounds for the rest of the far city: without parallax
-  box       ///< the paper's: a picture on the walls of a box, looked up by direction alone
-};
+namespace farlod {
 
 /// Of the kind `box`.
 struct BoxMapSettings {

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "contract/cancellation.hpp"
 #include "contract/expects.hpp"
 #include "farmap/occluder_classifier.hpp"
 #include "farmap/occlusion_culler.hpp"
@@ -108,17 +109,20 @@ HorizonMapBaker::HorizonMapBaker(const TileSet& tiles, const Grid& grid, const H
                  settings.layers <= package::most_layers);
 }
 
-BakedHorizons HorizonMapBaker::bake(Block block) const {
+BakedHorizons HorizonMapBaker::bake(Block block, const std::stop_token& stop) const {
   const CellRange range = grid_.cells_of(block);
   std::vector<Cell> cells;
   for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) cells.push_back(range.cell_at(n));
-  return bake(cells);
+  return bake(cells, stop);
 }
 
-BakedHorizons HorizonMapBaker::bake(std::span<const Cell> cells) const {
+BakedHorizons HorizonMapBaker::bake(std::span<const Cell> cells, const std::stop_token& stop) const {
   FARLOD_EXPECTS(!cells.empty());
   std::vector<std::optional<BakedHorizon>> baked(cells.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, baked.size(), [&](std::size_t n) { baked[n] = bake_cell(cells[n]); });
+  oneapi::tbb::parallel_for(std::size_t{0}, baked.size(), [&](std::size_t n) {
+    throw_if_cancelled(stop);
+    baked[n] = bake_cell(cells[n]);
+  });
   BlockOccluders occluders(city_, city_.corner_of(cells.front()));
   BakedHorizons result;
   for (std::optional<BakedHorizon>& cell : baked) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 
 #include "contract/grid.hpp"
 #include "farmap/baked_block.hpp"
@@ -20,9 +21,9 @@ class HorizonMapBaker {
   /// The tiles and the grid must outlive the baker.
   HorizonMapBaker(const TileSet& tiles, const Grid& grid, const HorizonMapSettings& settings);
 
-  [[nodiscard]] BakedHorizons bake(Block block) const;
+  [[nodiscard]] BakedHorizons bake(Block block, const std::stop_token& stop = {}) const;
   /// Of at least one cell. The explicit occluders are in the frame of the first.
-  [[nodiscard]] BakedHorizons bake(std::span<const Cell> cells) const;
+  [[nodiscard]] BakedHorizons bake(std::span<const Cell> cells, const std::stop_token& stop = {}) const;
 
  private:
   [[nodiscard]] BakedHorizon bake_cell(Cell cell) const;

@@ -10,8 +10,8 @@
 #include <sstream>
 #include <utility>
 
-#include "city/input_error.hpp"
 #include "farlod/box.hpp"
+#include "farlod/error.hpp"
 #include "georeference/input_crs.hpp"
 #include "georeference/misplaced_facets.hpp"
 #include "georeference/output_crs.hpp"

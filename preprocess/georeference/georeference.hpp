@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "city/located_city.hpp"
-#include "city/problem.hpp"
 #include "city/source.hpp"
+#include "farlod/problem.hpp"
 
 namespace farlod::georeference {
 

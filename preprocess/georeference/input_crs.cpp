@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "georeference/crs_definition.hpp"
 #include "georeference/crs_name.hpp"
 

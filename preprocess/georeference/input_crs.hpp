@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "city/problem.hpp"
 #include "city/source.hpp"
+#include "farlod/problem.hpp"
 #include "georeference/crs.hpp"
 #include "georeference/georeference.hpp"
 

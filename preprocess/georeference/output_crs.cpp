@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "georeference/input_crs.hpp"
 
 namespace farlod::georeference {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "city/problem.hpp"
+#include "farlod/problem.hpp"
 #include "georeference/crs.hpp"
 #include "georeference/file_axes.hpp"
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "city/problem.hpp"
 #include "city/source.hpp"
+#include "farlod/problem.hpp"
 #include "georeference/crs.hpp"
 #include "georeference/file_axes.hpp"
 #include "georeference/input_crs.hpp"

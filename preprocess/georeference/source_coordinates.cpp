@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "city/input_error.hpp"
 #include "contract/expects.hpp"
 #include "farlod/box.hpp"
+#include "farlod/error.hpp"
 #include "georeference/crs_area.hpp"
 
 namespace farlod::georeference {

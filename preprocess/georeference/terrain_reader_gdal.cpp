@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "city/input_error.hpp"
 #include "contract/expects.hpp"
+#include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/wkt_gdal.hpp"
 #include "georeference/crs.hpp"

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ingest/ingest.hpp"
 
-#include "city/input_error.hpp"
+#include "contract/cancellation.hpp"
+#include "farlod/error.hpp"
 #include "ingest/citygml/citygml_reader.hpp"
 #include "ingest/cityjson/cityjson_reader.hpp"
 #include "ingest/files/file_format.hpp"
@@ -110,14 +111,18 @@ SourceCity ingest(const InputFile& file, const IngestSettings& settings, Report&
   return city;
 }
 
-std::vector<SourceCity> ingest_all(std::span<const InputFile> files, const IngestSettings& settings, Report& report) {
+std::vector<SourceCity> ingest_all(std::span<const InputFile> files, const IngestSettings& settings, Report& report,
+                                   const std::stop_token& stop) {
   std::vector<SourceCity> cities;
   if (files.size() == 1) {
     cities.push_back(ingest(files.front(), settings, report));
     return cities;
   }
   const std::size_t known = report.problems().size();
-  for (const InputFile& file : files) ingest_among_others(file, settings, report, cities);
+  for (const InputFile& file : files) {
+    throw_if_cancelled(stop);
+    ingest_among_others(file, settings, report, cities);
+  }
   if (cities.empty() && !files.empty())
     throw InputError("none of the " + std::to_string(files.size()) + " files can be used. The first problem: " +
                      report.problems()[known].source + ": " + report.problems()[known].detail);

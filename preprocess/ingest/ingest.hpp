@@ -3,10 +3,11 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 #include <vector>
 
-#include "city/problem.hpp"
 #include "city/source.hpp"
+#include "farlod/problem.hpp"
 #include "ingest/files/input_file.hpp"
 #include "ingest/ingest_settings.hpp"
 
@@ -23,7 +24,7 @@ namespace farlod::ingest {
 
 /// Reads the files of a city one by one. If there are several, a file that is empty or cannot be used as a whole is reported and
 /// left out. Throws InputError when none is left. A single file is read as `ingest` reads it.
-[[nodiscard]] std::vector<SourceCity> ingest_all(std::span<const InputFile> files, const IngestSettings& settings,
-                                                 Report& report);
+[[nodiscard]] std::vector<SourceCity> ingest_all(std::span<const InputFile> files, const IngestSettings& settings, Report& report,
+                                                 const std::stop_token& stop = {});
 
 }  // namespace farlod::ingest

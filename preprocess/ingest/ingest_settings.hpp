@@ -4,8 +4,8 @@
 
 #include <optional>
 
+#include "farlod/pack.hpp"
 #include "farlod/point.hpp"
-#include "ingest/footprints/footprint_settings.hpp"
 #include "ingest/model_builder/lod_choice.hpp"
 #include "ingest/obj/obj_reader.hpp"
 

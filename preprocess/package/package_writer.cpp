@@ -23,8 +23,8 @@ void require_package_or_empty(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path name = entry.path().filename();
     if (name != package::manifest_file && name != blocks_folder)
-      throw PackageWriteError(folder.string() + " holds " + name.string() +
-                              ", which is not part of a package: choose another folder for -o.");
+      throw OutputError(folder.string() + " holds " + name.string() +
+                        ", which is not part of a package: choose another folder for -o.");
   }
 }
 
@@ -40,13 +40,13 @@ std::uint64_t explicit_occluder_bytes(const BakedBlock& maps) {
 
 fs::path temporary_name(const fs::path& path) { return path.string() + ".part"; }
 
-/// Makes a folder, moves or removes something; what the file system refuses is told as PackageWriteError.
+/// Makes a folder, moves or removes something; what the file system refuses is told as OutputError.
 template <class Work>
 void change_on_disk(const fs::path& path, const Work& work) {
   try {
     work();
   } catch (const fs::filesystem_error& reason) {
-    throw PackageWriteError(path.string() + " cannot be written: " + reason.code().message());
+    throw OutputError(path.string() + " cannot be written: " + reason.code().message());
   }
 }
 
@@ -54,10 +54,10 @@ void change_on_disk(const fs::path& path, const Work& work) {
 
 void require_room(const fs::path& folder, Overwrite overwrite) {
   if (!fs::exists(folder)) return;
-  if (!fs::is_directory(folder)) throw PackageWriteError(folder.string() + " is a file: choose another name for -o.");
+  if (!fs::is_directory(folder)) throw OutputError(folder.string() + " is a file: choose another name for -o.");
   require_package_or_empty(folder);
   if (overwrite == Overwrite::refuse && !fs::is_empty(folder))
-    throw PackageWriteError(folder.string() + " exists already: give --force to replace it, or choose another name for -o.");
+    throw OutputError(folder.string() + " exists already: let it be replaced (--force), or choose another folder.");
 }
 
 PackageWriter::PackageWriter(fs::path folder, Overwrite overwrite) : folder_(std::move(folder)) {
@@ -74,7 +74,7 @@ package::FileStamp PackageWriter::write_file(const fs::path& path, std::span<con
   std::ofstream file(part, std::ios::binary | std::ios::trunc);
   file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   file.close();
-  if (!file) throw PackageWriteError(path.string() + " cannot be written. Is the disk full?");
+  if (!file) throw OutputError(path.string() + " cannot be written. Is the disk full?");
   change_on_disk(path, [&] { fs::rename(part, path); });
   bytes_written_ += bytes.size();
   return stamp_of(bytes);
@@ -90,7 +90,7 @@ package::BlockFiles PackageWriter::write_block(const TileSet& tiles, const Baked
   try {
     write_far_maps(part, maps, grid.cells_of(block), shape);
   } catch (const std::runtime_error& reason) {
-    throw PackageWriteError(std::string(reason.what()) + " Is the disk full?");
+    throw OutputError(std::string(reason.what()) + " Is the disk full?");
   }
   files.far_map = stamp_of(part);
   change_on_disk(far, [&] { fs::rename(part, far); });

@@ -5,24 +5,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
-#include <stdexcept>
 
 #include "contract/package/manifest.hpp"
+#include "farlod/error.hpp"
+#include "farlod/pack.hpp"
 #include "farmap/baked_block.hpp"
 #include "tiles/tile_set.hpp"
 
 namespace farlod {
 
-/// What to do when the package's folder is there already.
-enum class Overwrite { refuse, replace };
-
-/// The package cannot be written.
-class PackageWriteError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// Throws PackageWriteError when a package may not be written there: the folder holds one already and shall not be replaced, or
+/// Throws OutputError when a package may not be written there: the folder holds one already and shall not be replaced, or
 /// holds anything that is not part of a package. Touches nothing.
 void require_room(const std::filesystem::path& folder, Overwrite overwrite);
 
@@ -31,7 +23,7 @@ void require_room(const std::filesystem::path& folder, Overwrite overwrite);
 class PackageWriter {
  public:
   /// Makes the folder. An old package in it loses its manifest at once, and its blocks with it (`replace`), or is left
-  /// alone (`refuse`: throws PackageWriteError). A folder that holds anything else is never touched.
+  /// alone (`refuse`: throws OutputError). A folder that holds anything else is never touched.
   PackageWriter(std::filesystem::path folder, Overwrite overwrite);
 
   /// Returns the stamps of the block's two files, for the manifest.

@@ -25,14 +25,15 @@ bool keeps(const FarErrorEstimate& far_error, double max_far_error) {
 
 class GridChooser {
  public:
-  GridChooser(const LocatedCity& city, Assign assign, const HorizonMapSettings& far_map, const ChoiceSettings& settings)
-      : city_(city), assign_(assign), far_map_(far_map), settings_(settings) {}
+  GridChooser(const LocatedCity& city, Assign assign, const HorizonMapSettings& far_map, const ChoiceSettings& settings,
+              std::stop_token stop)
+      : city_(city), assign_(assign), far_map_(far_map), settings_(settings), stop_(std::move(stop)) {}
 
   void try_cells(double cell_edge_m, const LayGrid& lay) {
     auto [grid, terrain] = lay(cell_edge_m);
     Report unread;  // the run itself reports what it finds
-    const TileSet tiles = tiles::cut_into_tiles(city_, grid, assign_, terrain, unread);
-    const FarMapTrial trial(tiles, grid, assign_, settings_.error_sampling);
+    const TileSet tiles = tiles::cut_into_tiles(city_, grid, assign_, terrain, unread, stop_);
+    const FarMapTrial trial(tiles, grid, assign_, settings_.error_sampling, stop_);
     for (const int neighborhood : settings_.neighborhoods) try_tolerances(trial, grid.cell_edge_m, neighborhood);
   }
   std::optional<GridChoice> best;
@@ -55,13 +56,15 @@ class GridChooser {
   Assign assign_;
   HorizonMapSettings far_map_;
   const ChoiceSettings& settings_;
+  std::stop_token stop_;
 };
 
 }  // namespace
 
 std::optional<GridChoice> choose_grid(const LocatedCity& city, const LayGrid& lay, Assign assign,
-                                      const HorizonMapSettings& far_map, const ChoiceSettings& settings) {
-  GridChooser chooser(city, assign, far_map, settings);
+                                      const HorizonMapSettings& far_map, const ChoiceSettings& settings,
+                                      const std::stop_token& stop) {
+  GridChooser chooser(city, assign, far_map, settings, stop);
   for (const double cell_edge_m : settings.cell_edges_m) chooser.try_cells(cell_edge_m, lay);
   return chooser.best;
 }

@@ -4,27 +4,19 @@
 
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <utility>
 #include <vector>
 
 #include "align/align.hpp"
 #include "city/located_city.hpp"
 #include "city/terrain_raster.hpp"
+#include "farlod/pack.hpp"
 #include "farmap/far_map_settings.hpp"
 #include "tiles/tiles.hpp"
 #include "trial/far_map_trial.hpp"
 
 namespace farlod::pipeline {
-
-/// A cell size, a neighborhood and the tolerance of its far maps; what these were found to do, and what a receiver costs.
-struct GridChoice {
-  double cell_edge_m = 0.0;
-  int neighborhood = 0;
-  double tolerance = 0.0;
-  FarErrorEstimate far_error;
-  /// Expected, packing included, at 1,000 rays on a 2 m grid: to compare choices with, not to plan a run by.
-  double receiver_us = 0.0;
-};
 
 /// The error to keep, and the choices that may keep it.
 struct ChoiceSettings {
@@ -42,6 +34,7 @@ using LayGrid = std::function<std::pair<Grid, std::optional<TerrainRaster>>(doub
 /// `max_far_error`, and the bounds of 99 % of them must guarantee it; farlod-svf --max-error retraces the rest. Empty when no
 /// choice keeps the error. Deterministic.
 [[nodiscard]] std::optional<GridChoice> choose_grid(const LocatedCity& city, const LayGrid& lay, Assign assign,
-                                                    const HorizonMapSettings& far_map, const ChoiceSettings& settings);
+                                                    const HorizonMapSettings& far_map, const ChoiceSettings& settings,
+                                                    const std::stop_token& stop = {});
 
 }  // namespace farlod::pipeline

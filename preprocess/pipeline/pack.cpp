@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/pack.hpp"
 
-#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
 #include <algorithm>
@@ -11,13 +11,19 @@
 #include <map>
 #include <span>
 
-#include "city/input_error.hpp"
 #include "city/plan_boxes.hpp"
+#include "contract/cancellation.hpp"
+#include "contract/package/description.hpp"
+#include "farlod/error.hpp"
 #include "farlod/version.hpp"
+#include "farmap/far_map_baker.hpp"
 #include "georeference/problem_locator.hpp"
 #include "georeference/terrain_reader.hpp"
 #include "ingest/files/input_search.hpp"
 #include "package/file_stamp.hpp"
+#include "package/package_writer.hpp"
+#include "pipeline/pack_estimate.hpp"
+#include "tiles/tiles.hpp"
 
 namespace farlod::pipeline {
 namespace {
@@ -74,7 +80,7 @@ void require_folders_above(const std::filesystem::path& output) {
   for (std::filesystem::path above = std::filesystem::absolute(output).parent_path(); above.has_relative_path();
        above = above.parent_path())
     if (std::filesystem::exists(above) && !std::filesystem::is_directory(above))
-      throw PackageWriteError(output.string() + " cannot be written: " + above.string() + ": Not a directory");
+      throw OutputError(output.string() + " cannot be written: " + above.string() + ": Not a directory");
 }
 
 /// The files that the inputs of the user lead to.
@@ -103,7 +109,8 @@ class Packing {
   // Defined before its first use, since its return type is deduced
   template <class Work>
   auto timed(const std::string& stage, const Work& work) {
-    progress_(stage, 0, 1);
+    throw_if_cancelled(run_.stop);
+    tell(stage, 0, 1);
     const auto start = Clock::now();
     auto value = work();
     result_.stage_seconds.emplace_back(stage, seconds_between(start, Clock::now()));
@@ -111,10 +118,10 @@ class Packing {
   }
 
  public:
-  Packing(const PackSettings& settings, Report& report, const PackProgress& progress, const OnEstimate& on_estimate)
-      : settings_(settings), report_(report), progress_(progress), on_estimate_(on_estimate) {}
+  Packing(const StageSettings& settings, Report& report, const RunSettings& run, const OnEstimate& on_estimate)
+      : settings_(settings), report_(report), run_(run), on_estimate_(on_estimate) {}
 
-  PackResult run() {
+  PackedCity run() {
     // An output folder that must not be replaced ends the run before the long stages. One that may be is removed only after them
     require_folders_above(settings_.output);
     require_room(settings_.output, settings_.overwrite);
@@ -123,7 +130,8 @@ class Packing {
     const ResolvedGridSettings resolved = resolve_grid_settings(located, inputs);
     const auto run_stage = [this](const std::string& stage, const auto& work) { return timed(stage, work); };
     const GridOnGround ground = lay_grid_on_ground(located, inputs, resolved.grid, report_, run_stage);
-    result_.alignment = ground.streets;
+    result_.street_bearing = ground.streets.bearing;
+    result_.alignment_strength = ground.streets.strength;
     estimate(located, ground, resolved.far_map);
     describe_place(located, ground.grid, resolved.far_map, inputs);
     result_.facets = located.city.facets().size();
@@ -133,6 +141,7 @@ class Packing {
     if (result_.chosen)
       result_.chosen->measured = timed("measure", [&] { return measure(tiles, ground.grid, resolved.far_map); });
     write_package(tiles, ground.grid, resolved.far_map);
+    result_.package = package::described(result_.manifest);
     return std::move(result_);
   }
 
@@ -153,7 +162,7 @@ class Packing {
     }
     for (const ingest::InputFile& file : found.files) inputs.files.push_back(file.on_disk);
     inputs.files.erase(std::unique(inputs.files.begin(), inputs.files.end()), inputs.files.end());
-    inputs.sources = ingest::ingest_all(found.files, settings_.ingest, report_);
+    inputs.sources = ingest::ingest_all(found.files, settings_.ingest, report_, run_.stop);
     result_.skipped = std::move(found.skipped);
     for (SourceCity& source : inputs.sources) {
       for (const auto& [what, count] : source.skipped) result_.skipped[what] += count;
@@ -245,15 +254,14 @@ class Packing {
       GridOnGround ground = lay_grid_on_ground(located, inputs, settings, unread, run_untimed);
       return std::pair(ground.grid, std::move(ground.terrain));
     };
-    return choose_grid(located, lay, settings_.assign, settings_.far_map.horizon, choice);
+    return choose_grid(located, lay, settings_.assign, settings_.far_map.horizon, choice, run_.stop);
   }
 
   void estimate(const LocatedCity& located, const GridOnGround& ground, const FarMapSettings& far_map) {
-    using oneapi::tbb::global_control;
-    const std::size_t threads = global_control::active_value(global_control::max_allowed_parallelism);
+    const auto threads = static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency());
     const std::size_t ground_points = ground.terrain ? ground.terrain->height_m.size() : located.relief_points.size();
     result_.estimate = estimate_pack(located.city, ground_points, ground.grid, far_map.kind, threads);
-    require_memory(result_.estimate, settings_.memory_limit_mib);
+    require_memory(result_.estimate, run_.memory_limit_mib);
     if (on_estimate_) on_estimate_(result_.estimate);
   }
 
@@ -261,7 +269,7 @@ class Packing {
   TileSet cut_city(LocatedCity located, const GridOnGround& ground) {
     const std::size_t known = report_.problems().size();
     const Georeference place = located.georeference;
-    TileSet tiles = tiles::cut_into_tiles(std::move(located), ground.grid, settings_.assign, ground.terrain, report_);
+    TileSet tiles = tiles::cut_into_tiles(std::move(located), ground.grid, settings_.assign, ground.terrain, report_, run_.stop);
     if (const auto crs = georeference::Crs::find(place.crs_wkt)) {
       georeference::ProblemLocator locator(*crs, georeference::FileAxes{}, place.origin_m);
       for (Problem& problem : report_.since(known)) locator.locate(problem);
@@ -280,7 +288,7 @@ class Packing {
     FarErrorSettings others = settings_.choice->error_sampling;
     others.seed += 1;
     others.cells *= 2;
-    return FarMapTrial(tiles, grid, settings_.assign, others).run(grid.neighborhood, far_map.horizon);
+    return FarMapTrial(tiles, grid, settings_.assign, others, run_.stop).run(grid.neighborhood, far_map.horizon);
   }
 
   void describe_place(const LocatedCity& located, const Grid& grid, const FarMapSettings& far_map, const ResolvedInputs& inputs) {
@@ -323,9 +331,9 @@ class Packing {
     BakedBlock to_write;
     oneapi::tbb::task_group writing;  // a block is written while the next one is baked
     for (std::size_t n = 0; n < blocks.size(); ++n) {
-      progress_("far maps", n, blocks.size());
+      tell("far maps", n, blocks.size());
       const auto start = Clock::now();
-      BakedBlock maps = baker.bake(blocks[n]);
+      BakedBlock maps = baker.bake(blocks[n], run_.stop);
       bake_s += seconds_between(start, Clock::now());
       writing.wait();
       to_write = std::move(maps);
@@ -336,7 +344,7 @@ class Packing {
       });
     }
     writing.wait();
-    progress_("far maps", blocks.size(), blocks.size());
+    tell("far maps", blocks.size(), blocks.size());
     writer.finish(result_.manifest);
     result_.stage_seconds.emplace_back("far_maps", bake_s);
     result_.stage_seconds.emplace_back("package", write_s);
@@ -344,17 +352,21 @@ class Packing {
     result_.far_map_bytes = writer.far_map_bytes();
   }
 
-  const PackSettings& settings_;
+  void tell(std::string_view stage, std::size_t done, std::size_t all) const {
+    if (run_.on_progress) run_.on_progress({stage, done, all});
+  }
+
+  const StageSettings& settings_;
   Report& report_;
-  const PackProgress& progress_;
+  const RunSettings& run_;
   const OnEstimate& on_estimate_;
-  PackResult result_;
+  PackedCity result_;
 };
 
 }  // namespace
 
-PackResult pack(const PackSettings& settings, Report& report, const PackProgress& progress, const OnEstimate& on_estimate) {
-  return Packing(settings, report, progress, on_estimate).run();
+PackedCity pack(const StageSettings& settings, Report& report, const RunSettings& run, const OnEstimate& on_estimate) {
+  return Packing(settings, report, run, on_estimate).run();
 }
 
 }  // namespace farlod::pipeline

@@ -59,10 +59,10 @@ PackEstimate estimate_pack(const CityModel& city, std::size_t ground_points, con
 
 void require_memory(const PackEstimate& estimate, std::optional<std::uint64_t> limit_mib) {
   if (!limit_mib || estimate.memory_mib <= static_cast<double>(*limit_mib)) return;
-  throw MemoryLimitError("Packing into " + std::to_string(estimate.cells) + " cells needs about " +
-                         std::to_string(std::llround(estimate.memory_mib)) + " MiB, more than --memory-limit " +
-                         std::to_string(*limit_mib) +
-                         ": choose larger cells (--cell), pack fewer inputs at a time, or raise the limit.");
+  throw LimitReached("Packing into " + std::to_string(estimate.cells) + " cells needs about " +
+                     std::to_string(std::llround(estimate.memory_mib)) + " MiB, more than --memory-limit " +
+                     std::to_string(*limit_mib) +
+                     ": choose larger cells (--cell), pack fewer inputs at a time, or raise the limit.");
 }
 
 }  // namespace farlod::pipeline

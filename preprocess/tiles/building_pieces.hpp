@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "city/city_model.hpp"
-#include "city/problem.hpp"
 #include "contract/grid.hpp"
+#include "farlod/problem.hpp"
 #include "tiles/cutting.hpp"
 #include "tiles/grounded_walls.hpp"
 #include "tiles/horizon_edges.hpp"

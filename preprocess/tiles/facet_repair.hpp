@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "city/city_model.hpp"
-#include "city/problem.hpp"
+#include "farlod/problem.hpp"
 
 namespace farlod::tiles {
 

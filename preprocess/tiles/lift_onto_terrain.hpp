@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "city/located_city.hpp"
-#include "city/problem.hpp"
+#include "farlod/problem.hpp"
 
 namespace farlod::tiles {
 

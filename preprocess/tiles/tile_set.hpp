@@ -10,15 +10,10 @@
 #include "contract/grid.hpp"
 #include "contract/horizon/horizon_edge.hpp"
 #include "contract/mesh_view.hpp"
+#include "farlod/pack.hpp"
 #include "farlod/surface_kind.hpp"
 
 namespace farlod {
-
-/// Which cell a building's geometry goes to.
-enum class Assign {
-  clip,  ///< cut exactly at the cells' borders
-  whole  ///< as in the paper: each building whole, to the cell of its footprint's centroid
-};
 
 /// The geometry that one cell owns. Vertices are in the cell frame: x and y from the cell's south-west corner, heights
 /// from TileSet::height_origin_m.

@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "contract/cancellation.hpp"
 #include "contract/expects.hpp"
 #include "tiles/base_points.hpp"
 #include "tiles/building_pieces.hpp"
@@ -58,7 +59,7 @@ double area_of(std::span<const Point3f> convex_polygon) {
 /// Calls place(n, make(n)) for each n below `count`. The calls of `make` run in parallel; those of `place` run in order, one at a
 /// time.
 template <class Make, class Place>
-void make_and_place(std::size_t count, const Make& make, const Place& place) {
+void make_and_place(std::size_t count, const std::stop_token& stop, const Make& make, const Place& place) {
   namespace tbb = oneapi::tbb;
   using Made = std::vector<decltype(make(std::size_t{0}))>;
   using Batch = std::pair<std::size_t, Made>;
@@ -69,7 +70,10 @@ void make_and_place(std::size_t count, const Make& make, const Place& place) {
   };
   const auto make_batch = [&](std::size_t first) {
     Batch batch{first, {}};
-    for (std::size_t n = first; n < std::min(first + batch_size, count); ++n) batch.second.push_back(make(n));
+    for (std::size_t n = first; n < std::min(first + batch_size, count); ++n) {
+      throw_if_cancelled(stop);
+      batch.second.push_back(make(n));
+    }
     return batch;
   };
   const auto place_batch = [&](Batch batch) {
@@ -83,7 +87,7 @@ void make_and_place(std::size_t count, const Make& make, const Place& place) {
 class TileCutter {
  public:
   TileCutter(const CityModel& city_grid, const LocatedCity& located, const Grid& grid, Assign assign, Ground ground,
-             std::span<const Base> bases)
+             std::span<const Base> bases, std::stop_token stop)
       : city_(city_grid),
         sources_(located.sources),
         origin_m_(located.georeference.origin_m),
@@ -91,6 +95,7 @@ class TileCutter {
         assign_(assign),
         ground_(std::move(ground)),
         bases_(bases),
+        stop_(std::move(stop)),
         ground_triangles_(ground_.triangles()) {
     tiles_.cells = grid.cells;
     tiles_.tiles.resize(static_cast<std::size_t>(grid.cells.size()));
@@ -103,7 +108,7 @@ class TileCutter {
     note_ground_heights();
     const auto buildings = city_.buildings();
     make_and_place(
-        buildings.size(),
+        buildings.size(), stop_,
         [&](std::size_t n) { return cut_building(city_, buildings[n], grid_, assign_, tiles_.height_origin_m); },
         [&](std::size_t n, BuildingPieces& pieces) { place_building(buildings[n], pieces, report); });
     place_overhanging_buildings();
@@ -133,7 +138,7 @@ class TileCutter {
     tiles_.surfaces.push_back({ground_building, 0, 0, SurfaceKind::ground, {0.0, 0.0, 1.0}, 0.0});
     const std::vector<std::array<Point3d, 3>> triangles = std::move(ground_triangles_);  // freed before the buildings are cut
     make_and_place(
-        triangles.size(), [&](std::size_t n) { return cut_within(triangles[n], grid_, tiles_.height_origin_m); },
+        triangles.size(), stop_, [&](std::size_t n) { return cut_within(triangles[n], grid_, tiles_.height_origin_m); },
         [&](std::size_t n, const std::vector<CellPiece>& pieces) {
           const auto& [a, b, c] = triangles[n];
           tiles_.surfaces[ground_surface].area_m2 += 0.5 * norm(cross(b - a, c - a));
@@ -150,7 +155,7 @@ class TileCutter {
   void place_ground_edges() {
     const std::vector<HorizonSegment> edges = ground_.horizon_edges();
     make_and_place(
-        edges.size(), [&](std::size_t n) { return cut_edge(edges[n], grid_, tiles_.height_origin_m); },
+        edges.size(), stop_, [&](std::size_t n) { return cut_edge(edges[n], grid_, tiles_.height_origin_m); },
         [&](std::size_t, const std::vector<CellEdge>& pieces) {
           for (const CellEdge& piece : pieces)
             if (grid_.cells.contains(piece.cell) && !lies_on_rim(piece)) place(piece);
@@ -275,6 +280,7 @@ class TileCutter {
   /// Runs after all buildings are placed: the triangles that close a lower border may belong to any building.
   void place_overhanging_buildings() {
     oneapi::tbb::parallel_for(std::size_t{0}, overhanging_.size(), [this](std::size_t n) {
+      throw_if_cancelled(stop_);
       std::vector<CellEdge> open;
       for (const CellEdge& underside : overhanging_[n].undersides)
         for (const HorizonEdge& part : without_contacts(underside.edge, tiles_.tile(underside.cell)))
@@ -347,6 +353,7 @@ class TileCutter {
   Assign assign_;
   Ground ground_;
   std::span<const Base> bases_;  ///< for each building
+  std::stop_token stop_;
   std::vector<std::array<Point3d, 3>> ground_triangles_;
   std::vector<OverhangingBuilding> overhanging_;
   TileSet tiles_;
@@ -355,7 +362,8 @@ class TileCutter {
 }  // namespace
 
 TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, const std::optional<TerrainRaster>& terrain,
-                       Report& report) {
+                       Report& report, const std::stop_token& stop) {
+  throw_if_cancelled(stop);
   // The ground covers the whole grid between and around buildings. Of a terrain alone nothing is known beyond its points
   const GroundExtent extent = located.city.buildings().empty() ? GroundExtent::points : GroundExtent::rectangle;
   std::optional<Ground> surveyed = surveyed_ground(terrain, located.relief_points, grid, extent);
@@ -370,7 +378,7 @@ TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, con
   // The bases of buildings define the ground only where no survey does
   const std::vector<Base> bases = surveyed ? std::vector(city.buildings().size(), Base::on_ground) : bases_of(city);
   Ground ground = surveyed ? std::move(*surveyed) : Ground(base_points(city, bases), grid.rectangle(), extent);
-  return TileCutter(city, located, grid, assign, std::move(ground), bases).run(report);
+  return TileCutter(city, located, grid, assign, std::move(ground), bases, stop).run(report);
 }
 
 }  // namespace farlod::tiles

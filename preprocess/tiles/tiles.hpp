@@ -3,11 +3,12 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 
 #include "city/located_city.hpp"
-#include "city/problem.hpp"
 #include "city/terrain_raster.hpp"
 #include "contract/grid.hpp"
+#include "farlod/problem.hpp"
 #include "tiles/tile_set.hpp"
 
 namespace farlod::tiles {
@@ -21,8 +22,9 @@ inline constexpr double planarity_tolerance_m = 0.01;
 ///   (3) the result does not depend on the number of threads
 /// The ground is a network through the nodes of the terrain's raster; without one, through the points of the city's relief;
 /// without both, through the buildings' base points. Onto raster or relief those buildings are lifted that know only their height
-/// above ground.
+/// above ground. Throws Cancelled when `stop` is asked for.
 [[nodiscard]] TileSet cut_into_tiles(LocatedCity city, const Grid& grid, Assign assign,
-                                     const std::optional<TerrainRaster>& terrain, Report& report);
+                                     const std::optional<TerrainRaster>& terrain, Report& report,
+                                     const std::stop_token& stop = {});
 
 }  // namespace farlod::tiles

@@ -19,7 +19,7 @@
 #include "evaluate/sky_evaluator.hpp"
 #include "farmap/horizon_map_baker.hpp"
 #include "package/far_map_writer.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "package/tiles_writer.hpp"
 #include "receivers/receiver.hpp"
 
@@ -51,7 +51,7 @@ package::Manifest manifest_of(const TileSet& tiles, const Grid& grid, Assign ass
   return manifest;
 }
 
-std::vector<CellReceivers> random_receivers(const Package& package, const FarErrorSettings& settings) {
+std::vector<CellReceivers> random_receivers(const PackageReader& package, const FarErrorSettings& settings) {
   const CellRange& cells = package.grid().cells;
   Random chosen(settings.seed);
   std::vector<CellReceivers> result;
@@ -86,9 +86,10 @@ struct Answers {
   explicit Answers(std::size_t count) : svf(count), low(count), high(count) {}
 };
 
-Answers evaluate(const Package& package, std::span<const CellReceivers> cells, Engine engine, std::size_t rays) {
+Answers evaluate(const PackageReader& package, std::span<const CellReceivers> cells, Engine engine, std::size_t rays,
+                 const std::stop_token& stop) {
   Answers answers(count_receivers(cells));
-  const SkyEvaluator evaluator(package, {engine, SkyWeight::cosine, rays});
+  const SkyEvaluator evaluator(package, {engine, SkyWeight::cosine, rays}, stop);
   oneapi::tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t n) {
     evaluator.evaluate(cells[n], SkyAnswers(answers.svf, answers.low, answers.high));
   });
@@ -135,17 +136,18 @@ struct FarMapTrial::Impl {
   const TileSet& tiles;
   Grid grid;
   FarErrorSettings settings;
+  std::stop_token stop;
   package::Manifest manifest;
   std::vector<std::vector<std::byte>> tile_bytes;  ///< of each block
   std::vector<CellReceivers> receivers;
   Answers exact{0};
 
-  Impl(const TileSet& t, const Grid& g, Assign assign, const FarErrorSettings& s)
-      : tiles(t), grid(g), settings(s), manifest(manifest_of(t, g, assign)) {
+  Impl(const TileSet& t, const Grid& g, Assign assign, const FarErrorSettings& s, std::stop_token asked)
+      : tiles(t), grid(g), settings(s), stop(std::move(asked)), manifest(manifest_of(t, g, assign)) {
     for (const Block block : grid.blocks()) tile_bytes.push_back(tiles_file_without_maps(tiles, grid, block));
-    const Package package(contents(grid.neighborhood, {}));
+    const PackageReader package(contents(grid.neighborhood, {}));
     receivers = random_receivers(package, settings);
-    exact = evaluate(package, receivers, Engine::exact, settings.rays);
+    exact = evaluate(package, receivers, Engine::exact, settings.rays, stop);
   }
 
   [[nodiscard]] PackageInMemory contents(int neighborhood, std::map<Cell, FarHorizon> far_horizons) const {
@@ -172,8 +174,9 @@ struct FarMapTrial::Impl {
   }
 };
 
-FarMapTrial::FarMapTrial(const TileSet& tiles, const Grid& grid, Assign assign, const FarErrorSettings& settings)
-    : impl_(std::make_unique<Impl>(tiles, grid, assign, settings)) {}
+FarMapTrial::FarMapTrial(const TileSet& tiles, const Grid& grid, Assign assign, const FarErrorSettings& settings,
+                         std::stop_token stop)
+    : impl_(std::make_unique<Impl>(tiles, grid, assign, settings, std::move(stop))) {}
 FarMapTrial::~FarMapTrial() = default;
 
 FarErrorEstimate FarMapTrial::run(int neighborhood, const HorizonMapSettings& far_map) const {
@@ -184,7 +187,8 @@ FarErrorEstimate FarMapTrial::run(int neighborhood, const HorizonMapSettings& fa
   // Bake the far map of each cell by itself: its edges are in its own frame
   const HorizonMapBaker baker(impl_->tiles, grid, far_map);
   std::vector<BakedHorizons> baked(cells.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t n) { baked[n] = baker.bake(std::array{cells[n]}); });
+  oneapi::tbb::parallel_for(std::size_t{0}, cells.size(),
+                            [&](std::size_t n) { baked[n] = baker.bake(std::array{cells[n]}, impl_->stop); });
   std::map<Cell, FarHorizon> far_horizons;
   std::size_t explicit_edges = 0;
   for (std::size_t n = 0; n < cells.size(); ++n) {
@@ -192,9 +196,9 @@ FarErrorEstimate FarMapTrial::run(int neighborhood, const HorizonMapSettings& fa
     explicit_edges += baked[n].cells.front().explicit_edges.size();
   }
   // Evaluate with the rays of the exact answers: what differs is due to the far maps
-  const Package package(impl_->contents(neighborhood, std::move(far_horizons)));
-  FarErrorEstimate result =
-      compare(evaluate(package, impl_->receivers, Engine::rays, impl_->settings.rays), impl_->exact, impl_->settings.rays);
+  const PackageReader package(impl_->contents(neighborhood, std::move(far_horizons)));
+  FarErrorEstimate result = compare(evaluate(package, impl_->receivers, Engine::rays, impl_->settings.rays, impl_->stop),
+                                    impl_->exact, impl_->settings.rays);
   result.explicit_edges_per_cell = static_cast<double>(explicit_edges) / static_cast<double>(cells.size());
   result.near_triangles_per_cell = impl_->near_triangles_per_cell(grid, cells);
   return result;

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <stop_token>
 
 #include "contract/grid.hpp"
+#include "farlod/pack.hpp"
 #include "farmap/far_map_settings.hpp"
 #include "tiles/tile_set.hpp"
 #include "tiles/tiles.hpp"
@@ -22,23 +24,12 @@ struct FarErrorSettings {
   double eye_height_m = 1.5;  ///< above the ground; on roofs receivers stand on the roof itself
 };
 
-/// What far maps do to the sky view factors of those receivers, against `exact` with the same rays: the error of sampling the sky
-/// is not in it.
-struct FarErrorEstimate {
-  std::size_t receivers = 0;
-  double mean_error = 0.0, max_error = 0.0;  ///< |estimate − exact|
-  /// From the estimate to the farther of the two bounds: 99 % of the receivers have no wider interval on that side.
-  double p99_half_width = 0.0;
-  double explicit_edges_per_cell = 0.0;
-  double near_triangles_per_cell = 0.0;  ///< in the neighborhood
-};
-
 /// Tries out far maps of the kind `horizon`: bakes those of a few cells, and evaluates receivers there with the evaluator that
 /// farlod-svf uses. Receivers and their exact answers depend on neither the neighborhood nor the far maps, and are found once.
 class FarMapTrial {
  public:
-  /// The tiles must outlive it.
-  FarMapTrial(const TileSet& tiles, const Grid& grid, Assign assign, const FarErrorSettings& settings);
+  /// The tiles must outlive it. Both functions end with Cancelled when `stop` is asked for.
+  FarMapTrial(const TileSet& tiles, const Grid& grid, Assign assign, const FarErrorSettings& settings, std::stop_token stop = {});
   ~FarMapTrial();
 
   /// The same for the same arguments, on every machine and for any number of threads.

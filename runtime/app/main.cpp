@@ -1,21 +1,17 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <new>
 
-#include "app/evaluation.hpp"
-#include "app/memory_limit.hpp"
 #include "app/svf_options.hpp"
 #include "app/svf_summary.hpp"
+#include "app/written_run.hpp"
 #include "console/exit_code.hpp"
-#include "package/package_error.hpp"
-#include "receivers/point_reader.hpp"
-#include "results/output_error.hpp"
+#include "farlod/error.hpp"
 
 namespace farlod {
 namespace {
@@ -39,28 +35,54 @@ void require_folder_of(const std::filesystem::path& file) {
   throw OutputError(file, "there is no folder " + folder.string() + "; make it first, or choose another");
 }
 
-SvfRun evaluate(const SvfOptions& options) {
-  const auto start = Clock::now();
-  Package package(options.package);
-  const double open_s = seconds_since(start);
-  SvfRun run = options.source == ReceiverSource::grid       ? run_raster(package, options)
-               : options.source == ReceiverSource::surfaces ? run_surfaces(package, options)
-                                                            : run_points(package, options);
-  run.seconds.open = open_s;
+RunSettings run_settings(const SvfOptions& options, ProgressLine& progress) {
+  RunSettings run;
+  run.threads = thread_count(options.run);
+  run.memory_limit_mib = options.memory_limit_mib;
+  run.on_progress = [&progress](const Progress& p) { progress.update(p.done, p.all); };
   return run;
 }
 
-void print_sanity(const SvfRun& run) {
+WrittenRun evaluate(const SvfOptions& options) {
+  const auto start = Clock::now();
+  const Package package(options.package);
+  const double open_s = seconds_since(start);
+  ProgressLine progress("sky view factors", options.run.verbosity);
+  const RunSettings run = run_settings(options, progress);
+  WrittenRun written = options.source == ReceiverSource::grid       ? write_raster(package, options, run)
+                       : options.source == ReceiverSource::surfaces ? write_surfaces(package, options, run)
+                                                                    : write_points(package, options, run);
+  written.open_s = open_s;
+  return written;
+}
+
+void print_sanity(const EvaluationSummary& run) {
   if (!run.svf_mean)
     return fmt::print("No receiver has an answer: all of them lie inside buildings or outside of the package.\n");
   if (*run.svf_min == *run.svf_max && run.receivers > 100)
     fmt::print("Every receiver has the same value: is the package the right one, and the height above its roofs?\n");
 }
 
-void print_run(const SvfRun& run, const SvfOptions& options, double total_s) {
-  const std::string quantity = quantity_name(options.sky.weight);
+/// How exact the answers are, as far as somebody asked.
+void print_accuracy(const EvaluationSummary& run, const EvaluationSettings& asked) {
+  if (asked.max_error)
+    fmt::print(
+        "Error of {:g} at the most: {} azimuths, {} rays where horizons are not enough, {} rays traced against the whole city\n",
+        *asked.max_error, run.accuracy.azimuths, run.accuracy.rays, run.retraced_rays);
+  if (run.bounds)
+    fmt::print("Certain intervals: {:.4f} wide on average, {:.4f} at the most\n", run.bounds->mean, run.bounds->max);
+  if (run.errors)
+    fmt::print("Errors against exact ({} random receivers, {} rays): mean {:.4f}, 99 % within {:.4f}, max {:.4f}, bias {:+.4f}\n",
+               run.errors->count, run.errors->rays, run.errors->mean_abs_error, run.errors->p99_abs_error,
+               run.errors->max_abs_error, run.errors->bias);
+}
+
+void print_run(const WrittenRun& written, const SvfOptions& options, double total_s) {
+  const EvaluationSummary& run = written.summary;
+  const EvaluationSettings& asked = options.evaluation;
+  const std::string quantity = quantity_name(asked.weight);
   fmt::print("{} receivers, {:.1f} s in all; no data: {} inside buildings or without ground", run.receivers, total_s,
-             run.inside_buildings);
+             run.no_data);
   if (run.beyond_grid > 0) fmt::print(", {} beyond the grid", run.beyond_grid);
   fmt::print("\n");
   if (run.svf_mean) fmt::print("{}: min {:.4f}, mean {:.4f}, max {:.4f}\n", quantity, *run.svf_min, *run.svf_mean, *run.svf_max);
@@ -68,30 +90,20 @@ void print_run(const SvfRun& run, const SvfOptions& options, double total_s) {
   if (run.outside_of_grid > 0)
     fmt::print("{} receivers lie outside of the grid, where there is no far map: they were traced against the whole city.\n",
                run.outside_of_grid);
-  if (options.sky.engine == Engine::automatic && run.by_rays > 0)
+  if (asked.engine == Engine::automatic && run.by_rays > 0)
     fmt::print(
         "{} of the receivers needed rays ({} each at the most, about): they may see sky below something that overhangs{}.\n",
-        run.by_rays, options.sky.rays, options.max_error ? ", or the far map leaves them more uncertain than allowed" : "");
-  if (options.max_error)
-    fmt::print(
-        "Error of {:g} at the most: {} azimuths, {} rays where horizons are not enough, {} rays traced against the whole city\n",
-        *options.max_error, options.sky.azimuths, options.sky.rays, run.retraced_rays);
-  if (run.bounds)
-    fmt::print("Certain intervals: {:.4f} wide on average, {:.4f} at the most\n", run.bounds->mean, run.bounds->max);
-  if (run.errors)
-    fmt::print("Errors against exact ({} random receivers, {} rays): mean {:.4f}, 99 % within {:.4f}, max {:.4f}, bias {:+.4f}\n",
-               run.errors->count, std::max(verify_rays, options.sky.rays), run.errors->mean_abs_error, run.errors->p99_abs_error,
-               run.errors->max_abs_error, run.errors->bias);
-  for (const auto& file : run.files) fmt::print("{}\n", file.string());
+        run.by_rays, run.accuracy.rays, asked.max_error ? ", or the far map leaves them more uncertain than allowed" : "");
+  print_accuracy(run, asked);
+  for (const auto& file : written.files) fmt::print("{}\n", file.string());
 }
 
 int run(const SvfOptions& options) {
-  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
   for (const std::filesystem::path& file :
        {options.output, std::filesystem::path(options.preview_file), std::filesystem::path(options.run.summary_file)})
     require_folder_of(file);
   const auto start = Clock::now();
-  const SvfRun result = evaluate(options);
+  const WrittenRun result = evaluate(options);
   const double total_s = seconds_since(start);
   write_summary(options.run.summary_file, svf_summary_json(result, options, total_s));
   if (options.run.verbosity == Verbosity::normal) print_run(result, options, total_s);
@@ -111,16 +123,22 @@ int main(int argc, char** argv) {
   try {
     const ParsedSvfOptions parsed = parse_svf_options(argc, argv);
     return parsed.options ? run(*parsed.options) : parsed.exit_code;
+  } catch (const InvalidArgument& error) {
+    return complain(error, exit_usage);
   } catch (const PackageDamaged& error) {
     return complain(error, exit_damaged_package);
   } catch (const PackageUnusable& error) {
     return complain(error, exit_unusable_input);
-  } catch (const PointsError& error) {
+  } catch (const InputError& error) {
     return complain(error, exit_unusable_input);
   } catch (const OutputError& error) {
     return complain(error, exit_unusable_input);
   } catch (const LimitReached& error) {
-    return complain(error, exit_limit_reached);
+    fmt::print(stderr,
+               "farlod-svf: {} --memory-limit is the limit; --threads, --grid and --bbox say how much is needed; --engine exact, "
+               "--verify and --max-error trace the whole city.\n",
+               error.what());
+    return exit_limit_reached;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "farlod-svf: out of memory. Evaluate a part at a time (--bbox), or use fewer --threads.\n");
     return exit_limit_reached;

@@ -11,7 +11,7 @@
 
 #include "console/exit_code.hpp"
 #include "console/number_range.hpp"
-#include "evaluate/error_budget.hpp"
+#include "farlod/error.hpp"
 
 namespace farlod {
 namespace {
@@ -32,7 +32,6 @@ std::string known_endings() {
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
   std::string package, output, points, surfaces, at, bbox, engine = "auto", sky = "cosine", directions = "partition";
-  std::optional<std::size_t> rays, azimuths;
   bool on_surface = false;
 };
 
@@ -56,12 +55,12 @@ void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->check(CLI::IsMember({"roofs", "walls", "all"}));
   receivers->add_option("--at", raw.at, "One point: X,Y or X,Y,Z in the package's CRS");
   receivers->require_option(1);
-  app.add_option("--height", o.height_m, "Metres above ground (not for --surfaces, nor for points with a z)")
+  app.add_option("--height", o.placing.height_m, "Metres above ground (not for --surfaces, nor for points with a z)")
       ->check(between(0.0, 10000.0))
       ->capture_default_str()
       ->group("Placing");
   app.add_flag("--on-surface", raw.on_surface, "Count --height from whatever is highest there, ground or roof")->group("Placing");
-  app.add_option("--spacing", o.spacing_m, "Metres between receivers on surfaces")
+  app.add_option("--spacing", o.surfaces.spacing_m, "Metres between receivers on surfaces")
       ->check(between(0.05, 1000.0))
       ->capture_default_str()
       ->group("Placing");
@@ -77,15 +76,15 @@ void add_output_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_option("--preview", o.preview_file, "Also draw the raster as this PNG, with a colour scale")->group("Output");
 }
 
-/// The options of SkySettings.
-void add_sky_options(CLI::App& app, RawOptions& raw) {
+/// How exactly the sky is looked at.
+void add_sky_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_option("--engine", raw.engine,
                  "auto: horizons, and rays in the gaps below what overhangs; horizon: horizons alone; rays: directions of rays "
                  "compared with horizons, and traced in those gaps; exact: rays against all tiles, the reference")
       ->check(CLI::IsMember({"auto", "horizon", "rays", "exact"}))
       ->capture_default_str()
       ->group("Accuracy");
-  app.add_option("--rays", raw.rays, "Directions a receiver, for rays (default: 1000, or as many as --max-error needs)")
+  app.add_option("--rays", o.evaluation.rays, "Directions a receiver, for rays (default: 1000, or as many as --max-error needs)")
       ->check(CLI::Range(1, 10000000))
       ->group("Accuracy");
   app.add_option("--directions", raw.directions,
@@ -93,7 +92,7 @@ void add_sky_options(CLI::App& app, RawOptions& raw) {
       ->check(CLI::IsMember({"partition", "fibonacci"}))
       ->capture_default_str()
       ->group("Accuracy");
-  app.add_option("--azimuths", raw.azimuths, "Azimuths of a horizon (default: 256, or as many as --max-error needs)")
+  app.add_option("--azimuths", o.evaluation.azimuths, "Azimuths of a horizon (default: 256, or as many as --max-error needs)")
       ->check(CLI::Range(4, 1000000))
       ->group("Accuracy");
   app.add_option("--sky", raw.sky, "Weight of the sky: cosine (svf) or solid (svf_solid)")
@@ -103,13 +102,14 @@ void add_sky_options(CLI::App& app, RawOptions& raw) {
 }
 
 void add_error_options(CLI::App& app, SvfOptions& o) {
-  app.add_option("--max-error", o.max_error,
+  app.add_option("--max-error", o.evaluation.max_error,
                  "Largest error allowed: chooses azimuths and rays, and traces exactly where the far map is not enough")
       ->check(between(0.0001, 1.0))
       ->group("Accuracy");
-  app.add_flag("--bounds", o.bounds, "Also write a certain lower and upper bound of each value, with these azimuths or rays")
+  app.add_flag("--bounds", o.evaluation.bounds,
+               "Also write a certain lower and upper bound of each value, with these azimuths or rays")
       ->group("Accuracy");
-  app.add_option("--verify", o.verify_count, "Also compute this many random receivers exactly, and report the errors")
+  app.add_option("--verify", o.evaluation.verify, "Also compute this many random receivers exactly, and report the errors")
       ->check(CLI::Range(0, 1000000000))
       ->group("Accuracy");
 }
@@ -126,15 +126,15 @@ void resolve_place(const RawOptions& raw, SvfOptions& o) {
     const auto n = numbers_in(raw.at, "--at", "X,Y or X,Y,Z");
     if (n.size() != 2 && n.size() != 3) throw CLI::ValidationError("--at", "give X,Y or X,Y,Z");
     o.source = ReceiverSource::at;
-    o.at = {{n[0], n[1]}, n.size() == 3 ? std::optional(n[2]) : std::nullopt};
+    o.at = {"1", n[0], n[1], n.size() == 3 ? std::optional(n[2]) : std::nullopt};
   } else if (!raw.points.empty()) {
     o.source = ReceiverSource::points;
     o.points_file = raw.points;
   } else if (!raw.surfaces.empty()) {
     o.source = ReceiverSource::surfaces;
-    o.surfaces = raw.surfaces == "roofs"   ? SurfaceChoice::roofs
-                 : raw.surfaces == "walls" ? SurfaceChoice::walls
-                                           : SurfaceChoice::all;
+    o.surfaces.choice = raw.surfaces == "roofs"   ? SurfaceChoice::roofs
+                        : raw.surfaces == "walls" ? SurfaceChoice::walls
+                                                  : SurfaceChoice::all;
   }
   if (raw.bbox.empty()) return;
   const auto n = numbers_in(raw.bbox, "--bbox", "X0,Y0,X1,Y1");
@@ -142,9 +142,9 @@ void resolve_place(const RawOptions& raw, SvfOptions& o) {
     throw CLI::ValidationError("--bbox", "give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
   if (o.source != ReceiverSource::grid) throw CLI::ValidationError("--bbox", "it goes with --grid");
   o.bbox_projected = Box2d{{n[0], n[1]}, {n[2], n[3]}};
-  constexpr double most_pixels = 1e11;  // beyond what any machine holds, and below what a count can be
-  if ((n[2] - n[0]) / o.grid_step_m * ((n[3] - n[1]) / o.grid_step_m) > most_pixels)
-    throw CLI::ValidationError("--bbox", "too many pixels: give a smaller part, or a larger --grid");
+  constexpr double farthest_m = 1e8;  // no map is as large
+  for (const double x : n)
+    if (std::abs(x) > farthest_m) throw CLI::ValidationError("--bbox", fmt::format("{:g} lies nowhere on Earth", x));
 }
 
 bool fits(const OutputFormat& format, ReceiverSource source) {
@@ -167,7 +167,7 @@ void require_format_that_fits(const SvfOptions& o) {
   if (!fits_source(*o.format))
     throw CLI::ValidationError("-o", "only --grid makes a raster: " + advice(fits_source) + " for points and surfaces");
   const auto holds_bounds = [&](const OutputFormat& f) { return fits_source(f) && f.holds_bounds; };
-  if (o.bounds && !o.format->holds_bounds)
+  if (o.evaluation.bounds && !o.format->holds_bounds)
     throw CLI::ValidationError("--bounds", "a file that ends in " + ending + " has no room for bounds: " + advice(holds_bounds));
 }
 
@@ -192,25 +192,13 @@ void resolve_output(const RawOptions& raw, SvfOptions& o) {
     throw CLI::ValidationError("--points-crs", "it goes with --points");
 }
 
-/// Half of the allowed error is for the sky between the samples, half for what the far map does not decide; where the user fixes
-/// the samples, the map gets what they leave.
-void resolve_accuracy(const RawOptions& raw, SvfOptions& o) {
-  if (raw.rays) o.sky.rays = *raw.rays;
-  if (raw.azimuths) o.sky.azimuths = *raw.azimuths;
-  if (!o.max_error) return;
-  if (!raw.rays) o.sky.rays = rays_for_sampling_error(0.5 * *o.max_error);
-  if (!raw.azimuths) o.sky.azimuths = azimuths_for_error(0.5 * *o.max_error);
-  // That there is one decides whether the error of rays counts; how large it is follows from that
-  o.sky.max_far_error = *o.max_error;
-  const double left = *o.max_error - sampling_error_of(o.sky);
-  if (left <= 0.0)
-    throw CLI::ValidationError(
-        "--max-error",
-        fmt::format("{:g} is less than {} rays and {} azimuths can keep: leave --rays and --azimuths out, or give at "
-                    "least {} rays and {} azimuths",
-                    *o.max_error, o.sky.rays, o.sky.azimuths, rays_for_sampling_error(0.75 * *o.max_error),
-                    azimuths_for_error(0.75 * *o.max_error)));
-  o.sky.max_far_error = left;
+/// Refuses numbers of rays and azimuths that cannot keep the allowed error.
+void require_accuracy(const EvaluationSettings& settings) {
+  try {
+    (void)accuracy_of(settings);
+  } catch (const InvalidArgument& error) {
+    throw CLI::ValidationError("--max-error", error.what());
+  }
 }
 
 Engine engine_of(const std::string& name) {
@@ -223,13 +211,11 @@ void resolve(const RawOptions& raw, SvfOptions& o) {
   o.package = raw.package;
   resolve_place(raw, o);
   resolve_output(raw, o);
-  // On the surface itself a receiver would see nothing but that surface
-  o.height_m = std::max(o.height_m, static_cast<double>(surface_offset_m));
-  o.height_above = raw.on_surface ? HeightAbove::highest_surface : HeightAbove::ground;
-  o.sky.directions = raw.directions == "fibonacci" ? DirectionSet::fibonacci : DirectionSet::partition;
-  o.sky.engine = engine_of(raw.engine);
-  resolve_accuracy(raw, o);
-  o.sky.weight = raw.sky == "solid" ? SkyWeight::solid_angle : SkyWeight::cosine;
+  o.placing.above = raw.on_surface ? HeightAbove::highest_surface : HeightAbove::ground;
+  o.evaluation.directions = raw.directions == "fibonacci" ? DirectionSet::fibonacci : DirectionSet::partition;
+  o.evaluation.engine = engine_of(raw.engine);
+  o.evaluation.weight = raw.sky == "solid" ? SkyWeight::solid_angle : SkyWeight::cosine;
+  require_accuracy(o.evaluation);
 }
 
 }  // namespace
@@ -241,7 +227,7 @@ ParsedSvfOptions parse_svf_options(int argc, char** argv) {
   SvfOptions options;
   add_receiver_options(app, raw, options);
   add_output_options(app, raw, options);
-  add_sky_options(app, raw);
+  add_sky_options(app, raw, options);
   add_error_options(app, options);
   add_memory_option(app, options);
   add_run_options(app, "farlod-svf", options.run);

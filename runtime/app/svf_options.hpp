@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "console/run_options.hpp"
-#include "evaluate/sky_evaluator.hpp"
 #include "farlod/box.hpp"
-#include "receivers/point_receivers.hpp"
-#include "receivers/surface_receivers.hpp"
+#include "farlod/evaluation.hpp"
+#include "farlod/surfaces.hpp"
+#include "points/point_reader.hpp"
 #include "results/output_format.hpp"
 
 namespace farlod {
@@ -29,16 +29,11 @@ struct SvfOptions {
   double grid_step_m = 0.0;
   std::filesystem::path points_file;
   std::string points_crs;
-  SurfaceChoice surfaces = SurfaceChoice::all;
-  double spacing_m = 2.0;
-  PlaceOfReceiver at;
-  HeightAbove height_above = HeightAbove::ground;
-  double height_m = 1.5;
+  SurfaceSettings surfaces;
+  RequestedPoint at;
+  Placing placing;
   std::optional<Box2d> bbox_projected;
-  SkySettings sky;
-  bool bounds = false;              ///< certain [low, high] beside each value
-  std::optional<double> max_error;  ///< what the user asked for; `sky` says what follows from it
-  std::size_t verify_count = 0;
+  EvaluationSettings evaluation;
   std::string preview_file;
   std::optional<std::uint64_t> memory_limit_mib;
   RunOptions run;

@@ -4,11 +4,11 @@
 
 #include <string>
 
-#include "app/evaluation.hpp"
+#include "app/written_run.hpp"
 
 namespace farlod {
 
 /// The text of `--summary`; its keys are listed in docs/stages/results.md.
-[[nodiscard]] std::string svf_summary_json(const SvfRun& run, const SvfOptions& options, double total_seconds);
+[[nodiscard]] std::string svf_summary_json(const WrittenRun& written, const SvfOptions& options, double total_seconds);
 
 }  // namespace farlod

@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app/svf_summary.hpp"
 #include "console/peak_memory.hpp"
-#include "evaluate/error_budget.hpp"
 
 namespace farlod {
 namespace {
@@ -29,24 +27,25 @@ const char* name_of(Engine engine) {
   return "rays";
 }
 
-Json json_of(const RunSeconds& seconds, double total) {
+Json seconds_json(const WrittenRun& written, double total) {
+  const EvaluationSeconds& seconds = written.summary.seconds;
   return {{"total", total},
-          {"open", seconds.open},
+          {"open", written.open_s},
           {"scenes", seconds.scenes},
           {"evaluate", seconds.evaluate},
-          {"write", seconds.write}};
+          {"write", seconds.deliver + written.write_s}};
 }
 
-Json error_budget_json(const SvfRun& run, const SvfOptions& options) {
-  return {{"allowed", *options.max_error},
-          {"sampling_share", sampling_error_of(options.sky)},
-          {"far_share", *options.sky.max_far_error},
+Json error_budget_json(const EvaluationSummary& run, double allowed) {
+  return {{"allowed", allowed},
+          {"sampling_share", run.accuracy.sampling_error},
+          {"far_share", *run.accuracy.far_error_allowed},
           {"rays_traced_exactly", run.retraced_rays}};
 }
 
-Json json_of(const ErrorSummary& errors, std::size_t rays) {
+Json json_of(const ErrorSummary& errors) {
   return {{"count", errors.count},
-          {"rays", rays},
+          {"rays", errors.rays},
           {"mean_abs_error", errors.mean_abs_error},
           {"p99_abs_error", errors.p99_abs_error},
           {"max_abs_error", errors.max_abs_error},
@@ -55,23 +54,24 @@ Json json_of(const ErrorSummary& errors, std::size_t rays) {
 
 }  // namespace
 
-std::string svf_summary_json(const SvfRun& run, const SvfOptions& options, double total_seconds) {
+std::string svf_summary_json(const WrittenRun& written, const SvfOptions& options, double total_seconds) {
+  const EvaluationSummary& run = written.summary;
   const double busy_s = run.seconds.scenes + run.seconds.evaluate;
   Json j = {
       {"receivers", run.receivers},
-      {"nodata", run.inside_buildings + run.beyond_grid},
-      {"engine", name_of(options.sky.engine)},
-      {"seconds", json_of(run.seconds, total_seconds)},
+      {"nodata", run.no_data + run.beyond_grid},
+      {"engine", name_of(options.evaluation.engine)},
+      {"seconds", seconds_json(written, total_seconds)},
       {"receivers_per_second", busy_s > 0.0 ? static_cast<double>(run.receivers) / busy_s : 0.0},
-      {"rays", options.sky.rays},
-      {"azimuths", options.sky.azimuths},
+      {"rays", run.accuracy.rays},
+      {"azimuths", run.accuracy.azimuths},
       {"receivers_by_rays", run.by_rays},
       {"peak_memory_mib", peak_memory_mib()},
       {"svf",
        {{"min", number_or_null(run.svf_min)}, {"mean", number_or_null(run.svf_mean)}, {"max", number_or_null(run.svf_max)}}}};
-  if (options.max_error) j["max_error"] = error_budget_json(run, options);
+  if (options.evaluation.max_error) j["max_error"] = error_budget_json(run, *options.evaluation.max_error);
   if (run.bounds) j["bounds"] = {{"mean_width", run.bounds->mean}, {"max_width", run.bounds->max}};
-  if (run.errors) j["verify"] = json_of(*run.errors, std::max(verify_rays, options.sky.rays));
+  if (run.errors) j["verify"] = json_of(*run.errors);
   return j.dump(1) + "\n";
 }
 

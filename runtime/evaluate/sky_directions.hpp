@@ -6,16 +6,11 @@
 #include <vector>
 
 #include "contract/frame.hpp"
+#include "farlod/evaluation.hpp"
 #include "farlod/point.hpp"
 #include "horizon/sky_partition.hpp"
 
 namespace farlod {
-
-/// The set of directions in which rays are sent.
-enum class DirectionSet {
-  partition,  ///< one ray in each cell of the Beckers & Beckers partition (SkyPartition), as in the paper
-  fibonacci   ///< a spherical Fibonacci lattice with the sky's weight: fixed, of low discrepancy
-};
 
 /// The directions in which a receiver looks, in the grid frame. They are fixed in the city frame, so that turning the grid
 /// changes no receiver's directions.

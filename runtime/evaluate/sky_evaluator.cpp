@@ -9,8 +9,10 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
+#include "contract/cancellation.hpp"
 #include "contract/expects.hpp"
 #include "evaluate/error_budget.hpp"
 #include "evaluate/visibility.hpp"
@@ -68,8 +70,9 @@ void store(const SvfInterval& svf, std::size_t index, const SkyAnswers& answers)
 /// Counts the free ones of the directions by tracing, and stores the answers; `origins` are those of the receivers in the frame
 /// of the occluder.
 void count_and_store(const Occluder& occluder, std::span<const Point3f> origins, std::span<const Point3d> directions,
-                     std::span<const Receiver> receivers, std::size_t ray_count, const SkyAnswers& answers) {
-  const std::vector<std::uint32_t> free = count_free(occluder, origins, directions);
+                     std::span<const Receiver> receivers, std::size_t ray_count, const std::stop_token& stop,
+                     const SkyAnswers& answers) {
+  const std::vector<std::uint32_t> free = count_free(occluder, origins, directions, stop);
   for (std::size_t n = 0; n < receivers.size(); ++n)
     store(svf_of({free[n], free[n], free[n]}, ray_count), receivers[n].index, answers);
 }
@@ -96,15 +99,16 @@ struct SkyEvaluator::WholeCityOnDemand {
   std::once_flag once;
   std::optional<WholeCity> city;
 
-  const WholeCity& get(const Package& package) {
-    std::call_once(once, [&] { city.emplace(package); });
+  const WholeCity& get(const PackageReader& package, const std::stop_token& stop) {
+    std::call_once(once, [&] { city.emplace(package, stop); });
     return *city;
   }
 };
 
-SkyEvaluator::SkyEvaluator(const Package& package, const SkySettings& settings)
+SkyEvaluator::SkyEvaluator(const PackageReader& package, const SkySettings& settings, std::stop_token stop)
     : package_(package),
       settings_(settings),
+      stop_(std::move(stop)),
       directions_(settings.weight, settings.rays, package.grid().rotation, settings.directions),
       azimuths_(AzimuthSampling::even(settings.azimuths, package.grid().rotation)),
       city_(std::make_unique<WholeCityOnDemand>()) {
@@ -120,6 +124,7 @@ EvaluationMethod SkyEvaluator::method_for(Cell cell) const {
 
 void SkyEvaluator::evaluate(const CellReceivers& cell, const SkyAnswers& answers) const {
   if (cell.receivers.empty()) return;
+  throw_if_cancelled(stop_);
   switch (method_for(cell.cell)) {
     case EvaluationMethod::horizons_and_rays:
     case EvaluationMethod::horizons_alone:
@@ -142,13 +147,13 @@ void SkyEvaluator::add_times(Clock::time_point start, Clock::time_point scene_re
 
 void SkyEvaluator::evaluate_by_whole_city(const CellReceivers& cell, const SkyAnswers& answers) const {
   const auto start = Clock::now();
-  const WholeCity& city = city_->get(package_);
+  const WholeCity& city = city_->get(package_, stop_);
   const auto scene_ready = Clock::now();
   for_each_normal(cell.receivers, [&](std::span<const Receiver> group) {
     std::vector<Point3f> origins;
     for (const Receiver& r : group) origins.push_back(city.scene_from_cell(r.p_cell, cell.cell));
     const std::vector<Point3d> directions = directions_of(directions_, group.front().normal);
-    count_and_store(city.occluder(), origins, directions, group, directions_.ray_count(), answers);
+    count_and_store(city.occluder(), origins, directions, group, directions_.ray_count(), stop_, answers);
   });
   add_times(start, scene_ready);
 }
@@ -163,14 +168,14 @@ void SkyEvaluator::evaluate_by_near_scene(const CellReceivers& cell, const SkyAn
     std::vector<Point3d> directions = directions_of(directions_, group.front().normal);
     // A box map is looked up by direction alone: what it blocks is blocked for the whole group, and needs no ray
     std::erase_if(directions, [&far](const Point3d& d) { return far.blocks(d); });
-    count_and_store(near, places_of(group), directions, group, directions_.ray_count(), answers);
+    count_and_store(near, places_of(group), directions, group, directions_.ray_count(), stop_, answers);
   });
   add_times(start, scene_ready);
 }
 
 /// What the receivers of a cell may see.
 struct SkyEvaluator::CellGeometry {
-  CellGeometry(const Package& package, const CellReceivers& cell, OverhangGeometry::WholeScene whole_scene)
+  CellGeometry(const PackageReader& package, const CellReceivers& cell, OverhangGeometry::WholeScene whole_scene)
       : far(package.far_horizon(cell.cell)),
         silhouettes(cell_silhouettes(package, cell.cell, far, bounding_box(cell.receivers))),
         overhangs(package, cell.cell, std::move(whole_scene)) {}
@@ -184,7 +189,7 @@ SkyEvaluator::CellGeometry SkyEvaluator::geometry_of(const CellReceivers& cell) 
   OverhangGeometry::WholeScene whole_scene;
   if (package_.manifest().triangles <= most_triangles_indexed_whole)
     whole_scene = [this](Cell c) {
-      const WholeCity& city = city_->get(package_);
+      const WholeCity& city = city_->get(package_, stop_);
       return PlacedScene{city.occluder(), city.scene_from_cell_m(c)};
     };
   return {package_, cell, std::move(whole_scene)};
@@ -216,6 +221,7 @@ SkyEvaluator::Numbers SkyEvaluator::draw_horizons(CellGeometry& geometry, const 
                        {static_cast<float>(azimuth_error(settings_.azimuths)), rays_per_azimuth});
   Numbers uncertain;
   const auto answer_packet = [&](const ReceiverPacket& packet, std::span<const std::uint32_t> numbers) {
+    throw_if_cancelled(stop_);
     std::array<SvfInterval, ReceiverPacket::lanes> lanes;
     const std::span svf = std::span(lanes).first(numbers.size());
     const bool bounds = wants_bounds(answers);
@@ -263,6 +269,7 @@ void SkyEvaluator::count_rays(CellGeometry& geometry, const CellReceivers& cell,
     const DirectionSampling sampling(directions);
     RayEngine engine(sampling, geometry.far, geometry.silhouettes, geometry.overhangs, wants_bounds(answers));
     for (std::size_t first = 0; first < group.size(); first += ReceiverPacket::lanes) {
+      throw_if_cancelled(stop_);
       const auto some = group.subspan(first, std::min(ReceiverPacket::lanes, group.size() - first));
       std::vector<FreeRays> free = engine.count(some);
       if (settings_.max_far_error) retrace(cell.cell, some, engine, free);
@@ -278,7 +285,7 @@ void SkyEvaluator::retrace(Cell cell, std::span<const Receiver> receivers, const
   for (std::size_t l = 0; l < free.size(); ++l)
     if (std::max(free[l].high - free[l].estimate, free[l].estimate - free[l].low) > most) uncertain |= 1U << l;
   if (uncertain == 0) return;
-  const WholeCity& city = city_->get(package_);
+  const WholeCity& city = city_->get(package_, stop_);
   RayOrigins origins;
   for (std::size_t l = 0; l < receivers.size(); ++l) {
     const Point3f p = city.scene_from_cell(receivers[l].p_cell, cell);

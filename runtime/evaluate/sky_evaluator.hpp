@@ -9,12 +9,14 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "evaluate/sky_directions.hpp"
+#include "farlod/evaluation.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/sky_partition.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {
@@ -22,14 +24,6 @@ namespace farlod {
 class RayEngine;
 struct SvfInterval;
 struct FreeRays;
-
-enum class Engine {
-  automatic,  ///< horizons, and rays where too much sky may be seen below something that overhangs
-  horizon,    ///< horizons alone
-  rays,       ///< rays, as in the paper (Listing 1), compared with horizons; only those in gaps are traced
-  exact,      ///< rays against all tiles: the reference
-  near_only   ///< the far city left out, as by tools that cut a city into tiles: to measure what the far map is worth
-};
 
 /// The far map of a cell; cells outside of the grid have none.
 enum class FarMapOfCell { horizon, box, none };
@@ -57,12 +51,12 @@ enum class EvaluationMethod {
 struct SkySettings {
   Engine engine = Engine::automatic;
   SkyWeight weight = SkyWeight::cosine;
-  std::size_t rays = 1000;
+  std::size_t rays = default_rays;
   /// Allowed error of the far map: where the interval of an answer is wider, the directions that the far map leaves open are
   /// traced against the whole city. Needs far maps of the kind `horizon`.
   std::optional<double> max_far_error = std::nullopt;
   DirectionSet directions = DirectionSet::partition;
-  std::size_t azimuths = 256;  ///< of horizons
+  std::size_t azimuths = default_azimuths;  ///< of horizons
 };
 
 /// Upper bound of the sampling error, without the error of the far map: that of the azimuths or that of the rays, whichever is
@@ -86,8 +80,8 @@ struct EvaluationStatistics {
 /// to the rounding of floats (docs/concepts.md, "Culling edges for a packet").
 class SkyEvaluator {
  public:
-  /// The package must outlive the evaluator.
-  SkyEvaluator(const Package& package, const SkySettings& settings);
+  /// The package must outlive the evaluator. When `stop` is asked for, evaluate() ends with Cancelled within some milliseconds.
+  SkyEvaluator(const PackageReader& package, const SkySettings& settings, std::stop_token stop = {});
   ~SkyEvaluator();
 
   /// Writes the sky view factor of each receiver, in [0, 1], by the method of the cell (method_of). Where `low` and `high` are
@@ -98,8 +92,9 @@ class SkyEvaluator {
   void evaluate(const CellReceivers& cell, std::span<float> svf) const { evaluate(cell, SkyAnswers(svf)); }
 
   [[nodiscard]] EvaluationStatistics statistics() const;
-  [[nodiscard]] const Package& package() const { return package_; }
+  [[nodiscard]] const PackageReader& package() const { return package_; }
   [[nodiscard]] const SkySettings& settings() const { return settings_; }
+  [[nodiscard]] const std::stop_token& stop() const { return stop_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -128,8 +123,9 @@ class SkyEvaluator {
   }
   void add_times(Clock::time_point start, Clock::time_point scene_ready) const;
 
-  const Package& package_;
+  const PackageReader& package_;
   SkySettings settings_;
+  std::stop_token stop_;
   SkyDirections directions_;
   AzimuthSampling azimuths_;
   std::unique_ptr<WholeCityOnDemand> city_;

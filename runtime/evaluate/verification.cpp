@@ -77,7 +77,7 @@ std::vector<std::size_t> choose_some(std::size_t size, std::size_t count) {
 
 ErrorSummary verify(const SkyEvaluator& evaluator, const VerifySettings& settings, std::span<const std::size_t> counts,
                     const ReceiversOfCell& receivers_of) {
-  const SkyEvaluator reference(evaluator.package(), reference_settings(evaluator.settings()));
+  const SkyEvaluator reference(evaluator.package(), reference_settings(evaluator.settings()), evaluator.stop());
   const auto chosen = choose_receivers(counts, settings.receivers);
   std::vector<std::vector<float>> answers(counts.size()), exact(counts.size());
   oneapi::tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t n) {
@@ -89,7 +89,9 @@ ErrorSummary verify(const SkyEvaluator& evaluator, const VerifySettings& setting
     for (const std::size_t k : chosen[n]) answers[n].push_back(answers_of_all[k]);
     exact[n] = values_of(reference, some, false).svf;
   });
-  return summarize_errors(joined(answers), joined(exact));
+  ErrorSummary errors = summarize_errors(joined(answers), joined(exact));
+  errors.rays = reference.settings().rays;
+  return errors;
 }
 
 }  // namespace farlod

@@ -10,13 +10,6 @@
 
 namespace farlod {
 
-/// Errors of answers against the exact ones: of the absolute error its mean, 99th percentile and maximum; bias is the mean of
-/// answer − exact.
-struct ErrorSummary {
-  std::size_t count = 0;
-  double mean_abs_error = 0.0, p99_abs_error = 0.0, max_abs_error = 0.0, bias = 0.0;
-};
-
 /// `answers` and `exact` are of the same length. The 99th percentile is the smallest error that 99 % do not exceed.
 [[nodiscard]] ErrorSummary summarize_errors(std::span<const double> answers, std::span<const double> exact);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "contract/cancellation.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {
@@ -23,9 +24,10 @@ RayOrigins gathered(std::span<const Point3f> origins) {
 }  // namespace
 
 std::vector<std::uint32_t> count_free(const Occluder& occluder, std::span<const Point3f> origins,
-                                      std::span<const Point3d> directions) {
+                                      std::span<const Point3d> directions, const std::stop_token& stop) {
   std::vector<std::uint32_t> free(origins.size(), 0);
   for (std::size_t first = 0; first < origins.size(); first += RayOrigins::lanes) {
+    throw_if_cancelled(stop);
     const std::size_t count = std::min(RayOrigins::lanes, origins.size() - first);
     const RayOrigins together = gathered(origins.subspan(first, count));
     const std::uint32_t wanted = (1U << count) - 1;

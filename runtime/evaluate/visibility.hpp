@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "farlod/point.hpp"
@@ -12,8 +13,8 @@
 namespace farlod {
 
 /// For each origin, the number of directions in which a ray hits nothing. Origins are traced in packets of 16 that share a
-/// direction, which is fast when the origins lie side by side.
+/// direction, which is fast when the origins lie side by side. Throws Cancelled when `stop` is asked for.
 [[nodiscard]] std::vector<std::uint32_t> count_free(const Occluder& occluder, std::span<const Point3f> origins,
-                                                    std::span<const Point3d> directions);
+                                                    std::span<const Point3d> directions, const std::stop_token& stop = {});
 
 }  // namespace farlod

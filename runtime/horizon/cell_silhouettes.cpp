@@ -29,7 +29,7 @@ void keep_facing(OverhangEdges& edges, const ReceiverBox& box) {
 
 }  // namespace
 
-CellSilhouettes cell_silhouettes(const Package& package, Cell cell, const FarHorizon& far, const ReceiverBox& box) {
+CellSilhouettes cell_silhouettes(const PackageReader& package, Cell cell, const FarHorizon& far, const ReceiverBox& box) {
   CellSilhouettes silhouettes;
   const Grid& grid = package.grid();
   // Most edges are far

@@ -7,7 +7,7 @@
 #include "contract/grid.hpp"
 #include "horizon/silhouette_edges.hpp"
 #include "package/far_horizon.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {
@@ -26,7 +26,8 @@ struct CellSilhouettes {
 };
 
 /// The edges of the neighborhood and the explicit edges of the far map, without those that face away from all receivers in a box.
-[[nodiscard]] CellSilhouettes cell_silhouettes(const Package& package, Cell cell, const FarHorizon& far, const ReceiverBox& box);
+[[nodiscard]] CellSilhouettes cell_silhouettes(const PackageReader& package, Cell cell, const FarHorizon& far,
+                                               const ReceiverBox& box);
 
 /// The box around some receivers.
 [[nodiscard]] ReceiverBox bounding_box(std::span<const Receiver> receivers);

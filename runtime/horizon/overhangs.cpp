@@ -54,7 +54,7 @@ bool is_upright(const OverhangGeometry::TriangleCorners& t) {
 
 }  // namespace
 
-OverhangGeometry::OverhangGeometry(const Package& package, Cell cell, WholeScene whole_scene)
+OverhangGeometry::OverhangGeometry(const PackageReader& package, Cell cell, WholeScene whole_scene)
     : package_(package), cell_(cell), whole_scene_(std::move(whole_scene)) {
   // Buildings that are cut at the borders of cells are above their own cell alone
   const bool is_cut = package.manifest().assign != "whole";

@@ -17,7 +17,7 @@
 #include "horizon/receiver_packet.hpp"
 #include "horizon/sky_partition.hpp"
 #include "occlusion/occluder.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 
 /// Overhangs: occluders that sky may be seen below. docs/concepts.md, "What is grounded, and what overhangs".
 namespace farlod {
@@ -46,7 +46,7 @@ class OverhangGeometry {
   using WholeScene = std::function<PlacedScene(Cell)>;
 
   /// The package must outlive it. With `whole_scene`, rays are traced against that instead of a scene of the cell's own.
-  OverhangGeometry(const Package& package, Cell cell, WholeScene whole_scene = {});
+  OverhangGeometry(const PackageReader& package, Cell cell, WholeScene whole_scene = {});
 
   /// A bit for each receiver that is below an overhang.
   [[nodiscard]] std::uint32_t receivers_below(const ReceiverPacket& receivers) const;
@@ -56,7 +56,7 @@ class OverhangGeometry {
  private:
   [[nodiscard]] std::vector<TriangleCorners> triangles_in(const CellRange& cells) const;
 
-  const Package& package_;
+  const PackageReader& package_;
   Cell cell_;
   WholeScene whole_scene_;
   std::vector<TriangleCorners> overhead_;  ///< what may lie above receivers of the cell

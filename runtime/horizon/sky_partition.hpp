@@ -9,15 +9,10 @@
 #include <vector>
 
 #include "contract/expects.hpp"
+#include "farlod/evaluation.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {
-
-/// What the cells of the sky have in common. The share of free cells is then the view factor with that weight.
-enum class SkyWeight {
-  cosine,      ///< equal view factor: cells of equal area on the disk under the hemisphere (`svf`)
-  solid_angle  ///< equal solid angle: cells of equal area on the hemisphere (`svf_solid`)
-};
 
 /// The Beckers & Beckers equal-area partition of the sky (Comput. Geom. 45 (2012) 275–283): rings around the zenith,
 /// the cells of a ring having equal azimuth.

@@ -9,10 +9,10 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
 #include "contract/mesh_view.hpp"
+#include "farlod/error.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {
@@ -37,9 +37,9 @@ struct Hit {
 };
 
 /// Embree, or the memory that it asked for, failed.
-class OcclusionError : public std::runtime_error {
+class OcclusionError : public Error {
  public:
-  using std::runtime_error::runtime_error;
+  using Error::Error;
 };
 
 /// Answers "what does this ray meet?" for a set of triangles. Both sides of a triangle count. Immutable; all questions may

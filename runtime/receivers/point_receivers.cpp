@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "contract/cancellation.hpp"
+
 namespace farlod {
 namespace {
 
@@ -33,7 +35,7 @@ std::optional<Point3f> stand_outside(const PointLocator& locator, Point2d p_cell
 
 }  // namespace
 
-std::vector<std::pair<Cell, std::vector<std::size_t>>> places_by_cell(const Package& package,
+std::vector<std::pair<Cell, std::vector<std::size_t>>> places_by_cell(const PackageReader& package,
                                                                       std::span<const PlaceOfReceiver> places) {
   std::map<Cell, std::vector<std::size_t>> cells;
   for (std::size_t n = 0; n < places.size(); ++n)
@@ -41,13 +43,14 @@ std::vector<std::pair<Cell, std::vector<std::size_t>>> places_by_cell(const Pack
   return {cells.begin(), cells.end()};
 }
 
-CellReceivers receivers_at(const Package& package, Cell cell, std::span<const PlaceOfReceiver> places,
-                           std::span<const std::size_t> chosen, HeightAbove above, float height_m) {
+CellReceivers receivers_at(const PackageReader& package, Cell cell, std::span<const PlaceOfReceiver> places,
+                           std::span<const std::size_t> chosen, HeightAbove above, float height_m, const std::stop_token& stop) {
   const Grid& grid = package.grid();
   const Cell existing = nearest_existing(cell, grid.cells);
   const PointLocator locator(package, existing);
   CellReceivers result{cell, {}};
   for (const std::size_t n : chosen) {
+    throw_if_cancelled(stop);
     const Point2d p_grid = package.manifest().grid_from_projected(places[n].p_projected);
     const Point2d p_cell = p_grid - grid.corner_of(cell);
     const auto x = static_cast<float>(p_cell.x), y = static_cast<float>(p_cell.y);

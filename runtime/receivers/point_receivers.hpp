@@ -4,10 +4,11 @@
 
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "farlod/point.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {
@@ -20,11 +21,13 @@ struct PlaceOfReceiver {
 
 /// The places by cell, in the order of the cells; a place's index is its position in `places`. Cells may lie outside of the grid:
 /// a receiver out there stands on the height that the ground has where the grid ends.
-[[nodiscard]] std::vector<std::pair<Cell, std::vector<std::size_t>>> places_by_cell(const Package& package,
+[[nodiscard]] std::vector<std::pair<Cell, std::vector<std::size_t>>> places_by_cell(const PackageReader& package,
                                                                                     std::span<const PlaceOfReceiver> places);
 
-/// The receivers at some of the places, all in one cell; those inside buildings are left out.
-[[nodiscard]] CellReceivers receivers_at(const Package& package, Cell cell, std::span<const PlaceOfReceiver> places,
-                                         std::span<const std::size_t> chosen, HeightAbove above, float height_m);
+/// The receivers at some of the places, all in one cell; those inside buildings are left out. Throws Cancelled when `stop` is
+/// asked for.
+[[nodiscard]] CellReceivers receivers_at(const PackageReader& package, Cell cell, std::span<const PlaceOfReceiver> places,
+                                         std::span<const std::size_t> chosen, HeightAbove above, float height_m,
+                                         const std::stop_token& stop = {});
 
 }  // namespace farlod

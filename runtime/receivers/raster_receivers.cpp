@@ -3,22 +3,15 @@
 #include "receivers/raster_receivers.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "contract/cancellation.hpp"
 
 namespace farlod {
 namespace {
 
 /// Pixels are listed patch by patch, so that 16 in a row see almost the same.
 constexpr std::size_t patch_edge = 4;
-
-Box2d projected_outline(const package::Manifest& m, const Box2d& rectangle_grid) {
-  const auto& [low, high] = rectangle_grid;
-  Box2d outline;
-  for (const Point2d corner : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}})
-    outline.add(horizontal(m.projected_from_grid({corner.x, corner.y, 0.0})));
-  return outline;
-}
 
 PixelRange pixels_over(const RasterPlan& plan, const Box2d& o) {
   const auto clamp = [](double x, std::size_t n) { return static_cast<std::size_t>(std::clamp(x, 0.0, static_cast<double>(n))); };
@@ -39,7 +32,7 @@ void for_each_pixel_by_patches(const PixelRange& r, const Visit& visit) {
 }  // namespace
 
 RasterPlan plan_raster(const package::Manifest& m, double step_m, const std::optional<Box2d>& wanted_projected) {
-  const Box2d area = wanted_projected ? *wanted_projected : projected_outline(m, m.grid.rectangle());
+  const Box2d area = wanted_projected ? *wanted_projected : m.projected_outline(m.grid.rectangle());
   const double west = std::floor(area.low.x / step_m), south = std::floor(area.low.y / step_m);
   const double east = std::ceil(area.high.x / step_m), north = std::ceil(area.high.y / step_m);
   return {
@@ -55,7 +48,7 @@ std::vector<Cell> RasterReceivers::cells() const {
 }
 
 PixelRange RasterReceivers::range_of(Cell cell) const {
-  return pixels_over(plan_, projected_outline(manifest_, manifest_.grid.square_of(cell)));
+  return pixels_over(plan_, manifest_.projected_outline(manifest_.grid.square_of(cell)));
 }
 
 template <class Visit>
@@ -67,10 +60,12 @@ void RasterReceivers::for_each_pixel(Cell cell, const Visit& visit) const {
   });
 }
 
-CellReceivers RasterReceivers::in_cell(const Package& package, Cell cell, HeightAbove above, float height_m) const {
+CellReceivers RasterReceivers::in_cell(const PackageReader& package, Cell cell, HeightAbove above, float height_m,
+                                       const std::stop_token& stop) const {
   const PointLocator locator(package, cell);
   CellReceivers result{cell, {}};
   for_each_pixel(cell, [&](std::size_t index, Point2d p_grid) {
+    throw_if_cancelled(stop);
     const Point2d p = p_grid - manifest_.grid.corner_of(cell);
     if (const auto p_cell = stand(locator, static_cast<float>(p.x), static_cast<float>(p.y), above, height_m))
       result.receivers.push_back({index, *p_cell});

@@ -3,26 +3,16 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "contract/package/manifest.hpp"
 #include "farlod/box.hpp"
-#include "package/package.hpp"
+#include "farlod/raster.hpp"
+#include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {
-
-/// A north-up raster in the output CRS, whose pixel centres are the receivers.
-struct RasterPlan {
-  Point2d north_west_m;  ///< outer corner of the first pixel, projected frame
-  double step_m = 1.0;
-  std::size_t columns = 0, rows = 0;
-
-  [[nodiscard]] Point2d centre_m(std::size_t column, std::size_t row) const {
-    return {north_west_m.x + (static_cast<double>(column) + 0.5) * step_m,
-            north_west_m.y - (static_cast<double>(row) + 0.5) * step_m};
-  }
-};
 
 /// The raster over `wanted` (projected frame), or over all cells of the grid. Pixels begin at multiples of the step, so that
 /// rasters of neighboring runs fit together.
@@ -46,7 +36,9 @@ class RasterReceivers {
   /// All pixels whose centres a cell holds lie in this range, and others do.
   [[nodiscard]] PixelRange range_of(Cell cell) const;
   /// The receivers of one cell; pixels inside buildings are left out. Neighbors in the plane are neighbors in the list.
-  [[nodiscard]] CellReceivers in_cell(const Package& package, Cell cell, HeightAbove above, float height_m) const;
+  /// Throws Cancelled when `stop` is asked for.
+  [[nodiscard]] CellReceivers in_cell(const PackageReader& package, Cell cell, HeightAbove above, float height_m,
+                                      const std::stop_token& stop = {}) const;
   /// How many pixels have their centres in a cell, inside buildings or not.
   [[nodiscard]] std::size_t pixel_count(Cell cell) const;
 

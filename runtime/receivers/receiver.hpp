@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contract/grid.hpp"
+#include "farlod/evaluation.hpp"
 #include "farlod/point.hpp"
 #include "scene/vertical_profile.hpp"
 
@@ -28,9 +29,6 @@ struct CellReceivers {
   Cell cell;
   std::vector<Receiver> receivers;
 };
-
-/// What a receiver's height counts from.
-enum class HeightAbove { ground, highest_surface, sea_level };
 
 /// The height of a receiver in the package's heights; none where the surface that its height counts from does not exist.
 [[nodiscard]] std::optional<float> standing_height_m(const VerticalProfile& profile, HeightAbove above, float height_m);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "contract/cancellation.hpp"
 #include "contract/horizon/horizon_edge.hpp"
 
 namespace farlod {
@@ -35,7 +36,7 @@ Point2d place_in_triangle(std::size_t n, std::size_t count) {
 /// Locators of a cell and of its neighbors: a receiver that stands off a wall on the border of the cell lies in the next cell.
 class LocatorsAround {
  public:
-  LocatorsAround(const Package& package, Cell cell) : package_(package), cell_(cell) {}
+  LocatorsAround(const PackageReader& package, Cell cell) : package_(package), cell_(cell) {}
 
   [[nodiscard]] bool is_buried(const Point3f& p_cell) {
     const Grid& grid = package_.grid();
@@ -49,7 +50,7 @@ class LocatorsAround {
   }
 
  private:
-  const Package& package_;
+  const PackageReader& package_;
   Cell cell_;
   std::map<Cell, PointLocator> locators_;
 };
@@ -96,7 +97,8 @@ void spread(const TileView& tile, const Piece& piece, std::uint32_t t, double sp
 
 }  // namespace
 
-std::vector<SurfaceReceiver> surface_receivers(const Package& package, Cell cell, SurfaceChoice choice, double spacing_m) {
+std::vector<SurfaceReceiver> surface_receivers(const PackageReader& package, Cell cell, SurfaceChoice choice, double spacing_m,
+                                               const std::stop_token& stop) {
   const TileView tile = package.tile(cell);
   LocatorsAround locators(package, cell);
   std::vector<SurfaceReceiver> receivers;
@@ -104,7 +106,10 @@ std::vector<SurfaceReceiver> surface_receivers(const Package& package, Cell cell
   for (const package::SurfaceRun& run : tile.surface_runs) {
     if (is_chosen(tile.surfaces[run.surface].kind(), choice)) {
       const Piece piece = piece_of(tile, begin, run);
-      for (std::uint32_t t = begin; t < run.end; ++t) spread(tile, piece, t, spacing_m, locators, receivers);
+      for (std::uint32_t t = begin; t < run.end; ++t) {
+        throw_if_cancelled(stop);
+        spread(tile, piece, t, spacing_m, locators, receivers);
+      }
     }
     begin = run.end;
   }

@@ -3,14 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
-#include "package/package.hpp"
+#include "farlod/surfaces.hpp"
+#include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {
-
-enum class SurfaceChoice { roofs, walls, all };
 
 /// Distance of a receiver from its surface, so that the surface itself does not block it: a hundred times the rounding of a
 /// coordinate in a scene of 10 km (0.5 mm would do), and a fiftieth of a window's reveal.
@@ -27,8 +27,8 @@ struct SurfaceReceiver {
 
 /// Spreads receivers over the pieces of surfaces in one tile: each triangle of area A has ⌈A/spacing²⌉ of them, at least one,
 /// evenly placed (the R2 sequence, folded into the triangle), each standing for an equal share of its area. Areas therefore add
-/// up to the surface's own, whatever the spacing.
-[[nodiscard]] std::vector<SurfaceReceiver> surface_receivers(const Package& package, Cell cell, SurfaceChoice choice,
-                                                             double spacing_m);
+/// up to the surface's own, whatever the spacing. Throws Cancelled when `stop` is asked for.
+[[nodiscard]] std::vector<SurfaceReceiver> surface_receivers(const PackageReader& package, Cell cell, SurfaceChoice choice,
+                                                             double spacing_m, const std::stop_token& stop = {});
 
 }  // namespace farlod

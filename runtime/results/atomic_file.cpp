@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "results/output_error.hpp"
+#include "farlod/error.hpp"
 
 namespace farlod {
 

@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "results/output_error.hpp"
+#include "farlod/error.hpp"
 
 namespace farlod {
 namespace {

@@ -6,7 +6,7 @@
 
 namespace farlod {
 
-Occluder near_scene(const Package& package, Cell cell) {
+Occluder near_scene(const PackageReader& package, Cell cell) {
   const Grid& grid = package.grid();
   const CellRange near = grid.neighborhood_of(cell).intersection(grid.cells);
   return occluder_of_cells(grid, near, grid.corner_of(cell), [&](Cell c) { return package.tile(c).mesh; });

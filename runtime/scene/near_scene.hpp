@@ -4,11 +4,11 @@
 
 #include "contract/grid.hpp"
 #include "occlusion/occluder.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 
 namespace farlod {
 
 /// The tiles of the neighborhood of `cell`, in the frame of `cell`. Neighbors that do not exist are empty.
-[[nodiscard]] Occluder near_scene(const Package& package, Cell cell);
+[[nodiscard]] Occluder near_scene(const PackageReader& package, Cell cell);
 
 }  // namespace farlod

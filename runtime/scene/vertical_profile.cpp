@@ -17,7 +17,7 @@ namespace {
 /// Ten times the rounding of a height in a package (0.06 mm at 1 km): a slab is thicker.
 constexpr float same_surface_m = 0.0006F;
 
-std::vector<TileView> tiles_around(const Package& package, Cell cell) {
+std::vector<TileView> tiles_around(const PackageReader& package, Cell cell) {
   const std::int32_t r = package.manifest().assign == "whole" ? PointLocator::reach_of_whole_buildings : 0;
   const CellRange range = CellRange{cell.i - r, cell.j - r, cell.i + r + 1, cell.j + r + 1}.intersection(package.grid().cells);
   std::vector<TileView> tiles;
@@ -77,7 +77,7 @@ bool VerticalProfile::is_below_standing_floor(float height_m, float ground_m) co
   });
 }
 
-PointLocator::PointLocator(const Package& package, Cell cell)
+PointLocator::PointLocator(const PackageReader& package, Cell cell)
     : tiles_(tiles_around(package, cell)), index_(triangles_of(tiles_, package.grid(), cell)) {
   for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile)
     for (std::uint32_t t = 0; t < tiles_[tile].mesh.triangles.size(); ++t) places_.emplace_back(tile, t);

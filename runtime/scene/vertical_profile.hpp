@@ -8,7 +8,7 @@
 
 #include "contract/grid.hpp"
 #include "contract/package/layout.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "scene/plan_index.hpp"
 
 namespace farlod {
@@ -47,7 +47,7 @@ class PointLocator {
  public:
   /// Reads the cell's own tile, which holds everything in the cell when buildings are cut at the borders. Where buildings were
   /// assigned whole, the tiles within `reach_of_whole_buildings` cells are read, too.
-  PointLocator(const Package& package, Cell cell);
+  PointLocator(const PackageReader& package, Cell cell);
 
   [[nodiscard]] VerticalProfile at(float x_cell, float y_cell) const;
 

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <stop_token>
+
 #include "contract/grid.hpp"
 #include "occlusion/occluder.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 
 namespace farlod {
 
@@ -12,7 +14,8 @@ namespace farlod {
 /// of the middle cell, with heights as on disk. Costs memory in proportion to the city.
 class WholeCity {
  public:
-  explicit WholeCity(const Package& package);
+  /// Throws Cancelled when `stop` is asked for meanwhile.
+  explicit WholeCity(const PackageReader& package, const std::stop_token& stop = {});
 
   [[nodiscard]] const Occluder& occluder() const { return occluder_; }
   /// Added to a place of the frame of `cell`, gives one of this scene.

@@ -158,7 +158,7 @@ TEST_F(ErrorControl, FormatsWithoutRoomForBoundsAreRefused) {
 
 TEST_F(ErrorControl, ImpossibleWishesAreRefused) {
   expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --surfaces all --rays 100 --max-error 0.01"), exit_usage,
-                 {"--max-error", "100 rays", "leave --rays", "at least"});
+                 {"--max-error", "100 rays", "leave the numbers", "at least"});
   expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --surfaces all --engine horizon --rays 100 --max-error 0.01"),
                  exit_usage, {"--max-error", "100 rays"});
   expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --surfaces all --max-error nan"), exit_usage, {"--max-error"});

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <map>
 
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/acceptance/real_city.hpp"
 
@@ -27,7 +27,7 @@ double area_m2(const TileView& tile, const Triangle& t) {
 }
 
 /// Of each kind of surface in each tile.
-Areas areas_of(const Package& package) {
+Areas areas_of(const PackageReader& package) {
   Areas areas;
   const CellRange& cells = package.grid().cells;
   for (std::size_t n = 0; n < static_cast<std::size_t>(cells.size()); ++n) {
@@ -52,7 +52,8 @@ TEST_P(Formats, OfTheSameTownGiveTheSameTilesAndSkyViewFactors) {
   if (IsSkipped()) return;
   pack_as(reference_file, "a");
   pack_as(GetParam(), "b");
-  const Areas expected = areas_of(Package(folder.path("a.farlod"))), found = areas_of(Package(folder.path("b.farlod")));
+  const Areas expected = areas_of(PackageReader(folder.path("a.farlod"))),
+              found = areas_of(PackageReader(folder.path("b.farlod")));
   ASSERT_EQ(found.size(), expected.size());
   for (const auto& [place, area] : expected) {
     const auto& [i, j, kind] = place;

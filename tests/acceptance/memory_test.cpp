@@ -49,7 +49,9 @@ std::string limit(int mib) { return " --memory-limit " + std::to_string(mib); }
 
 TEST_F(WideTown, ALimitThatIsTooLowIsRefused) {
   const Outcome outcome = folder.run("farlod-svf a.farlod -o o.asc --grid 20 --memory-limit 1");
-  expect_refusal(outcome, exit_limit_reached, {"needs about", "--memory-limit 1", "raise the limit", "--threads", "--bbox"});
+  expect_refusal(
+      outcome, exit_limit_reached,
+      {"needs about", "more than the limit of 1 MiB", "raise the memory limit", "--memory-limit", "--threads", "--bbox"});
   EXPECT_FALSE(folder.has("o.asc"));
 }
 

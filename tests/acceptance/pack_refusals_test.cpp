@@ -57,8 +57,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"prose.gml is not well-formed XML", "line 1", "XML checker"}},
         Refused{"EmptyXml", "empty.gml -o a.farlod", exit_unusable_input, {"empty.gml is empty: 0 bytes"}},
         Refused{"EmptyObj", "empty.obj -o a.farlod", exit_unusable_input, {"empty.obj is empty: 0 bytes"}},
-        Refused{
-            "CutJson", "cut.city.json -o a.farlod", exit_unusable_input, {"cut.city.json is not JSON", "line 1", "cjval"}},
+        Refused{"CutJson", "cut.city.json -o a.farlod", exit_unusable_input, {"cut.city.json is not JSON", "line 1", "cjval"}},
         Refused{"GmlWithoutBuildings",
                 "forest.gml -o a.farlod",
                 exit_unusable_input,

@@ -53,7 +53,7 @@ TEST_P(SvfRefuses, InOneLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Package, SvfRefuses,
+    PackageReader, SvfRefuses,
     testing::Values(Refused{"Missing",
                             "lost.farlod -o o.csv --at 1,2",
                             exit_unusable_input,
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"BoxBeyondAllMachines",
                 "a.farlod -o o.asc --grid 1 --bbox 0,0,1e300,1e300",
                 exit_usage,
-                {"--bbox", "too many pixels", "--grid"}},
+                {"--bbox", "nowhere on Earth"}},
         Refused{"BoxWithoutGrid", "a.farlod -o o.csv --at 1,2 --bbox 0,0,1,1", exit_usage, {"--bbox", "--grid"}},
         Refused{"PointsCrsWithoutPoints",
                 "a.farlod -o o.csv --at 1,2 --points-crs EPSG:4326",

@@ -28,7 +28,7 @@ TEST(Agreement, ANeighborhoodThatCoversTheCityIsTheCity) {
   ASSERT_LE(grid.cells.width(), 20);
   const scenes::TemporaryFolder folder;
   scenes::pack_city(city, grid, folder.path() / "town.farlod", scenes::box_maps(8, 8));
-  const Package package(folder.path() / "town.farlod");
+  const PackageReader package(folder.path() / "town.farlod");
   const WholeCity whole(package);
   RandomSky random;
   constexpr int receivers = 200, rays_each = 5000;
@@ -56,7 +56,7 @@ TEST_P(NearAndFar, TogetherAreTheCitySeenFromTheCapturePoint) {
   const FarMapSettings settings = scenes::box_maps(16, 16);
   const BoxMapSettings& map = settings.box;
   scenes::pack_city(city, grid, folder.path() / "town.farlod", settings, GetParam());
-  const Package package(folder.path() / "town.farlod");
+  const PackageReader package(folder.path() / "town.farlod");
   const WholeCity whole(package);
   int rays = 0, differences = 0, far_alone = 0;
   for (std::size_t n = 0; n < static_cast<std::size_t>(grid.cells.size()); ++n) {
@@ -84,7 +84,7 @@ TEST_P(NearAndFar, AreNeverCertainOfWhatIsNotSo) {
   const Grid grid = scenes::grid_covering(city, Angle::degrees(23.0), 50.0, 3);
   const scenes::TemporaryFolder folder;
   scenes::pack_city(city, grid, folder.path() / "town.farlod", {}, GetParam());
-  const Package package(folder.path() / "town.farlod");
+  const PackageReader package(folder.path() / "town.farlod");
   const WholeCity whole(package);
   RandomSky random;
   constexpr int receivers = 200, rays_each = 5000;

@@ -22,10 +22,10 @@ namespace {
 class PackedTown {
  public:
   PackedTown(int neighborhood, bool overhangs) : package_(packed(neighborhood, overhangs)) {}
-  [[nodiscard]] const Package& package() const { return package_; }
+  [[nodiscard]] const PackageReader& package() const { return package_; }
 
  private:
-  Package packed(int neighborhood, bool overhangs) const {
+  PackageReader packed(int neighborhood, bool overhangs) const {
     CitySettings settings;
     settings.size_m = 500;
     settings.lod = 2;
@@ -33,16 +33,16 @@ class PackedTown {
     const CityModel city = scenes::generated_town(settings);
     const Grid grid = scenes::grid_covering(city, Angle::degrees(23.0), 50.0, neighborhood);
     scenes::pack_city(city, grid, folder_.path() / "town.farlod");
-    return Package(folder_.path() / "town.farlod");
+    return PackageReader(folder_.path() / "town.farlod");
   }
   scenes::TemporaryFolder folder_;
-  Package package_;
+  PackageReader package_;
 };
 
 using Receivers = std::vector<CellReceivers>;
 
 /// Groups of receivers a metre apart, as on a raster, outside of buildings: what they see is computed together.
-Receivers in_streets(const Package& package, std::size_t groups) {
+Receivers in_streets(const PackageReader& package, std::size_t groups) {
   RandomSky random;
   Receivers receivers;
   std::size_t index = 0;
@@ -62,7 +62,7 @@ Receivers in_streets(const Package& package, std::size_t groups) {
 }
 
 /// About as many as wanted, spread over all cells.
-Receivers on_surfaces(const Package& package, SurfaceChoice choice, std::size_t count) {
+Receivers on_surfaces(const PackageReader& package, SurfaceChoice choice, std::size_t count) {
   Receivers all;
   std::size_t found = 0;
   for (std::size_t n = 0; n < static_cast<std::size_t>(package.grid().cells.size()); ++n) {
@@ -94,13 +94,13 @@ std::vector<double> svf_of(const SkyEvaluator& evaluator, const Receivers& recei
 
 struct Where {
   const char* name;
-  Receivers (*receivers)(const Package&);
+  Receivers (*receivers)(const PackageReader&);
 };
 void PrintTo(const Where& where, std::ostream* out) { *out << where.name; }
 
 /// Exact rays so many that they are the truth, and what they leave unseen.
 constexpr std::size_t many = 20000;
-std::vector<double> truth_of(const Package& package, const Receivers& receivers) {
+std::vector<double> truth_of(const PackageReader& package, const Receivers& receivers) {
   return svf_of(SkyEvaluator(package, {Engine::exact, SkyWeight::cosine, many}), receivers);
 }
 
@@ -157,14 +157,14 @@ TEST_P(Horizons, WithRaysForOverhangsAreWithinTheirBoundsAndTheirBudget) {
 
 INSTANTIATE_TEST_SUITE_P(
     Town, Horizons,
-    testing::Values(Where{"Streets", [](const Package& p) { return in_streets(p, 40); }},
-                    Where{"Roofs", [](const Package& p) { return on_surfaces(p, SurfaceChoice::roofs, 400); }},
-                    Where{"Walls", [](const Package& p) { return on_surfaces(p, SurfaceChoice::walls, 400); }}),
+    testing::Values(Where{"Streets", [](const PackageReader& p) { return in_streets(p, 40); }},
+                    Where{"Roofs", [](const PackageReader& p) { return on_surfaces(p, SurfaceChoice::roofs, 400); }},
+                    Where{"Walls", [](const PackageReader& p) { return on_surfaces(p, SurfaceChoice::walls, 400); }}),
     [](const auto& test) { return test.param.name; });
 
 TEST(Agreement, RaysInANeighborhoodThatCoversTheCityAreExactRays) {
   const PackedTown town(41, true);
-  const Package& package = town.package();
+  const PackageReader& package = town.package();
   constexpr std::size_t rays_each = 5000;
   const Receivers receivers = in_streets(package, 20);
   const std::vector<double> exact = svf_of(SkyEvaluator(package, {Engine::exact, SkyWeight::cosine, rays_each}), receivers),

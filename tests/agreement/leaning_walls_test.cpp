@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "evaluate/sky_evaluator.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "receivers/surface_receivers.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
@@ -25,7 +25,7 @@ std::vector<float> svf_of_leaning_wall(double lean_m, double height_m, double ea
   const Grid grid = scenes::grid_covering(builder.city(), {}, 20.0, 1, 1);
   const scenes::TemporaryFolder folder;
   scenes::pack_city(builder.city(), grid, folder.path() / "house.farlod", {});
-  const Package package(folder.path() / "house.farlod");
+  const PackageReader package(folder.path() / "house.farlod");
   SkySettings settings{engine, SkyWeight::cosine, 4000};
   settings.azimuths = 1024;
   const SkyEvaluator evaluator(package, settings);
@@ -57,7 +57,8 @@ TEST_P(LeaningWalls, SeeTheSkyOfATiltedPlaneInEveryEngine) {
     for (const Engine engine : {Engine::automatic, Engine::rays, Engine::exact}) {
       const std::vector<float> svf = svf_of_leaning_wall(lean_m, height_m, eave_m, engine);
       ASSERT_GE(svf.size(), static_cast<std::size_t>(8 * height_m));
-      // 4,000 rays, and the centimetre by which a receiver stands before its wall, seen from the roof's border and from the ground
+      // 4,000 rays, and the centimetre by which a receiver stands before its wall, seen from the roof's border and from the
+      // ground
       for (const float s : svf) EXPECT_NEAR(s, known, 0.01);
     }
 }

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {
@@ -23,7 +23,7 @@ class RandomSky {
     return {r * std::sin(azimuth), r * std::cos(azimuth), z};
   }
   /// A receiver 1.5 m above the ground, outside of buildings, anywhere in the grid.
-  [[nodiscard]] CellReceivers receiver(const Package& package) {
+  [[nodiscard]] CellReceivers receiver(const PackageReader& package) {
     const CellRange& cells = package.grid().cells;
     while (true) {
       const Cell cell = cells.cell_at(static_cast<std::size_t>(uniform(0.0, static_cast<double>(cells.size()))));

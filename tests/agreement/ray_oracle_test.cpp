@@ -38,7 +38,7 @@ TEST(Agreement, CgalAndEmbreeSeeTheSameTownRayForRay) {
   const Grid grid = scenes::grid_covering(city, Angle::degrees(23.0), 50.0, 3);
   const scenes::TemporaryFolder folder;
   scenes::pack_city(city, grid, folder.path() / "town.farlod", scenes::box_maps(8, 8));
-  const Package package(folder.path() / "town.farlod");
+  const PackageReader package(folder.path() / "town.farlod");
   const WholeCity whole(package);
   const RayOracle oracle(city);
   RandomSky random;

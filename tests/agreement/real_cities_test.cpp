@@ -45,7 +45,7 @@ class CityWithOracle {
     oracle_.emplace(city, ground_of(tiles, grid));
   }
 
-  [[nodiscard]] const Package& package() const { return *package_; }
+  [[nodiscard]] const PackageReader& package() const { return *package_; }
   /// The share of a receiver's rays that meet nothing.
   [[nodiscard]] double free_share(Cell cell, const Receiver& r, std::span<const Point3d> directions_grid, std::size_t all) const {
     const Grid& grid = package_->grid();
@@ -78,7 +78,7 @@ class CityWithOracle {
     return ground;
   }
 
-  std::optional<Package> package_;
+  std::optional<PackageReader> package_;
   std::optional<RayOracle> oracle_;
 };
 
@@ -86,13 +86,13 @@ class CityWithOracle {
 struct Chosen {
   std::vector<CellReceivers> cells;
 };
-Chosen some_of_ground(const Package& package) {
+Chosen some_of_ground(const PackageReader& package) {
   RandomSky random;
   Chosen chosen;
   for (std::size_t n = 0; n < receivers_of_kind; ++n) chosen.cells.push_back(random.receiver(package));
   return chosen;
 }
-Chosen some_of_surfaces(const Package& package, SurfaceChoice choice) {
+Chosen some_of_surfaces(const PackageReader& package, SurfaceChoice choice) {
   std::vector<CellReceivers> all;
   const CellRange& cells = package.grid().cells;
   for (std::size_t n = 0; n < static_cast<std::size_t>(cells.size()); ++n)
@@ -105,7 +105,7 @@ Chosen some_of_surfaces(const Package& package, SurfaceChoice choice) {
 }
 
 void expect_agreement(const CityWithOracle& city, const Chosen& chosen, const std::string& kind) {
-  const Package& package = city.package();
+  const PackageReader& package = city.package();
   SkySettings exact, horizons;
   exact.engine = Engine::exact;
   exact.rays = horizons.rays = rays;

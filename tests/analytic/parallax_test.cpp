@@ -34,7 +34,7 @@ TEST_P(PaperMap, IsWrongByParallaxAsItShouldBe) {
   const scenes::TemporaryFolder folder;
   const FarMapSettings map_settings = scenes::box_maps(256, 256);
   scenes::pack_city(builder.city(), grid, folder.path() / "scene.farlod", map_settings, Assign::clip, {{Cell{0, 0}}});
-  const Package package(folder.path() / "scene.farlod");
+  const PackageReader package(folder.path() / "scene.farlod");
   // The receiver is in the same cell, as near to the wall as the cell lets it be
   const CellReceivers receiver{{0, 0}, {{0, {std::nextafter(static_cast<float>(c), 0.0F), static_cast<float>(middle), eye_m}}}};
   std::vector<float> map(1), exact(1);

@@ -86,20 +86,20 @@ class PackedScene {
         .evaluate(receiver_, SkyAnswers(estimate, low, high));
     return {estimate[0], low[0], high[0]};
   }
-  [[nodiscard]] const Package& package() const { return package_; }
+  [[nodiscard]] const PackageReader& package() const { return package_; }
 
  private:
-  Package packed(const Scene& scene, const Setup& setup) const {
+  PackageReader packed(const Scene& scene, const Setup& setup) const {
     const double cell_edge_m = exact_cell_edge_m(cell_edge_for(scene, setup.share));
     const Angle bearing = Angle::degrees(setup.bearing_deg);
     const CityModel city = city_of(scene, setup.walls, cell_edge_m, GridRotation(bearing));
     const Grid grid = scenes::grid_covering(city, bearing, cell_edge_m, 1, 1);
     scenes::pack_city(city, grid, folder_.path() / "scene.farlod", maps_of(setup.kind), Assign::clip, {{Cell{0, 0}}});
-    return Package(folder_.path() / "scene.farlod");
+    return PackageReader(folder_.path() / "scene.farlod");
   }
 
   scenes::TemporaryFolder folder_;
-  Package package_;
+  PackageReader package_;
   CellReceivers receiver_;
 };
 

@@ -78,7 +78,7 @@ class FloorOnASlope : public testing::TestWithParam<double> {
   }
 
   scenes::TemporaryFolder folder_;
-  std::optional<Package> package_;
+  std::optional<PackageReader> package_;
   std::uint64_t foundations_ = 0;
 };
 

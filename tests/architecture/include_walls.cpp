@@ -33,8 +33,12 @@ constexpr Wall walls[] = {
 
     {"^runtime/", NOWHERE, "^(" CGAL_HEADERS "|" PROJ_HEADERS "|" XML_HEADERS "|GeographicLib/)",
      "the runtime ships without the geometry stack"},
-    {"^runtime/", "^runtime/results/[a-z_/]+_gdal\\.cpp$", "^(" GDAL_HEADERS ")",
-     "the runtime library never needs GDAL; results/*_gdal.cpp are a library apart"},
+    {"^runtime/", "^runtime/(points|results)/[a-z_/]+_gdal\\.cpp$", "^(" GDAL_HEADERS ")",
+     "the runtime library never needs GDAL; points/ and results/*_gdal.cpp are a library apart"},
+    {"^runtime/(app|points|results)/", NOWHERE, "^(package|occlusion|scene|horizon|rays|receivers|evaluate|run)/",
+     "a program is a user of the library"},
+    {"^preprocess/app/", NOWHERE, "^(city|ingest|georeference|align|tiles|farmap|package|trial|pipeline|occlusion|contract)/",
+     "a program is a user of the library"},
     {"^runtime/", "^runtime/occlusion/[a-z_]+_embree\\.cpp$", "^embree", "occlusion is the only wrapper of Embree"},
     {"^runtime/", "^runtime/package/[a-z_]+\\.cpp$", "^(" EXR_HEADERS "|" MAPPING_HEADERS ")",
      "only the package room knows how far maps and tiles lie on disk"},
@@ -69,7 +73,7 @@ constexpr std::array<std::string_view, 10> stages{"city",   "ingest",  "georefer
 
 /// The headers of the runtime that preprocess/trial may include: it measures far maps with the evaluator that users will run, and
 /// with nothing of its own that could differ from it.
-constexpr std::array<std::string_view, 3> runtime_headers_of_trial{"evaluate/sky_evaluator.hpp", "package/package.hpp",
+constexpr std::array<std::string_view, 3> runtime_headers_of_trial{"evaluate/sky_evaluator.hpp", "package/package_reader.hpp",
                                                                    "receivers/receiver.hpp"};
 
 std::size_t stage_of(std::string_view path_in_preprocess) {

@@ -99,7 +99,7 @@ TEST(Rasterise, HoldsRoofsAndTheGroundBesideThem) {
   builder.add_box({{5.0, 4.0}, {6.0, 5.0}}, 0.0, 14.0);
   const scenes::TemporaryFolder folder;
   scenes::pack_city(builder.city(), scenes::grid_covering(builder.city(), {}, 20.0, 3), folder.path() / "house.farlod");
-  const Package package(folder.path() / "house.farlod");
+  const PackageReader package(folder.path() / "house.farlod");
   const HeightRaster raster = rasterise(package, 1.0);
   const auto height_origin_m = static_cast<float>(package.manifest().height_origin_m);
   const auto pixels_at = [&](float height_m) {

@@ -31,9 +31,9 @@ class SkyViewFactors : public testing::TestWithParam<Way> {
   SkyViewFactors()
       : package_(packed()), plan_(plan_raster(package_.manifest(), 3.0, std::nullopt)), raster_(package_.manifest(), plan_) {}
 
-  Package packed() const {
+  PackageReader packed() const {
     scenes::pack_city(crooked_town(), crooked_grid(), folder_.path() / "town.farlod", scenes::small_maps(GetParam().kind));
-    return Package(folder_.path() / "town.farlod");
+    return PackageReader(folder_.path() / "town.farlod");
   }
   [[nodiscard]] SkySettings settings() const {
     return {GetParam().engine, SkyWeight::cosine, 145, GetParam().max_far_error, GetParam().directions, 64};
@@ -43,7 +43,7 @@ class SkyViewFactors : public testing::TestWithParam<Way> {
   /// The whole raster, cells in parallel; bits, so that no data equals no data.
   std::vector<std::uint32_t> raster_with(std::size_t threads, bool backwards = false) const {
     std::vector<float> svf(plan_.columns * plan_.rows, std::numeric_limits<float>::quiet_NaN());
-    const Package opened_anew(folder_.path() / "town.farlod");
+    const PackageReader opened_anew(folder_.path() / "town.farlod");
     const SkyEvaluator evaluator(opened_anew, settings());
     std::vector<Cell> cells = raster_.cells();
     if (backwards) std::reverse(cells.begin(), cells.end());
@@ -58,7 +58,7 @@ class SkyViewFactors : public testing::TestWithParam<Way> {
   }
 
   scenes::TemporaryFolder folder_;
-  Package package_;
+  PackageReader package_;
   RasterPlan plan_;
   RasterReceivers raster_;
 };

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 
 namespace farlod {
 namespace {

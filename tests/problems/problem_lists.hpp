@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "city/problem.hpp"
+#include "farlod/problem.hpp"
 
 namespace farlod::test {
 

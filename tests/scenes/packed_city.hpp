@@ -10,7 +10,7 @@
 #include "city/city_model.hpp"
 #include "contract/grid.hpp"
 #include "farmap/far_map_settings.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 #include "tiles/tiles.hpp"
 

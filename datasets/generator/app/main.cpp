@@ -29,7 +29,7 @@ void count(const GeneratedBuilding& building, CityCounts& counts) {
   CityHeader header = header_of(options.settings, options.output);
   header.obj_from_centre = options.obj_from_centre;
   const auto writer = make_city_writer(options.format, options.output, header);
-  Progress progress("Building", options.run.verbosity);
+  ProgressLine progress("Building", options.run.verbosity);
   const auto blocks = static_cast<std::size_t>(CityLayout(options.settings).block_count());
   writer->begin();
   visit_city(options.settings,

@@ -7,7 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "ingest/citygml/citygml_parser.hpp"
 #include "ingest/citygml/citygml_xml.hpp"
 #include "ingest/citygml/gml_surfaces.hpp"

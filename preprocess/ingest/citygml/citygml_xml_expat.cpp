@@ -9,7 +9,7 @@
 #include <memory>
 #include <new>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "ingest/citygml/citygml_xml.hpp"
 
 namespace farlod::ingest {

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "ingest/model_builder/polygon_deduplicator.hpp"
 
 namespace farlod::ingest {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "city/problem.hpp"
 #include "city/source.hpp"
+#include "farlod/problem.hpp"
 #include "ingest/files/input_file.hpp"
 #include "ingest/model_builder/lod_choice.hpp"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "ingest/cityjson/cityjson_objects.hpp"
 #include "ingest/cityjson/cityjson_reader.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"

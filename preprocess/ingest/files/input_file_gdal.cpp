@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "ingest/files/input_file.hpp"
 

@@ -7,7 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "ingest/files/file_beginning.hpp"
 #include "ingest/files/file_ending.hpp"
 #include "ingest/files/file_format.hpp"

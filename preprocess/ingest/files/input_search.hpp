@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "city/problem.hpp"
 #include "city/source.hpp"
+#include "farlod/problem.hpp"
 #include "ingest/files/input_file.hpp"
 
 namespace farlod::ingest {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "ingest/files/zip_directory.hpp"
 #include "ingest/files/zip_members.hpp"

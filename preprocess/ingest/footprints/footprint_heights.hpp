@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "city/city_model.hpp"
-#include "city/problem.hpp"
-#include "ingest/footprints/footprint_settings.hpp"
+#include "farlod/pack.hpp"
+#include "farlod/problem.hpp"
 
 namespace farlod::ingest {
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "city/problem.hpp"
 #include "city/source.hpp"
+#include "farlod/pack.hpp"
+#include "farlod/problem.hpp"
 #include "ingest/files/input_file.hpp"
-#include "ingest/footprints/footprint_settings.hpp"
 
 namespace farlod::ingest {
 

@@ -10,8 +10,8 @@
 #include <sstream>
 #include <variant>
 
-#include "city/input_error.hpp"
 #include "farlod/angle.hpp"
+#include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/wkt_gdal.hpp"
 #include "ingest/footprints/footprint_heights.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "city/city_model.hpp"
-#include "city/problem.hpp"
+#include "farlod/problem.hpp"
 #include "ingest/model_builder/polygon_deduplicator.hpp"
 #include "ingest/model_builder/ring_cleaning.hpp"
 

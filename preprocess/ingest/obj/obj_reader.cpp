@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "ingest/obj/disjoint_sets.hpp"
 #include "ingest/obj/obj_mesh.hpp"
 #include "ingest/obj/planar_faces.hpp"

@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "farlod/pack.hpp"
 #include "ingest/files/input_file.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
 
 namespace farlod::ingest {
-
-/// Which axis of an OBJ file points upwards.
-enum class UpAxis { z, y };
 
 /// How the coordinates of a mesh are brought into its CRS.
 struct ObjFrame {

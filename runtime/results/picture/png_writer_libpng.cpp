@@ -4,8 +4,8 @@
 
 #include <limits>
 
+#include "farlod/error.hpp"
 #include "results/atomic_file.hpp"
-#include "results/output_error.hpp"
 #include "results/picture/png_writer.hpp"
 
 namespace farlod {

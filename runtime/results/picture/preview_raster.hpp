@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "results/raster/raster_tile.hpp"
+#include "results/raster/raster_frame.hpp"
 
 namespace farlod {
 

@@ -6,12 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "farlod/point.hpp"
+#include "farlod/raster.hpp"
 
 namespace farlod {
-
-/// The bands of a raster: the sky view factor, or the sky view factor, its lower and its upper bound.
-enum class RasterBands { svf, svf_and_bounds };
 
 /// Place, size and bands of a north-up raster in the output CRS, without its values. Row 0 is the northernmost.
 struct RasterFrame {

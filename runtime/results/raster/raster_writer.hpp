@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "results/raster/raster_tile.hpp"
+#include "results/raster/raster_frame.hpp"
 
 namespace farlod {
 

@@ -10,10 +10,10 @@
 #include <limits>
 
 #include "contract/expects.hpp"
+#include "farlod/error.hpp"
 #include "farlod/version.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "results/atomic_file.hpp"
-#include "results/output_error.hpp"
 
 namespace farlod {
 namespace {

@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "results/raster/raster_tile.hpp"
+#include "results/raster/raster_frame.hpp"
 #include "results/spool_file.hpp"
 
 namespace farlod {

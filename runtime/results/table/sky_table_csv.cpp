@@ -71,19 +71,19 @@ void add_point(const PointRow& r, CsvText& text) {
   text.field(r.id).millimetres(r.p_projected.x).millimetres(r.p_projected.y).millimetres(r.height_m);
 }
 
-void add_surface_point(const SurfacePointRow& r, CsvText& text) {
+void add_surface_point(const SurfacePoint& r, CsvText& text) {
   text.field(r.building).whole(r.surface).field(word_for(r.kind));
   text.millimetres(r.p_projected.x).millimetres(r.p_projected.y).millimetres(r.p_projected.z);
   text.millimetres(degrees(r.azimuth)).millimetres(degrees(r.tilt)).millimetres(r.area_m2);
 }
 
-void add_surface(const SurfaceRow& r, CsvText& text) {
+void add_surface(const SurfaceMean& r, CsvText& text) {
   text.field(r.building).whole(r.surface).field(word_for(r.kind));
   text.millimetres(degrees(r.azimuth)).millimetres(degrees(r.tilt)).millimetres(r.area_m2);
   text.whole(r.receivers).whole(r.nodata).svf(r.svf_mean).svf(r.svf_min).svf(r.svf_max).end_row();
 }
 
-void add_building(const BuildingRow& r, CsvText& text) {
+void add_building(const BuildingMean& r, CsvText& text) {
   text.field(r.building).millimetres(r.roof_area_m2).millimetres(r.wall_area_m2);
   text.whole(r.receivers).whole(r.nodata).svf(r.svf_roofs).svf(r.svf_walls).end_row();
 }
@@ -110,10 +110,10 @@ SurfacePointsCsv::SurfacePointsCsv(const AnswerColumns& columns, const std::file
       bounds_(columns.bounds),
       spool_(path) {}
 
-void SurfacePointsCsv::write_part(std::size_t part, std::span<const SurfacePointRow> rows) {
+void SurfacePointsCsv::write_part(std::size_t part, std::span<const SurfacePoint> rows) {
   if (rows.empty()) return;
   CsvText text;
-  for (const SurfacePointRow& row : rows) {
+  for (const SurfacePoint& row : rows) {
     add_surface_point(row, text);
     add_answer(row, bounds_, text);
   }
@@ -134,7 +134,7 @@ void SurfacePointsCsv::commit() {
   });
 }
 
-void write_surfaces_csv(std::span<const SurfaceRow> rows, const std::string& quantity, const std::filesystem::path& path) {
+void write_surfaces_csv(std::span<const SurfaceMean> rows, const std::string& quantity, const std::filesystem::path& path) {
   CsvText header;
   header.fields({"building", "surface", "kind", "azimuth_deg", "tilt_deg", "area_m2", "receivers", "nodata", quantity + "_mean",
                  quantity + "_min", quantity + "_max"});
@@ -142,15 +142,15 @@ void write_surfaces_csv(std::span<const SurfaceRow> rows, const std::string& qua
   write_table(path, std::move(header), rows.size(), [&](std::size_t n, CsvText& text) { add_surface(rows[n], text); });
 }
 
-void write_buildings_csv(std::span<const BuildingRow> rows, const std::string& quantity, const std::filesystem::path& path) {
+void write_buildings_csv(std::span<const BuildingMean> rows, const std::string& quantity, const std::filesystem::path& path) {
   CsvText header;
   header.fields({"building", "roof_area_m2", "wall_area_m2", "receivers", "nodata", quantity + "_roofs", quantity + "_walls"});
   header.end_row();
   write_table(path, std::move(header), rows.size(), [&](std::size_t n, CsvText& text) { add_building(rows[n], text); });
 }
 
-std::vector<std::filesystem::path> SurfaceTablesCsv::commit(std::span<const SurfaceRow> surfaces,
-                                                            std::span<const BuildingRow> buildings) {
+std::vector<std::filesystem::path> SurfaceTablesCsv::commit(std::span<const SurfaceMean> surfaces,
+                                                            std::span<const BuildingMean> buildings) {
   const std::vector<std::filesystem::path> files{path_, beside(path_, ".surfaces"), beside(path_, ".buildings")};
   write_surfaces_csv(surfaces, quantity_, files[1]);
   write_buildings_csv(buildings, quantity_, files[2]);

@@ -26,7 +26,7 @@ class SurfacePointsCsv {
  public:
   SurfacePointsCsv(const AnswerColumns& columns, const std::filesystem::path& path);
   /// Each part comes once at the most.
-  void write_part(std::size_t part, std::span<const SurfacePointRow> rows);
+  void write_part(std::size_t part, std::span<const SurfacePoint> rows);
   /// Writes the parts in the order of their numbers. The file appears now.
   void commit();
 
@@ -43,19 +43,19 @@ class SurfacePointsCsv {
 
 /// Columns: building, surface, kind, azimuth_deg, tilt_deg, area_m2, receivers, nodata, QUANTITY_mean, QUANTITY_min,
 /// QUANTITY_max.
-void write_surfaces_csv(std::span<const SurfaceRow> rows, const std::string& quantity, const std::filesystem::path& path);
+void write_surfaces_csv(std::span<const SurfaceMean> rows, const std::string& quantity, const std::filesystem::path& path);
 
 /// Columns: building, roof_area_m2, wall_area_m2, receivers, nodata, QUANTITY_roofs, QUANTITY_walls.
-void write_buildings_csv(std::span<const BuildingRow> rows, const std::string& quantity, const std::filesystem::path& path);
+void write_buildings_csv(std::span<const BuildingMean> rows, const std::string& quantity, const std::filesystem::path& path);
 
 /// The three tables of surfaces: NAME.csv, NAME.surfaces.csv, NAME.buildings.csv.
 class SurfaceTablesCsv : public SurfaceTablesWriter {
  public:
   SurfaceTablesCsv(const AnswerColumns& columns, const std::filesystem::path& path)
       : quantity_(columns.quantity), path_(path), receivers_(columns, path) {}
-  void write_part(std::size_t part, std::span<const SurfacePointRow> rows) override { receivers_.write_part(part, rows); }
-  [[nodiscard]] std::vector<std::filesystem::path> commit(std::span<const SurfaceRow> surfaces,
-                                                          std::span<const BuildingRow> buildings) override;
+  void write_part(std::size_t part, std::span<const SurfacePoint> rows) override { receivers_.write_part(part, rows); }
+  [[nodiscard]] std::vector<std::filesystem::path> commit(std::span<const SurfaceMean> surfaces,
+                                                          std::span<const BuildingMean> buildings) override;
 
  private:
   std::string quantity_;

@@ -37,10 +37,10 @@ class SurfaceTablesWriter {
   SurfaceTablesWriter& operator=(const SurfaceTablesWriter&) = delete;
 
   /// Receivers come in parts, in any order, each part once at the most. In the table, parts are ordered by their numbers.
-  virtual void write_part(std::size_t part, std::span<const SurfacePointRow> rows) = 0;
+  virtual void write_part(std::size_t part, std::span<const SurfacePoint> rows) = 0;
   /// Writes the other two tables. The files appear now, and not before; that of the receivers, the first path returned, last.
-  [[nodiscard]] virtual std::vector<std::filesystem::path> commit(std::span<const SurfaceRow> surfaces,
-                                                                  std::span<const BuildingRow> buildings) = 0;
+  [[nodiscard]] virtual std::vector<std::filesystem::path> commit(std::span<const SurfaceMean> surfaces,
+                                                                  std::span<const BuildingMean> buildings) = 0;
 };
 
 }  // namespace farlod

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "tests/preprocess/align/extruded_town.hpp"
 
 namespace farlod::align {

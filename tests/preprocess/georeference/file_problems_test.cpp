@@ -3,7 +3,7 @@
 // What is said of a whole file: how it counts, where it lies, and which CRS holds.
 #include <gmock/gmock.h>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "georeference/georeference.hpp"
 #include "tests/preprocess/georeference/small_source.hpp"
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <limits>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "georeference/crs.hpp"
 #include "tests/preprocess/georeference/small_source.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "georeference/georeference.hpp"
 #include "tests/preprocess/georeference/small_source.hpp"
 

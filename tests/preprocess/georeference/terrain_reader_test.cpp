@@ -9,7 +9,7 @@
 #include <array>
 #include <fstream>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "georeference/output_crs.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 

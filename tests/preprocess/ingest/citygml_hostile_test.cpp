@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "city/input_error.hpp"
 #include "citygml_text.hpp"
+#include "farlod/error.hpp"
 #include "ingest/citygml/gml_references.hpp"
 #include "ingest/citygml/gml_surfaces_numbers.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include "ingest/citygml/citygml_skipped.hpp"
-#include "city/input_error.hpp"
 #include "citygml_text.hpp"
+#include "farlod/error.hpp"
 
 namespace farlod::ingest::test {
 namespace {

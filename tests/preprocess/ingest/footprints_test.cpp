@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reading.hpp"
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "ingest/footprints/height_text.hpp"
 #include "tests/scenes/surface_count.hpp"
 

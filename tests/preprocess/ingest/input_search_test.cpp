@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "archive_writer.hpp"
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "reading.hpp"
 #include "small_cities.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "reading.hpp"
 #include "small_cities.hpp"
 

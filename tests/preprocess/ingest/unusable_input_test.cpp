@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "reading.hpp"
 #include "tests/scenes/surface_count.hpp"
 

@@ -30,7 +30,7 @@ class PackageWriting : public testing::Test {
   std::string complaint() {
     try {
       (void)writer_.write_block(tiles_, BakedBoxes(1), grid_, {0, 0}, shape_);
-    } catch (const PackageWriteError& error) {
+    } catch (const OutputError& error) {
       return error.what();
     }
     return "";
@@ -52,7 +52,7 @@ TEST_F(PackageWriting, WritesTwoFilesAndLeavesNoOther) {
   EXPECT_EQ(std::distance(fs::directory_iterator(block()), {}), 2);
 }
 
-// What the file system refuses is no fault of ours: each must be a PackageWriteError that names the file
+// What the file system refuses is no fault of ours: each must be a OutputError that names the file
 
 TEST_F(PackageWriting, SaysThatAFarMapCannotBeWritten) {
   fs::create_directories(block() / (std::string(package::far_map_file) + ".part"));

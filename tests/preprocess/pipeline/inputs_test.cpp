@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
 #include "tests/problems/problem_lists.hpp"
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <sstream>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "package/file_stamp.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
 
@@ -62,7 +62,7 @@ TEST(Pack, CountsWhatIsInThePackage) {
   EXPECT_EQ(m.polygons, 3U * 6U);
   ASSERT_GT(m.grid.cells.size(), 4);
 
-  const Package package(p.settings.output);
+  const PackageReader package(p.settings.output);
   std::uint64_t triangles = 0;
   for (std::size_t n = 0; n < static_cast<std::size_t>(m.grid.cells.size()); ++n)
     triangles += package.tile(m.grid.cells.cell_at(n)).mesh.triangles.size();
@@ -74,8 +74,8 @@ TEST(Pack, CountsWhatIsInThePackage) {
 
 TEST(Pack, EndsBeforeTheTilesWhereTheMemoryIsShort) {
   TownPacking p;
-  p.settings.memory_limit_mib = 1;
-  EXPECT_THROW(p.run(), MemoryLimitError);
+  p.run_settings.memory_limit_mib = 1;
+  EXPECT_THROW(p.run(), LimitReached);
   EXPECT_FALSE(p.stages_told().contains("tiles"));
   EXPECT_FALSE(fs::exists(p.settings.output));
 }
@@ -94,12 +94,11 @@ TEST(Pack, TellsItsEstimateOnceBeforeTheTiles) {
   TownPacking p;
   std::vector<PackEstimate> told;
   bool cutting = false;
-  const PackResult result = pack(
-      p.settings, p.report, [&](const std::string& stage, std::size_t, std::size_t) { cutting |= stage == "tiles"; },
-      [&](const PackEstimate& estimate) {
-        told.push_back(estimate);
-        EXPECT_FALSE(cutting);
-      });
+  p.run_settings.on_progress = [&](const Progress& progress) { cutting |= progress.stage == "tiles"; };
+  const PackedCity result = pack(p.settings, p.report, p.run_settings, [&](const PackEstimate& estimate) {
+    told.push_back(estimate);
+    EXPECT_FALSE(cutting);
+  });
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told.front().cells, static_cast<std::uint64_t>(result.manifest.grid.cells.size()));
   EXPECT_EQ(told.front().memory_mib, result.estimate.memory_mib);
@@ -142,7 +141,7 @@ TEST_P(PackKind, WritesEveryBlockOfTheGridAndSaysHowManyBytes) {
   }
   EXPECT_EQ(p.result.package_bytes, bytes);
   EXPECT_EQ(p.result.far_map_bytes, far_map_bytes);
-  EXPECT_EQ(Package(p.settings.output).manifest().far_map.is_box(), GetParam() == FarMapKind::box);
+  EXPECT_EQ(PackageReader(p.settings.output).manifest().far_map.is_box(), GetParam() == FarMapKind::box);
 }
 
 TEST(Pack, WhatIsLeftOutIsInTheReportAndNotInThePackage) {
@@ -152,7 +151,7 @@ TEST(Pack, WhatIsLeftOutIsInTheReportAndNotInThePackage) {
   EXPECT_EQ(p.report.problems()[0].code, ProblemCode::height_not_positive);
   EXPECT_EQ(p.report.problems()[0].place, "pit");
   EXPECT_THAT(p.result.manifest.problem_counts, ElementsAre(std::pair(109, std::uint64_t{1})));
-  EXPECT_EQ(ids_in(Package(p.settings.output)), (std::set<std::string>{"east", "north", "west"}));
+  EXPECT_EQ(ids_in(PackageReader(p.settings.output)), (std::set<std::string>{"east", "north", "west"}));
 }
 
 TEST(Pack, TimesEveryStageInItsOrder) {
@@ -202,10 +201,10 @@ TEST(Pack, RefusesAFolderThatExistsBeforeTheLongWork) {
   TownPacking p;
   p.run();
   p.told.clear();
-  EXPECT_THROW(p.run(), PackageWriteError);
+  EXPECT_THROW(p.run(), OutputError);
   for (const char* stage : {"terrain", "align", "tiles", "city_index", "far maps"})
     EXPECT_FALSE(p.stages_told().contains(stage)) << stage << " was begun in vain";
-  EXPECT_EQ(ids_in(Package(p.settings.output)).size(), 3U) << "the old package must stay as it was";
+  EXPECT_EQ(ids_in(PackageReader(p.settings.output)).size(), 3U) << "the old package must stay as it was";
 }
 
 TEST(Pack, ReplacesAPackageWhenAsked) {
@@ -214,7 +213,7 @@ TEST(Pack, ReplacesAPackageWhenAsked) {
   p.settings.inputs = {p.write("hut.geojson", collection({footprint("hut", 0, 0, 3.0)}))};
   p.settings.overwrite = Overwrite::replace;
   p.run();
-  EXPECT_EQ(ids_in(Package(p.settings.output)), (std::set<std::string>{"hut"}));
+  EXPECT_EQ(ids_in(PackageReader(p.settings.output)), (std::set<std::string>{"hut"}));
 }
 
 TEST(Pack, AnInputThatCannotBeReadCostsNobodyTheOldPackage) {
@@ -223,7 +222,7 @@ TEST(Pack, AnInputThatCannotBeReadCostsNobodyTheOldPackage) {
   p.settings.inputs = {p.write("broken.geojson", "{")};
   p.settings.overwrite = Overwrite::replace;
   EXPECT_THROW(p.run(), InputError);
-  EXPECT_EQ(ids_in(Package(p.settings.output)).size(), 3U);
+  EXPECT_EQ(ids_in(PackageReader(p.settings.output)).size(), 3U);
 }
 
 /// An ESRI ASCII grid of 3 × 3 pixels of 1 km, 250 m high, around the town in UTM 32N.

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "pipeline/pack.hpp"
 #include "tests/scenes/packed_city.hpp"
 
@@ -23,17 +23,17 @@ struct Told {
 /// Packs into a folder of its own, and keeps all that came of it.
 struct Packing {
   scenes::TemporaryFolder folder;
-  PackSettings settings;
+  StageSettings settings;
+  RunSettings run_settings;
   Report report;
   std::vector<Told> told;
-  PackResult result;
+  PackedCity result;
 
   Packing() { settings.output = folder.path() / "city.farlod"; }
 
   void run() {
-    result = pack(settings, report, [this](const std::string& stage, std::size_t done, std::size_t all) {
-      told.push_back({stage, done, all});
-    });
+    run_settings.on_progress = [this](const Progress& p) { told.push_back({std::string(p.stage), p.done, p.all}); };
+    result = pack(settings, report, run_settings);
   }
 
   [[nodiscard]] std::set<int> codes() const {
@@ -54,7 +54,7 @@ struct Packing {
 };
 
 /// The ids of all buildings that have a surface in the package.
-inline std::set<std::string> ids_in(const Package& package) {
+inline std::set<std::string> ids_in(const PackageReader& package) {
   std::set<std::string> ids;
   const CellRange& cells = package.grid().cells;
   for (std::size_t n = 0; n < static_cast<std::size_t>(cells.size()); ++n) {

@@ -30,7 +30,7 @@ TEST_P(BrokenFile, HasExactlyItsProblemAndIsPacked) {
   EXPECT_EQ(p.codes(), std::set<int>{code});
   const std::vector<std::pair<int, std::uint64_t>> counts{{code, p.report.problems().size()}};
   EXPECT_EQ(p.result.manifest.problem_counts, counts);
-  EXPECT_EQ(Package(p.settings.output).manifest().problem_counts, counts);
+  EXPECT_EQ(PackageReader(p.settings.output).manifest().problem_counts, counts);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pipeline, BrokenFile, testing::ValuesIn(fixtures_of_stages(2, 4)),
@@ -95,7 +95,7 @@ TEST(BrokenFiles, LoseWhatIsLeftOutAndNothingElse) {
     p.settings.inputs = {fixture.path};
     p.settings.georeference = georeference_of(fixture);
     p.run();
-    EXPECT_EQ(ids_in(Package(p.settings.output)), remains->second.buildings) << fixture.path;
+    EXPECT_EQ(ids_in(PackageReader(p.settings.output)), remains->second.buildings) << fixture.path;
     EXPECT_EQ(p.result.manifest.polygons, remains->second.polygons) << fixture.path;
   }
 }

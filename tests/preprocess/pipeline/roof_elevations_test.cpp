@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "city/input_error.hpp"
+#include "farlod/error.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
 
 namespace farlod::pipeline::test {
@@ -43,7 +43,7 @@ TEST(RoofElevations, ReachDownToTheTerrain) {
   RoofPacking p;
   p.run_on_plain();
   EXPECT_EQ(p.result.manifest.height_origin_m, 250.0);
-  const Package package(p.settings.output);
+  const PackageReader package(p.settings.output);
   EXPECT_EQ(ids_in(package), std::set<std::string>{"hall"});
   float top_m = 0.0F;
   const CellRange& cells = package.grid().cells;

@@ -14,19 +14,19 @@ namespace {
 class FarCanopy : public testing::TestWithParam<Assign> {
  protected:
   FarCanopy() : package_(packed()) {}
-  [[nodiscard]] Package packed() const {
+  [[nodiscard]] PackageReader packed() const {
     scenes::SceneBuilder scene;
     for (const double x : {-601.0, 597.0}) scene.add_box({{x, x}, {x + 4, x + 4}}, 0.0, 3.0);
     scene.add_polygon({{-600, -600, 6}, {600, -600, 6}, {600, 600, 6}});
     const Grid grid = scenes::grid_covering(scene.city(), {}, 50, 1);
     scenes::pack_city(scene.city(), grid, folder_.path() / "canopy.farlod", {}, GetParam(), {{cell_}});
-    return Package(folder_.path() / "canopy.farlod");
+    return PackageReader(folder_.path() / "canopy.farlod");
   }
   [[nodiscard]] SkyAnswers answers() { return SkyAnswers(svf_, low_, high_); }
 
   const Cell cell_{4, -5};  // as far from all three edges as can be
   scenes::TemporaryFolder folder_;
-  Package package_;
+  PackageReader package_;
   std::vector<float> svf_{0.0F}, low_{0.0F}, high_{0.0F};
 };
 

@@ -68,7 +68,7 @@ std::vector<float> svf_on(const Way& way, const Point3d& shift, double bearing_d
   const Grid grid = scenes::grid_covering(city, Angle::degrees(bearing_deg), cell_m, way.neighborhood, 4);
   const scenes::TemporaryFolder folder;
   scenes::pack_city(city, grid, folder.path() / "street.farlod", scenes::small_maps(FarMapKind::horizon));
-  const Package package(folder.path() / "street.farlod");
+  const PackageReader package(folder.path() / "street.farlod");
   std::vector<PlaceOfReceiver> shifted;
   for (const Point2d p : places()) shifted.push_back({p + horizontal(shift), {}});
   std::vector<float> svf(shifted.size(), -1.0F);
@@ -113,7 +113,7 @@ TEST(GridIndependence, AzimuthsOfHorizonsAreThoseOfTheCity) {
     const Grid grid = scenes::grid_covering(builder.city(), Angle::degrees(bearing_deg), cell_m, 3, 4);
     const scenes::TemporaryFolder folder;
     scenes::pack_city(builder.city(), grid, folder.path() / "house.farlod", scenes::small_maps(FarMapKind::horizon));
-    const Package package(folder.path() / "house.farlod");
+    const PackageReader package(folder.path() / "house.farlod");
     SkySettings settings{Engine::horizon};
     settings.azimuths = 2;
     const std::vector<PlaceOfReceiver> place{{{0.0, 0.0}, {}}};

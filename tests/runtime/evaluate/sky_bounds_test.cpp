@@ -53,14 +53,14 @@ class SkyBounds : public testing::TestWithParam<Town> {
  protected:
   SkyBounds() : package_(packed()), places_(some_places()) {}
 
-  Package packed() const {
+  PackageReader packed() const {
     const Town& town = GetParam();
     const CityModel city = city_of(town);
     const Grid grid = scenes::grid_covering(city, Angle::degrees(13.0), town.cell_m, town.neighborhood, 4);
     FarMapSettings settings;
     settings.horizon.tolerance = town.tolerance;
     scenes::pack_city(city, grid, folder_.path() / "town.farlod", settings, town.assign);
-    return Package(folder_.path() / "town.farlod");
+    return PackageReader(folder_.path() / "town.farlod");
   }
 
   /// All over the town, on streets and roofs and high above both, a fifth of them tilted; none inside of a building.
@@ -106,7 +106,7 @@ class SkyBounds : public testing::TestWithParam<Town> {
   std::mt19937_64 random_{20120901};
   std::size_t count_ = 0;
   scenes::TemporaryFolder folder_;
-  Package package_;
+  PackageReader package_;
   std::vector<CellReceivers> places_;
 };
 

@@ -39,7 +39,7 @@ class PackedScene {
  public:
   PackedScene(const CityModel& city, const Grid& grid, FarMapKind kind) : package_(packed(city, grid, kind)) {}
 
-  [[nodiscard]] const Package& package() const { return package_; }
+  [[nodiscard]] const PackageReader& package() const { return package_; }
   [[nodiscard]] std::vector<float> svf(const CellReceivers& receivers, const SkySettings& settings) const {
     std::vector<float> result(receivers.receivers.size(), -1.0F);
     SkyEvaluator(package_, settings).evaluate(receivers, result);
@@ -47,12 +47,12 @@ class PackedScene {
   }
 
  private:
-  Package packed(const CityModel& city, const Grid& grid, FarMapKind kind) const {
+  PackageReader packed(const CityModel& city, const Grid& grid, FarMapKind kind) const {
     scenes::pack_city(city, grid, folder_.path() / "scene.farlod", scenes::small_maps(kind));
-    return Package(folder_.path() / "scene.farlod");
+    return PackageReader(folder_.path() / "scene.farlod");
   }
   scenes::TemporaryFolder folder_;
-  Package package_;
+  PackageReader package_;
 };
 
 /// 25 places spread over a cell, at eye height.

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "horizon/overhangs.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "tests/scenes/packed_city.hpp"
 
 namespace farlod {
@@ -22,7 +22,7 @@ class PackedOverhangs {
   [[nodiscard]] OverhangGeometry geometry() const { return {package_, cell}; }
 
  private:
-  [[nodiscard]] Package packed(std::span<const std::array<Point3f, 3>> triangles) const {
+  [[nodiscard]] PackageReader packed(std::span<const std::array<Point3f, 3>> triangles) const {
     Grid grid;
     grid.cell_edge_m = 20.0;
     grid.neighborhood = 1;
@@ -43,11 +43,11 @@ class PackedOverhangs {
     FarMapSettings settings;
     settings.horizon.azimuth_bins = 8;
     scenes::pack_tiles(tiles, grid, path, settings, Assign::clip, std::vector<Cell>{});
-    return Package(path);
+    return PackageReader(path);
   }
 
   scenes::TemporaryFolder folder_;
-  Package package_;
+  PackageReader package_;
 };
 
 }  // namespace farlod

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "contract/package/layout.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
 
@@ -46,7 +46,7 @@ class WallToTheNorth : public testing::Test {
 };
 
 TEST_F(WallToTheNorth, IsInTheNorthernColumns) {
-  const Package package(folder_.path() / "wall.farlod");
+  const PackageReader package(folder_.path() / "wall.farlod");
   const BoxFarMap map = package.box_far_map({0, 0});
   const double top = map.shape().top;
   // The box is as high as the wall of the nearest cell could be, seen from the middle
@@ -61,7 +61,7 @@ TEST_F(WallToTheNorth, IsInTheNorthernColumns) {
 }
 
 TEST_F(WallToTheNorth, OpenExrSeesItUpright) {
-  const double top = Package(folder_.path() / "wall.farlod").box_far_map({0, 0}).shape().top;
+  const double top = PackageReader(folder_.path() / "wall.farlod").box_far_map({0, 0}).shape().top;
   Imf::TiledInputFile file((folder_.path() / "wall.farlod" / package::block_folder({0, 0}) / package::far_map_file).c_str());
   ASSERT_EQ(file.tileXSize(), 4 * W);
   ASSERT_EQ(file.tileYSize(), H);

@@ -90,7 +90,7 @@ TEST(HorizonFile, ZeroStaysZero) {
 
 TEST(HorizonFile, PatchesRunDownwardsFromTheFirst) {
   const SmallPackage small(FarMapKind::horizon);
-  const Package package(small.folder());
+  const PackageReader package(small.folder());
   const FarHorizon map = package.far_horizon({1, 0});
   Imf::TiledInputFile file(small.file(SmallPackage::two_cells, package::far_map_file).c_str());
   const auto columns = static_cast<int>(map.bins.count), rows = static_cast<int>(map.patches.count());

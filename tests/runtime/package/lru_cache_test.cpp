@@ -72,7 +72,7 @@ class HeldBlocks : public testing::TestWithParam<FarMapKind> {
 
 TEST_P(HeldBlocks, AllAreHeldWithoutALimit) {
   const SmallPackage small(GetParam());
-  const Package package(small.folder());
+  const PackageReader package(small.folder());
   EXPECT_EQ(tiles_in_memory(small), 0U);
   for (const Cell cell : {Cell{0, 0}, {1, 0}, {2, 0}}) (void)package.tile(cell);
   EXPECT_EQ(tiles_in_memory(small), 2U);
@@ -80,7 +80,7 @@ TEST_P(HeldBlocks, AllAreHeldWithoutALimit) {
 
 TEST_P(HeldBlocks, OneBlockAtATimeIsHeldAtTheLowestLimit) {
   const SmallPackage small(GetParam());
-  Package package(small.folder());
+  PackageReader package(small.folder());
   package.hold_at_most(1);
   for (int round = 0; round < 3; ++round)
     for (const Cell cell : {Cell{0, 0}, {2, 0}, {1, 0}}) {
@@ -93,8 +93,8 @@ TEST_P(HeldBlocks, OneBlockAtATimeIsHeldAtTheLowestLimit) {
 
 TEST_P(HeldBlocks, OneBlockAtATimeGivesTheSameAnswers) {
   const SmallPackage small(GetParam());
-  const Package roomy(small.folder());
-  Package tight(small.folder());
+  const PackageReader roomy(small.folder());
+  PackageReader tight(small.folder());
   tight.hold_at_most(1);
   for (int round = 0; round < 3; ++round)
     for (const Cell cell : {Cell{0, 0}, {2, 0}, {1, 0}}) {
@@ -112,7 +112,7 @@ TEST_P(HeldBlocks, OneBlockAtATimeGivesTheSameAnswers) {
 
 TEST_P(HeldBlocks, WhatWasHandedOutStaysReadable) {
   const SmallPackage small(GetParam());
-  Package package(small.folder());
+  PackageReader package(small.folder());
   package.hold_at_most(1);
   const TileView first = package.tile({0, 0});
   const std::vector<Point3f> before(first.mesh.vertices.begin(), first.mesh.vertices.end());

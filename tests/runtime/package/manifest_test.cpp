@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "package/manifest_reader.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "tests/runtime/package/small_package.hpp"
 
 namespace farlod {
@@ -39,15 +39,15 @@ std::vector<json::json_pointer> places_of(const json& manifest) {
 TEST(Package, ManifestMissing) {
   const SmallPackage small;
   std::filesystem::remove(small.folder() / package::manifest_file);
-  EXPECT_THROW((void)Package(small.folder()), PackageUnusable);
-  EXPECT_THROW((void)Package(small.folder() / "nothing here"), PackageUnusable);
+  EXPECT_THROW((void)PackageReader(small.folder()), PackageUnusable);
+  EXPECT_THROW((void)PackageReader(small.folder() / "nothing here"), PackageUnusable);
 }
 
 TEST(Package, ManifestIsAFolder) {
   const SmallPackage small;
   std::filesystem::remove(small.folder() / package::manifest_file);
   std::filesystem::create_directory(small.folder() / package::manifest_file);
-  EXPECT_NE(damage_met_by([&] { (void)Package(small.folder()); }), "no damage");
+  EXPECT_NE(damage_met_by([&] { (void)PackageReader(small.folder()); }), "no damage");
 }
 
 TEST(Package, ManifestTruncated) {

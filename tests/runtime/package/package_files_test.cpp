@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "tests/runtime/package/small_package.hpp"
 
 // A package whose files are not those that its manifest tells of.
@@ -18,7 +18,7 @@ using testing::HasSubstr;
 /// What a user meets who asks for everything.
 std::string damage_of(const SmallPackage& small) {
   return damage_met_by([&] {
-    const Package package(small.folder());
+    const PackageReader package(small.folder());
     const bool is_box = package.manifest().far_map.is_box();
     for (const Cell cell : {Cell{0, 0}, {1, 0}, {2, 0}})
       is_box ? (void)package.box_far_map(cell) : (void)package.far_horizon(cell);
@@ -126,7 +126,7 @@ TEST_P(PackageFiles, FarMapsThatAreAnotherPicture) {
 TEST_P(PackageFiles, WhatIsNotAskedForIsNotOpened) {
   const SmallPackage small(GetParam());
   std::filesystem::remove(small.file(SmallPackage::one_cell, tiles_file));
-  const Package package(small.folder());
+  const PackageReader package(small.folder());
   EXPECT_GT(package.tile({0, 0}).mesh.triangles.size(), 0U);
   EXPECT_THROW((void)package.tile({2, 0}), PackageDamaged);
   EXPECT_THROW((void)package.tile({2, 0}), PackageDamaged) << "asking again must not help";

@@ -7,7 +7,7 @@
 #include "evaluate/sky_evaluator.hpp"
 #include "farmap/horizon_map_baker.hpp"
 #include "package/far_map_writer.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "tests/runtime/package/small_package.hpp"
 #include "tests/scenes/generated_town.hpp"
 
@@ -33,7 +33,7 @@ class InMemory : public testing::Test {
     Report ignored;
     return tiles::cut_into_tiles({city, {}}, grid, Assign::clip, {}, ignored);
   }
-  [[nodiscard]] PackageInMemory contents_of(const Package& disk) {
+  [[nodiscard]] PackageInMemory contents_of(const PackageReader& disk) {
     PackageInMemory memory{disk.manifest(), {}, {}};
     for (const Block block : grid_.blocks())
       bytes_.push_back(bytes_of(folder_ / package::block_folder(block) / package::tiles_file));
@@ -42,7 +42,7 @@ class InMemory : public testing::Test {
       memory.far_horizons.emplace(grid_.cells.cell_at(n), disk.far_horizon(grid_.cells.cell_at(n)));
     return memory;
   }
-  [[nodiscard]] std::vector<float> answers_of(const Package& package, Engine engine) const {
+  [[nodiscard]] std::vector<float> answers_of(const PackageReader& package, Engine engine) const {
     const SkyEvaluator evaluator(package, {engine, SkyWeight::cosine, 145});
     std::vector<float> all;
     for (std::size_t n = 0; n < static_cast<std::size_t>(grid_.cells.size()); n += 5) {
@@ -64,8 +64,8 @@ class InMemory : public testing::Test {
 };
 
 TEST_F(InMemory, AnswersAreThoseFromTheDisk) {
-  const Package disk(folder_);
-  const Package memory(contents_of(disk));
+  const PackageReader disk(folder_);
+  const PackageReader memory(contents_of(disk));
   for (const Engine engine : {Engine::automatic, Engine::rays, Engine::exact}) {
     const std::vector<float> answers = answers_of(memory, engine);
     EXPECT_EQ(answers, answers_of(disk, engine));
@@ -74,15 +74,15 @@ TEST_F(InMemory, AnswersAreThoseFromTheDisk) {
 }
 
 TEST_F(InMemory, DamagedTilesAreRefusedAsOnTheDisk) {
-  const Package disk(folder_);
+  const PackageReader disk(folder_);
   PackageInMemory contents = contents_of(disk);
   contents.tiles.front() = contents.tiles.front().first(100);
-  const Package memory(std::move(contents));
+  const PackageReader memory(std::move(contents));
   EXPECT_THROW((void)memory.tile(grid_.cells.cell_at(0)), PackageDamaged);
 }
 
 TEST_F(InMemory, SlopesComeBackAsTheyAreRounded) {
-  const Package disk(folder_);
+  const PackageReader disk(folder_);
   const HorizonMapBaker baker(tiles_, grid_, {});
   std::size_t changed = 0;
   for (const Block block : grid_.blocks()) {

@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "farmap/far_map_baker.hpp"
-#include "package/package.hpp"
+#include "package/package_reader.hpp"
 #include "tests/scenes/edges_as_set.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
@@ -61,7 +61,7 @@ class RoundTrip : public testing::TestWithParam<Assign> {
 };
 
 TEST_P(RoundTrip, TheManifestKeepsThePlace) {
-  const Package package(path_of(FarMapKind::horizon));
+  const PackageReader package(path_of(FarMapKind::horizon));
   EXPECT_EQ(package.grid().cells, grid_.cells);
   EXPECT_EQ(package.grid().cell_edge_m, grid_.cell_edge_m);
   EXPECT_EQ(package.grid().neighborhood, grid_.neighborhood);
@@ -75,7 +75,7 @@ TEST_P(RoundTrip, TheManifestKeepsThePlace) {
 
 TEST_P(RoundTrip, TilesAreTheSame) {
   const TileSet before = tiles();
-  const Package package(path_of(FarMapKind::horizon));
+  const PackageReader package(path_of(FarMapKind::horizon));
   for (std::size_t n = 0; n < before.tiles.size(); ++n) {
     const Tile& tile = before.tiles[n];
     const TileView view = package.tile(before.cells.cell_at(n));
@@ -93,7 +93,7 @@ TEST_P(RoundTrip, TilesAreTheSame) {
 
 TEST_P(RoundTrip, EdgesAreTheSame) {
   const TileSet before = tiles();
-  const Package package(path_of(FarMapKind::box));
+  const PackageReader package(path_of(FarMapKind::box));
   std::array<std::size_t, edge_role_count> edges{};
   std::size_t level = 0;
   for (std::size_t n = 0; n < before.tiles.size(); ++n) {
@@ -111,7 +111,7 @@ TEST_P(RoundTrip, EdgesAreTheSame) {
 }
 
 TEST_P(RoundTrip, VerticesOfATileDiffer) {
-  const Package package(path_of(FarMapKind::horizon));
+  const PackageReader package(path_of(FarMapKind::horizon));
   for (std::size_t n = 0; n < static_cast<std::size_t>(grid_.cells.size()); ++n) {
     const auto vertices = package.tile(grid_.cells.cell_at(n)).mesh.vertices;
     std::set<std::array<float, 3>> places;
@@ -121,7 +121,7 @@ TEST_P(RoundTrip, VerticesOfATileDiffer) {
 
 TEST_P(RoundTrip, SurfacesAndBuildingsAreTheSame) {
   const TileSet before = tiles();
-  const Package package(path_of(FarMapKind::horizon));
+  const PackageReader package(path_of(FarMapKind::horizon));
   std::size_t grounded = 0, overhanging = 0;
   for (std::size_t n = 0; n < before.tiles.size(); ++n) {
     const Cell cell = before.cells.cell_at(n);
@@ -147,7 +147,7 @@ TEST_P(RoundTrip, SurfacesAndBuildingsAreTheSame) {
 TEST_P(RoundTrip, BoxMapsAreTheSameToHalfPrecision) {
   const TileSet before = tiles();
   const FarMapBaker baker(before, grid_, GetParam(), maps_of(FarMapKind::box));
-  const Package package(path_of(FarMapKind::box));
+  const PackageReader package(path_of(FarMapKind::box));
   std::size_t blocked = 0;
   for (const Block block : grid_.blocks()) {
     const auto maps = std::get<BakedBoxes>(baker.bake(block));
@@ -183,7 +183,7 @@ void expect_same_names(std::span<const package::ExplicitOccluder> a, std::span<c
 TEST_P(RoundTrip, WhatHorizonsNameIsTheSame) {
   const TileSet before = tiles();
   const FarMapBaker baker(before, grid_, GetParam(), maps_of(FarMapKind::horizon));
-  const Package package(path_of(FarMapKind::horizon));
+  const PackageReader package(path_of(FarMapKind::horizon));
   std::array<std::size_t, edge_role_count> edges{};
   for (const Block block : grid_.blocks()) {
     const auto maps = std::get<BakedHorizons>(baker.bake(block));
@@ -206,7 +206,7 @@ TEST_P(RoundTrip, WhatHorizonsNameIsTheSame) {
 TEST_P(RoundTrip, SlopesAreRoundedOutwardsToHalfPrecision) {
   const TileSet before = tiles();
   const FarMapBaker baker(before, grid_, GetParam(), maps_of(FarMapKind::horizon));
-  const Package package(path_of(FarMapKind::horizon));
+  const PackageReader package(path_of(FarMapKind::horizon));
   std::size_t uncertain = 0, overhung = 0;
   for (const Block block : grid_.blocks()) {
     const auto maps = std::get<BakedHorizons>(baker.bake(block));

@@ -26,7 +26,7 @@ class Slope : public testing::Test {
 
   static double ground_at(double x) { return 100.0 + 0.25 * x; }
 
-  Package packed(bool with_house) const {
+  PackageReader packed(bool with_house) const {
     scenes::SceneBuilder builder;
     // Two low kerbs tell where the ground is
     for (const double x : {0.0, 31.0}) {
@@ -37,11 +37,11 @@ class Slope : public testing::Test {
     const Grid grid = scenes::grid_covering(builder.city(), {}, cell_m, 1, 4);
     const auto folder = folder_.path() / (with_house ? "house.farlod" : "slope.farlod");
     scenes::pack_city(builder.city(), grid, folder, scenes::box_maps(1, 1));
-    return Package(folder);
+    return PackageReader(folder);
   }
 
   /// All receivers at some places, by their index; heights absolute.
-  static std::map<std::size_t, double> heights_of(const Package& package, const std::vector<PlaceOfReceiver>& places,
+  static std::map<std::size_t, double> heights_of(const PackageReader& package, const std::vector<PlaceOfReceiver>& places,
                                                   HeightAbove above, float height_m) {
     std::map<std::size_t, double> heights;
     for (const auto& [cell, chosen] : places_by_cell(package, places))
@@ -54,7 +54,7 @@ class Slope : public testing::Test {
   }
 
   scenes::TemporaryFolder folder_;
-  Package slope_, with_house_;
+  PackageReader slope_, with_house_;
 };
 
 TEST_F(Slope, PlacesComeByCellInTheirOrder) {
@@ -111,7 +111,7 @@ TEST(PointReceivers, OutsideOfTheGridNobodyStandsInAHouse) {
   const scenes::TemporaryFolder folder;
   const Grid grid = scenes::grid_covering(builder.city(), {}, cell_m, 1, 4);
   scenes::pack_city(builder.city(), grid, folder.path() / "edge.farlod", scenes::box_maps(1, 1));
-  const Package package(folder.path() / "edge.farlod");
+  const PackageReader package(folder.path() / "edge.farlod");
   const std::vector<PlaceOfReceiver> places{{{-100.0, 8.0}, {}}, {{8.0, -100.0}, {}}, {{-100.0, 8.0}, 4.0}};
   std::size_t count = 0;
   for (const auto& [cell, chosen] : places_by_cell(package, places))

@@ -46,12 +46,12 @@ class RasterOfATown : public testing::TestWithParam<double> {
  protected:
   RasterOfATown() : package_(packed(GetParam())), manifest_(package_.manifest()) { manifest_.origin_m = {1000.3, -2000.7}; }
 
-  Package packed(double bearing_deg) const {
+  PackageReader packed(double bearing_deg) const {
     scenes::SceneBuilder builder;
     for (const double x : {0.0, 21.0, 43.0}) builder.add_box({{x, 0.5 * x}, {x + 11.0, 0.5 * x + 9.0}}, 0.0, 6.0);
     const Grid grid = scenes::grid_covering(builder.city(), Angle::degrees(bearing_deg), 16.0, 1, 2);
     scenes::pack_city(builder.city(), grid, folder_.path() / "town.farlod", scenes::box_maps(1, 1));
-    return Package(folder_.path() / "town.farlod");
+    return PackageReader(folder_.path() / "town.farlod");
   }
 
   /// Every pixel in turn, without patches and ranges.
@@ -71,7 +71,7 @@ class RasterOfATown : public testing::TestWithParam<double> {
   }
 
   scenes::TemporaryFolder folder_;
-  Package package_;
+  PackageReader package_;
   package::Manifest manifest_;
 };
 

@@ -23,13 +23,13 @@ class TouchingHouses : public testing::Test {
  protected:
   TouchingHouses() : package_(packed()) {}
 
-  Package packed() const {
+  PackageReader packed() const {
     scenes::SceneBuilder builder;
     builder.add_box({{3.0, 3.0}, {27.0, 17.0}}, 0.0, 9.0);
     builder.add_box({{27.0, 7.0}, {51.0, 33.0}}, 0.0, 6.0);
     const Grid grid = scenes::grid_covering(builder.city(), {}, 20.0, 1, 2);
     scenes::pack_city(builder.city(), grid, folder_.path() / "houses.farlod", scenes::box_maps(1, 1));
-    return Package(folder_.path() / "houses.farlod");
+    return PackageReader(folder_.path() / "houses.farlod");
   }
 
   template <class Visit>
@@ -42,7 +42,7 @@ class TouchingHouses : public testing::Test {
   }
 
   scenes::TemporaryFolder folder_;
-  Package package_;
+  PackageReader package_;
 };
 
 TEST_F(TouchingHouses, AreasAddUpToTheSurfaces) {
@@ -146,7 +146,7 @@ TEST(SurfaceReceivers, APartyWallOnABorderOfTheGridIsInsideFromBothSides) {
   const Grid grid = scenes::grid_covering(builder.city(), {}, 20.0, 1, 2);
   const scenes::TemporaryFolder folder;
   scenes::pack_city(builder.city(), grid, folder.path() / "row.farlod", scenes::box_maps(1, 1));
-  const Package package(folder.path() / "row.farlod");
+  const PackageReader package(folder.path() / "row.farlod");
   for (const Cell cell : {Cell{0, 0}, {1, 0}})
     for (const SurfaceReceiver& r : surface_receivers(package, cell, SurfaceChoice::walls, 1.0)) {
       const bool on_border = std::abs(grid.corner_of(cell).x + r.p_cell.x - 20.0) < 0.5 && std::abs(r.normal.x) > 0.5F;

@@ -6,7 +6,7 @@
 
 #include <stdexcept>
 
-#include "results/output_error.hpp"
+#include "farlod/error.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-#include "results/output_error.hpp"
+#include "farlod/error.hpp"
 #include "results/picture/preview_raster.hpp"
 #include "tests/runtime/results/held_memory.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"

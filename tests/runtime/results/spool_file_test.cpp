@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "results/output_error.hpp"
+#include "farlod/error.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {

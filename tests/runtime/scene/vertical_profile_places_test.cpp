@@ -32,13 +32,13 @@ class PackedLocator {
   [[nodiscard]] const Grid& grid() const { return grid_; }
 
  private:
-  Package packed(const CityModel& city, Assign assign) const {
+  PackageReader packed(const CityModel& city, Assign assign) const {
     scenes::pack_city(city, grid_, folder_.path() / "city.farlod", scenes::box_maps(1, 1), assign);
-    return Package(folder_.path() / "city.farlod");
+    return PackageReader(folder_.path() / "city.farlod");
   }
   scenes::TemporaryFolder folder_;
   Grid grid_;
-  Package package_;
+  PackageReader package_;
 };
 
 void expect_house(const VerticalProfile& profile, float roof_m, const char* where) {

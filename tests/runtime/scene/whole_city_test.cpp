@@ -36,9 +36,9 @@ class Pillars : public testing::Test {
     return hit ? 100.0 - static_cast<double>(hit->distance) : -1.0;
   }
 
-  Package packed() const {
+  PackageReader packed() const {
     scenes::pack_city(city(), grid_, folder_.path() / "pillars.farlod", scenes::box_maps(1, 1));
-    return Package(folder_.path() / "pillars.farlod");
+    return PackageReader(folder_.path() / "pillars.farlod");
   }
 
   /// Off the diagonals of the roofs, and exact in float.
@@ -46,7 +46,7 @@ class Pillars : public testing::Test {
 
   scenes::TemporaryFolder folder_;
   Grid grid_;
-  Package package_;
+  PackageReader package_;
 };
 
 TEST_F(Pillars, TheWholeCityHoldsEachTileInItsPlace) {

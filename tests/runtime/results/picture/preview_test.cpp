@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "results/output_error.hpp"
+#include "farlod/error.hpp"
 #include "results/picture/bitmap_font.hpp"
 #include "results/picture/colour_map.hpp"
 #include "results/picture/png_writer.hpp"

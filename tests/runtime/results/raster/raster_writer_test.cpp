@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "results/output_error.hpp"
+#include "farlod/error.hpp"
 #include "results/raster/esri_wkt_gdal.hpp"
 #include "results/raster/raster_writer_esri_ascii.hpp"
 #include "results/raster/raster_writer_gdal.hpp"

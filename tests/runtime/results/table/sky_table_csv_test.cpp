@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "receivers/point_reader.hpp"
+#include "points/point_reader.hpp"
 #include "results/table/csv_text.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
@@ -21,7 +21,7 @@ PointRows point_rows(const std::vector<PointRow>& rows) {
   return {rows.size(), [&rows](std::size_t n) { return rows[n]; }};
 }
 
-void write_surface_points(const std::vector<SurfacePointRow>& rows, const AnswerColumns& columns,
+void write_surface_points(const std::vector<SurfacePoint>& rows, const AnswerColumns& columns,
                           const std::filesystem::path& path) {
   SurfacePointsCsv table(columns, path);
   table.write_part(0, rows);
@@ -75,7 +75,7 @@ TEST(PointsCsv, CanBeReadAsPointsAgain) {
 
 TEST(SurfacePointsCsv, IsAsDocumented) {
   const scenes::TemporaryFolder folder;
-  const std::vector<SurfacePointRow> rows{
+  const std::vector<SurfacePoint> rows{
       {"b1", 7, SurfaceKind::wall, {10.0, 20.0, 3.125}, Angle::degrees(181.25), Angle::degrees(90.0), 4.0, 0.25, 0.125, 0.5}};
   write_surface_points(rows, {"svf", BoundsColumns::no}, folder.file("a.csv"));
   EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
@@ -89,9 +89,9 @@ TEST(SurfacePointsCsv, IsAsDocumented) {
 
 TEST(SurfacePointsCsv, PartsStandInOrderHoweverTheyCome) {
   const scenes::TemporaryFolder folder;
-  std::vector<SurfacePointRow> rows(5);
+  std::vector<SurfacePoint> rows(5);
   for (std::size_t n = 0; n < rows.size(); ++n) rows[n].surface = static_cast<std::uint32_t>(n);
-  const std::span<const SurfacePointRow> all(rows);
+  const std::span<const SurfacePoint> all(rows);
   {
     SurfacePointsCsv table({"svf", BoundsColumns::no}, folder.file("a.csv"));
     table.write_part(70, all.subspan(4));
@@ -107,7 +107,7 @@ TEST(SurfacePointsCsv, PartsStandInOrderHoweverTheyCome) {
 
 TEST(SurfacesCsv, IsAsDocumented) {
   const scenes::TemporaryFolder folder;
-  std::vector<SurfaceRow> rows(2);
+  std::vector<SurfaceMean> rows(2);
   rows[0] = {"b1", 0, SurfaceKind::roof, Angle::degrees(0.0), Angle::degrees(0.0), 100.5, 25, 1, 0.75, 0.5, 1.0};
   rows[1].building = "b2";
   write_surfaces_csv(rows, "svf", folder.file("a.csv"));
@@ -119,7 +119,7 @@ TEST(SurfacesCsv, IsAsDocumented) {
 
 TEST(SurfaceTablesCsv, AreThreeFilesThatAppearTogether) {
   const scenes::TemporaryFolder folder;
-  const std::vector<SurfacePointRow> rows(1);
+  const std::vector<SurfacePoint> rows(1);
   SurfaceTablesCsv tables({"svf", BoundsColumns::yes}, folder.file("a.b.csv"));
   tables.write_part(3, rows);
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.b.csv")));
@@ -132,7 +132,7 @@ TEST(SurfaceTablesCsv, AreThreeFilesThatAppearTogether) {
 
 TEST(BuildingsCsv, IsAsDocumented) {
   const scenes::TemporaryFolder folder;
-  const std::vector<BuildingRow> rows{{"b1", 100.0, 0.0, 25, 0, 0.75, std::nullopt}};
+  const std::vector<BuildingMean> rows{{"b1", 100.0, 0.0, 25, 0, 0.75, std::nullopt}};
   write_buildings_csv(rows, "svf", folder.file("a.csv"));
   EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
             "building,roof_area_m2,wall_area_m2,receivers,nodata,svf_roofs,svf_walls\n"

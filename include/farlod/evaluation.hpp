@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "farlod/export.hpp"
+
+namespace farlod {
+
+/// What answers a receiver (docs/stages/evaluate.md).
+enum class Engine {
+  automatic,  ///< horizons, and rays where too much sky may be seen below something that overhangs
+  horizon,    ///< horizons alone
+  rays,       ///< rays, as in the paper (Listing 1), compared with horizons; only those in gaps are traced
+  exact,      ///< rays against all tiles: the reference
+  near_only   ///< the far city left out, as by tools that cut a city into tiles: to measure what the far map is worth
+};
+
+/// How directions of the sky are weighted.
+enum class SkyWeight {
+  cosine,      ///< by the cosine to the receiver's normal: the view factor of the sky (`svf`)
+  solid_angle  ///< all alike: the share of the sky's solid angle (`svf_solid`)
+};
+
+/// The set of directions in which rays are sent.
+enum class DirectionSet {
+  partition,  ///< one ray in each cell of the Beckers & Beckers partition of the sky, as in the paper
+  fibonacci   ///< a spherical Fibonacci lattice with the sky's weight: fixed, of low discrepancy
+};
+
+inline constexpr std::size_t default_azimuths = 256, default_rays = 1000;
+
+/// What is computed at a receiver, and how exactly.
+struct EvaluationSettings {
+  Engine engine = Engine::automatic;
+  SkyWeight weight = SkyWeight::cosine;
+  DirectionSet directions = DirectionSet::partition;
+  /// Azimuths of a horizon, 4 to 1,000,000; if empty, default_azimuths, or as many as `max_error` needs.
+  std::optional<std::size_t> azimuths;
+  /// Directions of a receiver's rays, 1 to 10,000,000; if empty, default_rays, or as many as `max_error` needs.
+  std::optional<std::size_t> rays;
+  /// Largest error allowed, 0.0001 to 1: chooses azimuths and rays, and traces exactly where the far map is not enough. Needs far
+  /// maps of the kind `horizon`, or Engine::exact.
+  std::optional<double> max_error;
+  /// Also compute a certain lower and upper bound of each value, with these azimuths or rays and the true far city. Needs the
+  /// same.
+  bool bounds = false;
+  /// After the run, compute so many random receivers exactly and compare: EvaluationSummary::errors. All if there are fewer.
+  std::size_t verify = 0;
+};
+
+/// What a receiver's height counts from.
+enum class HeightAbove {
+  ground,
+  highest_surface,  ///< the ground or the roof, whichever is on top
+  sea_level         ///< the zero of the package's heights
+};
+
+/// How high receivers stand that have no height of their own.
+struct Placing {
+  HeightAbove above = HeightAbove::ground;
+  double height_m = 1.5;  ///< 0 to 10,000; on the surface itself, a receiver stands a centimetre above it
+};
+
+/// Errors of answers against exact ones: of the absolute error its mean, 99th percentile and maximum; bias is the mean of
+/// answer − exact.
+struct ErrorSummary {
+  std::size_t count = 0;
+  double mean_abs_error = 0.0, p99_abs_error = 0.0, max_abs_error = 0.0, bias = 0.0;
+  std::size_t rays = 0;  ///< of each exact answer
+};
+
+/// Seconds of wall clock by part of the work.
+struct EvaluationSeconds {
+  double scenes = 0.0, evaluate = 0.0;
+  double deliver = 0.0;  ///< in the callback that takes the results
+};
+
+/// Width of the intervals [low, high].
+struct BoundsWidth {
+  double mean = 0.0, max = 0.0;
+};
+
+/// What the settings came to, and the error that follows from it.
+struct Accuracy {
+  std::size_t azimuths = default_azimuths, rays = default_rays;
+  double sampling_error = 0.0;              ///< upper estimate for the sky between the samples; not a certain bound
+  std::optional<double> far_error_allowed;  ///< what EvaluationSettings::max_error leaves for the far map
+};
+
+/// What some settings come to, before any run. Throws InvalidArgument, as the runs do, where a setting is not what its
+/// declaration promises, or the numbers of rays and azimuths cannot keep the error that is allowed.
+[[nodiscard]] FARLOD_EXPORT Accuracy accuracy_of(const EvaluationSettings& settings);
+
+/// The figures of a run.
+struct EvaluationSummary {
+  std::size_t receivers = 0;        ///< with a value
+  std::size_t no_data = 0;          ///< inside buildings, below the ground, or without ground below them
+  std::size_t beyond_grid = 0;      ///< pixels of a raster that lie in no cell: without a value too
+  std::size_t outside_of_grid = 0;  ///< receivers outside of the grid, which were traced against the whole city
+  std::optional<double> svf_min, svf_mean, svf_max;
+  std::optional<BoundsWidth> bounds;
+  std::uint64_t by_rays = 0;        ///< receivers that needed rays
+  std::uint64_t retraced_rays = 0;  ///< traced against the whole city because the far map was not enough (max_error)
+  std::optional<ErrorSummary> errors;
+  Accuracy accuracy;
+  EvaluationSeconds seconds;
+};
+
+}  // namespace farlod

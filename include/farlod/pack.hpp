@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "farlod/angle.hpp"
+#include "farlod/export.hpp"
+#include "farlod/package.hpp"
+#include "farlod/point.hpp"
+#include "farlod/problem.hpp"
+#include "farlod/run.hpp"
+
+namespace farlod {
+
+// Of the library farlod::preprocess, which is under GPL-3.0-or-later, as CGAL's packages are that it uses.
+
+/// Which axis of an OBJ file points upwards.
+enum class UpAxis { z, y };
+
+/// How the grid lies.
+enum class AlignMode {
+  automatic,  ///< along the dominant street direction, if there is one
+  none,       ///< to grid north
+  fixed,      ///< along a given bearing
+};
+
+/// How buildings come to cells.
+enum class Assign {
+  clip,  ///< cut exactly at the cells' borders
+  whole  ///< as in the paper: each building whole, to the cell of its footprint's centroid
+};
+
+enum class FarMapKind : std::uint8_t {
+  horizon,  ///< explicit occluders, and bounds for the rest of the far city: without parallax
+  box       ///< the paper's: a picture on the walls of a box, looked up by direction alone
+};
+
+/// What to do when the package's folder is there already.
+enum class Overwrite { refuse, replace };
+
+/// Whether a city with problems is packed.
+enum class ProblemPolicy { pack, refuse };
+
+/// Where the heights of footprints come from: names of attributes, and values for features without them. Lengths in metres.
+struct FootprintSettings {
+  std::optional<std::string> height_field = {};   ///< height above the base
+  std::optional<std::string> base_field = {};     ///< elevation of the base
+  std::optional<std::string> storeys_field = {};  ///< number of storeys
+  double floor_height_m = 3.0;                    ///< 1 to 20: height of a storey, where only the number of storeys is known
+  std::optional<std::string> roof_field = {};     ///< elevation of the roof
+  std::optional<double> default_height_m = {};    ///< 0.01 to 1,000: for footprints without any height
+};
+
+/// From which files a package is made, and how. The defaults are those of farlod-pack.
+struct PackSettings {
+  /// Files, folders and archives; all are put together. A raster among them is a surface model. May be empty if there is a
+  /// terrain.
+  std::vector<std::filesystem::path> inputs;
+  std::filesystem::path output;                  ///< the folder to make
+  std::optional<std::filesystem::path> terrain;  ///< a raster of ground elevations, any that GDAL reads
+  Overwrite overwrite = Overwrite::refuse;
+  ProblemPolicy problems = ProblemPolicy::pack;
+
+  std::string crs;                    ///< "EPSG:n", of inputs that do not say; of all, where each says its own; may be empty
+  std::string out_crs;                ///< of the package: projected, in metres; empty: the input's, or UTM for degrees
+  std::optional<Point3d> obj_origin;  ///< added to the coordinates of OBJ files
+  UpAxis up = UpAxis::z;              ///< of OBJ files
+  std::optional<int> lod;             ///< level of detail to read, 0 to 3; empty: the best from 1 to 3
+  FootprintSettings footprints;
+
+  std::optional<double> cell_edge_m;  ///< 0.5 to 10,000; empty: 50, or what `max_error` needs
+  std::optional<int>
+      neighborhood;  ///< cells along the edge of the near field, odd, 1 to 999; empty: 3, or what `max_error` needs
+  std::optional<double> max_error;  ///< 0.0001 to 1: chooses cells and neighborhood so that sky view factors keep this error
+  AlignMode align = AlignMode::automatic;
+  Angle fixed_bearing = {};  ///< of the grid's y axis, clockwise from grid north, a full turn at the most; with AlignMode::fixed
+  Assign assign = Assign::clip;
+  FarMapKind far_map = FarMapKind::horizon;
+};
+
+/// The expected cost of a run, estimated when the grid is known. An estimate, not a bound.
+struct PackEstimate {
+  std::uint64_t cells = 0;
+  double seconds = 0.0;  ///< of the stages from the tiles on
+  double memory_mib = 0.0, package_mib = 0.0;
+};
+
+/// What far maps do to the sky view factors of some random receivers, against Engine::exact with the same rays: the error of
+/// sampling the sky is not in it.
+struct FarErrorEstimate {
+  std::size_t receivers = 0;
+  double mean_error = 0.0, max_error = 0.0;  ///< |estimate − exact|
+  /// From the estimate to the farther of the two bounds: 99 % of the receivers have no wider interval on that side.
+  double p99_half_width = 0.0;
+  double explicit_edges_per_cell = 0.0;
+  double near_triangles_per_cell = 0.0;  ///< in the neighborhood
+};
+
+/// A cell size, a neighborhood and the tolerance of its far maps; what these were found to do, and what a receiver costs.
+struct GridChoice {
+  double cell_edge_m = 0.0;
+  int neighborhood = 0;
+  double tolerance = 0.0;
+  FarErrorEstimate far_error;
+  /// Expected, packing included, at 1,000 rays on a 2 m grid: to compare choices with, not to plan a run by.
+  double receiver_us = 0.0;
+};
+
+/// The grid that was chosen to keep PackSettings::max_error, and its error at receivers that were not used for the choice.
+struct ChosenGrid {
+  std::optional<GridChoice> best;  ///< none: nothing keeps the error, and the settings were taken as they are
+  FarErrorEstimate measured;
+};
+
+/// How often something was met that is not used, by what it is: vegetation, water, elements of extensions.
+using SkippedFeatures = std::map<std::string, std::uint64_t>;
+
+/// The counts and measurements of a run.
+struct PackResult {
+  PackageDescription package;
+  Angle street_bearing;              ///< of the dominant direction, clockwise from grid north, in (-45°, 45°]
+  double alignment_strength = 0.0;   ///< 0: no direction is preferred; 1: all walls are parallel or perpendicular
+  std::optional<ChosenGrid> chosen;  ///< with PackSettings::max_error
+  std::uint64_t facets = 0;          ///< polygons as the files have them: a surface of a mesh is made of several triangles
+  std::uint64_t foundations = 0;     ///< buildings whose lowest floor was closed down to the ground
+  SkippedFeatures skipped;           ///< features of the files that are not used
+  std::vector<std::string> notes;    ///< for the user: what was read from files beside the inputs, or assumed
+  std::uint64_t package_bytes = 0, far_map_bytes = 0;
+  PackEstimate estimate;
+  /// In the order in which the stages ran. The package is written while far maps are baked, so that these two overlap.
+  std::vector<std::pair<std::string, double>> stage_seconds;
+};
+
+/// Called before the long stages with what they are expected to need.
+using OnEstimate = std::function<void(const PackEstimate&)>;
+
+/// Makes a package from city files. Problems of single buildings are added to the report, as far as the run comes, and end
+/// nothing. The folder appears with its manifest at the end; a run that ends before leaves nothing that opens as a package.
+/// Throws InvalidArgument, InputError, ProblemsRefused, OutputError, LimitReached, Cancelled.
+FARLOD_EXPORT PackResult pack(const PackSettings& settings, Report& report, const RunSettings& run = {},
+                              const OnEstimate& on_estimate = {});
+
+}  // namespace farlod

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "farlod/evaluation.hpp"
+#include "farlod/export.hpp"
+#include "farlod/package.hpp"
+#include "farlod/run.hpp"
+
+namespace farlod {
+
+/// Points in the package's CRS, coordinate by coordinate; they look straight up. The n-th is (x_m[n], y_m[n]), at the height
+/// z_m[n] above sea level where there is one. The arrays are the caller's, and as long as each other.
+struct Points {
+  std::span<const double> x_m, y_m;  ///< easting and northing, within 100,000 km
+  std::span<const double> z_m = {};  ///< within 100 km, or NaN: the point stands as Placing says; empty: all do
+};
+
+/// Where the answers go: arrays of the caller as long as those of the points. No data is NaN.
+struct PointAnswerSpans {
+  std::span<float> svf;             ///< from 0 to 1
+  std::span<float> low = {};        ///< wanted with EvaluationSettings::bounds, and only then
+  std::span<float> high = {};       ///< the same
+  std::span<double> height_m = {};  ///< where the receivers stand, above sea level; may be empty
+};
+
+struct PointAnswers {
+  std::vector<float> svf, low, high;  ///< `low` and `high` are empty without EvaluationSettings::bounds
+  std::vector<double> height_m;
+  EvaluationSummary summary;
+};
+
+/// Evaluates the sky view factors of points, inside the grid or outside of it. The same points give the same answers whatever the
+/// number of threads. Throws InvalidArgument, Cancelled, LimitReached, PackageUnusable, PackageDamaged.
+FARLOD_EXPORT EvaluationSummary evaluate_points(const Package& package, const Points& points, const Placing& placing,
+                                                const EvaluationSettings& settings, const PointAnswerSpans& answers,
+                                                const RunSettings& run = {});
+[[nodiscard]] FARLOD_EXPORT PointAnswers evaluate_points(const Package& package, const Points& points,
+                                                         const Placing& placing = {}, const EvaluationSettings& settings = {},
+                                                         const RunSettings& run = {});
+
+}  // namespace farlod

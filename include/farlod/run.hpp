@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string_view>
+
+namespace farlod {
+
+/// How far a run is: `done` of `all` parts of a stage, such as "tiles" or "sky view factors".
+struct Progress {
+  std::string_view stage;
+  std::size_t done = 0, all = 0;
+};
+
+/// How a run is carried out. Nothing here changes an answer.
+struct RunSettings {
+  std::size_t threads = 0;  ///< 0: as many as the machine has cores; 4,096 at the most
+  /// A run that would need more ends with LimitReached before its long work; no limit if empty.
+  std::optional<std::uint64_t> memory_limit_mib;
+  /// What the caller holds of the results himself, counted against the limit.
+  std::uint64_t caller_bytes = 0;
+  /// Called by threads of the run, never by two at a time. What it throws ends the run.
+  std::function<void(const Progress&)> on_progress;
+  /// Ask its std::stop_source to stop, from any thread or from a callback, and the run ends with Cancelled.
+  std::stop_token stop;
+};
+
+}  // namespace farlod

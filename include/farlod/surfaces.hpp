@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "farlod/angle.hpp"
+#include "farlod/evaluation.hpp"
+#include "farlod/export.hpp"
+#include "farlod/package.hpp"
+#include "farlod/point.hpp"
+#include "farlod/run.hpp"
+#include "farlod/surface_kind.hpp"
+
+namespace farlod {
+
+enum class SurfaceChoice { roofs, walls, all };
+
+/// Which surfaces have receivers, and how densely: each triangle of area A has ⌈A/spacing²⌉ of them, evenly placed, each standing
+/// for an equal share of its area.
+struct SurfaceSettings {
+  SurfaceChoice choice = SurfaceChoice::all;
+  double spacing_m = 2.0;  ///< 0.05 to 1,000
+};
+
+/// A receiver on a surface of a building.
+struct SurfacePoint {
+  std::string building;
+  std::uint32_t surface = 0;  ///< its number within the building
+  SurfaceKind kind = SurfaceKind::unknown;
+  Point3d p_projected;
+  Angle azimuth;                    ///< of the outward normal, true (clockwise from true north)
+  Angle tilt;                       ///< of the outward normal: 0° looks up, 90° is a wall
+  double area_m2 = 0.0;             ///< the part of the surface that this receiver stands for
+  std::optional<double> svf;        ///< none inside another building, or below the ground
+  std::optional<double> low, high;  ///< certain bounds, where asked for
+};
+
+/// Area-weighted mean over the receivers of a surface that have an answer.
+struct SurfaceMean {
+  std::string building;
+  std::uint32_t surface = 0;
+  SurfaceKind kind = SurfaceKind::unknown;
+  Angle azimuth, tilt;
+  double area_m2 = 0.0;
+  std::size_t receivers = 0, nodata = 0;
+  std::optional<double> svf_mean, svf_min, svf_max;
+};
+
+/// Area-weighted means over the roofs and walls of a building.
+struct BuildingMean {
+  std::string building;
+  double roof_area_m2 = 0.0, wall_area_m2 = 0.0;
+  std::size_t receivers = 0, nodata = 0;
+  std::optional<double> svf_roofs, svf_walls;
+};
+
+/// The means of a run, in an order that depends on nothing but the package and the settings.
+struct SurfaceMeans {
+  std::vector<SurfaceMean> surfaces;
+  std::vector<BuildingMean> buildings;
+  EvaluationSummary summary;
+};
+
+/// Takes the receivers of a cell of the grid: one cell at a time, each once, in the same order whatever the number of threads;
+/// `cell` counts the cells row by row from the south-west. What it throws ends the run.
+using OnSurfacePoints = std::function<void(std::size_t cell, std::span<const SurfacePoint> points)>;
+
+/// Evaluates receivers on the roofs and walls of all buildings. Throws InvalidArgument, Cancelled, LimitReached, PackageUnusable,
+/// PackageDamaged. `on_points` may be empty.
+[[nodiscard]] FARLOD_EXPORT SurfaceMeans evaluate_surfaces(const Package& package, const SurfaceSettings& surfaces,
+                                                           const EvaluationSettings& settings = {},
+                                                           const OnSurfacePoints& on_points = {}, const RunSettings& run = {});
+
+}  // namespace farlod

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/core.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <cmath>
+#include <string>
+#include <thread>
+
+#include "contract/run_settings.hpp"
+#include "farlod/error.hpp"
+#include "farlod/pack.hpp"
+#include "pipeline/pack.hpp"
+
+namespace farlod::pipeline {
+namespace {
+
+/// NaN is refused, too.
+void require_between(const char* setting, double value, double low, double high) {
+  if (low <= value && value <= high) return;
+  throw InvalidArgument(fmt::format("{} is {:g}: give a number from {:g} to {:g}", setting, value, low, high));
+}
+
+/// An enumeration may hold any number, when a caller casts to it.
+template <class Enum>
+void require_one_of(const char* setting, Enum value, Enum last) {
+  if (value < Enum{} || value > last)
+    throw InvalidArgument(fmt::format("{} is {}, which is none of its values: choose one that its declaration lists", setting,
+                                      static_cast<int>(value)));
+}
+
+void check_files(const PackSettings& s) {
+  if (s.output.empty()) throw InvalidArgument("output is empty: give the folder of the package, NAME.farlod");
+  if (s.inputs.empty() && !s.terrain) throw InvalidArgument("inputs are empty: give a city file, or a terrain");
+  for (const std::filesystem::path& input : s.inputs)
+    if (input.empty()) throw InvalidArgument("one of the inputs has an empty name: give the path of a file or a folder");
+  if (s.terrain && s.terrain->empty()) throw InvalidArgument("terrain is empty: give the path of a raster, or no terrain");
+  require_one_of("overwrite", s.overwrite, Overwrite::replace);
+  require_one_of("problems", s.problems, ProblemPolicy::refuse);
+}
+
+void check_input(const PackSettings& s) {
+  require_one_of("up", s.up, UpAxis::y);
+  if (s.lod) require_between("lod", *s.lod, 0, 3);
+  constexpr double farthest_m = 1e9;
+  if (s.obj_origin) {
+    require_between("obj_origin.x", s.obj_origin->x, -farthest_m, farthest_m);
+    require_between("obj_origin.y", s.obj_origin->y, -farthest_m, farthest_m);
+    require_between("obj_origin.z", s.obj_origin->z, -farthest_m, farthest_m);
+  }
+  require_between("floor_height_m", s.footprints.floor_height_m, 1.0, 20.0);
+  if (s.footprints.default_height_m) require_between("default_height_m", *s.footprints.default_height_m, 0.01, 1000.0);
+}
+
+void check_grid(const PackSettings& s) {
+  require_one_of("align", s.align, AlignMode::fixed);
+  require_one_of("assign", s.assign, Assign::whole);
+  require_one_of("far_map", s.far_map, FarMapKind::box);
+  require_between("fixed_bearing in degrees", s.fixed_bearing.degrees(), -360.0, 360.0);
+  if (s.cell_edge_m) require_between("cell_edge_m", *s.cell_edge_m, 0.5, 10'000.0);
+  if (s.neighborhood) require_between("neighborhood", *s.neighborhood, 1, 999);
+  if (s.neighborhood && *s.neighborhood % 2 == 0)
+    throw InvalidArgument(fmt::format(
+        "neighborhood is {}, which is even: a neighborhood has a cell in its middle, give an odd number", *s.neighborhood));
+  if (!s.max_error) return;
+  require_between("max_error", *s.max_error, 0.0001, 1.0);
+  if (s.far_map == FarMapKind::box)
+    throw InvalidArgument("far maps of the kind box keep no error: leave max_error out, or choose the kind horizon");
+}
+
+/// Half of the error is left for the sky between the samples of an evaluation. What the caller fixes is not chosen.
+ChoiceSettings choice_of(const PackSettings& s) {
+  ChoiceSettings choice;
+  choice.max_far_error = 0.5 * *s.max_error;
+  if (s.cell_edge_m) choice.cell_edges_m = {*s.cell_edge_m};
+  if (s.neighborhood) choice.neighborhoods = {*s.neighborhood};
+  return choice;
+}
+
+}  // namespace
+
+StageSettings resolved(const PackSettings& s) {
+  check_files(s);
+  check_input(s);
+  check_grid(s);
+  StageSettings stages;
+  stages.inputs = s.inputs;
+  stages.terrain = s.terrain;
+  stages.output = s.output;
+  stages.overwrite = s.overwrite;
+  stages.ingest = {s.footprints, {s.lod}, s.obj_origin, s.up};
+  stages.georeference.crs = s.crs;
+  stages.georeference.out_crs = s.out_crs;
+  if (s.cell_edge_m) stages.grid.cell_edge_m = *s.cell_edge_m;
+  if (s.neighborhood) stages.grid.neighborhood = *s.neighborhood;
+  stages.grid.align = s.align;
+  stages.grid.fixed_bearing = s.fixed_bearing;
+  stages.assign = s.assign;
+  stages.far_map.kind = s.far_map;
+  stages.problems = s.problems;
+  if (s.max_error) stages.choice = choice_of(s);
+  return stages;
+}
+
+}  // namespace farlod::pipeline
+
+namespace farlod {
+
+PackResult pack(const PackSettings& settings, Report& report, const RunSettings& run, const OnEstimate& on_estimate) {
+  const pipeline::StageSettings stages = pipeline::resolved(settings);
+  require_usable(run);
+  oneapi::tbb::task_arena arena(static_cast<int>(thread_count(run)));
+  return arena.execute([&]() -> PackResult { return pipeline::pack(stages, report, run, on_estimate); });
+}
+
+}  // namespace farlod

@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "package/package_reader.hpp"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "contract/expects.hpp"
+#include "package/lru_cache.hpp"
+#include "package/manifest_reader.hpp"
+#include "package/mapped_file.hpp"
+#include "package/package_error.hpp"
+
+namespace farlod {
+namespace {
+
+using package::BlockFiles;
+using package::FileStamp;
+
+void check_stamp(const std::filesystem::path& path, std::span<const std::byte> bytes, const FileStamp& stamp) {
+  if (bytes.size() != stamp.bytes)
+    throw PackageDamaged(path.string() + " is damaged: it has " + std::to_string(bytes.size()) + " bytes, the manifest says " +
+                         std::to_string(stamp.bytes) + ". Copy it again, or pack the city again.");
+  if (XXH3_64bits(bytes.data(), bytes.size()) != stamp.xxh3)
+    throw PackageDamaged(path.string() +
+                         " is damaged: its checksum is not the manifest's. Copy it again, or pack the city again.");
+}
+
+/// The files of a block, each opened when it is first needed. Tiles stay mapped from then on, even while they hold no memory; the
+/// reader of far maps goes and comes.
+struct OpenBlock {
+  std::once_flag tiles_once, far_map_checked;
+  std::optional<MappedFile> tiles_bytes;
+  std::optional<BlockTiles> tiles;
+  std::mutex far_map_mutex;
+  std::shared_ptr<const FarMapReader> far_map;
+
+  void let_go() {
+    if (tiles_bytes) tiles_bytes->let_go();
+    const std::lock_guard lock(far_map_mutex);
+    far_map.reset();
+  }
+};
+
+}  // namespace
+
+struct PackageReader::Impl {
+  std::filesystem::path folder;
+  package::Manifest manifest;
+  std::vector<OpenBlock> blocks;
+  std::mutex held_mutex;
+  LruCache held;
+
+  std::optional<PackageInMemory> memory;
+
+  explicit Impl(std::filesystem::path f)
+      : folder(std::move(f)), manifest(read_manifest(folder)), blocks(manifest.blocks.size()) {}
+  explicit Impl(PackageInMemory contents)
+      : manifest(std::move(contents.manifest)), blocks(manifest.blocks.size()), memory(std::move(contents)) {
+    FARLOD_EXPECTS(memory->tiles.size() == blocks.size());
+  }
+
+  std::size_t index_of(Cell cell) const {
+    FARLOD_EXPECTS(manifest.grid.cells.contains(cell));
+    const Block wanted = manifest.grid.block_of(cell);
+    const auto south_west_first = [](const BlockFiles& a, const Block& b) {
+      return std::pair(a.block.j, a.block.i) < std::pair(b.j, b.i);
+    };
+    const auto found = std::lower_bound(manifest.blocks.begin(), manifest.blocks.end(), wanted, south_west_first);
+    FARLOD_EXPECTS(found != manifest.blocks.end() && found->block == wanted);
+    return static_cast<std::size_t>(found - manifest.blocks.begin());
+  }
+
+  std::filesystem::path path_of(std::size_t n, const char* file) const {
+    return folder / package::block_folder(manifest.blocks[n].block) / file;
+  }
+
+  /// What a block holds at the most: its tiles, read from end to end, and where in its file the far map of each cell lies.
+  std::uint64_t bytes_of(std::size_t n) const {
+    constexpr std::uint64_t bytes_of_place = 8;
+    const BlockFiles& files = manifest.blocks[n];
+    return files.tiles.bytes + bytes_of_place * static_cast<std::uint64_t>(manifest.grid.cells_of(files.block).size());
+  }
+
+  /// A block that is open is being used; others may have to go.
+  void use(std::size_t n) {
+    const std::lock_guard lock(held_mutex);
+    for (const std::size_t other : held.use(n, bytes_of(n))) blocks[other].let_go();
+  }
+
+  const BlockTiles& tiles(std::size_t n) {
+    OpenBlock& open = blocks[n];
+    std::call_once(open.tiles_once, [&] {
+      const auto path = path_of(n, package::tiles_file);
+      const CellRange cells = manifest.grid.cells_of(manifest.blocks[n].block);
+      if (memory) {
+        open.tiles.emplace(memory->tiles[n], cells, path.string());
+        return;
+      }
+      open.tiles_bytes.emplace(path);
+      check_stamp(path, open.tiles_bytes->bytes(), manifest.blocks[n].tiles);
+      open.tiles.emplace(open.tiles_bytes->bytes(), cells, path.string());
+    });
+    if (!memory) use(n);
+    return *open.tiles;
+  }
+
+  /// Whoever has the reader keeps it, even when the block has to go meanwhile. The block's tiles must be open.
+  std::shared_ptr<const FarMapReader> far_maps(std::size_t n) {
+    OpenBlock& open = blocks[n];
+    const auto path = path_of(n, package::far_map_file);
+    std::call_once(open.far_map_checked, [&] { check_stamp(path, MappedFile(path).bytes(), manifest.blocks[n].far_map); });
+    const std::lock_guard lock(open.far_map_mutex);
+    if (!open.far_map)
+      open.far_map =
+          std::make_shared<const FarMapReader>(path, manifest.grid.cells_of(manifest.blocks[n].block), manifest.far_map);
+    return open.far_map;
+  }
+};
+
+PackageReader::PackageReader(std::filesystem::path folder) : impl_(std::make_unique<Impl>(std::move(folder))) {}
+PackageReader::PackageReader(PackageInMemory contents) : impl_(std::make_unique<Impl>(std::move(contents))) {}
+PackageReader::PackageReader(PackageReader&&) noexcept = default;
+PackageReader& PackageReader::operator=(PackageReader&&) noexcept = default;
+PackageReader::~PackageReader() = default;
+
+const package::Manifest& PackageReader::manifest() const { return impl_->manifest; }
+
+const BlockTiles& PackageReader::block_tiles(Cell cell) const { return impl_->tiles(impl_->index_of(cell)); }
+
+BoxFarMap PackageReader::box_far_map(Cell cell) const {
+  FARLOD_EXPECTS(!impl_->memory);
+  const std::size_t n = impl_->index_of(cell);
+  const float top = impl_->tiles(n).tile(cell).cell->far_map_top;
+  return impl_->far_maps(n)->read_box(cell, top);
+}
+
+FarHorizon PackageReader::far_horizon(Cell cell) const {
+  if (impl_->memory) return impl_->memory->far_horizons.at(cell);
+  const std::size_t n = impl_->index_of(cell);
+  const package::FarMapShape& shape = impl_->manifest.far_map;
+  const BlockTiles& tiles = impl_->tiles(n);
+  if (!tiles.has_far_cells())
+    throw PackageDamaged(impl_->path_of(n, package::tiles_file).string() +
+                         " is damaged: it does not name what its far maps need. Pack the city again.");
+  const double cell_edge_m = grid().cell_edge_m;
+  FarHorizon map{ReceiverPatches(cell_edge_m, shape.squares_per_edge, tiles.levels_m(cell, shape.layers)),
+                 AzimuthBins{shape.azimuth_bins},
+                 {},
+                 {},
+                 {},
+                 {},
+                 tiles.explicit_occluders(cell, cell_edge_m)};
+  impl_->far_maps(n)->read_slopes(cell, map);
+  return map;
+}
+
+void PackageReader::hold_at_most(std::uint64_t bytes) {
+  const std::lock_guard lock(impl_->held_mutex);
+  impl_->held.keep_at_most(bytes);
+}
+
+}  // namespace farlod

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "contract/package/manifest.hpp"
+#include "package/block_tiles.hpp"
+#include "package/far_horizon.hpp"
+#include "package/far_map_reader.hpp"
+
+namespace farlod {
+
+/// A package that is not on disk: farlod-pack tries far maps out before it writes any.
+struct PackageInMemory {
+  package::Manifest manifest;                     ///< sizes and checksums of files do not count
+  std::vector<std::span<const std::byte>> tiles;  ///< the bytes of `tiles.bin` of each block, in the order of Grid::blocks()
+  std::map<Cell, FarHorizon> far_horizons;        ///< of the cells that will be asked for
+};
+
+/// A package, usually on disk. Blocks are mapped and checked against their checksums when they are first asked for, and kept in
+/// memory as far as there is room. One that was not asked for the longest gives its memory to the next: what was handed out of it
+/// stays where it is and readable, since the mapping stays, and comes from the disk again when somebody reads it. All questions
+/// may be asked from many threads.
+class PackageReader {
+ public:
+  /// Reads the manifest only. Throws PackageUnusable or PackageDamaged, as do all the other functions when they meet a
+  /// block that is not what the manifest says.
+  explicit PackageReader(std::filesystem::path folder);
+  /// The bytes of the tiles, and what the far maps view, must outlive it. It has no far maps of the kind `box`.
+  explicit PackageReader(PackageInMemory contents);
+  PackageReader(PackageReader&&) noexcept;
+  PackageReader& operator=(PackageReader&&) noexcept;
+  ~PackageReader();
+
+  [[nodiscard]] const package::Manifest& manifest() const;
+  [[nodiscard]] const Grid& grid() const { return manifest().grid; }
+
+  /// The block that owns a cell of the grid; the cell must exist.
+  [[nodiscard]] const BlockTiles& block_tiles(Cell cell) const;
+  [[nodiscard]] TileView tile(Cell cell) const { return block_tiles(cell).tile(cell); }
+  /// Of packages whose far maps are of the kind `box`.
+  [[nodiscard]] BoxFarMap box_far_map(Cell cell) const;
+  /// Of packages whose far maps are of the kind `horizon`. The package must outlive it.
+  [[nodiscard]] FarHorizon far_horizon(Cell cell) const;
+
+  /// From the next question on, the blocks hold no more memory than this together, except that one block always has room. There
+  /// is no such limit before.
+  void hold_at_most(std::uint64_t bytes);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "points/reproject_gdal.hpp"
+
+#include <fmt/core.h>
+#include <ogr_spatialref.h>
+
+#include <memory>
+
+#include "gdal/gdal_errors.hpp"
+#include "points/point_reader.hpp"
+
+namespace farlod {
+namespace {
+
+OGRSpatialReference read_crs(const std::string& definition) {
+  OGRSpatialReference crs;
+  if (crs.SetFromUserInput(definition.c_str()) != OGRERR_NONE)
+    throw PointsError("the coordinate reference system of the points, \"" + definition +
+                      "\", is not known; name it like EPSG:4326");
+  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return crs;
+}
+
+std::string text_of(Point2d p) { return fmt::format("({}, {})", p.x, p.y); }
+
+}  // namespace
+
+std::vector<Point2d> to_projected(std::span<const Point2d> points, const std::string& from_crs, const std::string& to_wkt) {
+  const GdalErrors errors;
+  const OGRSpatialReference from = read_crs(from_crs), to = read_crs(to_wkt);
+  const std::unique_ptr<OGRCoordinateTransformation> transformation(OGRCreateCoordinateTransformation(&from, &to));
+  if (transformation == nullptr)
+    throw PointsError("no way leads from " + from_crs + " to the CRS of the package: " + errors.last());
+  std::vector<Point2d> projected(points.begin(), points.end());
+  for (std::size_t n = 0; n < projected.size(); ++n) {
+    if (transformation->Transform(1, &projected[n].x, &projected[n].y) == 0)
+      throw PointsError("point " + std::to_string(n + 1) + " at " + text_of(points[n]) + " cannot be projected from " + from_crs +
+                        "; x is the longitude or easting, y the latitude or northing");
+  }
+  return projected;
+}
+
+}  // namespace farlod

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "contract/package/manifest.hpp"
+#include "run/resolved_settings.hpp"
+
+namespace farlod {
+
+/// What a run holds besides the package.
+struct MemoryNeeds {
+  std::uint64_t results = 0;            ///< bytes, however many threads there are
+  std::uint64_t receivers_of_cell = 0;  ///< the most receivers of a cell, as far as they are known beforehand
+  bool whole_city = false;              ///< everything in one scene, whatever the settings
+};
+
+/// Cells that are worked on at the same time.
+[[nodiscard]] std::size_t cells_in_flight(std::size_t threads);
+
+/// Bytes of the blocks that the cells in flight of a run need.
+[[nodiscard]] std::uint64_t bytes_of_blocks_at_work(const package::Manifest& manifest);
+
+/// Throws LimitReached when the run needs more memory than the caller gives it. Where the caller says nothing, there is no limit
+/// to reach: what a run takes does not grow with the city, unless the whole city has to be one scene.
+void require_memory(const package::Manifest& manifest, const ResolvedSettings& settings, const MemoryNeeds& needs);
+
+}  // namespace farlod

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "run/ordered_run.hpp"
+
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "contract/cancellation.hpp"
+#include "evaluate/verification.hpp"
+#include "farlod/error.hpp"
+#include "run/memory_limit.hpp"
+
+namespace farlod {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Statistics of the sky view factors of some cells. Sums are added cell by cell, in order, so that the mean does not depend on
+/// the number of threads.
+struct SvfStatistics {
+  std::size_t count = 0;
+  double sum = 0.0;
+  float min = 1.0F, max = 0.0F;
+  double width_sum = 0.0;
+  float width_max = 0.0F;
+
+  void add(const SvfStatistics& o) {
+    *this = {count + o.count,         sum + o.sum,
+             std::min(min, o.min),    std::max(max, o.max),
+             width_sum + o.width_sum, std::max(width_max, o.width_max)};
+  }
+};
+
+SvfStatistics statistics_of(const SvfValues& values) {
+  SvfStatistics statistics{values.svf.size()};
+  for (const float svf : values.svf) {
+    statistics.sum += svf;
+    statistics.min = std::min(statistics.min, svf);
+    statistics.max = std::max(statistics.max, svf);
+  }
+  for (std::size_t n = 0; n < values.low.size(); ++n) {
+    const float width = values.high[n] - values.low[n];
+    statistics.width_sum += width;
+    statistics.width_max = std::max(statistics.width_max, width);
+  }
+  return statistics;
+}
+
+void store_statistics(const SvfStatistics& all, bool bounds, EvaluationSummary& run) {
+  run.receivers = all.count;
+  if (all.count == 0) return;
+  run.svf_min = all.min;
+  run.svf_max = all.max;
+  run.svf_mean = all.sum / static_cast<double>(all.count);
+  if (bounds) run.bounds = {all.width_sum / static_cast<double>(all.count), all.width_max};
+}
+
+/// A cell that is being evaluated, or waits for its turn to be stored.
+struct CellInFlight {
+  std::size_t n = 0;
+  CellReceivers receivers;
+  SvfValues values{0, false};
+};
+
+/// Evaluates cells on all threads, and stores them one at a time, in their order.
+void evaluate_in_order(const ResolvedSettings& settings, std::size_t cell_count,
+                       const std::function<CellInFlight(std::size_t)>& evaluate,
+                       const std::function<void(const CellInFlight&)>& store) {
+  using oneapi::tbb::filter_mode, oneapi::tbb::make_filter;
+  using Shared = std::shared_ptr<const CellInFlight>;
+  std::size_t next = 0;
+  const auto hand_out = [&](oneapi::tbb::flow_control& flow) {
+    throw_if_cancelled(settings.run.stop);
+    if (next == cell_count) flow.stop();
+    return next++;
+  };
+  oneapi::tbb::parallel_pipeline(
+      cells_in_flight(settings.threads),
+      make_filter<void, std::size_t>(filter_mode::serial_in_order, hand_out) &
+          make_filter<std::size_t, Shared>(filter_mode::parallel,
+                                           [&](std::size_t n) { return std::make_shared<const CellInFlight>(evaluate(n)); }) &
+          make_filter<Shared, void>(filter_mode::serial_in_order, [&](const Shared& cell) { store(*cell); }));
+}
+
+void require_bounds_known(const PackageInUse& package, const ResolvedSettings& settings) {
+  const bool asks = settings.bounds || settings.sky.max_far_error;
+  if (!asks || settings.sky.engine == Engine::exact || !package.reader().manifest().far_map.is_box()) return;
+  throw PackageUnusable(
+      package.folder().string() +
+      " has far maps of the kind box, which know neither bounds nor errors: pack the city with far maps of the kind horizon "
+      "(farlod-pack --far-map horizon), or use the engine exact.");
+}
+
+/// Counts and statistics of the cells that were stored so far.
+struct Tally {
+  std::vector<std::size_t> counts;  ///< receivers of each cell
+  SvfStatistics statistics;
+  std::size_t outside_of_grid = 0;
+  double store_s = 0.0;
+
+  void add(const PackageReader& package, const CellInFlight& cell) {
+    counts.push_back(cell.receivers.receivers.size());
+    statistics.add(statistics_of(cell.values));
+    if (!package.grid().cells.contains(cell.receivers.cell)) outside_of_grid += counts.back();
+  }
+};
+
+/// Divides the wall clock among the parts of the work in proportion to the thread time of each.
+EvaluationSeconds seconds_of(double wall_s, const EvaluationStatistics& evaluation, double store_s) {
+  const double busy_s = evaluation.scenes_s + evaluation.evaluate_s + store_s;
+  const double scene_share = busy_s > 0.0 ? evaluation.scenes_s / busy_s : 0.0;
+  const double store_share = busy_s > 0.0 ? store_s / busy_s : 0.0;
+  return {wall_s * scene_share, wall_s * (1.0 - scene_share - store_share), wall_s * store_share};
+}
+
+Tally evaluate_and_store(const SkyEvaluator& evaluator, const ResolvedSettings& settings, std::size_t cell_count,
+                         const ReceiversOfCell& receivers_of, const StoreValues& store) {
+  Tally tally;
+  const auto evaluate_cell = [&](std::size_t n) {
+    CellReceivers receivers = receivers_of(n);
+    SvfValues values = values_of(evaluator, receivers, settings.bounds);
+    return CellInFlight{n, std::move(receivers), std::move(values)};
+  };
+  evaluate_in_order(settings, cell_count, evaluate_cell, [&](const CellInFlight& cell) {
+    const auto start = Clock::now();
+    tally.add(evaluator.package(), cell);
+    store(cell.n, cell.receivers, cell.values);
+    tally.store_s += seconds_since(start);
+    if (settings.run.on_progress) settings.run.on_progress({"sky view factors", tally.counts.size(), cell_count});
+  });
+  return tally;
+}
+
+EvaluationSummary evaluate_and_verify(const PackageReader& package, const ResolvedSettings& settings, std::size_t cell_count,
+                                      const ReceiversOfCell& receivers_of, const StoreValues& store) {
+  const SkyEvaluator evaluator(package, settings.sky, settings.run.stop);
+  const auto start = Clock::now();
+  const Tally tally = evaluate_and_store(evaluator, settings, cell_count, receivers_of, store);
+  const EvaluationStatistics evaluation = evaluator.statistics();
+  EvaluationSummary summary;
+  summary.seconds = seconds_of(seconds_since(start), evaluation, tally.store_s);
+  summary.accuracy = settings.accuracy;
+  summary.outside_of_grid = tally.outside_of_grid;
+  summary.by_rays = evaluation.by_rays;
+  summary.retraced_rays = evaluation.retraced_rays;
+  store_statistics(tally.statistics, settings.bounds, summary);
+  if (settings.verify > 0) summary.errors = verify(evaluator, {settings.verify, settings.bounds}, tally.counts, receivers_of);
+  return summary;
+}
+
+}  // namespace
+
+EvaluationSummary evaluate_cells(const PackageInUse& package, const ResolvedSettings& settings, std::size_t cell_count,
+                                 const ReceiversOfCell& receivers_of, const StoreValues& store) {
+  require_bounds_known(package, settings);
+  // Of this run alone: another run of the process may have another number of threads
+  oneapi::tbb::task_arena arena(static_cast<int>(settings.threads));
+  return arena.execute([&] { return evaluate_and_verify(package.reader(), settings, cell_count, receivers_of, store); });
+}
+
+}  // namespace farlod

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "farlod/error.hpp"
+#include "farlod/points.hpp"
+#include "receivers/hilbert_curve.hpp"
+#include "receivers/point_receivers.hpp"
+#include "run/memory_limit.hpp"
+#include "run/ordered_run.hpp"
+
+namespace farlod {
+namespace {
+
+void require_as_long(const char* name, std::size_t size, std::size_t wanted) {
+  if (size != wanted)
+    throw InvalidArgument(std::string(name) + " has " + std::to_string(size) + " elements, and the points are " +
+                          std::to_string(wanted) + ": give one for each point");
+}
+
+void require_same_sizes(const Points& points, const PointAnswerSpans& answers, bool bounds) {
+  const std::size_t count = points.x_m.size();
+  require_as_long("y_m", points.y_m.size(), count);
+  if (!points.z_m.empty()) require_as_long("z_m", points.z_m.size(), count);
+  require_as_long("svf", answers.svf.size(), count);
+  if (!answers.height_m.empty()) require_as_long("height_m", answers.height_m.size(), count);
+  if (!bounds && !(answers.low.empty() && answers.high.empty()))
+    throw InvalidArgument(
+        "low and high are given, and no bounds are asked for: set EvaluationSettings::bounds, or leave them out");
+  if (!bounds) return;
+  require_as_long("low", answers.low.size(), count);
+  require_as_long("high", answers.high.size(), count);
+}
+
+/// No map is as large, and no place on it as high or as low. Beyond, a cell has no number.
+void require_on_earth(const PlaceOfReceiver& place, std::size_t n) {
+  constexpr double farthest_m = 1e8, highest_m = 1e5;
+  const auto& [p, height_m] = place;
+  // Written so that NaN is refused, too
+  if (std::abs(p.x) <= farthest_m && std::abs(p.y) <= farthest_m && std::abs(height_m.value_or(0.0)) <= highest_m) return;
+  throw InvalidPoint(n, "point " + std::to_string(n + 1) + " lies nowhere on Earth: check its coordinates, and their CRS");
+}
+
+std::vector<PlaceOfReceiver> places_of(const Points& points) {
+  std::vector<PlaceOfReceiver> places(points.x_m.size());
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    places[n].p_projected = {points.x_m[n], points.y_m[n]};
+    if (!points.z_m.empty() && !std::isnan(points.z_m[n])) places[n].height_m = points.z_m[n];
+    require_on_earth(places[n], n);
+  }
+  return places;
+}
+
+using PlacesByCell = std::vector<std::pair<Cell, std::vector<std::size_t>>>;
+
+PlacesByCell places_along_curve(const PackageReader& package, std::span<const PlaceOfReceiver> places) {
+  std::map<Cell, std::vector<std::size_t>> by_cell;
+  std::vector<Cell> cells;
+  for (auto& [cell, chosen] : places_by_cell(package, places)) {
+    cells.push_back(cell);
+    by_cell[cell] = std::move(chosen);
+  }
+  PlacesByCell result;
+  for (const Cell cell : along_hilbert_curve(std::move(cells), package.grid().block_edge))
+    result.emplace_back(cell, std::move(by_cell[cell]));
+  return result;
+}
+
+MemoryNeeds needs_of(const PackageReader& package, std::size_t point_count, const PlacesByCell& cells) {
+  // A point, and its place in its cell; its answer is the caller's
+  constexpr std::uint64_t bytes_of_point = sizeof(PlaceOfReceiver) + sizeof(std::size_t);
+  MemoryNeeds needs{point_count * bytes_of_point, 0, false};
+  for (const auto& [cell, chosen] : cells) {
+    needs.receivers_of_cell = std::max<std::uint64_t>(needs.receivers_of_cell, chosen.size());
+    needs.whole_city = needs.whole_city || !package.grid().cells.contains(cell);
+  }
+  return needs;
+}
+
+void fill_with_no_data(const PointAnswerSpans& answers) {
+  std::ranges::fill(answers.svf, SvfValues::no_data);
+  std::ranges::fill(answers.low, SvfValues::no_data);
+  std::ranges::fill(answers.high, SvfValues::no_data);
+  std::ranges::fill(answers.height_m, std::numeric_limits<double>::quiet_NaN());
+}
+
+/// Answers are in the order of the cell's receivers, whose indices are those of the points.
+void store_answers(const CellReceivers& cell, const SvfValues& values, double height_origin_m, const PointAnswerSpans& answers) {
+  for (std::size_t k = 0; k < cell.receivers.size(); ++k) {
+    const std::size_t n = cell.receivers[k].index;
+    answers.svf[n] = values.svf[k];
+    if (!answers.height_m.empty()) answers.height_m[n] = cell.receivers[k].p_cell.z + height_origin_m;
+    if (values.low.empty()) continue;
+    answers.low[n] = values.low[k];
+    answers.high[n] = values.high[k];
+  }
+}
+
+}  // namespace
+
+EvaluationSummary evaluate_points(const Package& package, const Points& points, const Placing& placing,
+                                  const EvaluationSettings& evaluation, const PointAnswerSpans& answers, const RunSettings& run) {
+  const ResolvedSettings settings = resolved(evaluation, run);
+  const Placing placed = resolved(placing);
+  const PackageInUse in_use(package);
+  const PackageReader& reader = in_use.reader();
+  require_same_sizes(points, answers, settings.bounds);
+  const std::vector<PlaceOfReceiver> places = places_of(points);
+  const PlacesByCell cells = places_along_curve(reader, places);
+  require_memory(reader.manifest(), settings, needs_of(reader, places.size(), cells));
+  fill_with_no_data(answers);
+  const float height_m = package_height_m(placed, reader.manifest());
+  const auto receivers_of = [&](std::size_t n) {
+    return receivers_at(reader, cells[n].first, places, cells[n].second, placed.above, height_m, run.stop);
+  };
+  EvaluationSummary summary = evaluate_cells(in_use, settings, cells.size(), receivers_of,
+                                             [&](std::size_t, const CellReceivers& cell, const SvfValues& values) {
+                                               store_answers(cell, values, reader.manifest().height_origin_m, answers);
+                                             });
+  summary.no_data = places.size() - summary.receivers;
+  return summary;
+}
+
+PointAnswers evaluate_points(const Package& package, const Points& points, const Placing& placing,
+                             const EvaluationSettings& settings, const RunSettings& run) {
+  const std::size_t count = points.x_m.size(), bounds = settings.bounds ? count : 0;
+  PointAnswers answers{
+      std::vector<float>(count), std::vector<float>(bounds), std::vector<float>(bounds), std::vector<double>(count), {}};
+  answers.summary =
+      evaluate_points(package, points, placing, settings, {answers.svf, answers.low, answers.high, answers.height_m}, run);
+  return answers;
+}
+
+}  // namespace farlod

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "farlod/error.hpp"
+#include "farlod/raster.hpp"
+#include "receivers/hilbert_curve.hpp"
+#include "receivers/raster_receivers.hpp"
+#include "run/memory_limit.hpp"
+#include "run/open_tiles.hpp"
+#include "run/ordered_run.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr float no_data = SvfValues::no_data;
+constexpr std::size_t pixels_in_tile = raster_tile_edge * raster_tile_edge;
+constexpr double farthest_m = 1e8, most_pixels = 1e11;  // beyond what any machine holds, and below what a count can be
+
+void require_step(double step_m) { require_between("step_m", step_m, 0.01, 10'000.0); }
+
+void require_usable(const RasterPlan& plan) {
+  require_step(plan.step_m);
+  require_between("north_west_m.x", plan.north_west_m.x, -farthest_m, farthest_m);
+  require_between("north_west_m.y", plan.north_west_m.y, -farthest_m, farthest_m);
+  if (plan.columns == 0 || plan.rows == 0) throw InvalidArgument("the raster has no pixels: give a column and a row at least");
+  if (static_cast<double>(plan.columns) * static_cast<double>(plan.rows) > most_pixels)
+    throw InvalidArgument("the raster has too many pixels: choose a smaller part, or a larger step");
+}
+
+void require_usable(const Box2d& part, double step_m) {
+  for (const double x : {part.low.x, part.low.y, part.high.x, part.high.y})
+    require_between("a coordinate of the part", x, -farthest_m, farthest_m);
+  if (part.low.x >= part.high.x || part.low.y >= part.high.y)
+    throw InvalidArgument("the part of the raster is empty: its low corner must lie south-west of its high corner");
+  if ((part.high.x - part.low.x) / step_m * ((part.high.y - part.low.y) / step_m) > most_pixels)
+    throw InvalidArgument("the raster has too many pixels: choose a smaller part, or a larger step");
+}
+
+TileRange tiles_over(const PixelRange& pixels) {
+  return {{pixels.row_begin / raster_tile_edge, pixels.column_begin / raster_tile_edge},
+          {tiles_along(pixels.row_end), tiles_along(pixels.column_end)}};
+}
+
+std::vector<TileRange> tiles_of_cells(const RasterReceivers& receivers, std::span<const Cell> cells) {
+  std::vector<TileRange> tiles;
+  tiles.reserve(cells.size());
+  for (const Cell cell : cells) tiles.push_back(tiles_over(receivers.range_of(cell)));
+  return tiles;
+}
+
+MemoryNeeds needs_of(const RasterPlan& plan, std::span<const TileRange> tiles, const Grid& grid, bool bounds) {
+  const std::uint64_t bytes_of_pixel = (bounds ? 3 : 1) * sizeof(float);
+  MemoryNeeds needs;
+  needs.results = OpenTiles::most_open(plan, tiles) * pixels_in_tile * bytes_of_pixel;
+  const double along_edge = std::ceil(grid.cell_edge_m / plan.step_m);
+  needs.receivers_of_cell = static_cast<std::uint64_t>(along_edge * along_edge);
+  return needs;
+}
+
+/// The pixels' numbers are the receivers' indices.
+void put_values(const CellReceivers& cell, const SvfValues& values, std::size_t columns, OpenTiles& tiles) {
+  const bool bounds = !values.low.empty();
+  for (std::size_t k = 0; k < cell.receivers.size(); ++k) {
+    const std::size_t pixel = cell.receivers[k].index;
+    tiles.put(pixel % columns, pixel / columns, {values.svf[k], bounds ? values.low[k] : 0.0F, bounds ? values.high[k] : 0.0F});
+  }
+  tiles.part_done();
+}
+
+/// Copies the part of a tile's band that lies within the raster.
+void copy_band(const RasterTile& tile, const std::vector<float>& from, const RasterPlan& plan, std::vector<float>& to) {
+  const std::size_t row_0 = tile.place.row * raster_tile_edge, column_0 = tile.place.column * raster_tile_edge;
+  const std::size_t rows = pixels_of_tile(tile.place.row, plan.rows), columns = pixels_of_tile(tile.place.column, plan.columns);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto begin = from.begin() + static_cast<std::ptrdiff_t>(row * raster_tile_edge);
+    const auto place = static_cast<std::ptrdiff_t>((row_0 + row) * plan.columns + column_0);
+    std::copy(begin, begin + static_cast<std::ptrdiff_t>(columns), to.begin() + place);
+  }
+}
+
+}  // namespace
+
+RasterTile::RasterTile(TilePlace where, RasterBands bands)
+    : place(where), svf(pixels_in_tile, no_data), low(bands == RasterBands::svf ? 0 : pixels_in_tile, no_data), high(low) {}
+
+RasterPlan plan_raster(const Package& package, double step_m, const std::optional<Box2d>& part) {
+  const PackageInUse in_use(package);
+  require_step(step_m);
+  if (part) require_usable(*part, step_m);
+  return plan_raster(in_use.reader().manifest(), step_m, part);
+}
+
+EvaluationSummary evaluate_raster(const Package& package, const RasterPlan& plan, const Placing& placing,
+                                  const EvaluationSettings& evaluation, const OnRasterTile& on_tile, const RunSettings& run) {
+  const ResolvedSettings settings = resolved(evaluation, run);
+  const Placing placed = resolved(placing);
+  const PackageInUse in_use(package);
+  const PackageReader& reader = in_use.reader();
+  require_usable(plan);
+  if (!on_tile) throw InvalidArgument("nobody takes the tiles: give evaluate_raster a function that does");
+  const RasterReceivers receivers(reader.manifest(), plan);
+  const std::vector<Cell> cells = along_hilbert_curve(receivers.cells(), reader.grid().block_edge);
+  const std::vector<TileRange> tiles = tiles_of_cells(receivers, cells);
+  require_memory(reader.manifest(), settings, needs_of(plan, tiles, reader.grid(), settings.bounds));
+  OpenTiles open_tiles(plan, settings.bounds ? RasterBands::svf_and_bounds : RasterBands::svf, tiles, on_tile);
+  const float height_m = package_height_m(placed, reader.manifest());
+  std::size_t pixels_in_grid = 0;
+  EvaluationSummary summary = evaluate_cells(
+      in_use, settings, cells.size(),
+      [&](std::size_t n) { return receivers.in_cell(reader, cells[n], placed.above, height_m, settings.run.stop); },
+      [&](std::size_t n, const CellReceivers& cell, const SvfValues& values) {
+        put_values(cell, values, plan.columns, open_tiles);
+        pixels_in_grid += receivers.pixel_count(cells[n]);
+      });
+  summary.beyond_grid = plan.columns * plan.rows - pixels_in_grid;
+  summary.no_data = pixels_in_grid - summary.receivers;
+  return summary;
+}
+
+Raster evaluate_raster(const Package& package, const RasterPlan& plan, const Placing& placing, const EvaluationSettings& settings,
+                       const RunSettings& run) {
+  require_usable(plan);
+  const std::size_t count = plan.columns * plan.rows, bounds = settings.bounds ? count : 0;
+  Raster raster{
+      plan, std::vector<float>(count, no_data), std::vector<float>(bounds, no_data), std::vector<float>(bounds, no_data), {}};
+  RunSettings with_raster = run;
+  with_raster.caller_bytes += (count + 2 * bounds) * sizeof(float);
+  const auto copy_tile = [&raster](const RasterTile& tile) {
+    copy_band(tile, tile.svf, raster.plan, raster.svf);
+    if (tile.low.empty()) return;
+    copy_band(tile, tile.low, raster.plan, raster.low);
+    copy_band(tile, tile.high, raster.plan, raster.high);
+  };
+  raster.summary = evaluate_raster(package, plan, placing, settings, copy_tile, with_raster);
+  return raster;
+}
+
+}  // namespace farlod

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "farlod/error.hpp"
+#include "farlod/surfaces.hpp"
+#include "receivers/hilbert_curve.hpp"
+#include "receivers/surface_receivers.hpp"
+#include "run/memory_limit.hpp"
+#include "run/ordered_run.hpp"
+#include "run/surface_averages.hpp"
+
+namespace farlod {
+namespace {
+
+CellReceivers answerable(Cell cell, std::span<const SurfaceReceiver> receivers) {
+  CellReceivers result{cell, {}};
+  for (std::size_t k = 0; k < receivers.size(); ++k)
+    if (!receivers[k].is_inside_building) result.receivers.push_back({k, receivers[k].p_cell, receivers[k].normal});
+  return result;
+}
+
+/// True azimuth of a normal; 0 for one that looks straight up, which has none.
+Angle true_azimuth(const Point3d& normal_grid, const package::Manifest& m) {
+  const Point2d n_city = m.grid.rotation.city_from_grid(horizontal(normal_grid));
+  if (n_city == Point2d{}) return {};
+  const double azimuth_deg = azimuth_of(n_city).degrees() + m.convergence.degrees();
+  return Angle::degrees(azimuth_deg - 360.0 * std::floor(azimuth_deg / 360.0));
+}
+
+/// Who and where a receiver is; its answer is to come.
+SurfacePoint point_of(const package::Manifest& m, Cell cell, const BlockTiles& block, const SurfaceReceiver& r) {
+  const package::SurfaceRecord& surface = block.tile(cell).surface_of(r.triangle);
+  const Point2d corner = m.grid.corner_of(cell);
+  const Point3d normal{r.normal.x, r.normal.y, r.normal.z};
+  SurfacePoint point;
+  point.building = block.id_of(block.buildings()[surface.building]);
+  point.surface = surface.number;
+  point.kind = surface.kind();
+  point.p_projected = m.projected_from_grid({corner.x + r.p_cell.x, corner.y + r.p_cell.y, r.p_cell.z + m.height_origin_m});
+  point.azimuth = true_azimuth(normal, m);
+  point.tilt = Angle::radians(std::acos(std::clamp(normal.z, -1.0, 1.0)));
+  point.area_m2 = r.area_m2;
+  return point;
+}
+
+/// All receivers of a cell, those with an answer and those without.
+std::vector<SurfacePoint> points_of(const PackageReader& package, Cell cell, std::span<const SurfaceReceiver> receivers,
+                                    std::span<const Receiver> answered, const SvfValues& values) {
+  const BlockTiles& block = package.block_tiles(cell);
+  std::vector<SurfacePoint> points;
+  points.reserve(receivers.size());
+  for (const SurfaceReceiver& r : receivers) points.push_back(point_of(package.manifest(), cell, block, r));
+  for (std::size_t k = 0; k < answered.size(); ++k) {
+    SurfacePoint& point = points[answered[k].index];
+    point.svf = SvfValues::value(values.svf, k);
+    point.low = SvfValues::value(values.low, k);
+    point.high = SvfValues::value(values.high, k);
+  }
+  return points;
+}
+
+std::vector<Cell> all_cells(const CellRange& range) {
+  std::vector<Cell> cells;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) cells.push_back(range.cell_at(n));
+  return cells;
+}
+
+/// Means need a row and its keys for each surface, which has a polygon at least, and for each building.
+MemoryNeeds needs_of(const package::Manifest& manifest) {
+  constexpr std::uint64_t bytes_of_surface = 320, bytes_of_building = 320;
+  return {manifest.polygons * bytes_of_surface + manifest.buildings * bytes_of_building, 0, false};
+}
+
+/// The means of a run. Points come cell by cell along a curve, and are handed on with the cell's place in CellRange::index_of.
+class MeansOfRun {
+ public:
+  explicit MeansOfRun(const OnSurfacePoints& on_points) : on_points_(on_points) {}
+
+  void add(std::size_t cell_index, std::span<const SurfacePoint> points) {
+    if (on_points_) on_points_(cell_index, points);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      surfaces_.add({cell_index, k}, points[k]);
+      buildings_.add({cell_index, k}, points[k]);
+    }
+    receivers_ += points.size();
+  }
+  [[nodiscard]] SurfaceMeans with(EvaluationSummary summary) const {
+    summary.no_data = receivers_ - summary.receivers;
+    return {surfaces_.rows(), buildings_.rows(), summary};
+  }
+
+ private:
+  const OnSurfacePoints& on_points_;
+  SurfaceAverages surfaces_;
+  BuildingAverages buildings_;
+  std::size_t receivers_ = 0;
+};
+
+void check(const SurfaceSettings& surfaces) {
+  if (surfaces.choice < SurfaceChoice::roofs || surfaces.choice > SurfaceChoice::all)
+    throw InvalidArgument("choice is " + std::to_string(static_cast<int>(surfaces.choice)) +
+                          ", which is none of its values: choose roofs, walls or all");
+  require_between("spacing_m", surfaces.spacing_m, 0.05, 1000.0);
+}
+
+}  // namespace
+
+SurfaceMeans evaluate_surfaces(const Package& package, const SurfaceSettings& surfaces, const EvaluationSettings& evaluation,
+                               const OnSurfacePoints& on_points, const RunSettings& run) {
+  const ResolvedSettings settings = resolved(evaluation, run);
+  check(surfaces);
+  const PackageInUse in_use(package);
+  const PackageReader& reader = in_use.reader();
+  require_memory(reader.manifest(), settings, needs_of(reader.manifest()));
+  const CellRange& range = reader.grid().cells;
+  const std::vector<Cell> cells = along_hilbert_curve(all_cells(range), reader.grid().block_edge);
+  MeansOfRun means(on_points);
+  // What is known of a cell's receivers, from when they are placed until their answers are there
+  std::vector<std::vector<SurfaceReceiver>> placed(cells.size());
+  const EvaluationSummary summary = evaluate_cells(
+      in_use, settings, cells.size(),
+      [&](std::size_t n) {
+        placed[n] = surface_receivers(reader, cells[n], surfaces.choice, surfaces.spacing_m, run.stop);
+        return answerable(cells[n], placed[n]);
+      },
+      [&](std::size_t n, const CellReceivers& cell, const SvfValues& values) {
+        means.add(range.index_of(cells[n]), points_of(reader, cells[n], placed[n], cell.receivers, values));
+        placed[n] = {};
+      });
+  return means.with(summary);
+}
+
+}  // namespace farlod

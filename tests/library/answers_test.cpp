@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "farlod/points.hpp"
+#include "farlod/raster.hpp"
+#include "farlod/surfaces.hpp"
+#include "farlod/version.hpp"
+#include "tests/library/packed_sample.hpp"
+
+namespace farlod::library {
+namespace {
+
+class Answers : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { sample_ = new PackedSample; }
+  static void TearDownTestSuite() {
+    delete sample_;
+    sample_ = nullptr;
+  }
+  static inline PackedSample* sample_ = nullptr;
+
+  Package package_{sample_->folder()};
+};
+
+TEST_F(Answers, TheDescriptionIsThatOfThePacking) {
+  const PackageDescription& opened = package_.description();
+  const PackageDescription& packed = sample_->result().package;
+  EXPECT_EQ(opened.software, std::string("farlod-pack ") + software_version);
+  EXPECT_GT(opened.buildings, 0U);
+  EXPECT_EQ(opened.buildings, packed.buildings);
+  EXPECT_EQ(opened.polygons, packed.polygons);
+  EXPECT_EQ(opened.triangles, packed.triangles);
+  EXPECT_EQ(opened.crs_wkt, packed.crs_wkt);
+  EXPECT_EQ(opened.outline_projected, packed.outline_projected);
+  EXPECT_EQ(opened.columns * opened.rows, packed.columns * packed.rows);
+}
+
+/// The pixels of a raster, asked for as points.
+TEST_F(Answers, PointsAndPixelsAgree) {
+  const RasterPlan plan = plan_raster(package_, 4.0);
+  EvaluationSettings settings;
+  settings.engine = Engine::exact;  // other engines answer 16 neighbors at once, which round alike only when they are the same
+  settings.bounds = true;
+  const Raster raster = evaluate_raster(package_, plan, {}, settings);
+  std::vector<double> x, y;
+  for (std::size_t row = 0; row < plan.rows; ++row)
+    for (std::size_t column = 0; column < plan.columns; ++column) {
+      x.push_back(plan.centre_m(column, row).x);
+      y.push_back(plan.centre_m(column, row).y);
+    }
+  const PointAnswers points = evaluate_points(package_, {x, y}, {}, settings);
+  ASSERT_EQ(points.svf.size(), raster.svf.size());
+  std::size_t compared = 0;
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    if (std::isnan(raster.svf[n])) continue;
+    EXPECT_EQ(points.svf[n], raster.svf[n]) << n;
+    EXPECT_EQ(points.low[n], raster.low[n]) << n;
+    ++compared;
+  }
+  EXPECT_EQ(compared, raster.summary.receivers);
+  EXPECT_GT(compared, 100U);
+  EXPECT_EQ(raster.summary.receivers + raster.summary.no_data + raster.summary.beyond_grid, plan.columns * plan.rows);
+}
+
+TEST_F(Answers, TilesAreTheRaster) {
+  const RasterPlan plan = plan_raster(package_, 1.0);
+  const Raster raster = evaluate_raster(package_, plan);
+  std::size_t pixels = 0;
+  (void)evaluate_raster(package_, plan, {}, {}, [&](const RasterTile& tile) {
+    for (std::size_t row = 0; row < pixels_of_tile(tile.place.row, plan.rows); ++row)
+      for (std::size_t column = 0; column < pixels_of_tile(tile.place.column, plan.columns); ++column) {
+        const float of_tile = tile.svf[row * raster_tile_edge + column];
+        const std::size_t place =
+            (tile.place.row * raster_tile_edge + row) * plan.columns + tile.place.column * raster_tile_edge + column;
+        EXPECT_EQ(std::memcmp(&of_tile, &raster.svf[place], sizeof(float)), 0) << place;
+        pixels += std::isnan(of_tile) ? 0 : 1;
+      }
+  });
+  EXPECT_EQ(pixels, raster.summary.receivers);
+}
+
+TEST_F(Answers, MeansOfSurfacesAreThoseOfTheirPoints) {
+  double area_m2 = 0.0, weighted = 0.0;
+  std::size_t points_taken = 0;
+  const SurfaceMeans means =
+      evaluate_surfaces(package_, {SurfaceChoice::roofs, 1.0}, {}, [&](std::size_t, std::span<const SurfacePoint> points) {
+        for (const SurfacePoint& p : points) {
+          EXPECT_EQ(p.kind, SurfaceKind::roof);
+          ++points_taken;
+          if (!p.svf) continue;
+          area_m2 += p.area_m2;
+          weighted += p.area_m2 * *p.svf;
+        }
+      });
+  double area_of_means_m2 = 0.0, weighted_of_means = 0.0;
+  for (const BuildingMean& b : means.buildings) {
+    area_of_means_m2 += b.roof_area_m2;
+    weighted_of_means += b.roof_area_m2 * b.svf_roofs.value_or(0.0);
+  }
+  EXPECT_EQ(points_taken, means.summary.receivers + means.summary.no_data);
+  EXPECT_GT(area_m2, 0.0);
+  EXPECT_NEAR(area_of_means_m2, area_m2, 1e-6 * area_m2);
+  EXPECT_NEAR(weighted_of_means, weighted, 1e-6 * weighted);
+}
+
+TEST_F(Answers, HeightsAboveSeaLevelAreThoseOfTheAnswers) {
+  const Point2d p = middle_of(package_);
+  const std::vector<double> x{p.x, p.x + 20.0, p.x - 20.0}, y{p.y, p.y + 5.0, p.y - 5.0};
+  const PointAnswers on_ground = evaluate_points(package_, {x, y}, {HeightAbove::highest_surface, 2.0});
+  const PointAnswers at_height = evaluate_points(package_, {x, y, on_ground.height_m});
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    ASSERT_FALSE(std::isnan(on_ground.svf[n]));
+    EXPECT_NEAR(at_height.svf[n], on_ground.svf[n], 1e-4);
+    const PointAnswers by_placing = evaluate_points(package_, {std::span(x).subspan(n, 1), std::span(y).subspan(n, 1)},
+                                                    {HeightAbove::sea_level, on_ground.height_m[n]});
+    EXPECT_NEAR(by_placing.svf[0], on_ground.svf[n], 1e-4);
+  }
+}
+
+TEST_F(Answers, NoPointsAreNoMistake) {
+  const PointAnswers answers = evaluate_points(package_, {});
+  EXPECT_TRUE(answers.svf.empty());
+  EXPECT_EQ(answers.summary.receivers, 0U);
+}
+
+TEST_F(Answers, SayWhatTheSettingsCameTo) {
+  EvaluationSettings settings;
+  settings.max_error = 0.01;
+  settings.verify = 20;
+  const Raster raster = evaluate_raster(package_, plan_raster(package_, 8.0), {}, settings);
+  const Accuracy& accuracy = raster.summary.accuracy;
+  EXPECT_LE(accuracy.sampling_error, 0.005 + 1e-9);
+  ASSERT_TRUE(accuracy.far_error_allowed);
+  EXPECT_NEAR(accuracy.sampling_error + *accuracy.far_error_allowed, 0.01, 1e-9);
+  ASSERT_TRUE(raster.summary.errors);
+  EXPECT_EQ(raster.summary.errors->count, 20U);
+  EXPECT_LE(raster.summary.errors->max_abs_error, 0.01);
+  EXPECT_GE(raster.summary.errors->rays, 20'000U);
+}
+
+/// A caller may close the package in his callback; the run ends as if he had not.
+TEST_F(Answers, ARunOutlivesItsPackage) {
+  const RasterPlan plan = plan_raster(package_, 4.0);
+  const Raster whole = evaluate_raster(package_, plan);
+  RunSettings run;
+  run.on_progress = [this](const Progress&) { package_.close(); };
+  const Raster closed = evaluate_raster(package_, plan, {}, {}, run);
+  EXPECT_FALSE(package_.is_open());
+  EXPECT_EQ(std::memcmp(closed.svf.data(), whole.svf.data(), whole.svf.size() * sizeof(float)), 0);
+}
+
+}  // namespace
+}  // namespace farlod::library

@@ -1,0 +1,368 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "farlod/error.hpp"
+#include "farlod/points.hpp"
+#include "farlod/raster.hpp"
+#include "farlod/surfaces.hpp"
+#include "tests/library/packed_sample.hpp"
+
+namespace farlod::library {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What a caller threw from his callback.
+struct Thrown : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The arguments of a call, right until a case makes one of them wrong.
+struct Arguments {
+  explicit Arguments(const std::filesystem::path& folder) : package(folder) {
+    const Point2d p = middle_of(package);
+    x = {p.x, p.x + 30.0};
+    y = {p.y, p.y - 30.0};
+    plan = plan_raster(package, 8.0);
+  }
+
+  Package package;
+  std::vector<double> x, y, z;
+  std::vector<float> svf{0.0F, 0.0F}, low, high;
+  std::vector<double> height_m;
+  Placing placing;
+  RasterPlan plan;
+  SurfaceSettings surfaces{SurfaceChoice::all, 20.0};
+  EvaluationSettings settings;
+  RunSettings run;
+  OnRasterTile on_tile = [](const RasterTile&) {};
+  OnSurfacePoints on_points;
+};
+
+using Call = std::function<void(Arguments&)>;
+using Change = std::function<void(Arguments&)>;
+
+struct Named {
+  std::string name;
+  Call call;
+};
+
+const Named points_into{
+    "points_into", [](Arguments& a) {
+      (void)evaluate_points(a.package, {a.x, a.y, a.z}, a.placing, a.settings, {a.svf, a.low, a.high, a.height_m}, a.run);
+    }};
+const Named points{"points", [](Arguments& a) {
+                     (void)evaluate_points(a.package, {a.x, a.y, a.z}, a.placing, a.settings, a.run);
+                   }};
+const Named tiles{"tiles",
+                  [](Arguments& a) { (void)evaluate_raster(a.package, a.plan, a.placing, a.settings, a.on_tile, a.run); }};
+const Named raster{"raster", [](Arguments& a) { (void)evaluate_raster(a.package, a.plan, a.placing, a.settings, a.run); }};
+const Named surfaces{"surfaces",
+                     [](Arguments& a) { (void)evaluate_surfaces(a.package, a.surfaces, a.settings, a.on_points, a.run); }};
+const Named plan{"plan", [](Arguments& a) { (void)plan_raster(a.package, a.plan.step_m); }};
+const Named description{"description", [](Arguments& a) { (void)a.package.description(); }};
+
+/// The kind of exception that a wrong call ends with.
+enum class Ends { invalid, invalid_point, limit, cancelled, with_what_was_thrown };
+
+struct WrongCall {
+  std::string name;
+  Call call;
+  Change change;
+  Ends ends = Ends::invalid;
+};
+
+class Cases {
+ public:
+  void add(const std::vector<Named>& calls, const std::string& name, const Change& change, Ends ends = Ends::invalid) {
+    for (const Named& named : calls) list_.push_back({named.name + ": " + name, named.call, change, ends});
+  }
+  [[nodiscard]] const std::vector<WrongCall>& list() const { return list_; }
+
+ private:
+  std::vector<WrongCall> list_;
+};
+
+void add_settings(Cases& cases) {
+  const std::vector<Named> all{points_into, points, tiles, raster, surfaces};
+  const auto with = [](auto member, auto value) { return [=](Arguments& a) { a.settings.*member = value; }; };
+  using S = EvaluationSettings;
+  cases.add(all, "no such engine", with(&S::engine, static_cast<Engine>(77)));
+  cases.add(all, "engine below the first", with(&S::engine, static_cast<Engine>(-1)));
+  cases.add(all, "no such weight", with(&S::weight, static_cast<SkyWeight>(2)));
+  cases.add(all, "no such set of directions", with(&S::directions, static_cast<DirectionSet>(9)));
+  for (const std::size_t n : {std::size_t{0}, std::size_t{3}, std::size_t{1'000'001}, std::numeric_limits<std::size_t>::max()})
+    cases.add(all, "azimuths " + std::to_string(n), with(&S::azimuths, n));
+  for (const std::size_t n : {std::size_t{0}, std::size_t{10'000'001}, std::numeric_limits<std::size_t>::max()})
+    cases.add(all, "rays " + std::to_string(n), with(&S::rays, n));
+  for (const double e : {0.0, -0.1, 0.00009, 1.1, nan, infinity})
+    cases.add(all, "max_error " + std::to_string(e), with(&S::max_error, e));
+  cases.add(all, "an error that so few rays cannot keep", [](Arguments& a) {
+    a.settings.max_error = 0.001;
+    a.settings.rays = 10;
+  });
+}
+
+void add_runs(Cases& cases) {
+  const std::vector<Named> all{points_into, points, tiles, raster, surfaces};
+  cases.add(all, "too many threads", [](Arguments& a) { a.run.threads = 5000; });
+  cases.add(all, "a limit of nothing", [](Arguments& a) { a.run.memory_limit_mib = 0; });
+  cases.add(all, "an absurd limit", [](Arguments& a) { a.run.memory_limit_mib = 1ULL << 60; });
+  cases.add(
+      all, "too small a limit", [](Arguments& a) { a.run.memory_limit_mib = 1; }, Ends::limit);
+  cases.add(
+      all, "stopped before it began",
+      [](Arguments& a) {
+        std::stop_source stop;
+        stop.request_stop();
+        a.run.stop = stop.get_token();
+      },
+      Ends::cancelled);
+  cases.add(
+      all, "stopped by its progress",
+      [](Arguments& a) {
+        const auto stop = std::make_shared<std::stop_source>();
+        a.run.stop = stop->get_token();
+        a.settings.verify = 1000;  // so that there is work after the last cell
+        a.run.on_progress = [stop](const Progress&) { stop->request_stop(); };
+      },
+      Ends::cancelled);
+  cases.add(
+      all, "a progress that throws", [](Arguments& a) { a.run.on_progress = [](const Progress&) { throw Thrown("progress"); }; },
+      Ends::with_what_was_thrown);
+}
+
+void add_closed_packages(Cases& cases) {
+  const std::vector<Named> all{points_into, points, tiles, raster, surfaces, plan, description};
+  cases.add(all, "a closed package", [](Arguments& a) { a.package.close(); });
+  cases.add(all, "a package closed twice", [](Arguments& a) {
+    a.package.close();
+    a.package.close();
+  });
+  cases.add(all, "a package that was moved", [](Arguments& a) { const Package taken = std::move(a.package); });
+}
+
+void add_placings(Cases& cases) {
+  const std::vector<Named> all{points_into, points, tiles, raster};
+  for (const double h : {nan, infinity, -1.0, 10'001.0})
+    cases.add(all, "height " + std::to_string(h), [h](Arguments& a) { a.placing.height_m = h; });
+  cases.add(all, "above no such thing", [](Arguments& a) { a.placing.above = static_cast<HeightAbove>(3); });
+}
+
+void add_points(Cases& cases) {
+  const std::vector<Named> both{points_into, points};
+  cases.add(both, "one y too few", [](Arguments& a) { a.y.pop_back(); });
+  cases.add(both, "one y too many", [](Arguments& a) { a.y.push_back(0.0); });
+  cases.add(both, "no y at all", [](Arguments& a) { a.y.clear(); });
+  cases.add(both, "one z too few", [](Arguments& a) { a.z = {1.0}; });
+  cases.add(both, "one z too many", [](Arguments& a) { a.z = {1.0, 2.0, 3.0}; });
+  for (const double c : {nan, infinity, -infinity, 2e8}) {
+    cases.add(
+        both, "x " + std::to_string(c), [c](Arguments& a) { a.x[1] = c; }, Ends::invalid_point);
+    cases.add(
+        both, "y " + std::to_string(c), [c](Arguments& a) { a.y[1] = c; }, Ends::invalid_point);
+  }
+  for (const double z : {infinity, -infinity, 2e5})
+    cases.add(
+        both, "z " + std::to_string(z),
+        [z](Arguments& a) {
+          a.z = {1.0, z};
+        },
+        Ends::invalid_point);
+  const std::vector<Named> into{points_into};
+  cases.add(into, "svf too short", [](Arguments& a) { a.svf.pop_back(); });
+  cases.add(into, "svf too long", [](Arguments& a) { a.svf.push_back(0.0F); });
+  cases.add(into, "no svf", [](Arguments& a) { a.svf.clear(); });
+  cases.add(into, "heights too short", [](Arguments& a) { a.height_m = {0.0}; });
+  cases.add(into, "heights too long", [](Arguments& a) { a.height_m = {0.0, 0.0, 0.0}; });
+  cases.add(into, "bounds not asked for", [](Arguments& a) { a.low = a.high = a.svf; });
+  cases.add(into, "bounds asked for, and no room", [](Arguments& a) { a.settings.bounds = true; });
+  cases.add(into, "no room for the upper bound", [](Arguments& a) {
+    a.settings.bounds = true;
+    a.low = a.svf;
+  });
+  cases.add(into, "too little room for the lower bound", [](Arguments& a) {
+    a.settings.bounds = true;
+    a.low = {0.0F};
+    a.high = a.svf;
+  });
+}
+
+void add_rasters(Cases& cases) {
+  const std::vector<Named> both{tiles, raster};
+  for (const double step_m : {nan, infinity, 0.0, -2.0, 0.001, 1e6})
+    cases.add({tiles, raster, plan}, "step " + std::to_string(step_m), [step_m](Arguments& a) { a.plan.step_m = step_m; });
+  for (const double c : {nan, infinity, -2e8}) {
+    cases.add(both, "west " + std::to_string(c), [c](Arguments& a) { a.plan.north_west_m.x = c; });
+    cases.add(both, "north " + std::to_string(c), [c](Arguments& a) { a.plan.north_west_m.y = c; });
+  }
+  cases.add(both, "no columns", [](Arguments& a) { a.plan.columns = 0; });
+  cases.add(both, "no rows", [](Arguments& a) { a.plan.rows = 0; });
+  cases.add(both, "too many pixels", [](Arguments& a) { a.plan.rows = a.plan.columns = 1'000'000; });
+  cases.add(both, "more pixels than can be counted",
+            [](Arguments& a) { a.plan.rows = a.plan.columns = std::numeric_limits<std::size_t>::max(); });
+  cases.add({tiles}, "nobody takes the tiles", [](Arguments& a) { a.on_tile = {}; });
+  cases.add(
+      {tiles}, "who takes the tiles throws", [](Arguments& a) { a.on_tile = [](const RasterTile&) { throw Thrown("tile"); }; },
+      Ends::with_what_was_thrown);
+  const auto part = [&](const std::string& name, const Box2d& box) {
+    cases.add({{"plan", [box](Arguments& a) { (void)plan_raster(a.package, 1.0, box); }}}, name, [](Arguments&) {});
+  };
+  part("an empty part", {});
+  part("a part turned round", {{10.0, 10.0}, {0.0, 0.0}});
+  part("a part without width", {{5.0, 0.0}, {5.0, 10.0}});
+  part("a part at no place", {{nan, 0.0}, {1.0, 1.0}});
+  part("a part without end", {{0.0, 0.0}, {infinity, 1.0}});
+  part("a part of too many pixels", {{-9e7, -9e7}, {9e7, 9e7}});
+}
+
+void add_surfaces(Cases& cases) {
+  for (const double s : {nan, infinity, 0.0, -1.0, 0.01, 1e4})
+    cases.add({surfaces}, "spacing " + std::to_string(s), [s](Arguments& a) { a.surfaces.spacing_m = s; });
+  cases.add({surfaces}, "no such choice", [](Arguments& a) { a.surfaces.choice = static_cast<SurfaceChoice>(3); });
+  cases.add(
+      {surfaces}, "who takes the points throws",
+      [](Arguments& a) { a.on_points = [](std::size_t, std::span<const SurfacePoint>) { throw Thrown("points"); }; },
+      Ends::with_what_was_thrown);
+}
+
+std::vector<WrongCall> all_wrong_calls() {
+  Cases cases;
+  add_settings(cases);
+  add_runs(cases);
+  add_closed_packages(cases);
+  add_placings(cases);
+  add_points(cases);
+  add_rasters(cases);
+  add_surfaces(cases);
+  return cases.list();
+}
+
+std::string ended_with(const WrongCall& wrong, Arguments& arguments, std::string& message) {
+  try {
+    wrong.call(arguments);
+    return "nothing";
+  } catch (const Thrown& error) {
+    message = error.what();
+    return "what was thrown";
+  } catch (const InvalidPoint& error) {
+    message = error.what();
+    return error.index() == 1 ? "InvalidPoint" : "another point";
+  } catch (const InvalidArgument& error) {
+    message = error.what();
+    return "InvalidArgument";
+  } catch (const LimitReached& error) {
+    message = error.what();
+    return "LimitReached";
+  } catch (const Cancelled& error) {
+    message = error.what();
+    return "Cancelled";
+  } catch (const Error& error) {
+    message = error.what();
+    return "another Error";
+  } catch (const std::exception& error) {
+    message = error.what();
+    return "an exception of nobody's";
+  }
+}
+
+const char* name_of(Ends ends) {
+  switch (ends) {
+    case Ends::invalid:
+      return "InvalidArgument";
+    case Ends::invalid_point:
+      return "InvalidPoint";
+    case Ends::limit:
+      return "LimitReached";
+    case Ends::cancelled:
+      return "Cancelled";
+    case Ends::with_what_was_thrown:
+      break;
+  }
+  return "what was thrown";
+}
+
+/// Each call is made with right arguments first, so that a case fails when it is the call that is wrong, and not its argument.
+TEST(WrongCalls, RightCallsEndWithNothing) {
+  const PackedSample sample;
+  for (const Named& named : {points_into, points, tiles, raster, surfaces, plan, description}) {
+    Arguments arguments(sample.folder());
+    EXPECT_NO_THROW(named.call(arguments)) << named.name;
+  }
+}
+
+TEST(WrongCalls, EndWithAnExceptionThatSaysWhatToDo) {
+  const PackedSample sample;
+  const std::vector<WrongCall> wrong_calls = all_wrong_calls();
+  EXPECT_GE(wrong_calls.size(), 200U);
+  for (const WrongCall& wrong : wrong_calls) {
+    Arguments arguments(sample.folder());
+    wrong.change(arguments);
+    std::string message;
+    EXPECT_EQ(ended_with(wrong, arguments, message), name_of(wrong.ends)) << wrong.name << ": " << message;
+    const bool is_wrong_argument = wrong.ends == Ends::invalid || wrong.ends == Ends::invalid_point || wrong.ends == Ends::limit;
+    EXPECT_TRUE(!is_wrong_argument || message.find(": ") != std::string::npos)
+        << wrong.name << " says what is wrong, but not what to do: " << message;
+  }
+}
+
+/// After a call that ended badly, the same package answers as before.
+TEST(WrongCalls, LeaveThePackageAsItWas) {
+  const PackedSample sample;
+  Arguments arguments(sample.folder());
+  const PointAnswers before = evaluate_points(arguments.package, {arguments.x, arguments.y});
+  for (const WrongCall& wrong : all_wrong_calls()) {
+    Arguments changed(sample.folder());
+    wrong.change(changed);
+    if (!changed.package.is_open()) continue;
+    changed.package = Package(sample.folder());
+    std::swap(changed.package, arguments.package);
+    std::string message;
+    (void)ended_with(wrong, changed, message);
+    std::swap(changed.package, arguments.package);
+  }
+  EXPECT_EQ(evaluate_points(arguments.package, {arguments.x, arguments.y}).svf[0], before.svf[0]);
+}
+
+TEST(WrongCalls, PackagesThatAreNone) {
+  const PackedSample sample;
+  EXPECT_THROW(Package(""), PackageUnusable);
+  EXPECT_THROW(Package("/nowhere/town.farlod"), PackageUnusable);
+  EXPECT_THROW(Package(sample.settings().inputs.front()), PackageUnusable);
+  EXPECT_THROW(Package(sample.folder() / "blocks"), PackageUnusable);
+  std::filesystem::resize_file(sample.folder() / "manifest.json", 100);
+  EXPECT_THROW(Package{sample.folder()}, PackageDamaged);
+}
+
+TEST(WrongCalls, BlocksThatAreDamaged) {
+  const PackedSample sample;
+  const Package package(sample.folder());
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(sample.folder() / "blocks"))
+    if (entry.is_regular_file()) std::filesystem::resize_file(entry.path(), 50);
+  const RasterPlan whole = plan_raster(package, 8.0);
+  EXPECT_THROW((void)evaluate_raster(package, whole), PackageDamaged);
+  EXPECT_THROW((void)evaluate_surfaces(package, {}), PackageDamaged);
+}
+
+TEST(WrongCalls, BoxMapsKnowNoBounds) {
+  const PackedSample sample(FarMapKind::box);
+  Arguments arguments(sample.folder());
+  arguments.settings.bounds = true;
+  EXPECT_THROW(raster.call(arguments), PackageUnusable);
+  arguments.settings.engine = Engine::exact;
+  EXPECT_NO_THROW(raster.call(arguments));
+}
+
+}  // namespace
+}  // namespace farlod::library

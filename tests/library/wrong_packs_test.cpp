@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "farlod/error.hpp"
+#include "tests/library/packed_sample.hpp"
+
+namespace farlod::library {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct WrongPack {
+  std::string name;
+  std::function<void(PackSettings&)> change;
+};
+
+std::vector<WrongPack> wrong_files() {
+  return {{"no output", [](PackSettings& s) { s.output.clear(); }},
+          {"no inputs", [](PackSettings& s) { s.inputs.clear(); }},
+          {"an input without a name", [](PackSettings& s) { s.inputs.emplace_back(); }},
+          {"a terrain without a name", [](PackSettings& s) { s.terrain = ""; }},
+          {"no such overwrite", [](PackSettings& s) { s.overwrite = static_cast<Overwrite>(5); }},
+          {"no such policy", [](PackSettings& s) { s.problems = static_cast<ProblemPolicy>(-1); }},
+          {"no such axis", [](PackSettings& s) { s.up = static_cast<UpAxis>(2); }},
+          {"lod -1", [](PackSettings& s) { s.lod = -1; }},
+          {"lod 4", [](PackSettings& s) { s.lod = 4; }},
+          {"an origin at no place",
+           [](PackSettings& s) {
+             s.obj_origin = Point3d{0.0, nan, 0.0};
+           }},
+          {"an origin without end",
+           [](PackSettings& s) {
+             s.obj_origin = Point3d{infinity, 0.0, 0.0};
+           }},
+          {"an origin beyond the Earth",
+           [](PackSettings& s) {
+             s.obj_origin = Point3d{0.0, 0.0, 1e10};
+           }},
+          {"a storey of nothing", [](PackSettings& s) { s.footprints.floor_height_m = 0.0; }},
+          {"a storey at no height", [](PackSettings& s) { s.footprints.floor_height_m = nan; }},
+          {"houses of nothing", [](PackSettings& s) { s.footprints.default_height_m = 0.0; }},
+          {"houses without end", [](PackSettings& s) { s.footprints.default_height_m = infinity; }}};
+}
+
+std::vector<WrongPack> wrong_grids() {
+  std::vector<WrongPack> list{{"no such alignment", [](PackSettings& s) { s.align = static_cast<AlignMode>(3); }},
+                              {"no such assignment", [](PackSettings& s) { s.assign = static_cast<Assign>(2); }},
+                              {"no such far map", [](PackSettings& s) { s.far_map = static_cast<FarMapKind>(2); }},
+                              {"a bearing at no angle", [](PackSettings& s) { s.fixed_bearing = Angle::degrees(nan); }},
+                              {"a bearing of two turns", [](PackSettings& s) { s.fixed_bearing = Angle::degrees(720.0); }},
+                              {"an error of box maps", [](PackSettings& s) {
+                                 s.max_error = 0.01;
+                                 s.far_map = FarMapKind::box;
+                               }}};
+  for (const double edge_m : {nan, infinity, 0.0, -50.0, 0.1, 1e6})
+    list.push_back({"cells of " + std::to_string(edge_m), [edge_m](PackSettings& s) { s.cell_edge_m = edge_m; }});
+  for (const int n : {0, -3, 2, 4, 1001})
+    list.push_back({"neighborhood " + std::to_string(n), [n](PackSettings& s) { s.neighborhood = n; }});
+  for (const double e : {nan, infinity, 0.0, -0.1, 2.0})
+    list.push_back({"max_error " + std::to_string(e), [e](PackSettings& s) { s.max_error = e; }});
+  return list;
+}
+
+void expect_refused(const WrongPack& wrong) {
+  const scenes::TemporaryFolder folder;
+  PackSettings settings = village_settings(folder.path() / "village.farlod");
+  wrong.change(settings);
+  Report report;
+  try {
+    (void)pack(settings, report);
+    ADD_FAILURE() << wrong.name << " was packed";
+  } catch (const InvalidArgument& error) {
+    EXPECT_NE(std::string(error.what()).find(": "), std::string::npos) << wrong.name << ": " << error.what();
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << wrong.name << ": " << error.what();
+  }
+  EXPECT_TRUE(folder.names().empty()) << wrong.name << " left something behind";
+}
+
+TEST(WrongPacks, AreRefusedBeforeAnythingIsDone) {
+  for (const WrongPack& wrong : wrong_files()) expect_refused(wrong);
+  for (const WrongPack& wrong : wrong_grids()) expect_refused(wrong);
+}
+
+/// Runs that end before their end.
+class EndedPack : public testing::Test {
+ protected:
+  scenes::TemporaryFolder folder_;
+  PackSettings settings_ = village_settings(folder_.path() / "village.farlod");
+  Report report_;
+  RunSettings run_;
+};
+
+TEST_F(EndedPack, RunSettingsThatAreNone) {
+  run_.threads = 5000;
+  EXPECT_THROW(pack(settings_, report_, run_), InvalidArgument);
+  run_ = {};
+  run_.memory_limit_mib = 0;
+  EXPECT_THROW(pack(settings_, report_, run_), InvalidArgument);
+  run_.memory_limit_mib = 1;
+  EXPECT_THROW(pack(settings_, report_, run_), LimitReached);
+  EXPECT_TRUE(folder_.names().empty());
+}
+
+TEST_F(EndedPack, InputsThatAreNotThere) {
+  settings_.inputs = {"/nowhere/town.gml"};
+  EXPECT_THROW(pack(settings_, report_), InputError);
+  settings_ = village_settings("/proc/nowhere/village.farlod");
+  EXPECT_THROW(pack(settings_, report_), OutputError);
+}
+
+/// Whatever stage it is in: the folder does not open as a package.
+TEST_F(EndedPack, CancelledInEachStage) {
+  std::vector<std::string> stages;
+  run_.on_progress = [&](const Progress& p) {
+    if (stages.empty() || stages.back() != p.stage) stages.emplace_back(p.stage);
+  };
+  (void)pack(settings_, report_, run_);
+  settings_.overwrite = Overwrite::replace;
+  ASSERT_GE(stages.size(), 5U);
+  for (const std::string& stage : stages) {
+    if (stage == stages.back()) continue;  // its last call comes when all is done
+    std::stop_source stop;
+    run_.stop = stop.get_token();
+    run_.on_progress = [&](const Progress& p) {
+      if (p.stage == stage) stop.request_stop();
+    };
+    EXPECT_THROW(pack(settings_, report_, run_), Cancelled) << stage;
+  }
+}
+
+TEST_F(EndedPack, ACallbackThatThrows) {
+  struct Thrown {};
+  settings_.overwrite = Overwrite::replace;
+  run_.on_progress = [](const Progress& p) {
+    if (p.stage == "far maps") throw Thrown();
+  };
+  EXPECT_THROW(pack(settings_, report_, run_), Thrown);
+  EXPECT_THROW(Package{settings_.output}, PackageUnusable);
+  run_ = {};
+  EXPECT_THROW(pack(settings_, report_, run_, [](const PackEstimate&) { throw Thrown(); }), Thrown);
+}
+
+}  // namespace
+}  // namespace farlod::library

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "points/point_reader.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/scenes/temporary_folder.hpp"
+
+namespace farlod {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::vector<RequestedPoint> points_in(const std::string& text) {
+  const scenes::TemporaryFolder folder;
+  std::ofstream(folder.file("points.csv"), std::ios::binary) << text;
+  return read_points_csv(folder.file("points.csv"));
+}
+
+std::string complaint_about(const std::string& text) {
+  try {
+    (void)points_in(text);
+  } catch (const PointsError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+void expect_the_two_points(const std::vector<RequestedPoint>& points) {
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_EQ(points[0].x, 1.5);
+  EXPECT_EQ(points[0].y, -2.0);
+  EXPECT_EQ(points[0].z, 3.0);
+  EXPECT_EQ(points[1].x, 4.0);
+  EXPECT_EQ(points[1].y, 5.0);
+  EXPECT_EQ(points[1].z, std::nullopt);
+}
+
+TEST(PointReader, EverySeparatorAndLineEndGivesTheSame) {
+  expect_the_two_points(points_in("id,x,y,z\na,1.5,-2,3\nb,4,5,\n"));
+  expect_the_two_points(points_in("id;x;y;z\r\na;1.5;-2;3\r\nb;4;5;\r\n"));
+  expect_the_two_points(points_in("id\tx\ty\tz\na\t1.5\t-2\t3\nb\t4\t5\t"));
+  expect_the_two_points(points_in("\xEF\xBB\xBF\"id\", \"x\", \"y\", \"z\"\n\n\"a\", \"1.5\", -2, 3\n , , , \nb, +4.0, 5e0\n"));
+}
+
+TEST(PointReader, FindsColumnsByAnyOfTheirNames) {
+  for (const char* header :
+       {"y,x,z,id", "Northing,EASTING,Elevation,Name", "lat,lon,height_m,fid", "latitude,longitude,z_m,ID", "y_m,x_m,Z,id"}) {
+    const std::vector<RequestedPoint> points = points_in(std::string(header) + "\n-2,1.5,3,a\n5,4,,b\n");
+    expect_the_two_points(points);
+    EXPECT_EQ(points[0].id, "a");
+    EXPECT_EQ(points[1].id, "b");
+  }
+}
+
+TEST(PointReader, IgnoresOtherColumns) { expect_the_two_points(points_in("note,x,speed,y,z\n\"a,b\",1.5,9,-2,3\n,4,9,5,\n")); }
+
+TEST(PointReader, WithoutHeaderTheColumnsAreXYZ) {
+  const std::vector<RequestedPoint> points = points_in("1.5,-2,3\n4,5\n");
+  expect_the_two_points(points);
+  EXPECT_EQ(points[0].id, "1");
+  EXPECT_EQ(points[1].id, "2");
+}
+
+TEST(PointReader, ABadNumberIsNamedWithItsLine) {
+  EXPECT_THAT(complaint_about("x,y\n1,2\n\n3,4m\n"), AllOf(HasSubstr("points.csv:4: "), HasSubstr("\"4m\" is not a number (y)")));
+  EXPECT_THAT(complaint_about("id,x,y\n\"two\nlines\",1,2\nb,,4\n"),
+              AllOf(HasSubstr("points.csv:4: "), HasSubstr("\"\" is not a number (x)")));
+  EXPECT_THAT(complaint_about("x,y\nnan,2\n"), HasSubstr("points.csv:2: "));
+  EXPECT_THAT(complaint_about("x,y\n1,1e999\n"), HasSubstr("points.csv:2: "));
+  EXPECT_THAT(complaint_about("x;y\n1,5;2\n"), HasSubstr("write it like 1234.5"));
+}
+
+TEST(PointReader, AShortRowIsNamed) {
+  EXPECT_THAT(complaint_about("x,y\n1\n"), HasSubstr("points.csv:2: the row ends before y"));
+}
+
+TEST(PointReader, UnknownOrAmbiguousColumnsAreRefused) {
+  EXPECT_THAT(complaint_about("a,b\n1,2\n"), HasSubstr("points.csv:1: no column is named x and y"));
+  EXPECT_THAT(complaint_about("x,y,lon,lat\n1,2,3,4\n"), HasSubstr("\"x\" and \"lon\" mean the same"));
+  EXPECT_THAT(complaint_about("1,2,3,4\n"), HasSubstr("points.csv:1: a table without a header row"));
+}
+
+TEST(PointReader, NothingToReadIsRefused) {
+  EXPECT_THAT(complaint_about(""), HasSubstr("holds no points"));
+  EXPECT_THAT(complaint_about("x,y\n"), HasSubstr("a header row but no points"));
+  EXPECT_THROW((void)read_points_csv("/no such folder/points.csv"), PointsError);
+}
+
+TEST(PointReader, AFolderIsRefused) { EXPECT_THROW((void)read_points_csv(std::filesystem::temp_directory_path()), PointsError); }
+
+}  // namespace
+}  // namespace farlod

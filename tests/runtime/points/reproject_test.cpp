@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "points/reproject_gdal.hpp"
+
+#include <gmock/gmock.h>
+
+#include "points/point_reader.hpp"
+#include "tests/runtime/results/raster/small_raster.hpp"
+
+namespace farlod {
+namespace {
+
+// The series behind transverse Mercator is good to nanometres near the central meridian; text in WKT is not shorter than that
+constexpr double projection_error_m = 1e-6;
+
+TEST(ToProjected, LongitudeComesFirstWhateverTheCrsDeclares) {
+  // On the central meridian of zone 32 the easting is the false easting, by definition
+  const std::vector<Point2d> points{{9.0, 0.0}, {9.0, 50.0}};
+  const std::vector<Point2d> projected = to_projected(points, "EPSG:4258", small_raster().crs_wkt);
+  ASSERT_EQ(projected.size(), 2U);
+  EXPECT_NEAR(projected[0].x, 500000.0, projection_error_m);
+  EXPECT_NEAR(projected[0].y, 0.0, projection_error_m);
+  EXPECT_NEAR(projected[1].x, 500000.0, projection_error_m);
+  // 0.9996 times the meridian's arc from the equator to 50° on GRS 80, 5540847.041560960 m
+  EXPECT_NEAR(projected[1].y, 0.9996 * 5540847.041560960, projection_error_m);
+}
+
+TEST(ToProjected, TheSameCrsChangesNothing) {
+  const std::vector<Point2d> points{{500100.0, 5600000.0}};
+  EXPECT_EQ(to_projected(points, "EPSG:25832", small_raster().crs_wkt), points);
+}
+
+TEST(ToProjected, UnknownCrsIsNamed) {
+  try {
+    (void)to_projected({}, "EPSG:1", small_raster().crs_wkt);
+    FAIL() << "EPSG:1 was taken for a CRS";
+  } catch (const PointsError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("EPSG:1"));
+  }
+}
+
+TEST(ToProjected, APointThatCannotBeProjectedIsNamed) {
+  const std::vector<Point2d> points{{9.0, 50.0}, {9.0, 500.0}};
+  try {
+    (void)to_projected(points, "EPSG:4258", small_raster().crs_wkt);
+    FAIL() << "latitude 500 was projected";
+  } catch (const PointsError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("point 2 at (9, 500)"));
+  }
+}
+
+}  // namespace
+}  // namespace farlod
