@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include <embree3/rtcore.h>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "benchmark/whole_city_rival.hpp"
+#include "occlusion/queries_embree.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod::benchmark {
@@ -100,12 +100,10 @@ struct WholeCityRival::Impl {
 
   void trace(const SharedPacket& packet, std::span<const Point3f> directions, std::size_t ray_count, std::span<float> svf) const {
     Lanes lanes(packet);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    if (variant.coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    OcclusionArguments arguments = occlusion_arguments(variant.coherent);
     for (std::size_t d = 0; d < directions.size(); d += lanes.directions) {
       lanes.point(directions.subspan(d, std::min(lanes.directions, directions.size() - d)), packet.count);
-      ask(lanes, context);
+      ask(lanes, arguments);
     }
     for (std::size_t lane = 0; lane < lanes.used; ++lane)
       if (lane >= packet.count) lanes.free[lane % packet.count] += lanes.free[lane];
@@ -113,25 +111,25 @@ struct WholeCityRival::Impl {
       svf[packet.index[n]] = static_cast<float>(lanes.free[n]) / static_cast<float>(ray_count);
   }
 
-  void ask(Lanes& lanes, RTCIntersectContext& context) const {
+  void ask(Lanes& lanes, OcclusionArguments& arguments) const {
     if (variant.ends_above_city)
       lanes.end_at(top_m);
     else
       std::fill_n(lanes.rays.tfar, packet_lanes, infinity);
     if (variant.packets)
-      rtcOccluded16(lanes.valid.data(), scene, &context, &lanes.rays);
+      ask_occluded(lanes.valid.data(), scene, arguments, lanes.rays);
     else
-      ask_one_by_one(lanes, context);
+      ask_one_by_one(lanes, arguments);
     // Embree's sign for "blocked" is a negative end
     for (std::size_t lane = 0; lane < packet_lanes; ++lane)
       lanes.free[lane] += lanes.valid[lane] != 0 && lanes.rays.tfar[lane] >= 0.0F ? 1U : 0U;
   }
 
-  void ask_one_by_one(Lanes& lanes, RTCIntersectContext& context) const {
+  void ask_one_by_one(Lanes& lanes, OcclusionArguments& arguments) const {
     for (std::size_t lane = 0; lane < packet_lanes; ++lane) {
       if (lanes.valid[lane] == 0) continue;
       RTCRay ray = rtcGetRayFromRayN(reinterpret_cast<RTCRayN*>(&lanes.rays), packet_lanes, static_cast<unsigned>(lane));
-      rtcOccluded1(scene, &context, &ray);
+      ask_occluded(scene, arguments, ray);
       lanes.rays.tfar[lane] = ray.tfar;
     }
   }

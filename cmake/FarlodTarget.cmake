@@ -25,7 +25,7 @@ function(farlod_public_headers target)
     list(APPEND headers ${found})
   endforeach()
   # A header named for its library belongs to that library's wrapper
-  list(FILTER headers EXCLUDE REGEX "_cgal\\.hpp$")
+  list(FILTER headers EXCLUDE REGEX "_(cgal|embree)\\.hpp$")
   target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS ${H_BASE} FILES ${headers})
   set_target_properties(${target} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 endfunction()

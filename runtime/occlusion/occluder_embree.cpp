@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include <embree3/rtcore.h>
-
 #include <array>
 #include <limits>
 #include <string>
 #include <utility>
 
 #include "occlusion/occluder.hpp"
+#include "occlusion/queries_embree.hpp"
 
 namespace farlod {
 namespace {
@@ -30,7 +29,7 @@ RTCDevice shared_device() {
 
 /// Embree hands the context of a query back to the filter; ours carries the question that the filter shall ask.
 struct QueryContext {
-  RTCIntersectContext embree;
+  EmbreeContext embree;
   const std::function<bool(std::uint32_t triangle)>* counts = nullptr;
 };
 
@@ -99,11 +98,9 @@ struct Occluder::Impl {
   /// The nearest of all triangles where `counts` is null.
   std::optional<Hit> nearest(const Ray& ray, const std::function<bool(std::uint32_t)>* counts) const {
     if (scene == nullptr) return std::nullopt;
-    QueryContext context;
-    rtcInitIntersectContext(&context.embree);
-    context.counts = counts;
+    QueryContext context{embree_context(), counts};
     RTCRayHit query = embree_ray(ray);
-    rtcIntersect1(scene, &context.embree, &query);
+    ask_nearest(scene, context.embree, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return Hit{query.ray.tfar, query.hit.primID};
   }
@@ -119,10 +116,9 @@ std::size_t Occluder::triangle_count() const { return impl_->triangles.size(); }
 
 bool Occluder::blocks(const Ray& ray) const {
   if (impl_->scene == nullptr) return false;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  OcclusionArguments arguments = occlusion_arguments(/*coherent=*/false);
   RTCRay query = embree_ray(ray).ray;
-  rtcOccluded1(impl_->scene, &context, &query);
+  ask_occluded(impl_->scene, arguments, query);
   return query.tfar < 0.0F;  // Embree's sign for "blocked"
 }
 
@@ -138,9 +134,7 @@ std::uint32_t Occluder::blocked(const RayOrigins& origins, const Directions& dir
                                 std::uint32_t wanted) const {
   static_assert(RayOrigins::lanes == 16);
   if (impl_->scene == nullptr || wanted == 0) return 0;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  OcclusionArguments arguments = occlusion_arguments(/*coherent=*/true);
   RTCRay16 packet;
   alignas(64) std::array<int, RayOrigins::lanes> valid;
   for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane) {
@@ -157,7 +151,7 @@ std::uint32_t Occluder::blocked(const RayOrigins& origins, const Directions& dir
     packet.mask[lane] = ~0U;
     packet.flags[lane] = 0;
   }
-  rtcOccluded16(valid.data(), impl_->scene, &context, &packet);
+  ask_occluded(valid.data(), impl_->scene, arguments, packet);
   std::uint32_t bits = 0;
   for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane) bits |= packet.tfar[lane] < 0.0F ? 1U << lane : 0U;
   return bits & wanted;

@@ -23,6 +23,7 @@ struct Wall {
 #define GDAL_HEADERS "gdal|cpl_|ogr|vrtdataset"
 #define PROJ_HEADERS "proj(\\.h|_|/)"
 #define XML_HEADERS "expat\\.h|libxml|citygml/"
+#define EMBREE_HEADERS "embree|occlusion/[a-z_]+_embree\\.hpp"
 #define EXR_HEADERS "OpenEXR/|Imf|Imath|half\\.h"
 #define MAPPING_HEADERS "boost/(interprocess|iostreams)|sys/mman"
 #define NOWHERE "^$"
@@ -39,15 +40,16 @@ constexpr Wall walls[] = {
      "a program is a user of the library"},
     {"^preprocess/app/", NOWHERE, "^(city|ingest|georeference|align|tiles|farmap|package|trial|pipeline|occlusion|contract)/",
      "a program is a user of the library"},
-    {"^runtime/", "^runtime/occlusion/[a-z_]+_embree\\.cpp$", "^embree", "occlusion is the only wrapper of Embree"},
+    {"^runtime/", "^runtime/occlusion/[a-z_]+_embree\\.[hc]pp$", "^(" EMBREE_HEADERS ")",
+     "occlusion is the only wrapper of Embree"},
     {"^runtime/", "^runtime/package/[a-z_]+\\.cpp$", "^(" EXR_HEADERS "|" MAPPING_HEADERS ")",
      "only the package room knows how far maps and tiles lie on disk"},
 
     {"^console/", NOWHERE,
-     "^(" CGAL_HEADERS "|" GDAL_HEADERS "|" PROJ_HEADERS "|" XML_HEADERS "|" EXR_HEADERS "|GeographicLib/|embree)",
+     "^(" CGAL_HEADERS "|" GDAL_HEADERS "|" PROJ_HEADERS "|" XML_HEADERS "|" EXR_HEADERS "|" EMBREE_HEADERS "|GeographicLib/)",
      "the console knows how to talk, not what about"},
 
-    {"^preprocess/", NOWHERE, "^embree", "rays are asked through runtime/occlusion"},
+    {"^preprocess/", NOWHERE, "^(" EMBREE_HEADERS ")", "rays are asked through runtime/occlusion"},
     {"^preprocess/", "_cgal\\.[hc]pp$", "^(" CGAL_HEADERS ")", "CGAL's wrapper is *_cgal.*"},
     {"^preprocess/", "_(gdal|ogr)\\.cpp$", "^(" GDAL_HEADERS ")", "GDAL's wrappers are *_gdal.cpp and *_ogr.cpp"},
     {"^preprocess/", "_proj\\.cpp$", "^" PROJ_HEADERS, "PROJ's wrapper is *_proj.cpp"},
@@ -62,7 +64,7 @@ constexpr Wall walls[] = {
 
     {"^(preprocess|runtime)/", "_libpng\\.cpp$", "^png\\.h", "libpng's wrapper is *_libpng.cpp"},
     {"^(preprocess|runtime)/", "/app/", "^(CLI/|spdlog/|iostream$|print$)", "libraries neither print nor read command lines"},
-    {"^(preprocess|runtime)/.*\\.hpp$", "/app/|_cgal\\.hpp$", "^(?![a-z_0-9]+$|[a-z_]+/[a-z_0-9/]+\\.hpp$)",
+    {"^(preprocess|runtime)/.*\\.hpp$", "/app/|_(cgal|embree)\\.hpp$", "^(?![a-z_0-9]+$|[a-z_]+/[a-z_0-9/]+\\.hpp$)",
      "headers name no foreign library"},
     {"^(preprocess|runtime)/.*\\.hpp$", "/app/", "^(boost|tbb|nlohmann|fmt|oneapi)/", "headers name no foreign library"},
 };

@@ -15,6 +15,7 @@ using testing::IsEmpty;
 std::vector<SourceFile> tree_with(const std::string& path, const std::string& include_line) {
   return {{"console/progress.hpp", {}},
           {"preprocess/tiles/cutter.hpp", {}},
+          {"runtime/occlusion/queries_embree.hpp", {}},
           {"runtime/package/reader.hpp", {}},
           {path, {"// a line before", include_line}}};
 }
@@ -63,6 +64,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Planted{"runtime/results/a.cpp", "#include \"evaluate/sky_evaluator.hpp\"", "a user of the library"},
                     Planted{"preprocess/app/a.cpp", "#include \"tiles/cutter.hpp\"", "a user of the library"},
                     Planted{"runtime/scene/a_embree.cpp", "#include <embree3/rtcore.h>", "only wrapper of Embree"},
+                    Planted{"runtime/scene/a.cpp", "#include \"occlusion/queries_embree.hpp\"", "only wrapper of Embree"},
+                    Planted{"runtime/scene/a_embree.hpp", "#include <embree4/rtcore.h>", "only wrapper of Embree"},
+                    Planted{"runtime/occlusion/occluder.hpp", "#include <embree4/rtcore.h>", "headers name no foreign library"},
                     Planted{"runtime/scene/a.cpp", "#include <OpenEXR/ImfTiledInputFile.h>", "only the package room"},
                     Planted{"runtime/scene/a.cpp", "#include <boost/interprocess/mapped_region.hpp>", "only the package room"},
                     Planted{"runtime/package/a.hpp", "#include <ImfTiledInputFile.h>", "only the package room"},
@@ -79,6 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     IncludeWallsOfPreprocess, PlantedBreach,
     testing::Values(Planted{"preprocess/tiles/a.cpp", "#include <embree3/rtcore.h>", "through runtime/occlusion"},
+                    Planted{"preprocess/farmap/a.cpp", "#include \"occlusion/queries_embree.hpp\"", "through runtime/occlusion"},
                     Planted{"preprocess/tiles/a.cpp", "#include <CGAL/Gmpq.h>", "CGAL's wrapper"},
                     Planted{"preprocess/ingest/a.cpp", "#include <ogrsf_frmts.h>", "GDAL's wrappers"},
                     Planted{"preprocess/ingest/a.cpp", "#include \"gdal/gdal_errors.hpp\"", "GDAL's wrappers"},
@@ -109,6 +114,8 @@ TEST(IncludeWalls, WrappersMayInclude) {
                           {"runtime/results/raster/raster_writer_gdal.cpp", "#include <gdal_priv.h>", ""},
                           {"runtime/results/a_gdal.cpp", "#include \"gdal/gdal_errors.hpp\"", ""},
                           {"runtime/occlusion/occluder_embree.cpp", "#include <embree3/rtcore.h>", ""},
+                          {"runtime/occlusion/queries_embree.hpp", "#include <embree4/rtcore.h>", ""},
+                          {"runtime/occlusion/a_embree.cpp", "#include \"occlusion/queries_embree.hpp\"", ""},
                           {"runtime/package/a.cpp", "#include <boost/interprocess/mapped_region.hpp>", ""},
                           {"runtime/evaluate/a.cpp", "#include \"package/reader.hpp\"", ""},
                           {"runtime/app/a.cpp", "#include \"console/progress.hpp\"", ""},
