@@ -52,6 +52,15 @@ std::vector<SourceFile> read_source_tree(const std::filesystem::path& root) { re
 
 std::vector<SourceFile> read_documents(const std::filesystem::path& root) { return read_where(root, is_document); }
 
+std::vector<SourceFile> read_all_texts(const std::filesystem::path& root) {
+  std::vector<SourceFile> files = read_where(root, [](const std::filesystem::path&) { return true; });
+  // Pictures and archives have zero bytes, text has none
+  std::erase_if(files, [](const SourceFile& file) {
+    return std::ranges::any_of(file.lines, [](const std::string& line) { return line.find('\0') != std::string::npos; });
+  });
+  return files;
+}
+
 std::vector<Include> includes_of(const SourceFile& file) {
   static const std::regex include(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
   std::vector<Include> includes;

@@ -27,6 +27,9 @@ struct Include {
 /// The files that people read (Markdown), ordered by path. Build folders are left out.
 [[nodiscard]] std::vector<SourceFile> read_documents(const std::filesystem::path& root);
 
+/// The files of both kinds, and all other files of text (settings, data of tests), ordered by path. Build folders are left out.
+[[nodiscard]] std::vector<SourceFile> read_all_texts(const std::filesystem::path& root);
+
 [[nodiscard]] std::vector<Include> includes_of(const SourceFile& file);
 
 /// .hpp and .cpp
