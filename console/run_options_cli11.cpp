@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "console/exit_code.hpp"
+#include "console/option_list.hpp"
 #include "farlod/version.hpp"
 
 namespace farlod {
@@ -15,12 +16,14 @@ std::size_t thread_count(const RunOptions& options) {
 }
 
 void add_run_options(CLI::App& app, const std::string& program, RunOptions& o) {
-  app.add_option("--summary", o.summary_file, "Write counts, times and figures to this JSON file")->group("Output");
+  app.add_option("--summary", o.summary_file, "Write counts, times and figures to this JSON file")
+      ->type_name(file_value)
+      ->group("Output");
   app.add_flag_callback(
          "--quiet", [&o] { o.verbosity = Verbosity::quiet; }, "Say nothing but errors")
       ->group("Run");
   app.add_option("--threads", o.threads, "Threads to use (default: all cores)")->check(CLI::Range(1, 4096))->group("Run");
-  app.set_config("--config", "", "Read options from this file (TOML)")->group("Run");
+  app.set_config("--config", "", "Read options from this file (TOML)")->type_name(file_value)->group("Run");
   app.allow_config_extras(CLI::config_extras_mode::error);
   app.set_version_flag("--version", program + " " + software_version);
   app.get_formatter()->column_width(34);

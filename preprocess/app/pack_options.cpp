@@ -11,20 +11,30 @@
 
 #include "console/exit_code.hpp"
 #include "console/number_range.hpp"
+#include "console/option_list.hpp"
 
 namespace farlod {
 namespace {
 
-constexpr const char* description =
-    "farlod-pack — cuts a city model into a package of cells with far maps, from which farlod-svf computes sky view factors.\n\n"
-    "Try this first:\n"
-    "  farlod-pack town.gml -o town.farlod\n"
-    "  farlod-pack footprints.geojson --height-field height -o town.farlod\n";
-constexpr const char* footer =
-    "\nReads CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, OBJ, and footprints in any vector format of GDAL (GeoJSON, GeoPackage, "
-    "Shapefile …); also from folders, .zip and .gz. Several inputs become one city.\n"
-    "Exit codes: 0 done, 1 internal, 2 usage, 3 an input cannot be read or used (with --strict: has a problem), 5 a limit was "
-    "reached.";
+ProgramDescription pack_program() {
+  return {
+      .name = "farlod-pack",
+      .purpose = "cuts a city model into a package of cells with far maps, from which farlod-svf computes sky view factors",
+      .examples = {"farlod-pack town.gml -o town.farlod", "farlod-pack footprints.geojson --height-field height -o town.farlod"},
+      .background = {"A grid of square cells is laid over the city. A package holds the geometry of each cell, and a far map: "
+                     "what matters there of the city far away.",
+                     "One bad building never ends the run. It is reported, and left out or repaired; --report lists each "
+                     "problem, and --strict packs no city that has one."},
+      .notes = {"Reads CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, OBJ, and footprints in any vector format of GDAL (GeoJSON, "
+                "GeoPackage, Shapefile …); also from folders, .zip and .gz. Several inputs become one city."},
+      .exit_codes = {{exit_done, "done"},
+                     {exit_internal, "an internal error"},
+                     {exit_usage, "a wrong command line"},
+                     {exit_unusable_input, "an input cannot be read or used (with --strict: has a problem)"},
+                     {exit_limit_reached, "a limit was reached"}},
+      .see_also = {"farlod-city", "farlod-svf"},
+      .licence = "GPL-3.0-or-later"};
+}
 
 /// Options whose text is resolved after CLI11 has parsed them.
 struct RawOptions {
@@ -52,7 +62,8 @@ Point3d parse_origin(const std::string& text) {
 
 void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("INPUT", raw.inputs,
-                 "City files, folders with city files, .zip or .gz archives; all are put together. A raster is a surface model");
+                 "City files, folders with city files, .zip or .gz archives; all are put together. A raster is a surface model")
+      ->type_name(file_value);
   app.add_option("--crs", o.settings.crs, "CRS of inputs that do not say, as EPSG:n; of all, where each says its own")
       ->group("Input");
   app.add_option("--out-crs", o.settings.out_crs, "CRS of the package (default: the input's, or UTM for degrees)")
@@ -81,7 +92,9 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->check(CLI::IsMember({"best", "0", "1", "2", "3"}))
       ->capture_default_str()
       ->group("Input");
-  app.add_option("--terrain", raw.terrain, "Raster of ground elevations (any that GDAL reads)")->group("Input");
+  app.add_option("--terrain", raw.terrain, "Raster of ground elevations (any that GDAL reads)")
+      ->type_name(file_value)
+      ->group("Input");
 }
 
 void add_grid_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
@@ -111,17 +124,21 @@ void add_grid_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
 }
 
 void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
-  app.add_option("-o,--output", raw.output, "Folder of the package, NAME.farlod")->required()->group("Output");
+  app.add_option("-o,--output", raw.output, "Folder of the package, NAME.farlod")
+      ->required()
+      ->type_name(folder_value)
+      ->group("Output");
   app.add_flag("--force", raw.force, "Replace a package that is there already")->group("Output");
   app.add_option("--memory-limit", o.memory_limit_mib, "End before the long work when it would need more MiB than this")
       ->check(CLI::PositiveNumber)
       ->group("Output");
   app.add_option("--report", o.report_file,
                  "Write every problem of the input to this JSON file; as points for a map when it ends in .geojson")
+      ->type_name(file_value)
       ->group("Output");
   app.add_flag("--strict", raw.strict, "Write no package, and end with exit code 3, when the input has any problem")
       ->group("Output");
-  add_run_options(app, "farlod-pack", o.run);
+  add_run_options(app, pack_program().name, o.run);
 }
 
 void resolve_alignment(const std::string& text, PackSettings& s) {
@@ -163,19 +180,29 @@ void resolve(const RawOptions& raw, PackOptions& o) {
     throw CLI::ValidationError("--max-error", "far maps of the kind box keep no error: leave --far-map out");
 }
 
+/// All options, and what they are bound to.
+struct CommandLine {
+  CLI::App app;
+  RawOptions raw;
+  PackOptions options;
+
+  CommandLine() {
+    describe_program(app, pack_program());
+    add_input_options(app, raw, options);
+    add_grid_options(app, raw, options);
+    add_output_options(app, raw, options);
+  }
+};
+
 }  // namespace
 
 ParsedPackOptions parse_pack_options(int argc, char** argv) {
-  CLI::App app(description, "farlod-pack");
-  app.footer(footer);
-  RawOptions raw;
-  PackOptions options;
-  add_input_options(app, raw, options);
-  add_grid_options(app, raw, options);
-  add_output_options(app, raw, options);
-  if (const auto exit_code = parse_command_line(app, argc, argv, [&] { resolve(raw, options); }))
+  CommandLine line;
+  if (const auto exit_code = parse_command_line(line.app, argc, argv, [&] { resolve(line.raw, line.options); }))
     return {std::nullopt, *exit_code};
-  return {std::move(options), exit_done};
+  return {std::move(line.options), exit_done};
 }
+
+void describe_pack_options(const CommandLineVisitor& visit) { visit(pack_program(), CommandLine().app); }
 
 }  // namespace farlod

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "console/program_description.hpp"
 #include "console/run_options.hpp"
 #include "farlod/pack.hpp"
 
@@ -25,5 +26,8 @@ struct ParsedPackOptions {
   int exit_code = 0;
 };
 [[nodiscard]] ParsedPackOptions parse_pack_options(int argc, char** argv);
+
+/// Hands over the command line, from which the manual page and the completion are made.
+void describe_pack_options(const CommandLineVisitor& visit);
 
 }  // namespace farlod

@@ -11,19 +11,33 @@
 
 #include "console/exit_code.hpp"
 #include "console/number_range.hpp"
+#include "console/option_list.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod {
 namespace {
 
-constexpr const char* description =
-    "farlod-svf — computes sky view factors from a package that farlod-pack made.\n\n"
-    "Try this first:\n"
-    "  farlod-svf town.farlod -o svf.tif --grid 2 --preview svf.png\n"
-    "  farlod-svf town.farlod -o walls.csv --surfaces walls --spacing 2\n";
-constexpr const char* footer =
-    "\nReceivers inside a building get no answer: the declared no-data value in a raster, an empty field in a table.\n"
-    "Exit codes: 0 done, 1 internal, 2 usage, 3 an input cannot be read or used, 4 a damaged package, 5 a limit was reached.";
+ProgramDescription svf_program() {
+  return {
+      .name = "farlod-svf",
+      .purpose = "computes sky view factors from a package that farlod-pack made",
+      .examples = {"farlod-svf town.farlod -o svf.tif --grid 2 --preview svf.png",
+                   "farlod-svf town.farlod -o walls.csv --surfaces walls --spacing 2"},
+      .background = {"A package holds a city cut into cells, and for each cell what matters of the city far away. It is made "
+                     "once, and evaluated as often as you like.",
+                     "The receivers are the points where the sky is looked at: the pixels of a raster (--grid), the points of "
+                     "a table (--points), points spread over the buildings (--surfaces), or one point (--at). The sky view "
+                     "factor is the share of the sky that a receiver sees, from 0 to 1."},
+      .notes = {"Receivers inside a building get no answer: the declared no-data value in a raster, an empty field in a table."},
+      .exit_codes = {{exit_done, "done"},
+                     {exit_internal, "an internal error"},
+                     {exit_usage, "a wrong command line"},
+                     {exit_unusable_input, "an input cannot be read or used"},
+                     {exit_damaged_package, "a damaged package"},
+                     {exit_limit_reached, "a limit was reached"}},
+      .see_also = {"farlod-city", "farlod-pack"},
+      .licence = "Apache-2.0"};
+}
 
 std::string known_endings() {
   return endings_where([](const OutputFormat&) { return true; });
@@ -50,7 +64,8 @@ std::vector<double> numbers_in(const std::string& text, const std::string& optio
 void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   auto* receivers = app.add_option_group("Receivers", "Where the sky is looked at");
   receivers->add_option("--grid", o.grid_step_m, "A raster with pixels of this many metres")->check(between(0.01, 10000.0));
-  receivers->add_option("--points", raw.points, "The points of this table (CSV with x, y and perhaps z and id)");
+  receivers->add_option("--points", raw.points, "The points of this table (CSV with x, y and perhaps z and id)")
+      ->type_name(file_value);
   receivers->add_option("--surfaces", raw.surfaces, "Points spread over the buildings, with averages per surface and building")
       ->check(CLI::IsMember({"roofs", "walls", "all"}));
   receivers->add_option("--at", raw.at, "One point: X,Y or X,Y,Z in the package's CRS");
@@ -69,11 +84,14 @@ void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
 }
 
 void add_output_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
-  app.add_option("PACKAGE", raw.package, "A folder that farlod-pack made")->required();
+  app.add_option("PACKAGE", raw.package, "A folder that farlod-pack made")->required()->type_name(folder_value);
   app.add_option("-o,--output", raw.output, "File to write; its ending says the format: " + known_endings())
       ->required()
+      ->type_name(file_value)
       ->group("Output");
-  app.add_option("--preview", o.preview_file, "Also draw the raster as this PNG, with a colour scale")->group("Output");
+  app.add_option("--preview", o.preview_file, "Also draw the raster as this PNG, with a colour scale")
+      ->type_name(file_value)
+      ->group("Output");
 }
 
 /// How exactly the sky is looked at.
@@ -218,22 +236,32 @@ void resolve(const RawOptions& raw, SvfOptions& o) {
   require_accuracy(o.evaluation);
 }
 
+/// All options, and what they are bound to.
+struct CommandLine {
+  CLI::App app;
+  RawOptions raw;
+  SvfOptions options;
+
+  CommandLine() {
+    describe_program(app, svf_program());
+    add_receiver_options(app, raw, options);
+    add_output_options(app, raw, options);
+    add_sky_options(app, raw, options);
+    add_error_options(app, options);
+    add_memory_option(app, options);
+    add_run_options(app, svf_program().name, options.run);
+  }
+};
+
 }  // namespace
 
 ParsedSvfOptions parse_svf_options(int argc, char** argv) {
-  CLI::App app(description, "farlod-svf");
-  app.footer(footer);
-  RawOptions raw;
-  SvfOptions options;
-  add_receiver_options(app, raw, options);
-  add_output_options(app, raw, options);
-  add_sky_options(app, raw, options);
-  add_error_options(app, options);
-  add_memory_option(app, options);
-  add_run_options(app, "farlod-svf", options.run);
-  if (const auto exit_code = parse_command_line(app, argc, argv, [&] { resolve(raw, options); }))
+  CommandLine line;
+  if (const auto exit_code = parse_command_line(line.app, argc, argv, [&] { resolve(line.raw, line.options); }))
     return {std::nullopt, *exit_code};
-  return {std::move(options), exit_done};
+  return {std::move(line.options), exit_done};
 }
+
+void describe_svf_options(const CommandLineVisitor& visit) { visit(svf_program(), CommandLine().app); }
 
 }  // namespace farlod

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "console/program_description.hpp"
 #include "console/run_options.hpp"
 #include "farlod/box.hpp"
 #include "farlod/evaluation.hpp"
@@ -46,5 +47,8 @@ struct ParsedSvfOptions {
   int exit_code = 0;
 };
 [[nodiscard]] ParsedSvfOptions parse_svf_options(int argc, char** argv);
+
+/// Hands over the command line, from which the manual page and the completion are made.
+void describe_svf_options(const CommandLineVisitor& visit);
 
 }  // namespace farlod

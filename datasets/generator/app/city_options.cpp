@@ -9,22 +9,32 @@
 #include <utility>
 
 #include "console/exit_code.hpp"
+#include "console/option_list.hpp"
 #include "generator/generated_city.hpp"
 
 namespace farlod {
 namespace {
 
-constexpr const char* description =
-    "farlod-city — makes test cities of any size: same settings, same bytes, on every machine.\n\n"
-    "Try this first:\n"
-    "  farlod-city -o town.city.json --size 1000\n"
-    "  farlod-city -o metropolis.obj --size 3500 --rotation 29 --lod 2 --overhangs\n";
-constexpr const char* footer =
-    "\nThe ending of the output says the format: .gml (CityGML 2.0), .city.json (CityJSON 2.0), .obj, .geojson.\n"
-    "GeoJSON holds footprints with `height` above `base`, both in metres: roofs of LoD2 and arcades are reduced to that, and a "
-    "bridge\n"
-    "has its underside as base. Its coordinates are in the CRS that the file names, since the city is not in degrees.\n"
-    "Exit codes: 0 done, 1 internal, 2 usage, 3 the output cannot be written.";
+ProgramDescription city_program() {
+  return {
+      .name = "farlod-city",
+      .purpose = "makes test cities of any size: same settings, same bytes, on every machine",
+      .examples = {"farlod-city -o town.city.json --size 1000",
+                   "farlod-city -o metropolis.obj --size 3500 --rotation 29 --lod 2 --overhangs"},
+      .background =
+          {"The cities have avenues, streets, towers and houses, and on demand what real models have: hills, overhangs, "
+           "open shells, wrong heights. They are for tests and measurements of farlod-pack and farlod-svf."},
+      .notes = {"The ending of the output says the format: .gml (CityGML 2.0), .city.json (CityJSON 2.0), .obj, .geojson.",
+                "GeoJSON holds footprints with `height` above `base`, both in metres: roofs of LoD2 and arcades are reduced to "
+                "that, and a bridge has its underside as base. Its coordinates are in the CRS that the file names, since the "
+                "city is not in degrees."},
+      .exit_codes = {{exit_done, "done"},
+                     {exit_internal, "an internal error"},
+                     {exit_usage, "a wrong command line"},
+                     {exit_unusable_input, "the output cannot be written"}},
+      .see_also = {"farlod-pack", "farlod-svf"},
+      .licence = "Apache-2.0"};
+}
 
 /// Options whose texts are resolved after parsing.
 struct RawOptions {
@@ -44,7 +54,7 @@ void add_settings(CLI::App& app, CitySettings& settings) {
 }
 
 void add_other_options(CLI::App& app, RawOptions& raw, CityOptions& o) {
-  app.add_option("-o,--output", raw.output, "File to write")->required()->group("Output");
+  app.add_option("-o,--output", raw.output, "File to write")->required()->type_name(file_value)->group("Output");
   app.add_flag("--obj-from-centre", o.obj_from_centre,
                "OBJ: count x and y from the city's centre, for viewers that compute in float")
       ->group("Output");
@@ -58,7 +68,7 @@ void add_other_options(CLI::App& app, RawOptions& raw, CityOptions& o) {
   app.add_option("--crs", raw.crs, "CRS that the file names, as EPSG:n: projected, in metres, easting first")
       ->capture_default_str()
       ->group("Place");
-  add_run_options(app, "farlod-city", o.run);
+  add_run_options(app, city_program().name, o.run);
   app.get_option("--threads")->description("As for the other programs; a city is written by one thread");
 }
 
@@ -88,23 +98,33 @@ void resolve(const RawOptions& raw, const CLI::App& app, CityOptions& o) {
   if (app.count("--buildings") > 0) o.settings.size_m = size_for_buildings_m(o.settings, raw.buildings);
 }
 
+/// All options, and what they are bound to.
+struct CommandLine {
+  CLI::App app;
+  RawOptions raw;
+  CityOptions options;
+
+  CommandLine() {
+    describe_program(app, city_program());
+    add_settings(app, options.settings);
+    add_other_options(app, raw, options);
+  }
+};
+
 }  // namespace
 
 ParsedCityOptions parse_city_options(int argc, char** argv) {
-  CLI::App app(description, "farlod-city");
-  app.footer(footer);
-  RawOptions raw;
-  CityOptions options;
-  add_settings(app, options.settings);
-  add_other_options(app, raw, options);
+  CommandLine line;
   try {
-    if (const auto exit_code = parse_command_line(app, argc, argv, [&] { resolve(raw, app, options); }))
+    if (const auto exit_code = parse_command_line(line.app, argc, argv, [&] { resolve(line.raw, line.app, line.options); }))
       return {std::nullopt, *exit_code};
   } catch (const SettingsError& error) {
     fmt::print(stderr, "farlod-city: {}\n", error.what());
     return {std::nullopt, exit_usage};
   }
-  return {std::move(options), exit_done};
+  return {std::move(line.options), exit_done};
 }
+
+void describe_city_options(const CommandLineVisitor& visit) { visit(city_program(), CommandLine().app); }
 
 }  // namespace farlod

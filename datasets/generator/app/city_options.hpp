@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "console/program_description.hpp"
 #include "console/run_options.hpp"
 #include "generator/city_settings.hpp"
 #include "generator/city_writer.hpp"
@@ -25,5 +26,8 @@ struct ParsedCityOptions {
   int exit_code = 0;
 };
 [[nodiscard]] ParsedCityOptions parse_city_options(int argc, char** argv);
+
+/// Hands over the command line, from which the manual page and the completion are made.
+void describe_city_options(const CommandLineVisitor& visit);
 
 }  // namespace farlod
