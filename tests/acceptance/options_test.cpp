@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include <regex>
 #include <set>
 
 #include "console/exit_code.hpp"
 #include "farlod/version.hpp"
+#include "tests/acceptance/help_text.hpp"
 #include "tests/acceptance/packed_town.hpp"
 
 namespace farlod::acceptance {
@@ -21,17 +21,6 @@ struct Program {
   const char* name;
   std::set<std::string> options;  ///< all of them
 };
-
-/// The long names at the beginnings of the lines of a help text.
-std::set<std::string> options_in(const std::string& help) {
-  static const std::regex option("^ +(?:-[a-z],)?(--[a-z0-9-]+).*");
-  std::set<std::string> options;
-  for (const std::string& line : lines_of(help)) {
-    std::smatch found;
-    if (std::regex_match(line, found, option)) options.insert(found[1]);
-  }
-  return options;
-}
 
 class EachProgram : public testing::TestWithParam<Program> {
  protected:

@@ -1,0 +1,32 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+include(GNUInstallDirs)
+
+# Where the build leaves manual pages and completions, as PROGRAM.1, PROGRAM.bash and PROGRAM.zsh
+set(FARLOD_DOCUMENTS_DIR ${PROJECT_BINARY_DIR}/documents)
+
+# Installs a program, with its manual page and its completion. A program of its own writes these two, from the options as CLI11
+# knows them: an option that is added appears in both. No option of the program itself could do that without becoming a part of
+# what users may rely on.
+#   farlod_program(farlod-svf DOCUMENTS svf_documents.cpp OPTIONS farlod::svf_options)
+function(farlod_program name)
+  cmake_parse_arguments(P "" "DOCUMENTS;OPTIONS" "" ${ARGN})
+  install(TARGETS ${name} RUNTIME COMPONENT programs)
+
+  set(writer ${name}-documents)
+  add_executable(${writer} ${P_DOCUMENTS})
+  target_link_libraries(${writer} PRIVATE ${P_OPTIONS})
+  farlod_warnings(${writer})
+  set_target_properties(${writer} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${FARLOD_DOCUMENTS_DIR}/bin)
+
+  set(stem ${FARLOD_DOCUMENTS_DIR}/${name})
+  add_custom_command(OUTPUT ${stem}.1 ${stem}.bash ${stem}.zsh
+    COMMAND ${writer} ${FARLOD_DOCUMENTS_DIR} DEPENDS ${writer} COMMENT "Manual page and completion of ${name}" VERBATIM)
+  add_custom_target(${writer}_written ALL DEPENDS ${stem}.1 ${stem}.bash ${stem}.zsh)
+  install(FILES ${stem}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs)
+  install(FILES ${stem}.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${name} COMPONENT programs)
+  install(FILES ${stem}.zsh DESTINATION ${FARLOD_ZSH_COMPLETION_DIR} RENAME _${name} COMPONENT programs)
+endfunction()
+
+# Debian's zsh looks into vendor-completions for what its packages bring, and into site-functions below /usr/local
+set(FARLOD_ZSH_COMPLETION_DIR ${CMAKE_INSTALL_DATADIR}/zsh/site-functions CACHE STRING "Where completions for zsh are installed")

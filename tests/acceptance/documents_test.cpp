@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+// Manual pages and completions, as the build writes them from the options of the programs
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <map>
+#include <regex>
+
+#include "console/exit_code.hpp"
+#include "tests/acceptance/help_text.hpp"
+#include "tests/acceptance/work_folder.hpp"
+
+namespace farlod::acceptance {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string documents = FARLOD_DOCUMENTS_DIR;
+
+class DocumentsOf : public testing::TestWithParam<std::string> {
+ protected:
+  [[nodiscard]] std::string file(const std::string& ending) const { return documents + "/" + GetParam() + ending; }
+  [[nodiscard]] std::string help() const { return folder.run(GetParam() + " --help").out; }
+  [[nodiscard]] bool has_command(const std::string& name) const {
+    return folder.run("command -v " + name).exit_code == exit_done;
+  }
+  void expect_no_complaint(const std::string& command) const {
+    const Outcome outcome = folder.run(command);
+    EXPECT_EQ(outcome.exit_code, exit_done) << command;
+    EXPECT_EQ(outcome.out + outcome.err, "") << command;
+  }
+
+  /// What bash offers, sorted, for the last of the words that follow the program's name.
+  [[nodiscard]] std::vector<std::string> completed(const std::vector<std::string>& words) const {
+    std::string line = "COMP_WORDS=(" + GetParam();
+    for (const std::string& word : words) line.append(" '").append(word).append("'");
+    folder.write("complete.bash", "source '" + file(".bash") + "'\n" + line + ")\nCOMP_CWORD=" + std::to_string(words.size()) +
+                                      "\n" + std::regex_replace("_" + GetParam(), std::regex("-"), "_") +
+                                      "\n((${#COMPREPLY[@]} == 0)) || printf '%s\\n' \"${COMPREPLY[@]}\" | sort\n");
+    const Outcome outcome = folder.run("bash complete.bash");
+    EXPECT_EQ(outcome.exit_code, exit_done) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    return lines_of(outcome.out);
+  }
+
+  WorkFolder folder;
+};
+
+TEST_P(DocumentsOf, EachOptionOfHelpIsInThePageAndInTheCompletions) {
+  const std::string page = folder.run("cat " + file(".1")).out, zsh = folder.run("cat " + file(".zsh")).out;
+  const std::vector<std::string> offered = completed({"--"});
+  ASSERT_GT(options_in(help()).size(), 10U);
+  for (const std::string& option : options_in(help())) {
+    // A line that begins with it, perhaps after a short name: where it is explained, not where it is mentioned
+    EXPECT_THAT(
+        page, testing::ContainsRegex("\n.TP\n(.fB.-[a-z].fR, )?.fB" + std::regex_replace(option, std::regex("-"), ".-") + ".fR"))
+        << option;
+    EXPECT_THAT(offered, Contains(option));
+    EXPECT_THAT(zsh, testing::ContainsRegex("[' )]" + option + "=?\\["));
+  }
+  EXPECT_EQ(offered.size(), options_in(help()).size()) << "and nothing else";
+}
+
+TEST_P(DocumentsOf, BashCompletesChoices) {
+  static const std::regex choices(" (--[a-z-]+) TEXT:\\{([^}]*)\\}");
+  const std::string text = help();
+  for (std::sregex_iterator match(text.begin(), text.end(), choices), end; match != end; ++match) {
+    std::vector<std::string> expected = lines_of(std::regex_replace(match->str(2), std::regex(","), "\n"));
+    std::ranges::sort(expected);
+    EXPECT_EQ(completed({match->str(1), ""}), expected) << match->str(1);
+    EXPECT_THAT(completed({match->str(1), "=", expected.front()}), ElementsAre(expected.front()));
+    EXPECT_EQ(completed({match->str(1), "="}), expected);
+  }
+}
+
+TEST_P(DocumentsOf, BashCompletesFilesAndFoldersWhereHelpSaysSo) {
+  folder.must("mkdir 'some town.farlod' && touch 'some points.csv'");
+  static const std::regex values(" (--[a-z-]+) (FILE|FOLDER|TEXT|FLOAT|U?INT)[ =:]");
+  const std::string text = help();
+  for (std::sregex_iterator match(text.begin(), text.end(), values), end; match != end; ++match) {
+    const std::vector<std::string> offered = completed({match->str(1), "some"});
+    if (match->str(2) == "FILE")
+      EXPECT_THAT(offered, ElementsAre("some points.csv", "some town.farlod")) << match->str(1);
+    else if (match->str(2) == "FOLDER")
+      EXPECT_THAT(offered, ElementsAre("some town.farlod")) << match->str(1);
+    else
+      EXPECT_THAT(offered, IsEmpty()) << match->str(1);
+  }
+}
+
+TEST_P(DocumentsOf, BashCompletesArguments) {
+  folder.must("mkdir town.farlod && touch town.gml");
+  const std::map<std::string, std::vector<std::string>> expected{
+      {"farlod-city", {}}, {"farlod-pack", {"town.farlod", "town.gml"}}, {"farlod-svf", {"town.farlod"}}};
+  EXPECT_EQ(completed({"--quiet", "town"}), expected.at(GetParam()));
+}
+
+TEST_P(DocumentsOf, ShellsReadTheCompletions) {
+  expect_no_complaint("bash -n " + file(".bash"));
+  if (!has_command("zsh")) GTEST_SKIP() << "zsh is not installed";
+  expect_no_complaint("zsh -n " + file(".zsh"));
+}
+
+TEST_P(DocumentsOf, GroffAndMandocReadThePage) {
+  if (!has_command("groff") || !has_command("mandoc")) GTEST_SKIP() << "groff or mandoc is not installed";
+  expect_no_complaint("groff -man -ww -z " + file(".1"));
+  // Of style it has nothing to say but that the line of the name is long, and warns only of the date that is missing
+  expect_no_complaint("mandoc -T lint " + file(".1") + " | grep --invert-match --regexp 'STYLE: input text line longer' " +
+                      "--regexp 'WARNING: missing date' || true");
+}
+
+TEST_P(DocumentsOf, ManShowsThePage) {
+  if (!has_command("man")) GTEST_SKIP() << "man is not installed";
+  expect_no_complaint("man --warnings --encoding=UTF-8 --local-file -Tutf8 -Z " + file(".1") + " 2>&1 >/dev/null");
+  const Outcome shown = folder.run("man --local-file " + file(".1") + " | col -bx");
+  EXPECT_THAT(shown.out, HasSubstr("\nSYNOPSIS\n       " + GetParam() + " "));
+  EXPECT_THAT(shown.out, HasSubstr("\n       --config FILE\n              Read options from this file (TOML).\n"));
+}
+
+TEST_P(DocumentsOf, SameOptionsGiveTheSameBytes) {
+  const std::string write = "'" + documents + "/bin/" + GetParam() + "-documents' ";
+  folder.must("mkdir a b c && " + write + "a && " + write + "b && diff -r a b");
+  folder.must("SOURCE_DATE_EPOCH=86400 " + write + "c");
+  EXPECT_THAT(folder.text_of("c/" + GetParam() + ".1"), HasSubstr(" 1 \"1970-01-02\" "));
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, DocumentsOf, testing::Values("farlod-city", "farlod-pack", "farlod-svf"),
+                         [](const auto& program) { return program.param.substr(7); });  // what follows "farlod-"
+
+}  // namespace
+}  // namespace farlod::acceptance
