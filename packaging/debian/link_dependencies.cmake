@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+
+# Library, as our CMake files name it, and the Debian package that links with it
+set(debian_packages
+  "Boost::headers=libboost-dev"
+  "CGAL::CGAL=libcgal-dev"
+  "EXPAT::EXPAT=libexpat1-dev"
+  "GDAL::GDAL=libgdal-dev"
+  ".*GeographicLib.*=libgeographiclib-dev"
+  "OpenEXR::OpenEXR(Core)?=libopenexr-dev"
+  "PNG::PNG=libpng-dev"
+  "PROJ::proj=libproj-dev"
+  "PkgConfig::XXHASH=libxxhash-dev"
+  "TBB::tbb=libtbb-dev"
+  "embree=libembree-dev"
+  "fmt::fmt=libfmt-dev"
+  "nlohmann_json::nlohmann_json=nlohmann-json3-dev")
+
+function(farlod_debian_package_of out library)
+  foreach(row ${debian_packages})
+    string(REGEX MATCH "^(.*)=(.*)$" row ${row})
+    set(package ${CMAKE_MATCH_2})
+    if(library MATCHES "^${CMAKE_MATCH_1}$")
+      set(${out} ${package} PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+  message(FATAL_ERROR "libfarlod-dev links ${library}: name its Debian package in ${CMAKE_CURRENT_FUNCTION_LIST_FILE}")
+endfunction()
+
+# The packages without which nobody can link against these static libraries of ours, sorted
+#   farlod_debian_link_dependencies(result farlod_runtime...)
+function(farlod_debian_link_dependencies out)
+  set(packages)
+  set(waiting ${ARGN})
+  set(done)
+  while(waiting)
+    list(POP_FRONT waiting library)
+    # What a static library keeps to itself is linked all the same
+    string(REGEX REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1" library "${library}")
+    if(library IN_LIST done OR library MATCHES "^(::@.*|-.*)$")
+      continue()
+    endif()
+    list(APPEND done ${library})
+    if(library MATCHES "^farlod(::|_)")
+      get_target_property(libraries ${library} INTERFACE_LINK_LIBRARIES)
+      if(libraries)
+        list(APPEND waiting ${libraries})
+      endif()
+    else()
+      farlod_debian_package_of(package ${library})
+      list(APPEND packages ${package})
+    endif()
+  endwhile()
+  list(SORT packages)
+  list(REMOVE_DUPLICATES packages)
+  list(JOIN packages ", " packages)
+  set(${out} "${packages}" PARENT_SCOPE)
+endfunction()
