@@ -75,14 +75,14 @@ std::string cases_of(const OptionList& list) {
 
 }  // namespace
 
-std::string bash_completion(const std::string& program, const OptionList& list) {
+std::string bash_completion(const std::string& program, const OptionList& options) {
   std::vector<std::string> names;
-  for (const OptionGroup& group : list.groups)
+  for (const OptionGroup& group : options.groups)
     for (const OptionDescription& option : group.options) names.insert(names.end(), option.names.begin(), option.names.end());
   std::string function = "_" + program;
   std::ranges::replace(function, '-', '_');
-  std::string script = beginning + cases_of(list) + with(middle, "OPTIONS", fmt::format("{}", fmt::join(names, " ")));
-  script += list.arguments.empty() ? "" : "  " + completed(list.arguments.front()) + "\n";
+  std::string script = beginning + cases_of(options) + with(middle, "OPTIONS", fmt::format("{}", fmt::join(names, " ")));
+  script += options.arguments.empty() ? "" : "  " + completed(options.arguments.front()) + "\n";
   return with(with(script + end, "FUNCTION", function), "PROGRAM", program);
 }
 

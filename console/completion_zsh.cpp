@@ -67,11 +67,11 @@ std::string specification_of_argument(const OptionDescription& argument) {
 
 }  // namespace
 
-std::string zsh_completion(const std::string& program, const OptionList& list) {
+std::string zsh_completion(const std::string& program, const OptionList& options) {
   std::string script = "#compdef " + program + beginning;
-  for (const OptionGroup& group : list.groups)
+  for (const OptionGroup& group : options.groups)
     for (const OptionDescription& option : group.options) script += specifications(option, group);
-  for (const OptionDescription& argument : list.arguments) script += specification_of_argument(argument);
+  for (const OptionDescription& argument : options.arguments) script += specification_of_argument(argument);
   // All lines but the last go on
   return script.substr(0, script.rfind(" \\")) + "\n";
 }

@@ -16,7 +16,7 @@ namespace {
 std::string bold(std::string_view text) { return "\\fB" + roff_literal(text) + "\\fR"; }
 std::string italic(std::string_view text) { return "\\fI" + roff_literal(text) + "\\fR"; }
 
-std::string ended(std::string text) { return text.empty() || text.ends_with('.') ? text : text + "."; }
+std::string ended(const std::string& text) { return text.empty() || text.ends_with('.') ? text : text + "."; }
 
 std::string sentence(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
@@ -38,8 +38,9 @@ std::string roff_paragraphs(const std::vector<std::string>& paragraphs) {
 std::string title(const ProgramDescription& program, const PageEdition& edition) {
   std::string name = program.name;
   std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return ".TH " + roff_literal(name) + " 1 \"" + edition.date + "\" \"Far\\-LoD " + roff_literal(edition.version) +
-         "\" \"Far\\-LoD manual\"\n.nh\n.ad l\n";
+  return fmt::format(R"(.TH {} 1 "{}" "Far\-LoD {}" "Far\-LoD manual")", roff_literal(name), edition.date,
+                     roff_literal(edition.version)) +
+         "\n.nh\n.ad l\n";
 }
 
 /// "-o FILE", which stays on one line.

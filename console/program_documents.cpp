@@ -28,8 +28,12 @@ void write(const std::filesystem::path& path, const std::string& text) {
 
 /// The seconds since 1970 at which a reproducible build takes place: https://reproducible-builds.org/specs/source-date-epoch
 std::string date_of_build() {
-  const char* seconds = std::getenv("SOURCE_DATE_EPOCH");
-  return seconds == nullptr ? "" : fmt::format("{:%Y-%m-%d}", fmt::gmtime(static_cast<std::time_t>(std::atoll(seconds))));
+  const char* text = std::getenv("SOURCE_DATE_EPOCH");  // NOLINT(concurrency-mt-unsafe): there is one thread
+  if (text == nullptr) return "";
+  char* end = nullptr;
+  const long long seconds = std::strtoll(text, &end, 10);
+  if (end == text || *end != '\0') throw std::runtime_error("SOURCE_DATE_EPOCH is not a number of seconds");
+  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(static_cast<std::time_t>(seconds)));
 }
 
 void write_documents(const std::filesystem::path& folder, const ProgramDescription& program, const CLI::App& app) {

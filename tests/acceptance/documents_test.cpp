@@ -126,6 +126,7 @@ TEST_P(DocumentsOf, SameOptionsGiveTheSameBytes) {
   folder.must("mkdir a b c && " + write + "a && " + write + "b && diff -r a b");
   folder.must("SOURCE_DATE_EPOCH=86400 " + write + "c");
   EXPECT_THAT(folder.text_of("c/" + GetParam() + ".1"), HasSubstr(" 1 \"1970-01-02\" "));
+  EXPECT_EQ(folder.run("SOURCE_DATE_EPOCH=today " + write + "c").exit_code, exit_unusable_input);
 }
 
 INSTANTIATE_TEST_SUITE_P(Programs, DocumentsOf, testing::Values("farlod-city", "farlod-pack", "farlod-svf"),
