@@ -3,19 +3,17 @@
 
 # Library, as our CMake files name it, and the Debian package that links with it
 set(debian_packages
-  "Boost::headers=libboost-dev"
-  "CGAL::CGAL=libcgal-dev"
   "EXPAT::EXPAT=libexpat1-dev"
   "GDAL::GDAL=libgdal-dev"
   ".*GeographicLib.*=libgeographiclib-dev"
   "OpenEXR::OpenEXR(Core)?=libopenexr-dev"
-  "PNG::PNG=libpng-dev"
   "PROJ::proj=libproj-dev"
   "PkgConfig::XXHASH=libxxhash-dev"
   "TBB::tbb=libtbb-dev"
   "embree=libembree-dev"
   "fmt::fmt=libfmt-dev"
-  "nlohmann_json::nlohmann_json=nlohmann-json3-dev")
+  "gmp=libgmp-dev"
+  "mpfr=libmpfr-dev")
 
 function(farlod_debian_package_of out library)
   foreach(row ${debian_packages})
