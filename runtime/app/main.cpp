@@ -115,6 +115,15 @@ int complain(const std::exception& error, int exit_code) {
   return exit_code;
 }
 
+/// The library knows no options.
+int complain_of_memory(const LimitReached& error) {
+  fmt::print(stderr,
+             "farlod-svf: {} The limit is --memory-limit; --threads, --grid and --bbox decide what is needed; --engine exact, "
+             "--verify and --max-error trace the whole city.\n",
+             error.what());
+  return exit_limit_reached;
+}
+
 }  // namespace
 }  // namespace farlod
 
@@ -134,11 +143,7 @@ int main(int argc, char** argv) {
   } catch (const OutputError& error) {
     return complain(error, exit_unusable_input);
   } catch (const LimitReached& error) {
-    fmt::print(stderr,
-               "farlod-svf: {} --memory-limit is the limit; --threads, --grid and --bbox say how much is needed; --engine exact, "
-               "--verify and --max-error trace the whole city.\n",
-               error.what());
-    return exit_limit_reached;
+    return complain_of_memory(error);
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "farlod-svf: out of memory. Evaluate a part at a time (--bbox), or use fewer --threads.\n");
     return exit_limit_reached;
