@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "contract/mesh_view.hpp"
@@ -49,8 +50,9 @@ class OcclusionError : public Error {
 /// that ends or begins on a triangle meets it is not specified.
 class Occluder {
  public:
-  /// Takes the triangles; vertex numbers must be below vertices.size(). Throws OcclusionError.
-  Occluder(std::vector<Point3f> vertices, std::vector<Triangle> triangles);
+  /// Takes the triangles; vertex numbers must be below vertices.size(). Throws OcclusionError, and Cancelled when `stop` is asked
+  /// for meanwhile.
+  Occluder(std::vector<Point3f> vertices, std::vector<Triangle> triangles, const std::stop_token& stop = {});
   Occluder(Occluder&&) noexcept;
   Occluder& operator=(Occluder&&) noexcept;
   ~Occluder();

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "contract/cancellation.hpp"
 #include "occlusion/occluder.hpp"
 #include "occlusion/queries_embree.hpp"
 
@@ -66,17 +67,23 @@ struct Occluder::Impl {
   std::vector<Triangle> triangles;
   RTCScene scene = nullptr;
 
-  Impl(std::vector<Point3f> v, std::vector<Triangle> t) : vertices(std::move(v)), triangles(std::move(t)) {
+  Impl(std::vector<Point3f> v, std::vector<Triangle> t, const std::stop_token& stop)
+      : vertices(std::move(v)), triangles(std::move(t)) {
     if (triangles.empty()) return;
     const std::size_t vertex_count = vertices.size();
     vertices.push_back({});  // Embree reads the last vertex as 16 bytes
-    build(vertex_count);
+    try {
+      build(vertex_count, stop);
+    } catch (...) {
+      rtcReleaseScene(scene);
+      throw;
+    }
   }
   ~Impl() { rtcReleaseScene(scene); }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  void build(std::size_t vertex_count) {
+  void build(std::size_t vertex_count, const std::stop_token& stop) {
     const RTCDevice device = shared_device();
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
@@ -89,7 +96,15 @@ struct Occluder::Impl {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
+    // Embree asks from several threads, and not at all in its first steps: a build of millions of triangles ends some tenths of a
+    // second after the stop
+    if (stop.stop_possible())
+      rtcSetSceneProgressMonitorFunction(
+          scene, [](void* asked, double) { return !static_cast<const std::stop_token*>(asked)->stop_requested(); },
+          const_cast<std::stop_token*>(&stop));
     rtcCommitScene(scene);
+    rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+    throw_if_cancelled(stop);
     if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
       throw OcclusionError("Embree could not index " + std::to_string(triangles.size()) + " triangles (error " +
                            std::to_string(error) + ")");
@@ -106,8 +121,8 @@ struct Occluder::Impl {
   }
 };
 
-Occluder::Occluder(std::vector<Point3f> vertices, std::vector<Triangle> triangles)
-    : impl_(std::make_unique<Impl>(std::move(vertices), std::move(triangles))) {}
+Occluder::Occluder(std::vector<Point3f> vertices, std::vector<Triangle> triangles, const std::stop_token& stop)
+    : impl_(std::make_unique<Impl>(std::move(vertices), std::move(triangles), stop)) {}
 Occluder::Occluder(Occluder&&) noexcept = default;
 Occluder& Occluder::operator=(Occluder&&) noexcept = default;
 Occluder::~Occluder() = default;

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <span>
+#include <stop_token>
 
 #include "contract/grid.hpp"
 #include "contract/mesh_view.hpp"
@@ -25,10 +26,10 @@ struct PlacedMesh {
 }
 
 /// One occluder of many tiles, each `placed`. Triangles are numbered through, in the order given.
-[[nodiscard]] Occluder occluder_of(std::span<const PlacedMesh> tiles);
+[[nodiscard]] Occluder occluder_of(std::span<const PlacedMesh> tiles, const std::stop_token& stop = {});
 
 /// One occluder of the tiles of some cells, in the order of the range. Its frame is the grid frame, moved to `origin_grid`.
 [[nodiscard]] Occluder occluder_of_cells(const Grid& grid, const CellRange& cells, Point2d origin_grid,
-                                         const std::function<MeshView(Cell)>& mesh_of);
+                                         const std::function<MeshView(Cell)>& mesh_of, const std::stop_token& stop = {});
 
 }  // namespace farlod
