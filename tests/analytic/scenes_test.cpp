@@ -9,20 +9,25 @@
 #include "evaluate/sky_evaluator.hpp"
 #include "package/package_error.hpp"
 #include "tests/analytic/analytic_scenes.hpp"
+#include "tests/analytic/setups.hpp"
 #include "tests/analytic/tolerance.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
 
-// Every scene with a known answer goes the whole way, from facets to a package and back, with all of its geometry near,
-// all of it in the far map, and some of it in each; with walls that are mere sheets and with houses that stand; on all engines,
-// with far maps of both kinds; on grids that are turned three ways.
+// Scenes with a known answer go the whole way, from facets to a package and back: with all of their geometry near, all of it in
+// the far map, and some of it in each; with walls that are mere sheets and with houses that stand; on all engines, with far maps
+// of both kinds; on grids that are turned three ways. Each case is one package, asked in all ways that answer from it. Each pair
+// of these values occurs, not the whole product (setups.hpp; setups_test.cpp counts).
 
 namespace farlod {
 namespace {
 
+using analytic::Case;
 using analytic::eye_m;
 using analytic::ground;
 using analytic::Scene;
+using analytic::Setup;
+using analytic::Share;
 using analytic::Stage;
 using analytic::Walls;
 using scenes::SceneBuilder;
@@ -31,17 +36,7 @@ constexpr std::size_t rays = 200000, azimuths = 4096;
 
 FarMapSettings maps_of(FarMapKind kind) { return kind == FarMapKind::box ? scenes::box_maps(256, 256) : FarMapSettings{}; }
 
-enum class Share { all_near, all_far, split };
-
-struct Setup {
-  Share share;
-  Engine engine;
-  FarMapKind kind;
-  double bearing_deg;
-  Walls walls = Walls::sheets;
-
-  [[nodiscard]] bool asks_for_horizons() const { return engine == Engine::automatic || engine == Engine::horizon; }
-};
+bool asks_for_horizons(Engine engine) { return engine == Engine::automatic || engine == Engine::horizon; }
 
 /// The edge of a cell that holds all, nothing or some of the scene around its middle: a corner is √½ of the edge away.
 double cell_edge_for(const Scene& scene, Share share) {
@@ -118,173 +113,65 @@ double azimuth_error_of(const Scene& scene, SkyWeight weight) {
 }
 
 /// Where rays stand in for a horizon, theirs is the error.
-double allowed_error(const Scene& scene, const Setup& setup, SkyWeight weight) {
+double allowed_error(const Scene& scene, Engine engine, SkyWeight weight) {
   const double by_rays = allowed_sampling(scene);
-  return setup.asks_for_horizons() ? std::max(by_rays, azimuth_error_of(scene, weight)) : by_rays;
-}
-
-constexpr SkyWeight both_weights[] = {SkyWeight::cosine, SkyWeight::solid_angle};
-
-double known_answer(const Scene& scene, SkyWeight weight) {
-  return weight == SkyWeight::cosine ? scene.svf_cos : scene.svf_solid;
-}
-
-class AnalyticScene : public testing::TestWithParam<std::tuple<Scene, Setup>> {};
-
-TEST_P(AnalyticScene, HasItsKnownSkyViewFactor) {
-  const auto& [scene, setup] = GetParam();
-  if (setup.kind == FarMapKind::box && setup.share == Share::all_far && scene.is_overhead)
-    GTEST_SKIP() << "from below, a roof has no horizon whose texels could be counted";
-  const PackedScene packed(scene, setup);
-  for (const SkyWeight weight : both_weights) {
-    const double expected = known_answer(scene, weight);
-    if (std::isnan(expected)) continue;
-    // What the far map of the kind `horizon` leaves open is traced: its own error is nothing
-    const bool retraces = setup.engine != Engine::exact && setup.kind == FarMapKind::horizon;
-    const double svf = packed.evaluate(setup.engine, weight, retraces ? std::optional(0.0) : std::nullopt).estimate;
-    const double steepest = weight == SkyWeight::cosine ? steepest_cos : steepest_solid;
-    double tolerance = allowed_error(scene, setup, weight);
-    if (setup.engine == Engine::rays && setup.kind == FarMapKind::box && setup.share != Share::all_near)
-      tolerance += box_map_error(packed.package().box_far_map({0, 0}).shape(), scene.rise, steepest);
-    EXPECT_NEAR(svf, expected, tolerance) << (weight == SkyWeight::cosine ? "cosine" : "solid angle");
-  }
-}
-
-class AnalyticBounds : public AnalyticScene {};
-
-TEST_P(AnalyticBounds, HoldTheKnownSkyViewFactor) {
-  const auto& [scene, setup] = GetParam();
-  const PackedScene packed(scene, setup);
-  for (const SkyWeight weight : both_weights) {
-    const double expected = known_answer(scene, weight);
-    if (std::isnan(expected)) continue;
-    const auto [estimate, low, high] = packed.evaluate(setup.engine, weight);
-    EXPECT_LE(low, estimate);
-    EXPECT_LE(estimate, high);
-    EXPECT_LE(low, expected + allowed_error(scene, setup, weight));
-    EXPECT_GE(high, expected - allowed_error(scene, setup, weight));
-    // Only what is far, or overhangs, leaves anything open
-    if (setup.share == Share::all_near && !scene.is_overhead) {
-      EXPECT_EQ(low, high);
-    }
-  }
-}
-
-class AnalyticRefusal : public AnalyticScene {};
-
-TEST_P(AnalyticRefusal, HorizonsAloneCannotDo) {
-  const auto& [scene, setup] = GetParam();
-  const PackedScene packed(scene, setup);
-  for (const SkyWeight weight : both_weights) EXPECT_THROW((void)packed.evaluate(setup.engine, weight), PackageUnusable);
-}
-
-const char* name_of(Engine engine) {
-  switch (engine) {
-    case Engine::automatic:
-      return "Automatic";
-    case Engine::horizon:
-      return "Horizons";
-    case Engine::rays:
-      return "Rays";
-    case Engine::exact:
-    case Engine::near_only:
-      break;
-  }
-  return "Exact";
-}
-
-std::string name_of_case(const testing::TestParamInfo<std::tuple<Scene, Setup>>& info) {
-  const auto& [scene, setup] = info.param;
-  const char* share = setup.share == Share::all_near ? "Near" : setup.share == Share::all_far ? "Far" : "Split";
-  const std::string kind = setup.engine == Engine::rays ? scenes::name_of(setup.kind) : "";
-  const char* walls = setup.walls == Walls::houses ? "Houses" : "";
-  return scene.name + share + name_of(setup.engine) + kind + walls + std::to_string(static_cast<int>(setup.bearing_deg));
-}
-
-std::vector<Setup> all_setups() {
-  std::vector<Setup> setups;
-  for (const double bearing_deg : {0.0, 17.0, 45.0}) {
-    for (const Share share : {Share::all_near, Share::all_far, Share::split})
-      for (const FarMapKind kind : {FarMapKind::box, FarMapKind::horizon})
-        setups.push_back({share, Engine::rays, kind, bearing_deg});
-    for (const Share share : {Share::all_near, Share::all_far, Share::split})
-      for (const Engine engine : {Engine::automatic, Engine::horizon})
-        setups.push_back({share, engine, FarMapKind::horizon, bearing_deg, Walls::houses});
-    // The exact engine knows no near and far; how the tiles are cut must not matter to it
-    setups.push_back({Share::split, Engine::exact, FarMapKind::box, bearing_deg});
-  }
-  for (const Share share : {Share::all_near, Share::all_far, Share::split})
-    setups.push_back({share, Engine::rays, FarMapKind::horizon, 17.0, Walls::houses});
-  return setups;
-}
-
-std::vector<Setup> setups_with_bounds() {
-  std::vector<Setup> setups = all_setups();
-  std::erase_if(setups, [](const Setup& s) { return s.engine == Engine::exact || s.kind != FarMapKind::horizon; });
-  return setups;
-}
-
-/// With walls that are mere sheets.
-std::vector<Setup> setups_with_sheets(Engine engine) {
-  std::vector<Setup> setups;
-  for (const Share share : {Share::all_near, Share::all_far, Share::split})
-    setups.push_back({share, engine, FarMapKind::horizon, 17.0});
-  return setups;
-}
-
-/// Those that have walls.
-std::vector<Scene> scenes_with(bool walls, bool something_overhead) {
-  std::vector<Scene> scenes = analytic::all_scenes();
-  std::erase_if(scenes, [&](const Scene& s) { return !(walls && s.rise > 0.0) && !(something_overhead && s.is_overhead); });
-  return scenes;
+  return asks_for_horizons(engine) ? std::max(by_rays, azimuth_error_of(scene, weight)) : by_rays;
 }
 
 /// Beside a half plane overhead, the sky below its far end is less than the accuracy of horizons.
-std::vector<Scene> scenes_that_need_rays() {
-  std::vector<Scene> scenes = scenes_with(false, true);
-  std::erase_if(scenes, [](const Scene& scene) { return scene.name == "BesideOverhang"; });
-  return scenes;
+bool needs_rays(const Scene& scene) { return scene.is_overhead && scene.name != "BesideOverhang"; }
+
+class AnalyticScene : public testing::TestWithParam<Case> {
+ protected:
+  void expect_known(Engine engine, SkyWeight weight, double expected) const {
+    // What the far map of the kind `horizon` leaves open is traced: its own error is nothing
+    const bool retraces = setup_.kind == FarMapKind::horizon;
+    const double svf = packed_.evaluate(engine, weight, retraces ? std::optional(0.0) : std::nullopt).estimate;
+    double tolerance = allowed_error(scene_, engine, weight);
+    if (engine == Engine::rays && setup_.kind == FarMapKind::box && setup_.share != Share::all_near)
+      tolerance += box_map_error(packed_.package().box_far_map({0, 0}).shape(), scene_.rise,
+                                 weight == SkyWeight::cosine ? steepest_cos : steepest_solid);
+    EXPECT_NEAR(svf, expected, tolerance);
+  }
+
+  void expect_bounds(Engine engine, SkyWeight weight, double expected) const {
+    const auto [estimate, low, high] = packed_.evaluate(engine, weight);
+    EXPECT_LE(low, estimate);
+    EXPECT_LE(estimate, high);
+    EXPECT_LE(low, expected + allowed_error(scene_, engine, weight));
+    EXPECT_GE(high, expected - allowed_error(scene_, engine, weight));
+    // Only what is far, or overhangs, leaves anything open
+    if (setup_.share == Share::all_near && !scene_.is_overhead) {
+      EXPECT_EQ(low, high);
+    }
+  }
+
+  void expect_answer(Engine engine, SkyWeight weight) const {
+    if (engine == Engine::horizon && needs_rays(scene_)) {
+      EXPECT_THROW((void)packed_.evaluate(engine, weight), PackageUnusable);
+      return;
+    }
+    const double expected = weight == SkyWeight::cosine ? scene_.svf_cos : scene_.svf_solid;
+    if (std::isnan(expected)) return;
+    expect_known(engine, weight, expected);
+    if (setup_.kind == FarMapKind::horizon) expect_bounds(engine, weight, expected);
+  }
+
+  const Scene& scene_ = GetParam().scene;
+  const analytic::Setup& setup_ = GetParam().setup;
+  const PackedScene packed_{scene_, setup_};
+};
+
+TEST_P(AnalyticScene, HasItsKnownSkyViewFactor) {
+  for (const Engine engine : analytic::engines_for(setup_.kind))
+    for (const SkyWeight weight : {SkyWeight::cosine, SkyWeight::solid_angle}) {
+      SCOPED_TRACE(std::string(analytic::name_of(engine)) + (weight == SkyWeight::cosine ? ", cosine" : ", solid angle"));
+      expect_answer(engine, weight);
+    }
 }
 
-/// All that can be made of houses.
-std::vector<Scene> scenes_without_overhang() {
-  std::vector<Scene> scenes = analytic::all_scenes();
-  std::erase_if(scenes, [](const Scene& s) { return s.is_overhead; });
-  return scenes;
-}
-
-std::vector<Setup> with_walls_of(std::vector<Setup> setups, Walls walls) {
-  std::erase_if(setups, [walls](const Setup& s) { return s.walls != walls; });
-  return setups;
-}
-
-using testing::Combine;
-using testing::ValuesIn;
-
-INSTANTIATE_TEST_SUITE_P(Sheets, AnalyticScene,
-                         Combine(ValuesIn(analytic::all_scenes()), ValuesIn(with_walls_of(all_setups(), Walls::sheets))),
-                         name_of_case);
-INSTANTIATE_TEST_SUITE_P(Houses, AnalyticScene,
-                         Combine(ValuesIn(scenes_without_overhang()), ValuesIn(with_walls_of(all_setups(), Walls::houses))),
-                         name_of_case);
-INSTANTIATE_TEST_SUITE_P(Overhangs, AnalyticScene,
-                         Combine(ValuesIn(scenes_with(true, true)), ValuesIn(setups_with_sheets(Engine::automatic))),
-                         name_of_case);
-INSTANTIATE_TEST_SUITE_P(GroundedSheets, AnalyticScene,
-                         Combine(ValuesIn(scenes_with(true, false)), ValuesIn(setups_with_sheets(Engine::horizon))),
-                         name_of_case);
-INSTANTIATE_TEST_SUITE_P(Overhangs, AnalyticBounds,
-                         Combine(ValuesIn(scenes_with(false, true)), ValuesIn(setups_with_sheets(Engine::automatic))),
-                         name_of_case);
-INSTANTIATE_TEST_SUITE_P(Sheets, AnalyticBounds,
-                         Combine(ValuesIn(analytic::all_scenes()), ValuesIn(with_walls_of(setups_with_bounds(), Walls::sheets))),
-                         name_of_case);
-INSTANTIATE_TEST_SUITE_P(Houses, AnalyticBounds,
-                         Combine(ValuesIn(scenes_without_overhang()),
-                                 ValuesIn(with_walls_of(setups_with_bounds(), Walls::houses))),
-                         name_of_case);
-INSTANTIATE_TEST_SUITE_P(Overhangs, AnalyticRefusal,
-                         Combine(ValuesIn(scenes_that_need_rays()), ValuesIn(setups_with_sheets(Engine::horizon))), name_of_case);
+INSTANTIATE_TEST_SUITE_P(Pairs, AnalyticScene, testing::ValuesIn(analytic::chosen_cases()),
+                         [](const auto& chosen) { return analytic::name_of(chosen.param); });
 
 }  // namespace
 }  // namespace farlod
