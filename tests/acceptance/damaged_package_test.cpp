@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 class DamagedPackage : public testing::Test {
  protected:
   DamagedPackage() {
-    folder.write("town.geojson", footprints_geojson(small_town()));
-    folder.must("farlod-pack town.geojson -o a.farlod");
+    add_packed_town(folder, "small_town", small_town());
     for (const auto& entry : fs::recursive_directory_iterator(folder.path("a.farlod")))
       if (entry.is_regular_file()) files.push_back(fs::relative(entry.path(), folder.path("")).string());
   }

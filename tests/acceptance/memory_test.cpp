@@ -29,10 +29,7 @@ std::vector<Block> wide_town() {
 
 class WideTown : public testing::Test {
  protected:
-  WideTown() {
-    folder.write("town.geojson", footprints_geojson(wide_town()));
-    folder.must("farlod-pack town.geojson -o a.farlod --far-map box");
-  }
+  WideTown() { add_packed_town(folder, "wide_town", wide_town(), "--far-map box"); }
   /// The limit that a run asks for when it is given too little; 0 when it does not ask.
   [[nodiscard]] int limit_asked_for(const std::string& arguments) const {
     const Outcome outcome = folder.run("farlod-svf a.farlod " + arguments + " --memory-limit 1");

@@ -14,10 +14,7 @@ namespace farlod::acceptance {
 /// The small town, packed with default settings as `a.farlod`.
 class PackedTown : public testing::Test {
  protected:
-  PackedTown() {
-    folder.write("town.geojson", footprints_geojson(small_town()));
-    folder.must("farlod-pack town.geojson -o a.farlod");
-  }
+  PackedTown() { add_packed_town(folder, "small_town", small_town()); }
   [[nodiscard]] CsvTable table(const std::string& name) const { return CsvTable(folder.text_of(name)); }
   [[nodiscard]] RasterFile raster(const std::string& name) const { return read_raster(folder.path(name)); }
   /// The answer at one point: of the package, and with the further arguments, that are given.

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "contract/frame.hpp"
+#include "tests/acceptance/work_folder.hpp"
+#include "tests/scenes/packed_once.hpp"
 
 namespace farlod::acceptance {
 namespace {
@@ -79,6 +81,22 @@ std::string box_obj() {
       text += line.data();
     }
   return text + "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+}
+
+void add_packed_town(const WorkFolder& folder, const std::string& name, const std::vector<Block>& blocks,
+                     const std::string& settings) {
+  const std::string town = footprints_geojson(blocks), command = "farlod-pack town.geojson -o a.farlod " + settings;
+  folder.write("town.geojson", town);
+  const scenes::PackedFrom from{name, town + command, std::filesystem::path(FARLOD_BIN_DIR) / "farlod-pack"};
+  const std::filesystem::path packed = scenes::packed_once(from, [&](const std::filesystem::path& into) {
+    const WorkFolder other;
+    other.write("town.geojson", town);
+    other.must(command);
+    if (!other.has("a.farlod")) return false;
+    std::filesystem::copy(other.path("a.farlod"), into, std::filesystem::copy_options::recursive);
+    return true;
+  });
+  std::filesystem::copy(packed, folder.path("a.farlod"), std::filesystem::copy_options::recursive);
 }
 
 }  // namespace farlod::acceptance

@@ -36,6 +36,12 @@ inline constexpr double town_pitch_m = 60.0, town_edge_m = 36.0, town_half_m = 1
 /// GeoJSON in EPSG:32632, coordinates in whole millimetres, heights in the field `height`.
 [[nodiscard]] std::string footprints_geojson(const std::vector<Block>& blocks);
 
+class WorkFolder;
+/// Writes `town.geojson`, and `a.farlod` as `farlod-pack town.geojson -o a.farlod` with these settings makes it. A town of this
+/// name is packed once for all tests; each gets a copy, which it may change.
+void add_packed_town(const WorkFolder& folder, const std::string& name, const std::vector<Block>& blocks,
+                     const std::string& settings = "");
+
 /// A box of 20 m × 20 m × 10 m at the town's middle, as an OBJ file. It does not say its CRS.
 [[nodiscard]] std::string box_obj();
 

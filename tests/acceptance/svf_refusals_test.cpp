@@ -31,8 +31,7 @@ std::string name_of(const testing::TestParamInfo<Refused>& info) { return info.p
 class SvfRefuses : public testing::TestWithParam<Refused> {
  protected:
   SvfRefuses() {
-    folder.write("town.geojson", footprints_geojson({{"block", {}, 20.0, 10.0}}));
-    folder.must("farlod-pack town.geojson -o a.farlod");
+    add_packed_town(folder, "one_block", {{"block", {}, 20.0, 10.0}});
     folder.must("mkdir no_package");
     folder.write("word.csv", "x,y\n500030,5500010\n500040,north\n");
     folder.write("short.csv", "x,y\n500030,5500010\n500040\n");
@@ -180,8 +179,7 @@ INSTANTIATE_TEST_SUITE_P(Gdal, SvfRefuses,
 
 TEST(SvfAnswersFromOutside, ABoxBesideTheCityIsAllNoData) {
   const WorkFolder folder;
-  folder.write("town.geojson", footprints_geojson({{"block", {}, 20.0, 10.0}}));
-  folder.must("farlod-pack town.geojson -o a.farlod");
+  add_packed_town(folder, "one_block", {{"block", {}, 20.0, 10.0}});
   const Outcome outcome = folder.run("farlod-svf a.farlod -o o.asc --grid 5 --bbox 0,0,50,50 --summary s.json");
   EXPECT_EQ(outcome.exit_code, exit_done);
   EXPECT_THAT(outcome.out, testing::HasSubstr("No receiver has an answer"));

@@ -13,6 +13,7 @@
 #include "receivers/raster_receivers.hpp"
 #include "tests/determinism/crooked_town.hpp"
 #include "tests/determinism/threads.hpp"
+#include "tests/scenes/packed_once.hpp"
 
 namespace farlod {
 namespace {
@@ -29,11 +30,19 @@ void PrintTo(const Way& way, std::ostream* out) { *out << way.name; }
 class SkyViewFactors : public testing::TestWithParam<Way> {
  protected:
   SkyViewFactors()
-      : package_(packed()), plan_(plan_raster(package_.manifest(), 3.0, std::nullopt)), raster_(package_.manifest(), plan_) {}
+      : path_(path_of_packed()),
+        package_(path_),
+        plan_(plan_raster(package_.manifest(), 3.0, std::nullopt)),
+        raster_(package_.manifest(), plan_) {}
 
-  PackageReader packed() const {
-    scenes::pack_city(crooked_town(), crooked_grid(), folder_.path() / "town.farlod", scenes::small_maps(GetParam().kind));
-    return PackageReader(folder_.path() / "town.farlod");
+  static std::filesystem::path path_of_packed() {
+    const FarMapKind kind = GetParam().kind;
+    const auto pack = [kind](const std::filesystem::path& folder) {
+      scenes::pack_city(crooked_town(), crooked_grid(), folder / "town.farlod", scenes::small_maps(kind));
+      return true;
+    };
+    return scenes::packed_once({std::string("crooked_town_") + scenes::name_of(kind), "", scenes::this_program()}, pack) /
+           "town.farlod";
   }
   [[nodiscard]] SkySettings settings() const {
     return {GetParam().engine, SkyWeight::cosine, 145, GetParam().max_far_error, GetParam().directions, 64};
@@ -43,7 +52,7 @@ class SkyViewFactors : public testing::TestWithParam<Way> {
   /// The whole raster, cells in parallel; bits, so that no data equals no data.
   std::vector<std::uint32_t> raster_with(std::size_t threads, bool backwards = false) const {
     std::vector<float> svf(plan_.columns * plan_.rows, std::numeric_limits<float>::quiet_NaN());
-    const PackageReader opened_anew(folder_.path() / "town.farlod");
+    const PackageReader opened_anew(path_);
     const SkyEvaluator evaluator(opened_anew, settings());
     std::vector<Cell> cells = raster_.cells();
     if (backwards) std::reverse(cells.begin(), cells.end());
@@ -57,7 +66,7 @@ class SkyViewFactors : public testing::TestWithParam<Way> {
     return bits;
   }
 
-  scenes::TemporaryFolder folder_;
+  std::filesystem::path path_;
   PackageReader package_;
   RasterPlan plan_;
   RasterReceivers raster_;

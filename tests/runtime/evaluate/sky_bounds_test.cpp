@@ -11,6 +11,7 @@
 #include "receivers/receiver.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"
+#include "tests/scenes/packed_once.hpp"
 
 // What the far map of the kind `horizon` promises of whole answers, in towns with everything that hides the sky: towers, roofs,
 // bridges that can be seen under, hills.
@@ -53,14 +54,17 @@ class SkyBounds : public testing::TestWithParam<Town> {
  protected:
   SkyBounds() : package_(packed()), places_(some_places()) {}
 
-  PackageReader packed() const {
+  static bool pack(const std::filesystem::path& folder) {
     const Town& town = GetParam();
     const CityModel city = city_of(town);
     const Grid grid = scenes::grid_covering(city, Angle::degrees(13.0), town.cell_m, town.neighborhood, 4);
     FarMapSettings settings;
     settings.horizon.tolerance = town.tolerance;
-    scenes::pack_city(city, grid, folder_.path() / "town.farlod", settings, town.assign);
-    return PackageReader(folder_.path() / "town.farlod");
+    scenes::pack_city(city, grid, folder / "town.farlod", settings, town.assign);
+    return true;
+  }
+  static std::filesystem::path packed() {
+    return scenes::packed_once({std::string("bounds_") + GetParam().name, "", scenes::this_program()}, pack) / "town.farlod";
   }
 
   /// All over the town, on streets and roofs and high above both, a fifth of them tilted; none inside of a building.
@@ -105,7 +109,6 @@ class SkyBounds : public testing::TestWithParam<Town> {
   static constexpr Point3f upwards{0.0F, 0.0F, 1.0F};
   std::mt19937_64 random_{20120901};
   std::size_t count_ = 0;
-  scenes::TemporaryFolder folder_;
   PackageReader package_;
   std::vector<CellReceivers> places_;
 };
