@@ -4,10 +4,13 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <ostream>
+#include <thread>
+#include <vector>
 
 #include "evaluate/sky_evaluator.hpp"
 #include "receivers/raster_receivers.hpp"
@@ -78,6 +81,24 @@ TEST_P(SkyViewFactors, DoNotDependOnTheNumberOfThreads) {
 }
 
 TEST_P(SkyViewFactors, DoNotDependOnTheOrderOfCells) { EXPECT_TRUE(raster_with(1, true) == raster_with(2)); }
+
+/// Threads of a user of the library, each with all cells in an order of its own. Between them stands nothing but the evaluator:
+/// a race is seen by ThreadSanitizer, which oneTBB, where it is not compiled for it, hides.
+TEST_P(SkyViewFactors, DoNotDependOnThreadsThatShareAnEvaluator) {
+  const std::vector<std::uint32_t> alone = raster_with(1);
+  const SkyEvaluator evaluator(package_, settings());
+  const std::vector<Cell> cells = raster_.cells();
+  std::vector<std::vector<float>> svf(3, std::vector<float>(alone.size(), std::numeric_limits<float>::quiet_NaN()));
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < svf.size(); ++t)
+    threads.emplace_back([&, t] {
+      for (std::size_t n = 0; n < cells.size(); ++n)
+        evaluator.evaluate(receivers_of(cells[(n + t * cells.size() / svf.size()) % cells.size()]), svf[t]);
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (const std::vector<float>& answers : svf)
+    for (std::size_t n = 0; n < alone.size(); ++n) ASSERT_EQ(std::bit_cast<std::uint32_t>(answers[n]), alone[n]) << "pixel " << n;
+}
 
 TEST_P(SkyViewFactors, DoNotDependOnWhatElseIsAsked) {
   const SkyEvaluator evaluator(package_, settings());
