@@ -37,9 +37,11 @@ void PrintTo(const Damage& damage, std::ostream* out) { *out << damage.file; }
 
 class RepairedTowns : public RealCity, public testing::WithParamInterface<Damage> {
  protected:
+  void pack(const std::string& file, const std::string& package) const {
+    folder.must("farlod-pack " + file + same_place + " -o " + package + " --report " + package + ".json");
+  }
   /// The map on the ground, or on top of whatever stands there.
-  [[nodiscard]] RasterFile map_of(const std::string& file, const std::string& package, const char* where) const {
-    folder.must("farlod-pack " + file + same_place + " -o " + package + " --force --report " + package + ".json");
+  [[nodiscard]] RasterFile map_of(const std::string& package, const char* where) const {
     folder.must("farlod-svf " + package + " -o " + package + ".asc " + where + exactly);
     return read_raster(folder.path(package + ".asc"));
   }
@@ -65,7 +67,9 @@ TEST_P(RepairedTowns, HaveTheSkyOfTheCleanTown) {
     folder.write("one.gml", with_one_building(clean, GetParam().only_building));
     clean = "one.gml";
   }
-  for (const char* where : {"", "--on-surface"}) expect_same(map_of(clean, "clean", where), map_of(damaged, "repaired", where));
+  pack(clean, "clean");
+  pack(damaged, "repaired");
+  for (const char* where : {"", "--on-surface"}) expect_same(map_of("clean", where), map_of("repaired", where));
   std::set<int> codes;
   for (const nlohmann::json& entry : folder.json_of("repaired.json")) codes.insert(entry.at("code").get<int>());
   for (const int code : GetParam().codes) EXPECT_TRUE(codes.contains(code)) << code;

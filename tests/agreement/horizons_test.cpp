@@ -12,6 +12,7 @@
 #include "tests/agreement/random_receivers.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"
+#include "tests/scenes/packed_once.hpp"
 
 // Horizons against rays, in a town with roofs, towers and bridges that can be seen under: in streets, on roofs and on walls.
 
@@ -25,17 +26,21 @@ class PackedTown {
   [[nodiscard]] const PackageReader& package() const { return package_; }
 
  private:
-  PackageReader packed(int neighborhood, bool overhangs) const {
+  static std::filesystem::path packed(int neighborhood, bool overhangs) {
+    const std::string name = "horizons_" + std::to_string(neighborhood) + (overhangs ? "_overhangs" : "_standing");
+    const auto pack = [&](const std::filesystem::path& folder) { return pack_into(folder, neighborhood, overhangs); };
+    return scenes::packed_once({name, "", scenes::this_program()}, pack) / "town.farlod";
+  }
+  static bool pack_into(const std::filesystem::path& folder, int neighborhood, bool overhangs) {
     CitySettings settings;
     settings.size_m = 500;
     settings.lod = 2;
     settings.overhangs = overhangs;
     const CityModel city = scenes::generated_town(settings);
     const Grid grid = scenes::grid_covering(city, Angle::degrees(23.0), 50.0, neighborhood);
-    scenes::pack_city(city, grid, folder_.path() / "town.farlod");
-    return PackageReader(folder_.path() / "town.farlod");
+    scenes::pack_city(city, grid, folder / "town.farlod");
+    return true;
   }
-  scenes::TemporaryFolder folder_;
   PackageReader package_;
 };
 

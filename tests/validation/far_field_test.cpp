@@ -24,21 +24,15 @@ void expect_kept(const Promise& promise, const ErrorSummary& e) {
   EXPECT_LE(e.max_abs_error, promise.max);
 }
 
-class FarFieldOfATown : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    Extent extent = quick_extent();
-    extent.generated_size_m = 800.0;
-    extent.neighborhoods = {3};
-    const StudiedCity city = generated_city(extent.generated_size_m);
-    study = study_far_field(city, choose_sites(city, extent), extent);
-  }
-  static CityStudy study;
-};
-CityStudy FarFieldOfATown::study;
+CityStudy study_of_town() {
+  Extent extent = quick_extent();
+  extent.generated_size_m = 800.0;
+  extent.neighborhoods = {3};
+  const StudiedCity city = generated_city(extent.generated_size_m);
+  return study_far_field(city, choose_sites(city, extent), extent);
+}
 
-TEST_F(FarFieldOfATown, OursIsBetterThanThePapersAndThatThanNothing) {
-  ASSERT_EQ(study.rows.size(), 2U);
+void expect_ours_better_than_the_papers_and_that_than_nothing(const CityStudy& study) {
   for (const FarFieldRow& row : study.rows) {
     EXPECT_LT(row.ground.horizon.mean_abs_error, row.ground.box.mean_abs_error);
     EXPECT_LT(row.ground.box.mean_abs_error, row.ground.dropped.mean_abs_error);
@@ -46,12 +40,12 @@ TEST_F(FarFieldOfATown, OursIsBetterThanThePapersAndThatThanNothing) {
   }
 }
 
-TEST_F(FarFieldOfATown, PapersMapKeepsThePapersPromise) {
+void expect_the_papers_map_keeps_the_papers_promise(const CityStudy& study) {
   EXPECT_LT(study.rows[0].ground.box.max_abs_error, papers_error_at_50_m);
   EXPECT_LT(study.rows[1].ground.box.max_abs_error, papers_error_at_100_m);
 }
 
-TEST_F(FarFieldOfATown, OursKeepsItsOwn) {
+void expect_ours_keeps_its_own(const CityStudy& study) {
   expect_kept(at_50_m, study.rows[0].ground.horizon);
   expect_kept(at_100_m, study.rows[1].ground.horizon);
   expect_kept(on_surfaces, study.rows[0].roofs->horizon);
@@ -59,10 +53,20 @@ TEST_F(FarFieldOfATown, OursKeepsItsOwn) {
   EXPECT_LE(study.rows[0].bytes_a_cell, most_bytes_a_cell);
 }
 
-TEST_F(FarFieldOfATown, ExactAnswersAreWithinTheBounds) {
+void expect_exact_answers_within_the_bounds(const CityStudy& study) {
   for (const FarFieldRow& row : study.rows) EXPECT_EQ(row.ground.bounds.outside, 0U);
   EXPECT_EQ(study.rows[0].roofs->bounds.outside, 0U);
   EXPECT_EQ(study.rows[0].facades->bounds.outside, 0U);
+}
+
+/// One test, since each runs in a process of its own, and the study takes seconds.
+TEST(FarFieldOfATown, IsAsGoodAsPromised) {
+  const CityStudy study = study_of_town();
+  ASSERT_EQ(study.rows.size(), 2U);
+  expect_ours_better_than_the_papers_and_that_than_nothing(study);
+  expect_the_papers_map_keeps_the_papers_promise(study);
+  expect_ours_keeps_its_own(study);
+  expect_exact_answers_within_the_bounds(study);
 }
 
 }  // namespace
