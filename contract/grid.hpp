@@ -41,6 +41,7 @@ struct CellRange {
   }
   [[nodiscard]] constexpr Cell cell_at(std::size_t index) const {
     const auto n = static_cast<std::int64_t>(index);
+    // An index is below size(), which is 0 where the width is. NOLINTNEXTLINE(clang-analyzer-core.DivideZero)
     return {i_begin + static_cast<std::int32_t>(n % width()), j_begin + static_cast<std::int32_t>(n / width())};
   }
   [[nodiscard]] constexpr CellRange intersection(const CellRange& o) const {

@@ -14,7 +14,7 @@ std::string wkt_of(const OGRSpatialReference* reference) {
   char* wkt = nullptr;
   const std::array<const char*, 2> options{"FORMAT=WKT2_2019", nullptr};
   const bool is_good = reference->exportToWkt(&wkt, options.data()) == OGRERR_NONE;
-  const std::string text = is_good && wkt != nullptr ? wkt : "";
+  std::string text = is_good && wkt != nullptr ? wkt : "";
   CPLFree(wkt);
   return text;
 }

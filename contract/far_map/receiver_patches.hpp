@@ -47,7 +47,8 @@ class ReceiverPatches {
   [[nodiscard]] PatchBox box(std::uint32_t patch) const {
     const std::uint32_t square = patch % squares(), layer = patch / squares();
     const double edge = cell_edge_m_ / squares_per_edge_;
-    const Point2d low{(square % squares_per_edge_) * edge, (square / squares_per_edge_) * edge};
+    const std::uint32_t column = square % squares_per_edge_, row = square / squares_per_edge_;
+    const Point2d low{column * edge, row * edge};
     return {low, low + Point2d{edge, edge}, levels_m_[layer], ceiling_m(layer)};
   }
   /// The layer of a height; the lowest for all below.

@@ -45,7 +45,7 @@ constexpr double narrowest_m = 2e-3;
 
 /// Whether the segments a–b and c–d have a point in common other than an end of a–b that is an end of c–d.
 [[nodiscard]] bool are_crossing(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d) {
-  const auto sign = [](std::int64_t x) { return (x > 0) - (x < 0); };
+  const auto sign = [](std::int64_t x) { return x < 0 ? -1 : x > 0 ? 1 : 0; };
   const auto on = [&](const GridPoint& from, const GridPoint& p, const GridPoint& to) {
     return turn(from, p, to) == 0 && is_between(from, p, to);
   };

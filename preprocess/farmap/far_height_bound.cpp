@@ -34,7 +34,7 @@ FarHeightBound::FarHeightBound(const TileSet& tiles, const Grid& grid) : grid_(g
   }
 }
 
-double FarHeightBound::slope(const Prism& prism, Point2d c, float capture_height_m) const {
+double FarHeightBound::slope(const Prism& prism, Point2d c, float capture_height_m) {
   if (prism.outline_grid.empty() || prism.height_m <= capture_height_m) return 0.0;
   const Box2d& o = prism.outline_grid;
   const double distance = std::max({o.low.x - c.x, c.x - o.high.x, o.low.y - c.y, c.y - o.high.y, 0.0});

@@ -28,7 +28,7 @@ class FarHeightBound {
     Prism prism;
     CellRange cells;
   };
-  [[nodiscard]] double slope(const Prism& prism, Point2d centre_grid, float capture_height_m) const;
+  [[nodiscard]] static double slope(const Prism& prism, Point2d centre_grid, float capture_height_m);
 
   const Grid& grid_;
   CellRange cells_;

@@ -65,14 +65,14 @@ class OcclusionCuller {
   bool cull_node(const CityHorizon::Node& node, double distance_m);
   void visit_leaf(const CityHorizon::Node& leaf, double distance_m);
   [[nodiscard]] bool faces_away(const OccluderEdge& occluder) const;
-  void update_leaf_bound(const BinRange& bins);
+  void update_leaf_bound(const BinRange& range);
   [[nodiscard]] bool is_below_leaf_bound(const OccluderEdge& occluder) const;
   enum class Visibility : std::uint8_t { hidden, weak, significant };
   Visibility classify(const OccluderEdge& occluder);
   [[nodiscard]] Visibility visibility_of(const OccluderEdge& occluder);
   void raise_by_bounds(const OccluderEdge& occluder, std::vector<float>& rows);
-  void raise_by_box(const BinRange& bins, double z_high_m, double nearest_m, std::vector<float>& rows);
-  void update_thresholds(const BinRange& bins);
+  void raise_by_box(const BinRange& range, double z_high_m, double nearest_m, std::vector<float>& rows);
+  void update_thresholds(const BinRange& range);
 
   const CityHorizon& city_;
   const ReceiverCell& cell_;

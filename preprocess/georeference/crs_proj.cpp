@@ -212,6 +212,7 @@ std::string Crs::name() const { return proj_get_name(impl_->registered.get()); }
 
 std::optional<int> Crs::epsg() const {
   if (!has_code(impl_->registered.get())) return std::nullopt;
+  // EPSG has numbers alone. NOLINTNEXTLINE(cert-err34-c)
   return std::atoi(proj_get_id_code(impl_->registered.get(), 0));
 }
 
@@ -254,6 +255,7 @@ std::optional<UtmZone> Crs::utm_zone() const {
   const std::string title = conversion_name(impl_->context, impl_->plain.get());
   constexpr std::string_view start = "UTM zone ";
   if (!title.starts_with(start) || (title.back() != 'N' && title.back() != 'S')) return std::nullopt;
+  // What is no number is 0, which is no zone. NOLINTNEXTLINE(cert-err34-c)
   const int number = std::atoi(title.c_str() + start.size());
   if (number < 1 || number > 60) return std::nullopt;
   return UtmZone{number, title.back() == 'N'};

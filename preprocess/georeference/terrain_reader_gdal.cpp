@@ -78,6 +78,7 @@ Dataset warped(GDALDataset& dataset, const Crs& from, const Crs& to, const std::
                                        "bilinear",   "-et", "0",      "-ot",      "Float64", "-wt",     "Float64",
                                        "-dstnodata", "nan", "-wo",    "XSCALE=1", "-wo",     "YSCALE=1"};
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   const std::unique_ptr<GDALWarpAppOptions, void (*)(GDALWarpAppOptions*)> options(

@@ -72,6 +72,7 @@ class TiledFile {
         rows_(static_cast<int>(shape.picture_rows())),
         file_(path.c_str(), header(channels, compression_of(shape)), 0) {}
 
+  /// OpenEXR wants pixels that it may write. NOLINTNEXTLINE(performance-unnecessary-value-param)
   void add(std::size_t n, Picture picture) {
     const Cell cell = cells_.cell_at(n);
     const int i = cell.i - cells_.i_begin, j = cell.j - cells_.j_begin;
@@ -122,7 +123,7 @@ void round_as_stored(BakedHorizon& map) {
   for (float& slope : map.overhang) slope = rounded_up(slope);
 }
 
-void write_far_maps(const std::filesystem::path& path, const BakedBlock& maps, const CellRange& cells,
+void write_far_maps(const std::filesystem::path& file, const BakedBlock& maps, const CellRange& cells,
                     const package::FarMapShape& shape) {
   try {
     if (const auto* boxes = std::get_if<BakedBoxes>(&maps)) {

@@ -43,7 +43,7 @@ class BlockSections {
     cells.push_back(record);
   }
 
-  void describe_map(CellRecord& cell, const BakedBox& map) {
+  static void describe_map(CellRecord& cell, const BakedBox& map) {
     cell.capture_x_m = map.capture_cell.x;
     cell.capture_y_m = map.capture_cell.y;
     cell.capture_z_m = map.capture_cell.z;

@@ -90,7 +90,8 @@ std::optional<Stretch> touched(const Corners& t, double length_m) {
   return s;
 }
 
-/// Whether a triangle counts as vertical for the edge, as in EdgeSides: judged by its plane, since its cross section may be short.
+/// Whether a triangle counts as vertical for the edge, as in EdgeSides: judged by its plane, since its cross section may be
+/// short.
 bool counts_as_vertical(const Corners& t) {
   const Point3d normal = cross(t[1] - t[0], t[2] - t[0]);
   const auto [low, high] = std::minmax({t[0].z, t[1].z, t[2].z});

@@ -16,6 +16,6 @@ inline constexpr double contact_m = 0.02;
 
 /// The parts of a lower border that stay open: no triangle of the tile, of any building, touches the border there and continues
 /// below it. The border and the tile are in the frame of the same cell.
-[[nodiscard]] std::vector<HorizonEdge> without_contacts(const HorizonEdge& underside, const Tile& tile);
+[[nodiscard]] std::vector<HorizonEdge> without_contacts(const HorizonEdge& edge, const Tile& tile);
 
 }  // namespace farlod::tiles

@@ -124,7 +124,7 @@ struct CellEdge {
 
 /// Cuts an edge at the borders of the grid, and rounds the ends of each piece once. A piece belongs to the cell of its midpoint;
 /// on a border, to the cell to the east or north.
-[[nodiscard]] std::vector<CellEdge> cut_edge(const HorizonSegment& edge_grid, const Grid& grid, double height_origin_m);
+[[nodiscard]] std::vector<CellEdge> cut_edge(const HorizonSegment& horizon, const Grid& grid, double height_origin_m);
 
 /// As `cut_edge`; but where there is an `only_cell`, the edge goes whole to it, and wherever it lies.
 [[nodiscard]] std::vector<CellEdge> cut_edge_unless_whole(const HorizonSegment& edge_grid, const std::optional<Cell>& only_cell,

@@ -23,7 +23,7 @@ inline constexpr double planarity_tolerance_m = 0.01;
 /// The ground is a network through the nodes of the terrain's raster; without one, through the points of the city's relief;
 /// without both, through the buildings' base points. Onto raster or relief those buildings are lifted that know only their height
 /// above ground. Throws Cancelled when `stop` is asked for.
-[[nodiscard]] TileSet cut_into_tiles(LocatedCity city, const Grid& grid, Assign assign,
+[[nodiscard]] TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign,
                                      const std::optional<TerrainRaster>& terrain, Report& report,
                                      const std::stop_token& stop = {});
 

@@ -45,7 +45,7 @@ struct Vector {
 
   Vector() = default;
   FARLOD_LANES Vector(Number n) {
-    // Not n + 0, which is another number for −0, so that the compiler must add
+    // Not n + 0, which is another number for −0, so that the compiler must add. NOLINTNEXTLINE(modernize-loop-convert)
     for (std::size_t r = 0; r < register_count; ++r) registers[r] = n - Register{};
   }
 

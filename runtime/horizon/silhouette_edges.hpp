@@ -47,6 +47,7 @@ class SilhouetteEdges {
   /// Swaps the ends if only the facet to the left of the way from a to b is a wall: then it is to the right. Of an edge right
   /// above a receiver, the left side hides the sky. The edge must have the role of all.
   void add(const HorizonEdge& e) {
+    // Without a branch. NOLINTNEXTLINE(readability-implicit-bool-conversion)
     const bool swaps = (e.adjacent.left == AdjacentSlopes::straight_down) & (e.adjacent.right != AdjacentSlopes::straight_down);
     const std::size_t lane = size() % lanes;
     if (lane == 0) batches_.emplace_back();

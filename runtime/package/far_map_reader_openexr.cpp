@@ -34,6 +34,7 @@ struct ChannelTarget {
 class TileDecoder {
  public:
   TileDecoder(exr_const_context_t file, const exr_chunk_info_t& chunk) : file_(file) {
+    // Not in the list above, where pipeline_ is not there yet. NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer)
     state_ = exr_decoding_initialize(file_, only_part, &chunk, &pipeline_);
   }
   TileDecoder(const TileDecoder&) = delete;
@@ -83,8 +84,8 @@ struct FarMapReader::Impl {
   package::FarMapShape shape;
   exr_context_t file = nullptr;
 
-  Impl(const std::filesystem::path& path, const CellRange& c, const package::FarMapShape& s)
-      : name(path.string()), cells(c), shape(s) {
+  Impl(const std::filesystem::path& path, const CellRange& c, package::FarMapShape s)
+      : name(path.string()), cells(c), shape(std::move(s)) {
     exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
     how.error_handler_fn = ignore_message;
     const exr_result_t result = exr_start_read(&file, name.c_str(), &how);
@@ -152,8 +153,8 @@ struct FarMapReader::Impl {
   }
 };
 
-FarMapReader::FarMapReader(const std::filesystem::path& path, const CellRange& cells, const package::FarMapShape& shape)
-    : impl_(std::make_unique<Impl>(path, cells, shape)) {
+FarMapReader::FarMapReader(const std::filesystem::path& file, const CellRange& cells, const package::FarMapShape& shape)
+    : impl_(std::make_unique<Impl>(file, cells, shape)) {
   impl_->check();
 }
 FarMapReader::FarMapReader(FarMapReader&&) noexcept = default;

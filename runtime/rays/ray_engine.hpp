@@ -37,7 +37,8 @@ class RayEngine {
   /// For the receivers of the last count with bits in `uncertain`: traces the rays that the far map does not decide, against the
   /// whole city, so that low = estimate = high. `origins` are the same receivers in the frame of `city`. Needs `wants_bounds`.
   /// Returns the number of rays.
-  std::uint64_t retrace(const Occluder& city, const RayOrigins& origins, std::uint32_t uncertain, std::span<FreeRays> free) const;
+  [[nodiscard]] std::uint64_t retrace(const Occluder& city, const RayOrigins& origins, std::uint32_t uncertain,
+                                      std::span<FreeRays> free) const;
 
  private:
   void draw_horizons(std::span<const Receiver> receivers);

@@ -76,16 +76,18 @@ TEST(Undersides, OfAMissingWallAreTheOpeningsUpperEdge) {
 TEST(Undersides, OfALeaningWallAreItsTopAndCornersWhereItLeansByMoreThanTheErrorOfSurveys) {
   // A house 20 m high whose east wall leans out, always by less than 0.6°
   const auto leaning = [](double by_m) {
-    return std::vector<Face>{
-        {{0, 0, 20}, {10 + by_m, 0, 20}, {10 + by_m, 8, 20}, {0, 8, 20}}, {{0, 0, 0}, {0, 8, 0}, {10, 8, 0}, {10, 0, 0}},
-        {{10, 0, 0}, {10, 8, 0}, {10 + by_m, 8, 20}, {10 + by_m, 0, 20}}, {{0, 0, 0}, {0, 0, 20}, {0, 8, 20}, {0, 8, 0}},
-        {{0, 0, 0}, {10, 0, 0}, {10 + by_m, 0, 20}, {0, 0, 20}},          {{0, 8, 0}, {0, 8, 20}, {10 + by_m, 8, 20}, {10, 8, 0}}};
+    return std::vector<Face>{{{0, 0, 20}, {10 + by_m, 0, 20}, {10 + by_m, 8, 20}, {0, 8, 20}},
+                             {{0, 0, 0}, {0, 8, 0}, {10, 8, 0}, {10, 0, 0}},
+                             {{10, 0, 0}, {10, 8, 0}, {10 + by_m, 8, 20}, {10 + by_m, 0, 20}},
+                             {{0, 0, 0}, {0, 0, 20}, {0, 8, 20}, {0, 8, 0}},
+                             {{0, 0, 0}, {10, 0, 0}, {10 + by_m, 0, 20}, {0, 0, 20}},
+                             {{0, 8, 0}, {0, 8, 20}, {10 + by_m, 8, 20}, {10, 8, 0}}};
   };
   EXPECT_THAT(raised_undersides_of(leaning(0.8 * max_lean_m)), IsEmpty());
   const double by_m = 3.0 * max_lean_m;
-  EXPECT_EQ(raised_undersides_of(leaning(by_m)), as_set({{{10 + by_m, 0, 20}, {10 + by_m, 8, 20}},
-                                                         {{10, 0, 0}, {10 + by_m, 0, 20}},
-                                                         {{10, 8, 0}, {10 + by_m, 8, 20}}}));
+  EXPECT_EQ(
+      raised_undersides_of(leaning(by_m)),
+      as_set({{{10 + by_m, 0, 20}, {10 + by_m, 8, 20}}, {{10, 0, 0}, {10 + by_m, 0, 20}}, {{10, 8, 0}, {10 + by_m, 8, 20}}}));
 }
 
 TEST(Undersides, OfASheetOfWallAreItsFoot) {

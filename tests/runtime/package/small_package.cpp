@@ -79,7 +79,7 @@ package::Section& TilesBytes::section(package::SectionKind kind) {
     auto& section = at<package::Section>(sizeof(package::Header) + n * sizeof(package::Section));
     if (section.kind == kind) return section;
   }
-  FARLOD_EXPECTS(!"the section exists");
+  FARLOD_EXPECTS(false && "the section exists");
   return at<package::Section>(0);
 }
 

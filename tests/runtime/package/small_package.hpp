@@ -19,8 +19,8 @@ namespace farlod {
 
 using Bytes = std::vector<std::byte>;
 
-[[nodiscard]] Bytes bytes_of(const std::filesystem::path& file);
-void write_bytes(const std::filesystem::path& file, std::span<const std::byte> bytes);
+[[nodiscard]] Bytes bytes_of(const std::filesystem::path& path);
+void write_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 /// A package of three cells in two blocks, (0, 0) with two cells and (1, 0) with one, a house in each; and the means to damage
 /// it. A bridge between the houses is seen from under.
