@@ -11,8 +11,8 @@
 namespace farlod {
 namespace {
 
-constexpr std::array folders{"include",   "contract",   "console", "gdal",  "preprocess", "runtime", "datasets",
-                             "benchmark", "validation", "tests",   "cmake", "docs",       "scripts", ".ci"};
+constexpr std::array folders{"include",    "contract", "console", "gdal", "preprocess", "runtime", "datasets", "benchmark",
+                             "validation", "tests",    "cmake",   "docs", "scripts",    ".ci",     ".github"};
 /// The names of the folders whose files without an ending are scripts.
 constexpr std::array<std::string_view, 4> script_folders{"benchmark", "figures", "scripts", ".ci"};
 
