@@ -65,12 +65,9 @@ int run(const Options& options) {
   return 0;
 }
 
-}  // namespace
-}  // namespace farlod::benchmark
-
-int main(int argc, char** argv) {
+int measure(int argc, char** argv) {
   CLI::App app("farlod-benchmark — measures us against tracing the whole city, for docs/performance.md", "farlod-benchmark");
-  farlod::benchmark::Options options;
+  Options options;
   app.add_flag("--quick", options.quick, "Few receivers, one turn: to see that all of it runs");
   app.add_option("--engine", options.engine, "Which of ours")->capture_default_str();
   app.add_option("--city", options.city, "Package of the contests")->required();
@@ -81,8 +78,15 @@ int main(int argc, char** argv) {
   app.add_option("--cells", options.cells, "Cells of the city that are measured");
   app.add_option("--turns", options.turns, "Medians are of so many");
   CLI11_PARSE(app, argc, argv);
+  return run(options);
+}
+
+}  // namespace
+}  // namespace farlod::benchmark
+
+int main(int argc, char** argv) {
   try {
-    return farlod::benchmark::run(options);
+    return farlod::benchmark::measure(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "farlod-benchmark: %s\n", error.what());
     return 1;

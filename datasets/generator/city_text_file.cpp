@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <iterator>
 #include <system_error>
 #include <utility>
@@ -68,7 +67,7 @@ void CityTextFile::flush() {
 
 void CityTextFile::fail() const {
   // The stream has no reason of its failure; the last error of the system has
-  throw CityWriteError(destination_, errno != 0 ? std::strerror(errno) : "the disk refused the data");
+  throw CityWriteError(destination_, errno != 0 ? std::generic_category().message(errno) : "the disk refused the data");
 }
 
 void append_metres(std::string& text, std::int64_t value_mm) {

@@ -115,7 +115,7 @@ class CityJsonWriter final : public GeneratedCityWriter {
   /// One entry for each role, in LoD3 also for windows and doors, and for each facet the number of its entry.
   void add_semantics(std::span<const GeneratedFacet> facets, bool closed) {
     constexpr std::array roles{FacetRole::roof, FacetRole::wall, FacetRole::ground, FacetRole::outer_ceiling};
-    objects_.text() += ",\"semantics\":{\"surfaces\":[";
+    objects_.text() += R"(,"semantics":{"surfaces":[)";
     for (const FacetRole role : roles)
       fmt::format_to(out(), FMT_STRING("{}{{\"type\":\"{}\"}}"), role == roles.front() ? "" : ",", surface_name_of(role));
     if (header_.lod >= 3) objects_.text() += R"(,{"type":"Window"},{"type":"Door"})";

@@ -23,7 +23,7 @@ class OccluderClassifier {
 
   /// Makes an occluder (by its number in the city) explicit for the patches where it is significant, and bounds it for the
   /// others. Returns the layers in which it is explicit, as bits.
-  std::uint32_t classify(std::uint32_t occluder);
+  std::uint32_t classify(std::uint32_t number);
   /// No sky is seen below a lower border that grounded edges hide for certain: takes such ones out of the map. To be called last.
   void drop_hidden_overhangs();
 

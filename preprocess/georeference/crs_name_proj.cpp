@@ -33,8 +33,8 @@ std::vector<Entry> search(const std::string& text, std::span<const PJ_TYPE> type
   proj_context_set_enable_network(context.get(), 0);
   proj_log_level(context.get(), PJ_LOG_NONE);
   const std::unique_ptr<PJ_OBJ_LIST, decltype(&proj_list_destroy)> found(
-      proj_create_from_name(context.get(), nullptr, text.c_str(), types.data(), types.size(), kind == Search::approximate, most,
-                            nullptr),
+      proj_create_from_name(context.get(), nullptr, text.c_str(), types.data(), types.size(), kind == Search::approximate ? 1 : 0,
+                            most, nullptr),
       &proj_list_destroy);
   std::vector<Entry> entries;
   for (int n = 0; found && n < proj_list_get_count(found.get()); ++n) {

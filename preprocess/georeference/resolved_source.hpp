@@ -21,6 +21,6 @@ struct ResolvedSource {
 /// Resolves CRS, axes and units of a source that has buildings or a relief. Reports problems of its CRS (two_crs, crs_unknown)
 /// and of its coordinates (axes_swapped, zone_in_easting, unlikely_place), each once for the whole file. Throws InputError when
 /// the coordinates are in degrees and the CRS is projected, or the other way round.
-[[nodiscard]] ResolvedSource resolve(SourceCity source, const InputCrs& input, Report& report);
+[[nodiscard]] ResolvedSource resolve(SourceCity source, const InputCrs& given, Report& report);
 
 }  // namespace farlod::georeference

@@ -34,7 +34,6 @@ struct ChannelTarget {
 class TileDecoder {
  public:
   TileDecoder(exr_const_context_t file, const exr_chunk_info_t& chunk) : file_(file) {
-    // Not in the list above, where pipeline_ is not there yet. NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer)
     state_ = exr_decoding_initialize(file_, only_part, &chunk, &pipeline_);
   }
   TileDecoder(const TileDecoder&) = delete;

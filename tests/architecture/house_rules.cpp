@@ -78,7 +78,7 @@ std::string function_opened_by(const SourceFile& file, std::size_t begin, std::s
   static const std::regex other(
       "^(namespace|class|struct|union|enum|extern|if|for|while|switch|do|else|try|catch|return|case|default|"
       "static_assert|TEST|INSTANTIATE)\\b|^\\}|[=(,]\\s*(\\w|::)*\\{ $|=\\s*\\[");
-  static const std::regex name("(~?\\w+|operator\\S+)\\(");
+  static const std::regex name(R"((~?\w+|operator\S+)\()");
   std::smatch match;
   if (std::regex_search(head, other) || !std::regex_search(head, match, name)) return "";
   return match[1];

@@ -66,6 +66,7 @@ class BuildingAssembler {
       if (counts(use.role) && can_be_used(use) && !lods.contains(use.lod) && walk.any(member, is_usable)) lods.insert(use.lod);
     }
     std::vector<std::vector<double>> lods;
+    lods.reserve(found.size());
     for (const std::set<double>& of_part : found) lods.emplace_back(of_part.begin(), of_part.end());
     return lods;
   }

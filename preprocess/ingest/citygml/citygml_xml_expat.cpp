@@ -118,6 +118,7 @@ void XMLCALL on_skipped_entity(void* user, const XML_Char* name, int) {
 /// Expat knows UTF-8, UTF-16 and Latin-1. For any other one-byte encoding, iconv gives the character of each byte.
 int XMLCALL on_unknown_encoding(void*, const XML_Char* name, XML_Encoding* encoding) {
   const iconv_t converter = iconv_open("UTF-32LE", name);
+  // POSIX says so. NOLINTNEXTLINE(performance-no-int-to-ptr)
   if (converter == reinterpret_cast<iconv_t>(-1)) return XML_STATUS_ERROR;
   for (int byte = 0; byte < 256; ++byte) {
     char in = static_cast<char>(byte);
@@ -173,7 +174,8 @@ void parse_xml(const InputFile& file, XmlListener& listener) {
     stream->read(static_cast<char*>(buffer), static_cast<std::streamsize>(piece_bytes));
     is_last = !*stream;
     bytes_read += static_cast<XML_Index>(stream->gcount());
-    if (XML_ParseBuffer(parser.get(), static_cast<int>(stream->gcount()), is_last) != XML_STATUS_OK) throw_failure(file, parsing);
+    if (XML_ParseBuffer(parser.get(), static_cast<int>(stream->gcount()), is_last ? 1 : 0) != XML_STATUS_OK)
+      throw_failure(file, parsing);
     // The bytes that were read and not parsed yet belong to a tag that has not ended
     if (bytes_read - XML_GetCurrentByteIndex(parser.get()) > static_cast<XML_Index>(most_bytes_of_tag)) {
       parsing.refusal = "it has a tag or a comment of more than " + std::to_string(most_bytes_of_tag) + " bytes";

@@ -234,8 +234,12 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
     ++depth_;
     if (in_vertices() && depth_ == 3) vertex_.clear();
     if (is_ours) return true;
-    if (stack_.empty()) tree_ = std::move(container);
-    stack_.push_back(stack_.empty() ? &tree_ : attach(std::move(container)));
+    if (stack_.empty()) {
+      tree_ = std::move(container);
+      stack_.push_back(&tree_);
+    } else {
+      stack_.push_back(attach(std::move(container)));
+    }
     return true;
   }
 
