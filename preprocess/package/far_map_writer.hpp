@@ -14,7 +14,7 @@ namespace farlod {
 /// corner. Tiles run upwards with j; within a tile of the kind `box`, pictures run downwards, so row 0 is the map's highest; of
 /// the kind `horizon`, row 0 is the first patch. Bounds are rounded outwards.
 /// Throws std::runtime_error, which says why, when the file cannot be written.
-void write_far_maps(const std::filesystem::path& file, const BakedBlock& maps, const CellRange& cells,
+void write_far_maps(const std::filesystem::path& path, const BakedBlock& maps, const CellRange& cells,
                     const package::FarMapShape& shape);
 
 /// Slopes as they come back from the file, where they are half floats: bounds rounded outwards, estimates to the nearest.

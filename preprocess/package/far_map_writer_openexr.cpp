@@ -123,7 +123,7 @@ void round_as_stored(BakedHorizon& map) {
   for (float& slope : map.overhang) slope = rounded_up(slope);
 }
 
-void write_far_maps(const std::filesystem::path& file, const BakedBlock& maps, const CellRange& cells,
+void write_far_maps(const std::filesystem::path& path, const BakedBlock& maps, const CellRange& cells,
                     const package::FarMapShape& shape) {
   try {
     if (const auto* boxes = std::get_if<BakedBoxes>(&maps)) {

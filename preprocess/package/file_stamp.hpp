@@ -12,6 +12,6 @@ namespace farlod {
 
 [[nodiscard]] package::FileStamp stamp_of(std::span<const std::byte> bytes);
 /// Reads the file piece by piece. Throws std::runtime_error when it cannot be read.
-[[nodiscard]] package::FileStamp stamp_of(const std::filesystem::path& file);
+[[nodiscard]] package::FileStamp stamp_of(const std::filesystem::path& path);
 
 }  // namespace farlod

@@ -48,8 +48,8 @@ bool is_length(const FieldValue& value) { return value.number || (value.is_set &
 
 bool holds_areas(OGRLayer& layer) {
   const OGRwkbGeometryType type = wkbFlatten(layer.GetGeomType());
-  return type == wkbUnknown || type == wkbGeometryCollection || OGR_GT_IsSubClassOf(type, wkbSurface) ||
-         OGR_GT_IsSubClassOf(type, wkbMultiSurface);
+  return type == wkbUnknown || type == wkbGeometryCollection || OGR_GT_IsSubClassOf(type, wkbSurface) != 0 ||
+         OGR_GT_IsSubClassOf(type, wkbMultiSurface) != 0;
 }
 
 /// The names of the fields whose values are lengths, for a message.
@@ -154,8 +154,9 @@ class FootprintLayer {
 
   std::vector<std::string> field_names() const {
     std::vector<std::string> names;
-    for (int field = 0; field < layer_.GetLayerDefn()->GetFieldCount(); ++field)
-      names.emplace_back(layer_.GetLayerDefn()->GetFieldDefn(field)->GetNameRef());
+    const int count = layer_.GetLayerDefn()->GetFieldCount();
+    names.reserve(static_cast<std::size_t>(count));
+    for (int field = 0; field < count; ++field) names.emplace_back(layer_.GetLayerDefn()->GetFieldDefn(field)->GetNameRef());
     return names;
   }
 

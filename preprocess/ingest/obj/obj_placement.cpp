@@ -26,7 +26,7 @@ std::optional<std::vector<double>> numbers_in(std::string_view text) {
     if (text.empty()) return numbers;
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const std::size_t length = static_cast<std::size_t>(end - text.data());
+    const auto length = static_cast<std::size_t>(end - text.data());
     const bool ends_there = length == text.size() || separators.find(text[length]) != separators.npos;
     if (error != std::errc() || !ends_there || !std::isfinite(value)) return std::nullopt;
     numbers.push_back(value);
