@@ -323,16 +323,16 @@ class TileCutter {
   [[nodiscard]] std::vector<HorizonSegment> above_ground(const std::vector<HorizonSegment>& undersides) const {
     std::vector<HorizonSegment> result;
     for (const HorizonSegment& underside : undersides) {
-      const auto& [a, b] = underside.segment;
-      const int intervals = ground_sampling_intervals(norm(horizontal(b - a)));
-      const auto point_at = [&](int k) { return a + static_cast<double>(k) / intervals * (b - a); };
+      const Point3d &a = underside.segment.a, &b = underside.segment.b;
+      const auto intervals = static_cast<std::size_t>(ground_sampling_intervals(norm(horizontal(b - a))));
+      const auto point_at = [&](std::size_t k) { return a + static_cast<double>(k) / static_cast<double>(intervals) * (b - a); };
       std::vector<bool> is_above;
-      for (int k = 0; k <= intervals; ++k) {
+      for (std::size_t k = 0; k <= intervals; ++k) {
         const Point3d p = point_at(k);
         is_above.push_back(p.z > ground_.height_at(horizontal(p)) + ground_contact_m);
       }
       // An interval counts as above the ground when one of its ends is; join consecutive intervals
-      for (int from = 0, to = 0; from < intervals; from = to + 1) {
+      for (std::size_t from = 0, to = 0; from < intervals; from = to + 1) {
         for (to = from; to < intervals && (is_above[to] || is_above[to + 1]); ++to) {
         }
         if (to > from) result.push_back({{point_at(from), point_at(to)}, underside.adjacent, underside.role});

@@ -70,7 +70,7 @@ class TileDecoder {
   }
 
   exr_const_context_t file_;
-  exr_decode_pipeline_t pipeline_ = EXR_DECODE_PIPELINE_INITIALIZER;
+  exr_decode_pipeline_t pipeline_{};  // zeros, as EXR_DECODE_PIPELINE_INITIALIZER, which clang warns of
   exr_result_t state_ = EXR_ERR_SUCCESS;
   std::vector<std::vector<float>> unwanted_;
 };

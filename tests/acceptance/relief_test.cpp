@@ -92,7 +92,8 @@ TEST_P(Relief, AloneIsASlopeWithItsKnownSkyViewFactor) {
   // The slope hides what lies below tan(elevation) = tan(slope)·cos(azimuth) uphill: the mean of cos² over it is (1 + cos
   // slope)/2. From 1.5 m above, and with an end after 1 km, the horizon is lower by 1.5/1000; a ring of the sky has less than 1
   // in 100 of it
-  constexpr double eye_m = 1.5, nearest_end_m = half_m - 100.0, error = eye_m / nearest_end_m + 1.0 / std::sqrt(20000.0) / 10.0;
+  constexpr double eye_m = 1.5, nearest_end_m = half_m - 100.0;
+  const double error = eye_m / nearest_end_m + 1.0 / std::sqrt(20000.0) / 10.0;
   for (const double east_m : {0.0, -100.0, 57.5}) {
     const CsvTable answer = answer_at(town_middle + Point2d{east_m, 20.0});
     EXPECT_NEAR(answer.number(0, "z_m"), slope_m(east_m) + eye_m, height_error_m);

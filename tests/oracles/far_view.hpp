@@ -50,7 +50,7 @@ class FarView {
   /// Without std::hypot's care for numbers that no city has: a tenth of the whole time went into it.
   [[nodiscard]] static double length(Point2d v) { return std::sqrt(dot(v, v)); }
   void draw_explicit(const Point3f& p_cell, std::optional<std::uint32_t> patch);
-  void draw(const EdgeView& edge);
+  void draw(const EdgeView& given);
   /// The directions that an edge covers, by pseudo-angle, and how far its ends may lie from there.
   struct Span {
     double from, to, before, after;
