@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 
-// open_sky PACKAGE: the runtime library alone. Prints the mean sky view factor of a raster of 4 m, and shows that an error arrives
-// as what it is across the library's border.
+// open_sky PACKAGE: the runtime library alone. Prints the mean sky view factor of a raster of 4 m, and shows that an error
+// arrives as what it is across the library's border.
 #include <cstdio>
 #include <exception>
 

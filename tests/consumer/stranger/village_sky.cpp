@@ -18,7 +18,8 @@ void pack_city(const char* city, const char* folder) {
   settings.overwrite = farlod::Overwrite::replace;
   farlod::Report report;
   const farlod::PackResult packed = farlod::pack(settings, report);
-  std::printf("%llu buildings, %zu problems\n", static_cast<unsigned long long>(packed.package.buildings), report.problems().size());
+  std::printf("%llu buildings, %zu problems\n", static_cast<unsigned long long>(packed.package.buildings),
+              report.problems().size());
 }
 
 void print_sky(const char* folder) {
