@@ -12,7 +12,7 @@
 #include "farlod/points.hpp"
 #include "farlod/raster.hpp"
 #ifdef FARLOD_WITH_GDAL
-#include "points/reproject_gdal.hpp"
+#include "results/reproject_gdal.hpp"
 #endif
 
 namespace farlod {
@@ -144,8 +144,8 @@ WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSe
 
 WrittenRun write_points(const Package& package, const SvfOptions& options, RunSettings run) {
   const NamedPoints named = read_points(options, package.description());
-  // A point with its id, and its answers
-  run.caller_bytes = named.ids.size() * (sizeof(std::string) + 4 * sizeof(double) + 3 * sizeof(float));
+  // A point with its id; the library counts its answers
+  run.caller_bytes = named.ids.size() * (sizeof(std::string) + 3 * sizeof(double));
   const PointAnswers answers = evaluate_named(package, named, options, run);
   WrittenRun written{answers.summary, {options.output}};
   written.write_s =

@@ -6,20 +6,23 @@
 #include <array>
 #include <fstream>
 #include <regex>
-#include <string_view>
 
 namespace farlod {
 namespace {
 
 constexpr std::array folders{"include",    "contract", "console", "gdal", "preprocess", "runtime", "datasets", "benchmark",
-                             "validation", "tests",    "cmake",   "docs", "scripts",    ".ci",     ".github"};
-/// The names of the folders whose files without an ending are scripts.
-constexpr std::array<std::string_view, 4> script_folders{"benchmark", "figures", "scripts", ".ci"};
+                             "validation", "tests",    "cmake",   "docs", "scripts",    ".ci",     ".github",  "packaging"};
+
+/// Whether a file without an ending says what runs it.
+bool is_script(const std::filesystem::path& path) {
+  if (path.has_extension()) return false;
+  std::ifstream file(path);
+  return file.get() == '#' && file.get() == '!';
+}
 
 bool is_code(const std::filesystem::path& path) {
-  const std::string folder = path.parent_path().filename().string(), ending = path.extension().string();
-  const bool script = ending.empty() && std::ranges::count(script_folders, folder) > 0;
-  return ending == ".cpp" || ending == ".hpp" || ending == ".cmake" || path.filename() == "CMakeLists.txt" || script;
+  const std::string ending = path.extension().string();
+  return ending == ".cpp" || ending == ".hpp" || ending == ".cmake" || path.filename() == "CMakeLists.txt" || is_script(path);
 }
 
 bool is_document(const std::filesystem::path& path) { return path.extension() == ".md"; }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "points/reproject_gdal.hpp"
+#include "results/reproject_gdal.hpp"
 
 #include <fmt/core.h>
 #include <ogr_spatialref.h>
