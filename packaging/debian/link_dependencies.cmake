@@ -5,7 +5,7 @@
 set(debian_packages
   "EXPAT::EXPAT=libexpat1-dev"
   "GDAL::GDAL=libgdal-dev"
-  ".*GeographicLib.*=libgeographiclib-dev"
+  ".*(GeographicLib|farlod::geographiclib).*=libgeographiclib-dev"
   "OpenEXR::OpenEXR(Core)?=libopenexr-dev"
   "PROJ::proj=libproj-dev"
   "PkgConfig::XXHASH=libxxhash-dev"
@@ -19,7 +19,7 @@ function(farlod_debian_package_of out library)
   foreach(row ${debian_packages})
     string(REGEX MATCH "^(.*)=(.*)$" row ${row})
     set(package ${CMAKE_MATCH_2})
-    if(library MATCHES "^${CMAKE_MATCH_1}$")
+    if(library MATCHES "^(${CMAKE_MATCH_1})$")
       set(${out} ${package} PARENT_SCOPE)
       return()
     endif()
@@ -27,10 +27,11 @@ function(farlod_debian_package_of out library)
   message(FATAL_ERROR "libfarlod-dev links ${library}: name its Debian package in ${CMAKE_CURRENT_FUNCTION_LIST_FILE}")
 endfunction()
 
-# The packages without which nobody can link against these static libraries of ours, sorted
+# The packages without which nobody can find and link these static libraries of ours, sorted
 #   farlod_debian_link_dependencies(result farlod_runtime...)
 function(farlod_debian_link_dependencies out)
-  set(packages)
+  # farlodConfig.cmake finds one of them by pkg-config
+  set(packages "pkgconf | pkg-config")
   set(waiting ${ARGN})
   set(done)
   while(waiting)
