@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <sstream>
 #include <string>
 #include <thread>
 
@@ -12,7 +14,37 @@
 
 namespace farlod {
 
-/// Throws InvalidArgument where a setting is not what its declaration promises.
+/// A number as messages show it: without trailing zeros.
+[[nodiscard]] inline std::string setting_text(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+// Each of these throws InvalidArgument, which names the setting, where it is not what its declaration promises.
+
+/// Wants low ≤ value ≤ high; NaN is refused, too.
+inline void require_between(const char* setting, double value, double low, double high) {
+  if (low <= value && value <= high) return;
+  throw InvalidArgument(std::string(setting) + " is " + setting_text(value) + ": give a number from " + setting_text(low) +
+                        " to " + setting_text(high));
+}
+
+/// The same for whole numbers, which its message shows in full.
+inline void require_count_between(const char* setting, std::size_t value, std::size_t low, std::size_t high) {
+  if (low <= value && value <= high) return;
+  throw InvalidArgument(std::string(setting) + " is " + std::to_string(value) + ": give a number from " + std::to_string(low) +
+                        " to " + std::to_string(high));
+}
+
+/// An enumeration may hold any number, when a caller casts to it.
+template <class Enum>
+void require_one_of(const char* setting, Enum value, Enum last) {
+  if (value >= Enum{} && value <= last) return;
+  throw InvalidArgument(std::string(setting) + " is " + std::to_string(static_cast<int>(value)) +
+                        ", which is none of its values: choose one that its declaration lists");
+}
+
 inline void require_usable(const RunSettings& run) {
   constexpr std::size_t most_threads = 4096;
   if (run.threads > most_threads)

@@ -10,13 +10,17 @@
 
 namespace farlod {
 
-/// What answers a receiver (docs/stages/evaluate.md).
+/// What answers a receiver (docs/stages/evaluate.md). Far maps of the kind `box` have no horizons: with them automatic, horizon
+/// and rays are all the same, rays that are traced nearby and looked up in the map. Receivers outside of the grid have no far
+/// map: whatever the engine, their rays are traced against the whole city.
 enum class Engine {
   automatic,  ///< horizons, and rays where too much sky may be seen below something that overhangs
-  horizon,    ///< horizons alone
+  horizon,    ///< horizons alone; where they are not enough, the run ends with PackageUnusable
   rays,       ///< rays, as in the paper (Listing 1), compared with horizons; only those in gaps are traced
   exact,      ///< rays against all tiles: the reference
-  near_only   ///< the far city left out, as by tools that cut a city into tiles: to measure what the far map is worth
+  /// The far city left out, as by tools that cut a city into tiles: to measure what the far map is worth. Knows neither bounds
+  /// nor errors: not with EvaluationSettings::bounds or max_error.
+  near_only
 };
 
 /// How directions of the sky are weighted.
@@ -62,7 +66,8 @@ enum class HeightAbove {
 /// How high receivers stand that have no height of their own.
 struct Placing {
   HeightAbove above = HeightAbove::ground;
-  double height_m = 1.5;  ///< 0 to 10,000; on the surface itself, a receiver stands a centimetre above it
+  /// 0 to 10,000, and for sea_level −100,000 to 100,000. On the surface itself, a receiver stands a centimetre above it.
+  double height_m = 1.5;
 };
 
 /// Errors of answers against exact ones: of the absolute error its mean, 99th percentile and maximum; bias is the mean of
@@ -87,12 +92,14 @@ struct BoundsWidth {
 /// What the settings came to, and the error that follows from it.
 struct Accuracy {
   std::size_t azimuths = default_azimuths, rays = default_rays;
-  double sampling_error = 0.0;              ///< upper estimate for the sky between the samples; not a certain bound
+  /// Upper estimate for the sky between the samples; not a certain bound. Of a run: between those that answered.
+  double sampling_error = 0.0;
   std::optional<double> far_error_allowed;  ///< what EvaluationSettings::max_error leaves for the far map
 };
 
-/// What some settings come to, before any run. Throws InvalidArgument, as the runs do, where a setting is not what its
-/// declaration promises, or the numbers of rays and azimuths cannot keep the error that is allowed.
+/// What some settings come to, before any run: within the grid, with far maps of the kind `horizon`. Throws InvalidArgument, as
+/// the runs do, where a setting is not what its declaration promises, or the numbers of rays and azimuths cannot keep the error
+/// that is allowed.
 [[nodiscard]] FARLOD_EXPORT Accuracy accuracy_of(const EvaluationSettings& settings);
 
 /// The figures of a run.

@@ -143,7 +143,8 @@ struct PackResult {
 using OnEstimate = std::function<void(const PackEstimate&)>;
 
 /// Makes a package from city files. Problems of single buildings are added to the report, as far as the run comes, and end
-/// nothing. The folder appears with its manifest at the end; a run that ends before leaves nothing that opens as a package.
+/// nothing. The folder appears with its manifest at the end; a run that ends before leaves nothing new that opens as a package. A
+/// package that is to be replaced stays until the first block of its successor is written.
 /// Throws InvalidArgument, InputError, ProblemsRefused, OutputError, LimitReached, Cancelled.
 FARLOD_EXPORT PackResult pack(const PackSettings& settings, Report& report, const RunSettings& run = {},
                               const OnEstimate& on_estimate = {});

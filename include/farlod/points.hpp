@@ -15,7 +15,8 @@ namespace farlod {
 /// Points in the package's CRS, coordinate by coordinate; they look straight up. The n-th is (x_m[n], y_m[n]), at the height
 /// z_m[n] above sea level where there is one. The arrays are the caller's, and as long as each other.
 struct Points {
-  std::span<const double> x_m, y_m;  ///< easting and northing, within 100,000 km
+  /// Easting and northing, within 100,000 km, and within 2²⁹ cells of the package's origin.
+  std::span<const double> x_m, y_m;
   std::span<const double> z_m = {};  ///< within 100 km, or NaN: the point stands as Placing says; empty: all do
 };
 
@@ -34,7 +35,8 @@ struct PointAnswers {
 };
 
 /// Evaluates the sky view factors of points, inside the grid or outside of it. The same points give the same answers whatever the
-/// number of threads. Throws InvalidArgument, Cancelled, LimitReached, PackageUnusable, PackageDamaged.
+/// number of threads. Throws InvalidArgument (InvalidPoint for a point that lies nowhere), Cancelled, LimitReached,
+/// PackageUnusable, PackageDamaged.
 FARLOD_EXPORT EvaluationSummary evaluate_points(const Package& package, const Points& points, const Placing& placing,
                                                 const EvaluationSettings& settings, const PointAnswerSpans& answers,
                                                 const RunSettings& run = {});

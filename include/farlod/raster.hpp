@@ -45,8 +45,9 @@ struct TilePlace {
 /// Number of tiles along an edge of `pixels` pixels.
 [[nodiscard]] constexpr std::size_t tiles_along(std::size_t pixels) { return (pixels + raster_tile_edge - 1) / raster_tile_edge; }
 
-/// Number of columns (or rows) of a tile that lie within the raster.
+/// Number of columns (or rows) of a tile that lie within the raster; 0 of a tile beyond it.
 [[nodiscard]] constexpr std::size_t pixels_of_tile(std::size_t tile, std::size_t pixels) {
+  if (tile >= tiles_along(pixels)) return 0;
   const std::size_t left = pixels - tile * raster_tile_edge;
   return left < raster_tile_edge ? left : raster_tile_edge;
 }
@@ -64,7 +65,7 @@ struct RasterTile {
 };
 
 /// Takes the tiles as they are done: one at a time, in the same order whatever the number of threads, each once; not at all where
-/// no pixel has an answer. What it throws ends the run.
+/// no pixel has an answer. The tile is valid during the call only. What it throws ends the run.
 using OnRasterTile = std::function<void(const RasterTile&)>;
 
 /// A whole raster, row by row from the north. NaN where there is no data.

@@ -13,7 +13,7 @@ namespace farlod {
 
 /// How far a run is: `done` of `all` parts of a stage, such as "tiles" or "sky view factors".
 struct Progress {
-  std::string_view stage;
+  std::string_view stage;  ///< valid during the call only
   std::size_t done = 0, all = 0;
 };
 
@@ -26,7 +26,8 @@ struct RunSettings {
   std::uint64_t caller_bytes = 0;
   /// Called by threads of the run, never by two at a time. What it throws ends the run.
   std::function<void(const Progress&)> on_progress;
-  /// Ask its std::stop_source to stop, from any thread or from a callback, and the run ends with Cancelled.
+  /// Ask its std::stop_source to stop, from any thread or from a callback, and the run ends with Cancelled, unless its work is
+  /// done.
   std::stop_token stop;
 };
 

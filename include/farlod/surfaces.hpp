@@ -48,7 +48,7 @@ struct SurfaceMean {
   std::uint32_t surface = 0;
   SurfaceKind kind = SurfaceKind::unknown;
   Angle azimuth, tilt;
-  double area_m2 = 0.0;
+  double area_m2 = 0.0;  ///< of the receivers that have an answer
   std::size_t receivers = 0, nodata = 0;
   std::optional<double> svf_mean, svf_min, svf_max;
 };
@@ -56,7 +56,7 @@ struct SurfaceMean {
 /// Area-weighted means over the roofs and walls of a building.
 struct BuildingMean {
   std::string building;
-  double roof_area_m2 = 0.0, wall_area_m2 = 0.0;
+  double roof_area_m2 = 0.0, wall_area_m2 = 0.0;  ///< of the receivers that have an answer
   std::size_t receivers = 0, nodata = 0;
   std::optional<double> svf_roofs, svf_walls;
 };
@@ -69,7 +69,7 @@ struct SurfaceMeans {
 };
 
 /// Takes the receivers of a cell of the grid: one cell at a time, each once, in the same order whatever the number of threads;
-/// `cell` counts the cells row by row from the south-west. What it throws ends the run.
+/// `cell` counts the cells row by row from the south-west. `points` are valid during the call only. What it throws ends the run.
 using OnSurfacePoints = std::function<void(std::size_t cell, std::span<const SurfacePoint> points)>;
 
 /// Evaluates receivers on the roofs and walls of all buildings. Throws InvalidArgument, Cancelled, LimitReached, PackageUnusable,

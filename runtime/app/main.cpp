@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <chrono>
 #include <filesystem>
@@ -99,6 +100,8 @@ void print_run(const WrittenRun& written, const SvfOptions& options, double tota
 }
 
 int run(const SvfOptions& options) {
+  // The process is the program's: as many threads as are asked for, also where there are fewer cores
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
   for (const std::filesystem::path& file :
        {options.output, std::filesystem::path(options.preview_file), std::filesystem::path(options.run.summary_file)})
     require_folder_of(file);
@@ -115,7 +118,7 @@ int complain(const std::exception& error, int exit_code) {
   return exit_code;
 }
 
-/// The library knows no options.
+/// The library tells what is needed; what decides it are options of this program.
 int complain_of_memory(const LimitReached& error) {
   fmt::print(stderr,
              "farlod-svf: {} The limit is --memory-limit; --threads, --grid and --bbox decide what is needed; --engine exact, "

@@ -5,15 +5,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "contract/cancellation.hpp"
+
 namespace farlod {
 
 namespace {
 
 /// n points on the disk or the hemisphere, each with the same share of the sky around it: ring by ring by the golden angle.
-std::vector<Point3d> fibonacci_directions(SkyWeight weight, std::size_t n) {
+std::vector<Point3d> fibonacci_directions(SkyWeight weight, std::size_t n, const std::stop_token& stop) {
   constexpr double golden_turns = 2.0 - std::numbers::phi;
   std::vector<Point3d> result;
   for (std::size_t i = 0; i < n; ++i) {
+    throw_if_cancelled(stop);
     const double turns = static_cast<double>(i) * golden_turns;
     const double share_above = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
     result.push_back(sky_direction(weight, share_above, 2.0 * std::numbers::pi * (turns - std::floor(turns))));
@@ -23,9 +26,10 @@ std::vector<Point3d> fibonacci_directions(SkyWeight weight, std::size_t n) {
 
 }  // namespace
 
-SkyDirections::SkyDirections(SkyWeight weight, std::size_t ray_count, const GridRotation& rotation, DirectionSet set)
-    : local_(set == DirectionSet::partition ? SkyPartition(weight, ray_count).directions()
-                                            : fibonacci_directions(weight, ray_count)) {
+SkyDirections::SkyDirections(SkyWeight weight, std::size_t ray_count, const GridRotation& rotation, DirectionSet set,
+                             const std::stop_token& stop)
+    : local_(set == DirectionSet::partition ? SkyPartition(weight, ray_count).directions(stop)
+                                            : fibonacci_directions(weight, ray_count, stop)) {
   facing_up_.reserve(local_.size());
   for (const Point3d& d : local_) facing_up_.push_back(rotation.grid_from_city(d));
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "contract/frame.hpp"
@@ -16,8 +17,9 @@ namespace farlod {
 /// changes no receiver's directions.
 class SkyDirections {
  public:
-  SkyDirections(SkyWeight weight, std::size_t ray_count, const GridRotation& rotation,
-                DirectionSet set = DirectionSet::partition);
+  /// Throws Cancelled when `stop` is asked for: millions of directions take a second.
+  SkyDirections(SkyWeight weight, std::size_t ray_count, const GridRotation& rotation, DirectionSet set = DirectionSet::partition,
+                const std::stop_token& stop = {});
 
   /// Number of rays of the hemisphere, above the horizon or below it: the denominator of a view factor.
   [[nodiscard]] std::size_t ray_count() const { return local_.size(); }

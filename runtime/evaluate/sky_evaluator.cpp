@@ -88,10 +88,11 @@ EvaluationMethod method_of(Engine engine, FarMapOfCell far_map) {
   return engine == Engine::horizon ? horizons_alone : horizons_and_rays;
 }
 
-double sampling_error_of(const SkySettings& settings) {
-  // With an allowed far error, rays answer receivers of the engine `horizon`, too
-  const bool has_rays = settings.engine != Engine::horizon || settings.max_far_error.has_value();
-  const bool has_horizons = settings.engine == Engine::horizon || settings.engine == Engine::automatic;
+double sampling_error_of(const SkySettings& settings, FarMapOfCell far_map) {
+  const EvaluationMethod method = method_of(settings.engine, far_map);
+  const bool has_horizons = method == EvaluationMethod::horizons_alone || method == EvaluationMethod::horizons_and_rays;
+  // With an allowed far error, rays answer some receivers of `horizons_alone`, too
+  const bool has_rays = method != EvaluationMethod::horizons_alone || settings.max_far_error.has_value();
   return std::max(has_rays ? sampling_error(settings.rays) : 0.0, has_horizons ? azimuth_error(settings.azimuths) : 0.0);
 }
 
@@ -106,12 +107,19 @@ struct SkyEvaluator::WholeCityOnDemand {
 };
 
 SkyEvaluator::SkyEvaluator(const PackageReader& package, const SkySettings& settings, std::stop_token stop)
+    : SkyEvaluator(package, settings, std::move(stop), std::make_shared<WholeCityOnDemand>()) {}
+
+SkyEvaluator::SkyEvaluator(const SkyEvaluator& other, const SkySettings& settings)
+    : SkyEvaluator(other.package_, settings, other.stop_, other.city_) {}
+
+SkyEvaluator::SkyEvaluator(const PackageReader& package, const SkySettings& settings, std::stop_token stop,
+                           std::shared_ptr<WholeCityOnDemand> city)
     : package_(package),
       settings_(settings),
       stop_(std::move(stop)),
-      directions_(settings.weight, settings.rays, package.grid().rotation, settings.directions),
+      directions_(settings.weight, settings.rays, package.grid().rotation, settings.directions, stop_),
       azimuths_(AzimuthSampling::even(settings.azimuths, package.grid().rotation)),
-      city_(std::make_unique<WholeCityOnDemand>()) {
+      city_(std::move(city)) {
   FARLOD_EXPECTS(!settings.max_far_error || settings.engine == Engine::exact || settings.engine == Engine::near_only ||
                  !package.manifest().far_map.is_box());
 }
@@ -218,7 +226,7 @@ SkyEvaluator::Numbers SkyEvaluator::draw_horizons(CellGeometry& geometry, const 
                                                   const SkyAnswers& answers) const {
   const std::size_t rays_per_azimuth = std::max<std::size_t>(1, (settings_.rays + settings_.azimuths / 2) / settings_.azimuths);
   HorizonEngine engine(azimuths_, settings_.weight, geometry.far, geometry.silhouettes, geometry.overhangs,
-                       {static_cast<float>(azimuth_error(settings_.azimuths)), rays_per_azimuth});
+                       {static_cast<float>(azimuth_error(settings_.azimuths)), rays_per_azimuth, stop_});
   Numbers uncertain;
   const auto answer_packet = [&](const ReceiverPacket& packet, std::span<const std::uint32_t> numbers) {
     throw_if_cancelled(stop_);
@@ -249,7 +257,7 @@ void SkyEvaluator::require_rays_allowed(Cell cell) const {
   throw PackageUnusable(
       "The engine horizon cannot tell how much sky is seen below bridges, balconies and projecting floors, and there is too "
       "much of it in sight of cell " +
-      std::to_string(cell.i) + "," + std::to_string(cell.j) + ": use --engine auto.");
+      std::to_string(cell.i) + "," + std::to_string(cell.j) + ": use the engine auto.");
 }
 
 void SkyEvaluator::count_rays(CellGeometry& geometry, const CellReceivers& cell, const Numbers& numbers,
@@ -267,7 +275,7 @@ void SkyEvaluator::count_rays(CellGeometry& geometry, const CellReceivers& cell,
       return;
     }
     const DirectionSampling sampling(directions);
-    RayEngine engine(sampling, geometry.far, geometry.silhouettes, geometry.overhangs, wants_bounds(answers));
+    RayEngine engine(sampling, geometry.far, geometry.silhouettes, geometry.overhangs, wants_bounds(answers), stop_);
     for (std::size_t first = 0; first < group.size(); first += ReceiverPacket::lanes) {
       throw_if_cancelled(stop_);
       const auto some = group.subspan(first, std::min(ReceiverPacket::lanes, group.size() - first));

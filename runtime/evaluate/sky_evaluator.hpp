@@ -59,9 +59,10 @@ struct SkySettings {
   std::size_t azimuths = default_azimuths;  ///< of horizons
 };
 
-/// Upper bound of the sampling error, without the error of the far map: that of the azimuths or that of the rays, whichever is
-/// larger among those that the engine uses. Whether there is an allowed far error counts, not how large it is.
-[[nodiscard]] double sampling_error_of(const SkySettings& settings);
+/// Upper bound of the sampling error, without the error of the far map, where cells have far maps of this kind: that of the
+/// azimuths or that of the rays, whichever is larger among those that answer there (method_of). Whether there is an allowed far
+/// error counts, not how large it is.
+[[nodiscard]] double sampling_error_of(const SkySettings& settings, FarMapOfCell far_map = FarMapOfCell::horizon);
 
 /// Arrays that take the answers, indexed by Receiver::index. `low` and `high` are empty where bounds are not wanted.
 struct SkyAnswers {
@@ -82,6 +83,8 @@ class SkyEvaluator {
  public:
   /// The package must outlive the evaluator. When `stop` is asked for, evaluate() ends with Cancelled within some milliseconds.
   SkyEvaluator(const PackageReader& package, const SkySettings& settings, std::stop_token stop = {});
+  /// Of the same package, and stopped by the same token. The two share the scene of the whole city, where they need it.
+  SkyEvaluator(const SkyEvaluator& other, const SkySettings& settings);
   ~SkyEvaluator();
 
   /// Writes the sky view factor of each receiver, in [0, 1], by the method of the cell (method_of). Where `low` and `high` are
@@ -94,7 +97,6 @@ class SkyEvaluator {
   [[nodiscard]] EvaluationStatistics statistics() const;
   [[nodiscard]] const PackageReader& package() const { return package_; }
   [[nodiscard]] const SkySettings& settings() const { return settings_; }
-  [[nodiscard]] const std::stop_token& stop() const { return stop_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -102,6 +104,8 @@ class SkyEvaluator {
   struct WholeCityOnDemand;
   struct CellGeometry;
 
+  SkyEvaluator(const PackageReader& package, const SkySettings& settings, std::stop_token stop,
+               std::shared_ptr<WholeCityOnDemand> city);
   [[nodiscard]] EvaluationMethod method_for(Cell cell) const;
   // One function for each method, or for two that differ little
   void evaluate_by_horizons(const CellReceivers& cell, const SkyAnswers& answers) const;
@@ -128,7 +132,7 @@ class SkyEvaluator {
   std::stop_token stop_;
   SkyDirections directions_;
   AzimuthSampling azimuths_;
-  std::unique_ptr<WholeCityOnDemand> city_;
+  std::shared_ptr<WholeCityOnDemand> city_;
   mutable std::atomic<double> scenes_s_ = 0.0, evaluate_s_ = 0.0;
   mutable std::atomic<std::uint64_t> by_rays_ = 0, retraced_rays_ = 0;
 };

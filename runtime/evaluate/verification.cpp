@@ -77,7 +77,7 @@ std::vector<std::size_t> choose_some(std::size_t size, std::size_t count) {
 
 ErrorSummary verify(const SkyEvaluator& evaluator, const VerifySettings& settings, std::span<const std::size_t> counts,
                     const ReceiversOfCell& receivers_of) {
-  const SkyEvaluator reference(evaluator.package(), reference_settings(evaluator.settings()), evaluator.stop());
+  const SkyEvaluator reference(evaluator, reference_settings(evaluator.settings()));
   const auto chosen = choose_receivers(counts, settings.receivers);
   std::vector<std::vector<float>> answers(counts.size()), exact(counts.size());
   oneapi::tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t n) {

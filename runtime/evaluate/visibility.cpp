@@ -27,11 +27,12 @@ std::vector<std::uint32_t> count_free(const Occluder& occluder, std::span<const 
                                       std::span<const Point3d> directions, const std::stop_token& stop) {
   std::vector<std::uint32_t> free(origins.size(), 0);
   for (std::size_t first = 0; first < origins.size(); first += RayOrigins::lanes) {
-    throw_if_cancelled(stop);
     const std::size_t count = std::min(RayOrigins::lanes, origins.size() - first);
     const RayOrigins together = gathered(origins.subspan(first, count));
     const std::uint32_t wanted = (1U << count) - 1;
-    for (const Point3d& d : directions) {
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      if (k % directions_between_looks == 0) throw_if_cancelled(stop);
+      const Point3d& d = directions[k];
       const Point3f direction{static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)};
       const std::uint32_t open = wanted & ~occluder.blocked(together, direction, least_distance_m, wanted);
       for (std::size_t l = 0; l < count; ++l) free[first + l] += (open >> l) & 1U;

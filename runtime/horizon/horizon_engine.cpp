@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "contract/cancellation.hpp"
 #include "contract/expects.hpp"
 #include "horizon/kernels.hpp"
 
@@ -144,7 +145,7 @@ HorizonEngine::SkyInGaps HorizonEngine::sky_in_gaps(const ReceiverPacket& receiv
     if (has_bit(gaps.by_rays, l)) untraced[l] = remove_smallest_gaps(gap_rows_, l, untraced_of_tolerance * gaps_.tolerance);
   const Lanes seen = trace_gaps(
       {horizons_.grounded, horizons_.lower_borders, horizons_.far_lower_borders, horizons_.far_upper_borders, gap_rows_},
-      azimuths_, weight_, receivers, gaps.by_rays, gaps_.rays_per_azimuth, overhangs_.scene());
+      azimuths_, weight_, receivers, gaps.by_rays, gaps_.rays_per_azimuth, overhangs_.scene(), gaps_.stop);
   for (std::size_t l = 0; l < most.size(); ++l)
     if (has_bit(gaps.by_rays, l)) gaps.sky[l] = seen[l] + sky_in_untraced * untraced[l];
   return gaps;
@@ -170,7 +171,7 @@ float remove_smallest_gaps(std::span<PacketHorizon::Row> sky, std::size_t lane, 
 }
 
 Lanes trace_gaps(const Gaps& gaps, const AzimuthSampling& azimuths, SkyWeight weight, const ReceiverPacket& receivers,
-                 std::uint32_t wanted, std::size_t rays_per_azimuth, const PlacedScene& scene) {
+                 std::uint32_t wanted, std::size_t rays_per_azimuth, const PlacedScene& scene, const std::stop_token& stop) {
   const SkyKernels& kernels = sky_kernels();
   const RayOrigins origins = scene.origins_of(receivers);
   Lanes seen{};
@@ -184,6 +185,7 @@ Lanes trace_gaps(const Gaps& gaps, const AzimuthSampling& azimuths, SkyWeight we
     kernels.find_gap_ends(gaps.from.row(k).data(), gaps.to.row(k).data(), receivers, azimuth, ends);
     Lanes free_rays{};
     for (std::size_t n = 0; n < count; ++n) {
+      if (n % directions_between_looks == 0) throw_if_cancelled(stop);
       Occluder::Directions directions;
       directions.x.fill(azimuth.cosine);
       directions.y.fill(azimuth.sine);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "horizon/azimuth_sampling.hpp"
@@ -35,16 +36,18 @@ struct Gaps {
 [[nodiscard]] float remove_smallest_gaps(std::span<PacketHorizon::Row> sky, std::size_t lane, float max_sky);
 
 /// Traces rays in the gaps of the receivers with set bits, and returns the sky that is seen through them. A gap that is all of
-/// its azimuth's sky gets `rays_per_azimuth` rays, a smaller one its share, and at least one.
+/// its azimuth's sky gets `rays_per_azimuth` rays, a smaller one its share, and at least one. Throws Cancelled when
+/// `stop` is asked for.
 [[nodiscard]] PacketHorizon::Lanes trace_gaps(const Gaps& gaps, const AzimuthSampling& azimuths, SkyWeight weight,
                                               const ReceiverPacket& receivers, std::uint32_t wanted, std::size_t rays_per_azimuth,
-                                              const PlacedScene& scene);
+                                              const PlacedScene& scene, const std::stop_token& stop = {});
 
 /// How gaps are treated.
 struct GapSettings {
   /// A receiver with at most so much sky in its gaps needs no rays: half of it counts.
   float tolerance = 0.0F;
   std::size_t rays_per_azimuth = 4;
+  std::stop_token stop = {};  ///< ends the tracing of gaps with Cancelled
 };
 
 /// Sky view factors from horizons: edges are drawn for each receiver, and the sky above them is integrated in closed form. For

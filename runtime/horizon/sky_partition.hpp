@@ -6,8 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <stop_token>
 #include <vector>
 
+#include "contract/cancellation.hpp"
 #include "contract/expects.hpp"
 #include "farlod/evaluation.hpp"
 #include "farlod/point.hpp"
@@ -37,7 +39,8 @@ class SkyPartition {
   /// Within a ring, the m-th of n samples has azimuth (m + ½)/n of the circle, and the share frac(m/golden ratio) of the
   /// ring's area below it: a lattice, so that a horizon at constant height is not counted a whole ring at once.
   /// Rings are turned against each other by the golden angle: rings that all start at azimuth 0 alias with streets.
-  [[nodiscard]] std::vector<Point3d> directions() const;
+  /// Throws Cancelled when `stop` is asked for.
+  [[nodiscard]] std::vector<Point3d> directions(const std::stop_token& stop = {}) const;
 
  private:
   [[nodiscard]] static std::vector<std::size_t> rings(SkyWeight weight, std::size_t cell_count);
@@ -84,7 +87,7 @@ inline std::vector<std::size_t> SkyPartition::rings(SkyWeight weight, std::size_
   return outside_in;
 }
 
-inline std::vector<Point3d> SkyPartition::directions() const {
+inline std::vector<Point3d> SkyPartition::directions(const std::stop_token& stop) const {
   constexpr double golden = std::numbers::phi - 1.0;  // frac(m·golden) fills [0, 1) evenly for any number of m
   const auto fraction = [](double x) { return x - std::floor(x); };
   const auto k = static_cast<double>(size());
@@ -93,6 +96,7 @@ inline std::vector<Point3d> SkyPartition::directions() const {
   for (std::size_t ring = 0; ring < ring_count(); ++ring) {
     const auto n = static_cast<double>(cells_of_ring(ring));
     const double first = static_cast<double>(cells_inside_[ring]) - n;
+    throw_if_cancelled(stop);
     const double turn = fraction(static_cast<double>(ring) * golden);
     for (std::size_t m = 0; m < cells_of_ring(ring); ++m) {
       // The offset ½ makes the one cell at the zenith sample its middle

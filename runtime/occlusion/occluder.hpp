@@ -32,12 +32,15 @@ struct RayOrigins {
   alignas(64) std::array<float, lanes> x{}, y{}, z{};
 };
 
+/// Who traces millions of directions looks after so many whether he is asked to stop: they take some milliseconds.
+inline constexpr std::size_t directions_between_looks = 4096;
+
 struct Hit {
   float distance = 0.0F;  ///< along the ray, in lengths of its direction
   std::uint32_t triangle = 0;
 };
 
-/// Embree, or the memory that it asked for, failed.
+/// Embree failed.
 class OcclusionError : public Error {
  public:
   using Error::Error;
@@ -50,8 +53,8 @@ class OcclusionError : public Error {
 /// that ends or begins on a triangle meets it is not specified.
 class Occluder {
  public:
-  /// Takes the triangles; vertex numbers must be below vertices.size(). Throws OcclusionError, and Cancelled when `stop` is asked
-  /// for meanwhile.
+  /// Takes the triangles; vertex numbers must be below vertices.size(). Throws OcclusionError, std::bad_alloc where
+  /// Embree has too little memory, and Cancelled when `stop` is asked for meanwhile.
   Occluder(std::vector<Point3f> vertices, std::vector<Triangle> triangles, const std::stop_token& stop = {});
   Occluder(Occluder&&) noexcept;
   Occluder& operator=(Occluder&&) noexcept;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <limits>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -85,6 +86,7 @@ struct Occluder::Impl {
 
   void build(std::size_t vertex_count, const std::stop_token& stop) {
     const RTCDevice device = shared_device();
+    (void)rtcGetDeviceError(device);  // what a build on this thread left, whatever it was: Embree keeps the first error
     scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -96,6 +98,16 @@ struct Occluder::Impl {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
+    commit(stop);
+    const RTCError error = rtcGetDeviceError(device);
+    throw_if_cancelled(stop);  // which is an error of Embree, too
+    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (error != RTC_ERROR_NONE)
+      throw OcclusionError("Embree could not index " + std::to_string(triangles.size()) + " triangles (error " +
+                           std::to_string(error) + ")");
+  }
+
+  void commit(const std::stop_token& stop) const {
     // Embree asks from several threads, and not at all in its first steps: a build of millions of triangles ends some tenths of a
     // second after the stop
     if (stop.stop_possible())
@@ -104,10 +116,6 @@ struct Occluder::Impl {
           const_cast<std::stop_token*>(&stop));
     rtcCommitScene(scene);
     rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
-    throw_if_cancelled(stop);
-    if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
-      throw OcclusionError("Embree could not index " + std::to_string(triangles.size()) + " triangles (error " +
-                           std::to_string(error) + ")");
   }
 
   /// The nearest of all triangles where `counts` is null.

@@ -2,13 +2,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "occlusion/placed_mesh.hpp"
 
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "contract/cancellation.hpp"
-#include "contract/expects.hpp"
+#include "farlod/error.hpp"
 
 namespace farlod {
+namespace {
+
+/// Vertices and triangles of a scene have numbers of 32 bits, the last of which means none.
+void require_numbers_for(std::size_t vertex_count, std::size_t triangle_count) {
+  constexpr std::size_t most = 0xFFFFFFFE;
+  if (vertex_count <= most && triangle_count <= most) return;
+  throw LimitReached("a scene would have " + std::to_string(vertex_count) + " corners and " + std::to_string(triangle_count) +
+                     " triangles, and can have " + std::to_string(most) +
+                     " of each: leave out what needs the whole city in one scene (the engine exact, a verification, a largest "
+                     "error, points beyond the grid), or pack a part of the city.");
+}
+
+}  // namespace
 
 Occluder occluder_of(std::span<const PlacedMesh> tiles, const std::stop_token& stop) {
   std::size_t vertex_count = 0, triangle_count = 0;
@@ -16,7 +30,7 @@ Occluder occluder_of(std::span<const PlacedMesh> tiles, const std::stop_token& s
     vertex_count += tile.mesh.vertices.size();
     triangle_count += tile.mesh.triangles.size();
   }
-  FARLOD_EXPECTS(vertex_count < 0xFFFFFFFF && triangle_count < 0xFFFFFFFF);
+  require_numbers_for(vertex_count, triangle_count);
   std::vector<Point3f> vertices;
   std::vector<Triangle> triangles;
   vertices.reserve(vertex_count + 1);  // Embree wants one more, for padding

@@ -26,6 +26,7 @@ struct PlacedMesh {
 }
 
 /// One occluder of many tiles, each `placed`. Triangles are numbered through, in the order given.
+/// Throws LimitReached where there are more than 32 bits can number.
 [[nodiscard]] Occluder occluder_of(std::span<const PlacedMesh> tiles, const std::stop_token& stop = {});
 
 /// One occluder of the tiles of some cells, in the order of the range. Its frame is the grid frame, moved to `origin_grid`.

@@ -4,8 +4,10 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "contract/package/layout.hpp"
@@ -19,8 +21,6 @@ using nlohmann::json;
 using namespace package;
 
 constexpr std::int64_t most_cells = std::int64_t{1} << 34;
-/// Beyond it, multiples of the cell edge are no longer exact (exact_cell_edge_m).
-constexpr std::int32_t farthest_index = std::int32_t{1} << 29;
 /// Eastings with a zone's number in front come to some ten million metres; no reference system reaches a thousand million.
 constexpr double farthest_m = 1e9;
 /// Of a map of 64 × 64 texels a side, 4096 times over: more than that is not a map of one cell.
@@ -55,7 +55,8 @@ CellRange cells_from(const json& j) {
   require(j.size() == 4, "\"cells\" does not hold four numbers");
   std::vector<std::int32_t> k;
   for (const json& index : j) k.push_back(whole_number<std::int32_t>(index));
-  const bool near = std::all_of(k.begin(), k.end(), [](std::int32_t n) { return -farthest_index <= n && n <= farthest_index; });
+  const bool near =
+      std::all_of(k.begin(), k.end(), [](std::int32_t n) { return -farthest_cell_index <= n && n <= farthest_cell_index; });
   const CellRange cells{k[0], k[1], k[2], k[3]};
   // Neither side exceeds 2³⁰ now, so that the product cannot overflow
   require(near && cells.size() > 0 && cells.size() <= most_cells, "the range of cells is impossible");
@@ -148,12 +149,20 @@ Manifest manifest_from(const json& j) {
   return m;
 }
 
+void require_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) return;
+  if (!std::filesystem::status_known(status))
+    throw PackageUnusable(path.string() + " cannot be looked at: " + error.message() + ". Check its name, and who may read it.");
+  throw PackageUnusable(path.string() + " is not a package: there is no such folder. farlod-pack makes one.");
+}
+
 }  // namespace
 
 Manifest read_manifest(const std::filesystem::path& package_folder) {
   const std::filesystem::path path = package_folder / manifest_file;
-  if (!std::filesystem::is_directory(package_folder))
-    throw PackageUnusable(package_folder.string() + " is not a package: there is no such folder. farlod-pack makes one.");
+  require_folder(package_folder);
   std::ifstream file(path);
   if (!file)
     throw PackageUnusable(package_folder.string() + " is not a finished package: it has no " + manifest_file +
@@ -164,6 +173,8 @@ Manifest read_manifest(const std::filesystem::path& package_folder) {
     require_readable_version(path.string(), whole_number<std::uint32_t>(j.at("version")));
     return manifest_from(j);
   } catch (const PackageUnusable&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& reason) {
     throw PackageDamaged(path.string() + " is damaged: " + reason.what() + ". Pack the city again.");

@@ -5,6 +5,8 @@
 #include <boost/interprocess/file_mapping.hpp>
 #include <boost/interprocess/mapped_region.hpp>
 
+#include <new>
+
 #include "package/mapped_file.hpp"
 #include "package/package_error.hpp"
 
@@ -20,6 +22,8 @@ MappedFile::MappedFile(const std::filesystem::path& path) : impl_(std::make_uniq
     // An empty file cannot be mapped; it has no bytes, and the reader will say what is missing
     if (std::filesystem::file_size(path) == 0) return;
     impl_->region = ipc::mapped_region(ipc::file_mapping(path.c_str(), ipc::read_only), ipc::read_only);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& reason) {
     throw PackageDamaged(path.string() + " is missing or cannot be read. Copy the package again, or pack the city again. (" +
                          reason.what() + ")");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "contract/expects.hpp"
 
@@ -17,11 +18,12 @@ std::uint32_t whole(float count) { return static_cast<std::uint32_t>(count); }
 }  // namespace
 
 RayEngine::RayEngine(const DirectionSampling& directions, const FarHorizon& far, const CellSilhouettes& silhouettes,
-                     OverhangGeometry& overhangs, bool wants_bounds)
+                     OverhangGeometry& overhangs, bool wants_bounds, std::stop_token stop)
     : directions_(directions),
       silhouettes_(silhouettes),
       overhangs_(overhangs),
       wants_bounds_(wants_bounds),
+      stop_(std::move(stop)),
       residual_(far, directions.azimuths()),
       for_estimate_(directions.azimuths()),
       for_high_(directions.azimuths()),
@@ -59,6 +61,7 @@ void RayEngine::draw_horizons(std::span<const Receiver> receivers) {
   for_estimate_.draw_overhangs(silhouettes_, packet_, below, FarGapEnd::lowest);
   for_estimate_.lower_borders.lower_to(for_estimate_.upper_borders);
   if (!wants_bounds_) return;
+  throw_if_cancelled(stop_);
   // The high count: the residual's low bound, and gaps up to the highest borders
   for_high_.grounded.clear();
   for_high_.grounded.raise(silhouettes_.grounded, packet_);
@@ -85,6 +88,7 @@ void RayEngine::trace_gaps() {
   const PlacedScene scene = overhangs_.scene();
   const RayOrigins origins = scene.origins_of(packet_);
   for (std::uint32_t k = 0; k < directions_.size(); ++k) {
+    look_for_stop(k);
     const float slope = directions_.slopes()[k];
     const std::uint32_t estimate = in_gap(for_estimate_, k, slope), high = wants_bounds_ ? in_gap(for_high_, k, slope) : 0U;
     const std::uint32_t wanted = estimate | high;
@@ -103,6 +107,7 @@ std::uint64_t RayEngine::retrace(const Occluder& city, const RayOrigins& origins
   for (std::size_t l = 0; l < free.size(); ++l)
     if ((uncertain & bit_of(l)) != 0) free[l].high = free[l].low;
   for (std::uint32_t k = 0; k < directions_.size(); ++k) {
+    look_for_stop(k);
     const float slope = directions_.slopes()[k];
     // Trace the rays between the horizons of both bounds, and those in gaps
     const bool is_gap_ray = gap_ray != gap_rays_.end() && gap_ray->azimuth == k;

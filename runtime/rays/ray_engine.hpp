@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
+#include "contract/cancellation.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/overhangs.hpp"
@@ -28,8 +30,9 @@ struct FreeRays {
 class RayEngine {
  public:
   /// All must outlive it. For receivers of one cell. Without `wants_bounds`, low = high = estimate.
+  /// When `stop` is asked for, count() and retrace() end with Cancelled.
   RayEngine(const DirectionSampling& directions, const FarHorizon& far, const CellSilhouettes& silhouettes,
-            OverhangGeometry& overhangs, bool wants_bounds);
+            OverhangGeometry& overhangs, bool wants_bounds, std::stop_token stop = {});
 
   /// For up to ReceiverPacket::lanes receivers.
   [[nodiscard]] std::vector<FreeRays> count(std::span<const Receiver> receivers);
@@ -42,6 +45,10 @@ class RayEngine {
 
  private:
   void draw_horizons(std::span<const Receiver> receivers);
+  /// Of a loop over the directions: looks from time to time whether there is an end asked for.
+  void look_for_stop(std::uint32_t k) const {
+    if (k % directions_between_looks == 0) throw_if_cancelled(stop_);
+  }
   /// Finds the rays that pass through gaps.
   void trace_gaps();
   /// A bit for each receiver whose ray lies in a gap.
@@ -57,6 +64,7 @@ class RayEngine {
   const CellSilhouettes& silhouettes_;
   OverhangGeometry& overhangs_;
   bool wants_bounds_;
+  std::stop_token stop_;
   ResidualHorizon residual_;
   ReceiverPacket packet_;
   /// The horizons that give the estimate, the high count and the low count. A low horizon gives a high count. Without bounds,

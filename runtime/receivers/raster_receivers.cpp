@@ -69,14 +69,10 @@ CellReceivers RasterReceivers::in_cell(const PackageReader& package, Cell cell, 
     const Point2d p = p_grid - manifest_.grid.corner_of(cell);
     if (const auto p_cell = stand(locator, static_cast<float>(p.x), static_cast<float>(p.y), above, height_m))
       result.receivers.push_back({index, *p_cell});
+    else
+      ++result.left_out;
   });
   return result;
-}
-
-std::size_t RasterReceivers::pixel_count(Cell cell) const {
-  std::size_t count = 0;
-  for_each_pixel(cell, [&count](std::size_t, Point2d) { ++count; });
-  return count;
 }
 
 }  // namespace farlod

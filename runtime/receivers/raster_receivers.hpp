@@ -35,12 +35,10 @@ class RasterReceivers {
   [[nodiscard]] std::vector<Cell> cells() const;
   /// All pixels whose centres a cell holds lie in this range, and others do.
   [[nodiscard]] PixelRange range_of(Cell cell) const;
-  /// The receivers of one cell; pixels inside buildings are left out. Neighbors in the plane are neighbors in the list.
-  /// Throws Cancelled when `stop` is asked for.
+  /// The receivers of one cell; pixels inside buildings are left out, and counted. Neighbors in the plane are neighbors in the
+  /// list. Throws Cancelled when `stop` is asked for.
   [[nodiscard]] CellReceivers in_cell(const PackageReader& package, Cell cell, HeightAbove above, float height_m,
                                       const std::stop_token& stop = {}) const;
-  /// How many pixels have their centres in a cell, inside buildings or not.
-  [[nodiscard]] std::size_t pixel_count(Cell cell) const;
 
  private:
   /// Calls `visit(index, p_grid)` for each pixel whose centre the cell holds, patch by patch.

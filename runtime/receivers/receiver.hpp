@@ -28,6 +28,7 @@ struct Receiver {
 struct CellReceivers {
   Cell cell;
   std::vector<Receiver> receivers;
+  std::size_t left_out = 0;  ///< of a raster: pixels of the cell where no receiver can stand
 };
 
 /// The height of a receiver in the package's heights; none where the surface that its height counts from does not exist.

@@ -80,7 +80,7 @@ float lean_ahead_m(const Piece& wall, float z_m) {
 }
 
 void spread(const TileView& tile, const Piece& piece, std::uint32_t t, double spacing_m, LocatorsAround& locators,
-            std::vector<SurfaceReceiver>& receivers) {
+            const std::stop_token& stop, std::vector<SurfaceReceiver>& receivers) {
   const Triangle& corners = tile.mesh.triangles[t];
   const Point3f a = tile.mesh.vertices[corners.a];
   const Point3f ab = tile.mesh.vertices[corners.b] - a, ac = tile.mesh.vertices[corners.c] - a;
@@ -88,6 +88,7 @@ void spread(const TileView& tile, const Piece& piece, std::uint32_t t, double sp
   if (area_m2 == 0.0F) return;  // rounded to nothing: it has no area to stand for
   const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(area_m2) / (spacing_m * spacing_m))));
   for (std::size_t n = 0; n < count; ++n) {
+    throw_if_cancelled(stop);
     const Point2d w = place_in_triangle(n, count);
     const Point3f on_surface = a + static_cast<float>(w.x) * ab + static_cast<float>(w.y) * ac;
     const Point3f p = on_surface + (surface_offset_m + lean_ahead_m(piece, on_surface.z)) * piece.normal;
@@ -106,10 +107,7 @@ std::vector<SurfaceReceiver> surface_receivers(const PackageReader& package, Cel
   for (const package::SurfaceRun& run : tile.surface_runs) {
     if (is_chosen(tile.surfaces[run.surface].kind(), choice)) {
       const Piece piece = piece_of(tile, begin, run);
-      for (std::uint32_t t = begin; t < run.end; ++t) {
-        throw_if_cancelled(stop);
-        spread(tile, piece, t, spacing_m, locators, receivers);
-      }
+      for (std::uint32_t t = begin; t < run.end; ++t) spread(tile, piece, t, spacing_m, locators, stop, receivers);
     }
     begin = run.end;
   }

@@ -3,29 +3,59 @@
 #include "run/memory_limit.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
+#include "evaluate/verification.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod {
 namespace {
 
-constexpr std::uint64_t mib = 1024 * 1024;
+constexpr double mib = 1 << 20;
 
 // Measured on Debian 12, and rounded up
-constexpr std::uint64_t program_bytes = 80 * mib;  // the program and its libraries, before there is a cell
-constexpr std::uint64_t thread_bytes = 12 * mib;   // scenes of cells, and what the allocator keeps for the next
-constexpr std::uint64_t receiver_bytes = 128;      // a receiver on its way, with its answers
-constexpr std::uint64_t triangle_bytes = 224;      // of the whole city's scene: the triangle, its corners, Embree's tree
+constexpr double program_bytes = 80 * mib;  // the program and its libraries, before there is a cell
+constexpr double thread_bytes = 12 * mib;   // scenes of cells, and what the allocator keeps for the next
+constexpr double receiver_bytes = 128;      // a receiver on its way, with its answers
+constexpr double triangle_bytes = 224;      // of the whole city's scene: the triangle, its corners, Embree's tree
+
+// Of a sample of the sky: a direction, and what each thread has at an azimuth, 64 bytes for each of the horizons of an engine
+constexpr double direction_bytes = sizeof(Point3d);
+constexpr double azimuth_bytes = 100 + 8 * 64;       // HorizonEngine
+constexpr double ray_azimuth_bytes = 180 + 11 * 64;  // RayEngine, with the directions in the order of their azimuths
 
 bool traces_whole_city(const ResolvedSettings& settings) {
   return settings.sky.engine == Engine::exact || settings.verify > 0 || settings.sky.max_far_error.has_value();
 }
 
-std::string in_mib(std::uint64_t bytes) { return std::to_string((bytes + mib - 1) / mib); }
+/// The directions as they are and turned to the grid, and those of a normal on each thread.
+double bytes_of_directions(std::size_t rays, std::size_t threads) {
+  return direction_bytes * static_cast<double>(rays) * (2.0 + static_cast<double>(threads));
+}
 
-void require_below_limit(std::uint64_t bytes, const RunSettings& run, const std::string& what, const std::string& instead) {
-  if (bytes <= *run.memory_limit_mib * mib) return;
+/// What grows with the numbers of azimuths and rays.
+double bytes_of_samples(const package::Manifest& manifest, const ResolvedSettings& settings) {
+  const SkySettings& sky = settings.sky;
+  const bool has_horizon_maps = !manifest.far_map.is_box();
+  const bool by_horizons = has_horizon_maps && (sky.engine == Engine::automatic || sky.engine == Engine::horizon);
+  const bool by_ray_horizons = has_horizon_maps && (sky.engine == Engine::rays || (by_horizons && sky.max_far_error));
+  const double of_thread = (by_horizons ? azimuth_bytes * static_cast<double>(sky.azimuths) : 0.0) +
+                           (by_ray_horizons ? ray_azimuth_bytes * static_cast<double>(sky.rays) : 0.0);
+  return static_cast<double>(settings.threads) * of_thread + bytes_of_directions(sky.rays, settings.threads);
+}
+
+/// The scene, and the directions of a verification, which are others.
+double bytes_of_whole_city(const package::Manifest& manifest, const ResolvedSettings& settings) {
+  const std::size_t rays = settings.verify > 0 ? std::max(verify_rays, settings.sky.rays) : 0;
+  return static_cast<double>(manifest.triangles) * triangle_bytes + bytes_of_directions(rays, settings.threads);
+}
+
+std::string in_mib(double bytes) { return std::to_string(static_cast<std::uint64_t>(std::ceil(bytes / mib))); }
+
+void require_below_limit(double bytes, const RunSettings& run, const std::string& what, const std::string& instead) {
+  if (bytes <= static_cast<double>(*run.memory_limit_mib) * mib) return;
   throw LimitReached(what + " needs about " + in_mib(bytes) + " MiB, more than the limit of " +
                      std::to_string(*run.memory_limit_mib) + " MiB: raise the memory limit, or " + instead + ".");
 }
@@ -43,14 +73,21 @@ std::uint64_t bytes_of_blocks_at_work(const package::Manifest& manifest) {
   return std::min<std::uint64_t>(blocks_at_work, manifest.blocks.size()) * largest;
 }
 
+RunSettings with_bytes_of_caller(RunSettings run, std::uint64_t bytes) {
+  run.caller_bytes += std::min(bytes, std::numeric_limits<std::uint64_t>::max() - run.caller_bytes);
+  return run;
+}
+
 void require_memory(const package::Manifest& manifest, const ResolvedSettings& settings, const MemoryNeeds& needs) {
   if (!settings.run.memory_limit_mib) return;
-  const std::uint64_t in_flight = cells_in_flight(settings.threads) * needs.receivers_of_cell * receiver_bytes;
-  const std::uint64_t bytes = program_bytes + settings.threads * thread_bytes + needs.results + settings.run.caller_bytes +
-                              in_flight + bytes_of_blocks_at_work(manifest);
-  require_below_limit(bytes, settings.run, "this run", "use fewer threads, a coarser raster, or a part at a time");
+  const auto threads = static_cast<double>(settings.threads);
+  const double in_flight = static_cast<double>(cells_in_flight(settings.threads)) * needs.receivers_of_cell * receiver_bytes;
+  const double bytes = program_bytes + threads * thread_bytes + needs.results + static_cast<double>(settings.run.caller_bytes) +
+                       in_flight + bytes_of_samples(manifest, settings) + static_cast<double>(bytes_of_blocks_at_work(manifest));
+  require_below_limit(bytes, settings.run, "this run",
+                      "use fewer threads, a coarser raster, a part at a time, or fewer rays and azimuths");
   if (needs.whole_city || traces_whole_city(settings))
-    require_below_limit(bytes + manifest.triangles * triangle_bytes, settings.run, "tracing the whole city",
+    require_below_limit(bytes + bytes_of_whole_city(manifest, settings), settings.run, "tracing the whole city",
                         "leave out what needs it (the engine exact, a verification, a largest error, points beyond the grid)");
 }
 

@@ -9,11 +9,11 @@
 
 namespace farlod {
 
-/// What a run holds besides the package.
+/// What a run holds besides the package. The numbers are doubles, whose sums and products do not wrap.
 struct MemoryNeeds {
-  std::uint64_t results = 0;            ///< bytes, however many threads there are
-  std::uint64_t receivers_of_cell = 0;  ///< the most receivers of a cell, as far as they are known beforehand
-  bool whole_city = false;              ///< everything in one scene, whatever the settings
+  double results = 0.0;            ///< bytes, however many threads there are
+  double receivers_of_cell = 0.0;  ///< the most receivers of a cell, as far as they are known beforehand
+  bool whole_city = false;         ///< everything in one scene, whatever the settings
 };
 
 /// Cells that are worked on at the same time.
@@ -21,6 +21,9 @@ struct MemoryNeeds {
 
 /// Bytes of the blocks that the cells in flight of a run need.
 [[nodiscard]] std::uint64_t bytes_of_blocks_at_work(const package::Manifest& manifest);
+
+/// The same run, whose caller holds so many bytes more.
+[[nodiscard]] RunSettings with_bytes_of_caller(RunSettings run, std::uint64_t bytes);
 
 /// Throws LimitReached when the run needs more memory than the caller gives it. Where the caller says nothing, there is no limit
 /// to reach: what a run takes does not grow with the city, unless the whole city has to be one scene.

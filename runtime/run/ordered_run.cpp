@@ -120,6 +120,12 @@ EvaluationSeconds seconds_of(double wall_s, const EvaluationStatistics& evaluati
   return {wall_s * scene_share, wall_s * (1.0 - scene_share - store_share), wall_s * store_share};
 }
 
+/// The error of what answered: of far maps of the kind `box`, and beyond the grid, that is rays, whatever the engine.
+double sampling_error_of_run(const SkySettings& sky, const package::Manifest& manifest, bool has_left_grid) {
+  const double in_grid = sampling_error_of(sky, manifest.far_map.is_box() ? FarMapOfCell::box : FarMapOfCell::horizon);
+  return has_left_grid ? std::max(in_grid, sampling_error_of(sky, FarMapOfCell::none)) : in_grid;
+}
+
 Tally evaluate_and_store(const SkyEvaluator& evaluator, const ResolvedSettings& settings, std::size_t cell_count,
                          const ReceiversOfCell& receivers_of, const StoreValues& store) {
   Tally tally;
@@ -147,6 +153,7 @@ EvaluationSummary evaluate_and_verify(const PackageReader& package, const Resolv
   EvaluationSummary summary;
   summary.seconds = seconds_of(seconds_since(start), evaluation, tally.store_s);
   summary.accuracy = settings.accuracy;
+  summary.accuracy.sampling_error = sampling_error_of_run(settings.sky, package.manifest(), tally.outside_of_grid > 0);
   summary.outside_of_grid = tally.outside_of_grid;
   summary.by_rays = evaluation.by_rays;
   summary.retraced_rays = evaluation.retraced_rays;

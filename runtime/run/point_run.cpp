@@ -9,6 +9,7 @@
 
 #include "farlod/error.hpp"
 #include "farlod/points.hpp"
+#include "package/manifest_reader.hpp"
 #include "receivers/hilbert_curve.hpp"
 #include "receivers/point_receivers.hpp"
 #include "run/memory_limit.hpp"
@@ -37,21 +38,34 @@ void require_same_sizes(const Points& points, const PointAnswerSpans& answers, b
   require_as_long("high", answers.high.size(), count);
 }
 
-/// No map is as large, and no place on it as high or as low. Beyond, a cell has no number.
-void require_on_earth(const PlaceOfReceiver& place, std::size_t n) {
+/// No map is as large, and no place on it as high or as low.
+bool is_on_earth(const PlaceOfReceiver& place) {
   constexpr double farthest_m = 1e8, highest_m = 1e5;
   const auto& [p, height_m] = place;
-  // Written so that NaN is refused, too
-  if (std::abs(p.x) <= farthest_m && std::abs(p.y) <= farthest_m && std::abs(height_m.value_or(0.0)) <= highest_m) return;
-  throw InvalidPoint(n, "point " + std::to_string(n + 1) + " lies nowhere on Earth: check its coordinates, and their CRS");
+  // Written so that NaN is not, either
+  return std::abs(p.x) <= farthest_m && std::abs(p.y) <= farthest_m && std::abs(height_m.value_or(0.0)) <= highest_m;
 }
 
-std::vector<PlaceOfReceiver> places_of(const Points& points) {
+/// Of small cells, so many would lie between the grid and a place far away that its cell has no number (exact_cell_edge_m).
+bool has_a_cell(const PlaceOfReceiver& place, const package::Manifest& manifest) {
+  const Point2d p_grid = manifest.grid_from_projected(place.p_projected);
+  const double farthest_m = farthest_cell_index * manifest.grid.cell_edge_m;
+  return std::abs(p_grid.x) < farthest_m && std::abs(p_grid.y) < farthest_m;
+}
+
+void require_usable(const PlaceOfReceiver& place, const package::Manifest& manifest, std::size_t n) {
+  const std::string named = "the point of index " + std::to_string(n) + " (counted from 0) lies ";
+  if (!is_on_earth(place)) throw InvalidPoint(n, named + "nowhere on Earth: check its coordinates, and their CRS");
+  if (!has_a_cell(place, manifest))
+    throw InvalidPoint(n, named + "too far from the city for the cells of its grid: leave it out, or check its CRS");
+}
+
+std::vector<PlaceOfReceiver> places_of(const Points& points, const package::Manifest& manifest) {
   std::vector<PlaceOfReceiver> places(points.x_m.size());
   for (std::size_t n = 0; n < places.size(); ++n) {
     places[n].p_projected = {points.x_m[n], points.y_m[n]};
     if (!points.z_m.empty() && !std::isnan(points.z_m[n])) places[n].height_m = points.z_m[n];
-    require_on_earth(places[n], n);
+    require_usable(places[n], manifest, n);
   }
   return places;
 }
@@ -73,10 +87,10 @@ PlacesByCell places_along_curve(const PackageReader& package, std::span<const Pl
 
 MemoryNeeds needs_of(const PackageReader& package, std::size_t point_count, const PlacesByCell& cells) {
   // A point, and its place in its cell; its answer is the caller's
-  constexpr std::uint64_t bytes_of_point = sizeof(PlaceOfReceiver) + sizeof(std::size_t);
-  MemoryNeeds needs{point_count * bytes_of_point, 0, false};
+  constexpr double bytes_of_point = sizeof(PlaceOfReceiver) + sizeof(std::size_t);
+  MemoryNeeds needs{static_cast<double>(point_count) * bytes_of_point};
   for (const auto& [cell, chosen] : cells) {
-    needs.receivers_of_cell = std::max<std::uint64_t>(needs.receivers_of_cell, chosen.size());
+    needs.receivers_of_cell = std::max(needs.receivers_of_cell, static_cast<double>(chosen.size()));
     needs.whole_city = needs.whole_city || !package.grid().cells.contains(cell);
   }
   return needs;
@@ -110,7 +124,7 @@ EvaluationSummary evaluate_points(const Package& package, const Points& points, 
   const PackageInUse in_use(package);
   const PackageReader& reader = in_use.reader();
   require_same_sizes(points, answers, settings.bounds);
-  const std::vector<PlaceOfReceiver> places = places_of(points);
+  const std::vector<PlaceOfReceiver> places = places_of(points, reader.manifest());
   const PlacesByCell cells = places_along_curve(reader, places);
   require_memory(reader.manifest(), settings, needs_of(reader, places.size(), cells));
   fill_with_no_data(answers);
@@ -129,10 +143,11 @@ EvaluationSummary evaluate_points(const Package& package, const Points& points, 
 PointAnswers evaluate_points(const Package& package, const Points& points, const Placing& placing,
                              const EvaluationSettings& settings, const RunSettings& run) {
   const std::size_t count = points.x_m.size(), bounds = settings.bounds ? count : 0;
+  const RunSettings with_answers = with_bytes_of_caller(run, (count + 2 * bounds) * sizeof(float) + count * sizeof(double));
   PointAnswers answers{
       std::vector<float>(count), std::vector<float>(bounds), std::vector<float>(bounds), std::vector<double>(count), {}};
-  answers.summary =
-      evaluate_points(package, points, placing, settings, {answers.svf, answers.low, answers.high, answers.height_m}, run);
+  answers.summary = evaluate_points(package, points, placing, settings,
+                                    {answers.svf, answers.low, answers.high, answers.height_m}, with_answers);
   return answers;
 }
 

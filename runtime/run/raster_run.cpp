@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "contract/run_settings.hpp"
 #include "farlod/error.hpp"
 #include "farlod/raster.hpp"
 #include "receivers/hilbert_curve.hpp"
@@ -55,12 +56,9 @@ std::vector<TileRange> tiles_of_cells(const RasterReceivers& receivers, std::spa
 }
 
 MemoryNeeds needs_of(const RasterPlan& plan, std::span<const TileRange> tiles, const Grid& grid, bool bounds) {
-  const std::uint64_t bytes_of_pixel = (bounds ? 3 : 1) * sizeof(float);
-  MemoryNeeds needs;
-  needs.results = OpenTiles::most_open(plan, tiles) * pixels_in_tile * bytes_of_pixel;
+  const double bytes_of_pixel = (bounds ? 3 : 1) * sizeof(float);
   const double along_edge = std::ceil(grid.cell_edge_m / plan.step_m);
-  needs.receivers_of_cell = static_cast<std::uint64_t>(along_edge * along_edge);
-  return needs;
+  return {static_cast<double>(OpenTiles::most_open(plan, tiles) * pixels_in_tile) * bytes_of_pixel, along_edge * along_edge};
 }
 
 /// The pixels' numbers are the receivers' indices.
@@ -84,6 +82,53 @@ void copy_band(const RasterTile& tile, const std::vector<float>& from, const Ras
   }
 }
 
+/// The run of a raster: what can be refused is refused before there is any memory for answers.
+class RasterRun {
+ public:
+  RasterRun(const Package& package, const RasterPlan& plan, const Placing& placing, const EvaluationSettings& evaluation,
+            const RunSettings& run)
+      : settings_(resolved(evaluation, run)),
+        placing_(resolved(placing)),
+        package_(package),
+        plan_(checked(plan)),
+        receivers_(reader().manifest(), plan),
+        cells_(along_hilbert_curve(receivers_.cells(), reader().grid().block_edge)),
+        tiles_(tiles_of_cells(receivers_, cells_)) {
+    require_memory(reader().manifest(), settings_, needs_of(plan_, tiles_, reader().grid(), settings_.bounds));
+  }
+
+  [[nodiscard]] EvaluationSummary evaluate(const OnRasterTile& on_tile) const {
+    OpenTiles open_tiles(plan_, settings_.bounds ? RasterBands::svf_and_bounds : RasterBands::svf, tiles_, on_tile);
+    const float height_m = package_height_m(placing_, reader().manifest());
+    std::size_t pixels_in_grid = 0;
+    EvaluationSummary summary = evaluate_cells(
+        package_, settings_, cells_.size(),
+        [&](std::size_t n) { return receivers_.in_cell(reader(), cells_[n], placing_.above, height_m, settings_.run.stop); },
+        [&](std::size_t, const CellReceivers& cell, const SvfValues& values) {
+          put_values(cell, values, plan_.columns, open_tiles);
+          pixels_in_grid += cell.receivers.size() + cell.left_out;
+        });
+    summary.beyond_grid = plan_.columns * plan_.rows - pixels_in_grid;
+    summary.no_data = pixels_in_grid - summary.receivers;
+    return summary;
+  }
+
+ private:
+  [[nodiscard]] static const RasterPlan& checked(const RasterPlan& plan) {
+    require_usable(plan);
+    return plan;
+  }
+  [[nodiscard]] const PackageReader& reader() const { return package_.reader(); }
+
+  ResolvedSettings settings_;
+  Placing placing_;
+  PackageInUse package_;
+  RasterPlan plan_;
+  RasterReceivers receivers_;
+  std::vector<Cell> cells_;
+  std::vector<TileRange> tiles_;
+};
+
 }  // namespace
 
 RasterTile::RasterTile(TilePlace where, RasterBands bands)
@@ -97,47 +142,25 @@ RasterPlan plan_raster(const Package& package, double step_m, const std::optiona
 }
 
 EvaluationSummary evaluate_raster(const Package& package, const RasterPlan& plan, const Placing& placing,
-                                  const EvaluationSettings& evaluation, const OnRasterTile& on_tile, const RunSettings& run) {
-  const ResolvedSettings settings = resolved(evaluation, run);
-  const Placing placed = resolved(placing);
-  const PackageInUse in_use(package);
-  const PackageReader& reader = in_use.reader();
-  require_usable(plan);
+                                  const EvaluationSettings& settings, const OnRasterTile& on_tile, const RunSettings& run) {
   if (!on_tile) throw InvalidArgument("nobody takes the tiles: give evaluate_raster a function that does");
-  const RasterReceivers receivers(reader.manifest(), plan);
-  const std::vector<Cell> cells = along_hilbert_curve(receivers.cells(), reader.grid().block_edge);
-  const std::vector<TileRange> tiles = tiles_of_cells(receivers, cells);
-  require_memory(reader.manifest(), settings, needs_of(plan, tiles, reader.grid(), settings.bounds));
-  OpenTiles open_tiles(plan, settings.bounds ? RasterBands::svf_and_bounds : RasterBands::svf, tiles, on_tile);
-  const float height_m = package_height_m(placed, reader.manifest());
-  std::size_t pixels_in_grid = 0;
-  EvaluationSummary summary = evaluate_cells(
-      in_use, settings, cells.size(),
-      [&](std::size_t n) { return receivers.in_cell(reader, cells[n], placed.above, height_m, settings.run.stop); },
-      [&](std::size_t n, const CellReceivers& cell, const SvfValues& values) {
-        put_values(cell, values, plan.columns, open_tiles);
-        pixels_in_grid += receivers.pixel_count(cells[n]);
-      });
-  summary.beyond_grid = plan.columns * plan.rows - pixels_in_grid;
-  summary.no_data = pixels_in_grid - summary.receivers;
-  return summary;
+  return RasterRun(package, plan, placing, settings, run).evaluate(on_tile);
 }
 
 Raster evaluate_raster(const Package& package, const RasterPlan& plan, const Placing& placing, const EvaluationSettings& settings,
                        const RunSettings& run) {
   require_usable(plan);
   const std::size_t count = plan.columns * plan.rows, bounds = settings.bounds ? count : 0;
+  const RasterRun raster_run(package, plan, placing, settings, with_bytes_of_caller(run, (count + 2 * bounds) * sizeof(float)));
   Raster raster{
       plan, std::vector<float>(count, no_data), std::vector<float>(bounds, no_data), std::vector<float>(bounds, no_data), {}};
-  RunSettings with_raster = run;
-  with_raster.caller_bytes += (count + 2 * bounds) * sizeof(float);
   const auto copy_tile = [&raster](const RasterTile& tile) {
     copy_band(tile, tile.svf, raster.plan, raster.svf);
     if (tile.low.empty()) return;
     copy_band(tile, tile.low, raster.plan, raster.low);
     copy_band(tile, tile.high, raster.plan, raster.high);
   };
-  raster.summary = evaluate_raster(package, plan, placing, settings, copy_tile, with_raster);
+  raster.summary = raster_run.evaluate(copy_tile);
   return raster;
 }
 

@@ -3,7 +3,6 @@
 #include "run/resolved_settings.hpp"
 
 #include <algorithm>
-#include <sstream>
 #include <string>
 
 #include "contract/run_settings.hpp"
@@ -14,27 +13,6 @@
 namespace farlod {
 namespace {
 
-/// Without trailing zeros.
-std::string text_of(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
-/// An enumeration may hold any number, when a caller casts to it.
-template <class Enum>
-void require_one_of(const char* setting, Enum value, Enum last) {
-  if (value < Enum{} || value > last)
-    throw InvalidArgument(std::string(setting) + " is " + std::to_string(static_cast<int>(value)) +
-                          ", which is none of its values: choose one that its declaration lists");
-}
-
-void require_count_between(const char* setting, std::size_t value, std::size_t low, std::size_t high) {
-  if (value < low || value > high)
-    throw InvalidArgument(std::string(setting) + " is " + std::to_string(value) + ": give a number from " + std::to_string(low) +
-                          " to " + std::to_string(high));
-}
-
 void check(const EvaluationSettings& s) {
   require_one_of("engine", s.engine, Engine::near_only);
   require_one_of("weight", s.weight, SkyWeight::solid_angle);
@@ -42,6 +20,10 @@ void check(const EvaluationSettings& s) {
   if (s.azimuths) require_count_between("azimuths", *s.azimuths, 4, 1'000'000);
   if (s.rays) require_count_between("rays", *s.rays, 1, 10'000'000);
   if (s.max_error) require_between("max_error", *s.max_error, 0.0001, 1.0);
+  if (s.engine == Engine::near_only && (s.bounds || s.max_error))
+    throw InvalidArgument(
+        "the engine near_only leaves the far city out, of which it knows neither bounds nor errors: leave bounds and max_error "
+        "out, or choose another engine");
 }
 
 /// What is left of the allowed error for the far map.
@@ -52,7 +34,7 @@ double far_error_of(const EvaluationSettings& s, SkySettings sky) {
   if (left > 0.0) return left;
   const double share = 0.75 * *s.max_error;
   throw InvalidArgument(
-      "a largest error of " + text_of(*s.max_error) + " is less than " + std::to_string(sky.rays) + " rays and " +
+      "a largest error of " + setting_text(*s.max_error) + " is less than " + std::to_string(sky.rays) + " rays and " +
       std::to_string(sky.azimuths) + " azimuths can keep: leave the numbers of rays and azimuths out, or give at least " +
       std::to_string(rays_for_sampling_error(share)) + " rays and " + std::to_string(azimuths_for_error(share)) + " azimuths");
 }
@@ -69,12 +51,6 @@ SkySettings sky_of(const EvaluationSettings& s) {
 }
 
 }  // namespace
-
-void require_between(const char* setting, double value, double low, double high) {
-  if (low <= value && value <= high) return;
-  throw InvalidArgument(std::string(setting) + " is " + text_of(value) + ": give a number from " + text_of(low) + " to " +
-                        text_of(high));
-}
 
 ResolvedSettings resolved(const EvaluationSettings& evaluation, const RunSettings& run) {
   check(evaluation);

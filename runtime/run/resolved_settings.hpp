@@ -31,7 +31,4 @@ struct ResolvedSettings {
 /// The height of a placing as the receivers of a package count it: above sea level, it counts from the package's height origin.
 [[nodiscard]] float package_height_m(const Placing& placing, const package::Manifest& manifest);
 
-/// Throws InvalidArgument, which names the setting, unless low ≤ value ≤ high; NaN is not.
-void require_between(const char* setting, double value, double low, double high);
-
 }  // namespace farlod

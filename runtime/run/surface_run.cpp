@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
-#include "farlod/error.hpp"
+#include "contract/run_settings.hpp"
 #include "farlod/surfaces.hpp"
 #include "receivers/hilbert_curve.hpp"
 #include "receivers/surface_receivers.hpp"
@@ -70,8 +71,9 @@ std::vector<Cell> all_cells(const CellRange& range) {
 
 /// Means need a row and its keys for each surface, which has a polygon at least, and for each building.
 MemoryNeeds needs_of(const package::Manifest& manifest) {
-  constexpr std::uint64_t bytes_of_surface = 320, bytes_of_building = 320;
-  return {manifest.polygons * bytes_of_surface + manifest.buildings * bytes_of_building, 0, false};
+  constexpr double bytes_of_surface = 320, bytes_of_building = 320;
+  return {static_cast<double>(manifest.polygons) * bytes_of_surface +
+          static_cast<double>(manifest.buildings) * bytes_of_building};
 }
 
 /// The means of a run. Points come cell by cell along a curve, and are handed on with the cell's place in CellRange::index_of.
@@ -100,9 +102,7 @@ class MeansOfRun {
 };
 
 void check(const SurfaceSettings& surfaces) {
-  if (surfaces.choice < SurfaceChoice::roofs || surfaces.choice > SurfaceChoice::all)
-    throw InvalidArgument("choice is " + std::to_string(static_cast<int>(surfaces.choice)) +
-                          ", which is none of its values: choose roofs, walls or all");
+  require_one_of("choice", surfaces.choice, SurfaceChoice::all);
   require_between("spacing_m", surfaces.spacing_m, 0.05, 1000.0);
 }
 
@@ -120,15 +120,20 @@ SurfaceMeans evaluate_surfaces(const Package& package, const SurfaceSettings& su
   MeansOfRun means(on_points);
   // What is known of a cell's receivers, from when they are placed until their answers are there
   std::vector<std::vector<SurfaceReceiver>> placed(cells.size());
+  std::atomic<std::size_t> stored = 0;  // cells, in their order; a verification asks for the receivers of some of them again
   const EvaluationSummary summary = evaluate_cells(
       in_use, settings, cells.size(),
       [&](std::size_t n) {
-        placed[n] = surface_receivers(reader, cells[n], surfaces.choice, surfaces.spacing_m, run.stop);
-        return answerable(cells[n], placed[n]);
+        std::vector<SurfaceReceiver> receivers =
+            surface_receivers(reader, cells[n], surfaces.choice, surfaces.spacing_m, run.stop);
+        CellReceivers result = answerable(cells[n], receivers);
+        if (n >= stored) placed[n] = std::move(receivers);
+        return result;
       },
       [&](std::size_t n, const CellReceivers& cell, const SvfValues& values) {
         means.add(range.index_of(cells[n]), points_of(reader, cells[n], placed[n], cell.receivers, values));
         placed[n] = {};
+        ++stored;
       });
   return means.with(summary);
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "farlod/points.hpp"
@@ -14,6 +15,14 @@
 
 namespace farlod::library {
 namespace {
+
+/// Some ten thousand receivers, each with an area and an answer that were rounded to floats.
+constexpr double summation_error = 1e-6;
+/// A height of hundreds of metres is rounded to a float, by less than .1 mm, and an answer changes by less than that over a
+/// metre.
+constexpr double height_rounding = 1e-4;
+/// Of a few sums and quotients of doubles near 1.
+constexpr double arithmetic_error = 1e-9;
 
 class Answers : public testing::Test {
  protected:
@@ -104,8 +113,8 @@ TEST_F(Answers, MeansOfSurfacesAreThoseOfTheirPoints) {
   }
   EXPECT_EQ(points_taken, means.summary.receivers + means.summary.no_data);
   EXPECT_GT(area_m2, 0.0);
-  EXPECT_NEAR(area_of_means_m2, area_m2, 1e-6 * area_m2);
-  EXPECT_NEAR(weighted_of_means, weighted, 1e-6 * weighted);
+  EXPECT_NEAR(area_of_means_m2, area_m2, summation_error * area_m2);
+  EXPECT_NEAR(weighted_of_means, weighted, summation_error * weighted);
 }
 
 TEST_F(Answers, HeightsAboveSeaLevelAreThoseOfTheAnswers) {
@@ -115,10 +124,10 @@ TEST_F(Answers, HeightsAboveSeaLevelAreThoseOfTheAnswers) {
   const PointAnswers at_height = evaluate_points(package_, {x, y, on_ground.height_m});
   for (std::size_t n = 0; n < x.size(); ++n) {
     ASSERT_FALSE(std::isnan(on_ground.svf[n]));
-    EXPECT_NEAR(at_height.svf[n], on_ground.svf[n], 1e-4);
+    EXPECT_NEAR(at_height.svf[n], on_ground.svf[n], height_rounding);
     const PointAnswers by_placing = evaluate_points(package_, {std::span(x).subspan(n, 1), std::span(y).subspan(n, 1)},
                                                     {HeightAbove::sea_level, on_ground.height_m[n]});
-    EXPECT_NEAR(by_placing.svf[0], on_ground.svf[n], 1e-4);
+    EXPECT_NEAR(by_placing.svf[0], on_ground.svf[n], height_rounding);
   }
 }
 
@@ -134,13 +143,39 @@ TEST_F(Answers, SayWhatTheSettingsCameTo) {
   settings.verify = 20;
   const Raster raster = evaluate_raster(package_, plan_raster(package_, 8.0), {}, settings);
   const Accuracy& accuracy = raster.summary.accuracy;
-  EXPECT_LE(accuracy.sampling_error, 0.005 + 1e-9);
+  EXPECT_LE(accuracy.sampling_error, 0.005 + arithmetic_error);
   ASSERT_TRUE(accuracy.far_error_allowed);
-  EXPECT_NEAR(accuracy.sampling_error + *accuracy.far_error_allowed, 0.01, 1e-9);
+  EXPECT_NEAR(accuracy.sampling_error + *accuracy.far_error_allowed, 0.01, arithmetic_error);
   ASSERT_TRUE(raster.summary.errors);
   EXPECT_EQ(raster.summary.errors->count, 20U);
   EXPECT_LE(raster.summary.errors->max_abs_error, 0.01);
   EXPECT_GE(raster.summary.errors->rays, 20'000U);
+}
+
+/// Rays answer from box maps and beyond the grid, whatever the engine: the error is theirs.
+TEST_F(Answers, SayTheErrorOfWhatAnswered) {
+  EvaluationSettings horizons;
+  horizons.engine = Engine::horizon;
+  EvaluationSettings rays;
+  rays.engine = Engine::exact;
+  const double of_rays = accuracy_of(rays).sampling_error;
+  ASSERT_LT(accuracy_of(horizons).sampling_error, of_rays);
+  const Point2d beyond = package_.description().outline_projected.high;
+  const std::vector<double> x{beyond.x + 500.0}, y{beyond.y + 500.0};
+  const PointAnswers outside = evaluate_points(package_, {x, y}, {}, horizons);
+  ASSERT_EQ(outside.summary.outside_of_grid, 1U);
+  EXPECT_EQ(outside.summary.accuracy.sampling_error, of_rays);
+  const PackedSample boxes(FarMapKind::box);
+  const Package package(boxes.folder());
+  EXPECT_EQ(evaluate_raster(package, plan_raster(package, 8.0), {}, horizons).summary.accuracy.sampling_error, of_rays);
+}
+
+TEST(RasterTiles, HavePixelsWithinTheRasterOnly) {
+  EXPECT_EQ(pixels_of_tile(0, 300), 256U);
+  EXPECT_EQ(pixels_of_tile(1, 300), 44U);
+  EXPECT_EQ(pixels_of_tile(2, 300), 0U);
+  EXPECT_EQ(pixels_of_tile(1, 256), 0U);
+  EXPECT_EQ(pixels_of_tile(std::numeric_limits<std::size_t>::max() / 2, 300), 0U);
 }
 
 /// A caller may close the package in his callback; the run ends as if he had not.

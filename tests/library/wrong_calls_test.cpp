@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -112,6 +113,58 @@ void add_settings(Cases& cases) {
     a.settings.max_error = 0.001;
     a.settings.rays = 10;
   });
+  cases.add(all, "bounds without the far city", [](Arguments& a) {
+    a.settings.engine = Engine::near_only;
+    a.settings.bounds = true;
+    a.low = a.high = a.svf;
+  });
+  cases.add(all, "a largest error without the far city", [](Arguments& a) {
+    a.settings.engine = Engine::near_only;
+    a.settings.max_error = 0.01;
+  });
+}
+
+void add_limits(Cases& cases) {
+  const std::vector<Named> all{points_into, points, tiles, raster, surfaces};
+  cases.add(
+      all, "too small a limit", [](Arguments& a) { a.run.memory_limit_mib = 1; }, Ends::limit);
+  cases.add(
+      all, "a caller who holds all there is",
+      [](Arguments& a) {
+        a.run.memory_limit_mib = 1ULL << 40;
+        a.run.caller_bytes = std::numeric_limits<std::uint64_t>::max();
+      },
+      Ends::limit);
+  cases.add(
+      all, "too many azimuths for the limit",
+      [](Arguments& a) {
+        a.settings.azimuths = 1'000'000;
+        a.run.threads = 1;
+        a.run.memory_limit_mib = 400;
+      },
+      Ends::limit);
+  cases.add(
+      all, "too many rays for the limit",
+      [](Arguments& a) {
+        a.settings.engine = Engine::rays;
+        a.settings.rays = 10'000'000;
+        a.run.threads = 1;
+        a.run.memory_limit_mib = 2000;
+      },
+      Ends::limit);
+  // Told before there is memory for pixels
+  const auto with_40_gb = [](Arguments& a) { a.plan.rows = a.plan.columns = 100'000; };
+  cases.add(
+      {raster}, "40 GB of pixels",
+      [=](Arguments& a) {
+        with_40_gb(a);
+        a.run.memory_limit_mib = 1024;
+      },
+      Ends::limit);
+  cases.add({raster}, "40 GB of pixels of a closed package", [=](Arguments& a) {
+    with_40_gb(a);
+    a.package.close();
+  });
 }
 
 void add_runs(Cases& cases) {
@@ -119,8 +172,6 @@ void add_runs(Cases& cases) {
   cases.add(all, "too many threads", [](Arguments& a) { a.run.threads = 5000; });
   cases.add(all, "a limit of nothing", [](Arguments& a) { a.run.memory_limit_mib = 0; });
   cases.add(all, "an absurd limit", [](Arguments& a) { a.run.memory_limit_mib = 1ULL << 60; });
-  cases.add(
-      all, "too small a limit", [](Arguments& a) { a.run.memory_limit_mib = 1; }, Ends::limit);
   cases.add(
       all, "stopped before it began",
       [](Arguments& a) {
@@ -240,6 +291,7 @@ void add_surfaces(Cases& cases) {
 std::vector<WrongCall> all_wrong_calls() {
   Cases cases;
   add_settings(cases);
+  add_limits(cases);
   add_runs(cases);
   add_closed_packages(cases);
   add_placings(cases);
@@ -333,26 +385,6 @@ TEST(WrongCalls, LeaveThePackageAsItWas) {
     std::swap(changed.package, arguments.package);
   }
   EXPECT_EQ(evaluate_points(arguments.package, {arguments.x, arguments.y}).svf[0], before.svf[0]);
-}
-
-TEST(WrongCalls, PackagesThatAreNone) {
-  const PackedSample sample;
-  EXPECT_THROW(Package(""), PackageUnusable);
-  EXPECT_THROW(Package("/nowhere/town.farlod"), PackageUnusable);
-  EXPECT_THROW(Package(sample.settings().inputs.front()), PackageUnusable);
-  EXPECT_THROW(Package(sample.folder() / "blocks"), PackageUnusable);
-  std::filesystem::resize_file(sample.folder() / "manifest.json", 100);
-  EXPECT_THROW(Package{sample.folder()}, PackageDamaged);
-}
-
-TEST(WrongCalls, BlocksThatAreDamaged) {
-  const PackedSample sample;
-  const Package package(sample.folder());
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(sample.folder() / "blocks"))
-    if (entry.is_regular_file()) std::filesystem::resize_file(entry.path(), 50);
-  const RasterPlan whole = plan_raster(package, 8.0);
-  EXPECT_THROW((void)evaluate_raster(package, whole), PackageDamaged);
-  EXPECT_THROW((void)evaluate_surfaces(package, {}), PackageDamaged);
 }
 
 TEST(WrongCalls, BoxMapsKnowNoBounds) {

@@ -2,14 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <memory>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "farlod/error.hpp"
+#include "farlod/points.hpp"
+#include "farlod/raster.hpp"
+#include "farlod/surfaces.hpp"
 #include "tests/library/packed_sample.hpp"
 
 namespace farlod::library {
@@ -118,24 +124,44 @@ TEST_F(EndedPack, InputsThatAreNotThere) {
   EXPECT_THROW(pack(settings_, report_), OutputError);
 }
 
-/// Whatever stage it is in: the folder does not open as a package.
+/// Whatever stage it is in: the folder does not open as a package. The last stage is left at its begin, for its last call comes
+/// when all is done.
 TEST_F(EndedPack, CancelledInEachStage) {
   std::vector<std::string> stages;
   run_.on_progress = [&](const Progress& p) {
     if (stages.empty() || stages.back() != p.stage) stages.emplace_back(p.stage);
   };
   (void)pack(settings_, report_, run_);
-  settings_.overwrite = Overwrite::replace;
   ASSERT_GE(stages.size(), 5U);
   for (const std::string& stage : stages) {
-    if (stage == stages.back()) continue;  // its last call comes when all is done
+    settings_.output = folder_.path() / (stage + ".farlod");
     std::stop_source stop;
     run_.stop = stop.get_token();
     run_.on_progress = [&](const Progress& p) {
-      if (p.stage == stage) stop.request_stop();
+      if (p.stage == stage && p.done == 0) stop.request_stop();
     };
     EXPECT_THROW(pack(settings_, report_, run_), Cancelled) << stage;
+    EXPECT_THROW(Package{settings_.output}, PackageUnusable) << stage;
   }
+}
+
+TEST_F(EndedPack, APackageThatIsToBeReplacedStaysUntilItsSuccessorIsBegun) {
+  (void)pack(settings_, report_);
+  settings_.overwrite = Overwrite::replace;
+  std::stop_source stop;
+  run_.stop = stop.get_token();
+  run_.on_progress = [&](const Progress& p) {
+    if (p.stage == "tiles") stop.request_stop();
+  };
+  EXPECT_THROW(pack(settings_, report_, run_), Cancelled);
+  EXPECT_NO_THROW(Package{settings_.output});
+}
+
+/// What is wrong with one city is no fault of the next.
+TEST_F(EndedPack, ProblemsOfEarlierPacksCountForThoseAlone) {
+  report_.add({problem_descriptions.front().code, "earlier.gml", "1", "of another city"});
+  settings_.problems = ProblemPolicy::refuse;
+  EXPECT_NO_THROW((void)pack(settings_, report_));
 }
 
 TEST_F(EndedPack, ACallbackThatThrows) {
@@ -148,6 +174,50 @@ TEST_F(EndedPack, ACallbackThatThrows) {
   EXPECT_THROW(Package{settings_.output}, PackageUnusable);
   run_ = {};
   EXPECT_THROW(pack(settings_, report_, run_, [](const PackEstimate&) { throw Thrown(); }), Thrown);
+}
+
+TEST(WrongPackages, PackagesThatAreNone) {
+  const PackedSample sample;
+  EXPECT_THROW(Package(""), PackageUnusable);
+  EXPECT_THROW(Package("/nowhere/town.farlod"), PackageUnusable);
+  EXPECT_THROW(Package(sample.settings().inputs.front()), PackageUnusable);
+  EXPECT_THROW(Package(sample.folder() / "blocks"), PackageUnusable);
+  EXPECT_THROW(Package(std::string(5000, 'a')), PackageUnusable) << "longer than a name can be";
+  std::filesystem::resize_file(sample.folder() / "manifest.json", 100);
+  EXPECT_THROW(Package{sample.folder()}, PackageDamaged);
+}
+
+/// Of cells of 1.6 cm, 100,000 km are more than have numbers.
+TEST(WrongPackages, PointsBeyondAllCells) {
+  const PackedSample sample;
+  const std::filesystem::path manifest = sample.folder() / "manifest.json";
+  std::string text;
+  std::getline(std::ifstream(manifest), text, '\0');
+  const std::string small_cells = std::regex_replace(text, std::regex("\"cell_m\": *[0-9.e+-]+"), "\"cell_m\": 0.015625");
+  ASSERT_NE(small_cells, text);
+  std::ofstream(manifest) << small_cells;
+  const Package package(sample.folder());
+  const Point2d p = middle_of(package);
+  for (const Point2d far : {Point2d{9.9e7, p.y}, {-9.9e7, p.y}, {p.x, 9.9e7}, {p.x, -9.9e7}}) {
+    const std::vector<double> x{p.x, far.x}, y{p.y, far.y};
+    try {
+      (void)evaluate_points(package, {x, y});
+      ADD_FAILURE() << far.x << ' ' << far.y << " was taken";
+    } catch (const InvalidPoint& error) {
+      EXPECT_EQ(error.index(), 1U);
+      EXPECT_NE(std::string(error.what()).find("index 1 "), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(WrongPackages, BlocksThatAreDamaged) {
+  const PackedSample sample;
+  const Package package(sample.folder());
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(sample.folder() / "blocks"))
+    if (entry.is_regular_file()) std::filesystem::resize_file(entry.path(), 50);
+  const RasterPlan whole = plan_raster(package, 8.0);
+  EXPECT_THROW((void)evaluate_raster(package, whole), PackageDamaged);
+  EXPECT_THROW((void)evaluate_surfaces(package, {}), PackageDamaged);
 }
 
 }  // namespace

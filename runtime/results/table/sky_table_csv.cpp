@@ -151,7 +151,7 @@ void write_buildings_csv(std::span<const BuildingMean> rows, const std::string& 
 
 std::vector<std::filesystem::path> SurfaceTablesCsv::commit(std::span<const SurfaceMean> surfaces,
                                                             std::span<const BuildingMean> buildings) {
-  const std::vector<std::filesystem::path> files{path_, beside(path_, ".surfaces"), beside(path_, ".buildings")};
+  std::vector<std::filesystem::path> files{path_, beside(path_, ".surfaces"), beside(path_, ".buildings")};
   write_surfaces_csv(surfaces, quantity_, files[1]);
   write_buildings_csv(buildings, quantity_, files[2]);
   receivers_.commit();  // the file of -o appears last

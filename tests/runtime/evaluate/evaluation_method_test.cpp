@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
+#include <optional>
 #include <regex>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "evaluate/error_budget.hpp"
 #include "evaluate/sky_evaluator.hpp"
 
 namespace farlod {
@@ -55,6 +58,24 @@ TEST(EvaluationMethod, FollowsTheDocumentedTable) {
     rows.emplace_back(name, name_of(method_of(engine, FarMapOfCell::horizon)), name_of(method_of(engine, FarMapOfCell::box)),
                       name_of(method_of(engine, FarMapOfCell::none)));
   EXPECT_EQ(rows, documented_rows());
+}
+
+/// Whatever the engine is called, the sampling error is that of what answers.
+TEST(EvaluationMethod, SaysWhoseSamplingErrorCounts) {
+  // Either may be the larger one
+  for (const auto& [rays, azimuths] : {std::pair<std::size_t, std::size_t>{100, 1000}, {100'000, 10}}) {
+    const auto error = [&, rays = rays, azimuths = azimuths](Engine engine, FarMapOfCell far_map,
+                                                             std::optional<double> max_far_error = {}) {
+      return sampling_error_of({engine, SkyWeight::cosine, rays, max_far_error, DirectionSet::partition, azimuths}, far_map);
+    };
+    const double of_rays = sampling_error(rays), of_azimuths = azimuth_error(azimuths), larger = std::max(of_rays, of_azimuths);
+    EXPECT_EQ(error(Engine::automatic, FarMapOfCell::horizon), larger);
+    EXPECT_EQ(error(Engine::horizon, FarMapOfCell::horizon), of_azimuths);
+    EXPECT_EQ(error(Engine::horizon, FarMapOfCell::horizon, 0.01), larger);
+    EXPECT_EQ(error(Engine::rays, FarMapOfCell::horizon), of_rays);
+    for (const Engine engine : {Engine::automatic, Engine::horizon, Engine::rays, Engine::exact, Engine::near_only})
+      for (const FarMapOfCell far_map : {FarMapOfCell::box, FarMapOfCell::none}) EXPECT_EQ(error(engine, far_map), of_rays);
+  }
 }
 
 }  // namespace

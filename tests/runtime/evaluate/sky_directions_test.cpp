@@ -157,6 +157,13 @@ TEST(FibonacciDirections, TurningTheGridDoesNotTurnThem) {
     EXPECT_LE(norm(rotation.city_from_grid(turned.facing_up()[n]) - north.facing_up()[n]), rounding);
 }
 
+TEST(SkyDirections, AStopEndsTheirMaking) {
+  std::stop_source stop;
+  stop.request_stop();
+  for (const DirectionSet set : {DirectionSet::partition, DirectionSet::fibonacci})
+    EXPECT_THROW(SkyDirections(SkyWeight::cosine, 1000, {}, set, stop.get_token()), Cancelled);
+}
+
 /// Root of the mean square of the errors that some directions make of finite walls, of many heights and at many azimuths.
 double error_of_walls(SkyWeight weight, DirectionSet set, std::size_t rays) {
   const SkyDirections sky(weight, rays, {}, set);

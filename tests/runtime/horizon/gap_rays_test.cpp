@@ -95,6 +95,17 @@ TEST_F(GapRays, WhatIsFilledIsNotSeen) {
     EXPECT_EQ(sky, 0.0F);
 }
 
+TEST_F(GapRays, AStopEndsTheTracing) {
+  const ReceiverPacket packet = receivers(normals[0]);
+  from_.find_sky_below(to_, SkyWeight::cosine, packet, sky_);
+  const Occluder nothing({}, {});
+  std::stop_source stop;
+  stop.request_stop();
+  const Gaps gaps{from_, to_, to_, to_, sky_};
+  EXPECT_THROW((void)trace_gaps(gaps, ring_, SkyWeight::cosine, packet, all_receivers, 4, {nothing, {}}, stop.get_token()),
+               Cancelled);
+}
+
 TEST_F(GapRays, OnlyThoseAreAskedWhoAreMeant) {
   constexpr std::uint32_t wanted = 0b1010'0000'0001'0110;
   const ReceiverPacket packet = receivers(normals[0]);

@@ -105,7 +105,7 @@ class RandomScene : public testing::Test {
   float random() { return static_cast<float>(static_cast<double>(random_() >> 11) * 0x1p-52 - 1.0); }
   Point3f point(float size) { return {size * random(), size * random(), size * random()}; }
 
-  Occluder triangles(std::size_t count) {
+  Occluder triangles(std::size_t count, const std::stop_token& stop = {}) {
     std::vector<Point3f> vertices;
     std::vector<Triangle> list;
     for (std::uint32_t n = 0; n < count; ++n) {
@@ -113,7 +113,7 @@ class RandomScene : public testing::Test {
       for (int k = 0; k < 3; ++k) vertices.push_back(middle + point(8.0F));
       list.push_back({3 * n, 3 * n + 1, 3 * n + 2});
     }
-    return {std::move(vertices), std::move(list)};
+    return {std::move(vertices), std::move(list), stop};
   }
 
  private:
@@ -192,6 +192,22 @@ TEST_F(Fan, SharedEdgesAndASharedVertexLetNothingThrough) {
     for (std::size_t l = 0; l < RayOrigins::lanes; ++l) packet.set(l, ray);
     EXPECT_EQ(fan.blocked(packet.origins, packet.directions, 0.0F, all_lanes), all_lanes) << n;
   }
+}
+
+/// Embree keeps an error for each thread until somebody asks for it, and a cancelled build is one.
+TEST_F(RandomScene, ACancelledBuildLeavesNothingToTheNext) {
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW((void)triangles(200'000, stop.get_token()), Cancelled);
+  EXPECT_EQ(triangles(400).triangle_count(), 400U);
+  EXPECT_EQ(triangles(400, std::stop_source().get_token()).triangle_count(), 400U);
+}
+
+TEST(PlacedMesh, MoreThanCanBeNumberedIsALimit) {
+  constexpr std::size_t vertices_each = 1 << 16, tile_count = 1 << 16;
+  const std::vector<Point3f> vertices(vertices_each);
+  const std::vector<PlacedMesh> tiles(tile_count, PlacedMesh{{vertices, {}}, {0.0, 0.0}});
+  EXPECT_THROW((void)occluder_of(tiles), LimitReached);
 }
 
 TEST(PlacedMesh, NumbersTrianglesThrough) {

@@ -28,7 +28,7 @@ TEST(LruCache, KeepsEverythingWithoutALimit) {
 TEST(LruCache, WhatWasNotUsedTheLongestGoesFirst) {
   LruCache used;
   used.keep_at_most(30);
-  for (const std::size_t n : {1, 2, 3, 1}) EXPECT_THAT(used.use(n, 10), IsEmpty());
+  for (const std::size_t n : {1U, 2U, 3U, 1U}) EXPECT_THAT(used.use(n, 10), IsEmpty());
   EXPECT_THAT(used.use(4, 10), ElementsAre(2U));
   EXPECT_THAT(used.use(5, 20), ElementsAre(3U, 1U));
   EXPECT_THAT(used.use(6, 1), ElementsAre(4U));
@@ -44,7 +44,7 @@ TEST(LruCache, ASingleThingIsKeptHoweverLarge) {
 
 TEST(LruCache, ALowerLimitCountsFromTheNextUse) {
   LruCache used;
-  for (const std::size_t n : {1, 2, 3}) EXPECT_THAT(used.use(n, 10), IsEmpty());
+  for (const std::size_t n : {1U, 2U, 3U}) EXPECT_THAT(used.use(n, 10), IsEmpty());
   used.keep_at_most(10);
   EXPECT_THAT(used.use(2, 10), ElementsAre(1U, 3U));
 }

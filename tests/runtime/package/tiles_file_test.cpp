@@ -139,7 +139,7 @@ TEST(Package, ElementsOfAnotherSize) {
 
 TEST(Package, Misaligned) {
   for (const SectionKind kind : all_kinds)
-    for (const std::uint64_t shift : {1, 4, 32})
+    for (const std::uint64_t shift : {1U, 4U, 32U})
       EXPECT_THAT(damage_after([=](TilesBytes& f) { f.section(kind).offset -= shift; }), HasSubstr("not aligned"));
 }
 

@@ -117,6 +117,15 @@ TEST_P(TwoWalls, RetracingMakesTheUncertainExactAndLeavesTheRest) {
   }
 }
 
+TEST_P(TwoWalls, AStopEndsCountingAndRetracing) {
+  std::stop_source stop;
+  RayEngine engine(sampling_, far_.map(), silhouettes_, overhangs_, true, stop.get_token());
+  std::vector<FreeRays> free = engine.count(receivers_);
+  stop.request_stop();
+  EXPECT_THROW((void)engine.retrace(city_, origins_, 0xFFFF, free), Cancelled);
+  EXPECT_THROW((void)engine.count(receivers_), Cancelled);
+}
+
 TEST_P(TwoWalls, WithoutBoundsTheEstimateIsTheSame) {
   RayEngine without(sampling_, far_.map(), silhouettes_, overhangs_, false);
   const std::vector<FreeRays> bounded = engine_.count(receivers_), plain = without.count(receivers_);

@@ -12,6 +12,7 @@ namespace {
 
 std::atomic<std::size_t> held_bytes{0}, most_held_bytes{0};
 
+// What stands in for `new` and `delete` cannot use them. NOLINTBEGIN(cppcoreguidelines-no-malloc)
 void release(void* memory) noexcept {
   held_bytes -= malloc_usable_size(memory);
   std::free(memory);
@@ -28,6 +29,7 @@ void* operator new(std::size_t bytes) {
   }
   return memory;
 }
+// NOLINTEND(cppcoreguidelines-no-malloc)
 void operator delete(void* memory) noexcept { release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { release(memory); }
 

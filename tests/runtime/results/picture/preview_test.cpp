@@ -94,7 +94,7 @@ TEST(PreviewRaster, LargeRastersAreAveraged) {
 
 TEST(PreviewRaster, MostOfASquareDecidesWhetherItHasAnAnswer) {
   WholeRaster raster = raster_of(4000, 2, 0.5F);
-  for (const std::size_t n : {0, 1, 4000, 2, 3}) raster.svf[n] = std::numeric_limits<float>::quiet_NaN();
+  for (const std::size_t n : {0U, 1U, 4000U, 2U, 3U}) raster.svf[n] = std::numeric_limits<float>::quiet_NaN();
   const PreviewRaster fitted = fit_to_screen(raster);
   EXPECT_TRUE(std::isnan(fitted.svf[0]));  // three of four have none
   EXPECT_EQ(fitted.svf[1], 0.5F);          // two of four
