@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/core.h>
+#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <chrono>
@@ -145,6 +146,8 @@ PackResult pack_as_told(const PackOptions& options, Report& report) {
 }
 
 int run(const PackOptions& options) {
+  // The process is the program's: as many threads as are asked for, also where there are fewer cores
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
   require_folder_of(options.report_file);
   require_folder_of(options.run.summary_file);
   const auto start = std::chrono::steady_clock::now();

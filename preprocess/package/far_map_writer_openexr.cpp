@@ -131,6 +131,8 @@ void write_far_maps(const std::filesystem::path& path, const BakedBlock& maps, c
     } else {
       write_all(path, std::get<BakedHorizons>(maps).cells, cells, shape);
     }
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& reason) {
     throw std::runtime_error(path.string() + " cannot be written: " + reason.what());
   }

@@ -11,7 +11,7 @@
 namespace farlod {
 
 [[nodiscard]] package::FileStamp stamp_of(std::span<const std::byte> bytes);
-/// Reads the file piece by piece. Throws std::runtime_error when it cannot be read.
+/// Reads the file piece by piece. Throws InputError when it cannot be read.
 [[nodiscard]] package::FileStamp stamp_of(const std::filesystem::path& path);
 
 }  // namespace farlod

@@ -4,9 +4,9 @@
 
 #include <fstream>
 #include <memory>
-#include <stdexcept>
 #include <vector>
 
+#include "farlod/error.hpp"
 #include "package/file_stamp.hpp"
 
 namespace farlod {
@@ -24,7 +24,7 @@ package::FileStamp stamp_of(const std::filesystem::path& path) {
     XXH3_64bits_update(state.get(), buffer.data(), static_cast<std::size_t>(file.gcount()));
     stamp.bytes += static_cast<std::uint64_t>(file.gcount());
   }
-  if (!file.eof()) throw std::runtime_error(path.string() + " cannot be read");
+  if (!file.eof()) throw InputError(path.string() + " cannot be read");
   stamp.xxh3 = XXH3_64bits_digest(state.get());
   return stamp;
 }

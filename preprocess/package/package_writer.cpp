@@ -40,9 +40,9 @@ std::uint64_t explicit_occluder_bytes(const BakedBlock& maps) {
 
 fs::path temporary_name(const fs::path& path) { return path.string() + ".part"; }
 
-/// Makes a folder, moves or removes something; what the file system refuses is told as OutputError.
+/// Looks into a folder, makes, moves or removes something; what the file system refuses is told as OutputError.
 template <class Work>
-void change_on_disk(const fs::path& path, const Work& work) {
+void on_disk(const fs::path& path, const Work& work) {
   try {
     work();
   } catch (const fs::filesystem_error& reason) {
@@ -53,16 +53,18 @@ void change_on_disk(const fs::path& path, const Work& work) {
 }  // namespace
 
 void require_room(const fs::path& folder, Overwrite overwrite) {
-  if (!fs::exists(folder)) return;
-  if (!fs::is_directory(folder)) throw OutputError(folder.string() + " is a file: choose another name for -o.");
-  require_package_or_empty(folder);
-  if (overwrite == Overwrite::refuse && !fs::is_empty(folder))
-    throw OutputError(folder.string() + " exists already: let it be replaced (--force), or choose another folder.");
+  on_disk(folder, [&] {
+    if (!fs::exists(folder)) return;
+    if (!fs::is_directory(folder)) throw OutputError(folder.string() + " is a file: choose another name for -o.");
+    require_package_or_empty(folder);
+    if (overwrite == Overwrite::refuse && !fs::is_empty(folder))
+      throw OutputError(folder.string() + " exists already: let it be replaced (--force), or choose another folder.");
+  });
 }
 
 PackageWriter::PackageWriter(fs::path folder, Overwrite overwrite) : folder_(std::move(folder)) {
-  change_on_disk(folder_, [&] {
-    require_room(folder_, overwrite);
+  require_room(folder_, overwrite);
+  on_disk(folder_, [&] {
     fs::remove(folder_ / package::manifest_file);  // first, so that a half-swept package is none
     fs::remove_all(folder_ / blocks_folder);
     fs::create_directories(folder_ / blocks_folder);
@@ -75,7 +77,7 @@ package::FileStamp PackageWriter::write_file(const fs::path& path, std::span<con
   file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   file.close();
   if (!file) throw OutputError(path.string() + " cannot be written. Is the disk full?");
-  change_on_disk(path, [&] { fs::rename(part, path); });
+  on_disk(path, [&] { fs::rename(part, path); });
   bytes_written_ += bytes.size();
   return stamp_of(bytes);
 }
@@ -83,7 +85,7 @@ package::FileStamp PackageWriter::write_file(const fs::path& path, std::span<con
 package::BlockFiles PackageWriter::write_block(const TileSet& tiles, const BakedBlock& maps, const Grid& grid, Block block,
                                                const package::FarMapShape& shape) {
   const fs::path folder = folder_ / package::block_folder(block);
-  change_on_disk(folder, [&] { fs::create_directories(folder); });
+  on_disk(folder, [&] { fs::create_directories(folder); });
   package::BlockFiles files{block, write_file(folder / package::tiles_file, tiles_file(tiles, maps, grid, block)), {}};
   const fs::path far = folder / package::far_map_file;
   const fs::path part = temporary_name(far);
@@ -93,7 +95,7 @@ package::BlockFiles PackageWriter::write_block(const TileSet& tiles, const Baked
     throw OutputError(std::string(reason.what()) + " Is the disk full?");
   }
   files.far_map = stamp_of(part);
-  change_on_disk(far, [&] { fs::rename(part, far); });
+  on_disk(far, [&] { fs::rename(part, far); });
   bytes_written_ += files.far_map.bytes;
   far_map_bytes_ += files.far_map.bytes + explicit_occluder_bytes(maps);
   return files;

@@ -77,9 +77,11 @@ void resolve_relief(LocatedCity& located, bool has_terrain, SkippedFeatures& ski
 
 /// Refuses an output below a file before the long stages.
 void require_folders_above(const std::filesystem::path& output) {
-  for (std::filesystem::path above = std::filesystem::absolute(output).parent_path(); above.has_relative_path();
+  // What cannot be looked at is refused when it is written
+  std::error_code unread;
+  for (std::filesystem::path above = std::filesystem::absolute(output, unread).parent_path(); above.has_relative_path();
        above = above.parent_path())
-    if (std::filesystem::exists(above) && !std::filesystem::is_directory(above))
+    if (std::filesystem::exists(above, unread) && !std::filesystem::is_directory(above, unread))
       throw OutputError(output.string() + " cannot be written: " + above.string() + ": Not a directory");
 }
 
@@ -119,7 +121,7 @@ class Packing {
 
  public:
   Packing(const StageSettings& settings, Report& report, const RunSettings& run, const OnEstimate& on_estimate)
-      : settings_(settings), report_(report), run_(run), on_estimate_(on_estimate) {}
+      : settings_(settings), report_(report), first_problem_(report.problems().size()), run_(run), on_estimate_(on_estimate) {}
 
   PackedCity run() {
     // An output folder that must not be replaced ends the run before the long stages. One that may be is removed only after them
@@ -261,7 +263,7 @@ class Packing {
     const auto threads = static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency());
     const std::size_t ground_points = ground.terrain ? ground.terrain->height_m.size() : located.relief_points.size();
     result_.estimate = estimate_pack(located.city, ground_points, ground.grid, far_map.kind, threads);
-    require_memory(result_.estimate, run_.memory_limit_mib);
+    require_memory(result_.estimate, run_);
     if (on_estimate_) on_estimate_(result_.estimate);
   }
 
@@ -279,7 +281,7 @@ class Packing {
 
   /// Called before the long stages, which find no more problems.
   void require_no_problems() const {
-    const std::size_t count = report_.problems().size();
+    const std::size_t count = report_.since(first_problem_).size();
     if (settings_.problems == ProblemPolicy::pack || count == 0) return;
     throw ProblemsRefused("the city has " + std::to_string(count) + (count == 1 ? " problem" : " problems"));
   }
@@ -319,8 +321,23 @@ class Packing {
           "Closed down to the ground, since the lowest floor is above it somewhere: " + std::to_string(tiles.foundation_count) +
           " of " + std::to_string(tiles.building_ids.size()) + " buildings.");
     std::map<int, std::uint64_t> counts;
-    for (const Problem& p : report_.problems()) ++counts[static_cast<int>(p.code)];
+    for (const Problem& p : report_.since(first_problem_)) ++counts[static_cast<int>(p.code)];
     m.problem_counts.assign(counts.begin(), counts.end());
+  }
+
+  /// Before it throws, what is written at the same time comes to its end: a group must not be left with work in it.
+  BakedBlock bake_beside(oneapi::tbb::task_group& writing, const FarMapBaker& baker, Block block,
+                         std::pair<std::size_t, std::size_t> of) {
+    try {
+      tell("far maps", of.first, of.second);
+      return baker.bake(block, run_.stop);
+    } catch (...) {
+      try {
+        writing.wait();
+      } catch (...) {  // the first failure is the one that is told
+      }
+      throw;
+    }
   }
 
   void write_package(const TileSet& tiles, const Grid& grid, const FarMapSettings& far_map) {
@@ -331,9 +348,8 @@ class Packing {
     BakedBlock to_write;
     oneapi::tbb::task_group writing;  // a block is written while the next one is baked
     for (std::size_t n = 0; n < blocks.size(); ++n) {
-      tell("far maps", n, blocks.size());
       const auto start = Clock::now();
-      BakedBlock maps = baker.bake(blocks[n], run_.stop);
+      BakedBlock maps = bake_beside(writing, baker, blocks[n], {n, blocks.size()});
       bake_s += seconds_between(start, Clock::now());
       writing.wait();
       to_write = std::move(maps);
@@ -358,6 +374,7 @@ class Packing {
 
   const StageSettings& settings_;
   Report& report_;
+  std::size_t first_problem_;  ///< of this pack: those before it are of others
   const RunSettings& run_;
   const OnEstimate& on_estimate_;
   PackedCity result_;

@@ -57,11 +57,12 @@ PackEstimate estimate_pack(const CityModel& city, std::size_t ground_points, con
   return e;
 }
 
-void require_memory(const PackEstimate& estimate, std::optional<std::uint64_t> limit_mib) {
-  if (!limit_mib || estimate.memory_mib <= static_cast<double>(*limit_mib)) return;
+void require_memory(const PackEstimate& estimate, const RunSettings& run) {
+  const double needed_mib = estimate.memory_mib + static_cast<double>(run.caller_bytes) / bytes_per_mib;
+  if (!run.memory_limit_mib || needed_mib <= static_cast<double>(*run.memory_limit_mib)) return;
   throw LimitReached("Packing into " + std::to_string(estimate.cells) + " cells needs about " +
-                     std::to_string(std::llround(estimate.memory_mib)) + " MiB, more than --memory-limit " +
-                     std::to_string(*limit_mib) +
+                     std::to_string(std::llround(needed_mib)) + " MiB, more than --memory-limit " +
+                     std::to_string(*run.memory_limit_mib) +
                      ": choose larger cells (--cell), pack fewer inputs at a time, or raise the limit.");
 }
 

@@ -20,6 +20,6 @@ namespace farlod::pipeline {
                                          std::size_t threads);
 
 /// Throws LimitReached, whose message says what to do, when the estimate exceeds the limit.
-void require_memory(const PackEstimate& estimate, std::optional<std::uint64_t> limit_mib);
+void require_memory(const PackEstimate& estimate, const RunSettings& run);
 
 }  // namespace farlod::pipeline

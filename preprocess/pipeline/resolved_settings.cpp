@@ -3,10 +3,6 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <cmath>
-#include <string>
-#include <thread>
-
 #include "contract/run_settings.hpp"
 #include "farlod/error.hpp"
 #include "farlod/pack.hpp"
@@ -14,20 +10,6 @@
 
 namespace farlod::pipeline {
 namespace {
-
-/// NaN is refused, too.
-void require_between(const char* setting, double value, double low, double high) {
-  if (low <= value && value <= high) return;
-  throw InvalidArgument(fmt::format("{} is {:g}: give a number from {:g} to {:g}", setting, value, low, high));
-}
-
-/// An enumeration may hold any number, when a caller casts to it.
-template <class Enum>
-void require_one_of(const char* setting, Enum value, Enum last) {
-  if (value < Enum{} || value > last)
-    throw InvalidArgument(fmt::format("{} is {}, which is none of its values: choose one that its declaration lists", setting,
-                                      static_cast<int>(value)));
-}
 
 void check_files(const PackSettings& s) {
   if (s.output.empty()) throw InvalidArgument("output is empty: give the folder of the package, NAME.farlod");
@@ -110,6 +92,7 @@ PackResult pack(const PackSettings& settings, Report& report, const RunSettings&
   const pipeline::StageSettings stages = pipeline::resolved(settings);
   require_usable(run);
   oneapi::tbb::task_arena arena(static_cast<int>(thread_count(run)));
+  // What a caller of the library sees is the base. NOLINTNEXTLINE(cppcoreguidelines-slicing)
   return arena.execute([&]() -> PackResult { return pipeline::pack(stages, report, run, on_estimate); });
 }
 
