@@ -101,6 +101,7 @@ OutcomeOfKinds compare_everywhere(const PackageReader& package, const Options& o
   const SkyEvaluator ours(package, {Engine::rays, SkyWeight::cosine, options.rays, std::nullopt});
   const SkyEvaluator reference(package, {Engine::exact, SkyWeight::cosine, options.rays, std::nullopt});
   const auto cell_count = static_cast<std::size_t>(cells.size());
+  if (cell_count == 0) return {};
   const std::size_t of_kind = std::max<std::size_t>(1, options.receivers / (kind_count * cell_count));
   std::vector<OutcomeOfKinds> by_cell(cell_count);
   oneapi::tbb::parallel_for(std::size_t{0}, cell_count, [&](std::size_t n) {
@@ -135,6 +136,7 @@ int run(const Options& options) {
 }  // namespace
 }  // namespace farlod
 
+// Only a mistake in the description of the options is not caught. NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
   CLI::App app("farlod-bounds-soak — do certain bounds hold?", "farlod-bounds-soak");
   farlod::Options options;

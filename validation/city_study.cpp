@@ -49,8 +49,8 @@ class CellEdgeStudy {
   }
 
  private:
-  [[nodiscard]] SkyFigures figures(const SitePackage& package, Engine engine, std::size_t rays,
-                                   std::span<const Site> sites) const {
+  [[nodiscard]] static SkyFigures figures(const SitePackage& package, Engine engine, std::size_t rays,
+                                          std::span<const Site> sites) {
     return sky_at(package.package(), {engine, SkyWeight::cosine, rays, std::nullopt}, sites);
   }
 

@@ -72,6 +72,7 @@ int run(const Options& options) {
 }  // namespace
 }  // namespace farlod::validation
 
+// Only a mistake in the description of the options is not caught. NOLINTNEXTLINE(bugprone-exception-escape)
 int main(int argc, char** argv) {
   CLI::App app("farlod-validate — measures errors of sky view factors, for docs/validation.md", "farlod-validate");
   farlod::validation::Options options;

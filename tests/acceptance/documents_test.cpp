@@ -68,6 +68,10 @@ TEST_P(DocumentsOf, EachOptionOfHelpIsInThePageAndInTheCompletions) {
 TEST_P(DocumentsOf, BashCompletesChoices) {
   static const std::regex choices(" (--[a-z-]+) TEXT:\\{([^}]*)\\}");
   const std::string text = help();
+  const std::ptrdiff_t count = std::distance(std::sregex_iterator(text.begin(), text.end(), choices), {});
+  if (GetParam() != "farlod-city") {
+    EXPECT_GE(count, 4) << "does help show choices otherwise now?";
+  }
   for (std::sregex_iterator match(text.begin(), text.end(), choices), end; match != end; ++match) {
     std::vector<std::string> expected = lines_of(std::regex_replace(match->str(2), std::regex(","), "\n"));
     std::ranges::sort(expected);
@@ -81,6 +85,8 @@ TEST_P(DocumentsOf, BashCompletesFilesAndFoldersWhereHelpSaysSo) {
   folder.must("mkdir 'some town.farlod' && touch 'some points.csv'");
   static const std::regex values(" (--[a-z-]+) (FILE|FOLDER|TEXT|FLOAT|U?INT)[ =:]");
   const std::string text = help();
+  EXPECT_GT(std::distance(std::sregex_iterator(text.begin(), text.end(), values), {}), 5)
+      << "does help show values otherwise now?";
   for (std::sregex_iterator match(text.begin(), text.end(), values), end; match != end; ++match) {
     const std::vector<std::string> offered = completed({match->str(1), "some"});
     if (match->str(2) == "FILE")

@@ -8,7 +8,6 @@ namespace farlod {
 namespace {
 
 using testing::HasSubstr;
-using testing::Not;
 
 OptionDescription option(std::vector<std::string> names, std::string value = "", std::vector<std::string> choices = {}) {
   OptionDescription option;

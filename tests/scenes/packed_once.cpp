@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/scenes/packed_once.hpp"
 
-#include <stdlib.h>
-
+#include <cstdlib>
 #include <stdexcept>
 #include <system_error>
 

@@ -16,8 +16,8 @@ struct PackedFrom {
 };
 
 /// The folder, below the build, of what `pack` writes into the folder that it is given. Each test runs in a process of its own:
-/// the first one packs, all others find the folder, also when they run at the same time. It must not be changed. `pack` returns
-/// whether it is done; where it is not, this throws and nothing is kept.
+/// those that find no folder pack, and the folder of the first that is done is the one that all get. It must not be changed.
+/// `pack` returns whether it is done; where it is not, this throws and nothing is kept.
 [[nodiscard]] std::filesystem::path packed_once(const PackedFrom& from,
                                                 const std::function<bool(const std::filesystem::path&)>& pack);
 

@@ -96,7 +96,7 @@ TEST(RasterComparison, HeightsChoosePixels) {
 /// A file that is gone after the test.
 class AsciiGridFile : public testing::Test {
  protected:
-  ~AsciiGridFile() override { std::filesystem::remove(file_); }
+  void TearDown() override { std::filesystem::remove(file_); }
   [[nodiscard]] AsciiGrid read(const std::string& text) const {
     std::ofstream(file_) << text;
     return read_ascii_grid(file_);
