@@ -3,7 +3,6 @@
 #include "evaluate/sky_evaluator.hpp"
 
 #include <algorithm>
-#include <array>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -228,23 +227,29 @@ SkyEvaluator::Numbers SkyEvaluator::draw_horizons(CellGeometry& geometry, const 
   HorizonEngine engine(azimuths_, settings_.weight, geometry.far, geometry.silhouettes, geometry.overhangs,
                        {static_cast<float>(azimuth_error(settings_.azimuths)), rays_per_azimuth, stop_});
   Numbers uncertain;
-  const auto answer_packet = [&](const ReceiverPacket& packet, std::span<const std::uint32_t> numbers) {
-    throw_if_cancelled(stop_);
-    std::array<SvfInterval, ReceiverPacket::lanes> lanes;
-    const std::span svf = std::span(lanes).first(numbers.size());
-    const bool bounds = wants_bounds(answers);
-    const std::uint32_t traced = bounds ? engine.evaluate_with_bounds(packet, svf) : engine.evaluate(packet, svf);
-    if (traced != 0) require_rays_allowed(cell.cell);
+  const auto take = [&](const PacketAnswer& packet, std::span<const std::uint32_t> numbers) {
+    if (packet.by_rays != 0) require_rays_allowed(cell.cell);
     for (std::size_t l = 0; l < numbers.size(); ++l) {
-      store(svf[l], cell.receivers[numbers[l]].index, answers);
-      if (exceeds_allowed_error(svf[l])) {
+      store(packet.svf[l], cell.receivers[numbers[l]].index, answers);
+      if (exceeds_allowed_error(packet.svf[l])) {
         uncertain.push_back(numbers[l]);
       } else {
-        by_rays_ += (traced >> l) & 1U;
+        by_rays_ += (packet.by_rays >> l) & 1U;
       }
     }
   };
-  for_each_packet(cell.receivers, packet_order(cell.receivers), answer_packet);
+  std::vector<PacketAnswer> of_packets;
+  for_each_group(cell.receivers, packet_order(cell.receivers),
+                 [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
+                   throw_if_cancelled(stop_);
+                   of_packets.resize(packets.size());
+                   wants_bounds(answers) ? engine.evaluate_with_bounds(packets, of_packets)
+                                         : engine.evaluate(packets, of_packets);
+                   for (std::size_t n = 0; n < packets.size(); ++n) {
+                     take(of_packets[n], numbers.first(packets[n].count));
+                     numbers = numbers.subspan(packets[n].count);
+                   }
+                 });
   return uncertain;
 }
 

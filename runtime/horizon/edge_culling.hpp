@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "contract/horizon/edge_facing.hpp"
 #include "horizon/azimuth_sampling.hpp"
@@ -199,16 +200,19 @@ struct SectorMinHorizon {
   std::array<float, levels * sectors> minima;
 };
 
-/// From slopes[azimuth][receiver]. A sector without azimuths has no horizon that an edge could raise: its minimum is the largest
-/// float.
-FARLOD_LANES void find_sector_minima(const float* slopes, const std::uint32_t* first_of_sector, SectorMinHorizon& horizon) {
+/// Of one packet or several, each slopes[azimuth][receiver]. A sector without azimuths has no horizon that an edge could raise:
+/// its minimum is the largest float.
+FARLOD_LANES void find_sector_minima(std::span<const float* const> packets, const std::uint32_t* first_of_sector,
+                                     SectorMinHorizon& horizon) {
   constexpr std::size_t sectors = SectorMinHorizon::sectors;
   // data() could be emitted on its own, for one target in the place of all. NOLINTNEXTLINE(readability-container-data-pointer)
   float* const minima = &horizon.minima[0];
-  // Level 0: the minimum over the azimuths of a sector, then over the lanes
+  // Level 0: the minimum over the azimuths of a sector and over the packets, then over the lanes
   for (std::size_t s = 0; s < sectors; ++s) {
     Floats lowest = broadcast(std::numeric_limits<float>::max());
-    for (std::size_t k = first_of_sector[s]; k < first_of_sector[s + 1]; ++k) lowest = min(lowest, load(slopes + k * lane_count));
+    for (std::size_t n = 0; n < packets.size(); ++n)
+      for (std::size_t k = first_of_sector[s]; k < first_of_sector[s + 1]; ++k)
+        lowest = min(lowest, load(packets[n] + k * lane_count));
     minima[s] = min_lane(lowest);
   }
   // Level n: two neighboring runs of half the length
@@ -221,7 +225,18 @@ FARLOD_LANES void find_sector_minima(const float* slopes, const std::uint32_t* f
   }
 }
 
-/// Writes the lanes of the edges that may rise above some receiver's horizon, ascending, and returns their number.
+/// Writes the lanes of the edges that some receiver may see, ascending, and returns their number.
+FARLOD_LANES std::size_t keep_seen(const EdgeReach& reach, std::array<std::uint8_t, lane_count>& kept) {
+  const std::array max_slope = to_array(reach.max_slope);
+  std::size_t count = 0;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    kept[count] = static_cast<std::uint8_t>(l);
+    count += static_cast<std::size_t>(max_slope[l] > 0.0F);
+  }
+  return count;
+}
+
+/// Those of them that may rise above some receiver's horizon.
 FARLOD_LANES std::size_t cull(const EdgeReach& reach, const SectorMinHorizon& horizon,
                               std::array<std::uint8_t, lane_count>& kept) {
   constexpr auto sectors = static_cast<std::int32_t>(SectorMinHorizon::sectors);

@@ -128,10 +128,10 @@ FARLOD_LANES void draw_nearby(RelativeEdge& e, bool is_upper, const AzimuthView&
   }
 }
 
-/// Draws those edges of a batch that can change a horizon above `min_horizon`.
+/// Draws those edges of a batch that can change a horizon above `min_horizon`, if there is one.
 template <class Horizon>
 FARLOD_LANES void draw_batch(const SilhouetteEdges::Batch& edges, bool is_upper, const Places& receivers,
-                             const PacketBounds& bounds, const AzimuthView& azimuths, const SectorMinHorizon& min_horizon,
+                             const PacketBounds& bounds, const AzimuthView& azimuths, const SectorMinHorizon* min_horizon,
                              const Horizon& horizon) {
   // Reach first: most batches are below all receivers, or behind them
   EdgeReach reach = reach_of(edges, bounds);
@@ -140,7 +140,7 @@ FARLOD_LANES void draw_batch(const SilhouetteEdges::Batch& edges, bool is_upper,
   const Floats facing = may_be_silhouette(facing_terms(edges, bounds.box), edges, bounds.box, is_upper);
   reach.max_slope = choose(facing > 0.0F, reach.max_slope, broadcast(-1.0F));
   std::array<std::uint8_t, lane_count> kept;
-  const std::size_t count = cull(reach, min_horizon, kept);
+  const std::size_t count = min_horizon != nullptr ? cull(reach, *min_horizon, kept) : keep_seen(reach, kept);
   // Draw the others one by one, each for sixteen receivers, between its first and last slot
   const std::array first_slot = to_array(truncate(reach.from * azimuths.slots)),
                    end_slot = to_array(truncate(reach.to * azimuths.slots) + 1);
@@ -162,20 +162,23 @@ FARLOD_LANES void draw_batch(const SilhouetteEdges::Batch& edges, bool is_upper,
 FARLOD_LANES Places places_of(const ReceiverPacket& r) { return {load(r.x.data()), load(r.y.data()), load(r.z.data())}; }
 
 void raise_to_edges(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
-                    const AzimuthView& azimuths, float* slopes) {
+                    const AzimuthView& azimuths, Culling culling, float* slopes) {
   const Places places = places_of(receivers);
   const bool is_upper = edges.role != EdgeRole::underside;
+  const float* const horizon = slopes;
   // Edges come from near to far, and the nearest hide the most: minima are renewed after 2, 4, 8 … more batches. Minima that are
   // out of date are too low, and let more edges be drawn, never fewer
   SectorMinHorizon min_horizon;
-  std::size_t next_update = 0, batches_apart = 2;
+  constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
+  std::size_t next_update = culling == Culling::none ? never : 0, batches_apart = culling == Culling::renewed ? 2 : never;
   for (std::size_t n = 0; n < edges.batches.size(); ++n) {
     if (n >= next_update) {
-      find_sector_minima(slopes, azimuths.first_of_sector, min_horizon);
+      find_sector_minima({&horizon, 1}, azimuths.first_of_sector, min_horizon);
       next_update = n + batches_apart;
       batches_apart *= 2;
     }
-    draw_batch(edges.batches[n], is_upper, places, bounds, azimuths, min_horizon, RaiseHorizon{slopes});
+    draw_batch(edges.batches[n], is_upper, places, bounds, azimuths, culling == Culling::none ? nullptr : &min_horizon,
+               RaiseHorizon{slopes});
   }
 }
 
@@ -185,9 +188,22 @@ void lower_to_edges(const EdgeBatches& edges, const ReceiverPacket& receivers, c
   const bool is_upper = edges.role != EdgeRole::underside;
   // The minimum does not change while edges are drawn
   SectorMinHorizon min_horizon;
-  find_sector_minima(min_slopes, azimuths.first_of_sector, min_horizon);
+  find_sector_minima({&min_slopes, 1}, azimuths.first_of_sector, min_horizon);
   for (const SilhouetteEdges::Batch& batch : edges.batches)
-    draw_batch(batch, is_upper, places, bounds, azimuths, min_horizon, LowerHorizon{min_slopes, slopes});
+    draw_batch(batch, is_upper, places, bounds, azimuths, &min_horizon, LowerHorizon{min_slopes, slopes});
+}
+
+void find_raising(const EdgeBatches& edges, const PacketBounds& bounds, std::span<const float* const> horizons,
+                  const AzimuthView& azimuths, std::uint16_t* raising) {
+  SectorMinHorizon min_horizon;
+  find_sector_minima(horizons, azimuths.first_of_sector, min_horizon);
+  for (const SilhouetteEdges::Batch& batch : edges.batches) {
+    std::array<std::uint8_t, lane_count> kept;
+    const std::size_t count = cull(reach_of(batch, bounds), min_horizon, kept);
+    std::uint32_t bits = 0;
+    for (std::size_t n = 0; n < count; ++n) bits |= 1U << kept[n];
+    *raising++ = static_cast<std::uint16_t>(bits);
+  }
 }
 
 void find_facing(const EdgeBatches& edges, const CenteredBox& box, float* distances_m) {
@@ -206,7 +222,7 @@ void find_facing(const EdgeBatches& edges, const CenteredBox& box, float* distan
 
 namespace FARLOD_TARGET {
 extern const EdgeKernels edge_kernels;
-constexpr EdgeKernels edge_kernels{find_facing, raise_to_edges, lower_to_edges};
+constexpr EdgeKernels edge_kernels{find_facing, find_raising, raise_to_edges, lower_to_edges};
 }  // namespace FARLOD_TARGET
 
 }  // namespace farlod

@@ -74,40 +74,65 @@ HorizonEngine::HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, 
       overhangs_(overhangs),
       gaps_(gaps),
       residual_(far, azimuths),
+      group_(azimuths),
       horizons_(azimuths),
       without_residual_(azimuths) {}
 
-std::uint32_t HorizonEngine::evaluate(const ReceiverPacket& receivers, std::span<SvfInterval> svf) {
-  FARLOD_EXPECTS(svf.size() == receivers.count);
+template <class Begin>
+void HorizonEngine::draw_grounded(std::span<const ReceiverPacket> packets, const Begin& begin) {
+  while (grounded_.size() < packets.size()) grounded_.emplace_back(azimuths_);
+  const std::span horizons = std::span(grounded_).first(packets.size());
+  for (std::size_t n = 0; n < packets.size(); ++n) {
+    horizons[n].clear();
+    begin(packets[n], horizons[n]);
+  }
+  group_.raise(silhouettes_.grounded, packets, horizons);
+}
+
+void HorizonEngine::evaluate(std::span<const ReceiverPacket> packets, std::span<PacketAnswer> answers) {
+  FARLOD_EXPECTS(answers.size() == packets.size());
+  // The residual horizon comes first: it is cheap, and culls edges
+  draw_grounded(packets,
+                [this](const ReceiverPacket& packet, PacketHorizon& horizon) { residual_.raise_to_estimate(packet, horizon); });
+  for (std::size_t n = 0; n < packets.size(); ++n) {
+    std::swap(horizons_.grounded, grounded_[n]);
+    evaluate(packets[n], answers[n]);
+  }
+}
+
+void HorizonEngine::evaluate_with_bounds(std::span<const ReceiverPacket> packets, std::span<PacketAnswer> answers) {
+  FARLOD_EXPECTS(answers.size() == packets.size());
+  draw_grounded(packets, [](const ReceiverPacket&, PacketHorizon&) {});
+  for (std::size_t n = 0; n < packets.size(); ++n) {
+    std::swap(horizons_.grounded, grounded_[n]);
+    evaluate_with_bounds(packets[n], answers[n]);
+  }
+}
+
+void HorizonEngine::evaluate(const ReceiverPacket& receivers, PacketAnswer& answer) {
   const std::uint32_t below = overhangs_.receivers_below(receivers);
-  // Draw the grounded horizon. The residual comes first: it is cheap, and culls edges
-  horizons_.grounded.clear();
-  residual_.raise_to_estimate(receivers, horizons_.grounded);
-  horizons_.grounded.raise(silhouettes_.grounded, receivers);
   // Without overhangs in sight, the sky above it is the answer
   if (below == 0 && silhouettes_.near.empty() && silhouettes_.far.empty()) {
     const Lanes sky = horizons_.grounded.sky_above(weight_, receivers);
-    for (std::size_t l = 0; l < svf.size(); ++l) svf[l] = {sky[l], sky[l], sky[l]};
-    return 0;
+    for (std::size_t l = 0; l < sky.size(); ++l) answer.svf[l] = {sky[l], sky[l], sky[l]};
+    answer.by_rays = 0;
+    return;
   }
   // Else it is the sky above the upper borders, plus what is seen in the gaps below the lower borders
   horizons_.upper_borders = horizons_.lower_borders = horizons_.grounded;
   horizons_.draw_overhangs(silhouettes_, receivers, below, FarGapEnd::lowest);
   const Lanes sky = horizons_.upper_borders.sky_above(weight_, receivers);
   const SkyInGaps gaps = sky_in_gaps(receivers);
-  for (std::size_t l = 0; l < svf.size(); ++l) {
+  for (std::size_t l = 0; l < sky.size(); ++l) {
     const float sum = std::min(sky[l] + gaps.sky[l], 1.0F);
-    svf[l] = {sum, sum, sum};
+    answer.svf[l] = {sum, sum, sum};
   }
-  return gaps.by_rays;
+  answer.by_rays = gaps.by_rays;
 }
 
-std::uint32_t HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, std::span<SvfInterval> svf) {
-  FARLOD_EXPECTS(svf.size() == receivers.count);
+void HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, PacketAnswer& answer) {
   const std::uint32_t below = overhangs_.receivers_below(receivers);
   // The high SVF: sky above the residual's low bound, and all of the gaps, up to the highest borders
-  horizons_.grounded.clear();
-  horizons_.grounded.raise(silhouettes_.grounded, receivers);
   without_residual_ = horizons_.upper_borders = horizons_.lower_borders = horizons_.grounded;
   residual_.raise_to_low(receivers, horizons_.upper_borders);
   residual_.raise_to_overhang(receivers, horizons_.lower_borders);
@@ -124,12 +149,12 @@ std::uint32_t HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receiver
   // The low SVF: sky above the residual's high bound, and nothing of the gaps
   residual_.raise_to_high(receivers, horizons_.upper_borders);
   const Lanes low = horizons_.upper_borders.sky_above(weight_, receivers);
-  for (std::size_t l = 0; l < svf.size(); ++l) {
+  for (std::size_t l = 0; l < low.size(); ++l) {
     // Both are rounded: where the interval has no width, the sums may differ in their last bit
     const float high = std::max(low[l], std::min(most_above[l] + most_in_gaps[l], 1.0F));
-    svf[l] = {low[l], std::clamp(estimate[l] + gaps.sky[l], low[l], high), high};
+    answer.svf[l] = {low[l], std::clamp(estimate[l] + gaps.sky[l], low[l], high), high};
   }
-  return gaps.by_rays;
+  answer.by_rays = gaps.by_rays;
 }
 
 HorizonEngine::SkyInGaps HorizonEngine::sky_in_gaps(const ReceiverPacket& receivers) {

@@ -11,6 +11,7 @@
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/overhangs.hpp"
+#include "horizon/packet_group.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/residual_horizon.hpp"
@@ -42,6 +43,12 @@ struct Gaps {
                                               const ReceiverPacket& receivers, std::uint32_t wanted, std::size_t rays_per_azimuth,
                                               const PlacedScene& scene, const std::stop_token& stop = {});
 
+/// The answers of a packet, in the order of its receivers.
+struct PacketAnswer {
+  std::array<SvfInterval, ReceiverPacket::lanes> svf{};
+  std::uint32_t by_rays = 0;  ///< a bit for each receiver that needed rays
+};
+
 /// How gaps are treated.
 struct GapSettings {
   /// A receiver with at most so much sky in its gaps needs no rays: half of it counts.
@@ -58,14 +65,20 @@ class HorizonEngine {
   HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, const FarHorizon& far, const CellSilhouettes& silhouettes,
                 OverhangGeometry& overhangs, const GapSettings& gaps);
 
-  /// Computes the receivers of a packet into `svf`, in their order; low = estimate = high. Returns a bit for each that needed
-  /// rays.
-  [[nodiscard]] std::uint32_t evaluate(const ReceiverPacket& receivers, std::span<SvfInterval> svf);
+  /// Computes the receivers of packets near each other; low = estimate = high. The answers do not depend on which packets are
+  /// together.
+  void evaluate(std::span<const ReceiverPacket> packets, std::span<PacketAnswer> answers);
   /// The same with bounds.
-  [[nodiscard]] std::uint32_t evaluate_with_bounds(const ReceiverPacket& receivers, std::span<SvfInterval> svf);
+  void evaluate_with_bounds(std::span<const ReceiverPacket> packets, std::span<PacketAnswer> answers);
 
  private:
   using Lanes = PacketHorizon::Lanes;
+  /// Draws the grounded horizons of all packets, above those that `begin(packet, horizon)` makes.
+  template <class Begin>
+  void draw_grounded(std::span<const ReceiverPacket> packets, const Begin& begin);
+  /// Answers one packet, whose grounded horizon is drawn.
+  void evaluate(const ReceiverPacket& receivers, PacketAnswer& answer);
+  void evaluate_with_bounds(const ReceiverPacket& receivers, PacketAnswer& answer);
   /// The sky seen in gaps, and a bit for each receiver that needed rays for it.
   struct SkyInGaps {
     Lanes sky{};
@@ -80,7 +93,9 @@ class HorizonEngine {
   OverhangGeometry& overhangs_;
   GapSettings gaps_;
   ResidualHorizon residual_;
+  PacketGroup group_;
   // Working memory, kept from packet to packet
+  std::vector<PacketHorizon> grounded_;  ///< of each packet
   OverhangHorizons horizons_;
   PacketHorizon without_residual_;
   std::vector<PacketHorizon::Row> gap_rows_;

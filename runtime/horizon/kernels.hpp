@@ -25,6 +25,13 @@ struct EdgeBatches {
   EdgeRole role;
 };
 
+/// When the lowest slopes of horizons are found, against which edges are culled. The horizons that are drawn do not depend on it.
+enum class Culling : std::uint8_t {
+  none,    ///< never: most of the edges are seen
+  once,    ///< before the first edge: most of the horizons is drawn already
+  renewed  ///< again and again: edges come from near to far
+};
+
 struct EdgeKernels {
   /// For each edge its distance in the plan from the centre of a box of receivers, or −1 if it can be a silhouette for none of
   /// them: may_be_silhouette (farlod/horizon/edge_facing.hpp) and a test of its height, in floats.
@@ -32,9 +39,14 @@ struct EdgeKernels {
   ///   (2) other edges are kept only within rounding
   /// distances_m[batch][lane]; lanes without an edge mean nothing.
   void (*find_facing)(const EdgeBatches& edges, const CenteredBox& box, float* distances_m);
+  /// The edges that may rise above some horizon of packets whose receivers lie within these bounds: a bit for each lane of each
+  /// batch, raising[batch]. An edge that is not among them raises none. Bits of lanes without an edge mean
+  /// nothing.
+  void (*find_raising)(const EdgeBatches& edges, const PacketBounds& bounds, std::span<const float* const> horizons,
+                       const AzimuthView& azimuths, std::uint16_t* raising);
   /// Raises horizons to edges: slopes = max(slopes, slope of each edge where a receiver sees it).
   void (*raise_to_edges)(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
-                         const AzimuthView& azimuths, float* slopes);
+                         const AzimuthView& azimuths, Culling culling, float* slopes);
   /// Lowers horizons to the edges above `min_slopes`: slopes = min(slopes, slope of each edge that is steeper than min_slopes).
   void (*lower_to_edges)(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
                          const AzimuthView& azimuths, const float* min_slopes, float* slopes);

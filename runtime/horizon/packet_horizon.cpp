@@ -25,9 +25,10 @@ bool all_are_level(const ReceiverPacket& r) {
 
 void PacketHorizon::clear() { std::fill(slopes_.begin(), slopes_.end(), Row{}); }
 
-void PacketHorizon::raise(const SilhouetteEdges& edges, const ReceiverPacket& receivers) {
+void PacketHorizon::raise(const SilhouetteEdges& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
+                          Culling culling) {
   if (edges.empty()) return;
-  edge_kernels().raise_to_edges({edges.batches(), edges.role()}, receivers, bounds_of(receivers), azimuths_->view(), data());
+  edge_kernels().raise_to_edges({edges.batches(), edges.role()}, receivers, bounds, azimuths_->view(), culling, data());
 }
 
 void PacketHorizon::set_to_lowest(const SilhouetteEdges& edges, const ReceiverPacket& receivers,

@@ -30,7 +30,11 @@ class PacketHorizon {
   void clear();
   /// Raises each receiver's horizon to the edges that it sees. Fastest if edges come from near to far, since edges below the
   /// horizons of all receivers are culled.
-  void raise(const SilhouetteEdges& edges, const ReceiverPacket& receivers);
+  void raise(const SilhouetteEdges& edges, const ReceiverPacket& receivers) {
+    raise(edges, receivers, bounds_of(receivers), Culling::renewed);
+  }
+  /// The same, with the bounds of these receivers.
+  void raise(const SilhouetteEdges& edges, const ReceiverPacket& receivers, const PacketBounds& bounds, Culling culling);
   /// Sets each horizon to the lowest of the edges that the receiver sees above `min_horizon`, or to `min_horizon` where it sees
   /// none.
   void set_to_lowest(const SilhouetteEdges& edges, const ReceiverPacket& receivers, const PacketHorizon& min_horizon);
@@ -48,6 +52,8 @@ class PacketHorizon {
   /// Makes the horizons of the receivers with set bits infinite: they see no sky.
   void close(std::uint32_t receivers);
 
+  /// slopes[azimuth][receiver], as kernels.hpp has them.
+  [[nodiscard]] const float* slopes() const { return data(); }
   [[nodiscard]] const Row& row(std::size_t azimuth) const { return slopes_[azimuth]; }
   /// A bit for each receiver whose horizon is higher than its other one, at some azimuth.
   [[nodiscard]] std::uint32_t exceeds(const PacketHorizon& other) const;

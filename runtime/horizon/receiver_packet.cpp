@@ -122,11 +122,21 @@ class Division {
   }
 
   PacketOrder divided() && {
-    if (!order_.numbers.empty()) divide(order_.numbers);
+    if (!order_.numbers.empty()) divide_into_groups(order_.numbers);
     return std::move(order_);
   }
 
  private:
+  void divide_into_groups(Numbers part) {
+    if (part.size() <= packets_in_group * ReceiverPacket::lanes) {
+      divide(part);
+      order_.group_ends.push_back(static_cast<std::uint32_t>(order_.ends.size()));
+      return;
+    }
+    const std::size_t count = cut(part);
+    divide_into_groups(part.first(count));
+    divide_into_groups(part.subspan(count));
+  }
   void divide(Numbers part) {
     if (part.size() <= ReceiverPacket::lanes) {
       order_.ends.push_back(static_cast<std::uint32_t>(part.data() + part.size() - order_.numbers.data()));
@@ -189,6 +199,29 @@ PacketBounds bounds_of(const ReceiverPacket& r) {
            r.lowest_z(),           *std::max_element(r.z.begin(), r.z.end())};
   set_plane(r, b);
   return b;
+}
+
+PacketBounds joined(std::span<const PacketBounds> bounds) {
+  FARLOD_EXPECTS(!bounds.empty());
+  PacketBounds all = bounds.front();
+  float west = std::numeric_limits<float>::infinity(), east = -west, south = west, north = -west;
+  for (const PacketBounds& b : bounds) {
+    west = std::min(west, b.box.x - b.box.half_x);
+    east = std::max(east, b.box.x + b.box.half_x);
+    south = std::min(south, b.box.y - b.box.half_y);
+    north = std::max(north, b.box.y + b.box.half_y);
+    all.box.low_z = std::min(all.box.low_z, b.box.low_z);
+    all.box.high_z = std::max(all.box.high_z, b.box.high_z);
+    // Where normals differ, no plane is in front of all: the normal 0 stays
+    const bool is_shared = all.normal_x == b.normal_x && all.normal_y == b.normal_y && all.normal_z == b.normal_z;
+    all.depth = std::min(all.depth, b.depth);
+    if (!is_shared) all = {all.box};
+  }
+  all.box.x = 0.5F * (west + east);
+  all.box.y = 0.5F * (south + north);
+  all.box.half_x = std::max(east - all.box.x, all.box.x - west);
+  all.box.half_y = std::max(north - all.box.y, all.box.y - south);
+  return all;
 }
 
 PacketOrder packet_order(std::span<const Receiver> receivers) { return Division(receivers).divided(); }

@@ -49,12 +49,20 @@ struct PacketBounds {
   float normal_x = 0.0F, normal_y = 0.0F, normal_z = 0.0F, depth = -1.0F;
 };
 [[nodiscard]] PacketBounds bounds_of(const ReceiverPacket& receivers);
+/// Bounds of all the packets that these are the bounds of. There is a plane if all have one with the same normal.
+[[nodiscard]] PacketBounds joined(std::span<const PacketBounds> bounds);
+
+/// Packets of a group, unless gaps between their receivers make more of them.
+inline constexpr std::size_t packets_in_group = 16;
 
 /// The receivers of a cell, divided into packets. A packet is computed the faster, the nearer its receivers are to each other and
 /// the more alike their normals.
 struct PacketOrder {
   std::vector<std::uint32_t> numbers;  ///< places of the receivers in their list, packet by packet
   std::vector<std::uint32_t> ends;     ///< of each packet, in `numbers`
+  /// Consecutive packets that are near each other form a group: the end of each, in `ends`. A group of `lanes` receivers a packet
+  /// has at most `packets_in_group` packets.
+  std::vector<std::uint32_t> group_ends;
 };
 
 ///   (1) each receiver is in one packet
@@ -62,16 +70,19 @@ struct PacketOrder {
 ///   (3) the order depends on the receivers alone
 [[nodiscard]] PacketOrder packet_order(std::span<const Receiver> receivers);
 
-/// Calls `visit(packet, numbers)` for each packet.
+/// Calls `visit(packets, numbers)` for each group, with the numbers of its receivers, packet by packet.
 template <class Visit>
-void for_each_packet(std::span<const Receiver> receivers, const PacketOrder& order, const Visit& visit) {
-  std::size_t first = 0;
-  for (const std::uint32_t end : order.ends) {
-    const auto numbers = std::span(order.numbers).subspan(first, end - first);
-    ReceiverPacket packet;
-    for (const std::uint32_t n : numbers) packet.add(receivers[n]);
-    visit(packet, numbers);
-    first = end;
+void for_each_group(std::span<const Receiver> receivers, const PacketOrder& order, const Visit& visit) {
+  std::vector<ReceiverPacket> packets;
+  std::size_t packet = 0, first = 0;
+  for (const std::uint32_t group_end : order.group_ends) {
+    const std::size_t group_first = first;
+    packets.clear();
+    for (; packet < group_end; ++packet) {
+      packets.emplace_back();
+      for (; first < order.ends[packet]; ++first) packets.back().add(receivers[order.numbers[first]]);
+    }
+    visit(std::span<const ReceiverPacket>(packets), std::span(order.numbers).subspan(group_first, first - group_first));
   }
 }
 

@@ -55,4 +55,18 @@ SilhouetteEdges SilhouetteEdges::facing(const ReceiverBox& box) const {
   return result;
 }
 
+void SilhouetteEdges::assign(const SilhouetteEdges& edges, std::span<const std::uint16_t> chosen) {
+  role_ = edges.role_;
+  batches_.clear();
+  adjacent_.clear();
+  for (std::size_t batch = 0; batch < chosen.size(); ++batch)
+    for (std::uint32_t bits = chosen[batch]; bits != 0; bits &= bits - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
+      if (batch * lanes + lane >= edges.size()) break;
+      if (size() % lanes == 0) batches_.emplace_back();
+      batches_.back().copy_lane(size() % lanes, edges.batches_[batch], lane);
+      adjacent_.push_back(edges.adjacent_[batch * lanes + lane]);
+    }
+}
+
 }  // namespace farlod

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -68,6 +69,8 @@ class SilhouetteEdges {
   /// The edges that can be a silhouette for some receiver in a box, from near to far in the plan from its centre, in steps of 3
   /// %.
   [[nodiscard]] SilhouetteEdges facing(const ReceiverBox& box) const;
+  /// Makes it those of `edges` whose bits are set, in their order: a bit for each lane of each batch.
+  void assign(const SilhouetteEdges& edges, std::span<const std::uint16_t> chosen);
 
  private:
   static void put(std::size_t lane, const HorizonEdge& e, Batch& batch) {

@@ -9,6 +9,7 @@
 
 #include "evaluate/verification.hpp"
 #include "farlod/error.hpp"
+#include "horizon/receiver_packet.hpp"
 
 namespace farlod {
 namespace {
@@ -23,7 +24,7 @@ constexpr double triangle_bytes = 224;      // of the whole city's scene: the tr
 
 // Of a sample of the sky: a direction, and what each thread has at an azimuth, 64 bytes for each of the horizons of an engine
 constexpr double direction_bytes = sizeof(Point3d);
-constexpr double azimuth_bytes = 100 + 8 * 64;       // HorizonEngine
+constexpr double azimuth_bytes = 100 + (8 + packets_in_group) * 64;  // HorizonEngine
 constexpr double ray_azimuth_bytes = 180 + 11 * 64;  // RayEngine, with the directions in the order of their azimuths
 
 bool traces_whole_city(const ResolvedSettings& settings) {

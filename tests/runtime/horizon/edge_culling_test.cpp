@@ -168,7 +168,8 @@ std::vector<Row> random_rows(std::size_t count, RandomPlaces& random) {
 
 SectorMinHorizon minima_of(const std::vector<Row>& rows, const AzimuthSampling& ring) {
   SectorMinHorizon min_horizon;
-  find_sector_minima(rows.front().data(), ring.first_of_sector(), min_horizon);
+  const float* const slopes = rows.front().data();
+  find_sector_minima({&slopes, 1}, ring.first_of_sector(), min_horizon);
   return min_horizon;
 }
 

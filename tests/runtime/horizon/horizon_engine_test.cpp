@@ -43,6 +43,7 @@ class KnownTown {
         silhouettes_(town.silhouettes()),
         engine_(ring_, weight, map, silhouettes_, overhangs_, gaps) {}
 
+  [[nodiscard]] HorizonEngine& engine() { return engine_; }
   [[nodiscard]] FarHorizon& map() { return far_.map(); }
   [[nodiscard]] const AzimuthSampling& ring() const { return ring_; }
   /// Answers receivers packet by packet; the numbers of those that needed rays.
@@ -54,7 +55,7 @@ class KnownTown {
   }
 
  private:
-  using Evaluate = std::uint32_t (HorizonEngine::*)(const ReceiverPacket&, std::span<SvfInterval>);
+  using Evaluate = void (HorizonEngine::*)(std::span<const ReceiverPacket>, std::span<PacketAnswer>);
   std::vector<std::uint32_t> packet_by_packet(std::span<const Receiver> receivers, std::span<SvfInterval> intervals,
                                               Evaluate answer) {
     std::vector<std::uint32_t> by_rays;
@@ -62,9 +63,11 @@ class KnownTown {
       const std::size_t count = std::min(ReceiverPacket::lanes, receivers.size() - first);
       ReceiverPacket packet;
       for (const Receiver& r : receivers.subspan(first, count)) packet.add(r);
-      const std::uint32_t bits = (engine_.*answer)(packet, intervals.subspan(first, count));
+      PacketAnswer of_packet;
+      (engine_.*answer)({&packet, 1}, {&of_packet, 1});
+      std::copy_n(of_packet.svf.begin(), count, intervals.begin() + first);
       for (std::uint32_t l = 0; l < count; ++l)
-        if (((bits >> l) & 1U) != 0) by_rays.push_back(first + l);
+        if (((of_packet.by_rays >> l) & 1U) != 0) by_rays.push_back(first + l);
     }
     return by_rays;
   }
@@ -114,6 +117,32 @@ TEST(HorizonEngine, AReceiverSeesTheSameWhoeverStandsBesideIt) {
       EXPECT_TRUE(known.evaluate(std::span(receivers).subspan(n, 1), alone).empty());
       EXPECT_EQ(alone[0].estimate, together[n].estimate) << n;
       EXPECT_EQ(with_bounds[n].estimate, together[n].estimate) << n;
+    }
+  }
+}
+
+TEST(HorizonEngine, APacketIsAnsweredAlikeInAnyGroup) {
+  RandomPlaces random;
+  TownByHand town;
+  add_random_boxes(random, 40, town);
+  town.add_beam({5.0, 5.0}, {4.0, 9.0}, 4.0, 6.0);
+  KnownTown known(town, SkyWeight::cosine);
+  std::vector<ReceiverPacket> packets;
+  for (const Receiver& r : dense_receivers(up)) {
+    if (packets.empty() || packets.back().count == ReceiverPacket::lanes) packets.emplace_back();
+    packets.back().add(r);
+  }
+  using Evaluate = void (HorizonEngine::*)(std::span<const ReceiverPacket>, std::span<PacketAnswer>);
+  for (const Evaluate evaluate : {Evaluate{&HorizonEngine::evaluate}, Evaluate{&HorizonEngine::evaluate_with_bounds}}) {
+    std::vector<PacketAnswer> together(packets.size()), alone(1);
+    (known.engine().*evaluate)(packets, together);
+    for (std::size_t n = 0; n < packets.size(); ++n) {
+      (known.engine().*evaluate)(std::span(packets).subspan(n, 1), alone);
+      for (std::size_t l = 0; l < packets[n].count; ++l) {
+        EXPECT_EQ(together[n].svf[l].low, alone[0].svf[l].low) << n << ", " << l;
+        EXPECT_EQ(together[n].svf[l].estimate, alone[0].svf[l].estimate) << n << ", " << l;
+        EXPECT_EQ(together[n].svf[l].high, alone[0].svf[l].high) << n << ", " << l;
+      }
     }
   }
 }

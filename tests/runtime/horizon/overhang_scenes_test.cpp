@@ -151,8 +151,9 @@ class OverhangScenes : public testing::TestWithParam<Scene> {
       const std::size_t count = std::min(ReceiverPacket::lanes, places.size() - first);
       ReceiverPacket packet;
       for (std::size_t n = first; n < first + count; ++n) packet.add({n, places[n], up});
-      const auto some = std::span(intervals).subspan(first, count);
-      (void)(wants_bounds ? engine.evaluate_with_bounds(packet, some) : engine.evaluate(packet, some));
+      PacketAnswer answer;
+      wants_bounds ? engine.evaluate_with_bounds({&packet, 1}, {&answer, 1}) : engine.evaluate({&packet, 1}, {&answer, 1});
+      std::copy_n(answer.svf.begin(), count, intervals.begin() + static_cast<std::ptrdiff_t>(first));
     }
     return intervals;
   }

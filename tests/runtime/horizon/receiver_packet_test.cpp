@@ -26,13 +26,17 @@ std::vector<Receiver> random_receivers(std::size_t count, const std::vector<Poin
 
 std::vector<std::vector<Receiver>> packets_of(const std::vector<Receiver>& receivers) {
   std::vector<std::vector<Receiver>> packets;
-  for_each_packet(receivers, packet_order(receivers), [&](const ReceiverPacket& packet, std::span<const std::uint32_t> numbers) {
-    EXPECT_EQ(packet.count, numbers.size());
-    packets.emplace_back();
-    for (const std::uint32_t n : numbers) packets.back().push_back(receivers[n]);
-    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
-      EXPECT_EQ(packet.x[l], packets.back()[std::min(l, numbers.size() - 1)].p_cell.x);
-  });
+  for_each_group(receivers, packet_order(receivers),
+                 [&](std::span<const ReceiverPacket> group, std::span<const std::uint32_t> numbers) {
+                   for (const ReceiverPacket& packet : group) {
+                     packets.emplace_back();
+                     for (const std::uint32_t n : numbers.first(packet.count)) packets.back().push_back(receivers[n]);
+                     numbers = numbers.subspan(packet.count);
+                     for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
+                       EXPECT_EQ(packet.x[l], packets.back()[std::min(l, packet.count - 1)].p_cell.x);
+                   }
+                   EXPECT_TRUE(numbers.empty());
+                 });
   return packets;
 }
 
@@ -100,6 +104,44 @@ TEST(PacketOrder, AGapIsWorthAPacketMore) {
   const auto packets = packets_of(receivers);
   EXPECT_EQ(packets.size(), 3U) << "two would be enough";
   for (const auto& packet : packets) EXPECT_TRUE(lie_within(packet, 6.0F));
+}
+
+TEST(PacketOrder, ARasterComesInGroupsThatAreSquaresToo) {
+  const std::vector<Receiver> receivers = raster(64, 32);
+  std::size_t groups = 0;
+  for_each_group(receivers, packet_order(receivers),
+                 [&](std::span<const ReceiverPacket> group, std::span<const std::uint32_t> numbers) {
+                   EXPECT_EQ(group.size(), packets_in_group);
+                   std::vector<Receiver> of_group;
+                   for (const std::uint32_t n : numbers) of_group.push_back(receivers[n]);
+                   EXPECT_TRUE(lie_within(of_group, 16.0F));
+                   ++groups;
+                 });
+  EXPECT_EQ(groups, 8U);
+}
+
+TEST(PacketBounds, HoldThoseOfEachPacketOfAGroup) {
+  constexpr float rounding_m = 1e-4F;
+  RandomPlaces random;
+  for (const std::vector<Point3f>& normals : {std::vector{up, up, up}, {south, south, south}, {up, south, up}}) {
+    std::vector<PacketBounds> bounds;
+    std::vector<Point3f> places;
+    for (const Point3f& normal : normals) {
+      const std::vector<Point3f> some{random.place(30.0, -5.0, 40.0), random.place(30.0, -5.0, 40.0)};
+      places.insert(places.end(), some.begin(), some.end());
+      bounds.push_back(bounds_of(packet_of(some, normal)));
+    }
+    const PacketBounds all = joined(bounds);
+    for (const Point3f& p : places) {
+      EXPECT_LE(std::abs(p.x - all.box.x), all.box.half_x + rounding_m);
+      EXPECT_LE(std::abs(p.y - all.box.y), all.box.half_y + rounding_m);
+      EXPECT_GE(p.z, all.box.low_z);
+      EXPECT_LE(p.z, all.box.high_z);
+      EXPECT_GE(all.normal_x * p.x + all.normal_y * p.y + all.normal_z * p.z, all.depth - rounding_m);
+    }
+    const Point3f normal{all.normal_x, all.normal_y, all.normal_z};
+    EXPECT_EQ(normal, normals[0] == normals[1] ? normals[0] : (Point3f{}));
+  }
 }
 
 TEST(PacketOrder, ManyAtOnePlace) {

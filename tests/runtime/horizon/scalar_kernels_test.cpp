@@ -96,7 +96,8 @@ TEST_P(ScalarKernels, HorizonsRaisedToEdges) {
       const std::vector<HorizonEdge> edges = random_edges(role, packet);
       const SilhouetteEdges silhouettes_of_role = silhouettes(role, edges);
       Rows slopes(azimuths_.size());
-      edge().raise_to_edges({silhouettes_of_role.batches(), role}, packet, bounds, azimuths_.view(), data(slopes));
+      edge().raise_to_edges({silhouettes_of_role.batches(), role}, packet, bounds, azimuths_.view(), Culling::renewed,
+                            data(slopes));
       for (std::size_t k = 0; k < azimuths_.size(); ++k)
         for (std::size_t l = 0; l < lanes; ++l) {
           EXPECT_EQ(slopes[k][l], scalar::raised(0.0F, edges, place(packet, l), bounds, azimuth(k)))
