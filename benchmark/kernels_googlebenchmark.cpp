@@ -178,7 +178,7 @@ void find_facing(KernelCity& city, State& state, const KernelTarget& target) {
 
 void raise_to_edges(const GroundPacket& packet, const KernelTarget& target, Rows& slopes) {
   target.edge->raise_to_edges({packet.edges.batches(), EdgeRole::grounded}, packet.receivers, bounds_of(packet.receivers),
-                              packet.azimuths.view(), Culling::renewed, slopes.front().data());
+                              packet.azimuths.view(), Culling::renewed, slopes.front().data(), nullptr);
 }
 void raise_to_edges(KernelCity& city, State& state, const KernelTarget& target) {
   const GroundPacket packet(city);
@@ -199,7 +199,7 @@ void sum_cosine(KernelCity& city, State& state, const KernelTarget& target) {
   raise_to_edges(packet, target, slopes);
   PacketHorizon::Lanes sums;
   for (auto _ : state) {
-    target.sky->sum_cosine(slopes.front().data(), packet.receivers, packet.azimuths.view(), sums.data());
+    target.sky->sum_cosine(slopes.front().data(), packet.receivers, packet.azimuths.view(), sums.data(), nullptr);
     ::benchmark::ClobberMemory();
   }
 }

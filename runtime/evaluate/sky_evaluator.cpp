@@ -227,17 +227,6 @@ SkyEvaluator::Numbers SkyEvaluator::draw_horizons(CellGeometry& geometry, const 
   HorizonEngine engine(azimuths_, settings_.weight, geometry.far, geometry.silhouettes, geometry.overhangs,
                        {static_cast<float>(azimuth_error(settings_.azimuths)), rays_per_azimuth, stop_});
   Numbers uncertain;
-  const auto take = [&](const PacketAnswer& packet, std::span<const std::uint32_t> numbers) {
-    if (packet.by_rays != 0) require_rays_allowed(cell.cell);
-    for (std::size_t l = 0; l < numbers.size(); ++l) {
-      store(packet.svf[l], cell.receivers[numbers[l]].index, answers);
-      if (exceeds_allowed_error(packet.svf[l])) {
-        uncertain.push_back(numbers[l]);
-      } else {
-        by_rays_ += (packet.by_rays >> l) & 1U;
-      }
-    }
-  };
   std::vector<PacketAnswer> of_packets;
   for_each_group(cell.receivers, packet_order(cell.receivers),
                  [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
@@ -246,11 +235,24 @@ SkyEvaluator::Numbers SkyEvaluator::draw_horizons(CellGeometry& geometry, const 
                    wants_bounds(answers) ? engine.evaluate_with_bounds(packets, of_packets)
                                          : engine.evaluate(packets, of_packets);
                    for (std::size_t n = 0; n < packets.size(); ++n) {
-                     take(of_packets[n], numbers.first(packets[n].count));
+                     store_packet(of_packets[n], cell, numbers.first(packets[n].count), answers, uncertain);
                      numbers = numbers.subspan(packets[n].count);
                    }
                  });
   return uncertain;
+}
+
+void SkyEvaluator::store_packet(const PacketAnswer& packet, const CellReceivers& cell, std::span<const std::uint32_t> numbers,
+                                const SkyAnswers& answers, Numbers& uncertain) const {
+  if (packet.by_rays != 0) require_rays_allowed(cell.cell);
+  for (std::size_t l = 0; l < numbers.size(); ++l) {
+    store(packet.svf[l], cell.receivers[numbers[l]].index, answers);
+    if (exceeds_allowed_error(packet.svf[l])) {
+      uncertain.push_back(numbers[l]);
+    } else {
+      by_rays_ += (packet.by_rays >> l) & 1U;
+    }
+  }
 }
 
 bool SkyEvaluator::exceeds_allowed_error(const SvfInterval& svf) const {

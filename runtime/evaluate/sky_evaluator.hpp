@@ -22,6 +22,7 @@
 namespace farlod {
 
 class RayEngine;
+struct PacketAnswer;
 struct SvfInterval;
 struct FreeRays;
 
@@ -88,7 +89,8 @@ class SkyEvaluator {
   ~SkyEvaluator();
 
   /// Writes the sky view factor of each receiver, in [0, 1], by the method of the cell (method_of). Where `low` and `high` are
-  /// wanted, the value for the same azimuths or rays and the true far city lies between them, up to the rounding of floats
+  /// wanted, the value for the same azimuths or rays, with jumps of the horizon at the same places, and the true far city lies
+  /// between them, up to the rounding of floats
   /// (docs/concepts.md, "Bounds of a sky view factor"); bounds need far maps of the kind `horizon` or the method `whole_city`.
   /// Throws PackageUnusable where `horizons_alone` meets a receiver that may see too much sky below an overhang.
   void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const;
@@ -116,6 +118,9 @@ class SkyEvaluator {
   [[nodiscard]] CellGeometry geometry_of(const CellReceivers& cell) const;
   /// Returns the numbers of the receivers whose intervals are wider than the allowed error.
   [[nodiscard]] Numbers draw_horizons(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const;
+  /// Stores the answers of a packet, of the receivers with these numbers; `uncertain` gets those whose intervals are too wide.
+  void store_packet(const PacketAnswer& packet, const CellReceivers& cell, std::span<const std::uint32_t> numbers,
+                    const SkyAnswers& answers, Numbers& uncertain) const;
   /// Answers the receivers with these numbers.
   void count_rays(CellGeometry& geometry, const CellReceivers& cell, const Numbers& numbers, const SkyAnswers& answers) const;
   /// Traces the rays that the far map leaves open, for receivers whose intervals are wider than the allowed error.

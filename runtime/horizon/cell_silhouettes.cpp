@@ -3,6 +3,7 @@
 #include "horizon/cell_silhouettes.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "contract/expects.hpp"
 #include "occlusion/placed_mesh.hpp"
@@ -50,7 +51,18 @@ CellSilhouettes cell_silhouettes(const PackageReader& package, Cell cell, const 
   silhouettes.grounded = silhouettes.grounded.facing(box);
   keep_facing(silhouettes.near, box);
   keep_facing(silhouettes.far, box);
+  silhouettes.number_upper_borders();
   return silhouettes;
+}
+
+void CellSilhouettes::number_upper_borders() {
+  const std::array<SilhouetteEdges*, 3> lists{&grounded, &near.overhangs, &far.overhangs};
+  std::size_t first = 0;
+  for (SilhouetteEdges* edges : lists) {
+    edges->number_from(static_cast<std::int32_t>(first));
+    first += edges->size();
+  }
+  upper_ends = BorderEnds(std::array<const SilhouetteEdges*, 3>{lists[0], lists[1], lists[2]});
 }
 
 ReceiverBox bounding_box(std::span<const Receiver> receivers) {

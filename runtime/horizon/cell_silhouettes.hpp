@@ -5,6 +5,7 @@
 #include <span>
 
 #include "contract/grid.hpp"
+#include "horizon/border_ends.hpp"
 #include "horizon/silhouette_edges.hpp"
 #include "package/far_horizon.hpp"
 #include "package/package_reader.hpp"
@@ -23,6 +24,10 @@ struct OverhangEdges {
 struct CellSilhouettes {
   SilhouetteEdges grounded;  ///< near and far
   OverhangEdges near, far;
+  BorderEnds upper_ends;  ///< of the upper borders: `grounded`, near.overhangs, far.overhangs, which are numbered in this order
+
+  /// Numbers the upper borders, and finds their ends.
+  void number_upper_borders();
 };
 
 /// The edges of the neighborhood and the explicit edges of the far map, without those that face away from all receivers in a box.

@@ -79,7 +79,7 @@ FARLOD_LANES Crossing crossing_of(const RelativeEdge& e, float max_slope, float 
 /// Horizons that rise to the edges: t_k = max(t_k, slope) where d_k hits the edge.
 struct RaiseHorizon {
   float* slopes;
-  FARLOD_LANES void draw(const RelativeEdge& e, float max_slope, const AzimuthView& a, std::uint32_t first,
+  FARLOD_LANES void draw(const RelativeEdge& e, std::int32_t, float max_slope, const AzimuthView& a, std::uint32_t first,
                          std::uint32_t end) const {
     for (std::uint32_t k = first; k < end; ++k) {
       const Crossing c = crossing_of(e, max_slope, a.cosine[k], a.sine[k]);
@@ -89,11 +89,29 @@ struct RaiseHorizon {
   }
 };
 
+/// The same, with the number of the edge that each slope is of.
+struct RaiseNumberedHorizon {
+  float* slopes;
+  std::int32_t* numbers;
+  FARLOD_LANES void draw(const RelativeEdge& e, std::int32_t number, float max_slope, const AzimuthView& a, std::uint32_t first,
+                         std::uint32_t end) const {
+    for (std::uint32_t k = first; k < end; ++k) {
+      const Crossing c = crossing_of(e, max_slope, a.cosine[k], a.sine[k]);
+      float* row = slopes + std::size_t{k} * lane_count;
+      std::int32_t* edges = numbers + std::size_t{k} * lane_count;
+      const Floats before = load(row), slope = choose(c.inside >= 0.0F, c.slope, broadcast(0.0F));
+      const Mask is_higher = slope > before;
+      store(choose(is_higher, slope, before), row);
+      store(choose(is_higher, broadcast(number), load(edges)), edges);
+    }
+  }
+};
+
 /// Horizons that are lowered to the edges above the minimum m: t_k = min(t_k, slope) where d_k hits the edge and slope > m_k.
 struct LowerHorizon {
   const float* min_slopes;
   float* slopes;
-  FARLOD_LANES void draw(const RelativeEdge& e, float max_slope, const AzimuthView& a, std::uint32_t first,
+  FARLOD_LANES void draw(const RelativeEdge& e, std::int32_t, float max_slope, const AzimuthView& a, std::uint32_t first,
                          std::uint32_t end) const {
     for (std::uint32_t k = first; k < end; ++k) {
       const Crossing c = crossing_of(e, max_slope, a.cosine[k], a.sine[k]);
@@ -108,23 +126,23 @@ struct LowerHorizon {
 
 /// Draws an edge at the azimuths from `first` to `end`, counted on over three turns: at most two runs of one turn.
 template <class Horizon>
-FARLOD_LANES void draw_interval(const RelativeEdge& e, float max_slope, const AzimuthView& a, std::uint32_t first,
-                                std::uint32_t end, const Horizon& horizon) {
+FARLOD_LANES void draw_interval(const RelativeEdge& e, std::int32_t number, float max_slope, const AzimuthView& a,
+                                std::uint32_t first, std::uint32_t end, const Horizon& horizon) {
   const std::uint32_t turn = first < a.size ? 0 : first < 2 * a.size ? a.size : 2 * a.size;
   const std::uint32_t begin = first - turn, stop = end - turn;
-  horizon.draw(e, max_slope, a, begin, std::min(stop, a.size));
-  if (stop > a.size) horizon.draw(e, max_slope, a, 0, stop - a.size);
+  horizon.draw(e, number, max_slope, a, begin, std::min(stop, a.size));
+  if (stop > a.size) horizon.draw(e, number, max_slope, a, 0, stop - a.size);
 }
 
 /// Draws an edge that is too close for bounds at all azimuths.
 template <class Horizon>
-FARLOD_LANES void draw_nearby(RelativeEdge& e, bool is_upper, const AzimuthView& a, const Horizon& horizon) {
+FARLOD_LANES void draw_nearby(RelativeEdge& e, std::int32_t number, bool is_upper, const AzimuthView& a, const Horizon& horizon) {
   // An upper border hides the side that it faces away from (SilhouetteEdges::add); below a lower one, sky may be seen on both
   const bool is_overhead = invert_cross_nearby(e, Beside::front);
-  horizon.draw(e, EdgeReach::unbounded, a, 0, a.size);
+  horizon.draw(e, number, EdgeReach::unbounded, a, 0, a.size);
   if (is_overhead && !is_upper) {
     invert_cross_nearby(e, Beside::back);
-    horizon.draw(e, EdgeReach::unbounded, a, 0, a.size);
+    horizon.draw(e, number, EdgeReach::unbounded, a, 0, a.size);
   }
 }
 
@@ -150,10 +168,10 @@ FARLOD_LANES void draw_batch(const SilhouetteEdges::Batch& edges, bool is_upper,
     const std::size_t lane = kept[n];
     set_ends(edges, lane, receivers, e);
     if (max_slope[lane] == EdgeReach::unbounded) {
-      draw_nearby(e, is_upper, azimuths, horizon);
+      draw_nearby(e, edges.number[lane], is_upper, azimuths, horizon);
     } else {
       invert_cross(e);
-      draw_interval(e, max_slope[lane], azimuths, azimuths.first_of_slot[first_slot[lane]],
+      draw_interval(e, edges.number[lane], max_slope[lane], azimuths, azimuths.first_of_slot[first_slot[lane]],
                     azimuths.first_of_slot[end_slot[lane]], horizon);
     }
   }
@@ -161,11 +179,12 @@ FARLOD_LANES void draw_batch(const SilhouetteEdges::Batch& edges, bool is_upper,
 
 FARLOD_LANES Places places_of(const ReceiverPacket& r) { return {load(r.x.data()), load(r.y.data()), load(r.z.data())}; }
 
-void raise_to_edges(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
-                    const AzimuthView& azimuths, Culling culling, float* slopes) {
+template <class Horizon>
+FARLOD_LANES void raise_horizon(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
+                                const AzimuthView& azimuths, Culling culling, const Horizon& drawn) {
   const Places places = places_of(receivers);
   const bool is_upper = edges.role != EdgeRole::underside;
-  const float* const horizon = slopes;
+  const float* const slopes = drawn.slopes;
   // Edges come from near to far, and the nearest hide the most: minima are renewed after 2, 4, 8 … more batches. Minima that are
   // out of date are too low, and let more edges be drawn, never fewer
   SectorMinHorizon min_horizon;
@@ -173,13 +192,18 @@ void raise_to_edges(const EdgeBatches& edges, const ReceiverPacket& receivers, c
   std::size_t next_update = culling == Culling::none ? never : 0, batches_apart = culling == Culling::renewed ? 2 : never;
   for (std::size_t n = 0; n < edges.batches.size(); ++n) {
     if (n >= next_update) {
-      find_sector_minima({&horizon, 1}, azimuths.first_of_sector, min_horizon);
+      find_sector_minima({&slopes, 1}, azimuths.first_of_sector, min_horizon);
       next_update = n + batches_apart;
       batches_apart *= 2;
     }
-    draw_batch(edges.batches[n], is_upper, places, bounds, azimuths, culling == Culling::none ? nullptr : &min_horizon,
-               RaiseHorizon{slopes});
+    draw_batch(edges.batches[n], is_upper, places, bounds, azimuths, culling == Culling::none ? nullptr : &min_horizon, drawn);
   }
+}
+
+void raise_to_edges(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
+                    const AzimuthView& azimuths, Culling culling, float* slopes, std::int32_t* numbers) {
+  if (numbers == nullptr) return raise_horizon(edges, receivers, bounds, azimuths, culling, RaiseHorizon{slopes});
+  raise_horizon(edges, receivers, bounds, azimuths, culling, RaiseNumberedHorizon{slopes, numbers});
 }
 
 void lower_to_edges(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,

@@ -67,20 +67,23 @@ std::size_t ray_count(float share_of_azimuth, std::size_t rays_per_azimuth) {
 }  // namespace
 
 HorizonEngine::HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, const FarHorizon& far,
-                             const CellSilhouettes& silhouettes, OverhangGeometry& overhangs, const GapSettings& gaps)
+                             const CellSilhouettes& silhouettes, OverhangGeometry& overhangs, const GapSettings& gaps,
+                             JumpPlaces jumps)
     : azimuths_(azimuths),
       weight_(weight),
       silhouettes_(silhouettes),
       overhangs_(overhangs),
       gaps_(gaps),
+      jump_places_(jumps),
       residual_(far, azimuths),
       group_(azimuths),
-      horizons_(azimuths),
-      without_residual_(azimuths) {}
+      jumps_(azimuths),
+      horizons_(azimuths, PacketHorizon::Edges::tracked),
+      without_residual_(azimuths, PacketHorizon::Edges::tracked) {}
 
 template <class Begin>
 void HorizonEngine::draw_grounded(std::span<const ReceiverPacket> packets, const Begin& begin) {
-  while (grounded_.size() < packets.size()) grounded_.emplace_back(azimuths_);
+  while (grounded_.size() < packets.size()) grounded_.emplace_back(azimuths_, PacketHorizon::Edges::tracked);
   const std::span horizons = std::span(grounded_).first(packets.size());
   for (std::size_t n = 0; n < packets.size(); ++n) {
     horizons[n].clear();
@@ -113,15 +116,16 @@ void HorizonEngine::evaluate(const ReceiverPacket& receivers, PacketAnswer& answ
   const std::uint32_t below = overhangs_.receivers_below(receivers);
   // Without overhangs in sight, the sky above it is the answer
   if (below == 0 && silhouettes_.near.empty() && silhouettes_.far.empty()) {
-    const Lanes sky = horizons_.grounded.sky_above(weight_, receivers);
+    const Lanes sky = sky_above(horizons_.grounded, receivers).sky;
     for (std::size_t l = 0; l < sky.size(); ++l) answer.svf[l] = {sky[l], sky[l], sky[l]};
     answer.by_rays = 0;
     return;
   }
   // Else it is the sky above the upper borders, plus what is seen in the gaps below the lower borders
-  horizons_.upper_borders = horizons_.lower_borders = horizons_.grounded;
+  horizons_.upper_borders = horizons_.grounded;
+  horizons_.lower_borders.set_slopes(horizons_.grounded);
   horizons_.draw_overhangs(silhouettes_, receivers, below, FarGapEnd::lowest);
-  const Lanes sky = horizons_.upper_borders.sky_above(weight_, receivers);
+  const Lanes sky = sky_above(horizons_.upper_borders, receivers).sky;
   const SkyInGaps gaps = sky_in_gaps(receivers);
   for (std::size_t l = 0; l < sky.size(); ++l) {
     const float sum = std::min(sky[l] + gaps.sky[l], 1.0F);
@@ -133,7 +137,9 @@ void HorizonEngine::evaluate(const ReceiverPacket& receivers, PacketAnswer& answ
 void HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, PacketAnswer& answer) {
   const std::uint32_t below = overhangs_.receivers_below(receivers);
   // The high SVF: sky above the residual's low bound, and all of the gaps, up to the highest borders
-  without_residual_ = horizons_.upper_borders = horizons_.lower_borders = horizons_.grounded;
+  without_residual_ = horizons_.grounded;
+  horizons_.upper_borders.set_slopes(horizons_.grounded);
+  horizons_.lower_borders.set_slopes(horizons_.grounded);
   residual_.raise_to_low(receivers, horizons_.upper_borders);
   residual_.raise_to_overhang(receivers, horizons_.lower_borders);
   horizons_.draw_overhangs(silhouettes_, receivers, below, FarGapEnd::highest);
@@ -142,19 +148,28 @@ void HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, Packet
   // The estimate, as in evaluate(): the residual city is grounded
   std::swap(horizons_.grounded, without_residual_);
   residual_.raise_to_estimate(receivers, horizons_.grounded);
-  horizons_.upper_borders = horizons_.lower_borders = horizons_.grounded;
+  horizons_.upper_borders = horizons_.grounded;
+  horizons_.lower_borders.set_slopes(horizons_.grounded);
   horizons_.draw_overhangs(silhouettes_, receivers, below, FarGapEnd::lowest);
-  const Lanes estimate = horizons_.upper_borders.sky_above(weight_, receivers);
+  const HorizonJumps::SkyAbove estimate = sky_above(horizons_.upper_borders, receivers);
   const SkyInGaps gaps = sky_in_gaps(receivers);
   // The low SVF: sky above the residual's high bound, and nothing of the gaps
   residual_.raise_to_high(receivers, horizons_.upper_borders);
   const Lanes low = horizons_.upper_borders.sky_above(weight_, receivers);
   for (std::size_t l = 0; l < low.size(); ++l) {
     // Both are rounded: where the interval has no width, the sums may differ in their last bit
-    const float high = std::max(low[l], std::min(most_above[l] + most_in_gaps[l], 1.0F));
-    answer.svf[l] = {low[l], std::clamp(estimate[l] + gaps.sky[l], low[l], high), high};
+    const float even_high = std::max(low[l], std::min(most_above[l] + most_in_gaps[l], 1.0F));
+    // Jumps are placed where they are for the bounds, too
+    const auto placed = [&](float svf) { return std::clamp(svf + estimate.correction[l], 0.0F, 1.0F); };
+    const float lowest = placed(low[l]), highest = placed(even_high);
+    answer.svf[l] = {lowest, std::clamp(estimate.sky[l] + gaps.sky[l], lowest, highest), highest};
   }
   answer.by_rays = gaps.by_rays;
+}
+
+HorizonJumps::SkyAbove HorizonEngine::sky_above(const PacketHorizon& horizon, const ReceiverPacket& receivers) {
+  if (jump_places_ == JumpPlaces::between_azimuths) return {horizon.sky_above(weight_, receivers), {}};
+  return jumps_.sky_above(horizon, weight_, receivers, silhouettes_.upper_ends);
 }
 
 HorizonEngine::SkyInGaps HorizonEngine::sky_in_gaps(const ReceiverPacket& receivers) {

@@ -10,6 +10,7 @@
 
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/cell_silhouettes.hpp"
+#include "horizon/horizon_jumps.hpp"
 #include "horizon/overhangs.hpp"
 #include "horizon/packet_group.hpp"
 #include "horizon/packet_horizon.hpp"
@@ -49,6 +50,12 @@ struct PacketAnswer {
   std::uint32_t by_rays = 0;  ///< a bit for each receiver that needed rays
 };
 
+/// Where the sum over the azimuths takes horizons to jump from one edge to another.
+enum class JumpPlaces : std::uint8_t {
+  between_azimuths,  ///< in the middle between two azimuths
+  at_edge_ends       ///< where the edges end: HorizonJumps
+};
+
 /// How gaps are treated.
 struct GapSettings {
   /// A receiver with at most so much sky in its gaps needs no rays: half of it counts.
@@ -63,7 +70,7 @@ class HorizonEngine {
  public:
   /// All must outlive it.
   HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, const FarHorizon& far, const CellSilhouettes& silhouettes,
-                OverhangGeometry& overhangs, const GapSettings& gaps);
+                OverhangGeometry& overhangs, const GapSettings& gaps, JumpPlaces jumps = JumpPlaces::at_edge_ends);
 
   /// Computes the receivers of packets near each other; low = estimate = high. The answers do not depend on which packets are
   /// together.
@@ -84,6 +91,8 @@ class HorizonEngine {
     Lanes sky{};
     std::uint32_t by_rays = 0;
   };
+  /// The sky above a horizon of upper borders, with its jumps where `jump_places_` says.
+  [[nodiscard]] HorizonJumps::SkyAbove sky_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
   /// Of the gaps in `horizons_`, as drawn.
   [[nodiscard]] SkyInGaps sky_in_gaps(const ReceiverPacket& receivers);
 
@@ -92,8 +101,10 @@ class HorizonEngine {
   const CellSilhouettes& silhouettes_;
   OverhangGeometry& overhangs_;
   GapSettings gaps_;
+  JumpPlaces jump_places_;
   ResidualHorizon residual_;
   PacketGroup group_;
+  HorizonJumps jumps_;
   // Working memory, kept from packet to packet
   std::vector<PacketHorizon> grounded_;  ///< of each packet
   OverhangHorizons horizons_;

@@ -44,9 +44,10 @@ struct EdgeKernels {
   /// nothing.
   void (*find_raising)(const EdgeBatches& edges, const PacketBounds& bounds, std::span<const float* const> horizons,
                        const AzimuthView& azimuths, std::uint16_t* raising);
-  /// Raises horizons to edges: slopes = max(slopes, slope of each edge where a receiver sees it).
+  /// Raises horizons to edges: slopes = max(slopes, slope of each edge where a receiver sees it). Where that raises a slope,
+  /// numbers[azimuth][receiver] becomes that of the edge; `numbers` may be null.
   void (*raise_to_edges)(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
-                         const AzimuthView& azimuths, Culling culling, float* slopes);
+                         const AzimuthView& azimuths, Culling culling, float* slopes, std::int32_t* numbers);
   /// Lowers horizons to the edges above `min_slopes`: slopes = min(slopes, slope of each edge that is steeper than min_slopes).
   void (*lower_to_edges)(const EdgeBatches& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
                          const AzimuthView& azimuths, const float* min_slopes, float* slopes);
@@ -69,13 +70,25 @@ struct GapEnds {
   alignas(64) ReceiverPacket::Lanes sine_from, sine_to, sky_from, sky_to;
 };
 
+/// From this azimuth to the next, the sky of the receivers with set bits jumps.
+struct SkyJump {
+  std::uint32_t azimuth, receivers;
+};
+
 struct SkyKernels {
   /// Σ over the azimuths of the sky above each horizon, F(φ) of docs/concepts.md, "Above a horizon": for receivers whose normals
-  /// point straight up; for level normals; for any; and by solid angle for any. sums[receiver].
-  void (*sum_cosine_up)(const float* slopes, std::size_t azimuth_count, float* sums);
-  void (*sum_cosine_level)(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums);
-  void (*sum_cosine)(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums);
-  void (*sum_solid_angle)(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums);
+  /// point straight up; for level normals; for any; and by solid angle for any. sums[receiver]. The terms go to rows[azimuth]
+  /// [receiver], unless `rows` is null.
+  void (*sum_cosine_up)(const float* slopes, std::size_t azimuth_count, float* sums, float* rows);
+  void (*sum_cosine_level)(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums,
+                           float* rows);
+  void (*sum_cosine)(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums, float* rows);
+  void (*sum_solid_angle)(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums,
+                          float* rows);
+  /// Finds where rows change by more than `least` from one azimuth to the next, the last one's next being the first, and the
+  /// horizons are of different edges. Returns their number, at most one for each azimuth, in the order of the azimuths.
+  std::size_t (*find_jumps)(const float* rows, const std::int32_t* numbers, std::size_t azimuth_count, float least,
+                            SkyJump* jumps);
   /// rows[k] = share of the SVF between the slopes low[k] and high[k], at least 0.
   void (*find_sky_between)(const float* low, const float* high, const ReceiverPacket& receivers, const AzimuthView& azimuths,
                            bool is_solid, float* rows);
@@ -95,9 +108,10 @@ struct SkyKernels {
   /// slopes = max(slopes, min(row[bin of the azimuth], caps)).
   void (*raise_to_row)(const float* row, const float* caps, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count,
                        float* slopes);
-  /// The same to here + shares (above − here), clamped to [lower, upper].
+  /// The same to here + shares (above − here), clamped to [lower, upper]. Where that is no lower than the slope,
+  /// numbers[azimuth][receiver] becomes −1; `numbers` may be null.
   void (*raise_between_rows)(const ResidualRows& rows, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count,
-                             float* slopes);
+                             float* slopes, std::int32_t* numbers);
 
   /// The ends of a gap between two slopes, within what each receiver's normal sees.
   void (*find_gap_ends)(const float* from, const float* to, const ReceiverPacket& receivers, const GapAzimuth& azimuth,

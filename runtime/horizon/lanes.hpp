@@ -86,6 +86,11 @@ FARLOD_LANES Floats load(const float* from) {
   for (std::size_t r = 0; r < register_count; ++r) std::memcpy(&v.registers[r], from + r * register_lanes, sizeof v.registers[r]);
   return v;
 }
+FARLOD_LANES Ints load(const std::int32_t* from) {
+  Ints v;
+  for (std::size_t r = 0; r < register_count; ++r) std::memcpy(&v.registers[r], from + r * register_lanes, sizeof v.registers[r]);
+  return v;
+}
 template <class N, class R>
 FARLOD_LANES void store(const Vector<N, R>& v, N* to) {
   for (std::size_t r = 0; r < register_count; ++r) std::memcpy(to + r * register_lanes, &v.registers[r], sizeof v.registers[r]);
@@ -165,6 +170,20 @@ FARLOD_LANES float min_lane(const Floats& v) {
     return min_lane<apart / 2>(min(v, swap_lanes<apart>(v, std::make_index_sequence<register_lanes>())));
 }
 FARLOD_LANES float max_lane(const Floats& v) { return -min_lane(-v); }
+
+template <std::size_t apart = lane_count / 2>
+FARLOD_LANES float sum_of_lanes(const Floats& v) {
+  if constexpr (apart == 0)
+    return v.registers[0][0];
+  else
+    return sum_of_lanes<apart / 2>(v + swap_lanes<apart>(v, std::make_index_sequence<register_lanes>()));
+}
+/// A bit for each lane that is greater than 0: the sum of the powers of two of these lanes, which a float holds.
+FARLOD_LANES std::uint32_t positive_lanes(const Floats& v) {
+  alignas(64) constexpr float powers[lane_count] = {0x1p0F, 0x1p1F, 0x1p2F,  0x1p3F,  0x1p4F,  0x1p5F,  0x1p6F,  0x1p7F,
+                                                    0x1p8F, 0x1p9F, 0x1p10F, 0x1p11F, 0x1p12F, 0x1p13F, 0x1p14F, 0x1p15F};
+  return static_cast<std::uint32_t>(sum_of_lanes(choose(v > 0.0F, load(powers), Floats(0.0F))));
+}
 
 /// floor(log2(n)) of n ≥ 1: the exponent of n as a float.
 FARLOD_LANES Ints floor_log2(const Ints& n) { return (to_bits(to_floats(n)) >> 23) - 127; }

@@ -123,8 +123,8 @@ void OverhangHorizons::draw_overhangs(const CellSilhouettes& silhouettes, const 
   else
     lower_borders.raise(silhouettes.far.undersides, receivers);
   grounded.join(lower_borders, upper_borders);
-  far_lower_borders = lower_borders;
-  far_upper_borders = upper_borders;
+  far_lower_borders.set_slopes(lower_borders);
+  far_upper_borders.set_slopes(upper_borders);
   // Then the near overhangs; a receiver below one sees no sky above it
   lower_borders.raise_to(grounded);
   upper_borders.raise(silhouettes.near.overhangs, receivers);

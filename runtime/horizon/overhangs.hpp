@@ -76,10 +76,11 @@ enum class FarGapEnd : std::uint8_t {
 ///     lower_borders … upper_borders     hidden
 ///     upper_borders … ∞                 sky
 struct OverhangHorizons {
-  explicit OverhangHorizons(const AzimuthSampling& azimuths)
-      : grounded(azimuths),
+  /// `upper_edges`: of the grounded horizon and of the upper borders.
+  explicit OverhangHorizons(const AzimuthSampling& azimuths, PacketHorizon::Edges upper_edges = PacketHorizon::Edges::unknown)
+      : grounded(azimuths, upper_edges),
         lower_borders(azimuths),
-        upper_borders(azimuths),
+        upper_borders(azimuths, upper_edges),
         far_lower_borders(azimuths),
         far_upper_borders(azimuths) {}
 

@@ -23,12 +23,21 @@ bool all_are_level(const ReceiverPacket& r) {
 
 }  // namespace
 
-void PacketHorizon::clear() { std::fill(slopes_.begin(), slopes_.end(), Row{}); }
+void PacketHorizon::clear() {
+  std::fill(slopes_.begin(), slopes_.end(), Row{});
+  std::fill(numbers_.begin(), numbers_.end(), no_edges());
+}
+
+void PacketHorizon::set_slopes(const PacketHorizon& other) {
+  slopes_ = other.slopes_;
+  std::fill(numbers_.begin(), numbers_.end(), no_edges());
+}
 
 void PacketHorizon::raise(const SilhouetteEdges& edges, const ReceiverPacket& receivers, const PacketBounds& bounds,
                           Culling culling) {
   if (edges.empty()) return;
-  edge_kernels().raise_to_edges({edges.batches(), edges.role()}, receivers, bounds, azimuths_->view(), culling, data());
+  edge_kernels().raise_to_edges({edges.batches(), edges.role()}, receivers, bounds, azimuths_->view(), culling, data(),
+                                numbers());
 }
 
 void PacketHorizon::set_to_lowest(const SilhouetteEdges& edges, const ReceiverPacket& receivers,
@@ -50,7 +59,7 @@ void PacketHorizon::raise(std::span<const float> row, const Lanes& caps, std::sp
 
 void PacketHorizon::raise(const ResidualRows& rows, std::span<const std::uint32_t> bin_of_azimuth) {
   FARLOD_EXPECTS(bin_of_azimuth.size() == slopes_.size());
-  sky_kernels().raise_between_rows(rows, bin_of_azimuth.data(), slopes_.size(), data());
+  sky_kernels().raise_between_rows(rows, bin_of_azimuth.data(), slopes_.size(), data(), numbers());
 }
 
 void PacketHorizon::raise_to(const PacketHorizon& other) {
@@ -91,20 +100,30 @@ PacketHorizon::Lanes PacketHorizon::count_above(std::span<const float> ray_slope
   return counts;
 }
 
-PacketHorizon::Lanes PacketHorizon::sky_above(SkyWeight weight, const ReceiverPacket& receivers) const {
+PacketHorizon::Lanes PacketHorizon::sky_above(SkyWeight weight, const ReceiverPacket& receivers,
+                                              std::span<Row> of_azimuths) const {
+  FARLOD_EXPECTS(of_azimuths.empty() || of_azimuths.size() == slopes_.size());
   const SkyKernels& kernels = sky_kernels();
+  float* const rows = of_azimuths.empty() ? nullptr : of_azimuths.front().data();
   Lanes sums{};
   // The mean over the azimuths, by the cheapest kernel that fits the normals
   if (weight == SkyWeight::solid_angle)
-    kernels.sum_solid_angle(data(), receivers, azimuths_->view(), sums.data());
+    kernels.sum_solid_angle(data(), receivers, azimuths_->view(), sums.data(), rows);
   else if (all_point_straight_up(receivers))
-    kernels.sum_cosine_up(data(), slopes_.size(), sums.data());
+    kernels.sum_cosine_up(data(), slopes_.size(), sums.data(), rows);
   else if (all_are_level(receivers))
-    kernels.sum_cosine_level(data(), receivers, azimuths_->view(), sums.data());
+    kernels.sum_cosine_level(data(), receivers, azimuths_->view(), sums.data(), rows);
   else
-    kernels.sum_cosine(data(), receivers, azimuths_->view(), sums.data());
+    kernels.sum_cosine(data(), receivers, azimuths_->view(), sums.data(), rows);
   for (float& s : sums) s = std::clamp(s / static_cast<float>(slopes_.size()), 0.0F, 1.0F);
   return sums;
+}
+
+std::span<const SkyJump> PacketHorizon::find_jumps(std::span<const Row> sky_of_azimuths, float least,
+                                                   std::span<SkyJump> room) const {
+  FARLOD_EXPECTS(numbers_.size() == slopes_.size() && sky_of_azimuths.size() == slopes_.size() && room.size() == slopes_.size());
+  return room.first(
+      sky_kernels().find_jumps(sky_of_azimuths.front().data(), numbers_.front().data(), slopes_.size(), least, room.data()));
 }
 
 void PacketHorizon::find_sky_below(const PacketHorizon& higher, SkyWeight weight, const ReceiverPacket& receivers,

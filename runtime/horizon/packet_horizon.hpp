@@ -23,8 +23,12 @@ class PacketHorizon {
   using Lanes = ReceiverPacket::Lanes;
   struct alignas(64) Row : Lanes {};  ///< a value for each receiver
 
+  /// Whether a horizon knows which edge it belongs to at each azimuth.
+  enum class Edges : std::uint8_t { unknown, tracked };
+
   /// The sampling must outlive it. All horizons are level.
-  explicit PacketHorizon(const AzimuthSampling& azimuths) : azimuths_(&azimuths), slopes_(azimuths.size()) {}
+  explicit PacketHorizon(const AzimuthSampling& azimuths, Edges edges = Edges::unknown)
+      : azimuths_(&azimuths), slopes_(azimuths.size()), numbers_(edges == Edges::tracked ? azimuths.size() : 0, no_edges()) {}
 
   /// Makes all horizons level again.
   void clear();
@@ -52,6 +56,15 @@ class PacketHorizon {
   /// Makes the horizons of the receivers with set bits infinite: they see no sky.
   void close(std::uint32_t receivers);
 
+  /// Makes the slopes those of other horizons; of which edges they are is unknown.
+  void set_slopes(const PacketHorizon& other);
+  /// The number of the edge (SilhouetteEdges::number) that a horizon belongs to; −1 if it is that of a far map, or level. Of
+  /// horizons that track their edges, and that were raised since then by edges and estimates alone.
+  [[nodiscard]] std::int32_t edge_number(std::size_t azimuth, std::size_t lane) const { return numbers_[azimuth][lane]; }
+  /// Where horizons that track their edges go from one edge to another, and the sky of the azimuths changes by more than `least`.
+  /// Room for one at each azimuth; returns those that there are.
+  [[nodiscard]] std::span<const SkyJump> find_jumps(std::span<const Row> sky_of_azimuths, float least,
+                                                    std::span<SkyJump> room) const;
   /// slopes[azimuth][receiver], as kernels.hpp has them.
   [[nodiscard]] const float* slopes() const { return data(); }
   [[nodiscard]] const Row& row(std::size_t azimuth) const { return slopes_[azimuth]; }
@@ -66,7 +79,11 @@ class PacketHorizon {
   /// Of rays with these slopes, one at each azimuth, how many pass above each receiver's horizon.
   [[nodiscard]] Lanes count_above(std::span<const float> ray_slopes) const;
   /// The view factors of the sky above the horizons, for each receiver's normal, in [0, 1].
-  [[nodiscard]] Lanes sky_above(SkyWeight weight, const ReceiverPacket& receivers) const;
+  [[nodiscard]] Lanes sky_above(SkyWeight weight, const ReceiverPacket& receivers) const {
+    return sky_above(weight, receivers, {});
+  }
+  /// The same, and the sky of each azimuth by itself (F(φ) of docs/concepts.md), unless there are no rows for it.
+  [[nodiscard]] Lanes sky_above(SkyWeight weight, const ReceiverPacket& receivers, std::span<Row> of_azimuths) const;
   /// For each azimuth, the view factor of the sky between these horizons and higher ones: as shares of the turn, so that over all
   /// azimuths they sum to the difference of both sky_above.
   void find_sky_below(const PacketHorizon& higher, SkyWeight weight, const ReceiverPacket& receivers,
@@ -76,8 +93,17 @@ class PacketHorizon {
   [[nodiscard]] float* data() { return slopes_.front().data(); }
   [[nodiscard]] const float* data() const { return slopes_.front().data(); }
 
+  struct alignas(64) Numbers : std::array<std::int32_t, ReceiverPacket::lanes> {};
+  [[nodiscard]] static Numbers no_edges() {
+    Numbers none;
+    none.fill(-1);
+    return none;
+  }
+  [[nodiscard]] std::int32_t* numbers() { return numbers_.empty() ? nullptr : numbers_.front().data(); }
+
   const AzimuthSampling* azimuths_;
-  std::vector<Row> slopes_;  ///< slopes_[azimuth][receiver]
+  std::vector<Row> slopes_;       ///< slopes_[azimuth][receiver]
+  std::vector<Numbers> numbers_;  ///< of the edges, as many; empty if they are not tracked
 };
 
 }  // namespace farlod

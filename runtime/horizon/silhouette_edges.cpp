@@ -52,6 +52,7 @@ SilhouetteEdges SilhouetteEdges::facing(const ReceiverBox& box) const {
     result.batches_[n / lanes].copy_lane(n % lanes, batches_[order[n] / lanes], order[n] % lanes);
     result.adjacent_[n] = adjacent_[order[n]];
   }
+  result.number_from(0);
   return result;
 }
 

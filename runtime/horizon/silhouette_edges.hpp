@@ -27,11 +27,13 @@ class SilhouetteEdges {
     using Lanes = std::array<float, lanes>;
     alignas(64) Lanes ax{}, ay{}, az{}, bx{}, by{}, bz{};
     Lanes left{}, right{};  ///< slopes of the adjacent facets: AdjacentSlopes::slope
+    std::array<std::int32_t, lanes> number{};
 
     void copy_lane(std::size_t lane, const Batch& from, std::size_t of) {
       for (const auto member :
            {&Batch::ax, &Batch::ay, &Batch::az, &Batch::bx, &Batch::by, &Batch::bz, &Batch::left, &Batch::right})
         (this->*member)[lane] = (from.*member)[of];
+      number[lane] = from.number[of];
     }
   };
 
@@ -56,6 +58,7 @@ class SilhouetteEdges {
     const std::size_t a = swaps ? 1 : 0, b = 1 - a;
     const std::array x{e.a.x, e.b.x}, y{e.a.y, e.b.y}, z{e.a.z, e.b.z};
     const std::array sides{e.adjacent.left, e.adjacent.right};
+    batches_.back().number[lane] = static_cast<std::int32_t>(size());
     put(lane, {{x[a], y[a], z[a]}, {x[b], y[b], z[b]}, {sides[a], sides[b]}, role_}, batches_.back());
     adjacent_.push_back({sides[a], sides[b]});
   }
@@ -64,6 +67,12 @@ class SilhouetteEdges {
     const std::size_t lane = n % lanes;
     return {
         {batch.ax[lane], batch.ay[lane], batch.az[lane]}, {batch.bx[lane], batch.by[lane], batch.bz[lane]}, adjacent_[n], role_};
+  }
+  /// Each edge has a number: its place in the list that add() or facing() made, unless number_from() said another. Those that
+  /// assign() chooses keep theirs.
+  [[nodiscard]] std::int32_t number(std::size_t n) const { return batches_[n / lanes].number[n % lanes]; }
+  void number_from(std::int32_t first) {
+    for (std::size_t n = 0; n < size(); ++n) batches_[n / lanes].number[n % lanes] = first + static_cast<std::int32_t>(n);
   }
   [[nodiscard]] std::span<const Batch> batches() const { return batches_; }
   /// The edges that can be a silhouette for some receiver in a box, from near to far in the plan from its centre, in steps of 3

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -68,12 +69,23 @@ FARLOD_LANES Floats sky_of_azimuth(const Floats& slope, const Normals& n, float 
 
 /// A float that is added to a sum of thousands is rounded to few of its bits, and the same way each time where the horizon is
 /// even. So terms are added up in blocks of 256, and the blocks with compensation (Kahan): rounding does not grow beyond that of
-/// one block, however many azimuths there are.
+/// one block, however many azimuths there are. Terms are written to `rows`, if there are rows.
 struct Sum {
+  FARLOD_LANES explicit Sum(float* rows) : next_row(rows) {}
+
+  float* next_row;
   Floats sum{}, lost{}, block{};
   std::size_t terms = 0;
 
+  FARLOD_LANES void write(const Floats& term) {
+    if (next_row == nullptr) return;
+    store(term, next_row);
+    next_row += lane_count;
+  }
+  /// A term of 0, which does not count among the terms of a block.
+  FARLOD_LANES void skip() { write(Floats{}); }
   FARLOD_LANES void add(const Floats& term) {
+    write(term);
     block += term;
     if (++terms % 256 == 0) add_block();
   }
@@ -91,8 +103,8 @@ struct Sum {
 };
 
 /// n = (0, 0, 1): F = cos²β = 1 / (1 + t²).
-void sum_cosine_up(const float* slopes, std::size_t azimuth_count, float* sums) {
-  Sum sum;
+void sum_cosine_up(const float* slopes, std::size_t azimuth_count, float* sums, float* rows) {
+  Sum sum(rows);
   for (std::size_t k = 0; k < azimuth_count; ++k) {
     const Floats t = load(slopes + k * lane_count);
     sum.add(1.0F / (1.0F + t * t));
@@ -101,13 +113,17 @@ void sum_cosine_up(const float* slopes, std::size_t azimuth_count, float* sums) 
 }
 
 /// w = 0, as on walls: the azimuths in front count, o > 0, up to the zenith.
-void sum_cosine_level(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums) {
+void sum_cosine_level(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums,
+                      float* rows) {
   const Floats x = load(receivers.normal_x.data()), y = load(receivers.normal_y.data());
-  Sum sum;
+  Sum sum(rows);
   for (std::size_t k = 0; k < azimuths.size; ++k) {
     // Skip the azimuths behind all sixteen
     const Floats outward = max(x * azimuths.cosine[k] + y * azimuths.sine[k], broadcast(0.0F));
-    if (max_lane(outward) == 0.0F) continue;
+    if (max_lane(outward) == 0.0F) {
+      sum.skip();
+      continue;
+    }
     const Floats t = min(load(slopes + k * lane_count), broadcast(straight_up));
     sum.add(cosine_above(t, outward, broadcast(0.0F)));
   }
@@ -115,9 +131,9 @@ void sum_cosine_level(const float* slopes, const ReceiverPacket& receivers, cons
 }
 
 /// F = A(t) − A(highest), with t clamped to the slopes in front.
-void sum_cosine(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums) {
+void sum_cosine(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums, float* rows) {
   const Normals n = normals_of(receivers);
-  Sum sum;
+  Sum sum(rows);
   for (std::size_t k = 0; k < azimuths.size; ++k) {
     const Floats outward = n.x * azimuths.cosine[k] + n.y * azimuths.sine[k];
     const SlopeInterval in_front = slopes_in_front(outward, n.z);
@@ -128,9 +144,10 @@ void sum_cosine(const float* slopes, const ReceiverPacket& receivers, const Azim
 }
 
 /// The same by solid angle.
-void sum_solid_angle(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums) {
+void sum_solid_angle(const float* slopes, const ReceiverPacket& receivers, const AzimuthView& azimuths, float* sums,
+                     float* rows) {
   const Normals n = normals_of(receivers);
-  Sum sum;
+  Sum sum(rows);
   for (std::size_t k = 0; k < azimuths.size; ++k) {
     const SlopeInterval in_front = slopes_in_front(n.x * azimuths.cosine[k] + n.y * azimuths.sine[k], n.z);
     const Floats t = min(max(load(slopes + k * lane_count), in_front.lowest), in_front.highest);
@@ -156,6 +173,31 @@ void find_sky_between(const float* low, const float* high, const ReceiverPacket&
     const Floats sky = sky_of_azimuth(from, n, cosine, sine, is_solid) - sky_of_azimuth(to, n, cosine, sine, is_solid);
     store(max(sky, broadcast(0.0F)) * share, row);
   }
+}
+
+// --- Where the sky jumps
+// ------------------------------------------------------------------------------------------------------------
+
+std::size_t find_jumps(const float* rows, const std::int32_t* numbers, std::size_t azimuth_count, float least, SkyJump* jumps) {
+  // Few azimuths have a jump for any receiver: look at several at once
+  constexpr std::size_t at_once = 4;
+  std::size_t count = 0;
+  for (std::size_t first = 0; first < azimuth_count; first += at_once) {
+    const std::size_t end = first + at_once < azimuth_count ? first + at_once : azimuth_count;
+    Floats excess[at_once], largest = broadcast(-1.0F);
+    for (std::size_t k = first; k < end; ++k) {
+      const std::size_t next = k + 1 < azimuth_count ? k + 1 : 0;
+      const Floats jump = load(rows + k * lane_count) - load(rows + next * lane_count);
+      const Mask is_same = load(numbers + k * lane_count) == load(numbers + next * lane_count);
+      excess[k - first] = choose(is_same, broadcast(-1.0F), abs(jump) - least);
+      largest = max(largest, excess[k - first]);
+    }
+    if (max_lane(largest) <= 0.0F) continue;
+    for (std::size_t k = first; k < end; ++k)
+      if (const std::uint32_t receivers = positive_lanes(excess[k - first]); receivers != 0)
+        jumps[count++] = {static_cast<std::uint32_t>(k), receivers};
+  }
+  return count;
 }
 
 // --- Horizons against horizons, row by row
@@ -218,7 +260,8 @@ void raise_to_row(const float* row, const float* caps, const std::uint32_t* bin_
   }
 }
 
-void raise_between_rows(const ResidualRows& rows, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count, float* slopes) {
+void raise_between_rows(const ResidualRows& rows, const std::uint32_t* bin_of_azimuth, std::size_t azimuth_count, float* slopes,
+                        std::int32_t* numbers) {
   const Floats shares = load(rows.shares.data()), caps = load(rows.caps.data());
   for (std::size_t k = 0; k < azimuth_count; ++k) {
     // Interpolate between two levels of the map, each receiver at its own height
@@ -226,7 +269,11 @@ void raise_between_rows(const ResidualRows& rows, const std::uint32_t* bin_of_az
     const float here = rows.here[bin], rise = rows.above[bin] - here;
     const Floats estimate = min(max(here + shares * rise, broadcast(rows.lower[bin])), broadcast(rows.upper[bin]));
     float* row = slopes + k * lane_count;
-    store(max(load(row), min(estimate, caps)), row);
+    const Floats slope = load(row), residual = min(estimate, caps);
+    store(max(slope, residual), row);
+    if (numbers == nullptr) continue;
+    std::int32_t* edges = numbers + k * lane_count;
+    store(choose(residual >= slope, broadcast(-1), load(edges)), edges);
   }
 }
 
@@ -279,6 +326,7 @@ constexpr SkyKernels sky_kernels{.sum_cosine_up = sum_cosine_up,
                                  .sum_cosine_level = sum_cosine_level,
                                  .sum_cosine = sum_cosine,
                                  .sum_solid_angle = sum_solid_angle,
+                                 .find_jumps = find_jumps,
                                  .find_sky_between = find_sky_between,
                                  .lower = lower,
                                  .raise = raise,

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <memory>
 #include <utility>
+#include <vector>
 
 #include "contract/cancellation.hpp"
 #include "evaluate/verification.hpp"
@@ -74,7 +74,9 @@ void evaluate_in_order(const ResolvedSettings& settings, std::size_t cell_count,
                        const std::function<CellInFlight(std::size_t)>& evaluate,
                        const std::function<void(const CellInFlight&)>& store) {
   using oneapi::tbb::filter_mode, oneapi::tbb::make_filter;
-  using Shared = std::shared_ptr<const CellInFlight>;
+  // Cells are stored in their order, so that those in flight follow each other, and each has a place of its own. What the pipeline
+  // itself held when a run is cancelled, oneTBB would lose
+  std::vector<CellInFlight> in_flight(cells_in_flight(settings.threads));
   std::size_t next = 0;
   const auto hand_out = [&](oneapi::tbb::flow_control& flow) {
     throw_if_cancelled(settings.run.stop);
@@ -82,11 +84,18 @@ void evaluate_in_order(const ResolvedSettings& settings, std::size_t cell_count,
     return next++;
   };
   oneapi::tbb::parallel_pipeline(
-      cells_in_flight(settings.threads),
+      in_flight.size(),
       make_filter<void, std::size_t>(filter_mode::serial_in_order, hand_out) &
-          make_filter<std::size_t, Shared>(filter_mode::parallel,
-                                           [&](std::size_t n) { return std::make_shared<const CellInFlight>(evaluate(n)); }) &
-          make_filter<Shared, void>(filter_mode::serial_in_order, [&](const Shared& cell) { store(*cell); }));
+          make_filter<std::size_t, CellInFlight*>(filter_mode::parallel,
+                                                  [&](std::size_t n) {
+                                                    CellInFlight& cell = in_flight[n % in_flight.size()];
+                                                    cell = evaluate(n);
+                                                    return &cell;
+                                                  }) &
+          make_filter<CellInFlight*, void>(filter_mode::serial_in_order, [&](CellInFlight* cell) {
+            store(*cell);
+            *cell = {};
+          }));
 }
 
 void require_bounds_known(const PackageInUse& package, const ResolvedSettings& settings) {

@@ -28,20 +28,23 @@ std::vector<Receiver> dense_receivers(const Point3f& normal) {
   return receivers;
 }
 
-/// A town in which horizons are known, and an engine over it.
+/// A town in which horizons are known, and an engine over it, which adds up azimuths evenly unless it is told otherwise.
 class KnownTown {
  public:
-  KnownTown(const TownByHand& town, SkyWeight weight, const GapSettings& gaps = {})
+  KnownTown(const TownByHand& town, SkyWeight weight, const GapSettings& gaps = {},
+            JumpPlaces jumps = JumpPlaces::between_azimuths)
       : packed_(town.overhanging()),
         overhangs_(packed_.geometry()),
         silhouettes_(town.silhouettes()),
-        engine_(ring_, weight, far_.map(), silhouettes_, overhangs_, gaps) {}
+        engine_(ring_, weight, far_.map(), silhouettes_, overhangs_, gaps, jumps) {
+    silhouettes_.number_upper_borders();
+  }
   /// With this far map. An engine looks once whether anything residual overhangs.
   KnownTown(const TownByHand& town, SkyWeight weight, const GapSettings& gaps, const FarHorizon& map)
       : packed_(town.overhanging()),
         overhangs_(packed_.geometry()),
         silhouettes_(town.silhouettes()),
-        engine_(ring_, weight, map, silhouettes_, overhangs_, gaps) {}
+        engine_(ring_, weight, map, silhouettes_, overhangs_, gaps, JumpPlaces::between_azimuths) {}
 
   [[nodiscard]] HorizonEngine& engine() { return engine_; }
   [[nodiscard]] FarHorizon& map() { return far_.map(); }
@@ -108,7 +111,7 @@ TEST(HorizonEngine, AReceiverSeesTheSameWhoeverStandsBesideIt) {
   TownByHand town;
   add_random_boxes(random, 40, town);
   for (const Point3f& normal : {up, Point3f{0.6F, 0.0F, 0.8F}}) {
-    KnownTown known(town, SkyWeight::cosine);
+    KnownTown known(town, SkyWeight::cosine, {}, JumpPlaces::at_edge_ends);
     const std::vector<Receiver> receivers = dense_receivers(normal);
     std::vector<SvfInterval> together(receivers.size()), with_bounds(receivers.size()), alone(1);
     EXPECT_TRUE(known.evaluate(receivers, together).empty());
@@ -126,7 +129,7 @@ TEST(HorizonEngine, APacketIsAnsweredAlikeInAnyGroup) {
   TownByHand town;
   add_random_boxes(random, 40, town);
   town.add_beam({5.0, 5.0}, {4.0, 9.0}, 4.0, 6.0);
-  KnownTown known(town, SkyWeight::cosine);
+  KnownTown known(town, SkyWeight::cosine, {}, JumpPlaces::at_edge_ends);
   std::vector<ReceiverPacket> packets;
   for (const Receiver& r : dense_receivers(up)) {
     if (packets.empty() || packets.back().count == ReceiverPacket::lanes) packets.emplace_back();

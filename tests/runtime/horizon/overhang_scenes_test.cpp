@@ -145,7 +145,8 @@ class OverhangScenes : public testing::TestWithParam<Scene> {
     OverhangGeometry overhangs = packed.geometry();
     const AzimuthSampling ring = AzimuthSampling::even(azimuths, {});
     FarHorizonByHand far({});
-    HorizonEngine engine(ring, SkyWeight::cosine, far.map(), GetParam().town.silhouettes(), overhangs, {0.0F, rays_per_azimuth});
+    HorizonEngine engine(ring, SkyWeight::cosine, far.map(), GetParam().town.silhouettes(), overhangs, {0.0F, rays_per_azimuth},
+                         JumpPlaces::between_azimuths);
     std::vector<SvfInterval> intervals(places.size());
     for (std::size_t first = 0; first < places.size(); first += ReceiverPacket::lanes) {
       const std::size_t count = std::min(ReceiverPacket::lanes, places.size() - first);

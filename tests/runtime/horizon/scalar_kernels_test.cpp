@@ -26,6 +26,7 @@ namespace {
 
 using Row = PacketHorizon::Row;
 using Rows = std::vector<Row>;  ///< rows[azimuth][receiver]
+using Numbers = std::vector<std::array<std::int32_t, ReceiverPacket::lanes>>;
 constexpr std::size_t lanes = ReceiverPacket::lanes;
 
 float* data(Rows& rows) { return rows.front().data(); }
@@ -95,13 +96,29 @@ TEST_P(ScalarKernels, HorizonsRaisedToEdges) {
       const PacketBounds bounds = bounds_of(packet);
       const std::vector<HorizonEdge> edges = random_edges(role, packet);
       const SilhouetteEdges silhouettes_of_role = silhouettes(role, edges);
-      Rows slopes(azimuths_.size());
-      edge().raise_to_edges({silhouettes_of_role.batches(), role}, packet, bounds, azimuths_.view(), Culling::renewed,
-                            data(slopes));
+      Rows slopes(azimuths_.size()), unnumbered = slopes;
+      Numbers numbers(azimuths_.size());
+      const auto raise = [&](Culling culling, Rows& raised_slopes, std::int32_t* edge_numbers) {
+        edge().raise_to_edges({silhouettes_of_role.batches(), role}, packet, bounds, azimuths_.view(), culling,
+                              data(raised_slopes), edge_numbers);
+      };
+      raise(Culling::renewed, slopes, numbers.front().data());
+      for (const Culling culling : {Culling::none, Culling::once, Culling::renewed}) {
+        unnumbered.assign(azimuths_.size(), {});
+        raise(culling, unnumbered, nullptr);
+        EXPECT_EQ(unnumbered, slopes);
+      }
       for (std::size_t k = 0; k < azimuths_.size(); ++k)
         for (std::size_t l = 0; l < lanes; ++l) {
           EXPECT_EQ(slopes[k][l], scalar::raised(0.0F, edges, place(packet, l), bounds, azimuth(k)))
               << n << ", " << k << ", " << l;
+          // The number is that of the first edge with this slope
+          const auto sees = [&](const HorizonEdge& e) {
+            return scalar::raised(0.0F, {&e, 1}, place(packet, l), bounds, azimuth(k)) == slopes[k][l];
+          };
+          if (slopes[k][l] > 0.0F) {
+            EXPECT_EQ(numbers[k][l], std::find_if(edges.begin(), edges.end(), sees) - edges.begin());
+          }
           raised += slopes[k][l] > 0.0F ? 1 : 0;
         }
     }
@@ -151,20 +168,26 @@ TEST_P(ScalarKernels, SkyAboveHorizons) {
     const ReceiverPacket packet = packet_with(normals[set]);
     const Rows slopes = random_slopes();
     PacketHorizon::Lanes cosine, special, solid;
-    sky().sum_cosine(data(slopes), packet, azimuths_.view(), cosine.data());
-    sky().sum_solid_angle(data(slopes), packet, azimuths_.view(), solid.data());
+    Rows terms(azimuths_.size()), special_terms = terms;
+    sky().sum_cosine(data(slopes), packet, azimuths_.view(), cosine.data(), data(terms));
+    sky().sum_solid_angle(data(slopes), packet, azimuths_.view(), solid.data(), nullptr);
     // The kernels of some normals leave out terms that are 0: for straight up, they leave 1 / (1 + t²)
-    if (set == 1) sky().sum_cosine_level(data(slopes), packet, azimuths_.view(), special.data());
-    if (set == 2) sky().sum_cosine_up(data(slopes), azimuths_.size(), special.data());
+    if (set == 1) sky().sum_cosine_level(data(slopes), packet, azimuths_.view(), special.data(), data(special_terms));
+    if (set == 2) sky().sum_cosine_up(data(slopes), azimuths_.size(), special.data(), data(special_terms));
     for (std::size_t l = 0; l < lanes; ++l) {
       float cosine_sum = 0.0F, special_sum = 0.0F, solid_sum = 0.0F;
       for (std::size_t k = 0; k < azimuths_.size(); ++k) {
         const float t = slopes[k][l];
         const Point3f n = normal(packet, l);
-        cosine_sum += scalar::sky_of_azimuth(SkyWeight::cosine, t, n, azimuth(k));
+        EXPECT_EQ(terms[k][l], scalar::sky_of_azimuth(SkyWeight::cosine, t, n, azimuth(k)));
+        cosine_sum += terms[k][l];
         solid_sum += scalar::sky_of_azimuth(SkyWeight::solid_angle, t, n, azimuth(k));
         const float outward = scalar::max(n.x * azimuth(k).x + n.y * azimuth(k).y, 0.0F);
-        special_sum += set == 1 ? scalar::cosine_above(scalar::min(t, 1e6F), outward, 0.0F) : 1.0F / (1.0F + t * t);
+        const float special_term = set == 1 ? scalar::cosine_above(scalar::min(t, 1e6F), outward, 0.0F) : 1.0F / (1.0F + t * t);
+        if (set > 0) {
+          EXPECT_EQ(special_terms[k][l], special_term);
+        }
+        special_sum += special_term;
       }
       EXPECT_EQ(cosine[l], cosine_sum) << set << ", " << l;
       EXPECT_EQ(solid[l], solid_sum) << set << ", " << l;
@@ -258,14 +281,45 @@ TEST_P(ScalarKernels, HorizonsRaisedToBinsOfAFarMap) {
   const Rows before = random_slopes();
   Rows of_row = before, between = before;
   sky().raise_to_row(here.data(), rows.caps.data(), bins.data(), bins.size(), data(of_row));
-  sky().raise_between_rows(rows, bins.data(), bins.size(), data(between));
+  sky().raise_between_rows(rows, bins.data(), bins.size(), data(between), nullptr);
+  Rows numbered = before;
+  Numbers numbers(azimuths_.size());
+  for (auto& row : numbers) row.fill(7);
+  sky().raise_between_rows(rows, bins.data(), bins.size(), data(numbered), numbers.front().data());
+  EXPECT_EQ(numbered, between);
   for (std::size_t k = 0; k < bins.size(); ++k)
     for (std::size_t l = 0; l < lanes; ++l) {
       const std::uint32_t bin = bins[k];
       const float estimate = here[bin] + rows.shares[l] * (above[bin] - here[bin]);
       EXPECT_EQ(of_row[k][l], std::max(before[k][l], std::min(here[bin], rows.caps[l])));
       EXPECT_EQ(between[k][l], std::max(before[k][l], std::min(std::clamp(estimate, lower[bin], upper[bin]), rows.caps[l])));
+      EXPECT_EQ(numbers[k][l], between[k][l] > before[k][l] || (before[k][l] == 0.0F && between[k][l] == 0.0F) ? -1 : 7);
     }
+}
+
+TEST_P(ScalarKernels, JumpsOfTheSky) {
+  constexpr float least = 0.4F;
+  Rows sky_of_azimuths = random_slopes();
+  Numbers numbers(azimuths_.size());
+  for (auto& row : numbers)
+    for (std::int32_t& number : row) number = random_.between(0.0, 1.0) < 0.5F ? 1 : 2;
+  std::vector<SkyJump> jumps(azimuths_.size());
+  jumps.resize(sky().find_jumps(data(sky_of_azimuths), numbers.front().data(), azimuths_.size(), least, jumps.data()));
+  std::size_t found = 0;
+  for (std::uint32_t k = 0; k < azimuths_.size(); ++k) {
+    const std::size_t next = (k + 1) % azimuths_.size();
+    std::uint32_t expected = 0;
+    for (std::size_t l = 0; l < lanes; ++l)
+      if (std::abs(sky_of_azimuths[k][l] - sky_of_azimuths[next][l]) > least && numbers[k][l] != numbers[next][l])
+        expected |= 1U << l;
+    if (expected == 0) continue;
+    ASSERT_LT(found, jumps.size());
+    EXPECT_EQ(jumps[found].azimuth, k);
+    EXPECT_EQ(jumps[found].receivers, expected);
+    ++found;
+  }
+  EXPECT_EQ(found, jumps.size());
+  EXPECT_GT(found, 0U);
 }
 
 /// The rays of a gap and the choice of facing edges have no scalar version here, but oracles in double (gap_rays_test,

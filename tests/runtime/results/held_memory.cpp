@@ -29,9 +29,18 @@ void* operator new(std::size_t bytes) {
   }
   return memory;
 }
+// AddressSanitizer has its own of this one, which does not call ours
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  try {
+    return operator new(bytes);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
 // NOLINTEND(cppcoreguidelines-no-malloc)
 void operator delete(void* memory) noexcept { release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { release(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { release(memory); }
 
 namespace farlod {
 

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "horizon/azimuth_sampling.hpp"
+#include "horizon/border_ends.hpp"
+#include "horizon/packet_horizon.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "horizon/sky_partition.hpp"
+
+namespace farlod {
+
+/// Places the jumps of horizons where they are. A sum over azimuths takes a jump between two of them to be in the middle. But the
+/// edge that the higher horizon belongs to is known, and so is where it ends. docs/concepts.md, "Above a horizon".
+class HorizonJumps {
+ public:
+  /// Fewer azimuths are too far apart to take the sine of an angle between them for the angle.
+  static constexpr std::size_t least_azimuths = 32;
+  /// Jumps of less sky than this stay where they are: there are many, and together they are worth little.
+  static constexpr float least_jump = 0.1F;
+
+  /// The sampling must be even, and outlive it.
+  explicit HorizonJumps(const AzimuthSampling& azimuths) : azimuths_(azimuths), sky_(azimuths.size()), jumps_(azimuths.size()) {}
+
+  /// The sky above a horizon, in [0, 1], and how much of it horizon.sky_above lacks, or has too much.
+  struct SkyAbove {
+    PacketHorizon::Lanes sky, correction;
+  };
+  /// The horizon must track its edges, and `ends` be those of their numbers. No correction with fewer than `least_azimuths`.
+  [[nodiscard]] SkyAbove sky_above(const PacketHorizon& horizon, SkyWeight weight, const ReceiverPacket& receivers,
+                                   const BorderEnds& ends);
+
+ private:
+  /// What one jump of one receiver adds to the sum over the azimuths.
+  [[nodiscard]] float correction_of(std::size_t azimuth, std::size_t lane, const PacketHorizon& horizon,
+                                    const ReceiverPacket& receivers, const BorderEnds& ends) const;
+  /// The share of the way from one azimuth to the next for which the edge at `higher`, one of them, is the horizon of a receiver.
+  /// An edge that goes on at its end with another one, above `lower_slope` and between the two azimuths, ends with that.
+  /// Half of the way where the end is not between them.
+  [[nodiscard]] float share_of(std::size_t higher, float towards, std::int32_t number, float lower_slope, const Point3f& receiver,
+                               const BorderEnds& ends) const;
+
+  const AzimuthSampling& azimuths_;
+  // Working memory, kept from packet to packet
+  std::vector<PacketHorizon::Row> sky_;  ///< of each azimuth
+  std::vector<SkyJump> jumps_;
+};
+
+}  // namespace farlod
