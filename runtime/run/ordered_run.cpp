@@ -74,8 +74,8 @@ void evaluate_in_order(const ResolvedSettings& settings, std::size_t cell_count,
                        const std::function<CellInFlight(std::size_t)>& evaluate,
                        const std::function<void(const CellInFlight&)>& store) {
   using oneapi::tbb::filter_mode, oneapi::tbb::make_filter;
-  // Cells are stored in their order, so that those in flight follow each other, and each has a place of its own. What the pipeline
-  // itself held when a run is cancelled, oneTBB would lose
+  // Cells are stored in their order, so that those in flight follow each other, and each has a place of its own. What the
+  // pipeline itself held when a run is cancelled, oneTBB would lose
   std::vector<CellInFlight> in_flight(cells_in_flight(settings.threads));
   std::size_t next = 0;
   const auto hand_out = [&](oneapi::tbb::flow_control& flow) {
@@ -84,18 +84,17 @@ void evaluate_in_order(const ResolvedSettings& settings, std::size_t cell_count,
     return next++;
   };
   oneapi::tbb::parallel_pipeline(
-      in_flight.size(),
-      make_filter<void, std::size_t>(filter_mode::serial_in_order, hand_out) &
-          make_filter<std::size_t, CellInFlight*>(filter_mode::parallel,
-                                                  [&](std::size_t n) {
-                                                    CellInFlight& cell = in_flight[n % in_flight.size()];
-                                                    cell = evaluate(n);
-                                                    return &cell;
-                                                  }) &
-          make_filter<CellInFlight*, void>(filter_mode::serial_in_order, [&](CellInFlight* cell) {
-            store(*cell);
-            *cell = {};
-          }));
+      in_flight.size(), make_filter<void, std::size_t>(filter_mode::serial_in_order, hand_out) &
+                            make_filter<std::size_t, CellInFlight*>(filter_mode::parallel,
+                                                                    [&](std::size_t n) {
+                                                                      CellInFlight& cell = in_flight[n % in_flight.size()];
+                                                                      cell = evaluate(n);
+                                                                      return &cell;
+                                                                    }) &
+                            make_filter<CellInFlight*, void>(filter_mode::serial_in_order, [&](CellInFlight* cell) {
+                              store(*cell);
+                              *cell = {};
+                            }));
 }
 
 void require_bounds_known(const PackageInUse& package, const ResolvedSettings& settings) {
