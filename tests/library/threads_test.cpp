@@ -97,7 +97,12 @@ class CancelledTown : public testing::Test {
 
 class Cancelling : public CancelledTown, public testing::WithParamInterface<Engine> {};
 
+// Sanitizers take up to ten times as long
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
+constexpr auto longest_wait = std::chrono::milliseconds(1000);
+#else
 constexpr auto longest_wait = std::chrono::milliseconds(100);
+#endif
 
 /// Runs on a thread, and asks it to stop after a while.
 std::chrono::duration<double> wait_after_stop(std::chrono::milliseconds after, const std::function<void(std::stop_token)>& run) {
