@@ -76,7 +76,7 @@ struct PackSettings {
   std::optional<int> lod;             ///< level of detail to read, 0 to 3; empty: the best from 1 to 3
   FootprintSettings footprints;
 
-  std::optional<double> cell_edge_m;  ///< 0.5 to 10,000; empty: 50, or what `max_error` needs
+  std::optional<double> cell_edge_m;  ///< 0.5 to 10,000; empty: 150, or what `max_error` needs
   std::optional<int>
       neighborhood;  ///< cells along the edge of the near field, odd, 1 to 999; empty: 3, or what `max_error` needs
   std::optional<double> max_error;  ///< 0.0001 to 1: chooses cells and neighborhood so that sky view factors keep this error

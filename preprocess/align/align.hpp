@@ -12,7 +12,7 @@
 namespace farlod::align {
 
 struct GridSettings {
-  double cell_edge_m = 50.0;
+  double cell_edge_m = 150.0;
   int neighborhood = 3;  ///< odd
   int block_edge = 32;
   AlignMode align = AlignMode::automatic;

@@ -98,7 +98,7 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
 }
 
 void add_grid_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
-  app.add_option("--cell", o.settings.cell_edge_m, "Edge of a cell in metres (default: 50, or what --max-error needs)")
+  app.add_option("--cell", o.settings.cell_edge_m, "Edge of a cell in metres (default: 150, or what --max-error needs)")
       ->check(between(0.5, 10000.0))
       ->group("Grid");
   app.add_option("--neighborhood", o.settings.neighborhood,

@@ -3,20 +3,17 @@
 #include "pipeline/grid_choice.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace farlod::pipeline {
 namespace {
 
-/// What a map of 2 m costs for each of its receivers: rays that descend a tree of the near triangles, explicit occluders that
-/// are drawn, and a share of the cell's scene and of its far map. Constants from docs/decisions/0010; only their ratios matter.
+/// What a map of 2 m costs for each of its receivers: its horizon, the edges that are looked at for it, near and far, and a share
+/// of the gathering of the cell's edges and of its far map. Constants from docs/decisions/0017; only their ratios matter.
 double expected_receiver_us(const FarErrorEstimate& far_error, double cell_edge_m) {
-  constexpr double rays = 1000.0, ray_us = 0.02, level_us = 0.002, occluder_us = 0.02;
-  constexpr double bake_us = 10000.0, scene_us = 400.0, build_us = 0.3, grid_step_m = 2.0;
-  const double triangles = std::max(2.0, far_error.near_triangles_per_cell);
+  constexpr double horizon_us = 1.1, edge_us = 0.00025, bake_us = 2200.0, gather_us = 0.1, grid_step_m = 2.0;
+  const double edges = far_error.explicit_edges_per_cell + far_error.near_triangles_per_cell;
   const double receivers = std::max(1.0, cell_edge_m * cell_edge_m / (grid_step_m * grid_step_m));
-  return rays * (ray_us + level_us * std::log2(triangles)) + occluder_us * far_error.explicit_edges_per_cell +
-         (bake_us + scene_us + build_us * triangles) / receivers;
+  return horizon_us + edge_us * edges + (bake_us + gather_us * edges) / receivers;
 }
 
 bool keeps(const FarErrorEstimate& far_error, double max_far_error) {

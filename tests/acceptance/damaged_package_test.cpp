@@ -91,7 +91,7 @@ TEST_F(DamagedPackage, ManifestCutShort) {
 }
 
 TEST_F(DamagedPackage, ManifestWithAnImpossibleCell) {
-  edit_manifest("\"cell_m\": 50.0", "\"cell_m\": -50.0");
+  edit_manifest("\"cell_m\": 150.0", "\"cell_m\": -150.0");
   expect_damage({"manifest.json is damaged", "cell edge"});
 }
 

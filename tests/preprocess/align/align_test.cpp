@@ -54,7 +54,7 @@ TEST(Align, HasNoMoreCellsThanItNeeds) {
   Report report;
   CityModel city;
   add_extruded(city, {{-50, 10}, {100, 10}, {100, 49}, {-50, 49}}, 10.0);
-  const Grid grid = align(located(std::move(city)), {}, report).grid;
+  const Grid grid = align(located(std::move(city)), {.cell_edge_m = 50.0}, report).grid;
   // What lies on a border belongs to the cell to its east: x = 100 needs the column from 100 to 150
   EXPECT_EQ(grid.cells, (CellRange{-1, 0, 3, 1}));
 }
@@ -87,7 +87,7 @@ TEST(Align, RefusesAGridThatAStrayBuildingBlowsUp) {
   add_extruded(city.city, rectangle({500e3, 400e3}, Angle()), 10.0);
   Report report;
   try {
-    (void)align(city, {}, report);
+    (void)align(city, {.cell_edge_m = 50.0}, report);
     FAIL() << "nothing was thrown";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("km by"));
@@ -99,7 +99,7 @@ TEST(GridOver, CoversARectangleAtAnyBearing) {
   Box2d box_city;
   box_city.add({-94.5, -64.5});
   box_city.add({94.5, 64.5});
-  EXPECT_EQ(grid_over(box_city, {}).cells, (CellRange{-2, -2, 2, 2}));
+  EXPECT_EQ(grid_over(box_city, {.cell_edge_m = 50.0}).cells, (CellRange{-2, -2, 2, 2}));
   const Grid turned = grid_over(box_city, {.align = AlignMode::fixed, .fixed_bearing = Angle::degrees(30.0)});
   for (const Point2d corner_city : {box_city.low, box_city.high, {-94.5, 64.5}, {94.5, -64.5}})
     EXPECT_TRUE(turned.cells.contains(turned.cell_of(turned.rotation.grid_from_city(corner_city))));

@@ -46,6 +46,7 @@ std::string three_houses_and_a_pit() {
 struct TownPacking : Packing {
   TownPacking() {
     settings.grid.block_edge = 2;
+    settings.grid.cell_edge_m = 50.0;
     settings.inputs = {write("town.geojson", three_houses_and_a_pit())};
   }
   fs::path write(const std::string& name, const std::string& text) const {
