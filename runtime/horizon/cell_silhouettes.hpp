@@ -21,9 +21,14 @@ struct OverhangEdges {
 
 /// The silhouette edges of the city for receivers of one cell, but for those that its far map merged into the residual horizon.
 /// Cell frame.
-struct CellSilhouettes {
-  SilhouetteEdges grounded;  ///< near and far
+/// Overhangs of the neighborhood, and explicit ones of the far city.
+struct CellOverhangs {
   OverhangEdges near, far;
+  [[nodiscard]] bool empty() const { return near.empty() && far.empty(); }
+};
+
+struct CellSilhouettes : CellOverhangs {
+  SilhouetteEdges grounded;  ///< near and far
   BorderEnds upper_ends;  ///< of the upper borders: `grounded`, near.overhangs, far.overhangs, which are numbered in this order
 
   /// Numbers the upper borders, and finds their ends.

@@ -90,6 +90,13 @@ void HorizonEngine::draw_grounded(std::span<const ReceiverPacket> packets, const
     begin(packets[n], horizons[n]);
   }
   group_.raise(silhouettes_.grounded, packets, horizons);
+  // What the grounded horizons hide is neither above an upper border nor in a gap
+  const auto keep = [&](const OverhangEdges& all, OverhangEdges& in_sight) {
+    group_.keep_raising(all.overhangs, packets, horizons, in_sight.overhangs);
+    group_.keep_raising(all.undersides, packets, horizons, in_sight.undersides);
+  };
+  keep(silhouettes_.near, in_sight_.near);
+  keep(silhouettes_.far, in_sight_.far);
 }
 
 void HorizonEngine::evaluate(std::span<const ReceiverPacket> packets, std::span<PacketAnswer> answers) {
@@ -115,7 +122,7 @@ void HorizonEngine::evaluate_with_bounds(std::span<const ReceiverPacket> packets
 void HorizonEngine::evaluate(const ReceiverPacket& receivers, PacketAnswer& answer) {
   const std::uint32_t below = overhangs_.receivers_below(receivers);
   // Without overhangs in sight, the sky above it is the answer
-  if (below == 0 && silhouettes_.near.empty() && silhouettes_.far.empty()) {
+  if (below == 0 && in_sight_.empty()) {
     const Lanes sky = sky_above(horizons_.grounded, receivers).sky;
     for (std::size_t l = 0; l < sky.size(); ++l) answer.svf[l] = {sky[l], sky[l], sky[l]};
     answer.by_rays = 0;
@@ -124,7 +131,7 @@ void HorizonEngine::evaluate(const ReceiverPacket& receivers, PacketAnswer& answ
   // Else it is the sky above the upper borders, plus what is seen in the gaps below the lower borders
   horizons_.upper_borders = horizons_.grounded;
   horizons_.lower_borders.set_slopes(horizons_.grounded);
-  horizons_.draw_overhangs(silhouettes_, receivers, below, FarGapEnd::lowest);
+  horizons_.draw_overhangs(in_sight_, receivers, below, FarGapEnd::lowest);
   const Lanes sky = sky_above(horizons_.upper_borders, receivers).sky;
   const SkyInGaps gaps = sky_in_gaps(receivers);
   for (std::size_t l = 0; l < sky.size(); ++l) {
@@ -142,7 +149,7 @@ void HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, Packet
   horizons_.lower_borders.set_slopes(horizons_.grounded);
   residual_.raise_to_low(receivers, horizons_.upper_borders);
   residual_.raise_to_overhang(receivers, horizons_.lower_borders);
-  horizons_.draw_overhangs(silhouettes_, receivers, below, FarGapEnd::highest);
+  horizons_.draw_overhangs(in_sight_, receivers, below, FarGapEnd::highest);
   const Lanes most_in_gaps = sum(horizons_.find_sky_in_gaps(weight_, receivers, gap_rows_)),
               most_above = horizons_.upper_borders.sky_above(weight_, receivers);
   // The estimate, as in evaluate(): the residual city is grounded
@@ -150,7 +157,7 @@ void HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, Packet
   residual_.raise_to_estimate(receivers, horizons_.grounded);
   horizons_.upper_borders = horizons_.grounded;
   horizons_.lower_borders.set_slopes(horizons_.grounded);
-  horizons_.draw_overhangs(silhouettes_, receivers, below, FarGapEnd::lowest);
+  horizons_.draw_overhangs(in_sight_, receivers, below, FarGapEnd::lowest);
   const HorizonJumps::SkyAbove estimate = sky_above(horizons_.upper_borders, receivers);
   const SkyInGaps gaps = sky_in_gaps(receivers);
   // The low SVF: sky above the residual's high bound, and nothing of the gaps

@@ -80,7 +80,8 @@ class HorizonEngine {
 
  private:
   using Lanes = PacketHorizon::Lanes;
-  /// Draws the grounded horizons of all packets, above those that `begin(packet, horizon)` makes.
+  /// Draws the grounded horizons of all packets, above those that `begin(packet, horizon)` makes, and finds the overhangs above
+  /// them.
   template <class Begin>
   void draw_grounded(std::span<const ReceiverPacket> packets, const Begin& begin);
   /// Answers one packet, whose grounded horizon is drawn.
@@ -107,6 +108,7 @@ class HorizonEngine {
   HorizonJumps jumps_;
   // Working memory, kept from packet to packet
   std::vector<PacketHorizon> grounded_;  ///< of each packet
+  CellOverhangs in_sight_;               ///< overhangs that may rise above some of them
   OverhangHorizons horizons_;
   PacketHorizon without_residual_;
   std::vector<PacketHorizon::Row> gap_rows_;

@@ -114,22 +114,22 @@ std::uint32_t OverhangGeometry::receivers_below(const ReceiverPacket& r) const {
   return bits;
 }
 
-void OverhangHorizons::draw_overhangs(const CellSilhouettes& silhouettes, const ReceiverPacket& receivers, std::uint32_t below,
+void OverhangHorizons::draw_overhangs(const CellOverhangs& overhangs, const ReceiverPacket& receivers, std::uint32_t below,
                                       FarGapEnd far_end) {
   // First the far city by itself. Where no lower border of it is above the grounded horizon, it is joined with what is near
-  upper_borders.raise(silhouettes.far.overhangs, receivers);
-  if (far_end == FarGapEnd::lowest && !silhouettes.far.undersides.empty())
-    lower_borders.set_to_lowest(silhouettes.far.undersides, receivers, grounded);
+  upper_borders.raise(overhangs.far.overhangs, receivers);
+  if (far_end == FarGapEnd::lowest && !overhangs.far.undersides.empty())
+    lower_borders.set_to_lowest(overhangs.far.undersides, receivers, grounded);
   else
-    lower_borders.raise(silhouettes.far.undersides, receivers);
+    lower_borders.raise(overhangs.far.undersides, receivers);
   grounded.join(lower_borders, upper_borders);
   far_lower_borders.set_slopes(lower_borders);
   far_upper_borders.set_slopes(upper_borders);
   // Then the near overhangs; a receiver below one sees no sky above it
   lower_borders.raise_to(grounded);
-  upper_borders.raise(silhouettes.near.overhangs, receivers);
+  upper_borders.raise(overhangs.near.overhangs, receivers);
   upper_borders.close(below);
-  lower_borders.raise(silhouettes.near.undersides, receivers);
+  lower_borders.raise(overhangs.near.undersides, receivers);
 }
 
 std::span<const PacketHorizon::Row> OverhangHorizons::find_sky_in_gaps(SkyWeight weight, const ReceiverPacket& receivers,

@@ -90,8 +90,7 @@ struct OverhangHorizons {
 
   /// Draws overhangs above `grounded`. `below` are the bits of the receivers below an overhang. `upper_borders` may hold the
   /// residual horizon's already, and with FarGapEnd::highest `lower_borders` too; they must not be lower than `grounded`.
-  void draw_overhangs(const CellSilhouettes& silhouettes, const ReceiverPacket& receivers, std::uint32_t below,
-                      FarGapEnd far_end);
+  void draw_overhangs(const CellOverhangs& overhangs, const ReceiverPacket& receivers, std::uint32_t below, FarGapEnd far_end);
   /// The sky in the gaps, a row for each azimuth; no rows where there is no gap. Afterwards `lower_borders` and the far horizons
   /// are the ends of these gaps.
   [[nodiscard]] std::span<const PacketHorizon::Row> find_sky_in_gaps(SkyWeight weight, const ReceiverPacket& receivers,

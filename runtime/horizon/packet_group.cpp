@@ -37,6 +37,17 @@ void PacketGroup::raise(const SilhouetteEdges& edges, std::span<const ReceiverPa
     if (n != middle) horizons[n].raise(drawn_, packets[n], bounds_[n], Culling::once);
 }
 
+void PacketGroup::keep_raising(const SilhouetteEdges& edges, std::span<const ReceiverPacket> packets,
+                               std::span<const PacketHorizon> horizons, SilhouetteEdges& kept) {
+  others_.clear();
+  if (!edges.empty()) {
+    bounds_.clear();
+    for (const ReceiverPacket& packet : packets) bounds_.push_back(bounds_of(packet));
+    find_raising(edges, joined(bounds_), horizons, others_);
+  }
+  kept.assign(edges, others_);
+}
+
 void PacketGroup::find_raising(const SilhouetteEdges& edges, const PacketBounds& bounds, std::span<const PacketHorizon> horizons,
                                std::vector<std::uint16_t>& raising) {
   slopes_.clear();

@@ -23,6 +23,10 @@ class PacketGroup {
   /// Raises horizons[n] to the edges that the receivers of packets[n] see: to the bit what horizons[n].raise(edges, packets[n])
   /// does.
   void raise(const SilhouetteEdges& edges, std::span<const ReceiverPacket> packets, std::span<PacketHorizon> horizons);
+  /// Makes `kept` the edges that may rise above one of these horizons, drawn for these packets: the others raise none of them,
+  /// and none that is higher.
+  void keep_raising(const SilhouetteEdges& edges, std::span<const ReceiverPacket> packets,
+                    std::span<const PacketHorizon> horizons, SilhouetteEdges& kept);
 
  private:
   /// Finds the edges that may raise one of these horizons, of receivers within these bounds.
