@@ -25,13 +25,20 @@ class RayEngine;
 struct SvfInterval;
 struct FreeRays;
 
-/// The far map of a cell; cells outside of the grid have none.
-enum class FarMapOfCell { horizon, box, none };
+/// The far map of a cell.
+enum class FarMapOfCell {
+  horizon,
+  box,
+  missing,         ///< the cell is one of the grid, and far maps were made for others
+  outside_of_grid  ///< there are no cells, and no far maps
+};
+
+[[nodiscard]] FarMapOfCell far_map_of(const PackageReader& package, Cell cell);
 
 /// How the receivers of a cell are answered. A direction is free when
 enum class EvaluationMethod {
   horizons_and_rays,      ///< it lies above the horizon, or a ray through the gap below an overhang meets nothing
-  horizons_alone,         ///< it lies above the horizon; throws PackageUnusable where a gap would need rays
+  horizons_alone,         ///< it lies above the horizon; throws PackageUnusable where rays are needed
   rays_against_horizons,  ///< the same as horizons_and_rays, asked for each of --rays directions instead of each azimuth
   near_scene_and_box,     ///< its ray meets no near tile, and the box far map has no occluder in this direction
   near_scene_alone,       ///< its ray meets no near tile
@@ -40,12 +47,12 @@ enum class EvaluationMethod {
 
 /// The only place that decides which method answers a cell:
 ///
-///   engine      far map `horizon`       far map `box`        none (outside of the grid)
-///   automatic   horizons_and_rays       near_scene_and_box   whole_city
-///   horizon     horizons_alone          near_scene_and_box   whole_city
-///   rays        rays_against_horizons   near_scene_and_box   whole_city
-///   exact       whole_city              whole_city           whole_city
-///   near_only   near_scene_alone        near_scene_alone     whole_city
+///   engine      far map `horizon`       far map `box`        missing            outside of the grid
+///   automatic   horizons_and_rays       near_scene_and_box   whole_city         whole_city
+///   horizon     horizons_alone          near_scene_and_box   horizons_alone     whole_city
+///   rays        rays_against_horizons   near_scene_and_box   whole_city         whole_city
+///   exact       whole_city              whole_city           whole_city         whole_city
+///   near_only   near_scene_alone        near_scene_alone     near_scene_alone   whole_city
 [[nodiscard]] EvaluationMethod method_of(Engine engine, FarMapOfCell far_map);
 
 struct SkySettings {
@@ -90,7 +97,8 @@ class SkyEvaluator {
   /// Writes the sky view factor of each receiver, in [0, 1], by the method of the cell (method_of). Where `low` and `high` are
   /// wanted, the value for the same azimuths or rays and the true far city lies between them, up to the rounding of floats
   /// (docs/concepts.md, "Bounds of a sky view factor"); bounds need far maps of the kind `horizon` or the method `whole_city`.
-  /// Throws PackageUnusable where `horizons_alone` meets a receiver that may see too much sky below an overhang.
+  /// Throws PackageUnusable where `horizons_alone` meets a receiver that may see too much sky below an overhang, or a cell
+  /// whose far map is missing.
   void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const;
   void evaluate(const CellReceivers& cell, std::span<float> svf) const { evaluate(cell, SkyAnswers(svf)); }
 
@@ -122,6 +130,7 @@ class SkyEvaluator {
   void retrace(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine, std::span<FreeRays> free) const;
   [[nodiscard]] bool exceeds_allowed_error(const SvfInterval& svf) const;
   void require_rays_allowed(Cell cell) const;
+  void require_far_map(Cell cell) const;
   [[nodiscard]] bool wants_bounds(const SkyAnswers& answers) const {
     return !answers.low.empty() || settings_.max_far_error.has_value();
   }
