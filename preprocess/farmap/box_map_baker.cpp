@@ -17,11 +17,17 @@ constexpr double border_rounding = 4.0 * std::numeric_limits<float>::epsilon();
 }  // namespace
 
 BakedBoxes BoxMapBaker::bake(Block block, const std::stop_token& stop) const {
-  const CellRange cells = grid_.cells_of(block);
-  BakedBoxes maps(static_cast<std::size_t>(cells.size()));
+  const CellRange range = grid_.cells_of(block);
+  std::vector<Cell> cells;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) cells.push_back(range.cell_at(n));
+  return bake(cells, stop);
+}
+
+BakedBoxes BoxMapBaker::bake(std::span<const Cell> cells, const std::stop_token& stop) const {
+  BakedBoxes maps(cells.size());
   oneapi::tbb::parallel_for(std::size_t{0}, maps.size(), [&](std::size_t n) {
     throw_if_cancelled(stop);
-    maps[n] = bake_cell(cells.cell_at(n));
+    maps[n] = bake_cell(cells[n]);
   });
   return maps;
 }
