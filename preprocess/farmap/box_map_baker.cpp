@@ -25,10 +25,13 @@ BakedBoxes BoxMapBaker::bake(Block block, const std::stop_token& stop) const {
 
 BakedBoxes BoxMapBaker::bake(std::span<const Cell> cells, const std::stop_token& stop) const {
   BakedBoxes maps(cells.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, maps.size(), [&](std::size_t n) {
+  // Blocks may be baked at the same time: what ends another one must not leave this one half done
+  oneapi::tbb::task_group_context of_its_own(oneapi::tbb::task_group_context::isolated);
+  const auto bake_one = [&](std::size_t n) {
     throw_if_cancelled(stop);
     maps[n] = bake_cell(cells[n]);
-  });
+  };
+  oneapi::tbb::parallel_for(std::size_t{0}, maps.size(), bake_one, of_its_own);
   return maps;
 }
 

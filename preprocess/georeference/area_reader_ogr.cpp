@@ -97,19 +97,32 @@ Area shapes_of(OGRLayer& layer) {
   return area;
 }
 
-/// The field that carries one of the names; −1 where none does.
-int field_named(const OGRFeatureDefn& fields, std::span<const std::string_view> names) {
-  for (int n = 0; n < fields.GetFieldCount(); ++n)
-    if (std::ranges::find(names, lower_case(fields.GetFieldDefn(n)->GetNameRef())) != names.end()) return n;
-  return -1;
+/// The field that carries one of the names; −1 where none does. Two would leave open which one is meant.
+int field_named(const OGRFeatureDefn& fields, std::span<const std::string_view> names, const std::filesystem::path& file) {
+  int found = -1;
+  for (int n = 0; n < fields.GetFieldCount(); ++n) {
+    if (std::ranges::find(names, lower_case(fields.GetFieldDefn(n)->GetNameRef())) == names.end()) continue;
+    if (found >= 0)
+      throw InputError(file.string() + ": the columns \"" + fields.GetFieldDefn(found)->GetNameRef() + "\" and \"" +
+                       fields.GetFieldDefn(n)->GetNameRef() + "\" mean the same; rename the one that does not count");
+    found = n;
+  }
+  return found;
+}
+
+std::string_view trimmed(std::string_view field) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!field.empty() && blank(field.front())) field.remove_prefix(1);
+  while (!field.empty() && blank(field.back())) field.remove_suffix(1);
+  return field;
 }
 
 double number_in(std::string_view field, const Feature& feature, const std::filesystem::path& file) {
-  const std::size_t first = field.find_first_not_of(" \t+"), last = field.find_last_not_of(" \t");
-  const std::string_view digits = first > last ? std::string_view{} : field.substr(first, last - first + 1);
+  std::string_view digits = trimmed(field);
+  if (digits.starts_with('+')) digits.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (digits.empty() || error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
+  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
     throw InputError(file.string() + ": point " + std::to_string(feature->GetFID()) + ": \"" + std::string(field) +
                      "\" is not a number; write it like 1234.5");
   return value;
@@ -123,8 +136,8 @@ bool has_header(const OGRFeatureDefn& fields) {
 Area points_of(OGRLayer& table, const std::filesystem::path& file) {
   const OGRFeatureDefn& fields = *table.GetLayerDefn();
   const bool header = has_header(fields);
-  const int x = header ? field_named(fields, point_columns::x_names) : 0;
-  const int y = header ? field_named(fields, point_columns::y_names) : 1;
+  const int x = header ? field_named(fields, point_columns::x_names, file) : 0;
+  const int y = header ? field_named(fields, point_columns::y_names, file) : 1;
   if (x < 0 || y < 0 || y >= fields.GetFieldCount())
     throw InputError(file.string() +
                      ": no column is named x and y (or easting and northing, or lon and lat); name them in the first row");
