@@ -43,7 +43,8 @@ ProgramDescription pack_program() {
 struct RawOptions {
   std::vector<std::string> inputs;
   std::string output, origin, up = "z", lod = "best", align = "auto", assign = "clip", far_map = "horizon";
-  std::string area, terrain, height_field, base_field, storeys_field, roof_field;
+  std::optional<std::string> area;
+  std::string terrain, height_field, base_field, storeys_field, roof_field;
   bool force = false, strict = false;
 };
 
@@ -176,6 +177,7 @@ bool is_number(const std::string& text) {
 /// A text that begins with a number and a comma is meant as a rectangle; anything else is a file.
 FarMapArea area_in(const std::string& text) {
   const std::string option = "--area";
+  if (text.empty()) throw CLI::ValidationError(option, "it is empty: give X0,Y0,X1,Y1, or the name of a file");
   const std::size_t comma = text.find(',');
   if (comma == std::string::npos || !is_number(text.substr(0, comma))) return std::filesystem::path(text);
   std::vector<double> n;
@@ -200,7 +202,7 @@ void resolve(const RawOptions& raw, PackOptions& o) {
   s.overwrite = raw.force ? Overwrite::replace : Overwrite::refuse;
   s.problems = raw.strict ? ProblemPolicy::refuse : ProblemPolicy::pack;
   if (!raw.terrain.empty()) s.terrain = raw.terrain;
-  if (!raw.area.empty()) s.area = area_in(raw.area);
+  if (raw.area) s.area = area_in(*raw.area);
   if (s.inputs.empty() && !s.terrain) throw CLI::RequiredError("INPUT");
   if (s.neighborhood && *s.neighborhood % 2 == 0)
     throw CLI::ValidationError("--neighborhood", std::to_string(*s.neighborhood) +
