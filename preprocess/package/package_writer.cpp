@@ -3,6 +3,7 @@
 #include "package/package_writer.hpp"
 
 #include <fstream>
+#include <regex>
 #include <set>
 #include <string>
 #include <utility>
@@ -28,6 +29,12 @@ void require_package_or_empty(const fs::path& folder) {
       throw OutputError(folder.string() + " holds " + name.string() +
                         ", which is not part of a package: choose another folder for -o.");
   }
+}
+
+/// Whether a folder has the name of a block's (package::folder_of), of whatever block.
+bool is_block_folder(const std::string& name) {
+  static const std::regex of_block("-?[0-9]+_-?[0-9]+(_[0-9]+)?");
+  return std::regex_match(name, of_block);
 }
 
 /// What far maps of the kind `horizon` add to the tiles file.
@@ -128,12 +135,12 @@ void PackageWriter::finish(const package::Manifest& manifest) {
 void PackageWriter::remove_all_but(const package::Manifest& manifest) const {
   std::set<fs::path> named;
   for (const package::BlockFiles& files : manifest.blocks) named.insert(folder_ / package::folder_of(files));
+  // The package is whole by now: what cannot be removed does no harm, and the next run tries again
+  std::error_code ignored;
   std::vector<fs::path> others;
-  on_disk(folder_, [&] {
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / blocks_folder))
-      if (!named.contains(entry.path())) others.push_back(entry.path());
-    for (const fs::path& other : others) fs::remove_all(other);
-  });
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / blocks_folder, ignored))
+    if (!named.contains(entry.path()) && is_block_folder(entry.path().filename().string())) others.push_back(entry.path());
+  for (const fs::path& other : others) fs::remove_all(other, ignored);
 }
 
 }  // namespace farlod

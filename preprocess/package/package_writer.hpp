@@ -41,7 +41,7 @@ class PackageWriter {
   /// that is absent. For several blocks, it may be called from several threads.
   package::BlockFiles write_block(const TileSet& tiles, const BakedBlock& maps, const Grid& grid, Block block,
                                   const package::FarMapShape& shape, const std::optional<package::CellRuns>& mapped = {});
-  /// Of a package to which was added, the files that the manifest does not name any more are removed.
+  /// Of a package to which was added, the folders of blocks that the manifest does not name any more are removed.
   void finish(const package::Manifest& manifest);
 
   [[nodiscard]] std::uint64_t bytes_written() const { return bytes_written_; }

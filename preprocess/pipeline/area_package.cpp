@@ -174,7 +174,7 @@ AreaPlan plan_area(const georeference::RequestedArea& area, const Georeference& 
     const Block block = grid.block_of(cell);
     places[block].push_back(grid.cells_of(block).index_of(cell));
   }
-  AreaPlan plan{{}, met.cells.size(), 0, met.shapes_outside_of_grid};
+  AreaPlan plan{{}, 0, met.shapes_outside_of_grid};
   const std::vector<Block> blocks = grid.blocks();
   for (std::size_t n = 0; n < blocks.size(); ++n) {
     const package::BlockFiles* there = existing != nullptr ? &existing->blocks()[n] : nullptr;

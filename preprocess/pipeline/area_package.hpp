@@ -28,7 +28,6 @@ struct PlannedBlock {
 /// What a run does that makes far maps for an area.
 struct AreaPlan {
   std::vector<PlannedBlock> blocks;        ///< in the order of Grid::blocks()
-  std::uint64_t cells_in_area = 0;         ///< those that the area meets
   std::uint64_t far_maps = 0;              ///< to bake: those of a block that gets more are baked again, since they share edges
   std::size_t shapes_outside_of_grid = 0;  ///< points, lines and polygons that meet no cell
 };

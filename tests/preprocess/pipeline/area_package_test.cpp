@@ -213,6 +213,19 @@ TEST(Area, LeavesAloneWhatNeedsNoNewFarMaps) {
   EXPECT_GT(kept, 10U);
 }
 
+/// What an earlier run left goes; what is no block's folder stays.
+TEST(Area, SweepsOldBlocksAndNothingElse) {
+  AreaPacking p;
+  p.run_area(corner);
+  const fs::path blocks = p.settings.output / "blocks";
+  for (const char* name : {"7_7_3", "-1_5", "notes", "0_0_old"}) fs::create_directories(blocks / name);
+  p.run_area(middle);
+  EXPECT_FALSE(fs::exists(blocks / "7_7_3"));
+  EXPECT_FALSE(fs::exists(blocks / "-1_5"));
+  EXPECT_TRUE(fs::exists(blocks / "notes"));
+  EXPECT_TRUE(fs::exists(blocks / "0_0_old"));
+}
+
 TEST(Area, SaysHowManyBytesThePackageHas) {
   AreaPacking p;
   for (const FarMapArea& area : {corner, middle}) {
