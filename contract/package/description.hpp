@@ -22,6 +22,7 @@ namespace farlod::package {
   d.columns = m.grid.cells.width();
   d.rows = m.grid.cells.height();
   d.far_map_kind = m.far_map.kind;
+  d.cells_with_far_map = m.cells_with_far_map();
   d.buildings = m.buildings;
   d.polygons = m.polygons;
   d.triangles = m.triangles;

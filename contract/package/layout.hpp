@@ -22,7 +22,10 @@ namespace farlod::package {
 static_assert(std::endian::native == std::endian::little,
               "packages are mapped, not decoded: a big-endian reader must swap bytes");
 
+/// Of `tiles.bin`, and of the manifest of a package each of whose cells has a far map.
 inline constexpr std::uint32_t format_version = 6;
+/// Of the manifest of a package some of whose cells have no far map: a reader of version 6 would look for it.
+inline constexpr std::uint32_t partial_format_version = 7;
 inline constexpr std::array<char, 8> magic{'F', 'A', 'R', 'L', 'O', 'D', 'T', '\n'};
 inline constexpr std::uint64_t section_alignment = 64;
 inline constexpr std::uint64_t end_padding = 16;
@@ -163,7 +166,7 @@ static_assert(sizeof(ExplicitOccluder) == 8);
 
 static_assert(sizeof(HorizonEdge) == 28 && sizeof(AdjacentSlopes) == 2);
 
-/// The folder of a block within a package, and its two files.
+/// The folder of a block each of whose cells has a far map (folder_of), and its two files.
 [[nodiscard]] inline std::string block_folder(Block b) { return "blocks/" + std::to_string(b.i) + "_" + std::to_string(b.j); }
 inline constexpr const char* tiles_file = "tiles.bin";
 inline constexpr const char* far_map_file = "far.exr";

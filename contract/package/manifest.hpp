@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,6 +10,8 @@
 #include <vector>
 
 #include "contract/grid.hpp"
+#include "contract/package/cell_runs.hpp"
+#include "contract/package/layout.hpp"
 #include "farlod/angle.hpp"
 #include "farlod/box.hpp"
 #include "farlod/point.hpp"
@@ -30,7 +33,19 @@ struct InputFile {
 struct BlockFiles {
   Block block;
   FileStamp tiles, far_map;
+  /// The cells that have far maps, where not all have one. Where none has, there is no file of far maps.
+  std::optional<CellRuns> mapped = {};
+
+  /// Of the cell at this place in CellRange::index_of.
+  [[nodiscard]] bool has_far_map(std::size_t place) const { return !mapped || mapped->contains(place); }
+  [[nodiscard]] bool has_far_maps() const { return !mapped || !mapped->runs.empty(); }
 };
+
+/// The folder of a block within a package. A block of which n cells have far maps, and not all, has a name with n: when far maps
+/// are added, the new files stand beside the old ones until the manifest names them.
+[[nodiscard]] inline std::string folder_of(const BlockFiles& files) {
+  return block_folder(files.block) + (files.mapped ? "_" + std::to_string(files.mapped->size()) : "");
+}
 
 /// The kind of a package's far maps, and the size of their pictures.
 struct FarMapShape {
@@ -44,6 +59,27 @@ struct FarMapShape {
   [[nodiscard]] std::uint32_t picture_columns() const { return is_box() ? 4 * side_columns : azimuth_bins; }
   [[nodiscard]] std::uint32_t picture_rows() const { return is_box() ? rows : squares_per_edge * squares_per_edge * layers; }
 };
+
+/// How many tiles the picture of a block's `far.exr` has, along either axis.
+struct PictureTiles {
+  std::int64_t columns = 0, rows = 0;
+};
+/// The tile of a cell in that picture.
+struct PictureTile {
+  std::int32_t column = 0, row = 0;
+};
+
+/// Where all cells have far maps, tiles lie as cells do; where some have, theirs lie in one column, in the order of
+/// CellRange::index_of, so that no tile is empty.
+[[nodiscard]] inline PictureTiles picture_tiles(const CellRange& cells, const std::optional<CellRuns>& mapped) {
+  if (!mapped) return {cells.width(), cells.height()};
+  return {1, static_cast<std::int64_t>(mapped->size())};
+}
+/// The cell must have a far map.
+[[nodiscard]] inline PictureTile picture_tile(Cell cell, const CellRange& cells, const std::optional<CellRuns>& mapped) {
+  if (!mapped) return {cell.i - cells.i_begin, cell.j - cells.j_begin};
+  return {0, static_cast<std::int32_t>(mapped->count_before(cells.index_of(cell)))};
+}
 
 /// What `manifest.json` says. docs/package_format.md lists the keys.
 struct Manifest {
@@ -61,6 +97,16 @@ struct Manifest {
   std::vector<std::pair<int, std::uint64_t>> problem_counts;  ///< by code, ascending
   std::vector<BlockFiles> blocks;                             ///< in the order of Grid::blocks()
 
+  /// Whether each cell has a far map.
+  [[nodiscard]] bool is_fully_mapped() const {
+    return std::none_of(blocks.begin(), blocks.end(), [](const BlockFiles& b) { return b.mapped.has_value(); });
+  }
+  [[nodiscard]] std::uint64_t cells_with_far_map() const {
+    std::uint64_t count = 0;
+    for (const BlockFiles& b : blocks)
+      count += b.mapped ? b.mapped->size() : static_cast<std::uint64_t>(grid.cells_of(b.block).size());
+    return count;
+  }
   /// Between the grid frame and the output CRS; heights are the same in both.
   [[nodiscard]] Point3d projected_from_grid(const Point3d& p_grid) const {
     const Point2d p = origin_m + grid.rotation.city_from_grid(horizontal(p_grid));

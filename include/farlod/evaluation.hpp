@@ -12,10 +12,11 @@ namespace farlod {
 
 /// What answers a receiver (docs/stages/evaluate.md). Far maps of the kind `box` have no horizons: with them automatic, horizon
 /// and rays are all the same, rays that are traced nearby and looked up in the map. Receivers outside of the grid have no far
-/// map: whatever the engine, their rays are traced against the whole city.
+/// map: whatever the engine, their rays are traced against the whole city. Those in cells whose far map was not made
+/// (PackSettings::area) are traced so, too, by the engines automatic and rays.
 enum class Engine {
   automatic,  ///< horizons, and rays where too much sky may be seen below something that overhangs
-  horizon,    ///< horizons alone; where they are not enough, the run ends with PackageUnusable
+  horizon,    ///< horizons alone; where they are not enough, or a far map is missing, the run ends with PackageUnusable
   rays,       ///< rays, as in the paper (Listing 1), compared with horizons; only those in gaps are traced
   exact,      ///< rays against all tiles: the reference
   /// The far city left out, as by tools that cut a city into tiles: to measure what the far map is worth. Knows neither bounds
@@ -108,6 +109,9 @@ struct EvaluationSummary {
   std::size_t no_data = 0;          ///< inside buildings, below the ground, or without ground below them
   std::size_t beyond_grid = 0;      ///< pixels of a raster that lie in no cell: without a value too
   std::size_t outside_of_grid = 0;  ///< receivers outside of the grid, which were traced against the whole city
+  /// Receivers in cells of the grid that have no far map (PackSettings::area). All engines but near_only, which needs none,
+  /// traced them against the whole city.
+  std::size_t without_far_map = 0;
   std::optional<double> svf_min, svf_mean, svf_max;
   std::optional<BoundsWidth> bounds;
   std::uint64_t by_rays = 0;        ///< receivers that needed rays

@@ -9,9 +9,11 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "farlod/angle.hpp"
+#include "farlod/box.hpp"
 #include "farlod/export.hpp"
 #include "farlod/package.hpp"
 #include "farlod/point.hpp"
@@ -44,7 +46,15 @@ enum class FarMapKind : std::uint8_t {
 };
 
 /// What to do when the package's folder is there already.
-enum class Overwrite { refuse, replace };
+enum class Overwrite {
+  refuse,  ///< with PackSettings::area: far maps are added to the package
+  replace
+};
+
+/// A part of the city: a rectangle in the CRS of the package, or a file with points, lines and polygons. A vector file that GDAL
+/// reads is in its own CRS, and in that of the package where it says none. A table (.csv, .tsv, .txt) holds points in the CRS of
+/// the package, in columns that are called as those of farlod-svf --points.
+using FarMapArea = std::variant<Box2d, std::filesystem::path>;
 
 /// Whether a city with problems is packed.
 enum class ProblemPolicy { pack, refuse };
@@ -84,12 +94,18 @@ struct PackSettings {
   Angle fixed_bearing = {};  ///< of the grid's y axis, clockwise from grid north, a full turn at the most; with AlignMode::fixed
   Assign assign = Assign::clip;
   FarMapKind far_map = FarMapKind::horizon;
+
+  /// Makes far maps only for the cells that this area meets; the package has the tiles of all. If the folder holds a package of
+  /// the same city and settings, they are added to it: its files become those of one run for all areas, whatever their order.
+  /// Coordinates of a rectangle are within 100,000 km.
+  std::optional<FarMapArea> area = {};
 };
 
 /// The expected cost of a run, estimated when the grid is known. An estimate, not a bound.
 struct PackEstimate {
   std::uint64_t cells = 0;
-  double seconds = 0.0;  ///< of the stages from the tiles on
+  std::uint64_t far_maps = 0;  ///< that are baked: one for each cell, or fewer with PackSettings::area
+  double seconds = 0.0;        ///< of the stages from the tiles on
   double memory_mib = 0.0, package_mib = 0.0;
 };
 
@@ -133,7 +149,8 @@ struct PackResult {
   std::uint64_t foundations = 0;     ///< buildings whose lowest floor was closed down to the ground
   SkippedFeatures skipped;           ///< features of the files that are not used
   std::vector<std::string> notes;    ///< for the user: what was read from files beside the inputs, or assumed
-  std::uint64_t package_bytes = 0, far_map_bytes = 0;
+  std::uint64_t package_bytes = 0;
+  std::uint64_t far_map_bytes = 0;  ///< of the far maps that this run wrote
   PackEstimate estimate;
   /// In the order in which the stages ran. The package is written while far maps are baked, so that these two overlap.
   std::vector<std::pair<std::string, double>> stage_seconds;
@@ -144,8 +161,9 @@ using OnEstimate = std::function<void(const PackEstimate&)>;
 
 /// Makes a package from city files. Problems of single buildings are added to the report, as far as the run comes, and end
 /// nothing. The folder appears with its manifest at the end; a run that ends before leaves nothing new that opens as a package. A
-/// package that is to be replaced stays until the first block of its successor is written.
-/// Throws InvalidArgument, InputError, ProblemsRefused, OutputError, LimitReached, Cancelled.
+/// package that is to be replaced stays until the first block of its successor is written. One to which far maps are added stays
+/// as it was until its new manifest takes the place of the old one; OutputError says what differs where its city or its settings
+/// are others. Throws InvalidArgument, InputError, ProblemsRefused, OutputError, LimitReached, Cancelled.
 FARLOD_EXPORT PackResult pack(const PackSettings& settings, Report& report, const RunSettings& run = {},
                               const OnEstimate& on_estimate = {});
 

@@ -25,7 +25,8 @@ struct PackageDescription {
   double cell_edge_m = 0.0;
   int neighborhood = 0;  ///< cells along the edge of the near field
   std::int64_t columns = 0, rows = 0;
-  std::string far_map_kind;  ///< "horizon" or "box"
+  std::string far_map_kind;              ///< "horizon" or "box"
+  std::uint64_t cells_with_far_map = 0;  ///< columns × rows, or fewer (PackSettings::area)
   std::uint64_t buildings = 0, polygons = 0, triangles = 0;
 };
 

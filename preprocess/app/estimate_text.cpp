@@ -37,7 +37,8 @@ std::string size(double mib) {
 }  // namespace
 
 std::string estimate_text(const PackEstimate& e) {
-  return fmt::format("{} cells: about {} from here on, {} of memory, and a package of {}", with_commas(e.cells),
+  const std::string far_maps = e.far_maps < e.cells ? ", far maps to make for " + with_commas(e.far_maps) : "";
+  return fmt::format("{} cells{}: about {} from here on, {} of memory, and a package of {}", with_commas(e.cells), far_maps,
                      duration(e.seconds), size(e.memory_mib), size(e.package_mib));
 }
 

@@ -102,6 +102,9 @@ void print_result(const PackResult& result, const Report& report, const PackOpti
              (result.street_bearing + m.convergence).degrees(), result.alignment_strength);
   fmt::print("Grid: turned by {:.2f}°, {} × {} cells of {:g} m, neighborhood {} × {}\n", m.grid_bearing.degrees(), m.columns,
              m.rows, m.cell_edge_m, m.neighborhood, m.neighborhood);
+  if (options.settings.area)
+    fmt::print("Far maps: {} of {} cells; receivers in cells without one are traced against the whole city\n",
+               m.cells_with_far_map, m.columns * m.rows);
   if (result.chosen) print_choice(*result.chosen, options);
   fmt::print("{}: {:.1f} MiB ({:.1f} MiB far maps), {} triangles, {:.1f} s\n", options.settings.output.string(),
              static_cast<double>(result.package_bytes) / 1048576.0, static_cast<double>(result.far_map_bytes) / 1048576.0,

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/pack_options.hpp"
 
+#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -20,7 +22,8 @@ ProgramDescription pack_program() {
   return {
       .name = "farlod-pack",
       .purpose = "cuts a city model into a package of cells with far maps, from which farlod-svf computes sky view factors",
-      .examples = {"farlod-pack town.gml -o town.farlod", "farlod-pack footprints.geojson --height-field height -o town.farlod"},
+      .examples = {"farlod-pack town.gml -o town.farlod", "farlod-pack footprints.geojson --height-field height -o town.farlod",
+                   "farlod-pack city.gml -o city.farlod --area quarter.gpkg"},
       .background = {"A grid of square cells is laid over the city. A package holds the geometry of each cell, and a far map: "
                      "what matters there of the city far away.",
                      "One bad building never ends the run. It is reported, and left out or repaired; --report lists each "
@@ -40,6 +43,7 @@ ProgramDescription pack_program() {
 struct RawOptions {
   std::vector<std::string> inputs;
   std::string output, origin, up = "z", lod = "best", align = "auto", assign = "clip", far_map = "horizon";
+  std::optional<std::string> area;
   std::string terrain, height_field, base_field, storeys_field, roof_field;
   bool force = false, strict = false;
 };
@@ -123,12 +127,22 @@ void add_grid_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->group("Grid");
 }
 
+void add_area_option(CLI::App& app, RawOptions& raw) {
+  app.add_option(
+         "--area", raw.area,
+         "Make far maps only where this lies: X0,Y0,X1,Y1 in the package's CRS, a vector file, or a table of points (CSV); "
+         "add them to the package of the same city that is there already")
+      ->type_name(file_value)
+      ->group("Output");
+}
+
 void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("-o,--output", raw.output, "Folder of the package, NAME.farlod")
       ->required()
       ->type_name(folder_value)
       ->group("Output");
   app.add_flag("--force", raw.force, "Replace a package that is there already")->group("Output");
+  add_area_option(app, raw);
   app.add_option("--memory-limit", o.memory_limit_mib, "End before the long work when it would need more MiB than this")
       ->check(CLI::PositiveNumber)
       ->group("Output");
@@ -154,6 +168,32 @@ void resolve_alignment(const std::string& text, PackSettings& s) {
   }
 }
 
+bool is_number(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && std::isfinite(value);
+}
+
+/// A text that begins with a number and a comma is meant as a rectangle; anything else is a file.
+FarMapArea area_in(const std::string& text) {
+  const std::string option = "--area";
+  if (text.empty()) throw CLI::ValidationError(option, "it is empty: give X0,Y0,X1,Y1, or the name of a file");
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos || !is_number(text.substr(0, comma))) return std::filesystem::path(text);
+  std::vector<double> n;
+  // split() drops what is empty after the last comma: with one more, that is the comma's own
+  for (const std::string& part : CLI::detail::split(text + ',', ',')) {
+    if (!is_number(part)) throw CLI::ValidationError(option, "\"" + text + "\" is not of the form X0,Y0,X1,Y1");
+    n.push_back(std::stod(part));
+  }
+  if (n.size() != 4 || n[0] >= n[2] || n[1] >= n[3])
+    throw CLI::ValidationError(option, "give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
+  constexpr double farthest_m = 1e8;  // no map is as large
+  for (const double x : n)
+    if (std::abs(x) > farthest_m) throw CLI::ValidationError(option, fmt::format("{:g} lies nowhere on Earth", x));
+  return Box2d{{n[0], n[1]}, {n[2], n[3]}};
+}
+
 void resolve(const RawOptions& raw, PackOptions& o) {
   PackSettings& s = o.settings;
   s.inputs.assign(raw.inputs.begin(), raw.inputs.end());
@@ -162,6 +202,7 @@ void resolve(const RawOptions& raw, PackOptions& o) {
   s.overwrite = raw.force ? Overwrite::replace : Overwrite::refuse;
   s.problems = raw.strict ? ProblemPolicy::refuse : ProblemPolicy::pack;
   if (!raw.terrain.empty()) s.terrain = raw.terrain;
+  if (raw.area) s.area = area_in(*raw.area);
   if (s.inputs.empty() && !s.terrain) throw CLI::RequiredError("INPUT");
   if (s.neighborhood && *s.neighborhood % 2 == 0)
     throw CLI::ValidationError("--neighborhood", std::to_string(*s.neighborhood) +

@@ -44,12 +44,16 @@ Json point_of(const std::optional<Point2d>& lon_lat_deg) {
   return {{"type", "Point"}, {"coordinates", Json::array({lon_lat_deg->x, lon_lat_deg->y})}};
 }
 
+Json seconds_of(const PackResult& result, double total_seconds) {
+  Json seconds = {{"total", total_seconds}};
+  for (const auto& [stage, value] : result.stage_seconds) seconds[stage] = value;
+  return seconds;
+}
+
 }  // namespace
 
 std::string pack_summary_json(const PackResult& result, const Report& report, double total_seconds) {
   const PackageDescription& m = result.package;
-  Json seconds = {{"total", total_seconds}};
-  for (const auto& [stage, value] : result.stage_seconds) seconds[stage] = value;
   Json j = {{"buildings", m.buildings},
             {"polygons", m.polygons},
             {"facets", result.facets},
@@ -57,11 +61,12 @@ std::string pack_summary_json(const PackResult& result, const Report& report, do
             {"problems", report.problems().size()},
             {"foundations", result.foundations},
             {"cells", m.columns * m.rows},
+            {"cells_with_far_map", m.cells_with_far_map},
             {"grid_rotation_deg", m.grid_bearing.degrees()},
             {"alignment_strength", result.alignment_strength},
             {"cell_m", m.cell_edge_m},
             {"neighborhood", m.neighborhood},
-            {"seconds", seconds},
+            {"seconds", seconds_of(result, total_seconds)},
             {"peak_memory_mib", peak_memory_mib()},
             {"package_bytes", result.package_bytes},
             {"far_map_bytes", result.far_map_bytes},

@@ -17,12 +17,21 @@ constexpr double border_rounding = 4.0 * std::numeric_limits<float>::epsilon();
 }  // namespace
 
 BakedBoxes BoxMapBaker::bake(Block block, const std::stop_token& stop) const {
-  const CellRange cells = grid_.cells_of(block);
-  BakedBoxes maps(static_cast<std::size_t>(cells.size()));
-  oneapi::tbb::parallel_for(std::size_t{0}, maps.size(), [&](std::size_t n) {
+  const CellRange range = grid_.cells_of(block);
+  std::vector<Cell> cells;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) cells.push_back(range.cell_at(n));
+  return bake(cells, stop);
+}
+
+BakedBoxes BoxMapBaker::bake(std::span<const Cell> cells, const std::stop_token& stop) const {
+  BakedBoxes maps(cells.size());
+  // Blocks may be baked at the same time: what ends another one must not leave this one half done
+  oneapi::tbb::task_group_context of_its_own(oneapi::tbb::task_group_context::isolated);
+  const auto bake_one = [&](std::size_t n) {
     throw_if_cancelled(stop);
-    maps[n] = bake_cell(cells.cell_at(n));
-  });
+    maps[n] = bake_cell(cells[n]);
+  };
+  oneapi::tbb::parallel_for(std::size_t{0}, maps.size(), bake_one, of_its_own);
   return maps;
 }
 

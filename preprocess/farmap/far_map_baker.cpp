@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "farmap/far_map_baker.hpp"
 
+#include <vector>
+
 #include "farmap/box_map_baker.hpp"
 #include "farmap/horizon_map_baker.hpp"
 
 namespace farlod {
 
-FarMapBaker::FarMapBaker(const TileSet& tiles, const Grid& grid, Assign assign, const FarMapSettings& settings) {
+FarMapBaker::FarMapBaker(const TileSet& tiles, const Grid& grid, Assign assign, const FarMapSettings& settings) : grid_(grid) {
   if (settings.kind == FarMapKind::box) {
     box_ = std::make_unique<BoxMapBaker>(tiles, grid, assign, settings.box);
   } else {
@@ -20,6 +22,14 @@ FarMapBaker::~FarMapBaker() = default;
 BakedBlock FarMapBaker::bake(Block block, const std::stop_token& stop) const {
   if (box_) return box_->bake(block, stop);
   return horizon_->bake(block, stop);
+}
+
+BakedBlock FarMapBaker::bake(Block block, const package::CellRuns& cells, const std::stop_token& stop) const {
+  const CellRange range = grid_.cells_of(block);
+  std::vector<Cell> chosen;
+  for (const std::size_t place : cells.places()) chosen.push_back(range.cell_at(place));
+  if (box_) return box_->bake(chosen, stop);
+  return horizon_->bake(chosen, {range.i_begin, range.j_begin}, stop);
 }
 
 package::FarMapShape shape_of(const FarMapSettings& settings) {

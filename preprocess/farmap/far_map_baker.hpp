@@ -27,8 +27,11 @@ class FarMapBaker {
 
   /// In the order of CellRange::index_of. The same for any number of threads. Throws Cancelled when `stop` is asked for.
   [[nodiscard]] BakedBlock bake(Block block, const std::stop_token& stop = {}) const;
+  /// Of some cells of the block, at least one, in their order.
+  [[nodiscard]] BakedBlock bake(Block block, const package::CellRuns& cells, const std::stop_token& stop = {}) const;
 
  private:
+  const Grid& grid_;
   std::unique_ptr<BoxMapBaker> box_;
   std::unique_ptr<HorizonMapBaker> horizon_;
 };

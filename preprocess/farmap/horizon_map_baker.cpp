@@ -118,12 +118,20 @@ BakedHorizons HorizonMapBaker::bake(Block block, const std::stop_token& stop) co
 
 BakedHorizons HorizonMapBaker::bake(std::span<const Cell> cells, const std::stop_token& stop) const {
   FARLOD_EXPECTS(!cells.empty());
+  return bake(cells, cells.front(), stop);
+}
+
+BakedHorizons HorizonMapBaker::bake(std::span<const Cell> cells, Cell frame, const std::stop_token& stop) const {
+  FARLOD_EXPECTS(!cells.empty());
   std::vector<std::optional<BakedHorizon>> baked(cells.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, baked.size(), [&](std::size_t n) {
+  // Blocks may be baked at the same time: what ends another one must not leave this one half done
+  oneapi::tbb::task_group_context of_its_own(oneapi::tbb::task_group_context::isolated);
+  const auto bake_one = [&](std::size_t n) {
     throw_if_cancelled(stop);
     baked[n] = bake_cell(cells[n]);
-  });
-  BlockOccluders occluders(city_, city_.corner_of(cells.front()));
+  };
+  oneapi::tbb::parallel_for(std::size_t{0}, baked.size(), bake_one, of_its_own);
+  BlockOccluders occluders(city_, city_.corner_of(frame));
   BakedHorizons result;
   for (std::optional<BakedHorizon>& cell : baked) {
     occluders.renumber(cell->explicit_edges);

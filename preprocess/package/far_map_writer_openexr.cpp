@@ -11,6 +11,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contract/expects.hpp"
@@ -66,24 +67,23 @@ Picture picture_of(const BakedHorizon& map, std::uint32_t, std::uint32_t) {
 /// One cell's picture after the other, in a file of tiles.
 class TiledFile {
  public:
-  TiledFile(const std::filesystem::path& path, const CellRange& cells, const package::FarMapShape& shape, const Picture& channels)
-      : cells_(cells),
+  TiledFile(const std::filesystem::path& path, package::PictureTiles tiles, const package::FarMapShape& shape,
+            const Picture& channels)
+      : tiles_(tiles),
         columns_(static_cast<int>(shape.picture_columns())),
         rows_(static_cast<int>(shape.picture_rows())),
         file_(path.c_str(), header(channels, compression_of(shape)), 0) {}
 
   /// OpenEXR wants pixels that it may write. NOLINTNEXTLINE(performance-unnecessary-value-param)
-  void add(std::size_t n, Picture picture) {
-    const Cell cell = cells_.cell_at(n);
-    const int i = cell.i - cells_.i_begin, j = cell.j - cells_.j_begin;
-    const Imath::V2i first_pixel(i * columns_, j * rows_);
+  void add(package::PictureTile tile, Picture picture) {
+    const Imath::V2i first_pixel(tile.column * columns_, tile.row * rows_);
     Imf::FrameBuffer frame;
     for (auto& [name, pixels] : picture) {
       FARLOD_EXPECTS(pixels.size() == static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
       frame.insert(name, Imf::Slice::Make(Imf::HALF, pixels.data(), first_pixel, columns_, rows_));
     }
     file_.setFrameBuffer(frame);
-    file_.writeTile(i, j);
+    file_.writeTile(tile.column, tile.row);
   }
 
  private:
@@ -93,7 +93,7 @@ class TiledFile {
     return shape.is_box() ? Imf::ZIP_COMPRESSION : Imf::RLE_COMPRESSION;
   }
   [[nodiscard]] Imf::Header header(const Picture& channels, Imf::Compression compression) const {
-    Imf::Header header(static_cast<int>(cells_.width()) * columns_, static_cast<int>(cells_.height()) * rows_);
+    Imf::Header header(static_cast<int>(tiles_.columns) * columns_, static_cast<int>(tiles_.rows) * rows_);
     for (const auto& [name, pixels] : channels) header.channels().insert(name, Imf::Channel(Imf::HALF));
     header.setTileDescription(
         Imf::TileDescription(static_cast<unsigned>(columns_), static_cast<unsigned>(rows_), Imf::ONE_LEVEL));
@@ -101,17 +101,22 @@ class TiledFile {
     return header;
   }
 
-  CellRange cells_;
+  package::PictureTiles tiles_;
   int columns_, rows_;
   Imf::TiledOutputFile file_;
 };
 
 template <class Maps>
-void write_all(const std::filesystem::path& path, const Maps& maps, const CellRange& cells, const package::FarMapShape& shape) {
-  FARLOD_EXPECTS(maps.size() == static_cast<std::size_t>(cells.size()));
+void write_all(const std::filesystem::path& path, const Maps& maps, const CellRange& cells, const package::FarMapShape& shape,
+               const std::optional<package::CellRuns>& mapped) {
+  const package::PictureTiles tiles = package::picture_tiles(cells, mapped);
+  FARLOD_EXPECTS(std::cmp_equal(maps.size(), tiles.columns * tiles.rows));
   const auto picture = [&](std::size_t n) { return picture_of(maps[n], shape.picture_columns(), shape.picture_rows()); };
-  TiledFile file(path, cells, shape, picture(0));
-  for (std::size_t n = 0; n < maps.size(); ++n) file.add(n, picture(n));
+  TiledFile file(path, tiles, shape, picture(0));
+  // Maps follow each other as tiles do, row by row
+  const auto columns = static_cast<std::size_t>(tiles.columns);
+  for (std::size_t n = 0; n < maps.size(); ++n)
+    file.add({static_cast<std::int32_t>(n % columns), static_cast<std::int32_t>(n / columns)}, picture(n));
 }
 
 }  // namespace
@@ -124,12 +129,12 @@ void round_as_stored(BakedHorizon& map) {
 }
 
 void write_far_maps(const std::filesystem::path& path, const BakedBlock& maps, const CellRange& cells,
-                    const package::FarMapShape& shape) {
+                    const package::FarMapShape& shape, const std::optional<package::CellRuns>& mapped) {
   try {
     if (const auto* boxes = std::get_if<BakedBoxes>(&maps)) {
-      write_all(path, *boxes, cells, shape);
+      write_all(path, *boxes, cells, shape, mapped);
     } else {
-      write_all(path, std::get<BakedHorizons>(maps).cells, cells, shape);
+      write_all(path, std::get<BakedHorizons>(maps).cells, cells, shape, mapped);
     }
   } catch (const std::bad_alloc&) {
     throw;

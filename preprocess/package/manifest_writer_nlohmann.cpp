@@ -44,6 +44,15 @@ Json place_of(const Manifest& m) {
   return j;
 }
 
+Json json_of(const package::BlockFiles& b) {
+  Json j = {{"i", b.block.i}, {"j", b.block.j}, {"tiles", json_of(b.tiles)}};
+  j["far_map"] = b.has_far_maps() ? json_of(b.far_map) : Json(nullptr);
+  if (!b.mapped) return j;
+  j["cells_with_far_map"] = Json::array();
+  for (const package::CellRun& run : b.mapped->runs) j["cells_with_far_map"].push_back({run.begin, run.end});
+  return j;
+}
+
 Json inputs_of(const Manifest& m) {
   Json inputs = Json::array();
   for (const package::InputFile& input : m.inputs) {
@@ -57,7 +66,8 @@ Json inputs_of(const Manifest& m) {
 }  // namespace
 
 std::string manifest_text(const Manifest& m) {
-  Json j = {{"format", "farlod-package"}, {"version", package::format_version}, {"software", m.software}};
+  const std::uint32_t version = m.is_fully_mapped() ? package::format_version : package::partial_format_version;
+  Json j = {{"format", "farlod-package"}, {"version", version}, {"software", m.software}};
   j.update(place_of(m));
   j["settings"] = {{"assign", m.assign}, {"far_map", json_of(m.far_map)}};
   j["inputs"] = inputs_of(m);
@@ -65,8 +75,7 @@ std::string manifest_text(const Manifest& m) {
   j["problems"] = Json::object();
   for (const auto& [code, count] : m.problem_counts) j["problems"][std::to_string(code)] = count;
   j["blocks"] = Json::array();
-  for (const package::BlockFiles& b : m.blocks)
-    j["blocks"].push_back({{"i", b.block.i}, {"j", b.block.j}, {"tiles", json_of(b.tiles)}, {"far_map", json_of(b.far_map)}});
+  for (const package::BlockFiles& b : m.blocks) j["blocks"].push_back(json_of(b));
   // An id or a name with broken UTF-8 must not end the run
   return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

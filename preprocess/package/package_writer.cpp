@@ -3,8 +3,11 @@
 #include "package/package_writer.hpp"
 
 #include <fstream>
+#include <regex>
+#include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "contract/package/layout.hpp"
 #include "package/far_map_writer.hpp"
@@ -26,6 +29,12 @@ void require_package_or_empty(const fs::path& folder) {
       throw OutputError(folder.string() + " holds " + name.string() +
                         ", which is not part of a package: choose another folder for -o.");
   }
+}
+
+/// Whether a folder has the name of a block's (package::folder_of), of whatever block.
+bool is_block_folder(const std::string& name) {
+  static const std::regex of_block("-?[0-9]+_-?[0-9]+(_[0-9]+)?");
+  return std::regex_match(name, of_block);
 }
 
 /// What far maps of the kind `horizon` add to the tiles file.
@@ -82,15 +91,30 @@ package::FileStamp PackageWriter::write_file(const fs::path& path, std::span<con
   return stamp_of(bytes);
 }
 
+PackageWriter::~PackageWriter() {
+  std::error_code ignored;
+  for (const fs::path& folder : added_) fs::remove_all(folder, ignored);
+}
+
 package::BlockFiles PackageWriter::write_block(const TileSet& tiles, const BakedBlock& maps, const Grid& grid, Block block,
-                                               const package::FarMapShape& shape) {
-  const fs::path folder = folder_ / package::block_folder(block);
+                                               const package::FarMapShape& shape,
+                                               const std::optional<package::CellRuns>& mapped) {
+  package::BlockFiles files{block, {}, {}, mapped};
+  const fs::path folder = folder_ / package::folder_of(files);
   on_disk(folder, [&] { fs::create_directories(folder); });
-  package::BlockFiles files{block, write_file(folder / package::tiles_file, tiles_file(tiles, maps, grid, block)), {}};
+  if (adds_) {
+    const std::lock_guard lock(mutex_);
+    added_.push_back(folder);
+  }
+  if (!files.has_far_maps()) {
+    files.tiles = write_file(folder / package::tiles_file, tiles_file_without_maps(tiles, grid, block));
+    return files;
+  }
+  files.tiles = write_file(folder / package::tiles_file, tiles_file(tiles, maps, grid, block, mapped));
   const fs::path far = folder / package::far_map_file;
   const fs::path part = temporary_name(far);
   try {
-    write_far_maps(part, maps, grid.cells_of(block), shape);
+    write_far_maps(part, maps, grid.cells_of(block), shape, mapped);
   } catch (const std::runtime_error& reason) {
     throw OutputError(std::string(reason.what()) + " Is the disk full?");
   }
@@ -104,6 +128,19 @@ package::BlockFiles PackageWriter::write_block(const TileSet& tiles, const Baked
 void PackageWriter::finish(const package::Manifest& manifest) {
   const std::string text = manifest_text(manifest);
   write_file(folder_ / package::manifest_file, std::as_bytes(std::span(text)));
+  added_.clear();
+  if (adds_) remove_all_but(manifest);
+}
+
+void PackageWriter::remove_all_but(const package::Manifest& manifest) const {
+  std::set<fs::path> named;
+  for (const package::BlockFiles& files : manifest.blocks) named.insert(folder_ / package::folder_of(files));
+  // The package is whole by now: what cannot be removed does no harm, and the next run tries again
+  std::error_code ignored;
+  std::vector<fs::path> others;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / blocks_folder, ignored))
+    if (!named.contains(entry.path()) && is_block_folder(entry.path().filename().string())) others.push_back(entry.path());
+  for (const fs::path& other : others) fs::remove_all(other, ignored);
 }
 
 }  // namespace farlod

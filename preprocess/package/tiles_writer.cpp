@@ -61,6 +61,9 @@ class BlockSections {
     explicit_edges.insert(explicit_edges.end(), map.explicit_edges.begin(), map.explicit_edges.end());
   }
 
+  /// Of a cell without a far map, where others have one.
+  void add_missing_map() { far_cells.push_back({explicit_edges.size(), 0, {}, 0}); }
+
   std::vector<CellRecord> cells;
   std::vector<FarCellRecord> far_cells;
   std::vector<HorizonEdge> far_edges;
@@ -165,25 +168,31 @@ class TilesFile {
   std::vector<std::byte> bytes_;
 };
 
-void add_far_maps(BlockSections& sections, const BakedBlock& maps) {
+void add_far_maps(BlockSections& sections, const BakedBlock& maps, const std::vector<std::size_t>& places) {
   if (const auto* boxes = std::get_if<BakedBoxes>(&maps)) {
-    FARLOD_EXPECTS(boxes->size() == sections.cells.size());
-    for (std::size_t n = 0; n < boxes->size(); ++n) sections.describe_map(sections.cells[n], (*boxes)[n]);
+    FARLOD_EXPECTS(boxes->size() == places.size());
+    for (std::size_t n = 0; n < places.size(); ++n) sections.describe_map(sections.cells[places[n]], (*boxes)[n]);
     return;
   }
   const auto& horizons = std::get<BakedHorizons>(maps);
-  FARLOD_EXPECTS(horizons.cells.size() == sections.cells.size());
-  for (const BakedHorizon& map : horizons.cells) sections.add_map(map);
+  FARLOD_EXPECTS(horizons.cells.size() == places.size());
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    while (sections.far_cells.size() < places[n]) sections.add_missing_map();
+    sections.add_map(horizons.cells[n]);
+  }
+  while (sections.far_cells.size() < sections.cells.size()) sections.add_missing_map();
   sections.far_edges = horizons.edges;
 }
 
 }  // namespace
 
-std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, const Grid& grid, Block block) {
+std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, const Grid& grid, Block block,
+                                  const std::optional<CellRuns>& mapped) {
   const CellRange range = grid.cells_of(block);
   BlockSections sections(tiles, range);
   for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) sections.add_cell(range.cell_at(n));
-  add_far_maps(sections, maps);
+  const CellRuns all{{{0, static_cast<std::uint32_t>(range.size())}}};
+  add_far_maps(sections, maps, mapped.value_or(all).places());
   TilesFile file(block);
   file.add(SectionKind::cells, sections.cells);
   file.add(SectionKind::vertices, sections.vertices);

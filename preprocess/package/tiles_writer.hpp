@@ -3,18 +3,22 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "contract/grid.hpp"
+#include "contract/package/cell_runs.hpp"
 #include "farmap/baked_block.hpp"
 #include "tiles/tile_set.hpp"
 
 namespace farlod {
 
-/// The bytes of a block's `tiles.bin` (contract/package/layout.hpp), with the explicit occluders of its far maps.
-[[nodiscard]] std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, const Grid& grid, Block block);
+/// The bytes of a block's `tiles.bin` (contract/package/layout.hpp), with the explicit occluders of its far maps. `maps` are
+/// those of the cells `mapped`, in their order; of all cells where `mapped` is absent.
+[[nodiscard]] std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, const Grid& grid, Block block,
+                                                const std::optional<package::CellRuns>& mapped = {});
 
-/// The same without far maps: to be read together with maps that are not in a file.
+/// The same without far maps: of a block that has none, or to be read together with maps that are not in a file.
 [[nodiscard]] std::vector<std::byte> tiles_file_without_maps(const TileSet& tiles, const Grid& grid, Block block);
 
 }  // namespace farlod

@@ -22,6 +22,7 @@
 #include "ingest/files/input_search.hpp"
 #include "package/file_stamp.hpp"
 #include "package/package_writer.hpp"
+#include "pipeline/area_package.hpp"
 #include "pipeline/pack_estimate.hpp"
 #include "tiles/tiles.hpp"
 
@@ -126,7 +127,7 @@ class Packing {
   PackedCity run() {
     // An output folder that must not be replaced ends the run before the long stages. One that may be is removed only after them
     require_folders_above(settings_.output);
-    require_room(settings_.output, settings_.overwrite);
+    area_ = prepare_output(settings_);
     ResolvedInputs inputs = resolve_inputs();
     LocatedCity located = locate(inputs);
     const ResolvedGridSettings resolved = resolve_grid_settings(located, inputs);
@@ -134,12 +135,14 @@ class Packing {
     const GridOnGround ground = lay_grid_on_ground(located, inputs, resolved.grid, report_, run_stage);
     result_.street_bearing = ground.streets.bearing;
     result_.alignment_strength = ground.streets.strength;
-    estimate(located, ground, resolved.far_map);
     describe_place(located, ground.grid, resolved.far_map, inputs);
+    if (area_) area_->plan(located.georeference, result_);
+    estimate(located, ground, resolved.far_map);
     result_.facets = located.city.facets().size();
     TileSet tiles = timed("tiles", [&] { return cut_city(std::move(located), ground); });
     require_no_problems();
     describe_tiles(tiles);
+    if (area_) area_->require_same_city(result_.manifest);
     if (result_.chosen)
       result_.chosen->measured = timed("measure", [&] { return measure(tiles, ground.grid, resolved.far_map); });
     write_package(tiles, ground.grid, resolved.far_map);
@@ -262,7 +265,8 @@ class Packing {
   void estimate(const LocatedCity& located, const GridOnGround& ground, const FarMapSettings& far_map) {
     const auto threads = static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency());
     const std::size_t ground_points = ground.terrain ? ground.terrain->height_m.size() : located.relief_points.size();
-    result_.estimate = estimate_pack(located.city, ground_points, ground.grid, far_map.kind, threads);
+    const auto far_maps = area_ ? std::optional(area_->far_maps()) : std::nullopt;
+    result_.estimate = estimate_pack(located.city, ground_points, ground.grid, far_map.kind, threads, far_maps);
     require_memory(result_.estimate, run_);
     if (on_estimate_) on_estimate_(result_.estimate);
   }
@@ -341,6 +345,7 @@ class Packing {
   }
 
   void write_package(const TileSet& tiles, const Grid& grid, const FarMapSettings& far_map) {
+    if (area_) return area_->write(tiles, far_map, result_, run_);
     PackageWriter writer(settings_.output, settings_.overwrite);
     const FarMapBaker baker = timed("city_index", [&] { return FarMapBaker(tiles, grid, settings_.assign, far_map); });
     const std::vector<Block> blocks = grid.blocks();
@@ -377,6 +382,7 @@ class Packing {
   std::size_t first_problem_;  ///< of this pack: those before it are of others
   const RunSettings& run_;
   const OnEstimate& on_estimate_;
+  std::optional<AreaPackage> area_;
   PackedCity result_;
 };
 

@@ -31,6 +31,7 @@ struct StageSettings {
   /// If set, the cells, the neighborhood and the tolerance of the far maps are chosen to keep an error, and those of `grid` and
   /// `far_map` are not used.
   std::optional<ChoiceSettings> choice;
+  std::optional<FarMapArea> area = {};
 };
 
 /// Throws InvalidArgument where a setting is not what its declaration promises.

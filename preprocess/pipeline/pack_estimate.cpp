@@ -42,18 +42,20 @@ double triangles_in_tiles(const CityModel& city, std::size_t ground_points, cons
 }  // namespace
 
 PackEstimate estimate_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map,
-                           std::size_t threads) {
+                           std::size_t threads, std::optional<std::uint64_t> far_maps) {
   const bool is_box = far_map == FarMapKind::box;
-  const double triangles = triangles_in_tiles(city, ground_points, grid), cells = static_cast<double>(grid.cells.size());
+  const double triangles = triangles_in_tiles(city, ground_points, grid);
   PackEstimate e;
   e.cells = static_cast<std::uint64_t>(grid.cells.size());
+  e.far_maps = far_maps.value_or(e.cells);
+  const auto maps = static_cast<double>(e.far_maps);
   e.seconds =
-      (triangles * seconds_per_triangle + cells * seconds_per_far_map) / static_cast<double>(std::max<std::size_t>(threads, 1));
+      (triangles * seconds_per_triangle + maps * seconds_per_far_map) / static_cast<double>(std::max<std::size_t>(threads, 1));
   const double per_triangle = memory_bytes_per_triangle + (is_box ? ray_index_bytes_per_triangle : 0.0);
-  e.memory_mib = memory_mib_of_program + memory_mib_of_blocks * std::min(1.0, cells / cells_of_a_block) +
+  e.memory_mib = memory_mib_of_program + memory_mib_of_blocks * std::min(1.0, maps / cells_of_a_block) +
                  triangles * per_triangle / bytes_per_mib;
   const double per_map = is_box ? package_bytes_per_box_map : package_bytes_per_horizon_map;
-  e.package_mib = (triangles * package_bytes_per_triangle + cells * per_map) / bytes_per_mib;
+  e.package_mib = (triangles * package_bytes_per_triangle + maps * per_map) / bytes_per_mib;
   return e;
 }
 

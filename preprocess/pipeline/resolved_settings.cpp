@@ -50,6 +50,20 @@ void check_grid(const PackSettings& s) {
     throw InvalidArgument("far maps of the kind box keep no error: leave max_error out, or choose the kind horizon");
 }
 
+void check_area(const PackSettings& s) {
+  if (!s.area) return;
+  if (const auto* file = std::get_if<std::filesystem::path>(&*s.area)) {
+    if (file->empty()) throw InvalidArgument("area is empty: give the path of a file, a rectangle, or no area");
+    return;
+  }
+  const Box2d& box = std::get<Box2d>(*s.area);
+  constexpr double farthest_m = 1e8;  // no map is as large
+  for (const double x : {box.low.x, box.low.y, box.high.x, box.high.y})
+    require_between("a coordinate of area", x, -farthest_m, farthest_m);
+  if (box.low.x >= box.high.x || box.low.y >= box.high.y)
+    throw InvalidArgument("area is empty: give a rectangle whose low is less than its high, in both coordinates");
+}
+
 /// Half of the error is left for the sky between the samples of an evaluation. What the caller fixes is not chosen.
 ChoiceSettings choice_of(const PackSettings& s) {
   ChoiceSettings choice;
@@ -65,6 +79,7 @@ StageSettings resolved(const PackSettings& s) {
   check_files(s);
   check_input(s);
   check_grid(s);
+  check_area(s);
   StageSettings stages;
   stages.inputs = s.inputs;
   stages.terrain = s.terrain;
@@ -80,6 +95,7 @@ StageSettings resolved(const PackSettings& s) {
   stages.assign = s.assign;
   stages.far_map.kind = s.far_map;
   stages.problems = s.problems;
+  stages.area = s.area;
   if (s.max_error) stages.choice = choice_of(s);
   return stages;
 }

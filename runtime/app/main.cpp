@@ -91,6 +91,11 @@ void print_run(const WrittenRun& written, const SvfOptions& options, double tota
   if (run.outside_of_grid > 0)
     fmt::print("{} receivers lie outside of the grid, where there is no far map: they were traced against the whole city.\n",
                run.outside_of_grid);
+  if (run.without_far_map > 0)
+    fmt::print(
+        "{} receivers lie in cells without a far map: they were traced against the whole city. farlod-pack --area adds far "
+        "maps.\n",
+        run.without_far_map);
   if (asked.engine == Engine::automatic && run.by_rays > 0)
     fmt::print(
         "{} of the receivers needed rays ({} each at the most, about): they may see sky below something that overhangs{}.\n",

@@ -66,6 +66,7 @@ std::string svf_summary_json(const WrittenRun& written, const SvfOptions& option
       {"rays", run.accuracy.rays},
       {"azimuths", run.accuracy.azimuths},
       {"receivers_by_rays", run.by_rays},
+      {"receivers_without_far_map", run.without_far_map},
       {"peak_memory_mib", peak_memory_mib()},
       {"svf",
        {{"min", number_or_null(run.svf_min)}, {"mean", number_or_null(run.svf_mean)}, {"max", number_or_null(run.svf_max)}}}};

@@ -78,10 +78,17 @@ void count_and_store(const Occluder& occluder, std::span<const Point3f> origins,
 
 }  // namespace
 
+FarMapOfCell far_map_of(const PackageReader& package, Cell cell) {
+  if (!package.grid().cells.contains(cell)) return FarMapOfCell::outside_of_grid;
+  if (!package.has_far_map(cell)) return FarMapOfCell::missing;
+  return package.manifest().far_map.is_box() ? FarMapOfCell::box : FarMapOfCell::horizon;
+}
+
 EvaluationMethod method_of(Engine engine, FarMapOfCell far_map) {
   using enum EvaluationMethod;
-  if (far_map == FarMapOfCell::none || engine == Engine::exact) return whole_city;
+  if (far_map == FarMapOfCell::outside_of_grid || engine == Engine::exact) return whole_city;
   if (engine == Engine::near_only) return near_scene_alone;
+  if (far_map == FarMapOfCell::missing) return engine == Engine::horizon ? horizons_alone : whole_city;
   if (far_map == FarMapOfCell::box) return near_scene_and_box;
   if (engine == Engine::rays) return rays_against_horizons;
   return engine == Engine::horizon ? horizons_alone : horizons_and_rays;
@@ -124,10 +131,7 @@ SkyEvaluator::SkyEvaluator(const PackageReader& package, const SkySettings& sett
 }
 SkyEvaluator::~SkyEvaluator() = default;
 
-EvaluationMethod SkyEvaluator::method_for(Cell cell) const {
-  if (!package_.grid().cells.contains(cell)) return method_of(settings_.engine, FarMapOfCell::none);
-  return method_of(settings_.engine, package_.manifest().far_map.is_box() ? FarMapOfCell::box : FarMapOfCell::horizon);
-}
+EvaluationMethod SkyEvaluator::method_for(Cell cell) const { return method_of(settings_.engine, far_map_of(package_, cell)); }
 
 void SkyEvaluator::evaluate(const CellReceivers& cell, const SkyAnswers& answers) const {
   if (cell.receivers.empty()) return;
@@ -204,6 +208,7 @@ SkyEvaluator::CellGeometry SkyEvaluator::geometry_of(const CellReceivers& cell) 
 
 void SkyEvaluator::evaluate_by_horizons(const CellReceivers& cell, const SkyAnswers& answers) const {
   const auto start = Clock::now();
+  require_far_map(cell.cell);
   CellGeometry geometry = geometry_of(cell);
   const auto scene_ready = Clock::now();
   const Numbers uncertain = draw_horizons(geometry, cell, answers);
@@ -219,6 +224,13 @@ void SkyEvaluator::evaluate_by_rays_against_horizons(const CellReceivers& cell, 
   std::iota(all.begin(), all.end(), 0U);
   count_rays(geometry, cell, all, answers);
   add_times(start, scene_ready);
+}
+
+void SkyEvaluator::require_far_map(Cell cell) const {
+  if (far_map_of(package_, cell) != FarMapOfCell::missing) return;
+  throw PackageUnusable("The engine horizon needs a far map, and cell " + std::to_string(cell.i) + "," + std::to_string(cell.j) +
+                        " has none, since far maps were made for a part of the city: add those that are missing (farlod-pack "
+                        "--area), or use the engine auto.");
 }
 
 SkyEvaluator::Numbers SkyEvaluator::draw_horizons(CellGeometry& geometry, const CellReceivers& cell,

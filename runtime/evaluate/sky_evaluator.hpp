@@ -26,13 +26,20 @@ struct PacketAnswer;
 struct SvfInterval;
 struct FreeRays;
 
-/// The far map of a cell; cells outside of the grid have none.
-enum class FarMapOfCell { horizon, box, none };
+/// The far map of a cell.
+enum class FarMapOfCell {
+  horizon,
+  box,
+  missing,         ///< the cell is one of the grid, and far maps were made for others
+  outside_of_grid  ///< there are no cells, and no far maps
+};
+
+[[nodiscard]] FarMapOfCell far_map_of(const PackageReader& package, Cell cell);
 
 /// How the receivers of a cell are answered. A direction is free when
 enum class EvaluationMethod {
   horizons_and_rays,      ///< it lies above the horizon, or a ray through the gap below an overhang meets nothing
-  horizons_alone,         ///< it lies above the horizon; throws PackageUnusable where a gap would need rays
+  horizons_alone,         ///< it lies above the horizon; throws PackageUnusable where rays are needed
   rays_against_horizons,  ///< the same as horizons_and_rays, asked for each of --rays directions instead of each azimuth
   near_scene_and_box,     ///< its ray meets no near tile, and the box far map has no occluder in this direction
   near_scene_alone,       ///< its ray meets no near tile
@@ -41,12 +48,12 @@ enum class EvaluationMethod {
 
 /// The only place that decides which method answers a cell:
 ///
-///   engine      far map `horizon`       far map `box`        none (outside of the grid)
-///   automatic   horizons_and_rays       near_scene_and_box   whole_city
-///   horizon     horizons_alone          near_scene_and_box   whole_city
-///   rays        rays_against_horizons   near_scene_and_box   whole_city
-///   exact       whole_city              whole_city           whole_city
-///   near_only   near_scene_alone        near_scene_alone     whole_city
+///   engine      far map `horizon`       far map `box`        missing            outside of the grid
+///   automatic   horizons_and_rays       near_scene_and_box   whole_city         whole_city
+///   horizon     horizons_alone          near_scene_and_box   horizons_alone     whole_city
+///   rays        rays_against_horizons   near_scene_and_box   whole_city         whole_city
+///   exact       whole_city              whole_city           whole_city         whole_city
+///   near_only   near_scene_alone        near_scene_alone     near_scene_alone   whole_city
 [[nodiscard]] EvaluationMethod method_of(Engine engine, FarMapOfCell far_map);
 
 struct SkySettings {
@@ -92,7 +99,8 @@ class SkyEvaluator {
   /// wanted, the value for the same azimuths or rays, with jumps of the horizon at the same places, and the true far city lies
   /// between them, up to the rounding of floats
   /// (docs/concepts.md, "Bounds of a sky view factor"); bounds need far maps of the kind `horizon` or the method `whole_city`.
-  /// Throws PackageUnusable where `horizons_alone` meets a receiver that may see too much sky below an overhang.
+  /// Throws PackageUnusable where `horizons_alone` meets a receiver that may see too much sky below an overhang, or a cell
+  /// whose far map is missing.
   void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const;
   void evaluate(const CellReceivers& cell, std::span<float> svf) const { evaluate(cell, SkyAnswers(svf)); }
 
@@ -127,6 +135,7 @@ class SkyEvaluator {
   void retrace(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine, std::span<FreeRays> free) const;
   [[nodiscard]] bool exceeds_allowed_error(const SvfInterval& svf) const;
   void require_rays_allowed(Cell cell) const;
+  void require_far_map(Cell cell) const;
   [[nodiscard]] bool wants_bounds(const SkyAnswers& answers) const {
     return !answers.low.empty() || settings_.max_far_error.has_value();
   }

@@ -19,7 +19,7 @@ void require_numbers_for(std::size_t vertex_count, std::size_t triangle_count) {
   throw LimitReached("a scene would have " + std::to_string(vertex_count) + " corners and " + std::to_string(triangle_count) +
                      " triangles, and can have " + std::to_string(most) +
                      " of each: leave out what needs the whole city in one scene (the engine exact, a verification, a largest "
-                     "error, points beyond the grid), or pack a part of the city.");
+                     "error, points beyond the grid, cells without a far map), or pack a part of the city.");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "contract/far_map/box_map.hpp"
@@ -40,11 +41,13 @@ class BoxFarMap {
   std::vector<float> distance_m_;
 };
 
-/// The `far.exr` of a block: one tile of the picture for each cell. Cells may be read from many threads.
+/// The `far.exr` of a block: one tile of the picture for each cell that has a far map. Cells may be read from many threads.
 class FarMapReader {
  public:
-  /// Throws PackageDamaged when the file is not a far map of this block.
-  FarMapReader(const std::filesystem::path& file, const CellRange& cells, const package::FarMapShape& shape);
+  /// `mapped` are those of the cells that have a far map, where not all have one; not none. Throws PackageDamaged when the file
+  /// does not hold the far maps of these cells.
+  FarMapReader(const std::filesystem::path& file, const CellRange& cells, const package::FarMapShape& shape,
+               const std::optional<package::CellRuns>& mapped = {});
   FarMapReader(FarMapReader&&) noexcept;
   FarMapReader& operator=(FarMapReader&&) noexcept;
   ~FarMapReader();

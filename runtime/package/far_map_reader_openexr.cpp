@@ -81,10 +81,11 @@ struct FarMapReader::Impl {
   std::string name;
   CellRange cells;
   package::FarMapShape shape;
+  std::optional<package::CellRuns> mapped;
   exr_context_t file = nullptr;
 
-  Impl(const std::filesystem::path& path, const CellRange& c, package::FarMapShape s)
-      : name(path.string()), cells(c), shape(std::move(s)) {
+  Impl(const std::filesystem::path& path, const CellRange& c, package::FarMapShape s, std::optional<package::CellRuns> m)
+      : name(path.string()), cells(c), shape(std::move(s)), mapped(std::move(m)) {
     exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
     how.error_handler_fn = ignore_message;
     const exr_result_t result = exr_start_read(&file, name.c_str(), &how);
@@ -125,9 +126,11 @@ struct FarMapReader::Impl {
     if (tile_columns != columns || tile_rows != rows) damaged("its maps are not of the size that the manifest says");
     exr_attr_box2i_t window{};
     require(exr_get_data_window(file, only_part, &window));
-    if (window.min.x != 0 || window.min.y != 0 || window.max.x + 1 != static_cast<int>(cells.width() * columns) ||
-        window.max.y + 1 != static_cast<int>(cells.height() * rows))
-      damaged("it does not hold a map for each cell of its block");
+    const package::PictureTiles tiles = package::picture_tiles(cells, mapped);
+    if (window.min.x != 0 || window.min.y != 0 || std::int64_t{window.max.x} + 1 != tiles.columns * columns ||
+        std::int64_t{window.max.y} + 1 != tiles.rows * rows)
+      damaged(mapped ? "it does not hold a map for each cell that the manifest names"
+                     : "it does not hold a map for each cell of its block");
   }
   void check_channels() const {
     const exr_attr_chlist_t* channels = nullptr;
@@ -142,9 +145,9 @@ struct FarMapReader::Impl {
   }
   /// The pixels of one cell, in the file's order of rows.
   void read(Cell cell, std::span<const ChannelTarget> wanted) const {
-    const auto tile_x = static_cast<int>(cell.i - cells.i_begin), tile_y = static_cast<int>(cell.j - cells.j_begin);
+    const package::PictureTile tile = package::picture_tile(cell, cells, mapped);
     exr_chunk_info_t chunk;
-    require(exr_read_tile_chunk_info(file, only_part, tile_x, tile_y, only_level, only_level, &chunk));
+    require(exr_read_tile_chunk_info(file, only_part, tile.column, tile.row, only_level, only_level, &chunk));
     require(TileDecoder(file, chunk).run(wanted));
     for (const ChannelTarget& w : wanted)
       if (w.pixels->size() != static_cast<std::size_t>(shape.picture_columns()) * shape.picture_rows())
@@ -152,8 +155,9 @@ struct FarMapReader::Impl {
   }
 };
 
-FarMapReader::FarMapReader(const std::filesystem::path& file, const CellRange& cells, const package::FarMapShape& shape)
-    : impl_(std::make_unique<Impl>(file, cells, shape)) {
+FarMapReader::FarMapReader(const std::filesystem::path& file, const CellRange& cells, const package::FarMapShape& shape,
+                           const std::optional<package::CellRuns>& mapped)
+    : impl_(std::make_unique<Impl>(file, cells, shape, mapped)) {
   impl_->check();
 }
 FarMapReader::FarMapReader(FarMapReader&&) noexcept = default;

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -101,20 +102,48 @@ void read_place(const json& j, Manifest& m) {
   m.grid = grid_from(j.at("grid"), frame.at("grid_rotation_deg").get<double>());
 }
 
-void read_contents(const json& j, Manifest& m) {
+/// The cells of a block that have far maps; absent where all have one.
+std::optional<CellRuns> mapped_from(const json& j) {
+  if (!j.contains("cells_with_far_map")) return std::nullopt;
+  CellRuns cells;
+  for (const json& run : j.at("cells_with_far_map")) {
+    require(run.size() == 2, "a run of cells with far maps does not hold two numbers");
+    const CellRun next{whole_number<std::uint32_t>(run.at(0)), whole_number<std::uint32_t>(run.at(1))};
+    require(next.begin < next.end && (cells.runs.empty() || cells.runs.back().end < next.begin),
+            "its cells with far maps are not in order");
+    cells.runs.push_back(next);
+  }
+  return cells;
+}
+
+BlockFiles block_from(const json& j, std::uint32_t version) {
+  BlockFiles files{{whole_number<std::int32_t>(j.at("i")), whole_number<std::int32_t>(j.at("j"))}, stamp_from(j.at("tiles")), {}};
+  if (version >= partial_format_version) files.mapped = mapped_from(j);
+  if (files.has_far_maps()) files.far_map = stamp_from(j.at("far_map"));
+  return files;
+}
+
+/// Some cells of the block have far maps, and not all.
+void require_some_of(const std::optional<CellRuns>& mapped, std::int64_t cell_count) {
+  if (!mapped) return;
+  require(mapped->runs.empty() || mapped->runs.back().end <= cell_count, "a cell with a far map does not exist");
+  require(std::cmp_less(mapped->size(), cell_count), "it lists all cells of a block where some are to be listed");
+}
+
+void read_contents(const json& j, std::uint32_t version, Manifest& m) {
   for (const json& input : j.at("inputs")) m.inputs.push_back({input.at("name").get<std::string>(), stamp_from(input)});
   m.buildings = whole_number<std::uint64_t>(j.at("counts").at("buildings"));
   m.polygons = whole_number<std::uint64_t>(j.at("counts").at("polygons"));
   m.triangles = whole_number<std::uint64_t>(j.at("counts").at("triangles"));
   for (const auto& [code, count] : j.at("problems").items())
     m.problem_counts.emplace_back(number_from<int>(code, 10), whole_number<std::uint64_t>(count));
-  for (const json& b : j.at("blocks"))
-    m.blocks.push_back({{whole_number<std::int32_t>(b.at("i")), whole_number<std::int32_t>(b.at("j"))},
-                        stamp_from(b.at("tiles")),
-                        stamp_from(b.at("far_map"))});
+  for (const json& b : j.at("blocks")) m.blocks.push_back(block_from(b, version));
   require(std::cmp_equal(m.blocks.size(), block_count(m.grid)), "it does not list each block of the grid");
   const std::vector<Block> expected = m.grid.blocks();
-  for (std::size_t n = 0; n < expected.size(); ++n) require(m.blocks[n].block == expected[n], "its blocks are not in order");
+  for (std::size_t n = 0; n < expected.size(); ++n) {
+    require(m.blocks[n].block == expected[n], "its blocks are not in order");
+    require_some_of(m.blocks[n].mapped, m.grid.cells_of(expected[n]).size());
+  }
 }
 
 FarMapShape far_map_from(const json& j) {
@@ -138,14 +167,14 @@ FarMapShape far_map_from(const json& j) {
   return shape;
 }
 
-Manifest manifest_from(const json& j) {
+Manifest manifest_from(const json& j, std::uint32_t version) {
   Manifest m;
   m.software = j.at("software").get<std::string>();
   read_place(j, m);
   m.assign = j.at("settings").at("assign").get<std::string>();
   require(m.assign == "clip" || m.assign == "whole", "its buildings are assigned in the unknown way \"" + m.assign + "\"");
   m.far_map = far_map_from(j.at("settings").at("far_map"));
-  read_contents(j, m);
+  read_contents(j, version, m);
   return m;
 }
 
@@ -170,8 +199,9 @@ Manifest read_manifest(const std::filesystem::path& package_folder) {
   try {
     const json j = json::parse(file);
     require(j.is_object() && j.value("format", "") == "farlod-package", "it is not the manifest of a package");
-    require_readable_version(path.string(), whole_number<std::uint32_t>(j.at("version")));
-    return manifest_from(j);
+    const auto version = whole_number<std::uint32_t>(j.at("version"));
+    require_readable_version(path.string(), version, partial_format_version);
+    return manifest_from(j, version);
   } catch (const PackageUnusable&) {
     throw;
   } catch (const std::bad_alloc&) {

@@ -11,14 +11,17 @@
 namespace farlod {
 
 /// A file of a package whose version this program does not read is unusable; one of version 0, which never was, is damaged.
-inline void require_readable_version(const std::string& file, std::uint32_t version) {
-  if (version == package::format_version) return;
+/// Versions from package::format_version to `newest` are read.
+inline void require_readable_version(const std::string& file, std::uint32_t version,
+                                     std::uint32_t newest = package::format_version) {
+  if (package::format_version <= version && version <= newest) return;
   if (version == 0) throw PackageDamaged(file + " is damaged: its format version does not exist. Pack the city again.");
-  const bool is_newer = version > package::format_version;
+  const std::string readable = newest == package::format_version
+                                   ? "version " + std::to_string(newest)
+                                   : "versions " + std::to_string(package::format_version) + " to " + std::to_string(newest);
   throw PackageUnusable(
-      file + " has format version " + std::to_string(version) + ", this program reads version " +
-      std::to_string(package::format_version) + ". " +
-      (is_newer ? "Use a newer farlod-svf, or pack the city again." : "Pack the city again with this release."));
+      file + " has format version " + std::to_string(version) + ", this program reads " + readable + ". " +
+      (version > newest ? "Use a newer farlod-svf, or pack the city again." : "Pack the city again with this release."));
 }
 
 }  // namespace farlod

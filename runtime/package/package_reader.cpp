@@ -76,7 +76,7 @@ struct PackageReader::Impl {
   }
 
   std::filesystem::path path_of(std::size_t n, const char* file) const {
-    return folder / package::block_folder(manifest.blocks[n].block) / file;
+    return folder / package::folder_of(manifest.blocks[n]) / file;
   }
 
   /// What a block holds at the most: its tiles, read from end to end, and where in its file the far map of each cell lies.
@@ -116,8 +116,8 @@ struct PackageReader::Impl {
     std::call_once(open.far_map_checked, [&] { check_stamp(path, MappedFile(path).bytes(), manifest.blocks[n].far_map); });
     const std::lock_guard lock(open.far_map_mutex);
     if (!open.far_map)
-      open.far_map =
-          std::make_shared<const FarMapReader>(path, manifest.grid.cells_of(manifest.blocks[n].block), manifest.far_map);
+      open.far_map = std::make_shared<const FarMapReader>(path, manifest.grid.cells_of(manifest.blocks[n].block),
+                                                          manifest.far_map, manifest.blocks[n].mapped);
     return open.far_map;
   }
 };
@@ -132,14 +132,20 @@ const package::Manifest& PackageReader::manifest() const { return impl_->manifes
 
 const BlockTiles& PackageReader::block_tiles(Cell cell) const { return impl_->tiles(impl_->index_of(cell)); }
 
+bool PackageReader::has_far_map(Cell cell) const {
+  const BlockFiles& files = impl_->manifest.blocks[impl_->index_of(cell)];
+  return files.has_far_map(impl_->manifest.grid.cells_of(files.block).index_of(cell));
+}
+
 BoxFarMap PackageReader::box_far_map(Cell cell) const {
-  FARLOD_EXPECTS(!impl_->memory);
+  FARLOD_EXPECTS(!impl_->memory && has_far_map(cell));
   const std::size_t n = impl_->index_of(cell);
   const float top = impl_->tiles(n).tile(cell).cell->far_map_top;
   return impl_->far_maps(n)->read_box(cell, top);
 }
 
 FarHorizon PackageReader::far_horizon(Cell cell) const {
+  FARLOD_EXPECTS(has_far_map(cell));
   if (impl_->memory) return impl_->memory->far_horizons.at(cell);
   const std::size_t n = impl_->index_of(cell);
   const package::FarMapShape& shape = impl_->manifest.far_map;

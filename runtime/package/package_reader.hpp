@@ -45,9 +45,11 @@ class PackageReader {
   /// The block that owns a cell of the grid; the cell must exist.
   [[nodiscard]] const BlockTiles& block_tiles(Cell cell) const;
   [[nodiscard]] TileView tile(Cell cell) const { return block_tiles(cell).tile(cell); }
-  /// Of packages whose far maps are of the kind `box`.
+  /// The cell must exist.
+  [[nodiscard]] bool has_far_map(Cell cell) const;
+  /// Of packages whose far maps are of the kind `box`, for a cell that has one.
   [[nodiscard]] BoxFarMap box_far_map(Cell cell) const;
-  /// Of packages whose far maps are of the kind `horizon`. The package must outlive it.
+  /// Of packages whose far maps are of the kind `horizon`, for a cell that has one. The package must outlive it.
   [[nodiscard]] FarHorizon far_horizon(Cell cell) const;
 
   /// From the next question on, the blocks hold no more memory than this together, except that one block always has room. There

@@ -3,7 +3,6 @@
 #include "points/point_reader.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -11,15 +10,13 @@
 #include <span>
 #include <string_view>
 
+#include "contract/point_columns.hpp"
 #include "points/point_reader_records.hpp"
 
 namespace farlod {
 namespace {
 
-constexpr std::array<std::string_view, 3> id_names{"id", "name", "fid"};
-constexpr std::array<std::string_view, 5> x_names{"x", "x_m", "easting", "lon", "longitude"};
-constexpr std::array<std::string_view, 5> y_names{"y", "y_m", "northing", "lat", "latitude"};
-constexpr std::array<std::string_view, 4> z_names{"z", "z_m", "height_m", "elevation"};
+using namespace point_columns;
 
 /// Which column holds what.
 struct Columns {

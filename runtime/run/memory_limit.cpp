@@ -74,6 +74,11 @@ std::uint64_t bytes_of_blocks_at_work(const package::Manifest& manifest) {
   return std::min<std::uint64_t>(blocks_at_work, manifest.blocks.size()) * largest;
 }
 
+bool any_traces_whole_city(const PackageReader& package, Engine engine, std::span<const Cell> cells) {
+  return std::any_of(cells.begin(), cells.end(),
+                     [&](Cell cell) { return method_of(engine, far_map_of(package, cell)) == EvaluationMethod::whole_city; });
+}
+
 RunSettings with_bytes_of_caller(RunSettings run, std::uint64_t bytes) {
   run.caller_bytes += std::min(bytes, std::numeric_limits<std::uint64_t>::max() - run.caller_bytes);
   return run;
@@ -89,7 +94,8 @@ void require_memory(const package::Manifest& manifest, const ResolvedSettings& s
                       "use fewer threads, a coarser raster, a part at a time, or fewer rays and azimuths");
   if (needs.whole_city || traces_whole_city(settings))
     require_below_limit(bytes + bytes_of_whole_city(manifest, settings), settings.run, "tracing the whole city",
-                        "leave out what needs it (the engine exact, a verification, a largest error, points beyond the grid)");
+                        "leave out what needs it (the engine exact, a verification, a largest error, points beyond the grid, "
+                        "cells without a far map)");
 }
 
 }  // namespace farlod

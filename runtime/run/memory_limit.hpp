@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "contract/package/manifest.hpp"
+#include "package/package_reader.hpp"
 #include "run/resolved_settings.hpp"
 
 namespace farlod {
@@ -18,6 +20,9 @@ struct MemoryNeeds {
 
 /// Cells that are worked on at the same time.
 [[nodiscard]] std::size_t cells_in_flight(std::size_t threads);
+
+/// Whether some of these cells are answered by tracing everything: they lie outside of the grid, or their far maps are missing.
+[[nodiscard]] bool any_traces_whole_city(const PackageReader& package, Engine engine, std::span<const Cell> cells);
 
 /// Bytes of the blocks that the cells in flight of a run need.
 [[nodiscard]] std::uint64_t bytes_of_blocks_at_work(const package::Manifest& manifest);

@@ -110,13 +110,15 @@ void require_bounds_known(const PackageInUse& package, const ResolvedSettings& s
 struct Tally {
   std::vector<std::size_t> counts;  ///< receivers of each cell
   SvfStatistics statistics;
-  std::size_t outside_of_grid = 0;
+  std::size_t outside_of_grid = 0, without_far_map = 0;
   double store_s = 0.0;
 
   void add(const PackageReader& package, const CellInFlight& cell) {
     counts.push_back(cell.receivers.receivers.size());
     statistics.add(statistics_of(cell.values));
-    if (!package.grid().cells.contains(cell.receivers.cell)) outside_of_grid += counts.back();
+    const FarMapOfCell far_map = far_map_of(package, cell.receivers.cell);
+    if (far_map == FarMapOfCell::outside_of_grid) outside_of_grid += counts.back();
+    if (far_map == FarMapOfCell::missing) without_far_map += counts.back();
   }
 };
 
@@ -128,10 +130,13 @@ EvaluationSeconds seconds_of(double wall_s, const EvaluationStatistics& evaluati
   return {wall_s * scene_share, wall_s * (1.0 - scene_share - store_share), wall_s * store_share};
 }
 
-/// The error of what answered: of far maps of the kind `box`, and beyond the grid, that is rays, whatever the engine.
-double sampling_error_of_run(const SkySettings& sky, const package::Manifest& manifest, bool has_left_grid) {
-  const double in_grid = sampling_error_of(sky, manifest.far_map.is_box() ? FarMapOfCell::box : FarMapOfCell::horizon);
-  return has_left_grid ? std::max(in_grid, sampling_error_of(sky, FarMapOfCell::none)) : in_grid;
+/// The error of what answered: of far maps of the kind `box`, beyond the grid, and where far maps are missing, that is rays,
+/// whatever the engine.
+double sampling_error_of_run(const SkySettings& sky, const package::Manifest& manifest, const Tally& tally) {
+  double error = sampling_error_of(sky, manifest.far_map.is_box() ? FarMapOfCell::box : FarMapOfCell::horizon);
+  if (tally.outside_of_grid > 0) error = std::max(error, sampling_error_of(sky, FarMapOfCell::outside_of_grid));
+  if (tally.without_far_map > 0) error = std::max(error, sampling_error_of(sky, FarMapOfCell::missing));
+  return error;
 }
 
 Tally evaluate_and_store(const SkyEvaluator& evaluator, const ResolvedSettings& settings, std::size_t cell_count,
@@ -161,8 +166,9 @@ EvaluationSummary evaluate_and_verify(const PackageReader& package, const Resolv
   EvaluationSummary summary;
   summary.seconds = seconds_of(seconds_since(start), evaluation, tally.store_s);
   summary.accuracy = settings.accuracy;
-  summary.accuracy.sampling_error = sampling_error_of_run(settings.sky, package.manifest(), tally.outside_of_grid > 0);
+  summary.accuracy.sampling_error = sampling_error_of_run(settings.sky, package.manifest(), tally);
   summary.outside_of_grid = tally.outside_of_grid;
+  summary.without_far_map = tally.without_far_map;
   summary.by_rays = evaluation.by_rays;
   summary.retraced_rays = evaluation.retraced_rays;
   store_statistics(tally.statistics, settings.bounds, summary);

@@ -85,13 +85,13 @@ PlacesByCell places_along_curve(const PackageReader& package, std::span<const Pl
   return result;
 }
 
-MemoryNeeds needs_of(const PackageReader& package, std::size_t point_count, const PlacesByCell& cells) {
+MemoryNeeds needs_of(const PackageReader& package, Engine engine, std::size_t point_count, const PlacesByCell& cells) {
   // A point, and its place in its cell; its answer is the caller's
   constexpr double bytes_of_point = sizeof(PlaceOfReceiver) + sizeof(std::size_t);
   MemoryNeeds needs{static_cast<double>(point_count) * bytes_of_point};
   for (const auto& [cell, chosen] : cells) {
     needs.receivers_of_cell = std::max(needs.receivers_of_cell, static_cast<double>(chosen.size()));
-    needs.whole_city = needs.whole_city || !package.grid().cells.contains(cell);
+    needs.whole_city = needs.whole_city || any_traces_whole_city(package, engine, {&cell, 1});
   }
   return needs;
 }
@@ -126,7 +126,7 @@ EvaluationSummary evaluate_points(const Package& package, const Points& points, 
   require_same_sizes(points, answers, settings.bounds);
   const std::vector<PlaceOfReceiver> places = places_of(points, reader.manifest());
   const PlacesByCell cells = places_along_curve(reader, places);
-  require_memory(reader.manifest(), settings, needs_of(reader, places.size(), cells));
+  require_memory(reader.manifest(), settings, needs_of(reader, settings.sky.engine, places.size(), cells));
   fill_with_no_data(answers);
   const float height_m = package_height_m(placed, reader.manifest());
   const auto receivers_of = [&](std::size_t n) {

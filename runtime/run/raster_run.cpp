@@ -94,7 +94,9 @@ class RasterRun {
         receivers_(reader().manifest(), plan),
         cells_(along_hilbert_curve(receivers_.cells(), reader().grid().block_edge)),
         tiles_(tiles_of_cells(receivers_, cells_)) {
-    require_memory(reader().manifest(), settings_, needs_of(plan_, tiles_, reader().grid(), settings_.bounds));
+    MemoryNeeds needs = needs_of(plan_, tiles_, reader().grid(), settings_.bounds);
+    needs.whole_city = any_traces_whole_city(reader(), settings_.sky.engine, cells_);
+    require_memory(reader().manifest(), settings_, needs);
   }
 
   [[nodiscard]] EvaluationSummary evaluate(const OnRasterTile& on_tile) const {

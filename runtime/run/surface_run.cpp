@@ -70,10 +70,11 @@ std::vector<Cell> all_cells(const CellRange& range) {
 }
 
 /// Means need a row and its keys for each surface, which has a polygon at least, and for each building.
-MemoryNeeds needs_of(const package::Manifest& manifest) {
+MemoryNeeds needs_of(const PackageReader& package, Engine engine, std::span<const Cell> cells) {
+  const package::Manifest& manifest = package.manifest();
   constexpr double bytes_of_surface = 320, bytes_of_building = 320;
-  return {static_cast<double>(manifest.polygons) * bytes_of_surface +
-          static_cast<double>(manifest.buildings) * bytes_of_building};
+  return {static_cast<double>(manifest.polygons) * bytes_of_surface + static_cast<double>(manifest.buildings) * bytes_of_building,
+          0.0, any_traces_whole_city(package, engine, cells)};
 }
 
 /// The means of a run. Points come cell by cell along a curve, and are handed on with the cell's place in CellRange::index_of.
@@ -114,9 +115,9 @@ SurfaceMeans evaluate_surfaces(const Package& package, const SurfaceSettings& su
   check(surfaces);
   const PackageInUse in_use(package);
   const PackageReader& reader = in_use.reader();
-  require_memory(reader.manifest(), settings, needs_of(reader.manifest()));
   const CellRange& range = reader.grid().cells;
   const std::vector<Cell> cells = along_hilbert_curve(all_cells(range), reader.grid().block_edge);
+  require_memory(reader.manifest(), settings, needs_of(reader, settings.sky.engine, cells));
   MeansOfRun means(on_points);
   // What is known of a cell's receivers, from when they are placed until their answers are there
   std::vector<std::vector<SurfaceReceiver>> placed(cells.size());

@@ -106,14 +106,15 @@ TEST_F(DamagedPackage, ManifestOfSomethingElse) {
 }
 
 TEST_F(DamagedPackage, ANewerVersionIsNoDamage) {
-  edit_manifest("\"version\": 6", "\"version\": 7");
-  expect_refusal(evaluate(), exit_unusable_input, {"manifest.json has format version 7", "reads version 6", "newer farlod-svf"});
+  edit_manifest("\"version\": 6", "\"version\": 8");
+  expect_refusal(evaluate(), exit_unusable_input,
+                 {"manifest.json has format version 8", "reads versions 6 to 7", "newer farlod-svf"});
 }
 
 TEST_F(DamagedPackage, AnOlderVersionIsNoDamage) {
   edit_manifest("\"version\": 6", "\"version\": 5");
   expect_refusal(evaluate(), exit_unusable_input,
-                 {"manifest.json has format version 5", "reads version 6", "Pack the city again"});
+                 {"manifest.json has format version 5", "reads versions 6 to 7", "Pack the city again"});
 }
 
 TEST_F(DamagedPackage, AnInterruptedPackingIsNoDamage) {

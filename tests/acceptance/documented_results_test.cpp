@@ -81,7 +81,10 @@ TEST_F(DocumentedResults, SummaryOfPackHasTheDocumentedKeysAndNoOthers) {
     "boundaries": [[[[0, 3, 2, 1]], [[4, 5, 6, 7]], [[0, 1, 5, 4]], [[1, 2, 6, 5]], [[2, 3, 7, 6]], [[3, 0, 4, 7]]]]}]}}})";
   folder.write("house.city.json", city);
   folder.write("ground.asc", "ncols 2\nnrows 2\nxllcorner 499000\nyllcorner 5499000\ncellsize 1000\n0.0 0.0\n0.0 0.0\n");
-  folder.must("farlod-pack house.city.json -o c.farlod --max-error 0.05 --terrain ground.asc --summary s.json");
+  // The second time, far maps are added
+  for (const std::string area : {"500000,5500000,500001,5500001", "500008,5500008,500009,5500009"})
+    folder.must(
+        "farlod-pack house.city.json -o c.farlod --max-error 0.05 --cell 4 --terrain ground.asc --summary s.json --area " + area);
   EXPECT_EQ(keys_of(folder.json_of("s.json"), title), documented_keys(title, false));
 }
 

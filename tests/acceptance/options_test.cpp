@@ -47,18 +47,18 @@ TEST_P(EachProgram, HelpBeginsWithWhatItIsAndWhatToTry) {
 
 INSTANTIATE_TEST_SUITE_P(
     Options, EachProgram,
-    testing::Values(Program{"farlod-pack",
-                            {"--help",         "--version",        "--crs",        "--out-crs",       "--origin",    "--up",
-                             "--height-field", "--base-field",     "--roof-field", "--storeys-field", "--lod",       "--terrain",
-                             "--floor-height", "--default-height", "--cell",       "--neighborhood",  "--max-error", "--align",
-                             "--assign",       "--far-map",        "--output",     "--force",         "--report",    "--strict",
-                             "--summary",      "--memory-limit",   "--quiet",      "--threads",       "--config"}},
-                    Program{
-                        "farlod-svf",
-                        {"--help",       "--version",      "--grid",       "--points",   "--surfaces", "--at",        "--height",
-                         "--on-surface", "--spacing",      "--points-crs", "--bbox",     "--output",   "--preview",   "--summary",
-                         "--engine",     "--rays",         "--directions", "--azimuths", "--sky",      "--max-error", "--bounds",
-                         "--verify",     "--memory-limit", "--quiet",      "--threads",  "--config"}}),
+    testing::Values(
+        Program{"farlod-pack",
+                {"--help",         "--version",        "--crs",          "--out-crs",       "--origin",    "--up",
+                 "--height-field", "--base-field",     "--roof-field",   "--storeys-field", "--lod",       "--terrain",
+                 "--floor-height", "--default-height", "--cell",         "--neighborhood",  "--max-error", "--align",
+                 "--assign",       "--far-map",        "--area",         "--output",        "--force",     "--report",
+                 "--strict",       "--summary",        "--memory-limit", "--quiet",         "--threads",   "--config"}},
+        Program{"farlod-svf",
+                {"--help",       "--version",      "--grid",       "--points",   "--surfaces", "--at",        "--height",
+                 "--on-surface", "--spacing",      "--points-crs", "--bbox",     "--output",   "--preview",   "--summary",
+                 "--engine",     "--rays",         "--directions", "--azimuths", "--sky",      "--max-error", "--bounds",
+                 "--verify",     "--memory-limit", "--quiet",      "--threads",  "--config"}}),
     [](const auto& program) { return program.param.name + 7; });  // what follows "farlod-"
 
 TEST_F(PackedTown, QuietSaysNothing) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "farlod/error.hpp"
 #include "farlod/points.hpp"
 #include "farlod/raster.hpp"
 #include "farlod/surfaces.hpp"
@@ -187,6 +188,42 @@ TEST_F(Answers, ARunOutlivesItsPackage) {
   const Raster closed = evaluate_raster(package_, plan, {}, {}, run);
   EXPECT_FALSE(package_.is_open());
   EXPECT_EQ(std::memcmp(closed.svf.data(), whole.svf.data(), whole.svf.size() * sizeof(float)), 0);
+}
+
+/// Far maps for the cells in the middle: the figures of the library say which receivers have none.
+TEST_F(Answers, ReceiversWithoutAFarMapAreCountedAndExact) {
+  const scenes::TemporaryFolder folder;
+  PackSettings packing = sample_->settings();
+  packing.output = folder.path() / "part.farlod";
+  const Point2d middle = middle_of(package_);
+  packing.area = Box2d{middle, middle + Point2d{1.0, 1.0}};
+  Report report;
+  const PackResult packed = pack(packing, report);
+  const Package part(packing.output);
+  EXPECT_EQ(packed.package.cells_with_far_map, part.description().cells_with_far_map);
+  EXPECT_LT(part.description().cells_with_far_map,
+            static_cast<std::uint64_t>(part.description().columns * part.description().rows));
+  EXPECT_EQ(package_.description().cells_with_far_map,
+            static_cast<std::uint64_t>(package_.description().columns * package_.description().rows));
+  const RasterPlan plan = plan_raster(part, 4.0);
+  const Raster raster = evaluate_raster(part, plan);
+  EvaluationSettings settings;
+  EXPECT_GT(raster.summary.without_far_map, 0U);
+  EXPECT_LT(raster.summary.without_far_map, raster.summary.receivers);
+  EXPECT_EQ(evaluate_raster(package_, plan).summary.without_far_map, 0U);
+  // Each pixel has the answer of one of the two
+  settings.engine = Engine::exact;
+  const Raster exact = evaluate_raster(part, plan, {}, settings), whole = evaluate_raster(package_, plan);
+  std::size_t exact_alone = 0;
+  for (std::size_t n = 0; n < raster.svf.size(); ++n) {
+    if (std::isnan(raster.svf[n])) continue;
+    EXPECT_TRUE(raster.svf[n] == exact.svf[n] || raster.svf[n] == whole.svf[n]) << n;
+    exact_alone += raster.svf[n] != whole.svf[n] ? 1 : 0;
+  }
+  EXPECT_LE(exact_alone, raster.summary.without_far_map);
+  EXPECT_GT(exact_alone, raster.summary.without_far_map / 2);
+  settings.engine = Engine::horizon;
+  EXPECT_THROW((void)evaluate_raster(part, plan, {}, settings), PackageUnusable);
 }
 
 }  // namespace

@@ -76,6 +76,20 @@ std::vector<WrongPack> wrong_grids() {
   return list;
 }
 
+std::vector<WrongPack> wrong_areas() {
+  const auto box = [](double x0, double y0, double x1, double y1) {
+    return [=](PackSettings& s) { s.area = Box2d{{x0, y0}, {x1, y1}}; };
+  };
+  return {{"an area without a name", [](PackSettings& s) { s.area = std::filesystem::path(); }},
+          {"an empty area", [](PackSettings& s) { s.area = Box2d{}; }},
+          {"an area that runs back", box(2.0, 0.0, 1.0, 1.0)},
+          {"an area without width", box(1.0, 0.0, 1.0, 1.0)},
+          {"an area at no place", box(0.0, nan, 1.0, 1.0)},
+          {"an area without end", box(0.0, 0.0, 1.0, infinity)},
+          {"an area beyond the Earth", box(0.0, 0.0, 1e10, 1.0)},
+          {"an area beside the city", box(0.0, 0.0, 1.0, 1.0)}};
+}
+
 void expect_refused(const WrongPack& wrong) {
   const scenes::TemporaryFolder folder;
   PackSettings settings = village_settings(folder.path() / "village.farlod");
@@ -95,6 +109,7 @@ void expect_refused(const WrongPack& wrong) {
 TEST(WrongPacks, AreRefusedBeforeAnythingIsDone) {
   for (const WrongPack& wrong : wrong_files()) expect_refused(wrong);
   for (const WrongPack& wrong : wrong_grids()) expect_refused(wrong);
+  for (const WrongPack& wrong : wrong_areas()) expect_refused(wrong);
 }
 
 /// Runs that end before their end.

@@ -34,16 +34,16 @@ std::string name_of(EvaluationMethod method) {
   return "";
 }
 
-using Row = std::tuple<std::string, std::string, std::string, std::string>;
+using Row = std::tuple<std::string, std::string, std::string, std::string, std::string>;
 
 /// Engine and methods of each row of the table in docs/stages/evaluate.md.
 std::vector<Row> documented_rows() {
-  static const std::regex row("^\\| `(\\w+)`[^|]*\\| `(\\w+)` \\| `(\\w+)` \\| `(\\w+)` \\|$");
+  static const std::regex row("^\\| `(\\w+)`[^|]*\\| `(\\w+)` \\| `(\\w+)` \\| `(\\w+)` \\| `(\\w+)` \\|$");
   std::ifstream file(FARLOD_SOURCE_DIR "/docs/stages/evaluate.md");
   std::vector<Row> rows;
   for (std::string line; std::getline(file, line);) {
     std::smatch cells;
-    if (std::regex_match(line, cells, row)) rows.emplace_back(cells[1], cells[2], cells[3], cells[4]);
+    if (std::regex_match(line, cells, row)) rows.emplace_back(cells[1], cells[2], cells[3], cells[4], cells[5]);
   }
   return rows;
 }
@@ -56,7 +56,8 @@ TEST(EvaluationMethod, FollowsTheDocumentedTable) {
                                      {"exact", Engine::exact},
                                      {"near_only", Engine::near_only}})
     rows.emplace_back(name, name_of(method_of(engine, FarMapOfCell::horizon)), name_of(method_of(engine, FarMapOfCell::box)),
-                      name_of(method_of(engine, FarMapOfCell::none)));
+                      name_of(method_of(engine, FarMapOfCell::missing)),
+                      name_of(method_of(engine, FarMapOfCell::outside_of_grid)));
   EXPECT_EQ(rows, documented_rows());
 }
 
@@ -74,7 +75,10 @@ TEST(EvaluationMethod, SaysWhoseSamplingErrorCounts) {
     EXPECT_EQ(error(Engine::horizon, FarMapOfCell::horizon, 0.01), larger);
     EXPECT_EQ(error(Engine::rays, FarMapOfCell::horizon), of_rays);
     for (const Engine engine : {Engine::automatic, Engine::horizon, Engine::rays, Engine::exact, Engine::near_only})
-      for (const FarMapOfCell far_map : {FarMapOfCell::box, FarMapOfCell::none}) EXPECT_EQ(error(engine, far_map), of_rays);
+      for (const FarMapOfCell far_map : {FarMapOfCell::box, FarMapOfCell::outside_of_grid})
+        EXPECT_EQ(error(engine, far_map), of_rays);
+    for (const Engine engine : {Engine::automatic, Engine::rays, Engine::exact})
+      EXPECT_EQ(error(engine, FarMapOfCell::missing), of_rays);
   }
 }
 

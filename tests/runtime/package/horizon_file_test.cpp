@@ -272,5 +272,31 @@ TEST(HorizonFile, UnknownChannelsAreSkipped) {
   for (const auto* slopes : {&map.low, &map.estimate, &map.high, &map.overhang}) EXPECT_EQ(*slopes, std::vector<float>(4, 1.0F));
 }
 
+/// Of a block of three cells, the first and the last have far maps, which differ.
+TEST(HorizonFile, SomeCellsAreReadWhereTheyWereWritten) {
+  const scenes::TemporaryFolder folder;
+  const CellRange cells{0, 0, 3, 1};
+  const ReceiverPatches patches{20.0, 1, {0.0F}};
+  package::FarMapShape shape;
+  shape.kind = "horizon";
+  shape.azimuth_bins = 1;
+  shape.squares_per_edge = shape.layers = 1;
+  const auto baked = [&](float slope) { return BakedHorizon{patches, {}, {slope}, {slope}, {slope}, {slope}}; };
+  const package::CellRuns ends{{{0, 1}, {2, 3}}}, begin{{{0, 2}}}, all_but_one{{{0, 1}}};
+  const std::filesystem::path file = folder.path() / package::far_map_file;
+  write_far_maps(file, BakedHorizons{{}, {baked(0.25F), baked(0.5F)}}, cells, shape, ends);
+  const FarMapReader reader(file, cells, shape, ends);
+  for (const auto& [i, slope] : {std::pair(0, 0.25F), std::pair(2, 0.5F)}) {
+    FarHorizon map{patches, AzimuthBins{1}, {}, {}, {}, {}, {}};
+    reader.read_slopes({i, 0}, map);
+    EXPECT_EQ(map.estimate, std::vector<float>{slope}) << i;
+  }
+  // As many other cells are not told apart, which the checksums are for; more or fewer are
+  EXPECT_EQ(damage_met_by([&] { FarMapReader(file, cells, shape, begin); }), "no damage");
+  EXPECT_THAT(damage_met_by([&] { FarMapReader(file, cells, shape, all_but_one); }),
+              HasSubstr("each cell that the manifest names"));
+  EXPECT_THAT(damage_met_by([&] { FarMapReader(file, cells, shape); }), HasSubstr("each cell of its block"));
+}
+
 }  // namespace
 }  // namespace farlod

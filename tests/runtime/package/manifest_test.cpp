@@ -63,7 +63,8 @@ TEST(Package, ManifestTruncated) {
 
 TEST(Package, ManifestOfAnotherVersion) {
   const SmallPackage small;
-  for (const std::uint64_t version : {std::uint64_t{1}, std::uint64_t{package::format_version} + 1, std::uint64_t{0xFFFFFFFF}}) {
+  for (const std::uint64_t version : {std::uint64_t{1}, std::uint64_t{package::format_version} - 1,
+                                      std::uint64_t{package::partial_format_version} + 1, std::uint64_t{0xFFFFFFFF}}) {
     json m = small.manifest();
     m["version"] = version;
     m.erase("grid");  // another version may say it otherwise
@@ -81,6 +82,55 @@ TEST(Package, ManifestOfNoVersion) {
     m["version"] = version;
     EXPECT_NE(damage_of(small, m), "no damage") << version;
   }
+}
+
+/// The manifest of the small package, were only some of its cells mapped: the runs are those of its block of two cells.
+json partial_manifest(const SmallPackage& small, const json& runs) {
+  json m = small.manifest();
+  m["version"] = package::partial_format_version;
+  m["blocks"][0]["cells_with_far_map"] = runs;
+  return m;
+}
+
+TEST(Package, ManifestOfSomeFarMaps) {
+  const SmallPackage small;
+  small.write_manifest(partial_manifest(small, {{1, 2}}));
+  const package::Manifest m = read_manifest(small.folder());
+  EXPECT_FALSE(m.is_fully_mapped());
+  EXPECT_EQ(m.cells_with_far_map(), 2U);
+  EXPECT_FALSE(m.blocks[0].has_far_map(0));
+  EXPECT_TRUE(m.blocks[0].has_far_map(1));
+  EXPECT_TRUE(m.blocks[1].has_far_map(0));
+  EXPECT_EQ(package::folder_of(m.blocks[0]), "blocks/0_0_1");
+  EXPECT_EQ(package::folder_of(m.blocks[1]), "blocks/1_0");
+}
+
+TEST(Package, ManifestOfABlockWithoutFarMaps) {
+  const SmallPackage small;
+  json m = partial_manifest(small, json::array());
+  m["blocks"][0]["far_map"] = nullptr;
+  small.write_manifest(m);
+  EXPECT_FALSE(read_manifest(small.folder()).blocks[0].has_far_maps());
+  EXPECT_EQ(package::folder_of(read_manifest(small.folder()).blocks[0]), "blocks/0_0_0");
+}
+
+TEST(Package, ManifestOfVersion6HasAllFarMaps) {
+  const SmallPackage small;
+  json m = partial_manifest(small, {{1, 2}});
+  m["version"] = package::format_version;  // which did not know the key
+  small.write_manifest(m);
+  EXPECT_TRUE(read_manifest(small.folder()).is_fully_mapped());
+}
+
+TEST(Package, ManifestOfImpossibleFarMaps) {
+  const SmallPackage small;
+  ASSERT_EQ(damage_of(small, partial_manifest(small, {{0, 1}})), "no damage");
+  for (const char* runs : {"[[0,2]]", "[[0,1],[1,2]]", "[[1,2],[0,1]]", "[[1,1]]", "[[1,0]]", "[[2,3]]", "[[0,3]]", "[[0]]",
+                           "[[0,1,2]]", "[0,1]", "[[-1,1]]", "[[0,4294967297]]", "[[0,0.5]]", "\"0\"", "true"})
+    EXPECT_NE(damage_of(small, partial_manifest(small, json::parse(runs))), "no damage") << runs;
+  json without_stamp = partial_manifest(small, {{0, 1}});
+  without_stamp["blocks"][0]["far_map"] = nullptr;
+  EXPECT_NE(damage_of(small, without_stamp), "no damage");
 }
 
 class ManifestOfKind : public testing::TestWithParam<FarMapKind> {};

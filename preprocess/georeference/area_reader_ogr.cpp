@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "contract/expects.hpp"
+#include "contract/point_columns.hpp"
+#include "farlod/error.hpp"
+#include "gdal/gdal_errors.hpp"
+#include "gdal/wkt_gdal.hpp"
+#include "georeference/area_reader.hpp"
+#include "georeference/input_crs.hpp"
+
+namespace farlod::georeference {
+namespace {
+
+struct FeatureDeleter {
+  void operator()(OGRFeature* feature) const { OGRFeature::DestroyFeature(feature); }
+};
+using Feature = std::unique_ptr<OGRFeature, FeatureDeleter>;
+
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& what, GdalErrors& messages) {
+  throw InputError(file.string() + what + " (" + messages.last() + ").");
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return text;
+}
+
+bool is_table(const std::filesystem::path& file) {
+  const std::string ending = lower_case(file.extension().string());
+  return ending == ".csv" || ending == ".tsv" || ending == ".txt";
+}
+
+GDALDatasetUniquePtr open(const std::filesystem::path& file, GdalErrors& messages) {
+  static std::once_flag once;
+  std::call_once(once, GDALAllRegister);
+  // A prefix lets GDAL take any ending for a table. Nothing is to be written beside GML, nor fetched from an address in it
+  const bool table = is_table(file);
+  constexpr std::array<const char*, 2> table_driver{"CSV", nullptr};
+  constexpr std::array<const char*, 3> gml_options{"WRITE_GFS=NO", "DOWNLOAD_SCHEMA=NO", nullptr};
+  const std::string name = (table ? "CSV:" : "") + file.string();
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY,
+                                                 table ? table_driver.data() : nullptr, table ? nullptr : gml_options.data()));
+  if (!dataset)
+    fail(file, " cannot be read as an area: give X0,Y0,X1,Y1, a vector file that GDAL reads, or a table of points", messages);
+  return dataset;
+}
+
+Area::Line line_of(const OGRSimpleCurve& curve) {
+  Area::Line line;
+  for (int k = 0; k < curve.getNumPoints(); ++k) line.push_back({curve.getX(k), curve.getY(k)});
+  return line;
+}
+
+/// Adds what a geometry without arcs is made of.
+void add(const OGRGeometry& geometry, Area& area) {
+  if (geometry.IsEmpty() != 0) return;
+  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+  if (type == wkbPoint) {
+    area.points.push_back({geometry.toPoint()->getX(), geometry.toPoint()->getY()});
+  } else if (type == wkbLineString) {
+    area.lines.push_back(line_of(*geometry.toLineString()));
+  } else if (OGR_GT_IsSubClassOf(type, wkbPolygon) != 0) {
+    Area::Polygon& polygon = area.polygons.emplace_back();
+    for (const OGRLinearRing* ring : *geometry.toPolygon()) polygon.push_back(line_of(*ring));
+  } else if (OGR_GT_IsSubClassOf(type, wkbPolyhedralSurface) != 0) {
+    const OGRPolyhedralSurface& surface = *geometry.toPolyhedralSurface();
+    for (int n = 0; n < surface.getNumGeometries(); ++n) add(*surface.getGeometryRef(n), area);
+  } else if (OGR_GT_IsSubClassOf(type, wkbGeometryCollection) != 0) {
+    for (const OGRGeometry* member : *geometry.toGeometryCollection()) add(*member, area);
+  }
+}
+
+Area shapes_of(OGRLayer& layer) {
+  Area area;
+  for (Feature feature(layer.GetNextFeature()); feature; feature.reset(layer.GetNextFeature())) {
+    const OGRGeometry* geometry = feature->GetGeometryRef();
+    if (geometry == nullptr) continue;
+    const std::unique_ptr<OGRGeometry> straight(geometry->getLinearGeometry());
+    if (straight) add(*straight, area);
+  }
+  return area;
+}
+
+/// The field that carries one of the names; −1 where none does. Two would leave open which one is meant.
+int field_named(const OGRFeatureDefn& fields, std::span<const std::string_view> names, const std::filesystem::path& file) {
+  int found = -1;
+  for (int n = 0; n < fields.GetFieldCount(); ++n) {
+    if (std::ranges::find(names, lower_case(fields.GetFieldDefn(n)->GetNameRef())) == names.end()) continue;
+    if (found >= 0)
+      throw InputError(file.string() + ": the columns \"" + fields.GetFieldDefn(found)->GetNameRef() + "\" and \"" +
+                       fields.GetFieldDefn(n)->GetNameRef() + "\" mean the same; rename the one that does not count");
+    found = n;
+  }
+  return found;
+}
+
+std::string_view trimmed(std::string_view field) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!field.empty() && blank(field.front())) field.remove_prefix(1);
+  while (!field.empty() && blank(field.back())) field.remove_suffix(1);
+  return field;
+}
+
+double number_in(std::string_view field, const Feature& feature, const std::filesystem::path& file) {
+  std::string_view digits = trimmed(field);
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
+    throw InputError(file.string() + ": point " + std::to_string(feature->GetFID()) + ": \"" + std::string(field) +
+                     "\" is not a number; write it like 1234.5");
+  return value;
+}
+
+/// GDAL's names for the columns of a table without a header row.
+bool has_header(const OGRFeatureDefn& fields) {
+  return fields.GetFieldCount() < 1 || std::string_view(fields.GetFieldDefn(0)->GetNameRef()) != "field_1";
+}
+
+Area points_of(OGRLayer& table, const std::filesystem::path& file) {
+  const OGRFeatureDefn& fields = *table.GetLayerDefn();
+  const bool header = has_header(fields);
+  const int x = header ? field_named(fields, point_columns::x_names, file) : 0;
+  const int y = header ? field_named(fields, point_columns::y_names, file) : 1;
+  if (x < 0 || y < 0 || y >= fields.GetFieldCount())
+    throw InputError(file.string() +
+                     ": no column is named x and y (or easting and northing, or lon and lat); name them in the first row");
+  Area area;
+  for (Feature feature(table.GetNextFeature()); feature; feature.reset(table.GetNextFeature()))
+    area.points.push_back(
+        {number_in(feature->GetFieldAsString(x), feature, file), number_in(feature->GetFieldAsString(y), feature, file)});
+  return area;
+}
+
+void require_numbers(Area& area, const std::filesystem::path& file) {
+  area.for_each_point([&](const Point2d& p) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) throw InputError(file.string() + " has a coordinate that is not a number.");
+  });
+}
+
+/// Brings coordinates from the CRS of a part to that of the package.
+void transform(Area& area, const std::string& own_wkt, const Crs& output, const std::string& name) {
+  if (own_wkt.empty() || area.shape_count() == 0) return;
+  const auto own = find_crs(own_wkt);
+  if (!own) throw InputError(name + " is in a CRS that is not known: give it in " + output.name());
+  if (own->crs.equals(output)) return;
+  const Box2d outline = outline_of(area);
+  const CrsTransformation transformation(own->crs, output, 0.5 * (outline.low + outline.high));
+  area.for_each_point([&](Point2d& p) {
+    const auto moved = transformation.apply(p);
+    if (!moved || !std::isfinite(moved->x) || !std::isfinite(moved->y))
+      throw InputError(name + " has a point, " + std::to_string(p.x) + "," + std::to_string(p.y) + " in " + own->crs.name() +
+                       ", that has no place in " + output.name() + ": check its CRS");
+    p = *moved;
+  });
+}
+
+void append(Area& area, const Area& more) {
+  area.points.insert(area.points.end(), more.points.begin(), more.points.end());
+  area.lines.insert(area.lines.end(), more.lines.begin(), more.lines.end());
+  area.polygons.insert(area.polygons.end(), more.polygons.begin(), more.polygons.end());
+}
+
+}  // namespace
+
+RequestedArea read_area(const std::filesystem::path& file) {
+  GdalErrors messages;
+  const GDALDatasetUniquePtr dataset = open(file, messages);
+  RequestedArea area{"The area in " + file.string(), {}};
+  std::size_t shapes = 0;
+  for (OGRLayer* layer : dataset->GetLayers()) {
+    area.parts.push_back(is_table(file) ? RequestedArea::Part{points_of(*layer, file), {}}
+                                        : RequestedArea::Part{shapes_of(*layer), wkt_of(layer->GetSpatialRef())});
+    require_numbers(area.parts.back().shapes, file);
+    shapes += area.parts.back().shapes.shape_count();
+  }
+  if (messages.any()) fail(file, " cannot be read to its end", messages);
+  if (shapes == 0) throw InputError(file.string() + " holds no points, lines or polygons: it is no area.");
+  return area;
+}
+
+Area located(const RequestedArea& area, const Georeference& georeference) {
+  const auto output = Crs::find(georeference.crs_wkt);
+  FARLOD_EXPECTS(output.has_value());
+  Area all;
+  for (const RequestedArea::Part& part : area.parts) {
+    Area shapes = part.shapes;
+    transform(shapes, part.crs_wkt, *output, area.name);
+    append(all, shapes);
+  }
+  all.for_each_point([&](Point2d& p) { p = p - georeference.origin_m; });
+  return all;
+}
+
+}  // namespace farlod::georeference

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "contract/package/manifest.hpp"
+#include "farlod/error.hpp"
+#include "tiles/tile_set.hpp"
+
+namespace farlod {
+
+/// How much of a new manifest is known.
+enum class Known {
+  before_tiles,  ///< software, inputs, settings, CRS and grid
+  all            ///< heights, counts and problems, too
+};
+
+/// A package on disk, to which far maps are added.
+class ExistingPackage {
+ public:
+  /// Reads its manifest. Nothing where the folder has none. Throws OutputError where the manifest cannot be used.
+  [[nodiscard]] static std::optional<ExistingPackage> find(const std::filesystem::path& folder);
+  ExistingPackage(ExistingPackage&&) noexcept;
+  ExistingPackage& operator=(ExistingPackage&&) noexcept;
+  ~ExistingPackage();
+
+  /// Throws OutputError, which names the first difference, where the package is not of the city, the grid and the settings of
+  /// `manifest`.
+  void require_same(const package::Manifest& manifest, Known known) const;
+  /// The same where the tiles of its blocks on disk are not these, bit for bit. Reads all of them.
+  void require_same_tiles(const TileSet& tiles, const Grid& grid) const;
+  /// The same where somebody has changed the package since it was found.
+  void require_unchanged() const;
+  /// In the order of Grid::blocks(), once require_same() has not thrown.
+  [[nodiscard]] const std::vector<package::BlockFiles>& blocks() const;
+
+ private:
+  struct Impl;
+  explicit ExistingPackage(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace farlod
