@@ -84,7 +84,8 @@ ResolvedSource resolve(SourceCity source, const InputCrs& given, Report& report)
   if (axes.before_easting != 0.0) of_file.add(ProblemCode::zone_in_easting, detail_of_zone(axes, crs, typical.place));
   const Point2d place = horizontal(axes.p_map(typical.place));
   if (const auto doubt = doubt_about_place(crs, place, typical.building_extent)) of_file.add(ProblemCode::unlikely_place, *doubt);
-  normalize_points(source.city.points(), axes);
+  CityModel& city = source.city;
+  city.for_each_building([&](std::size_t, const Building& b) { normalize_points(city.points_of(b), axes); });
   normalize_points(source.relief_points, axes);
   return {std::move(source), crs, place, axes};
 }
