@@ -11,7 +11,7 @@ namespace farlod {
 class Pages {
  public:
   /// Fewer bytes than these stay in memory.
-  static constexpr std::size_t least_on_disk = std::size_t{32} << 20;
+  static constexpr std::size_t least_on_disk = std::size_t{16} << 20;
 
   Pages() = default;
   Pages(Pages&& other) noexcept { swap(other); }

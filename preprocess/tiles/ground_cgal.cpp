@@ -3,6 +3,7 @@
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Projection_traits_xy_3.h>
+#include <CGAL/spatial_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +42,13 @@ double height_of_nearest(const Network& network, Point2d p) {
   return height;
 }
 
+/// What Network::insert does with a range, but for the copy that it makes of the points.
+void insert_all(std::vector<Kernel::Point_3> points, Network& network) {
+  CGAL::spatial_sort(points.begin(), points.end(), network.geom_traits());
+  Network::Face_handle hint;
+  for (const Kernel::Point_3& p : points) hint = network.insert(p, hint)->face();
+}
+
 Point3d from_cgal(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
 }  // namespace
@@ -58,7 +66,7 @@ Ground::Ground(std::vector<Point3d> points, const Box2d& rectangle, GroundExtent
   for (const Point3d& p : points) input.emplace_back(p.x, p.y, p.z);
   points = {};
   Network& network = impl_->network;
-  network.insert(input.begin(), input.end());
+  insert_all(std::move(input), network);
   if (extent == GroundExtent::points) return;
   // Compute all heights before the first insertion, so that no corner is the nearest point of another one. Corners inside the
   // network do not change it

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <utility>
 
 #include "contract/expects.hpp"
@@ -27,10 +28,17 @@ class NoteReader {
     notes.visit_chunks(block, [this](std::span<const std::uint32_t> chunk) { chunks_.push_back(chunk); });
   }
   [[nodiscard]] bool is_at_end() const { return chunk_ == chunks_.size(); }
+  /// Since this was last asked, so much was read that it should be let go.
+  [[nodiscard]] bool has_read_much() { return chunk_ >= next_pause_ && (next_pause_ = chunk_ + chunks_between_pauses) > 0; }
   template <std::size_t count>
   std::array<std::uint32_t, count> take() {
     std::array<std::uint32_t, count> words;
-    for (std::uint32_t& word : words) word = next();
+    if (chunks_[chunk_].size() - place_ > count) {
+      std::copy_n(chunks_[chunk_].begin() + static_cast<std::ptrdiff_t>(place_), count, words.begin());
+      place_ += count;
+    } else {
+      for (std::uint32_t& word : words) word = next();
+    }
     return words;
   }
 
@@ -44,8 +52,9 @@ class NoteReader {
     return word;
   }
 
+  static constexpr std::size_t chunks_between_pauses = 512;  // 8 MiB
   std::vector<std::span<const std::uint32_t>> chunks_;
-  std::size_t chunk_ = 0, place_ = 0;
+  std::size_t chunk_ = 0, place_ = 0, next_pause_ = chunks_between_pauses;
 };
 
 }  // namespace
@@ -56,7 +65,7 @@ void BlockNotes::add(std::size_t block, std::span<const std::uint32_t> words) {
     if (chunks.used_of_last == chunk_words) {
       chunks.begins.push_back(words_.size());
       chunks.used_of_last = 0;
-      words_.resize(words_.size() + chunk_words);
+      words_.resize_for_overwrite(words_.size() + chunk_words);
     }
     const std::size_t count = std::min(words.size(), chunk_words - chunks.used_of_last);
     std::copy_n(words.begin(), count, words_.begin() + chunks.begins.back() + chunks.used_of_last);
@@ -84,7 +93,10 @@ void TileFiller::add_polygon(Cell cell, std::span<const Point3f> polygon, std::u
   counts_[tile].vertices += polygon.size();
   counts_[tile].triangles += std::max<std::size_t>(polygon.size(), 2) - 2;
   polygons_.add(block, PolygonHead{static_cast<std::uint32_t>(tile), surface, static_cast<std::uint32_t>(polygon.size())});
-  for (const Point3f& p : polygon) polygons_.add(block, std::bit_cast<PointWords>(p));
+  static_assert(sizeof(Point3f) == sizeof(PointWords));
+  words_.resize(polygon.size() * std::tuple_size_v<PointWords>);
+  std::memcpy(words_.data(), polygon.data(), polygon.size_bytes());
+  polygons_.add(block, words_);
 }
 
 void TileFiller::add_edge(Cell cell, const HorizonEdge& edge) {
@@ -124,6 +136,7 @@ void TileFiller::fill_mesh_of_block(std::size_t block, const std::vector<Counts>
   const CellRange cells = grid_.cells_of(blocks_[block]);
   std::vector<Counts> filled(static_cast<std::size_t>(cells.size()));
   for (NoteReader notes(polygons_, block); !notes.is_at_end();) {
+    if (notes.has_read_much()) let_go(polygons_);
     const auto [number, surface, corners] = notes.take<3>();
     Tile& tile = tiles.tiles[number];
     Counts& done = filled[cells.index_of(grid_.cells.cell_at(number))];
@@ -150,8 +163,7 @@ void TileFiller::fill_mesh_of_block(std::size_t block, const std::vector<Counts>
     tile.triangle_surfaces =
         TileArray<std::uint32_t>::view_of({pages_->triangle_surfaces.data() + begins[number].triangles, triangles});
   }
-  polygons_.let_go();
-  tiles.let_go(cells);
+  let_go(polygons_);
 }
 
 void TileFiller::fill_edges(TileSet& tiles) {
@@ -174,8 +186,12 @@ void TileFiller::fill_edges_of_block(std::size_t block, const std::vector<Counts
     tiles.tiles[number].horizon_edges =
         TileArray<HorizonEdge>::view_of({pages_->horizon_edges.data() + begins[number].edges, filled[n]});
   }
-  edges_.let_go();
-  tiles.let_go(cells);
+  let_go(edges_);
+}
+
+void TileFiller::let_go(const BlockNotes& notes) const {
+  notes.let_go();
+  pages_->let_go();
 }
 
 }  // namespace farlod::tiles

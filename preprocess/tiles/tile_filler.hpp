@@ -64,12 +64,14 @@ class TileFiller {
   [[nodiscard]] std::vector<Counts> begins_of_tiles() const;
   void fill_mesh_of_block(std::size_t block, const std::vector<Counts>& begins, TileSet& tiles);
   void fill_edges_of_block(std::size_t block, const std::vector<Counts>& begins, TileSet& tiles);
+  void let_go(const BlockNotes& notes) const;
 
   const Grid& grid_;
   std::vector<Block> blocks_;
   std::size_t blocks_in_row_ = 0;
   std::vector<Counts> counts_;  ///< of each tile, in the order of CellRange::index_of
   BlockNotes polygons_, edges_;
+  std::vector<std::uint32_t> words_;  ///< of the polygon that is added
   std::shared_ptr<TilePages> pages_ = std::make_shared<TilePages>();
 };
 

@@ -19,6 +19,13 @@ void Tile::add_polygon(const std::vector<Point3f>& polygon, std::uint32_t surfac
   }
 }
 
+void TilePages::let_go() const {
+  vertices.let_go();
+  triangles.let_go();
+  triangle_surfaces.let_go();
+  horizon_edges.let_go();
+}
+
 std::uint64_t TileSet::triangle_count() const {
   std::uint64_t count = 0;
   for (const Tile& tile : tiles) count += tile.triangles.size();
@@ -54,11 +61,7 @@ void TileSet::let_go(const CellRange& block) const {
 
 void TileSet::let_go() const {
   surfaces.let_go();
-  if (!pages) return;
-  pages->vertices.let_go();
-  pages->triangles.let_go();
-  pages->triangle_surfaces.let_go();
-  pages->horizon_edges.let_go();
+  if (pages) pages->let_go();
 }
 
 }  // namespace farlod

@@ -57,6 +57,8 @@ struct TilePages {
   PagedArray<Triangle> triangles;
   PagedArray<std::uint32_t> triangle_surfaces;
   PagedArray<HorizonEdge> horizon_edges;
+
+  void let_go() const;
 };
 
 /// The whole city, cut into the cells of the grid. The tiles are a partition of it.
