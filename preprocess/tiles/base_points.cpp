@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 #include <unordered_map>
 
 #include "city/plan_boxes.hpp"
@@ -30,6 +31,8 @@ Footprint footprint_of(std::span<const Point3d> points) {
   }
   return base;
 }
+
+bool comes_first(const Point3d& a, const Point3d& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
 /// Finds the buildings near a building: buildings are listed by the squares of a coarse grid that their outlines touch.
 class Neighbors {
@@ -140,14 +143,18 @@ std::vector<Base> bases_of(const CityModel& city) {
 }
 
 std::vector<Point3d> base_points(const CityModel& city, std::span<const Base> bases) {
-  std::vector<Point3d> result;
+  std::vector<Point3d> result, of_building;
   city.for_each_building([&](std::size_t n, const Building& b) {
     if (bases[n] != Base::on_ground) return;
     const std::span<const Point3d> points = city.points_of(b);
     double lowest_m = std::numeric_limits<double>::infinity();
     for (const Point3d& p : points) lowest_m = std::min(lowest_m, p.z);
+    of_building.clear();
     for (const Point3d& p : points)
-      if (p.z <= lowest_m + base_thickness_m) result.push_back(p);
+      if (p.z <= lowest_m + base_thickness_m) of_building.push_back(p);
+    // The floor has each of them, and so have two walls
+    std::sort(of_building.begin(), of_building.end(), comes_first);
+    result.insert(result.end(), of_building.begin(), std::unique(of_building.begin(), of_building.end()));
   });
   return result;
 }
