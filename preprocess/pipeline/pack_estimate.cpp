@@ -32,9 +32,9 @@ constexpr std::array bytes_per_point{24.0};
 constexpr std::array bytes_per_facet{24.0, 8.0, 72.0};
 /// Those of the tiles, by their triangles: polygons and edges as noted down, and vertices, triangles, surfaces and edges.
 constexpr std::array bytes_per_tile_triangle{48.0, 7.0, 36.0, 12.0, 4.0, 6.0};
-/// In memory: a building and its name; a tile, its counts and its node in the tree of the city; the network of the ground, for each
-/// of its points; occluders, for each triangle in the tiles; an index of rays over the triangles, and the vertices that it is made
-/// of.
+/// In memory: a building and its name; a tile, its counts and its node in the tree of the city; the network of the ground, for
+/// each of its points; occluders, for each triangle in the tiles; an index of rays over the triangles, and the vertices that it
+/// is made of.
 constexpr double bytes_per_building = 150.0, bytes_per_cell = 500.0, network_bytes_per_point = 200.0;
 constexpr double occluder_bytes_per_triangle = 11.0, ray_index_bytes_per_triangle = 150.0;
 /// Where neither a terrain nor a relief is given, the ground passes through so many of the city's points.

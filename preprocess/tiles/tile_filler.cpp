@@ -135,35 +135,42 @@ void TileFiller::fill_meshes(TileSet& tiles) {
 void TileFiller::fill_mesh_of_block(std::size_t block, const std::vector<Counts>& begins, TileSet& tiles) {
   const CellRange cells = grid_.cells_of(blocks_[block]);
   std::vector<Counts> filled(static_cast<std::size_t>(cells.size()));
+  std::vector<Point3f> polygon;
   for (NoteReader notes(polygons_, block); !notes.is_at_end();) {
     if (notes.has_read_much()) let_go(polygons_);
     const auto [number, surface, corners] = notes.take<3>();
-    Tile& tile = tiles.tiles[number];
-    Counts& done = filled[cells.index_of(grid_.cells.cell_at(number))];
-    Point3f* const vertices = pages_->vertices.data() + begins[number].vertices;
-    const auto first = static_cast<std::uint32_t>(done.vertices);
-    for (std::uint32_t n = 0; n < corners; ++n) {
-      const auto p = std::bit_cast<Point3f>(notes.take<3>());
-      vertices[done.vertices++] = p;
-      tile.z_low_m = std::min(tile.z_low_m, p.z);
-      tile.z_high_m = std::max(tile.z_high_m, p.z);
-    }
-    for (std::uint32_t n = 2; n < corners; ++n) {
-      const std::size_t place = begins[number].triangles + done.triangles++;
-      pages_->triangles[place] = {first, first + n - 1, first + n};
-      pages_->triangle_surfaces[place] = surface;
-    }
+    polygon.resize(corners);
+    for (Point3f& p : polygon) p = std::bit_cast<Point3f>(notes.take<3>());
+    fill_polygon(polygon, surface, begins[number], filled[cells.index_of(grid_.cells.cell_at(number))], tiles.tiles[number]);
   }
   for (std::size_t n = 0; n < filled.size(); ++n) {
     const std::size_t number = grid_.cells.index_of(cells.cell_at(n));
-    Tile& tile = tiles.tiles[number];
-    const auto [vertices, triangles, edges] = filled[n];
-    tile.vertices = TileArray<Point3f>::view_of({pages_->vertices.data() + begins[number].vertices, vertices});
-    tile.triangles = TileArray<Triangle>::view_of({pages_->triangles.data() + begins[number].triangles, triangles});
-    tile.triangle_surfaces =
-        TileArray<std::uint32_t>::view_of({pages_->triangle_surfaces.data() + begins[number].triangles, triangles});
+    view_mesh(begins[number], filled[n], tiles.tiles[number]);
   }
   let_go(polygons_);
+}
+
+/// Writes a polygon behind those of its tile that `filled` counts.
+void TileFiller::fill_polygon(std::span<const Point3f> polygon, std::uint32_t surface, const Counts& begin, Counts& filled,
+                              Tile& tile) {
+  const auto first = static_cast<std::uint32_t>(filled.vertices);
+  for (const Point3f& p : polygon) {
+    pages_->vertices[begin.vertices + filled.vertices++] = p;
+    tile.z_low_m = std::min(tile.z_low_m, p.z);
+    tile.z_high_m = std::max(tile.z_high_m, p.z);
+  }
+  for (std::uint32_t n = 2; n < polygon.size(); ++n) {
+    const std::size_t place = begin.triangles + filled.triangles++;
+    pages_->triangles[place] = {first, first + n - 1, first + n};
+    pages_->triangle_surfaces[place] = surface;
+  }
+}
+
+void TileFiller::view_mesh(const Counts& begin, const Counts& count, Tile& tile) const {
+  tile.vertices = TileArray<Point3f>::view_of({pages_->vertices.data() + begin.vertices, count.vertices});
+  tile.triangles = TileArray<Triangle>::view_of({pages_->triangles.data() + begin.triangles, count.triangles});
+  tile.triangle_surfaces =
+      TileArray<std::uint32_t>::view_of({pages_->triangle_surfaces.data() + begin.triangles, count.triangles});
 }
 
 void TileFiller::fill_edges(TileSet& tiles) {

@@ -64,6 +64,8 @@ class TileFiller {
   [[nodiscard]] std::vector<Counts> begins_of_tiles() const;
   void fill_mesh_of_block(std::size_t block, const std::vector<Counts>& begins, TileSet& tiles);
   void fill_edges_of_block(std::size_t block, const std::vector<Counts>& begins, TileSet& tiles);
+  void fill_polygon(std::span<const Point3f> polygon, std::uint32_t surface, const Counts& begin, Counts& filled, Tile& tile);
+  void view_mesh(const Counts& begin, const Counts& count, Tile& tile) const;
   void let_go(const BlockNotes& notes) const;
 
   const Grid& grid_;

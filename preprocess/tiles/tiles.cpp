@@ -19,7 +19,7 @@
 #include "tiles/ground.hpp"
 #include "tiles/lift_onto_terrain.hpp"
 #include "tiles/metres_text.hpp"
-#include "tiles/relief_thinning.hpp"
+#include "tiles/surveyed_ground.hpp"
 #include "tiles/tile_filler.hpp"
 
 namespace farlod::tiles {
@@ -27,28 +27,6 @@ namespace {
 
 /// Objects that one thread cuts in one batch, and batches that may wait to be placed. This bounds the memory of what waits.
 constexpr std::size_t batch_size = 256, batches_at_once = 16;
-
-std::vector<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& rotation) {
-  std::vector<Point3d> nodes;
-  for (std::size_t row = 0; row < terrain.rows; ++row)
-    for (std::size_t column = 0; column < terrain.columns; ++column)
-      if (const auto& height = terrain.height_m[row * terrain.columns + column]) {
-        const Point2d p_grid = rotation.grid_from_city(terrain.node(column, row));
-        nodes.push_back({p_grid.x, p_grid.y, *height});
-      }
-  return nodes;
-}
-
-/// The ground through the nodes of a raster, or through the points of a relief; nothing when there is neither.
-std::optional<Ground> surveyed_ground(const std::optional<TerrainRaster>& terrain, std::span<const Point3d> relief_points_city,
-                                      const Grid& grid, GroundExtent extent) {
-  if (terrain) return Ground(nodes_of(*terrain, grid.rotation), grid.rectangle(), extent);
-  if (relief_points_city.empty()) return std::nullopt;
-  std::vector<Point3d> points_grid;
-  points_grid.reserve(relief_points_city.size());
-  for (const Point3d& p_city : relief_points_city) points_grid.push_back(grid.rotation.grid_from_city(p_city));
-  return Ground(thinned_relief(std::move(points_grid), grid.rectangle()), grid.rectangle(), extent);
-}
 
 double area_of(std::span<const Point3f> convex_polygon) {
   double area_m2 = 0.0;
@@ -123,13 +101,12 @@ class TileCutter {
     note_ground_heights();
     const auto buildings = city_.buildings();
     Numbers numbers(buildings.size());
-    make_and_place(
-        [&] { return numbers.next(batch_size); }, stop_,
-        [&](std::size_t n) { return cut_building(city_, buildings[n], grid_, assign_, tiles_.height_origin_m); },
-        [&](std::size_t n, BuildingPieces& pieces) {
-          place_building(buildings[n], pieces, report);
-          if (n % CityModel::buildings_held == 0) city_.let_go_before(n);
-        });
+    make_and_place([&] { return numbers.next(batch_size); }, stop_,
+                   [&](std::size_t n) { return cut_building(city_, buildings[n], grid_, assign_, tiles_.height_origin_m); },
+                   [&](std::size_t n, BuildingPieces& pieces) {
+                     place_building(buildings[n], pieces, report);
+                     if (n % CityModel::buildings_held == 0) city_.let_go_before(n);
+                   });
     filler_.fill_meshes(tiles_);
     place_overhanging_buildings();
     filler_.fill_edges(tiles_);
@@ -158,14 +135,13 @@ class TileCutter {
   void place_ground() {
     tiles_.surfaces.push_back({ground_building, 0, 0, SurfaceKind::ground, {0.0, 0.0, 1.0}, 0.0});
     GroundFaces faces(ground_);
-    make_and_place(
-        [&] { return faces.next(batch_size); }, stop_,
-        [&](const GroundFace& face) { return cut_within(face.corners, grid_, tiles_.height_origin_m); },
-        [&](const GroundFace& face, const std::vector<CellPiece>& pieces) {
-          const auto& [a, b, c] = face.corners;
-          tiles_.surfaces[ground_surface].area_m2 += 0.5 * norm(cross(b - a, c - a));
-          for (const CellPiece& piece : pieces) place_ground_piece(piece);
-        });
+    make_and_place([&] { return faces.next(batch_size); }, stop_,
+                   [&](const GroundFace& face) { return cut_within(face.corners, grid_, tiles_.height_origin_m); },
+                   [&](const GroundFace& face, const std::vector<CellPiece>& pieces) {
+                     const auto& [a, b, c] = face.corners;
+                     tiles_.surfaces[ground_surface].area_m2 += 0.5 * norm(cross(b - a, c - a));
+                     for (const CellPiece& piece : pieces) place_ground_piece(piece);
+                   });
   }
 
   void place_ground_piece(const CellPiece& piece) {
@@ -176,12 +152,11 @@ class TileCutter {
 
   void place_ground_edges() {
     GroundFaces faces(ground_);
-    make_and_place(
-        [&] { return faces.next(batch_size); }, stop_, [&](const GroundFace& face) { return cut_edges_of(face); },
-        [&](const GroundFace&, const std::vector<CellEdge>& pieces) {
-          for (const CellEdge& piece : pieces)
-            if (grid_.cells.contains(piece.cell) && !lies_on_rim(piece)) place(piece);
-        });
+    make_and_place([&] { return faces.next(batch_size); }, stop_, [&](const GroundFace& face) { return cut_edges_of(face); },
+                   [&](const GroundFace&, const std::vector<CellEdge>& pieces) {
+                     for (const CellEdge& piece : pieces)
+                       if (grid_.cells.contains(piece.cell) && !lies_on_rim(piece)) place(piece);
+                   });
   }
 
   [[nodiscard]] std::vector<CellEdge> cut_edges_of(const GroundFace& face) const {
