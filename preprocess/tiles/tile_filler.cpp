@@ -52,7 +52,7 @@ class NoteReader {
     return word;
   }
 
-  static constexpr std::size_t chunks_between_pauses = 512;  // 8 MiB
+  static constexpr std::size_t chunks_between_pauses = 128;  // 2 MiB
   std::vector<std::span<const std::uint32_t>> chunks_;
   std::size_t chunk_ = 0, place_ = 0, next_pause_ = chunks_between_pauses;
 };

@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Settings, PackEstimate,
 /// Its summary's peak of the memory, in bytes, and its polygons.
 std::pair<double, double> bytes_and_polygons(const WorkFolder& folder, const std::string& size_m) {
   folder.must("farlod-city -o c.obj --size " + size_m + " --seed 1 --towers 0.3 --rotation 20 --quiet");
-  folder.must("farlod-pack c.obj --crs EPSG:32632 -o c.farlod --force --cell 200 --summary c.json");
+  folder.must("farlod-pack c.obj --crs EPSG:32632 -o c.farlod --force --cell 200 --threads 2 --summary c.json");
   const nlohmann::json summary = folder.json_of("c.json");
   return {1048576.0 * summary.at("peak_memory_mib").get<double>(), summary.at("polygons").get<double>()};
 }
