@@ -36,7 +36,7 @@ inline constexpr double ground_sampling_step_m = 1.0;
 
 /// A triangle of the ground, and those beside it.
 struct GroundFace {
-  std::array<Point3d, 3> corners;                 ///< counter-clockwise seen from above
+  std::array<Point3d, 3> corners;                  ///< counter-clockwise seen from above
   std::array<std::optional<Point3d>, 3> beyond{};  ///< beyond the side opposite of each corner, the third corner of its neighbor
 
   /// Sides that can be a horizon: the convex ones and the border. Of two triangles, one has the side that they share.

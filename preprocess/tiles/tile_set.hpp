@@ -65,7 +65,7 @@ struct TilePages {
 struct TileSet {
   double height_origin_m = 0.0;
   CellRange cells;
-  std::vector<Tile> tiles;  ///< one for each cell, in the order of CellRange::index_of
+  std::vector<Tile> tiles;                 ///< one for each cell, in the order of CellRange::index_of
   std::shared_ptr<const TilePages> pages;  ///< what the tiles view; none where each holds its own
   PagedArray<Surface> surfaces;
   std::vector<std::string> building_ids;
