@@ -66,7 +66,9 @@ GridAlignment align(const LocatedCity& located, const GridSettings& settings, Re
   const Alignment streets = street_alignment(located.city);
   Grid grid = empty_grid(chosen_bearing(streets, settings, report), settings);
   Box2d box_grid;
-  for (const Point3d& p_city : located.city.points()) box_grid.add(grid.rotation.grid_from_city(horizontal(p_city)));
+  located.city.for_each_building([&](std::size_t, const Building& b) {
+    for (const Point3d& p_city : located.city.points_of(b)) box_grid.add(grid.rotation.grid_from_city(horizontal(p_city)));
+  });
   cover(grid, box_grid);
   return {grid, streets};
 }

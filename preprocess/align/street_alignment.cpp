@@ -55,7 +55,7 @@ void append_walls(const CityModel& city, const Building& b, std::vector<Wall>& w
 
 std::vector<Wall> walls_of(const CityModel& city) {
   std::vector<Wall> walls;
-  for (const Building& b : city.buildings()) append_walls(city, b, walls);
+  city.for_each_building([&](std::size_t, const Building& b) { append_walls(city, b, walls); });
   return walls;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/core.h>
+#include <malloc.h>
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
@@ -140,7 +141,11 @@ PackResult pack_as_told(const PackOptions& options, Report& report) {
   RunSettings run;
   run.threads = thread_count(options.run);
   run.memory_limit_mib = options.memory_limit_mib;
-  run.on_progress = [&progress](const Progress& p) { progress.update(p); };
+  run.on_progress = [&progress](const Progress& p) {
+    // What the stage before has freed goes back to the system, however small its pieces were
+    if (p.done == 0) malloc_trim(0);
+    progress.update(p);
+  };
   try {
     return pack(options.settings, report, run, [&](const PackEstimate& e) { progress.show(e); });
   } catch (const ProblemsRefused& refused) {
@@ -179,6 +184,8 @@ int complain(const std::exception& error, int exit_code) {
 
 int main(int argc, char** argv) {
   using namespace farlod;
+  // What one stage frees in large pieces goes back to the system: left to itself, the threshold grows, and keeps them
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
   try {
     const ParsedPackOptions parsed = parse_pack_options(argc, argv);
     return parsed.options ? run(*parsed.options) : parsed.exit_code;

@@ -11,8 +11,8 @@ std::span<const Point3d> CityModel::points_of(const Building& b) const {
   if (b.facet_count == 0) return {};
   const Facet& first = facets_[b.first_facet];
   const Facet& last = facets_[b.first_facet + b.facet_count - 1];
-  const std::uint64_t begin = ring_begin_[first.first_ring];
-  const std::uint64_t end = ring_begin_[last.first_ring + last.ring_count];
+  const std::uint64_t begin = ring_begin(first.first_ring);
+  const std::uint64_t end = ring_begin(last.first_ring + last.ring_count);
   return std::span(points_).subspan(begin, end - begin);
 }
 
@@ -22,14 +22,14 @@ void CityModel::begin_building(std::string id, HeightReference height_reference,
 
 void CityModel::begin_facet(SurfaceKind kind, std::uint32_t surface, std::uint16_t part) {
   FARLOD_EXPECTS(!buildings_.empty());
-  facets_.push_back({ring_begin_.size() - 1, 0, surface, part, kind});
+  facets_.push_back({ring_end_.size(), 0, surface, part, kind});
   ++buildings_.back().facet_count;
 }
 
 void CityModel::add_ring(std::span<const Point3d> points) {
   FARLOD_EXPECTS(!facets_.empty());
-  points_.insert(points_.end(), points.begin(), points.end());
-  ring_begin_.push_back(points_.size());
+  points_.append(points);
+  ring_end_.push_back(points_.size());
   ++facets_.back().ring_count;
 }
 
@@ -38,8 +38,8 @@ void CityModel::drop_last_building() {
   const Building& b = buildings_.back();
   if (b.facet_count > 0) {
     const std::uint64_t ring = facets_[b.first_facet].first_ring;
-    points_.resize(ring_begin_[ring]);
-    ring_begin_.resize(ring + 1);
+    points_.resize(ring_begin(ring));
+    ring_end_.resize(ring);
     facets_.resize(b.first_facet);
   }
   buildings_.pop_back();
@@ -78,7 +78,7 @@ void CityModel::append(CityModel&& other) {
     return;
   }
   const std::uint64_t facet_shift = facets_.size();
-  const std::uint64_t ring_shift = ring_begin_.size() - 1;
+  const std::uint64_t ring_shift = ring_end_.size();
   const std::uint64_t point_shift = points_.size();
   for (Building& b : other.buildings_) {
     b.first_facet += facet_shift;
@@ -88,8 +88,18 @@ void CityModel::append(CityModel&& other) {
     f.first_ring += ring_shift;
     facets_.push_back(f);
   }
-  for (std::size_t r = 1; r < other.ring_begin_.size(); ++r) ring_begin_.push_back(other.ring_begin_[r] + point_shift);
-  points_.insert(points_.end(), other.points_.begin(), other.points_.end());
+  for (const std::uint64_t end : other.ring_end_) ring_end_.push_back(end + point_shift);
+  points_.append(other.points_);
+}
+
+void CityModel::let_go_before(std::size_t building) const {
+  const bool is_end = building >= buildings_.size();
+  const std::uint64_t facet = is_end ? facets_.size() : buildings_[building].first_facet;
+  const std::uint64_t ring = facet < facets_.size() ? facets_[facet].first_ring : ring_end_.size();
+  const std::uint64_t point = ring_begin(ring);
+  facets_.let_go(0, facet);
+  ring_end_.let_go(0, ring);
+  points_.let_go(0, point);
 }
 
 }  // namespace farlod

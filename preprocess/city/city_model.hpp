@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "city/paged_array.hpp"
 #include "contract/expects.hpp"
 #include "farlod/point.hpp"
 #include "farlod/surface_kind.hpp"
@@ -71,15 +72,32 @@ class CityModel {
   /// Appends the buildings of another model; takes it over whole where there is nothing yet.
   void append(CityModel&& other);
 
+  /// Calls visit(n, building) for each building in order. Of what lies on disk (PagedArray), only that of the last few buildings
+  /// takes memory.
+  template <class Visit>
+  void for_each_building(const Visit& visit) const {
+    for (std::size_t n = 0; n < buildings_.size(); ++n) {
+      visit(n, buildings_[n]);
+      if (n % buildings_held == buildings_held - 1) let_go_before(n);
+    }
+    let_go_before(buildings_.size());
+  }
+  static constexpr std::size_t buildings_held = 4096;
+  /// Gives back the memory of the buildings before this one, as far as they lie on disk: they are read again when somebody asks
+  /// for them. May be called while others read.
+  void let_go_before(std::size_t building) const;
+
  private:
   [[nodiscard]] std::span<const Point3d> points_of_ring(std::uint64_t r) const {
-    return std::span(points_).subspan(ring_begin_[r], ring_begin_[r + 1] - ring_begin_[r]);
+    return std::span(points_).subspan(ring_begin(r), ring_end_[r] - ring_begin(r));
   }
 
   std::vector<Building> buildings_;
-  std::vector<Facet> facets_;
-  std::vector<std::uint64_t> ring_begin_{0};  ///< first point of each ring, and one past the last
-  std::vector<Point3d> points_;
+  [[nodiscard]] std::uint64_t ring_begin(std::uint64_t r) const { return r == 0 ? 0 : ring_end_[r - 1]; }
+
+  PagedArray<Facet> facets_;
+  PagedArray<std::uint64_t> ring_end_;  ///< one past the last point of each ring
+  PagedArray<Point3d> points_;
 };
 
 }  // namespace farlod

@@ -24,7 +24,7 @@ constexpr float above_roofs_m = 0.5F;
 
 /// The floors of a cell's layers. The street is the first layer; the others reach up to the highest roof. Their floors are spaced
 /// quadratically: finer below, where most roofs are.
-std::vector<float> levels_of(const Tile& tile, const std::vector<Surface>& surfaces, std::uint32_t layers) {
+std::vector<float> levels_of(const Tile& tile, std::span<const Surface> surfaces, std::uint32_t layers) {
   float ground_low = tile.ground_at_centre_m, ground_high = tile.ground_at_centre_m;
   for (std::size_t n = 0; n < tile.triangles.size(); ++n) {
     if (surfaces[tile.triangle_surfaces[n]].building != ground_building) continue;

@@ -15,6 +15,8 @@ struct FileAxes {
   double before_easting = 0.0;  ///< added to each easting by the file: 32,000,000 if it begins with the zone 32
   double height_unit_m = 1.0;
 
+  bool operator==(const FileAxes&) const = default;
+
   [[nodiscard]] Point3d p_map(const Point3d& p_file) const {
     const bool swap = order == AxisOrder::northing_first;
     return {(swap ? p_file.y : p_file.x) - before_easting, swap ? p_file.x : p_file.y, p_file.z * height_unit_m};

@@ -71,19 +71,18 @@ void locate_problems(const ResolvedSource& resolved, Report& report) {
 void project_buildings(ResolvedSource& resolved, const Projection& projection, const Crs& output, Report& report) {
   std::vector<Point3d> before;
   CityModel& city = resolved.source.city;
-  for (std::size_t n = 0; n < city.buildings().size(); ++n) {
-    const Building& b = city.buildings()[n];
+  city.for_each_building([&](std::size_t, const Building& b) {
     const std::span<Point3d> points = city.points_of(b);
     before.assign(points.begin(), points.end());
     projection(points);
     const auto bad = std::find_if_not(points.begin(), points.end(), is_on_a_map);
-    if (bad == points.end()) continue;
+    if (bad == points.end()) return;
     const Point3d& given = before[static_cast<std::size_t>(bad - points.begin())];
     report.add({ProblemCode::outside_of_projection, resolved.source.source, b.id, detail_of(given, output),
                 resolved.axes.p_file(given)});
     for (Point3d& p : points)
       if (!is_on_a_map(p)) p.x = p.y = std::numeric_limits<double>::infinity();
-  }
+  });
 }
 
 std::string detail_of(std::size_t lost, std::size_t all, const Point3d& first, const Crs& output) {
@@ -142,13 +141,20 @@ void leave_out_misplaced(LocatedCity& located, const Crs& output, Report& report
 /// Moves all points from the projected frame to the city frame. Its origin is the middle of the buildings, or of the relief if
 /// there are no buildings.
 void move_to_origin(LocatedCity& located, const Crs& output) {
-  const std::span<Point3d> relief(located.relief_points), buildings = located.city.points();
+  CityModel& city = located.city;
+  const std::span<Point3d> relief(located.relief_points);
   Box2d box;
-  for (const Point3d& p : buildings.empty() ? relief : buildings) box.add(horizontal(p));
+  const auto add = [&box](std::span<const Point3d> points) {
+    for (const Point3d& p : points) box.add(horizontal(p));
+  };
+  if (city.points().empty()) add(relief);
+  city.for_each_building([&](std::size_t, const Building& b) { add(city.points_of(b)); });
   located.georeference = georeference_around(0.5 * (box.low + box.high), output);
-  const Point2d origin_m = located.georeference.origin_m;
-  for (const auto points : {buildings, relief})
+  const auto move = [origin_m = located.georeference.origin_m](std::span<Point3d> points) {
     for (Point3d& p : points) p = p - Point3d{origin_m.x, origin_m.y, 0.0};
+  };
+  move(relief);
+  city.for_each_building([&](std::size_t, const Building& b) { move(city.points_of(b)); });
 }
 
 bool is_empty(const SourceCity& source) { return source.city.points().empty() && source.relief_points.empty(); }

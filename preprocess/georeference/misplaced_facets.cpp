@@ -62,9 +62,10 @@ struct Cluster {
 
 std::map<Square, Contents> fill_squares(const CityModel& city) {
   std::map<Square, Contents> squares;
-  for (std::size_t b = 0; b < city.buildings().size(); ++b)
-    for (const Facet& facet : city.facets_of(city.buildings()[b]))
-      if (const auto outline = outline_of(city, facet); !is_broken(outline)) squares[square_of(outline.front())].add(b, 1);
+  city.for_each_building([&](std::size_t n, const Building& b) {
+    for (const Facet& facet : city.facets_of(b))
+      if (const auto outline = outline_of(city, facet); !is_broken(outline)) squares[square_of(outline.front())].add(n, 1);
+  });
   return squares;
 }
 
@@ -145,8 +146,9 @@ class MisplacementFinder {
 std::vector<MisplacedFacets> find_misplaced(const CityModel& city) {
   const MisplacementFinder finder(city);
   std::vector<MisplacedFacets> misplaced;
-  for (std::size_t row = 0; row < city.buildings().size(); ++row)
+  city.for_each_building([&](std::size_t row, const Building&) {
     if (auto found = finder.look_at(row)) misplaced.push_back(std::move(*found));
+  });
   return misplaced;
 }
 

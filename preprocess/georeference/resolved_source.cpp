@@ -62,6 +62,12 @@ void normalize_points(std::span<Point3d> points, const FileAxes& axes) {
   for (Point3d& p : points) p = axes.p_map(p);
 }
 
+void normalize_points(SourceCity& source, const FileAxes& axes) {
+  CityModel& city = source.city;
+  city.for_each_building([&](std::size_t, const Building& b) { normalize_points(city.points_of(b), axes); });
+  normalize_points(source.relief_points, axes);
+}
+
 /// The CRS of --crs, unless the coordinates can be in the CRS of the file and cannot be in that of --crs.
 InputCrs resolved_crs(const InputCrs& input, const TypicalPlace& typical) {
   if (!input.own || may_count_in(typical, input.named.crs) || !may_count_in(typical, input.own->named.crs)) return input;
@@ -84,8 +90,7 @@ ResolvedSource resolve(SourceCity source, const InputCrs& given, Report& report)
   if (axes.before_easting != 0.0) of_file.add(ProblemCode::zone_in_easting, detail_of_zone(axes, crs, typical.place));
   const Point2d place = horizontal(axes.p_map(typical.place));
   if (const auto doubt = doubt_about_place(crs, place, typical.building_extent)) of_file.add(ProblemCode::unlikely_place, *doubt);
-  normalize_points(source.city.points(), axes);
-  normalize_points(source.relief_points, axes);
+  if (axes != FileAxes{}) normalize_points(source, axes);
   return {std::move(source), crs, place, axes};
 }
 

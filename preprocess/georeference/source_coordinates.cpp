@@ -46,15 +46,15 @@ std::string text_of(Point2d p) {
 /// By medians, which a few stray buildings do not change.
 TypicalPlace typical_of_buildings(const CityModel& city) {
   std::vector<double> x, y, z, extent, grain;
-  for (const Building& b : city.buildings()) {
+  city.for_each_building([&](std::size_t, const Building& b) {
     const auto points = city.points_of(b);
-    if (points.empty()) continue;
+    if (points.empty()) return;
     x.push_back(points.front().x);
     y.push_back(points.front().y);
     z.push_back(points.front().z);
     extent.push_back(larger_side(points));
     for (const Facet& facet : city.facets_of(b)) grain.push_back(larger_side(city.ring(facet, 0)));
-  }
+  });
   return {
       {median(std::move(x)), median(std::move(y)), median(std::move(z))}, median(std::move(extent)), median(std::move(grain))};
 }

@@ -348,6 +348,7 @@ class Packing {
     if (area_) return area_->write(tiles, far_map, result_, run_);
     PackageWriter writer(settings_.output, settings_.overwrite);
     const FarMapBaker baker = timed("city_index", [&] { return FarMapBaker(tiles, grid, settings_.assign, far_map); });
+    tiles.let_go();
     const std::vector<Block> blocks = grid.blocks();
     double bake_s = 0.0, write_s = 0.0;
     BakedBlock to_write;
@@ -361,6 +362,7 @@ class Packing {
       writing.run([&, block = blocks[n]] {
         const auto begin = Clock::now();
         result_.manifest.blocks.push_back(writer.write_block(tiles, to_write, grid, block, result_.manifest.far_map));
+        tiles.let_go(grid.cells_of(block));
         write_s += seconds_between(begin, Clock::now());
       });
     }

@@ -3,8 +3,12 @@
 #include "pipeline/pack_estimate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <string>
+
+#include "city/pages.hpp"
 
 namespace farlod::pipeline {
 namespace {
@@ -18,11 +22,23 @@ constexpr double tiles_per_city_triangle = 1.7, cut_by_borders_m = 55.0;
 /// n points of the ground make 2n triangles; few of them cross borders.
 constexpr double tiles_per_ground_point = 2.2;
 
-/// Tiles, surfaces, horizon edges, and the city model while it is cut; and an index of rays over the triangles.
-constexpr double memory_bytes_per_triangle = 160.0, ray_index_bytes_per_triangle = 100.0;
 /// The program itself; two blocks of far maps, one of them being written.
-constexpr double memory_mib_of_program = 50.0, memory_mib_of_blocks = 60.0;
+constexpr double memory_mib_of_program = 45.0, memory_mib_of_blocks = 60.0;
 constexpr double cells_of_a_block = 1024.0;
+/// Of a long array, which lies on disk, about so much is in memory.
+constexpr double memory_bytes_of_array_on_disk = 8.0 * 1048576.0;
+/// The long arrays of the city, by its points and its facets.
+constexpr std::array bytes_per_point{24.0};
+constexpr std::array bytes_per_facet{24.0, 8.0, 72.0};
+/// Those of the tiles, by their triangles: polygons and edges as noted down, and vertices, triangles, surfaces and edges.
+constexpr std::array bytes_per_tile_triangle{48.0, 7.0, 36.0, 12.0, 4.0, 6.0};
+/// In memory: a building and its name; a tile, its counts and its node in the tree of the city; the network of the ground, for
+/// each of its points; occluders, for each triangle in the tiles; an index of rays over the triangles, and the vertices that it
+/// is made of.
+constexpr double bytes_per_building = 150.0, bytes_per_cell = 500.0, network_bytes_per_point = 200.0;
+constexpr double occluder_bytes_per_triangle = 11.0, ray_index_bytes_per_triangle = 150.0;
+/// Where neither a terrain nor a relief is given, the ground passes through so many of the city's points.
+constexpr double base_points_per_point = 0.16;
 
 constexpr double package_bytes_per_triangle = 28.0;
 constexpr double package_bytes_per_horizon_map = 10000.0, package_bytes_per_box_map = 6000.0;
@@ -39,6 +55,30 @@ double triangles_in_tiles(const CityModel& city, std::size_t ground_points, cons
   return of_city * (tiles_per_city_triangle + cut_by_borders_m / grid.cell_edge_m) + of_terrain;
 }
 
+double memory_of_arrays(std::span<const double> bytes_per_element, double elements) {
+  double sum = 0.0;
+  for (const double bytes : bytes_per_element) {
+    const double all = bytes * elements;
+    sum += all < static_cast<double>(Pages::least_on_disk) ? all : memory_bytes_of_array_on_disk;
+  }
+  return sum;
+}
+
+double memory_mib(const CityModel& city, std::size_t ground_points, const Grid& grid, double triangles, double maps,
+                  bool is_box) {
+  const auto points = static_cast<double>(city.points().size()), cells = static_cast<double>(grid.cells.size());
+  const double arrays = memory_of_arrays(bytes_per_point, points) +
+                        memory_of_arrays(bytes_per_facet, static_cast<double>(city.facets().size())) +
+                        memory_of_arrays(bytes_per_tile_triangle, triangles);
+  const double always = bytes_per_building * static_cast<double>(city.buildings().size()) + bytes_per_cell * cells;
+  // The network of the ground ends with the tiles, before the far maps
+  const double network =
+      network_bytes_per_point * (ground_points > 0 ? static_cast<double>(ground_points) : base_points_per_point * points);
+  const double far_maps = triangles * (is_box ? ray_index_bytes_per_triangle : occluder_bytes_per_triangle) +
+                          memory_mib_of_blocks * bytes_per_mib * std::min(1.0, maps / cells_of_a_block);
+  return memory_mib_of_program + (arrays + always + std::max(network, far_maps)) / bytes_per_mib;
+}
+
 }  // namespace
 
 PackEstimate estimate_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map,
@@ -51,9 +91,7 @@ PackEstimate estimate_pack(const CityModel& city, std::size_t ground_points, con
   const auto maps = static_cast<double>(e.far_maps);
   e.seconds =
       (triangles * seconds_per_triangle + maps * seconds_per_far_map) / static_cast<double>(std::max<std::size_t>(threads, 1));
-  const double per_triangle = memory_bytes_per_triangle + (is_box ? ray_index_bytes_per_triangle : 0.0);
-  e.memory_mib = memory_mib_of_program + memory_mib_of_blocks * std::min(1.0, maps / cells_of_a_block) +
-                 triangles * per_triangle / bytes_per_mib;
+  e.memory_mib = memory_mib(city, ground_points, grid, triangles, maps, is_box);
   const double per_map = is_box ? package_bytes_per_box_map : package_bytes_per_horizon_map;
   e.package_mib = (triangles * package_bytes_per_triangle + maps * per_map) / bytes_per_mib;
   return e;

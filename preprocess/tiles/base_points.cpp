@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tiles/base_points.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 #include <unordered_map>
 
 #include "city/plan_boxes.hpp"
@@ -28,6 +31,8 @@ Footprint footprint_of(std::span<const Point3d> points) {
   }
   return base;
 }
+
+bool comes_first(const Point3d& a, const Point3d& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
 /// Finds the buildings near a building: buildings are listed by the squares of a coarse grid that their outlines touch.
 class Neighbors {
@@ -122,28 +127,35 @@ class Neighbors {
 std::vector<Base> bases_of(const CityModel& city) {
   std::vector<Footprint> footprints;
   footprints.reserve(city.buildings().size());
-  for (const Building& b : city.buildings()) footprints.push_back(footprint_of(city.points_of(b)));
+  city.for_each_building([&](std::size_t, const Building& b) { footprints.push_back(footprint_of(city.points_of(b))); });
   const Neighbors neighbors(footprints);
   // Find the bases below the ground first: they must not make bridges of their neighbors
-  std::vector<Base> result(footprints.size(), Base::on_ground);
-  for (std::uint32_t n = 0; n < footprints.size(); ++n)
-    if (!footprints[n].outline.empty() && neighbors.is_below_ground(n)) result[n] = Base::below_ground;
-  for (std::uint32_t n = 0; n < footprints.size(); ++n)
-    if (!footprints[n].outline.empty() && result[n] == Base::on_ground && neighbors.is_above_ground(n, result))
+  std::vector<Base> without_bridges(footprints.size(), Base::on_ground);
+  oneapi::tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(footprints.size()), [&](std::uint32_t n) {
+    if (!footprints[n].outline.empty() && neighbors.is_below_ground(n)) without_bridges[n] = Base::below_ground;
+  });
+  std::vector<Base> result = without_bridges;
+  oneapi::tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(footprints.size()), [&](std::uint32_t n) {
+    if (!footprints[n].outline.empty() && result[n] == Base::on_ground && neighbors.is_above_ground(n, without_bridges))
       result[n] = Base::above_ground;
+  });
   return result;
 }
 
 std::vector<Point3d> base_points(const CityModel& city, std::span<const Base> bases) {
-  std::vector<Point3d> result;
-  for (std::size_t n = 0; n < bases.size(); ++n) {
-    if (bases[n] != Base::on_ground) continue;
-    const std::span<const Point3d> points = city.points_of(city.buildings()[n]);
+  std::vector<Point3d> result, of_building;
+  city.for_each_building([&](std::size_t n, const Building& b) {
+    if (bases[n] != Base::on_ground) return;
+    const std::span<const Point3d> points = city.points_of(b);
     double lowest_m = std::numeric_limits<double>::infinity();
     for (const Point3d& p : points) lowest_m = std::min(lowest_m, p.z);
+    of_building.clear();
     for (const Point3d& p : points)
-      if (p.z <= lowest_m + base_thickness_m) result.push_back(p);
-  }
+      if (p.z <= lowest_m + base_thickness_m) of_building.push_back(p);
+    // The floor has each of them, and so have two walls
+    std::sort(of_building.begin(), of_building.end(), comes_first);
+    result.insert(result.end(), of_building.begin(), std::unique(of_building.begin(), of_building.end()));
+  });
   return result;
 }
 

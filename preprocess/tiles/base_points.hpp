@@ -27,7 +27,7 @@ enum class Base : std::uint8_t {
 [[nodiscard]] std::vector<Base> bases_of(const CityModel& city);
 
 /// The points at which buildings meet the ground: the points of each building on the ground that are at most `base_thickness_m`
-/// above its lowest point.
+/// above its lowest point. Each once for each building.
 [[nodiscard]] std::vector<Point3d> base_points(const CityModel& city, std::span<const Base> bases);
 
 inline constexpr double base_thickness_m = 0.01;  ///< bases are drawn to the centimetre

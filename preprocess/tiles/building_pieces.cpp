@@ -122,8 +122,9 @@ class BuildingCutter {
     const auto surface = static_cast<std::uint32_t>(place_of_surface_.at(f.facet->surface));
     for (const Triangle& t : f.triangulation.triangles) {
       const std::array corners{f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c]};
-      for (CellPiece& piece : cut_unless_whole(corners, result_.only_cell, grid_, height_origin_m_))
-        result_.pieces.push_back({std::move(piece), surface});
+      pieces_.clear();
+      cut_unless_whole(corners, result_.only_cell, grid_, height_origin_m_, pieces_);
+      for (const CellPiece& piece : pieces_) result_.pieces.push_back({piece, surface});
     }
   }
 
@@ -153,6 +154,7 @@ class BuildingCutter {
   double height_origin_m_;
   std::vector<TriangulatedFacet> facets_;
   std::map<std::uint32_t, std::size_t> place_of_surface_;
+  std::vector<CellPiece> pieces_;  ///< of one triangle
   BuildingPieces result_;
 };
 

@@ -3,18 +3,38 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "contract/expects.hpp"
 #include "contract/grid.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod::tiles {
 
+/// The corners of a convex polygon. The part of a triangle within a square has at most seven.
+class CellPolygon {
+ public:
+  void push_back(const Point3f& corner) {
+    FARLOD_EXPECTS(size_ < corners_.size());
+    corners_[size_++] = corner;
+  }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const Point3f& operator[](std::size_t n) const { return corners_[n]; }
+  [[nodiscard]] const Point3f* begin() const { return corners_.data(); }
+  [[nodiscard]] const Point3f* end() const { return corners_.data() + size_; }
+
+ private:
+  std::array<Point3f, 7> corners_;
+  std::uint32_t size_ = 0;
+};
+
 /// A convex polygon in one cell, rounded to the cell frame.
 struct CellPiece {
   Cell cell;
-  std::vector<Point3f> polygon;
+  CellPolygon polygon;
 };
 
 /// A point of the grid frame in the frame of `cell`: the one way in which a vertex is rounded.
@@ -28,6 +48,9 @@ struct CellPiece {
 [[nodiscard]] std::vector<CellPiece> cut_unless_whole(const std::array<Point3d, 3>& triangle_grid,
                                                       const std::optional<Cell>& only_cell, const Grid& grid,
                                                       double height_origin_m);
+/// The same, appended to `pieces`.
+void cut_unless_whole(const std::array<Point3d, 3>& triangle_grid, const std::optional<Cell>& only_cell, const Grid& grid,
+                      double height_origin_m, std::vector<CellPiece>& pieces);
 /// The same for a triangle that may reach beyond the grid, as terrains do: only the pieces in cells of the grid.
 [[nodiscard]] std::vector<CellPiece> cut_within(const std::array<Point3d, 3>& triangle_grid, const Grid& grid,
                                                 double height_origin_m);

@@ -128,25 +128,22 @@ Point3f rounded(const ExactCorner& corner, const std::array<Point3d, 3>& triangl
 
 CellPiece whole_triangle(const std::array<Point3d, 3>& triangle, Cell cell, const Grid& grid, double height_origin_m) {
   CellPiece piece{cell, {}};
-  piece.polygon.reserve(triangle.size());
   for (const Point3d& p : triangle) piece.polygon.push_back(cell_from_grid(p, cell, grid, height_origin_m));
   return piece;
 }
 
-std::vector<CellPiece> cut(const std::array<Point3d, 3>& triangle, const Grid& grid, double height_origin_m,
-                           const CellRange& wanted) {
+void cut(const std::array<Point3d, 3>& triangle, const Grid& grid, double height_origin_m, const CellRange& wanted,
+         std::vector<CellPiece>& pieces) {
   // A triangle inside one cell needs no exact arithmetic
   if (const auto cell = cell_of_all(triangle, grid)) {
-    if (!wanted.contains(*cell)) return {};
-    return {whole_triangle(triangle, *cell, grid, height_origin_m)};
+    if (wanted.contains(*cell)) pieces.push_back(whole_triangle(triangle, *cell, grid, height_origin_m));
+    return;
   }
-  std::vector<CellPiece> pieces;
   for (const ExactPiece& exact : cut_exactly(triangle, grid, wanted)) {
     CellPiece& piece = pieces.emplace_back(CellPiece{exact.cell, {}});
     for (const ExactCorner& corner : exact.polygon)
       piece.polygon.push_back(rounded(corner, triangle, exact.cell, grid, height_origin_m));
   }
-  return pieces;
 }
 
 }  // namespace
@@ -158,17 +155,30 @@ Point3f cell_from_grid(const Point3d& p_grid, Cell cell, const Grid& grid, doubl
 }
 
 std::vector<CellPiece> cut(const std::array<Point3d, 3>& triangle, const Grid& grid, double height_origin_m) {
-  return cut(triangle, grid, height_origin_m, all_cells);
+  std::vector<CellPiece> pieces;
+  cut(triangle, grid, height_origin_m, all_cells, pieces);
+  return pieces;
 }
 
 std::vector<CellPiece> cut_unless_whole(const std::array<Point3d, 3>& triangle, const std::optional<Cell>& only_cell,
                                         const Grid& grid, double height_origin_m) {
-  if (only_cell) return {whole_triangle(triangle, *only_cell, grid, height_origin_m)};
-  return cut(triangle, grid, height_origin_m);
+  std::vector<CellPiece> pieces;
+  cut_unless_whole(triangle, only_cell, grid, height_origin_m, pieces);
+  return pieces;
+}
+
+void cut_unless_whole(const std::array<Point3d, 3>& triangle, const std::optional<Cell>& only_cell, const Grid& grid,
+                      double height_origin_m, std::vector<CellPiece>& pieces) {
+  if (only_cell)
+    pieces.push_back(whole_triangle(triangle, *only_cell, grid, height_origin_m));
+  else
+    cut(triangle, grid, height_origin_m, all_cells, pieces);
 }
 
 std::vector<CellPiece> cut_within(const std::array<Point3d, 3>& triangle, const Grid& grid, double height_origin_m) {
-  return cut(triangle, grid, height_origin_m, grid.cells);
+  std::vector<CellPiece> pieces;
+  cut(triangle, grid, height_origin_m, grid.cells, pieces);
+  return pieces;
 }
 
 }  // namespace farlod::tiles

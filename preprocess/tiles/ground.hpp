@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "contract/ground_contact.hpp"
@@ -32,6 +34,15 @@ inline constexpr double ground_sampling_step_m = 1.0;
   return static_cast<int>(std::ceil(std::max(1.0, run_m / ground_sampling_step_m)));
 }
 
+/// A triangle of the ground, and those beside it.
+struct GroundFace {
+  std::array<Point3d, 3> corners;                  ///< counter-clockwise seen from above
+  std::array<std::optional<Point3d>, 3> beyond{};  ///< beyond the side opposite of each corner, the third corner of its neighbor
+
+  /// Sides that can be a horizon: the convex ones and the border. Of two triangles, one has the side that they share.
+  [[nodiscard]] std::vector<HorizonSegment> horizon_edges() const;
+};
+
 /// The ground: a triangulated irregular network (Delaunay in the plane) through points of known height.
 ///   (1) Of several points at one place in the plane, the lowest counts.
 ///   (2) It covers the rectangle, or the convex hull of its points, according to its extent.
@@ -46,10 +57,25 @@ class Ground {
 
   /// Height of the ground; beyond it, the height of the nearest point. Not thread-safe.
   [[nodiscard]] double height_at(Point2d p_grid) const;
-  /// All triangles, counter-clockwise seen from above, in a fixed order.
-  [[nodiscard]] std::vector<std::array<Point3d, 3>> triangles() const;
-  /// Edges of the triangles that can be a horizon: the convex ones and the border, in a fixed order.
-  [[nodiscard]] std::vector<HorizonSegment> horizon_edges() const;
+  /// Of all corners of its triangles; nothing when it has none.
+  [[nodiscard]] std::optional<double> lowest_m() const;
+
+ private:
+  friend class GroundFaces;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Hands out all triangles of a ground, in a fixed order and a few at a time: a city has more of them than there is memory.
+class GroundFaces {
+ public:
+  /// The ground must outlive this, and must not move.
+  explicit GroundFaces(const Ground& ground);
+  GroundFaces(GroundFaces&&) noexcept;
+  ~GroundFaces();
+
+  /// The next ones, at most so many; none at the end.
+  [[nodiscard]] std::vector<GroundFace> next(std::size_t most);
 
  private:
   struct Impl;

@@ -3,6 +3,7 @@
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Projection_traits_xy_3.h>
+#include <CGAL/spatial_sort.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +42,13 @@ double height_of_nearest(const Network& network, Point2d p) {
   return height;
 }
 
+/// What Network::insert does with a range, but for the copy that it makes of the points.
+void insert_all(std::vector<Kernel::Point_3> points, Network& network) {
+  CGAL::spatial_sort(points.begin(), points.end(), network.geom_traits());
+  Network::Face_handle hint;
+  for (const Kernel::Point_3& p : points) hint = network.insert(p, hint)->face();
+}
+
 Point3d from_cgal(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
 }  // namespace
@@ -56,8 +64,9 @@ Ground::Ground(std::vector<Point3d> points, const Box2d& rectangle, GroundExtent
   std::vector<Kernel::Point_3> input;
   input.reserve(points.size());
   for (const Point3d& p : points) input.emplace_back(p.x, p.y, p.z);
+  points = {};
   Network& network = impl_->network;
-  network.insert(input.begin(), input.end());
+  insert_all(std::move(input), network);
   if (extent == GroundExtent::points) return;
   // Compute all heights before the first insertion, so that no corner is the nearest point of another one. Corners inside the
   // network do not change it
@@ -84,33 +93,52 @@ double Ground::height_at(Point2d p) const {
   return a.z - (n.x * (p.x - a.x) + n.y * (p.y - a.y)) / n.z;
 }
 
-std::vector<std::array<Point3d, 3>> Ground::triangles() const {
-  std::vector<std::array<Point3d, 3>> result;
-  result.reserve(impl_->network.number_of_faces());
-  for (auto face = impl_->network.finite_faces_begin(); face != impl_->network.finite_faces_end(); ++face)
-    result.push_back(
-        {from_cgal(face->vertex(0)->point()), from_cgal(face->vertex(1)->point()), from_cgal(face->vertex(2)->point())});
+std::optional<double> Ground::lowest_m() const {
+  const Network& network = impl_->network;
+  if (network.dimension() < 2) return std::nullopt;
+  double lowest_m = std::numeric_limits<double>::infinity();
+  for (auto v = network.finite_vertices_begin(); v != network.finite_vertices_end(); ++v)
+    lowest_m = std::min(lowest_m, v->point().z());
+  return lowest_m;
+}
+
+std::vector<HorizonSegment> GroundFace::horizon_edges() const {
+  std::vector<HorizonSegment> result;
+  for (std::size_t opposite = 0; opposite < 3; ++opposite) {
+    const Point3d &a = corners[(opposite + 1) % 3], &b = corners[(opposite + 2) % 3];
+    const std::optional<Point3d>& neighbor = beyond[opposite];
+    if (neighbor && std::pair(b.x, b.y) < std::pair(a.x, a.y)) continue;  // added by the other face
+    EdgeSides edge(a, b);
+    edge.add(corners[opposite], FacetLook::up);
+    if (neighbor) edge.add(*neighbor, FacetLook::up);
+    if (edge.can_be_horizon()) result.push_back({edge.edge(), edge.adjacent()});
+  }
   return result;
 }
 
-std::vector<HorizonSegment> Ground::horizon_edges() const {
-  const Network& network = impl_->network;
-  std::vector<HorizonSegment> result;
-  if (network.dimension() < 2) return result;
-  // Iterate over faces: finite_edges chooses between the two faces of an edge by their addresses, which differ from run to run
-  for (auto face = network.finite_faces_begin(); face != network.finite_faces_end(); ++face)
-    for (int opposite = 0; opposite < 3; ++opposite) {
-      const Point3d a = from_cgal(face->vertex(Network::ccw(opposite))->point());
-      const Point3d b = from_cgal(face->vertex(Network::cw(opposite))->point());
-      const Network::Edge mirrored = network.mirror_edge({face, opposite});
-      const bool has_two_faces = !network.is_infinite(mirrored.first);
-      if (has_two_faces && std::pair(b.x, b.y) < std::pair(a.x, a.y)) continue;  // added by the other face
-      EdgeSides edge(a, b);
-      edge.add(from_cgal(face->vertex(opposite)->point()), FacetLook::up);
-      if (has_two_faces) edge.add(from_cgal(mirrored.first->vertex(mirrored.second)->point()), FacetLook::up);
-      if (edge.can_be_horizon()) result.push_back({edge.edge(), edge.adjacent()});
+// It goes over faces: finite_edges chooses between the two faces of an edge by their addresses, which differ from run to run
+struct GroundFaces::Impl {
+  const Network& network;
+  Network::Finite_faces_iterator face = network.finite_faces_begin();
+};
+
+GroundFaces::GroundFaces(const Ground& ground) : impl_(new Impl{ground.impl_->network}) {}
+GroundFaces::GroundFaces(GroundFaces&&) noexcept = default;
+GroundFaces::~GroundFaces() = default;
+
+std::vector<GroundFace> GroundFaces::next(std::size_t most) {
+  auto& [network, face] = *impl_;
+  std::vector<GroundFace> faces;
+  for (; faces.size() < most && face != network.finite_faces_end(); ++face) {
+    GroundFace& found = faces.emplace_back();
+    for (int n = 0; n < 3; ++n) {
+      const auto place = static_cast<std::size_t>(n);
+      found.corners[place] = from_cgal(face->vertex(n)->point());
+      const auto [beyond, third] = network.mirror_edge({face, n});
+      if (!network.is_infinite(beyond)) found.beyond[place] = from_cgal(beyond->vertex(third)->point());
     }
-  return result;
+  }
+  return faces;
 }
 
 }  // namespace farlod::tiles

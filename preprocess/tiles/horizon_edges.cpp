@@ -3,8 +3,8 @@
 #include "tiles/horizon_edges.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <functional>
 #include <tuple>
 #include <utility>
 
@@ -191,18 +191,43 @@ bool EdgeSides::can_be_horizon() const {
   return left_rad_ + right_rad_ < -angle_tolerance_rad;
 }
 
-std::size_t EdgeTable::Hash::operator()(const Segment3d& s) const {
-  std::size_t seed = 0;
-  for (const double x : {s.a.x, s.a.y, s.a.z, s.b.x, s.b.y, s.b.z})
-    seed ^= std::hash<double>{}(x) + 0x9E3779B97F4A7C15U + (seed << 6) + (seed >> 2);
-  return seed;
+namespace {
+
+std::uint64_t hash_of(const Segment3d& s) {
+  // The multiplier of splitmix64 (Steele et al. 2014), so that the few bits in which neighbors differ reach all others
+  std::uint64_t sum = 0;
+  for (const double x : {s.a.x, s.a.y, s.a.z, s.b.x, s.b.y, s.b.z}) {
+    sum = (sum ^ std::bit_cast<std::uint64_t>(x)) * 0xBF58476D1CE4E5B9U;
+    sum ^= sum >> 31U;
+  }
+  return sum;
+}
+
+}  // namespace
+
+/// The slot of the edge with these ends, or the free one where it belongs.
+std::uint32_t& EdgeTable::slot_of(const Segment3d& key) {
+  const std::size_t last = slots_.size() - 1;  // their number is a power of two
+  std::size_t n = hash_of(key) & last;
+  while (slots_[n] != no_edge && edges_[slots_[n]].edge() != key) n = (n + 1) & last;
+  return slots_[n];
+}
+
+void EdgeTable::grow() {
+  constexpr std::size_t least = 64;
+  slots_.assign(std::max(least, std::bit_ceil(4 * edges_.size())), no_edge);
+  for (std::uint32_t n = 0; n < edges_.size(); ++n) slot_of(edges_[n].edge()) = n;
 }
 
 void EdgeTable::add_edge(const Point3d& a, const Point3d& b, const Point3d& opposite, FacetLook look) {
   const Segment3d key = comes_first(a, b) ? Segment3d{a, b} : Segment3d{b, a};
-  const auto [entry, is_new] = place_of_.try_emplace(key, edges_.size());
-  if (is_new) edges_.emplace_back(key.a, key.b);
-  edges_[entry->second].add(opposite, look);
+  if (2 * (edges_.size() + 1) > slots_.size()) grow();
+  std::uint32_t& slot = slot_of(key);
+  if (slot == no_edge) {
+    slot = static_cast<std::uint32_t>(edges_.size());
+    edges_.emplace_back(key.a, key.b);
+  }
+  edges_[slot].add(opposite, look);
 }
 
 void EdgeTable::add_triangle(const Point3d& corner_a, const Point3d& corner_b, const Point3d& corner_c, FacetLook look) {

@@ -7,7 +7,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "contract/grid.hpp"
@@ -100,13 +99,15 @@ class EdgeTable {
   [[nodiscard]] std::vector<HorizonSegment> horizon_edges() const;
 
  private:
-  struct Hash {
-    std::size_t operator()(const Segment3d& s) const;
-  };
   void add_edge(const Point3d& a, const Point3d& b, const Point3d& opposite, FacetLook look);
+  [[nodiscard]] std::uint32_t& slot_of(const Segment3d& key);
+  void grow();
 
+  static constexpr std::uint32_t no_edge = 0xFFFFFFFF;
   std::vector<EdgeSides> edges_;
-  std::unordered_map<Segment3d, std::size_t, Hash> place_of_;
+  /// A hash table with open addressing: places in edges_, at least half of the slots free. A node for each edge would take as
+  /// long to make as all the rest.
+  std::vector<std::uint32_t> slots_;
 };
 
 /// The lower borders of the facets of a building: the edges, or parts of edges, below which no facet continues.

@@ -4,25 +4,28 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "city/paged_array.hpp"
 #include "contract/grid.hpp"
 #include "contract/horizon/horizon_edge.hpp"
 #include "contract/mesh_view.hpp"
 #include "farlod/pack.hpp"
 #include "farlod/surface_kind.hpp"
+#include "tiles/tile_array.hpp"
 
 namespace farlod {
 
 /// The geometry that one cell owns. Vertices are in the cell frame: x and y from the cell's south-west corner, heights
 /// from TileSet::height_origin_m.
 struct Tile {
-  std::vector<Point3f> vertices;
-  std::vector<Triangle> triangles;
-  std::vector<std::uint32_t> triangle_surfaces;  ///< for each triangle, its number in TileSet::surfaces
+  TileArray<Point3f> vertices;
+  TileArray<Triangle> triangles;
+  TileArray<std::uint32_t> triangle_surfaces;  ///< for each triangle, its number in TileSet::surfaces
   /// The edges of the ground and of buildings that can be silhouettes, cut at the cell's borders.
-  std::vector<HorizonEdge> horizon_edges;
+  TileArray<HorizonEdge> horizon_edges;
   float z_low_m = std::numeric_limits<float>::infinity();
   float z_high_m = -std::numeric_limits<float>::infinity();
   float ground_at_centre_m = 0.0F;
@@ -48,12 +51,23 @@ inline constexpr std::uint32_t ground_building = 0xFFFFFFFF;
 /// The ground is the first surface of every tile set.
 inline constexpr std::uint32_t ground_surface = 0;
 
+/// What the tiles of a city hold, one tile after the other and block by block: a city has more of it than there is memory.
+struct TilePages {
+  PagedArray<Point3f> vertices;
+  PagedArray<Triangle> triangles;
+  PagedArray<std::uint32_t> triangle_surfaces;
+  PagedArray<HorizonEdge> horizon_edges;
+
+  void let_go() const;
+};
+
 /// The whole city, cut into the cells of the grid. The tiles are a partition of it.
 struct TileSet {
   double height_origin_m = 0.0;
   CellRange cells;
-  std::vector<Tile> tiles;  ///< one for each cell, in the order of CellRange::index_of
-  std::vector<Surface> surfaces;
+  std::vector<Tile> tiles;                 ///< one for each cell, in the order of CellRange::index_of
+  std::shared_ptr<const TilePages> pages;  ///< what the tiles view; none where each holds its own
+  PagedArray<Surface> surfaces;
   std::vector<std::string> building_ids;
   std::uint64_t polygon_count = 0;     ///< surfaces of buildings
   std::uint64_t foundation_count = 0;  ///< buildings whose lowest floor was closed down to the ground
@@ -61,6 +75,11 @@ struct TileSet {
   [[nodiscard]] const Tile& tile(Cell c) const { return tiles[cells.index_of(c)]; }
   [[nodiscard]] Tile& tile(Cell c) { return tiles[cells.index_of(c)]; }
   [[nodiscard]] std::uint64_t triangle_count() const;
+  /// Gives back the memory of what the tiles of one block hold, as far as it lies on disk, and that of the surfaces. What is
+  /// asked for later is read again. May be called while others read.
+  void let_go(const CellRange& block) const;
+  /// The same for all tiles.
+  void let_go() const;
 };
 
 }  // namespace farlod

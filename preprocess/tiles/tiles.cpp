@@ -19,35 +19,14 @@
 #include "tiles/ground.hpp"
 #include "tiles/lift_onto_terrain.hpp"
 #include "tiles/metres_text.hpp"
-#include "tiles/relief_thinning.hpp"
+#include "tiles/surveyed_ground.hpp"
+#include "tiles/tile_filler.hpp"
 
 namespace farlod::tiles {
 namespace {
 
 /// Objects that one thread cuts in one batch, and batches that may wait to be placed. This bounds the memory of what waits.
 constexpr std::size_t batch_size = 256, batches_at_once = 16;
-
-std::vector<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& rotation) {
-  std::vector<Point3d> nodes;
-  for (std::size_t row = 0; row < terrain.rows; ++row)
-    for (std::size_t column = 0; column < terrain.columns; ++column)
-      if (const auto& height = terrain.height_m[row * terrain.columns + column]) {
-        const Point2d p_grid = rotation.grid_from_city(terrain.node(column, row));
-        nodes.push_back({p_grid.x, p_grid.y, *height});
-      }
-  return nodes;
-}
-
-/// The ground through the nodes of a raster, or through the points of a relief; nothing when there is neither.
-std::optional<Ground> surveyed_ground(const std::optional<TerrainRaster>& terrain, std::span<const Point3d> relief_points_city,
-                                      const Grid& grid, GroundExtent extent) {
-  if (terrain) return Ground(nodes_of(*terrain, grid.rotation), grid.rectangle(), extent);
-  if (relief_points_city.empty()) return std::nullopt;
-  std::vector<Point3d> points_grid;
-  points_grid.reserve(relief_points_city.size());
-  for (const Point3d& p_city : relief_points_city) points_grid.push_back(grid.rotation.grid_from_city(p_city));
-  return Ground(thinned_relief(std::move(points_grid), grid.rectangle()), grid.rectangle(), extent);
-}
 
 double area_of(std::span<const Point3f> convex_polygon) {
   double area_m2 = 0.0;
@@ -56,33 +35,47 @@ double area_of(std::span<const Point3f> convex_polygon) {
   return area_m2;
 }
 
-/// Calls place(n, make(n)) for each n below `count`. The calls of `make` run in parallel; those of `place` run in order, one at a
-/// time.
-template <class Make, class Place>
-void make_and_place(std::size_t count, const std::stop_token& stop, const Make& make, const Place& place) {
+/// Calls place(item, make(item)) for each item that `next` hands out: some at a time, none at the end. The calls of `make` run in
+/// parallel; those of `place` run in order, one at a time.
+template <class Next, class Make, class Place>
+void make_and_place(const Next& next, const std::stop_token& stop, const Make& make, const Place& place) {
   namespace tbb = oneapi::tbb;
-  using Made = std::vector<decltype(make(std::size_t{0}))>;
-  using Batch = std::pair<std::size_t, Made>;
-  std::size_t next = 0;
+  using Items = decltype(next());
+  using Batch = std::pair<Items, std::vector<decltype(make(std::declval<Items>().front()))>>;
   const auto begin_batch = [&](tbb::flow_control& flow) {
-    if (next >= count) flow.stop();
-    return std::exchange(next, next + batch_size);
+    Items items = next();
+    if (items.empty()) flow.stop();
+    return items;
   };
-  const auto make_batch = [&](std::size_t first) {
-    Batch batch{first, {}};
-    for (std::size_t n = first; n < std::min(first + batch_size, count); ++n) {
+  const auto make_batch = [&](Items items) {
+    Batch batch{std::move(items), {}};
+    for (const auto& item : batch.first) {
       throw_if_cancelled(stop);
-      batch.second.push_back(make(n));
+      batch.second.push_back(make(item));
     }
     return batch;
   };
   const auto place_batch = [&](Batch batch) {
-    for (std::size_t k = 0; k < batch.second.size(); ++k) place(batch.first + k, batch.second[k]);
+    for (std::size_t k = 0; k < batch.second.size(); ++k) place(batch.first[k], batch.second[k]);
   };
-  tbb::parallel_pipeline(batches_at_once, tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, begin_batch) &
-                                              tbb::make_filter<std::size_t, Batch>(tbb::filter_mode::parallel, make_batch) &
+  tbb::parallel_pipeline(batches_at_once, tbb::make_filter<void, Items>(tbb::filter_mode::serial_in_order, begin_batch) &
+                                              tbb::make_filter<Items, Batch>(tbb::filter_mode::parallel, make_batch) &
                                               tbb::make_filter<Batch, void>(tbb::filter_mode::serial_in_order, place_batch));
 }
+
+/// Hands out the numbers below `count`.
+class Numbers {
+ public:
+  explicit Numbers(std::size_t count) : count_(count) {}
+  std::vector<std::size_t> next(std::size_t most) {
+    std::vector<std::size_t> numbers;
+    for (; numbers.size() < most && next_ < count_; ++next_) numbers.push_back(next_);
+    return numbers;
+  }
+
+ private:
+  std::size_t count_, next_ = 0;
+};
 
 class TileCutter {
  public:
@@ -96,7 +89,7 @@ class TileCutter {
         ground_(std::move(ground)),
         bases_(bases),
         stop_(std::move(stop)),
-        ground_triangles_(ground_.triangles()) {
+        filler_(grid) {
     tiles_.cells = grid.cells;
     tiles_.tiles.resize(static_cast<std::size_t>(grid.cells.size()));
     tiles_.height_origin_m = lowest_whole_metre();
@@ -107,11 +100,16 @@ class TileCutter {
     place_ground_edges();
     note_ground_heights();
     const auto buildings = city_.buildings();
-    make_and_place(
-        buildings.size(), stop_,
-        [&](std::size_t n) { return cut_building(city_, buildings[n], grid_, assign_, tiles_.height_origin_m); },
-        [&](std::size_t n, BuildingPieces& pieces) { place_building(buildings[n], pieces, report); });
+    Numbers numbers(buildings.size());
+    make_and_place([&] { return numbers.next(batch_size); }, stop_,
+                   [&](std::size_t n) { return cut_building(city_, buildings[n], grid_, assign_, tiles_.height_origin_m); },
+                   [&](std::size_t n, BuildingPieces& pieces) {
+                     place_building(buildings[n], pieces, report);
+                     if (n % CityModel::buildings_held == 0) city_.let_go_before(n);
+                   });
+    filler_.fill_meshes(tiles_);
     place_overhanging_buildings();
+    filler_.fill_edges(tiles_);
     return std::move(tiles_);
   }
 
@@ -127,23 +125,23 @@ class TileCutter {
   };
 
   [[nodiscard]] double lowest_whole_metre() const {
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const Point3d& p : city_.points()) lowest = std::min(lowest, p.z);
-    for (const auto& triangle : ground_triangles_)
-      for (const Point3d& p : triangle) lowest = std::min(lowest, p.z);
+    double lowest = ground_.lowest_m().value_or(std::numeric_limits<double>::infinity());
+    city_.for_each_building([&](std::size_t, const Building& b) {
+      for (const Point3d& p : city_.points_of(b)) lowest = std::min(lowest, p.z);
+    });
     return std::isfinite(lowest) ? std::floor(lowest) : 0.0;
   }
 
   void place_ground() {
     tiles_.surfaces.push_back({ground_building, 0, 0, SurfaceKind::ground, {0.0, 0.0, 1.0}, 0.0});
-    const std::vector<std::array<Point3d, 3>> triangles = std::move(ground_triangles_);  // freed before the buildings are cut
-    make_and_place(
-        triangles.size(), stop_, [&](std::size_t n) { return cut_within(triangles[n], grid_, tiles_.height_origin_m); },
-        [&](std::size_t n, const std::vector<CellPiece>& pieces) {
-          const auto& [a, b, c] = triangles[n];
-          tiles_.surfaces[ground_surface].area_m2 += 0.5 * norm(cross(b - a, c - a));
-          for (const CellPiece& piece : pieces) place_ground_piece(piece);
-        });
+    GroundFaces faces(ground_);
+    make_and_place([&] { return faces.next(batch_size); }, stop_,
+                   [&](const GroundFace& face) { return cut_within(face.corners, grid_, tiles_.height_origin_m); },
+                   [&](const GroundFace& face, const std::vector<CellPiece>& pieces) {
+                     const auto& [a, b, c] = face.corners;
+                     tiles_.surfaces[ground_surface].area_m2 += 0.5 * norm(cross(b - a, c - a));
+                     for (const CellPiece& piece : pieces) place_ground_piece(piece);
+                   });
   }
 
   void place_ground_piece(const CellPiece& piece) {
@@ -153,13 +151,21 @@ class TileCutter {
   }
 
   void place_ground_edges() {
-    const std::vector<HorizonSegment> edges = ground_.horizon_edges();
-    make_and_place(
-        edges.size(), stop_, [&](std::size_t n) { return cut_edge(edges[n], grid_, tiles_.height_origin_m); },
-        [&](std::size_t, const std::vector<CellEdge>& pieces) {
-          for (const CellEdge& piece : pieces)
-            if (grid_.cells.contains(piece.cell) && !lies_on_rim(piece)) place(piece);
-        });
+    GroundFaces faces(ground_);
+    make_and_place([&] { return faces.next(batch_size); }, stop_, [&](const GroundFace& face) { return cut_edges_of(face); },
+                   [&](const GroundFace&, const std::vector<CellEdge>& pieces) {
+                     for (const CellEdge& piece : pieces)
+                       if (grid_.cells.contains(piece.cell) && !lies_on_rim(piece)) place(piece);
+                   });
+  }
+
+  [[nodiscard]] std::vector<CellEdge> cut_edges_of(const GroundFace& face) const {
+    std::vector<CellEdge> pieces;
+    for (const HorizonSegment& edge : face.horizon_edges()) {
+      const std::vector<CellEdge> of_edge = cut_edge(edge, grid_, tiles_.height_origin_m);
+      pieces.insert(pieces.end(), of_edge.begin(), of_edge.end());
+    }
+    return pieces;
   }
 
   void note_ground_heights() {
@@ -172,7 +178,7 @@ class TileCutter {
   /// The grid covers all buildings: a piece beyond it would be a bug.
   void place(const CellPiece& piece, std::uint32_t surface) {
     FARLOD_EXPECTS(grid_.cells.contains(piece.cell));
-    tiles_.tile(piece.cell).add_polygon(piece.polygon, surface);
+    filler_.add_polygon(piece.cell, piece.polygon, surface);
   }
 
   /// The cut along the outer border of the grid is an edge of the remaining ground.
@@ -194,7 +200,7 @@ class TileCutter {
 
   void place(const CellEdge& piece) {
     FARLOD_EXPECTS(grid_.cells.contains(piece.cell));
-    tiles_.tile(piece.cell).horizon_edges.push_back(piece.edge);
+    filler_.add_edge(piece.cell, piece.edge);
   }
 
   void place_building(const Building& building, BuildingPieces& cut_building, Report& report) {
@@ -354,8 +360,8 @@ class TileCutter {
   Ground ground_;
   std::span<const Base> bases_;  ///< for each building
   std::stop_token stop_;
-  std::vector<std::array<Point3d, 3>> ground_triangles_;
   std::vector<OverhangingBuilding> overhanging_;
+  TileFiller filler_;
   TileSet tiles_;
 };
 
@@ -374,7 +380,9 @@ TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, con
   };
   lift_onto_terrain(located, ground_height, report);
   CityModel city = std::move(located.city);
-  for (Point3d& p : city.points()) p = grid.rotation.grid_from_city(p);  // exactness begins here
+  city.for_each_building([&](std::size_t, const Building& b) {
+    for (Point3d& p : city.points_of(b)) p = grid.rotation.grid_from_city(p);  // exactness begins here
+  });
   // The bases of buildings define the ground only where no survey does
   const std::vector<Base> bases = surveyed ? std::vector(city.buildings().size(), Base::on_ground) : bases_of(city);
   Ground ground = surveyed ? std::move(*surveyed) : Ground(base_points(city, bases), grid.rectangle(), extent);

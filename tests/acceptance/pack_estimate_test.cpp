@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <utility>
+
 #include "console/exit_code.hpp"
 #include "tests/acceptance/work_folder.hpp"
 
@@ -36,6 +38,25 @@ TEST_P(PackEstimate, KeepsItsPromise) {
 }
 INSTANTIATE_TEST_SUITE_P(Settings, PackEstimate,
                          testing::Values("--cell 50", "--cell 25", "--cell 100", "--far-map box", "--neighborhood 7"));
+
+/// Its summary's peak of the memory, in bytes, and its polygons.
+std::pair<double, double> bytes_and_polygons(const WorkFolder& folder, const std::string& size_m) {
+  folder.must("farlod-city -o c.obj --size " + size_m + " --seed 1 --towers 0.3 --rotation 20 --quiet");
+  folder.must("farlod-pack c.obj --crs EPSG:32632 -o c.farlod --force --cell 200 --threads 2 --summary c.json");
+  const nlohmann::json summary = folder.json_of("c.json");
+  return {1048576.0 * summary.at("peak_memory_mib").get<double>(), summary.at("polygons").get<double>()};
+}
+
+TEST(PackMemory, GrowsByLessThanTheCityAndItsTiles) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer keeps memory of its own";
+#endif
+  const WorkFolder folder;
+  const auto [bytes_of_town, polygons_of_town] = bytes_and_polygons(folder, "1000");
+  const auto [bytes_of_city, polygons_of_city] = bytes_and_polygons(folder, "5000");
+  // With the city and its tiles in memory it was 690 bytes; where they lie on disk, 410
+  EXPECT_LT((bytes_of_city - bytes_of_town) / (polygons_of_city - polygons_of_town), 550.0);
+}
 
 using PackLimit = PackEstimate;
 

@@ -49,6 +49,4 @@ std::uintmax_t most_unpacked_bytes(std::uintmax_t packed_bytes) {
 
 std::string read_beginning(const InputFile& file, std::size_t most_bytes) { return read_from(*open_input(file), most_bytes); }
 
-std::string read_whole(const InputFile& file) { return read_beginning(file, std::numeric_limits<std::size_t>::max()); }
-
 }  // namespace farlod::ingest

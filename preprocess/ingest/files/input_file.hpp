@@ -42,9 +42,6 @@ struct InputFile {
 /// The first unpacked bytes of a file, at most `most_bytes`. Throws as open_input does.
 [[nodiscard]] std::string read_beginning(const InputFile& file, std::size_t most_bytes);
 
-/// All unpacked bytes of a file. Throws as open_input does.
-[[nodiscard]] std::string read_whole(const InputFile& file);
-
 /// As read_beginning, for a small file beside a city, which need not exist.
 [[nodiscard]] std::optional<std::string> find_beginning(const InputFile& file, std::size_t most_bytes);
 

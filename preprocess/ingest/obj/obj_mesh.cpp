@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace farlod::ingest {
 namespace {
 
+constexpr std::size_t piece_bytes = std::size_t{1} << 20;
 constexpr std::string_view blanks = " \t\r\v\f", byte_order_mark = "\xEF\xBB\xBF";
 
 std::string_view trimmed(std::string_view text) {
@@ -34,18 +36,36 @@ double coordinate_from(std::string_view word) {
 
 class ObjScanner {
  public:
-  ObjMesh scan(std::string_view text) {
-    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-    while (!text.empty()) {
-      const std::size_t end = std::min(text.find('\n'), text.size());
-      take_line(text.substr(0, end));
-      text.remove_prefix(std::min(end + 1, text.size()));
+  ObjMesh scan(std::istream& stream) {
+    std::string text;  // a piece of the file, and before it what the piece before it began
+    for (bool is_first = true; read_piece(stream, text); is_first = false) {
+      if (is_first && text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
+      const std::size_t end_of_lines = text.rfind('\n') + 1;
+      take_lines(std::string_view(text).substr(0, end_of_lines));
+      text.erase(0, end_of_lines);
     }
+    take_lines(text);
     if (!continued_.empty()) read(continued_);
     return std::move(mesh_);
   }
 
  private:
+  static bool read_piece(std::istream& stream, std::string& text) {
+    const std::size_t known = text.size();
+    text.resize(known + piece_bytes);
+    stream.read(text.data() + known, static_cast<std::streamsize>(piece_bytes));
+    text.resize(known + static_cast<std::size_t>(stream.gcount()));
+    return text.size() > known;
+  }
+
+  void take_lines(std::string_view text) {
+    while (!text.empty()) {
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      take_line(text.substr(0, end));
+      text.remove_prefix(std::min(end + 1, text.size()));
+    }
+  }
+
   void take_line(std::string_view line) {
     ++line_;
     line = trimmed(line);
@@ -110,6 +130,6 @@ class ObjScanner {
 
 }  // namespace
 
-ObjMesh scan_obj(std::string_view text) { return ObjScanner().scan(text); }
+ObjMesh scan_obj(std::istream& text) { return ObjScanner().scan(text); }
 
 }  // namespace farlod::ingest

@@ -3,10 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <istream>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "city/paged_array.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod::ingest {
@@ -20,16 +21,24 @@ struct ObjFace {
 
 /// The content of an OBJ file, in its order and with its axes, without textures, normals and materials.
 struct ObjMesh {
-  std::vector<Point3d> vertices;      ///< a coordinate that cannot be read is NaN
-  std::vector<std::int64_t> corners;  ///< vertices counted from 0, not checked against the range yet
-  std::vector<ObjFace> faces;
+  PagedArray<Point3d> vertices;      ///< a coordinate that cannot be read is NaN
+  PagedArray<std::int64_t> corners;  ///< vertices counted from 0, not checked against the range yet
+  PagedArray<ObjFace> faces;
   /// One row for each statement, even when it repeats a name. Row 0 holds the faces before the first statement.
   std::vector<std::string> groups{""}, objects{""};
   std::vector<std::uint64_t> malformed_lines;                ///< faces whose corners are not numbers
   std::uint64_t unread_elements = 0, first_unread_line = 0;  ///< points, lines and curves, which are not read
+
+  /// Gives back the memory of what lies on disk. What is asked for later is read again.
+  void let_go() const {
+    vertices.let_go();
+    corners.let_go();
+    faces.let_go();
+  }
 };
 
-/// Reads the text of an OBJ file, with comments, CRLF, tabs, continued lines and relative vertex numbers. Never fails.
-[[nodiscard]] ObjMesh scan_obj(std::string_view text);
+/// Reads the text of an OBJ file, with comments, CRLF, tabs, continued lines and relative vertex numbers. Throws what reading the
+/// stream throws.
+[[nodiscard]] ObjMesh scan_obj(std::istream& text);
 
 }  // namespace farlod::ingest

@@ -138,15 +138,17 @@ void report_unread(const ObjMesh& mesh, CityModelBuilder& builder) {
 }  // namespace
 
 void read_obj(const InputFile& file, const ObjFrame& frame, CityModelBuilder& builder) {
-  const ObjMesh mesh = scan_obj(read_whole(file));
+  const ObjMesh mesh = scan_obj(*open_input(file));
   report_unread(mesh, builder);
   if (mesh.faces.empty())
     throw InputError(file.name + " holds " + std::to_string(mesh.vertices.size()) +
                      " vertices and no face: it is not an OBJ file, or it is a point cloud. Export it as a polygon mesh.");
   const FacesByBuilding sorted = group_faces(mesh);
   ObjBuildings buildings(mesh, frame, builder);
-  for (std::size_t b = 0; b < sorted.ids.size(); ++b)
+  for (std::size_t b = 0; b < sorted.ids.size(); ++b) {
     buildings.add(sorted.ids[b], std::span(sorted.faces).subspan(sorted.begin[b], sorted.begin[b + 1] - sorted.begin[b]));
+    if (b % CityModel::buildings_held == 0) mesh.let_go();
+  }
 }
 
 }  // namespace farlod::ingest

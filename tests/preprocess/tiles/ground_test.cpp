@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "tests/preprocess/tiles/whole_ground.hpp"
+
 namespace farlod::tiles {
 namespace {
 
@@ -14,7 +16,7 @@ const Box2d rectangle{{0, 0}, {100, 100}};
 
 double covered_area(const Ground& ground) {
   double sum = 0.0;
-  for (const auto& t : ground.triangles()) {
+  for (const auto& t : test::triangles_of(ground)) {
     const double area = 0.5 * cross(t[1] - t[0], t[2] - t[0]).z;
     EXPECT_GT(area, 0.0);
     sum += area;
@@ -46,7 +48,7 @@ TEST(Ground, DoesNotDependOnTheOrderOfItsPoints) {
     points.push_back({static_cast<double>(n * 37 % 100), static_cast<double>(n * 53 % 100), static_cast<double>(n % 9)});
   const Ground there(points, rectangle);
   std::reverse(points.begin(), points.end());
-  EXPECT_EQ(there.triangles(), Ground(points, rectangle).triangles());
+  EXPECT_EQ(test::triangles_of(there), test::triangles_of(Ground(points, rectangle)));
 }
 
 TEST(Ground, ItsEdgesDoNotDependOnWhereInMemoryItLies) {
@@ -61,9 +63,9 @@ TEST(Ground, ItsEdgesDoNotDependOnWhereInMemoryItLies) {
     for (std::size_t k = 0; k < 40; ++k) holes.emplace_back(n * 977 * (k % 7 + 1));
     if (n % 3 == 0) holes.clear();
     others.emplace_back(points, rectangle);
-    EXPECT_EQ(others.back().horizon_edges(), first.horizon_edges());
+    EXPECT_EQ(test::horizon_edges_of(others.back()), test::horizon_edges_of(first));
   }
-  EXPECT_GT(first.horizon_edges().size(), 500U);
+  EXPECT_GT(test::horizon_edges_of(first).size(), 500U);
 }
 
 TEST(Ground, MayEndWhereItsPointsEnd) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tests/preprocess/tiles/borders.hpp"
+#include "tests/preprocess/tiles/whole_ground.hpp"
 #include "tiles/ground.hpp"
 
 namespace farlod::tiles {
@@ -118,7 +119,7 @@ TEST(AdjacentSlopes, WhereNoTriangleIsAreUnknown) {
 TEST(AdjacentSlopes, OfAHillArePlainAndSlope) {
   // A dam along the x axis, 2 m high, whose sides climb at 45° and at less
   const Ground ground({{0, 50, 2}, {100, 50, 2}, {0, 48, 0}, {100, 48, 0}, {0, 60, 0}, {100, 60, 0}}, {{0, 0}, {100, 100}});
-  const auto edges = ground.horizon_edges();
+  const auto edges = test::horizon_edges_of(ground);
   const std::int8_t steep = AdjacentSlopes::rounded_down(-std::atan(1.0)),
                     gentle = AdjacentSlopes::rounded_down(-std::atan2(2.0, 10.0));
   EXPECT_EQ(slopes_beside(edges, {{0, 50, 2}, {100, 50, 2}}), (AdjacentSlopes{gentle, steep}));
@@ -137,7 +138,7 @@ TEST(HorizonEdges, OfAHillAreItsRibsAndTheBorder) {
   // A pyramid of four sides in the middle of a plain
   std::vector<Point3d> points{{50, 50, 10}, {40, 40, 0}, {60, 40, 0}, {60, 60, 0}, {40, 60, 0}};
   const Ground ground(points, {{0, 0}, {100, 100}});
-  EXPECT_THAT(directed(segments_of(ground.horizon_edges())),
+  EXPECT_THAT(directed(segments_of(test::horizon_edges_of(ground))),
               UnorderedElementsAre(Segment3d{{40, 40, 0}, {50, 50, 10}}, Segment3d{{50, 50, 10}, {60, 40, 0}},
                                    Segment3d{{50, 50, 10}, {60, 60, 0}}, Segment3d{{40, 60, 0}, {50, 50, 10}},
                                    Segment3d{{0, 0, 0}, {100, 0, 0}}, Segment3d{{0, 100, 0}, {100, 100, 0}},
@@ -145,7 +146,7 @@ TEST(HorizonEdges, OfAHillAreItsRibsAndTheBorder) {
 }
 
 TEST(HorizonEdges, OfFlatGroundAreItsBorder) {
-  EXPECT_EQ(Ground({{20, 30, 5}, {70, 60, 5}, {40, 80, 5}}, {{0, 0}, {100, 100}}).horizon_edges().size(), 4U);
+  EXPECT_EQ(test::horizon_edges_of(Ground({{20, 30, 5}, {70, 60, 5}, {40, 80, 5}}, {{0, 0}, {100, 100}})).size(), 4U);
 }
 
 class CutEdge : public testing::Test {
