@@ -58,7 +58,7 @@ OverhangGeometry::OverhangGeometry(const PackageReader& package, Cell cell, Whol
     : package_(package), cell_(cell), whole_scene_(std::move(whole_scene)) {
   // Buildings that are cut at the borders of cells are above their own cell alone
   const bool is_cut = package.manifest().assign != "whole";
-  constexpr std::int32_t reach = PointLocator::reach_of_whole_buildings;
+  constexpr std::int32_t reach = TrianglesOfCell::reach_of_whole_buildings;
   const CellRange near = package.grid().neighborhood_of(cell);
   overhead_ =
       triangles_in(is_cut ? CellRange{cell.i, cell.j, cell.i + 1, cell.j + 1}

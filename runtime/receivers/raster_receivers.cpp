@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contract/cancellation.hpp"
 
@@ -29,6 +30,18 @@ void for_each_pixel_by_patches(const PixelRange& r, const Visit& visit) {
         for (std::size_t column = column_0; column < std::min(column_0 + patch_edge, r.column_end); ++column) visit(column, row);
 }
 
+/// Divides a range into strips of some rows, so that what is known of a strip's pixels stays in the processor's cache, and does
+/// not grow with the cell. Patches are not divided.
+template <class Visit>
+void for_each_strip(const PixelRange& r, const Visit& visit) {
+  constexpr std::size_t pixels_of_strip = 16'384;
+  if (r.empty()) return;
+  const std::size_t patches = pixels_of_strip / (patch_edge * (r.column_end - r.column_begin));
+  const std::size_t rows = patch_edge * std::max<std::size_t>(patches, 1);
+  for (std::size_t row = r.row_begin; row < r.row_end; row += rows)
+    visit(PixelRange{r.column_begin, r.column_end, row, std::min(row + rows, r.row_end)});
+}
+
 }  // namespace
 
 RasterPlan plan_raster(const package::Manifest& m, double step_m, const std::optional<Box2d>& wanted_projected) {
@@ -51,26 +64,52 @@ PixelRange RasterReceivers::range_of(Cell cell) const {
   return pixels_over(plan_, manifest_.projected_outline(manifest_.grid.square_of(cell)));
 }
 
-template <class Visit>
-void RasterReceivers::for_each_pixel(Cell cell, const Visit& visit) const {
-  const Grid& grid = manifest_.grid;
-  for_each_pixel_by_patches(range_of(cell), [&](std::size_t column, std::size_t row) {
-    const Point2d p_grid = manifest_.grid_from_projected(plan_.centre_m(column, row));
-    if (grid.cell_of(p_grid) == cell) visit(row * plan_.columns + column, p_grid);
-  });
+double RasterReceivers::rounding_m(const PixelRange& pixels, Cell cell) const {
+  const Point2d projected = plan_.centre_m(pixels.column_end, pixels.row_begin);
+  const double in_double_m = norm(projected) + norm(manifest_.origin_m) + norm(manifest_.grid.corner_of(cell));
+  // No pixel of a cell's range is farther from the cell's corner than four edges of the cell, or of pixels
+  const double in_cell_m = 4.0 * (manifest_.grid.cell_edge_m + plan_.step_m);
+  return std::numeric_limits<float>::epsilon() * in_cell_m + 16.0 * std::numeric_limits<double>::epsilon() * in_double_m;
+}
+
+RasterReceivers::Centres RasterReceivers::centres_of(const PixelRange& pixels, Cell cell) const {
+  const Box2d square = manifest_.grid.square_of(cell);
+  const auto centre_grid = [&](std::size_t column, std::size_t row) {
+    return manifest_.grid_from_projected(plan_.centre_m(column, row));
+  };
+  const std::size_t columns = pixels.column_end - pixels.column_begin, rows = pixels.row_end - pixels.row_begin;
+  Centres centres{{columns, rows, centre_grid(pixels.column_begin, pixels.row_begin) - square.low,
+                   manifest_.grid.rotation.grid_from_city(Point2d{plan_.step_m, 0.0}), rounding_m(pixels, cell),
+                   std::vector<float>(columns * rows), std::vector<float>(columns * rows)},
+                  std::vector<bool>(columns * rows)};
+  for (std::size_t row = 0, n = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column, ++n) {
+      const Point2d p_grid = centre_grid(pixels.column_begin + column, pixels.row_begin + row), p = p_grid - square.low;
+      centres.places.x[n] = static_cast<float>(p.x);
+      centres.places.y[n] = static_cast<float>(p.y);
+      // A point on a border belongs to the cell to its east or north
+      centres.are_in_cell[n] =
+          square.low.x <= p_grid.x && p_grid.x < square.high.x && square.low.y <= p_grid.y && p_grid.y < square.high.y;
+    }
+  return centres;
 }
 
 CellReceivers RasterReceivers::in_cell(const PackageReader& package, Cell cell, HeightAbove above, float height_m,
                                        const std::stop_token& stop) const {
-  const PointLocator locator(package, cell);
+  LatticeLocator locator(package, cell);
   CellReceivers result{cell, {}};
-  for_each_pixel(cell, [&](std::size_t index, Point2d p_grid) {
+  for_each_strip(range_of(cell), [&](const PixelRange& strip) {
     throw_if_cancelled(stop);
-    const Point2d p = p_grid - manifest_.grid.corner_of(cell);
-    if (const auto p_cell = stand(locator, static_cast<float>(p.x), static_cast<float>(p.y), above, height_m))
-      result.receivers.push_back({index, *p_cell});
-    else
-      ++result.left_out;
+    const Centres centres = centres_of(strip, cell);
+    locator.look_at(centres.places);
+    for_each_pixel_by_patches(strip, [&](std::size_t column, std::size_t row) {
+      const std::size_t n = (row - strip.row_begin) * centres.places.columns + column - strip.column_begin;
+      if (!centres.are_in_cell[n]) return;
+      if (const auto p_cell = stand(locator.at(n), centres.places.x[n], centres.places.y[n], above, height_m))
+        result.receivers.push_back({row * plan_.columns + column, *p_cell});
+      else
+        ++result.left_out;
+    });
   });
   return result;
 }

@@ -41,9 +41,14 @@ class RasterReceivers {
                                       const std::stop_token& stop = {}) const;
 
  private:
-  /// Calls `visit(index, p_grid)` for each pixel whose centre the cell holds, patch by patch.
-  template <class Visit>
-  void for_each_pixel(Cell cell, const Visit& visit) const;
+  /// The centres of some pixels, in the frame of a cell that may hold them or not.
+  struct Centres {
+    PlanLattice places;
+    std::vector<bool> are_in_cell;
+  };
+  [[nodiscard]] Centres centres_of(const PixelRange& pixels, Cell cell) const;
+  /// How far rounding moves a centre from its place in the plan.
+  [[nodiscard]] double rounding_m(const PixelRange& pixels, Cell cell) const;
 
   const package::Manifest& manifest_;
   RasterPlan plan_;

@@ -36,7 +36,9 @@ struct CellReceivers {
 
 /// The position of a receiver above a point of a cell; none when that is inside a building or below the ground, or when the
 /// surface that its height counts from does not exist (beyond a terrain). `height_m` counts from `above`; for `sea_level`, from
-/// the package's height origin.
+/// the package's height origin. `profile` is that of the point.
+[[nodiscard]] std::optional<Point3f> stand(const VerticalProfile& profile, float x_cell, float y_cell, HeightAbove above,
+                                           float height_m);
 [[nodiscard]] std::optional<Point3f> stand(const PointLocator& locator, float x_cell, float y_cell, HeightAbove above,
                                            float height_m);
 

@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "farlod/point.hpp"
+#include "scene/plan_triangle.hpp"
 
 namespace farlod {
 
@@ -16,18 +15,10 @@ namespace farlod {
 ///       point lies does not depend on the triangle
 class PlanIndex {
  public:
-  using Corners = std::array<Point3f, 3>;
-
-  /// A triangle over a place, by its number among those that were given, and its height there.
-  struct Crossing {
-    std::uint32_t triangle = 0;
-    float height_m = 0.0F;
-  };
-
-  explicit PlanIndex(std::vector<Corners> triangles);
+  explicit PlanIndex(std::vector<PlanTriangle> triangles);
 
   /// Appends the crossings of a place, in the order of the triangles.
-  void find(float x, float y, std::vector<Crossing>& crossings) const;
+  void find(float x, float y, std::vector<PlanCrossing>& crossings) const;
 
  private:
   /// Chooses the squares: how many there are along an edge, and where they lie.
@@ -38,7 +29,7 @@ class PlanIndex {
   [[nodiscard]] std::size_t column_of(float x) const;
   [[nodiscard]] std::size_t row_of(float y) const;
 
-  std::vector<Corners> triangles_;
+  std::vector<PlanTriangle> triangles_;
   Point3f low_;
   float per_x_ = 0.0F, per_y_ = 0.0F;
   std::size_t edge_ = 0;                           ///< squares along either side

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
-#include <utility>
 
 #include "contract/ground_contact.hpp"
 #include "occlusion/placed_mesh.hpp"
@@ -17,22 +15,22 @@ namespace {
 /// Ten times the rounding of a height in a package (0.06 mm at 1 km): a slab is thicker.
 constexpr float same_surface_m = 0.0006F;
 
-std::vector<TileView> tiles_around(const PackageReader& package, Cell cell) {
-  const std::int32_t r = package.manifest().assign == "whole" ? PointLocator::reach_of_whole_buildings : 0;
-  const CellRange range = CellRange{cell.i - r, cell.j - r, cell.i + r + 1, cell.j + r + 1}.intersection(package.grid().cells);
-  std::vector<TileView> tiles;
-  for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) tiles.push_back(package.tile(range.cell_at(n)));
-  return tiles;
-}
+using Crossing = VerticalProfile::Crossing;
 
-std::vector<PlanIndex::Corners> triangles_of(std::span<const TileView> tiles, const Grid& grid, Cell cell) {
-  std::vector<PlanIndex::Corners> triangles;
-  for (const TileView& tile : tiles) {
-    const Point2d shift_m = grid.corner_of({tile.cell->i, tile.cell->j}) - grid.corner_of(cell);
-    const auto corner = [&](std::uint32_t v) { return placed(tile.mesh.vertices[v], shift_m); };
-    for (const Triangle& t : tile.mesh.triangles) triangles.push_back({corner(t.a), corner(t.b), corner(t.c)});
+bool are_of_one_part(const Crossing& a, const Crossing& b) { return a.building == b.building && a.part == b.part; }
+
+/// Of the part of the first of some crossings: how many of its surfaces look up, minus those that look down.
+int up_minus_down(std::span<const Crossing> crossings) {
+  const Crossing& first = crossings.front();
+  int count = 0;
+  const Crossing* last = nullptr;
+  for (const Crossing& c : crossings) {
+    if (!are_of_one_part(c, first)) continue;
+    const bool same = last != nullptr && c.looks_up == last->looks_up && c.height_m - last->height_m <= same_surface_m;
+    if (!same) count += c.looks_up ? 1 : -1;
+    last = &c;
   }
-  return triangles;
+  return count;
 }
 
 }  // namespace
@@ -47,22 +45,22 @@ std::optional<float> VerticalProfile::highest_m() const {
   return crossings_.empty() ? std::nullopt : std::optional(crossings_.back().height_m);
 }
 
+void VerticalProfile::add(const Crossing& crossing) {
+  const auto place = std::upper_bound(crossings_.begin(), crossings_.end(), crossing,
+                                      [](const Crossing& a, const Crossing& b) { return a.height_m < b.height_m; });
+  crossings_.insert(place, crossing);
+}
+
 bool VerticalProfile::is_inside_building(float height_m) const {
-  struct Count {
-    int up_minus_down = 0;
-    float last_height_m = -std::numeric_limits<float>::infinity();
-    bool last_looks_up = false;
-  };
-  std::map<std::pair<std::uint32_t, std::uint16_t>, Count> parts;
-  for (const Crossing& c : crossings_) {
-    if (c.height_m <= height_m || c.building == package::no_building) continue;
-    Count& part = parts[{c.building, c.part}];
-    const bool same = c.looks_up == part.last_looks_up && c.height_m - part.last_height_m <= same_surface_m;
-    if (!same) part.up_minus_down += c.looks_up ? 1 : -1;
-    part.last_height_m = c.height_m;
-    part.last_looks_up = c.looks_up;
+  const auto above = std::find_if(crossings_.begin(), crossings_.end(), [=](const Crossing& c) { return c.height_m > height_m; });
+  // A part is counted at its first surface above. A place has few of them: a map of the parts would take longer than to look for
+  // them among the others
+  for (auto c = above; c != crossings_.end(); ++c) {
+    if (c->building == package::no_building) continue;
+    const bool is_first = std::none_of(above, c, [c](const Crossing& before) { return are_of_one_part(before, *c); });
+    if (is_first && up_minus_down(std::span(c, crossings_.end())) > 0) return true;
   }
-  return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.second.up_minus_down > 0; });
+  return false;
 }
 
 bool VerticalProfile::is_buried(float height_m) const {
@@ -77,26 +75,51 @@ bool VerticalProfile::is_below_standing_floor(float height_m, float ground_m) co
   });
 }
 
-PointLocator::PointLocator(const PackageReader& package, Cell cell)
-    : tiles_(tiles_around(package, cell)), index_(triangles_of(tiles_, package.grid(), cell)) {
-  for (std::uint32_t tile = 0; tile < tiles_.size(); ++tile)
-    for (std::uint32_t t = 0; t < tiles_[tile].mesh.triangles.size(); ++t) places_.emplace_back(tile, t);
+TrianglesOfCell::TrianglesOfCell(const PackageReader& package, Cell cell) {
+  const Grid& grid = package.grid();
+  const std::int32_t r = package.manifest().assign == "whole" ? reach_of_whole_buildings : 0;
+  const CellRange range = CellRange{cell.i - r, cell.j - r, cell.i + r + 1, cell.j + r + 1}.intersection(grid.cells);
+  for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) {
+    const Cell there = range.cell_at(n);
+    add(package.tile(there), grid.corner_of(there) - grid.corner_of(cell));
+  }
+}
+
+void TrianglesOfCell::add(const TileView& tile, Point2d shift_m) {
+  const auto corner = [&](std::uint32_t v) { return placed(tile.mesh.vertices[v], shift_m); };
+  std::uint32_t t = 0;
+  for (const package::SurfaceRun& run : tile.surface_runs) {
+    const package::SurfaceRecord& surface = tile.surfaces[run.surface];
+    const Surface of_run{tile.building_number(surface), surface.part, surface.normal().looks_up()};
+    for (; t < run.end; ++t) {
+      const Triangle& numbers = tile.mesh.triangles[t];
+      const PlanTriangle corners{corner(numbers.a), corner(numbers.b), corner(numbers.c)};
+      if (plan_area(corners) == 0.0) continue;
+      corners_.push_back(corners);
+      surfaces_.push_back(of_run);
+    }
+  }
+}
+
+void TrianglesOfCell::make_profile(std::span<const PlanCrossing> crossings, VerticalProfile& profile) const {
+  profile.clear();
+  for (const PlanCrossing& c : crossings) {
+    const Surface& surface = surfaces_[c.triangle];
+    profile.add({c.height_m, surface.building, surface.part, surface.looks_up});
+  }
 }
 
 VerticalProfile PointLocator::at(float x_cell, float y_cell) const {
-  std::vector<PlanIndex::Crossing> found;
+  std::vector<PlanCrossing> found;
   index_.find(x_cell, y_cell, found);
-  std::vector<VerticalProfile::Crossing> crossings;
-  crossings.reserve(found.size());
-  for (const PlanIndex::Crossing& c : found) {
-    const auto [tile, triangle] = places_[c.triangle];
-    const package::SurfaceRecord& surface = tiles_[tile].surface_of(triangle);
-    crossings.push_back({c.height_m, tiles_[tile].building_number(surface), surface.part, surface.normal().looks_up()});
-  }
-  std::stable_sort(
-      crossings.begin(), crossings.end(),
-      [](const VerticalProfile::Crossing& a, const VerticalProfile::Crossing& b) { return a.height_m < b.height_m; });
-  return VerticalProfile(std::move(crossings));
+  VerticalProfile profile;
+  triangles_.make_profile(found, profile);
+  return profile;
+}
+
+const VerticalProfile& LatticeLocator::at(std::size_t n) {
+  triangles_.make_profile(crossings_.at(n), profile_);
+  return profile_;
 }
 
 }  // namespace farlod

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "contract/grid.hpp"
 #include "contract/package/layout.hpp"
 #include "package/package_reader.hpp"
+#include "scene/lattice_crossings.hpp"
 #include "scene/plan_index.hpp"
 
 namespace farlod {
@@ -22,7 +24,13 @@ class VerticalProfile {
     std::uint16_t part;      ///< closed part of the building
     bool looks_up;           ///< its outward normal does
   };
+  VerticalProfile() = default;
+  /// From low to high.
   explicit VerticalProfile(std::vector<Crossing> crossings) : crossings_(std::move(crossings)) {}
+
+  void clear() { crossings_.clear(); }
+  /// Adds a crossing in its place, after those of the same height.
+  void add(const Crossing& crossing);
 
   /// The height of the highest ground; none where the package has no ground.
   [[nodiscard]] std::optional<float> ground_m() const;
@@ -42,21 +50,60 @@ class VerticalProfile {
   std::vector<Crossing> crossings_;
 };
 
-/// Makes the vertical profiles of points in one cell.
-class PointLocator {
+/// The triangles above and below the places of a cell, in the frame of the cell. Upright ones, which are above and below no
+/// place, are left out.
+class TrianglesOfCell {
  public:
   /// Reads the cell's own tile, which holds everything in the cell when buildings are cut at the borders. Where buildings were
   /// assigned whole, the tiles within `reach_of_whole_buildings` cells are read, too.
-  PointLocator(const PackageReader& package, Cell cell);
+  TrianglesOfCell(const PackageReader& package, Cell cell);
 
-  [[nodiscard]] VerticalProfile at(float x_cell, float y_cell) const;
+  [[nodiscard]] const std::vector<PlanTriangle>& corners() const { return corners_; }
+  /// The profile of a place from its crossings with the triangles.
+  void make_profile(std::span<const PlanCrossing> crossings, VerticalProfile& profile) const;
 
   static constexpr std::int32_t reach_of_whole_buildings = 2;
 
  private:
-  std::vector<TileView> tiles_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> places_;  ///< of each triangle: its tile, and its number there
+  /// What a crossing says of its triangle.
+  struct Surface {
+    std::uint32_t building;
+    std::uint16_t part;
+    bool looks_up;
+  };
+  void add(const TileView& tile, Point2d shift_m);
+
+  std::vector<PlanTriangle> corners_;
+  std::vector<Surface> surfaces_;  ///< of each triangle
+};
+
+/// Makes the vertical profiles of single places in one cell.
+class PointLocator {
+ public:
+  PointLocator(const PackageReader& package, Cell cell) : triangles_(package, cell), index_(triangles_.corners()) {}
+
+  [[nodiscard]] VerticalProfile at(float x_cell, float y_cell) const;
+
+ private:
+  TrianglesOfCell triangles_;
   PlanIndex index_;
+};
+
+/// Makes the vertical profiles of the places of lattices in one cell: what PointLocator says of each of them, in a fraction of
+/// the time.
+class LatticeLocator {
+ public:
+  LatticeLocator(const PackageReader& package, Cell cell) : triangles_(package, cell) {}
+
+  /// Looks at all places of a lattice. Its places are in the frame of the cell.
+  void look_at(const PlanLattice& lattice) { crossings_.find(triangles_.corners(), lattice); }
+  /// The profile of the n-th place of the lattice that was looked at last. It is valid until the next question.
+  [[nodiscard]] const VerticalProfile& at(std::size_t n);
+
+ private:
+  TrianglesOfCell triangles_;
+  LatticeCrossings crossings_;
+  VerticalProfile profile_;
 };
 
 }  // namespace farlod

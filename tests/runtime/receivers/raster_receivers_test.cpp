@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <map>
 
 #include "tests/scenes/packed_city.hpp"
@@ -100,6 +101,43 @@ TEST_P(RasterOfATown, EachPixelBelongsToExactlyOneCell) {
           EXPECT_TRUE(found.emplace(r.index, r.p_cell).second) << "pixel " << r.index << " twice";
       EXPECT_EQ(found, one_by_one(plan, above, 1.5F)) << step_m;
     }
+}
+
+/// Of the grids that are not turned, or by a right angle, borders run through the centres of pixels.
+TEST_P(RasterOfATown, APixelOnABorderBelongsToOneCell) {
+  manifest_.origin_m = {};
+  const RasterPlan plan = plan_raster(manifest_, 32.0, std::nullopt);
+  const RasterReceivers receivers(manifest_, plan);
+  std::map<std::size_t, Point3f> found;
+  for (const Cell cell : receivers.cells())
+    for (const Receiver& r : receivers.in_cell(package_, cell, HeightAbove::highest_surface, 1.5F).receivers)
+      EXPECT_TRUE(found.emplace(r.index, r.p_cell).second) << "pixel " << r.index << " twice";
+  EXPECT_EQ(found, one_by_one(plan, HeightAbove::highest_surface, 1.5F));
+}
+
+/// Some of the cells have more pixels than are placed at once.
+TEST_P(RasterOfATown, FinePixelsAreListedPatchByPatch) {
+  const Grid& grid = package_.grid();
+  const Cell middle = grid.cells.cell_at(static_cast<std::size_t>(grid.cells.size()) / 2);
+  const RasterPlan plan = plan_raster(manifest_, 0.08, manifest_.projected_outline(grid.square_of(middle)));
+  const RasterReceivers receivers(manifest_, plan);
+  const CellReceivers cell = receivers.in_cell(package_, middle, HeightAbove::highest_surface, 1.5F);
+  EXPECT_GT(cell.receivers.size() + cell.left_out, 32'768U);
+  const PixelRange range = receivers.range_of(middle);
+  const auto place = [&](const Receiver& r) {
+    const std::size_t row = r.index / plan.columns - range.row_begin, column = r.index % plan.columns - range.column_begin;
+    return std::array{row / 4, column / 4, row % 4, column % 4};
+  };
+  const PointLocator locator(package_, middle);
+  std::size_t in_order = 1;
+  for (std::size_t k = 0; k < cell.receivers.size(); ++k) {
+    const Receiver& r = cell.receivers[k];
+    const auto alone = stand(locator, r.p_cell.x, r.p_cell.y, HeightAbove::highest_surface, 1.5F);
+    ASSERT_TRUE(alone.has_value());
+    ASSERT_EQ(r.p_cell, *alone);
+    if (k > 0) in_order += place(cell.receivers[k - 1]) < place(r) ? 1U : 0U;
+  }
+  EXPECT_EQ(in_order, cell.receivers.size());
 }
 
 TEST_P(RasterOfATown, APartOfTheRasterHasTheSameReceivers) {

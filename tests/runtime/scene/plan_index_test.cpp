@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <set>
 
@@ -13,7 +14,7 @@
 namespace farlod {
 namespace {
 
-using Crossings = std::vector<PlanIndex::Crossing>;
+using Crossings = std::vector<PlanCrossing>;
 
 Crossings crossings_at(const PlanIndex& index, float x, float y) {
   Crossings found;
@@ -22,7 +23,7 @@ Crossings crossings_at(const PlanIndex& index, float x, float y) {
 }
 
 /// Two triangles of a square, split along its diagonal.
-std::vector<PlanIndex::Corners> square(float edge_m, float z_m) {
+std::vector<PlanTriangle> square(float edge_m, float z_m) {
   const Point3f a{0, 0, z_m}, b{edge_m, 0, z_m}, c{edge_m, edge_m, z_m}, d{0, edge_m, z_m};
   return {{a, b, c}, {a, c, d}};
 }
@@ -64,6 +65,16 @@ TEST(PlanIndex, NoPlaceFallsBetweenNeighbors) {
   }
 }
 
+/// In the doubles of `side_of`, a place beyond the end of a sliver may lie on all three of its sides.
+TEST(PlanIndex, ASliverEndsAtItsCorners) {
+  const float x = std::nextafter(100.0F, 200.0F);
+  const PlanTriangle sliver{Point3f{0, 0, 0}, Point3f{100, 100, 0}, Point3f{1e-30F, 0, 0}};
+  EXPECT_NE(plan_area(sliver), 0.0);
+  EXPECT_TRUE(covers(sliver, 50.0F, 50.0F));
+  EXPECT_FALSE(covers(sliver, x, x));
+  EXPECT_TRUE(crossings_at(PlanIndex({sliver}), x, x).empty());
+}
+
 /// All triangles along a ray, from near to far.
 std::vector<Hit> all_hits(const Occluder& occluder, const Ray& ray) {
   std::vector<Hit> hits;
@@ -79,11 +90,11 @@ std::vector<Hit> all_hits(const Occluder& occluder, const Ray& ray) {
 TEST(PlanIndex, AgreesWithUprightRays) {
   std::mt19937 random(11);
   std::uniform_real_distribution<float> coordinate(-20.0F, 70.0F), height(0.0F, 30.0F);
-  std::vector<PlanIndex::Corners> triangles;
+  std::vector<PlanTriangle> triangles;
   std::vector<Point3f> vertices;
   std::vector<Triangle> numbers;
   for (std::uint32_t n = 0; n < 300; ++n) {
-    PlanIndex::Corners corners;
+    PlanTriangle corners;
     for (Point3f& p : corners) p = {coordinate(random), coordinate(random), height(random)};
     triangles.push_back(corners);
     vertices.insert(vertices.end(), corners.begin(), corners.end());

@@ -19,7 +19,7 @@ constexpr VerticalProfile::Crossing roof_at(float height_m, std::uint32_t buildi
 }
 
 TEST(VerticalProfile, NothingHasNoHeights) {
-  const VerticalProfile empty({});
+  const VerticalProfile empty;
   EXPECT_EQ(empty.ground_m(), std::nullopt);
   EXPECT_EQ(empty.highest_m(), std::nullopt);
   EXPECT_FALSE(empty.is_inside_building(0.0F));
