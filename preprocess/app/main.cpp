@@ -185,6 +185,7 @@ int complain(const std::exception& error, int exit_code) {
 int main(int argc, char** argv) {
   using namespace farlod;
   // What one stage frees in large pieces goes back to the system: left to itself, the threshold grows, and keeps them
+  // No other thread runs yet. NOLINTNEXTLINE(concurrency-mt-unsafe)
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
   try {
     const ParsedPackOptions parsed = parse_pack_options(argc, argv);

@@ -24,6 +24,7 @@ std::size_t rounded_up(std::size_t bytes, std::size_t unit) { return (bytes + un
 
 /// /tmp comes last: on many systems it is memory.
 std::vector<std::string> temporary_folders() {
+  // Nobody changes the environment. NOLINTNEXTLINE(concurrency-mt-unsafe)
   const char* chosen = std::getenv("TMPDIR");
   if (chosen != nullptr && *chosen != '\0') return {chosen};
   return {"/var/tmp", "/tmp"};
@@ -45,6 +46,7 @@ int make_file() {
 
 }  // namespace
 
+// Only realloc grows memory in its place, and it takes what malloc gave. NOLINTBEGIN(cppcoreguidelines-no-malloc)
 Pages::~Pages() {
   if (file_ < 0) {
     std::free(data_);
@@ -108,6 +110,7 @@ void Pages::reserve_in_memory(std::size_t bytes, std::size_t used) {
   data_ = moved;
   capacity_ = bytes;
 }
+// NOLINTEND(cppcoreguidelines-no-malloc)
 
 void Pages::let_go(std::size_t begin, std::size_t end) const {
   if (file_ < 0) return;

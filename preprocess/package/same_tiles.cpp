@@ -54,6 +54,7 @@ CellRecord without_map(CellRecord cell) {
 bool same_cells(Bytes a, Bytes b) {
   for (std::size_t n = 0; n < a.size() / sizeof(CellRecord); ++n) {
     const CellRecord in_a = without_map(element<CellRecord>(a, n)), in_b = without_map(element<CellRecord>(b, n));
+    // Bits are to be the same, of floats too. NOLINTNEXTLINE(bugprone-suspicious-memory-comparison,cert-exp42-c,cert-flp37-c)
     if (std::memcmp(&in_a, &in_b, sizeof(CellRecord)) != 0) return false;
   }
   return true;

@@ -78,7 +78,7 @@ class BlockWriting {
  public:
   BlockWriting(const TileSet& tiles, const package::Manifest& manifest, BakingSettings baking, PackageWriter& writer,
                const RunSettings& run)
-      : tiles_(tiles), manifest_(manifest), grid_(manifest.grid), baking_(std::move(baking)), writer_(writer), run_(run) {}
+      : tiles_(tiles), manifest_(manifest), grid_(manifest.grid), baking_(baking), writer_(writer), run_(run) {}
 
   /// Before blocks that need far maps are written.
   void index_city() { baker_.emplace(tiles_, grid_, baking_.assign, baking_.far_map); }

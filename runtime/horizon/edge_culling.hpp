@@ -210,9 +210,9 @@ FARLOD_LANES void find_sector_minima(std::span<const float* const> packets, cons
   // Level 0: the minimum over the azimuths of a sector and over the packets, then over the lanes
   for (std::size_t s = 0; s < sectors; ++s) {
     Floats lowest = broadcast(std::numeric_limits<float>::max());
-    for (std::size_t n = 0; n < packets.size(); ++n)
+    for (const float* slopes : packets)
       for (std::size_t k = first_of_sector[s]; k < first_of_sector[s + 1]; ++k)
-        lowest = min(lowest, load(packets[n] + k * lane_count));
+        lowest = min(lowest, load(slopes + k * lane_count));
     minima[s] = min_lane(lowest);
   }
   // Level n: two neighboring runs of half the length

@@ -73,8 +73,8 @@ FARLOD_LANES Floats sky_of_azimuth(const Floats& slope, const Normals& n, float 
 struct Sum {
   FARLOD_LANES explicit Sum(float* rows) : next_row(rows) {}
 
-  float* next_row;
   Floats sum{}, lost{}, block{};
+  float* next_row;
   std::size_t terms = 0;
 
   FARLOD_LANES void write(const Floats& term) {

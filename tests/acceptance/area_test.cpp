@@ -86,9 +86,9 @@ TEST_F(TownWithAnArea, TheEngineHorizonSendsNoRays) {
 }
 
 TEST_F(TownWithAnArea, TheMemoryOfTheWholeCityIsAskedForBefore) {
-  expect_refusal(folder.run("farlod-svf part.farlod -o o.asc --grid 10 --threads 1 --memory-limit 93"), exit_limit_reached,
+  expect_refusal(folder.run("farlod-svf part.farlod -o o.asc --grid 10 --threads 1 --memory-limit 94"), exit_limit_reached,
                  {"tracing the whole city", "cells without a far map"});
-  folder.must("farlod-svf a.farlod -o o.asc --grid 10 --threads 1 --memory-limit 93");
+  folder.must("farlod-svf a.farlod -o o.asc --grid 10 --threads 1 --memory-limit 94");
 }
 
 TEST_F(TownWithAnArea, AFileSaysTheSameAsARectangle) {

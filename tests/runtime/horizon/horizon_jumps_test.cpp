@@ -13,7 +13,6 @@
 namespace farlod {
 namespace {
 
-constexpr Point3f up{0.0F, 0.0F, 1.0F};
 constexpr double turn = 2.0 * std::numbers::pi;
 
 /// ∫ cos²β over the azimuths of the edge from a to b, both at the same height: with the perpendicular distance d, T = height / d
