@@ -22,19 +22,29 @@ struct ReceiverPacket {
   alignas(64) Lanes x{}, y{}, z{}, normal_x{}, normal_y{}, normal_z{};
   std::size_t count = 0;
 
+  ReceiverPacket() = default;
+  /// The receivers of these numbers, of which there is one at least.
+  ReceiverPacket(std::span<const Receiver> receivers, std::span<const std::uint32_t> numbers) : count(numbers.size()) {
+    FARLOD_EXPECTS(0 < count && count <= lanes);
+    for (std::size_t l = 0; l < lanes; ++l) set(l, receivers[numbers[std::min(l, count - 1)]]);
+  }
+
   void add(const Receiver& r) {
     FARLOD_EXPECTS(count < lanes);
-    for (std::size_t l = count; l < lanes; ++l) {
-      x[l] = r.p_cell.x;
-      y[l] = r.p_cell.y;
-      z[l] = r.p_cell.z;
-      normal_x[l] = r.normal.x;
-      normal_y[l] = r.normal.y;
-      normal_z[l] = r.normal.z;
-    }
+    for (std::size_t l = count; l < lanes; ++l) set(l, r);
     ++count;
   }
   [[nodiscard]] float lowest_z() const { return *std::min_element(z.begin(), z.end()); }
+
+ private:
+  void set(std::size_t lane, const Receiver& r) {
+    x[lane] = r.p_cell.x;
+    y[lane] = r.p_cell.y;
+    z[lane] = r.p_cell.z;
+    normal_x[lane] = r.normal.x;
+    normal_y[lane] = r.normal.y;
+    normal_z[lane] = r.normal.z;
+  }
 };
 
 /// An upright box around receivers: the centre of its plan, half its sides, and its lowest and highest z.
@@ -79,8 +89,8 @@ void for_each_group(std::span<const Receiver> receivers, const PacketOrder& orde
     const std::size_t group_first = first;
     packets.clear();
     for (; packet < group_end; ++packet) {
-      packets.emplace_back();
-      for (; first < order.ends[packet]; ++first) packets.back().add(receivers[order.numbers[first]]);
+      packets.emplace_back(receivers, std::span(order.numbers).subspan(first, order.ends[packet] - first));
+      first = order.ends[packet];
     }
     visit(std::span<const ReceiverPacket>(packets), std::span(order.numbers).subspan(group_first, first - group_first));
   }

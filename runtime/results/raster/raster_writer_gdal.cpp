@@ -6,8 +6,10 @@
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <string>
 
 #include "contract/expects.hpp"
 #include "farlod/error.hpp"
@@ -18,13 +20,29 @@
 namespace farlod {
 namespace {
 
+/// Compression takes about a tenth of the time that evaluation takes: more threads would wait.
+std::size_t compression_threads(const RasterFrame& raster) {
+  constexpr std::size_t per_compressing = 4;
+  return raster.threads == 1 ? 1 : std::max<std::size_t>(2, raster.threads / per_compressing);
+}
+
+CPLStringList options_of(const RasterFrame& raster) {
+  CPLStringList options;
+  // Predictor 3 is the one for floats: it takes a sixth off what DEFLATE alone leaves. Level 5 takes two thirds of the time of
+  // GDAL's default, 6, for files that are 1 % larger
+  for (const char* option : {"TILED=YES", "COMPRESS=DEFLATE", "PREDICTOR=3", "ZLEVEL=5", "BIGTIFF=IF_SAFER"})
+    options.AddString(option);
+  // Who writes the tiles gives them to the answers of one cell after the other, and must not wait. GDAL writes compressed tiles
+  // in the order in which they came
+  options.SetNameValue("NUM_THREADS", std::to_string(compression_threads(raster)).c_str());
+  return options;
+}
+
 GDALDatasetUniquePtr create_tiff(const RasterFrame& raster, const AtomicFile& file, const GdalErrors& errors) {
   GDALRegister_GTiff();  // all drivers would take longer than a small map
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
   if (driver == nullptr) throw OutputError(file.destination(), "this GDAL cannot write GeoTIFF");
-  // Predictor 3 is the one for floats: it halves what DEFLATE alone leaves
-  CPLStringList options;
-  for (const char* option : {"TILED=YES", "COMPRESS=DEFLATE", "PREDICTOR=3", "BIGTIFF=IF_SAFER"}) options.AddString(option);
+  const CPLStringList options = options_of(raster);
   constexpr auto largest = static_cast<std::size_t>(std::numeric_limits<int>::max());
   if (raster.columns > largest || raster.rows > largest)
     throw OutputError(file.destination(), "the raster has too many pixels along an edge");
@@ -104,6 +122,13 @@ void GeotiffWriter::write(const RasterTile& tile) {
     write_block(*impl_->dataset->GetRasterBand(3), tile.place, tile.high);
   }
   impl_->throw_if_any(errors);
+}
+
+std::uint64_t GeotiffWriter::bytes_for(const RasterFrame& frame) {
+  const std::size_t threads = compression_threads(frame);
+  // A tile as it came, and its compressed bytes, which may be as many. GDAL has one more in turn than it has threads
+  constexpr std::uint64_t bytes_of_tile = 2 * raster_tile_edge * raster_tile_edge * sizeof(float);
+  return threads == 1 ? 0 : (threads + 1) * bytes_of_tile;
 }
 
 void GeotiffWriter::commit() {

@@ -20,8 +20,8 @@ class GeotiffWriter : public RasterWriter {
   ~GeotiffWriter() override;
   void write(const RasterTile& tile) override;
   void commit() override;
-  /// GDAL writes each tile at once.
-  [[nodiscard]] static std::uint64_t bytes_for(const RasterFrame&) { return 0; }
+  /// Tiles that wait for their compression or for those before them. A run of one thread writes each tile at once.
+  [[nodiscard]] static std::uint64_t bytes_for(const RasterFrame& frame);
 
  private:
   struct Impl;

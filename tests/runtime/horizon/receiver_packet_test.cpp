@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 #include "tests/runtime/horizon/random_places.hpp"
 
@@ -55,6 +57,50 @@ bool lie_within(const std::vector<Receiver>& packet, float width_m) {
     return std::max({std::abs(p.x - q.x), std::abs(p.y - q.y), std::abs(p.z - q.z)}) < width_m;
   });
 }
+
+/// The judge: receiver by receiver.
+void expect_bounds(const std::vector<Receiver>& receivers, bool has_plane) {
+  std::vector<std::uint32_t> numbers(receivers.size());
+  std::iota(numbers.begin(), numbers.end(), 0U);
+  const PacketBounds b = bounds_of(ReceiverPacket(receivers, numbers));
+  // Centre and half side are rounded: by as much as a coordinate of some 60 m
+  constexpr float rounding_m = 64.0F * std::numeric_limits<float>::epsilon();
+  float west = receivers[0].p_cell.x, east_end = west, south_end = receivers[0].p_cell.y, north = south_end, depth = 1e9F;
+  float low_z = receivers[0].p_cell.z, high_z = low_z;
+  for (const auto& [index, p, n] : receivers) {
+    west = std::min(west, p.x);
+    east_end = std::max(east_end, p.x);
+    south_end = std::min(south_end, p.y);
+    north = std::max(north, p.y);
+    low_z = std::min(low_z, p.z);
+    high_z = std::max(high_z, p.z);
+    depth = std::min(depth, dot(n, p));
+  }
+  EXPECT_NEAR(b.box.x - b.box.half_x, west, rounding_m);
+  EXPECT_NEAR(b.box.x + b.box.half_x, east_end, rounding_m);
+  EXPECT_NEAR(b.box.y - b.box.half_y, south_end, rounding_m);
+  EXPECT_NEAR(b.box.y + b.box.half_y, north, rounding_m);
+  EXPECT_EQ(std::pair(b.box.low_z, b.box.high_z), std::pair(low_z, high_z));
+  const Point3f normal = has_plane ? receivers[0].normal : Point3f{};
+  EXPECT_EQ((Point3f{b.normal_x, b.normal_y, b.normal_z}), normal);
+  EXPECT_NEAR(b.depth, has_plane ? depth : -1.0F, rounding_m);
+}
+
+TEST(PacketBounds, HoldAllReceivers) {
+  for (std::size_t count = 1; count <= ReceiverPacket::lanes; ++count)
+    for (const Point3f& normal : {up, east, south}) expect_bounds(random_receivers(count, {normal}), true);
+}
+
+TEST(PacketBounds, HaveAPlaneWhereAllLookTheSameWay) {
+  for (std::size_t odd = 0; odd < ReceiverPacket::lanes; ++odd)
+    for (const Point3f& other : {south, Point3f{0.999F, 0.0F, 0.0F}, Point3f{1.0F, 1e-3F, 0.0F}, Point3f{1.0F, 0.0F, 1e-3F}}) {
+      std::vector<Receiver> receivers = random_receivers(ReceiverPacket::lanes, {east});
+      receivers[odd].normal = other;
+      expect_bounds(receivers, false);
+    }
+}
+
+TEST(PacketBounds, HaveNoPlaneWhereAllLookDown) { expect_bounds(random_receivers(16, {{0.6F, 0.0F, -0.8F}}), false); }
 
 TEST(PacketOrder, EachReceiverIsInOnePacket) {
   for (const std::size_t count : {0U, 1U, 15U, 16U, 17U, 500U}) {

@@ -5,8 +5,12 @@
 #include <gmock/gmock.h>
 #include <ogr_spatialref.h>
 
+#include <sys/resource.h>
+
 #include <array>
 #include <cmath>
+#include <csignal>
+#include <random>
 
 #include "farlod/error.hpp"
 #include "results/raster/esri_wkt_gdal.hpp"
@@ -77,6 +81,64 @@ TEST(GeoTiff, HasTheSameBytesEachTime) {
   write_whole<GeotiffWriter>(small_raster(), folder.file("a.tif"));
   write_whole<GeotiffWriter>(small_raster(), folder.file("b.tif"));
   EXPECT_EQ(scenes::text_of(folder.file("a.tif")), scenes::text_of(folder.file("b.tif")));
+}
+
+/// Tiles that take long to compress before such that take no time.
+WholeRaster uneven_raster(std::size_t threads) {
+  WholeRaster raster = small_raster();
+  raster.columns = 9 * raster_tile_edge;
+  raster.rows = 3 * raster_tile_edge + 1;
+  raster.threads = threads;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> any(0.0F, 1.0F);
+  raster.svf.clear();
+  for (std::size_t n = 0; n < raster.columns * raster.rows; ++n)
+    raster.svf.push_back(n % raster.columns / raster_tile_edge % 3 == 0 ? any(random) : 0.5F);
+  return raster;
+}
+
+TEST(GeoTiff, HasTheSameBytesWithAnyNumberOfThreads) {
+  const scenes::TemporaryFolder folder;
+  write_whole<GeotiffWriter>(uneven_raster(1), folder.file("a.tif"));
+  const auto dataset = open_raster(folder.file("a.tif"));
+  ASSERT_NE(dataset, nullptr);
+  EXPECT_EQ(pixels_of(*dataset), uneven_raster(1).svf);
+  for (const std::size_t threads : {2U, 5U, 40U}) {
+    write_whole<GeotiffWriter>(uneven_raster(threads), folder.file("b.tif"));
+    EXPECT_TRUE(scenes::text_of(folder.file("a.tif")) == scenes::text_of(folder.file("b.tif"))) << threads;
+  }
+}
+
+/// While it lives, no file of the process grows beyond so many bytes.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
+};
+
+TEST(GeoTiff, AFullDiskIsToldWithAnyNumberOfThreads) {
+  for (const std::size_t threads : {1U, 2U, 40U}) {
+    const scenes::TemporaryFolder folder;
+    const WholeRaster raster = uneven_raster(threads);
+    {
+      const FileSizeLimit limit(300'000);
+      EXPECT_THROW(write_whole<GeotiffWriter>(raster, folder.file("a.tif")), OutputError) << threads;
+    }
+    EXPECT_THAT(folder.names(), IsEmpty()) << threads;
+  }
 }
 
 TEST(GeoTiff, KeepsACrsWithoutACode) {
