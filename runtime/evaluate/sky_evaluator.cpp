@@ -240,7 +240,7 @@ SkyEvaluator::Numbers SkyEvaluator::draw_horizons(CellGeometry& geometry, const 
                        {static_cast<float>(azimuth_error(settings_.azimuths)), rays_per_azimuth, stop_});
   Numbers uncertain;
   std::vector<PacketAnswer> of_packets;
-  for_each_group(cell.receivers, packet_order(cell.receivers),
+  for_each_group(cell.receivers, packet_order(cell.receivers, stop_),
                  [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
                    throw_if_cancelled(stop_);
                    of_packets.resize(packets.size());

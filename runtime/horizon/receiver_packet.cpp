@@ -9,6 +9,8 @@
 #include <numeric>
 #include <utility>
 
+#include "contract/cancellation.hpp"
+
 namespace farlod {
 namespace {
 
@@ -118,7 +120,8 @@ Cut widest_gap(const Bins& bins, std::size_t count, float packet_width) {
 
 class Division {
  public:
-  explicit Division(std::span<const Receiver> receivers) : room_(receivers.size()), bins_(receivers.size()) {
+  Division(std::span<const Receiver> receivers, std::stop_token stop)
+      : stop_(std::move(stop)), room_(receivers.size()), bins_(receivers.size()) {
     order_.numbers.resize(receivers.size());
     std::iota(order_.numbers.begin(), order_.numbers.end(), 0U);
     places_.reserve(receivers.size());
@@ -142,6 +145,7 @@ class Division {
       order_.group_ends.push_back(static_cast<std::uint32_t>(order_.ends.size()));
       return;
     }
+    throw_if_cancelled(stop_);
     const std::size_t count = cut(part);
     divide_into_groups(part.first(count));
     divide_into_groups(part.subspan(count));
@@ -182,6 +186,7 @@ class Division {
     return here;
   }
 
+  std::stop_token stop_;
   std::vector<Traits> places_, normals_;  ///< `normals_` is empty where all receivers look the same way
   PacketOrder order_;
   std::vector<std::uint32_t> room_;
@@ -253,6 +258,8 @@ PacketBounds joined(std::span<const PacketBounds> bounds) {
   return all;
 }
 
-PacketOrder packet_order(std::span<const Receiver> receivers) { return Division(receivers).divided(); }
+PacketOrder packet_order(std::span<const Receiver> receivers, const std::stop_token& stop) {
+  return Division(receivers, stop).divided();
+}
 
 }  // namespace farlod

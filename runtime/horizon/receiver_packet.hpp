@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "contract/expects.hpp"
@@ -78,7 +79,8 @@ struct PacketOrder {
 ///   (1) each receiver is in one packet
 ///   (2) a packet has between one and ReceiverPacket::lanes receivers
 ///   (3) the order depends on the receivers alone
-[[nodiscard]] PacketOrder packet_order(std::span<const Receiver> receivers);
+/// Throws Cancelled when `stop` is asked for.
+[[nodiscard]] PacketOrder packet_order(std::span<const Receiver> receivers, const std::stop_token& stop = {});
 
 /// Calls `visit(packets, numbers)` for each group, with the numbers of its receivers, packet by packet.
 template <class Visit>

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <utility>
 
+#include "farlod/error.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
 
 namespace farlod {
@@ -188,6 +189,13 @@ TEST(PacketBounds, HoldThoseOfEachPacketOfAGroup) {
     const Point3f normal{all.normal_x, all.normal_y, all.normal_z};
     EXPECT_EQ(normal, normals[0] == normals[1] ? normals[0] : (Point3f{}));
   }
+}
+
+TEST(PacketOrder, EndsWhenItIsAskedTo) {
+  std::stop_source stop;
+  EXPECT_EQ(packet_order(raster(100, 100), stop.get_token()).ends.size(), 625U);
+  stop.request_stop();
+  EXPECT_THROW((void)packet_order(raster(100, 100), stop.get_token()), Cancelled);
 }
 
 TEST(PacketOrder, ManyAtOnePlace) {
