@@ -283,10 +283,14 @@ void SkyEvaluator::count_rays(CellGeometry& geometry, const CellReceivers& cell,
                               const SkyAnswers& answers) const {
   by_rays_ += numbers.size();
   std::vector<Receiver> receivers;
+  receivers.reserve(numbers.size());
   for (const std::uint32_t n : numbers) receivers.push_back(cell.receivers[n]);
-  std::stable_sort(receivers.begin(), receivers.end(), [](const Receiver& a, const Receiver& b) {
+  const auto by_normal = [](const Receiver& a, const Receiver& b) {
     return std::tie(a.normal.x, a.normal.y, a.normal.z) < std::tie(b.normal.x, b.normal.y, b.normal.z);
-  });
+  };
+  // Those of a raster all look up; to sort millions of them takes longer than a cancelled run may wait
+  if (!std::is_sorted(receivers.begin(), receivers.end(), by_normal))
+    std::stable_sort(receivers.begin(), receivers.end(), by_normal);
   for_each_normal(receivers, [&](std::span<const Receiver> group) {
     const std::vector<Point3d> directions = directions_of(directions_, group.front().normal);
     if (directions.empty()) {

@@ -131,7 +131,7 @@ std::chrono::duration<double> wait_after_stop(std::chrono::milliseconds after, c
 
 TEST_P(Cancelling, EndsWithinATenthOfASecond) {
   const Package package(folder_->path() / "town.farlod");
-  const RasterPlan plan = plan_raster(package, 0.05);
+  const RasterPlan plan = plan_raster(package, 0.08);
   EvaluationSettings settings;
   settings.engine = GetParam();
   for (const int after_ms : {20, 100, 300}) {
