@@ -23,7 +23,9 @@ inline constexpr double facing_slack_m = 0.001;
 [[nodiscard]] inline bool may_be_silhouette(const Point3d& a, const Point3d& b, AdjacentSlopes adjacent, EdgeRole role,
                                             const Box2d& eyes_plan, double eyes_low_m, double eyes_high_m) {
   const Point3d along = b - a;
-  const double run_m = norm(horizontal(along)), length_m = norm(along);
+  // Not std::hypot: nothing here is near the limits of a double, and this is asked of each edge that a far map meets
+  const double run_m = std::sqrt(dot(horizontal(along), horizontal(along))),
+               length_m = std::sqrt(run_m * run_m + along.z * along.z);
   if (run_m == 0.0) return true;
   const std::array corners{eyes_plan.low, Point2d{eyes_plan.high.x, eyes_plan.low.y}, eyes_plan.high,
                            Point2d{eyes_plan.low.x, eyes_plan.high.y}};

@@ -8,6 +8,9 @@
 namespace farlod {
 namespace {
 
+/// Fewer would cost more boxes than they spare edges.
+constexpr std::uint32_t most_in_leaf = 32;
+
 std::size_t occluder_count(const TileSet& tiles) {
   std::size_t count = 0;
   for (const Tile& tile : tiles.tiles) count += tile.horizon_edges.size();
@@ -36,21 +39,10 @@ void CityHorizon::gather(const Tile& tile, Cell cell) {
 }
 
 void CityHorizon::build(std::uint32_t n, const CellRange& range) {
-  Node node;
-  node.z_high_m = node.z_underside_m = -std::numeric_limits<double>::infinity();
   if (range.size() == 1) {
-    node.cell = {range.i_begin, range.j_begin};
-    // A leaf is a cell: its box is that of its occluders
-    const std::size_t index = cells_.index_of(node.cell);
-    node.first_occluder = first_of_cell_[index];
-    node.occluder_count = first_of_cell_[index + 1] - first_of_cell_[index];
-    for (const OccluderEdge& o : occluders().subspan(node.first_occluder, node.occluder_count)) {
-      node.z_high_m = std::max(node.z_high_m, o.z_high_m());
-      if (!o.is_upper()) node.z_underside_m = std::max(node.z_underside_m, o.z_high_m());
-      for (const Point3d& p : {o.a, o.b}) node.outline.add(horizontal(p));
-    }
-    nodes_[n] = node;
-    return;
+    const Cell cell{range.i_begin, range.j_begin};
+    const std::size_t index = cells_.index_of(cell);
+    return build_in_cell(n, cell, first_of_cell_[index], first_of_cell_[index + 1] - first_of_cell_[index]);
   }
   // Halve the longer side of the rectangle
   CellRange low = range, high = range;
@@ -60,19 +52,62 @@ void CityHorizon::build(std::uint32_t n, const CellRange& range) {
     low.j_end = high.j_begin = range.j_begin + static_cast<std::int32_t>(range.height() / 2);
   }
   // Siblings stand side by side
-  node.children = static_cast<std::uint32_t>(nodes_.size());
+  const auto children = static_cast<std::uint32_t>(nodes_.size());
+  nodes_[n].children = children;
   nodes_.resize(nodes_.size() + 2);
-  build(node.children, low);
-  build(node.children + 1, high);
-  // The box of a node encloses those of its children
-  for (const Node& child : {nodes_[node.children], nodes_[node.children + 1]}) {
+  build(children, low);
+  build(children + 1, high);
+  join_children(n);
+}
+
+/// Halves the occluders of a cell, as many on either side, until few are left.
+void CityHorizon::build_in_cell(std::uint32_t n, Cell cell, std::uint32_t first, std::uint32_t count) {
+  nodes_[n] = leaf_of(cell, first, count);
+  if (count <= most_in_leaf) return;
+  const auto middle = [](const OccluderEdge& o) { return horizontal(o.a) + horizontal(o.b); };
+  Box2d middles;
+  const auto occluders = std::span(occluders_).subspan(first, count);
+  for (const OccluderEdge& o : occluders) middles.add(middle(o));
+  const Point2d extent = middles.high - middles.low;
+  // What has equal places keeps its order: the same on every machine
+  if (extent.x >= extent.y) {
+    std::ranges::stable_sort(occluders, {}, [&](const OccluderEdge& o) { return middle(o).x; });
+  } else {
+    std::ranges::stable_sort(occluders, {}, [&](const OccluderEdge& o) { return middle(o).y; });
+  }
+  const auto children = static_cast<std::uint32_t>(nodes_.size());
+  nodes_[n].children = children;
+  nodes_.resize(nodes_.size() + 2);
+  build_in_cell(children, cell, first, count / 2);
+  build_in_cell(children + 1, cell, first + count / 2, count - count / 2);
+}
+
+CityHorizon::Node CityHorizon::leaf_of(Cell cell, std::uint32_t first, std::uint32_t count) const {
+  Node node;
+  node.z_high_m = node.z_underside_m = -std::numeric_limits<double>::infinity();
+  node.cell = cell;
+  node.first_occluder = first;
+  node.occluder_count = count;
+  for (const OccluderEdge& o : occluders().subspan(first, count)) {
+    node.z_high_m = std::max(node.z_high_m, o.z_high_m());
+    if (!o.is_upper()) node.z_underside_m = std::max(node.z_underside_m, o.z_high_m());
+    for (const Point3d& p : {o.a, o.b}) node.outline.add(horizontal(p));
+  }
+  return node;
+}
+
+/// The box of a node encloses those of its children.
+void CityHorizon::join_children(std::uint32_t n) {
+  Node& node = nodes_[n];
+  node.z_high_m = node.z_underside_m = -std::numeric_limits<double>::infinity();
+  for (const std::uint32_t c : {node.children, node.children + 1}) {
+    const Node& child = nodes_[c];
     node.z_high_m = std::max(node.z_high_m, child.z_high_m);
     node.z_underside_m = std::max(node.z_underside_m, child.z_underside_m);
     if (child.outline.empty()) continue;
     node.outline.add(child.outline.low);
     node.outline.add(child.outline.high);
   }
-  nodes_[n] = node;
 }
 
 }  // namespace farlod

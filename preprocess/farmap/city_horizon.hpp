@@ -29,18 +29,19 @@ struct OccluderEdge {
   }
 };
 
-/// All occluders of a city, by cell, below a tree of boxes (a bounding volume hierarchy), so that whole subtrees can be culled.
+/// All occluders of a city below a tree of boxes (a bounding volume hierarchy), so that whole subtrees can be culled. Its upper
+/// part divides the cells; what stands in a cell is divided further, so that the nearer part of it can hide the farther.
 /// Frame: the grid frame moved to the corner of the middle cell, with heights as in the tiles.
 class CityHorizon {
  public:
   CityHorizon(const TileSet& tiles, const Grid& grid);
 
-  /// A box around everything in a rectangle of cells; its children divide the rectangle.
+  /// A box around everything in a rectangle of cells, or around some of what is in a cell; its children divide it.
   struct Node {
     Box2d outline;
     double z_high_m = 0.0;
     double z_underside_m = 0.0;  ///< of the highest underside; less than any height where there is none
-    Cell cell;                   ///< of a leaf
+    Cell cell;                   ///< of a leaf; some have the same
     std::uint32_t children = 0;  ///< index of the first of two; 0 for a leaf
     std::uint32_t first_occluder = 0, occluder_count = 0;
   };
@@ -52,6 +53,9 @@ class CityHorizon {
  private:
   void gather(const Tile& tile, Cell cell);
   void build(std::uint32_t node, const CellRange& range);
+  void build_in_cell(std::uint32_t node, Cell cell, std::uint32_t first, std::uint32_t count);
+  [[nodiscard]] Node leaf_of(Cell cell, std::uint32_t first, std::uint32_t count) const;
+  void join_children(std::uint32_t node);
 
   const Grid& grid_;
   Point2d origin_grid_;
