@@ -20,7 +20,7 @@ SizeRow study_size(const SizedCity& sized, const OurEngine& ours, Accuracy accur
   const PackageReader& package = city.package;
   tell("a city of " + std::to_string(package.manifest().polygons) + " polygons");
   const std::vector<Cell> cells = spread_cells(package.grid(), extent.cells);
-  const CityReceivers receivers = place_receivers(package, cells, Place::ground, extent.ground_spacing_m);
+  const CityReceivers receivers = place_receivers(package, cells, Place::ground, extent.spacing_m(Place::ground));
   const std::vector<SharedPacket> packets = packets_of(package.grid(), receivers);
   SizeRow row;
   row.polygons = package.manifest().polygons;

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "benchmark/measurement.hpp"
@@ -13,17 +14,17 @@
 namespace farlod::benchmark {
 namespace {
 
-std::vector<Rung> climb_rival(const City& city, const Field& field, const Extent& extent) {
+std::vector<Rung> climb_rival(const City& city, const SampledField& field, const Extent& extent) {
   const Answer answer = [&](std::size_t rays) {
-    std::vector<float> svf(field.sample.count);
-    city.rival.evaluate(field.sample_packets, fibonacci_directions(rays), svf);
+    std::vector<float> svf(field.sample.receivers.count);
+    city.rival.evaluate(field.sample.packets, fibonacci_directions(rays), svf);
     return svf;
   };
   return climb(extent.rival_ladder, answer, field.truth);
 }
 
-std::vector<float> our_answers(const City& city, const Field& field, const OurEngine& ours, std::size_t samples) {
-  const CityReceivers& asked = ours.shares_work ? field.receivers : field.sample;
+std::vector<float> our_answers(const City& city, const SampledField& field, const OurEngine& ours, std::size_t samples) {
+  const CityReceivers& asked = ours.shares_work ? field.all.receivers : field.sample.receivers;
   std::vector<float> svf(asked.count);
   evaluate(city.package, ours.settings(samples), asked, svf);
   if (!ours.shares_work) return svf;
@@ -32,13 +33,21 @@ std::vector<float> our_answers(const City& city, const Field& field, const OurEn
   return of_sample;
 }
 
-std::vector<Rung> climb_ours(const City& city, const Field& field, const OurEngine& ours) {
+std::vector<Rung> climb_ours(const City& city, const SampledField& field, const OurEngine& ours) {
   const Answer answer = [&](std::size_t samples) { return our_answers(city, field, ours, samples); };
   return climb(ours.ladder, answer, field.truth);
 }
 
-double spacing_of(Place place, const Extent& extent) {
-  return place == Place::ground ? extent.ground_spacing_m : extent.surface_spacing_m;
+Field place_field(const City& city, Place place, double spacing_m, std::size_t cells) {
+  Field field{place_receivers(city.package, spread_cells(city.package.grid(), cells), place, spacing_m), {}};
+  field.packets = packets_of(city.package.grid(), field.receivers);
+  return field;
+}
+
+/// Of maps with fewer receivers, more cells are measured.
+std::size_t cells_for(double spacing_m, Place place, const Extent& extent) {
+  const double by = spacing_m / extent.spacing_m(place);
+  return static_cast<std::size_t>(static_cast<double>(extent.cells) * std::max(1.0, by * by));
 }
 
 /// Measures a row whose settings are chosen.
@@ -68,33 +77,38 @@ Extent quick_extent() {
   extent.sample = 100;
   extent.truth_rays = 10000;
   extent.turns = 1;
-  extent.ground_spacing_m = 4.0;
-  extent.surface_spacing_m = 6.0;
+  extent.ground = {{4.0, 0.010}, {4.0, 0.005}, {8.0, 0.010}};
+  extent.surfaces = {{6.0, 0.010}, {6.0, 0.005}};
   return extent;
 }
 
-Field prepare_field(const City& city, Place place, const Extent& extent) {
-  const double spacing_m = spacing_of(place, extent);
-  Field field;
-  field.place = place;
-  field.receivers = place_receivers(city.package, spread_cells(city.package.grid(), extent.cells), place, spacing_m);
-  field.sample = choose_receivers(field.receivers, extent.sample);
-  field.sample_in_all = choose_some(field.receivers.count, extent.sample);
-  field.packets = packets_of(city.package.grid(), field.receivers);
-  field.sample_packets = packets_of(city.package.grid(), field.sample);
-  field.truth = exact_answers(city.package, field.sample, extent.truth_rays);
+SampledField prepare_field(const City& city, Place place, const Extent& extent) {
+  SampledField field{place_field(city, place, extent.spacing_m(place), extent.cells), {}, {}, {}};
+  field.sample.receivers = choose_receivers(field.all.receivers, extent.sample);
+  field.sample.packets = packets_of(city.package.grid(), field.sample.receivers);
+  field.sample_in_all = choose_some(field.all.receivers.count, extent.sample);
+  field.truth = exact_answers(city.package, field.sample.receivers, extent.truth_rays);
   return field;
 }
 
 Contest contest(const City& city, Place place, const OurEngine& ours, const Extent& extent) {
   tell(fmt::format("{}: errors", name_of(place)));
-  const Field field = prepare_field(city, place, extent);
-  Contest result{
-      place, field.sample.count, field.receivers.placing_s, climb_rival(city, field, extent), climb_ours(city, field, ours), {}};
-  for (const double target : extent.targets) {
-    tell(fmt::format("{}: time at a largest error of {:.3f}", name_of(place), target));
-    ContestRow row{fmt::format("{} every {:g} m, max error ≤ {:.3f}", name_of(place), spacing_of(place, extent), target),
-                   field.receivers.count, rung_within(result.rival_ladder, target), rung_within(result.our_ladder, target)};
+  const SampledField sampled = prepare_field(city, place, extent);
+  Contest result{place,
+                 sampled.sample.receivers.count,
+                 sampled.all.receivers.placing_s,
+                 climb_rival(city, sampled, extent),
+                 climb_ours(city, sampled, ours),
+                 {}};
+  for (const Target& target : extent.targets(place)) {
+    tell(fmt::format("{} every {:g} m: time at a largest error of {:.3f}", name_of(place), target.spacing_m, target.max_error));
+    const bool is_sampled = target.spacing_m == extent.spacing_m(place);
+    const Field coarser =
+        is_sampled ? Field{} : place_field(city, place, target.spacing_m, cells_for(target.spacing_m, place, extent));
+    const Field& field = is_sampled ? sampled.all : coarser;
+    ContestRow row{fmt::format("{} every {:g} m, max error ≤ {:.3f}", name_of(place), target.spacing_m, target.max_error), target,
+                   field.receivers.count, rung_within(result.rival_ladder, target.max_error),
+                   rung_within(result.our_ladder, target.max_error)};
     if (row.rival && row.ours)
       measure(city, field, fibonacci_directions(row.rival->samples), ours.settings(row.ours->samples), extent.turns, row);
     else if (row.rival)
@@ -107,16 +121,19 @@ Contest contest(const City& city, Place place, const OurEngine& ours, const Exte
 std::vector<ContestRow> same_directions_contest(const City& city, const Extent& extent) {
   constexpr std::size_t rays = 1000;
   tell("overhangs: the same directions");
-  const Field field = prepare_field(city, Place::ground, extent);
+  const SampledField field = prepare_field(city, Place::ground, extent);
   const SkySettings ours = engine_named("rays").settings(rays);
   const SkyDirections all(ours.weight, rays, city.package.grid().rotation);
   const std::vector<Point3d> directions(all.facing_up().begin(), all.facing_up().end());
-  std::vector<float> our_svf(field.sample.count), rival_svf(our_svf);
-  evaluate(city.package, ours, field.sample, our_svf);
-  city.rival.evaluate(field.sample_packets, directions, rival_svf);
-  ContestRow row{fmt::format("overhangs, ground, engine `rays`, the same {} directions", rays), field.receivers.count,
-                 Rung{rays, errors_of(rival_svf, field.truth)}, Rung{rays, errors_of(our_svf, field.truth)}};
-  measure(city, field, directions, ours, extent.turns, row);
+  std::vector<float> our_svf(field.truth.size()), rival_svf(our_svf);
+  evaluate(city.package, ours, field.sample.receivers, our_svf);
+  city.rival.evaluate(field.sample.packets, directions, rival_svf);
+  ContestRow row{fmt::format("overhangs, ground, engine `rays`, the same {} directions", rays),
+                 {},
+                 field.all.receivers.count,
+                 Rung{rays, errors_of(rival_svf, field.truth)},
+                 Rung{rays, errors_of(our_svf, field.truth)}};
+  measure(city, field.all, directions, ours, extent.turns, row);
   return {row};
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -14,15 +13,25 @@
 
 namespace farlod::benchmark {
 
+/// What is asked of a map: how dense its receivers are, and by how much none of them may err.
+struct Target {
+  double spacing_m;
+  double max_error;
+};
+
 /// How much is measured.
 struct Extent {
-  std::size_t cells = 200;    ///< of the city, spread evenly
+  std::size_t cells = 24;     ///< of the city, spread evenly; of coarser maps as many more as make up for it
   std::size_t sample = 2000;  ///< receivers whose truth is traced
   std::size_t truth_rays = 100000;
   std::size_t turns = 5;  ///< medians are of so many
-  double ground_spacing_m = 1.0, surface_spacing_m = 2.0;
-  std::vector<std::size_t> rival_ladder{256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096, 6144, 8192};
-  std::array<double, 2> targets{0.010, 0.005};
+  /// Errors are measured at the spacing of the first.
+  std::vector<Target> ground{{1.0, 0.010}, {1.0, 0.005}, {1.0, 0.002}, {2.0, 0.010}, {4.0, 0.010}, {10.0, 0.010}};
+  std::vector<Target> surfaces{{2.0, 0.010}, {2.0, 0.005}};
+  std::vector<std::size_t> rival_ladder{256, 384, 512, 768, 1024, 1536, 2048, 3072, 4096, 6144, 8192, 12288};
+
+  [[nodiscard]] const std::vector<Target>& targets(Place place) const { return place == Place::ground ? ground : surfaces; }
+  [[nodiscard]] double spacing_m(Place place) const { return targets(place).front().spacing_m; }
 };
 [[nodiscard]] Extent quick_extent();
 
@@ -34,25 +43,30 @@ struct City {
   WholeCityRival rival;
 };
 
-/// Receivers of one place, and some among them whose truth is known.
+/// Receivers of one place, for us and for the rival.
 struct Field {
-  Place place = Place::ground;
-  CityReceivers receivers, sample;
-  std::vector<std::size_t> sample_in_all;             ///< the index that each of the sample has among all receivers
-  std::vector<SharedPacket> packets, sample_packets;  ///< the same, as the rival wants them
+  CityReceivers receivers;
+  std::vector<SharedPacket> packets;
+};
+
+/// Such receivers, and some among them whose truth is known.
+struct SampledField {
+  Field all, sample;
+  std::vector<std::size_t> sample_in_all;  ///< the index that each of the sample has among all receivers
   std::vector<float> truth;
 };
-[[nodiscard]] Field prepare_field(const City& city, Place place, const Extent& extent);
+[[nodiscard]] SampledField prepare_field(const City& city, Place place, const Extent& extent);
 
 /// Ours against the rival, both at the accuracy that the row names.
 struct ContestRow {
   std::string what;
+  Target target{};
   std::size_t receivers = 0;
   std::optional<Rung> rival, ours;  ///< the settings and their errors; none when no rung was good enough
   double rival_s = 0.0, ours_s = 0.0, ratio = 0.0;
 };
 
-/// Both at the fewest samples whose largest error is within each target.
+/// Both at the fewest samples whose largest error is within each target of the place.
 struct Contest {
   Place place;
   std::size_t sample = 0;

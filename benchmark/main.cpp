@@ -6,9 +6,11 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "benchmark/measurement.hpp"
 #include "benchmark/performance_tables.hpp"
 
 // Measures us against tracing the whole city, and prints the tables of docs/performance.md. benchmark/run runs it.
@@ -17,7 +19,7 @@ namespace farlod::benchmark {
 namespace {
 
 struct Options {
-  bool quick = false;
+  bool quick = false, maps = false;
   std::string engine = "auto", generator;
   std::filesystem::path city, overhangs;
   std::vector<std::filesystem::path> packed;
@@ -49,7 +51,24 @@ std::string described(const PackageReader& package, const std::string& generator
                      package.grid().cell_edge_m, package.grid().neighborhood);
 }
 
+/// What benchmark/end_to_end needs to know: a line for each target of the ground.
+int print_maps(const Options& options) {
+  const Extent extent = extent_of(options);
+  const City city(options.city);
+  const double index_s = median_seconds(extent.turns, [&] { static_cast<void>(WholeCityRival(city.triangles)); });
+  fmt::print("spacing_m,max_error,index_s,rival_rays,rival_error,rival_per_s,our_samples,our_error,our_per_s\n");
+  for (const ContestRow& row : contest(city, Place::ground, engine_named(options.engine), extent).rows) {
+    if (!row.rival || !row.ours) continue;
+    const auto count = static_cast<double>(row.receivers);
+    fmt::print("{:g},{:g},{:.3f},{},{:.4f},{:.0f},{},{:.4f},{:.0f}\n", row.target.spacing_m, row.target.max_error, index_s,
+               row.rival->samples, row.rival->errors.max_abs, count / row.rival_s, row.ours->samples, row.ours->errors.max_abs,
+               count / row.ours_s);
+  }
+  return 0;
+}
+
 int run(const Options& options) {
+  if (options.maps) return print_maps(options);
   Results results{extent_of(options), engine_named(options.engine), "", {}, {}, {}, {}, {}};
   {
     const City city(options.city);
@@ -69,15 +88,17 @@ int measure(int argc, char** argv) {
   CLI::App app("farlod-benchmark — measures us against tracing the whole city, for docs/performance.md", "farlod-benchmark");
   Options options;
   app.add_flag("--quick", options.quick, "Few receivers, one turn: to see that all of it runs");
+  CLI::Option* maps = app.add_flag("--maps", options.maps, "Only maps of the ground of --city, as a table of commas");
   app.add_option("--engine", options.engine, "Which of ours")->capture_default_str();
   app.add_option("--city", options.city, "Package of the contests")->required();
   app.add_option("--generator", options.generator, "The options of farlod-city that made it");
-  app.add_option("--overhangs", options.overhangs, "Package of a city with overhangs")->required();
+  app.add_option("--overhangs", options.overhangs, "Package of a city with overhangs")->excludes(maps);
   app.add_option("--packed", options.packed, "Package of a city of the sizes that are compared; again for each");
   app.add_option("--pack-seconds", options.pack_s, "How long packing the --packed took, in their order");
   app.add_option("--cells", options.cells, "Cells of the city that are measured");
   app.add_option("--turns", options.turns, "Medians are of so many");
   CLI11_PARSE(app, argc, argv);
+  if (!options.maps && options.overhangs.empty()) throw std::runtime_error("--overhangs is required, unless there is --maps");
   return run(options);
 }
 

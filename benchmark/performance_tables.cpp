@@ -41,7 +41,9 @@ std::string main_table(const Results& results) {
   std::string text = fmt::format(
       "## Against tracing the whole city\n\nReceivers a second, all cores together. *Ours*: engine `{}`, its accuracy set by {}. "
       "*Rival*: the whole city in one Embree scene, at its best (below). Both at the fewest samples whose largest error among {} "
-      "random receivers is within the target; the truth is {} rays against all tiles. City: {}; {} cells of it, spread evenly. "
+      "random receivers is within the target (of maps of the ground, those of the densest); the truth is {} rays against all "
+      "tiles. "
+      "City: {}; {} cells of it, spread evenly (of coarser maps more). "
       "Ratio: rival's time by ours, the median over {} turns (both back to back in each).\n\n"
       "| receivers | rival: rays | max error | receivers/s | ours: {} | max error | receivers/s | ratio |\n"
       "|---|---|---|---|---|---|---|---|\n",

@@ -43,8 +43,7 @@ struct PackedReceivers {
 
 PackedReceivers packed_receivers(const City& city, Place place, const Extent& extent) {
   const std::vector<Cell> cells = spread_cells(city.package.grid(), (extent.cells + share_of_cells - 1) / share_of_cells);
-  const double spacing_m = place == Place::ground ? extent.ground_spacing_m : extent.surface_spacing_m;
-  const CityReceivers placed = place_receivers(city.package, cells, place, spacing_m);
+  const CityReceivers placed = place_receivers(city.package, cells, place, extent.spacing_m(place));
   return {placed.count, packets_of(city.package.grid(), placed)};
 }
 

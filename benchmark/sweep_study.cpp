@@ -42,16 +42,16 @@ SweepRow compare(std::size_t azimuths, const std::vector<float>& svf, const std:
 }  // namespace
 
 SweepStudy study_sweep(const City& city, const Extent& extent) {
-  const Field field = prepare_field(city, Place::ground, extent);
+  const SampledField field = prepare_field(city, Place::ground, extent);
   SweepStudy study;
   HeightRaster raster;
-  study.raster_s = median_seconds(extent.turns, [&] { raster = rasterise(city.package, extent.ground_spacing_m); });
+  study.raster_s = median_seconds(extent.turns, [&] { raster = rasterise(city.package, extent.spacing_m(Place::ground)); });
   const LineSweep sweep(raster, head_m);
-  study.pixel_m = extent.ground_spacing_m;
+  study.pixel_m = extent.spacing_m(Place::ground);
   study.pixels = raster.surface_m.size();
   study.receivers = sweep.receiver_count();
-  study.compared = field.sample.count;
-  const std::vector<std::size_t> pixels = pixels_of(city.package, raster.plan, field.sample);
+  study.compared = field.truth.size();
+  const std::vector<std::size_t> pixels = pixels_of(city.package, raster.plan, field.sample.receivers);
   for (const std::size_t azimuths : azimuth_counts) {
     tell("line sweep: " + std::to_string(azimuths) + " azimuths");
     std::vector<float> svf;
