@@ -36,7 +36,7 @@ enum class DirectionSet {
   fibonacci   ///< a spherical Fibonacci lattice with the sky's weight: fixed, of low discrepancy
 };
 
-inline constexpr std::size_t default_azimuths = 256, default_rays = 1000;
+inline constexpr std::size_t default_azimuths = 320, default_rays = 1000;
 
 /// What is computed at a receiver, and how exactly.
 struct EvaluationSettings {
