@@ -63,10 +63,10 @@ void require_city_size(const InputFile& file) {
     if (stream->eof()) break;
 }
 
-SourceCity read(const InputFile& file, const IngestSettings& settings, Report& report) {
+SourceCity read(const InputFile& file, const IngestSettings& settings, Report& report, const std::stop_token& stop) {
   switch (format_of(file, report)) {
     case FileFormat::citygml:
-      return read_citygml(file, settings.lod, report);
+      return read_citygml(file, settings.lod, report, stop);
     case FileFormat::cityjson:
       return read_cityjson(file, settings.lod, report);
     case FileFormat::obj:
@@ -84,12 +84,13 @@ SourceCity read(const InputFile& file, const IngestSettings& settings, Report& r
 }
 
 /// Reads one of several files. A file that cannot be used is reported and does not end the run.
-void ingest_among_others(const InputFile& file, const IngestSettings& settings, Report& report, std::vector<SourceCity>& cities) {
+void ingest_among_others(const InputFile& file, const IngestSettings& settings, Report& report, const std::stop_token& stop,
+                         std::vector<SourceCity>& cities) {
   try {
     if (is_empty(file))
       report.add({ProblemCode::empty_file, file.name, "the whole file", "0 bytes: was the download cut short?"});
     else
-      cities.push_back(ingest(file, settings, report));
+      cities.push_back(ingest(file, settings, report, stop));
   } catch (const InputError& error) {
     report.add({ProblemCode::unusable_file, file.name, "the whole file", error.what()});
   }
@@ -97,10 +98,10 @@ void ingest_among_others(const InputFile& file, const IngestSettings& settings, 
 
 }  // namespace
 
-SourceCity ingest(const InputFile& file, const IngestSettings& settings, Report& report) {
+SourceCity ingest(const InputFile& file, const IngestSettings& settings, Report& report, const std::stop_token& stop) {
   require_content(file);
   const std::size_t known = report.problems().size();
-  SourceCity city = read(file, settings, report);
+  SourceCity city = read(file, settings, report, stop);
   if (city.city.buildings().empty() && city.relief_points.empty()) {
     const auto& problems = report.problems();
     const std::string reason =
@@ -115,13 +116,13 @@ std::vector<SourceCity> ingest_all(std::span<const InputFile> files, const Inges
                                    const std::stop_token& stop) {
   std::vector<SourceCity> cities;
   if (files.size() == 1) {
-    cities.push_back(ingest(files.front(), settings, report));
+    cities.push_back(ingest(files.front(), settings, report, stop));
     return cities;
   }
   const std::size_t known = report.problems().size();
   for (const InputFile& file : files) {
     throw_if_cancelled(stop);
-    ingest_among_others(file, settings, report, cities);
+    ingest_among_others(file, settings, report, stop, cities);
   }
   if (cities.empty() && !files.empty())
     throw InputError("none of the " + std::to_string(files.size()) + " files can be used. The first problem: " +

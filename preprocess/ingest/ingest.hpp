@@ -20,7 +20,8 @@ namespace farlod::ingest {
 ///   (4) what is left out or repaired is in the report;
 ///   (5) its content decides which format it is; its name decides only where the content does not.
 /// Throws InputError when the file as a whole cannot be used, or when neither a building nor a point of a relief is left.
-[[nodiscard]] SourceCity ingest(const InputFile& file, const IngestSettings& settings, Report& report);
+[[nodiscard]] SourceCity ingest(const InputFile& file, const IngestSettings& settings, Report& report,
+                                const std::stop_token& stop = {});
 
 /// Reads the files of a city one by one. If there are several, a file that is empty or cannot be used as a whole is reported and
 /// left out. Throws InputError when none is left. A single file is read as `ingest` reads it.
