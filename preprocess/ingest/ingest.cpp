@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ingest/ingest.hpp"
 
+#include <algorithm>
+#include <exception>
+#include <optional>
+#include <utility>
+
 #include "contract/cancellation.hpp"
 #include "farlod/error.hpp"
 #include "ingest/citygml/citygml_reader.hpp"
@@ -10,11 +15,15 @@
 #include "ingest/footprints/footprint_reader.hpp"
 #include "ingest/obj/obj_placement.hpp"
 #include "ingest/obj/obj_reader.hpp"
+#include "ingest/ordered/ordered_work.hpp"
 
 namespace farlod::ingest {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Each takes the memory that its reader needs besides the city, which for JSON is much.
+constexpr std::size_t most_files_at_once = 4;
 
 bool is_folder(const InputFile& file) {
   std::error_code error;
@@ -63,10 +72,10 @@ void require_city_size(const InputFile& file) {
     if (stream->eof()) break;
 }
 
-SourceCity read(const InputFile& file, const IngestSettings& settings, Report& report) {
+SourceCity read(const InputFile& file, const IngestSettings& settings, Report& report, const std::stop_token& stop) {
   switch (format_of(file, report)) {
     case FileFormat::citygml:
-      return read_citygml(file, settings.lod, report);
+      return read_citygml(file, settings.lod, report, stop);
     case FileFormat::cityjson:
       return read_cityjson(file, settings.lod, report);
     case FileFormat::obj:
@@ -83,24 +92,59 @@ SourceCity read(const InputFile& file, const IngestSettings& settings, Report& r
   return read_footprints(file, settings.footprints, report);
 }
 
-/// Reads one of several files. A file that cannot be used is reported and does not end the run.
-void ingest_among_others(const InputFile& file, const IngestSettings& settings, Report& report, std::vector<SourceCity>& cities) {
+/// One of several files.
+struct FileReading {
+  Report report;
+  std::optional<SourceCity> city;
+  std::exception_ptr failure;  ///< what ends the run: the first in the order of the files does
+};
+
+/// A file that cannot be used is reported and does not end the run.
+FileReading ingest_among_others(const InputFile& file, const IngestSettings& settings, const std::stop_token& stop) {
+  FileReading reading;
   try {
     if (is_empty(file))
-      report.add({ProblemCode::empty_file, file.name, "the whole file", "0 bytes: was the download cut short?"});
+      reading.report.add({ProblemCode::empty_file, file.name, "the whole file", "0 bytes: was the download cut short?"});
     else
-      cities.push_back(ingest(file, settings, report));
+      reading.city = ingest(file, settings, reading.report, stop);
   } catch (const InputError& error) {
-    report.add({ProblemCode::unusable_file, file.name, "the whole file", error.what()});
+    reading.report.add({ProblemCode::unusable_file, file.name, "the whole file", error.what()});
+  } catch (...) {
+    reading.failure = std::current_exception();
   }
+  return reading;
+}
+
+/// Reads some files at a time. Their cities and problems are in the order of the files.
+std::vector<SourceCity> ingest_several(std::span<const InputFile> files, const IngestSettings& settings, Report& report,
+                                       const std::stop_token& stop) {
+  std::vector<SourceCity> cities;
+  std::vector<FileReading> readings(std::min(threads_here(), most_files_at_once));
+  std::vector<const InputFile*> files_at(readings.size());
+  std::size_t next = 0;
+  const auto begin = [&](std::size_t place) {
+    throw_if_cancelled(stop);
+    if (next == files.size()) return false;
+    files_at[place] = &files[next++];
+    return true;
+  };
+  const auto read_one = [&](std::size_t place) { readings[place] = ingest_among_others(*files_at[place], settings, stop); };
+  const auto end = [&](std::size_t place) {
+    FileReading reading = std::move(readings[place]);
+    if (reading.failure) std::rethrow_exception(reading.failure);
+    for (Problem& problem : reading.report.since(0)) report.add(std::move(problem));
+    if (reading.city) cities.push_back(std::move(*reading.city));
+  };
+  run_in_order(readings.size(), {begin, read_one, end});
+  return cities;
 }
 
 }  // namespace
 
-SourceCity ingest(const InputFile& file, const IngestSettings& settings, Report& report) {
+SourceCity ingest(const InputFile& file, const IngestSettings& settings, Report& report, const std::stop_token& stop) {
   require_content(file);
   const std::size_t known = report.problems().size();
-  SourceCity city = read(file, settings, report);
+  SourceCity city = read(file, settings, report, stop);
   if (city.city.buildings().empty() && city.relief_points.empty()) {
     const auto& problems = report.problems();
     const std::string reason =
@@ -113,16 +157,13 @@ SourceCity ingest(const InputFile& file, const IngestSettings& settings, Report&
 
 std::vector<SourceCity> ingest_all(std::span<const InputFile> files, const IngestSettings& settings, Report& report,
                                    const std::stop_token& stop) {
-  std::vector<SourceCity> cities;
   if (files.size() == 1) {
-    cities.push_back(ingest(files.front(), settings, report));
+    std::vector<SourceCity> cities;
+    cities.push_back(ingest(files.front(), settings, report, stop));
     return cities;
   }
   const std::size_t known = report.problems().size();
-  for (const InputFile& file : files) {
-    throw_if_cancelled(stop);
-    ingest_among_others(file, settings, report, cities);
-  }
+  std::vector<SourceCity> cities = ingest_several(files, settings, report, stop);
   if (cities.empty() && !files.empty())
     throw InputError("none of the " + std::to_string(files.size()) + " files can be used. The first problem: " +
                      report.problems()[known].source + ": " + report.problems()[known].detail);

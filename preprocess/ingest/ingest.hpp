@@ -19,11 +19,14 @@ namespace farlod::ingest {
 ///   (3) rings have at least three different points, no vertex twice in a row, and only finite coordinates;
 ///   (4) what is left out or repaired is in the report;
 ///   (5) its content decides which format it is; its name decides only where the content does not.
-/// Throws InputError when the file as a whole cannot be used, or when neither a building nor a point of a relief is left.
-[[nodiscard]] SourceCity ingest(const InputFile& file, const IngestSettings& settings, Report& report);
+/// Throws InputError when the file as a whole cannot be used, or when neither a building nor a point of a relief is left;
+/// Cancelled when a stop is requested while CityGML is read.
+[[nodiscard]] SourceCity ingest(const InputFile& file, const IngestSettings& settings, Report& report,
+                                const std::stop_token& stop = {});
 
-/// Reads the files of a city one by one. If there are several, a file that is empty or cannot be used as a whole is reported and
-/// left out. Throws InputError when none is left. A single file is read as `ingest` reads it.
+/// Reads the files of a city, up to four at a time on the threads of the task arena that it is called in. Cities and problems are
+/// in the order of the files. If there are several, a file that is empty or cannot be used as a whole is reported and left out.
+/// Throws InputError when none is left, and Cancelled when a stop is requested. A single file is read as `ingest` reads it.
 [[nodiscard]] std::vector<SourceCity> ingest_all(std::span<const InputFile> files, const IngestSettings& settings, Report& report,
                                                  const std::stop_token& stop = {});
 

@@ -35,16 +35,6 @@ class ScratchFolder {
   fs::path path_;
 };
 
-fs::path write_file(std::span<const std::uint8_t> bytes, std::string_view ending) {
-  static const ScratchFolder folder;
-  const fs::path file = folder.path() / ("city" + std::string(ending));
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  FARLOD_EXPECTS(stream);
-  return file;
-}
-
 bool is_finite(const Point3d& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 void expect_clean_ring(std::span<const Point3d> ring) {
@@ -67,6 +57,16 @@ void expect_promises_kept(const SourceCity& source) {
 }
 
 }  // namespace
+
+fs::path write_file(std::span<const std::uint8_t> bytes, std::string_view ending) {
+  static const ScratchFolder folder;
+  const fs::path file = folder.path() / ("city" + std::string(ending));
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  stream.close();
+  FARLOD_EXPECTS(stream);
+  return file;
+}
 
 void ingest_bytes(std::span<const std::uint8_t> bytes, std::string_view ending, const ingest::IngestSettings& settings) {
   Report report;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string_view>
 
@@ -13,6 +14,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace farlod {
+
+/// A file with these bytes, which the next call replaces.
+[[nodiscard]] std::filesystem::path write_file(std::span<const std::uint8_t> bytes, std::string_view ending);
 
 /// Has `bytes` read as a file whose name ends with `ending`. Either InputError refuses the file, with a message, or the city
 /// keeps the promises of ingest.hpp: a breach aborts. Any other exception is passed on.

@@ -40,13 +40,17 @@ class BuildingAssembler {
     builder_.begin_building(building_.id);
     collect_wanted();
     report_unread();
+    // Where references alone lead to the shell, as in most files, nothing can be a copy
+    const bool has_shells = std::any_of(wanted_.begin(), wanted_.end(), is_of_shell);
     for (const WantedPolygon& p : wanted_)
-      if (!is_copy(p)) add(p);
+      if (!has_shells || !is_copy(p)) add(p);
     report_other_lods(lods);
     builder_.end_building("no usable surface in the level of detail asked for; it has LoD " + list_lods(lods));
   }
 
  private:
+  static bool is_of_shell(const WantedPolygon& p) { return p.use->role == SurfaceRole::shell; }
+
   bool can_be_used(const SurfaceUse& use) const {
     return use.role != SurfaceRole::inside && (!use.placement || building_.placements[*use.placement].has_value());
   }
@@ -100,7 +104,7 @@ class BuildingAssembler {
     const auto rings_at = [this](std::uint64_t number) { return spans_of(*compared_[number]); };
     compared_.push_back(&rings);
     const bool is_first = !seen_.find_or_insert(rings, p.use->part, compared_.size() - 1, rings_at);
-    return !is_first && p.use->role == SurfaceRole::shell;
+    return !is_first && is_of_shell(p);
   }
 
   void add(const WantedPolygon& p) {
@@ -186,7 +190,8 @@ std::vector<std::string> foreign_references(const CityGmlBuilding& building) {
   const GmlSurfaces none;
   ReferenceBudget budget(none);
   ReferenceWalk walk(building.surfaces, none, budget);
-  for (const GmlMember& member : building.surfaces.members) walk.each(member, [](const ResolvedPolygon&) {});
+  for (const GmlMember& member : building.surfaces.members)
+    if (!member.polygon) walk.each(member, [](const ResolvedPolygon&) {});
   return walk.dangling();
 }
 

@@ -159,6 +159,7 @@ CityGmlParser::MaybeMeaning CityGmlParser::meaning_in_prototype(const XmlElement
 
 void CityGmlParser::begin_building(const XmlElement& element) {
   ++buildings_;
+  has_unnamed_buildings_ |= element.id.empty();
   building_.id = element.id.empty() ? "building " + std::to_string(buildings_) : std::string(element.id);
   parts_ = {0};
   kinds_ = {SurfaceKind::unknown};
@@ -249,8 +250,10 @@ void CityGmlParser::end_installation() {
 
 void CityGmlParser::end_prototype() {
   in_prototype_ = false;
+  const bool has_crs = has_crs_ || !srs_name_.empty();
+  has_placed_without_crs_ |= !has_crs;
   std::string unread;
-  building_.placements.push_back(prototype_.placement(!srs_name_.empty(), unread));
+  building_.placements.push_back(prototype_.placement(has_crs, unread));
   if (!building_.placements.back()) building_.add_unread(std::move(unread));
 }
 
@@ -260,6 +263,14 @@ void CityGmlParser::take_height() {
   double height_m = 0.0;
   const auto [end, error] = std::from_chars(words_.data() + begin, words_.data() + words_.size(), height_m);
   if (error == std::errc() && end != words_.data()) building_.measured_height_m[parts_.back()] = height_m;
+}
+
+bool CityGmlParser::append(const CityGmlParser& next) {
+  const bool is_as_one = !next.has_unnamed_buildings_ && (!next.has_placed_without_crs_ || srs_name_.empty());
+  if (root_.empty()) root_ = next.root_;
+  if (srs_name_.empty()) srs_name_ = next.srs_name_;
+  relief_.append(next.relief_);
+  return skipped_.append(next.skipped_) && is_as_one;
 }
 
 void CityGmlParser::text(std::string_view piece) {

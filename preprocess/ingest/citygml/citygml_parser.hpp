@@ -23,11 +23,17 @@ namespace farlod::ingest {
 class CityGmlParser : public XmlListener {
  public:
   using TakeBuilding = std::function<void(const CityGmlBuilding&)>;
-  explicit CityGmlParser(TakeBuilding take) : take_(std::move(take)) {}
+  /// `has_crs`: whether an earlier segment of the file names a CRS.
+  explicit CityGmlParser(TakeBuilding take, bool has_crs = false) : take_(std::move(take)), has_crs_(has_crs) {}
 
   void start(const XmlElement& element) override;
   void end(std::string_view name) override;
   void text(std::string_view piece) override;
+
+  /// Adds what was found in the next segment of the file, but for its buildings. Returns false when the segment would have been
+  /// read otherwise had one parser read both: a building without an id is called by its number in the file, and where a prototype
+  /// is placed depends on whether a CRS was named before it.
+  [[nodiscard]] bool append(const CityGmlParser& next);
 
   [[nodiscard]] const std::string& srs_name() const { return srs_name_; }
   [[nodiscard]] const std::string& root() const { return root_; }
@@ -83,6 +89,7 @@ class CityGmlParser : public XmlListener {
   };
 
   TakeBuilding take_;
+  bool has_crs_ = false, has_unnamed_buildings_ = false, has_placed_without_crs_ = false;
   std::vector<Meaning> open_;
   std::size_t skipped_depth_ = 0;
   SkippedCount skipped_;

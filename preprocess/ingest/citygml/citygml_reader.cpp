@@ -2,16 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ingest/citygml/citygml_reader.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_set>
 #include <utility>
 
-#include "farlod/error.hpp"
-#include "ingest/citygml/citygml_parser.hpp"
+#include "ingest/citygml/citygml_reading.hpp"
+#include "ingest/citygml/citygml_segmented_reading.hpp"
 #include "ingest/citygml/citygml_xml.hpp"
 #include "ingest/citygml/gml_surfaces.hpp"
 #include "ingest/citygml/xml_element.hpp"
+#include "ingest/ordered/ordered_work.hpp"
 
 namespace farlod::ingest {
 namespace {
@@ -65,64 +67,19 @@ class GmlSurfaceFinder : public XmlListener {
   std::string href_;  ///< the reference to the current element
 };
 
-struct Reading {
-  SourceCity city;
-  Report report;
-  std::unordered_set<std::string> foreign_hrefs;
-};
-
-std::string list(const SkippedFeatures& skipped) {
-  constexpr std::size_t most_listed = 5;
-  std::string text;
-  std::size_t listed = 0;
-  for (const auto& [name, count] : skipped) {
-    if (listed++ == most_listed) return text + ", ...";
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + name;
-  }
-  return text;
-}
-
-[[noreturn]] void throw_nothing_there(const InputFile& file, const CityGmlParser& parser) {
-  if (parser.root() != "CityModel")
-    throw InputError(file.name + " is XML, but not CityGML: it begins with <" + parser.root() + ">.");
-  throw InputError(file.name + " holds no Building, Bridge, Tunnel, OtherConstruction or relief" +
-                   (parser.skipped().empty() ? "." : ", but " + list(parser.skipped()) + ".") +
-                   " Is it another theme of the city model?");
-}
-
-void report_unreadable_relief(std::size_t points, CityModelBuilder& builder) {
-  if (points > 0)
-    builder.add_problem_at(
-        "relief", ProblemCode::unreadable_coordinate,
-        "points of the terrain that miss a coordinate, or have one that is not a number or beyond the Earth: " +
-            std::to_string(points));
-}
-
-Reading read_buildings(const InputFile& file, LodChoice lod, const GmlSurfaces& foreign) {
-  Reading reading;
-  ReferenceBudget budget(foreign);
-  CityModelBuilder builder(file.name, reading.report);
-  CityGmlParser parser([&](const CityGmlBuilding& building) {
-    for (std::string& href : foreign_references(building)) reading.foreign_hrefs.insert(std::move(href));
-    add_building(building, foreign, lod, budget, builder);
-  });
-  parse_xml(file, parser);
-  ReliefReader& relief = parser.relief();
-  if (builder.buildings_met() == 0 && relief.points().empty()) throw_nothing_there(file, parser);
-  report_unreadable_relief(relief.unreadable_points(), builder);
-  reading.city.source = file.name;
-  reading.city.crs.definition = parser.srs_name();
-  reading.city.city = builder.take_city();
-  reading.city.relief_points = std::move(relief.points());
-  reading.city.skipped = parser.skipped();
-  return reading;
+CityGmlContents read_buildings(const ReadingTask& task) {
+  if (threads_here() > 1)
+    if (std::optional<CityGmlContents> contents = read_in_segments(task)) return std::move(*contents);
+  CityGmlReading whole(task, ReferenceBudget(task.foreign), RepeatedIds::reported);
+  parse_xml(task.file, whole.listener(), task.stop);
+  return whole.finish();
 }
 
 /// Surfaces that are found may contain references themselves. The search ends when it finds no new ones.
-GmlSurfaces find_surfaces(const InputFile& file, std::unordered_set<std::string> hrefs) {
+GmlSurfaces find_surfaces(const InputFile& file, std::unordered_set<std::string> hrefs, const std::stop_token& stop) {
   for (int search = 1;; ++search) {
     GmlSurfaceFinder finder(hrefs);
-    parse_xml(file, finder);
+    parse_xml(file, finder, stop);
     const std::size_t known = hrefs.size();
     for (const GmlMember& member : finder.found().members)
       if (!member.polygon) hrefs.insert(member.href);
@@ -130,22 +87,24 @@ GmlSurfaces find_surfaces(const InputFile& file, std::unordered_set<std::string>
   }
 }
 
-SourceCity hand_over(Reading reading, Report& report) {
+SourceCity hand_over(CityGmlContents reading, Report& report) {
   for (const Problem& problem : reading.report.problems()) report.add(problem);
   return std::move(reading.city);
 }
 
 }  // namespace
 
-SourceCity read_citygml(const InputFile& file, LodChoice lod, Report& report) {
+SourceCity read_citygml(const InputFile& file, LodChoice lod, Report& report, const std::stop_token& stop,
+                        const SegmentSizes& segments) {
   std::unordered_set<std::string> foreign_hrefs;
   {
     // The first reading is dropped before the second begins, so that memory holds one city
-    Reading reading = read_buildings(file, lod, {});
+    CityGmlContents reading = read_buildings({file, lod, {}, stop, segments});
     if (reading.foreign_hrefs.empty()) return hand_over(std::move(reading), report);
     foreign_hrefs = std::move(reading.foreign_hrefs);
   }
-  return hand_over(read_buildings(file, lod, find_surfaces(file, std::move(foreign_hrefs))), report);
+  const GmlSurfaces foreign = find_surfaces(file, std::move(foreign_hrefs), stop);
+  return hand_over(read_buildings({file, lod, foreign, stop, segments}), report);
 }
 
 }  // namespace farlod::ingest

@@ -2,17 +2,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <stop_token>
+
 #include "city/source.hpp"
+#include "ingest/citygml/citygml_segments.hpp"
 #include "ingest/files/input_file.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
 #include "ingest/model_builder/lod_choice.hpp"
 
 namespace farlod::ingest {
 
-/// Reads a CityGML file as a stream: besides the city it holds one building in memory. Reads the file again only when buildings
-/// refer to surfaces outside of themselves. A file of terrain alone is a city without buildings. Throws InputError for a file
-/// that is not well-formed XML (with line and column), is not CityGML, or has neither buildings nor terrain, and for attacks on
-/// the parser (see parse_xml).
-[[nodiscard]] SourceCity read_citygml(const InputFile& file, LodChoice lod, Report& report);
+/// Reads a CityGML file as a stream: besides the city it holds in memory one building or, on several threads of the task arena
+/// that it is called in, two segments for each. The result does not depend on their number. Reads the file again only when
+/// buildings refer to surfaces outside of themselves, and when a segment cannot be read by itself. A file of terrain alone is a
+/// city without buildings. Throws InputError for a file that is not well-formed XML (with line and column), is not CityGML, or
+/// has neither buildings nor terrain, and for attacks on the parser (see parse_xml); Cancelled when a stop is requested.
+[[nodiscard]] SourceCity read_citygml(const InputFile& file, LodChoice lod, Report& report, const std::stop_token& stop = {},
+                                      const SegmentSizes& segments = {});
 
 }  // namespace farlod::ingest

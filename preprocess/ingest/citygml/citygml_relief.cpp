@@ -38,6 +38,11 @@ void ReliefReader::end() {
   if (is_closed) points_.pop_back();
 }
 
+void ReliefReader::append(const ReliefReader& next) {
+  points_.insert(points_.end(), next.points_.begin(), next.points_.end());
+  unreadable_points_ += next.unreadable_points_;
+}
+
 void ReliefReader::take_number(double number) {
   numbers_.push_back(number);
   if (numbers_.size() < dimension_) return;

@@ -25,6 +25,8 @@ class ReliefReader {
   [[nodiscard]] bool start(const XmlElement& element);
   void end();
   void text(std::string_view piece);
+  /// Adds what was collected from the next segment of the file.
+  void append(const ReliefReader& next);
 
   [[nodiscard]] std::vector<Point3d>& points() { return points_; }
   /// The number of points left out because a coordinate is missing, is not a number, or lies beyond the Earth.

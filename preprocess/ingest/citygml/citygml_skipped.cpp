@@ -29,4 +29,9 @@ void SkippedCount::add(const XmlElement& element) {
   ++counts_[is_told_apart ? name : other_names];
 }
 
+bool SkippedCount::append(const SkippedCount& next) {
+  for (const auto& [name, count] : next.counts_) counts_[name] += count;
+  return counts_.size() <= most_names && !counts_.contains(other_names);
+}
+
 }  // namespace farlod::ingest

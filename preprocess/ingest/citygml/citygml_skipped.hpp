@@ -16,6 +16,9 @@ class SkippedCount {
   static constexpr const char* other_names = "elements of still other names";
 
   void add(const XmlElement& element);
+  /// Adds the counts of the next segment of the file. Returns false when there are so many names that the two segments, read as
+  /// one, might tell others apart.
+  [[nodiscard]] bool append(const SkippedCount& next);
   [[nodiscard]] const SkippedFeatures& counts() const { return counts_; }
 
  private:

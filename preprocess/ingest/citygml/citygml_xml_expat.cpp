@@ -9,6 +9,8 @@
 #include <memory>
 #include <new>
 
+#include "contract/cancellation.hpp"
+#include "contract/expects.hpp"
 #include "farlod/error.hpp"
 #include "ingest/citygml/citygml_xml.hpp"
 
@@ -29,6 +31,7 @@ struct Parsing {
   XML_Parser parser;
   XmlListener& listener;
   std::size_t depth = 0;
+  bool ended_element = false;         ///< the last event was the end of an element
   std::string refusal = {};           ///< why the file is not read on
   std::exception_ptr exception = {};  ///< of the listener: it must not pass through a library written in C
 };
@@ -86,6 +89,7 @@ XmlElement element_of(const XML_Char* name, const XML_Char** attributes) {
 
 void XMLCALL on_start(void* user, const XML_Char* name, const XML_Char** attributes) {
   Parsing& parsing = *static_cast<Parsing*>(user);
+  parsing.ended_element = false;
   if (++parsing.depth > deepest_element)
     return refuse(parsing, "its elements are nested deeper than " + std::to_string(deepest_element) + ", as in no city model");
   tell(parsing, [&](XmlListener& listener) { listener.start(element_of(name, attributes)); });
@@ -94,11 +98,14 @@ void XMLCALL on_start(void* user, const XML_Char* name, const XML_Char** attribu
 void XMLCALL on_end(void* user, const XML_Char* name) {
   Parsing& parsing = *static_cast<Parsing*>(user);
   --parsing.depth;
+  parsing.ended_element = true;
   tell(parsing, [&](XmlListener& listener) { listener.end(split(name).name); });
 }
 
 void XMLCALL on_text(void* user, const XML_Char* text, int length) {
-  tell(*static_cast<Parsing*>(user), [&](XmlListener& listener) { listener.text({text, static_cast<std::size_t>(length)}); });
+  Parsing& parsing = *static_cast<Parsing*>(user);
+  parsing.ended_element = false;
+  tell(parsing, [&](XmlListener& listener) { listener.text({text, static_cast<std::size_t>(length)}); });
 }
 
 /// Entities and default attributes may expand to more than the memory holds. External entities refer to other files.
@@ -147,6 +154,14 @@ std::string place_of(XML_Parser parser) {
                    ". Was it cut short? An XML checker (xmllint) shows the place.");
 }
 
+using OwnedParser = std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)>;
+
+OwnedParser make_parser() {
+  OwnedParser parser(XML_ParserCreateNS(nullptr, name_separator), &XML_ParserFree);
+  if (!parser) throw std::bad_alloc();
+  return parser;
+}
+
 void set_handlers(Parsing& parsing) {
   XML_Parser parser = parsing.parser;
   XML_SetUserData(parser, &parsing);
@@ -157,18 +172,59 @@ void set_handlers(Parsing& parsing) {
   XML_SetUnknownEncodingHandler(parser, on_unknown_encoding, nullptr);
 }
 
+bool parse_text(XML_Parser parser, std::string_view text, bool is_last) {
+  return XML_Parse(parser, text.data(), static_cast<int>(text.size()), is_last ? 1 : 0) == XML_STATUS_OK;
+}
+
+/// Remembers the root, and asks for no more.
+struct RootSearch {
+  XML_Parser parser;
+  std::optional<XmlRoot> root = {};
+};
+
+void XMLCALL on_root(void* user, const XML_Char* name, const XML_Char**) {
+  RootSearch& search = *static_cast<RootSearch*>(user);
+  if (search.root) return;
+  const XML_Index end = XML_GetCurrentByteIndex(search.parser) + XML_GetCurrentByteCount(search.parser);
+  search.root = {std::string(split(name).name), static_cast<std::size_t>(end)};
+  XML_StopParser(search.parser, XML_FALSE);
+}
+
 }  // namespace
 
-void parse_xml(const InputFile& file, XmlListener& listener) {
-  const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(XML_ParserCreateNS(nullptr, name_separator),
-                                                                            &XML_ParserFree);
-  if (!parser) throw std::bad_alloc();
+std::optional<XmlRoot> find_root(std::string_view beginning) {
+  const OwnedParser parser = make_parser();
+  RootSearch search{parser.get()};
+  XML_SetUserData(parser.get(), &search);
+  XML_SetStartElementHandler(parser.get(), on_root);
+  XML_SetUnknownEncodingHandler(parser.get(), on_unknown_encoding, nullptr);
+  (void)parse_text(parser.get(), beginning, false);
+  return search.root;
+}
+
+bool parse_xml_segment(const XmlSegment& segment, XmlListener& listener) {
+  FARLOD_EXPECTS(segment.text.size() <= most_bytes_of_tag);
+  const OwnedParser parser = make_parser();
+  Parsing parsing{.parser = parser.get(), .listener = listener};
+  set_handlers(parsing);
+  const bool is_well_formed =
+      parse_text(parser.get(), segment.head, false) && parse_text(parser.get(), segment.text, segment.is_last);
+  if (parsing.exception) std::rethrow_exception(parsing.exception);
+  if (!is_well_formed || segment.is_last) return is_well_formed;
+  // A comment and the like would not be parsed to its end yet; a CDATA section would have given text
+  const auto size = static_cast<XML_Index>(segment.head.size() + segment.text.size());
+  return parsing.depth == 1 && parsing.ended_element && XML_GetCurrentByteIndex(parser.get()) == size;
+}
+
+void parse_xml(const InputFile& file, XmlListener& listener, const std::stop_token& stop) {
+  const OwnedParser parser = make_parser();
   Parsing parsing{.parser = parser.get(), .listener = listener};
   set_handlers(parsing);
   const std::unique_ptr<std::istream> stream = open_input(file);
   *stream >> std::ws;  // an XML declaration must come first, and some exports begin with blank lines
   XML_Index bytes_read = 0;
   for (bool is_last = false; !is_last;) {
+    throw_if_cancelled(stop);
     void* buffer = XML_GetBuffer(parser.get(), static_cast<int>(piece_bytes));
     if (buffer == nullptr) throw std::bad_alloc();
     stream->read(static_cast<char*>(buffer), static_cast<std::streamsize>(piece_bytes));

@@ -26,6 +26,13 @@ bool ReferenceBudget::take(std::size_t points) {
   return true;
 }
 
+bool ReferenceBudget::append(const ReferenceBudget& other) {
+  const std::size_t given = other.most_points_ - other.left_;
+  if (other.refusals_ > 0 || given > left_) return false;
+  left_ -= given;
+  return true;
+}
+
 void ReferenceWalk::each(const GmlMember& member, const std::function<void(const ResolvedPolygon&)>& visit) {
   walk(member, [&](const ResolvedPolygon& p) {
     if (reached_.insert(p.polygon).second) visit(p);

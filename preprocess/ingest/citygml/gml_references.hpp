@@ -22,6 +22,9 @@ class ReferenceBudget {
 
   /// Takes some points from what is left. Returns false when too few are left; then each later call returns false, too.
   [[nodiscard]] bool take(std::size_t points);
+  /// Takes what another budget, which began with the same limit, has given. Returns false when it refused something, or when the
+  /// two have given more than one would have.
+  [[nodiscard]] bool append(const ReferenceBudget& other);
   [[nodiscard]] std::size_t refusals() const { return refusals_; }
   [[nodiscard]] std::size_t most_points() const { return most_points_; }
 

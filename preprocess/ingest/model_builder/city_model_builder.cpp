@@ -44,7 +44,11 @@ void CityModelBuilder::begin_building(std::string id, HeightReference height_ref
   added_.clear();
   problems_before_ = report_.problems().size();
   city_.begin_building(id_, height_reference);
-  if (!ids_.insert(id_).second) add_problem(ProblemCode::repeated_id, "an earlier building of this file has the same id");
+  if (repeated_ids_ == RepeatedIds::reported && !ids_.insert(id_).second) report_.add(repeated_id(id_, {}));
+}
+
+Problem CityModelBuilder::repeated_id(std::string id, std::optional<Point3d> position) const {
+  return {ProblemCode::repeated_id, source_, std::move(id), "an earlier building of this file has the same id", position};
 }
 
 void CityModelBuilder::add_problem(ProblemCode code, std::string detail, std::optional<Point3d> position, std::string ring) {
@@ -190,6 +194,24 @@ void CityModelBuilder::end_building(std::string_view missing) {
     add_problem(ProblemCode::no_geometry, std::string(missing));
   }
   place_problems();
+  if (repeated_ids_ == RepeatedIds::reported_by_append)
+    unchecked_ids_.push_back({std::move(id_), problems_before_, first_vertex_});
+}
+
+void CityModelBuilder::append(CityModelBuilder&& next) {
+  const std::span<Problem> problems = next.report_.since(0);
+  std::size_t taken = 0;
+  const auto take_problems_before = [&](std::size_t end) {
+    for (; taken < end; ++taken) report_.add(std::move(problems[taken]));
+  };
+  for (UncheckedId& building : next.unchecked_ids_) {
+    take_problems_before(building.problems_before);
+    const auto [id, is_new] = ids_.insert(std::move(building.id));
+    if (!is_new) report_.add(repeated_id(*id, building.first_vertex));
+  }
+  take_problems_before(problems.size());
+  buildings_met_ += next.buildings_met_;
+  city_.append(std::move(next.city_));
 }
 
 }  // namespace farlod::ingest

@@ -24,11 +24,15 @@ struct PolygonTraits {
   std::string_view name;                 ///< in the report; empty: its number is used
 };
 
+/// Whether a builder reports an id that it has met before, or leaves that to the builder that it is appended to.
+enum class RepeatedIds { reported, reported_by_append };
+
 /// Builds the CityModel of one file from the polygons that a reader finds: cleans their rings, and reports the defects of these.
 /// The readers of all formats use it, so that the same town gives the same model and the same problems in each format.
 class CityModelBuilder {
  public:
-  CityModelBuilder(std::string source, Report& report) : source_(std::move(source)), report_(report) {}
+  CityModelBuilder(std::string source, Report& report, RepeatedIds repeated_ids = RepeatedIds::reported)
+      : source_(std::move(source)), report_(report), repeated_ids_(repeated_ids) {}
 
   void begin_building(std::string id, HeightReference height_reference = HeightReference::elevation);
   /// Cleans the rings in place and adds the polygon, unless its outer ring is unusable or the part of the building already has
@@ -42,6 +46,9 @@ class CityModelBuilder {
   void add_problem_at(std::string place, ProblemCode code, std::string detail, std::optional<Point3d> position = {});
   /// Ends the current building. If nothing of it is usable, it is removed, and `missing` is the reason that the reader knows.
   void end_building(std::string_view missing = "it has no surfaces");
+  /// Adds the buildings and the problems of a builder of the next segment of the file, which leaves repeated ids to this one and
+  /// has a report of its own. City and report become those of a single builder of both segments.
+  void append(CityModelBuilder&& next);
 
   [[nodiscard]] std::size_t buildings_met() const { return buildings_met_; }
   [[nodiscard]] const std::string& source() const { return source_; }
@@ -62,10 +69,20 @@ class CityModelBuilder {
   void add_walls(const Ring& ring, double base_m, double top_m, std::uint16_t part);
   void report_repairs();
   void place_problems();
+  [[nodiscard]] Problem repeated_id(std::string id, std::optional<Point3d> position) const;
+
+  /// A building whose id `append` still has to check.
+  struct UncheckedId {
+    std::string id;
+    std::size_t problems_before;  ///< problems in the report when the building began
+    std::optional<Point3d> first_vertex;
+  };
 
   std::string source_;
   Report& report_;
+  RepeatedIds repeated_ids_;
   CityModel city_;
+  std::vector<UncheckedId> unchecked_ids_;
   std::unordered_set<std::string> ids_;
   std::string id_;
   std::size_t buildings_met_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "farlod/error.hpp"
 #include "reading.hpp"
@@ -31,6 +32,41 @@ TEST(SeveralFiles, WhatCannotBeUsedCostsItselfOnly) {
   EXPECT_EQ(report.problems()[1].code, ProblemCode::unusable_file);
   EXPECT_THAT(report.problems()[1].detail, HasSubstr("not well-formed"));
   EXPECT_EQ(report.problems()[2].code, ProblemCode::unusable_file);
+}
+
+/// The ids and the problems of files that are read on so many threads.
+std::string read_on_threads(int threads, const std::vector<InputFile>& files) {
+  return oneapi::tbb::task_arena(threads).execute([&] {
+    Report report;
+    std::string text;
+    for (const SourceCity& source : ingest_all(files, {}, report))
+      text += source.source + ' ' + source.city.buildings()[0].id + '\n';
+    for (const Problem& problem : report.problems()) text += problem.source + ": " + problem.detail + '\n';
+    return text;
+  });
+}
+
+TEST(SeveralFiles, ThreadsDoNotChangeTheirOrder) {
+  std::vector<InputFile> files;
+  for (int n = 0; n < 20; ++n) {
+    const std::string name = "town " + std::to_string(n);
+    files.emplace_back(write_file(name + ".gml", n % 3 == 0 ? "not XML" : citygml_of(name)));
+    files.emplace_back(write_file(name + ".obj", n % 5 == 0 ? "" : obj_of(name)));
+  }
+  const std::string on_one = read_on_threads(1, files);
+  EXPECT_EQ(std::count(on_one.begin(), on_one.end(), '\n'), 40);
+  for (const int threads : {2, 8}) EXPECT_EQ(read_on_threads(threads, files), on_one);
+}
+
+TEST(SeveralFiles, AreNotReadOnceAStopIsRequested) {
+  const std::vector<InputFile> files(10, write_file("a.obj", obj_of("a")));
+  std::stop_source source;
+  source.request_stop();
+  for (const int threads : {1, 4})
+    oneapi::tbb::task_arena(threads).execute([&] {
+      Report report;
+      EXPECT_THROW((void)ingest_all(files, {}, report, source.get_token()), Cancelled);
+    });
 }
 
 TEST(SeveralFiles, OfWhichNoneIsLeftEndTheRun) {
