@@ -3,8 +3,8 @@
 #include "evaluate/sky_evaluator.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <mutex>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -195,14 +195,15 @@ struct SkyEvaluator::CellGeometry {
   OverhangGeometry overhangs;
 };
 
+PlacedScene SkyEvaluator::whole_city(Cell cell) const {
+  const WholeCity& city = city_->get(package_, stop_);
+  return {city.occluder(), city.scene_from_cell_m(cell)};
+}
+
 SkyEvaluator::CellGeometry SkyEvaluator::geometry_of(const CellReceivers& cell) const {
   // Of a small city, one scene is indexed for all cells; of a large one, what each cell needs
   OverhangGeometry::WholeScene whole_scene;
-  if (package_.manifest().triangles <= most_triangles_indexed_whole)
-    whole_scene = [this](Cell c) {
-      const WholeCity& city = city_->get(package_, stop_);
-      return PlacedScene{city.occluder(), city.scene_from_cell_m(c)};
-    };
+  if (package_.manifest().triangles <= most_triangles_indexed_whole) whole_scene = [this](Cell c) { return whole_city(c); };
   return {package_, cell, std::move(whole_scene)};
 }
 
@@ -211,8 +212,7 @@ void SkyEvaluator::evaluate_by_horizons(const CellReceivers& cell, const SkyAnsw
   require_far_map(cell.cell);
   CellGeometry geometry = geometry_of(cell);
   const auto scene_ready = Clock::now();
-  const Numbers uncertain = draw_horizons(geometry, cell, answers);
-  if (!uncertain.empty()) count_rays(geometry, cell, uncertain, answers);
+  draw_horizons(geometry, cell, answers);
   add_times(start, scene_ready);
 }
 
@@ -220,9 +220,7 @@ void SkyEvaluator::evaluate_by_rays_against_horizons(const CellReceivers& cell, 
   const auto start = Clock::now();
   CellGeometry geometry = geometry_of(cell);
   const auto scene_ready = Clock::now();
-  Numbers all(cell.receivers.size());
-  std::iota(all.begin(), all.end(), 0U);
-  count_rays(geometry, cell, all, answers);
+  count_rays(geometry, cell, answers);
   add_times(start, scene_ready);
 }
 
@@ -233,12 +231,11 @@ void SkyEvaluator::require_far_map(Cell cell) const {
                         "--area), or use the engine auto.");
 }
 
-SkyEvaluator::Numbers SkyEvaluator::draw_horizons(CellGeometry& geometry, const CellReceivers& cell,
-                                                  const SkyAnswers& answers) const {
+void SkyEvaluator::draw_horizons(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const {
   const std::size_t rays_per_azimuth = std::max<std::size_t>(1, (settings_.rays + settings_.azimuths / 2) / settings_.azimuths);
   HorizonEngine engine(azimuths_, settings_.weight, geometry.far, geometry.silhouettes, geometry.overhangs,
                        {static_cast<float>(azimuth_error(settings_.azimuths)), rays_per_azimuth, stop_});
-  Numbers uncertain;
+  if (settings_.max_far_error) engine.keep({*settings_.max_far_error, [&] { return whole_city(cell.cell); }});
   std::vector<PacketAnswer> of_packets;
   for_each_group(cell.receivers, packet_order(cell.receivers, stop_),
                  [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
@@ -247,28 +244,18 @@ SkyEvaluator::Numbers SkyEvaluator::draw_horizons(CellGeometry& geometry, const 
                    wants_bounds(answers) ? engine.evaluate_with_bounds(packets, of_packets)
                                          : engine.evaluate(packets, of_packets);
                    for (std::size_t n = 0; n < packets.size(); ++n) {
-                     store_packet(of_packets[n], cell, numbers.first(packets[n].count), answers, uncertain);
+                     store_packet(of_packets[n], cell, numbers.first(packets[n].count), answers);
                      numbers = numbers.subspan(packets[n].count);
                    }
                  });
-  return uncertain;
 }
 
 void SkyEvaluator::store_packet(const PacketAnswer& packet, const CellReceivers& cell, std::span<const std::uint32_t> numbers,
-                                const SkyAnswers& answers, Numbers& uncertain) const {
-  if (packet.by_rays != 0) require_rays_allowed(cell.cell);
-  for (std::size_t l = 0; l < numbers.size(); ++l) {
-    store(packet.svf[l], cell.receivers[numbers[l]].index, answers);
-    if (exceeds_allowed_error(packet.svf[l])) {
-      uncertain.push_back(numbers[l]);
-    } else {
-      by_rays_ += (packet.by_rays >> l) & 1U;
-    }
-  }
-}
-
-bool SkyEvaluator::exceeds_allowed_error(const SvfInterval& svf) const {
-  return settings_.max_far_error && std::max(svf.high - svf.estimate, svf.estimate - svf.low) > *settings_.max_far_error;
+                                const SkyAnswers& answers) const {
+  if (packet.by_gap_rays != 0) require_rays_allowed(cell.cell);
+  for (std::size_t l = 0; l < numbers.size(); ++l) store(packet.svf[l], cell.receivers[numbers[l]].index, answers);
+  by_rays_ += static_cast<std::uint64_t>(std::popcount(packet.by_rays));
+  retraced_rays_ += packet.retraced_rays;
 }
 
 void SkyEvaluator::require_rays_allowed(Cell cell) const {
@@ -279,12 +266,9 @@ void SkyEvaluator::require_rays_allowed(Cell cell) const {
       std::to_string(cell.i) + "," + std::to_string(cell.j) + ": use the engine auto.");
 }
 
-void SkyEvaluator::count_rays(CellGeometry& geometry, const CellReceivers& cell, const Numbers& numbers,
-                              const SkyAnswers& answers) const {
-  by_rays_ += numbers.size();
-  std::vector<Receiver> receivers;
-  receivers.reserve(numbers.size());
-  for (const std::uint32_t n : numbers) receivers.push_back(cell.receivers[n]);
+void SkyEvaluator::count_rays(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const {
+  by_rays_ += cell.receivers.size();
+  std::vector<Receiver> receivers = cell.receivers;
   const auto by_normal = [](const Receiver& a, const Receiver& b) {
     return std::tie(a.normal.x, a.normal.y, a.normal.z) < std::tie(b.normal.x, b.normal.y, b.normal.z);
   };

@@ -23,7 +23,7 @@ namespace farlod {
 
 class RayEngine;
 struct PacketAnswer;
-struct SvfInterval;
+struct PlacedScene;
 struct FreeRays;
 
 /// The far map of a cell.
@@ -110,7 +110,6 @@ class SkyEvaluator {
 
  private:
   using Clock = std::chrono::steady_clock;
-  using Numbers = std::vector<std::uint32_t>;
   struct WholeCityOnDemand;
   struct CellGeometry;
 
@@ -123,17 +122,16 @@ class SkyEvaluator {
   void evaluate_by_near_scene(const CellReceivers& cell, const SkyAnswers& answers) const;
   void evaluate_by_whole_city(const CellReceivers& cell, const SkyAnswers& answers) const;
 
+  [[nodiscard]] PlacedScene whole_city(Cell cell) const;
   [[nodiscard]] CellGeometry geometry_of(const CellReceivers& cell) const;
-  /// Returns the numbers of the receivers whose intervals are wider than the allowed error.
-  [[nodiscard]] Numbers draw_horizons(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const;
-  /// Stores the answers of a packet, of the receivers with these numbers; `uncertain` gets those whose intervals are too wide.
+  void draw_horizons(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const;
+  /// Stores the answers of a packet, of the receivers with these numbers.
   void store_packet(const PacketAnswer& packet, const CellReceivers& cell, std::span<const std::uint32_t> numbers,
-                    const SkyAnswers& answers, Numbers& uncertain) const;
-  /// Answers the receivers with these numbers.
-  void count_rays(CellGeometry& geometry, const CellReceivers& cell, const Numbers& numbers, const SkyAnswers& answers) const;
+                    const SkyAnswers& answers) const;
+  /// Answers all receivers of a cell by rays against horizons.
+  void count_rays(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const;
   /// Traces the rays that the far map leaves open, for receivers whose intervals are wider than the allowed error.
   void retrace(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine, std::span<FreeRays> free) const;
-  [[nodiscard]] bool exceeds_allowed_error(const SvfInterval& svf) const;
   void require_rays_allowed(Cell cell) const;
   void require_far_map(Cell cell) const;
   [[nodiscard]] bool wants_bounds(const SkyAnswers& answers) const {

@@ -4,12 +4,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/cell_silhouettes.hpp"
+#include "horizon/gap_rays.hpp"
 #include "horizon/horizon_jumps.hpp"
 #include "horizon/overhangs.hpp"
 #include "horizon/packet_group.hpp"
@@ -17,6 +21,7 @@
 #include "horizon/receiver_packet.hpp"
 #include "horizon/residual_horizon.hpp"
 #include "horizon/sky_partition.hpp"
+#include "horizon/undecided_sky.hpp"
 #include "package/far_horizon.hpp"
 
 namespace farlod {
@@ -26,28 +31,12 @@ struct SvfInterval {
   float low = 0.0F, estimate = 0.0F, high = 0.0F;
 };
 
-/// The gaps below overhangs in which a packet's receivers may see sky: for each azimuth between two horizons, but not between two
-/// others, `filled`.
-struct Gaps {
-  const PacketHorizon &from, &to;
-  const PacketHorizon &filled_from, &filled_to;
-  std::span<const PacketHorizon::Row> sky;  ///< view factor of each gap; 0 where there is none
-};
-
-/// Removes the smallest gaps of a receiver, of no more sky than `max_sky` in all, and returns their sky.
-[[nodiscard]] float remove_smallest_gaps(std::span<PacketHorizon::Row> sky, std::size_t lane, float max_sky);
-
-/// Traces rays in the gaps of the receivers with set bits, and returns the sky that is seen through them. A gap that is all of
-/// its azimuth's sky gets `rays_per_azimuth` rays, a smaller one its share, and at least one. Throws Cancelled when
-/// `stop` is asked for.
-[[nodiscard]] PacketHorizon::Lanes trace_gaps(const Gaps& gaps, const AzimuthSampling& azimuths, SkyWeight weight,
-                                              const ReceiverPacket& receivers, std::uint32_t wanted, std::size_t rays_per_azimuth,
-                                              const PlacedScene& scene, const std::stop_token& stop = {});
-
 /// The answers of a packet, in the order of its receivers.
 struct PacketAnswer {
   std::array<SvfInterval, ReceiverPacket::lanes> svf{};
-  std::uint32_t by_rays = 0;  ///< a bit for each receiver that needed rays
+  std::uint32_t by_rays = 0;        ///< a bit for each receiver that rays were traced for
+  std::uint32_t by_gap_rays = 0;    ///< a bit for each whose gaps hold more sky than the tolerance
+  std::uint64_t retraced_rays = 0;  ///< rays that were traced because of an AllowedFarError
 };
 
 /// Where the sum over the azimuths takes horizons to jump from one edge to another.
@@ -64,6 +53,12 @@ struct GapSettings {
   std::stop_token stop = {};  ///< ends the tracing of gaps with Cancelled
 };
 
+/// How far answers may be from the ends of their bounds. Where the far map and gaps leave more undecided, rays decide it.
+struct AllowedFarError {
+  double error = 0.0;
+  std::function<PlacedScene()> whole_city;  ///< is asked for when it is needed first
+};
+
 /// Sky view factors from horizons: edges are drawn for each receiver, and the sky above them is integrated in closed form. For
 /// receivers of one cell. docs/concepts.md, "Above a horizon" and "What is grounded, and what overhangs".
 class HorizonEngine {
@@ -71,6 +66,8 @@ class HorizonEngine {
   /// All must outlive it.
   HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, const FarHorizon& far, const CellSilhouettes& silhouettes,
                 OverhangGeometry& overhangs, const GapSettings& gaps, JumpPlaces jumps = JumpPlaces::at_edge_ends);
+  /// From now on, evaluate_with_bounds keeps this error.
+  void keep(AllowedFarError allowed) { allowed_ = std::move(allowed); }
 
   /// Computes the receivers of packets near each other; low = estimate = high. The answers do not depend on which packets are
   /// together.
@@ -87,15 +84,30 @@ class HorizonEngine {
   /// Answers one packet, whose grounded horizon is drawn.
   void evaluate(const ReceiverPacket& receivers, PacketAnswer& answer);
   void evaluate_with_bounds(const ReceiverPacket& receivers, PacketAnswer& answer);
-  /// The sky seen in gaps, and a bit for each receiver that needed rays for it.
+  /// The sky seen in gaps, and a bit for each receiver that needs rays for it.
   struct SkyInGaps {
     Lanes sky{};
     std::uint32_t by_rays = 0;
   };
   /// The sky above a horizon of upper borders, with its jumps where `jump_places_` says.
   [[nodiscard]] HorizonJumps::SkyAbove sky_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
-  /// Of the gaps in `horizons_`, as drawn.
+  /// Of the gaps in `horizons_`, as drawn. Where an error is allowed, no gap is traced, and half of its sky counts.
   [[nodiscard]] SkyInGaps sky_in_gaps(const ReceiverPacket& receivers);
+
+  /// The sky of a packet's receivers and its bounds, before jumps are placed in these.
+  struct BoundedSky {
+    HorizonJumps::SkyAbove estimate;
+    SkyInGaps gaps;
+    Lanes low, high;
+  };
+  [[nodiscard]] BoundedSky bounded_without_overhangs(const ReceiverPacket& receivers);
+  [[nodiscard]] BoundedSky bounded_with_overhangs(const ReceiverPacket& receivers, std::uint32_t below);
+  /// Traces the sky of receivers whose bounds are too far apart. Returns the number of rays and a bit for each.
+  struct Retraced {
+    std::uint32_t receivers = 0;
+    std::uint64_t rays = 0;
+  };
+  Retraced retrace(const ReceiverPacket& receivers, bool has_overhangs, BoundedSky& sky);
 
   const AzimuthSampling& azimuths_;
   SkyWeight weight_;
@@ -103,6 +115,7 @@ class HorizonEngine {
   OverhangGeometry& overhangs_;
   GapSettings gaps_;
   JumpPlaces jump_places_;
+  std::optional<AllowedFarError> allowed_;
   ResidualHorizon residual_;
   PacketGroup group_;
   HorizonJumps jumps_;
@@ -111,7 +124,9 @@ class HorizonEngine {
   CellOverhangs in_sight_;               ///< overhangs that may rise above some of them
   OverhangHorizons horizons_;
   PacketHorizon without_residual_;
-  std::vector<PacketHorizon::Row> gap_rows_;
+  UndecidedSky undecided_;
+  std::vector<PacketHorizon::Row> gap_rows_, most_gap_rows_;
+  std::span<const PacketHorizon::Row> sky_of_gaps_, most_sky_of_gaps_;  ///< in these; empty without gaps
 };
 
 }  // namespace farlod

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -53,6 +54,10 @@ class PacketHorizon {
   /// Raises them to `upper` where `lower` is not above them: an occluder that begins below a horizon, and reaches above it
   /// without a gap, is one with it.
   void join(const PacketHorizon& lower, const PacketHorizon& upper);
+  /// Lowers the horizon of one receiver at one azimuth, if it is higher.
+  void lower(std::size_t azimuth, std::size_t lane, float slope) {
+    slopes_[azimuth][lane] = std::min(slopes_[azimuth][lane], slope);
+  }
   /// Makes the horizons of the receivers with set bits infinite: they see no sky.
   void close(std::uint32_t receivers);
 

@@ -25,6 +25,8 @@ class ResidualHorizon {
   void raise_to_low(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
   void raise_to_estimate(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
   void raise_to_high(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
+  /// Nothing in the residual city overhangs.
+  [[nodiscard]] bool is_grounded() const { return is_grounded_; }
   /// To the upper bound of the residual's lower borders: below it, sky may be seen under an overhang.
   void raise_to_overhang(const ReceiverPacket& receivers, PacketHorizon& horizon) const;
 

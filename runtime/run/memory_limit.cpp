@@ -24,7 +24,8 @@ constexpr double triangle_bytes = 224;      // of the whole city's scene: the tr
 
 // Of a sample of the sky: a direction, and what each thread has at an azimuth, 64 bytes for each of the horizons of an engine
 constexpr double direction_bytes = sizeof(Point3d);
-constexpr double azimuth_bytes = 100 + (8 + packets_in_group) * 64;  // HorizonEngine
+constexpr double azimuth_bytes = 100 + (10 + packets_in_group) * 64;  // HorizonEngine
+constexpr double undecided_azimuth_bytes = 20 + 4 * 64;               // what UndecidedSky adds where an error is allowed
 constexpr double ray_azimuth_bytes = 180 + 11 * 64;  // RayEngine, with the directions in the order of their azimuths
 
 bool traces_whole_city(const ResolvedSettings& settings) {
@@ -41,8 +42,9 @@ double bytes_of_samples(const package::Manifest& manifest, const ResolvedSetting
   const SkySettings& sky = settings.sky;
   const bool has_horizon_maps = !manifest.far_map.is_box();
   const bool by_horizons = has_horizon_maps && (sky.engine == Engine::automatic || sky.engine == Engine::horizon);
-  const bool by_ray_horizons = has_horizon_maps && (sky.engine == Engine::rays || (by_horizons && sky.max_far_error));
-  const double of_thread = (by_horizons ? azimuth_bytes * static_cast<double>(sky.azimuths) : 0.0) +
+  const bool by_ray_horizons = has_horizon_maps && sky.engine == Engine::rays;
+  const double of_azimuth = azimuth_bytes + (sky.max_far_error ? undecided_azimuth_bytes : 0.0);
+  const double of_thread = (by_horizons ? of_azimuth * static_cast<double>(sky.azimuths) : 0.0) +
                            (by_ray_horizons ? ray_azimuth_bytes * static_cast<double>(sky.rays) : 0.0);
   return static_cast<double>(settings.threads) * of_thread + bytes_of_directions(sky.rays, settings.threads);
 }

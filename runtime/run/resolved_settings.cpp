@@ -13,6 +13,10 @@
 namespace farlod {
 namespace {
 
+/// Of an allowed error, for the sky between the samples; the rest is for the far map. What the far map leaves undecided costs
+/// rays for some receivers, azimuths cost all of them (docs/decisions/0019-halved-intervals.md).
+constexpr double sampling_share = 0.75;
+
 void check(const EvaluationSettings& s) {
   require_one_of("engine", s.engine, Engine::near_only);
   require_one_of("weight", s.weight, SkyWeight::solid_angle);
@@ -32,7 +36,7 @@ double far_error_of(const EvaluationSettings& s, SkySettings sky) {
   sky.max_far_error = *s.max_error;
   const double left = *s.max_error - sampling_error_of(sky);
   if (left > 0.0) return left;
-  const double share = 0.75 * *s.max_error;
+  const double share = sampling_share * *s.max_error;
   throw InvalidArgument(
       "a largest error of " + setting_text(*s.max_error) + " is less than " + std::to_string(sky.rays) + " rays and " +
       std::to_string(sky.azimuths) + " azimuths can keep: leave the numbers of rays and azimuths out, or give at least " +
@@ -44,8 +48,9 @@ SkySettings sky_of(const EvaluationSettings& s) {
   sky.engine = s.engine;
   sky.weight = s.weight;
   sky.directions = s.directions;
-  sky.rays = s.rays ? *s.rays : s.max_error ? rays_for_sampling_error(0.5 * *s.max_error) : default_rays;
-  sky.azimuths = s.azimuths ? *s.azimuths : s.max_error ? azimuths_for_error(0.5 * *s.max_error) : default_azimuths;
+  const double sampling = s.max_error ? sampling_share * *s.max_error : 0.0;
+  sky.rays = s.rays ? *s.rays : s.max_error ? rays_for_sampling_error(sampling) : default_rays;
+  sky.azimuths = s.azimuths ? *s.azimuths : s.max_error ? azimuths_for_error(sampling) : default_azimuths;
   if (s.max_error) sky.max_far_error = far_error_of(s, sky);
   return sky;
 }

@@ -28,7 +28,7 @@ constexpr LongFunction long_functions[] = {
     {"preprocess/farmap/city_horizon.cpp", "build", "one loop over edges that fills three arrays at once"},
     {"preprocess/pipeline/pack.cpp", "write_package", "one pipeline whose steps share what they measure"},
     {"preprocess/tiles/tiles.cpp", "place_building", "one building's way through cutting, which shares a dozen values"},
-    {"runtime/horizon/horizon_engine.cpp", "trace_gaps", "a kernel: its steps share vectors of 16 lanes"},
+    {"runtime/horizon/gap_rays.cpp", "trace_gaps", "a kernel: its steps share vectors of 16 lanes"},
 };
 
 bool begins_with_licence(const SourceFile& file, std::string_view mark) {

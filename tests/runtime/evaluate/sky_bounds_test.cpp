@@ -131,6 +131,7 @@ TEST_P(SkyBounds, HoldTheExactAnswer) {
 
 /// What horizons and the exact rays may differ by where all is certain: both look at parts of the sky only.
 constexpr std::size_t azimuths = 256;
+constexpr double rounding = 1e-6;  // of floats up to 1, and of sums of them
 const double between_looks = azimuth_error(azimuths) + sampling_error(rays);
 
 TEST_P(SkyBounds, OfHorizonsHoldTheExactAnswerUpToWhatIsBetweenAzimuths) {
@@ -153,9 +154,26 @@ TEST_P(SkyBounds, OfHorizonsAreDecidedByRays) {
     EXPECT_EQ(none.low[n], none.high[n]) << "receiver " << n;
     EXPECT_NEAR(none.svf[n], exact.svf[n], between_looks) << "receiver " << n;
     EXPECT_NEAR(some.svf[n], exact.svf[n], most + between_looks) << "receiver " << n;
-    EXPECT_LE(some.high[n] - some.svf[n], most + one_ray) << "receiver " << n;
-    EXPECT_LE(some.svf[n] - some.low[n], most + one_ray) << "receiver " << n;
+    EXPECT_LE(some.high[n] - some.svf[n], most + rounding) << "receiver " << n;
+    EXPECT_LE(some.svf[n] - some.low[n], most + rounding) << "receiver " << n;
+    EXPECT_LE(some.low[n], exact.svf[n] + between_looks) << "receiver " << n;
+    EXPECT_GE(some.high[n], exact.svf[n] - between_looks) << "receiver " << n;
   }
+}
+
+TEST_P(SkyBounds, OfHorizonsNeedFewRaysWhereMuchMayStayOpen) {
+  const auto rays_of = [&](double most) {
+    const SkyEvaluator evaluator(package_, {Engine::automatic, SkyWeight::cosine, rays, most});
+    std::vector<float> svf(count_);
+    for (const CellReceivers& cell : places_) evaluator.evaluate(cell, svf);
+    return evaluator.statistics().retraced_rays;
+  };
+  const std::uint64_t all = rays_of(0.0), some = rays_of(0.005);
+  EXPECT_EQ(rays_of(1.0), 0U);
+  if (GetParam().tolerance > 0.0) {
+    EXPECT_GT(all, 0U);
+  }
+  EXPECT_LE(some, all / 2);
 }
 
 TEST_P(SkyBounds, WithoutAnyFarErrorTheAnswerIsExact) {

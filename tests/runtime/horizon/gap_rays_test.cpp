@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "horizon/horizon_engine.hpp"
+#include "horizon/gap_rays.hpp"
 
 #include <gtest/gtest.h>
 
+#include "tests/runtime/horizon/fence.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
 #include "tests/runtime/horizon/sky_oracle.hpp"
 
@@ -13,21 +14,6 @@ namespace {
 constexpr std::size_t azimuths = 96;
 constexpr std::uint32_t all_receivers = 0xFFFF;
 constexpr Point3f normals[] = {{0.0F, 0.0F, 1.0F}, {0.6F, 0.0F, 0.8F}, {0.0F, -1.0F, 0.0F}, {0.0F, 0.8F, -0.6F}};
-
-/// A wall without thickness from one height up to another one, all around the middle of the cell, as a square of 40 m.
-Occluder fence(float low_m, float high_m) {
-  const std::array<std::array<float, 2>, 4> plan{{{-20, -20}, {20, -20}, {20, 20}, {-20, 20}}};
-  std::vector<Point3f> vertices;
-  std::vector<Triangle> triangles;
-  for (std::uint32_t n = 0; n < 4; ++n) {
-    const auto [px, py] = plan[n];
-    const auto [qx, qy] = plan[(n + 1) % 4];
-    vertices.insert(vertices.end(), {{px, py, low_m}, {qx, qy, low_m}, {qx, qy, high_m}, {px, py, high_m}});
-    triangles.push_back({4 * n, 4 * n + 1, 4 * n + 2});
-    triangles.push_back({4 * n, 4 * n + 2, 4 * n + 3});
-  }
-  return {vertices, triangles};
-}
 
 /// Gaps between horizons that differ from azimuth to azimuth and from bin to bin; in every fifth azimuth there is none.
 class GapRays : public testing::Test {
@@ -52,7 +38,7 @@ class GapRays : public testing::Test {
                                             std::uint32_t wanted = all_receivers, std::size_t rays = 4) {
     from_.find_sky_below(to_, weight, packet, sky_);
     // Nothing fills the gaps
-    return trace_gaps({from_, to_, to_, to_, sky_}, ring_, weight, packet, wanted, rays, {scene, {}});
+    return trace_gaps({from_, to_, to_, to_, sky_}, ring_, weight, packet, wanted, rays, {scene, {}}).sky;
   }
   [[nodiscard]] double sum_of_sky(std::size_t lane) const {
     double sum = 0.0;
@@ -91,7 +77,7 @@ TEST_F(GapRays, WhatIsFilledIsNotSeen) {
   from_.find_sky_below(to_, SkyWeight::cosine, packet, sky_);
   const Occluder nothing({}, {});
   const Gaps filled{from_, to_, from_, to_, sky_};
-  for (const float sky : trace_gaps(filled, ring_, SkyWeight::cosine, packet, all_receivers, 4, {nothing, {}}))
+  for (const float sky : trace_gaps(filled, ring_, SkyWeight::cosine, packet, all_receivers, 4, {nothing, {}}).sky)
     EXPECT_EQ(sky, 0.0F);
 }
 
@@ -126,9 +112,7 @@ TEST_F(GapRays, WhatIsMetIsHiddenToTheWidthOfARay) {
       double truth = 0.0, one_part = 0.0;
       for (std::size_t k = 0; k < azimuths; ++k) {
         const double c = ring_.cosine()[k], s = ring_.sine()[k];
-        // To the side of the square that the azimuth meets first
-        const double distance = std::min((c > 0.0 ? 20.0 - packet.x[l] : 20.0 + packet.x[l]) / std::abs(c),
-                                         (s > 0.0 ? 20.0 - packet.y[l] : 20.0 + packet.y[l]) / std::abs(s));
+        const double distance = distance_to_fence(packet, l, c, s);
         const double low = from_.row(k)[l], high = to_.row(k)[l], foot = std::clamp(3.0 / distance, low, high);
         const auto sky_above = [](double slope) { return 1.0 / (1.0 + slope * slope) / static_cast<double>(azimuths); };
         truth += sky_above(low) - sky_above(foot);
