@@ -81,7 +81,10 @@ class BlockWriting {
       : tiles_(tiles), manifest_(manifest), grid_(manifest.grid), baking_(baking), writer_(writer), run_(run) {}
 
   /// Before blocks that need far maps are written.
-  void index_city() { baker_.emplace(tiles_, grid_, baking_.assign, baking_.far_map); }
+  void index_city() {
+    baker_.emplace(tiles_, grid_, baking_.assign, baking_.far_map);
+    tiles_.let_go();
+  }
 
   package::BlockFiles write(const PlannedBlock& planned) {
     throw_if_cancelled(run_.stop);
@@ -92,6 +95,7 @@ class BlockWriting {
     bake_s_ += seconds_since(start);
     const auto baked = Clock::now();
     package::BlockFiles files = writer_.write_block(tiles_, maps, grid_, planned.block, manifest_.far_map, planned.mapped);
+    tiles_.let_go(grid_.cells_of(planned.block));
     write_s_ += seconds_since(baked);
     return files;
   }

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "tiles/cutting.hpp"
 #include "tiles/exact_cutting_cgal.hpp"
@@ -16,30 +18,38 @@ const Rational& along(Axis axis, const ExactCorner& c) { return axis == Axis::x 
 
 /// The point at which the edge a–b crosses the line at `border`. It is exact, hence the same for both triangles of the edge.
 ExactCorner crossing(Axis axis, const ExactCorner& a, const ExactCorner& b, const Rational& border) {
-  // t = (border − a) / (b − a), p = a + t·(b − a)
+  // t = (border − a) / (b − a), p = a + t·(b − a); along the axis, that is the border itself
   const Rational t = (border - along(axis, a)) / (along(axis, b) - along(axis, a));
-  ExactPoint p{a.p_grid.x + t * (b.p_grid.x - a.p_grid.x), a.p_grid.y + t * (b.p_grid.y - a.p_grid.y),
-               a.p_grid.z + t * (b.p_grid.z - a.p_grid.z)};
-  return {std::move(p), -1};
+  const auto at = [&t](const Rational& from, const Rational& to) { return Rational(from + t * (to - from)); };
+  const ExactPoint &p = a.p_grid, &q = b.p_grid;
+  if (axis == Axis::x) return {{border, at(p.y, q.y), at(p.z, q.z)}, -1};
+  return {{at(p.x, q.x), border, at(p.z, q.z)}, -1};
 }
 
 /// Splits a convex polygon that lies on both sides of a border into the part below and the part above (Sutherland and Hodgman
 /// 1974).
-std::pair<Polygon, Polygon> split(const Polygon& polygon, Axis axis, const Rational& border) {
-  std::pair<Polygon, Polygon> parts;
-  // Walk round the polygon, edge by edge from corner a to corner b
+std::pair<Polygon, Polygon> split(Polygon polygon, Axis axis, const Rational& border) {
+  // Find the sides of all corners first: a corner that is moved into a part cannot be asked any more
+  std::vector<CGAL::Comparison_result> sides;
+  sides.reserve(polygon.size());
+  for (const ExactCorner& c : polygon) sides.push_back(CGAL::compare(along(axis, c), border));
+  // Each edge from a corner to the next that crosses the border ends one part and begins the other, at the same point
+  std::vector<std::optional<ExactCorner>> crossings(polygon.size());
   for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const ExactCorner& a = polygon[k];
-    const ExactCorner& b = polygon[(k + 1) % polygon.size()];
-    const auto side_a = CGAL::compare(along(axis, a), border), side_b = CGAL::compare(along(axis, b), border);
+    const std::size_t next = (k + 1) % polygon.size();
+    if (sides[k] * sides[next] == -1) crossings[k] = crossing(axis, polygon[k], polygon[next], border);
+  }
+  // Walk round the polygon. Numbers of arbitrary length are moved, for each copy of one asks for memory
+  std::pair<Polygon, Polygon> parts;
+  parts.first.reserve(polygon.size() + 1);
+  parts.second.reserve(polygon.size() + 1);
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
     // A corner on the border belongs to both parts
-    if (side_a != CGAL::LARGER) parts.first.push_back(a);
-    if (side_a != CGAL::SMALLER) parts.second.push_back(a);
-    // An edge that crosses the border ends one part and begins the other, at the same point
-    if (side_a * side_b != -1) continue;
-    const ExactCorner c = crossing(axis, a, b, border);
-    parts.first.push_back(c);
-    parts.second.push_back(c);
+    if (sides[k] == CGAL::EQUAL) parts.first.push_back(polygon[k]);
+    (sides[k] == CGAL::SMALLER ? parts.first : parts.second).push_back(std::move(polygon[k]));
+    if (!crossings[k]) continue;
+    parts.first.push_back(*crossings[k]);
+    parts.second.push_back(*std::move(crossings[k]));
   }
   return parts;
 }
@@ -73,13 +83,13 @@ void cut_along(Axis axis, Polygon polygon, const Grid& grid, Wanted wanted, cons
   // Clip the polygon to the wanted range first: no time is spent on cells that nobody wants
   auto [first, last] = intervals(polygon, axis, grid);
   if (last < wanted.begin || first >= wanted.end) return;
-  if (first < wanted.begin) polygon = split(polygon, axis, Rational(grid.border_m(wanted.begin))).second;
-  if (last >= wanted.end) polygon = split(polygon, axis, Rational(grid.border_m(wanted.end))).first;
+  if (first < wanted.begin) polygon = split(std::move(polygon), axis, Rational(grid.border_m(wanted.begin))).second;
+  if (last >= wanted.end) polygon = split(std::move(polygon), axis, Rational(grid.border_m(wanted.end))).first;
   first = std::max(first, wanted.begin);
   last = std::min(last, wanted.end - 1);
   // Cut off one interval after the other, from low to high
   for (std::int32_t k = first; k < last; ++k) {
-    auto [below, above] = split(polygon, axis, Rational(grid.border_m(k + 1)));
+    auto [below, above] = split(std::move(polygon), axis, Rational(grid.border_m(k + 1)));
     sink(k, std::move(below));
     polygon = std::move(above);
   }
