@@ -208,12 +208,15 @@ FARLOD_LANES void find_sector_minima(std::span<const float* const> packets, cons
   // data() could be emitted on its own, for one target in the place of all. NOLINTNEXTLINE(readability-container-data-pointer)
   float* const minima = &horizon.minima[0];
   // Level 0: the minimum over the azimuths of a sector and over the packets, then over the lanes
-  for (std::size_t s = 0; s < sectors; ++s) {
-    Floats lowest = broadcast(std::numeric_limits<float>::max());
-    for (const float* slopes : packets)
-      for (std::size_t k = first_of_sector[s]; k < first_of_sector[s + 1]; ++k)
-        lowest = min(lowest, load(slopes + k * lane_count));
-    minima[s] = min_lane(lowest);
+  for (std::size_t first = 0; first < sectors; first += lane_count) {
+    Floats lowest[lane_count];
+    for (std::size_t n = 0; n < lane_count; ++n) {
+      lowest[n] = broadcast(std::numeric_limits<float>::max());
+      for (const float* slopes : packets)
+        for (std::size_t k = first_of_sector[first + n]; k < first_of_sector[first + n + 1]; ++k)
+          lowest[n] = min(lowest[n], load(slopes + k * lane_count));
+    }
+    store(min_lanes(lowest), minima + first);
   }
   // Level n: two neighboring runs of half the length
   for (std::size_t level = 1; level < SectorMinHorizon::levels; ++level) {
@@ -225,20 +228,11 @@ FARLOD_LANES void find_sector_minima(std::span<const float* const> packets, cons
   }
 }
 
-/// Writes the lanes of the edges that some receiver may see, ascending, and returns their number.
-FARLOD_LANES std::size_t keep_seen(const EdgeReach& reach, std::array<std::uint8_t, lane_count>& kept) {
-  const std::array max_slope = to_array(reach.max_slope);
-  std::size_t count = 0;
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    kept[count] = static_cast<std::uint8_t>(l);
-    count += static_cast<std::size_t>(max_slope[l] > 0.0F);
-  }
-  return count;
-}
+/// The edges that some receiver may see: a bit for each lane.
+FARLOD_LANES std::uint32_t seen_edges(const EdgeReach& reach) { return bits_of(reach.max_slope > 0.0F); }
 
 /// Those of them that may rise above some receiver's horizon.
-FARLOD_LANES std::size_t cull(const EdgeReach& reach, const SectorMinHorizon& horizon,
-                              std::array<std::uint8_t, lane_count>& kept) {
+FARLOD_LANES std::uint32_t raising_edges(const EdgeReach& reach, const SectorMinHorizon& horizon) {
   constexpr auto sectors = static_cast<std::int32_t>(SectorMinHorizon::sectors);
   // The sectors that the interval touches. Those of unbounded edges may be any, and are masked into the table
   const Ints first = truncate(reach.from * static_cast<float>(sectors)), last = truncate(reach.to * static_cast<float>(sectors));
@@ -246,16 +240,11 @@ FARLOD_LANES std::size_t cull(const EdgeReach& reach, const SectorMinHorizon& ho
   const Ints level = floor_log2(min(max(last - first + 1, broadcast(1)), broadcast(sectors)));
   const std::array begin = to_array(level * sectors + (first & (sectors - 1))),
                    end = to_array(level * sectors + ((last + 1 - (1 << level)) & (sectors - 1)));
-  const std::array max_slope = to_array(reach.max_slope);
-  // Compact without a branch: write each lane, and move on if it is kept
-  std::size_t count = 0;
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    const float min_horizon =
+  std::array<float, lane_count> min_horizon;
+  for (std::size_t l = 0; l < lane_count; ++l)
+    min_horizon[l] =
         std::min(horizon.minima[static_cast<std::size_t>(begin[l])], horizon.minima[static_cast<std::size_t>(end[l])]);
-    kept[count] = static_cast<std::uint8_t>(l);
-    count += static_cast<std::size_t>(max_slope[l] > min_horizon);
-  }
-  return count;
+  return bits_of(reach.max_slope > load(min_horizon.data()));
 }
 
 }  // namespace farlod

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -151,29 +152,29 @@ template <class Horizon>
 FARLOD_LANES void draw_batch(const SilhouetteEdges::Batch& edges, bool is_upper, const Places& receivers,
                              const PacketBounds& bounds, const AzimuthView& azimuths, const SectorMinHorizon* min_horizon,
                              const Horizon& horizon) {
-  // Reach first: most batches are below all receivers, or behind them
-  EdgeReach reach = reach_of(edges, bounds);
-  if (max_lane(reach.max_slope) <= 0.0F) return;
-  // Leave out what faces away from all receivers, and what is hidden already
-  const Floats facing = may_be_silhouette(facing_terms(edges, bounds.box), edges, bounds.box, is_upper);
-  reach.max_slope = choose(facing > 0.0F, reach.max_slope, broadcast(-1.0F));
-  std::array<std::uint8_t, lane_count> kept;
-  const std::size_t count = min_horizon != nullptr ? cull(reach, *min_horizon, kept) : keep_seen(reach, kept);
+  // Leave out what is hidden already, or below all receivers, or behind them; then what faces away from all of them
+  const EdgeReach reach = reach_of(edges, bounds);
+  std::uint32_t kept = min_horizon != nullptr ? raising_edges(reach, *min_horizon) : seen_edges(reach);
+  if (kept == 0) return;
+  kept &= bits_of(may_be_silhouette(facing_terms(edges, bounds.box), edges, bounds.box, is_upper) > 0.0F);
   // Draw the others one by one, each for sixteen receivers, between its first and last slot
   const std::array first_slot = to_array(truncate(reach.from * azimuths.slots)),
                    end_slot = to_array(truncate(reach.to * azimuths.slots) + 1);
   const std::array max_slope = to_array(reach.max_slope);
   RelativeEdge e;
-  for (std::size_t n = 0; n < count; ++n) {
-    const std::size_t lane = kept[n];
-    set_ends(edges, lane, receivers, e);
+  for (; kept != 0; kept &= kept - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(kept));
     if (max_slope[lane] == EdgeReach::unbounded) {
+      set_ends(edges, lane, receivers, e);
       draw_nearby(e, edges.number[lane], is_upper, azimuths, horizon);
-    } else {
-      invert_cross(e);
-      draw_interval(e, edges.number[lane], max_slope[lane], azimuths, azimuths.first_of_slot[first_slot[lane]],
-                    azimuths.first_of_slot[end_slot[lane]], horizon);
+      continue;
     }
+    // Small and distant edges may lie between two azimuths
+    const std::uint32_t first = azimuths.first_of_slot[first_slot[lane]], end = azimuths.first_of_slot[end_slot[lane]];
+    if (first == end) continue;
+    set_ends(edges, lane, receivers, e);
+    invert_cross(e);
+    draw_interval(e, edges.number[lane], max_slope[lane], azimuths, first, end, horizon);
   }
 }
 
@@ -221,13 +222,8 @@ void find_raising(const EdgeBatches& edges, const PacketBounds& bounds, std::spa
                   const AzimuthView& azimuths, std::uint16_t* raising) {
   SectorMinHorizon min_horizon;
   find_sector_minima(horizons, azimuths.first_of_sector, min_horizon);
-  for (const SilhouetteEdges::Batch& batch : edges.batches) {
-    std::array<std::uint8_t, lane_count> kept;
-    const std::size_t count = cull(reach_of(batch, bounds), min_horizon, kept);
-    std::uint32_t bits = 0;
-    for (std::size_t n = 0; n < count; ++n) bits |= 1U << kept[n];
-    *raising++ = static_cast<std::uint16_t>(bits);
-  }
+  for (const SilhouetteEdges::Batch& batch : edges.batches)
+    *raising++ = static_cast<std::uint16_t>(raising_edges(reach_of(batch, bounds), min_horizon));
 }
 
 void find_facing(const EdgeBatches& edges, const CenteredBox& box, float* distances_m) {

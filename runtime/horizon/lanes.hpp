@@ -171,18 +171,55 @@ FARLOD_LANES float min_lane(const Floats& v) {
 }
 FARLOD_LANES float max_lane(const Floats& v) { return -min_lane(-v); }
 
-template <std::size_t apart = lane_count / 2>
-FARLOD_LANES float sum_of_lanes(const Floats& v) {
-  if constexpr (apart == 0)
-    return v.registers[0][0];
-  else
-    return sum_of_lanes<apart / 2>(v + swap_lanes<apart>(v, std::make_index_sequence<register_lanes>()));
+/// Two vectors that hold parts of 2 · half lanes each, as one that holds, of each part in turn, the lesser of its halves' lanes.
+template <std::size_t half, std::size_t... lane>
+FARLOD_LANES Floats fold_halves(const Floats& a, const Floats& b, std::index_sequence<lane...>) {
+  Floats folded;
+  const auto both = [&](std::size_t r) -> const FloatRegister& {
+    return r < register_count ? a.registers[r] : b.registers[r - register_count];
+  };
+  for (std::size_t r = 0; r < register_count; ++r) {
+    FloatRegister first, second;
+    if constexpr (half >= register_lanes) {
+      constexpr std::size_t apart = half / register_lanes;
+      first = both(r / apart * 2 * apart + r % apart);
+      second = both(r / apart * 2 * apart + r % apart + apart);
+    } else {
+      first = __builtin_shufflevector(both(2 * r), both(2 * r + 1), (lane / half * 2 * half + lane % half)...);
+      second = __builtin_shufflevector(both(2 * r), both(2 * r + 1), (lane / half * 2 * half + lane % half + half)...);
+    }
+    folded.registers[r] = first < second ? first : second;
+  }
+  return folded;
 }
-/// A bit for each lane that is greater than 0: the sum of the powers of two of these lanes, which a float holds.
-FARLOD_LANES std::uint32_t positive_lanes(const Floats& v) {
-  alignas(64) constexpr float powers[lane_count] = {0x1p0F, 0x1p1F, 0x1p2F,  0x1p3F,  0x1p4F,  0x1p5F,  0x1p6F,  0x1p7F,
-                                                    0x1p8F, 0x1p9F, 0x1p10F, 0x1p11F, 0x1p12F, 0x1p13F, 0x1p14F, 0x1p15F};
-  return static_cast<std::uint32_t>(sum_of_lanes(choose(v > 0.0F, load(powers), Floats(0.0F))));
+/// The least lane of each of sixteen vectors.
+FARLOD_LANES Floats min_lanes(Floats (&v)[lane_count]) {
+  constexpr std::make_index_sequence<register_lanes> lanes;
+  for (std::size_t n = 0; n < 8; ++n) v[n] = fold_halves<8>(v[2 * n], v[2 * n + 1], lanes);
+  for (std::size_t n = 0; n < 4; ++n) v[n] = fold_halves<4>(v[2 * n], v[2 * n + 1], lanes);
+  for (std::size_t n = 0; n < 2; ++n) v[n] = fold_halves<2>(v[2 * n], v[2 * n + 1], lanes);
+  return fold_halves<1>(v[0], v[1], lanes);
+}
+
+/// A bit for each lane that is set. Processors have an instruction for it that no vector extension says.
+FARLOD_LANES std::uint32_t bits_of(const Mask& mask) {
+  std::uint32_t bits = 0;
+  for (std::size_t r = 0; r < register_count; ++r) {
+#if defined(__AVX512F__)
+    const auto of_register = static_cast<std::uint32_t>(__builtin_ia32_cvtd2mask512(mask.registers[r]));
+#elif defined(__AVX2__)
+    const auto of_register =
+        static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<FloatRegister>(mask.registers[r])));
+#elif defined(__SSE2__)
+    const auto of_register =
+        static_cast<std::uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<FloatRegister>(mask.registers[r])));
+#else
+    std::uint32_t of_register = 0;
+    for (std::size_t l = 0; l < register_lanes; ++l) of_register |= (static_cast<std::uint32_t>(mask.registers[r][l]) & 1U) << l;
+#endif
+    bits |= of_register << (r * register_lanes);
+  }
+  return bits;
 }
 
 /// floor(log2(n)) of n ≥ 1: the exponent of n as a float.

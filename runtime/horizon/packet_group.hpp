@@ -14,7 +14,7 @@
 namespace farlod {
 
 /// Draws edges for packets that are close to each other: most edges of a cell are culled once for all of them.
-/// docs/concepts.md, "Culling edges for a group of packets".
+/// docs/concepts.md, "Culling edges for a packet".
 class PacketGroup {
  public:
   /// The sampling must outlive it, and be that of all horizons.

@@ -184,18 +184,17 @@ std::size_t find_jumps(const float* rows, const std::int32_t* numbers, std::size
   std::size_t count = 0;
   for (std::size_t first = 0; first < azimuth_count; first += at_once) {
     const std::size_t end = first + at_once < azimuth_count ? first + at_once : azimuth_count;
-    Floats excess[at_once], largest = broadcast(-1.0F);
+    std::uint32_t receivers[at_once], any = 0;
     for (std::size_t k = first; k < end; ++k) {
       const std::size_t next = k + 1 < azimuth_count ? k + 1 : 0;
       const Floats jump = load(rows + k * lane_count) - load(rows + next * lane_count);
       const Mask is_same = load(numbers + k * lane_count) == load(numbers + next * lane_count);
-      excess[k - first] = choose(is_same, broadcast(-1.0F), abs(jump) - least);
-      largest = max(largest, excess[k - first]);
+      receivers[k - first] = bits_of(choose(is_same, broadcast(-1.0F), abs(jump) - least) > 0.0F);
+      any |= receivers[k - first];
     }
-    if (max_lane(largest) <= 0.0F) continue;
+    if (any == 0) continue;
     for (std::size_t k = first; k < end; ++k)
-      if (const std::uint32_t receivers = positive_lanes(excess[k - first]); receivers != 0)
-        jumps[count++] = {static_cast<std::uint32_t>(k), receivers};
+      if (receivers[k - first] != 0) jumps[count++] = {static_cast<std::uint32_t>(k), receivers[k - first]};
   }
   return count;
 }

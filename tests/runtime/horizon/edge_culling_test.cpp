@@ -183,9 +183,11 @@ float expected_minimum(const std::vector<Row>& rows, const AzimuthSampling& ring
 }
 
 std::set<std::size_t> edges_above(const EdgeReach& reach, const SectorMinHorizon& min_horizon) {
-  std::array<std::uint8_t, lane_count> lanes;
-  const std::size_t count = cull(reach, min_horizon, lanes);
-  return {lanes.begin(), lanes.begin() + static_cast<std::ptrdiff_t>(count)};
+  const std::uint32_t bits = raising_edges(reach, min_horizon);
+  std::set<std::size_t> edges;
+  for (std::size_t l = 0; l < lane_count; ++l)
+    if (((bits >> l) & 1U) != 0) edges.insert(l);
+  return edges;
 }
 
 TEST(SectorMinHorizon, FindWhatRisesOverSomebodysHorizonInAnySectorThatItTouches) {
@@ -221,6 +223,28 @@ TEST(SectorMinHorizon, WhatIsTooNearToTellRisesAnywhere) {
   EXPECT_EQ(edges_above(reach, min_horizon).size(), lane_count);
   reach.max_slope = broadcast(-1.0F);
   EXPECT_TRUE(edges_above(reach, min_horizon).empty());
+}
+
+TEST(BitsOf, SayWhichLanesAreSet) {
+  std::array<float, lane_count> lanes{};
+  EXPECT_EQ(bits_of(load(lanes.data()) > 0.0F), 0U);
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    lanes[l] = 1.0F;
+    EXPECT_EQ(bits_of(load(lanes.data()) > 0.0F), (2U << l) - 1);
+  }
+}
+
+TEST(MinLanes, AreThoseOfEachVector) {
+  RandomPlaces random;
+  std::array<float, lane_count> expected;
+  Floats vectors[lane_count];
+  for (std::size_t n = 0; n < lane_count; ++n) {
+    std::array<float, lane_count> lanes;
+    for (float& x : lanes) x = random.between(-5.0, 5.0);
+    vectors[n] = load(lanes.data());
+    expected[n] = *std::min_element(lanes.begin(), lanes.end());
+  }
+  EXPECT_EQ(to_array(min_lanes(vectors)), expected);
 }
 
 }  // namespace
