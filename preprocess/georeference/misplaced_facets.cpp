@@ -62,9 +62,15 @@ struct Cluster {
 
 std::map<Square, Contents> fill_squares(const CityModel& city) {
   std::map<Square, Contents> squares;
+  auto last = squares.end();  // nearly all facets lie in the square of the one before
   city.for_each_building([&](std::size_t n, const Building& b) {
-    for (const Facet& facet : city.facets_of(b))
-      if (const auto outline = outline_of(city, facet); !is_broken(outline)) squares[square_of(outline.front())].add(n, 1);
+    for (const Facet& facet : city.facets_of(b)) {
+      const auto outline = outline_of(city, facet);
+      if (is_broken(outline)) continue;
+      const Square square = square_of(outline.front());
+      if (last == squares.end() || last->first != square) last = squares.try_emplace(square).first;
+      last->second.add(n, 1);
+    }
   });
   return squares;
 }
@@ -109,6 +115,7 @@ class MisplacementFinder {
 
   std::optional<MisplacedFacets> look_at(std::size_t row) const {
     const Building& building = city_.buildings()[row];
+    if (is_in_one_square(city_.points_of(building))) return std::nullopt;
     MisplacedFacets found{row, {}, false, {}};
     for (std::uint64_t f = building.first_facet; f < building.first_facet + building.facet_count; ++f) {
       const auto outline = outline_of(city_, city_.facets()[f]);
@@ -129,6 +136,16 @@ class MisplacementFinder {
   static void take_all(const Building& building, MisplacedFacets& found) {
     found.facets.resize(building.facet_count);
     std::iota(found.facets.begin(), found.facets.end(), building.first_facet);
+  }
+
+  /// True for nearly all buildings: all points lie in one square of the city, so that no outline is broken and none is a stray.
+  bool is_in_one_square(std::span<const Point3d> points) const {
+    if (points.empty() || !is_in_city(points.front())) return false;
+    const Square square = square_of(points.front());
+    const Point2d low = {city_square_m * static_cast<double>(square.first), city_square_m * static_cast<double>(square.second)};
+    return std::all_of(points.begin(), points.end(), [&](const Point3d& p) {
+      return low.x < p.x && p.x < low.x + city_square_m && low.y < p.y && p.y < low.y + city_square_m;
+    });
   }
 
   bool is_in_city(const Point3d& p) const {

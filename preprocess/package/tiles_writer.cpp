@@ -25,11 +25,11 @@ class BlockSections {
  public:
   BlockSections(const TileSet& tiles, const CellRange& range) : city_(tiles) {
     for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n)
-      for (const std::uint32_t s : tiles.tile(range.cell_at(n)).triangle_surfaces) row_of_surface_.try_emplace(s, 0);
-    for (auto& [number, row] : row_of_surface_) {
-      row = static_cast<std::uint32_t>(surfaces.size());
-      surfaces.push_back(record_of(city_.surfaces[number]));
-    }
+      for (const std::uint32_t s : tiles.tile(range.cell_at(n)).triangle_surfaces)
+        if (surface_numbers_.empty() || surface_numbers_.back() != s) surface_numbers_.push_back(s);
+    std::sort(surface_numbers_.begin(), surface_numbers_.end());
+    surface_numbers_.erase(std::unique(surface_numbers_.begin(), surface_numbers_.end()), surface_numbers_.end());
+    for (const std::uint32_t number : surface_numbers_) surfaces.push_back(record_of(city_.surfaces[number]));
   }
 
   void add_cell(Cell cell) {
@@ -63,6 +63,23 @@ class BlockSections {
 
   /// Of a cell without a far map, where others have one.
   void add_missing_map() { far_cells.push_back({explicit_edges.size(), 0, {}, 0}); }
+
+  /// Calls visit(kind, elements) for each section, in the order of the file.
+  template <class Visit>
+  void visit(const Visit& visit) {
+    visit(SectionKind::cells, cells);
+    visit(SectionKind::vertices, vertices);
+    visit(SectionKind::triangles, triangles);
+    visit(SectionKind::surface_runs, surface_runs);
+    visit(SectionKind::surfaces, surfaces);
+    visit(SectionKind::buildings, buildings);
+    visit(SectionKind::text, text);
+    visit(SectionKind::far_cells, far_cells);
+    visit(SectionKind::far_edges, far_edges);
+    visit(SectionKind::explicit_edges, explicit_edges);
+    visit(SectionKind::tile_edges, tile_edges);
+    visit(SectionKind::loose_edges, loose_edges);
+  }
 
   std::vector<CellRecord> cells;
   std::vector<FarCellRecord> far_cells;
@@ -103,11 +120,16 @@ class BlockSections {
   }
 
   void add_runs(const Tile& tile) {
-    const std::vector<std::uint32_t>& numbers = tile.triangle_surfaces;
+    const TileArray<std::uint32_t>& numbers = tile.triangle_surfaces;
     for (std::uint32_t t = 0; t < numbers.size(); ++t) {
       const bool ends = t + 1 == numbers.size() || numbers[t + 1] != numbers[t];
-      if (ends) surface_runs.push_back(SurfaceRun{row_of_surface_.at(numbers[t]), t + 1});
+      if (ends) surface_runs.push_back(SurfaceRun{row_of_surface(numbers[t]), t + 1});
     }
+  }
+
+  [[nodiscard]] std::uint32_t row_of_surface(std::uint32_t number) const {
+    const auto found = std::lower_bound(surface_numbers_.begin(), surface_numbers_.end(), number);
+    return static_cast<std::uint32_t>(found - surface_numbers_.begin());
   }
 
   SurfaceRecord record_of(const Surface& s) {
@@ -130,27 +152,33 @@ class BlockSections {
   }
 
   const TileSet& city_;
-  std::map<std::uint32_t, std::uint32_t> row_of_surface_, row_of_building_;
+  std::vector<std::uint32_t> surface_numbers_;  ///< in the city, of each row
+  std::map<std::uint32_t, std::uint32_t> row_of_building_;
 };
 
 /// A file in memory: header, table of sections, then the sections at aligned places.
 class TilesFile {
  public:
-  explicit TilesFile(Block block) : bytes_(sizeof(Header) + section_count * sizeof(Section)) {
+  /// `sections_bytes`: of all sections together.
+  TilesFile(Block block, std::size_t sections_bytes) : bytes_(sizeof(Header) + section_count * sizeof(Section)) {
     header_.magic = magic;
     header_.version = format_version;
     header_.section_count = section_count;
     header_.block_i = block.i;
     header_.block_j = block.j;
+    // A vector that grows holds old and new, and room for as much again
+    bytes_.reserve(bytes_.size() + sections_bytes + section_count * section_alignment + end_padding);
   }
 
+  /// Frees the elements: a block has many.
   template <class Elements>
-  void add(SectionKind kind, const Elements& elements) {
+  void take(SectionKind kind, Elements& elements) {
     using T = typename Elements::value_type;
     bytes_.resize((bytes_.size() + section_alignment - 1) / section_alignment * section_alignment);
     table_.push_back({kind, sizeof(T), bytes_.size(), elements.size(), 0});
     const auto* begin = reinterpret_cast<const std::byte*>(elements.data());
     bytes_.insert(bytes_.end(), begin, begin + elements.size() * sizeof(T));
+    elements = Elements();
   }
 
   std::vector<std::byte> finish() {
@@ -193,19 +221,10 @@ std::vector<std::byte> tiles_file(const TileSet& tiles, const BakedBlock& maps, 
   for (std::size_t n = 0; n < static_cast<std::size_t>(range.size()); ++n) sections.add_cell(range.cell_at(n));
   const CellRuns all{{{0, static_cast<std::uint32_t>(range.size())}}};
   add_far_maps(sections, maps, mapped.value_or(all).places());
-  TilesFile file(block);
-  file.add(SectionKind::cells, sections.cells);
-  file.add(SectionKind::vertices, sections.vertices);
-  file.add(SectionKind::triangles, sections.triangles);
-  file.add(SectionKind::surface_runs, sections.surface_runs);
-  file.add(SectionKind::surfaces, sections.surfaces);
-  file.add(SectionKind::buildings, sections.buildings);
-  file.add(SectionKind::text, sections.text);
-  file.add(SectionKind::far_cells, sections.far_cells);
-  file.add(SectionKind::far_edges, sections.far_edges);
-  file.add(SectionKind::explicit_edges, sections.explicit_edges);
-  file.add(SectionKind::tile_edges, sections.tile_edges);
-  file.add(SectionKind::loose_edges, sections.loose_edges);
+  std::size_t bytes = 0;
+  sections.visit([&](SectionKind, const auto& elements) { bytes += elements.size() * sizeof(elements[0]); });
+  TilesFile file(block, bytes);
+  sections.visit([&](SectionKind kind, auto& elements) { file.take(kind, elements); });
   return file.finish();
 }
 

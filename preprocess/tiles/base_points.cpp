@@ -5,11 +5,12 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <tuple>
-#include <unordered_map>
 
 #include "city/plan_boxes.hpp"
 #include "farlod/box.hpp"
@@ -34,13 +35,26 @@ Footprint footprint_of(std::span<const Point3d> points) {
 
 bool comes_first(const Point3d& a, const Point3d& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
-/// Finds the buildings near a building: buildings are listed by the squares of a coarse grid that their outlines touch.
+/// Finds the buildings near a building: buildings are listed by the squares of a coarse grid that their outlines touch. The grid
+/// is rolled up: squares that lie a whole number of its sides apart share a list, so that it is as long as the buildings are
+/// many, however far apart they are. Lists of neighboring squares lie close together in memory.
 class Neighbors {
  public:
-  explicit Neighbors(const std::vector<Footprint>& bases) : bases_(bases) {
-    for (std::uint32_t n = 0; n < bases.size(); ++n)
-      if (!bases[n].outline.empty())
-        for_each_square(bases[n].outline, 0.0, [&](std::uint64_t square) { squares_[square].push_back(n); });
+  explicit Neighbors(const PagedArray<Footprint>& bases)
+      : bases_(bases), bits_(static_cast<int>(std::bit_width(bases.size())) / 2 + 1) {
+    // Count the entries of each list, let the lists begin one behind the other, then fill them: each moves its beginning
+    begin_of_list_.resize((std::size_t{1} << (2 * bits_)) + 1);
+    const auto for_each_entry = [&](const auto& visit) {
+      for (std::uint32_t n = 0; n < bases_.size(); ++n)
+        if (!bases_[n].outline.empty()) for_each_list(bases_[n].outline, 0.0, [&](std::size_t list) { visit(list, n); });
+    };
+    for_each_entry([&](std::size_t list, std::uint32_t) { ++begin_of_list_[list]; });
+    std::exclusive_scan(begin_of_list_.begin(), begin_of_list_.end(), begin_of_list_.begin(), std::uint64_t{0});
+    numbers_.resize_for_overwrite(begin_of_list_.back());
+    for_each_entry([&](std::size_t list, std::uint32_t n) { numbers_[begin_of_list_[list]++] = n; });
+    // Each list begins by now where the next one did
+    std::copy_backward(begin_of_list_.begin(), begin_of_list_.end() - 1, begin_of_list_.end());
+    begin_of_list_[0] = 0;
   }
 
   /// Promise (2) of bases_of. A neighbor across a wide street may be neither higher nor on the same level.
@@ -97,9 +111,8 @@ class Neighbors {
   template <class Visit>
   void visit_near(std::uint32_t number, const Visit& visit) const {
     std::vector<std::uint32_t> near;
-    for_each_square(bases_[number].outline, base_search_radius_m, [&](std::uint64_t square) {
-      if (const auto found = squares_.find(square); found != squares_.end())
-        near.insert(near.end(), found->second.begin(), found->second.end());
+    for_each_list(bases_[number].outline, base_search_radius_m, [&](std::size_t list) {
+      for (std::uint64_t k = begin_of_list_[list]; k < begin_of_list_[list + 1]; ++k) near.push_back(numbers_[k]);
     });
     // A building may touch several squares
     std::sort(near.begin(), near.end());
@@ -110,23 +123,26 @@ class Neighbors {
     }
   }
 
+  /// Calls `visit` for the list of each square that the outline touches; it may be the same for several squares.
   template <class Visit>
-  static void for_each_square(const Box2d& outline, double margin, const Visit& visit) {
+  void for_each_list(const Box2d& outline, double margin, const Visit& visit) const {
     const auto square_of = [](double x) { return static_cast<std::int64_t>(std::floor(x / base_search_radius_m)); };
+    const auto rolled = [this](std::int64_t k) { return static_cast<std::size_t>(k) & ((std::size_t{1} << bits_) - 1); };
     for (std::int64_t j = square_of(outline.low.y - margin); j <= square_of(outline.high.y + margin); ++j)
       for (std::int64_t i = square_of(outline.low.x - margin); i <= square_of(outline.high.x + margin); ++i)
-        visit((static_cast<std::uint64_t>(j) << 32) ^ (static_cast<std::uint64_t>(i) & 0xFFFFFFFF));
+        visit(rolled(j) << bits_ | rolled(i));
   }
 
-  const std::vector<Footprint>& bases_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> squares_;
+  const PagedArray<Footprint>& bases_;
+  int bits_;  ///< the rolled grid has 2^bits_ rows and columns
+  PagedArray<std::uint64_t> begin_of_list_;
+  PagedArray<std::uint32_t> numbers_;
 };
 
 }  // namespace
 
 std::vector<Base> bases_of(const CityModel& city) {
-  std::vector<Footprint> footprints;
-  footprints.reserve(city.buildings().size());
+  PagedArray<Footprint> footprints;
   city.for_each_building([&](std::size_t, const Building& b) { footprints.push_back(footprint_of(city.points_of(b))); });
   const Neighbors neighbors(footprints);
   // Find the bases below the ground first: they must not make bridges of their neighbors
@@ -142,8 +158,9 @@ std::vector<Base> bases_of(const CityModel& city) {
   return result;
 }
 
-std::vector<Point3d> base_points(const CityModel& city, std::span<const Base> bases) {
-  std::vector<Point3d> result, of_building;
+PagedArray<Point3d> base_points(const CityModel& city, std::span<const Base> bases) {
+  PagedArray<Point3d> result;
+  std::vector<Point3d> of_building;
   city.for_each_building([&](std::size_t n, const Building& b) {
     if (bases[n] != Base::on_ground) return;
     const std::span<const Point3d> points = city.points_of(b);
@@ -154,7 +171,8 @@ std::vector<Point3d> base_points(const CityModel& city, std::span<const Base> ba
       if (p.z <= lowest_m + base_thickness_m) of_building.push_back(p);
     // The floor has each of them, and so have two walls
     std::sort(of_building.begin(), of_building.end(), comes_first);
-    result.insert(result.end(), of_building.begin(), std::unique(of_building.begin(), of_building.end()));
+    of_building.erase(std::unique(of_building.begin(), of_building.end()), of_building.end());
+    result.append(of_building);
   });
   return result;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "city/city_model.hpp"
+#include "city/paged_array.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod::tiles {
@@ -28,7 +29,7 @@ enum class Base : std::uint8_t {
 
 /// The points at which buildings meet the ground: the points of each building on the ground that are at most `base_thickness_m`
 /// above its lowest point. Each once for each building.
-[[nodiscard]] std::vector<Point3d> base_points(const CityModel& city, std::span<const Base> bases);
+[[nodiscard]] PagedArray<Point3d> base_points(const CityModel& city, std::span<const Base> bases);
 
 inline constexpr double base_thickness_m = 0.01;  ///< bases are drawn to the centimetre
 inline constexpr double steepest_ground = 0.5;    ///< 27°: steeper streets are stairs

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tiles/building_pieces.hpp"
 
+#include <algorithm>
 #include <array>
-#include <map>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include "tiles/facet_repair.hpp"
 #include "tiles/facet_triangulation.hpp"
+#include "tiles/foundations.hpp"
 #include "tiles/horizon_edges.hpp"
 #include "tiles/metres_text.hpp"
 #include "tiles/solid_orientation.hpp"
@@ -20,7 +22,6 @@ struct TriangulatedFacet {
   const Facet* facet;
   Triangulation triangulation;
   Point3d area_vector_m2;
-  bool has_one_ring;
   double outward = 1.0;  ///< −1 where it was drawn with its normal inward
 };
 
@@ -30,9 +31,12 @@ class BuildingCutter {
       : city_(city), building_(building), grid_(grid), assign_(assign), height_origin_m_(height_origin_m) {}
 
   BuildingPieces run() {
+    facets_.reserve(building_.facet_count);
     for (const Facet& f : city_.facets_of(building_)) triangulate_facet(f);
     make_surfaces();
     if (assign_ == Assign::whole) result_.only_cell = cell_of_footprint();
+    for (const TriangulatedFacet& f : facets_) triangle_count_ += f.triangulation.triangles.size();
+    result_.pieces.reserve(triangle_count_);
     for (const TriangulatedFacet& f : facets_) cut_facet(f);
     find_borders();
     return std::move(result_);
@@ -63,24 +67,28 @@ class BuildingCutter {
     const Point3d area_vector_m2 = t.rings_cross ? area_vector(t) : area_vector(rings);
     if (const double d = distance_from_plane_m(rings, normalized(area_vector_m2)); d > planarity_tolerance_m)
       report(ProblemCode::not_planar, facet, "a point is " + metres(d) + " off its plane");
-    const bool has_one_ring = rings.size() == 1 && !t.rings_cross;
-    facets_.push_back({&facet, std::move(t), area_vector_m2, has_one_ring});
+    facets_.push_back({&facet, std::move(t), area_vector_m2});
   }
 
   void make_surfaces() {
     std::vector<OrientedArea> areas;
+    areas.reserve(facets_.size());
+    result_.surfaces.reserve(facets_.size());
     for (const TriangulatedFacet& f : facets_) areas.push_back({f.area_vector_m2, f.triangulation.points.front(), f.facet->part});
     const std::vector<double> outward = outward_signs(areas);
     std::vector<Point3d> total_vectors;
+    total_vectors.reserve(facets_.size());
     for (std::size_t n = 0; n < facets_.size(); ++n) {
       const Facet& facet = *facets_[n].facet;
-      const auto [entry, is_new] = place_of_surface_.try_emplace(facet.surface, result_.surfaces.size());
-      if (is_new) {
+      if (facet.surface >= place_of_surface_.size()) place_of_surface_.resize(facet.surface + 1, no_place);
+      std::size_t& place = place_of_surface_[facet.surface];
+      if (place == no_place) {
+        place = result_.surfaces.size();
         result_.surfaces.push_back({{0, facet.surface, facet.part, facet.kind, {}, 0.0}, {}});
         total_vectors.emplace_back();
       }
       facets_[n].outward = outward[n];
-      add_to_surface(entry->second, facets_[n], total_vectors[entry->second]);
+      add_to_surface(place, facets_[n], total_vectors[place]);
     }
     for (std::size_t s = 0; s < result_.surfaces.size(); ++s) finish_surface(result_.surfaces[s], total_vectors[s]);
   }
@@ -119,7 +127,7 @@ class BuildingCutter {
   }
 
   void cut_facet(const TriangulatedFacet& f) {
-    const auto surface = static_cast<std::uint32_t>(place_of_surface_.at(f.facet->surface));
+    const auto surface = static_cast<std::uint32_t>(place_of_surface_[f.facet->surface]);
     for (const Triangle& t : f.triangulation.triangles) {
       const std::array corners{f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c]};
       pieces_.clear();
@@ -130,21 +138,32 @@ class BuildingCutter {
 
   void find_borders() {
     EdgeTable table;
+    // Most triangles share their three edges with others
+    table.reserve(2 * triangle_count_);
     for (const TriangulatedFacet& f : facets_) {
       const FacetLook look = f.outward * f.area_vector_m2.z > 0.0 ? FacetLook::up : FacetLook::down;
       for (const Triangle& t : f.triangulation.triangles)
         table.add_triangle(f.triangulation.points[t.a], f.triangulation.points[t.b], f.triangulation.points[t.c], look);
     }
-    for (const HorizonSegment& edge : table.horizon_edges()) {
+    const std::vector<HorizonSegment> upper = table.horizon_edges();
+    result_.upper_pieces.reserve(upper.size());
+    result_.upper_borders.reserve(upper.size());
+    for (const HorizonSegment& edge : upper) {
       const auto pieces = cut_edge_unless_whole(edge, result_.only_cell, grid_, height_origin_m_);
       result_.upper_pieces.insert(result_.upper_pieces.end(), pieces.begin(), pieces.end());
       result_.upper_borders.push_back({edge.segment, result_.upper_pieces.size()});
     }
     result_.undersides = undersides(table.edges());
-    if (result_.undersides.empty()) return;
-    for (const TriangulatedFacet& f : facets_)
-      if (auto wall = f.has_one_ring ? wall_profile(f.triangulation.points) : std::nullopt)
-        result_.walls.push_back(std::move(*wall));
+    if (has_undersides_above_floor()) result_.walls = wall_profiles(city_, building_);
+  }
+
+  [[nodiscard]] bool has_undersides_above_floor() const {
+    if (result_.undersides.empty()) return false;
+    double lowest_m = std::numeric_limits<double>::infinity();
+    for (const Point3d& p : city_.points_of(building_)) lowest_m = std::min(lowest_m, p.z);
+    return std::any_of(result_.undersides.begin(), result_.undersides.end(), [&](const HorizonSegment& s) {
+      return std::max(s.segment.a.z, s.segment.b.z) > lowest_m + lowest_floor_thickness_m;
+    });
   }
 
   const CityModel& city_;
@@ -153,7 +172,9 @@ class BuildingCutter {
   Assign assign_;
   double height_origin_m_;
   std::vector<TriangulatedFacet> facets_;
-  std::map<std::uint32_t, std::size_t> place_of_surface_;
+  static constexpr std::size_t no_place = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> place_of_surface_;  ///< in the result, by number
+  std::size_t triangle_count_ = 0;
   std::vector<CellPiece> pieces_;  ///< of one triangle
   BuildingPieces result_;
 };
@@ -163,6 +184,19 @@ class BuildingCutter {
 BuildingPieces cut_building(const CityModel& city_grid, const Building& building, const Grid& grid, Assign assign,
                             double height_origin_m) {
   return BuildingCutter(city_grid, building, grid, assign, height_origin_m).run();
+}
+
+std::vector<WallProfile> wall_profiles(const CityModel& city_grid, const Building& building) {
+  std::vector<WallProfile> walls;
+  for (const Facet& facet : city_grid.facets_of(building)) {
+    const RepairedFacet repaired = repaired_rings(city_grid, facet);
+    if (repaired.rings.size() != 1) continue;
+    std::optional<WallProfile> wall = wall_profile(repaired.rings.front());
+    if (!wall) continue;
+    const Triangulation t = triangulate(repaired.rings);
+    if (!t.triangles.empty() && !t.rings_cross) walls.push_back(std::move(*wall));
+  }
+  return walls;
 }
 
 }  // namespace farlod::tiles

@@ -41,13 +41,17 @@ struct BuildingPieces {
   std::vector<UpperBorder> upper_borders;
   std::vector<CellEdge> upper_pieces;      ///< of the upper borders, one after the other
   std::vector<HorizonSegment> undersides;  ///< including those on the ground; grid frame
-  std::vector<WallProfile> walls;          ///< empty when there are no undersides
-  std::optional<Cell> only_cell;           ///< the cell of the whole building when it is not cut
-  std::vector<Problem> problems;           ///< without the source, which a building alone does not know; grid frame
+  /// Of a building with undersides above its lowest floor. Of others, few need them: there, wall_profiles gives them.
+  std::optional<std::vector<WallProfile>> walls;
+  std::optional<Cell> only_cell;  ///< the cell of the whole building when it is not cut
+  std::vector<Problem> problems;  ///< without the source, which a building alone does not know; grid frame
 };
 
 /// Triangulates and cuts one building, given in the grid frame.
 [[nodiscard]] BuildingPieces cut_building(const CityModel& city_grid, const Building& building, const Grid& grid, Assign assign,
                                           double height_origin_m);
+
+/// The profiles of a building's facets that are walls.
+[[nodiscard]] std::vector<WallProfile> wall_profiles(const CityModel& city_grid, const Building& building);
 
 }  // namespace farlod::tiles

@@ -22,6 +22,7 @@ using ExactPoint = Point3<Rational>;
 /// A corner of a piece. Corners that the cut did not make remember which corner of the triangle they are, so that they can be
 /// rounded as in a triangle that was never cut.
 struct ExactCorner {
+  using Number = Rational;
   ExactPoint p_grid;
   std::int8_t original = -1;
 };

@@ -52,6 +52,7 @@ bool add_convex_fan(Triangulation& result, const FacetProjection& project) {
                                         flat(result.points[(k + 2) % n], project));
     if (turn != wanted) return false;
   }
+  result.triangles.reserve(n - 2);
   for (std::uint32_t k = 2; k < n; ++k) result.triangles.push_back({0, k - 1, k});
   return true;
 }

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "city/paged_array.hpp"
 #include "contract/ground_contact.hpp"
 #include "farlod/box.hpp"
 #include "farlod/point.hpp"
@@ -43,20 +44,24 @@ struct GroundFace {
   [[nodiscard]] std::vector<HorizonSegment> horizon_edges() const;
 };
 
-/// The ground: a triangulated irregular network (Delaunay in the plane) through points of known height.
+/// The ground: a triangulated irregular network (Delaunay in the plane) through points of known height. A large one lies on disk
+/// (PagedHeap).
 ///   (1) Of several points at one place in the plane, the lowest counts.
 ///   (2) It covers the rectangle, or the convex hull of its points, according to its extent.
 ///   (3) It does not depend on the order of the points.
 class Ground {
  public:
   /// Points outside of the rectangle shape the ground at its edge. Without points the ground is flat at height 0.
-  Ground(std::vector<Point3d> points_grid, const Box2d& rectangle, GroundExtent extent = GroundExtent::rectangle);
+  Ground(PagedArray<Point3d> points_grid, const Box2d& rectangle, GroundExtent extent = GroundExtent::rectangle);
   Ground(Ground&&) noexcept;
   Ground& operator=(Ground&&) noexcept;
   ~Ground();
 
   /// Height of the ground; beyond it, the height of the nearest point. Not thread-safe.
   [[nodiscard]] double height_at(Point2d p_grid) const;
+  /// Whether a point is higher above the ground than that. As height_at says, but for a point whose height decides by a
+  /// millimetre; much faster for points beside each other. Not thread-safe.
+  [[nodiscard]] bool is_above(const Point3d& p_grid, double height_m) const;
   /// Of all corners of its triangles; nothing when it has none.
   [[nodiscard]] std::optional<double> lowest_m() const;
 

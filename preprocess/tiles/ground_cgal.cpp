@@ -1,11 +1,16 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "city/memory_bound.hpp"
+#include "city/paged_heap.hpp"
+// The network of a large city has a hundred million faces. Its containers ask for memory through this name; see decision 0020
+#define CGAL_ALLOCATOR(T) farlod::PagedAllocator<T>
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Projection_traits_xy_3.h>
 #include <CGAL/spatial_sort.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -18,15 +23,26 @@ namespace farlod::tiles {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Network = CGAL::Delaunay_triangulation_2<CGAL::Projection_traits_xy_3<Kernel>>;
+/// Types of this file alone: in others, containers of faces and vertices have another allocator.
+struct Plan : CGAL::Projection_traits_xy_3<Kernel> {};
+using Network = CGAL::Delaunay_triangulation_2<Plan>;
+
+/// Points, faces or heights that are asked for between two looks at the memory.
+constexpr std::size_t accesses_between_looks = 64;
 
 /// Sorts the points by place and height, and keeps the lowest point of each place.
-void keep_lowest(std::vector<Point3d>& points) {
+void keep_lowest(PagedArray<Point3d>& points) {
   std::sort(points.begin(), points.end(),
             [](const Point3d& a, const Point3d& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
-  points.erase(
-      std::unique(points.begin(), points.end(), [](const Point3d& a, const Point3d& b) { return a.x == b.x && a.y == b.y; }),
-      points.end());
+  const Point3d* const end =
+      std::unique(points.begin(), points.end(), [](const Point3d& a, const Point3d& b) { return a.x == b.x && a.y == b.y; });
+  points.resize(static_cast<std::size_t>(end - points.begin()));
+}
+
+PagedArray<Kernel::Point_3> to_cgal(const PagedArray<Point3d>& points) {
+  PagedArray<Kernel::Point_3> result;
+  for (const Point3d& p : points) result.push_back({p.x, p.y, p.z});
+  return result;
 }
 
 /// CGAL finds no nearest point while all points lie on a line. Such cities are rare and small: compare all points.
@@ -42,29 +58,54 @@ double height_of_nearest(const Network& network, Point2d p) {
   return height;
 }
 
-/// What Network::insert does with a range, but for the copy that it makes of the points.
-void insert_all(std::vector<Kernel::Point_3> points, Network& network) {
+/// What Network::insert does with a range, but for the copy that it makes of the points. Neighbors come one after the other, so
+/// that what is in use of the network is a small part of it.
+void insert_all(PagedArray<Kernel::Point_3> points, Network& network) {
   CGAL::spatial_sort(points.begin(), points.end(), network.geom_traits());
   Network::Face_handle hint;
-  for (const Kernel::Point_3& p : points) hint = network.insert(p, hint)->face();
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    if (n % accesses_between_looks == 0) MemoryBound::look_now();
+    hint = network.insert(points[n], hint)->face();
+  }
 }
 
 Point3d from_cgal(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
+
+/// Height at a place of the plane through three corners.
+double height_in_plane(const std::array<Point3d, 3>& corners, Point2d p) {
+  const auto& [a, b, c] = corners;
+  const Point3d n = cross(b - a, c - a);
+  return a.z - (n.x * (p.x - a.x) + n.y * (p.y - a.y)) / n.z;
+}
+
+/// Whether a place is within a triangle or no farther from it than rounding moves the points of a border.
+bool is_within(const std::array<Point3d, 3>& corners, Point2d p) {
+  constexpr double rounding_m = 1e-9;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point2d a = horizontal(corners[k]), along = horizontal(corners[(k + 1) % 3]) - a, to_p = p - a;
+    const double left = along.x * to_p.y - along.y * to_p.x;
+    if (left < 0.0 && left * left > rounding_m * rounding_m * dot(along, along)) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
 struct Ground::Impl {
   Network network;
   Network::Face_handle last_found;
+  std::size_t asked = 0;  ///< heights
+
+  [[nodiscard]] static std::array<Point3d, 3> corners_of(Network::Face_handle face) {
+    return {from_cgal(face->vertex(0)->point()), from_cgal(face->vertex(1)->point()), from_cgal(face->vertex(2)->point())};
+  }
 };
 
-Ground::Ground(std::vector<Point3d> points, const Box2d& rectangle, GroundExtent extent) : impl_(std::make_unique<Impl>()) {
+Ground::Ground(PagedArray<Point3d> points, const Box2d& rectangle, GroundExtent extent) : impl_(std::make_unique<Impl>()) {
   FARLOD_EXPECTS(!rectangle.empty());
   keep_lowest(points);
-  std::vector<Kernel::Point_3> input;
-  input.reserve(points.size());
-  for (const Point3d& p : points) input.emplace_back(p.x, p.y, p.z);
-  points = {};
+  PagedArray<Kernel::Point_3> input = to_cgal(points);
+  points = PagedArray<Point3d>();
   Network& network = impl_->network;
   insert_all(std::move(input), network);
   if (extent == GroundExtent::points) return;
@@ -83,14 +124,28 @@ Ground::~Ground() = default;
 
 double Ground::height_at(Point2d p) const {
   const Network& network = impl_->network;
+  if (++impl_->asked % accesses_between_looks == 0) MemoryBound::look_now();
   const Kernel::Point_3 query(p.x, p.y, 0.0);
   const auto face = network.dimension() == 2 ? network.locate(query, impl_->last_found) : nullptr;
   if (face == nullptr || network.is_infinite(face)) return height_of_nearest(network, p);
   impl_->last_found = face;
-  const Point3d a = from_cgal(face->vertex(0)->point()), b = from_cgal(face->vertex(1)->point()),
-                c = from_cgal(face->vertex(2)->point());
-  const Point3d n = cross(b - a, c - a);
-  return a.z - (n.x * (p.x - a.x) + n.y * (p.y - a.y)) / n.z;
+  return height_in_plane(Impl::corners_of(face), p);
+}
+
+bool Ground::is_above(const Point3d& p, double height_m) const {
+  // Beside the triangle that was found last, the ground is as high as at its border, up to what lies within the millimetre
+  constexpr double certain_m = 1e-3;
+  if (const Network::Face_handle last = impl_->last_found; last != nullptr)
+    for (const Network::Face_handle face : {last, last->neighbor(0), last->neighbor(1), last->neighbor(2)}) {
+      if (impl_->network.is_infinite(face)) continue;
+      const std::array<Point3d, 3> corners = Impl::corners_of(face);
+      if (!is_within(corners, horizontal(p))) continue;
+      impl_->last_found = face;
+      const double above_m = p.z - height_in_plane(corners, horizontal(p)) - height_m;
+      if (std::abs(above_m) > certain_m) return above_m > 0.0;
+      break;
+    }
+  return p.z > height_at(horizontal(p)) + height_m;
 }
 
 std::optional<double> Ground::lowest_m() const {
@@ -129,7 +184,9 @@ GroundFaces::~GroundFaces() = default;
 std::vector<GroundFace> GroundFaces::next(std::size_t most) {
   auto& [network, face] = *impl_;
   std::vector<GroundFace> faces;
+  faces.reserve(most);
   for (; faces.size() < most && face != network.finite_faces_end(); ++face) {
+    if (faces.size() % accesses_between_looks == 0) MemoryBound::look_now();
     GroundFace& found = faces.emplace_back();
     for (int n = 0; n < 3; ++n) {
       const auto place = static_cast<std::size_t>(n);

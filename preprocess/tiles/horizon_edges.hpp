@@ -91,6 +91,8 @@ class EdgeSides {
 /// The edges of a set of triangles. Two edges are the same when both ends are equal, bit for bit.
 class EdgeTable {
  public:
+  /// Makes room for so many edges.
+  void reserve(std::size_t edges) { edges_.reserve(edges); }
   void add_triangle(const Point3d& a, const Point3d& b, const Point3d& c, FacetLook look);
 
   /// Each edge once, in the order of insertion.

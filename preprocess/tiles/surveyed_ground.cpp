@@ -10,8 +10,8 @@
 namespace farlod::tiles {
 namespace {
 
-std::vector<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& rotation) {
-  std::vector<Point3d> nodes;
+PagedArray<Point3d> nodes_of(const TerrainRaster& terrain, const GridRotation& rotation) {
+  PagedArray<Point3d> nodes;
   for (std::size_t row = 0; row < terrain.rows; ++row)
     for (std::size_t column = 0; column < terrain.columns; ++column)
       if (const auto& height = terrain.height_m[row * terrain.columns + column]) {
@@ -30,7 +30,8 @@ std::optional<Ground> surveyed_ground(const std::optional<TerrainRaster>& terrai
   std::vector<Point3d> points_grid;
   points_grid.reserve(relief_points_city.size());
   for (const Point3d& p_city : relief_points_city) points_grid.push_back(grid.rotation.grid_from_city(p_city));
-  return Ground(thinned_relief(std::move(points_grid), grid.rectangle()), grid.rectangle(), extent);
+  PagedArray<Point3d> kept = thinned_relief(std::move(points_grid), grid.rectangle());
+  return Ground(std::move(kept), grid.rectangle(), extent);
 }
 
 }  // namespace farlod::tiles

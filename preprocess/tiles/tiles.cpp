@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "contract/cancellation.hpp"
@@ -79,9 +80,9 @@ class Numbers {
 
 class TileCutter {
  public:
-  TileCutter(const CityModel& city_grid, const LocatedCity& located, const Grid& grid, Assign assign, Ground ground,
+  TileCutter(CityModel city_grid, const LocatedCity& located, const Grid& grid, Assign assign, Ground ground,
              std::span<const Base> bases, std::stop_token stop)
-      : city_(city_grid),
+      : city_(std::move(city_grid)),
         sources_(located.sources),
         origin_m_(located.georeference.origin_m),
         grid_(grid),
@@ -107,8 +108,12 @@ class TileCutter {
                      place_building(buildings[n], pieces, report);
                      if (n % CityModel::buildings_held == 0) city_.let_go_before(n);
                    });
+    // The tiles take as much room on the disk as what they are filled from: first make room
+    city_ = CityModel();
+    if (overhanging_.empty()) ground_.reset();
     filler_.fill_meshes(tiles_);
     place_overhanging_buildings();
+    ground_.reset();
     filler_.fill_edges(tiles_);
     return std::move(tiles_);
   }
@@ -125,7 +130,7 @@ class TileCutter {
   };
 
   [[nodiscard]] double lowest_whole_metre() const {
-    double lowest = ground_.lowest_m().value_or(std::numeric_limits<double>::infinity());
+    double lowest = ground_->lowest_m().value_or(std::numeric_limits<double>::infinity());
     city_.for_each_building([&](std::size_t, const Building& b) {
       for (const Point3d& p : city_.points_of(b)) lowest = std::min(lowest, p.z);
     });
@@ -134,7 +139,7 @@ class TileCutter {
 
   void place_ground() {
     tiles_.surfaces.push_back({ground_building, 0, 0, SurfaceKind::ground, {0.0, 0.0, 1.0}, 0.0});
-    GroundFaces faces(ground_);
+    GroundFaces faces(*ground_);
     make_and_place([&] { return faces.next(batch_size); }, stop_,
                    [&](const GroundFace& face) { return cut_within(face.corners, grid_, tiles_.height_origin_m); },
                    [&](const GroundFace& face, const std::vector<CellPiece>& pieces) {
@@ -151,7 +156,7 @@ class TileCutter {
   }
 
   void place_ground_edges() {
-    GroundFaces faces(ground_);
+    GroundFaces faces(*ground_);
     make_and_place([&] { return faces.next(batch_size); }, stop_, [&](const GroundFace& face) { return cut_edges_of(face); },
                    [&](const GroundFace&, const std::vector<CellEdge>& pieces) {
                      for (const CellEdge& piece : pieces)
@@ -170,7 +175,7 @@ class TileCutter {
 
   void note_ground_heights() {
     for (std::size_t n = 0; n < tiles_.tiles.size(); ++n) {
-      const double height = ground_.height_at(grid_.centre_of(grid_.cells.cell_at(n)));
+      const double height = ground_->height_at(grid_.centre_of(grid_.cells.cell_at(n)));
       tiles_.tiles[n].ground_at_centre_m = static_cast<float>(height - tiles_.height_origin_m);
     }
   }
@@ -233,6 +238,7 @@ class TileCutter {
       const auto edges = cut_edge_unless_whole(underside, cut_building.only_cell, grid_, tiles_.height_origin_m);
       overhanging.undersides.insert(overhanging.undersides.end(), edges.begin(), edges.end());
     }
+    if (!cut_building.walls) cut_building.walls = wall_profiles(city_, building);
     cut_building.surfaces = {};
     cut_building.pieces = {};
     overhanging.pieces = std::move(cut_building);
@@ -280,7 +286,7 @@ class TileCutter {
   }
 
   [[nodiscard]] GroundHeightAt ground_height() const {
-    return [this](Point2d p_grid) { return ground_.height_at(p_grid); };
+    return [this](Point2d p_grid) { return ground_->height_at(p_grid); };
   }
 
   /// Runs after all buildings are placed: the triangles that close a lower border may belong to any building.
@@ -300,8 +306,8 @@ class TileCutter {
         place_upper_borders(building.pieces, nullptr);
         continue;
       }
-      const GroundedWalls walls(std::move(building.pieces.walls), [this, &building](Point2d p) {
-        return std::max(ground_.height_at(p), building.foundation_top_m);
+      const GroundedWalls walls(*std::move(building.pieces.walls), [this, &building](Point2d p) {
+        return std::max(ground_->height_at(p), building.foundation_top_m);
       });
       place_upper_borders(building.pieces, &walls);
       for (const CellEdge& underside : building.undersides) place(underside);
@@ -333,10 +339,7 @@ class TileCutter {
       const auto intervals = static_cast<std::size_t>(ground_sampling_intervals(norm(horizontal(b - a))));
       const auto point_at = [&](std::size_t k) { return a + static_cast<double>(k) / static_cast<double>(intervals) * (b - a); };
       std::vector<bool> is_above;
-      for (std::size_t k = 0; k <= intervals; ++k) {
-        const Point3d p = point_at(k);
-        is_above.push_back(p.z > ground_.height_at(horizontal(p)) + ground_contact_m);
-      }
+      for (std::size_t k = 0; k <= intervals; ++k) is_above.push_back(ground_->is_above(point_at(k), ground_contact_m));
       // An interval counts as above the ground when one of its ends is; join consecutive intervals
       for (std::size_t from = 0, to = 0; from < intervals; from = to + 1) {
         for (to = from; to < intervals && (is_above[to] || is_above[to + 1]); ++to) {
@@ -352,13 +355,13 @@ class TileCutter {
     return {p.x, p.y, p_grid.z};
   }
 
-  const CityModel& city_;
+  CityModel city_;  ///< until all is cut
   std::span<const std::string> sources_;
   Point2d origin_m_;
   const Grid& grid_;
   Assign assign_;
-  Ground ground_;
-  std::span<const Base> bases_;  ///< for each building
+  std::optional<Ground> ground_;  ///< until no building asks for it any more
+  std::span<const Base> bases_;   ///< for each building
   std::stop_token stop_;
   std::vector<OverhangingBuilding> overhanging_;
   TileFiller filler_;
@@ -386,7 +389,7 @@ TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, con
   // The bases of buildings define the ground only where no survey does
   const std::vector<Base> bases = surveyed ? std::vector(city.buildings().size(), Base::on_ground) : bases_of(city);
   Ground ground = surveyed ? std::move(*surveyed) : Ground(base_points(city, bases), grid.rectangle(), extent);
-  return TileCutter(city, located, grid, assign, std::move(ground), bases, stop).run(report);
+  return TileCutter(std::move(city), located, grid, assign, std::move(ground), bases, stop).run(report);
 }
 
 }  // namespace farlod::tiles

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ingest/citygml/citygml_segmented_reading.hpp"
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -41,7 +40,7 @@ class SegmentedReading {
   };
 
   void read_on() {
-    std::vector<InFlight> in_flight(segments_of_a_thread * std::min(threads_here(), most_threads));
+    std::vector<InFlight> in_flight(places_for_threads());
     const auto cut = [&](std::size_t place) {
       throw_if_cancelled(task_.stop);
       std::optional<FileSegment> segment = cutter_.next();
@@ -61,9 +60,6 @@ class SegmentedReading {
     if (!parse_xml_segment({cutter_.head(), segment.text, segment.is_last}, reading->listener())) throw CannotBeCut();
     return reading;
   }
-
-  /// To append a segment takes about a twentieth of the time that it takes to read it.
-  static constexpr std::size_t segments_of_a_thread = 2, most_threads = 16;
 
   const ReadingTask& task_;
   SegmentCutter cutter_;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <istream>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,13 @@ struct ObjMesh {
   }
 };
 
-/// Reads the text of an OBJ file, with comments, CRLF, tabs, continued lines and relative vertex numbers. Throws what reading the
-/// stream throws.
-[[nodiscard]] ObjMesh scan_obj(std::istream& text);
+/// Parsing a segment is much more work than starting to.
+inline constexpr std::size_t obj_segment_bytes = std::size_t{1} << 18;
+
+/// Reads the text of an OBJ file, with comments, CRLF, tabs, continued lines and relative vertex numbers, on all threads of the
+/// task arena that it is called in. The size of the segments that these parse changes nothing. Throws what reading the stream
+/// throws, and Cancelled when a stop is requested.
+[[nodiscard]] ObjMesh scan_obj(std::istream& text, const std::stop_token& stop = {},
+                               std::size_t segment_bytes = obj_segment_bytes);
 
 }  // namespace farlod::ingest

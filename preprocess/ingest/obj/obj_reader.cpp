@@ -3,12 +3,16 @@
 #include "ingest/obj/obj_reader.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
+#include <utility>
 
+#include "contract/cancellation.hpp"
 #include "farlod/error.hpp"
 #include "ingest/obj/disjoint_sets.hpp"
 #include "ingest/obj/obj_mesh.hpp"
 #include "ingest/obj/planar_faces.hpp"
+#include "ingest/ordered/ordered_work.hpp"
 
 namespace farlod::ingest {
 namespace {
@@ -135,20 +139,55 @@ void report_unread(const ObjMesh& mesh, CityModelBuilder& builder) {
         std::to_string(mesh.unread_elements) + " points, lines or curved surfaces from here on; only faces (f) are read");
 }
 
+/// Buildings that follow each other, as a city and a report of their own.
+struct BuildingBatch {
+  BuildingBatch(std::size_t first_building, std::size_t past_last, const std::string& source)
+      : begin(first_building), end(past_last), builder(source, report, RepeatedIds::reported_by_append) {}
+
+  std::size_t begin, end;
+  Report report;
+  CityModelBuilder builder;
+};
+
+/// Builds the buildings on all threads, and appends them in their order.
+void add_buildings(const ObjMesh& mesh, const FacesByBuilding& sorted, const ObjFrame& frame, const std::stop_token& stop,
+                   CityModelBuilder& builder) {
+  constexpr std::size_t faces_of_a_batch = 4096;
+  std::vector<std::unique_ptr<BuildingBatch>> in_flight(places_for_threads());
+  std::size_t next = 0, let_go_at = 0;
+  const auto begin = [&](std::size_t place) {
+    throw_if_cancelled(stop);
+    const std::size_t first = next;
+    while (next < sorted.ids.size() && sorted.begin[next] < sorted.begin[first] + faces_of_a_batch) ++next;
+    if (first == next) return false;
+    in_flight[place] = std::make_unique<BuildingBatch>(first, next, builder.source());
+    return true;
+  };
+  const auto build = [&](std::size_t place) {
+    BuildingBatch& batch = *in_flight[place];
+    ObjBuildings buildings(mesh, frame, batch.builder);
+    for (std::size_t b = batch.begin; b < batch.end; ++b)
+      buildings.add(sorted.ids[b], std::span(sorted.faces).subspan(sorted.begin[b], sorted.begin[b + 1] - sorted.begin[b]));
+  };
+  const auto append = [&](std::size_t place) {
+    const std::unique_ptr<BuildingBatch> batch = std::move(in_flight[place]);
+    builder.append(std::move(batch->builder));
+    if (batch->end < let_go_at) return;
+    mesh.let_go();
+    let_go_at = batch->end + CityModel::buildings_held;
+  };
+  run_in_order(in_flight.size(), {begin, build, append});
+}
+
 }  // namespace
 
-void read_obj(const InputFile& file, const ObjFrame& frame, CityModelBuilder& builder) {
-  const ObjMesh mesh = scan_obj(*open_input(file));
+void read_obj(const InputFile& file, const ObjFrame& frame, CityModelBuilder& builder, const std::stop_token& stop) {
+  const ObjMesh mesh = scan_obj(*open_input(file), stop);
   report_unread(mesh, builder);
   if (mesh.faces.empty())
     throw InputError(file.name + " holds " + std::to_string(mesh.vertices.size()) +
                      " vertices and no face: it is not an OBJ file, or it is a point cloud. Export it as a polygon mesh.");
-  const FacesByBuilding sorted = group_faces(mesh);
-  ObjBuildings buildings(mesh, frame, builder);
-  for (std::size_t b = 0; b < sorted.ids.size(); ++b) {
-    buildings.add(sorted.ids[b], std::span(sorted.faces).subspan(sorted.begin[b], sorted.begin[b + 1] - sorted.begin[b]));
-    if (b % CityModel::buildings_held == 0) mesh.let_go();
-  }
+  add_buildings(mesh, group_faces(mesh), frame, stop, builder);
 }
 
 }  // namespace farlod::ingest

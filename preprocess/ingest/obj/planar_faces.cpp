@@ -7,7 +7,7 @@
 #include <cmath>
 #include <compare>
 #include <numeric>
-#include <tuple>
+#include <utility>
 
 #include "ingest/obj/disjoint_sets.hpp"
 
@@ -17,28 +17,33 @@ namespace {
 struct Edge {
   std::uint32_t low, high;  ///< welded points
   std::uint32_t face;
-  auto key() const { return std::tuple(low, high, face); }
+  auto key() const { return std::pair((std::uint64_t{low} << 32) | high, face); }
   bool same_place(const Edge& other) const { return low == other.low && high == other.high; }
 };
 
 /// Edges with more faces are not used: they do not occur on buildings, and the number of pairs of faces grows with the square.
 constexpr std::size_t most_neighbors_at_an_edge = 8;
 
-double distance_to_line(const Point3d& p, const Point3d& a, const Point3d& b) {
-  const double length = norm(b - a);
-  return length > 0.0 ? norm(cross(b - a, p - a)) / length : norm(p - a);
-}
-
 bool is_finite(std::span<const Point3d> face) {
   return std::all_of(face.begin(), face.end(),
                      [](const Point3d& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); });
 }
 
-/// The point of a face that is farthest from the line through two of its points.
-Point3d apex(std::span<const Point3d> face, const Point3d& a, const Point3d& b) {
-  return *std::max_element(face.begin(), face.end(), [&](const Point3d& p, const Point3d& q) {
-    return distance_to_line(p, a, b) < distance_to_line(q, a, b);
-  });
+/// The point of a face that is farthest from a line.
+struct Apex {
+  Point3d p;
+  double distance_m = 0.0;
+};
+
+/// The line runs through two points of the face.
+Apex apex_over(std::span<const Point3d> face, const Point3d& a, const Point3d& b) {
+  const Point3d along = b - a;
+  const double length = norm(along);
+  const auto at = [&](const Point3d& p) { return Apex{p, length > 0.0 ? norm(cross(along, p - a)) / length : norm(p - a)}; };
+  Apex farthest = at(face.front());
+  for (const Point3d& p : face.subspan(1))
+    if (const Apex other = at(p); farthest.distance_m < other.distance_m) farthest = other;
+  return farthest;
 }
 
 /// The largest distance by which rounding can move a point off the plane of three others. (λ) are its barycentric coordinates
@@ -51,9 +56,9 @@ double rounding_bound(const Point3d& unit_normal, const std::array<double, 3>& b
 }
 
 bool are_coplanar(std::span<const Point3d> face_1, std::span<const Point3d> face_2, const Point3d& a, const Point3d& b) {
-  Point3d wide = apex(face_1, a, b), narrow = apex(face_2, a, b);
-  if (distance_to_line(wide, a, b) < distance_to_line(narrow, a, b)) std::swap(wide, narrow);
-  const Point3d u = b - a, v = wide - a, w = narrow - a;
+  Apex wide = apex_over(face_1, a, b), narrow = apex_over(face_2, a, b);
+  if (wide.distance_m < narrow.distance_m) std::swap(wide, narrow);
+  const Point3d u = b - a, v = wide.p - a, w = narrow.p - a;
   const Point3d n = cross(u, v);
   const double nn = dot(n, n);
   if (!(nn > 0.0)) return false;
@@ -64,14 +69,18 @@ bool are_coplanar(std::span<const Point3d> face_1, std::span<const Point3d> face
 
 /// The thickness of a face: its extent perpendicular to its longest edge.
 double thickness(std::span<const Point3d> face) {
-  double longest = 0.0, across = 0.0;
+  if (face.empty()) return 0.0;
+  double longest = 0.0;
+  Point3d begin, end;
   for (std::size_t i = 0; i < face.size(); ++i) {
     const Point3d &a = face[i], &b = face[(i + 1) % face.size()];
-    if (norm(b - a) < longest) continue;
-    longest = norm(b - a);
-    across = distance_to_line(apex(face, a, b), a, b);
+    const double length = norm(b - a);
+    if (length < longest) continue;
+    longest = length;
+    begin = a;
+    end = b;
   }
-  return across;
+  return apex_over(face, begin, end).distance_m;
 }
 
 class PlanarFaces {
@@ -142,13 +151,23 @@ class PlanarFaces {
 
 }  // namespace
 
+namespace {
+
+/// What std::weak_order says, sooner for numbers. Unlike `<`, it also orders NaN.
+std::weak_ordering order_of(double x, double y) {
+  if (x < y) return std::weak_ordering::less;
+  if (x > y) return std::weak_ordering::greater;
+  return x == y ? std::weak_ordering::equivalent : std::weak_order(x, y);
+}
+
+}  // namespace
+
 std::vector<std::uint32_t> weld(std::span<const Point3d> points) {
-  // Unlike `<`, weak_order also orders NaN
   const auto less = [&](std::uint32_t i, std::uint32_t j) {
     const Point3d &p = points[i], &q = points[j];
-    if (const auto x = std::weak_order(p.x, q.x); x != 0) return x < 0;
-    if (const auto y = std::weak_order(p.y, q.y); y != 0) return y < 0;
-    return std::weak_order(p.z, q.z) < 0;
+    if (const auto x = order_of(p.x, q.x); x != 0) return x < 0;
+    if (const auto y = order_of(p.y, q.y); y != 0) return y < 0;
+    return order_of(p.z, q.z) < 0;
   };
   std::vector<std::uint32_t> order(points.size()), number(points.size());
   std::iota(order.begin(), order.end(), 0u);

@@ -5,6 +5,8 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
+
 namespace farlod::ingest {
 
 void run_in_order(std::size_t places, const OrderedWork& work) {
@@ -30,5 +32,10 @@ void run_in_order(std::size_t places, const OrderedWork& work) {
 }
 
 std::size_t threads_here() { return static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency()); }
+
+std::size_t places_for_threads() {
+  constexpr std::size_t places_of_a_thread = 2, most_threads = 16;
+  return places_of_a_thread * std::min(threads_here(), most_threads);
+}
 
 }  // namespace farlod::ingest

@@ -21,4 +21,8 @@ void run_in_order(std::size_t places, const OrderedWork& work);
 /// The number of threads of the task arena that it is called in.
 [[nodiscard]] std::size_t threads_here();
 
+/// As many places as keep the threads of the task arena at work that it is called in. Of more than 16 threads, the others would
+/// wait: to end a piece takes a twentieth of the time that it takes to work on it (CityGML), or more.
+[[nodiscard]] std::size_t places_for_threads();
+
 }  // namespace farlod::ingest

@@ -13,30 +13,6 @@ namespace {
 /// So small that nearly each object of the city is a segment.
 constexpr SegmentSizes small_segments{.least = 100, .most = 10'000};
 
-/// All that a reading gives, as text.
-std::string described(const SourceCity& source, const Report& report) {
-  std::ostringstream text;
-  text.precision(17);
-  text << source.source << ' ' << source.crs.definition << '\n';
-  for (const Building& b : source.city.buildings()) {
-    text << b.id << ' ' << b.first_facet << '\n';
-    for (const Facet& f : source.city.facets_of(b)) {
-      text << f.first_ring << ' ' << f.surface << ' ' << f.part << ' ' << static_cast<int>(f.kind) << ':';
-      for (std::uint32_t k = 0; k < f.ring_count; ++k)
-        for (const Point3d& p : source.city.ring(f, k)) text << ' ' << p.x << ',' << p.y << ',' << p.z;
-      text << '\n';
-    }
-  }
-  for (const Point3d& p : source.relief_points) text << "relief " << p.x << ' ' << p.y << ' ' << p.z << '\n';
-  for (const auto& [name, count] : source.skipped) text << count << ' ' << name << '\n';
-  for (const Problem& p : report.problems()) {
-    text << static_cast<int>(p.code) << ' ' << p.source << ' ' << p.place << ' ' << p.detail << ' ' << p.ring;
-    if (p.position) text << ' ' << p.position->x << ' ' << p.position->y << ' ' << p.position->z;
-    text << '\n';
-  }
-  return text.str();
-}
-
 /// Reads on so many threads; what ends the reading is described, too.
 std::string read_on_threads(int threads, const std::filesystem::path& file, const SegmentSizes& segments = small_segments) {
   return oneapi::tbb::task_arena(threads).execute([&] {

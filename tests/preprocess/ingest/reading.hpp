@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,30 @@ inline Reading read_file(const std::filesystem::path& file, const IngestSettings
   Reading reading;
   reading.source = ingest(file, settings, reading.report);
   return reading;
+}
+
+/// All that a reading gives, as text.
+inline std::string described(const SourceCity& source, const Report& report) {
+  std::ostringstream text;
+  text.precision(17);
+  text << source.source << ' ' << source.crs.definition << '\n';
+  for (const Building& b : source.city.buildings()) {
+    text << b.id << ' ' << b.first_facet << '\n';
+    for (const Facet& f : source.city.facets_of(b)) {
+      text << f.first_ring << ' ' << f.surface << ' ' << f.part << ' ' << static_cast<int>(f.kind) << ':';
+      for (std::uint32_t k = 0; k < f.ring_count; ++k)
+        for (const Point3d& p : source.city.ring(f, k)) text << ' ' << p.x << ',' << p.y << ',' << p.z;
+      text << '\n';
+    }
+  }
+  for (const Point3d& p : source.relief_points) text << "relief " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+  for (const auto& [name, count] : source.skipped) text << count << ' ' << name << '\n';
+  for (const Problem& p : report.problems()) {
+    text << static_cast<int>(p.code) << ' ' << p.source << ' ' << p.place << ' ' << p.detail << ' ' << p.ring;
+    if (p.position) text << ' ' << p.position->x << ' ' << p.position->y << ' ' << p.position->z;
+    text << '\n';
+  }
+  return text.str();
 }
 
 /// Writes a file of the running test's own.

@@ -5,18 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <vector>
+#include <span>
 
 #include "tests/scenes/scene_builder.hpp"
 
 namespace farlod::tiles {
 namespace {
 
-bool has_point_at(const std::vector<Point3d>& points, double height_m) {
+bool has_point_at(std::span<const Point3d> points, double height_m) {
   return std::any_of(points.begin(), points.end(), [height_m](const Point3d& p) { return p.z == height_m; });
 }
 
-std::vector<Point3d> base_points(const CityModel& city) { return tiles::base_points(city, bases_of(city)); }
+PagedArray<Point3d> base_points(const CityModel& city) { return tiles::base_points(city, bases_of(city)); }
 
 TEST(BasePoints, AreTheLowestOfEachBuilding) {
   scenes::SceneBuilder town;

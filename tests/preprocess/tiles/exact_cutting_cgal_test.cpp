@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <random>
 
@@ -142,6 +143,59 @@ TEST_P(CutExactly, NeighborsAreCutAtTheSamePointsOfTheirCommonEdge) {
 
 // 33.3 is no float: the grid must take the nearest one, whose multiples are exact
 INSTANTIATE_TEST_SUITE_P(Cells, CutExactly, testing::Values(50.0, 33.3, 17.9));
+
+/// The pieces of exact cutting, rounded.
+std::vector<CellPiece> rounded_pieces(const TriangleOfPoints& t, const Grid& grid, double height_origin_m) {
+  std::vector<CellPiece> pieces;
+  for (const ExactPiece& exact : cut_exactly(t, grid)) {
+    CellPiece& piece = pieces.emplace_back(CellPiece{exact.cell, {}});
+    const Point2d corner = grid.corner_of(exact.cell);
+    const auto round = [](const Rational& x, double origin) { return static_cast<float>(CGAL::to_double(x - Rational(origin))); };
+    for (const ExactCorner& c : exact.polygon)
+      piece.polygon.push_back(
+          c.original >= 0
+              ? cell_from_grid(t[static_cast<std::size_t>(c.original)], exact.cell, grid, height_origin_m)
+              : Point3f{round(c.p_grid.x, corner.x), round(c.p_grid.y, corner.y), round(c.p_grid.z, height_origin_m)});
+  }
+  return pieces;
+}
+
+/// Triangles of which bounds cannot tell all: through corners of cells, upright, flat at the origin of heights, or slivers.
+std::vector<TriangleOfPoints> awkward_triangles(const Grid& grid) {
+  const double c = grid.cell_edge_m;
+  std::vector<TriangleOfPoints> triangles;
+  for (int n = 1; n < 300; ++n) {
+    const double x = 0.125 * (n % 5 + 1), y = 0.375 * (n % 7 + 1), before = 7 * n % 53 + 1, after = 11 * n % 97 + 2;
+    triangles.push_back({{{-before * x, -before * y, 1}, {after * x, after * y, 3}, {-5, 40, 5}}});
+  }
+  const std::vector<TriangleOfPoints> more{{{{-c, -c, 1}, {2 * c, 2 * c, 3}, {c, -2 * c, 5}}},
+                                           {{{0.1 * c, 0.1 * c, 0}, {2.9 * c, 2.9 * c, 0}, {0.3 * c, 2 * c, 0}}},
+                                           {{{0.3, 0.1, 0}, {2.7 * c, 1.3 * c, 0}, {2.7 * c, 1.3 * c, 12}}},
+                                           {{{0.3, 0.1, -1}, {2.7 * c, 1.3 * c, 1}, {0.2 * c, 2.2 * c, 0}}},
+                                           {{{-0.5 * c, 0.1, 7}, {1.5 * c, 0.1 + 1e-13, 7}, {0.5 * c, 0.1 - 1e-13, 9}}},
+                                           {{{c - 1e-12, 0.2, 7}, {c + 1e-12, 0.3, 8}, {c, 1.4 * c, 1e6}}}};
+  triangles.insert(triangles.end(), more.begin(), more.end());
+  return triangles;
+}
+
+TEST(Cut, RoundsAsExactCuttingDoes) {
+  for (const double edge_m : {50.0, 33.3}) {
+    const Grid grid = grid_of(edge_m);
+    std::vector<TriangleOfPoints> triangles = random_triangles(grid, 1'000);
+    for (const TriangleOfPoints& t : awkward_triangles(grid)) triangles.push_back(t);
+    for (const TriangleOfPoints& t : triangles) {
+      const std::vector<CellPiece> found = cut(t, grid, 0.0), expected = rounded_pieces(t, grid, 0.0);
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t n = 0; n < found.size(); ++n) {
+        EXPECT_EQ(found[n].cell, expected[n].cell);
+        ASSERT_EQ(found[n].polygon.size(), expected[n].polygon.size());
+        // Bit for bit: 0 is not −0
+        EXPECT_EQ(
+            std::memcmp(found[n].polygon.begin(), expected[n].polygon.begin(), expected[n].polygon.size() * sizeof(Point3f)), 0);
+      }
+    }
+  }
+}
 
 TEST(Cut, RoundsBothSidesOfABorderAlike) {
   const Grid grid = grid_of(33.3);

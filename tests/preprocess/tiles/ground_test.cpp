@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "city/page_file.hpp"
+#include "city/paged_heap.hpp"
+#include "tests/preprocess/city/temporary_files.hpp"
 #include "tests/preprocess/tiles/whole_ground.hpp"
 
 namespace farlod::tiles {
@@ -66,6 +69,20 @@ TEST(Ground, ItsEdgesDoNotDependOnWhereInMemoryItLies) {
     EXPECT_EQ(test::horizon_edges_of(others.back()), test::horizon_edges_of(first));
   }
   EXPECT_GT(test::horizon_edges_of(first).size(), 500U);
+}
+
+TEST(Ground, IsTheSameOnDiskAsInMemory) {
+  std::vector<Point3d> points;  // of a lattice: four of a square lie on a circle
+  for (int n = 0; n < 600 * 400; ++n)
+    points.push_back({static_cast<double>(n % 600), static_cast<double>(n / 600), static_cast<double>(n * 7 % 11)});
+  const Ground on_disk(points, rectangle);
+  const std::size_t bytes_on_disk = PagedHeap::bytes_on_disk();
+  EXPECT_GT(bytes_on_disk, std::size_t{10} << 20);
+  const farlod::test::TemporaryFiles files("/nowhere/at/all");
+  const Ground in_memory(points, rectangle);
+  EXPECT_EQ(PagedHeap::bytes_on_disk(), bytes_on_disk);
+  PageFile::let_go_of_all();
+  EXPECT_EQ(test::triangles_of(on_disk), test::triangles_of(in_memory));
 }
 
 TEST(Ground, MayEndWhereItsPointsEnd) {
