@@ -16,17 +16,22 @@ CityWriteError::CityWriteError(const std::filesystem::path& path, const std::str
     : std::runtime_error(fmt::format("cannot write {}: {}", path.string(), reason)) {}
 
 CityTextFile::CityTextFile(std::filesystem::path destination) : destination_(std::move(destination)) {
-  // The process id separates two runs that write the same file
-  temporary_ = destination_.parent_path() / fmt::format(".{}.{}.partial", destination_.filename().string(), getpid());
   errno = 0;
-  file_.open(temporary_, std::ios::binary | std::ios::in | std::ios::out | std::ios::trunc);
+  std::error_code unknown;
+  if (std::filesystem::is_fifo(destination_, unknown)) {
+    file_.open(destination_, std::ios::binary | std::ios::out);
+  } else {
+    // The process id separates two runs that write the same file
+    temporary_ = destination_.parent_path() / fmt::format(".{}.{}.partial", destination_.filename().string(), getpid());
+    file_.open(temporary_, std::ios::binary | std::ios::in | std::ios::out | std::ios::trunc);
+  }
   if (!file_) fail();
   buffer_.reserve(buffer_bytes + buffer_bytes / 4);
 }
 
 CityTextFile::~CityTextFile() {
   std::error_code nothing_to_remove;
-  std::filesystem::remove(temporary_, nothing_to_remove);
+  if (!temporary_.empty()) std::filesystem::remove(temporary_, nothing_to_remove);
 }
 
 void CityTextFile::overwrite(std::uint64_t position, std::string_view text) {
@@ -51,6 +56,7 @@ void CityTextFile::commit() {
   flush();
   file_.close();
   if (!file_) fail();
+  if (temporary_.empty()) return;
   std::error_code error;
   std::filesystem::rename(temporary_, destination_, error);
   if (error) throw CityWriteError(destination_, error.message());

@@ -17,8 +17,9 @@ class CityWriteError : public std::runtime_error {
   CityWriteError(const std::filesystem::path& path, const std::string& reason);
 };
 
-/// A text file that is written by appending and gets its name when it is committed. A file that is not committed is removed. Uses
-/// a buffer of fixed size. All members throw CityWriteError.
+/// A text file that is written by appending and gets its name when it is committed. A file that is not committed is removed. A
+/// destination that is a pipe is written to at once, and cannot be overwritten. Uses a buffer of fixed size. All members throw
+/// CityWriteError.
 class CityTextFile {
  public:
   explicit CityTextFile(std::filesystem::path destination);
@@ -45,7 +46,7 @@ class CityTextFile {
   void flush();
   [[noreturn]] void fail() const;
 
-  std::filesystem::path destination_, temporary_;
+  std::filesystem::path destination_, temporary_;  ///< a pipe has no temporary file
   std::fstream file_;
   std::string buffer_;
   std::uint64_t flushed_bytes_ = 0;

@@ -107,6 +107,7 @@ struct PackEstimate {
   std::uint64_t far_maps = 0;  ///< that are baked: one for each cell, or fewer with PackSettings::area
   double seconds = 0.0;        ///< of the stages from the tiles on
   double memory_mib = 0.0, package_mib = 0.0;
+  double least_memory_mib = 0.0;  ///< the least RunSettings::memory_limit_mib that can be kept
 };
 
 /// What far maps do to the sky view factors of some random receivers, against Engine::exact with the same rays: the error of

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <vector>
 
+#include "city/paged_array.hpp"
 #include "farlod/surface_kind.hpp"
 
 namespace farlod::align {
@@ -40,7 +40,7 @@ std::complex<double> fourfold_of(Point2d normal) {
 
 /// The walls of a building. Area over the building's height is a wall's length, however it is cut into triangles, whose own
 /// edges would count diagonals as streets.
-void append_walls(const CityModel& city, const Building& b, std::vector<Wall>& walls) {
+void append_walls(const CityModel& city, const Building& b, PagedArray<Wall>& walls) {
   const auto points = city.points_of(b);
   if (points.empty()) return;
   const double height_m = height_of(points);
@@ -53,8 +53,8 @@ void append_walls(const CityModel& city, const Building& b, std::vector<Wall>& w
   }
 }
 
-std::vector<Wall> walls_of(const CityModel& city) {
-  std::vector<Wall> walls;
+PagedArray<Wall> walls_of(const CityModel& city) {
+  PagedArray<Wall> walls;
   city.for_each_building([&](std::size_t, const Building& b) { append_walls(city, b, walls); });
   return walls;
 }
@@ -69,7 +69,7 @@ int bin_of(std::complex<double> fourfold) {
 }
 
 /// The middle of the window of bins with the longest walls; of equals, the first.
-std::complex<double> peak_of(const std::vector<Wall>& walls) {
+std::complex<double> peak_of(const PagedArray<Wall>& walls) {
   std::array<double, bins> length_m{};
   for (const Wall& w : walls) length_m[static_cast<std::size_t>(bin_of(w.fourfold))] += w.length_m;
   constexpr int reach = 4;
@@ -84,7 +84,7 @@ std::complex<double> peak_of(const std::vector<Wall>& walls) {
 }
 
 /// Mean direction of the walls within the window around `centre`.
-std::complex<double> mean_around(const std::vector<Wall>& walls, std::complex<double> centre) {
+std::complex<double> mean_around(const PagedArray<Wall>& walls, std::complex<double> centre) {
   const double least_cosine = cos(4.0 * half_window);
   std::complex<double> sum;
   for (const Wall& w : walls)
@@ -94,7 +94,7 @@ std::complex<double> mean_around(const std::vector<Wall>& walls, std::complex<do
 
 /// Moves the window to the mean of what it shows until it stays (mean shift, Cheng 1995), so that where the bins of the
 /// histogram began is forgotten.
-std::complex<double> refine(const std::vector<Wall>& walls, std::complex<double> centre) {
+std::complex<double> refine(const PagedArray<Wall>& walls, std::complex<double> centre) {
   constexpr int most_moves = 100;  // the walls in the window are a finite choice: real cities need about ten
   for (int move = 0; move < most_moves; ++move) {
     const std::complex<double> next = mean_around(walls, centre);
@@ -113,7 +113,7 @@ Angle bearing_of(std::complex<double> fourfold) {
 }  // namespace
 
 Alignment street_alignment(const CityModel& city) {
-  const std::vector<Wall> walls = walls_of(city);
+  const PagedArray<Wall> walls = walls_of(city);
   double length_m = 0.0;
   std::complex<double> sum;
   for (const Wall& w : walls) {

@@ -29,7 +29,8 @@ ProgramDescription pack_program() {
                      "One bad building never ends the run. It is reported, and left out or repaired; --report lists each "
                      "problem, and --strict packs no city that has one."},
       .notes = {"Reads CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, OBJ, and footprints in any vector format of GDAL (GeoJSON, "
-                "GeoPackage, Shapefile …); also from folders, .zip and .gz. Several inputs become one city."},
+                "GeoPackage, Shapefile …); also from folders, .zip and .gz. Several inputs become one city. "
+                "CityGML and OBJ may come through a pipe; - is the standard input."},
       .exit_codes = {{exit_done, "done"},
                      {exit_internal, "an internal error"},
                      {exit_usage, "a wrong command line"},
@@ -66,7 +67,8 @@ Point3d parse_origin(const std::string& text) {
 
 void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("INPUT", raw.inputs,
-                 "City files, folders with city files, .zip or .gz archives; all are put together. A raster is a surface model")
+                 "City files, folders with city files, .zip or .gz archives, pipes (-: standard input); all are put together. A "
+                 "raster is a surface model")
       ->type_name(file_value);
   app.add_option("--crs", o.settings.crs, "CRS of inputs that do not say, as EPSG:n; of all, where each says its own")
       ->group("Input");
@@ -143,7 +145,8 @@ void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->group("Output");
   app.add_flag("--force", raw.force, "Replace a package that is there already")->group("Output");
   add_area_option(app, raw);
-  app.add_option("--memory-limit", o.memory_limit_mib, "End before the long work when it would need more MiB than this")
+  app.add_option("--memory-limit", o.memory_limit_mib,
+                 "Pack within so many MiB of memory, with more on disk; end where no portion is small enough")
       ->check(CLI::PositiveNumber)
       ->group("Output");
   app.add_option("--report", o.report_file,
@@ -196,7 +199,7 @@ FarMapArea area_in(const std::string& text) {
 
 void resolve(const RawOptions& raw, PackOptions& o) {
   PackSettings& s = o.settings;
-  s.inputs.assign(raw.inputs.begin(), raw.inputs.end());
+  for (const std::string& input : raw.inputs) s.inputs.emplace_back(input == "-" ? "/dev/stdin" : input);
   if (raw.output.empty()) throw CLI::ValidationError("-o", "the name is empty: give the folder of the package, NAME.farlod");
   s.output = raw.output;
   s.overwrite = raw.force ? Overwrite::replace : Overwrite::refuse;

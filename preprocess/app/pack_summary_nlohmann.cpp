@@ -73,6 +73,7 @@ std::string pack_summary_json(const PackResult& result, const Report& report, do
             {"estimate",
              {{"seconds", result.estimate.seconds},
               {"memory_mib", result.estimate.memory_mib},
+              {"least_memory_mib", result.estimate.least_memory_mib},
               {"package_mib", result.estimate.package_mib}}}};
   if (!result.skipped.empty()) j["skipped"] = result.skipped;
   if (result.chosen) j["chosen"] = json_of(*result.chosen);

@@ -9,6 +9,7 @@
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "city/pages.hpp"
 
@@ -25,6 +26,7 @@ class PagedArray {
 
   PagedArray() = default;
   PagedArray(std::initializer_list<T> elements) { append(elements); }
+  PagedArray(const std::vector<T>& elements) { append(elements); }  // NOLINT(google-explicit-constructor): what holds the same
   PagedArray(const PagedArray& other) { append(other); }
   PagedArray(PagedArray&& other) noexcept : pages_(std::move(other.pages_)), size_(std::exchange(other.size_, 0)) {}
   PagedArray& operator=(PagedArray other) noexcept {

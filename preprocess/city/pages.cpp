@@ -2,17 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "city/pages.hpp"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <new>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace farlod {
 namespace {
@@ -22,38 +16,11 @@ constexpr std::size_t step_on_disk = std::size_t{8} << 20;
 
 std::size_t rounded_up(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
 
-/// /tmp comes last: on many systems it is memory.
-std::vector<std::string> temporary_folders() {
-  // Nobody changes the environment. NOLINTNEXTLINE(concurrency-mt-unsafe)
-  const char* chosen = std::getenv("TMPDIR");
-  if (chosen != nullptr && *chosen != '\0') return {chosen};
-  return {"/var/tmp", "/tmp"};
-}
-
-/// A file without a name, which disappears with its last descriptor; -1 where none can be made.
-int make_file() {
-  for (const std::string& folder : temporary_folders()) {
-    if (const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600); file >= 0) return file;
-    // Some file systems have no such files
-    std::string name = folder + "/farlod-XXXXXX";
-    if (const int file = mkostemp(name.data(), O_CLOEXEC); file >= 0) {
-      unlink(name.c_str());
-      return file;
-    }
-  }
-  return -1;
-}
-
 }  // namespace
 
 // Only realloc grows memory in its place, and it takes what malloc gave. NOLINTBEGIN(cppcoreguidelines-no-malloc)
 Pages::~Pages() {
-  if (file_ < 0) {
-    std::free(data_);
-    return;
-  }
-  munmap(data_, capacity_);
-  close(file_);
+  if (!are_on_disk()) std::free(data_);
 }
 
 void Pages::swap(Pages& other) noexcept {
@@ -69,55 +36,38 @@ void Pages::reserve(std::size_t bytes, std::size_t used) {
     has_room_ = reserve_on_disk(rounded_up(bytes, step_on_disk), used);
     if (has_room_) return;
   }
-  // What is not used of it takes no memory yet
-  reserve_in_memory(std::max(bytes, 2 * capacity_), used);
+  // What is not used of it takes no memory yet. What may go to disk soon is not given more room than it may have here
+  const std::size_t most = has_room_ ? least_on_disk : 2 * capacity_;
+  reserve_in_memory(std::max(bytes, std::min(2 * capacity_, most)), used);
 }
 
 bool Pages::reserve_on_disk(std::size_t bytes, std::size_t used) {
-  const bool is_new = file_ < 0;
-  const int file = is_new ? make_file() : file_;
-  if (file < 0) return false;
-  // Without a reservation, a full disk would end the program when a page is first written
-  void* mapped = MAP_FAILED;
-  if (posix_fallocate(file, 0, static_cast<off_t>(bytes)) == 0) {
-    if (!is_new) let_go(0, capacity_);
-    mapped = is_new ? mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0)
-                    : mremap(data_, capacity_, bytes, MREMAP_MAYMOVE);
-  }
-  if (mapped == MAP_FAILED) {
-    if (is_new) close(file);
-    return false;
-  }
-  if (is_new) {
-    if (used > 0) std::memcpy(mapped, data_, used);
+  if (are_on_disk()) {
+    file_.let_go(0, capacity_);
+    if (!file_.grow(bytes)) return false;
+  } else {
+    PageFile file(bytes);
+    if (file.data() == nullptr) return false;
+    if (used > 0) std::memcpy(file.data(), data_, used);
     std::free(data_);
+    file_ = std::move(file);
   }
-  data_ = static_cast<std::byte*>(mapped);
+  data_ = file_.data();
   capacity_ = bytes;
-  file_ = file;
   return true;
 }
 
 void Pages::reserve_in_memory(std::size_t bytes, std::size_t used) {
   // realloc moves large arrays without copying them
-  auto* const moved = static_cast<std::byte*>(file_ < 0 ? std::realloc(data_, bytes) : std::malloc(bytes));
+  auto* const moved = static_cast<std::byte*>(are_on_disk() ? std::malloc(bytes) : std::realloc(data_, bytes));
   if (moved == nullptr) throw std::bad_alloc();
-  if (file_ >= 0) {
+  if (are_on_disk()) {
     std::memcpy(moved, data_, used);
-    munmap(data_, capacity_);
-    close(std::exchange(file_, -1));
+    file_ = PageFile();  // leaves the old file to the temporary
   }
   data_ = moved;
   capacity_ = bytes;
 }
 // NOLINTEND(cppcoreguidelines-no-malloc)
-
-void Pages::let_go(std::size_t begin, std::size_t end) const {
-  if (file_ < 0) return;
-  static const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  const std::size_t first = begin / page * page, last = std::min(rounded_up(end, page), capacity_);
-  // The pages are shared with the file, so that nothing that was written is lost
-  if (first < last) madvise(data_ + first, last - first, MADV_DONTNEED);
-}
 
 }  // namespace farlod

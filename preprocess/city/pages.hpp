@@ -4,10 +4,12 @@
 
 #include <cstddef>
 
+#include "city/page_file.hpp"
+
 namespace farlod {
 
-/// Bytes that grow at their end. Many of them move to a temporary file without a name (in $TMPDIR, or else in /var/tmp or /tmp),
-/// mapped as memory, so that their pages can be let go. Where no such file has room, they stay in memory. Growing moves `data`.
+/// Bytes that grow at their end. Many of them move to a file (PageFile), so that their pages can be let go. Where no such file
+/// has room, they stay in memory. Growing moves `data`.
 class Pages {
  public:
   /// Fewer bytes than these stay in memory.
@@ -24,13 +26,13 @@ class Pages {
   [[nodiscard]] std::byte* data() { return data_; }
   [[nodiscard]] const std::byte* data() const { return data_; }
   [[nodiscard]] std::size_t capacity() const { return capacity_; }
-  [[nodiscard]] bool are_on_disk() const { return file_ >= 0; }
+  [[nodiscard]] bool are_on_disk() const { return file_.data() != nullptr; }
   /// Makes room for at least so many bytes, and for more than that, so that adding one by one is cheap. The first `used` bytes
   /// stay as they are, and those on disk are let go. Throws std::bad_alloc.
   void reserve(std::size_t bytes, std::size_t used);
   /// Gives back the memory of the pages from `begin` to `end`, if they are on disk: they are read again when somebody asks for
   /// them. May be called while others read.
-  void let_go(std::size_t begin, std::size_t end) const;
+  void let_go(std::size_t begin, std::size_t end) const { file_.let_go(begin, end); }
 
  private:
   void swap(Pages& other) noexcept;
@@ -39,7 +41,7 @@ class Pages {
 
   std::byte* data_ = nullptr;
   std::size_t capacity_ = 0;
-  int file_ = -1;         ///< the descriptor; -1: in memory
+  PageFile file_;         ///< where they lie on disk
   bool has_room_ = true;  ///< no file was refused yet
 };
 

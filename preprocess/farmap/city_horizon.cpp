@@ -11,24 +11,17 @@ namespace {
 /// Fewer would cost more boxes than they spare edges.
 constexpr std::uint32_t most_in_leaf = 32;
 
-std::size_t occluder_count(const TileSet& tiles) {
-  std::size_t count = 0;
-  for (const Tile& tile : tiles.tiles) count += tile.horizon_edges.size();
-  return count;
-}
-
 }  // namespace
 
 CityHorizon::CityHorizon(const TileSet& tiles, const Grid& grid)
     : grid_(grid), origin_grid_(grid.middle_corner()), cells_(tiles.cells) {
-  occluders_.reserve(occluder_count(tiles));
   for (std::size_t n = 0; n < tiles.tiles.size(); ++n) {
     first_of_cell_.push_back(static_cast<std::uint32_t>(occluders_.size()));
     gather(tiles.tiles[n], cells_.cell_at(n));
   }
   first_of_cell_.push_back(static_cast<std::uint32_t>(occluders_.size()));
   if (occluders_.empty()) return;
-  nodes_.emplace_back();
+  nodes_.push_back({});
   build(0, cells_);
 }
 
@@ -66,7 +59,7 @@ void CityHorizon::build_in_cell(std::uint32_t n, Cell cell, std::uint32_t first,
   if (count <= most_in_leaf) return;
   const auto middle = [](const OccluderEdge& o) { return horizontal(o.a) + horizontal(o.b); };
   Box2d middles;
-  const auto occluders = std::span(occluders_).subspan(first, count);
+  const auto occluders = std::span<OccluderEdge>(occluders_).subspan(first, count);
   for (const OccluderEdge& o : occluders) middles.add(middle(o));
   const Point2d extent = middles.high - middles.low;
   // What has equal places keeps its order: the same on every machine

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "city/paged_array.hpp"
 #include "contract/grid.hpp"
 #include "contract/horizon/horizon_edge.hpp"
 #include "farlod/box.hpp"
@@ -30,7 +31,8 @@ struct OccluderEdge {
 };
 
 /// All occluders of a city below a tree of boxes (a bounding volume hierarchy), so that whole subtrees can be culled. Its upper
-/// part divides the cells; what stands in a cell is divided further, so that the nearer part of it can hide the farther.
+/// part divides the cells; what stands in a cell is divided further, so that the nearer part of it can hide the farther. Those of
+/// a large city lie on disk (PagedArray): a cell looks at the tree, and at the occluders around it.
 /// Frame: the grid frame moved to the corner of the middle cell, with heights as in the tiles.
 class CityHorizon {
  public:
@@ -60,9 +62,9 @@ class CityHorizon {
   const Grid& grid_;
   Point2d origin_grid_;
   CellRange cells_;
-  std::vector<OccluderEdge> occluders_;
+  PagedArray<OccluderEdge> occluders_;
   std::vector<std::uint32_t> first_of_cell_;  ///< one more than there are cells
-  std::vector<Node> nodes_;
+  PagedArray<Node> nodes_;
 };
 
 }  // namespace farlod

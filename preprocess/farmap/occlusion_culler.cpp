@@ -8,6 +8,7 @@
 #include <queue>
 #include <utility>
 
+#include "city/memory_bound.hpp"
 #include "city/plan_boxes.hpp"
 #include "contract/horizon/edge_facing.hpp"
 
@@ -52,7 +53,9 @@ CullResult OcclusionCuller::run() && {
     if (!city_.nodes()[n].outline.empty()) queue.push({distance_m(outline_of(city_.nodes()[n]), cell_.square), n});
   };
   if (!city_.nodes().empty()) push(0);
-  while (!queue.empty()) {
+  for (std::size_t visited = 0; !queue.empty(); ++visited) {
+    constexpr std::size_t visits_between_looks = 64;
+    if (visited % visits_between_looks == 0) MemoryBound::look_now();
     const auto [distance_m, n] = queue.top();
     queue.pop();
     const CityHorizon::Node& node = city_.nodes()[n];

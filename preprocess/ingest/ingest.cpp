@@ -52,11 +52,11 @@ FileFormat format_of(const InputFile& file, Report& report) {
   return format;
 }
 
-SourceCity ingest_obj(const InputFile& file, const IngestSettings& settings, Report& report) {
+SourceCity ingest_obj(const InputFile& file, const IngestSettings& settings, Report& report, const std::stop_token& stop) {
   const ObjPlacement placement = find_obj_placement(file);
   const Point3d origin = settings.obj_origin ? *settings.obj_origin : placement.origin.value_or(Point3d{});
   CityModelBuilder builder(file.name, report);
-  read_obj(file, {origin, settings.up}, builder);
+  read_obj(file, {origin, settings.up}, builder, stop);
   // Meshes have x to the east, whatever the order of axes in the definition of the CRS
   return {.source = file.name,
           .crs = {placement.crs, true, false},
@@ -79,7 +79,7 @@ SourceCity read(const InputFile& file, const IngestSettings& settings, Report& r
     case FileFormat::cityjson:
       return read_cityjson(file, settings.lod, report);
     case FileFormat::obj:
-      return ingest_obj(file, settings, report);
+      return ingest_obj(file, settings, report, stop);
     case FileFormat::archive:
       throw InputError(file.name + " is an archive within an archive, or of a kind that is not opened: unpack it first.");
     case FileFormat::raster:

@@ -142,14 +142,21 @@ class BlockProgress {
   std::mutex mutex_;
 };
 
-std::vector<package::BlockFiles> write_blocks(const AreaPlan& plan, BlockWriting& writing, const RunSettings& run) {
+/// At most so many blocks are in work at a time.
+std::vector<package::BlockFiles> write_blocks(const AreaPlan& plan, BlockWriting& writing, const RunSettings& run,
+                                              std::size_t blocks_at_once) {
   std::vector<package::BlockFiles> files(plan.blocks.size());
   BlockProgress progress(run, files.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t n) {
-    const PlannedBlock& planned = plan.blocks[n];
-    files[n] = planned.kept ? *planned.kept : writing.write(planned);
-    progress.add_one();
-  });
+  std::atomic<std::size_t> next = 0;
+  const auto write_next_ones = [&](std::size_t) {
+    for (std::size_t n = next++; n < files.size(); n = next++) {
+      const PlannedBlock& planned = plan.blocks[n];
+      files[n] = planned.kept ? *planned.kept : writing.write(planned);
+      progress.add_one();
+    }
+  };
+  oneapi::tbb::parallel_for(std::size_t{0}, std::min(blocks_at_once, files.size()), write_next_ones,
+                            oneapi::tbb::simple_partitioner());
   return files;
 }
 
@@ -210,7 +217,8 @@ void AreaPackage::require_same_city(const package::Manifest& manifest) const {
   if (existing_) existing_->require_same(manifest, Known::all);
 }
 
-void AreaPackage::write(const TileSet& tiles, const FarMapSettings& far_map, PackedCity& result, const RunSettings& run) const {
+void AreaPackage::write(const TileSet& tiles, const FarMapSettings& far_map, PackedCity& result, const RunSettings& run,
+                        std::size_t blocks_at_once) const {
   package::Manifest& manifest = result.manifest;
   const auto timed = [&](const std::string& stage, const auto& work) {
     throw_if_cancelled(run.stop);
@@ -225,7 +233,7 @@ void AreaPackage::write(const TileSet& tiles, const FarMapSettings& far_map, Pac
   BlockWriting writing(tiles, manifest, {settings_->assign, far_map}, writer, run);
   if (plan_.far_maps > 0) timed("city_index", [&] { writing.index_city(); });
   const auto start = Clock::now();
-  manifest.blocks = write_blocks(plan_, writing, run);
+  manifest.blocks = write_blocks(plan_, writing, run, blocks_at_once);
   if (existing_) existing_->require_unchanged();
   throw_if_cancelled(run.stop);
   writer.finish(manifest);

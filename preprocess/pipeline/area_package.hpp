@@ -52,7 +52,8 @@ class AreaPackage {
   void require_same_city(const package::Manifest& manifest) const;
   /// Bakes and writes what is planned, several blocks at once, and then the manifest, whose blocks it fills in. Where it ends
   /// early, a package that was there stays as it was. Throws OutputError, Cancelled.
-  void write(const TileSet& tiles, const FarMapSettings& far_map, PackedCity& result, const RunSettings& run) const;
+  void write(const TileSet& tiles, const FarMapSettings& far_map, PackedCity& result, const RunSettings& run,
+             std::size_t blocks_at_once) const;
 
  private:
   const StageSettings* settings_;

@@ -3,7 +3,6 @@
 #include "pipeline/pack.hpp"
 
 #include <oneapi/tbb/task_arena.h>
-#include <oneapi/tbb/task_group.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,6 +10,7 @@
 #include <map>
 #include <span>
 
+#include "city/memory_bound.hpp"
 #include "city/plan_boxes.hpp"
 #include "contract/cancellation.hpp"
 #include "contract/package/description.hpp"
@@ -24,6 +24,7 @@
 #include "package/package_writer.hpp"
 #include "pipeline/area_package.hpp"
 #include "pipeline/pack_estimate.hpp"
+#include "pipeline/whole_package.hpp"
 #include "tiles/tiles.hpp"
 
 namespace farlod::pipeline {
@@ -121,8 +122,14 @@ class Packing {
   }
 
  public:
-  Packing(const StageSettings& settings, Report& report, const RunSettings& run, const OnEstimate& on_estimate)
-      : settings_(settings), report_(report), first_problem_(report.problems().size()), run_(run), on_estimate_(on_estimate) {}
+  Packing(const StageSettings& settings, Report& report, const RunSettings& run, const OnEstimate& on_estimate,
+          MemoryBound& bound)
+      : settings_(settings),
+        report_(report),
+        first_problem_(report.problems().size()),
+        run_(run),
+        on_estimate_(on_estimate),
+        bound_(bound) {}
 
   PackedCity run() {
     // An output folder that must not be replaced ends the run before the long stages. One that may be is removed only after them
@@ -266,8 +273,14 @@ class Packing {
     const auto threads = static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency());
     const std::size_t ground_points = ground.terrain ? ground.terrain->height_m.size() : located.relief_points.size();
     const auto far_maps = area_ ? std::optional(area_->far_maps()) : std::nullopt;
-    result_.estimate = estimate_pack(located.city, ground_points, ground.grid, far_map.kind, threads, far_maps);
+    const PackMemory memory = memory_of_pack(located.city, ground_points, ground.grid, far_map.kind);
+    result_.estimate = estimate_pack(memory, located.city, ground_points, ground.grid, far_map.kind, threads, far_maps);
+    // What it took to read the city, it takes again
+    const double read_mib = static_cast<double>(bound_.most_needed()) / 1048576.0;
+    result_.estimate.least_memory_mib = std::max(result_.estimate.least_memory_mib, read_mib);
     require_memory(result_.estimate, run_);
+    blocks_at_once_ = memory.blocks_at_once(area_ ? threads : usual_blocks_at_once, run_);
+    bound_.expect(static_cast<std::uint64_t>(memory.in_memory_mib(blocks_at_once_)) << 20);
     if (on_estimate_) on_estimate_(result_.estimate);
   }
 
@@ -329,48 +342,13 @@ class Packing {
     m.problem_counts.assign(counts.begin(), counts.end());
   }
 
-  /// Before it throws, what is written at the same time comes to its end: a group must not be left with work in it.
-  BakedBlock bake_beside(oneapi::tbb::task_group& writing, const FarMapBaker& baker, Block block,
-                         std::pair<std::size_t, std::size_t> of) {
-    try {
-      tell("far maps", of.first, of.second);
-      return baker.bake(block, run_.stop);
-    } catch (...) {
-      try {
-        writing.wait();
-      } catch (...) {  // the first failure is the one that is told
-      }
-      throw;
-    }
-  }
-
   void write_package(const TileSet& tiles, const Grid& grid, const FarMapSettings& far_map) {
-    if (area_) return area_->write(tiles, far_map, result_, run_);
+    if (area_) return area_->write(tiles, far_map, result_, run_, blocks_at_once_);
     PackageWriter writer(settings_.output, settings_.overwrite);
     const FarMapBaker baker = timed("city_index", [&] { return FarMapBaker(tiles, grid, settings_.assign, far_map); });
     tiles.let_go();
-    const std::vector<Block> blocks = grid.blocks();
-    double bake_s = 0.0, write_s = 0.0;
-    BakedBlock to_write;
-    oneapi::tbb::task_group writing;  // a block is written while the next one is baked
-    for (std::size_t n = 0; n < blocks.size(); ++n) {
-      const auto start = Clock::now();
-      BakedBlock maps = bake_beside(writing, baker, blocks[n], {n, blocks.size()});
-      bake_s += seconds_between(start, Clock::now());
-      writing.wait();
-      to_write = std::move(maps);
-      writing.run([&, block = blocks[n]] {
-        const auto begin = Clock::now();
-        result_.manifest.blocks.push_back(writer.write_block(tiles, to_write, grid, block, result_.manifest.far_map));
-        tiles.let_go(grid.cells_of(block));
-        write_s += seconds_between(begin, Clock::now());
-      });
-    }
-    writing.wait();
-    tell("far maps", blocks.size(), blocks.size());
+    write_all_blocks(tiles, baker, writer, blocks_at_once_, run_, result_);
     writer.finish(result_.manifest);
-    result_.stage_seconds.emplace_back("far_maps", bake_s);
-    result_.stage_seconds.emplace_back("package", write_s);
     result_.package_bytes = writer.bytes_written();
     result_.far_map_bytes = writer.far_map_bytes();
   }
@@ -384,6 +362,8 @@ class Packing {
   std::size_t first_problem_;  ///< of this pack: those before it are of others
   const RunSettings& run_;
   const OnEstimate& on_estimate_;
+  MemoryBound& bound_;
+  std::size_t blocks_at_once_ = usual_blocks_at_once;
   std::optional<AreaPackage> area_;
   PackedCity result_;
 };
@@ -391,7 +371,20 @@ class Packing {
 }  // namespace
 
 PackedCity pack(const StageSettings& settings, Report& report, const RunSettings& run, const OnEstimate& on_estimate) {
-  return Packing(settings, report, run, on_estimate).run();
+  std::optional<std::uint64_t> limit_bytes;
+  if (run.memory_limit_mib) limit_bytes = *run.memory_limit_mib << 20;
+  MemoryBound bound(limit_bytes, run.stop);
+  RunSettings bounded = run;
+  bounded.stop = bound.stop();
+  try {
+    return Packing(settings, report, bounded, on_estimate, bound).run();
+  } catch (const Cancelled&) {
+    if (!bound.is_exceeded()) throw;
+  }
+  throw LimitReached("Packing needs more than " + std::to_string(bound.exceeded_at() >> 20) +
+                     " MiB, besides what lies on disk; " + std::to_string(*run.memory_limit_mib) +
+                     " MiB are allowed: raise the memory limit, or pack fewer inputs at "
+                     "a time.");
 }
 
 }  // namespace farlod::pipeline

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <span>
 #include <string>
 
+#include "city/memory_bound.hpp"
 #include "city/pages.hpp"
+#include "farlod/error.hpp"
 
 namespace farlod::pipeline {
 namespace {
@@ -22,23 +25,27 @@ constexpr double tiles_per_city_triangle = 1.7, cut_by_borders_m = 55.0;
 /// n points of the ground make 2n triangles; few of them cross borders.
 constexpr double tiles_per_ground_point = 2.2;
 
-/// The program itself; two blocks of far maps, one of them being written.
-constexpr double memory_mib_of_program = 45.0, memory_mib_of_blocks = 60.0;
-constexpr double cells_of_a_block = 1024.0;
-/// Of a long array, which lies on disk, about so much is in memory.
-constexpr double memory_bytes_of_array_on_disk = 8.0 * 1048576.0;
-/// The long arrays of the city, by its points and its facets.
+/// The program itself with its libraries, and batches that are cut.
+constexpr double memory_mib_of_program = 50.0, memory_mib_of_batches = 40.0;
+/// The long arrays of the city, by its points and its facets. Those on disk take memory as MemoryBound lets them.
 constexpr std::array bytes_per_point{24.0};
 constexpr std::array bytes_per_facet{24.0, 8.0, 72.0};
-/// Those of the tiles, by their triangles: polygons and edges as noted down, and vertices, triangles, surfaces and edges.
-constexpr std::array bytes_per_tile_triangle{48.0, 7.0, 36.0, 12.0, 4.0, 6.0};
-/// In memory: a building and its name; a tile, its counts and its node in the tree of the city; the network of the ground, for
-/// each of its points; occluders, for each triangle in the tiles; an index of rays over the triangles, and the vertices that it
-/// is made of.
-constexpr double bytes_per_building = 150.0, bytes_per_cell = 500.0, network_bytes_per_point = 200.0;
-constexpr double occluder_bytes_per_triangle = 11.0, ray_index_bytes_per_triangle = 150.0;
+/// Those of the tiles, by their triangles: polygons and edges as noted down, and vertices, triangles, surfaces, edges and
+/// occluders.
+constexpr std::array bytes_per_tile_triangle{48.0, 7.0, 36.0, 12.0, 4.0, 6.0, 11.0};
+/// The network of the ground and the points that it is made of, for each of its points.
+constexpr std::array bytes_per_ground_point{130.0, 24.0};
+/// In memory: a building and its name; a tile and its counts; a point of a survey; and for far maps of the kind `box` an index of
+/// rays over the triangles, and the vertices that it is made of.
+constexpr double bytes_per_building = 150.0, bytes_per_cell = 500.0, bytes_per_surveyed_point = 40.0;
+constexpr double ray_index_bytes_per_triangle = 150.0;
 /// Where neither a terrain nor a relief is given, the ground passes through so many of the city's points.
 constexpr double base_points_per_point = 0.16;
+/// A block: a baked far map, and of a triangle in the tiles what is written, while it is gathered and put in order.
+constexpr double bytes_per_baked_map = 48.0 * 1024.0, written_bytes_per_triangle = 60.0;
+
+/// Of what lies on disk, about so much is in use at a time, or not let go yet.
+constexpr double in_use_of_files = 0.3;
 
 constexpr double package_bytes_per_triangle = 28.0;
 constexpr double package_bytes_per_horizon_map = 10000.0, package_bytes_per_box_map = 6000.0;
@@ -48,41 +55,79 @@ constexpr double seconds_per_triangle = 4e-6, seconds_per_far_map = 4e-3;
 
 constexpr double bytes_per_mib = 1048576.0;
 
+/// In the tiles, of buildings. A polygon of n corners has n − 2 triangles.
+double tile_triangles(std::size_t points, std::size_t facets, const Grid& grid) {
+  return (static_cast<double>(points) - 2.0 * static_cast<double>(facets)) *
+         (tiles_per_city_triangle + cut_by_borders_m / grid.cell_edge_m);
+}
+
 double triangles_in_tiles(const CityModel& city, std::size_t ground_points, const Grid& grid) {
-  // A polygon of n corners has n − 2 triangles
-  const double of_city = static_cast<double>(city.points().size()) - 2.0 * static_cast<double>(city.facets().size());
-  const double of_terrain = tiles_per_ground_point * static_cast<double>(ground_points);
-  return of_city * (tiles_per_city_triangle + cut_by_borders_m / grid.cell_edge_m) + of_terrain;
+  return tile_triangles(city.points().size(), city.facets().size(), grid) +
+         tiles_per_ground_point * static_cast<double>(ground_points);
 }
 
-double memory_of_arrays(std::span<const double> bytes_per_element, double elements) {
-  double sum = 0.0;
-  for (const double bytes : bytes_per_element) {
-    const double all = bytes * elements;
-    sum += all < static_cast<double>(Pages::least_on_disk) ? all : memory_bytes_of_array_on_disk;
+/// The triangles in the tiles of the block that has the most of them.
+double triangles_in_densest_block(const CityModel& city, std::size_t ground_points, const Grid& grid) {
+  std::map<Block, double> of_buildings;
+  city.for_each_building([&](std::size_t, const Building& b) {
+    const std::span<const Point3d> points = city.points_of(b);
+    if (points.empty()) return;
+    const Cell cell = grid.cell_of(grid.rotation.grid_from_city(horizontal(points.front())));
+    of_buildings[grid.block_of(cell)] += tile_triangles(points.size(), b.facet_count, grid);
+  });
+  double most = 0.0;
+  for (const auto& [block, triangles] : of_buildings) most = std::max(most, triangles);
+  return most + tiles_per_ground_point * static_cast<double>(ground_points) / static_cast<double>(grid.blocks().size());
+}
+
+/// Bytes of arrays: long ones lie on disk.
+struct Arrays {
+  double in_memory = 0.0, on_disk = 0.0;
+
+  void add(std::span<const double> bytes_per_element, double elements) {
+    for (const double bytes : bytes_per_element)
+      (bytes * elements < static_cast<double>(Pages::least_on_disk) ? in_memory : on_disk) += bytes * elements;
   }
-  return sum;
-}
-
-double memory_mib(const CityModel& city, std::size_t ground_points, const Grid& grid, double triangles, double maps,
-                  bool is_box) {
-  const auto points = static_cast<double>(city.points().size()), cells = static_cast<double>(grid.cells.size());
-  const double arrays = memory_of_arrays(bytes_per_point, points) +
-                        memory_of_arrays(bytes_per_facet, static_cast<double>(city.facets().size())) +
-                        memory_of_arrays(bytes_per_tile_triangle, triangles);
-  const double always = bytes_per_building * static_cast<double>(city.buildings().size()) + bytes_per_cell * cells;
-  // The network of the ground ends with the tiles, before the far maps
-  const double network =
-      network_bytes_per_point * (ground_points > 0 ? static_cast<double>(ground_points) : base_points_per_point * points);
-  const double far_maps = triangles * (is_box ? ray_index_bytes_per_triangle : occluder_bytes_per_triangle) +
-                          memory_mib_of_blocks * bytes_per_mib * std::min(1.0, maps / cells_of_a_block);
-  return memory_mib_of_program + (arrays + always + std::max(network, far_maps)) / bytes_per_mib;
-}
+};
 
 }  // namespace
 
-PackEstimate estimate_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map,
-                           std::size_t threads, std::optional<std::uint64_t> far_maps) {
+PackMemory memory_of_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map) {
+  const auto points = static_cast<double>(city.points().size()), surveyed = static_cast<double>(ground_points);
+  const double triangles = triangles_in_tiles(city, ground_points, grid);
+  Arrays arrays;
+  arrays.add(bytes_per_point, points);
+  arrays.add(bytes_per_facet, static_cast<double>(city.facets().size()));
+  arrays.add(bytes_per_tile_triangle, triangles);
+  arrays.add(bytes_per_ground_point, ground_points > 0 ? surveyed : base_points_per_point * points);
+  const double index = bytes_per_building * static_cast<double>(city.buildings().size()) +
+                       bytes_per_cell * static_cast<double>(grid.cells.size()) + bytes_per_surveyed_point * surveyed +
+                       (far_map == FarMapKind::box ? ray_index_bytes_per_triangle * triangles : 0.0);
+  const double cells_of_block =
+      std::min(static_cast<double>(grid.block_edge) * grid.block_edge, static_cast<double>(grid.cells.size()));
+  const double block =
+      bytes_per_baked_map * cells_of_block + written_bytes_per_triangle * triangles_in_densest_block(city, ground_points, grid);
+  return {memory_mib_of_program + (index + arrays.in_memory) / bytes_per_mib, block / bytes_per_mib,
+          arrays.on_disk / bytes_per_mib};
+}
+
+double PackMemory::in_memory_mib(std::size_t blocks) const {
+  return always_mib + std::max(memory_mib_of_batches, static_cast<double>(blocks) * block_mib);
+}
+
+double PackMemory::least_mib() const {
+  return in_memory_mib(1) + static_cast<double>(MemoryBound::least_of_files) / bytes_per_mib;
+}
+
+std::size_t PackMemory::blocks_at_once(std::size_t wanted, const RunSettings& run) const {
+  if (!run.memory_limit_mib) return wanted;
+  const double left_mib = static_cast<double>(*run.memory_limit_mib) - least_mib();
+  const double more = std::max(0.0, std::floor(left_mib / std::max(block_mib, 1.0)));
+  return more >= static_cast<double>(wanted) ? wanted : std::min(wanted, 1 + static_cast<std::size_t>(more));
+}
+
+PackEstimate estimate_pack(const PackMemory& memory, const CityModel& city, std::size_t ground_points, const Grid& grid,
+                           FarMapKind far_map, std::size_t threads, std::optional<std::uint64_t> far_maps) {
   const bool is_box = far_map == FarMapKind::box;
   const double triangles = triangles_in_tiles(city, ground_points, grid);
   PackEstimate e;
@@ -91,19 +136,20 @@ PackEstimate estimate_pack(const CityModel& city, std::size_t ground_points, con
   const auto maps = static_cast<double>(e.far_maps);
   e.seconds =
       (triangles * seconds_per_triangle + maps * seconds_per_far_map) / static_cast<double>(std::max<std::size_t>(threads, 1));
-  e.memory_mib = memory_mib(city, ground_points, grid, triangles, maps, is_box);
   const double per_map = is_box ? package_bytes_per_box_map : package_bytes_per_horizon_map;
   e.package_mib = (triangles * package_bytes_per_triangle + maps * per_map) / bytes_per_mib;
+  e.memory_mib = memory.in_memory_mib(usual_blocks_at_once) +
+                 std::min(in_use_of_files * memory.on_disk_mib, static_cast<double>(MemoryBound::most_of_files) / bytes_per_mib);
+  e.least_memory_mib = memory.least_mib();
   return e;
 }
 
 void require_memory(const PackEstimate& estimate, const RunSettings& run) {
-  const double needed_mib = estimate.memory_mib + static_cast<double>(run.caller_bytes) / bytes_per_mib;
-  if (!run.memory_limit_mib || needed_mib <= static_cast<double>(*run.memory_limit_mib)) return;
-  throw LimitReached("Packing into " + std::to_string(estimate.cells) + " cells needs about " +
-                     std::to_string(std::llround(needed_mib)) + " MiB, more than --memory-limit " +
-                     std::to_string(*run.memory_limit_mib) +
-                     ": choose larger cells (--cell), pack fewer inputs at a time, or raise the limit.");
+  const double least_mib = std::ceil(estimate.least_memory_mib + static_cast<double>(run.caller_bytes) / bytes_per_mib);
+  if (!run.memory_limit_mib || least_mib <= static_cast<double>(*run.memory_limit_mib)) return;
+  throw LimitReached("Packing into " + std::to_string(estimate.cells) + " cells needs at least " +
+                     std::to_string(std::llround(least_mib)) + " MiB, more than --memory-limit " +
+                     std::to_string(*run.memory_limit_mib) + ": raise the limit to that, or pack fewer inputs at a time.");
 }
 
 }  // namespace farlod::pipeline

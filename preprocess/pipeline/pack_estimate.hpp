@@ -13,13 +13,33 @@
 
 namespace farlod::pipeline {
 
-/// Estimates memory and package size within a factor of two for cities of grounded buildings (Surface::grounded); cities of open
-/// shells have larger far maps. `ground_points`: nodes of a terrain or points of a relief, 0 without either. The time is that of
-/// an idle machine like the one of docs/performance.md. `far_maps` are baked, of all cells when absent.
-[[nodiscard]] PackEstimate estimate_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map,
-                                         std::size_t threads, std::optional<std::uint64_t> far_maps = {});
+/// Blocks that are in work at a time, where there is memory: one is baked while another one is written.
+inline constexpr std::size_t usual_blocks_at_once = 2;
 
-/// Throws LimitReached, whose message says what to do, when the estimate exceeds the limit.
+/// The memory that packing takes. Pages of files take as much besides as there is.
+struct PackMemory {
+  double always_mib = 0.0;   ///< the program, and an index of the city: its buildings and cells
+  double block_mib = 0.0;    ///< a block in work
+  double on_disk_mib = 0.0;  ///< what lies in files
+
+  [[nodiscard]] double in_memory_mib(std::size_t blocks) const;
+  /// The least limit that can be kept: with one block in work.
+  [[nodiscard]] double least_mib() const;
+  /// How many blocks may be in work under the limit of a run, at most as many as wanted.
+  [[nodiscard]] std::size_t blocks_at_once(std::size_t wanted, const RunSettings& run) const;
+};
+/// For cities of grounded buildings (Surface::grounded). `ground_points`: nodes of a terrain or points of a relief, 0 without
+/// either.
+[[nodiscard]] PackMemory memory_of_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map);
+
+/// Estimates memory and package size within a factor of two for cities of grounded buildings; cities of open shells have larger
+/// far maps. The time is that of an idle machine like the one of docs/performance.md. `far_maps` are baked, of all cells when
+/// absent.
+[[nodiscard]] PackEstimate estimate_pack(const PackMemory& memory, const CityModel& city, std::size_t ground_points,
+                                         const Grid& grid, FarMapKind far_map, std::size_t threads,
+                                         std::optional<std::uint64_t> far_maps = {});
+
+/// Throws LimitReached, whose message says what would do, when the limit cannot be kept.
 void require_memory(const PackEstimate& estimate, const RunSettings& run);
 
 }  // namespace farlod::pipeline

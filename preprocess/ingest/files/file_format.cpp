@@ -51,9 +51,10 @@ FileFormat format_by_content(const InputFile& file) {
   const std::string bytes = read_beginning(file, beginning_bytes), text = plain_beginning(bytes);
   if (is_archive(bytes) && !is_map_in_zip(file.unpacked_name())) return FileFormat::archive;
   if (text.starts_with('<') && is_citygml_root(root_tag(text))) return FileFormat::citygml;
-  if (text.starts_with('{') && is_cityjson(file)) return FileFormat::cityjson;
+  // A pipe cannot be read before it is read
+  if (!file.pipe && text.starts_with('{') && is_cityjson(file)) return FileFormat::cityjson;
   if (is_obj_text(text, bytes.size() < beginning_bytes)) return FileFormat::obj;
-  return format_by_map_kind(file);
+  return file.pipe ? FileFormat::unknown : format_by_map_kind(file);
 }
 
 FileFormat format_by_name(const InputFile& file) {

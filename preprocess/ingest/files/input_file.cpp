@@ -47,6 +47,8 @@ std::uintmax_t most_unpacked_bytes(std::uintmax_t packed_bytes) {
                          : std::max(below_suspicion_bytes, most_times_smaller * packed_bytes);
 }
 
-std::string read_beginning(const InputFile& file, std::size_t most_bytes) { return read_from(*open_input(file), most_bytes); }
+std::string read_beginning(const InputFile& file, std::size_t most_bytes) {
+  return file.pipe ? file.pipe->beginning(most_bytes).substr(0, most_bytes) : read_from(*open_input(file), most_bytes);
+}
 
 }  // namespace farlod::ingest

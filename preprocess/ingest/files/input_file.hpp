@@ -10,9 +10,11 @@
 #include <optional>
 #include <string>
 
+#include "ingest/files/input_pipe.hpp"
+
 namespace farlod::ingest {
 
-/// One file of a city: on the disk, or a member of an archive.
+/// One file of a city: on the disk, a member of an archive, or a pipe.
 struct InputFile {
   InputFile(const std::filesystem::path& file) : name(file.string()), path(file), on_disk(file) {}  // NOLINT: a file is an input
   InputFile(std::string shown, std::filesystem::path where, std::filesystem::path archive)
@@ -22,6 +24,7 @@ struct InputFile {
   std::filesystem::path path;                         ///< to open it: the file, or GDAL's name for the member of an archive
   std::filesystem::path on_disk;                      ///< the file itself, or the archive that holds it
   std::optional<std::uintmax_t> declared_bytes = {};  ///< the unpacked size that the archive declares
+  std::shared_ptr<InputPipe> pipe = {};               ///< what it is read from, if it is a pipe
 
   [[nodiscard]] bool is_packed() const { return path != on_disk; }
   /// The file name without folders and without `.gz`: "a.gml" of "town/a.gml.gz".
@@ -36,7 +39,7 @@ struct InputFile {
 [[nodiscard]] std::uintmax_t most_unpacked_bytes(std::uintmax_t packed_bytes);
 
 /// The unpacked bytes of a file. Throws InputError when it cannot be opened. Reading throws InputError when an archive is damaged
-/// or unpacks to more than most_unpacked_bytes.
+/// or unpacks to more than most_unpacked_bytes. A pipe can be opened once.
 [[nodiscard]] std::unique_ptr<std::istream> open_input(const InputFile& file);
 
 /// The first unpacked bytes of a file, at most `most_bytes`. Throws as open_input does.

@@ -84,6 +84,7 @@ std::unique_ptr<std::istream> try_to_open(const InputFile& file) {
 }  // namespace
 
 std::unique_ptr<std::istream> open_input(const InputFile& file) {
+  if (file.pipe) return file.pipe->take_all();
   if (auto stream = try_to_open(file)) return stream;
   if (file.is_packed())
     throw InputError(file.name + " cannot be unpacked: the archive is damaged, or packed in a way that is not known.");

@@ -78,6 +78,15 @@ InputFile gzip_member(const fs::path& file) {
   return {file.string(), "/vsigzip/" + fs::absolute(file).lexically_normal().string(), file};
 }
 
+InputFile readable_pipe(const fs::path& path) {
+  InputFile file(path);
+  file.pipe = std::make_shared<InputPipe>(path);
+  const FileFormat format = format_by_content(file);
+  if (format != FileFormat::citygml && format != FileFormat::obj && !read_beginning(file, 1).empty())
+    throw InputError(file.name + " is a pipe, and gives neither CityGML nor OBJ: write it to a file first.");
+  return file;
+}
+
 class InputSearch {
  public:
   explicit InputSearch(Report& report) : report_(report) {}
@@ -122,6 +131,7 @@ class InputSearch {
   template <class Take>
   void take_file(const fs::path& file, const Take& take) {
     if (fs::is_directory(file)) return add(file);
+    if (is_pipe(file)) return add(readable_pipe(file));
     const std::string beginning = read_beginning(file, mark_bytes);
     if (is_zip(beginning) && !is_map_in_zip(file.string()))
       take_archive(file);
@@ -181,11 +191,13 @@ class InputSearch {
 
   bool is_new(const InputFile& file) {
     const std::string inside = file.name.substr(std::min(file.name.size(), file.on_disk.string().size()));
-    return known_.insert(fs::canonical(file.on_disk).string() + '\n' + inside).second;
+    // The standard input has a path, but no place on the disk
+    const fs::path whole_path = file.pipe ? file.on_disk : fs::canonical(file.on_disk);
+    return known_.insert(whole_path.string() + '\n' + inside).second;
   }
 
   void skip(const InputFile& file) {
-    const std::string ending = in_lower_case(fs::path(file.unpacked_name()).extension().string());
+    const std::string ending = lower_case(fs::path(file.unpacked_name()).extension().string());
     ++found_.skipped[ending.empty() ? "files without an ending" : ending + " files"];
   }
 

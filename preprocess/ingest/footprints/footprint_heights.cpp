@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <span>
 #include <sstream>
 
 #include "city/height_limits.hpp"
 #include "contract/expects.hpp"
+#include "contract/lower_case.hpp"
 #include "ingest/footprints/height_text.hpp"
 
 namespace farlod::ingest {
@@ -29,12 +29,6 @@ constexpr std::array<std::string_view, 16> storeys_names{
 constexpr std::array<std::string_view, 2> lowest_height_names{"min_height", "building:min_height"};
 /// `min_level` is not among them: it numbers storeys inside of a building, and the ground is 1 in America.
 constexpr std::array<std::string_view, 1> lowest_storeys_names{"building:min_level"};
-
-std::string lower_case(std::string_view name) {
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
 
 /// The unit of a column of numbers: its name ends with the unit, or it is in metres.
 LengthUnit unit_of(const std::string& field) {

@@ -5,15 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <numeric>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
+#include "tests/preprocess/city/temporary_files.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
@@ -21,31 +17,6 @@ namespace {
 
 using Numbers = PagedArray<std::uint64_t>;
 constexpr std::size_t few = 1000, many = 3 * Pages::least_on_disk / sizeof(std::uint64_t);
-
-/// Where files without a name are made.
-class TemporaryFiles {
- public:
-  explicit TemporaryFiles(const std::filesystem::path& folder) {
-    if (const char* value = std::getenv("TMPDIR")) before_ = value;
-    setenv("TMPDIR", folder.c_str(), 1);
-  }
-  ~TemporaryFiles() { before_ ? setenv("TMPDIR", before_->c_str(), 1) : unsetenv("TMPDIR"); }
-  TemporaryFiles(const TemporaryFiles&) = delete;
-  TemporaryFiles& operator=(const TemporaryFiles&) = delete;
-
- private:
-  std::optional<std::string> before_;
-};
-
-/// The memory that the process holds of files, in MiB. Those of a file system in memory count apart.
-double resident_file_mib() {
-  double sum_mib = 0.0;
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    for (const std::string_view kind : {"RssFile:", "RssShmem:"})
-      if (line.starts_with(kind)) sum_mib += std::stod(line.substr(kind.size())) / 1024.0;
-  return sum_mib;
-}
 
 Numbers counted(std::size_t count) {
   Numbers numbers;
@@ -87,35 +58,35 @@ TEST(PagedArray, AppendsAndGrowsWithZeros) {
 }
 
 TEST(PagedArray, GivesTheMemoryOfALongOneBack) {
-  const double before_mib = resident_file_mib();
+  const double before_mib = test::resident_file_mib();
   Numbers numbers = counted(many);
   const double all_mib = static_cast<double>(many * sizeof(std::uint64_t)) / 1048576.0;
-  EXPECT_LT(resident_file_mib() - before_mib, 0.5 * all_mib) << "what is behind is let go";
+  EXPECT_LT(test::resident_file_mib() - before_mib, 0.5 * all_mib) << "what is behind is let go";
   for (std::uint64_t& n : numbers) ++n;
-  EXPECT_GT(resident_file_mib() - before_mib, 0.9 * all_mib);
+  EXPECT_GT(test::resident_file_mib() - before_mib, 0.9 * all_mib);
   numbers.let_go(0, many / 2);
-  EXPECT_LT(resident_file_mib() - before_mib, 0.6 * all_mib);
+  EXPECT_LT(test::resident_file_mib() - before_mib, 0.6 * all_mib);
   numbers.let_go();
-  EXPECT_LT(resident_file_mib() - before_mib, 0.1 * all_mib);
+  EXPECT_LT(test::resident_file_mib() - before_mib, 0.1 * all_mib);
   for (std::uint64_t& n : numbers) --n;
   expect_counted(numbers, many);
 }
 
 TEST(PagedArray, LeavesNoFileBehind) {
   const scenes::TemporaryFolder folder;
-  const TemporaryFiles files(folder.path());
-  const double before_mib = resident_file_mib();
+  const test::TemporaryFiles files(folder.path());
+  const double before_mib = test::resident_file_mib();
   const Numbers numbers = counted(many);
   expect_counted(numbers, many);
-  EXPECT_GT(resident_file_mib(), before_mib + 1.0);
+  EXPECT_GT(test::resident_file_mib(), before_mib + 1.0);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(PagedArray, StaysInMemoryWhereNoFileCanBeMade) {
-  const TemporaryFiles files("/nowhere/at/all");
-  const double before_mib = resident_file_mib();
+  const test::TemporaryFiles files("/nowhere/at/all");
+  const double before_mib = test::resident_file_mib();
   const Numbers numbers = counted(many);
-  EXPECT_LT(resident_file_mib(), before_mib + 1.0);
+  EXPECT_LT(test::resident_file_mib(), before_mib + 1.0);
   numbers.let_go();
   expect_counted(numbers, many);
 }

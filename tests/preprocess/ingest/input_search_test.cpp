@@ -3,6 +3,10 @@
 #include "ingest/files/input_search.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <iterator>
+#include <thread>
 
 #include "archive_writer.hpp"
 #include "farlod/error.hpp"
@@ -257,6 +261,47 @@ TEST_F(InputSearch, NothingToReadIsSaid) {
   write("town/a.pyc", "nothing");
   EXPECT_THAT(refusal({folder / "town"}), testing::AllOf(HasSubstr("holds no file of a city"), HasSubstr("1 .pyc files")));
   EXPECT_THAT(refusal({folder / "nowhere", write("a.gml", citygml_of("a"))}), HasSubstr("does not exist"));
+}
+
+/// A pipe that some text is written to.
+class FilledPipe {
+ public:
+  FilledPipe(const fs::path& path, std::string text) {
+    EXPECT_EQ(mkfifo(path.c_str(), 0600), 0);
+    writer_ = std::jthread([path, text = std::move(text)] { std::ofstream(path, std::ios::binary) << text; });
+  }
+
+ private:
+  std::jthread writer_;
+};
+
+TEST_F(InputSearch, APipeGivesACityOnce) {
+  for (const auto& [id, text] : {std::pair("a", obj_of("a")), std::pair("b", citygml_of("b"))}) {
+    const fs::path path = folder / (std::string("pipe ") + id);
+    const FilledPipe pipe(path, text + std::string(std::size_t{1} << 20, '\n'));
+    const FoundInputs inputs = find({path});
+    ASSERT_EQ(inputs.files.size(), 1U);
+    const std::vector<SourceCity> cities = ingest_all(inputs.files, {}, report);
+    ASSERT_EQ(cities.size(), 1U);
+    EXPECT_EQ(cities[0].city.buildings()[0].id, id);
+    EXPECT_THROW((void)open_input(inputs.files[0]), InputError);
+  }
+}
+
+TEST_F(InputSearch, APipeIsReadFromItsBeginningToItsEnd) {
+  std::string text = "v 0 0 0\n";
+  while (text.size() < (std::size_t{3} << 20)) text += "v " + std::to_string(text.size()) + " 0 0\n";
+  const FilledPipe pipe(folder / "pipe", text);
+  const FoundInputs inputs = find({folder / "pipe"});
+  EXPECT_EQ(read_beginning(inputs.files.at(0), 100), text.substr(0, 100));
+  EXPECT_EQ(read_beginning(inputs.files.at(0), 200'000), text.substr(0, 200'000));
+  const auto stream = open_input(inputs.files.at(0));
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(*stream), {}), text);
+}
+
+TEST_F(InputSearch, APipeOfAnotherFormatIsRefused) {
+  const FilledPipe pipe(folder / "pipe", cityjson_of("a"));
+  EXPECT_THAT(refusal({folder / "pipe"}), HasSubstr("is a pipe, and gives neither CityGML nor OBJ"));
 }
 
 }  // namespace
