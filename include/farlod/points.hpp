@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "farlod/angle.hpp"
 #include "farlod/evaluation.hpp"
 #include "farlod/export.hpp"
 #include "farlod/package.hpp"
@@ -12,12 +13,16 @@
 
 namespace farlod {
 
-/// Points in the package's CRS, coordinate by coordinate; they look straight up. The n-th is (x_m[n], y_m[n]), at the height
-/// z_m[n] above sea level where there is one. The arrays are the caller's, and as long as each other.
+/// Points in the package's CRS, coordinate by coordinate. The n-th is (x_m[n], y_m[n]), at the height z_m[n] above sea level
+/// where there is one. It looks where azimuth[n] and tilt[n] say, or straight up where there are none. The arrays are the
+/// caller's, and as long as each other.
 struct Points {
   /// Easting and northing, within 100,000 km, and within 2²⁹ cells of the package's origin.
   std::span<const double> x_m, y_m;
   std::span<const double> z_m = {};  ///< within 100 km, or NaN: the point stands as Placing says; empty: all do
+  /// Normals, both or neither. The azimuth is clockwise from true north, from −360° to 360°. A tilt of 0° looks straight up, of
+  /// 90° level, of 180° straight down; NaN: straight up, whatever the azimuth.
+  std::span<const Angle> azimuth = {}, tilt = {};
 };
 
 /// Where the answers go: arrays of the caller as long as those of the points. No data is NaN.

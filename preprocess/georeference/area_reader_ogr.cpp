@@ -1,24 +1,22 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
-#include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "contract/expects.hpp"
+#include "contract/lower_case.hpp"
 #include "contract/point_columns.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
+#include "gdal/vector_file_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
 #include "georeference/area_reader.hpp"
 #include "georeference/input_crs.hpp"
@@ -26,19 +24,8 @@
 namespace farlod::georeference {
 namespace {
 
-struct FeatureDeleter {
-  void operator()(OGRFeature* feature) const { OGRFeature::DestroyFeature(feature); }
-};
-using Feature = std::unique_ptr<OGRFeature, FeatureDeleter>;
-
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what, GdalErrors& messages) {
   throw InputError(file.string() + what + " (" + messages.last() + ").");
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return text;
 }
 
 bool is_table(const std::filesystem::path& file) {
@@ -47,15 +34,7 @@ bool is_table(const std::filesystem::path& file) {
 }
 
 GDALDatasetUniquePtr open(const std::filesystem::path& file, GdalErrors& messages) {
-  static std::once_flag once;
-  std::call_once(once, GDALAllRegister);
-  // A prefix lets GDAL take any ending for a table. Nothing is to be written beside GML, nor fetched from an address in it
-  const bool table = is_table(file);
-  constexpr std::array<const char*, 2> table_driver{"CSV", nullptr};
-  constexpr std::array<const char*, 3> gml_options{"WRITE_GFS=NO", "DOWNLOAD_SCHEMA=NO", nullptr};
-  const std::string name = (table ? "CSV:" : "") + file.string();
-  GDALDatasetUniquePtr dataset(GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY,
-                                                 table ? table_driver.data() : nullptr, table ? nullptr : gml_options.data()));
+  GDALDatasetUniquePtr dataset = is_table(file) ? open_table(file) : open_vector_file(file);
   if (!dataset)
     fail(file, " cannot be read as an area: give X0,Y0,X1,Y1, a vector file that GDAL reads, or a table of points", messages);
   return dataset;
@@ -97,19 +76,6 @@ Area shapes_of(OGRLayer& layer) {
   return area;
 }
 
-/// The field that carries one of the names; −1 where none does. Two would leave open which one is meant.
-int field_named(const OGRFeatureDefn& fields, std::span<const std::string_view> names, const std::filesystem::path& file) {
-  int found = -1;
-  for (int n = 0; n < fields.GetFieldCount(); ++n) {
-    if (std::ranges::find(names, lower_case(fields.GetFieldDefn(n)->GetNameRef())) == names.end()) continue;
-    if (found >= 0)
-      throw InputError(file.string() + ": the columns \"" + fields.GetFieldDefn(found)->GetNameRef() + "\" and \"" +
-                       fields.GetFieldDefn(n)->GetNameRef() + "\" mean the same; rename the one that does not count");
-    found = n;
-  }
-  return found;
-}
-
 std::string_view trimmed(std::string_view field) {
   const auto blank = [](char c) { return c == ' ' || c == '\t'; };
   while (!field.empty() && blank(field.front())) field.remove_prefix(1);
@@ -135,16 +101,21 @@ bool has_header(const OGRFeatureDefn& fields) {
 
 Area points_of(OGRLayer& table, const std::filesystem::path& file) {
   const OGRFeatureDefn& fields = *table.GetLayerDefn();
-  const bool header = has_header(fields);
-  const int x = header ? field_named(fields, point_columns::x_names, file) : 0;
-  const int y = header ? field_named(fields, point_columns::y_names, file) : 1;
-  if (x < 0 || y < 0 || y >= fields.GetFieldCount())
+  const auto refuse = [&](const std::string& what) { throw InputError(file.string() + ": " + what); };
+  std::vector<std::string> names;
+  for (int n = 0; n < fields.GetFieldCount(); ++n) names.emplace_back(fields.GetFieldDefn(n)->GetNameRef());
+  std::optional<std::size_t> x = 0, y = 1;
+  if (has_header(fields)) {
+    x = point_columns::find_column(names, point_columns::x_names, refuse);
+    y = point_columns::find_column(names, point_columns::y_names, refuse);
+  }
+  if (!x || !y || *y >= names.size())
     throw InputError(file.string() +
                      ": no column is named x and y (or easting and northing, or lon and lat); name them in the first row");
   Area area;
   for (Feature feature(table.GetNextFeature()); feature; feature.reset(table.GetNextFeature()))
-    area.points.push_back(
-        {number_in(feature->GetFieldAsString(x), feature, file), number_in(feature->GetFieldAsString(y), feature, file)});
+    area.points.push_back({number_in(feature->GetFieldAsString(static_cast<int>(*x)), feature, file),
+                           number_in(feature->GetFieldAsString(static_cast<int>(*y)), feature, file)});
   return area;
 }
 

@@ -3,78 +3,42 @@
 #include "points/point_reader.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <span>
 #include <string_view>
 
-#include "contract/point_columns.hpp"
+#include "points/point_fields.hpp"
 #include "points/point_reader_records.hpp"
 
 namespace farlod {
 namespace {
 
-using namespace point_columns;
-
-/// Which column holds what.
-struct Columns {
-  std::optional<std::size_t> id, x, y, z;
-};
-
 [[noreturn]] void refuse(const std::filesystem::path& path, std::size_t line, const std::string& what) {
   throw PointsError(path.string() + ":" + std::to_string(line) + ": " + what);
-}
-
-std::optional<double> number_in(std::string_view field) {
-  if (field.starts_with('+')) field.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return text;
 }
 
 bool is_header(const TextRecord& record) {
   return std::none_of(record.fields.begin(), record.fields.end(), [](const std::string& f) { return number_in(f).has_value(); });
 }
 
-/// The column that carries one of the names. Two such columns would leave open which one is meant.
-std::optional<std::size_t> find_column(const TextRecord& header, std::span<const std::string_view> names,
-                                       const std::filesystem::path& path) {
-  std::optional<std::size_t> found;
-  for (std::size_t n = 0; n < header.fields.size(); ++n) {
-    if (std::find(names.begin(), names.end(), lower_case(header.fields[n])) == names.end()) continue;
-    if (found)
-      refuse(path, header.line,
-             "the columns \"" + header.fields[*found] + "\" and \"" + header.fields[n] +
-                 "\" mean the same; rename the one that does not count");
-    found = n;
-  }
-  return found;
-}
-
-Columns columns_of_header(const TextRecord& header, const std::filesystem::path& path) {
-  Columns columns{std::nullopt, find_column(header, x_names, path), find_column(header, y_names, path),
-                  find_column(header, z_names, path)};
+PointFields columns_of_header(const TextRecord& header, const std::filesystem::path& path) {
+  const auto refuse_header = [&](const std::string& what) { refuse(path, header.line, what); };
+  PointFields columns = point_fields(header.fields, PlacesIn::fields, refuse_header);
   if (!columns.x || !columns.y)
-    refuse(path, header.line, "no column is named x and y (or easting and northing, or lon and lat); name them in the first row");
-  for (std::size_t n = 0; n < id_names.size() && !columns.id; ++n)
-    columns.id = find_column(header, std::span(id_names).subspan(n, 1), path);
+    refuse_header("no column is named x and y (or easting and northing, or lon and lat); name them in the first row");
   return columns;
 }
 
-Columns columns_without_header(const TextRecord& first, const std::filesystem::path& path) {
+PointFields columns_without_header(const TextRecord& first, const std::filesystem::path& path) {
   if (first.fields.size() != 2 && first.fields.size() != 3)
     refuse(path, first.line,
            "a table without a header row has the columns x, y and perhaps z; name the columns in the first row");
-  return {std::nullopt, 0, 1, first.fields.size() == 3 ? std::optional<std::size_t>(2) : std::nullopt};
+  PointFields columns;
+  columns.x = 0;
+  columns.y = 1;
+  if (first.fields.size() == 3) columns.z = 2;
+  return columns;
 }
 
 double coordinate(const TextRecord& record, std::size_t column, const char* name, const std::filesystem::path& path) {
@@ -85,14 +49,46 @@ double coordinate(const TextRecord& record, std::size_t column, const char* name
   return *value;
 }
 
-RequestedPoint point_of(const TextRecord& record, const Columns& columns, const std::filesystem::path& path) {
+/// None where the table has no such column, or the row nothing in it.
+std::optional<double> number_if_any(const TextRecord& record, std::optional<std::size_t> column, const char* name,
+                                    const std::filesystem::path& path) {
+  if (!column || *column >= record.fields.size() || record.fields[*column].empty()) return std::nullopt;
+  return coordinate(record, *column, name, path);
+}
+
+RequestedPoint point_of(const TextRecord& record, const PointFields& columns, const std::filesystem::path& path) {
   RequestedPoint point;
   point.x = coordinate(record, *columns.x, "x", path);
   point.y = coordinate(record, *columns.y, "y", path);
-  const bool has_z = columns.z && *columns.z < record.fields.size() && !record.fields[*columns.z].empty();
-  if (has_z) point.z = coordinate(record, *columns.z, "z", path);
+  point.z = number_if_any(record, columns.z, "z", path);
+  point.normal =
+      normal_of(number_if_any(record, columns.azimuth, "azimuth", path), number_if_any(record, columns.tilt, "tilt", path),
+                [&](const std::string& what) { refuse(path, record.line, what); });
   if (columns.id && *columns.id < record.fields.size()) point.id = record.fields[*columns.id];
   return point;
+}
+
+/// Empty fields at the end of a row do no harm.
+void require_columns_for_all(const TextRecord& record, std::size_t columns, const std::filesystem::path& path) {
+  for (std::size_t n = columns; n < record.fields.size(); ++n)
+    if (!record.fields[n].empty())
+      refuse(path, record.line,
+             "\"" + record.fields[n] + "\" has no column: the row has more fields than the header; quote a field that has the " +
+                 "separator in it");
+}
+
+std::vector<std::string> chosen_fields(const TextRecord& record, std::span<const std::size_t> columns) {
+  std::vector<std::string> fields;
+  for (const std::size_t n : columns) fields.push_back(n < record.fields.size() ? record.fields[n] : "");
+  return fields;
+}
+
+/// A column without a name, as tables of numbered rows have one, is named by its number.
+Attributes attributes_of_header(const TextRecord& header, std::span<const std::size_t> columns) {
+  std::vector<std::string> names = chosen_fields(header, columns);
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (names[k].empty()) names[k] = "column_" + std::to_string(columns[k] + 1);
+  return Attributes(std::move(names));
 }
 
 std::string text_of(const std::filesystem::path& path) {
@@ -105,20 +101,25 @@ std::string text_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::vector<RequestedPoint> read_points_csv(const std::filesystem::path& path) {
+RequestedPoints read_points_csv(const std::filesystem::path& path) {
   const std::vector<TextRecord> records = split_records(text_of(path));
   if (records.empty())
     throw PointsError(path.string() + ": the file holds no points; write one in each row, as x,y or with a header row");
   const bool header = is_header(records.front());
-  const Columns columns = header ? columns_of_header(records.front(), path) : columns_without_header(records.front(), path);
-  std::vector<RequestedPoint> points;
+  const PointFields columns = header ? columns_of_header(records.front(), path) : columns_without_header(records.front(), path);
+  RequestedPoints result;
+  result.has_normals = columns.tilt.has_value();
+  if (header) result.attributes = attributes_of_header(records.front(), columns.attributes);
+  std::vector<RequestedPoint>& points = result.points;
   points.reserve(records.size());
   for (const TextRecord& record : std::span(records).subspan(header ? 1 : 0)) {
+    if (header) require_columns_for_all(record, records.front().fields.size(), path);
     points.push_back(point_of(record, columns, path));
+    result.attributes.add_row(chosen_fields(record, columns.attributes));
     if (points.back().id.empty()) points.back().id = std::to_string(points.size());
   }
   if (points.empty()) throw PointsError(path.string() + ": the file has a header row but no points; add one in each row");
-  return points;
+  return result;
 }
 
 }  // namespace farlod

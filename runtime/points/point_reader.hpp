@@ -3,33 +3,18 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
-#include "farlod/error.hpp"
+#include "points/requested_points.hpp"
 
 namespace farlod {
 
-/// A list of points cannot be read or used. The message names the file and the line, says what is wrong, and what to do.
-class PointsError : public InputError {
- public:
-  using InputError::InputError;
-};
-
-/// A point whose sky the user wants to know, in the CRS of the file.
-struct RequestedPoint {
-  std::string id;           ///< as the file says, or the number of the point from 1
-  double x = 0.0, y = 0.0;  ///< easting and northing, or longitude and latitude
-  std::optional<double> z;
-};
-
 /// Reads points from a table whose columns are separated by commas, semicolons or tabs.
 ///   (1) With a header row, columns are found by name, in capitals or not: id, name, fid; x, x_m, easting, lon, longitude;
-///       y, y_m, northing, lat, latitude; z, z_m, height_m, elevation. Other columns are ignored.
+///       y, y_m, northing, lat, latitude; z, z_m, height_m, elevation; azimuth, azimuth_deg and tilt, tilt_deg.
 ///   (2) Without one, the columns are x, y and perhaps z.
 ///   (3) Fields may be quoted (RFC 4180); a byte order mark, CRLF and empty lines do no harm; an empty z is no z.
+///   (4) All columns but `id`, coordinates and normals are attributes.
 /// Throws PointsError.
-[[nodiscard]] std::vector<RequestedPoint> read_points_csv(const std::filesystem::path& path);
+[[nodiscard]] RequestedPoints read_points_csv(const std::filesystem::path& path);
 
 }  // namespace farlod

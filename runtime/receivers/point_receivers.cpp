@@ -60,7 +60,7 @@ CellReceivers receivers_at(const PackageReader& package, Cell cell, std::span<co
     const auto standing = cell == existing
                               ? stand(locator, x, y, from, height)
                               : stand_outside(locator, {x, y}, cell_point_within(p_grid, existing, grid), from, height);
-    if (standing) result.receivers.push_back({n, *standing});
+    if (standing) result.receivers.push_back({n, *standing, places[n].normal_grid});
   }
   return result;
 }

@@ -12,6 +12,7 @@
 #include "package/manifest_reader.hpp"
 #include "receivers/hilbert_curve.hpp"
 #include "receivers/point_receivers.hpp"
+#include "run/facing.hpp"
 #include "run/memory_limit.hpp"
 #include "run/ordered_run.hpp"
 
@@ -28,6 +29,10 @@ void require_same_sizes(const Points& points, const PointAnswerSpans& answers, b
   const std::size_t count = points.x_m.size();
   require_as_long("y_m", points.y_m.size(), count);
   if (!points.z_m.empty()) require_as_long("z_m", points.z_m.size(), count);
+  if (!points.azimuth.empty()) require_as_long("azimuth", points.azimuth.size(), count);
+  if (!points.tilt.empty()) require_as_long("tilt", points.tilt.size(), count);
+  if (points.azimuth.empty() != points.tilt.empty())
+    throw InvalidArgument("a normal is an azimuth and a tilt, and one of the two is not given: give both, or neither");
   require_as_long("svf", answers.svf.size(), count);
   if (!answers.height_m.empty()) require_as_long("height_m", answers.height_m.size(), count);
   if (!bounds && !(answers.low.empty() && answers.high.empty()))
@@ -41,9 +46,9 @@ void require_same_sizes(const Points& points, const PointAnswerSpans& answers, b
 /// No map is as large, and no place on it as high or as low.
 bool is_on_earth(const PlaceOfReceiver& place) {
   constexpr double farthest_m = 1e8, highest_m = 1e5;
-  const auto& [p, height_m] = place;
+  const Point2d& p = place.p_projected;
   // Written so that NaN is not, either
-  return std::abs(p.x) <= farthest_m && std::abs(p.y) <= farthest_m && std::abs(height_m.value_or(0.0)) <= highest_m;
+  return std::abs(p.x) <= farthest_m && std::abs(p.y) <= farthest_m && std::abs(place.height_m.value_or(0.0)) <= highest_m;
 }
 
 /// Of small cells, so many would lie between the grid and a place far away that its cell has no number (exact_cell_edge_m).
@@ -60,12 +65,29 @@ void require_usable(const PlaceOfReceiver& place, const package::Manifest& manif
     throw InvalidPoint(n, named + "too far from the city for the cells of its grid: leave it out, or check its CRS");
 }
 
+/// Where the n-th point looks. A tilt that is NaN says no more than that it looks straight up.
+Point3f normal_of_point(const Points& points, std::size_t n, const package::Manifest& manifest) {
+  if (points.tilt.empty() || std::isnan(points.tilt[n].radians())) return {0.0F, 0.0F, 1.0F};
+  const Facing facing{points.azimuth[n], points.tilt[n]};
+  constexpr Angle level_turn = Angle::degrees(360.0), half_turn = Angle::degrees(180.0);
+  // Written so that an azimuth of NaN is not, either
+  const bool is_direction =
+      Angle{} <= facing.tilt && facing.tilt <= half_turn && -level_turn <= facing.azimuth && facing.azimuth <= level_turn;
+  if (!is_direction)
+    throw InvalidPoint(n, "the point of index " + std::to_string(n) +
+                              " (counted from 0) has a normal that is none: give an azimuth from -360° to 360° and a tilt from "
+                              "0° to 180°, or NaN as its tilt to let it look straight up");
+  const Point3d normal = normal_of(facing, manifest);
+  return {static_cast<float>(normal.x), static_cast<float>(normal.y), static_cast<float>(normal.z)};
+}
+
 std::vector<PlaceOfReceiver> places_of(const Points& points, const package::Manifest& manifest) {
   std::vector<PlaceOfReceiver> places(points.x_m.size());
   for (std::size_t n = 0; n < places.size(); ++n) {
     places[n].p_projected = {points.x_m[n], points.y_m[n]};
     if (!points.z_m.empty() && !std::isnan(points.z_m[n])) places[n].height_m = points.z_m[n];
     require_usable(places[n], manifest, n);
+    places[n].normal_grid = normal_of_point(points, n, manifest);
   }
   return places;
 }

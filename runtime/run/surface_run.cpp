@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <utility>
 
 #include "contract/run_settings.hpp"
 #include "farlod/surfaces.hpp"
 #include "receivers/hilbert_curve.hpp"
 #include "receivers/surface_receivers.hpp"
+#include "run/facing.hpp"
 #include "run/memory_limit.hpp"
 #include "run/ordered_run.hpp"
 #include "run/surface_averages.hpp"
@@ -23,14 +22,6 @@ CellReceivers answerable(Cell cell, std::span<const SurfaceReceiver> receivers) 
   return result;
 }
 
-/// True azimuth of a normal; 0 for one that looks straight up, which has none.
-Angle true_azimuth(const Point3d& normal_grid, const package::Manifest& m) {
-  const Point2d n_city = m.grid.rotation.city_from_grid(horizontal(normal_grid));
-  if (n_city == Point2d{}) return {};
-  const double azimuth_deg = azimuth_of(n_city).degrees() + m.convergence.degrees();
-  return Angle::degrees(azimuth_deg - 360.0 * std::floor(azimuth_deg / 360.0));
-}
-
 /// Who and where a receiver is; its answer is to come.
 SurfacePoint point_of(const package::Manifest& m, Cell cell, const BlockTiles& block, const SurfaceReceiver& r) {
   const package::SurfaceRecord& surface = block.tile(cell).surface_of(r.triangle);
@@ -41,8 +32,9 @@ SurfacePoint point_of(const package::Manifest& m, Cell cell, const BlockTiles& b
   point.surface = surface.number;
   point.kind = surface.kind();
   point.p_projected = m.projected_from_grid({corner.x + r.p_cell.x, corner.y + r.p_cell.y, r.p_cell.z + m.height_origin_m});
-  point.azimuth = true_azimuth(normal, m);
-  point.tilt = Angle::radians(std::acos(std::clamp(normal.z, -1.0, 1.0)));
+  const Facing facing = facing_of(normal, m);
+  point.azimuth = facing.azimuth;
+  point.tilt = facing.tilt;
   point.area_m2 = r.area_m2;
   return point;
 }

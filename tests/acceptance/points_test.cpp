@@ -105,6 +105,56 @@ TEST_F(PackedTown, PointsInDegreesAreProjected) {
 }
 #endif
 
+#ifdef FARLOD_WITH_GDAL
+TEST_F(PackedTown, PointsOfAVectorFileAreInItsOwnCrsAndKeepTheirFields) {
+  folder.write("p.geojson", R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {"name": "south", "svf": 0.7}, "geometry": {"type": "Point", "coordinates": [9, 49.65]}},
+    {"type": "Feature", "properties": {"name": "high"}, "geometry": {"type": "Point", "coordinates": [9, 49.651, 40.5]}},
+    {"type": "Feature", "properties": {"name": "path"}, "geometry": {"type": "LineString", "coordinates": [[9, 49], [9, 50]]}}]})");
+  const Outcome outcome = folder.run("farlod-svf a.farlod -o o.csv --points p.geojson");
+  ASSERT_EQ(outcome.exit_code, exit_done) << outcome.err;
+  EXPECT_NE(outcome.out.find("1 feature of p.geojson is no point and was skipped.\n"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("The field \"svf\" of the points comes back as \"svf_input\""), std::string::npos) << outcome.out;
+  const CsvTable answers = table("o.csv");
+  ASSERT_EQ(answers.size(), 2U);
+  EXPECT_EQ(answers.header(), (std::vector<std::string>{"id", "name", "svf_input", "x_m", "y_m", "z_m", "svf"}));
+  EXPECT_EQ(answers.text(0, "name"), "south");
+  EXPECT_EQ(answers.text(0, "svf_input"), "0.7");
+  EXPECT_EQ(answers.text(1, "svf_input"), "");
+  EXPECT_EQ(answers.number(1, "z_m"), 40.5);
+  folder.write("p.csv", "lon,lat,z\n9,49.65,\n9,49.651,40.5\n");
+  folder.must("farlod-svf a.farlod -o of_table.csv --points p.csv --points-crs EPSG:4326");
+  for (std::size_t n = 0; n < 2; ++n)
+    for (const char* column : {"x_m", "y_m", "svf"}) EXPECT_EQ(answers.text(n, column), table("of_table.csv").text(n, column));
+}
+
+TEST_F(PackedTown, TheCrsThatTheUserNamesWins) {
+  // GeoJSON is in degrees by its standard, and often in something else in fact
+  folder.write("p.geojson", R"({"type": "Point", "coordinates": [)" + text_of(crossing) + "]}");
+  const Outcome outcome = folder.run("farlod-svf a.farlod -o o.csv --points p.geojson --points-crs EPSG:25832 --engine exact");
+  ASSERT_EQ(outcome.exit_code, exit_done) << outcome.err;
+  EXPECT_NE(outcome.out.find("EPSG:25832 (--points-crs)"), std::string::npos) << outcome.out;
+  EXPECT_EQ(table("o.csv").number(0, "svf"), svf_at(text_of(crossing), "--engine exact"));
+}
+#endif
+
+TEST_F(PackedTown, APointWithANormalIsAReceiverOnASurface) {
+  folder.must("farlod-svf a.farlod -o walls.csv --surfaces walls --spacing 20 --engine exact");
+  // The table has the names of a table of points. Its answers come back beside the new ones
+  folder.must("farlod-svf a.farlod -o o.csv --points walls.csv --engine exact");
+  const CsvTable answers = table("o.csv");
+  ASSERT_EQ(answers.size(), table("walls.csv").size());
+  std::size_t compared = 0;
+  for (std::size_t n = 0; n < answers.size(); ++n) {
+    EXPECT_EQ(answers.text(n, "azimuth_deg"), table("walls.csv").text(n, "azimuth_deg"));
+    if (answers.text(n, "svf").empty() || answers.text(n, "svf_input").empty()) continue;
+    const double few_rays = 3.0 / static_cast<double>(default_rays);  // places and normals were rounded to three digits
+    EXPECT_NEAR(answers.number(n, "svf"), answers.number(n, "svf_input"), few_rays + 2.0 * half_of_last_digit) << n;
+    ++compared;
+  }
+  EXPECT_GT(compared, answers.size() / 2);
+}
+
 TEST_F(PackedTown, MoreRaysComeCloserToTheTruth) {
   const double fine = svf_at(text_of(crossing), "--engine exact --rays 100000");
   // The edge of the sky between roofs is shorter than twice the circle's circumference here

@@ -17,6 +17,8 @@ struct PointRow {
   std::optional<double> height_m;  ///< where it stands; unknown inside a building
   std::optional<double> svf;
   std::optional<double> low, high;  ///< certain bounds, where asked for
+  /// Where it looks, clockwise from true north and from straight up; none: straight up.
+  std::optional<double> azimuth_deg = {}, tilt_deg = {};
 };
 
 }  // namespace farlod

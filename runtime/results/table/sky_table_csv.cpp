@@ -68,7 +68,18 @@ void add_answer(const Row& row, BoundsColumns bounds, CsvText& text) {
 }
 
 void add_point(const PointRow& r, CsvText& text) {
-  text.field(r.id).millimetres(r.p_projected.x).millimetres(r.p_projected.y).millimetres(r.height_m);
+  text.millimetres(r.p_projected.x).millimetres(r.p_projected.y).millimetres(r.height_m);
+}
+
+CsvText point_header(const PointRows& rows, const AnswerColumns& columns) {
+  const std::vector<std::string> own = own_columns_of_points(rows.normals, columns);
+  CsvText text;
+  text.field(own.front());
+  if (rows.attributes != nullptr)
+    for (const std::string& name : rows.attributes->names()) text.field(name);
+  for (const std::string& name : std::span(own).subspan(1)) text.field(name);
+  text.end_row();
+  return text;
 }
 
 void add_surface_point(const SurfacePoint& r, CsvText& text) {
@@ -95,10 +106,22 @@ std::filesystem::path beside(const std::filesystem::path& output, const std::str
 
 }  // namespace
 
+std::vector<std::string> own_columns_of_points(bool normals, const AnswerColumns& columns) {
+  std::vector<std::string> names{"id", "x_m", "y_m", "z_m"};
+  if (normals) names.insert(names.end(), {"azimuth_deg", "tilt_deg"});
+  names.push_back(columns.quantity);
+  if (columns.bounds == BoundsColumns::yes) names.insert(names.end(), {columns.quantity + "_low", columns.quantity + "_high"});
+  return names;
+}
+
 void write_points_csv(const PointRows& rows, const AnswerColumns& columns, const std::filesystem::path& path) {
-  write_table(path, receiver_header({"id", "x_m", "y_m", "z_m"}, columns), rows.count, [&](std::size_t n, CsvText& text) {
+  const std::size_t attributes = rows.attributes == nullptr ? 0 : rows.attributes->names().size();
+  write_table(path, point_header(rows, columns), rows.count, [&](std::size_t n, CsvText& text) {
     const PointRow row = rows.row(n);
+    text.field(row.id);
+    for (std::size_t k = 0; k < attributes; ++k) text.field(rows.attributes->value(n, k));
     add_point(row, text);
+    if (rows.normals) text.millimetres(row.azimuth_deg).millimetres(row.tilt_deg);
     add_answer(row, columns.bounds, text);
   });
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "points/attributes.hpp"
 #include "results/table/sky_table.hpp"
 
 namespace farlod {
@@ -26,7 +27,12 @@ struct AnswerColumns {
 struct PointRows {
   std::size_t count = 0;
   std::function<PointRow(std::size_t n)> row;
+  const Attributes* attributes = nullptr;  ///< a row for each point; null: there are none
+  bool normals = false;                    ///< whether there are columns for them
 };
+
+/// The names of the columns of a table of points besides those of its attributes: id, x_m, y_m, z_m, those of normals, answers.
+[[nodiscard]] std::vector<std::string> own_columns_of_points(bool normals, const AnswerColumns& columns);
 
 /// Writes the tables of --surfaces: one of receivers, one of surfaces, one of buildings. All functions throw OutputError.
 class SurfaceTablesWriter {

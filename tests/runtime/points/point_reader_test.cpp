@@ -10,12 +10,23 @@ namespace farlod {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
-std::vector<RequestedPoint> points_in(const std::string& text) {
+RequestedPoints table_of(const std::string& text) {
   const scenes::TemporaryFolder folder;
   std::ofstream(folder.file("points.csv"), std::ios::binary) << text;
   return read_points_csv(folder.file("points.csv"));
+}
+
+std::vector<RequestedPoint> points_in(const std::string& text) { return table_of(text).points; }
+
+/// The attributes of a point.
+std::vector<std::string> row_of(const Attributes& attributes, std::size_t row) {
+  std::vector<std::string> values;
+  for (std::size_t column = 0; column < attributes.names().size(); ++column) values.emplace_back(attributes.value(row, column));
+  return values;
 }
 
 std::string complaint_about(const std::string& text) {
@@ -54,7 +65,50 @@ TEST(PointReader, FindsColumnsByAnyOfTheirNames) {
   }
 }
 
-TEST(PointReader, IgnoresOtherColumns) { expect_the_two_points(points_in("note,x,speed,y,z\n\"a,b\",1.5,9,-2,3\n,4,9,5,\n")); }
+TEST(PointReader, OtherColumnsAreAttributes) {
+  const RequestedPoints table = table_of("note,x,,ID,speed,y,z,name\n\"a,b\",1.5,,i,9,-2,3,N\n,4,7,j,9,5,,\n");
+  expect_the_two_points(table.points);
+  EXPECT_THAT(table.attributes.names(), ElementsAre("note", "column_3", "speed", "name"));
+  EXPECT_THAT(row_of(table.attributes, 0), ElementsAre("a,b", "", "9", "N"));
+  EXPECT_THAT(row_of(table.attributes, 1), ElementsAre("", "7", "9", ""));
+  EXPECT_EQ(table.points[1].id, "j");
+}
+
+TEST(PointReader, AnIdOfAnotherNameIsAnAttributeToo) {
+  const RequestedPoints table = table_of("name,x,y\nNorth,1,2\n");
+  EXPECT_EQ(table.points[0].id, "North");
+  EXPECT_THAT(table.attributes.names(), ElementsAre("name"));
+}
+
+TEST(PointReader, AFieldWithoutAColumnIsNamed) {
+  EXPECT_THAT(complaint_about("x,y,note\n1,2,a\n3,4,b,c\n"), HasSubstr("points.csv:3: \"c\" has no column"));
+  EXPECT_EQ(points_in("x,y,note\n1,2,a,,\n").size(), 1U);
+}
+
+TEST(PointReader, AzimuthAndTiltAreANormal) {
+  const RequestedPoints table = table_of("x,y,Azimuth,tilt_deg\n1,2,-90,45\n1,2,,\n1,2,,0\n");
+  EXPECT_TRUE(table.has_normals);
+  EXPECT_THAT(table.attributes.names(), IsEmpty());
+  ASSERT_TRUE(table.points[0].normal);
+  EXPECT_EQ(table.points[0].normal->azimuth_deg, -90.0);
+  EXPECT_EQ(table.points[0].normal->tilt_deg, 45.0);
+  EXPECT_FALSE(table.points[1].normal);
+  EXPECT_EQ(table.points[2].normal->tilt_deg, 0.0);
+}
+
+TEST(PointReader, HalfANormalIsRefusedInARow) {
+  EXPECT_THAT(complaint_about("x,y,azimuth,tilt\n1,2,90,\n"), HasSubstr("points.csv:2: there is an azimuth and no tilt"));
+  EXPECT_THAT(complaint_about("x,y,azimuth,tilt\n1,2,,9\n"), HasSubstr("points.csv:2: there is a tilt and no azimuth"));
+  EXPECT_THAT(complaint_about("x,y,azimuth,tilt\n1,2,0,181\n"), HasSubstr("points.csv:2: the tilt is not between"));
+  EXPECT_THAT(complaint_about("x,y,azimuth,tilt\n1,2,361,9\n"), HasSubstr("points.csv:2: the azimuth is not between"));
+  EXPECT_THAT(complaint_about("x,y,azimuth,tilt\n1,2,north,9\n"), HasSubstr("\"north\" is not a number (azimuth)"));
+}
+
+TEST(PointReader, HalfANormalIsAnAttributeInAHeader) {
+  const RequestedPoints table = table_of("x,y,azimuth\n1,2,north\n");
+  EXPECT_FALSE(table.has_normals);
+  EXPECT_THAT(table.attributes.names(), ElementsAre("azimuth"));
+}
 
 TEST(PointReader, WithoutHeaderTheColumnsAreXYZ) {
   const std::vector<RequestedPoint> points = points_in("1.5,-2,3\n4,5\n");

@@ -18,7 +18,7 @@ std::string csv_field(std::string_view text) {
 }
 
 PointRows point_rows(const std::vector<PointRow>& rows) {
-  return {rows.size(), [&rows](std::size_t n) { return rows[n]; }};
+  return {rows.size(), [&rows](std::size_t n) { return rows[n]; }, nullptr, false};
 }
 
 void write_surface_points(const std::vector<SurfacePoint>& rows, const AnswerColumns& columns,
@@ -59,12 +59,28 @@ TEST(PointsCsv, IsAsDocumented) {
             "inside,1,-2.25,,,,\n");
 }
 
+TEST(PointsCsv, HasAttributesBehindTheIdAndNormalsBeforeTheAnswer) {
+  const scenes::TemporaryFolder folder;
+  Attributes attributes({"note", "count"});
+  attributes.add_row(std::vector<std::string>{"a,b", "3"});
+  attributes.add_row(std::vector<std::string>{"", "4"});
+  const std::vector<PointRow> rows{{"1", {1.0, 2.0}, 3.0, 0.5, {}, {}, 270.0, 45.5}, {"2", {3.0, 4.0}, {}, {}, {}, {}, {}, {}}};
+  PointRows with_attributes = point_rows(rows);
+  with_attributes.attributes = &attributes;
+  with_attributes.normals = true;
+  write_points_csv(with_attributes, {"svf", BoundsColumns::no}, folder.file("a.csv"));
+  EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
+            "id,note,count,x_m,y_m,z_m,azimuth_deg,tilt_deg,svf\n"
+            "1,\"a,b\",3,1,2,3,270,45.5,0.500000\n"
+            "2,,4,3,4,,,,\n");
+}
+
 TEST(PointsCsv, CanBeReadAsPointsAgain) {
   const scenes::TemporaryFolder folder;
   const std::vector<PointRow> rows{{"the \"first\", quoted\nover two lines", {500000.125, 5700010.25}, 1.5, 0.5, {}, {}},
                                    {"2nd", {1.0, -2.25}, {}, {}, {}, {}}};
   write_points_csv(point_rows(rows), {"svf", BoundsColumns::no}, folder.file("a.csv"));
-  const std::vector<RequestedPoint> points = read_points_csv(folder.file("a.csv"));
+  const std::vector<RequestedPoint> points = read_points_csv(folder.file("a.csv")).points;
   ASSERT_EQ(points.size(), rows.size());
   for (std::size_t n = 0; n < rows.size(); ++n) {
     EXPECT_EQ(points[n].id, rows[n].id);

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "gdal/vector_file_gdal.hpp"
+
+#include <array>
+#include <mutex>
+#include <sstream>
+#include <string>
+
+namespace farlod {
+namespace {
+
+GDALDriverManager& drivers() {
+  static std::once_flag once;
+  std::call_once(once, GDALAllRegister);
+  return *GetGDALDriverManager();
+}
+
+bool lists(const char* endings, const std::string& ending) {
+  std::istringstream list(endings == nullptr ? "" : endings);
+  for (std::string one; list >> one;)
+    if (EQUAL(one.c_str(), ending.c_str())) return true;
+  return false;
+}
+
+}  // namespace
+
+GDALDatasetUniquePtr open_vector_file(const std::filesystem::path& file) {
+  (void)drivers();
+  constexpr std::array<const char*, 3> gml_options{"WRITE_GFS=NO", "DOWNLOAD_SCHEMA=NO", nullptr};
+  return GDALDatasetUniquePtr(GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, gml_options.data()));
+}
+
+GDALDatasetUniquePtr open_table(const std::filesystem::path& file) {
+  (void)drivers();
+  constexpr std::array<const char*, 2> table_driver{"CSV", nullptr};
+  const std::string name = "CSV:" + file.string();  // the prefix lets GDAL take any ending
+  return GDALDatasetUniquePtr(GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, table_driver.data()));
+}
+
+bool has_vector_ending(const std::filesystem::path& file) {
+  const std::string ending = file.extension().string();
+  if (ending.size() < 2) return false;
+  for (int n = 0; n < drivers().GetDriverCount(); ++n) {
+    GDALDriver& driver = *drivers().GetDriver(n);
+    if (driver.GetMetadataItem(GDAL_DCAP_VECTOR) != nullptr &&
+        lists(driver.GetMetadataItem(GDAL_DMD_EXTENSIONS), ending.substr(1)))
+      return true;
+  }
+  return false;
+}
+
+}  // namespace farlod

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <filesystem>
+#include <memory>
+
+// Private to the wrappers of GDAL: it names its classes.
+
+namespace farlod {
+
+struct FeatureDeleter {
+  void operator()(OGRFeature* feature) const { OGRFeature::DestroyFeature(feature); }
+};
+using Feature = std::unique_ptr<OGRFeature, FeatureDeleter>;
+
+/// Opens a vector file to read it. Nothing is written beside it, nor fetched from an address in it. Null where GDAL does not
+/// know what it is, or cannot read it.
+[[nodiscard]] GDALDatasetUniquePtr open_vector_file(const std::filesystem::path& file);
+
+/// Opens a table of comma separated values, whatever its name ends with. Null where GDAL cannot read it.
+[[nodiscard]] GDALDatasetUniquePtr open_table(const std::filesystem::path& file);
+
+/// Whether the ending of a name is one of those that GDAL's vector formats have.
+[[nodiscard]] bool has_vector_ending(const std::filesystem::path& file);
+
+}  // namespace farlod

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "points/attributes.hpp"
+
+namespace farlod {
+
+void Attributes::add_row(std::span<const std::string> fields) {
+  for (std::size_t column = 0; column < names_.size(); ++column) {
+    if (column < fields.size()) text_ += fields[column];
+    ends_.push_back(text_.size());
+  }
+}
+
+std::string_view Attributes::value(std::size_t row, std::size_t column) const {
+  const std::size_t n = row * names_.size() + column;
+  const std::size_t begin = n == 0 ? 0 : ends_[n - 1];
+  return std::string_view(text_).substr(begin, ends_[n] - begin);
+}
+
+}  // namespace farlod

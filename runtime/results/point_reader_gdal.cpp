@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results/point_reader_gdal.hpp"
+
+#include <ogrsf_frmts.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "contract/lower_case.hpp"
+#include "gdal/gdal_errors.hpp"
+#include "gdal/vector_file_gdal.hpp"
+#include "gdal/wkt_gdal.hpp"
+#include "points/point_fields.hpp"
+
+namespace farlod {
+namespace {
+
+/// A field of a layer. The number that the file itself gives each feature is one too, where it has a name (`fid`).
+struct Field {
+  static constexpr int feature_number = -1;
+  std::string name;
+  int index = 0;
+};
+
+std::vector<Field> fields_of(OGRLayer& layer) {
+  std::vector<Field> fields;
+  if (const std::string name = layer.GetFIDColumn(); !name.empty()) fields.push_back({name, Field::feature_number});
+  const OGRFeatureDefn& definition = *layer.GetLayerDefn();
+  for (int n = 0; n < definition.GetFieldCount(); ++n) fields.push_back({definition.GetFieldDefn(n)->GetNameRef(), n});
+  return fields;
+}
+
+/// The shortest decimal that reads back as the same number.
+template <class Real>
+std::string shortest(Real value) {
+  std::array<char, 32> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
+
+std::string text_of(const OGRFeature& feature, const Field& field) {
+  if (field.index == Field::feature_number) return std::to_string(feature.GetFID());
+  if (!feature.IsFieldSetAndNotNull(field.index)) return {};
+  const OGRFieldDefn& definition = *feature.GetFieldDefnRef(field.index);
+  if (definition.GetType() != OFTReal) return feature.GetFieldAsString(field.index);
+  const double value = feature.GetFieldAsDouble(field.index);
+  return definition.GetSubType() == OFSTFloat32 ? shortest(static_cast<float>(value)) : shortest(value);
+}
+
+/// Reads one layer, feature by feature.
+class LayerReader {
+ public:
+  LayerReader(const std::filesystem::path& path, OGRLayer& layer) : path_(path), layer_(layer), all_(fields_of(layer)) {
+    std::vector<std::string> names;
+    for (const Field& field : all_) names.push_back(field.name);
+    fields_ = point_fields(names, PlacesIn::geometry,
+                           [&](const std::string& what) { throw PointsError(path_.string() + ": " + what); });
+    std::vector<std::string> of_attributes;
+    for (const std::size_t n : fields_.attributes) of_attributes.push_back(names[n]);
+    result_.attributes = Attributes(std::move(of_attributes));
+    result_.has_normals = fields_.tilt.has_value();
+  }
+
+  RequestedPoints read() && {
+    layer_.ResetReading();
+    for (Feature feature(layer_.GetNextFeature()); feature; feature.reset(layer_.GetNextFeature())) take(*feature);
+    return std::move(result_);
+  }
+
+ private:
+  [[noreturn]] void refuse(const OGRFeature& feature, const std::string& what) const {
+    throw PointsError(path_.string() + ": feature " + std::to_string(feature.GetFID()) + " of the layer \"" + layer_.GetName() +
+                      "\": " + what);
+  }
+
+  /// None where the layer has no such field, or the feature nothing in it.
+  [[nodiscard]] std::optional<double> number_if_any(const OGRFeature& feature, std::optional<std::size_t> field) const {
+    const std::string text = field ? text_of(feature, all_[*field]) : "";
+    if (text.empty()) return std::nullopt;
+    const std::optional<double> value = number_in(text);
+    if (!value) refuse(feature, "\"" + text + "\" is not a number (" + all_[*field].name + "); write it like 123.4");
+    return value;
+  }
+
+  void take(const OGRFeature& feature) {
+    const OGRGeometry* geometry = feature.GetGeometryRef();
+    const OGRwkbGeometryType type = geometry == nullptr ? wkbNone : wkbFlatten(geometry->getGeometryType());
+    if (geometry == nullptr || geometry->IsEmpty() != 0 || (type != wkbPoint && type != wkbMultiPoint)) {
+      ++result_.skipped_features;
+      return;
+    }
+    if (type == wkbPoint) return take(feature, *geometry->toPoint());
+    for (const OGRPoint* point : *geometry->toMultiPoint()) take(feature, *point);
+  }
+
+  void take(const OGRFeature& feature, const OGRPoint& place) {
+    RequestedPoint point;
+    point.x = place.getX();
+    point.y = place.getY();
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) refuse(feature, "a coordinate is not a number");
+    if (place.Is3D() != 0) point.z = place.getZ();
+    if (point.z && !std::isfinite(*point.z)) refuse(feature, "its z is not a number; give the point a height, or no z");
+    point.normal = normal_of(number_if_any(feature, fields_.azimuth), number_if_any(feature, fields_.tilt),
+                             [&](const std::string& what) { refuse(feature, what); });
+    if (fields_.id) point.id = text_of(feature, all_[*fields_.id]);
+    if (point.id.empty()) point.id = std::to_string(result_.points.size() + 1);
+    result_.points.push_back(std::move(point));
+    std::vector<std::string> values;
+    for (const std::size_t n : fields_.attributes) values.push_back(text_of(feature, all_[n]));
+    result_.attributes.add_row(values);
+  }
+
+  const std::filesystem::path& path_;
+  OGRLayer& layer_;
+  std::vector<Field> all_;
+  PointFields fields_;  ///< of `all_`
+  RequestedPoints result_;
+};
+
+std::string layers_of(GDALDataset& dataset) {
+  std::string names;
+  for (OGRLayer* layer : dataset.GetLayers()) names.append(names.empty() ? "\"" : ", \"").append(layer->GetName()).append("\"");
+  return names;
+}
+
+OGRLayer& layer_of(GDALDataset& dataset, const std::string& name, const std::filesystem::path& path) {
+  if (dataset.GetLayerCount() == 0) throw PointsError(path.string() + " has no layers: it holds no points");
+  if (name.empty() && dataset.GetLayerCount() == 1) return *dataset.GetLayer(0);
+  if (name.empty())
+    throw PointsError(path.string() + " has several layers: choose one by --points-layer, of " + layers_of(dataset));
+  OGRLayer* layer = dataset.GetLayerByName(name.c_str());
+  if (layer == nullptr) throw PointsError(path.string() + " has no layer \"" + name + "\": choose one of " + layers_of(dataset));
+  return *layer;
+}
+
+/// What GeoPackages call undefined is no CRS.
+std::string crs_of(OGRLayer& layer) {
+  const OGRSpatialReference* crs = layer.GetSpatialRef();
+  if (crs == nullptr || crs->IsLocal() != 0) return {};
+  const char* name = crs->GetName();
+  return name != nullptr && std::string_view(name).starts_with("Undefined") ? std::string() : wkt_of(crs);
+}
+
+std::string sentence_on_skipped(const RequestedPoints& read, const std::filesystem::path& path) {
+  return std::to_string(read.skipped_features) + (read.skipped_features == 1 ? " feature of " : " features of ") + path.string() +
+         (read.skipped_features == 1 ? " is no point and was skipped." : " are no points and were skipped.");
+}
+
+}  // namespace
+
+bool is_vector_file(const std::filesystem::path& path) {
+  const std::string ending = lower_case(path.extension().string());
+  return ending != ".csv" && ending != ".tsv" && ending != ".txt" && has_vector_ending(path);
+}
+
+RequestedPoints read_points_gdal(const std::filesystem::path& path, const std::string& layer_name) {
+  if (!std::filesystem::exists(path)) throw PointsError(path.string() + ": the file cannot be read; see that it exists");
+  GdalErrors messages;
+  const GDALDatasetUniquePtr dataset = open_vector_file(path);
+  if (!dataset) throw PointsError(path.string() + " cannot be read as a vector file (" + messages.last() + ")");
+  OGRLayer& layer = layer_of(*dataset, layer_name, path);
+  RequestedPoints read = LayerReader(path, layer).read();
+  if (messages.any()) throw PointsError(path.string() + " cannot be read to its end (" + messages.last() + ")");
+  if (read.points.empty() && read.skipped_features > 0)
+    throw PointsError(path.string() + " holds no points: none of its " + std::to_string(read.skipped_features) +
+                      " features is one; give points, not lines or polygons");
+  if (read.points.empty()) throw PointsError(path.string() + " holds no points: its layer is empty");
+  if (read.skipped_features > 0) read.notes.push_back(sentence_on_skipped(read, path));
+  read.crs_wkt = crs_of(layer);
+  return read;
+}
+
+}  // namespace farlod

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "points/requested_points.hpp"
+
+namespace farlod {
+
+/// Whether a file is for read_points_gdal, by the ending of its name. Tables (.csv, .tsv, .txt) are not.
+[[nodiscard]] bool is_vector_file(const std::filesystem::path& path);
+
+/// Reads points from a layer of a vector file: GeoPackage, GeoJSON, Shapefile, FlatGeobuf, or whatever else GDAL reads.
+///   (1) A point of a multipoint is a point with the fields of the whole.
+///   (2) x is the easting or longitude, y the northing or latitude. z is that of the geometry; fields move no point.
+///   (3) The id is the field `id`, else `name`, else `fid` (which may be the file's own number of a feature), else the number of
+///       the point. Normals are the fields `azimuth` and `tilt`, or `azimuth_deg` and `tilt_deg`. All fields but `id` and these
+///       are attributes; numbers have all their digits.
+///   (4) Features that are no points are skipped, and told in a note.
+/// `layer` may be empty where there is only one. Throws PointsError.
+[[nodiscard]] RequestedPoints read_points_gdal(const std::filesystem::path& path, const std::string& layer);
+
+}  // namespace farlod
