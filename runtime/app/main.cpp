@@ -50,7 +50,9 @@ WrittenRun evaluate(const SvfOptions& options) {
   const double open_s = seconds_since(start);
   ProgressLine progress("sky view factors", options.run.verbosity);
   const RunSettings run = run_settings(options, progress);
-  WrittenRun written = options.source == ReceiverSource::grid       ? write_raster(package, options, run)
+  const bool is_sky = options.source == ReceiverSource::at && options.format->kind == OutputKind::picture;
+  WrittenRun written = is_sky                                       ? write_sky(package, options, run)
+                       : options.source == ReceiverSource::grid     ? write_raster(package, options, run)
                        : options.source == ReceiverSource::surfaces ? write_surfaces(package, options, run)
                                                                     : write_points(package, options, run);
   written.open_s = open_s;
@@ -101,6 +103,7 @@ void print_run(const WrittenRun& written, const SvfOptions& options, double tota
         "{} of the receivers needed rays ({} each at the most, about): they may see sky below something that overhangs{}.\n",
         run.by_rays, run.accuracy.rays, asked.max_error ? ", or the far map leaves them more uncertain than allowed" : "");
   print_accuracy(run, asked);
+  for (const std::string& note : written.notes) fmt::print("{}\n", note);
   for (const auto& file : written.files) fmt::print("{}\n", file.string());
 }
 

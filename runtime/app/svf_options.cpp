@@ -22,11 +22,12 @@ ProgramDescription svf_program() {
       .name = "farlod-svf",
       .purpose = "computes sky view factors from a package that farlod-pack made",
       .examples = {"farlod-svf town.farlod -o svf.tif --grid 2 --preview svf.png",
-                   "farlod-svf town.farlod -o walls.csv --surfaces walls --spacing 2"},
+                   "farlod-svf town.farlod -o walls.csv --surfaces walls --spacing 2",
+                   "farlod-svf town.farlod -o sky.png --at 691010,5335990"},
       .background = {"A package holds a city cut into cells, and for each cell what matters of the city far away. It is made "
                      "once, and evaluated as often as you like.",
                      "The receivers are the points where the sky is looked at: the pixels of a raster (--grid), the points of "
-                     "a table (--points), points spread over the buildings (--surfaces), or one point (--at). The sky view "
+                     "a file (--points), points spread over the buildings (--surfaces), or one point (--at). The sky view "
                      "factor is the share of the sky that a receiver sees, from 0 to 1."},
       .notes = {"Receivers inside a building get no answer: the declared no-data value in a raster, an empty field in a table."},
       .exit_codes = {{exit_done, "done"},
@@ -45,7 +46,7 @@ std::string known_endings() {
 
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
-  std::string package, output, points, surfaces, at, bbox, engine = "auto", sky = "cosine", directions = "partition";
+  std::string package, output, points, surfaces, at, bbox, engine = "auto", sky = "cosine", directions = "partition", projection;
   bool on_surface = false;
 };
 
@@ -64,7 +65,10 @@ std::vector<double> numbers_in(const std::string& text, const std::string& optio
 void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   auto* receivers = app.add_option_group("Receivers", "Where the sky is looked at");
   receivers->add_option("--grid", o.grid_step_m, "A raster with pixels of this many metres")->check(between(0.01, 10000.0));
-  receivers->add_option("--points", raw.points, "The points of this table (CSV with x, y and perhaps z and id)")
+  receivers
+      ->add_option("--points", raw.points,
+                   "The points of this file: GeoPackage, GeoJSON, Shapefile, FlatGeobuf, another format of GDAL's, or CSV with "
+                   "x, y and perhaps z and id; azimuth and tilt are normals, other fields come back")
       ->type_name(file_value);
   receivers->add_option("--surfaces", raw.surfaces, "Points spread over the buildings, with averages per surface and building")
       ->check(CLI::IsMember({"roofs", "walls", "all"}));
@@ -79,7 +83,9 @@ void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->check(between(0.05, 1000.0))
       ->capture_default_str()
       ->group("Placing");
-  app.add_option("--points-crs", o.points_crs, "CRS of --points, as EPSG:n (default: the package's)")->group("Placing");
+  app.add_option("--points-crs", o.points_crs, "CRS of --points, as EPSG:n (default: the file's own, or the package's)")
+      ->group("Placing");
+  app.add_option("--points-layer", o.points_layer, "Layer of --points (default: its only one)")->group("Placing");
   app.add_option("--bbox", raw.bbox, "X0,Y0,X1,Y1: only this part of --grid")->group("Placing");
 }
 
@@ -89,8 +95,11 @@ void add_output_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->required()
       ->type_name(file_value)
       ->group("Output");
-  app.add_option("--preview", o.preview_file, "Also draw the raster as this PNG, with a colour scale")
+  app.add_option("--preview", o.preview_file, "Also draw the raster as this picture (PNG, SVG or PDF), with a colour scale")
       ->type_name(file_value)
+      ->group("Output");
+  app.add_option("--projection", raw.projection, "Of a picture of the sky above --at (default: equal-area)")
+      ->check(CLI::IsMember({"equidistant", "equal-area", "orthographic"}))
       ->group("Output");
 }
 
@@ -102,7 +111,9 @@ void add_sky_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->check(CLI::IsMember({"auto", "horizon", "rays", "exact"}))
       ->capture_default_str()
       ->group("Accuracy");
-  app.add_option("--rays", o.evaluation.rays, "Directions a receiver, for rays (default: 1000, or as many as --max-error needs)")
+  app.add_option(
+         "--rays", o.evaluation.rays,
+         "Directions a receiver, for rays (default: " + std::to_string(default_rays) + ", or as many as --max-error needs)")
       ->check(CLI::Range(1, 10000000))
       ->group("Accuracy");
   app.add_option("--directions", raw.directions,
@@ -110,7 +121,8 @@ void add_sky_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->check(CLI::IsMember({"partition", "fibonacci"}))
       ->capture_default_str()
       ->group("Accuracy");
-  app.add_option("--azimuths", o.evaluation.azimuths, "Azimuths of a horizon (default: 256, or as many as --max-error needs)")
+  app.add_option("--azimuths", o.evaluation.azimuths,
+                 "Azimuths of a horizon (default: " + std::to_string(default_azimuths) + ", or as many as --max-error needs)")
       ->check(CLI::Range(4, 1000000))
       ->group("Accuracy");
   app.add_option("--sky", raw.sky, "Weight of the sky: cosine (svf) or solid (svf_solid)")
@@ -144,7 +156,7 @@ void resolve_place(const RawOptions& raw, SvfOptions& o) {
     const auto n = numbers_in(raw.at, "--at", "X,Y or X,Y,Z");
     if (n.size() != 2 && n.size() != 3) throw CLI::ValidationError("--at", "give X,Y or X,Y,Z");
     o.source = ReceiverSource::at;
-    o.at = {"1", n[0], n[1], n.size() == 3 ? std::optional(n[2]) : std::nullopt};
+    o.at = {"1", n[0], n[1], n.size() == 3 ? std::optional(n[2]) : std::nullopt, std::nullopt};
   } else if (!raw.points.empty()) {
     o.source = ReceiverSource::points;
     o.points_file = raw.points;
@@ -165,7 +177,9 @@ void resolve_place(const RawOptions& raw, SvfOptions& o) {
     if (std::abs(x) > farthest_m) throw CLI::ValidationError("--bbox", fmt::format("{:g} lies nowhere on Earth", x));
 }
 
+/// A picture is a map of --grid, or the sky above --at.
 bool fits(const OutputFormat& format, ReceiverSource source) {
+  if (format.kind == OutputKind::picture) return source == ReceiverSource::grid || source == ReceiverSource::at;
   return (format.kind == OutputKind::table) == (source != ReceiverSource::grid);
 }
 
@@ -198,6 +212,15 @@ void resolve_preview(SvfOptions& o) {
     throw CLI::ValidationError("--preview", "\"" + o.preview_file + "\" is not the name of a picture: " + advice(is_picture));
 }
 
+void resolve_projection(const RawOptions& raw, SvfOptions& o) {
+  if (raw.projection.empty()) return;
+  if (o.source != ReceiverSource::at || o.format->kind != OutputKind::picture)
+    throw CLI::ValidationError("--projection", "it goes with a picture of --at");
+  o.projection = raw.projection == "equidistant"  ? SkyProjection::equidistant
+                 : raw.projection == "equal-area" ? SkyProjection::equal_area
+                                                  : SkyProjection::orthographic;
+}
+
 void resolve_output(const RawOptions& raw, SvfOptions& o) {
   o.output = raw.output;
   o.format = output_format_of(o.output);
@@ -206,8 +229,11 @@ void resolve_output(const RawOptions& raw, SvfOptions& o) {
         "-o", "the ending of \"" + raw.output + "\" is not one that can be written here: use one of " + known_endings());
   require_format_that_fits(o);
   resolve_preview(o);
+  resolve_projection(raw, o);
   if (!o.points_crs.empty() && o.source != ReceiverSource::points)
     throw CLI::ValidationError("--points-crs", "it goes with --points");
+  if (!o.points_layer.empty() && o.source != ReceiverSource::points)
+    throw CLI::ValidationError("--points-layer", "it goes with --points");
 }
 
 /// Refuses numbers of rays and azimuths that cannot keep the allowed error.

@@ -13,8 +13,9 @@
 #include "farlod/box.hpp"
 #include "farlod/evaluation.hpp"
 #include "farlod/surfaces.hpp"
-#include "points/point_reader.hpp"
+#include "points/requested_points.hpp"
 #include "results/output_format.hpp"
+#include "results/picture/sky_picture.hpp"
 
 namespace farlod {
 
@@ -29,13 +30,14 @@ struct SvfOptions {
   ReceiverSource source = ReceiverSource::grid;
   double grid_step_m = 0.0;
   std::filesystem::path points_file;
-  std::string points_crs;
+  std::string points_crs, points_layer;
   SurfaceSettings surfaces;
   RequestedPoint at;
   Placing placing;
   std::optional<Box2d> bbox_projected;
   EvaluationSettings evaluation;
   std::string preview_file;
+  SkyProjection projection = SkyProjection::equal_area;
   std::optional<std::uint64_t> memory_limit_mib;
   RunOptions run;
 };

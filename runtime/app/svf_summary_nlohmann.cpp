@@ -73,6 +73,7 @@ std::string svf_summary_json(const WrittenRun& written, const SvfOptions& option
   if (options.evaluation.max_error) j["max_error"] = error_budget_json(run, *options.evaluation.max_error);
   if (run.bounds) j["bounds"] = {{"mean_width", run.bounds->mean}, {"max_width", run.bounds->max}};
   if (run.errors) j["verify"] = json_of(*run.errors);
+  if (written.skipped_features > 0) j["skipped_features"] = written.skipped_features;
   return j.dump(1) + "\n";
 }
 

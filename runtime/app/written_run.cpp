@@ -2,16 +2,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/written_run.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "contract/lower_case.hpp"
 #include "farlod/error.hpp"
+#include "farlod/hemisphere.hpp"
 #include "farlod/points.hpp"
 #include "farlod/raster.hpp"
+#include "points/point_reader.hpp"
+#include "results/picture/sky_picture.hpp"
 #ifdef FARLOD_WITH_GDAL
+#include "results/point_reader_gdal.hpp"
 #include "results/reproject_gdal.hpp"
 #endif
 
@@ -65,18 +73,35 @@ class RasterFiles {
   std::uint64_t bytes_ = 0;
 };
 
-/// Points as the library takes them, with their names.
+/// Points as the library takes them, and what is written of them besides.
 struct NamedPoints {
   std::vector<std::string> ids;
   std::vector<double> x_m, y_m, z_m;  ///< no height is NaN
+  std::vector<Angle> azimuth, tilt;   ///< empty where the file has none; no normal is NaN
+  Attributes attributes;
+  std::vector<std::string> notes;
+  std::size_t skipped_features = 0;
 
-  explicit NamedPoints(std::vector<RequestedPoint> points) {
-    for (RequestedPoint& p : points) {
+  explicit NamedPoints(RequestedPoints requested)
+      : attributes(std::move(requested.attributes)),
+        notes(std::move(requested.notes)),
+        skipped_features(requested.skipped_features) {
+    for (RequestedPoint& p : requested.points) {
       ids.push_back(std::move(p.id));
       x_m.push_back(p.x);
       y_m.push_back(p.y);
       z_m.push_back(p.z.value_or(std::nan("")));
+      if (!requested.has_normals) continue;
+      const RequestedNormal normal = p.normal.value_or(RequestedNormal{std::nan(""), std::nan("")});
+      azimuth.push_back(Angle::degrees(normal.azimuth_deg));
+      tilt.push_back(Angle::degrees(normal.tilt_deg));
     }
+  }
+  [[nodiscard]] bool has_normals() const { return !tilt.empty(); }
+  [[nodiscard]] Points points() const { return {x_m, y_m, z_m, azimuth, tilt}; }
+  /// What it holds for each point, more or less: short ids lie within their string.
+  [[nodiscard]] std::size_t bytes() const {
+    return ids.size() * (sizeof(std::string) + (has_normals() ? 5 : 3) * sizeof(double)) + attributes.bytes();
   }
 };
 
@@ -97,10 +122,62 @@ void move_to_package_crs(NamedPoints& named, const std::string& crs, const Packa
 #endif
 }
 
-NamedPoints read_points(const SvfOptions& options, const PackageDescription& package) {
-  NamedPoints named(options.source == ReceiverSource::at ? std::vector{options.at} : read_points_csv(options.points_file));
-  if (!options.points_crs.empty()) move_to_package_crs(named, options.points_crs, package);
+/// The CRS that the user names wins: many a GeoJSON is in another one than it must be.
+std::string crs_of(const RequestedPoints& read, const SvfOptions& options, std::vector<std::string>& notes) {
+  const std::string file = options.points_file.string();
+  std::string own = read.crs_wkt.value_or("");
+  if (!options.points_crs.empty()) {
+    if (!own.empty())
+      notes.push_back("The points of " + file + " were taken to be in " + options.points_crs +
+                      " (--points-crs), whatever it says itself.");
+    return options.points_crs;
+  }
+  if (read.crs_wkt && own.empty())
+    notes.push_back(file + " says no CRS: its points were taken to be in that of the package (--points-crs names another).");
+  return own;
+}
+
+RequestedPoints read_points(const std::filesystem::path& file, const std::string& layer) {
+#ifdef FARLOD_WITH_GDAL
+  if (is_vector_file(file)) return read_points_gdal(file, layer);
+#else
+  if (const std::string ending = lower_case(file.extension().string());
+      ending == ".gpkg" || ending == ".geojson" || ending == ".shp" || ending == ".fgb")
+    throw PointsError(file.string() + " needs GDAL, which this farlod-svf was built without: give the points as CSV.");
+#endif
+  if (!layer.empty()) throw PointsError(file.string() + " is a table: it has no layers (--points-layer)");
+  return read_points_csv(file);
+}
+
+NamedPoints requested_points(const SvfOptions& options, const PackageDescription& package) {
+  if (options.source == ReceiverSource::at) {
+    RequestedPoints one;
+    one.points = {options.at};
+    return NamedPoints(std::move(one));
+  }
+  RequestedPoints read = read_points(options.points_file, options.points_layer);
+  const std::string crs = crs_of(read, options, read.notes);
+  NamedPoints named(std::move(read));
+  if (!crs.empty()) move_to_package_crs(named, crs, package);
   return named;
+}
+
+bool has_column(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::any_of(names, [&](const std::string& n) { return lower_case(n) == lower_case(name); });
+}
+
+/// An attribute that is called like one of our columns comes back under another name: a measured `svf` beside the computed one.
+void rename_attributes_that_clash(NamedPoints& named, const AnswerColumns& columns) {
+  const std::vector<std::string> own = own_columns_of_points(named.has_normals(), columns);
+  for (std::size_t k = 0; k < named.attributes.names().size(); ++k) {
+    const std::string name = named.attributes.names()[k];
+    if (!has_column(own, name)) continue;
+    std::string free = name + "_input";
+    while (has_column(own, free) || has_column(named.attributes.names(), free)) free += "_input";
+    named.attributes.rename(k, free);
+    named.notes.push_back("The field \"" + name + "\" of the points comes back as \"" + free +
+                          "\": a column of the output has its name.");
+  }
 }
 
 std::optional<double> known(double value) { return std::isnan(value) ? std::nullopt : std::optional(value); }
@@ -108,17 +185,23 @@ std::optional<double> known(const std::vector<float>& values, std::size_t n) {
   return values.empty() ? std::nullopt : known(static_cast<double>(values[n]));
 }
 
+std::optional<double> known_degrees(const std::vector<Angle>& angles, std::size_t n) {
+  return angles.empty() ? std::nullopt : known(angles[n].degrees());
+}
+
 PointRows rows_of(const NamedPoints& named, const PointAnswers& answers) {
-  return {named.ids.size(), [&](std::size_t n) {
-            return PointRow{named.ids[n],          {named.x_m[n], named.y_m[n]}, known(answers.height_m[n]),
-                            known(answers.svf, n), known(answers.low, n),        known(answers.high, n)};
-          }};
+  const auto row = [&](std::size_t n) {
+    return PointRow{
+        named.ids[n],          {named.x_m[n], named.y_m[n]}, known(answers.height_m[n]),      known(answers.svf, n),
+        known(answers.low, n), known(answers.high, n),       known_degrees(named.azimuth, n), known_degrees(named.tilt, n)};
+  };
+  return {named.ids.size(), row, &named.attributes, named.has_normals()};
 }
 
 /// What is wrong with a point of a file is wrong with an input, and no mistake of ours.
 PointAnswers evaluate_named(const Package& package, const NamedPoints& named, const SvfOptions& options, const RunSettings& run) {
   try {
-    return evaluate_points(package, {named.x_m, named.y_m, named.z_m}, options.placing, options.evaluation, run);
+    return evaluate_points(package, named.points(), options.placing, options.evaluation, run);
   } catch (const InvalidPoint& error) {
     throw PointsError("point " + named.ids[error.index()] +
                       " lies nowhere on Earth: check its coordinates, and its CRS (--points-crs)");
@@ -144,13 +227,31 @@ WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSe
 }
 
 WrittenRun write_points(const Package& package, const SvfOptions& options, RunSettings run) {
-  const NamedPoints named = read_points(options, package.description());
-  // A point with its id; the library counts its answers
-  run.caller_bytes = named.ids.size() * (sizeof(std::string) + 3 * sizeof(double));
+  const AnswerColumns columns = answer_columns(options);
+  NamedPoints named = requested_points(options, package.description());
+  rename_attributes_that_clash(named, columns);
+  run.caller_bytes = named.bytes();  // the library counts its answers
   const PointAnswers answers = evaluate_named(package, named, options, run);
   WrittenRun written{answers.summary, {options.output}};
-  written.write_s =
-      seconds_of([&] { options.format->write_points(rows_of(named, answers), answer_columns(options), options.output); });
+  written.notes = named.notes;
+  written.skipped_features = named.skipped_features;
+  written.write_s = seconds_of([&] { options.format->write_points(rows_of(named, answers), columns, options.output); });
+  return written;
+}
+
+WrittenRun write_sky(const Package& package, const SvfOptions& options, const RunSettings& run) {
+  const Point2d place{options.at.x, options.at.y};
+  const std::string coordinates = fmt::format("{:.2f}, {:.2f}", place.x, place.y);
+  const auto hemisphere = look_up(package, place, options.at.z, options.placing, options.evaluation, run);
+  if (!hemisphere)
+    throw InputError("There is no sky to draw at " + coordinates +
+                     ": the place lies inside a building, below the ground, or where there is no ground. Choose another.");
+  const PackageDescription& city = package.description();
+  const std::string crs = city.epsg ? "EPSG:" + std::to_string(*city.epsg) : city.crs_name;
+  const SkyCaption caption{quantity_name(options.evaluation.weight),
+                           fmt::format("{} ({}), {:.2f} m above sea level", coordinates, crs, hemisphere->height_m)};
+  WrittenRun written{hemisphere->summary, {options.output}};
+  written.write_s = seconds_of([&] { write_drawing(draw_sky(*hemisphere, options.projection, caption), options.output); });
   return written;
 }
 

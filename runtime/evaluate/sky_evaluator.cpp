@@ -14,6 +14,7 @@
 #include "contract/cancellation.hpp"
 #include "contract/expects.hpp"
 #include "evaluate/error_budget.hpp"
+#include "evaluate/sky_parts.hpp"
 #include "evaluate/visibility.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/horizon_engine.hpp"
@@ -214,6 +215,32 @@ void SkyEvaluator::evaluate_by_horizons(const CellReceivers& cell, const SkyAnsw
   const auto scene_ready = Clock::now();
   draw_horizons(geometry, cell, answers);
   add_times(start, scene_ready);
+}
+
+SkyParts SkyEvaluator::parts_of_sky(const CellReceivers& cell, const HemisphereDirections& directions) const {
+  FARLOD_EXPECTS(cell.receivers.size() == 1);
+  const Receiver& receiver = cell.receivers.front();
+  const Occluder near = near_scene(package_, cell.cell);
+  const EvaluationMethod method = method_for(cell.cell);
+  if (method == EvaluationMethod::whole_city) {
+    const WholeCity& city = city_->get(package_, stop_);
+    const Point3f origin = city.scene_from_cell(receiver.p_cell, cell.cell);
+    return parts_by_rays(
+        directions, receiver, near,
+        [&](const Point3f& d) {
+          return city.occluder().blocks({origin, d, least_distance_m});
+        },
+        stop_);
+  }
+  if (method == EvaluationMethod::near_scene_and_box || method == EvaluationMethod::near_scene_alone) {
+    const BoxFarMap far = method == EvaluationMethod::near_scene_and_box ? package_.box_far_map(cell.cell) : BoxFarMap();
+    const auto is_hidden = [&](const Point3f& d) {
+      return near.blocks({receiver.p_cell, d, least_distance_m}) || far.blocks(Point3d{d.x, d.y, d.z});
+    };
+    return parts_by_rays(directions, receiver, near, is_hidden, stop_);
+  }
+  CellGeometry geometry = geometry_of(cell);
+  return parts_by_horizons(directions, receiver, geometry.far, geometry.silhouettes, geometry.overhangs, near, stop_);
 }
 
 void SkyEvaluator::evaluate_by_rays_against_horizons(const CellReceivers& cell, const SkyAnswers& answers) const {

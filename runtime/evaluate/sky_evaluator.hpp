@@ -22,6 +22,8 @@
 namespace farlod {
 
 class RayEngine;
+struct HemisphereDirections;
+struct SkyParts;
 struct PacketAnswer;
 struct PlacedScene;
 struct FreeRays;
@@ -103,6 +105,9 @@ class SkyEvaluator {
   /// whose far map is missing.
   void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const;
   void evaluate(const CellReceivers& cell, std::span<float> svf) const { evaluate(cell, SkyAnswers(svf)); }
+
+  /// What the only receiver of a cell sees, direction by direction, by the method of the cell.
+  [[nodiscard]] SkyParts parts_of_sky(const CellReceivers& cell, const HemisphereDirections& directions) const;
 
   [[nodiscard]] EvaluationStatistics statistics() const;
   [[nodiscard]] const PackageReader& package() const { return package_; }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "contract/lower_case.hpp"
 #include "results/picture/raster_preview.hpp"
 #include "results/raster/raster_writer_esri_ascii.hpp"
 #include "results/table/sky_table_csv.hpp"
@@ -47,7 +48,9 @@ constexpr OutputFormat formats[] = {
     {"GeoTIFF", {".tif", ".tiff"}, OutputKind::raster, true, make<GeotiffWriter>, GeotiffWriter::bytes_for, nullptr, nullptr},
 #endif
     {"CSV", {".csv", ""}, OutputKind::table, true, nullptr, nullptr, write_points_csv, make_surface_tables_csv},
-    {"PNG", {".png", ""}, OutputKind::picture, false, make<PngPreviewWriter>, PngPreviewWriter::bytes_for, nullptr, nullptr},
+    {"PNG", {".png", ""}, OutputKind::picture, false, make<PreviewWriter>, PreviewWriter::bytes_for, nullptr, nullptr},
+    {"SVG", {".svg", ""}, OutputKind::picture, false, make<PreviewWriter>, PreviewWriter::bytes_for, nullptr, nullptr},
+    {"PDF", {".pdf", ""}, OutputKind::picture, false, make<PreviewWriter>, PreviewWriter::bytes_for, nullptr, nullptr},
     {"ESRI ASCII grid",
      {".asc", ""},
      OutputKind::raster,
@@ -83,12 +86,6 @@ constexpr auto count_of(std::string_view ending) {
 static_assert(std::all_of(std::begin(formats), std::end(formats), [](const OutputFormat& f) {
   return count_of(f.endings[0]) == 1 && (f.endings[1].empty() || count_of(f.endings[1]) == 1);
 }));
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return text;
-}
 
 }  // namespace
 

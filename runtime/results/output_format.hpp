@@ -18,7 +18,7 @@ namespace farlod {
 /// What a file of a format holds, and therefore which receivers it is for.
 enum class OutputKind {
   raster,   ///< the values of --grid
-  picture,  ///< a drawing of the values of --grid; also for --preview
+  picture,  ///< a drawing of the values of --grid, also for --preview, or of the sky above --at
   table     ///< a row for each receiver of --points, --at or --surfaces
 };
 

@@ -103,8 +103,19 @@ INSTANTIATE_TEST_SUITE_P(
                 "a.farlod -o o.csv --at 1,2 --points-crs EPSG:4326",
                 exit_usage,
                 {"--points-crs", "--points"}},
+        Refused{"PointsLayerWithoutPoints",
+                "a.farlod -o o.csv --at 1,2 --points-layer a",
+                exit_usage,
+                {"--points-layer", "--points"}},
         Refused{"PreviewWithoutGrid", "a.farlod -o o.csv --at 1,2 --preview p.png", exit_usage, {"--preview", "--grid"}},
-        Refused{"PreviewIsNoPng", "a.farlod -o o.asc --grid 5 --preview p.jpg", exit_usage, {"--preview", "p.jpg", ".png"}},
+        Refused{"ProjectionOfATable",
+                "a.farlod -o o.csv --at 1,2 --projection equidistant",
+                exit_usage,
+                {"--projection", "picture of --at"}},
+        Refused{"PreviewIsNoPicture",
+                "a.farlod -o o.asc --grid 5 --preview p.jpg",
+                exit_usage,
+                {"--preview", "p.jpg", ".png, .svg, .pdf"}},
         Refused{"NoMemory", "a.farlod -o o.csv --at 1,2 --memory-limit 0", exit_usage, {"--memory-limit", "0"}},
         Refused{"UnknownOptionInConfig", "a.farlod -o o.asc --config typo.toml", exit_usage, {"--config", "rayz"}}),
     name_of);
@@ -119,11 +130,14 @@ std::vector<Refused> formats_that_do_not_fit() {
     if (format.kind == OutputKind::table)
       refused.push_back({"Grid_" + name, command + " --grid 5", exit_usage, {"-o", "--grid makes a raster", ending, rasters}});
     else
-      for (const std::string receivers : {"--points word.csv", "--at 1,2", "--surfaces all"})
+      for (const std::string receivers : {"--points word.csv", "--at 1,2", "--surfaces all"}) {
+        // The sky above a place is a picture
+        if (format.kind == OutputKind::picture && receivers == "--at 1,2") continue;
         refused.push_back({receivers.substr(2, receivers.find(' ') - 2) + "_" + name,
                            command + " " + receivers,
                            exit_usage,
                            {"-o", "only --grid makes a raster", tables}});
+      }
     if (format.kind != OutputKind::picture)
       refused.push_back({"Preview_" + name,
                          "a.farlod -o o.asc --grid 5 --preview p" + ending,
@@ -142,6 +156,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"ShortRow", "a.farlod -o o.csv --points short.csv", exit_unusable_input, {"short.csv:3", "ends before y"}},
         Refused{"NamelessColumns", "a.farlod -o o.csv --points nameless.csv", exit_unusable_input, {"nameless.csv:1", "x and y"}},
         Refused{"Empty", "a.farlod -o o.csv --points empty.csv", exit_unusable_input, {"empty.csv", "no points"}},
+        Refused{"LayerOfATable",
+                "a.farlod -o o.csv --points word.csv --points-layer a",
+                exit_unusable_input,
+                {"word.csv", "no layers"}},
         Refused{"HeaderAlone", "a.farlod -o o.csv --points headed.csv", exit_unusable_input, {"headed.csv", "no points"}},
         Refused{"BeyondAllMaps", "a.farlod -o o.csv --points galaxy.csv", exit_unusable_input, {"point 1", "nowhere on Earth"}},
         Refused{"AtBeyondAllMaps", "a.farlod -o o.csv --at 1e12,1e12", exit_unusable_input, {"point 1", "nowhere on Earth"}},
@@ -170,6 +188,14 @@ INSTANTIATE_TEST_SUITE_P(Gdal, SvfRefuses,
                                                  "a.farlod -o o.csv --points pole.csv --points-crs EPSG:4326",
                                                  exit_unusable_input,
                                                  {"point 1 at (9, 95)", "x is the longitude"}},
+                                         Refused{"PolygonsForPoints",
+                                                 "a.farlod -o o.csv --points town.geojson",
+                                                 exit_unusable_input,
+                                                 {"town.geojson", "holds no points"}},
+                                         Refused{"MissingVectorFile",
+                                                 "a.farlod -o o.csv --points lost.gpkg",
+                                                 exit_unusable_input,
+                                                 {"lost.gpkg", "cannot be read"}},
                                          Refused{"UnknownPointsCrs",
                                                  "a.farlod -o o.csv --points pole.csv --points-crs EPSG:99999",
                                                  exit_unusable_input,

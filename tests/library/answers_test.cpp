@@ -5,9 +5,12 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <vector>
 
 #include "farlod/error.hpp"
+#include "farlod/hemisphere.hpp"
 #include "farlod/points.hpp"
 #include "farlod/raster.hpp"
 #include "farlod/surfaces.hpp"
@@ -24,6 +27,9 @@ constexpr double summation_error = 1e-6;
 constexpr double height_rounding = 1e-4;
 /// Of a few sums and quotients of doubles near 1.
 constexpr double arithmetic_error = 1e-9;
+
+/// A place or a normal that is rounded once more moves an edge across three of a thousand rays at the most.
+constexpr double few_rays = 0.003 + 1e-6;
 
 class Answers : public testing::Test {
  protected:
@@ -75,6 +81,26 @@ TEST_F(Answers, PointsAndPixelsAgree) {
   EXPECT_EQ(compared, raster.summary.receivers);
   EXPECT_GT(compared, 100U);
   EXPECT_EQ(raster.summary.receivers + raster.summary.no_data + raster.summary.beyond_grid, plan.columns * plan.rows);
+}
+
+/// The directions of sky, weighted by what they count, are the answer of the same place.
+TEST_F(Answers, TheHemisphereHasTheViewFactor) {
+  const RasterPlan plan = plan_raster(package_, 9.0);
+  std::size_t compared = 0;
+  for (std::size_t n = 0; n < plan.columns * plan.rows; n += 7) {
+    const auto seen = look_up(package_, plan.centre_m(n % plan.columns, n / plan.columns));
+    if (!seen) continue;
+    double svf = 0.0;
+    for (std::size_t a = 0; a < seen->azimuths; ++a)
+      for (std::size_t e = 0; e < seen->elevations; ++e) {
+        const double part = 0.5 * std::numbers::pi / static_cast<double>(seen->elevations);
+        const double low = std::sin(static_cast<double>(e) * part), high = std::sin(static_cast<double>(e + 1) * part);
+        if (seen->part(a, e) == SkyPart::sky) svf += (high * high - low * low) / static_cast<double>(seen->azimuths);
+      }
+    EXPECT_NEAR(svf, seen->svf, 0.01) << n;
+    ++compared;
+  }
+  EXPECT_GT(compared, 10U);
 }
 
 TEST_F(Answers, TilesAreTheRaster) {
@@ -130,6 +156,46 @@ TEST_F(Answers, HeightsAboveSeaLevelAreThoseOfTheAnswers) {
                                                     {HeightAbove::sea_level, on_ground.height_m[n]});
     EXPECT_NEAR(by_placing.svf[0], on_ground.svf[n], height_rounding);
   }
+}
+
+/// The receivers of surfaces, asked for as points.
+TEST_F(Answers, PointsWithNormalsAreTheReceiversOfSurfaces) {
+  EvaluationSettings settings;
+  settings.engine = Engine::exact;  // other engines answer 16 neighbors at once, which round alike only when they are the same
+  std::vector<double> x, y, z;
+  std::vector<Angle> azimuth, tilt;
+  std::vector<std::optional<double>> svf;
+  (void)evaluate_surfaces(package_, {SurfaceChoice::all, 3.0}, settings, [&](std::size_t, std::span<const SurfacePoint> points) {
+    for (const SurfacePoint& p : points) {
+      x.push_back(p.p_projected.x);
+      y.push_back(p.p_projected.y);
+      z.push_back(p.p_projected.z);
+      azimuth.push_back(p.azimuth);
+      tilt.push_back(p.tilt);
+      svf.push_back(p.svf);
+    }
+  });
+  const PointAnswers points = evaluate_points(package_, {x, y, z, azimuth, tilt}, {}, settings);
+  std::size_t compared = 0;
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    if (!svf[n] || std::isnan(points.svf[n])) continue;
+    EXPECT_NEAR(points.svf[n], *svf[n], few_rays) << n;
+    ++compared;
+  }
+  EXPECT_GT(compared, x.size() / 2);
+}
+
+TEST_F(Answers, APointLooksUpUnlessItHasANormal) {
+  const Point2d p = middle_of(package_);
+  const std::vector<double> x(4, p.x), y(4, p.y), z(4, 1e4);  // far above the roofs
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Angle> azimuth{Angle::degrees(nan), Angle::degrees(20.0), Angle::degrees(-90.0), Angle::degrees(360.0)};
+  const std::vector<Angle> tilt{Angle::degrees(nan), Angle{}, Angle::degrees(90.0), Angle::degrees(180.0)};
+  const PointAnswers answers = evaluate_points(package_, {x, y, z, azimuth, tilt});
+  EXPECT_EQ(answers.svf[0], 1.0F);
+  EXPECT_EQ(answers.svf[1], 1.0F);
+  EXPECT_NEAR(answers.svf[2], 0.5F, few_rays);
+  EXPECT_NEAR(answers.svf[3], 0.0F, few_rays);
 }
 
 TEST_F(Answers, NoPointsAreNoMistake) {

@@ -16,6 +16,7 @@
 #include "farlod/points.hpp"
 #include "farlod/raster.hpp"
 #include "farlod/surfaces.hpp"
+#include "tests/library/library_calls.hpp"
 #include "tests/library/packed_sample.hpp"
 
 namespace farlod::library {
@@ -29,53 +30,10 @@ struct Thrown : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The arguments of a call, right until a case makes one of them wrong.
-struct Arguments {
-  explicit Arguments(const std::filesystem::path& folder) : package(folder) {
-    const Point2d p = middle_of(package);
-    x = {p.x, p.x + 30.0};
-    y = {p.y, p.y - 30.0};
-    plan = plan_raster(package, 8.0);
-  }
-
-  Package package;
-  std::vector<double> x, y, z;
-  std::vector<float> svf{0.0F, 0.0F}, low, high;
-  std::vector<double> height_m;
-  Placing placing;
-  RasterPlan plan;
-  SurfaceSettings surfaces{SurfaceChoice::all, 20.0};
-  EvaluationSettings settings;
-  RunSettings run;
-  OnRasterTile on_tile = [](const RasterTile&) {};
-  OnSurfacePoints on_points;
-};
-
-using Call = std::function<void(Arguments&)>;
-using Change = std::function<void(Arguments&)>;
-
-struct Named {
-  std::string name;
-  Call call;
-};
-
-const Named points_into{
-    "points_into", [](Arguments& a) {
-      (void)evaluate_points(a.package, {a.x, a.y, a.z}, a.placing, a.settings, {a.svf, a.low, a.high, a.height_m}, a.run);
-    }};
-const Named points{"points", [](Arguments& a) {
-                     (void)evaluate_points(a.package, {a.x, a.y, a.z}, a.placing, a.settings, a.run);
-                   }};
-const Named tiles{"tiles",
-                  [](Arguments& a) { (void)evaluate_raster(a.package, a.plan, a.placing, a.settings, a.on_tile, a.run); }};
-const Named raster{"raster", [](Arguments& a) { (void)evaluate_raster(a.package, a.plan, a.placing, a.settings, a.run); }};
-const Named surfaces{"surfaces",
-                     [](Arguments& a) { (void)evaluate_surfaces(a.package, a.surfaces, a.settings, a.on_points, a.run); }};
-const Named plan{"plan", [](Arguments& a) { (void)plan_raster(a.package, a.plan.step_m); }};
-const Named description{"description", [](Arguments& a) { (void)a.package.description(); }};
-
 /// The kind of exception that a wrong call ends with.
 enum class Ends { invalid, invalid_point, limit, cancelled, with_what_was_thrown };
+
+using Change = std::function<void(Arguments&)>;
 
 struct WrongCall {
   std::string name;
@@ -250,6 +208,25 @@ void add_points(Cases& cases) {
   });
 }
 
+void add_normals(Cases& cases) {
+  const std::vector<Named> both{points_into, points};
+  const auto with = [&](const std::string& name, const std::vector<double>& azimuth_deg, const std::vector<double>& tilt_deg,
+                        Ends ends) {
+    const auto change = [=](Arguments& a) {
+      for (const double d : azimuth_deg) a.azimuth.push_back(Angle::degrees(d));
+      for (const double d : tilt_deg) a.tilt.push_back(Angle::degrees(d));
+    };
+    cases.add(both, name, change, ends);
+  };
+  with("azimuths without tilts", {0.0, 0.0}, {}, Ends::invalid);
+  with("tilts without azimuths", {}, {0.0, 0.0}, Ends::invalid);
+  with("one azimuth too few", {0.0}, {0.0, 0.0}, Ends::invalid);
+  with("one tilt too many", {0.0, 0.0}, {0.0, 0.0, 0.0}, Ends::invalid);
+  for (const double d : {nan, infinity, -361.0, 361.0})
+    with("azimuth " + std::to_string(d), {0.0, d}, {0.0, 90.0}, Ends::invalid_point);
+  for (const double d : {infinity, -1.0, 181.0}) with("tilt " + std::to_string(d), {0.0, 0.0}, {0.0, d}, Ends::invalid_point);
+}
+
 void add_rasters(Cases& cases) {
   const std::vector<Named> both{tiles, raster};
   for (const double step_m : {nan, infinity, 0.0, -2.0, 0.001, 1e6})
@@ -296,6 +273,7 @@ std::vector<WrongCall> all_wrong_calls() {
   add_closed_packages(cases);
   add_placings(cases);
   add_points(cases);
+  add_normals(cases);
   add_rasters(cases);
   add_surfaces(cases);
   return cases.list();

@@ -13,7 +13,6 @@ struct Colour {
   std::uint8_t red = 0, green = 0, blue = 0;
   bool operator==(const Colour&) const = default;
 };
-static_assert(sizeof(Colour) == 3, "pictures are handed to encoders as rows of bytes");
 
 /// A pixel's place, counted from the upper left corner.
 struct Pixel {

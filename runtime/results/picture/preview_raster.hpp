@@ -22,8 +22,9 @@ inline constexpr std::size_t longest_preview_edge = 2000;
 /// Small rasters are enlarged towards this, by the largest whole factor that does not pass it.
 inline constexpr std::size_t wished_preview_edge = 1000;
 
-/// What the largest preview and the picture of it hold in memory: a float and three bytes a pixel, twice for the float.
-inline constexpr std::size_t bytes_of_largest_preview = longest_preview_edge * longest_preview_edge * (2 * sizeof(float) + 3);
+/// What the largest preview and the picture of it hold in memory: a float and three bytes a pixel. Enlarged ones hold the float
+/// twice, and are at most a quarter as large.
+inline constexpr std::size_t bytes_of_largest_preview = longest_preview_edge * longest_preview_edge * (sizeof(float) + 3);
 
 /// Fits a raster to a screen: large ones are averaged over squares of whole pixels, small ones repeat each pixel a whole number
 /// of times. A square without an answer in most of its pixels has none itself. Tiles come in any order, each once or not at all.

@@ -7,23 +7,22 @@
 #include <utility>
 
 #include "results/decimal.hpp"
-#include "results/picture/bitmap_font.hpp"
 #include "results/picture/colour_map.hpp"
-#include "results/picture/png_writer.hpp"
 
 namespace farlod {
 namespace {
 
-constexpr Colour paper{255, 255, 255}, ink{32, 32, 32};
-constexpr TextStyle text_style{2, ink};
-constexpr std::size_t margin = 24, gap = 16, line = 2, tick = 6;
-constexpr std::size_t text_height = 18;
+constexpr Colour ink{32, 32, 32}, muted{96, 96, 96};
+constexpr double title_height = 22.0, text_height = 15.0;
+constexpr double line_width = 1.5, tick = 6.0;
+constexpr std::size_t margin = 24, gap = 16, heading_height = 50;
 constexpr PixelSize legend_size{96, 280};
-constexpr std::size_t colour_bar_width = 28;
-constexpr std::size_t footer_height = 48, arrow_height = 28;
+constexpr std::size_t colour_bar_width = 28, footer_height = 48;
+constexpr double arrow_height = 28.0, arrow_half_width = 9.0;
 constexpr std::size_t narrowest_content = 560;  // the longest title must fit
 constexpr double longest_scale_bar = 200.0;
-constexpr int colour_ticks = 5;  // at 0.0, 0.2, … 1.0
+constexpr int colour_ticks = 5;             // at 0.0, 0.2, … 1.0
+constexpr double half_digit_height = 0.36;  // of a font's size
 
 std::string title_of(const std::string& quantity) {
   if (quantity == "svf") return "Sky view factor (svf)";
@@ -31,60 +30,77 @@ std::string title_of(const std::string& quantity) {
   return quantity;
 }
 
-void draw_map(Picture& picture, const PreviewLayout& layout, const PreviewRaster& raster) {
-  for (std::size_t row = 0; row < raster.rows; ++row) {
+/// The unit of the colours, the pixels that they stand for, and where north is up.
+std::string subtitle_of(const RasterFrame& frame) {
+  std::string text = "No unit: 0 hidden, 1 open sky. Pixels of " + shortest_decimal(frame.step_m) + " m";
+  if (frame.epsg) text += ", EPSG:" + std::to_string(*frame.epsg);
+  return text;
+}
+
+PagePoint point_of(Pixel p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
+
+Picture map_of(const PreviewRaster& raster) {
+  Picture map({raster.columns, raster.rows}, nodata_colour);
+  for (std::size_t row = 0; row < raster.rows; ++row)
     for (std::size_t column = 0; column < raster.columns; ++column) {
       const float svf = raster.svf[row * raster.columns + column];
-      picture.set({layout.map.x + column, layout.map.y + row}, std::isnan(svf) ? nodata_colour : colour_of_svf(svf));
+      if (!std::isnan(svf)) map.set({column, row}, colour_of_svf(svf));
     }
-  }
+  return map;
 }
 
-void draw_colour_bar(Picture& picture, const PreviewLayout& layout) {
-  const auto [width, height] = layout.colour_bar_size;
-  for (std::size_t y = 0; y < height; ++y) {
-    const double svf = 1.0 - static_cast<double>(y) / static_cast<double>(height - 1);
-    picture.fill({layout.colour_bar.x, layout.colour_bar.y + y}, {width, 1}, colour_of_svf(svf));
+Picture colour_scale_of(PixelSize size) {
+  Picture scale(size, ink);
+  for (std::size_t y = 0; y < size.height; ++y) {
+    const double svf = 1.0 - static_cast<double>(y) / static_cast<double>(size.height - 1);
+    scale.fill({0, y}, {size.width, 1}, colour_of_svf(svf));
   }
+  return scale;
+}
+
+void add_colour_bar(Drawing& drawing, const PreviewLayout& layout) {
+  drawing.shapes.emplace_back(Image{layout.colour_bar, colour_scale_of(layout.colour_bar_size)});
+  const auto [left, top] = point_of(layout.colour_bar);
+  const double right = left + static_cast<double>(layout.colour_bar_size.width);
   for (int n = 0; n <= colour_ticks; ++n) {
     const double svf = static_cast<double>(n) / colour_ticks;
-    const auto down = static_cast<std::size_t>(std::lround((1.0 - svf) * static_cast<double>(height - line)));
-    const Pixel place{layout.colour_bar.x + width, layout.colour_bar.y + down};
-    picture.fill(place, {tick, line}, ink);
-    draw_text(picture, {place.x + tick + 4, place.y - 6}, svf_decimal(svf).substr(0, 3), text_style);
+    const double y = top + 0.5 + (1.0 - svf) * static_cast<double>(layout.colour_bar_size.height - 1);
+    drawing.shapes.emplace_back(Line{{{right, y}, {right + tick, y}}, line_width, ink});
+    drawing.shapes.emplace_back(Text{{right + tick + 4.0, y + half_digit_height * text_height},
+                                     svf_decimal(svf).substr(0, 3),
+                                     text_height,
+                                     Alignment::left,
+                                     ink});
   }
 }
 
-void draw_scale_bar(Picture& picture, Pixel place, double metres_per_pixel) {
-  const double length_m = round_length_m(longest_scale_bar * metres_per_pixel);
-  const auto width = static_cast<std::size_t>(std::lround(length_m / metres_per_pixel));
-  const std::size_t y = place.y + text_height + 10;
-  picture.fill({place.x, y}, {width, line}, ink);
-  picture.fill({place.x, y - tick}, {line, tick + line}, ink);
-  picture.fill({place.x + width - line, y - tick}, {line, tick + line}, ink);
-  draw_text(picture, {place.x + 8, place.y}, shortest_decimal(length_m) + " m", text_style);
+void add_scale_bar(Drawing& drawing, PagePoint place, double metres_per_pixel) {
+  const double length_m = round_length_m(longest_scale_bar * metres_per_pixel), width = length_m / metres_per_pixel;
+  const double y = place.y + text_height + 12.0;
+  drawing.shapes.emplace_back(
+      Line{{{place.x, y - tick}, {place.x, y}, {place.x + width, y}, {place.x + width, y - tick}}, line_width, ink});
+  drawing.shapes.emplace_back(
+      Text{{place.x + 0.5 * width, y - tick}, shortest_decimal(length_m) + " m", text_height, Alignment::centre, ink});
 }
 
-void draw_nodata_legend(Picture& picture, Pixel place) {
-  const std::size_t edge = 14;
-  picture.fill({place.x, place.y}, {edge, edge}, nodata_colour);
-  draw_text(picture, {place.x + edge + 8, place.y}, "no data", text_style);
+void add_nodata_legend(Drawing& drawing, PagePoint place) {
+  constexpr double edge = 14.0;
+  drawing.shapes.emplace_back(box(place, edge, edge, nodata_colour));
+  drawing.shapes.emplace_back(Text{{place.x + edge + 8.0, place.y + edge - 2.0}, "no data", text_height, Alignment::left, ink});
 }
 
-void draw_north_arrow(Picture& picture, Pixel tip) {
-  for (std::size_t down = 0; down < arrow_height; ++down) {
-    const std::size_t half = down / 3;
-    picture.fill({tip.x - half, tip.y + down}, {2 * half + 1, 1}, ink);
-  }
-  const PixelSize letter = text_size("N", text_style);
-  draw_text(picture, {tip.x - letter.width / 2, tip.y + arrow_height + 4}, "N", text_style);
+void add_north_arrow(Drawing& drawing, PagePoint tip) {
+  const double foot = tip.y + arrow_height;
+  drawing.shapes.emplace_back(
+      Polygon{{tip, {tip.x + arrow_half_width, foot}, {tip.x, foot - 7.0}, {tip.x - arrow_half_width, foot}}, ink});
+  drawing.shapes.emplace_back(Text{{tip.x, foot + text_height}, "N", text_height, Alignment::centre, ink});
 }
 
 }  // namespace
 
 PreviewLayout preview_layout(PixelSize map_size) {
   PreviewLayout layout;
-  layout.map = {margin, margin + text_height + gap};
+  layout.map = {margin, margin + heading_height + gap};
   layout.map_size = map_size;
   const std::size_t map_column = std::max(map_size.width, narrowest_content - gap - legend_size.width);
   layout.colour_bar = {margin + map_column + gap, layout.map.y};
@@ -101,21 +117,30 @@ double round_length_m(double limit_m) {
   return power;
 }
 
-Picture draw_preview(const PreviewRaster& raster, const std::string& quantity) {
+Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame) {
   const PreviewLayout layout = preview_layout({raster.columns, raster.rows});
-  Picture picture(layout.picture, paper);
-  draw_text(picture, {margin, margin}, title_of(quantity), text_style);
-  draw_map(picture, layout, raster);
-  draw_colour_bar(picture, layout);
-  draw_scale_bar(picture, layout.footer, raster.metres_per_pixel);
-  draw_nodata_legend(picture, {layout.footer.x + 230, layout.footer.y + 14});
-  draw_north_arrow(picture, {layout.colour_bar.x + legend_size.width / 2, layout.footer.y - 4});
-  return picture;
+  Drawing drawing{layout.picture, title_of(frame.quantity)};
+  const double left = static_cast<double>(margin), top = static_cast<double>(margin);
+  drawing.shapes.emplace_back(Text{{left, top + title_height}, drawing.title, title_height, Alignment::left, ink});
+  drawing.shapes.emplace_back(
+      Text{{left, top + static_cast<double>(heading_height)}, subtitle_of(frame), text_height, Alignment::left, muted});
+  drawing.shapes.emplace_back(Image{layout.map, map_of(raster)});
+  add_colour_bar(drawing, layout);
+  const PagePoint footer = point_of(layout.footer);
+  add_scale_bar(drawing, footer, raster.metres_per_pixel);
+  add_nodata_legend(drawing, {footer.x + 230.0, footer.y + 14.0});
+  add_north_arrow(drawing, {point_of(layout.colour_bar).x + 0.5 * static_cast<double>(legend_size.width), footer.y - 4.0});
+  return drawing;
 }
 
-PngPreviewWriter::PngPreviewWriter(const RasterFrame& frame, std::filesystem::path path)
-    : fit_(frame), quantity_(frame.quantity), path_(std::move(path)) {}
+PreviewWriter::PreviewWriter(const RasterFrame& frame, std::filesystem::path path)
+    : fit_(frame), frame_(frame), path_(std::move(path)) {}
 
-void PngPreviewWriter::commit() { write_png(draw_preview(fit_.preview(), quantity_), path_); }
+void PreviewWriter::commit() { write_drawing(draw_preview(fit_.preview(), frame_), path_); }
+
+std::uint64_t PreviewWriter::bytes_for(const RasterFrame& frame) {
+  return ScreenFit::bytes_for(frame) + bytes_of_largest_preview +
+         bytes_to_write_drawing(std::uint64_t{longest_preview_edge} * longest_preview_edge);
+}
 
 }  // namespace farlod

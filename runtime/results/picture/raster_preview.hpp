@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "results/picture/picture.hpp"
+#include "results/picture/drawing.hpp"
 #include "results/picture/preview_raster.hpp"
 #include "results/raster/raster_writer.hpp"
 
@@ -28,22 +28,20 @@ struct PreviewLayout {
 [[nodiscard]] double round_length_m(double limit_m);
 
 /// Draws a raster as a map with a title, a colour scale from 0 to 1, a scale bar in metres and a north arrow.
-[[nodiscard]] Picture draw_preview(const PreviewRaster& raster, const std::string& quantity);
+[[nodiscard]] Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame);
 
-/// Draws the raster and writes it as PNG, without bounds.
-class PngPreviewWriter : public RasterWriter {
+/// Draws the raster and writes it as PNG, SVG or PDF, without bounds.
+class PreviewWriter : public RasterWriter {
  public:
-  PngPreviewWriter(const RasterFrame& frame, std::filesystem::path path);
+  PreviewWriter(const RasterFrame& frame, std::filesystem::path path);
   void write(const RasterTile& tile) override { fit_.add(tile); }
   void commit() override;
   /// The sums of the preview's pixels, and the picture that commit() draws.
-  [[nodiscard]] static std::uint64_t bytes_for(const RasterFrame& frame) {
-    return ScreenFit::bytes_for(frame) + bytes_of_largest_preview;
-  }
+  [[nodiscard]] static std::uint64_t bytes_for(const RasterFrame& frame);
 
  private:
   ScreenFit fit_;
-  std::string quantity_;
+  RasterFrame frame_;
   std::filesystem::path path_;
 };
 

@@ -22,6 +22,8 @@ TEST(OutputFormat, FollowsTheEndingInAnyCase) {
   EXPECT_EQ(name_of("out/a.csv"), "CSV");
   EXPECT_EQ(name_of("A.CSV"), "CSV");
   EXPECT_EQ(name_of("a.b.Png"), "PNG");
+  EXPECT_EQ(name_of("a.SVG"), "SVG");
+  EXPECT_EQ(name_of("a.pdf"), "PDF");
   EXPECT_EQ(name_of("a.asc"), "ESRI ASCII grid");
 }
 
@@ -30,7 +32,7 @@ TEST(OutputFormat, UnknownEndingsHaveNone) {
 }
 
 TEST(OutputFormat, TheseAreAllEndings) {
-  const std::string others = ".csv, .png, .asc";
+  const std::string others = ".csv, .png, .svg, .pdf, .asc";
 #ifdef FARLOD_WITH_GDAL
   const std::string expected = ".tif, .tiff, " + others;
 #else
@@ -92,7 +94,7 @@ TEST(OutputFormat, EachWritesAFileOfItsEnding) {
     EXPECT_NE(scenes::text_of(output_of(format, folder)), "") << format.name;
     if (format.kind != OutputKind::table) continue;
     const std::filesystem::path points = folder.file("points" + std::string(format.endings[0]));
-    format.write_points({1, [](std::size_t) { return PointRow{}; }}, {"svf", BoundsColumns::yes}, points);
+    format.write_points({1, [](std::size_t) { return PointRow{}; }, nullptr, false}, {"svf", BoundsColumns::yes}, points);
     EXPECT_NE(scenes::text_of(points), "") << format.name;
   }
 }

@@ -103,9 +103,9 @@ TEST(GeotiffTiles, WhatDoesNotComeHasNoData) {
 TEST(PngTiles, MakeTheSamePictureInWhateverOrderTheyCome) {
   const scenes::TemporaryFolder folder;
   const WholeRaster raster = raster_of_six_tiles();
-  PngPreviewWriter writer(raster, folder.file("a.png"));
+  PreviewWriter writer(raster, folder.file("a.png"));
   write_backwards(writer, raster);
-  write_whole<PngPreviewWriter>(raster, folder.file("b.png"));
+  write_whole<PreviewWriter>(raster, folder.file("b.png"));
   EXPECT_EQ(scenes::text_of(folder.file("a.png")), scenes::text_of(folder.file("b.png")));
 }
 

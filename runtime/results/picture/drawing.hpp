@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "results/picture/picture.hpp"
+
+namespace farlod {
+
+/// A place of a drawing, in pixels of 1/96 inch from its upper left corner: x to the right, y downwards.
+struct PagePoint {
+  double x = 0.0, y = 0.0;
+};
+
+/// A polygon filled with a colour. The last corner is joined to the first.
+struct Polygon {
+  std::vector<PagePoint> corners;
+  Colour colour;
+};
+
+/// A line through some places.
+struct Line {
+  std::vector<PagePoint> places;
+  double width = 1.0;
+  Colour colour;
+};
+
+/// Where `Text::place` is along the line of text.
+enum class Alignment : std::uint8_t { left, centre, right };
+
+/// One line of text in UTF-8. `place` lies on its base line, `height` is the font's size in pixels.
+struct Text {
+  PagePoint place;
+  std::string words;
+  double height = 16.0;
+  Alignment alignment = Alignment::left;
+  Colour colour;
+};
+
+/// An image whose pixels are those of the drawing.
+struct Image {
+  Pixel upper_left;
+  Picture picture;
+};
+
+/// What a picture shows, whatever its file is. Later shapes hide earlier ones.
+struct Drawing {
+  PixelSize size;
+  std::string title;  ///< of the document, which readers of screens and lists of files show
+  Colour paper{255, 255, 255};
+  std::vector<std::variant<Polygon, Line, Text, Image>> shapes = {};
+};
+
+/// An upright rectangle.
+[[nodiscard]] inline Polygon box(PagePoint upper_left, double width, double height, Colour colour) {
+  const auto [x, y] = upper_left;
+  return {{{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, colour};
+}
+
+/// The longest edge of a drawing, in pixels.
+inline constexpr std::size_t longest_drawing_edge = 32767;
+
+/// Writes a drawing as PNG, SVG or PDF, by the ending of the path (in capitals or not). The same drawing gives the same bytes. A
+/// path with another ending is a mistake of the caller. Throws OutputError.
+void write_drawing(const Drawing& drawing, const std::filesystem::path& path);
+
+/// What write_drawing holds in memory besides the drawing, of one with so many pixels; the images are no larger than that.
+[[nodiscard]] constexpr std::uint64_t bytes_to_write_drawing(std::uint64_t pixels) { return pixels * 2 * sizeof(std::uint32_t); }
+
+}  // namespace farlod

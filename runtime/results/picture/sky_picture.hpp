@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "farlod/hemisphere.hpp"
+#include "results/picture/drawing.hpp"
+
+namespace farlod {
+
+/// How the hemisphere is laid into a disk, whose middle is the zenith. With the zenith angle θ, the distance from the middle is
+enum class SkyProjection : std::uint8_t {
+  equidistant,  ///< θ / 90°
+  equal_area,   ///< √2 sin(θ / 2): equal areas are equal solid angles (Lambert)
+  orthographic  ///< sin θ: equal areas have equal shares of the sky view factor (Nusselt's analogue)
+};
+
+/// A direction of the hemisphere, and its place in the disk of radius 1 as it is seen from below: v towards north, u towards
+/// west. Each is the inverse of the other.
+struct HemisphereDirection {
+  double azimuth_deg = 0.0, zenith_angle_deg = 0.0;
+};
+struct DiskPoint {
+  double u = 0.0, v = 0.0;
+};
+[[nodiscard]] DiskPoint disk_point_of(const HemisphereDirection& direction, SkyProjection projection);
+/// Empty outside of the disk.
+[[nodiscard]] std::optional<HemisphereDirection> direction_of(const DiskPoint& point, SkyProjection projection);
+
+[[nodiscard]] Colour colour_of(SkyPart part);
+
+/// The disk, in a square with edges of `edge` pixels; around it is paper.
+[[nodiscard]] Picture draw_sky_disk(const Hemisphere& hemisphere, SkyProjection projection, std::size_t edge);
+
+/// What the legend says besides.
+struct SkyCaption {
+  std::string quantity;  ///< "svf" or "svf_solid"
+  std::string place;     ///< coordinates and CRS
+};
+
+/// The disk with the horizon, the four directions, the view factor and a legend.
+[[nodiscard]] Drawing draw_sky(const Hemisphere& hemisphere, SkyProjection projection, const SkyCaption& caption);
+
+}  // namespace farlod

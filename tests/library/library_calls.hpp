@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "farlod/points.hpp"
+#include "farlod/raster.hpp"
+#include "farlod/surfaces.hpp"
+#include "tests/library/packed_sample.hpp"
+
+namespace farlod::library {
+
+/// The arguments of a call, right until a case makes one of them wrong.
+struct Arguments {
+  explicit Arguments(const std::filesystem::path& folder) : package(folder) {
+    const Point2d p = middle_of(package);
+    x = {p.x, p.x + 30.0};
+    y = {p.y, p.y - 30.0};
+    plan = plan_raster(package, 8.0);
+  }
+
+  Package package;
+  std::vector<double> x, y, z;
+  std::vector<Angle> azimuth, tilt;
+  std::vector<float> svf{0.0F, 0.0F}, low, high;
+  std::vector<double> height_m;
+  Placing placing;
+  RasterPlan plan;
+  SurfaceSettings surfaces{SurfaceChoice::all, 20.0};
+  EvaluationSettings settings;
+  RunSettings run;
+  OnRasterTile on_tile = [](const RasterTile&) {};
+  OnSurfacePoints on_points;
+};
+
+using Call = std::function<void(Arguments&)>;
+
+struct Named {
+  std::string name;
+  Call call;
+};
+
+inline const Named points_into{"points_into", [](Arguments& a) {
+                                 (void)evaluate_points(a.package, {a.x, a.y, a.z, a.azimuth, a.tilt}, a.placing, a.settings,
+                                                       {a.svf, a.low, a.high, a.height_m}, a.run);
+                               }};
+inline const Named points{"points", [](Arguments& a) {
+                            (void)evaluate_points(a.package, {a.x, a.y, a.z, a.azimuth, a.tilt}, a.placing, a.settings, a.run);
+                          }};
+inline const Named tiles{"tiles",
+                         [](Arguments& a) { (void)evaluate_raster(a.package, a.plan, a.placing, a.settings, a.on_tile, a.run); }};
+inline const Named raster{"raster", [](Arguments& a) { (void)evaluate_raster(a.package, a.plan, a.placing, a.settings, a.run); }};
+inline const Named surfaces{"surfaces",
+                            [](Arguments& a) { (void)evaluate_surfaces(a.package, a.surfaces, a.settings, a.on_points, a.run); }};
+inline const Named plan{"plan", [](Arguments& a) { (void)plan_raster(a.package, a.plan.step_m); }};
+inline const Named description{"description", [](Arguments& a) { (void)a.package.description(); }};
+
+}  // namespace farlod::library
