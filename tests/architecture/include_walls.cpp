@@ -36,7 +36,7 @@ constexpr Wall walls[] = {
      "the runtime ships without the geometry stack"},
     {"^runtime/", "^runtime/results/[a-z_/]+_gdal\\.cpp$", "^(" GDAL_HEADERS ")",
      "the runtime library never needs GDAL; results/*_gdal.cpp are a library apart"},
-    {"^runtime/(app|points|results)/", NOWHERE,
+    {"^runtime/(app|points|results|sun)/", NOWHERE,
      "^(package|occlusion|scene|horizon|rays|receivers|evaluate|run|contract/(?!expects|lower_case|point_columns))",
      "a program is a user of the library"},
     {"^preprocess/app/", NOWHERE, "^(city|ingest|georeference|align|tiles|farmap|package|trial|pipeline|occlusion|contract)/",
@@ -64,6 +64,7 @@ constexpr Wall walls[] = {
     {"^(benchmark|validation)/", NOWHERE, "^tests/(?!scenes/)", "what measures shares the scenes of the tests, and no test"},
 
     {"^(preprocess|runtime)/", "_cairo\\.cpp$", "^(cairo|pango/|png\\.h)", "the wrapper of Cairo and Pango is *_cairo.cpp"},
+    {"^(preprocess|runtime)/", "_erfa\\.cpp$", "^erfa", "ERFA's wrapper is *_erfa.cpp"},
     {"^(preprocess|runtime)/", "/app/", "^(CLI/|spdlog/|iostream$|print$)", "libraries neither print nor read command lines"},
     {"^(preprocess|runtime)/.*\\.hpp$", "/app/|_(cgal|embree)\\.hpp$", "^(?![a-z_0-9]+$|[a-z_]+/[a-z_0-9/]+\\.hpp$)",
      "headers name no foreign library"},

@@ -105,6 +105,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Planted{"preprocess/farmap/a.cpp", "#include <png.h>", "the wrapper of Cairo"},
                     Planted{"runtime/results/picture/a.cpp", "#include <cairo.h>", "the wrapper of Cairo"},
                     Planted{"runtime/results/picture/a.cpp", "#include <pango/pangocairo.h>", "the wrapper of Cairo"},
+                    Planted{"runtime/sun/a.cpp", "#include <erfa.h>", "ERFA's wrapper"},
+                    Planted{"runtime/sun/a.cpp", "#include \"run/facing.hpp\"", "a user of the library"},
                     Planted{"preprocess/farmap/a.cpp", "#include <iostream>", "neither print"},
                     Planted{"preprocess/farmap/a.cpp", "#include <CLI/CLI.hpp>", "neither print"},
                     Planted{"preprocess/farmap/a.hpp", "#include <tbb/parallel_for.h>", "headers name no foreign library"},

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+#include "farlod/angle.hpp"
+#include "farlod/quantities.hpp"
+
+namespace farlod {
+
+/// A place on the Earth (WGS84).
+struct PlaceOnEarth {
+  Angle longitude, latitude;
+  double height_m = 0.0;  ///< above the ellipsoid
+};
+
+/// What refracts light near the ground.
+struct Atmosphere {
+  double pressure_hpa = 1010.0, temperature_c = 10.0;
+};
+
+/// Where the middle of the sun is seen.
+struct SunDirection {
+  Angle azimuth;  ///< clockwise from true north
+  Angle elevation;
+};
+
+/// The sun's direction at a time (UTC, from 1960 on), with aberration, parallax and refraction, by ERFA (the SOFA functions of the
+/// IAU): for centuries better than .001°, were it not for the refraction, which is Sæmundsson's formula (as in NREL's SPA) and
+/// depends on the weather.
+[[nodiscard]] SunDirection sun_direction(const PlaceOnEarth& place, std::chrono::sys_time<std::chrono::milliseconds> time_utc,
+                                         const Atmosphere& atmosphere = {});
+
+/// The directions of the sun above the horizon, in the middle of steps of so many minutes, from the midnight before `first` on for
+/// some days. Midnight is that of local mean time: hours of sunshine depend on no time zone.
+[[nodiscard]] std::vector<SunPosition> sun_positions(const PlaceOnEarth& place, std::chrono::sys_days first, std::size_t days,
+                                                     std::chrono::minutes step);
+
+}  // namespace farlod

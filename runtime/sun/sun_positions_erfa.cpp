@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <erfa.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "contract/expects.hpp"
+#include "farlod/error.hpp"
+#include "sun/sun_positions.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr double speed_of_light_au_per_day = 173.144632674, au_m = 149597870700.0;
+constexpr int wgs84 = 1;
+
+/// A Julian date in the two parts that ERFA takes.
+struct JulianDate {
+  double day = 0.0, part = 0.0;
+};
+
+struct Times {
+  JulianDate terrestrial, universal;
+};
+
+Times times_of(std::chrono::sys_time<std::chrono::milliseconds> time_utc) {
+  constexpr double epoch_1970 = 2440587.5, milliseconds_a_day = 86'400'000.0;
+  if (time_utc < std::chrono::sys_days(std::chrono::year(1960) / 1 / 1))
+    throw InvalidArgument("the sun's positions are known from 1960 on: give a later date");
+  // UT1 is within a second of UTC, in which the sun moves by .004°: leap seconds keep it there
+  Times times;
+  times.universal = {epoch_1970, static_cast<double>(time_utc.time_since_epoch().count()) / milliseconds_a_day};
+  JulianDate atomic;
+  // Beyond the table of leap seconds, the last of them counts
+  (void)eraUtctai(times.universal.day, times.universal.part, &atomic.day, &atomic.part);
+  (void)eraTaitt(atomic.day, atomic.part, &times.terrestrial.day, &times.terrestrial.part);
+  return times;
+}
+
+using Vector = std::array<double, 3>;
+
+/// From the middle of the Earth to where the sun is seen, in au; frame of the true equator and equinox of date.
+Vector seen_from_the_middle(const JulianDate& tt) {
+  double heliocentric[2][3], barycentric[2][3], of_date[3][3];
+  (void)eraEpv00(tt.day, tt.part, heliocentric, barycentric);
+  double sun[3];
+  const double distance = eraPm(heliocentric[0]);
+  for (std::size_t k = 0; k < 3; ++k)
+    sun[k] = -heliocentric[0][k] + distance * barycentric[1][k] / speed_of_light_au_per_day;  // aberration
+  Vector result{};
+  eraPnm00b(tt.day, tt.part, of_date);
+  eraRxp(of_date, sun, result.data());
+  return result;
+}
+
+/// The place, in the same frame and unit, where the Earth has turned by `sidereal`.
+Vector place_in_space(const PlaceOnEarth& place, double sidereal) {
+  Vector p{};
+  const int status = eraGd2gc(wgs84, place.longitude.radians(), place.latitude.radians(), place.height_m, p.data());
+  FARLOD_EXPECTS(status == 0);
+  const double cosine = std::cos(sidereal), sine = std::sin(sidereal);
+  return {(cosine * p[0] - sine * p[1]) / au_m, (sine * p[0] + cosine * p[1]) / au_m, p[2] / au_m};
+}
+
+/// T. Sæmundsson, Sky and Telescope 72 (1986) 70; pressure and temperature as in I. Reda and A. Andreas, NREL/TP-560-34302.
+double refraction_deg(double elevation_deg, const Atmosphere& air) {
+  constexpr double lowest_deg = -1.0;  // below, the sun is not seen, and the formula has a pole
+  if (elevation_deg < lowest_deg) return 0.0;
+  const double at = elevation_deg + 10.3 / (elevation_deg + 5.11);
+  return air.pressure_hpa / 1010.0 * 283.0 / (273.0 + air.temperature_c) * 1.02 / (60.0 * tan(Angle::degrees(at)));
+}
+
+}  // namespace
+
+SunDirection sun_direction(const PlaceOnEarth& place, std::chrono::sys_time<std::chrono::milliseconds> time_utc,
+                           const Atmosphere& atmosphere) {
+  const Times times = times_of(time_utc);
+  const double sidereal = eraGst00b(times.universal.day, times.universal.part);
+  Vector sun = seen_from_the_middle(times.terrestrial);
+  const Vector observer = place_in_space(place, sidereal);
+  for (std::size_t k = 0; k < 3; ++k) sun[k] -= observer[k];
+  double right_ascension = 0.0, declination = 0.0, azimuth = 0.0, elevation = 0.0;
+  eraC2s(sun.data(), &right_ascension, &declination);
+  eraHd2ae(sidereal + place.longitude.radians() - right_ascension, declination, place.latitude.radians(), &azimuth, &elevation);
+  const Angle geometric = Angle::radians(elevation);
+  return {Angle::radians(azimuth), geometric + Angle::degrees(refraction_deg(geometric.degrees(), atmosphere))};
+}
+
+std::vector<SunPosition> sun_positions(const PlaceOnEarth& place, std::chrono::sys_days first, std::size_t days,
+                                       std::chrono::minutes step) {
+  using std::chrono::milliseconds;
+  FARLOD_EXPECTS(step.count() > 0);
+  const milliseconds of_longitude(static_cast<std::int64_t>(place.longitude.degrees() / 360.0 * 86'400'000.0));
+  const std::chrono::sys_time<milliseconds> begin = first - of_longitude,
+                                            end = begin + std::chrono::days(static_cast<std::int64_t>(days));
+  std::vector<SunPosition> positions;
+  for (auto from = begin; from < end; from += step) {
+    const milliseconds length = std::min<milliseconds>(step, end - from);
+    const SunDirection sun = sun_direction(place, from + length / 2);
+    if (sun.elevation.radians() > 0.0)
+      positions.push_back({sun.azimuth, sun.elevation, static_cast<double>(length.count()) / 3'600'000.0});
+  }
+  return positions;
+}
+
+}  // namespace farlod

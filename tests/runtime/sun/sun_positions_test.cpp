@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "sun/sun_positions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "farlod/error.hpp"
+
+namespace farlod {
+namespace {
+
+using namespace std::chrono;
+
+double hours_of(const std::vector<SunPosition>& positions) {
+  return std::accumulate(positions.begin(), positions.end(), 0.0, [](double sum, const SunPosition& p) { return sum + p.hours; });
+}
+
+PlaceOnEarth place(double longitude_deg, double latitude_deg, double height_m = 0.0) {
+  return {Angle::degrees(longitude_deg), Angle::degrees(latitude_deg), height_m};
+}
+
+TEST(SunDirection, IsThatOfTheExampleOfNrel) {
+  // I. Reda and A. Andreas, Solar Position Algorithm for Solar Radiation Applications, NREL/TP-560-34302, Table A5.1
+  const auto time = sys_days{year{2003} / October / 17} + hours(19) + minutes(30) + seconds(30);
+  const SunDirection sun = sun_direction(place(-105.1786, 39.742476, 1830.14), time, {820.0, 11.0});
+  EXPECT_NEAR(90.0 - sun.elevation.degrees(), 50.11162, 0.002);
+  EXPECT_NEAR(sun.azimuth.degrees(), 194.34024, 0.002);
+}
+
+TEST(SunDirection, IsUnknownBefore1960) {
+  EXPECT_THROW((void)sun_direction(place(0, 50), sys_days{year{1900} / January / 1}), InvalidArgument);
+}
+
+TEST(SunPositions, OfAnEquinoxLastHalfADay) {
+  // Refraction and nothing else makes the day longer at the equator: by some 5 minutes, as the sun rises upright by 15° an hour
+  const auto positions = sun_positions(place(10, 0), sys_days{year{2026} / March / 20}, 1, minutes(1));
+  EXPECT_NEAR(hours_of(positions), 12.0 + 2.0 * 0.57 / 15.0, 0.03);
+  EXPECT_LT(positions.front().azimuth.degrees(), 91.0);
+  EXPECT_GT(positions.front().azimuth.degrees(), 89.0);
+  EXPECT_NEAR(positions[positions.size() / 2].elevation.degrees(), 90.0, 1.0);
+}
+
+TEST(SunPositions, OfPolarDaysLastAllDayAndOfPolarNightsNone) {
+  EXPECT_NEAR(hours_of(sun_positions(place(25, 75), sys_days{year{2026} / June / 21}, 1, minutes(10))), 24.0, 1e-9);
+  EXPECT_TRUE(sun_positions(place(25, 75), sys_days{year{2026} / December / 21}, 1, minutes(10)).empty());
+}
+
+TEST(SunPositions, OfAYearAreHalfOfIt) {
+  // And more by refraction, and as the northern summer is longer
+  EXPECT_NEAR(hours_of(sun_positions(place(139.6, 35.9), sys_days{year{2026} / January / 1}, 365, minutes(10))), 365.0 * 12.0, 60.0);
+}
+
+TEST(SunPositions, SplitStepsThatDoNotFit) {
+  EXPECT_NEAR(hours_of(sun_positions(place(25, 75), sys_days{year{2026} / June / 21}, 1, minutes(7))), 24.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace farlod
