@@ -4,9 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "farlod/export.hpp"
+#include "farlod/quantities.hpp"
+#include "farlod/region.hpp"
 
 namespace farlod {
 
@@ -55,6 +58,10 @@ struct EvaluationSettings {
   bool bounds = false;
   /// After the run, compute so many random receivers exactly and compare: EvaluationSummary::errors. All if there are fewer.
   std::size_t verify = 0;
+  /// If not null, receivers outside of it have no value and cost next to nothing: EvaluationSummary::outside_of_region.
+  std::shared_ptr<const Region> region = nullptr;
+  /// What is computed beside the sky view factor. All but horizons and sunshine need SkyWeight::cosine.
+  Quantities further = {};
 };
 
 /// What a receiver's height counts from.
@@ -108,7 +115,8 @@ struct EvaluationSummary {
   std::size_t receivers = 0;        ///< with a value
   std::size_t no_data = 0;          ///< inside buildings, below the ground, or without ground below them
   std::size_t beyond_grid = 0;      ///< pixels of a raster that lie in no cell: without a value too
-  std::size_t outside_of_grid = 0;  ///< receivers outside of the grid, which were traced against the whole city
+  std::size_t outside_of_region = 0;  ///< receivers that EvaluationSettings::region leaves out: no data, but not counted as such
+  std::size_t outside_of_grid = 0;    ///< receivers outside of the grid, which were traced against the whole city
   /// Receivers in cells of the grid that have no far map (PackSettings::area). All engines but near_only, which needs none,
   /// traced them against the whole city.
   std::size_t without_far_map = 0;

@@ -31,11 +31,14 @@ struct PointAnswerSpans {
   std::span<float> low = {};        ///< wanted with EvaluationSettings::bounds, and only then
   std::span<float> high = {};       ///< the same
   std::span<double> height_m = {};  ///< where the receivers stand, above sea level; may be empty
+  /// Wanted with EvaluationSettings::further, and only then: a value for each of columns_of, point by point.
+  std::span<float> further = {};
 };
 
 struct PointAnswers {
   std::vector<float> svf, low, high;  ///< `low` and `high` are empty without EvaluationSettings::bounds
   std::vector<double> height_m;
+  std::vector<float> further;  ///< a value for each of columns_of(EvaluationSettings::further), point by point
   EvaluationSummary summary;
 };
 

@@ -60,8 +60,10 @@ struct RasterTile {
   TilePlace place;
   std::vector<float> svf;        ///< raster_tile_edge rows from the north, each from the west
   std::vector<float> low, high;  ///< bounds, or empty
+  /// A band for each of columns_of(EvaluationSettings::further).
+  std::vector<std::vector<float>> further;
 
-  FARLOD_EXPORT RasterTile(TilePlace where, RasterBands bands);
+  FARLOD_EXPORT RasterTile(TilePlace where, RasterBands bands, std::size_t further_bands = 0);
 };
 
 /// Takes the tiles as they are done: one at a time, in the same order whatever the number of threads, each once; not at all where
@@ -72,6 +74,7 @@ using OnRasterTile = std::function<void(const RasterTile&)>;
 struct Raster {
   RasterPlan plan;
   std::vector<float> svf, low, high;  ///< `low` and `high` are empty without EvaluationSettings::bounds
+  std::vector<std::vector<float>> further;  ///< a band for each of columns_of(EvaluationSettings::further)
   EvaluationSummary summary;
 };
 

@@ -40,6 +40,8 @@ struct SurfacePoint {
   double area_m2 = 0.0;             ///< the part of the surface that this receiver stands for
   std::optional<double> svf;        ///< none inside another building, or below the ground
   std::optional<double> low, high;  ///< certain bounds, where asked for
+  /// A value for each of columns_of(EvaluationSettings::further); empty where there is no svf.
+  std::vector<float> further = {};
 };
 
 /// Area-weighted mean over the receivers of a surface that have an answer.
@@ -48,17 +50,20 @@ struct SurfaceMean {
   std::uint32_t surface = 0;
   SurfaceKind kind = SurfaceKind::unknown;
   Angle azimuth, tilt;
-  double area_m2 = 0.0;  ///< of the receivers that have an answer
+  double area_m2 = 0.0;          ///< of the receivers that have an answer
+  double covered_area_m2 = 0.0;  ///< of those that have none: below the ground or inside another building, it sees no sky
   std::size_t receivers = 0, nodata = 0;
-  std::optional<double> svf_mean, svf_min, svf_max;
+  std::optional<double> svf_mean = {}, svf_min = {}, svf_max = {};
+  std::vector<double> further_mean = {};  ///< of the same; empty where no receiver has an answer
 };
 
 /// Area-weighted means over the roofs and walls of a building.
 struct BuildingMean {
   std::string building;
-  double roof_area_m2 = 0.0, wall_area_m2 = 0.0;  ///< of the receivers that have an answer
+  double roof_area_m2 = 0.0, wall_area_m2 = 0.0;                  ///< of the receivers that have an answer
+  double covered_roof_area_m2 = 0.0, covered_wall_area_m2 = 0.0;  ///< of those that have none
   std::size_t receivers = 0, nodata = 0;
-  std::optional<double> svf_roofs, svf_walls;
+  std::optional<double> svf_roofs = {}, svf_walls = {};
 };
 
 /// The means of a run, in an order that depends on nothing but the package and the settings.

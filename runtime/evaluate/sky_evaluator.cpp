@@ -15,6 +15,7 @@
 #include "contract/expects.hpp"
 #include "evaluate/error_budget.hpp"
 #include "evaluate/sky_parts.hpp"
+#include "evaluate/traced_profile.hpp"
 #include "evaluate/visibility.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/horizon_engine.hpp"
@@ -125,7 +126,7 @@ SkyEvaluator::SkyEvaluator(const PackageReader& package, const SkySettings& sett
       settings_(settings),
       stop_(std::move(stop)),
       directions_(settings.weight, settings.rays, package.grid().rotation, settings.directions, stop_),
-      azimuths_(AzimuthSampling::even(settings.azimuths, package.grid().rotation)),
+      further_(settings.further, settings.azimuths, package.manifest()),
       city_(std::move(city)) {
   FARLOD_EXPECTS(!settings.max_far_error || settings.engine == Engine::exact || settings.engine == Engine::near_only ||
                  !package.manifest().far_map.is_box());
@@ -167,6 +168,11 @@ void SkyEvaluator::evaluate_by_whole_city(const CellReceivers& cell, const SkyAn
     const std::vector<Point3d> directions = directions_of(directions_, group.front().normal);
     count_and_store(city.occluder(), origins, directions, group, directions_.ray_count(), stop_, answers);
   });
+  const PlacedScene scene = whole_city(cell.cell);
+  const auto blocked = [&](const ReceiverPacket& packet, const Occluder::Directions& directions, std::uint32_t wanted) {
+    return scene.occluder.blocked(scene.origins_of(packet), directions, least_distance_m, wanted);
+  };
+  trace_further(cell, blocked, answers);
   add_times(start, scene_ready);
 }
 
@@ -182,7 +188,60 @@ void SkyEvaluator::evaluate_by_near_scene(const CellReceivers& cell, const SkyAn
     std::erase_if(directions, [&far](const Point3d& d) { return far.blocks(d); });
     count_and_store(near, places_of(group), directions, group, directions_.ray_count(), stop_, answers);
   });
+  const auto blocked = [&](const ReceiverPacket& packet, const Occluder::Directions& directions, std::uint32_t wanted) {
+    std::uint32_t by_far = 0;
+    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
+      by_far |= far.blocks({directions.x[l], directions.y[l], directions.z[l]}) ? 1U << l : 0U;
+    const PlacedScene scene{near, {}};
+    return by_far | near.blocked(scene.origins_of(packet), directions, least_distance_m, wanted);
+  };
+  trace_further(cell, blocked, answers);
   add_times(start, scene_ready);
+}
+
+std::vector<float> SkyEvaluator::trace_near_sky(const CellReceivers& cell) const {
+  const Occluder near = near_scene(package_, cell.cell);
+  std::vector<float> svf;
+  for_each_normal(cell.receivers, [&](std::span<const Receiver> group) {
+    const std::vector<Point3d> directions = directions_of(directions_, group.front().normal);
+    for (const std::uint32_t free : count_free(near, places_of(group), directions, stop_))
+      svf.push_back(svf_of({free, free, free}, directions_.ray_count()).estimate);
+  });
+  return svf;
+}
+
+void SkyEvaluator::trace_further(const CellReceivers& cell, const BlockedRaysOfPacket& blocked, const SkyAnswers& answers) const {
+  if (further_.empty()) return;
+  const std::vector<float> near_svf =
+      further_.needs_near_sky() ? trace_near_sky(cell) : std::vector<float>(cell.receivers.size(), 0.0F);
+  const PacketOrder order = packet_order(cell.receivers, stop_);
+  SkyProfile profile(further_.azimuths());
+  FurtherQuantities::Rows rows;
+  for_each_group(cell.receivers, order, [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
+    for (const ReceiverPacket& packet : packets) {
+      const auto wanted = static_cast<std::uint32_t>((std::uint64_t{1} << packet.count) - 1);
+      trace_profile(
+          further_.azimuths(), [&](const Occluder::Directions& d, std::uint32_t asked) { return blocked(packet, d, asked); },
+          wanted, profile, stop_);
+      FurtherQuantities::Sky sky{};
+      for (std::size_t l = 0; l < packet.count; ++l) {
+        sky.svf[l] = answers.svf[cell.receivers[numbers[l]].index];
+        sky.near_svf[l] = near_svf[numbers[l]];
+      }
+      store_further(profile, packet, sky, rows, numbers.first(packet.count), cell, answers);
+      numbers = numbers.subspan(packet.count);
+    }
+  });
+}
+
+void SkyEvaluator::store_further(const SkyProfile& profile, const ReceiverPacket& packet, const FurtherQuantities::Sky& sky,
+                                 FurtherQuantities::Rows& rows, std::span<const std::uint32_t> numbers, const CellReceivers& cell,
+                                 const SkyAnswers& answers) const {
+  rows.values.resize(packet.count * further_.size());
+  further_.evaluate(profile, packet, sky, rows, rows.values);
+  for (std::size_t l = 0; l < numbers.size(); ++l)
+    std::copy_n(rows.values.begin() + static_cast<std::ptrdiff_t>(l * further_.size()), further_.size(),
+                answers.further.begin() + static_cast<std::ptrdiff_t>(cell.receivers[numbers[l]].index * further_.size()));
 }
 
 /// What the receivers of a cell may see.
@@ -194,6 +253,41 @@ struct SkyEvaluator::CellGeometry {
   FarHorizon far;
   CellSilhouettes silhouettes;
   OverhangGeometry overhangs;
+};
+
+namespace {
+
+/// A far map without anything in it.
+FarHorizon empty_far_map(FarHorizon far) {
+  for (std::vector<float>* slopes : {&far.low, &far.estimate, &far.high, &far.overhang}) std::ranges::fill(*slopes, 0.0F);
+  far.occluders.explicit_edges = {};
+  return far;
+}
+
+}  // namespace
+
+/// The sky above the near geometry alone, for the same packets.
+class SkyEvaluator::NearSky {
+ public:
+  NearSky(const PackageReader& package, const CellReceivers& cell, const CellGeometry& geometry, const AzimuthSampling& azimuths,
+          SkyWeight weight, const GapSettings& gaps)
+      : far_(empty_far_map(geometry.far)),
+        silhouettes_(cell_silhouettes(package, cell.cell, far_, bounding_box(cell.receivers))),
+        overhangs_(package, cell.cell),
+        engine_(azimuths, weight, far_, silhouettes_, overhangs_, gaps) {}
+
+  void evaluate(std::span<const ReceiverPacket> packets) {
+    answers_.resize(packets.size());
+    engine_.evaluate(packets, answers_);
+  }
+  [[nodiscard]] float svf(std::size_t packet, std::size_t lane) const { return answers_[packet].svf[lane].estimate; }
+
+ private:
+  FarHorizon far_;
+  CellSilhouettes silhouettes_;
+  OverhangGeometry overhangs_;  // rays in gaps meet the neighborhood alone
+  HorizonEngine engine_;
+  std::vector<PacketAnswer> answers_;
 };
 
 PlacedScene SkyEvaluator::whole_city(Cell cell) const {
@@ -213,7 +307,7 @@ void SkyEvaluator::evaluate_by_horizons(const CellReceivers& cell, const SkyAnsw
   require_far_map(cell.cell);
   CellGeometry geometry = geometry_of(cell);
   const auto scene_ready = Clock::now();
-  draw_horizons(geometry, cell, answers);
+  draw_horizons(geometry, cell, answers, StoredAnswers::all);
   add_times(start, scene_ready);
 }
 
@@ -248,6 +342,7 @@ void SkyEvaluator::evaluate_by_rays_against_horizons(const CellReceivers& cell, 
   CellGeometry geometry = geometry_of(cell);
   const auto scene_ready = Clock::now();
   count_rays(geometry, cell, answers);
+  if (!further_.empty()) draw_horizons(geometry, cell, answers, StoredAnswers::further);
   add_times(start, scene_ready);
 }
 
@@ -258,21 +353,42 @@ void SkyEvaluator::require_far_map(Cell cell) const {
                         "--area), or use the engine auto.");
 }
 
-void SkyEvaluator::draw_horizons(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const {
-  const std::size_t rays_per_azimuth = std::max<std::size_t>(1, (settings_.rays + settings_.azimuths / 2) / settings_.azimuths);
-  HorizonEngine engine(azimuths_, settings_.weight, geometry.far, geometry.silhouettes, geometry.overhangs,
-                       {static_cast<float>(azimuth_error(settings_.azimuths)), rays_per_azimuth, stop_});
+void SkyEvaluator::draw_horizons(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers,
+                                 StoredAnswers stored) const {
+  const AzimuthSampling& azimuths = further_.azimuths();
+  const std::size_t rays_per_azimuth = std::max<std::size_t>(1, (settings_.rays + azimuths.size() / 2) / azimuths.size());
+  const GapSettings gaps{static_cast<float>(azimuth_error(azimuths.size())), rays_per_azimuth, stop_};
+  HorizonEngine engine(azimuths, settings_.weight, geometry.far, geometry.silhouettes, geometry.overhangs, gaps);
   if (settings_.max_far_error) engine.keep({*settings_.max_far_error, [&] { return whole_city(cell.cell); }});
+  std::optional<NearSky> near_sky;
+  if (further_.needs_near_sky()) near_sky.emplace(package_, cell, geometry, azimuths, settings_.weight, gaps);
+  // Profiles come packet by packet, before the answers are stored
   std::vector<PacketAnswer> of_packets;
+  std::vector<SkyProfile> profiles;
+  if (!further_.empty())
+    engine.tell_profiles(further_.profile_rows(), [&](std::size_t n, const SkyProfile& profile) {
+      if (profiles.size() <= n) profiles.resize(n + 1, profile);
+      profiles[n] = profile;
+    });
+  FurtherQuantities::Rows rows;
   for_each_group(cell.receivers, packet_order(cell.receivers, stop_),
-                 [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
+                 [&](std::span<const ReceiverPacket> group, std::span<const std::uint32_t> numbers) {
                    throw_if_cancelled(stop_);
-                   of_packets.resize(packets.size());
-                   wants_bounds(answers) ? engine.evaluate_with_bounds(packets, of_packets)
-                                         : engine.evaluate(packets, of_packets);
-                   for (std::size_t n = 0; n < packets.size(); ++n) {
-                     store_packet(of_packets[n], cell, numbers.first(packets[n].count), answers);
-                     numbers = numbers.subspan(packets[n].count);
+                   of_packets.resize(group.size());
+                   wants_bounds(answers) ? engine.evaluate_with_bounds(group, of_packets) : engine.evaluate(group, of_packets);
+                   if (near_sky) near_sky->evaluate(group);
+                   for (std::size_t n = 0; n < group.size(); ++n) {
+                     const auto of_packet = numbers.first(group[n].count);
+                     if (stored == StoredAnswers::all) store_packet(of_packets[n], cell, of_packet, answers);
+                     if (!further_.empty()) {
+                       FurtherQuantities::Sky sky{};
+                       for (std::size_t l = 0; l < of_packet.size(); ++l) {
+                         sky.svf[l] = answers.svf[cell.receivers[of_packet[l]].index];
+                         if (near_sky) sky.near_svf[l] = near_sky->svf(n, l);
+                       }
+                       store_further(profiles[n], group[n], sky, rows, of_packet, cell, answers);
+                     }
+                     numbers = numbers.subspan(group[n].count);
                    }
                  });
 }

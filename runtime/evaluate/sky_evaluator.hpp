@@ -6,16 +6,18 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
 
+#include "evaluate/further_quantities.hpp"
 #include "evaluate/sky_directions.hpp"
 #include "farlod/evaluation.hpp"
-#include "horizon/azimuth_sampling.hpp"
 #include "horizon/sky_partition.hpp"
+#include "occlusion/occluder.hpp"
 #include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 
@@ -67,6 +69,7 @@ struct SkySettings {
   std::optional<double> max_far_error = std::nullopt;
   DirectionSet directions = DirectionSet::partition;
   std::size_t azimuths = default_azimuths;  ///< of horizons
+  Quantities further = {};                  ///< what is computed beside the sky view factor
 };
 
 /// Upper bound of the sampling error, without the error of the far map, where cells have far maps of this kind: that of the
@@ -74,10 +77,12 @@ struct SkySettings {
 /// error counts, not how large it is.
 [[nodiscard]] double sampling_error_of(const SkySettings& settings, FarMapOfCell far_map = FarMapOfCell::horizon);
 
-/// Arrays that take the answers, indexed by Receiver::index. `low` and `high` are empty where bounds are not wanted.
+/// Arrays that take the answers, indexed by Receiver::index. `low` and `high` are empty where bounds are not wanted, `further` where
+/// nothing is that SkySettings::further asks for; otherwise it has a value for each column of each receiver, receiver by receiver.
 struct SkyAnswers {
-  std::span<float> svf, low, high;
-  explicit SkyAnswers(std::span<float> s, std::span<float> l = {}, std::span<float> h = {}) : svf(s), low(l), high(h) {}
+  std::span<float> svf, low, high, further;
+  explicit SkyAnswers(std::span<float> s, std::span<float> l = {}, std::span<float> h = {}, std::span<float> f = {})
+      : svf(s), low(l), high(h), further(f) {}
 };
 
 /// What an evaluator has done so far.
@@ -112,11 +117,14 @@ class SkyEvaluator {
   [[nodiscard]] EvaluationStatistics statistics() const;
   [[nodiscard]] const PackageReader& package() const { return package_; }
   [[nodiscard]] const SkySettings& settings() const { return settings_; }
+  /// The columns of SkyAnswers::further.
+  [[nodiscard]] std::size_t further_columns() const { return further_.size(); }
 
  private:
   using Clock = std::chrono::steady_clock;
   struct WholeCityOnDemand;
   struct CellGeometry;
+  class NearSky;
 
   SkyEvaluator(const PackageReader& package, const SkySettings& settings, std::stop_token stop,
                std::shared_ptr<WholeCityOnDemand> city);
@@ -126,10 +134,21 @@ class SkyEvaluator {
   void evaluate_by_rays_against_horizons(const CellReceivers& cell, const SkyAnswers& answers) const;
   void evaluate_by_near_scene(const CellReceivers& cell, const SkyAnswers& answers) const;
   void evaluate_by_whole_city(const CellReceivers& cell, const SkyAnswers& answers) const;
+  /// What SkySettings::further asks for, of receivers whose svf is answered. `blocked` answers rays of a packet.
+  using BlockedRaysOfPacket =
+      std::function<std::uint32_t(const ReceiverPacket& packet, const Occluder::Directions& directions, std::uint32_t wanted)>;
+  void trace_further(const CellReceivers& cell, const BlockedRaysOfPacket& blocked, const SkyAnswers& answers) const;
+  void store_further(const SkyProfile& profile, const ReceiverPacket& packet, const FurtherQuantities::Sky& sky,
+                     FurtherQuantities::Rows& rows, std::span<const std::uint32_t> numbers, const CellReceivers& cell,
+                     const SkyAnswers& answers) const;
+  /// The sky above the near geometry alone, of each receiver.
+  [[nodiscard]] std::vector<float> trace_near_sky(const CellReceivers& cell) const;
 
   [[nodiscard]] PlacedScene whole_city(Cell cell) const;
   [[nodiscard]] CellGeometry geometry_of(const CellReceivers& cell) const;
-  void draw_horizons(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const;
+  /// Which answers of horizons are stored: the others are known already.
+  enum class StoredAnswers : std::uint8_t { all, further };
+  void draw_horizons(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers, StoredAnswers stored) const;
   /// Stores the answers of a packet, of the receivers with these numbers.
   void store_packet(const PacketAnswer& packet, const CellReceivers& cell, std::span<const std::uint32_t> numbers,
                     const SkyAnswers& answers) const;
@@ -148,7 +167,7 @@ class SkyEvaluator {
   SkySettings settings_;
   std::stop_token stop_;
   SkyDirections directions_;
-  AzimuthSampling azimuths_;
+  FurtherQuantities further_;  ///< and the azimuths of all horizons
   std::shared_ptr<WholeCityOnDemand> city_;
   mutable std::atomic<double> scenes_s_ = 0.0, evaluate_s_ = 0.0;
   mutable std::atomic<std::uint64_t> by_rays_ = 0, retraced_rays_ = 0;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "evaluate/sky_evaluator.hpp"
@@ -17,8 +18,19 @@ namespace farlod {
 struct SvfValues {
   static constexpr float no_data = std::numeric_limits<float>::quiet_NaN();
   std::vector<float> svf, low, high;
+  std::vector<float> further;  ///< the values of SkySettings::further, receiver by receiver
+  std::size_t further_columns = 0;
 
-  SvfValues(std::size_t size, bool bounds) : svf(size, no_data), low(bounds ? size : 0, no_data), high(low) {}
+  SvfValues(std::size_t size, bool bounds, std::size_t columns = 0)
+      : svf(size, no_data),
+        low(bounds ? size : 0, no_data),
+        high(low),
+        further(size * columns, no_data),
+        further_columns(columns) {}
+  /// Those of the n-th receiver.
+  [[nodiscard]] std::span<const float> further_of(std::size_t n) const {
+    return std::span(further).subspan(n * further_columns, further_columns);
+  }
   /// The n-th of `svf`, `low` or `high`; nothing where it is no data, or where bounds are not wanted.
   [[nodiscard]] static std::optional<double> value(const std::vector<float>& values, std::size_t n) {
     return values.empty() || std::isnan(values[n]) ? std::nullopt : std::optional<double>(values[n]);
@@ -30,9 +42,9 @@ using ReceiversOfCell = std::function<CellReceivers(std::size_t n)>;
 
 /// Evaluates all receivers of a cell. The values are in the order of the receivers, whatever their indices.
 [[nodiscard]] inline SvfValues values_of(const SkyEvaluator& evaluator, CellReceivers cell, bool bounds) {
-  SvfValues values(cell.receivers.size(), bounds);
+  SvfValues values(cell.receivers.size(), bounds, evaluator.further_columns());
   for (std::size_t k = 0; k < cell.receivers.size(); ++k) cell.receivers[k].index = k;
-  evaluator.evaluate(cell, SkyAnswers(values.svf, values.low, values.high));
+  evaluator.evaluate(cell, SkyAnswers(values.svf, values.low, values.high, values.further));
   return values;
 }
 

@@ -31,6 +31,7 @@ SkySettings reference_settings(SkySettings settings) {
   settings.engine = Engine::exact;
   settings.rays = std::max(verify_rays, settings.rays);
   settings.max_far_error.reset();
+  settings.further = {};
   return settings;
 }
 

@@ -76,7 +76,8 @@ float remove_smallest_gaps(std::span<PacketHorizon::Row> sky, std::size_t lane, 
 }
 
 SeenInGaps trace_gaps(const Gaps& gaps, const AzimuthSampling& azimuths, SkyWeight weight, const ReceiverPacket& receivers,
-                      std::uint32_t wanted, std::size_t rays_per_azimuth, const PlacedScene& scene, const std::stop_token& stop) {
+                      std::uint32_t wanted, std::size_t rays_per_azimuth, const PlacedScene& scene, const std::stop_token& stop,
+                      std::span<PacketHorizon::Row> of_azimuths) {
   const SkyKernels& kernels = sky_kernels();
   const RayOrigins origins = scene.origins_of(receivers);
   SeenInGaps seen;
@@ -103,8 +104,11 @@ SeenInGaps trace_gaps(const Gaps& gaps, const AzimuthSampling& azimuths, SkyWeig
     }
     // (sky of the gap) · (free rays / rays), as a share of the turn
     const float ray_share = 1.0F / static_cast<float>(count * azimuths.size());
-    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
-      seen.sky[l] += free_rays[l] * (ends.sky_from[l] - ends.sky_to[l]) * ray_share;
+    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) {
+      const float sky = free_rays[l] * (ends.sky_from[l] - ends.sky_to[l]) * ray_share;
+      seen.sky[l] += sky;
+      if (!of_azimuths.empty()) of_azimuths[k][l] += sky;
+    }
   }
   return seen;
 }

@@ -33,9 +33,11 @@ struct SeenInGaps {
 };
 
 /// Traces rays in the gaps of the receivers with set bits. A gap that is all of its azimuth's sky gets `rays_per_azimuth` rays, a
-/// smaller one its share, and at least one. Throws Cancelled when `stop` is asked for.
+/// smaller one its share, and at least one. The sky of each azimuth is added to `of_azimuths`, unless it is empty. Throws
+/// Cancelled when `stop` is asked for.
 [[nodiscard]] SeenInGaps trace_gaps(const Gaps& gaps, const AzimuthSampling& azimuths, SkyWeight weight,
                                     const ReceiverPacket& receivers, std::uint32_t wanted, std::size_t rays_per_azimuth,
-                                    const PlacedScene& scene, const std::stop_token& stop = {});
+                                    const PlacedScene& scene, const std::stop_token& stop = {},
+                                    std::span<PacketHorizon::Row> of_azimuths = {});
 
 }  // namespace farlod

@@ -49,6 +49,13 @@ HorizonEngine::HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, 
       without_residual_(azimuths, PacketHorizon::Edges::tracked),
       undecided_(azimuths) {}
 
+void HorizonEngine::tell_profiles(ProfileRows rows, OnProfile on_profile) {
+  FARLOD_EXPECTS(weight_ == SkyWeight::cosine && jump_places_ == JumpPlaces::at_edge_ends);
+  profile_rows_ = rows;
+  on_profile_ = std::move(on_profile);
+  profile_.emplace(azimuths_);
+}
+
 template <class Begin>
 void HorizonEngine::draw_grounded(std::span<const ReceiverPacket> packets, const Begin& begin) {
   while (grounded_.size() < packets.size()) grounded_.emplace_back(azimuths_, PacketHorizon::Edges::tracked);
@@ -75,6 +82,7 @@ void HorizonEngine::evaluate(std::span<const ReceiverPacket> packets, std::span<
   for (std::size_t n = 0; n < packets.size(); ++n) {
     std::swap(horizons_.grounded, grounded_[n]);
     evaluate(packets[n], answers[n]);
+    if (profile_) on_profile_(n, *profile_);
   }
 }
 
@@ -84,6 +92,7 @@ void HorizonEngine::evaluate_with_bounds(std::span<const ReceiverPacket> packets
   for (std::size_t n = 0; n < packets.size(); ++n) {
     std::swap(horizons_.grounded, grounded_[n]);
     evaluate_with_bounds(packets[n], answers[n]);
+    if (profile_) on_profile_(n, *profile_);
   }
 }
 
@@ -204,7 +213,32 @@ HorizonEngine::Retraced HorizonEngine::retrace(const ReceiverPacket& receivers, 
 
 HorizonJumps::SkyAbove HorizonEngine::sky_above(const PacketHorizon& horizon, const ReceiverPacket& receivers) {
   if (jump_places_ == JumpPlaces::between_azimuths) return {horizon.sky_above(weight_, receivers), {}};
-  return jumps_.sky_above(horizon, weight_, receivers, silhouettes_.upper_ends);
+  if (!profile_) return jumps_.sky_above(horizon, weight_, receivers, silhouettes_.upper_ends);
+  profile_above(horizon, receivers);
+  return jumps_.sky_above(horizon, weight_, receivers, silhouettes_.upper_ends, profile_->sky);
+}
+
+void HorizonEngine::profile_above(const PacketHorizon& horizon, const ReceiverPacket& receivers) {
+  for (std::size_t k = 0; k < azimuths_.size(); ++k) profile_->sky_from[k] = horizon.row(k);
+  profile_->gap_from.clear();
+  profile_->gap_to.clear();
+  profile_->gap_share.clear();
+  profile_->sky.resize(azimuths_.size());
+  if (profile_rows_ == ProfileRows::sky) return;
+  profile_->solid_sky.resize(azimuths_.size());
+  (void)jumps_.sky_above(horizon, SkyWeight::solid_angle, receivers, silhouettes_.upper_ends, profile_->solid_sky);
+}
+
+void HorizonEngine::profile_gaps(const ReceiverPacket& receivers) {
+  // The share of all between the borders, of which the far occluders are a part
+  horizons_.grounded.find_sky_below(horizons_.lower_borders, weight_, receivers, all_gap_rows_);
+  for (std::size_t k = 0; k < azimuths_.size(); ++k) {
+    profile_->gap_from.push_back(horizons_.grounded.row(k));
+    profile_->gap_to.push_back(horizons_.lower_borders.row(k));
+    PacketHorizon::Row& share = profile_->gap_share.emplace_back();
+    for (std::size_t l = 0; l < share.size(); ++l)
+      if (all_gap_rows_[k][l] > 0.0F) share[l] = std::min(seen_rows_[k][l] / all_gap_rows_[k][l], 1.0F);
+  }
 }
 
 HorizonEngine::SkyInGaps HorizonEngine::sky_in_gaps(const ReceiverPacket& receivers) {
@@ -214,18 +248,32 @@ HorizonEngine::SkyInGaps HorizonEngine::sky_in_gaps(const ReceiverPacket& receiv
   const Lanes most = sum(sky_of_gaps_);
   for (std::size_t l = 0; l < receivers.count; ++l) gaps.by_rays |= most[l] > gaps_.tolerance ? 1U << l : 0U;
   for (std::size_t l = 0; l < most.size(); ++l) gaps.sky[l] = 0.5F * most[l];
-  if (gaps.by_rays == 0 || allowed_) return gaps;
+  if (profile_ && !sky_of_gaps_.empty()) {
+    seen_rows_.assign(sky_of_gaps_.begin(), sky_of_gaps_.end());
+    for (PacketHorizon::Row& row : seen_rows_)
+      for (float& sky : row) sky *= 0.5F;
+  }
+  if (gaps.by_rays == 0 || allowed_) {
+    if (profile_ && !sky_of_gaps_.empty()) profile_gaps(receivers);
+    return gaps;
+  }
   // The others: trace all gaps but the smallest
   Lanes untraced{};
+  const std::vector<PacketHorizon::Row> before = profile_ ? gap_rows_ : std::vector<PacketHorizon::Row>();
   for (std::size_t l = 0; l < receivers.count; ++l)
     if (has_bit(gaps.by_rays, l)) untraced[l] = remove_smallest_gaps(gap_rows_, l, untraced_of_tolerance * gaps_.tolerance);
+  for (std::size_t k = 0; k < before.size(); ++k)
+    for (std::size_t l = 0; l < before[k].size(); ++l)
+      if (has_bit(gaps.by_rays, l)) seen_rows_[k][l] = gap_rows_[k][l] > 0.0F ? 0.0F : sky_in_untraced * before[k][l];
   const Lanes seen =
       trace_gaps(
           {horizons_.grounded, horizons_.lower_borders, horizons_.far_lower_borders, horizons_.far_upper_borders, gap_rows_},
-          azimuths_, weight_, receivers, gaps.by_rays, gaps_.rays_per_azimuth, overhangs_.scene(), gaps_.stop)
+          azimuths_, weight_, receivers, gaps.by_rays, gaps_.rays_per_azimuth, overhangs_.scene(), gaps_.stop,
+          profile_ ? std::span(seen_rows_) : std::span<PacketHorizon::Row>())
           .sky;
   for (std::size_t l = 0; l < most.size(); ++l)
     if (has_bit(gaps.by_rays, l)) gaps.sky[l] = seen[l] + sky_in_untraced * untraced[l];
+  if (profile_) profile_gaps(receivers);
   return gaps;
 }
 

@@ -20,6 +20,7 @@
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/residual_horizon.hpp"
+#include "horizon/sky_profile.hpp"
 #include "horizon/sky_partition.hpp"
 #include "horizon/undecided_sky.hpp"
 #include "package/far_horizon.hpp"
@@ -68,6 +69,11 @@ class HorizonEngine {
                 OverhangGeometry& overhangs, const GapSettings& gaps, JumpPlaces jumps = JumpPlaces::at_edge_ends);
   /// From now on, evaluate_with_bounds keeps this error.
   void keep(AllowedFarError allowed) { allowed_ = std::move(allowed); }
+  /// From now on, calls `on_profile(n, profile)` for each packet when its answer is known, with its number in the call, and what
+  /// its answer is the estimate of. Rays that an allowed error asks for do not change it. Only with SkyWeight::cosine, and jumps
+  /// at the ends of edges.
+  using OnProfile = std::function<void(std::size_t n, const SkyProfile& profile)>;
+  void tell_profiles(ProfileRows rows, OnProfile on_profile);
 
   /// Computes the receivers of packets near each other; low = estimate = high. The answers do not depend on which packets are
   /// together.
@@ -93,6 +99,9 @@ class HorizonEngine {
   [[nodiscard]] HorizonJumps::SkyAbove sky_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
   /// Of the gaps in `horizons_`, as drawn. Where an error is allowed, no gap is traced, and half of its sky counts.
   [[nodiscard]] SkyInGaps sky_in_gaps(const ReceiverPacket& receivers);
+  /// What is known of a profile at the estimate of a horizon, and of the gaps below it.
+  void profile_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
+  void profile_gaps(const ReceiverPacket& receivers);
 
   /// The sky of a packet's receivers and its bounds, before jumps are placed in these.
   struct BoundedSky {
@@ -116,6 +125,9 @@ class HorizonEngine {
   GapSettings gaps_;
   JumpPlaces jump_places_;
   std::optional<AllowedFarError> allowed_;
+  std::optional<SkyProfile> profile_;  ///< if somebody wants to know
+  OnProfile on_profile_;
+  ProfileRows profile_rows_ = ProfileRows::sky;
   ResidualHorizon residual_;
   PacketGroup group_;
   HorizonJumps jumps_;
@@ -125,7 +137,7 @@ class HorizonEngine {
   OverhangHorizons horizons_;
   PacketHorizon without_residual_;
   UndecidedSky undecided_;
-  std::vector<PacketHorizon::Row> gap_rows_, most_gap_rows_;
+  std::vector<PacketHorizon::Row> gap_rows_, most_gap_rows_, seen_rows_, all_gap_rows_;
   std::span<const PacketHorizon::Row> sky_of_gaps_, most_sky_of_gaps_;  ///< in these; empty without gaps
 };
 

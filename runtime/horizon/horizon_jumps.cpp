@@ -24,13 +24,16 @@ SeenPlace seen(const Point3f& p, const Point3f& receiver, float cosine, float si
 }  // namespace
 
 HorizonJumps::SkyAbove HorizonJumps::sky_above(const PacketHorizon& horizon, SkyWeight weight, const ReceiverPacket& receivers,
-                                               const BorderEnds& ends) {
-  if (azimuths_.size() < least_azimuths) return {horizon.sky_above(weight, receivers), {}};
+                                               const BorderEnds& ends, std::span<PacketHorizon::Row> of_azimuths) {
+  if (azimuths_.size() < least_azimuths) return {horizon.sky_above(weight, receivers, of_azimuths), {}};
   SkyAbove above{horizon.sky_above(weight, receivers, sky_), {}};
+  std::copy_n(sky_.begin(), of_azimuths.size(), of_azimuths.begin());
   for (const SkyJump& jump : horizon.find_jumps(sky_, least_jump, jumps_))
     for (std::uint32_t lanes = jump.receivers; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      above.correction[lane] += correction_of(jump.azimuth, lane, horizon, receivers, ends);
+      const Correction correction = correction_of(jump.azimuth, lane, horizon, receivers, ends);
+      above.correction[lane] += correction.sky;
+      if (!of_azimuths.empty()) of_azimuths[correction.azimuth][lane] += correction.sky;
     }
   for (std::size_t l = 0; l < above.sky.size(); ++l) {
     above.correction[l] /= static_cast<float>(azimuths_.size());
@@ -39,8 +42,8 @@ HorizonJumps::SkyAbove HorizonJumps::sky_above(const PacketHorizon& horizon, Sky
   return above;
 }
 
-float HorizonJumps::correction_of(std::size_t azimuth, std::size_t lane, const PacketHorizon& horizon,
-                                  const ReceiverPacket& receivers, const BorderEnds& ends) const {
+HorizonJumps::Correction HorizonJumps::correction_of(std::size_t azimuth, std::size_t lane, const PacketHorizon& horizon,
+                                                     const ReceiverPacket& receivers, const BorderEnds& ends) const {
   constexpr float half = 0.5F;
   const std::size_t next = azimuth + 1 < azimuths_.size() ? azimuth + 1 : 0;
   // The higher horizon hides the sky as far as its edge reaches
@@ -48,10 +51,12 @@ float HorizonJumps::correction_of(std::size_t azimuth, std::size_t lane, const P
   const bool is_here = here > there;
   const std::size_t higher = is_here ? azimuth : next;
   const std::int32_t number = horizon.edge_number(higher, lane);
-  if (number < 0) return 0.0F;
+  if (number < 0) return {};
   const float share = share_of(higher, is_here ? 1.0F : -1.0F, number, is_here ? there : here,
                                {receivers.x[lane], receivers.y[lane], receivers.z[lane]}, ends);
-  return ((is_here ? share : 1.0F - share) - half) * (sky_[azimuth][lane] - sky_[next][lane]);
+  // An edge that reaches over the middle hides sky of the other azimuth; one that does not leaves sky of its own
+  const bool is_of_here = is_here == (share < half);
+  return {((is_here ? share : 1.0F - share) - half) * (sky_[azimuth][lane] - sky_[next][lane]), is_of_here ? azimuth : next};
 }
 
 float HorizonJumps::share_of(std::size_t higher, float towards, std::int32_t number, float lower_slope, const Point3f& receiver,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "horizon/azimuth_sampling.hpp"
@@ -31,11 +32,20 @@ class HorizonJumps {
   };
   /// The horizon must track its edges, and `ends` be those of their numbers. No correction with fewer than `least_azimuths`.
   [[nodiscard]] SkyAbove sky_above(const PacketHorizon& horizon, SkyWeight weight, const ReceiverPacket& receivers,
-                                   const BorderEnds& ends);
+                                   const BorderEnds& ends) {
+    return sky_above(horizon, weight, receivers, ends, {});
+  }
+  /// The same, and the sky of each azimuth by itself, which the corrections of its jumps are a part of; unless there are no rows.
+  [[nodiscard]] SkyAbove sky_above(const PacketHorizon& horizon, SkyWeight weight, const ReceiverPacket& receivers,
+                                   const BorderEnds& ends, std::span<PacketHorizon::Row> of_azimuths);
 
  private:
-  /// What one jump of one receiver adds to the sum over the azimuths.
-  [[nodiscard]] float correction_of(std::size_t azimuth, std::size_t lane, const PacketHorizon& horizon,
+  /// What one jump of one receiver adds to the sum over the azimuths, and to which of them.
+  struct Correction {
+    float sky = 0.0F;
+    std::size_t azimuth = 0;
+  };
+  [[nodiscard]] Correction correction_of(std::size_t azimuth, std::size_t lane, const PacketHorizon& horizon,
                                     const ReceiverPacket& receivers, const BorderEnds& ends) const;
   /// The share of the way from one azimuth to the next for which the edge at `higher`, one of them, is the horizon of a receiver.
   /// An edge that goes on at its end with another one, above `lower_slope` and between the two azimuths, ends with that.

@@ -42,6 +42,10 @@ void for_each_strip(const PixelRange& r, const Visit& visit) {
     visit(PixelRange{r.column_begin, r.column_end, row, std::min(row + rows, r.row_end)});
 }
 
+bool meet(const Box2d& a, const Box2d& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
 }  // namespace
 
 RasterPlan plan_raster(const package::Manifest& m, double step_m, const std::optional<Box2d>& wanted_projected) {
@@ -98,13 +102,20 @@ CellReceivers RasterReceivers::in_cell(const PackageReader& package, Cell cell, 
                                        const std::stop_token& stop) const {
   LatticeLocator locator(package, cell);
   CellReceivers result{cell, {}};
+  // Where all pixels are outside of the region, nobody asks for their heights
+  const bool is_met =
+      region_ == nullptr || meet(manifest_.projected_outline(manifest_.grid.square_of(cell)), region_->outline());
   for_each_strip(range_of(cell), [&](const PixelRange& strip) {
     throw_if_cancelled(stop);
     const Centres centres = centres_of(strip, cell);
-    locator.look_at(centres.places);
+    if (is_met) locator.look_at(centres.places);
     for_each_pixel_by_patches(strip, [&](std::size_t column, std::size_t row) {
       const std::size_t n = (row - strip.row_begin) * centres.places.columns + column - strip.column_begin;
       if (!centres.are_in_cell[n]) return;
+      if (region_ != nullptr && !region_->contains(plan_.centre_m(column, row))) {
+        ++result.outside_of_region;
+        return;
+      }
       if (const auto p_cell = stand(locator.at(n), centres.places.x[n], centres.places.y[n], above, height_m))
         result.receivers.push_back({row * plan_.columns + column, *p_cell});
       else

@@ -29,7 +29,9 @@ struct PixelRange {
 /// The pixels of a raster by the cells that hold their centres; pixel (column, row) has index row·columns + column.
 class RasterReceivers {
  public:
-  RasterReceivers(const package::Manifest& manifest, RasterPlan plan) : manifest_(manifest), plan_(plan) {}
+  /// Of pixels whose centres lie in the region, or of all when it is null. It must outlive this, as must the manifest.
+  RasterReceivers(const package::Manifest& manifest, RasterPlan plan, const Region* region = nullptr)
+      : manifest_(manifest), plan_(plan), region_(region) {}
 
   /// The existing cells that may hold a pixel's centre, in the order of CellRange::index_of.
   [[nodiscard]] std::vector<Cell> cells() const;
@@ -52,6 +54,7 @@ class RasterReceivers {
 
   const package::Manifest& manifest_;
   RasterPlan plan_;
+  const Region* region_;
 };
 
 }  // namespace farlod

@@ -28,7 +28,8 @@ struct Receiver {
 struct CellReceivers {
   Cell cell;
   std::vector<Receiver> receivers;
-  std::size_t left_out = 0;  ///< of a raster: pixels of the cell where no receiver can stand
+  std::size_t left_out = 0;           ///< of a raster: pixels of the cell where no receiver can stand
+  std::size_t outside_of_region = 0;  ///< pixels, points or receivers on surfaces that nobody asks for
 };
 
 /// The height of a receiver in the package's heights; none where the surface that its height counts from does not exist.

@@ -26,6 +26,8 @@ constexpr double triangle_bytes = 224;      // of the whole city's scene: the tr
 constexpr double direction_bytes = sizeof(Point3d);
 constexpr double azimuth_bytes = 100 + (10 + packets_in_group) * 64;  // HorizonEngine
 constexpr double undecided_azimuth_bytes = 20 + 4 * 64;               // what UndecidedSky adds where an error is allowed
+/// What further quantities add: profiles of a group of packets, and rows that are made of them.
+constexpr double profile_azimuth_bytes = (6 * (packets_in_group + 1) + 8) * 64;
 constexpr double ray_azimuth_bytes = 180 + 11 * 64;  // RayEngine, with the directions in the order of their azimuths
 
 bool traces_whole_city(const ResolvedSettings& settings) {
@@ -44,7 +46,8 @@ double bytes_of_samples(const package::Manifest& manifest, const ResolvedSetting
   const bool by_horizons = has_horizon_maps && (sky.engine == Engine::automatic || sky.engine == Engine::horizon);
   const bool by_ray_horizons = has_horizon_maps && sky.engine == Engine::rays;
   const double of_azimuth = azimuth_bytes + (sky.max_far_error ? undecided_azimuth_bytes : 0.0);
-  const double of_thread = (by_horizons ? of_azimuth * static_cast<double>(sky.azimuths) : 0.0) +
+  const double of_profiles = sky.further.any() ? profile_azimuth_bytes * static_cast<double>(sky.azimuths) : 0.0;
+  const double of_thread = of_profiles + (by_horizons ? of_azimuth * static_cast<double>(sky.azimuths) : 0.0) +
                            (by_ray_horizons ? ray_azimuth_bytes * static_cast<double>(sky.rays) : 0.0);
   return static_cast<double>(settings.threads) * of_thread + bytes_of_directions(sky.rays, settings.threads);
 }
@@ -89,7 +92,8 @@ RunSettings with_bytes_of_caller(RunSettings run, std::uint64_t bytes) {
 void require_memory(const package::Manifest& manifest, const ResolvedSettings& settings, const MemoryNeeds& needs) {
   if (!settings.run.memory_limit_mib) return;
   const auto threads = static_cast<double>(settings.threads);
-  const double in_flight = static_cast<double>(cells_in_flight(settings.threads)) * needs.receivers_of_cell * receiver_bytes;
+  const double of_receiver = receiver_bytes + static_cast<double>(columns_of(settings.sky.further).size() * sizeof(float));
+  const double in_flight = static_cast<double>(cells_in_flight(settings.threads)) * needs.receivers_of_cell * of_receiver;
   const double bytes = program_bytes + threads * thread_bytes + needs.results + static_cast<double>(settings.run.caller_bytes) +
                        in_flight + bytes_of_samples(manifest, settings) + static_cast<double>(bytes_of_blocks_at_work(manifest));
   require_below_limit(bytes, settings.run, "this run",

@@ -34,17 +34,19 @@ std::vector<Reached> reached_tiles(const RasterPlan& plan, std::span<const TileR
 
 }  // namespace
 
-OpenTiles::OpenTiles(const RasterPlan& plan, RasterBands bands, std::span<const TileRange> parts,
+OpenTiles::OpenTiles(const RasterPlan& plan, RasterBands bands, std::size_t further_bands, std::span<const TileRange> parts,
                      std::function<void(const RasterTile&)> hand_on)
-    : bands_(bands), hand_on_(std::move(hand_on)), last_of_part_(parts.size()) {
+    : bands_(bands), further_bands_(further_bands), hand_on_(std::move(hand_on)), last_of_part_(parts.size()) {
   for (const Reached& tile : reached_tiles(plan, parts)) last_of_part_[tile.last].push_back(tile.place);
 }
 
 void OpenTiles::put(std::size_t column, std::size_t row, const Answer& answer) {
   const TilePlace place{row / raster_tile_edge, column / raster_tile_edge};
-  RasterTile& tile = open_.try_emplace(place, place, bands_).first->second;
+  RasterTile& tile = open_.try_emplace(place, place, bands_, further_bands_).first->second;
   const std::size_t pixel = row % raster_tile_edge * raster_tile_edge + column % raster_tile_edge;
   tile.svf[pixel] = answer.svf;
+  FARLOD_EXPECTS(answer.further.size() == further_bands_);
+  for (std::size_t n = 0; n < further_bands_; ++n) tile.further[n][pixel] = answer.further[n];
   if (bands_ == RasterBands::svf) return;
   tile.low[pixel] = answer.low;
   tile.high[pixel] = answer.high;

@@ -22,12 +22,13 @@ struct TileRange {
 class OpenTiles {
  public:
   /// `parts` are the tiles that each part of the work reaches, in the order in which the parts will be done.
-  OpenTiles(const RasterPlan& plan, RasterBands bands, std::span<const TileRange> parts,
+  OpenTiles(const RasterPlan& plan, RasterBands bands, std::size_t further_bands, std::span<const TileRange> parts,
             std::function<void(const RasterTile&)> hand_on);
 
   /// An answer of the current part, for a pixel of one of its tiles. Bounds are stored when the raster has bands for them.
   struct Answer {
     float svf = 0.0F, low = 0.0F, high = 0.0F;
+    std::span<const float> further = {};  ///< of each further band
   };
   void put(std::size_t column, std::size_t row, const Answer& answer);
   /// Ends the current part: hands on the tiles that no later part reaches, row by row from the north-west.
@@ -39,6 +40,7 @@ class OpenTiles {
 
  private:
   RasterBands bands_;
+  std::size_t further_bands_;
   std::function<void(const RasterTile&)> hand_on_;
   std::vector<std::vector<TilePlace>> last_of_part_;
   std::size_t parts_done_ = 0;

@@ -25,7 +25,7 @@ void require_as_long(const char* name, std::size_t size, std::size_t wanted) {
                           std::to_string(wanted) + ": give one for each point");
 }
 
-void require_same_sizes(const Points& points, const PointAnswerSpans& answers, bool bounds) {
+void require_same_sizes(const Points& points, const PointAnswerSpans& answers, bool bounds, std::size_t further_columns) {
   const std::size_t count = points.x_m.size();
   require_as_long("y_m", points.y_m.size(), count);
   if (!points.z_m.empty()) require_as_long("z_m", points.z_m.size(), count);
@@ -35,6 +35,10 @@ void require_same_sizes(const Points& points, const PointAnswerSpans& answers, b
     throw InvalidArgument("a normal is an azimuth and a tilt, and one of the two is not given: give both, or neither");
   require_as_long("svf", answers.svf.size(), count);
   if (!answers.height_m.empty()) require_as_long("height_m", answers.height_m.size(), count);
+  if (answers.further.size() != further_columns * count)
+    throw InvalidArgument("further has " + std::to_string(answers.further.size()) + " elements: give " +
+                          std::to_string(further_columns) + " for each of " + std::to_string(count) +
+                          " points, which is how many EvaluationSettings::further asks for");
   if (!bounds && !(answers.low.empty() && answers.high.empty()))
     throw InvalidArgument(
         "low and high are given, and no bounds are asked for: set EvaluationSettings::bounds, or leave them out");
@@ -94,10 +98,13 @@ std::vector<PlaceOfReceiver> places_of(const Points& points, const package::Mani
 
 using PlacesByCell = std::vector<std::pair<Cell, std::vector<std::size_t>>>;
 
-PlacesByCell places_along_curve(const PackageReader& package, std::span<const PlaceOfReceiver> places) {
+PlacesByCell places_along_curve(const PackageReader& package, std::span<const PlaceOfReceiver> places,
+                                const ResolvedSettings& settings) {
   std::map<Cell, std::vector<std::size_t>> by_cell;
   std::vector<Cell> cells;
   for (auto& [cell, chosen] : places_by_cell(package, places)) {
+    std::erase_if(chosen, [&](std::size_t n) { return !settings.wants(places[n].p_projected); });
+    if (chosen.empty()) continue;
     cells.push_back(cell);
     by_cell[cell] = std::move(chosen);
   }
@@ -122,6 +129,7 @@ void fill_with_no_data(const PointAnswerSpans& answers) {
   std::ranges::fill(answers.svf, SvfValues::no_data);
   std::ranges::fill(answers.low, SvfValues::no_data);
   std::ranges::fill(answers.high, SvfValues::no_data);
+  std::ranges::fill(answers.further, SvfValues::no_data);
   std::ranges::fill(answers.height_m, std::numeric_limits<double>::quiet_NaN());
 }
 
@@ -131,6 +139,7 @@ void store_answers(const CellReceivers& cell, const SvfValues& values, double he
     const std::size_t n = cell.receivers[k].index;
     answers.svf[n] = values.svf[k];
     if (!answers.height_m.empty()) answers.height_m[n] = cell.receivers[k].p_cell.z + height_origin_m;
+    std::ranges::copy(values.further_of(k), answers.further.begin() + static_cast<std::ptrdiff_t>(n * values.further_columns));
     if (values.low.empty()) continue;
     answers.low[n] = values.low[k];
     answers.high[n] = values.high[k];
@@ -145,9 +154,9 @@ EvaluationSummary evaluate_points(const Package& package, const Points& points, 
   const Placing placed = resolved(placing);
   const PackageInUse in_use(package);
   const PackageReader& reader = in_use.reader();
-  require_same_sizes(points, answers, settings.bounds);
+  require_same_sizes(points, answers, settings.bounds, columns_of(settings.sky.further).size());
   const std::vector<PlaceOfReceiver> places = places_of(points, reader.manifest());
-  const PlacesByCell cells = places_along_curve(reader, places);
+  const PlacesByCell cells = places_along_curve(reader, places, settings);
   require_memory(reader.manifest(), settings, needs_of(reader, settings.sky.engine, places.size(), cells));
   fill_with_no_data(answers);
   const float height_m = package_height_m(placed, reader.manifest());
@@ -158,18 +167,27 @@ EvaluationSummary evaluate_points(const Package& package, const Points& points, 
                                              [&](std::size_t, const CellReceivers& cell, const SvfValues& values) {
                                                store_answers(cell, values, reader.manifest().height_origin_m, answers);
                                              });
-  summary.no_data = places.size() - summary.receivers;
+  std::size_t asked = 0;
+  for (const auto& [cell, chosen] : cells) asked += chosen.size();
+  summary.outside_of_region = places.size() - asked;
+  summary.no_data = asked - summary.receivers;
   return summary;
 }
 
 PointAnswers evaluate_points(const Package& package, const Points& points, const Placing& placing,
                              const EvaluationSettings& settings, const RunSettings& run) {
   const std::size_t count = points.x_m.size(), bounds = settings.bounds ? count : 0;
-  const RunSettings with_answers = with_bytes_of_caller(run, (count + 2 * bounds) * sizeof(float) + count * sizeof(double));
-  PointAnswers answers{
-      std::vector<float>(count), std::vector<float>(bounds), std::vector<float>(bounds), std::vector<double>(count), {}};
+  const std::size_t further = count * columns_of(settings.further).size();
+  const RunSettings with_answers =
+      with_bytes_of_caller(run, (count + 2 * bounds + further) * sizeof(float) + count * sizeof(double));
+  PointAnswers answers{std::vector<float>(count),
+                       std::vector<float>(bounds),
+                       std::vector<float>(bounds),
+                       std::vector<double>(count),
+                       std::vector<float>(further),
+                       {}};
   answers.summary = evaluate_points(package, points, placing, settings,
-                                    {answers.svf, answers.low, answers.high, answers.height_m}, with_answers);
+                                    {answers.svf, answers.low, answers.high, answers.height_m, answers.further}, with_answers);
   return answers;
 }
 

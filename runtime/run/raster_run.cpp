@@ -55,8 +55,8 @@ std::vector<TileRange> tiles_of_cells(const RasterReceivers& receivers, std::spa
   return tiles;
 }
 
-MemoryNeeds needs_of(const RasterPlan& plan, std::span<const TileRange> tiles, const Grid& grid, bool bounds) {
-  const double bytes_of_pixel = (bounds ? 3 : 1) * sizeof(float);
+MemoryNeeds needs_of(const RasterPlan& plan, std::span<const TileRange> tiles, const Grid& grid, std::size_t bands) {
+  const double bytes_of_pixel = static_cast<double>(bands * sizeof(float));
   const double along_edge = std::ceil(grid.cell_edge_m / plan.step_m);
   return {static_cast<double>(OpenTiles::most_open(plan, tiles) * pixels_in_tile) * bytes_of_pixel, along_edge * along_edge};
 }
@@ -66,7 +66,8 @@ void put_values(const CellReceivers& cell, const SvfValues& values, std::size_t 
   const bool bounds = !values.low.empty();
   for (std::size_t k = 0; k < cell.receivers.size(); ++k) {
     const std::size_t pixel = cell.receivers[k].index;
-    tiles.put(pixel % columns, pixel / columns, {values.svf[k], bounds ? values.low[k] : 0.0F, bounds ? values.high[k] : 0.0F});
+    tiles.put(pixel % columns, pixel / columns,
+              {values.svf[k], bounds ? values.low[k] : 0.0F, bounds ? values.high[k] : 0.0F, values.further_of(k)});
   }
   tiles.part_done();
 }
@@ -91,26 +92,30 @@ class RasterRun {
         placing_(resolved(placing)),
         package_(package),
         plan_(checked(plan)),
-        receivers_(reader().manifest(), plan),
+        receivers_(reader().manifest(), plan, settings_.region.get()),
         cells_(along_hilbert_curve(receivers_.cells(), reader().grid().block_edge)),
-        tiles_(tiles_of_cells(receivers_, cells_)) {
-    MemoryNeeds needs = needs_of(plan_, tiles_, reader().grid(), settings_.bounds);
+        tiles_(tiles_of_cells(receivers_, cells_)),
+        further_bands_(columns_of(settings_.sky.further).size()) {
+    MemoryNeeds needs = needs_of(plan_, tiles_, reader().grid(), (settings_.bounds ? 3 : 1) + further_bands_);
     needs.whole_city = any_traces_whole_city(reader(), settings_.sky.engine, cells_);
     require_memory(reader().manifest(), settings_, needs);
   }
 
   [[nodiscard]] EvaluationSummary evaluate(const OnRasterTile& on_tile) const {
-    OpenTiles open_tiles(plan_, settings_.bounds ? RasterBands::svf_and_bounds : RasterBands::svf, tiles_, on_tile);
+    OpenTiles open_tiles(plan_, settings_.bounds ? RasterBands::svf_and_bounds : RasterBands::svf, further_bands_, tiles_,
+                         on_tile);
     const float height_m = package_height_m(placing_, reader().manifest());
-    std::size_t pixels_in_grid = 0;
+    std::size_t pixels_in_grid = 0, outside_of_region = 0;
     EvaluationSummary summary = evaluate_cells(
         package_, settings_, cells_.size(),
         [&](std::size_t n) { return receivers_.in_cell(reader(), cells_[n], placing_.above, height_m, settings_.run.stop); },
         [&](std::size_t, const CellReceivers& cell, const SvfValues& values) {
           put_values(cell, values, plan_.columns, open_tiles);
           pixels_in_grid += cell.receivers.size() + cell.left_out;
+          outside_of_region += cell.outside_of_region;
         });
-    summary.beyond_grid = plan_.columns * plan_.rows - pixels_in_grid;
+    summary.outside_of_region = outside_of_region;
+    summary.beyond_grid = plan_.columns * plan_.rows - pixels_in_grid - outside_of_region;
     summary.no_data = pixels_in_grid - summary.receivers;
     return summary;
   }
@@ -129,12 +134,17 @@ class RasterRun {
   RasterReceivers receivers_;
   std::vector<Cell> cells_;
   std::vector<TileRange> tiles_;
+  std::size_t further_bands_;
 };
 
 }  // namespace
 
-RasterTile::RasterTile(TilePlace where, RasterBands bands)
-    : place(where), svf(pixels_in_tile, no_data), low(bands == RasterBands::svf ? 0 : pixels_in_tile, no_data), high(low) {}
+RasterTile::RasterTile(TilePlace where, RasterBands bands, std::size_t further_bands)
+    : place(where),
+      svf(pixels_in_tile, no_data),
+      low(bands == RasterBands::svf ? 0 : pixels_in_tile, no_data),
+      high(low),
+      further(further_bands, svf) {}
 
 RasterPlan plan_raster(const Package& package, double step_m, const std::optional<Box2d>& part) {
   const PackageInUse in_use(package);
@@ -153,11 +163,18 @@ Raster evaluate_raster(const Package& package, const RasterPlan& plan, const Pla
                        const RunSettings& run) {
   require_usable(plan);
   const std::size_t count = plan.columns * plan.rows, bounds = settings.bounds ? count : 0;
-  const RasterRun raster_run(package, plan, placing, settings, with_bytes_of_caller(run, (count + 2 * bounds) * sizeof(float)));
-  Raster raster{
-      plan, std::vector<float>(count, no_data), std::vector<float>(bounds, no_data), std::vector<float>(bounds, no_data), {}};
+  const std::size_t further_bands = columns_of(settings.further).size();
+  const std::size_t bytes = (count + 2 * bounds + further_bands * count) * sizeof(float);
+  const RasterRun raster_run(package, plan, placing, settings, with_bytes_of_caller(run, bytes));
+  Raster raster{plan,
+                std::vector<float>(count, no_data),
+                std::vector<float>(bounds, no_data),
+                std::vector<float>(bounds, no_data),
+                std::vector(further_bands, std::vector<float>(count, no_data)),
+                {}};
   const auto copy_tile = [&raster](const RasterTile& tile) {
     copy_band(tile, tile.svf, raster.plan, raster.svf);
+    for (std::size_t n = 0; n < tile.further.size(); ++n) copy_band(tile, tile.further[n], raster.plan, raster.further[n]);
     if (tile.low.empty()) return;
     copy_band(tile, tile.low, raster.plan, raster.low);
     copy_band(tile, tile.high, raster.plan, raster.high);

@@ -3,10 +3,12 @@
 #include "run/resolved_settings.hpp"
 
 #include <algorithm>
+#include <span>
 #include <string>
 
 #include "contract/run_settings.hpp"
 #include "evaluate/error_budget.hpp"
+#include "evaluate/further_quantities.hpp"
 #include "farlod/error.hpp"
 #include "receivers/surface_receivers.hpp"
 
@@ -17,6 +19,20 @@ namespace {
 /// rays for some receivers, azimuths cost all of them (docs/decisions/0019-halved-intervals.md).
 constexpr double sampling_share = 0.75;
 
+void check(const Quantities& q, SkyWeight weight) {
+  require_one_of("further.sky_patches", q.sky_patches, SkyPatchSet::reinhart);
+  if (q.horizons > 0) require_count_between("further.horizons", q.horizons, 4, 3600);
+  for (const SunPosition& sun : q.sun ? std::span<const SunPosition>(*q.sun) : std::span<const SunPosition>()) {
+    require_between("an azimuth of the sun, in degrees", sun.azimuth.degrees(), -360.0, 360.0);
+    require_between("an elevation of the sun, in degrees", sun.elevation.degrees(), -90.0, 90.0);
+    require_between("the hours of a position of the sun", sun.hours, 0.0, 8784.0);
+  }
+  if (weight == SkyWeight::solid_angle && (q.svf_solid || q.directional || q.hidden || q.sky_patches != SkyPatchSet::none))
+    throw InvalidArgument(
+        "with the weight solid_angle only horizons and sunshine can be computed beside it: the others are weighted by the "
+        "cosine; leave the weight out");
+}
+
 void check(const EvaluationSettings& s) {
   require_one_of("engine", s.engine, Engine::near_only);
   require_one_of("weight", s.weight, SkyWeight::solid_angle);
@@ -24,6 +40,7 @@ void check(const EvaluationSettings& s) {
   if (s.azimuths) require_count_between("azimuths", *s.azimuths, 4, 1'000'000);
   if (s.rays) require_count_between("rays", *s.rays, 1, 10'000'000);
   if (s.max_error) require_between("max_error", *s.max_error, 0.0001, 1.0);
+  check(s.further, s.weight);
   if (s.engine == Engine::near_only && (s.bounds || s.max_error))
     throw InvalidArgument(
         "the engine near_only leaves the far city out, of which it knows neither bounds nor errors: leave bounds and max_error "
@@ -51,6 +68,8 @@ SkySettings sky_of(const EvaluationSettings& s) {
   const double sampling = s.max_error ? sampling_share * *s.max_error : 0.0;
   sky.rays = s.rays ? *s.rays : s.max_error ? rays_for_sampling_error(sampling) : default_rays;
   sky.azimuths = s.azimuths ? *s.azimuths : s.max_error ? azimuths_for_error(sampling) : default_azimuths;
+  sky.azimuths = azimuths_for(s.further, sky.azimuths);
+  sky.further = s.further;
   if (s.max_error) sky.max_far_error = far_error_of(s, sky);
   return sky;
 }
@@ -65,6 +84,7 @@ ResolvedSettings resolved(const EvaluationSettings& evaluation, const RunSetting
   s.accuracy = {s.sky.azimuths, s.sky.rays, sampling_error_of(s.sky), s.sky.max_far_error};
   s.bounds = evaluation.bounds;
   s.verify = evaluation.verify;
+  s.region = evaluation.region;
   s.threads = thread_count(run);
   s.run = run;
   return s;

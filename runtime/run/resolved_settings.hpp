@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include "contract/package/manifest.hpp"
 #include "evaluate/sky_evaluator.hpp"
@@ -18,7 +19,10 @@ struct ResolvedSettings {
   bool bounds = false;
   std::size_t verify = 0;
   std::size_t threads = 1;
+  std::shared_ptr<const Region> region;  ///< null: everywhere
   RunSettings run;
+
+  [[nodiscard]] bool wants(Point2d p_projected) const { return region == nullptr || region->contains(p_projected); }
 };
 
 /// Throws InvalidArgument where a setting is not what its declaration promises. Half of an allowed error is for the sky between

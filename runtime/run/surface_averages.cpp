@@ -26,7 +26,7 @@ std::vector<const Entry*> in_order(const std::vector<Entry>& entries) {
 
 void SurfaceAverages::add(PlaceInRun place, const SurfacePoint& r) {
   const auto [entry, is_new] = places_.try_emplace({r.building, r.surface}, surfaces_.size());
-  if (is_new) surfaces_.push_back({place, {r.building, r.surface, r.kind, r.azimuth, r.tilt, 0.0, 0, 0, {}, {}, {}}, {}});
+  if (is_new) surfaces_.push_back({place, {r.building, r.surface, r.kind, r.azimuth, r.tilt}, {}, {}});
   Surface& surface = surfaces_[entry->second];
   if (place < surface.first) {
     surface.first = place;
@@ -34,9 +34,12 @@ void SurfaceAverages::add(PlaceInRun place, const SurfacePoint& r) {
   }
   ++surface.row.receivers;
   surface.row.nodata += r.svf ? 0 : 1;
+  surface.row.covered_area_m2 += r.svf ? 0.0 : r.area_m2;
   if (!r.svf) return;
   surface.row.area_m2 += r.area_m2;
   surface.mean.add(*r.svf, r.area_m2);
+  surface.further.resize(r.further.size());
+  for (std::size_t n = 0; n < r.further.size(); ++n) surface.further[n].add(static_cast<double>(r.further[n]), r.area_m2);
   add_extremes(surface.row, *r.svf);
 }
 
@@ -45,18 +48,20 @@ std::vector<SurfaceMean> SurfaceAverages::rows() const {
   for (const Surface* surface : in_order(surfaces_)) {
     rows.push_back(surface->row);
     rows.back().svf_mean = surface->mean.value();
+    for (const AreaMean& mean : surface->further) rows.back().further_mean.push_back(*mean.value());
   }
   return rows;
 }
 
 void BuildingAverages::add(PlaceInRun place, const SurfacePoint& r) {
   const auto [entry, is_new] = places_.try_emplace(r.building, buildings_.size());
-  if (is_new) buildings_.push_back({place, {r.building, 0.0, 0.0, 0, 0, {}, {}}, {}, {}});
+  if (is_new) buildings_.push_back({place, {r.building}, {}, {}});
   Building& building = buildings_[entry->second];
   building.first = std::min(building.first, place);
   const bool is_roof = r.kind == SurfaceKind::roof;
   ++building.row.receivers;
   building.row.nodata += r.svf ? 0 : 1;
+  if (!r.svf) (is_roof ? building.row.covered_roof_area_m2 : building.row.covered_wall_area_m2) += r.area_m2;
   if (!r.svf) return;
   (is_roof ? building.row.roof_area_m2 : building.row.wall_area_m2) += r.area_m2;
   (is_roof ? building.roofs : building.walls).add(*r.svf, r.area_m2);

@@ -42,6 +42,7 @@ class SurfaceAverages {
     PlaceInRun first;
     SurfaceMean row;
     AreaMean mean;
+    std::vector<AreaMean> further;
   };
   std::map<std::pair<std::string, std::uint32_t>, std::size_t> places_;
   std::vector<Surface> surfaces_;

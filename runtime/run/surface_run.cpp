@@ -15,6 +15,16 @@
 namespace farlod {
 namespace {
 
+/// Removes the receivers that nobody asks for, and returns their number.
+std::size_t remove_unwanted(const package::Manifest& m, Cell cell, const ResolvedSettings& settings,
+                            std::vector<SurfaceReceiver>& receivers) {
+  if (settings.region == nullptr) return 0;
+  const Point2d corner = m.grid.corner_of(cell);
+  return std::erase_if(receivers, [&](const SurfaceReceiver& r) {
+    return !settings.wants(horizontal(m.projected_from_grid({corner.x + r.p_cell.x, corner.y + r.p_cell.y, 0.0})));
+  });
+}
+
 CellReceivers answerable(Cell cell, std::span<const SurfaceReceiver> receivers) {
   CellReceivers result{cell, {}};
   for (std::size_t k = 0; k < receivers.size(); ++k)
@@ -51,6 +61,7 @@ std::vector<SurfacePoint> points_of(const PackageReader& package, Cell cell, std
     point.svf = SvfValues::value(values.svf, k);
     point.low = SvfValues::value(values.low, k);
     point.high = SvfValues::value(values.high, k);
+    if (const auto further = values.further_of(k); point.svf) point.further.assign(further.begin(), further.end());
   }
   return points;
 }
@@ -114,20 +125,25 @@ SurfaceMeans evaluate_surfaces(const Package& package, const SurfaceSettings& su
   // What is known of a cell's receivers, from when they are placed until their answers are there
   std::vector<std::vector<SurfaceReceiver>> placed(cells.size());
   std::atomic<std::size_t> stored = 0;  // cells, in their order; a verification asks for the receivers of some of them again
-  const EvaluationSummary summary = evaluate_cells(
+  std::size_t outside_of_region = 0;
+  EvaluationSummary summary = evaluate_cells(
       in_use, settings, cells.size(),
       [&](std::size_t n) {
         std::vector<SurfaceReceiver> receivers =
             surface_receivers(reader, cells[n], surfaces.choice, surfaces.spacing_m, run.stop);
+        const std::size_t unwanted = remove_unwanted(reader.manifest(), cells[n], settings, receivers);
         CellReceivers result = answerable(cells[n], receivers);
+        result.outside_of_region = unwanted;
         if (n >= stored) placed[n] = std::move(receivers);
         return result;
       },
       [&](std::size_t n, const CellReceivers& cell, const SvfValues& values) {
+        outside_of_region += cell.outside_of_region;
         means.add(range.index_of(cells[n]), points_of(reader, cells[n], placed[n], cell.receivers, values));
         placed[n] = {};
         ++stored;
       });
+  summary.outside_of_region = outside_of_region;
   return means.with(summary);
 }
 

@@ -103,6 +103,65 @@ TEST_F(Answers, TheHemisphereHasTheViewFactor) {
   EXPECT_GT(compared, 10U);
 }
 
+/// Some of everything.
+Quantities many_quantities() {
+  Quantities further;
+  further.svf_solid = further.directional = further.hidden = true;
+  further.horizons = 8;
+  further.sky_patches = SkyPatchSet::tregenza;
+  further.sun = {{Angle::degrees(180.0), Angle::degrees(40.0), 2.0}};
+  return further;
+}
+
+TEST_F(Answers, FurtherQuantitiesOfPointsPixelsAndSurfacesAgree) {
+  EvaluationSettings settings;
+  settings.further = many_quantities();
+  const std::size_t columns = columns_of(settings.further).size();
+  EXPECT_EQ(columns, 1U + 4U + 2U + 8U + 145U + 1U);
+  const RasterPlan plan = plan_raster(package_, 9.0);
+  const Raster raster = evaluate_raster(package_, plan, {}, settings);
+  ASSERT_EQ(raster.further.size(), columns);
+  std::vector<double> x, y;
+  for (std::size_t n = 0; n < plan.columns * plan.rows; ++n) {
+    x.push_back(plan.centre_m(n % plan.columns, n / plan.columns).x);
+    y.push_back(plan.centre_m(n % plan.columns, n / plan.columns).y);
+  }
+  const PointAnswers points = evaluate_points(package_, {x, y}, {}, settings);
+  ASSERT_EQ(points.further.size(), columns * x.size());
+  std::size_t compared = 0;
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    if (std::isnan(raster.svf[n])) continue;
+    for (std::size_t c = 0; c < columns; ++c) EXPECT_NEAR(points.further[n * columns + c], raster.further[c][n], 0.002) << c;
+    ++compared;
+  }
+  EXPECT_EQ(compared, raster.summary.receivers);
+  // Means of a surface are those of its points
+  std::vector<double> weighted(columns);
+  double area_m2 = 0.0;
+  const SurfaceMeans means =
+      evaluate_surfaces(package_, {SurfaceChoice::roofs, 3.0}, settings, [&](std::size_t, std::span<const SurfacePoint> some) {
+        for (const SurfacePoint& p : some) {
+          ASSERT_EQ(p.further.size(), p.svf ? columns : 0U);
+          area_m2 += p.svf ? p.area_m2 : 0.0;
+          for (std::size_t c = 0; c < p.further.size(); ++c) weighted[c] += p.area_m2 * p.further[c];
+        }
+      });
+  std::vector<double> of_means(columns);
+  for (const SurfaceMean& mean : means.surfaces)
+    for (std::size_t c = 0; c < mean.further_mean.size(); ++c) of_means[c] += mean.area_m2 * mean.further_mean[c];
+  for (std::size_t c = 0; c < columns; ++c) EXPECT_NEAR(of_means[c], weighted[c], summation_error * area_m2 * 90.0) << c;
+}
+
+/// Besides the quantities, a run answers what it answers without them.
+TEST_F(Answers, FurtherQuantitiesChangeNoSkyViewFactor) {
+  EvaluationSettings plain, with_more;
+  with_more.further = many_quantities();
+  with_more.further.horizons = 0;  // which choose other azimuths
+  const RasterPlan plan = plan_raster(package_, 5.0);
+  const Raster a = evaluate_raster(package_, plan, {}, plain), b = evaluate_raster(package_, plan, {}, with_more);
+  EXPECT_EQ(std::memcmp(a.svf.data(), b.svf.data(), a.svf.size() * sizeof(float)), 0);
+}
+
 TEST_F(Answers, TilesAreTheRaster) {
   const RasterPlan plan = plan_raster(package_, 1.0);
   const Raster raster = evaluate_raster(package_, plan);

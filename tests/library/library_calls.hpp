@@ -28,6 +28,7 @@ struct Arguments {
   std::vector<Angle> azimuth, tilt;
   std::vector<float> svf{0.0F, 0.0F}, low, high;
   std::vector<double> height_m;
+  std::vector<float> further;
   Placing placing;
   RasterPlan plan;
   SurfaceSettings surfaces{SurfaceChoice::all, 20.0};
@@ -46,7 +47,7 @@ struct Named {
 
 inline const Named points_into{"points_into", [](Arguments& a) {
                                  (void)evaluate_points(a.package, {a.x, a.y, a.z, a.azimuth, a.tilt}, a.placing, a.settings,
-                                                       {a.svf, a.low, a.high, a.height_m}, a.run);
+                                                       {a.svf, a.low, a.high, a.height_m, a.further}, a.run);
                                }};
 inline const Named points{"points", [](Arguments& a) {
                             (void)evaluate_points(a.package, {a.x, a.y, a.z, a.azimuth, a.tilt}, a.placing, a.settings, a.run);

@@ -36,7 +36,7 @@ TEST(RasterTile, TheLastTilesAreCut) {
 TEST(OpenTiles, ATileIsHandedOnWithTheLastPartThatReachesIt) {
   HandedOn handed;
   const std::vector<TileRange> parts{{{0, 0}, {1, 2}}, one_tile(0, 0), one_tile(0, 1)};
-  OpenTiles tiles(plan_of_six(), RasterBands::svf, parts, handed.remember());
+  OpenTiles tiles(plan_of_six(), RasterBands::svf, 0, parts, handed.remember());
   tiles.put(3, 3, {0.5F});
   tiles.put(raster_tile_edge, 0, {0.5F});
   tiles.part_done();
@@ -52,7 +52,7 @@ TEST(OpenTiles, ATileIsHandedOnWithTheLastPartThatReachesIt) {
 TEST(OpenTiles, TilesWithoutAnAnswerAreNotHandedOn) {
   HandedOn handed;
   const std::vector<TileRange> parts{{{0, 0}, {2, 3}}};
-  OpenTiles tiles(plan_of_six(), RasterBands::svf, parts, handed.remember());
+  OpenTiles tiles(plan_of_six(), RasterBands::svf, 0, parts, handed.remember());
   tiles.put(raster_tile_edge, raster_tile_edge, {0.5F});
   tiles.part_done();
   EXPECT_THAT(handed.places, ElementsAre(TilePlace{1, 1}));
@@ -61,7 +61,7 @@ TEST(OpenTiles, TilesWithoutAnAnswerAreNotHandedOn) {
 TEST(OpenTiles, AnswersStandAtTheirPixels) {
   std::vector<RasterTile> handed;
   const std::vector<TileRange> parts{one_tile(0, 1)};
-  OpenTiles tiles(plan_of_six(), RasterBands::svf_and_bounds, parts,
+  OpenTiles tiles(plan_of_six(), RasterBands::svf_and_bounds, 0, parts,
                   [&handed](const RasterTile& tile) { handed.push_back(tile); });
   tiles.put(raster_tile_edge + 7, 2, {0.5F, 0.25F, 0.75F});
   tiles.part_done();

@@ -49,6 +49,9 @@ TEST(SurfaceAverages, KeepTheRowOfASurfaceWithoutAnAnswer) {
   const auto rows = rows_of<SurfaceAverages>(small_run());
   EXPECT_EQ(rows[1].building, "a");
   EXPECT_EQ(rows[1].nodata, 1U);
+  EXPECT_EQ(rows[1].covered_area_m2, 4.0);
+  EXPECT_EQ(rows[1].area_m2, 0.0);
+  EXPECT_EQ(rows[0].covered_area_m2, 0.0);
   EXPECT_FALSE(rows[1].svf_mean || rows[1].svf_min || rows[1].svf_max);
 }
 
@@ -75,6 +78,8 @@ TEST(BuildingAverages, TellRoofsFromWalls) {
   EXPECT_EQ(rows[0].roof_area_m2, 1.0);
   EXPECT_EQ(rows[0].svf_walls, 0.3125);
   EXPECT_EQ(rows[0].svf_roofs, 1.0);
+  EXPECT_EQ(rows[1].covered_roof_area_m2, 4.0);
+  EXPECT_EQ(rows[1].covered_wall_area_m2, 0.0);
   EXPECT_EQ(rows[1].building, "a");
   EXPECT_FALSE(rows[1].svf_roofs || rows[1].svf_walls);
 }

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "farlod/angle.hpp"
+#include "farlod/export.hpp"
+
+namespace farlod {
+
+/// Divisions of the sky into patches, for methods that know a radiance for each. Patches are counted as Radiance counts them:
+/// band by band from the horizon upwards; in a band the first is centred at true north, and the others follow clockwise; the
+/// zenith is the last. The ground, which Radiance counts first, is not among them.
+enum class SkyPatchSet : std::uint8_t {
+  none,
+  tregenza,  ///< 145: bands of 12° with 30, 30, 24, 24, 18, 12, 6 patches, and the zenith
+  reinhart   ///< 577: each of those divided into four; bands of 6.2°
+};
+
+/// Where the sun is for some time. What lies at the horizon or below it is no sunshine.
+struct SunPosition {
+  Angle azimuth;  ///< clockwise from true north
+  Angle elevation;
+  double hours = 0.0;  ///< that this position stands for
+};
+
+/// What is computed beside the sky view factor, from the same horizons. Where a receiver is answered by rays alone
+/// (EvaluationMethod of docs/stages/evaluate.md), the same is made of rays for each azimuth.
+struct Quantities {
+  /// The share of the sky's solid angle: column `svf_solid`.
+  bool svf_solid = false;
+  /// The sky view factors of the northern, eastern, southern and western half of the sky, as UMEP defines them: each twice the
+  /// half's share, so that it is 1 in the open, and (svfE + svfW) / 2 = (svfN + svfS) / 2 = svf. Of a receiver that is tilted, one
+  /// may be larger than 1. Columns `svfN`, `svfE`, `svfS`, `svfW`.
+  bool directional = false;
+  /// The shares of the sky that geometry of the neighborhood hides, and that of the far city alone: columns `hidden_near`,
+  /// `hidden_far`. Of a receiver that looks straight up, they and svf add up to 1.
+  bool hidden = false;
+  /// The elevation in degrees above which all is sky, at so many azimuths (0, or 4 to 3,600), the first of them true north, the
+  /// others clockwise. 90 where there is no sky. What is seen below a bridge is not told. Columns `horizon_AZIMUTH`.
+  std::size_t horizons = 0;
+  /// The share of each patch that is seen, weighted by the cosine to the receiver's normal: the sum of shares times the patches'
+  /// own view factors is svf. 0 where a patch lies behind the receiver. Columns `patch_N`, from 1.
+  SkyPatchSet sky_patches = SkyPatchSet::none;
+  /// The hours of sunshine: those of the positions at which nothing hides the sun's centre, and it shines on the receiver's front.
+  /// Column `sunlit_h`; of no positions, as in a polar night, it is 0.
+  std::optional<std::vector<SunPosition>> sun = {};
+
+  [[nodiscard]] bool any() const {
+    return svf_solid || directional || hidden || horizons > 0 || sky_patches != SkyPatchSet::none || sun.has_value();
+  }
+};
+
+/// The names of the columns of some quantities, in their order.
+[[nodiscard]] FARLOD_EXPORT std::vector<std::string> columns_of(const Quantities& quantities);
+
+}  // namespace farlod

@@ -1,0 +1,385 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/further_quantities.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+#include "contract/expects.hpp"
+#include "horizon/kernels.hpp"
+
+namespace farlod {
+namespace {
+
+using Row = PacketHorizon::Row;
+using Lanes = PacketHorizon::Lanes;
+constexpr std::size_t lanes = ReceiverPacket::lanes;
+
+/// Above it is nothing that counts, and it is finite.
+constexpr float straight_up = 1e7F;
+
+std::string numbered(const char* name, std::size_t digits, std::size_t n) {
+  std::string number = std::to_string(n);
+  return name + std::string(number.size() < digits ? digits - number.size() : 0, '0') + number;
+}
+
+/// Degrees with as few decimals as tell the azimuths apart: 000, 010 or 000.00, 007.50.
+std::string horizon_name(std::size_t n, std::size_t count) {
+  std::array<char, 32> text{};
+  const double degrees = 360.0 * static_cast<double>(n) / static_cast<double>(count);
+  if (360 % count == 0)
+    std::snprintf(text.data(), text.size(), "horizon_%03.0f", degrees);
+  else
+    std::snprintf(text.data(), text.size(), "horizon_%06.2f", degrees);
+  return text.data();
+}
+
+/// Patches of each band from the horizon upwards, without the zenith, and the bands' height as a share of the right angle. A band
+/// of Reinhart's is half of one of Tregenza's, with twice as many patches; the zenith takes what is left.
+struct PatchBands {
+  std::vector<std::uint32_t> counts;
+  double height = 0.0;
+};
+PatchBands bands_of(SkyPatchSet set) {
+  if (set == SkyPatchSet::none) return {};
+  const std::size_t parts = set == SkyPatchSet::reinhart ? 2 : 1;
+  PatchBands bands;
+  for (const std::uint32_t count : {30U, 30U, 24U, 24U, 18U, 12U, 6U})
+    for (std::size_t n = 0; n < parts; ++n) bands.counts.push_back(count * static_cast<std::uint32_t>(parts));
+  bands.height = 1.0 / (static_cast<double>(bands.counts.size()) + 0.5);
+  return bands;
+}
+
+std::size_t patches_of(SkyPatchSet set) {
+  const PatchBands bands = bands_of(set);
+  return bands.counts.empty() ? 0 : std::accumulate(bands.counts.begin(), bands.counts.end(), std::size_t{1});
+}
+
+/// The share of [from, to] that lies in [low, high], on a turn of 1; neither is longer than half a turn.
+double share_within(double from, double to, double low, double high) {
+  double within = 0.0;
+  for (const double turn : {-1.0, 0.0, 1.0})
+    within += std::max(0.0, std::min(to + turn, high) - std::max(from + turn, low));
+  return std::min(1.0, within / (to - from));
+}
+
+std::vector<Point3d> directions_clockwise_from_north(std::size_t count, const package::Manifest& manifest) {
+  std::vector<Point3d> directions;
+  for (std::size_t n = 0; n < count; ++n) {
+    const double turn = static_cast<double>(n) / static_cast<double>(count);
+    // true azimuth = grid azimuth + convergence
+    const Angle azimuth = Angle::radians(2.0 * std::numbers::pi * turn) - manifest.convergence;
+    directions.push_back(manifest.grid.rotation.grid_from_city(Point3d{sin(azimuth), cos(azimuth), 0.0}));
+  }
+  return directions;
+}
+
+AzimuthSampling sampling_for(const Quantities& quantities, std::size_t azimuths, const package::Manifest& manifest) {
+  if (quantities.horizons == 0) return AzimuthSampling::even(azimuths, manifest.grid.rotation);
+  return AzimuthSampling(directions_clockwise_from_north(azimuths, manifest));
+}
+
+std::vector<double> turns_of(const AzimuthSampling& azimuths, const package::Manifest& manifest) {
+  std::vector<double> turns;
+  for (std::size_t k = 0; k < azimuths.size(); ++k) {
+    const Point2d direction = manifest.grid.rotation.city_from_grid(Point2d{azimuths.cosine()[k], azimuths.sine()[k]});
+    const double turn = (azimuth_of(direction) + manifest.convergence).radians() / (2.0 * std::numbers::pi);
+    turns.push_back(turn - std::floor(turn));
+  }
+  return turns;
+}
+
+Lanes sum(const std::vector<Row>& rows) {
+  std::array<double, lanes> sums{};
+  for (const Row& row : rows)
+    for (std::size_t l = 0; l < lanes; ++l) sums[l] += static_cast<double>(row[l]);
+  Lanes result;
+  std::transform(sums.begin(), sums.end(), result.begin(), [](double s) { return static_cast<float>(s); });
+  return result;
+}
+
+/// terms = shares of the turn's sky between `low` and `high`.
+void find_sky_between(const std::vector<Row>& low, const std::vector<Row>& high, const ReceiverPacket& receivers,
+                      const AzimuthSampling& azimuths, bool is_solid, std::vector<Row>& terms) {
+  terms.resize(azimuths.size());
+  sky_kernels().find_sky_between(low.front().data(), high.front().data(), receivers, azimuths.view(), is_solid,
+                                 terms.front().data());
+}
+
+void clamp_rows(const std::vector<Row>& rows, float low, float high, std::vector<Row>& clamped) {
+  clamped.resize(rows.size());
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    for (std::size_t l = 0; l < lanes; ++l) clamped[k][l] = std::clamp(rows[k][l], low, high);
+}
+
+void fill_rows(std::size_t count, float value, std::vector<Row>& rows) {
+  Row row;
+  row.fill(value);
+  rows.assign(count, row);
+}
+
+/// Adds the sky that is seen in gaps, between two slopes, to `terms`, by the cosine or by solid angle.
+void add_sky_in_gaps(const SkyProfile& profile, const ReceiverPacket& receivers, const AzimuthSampling& azimuths, float from,
+                     float to, bool is_solid, FurtherQuantities::Rows& rows) {
+  if (profile.gap_share.empty()) return;
+  clamp_rows(profile.gap_from, from, to, rows.low);
+  clamp_rows(profile.gap_to, from, to, rows.high);
+  find_sky_between(rows.low, rows.high, receivers, azimuths, is_solid, rows.open_terms);
+  for (std::size_t k = 0; k < rows.terms.size(); ++k)
+    for (std::size_t l = 0; l < lanes; ++l) rows.terms[k][l] += profile.gap_share[k][l] * rows.open_terms[k][l];
+}
+
+/// The shares of the turn of the sky above profiles, from rows of F(φ) where they are known.
+void find_sky(const SkyProfile& profile, const SkyProfile::Rows& known, const ReceiverPacket& receivers,
+              const AzimuthSampling& azimuths, bool is_solid, FurtherQuantities::Rows& rows) {
+  if (known.empty()) {
+    fill_rows(azimuths.size(), straight_up, rows.high);
+    find_sky_between(profile.sky_from, rows.high, receivers, azimuths, is_solid, rows.terms);
+  } else {
+    rows.terms = known;
+    const float share = 1.0F / static_cast<float>(azimuths.size());
+    for (Row& row : rows.terms)
+      for (float& sky : row) sky *= share;
+  }
+  add_sky_in_gaps(profile, receivers, azimuths, 0.0F, straight_up, is_solid, rows);
+}
+
+bool looks_straight_up(const ReceiverPacket& r, std::size_t lane) {
+  return r.normal_x[lane] == 0.0F && r.normal_y[lane] == 0.0F && r.normal_z[lane] > 0.0F;
+}
+
+/// The slopes at an azimuth at which the sun shines on a receiver's front: o + w t > 0.
+struct SlopesInFront {
+  float from = 0.0F, to = straight_up;
+};
+SlopesInFront slopes_in_front(float outward, float upward) {
+  if (outward > 0.0F) return {0.0F, upward < 0.0F ? std::min(straight_up, -outward / upward) : straight_up};
+  return upward > 0.0F ? SlopesInFront{-outward / upward, straight_up} : SlopesInFront{straight_up, straight_up};
+}
+
+}  // namespace
+
+std::vector<std::string> columns_of(const Quantities& quantities) {
+  std::vector<std::string> names;
+  if (quantities.svf_solid) names.emplace_back("svf_solid");
+  if (quantities.directional) names.insert(names.end(), {"svfN", "svfE", "svfS", "svfW"});
+  if (quantities.hidden) names.insert(names.end(), {"hidden_near", "hidden_far"});
+  for (std::size_t n = 0; n < quantities.horizons; ++n) names.push_back(horizon_name(n, quantities.horizons));
+  for (std::size_t n = 1; n <= patches_of(quantities.sky_patches); ++n) names.push_back(numbered("patch_", 3, n));
+  if (quantities.sun) names.emplace_back("sunlit_h");
+  return names;
+}
+
+std::size_t azimuths_for(const Quantities& quantities, std::size_t at_least) {
+  if (quantities.horizons == 0) return at_least;
+  return (at_least + quantities.horizons - 1) / quantities.horizons * quantities.horizons;
+}
+
+FurtherQuantities::FurtherQuantities(const Quantities& quantities, std::size_t azimuths, const package::Manifest& manifest)
+    : quantities_(quantities),
+      size_(columns_of(quantities).size()),
+      azimuths_(sampling_for(quantities, azimuths, manifest)),
+      turns_(turns_of(azimuths_, manifest)) {
+  FARLOD_EXPECTS(azimuths_for(quantities, azimuths) == azimuths);
+  if (quantities.horizons > 0) {
+    azimuth_of_horizon_.resize(quantities.horizons);
+    const std::size_t step = azimuths / quantities.horizons;
+    for (std::size_t k = 0; k < azimuths; ++k)
+      if (const std::size_t n = azimuths_.order()[k]; n % step == 0) azimuth_of_horizon_[n / step] = k;
+  }
+  if (quantities.directional) divide_into_halves();
+  if (quantities.sky_patches != SkyPatchSet::none) divide_into_patches();
+  if (quantities.sun) sort_sun_positions();
+}
+
+void FurtherQuantities::divide_into_halves() {
+  const double half_part = 0.5 / static_cast<double>(azimuths_.size());
+  constexpr std::array<double, 4> middles{0.0, 0.25, 0.5, 0.75};  // north, east, south, west
+  for (std::size_t h = 0; h < middles.size(); ++h)
+    for (const double turn : turns_)
+      in_half_[h].push_back(
+          static_cast<float>(share_within(turn - half_part, turn + half_part, middles[h] - 0.25, middles[h] + 0.25)));
+}
+
+void FurtherQuantities::divide_into_patches() {
+  const PatchBands shape = bands_of(quantities_.sky_patches);
+  const double half_part = 0.5 / static_cast<double>(azimuths_.size());
+  const auto slope_at = [&](std::size_t n) {
+    return static_cast<float>(std::tan(0.5 * std::numbers::pi * shape.height * static_cast<double>(n)));
+  };
+  std::uint32_t first = 0;
+  for (std::size_t n = 0; n <= shape.counts.size(); ++n) {
+    const bool is_zenith = n == shape.counts.size();
+    Band band{slope_at(n), is_zenith ? straight_up : slope_at(n + 1), first, is_zenith ? 1 : shape.counts[n], {}};
+    for (const double turn : turns_) {
+      // The first patch is centred at north; the part of the turn begins in one patch, and may end in the next
+      const double begin = (turn - half_part) * band.patches + 0.5, end = (turn + half_part) * band.patches + 0.5;
+      const double border = std::floor(begin) + 1.0, in_first = std::clamp((border - begin) / (end - begin), 0.0, 1.0);
+      const auto patch = [&](double place) {
+        const double wrapped = place - band.patches * std::floor(place / band.patches);
+        return first + std::min(static_cast<std::uint32_t>(wrapped), band.patches - 1);
+      };
+      band.of_azimuth.push_back({PatchShare{patch(std::floor(begin)), static_cast<float>(in_first)},
+                                 PatchShare{patch(border), static_cast<float>(1.0 - in_first)}});
+    }
+    first += band.patches;
+    bands_.push_back(std::move(band));
+  }
+}
+
+void FurtherQuantities::sort_sun_positions() {
+  struct Position {
+    float slope;
+    double hours;
+  };
+  std::vector<std::vector<Position>> at(azimuths_.size());
+  for (const SunPosition& sun : *quantities_.sun) {
+    if (sun.elevation.radians() <= 0.0) continue;
+    const double turn = sun.azimuth.radians() / (2.0 * std::numbers::pi);
+    const auto distance = [&](std::size_t k) {
+      const double between = turn - turns_[k];
+      return std::abs(between - std::round(between));
+    };
+    std::size_t nearest = 0;
+    for (std::size_t k = 1; k < azimuths_.size(); ++k)
+      if (distance(k) < distance(nearest)) nearest = k;
+    const double slope = std::min(tan(sun.elevation), static_cast<double>(straight_up));
+    at[nearest].push_back({static_cast<float>(slope), sun.hours});
+  }
+  for (std::vector<Position>& positions : at) {
+    std::stable_sort(positions.begin(), positions.end(), [](const Position& a, const Position& b) { return a.slope < b.slope; });
+    SunAtAzimuth& sun = sun_.emplace_back();
+    for (const Position& p : positions) {
+      sun.slopes.push_back(p.slope);
+      sun.hours.push_back(p.hours);
+    }
+    for (std::size_t n = sun.hours.size(); n-- > 1;) sun.hours[n - 1] += sun.hours[n];
+    sun.hours.push_back(0.0);
+  }
+}
+
+class FurtherQuantities::Columns {
+ public:
+  Columns(std::size_t size, std::span<float> values) : size_(size), values_(values) {}
+
+  void add(const Lanes& column) {
+    for (std::size_t l = 0; l * size_ < values_.size(); ++l) values_[l * size_ + next_] = column[l];
+    ++next_;
+  }
+  [[nodiscard]] std::size_t count() const { return next_; }
+
+ private:
+  std::size_t size_, next_ = 0;
+  std::span<float> values_;
+};
+
+void FurtherQuantities::evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky, Rows& rows,
+                                 std::span<float> values) const {
+  FARLOD_EXPECTS(values.size() == receivers.count * size_);
+  Columns columns(size_, values);
+  if (quantities_.svf_solid) add_solid(profile, receivers, rows, columns);
+  if (quantities_.directional) add_directional(profile, receivers, sky, rows, columns);
+  if (quantities_.hidden) {
+    Lanes near, far;
+    for (std::size_t l = 0; l < lanes; ++l) {
+      near[l] = std::max(0.0F, 0.5F * (1.0F + receivers.normal_z[l]) - sky.near_svf[l]);
+      far[l] = std::max(0.0F, sky.near_svf[l] - sky.svf[l]);
+    }
+    columns.add(near);
+    columns.add(far);
+  }
+  for (const std::size_t k : azimuth_of_horizon_) {
+    Lanes degrees;
+    for (std::size_t l = 0; l < lanes; ++l)
+      degrees[l] = static_cast<float>(Angle::radians(std::atan(static_cast<double>(profile.sky_from[k][l]))).degrees());
+    columns.add(degrees);
+  }
+  if (quantities_.sky_patches != SkyPatchSet::none) add_patches(profile, receivers, rows, columns);
+  if (quantities_.sun) add_sunlit(profile, receivers, columns);
+  FARLOD_EXPECTS(columns.count() == size_);
+}
+
+void FurtherQuantities::add_solid(const SkyProfile& profile, const ReceiverPacket& receivers, Rows& rows,
+                                  Columns& columns) const {
+  find_sky(profile, profile.solid_sky, receivers, azimuths_, true, rows);
+  Lanes svf = sum(rows.terms);
+  for (float& s : svf) s = std::clamp(s, 0.0F, 1.0F);
+  columns.add(svf);
+}
+
+void FurtherQuantities::add_directional(const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky, Rows& rows,
+                                        Columns& columns) const {
+  find_sky(profile, profile.sky, receivers, azimuths_, false, rows);
+  const Lanes all = sum(rows.terms);
+  for (const std::vector<float>& in_half : in_half_) {
+    std::array<double, lanes> sums{};
+    for (std::size_t k = 0; k < rows.terms.size(); ++k)
+      for (std::size_t l = 0; l < lanes; ++l)
+        sums[l] += 2.0 * static_cast<double>(in_half[k]) * static_cast<double>(rows.terms[k][l]);
+    Lanes half;
+    for (std::size_t l = 0; l < lanes; ++l) {
+      // What the answer knows better than the profile is not known by azimuth: it goes to both halves alike
+      half[l] = std::max(0.0F, static_cast<float>(sums[l] + static_cast<double>(sky.svf[l]) - static_cast<double>(all[l])));
+      if (looks_straight_up(receivers, l)) half[l] = std::min(half[l], 1.0F);
+    }
+    columns.add(half);
+  }
+}
+
+void FurtherQuantities::add_patches(const SkyProfile& profile, const ReceiverPacket& receivers, Rows& rows,
+                                    Columns& columns) const {
+  for (const Band& band : bands_) {
+    std::vector<std::array<double, lanes>> seen(band.patches), all(band.patches);
+    const auto add_to = [&](std::vector<std::array<double, lanes>>& patches, const std::vector<Row>& terms) {
+      for (std::size_t k = 0; k < terms.size(); ++k)
+        for (const PatchShare& part : band.of_azimuth[k])
+          for (std::size_t l = 0; l < lanes; ++l)
+            patches[part.patch - band.first_patch][l] += static_cast<double>(part.share) * static_cast<double>(terms[k][l]);
+    };
+    fill_rows(azimuths_.size(), band.slope_from, rows.low);
+    fill_rows(azimuths_.size(), band.slope_to, rows.high);
+    find_sky_between(rows.low, rows.high, receivers, azimuths_, false, rows.terms);
+    add_to(all, rows.terms);
+    clamp_rows(profile.sky_from, band.slope_from, band.slope_to, rows.low);
+    find_sky_between(rows.low, rows.high, receivers, azimuths_, false, rows.terms);
+    add_sky_in_gaps(profile, receivers, azimuths_, band.slope_from, band.slope_to, false, rows);
+    add_to(seen, rows.terms);
+    for (std::size_t patch = 0; patch < band.patches; ++patch) {
+      Lanes share{};
+      for (std::size_t l = 0; l < lanes; ++l)
+        if (all[patch][l] > 0.0) share[l] = static_cast<float>(std::min(1.0, seen[patch][l] / all[patch][l]));
+      columns.add(share);
+    }
+  }
+}
+
+void FurtherQuantities::add_sunlit(const SkyProfile& profile, const ReceiverPacket& receivers, Columns& columns) const {
+  std::array<double, lanes> hours{};
+  for (std::size_t k = 0; k < azimuths_.size(); ++k) {
+    const SunAtAzimuth& sun = sun_[k];
+    if (sun.slopes.empty()) continue;
+    const auto hours_above = [&](float slope) {
+      const auto first = std::upper_bound(sun.slopes.begin(), sun.slopes.end(), slope) - sun.slopes.begin();
+      return sun.hours[static_cast<std::size_t>(first)];
+    };
+    const auto hours_between = [&](float from, float to) { return from < to ? hours_above(from) - hours_above(to) : 0.0; };
+    for (std::size_t l = 0; l < receivers.count; ++l) {
+      const float outward = receivers.normal_x[l] * azimuths_.cosine()[k] + receivers.normal_y[l] * azimuths_.sine()[k];
+      const SlopesInFront front = slopes_in_front(outward, receivers.normal_z[l]);
+      hours[l] += hours_between(std::max(profile.sky_from[k][l], front.from), front.to);
+      if (profile.gap_share.empty()) continue;
+      hours[l] += static_cast<double>(profile.gap_share[k][l]) * hours_between(std::max(profile.gap_from[k][l], front.from),
+                                                                               std::min(profile.gap_to[k][l], front.to));
+    }
+  }
+  Lanes column;
+  std::transform(hours.begin(), hours.end(), column.begin(), [](double h) { return static_cast<float>(h); });
+  columns.add(column);
+}
+
+}  // namespace farlod

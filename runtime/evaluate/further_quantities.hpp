@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contract/package/manifest.hpp"
+#include "farlod/quantities.hpp"
+#include "horizon/azimuth_sampling.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "horizon/sky_profile.hpp"
+
+namespace farlod {
+
+/// Azimuths at which horizons are sampled, where these quantities are asked for: at least so many, and a multiple of the horizons.
+[[nodiscard]] std::size_t azimuths_for(const Quantities& quantities, std::size_t at_least);
+
+/// What is computed beside the sky view factor, from profiles of the sky: the same for all methods that make profiles.
+/// Immutable: threads may share it, each with working memory of its own.
+class FurtherQuantities {
+ public:
+  /// `azimuths` is a number that azimuths_for gave.
+  FurtherQuantities(const Quantities& quantities, std::size_t azimuths, const package::Manifest& manifest);
+
+  /// Values of a receiver: as many as columns_of names.
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+  /// With horizons, the first azimuth is true north; without, they are those of runs that ask for nothing further.
+  [[nodiscard]] const AzimuthSampling& azimuths() const { return azimuths_; }
+  [[nodiscard]] ProfileRows profile_rows() const {
+    return quantities_.svf_solid ? ProfileRows::sky_and_solid_sky : ProfileRows::sky;
+  }
+  [[nodiscard]] bool needs_near_sky() const { return quantities_.hidden; }
+
+  /// Working memory, kept from packet to packet.
+  struct Rows {
+    std::vector<PacketHorizon::Row> low, high, terms, open_terms;
+    std::vector<float> values;  ///< for callers
+  };
+  /// What is known of a packet's receivers: svf as it is answered, and with needs_near_sky() that of the near geometry alone.
+  struct Sky {
+    PacketHorizon::Lanes svf, near_svf;
+  };
+  /// Writes the values of the packet's receivers, one receiver after the other, in the order of columns_of.
+  void evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky, Rows& rows,
+                std::span<float> values) const;
+
+ private:
+  /// Takes the values of a packet, column by column.
+  class Columns;
+  void add_solid(const SkyProfile& profile, const ReceiverPacket& receivers, Rows& rows, Columns& columns) const;
+  void add_directional(const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky, Rows& rows,
+                       Columns& columns) const;
+  void add_patches(const SkyProfile& profile, const ReceiverPacket& receivers, Rows& rows, Columns& columns) const;
+  void add_sunlit(const SkyProfile& profile, const ReceiverPacket& receivers, Columns& columns) const;
+
+  void divide_into_halves();
+  void divide_into_patches();
+  void sort_sun_positions();
+
+  /// A patch that a part of the turn around an azimuth lies in, and the share of it that does.
+  struct PatchShare {
+    std::uint32_t patch = 0;
+    float share = 0.0F;
+  };
+  /// A band of patches between two slopes, the first of which is `first_patch`.
+  struct Band {
+    float slope_from = 0.0F, slope_to = 0.0F;
+    std::uint32_t first_patch = 0, patches = 0;
+    std::vector<std::array<PatchShare, 2>> of_azimuth;  ///< no azimuth reaches into more than two
+  };
+  /// The positions of the sun that are nearest to an azimuth, by their slopes, and the hours of each and all above it.
+  struct SunAtAzimuth {
+    std::vector<float> slopes;
+    std::vector<double> hours;
+  };
+
+  Quantities quantities_;
+  std::size_t size_;
+  AzimuthSampling azimuths_;
+  std::vector<double> turns_;  ///< of each azimuth: clockwise from true north, as a share of the turn
+  std::vector<std::size_t> azimuth_of_horizon_;
+  std::array<std::vector<float>, 4> in_half_;  ///< N, E, S, W: the share of the azimuth's part of the turn in that half
+  std::vector<Band> bands_;
+  std::vector<SunAtAzimuth> sun_;
+};
+
+}  // namespace farlod

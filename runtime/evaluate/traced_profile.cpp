@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/traced_profile.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "contract/cancellation.hpp"
+#include "farlod/angle.hpp"
+#include "horizon/receiver_packet.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr std::size_t lanes = ReceiverPacket::lanes, degrees = 90;
+constexpr int halvings = 8;
+
+bool has_bit(std::uint32_t bits, std::size_t lane) { return ((bits >> lane) & 1U) != 0; }
+
+float slope_at(double elevation_deg) { return static_cast<float>(tan(Angle::degrees(elevation_deg))); }
+
+double middle_of(std::size_t degree) { return static_cast<double>(degree) + 0.5; }
+
+/// The view factor of a degree, for a receiver that looks straight up: sin²(e + 1°) − sin²(e).
+double sky_of(std::size_t degree) {
+  const double from = sin(Angle::degrees(static_cast<double>(degree))), to = sin(Angle::degrees(static_cast<double>(degree + 1)));
+  return to * to - from * from;
+}
+
+/// Asks rays at one azimuth, each receiver at an elevation of its own.
+class RaysAtAzimuth {
+ public:
+  RaysAtAzimuth(float cosine, float sine, const BlockedRays& blocked) : blocked_(blocked) {
+    directions_.x.fill(cosine);
+    directions_.y.fill(sine);
+  }
+  [[nodiscard]] std::uint32_t are_blocked(double elevation_deg, std::uint32_t wanted) {
+    directions_.z.fill(slope_at(elevation_deg));
+    return blocked_(directions_, wanted) & wanted;
+  }
+  [[nodiscard]] std::uint32_t are_blocked(const std::array<double, lanes>& elevations_deg, std::uint32_t wanted) {
+    for (std::size_t l = 0; l < lanes; ++l) directions_.z[l] = slope_at(elevations_deg[l]);
+    return blocked_(directions_, wanted) & wanted;
+  }
+  /// The elevation between one that is blocked and one that is free, at which that changes. Where nothing above the horizontal is
+  /// blocked, the horizontal.
+  [[nodiscard]] std::array<double, lanes> border_between(std::array<double, lanes> blocked_deg, std::array<double, lanes> free_deg,
+                                                         std::uint32_t wanted) {
+    std::array<double, lanes> middle_deg{};
+    for (int n = 0; n <= halvings; ++n) {
+      for (std::size_t l = 0; l < lanes; ++l) middle_deg[l] = 0.5 * (blocked_deg[l] + free_deg[l]);
+      if (n == halvings || wanted == 0) break;
+      const std::uint32_t is_blocked = are_blocked(middle_deg, wanted);
+      for (std::size_t l = 0; l < lanes; ++l) (has_bit(is_blocked, l) ? blocked_deg : free_deg)[l] = middle_deg[l];
+    }
+    for (std::size_t l = 0; l < lanes; ++l)
+      if (blocked_deg[l] == 0.0) middle_deg[l] = 0.0;
+    return middle_deg;
+  }
+
+ private:
+  const BlockedRays& blocked_;
+  Occluder::Directions directions_;
+};
+
+/// Which degrees are blocked for each receiver: a bit for each receiver.
+std::array<std::uint32_t, degrees> look_at_degrees(RaysAtAzimuth& rays, std::uint32_t wanted) {
+  std::array<std::uint32_t, degrees> blocked{};
+  for (std::size_t e = 0; e < degrees; ++e) blocked[e] = rays.are_blocked(middle_of(e), wanted);
+  return blocked;
+}
+
+/// The highest blocked degree of a receiver, counted from 1; 0 where there is none.
+std::size_t end_of_blocked(const std::array<std::uint32_t, degrees>& blocked, std::size_t lane) {
+  std::size_t end = degrees;
+  while (end > 0 && !has_bit(blocked[end - 1], lane)) --end;
+  return end;
+}
+
+/// A gap of a receiver: its lowest and the end of its highest free degree below the sky, and the free share of its sky.
+struct Gap {
+  std::size_t begin = 0, end = 0;
+  double share = 0.0;
+};
+Gap gap_of(const std::array<std::uint32_t, degrees>& blocked, std::size_t lane, std::size_t end_of_hidden) {
+  Gap gap{end_of_hidden, 0, 0.0};
+  for (std::size_t e = 0; e < end_of_hidden; ++e) {
+    if (has_bit(blocked[e], lane)) continue;
+    gap.begin = std::min(gap.begin, e);
+    gap.end = e + 1;
+  }
+  double free = 0.0, all = 0.0;
+  for (std::size_t e = gap.begin; e < gap.end; ++e) {
+    all += sky_of(e);
+    free += has_bit(blocked[e], lane) ? 0.0 : sky_of(e);
+  }
+  gap.share = all > 0.0 ? free / all : 0.0;
+  return gap;
+}
+
+void add_gap_rows(SkyProfile& profile) {
+  if (!profile.gap_share.empty()) return;
+  for (SkyProfile::Rows* rows : {&profile.gap_from, &profile.gap_to, &profile.gap_share})
+    rows->assign(profile.sky_from.size(), PacketHorizon::Row{});
+}
+
+}  // namespace
+
+void trace_profile(const AzimuthSampling& azimuths, const BlockedRays& blocked_rays, std::uint32_t wanted, SkyProfile& profile,
+                   const std::stop_token& stop) {
+  for (SkyProfile::Rows* rows : {&profile.gap_from, &profile.gap_to, &profile.gap_share, &profile.sky, &profile.solid_sky})
+    rows->clear();
+  for (std::size_t k = 0; k < azimuths.size(); ++k) {
+    throw_if_cancelled(stop);
+    RaysAtAzimuth rays(azimuths.cosine()[k], azimuths.sine()[k], blocked_rays);
+    const std::array<std::uint32_t, degrees> blocked = look_at_degrees(rays, wanted);
+    // The sky begins between the highest blocked degree and the next
+    std::array<std::size_t, lanes> ends{};
+    std::array<double, lanes> blocked_deg{}, free_deg{};
+    std::uint32_t is_closed = 0;
+    for (std::size_t l = 0; l < lanes; ++l) {
+      ends[l] = end_of_blocked(blocked, l);
+      blocked_deg[l] = ends[l] == 0 ? 0.0 : middle_of(ends[l] - 1);
+      free_deg[l] = ends[l] == degrees ? 90.0 : middle_of(ends[l]);
+      is_closed |= ends[l] == degrees ? 1U << l : 0U;
+    }
+    const std::array<double, lanes> sky_from_deg = rays.border_between(blocked_deg, free_deg, wanted & ~is_closed);
+    for (std::size_t l = 0; l < lanes; ++l)
+      profile.sky_from[k][l] = has_bit(is_closed, l) ? std::numeric_limits<float>::infinity() : slope_at(sky_from_deg[l]);
+    // Gaps: from below the lowest free degree to above the highest one that is not the sky's
+    std::array<Gap, lanes> gaps{};
+    std::uint32_t with_gap = 0;
+    for (std::size_t l = 0; l < lanes; ++l) {
+      gaps[l] = gap_of(blocked, l, ends[l]);
+      with_gap |= gaps[l].end > 0 && has_bit(wanted, l) ? 1U << l : 0U;
+    }
+    if (with_gap == 0) continue;
+    add_gap_rows(profile);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      if (!has_bit(with_gap, l)) continue;
+      blocked_deg[l] = gaps[l].begin == 0 ? 0.0 : middle_of(gaps[l].begin - 1);
+      free_deg[l] = middle_of(gaps[l].begin);
+    }
+    const std::array<double, lanes> from_deg = rays.border_between(blocked_deg, free_deg, with_gap);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      if (!has_bit(with_gap, l)) continue;
+      blocked_deg[l] = middle_of(gaps[l].end);
+      free_deg[l] = middle_of(gaps[l].end - 1);
+    }
+    const std::array<double, lanes> to_deg = rays.border_between(blocked_deg, free_deg, with_gap);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      if (!has_bit(with_gap, l)) continue;
+      profile.gap_from[k][l] = slope_at(from_deg[l]);
+      profile.gap_to[k][l] = slope_at(to_deg[l]);
+      profile.gap_share[k][l] = static_cast<float>(gaps[l].share);
+    }
+  }
+}
+
+}  // namespace farlod

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "horizon/azimuth_sampling.hpp"
+#include "horizon/packet_horizon.hpp"
+
+namespace farlod {
+
+/// What the receivers of a packet see at each azimuth of a sampling, by slopes (tangents of elevations), from below: nothing; sky
+/// in a gap below an overhang, of which they see a share; nothing; and from `sky_from` upwards, sky. Rows [azimuth][receiver].
+struct SkyProfile {
+  using Rows = std::vector<PacketHorizon::Row>;
+
+  explicit SkyProfile(const AzimuthSampling& azimuths) : sky_from(azimuths.size()) {}
+
+  Rows sky_from;                      ///< infinite where there is no sky above
+  Rows gap_from, gap_to, gap_share;   ///< empty if there is no gap; the share is that of the gap's sky, from 0 to 1
+  /// The sky above `sky_from`, F(φ) of docs/concepts.md, "Above a horizon", with the jumps of the horizon where they are: their mean
+  /// over the azimuths is the view factor of that sky, by the cosine and by solid angle. Empty where `sky_from` is all that is
+  /// known.
+  Rows sky, solid_sky;
+};
+
+/// What a profile is to hold.
+enum class ProfileRows : std::uint8_t {
+  sky,                ///< the sky by the cosine
+  sky_and_solid_sky,  ///< the sky by solid angle, too
+};
+
+}  // namespace farlod
