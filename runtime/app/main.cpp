@@ -8,6 +8,8 @@
 #include <fstream>
 #include <new>
 
+#include "app/region_of_package.hpp"
+#include "app/sun_of_package.hpp"
 #include "app/svf_options.hpp"
 #include "app/svf_summary.hpp"
 #include "app/written_run.hpp"
@@ -44,10 +46,12 @@ RunSettings run_settings(const SvfOptions& options, ProgressLine& progress) {
   return run;
 }
 
-WrittenRun evaluate(const SvfOptions& options) {
+WrittenRun evaluate(SvfOptions options) {
   const auto start = Clock::now();
   const Package package(options.package);
   const double open_s = seconds_since(start);
+  options.evaluation.region = region_of_package(options, package.description());
+  if (options.sunshine) options.evaluation.further.sun = sun_of_package(package.description(), *options.sunshine);
   ProgressLine progress("sky view factors", options.run.verbosity);
   const RunSettings run = run_settings(options, progress);
   const bool is_sky = options.source == ReceiverSource::at && options.format->kind == OutputKind::picture;
@@ -87,6 +91,7 @@ void print_run(const WrittenRun& written, const SvfOptions& options, double tota
   fmt::print("{} receivers, {:.1f} s in all; no data: {} inside buildings or without ground", run.receivers, total_s,
              run.no_data);
   if (run.beyond_grid > 0) fmt::print(", {} beyond the grid", run.beyond_grid);
+  if (run.outside_of_region > 0) fmt::print("; {} outside of the mask or box", run.outside_of_region);
   fmt::print("\n");
   if (run.svf_mean) fmt::print("{}: min {:.4f}, mean {:.4f}, max {:.4f}\n", quantity, *run.svf_min, *run.svf_mean, *run.svf_max);
   print_sanity(run);

@@ -46,8 +46,10 @@ std::string known_endings() {
 
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
-  std::string package, output, points, surfaces, at, bbox, engine = "auto", sky = "cosine", directions = "partition", projection;
+  std::string package, output, points, along, surfaces, at, bbox, mask, engine = "auto", sky = "cosine", directions = "partition",
+                                                          projection;
   bool on_surface = false;
+  RawQuantities quantities;
 };
 
 std::vector<double> numbers_in(const std::string& text, const std::string& option, const std::string& form) {
@@ -70,6 +72,8 @@ void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
                    "The points of this file: GeoPackage, GeoJSON, Shapefile, FlatGeobuf, another format of GDAL's, or CSV with "
                    "x, y and perhaps z and id; azimuth and tilt are normals, other fields come back")
       ->type_name(file_value);
+  receivers->add_option("--along", raw.along, "Points along the lines of this vector file, such as the axes of streets")
+      ->type_name(file_value);
   receivers->add_option("--surfaces", raw.surfaces, "Points spread over the buildings, with averages per surface and building")
       ->check(CLI::IsMember({"roofs", "walls", "all"}));
   receivers->add_option("--at", raw.at, "One point: X,Y or X,Y,Z in the package's CRS");
@@ -79,14 +83,17 @@ void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->capture_default_str()
       ->group("Placing");
   app.add_flag("--on-surface", raw.on_surface, "Count --height from whatever is highest there, ground or roof")->group("Placing");
-  app.add_option("--spacing", o.surfaces.spacing_m, "Metres between receivers on surfaces")
+  app.add_option("--spacing", o.surfaces.spacing_m, "Metres between receivers on surfaces, or along lines")
       ->check(between(0.05, 1000.0))
       ->capture_default_str()
       ->group("Placing");
-  app.add_option("--points-crs", o.points_crs, "CRS of --points, as EPSG:n (default: the file's own, or the package's)")
+  app.add_option("--points-crs", o.points_crs, "CRS of --points or --along, as EPSG:n (default: the file's own, or the package's)")
       ->group("Placing");
-  app.add_option("--points-layer", o.points_layer, "Layer of --points (default: its only one)")->group("Placing");
-  app.add_option("--bbox", raw.bbox, "X0,Y0,X1,Y1: only this part of --grid")->group("Placing");
+  app.add_option("--points-layer", o.points_layer, "Layer of --points or --along (default: its only one)")->group("Placing");
+  app.add_option("--bbox", raw.bbox, "X0,Y0,X1,Y1: only receivers in this box, in the package's CRS")->group("Placing");
+  app.add_option("--mask", raw.mask, "Only receivers in the polygons of this vector file")
+      ->type_name(file_value)
+      ->group("Placing");
 }
 
 void add_output_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
@@ -160,17 +167,24 @@ void resolve_place(const RawOptions& raw, SvfOptions& o) {
   } else if (!raw.points.empty()) {
     o.source = ReceiverSource::points;
     o.points_file = raw.points;
+  } else if (!raw.along.empty()) {
+    o.source = ReceiverSource::lines;
+    o.points_file = raw.along;
   } else if (!raw.surfaces.empty()) {
     o.source = ReceiverSource::surfaces;
     o.surfaces.choice = raw.surfaces == "roofs"   ? SurfaceChoice::roofs
                         : raw.surfaces == "walls" ? SurfaceChoice::walls
                                                   : SurfaceChoice::all;
   }
+  o.mask_file = raw.mask;
+  if (o.source == ReceiverSource::at && !(raw.mask.empty() && raw.bbox.empty()))
+    throw CLI::ValidationError(raw.mask.empty() ? "--bbox" : "--mask", "it goes with --grid, --points, --along and --surfaces");
   if (raw.bbox.empty()) return;
   const auto n = numbers_in(raw.bbox, "--bbox", "X0,Y0,X1,Y1");
   if (n.size() != 4 || n[0] >= n[2] || n[1] >= n[3])
     throw CLI::ValidationError("--bbox", "give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
-  if (o.source != ReceiverSource::grid) throw CLI::ValidationError("--bbox", "it goes with --grid");
+  if (o.source != ReceiverSource::grid && !raw.mask.empty())
+    throw CLI::ValidationError("--bbox", "with --mask it goes with --grid only: give one of the two");
   o.bbox_projected = Box2d{{n[0], n[1]}, {n[2], n[3]}};
   constexpr double farthest_m = 1e8;  // no map is as large
   for (const double x : n)
@@ -230,10 +244,9 @@ void resolve_output(const RawOptions& raw, SvfOptions& o) {
   require_format_that_fits(o);
   resolve_preview(o);
   resolve_projection(raw, o);
-  if (!o.points_crs.empty() && o.source != ReceiverSource::points)
-    throw CLI::ValidationError("--points-crs", "it goes with --points");
-  if (!o.points_layer.empty() && o.source != ReceiverSource::points)
-    throw CLI::ValidationError("--points-layer", "it goes with --points");
+  const bool has_file = o.source == ReceiverSource::points || o.source == ReceiverSource::lines;
+  if (!o.points_crs.empty() && !has_file) throw CLI::ValidationError("--points-crs", "it goes with --points or --along");
+  if (!o.points_layer.empty() && !has_file) throw CLI::ValidationError("--points-layer", "it goes with --points or --along");
 }
 
 /// Refuses numbers of rays and azimuths that cannot keep the allowed error.
@@ -251,6 +264,20 @@ Engine engine_of(const std::string& name) {
   return name == "horizon" ? Engine::horizon : Engine::automatic;
 }
 
+void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
+  RequestedQuantities requested = resolved(raw.quantities);
+  const bool is_weighted = requested.further.svf_solid || requested.further.directional || requested.further.hidden ||
+                           requested.further.sky_patches != SkyPatchSet::none;
+  if (is_weighted && o.evaluation.weight == SkyWeight::solid_angle)
+    throw CLI::ValidationError("--quantity", "with --sky solid only horizon and sunlit can be computed: leave --sky out");
+  const auto has_room = [&](const OutputFormat& f) { return fits(f, o.source) && f.holds_bounds; };
+  if (requested.any() && !o.format->holds_bounds)
+    throw CLI::ValidationError("--quantity", "a file that ends in " + o.output.extension().string() +
+                                                 " has room for one quantity only: " + advice(has_room));
+  o.evaluation.further = std::move(requested.further);
+  o.sunshine = requested.sunshine;
+}
+
 void resolve(const RawOptions& raw, SvfOptions& o) {
   o.package = raw.package;
   resolve_place(raw, o);
@@ -259,6 +286,7 @@ void resolve(const RawOptions& raw, SvfOptions& o) {
   o.evaluation.directions = raw.directions == "fibonacci" ? DirectionSet::fibonacci : DirectionSet::partition;
   o.evaluation.engine = engine_of(raw.engine);
   o.evaluation.weight = raw.sky == "solid" ? SkyWeight::solid_angle : SkyWeight::cosine;
+  resolve_quantities(raw, o);
   require_accuracy(o.evaluation);
 }
 
@@ -272,6 +300,7 @@ struct CommandLine {
     describe_program(app, svf_program());
     add_receiver_options(app, raw, options);
     add_output_options(app, raw, options);
+    add_quantity_options(app, raw.quantities);
     add_sky_options(app, raw, options);
     add_error_options(app, options);
     add_memory_option(app, options);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/quantity_options.hpp"
 #include "console/program_description.hpp"
 #include "console/run_options.hpp"
 #include "farlod/box.hpp"
@@ -20,7 +21,7 @@
 namespace farlod {
 
 /// Where the receivers are: exactly one of these.
-enum class ReceiverSource { grid, points, surfaces, at };
+enum class ReceiverSource { grid, points, lines, surfaces, at };
 
 /// The command line of farlod-svf, resolved.
 struct SvfOptions {
@@ -29,13 +30,15 @@ struct SvfOptions {
   const OutputFormat* preview_format = nullptr;  ///< of `preview_file`; null when there is none
   ReceiverSource source = ReceiverSource::grid;
   double grid_step_m = 0.0;
-  std::filesystem::path points_file;
+  std::filesystem::path points_file;  ///< of points, or of lines
   std::string points_crs, points_layer;
   SurfaceSettings surfaces;
   RequestedPoint at;
   Placing placing;
   std::optional<Box2d> bbox_projected;
-  EvaluationSettings evaluation;
+  std::filesystem::path mask_file;  ///< of polygons; empty: no mask
+  EvaluationSettings evaluation;      ///< but for the sun, whose positions depend on where the package is
+  std::optional<SunPeriod> sunshine;  ///< when hours of sunshine are counted, if they are
   std::string preview_file;
   SkyProjection projection = SkyProjection::equal_area;
   std::optional<std::uint64_t> memory_limit_mib;

@@ -70,9 +70,11 @@ std::string svf_summary_json(const WrittenRun& written, const SvfOptions& option
       {"peak_memory_mib", peak_memory_mib()},
       {"svf",
        {{"min", number_or_null(run.svf_min)}, {"mean", number_or_null(run.svf_mean)}, {"max", number_or_null(run.svf_max)}}}};
+  if (!written.further_columns.empty()) j["quantities"] = written.further_columns;
   if (options.evaluation.max_error) j["max_error"] = error_budget_json(run, *options.evaluation.max_error);
   if (run.bounds) j["bounds"] = {{"mean_width", run.bounds->mean}, {"max_width", run.bounds->max}};
   if (run.errors) j["verify"] = json_of(*run.errors);
+  if (run.outside_of_region > 0) j["outside_of_region"] = run.outside_of_region;
   if (written.skipped_features > 0) j["skipped_features"] = written.skipped_features;
   return j.dump(1) + "\n";
 }

@@ -97,6 +97,35 @@ struct NamedPoints {
       tilt.push_back(Angle::degrees(normal.tilt_deg));
     }
   }
+  /// Leaves out the points outside of a region.
+  void keep(const Region& region) {
+    std::vector<std::size_t> kept;
+    for (std::size_t n = 0; n < ids.size(); ++n)
+      if (region.contains({x_m[n], y_m[n]})) kept.push_back(n);
+    if (kept.size() == ids.size()) return;
+    const std::size_t outside = ids.size() - kept.size();
+    const auto choose = [&kept](auto& values) {
+      if (values.empty()) return;
+      for (std::size_t k = 0; k < kept.size(); ++k)
+        if (kept[k] != k) values[k] = std::move(values[kept[k]]);
+      values.resize(kept.size());
+    };
+    choose(ids);
+    choose(x_m);
+    choose(y_m);
+    choose(z_m);
+    choose(azimuth);
+    choose(tilt);
+    Attributes of_kept(attributes.names());
+    for (const std::size_t n : kept) {
+      std::vector<std::string> fields;
+      for (std::size_t c = 0; c < attributes.names().size(); ++c) fields.emplace_back(attributes.value(n, c));
+      of_kept.add_row(fields);
+    }
+    attributes = std::move(of_kept);
+    notes.push_back(std::to_string(outside) + (outside == 1 ? " point lies outside of the mask or box, and was left out."
+                                                           : " points lie outside of the mask or box, and were left out."));
+  }
   [[nodiscard]] bool has_normals() const { return !tilt.empty(); }
   [[nodiscard]] Points points() const { return {x_m, y_m, z_m, azimuth, tilt}; }
   /// What it holds for each point, more or less: short ids lie within their string.
@@ -109,7 +138,7 @@ void move_to_package_crs(NamedPoints& named, const std::string& crs, const Packa
 #ifdef FARLOD_WITH_GDAL
   std::vector<Point2d> points;
   for (std::size_t n = 0; n < named.ids.size(); ++n) points.push_back({named.x_m[n], named.y_m[n]});
-  points = to_projected(points, crs, package.crs_wkt);
+  points = reprojected(points, crs, package.crs_wkt);
   for (std::size_t n = 0; n < points.size(); ++n) {
     named.x_m[n] = points[n].x;
     named.y_m[n] = points[n].y;
@@ -149,12 +178,23 @@ RequestedPoints read_points(const std::filesystem::path& file, const std::string
   return read_points_csv(file);
 }
 
+RequestedPoints read_lines(const SvfOptions& options, const PackageDescription& package) {
+#ifdef FARLOD_WITH_GDAL
+  return read_lines_gdal(options.points_file, options.points_layer,
+                         {options.surfaces.spacing_m, options.points_crs, package.crs_wkt});
+#else
+  throw PointsError(options.points_file.string() + " needs GDAL, which this farlod-svf was built without: give points of " +
+                    package.crs_name + " as CSV (--points).");
+#endif
+}
+
 NamedPoints requested_points(const SvfOptions& options, const PackageDescription& package) {
   if (options.source == ReceiverSource::at) {
     RequestedPoints one;
     one.points = {options.at};
     return NamedPoints(std::move(one));
   }
+  if (options.source == ReceiverSource::lines) return NamedPoints(read_lines(options, package));
   RequestedPoints read = read_points(options.points_file, options.points_layer);
   const std::string crs = crs_of(read, options, read.notes);
   NamedPoints named(std::move(read));
@@ -212,8 +252,14 @@ PointAnswers evaluate_named(const Package& package, const NamedPoints& named, co
 
 std::string quantity_name(SkyWeight weight) { return weight == SkyWeight::cosine ? "svf" : "svf_solid"; }
 
+/// Of a raster: a mask needs no pixels around it.
+std::optional<Box2d> extent_of(const SvfOptions& options) {
+  if (options.bbox_projected || options.evaluation.region == nullptr) return options.bbox_projected;
+  return options.evaluation.region->outline();
+}
+
 WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSettings run) {
-  const RasterPlan plan = plan_raster(package, options.grid_step_m, options.bbox_projected);
+  const RasterPlan plan = plan_raster(package, options.grid_step_m, extent_of(options));
   const RasterFrame frame = frame_of(plan, options, package.description(), run.threads);
   RasterFiles files;
   files.add(*options.format, frame, options.output);
@@ -229,6 +275,7 @@ WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSe
 WrittenRun write_points(const Package& package, const SvfOptions& options, RunSettings run) {
   const AnswerColumns columns = answer_columns(options);
   NamedPoints named = requested_points(options, package.description());
+  if (options.evaluation.region) named.keep(*options.evaluation.region);
   rename_attributes_that_clash(named, columns);
   run.caller_bytes = named.bytes();  // the library counts its answers
   const PointAnswers answers = evaluate_named(package, named, options, run);

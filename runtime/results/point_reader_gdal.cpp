@@ -7,13 +7,16 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <memory>
 #include <string_view>
+#include <utility>
 
 #include "contract/lower_case.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/vector_file_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
 #include "points/point_fields.hpp"
+#include "results/reproject_gdal.hpp"
 
 namespace farlod {
 namespace {
@@ -143,10 +146,114 @@ std::string crs_of(OGRLayer& layer) {
   return name != nullptr && std::string_view(name).starts_with("Undefined") ? std::string() : wkt_of(crs);
 }
 
-std::string sentence_on_skipped(const RequestedPoints& read, const std::filesystem::path& path) {
-  return std::to_string(read.skipped_features) + (read.skipped_features == 1 ? " feature of " : " features of ") + path.string() +
-         (read.skipped_features == 1 ? " is no point and was skipped." : " are no points and were skipped.");
+std::string sentence_on_skipped(const RequestedPoints& read, const std::filesystem::path& path, const std::string& wanted) {
+  const bool one = read.skipped_features == 1;
+  return std::to_string(read.skipped_features) + (one ? " feature of " : " features of ") + path.string() +
+         (one ? " is no " + wanted + " and was skipped." : " are no " + wanted + "s and were skipped.");
 }
+
+void require_any(const RequestedPoints& read, const std::filesystem::path& path, const std::string& wanted,
+                 const std::string& instead) {
+  if (!read.points.empty()) return;
+  const std::string none = path.string() + " holds no " + wanted + ": ";
+  if (read.skipped_features == 0) throw PointsError(none + "its layer is empty");
+  throw PointsError(none + "none of its " + std::to_string(read.skipped_features) + " features is " + instead);
+}
+
+/// A layer that is open, with the messages of GDAL since then.
+class OpenLayer {
+ public:
+  OpenLayer(const std::filesystem::path& path, const std::string& name) : path_(path) {
+    if (!std::filesystem::exists(path)) throw PointsError(path.string() + ": the file cannot be read; see that it exists");
+    dataset_ = open_vector_file(path);
+    if (!dataset_) throw PointsError(path.string() + " cannot be read as a vector file (" + messages_.last() + ")");
+    layer_ = &layer_of(*dataset_, name, path);
+  }
+  [[nodiscard]] OGRLayer& layer() const { return *layer_; }
+  void require_all_read() const {
+    if (messages_.any()) throw PointsError(path_.string() + " cannot be read to its end (" + messages_.last() + ")");
+  }
+
+ private:
+  const std::filesystem::path& path_;
+  GdalErrors messages_;
+  GDALDatasetUniquePtr dataset_;
+  OGRLayer* layer_ = nullptr;
+};
+
+/// Places points along the lines of one layer.
+class LineReader {
+ public:
+  LineReader(OGRLayer& layer, const LineSampling& sampling, std::string crs)
+      : layer_(layer), sampling_(sampling), crs_(std::move(crs)), fields_(fields_of(layer)) {
+    std::vector<std::string> names;
+    for (const Field& field : fields_) names.push_back(free_name(field.name));
+    names.emplace_back(along);
+    result_.attributes = Attributes(std::move(names));
+  }
+
+  RequestedPoints read() && {
+    layer_.ResetReading();
+    for (Feature feature(layer_.GetNextFeature()); feature; feature.reset(layer_.GetNextFeature())) take(*feature);
+    return std::move(result_);
+  }
+
+ private:
+  static constexpr const char* along = "along_m";
+
+  /// The field of a line that is called like the column that is added to them.
+  static std::string free_name(const std::string& name) { return lower_case(name) == along ? name + "_input" : name; }
+
+  void take(const OGRFeature& feature) {
+    const OGRGeometry* geometry = feature.GetGeometryRef();
+    const std::unique_ptr<OGRGeometry> straight(geometry == nullptr ? nullptr : geometry->getLinearGeometry());
+    const OGRwkbGeometryType type = straight ? wkbFlatten(straight->getGeometryType()) : wkbNone;
+    if (straight == nullptr || straight->IsEmpty() != 0 || (type != wkbLineString && type != wkbMultiLineString)) {
+      ++result_.skipped_features;
+      return;
+    }
+    std::vector<std::string> values;
+    for (const Field& field : fields_) values.push_back(text_of(feature, field));
+    values.emplace_back();
+    if (type == wkbLineString) return take(*straight->toLineString(), values);
+    for (const OGRLineString* part : *straight->toMultiLineString()) take(*part, values);
+  }
+
+  void take(const OGRLineString& line, std::vector<std::string>& values) {
+    std::vector<Point2d> places;
+    for (int n = 0; n < line.getNumPoints(); ++n) places.push_back({line.getX(n), line.getY(n)});
+    if (!crs_.empty()) places = reprojected(places, crs_, sampling_.package_crs);
+    double length_m = 0.0;
+    for (std::size_t n = 1; n < places.size(); ++n) length_m += norm(places[n] - places[n - 1]);
+    if (!(length_m > 0.0) || !std::isfinite(length_m)) return;
+    const auto count = static_cast<std::size_t>(std::ceil(length_m / sampling_.spacing_m));
+    std::size_t end = 1;
+    double before_m = 0.0;  // up to the place before `end`
+    for (std::size_t k = 0; k < count; ++k) {
+      const double at_m = (static_cast<double>(k) + 0.5) * length_m / static_cast<double>(count);
+      double leg_m = norm(places[end] - places[end - 1]);
+      while (before_m + leg_m < at_m && end + 1 < places.size()) {
+        before_m += leg_m;
+        ++end;
+        leg_m = norm(places[end] - places[end - 1]);
+      }
+      const Point2d p = places[end - 1] + std::min(1.0, (at_m - before_m) / leg_m) * (places[end] - places[end - 1]);
+      RequestedPoint point;
+      point.id = std::to_string(result_.points.size() + 1);
+      point.x = p.x;
+      point.y = p.y;
+      result_.points.push_back(std::move(point));
+      values.back() = shortest(std::round(at_m * 1000.0) / 1000.0);
+      result_.attributes.add_row(values);
+    }
+  }
+
+  OGRLayer& layer_;
+  const LineSampling& sampling_;
+  std::string crs_;
+  std::vector<Field> fields_;
+  RequestedPoints result_;
+};
 
 }  // namespace
 
@@ -156,19 +263,25 @@ bool is_vector_file(const std::filesystem::path& path) {
 }
 
 RequestedPoints read_points_gdal(const std::filesystem::path& path, const std::string& layer_name) {
-  if (!std::filesystem::exists(path)) throw PointsError(path.string() + ": the file cannot be read; see that it exists");
-  GdalErrors messages;
-  const GDALDatasetUniquePtr dataset = open_vector_file(path);
-  if (!dataset) throw PointsError(path.string() + " cannot be read as a vector file (" + messages.last() + ")");
-  OGRLayer& layer = layer_of(*dataset, layer_name, path);
-  RequestedPoints read = LayerReader(path, layer).read();
-  if (messages.any()) throw PointsError(path.string() + " cannot be read to its end (" + messages.last() + ")");
-  if (read.points.empty() && read.skipped_features > 0)
-    throw PointsError(path.string() + " holds no points: none of its " + std::to_string(read.skipped_features) +
-                      " features is one; give points, not lines or polygons");
-  if (read.points.empty()) throw PointsError(path.string() + " holds no points: its layer is empty");
-  if (read.skipped_features > 0) read.notes.push_back(sentence_on_skipped(read, path));
-  read.crs_wkt = crs_of(layer);
+  const OpenLayer open(path, layer_name);
+  RequestedPoints read = LayerReader(path, open.layer()).read();
+  open.require_all_read();
+  require_any(read, path, "points", "one; give points, not lines or polygons");
+  if (read.skipped_features > 0) read.notes.push_back(sentence_on_skipped(read, path, "point"));
+  read.crs_wkt = crs_of(open.layer());
+  return read;
+}
+
+RequestedPoints read_lines_gdal(const std::filesystem::path& path, const std::string& layer_name, const LineSampling& sampling) {
+  const OpenLayer open(path, layer_name);
+  const std::string own = crs_of(open.layer());
+  RequestedPoints read = LineReader(open.layer(), sampling, sampling.crs.empty() ? own : sampling.crs).read();
+  open.require_all_read();
+  require_any(read, path, "lines", "one; give lines, such as the axes of streets");
+  if (read.skipped_features > 0) read.notes.push_back(sentence_on_skipped(read, path, "line"));
+  if (own.empty() && sampling.crs.empty())
+    read.notes.push_back(path.string() + " says no CRS: its lines were taken to be in that of the package (--points-crs names "
+                         "another).");
   return read;
 }
 

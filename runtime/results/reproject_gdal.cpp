@@ -32,12 +32,12 @@ std::string text_of(Point2d p) { return fmt::format("({}, {})", p.x, p.y); }
 
 }  // namespace
 
-std::vector<Point2d> to_projected(std::span<const Point2d> points, const std::string& from_crs, const std::string& to_wkt) {
+std::vector<Point2d> reprojected(std::span<const Point2d> points, const std::string& from_crs, const std::string& to_crs) {
   const GdalErrors errors;
-  const OGRSpatialReference from = read_crs(from_crs), to = read_crs(to_wkt);
+  const OGRSpatialReference from = read_crs(from_crs), to = read_crs(to_crs);
   const std::unique_ptr<OGRCoordinateTransformation> transformation(OGRCreateCoordinateTransformation(&from, &to));
   if (transformation == nullptr)
-    throw PointsError("no way leads from " + name_of(from_crs, from) + " to the CRS of the package: " + errors.last());
+    throw PointsError("no way leads from " + name_of(from_crs, from) + " to " + name_of(to_crs, to) + ": " + errors.last());
   std::vector<Point2d> projected(points.begin(), points.end());
   for (std::size_t n = 0; n < projected.size(); ++n) {
     if (transformation->Transform(1, &projected[n].x, &projected[n].y) == 0)

@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 
+#include "farlod/point.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
@@ -195,6 +196,54 @@ TEST_F(PointReaderGdal, OfSeveralLayersOneIsChosen) {
   EXPECT_THAT(complaint_about(path), HasSubstr("choose one by --points-layer, of \"trees\", \"stations\""));
   EXPECT_THAT(complaint_about(path, "roofs"), HasSubstr("no layer \"roofs\""));
   EXPECT_EQ(read_points_gdal(path, "stations").points.at(0).x, 3.0);
+}
+
+LineSampling every(double spacing_m, const std::string& crs = "") { return {spacing_m, crs, "EPSG:25832"}; }
+
+TEST_F(PointReaderGdal, PointsAlongLinesStandInTheMiddlesOfEqualParts) {
+  VectorFile("GPKG", path)
+      .layer("axes", 25832, wkbLineString, {{"street", OFTString}, {"along_m", OFTInteger}})
+      .feature("LINESTRING (600000 5000000, 600010 5000000, 600010 5000005)",
+               [](OGRFeature& f) {
+                 f.SetField("street", "bent");
+                 f.SetField("along_m", 7);
+               })
+      .feature("LINESTRING (600000 5000100, 600001 5000100)")
+      .feature("POINT (1 2)")
+      .feature("LINESTRING (600000 5000200, 600000 5000200)");
+  const RequestedPoints read = read_lines_gdal(path, "", every(4.0));
+  ASSERT_EQ(read.points.size(), 5U) << "15 m in four parts, and a short one";
+  const std::vector<Point2d> expected{{600001.875, 5000000}, {600005.625, 5000000}, {600009.375, 5000000}, {600010, 5000003.125}, {600000.5, 5000100}};
+  for (std::size_t n = 0; n < expected.size(); ++n) {
+    EXPECT_NEAR(read.points[n].x, expected[n].x, 1e-6) << n;
+    EXPECT_NEAR(read.points[n].y, expected[n].y, 1e-6) << n;
+    EXPECT_EQ(read.points[n].id, std::to_string(n + 1));
+  }
+  EXPECT_THAT(read.attributes.names(), ElementsAre("fid", "street", "along_m_input", "along_m"));
+  EXPECT_THAT(row_of(read.attributes, 3), ElementsAre("1", "bent", "7", "13.125"));
+  EXPECT_EQ(read.skipped_features, 1U);
+  EXPECT_THAT(read.notes, ElementsAre(HasSubstr("1 feature of ")));
+}
+
+TEST_F(PointReaderGdal, LinesAreMeasuredInTheMetresOfThePackage) {
+  VectorFile("GeoJSON", folder.file("axes.geojson"))
+      .layer("axes", 4326, wkbMultiLineString, {})
+      .feature("MULTILINESTRING ((9 49, 9 49.001), (9.01 49, 9.01 49.0005))");
+  const RequestedPoints read = read_lines_gdal(folder.file("axes.geojson"), "", every(10.0));
+  // A thousandth of a degree along a meridian is 111.2 m; UTM's scale there is .9996
+  EXPECT_EQ(read.points.size(), 12U + 6U);
+  EXPECT_NEAR(read.points[0].x, 500000.0, 0.01);
+  EXPECT_NEAR(norm(Point2d{read.points[1].x - read.points[0].x, read.points[1].y - read.points[0].y}), 111.16 / 12.0, 0.01);
+}
+
+TEST_F(PointReaderGdal, FilesWithoutLinesAreRefused) {
+  VectorFile("GPKG", path).layer("a", 25832, wkbPoint, {}).feature("POINT (1 2)");
+  try {
+    (void)read_lines_gdal(path, "", every(1.0));
+    FAIL();
+  } catch (const PointsError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("holds no lines: none of its 1 features is one"));
+  }
 }
 
 TEST_F(PointReaderGdal, AzimuthAndTiltAreANormal) {

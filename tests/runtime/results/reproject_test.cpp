@@ -16,7 +16,7 @@ constexpr double projection_error_m = 1e-6;
 TEST(ToProjected, LongitudeComesFirstWhateverTheCrsDeclares) {
   // On the central meridian of zone 32 the easting is the false easting, by definition
   const std::vector<Point2d> points{{9.0, 0.0}, {9.0, 50.0}};
-  const std::vector<Point2d> projected = to_projected(points, "EPSG:4258", small_raster().crs_wkt);
+  const std::vector<Point2d> projected = reprojected(points, "EPSG:4258", small_raster().crs_wkt);
   ASSERT_EQ(projected.size(), 2U);
   EXPECT_NEAR(projected[0].x, 500000.0, projection_error_m);
   EXPECT_NEAR(projected[0].y, 0.0, projection_error_m);
@@ -27,12 +27,12 @@ TEST(ToProjected, LongitudeComesFirstWhateverTheCrsDeclares) {
 
 TEST(ToProjected, TheSameCrsChangesNothing) {
   const std::vector<Point2d> points{{500100.0, 5600000.0}};
-  EXPECT_EQ(to_projected(points, "EPSG:25832", small_raster().crs_wkt), points);
+  EXPECT_EQ(reprojected(points, "EPSG:25832", small_raster().crs_wkt), points);
 }
 
 TEST(ToProjected, UnknownCrsIsNamed) {
   try {
-    (void)to_projected({}, "EPSG:1", small_raster().crs_wkt);
+    (void)reprojected({}, "EPSG:1", small_raster().crs_wkt);
     FAIL() << "EPSG:1 was taken for a CRS";
   } catch (const PointsError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("EPSG:1"));
@@ -42,7 +42,7 @@ TEST(ToProjected, UnknownCrsIsNamed) {
 TEST(ToProjected, APointThatCannotBeProjectedIsNamed) {
   const std::vector<Point2d> points{{9.0, 50.0}, {9.0, 500.0}};
   try {
-    (void)to_projected(points, "EPSG:4258", small_raster().crs_wkt);
+    (void)reprojected(points, "EPSG:4258", small_raster().crs_wkt);
     FAIL() << "latitude 500 was projected";
   } catch (const PointsError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("point 2 at (9, 500)"));

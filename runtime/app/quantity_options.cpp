@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/quantity_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <charconv>
+#include <string_view>
+
+namespace farlod {
+namespace {
+
+constexpr std::size_t default_horizons = 36, tregenza_patches = 145, reinhart_patches = 577;
+constexpr int first_year = 1960, last_year = 2200;  // of ERFA's leap seconds, and of what it promises of the Earth's orbit
+constexpr std::size_t step_of_days = 5, step_of_years = 15;
+
+/// The number that a part of a date is; none where there are other characters.
+std::optional<unsigned> number_in(std::string_view text) {
+  unsigned number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+/// "2026-06-21", or "2026" for all of its days.
+SunPeriod period_of(const std::string& text, std::size_t step_minutes) {
+  const std::string_view all = text;
+  const bool is_year = all.size() == 4, is_day = all.size() == 10 && all[4] == '-' && all[7] == '-';
+  const auto year = number_in(all.substr(0, 4)), month = is_day ? number_in(all.substr(5, 2)) : 1U,
+             day = is_day ? number_in(all.substr(8, 2)) : 1U;
+  if ((!is_year && !is_day) || !year || !month || !day)
+    throw CLI::ValidationError("--sun", "\"" + text + "\" is neither a day, like 2026-06-21, nor a year, like 2026");
+  const std::chrono::year_month_day first{std::chrono::year(static_cast<int>(*year)), std::chrono::month(*month),
+                                          std::chrono::day(*day)};
+  if (!first.ok() || static_cast<int>(*year) < first_year || static_cast<int>(*year) > last_year)
+    throw CLI::ValidationError("--sun", "\"" + text + "\" is no day from " + std::to_string(first_year) + " to " +
+                                            std::to_string(last_year));
+  const std::size_t days = is_day ? 1 : first.year().is_leap() ? 366 : 365;
+  const std::size_t minutes = step_minutes > 0 ? step_minutes : is_day ? step_of_days : step_of_years;
+  return {std::chrono::sys_days(first), days, std::chrono::minutes(static_cast<std::int64_t>(minutes))};
+}
+
+void add(const std::string& name, const RawQuantities& raw, RequestedQuantities& requested) {
+  if (name == "svf") return;
+  if (name == "svf_solid") {
+    requested.further.svf_solid = true;
+  } else if (name == "directional") {
+    requested.further.directional = true;
+  } else if (name == "hidden") {
+    requested.further.hidden = true;
+  } else if (name == "horizon") {
+    requested.further.horizons = default_horizons;
+  } else if (name == "sky_patches") {
+    requested.further.sky_patches = SkyPatchSet::tregenza;
+  } else if (name == "sunlit") {
+    if (raw.sun.empty()) throw CLI::ValidationError("--quantity", "sunlit needs a day or a year: give --sun");
+  } else {
+    throw CLI::ValidationError("--quantity", "\"" + name +
+                                                 "\" is not one of svf, svf_solid, directional, hidden, horizon, sky_patches, "
+                                                 "sunlit");
+  }
+}
+
+}  // namespace
+
+void add_quantity_options(CLI::App& app, RawQuantities& raw) {
+  app.add_option("--quantity", raw.quantities,
+                 "What to compute, with commas: svf (always), svf_solid, directional (svfN, svfE, svfS, svfW as UMEP has them), "
+                 "hidden (by near and by far geometry), horizon, sky_patches, sunlit")
+      ->group("Quantities");
+  app.add_option("--horizons", raw.horizons,
+                 "Elevations of the horizon, in degrees, at so many azimuths, clockwise from true north (with --quantity horizon: " +
+                     std::to_string(default_horizons) + ")")
+      ->check(CLI::Range(4, 3600))
+      ->group("Quantities");
+  app.add_option("--sky-patches", raw.sky_patches,
+                 "The share seen of each patch of the sky, as Radiance counts them: 145 (Tregenza) or 577 (Reinhart)")
+      ->check(CLI::IsMember({tregenza_patches, reinhart_patches}))
+      ->group("Quantities");
+  app.add_option("--sun", raw.sun, "Hours of sunshine, were the sky clear: of a day, as 2026-06-21, or a year, as 2026")
+      ->group("Quantities");
+  app.add_option("--sun-step", raw.sun_step_minutes,
+                 "Minutes from one position of the sun to the next (default: " + std::to_string(step_of_days) + " for a day, " +
+                     std::to_string(step_of_years) + " for a year)")
+      ->check(CLI::Range(1, 60))
+      ->group("Quantities");
+}
+
+RequestedQuantities resolved(const RawQuantities& raw) {
+  RequestedQuantities requested;
+  if (!raw.quantities.empty())
+    for (const std::string& name : CLI::detail::split(raw.quantities + ',', ',')) add(name, raw, requested);
+  if (raw.horizons > 0) requested.further.horizons = raw.horizons;
+  if (raw.sky_patches > 0)
+    requested.further.sky_patches = raw.sky_patches == reinhart_patches ? SkyPatchSet::reinhart : SkyPatchSet::tregenza;
+  if (!raw.sun.empty()) requested.sunshine = period_of(raw.sun, raw.sun_step_minutes);
+  if (raw.sun.empty() && raw.sun_step_minutes > 0) throw CLI::ValidationError("--sun-step", "it goes with --sun");
+  return requested;
+}
+
+}  // namespace farlod

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "farlod/quantities.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace farlod {
+
+/// Some days for which hours of sunshine are counted.
+struct SunPeriod {
+  std::chrono::sys_days first;
+  std::size_t days = 1;
+  std::chrono::minutes step{5};
+};
+
+/// What the options of this file say, as text.
+struct RawQuantities {
+  std::string quantities, sun;
+  std::size_t horizons = 0, sky_patches = 0, sun_step_minutes = 0;
+};
+
+/// What they mean. The sun's positions depend on where the package is, and are not among the quantities yet.
+struct RequestedQuantities {
+  Quantities further;
+  std::optional<SunPeriod> sunshine;
+
+  [[nodiscard]] bool any() const { return further.any() || sunshine.has_value(); }
+};
+
+void add_quantity_options(CLI::App& app, RawQuantities& raw);
+
+/// Throws CLI::ValidationError.
+[[nodiscard]] RequestedQuantities resolved(const RawQuantities& raw);
+
+}  // namespace farlod

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "console/exit_code.hpp"
+#include "contract/frame.hpp"
+#include "tests/acceptance/packed_town.hpp"
+
+// What farlod-svf computes besides the sky view factor, and where it computes it.
+
+namespace farlod::acceptance {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const Point2d crossing = p_projected({-60.0, 0.0});
+
+TEST_F(PackedTown, QuantitiesAreColumnsOfATable) {
+  folder.must("farlod-svf a.farlod -o o.csv --quantity svf,svf_solid,directional,hidden,horizon --horizons 8 --summary s.json --at " +
+              text_of(crossing));
+  const CsvTable row = table("o.csv");
+  EXPECT_THAT(row.header(), ElementsAre("id", "x_m", "y_m", "z_m", "svf", "svf_solid", "svfN", "svfE", "svfS", "svfW", "hidden_near",
+                                        "hidden_far", "horizon_000", "horizon_045", "horizon_090", "horizon_135", "horizon_180",
+                                        "horizon_225", "horizon_270", "horizon_315"));
+  EXPECT_NEAR(0.5 * (row.number(0, "svfE") + row.number(0, "svfW")), row.number(0, "svf"), 3.0 * half_of_last_digit);
+  EXPECT_NEAR(row.number(0, "hidden_near") + row.number(0, "hidden_far") + row.number(0, "svf"), 1.0, 3.0 * half_of_last_digit);
+  EXPECT_EQ(folder.json_of("s.json").at("quantities").size(), 15U);
+}
+
+TEST_F(PackedTown, QuantitiesAreBandsOfARaster) {
+  folder.must("farlod-svf a.farlod -o o.tif --grid 8 --quantity directional --sun 2026-06-21");
+  EXPECT_THAT(band_names(folder.path("o.tif")), ElementsAre("svf", "svfN", "svfE", "svfS", "svfW", "sunlit_h"));
+  const RasterFile svf = read_raster(folder.path("o.tif"), 1), north = read_raster(folder.path("o.tif"), 2),
+                   south = read_raster(folder.path("o.tif"), 4), hours = read_raster(folder.path("o.tif"), 6);
+  std::size_t compared = 0;
+  for (std::size_t n = 0; n < svf.values.size(); ++n) {
+    ASSERT_EQ(svf.values[n].has_value(), hours.values[n].has_value());
+    if (!svf.values[n]) continue;
+    EXPECT_NEAR(0.5 * (*north.values[n] + *south.values[n]), *svf.values[n], 1e-6);
+    // At 50° north the longest day has 16.4 hours
+    EXPECT_GE(*hours.values[n], 0.0);
+    EXPECT_LE(*hours.values[n], 16.6);
+    ++compared;
+  }
+  EXPECT_GT(compared, 500U);
+}
+
+TEST_F(PackedTown, TheSunOfTheOpenIsThatOfItsDay) {
+  const Point2d open = town_middle + Point2d{20000.0, 0.0};
+  folder.must("farlod-svf a.farlod -o o.csv --sun 2026-12-21 --at " + text_of(open));
+  EXPECT_NEAR(table("o.csv").number(0, "sunlit_h"), 8.0, 0.25);
+  folder.must("farlod-svf a.farlod -o o.csv --sun 2026 --at " + text_of(open));
+  EXPECT_NEAR(table("o.csv").number(0, "sunlit_h"), 365.0 * 12.0, 80.0);
+}
+
+TEST_F(PackedTown, PatchesOfSurfacesComeWithTheirMeans) {
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces roofs --spacing 12 --sky-patches 145");
+  const CsvTable points = table("o.csv");
+  EXPECT_THAT(points.header(), Contains("patch_145"));
+  EXPECT_EQ(points.number(0, "patch_145"), 1.0);
+}
+
+TEST_F(PackedTown, QuantitiesThatDoNotFitAreRefused) {
+  const auto refused = [&](const std::string& arguments, const std::vector<std::string>& said) {
+    expect_refusal(folder.run("farlod-svf a.farlod " + arguments), exit_usage, said);
+  };
+  refused("-o o.asc --grid 8 --quantity directional", {"--quantity", ".asc", "one quantity only"});
+  refused("-o o.csv --at 1,2 --quantity light", {"--quantity", "light", "svf_solid"});
+  refused("-o o.csv --at 1,2 --quantity sunlit", {"--quantity", "--sun"});
+  refused("-o o.csv --at 1,2 --sun 2026-02-30", {"--sun", "2026-02-30"});
+  refused("-o o.csv --at 1,2 --sun tomorrow", {"--sun", "tomorrow"});
+  refused("-o o.csv --at 1,2 --sun-step 5", {"--sun-step", "--sun"});
+  refused("-o o.csv --at 1,2 --horizons 2", {"--horizons"});
+  refused("-o o.csv --at 1,2 --sky-patches 100", {"--sky-patches"});
+  refused("-o o.csv --at 1,2 --sky solid --quantity directional", {"--quantity", "--sky solid"});
+}
+
+/// A triangle over the west of the town, as GeoJSON.
+void write_mask(const WorkFolder& folder) {
+  const Point2d a = town_middle + Point2d{-150.0, -150.0}, b = town_middle + Point2d{10.0, 0.0},
+                c = town_middle + Point2d{-150.0, 150.0};
+  folder.write("mask.geojson", R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": ")" +
+                                   std::string(town_crs) + R"("}}, "features": [{"type": "Feature", "properties": {}, "geometry":
+  {"type": "Polygon", "coordinates": [[[)" + text_of(a) + "], [" + text_of(b) + "], [" + text_of(c) + "], [" + text_of(a) +
+                                   "]]]}}]}");
+}
+
+TEST_F(PackedTown, AMaskLeavesTheReceiversWithinIt) {
+  write_mask(folder);
+  folder.must("farlod-svf a.farlod -o all.tif --grid 4 --bbox 499840,5499840,500012,5500152");
+  folder.must("farlod-svf a.farlod -o o.tif --grid 4 --mask mask.geojson --summary s.json");
+  folder.must("gdal_rasterize -q -burn 1 -ot Byte -tr 4 4 -te 499840 5499840 500012 5500152 mask.geojson inside.tif");
+  const RasterFile all = raster("all.tif"), masked = raster("o.tif"), inside = raster("inside.tif");
+  ASSERT_EQ(all.values.size(), inside.values.size());
+  std::size_t kept = 0, left_out = 0;
+  for (std::size_t n = 0; n < all.values.size(); ++n) {
+    const bool is_inside = inside.values[n].value_or(0.0) == 1.0;
+    const Point2d p = all.centre_of(n);
+    const bool is_in_extent = masked.north_west.x < p.x && p.x < masked.north_west.x + static_cast<double>(masked.columns) * 4.0 &&
+                              p.y < masked.north_west.y && masked.north_west.y - static_cast<double>(masked.rows) * 4.0 < p.y;
+    const std::optional<double> got = is_in_extent ? masked.at(p) : std::nullopt;
+    EXPECT_EQ(got.has_value(), is_inside && all.values[n].has_value()) << n;
+    if (got) {
+      EXPECT_NEAR(*got, *all.values[n], 1e-6);
+    }
+    kept += got ? 1 : 0;
+    left_out += !is_inside && all.values[n] ? 1 : 0;
+  }
+  EXPECT_GT(kept, 300U);
+  EXPECT_GT(left_out, 300U);
+  EXPECT_GT(folder.json_of("s.json").at("outside_of_region"), 300);
+}
+
+TEST_F(PackedTown, AMaskLeavesThePointsAndSurfacesWithinIt) {
+  write_mask(folder);
+  folder.write("p.csv", "id,x,y,note\nout," + text_of(town_middle + Point2d{100.0, 0.0}) + ",a\nin," +
+                            text_of(town_middle + Point2d{-100.0, 0.0}) + ",b\n");
+  const Outcome outcome = folder.run("farlod-svf a.farlod -o o.csv --points p.csv --mask mask.geojson");
+  EXPECT_THAT(outcome.out, HasSubstr("1 point lies outside of the mask or box"));
+  EXPECT_EQ(table("o.csv").size(), 1U);
+  EXPECT_EQ(table("o.csv").text(0, "note"), "b");
+  folder.must("farlod-svf a.farlod -o o.csv --points p.csv --bbox 500050,5499900,500200,5500100");
+  EXPECT_EQ(table("o.csv").text(0, "id"), "out");
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces roofs --spacing 6 --mask mask.geojson");
+  const CsvTable roofs = table("o.csv");
+  EXPECT_GT(roofs.size(), 20U);
+  for (std::size_t n = 0; n < roofs.size(); ++n) EXPECT_LT(roofs.number(n, "x_m"), town_middle.x + 10.0);
+  expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --points p.csv --mask lost.gpkg"), exit_unusable_input, {"lost.gpkg"});
+}
+
+TEST_F(PackedTown, PointsAlongAStreetAreAnswered) {
+  const Point2d end = p_projected({60.0, 0.0});
+  folder.write("axes.geojson", R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32632"}}, "features":
+  [{"type": "Feature", "properties": {"street": "main"}, "geometry": {"type": "LineString", "coordinates": [[)" + text_of(crossing) +
+                                "], [" + text_of(end) + "]]}}]}");
+  folder.must("farlod-svf a.farlod -o o.csv --along axes.geojson --spacing 5");
+  const CsvTable points = table("o.csv");
+  EXPECT_EQ(points.size(), 24U);
+  EXPECT_EQ(points.text(3, "street"), "main");
+  EXPECT_EQ(points.number(0, "along_m"), 2.5);
+  EXPECT_GT(points.number(0, "svf"), 0.3);
+}
+
+struct Place {
+  const char* name;
+  const char* crs;        ///< of the footprints
+  Point2d middle;         ///< in it
+  double unit;            ///< of its coordinates in metres
+  const char* package_crs;
+};
+void PrintTo(const Place& place, std::ostream* out) { *out << place.name; }
+
+class RasterInPlace : public testing::TestWithParam<Place> {};
+
+/// A building's no-data footprint is its outline, as GDAL draws it into the same pixels.
+TEST_P(RasterInPlace, HasNoDataWhereGdalDrawsTheBuildings) {
+  const Place& place = GetParam();
+  const WorkFolder folder;
+  // An L and a triangle, turned so that the grid of cells is turned, too
+  const auto outline = [&](const std::vector<Point2d>& local) {
+    std::string text;
+    for (std::size_t n = 0; n <= local.size(); ++n) {
+      const Point2d turned = GridRotation(Angle::degrees(-27.0)).city_from_grid(local[n % local.size()]);
+      std::array<char, 80> pair{};
+      std::snprintf(pair.data(), pair.size(), "%s[%.9f, %.9f]", n > 0 ? ", " : "", place.middle.x + turned.x * place.unit,
+                    place.middle.y + turned.y * place.unit);
+      text += pair.data();
+    }
+    return R"({"type": "Feature", "properties": {"height": 12}, "geometry": {"type": "Polygon", "coordinates": [[)" + text + "]]}}";
+  };
+  folder.write("town.geojson",
+               R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": ")" + std::string(place.crs) +
+                   R"("}}, "features": [)" + outline({{0, 0}, {41, 0}, {41, 17}, {19, 17}, {19, 38}, {0, 38}}) + ", " +
+                   outline({{60, 5}, {97, 5}, {97, 44}}) + "]}");
+  folder.must("farlod-pack town.geojson -o a.farlod --cell 30");
+  folder.must("farlod-svf a.farlod -o o.tif --grid 1");
+  const RasterFile map = read_raster(folder.path("o.tif"));
+  folder.must("ogr2ogr -q -t_srs " + std::string(place.package_crs) + " projected.gpkg town.geojson");
+  std::array<char, 160> extent{};
+  std::snprintf(extent.data(), extent.size(), "%.3f %.3f %.3f %.3f", map.north_west.x,
+                map.north_west.y - static_cast<double>(map.rows), map.north_west.x + static_cast<double>(map.columns),
+                map.north_west.y);
+  folder.must("gdal_rasterize -q -burn 1 -ot Byte -tr 1 1 -te " + std::string(extent.data()) + " projected.gpkg drawn.tif");
+  const RasterFile drawn = read_raster(folder.path("drawn.tif"));
+  ASSERT_EQ(drawn.values.size(), map.values.size());
+  std::size_t inside = 0;
+  for (std::size_t n = 0; n < map.values.size(); ++n) {
+    const bool is_drawn = drawn.values[n].value_or(0.0) == 1.0;
+    inside += is_drawn ? 1 : 0;
+    if (is_drawn) {
+      EXPECT_FALSE(map.values[n]) << n;
+    }
+    // Elsewhere only what lies beyond the grid has no data: the middle of the raster does not
+    const double column = static_cast<double>(n % map.columns), row = static_cast<double>(n / map.columns);
+    const bool is_in_middle = std::abs(column / static_cast<double>(map.columns) - 0.5) < 0.2 &&
+                              std::abs(row / static_cast<double>(map.rows) - 0.5) < 0.2;
+    if (!is_drawn && is_in_middle) {
+      EXPECT_TRUE(map.values[n]) << n;
+    }
+  }
+  EXPECT_GT(inside, 1500U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Crs, RasterInPlace,
+                         testing::Values(Place{"Germany", "EPSG:25832", {690000.0, 5335000.0}, 1.0, "EPSG:25832"},
+                                         Place{"Netherlands", "EPSG:28992", {90000.0, 436000.0}, 1.0, "EPSG:28992"},
+                                         Place{"Degrees", "OGC:CRS84", {-73.96, 40.77}, 1e-5, "EPSG:32618"}),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+}  // namespace
+}  // namespace farlod::acceptance
