@@ -41,17 +41,27 @@ Times times_of(std::chrono::sys_time<std::chrono::milliseconds> time_utc) {
 
 using Vector = std::array<double, 3>;
 
+/// How the Earth's axis stands. It moves by a millionth of a radian a day, and takes longest to compute.
+struct EarthAxis {
+  double of_date_from_celestial[3][3];
+  double equation_of_equinoxes = 0.0;
+
+  explicit EarthAxis(const JulianDate& tt) : equation_of_equinoxes(eraEe00b(tt.day, tt.part)) {
+    eraPnm00b(tt.day, tt.part, of_date_from_celestial);
+  }
+};
+
 /// From the middle of the Earth to where the sun is seen, in au; frame of the true equator and equinox of date.
-Vector seen_from_the_middle(const JulianDate& tt) {
-  double heliocentric[2][3], barycentric[2][3], of_date[3][3];
+Vector seen_from_the_middle(const JulianDate& tt, const EarthAxis& axis) {
+  double heliocentric[2][3], barycentric[2][3];
   (void)eraEpv00(tt.day, tt.part, heliocentric, barycentric);
   double sun[3];
   const double distance = eraPm(heliocentric[0]);
   for (std::size_t k = 0; k < 3; ++k)
     sun[k] = -heliocentric[0][k] + distance * barycentric[1][k] / speed_of_light_au_per_day;  // aberration
   Vector result{};
-  eraPnm00b(tt.day, tt.part, of_date);
-  eraRxp(of_date, sun, result.data());
+  EarthAxis own = axis;  // ERFA promises nothing of what it is given
+  eraRxp(own.of_date_from_celestial, sun, result.data());
   return result;
 }
 
@@ -72,13 +82,10 @@ double refraction_deg(double elevation_deg, const Atmosphere& air) {
   return air.pressure_hpa / 1010.0 * 283.0 / (273.0 + air.temperature_c) * 1.02 / (60.0 * tan(Angle::degrees(at)));
 }
 
-}  // namespace
-
-SunDirection sun_direction(const PlaceOnEarth& place, std::chrono::sys_time<std::chrono::milliseconds> time_utc,
-                           const Atmosphere& atmosphere) {
-  const Times times = times_of(time_utc);
-  const double sidereal = eraGst00b(times.universal.day, times.universal.part);
-  Vector sun = seen_from_the_middle(times.terrestrial);
+SunDirection direction_at(const PlaceOnEarth& place, const Times& times, const EarthAxis& axis, const Atmosphere& atmosphere) {
+  const double sidereal = eraGmst00(times.universal.day, times.universal.part, times.terrestrial.day, times.terrestrial.part) +
+                          axis.equation_of_equinoxes;
+  Vector sun = seen_from_the_middle(times.terrestrial, axis);
   const Vector observer = place_in_space(place, sidereal);
   for (std::size_t k = 0; k < 3; ++k) sun[k] -= observer[k];
   double right_ascension = 0.0, declination = 0.0, azimuth = 0.0, elevation = 0.0;
@@ -86,6 +93,14 @@ SunDirection sun_direction(const PlaceOnEarth& place, std::chrono::sys_time<std:
   eraHd2ae(sidereal + place.longitude.radians() - right_ascension, declination, place.latitude.radians(), &azimuth, &elevation);
   const Angle geometric = Angle::radians(elevation);
   return {Angle::radians(azimuth), geometric + Angle::degrees(refraction_deg(geometric.degrees(), atmosphere))};
+}
+
+}  // namespace
+
+SunDirection sun_direction(const PlaceOnEarth& place, std::chrono::sys_time<std::chrono::milliseconds> time_utc,
+                           const Atmosphere& atmosphere) {
+  const Times times = times_of(time_utc);
+  return direction_at(place, times, EarthAxis(times.terrestrial), atmosphere);
 }
 
 std::vector<SunPosition> sun_positions(const PlaceOnEarth& place, std::chrono::sys_days first, std::size_t days,
@@ -96,9 +111,15 @@ std::vector<SunPosition> sun_positions(const PlaceOnEarth& place, std::chrono::s
   const std::chrono::sys_time<milliseconds> begin = first - of_longitude,
                                             end = begin + std::chrono::days(static_cast<std::int64_t>(days));
   std::vector<SunPosition> positions;
+  EarthAxis axis(times_of(begin).terrestrial);
+  auto axis_until = begin + std::chrono::days(1);
   for (auto from = begin; from < end; from += step) {
+    if (from >= axis_until) {
+      axis = EarthAxis(times_of(from).terrestrial);
+      axis_until = from + std::chrono::days(1);
+    }
     const milliseconds length = std::min<milliseconds>(step, end - from);
-    const SunDirection sun = sun_direction(place, from + length / 2);
+    const SunDirection sun = direction_at(place, times_of(from + length / 2), axis, {});
     if (sun.elevation.radians() > 0.0)
       positions.push_back({sun.azimuth, sun.elevation, static_cast<double>(length.count()) / 3'600'000.0});
   }

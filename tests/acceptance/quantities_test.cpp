@@ -7,7 +7,9 @@
 
 #include "console/exit_code.hpp"
 #include "contract/frame.hpp"
+#include "farlod/box.hpp"
 #include "tests/acceptance/packed_town.hpp"
+#include "tests/analytic/oracles.hpp"
 
 // What farlod-svf computes besides the sky view factor, and where it computes it.
 
@@ -144,6 +146,60 @@ TEST_F(PackedTown, PointsAlongAStreetAreAnswered) {
   EXPECT_EQ(points.text(3, "street"), "main");
   EXPECT_EQ(points.number(0, "along_m"), 2.5);
   EXPECT_GT(points.number(0, "svf"), 0.3);
+}
+
+/// An upright rectangle as a GeoJSON feature.
+std::string house(const char* id, const Box2d& outline, double height_m) {
+  const auto point = [](double x, double y) {
+    return "[" + std::to_string(town_middle.x + x) + ", " + std::to_string(town_middle.y + y) + "]";
+  };
+  const Point2d a = outline.low, b = outline.high;
+  return std::string(R"({"type": "Feature", "properties": {"id": ")") + id + R"(", "height": )" + std::to_string(height_m) +
+         R"(}, "geometry": {"type": "Polygon", "coordinates": [[)" + point(a.x, a.y) + ", " + point(b.x, a.y) + ", " +
+         point(b.x, b.y) + ", " + point(a.x, b.y) + ", " + point(a.x, a.y) + "]]}}";
+}
+std::string houses(const std::vector<std::string>& features) {
+  std::string text;
+  for (const std::string& feature : features) text += (text.empty() ? "" : ", ") + feature;
+  return R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32632"}}, "features": [)" + text +
+         "]}";
+}
+
+TEST(FacadeAverages, OfAnEndlessCanyonAreKnown) {
+  constexpr double height_m = 20.0, width_m = 15.0, half_length_m = 1500.0;
+  const WorkFolder folder;
+  folder.write("canyon.geojson", houses({house("west", {{-20.0, -half_length_m}, {0.0, half_length_m}}, height_m),
+                                         house("east", {{width_m, -half_length_m}, {width_m + 20.0, half_length_m}}, height_m)}));
+  folder.must("farlod-pack canyon.geojson -o a.farlod");
+  // The walls on either side of the street, in the middle
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces walls --spacing 0.5 --bbox 499999,5499980,500016,5500020");
+  const CsvTable walls(folder.text_of("o.surfaces.csv"));
+  ASSERT_EQ(walls.size(), 2U);
+  const double expected = oracles::canyon_wall_mean(height_m / width_m);
+  for (std::size_t n = 0; n < walls.size(); ++n) EXPECT_NEAR(walls.number(n, "svf_mean"), expected, 0.002);
+}
+
+TEST(FacadeAverages, LeaveOutWhatIsCovered) {
+  const WorkFolder folder;
+  // A low house leans on the whole eastern side of a high one
+  folder.write("pair.geojson", houses({house("high", {{0.0, 0.0}, {10.0, 12.0}}, 15.0), house("low", {{10.0, 0.0}, {18.0, 12.0}}, 6.0)}));
+  folder.must("farlod-pack pair.geojson -o a.farlod");
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces walls --spacing 0.25");
+  const CsvTable surfaces(folder.text_of("o.surfaces.csv")), buildings(folder.text_of("o.buildings.csv"));
+  double covered_m2 = 0.0;
+  for (std::size_t n = 0; n < surfaces.size(); ++n) {
+    covered_m2 += surfaces.number(n, "covered_area_m2");
+    // Of the high house's eastern wall, the part above the low roof sees half of the sky
+    if (surfaces.text(n, "building") == "high" && std::abs(surfaces.number(n, "azimuth_deg") - 90.0) < 5.0) {
+      EXPECT_NEAR(surfaces.number(n, "area_m2"), 12.0 * 9.0, 1.0);
+      EXPECT_NEAR(surfaces.number(n, "covered_area_m2"), 12.0 * 6.0, 1.0);
+      EXPECT_NEAR(surfaces.number(n, "svf_mean"), 0.5, 0.002);
+    }
+  }
+  EXPECT_NEAR(covered_m2, 2.0 * 12.0 * 6.0, 2.0);
+  double of_buildings_m2 = 0.0;
+  for (std::size_t n = 0; n < buildings.size(); ++n) of_buildings_m2 += buildings.number(n, "covered_wall_area_m2");
+  EXPECT_NEAR(of_buildings_m2, covered_m2, 0.01);
 }
 
 struct Place {
