@@ -196,7 +196,8 @@ TEST(CheckedPackage, CountsTheTriangles) {
   EXPECT_EQ(check.damage[0].file, "manifest.json");
 }
 
-/// A house at the middle of UTM 32N, and a tower of 100 m that stands 500 m from it in a direction of the CRS.
+/// A house at the middle of UTM 32N, a tower of 100 m that stands 500 m from it in a direction of the CRS, and a low house behind
+/// the tower.
 class HouseAndTower {
  public:
   HouseAndTower(Point2d direction, FarMapKind kind) {
@@ -211,7 +212,8 @@ class HouseAndTower {
     };
     std::ofstream(folder_.file("town.geojson"))
         << R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32632"}},"features":[)"
-        << square(house, 5.0, "house") << "," << square(house + 500.0 * direction, 100.0, "tower") << "]}";
+        << square(house, 5.0, "house") << "," << square(house + 500.0 * direction, 100.0, "tower") << ","
+        << square(house + 800.0 * direction, 6.0, "low") << "]}";
     PackSettings settings;
     settings.inputs = {folder_.file("town.geojson")};
     settings.output = folder_.file("town.farlod");
@@ -263,6 +265,16 @@ TEST(FarViewOfHorizon, HasTheTowerWhereItStands) {
         where_deg = h.first_azimuth.degrees() + (static_cast<double>(n) + 0.5) * 360.0 / static_cast<double>(h.low.size());
       }
     }
+    // What is not worth an edge of its own lies there, too, seen from anywhere in the cell
+    bool any = false;
+    for (std::size_t n = 0; n < h.high.size(); ++n) {
+      if (!(h.high[n] > 0.0F)) continue;
+      any = true;
+      const double bin_deg =
+          h.first_azimuth.degrees() + (static_cast<double>(n) + 0.5) * 360.0 / static_cast<double>(h.high.size());
+      EXPECT_LT(std::abs(std::remainder(bin_deg - azimuth_deg, 360.0)), 30.0) << n;
+    }
+    EXPECT_TRUE(any);
     for (const FarEdge& edge : h.edges)
       for (const Point3d& p : {edge.a_projected, edge.b_projected}) {
         const Point3d d = p - view->eye_projected;
