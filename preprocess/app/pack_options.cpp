@@ -36,7 +36,7 @@ ProgramDescription pack_program() {
                      {exit_usage, "a wrong command line"},
                      {exit_unusable_input, "an input cannot be read or used (with --strict: has a problem)"},
                      {exit_limit_reached, "a limit was reached"}},
-      .see_also = {"farlod-city", "farlod-svf"},
+      .see_also = {"farlod-city", "farlod-info", "farlod-svf"},
       .licence = "GPL-3.0-or-later"};
 }
 

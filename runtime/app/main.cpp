@@ -5,9 +5,9 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <new>
 
+#include "app/output_files.hpp"
 #include "app/region_of_package.hpp"
 #include "app/sun_of_package.hpp"
 #include "app/svf_options.hpp"
@@ -22,21 +22,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-void write_summary(const std::string& path, const std::string& text) {
-  if (path.empty()) return;
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw OutputError(path, "is there such a folder, and room on the disk?");
-}
-
-/// Asked before the work, which may take hours.
-void require_folder_of(const std::filesystem::path& file) {
-  const auto folder = file.parent_path();
-  if (folder.empty() || std::filesystem::is_directory(folder)) return;
-  throw OutputError(file, "there is no folder " + folder.string() + "; make it first, or choose another");
-}
 
 RunSettings run_settings(const SvfOptions& options, ProgressLine& progress) {
   RunSettings run;

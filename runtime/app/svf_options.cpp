@@ -36,7 +36,7 @@ ProgramDescription svf_program() {
                      {exit_unusable_input, "an input cannot be read or used"},
                      {exit_damaged_package, "a damaged package"},
                      {exit_limit_reached, "a limit was reached"}},
-      .see_also = {"farlod-city", "farlod-pack"},
+      .see_also = {"farlod-city", "farlod-info", "farlod-pack"},
       .licence = "Apache-2.0"};
 }
 

@@ -38,16 +38,17 @@ AnswerColumns answer_columns(const SvfOptions& options) {
   return {quantity_name(options.evaluation.weight), options.evaluation.bounds ? BoundsColumns::yes : BoundsColumns::no};
 }
 
-RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const PackageDescription& package, std::size_t threads) {
+RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const Package& package, std::size_t threads) {
   return {plan.north_west_m,
           plan.step_m,
           plan.columns,
           plan.rows,
           options.evaluation.bounds ? RasterBands::svf_and_bounds : RasterBands::svf,
           quantity_name(options.evaluation.weight),
-          package.crs_wkt,
-          package.epsg,
-          threads};
+          package.description().crs_wkt,
+          package.description().epsg,
+          threads,
+          &package};
 }
 
 /// The files of a raster, which are written tile by tile while its cells are evaluated.
@@ -260,7 +261,7 @@ std::optional<Box2d> extent_of(const SvfOptions& options) {
 
 WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSettings run) {
   const RasterPlan plan = plan_raster(package, options.grid_step_m, extent_of(options));
-  const RasterFrame frame = frame_of(plan, options, package.description(), run.threads);
+  const RasterFrame frame = frame_of(plan, options, package, run.threads);
   RasterFiles files;
   files.add(*options.format, frame, options.output);
   if (options.preview_format != nullptr) files.add(*options.preview_format, frame, options.preview_file);

@@ -56,6 +56,8 @@ class FarMapReader {
   [[nodiscard]] BoxFarMap read_box(Cell cell, float top) const;
   /// Reads the slopes of a far map of the kind `horizon`: fills low, estimate, high and overhang. Throws PackageDamaged.
   void read_slopes(Cell cell, FarHorizon& map) const;
+  /// Bytes that the picture of a cell takes in the file, compressed. Throws PackageDamaged.
+  [[nodiscard]] std::uint64_t stored_bytes(Cell cell) const;
 
  private:
   struct Impl;

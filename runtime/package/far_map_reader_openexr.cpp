@@ -143,12 +143,15 @@ struct FarMapReader::Impl {
     for (const char* slopes : {package::low_channel, package::estimate_channel, package::high_channel, package::overhang_channel})
       if (!shape.is_box() && !has(slopes)) damaged("it has no slopes");
   }
-  /// The pixels of one cell, in the file's order of rows.
-  void read(Cell cell, std::span<const ChannelTarget> wanted) const {
+  [[nodiscard]] exr_chunk_info_t chunk_of(Cell cell) const {
     const package::PictureTile tile = package::picture_tile(cell, cells, mapped);
     exr_chunk_info_t chunk;
     require(exr_read_tile_chunk_info(file, only_part, tile.column, tile.row, only_level, only_level, &chunk));
-    require(TileDecoder(file, chunk).run(wanted));
+    return chunk;
+  }
+  /// The pixels of one cell, in the file's order of rows.
+  void read(Cell cell, std::span<const ChannelTarget> wanted) const {
+    require(TileDecoder(file, chunk_of(cell)).run(wanted));
     for (const ChannelTarget& w : wanted)
       if (w.pixels->size() != static_cast<std::size_t>(shape.picture_columns()) * shape.picture_rows())
         damaged("a channel does not have a value for each pixel");
@@ -191,6 +194,11 @@ void FarMapReader::read_slopes(Cell cell, FarHorizon& map) const {
     in_order += (map.low[n] >= 0.0F ? 1U : 0U) & (map.low[n] <= map.high[n] ? 1U : 0U) & (map.estimate[n] >= 0.0F ? 1U : 0U) &
                 (map.overhang[n] >= 0.0F ? 1U : 0U);
   if (in_order != map.low.size()) impl_->damaged("its bounds are not in order");
+}
+
+std::uint64_t FarMapReader::stored_bytes(Cell cell) const {
+  FARLOD_EXPECTS(impl_->cells.contains(cell));
+  return impl_->chunk_of(cell).packed_size;
 }
 
 }  // namespace farlod

@@ -21,7 +21,7 @@ inline void require_readable_version(const std::string& file, std::uint32_t vers
                                    : "versions " + std::to_string(package::format_version) + " to " + std::to_string(newest);
   throw PackageUnusable(
       file + " has format version " + std::to_string(version) + ", this program reads " + readable + ". " +
-      (version > newest ? "Use a newer farlod-svf, or pack the city again." : "Pack the city again with this release."));
+      (version > newest ? "Use a newer release, or pack the city again." : "Pack the city again with this release."));
 }
 
 }  // namespace farlod

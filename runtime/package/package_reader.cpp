@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "package/package_reader.hpp"
 
-#include <xxhash.h>
-
 #include <algorithm>
 #include <mutex>
 #include <optional>
 #include <utility>
 
 #include "contract/expects.hpp"
+#include "package/file_stamp.hpp"
 #include "package/lru_cache.hpp"
 #include "package/manifest_reader.hpp"
 #include "package/mapped_file.hpp"
@@ -19,16 +18,6 @@ namespace farlod {
 namespace {
 
 using package::BlockFiles;
-using package::FileStamp;
-
-void check_stamp(const std::filesystem::path& path, std::span<const std::byte> bytes, const FileStamp& stamp) {
-  if (bytes.size() != stamp.bytes)
-    throw PackageDamaged(path.string() + " is damaged: it has " + std::to_string(bytes.size()) + " bytes, the manifest says " +
-                         std::to_string(stamp.bytes) + ". Copy it again, or pack the city again.");
-  if (XXH3_64bits(bytes.data(), bytes.size()) != stamp.xxh3)
-    throw PackageDamaged(path.string() +
-                         " is damaged: its checksum is not the manifest's. Copy it again, or pack the city again.");
-}
 
 /// The files of a block, each opened when it is first needed. Tiles stay mapped from then on, even while they hold no memory; the
 /// reader of far maps goes and comes.
@@ -163,6 +152,11 @@ FarHorizon PackageReader::far_horizon(Cell cell) const {
                  tiles.explicit_occluders(cell, cell_edge_m)};
   impl_->far_maps(n)->read_slopes(cell, map);
   return map;
+}
+
+std::uint64_t PackageReader::far_map_bytes(Cell cell) const {
+  FARLOD_EXPECTS(!impl_->memory && has_far_map(cell));
+  return impl_->far_maps(impl_->index_of(cell))->stored_bytes(cell);
 }
 
 void PackageReader::hold_at_most(std::uint64_t bytes) {

@@ -51,6 +51,8 @@ class PackageReader {
   [[nodiscard]] BoxFarMap box_far_map(Cell cell) const;
   /// Of packages whose far maps are of the kind `horizon`, for a cell that has one. The package must outlive it.
   [[nodiscard]] FarHorizon far_horizon(Cell cell) const;
+  /// Bytes that the picture of a cell's far map takes on disk; the cell must have one. Not of a package in memory.
+  [[nodiscard]] std::uint64_t far_map_bytes(Cell cell) const;
 
   /// From the next question on, the blocks hold no more memory than this together, except that one block always has room. There
   /// is no such limit before.

@@ -125,4 +125,19 @@ CellReceivers RasterReceivers::in_cell(const PackageReader& package, Cell cell, 
   return result;
 }
 
+void RasterReceivers::for_each_profile(
+    const PackageReader& package, Cell cell, const std::stop_token& stop,
+    const std::function<void(std::size_t pixel, const VerticalProfile& profile)>& visit) const {
+  LatticeLocator locator(package, cell);
+  for_each_strip(range_of(cell), [&](const PixelRange& strip) {
+    throw_if_cancelled(stop);
+    const Centres centres = centres_of(strip, cell);
+    locator.look_at(centres.places);
+    for (std::size_t n = 0; n < centres.are_in_cell.size(); ++n)
+      if (centres.are_in_cell[n])
+        visit((strip.row_begin + n / centres.places.columns) * plan_.columns + strip.column_begin + n % centres.places.columns,
+              locator.at(n));
+  });
+}
+
 }  // namespace farlod

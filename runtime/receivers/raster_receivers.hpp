@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -41,6 +42,10 @@ class RasterReceivers {
   /// list. Throws Cancelled when `stop` is asked for.
   [[nodiscard]] CellReceivers in_cell(const PackageReader& package, Cell cell, HeightAbove above, float height_m,
                                       const std::stop_token& stop = {}) const;
+  /// Calls `visit` with the index and the vertical profile of each pixel whose centre a cell holds; the profile is valid during
+  /// the call only. Throws Cancelled when `stop` is asked for.
+  void for_each_profile(const PackageReader& package, Cell cell, const std::stop_token& stop,
+                        const std::function<void(std::size_t pixel, const VerticalProfile& profile)>& visit) const;
 
  private:
   /// The centres of some pixels, in the frame of a cell that may hold them or not.

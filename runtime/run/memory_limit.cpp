@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "contract/run_settings.hpp"
 #include "evaluate/verification.hpp"
 #include "farlod/error.hpp"
 #include "horizon/receiver_packet.hpp"
@@ -102,6 +103,12 @@ void require_memory(const package::Manifest& manifest, const ResolvedSettings& s
     require_below_limit(bytes + bytes_of_whole_city(manifest, settings), settings.run, "tracing the whole city",
                         "leave out what needs it (the engine exact, a verification, a largest error, points beyond the grid, "
                         "cells without a far map)");
+}
+
+void require_memory(const RunSettings& run, double bytes, const std::string& what, const std::string& instead) {
+  if (!run.memory_limit_mib) return;
+  const double threads = static_cast<double>(thread_count(run));
+  require_below_limit(program_bytes + threads * thread_bytes + static_cast<double>(run.caller_bytes) + bytes, run, what, instead);
 }
 
 }  // namespace farlod

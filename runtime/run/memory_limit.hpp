@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "contract/package/manifest.hpp"
 #include "package/package_reader.hpp"
@@ -33,5 +34,9 @@ struct MemoryNeeds {
 /// Throws LimitReached when the run needs more memory than the caller gives it. Where the caller says nothing, there is no limit
 /// to reach: what a run takes does not grow with the city, unless the whole city has to be one scene.
 void require_memory(const package::Manifest& manifest, const ResolvedSettings& settings, const MemoryNeeds& needs);
+
+/// The same for runs that evaluate nothing, and hold so many bytes: "checking the package" needs more than there is, "use fewer
+/// threads" helps.
+void require_memory(const RunSettings& run, double bytes, const std::string& what, const std::string& instead);
 
 }  // namespace farlod

@@ -108,7 +108,7 @@ TEST_F(DamagedPackage, ManifestOfSomethingElse) {
 TEST_F(DamagedPackage, ANewerVersionIsNoDamage) {
   edit_manifest("\"version\": 6", "\"version\": 8");
   expect_refusal(evaluate(), exit_unusable_input,
-                 {"manifest.json has format version 8", "reads versions 6 to 7", "newer farlod-svf"});
+                 {"manifest.json has format version 8", "reads versions 6 to 7", "newer release"});
 }
 
 TEST_F(DamagedPackage, AnOlderVersionIsNoDamage) {

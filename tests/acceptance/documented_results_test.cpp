@@ -101,6 +101,29 @@ TEST_F(DocumentedResults, SummaryOfPackHasTheDocumentedKeysAndNoOthers) {
   EXPECT_EQ(keys_of(folder.json_of("s.json"), title), documented_keys(title, false));
 }
 
+TEST_F(DocumentedResults, FactsOfAPackageHaveTheDocumentedKeysAndNoOthers) {
+  const std::string title = "What a package holds";
+  const auto keys_said = [&](const std::string& arguments) {
+    return keys_of(json::parse(folder.run("farlod-info " + arguments + " --json").out), title);
+  };
+  Keys keys = documented_keys(title, true);
+  EXPECT_GT(keys.size(), 20U);
+  const Keys of_horizons{"far_map.azimuth_bins", "far_map.squares_per_edge", "far_map.layers", "far_map.tolerance"};
+  const Keys of_boxes{"far_map.side_columns", "far_map.rows"};
+  keys.insert(of_horizons.begin(), of_horizons.end());
+  EXPECT_EQ(keys_said("a.farlod"), keys);
+  folder.must("farlod-pack town.geojson -o box.farlod --far-map box --quiet");
+  const std::string cell = json::parse(folder.run("farlod-info a.farlod --json").out).at("grid").at("cells").dump();
+  const std::string first = cell.substr(1, cell.find(',', cell.find(',') + 1) - 1);
+  keys = keys_said("box.farlod --check --cell " + first);
+  keys.insert(of_horizons.begin(), of_horizons.end());
+  EXPECT_EQ(keys, documented_keys(title, false));
+  folder.must("farlod-info a.farlod --quiet --summary s.json");
+  keys = keys_said("a.farlod");
+  keys.insert({"seconds.total", "peak_memory_mib"});
+  EXPECT_EQ(keys_of(folder.json_of("s.json"), title), keys);
+}
+
 TEST(DocumentedFormats, AreThoseOfTheProgram) {
   static const std::regex row("^\\| (`\\.[^|]+`) \\| ([^|(]+?) (?:\\(needs GDAL\\) )?\\|([^|]+)\\|([^|]+)\\|.*");
   std::vector<std::string> documented, found;

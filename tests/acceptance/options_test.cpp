@@ -48,6 +48,9 @@ TEST_P(EachProgram, HelpBeginsWithWhatItIsAndWhatToTry) {
 INSTANTIATE_TEST_SUITE_P(
     Options, EachProgram,
     testing::Values(
+        Program{"farlod-info",
+                {"--help", "--version", "--json", "--check", "--cell", "--obj", "--png", "--summary", "--quiet", "--threads",
+                 "--config"}},
         Program{"farlod-pack",
                 {"--help",         "--version",        "--crs",          "--out-crs",       "--origin",    "--up",
                  "--height-field", "--base-field",     "--roof-field",   "--storeys-field", "--lod",       "--terrain",
@@ -62,8 +65,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& program) { return program.param.name + 7; });  // what follows "farlod-"
 
 TEST_F(PackedTown, QuietSaysNothing) {
-  for (const std::string command :
-       {"farlod-pack town.geojson -o b.farlod --quiet", "farlod-svf a.farlod -o o.asc --grid 10 --verify 5 --quiet"}) {
+  for (const std::string command : {"farlod-info a.farlod --check --quiet", "farlod-pack town.geojson -o b.farlod --quiet",
+                                    "farlod-svf a.farlod -o o.asc --grid 10 --verify 5 --quiet"}) {
     const Outcome outcome = folder.run(command);
     EXPECT_EQ(outcome.exit_code, exit_done);
     EXPECT_EQ(outcome.out + outcome.err, "") << command;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "farlod/inspection.hpp"
+#include "farlod/plan_view.hpp"
 #include "farlod/points.hpp"
 #include "farlod/raster.hpp"
 #include "farlod/surfaces.hpp"
@@ -21,6 +23,10 @@ struct Arguments {
     x = {p.x, p.x + 30.0};
     y = {p.y, p.y - 30.0};
     plan = plan_raster(package, 8.0);
+    part = package.description().outline_projected;
+    const CellRectangle all = inventory_of(package).cells;
+    cell = {all.i_begin, all.j_begin};
+    cells = {all.i_begin, all.j_begin, all.i_begin + 1, all.j_begin + 1};
   }
 
   Package package;
@@ -31,6 +37,10 @@ struct Arguments {
   std::vector<float> further;
   Placing placing;
   RasterPlan plan;
+  Box2d part;
+  std::size_t most_segments = 1'000'000;
+  CellPlace cell;
+  CellRectangle cells;
   SurfaceSettings surfaces{SurfaceChoice::all, 20.0};
   EvaluationSettings settings;
   RunSettings run;
@@ -58,6 +68,13 @@ inline const Named raster{"raster", [](Arguments& a) { (void)evaluate_raster(a.p
 inline const Named surfaces{"surfaces",
                             [](Arguments& a) { (void)evaluate_surfaces(a.package, a.surfaces, a.settings, a.on_points, a.run); }};
 inline const Named plan{"plan", [](Arguments& a) { (void)plan_raster(a.package, a.plan.step_m); }};
+inline const Named inventory{"inventory", [](Arguments& a) { (void)inventory_of(a.package); }};
+inline const Named check{"check", [](Arguments& a) { (void)check_package(a.package, a.run); }};
+inline const Named cell_contents{"cell", [](Arguments& a) { (void)inspect_cell(a.package, a.cell); }};
+inline const Named geometry{"geometry", [](Arguments& a) { (void)geometry_of(a.package, a.cells); }};
+inline const Named far_view{"far view", [](Arguments& a) { (void)far_view_of(a.package, a.cell); }};
+inline const Named outlines{"outlines", [](Arguments& a) { (void)building_outlines(a.package, a.part, a.most_segments, a.run); }};
+inline const Named heights{"heights", [](Arguments& a) { (void)ground_heights(a.package, a.plan, a.run); }};
 inline const Named description{"description", [](Arguments& a) { (void)a.package.description(); }};
 
 }  // namespace farlod::library

@@ -140,7 +140,7 @@ void add_limits(Cases& cases) {
 }
 
 void add_runs(Cases& cases) {
-  const std::vector<Named> all{points_into, points, tiles, raster, surfaces};
+  const std::vector<Named> all{points_into, points, tiles, raster, surfaces, check, outlines, heights};
   cases.add(all, "too many threads", [](Arguments& a) { a.run.threads = 5000; });
   cases.add(all, "a limit of nothing", [](Arguments& a) { a.run.memory_limit_mib = 0; });
   cases.add(all, "an absurd limit", [](Arguments& a) { a.run.memory_limit_mib = 1ULL << 60; });
@@ -167,7 +167,8 @@ void add_runs(Cases& cases) {
 }
 
 void add_closed_packages(Cases& cases) {
-  const std::vector<Named> all{points_into, points, tiles, raster, surfaces, plan, description};
+  const std::vector<Named> all{points_into, points,        tiles,    raster,   surfaces, plan,     description,
+                               inventory,   cell_contents, geometry, far_view, check,    outlines, heights};
   cases.add(all, "a closed package", [](Arguments& a) { a.package.close(); });
   cases.add(all, "a package closed twice", [](Arguments& a) {
     a.package.close();
@@ -242,9 +243,10 @@ void add_normals(Cases& cases) {
 }
 
 void add_rasters(Cases& cases) {
-  const std::vector<Named> both{tiles, raster};
+  const std::vector<Named> both{tiles, raster, heights};
   for (const double step_m : {nan, infinity, 0.0, -2.0, 0.001, 1e6})
-    cases.add({tiles, raster, plan}, "step " + std::to_string(step_m), [step_m](Arguments& a) { a.plan.step_m = step_m; });
+    cases.add({tiles, raster, heights, plan}, "step " + std::to_string(step_m),
+              [step_m](Arguments& a) { a.plan.step_m = step_m; });
   for (const double c : {nan, infinity, -2e8}) {
     cases.add(both, "west " + std::to_string(c), [c](Arguments& a) { a.plan.north_west_m.x = c; });
     cases.add(both, "north " + std::to_string(c), [c](Arguments& a) { a.plan.north_west_m.y = c; });
@@ -279,8 +281,27 @@ void add_surfaces(Cases& cases) {
       Ends::with_what_was_thrown);
 }
 
+void add_inspections(Cases& cases) {
+  cases.add(
+      {check, outlines, heights}, "too small a limit", [](Arguments& a) { a.run.memory_limit_mib = 1; }, Ends::limit);
+  const std::vector<Named> of_a_cell{cell_contents, far_view};
+  cases.add(of_a_cell, "a cell to the west of all", [](Arguments& a) { --a.cell.i; });
+  cases.add(of_a_cell, "a cell at no place", [](Arguments& a) { a.cell.j = std::numeric_limits<std::int32_t>::max(); });
+  cases.add({geometry}, "no cells", [](Arguments& a) { a.cells.i_end = a.cells.i_begin; });
+  cases.add({geometry}, "cells turned round", [](Arguments& a) { std::swap(a.cells.j_begin, a.cells.j_end); });
+  cases.add({geometry}, "too many cells", [](Arguments& a) { a.cells.i_end = a.cells.i_begin + 10'001; });
+  cases.add({geometry}, "more cells than can be counted", [](Arguments& a) {
+    a.cells = {std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::min(),
+               std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max()};
+  });
+  cases.add({outlines}, "an empty part", [](Arguments& a) { a.part = {}; });
+  cases.add({outlines}, "a part turned round", [](Arguments& a) { std::swap(a.part.low, a.part.high); });
+  cases.add({outlines}, "a part at no place", [](Arguments& a) { a.part.low.x = nan; });
+}
+
 std::vector<WrongCall> all_wrong_calls() {
   Cases cases;
+  add_inspections(cases);
   add_settings(cases);
   add_limits(cases);
   add_runs(cases);
@@ -340,7 +361,8 @@ const char* name_of(Ends ends) {
 /// Each call is made with right arguments first, so that a case fails when it is the call that is wrong, and not its argument.
 TEST(WrongCalls, RightCallsEndWithNothing) {
   const PackedSample sample;
-  for (const Named& named : {points_into, points, tiles, raster, surfaces, plan, description}) {
+  for (const Named& named : {points_into, points, tiles, raster, surfaces, plan, description, inventory, cell_contents, geometry,
+                             far_view, check, outlines, heights}) {
     Arguments arguments(sample.folder());
     EXPECT_NO_THROW(named.call(arguments)) << named.name;
   }

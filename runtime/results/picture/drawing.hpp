@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -30,6 +31,21 @@ struct Line {
   Colour colour;
 };
 
+/// A straight line from one place to another.
+struct Segment {
+  PagePoint a, b;
+};
+
+/// Many straight lines of one colour, which cost less than a Line each.
+struct Segments {
+  std::vector<Segment> segments;
+  double width = 1.0;
+  Colour colour;
+};
+
+/// The part of a segment that lies in an upright rectangle; empty where none does.
+[[nodiscard]] std::optional<Segment> clipped(const Segment& segment, PagePoint upper_left, PagePoint lower_right);
+
 /// Where `Text::place` is along the line of text.
 enum class Alignment : std::uint8_t { left, centre, right };
 
@@ -53,7 +69,7 @@ struct Drawing {
   PixelSize size;
   std::string title;  ///< of the document, which readers of screens and lists of files show
   Colour paper{255, 255, 255};
-  std::vector<std::variant<Polygon, Line, Text, Image>> shapes = {};
+  std::vector<std::variant<Polygon, Line, Segments, Text, Image>> shapes = {};
 };
 
 /// An upright rectangle.

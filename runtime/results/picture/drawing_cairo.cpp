@@ -102,6 +102,22 @@ class Pen {
     cairo_set_line_join(get(), CAIRO_LINE_JOIN_ROUND);
     cairo_stroke(get());
   }
+  void operator()(const Segments& lines) const {
+    // A path of all of them would take Cairo a time that grows with the square of their number
+    constexpr std::size_t segments_of_path = 500;
+    set_colour(get(), lines.colour);
+    cairo_set_line_width(get(), lines.width);
+    cairo_set_line_cap(get(), CAIRO_LINE_CAP_ROUND);
+    cairo_new_path(get());
+    for (std::size_t n = 0; n < lines.segments.size(); ++n) {
+      const auto& [a, b] = lines.segments[n];
+      cairo_move_to(get(), a.x, a.y);
+      cairo_line_to(get(), b.x, b.y);
+      if ((n + 1) % segments_of_path == 0) cairo_stroke(get());
+    }
+    cairo_stroke(get());
+    cairo_set_line_cap(get(), CAIRO_LINE_CAP_BUTT);
+  }
   void operator()(const Text& text) const {
     const Layout layout = layout_of(text);
     PangoLayoutLine* const line = pango_layout_get_line_readonly(layout.get(), 0);

@@ -12,17 +12,15 @@
 namespace farlod {
 namespace {
 
-constexpr Colour ink{32, 32, 32}, muted{96, 96, 96};
-constexpr double title_height = 22.0, text_height = 15.0;
-constexpr double line_width = 1.5, tick = 6.0;
+constexpr Colour muted{96, 96, 96}, outline_colour{24, 24, 28};
+constexpr double outline_width = 0.7, line_width = 1.5, tick = 6.0;
+constexpr double title_height = 22.0;
 constexpr std::size_t margin = 24, gap = 16, heading_height = 50;
 constexpr PixelSize legend_size{96, 280};
 constexpr std::size_t colour_bar_width = 28, footer_height = 48;
-constexpr double arrow_height = 28.0, arrow_half_width = 9.0;
 constexpr std::size_t narrowest_content = 560;  // the longest title must fit
-constexpr double longest_scale_bar = 200.0;
-constexpr int colour_ticks = 5;             // at 0.0, 0.2, … 1.0
-constexpr double half_digit_height = 0.36;  // of a font's size
+constexpr int colour_ticks = 5;                 // at 0.0, 0.2, … 1.0
+constexpr double half_digit_height = 0.36;      // of a font's size
 
 std::string title_of(const std::string& quantity) {
   if (quantity == "svf") return "Sky view factor (svf)";
@@ -39,12 +37,22 @@ std::string subtitle_of(const RasterFrame& frame) {
 
 PagePoint point_of(Pixel p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
 
-Picture map_of(const PreviewRaster& raster) {
+/// Darker or lighter, by a factor around 1.
+Colour lit(Colour colour, float factor) {
+  const auto channel = [&](std::uint8_t c) {
+    const double value = factor <= 1.0F ? c * static_cast<double>(factor) : c + (255.0 - c) * (static_cast<double>(factor) - 1.0);
+    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+  };
+  return {channel(colour.red), channel(colour.green), channel(colour.blue)};
+}
+
+Picture map_of(const PreviewRaster& raster, const std::vector<float>& shading) {
   Picture map({raster.columns, raster.rows}, nodata_colour);
   for (std::size_t row = 0; row < raster.rows; ++row)
     for (std::size_t column = 0; column < raster.columns; ++column) {
-      const float svf = raster.svf[row * raster.columns + column];
-      if (!std::isnan(svf)) map.set({column, row}, colour_of_svf(svf));
+      const std::size_t n = row * raster.columns + column;
+      const float svf = raster.svf[n];
+      if (!std::isnan(svf)) map.set({column, row}, lit(colour_of_svf(svf), shading.empty() ? 1.0F : shading[n]));
     }
   return map;
 }
@@ -74,26 +82,28 @@ void add_colour_bar(Drawing& drawing, const PreviewLayout& layout) {
   }
 }
 
-void add_scale_bar(Drawing& drawing, PagePoint place, double metres_per_pixel) {
-  const double length_m = round_length_m(longest_scale_bar * metres_per_pixel), width = length_m / metres_per_pixel;
-  const double y = place.y + text_height + 12.0;
-  drawing.shapes.emplace_back(
-      Line{{{place.x, y - tick}, {place.x, y}, {place.x + width, y}, {place.x + width, y - tick}}, line_width, ink});
-  drawing.shapes.emplace_back(
-      Text{{place.x + 0.5 * width, y - tick}, shortest_decimal(length_m) + " m", text_height, Alignment::centre, ink});
-}
-
 void add_nodata_legend(Drawing& drawing, PagePoint place) {
   constexpr double edge = 14.0;
   drawing.shapes.emplace_back(box(place, edge, edge, nodata_colour));
   drawing.shapes.emplace_back(Text{{place.x + edge + 8.0, place.y + edge - 2.0}, "no data", text_height, Alignment::left, ink});
 }
 
-void add_north_arrow(Drawing& drawing, PagePoint tip) {
-  const double foot = tip.y + arrow_height;
-  drawing.shapes.emplace_back(
-      Polygon{{tip, {tip.x + arrow_half_width, foot}, {tip.x, foot - 7.0}, {tip.x - arrow_half_width, foot}}, ink});
-  drawing.shapes.emplace_back(Text{{tip.x, foot + text_height}, "N", text_height, Alignment::centre, ink});
+void add_background_legend(Drawing& drawing, PagePoint place, const PlanBackground& background) {
+  if (!background.outlines.empty()) {
+    const double y = place.y + 7.5;
+    drawing.shapes.emplace_back(Line{{{place.x + 86.0, y}, {place.x + 108.0, y}}, outline_width, outline_colour});
+    drawing.shapes.emplace_back(Text{{place.x + 116.0, place.y + 12.0}, "roofs", text_height, Alignment::left, ink});
+  }
+  if (!background.shading.empty())
+    drawing.shapes.emplace_back(
+        Text{{place.x, place.y + 32.0}, "Ground lit from the north-west", text_height, Alignment::left, muted});
+}
+
+void add_outlines(Drawing& drawing, const PreviewLayout& layout, const PlanBackground& background) {
+  const auto [left, top] = point_of(layout.map);
+  Segments lines{{}, outline_width, outline_colour};
+  for (const auto& [a, b] : background.outlines) lines.segments.push_back({{left + a.x, top + a.y}, {left + b.x, top + b.y}});
+  if (!lines.segments.empty()) drawing.shapes.emplace_back(std::move(lines));
 }
 
 }  // namespace
@@ -110,25 +120,21 @@ PreviewLayout preview_layout(PixelSize map_size) {
   return layout;
 }
 
-double round_length_m(double limit_m) {
-  const double power = std::pow(10.0, std::floor(std::log10(limit_m)));
-  for (const double digit : {5.0, 2.0})
-    if (digit * power <= limit_m) return digit * power;
-  return power;
-}
-
-Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame) {
+Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame, const PlanBackground& background) {
   const PreviewLayout layout = preview_layout({raster.columns, raster.rows});
   Drawing drawing{layout.picture, title_of(frame.quantity)};
   const double left = static_cast<double>(margin), top = static_cast<double>(margin);
   drawing.shapes.emplace_back(Text{{left, top + title_height}, drawing.title, title_height, Alignment::left, ink});
   drawing.shapes.emplace_back(
       Text{{left, top + static_cast<double>(heading_height)}, subtitle_of(frame), text_height, Alignment::left, muted});
-  drawing.shapes.emplace_back(Image{layout.map, map_of(raster)});
+  drawing.shapes.emplace_back(Image{layout.map, map_of(raster, background.shading)});
+  add_outlines(drawing, layout, background);
   add_colour_bar(drawing, layout);
   const PagePoint footer = point_of(layout.footer);
   add_scale_bar(drawing, footer, raster.metres_per_pixel);
-  add_nodata_legend(drawing, {footer.x + 230.0, footer.y + 14.0});
+  const PagePoint legend{footer.x + 230.0, footer.y + 14.0};
+  add_nodata_legend(drawing, legend);
+  add_background_legend(drawing, legend, background);
   add_north_arrow(drawing, {point_of(layout.colour_bar).x + 0.5 * static_cast<double>(legend_size.width), footer.y - 4.0});
   return drawing;
 }
@@ -136,10 +142,16 @@ Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame) {
 PreviewWriter::PreviewWriter(const RasterFrame& frame, std::filesystem::path path)
     : fit_(frame), frame_(frame), path_(std::move(path)) {}
 
-void PreviewWriter::commit() { write_drawing(draw_preview(fit_.preview(), frame_), path_); }
+void PreviewWriter::commit() {
+  const PreviewRaster raster = fit_.preview();
+  const RasterPlan plan{frame_.north_west_m, raster.metres_per_pixel, raster.columns, raster.rows};
+  const PlanBackground background =
+      frame_.package != nullptr ? plan_background(*frame_.package, plan, frame_.threads) : PlanBackground{};
+  write_drawing(draw_preview(raster, frame_, background), path_);
+}
 
 std::uint64_t PreviewWriter::bytes_for(const RasterFrame& frame) {
-  return ScreenFit::bytes_for(frame) + bytes_of_largest_preview +
+  return ScreenFit::bytes_for(frame) + bytes_of_largest_preview + (frame.package != nullptr ? bytes_of_largest_background : 0) +
          bytes_to_write_drawing(std::uint64_t{longest_preview_edge} * longest_preview_edge);
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 
 #include "results/picture/drawing.hpp"
+#include "results/picture/map_ornaments.hpp"
+#include "results/picture/plan_background.hpp"
 #include "results/picture/preview_raster.hpp"
 #include "results/raster/raster_writer.hpp"
 
@@ -24,13 +26,12 @@ struct PreviewLayout {
 
 [[nodiscard]] PreviewLayout preview_layout(PixelSize map_size);
 
-/// A length of 1, 2 or 5 times a power of ten, the longest that is not above `limit_m` (which is positive).
-[[nodiscard]] double round_length_m(double limit_m);
+/// Draws a raster as a map with a title, a colour scale from 0 to 1, a scale bar in metres and a north arrow. Colours are
+/// lightened and darkened as the ground is lit; level ground has those of the scale.
+[[nodiscard]] Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame, const PlanBackground& background = {});
 
-/// Draws a raster as a map with a title, a colour scale from 0 to 1, a scale bar in metres and a north arrow.
-[[nodiscard]] Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame);
-
-/// Draws the raster and writes it as PNG, SVG or PDF, without bounds.
+/// Draws the raster and writes it as PNG, SVG or PDF, without bounds. What the frame's package knows of buildings and ground is
+/// looked up by commit().
 class PreviewWriter : public RasterWriter {
  public:
   PreviewWriter(const RasterFrame& frame, std::filesystem::path path);

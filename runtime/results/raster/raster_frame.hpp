@@ -18,8 +18,9 @@ struct RasterFrame {
   RasterBands bands = RasterBands::svf;
   std::string quantity;  ///< "svf" or "svf_solid": the name of the first band; `_low` and `_high` are those of the bounds
   std::string crs_wkt;
-  std::optional<int> epsg = {};  ///< the same CRS by its code, where it has one
-  std::size_t threads = 1;       ///< of the run; a writer that compresses may use some. They change no byte
+  std::optional<int> epsg = {};      ///< the same CRS by its code, where it has one
+  std::size_t threads = 1;           ///< of the run; a writer that compresses may use some. They change no byte
+  const Package* package = nullptr;  ///< whose outlines and ground a picture shows; none of them where there is none
 };
 
 }  // namespace farlod

@@ -109,6 +109,31 @@ TEST(Preview, DecodesToTheStatedSizeAndColours) {
   EXPECT_EQ(picture.at(layout.colour_bar), colour_of_svf(1.0));
 }
 
+/// Ground that is lit changes a colour, level ground does not, and the grey of no data stays as it is.
+TEST(Preview, LightChangesTheColoursOfSlopes) {
+  const PreviewRaster raster{2, 2, 1.0, {0.5F, 0.5F, 0.5F, std::numeric_limits<float>::quiet_NaN()}};
+  WholeRaster frame = raster_of(2, 2, 0.5F);
+  const scenes::TemporaryFolder folder;
+  write_drawing(draw_preview(raster, frame, {{}, {1.0F, 0.8F, 1.2F, 0.8F}}), folder.file("a.png"));
+  const Picture picture = decoded_png(folder.file("a.png"));
+  const Pixel map = preview_layout({2, 2}).map;
+  EXPECT_EQ(picture.at(map), colour_of_svf(0.5));
+  EXPECT_LT(luminance(picture.at({map.x + 1, map.y})), luminance(colour_of_svf(0.5)));
+  EXPECT_GT(luminance(picture.at({map.x, map.y + 1})), luminance(colour_of_svf(0.5)));
+  EXPECT_EQ(picture.at({map.x + 1, map.y + 1}), nodata_colour);
+}
+
+TEST(Preview, OutlinesAreDarkLinesOfTheMap) {
+  PreviewRaster raster{100, 100, 1.0, std::vector<float>(10'000, 1.0F)};
+  const scenes::TemporaryFolder folder;
+  write_drawing(draw_preview(raster, raster_of(100, 100, 1.0F), {{{{20.0, 50.5}, {80.0, 50.5}}}, {}}), folder.file("a.png"));
+  const Picture picture = decoded_png(folder.file("a.png"));
+  const Pixel map = preview_layout({100, 100}).map;
+  EXPECT_LT(luminance(picture.at({map.x + 50, map.y + 50})), 0.4 * luminance(colour_of_svf(1.0)));
+  EXPECT_EQ(picture.at({map.x + 50, map.y + 52}), colour_of_svf(1.0));
+  EXPECT_EQ(picture.at({map.x + 10, map.y + 50}), colour_of_svf(1.0));
+}
+
 TEST(ScaleBar, IsRoundAndAsLongAsItMayBe) {
   EXPECT_EQ(round_length_m(199.0), 100.0);
   EXPECT_EQ(round_length_m(200.0), 200.0);

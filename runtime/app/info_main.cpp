@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <chrono>
+#include <cmath>
+#include <new>
+
+#include "app/info_options.hpp"
+#include "app/output_files.hpp"
+#include "app/package_facts.hpp"
+#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
+#include "results/mesh/mesh_obj.hpp"
+#include "results/picture/cell_picture.hpp"
+
+namespace farlod {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// The name alone, also where the user writes a slash behind it.
+std::string name_of(const std::filesystem::path& package) {
+  return (package.has_filename() ? package : package.parent_path()).filename().string();
+}
+
+/// A cell that is not there is a wrong input: nobody knows the cells by heart.
+void require_cell(const PackageInventory& inventory, CellPlace cell, const InfoOptions& options) {
+  const CellRectangle& all = inventory.cells;
+  if (all.contains(cell)) return;
+  throw InputError(fmt::format("{} has no cell {},{}: i goes from {} to {}, j from {} to {}.", options.package.string(), cell.i,
+                               cell.j, all.i_begin, all.i_end - 1, all.j_begin, all.j_end - 1));
+}
+
+PackageCheck check(const Package& package, const InfoOptions& options) {
+  ProgressLine progress("check", options.run.verbosity);
+  RunSettings run;
+  run.threads = thread_count(options.run);
+  run.on_progress = [&progress](const Progress& p) { progress.update(p.done, p.all); };
+  return check_package(package, run);
+}
+
+PackageFacts facts_of(const Package& package, const InfoOptions& options) {
+  PackageFacts facts{name_of(options.package), package.description(), inventory_of(package), {}, {}};
+  if (options.cell) require_cell(facts.inventory, *options.cell, options);
+  if (options.check) facts.check = check(package, options);
+  if (options.cell) facts.cell = inspect_cell(package, *options.cell);
+  return facts;
+}
+
+void write_neighborhood(const Package& package, const PackageFacts& facts, const std::filesystem::path& path) {
+  const CellContents& contents = *facts.cell;
+  const Point2d corner = contents.corners_projected[0];
+  // Whole metres: what reads the file may have floats only
+  const Point2d offset{std::floor(corner.x), std::floor(corner.y)};
+  write_obj(geometry_of(package, contents.neighborhood), offset,
+            {fmt::format("The neighbourhood of cell {},{} of {}", contents.cell.i, contents.cell.j, facts.package),
+             "Metres, z up; CRS " + crs_text(facts.description)},
+            path);
+}
+
+void draw_neighborhood(const Package& package, const PackageFacts& facts, const InfoOptions& options) {
+  constexpr std::size_t most_segments = 50'000;
+  const CellContents& contents = *facts.cell;
+  RunSettings run;
+  run.threads = thread_count(options.run);
+  const CellScenery scenery{contents,
+                            geometry_of(package, cells_of_plan(contents)),
+                            building_outlines(package, CellPlanFrame(contents, cell_plan_edge).part(), most_segments, run),
+                            far_view_of(package, contents.cell),
+                            facts.description.convergence,
+                            facts.package,
+                            crs_text(facts.description)};
+  write_drawing(draw_cell(scenery), options.picture_file);
+}
+
+int run(const InfoOptions& options) {
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
+  for (const std::filesystem::path& file :
+       {options.obj_file, options.picture_file, std::filesystem::path(options.run.summary_file)})
+    require_folder_of(file);
+  const auto start = Clock::now();
+  const Package package(options.package);
+  const PackageFacts facts = facts_of(package, options);
+  if (!options.obj_file.empty()) write_neighborhood(package, facts, options.obj_file);
+  if (!options.picture_file.empty()) draw_neighborhood(package, facts, options);
+  write_summary(options.run.summary_file, info_summary_json(facts, std::chrono::duration<double>(Clock::now() - start).count()));
+  if (options.json)
+    fmt::print("{}", facts_json(facts));
+  else if (options.run.verbosity == Verbosity::normal)
+    fmt::print("{}", facts_text(facts));
+  if (!facts.check || facts.check->damage.empty()) return exit_done;
+  std::fflush(stdout);
+  for (const PackageDamage& damage : facts.check->damage) fmt::print(stderr, "farlod-info: {}\n", damage_text(damage));
+  return exit_damaged_package;
+}
+
+int complain(const std::exception& error, int exit_code) {
+  fmt::print(stderr, "farlod-info: {}\n", error.what());
+  return exit_code;
+}
+
+}  // namespace
+}  // namespace farlod
+
+int main(int argc, char** argv) {
+  using namespace farlod;
+  try {
+    const ParsedInfoOptions parsed = parse_info_options(argc, argv);
+    return parsed.options ? run(*parsed.options) : parsed.exit_code;
+  } catch (const InvalidArgument& error) {
+    return complain(error, exit_usage);
+  } catch (const PackageDamaged& error) {
+    return complain(error, exit_damaged_package);
+  } catch (const PackageUnusable& error) {
+    return complain(error, exit_unusable_input);
+  } catch (const InputError& error) {
+    return complain(error, exit_unusable_input);
+  } catch (const OutputError& error) {
+    return complain(error, exit_unusable_input);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "farlod-info: out of memory. Use fewer --threads.\n");
+    return exit_limit_reached;
+  } catch (const std::exception& error) {
+    return complain(error, exit_internal);
+  }
+}

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/info_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "console/exit_code.hpp"
+#include "console/option_list.hpp"
+#include "results/output_format.hpp"
+
+namespace farlod {
+namespace {
+
+ProgramDescription info_program() {
+  return {
+      .name = "farlod-info",
+      .purpose = "tells what a package of farlod-pack holds, and whether it is whole",
+      .examples = {"farlod-info town.farlod", "farlod-info town.farlod --check",
+                   "farlod-info town.farlod --cell 3,2 --png cell.png --obj cell.obj"},
+      .background = {"A package holds a city cut into cells, and for each cell what matters of the city far away. The manifest "
+                     "tells what was packed, how, and what was wrong with it; --check reads all the rest, too.",
+                     "The picture of a cell shows its neighborhood from above, and beside it the far map: the horizon that the "
+                     "city beyond the neighborhood has in the middle of the cell."},
+      .notes = {},
+      .exit_codes = {{exit_done, "done"},
+                     {exit_internal, "an internal error"},
+                     {exit_usage, "a wrong command line"},
+                     {exit_unusable_input, "an input cannot be read or used"},
+                     {exit_damaged_package, "a damaged package"},
+                     {exit_limit_reached, "a limit was reached"}},
+      .see_also = {"farlod-city", "farlod-pack", "farlod-svf"},
+      .licence = "Apache-2.0"};
+}
+
+/// Options whose text must be understood after CLI11 has taken them.
+struct RawOptions {
+  std::string package, cell, obj, picture;
+};
+
+void add_options(CLI::App& app, RawOptions& raw, InfoOptions& o) {
+  app.add_option("PACKAGE", raw.package, "A folder that farlod-pack made")->required()->type_name(folder_value);
+  app.add_flag("--json", o.json, "Print everything as JSON, also with --quiet")->group("Output");
+  app.add_flag("--check", o.check, "Read all of the package, and tell what is damaged, and where")->group("Contents");
+  app.add_option("--cell", raw.cell, "I,J: also tell what this cell holds")->group("Contents");
+  app.add_option("--obj", raw.obj, "Write the neighborhood of --cell to this OBJ file, a group for each building")
+      ->type_name(file_value)
+      ->group("Output");
+  app.add_option("--png", raw.picture,
+                 "Draw --cell from above, and its far map, as this picture (PNG, or SVG or PDF by its ending)")
+      ->type_name(file_value)
+      ->group("Output");
+}
+
+/// Two whole numbers with a comma between them.
+std::optional<CellPlace> cell_in(std::string_view text) {
+  CellPlace cell;
+  const char* const end = text.data() + text.size();
+  const auto [comma, error_i] = std::from_chars(text.data(), end, cell.i);
+  if (error_i != std::errc() || comma == end || *comma != ',') return std::nullopt;
+  const auto [rest, error_j] = std::from_chars(comma + 1, end, cell.j);
+  if (error_j != std::errc() || rest != end) return std::nullopt;
+  return cell;
+}
+
+bool is_picture(const std::filesystem::path& path) {
+  const OutputFormat* const format = output_format_of(path);
+  return format != nullptr && format->kind == OutputKind::picture;
+}
+
+void resolve(const RawOptions& raw, InfoOptions& o) {
+  o.package = raw.package;
+  o.obj_file = raw.obj;
+  o.picture_file = raw.picture;
+  if (!raw.cell.empty()) {
+    o.cell = cell_in(raw.cell);
+    if (!o.cell) throw CLI::ValidationError("--cell", "\"" + raw.cell + "\" is not of the form I,J");
+  }
+  for (const auto& [name, file] : {std::pair{"--obj", o.obj_file}, {"--png", o.picture_file}})
+    if (!file.empty() && !o.cell) throw CLI::ValidationError(name, "it goes with --cell");
+  if (!raw.picture.empty() && !is_picture(o.picture_file))
+    throw CLI::ValidationError("--png", "\"" + raw.picture + "\" is not the name of a picture: choose one of " +
+                                            endings_where([](const OutputFormat& f) { return f.kind == OutputKind::picture; }));
+}
+
+/// All options, and what they are bound to.
+struct CommandLine {
+  CLI::App app;
+  RawOptions raw;
+  InfoOptions options;
+
+  CommandLine() {
+    describe_program(app, info_program());
+    add_options(app, raw, options);
+    add_run_options(app, info_program().name, options.run);
+  }
+};
+
+}  // namespace
+
+ParsedInfoOptions parse_info_options(int argc, char** argv) {
+  CommandLine line;
+  if (const auto exit_code = parse_command_line(line.app, argc, argv, [&] { resolve(line.raw, line.options); }))
+    return {std::nullopt, *exit_code};
+  return {std::move(line.options), exit_done};
+}
+
+void describe_info_options(const CommandLineVisitor& visit) { visit(info_program(), CommandLine().app); }
+
+}  // namespace farlod

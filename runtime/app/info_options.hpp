@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "console/program_description.hpp"
+#include "console/run_options.hpp"
+#include "farlod/inspection.hpp"
+
+namespace farlod {
+
+/// The command line of farlod-info, resolved.
+struct InfoOptions {
+  std::filesystem::path package;
+  bool json = false, check = false;
+  std::optional<CellPlace> cell;
+  std::filesystem::path obj_file, picture_file;  ///< of the cell; perhaps empty
+  RunOptions run;
+};
+
+/// The options, or the exit code when there is nothing to do (help, version) or the command line is wrong; what there is
+/// to say has been said then.
+struct ParsedInfoOptions {
+  std::optional<InfoOptions> options;
+  int exit_code = 0;
+};
+[[nodiscard]] ParsedInfoOptions parse_info_options(int argc, char** argv);
+
+/// Hands over the command line, from which the manual page and the completion are made.
+void describe_info_options(const CommandLineVisitor& visit);
+
+}  // namespace farlod

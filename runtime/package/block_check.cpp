@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "package/block_check.hpp"
+
+#include "contract/package/layout.hpp"
+#include "farlod/error.hpp"
+#include "package/file_stamp.hpp"
+
+namespace farlod {
+
+BlockCheck::BlockCheck(const std::filesystem::path& folder, const package::Manifest& manifest, std::size_t n)
+    : manifest_(manifest),
+      files_(manifest.blocks[n]),
+      cells_(manifest.grid.cells_of(files_.block)),
+      tiles_path_(folder / package::folder_of(files_) / package::tiles_file),
+      far_map_path_(folder / package::folder_of(files_) / package::far_map_file) {
+  open_tiles();
+  if (files_.has_far_maps()) open_far_maps();
+}
+
+template <class Work>
+bool BlockCheck::succeeds(const std::filesystem::path& file, const Work& work) {
+  try {
+    work();
+    return true;
+  } catch (const PackageDamaged& error) {
+    damage_.push_back({file, std::nullopt, error.what()});
+  } catch (const PackageUnusable& error) {
+    // A version that is not the manifest's
+    damage_.push_back({file, std::nullopt, error.what()});
+  }
+  return false;
+}
+
+void BlockCheck::open_tiles() {
+  if (!succeeds(tiles_path_, [&] { tiles_bytes_.emplace(tiles_path_); })) return;
+  succeeds(tiles_path_, [&] {
+    check_stamp(tiles_path_, tiles_bytes_->bytes(), files_.tiles);
+    tiles_.emplace(tiles_bytes_->bytes(), cells_, tiles_path_.string());
+    if (files_.has_far_maps() && !manifest_.far_map.is_box() && !tiles_->has_far_cells())
+      throw PackageDamaged(tiles_path_.string() + " is damaged: it does not name what its far maps need. Pack the city again.");
+  });
+}
+
+void BlockCheck::open_far_maps() {
+  std::uint64_t bytes = 0;
+  succeeds(far_map_path_, [&] {
+    const MappedFile file(far_map_path_);
+    bytes = file.bytes().size();
+    check_stamp(far_map_path_, file.bytes(), files_.far_map);
+  });
+  // Of a file that was altered, the maps tell which cells are concerned; of one that was cut there is nothing more to say
+  if (bytes != files_.far_map.bytes) return;
+  if (!succeeds(far_map_path_, [&] { far_maps_.emplace(far_map_path_, cells_, manifest_.far_map, files_.mapped); })) return;
+  for (std::size_t place = 0; place < static_cast<std::size_t>(cells_.size()); ++place)
+    if (files_.has_far_map(place)) mapped_cells_.push_back(cells_.cell_at(place));
+}
+
+std::optional<std::uint64_t> BlockCheck::triangles() const {
+  if (!tiles_) return std::nullopt;
+  std::uint64_t count = 0;
+  for (std::size_t place = 0; place < static_cast<std::size_t>(cells_.size()); ++place)
+    count += tiles_->tile(cells_.cell_at(place)).mesh.triangles.size();
+  return count;
+}
+
+std::optional<BlockDamage> BlockCheck::check_far_map(Cell cell) const {
+  try {
+    read_far_map(cell);
+    return std::nullopt;
+  } catch (const PackageDamaged& error) {
+    return BlockDamage{far_map_path_, cell, error.what()};
+  }
+}
+
+/// What the map is measured by comes from the tiles; where these are damaged, any will do.
+void BlockCheck::read_far_map(Cell cell) const {
+  const package::FarMapShape& shape = manifest_.far_map;
+  if (shape.is_box()) {
+    (void)far_maps_->read_box(cell, tiles_ ? tiles_->tile(cell).cell->far_map_top : 1.0F);
+    return;
+  }
+  const bool has_levels = tiles_ && tiles_->has_far_cells();
+  FarHorizon map{ReceiverPatches(manifest_.grid.cell_edge_m, shape.squares_per_edge,
+                                 has_levels ? tiles_->levels_m(cell, shape.layers) : std::vector<float>(shape.layers)),
+                 AzimuthBins{shape.azimuth_bins},
+                 {},
+                 {},
+                 {},
+                 {},
+                 {}};
+  far_maps_->read_slopes(cell, map);
+}
+
+}  // namespace farlod
