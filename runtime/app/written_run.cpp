@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/result_provenance.hpp"
 #include "contract/lower_case.hpp"
 #include "farlod/error.hpp"
 #include "farlod/hemisphere.hpp"
@@ -43,11 +44,16 @@ RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const Pa
           plan.step_m,
           plan.columns,
           plan.rows,
-          options.evaluation.bounds ? RasterBands::svf_and_bounds : RasterBands::svf,
-          quantity_name(options.evaluation.weight),
+          svf_bands(quantity_name(options.evaluation.weight),
+                    options.evaluation.bounds ? RasterBands::svf_and_bounds : RasterBands::svf),
           package.crs_wkt,
           package.epsg,
-          threads};
+          threads,
+          provenance_of(options)};
+}
+
+TableFrame frame_of(const AnswerColumns& columns, const SvfOptions& options, const PackageDescription& package) {
+  return {columns, package.crs_wkt, package.epsg, package.convergence, provenance_of(options)};
 }
 
 /// The files of a raster, which are written tile by tile while its cells are evaluated.
@@ -235,7 +241,8 @@ WrittenRun write_points(const Package& package, const SvfOptions& options, RunSe
   WrittenRun written{answers.summary, {options.output}};
   written.notes = named.notes;
   written.skipped_features = named.skipped_features;
-  written.write_s = seconds_of([&] { options.format->write_points(rows_of(named, answers), columns, options.output); });
+  const TableFrame frame = frame_of(columns, options, package.description());
+  written.write_s = seconds_of([&] { options.format->write_points(rows_of(named, answers), frame, options.output); });
   return written;
 }
 
@@ -256,10 +263,11 @@ WrittenRun write_sky(const Package& package, const SvfOptions& options, const Ru
 }
 
 WrittenRun write_surfaces(const Package& package, const SvfOptions& options, const RunSettings& run) {
-  const auto writer = options.format->surface_tables_writer(answer_columns(options), options.output);
+  const auto writer =
+      options.format->surface_tables_writer(frame_of(answer_columns(options), options, package.description()), options.output);
   const SurfaceMeans means = evaluate_surfaces(
       package, options.surfaces, options.evaluation,
-      [&](std::size_t cell, std::span<const SurfacePoint> points) { writer->write_part(cell, points); }, run);
+      [&](std::size_t cell, std::span<const SurfacePoint> points) { writer->write_part(cell, points, {}); }, run);
   WrittenRun written{means.summary};
   written.write_s = seconds_of([&] { written.files = writer->commit(means.surfaces, means.buildings); });
   return written;

@@ -119,7 +119,7 @@ double round_length_m(double limit_m) {
 
 Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame) {
   const PreviewLayout layout = preview_layout({raster.columns, raster.rows});
-  Drawing drawing{layout.picture, title_of(frame.quantity)};
+  Drawing drawing{layout.picture, title_of(frame.bands.front().name)};
   const double left = static_cast<double>(margin), top = static_cast<double>(margin);
   drawing.shapes.emplace_back(Text{{left, top + title_height}, drawing.title, title_height, Alignment::left, ink});
   drawing.shapes.emplace_back(

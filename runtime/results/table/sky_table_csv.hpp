@@ -25,8 +25,8 @@ void write_points_csv(const PointRows& rows, const AnswerColumns& columns, const
 class SurfacePointsCsv {
  public:
   SurfacePointsCsv(const AnswerColumns& columns, const std::filesystem::path& path);
-  /// Each part comes once at the most.
-  void write_part(std::size_t part, std::span<const SurfacePoint> rows);
+  /// Each part comes once at the most. `further` as that of SurfaceTablesWriter::write_part.
+  void write_part(std::size_t part, std::span<const SurfacePoint> rows, std::span<const float> further = {});
   /// Writes the parts in the order of their numbers. The file appears now.
   void commit();
 
@@ -36,7 +36,7 @@ class SurfacePointsCsv {
   };
   std::filesystem::path path_;
   std::string header_;
-  BoundsColumns bounds_;
+  AnswerColumns columns_;
   SpoolFile spool_;
   std::map<std::size_t, Place> parts_;
 };
@@ -53,7 +53,9 @@ class SurfaceTablesCsv : public SurfaceTablesWriter {
  public:
   SurfaceTablesCsv(const AnswerColumns& columns, const std::filesystem::path& path)
       : quantity_(columns.quantity), path_(path), receivers_(columns, path) {}
-  void write_part(std::size_t part, std::span<const SurfacePoint> rows) override { receivers_.write_part(part, rows); }
+  void write_part(std::size_t part, std::span<const SurfacePoint> rows, std::span<const float> further) override {
+    receivers_.write_part(part, rows, further);
+  }
   [[nodiscard]] std::vector<std::filesystem::path> commit(std::span<const SurfaceMean> surfaces,
                                                           std::span<const BuildingMean> buildings) override;
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "points/point_reader.hpp"
 #include "results/table/csv_text.hpp"
 #include "tests/scenes/temporary_folder.hpp"
@@ -75,6 +77,20 @@ TEST(PointsCsv, HasAttributesBehindTheIdAndNormalsBeforeTheAnswer) {
             "2,,4,3,4,,,,\n");
 }
 
+TEST(PointsCsv, FurtherColumnsFollowTheBounds) {
+  const scenes::TemporaryFolder folder;
+  const std::vector<float> of_first{12.25F, std::nanf("")}, of_second{1e-7F, 300.0F};
+  const std::vector<PointRow> rows{{"1", {1.0, 2.0}, 3.0, 0.5, 0.25, 0.75, {}, {}, of_first},
+                                   {"2", {3.0, 4.0}, {}, {}, {}, {}, {}, {}, of_second}};
+  const AnswerColumns columns{"svf", BoundsColumns::yes, {"sun_h", "sky_w_m2"}};
+  write_points_csv(point_rows(rows), columns, folder.file("a.csv"));
+  EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
+            "id,x_m,y_m,z_m,svf,svf_low,svf_high,sun_h,sky_w_m2\n"
+            "1,1,2,3,0.500000,0.250000,0.750000,12.25,\n"
+            "2,3,4,,,,,0.0000001,300\n");
+  EXPECT_EQ(own_columns_of_points(false, columns).back(), "sky_w_m2");
+}
+
 TEST(PointsCsv, CanBeReadAsPointsAgain) {
   const scenes::TemporaryFolder folder;
   const std::vector<PointRow> rows{{"the \"first\", quoted\nover two lines", {500000.125, 5700010.25}, 1.5, 0.5, {}, {}},
@@ -121,6 +137,18 @@ TEST(SurfacePointsCsv, PartsStandInOrderHoweverTheyCome) {
   EXPECT_EQ(folder.names().size(), 2U);
 }
 
+TEST(SurfacePointsCsv, FurtherColumnsFollowRowByRow) {
+  const scenes::TemporaryFolder folder;
+  std::vector<SurfacePoint> rows(2);
+  SurfacePointsCsv table({"svf", BoundsColumns::no, {"a", "b"}}, folder.file("a.csv"));
+  table.write_part(0, rows, std::vector<float>{1.5F, 2.5F, std::nanf(""), 4.0F});
+  table.commit();
+  EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
+            "building,surface,kind,x_m,y_m,z_m,azimuth_deg,tilt_deg,area_m2,svf,a,b\n"
+            ",0,unknown,0,0,0,0,0,0,,1.5,2.5\n"
+            ",0,unknown,0,0,0,0,0,0,,,4\n");
+}
+
 TEST(SurfacesCsv, IsAsDocumented) {
   const scenes::TemporaryFolder folder;
   std::vector<SurfaceMean> rows(2);
@@ -137,7 +165,7 @@ TEST(SurfaceTablesCsv, AreThreeFilesThatAppearTogether) {
   const scenes::TemporaryFolder folder;
   const std::vector<SurfacePoint> rows(1);
   SurfaceTablesCsv tables({"svf", BoundsColumns::yes}, folder.file("a.b.csv"));
-  tables.write_part(3, rows);
+  tables.write_part(3, rows, {});
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.b.csv")));
   const std::vector<std::filesystem::path> files = tables.commit({}, {});
   const std::vector<std::filesystem::path> expected{folder.file("a.b.csv"), folder.file("a.b.surfaces.csv"),
