@@ -44,6 +44,7 @@ WrittenRun evaluate(SvfOptions options) {
                        : options.source == ReceiverSource::grid     ? write_raster(package, options, run)
                        : options.source == ReceiverSource::surfaces ? write_surfaces(package, options, run)
                                                                     : write_points(package, options, run);
+  written.further_columns = columns_of(options.evaluation.further);
   written.open_s = open_s;
   return written;
 }

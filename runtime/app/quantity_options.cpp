@@ -10,7 +10,7 @@
 namespace farlod {
 namespace {
 
-constexpr std::size_t default_horizons = 36, tregenza_patches = 145, reinhart_patches = 577;
+constexpr std::size_t default_horizons = 36;
 constexpr int first_year = 1960, last_year = 2200;  // of ERFA's leap seconds, and of what it promises of the Earth's orbit
 constexpr std::size_t step_of_days = 5, step_of_years = 15;
 

@@ -22,6 +22,9 @@ struct SunPeriod {
   std::chrono::minutes step{5};
 };
 
+/// Patches of SkyPatchSet::tregenza and ::reinhart.
+inline constexpr std::size_t tregenza_patches = 145, reinhart_patches = 577;
+
 /// What the options of this file say, as text.
 struct RawQuantities {
   std::string quantities, sun;

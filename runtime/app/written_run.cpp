@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "app/result_provenance.hpp"
 #include "contract/lower_case.hpp"
 #include "farlod/error.hpp"
 #include "farlod/hemisphere.hpp"
@@ -35,7 +37,15 @@ double seconds_of(const Work& work) {
 }
 
 AnswerColumns answer_columns(const SvfOptions& options) {
-  return {quantity_name(options.evaluation.weight), options.evaluation.bounds ? BoundsColumns::yes : BoundsColumns::no};
+  return {quantity_name(options.evaluation.weight), options.evaluation.bounds ? BoundsColumns::yes : BoundsColumns::no,
+          columns_of(options.evaluation.further)};
+}
+
+std::vector<Band> bands_of_run(const SvfOptions& options) {
+  std::vector<Band> bands = svf_bands(quantity_name(options.evaluation.weight),
+                                      options.evaluation.bounds ? RasterBands::svf_and_bounds : RasterBands::svf);
+  for (const std::string& column : columns_of(options.evaluation.further)) bands.push_back(further_band(column));
+  return bands;
 }
 
 RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const Package& package, std::size_t threads) {
@@ -43,12 +53,16 @@ RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const Pa
           plan.step_m,
           plan.columns,
           plan.rows,
-          options.evaluation.bounds ? RasterBands::svf_and_bounds : RasterBands::svf,
-          quantity_name(options.evaluation.weight),
+          bands_of_run(options),
           package.description().crs_wkt,
           package.description().epsg,
           threads,
+          provenance_of(options),
           &package};
+}
+
+TableFrame frame_of(const AnswerColumns& columns, const SvfOptions& options, const PackageDescription& package) {
+  return {columns, package.crs_wkt, package.epsg, package.convergence, provenance_of(options)};
 }
 
 /// The files of a raster, which are written tile by tile while its cells are evaluated.
@@ -232,9 +246,16 @@ std::optional<double> known_degrees(const std::vector<Angle>& angles, std::size_
 
 PointRows rows_of(const NamedPoints& named, const PointAnswers& answers) {
   const auto row = [&](std::size_t n) {
-    return PointRow{
-        named.ids[n],          {named.x_m[n], named.y_m[n]}, known(answers.height_m[n]),      known(answers.svf, n),
-        known(answers.low, n), known(answers.high, n),       known_degrees(named.azimuth, n), known_degrees(named.tilt, n)};
+    const std::size_t columns = answers.further.size() / named.ids.size();
+    return PointRow{named.ids[n],
+                    {named.x_m[n], named.y_m[n]},
+                    known(answers.height_m[n]),
+                    known(answers.svf, n),
+                    known(answers.low, n),
+                    known(answers.high, n),
+                    known_degrees(named.azimuth, n),
+                    known_degrees(named.tilt, n),
+                    std::span(answers.further).subspan(n * columns, columns)};
   };
   return {named.ids.size(), row, &named.attributes, named.has_normals()};
 }
@@ -283,7 +304,8 @@ WrittenRun write_points(const Package& package, const SvfOptions& options, RunSe
   WrittenRun written{answers.summary, {options.output}};
   written.notes = named.notes;
   written.skipped_features = named.skipped_features;
-  written.write_s = seconds_of([&] { options.format->write_points(rows_of(named, answers), columns, options.output); });
+  const TableFrame frame = frame_of(columns, options, package.description());
+  written.write_s = seconds_of([&] { options.format->write_points(rows_of(named, answers), frame, options.output); });
   return written;
 }
 
@@ -303,11 +325,26 @@ WrittenRun write_sky(const Package& package, const SvfOptions& options, const Ru
   return written;
 }
 
+/// The further values of receivers on surfaces, row by row; NaN where there is no answer.
+std::vector<float> further_of(std::span<const SurfacePoint> points, const AnswerColumns& columns) {
+  std::vector<float> values;
+  for (const SurfacePoint& p : points) {
+    values.insert(values.end(), p.further.begin(), p.further.end());
+    if (p.further.empty()) values.resize(values.size() + columns.further.size(), std::numeric_limits<float>::quiet_NaN());
+  }
+  return values;
+}
+
 WrittenRun write_surfaces(const Package& package, const SvfOptions& options, const RunSettings& run) {
-  const auto writer = options.format->surface_tables_writer(answer_columns(options), options.output);
+  const AnswerColumns columns = answer_columns(options);
+  const auto writer =
+      options.format->surface_tables_writer(frame_of(columns, options, package.description()), options.output);
   const SurfaceMeans means = evaluate_surfaces(
       package, options.surfaces, options.evaluation,
-      [&](std::size_t cell, std::span<const SurfacePoint> points) { writer->write_part(cell, points); }, run);
+      [&](std::size_t cell, std::span<const SurfacePoint> points) {
+        writer->write_part(cell, points, further_of(points, columns));
+      },
+      run);
   WrittenRun written{means.summary};
   written.write_s = seconds_of([&] { written.files = writer->commit(means.surfaces, means.buildings); });
   return written;

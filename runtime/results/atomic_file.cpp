@@ -14,10 +14,10 @@
 
 namespace farlod {
 
-AtomicFile::AtomicFile(std::filesystem::path destination) : destination_(std::move(destination)) {
+AtomicFile::AtomicFile(std::filesystem::path destination, std::string_view ending) : destination_(std::move(destination)) {
   // The process number keeps two runs that write the same file apart
   std::string name(1, '.');
-  name.append(destination_.filename().string()).append(1, '.').append(std::to_string(getpid())).append(".partial");
+  name.append(destination_.filename().string()).append(1, '.').append(std::to_string(getpid())).append(".partial").append(ending);
   temporary_ = destination_.parent_path() / name;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <string_view>
 
 namespace farlod {
 
@@ -12,7 +13,8 @@ namespace farlod {
 /// renamed by commit(). Without commit() it is removed.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path destination);
+  /// The temporary name ends with `ending`, for libraries that look at it.
+  explicit AtomicFile(std::filesystem::path destination, std::string_view ending = "");
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;

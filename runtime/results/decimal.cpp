@@ -55,6 +55,8 @@ void append_millimetres(std::string& text, double value) {
   for (std::uint64_t unit = 100; rest != 0; rest %= unit, unit /= 10) text += static_cast<char>('0' + rest / unit);
 }
 
+void append_degrees(std::string& text, double value) { append_fixed(text, value, 8); }
+
 void append_svf(std::string& text, double value) { append_fixed(text, value, 6); }
 
 void append_whole(std::string& text, std::uint64_t number) {

@@ -17,6 +17,8 @@ namespace farlod {
 
 /// Rounded to the millimetre, without trailing zeros: coordinates and areas have no more certain digits.
 void append_millimetres(std::string& text, double value);
+/// With eight digits after the point: of longitude and latitude, a millimetre.
+void append_degrees(std::string& text, double value);
 /// As svf_decimal.
 void append_svf(std::string& text, double value);
 void append_whole(std::string& text, std::uint64_t number);

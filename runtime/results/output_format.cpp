@@ -7,10 +7,15 @@
 #include "contract/lower_case.hpp"
 #include "results/picture/raster_preview.hpp"
 #include "results/raster/raster_writer_esri_ascii.hpp"
+#include "results/table/sky_features.hpp"
 #include "results/table/sky_table_csv.hpp"
+#include "results/table/sky_table_ply.hpp"
 #ifdef FARLOD_WITH_GDAL
 #include "results/raster/esri_wkt_gdal.hpp"
 #include "results/raster/raster_writer_gdal.hpp"
+#include "results/raster/raster_writer_netcdf.hpp"
+#include "results/table/feature_writer_gdal.hpp"
+#include "results/table/feature_writer_geojson.hpp"
 #endif
 
 namespace farlod {
@@ -38,16 +43,92 @@ std::unique_ptr<RasterWriter> make_with_prj(const RasterFrame& frame, const std:
   return std::make_unique<Writer>(frame_of_prj, path);
 }
 
-std::unique_ptr<SurfaceTablesWriter> make_surface_tables_csv(const AnswerColumns& columns, const std::filesystem::path& path) {
-  return std::make_unique<SurfaceTablesCsv>(columns, path);
+void write_points_csv_of(const PointRows& rows, const TableFrame& frame, const std::filesystem::path& path) {
+  write_points_csv(rows, frame.columns, path);
 }
+
+std::unique_ptr<SurfaceTablesWriter> make_surface_tables_csv(const TableFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<SurfaceTablesCsv>(frame.columns, path);
+}
+
+void write_points_ply_of(const PointRows& rows, const TableFrame& frame, const std::filesystem::path& path) {
+  write_points_ply(rows, frame, path);
+}
+
+std::unique_ptr<SurfaceTablesWriter> make_surface_tables_ply(const TableFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<SurfaceTablesBesideCsv>(
+      frame, path, [frame, path](SurfaceSpool& receivers) { write_receivers_ply(receivers, frame, path); });
+}
+
+#ifdef FARLOD_WITH_GDAL
+std::unique_ptr<FeatureWriter> geopackage(const TableFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<GdalFeatureWriter>(GdalFeatureWriter::Format::geopackage, frame, path);
+}
+std::unique_ptr<FeatureWriter> flatgeobuf(const TableFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<GdalFeatureWriter>(GdalFeatureWriter::Format::flatgeobuf, frame, path);
+}
+std::unique_ptr<FeatureWriter> geojson(const TableFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<GeojsonWriter>(frame, path);
+}
+
+template <auto make_writer>
+void write_points_by(const PointRows& rows, const TableFrame& frame, const std::filesystem::path& path) {
+  const std::unique_ptr<FeatureWriter> writer = make_writer(frame, path);
+  write_points_as_features(rows, frame, *writer);
+  writer->commit();
+}
+
+/// For a format that has several layers in a file.
+template <auto make_writer>
+std::unique_ptr<SurfaceTablesWriter> make_layers(const TableFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<SurfaceTablesInLayers>(frame, path, make_writer(frame, path));
+}
+
+/// For a format of one layer a file.
+template <auto make_writer>
+std::unique_ptr<SurfaceTablesWriter> make_layer_beside_csv(const TableFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<SurfaceTablesBesideCsv>(frame, path, [frame, path](SurfaceSpool& receivers) {
+    const std::unique_ptr<FeatureWriter> writer = make_writer(frame, path);
+    write_receivers_as_features(receivers, frame, *writer);
+    writer->commit();
+  });
+}
+#endif
 
 // name, endings, kind, holds bounds; for rasters and pictures: writer, its memory; for tables: points, surfaces
 constexpr OutputFormat formats[] = {
 #ifdef FARLOD_WITH_GDAL
     {"GeoTIFF", {".tif", ".tiff"}, OutputKind::raster, true, make<GeotiffWriter>, GeotiffWriter::bytes_for, nullptr, nullptr},
+    {"netCDF", {".nc", ""}, OutputKind::raster, true, make<NetcdfWriter>, NetcdfWriter::bytes_for, nullptr, nullptr},
 #endif
-    {"CSV", {".csv", ""}, OutputKind::table, true, nullptr, nullptr, write_points_csv, make_surface_tables_csv},
+    {"CSV", {".csv", ""}, OutputKind::table, true, nullptr, nullptr, write_points_csv_of, make_surface_tables_csv},
+#ifdef FARLOD_WITH_GDAL
+    {"GeoPackage",
+     {".gpkg", ""},
+     OutputKind::table,
+     true,
+     nullptr,
+     nullptr,
+     write_points_by<geopackage>,
+     make_layers<geopackage>},
+    {"GeoJSON",
+     {".geojson", ""},
+     OutputKind::table,
+     true,
+     nullptr,
+     nullptr,
+     write_points_by<geojson>,
+     make_layer_beside_csv<geojson>},
+    {"FlatGeobuf",
+     {".fgb", ""},
+     OutputKind::table,
+     true,
+     nullptr,
+     nullptr,
+     write_points_by<flatgeobuf>,
+     make_layer_beside_csv<flatgeobuf>},
+#endif
+    {"PLY", {".ply", ""}, OutputKind::table, true, nullptr, nullptr, write_points_ply_of, make_surface_tables_ply},
     {"PNG", {".png", ""}, OutputKind::picture, false, make<PreviewWriter>, PreviewWriter::bytes_for, nullptr, nullptr},
     {"SVG", {".svg", ""}, OutputKind::picture, false, make<PreviewWriter>, PreviewWriter::bytes_for, nullptr, nullptr},
     {"PDF", {".pdf", ""}, OutputKind::picture, false, make<PreviewWriter>, PreviewWriter::bytes_for, nullptr, nullptr},

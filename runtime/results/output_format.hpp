@@ -36,9 +36,9 @@ struct OutputFormat {
   std::uint64_t (*raster_writer_bytes)(const RasterFrame& frame);
 
   /// Tables: writes the points; null for rasters and pictures.
-  void (*write_points)(const PointRows& rows, const AnswerColumns& columns, const std::filesystem::path& path);
+  void (*write_points)(const PointRows& rows, const TableFrame& frame, const std::filesystem::path& path);
   /// Tables: makes the writer of the tables of surfaces; null for rasters and pictures.
-  std::unique_ptr<SurfaceTablesWriter> (*surface_tables_writer)(const AnswerColumns& columns, const std::filesystem::path& path);
+  std::unique_ptr<SurfaceTablesWriter> (*surface_tables_writer)(const TableFrame& frame, const std::filesystem::path& path);
 };
 
 /// The formats of this build, in the order of the help text. GeoTIFF needs GDAL.

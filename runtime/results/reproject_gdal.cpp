@@ -13,7 +13,7 @@
 namespace farlod {
 namespace {
 
-OGRSpatialReference read_crs(const std::string& definition) {
+OGRSpatialReference crs_called(const std::string& definition) {
   OGRSpatialReference crs;
   if (crs.SetFromUserInput(definition.c_str()) != OGRERR_NONE)
     throw PointsError("the coordinate reference system of the points, \"" + definition +
@@ -32,19 +32,44 @@ std::string text_of(Point2d p) { return fmt::format("({}, {})", p.x, p.y); }
 
 }  // namespace
 
-std::vector<Point2d> reprojected(std::span<const Point2d> points, const std::string& from_crs, const std::string& to_crs) {
+struct Reprojection::Impl {
+  std::unique_ptr<OGRCoordinateTransformation> transformation;
+};
+
+Reprojection::Reprojection(const std::string& from_crs, const std::string& to_crs) : impl_(std::make_unique<Impl>()) {
   const GdalErrors errors;
-  const OGRSpatialReference from = read_crs(from_crs), to = read_crs(to_crs);
-  const std::unique_ptr<OGRCoordinateTransformation> transformation(OGRCreateCoordinateTransformation(&from, &to));
-  if (transformation == nullptr)
+  const OGRSpatialReference from = crs_called(from_crs), to = crs_called(to_crs);
+  impl_->transformation.reset(OGRCreateCoordinateTransformation(&from, &to));
+  if (impl_->transformation == nullptr)
     throw PointsError("no way leads from " + name_of(from_crs, from) + " to " + name_of(to_crs, to) + ": " + errors.last());
-  std::vector<Point2d> projected(points.begin(), points.end());
-  for (std::size_t n = 0; n < projected.size(); ++n) {
-    if (transformation->Transform(1, &projected[n].x, &projected[n].y) == 0)
-      throw PointsError("point " + std::to_string(n + 1) + " at " + text_of(points[n]) + " cannot be projected from " +
-                        name_of(from_crs, from) + "; x is the longitude or easting, y the latitude or northing");
+}
+
+Reprojection::Reprojection(Reprojection&&) noexcept = default;
+Reprojection::~Reprojection() = default;
+
+std::optional<std::size_t> Reprojection::apply(std::span<Point2d> points) const {
+  const GdalErrors errors;
+  std::vector<double> x, y;
+  for (const Point2d p : points) {
+    x.push_back(p.x);
+    y.push_back(p.y);
   }
-  return projected;
+  std::vector<int> is_good(points.size());
+  impl_->transformation->Transform(static_cast<int>(points.size()), x.data(), y.data(), nullptr, is_good.data());
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    if (is_good[n] == 0) return n;
+    points[n] = {x[n], y[n]};
+  }
+  return std::nullopt;
+}
+
+std::vector<Point2d> reprojected(std::span<const Point2d> points, const std::string& from_crs, const std::string& to_crs) {
+  const Reprojection reprojection(from_crs, to_crs);
+  std::vector<Point2d> projected(points.begin(), points.end());
+  const auto refused = reprojection.apply(projected);
+  if (!refused) return projected;
+  throw PointsError("point " + std::to_string(*refused + 1) + " at " + text_of(points[*refused]) + " cannot be projected from " +
+                    name_of(from_crs, crs_called(from_crs)) + "; x is the longitude or easting, y the latitude or northing");
 }
 
 }  // namespace farlod

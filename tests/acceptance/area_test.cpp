@@ -21,6 +21,15 @@ class TownWithAnArea : public testing::Test {
     folder.must("farlod-pack town.geojson -o part.farlod --cell 20 --quiet --area " + text_of(south_west) + "," +
                 text_of(north_east));
   }
+  /// Of all bands. The files as a whole differ, since they name their package and their settings.
+  [[nodiscard]] std::vector<std::optional<double>> values_in(const std::string& file) const {
+    std::vector<std::optional<double>> values;
+    for (std::size_t band = 1; band <= band_names(folder.path(file)).size(); ++band) {
+      const RasterFile raster = read_raster(folder.path(file), static_cast<int>(band));
+      values.insert(values.end(), raster.values.begin(), raster.values.end());
+    }
+    return values;
+  }
   [[nodiscard]] std::string area() const { return text_of(south_west) + "," + text_of(north_east); }
 
   Point2d south_west = town_middle + Point2d{-90.0, -60.0}, north_east = town_middle + Point2d{-10.0, 40.0};
@@ -33,7 +42,7 @@ TEST_F(TownWithAnArea, AnswersInTheAreaAreThoseOfTheWholePackage) {
     const std::string map = " --grid 4 --quiet --bbox " + area() + what;
     folder.must("farlod-svf a.farlod -o whole.tif" + map);
     folder.must("farlod-svf part.farlod -o part.tif" + map);
-    EXPECT_EQ(folder.text_of("whole.tif"), folder.text_of("part.tif")) << what;
+    EXPECT_EQ(values_in("whole.tif"), values_in("part.tif")) << what;
   }
 }
 
@@ -43,12 +52,12 @@ TEST_F(TownWithAnArea, AnswersElsewhereAreExact) {
   folder.must("farlod-svf part.farlod -o exact.tif --engine exact" + far_from_it);
   for (const std::string engine : {"", " --engine rays"}) {
     folder.must("farlod-svf part.farlod -o part.tif --summary s.json" + far_from_it + engine);
-    EXPECT_EQ(folder.text_of("exact.tif"), folder.text_of("part.tif")) << engine;
+    EXPECT_EQ(values_in("exact.tif"), values_in("part.tif")) << engine;
     EXPECT_EQ(folder.json_of("s.json").at("receivers_without_far_map"), folder.json_of("s.json").at("receivers"));
     EXPECT_GT(folder.json_of("s.json").at("receivers"), 10);
   }
   folder.must("farlod-svf a.farlod -o whole.tif" + far_from_it);
-  EXPECT_NE(folder.text_of("exact.tif"), folder.text_of("whole.tif")) << "horizons and rays round alike: this test sees nothing";
+  EXPECT_NE(values_in("exact.tif"), values_in("whole.tif")) << "horizons and rays round alike: this test sees nothing";
 }
 
 TEST_F(TownWithAnArea, BoundsOfExactAnswersAreEqual) {

@@ -63,6 +63,8 @@ constexpr Wall walls[] = {
 
     {"^(benchmark|validation)/", NOWHERE, "^tests/(?!scenes/)", "what measures shares the scenes of the tests, and no test"},
 
+    {"^(preprocess|runtime)/", "_netcdf\\.cpp$", "^netcdf", "the wrapper of netCDF is *_netcdf.cpp"},
+    {"^(preprocess|runtime)/", "_xxhash\\.cpp$|^runtime/package/", "^xxhash", "the wrappers of xxHash are *_xxhash.cpp"},
     {"^(preprocess|runtime)/", "_cairo\\.cpp$", "^(cairo|pango/|png\\.h)", "the wrapper of Cairo and Pango is *_cairo.cpp"},
     {"^(preprocess|runtime)/", "_erfa\\.cpp$", "^erfa", "ERFA's wrapper is *_erfa.cpp"},
     {"^(preprocess|runtime)/", "/app/", "^(CLI/|spdlog/|iostream$|print$)", "libraries neither print nor read command lines"},

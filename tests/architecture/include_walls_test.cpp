@@ -104,6 +104,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Planted{"preprocess/package/a.cpp", "#include \"trial/far_map_trial.hpp\"", "that stage is later"},
                     Planted{"preprocess/farmap/a.cpp", "#include <png.h>", "the wrapper of Cairo"},
                     Planted{"runtime/results/picture/a.cpp", "#include <cairo.h>", "the wrapper of Cairo"},
+                    Planted{"runtime/results/raster/a.cpp", "#include <netcdf.h>", "the wrapper of netCDF"},
+                    Planted{"runtime/results/a.cpp", "#include <xxhash.h>", "the wrappers of xxHash"},
                     Planted{"runtime/results/picture/a.cpp", "#include <pango/pangocairo.h>", "the wrapper of Cairo"},
                     Planted{"runtime/sun/a.cpp", "#include <erfa.h>", "ERFA's wrapper"},
                     Planted{"runtime/sun/a.cpp", "#include \"run/facing.hpp\"", "a user of the library"},

@@ -122,7 +122,7 @@ PreviewLayout preview_layout(PixelSize map_size) {
 
 Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame, const PlanBackground& background) {
   const PreviewLayout layout = preview_layout({raster.columns, raster.rows});
-  Drawing drawing{layout.picture, title_of(frame.quantity)};
+  Drawing drawing{layout.picture, title_of(frame.bands.front().name)};
   const double left = static_cast<double>(margin), top = static_cast<double>(margin);
   drawing.shapes.emplace_back(Text{{left, top + title_height}, drawing.title, title_height, Alignment::left, ink});
   drawing.shapes.emplace_back(

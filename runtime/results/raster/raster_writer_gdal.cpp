@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "contract/expects.hpp"
@@ -16,39 +18,66 @@
 #include "farlod/version.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "results/atomic_file.hpp"
+#include "results/crs_gdal.hpp"
 
 namespace farlod {
 namespace {
 
-/// Compression takes about a tenth of the time that evaluation takes: more threads would wait.
-std::size_t compression_threads(const RasterFrame& raster) {
-  constexpr std::size_t per_compressing = 4;
-  return raster.threads == 1 ? 1 : std::max<std::size_t>(2, raster.threads / per_compressing);
-}
+// GDAL's cache of blocks while the file is copied. Its default, a twentieth of the machine's memory, is more than a copy from one
+// tile to the next has use for
+constexpr GIntBig cache_bytes = 16 << 20;
+// What GDAL holds besides while it makes overviews: measured on rasters of 3 to 26 million pixels, for which it is much the same
+constexpr std::uint64_t overview_bytes = 36 << 20;
 
-CPLStringList options_of(const RasterFrame& raster) {
+/// GDAL's cache is one for the process: it has its own size again when this is destroyed.
+class SmallCache {
+ public:
+  SmallCache() : before_(GDALGetCacheMax64()) { GDALSetCacheMax64(std::min(before_, cache_bytes)); }
+  ~SmallCache() { GDALSetCacheMax64(before_); }
+  SmallCache(const SmallCache&) = delete;
+  SmallCache& operator=(const SmallCache&) = delete;
+
+ private:
+  GIntBig before_;
+};
+
+/// Tiles as they come, not compressed: a block that is as large on disk as in memory is written where it lies.
+CPLStringList options_of_spool() {
   CPLStringList options;
-  // Predictor 3 is the one for floats: it takes a sixth off what DEFLATE alone leaves. Level 5 takes two thirds of the time of
-  // GDAL's default, 6, for files that are 1 % larger
-  for (const char* option : {"TILED=YES", "COMPRESS=DEFLATE", "PREDICTOR=3", "ZLEVEL=5", "BIGTIFF=IF_SAFER"})
-    options.AddString(option);
-  // Who writes the tiles gives them to the answers of one cell after the other, and must not wait. GDAL writes compressed tiles
-  // in the order in which they came
-  options.SetNameValue("NUM_THREADS", std::to_string(compression_threads(raster)).c_str());
+  for (const char* option : {"TILED=YES", "INTERLEAVE=BAND", "SPARSE_OK=TRUE", "BIGTIFF=IF_SAFER"}) options.AddString(option);
   return options;
 }
 
-GDALDatasetUniquePtr create_tiff(const RasterFrame& raster, const AtomicFile& file, const GdalErrors& errors) {
+CPLStringList options_of_result(const RasterFrame& raster) {
+  CPLStringList options;
+  // Predictor 3 is the one for floats: it takes a sixth off what DEFLATE alone leaves. Level 5 takes two thirds of the time of
+  // GDAL's default, 6, for files that are 1 % larger. Averages of overviews are over the pixels that have data
+  for (const char* option : {"COMPRESS=DEFLATE", "PREDICTOR=FLOATING_POINT", "LEVEL=5", "BIGTIFF=IF_SAFER", "STATISTICS=NO",
+                             "OVERVIEW_RESAMPLING=AVERAGE"})
+    options.AddString(option);
+  options.SetNameValue("BLOCKSIZE", std::to_string(geotiff_block_edge).c_str());
+  // GDAL writes compressed blocks in the order in which they came
+  options.SetNameValue("NUM_THREADS", std::to_string(raster.threads).c_str());
+  return options;
+}
+
+GDALDriver& driver_called(const char* name, const AtomicFile& file) {
   GDALRegister_GTiff();  // all drivers would take longer than a small map
-  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  GDALRegister_COG();
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(name);
   if (driver == nullptr) throw OutputError(file.destination(), "this GDAL cannot write GeoTIFF");
-  const CPLStringList options = options_of(raster);
+  return *driver;
+}
+
+GDALDatasetUniquePtr create_spool(const RasterFrame& raster, const AtomicFile& file, const AtomicFile& spool,
+                                  const GdalErrors& errors) {
   constexpr auto largest = static_cast<std::size_t>(std::numeric_limits<int>::max());
   if (raster.columns > largest || raster.rows > largest)
     throw OutputError(file.destination(), "the raster has too many pixels along an edge");
-  GDALDatasetUniquePtr dataset(driver->Create(file.temporary().c_str(), static_cast<int>(raster.columns),
-                                              static_cast<int>(raster.rows), raster.bands == RasterBands::svf ? 1 : 3,
-                                              GDT_Float32, options.List()));
+  GDALDatasetUniquePtr dataset(driver_called("GTiff", file)
+                                   .Create(spool.temporary().c_str(), static_cast<int>(raster.columns),
+                                           static_cast<int>(raster.rows), static_cast<int>(raster.bands.size()), GDT_Float32,
+                                           options_of_spool().List()));
   if (dataset == nullptr) throw OutputError(file.destination(), errors.last());
   return dataset;
 }
@@ -58,21 +87,24 @@ void place(GDALDataset& dataset, const RasterFrame& raster) {
   dataset.SetGeoTransform(geotransform.data());
   if (raster.crs_wkt.empty()) return;
   OGRSpatialReference crs;
-  // Of a code PROJ knows the names already; for WKT it looks each of them up, which takes longer than a small map
-  const bool is_known = raster.epsg && crs.importFromEPSG(*raster.epsg) == OGRERR_NONE;
-  if (is_known || crs.importFromWkt(raster.crs_wkt.c_str()) == OGRERR_NONE)
-    dataset.SetSpatialRef(&crs);
-  else
-    CPLError(CE_Failure, CPLE_AppDefined, "the coordinate reference system is not valid WKT");
+  if (read_crs(crs, raster.crs_wkt, raster.epsg)) dataset.SetSpatialRef(&crs);
 }
 
-void describe(GDALRasterBand& band, const std::string& name) {
-  band.SetDescription(name.c_str());
-  band.SetNoDataValue(std::numeric_limits<double>::quiet_NaN());
+void describe(GDALDataset& dataset, const RasterFrame& raster) {
+  dataset.SetMetadataItem("TIFFTAG_SOFTWARE", (std::string("Far-LoD ") + software_version).c_str());
+  dataset.SetMetadataItem("TIFFTAG_IMAGEDESCRIPTION", raster.bands.front().definition.c_str());
+  for (const auto& [name, value] : entries_of(raster.provenance)) dataset.SetMetadataItem(name.c_str(), value.c_str());
+  for (std::size_t n = 0; n < raster.bands.size(); ++n) {
+    GDALRasterBand& band = *dataset.GetRasterBand(static_cast<int>(n) + 1);
+    band.SetDescription(raster.bands[n].name.c_str());
+    band.SetUnitType(raster.bands[n].unit.c_str());
+    band.SetMetadataItem("definition", raster.bands[n].definition.c_str());
+    band.SetNoDataValue(std::numeric_limits<double>::quiet_NaN());
+  }
 }
 
 /// Not through GDAL's cache of blocks, which may take a twentieth of the machine's memory and writes when it likes.
-void write_block(GDALRasterBand& band, TilePlace place, const std::vector<float>& values) {
+void write_block(GDALRasterBand& band, TilePlace place, std::span<const float> values) {
   // WriteBlock does not change what it writes, but its parameter does not say so
   const CPLErr refused =
       band.WriteBlock(static_cast<int>(place.column), static_cast<int>(place.row), const_cast<float*>(values.data()));
@@ -82,27 +114,26 @@ void write_block(GDALRasterBand& band, TilePlace place, const std::vector<float>
 }  // namespace
 
 struct GeotiffWriter::Impl {
+  RasterFrame frame;
   AtomicFile file;
+  std::optional<AtomicFile> spool;  // removed after the dataset is closed
   GDALDatasetUniquePtr dataset;
 
-  explicit Impl(const std::filesystem::path& path) : file(path) {}
+  Impl(const RasterFrame& raster, const std::filesystem::path& path)
+      : frame(raster), file(path), spool(path.string() + ".spool") {}
 
   void throw_if_any(const GdalErrors& errors) const {
     if (errors.any()) throw OutputError(file.destination(), errors.last());
   }
 };
 
-GeotiffWriter::GeotiffWriter(const RasterFrame& frame, const std::filesystem::path& path) : impl_(std::make_unique<Impl>(path)) {
+GeotiffWriter::GeotiffWriter(const RasterFrame& frame, const std::filesystem::path& path)
+    : impl_(std::make_unique<Impl>(frame, path)) {
   const GdalErrors errors;
-  impl_->dataset = create_tiff(frame, impl_->file, errors);
+  impl_->dataset = create_spool(frame, impl_->file, *impl_->spool, errors);
   GDALDataset& dataset = *impl_->dataset;
   place(dataset, frame);
-  dataset.SetMetadataItem("TIFFTAG_SOFTWARE", (std::string("Far-LoD ") + software_version).c_str());
-  describe(*dataset.GetRasterBand(1), frame.quantity);
-  if (frame.bands == RasterBands::svf_and_bounds) {
-    describe(*dataset.GetRasterBand(2), frame.quantity + "_low");
-    describe(*dataset.GetRasterBand(3), frame.quantity + "_high");
-  }
+  describe(dataset, frame);
   int block_columns = 0, block_rows = 0;
   dataset.GetRasterBand(1)->GetBlockSize(&block_columns, &block_rows);
   FARLOD_EXPECTS(block_columns == raster_tile_edge && block_rows == raster_tile_edge);
@@ -116,25 +147,32 @@ GeotiffWriter::~GeotiffWriter() {
 
 void GeotiffWriter::write(const RasterTile& tile) {
   const GdalErrors errors;
-  write_block(*impl_->dataset->GetRasterBand(1), tile.place, tile.svf);
-  if (!tile.low.empty()) {
-    write_block(*impl_->dataset->GetRasterBand(2), tile.place, tile.low);
-    write_block(*impl_->dataset->GetRasterBand(3), tile.place, tile.high);
-  }
+  const std::vector<std::span<const float>> bands = bands_of(tile);
+  FARLOD_EXPECTS(bands.size() == impl_->frame.bands.size());
+  for (std::size_t n = 0; n < bands.size(); ++n)
+    write_block(*impl_->dataset->GetRasterBand(static_cast<int>(n) + 1), tile.place, bands[n]);
   impl_->throw_if_any(errors);
 }
 
 std::uint64_t GeotiffWriter::bytes_for(const RasterFrame& frame) {
-  const std::size_t threads = compression_threads(frame);
-  // A tile as it came, and its compressed bytes, which may be as many. GDAL has one more in turn than it has threads
-  constexpr std::uint64_t bytes_of_tile = 2 * raster_tile_edge * raster_tile_edge * sizeof(float);
-  return threads == 1 ? 0 : (threads + 1) * bytes_of_tile;
+  // A block as it came, and its compressed bytes, which may be as many; GDAL has one more in turn than it has threads
+  const std::uint64_t bytes_of_block = 2 * geotiff_block_edge * geotiff_block_edge * sizeof(float) * frame.bands.size();
+  return static_cast<std::uint64_t>(cache_bytes) + overview_bytes + (frame.threads == 1 ? 1 : frame.threads + 1) * bytes_of_block;
 }
 
 void GeotiffWriter::commit() {
   const GdalErrors errors;
-  // GDAL fills what did not come with the declared no-data value. A full disk may show only now.
-  impl_->dataset.reset();
+  // A full disk may show only now
+  impl_->dataset->FlushCache();
+  impl_->throw_if_any(errors);
+  {
+    const SmallCache cache;
+    const GDALDatasetUniquePtr result(driver_called("COG", impl_->file)
+                                          .CreateCopy(impl_->file.temporary().c_str(), impl_->dataset.get(), TRUE,
+                                                      options_of_result(impl_->frame).List(), nullptr, nullptr));
+    impl_->dataset.reset();
+  }
+  impl_->spool.reset();
   impl_->throw_if_any(errors);
   impl_->file.commit();
 }

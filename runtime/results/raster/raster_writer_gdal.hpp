@@ -10,9 +10,14 @@
 
 namespace farlod {
 
-/// Writes a GeoTIFF: one band of 32-bit floats named for the quantity (three with bounds), north up, with the raster's CRS.
-/// Pixels without data hold NaN, which the file declares as no data. The file is tiled and compressed; its tiles lie in the order
-/// in which they were written.
+/// Edge of a block of the file, in pixels: what readers fetch at a time.
+inline constexpr std::size_t geotiff_block_edge = 512;
+
+/// Writes a cloud-optimised GeoTIFF: bands of 32-bit floats with their names, units and definitions, north up, with the raster's
+/// CRS and provenance. Pixels without data hold NaN, which the file declares as no data. Blocks are compressed; overviews are
+/// averages over the pixels that have data. Until commit(), tiles wait in a file beside the result, four bytes a pixel and band:
+/// the layout wants overviews before pixels, and blocks from the north-west on
+/// (docs/decisions/0023-cloud-optimised-geotiff.md).
 class GeotiffWriter : public RasterWriter {
  public:
   /// Throws OutputError, as do the other functions.
@@ -20,7 +25,7 @@ class GeotiffWriter : public RasterWriter {
   ~GeotiffWriter() override;
   void write(const RasterTile& tile) override;
   void commit() override;
-  /// Tiles that wait for their compression or for those before them. A run of one thread writes each tile at once.
+  /// What commit() holds: GDAL's cache of blocks, its buffers for overviews, and blocks that are being compressed.
   [[nodiscard]] static std::uint64_t bytes_for(const RasterFrame& frame);
 
  private:

@@ -11,7 +11,7 @@ namespace farlod {
 TileSpool::TileSpool(const RasterFrame& frame, const std::filesystem::path& result)
     : columns_(frame.columns), rows_(frame.rows), file_(result) {}
 
-void TileSpool::add(const RasterTile& tile) { places_.emplace(tile.place, file_.append(std::as_bytes(std::span(tile.svf)))); }
+void TileSpool::add(const RasterTile& tile) { places_.emplace(tile.place, file_.append(std::as_bytes(bands_of(tile).front()))); }
 
 std::vector<float> TileSpool::pixels_of_tile_row(std::size_t tile_row) {
   const std::size_t rows = pixels_of_tile(tile_row, rows_);

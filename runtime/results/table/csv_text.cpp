@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/table/csv_text.hpp"
 
+#include <cmath>
+
 #include "results/decimal.hpp"
 
 namespace farlod {
@@ -47,6 +49,12 @@ CsvText& CsvText::millimetres(std::optional<double> value) {
 CsvText& CsvText::svf(std::optional<double> value) {
   begin_field();
   if (value) append_svf(bytes_, *value);
+  return *this;
+}
+
+CsvText& CsvText::number(float value) {
+  begin_field();
+  if (!std::isnan(value)) bytes_ += shortest_decimal(value);
   return *this;
 }
 

@@ -21,6 +21,8 @@ class CsvText {
   CsvText& millimetres(std::optional<double> value);
   /// As append_svf; empty where there is no answer.
   CsvText& svf(std::optional<double> value);
+  /// The shortest decimal that reads back as the same number; empty where it is NaN.
+  CsvText& number(float value);
   CsvText& fields(std::initializer_list<std::string_view> texts);
   void end_row();
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "farlod/point.hpp"
@@ -19,6 +20,7 @@ struct PointRow {
   std::optional<double> low, high;  ///< certain bounds, where asked for
   /// Where it looks, clockwise from true north and from straight up; none: straight up.
   std::optional<double> azimuth_deg = {}, tilt_deg = {};
+  std::span<const float> further = {};  ///< as many as AnswerColumns::further; NaN where there is no answer
 };
 
 }  // namespace farlod

@@ -17,24 +17,6 @@ namespace {
 // A thousandth of a degree is 1.7 cm over a kilometre
 double degrees(Angle angle) { return angle.degrees(); }
 
-std::string_view word_for(SurfaceKind kind) {
-  switch (kind) {
-    case SurfaceKind::ground:
-      return "ground";
-    case SurfaceKind::roof:
-      return "roof";
-    case SurfaceKind::wall:
-      return "wall";
-    case SurfaceKind::foundation:
-      return "foundation";
-    case SurfaceKind::floor:
-      return "floor";
-    case SurfaceKind::unknown:
-      break;
-  }
-  return "unknown";
-}
-
 /// Number of rows that are kept as text before they are written.
 constexpr std::size_t rows_at_once = 1024;
 
@@ -51,19 +33,21 @@ void write_table(const std::filesystem::path& path, CsvText header, std::size_t 
   });
 }
 
-/// The columns of a table of receivers: identity and place, answer, and bounds where they are wanted.
+/// The columns of a table of receivers: identity and place, then the answers.
 CsvText receiver_header(std::initializer_list<std::string_view> identity, const AnswerColumns& columns) {
   CsvText text;
-  text.fields(identity).field(columns.quantity);
-  if (columns.bounds == BoundsColumns::yes) text.fields({columns.quantity + "_low", columns.quantity + "_high"});
+  text.fields(identity);
+  for (const std::string& name : names_of(columns)) text.field(name);
   text.end_row();
   return text;
 }
 
 template <class Row>
-void add_answer(const Row& row, BoundsColumns bounds, CsvText& text) {
+void add_answer(const Row& row, std::span<const float> further, const AnswerColumns& columns, CsvText& text) {
+  FARLOD_EXPECTS(further.size() == columns.further.size());
   text.svf(row.svf);
-  if (bounds == BoundsColumns::yes) text.svf(row.low).svf(row.high);
+  if (columns.bounds == BoundsColumns::yes) text.svf(row.low).svf(row.high);
+  for (const float value : further) text.number(value);
   text.end_row();
 }
 
@@ -88,31 +72,21 @@ void add_surface_point(const SurfacePoint& r, CsvText& text) {
   text.millimetres(degrees(r.azimuth)).millimetres(degrees(r.tilt)).millimetres(r.area_m2);
 }
 
-void add_surface(const SurfaceMean& r, CsvText& text) {
+void add_surface(const SurfaceMean& r, const AnswerColumns& columns, CsvText& text) {
   text.field(r.building).whole(r.surface).field(word_for(r.kind));
-  text.millimetres(degrees(r.azimuth)).millimetres(degrees(r.tilt)).millimetres(r.area_m2);
-  text.whole(r.receivers).whole(r.nodata).svf(r.svf_mean).svf(r.svf_min).svf(r.svf_max).end_row();
+  text.millimetres(degrees(r.azimuth)).millimetres(degrees(r.tilt)).millimetres(r.area_m2).millimetres(r.covered_area_m2);
+  text.whole(r.receivers).whole(r.nodata).svf(r.svf_mean).svf(r.svf_min).svf(r.svf_max);
+  for (std::size_t k = 0; k < columns.further.size(); ++k) text.number(further_mean(r, k));
+  text.end_row();
 }
 
 void add_building(const BuildingMean& r, CsvText& text) {
   text.field(r.building).millimetres(r.roof_area_m2).millimetres(r.wall_area_m2);
+  text.millimetres(r.covered_roof_area_m2).millimetres(r.covered_wall_area_m2);
   text.whole(r.receivers).whole(r.nodata).svf(r.svf_roofs).svf(r.svf_walls).end_row();
 }
 
-/// OUT.csv → OUT.surfaces.csv
-std::filesystem::path beside(const std::filesystem::path& output, const std::string& what) {
-  return std::filesystem::path(output).replace_extension(what + output.extension().string());
-}
-
 }  // namespace
-
-std::vector<std::string> own_columns_of_points(bool normals, const AnswerColumns& columns) {
-  std::vector<std::string> names{"id", "x_m", "y_m", "z_m"};
-  if (normals) names.insert(names.end(), {"azimuth_deg", "tilt_deg"});
-  names.push_back(columns.quantity);
-  if (columns.bounds == BoundsColumns::yes) names.insert(names.end(), {columns.quantity + "_low", columns.quantity + "_high"});
-  return names;
-}
 
 void write_points_csv(const PointRows& rows, const AnswerColumns& columns, const std::filesystem::path& path) {
   const std::size_t attributes = rows.attributes == nullptr ? 0 : rows.attributes->names().size();
@@ -122,7 +96,7 @@ void write_points_csv(const PointRows& rows, const AnswerColumns& columns, const
     for (std::size_t k = 0; k < attributes; ++k) text.field(rows.attributes->value(n, k));
     add_point(row, text);
     if (rows.normals) text.millimetres(row.azimuth_deg).millimetres(row.tilt_deg);
-    add_answer(row, columns.bounds, text);
+    add_answer(row, row.further, columns, text);
   });
 }
 
@@ -130,15 +104,16 @@ SurfacePointsCsv::SurfacePointsCsv(const AnswerColumns& columns, const std::file
     : path_(path),
       header_(receiver_header({"building", "surface", "kind", "x_m", "y_m", "z_m", "azimuth_deg", "tilt_deg", "area_m2"}, columns)
                   .bytes()),
-      bounds_(columns.bounds),
+      columns_(columns),
       spool_(path) {}
 
-void SurfacePointsCsv::write_part(std::size_t part, std::span<const SurfacePoint> rows) {
+void SurfacePointsCsv::write_part(std::size_t part, std::span<const SurfacePoint> rows, std::span<const float> further) {
   if (rows.empty()) return;
+  FARLOD_EXPECTS(further.size() == rows.size() * columns_.further.size());
   CsvText text;
-  for (const SurfacePoint& row : rows) {
-    add_surface_point(row, text);
-    add_answer(row, bounds_, text);
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    add_surface_point(rows[n], text);
+    add_answer(rows[n], further.subspan(n * columns_.further.size(), columns_.further.size()), columns_, text);
   }
   const std::string& bytes = text.bytes();
   const bool is_new = parts_.emplace(part, Place{spool_.append(std::as_bytes(std::span(bytes))), bytes.size()}).second;
@@ -157,26 +132,28 @@ void SurfacePointsCsv::commit() {
   });
 }
 
-void write_surfaces_csv(std::span<const SurfaceMean> rows, const std::string& quantity, const std::filesystem::path& path) {
+void write_surfaces_csv(std::span<const SurfaceMean> rows, const AnswerColumns& columns, const std::filesystem::path& path) {
   CsvText header;
-  header.fields({"building", "surface", "kind", "azimuth_deg", "tilt_deg", "area_m2", "receivers", "nodata", quantity + "_mean",
-                 quantity + "_min", quantity + "_max"});
+  header.fields({"building", "surface", "kind", "azimuth_deg", "tilt_deg", "area_m2", "covered_area_m2", "receivers", "nodata",
+                 columns.quantity + "_mean", columns.quantity + "_min", columns.quantity + "_max"});
+  for (const std::string& name : columns.further) header.field(name + "_mean");
   header.end_row();
-  write_table(path, std::move(header), rows.size(), [&](std::size_t n, CsvText& text) { add_surface(rows[n], text); });
+  write_table(path, std::move(header), rows.size(), [&](std::size_t n, CsvText& text) { add_surface(rows[n], columns, text); });
 }
 
-void write_buildings_csv(std::span<const BuildingMean> rows, const std::string& quantity, const std::filesystem::path& path) {
+void write_buildings_csv(std::span<const BuildingMean> rows, const AnswerColumns& columns, const std::filesystem::path& path) {
   CsvText header;
-  header.fields({"building", "roof_area_m2", "wall_area_m2", "receivers", "nodata", quantity + "_roofs", quantity + "_walls"});
+  header.fields({"building", "roof_area_m2", "wall_area_m2", "covered_roof_area_m2", "covered_wall_area_m2", "receivers", "nodata",
+                 columns.quantity + "_roofs", columns.quantity + "_walls"});
   header.end_row();
   write_table(path, std::move(header), rows.size(), [&](std::size_t n, CsvText& text) { add_building(rows[n], text); });
 }
 
 std::vector<std::filesystem::path> SurfaceTablesCsv::commit(std::span<const SurfaceMean> surfaces,
                                                             std::span<const BuildingMean> buildings) {
-  std::vector<std::filesystem::path> files{path_, beside(path_, ".surfaces"), beside(path_, ".buildings")};
-  write_surfaces_csv(surfaces, quantity_, files[1]);
-  write_buildings_csv(buildings, quantity_, files[2]);
+  std::vector<std::filesystem::path> files{path_, table_beside(path_, ".surfaces"), table_beside(path_, ".buildings")};
+  write_surfaces_csv(surfaces, columns_, files[1]);
+  write_buildings_csv(buildings, columns_, files[2]);
   receivers_.commit();  // the file of -o appears last
   return files;
 }

@@ -25,8 +25,8 @@ void write_points_csv(const PointRows& rows, const AnswerColumns& columns, const
 class SurfacePointsCsv {
  public:
   SurfacePointsCsv(const AnswerColumns& columns, const std::filesystem::path& path);
-  /// Each part comes once at the most.
-  void write_part(std::size_t part, std::span<const SurfacePoint> rows);
+  /// Each part comes once at the most. `further` as that of SurfaceTablesWriter::write_part.
+  void write_part(std::size_t part, std::span<const SurfacePoint> rows, std::span<const float> further = {});
   /// Writes the parts in the order of their numbers. The file appears now.
   void commit();
 
@@ -36,29 +36,32 @@ class SurfacePointsCsv {
   };
   std::filesystem::path path_;
   std::string header_;
-  BoundsColumns bounds_;
+  AnswerColumns columns_;
   SpoolFile spool_;
   std::map<std::size_t, Place> parts_;
 };
 
-/// Columns: building, surface, kind, azimuth_deg, tilt_deg, area_m2, receivers, nodata, QUANTITY_mean, QUANTITY_min,
-/// QUANTITY_max.
-void write_surfaces_csv(std::span<const SurfaceMean> rows, const std::string& quantity, const std::filesystem::path& path);
+/// Columns: building, surface, kind, azimuth_deg, tilt_deg, area_m2, covered_area_m2, receivers, nodata, QUANTITY_mean, QUANTITY_min,
+/// QUANTITY_max, and COLUMN_mean of each further column.
+void write_surfaces_csv(std::span<const SurfaceMean> rows, const AnswerColumns& columns, const std::filesystem::path& path);
 
-/// Columns: building, roof_area_m2, wall_area_m2, receivers, nodata, QUANTITY_roofs, QUANTITY_walls.
-void write_buildings_csv(std::span<const BuildingMean> rows, const std::string& quantity, const std::filesystem::path& path);
+/// Columns: building, roof_area_m2, wall_area_m2, covered_roof_area_m2, covered_wall_area_m2, receivers, nodata, QUANTITY_roofs,
+/// QUANTITY_walls.
+void write_buildings_csv(std::span<const BuildingMean> rows, const AnswerColumns& columns, const std::filesystem::path& path);
 
 /// The three tables of surfaces: NAME.csv, NAME.surfaces.csv, NAME.buildings.csv.
 class SurfaceTablesCsv : public SurfaceTablesWriter {
  public:
   SurfaceTablesCsv(const AnswerColumns& columns, const std::filesystem::path& path)
-      : quantity_(columns.quantity), path_(path), receivers_(columns, path) {}
-  void write_part(std::size_t part, std::span<const SurfacePoint> rows) override { receivers_.write_part(part, rows); }
+      : columns_(columns), path_(path), receivers_(columns, path) {}
+  void write_part(std::size_t part, std::span<const SurfacePoint> rows, std::span<const float> further) override {
+    receivers_.write_part(part, rows, further);
+  }
   [[nodiscard]] std::vector<std::filesystem::path> commit(std::span<const SurfaceMean> surfaces,
                                                           std::span<const BuildingMean> buildings) override;
 
  private:
-  std::string quantity_;
+  AnswerColumns columns_;
   std::filesystem::path path_;
   SurfacePointsCsv receivers_;
 };

@@ -5,11 +5,15 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "farlod/angle.hpp"
 #include "points/attributes.hpp"
+#include "results/provenance.hpp"
 #include "results/table/sky_table.hpp"
 
 namespace farlod {
@@ -17,10 +21,20 @@ namespace farlod {
 /// Whether tables of receivers have columns for the bounds.
 enum class BoundsColumns { no, yes };
 
-/// The columns of the answers: QUANTITY, and with bounds QUANTITY_low and QUANTITY_high.
+/// The columns of the answers: QUANTITY, with bounds QUANTITY_low and QUANTITY_high, then further ones.
 struct AnswerColumns {
   std::string quantity;  ///< "svf" or "svf_solid"
   BoundsColumns bounds = BoundsColumns::no;
+  std::vector<std::string> further = {};  ///< names of the columns of other quantities
+};
+
+/// Columns of a table, and what its file says of the whole of it.
+struct TableFrame {
+  AnswerColumns columns;
+  std::string crs_wkt = {};      ///< of all coordinates
+  std::optional<int> epsg = {};  ///< the same CRS by its code, where it has one
+  Angle convergence = {};        ///< true azimuth = grid azimuth + convergence
+  Provenance provenance = {};
 };
 
 /// The rows of a table of points, made one by one, so that nobody has to hold them all.
@@ -31,8 +45,20 @@ struct PointRows {
   bool normals = false;                    ///< whether there are columns for them
 };
 
+/// The names of the columns of the answers.
+[[nodiscard]] std::vector<std::string> names_of(const AnswerColumns& columns);
+
 /// The names of the columns of a table of points besides those of its attributes: id, x_m, y_m, z_m, those of normals, answers.
 [[nodiscard]] std::vector<std::string> own_columns_of_points(bool normals, const AnswerColumns& columns);
+
+/// The mean of the k-th further column over a surface; NaN where no receiver has an answer.
+[[nodiscard]] float further_mean(const SurfaceMean& surface, std::size_t k);
+
+/// The word for a kind in tables, such as "roof".
+[[nodiscard]] std::string_view word_for(SurfaceKind kind);
+
+/// The file of another table of --surfaces: OUT.csv → OUT.surfaces.csv.
+[[nodiscard]] std::filesystem::path table_beside(const std::filesystem::path& output, const std::string& what);
 
 /// Writes the tables of --surfaces: one of receivers, one of surfaces, one of buildings. All functions throw OutputError.
 class SurfaceTablesWriter {
@@ -43,7 +69,8 @@ class SurfaceTablesWriter {
   SurfaceTablesWriter& operator=(const SurfaceTablesWriter&) = delete;
 
   /// Receivers come in parts, in any order, each part once at the most. In the table, parts are ordered by their numbers.
-  virtual void write_part(std::size_t part, std::span<const SurfacePoint> rows) = 0;
+  /// `further` has the values of AnswerColumns::further, row by row; NaN where there is no answer.
+  virtual void write_part(std::size_t part, std::span<const SurfacePoint> rows, std::span<const float> further) = 0;
   /// Writes the other two tables. The files appear now, and not before; that of the receivers, the first path returned, last.
   [[nodiscard]] virtual std::vector<std::filesystem::path> commit(std::span<const SurfaceMean> surfaces,
                                                                   std::span<const BuildingMean> buildings) = 0;

@@ -5,6 +5,7 @@
 #include <malloc.h>
 
 #include <atomic>
+#include <cerrno>
 #include <cstdlib>
 #include <new>
 
@@ -12,7 +13,20 @@ namespace {
 
 std::atomic<std::size_t> held_bytes{0}, most_held_bytes{0};
 
-// What stands in for `new` and `delete` cannot use them. NOLINTBEGIN(cppcoreguidelines-no-malloc)
+void count(void* memory) {
+  if (memory == nullptr) return;
+  const std::size_t size = malloc_usable_size(memory), held = held_bytes += size;
+  for (std::size_t most = most_held_bytes; most < held && !most_held_bytes.compare_exchange_weak(most, held);) {
+  }
+}
+
+}  // namespace
+
+// What stands in for malloc and `new` cannot use them. NOLINTBEGIN(cppcoreguidelines-no-malloc, bugprone-reserved-identifier)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+
+namespace {
+
 void release(void* memory) noexcept {
   held_bytes -= malloc_usable_size(memory);
   std::free(memory);
@@ -24,9 +38,7 @@ void release(void* memory) noexcept {
 void* operator new(std::size_t bytes) {
   void* memory = std::malloc(bytes);
   if (memory == nullptr) throw std::bad_alloc();
-  const std::size_t size = malloc_usable_size(memory), held = held_bytes += size;
-  for (std::size_t most = most_held_bytes; most < held && !most_held_bytes.compare_exchange_weak(most, held);) {
-  }
+  count(memory);
   return memory;
 }
 // AddressSanitizer has its own of this one, which does not call ours
@@ -37,10 +49,55 @@ void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
     return nullptr;
   }
 }
-// NOLINTEND(cppcoreguidelines-no-malloc)
 void operator delete(void* memory) noexcept { release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { release(memory); }
 void operator delete(void* memory, const std::nothrow_t&) noexcept { release(memory); }
+
+#else
+
+// The functions behind those of glibc, and all that hand out what free() takes
+extern "C" {
+void* __libc_malloc(std::size_t bytes);
+void* __libc_calloc(std::size_t count, std::size_t bytes);
+void* __libc_realloc(void* memory, std::size_t bytes);
+void* __libc_memalign(std::size_t alignment, std::size_t bytes);
+void __libc_free(void* memory);
+
+void* malloc(std::size_t bytes) noexcept {
+  void* memory = __libc_malloc(bytes);
+  count(memory);
+  return memory;
+}
+void* calloc(std::size_t items, std::size_t bytes) noexcept {
+  void* memory = __libc_calloc(items, bytes);
+  count(memory);
+  return memory;
+}
+void* realloc(void* before, std::size_t bytes) noexcept {
+  const std::size_t size = before == nullptr ? 0 : malloc_usable_size(before);
+  void* memory = __libc_realloc(before, bytes);
+  if (memory != nullptr || bytes == 0) held_bytes -= size;
+  count(memory);
+  return memory;
+}
+void* memalign(std::size_t alignment, std::size_t bytes) noexcept {
+  void* memory = __libc_memalign(alignment, bytes);
+  count(memory);
+  return memory;
+}
+void* aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept { return memalign(alignment, bytes); }
+int posix_memalign(void** memory, std::size_t alignment, std::size_t bytes) noexcept {
+  *memory = memalign(alignment, bytes);
+  return *memory == nullptr ? ENOMEM : 0;
+}
+void free(void* memory) noexcept {
+  if (memory != nullptr) held_bytes -= malloc_usable_size(memory);
+  __libc_free(memory);
+}
+}
+
+#endif
+// NOLINTEND(cppcoreguidelines-no-malloc, bugprone-reserved-identifier)
 
 namespace farlod {
 

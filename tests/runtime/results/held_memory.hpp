@@ -6,12 +6,18 @@
 
 namespace farlod {
 
-/// Measures how much memory is held at a time from its construction on, beyond what was held before. It counts what this
-/// program and the libraries of C++ take with `new`, and not what a library of C takes with malloc.
+/// Measures how much memory is held at a time from its construction on, beyond what was held before: all that this program and
+/// its libraries take with `new` and malloc.
 class HeldMemory {
  public:
   HeldMemory();
   [[nodiscard]] std::size_t most_bytes() const;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  static constexpr bool counts_malloc = false;  ///< malloc is the sanitizer's: what libraries of C take is not seen
+#else
+  static constexpr bool counts_malloc = true;
+#endif
 
  private:
   std::size_t before_;

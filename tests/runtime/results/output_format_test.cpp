@@ -25,6 +25,7 @@ TEST(OutputFormat, FollowsTheEndingInAnyCase) {
   EXPECT_EQ(name_of("a.SVG"), "SVG");
   EXPECT_EQ(name_of("a.pdf"), "PDF");
   EXPECT_EQ(name_of("a.asc"), "ESRI ASCII grid");
+  EXPECT_EQ(name_of("a.PLY"), "PLY");
 }
 
 TEST(OutputFormat, UnknownEndingsHaveNone) {
@@ -32,22 +33,25 @@ TEST(OutputFormat, UnknownEndingsHaveNone) {
 }
 
 TEST(OutputFormat, TheseAreAllEndings) {
-  const std::string others = ".csv, .png, .svg, .pdf, .asc";
 #ifdef FARLOD_WITH_GDAL
-  const std::string expected = ".tif, .tiff, " + others;
+  const std::string expected = ".tif, .tiff, .nc, .csv, .gpkg, .geojson, .fgb, .ply, .png, .svg, .pdf, .asc";
 #else
-  const std::string& expected = others;
+  const std::string expected = ".csv, .ply, .png, .svg, .pdf, .asc";
 #endif
   EXPECT_EQ(endings_where([](const OutputFormat&) { return true; }), expected);
 }
 
-TEST(OutputFormat, GeoTiffNeedsGdal) {
+TEST(OutputFormat, SomeNeedGdal) {
+  const std::vector<std::pair<const char*, const char*>> names{{"a.tif", "GeoTIFF"},     {"a.TIFF", "GeoTIFF"},
+                                                               {"a.nc", "netCDF"},       {"a.gpkg", "GeoPackage"},
+                                                               {"a.geojson", "GeoJSON"}, {"a.fgb", "FlatGeobuf"}};
+  for (const auto& [path, name] : names) {
 #ifdef FARLOD_WITH_GDAL
-  const char* expected = "GeoTIFF";
+    EXPECT_EQ(name_of(path), name);
 #else
-  const char* expected = "none";
+    EXPECT_EQ(name_of(path), "none") << name;
 #endif
-  for (const char* path : {"a.tif", "a.TIFF"}) EXPECT_EQ(name_of(path), expected) << path;
+  }
 }
 
 /// One row of tiles and a pixel.
@@ -55,8 +59,7 @@ WholeRaster raster_with_bounds() {
   WholeRaster raster;
   raster.columns = 2 * raster_tile_edge;
   raster.rows = raster_tile_edge + 1;
-  raster.quantity = "svf";
-  raster.bands = RasterBands::svf_and_bounds;
+  raster.bands = svf_bands("svf", RasterBands::svf_and_bounds);
   raster.svf.assign(raster.columns * raster.rows, 0.5F);
   raster.low = raster.high = raster.svf;
   return raster;
@@ -84,7 +87,7 @@ void write_files(const OutputFormat& format, const scenes::TemporaryFolder& fold
     (void)pixels_file(format, raster, folder);
     return;
   }
-  EXPECT_EQ(format.surface_tables_writer({"svf", BoundsColumns::yes}, path)->commit({}, {}).front(), path) << format.name;
+  EXPECT_EQ(format.surface_tables_writer({{"svf", BoundsColumns::yes}}, path)->commit({}, {}).front(), path) << format.name;
 }
 
 TEST(OutputFormat, EachWritesAFileOfItsEnding) {
@@ -94,7 +97,7 @@ TEST(OutputFormat, EachWritesAFileOfItsEnding) {
     EXPECT_NE(scenes::text_of(output_of(format, folder)), "") << format.name;
     if (format.kind != OutputKind::table) continue;
     const std::filesystem::path points = folder.file("points" + std::string(format.endings[0]));
-    format.write_points({1, [](std::size_t) { return PointRow{}; }, nullptr, false}, {"svf", BoundsColumns::yes}, points);
+    format.write_points({1, [](std::size_t) { return PointRow{}; }, nullptr, false}, {{"svf", BoundsColumns::yes}}, points);
     EXPECT_NE(scenes::text_of(points), "") << format.name;
   }
 }
@@ -130,11 +133,13 @@ TEST(OutputFormat, WritersSayWhatTheyHold) {
   constexpr std::size_t beside = 3 * raster_tile_edge * raster_tile_edge * sizeof(float) + 65536;
   RasterFrame frame = raster_with_bounds();
   frame.columns = frame.rows = longest_preview_edge / raster_tile_edge * raster_tile_edge;
-  RasterTile tile({}, frame.bands);
+  RasterTile tile({}, RasterBands::svf_and_bounds);
   for (auto* band : {&tile.svf, &tile.low, &tile.high}) band->assign(band->size(), 0.5F);
   for (const OutputFormat& format : output_formats()) {
     if (format.kind == OutputKind::table) continue;
     const scenes::TemporaryFolder folder;
+    // Drivers and fonts that libraries keep once they have them
+    (void)pixels_file(format, raster_with_bounds(), folder);
     const HeldMemory held;
     const auto writer = format.raster_writer(frame, output_of(format, folder));
     for (tile.place.row = 0; tile.place.row < tiles_along(frame.rows); ++tile.place.row)
@@ -143,7 +148,9 @@ TEST(OutputFormat, WritersSayWhatTheyHold) {
     const std::uint64_t said = format.raster_writer_bytes(frame);
     EXPECT_LE(held.most_bytes(), said + beside) << format.name;
     // A limit that has room for the run must not refuse it
-    EXPECT_LE(said, held.most_bytes() + held.most_bytes() / 2) << format.name;
+    if (HeldMemory::counts_malloc) {
+      EXPECT_LE(said, held.most_bytes() + held.most_bytes() / 2) << format.name;
+    }
   }
 }
 

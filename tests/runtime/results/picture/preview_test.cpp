@@ -34,7 +34,7 @@ WholeRaster raster_of(std::size_t columns, std::size_t rows, float svf) {
   raster.columns = columns;
   raster.rows = rows;
   raster.svf.assign(columns * rows, svf);
-  raster.quantity = "svf";
+  raster.bands = svf_bands("svf", RasterBands::svf);
   return raster;
 }
 

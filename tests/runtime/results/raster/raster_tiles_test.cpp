@@ -27,8 +27,7 @@ WholeRaster raster_of_six_tiles() {
   raster.north_west_m = {1000.0, 2000.0};
   raster.columns = raster_tile_edge + 30;
   raster.rows = 2 * raster_tile_edge + 3;
-  raster.quantity = "svf";
-  raster.bands = RasterBands::svf_and_bounds;
+  raster.bands = svf_bands("svf", RasterBands::svf_and_bounds);
   const auto count = static_cast<float>(raster.columns * raster.rows);
   for (std::size_t n = 0; n < raster.columns * raster.rows; ++n) {
     const float svf = n % 7 == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(n) / count;
@@ -39,10 +38,21 @@ WholeRaster raster_of_six_tiles() {
   return raster;
 }
 
-std::vector<float> band_of(const std::filesystem::path& path, int band) {
+/// Of a format with a data set for each band, that of the band.
+GDALDatasetUniquePtr dataset_of(const std::filesystem::path& path, int band) {
   GDALAllRegister();
-  const GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));
-  EXPECT_NE(dataset, nullptr);
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));
+  EXPECT_NE(dataset, nullptr) << path;
+  if (dataset == nullptr || dataset->GetRasterCount() > 0) return dataset;
+  const std::string key = "SUBDATASET_" + std::to_string(band) + "_NAME";
+  const std::string name = CSLFetchNameValueDef(dataset->GetMetadata("SUBDATASETS"), key.c_str(), "");
+  return GDALDatasetUniquePtr(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER));
+}
+
+std::vector<float> band_of(const std::filesystem::path& path, int band) {
+  const GDALDatasetUniquePtr dataset = dataset_of(path, band);
+  if (dataset == nullptr) return {};
+  if (dataset->GetRasterCount() == 1) band = 1;
   const int columns = dataset->GetRasterXSize(), rows = dataset->GetRasterYSize();
   std::vector<float> pixels(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   EXPECT_EQ(dataset->GetRasterBand(band)->RasterIO(GF_Read, 0, 0, columns, rows, pixels.data(), columns, rows, GDT_Float32, 0, 0,
@@ -123,7 +133,7 @@ void for_each_raster_format(const Action& action) {
 /// The first band; NaN where the file declares that there is no data.
 std::vector<float> svf_of(const std::filesystem::path& path) {
   std::vector<float> pixels = band_of(path, 1);
-  const GDALDatasetUniquePtr dataset(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));
+  const GDALDatasetUniquePtr dataset = dataset_of(path, 1);
   const auto nodata = static_cast<float>(dataset->GetRasterBand(1)->GetNoDataValue());
   std::replace(pixels.begin(), pixels.end(), nodata, std::numeric_limits<float>::quiet_NaN());
   return pixels;

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <random>
 
 #include "farlod/error.hpp"
@@ -107,6 +108,87 @@ TEST(GeoTiff, HasTheSameBytesWithAnyNumberOfThreads) {
     write_whole<GeotiffWriter>(uneven_raster(threads), folder.file("b.tif"));
     EXPECT_TRUE(scenes::text_of(folder.file("a.tif")) == scenes::text_of(folder.file("b.tif"))) << threads;
   }
+}
+
+/// What a program prints and reports, and whether it ended well.
+struct Ended {
+  std::string text;
+  bool is_good = false;
+};
+Ended ended(const std::string& command) {
+  Ended result;
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return result;
+  std::array<char, 4096> bytes{};
+  for (std::size_t count = 1; count != 0;) {
+    count = fread(bytes.data(), 1, bytes.size(), pipe);
+    result.text.append(bytes.data(), count);
+  }
+  result.is_good = pclose(pipe) == 0;
+  return result;
+}
+
+TEST(GeoTiff, IsCloudOptimised) {
+  const scenes::TemporaryFolder folder;
+  write_whole<GeotiffWriter>(uneven_raster(2), folder.file("a.tif"));
+  const auto dataset = open_raster(folder.file("a.tif"));
+  ASSERT_NE(dataset, nullptr);
+  EXPECT_STREQ(dataset->GetMetadataItem("LAYOUT", "IMAGE_STRUCTURE"), "COG");
+  // 2304 × 769 pixels: halved until they lie in a block
+  EXPECT_EQ(dataset->GetRasterBand(1)->GetOverviewCount(), 3);
+  const std::string validator = "/usr/bin/python3 -m osgeo_utils.samples.validate_cloud_optimized_geotiff ";
+  if (!ended(validator + "--help").text.starts_with("usage") &&
+      !ended("/usr/bin/python3 -c 'import osgeo_utils.samples'").is_good)
+    GTEST_SKIP() << "the validator of GDAL is missing; it is in the package python3-gdal";
+  const Ended validated = ended(validator + folder.file("a.tif").string());
+  EXPECT_TRUE(validated.is_good) << validated.text;
+  EXPECT_THAT(validated.text, HasSubstr("is a valid cloud optimized GeoTIFF"));
+}
+
+TEST(GeoTiff, OverviewsAreAveragesOfWhatHasData) {
+  const scenes::TemporaryFolder folder;
+  WholeRaster raster = uneven_raster(1);
+  raster.rows -= 1;  // then each pixel of the overview is over two by two
+  raster.svf.assign(raster.columns * raster.rows, 0.25F);
+  raster.svf[0] = raster.svf[1] = std::nanf("");
+  raster.svf[2] = 0.75F;
+  for (const std::size_t row : {0U, 1U})
+    for (const std::size_t column : {4U, 5U}) raster.svf[row * raster.columns + column] = std::nanf("");
+  write_whole<GeotiffWriter>(raster, folder.file("a.tif"));
+  const auto dataset = open_raster(folder.file("a.tif"));
+  std::array<float, 4> first{};
+  ASSERT_EQ(
+      dataset->GetRasterBand(1)->GetOverview(0)->RasterIO(GF_Read, 0, 0, 4, 1, first.data(), 4, 1, GDT_Float32, 0, 0, nullptr),
+      CE_None);
+  EXPECT_EQ(first[0], 0.25F);
+  EXPECT_EQ(first[1], 0.375F);
+  EXPECT_TRUE(std::isnan(first[2]));
+  EXPECT_EQ(first[3], 0.25F);
+}
+
+TEST(GeoTiff, SaysWhatItsBandsAreAndWhatMadeIt) {
+  const scenes::TemporaryFolder folder;
+  WholeRaster raster = small_raster();
+  raster.bands = svf_bands("svf", RasterBands::svf_and_bounds);
+  raster.low = raster.high = raster.svf;
+  raster.provenance = {"Far-LoD 1", "town.farlod", "0123", "--grid 2"};
+  write_whole<GeotiffWriter>(raster, folder.file("a.tif"));
+  const auto dataset = open_raster(folder.file("a.tif"));
+  ASSERT_NE(dataset, nullptr);
+  ASSERT_EQ(dataset->GetRasterCount(), 3);
+  for (std::size_t n = 0; n < raster.bands.size(); ++n) {
+    GDALRasterBand& band = *dataset->GetRasterBand(static_cast<int>(n) + 1);
+    EXPECT_EQ(band.GetDescription(), raster.bands[n].name);
+    EXPECT_EQ(band.GetUnitType(), raster.bands[n].unit);
+    ASSERT_NE(band.GetMetadataItem("definition"), nullptr);
+    EXPECT_EQ(band.GetMetadataItem("definition"), raster.bands[n].definition);
+  }
+  for (const auto& [name, value] : entries_of(raster.provenance)) {
+    ASSERT_NE(dataset->GetMetadataItem(name.c_str()), nullptr) << name;
+    EXPECT_EQ(dataset->GetMetadataItem(name.c_str()), value);
+  }
+  EXPECT_THAT(dataset->GetMetadataItem("TIFFTAG_SOFTWARE"), testing::StartsWith("Far-LoD "));
+  EXPECT_EQ(dataset->GetMetadataItem("TIFFTAG_IMAGEDESCRIPTION"), raster.bands[0].definition);
 }
 
 /// While it lives, no file of the process grows beyond so many bytes.

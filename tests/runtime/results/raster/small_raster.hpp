@@ -17,7 +17,7 @@ namespace farlod {
   raster.columns = 5;
   raster.rows = 3;
   raster.svf = {1.0F, none, 0.1F, 0.2F, 0.3F, 0.0F, 0.987654F, 0.4F, 0.5F, 0.6F, 0.7F, 0.8F, none, 0.9F, 0.33333334F};
-  raster.quantity = "svf";
+  raster.bands = svf_bands("svf", RasterBands::svf);
   raster.crs_wkt =
       R"(PROJCS["ETRS89 / UTM zone 32N",GEOGCS["ETRS89",DATUM["European_Terrestrial_Reference_System_1989",SPHEROID["GRS 1980",6378137,298.257222101,AUTHORITY["EPSG","7019"]],AUTHORITY["EPSG","6258"]],PRIMEM["Greenwich",0,AUTHORITY["EPSG","8901"]],UNIT["degree",0.0174532925199433,AUTHORITY["EPSG","9122"]],AUTHORITY["EPSG","4258"]],PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",9],PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],PARAMETER["false_northing",0],UNIT["metre",1,AUTHORITY["EPSG","9001"]],AXIS["Easting",EAST],AXIS["Northing",NORTH],AUTHORITY["EPSG","25832"]])";
   return raster;

@@ -17,7 +17,7 @@ struct WholeRaster : RasterFrame {
 };
 
 [[nodiscard]] inline RasterTile tile_of(const WholeRaster& raster, TilePlace place) {
-  RasterTile tile(place, raster.bands);
+  RasterTile tile(place, raster.bands.size() > 1 ? RasterBands::svf_and_bounds : RasterBands::svf);
   const auto copy = [&](const std::vector<float>& from, std::vector<float>& to) {
     if (to.empty()) return;
     for (std::size_t row = 0; row < pixels_of_tile(place.row, raster.rows); ++row)

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "points/point_reader.hpp"
 #include "results/table/csv_text.hpp"
 #include "tests/scenes/temporary_folder.hpp"
@@ -75,6 +77,20 @@ TEST(PointsCsv, HasAttributesBehindTheIdAndNormalsBeforeTheAnswer) {
             "2,,4,3,4,,,,\n");
 }
 
+TEST(PointsCsv, FurtherColumnsFollowTheBounds) {
+  const scenes::TemporaryFolder folder;
+  const std::vector<float> of_first{12.25F, std::nanf("")}, of_second{1e-7F, 300.0F};
+  const std::vector<PointRow> rows{{"1", {1.0, 2.0}, 3.0, 0.5, 0.25, 0.75, {}, {}, of_first},
+                                   {"2", {3.0, 4.0}, {}, {}, {}, {}, {}, {}, of_second}};
+  const AnswerColumns columns{"svf", BoundsColumns::yes, {"sun_h", "sky_w_m2"}};
+  write_points_csv(point_rows(rows), columns, folder.file("a.csv"));
+  EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
+            "id,x_m,y_m,z_m,svf,svf_low,svf_high,sun_h,sky_w_m2\n"
+            "1,1,2,3,0.500000,0.250000,0.750000,12.25,\n"
+            "2,3,4,,,,,0.0000001,300\n");
+  EXPECT_EQ(own_columns_of_points(false, columns).back(), "sky_w_m2");
+}
+
 TEST(PointsCsv, CanBeReadAsPointsAgain) {
   const scenes::TemporaryFolder folder;
   const std::vector<PointRow> rows{{"the \"first\", quoted\nover two lines", {500000.125, 5700010.25}, 1.5, 0.5, {}, {}},
@@ -121,23 +137,35 @@ TEST(SurfacePointsCsv, PartsStandInOrderHoweverTheyCome) {
   EXPECT_EQ(folder.names().size(), 2U);
 }
 
+TEST(SurfacePointsCsv, FurtherColumnsFollowRowByRow) {
+  const scenes::TemporaryFolder folder;
+  std::vector<SurfacePoint> rows(2);
+  SurfacePointsCsv table({"svf", BoundsColumns::no, {"a", "b"}}, folder.file("a.csv"));
+  table.write_part(0, rows, std::vector<float>{1.5F, 2.5F, std::nanf(""), 4.0F});
+  table.commit();
+  EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
+            "building,surface,kind,x_m,y_m,z_m,azimuth_deg,tilt_deg,area_m2,svf,a,b\n"
+            ",0,unknown,0,0,0,0,0,0,,1.5,2.5\n"
+            ",0,unknown,0,0,0,0,0,0,,,4\n");
+}
+
 TEST(SurfacesCsv, IsAsDocumented) {
   const scenes::TemporaryFolder folder;
   std::vector<SurfaceMean> rows(2);
-  rows[0] = {"b1", 0, SurfaceKind::roof, Angle::degrees(0.0), Angle::degrees(0.0), 100.5, 25, 1, 0.75, 0.5, 1.0};
+  rows[0] = {"b1", 0, SurfaceKind::roof, Angle::degrees(0.0), Angle::degrees(0.0), 100.5, 4.5, 25, 1, 0.75, 0.5, 1.0, {0.25}};
   rows[1].building = "b2";
-  write_surfaces_csv(rows, "svf", folder.file("a.csv"));
+  write_surfaces_csv(rows, {"svf", BoundsColumns::no, {"svfN"}}, folder.file("a.csv"));
   EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
-            "building,surface,kind,azimuth_deg,tilt_deg,area_m2,receivers,nodata,svf_mean,svf_min,svf_max\n"
-            "b1,0,roof,0,0,100.5,25,1,0.750000,0.500000,1.000000\n"
-            "b2,0,unknown,0,0,0,0,0,,,\n");
+            "building,surface,kind,azimuth_deg,tilt_deg,area_m2,covered_area_m2,receivers,nodata,svf_mean,svf_min,svf_max,svfN_mean\n"
+            "b1,0,roof,0,0,100.5,4.5,25,1,0.750000,0.500000,1.000000,0.25\n"
+            "b2,0,unknown,0,0,0,0,0,0,,,,\n");
 }
 
 TEST(SurfaceTablesCsv, AreThreeFilesThatAppearTogether) {
   const scenes::TemporaryFolder folder;
   const std::vector<SurfacePoint> rows(1);
   SurfaceTablesCsv tables({"svf", BoundsColumns::yes}, folder.file("a.b.csv"));
-  tables.write_part(3, rows);
+  tables.write_part(3, rows, {});
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.b.csv")));
   const std::vector<std::filesystem::path> files = tables.commit({}, {});
   const std::vector<std::filesystem::path> expected{folder.file("a.b.csv"), folder.file("a.b.surfaces.csv"),
@@ -148,11 +176,11 @@ TEST(SurfaceTablesCsv, AreThreeFilesThatAppearTogether) {
 
 TEST(BuildingsCsv, IsAsDocumented) {
   const scenes::TemporaryFolder folder;
-  const std::vector<BuildingMean> rows{{"b1", 100.0, 0.0, 25, 0, 0.75, std::nullopt}};
-  write_buildings_csv(rows, "svf", folder.file("a.csv"));
+  const std::vector<BuildingMean> rows{{"b1", 100.0, 0.0, 2.5, 0.0, 25, 0, 0.75, std::nullopt}};
+  write_buildings_csv(rows, {"svf"}, folder.file("a.csv"));
   EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
-            "building,roof_area_m2,wall_area_m2,receivers,nodata,svf_roofs,svf_walls\n"
-            "b1,100,0,25,0,0.750000,\n");
+            "building,roof_area_m2,wall_area_m2,covered_roof_area_m2,covered_wall_area_m2,receivers,nodata,svf_roofs,svf_walls\n"
+            "b1,100,0,2.5,0,25,0,0.750000,\n");
 }
 
 }  // namespace

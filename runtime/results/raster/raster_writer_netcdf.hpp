@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "results/raster/raster_writer.hpp"
+
+namespace farlod {
+
+/// Writes a netCDF-4 file after the CF conventions, version 1.8: a variable of 32-bit floats for each band, over `y` (from the
+/// north) and `x`, the centres of the pixels; `crs` is the grid mapping. Pixels without data hold NaN, which is the fill value.
+/// Tiles are chunks, compressed as they come.
+class NetcdfWriter : public RasterWriter {
+ public:
+  /// Throws OutputError, as do the other functions.
+  NetcdfWriter(const RasterFrame& frame, const std::filesystem::path& path);
+  ~NetcdfWriter() override;
+  void write(const RasterTile& tile) override;
+  void commit() override;
+  /// The caches of chunks.
+  [[nodiscard]] static std::uint64_t bytes_for(const RasterFrame& frame);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace farlod

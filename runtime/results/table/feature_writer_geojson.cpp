@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results/table/feature_writer_geojson.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "contract/expects.hpp"
+#include "farlod/error.hpp"
+#include "results/decimal.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr std::size_t places_at_once = 1024;
+
+/// In quotes, as RFC 8259 says; bytes beyond ASCII stay as they are.
+void append_text(std::string& json, std::string_view text) {
+  json += '"';
+  for (const char c : text) {
+    if (c == '"' || c == '\\') json += '\\';
+    if (static_cast<unsigned char>(c) >= 0x20) {
+      json += c;
+    } else {
+      std::array<char, 7> escape{};
+      std::snprintf(escape.data(), escape.size(), "\\u%04x", static_cast<unsigned>(c));
+      json += escape.data();
+    }
+  }
+  json += '"';
+}
+
+void append_value(std::string& json, const FieldValue& value) {
+  if (const auto* text = std::get_if<std::string_view>(&value))
+    append_text(json, *text);
+  else if (const auto* whole = std::get_if<std::int64_t>(&value))
+    json += std::to_string(*whole);
+  else if (const auto* real = std::get_if<double>(&value))
+    json += shortest_decimal(*real);
+  else
+    json += "null";
+}
+
+std::string head_of(const FeatureLayer& layer, const Provenance& provenance) {
+  std::string json = "{\"type\": \"FeatureCollection\", \"name\": ";
+  append_text(json, layer.name);
+  json += ", \"provenance\": {";
+  std::string_view comma;
+  for (const auto& [name, value] : entries_of(provenance)) {
+    json += std::exchange(comma, ", ");
+    append_text(json, name);
+    json += ": ";
+    append_text(json, value);
+  }
+  return json + "}, \"features\": [";
+}
+
+[[noreturn]] void refuse(const AtomicFile& file) {
+  // The stream does not say why it failed; the system's last error does
+  throw OutputError(file.destination(), errno != 0 ? std::generic_category().message(errno) : "the disk refused the data");
+}
+
+}  // namespace
+
+GeojsonWriter::GeojsonWriter(const TableFrame& frame, const std::filesystem::path& path)
+    : provenance_(frame.provenance), file_(path) {
+  errno = 0;
+  stream_.open(file_.temporary(), std::ios::binary);
+  if (!stream_) refuse(file_);
+  if (!frame.crs_wkt.empty()) to_wgs84_.emplace(frame.crs_wkt, "EPSG:4326");
+}
+
+void GeojsonWriter::begin(const FeatureLayer& layer) {
+  FARLOD_EXPECTS(keys_.empty());
+  for (const FeatureField& field : layer.fields) {
+    std::string key = keys_.empty() ? "" : ", ";
+    append_text(key, field.name);
+    keys_.push_back(key + ": ");
+  }
+  stream_ << head_of(layer, provenance_);
+}
+
+void GeojsonWriter::add(const FeatureRow& row) {
+  FARLOD_EXPECTS(row.values.size() == keys_.size());
+  std::string json;
+  for (std::size_t n = 0; n < keys_.size(); ++n) {
+    json += keys_[n];
+    append_value(json, row.values[n]);
+  }
+  places_.push_back(row.p_projected);
+  heights_.push_back(row.height_m);
+  properties_.push_back(std::move(json));
+  if (places_.size() == places_at_once) write_waiting();
+}
+
+void GeojsonWriter::write_waiting() {
+  if (to_wgs84_ && to_wgs84_->apply(places_))
+    throw OutputError(file_.destination(), "a point lies where the CRS of the package has no longitude and latitude");
+  std::string json;
+  for (std::size_t n = 0; n < places_.size(); ++n) {
+    json += written_++ == 0 ? "\n{\"type\": \"Feature\", \"properties\": {" : ",\n{\"type\": \"Feature\", \"properties\": {";
+    json += properties_[n];
+    json += "}, \"geometry\": {\"type\": \"Point\", \"coordinates\": [";
+    append_degrees(json, places_[n].x);
+    json += ", ";
+    append_degrees(json, places_[n].y);
+    if (heights_[n]) {
+      json += ", ";
+      append_millimetres(json, *heights_[n]);
+    }
+    json += "]}}";
+  }
+  errno = 0;
+  stream_ << json;
+  if (!stream_) refuse(file_);
+  places_.clear();
+  heights_.clear();
+  properties_.clear();
+}
+
+void GeojsonWriter::commit() {
+  write_waiting();
+  errno = 0;
+  stream_ << "\n]}\n";
+  stream_.close();
+  if (!stream_) refuse(file_);
+  file_.commit();
+}
+
+}  // namespace farlod

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results/table/surface_spool.hpp"
+
+#include <cstring>
+#include <string>
+#include <type_traits>
+
+#include "contract/expects.hpp"
+
+namespace farlod {
+namespace {
+
+/// What a row has besides the name of its building, which stands behind it.
+struct FixedPart {
+  std::uint64_t name_bytes;
+  std::uint32_t surface;
+  SurfaceKind kind;
+  Point3d p_projected;
+  double azimuth_radians, tilt_radians, area_m2;
+  std::optional<double> svf, low, high;
+};
+static_assert(std::is_trivially_copyable_v<FixedPart>);
+
+void append(std::string& bytes, const void* value, std::size_t size) { bytes.append(static_cast<const char*>(value), size); }
+
+void append_row(std::string& bytes, const SurfacePoint& r) {
+  const FixedPart fixed{r.building.size(), r.surface, r.kind, r.p_projected, r.azimuth.radians(),
+                        r.tilt.radians(),  r.area_m2, r.svf,  r.low,         r.high};
+  append(bytes, &fixed, sizeof(fixed));
+  bytes += r.building;
+}
+
+/// Reads one after the other what append() wrote.
+class Cursor {
+ public:
+  explicit Cursor(const std::string& bytes) : bytes_(bytes) {}
+  void take(void* value, std::size_t size) {
+    FARLOD_EXPECTS(size <= bytes_.size() - place_);
+    if (size != 0) std::memcpy(value, bytes_.data() + place_, size);
+    place_ += size;
+  }
+  void take(SurfacePoint& r) {
+    FixedPart fixed;
+    take(&fixed, sizeof(fixed));
+    r.building.resize(fixed.name_bytes);
+    take(r.building.data(), fixed.name_bytes);
+    r.surface = fixed.surface;
+    r.kind = fixed.kind;
+    r.p_projected = fixed.p_projected;
+    r.azimuth = Angle::radians(fixed.azimuth_radians);
+    r.tilt = Angle::radians(fixed.tilt_radians);
+    r.area_m2 = fixed.area_m2;
+    r.svf = fixed.svf;
+    r.low = fixed.low;
+    r.high = fixed.high;
+  }
+
+ private:
+  const std::string& bytes_;
+  std::size_t place_ = 0;
+};
+
+}  // namespace
+
+void SurfaceSpool::add(std::size_t part, std::span<const SurfacePoint> rows, std::span<const float> further) {
+  if (rows.empty()) return;
+  FARLOD_EXPECTS(further.size() % rows.size() == 0);
+  const std::size_t further_of_row = further.size() / rows.size();
+  std::string bytes;
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    append_row(bytes, rows[n]);
+    append(bytes, further.data() + n * further_of_row, further_of_row * sizeof(float));
+  }
+  const std::uint64_t begin = file_.append(std::as_bytes(std::span(bytes)));
+  const bool is_new = parts_.emplace(part, Part{begin, bytes.size(), rows.size(), further_of_row}).second;
+  FARLOD_EXPECTS(is_new);
+  size_ += rows.size();
+}
+
+void SurfaceSpool::for_each(const std::function<void(const SurfacePoint&, std::span<const float> further)>& take) {
+  std::string bytes;
+  SurfacePoint row;
+  std::vector<float> further;
+  for (const auto& [number, part] : parts_) {
+    bytes.resize(part.bytes);
+    file_.read(part.begin, std::as_writable_bytes(std::span(bytes)));
+    Cursor cursor(bytes);
+    further.resize(part.further_of_row);
+    for (std::size_t n = 0; n < part.rows; ++n) {
+      cursor.take(row);
+      cursor.take(further.data(), further.size() * sizeof(float));
+      take(row, further);
+    }
+  }
+}
+
+}  // namespace farlod

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results/table/table_writer.hpp"
+
+#include <limits>
+
+namespace farlod {
+
+float further_mean(const SurfaceMean& surface, std::size_t k) {
+  return k < surface.further_mean.size() ? static_cast<float>(surface.further_mean[k]) : std::numeric_limits<float>::quiet_NaN();
+}
+
+std::string_view word_for(SurfaceKind kind) {
+  switch (kind) {
+    case SurfaceKind::ground:
+      return "ground";
+    case SurfaceKind::roof:
+      return "roof";
+    case SurfaceKind::wall:
+      return "wall";
+    case SurfaceKind::foundation:
+      return "foundation";
+    case SurfaceKind::floor:
+      return "floor";
+    case SurfaceKind::unknown:
+      break;
+  }
+  return "unknown";
+}
+
+std::vector<std::string> names_of(const AnswerColumns& columns) {
+  std::vector<std::string> names{columns.quantity};
+  if (columns.bounds == BoundsColumns::yes) names.insert(names.end(), {columns.quantity + "_low", columns.quantity + "_high"});
+  names.insert(names.end(), columns.further.begin(), columns.further.end());
+  return names;
+}
+
+std::vector<std::string> own_columns_of_points(bool normals, const AnswerColumns& columns) {
+  std::vector<std::string> names{"id", "x_m", "y_m", "z_m"};
+  if (normals) names.insert(names.end(), {"azimuth_deg", "tilt_deg"});
+  const std::vector<std::string> answers = names_of(columns);
+  names.insert(names.end(), answers.begin(), answers.end());
+  return names;
+}
+
+std::filesystem::path table_beside(const std::filesystem::path& output, const std::string& what) {
+  return std::filesystem::path(output).replace_extension(what + output.extension().string());
+}
+
+}  // namespace farlod
