@@ -52,14 +52,16 @@ void CityTextFile::append(CityTextFile& other) {
   }
 }
 
-void CityTextFile::commit() {
+std::uint64_t CityTextFile::commit() {
+  const std::uint64_t bytes = position();
   flush();
   file_.close();
   if (!file_) fail();
-  if (temporary_.empty()) return;
+  if (temporary_.empty()) return bytes;
   std::error_code error;
   std::filesystem::rename(temporary_, destination_, error);
   if (error) throw CityWriteError(destination_, error.message());
+  return bytes;
 }
 
 void CityTextFile::flush() {

@@ -39,7 +39,8 @@ class CityTextFile {
   void overwrite(std::uint64_t position, std::string_view text);
   /// Appends the whole text of another file, which is not committed.
   void append(CityTextFile& other);
-  void commit();
+  /// Returns the number of bytes in the file.
+  std::uint64_t commit();
 
  private:
   static constexpr std::size_t buffer_bytes = std::size_t{1} << 20U;

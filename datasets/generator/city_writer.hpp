@@ -36,7 +36,7 @@ class GeneratedCityWriter {
   virtual ~GeneratedCityWriter() = default;
   virtual void begin() = 0;
   virtual void add(const GeneratedBuilding& building) = 0;
-  virtual void end() = 0;
+  virtual std::uint64_t end() = 0;
 };
 
 [[nodiscard]] std::unique_ptr<GeneratedCityWriter> make_city_writer(CityFormat format, const std::filesystem::path& path,

@@ -54,10 +54,10 @@ class CityGmlWriter final : public GeneratedCityWriter {
     file_.drain();
   }
 
-  void end() override {
+  std::uint64_t end() override {
     file_.text() += "</core:CityModel>\n";
     file_.overwrite(envelope_at_, envelope());
-    file_.commit();
+    return file_.commit();
   }
 
  private:

@@ -51,11 +51,11 @@ class CityJsonWriter final : public GeneratedCityWriter {
     vertices_.drain();
   }
 
-  void end() override {
+  std::uint64_t end() override {
     objects_.text() += "\n},\n\"vertices\":[";
     objects_.append(vertices_);
     objects_.text() += "\n]}\n";
-    objects_.commit();
+    return objects_.commit();
   }
 
  private:

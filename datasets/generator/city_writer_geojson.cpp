@@ -30,9 +30,9 @@ class GeoJsonWriter final : public GeneratedCityWriter {
     file_.drain();
   }
 
-  void end() override {
+  std::uint64_t end() override {
     file_.text() += "\n]}\n";
-    file_.commit();
+    return file_.commit();
   }
 
  private:

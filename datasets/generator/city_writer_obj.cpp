@@ -32,7 +32,7 @@ class ObjWriter final : public GeneratedCityWriter {
     file_.drain();
   }
 
-  void end() override { file_.commit(); }
+  std::uint64_t end() override { return file_.commit(); }
 
  private:
   [[nodiscard]] std::back_insert_iterator<std::string> out() { return std::back_inserter(file_.text()); }

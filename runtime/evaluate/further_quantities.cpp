@@ -287,8 +287,10 @@ void FurtherQuantities::evaluate(const SkyProfile& profile, const ReceiverPacket
   if (quantities_.hidden) {
     Lanes near, far;
     for (std::size_t l = 0; l < lanes; ++l) {
-      near[l] = std::max(0.0F, 0.5F * (1.0F + receivers.normal_z[l]) - sky.near_svf[l]);
-      far[l] = std::max(0.0F, sky.near_svf[l] - sky.svf[l]);
+      // Both skies are sampled: what is far hides something or nothing
+      const float near_svf = std::max(sky.near_svf[l], sky.svf[l]);
+      near[l] = std::max(0.0F, 0.5F * (1.0F + receivers.normal_z[l]) - near_svf);
+      far[l] = near_svf - sky.svf[l];
     }
     columns.add(near);
     columns.add(far);

@@ -145,7 +145,7 @@ TEST_F(PackLimit, ACityMayComeThroughAPipe) {
 
 TEST_F(PackLimit, ACityMayGoThroughAPipe) {
   folder.must("farlod-city -o city.obj --size 500 --seed 1 --quiet && mkdir piped && mkfifo piped/city.obj");
-  folder.must("{ farlod-city -o piped/city.obj --size 500 --seed 1 --quiet & cat piped/city.obj > through.obj && wait; }");
+  folder.must("{ farlod-city -o piped/city.obj --size 500 --seed 1 --quiet & cat piped/city.obj > through.obj && wait $!; }");
   EXPECT_TRUE(folder.text_of("through.obj") == folder.text_of("city.obj"));
   EXPECT_FALSE(std::filesystem::is_regular_file(folder.path("piped/city.obj")));
 }

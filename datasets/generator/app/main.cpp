@@ -39,8 +39,7 @@ void count(const GeneratedBuilding& building, CityCounts& counts) {
                     count(building, counts);
                   },
               .block_done = [&](std::int64_t done) { progress.update(static_cast<std::size_t>(done), blocks); }});
-  writer->end();
-  counts.bytes = std::filesystem::file_size(options.output);
+  counts.bytes = writer->end();
   counts.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return counts;
 }
