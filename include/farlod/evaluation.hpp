@@ -112,9 +112,9 @@ struct Accuracy {
 
 /// The figures of a run.
 struct EvaluationSummary {
-  std::size_t receivers = 0;        ///< with a value
-  std::size_t no_data = 0;          ///< inside buildings, below the ground, or without ground below them
-  std::size_t beyond_grid = 0;      ///< pixels of a raster that lie in no cell: without a value too
+  std::size_t receivers = 0;          ///< with a value
+  std::size_t no_data = 0;            ///< inside buildings, below the ground, or without ground below them
+  std::size_t beyond_grid = 0;        ///< pixels of a raster that lie in no cell: without a value too
   std::size_t outside_of_region = 0;  ///< receivers that EvaluationSettings::region leaves out: no data, but not counted as such
   std::size_t outside_of_grid = 0;    ///< receivers outside of the grid, which were traced against the whole city
   /// Receivers in cells of the grid that have no far map (PackSettings::area). All engines but near_only, which needs none,

@@ -35,8 +35,8 @@ struct Quantities {
   /// The share of the sky's solid angle: column `svf_solid`.
   bool svf_solid = false;
   /// The sky view factors of the northern, eastern, southern and western half of the sky, as UMEP defines them: each twice the
-  /// half's share, so that it is 1 in the open, and (svfE + svfW) / 2 = (svfN + svfS) / 2 = svf. Of a receiver that is tilted, one
-  /// may be larger than 1. Columns `svfN`, `svfE`, `svfS`, `svfW`.
+  /// half's share, so that it is 1 in the open, and (svfE + svfW) / 2 = (svfN + svfS) / 2 = svf. Of a receiver that is tilted,
+  /// one may be larger than 1. Columns `svfN`, `svfE`, `svfS`, `svfW`.
   bool directional = false;
   /// The shares of the sky that geometry of the neighborhood hides, and that of the far city alone: columns `hidden_near`,
   /// `hidden_far`. Of a receiver that looks straight up, they and svf add up to 1.
@@ -47,8 +47,8 @@ struct Quantities {
   /// The share of each patch that is seen, weighted by the cosine to the receiver's normal: the sum of shares times the patches'
   /// own view factors is svf. 0 where a patch lies behind the receiver. Columns `patch_N`, from 1.
   SkyPatchSet sky_patches = SkyPatchSet::none;
-  /// The hours of sunshine: those of the positions at which nothing hides the sun's centre, and it shines on the receiver's front.
-  /// Column `sunlit_h`; of no positions, as in a polar night, it is 0.
+  /// The hours of sunshine: those of the positions at which nothing hides the sun's centre, and it shines on the receiver's
+  /// front. Column `sunlit_h`; of no positions, as in a polar night, it is 0.
   std::optional<std::vector<SunPosition>> sun = {};
 
   [[nodiscard]] bool any() const {

@@ -73,7 +73,7 @@ using OnRasterTile = std::function<void(const RasterTile&)>;
 /// A whole raster, row by row from the north. NaN where there is no data.
 struct Raster {
   RasterPlan plan;
-  std::vector<float> svf, low, high;  ///< `low` and `high` are empty without EvaluationSettings::bounds
+  std::vector<float> svf, low, high;        ///< `low` and `high` are empty without EvaluationSettings::bounds
   std::vector<std::vector<float>> further;  ///< a band for each of columns_of(EvaluationSettings::further)
   EvaluationSummary summary;
 };

@@ -33,8 +33,8 @@ SunPeriod period_of(const std::string& text, std::size_t step_minutes) {
   const std::chrono::year_month_day first{std::chrono::year(static_cast<int>(*year)), std::chrono::month(*month),
                                           std::chrono::day(*day)};
   if (!first.ok() || static_cast<int>(*year) < first_year || static_cast<int>(*year) > last_year)
-    throw CLI::ValidationError("--sun", "\"" + text + "\" is no day from " + std::to_string(first_year) + " to " +
-                                            std::to_string(last_year));
+    throw CLI::ValidationError(
+        "--sun", "\"" + text + "\" is no day from " + std::to_string(first_year) + " to " + std::to_string(last_year));
   const std::size_t days = is_day ? 1 : first.year().is_leap() ? 366 : 365;
   const std::size_t minutes = step_minutes > 0 ? step_minutes : is_day ? step_of_days : step_of_years;
   return {std::chrono::sys_days(first), days, std::chrono::minutes(static_cast<std::int64_t>(minutes))};
@@ -68,9 +68,10 @@ void add_quantity_options(CLI::App& app, RawQuantities& raw) {
                  "What to compute, with commas: svf (always), svf_solid, directional (svfN, svfE, svfS, svfW as UMEP has them), "
                  "hidden (by near and by far geometry), horizon, sky_patches, sunlit")
       ->group("Quantities");
-  app.add_option("--horizons", raw.horizons,
-                 "Elevations of the horizon, in degrees, at so many azimuths, clockwise from true north (with --quantity horizon: " +
-                     std::to_string(default_horizons) + ")")
+  app.add_option(
+         "--horizons", raw.horizons,
+         "Elevations of the horizon, in degrees, at so many azimuths, clockwise from true north (with --quantity horizon: " +
+             std::to_string(default_horizons) + ")")
       ->check(CLI::Range(4, 3600))
       ->group("Quantities");
   app.add_option("--sky-patches", raw.sky_patches,

@@ -9,9 +9,7 @@
 namespace farlod {
 namespace {
 
-Region region_of(const Box2d& box) {
-  return Region({{box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}}});
-}
+Region region_of(const Box2d& box) { return Region({{box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}}}); }
 
 Region region_in(const std::filesystem::path& file, const PackageDescription& package) {
 #ifdef FARLOD_WITH_GDAL

@@ -86,8 +86,9 @@ std::string name_of(const std::filesystem::path& folder) {
 }  // namespace
 
 Provenance provenance_of(const SvfOptions& options) {
-  return {std::string("Far-LoD ") + software_version, name_of(options.package), xxh3_of_file(options.package / "manifest.json"),
-          receivers_of(options) + " " + accuracy_options(options.evaluation) + quantity_options(options) + part_of_package(options)};
+  return {
+      std::string("Far-LoD ") + software_version, name_of(options.package), xxh3_of_file(options.package / "manifest.json"),
+      receivers_of(options) + " " + accuracy_options(options.evaluation) + quantity_options(options) + part_of_package(options)};
 }
 
 }  // namespace farlod

@@ -47,7 +47,7 @@ std::string known_endings() {
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
   std::string package, output, points, along, surfaces, at, bbox, mask, engine = "auto", sky = "cosine", directions = "partition",
-                                                          projection;
+                                                                        projection;
   bool on_surface = false;
   RawQuantities quantities;
 };
@@ -87,7 +87,8 @@ void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->check(between(0.05, 1000.0))
       ->capture_default_str()
       ->group("Placing");
-  app.add_option("--points-crs", o.points_crs, "CRS of --points or --along, as EPSG:n (default: the file's own, or the package's)")
+  app.add_option("--points-crs", o.points_crs,
+                 "CRS of --points or --along, as EPSG:n (default: the file's own, or the package's)")
       ->group("Placing");
   app.add_option("--points-layer", o.points_layer, "Layer of --points or --along (default: its only one)")->group("Placing");
   app.add_option("--bbox", raw.bbox, "X0,Y0,X1,Y1: only receivers in this box, in the package's CRS")->group("Placing");

@@ -36,7 +36,7 @@ struct SvfOptions {
   RequestedPoint at;
   Placing placing;
   std::optional<Box2d> bbox_projected;
-  std::filesystem::path mask_file;  ///< of polygons; empty: no mask
+  std::filesystem::path mask_file;    ///< of polygons; empty: no mask
   EvaluationSettings evaluation;      ///< but for the sun, whose positions depend on where the package is
   std::optional<SunPeriod> sunshine;  ///< when hours of sunshine are counted, if they are
   std::string preview_file;

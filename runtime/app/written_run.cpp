@@ -139,7 +139,7 @@ struct NamedPoints {
     }
     attributes = std::move(of_kept);
     notes.push_back(std::to_string(outside) + (outside == 1 ? " point lies outside of the mask or box, and was left out."
-                                                           : " points lie outside of the mask or box, and were left out."));
+                                                            : " points lie outside of the mask or box, and were left out."));
   }
   [[nodiscard]] bool has_normals() const { return !tilt.empty(); }
   [[nodiscard]] Points points() const { return {x_m, y_m, z_m, azimuth, tilt}; }
@@ -337,8 +337,7 @@ std::vector<float> further_of(std::span<const SurfacePoint> points, const Answer
 
 WrittenRun write_surfaces(const Package& package, const SvfOptions& options, const RunSettings& run) {
   const AnswerColumns columns = answer_columns(options);
-  const auto writer =
-      options.format->surface_tables_writer(frame_of(columns, options, package.description()), options.output);
+  const auto writer = options.format->surface_tables_writer(frame_of(columns, options, package.description()), options.output);
   const SurfaceMeans means = evaluate_surfaces(
       package, options.surfaces, options.evaluation,
       [&](std::size_t cell, std::span<const SurfacePoint> points) {

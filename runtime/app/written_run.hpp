@@ -18,10 +18,10 @@ struct WrittenRun {
   EvaluationSummary summary;
   std::vector<std::filesystem::path> files = {};
   double open_s = 0.0;
-  double write_s = 0.0;                 ///< besides EvaluationSeconds::deliver
+  double write_s = 0.0;                           ///< besides EvaluationSeconds::deliver
   std::vector<std::string> further_columns = {};  ///< names of the further quantities
-  std::vector<std::string> notes = {};  ///< what the user should know of how the points were read, a sentence each
-  std::size_t skipped_features = 0;     ///< of the file of points, which are no points
+  std::vector<std::string> notes = {};            ///< what the user should know of how the points were read, a sentence each
+  std::size_t skipped_features = 0;               ///< of the file of points, which are no points
 };
 
 /// The three kinds of run: each evaluates and writes its files. They throw what the library throws, and PointsError.

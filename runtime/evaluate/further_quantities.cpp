@@ -63,8 +63,7 @@ std::size_t patches_of(SkyPatchSet set) {
 /// The share of [from, to] that lies in [low, high], on a turn of 1; neither is longer than half a turn.
 double share_within(double from, double to, double low, double high) {
   double within = 0.0;
-  for (const double turn : {-1.0, 0.0, 1.0})
-    within += std::max(0.0, std::min(to + turn, high) - std::max(from + turn, low));
+  for (const double turn : {-1.0, 0.0, 1.0}) within += std::max(0.0, std::min(to + turn, high) - std::max(from + turn, low));
   return std::min(1.0, within / (to - from));
 }
 
@@ -375,8 +374,8 @@ void FurtherQuantities::add_sunlit(const SkyProfile& profile, const ReceiverPack
       const SlopesInFront front = slopes_in_front(outward, receivers.normal_z[l]);
       hours[l] += hours_between(std::max(profile.sky_from[k][l], front.from), front.to);
       if (profile.gap_share.empty()) continue;
-      hours[l] += static_cast<double>(profile.gap_share[k][l]) * hours_between(std::max(profile.gap_from[k][l], front.from),
-                                                                               std::min(profile.gap_to[k][l], front.to));
+      hours[l] += static_cast<double>(profile.gap_share[k][l]) *
+                  hours_between(std::max(profile.gap_from[k][l], front.from), std::min(profile.gap_to[k][l], front.to));
     }
   }
   Lanes column;

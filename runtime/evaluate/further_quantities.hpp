@@ -16,7 +16,8 @@
 
 namespace farlod {
 
-/// Azimuths at which horizons are sampled, where these quantities are asked for: at least so many, and a multiple of the horizons.
+/// Azimuths at which horizons are sampled, where these quantities are asked for: at least so many, and a multiple of the
+/// horizons.
 [[nodiscard]] std::size_t azimuths_for(const Quantities& quantities, std::size_t at_least);
 
 /// What is computed beside the sky view factor, from profiles of the sky: the same for all methods that make profiles.

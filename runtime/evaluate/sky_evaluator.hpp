@@ -77,8 +77,9 @@ struct SkySettings {
 /// error counts, not how large it is.
 [[nodiscard]] double sampling_error_of(const SkySettings& settings, FarMapOfCell far_map = FarMapOfCell::horizon);
 
-/// Arrays that take the answers, indexed by Receiver::index. `low` and `high` are empty where bounds are not wanted, `further` where
-/// nothing is that SkySettings::further asks for; otherwise it has a value for each column of each receiver, receiver by receiver.
+/// Arrays that take the answers, indexed by Receiver::index. `low` and `high` are empty where bounds are not wanted, `further`
+/// where nothing is that SkySettings::further asks for; otherwise it has a value for each column of each receiver, receiver by
+/// receiver.
 struct SkyAnswers {
   std::span<float> svf, low, high, further;
   explicit SkyAnswers(std::span<float> s, std::span<float> l = {}, std::span<float> h = {}, std::span<float> f = {})

@@ -46,8 +46,8 @@ class RaysAtAzimuth {
   }
   /// The elevation between one that is blocked and one that is free, at which that changes. Where nothing above the horizontal is
   /// blocked, the horizontal.
-  [[nodiscard]] std::array<double, lanes> border_between(std::array<double, lanes> blocked_deg, std::array<double, lanes> free_deg,
-                                                         std::uint32_t wanted) {
+  [[nodiscard]] std::array<double, lanes> border_between(std::array<double, lanes> blocked_deg,
+                                                         std::array<double, lanes> free_deg, std::uint32_t wanted) {
     std::array<double, lanes> middle_deg{};
     for (int n = 0; n <= halvings; ++n) {
       for (std::size_t l = 0; l < lanes; ++l) middle_deg[l] = 0.5 * (blocked_deg[l] + free_deg[l]);

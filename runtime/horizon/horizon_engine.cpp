@@ -265,12 +265,11 @@ HorizonEngine::SkyInGaps HorizonEngine::sky_in_gaps(const ReceiverPacket& receiv
   for (std::size_t k = 0; k < before.size(); ++k)
     for (std::size_t l = 0; l < before[k].size(); ++l)
       if (has_bit(gaps.by_rays, l)) seen_rows_[k][l] = gap_rows_[k][l] > 0.0F ? 0.0F : sky_in_untraced * before[k][l];
-  const Lanes seen =
-      trace_gaps(
-          {horizons_.grounded, horizons_.lower_borders, horizons_.far_lower_borders, horizons_.far_upper_borders, gap_rows_},
-          azimuths_, weight_, receivers, gaps.by_rays, gaps_.rays_per_azimuth, overhangs_.scene(), gaps_.stop,
-          profile_ ? std::span(seen_rows_) : std::span<PacketHorizon::Row>())
-          .sky;
+  const Lanes seen = trace_gaps({horizons_.grounded, horizons_.lower_borders, horizons_.far_lower_borders,
+                                 horizons_.far_upper_borders, gap_rows_},
+                                azimuths_, weight_, receivers, gaps.by_rays, gaps_.rays_per_azimuth, overhangs_.scene(),
+                                gaps_.stop, profile_ ? std::span(seen_rows_) : std::span<PacketHorizon::Row>())
+                         .sky;
   for (std::size_t l = 0; l < most.size(); ++l)
     if (has_bit(gaps.by_rays, l)) gaps.sky[l] = seen[l] + sky_in_untraced * untraced[l];
   if (profile_) profile_gaps(receivers);

@@ -20,8 +20,8 @@
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/residual_horizon.hpp"
-#include "horizon/sky_profile.hpp"
 #include "horizon/sky_partition.hpp"
+#include "horizon/sky_profile.hpp"
 #include "horizon/undecided_sky.hpp"
 #include "package/far_horizon.hpp"
 

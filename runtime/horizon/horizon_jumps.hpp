@@ -46,7 +46,7 @@ class HorizonJumps {
     std::size_t azimuth = 0;
   };
   [[nodiscard]] Correction correction_of(std::size_t azimuth, std::size_t lane, const PacketHorizon& horizon,
-                                    const ReceiverPacket& receivers, const BorderEnds& ends) const;
+                                         const ReceiverPacket& receivers, const BorderEnds& ends) const;
   /// The share of the way from one azimuth to the next for which the edge at `higher`, one of them, is the horizon of a receiver.
   /// An edge that goes on at its end with another one, above `lower_slope` and between the two azimuths, ends with that.
   /// Half of the way where the end is not between them.

@@ -17,11 +17,11 @@ struct SkyProfile {
 
   explicit SkyProfile(const AzimuthSampling& azimuths) : sky_from(azimuths.size()) {}
 
-  Rows sky_from;                      ///< infinite where there is no sky above
-  Rows gap_from, gap_to, gap_share;   ///< empty if there is no gap; the share is that of the gap's sky, from 0 to 1
-  /// The sky above `sky_from`, F(φ) of docs/concepts.md, "Above a horizon", with the jumps of the horizon where they are: their mean
-  /// over the azimuths is the view factor of that sky, by the cosine and by solid angle. Empty where `sky_from` is all that is
-  /// known.
+  Rows sky_from;                     ///< infinite where there is no sky above
+  Rows gap_from, gap_to, gap_share;  ///< empty if there is no gap; the share is that of the gap's sky, from 0 to 1
+  /// The sky above `sky_from`, F(φ) of docs/concepts.md, "Above a horizon", with the jumps of the horizon where they are: their
+  /// mean over the azimuths is the view factor of that sky, by the cosine and by solid angle. Empty where `sky_from` is all that
+  /// is known.
   Rows sky, solid_sky;
 };
 

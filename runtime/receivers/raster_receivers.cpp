@@ -103,8 +103,7 @@ CellReceivers RasterReceivers::in_cell(const PackageReader& package, Cell cell, 
   LatticeLocator locator(package, cell);
   CellReceivers result{cell, {}};
   // Where all pixels are outside of the region, nobody asks for their heights
-  const bool is_met =
-      region_ == nullptr || meet(manifest_.projected_outline(manifest_.grid.square_of(cell)), region_->outline());
+  const bool is_met = region_ == nullptr || meet(manifest_.projected_outline(manifest_.grid.square_of(cell)), region_->outline());
   for_each_strip(range_of(cell), [&](const PixelRange& strip) {
     throw_if_cancelled(stop);
     const Centres centres = centres_of(strip, cell);

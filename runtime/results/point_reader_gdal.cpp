@@ -280,7 +280,8 @@ RequestedPoints read_lines_gdal(const std::filesystem::path& path, const std::st
   require_any(read, path, "lines", "one; give lines, such as the axes of streets");
   if (read.skipped_features > 0) read.notes.push_back(sentence_on_skipped(read, path, "line"));
   if (own.empty() && sampling.crs.empty())
-    read.notes.push_back(path.string() + " says no CRS: its lines were taken to be in that of the package (--points-crs names "
+    read.notes.push_back(path.string() +
+                         " says no CRS: its lines were taken to be in that of the package (--points-crs names "
                          "another).");
   return read;
 }

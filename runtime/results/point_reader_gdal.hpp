@@ -29,10 +29,10 @@ struct LineSampling {
   std::string package_crs;  ///< in which metres count, and in which the points are
 };
 
-/// Places points along the lines of a vector file: ⌈length / spacing⌉ of them on each line, in the middles of equal parts, so that
-/// each stands for as much of the line. They have the fields of their line as attributes, and the distance from its beginning as
-/// `along_m`; their ids are numbers. A part of a multiline is a line; features that are no lines are skipped, and told in a note.
-/// Throws PointsError.
+/// Places points along the lines of a vector file: ⌈length / spacing⌉ of them on each line, in the middles of equal parts, so
+/// that each stands for as much of the line. They have the fields of their line as attributes, and the distance from its
+/// beginning as `along_m`; their ids are numbers. A part of a multiline is a line; features that are no lines are skipped, and
+/// told in a note. Throws PointsError.
 [[nodiscard]] RequestedPoints read_lines_gdal(const std::filesystem::path& path, const std::string& layer,
                                               const LineSampling& sampling);
 

@@ -180,12 +180,8 @@ PointAnswers evaluate_points(const Package& package, const Points& points, const
   const std::size_t further = count * columns_of(settings.further).size();
   const RunSettings with_answers =
       with_bytes_of_caller(run, (count + 2 * bounds + further) * sizeof(float) + count * sizeof(double));
-  PointAnswers answers{std::vector<float>(count),
-                       std::vector<float>(bounds),
-                       std::vector<float>(bounds),
-                       std::vector<double>(count),
-                       std::vector<float>(further),
-                       {}};
+  PointAnswers answers{std::vector<float>(count),  std::vector<float>(bounds),  std::vector<float>(bounds),
+                       std::vector<double>(count), std::vector<float>(further), {}};
   answers.summary = evaluate_points(package, points, placing, settings,
                                     {answers.svf, answers.low, answers.high, answers.height_m, answers.further}, with_answers);
   return answers;

@@ -28,14 +28,14 @@ struct SunDirection {
   Angle elevation;
 };
 
-/// The sun's direction at a time (UTC, from 1960 on), with aberration, parallax and refraction, by ERFA (the SOFA functions of the
-/// IAU): for centuries better than .001°, were it not for the refraction, which is Sæmundsson's formula (as in NREL's SPA) and
-/// depends on the weather.
+/// The sun's direction at a time (UTC, from 1960 on), with aberration, parallax and refraction, by ERFA (the SOFA functions of
+/// the IAU): for centuries better than .001°, were it not for the refraction, which is Sæmundsson's formula (as in NREL's SPA)
+/// and depends on the weather.
 [[nodiscard]] SunDirection sun_direction(const PlaceOnEarth& place, std::chrono::sys_time<std::chrono::milliseconds> time_utc,
                                          const Atmosphere& atmosphere = {});
 
-/// The directions of the sun above the horizon, in the middle of steps of so many minutes, from the midnight before `first` on for
-/// some days. Midnight is that of local mean time: hours of sunshine depend on no time zone.
+/// The directions of the sun above the horizon, in the middle of steps of so many minutes, from the midnight before `first` on
+/// for some days. Midnight is that of local mean time: hours of sunshine depend on no time zone.
 [[nodiscard]] std::vector<SunPosition> sun_positions(const PlaceOnEarth& place, std::chrono::sys_days first, std::size_t days,
                                                      std::chrono::minutes step);
 

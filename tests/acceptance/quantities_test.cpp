@@ -23,12 +23,13 @@ using testing::HasSubstr;
 const Point2d crossing = p_projected({-60.0, 0.0});
 
 TEST_F(PackedTown, QuantitiesAreColumnsOfATable) {
-  folder.must("farlod-svf a.farlod -o o.csv --quantity svf,svf_solid,directional,hidden,horizon --horizons 8 --summary s.json --at " +
-              text_of(crossing));
+  folder.must(
+      "farlod-svf a.farlod -o o.csv --quantity svf,svf_solid,directional,hidden,horizon --horizons 8 --summary s.json --at " +
+      text_of(crossing));
   const CsvTable row = table("o.csv");
-  EXPECT_THAT(row.header(), ElementsAre("id", "x_m", "y_m", "z_m", "svf", "svf_solid", "svfN", "svfE", "svfS", "svfW", "hidden_near",
-                                        "hidden_far", "horizon_000", "horizon_045", "horizon_090", "horizon_135", "horizon_180",
-                                        "horizon_225", "horizon_270", "horizon_315"));
+  EXPECT_THAT(row.header(), ElementsAre("id", "x_m", "y_m", "z_m", "svf", "svf_solid", "svfN", "svfE", "svfS", "svfW",
+                                        "hidden_near", "hidden_far", "horizon_000", "horizon_045", "horizon_090", "horizon_135",
+                                        "horizon_180", "horizon_225", "horizon_270", "horizon_315"));
   EXPECT_NEAR(0.5 * (row.number(0, "svfE") + row.number(0, "svfW")), row.number(0, "svf"), 3.0 * half_of_last_digit);
   EXPECT_NEAR(row.number(0, "hidden_near") + row.number(0, "hidden_far") + row.number(0, "svf"), 1.0, 3.0 * half_of_last_digit);
   EXPECT_EQ(folder.json_of("s.json").at("quantities").size(), 15U);
@@ -88,8 +89,8 @@ void write_mask(const WorkFolder& folder) {
                 c = town_middle + Point2d{-150.0, 150.0};
   folder.write("mask.geojson", R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": ")" +
                                    std::string(town_crs) + R"("}}, "features": [{"type": "Feature", "properties": {}, "geometry":
-  {"type": "Polygon", "coordinates": [[[)" + text_of(a) + "], [" + text_of(b) + "], [" + text_of(c) + "], [" + text_of(a) +
-                                   "]]]}}]}");
+  {"type": "Polygon", "coordinates": [[[)" +
+                                   text_of(a) + "], [" + text_of(b) + "], [" + text_of(c) + "], [" + text_of(a) + "]]]}}]}");
 }
 
 TEST_F(PackedTown, AMaskLeavesTheReceiversWithinIt) {
@@ -103,7 +104,8 @@ TEST_F(PackedTown, AMaskLeavesTheReceiversWithinIt) {
   for (std::size_t n = 0; n < all.values.size(); ++n) {
     const bool is_inside = inside.values[n].value_or(0.0) == 1.0;
     const Point2d p = all.centre_of(n);
-    const bool is_in_extent = masked.north_west.x < p.x && p.x < masked.north_west.x + static_cast<double>(masked.columns) * 4.0 &&
+    const bool is_in_extent = masked.north_west.x < p.x &&
+                              p.x < masked.north_west.x + static_cast<double>(masked.columns) * 4.0 &&
                               p.y < masked.north_west.y && masked.north_west.y - static_cast<double>(masked.rows) * 4.0 < p.y;
     const std::optional<double> got = is_in_extent ? masked.at(p) : std::nullopt;
     EXPECT_EQ(got.has_value(), is_inside && all.values[n].has_value()) << n;
@@ -137,9 +139,10 @@ TEST_F(PackedTown, AMaskLeavesThePointsAndSurfacesWithinIt) {
 
 TEST_F(PackedTown, PointsAlongAStreetAreAnswered) {
   const Point2d end = p_projected({60.0, 0.0});
-  folder.write("axes.geojson", R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32632"}}, "features":
-  [{"type": "Feature", "properties": {"street": "main"}, "geometry": {"type": "LineString", "coordinates": [[)" + text_of(crossing) +
-                                "], [" + text_of(end) + "]]}}]}");
+  folder.write("axes.geojson",
+               R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32632"}}, "features":
+  [{"type": "Feature", "properties": {"street": "main"}, "geometry": {"type": "LineString", "coordinates": [[)" +
+                   text_of(crossing) + "], [" + text_of(end) + "]]}}]}");
   folder.must("farlod-svf a.farlod -o o.csv --along axes.geojson --spacing 5");
   const CsvTable points = table("o.csv");
   EXPECT_EQ(points.size(), 24U);
@@ -182,7 +185,8 @@ TEST(FacadeAverages, OfAnEndlessCanyonAreKnown) {
 TEST(FacadeAverages, LeaveOutWhatIsCovered) {
   const WorkFolder folder;
   // A low house leans on the whole eastern side of a high one
-  folder.write("pair.geojson", houses({house("high", {{0.0, 0.0}, {10.0, 12.0}}, 15.0), house("low", {{10.0, 0.0}, {18.0, 12.0}}, 6.0)}));
+  folder.write("pair.geojson",
+               houses({house("high", {{0.0, 0.0}, {10.0, 12.0}}, 15.0), house("low", {{10.0, 0.0}, {18.0, 12.0}}, 6.0)}));
   folder.must("farlod-pack pair.geojson -o a.farlod");
   folder.must("farlod-svf a.farlod -o o.csv --surfaces walls --spacing 0.25");
   const CsvTable surfaces(folder.text_of("o.surfaces.csv")), buildings(folder.text_of("o.buildings.csv"));
@@ -204,9 +208,9 @@ TEST(FacadeAverages, LeaveOutWhatIsCovered) {
 
 struct Place {
   const char* name;
-  const char* crs;        ///< of the footprints
-  Point2d middle;         ///< in it
-  double unit;            ///< of its coordinates in metres
+  const char* crs;  ///< of the footprints
+  Point2d middle;   ///< in it
+  double unit;      ///< of its coordinates in metres
   const char* package_crs;
 };
 void PrintTo(const Place& place, std::ostream* out) { *out << place.name; }
@@ -227,12 +231,13 @@ TEST_P(RasterInPlace, HasNoDataWhereGdalDrawsTheBuildings) {
                     place.middle.y + turned.y * place.unit);
       text += pair.data();
     }
-    return R"({"type": "Feature", "properties": {"height": 12}, "geometry": {"type": "Polygon", "coordinates": [[)" + text + "]]}}";
+    return R"({"type": "Feature", "properties": {"height": 12}, "geometry": {"type": "Polygon", "coordinates": [[)" + text +
+           "]]}}";
   };
-  folder.write("town.geojson",
-               R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": ")" + std::string(place.crs) +
-                   R"("}}, "features": [)" + outline({{0, 0}, {41, 0}, {41, 17}, {19, 17}, {19, 38}, {0, 38}}) + ", " +
-                   outline({{60, 5}, {97, 5}, {97, 44}}) + "]}");
+  folder.write("town.geojson", R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": ")" +
+                                   std::string(place.crs) + R"("}}, "features": [)" +
+                                   outline({{0, 0}, {41, 0}, {41, 17}, {19, 17}, {19, 38}, {0, 38}}) + ", " +
+                                   outline({{60, 5}, {97, 5}, {97, 44}}) + "]}");
   folder.must("farlod-pack town.geojson -o a.farlod --cell 30");
   folder.must("farlod-svf a.farlod -o o.tif --grid 1");
   const RasterFile map = read_raster(folder.path("o.tif"));

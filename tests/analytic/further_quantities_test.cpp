@@ -13,8 +13,8 @@
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
 
-// What is computed beside the sky view factor, against closed forms: in canyons that run at several bearings, in a round court and
-// in the open, by horizons and by rays.
+// What is computed beside the sky view factor, against closed forms: in canyons that run at several bearings, in a round court
+// and in the open, by horizons and by rays.
 
 namespace farlod {
 namespace {
@@ -150,8 +150,7 @@ TEST(FurtherQuantities, SolidAngleIsThatOfARunByItself) {
   further.svf_solid = true;
   const Canyon canyon{30.0};
   const PackedAround packed({}, walls_of(canyon));
-  const double expected =
-      1.0 - (std::atan(canyon.height_m / canyon.right_m) + std::atan(canyon.height_m / canyon.left_m)) / pi;
+  const double expected = 1.0 - (std::atan(canyon.height_m / canyon.right_m) + std::atan(canyon.height_m / canyon.left_m)) / pi;
   for (const Engine engine : engines) EXPECT_NEAR(packed.columns(engine, further)["svf_solid"], expected, tolerance);
 }
 
@@ -211,8 +210,9 @@ TEST(FurtherQuantities, PatchesAddUpToTheSkyViewFactor) {
       const std::vector<std::string> names = columns_of(further);
       for (std::size_t band = 0; band < bands.size(); ++band)
         for (int n = 0; n < bands[band]; ++n)
-          sum += got[names[patch++]] * view_factor_of_band(static_cast<double>(band) * height_deg,
-                                                           static_cast<double>(band + 1) * height_deg) / bands[band];
+          sum += got[names[patch++]] *
+                 view_factor_of_band(static_cast<double>(band) * height_deg, static_cast<double>(band + 1) * height_deg) /
+                 bands[band];
       sum += got[names[patch]] * view_factor_of_band(static_cast<double>(bands.size()) * height_deg, 90.0);
       EXPECT_NEAR(sum, got["svf"], 0.005);
     }
@@ -243,7 +243,8 @@ TEST(FurtherQuantities, HiddenSharesAddUpAndAreOfTheirGeometry) {
     builder.add_wall({5.0, -15.0}, {5.0, 15.0}, -eye_m, 4.0);
     builder.add_box({{-400.0, -60.0}, {-300.0, 60.0}}, -eye_m, 200.0);
   });
-  const double near = 1.0 - oracles::finite_wall_cos(4.0, 5.0, 15.0, 15.0), far = 1.0 - oracles::finite_wall_cos(200.0, 300.0, 60.0, 60.0);
+  const double near = 1.0 - oracles::finite_wall_cos(4.0, 5.0, 15.0, 15.0),
+               far = 1.0 - oracles::finite_wall_cos(200.0, 300.0, 60.0, 60.0);
   for (const Engine engine : engines) {
     auto got = packed.columns(engine, further);
     EXPECT_NEAR(got["hidden_near"], near, tolerance);

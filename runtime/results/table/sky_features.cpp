@@ -181,7 +181,8 @@ void write_buildings_as_features(std::span<const BuildingMean> rows, const Table
     writer.add({{},
                 {},
                 {std::string_view(r.building), millimetres(r.roof_area_m2), millimetres(r.wall_area_m2),
-                 millimetres(r.covered_roof_area_m2), millimetres(r.covered_wall_area_m2), whole(r.receivers), whole(r.nodata), share(r.svf_roofs), share(r.svf_walls)}});
+                 millimetres(r.covered_roof_area_m2), millimetres(r.covered_wall_area_m2), whole(r.receivers), whole(r.nodata),
+                 share(r.svf_roofs), share(r.svf_walls)}});
 }
 
 std::vector<std::filesystem::path> SurfaceTablesInLayers::commit(std::span<const SurfaceMean> surfaces,

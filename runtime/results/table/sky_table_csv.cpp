@@ -143,8 +143,8 @@ void write_surfaces_csv(std::span<const SurfaceMean> rows, const AnswerColumns& 
 
 void write_buildings_csv(std::span<const BuildingMean> rows, const AnswerColumns& columns, const std::filesystem::path& path) {
   CsvText header;
-  header.fields({"building", "roof_area_m2", "wall_area_m2", "covered_roof_area_m2", "covered_wall_area_m2", "receivers", "nodata",
-                 columns.quantity + "_roofs", columns.quantity + "_walls"});
+  header.fields({"building", "roof_area_m2", "wall_area_m2", "covered_roof_area_m2", "covered_wall_area_m2", "receivers",
+                 "nodata", columns.quantity + "_roofs", columns.quantity + "_walls"});
   header.end_row();
   write_table(path, std::move(header), rows.size(), [&](std::size_t n, CsvText& text) { add_building(rows[n], text); });
 }

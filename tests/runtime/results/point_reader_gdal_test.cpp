@@ -213,7 +213,8 @@ TEST_F(PointReaderGdal, PointsAlongLinesStandInTheMiddlesOfEqualParts) {
       .feature("LINESTRING (600000 5000200, 600000 5000200)");
   const RequestedPoints read = read_lines_gdal(path, "", every(4.0));
   ASSERT_EQ(read.points.size(), 5U) << "15 m in four parts, and a short one";
-  const std::vector<Point2d> expected{{600001.875, 5000000}, {600005.625, 5000000}, {600009.375, 5000000}, {600010, 5000003.125}, {600000.5, 5000100}};
+  const std::vector<Point2d> expected{
+      {600001.875, 5000000}, {600005.625, 5000000}, {600009.375, 5000000}, {600010, 5000003.125}, {600000.5, 5000100}};
   for (std::size_t n = 0; n < expected.size(); ++n) {
     EXPECT_NEAR(read.points[n].x, expected[n].x, 1e-6) << n;
     EXPECT_NEAR(read.points[n].y, expected[n].y, 1e-6) << n;

@@ -47,13 +47,13 @@ TEST_F(RegionReader, TakesPolygonsToTheCrsOfThePackage) {
 }
 
 TEST_F(RegionReader, TakesHolesAndMultipolygonsAndLeavesTheRest) {
-  const Region region = read_region_gdal(
-      file_of(R"({"type": "MultiPolygon", "coordinates": [[[[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]],
+  const Region region =
+      read_region_gdal(file_of(R"({"type": "MultiPolygon", "coordinates": [[[[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]],
                                                               [[4, 4], [6, 4], [6, 6], [4, 6], [4, 4]]],
                                                              [[[20, 0], [30, 0], [30, 10], [20, 0]]]]},
                  {"type": "LineString", "coordinates": [[0, 0], [100, 100]]}, {"type": "Point", "coordinates": [50, 50]})",
-              "EPSG:25832"),
-      "EPSG:25832");
+                               "EPSG:25832"),
+                       "EPSG:25832");
   EXPECT_TRUE(region.contains({1, 1}));
   EXPECT_FALSE(region.contains({5, 5}));
   EXPECT_TRUE(region.contains({28, 5}));

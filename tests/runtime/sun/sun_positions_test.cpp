@@ -49,7 +49,8 @@ TEST(SunPositions, OfPolarDaysLastAllDayAndOfPolarNightsNone) {
 
 TEST(SunPositions, OfAYearAreHalfOfIt) {
   // And more by refraction, and as the northern summer is longer
-  EXPECT_NEAR(hours_of(sun_positions(place(139.6, 35.9), sys_days{year{2026} / January / 1}, 365, minutes(10))), 365.0 * 12.0, 60.0);
+  EXPECT_NEAR(hours_of(sun_positions(place(139.6, 35.9), sys_days{year{2026} / January / 1}, 365, minutes(10))), 365.0 * 12.0,
+              60.0);
 }
 
 TEST(SunPositions, SplitStepsThatDoNotFit) {

@@ -155,10 +155,11 @@ TEST(SurfacesCsv, IsAsDocumented) {
   rows[0] = {"b1", 0, SurfaceKind::roof, Angle::degrees(0.0), Angle::degrees(0.0), 100.5, 4.5, 25, 1, 0.75, 0.5, 1.0, {0.25}};
   rows[1].building = "b2";
   write_surfaces_csv(rows, {"svf", BoundsColumns::no, {"svfN"}}, folder.file("a.csv"));
-  EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
-            "building,surface,kind,azimuth_deg,tilt_deg,area_m2,covered_area_m2,receivers,nodata,svf_mean,svf_min,svf_max,svfN_mean\n"
-            "b1,0,roof,0,0,100.5,4.5,25,1,0.750000,0.500000,1.000000,0.25\n"
-            "b2,0,unknown,0,0,0,0,0,0,,,,\n");
+  EXPECT_EQ(
+      scenes::text_of(folder.file("a.csv")),
+      "building,surface,kind,azimuth_deg,tilt_deg,area_m2,covered_area_m2,receivers,nodata,svf_mean,svf_min,svf_max,svfN_mean\n"
+      "b1,0,roof,0,0,100.5,4.5,25,1,0.750000,0.500000,1.000000,0.25\n"
+      "b2,0,unknown,0,0,0,0,0,0,,,,\n");
 }
 
 TEST(SurfaceTablesCsv, AreThreeFilesThatAppearTogether) {
