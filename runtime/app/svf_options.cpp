@@ -78,6 +78,9 @@ void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->check(CLI::IsMember({"roofs", "walls", "all"}));
   receivers->add_option("--at", raw.at, "One point: X,Y or X,Y,Z in the package's CRS");
   receivers->require_option(1);
+}
+
+void add_placing_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_option("--height", o.placing.height_m, "Metres above ground (not for --surfaces, nor for points with a z)")
       ->check(between(0.0, 10000.0))
       ->capture_default_str()
@@ -177,6 +180,10 @@ void resolve_place(const RawOptions& raw, SvfOptions& o) {
                         : raw.surfaces == "walls" ? SurfaceChoice::walls
                                                   : SurfaceChoice::all;
   }
+}
+
+/// Which of the receivers are asked for.
+void resolve_part(const RawOptions& raw, SvfOptions& o) {
   o.mask_file = raw.mask;
   if (o.source == ReceiverSource::at && !(raw.mask.empty() && raw.bbox.empty()))
     throw CLI::ValidationError(raw.mask.empty() ? "--bbox" : "--mask", "it goes with --grid, --points, --along and --surfaces");
@@ -282,6 +289,7 @@ void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
 void resolve(const RawOptions& raw, SvfOptions& o) {
   o.package = raw.package;
   resolve_place(raw, o);
+  resolve_part(raw, o);
   resolve_output(raw, o);
   o.placing.above = raw.on_surface ? HeightAbove::highest_surface : HeightAbove::ground;
   o.evaluation.directions = raw.directions == "fibonacci" ? DirectionSet::fibonacci : DirectionSet::partition;
@@ -300,6 +308,7 @@ struct CommandLine {
   CommandLine() {
     describe_program(app, svf_program());
     add_receiver_options(app, raw, options);
+    add_placing_options(app, raw, options);
     add_output_options(app, raw, options);
     add_quantity_options(app, raw.quantities);
     add_sky_options(app, raw, options);

@@ -131,13 +131,7 @@ struct NamedPoints {
     choose(z_m);
     choose(azimuth);
     choose(tilt);
-    Attributes of_kept(attributes.names());
-    for (const std::size_t n : kept) {
-      std::vector<std::string> fields;
-      for (std::size_t c = 0; c < attributes.names().size(); ++c) fields.emplace_back(attributes.value(n, c));
-      of_kept.add_row(fields);
-    }
-    attributes = std::move(of_kept);
+    attributes = attributes.rows(kept);
     notes.push_back(std::to_string(outside) + (outside == 1 ? " point lies outside of the mask or box, and was left out."
                                                             : " points lie outside of the mask or box, and were left out."));
   }

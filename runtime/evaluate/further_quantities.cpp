@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "contract/expects.hpp"
 #include "horizon/kernels.hpp"
@@ -231,31 +232,31 @@ void FurtherQuantities::divide_into_patches() {
   }
 }
 
-void FurtherQuantities::sort_sun_positions() {
-  struct Position {
-    float slope;
-    double hours;
+std::size_t FurtherQuantities::nearest_azimuth(Angle azimuth) const {
+  const double turn = azimuth.radians() / (2.0 * std::numbers::pi);
+  const auto distance = [&](double other) {
+    const double between = turn - other;
+    return std::abs(between - std::round(between));
   };
+  const auto nearest =
+      std::min_element(turns_.begin(), turns_.end(), [&](double a, double b) { return distance(a) < distance(b); });
+  return static_cast<std::size_t>(nearest - turns_.begin());
+}
+
+void FurtherQuantities::sort_sun_positions() {
+  using Position = std::pair<float, double>;  // slope, hours
   std::vector<std::vector<Position>> at(azimuths_.size());
   for (const SunPosition& sun : *quantities_.sun) {
     if (sun.elevation.radians() <= 0.0) continue;
-    const double turn = sun.azimuth.radians() / (2.0 * std::numbers::pi);
-    const auto distance = [&](std::size_t k) {
-      const double between = turn - turns_[k];
-      return std::abs(between - std::round(between));
-    };
-    std::size_t nearest = 0;
-    for (std::size_t k = 1; k < azimuths_.size(); ++k)
-      if (distance(k) < distance(nearest)) nearest = k;
     const double slope = std::min(tan(sun.elevation), static_cast<double>(straight_up));
-    at[nearest].push_back({static_cast<float>(slope), sun.hours});
+    at[nearest_azimuth(sun.azimuth)].emplace_back(static_cast<float>(slope), sun.hours);
   }
   for (std::vector<Position>& positions : at) {
-    std::stable_sort(positions.begin(), positions.end(), [](const Position& a, const Position& b) { return a.slope < b.slope; });
+    std::sort(positions.begin(), positions.end());
     SunAtAzimuth& sun = sun_.emplace_back();
-    for (const Position& p : positions) {
-      sun.slopes.push_back(p.slope);
-      sun.hours.push_back(p.hours);
+    for (const auto& [slope, hours] : positions) {
+      sun.slopes.push_back(slope);
+      sun.hours.push_back(hours);
     }
     for (std::size_t n = sun.hours.size(); n-- > 1;) sun.hours[n - 1] += sun.hours[n];
     sun.hours.push_back(0.0);

@@ -40,7 +40,6 @@ class FurtherQuantities {
   /// Working memory, kept from packet to packet.
   struct Rows {
     std::vector<PacketHorizon::Row> low, high, terms, open_terms;
-    std::vector<float> values;  ///< for callers
   };
   /// What is known of a packet's receivers: svf as it is answered, and with needs_near_sky() that of the near geometry alone.
   struct Sky {
@@ -62,6 +61,7 @@ class FurtherQuantities {
   void divide_into_halves();
   void divide_into_patches();
   void sort_sun_positions();
+  [[nodiscard]] std::size_t nearest_azimuth(Angle azimuth) const;
 
   /// A patch that a part of the turn around an azimuth lies in, and the share of it that does.
   struct PatchShare {

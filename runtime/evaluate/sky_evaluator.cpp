@@ -14,8 +14,8 @@
 #include "contract/cancellation.hpp"
 #include "contract/expects.hpp"
 #include "evaluate/error_budget.hpp"
+#include "evaluate/further_answers.hpp"
 #include "evaluate/sky_parts.hpp"
-#include "evaluate/traced_profile.hpp"
 #include "evaluate/visibility.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/horizon_engine.hpp"
@@ -212,36 +212,13 @@ std::vector<float> SkyEvaluator::trace_near_sky(const CellReceivers& cell) const
 
 void SkyEvaluator::trace_further(const CellReceivers& cell, const BlockedRaysOfPacket& blocked, const SkyAnswers& answers) const {
   if (further_.empty()) return;
-  const std::vector<float> near_svf =
-      further_.needs_near_sky() ? trace_near_sky(cell) : std::vector<float>(cell.receivers.size(), 0.0F);
-  const PacketOrder order = packet_order(cell.receivers, stop_);
-  SkyProfile profile(further_.azimuths());
-  FurtherQuantities::Rows rows;
-  for_each_group(cell.receivers, order, [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
-    for (const ReceiverPacket& packet : packets) {
-      const auto wanted = static_cast<std::uint32_t>((std::uint64_t{1} << packet.count) - 1);
-      trace_profile(
-          further_.azimuths(), [&](const Occluder::Directions& d, std::uint32_t asked) { return blocked(packet, d, asked); },
-          wanted, profile, stop_);
-      FurtherQuantities::Sky sky{};
-      for (std::size_t l = 0; l < packet.count; ++l) {
-        sky.svf[l] = answers.svf[cell.receivers[numbers[l]].index];
-        sky.near_svf[l] = near_svf[numbers[l]];
-      }
-      store_further(profile, packet, sky, rows, numbers.first(packet.count), cell, answers);
-      numbers = numbers.subspan(packet.count);
-    }
-  });
-}
-
-void SkyEvaluator::store_further(const SkyProfile& profile, const ReceiverPacket& packet, const FurtherQuantities::Sky& sky,
-                                 FurtherQuantities::Rows& rows, std::span<const std::uint32_t> numbers, const CellReceivers& cell,
-                                 const SkyAnswers& answers) const {
-  rows.values.resize(packet.count * further_.size());
-  further_.evaluate(profile, packet, sky, rows, rows.values);
-  for (std::size_t l = 0; l < numbers.size(); ++l)
-    std::copy_n(rows.values.begin() + static_cast<std::ptrdiff_t>(l * further_.size()), further_.size(),
-                answers.further.begin() + static_cast<std::ptrdiff_t>(cell.receivers[numbers[l]].index * further_.size()));
+  FurtherAnswers further(further_, cell, answers);
+  if (further_.needs_near_sky()) further.set_near_sky(trace_near_sky(cell));
+  for_each_group(cell.receivers, packet_order(cell.receivers, stop_),
+                 [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
+                   further.trace(packets, blocked, stop_);
+                   further.store(packets, numbers);
+                 });
 }
 
 /// What the receivers of a cell may see.
@@ -253,41 +230,6 @@ struct SkyEvaluator::CellGeometry {
   FarHorizon far;
   CellSilhouettes silhouettes;
   OverhangGeometry overhangs;
-};
-
-namespace {
-
-/// A far map without anything in it.
-FarHorizon empty_far_map(FarHorizon far) {
-  for (std::vector<float>* slopes : {&far.low, &far.estimate, &far.high, &far.overhang}) std::ranges::fill(*slopes, 0.0F);
-  far.occluders.explicit_edges = {};
-  return far;
-}
-
-}  // namespace
-
-/// The sky above the near geometry alone, for the same packets.
-class SkyEvaluator::NearSky {
- public:
-  NearSky(const PackageReader& package, const CellReceivers& cell, const CellGeometry& geometry, const AzimuthSampling& azimuths,
-          SkyWeight weight, const GapSettings& gaps)
-      : far_(empty_far_map(geometry.far)),
-        silhouettes_(cell_silhouettes(package, cell.cell, far_, bounding_box(cell.receivers))),
-        overhangs_(package, cell.cell),
-        engine_(azimuths, weight, far_, silhouettes_, overhangs_, gaps) {}
-
-  void evaluate(std::span<const ReceiverPacket> packets) {
-    answers_.resize(packets.size());
-    engine_.evaluate(packets, answers_);
-  }
-  [[nodiscard]] float svf(std::size_t packet, std::size_t lane) const { return answers_[packet].svf[lane].estimate; }
-
- private:
-  FarHorizon far_;
-  CellSilhouettes silhouettes_;
-  OverhangGeometry overhangs_;  // rays in gaps meet the neighborhood alone
-  HorizonEngine engine_;
-  std::vector<PacketAnswer> answers_;
 };
 
 PlacedScene SkyEvaluator::whole_city(Cell cell) const {
@@ -360,36 +302,22 @@ void SkyEvaluator::draw_horizons(CellGeometry& geometry, const CellReceivers& ce
   const GapSettings gaps{static_cast<float>(azimuth_error(azimuths.size())), rays_per_azimuth, stop_};
   HorizonEngine engine(azimuths, settings_.weight, geometry.far, geometry.silhouettes, geometry.overhangs, gaps);
   if (settings_.max_far_error) engine.keep({*settings_.max_far_error, [&] { return whole_city(cell.cell); }});
-  std::optional<NearSky> near_sky;
-  if (further_.needs_near_sky()) near_sky.emplace(package_, cell, geometry, azimuths, settings_.weight, gaps);
-  // Profiles come packet by packet, before the answers are stored
+  FurtherAnswers further(further_, cell, answers);
+  if (!further_.empty()) further.listen_to(engine);
+  if (further_.needs_near_sky()) further.draw_near_sky(package_, geometry.far, gaps);
   std::vector<PacketAnswer> of_packets;
-  std::vector<SkyProfile> profiles;
-  if (!further_.empty())
-    engine.tell_profiles(further_.profile_rows(), [&](std::size_t n, const SkyProfile& profile) {
-      if (profiles.size() <= n) profiles.resize(n + 1, profile);
-      profiles[n] = profile;
-    });
-  FurtherQuantities::Rows rows;
   for_each_group(cell.receivers, packet_order(cell.receivers, stop_),
-                 [&](std::span<const ReceiverPacket> group, std::span<const std::uint32_t> numbers) {
+                 [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
                    throw_if_cancelled(stop_);
-                   of_packets.resize(group.size());
-                   wants_bounds(answers) ? engine.evaluate_with_bounds(group, of_packets) : engine.evaluate(group, of_packets);
-                   if (near_sky) near_sky->evaluate(group);
-                   for (std::size_t n = 0; n < group.size(); ++n) {
-                     const auto of_packet = numbers.first(group[n].count);
-                     if (stored == StoredAnswers::all) store_packet(of_packets[n], cell, of_packet, answers);
-                     if (!further_.empty()) {
-                       FurtherQuantities::Sky sky{};
-                       for (std::size_t l = 0; l < of_packet.size(); ++l) {
-                         sky.svf[l] = answers.svf[cell.receivers[of_packet[l]].index];
-                         if (near_sky) sky.near_svf[l] = near_sky->svf(n, l);
-                       }
-                       store_further(profiles[n], group[n], sky, rows, of_packet, cell, answers);
-                     }
-                     numbers = numbers.subspan(group[n].count);
+                   of_packets.resize(packets.size());
+                   wants_bounds(answers) ? engine.evaluate_with_bounds(packets, of_packets)
+                                         : engine.evaluate(packets, of_packets);
+                   std::span<const std::uint32_t> left = numbers;
+                   for (std::size_t n = 0; n < packets.size() && stored == StoredAnswers::all; ++n) {
+                     store_packet(of_packets[n], cell, left.first(packets[n].count), answers);
+                     left = left.subspan(packets[n].count);
                    }
+                   if (!further_.empty()) further.store(packets, numbers);
                  });
 }
 

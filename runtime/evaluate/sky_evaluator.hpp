@@ -15,6 +15,7 @@
 
 #include "evaluate/further_quantities.hpp"
 #include "evaluate/sky_directions.hpp"
+#include "evaluate/traced_profile.hpp"
 #include "farlod/evaluation.hpp"
 #include "horizon/sky_partition.hpp"
 #include "occlusion/occluder.hpp"
@@ -125,7 +126,6 @@ class SkyEvaluator {
   using Clock = std::chrono::steady_clock;
   struct WholeCityOnDemand;
   struct CellGeometry;
-  class NearSky;
 
   SkyEvaluator(const PackageReader& package, const SkySettings& settings, std::stop_token stop,
                std::shared_ptr<WholeCityOnDemand> city);
@@ -135,13 +135,8 @@ class SkyEvaluator {
   void evaluate_by_rays_against_horizons(const CellReceivers& cell, const SkyAnswers& answers) const;
   void evaluate_by_near_scene(const CellReceivers& cell, const SkyAnswers& answers) const;
   void evaluate_by_whole_city(const CellReceivers& cell, const SkyAnswers& answers) const;
-  /// What SkySettings::further asks for, of receivers whose svf is answered. `blocked` answers rays of a packet.
-  using BlockedRaysOfPacket =
-      std::function<std::uint32_t(const ReceiverPacket& packet, const Occluder::Directions& directions, std::uint32_t wanted)>;
+  /// What SkySettings::further asks for, of receivers whose svf is answered.
   void trace_further(const CellReceivers& cell, const BlockedRaysOfPacket& blocked, const SkyAnswers& answers) const;
-  void store_further(const SkyProfile& profile, const ReceiverPacket& packet, const FurtherQuantities::Sky& sky,
-                     FurtherQuantities::Rows& rows, std::span<const std::uint32_t> numbers, const CellReceivers& cell,
-                     const SkyAnswers& answers) const;
   /// The sky above the near geometry alone, of each receiver.
   [[nodiscard]] std::vector<float> trace_near_sky(const CellReceivers& cell) const;
 

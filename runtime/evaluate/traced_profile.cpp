@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evaluate/traced_profile.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -106,6 +107,61 @@ void add_gap_rows(SkyProfile& profile) {
     rows->assign(profile.sky_from.size(), PacketHorizon::Row{});
 }
 
+/// The profiles of a packet at one azimuth.
+class ProfileAtAzimuth {
+ public:
+  ProfileAtAzimuth(RaysAtAzimuth& rays, std::uint32_t wanted)
+      : rays_(rays), wanted_(wanted), blocked_(look_at_degrees(rays, wanted)) {
+    for (std::size_t l = 0; l < lanes; ++l) ends_[l] = end_of_blocked(blocked_, l);
+  }
+
+  /// The sky begins between the highest blocked degree and the next.
+  void find_sky(PacketHorizon::Row& sky_from) {
+    std::array<double, lanes> blocked_deg{}, free_deg{};
+    std::uint32_t is_closed = 0;
+    for (std::size_t l = 0; l < lanes; ++l) {
+      blocked_deg[l] = ends_[l] == 0 ? 0.0 : middle_of(ends_[l] - 1);
+      free_deg[l] = ends_[l] == degrees ? 90.0 : middle_of(ends_[l]);
+      is_closed |= ends_[l] == degrees ? 1U << l : 0U;
+    }
+    const std::array<double, lanes> from_deg = rays_.border_between(blocked_deg, free_deg, wanted_ & ~is_closed);
+    for (std::size_t l = 0; l < lanes; ++l)
+      sky_from[l] = has_bit(is_closed, l) ? std::numeric_limits<float>::infinity() : slope_at(from_deg[l]);
+  }
+
+  /// Gaps: from below the lowest free degree to above the highest one that is not the sky's.
+  void find_gaps(std::size_t azimuth, SkyProfile& profile) {
+    std::array<Gap, lanes> gaps{};
+    std::array<double, lanes> below_deg{}, lowest_deg{}, highest_deg{}, above_deg{};
+    std::uint32_t with_gap = 0;
+    for (std::size_t l = 0; l < lanes; ++l) {
+      gaps[l] = gap_of(blocked_, l, ends_[l]);
+      if (gaps[l].end == 0 || !has_bit(wanted_, l)) continue;
+      with_gap |= 1U << l;
+      below_deg[l] = gaps[l].begin == 0 ? 0.0 : middle_of(gaps[l].begin - 1);
+      lowest_deg[l] = middle_of(gaps[l].begin);
+      highest_deg[l] = middle_of(gaps[l].end - 1);
+      above_deg[l] = middle_of(gaps[l].end);
+    }
+    if (with_gap == 0) return;
+    add_gap_rows(profile);
+    const std::array<double, lanes> from_deg = rays_.border_between(below_deg, lowest_deg, with_gap),
+                                    to_deg = rays_.border_between(above_deg, highest_deg, with_gap);
+    for (std::size_t l = 0; l < lanes; ++l) {
+      if (!has_bit(with_gap, l)) continue;
+      profile.gap_from[azimuth][l] = slope_at(from_deg[l]);
+      profile.gap_to[azimuth][l] = slope_at(to_deg[l]);
+      profile.gap_share[azimuth][l] = static_cast<float>(gaps[l].share);
+    }
+  }
+
+ private:
+  RaysAtAzimuth& rays_;
+  std::uint32_t wanted_;
+  std::array<std::uint32_t, degrees> blocked_;
+  std::array<std::size_t, lanes> ends_{};
+};
+
 }  // namespace
 
 void trace_profile(const AzimuthSampling& azimuths, const BlockedRays& blocked_rays, std::uint32_t wanted, SkyProfile& profile,
@@ -115,47 +171,9 @@ void trace_profile(const AzimuthSampling& azimuths, const BlockedRays& blocked_r
   for (std::size_t k = 0; k < azimuths.size(); ++k) {
     throw_if_cancelled(stop);
     RaysAtAzimuth rays(azimuths.cosine()[k], azimuths.sine()[k], blocked_rays);
-    const std::array<std::uint32_t, degrees> blocked = look_at_degrees(rays, wanted);
-    // The sky begins between the highest blocked degree and the next
-    std::array<std::size_t, lanes> ends{};
-    std::array<double, lanes> blocked_deg{}, free_deg{};
-    std::uint32_t is_closed = 0;
-    for (std::size_t l = 0; l < lanes; ++l) {
-      ends[l] = end_of_blocked(blocked, l);
-      blocked_deg[l] = ends[l] == 0 ? 0.0 : middle_of(ends[l] - 1);
-      free_deg[l] = ends[l] == degrees ? 90.0 : middle_of(ends[l]);
-      is_closed |= ends[l] == degrees ? 1U << l : 0U;
-    }
-    const std::array<double, lanes> sky_from_deg = rays.border_between(blocked_deg, free_deg, wanted & ~is_closed);
-    for (std::size_t l = 0; l < lanes; ++l)
-      profile.sky_from[k][l] = has_bit(is_closed, l) ? std::numeric_limits<float>::infinity() : slope_at(sky_from_deg[l]);
-    // Gaps: from below the lowest free degree to above the highest one that is not the sky's
-    std::array<Gap, lanes> gaps{};
-    std::uint32_t with_gap = 0;
-    for (std::size_t l = 0; l < lanes; ++l) {
-      gaps[l] = gap_of(blocked, l, ends[l]);
-      with_gap |= gaps[l].end > 0 && has_bit(wanted, l) ? 1U << l : 0U;
-    }
-    if (with_gap == 0) continue;
-    add_gap_rows(profile);
-    for (std::size_t l = 0; l < lanes; ++l) {
-      if (!has_bit(with_gap, l)) continue;
-      blocked_deg[l] = gaps[l].begin == 0 ? 0.0 : middle_of(gaps[l].begin - 1);
-      free_deg[l] = middle_of(gaps[l].begin);
-    }
-    const std::array<double, lanes> from_deg = rays.border_between(blocked_deg, free_deg, with_gap);
-    for (std::size_t l = 0; l < lanes; ++l) {
-      if (!has_bit(with_gap, l)) continue;
-      blocked_deg[l] = middle_of(gaps[l].end);
-      free_deg[l] = middle_of(gaps[l].end - 1);
-    }
-    const std::array<double, lanes> to_deg = rays.border_between(blocked_deg, free_deg, with_gap);
-    for (std::size_t l = 0; l < lanes; ++l) {
-      if (!has_bit(with_gap, l)) continue;
-      profile.gap_from[k][l] = slope_at(from_deg[l]);
-      profile.gap_to[k][l] = slope_at(to_deg[l]);
-      profile.gap_share[k][l] = static_cast<float>(gaps[l].share);
-    }
+    ProfileAtAzimuth at_azimuth(rays, wanted);
+    at_azimuth.find_sky(profile.sky_from[k]);
+    at_azimuth.find_gaps(k, profile);
   }
 }
 

@@ -248,16 +248,19 @@ HorizonEngine::SkyInGaps HorizonEngine::sky_in_gaps(const ReceiverPacket& receiv
   const Lanes most = sum(sky_of_gaps_);
   for (std::size_t l = 0; l < receivers.count; ++l) gaps.by_rays |= most[l] > gaps_.tolerance ? 1U << l : 0U;
   for (std::size_t l = 0; l < most.size(); ++l) gaps.sky[l] = 0.5F * most[l];
-  if (profile_ && !sky_of_gaps_.empty()) {
+  if (profile_) {
     seen_rows_.assign(sky_of_gaps_.begin(), sky_of_gaps_.end());
     for (PacketHorizon::Row& row : seen_rows_)
       for (float& sky : row) sky *= 0.5F;
   }
-  if (gaps.by_rays == 0 || allowed_) {
-    if (profile_ && !sky_of_gaps_.empty()) profile_gaps(receivers);
-    return gaps;
-  }
-  // The others: trace all gaps but the smallest
+  // The others: rays decide
+  if (gaps.by_rays != 0 && !allowed_) trace_sky_in_gaps(receivers, gaps);
+  if (profile_ && !sky_of_gaps_.empty()) profile_gaps(receivers);
+  return gaps;
+}
+
+void HorizonEngine::trace_sky_in_gaps(const ReceiverPacket& receivers, SkyInGaps& gaps) {
+  // Trace all gaps but the smallest
   Lanes untraced{};
   const std::vector<PacketHorizon::Row> before = profile_ ? gap_rows_ : std::vector<PacketHorizon::Row>();
   for (std::size_t l = 0; l < receivers.count; ++l)
@@ -265,15 +268,13 @@ HorizonEngine::SkyInGaps HorizonEngine::sky_in_gaps(const ReceiverPacket& receiv
   for (std::size_t k = 0; k < before.size(); ++k)
     for (std::size_t l = 0; l < before[k].size(); ++l)
       if (has_bit(gaps.by_rays, l)) seen_rows_[k][l] = gap_rows_[k][l] > 0.0F ? 0.0F : sky_in_untraced * before[k][l];
-  const Lanes seen = trace_gaps({horizons_.grounded, horizons_.lower_borders, horizons_.far_lower_borders,
-                                 horizons_.far_upper_borders, gap_rows_},
-                                azimuths_, weight_, receivers, gaps.by_rays, gaps_.rays_per_azimuth, overhangs_.scene(),
+  const Gaps traced{horizons_.grounded, horizons_.lower_borders, horizons_.far_lower_borders, horizons_.far_upper_borders,
+                    gap_rows_};
+  const Lanes seen = trace_gaps(traced, azimuths_, weight_, receivers, gaps.by_rays, gaps_.rays_per_azimuth, overhangs_.scene(),
                                 gaps_.stop, profile_ ? std::span(seen_rows_) : std::span<PacketHorizon::Row>())
                          .sky;
-  for (std::size_t l = 0; l < most.size(); ++l)
+  for (std::size_t l = 0; l < seen.size(); ++l)
     if (has_bit(gaps.by_rays, l)) gaps.sky[l] = seen[l] + sky_in_untraced * untraced[l];
-  if (profile_) profile_gaps(receivers);
-  return gaps;
 }
 
 }  // namespace farlod

@@ -99,6 +99,8 @@ class HorizonEngine {
   [[nodiscard]] HorizonJumps::SkyAbove sky_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
   /// Of the gaps in `horizons_`, as drawn. Where an error is allowed, no gap is traced, and half of its sky counts.
   [[nodiscard]] SkyInGaps sky_in_gaps(const ReceiverPacket& receivers);
+  /// Of the receivers that need rays.
+  void trace_sky_in_gaps(const ReceiverPacket& receivers, SkyInGaps& gaps);
   /// What is known of a profile at the estimate of a horizon, and of the gaps below it.
   void profile_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
   void profile_gaps(const ReceiverPacket& receivers);

@@ -17,4 +17,14 @@ std::string_view Attributes::value(std::size_t row, std::size_t column) const {
   return std::string_view(text_).substr(begin, ends_[n] - begin);
 }
 
+Attributes Attributes::rows(std::span<const std::size_t> chosen) const {
+  Attributes result(names_);
+  std::vector<std::string> fields(names_.size());
+  for (const std::size_t row : chosen) {
+    for (std::size_t column = 0; column < names_.size(); ++column) fields[column] = value(row, column);
+    result.add_row(fields);
+  }
+  return result;
+}
+
 }  // namespace farlod

@@ -24,6 +24,9 @@ class Attributes {
   void add_row(std::span<const std::string> fields);
   [[nodiscard]] std::string_view value(std::size_t row, std::size_t column) const;
 
+  /// The table of some of its rows.
+  [[nodiscard]] Attributes rows(std::span<const std::size_t> chosen) const;
+
   /// What all of it takes in memory.
   [[nodiscard]] std::size_t bytes() const { return text_.size() + ends_.size() * sizeof(std::uint64_t); }
 

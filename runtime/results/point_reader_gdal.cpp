@@ -181,6 +181,33 @@ class OpenLayer {
   OGRLayer* layer_ = nullptr;
 };
 
+double length_of(std::span<const Point2d> line) {
+  double length_m = 0.0;
+  for (std::size_t n = 1; n < line.size(); ++n) length_m += norm(line[n] - line[n - 1]);
+  return length_m;
+}
+
+/// Finds places on a line of two points at least, by their ascending distances from its beginning.
+class WalkAlong {
+ public:
+  explicit WalkAlong(std::span<const Point2d> line) : line_(line) {}
+
+  [[nodiscard]] Point2d place_at(double distance_m) {
+    double leg_m = norm(line_[end_] - line_[end_ - 1]);
+    while (before_m_ + leg_m < distance_m && end_ + 1 < line_.size()) {
+      before_m_ += leg_m;
+      ++end_;
+      leg_m = norm(line_[end_] - line_[end_ - 1]);
+    }
+    return line_[end_ - 1] + std::min(1.0, (distance_m - before_m_) / leg_m) * (line_[end_] - line_[end_ - 1]);
+  }
+
+ private:
+  std::span<const Point2d> line_;
+  std::size_t end_ = 1;    // of the leg
+  double before_m_ = 0.0;  // the leg
+};
+
 /// Places points along the lines of one layer.
 class LineReader {
  public:
@@ -223,21 +250,13 @@ class LineReader {
     std::vector<Point2d> places;
     for (int n = 0; n < line.getNumPoints(); ++n) places.push_back({line.getX(n), line.getY(n)});
     if (!crs_.empty()) places = reprojected(places, crs_, sampling_.package_crs);
-    double length_m = 0.0;
-    for (std::size_t n = 1; n < places.size(); ++n) length_m += norm(places[n] - places[n - 1]);
+    const double length_m = length_of(places);
     if (!(length_m > 0.0) || !std::isfinite(length_m)) return;
     const auto count = static_cast<std::size_t>(std::ceil(length_m / sampling_.spacing_m));
-    std::size_t end = 1;
-    double before_m = 0.0;  // up to the place before `end`
+    WalkAlong walk(places);
     for (std::size_t k = 0; k < count; ++k) {
       const double at_m = (static_cast<double>(k) + 0.5) * length_m / static_cast<double>(count);
-      double leg_m = norm(places[end] - places[end - 1]);
-      while (before_m + leg_m < at_m && end + 1 < places.size()) {
-        before_m += leg_m;
-        ++end;
-        leg_m = norm(places[end] - places[end - 1]);
-      }
-      const Point2d p = places[end - 1] + std::min(1.0, (at_m - before_m) / leg_m) * (places[end] - places[end - 1]);
+      const Point2d p = walk.place_at(at_m);
       RequestedPoint point;
       point.id = std::to_string(result_.points.size() + 1);
       point.x = p.x;

@@ -110,12 +110,13 @@ void require_bounds_known(const PackageInUse& package, const ResolvedSettings& s
 struct Tally {
   std::vector<std::size_t> counts;  ///< receivers of each cell
   SvfStatistics statistics;
-  std::size_t outside_of_grid = 0, without_far_map = 0;
+  std::size_t outside_of_grid = 0, without_far_map = 0, outside_of_region = 0;
   double store_s = 0.0;
 
   void add(const PackageReader& package, const CellInFlight& cell) {
     counts.push_back(cell.receivers.receivers.size());
     statistics.add(statistics_of(cell.values));
+    outside_of_region += cell.receivers.outside_of_region;
     const FarMapOfCell far_map = far_map_of(package, cell.receivers.cell);
     if (far_map == FarMapOfCell::outside_of_grid) outside_of_grid += counts.back();
     if (far_map == FarMapOfCell::missing) without_far_map += counts.back();
@@ -167,6 +168,7 @@ EvaluationSummary evaluate_and_verify(const PackageReader& package, const Resolv
   summary.seconds = seconds_of(seconds_since(start), evaluation, tally.store_s);
   summary.accuracy = settings.accuracy;
   summary.accuracy.sampling_error = sampling_error_of_run(settings.sky, package.manifest(), tally);
+  summary.outside_of_region = tally.outside_of_region;
   summary.outside_of_grid = tally.outside_of_grid;
   summary.without_far_map = tally.without_far_map;
   summary.by_rays = evaluation.by_rays;

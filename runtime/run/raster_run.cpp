@@ -105,17 +105,15 @@ class RasterRun {
     OpenTiles open_tiles(plan_, settings_.bounds ? RasterBands::svf_and_bounds : RasterBands::svf, further_bands_, tiles_,
                          on_tile);
     const float height_m = package_height_m(placing_, reader().manifest());
-    std::size_t pixels_in_grid = 0, outside_of_region = 0;
+    std::size_t pixels_in_grid = 0;
     EvaluationSummary summary = evaluate_cells(
         package_, settings_, cells_.size(),
         [&](std::size_t n) { return receivers_.in_cell(reader(), cells_[n], placing_.above, height_m, settings_.run.stop); },
         [&](std::size_t, const CellReceivers& cell, const SvfValues& values) {
           put_values(cell, values, plan_.columns, open_tiles);
           pixels_in_grid += cell.receivers.size() + cell.left_out;
-          outside_of_region += cell.outside_of_region;
         });
-    summary.outside_of_region = outside_of_region;
-    summary.beyond_grid = plan_.columns * plan_.rows - pixels_in_grid - outside_of_region;
+    summary.beyond_grid = plan_.columns * plan_.rows - pixels_in_grid - summary.outside_of_region;
     summary.no_data = pixels_in_grid - summary.receivers;
     return summary;
   }

@@ -15,20 +15,30 @@
 namespace farlod {
 namespace {
 
-/// Removes the receivers that nobody asks for, and returns their number.
-std::size_t remove_unwanted(const package::Manifest& m, Cell cell, const ResolvedSettings& settings,
-                            std::vector<SurfaceReceiver>& receivers) {
-  if (settings.region == nullptr) return 0;
+/// The receivers of a cell that somebody asks for, and the number of the others.
+struct PlacedReceivers {
+  std::vector<SurfaceReceiver> receivers;
+  std::size_t outside_of_region = 0;
+};
+PlacedReceivers placed_on_surfaces(const PackageReader& package, Cell cell, const SurfaceSettings& surfaces,
+                                   const ResolvedSettings& settings) {
+  PlacedReceivers placed{surface_receivers(package, cell, surfaces.choice, surfaces.spacing_m, settings.run.stop)};
+  if (settings.region == nullptr) return placed;
+  const package::Manifest& m = package.manifest();
   const Point2d corner = m.grid.corner_of(cell);
-  return std::erase_if(receivers, [&](const SurfaceReceiver& r) {
+  placed.outside_of_region = std::erase_if(placed.receivers, [&](const SurfaceReceiver& r) {
     return !settings.wants(horizontal(m.projected_from_grid({corner.x + r.p_cell.x, corner.y + r.p_cell.y, 0.0})));
   });
+  return placed;
 }
 
-CellReceivers answerable(Cell cell, std::span<const SurfaceReceiver> receivers) {
+CellReceivers answerable(Cell cell, const PlacedReceivers& placed) {
   CellReceivers result{cell, {}};
-  for (std::size_t k = 0; k < receivers.size(); ++k)
-    if (!receivers[k].is_inside_building) result.receivers.push_back({k, receivers[k].p_cell, receivers[k].normal});
+  result.outside_of_region = placed.outside_of_region;
+  for (std::size_t k = 0; k < placed.receivers.size(); ++k) {
+    const SurfaceReceiver& r = placed.receivers[k];
+    if (!r.is_inside_building) result.receivers.push_back({k, r.p_cell, r.normal});
+  }
   return result;
 }
 
@@ -125,25 +135,19 @@ SurfaceMeans evaluate_surfaces(const Package& package, const SurfaceSettings& su
   // What is known of a cell's receivers, from when they are placed until their answers are there
   std::vector<std::vector<SurfaceReceiver>> placed(cells.size());
   std::atomic<std::size_t> stored = 0;  // cells, in their order; a verification asks for the receivers of some of them again
-  std::size_t outside_of_region = 0;
-  EvaluationSummary summary = evaluate_cells(
+  const EvaluationSummary summary = evaluate_cells(
       in_use, settings, cells.size(),
       [&](std::size_t n) {
-        std::vector<SurfaceReceiver> receivers =
-            surface_receivers(reader, cells[n], surfaces.choice, surfaces.spacing_m, run.stop);
-        const std::size_t unwanted = remove_unwanted(reader.manifest(), cells[n], settings, receivers);
+        PlacedReceivers receivers = placed_on_surfaces(reader, cells[n], surfaces, settings);
         CellReceivers result = answerable(cells[n], receivers);
-        result.outside_of_region = unwanted;
-        if (n >= stored) placed[n] = std::move(receivers);
+        if (n >= stored) placed[n] = std::move(receivers.receivers);
         return result;
       },
       [&](std::size_t n, const CellReceivers& cell, const SvfValues& values) {
-        outside_of_region += cell.outside_of_region;
         means.add(range.index_of(cells[n]), points_of(reader, cells[n], placed[n], cell.receivers, values));
         placed[n] = {};
         ++stored;
       });
-  summary.outside_of_region = outside_of_region;
   return means.with(summary);
 }
 

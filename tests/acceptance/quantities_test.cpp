@@ -85,8 +85,8 @@ TEST_F(PackedTown, QuantitiesThatDoNotFitAreRefused) {
 
 /// A triangle over the west of the town, as GeoJSON.
 void write_mask(const WorkFolder& folder) {
-  const Point2d a = town_middle + Point2d{-150.0, -150.0}, b = town_middle + Point2d{10.0, 0.0},
-                c = town_middle + Point2d{-150.0, 150.0};
+  const Point2d a = town_middle + Point2d{-150.3, -150.3}, b = town_middle + Point2d{10.0, 0.0},
+                c = town_middle + Point2d{-150.3, 150.3};
   folder.write("mask.geojson", R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": ")" +
                                    std::string(town_crs) + R"("}}, "features": [{"type": "Feature", "properties": {}, "geometry":
   {"type": "Polygon", "coordinates": [[[)" +
@@ -138,7 +138,7 @@ TEST_F(PackedTown, AMaskLeavesThePointsAndSurfacesWithinIt) {
 }
 
 TEST_F(PackedTown, PointsAlongAStreetAreAnswered) {
-  const Point2d end = p_projected({60.0, 0.0});
+  const Point2d end = p_projected({59.9, 0.0});
   folder.write("axes.geojson",
                R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32632"}}, "features":
   [{"type": "Feature", "properties": {"street": "main"}, "geometry": {"type": "LineString", "coordinates": [[)" +
@@ -147,7 +147,7 @@ TEST_F(PackedTown, PointsAlongAStreetAreAnswered) {
   const CsvTable points = table("o.csv");
   EXPECT_EQ(points.size(), 24U);
   EXPECT_EQ(points.text(3, "street"), "main");
-  EXPECT_EQ(points.number(0, "along_m"), 2.5);
+  EXPECT_NEAR(points.number(0, "along_m"), 119.9 / 48.0, 0.001);
   EXPECT_GT(points.number(0, "svf"), 0.3);
 }
 
@@ -249,21 +249,19 @@ TEST_P(RasterInPlace, HasNoDataWhereGdalDrawsTheBuildings) {
   folder.must("gdal_rasterize -q -burn 1 -ot Byte -tr 1 1 -te " + std::string(extent.data()) + " projected.gpkg drawn.tif");
   const RasterFile drawn = read_raster(folder.path("drawn.tif"));
   ASSERT_EQ(drawn.values.size(), map.values.size());
-  std::size_t inside = 0;
-  for (std::size_t n = 0; n < map.values.size(); ++n) {
-    const bool is_drawn = drawn.values[n].value_or(0.0) == 1.0;
-    inside += is_drawn ? 1 : 0;
-    if (is_drawn) {
+  const auto is_drawn = [&](std::size_t n) { return drawn.values[n].value_or(0.0) == 1.0; };
+  std::size_t inside = 0, beside = 0;
+  for (std::size_t n = map.columns + 1; n + map.columns + 1 < map.values.size(); ++n) {
+    const bool touches = is_drawn(n - 1) || is_drawn(n + 1) || is_drawn(n - map.columns) || is_drawn(n + map.columns);
+    if (is_drawn(n)) {
       EXPECT_FALSE(map.values[n]) << n;
-    }
-    // Elsewhere only what lies beyond the grid has no data: the middle of the raster does not
-    const double column = static_cast<double>(n % map.columns), row = static_cast<double>(n / map.columns);
-    const bool is_in_middle = std::abs(column / static_cast<double>(map.columns) - 0.5) < 0.2 &&
-                              std::abs(row / static_cast<double>(map.rows) - 0.5) < 0.2;
-    if (!is_drawn && is_in_middle) {
+      ++inside;
+    } else if (touches) {
       EXPECT_TRUE(map.values[n]) << n;
+      ++beside;
     }
   }
+  EXPECT_GT(beside, 200U);
   EXPECT_GT(inside, 1500U);
 }
 

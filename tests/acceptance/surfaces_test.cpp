@@ -31,9 +31,10 @@ TEST_F(PackedTown, SurfacesComeAsPointsSurfacesAndBuildings) {
                                                                "tilt_deg", "area_m2", "svf"}));
   EXPECT_EQ(table("o.surfaces.csv").header(),
             (std::vector<std::string>{"building", "surface", "kind", "azimuth_deg", "tilt_deg", "area_m2", "receivers", "nodata",
-                                      "svf_mean", "svf_min", "svf_max"}));
-  EXPECT_EQ(table("o.buildings.csv").header(), (std::vector<std::string>{"building", "roof_area_m2", "wall_area_m2", "receivers",
-                                                                         "nodata", "svf_roofs", "svf_walls"}));
+                                      "svf_mean", "svf_min", "svf_max", "covered_area_m2"}));
+  EXPECT_EQ(table("o.buildings.csv").header(),
+            (std::vector<std::string>{"building", "roof_area_m2", "wall_area_m2", "receivers", "nodata", "svf_roofs", "svf_walls",
+                                      "covered_roof_area_m2", "covered_wall_area_m2"}));
   const std::size_t blocks = small_town().size();
   EXPECT_EQ(table("o.buildings.csv").size(), blocks);
   EXPECT_EQ(table("o.surfaces.csv").size(), 5 * blocks);

@@ -57,20 +57,6 @@ void add_settings(Cases& cases) {
   const std::vector<Named> all{points_into, points, tiles, raster, surfaces};
   const auto with = [](auto member, auto value) { return [=](Arguments& a) { a.settings.*member = value; }; };
   using S = EvaluationSettings;
-  const auto further = [](auto member, auto value) { return [=](Arguments& a) { a.settings.further.*member = value; }; };
-  using Q = Quantities;
-  cases.add(all, "too few horizons", further(&Q::horizons, std::size_t{3}));
-  cases.add(all, "too many horizons", further(&Q::horizons, std::size_t{3601}));
-  cases.add(all, "no such patches", further(&Q::sky_patches, static_cast<SkyPatchSet>(9)));
-  cases.add(all, "a sun nowhere", [](Arguments& a) { a.settings.further.sun = {{Angle::degrees(nan), {}, 1.0}}; });
-  cases.add(all, "a sun in the ground", [](Arguments& a) { a.settings.further.sun = {{{}, Angle::degrees(-91.0), 1.0}}; });
-  cases.add(all, "a sun of no time", [](Arguments& a) { a.settings.further.sun = {{{}, {}, -1.0}}; });
-  cases.add(all, "halves by solid angle", [](Arguments& a) {
-    a.settings.weight = SkyWeight::solid_angle;
-    a.settings.further.directional = true;
-  });
-  cases.add({points_into}, "no room for quantities", further(&Q::directional, true));
-  cases.add({points_into}, "room for quantities that nobody asked for", [](Arguments& a) { a.further.resize(2); });
   cases.add(all, "no such engine", with(&S::engine, static_cast<Engine>(77)));
   cases.add(all, "engine below the first", with(&S::engine, static_cast<Engine>(-1)));
   cases.add(all, "no such weight", with(&S::weight, static_cast<SkyWeight>(2)));

@@ -146,26 +146,18 @@ void write_surfaces_as_features(std::span<const SurfaceMean> rows, const TableFr
                      {{"building", FieldType::text}, {"surface", FieldType::whole}, {"kind", FieldType::text}},
                      false};
   const std::string& quantity = frame.columns.quantity;
-  add_fields(layer, FieldType::real, {"azimuth_deg", "tilt_deg", "area_m2", "covered_area_m2"});
+  add_fields(layer, FieldType::real, {"azimuth_deg", "tilt_deg", "area_m2"});
   add_fields(layer, FieldType::whole, {"receivers", "nodata"});
-  add_fields(layer, FieldType::real, {quantity + "_mean", quantity + "_min", quantity + "_max"});
+  add_fields(layer, FieldType::real, {quantity + "_mean", quantity + "_min", quantity + "_max", "covered_area_m2"});
   for (const std::string& name : frame.columns.further) add_fields(layer, FieldType::real, {name + "_mean"});
   writer.begin(layer);
-  FeatureRow feature;
   for (const SurfaceMean& r : rows) {
-    feature.values = {std::string_view(r.building),
-                      whole(r.surface),
-                      word_for(r.kind),
-                      millimetres(r.azimuth.degrees()),
-                      millimetres(r.tilt.degrees()),
-                      millimetres(r.area_m2),
-                      millimetres(r.covered_area_m2),
-                      whole(r.receivers),
-                      whole(r.nodata),
-                      share(r.svf_mean),
-                      share(r.svf_min),
-                      share(r.svf_max)};
-    for (std::size_t k = 0; k < frame.columns.further.size(); ++k) feature.values.push_back(further_value(further_mean(r, k)));
+    FeatureRow feature{{},
+                       {},
+                       {std::string_view(r.building), whole(r.surface), word_for(r.kind), millimetres(r.azimuth.degrees()),
+                        millimetres(r.tilt.degrees()), millimetres(r.area_m2), whole(r.receivers), whole(r.nodata),
+                        share(r.svf_mean), share(r.svf_min), share(r.svf_max), millimetres(r.covered_area_m2)}};
+    for (std::size_t n = 0; n < frame.columns.further.size(); ++n) feature.values.push_back(further_value(further_mean(r, n)));
     writer.add(feature);
   }
 }
@@ -173,16 +165,16 @@ void write_surfaces_as_features(std::span<const SurfaceMean> rows, const TableFr
 void write_buildings_as_features(std::span<const BuildingMean> rows, const TableFrame& frame, FeatureWriter& writer) {
   FeatureLayer layer{"buildings", "Buildings, with averages of their receivers", {{"building", FieldType::text}}, false};
   const std::string& quantity = frame.columns.quantity;
-  add_fields(layer, FieldType::real, {"roof_area_m2", "wall_area_m2", "covered_roof_area_m2", "covered_wall_area_m2"});
+  add_fields(layer, FieldType::real, {"roof_area_m2", "wall_area_m2"});
   add_fields(layer, FieldType::whole, {"receivers", "nodata"});
-  add_fields(layer, FieldType::real, {quantity + "_roofs", quantity + "_walls"});
+  add_fields(layer, FieldType::real, {quantity + "_roofs", quantity + "_walls", "covered_roof_area_m2", "covered_wall_area_m2"});
   writer.begin(layer);
   for (const BuildingMean& r : rows)
     writer.add({{},
                 {},
-                {std::string_view(r.building), millimetres(r.roof_area_m2), millimetres(r.wall_area_m2),
-                 millimetres(r.covered_roof_area_m2), millimetres(r.covered_wall_area_m2), whole(r.receivers), whole(r.nodata),
-                 share(r.svf_roofs), share(r.svf_walls)}});
+                {std::string_view(r.building), millimetres(r.roof_area_m2), millimetres(r.wall_area_m2), whole(r.receivers),
+                 whole(r.nodata), share(r.svf_roofs), share(r.svf_walls), millimetres(r.covered_roof_area_m2),
+                 millimetres(r.covered_wall_area_m2)}});
 }
 
 std::vector<std::filesystem::path> SurfaceTablesInLayers::commit(std::span<const SurfaceMean> surfaces,

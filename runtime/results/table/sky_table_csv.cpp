@@ -74,16 +74,16 @@ void add_surface_point(const SurfacePoint& r, CsvText& text) {
 
 void add_surface(const SurfaceMean& r, const AnswerColumns& columns, CsvText& text) {
   text.field(r.building).whole(r.surface).field(word_for(r.kind));
-  text.millimetres(degrees(r.azimuth)).millimetres(degrees(r.tilt)).millimetres(r.area_m2).millimetres(r.covered_area_m2);
-  text.whole(r.receivers).whole(r.nodata).svf(r.svf_mean).svf(r.svf_min).svf(r.svf_max);
+  text.millimetres(degrees(r.azimuth)).millimetres(degrees(r.tilt)).millimetres(r.area_m2);
+  text.whole(r.receivers).whole(r.nodata).svf(r.svf_mean).svf(r.svf_min).svf(r.svf_max).millimetres(r.covered_area_m2);
   for (std::size_t k = 0; k < columns.further.size(); ++k) text.number(further_mean(r, k));
   text.end_row();
 }
 
 void add_building(const BuildingMean& r, CsvText& text) {
   text.field(r.building).millimetres(r.roof_area_m2).millimetres(r.wall_area_m2);
-  text.millimetres(r.covered_roof_area_m2).millimetres(r.covered_wall_area_m2);
-  text.whole(r.receivers).whole(r.nodata).svf(r.svf_roofs).svf(r.svf_walls).end_row();
+  text.whole(r.receivers).whole(r.nodata).svf(r.svf_roofs).svf(r.svf_walls);
+  text.millimetres(r.covered_roof_area_m2).millimetres(r.covered_wall_area_m2).end_row();
 }
 
 }  // namespace
@@ -134,8 +134,8 @@ void SurfacePointsCsv::commit() {
 
 void write_surfaces_csv(std::span<const SurfaceMean> rows, const AnswerColumns& columns, const std::filesystem::path& path) {
   CsvText header;
-  header.fields({"building", "surface", "kind", "azimuth_deg", "tilt_deg", "area_m2", "covered_area_m2", "receivers", "nodata",
-                 columns.quantity + "_mean", columns.quantity + "_min", columns.quantity + "_max"});
+  header.fields({"building", "surface", "kind", "azimuth_deg", "tilt_deg", "area_m2", "receivers", "nodata",
+                 columns.quantity + "_mean", columns.quantity + "_min", columns.quantity + "_max", "covered_area_m2"});
   for (const std::string& name : columns.further) header.field(name + "_mean");
   header.end_row();
   write_table(path, std::move(header), rows.size(), [&](std::size_t n, CsvText& text) { add_surface(rows[n], columns, text); });
@@ -143,8 +143,8 @@ void write_surfaces_csv(std::span<const SurfaceMean> rows, const AnswerColumns& 
 
 void write_buildings_csv(std::span<const BuildingMean> rows, const AnswerColumns& columns, const std::filesystem::path& path) {
   CsvText header;
-  header.fields({"building", "roof_area_m2", "wall_area_m2", "covered_roof_area_m2", "covered_wall_area_m2", "receivers",
-                 "nodata", columns.quantity + "_roofs", columns.quantity + "_walls"});
+  header.fields({"building", "roof_area_m2", "wall_area_m2", "receivers", "nodata", columns.quantity + "_roofs",
+                 columns.quantity + "_walls", "covered_roof_area_m2", "covered_wall_area_m2"});
   header.end_row();
   write_table(path, std::move(header), rows.size(), [&](std::size_t n, CsvText& text) { add_building(rows[n], text); });
 }

@@ -41,12 +41,12 @@ class SurfacePointsCsv {
   std::map<std::size_t, Place> parts_;
 };
 
-/// Columns: building, surface, kind, azimuth_deg, tilt_deg, area_m2, covered_area_m2, receivers, nodata, QUANTITY_mean,
-/// QUANTITY_min, QUANTITY_max, and COLUMN_mean of each further column.
+/// Columns: building, surface, kind, azimuth_deg, tilt_deg, area_m2, receivers, nodata, QUANTITY_mean, QUANTITY_min,
+/// QUANTITY_max, covered_area_m2, and COLUMN_mean of each further column.
 void write_surfaces_csv(std::span<const SurfaceMean> rows, const AnswerColumns& columns, const std::filesystem::path& path);
 
-/// Columns: building, roof_area_m2, wall_area_m2, covered_roof_area_m2, covered_wall_area_m2, receivers, nodata, QUANTITY_roofs,
-/// QUANTITY_walls.
+/// Columns: building, roof_area_m2, wall_area_m2, receivers, nodata, QUANTITY_roofs, QUANTITY_walls, covered_roof_area_m2,
+/// covered_wall_area_m2.
 void write_buildings_csv(std::span<const BuildingMean> rows, const AnswerColumns& columns, const std::filesystem::path& path);
 
 /// The three tables of surfaces: NAME.csv, NAME.surfaces.csv, NAME.buildings.csv.

@@ -157,9 +157,9 @@ TEST(SurfacesCsv, IsAsDocumented) {
   write_surfaces_csv(rows, {"svf", BoundsColumns::no, {"svfN"}}, folder.file("a.csv"));
   EXPECT_EQ(
       scenes::text_of(folder.file("a.csv")),
-      "building,surface,kind,azimuth_deg,tilt_deg,area_m2,covered_area_m2,receivers,nodata,svf_mean,svf_min,svf_max,svfN_mean\n"
-      "b1,0,roof,0,0,100.5,4.5,25,1,0.750000,0.500000,1.000000,0.25\n"
-      "b2,0,unknown,0,0,0,0,0,0,,,,\n");
+      "building,surface,kind,azimuth_deg,tilt_deg,area_m2,receivers,nodata,svf_mean,svf_min,svf_max,covered_area_m2,svfN_mean\n"
+      "b1,0,roof,0,0,100.5,25,1,0.750000,0.500000,1.000000,4.5,0.25\n"
+      "b2,0,unknown,0,0,0,0,0,,,,0,\n");
 }
 
 TEST(SurfaceTablesCsv, AreThreeFilesThatAppearTogether) {
@@ -180,8 +180,8 @@ TEST(BuildingsCsv, IsAsDocumented) {
   const std::vector<BuildingMean> rows{{"b1", 100.0, 0.0, 2.5, 0.0, 25, 0, 0.75, std::nullopt}};
   write_buildings_csv(rows, {"svf"}, folder.file("a.csv"));
   EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
-            "building,roof_area_m2,wall_area_m2,covered_roof_area_m2,covered_wall_area_m2,receivers,nodata,svf_roofs,svf_walls\n"
-            "b1,100,0,2.5,0,25,0,0.750000,\n");
+            "building,roof_area_m2,wall_area_m2,receivers,nodata,svf_roofs,svf_walls,covered_roof_area_m2,covered_wall_area_m2\n"
+            "b1,100,0,25,0,0.750000,,2.5,0\n");
 }
 
 }  // namespace

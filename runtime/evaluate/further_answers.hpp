@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "evaluate/further_quantities.hpp"
+#include "evaluate/sky_evaluator.hpp"
+#include "evaluate/traced_profile.hpp"
+#include "horizon/horizon_engine.hpp"
+#include "package/far_horizon.hpp"
+#include "package/package_reader.hpp"
+#include "receivers/receiver.hpp"
+
+namespace farlod {
+
+/// Stores further quantities of the receivers of a cell, group by group of packets: first their profiles are drawn or traced, and
+/// their svf is stored among the answers, then store() is called.
+class FurtherAnswers {
+ public:
+  /// All must outlive it.
+  FurtherAnswers(const FurtherQuantities& quantities, const CellReceivers& cell, const SkyAnswers& answers);
+  ~FurtherAnswers();
+
+  /// Profiles are those that the engine draws for a group.
+  void listen_to(HorizonEngine& engine);
+  /// Profiles are traced for a group.
+  void trace(std::span<const ReceiverPacket> packets, const BlockedRaysOfPacket& blocked, const std::stop_token& stop);
+
+  /// The sky above the near geometry alone is drawn for each group, where the far map is this one; or it is known for each
+  /// receiver of the cell.
+  void draw_near_sky(const PackageReader& package, const FarHorizon& far, const GapSettings& gaps);
+  void set_near_sky(std::vector<float> svf) { near_svf_ = std::move(svf); }
+
+  /// `numbers` are those of the receivers in the cell, packet by packet.
+  void store(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers);
+
+ private:
+  class NearSky;
+  void store(std::size_t packet, const ReceiverPacket& receivers, std::span<const std::uint32_t> numbers);
+
+  const FurtherQuantities& quantities_;
+  const CellReceivers& cell_;
+  const SkyAnswers& answers_;
+  std::vector<SkyProfile> profiles_;  ///< of the packets of a group
+  std::vector<float> near_svf_;
+  std::unique_ptr<NearSky> near_sky_;
+  FurtherQuantities::Rows rows_;
+  std::vector<float> values_;
+};
+
+}  // namespace farlod
