@@ -161,7 +161,7 @@ class BuildingNumbering {
       if (!shares_part && parts_ < most_parts) ++parts_;
       const std::size_t part = shares_part ? part_of_parent : parts_;
       building_.objects.push_back({&object, file_.contents_of(object)});
-      places_.push_back({part, k == root ? FileRole::building : role});
+      places_.emplace_back(part, k == root ? FileRole::building : role);
       const std::set<std::size_t>& children = family_.children_of(k);
       for (auto child = children.rbegin(); child != children.rend(); ++child)
         if (role_of(file_.objects()[*child].type) != FileRole::none) waiting.emplace_back(*child, part);

@@ -186,7 +186,8 @@ std::vector<FileGeometry> geometries_from(std::string_view text, JsonCursor& cur
 }  // namespace
 
 CityJsonFile::CityJsonFile(std::string text) : text_(std::move(text)) {
-  JsonCursor cursor(text_);
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  JsonCursor cursor(text_, text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
   std::string type;
   cursor.members([&](const std::string& name) {
     if (name == "type") type = cursor.string();

@@ -105,6 +105,11 @@ TEST_F(EnrichedCityJsonTest, MakesAttributesWhereThereAreNone) {
             file_with(building("\"attributes\":{" + std::string(of_building) + "},", of_roof, of_wall) + "}"));
 }
 
+TEST_F(EnrichedCityJsonTest, AByteOrderMarkDoesNoHarm) {
+  const std::string mark = "\xef\xbb\xbf", text = file_with(building("") + "}");
+  EXPECT_EQ(enriched(mark + text), mark + enriched(text));
+}
+
 TEST_F(EnrichedCityJsonTest, WhatWasNotAskedForIsNotWritten) {
   SurfaceMeans roofs = means_of_b();
   roofs.surfaces.pop_back();
