@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <new>
 
+#include "app/enriched_city.hpp"
 #include "app/output_files.hpp"
 #include "app/region_of_package.hpp"
 #include "app/sun_of_package.hpp"
@@ -39,8 +40,10 @@ WrittenRun evaluate(SvfOptions options) {
   if (options.sunshine) options.evaluation.further.sun = sun_of_package(package.description(), *options.sunshine);
   ProgressLine progress("sky view factors", options.run.verbosity);
   const RunSettings run = run_settings(options, progress);
+  const bool is_city = !options.city_file.empty();
   const bool is_sky = options.source == ReceiverSource::at && options.format->kind == OutputKind::picture;
-  WrittenRun written = is_sky                                       ? write_sky(package, options, run)
+  WrittenRun written = is_city                                      ? write_enriched_city(package, options, run)
+                       : is_sky                                     ? write_sky(package, options, run)
                        : options.source == ReceiverSource::grid     ? write_raster(package, options, run)
                        : options.source == ReceiverSource::surfaces ? write_surfaces(package, options, run)
                                                                     : write_points(package, options, run);

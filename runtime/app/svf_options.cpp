@@ -12,6 +12,7 @@
 #include "console/exit_code.hpp"
 #include "console/number_range.hpp"
 #include "console/option_list.hpp"
+#include "contract/lower_case.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod {
@@ -46,8 +47,8 @@ std::string known_endings() {
 
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
-  std::string package, output, points, along, surfaces, at, bbox, mask, engine = "auto", sky = "cosine", directions = "partition",
-                                                                        projection;
+  std::string package, output, city, points, along, surfaces, at, bbox, mask, engine = "auto", sky = "cosine",
+                                                                              directions = "partition", projection;
   bool on_surface = false;
   RawQuantities quantities;
 };
@@ -104,6 +105,11 @@ void add_output_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_option("PACKAGE", raw.package, "A folder that farlod-pack made")->required()->type_name(folder_value);
   app.add_option("-o,--output", raw.output, "File to write; its ending says the format: " + known_endings())
       ->required()
+      ->type_name(file_value)
+      ->group("Output");
+  app.add_option("--city", raw.city,
+                 "With --surfaces: the CityJSON file that the package was made of. It is written again as -o, with the values as "
+                 "attributes of its buildings and surfaces")
       ->type_name(file_value)
       ->group("Output");
   app.add_option("--preview", o.preview_file, "Also draw the raster as this picture (PNG, SVG or PDF), with a colour scale")
@@ -243,13 +249,42 @@ void resolve_projection(const RawOptions& raw, SvfOptions& o) {
                                                   : SkyProjection::orthographic;
 }
 
-void resolve_output(const RawOptions& raw, SvfOptions& o) {
-  o.output = raw.output;
+void resolve_format(const RawOptions& raw, SvfOptions& o) {
   o.format = output_format_of(o.output);
   if (o.format == nullptr)
     throw CLI::ValidationError(
         "-o", "the ending of \"" + raw.output + "\" is not one that can be written here: use one of " + known_endings());
   require_format_that_fits(o);
+}
+
+/// The ending of a city file, whose name has another dot before it.
+constexpr std::string_view city_ending = ".city.json";
+
+bool is_city_name(const std::filesystem::path& path) {
+  const std::string name = lower_case(path.filename().string());
+  return name.size() > city_ending.size() && name.ends_with(city_ending);
+}
+
+/// A city file has no receivers, and its attributes are numbers of whole surfaces.
+void resolve_city(const RawOptions& raw, SvfOptions& o) {
+  o.city_file = raw.city;
+  if (o.source != ReceiverSource::surfaces) throw CLI::ValidationError("--city", "it goes with --surfaces");
+  if (!is_city_name(o.output))
+    throw CLI::ValidationError("-o",
+                               "with --city the output is CityJSON: choose a name that ends in " + std::string(city_ending));
+  if (o.evaluation.bounds)
+    throw CLI::ValidationError("--bounds", "the attributes of a city file (--city) have no room for bounds");
+}
+
+void resolve_output(const RawOptions& raw, SvfOptions& o) {
+  o.output = raw.output;
+  if (!raw.city.empty()) {
+    resolve_city(raw, o);
+  } else if (is_city_name(o.output)) {
+    throw CLI::ValidationError("-o", "a city file is the file that was packed, with values: name that file with --city");
+  } else {
+    resolve_format(raw, o);
+  }
   resolve_preview(o);
   resolve_projection(raw, o);
   const bool has_file = o.source == ReceiverSource::points || o.source == ReceiverSource::lines;
@@ -279,7 +314,7 @@ void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
   if (is_weighted && o.evaluation.weight == SkyWeight::solid_angle)
     throw CLI::ValidationError("--quantity", "with --sky solid only horizon and sunlit can be computed: leave --sky out");
   const auto has_room = [&](const OutputFormat& f) { return fits(f, o.source) && f.holds_bounds; };
-  if (requested.any() && !o.format->holds_bounds)
+  if (requested.any() && o.format != nullptr && !o.format->holds_bounds)
     throw CLI::ValidationError("--quantity", "a file that ends in " + o.output.extension().string() +
                                                  " has room for one quantity only: " + advice(has_room));
   o.evaluation.further = std::move(requested.further);

@@ -26,13 +26,14 @@ enum class ReceiverSource { grid, points, lines, surfaces, at };
 /// The command line of farlod-svf, resolved.
 struct SvfOptions {
   std::filesystem::path package, output;
-  const OutputFormat* format = nullptr;          ///< of `output`; never null once the options are resolved
+  const OutputFormat* format = nullptr;          ///< of `output`; once the options are resolved, null for a city file alone
   const OutputFormat* preview_format = nullptr;  ///< of `preview_file`; null when there is none
   ReceiverSource source = ReceiverSource::grid;
   double grid_step_m = 0.0;
   std::filesystem::path points_file;  ///< of points, or of lines
   std::string points_crs, points_layer;
   SurfaceSettings surfaces;
+  std::filesystem::path city_file;  ///< that comes back with the values of surfaces; empty: tables are written
   RequestedPoint at;
   Placing placing;
   std::optional<Box2d> bbox_projected;

@@ -57,12 +57,12 @@ INSTANTIATE_TEST_SUITE_P(
                  "--floor-height", "--default-height", "--cell",         "--neighborhood",  "--max-error", "--align",
                  "--assign",       "--far-map",        "--area",         "--output",        "--force",     "--report",
                  "--strict",       "--summary",        "--memory-limit", "--quiet",         "--threads",   "--config"}},
-        Program{"farlod-svf",
-                {"--help",       "--version", "--grid",       "--points",       "--surfaces",    "--at",       "--height",
-                 "--on-surface", "--spacing", "--points-crs", "--points-layer", "--bbox",        "--output",   "--preview",
-                 "--projection", "--summary", "--engine",     "--rays",         "--directions",  "--azimuths", "--sky",
-                 "--max-error",  "--bounds",  "--verify",     "--memory-limit", "--quiet",       "--threads",  "--config",
-                 "--along",      "--mask",    "--quantity",   "--horizons",     "--sky-patches", "--sun",      "--sun-step"}}),
+        Program{"farlod-svf", {"--help",         "--version",    "--grid",        "--points",     "--surfaces",     "--at",
+                               "--height",       "--on-surface", "--spacing",     "--points-crs", "--points-layer", "--bbox",
+                               "--output",       "--preview",    "--projection",  "--summary",    "--engine",       "--rays",
+                               "--directions",   "--azimuths",   "--sky",         "--max-error",  "--bounds",       "--verify",
+                               "--memory-limit", "--quiet",      "--threads",     "--config",     "--along",        "--mask",
+                               "--quantity",     "--horizons",   "--sky-patches", "--sun",        "--sun-step",     "--city"}}),
     [](const auto& program) { return program.param.name + 7; });  // what follows "farlod-"
 
 TEST_F(PackedTown, QuietSaysNothing) {

@@ -120,6 +120,32 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"UnknownOptionInConfig", "a.farlod -o o.asc --config typo.toml", exit_usage, {"--config", "rayz"}}),
     name_of);
 
+INSTANTIATE_TEST_SUITE_P(
+    City, SvfRefuses,
+    testing::Values(
+        Refused{"WithoutSurfaces", "a.farlod -o o.city.json --grid 5 --city town.geojson", exit_usage, {"--city", "--surfaces"}},
+        Refused{"OtherEnding", "a.farlod -o o.csv --surfaces all --city town.geojson", exit_usage, {"-o", "ends in .city.json"}},
+        Refused{"NotNamed", "a.farlod -o o.city.json --surfaces all", exit_usage, {"-o", "--city"}},
+        Refused{
+            "Bounds", "a.farlod -o o.city.json --surfaces all --city town.geojson --bounds", exit_usage, {"--bounds", "--city"}},
+        Refused{"Missing",
+                "a.farlod -o o.city.json --surfaces all --city lost.city.json",
+                exit_unusable_input,
+                {"lost.city.json cannot be read"}},
+        Refused{"AnotherFile",
+                "a.farlod -o o.city.json --surfaces all --city word.csv",
+                exit_unusable_input,
+                {"word.csv is not a file that a.farlod was made of", "checksum"}},
+        Refused{"NoFolder",
+                "a.farlod -o lost/o.city.json --surfaces all --city town.geojson",
+                exit_unusable_input,
+                {"lost/o.city.json", "no folder lost"}},
+        Refused{"NoCityJson",
+                "a.farlod -o o.city.json --surfaces all --city town.geojson",
+                exit_unusable_input,
+                {"town.geojson cannot be enriched as CityJSON", "there is no \"type\": \"CityJSON\""}}),
+    name_of);
+
 /// Each format with the receivers that it is not for.
 std::vector<Refused> formats_that_do_not_fit() {
   const std::string tables = endings_of({OutputKind::table}), pictures = endings_of({OutputKind::picture});

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/enriched_city.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <system_error>
+
+#include "farlod/error.hpp"
+#include "farlod/inspection.hpp"
+#include "farlod/surfaces.hpp"
+#include "results/city/enriched_cityjson.hpp"
+#include "results/provenance.hpp"
+#include "results/spool_file.hpp"
+
+namespace farlod {
+namespace {
+
+/// The numbers of surfaces hold for the file that was packed, and for no later version of it.
+void require_packed(const Package& package, const SvfOptions& options) {
+  const std::string file = options.city_file.string(), digits = xxh3_of_file(options.city_file);
+  if (digits.empty()) throw InputError(file + " cannot be read");
+  const auto is_file = [&](const PackedInput& input) { return fmt::format("{:016x}", input.xxh3) == digits; };
+  if (std::ranges::none_of(inventory_of(package).inputs, is_file))
+    throw InputError(file + " is not a file that " + options.package.string() +
+                     " was made of: its checksum is not in the manifest. Give the file as it was packed, or pack this one.");
+}
+
+/// Asked before the work, which may take hours.
+void require_writable(const SvfOptions& options) {
+  std::error_code does_not_exist;
+  if (std::filesystem::equivalent(options.output, options.city_file, does_not_exist))
+    throw OutputError(options.output, "it is the file of --city; choose another name");
+  const SpoolFile probe(options.output);
+}
+
+}  // namespace
+
+WrittenRun write_enriched_city(const Package& package, const SvfOptions& options, RunSettings run) {
+  require_packed(package, options);
+  require_writable(options);
+  const EnrichedCityJson city(
+      options.city_file, {quantity_name(options.evaluation.weight), BoundsColumns::no, columns_of(options.evaluation.further)});
+  run.caller_bytes = city.bytes();
+  const SurfaceMeans means = evaluate_surfaces(package, options.surfaces, options.evaluation, {}, run);
+  WrittenRun written{means.summary, {options.output}};
+  const auto start = std::chrono::steady_clock::now();
+  const auto extent = options.evaluation.region ? EnrichedExtent::part_of_the_city : EnrichedExtent::whole_buildings;
+  written.notes = city.write(means, extent, options.output);
+  written.write_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return written;
+}
+
+}  // namespace farlod
