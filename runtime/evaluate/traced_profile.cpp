@@ -132,21 +132,21 @@ class ProfileAtAzimuth {
   /// Gaps: from below the lowest free degree to above the highest one that is not the sky's.
   void find_gaps(std::size_t azimuth, SkyProfile& profile) {
     std::array<Gap, lanes> gaps{};
-    std::array<double, lanes> below_deg{}, lowest_deg{}, highest_deg{}, above_deg{};
+    std::array<double, lanes> hidden_below{}, open_lowest{}, open_highest{}, hidden_above{};
     std::uint32_t with_gap = 0;
     for (std::size_t l = 0; l < lanes; ++l) {
       gaps[l] = gap_of(blocked_, l, ends_[l]);
       if (gaps[l].end == 0 || !has_bit(wanted_, l)) continue;
       with_gap |= 1U << l;
-      below_deg[l] = gaps[l].begin == 0 ? 0.0 : middle_of(gaps[l].begin - 1);
-      lowest_deg[l] = middle_of(gaps[l].begin);
-      highest_deg[l] = middle_of(gaps[l].end - 1);
-      above_deg[l] = middle_of(gaps[l].end);
+      hidden_below[l] = gaps[l].begin == 0 ? 0.0 : middle_of(gaps[l].begin - 1);
+      open_lowest[l] = middle_of(gaps[l].begin);
+      open_highest[l] = middle_of(gaps[l].end - 1);
+      hidden_above[l] = middle_of(gaps[l].end);
     }
     if (with_gap == 0) return;
     add_gap_rows(profile);
-    const std::array<double, lanes> from_deg = rays_.border_between(below_deg, lowest_deg, with_gap),
-                                    to_deg = rays_.border_between(above_deg, highest_deg, with_gap);
+    const std::array<double, lanes> from_deg = rays_.border_between(hidden_below, open_lowest, with_gap),
+                                    to_deg = rays_.border_between(hidden_above, open_highest, with_gap);
     for (std::size_t l = 0; l < lanes; ++l) {
       if (!has_bit(with_gap, l)) continue;
       profile.gap_from[azimuth][l] = slope_at(from_deg[l]);
