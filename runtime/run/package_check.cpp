@@ -110,6 +110,7 @@ double bytes_of_thread(const package::Manifest& manifest) {
 
 PackageCheck check_package(const Package& package, const RunSettings& run) {
   require_usable(run);
+  // Kept, even when the caller closes the package meanwhile. NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
   const std::shared_ptr<PackageContents> contents = package.contents();
   const package::Manifest& manifest = contents->reader.manifest();
   const std::size_t threads = std::min(thread_count(run), manifest.blocks.size());

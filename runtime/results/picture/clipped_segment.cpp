@@ -21,7 +21,7 @@ bool shorten(double from, double step, double low, double high, double& begin, d
 
 std::optional<Segment> clipped(const Segment& segment, PagePoint upper_left, PagePoint lower_right) {
   // Liang and Barsky (1984)
-  const auto& [a, b] = segment;
+  const PagePoint &a = segment.a, &b = segment.b;
   double begin = 0.0, end = 1.0;
   if (!shorten(a.x, b.x - a.x, upper_left.x, lower_right.x, begin, end) ||
       !shorten(a.y, b.y - a.y, upper_left.y, lower_right.y, begin, end))

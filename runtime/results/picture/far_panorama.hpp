@@ -27,7 +27,7 @@ struct SeenPlace {
 
 /// Where the column of a box's map lies that a direction meets, from 0 to 4 in sides, clockwise from the west end of the north
 /// side.
-[[nodiscard]] double place_along_sides(double true_azimuth_deg, const FarBoxView& box);
+[[nodiscard]] double place_along_sides(double true_azimuth_deg, const FarBoxView& map);
 
 /// Draws a far map unfolded, with its axes and the four directions: the horizon by azimuth from north to north, or the four sides
 /// of the box.
