@@ -22,7 +22,7 @@ void count(void* memory) {
 
 }  // namespace
 
-// What stands in for malloc and `new` cannot use them. NOLINTBEGIN(cppcoreguidelines-no-malloc, bugprone-reserved-identifier)
+// What stands in for malloc and `new` cannot use them. NOLINTBEGIN(cppcoreguidelines-no-malloc)
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 
 namespace {
@@ -55,49 +55,58 @@ void operator delete(void* memory, const std::nothrow_t&) noexcept { release(mem
 
 #else
 
-// The functions behind those of glibc, and all that hand out what free() takes
+// The functions behind those of glibc
 extern "C" {
-void* __libc_malloc(std::size_t bytes);
-void* __libc_calloc(std::size_t count, std::size_t bytes);
-void* __libc_realloc(void* memory, std::size_t bytes);
-void* __libc_memalign(std::size_t alignment, std::size_t bytes);
-void __libc_free(void* memory);
+void* behind_malloc(std::size_t bytes) asm("__libc_malloc");
+void* behind_calloc(std::size_t count, std::size_t bytes) asm("__libc_calloc");
+void* behind_realloc(void* memory, std::size_t bytes) asm("__libc_realloc");
+void* behind_memalign(std::size_t alignment, std::size_t bytes) asm("__libc_memalign");
+void behind_free(void* memory) asm("__libc_free");
 
-void* malloc(std::size_t bytes) noexcept {
-  void* memory = __libc_malloc(bytes);
+// All that hand out what free() takes
+void* counted_malloc(std::size_t bytes) noexcept asm("malloc");
+void* counted_calloc(std::size_t items, std::size_t bytes) noexcept asm("calloc");
+void* counted_realloc(void* before, std::size_t bytes) noexcept asm("realloc");
+void* counted_memalign(std::size_t alignment, std::size_t bytes) noexcept asm("memalign");
+void* counted_aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept asm("aligned_alloc");
+int counted_posix_memalign(void** memory, std::size_t alignment, std::size_t bytes) noexcept asm("posix_memalign");
+void counted_free(void* memory) noexcept asm("free");
+}
+
+void* counted_malloc(std::size_t bytes) noexcept {
+  void* memory = behind_malloc(bytes);
   count(memory);
   return memory;
 }
-void* calloc(std::size_t items, std::size_t bytes) noexcept {
-  void* memory = __libc_calloc(items, bytes);
+void* counted_calloc(std::size_t items, std::size_t bytes) noexcept {
+  void* memory = behind_calloc(items, bytes);
   count(memory);
   return memory;
 }
-void* realloc(void* before, std::size_t bytes) noexcept {
+void* counted_realloc(void* before, std::size_t bytes) noexcept {
   const std::size_t size = before == nullptr ? 0 : malloc_usable_size(before);
-  void* memory = __libc_realloc(before, bytes);
+  void* memory = behind_realloc(before, bytes);
   if (memory != nullptr || bytes == 0) held_bytes -= size;
   count(memory);
   return memory;
 }
-void* memalign(std::size_t alignment, std::size_t bytes) noexcept {
-  void* memory = __libc_memalign(alignment, bytes);
+void* counted_memalign(std::size_t alignment, std::size_t bytes) noexcept {
+  void* memory = behind_memalign(alignment, bytes);
   count(memory);
   return memory;
 }
-void* aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept { return memalign(alignment, bytes); }
-int posix_memalign(void** memory, std::size_t alignment, std::size_t bytes) noexcept {
-  *memory = memalign(alignment, bytes);
+void* counted_aligned_alloc(std::size_t alignment, std::size_t bytes) noexcept { return counted_memalign(alignment, bytes); }
+int counted_posix_memalign(void** memory, std::size_t alignment, std::size_t bytes) noexcept {
+  *memory = counted_memalign(alignment, bytes);
   return *memory == nullptr ? ENOMEM : 0;
 }
-void free(void* memory) noexcept {
+void counted_free(void* memory) noexcept {
   if (memory != nullptr) held_bytes -= malloc_usable_size(memory);
-  __libc_free(memory);
-}
+  behind_free(memory);
 }
 
 #endif
-// NOLINTEND(cppcoreguidelines-no-malloc, bugprone-reserved-identifier)
+// NOLINTEND(cppcoreguidelines-no-malloc)
 
 namespace farlod {
 

@@ -18,7 +18,6 @@ namespace farlod {
 namespace {
 
 using testing::ElementsAre;
-using testing::IsSupersetOf;
 using testing::UnorderedElementsAre;
 
 // Written with eight digits, and computed by PROJ, whose own series are good to a fraction of it
