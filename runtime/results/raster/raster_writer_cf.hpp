@@ -13,11 +13,11 @@ namespace farlod {
 /// Writes a netCDF-4 file after the CF conventions, version 1.8: a variable of 32-bit floats for each band, over `y` (from the
 /// north) and `x`, the centres of the pixels; `crs` is the grid mapping. Pixels without data hold NaN, which is the fill value.
 /// Tiles are chunks, compressed as they come.
-class NetcdfWriter : public RasterWriter {
+class CfRasterWriter : public RasterWriter {
  public:
   /// Throws OutputError, as do the other functions.
-  NetcdfWriter(const RasterFrame& frame, const std::filesystem::path& path);
-  ~NetcdfWriter() override;
+  CfRasterWriter(const RasterFrame& frame, const std::filesystem::path& path);
+  ~CfRasterWriter() override;
   void write(const RasterTile& tile) override;
   void commit() override;
   /// The caches of chunks.

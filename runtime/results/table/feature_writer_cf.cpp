@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "results/table/feature_writer_cf.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "contract/expects.hpp"
+#include "results/netcdf_file.hpp"
+#include "results/raster/raster_frame.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr std::size_t rows_at_once = 16384;
+constexpr std::size_t characters_of_chunk = 16;
+
+/// What the conventions want to be told of a column.
+struct Meaning {
+  std::string name, unit, text, standard_name;
+};
+
+const std::array<Meaning, 7>& meanings_of_places() {
+  static const std::array<Meaning, 7> meanings{{{"x_m", "m", "easting", "projection_x_coordinate"},
+                                                {"y_m", "m", "northing", "projection_y_coordinate"},
+                                                {"z_m", "m", "height, as the package has it", ""},
+                                                {"azimuth_deg", "degree", "where it faces, clockwise from true north", ""},
+                                                {"tilt_deg", "degree", "0 straight up, 90 of a wall", ""},
+                                                {"area_m2", "m2", "area that the receiver stands for", ""},
+                                                {"surface", "1", "number of the surface in its building", ""}}};
+  return meanings;
+}
+
+bool is_coordinate(const std::string& name) { return name == "x_m" || name == "y_m" || name == "z_m"; }
+
+std::vector<Band> bands_of(const AnswerColumns& columns) {
+  std::vector<Band> bands =
+      svf_bands(columns.quantity, columns.bounds == BoundsColumns::yes ? RasterBands::svf_and_bounds : RasterBands::svf);
+  for (const std::string& column : columns.further) bands.push_back(further_band(column));
+  return bands;
+}
+
+/// The name of a variable: netCDF takes no slash.
+std::string name_of_variable(std::string name) {
+  std::ranges::replace(name, '/', '_');
+  return name;
+}
+
+/// A column, and the rows of it that are not written yet.
+struct Column {
+  int variable = 0;
+  FieldType type = FieldType::text;
+  std::vector<double> numbers = {};
+  std::vector<std::int64_t> whole_numbers = {};
+  std::vector<std::string> texts = {};
+
+  void add(const FieldValue& value) {
+    if (type == FieldType::real) {
+      const auto* number = std::get_if<double>(&value);
+      numbers.push_back(number != nullptr ? *number : std::numeric_limits<double>::quiet_NaN());
+    } else if (type == FieldType::whole) {
+      const auto* number = std::get_if<std::int64_t>(&value);
+      whole_numbers.push_back(number != nullptr ? *number : NetcdfFile::no_whole);
+    } else {
+      const auto* text = std::get_if<std::string_view>(&value);
+      texts.emplace_back(text != nullptr ? *text : std::string_view());
+    }
+  }
+  void put(NetcdfFile& file, std::size_t first_row, std::size_t rows) {
+    if (type == FieldType::real) file.put(variable, std::array{first_row}, std::array{rows}, numbers);
+    if (type == FieldType::whole) file.put(variable, std::array{first_row}, std::array{rows}, whole_numbers);
+    if (type == FieldType::text) put_texts(file, first_row, rows);
+    numbers.clear();
+    whole_numbers.clear();
+    texts.clear();
+  }
+
+ private:
+  void put_texts(NetcdfFile& file, std::size_t first_row, std::size_t rows) const {
+    std::size_t longest = 1;
+    for (const std::string& text : texts) longest = std::max(longest, text.size());
+    std::vector<char> characters(rows * longest, '\0');
+    for (std::size_t n = 0; n < rows; ++n)
+      std::ranges::copy(texts[n], characters.begin() + static_cast<std::ptrdiff_t>(n * longest));
+    file.put(variable, std::array{first_row, std::size_t{0}}, std::array{rows, longest}, characters);
+  }
+};
+
+}  // namespace
+
+struct CfPointWriter::Impl {
+  TableFrame frame;
+  NetcdfFile file;
+  std::vector<Column> columns;
+  std::size_t written = 0, waiting = 0;
+
+  Impl(const TableFrame& table, const std::filesystem::path& path) : frame(table), file(path) {}
+
+  Column column_of(const FeatureField& field, int point) {
+    const std::string name = name_of_variable(field.name);
+    if (field.type != FieldType::text) {
+      const NetcdfType type = field.type == FieldType::whole ? NetcdfType::whole : NetcdfType::real;
+      const int variable = file.variable(name, type, std::array{point});
+      file.compress(variable, std::array{rows_at_once});
+      if (name != "x_m" && name != "y_m") file.declare_missing(variable);
+      return {variable, field.type};
+    }
+    // As many characters as the longest text turns out to have
+    const int characters = file.dimension(name + "_length", NetcdfFile::unlimited);
+    const int variable = file.variable(name, NetcdfType::text, std::array{point, characters});
+    file.compress(variable, std::array{rows_at_once, characters_of_chunk});
+    file.attribute(variable, "_Encoding", "utf-8");
+    return {variable, field.type};
+  }
+  void describe(int variable, const FeatureField& field, const std::vector<Band>& bands) {
+    if (const auto m = std::ranges::find(meanings_of_places(), field.name, &Meaning::name); m != meanings_of_places().end()) {
+      file.attribute(variable, "units", m->unit);
+      file.attribute(variable, "long_name", m->text);
+      if (!m->standard_name.empty()) file.attribute(variable, "standard_name", m->standard_name);
+      if (field.name == "z_m") file.attribute(variable, "positive", "up");
+    } else if (const auto band = std::ranges::find(bands, field.name, &Band::name); band != bands.end()) {
+      file.attribute(variable, "units", band->unit);
+      file.attribute(variable, "long_name", band->definition);
+    }
+    if (is_coordinate(field.name)) return;
+    file.attribute(variable, "coordinates", "x_m y_m z_m");
+    if (!frame.crs_wkt.empty()) file.attribute(variable, "grid_mapping", "crs");
+  }
+  void put_rows() {
+    for (Column& column : columns)
+      if (waiting > 0) column.put(file, written, waiting);
+    written += waiting;
+    waiting = 0;
+  }
+};
+
+CfPointWriter::CfPointWriter(const TableFrame& frame, const std::filesystem::path& path)
+    : impl_(std::make_unique<Impl>(frame, path)) {}
+
+CfPointWriter::~CfPointWriter() = default;
+
+void CfPointWriter::begin(const FeatureLayer& layer) {
+  FARLOD_EXPECTS(impl_->columns.empty() && layer.has_places);
+  NetcdfFile& file = impl_->file;
+  file.describe(layer.description, impl_->frame.provenance);
+  file.attribute(NetcdfFile::whole_file, "featureType", "point");
+  const int point = file.dimension("point", NetcdfFile::unlimited);
+  if (!impl_->frame.crs_wkt.empty()) (void)file.crs(impl_->frame.crs_wkt, impl_->frame.epsg);
+  const std::vector<Band> bands = bands_of(impl_->frame.columns);
+  for (const FeatureField& field : layer.fields) {
+    impl_->columns.push_back(impl_->column_of(field, point));
+    impl_->describe(impl_->columns.back().variable, field, bands);
+  }
+  file.end_definitions();
+}
+
+void CfPointWriter::add(const FeatureRow& row) {
+  FARLOD_EXPECTS(row.values.size() == impl_->columns.size());
+  for (std::size_t n = 0; n < row.values.size(); ++n) impl_->columns[n].add(row.values[n]);
+  if (++impl_->waiting == rows_at_once) impl_->put_rows();
+}
+
+void CfPointWriter::commit() {
+  impl_->put_rows();
+  impl_->file.commit();
+}
+
+}  // namespace farlod
