@@ -8,10 +8,11 @@
 #include <chrono>
 #include <system_error>
 
+#include "app/run_histogram.hpp"
 #include "farlod/error.hpp"
 #include "farlod/inspection.hpp"
 #include "farlod/surfaces.hpp"
-#include "results/city/enriched_cityjson.hpp"
+#include "results/city/enriched_city_file.hpp"
 #include "results/provenance.hpp"
 #include "results/spool_file.hpp"
 
@@ -41,14 +42,22 @@ void require_writable(const SvfOptions& options) {
 WrittenRun write_enriched_city(const Package& package, const SvfOptions& options, RunSettings run) {
   require_packed(package, options);
   require_writable(options);
-  const EnrichedCityJson city(
+  const EnrichedCityFile city(
       options.city_file, {quantity_name(options.evaluation.weight), BoundsColumns::no, columns_of(options.evaluation.further)});
+  city.require_fitting(options.output);
   run.caller_bytes = city.bytes();
-  const SurfaceMeans means = evaluate_surfaces(package, options.surfaces, options.evaluation, {}, run);
-  WrittenRun written{means.summary, {options.output}};
+  RunHistogram histogram(options);
+  const OnSurfacePoints count = [&histogram](std::size_t, std::span<const SurfacePoint> points) { histogram.add(points); };
+  const SurfaceMeans means =
+      evaluate_surfaces(package, options.surfaces, options.evaluation, histogram.is_wanted() ? count : OnSurfacePoints{}, run);
+  WrittenRun written{means.summary};
+  written.output_bytes = static_cast<double>(std::filesystem::file_size(options.city_file));
+  if (options.evaluation.dry_run) return written;
+  written.files = {options.output};
   const auto start = std::chrono::steady_clock::now();
   const auto extent = options.evaluation.region ? EnrichedExtent::part_of_the_city : EnrichedExtent::whole_buildings;
   written.notes = city.write(means, extent, options.output);
+  histogram.write(options);
   written.write_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return written;
 }

@@ -142,6 +142,29 @@ TEST_F(EnrichedCity, PartsOfBuildingsHaveTheirOwnValues) {
   EXPECT_GT(parts, 150U);
 }
 
+TEST_F(EnrichedCity, ASequenceHasTheValuesOfTheTables) {
+  const std::string town = "formats/cityjsonseq.city.jsonl";
+  needs({town});
+  if (IsSkipped()) return;
+  folder.must("farlod-pack " + data(town) + " -o a.farlod --quiet --crs EPSG:25832");
+  folder.must("farlod-svf a.farlod -o a.city.jsonl --city " + data(town) + surfaces);
+  folder.must("farlod-svf a.farlod -o a.csv --quiet" + std::string(surfaces));
+  EXPECT_TRUE(without_values(folder.text_of("a.city.jsonl")) == scenes::text_of(data(town)));
+  json buildings;
+  for (const std::string& line : lines_of(folder.text_of("a.city.jsonl"))) buildings.update(json::parse(line).at("CityObjects"));
+  const CsvTable table(folder.text_of("a.surfaces.csv"));
+  EXPECT_EQ(table.size(), 600U);
+  for (std::size_t n = 0; n < table.size(); ++n) {
+    // Each building is a solid with one shell
+    const json& semantics = buildings.at(table.text(n, "building")).at("geometry").at(0).at("semantics");
+    const auto number = static_cast<std::size_t>(table.number(n, "surface"));
+    const json& surface = semantics.at("surfaces").at(semantics.at("values").at(0).at(number).get<std::size_t>());
+    EXPECT_EQ(surface.at("type"), table.text(n, "kind") == "roof" ? "RoofSurface" : "WallSurface");
+    EXPECT_TRUE(surface.contains("svf_mean")) << surface;
+    expect_value(surface, "svf_mean", table, n, "svf_mean");
+  }
+}
+
 TEST_F(EnrichedCity, AnotherFileIsRefused) {
   needs({rotterdam});
   if (IsSkipped()) return;

@@ -74,7 +74,7 @@ CityAttributes attributes_of(std::span<const SurfaceMean* const> surfaces, const
   add_area(attributes, names[3], mean.area_m2);
   add_area(attributes, names[4], mean.covered_area_m2);
   for (std::size_t k = 0; k < columns.further.size(); ++k)
-    if (const float value = further_mean(mean, k); !std::isnan(value))
+    if (const float value = further_value(mean.further_mean, k); !std::isnan(value))
       attributes.emplace_back(names[5 + k], shortest_decimal(value));
   return attributes;
 }

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/city/enriched_cityjson.hpp"
+#include "results/city/enriched_city_file.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <ostream>
@@ -16,7 +15,6 @@
 
 #include "farlod/error.hpp"
 #include "results/atomic_file.hpp"
-#include "results/city/cityjson_buildings.hpp"
 #include "results/city/surface_attributes.hpp"
 
 namespace farlod {
@@ -27,25 +25,6 @@ constexpr double least_share_of_matches = 0.95;
 /// The package's projection stretches lengths by a few thousandths at most.
 constexpr double relative_area_tolerance = 0.02, area_tolerance_m2 = 0.05, steepness_tolerance = 0.02;
 constexpr double metres_per_foot = 0.3048;
-
-std::string text_of_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text;
-  file.seekg(0, std::ios::end);
-  if (const auto size = file.tellg(); size > 0) text.resize(static_cast<std::size_t>(size));
-  file.seekg(0);
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!file) throw InputError(path.string() + " cannot be read");
-  return text;
-}
-
-CityJsonFile read_file(const std::filesystem::path& path) {
-  try {
-    return CityJsonFile(text_of_file(path));
-  } catch (const JsonCursorError& flaw) {
-    throw InputError(path.string() + " cannot be enriched as CityJSON: " + flaw.what());
-  }
-}
 
 /// The means of a run by building.
 class MeansByBuilding {
@@ -72,16 +51,6 @@ class MeansByBuilding {
 /// Texts to insert, by their places.
 using Insertions = std::map<std::size_t, std::string>;
 
-std::string members_of(const CityAttributes& attributes) {
-  std::string text;
-  for (const auto& [name, value] : attributes) text.append(text.empty() ? "\"" : ",\"").append(name).append("\":").append(value);
-  return text;
-}
-
-void insert(Insertions& insertions, const JsonExtent& extent, const std::string& members) {
-  insertions[extent.last] = (extent.is_empty() ? "" : ",") + members;
-}
-
 /// What becomes of a file, if its package was made of one level of detail.
 struct Enrichment {
   Insertions insertions;
@@ -94,18 +63,12 @@ struct Enrichment {
 
 class Enriching {
  public:
-  Enriching(const CityJsonFile& file, const SurfaceMeans& means, const AnswerColumns& columns, EnrichedExtent extent)
-      : file_(file), means_(means), columns_(columns), extent_(extent) {
-    has_degrees_ =
-        std::ranges::all_of(file.vertices(), [](const Point3d& p) { return std::abs(p.x) <= 360.0 && std::abs(p.y) <= 360.0; });
-    std::unordered_set<std::string_view> ids;
-    for (const FileObject& object : file.objects())
-      if (!ids.insert(object.id).second) repeated_.insert(object.id);
-  }
+  Enriching(const CityFile& city, const SurfaceMeans& means, const AnswerColumns& columns, EnrichedExtent extent)
+      : city_(city), means_(means), columns_(columns), extent_(extent), has_degrees_(city.has_degrees()) {}
 
   [[nodiscard]] Enrichment of(PackedLod lod) {
     result_ = {};
-    for_each_building(file_, lod, [this](const FileBuilding& building) { add(building); });
+    city_.for_each_building(lod, [this](const FileBuilding& building) { add(building); });
     return std::move(result_);
   }
 
@@ -117,7 +80,7 @@ class Enriching {
     const std::vector<const SurfaceMean*>& surfaces = means_.surfaces_of(building.id);
     if (surfaces.empty()) return;
     // The run has one row for all that have this id
-    if (repeated_.contains(building.id)) {
+    if (city_.repeated_ids().contains(building.id)) {
       ++result_.repeated_buildings;
       return;
     }
@@ -148,8 +111,7 @@ class Enriching {
       by_object[polygons.front()->object].push_back(surface);
       add_semantics(*surface, polygons, by_semantics);
     }
-    for (const auto& [row, rows] : by_semantics)
-      insert(result_.insertions, building.semantics[row]->members, members_of(attributes_of(rows, columns_)));
+    for (const auto& [row, rows] : by_semantics) insert(building.semantics[row].place, attributes_of(rows, columns_));
     add_to_objects(building, by_object);
   }
 
@@ -164,24 +126,22 @@ class Enriching {
   }
 
   void add_to_objects(const FileBuilding& building, const std::map<std::size_t, std::vector<const SurfaceMean*>>& by_object) {
-    if (const BuildingMean* mean = means_.mean_of_building(building.id)) add_to_object(building.objects.front(), *mean);
+    if (const BuildingMean* mean = means_.mean_of_building(building.id))
+      insert(building.objects.front(), attributes_of(*mean, columns_));
     for (const auto& [object, rows] : by_object)
-      if (object != 0) add_to_object(building.objects[object], mean_of(rows));
+      if (object != 0) insert(building.objects[object], attributes_of(mean_of(rows), columns_));
   }
 
-  void add_to_object(const FileBuilding::Object& object, const BuildingMean& mean) {
-    const FileObjectContents& contents = object.contents;
-    const std::string members = members_of(attributes_of(mean, columns_));
-    if (!contents.takes_attributes)
-      ++result_.without_place;
-    else if (contents.attributes)
-      insert(result_.insertions, *contents.attributes, members);
+  void insert(const std::optional<AttributePlace>& place, const CityAttributes& attributes) {
+    if (attributes.empty()) return;
+    if (place)
+      result_.insertions[place->at] += city_.text_of(attributes, place->form);
     else
-      insert(result_.insertions, contents.members, "\"attributes\":{" + members + "}");
+      ++result_.without_place;
   }
 
   [[nodiscard]] bool matches(const SurfaceMean& surface, const NumberedPolygon& polygon, const FileBuilding& building) const {
-    const SurfaceKind kind = polygon.semantics ? building.semantics[*polygon.semantics]->kind : SurfaceKind::unknown;
+    const SurfaceKind kind = polygon.semantics ? building.semantics[*polygon.semantics].kind : SurfaceKind::unknown;
     if (kind != SurfaceKind::unknown && kind != surface.kind) return false;
     if (has_degrees_) return true;
     return std::abs(std::abs(cos(surface.tilt)) - polygon.steepness) <= steepness_tolerance &&
@@ -195,12 +155,11 @@ class Enriching {
            (extent_ == EnrichedExtent::part_of_the_city || found_m2 >= area_m2 - tolerance_m2);
   }
 
-  const CityJsonFile& file_;
+  const CityFile& city_;
   MeansByBuilding means_;
   const AnswerColumns& columns_;
   EnrichedExtent extent_;
-  bool has_degrees_ = false;
-  std::unordered_set<std::string_view> repeated_;
+  bool has_degrees_;
   Enrichment result_;
 };
 
@@ -222,7 +181,8 @@ std::vector<std::string> notes_of(const Enrichment& enrichment) {
     notes.push_back(counted(enrichment.other_buildings, "building") + (enrichment.other_buildings == 1 ? " has" : " have") +
                     " other surfaces in the package than in this file, and no values: is the same id in another file, too?");
   if (enrichment.without_place > 0)
-    notes.push_back(counted(enrichment.without_place, "object") + " have attributes that are no JSON object, and get no values.");
+    notes.push_back(counted(enrichment.without_place, "object") +
+                    " have no place for attributes in the file, and get no values.");
   return notes;
 }
 
@@ -244,32 +204,35 @@ void require_none_of(const std::vector<std::string>& taken, const std::vector<st
                        " already. Give the file as it was before it had view factors.");
 }
 
-void require_free_names(const CityJsonFile& file, const AnswerColumns& columns, const std::filesystem::path& path) {
+void require_free_names(const CityFile& city, const AnswerColumns& columns, const std::filesystem::path& path) {
   const std::vector<std::string> of_surfaces = attribute_names_of_surfaces(columns);
   const std::vector<std::string> of_buildings = attribute_names_of_buildings(columns);
-  for_each_building(file, {}, [&](const FileBuilding& building) {
-    for (const auto& [object, contents] : building.objects) {
-      require_none_of(contents.attribute_names, of_buildings, building, path);
-      for (const FileGeometry& geometry : contents.geometries)
-        for (const SemanticSurface& surface : geometry.semantics) require_none_of(surface.names, of_surfaces, building, path);
-    }
+  city.for_each_building({}, [&](const FileBuilding& building) {
+    require_none_of(building.names_of_objects, of_buildings, building, path);
+    require_none_of(building.names_of_surfaces, of_surfaces, building, path);
   });
 }
 
 }  // namespace
 
-EnrichedCityJson::EnrichedCityJson(const std::filesystem::path& city, AnswerColumns columns)
-    : path_(city), columns_(std::move(columns)), file_(read_file(city)) {
-  require_free_names(file_, columns_, path_);
+EnrichedCityFile::EnrichedCityFile(const std::filesystem::path& city, AnswerColumns columns)
+    : path_(city), columns_(std::move(columns)), city_(read_city(city)) {
+  require_free_names(*city_.file, columns_, path_);
 }
 
-std::vector<std::string> EnrichedCityJson::write(const SurfaceMeans& means, EnrichedExtent extent,
+void EnrichedCityFile::require_fitting(const std::filesystem::path& output) const {
+  if (city_format_of(output) != city_.format)
+    throw OutputError(output, path_.string() + " is " + name_of(city_.format) +
+                                  ", and comes back as such: choose a name that ends in " + endings_of(city_.format));
+}
+
+std::vector<std::string> EnrichedCityFile::write(const SurfaceMeans& means, EnrichedExtent extent,
                                                  const std::filesystem::path& output) const {
-  Enriching enriching(file_, means, columns_, extent);
+  Enriching enriching(*city_.file, means, columns_, extent);
   for (const PackedLod lod : {PackedLod(), PackedLod(3), PackedLod(2), PackedLod(1)}) {
     const Enrichment enrichment = enriching.of(lod);
     if (!enrichment.fits()) continue;
-    write_atomically(output, [&](std::ostream& out) { write_with(file_.text(), enrichment.insertions, out); });
+    write_atomically(output, [&](std::ostream& out) { write_with(city_.file->text(), enrichment.insertions, out); });
     return notes_of(enrichment);
   }
   throw InputError(

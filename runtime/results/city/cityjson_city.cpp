@@ -1,16 +1,19 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/city/cityjson_buildings.hpp"
+#include "results/city/cityjson_city.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+
+#include "results/city/surface_numbering.hpp"
 
 namespace farlod {
 namespace {
@@ -59,6 +62,18 @@ class FileFamily {
   std::vector<bool> has_parent_;
 };
 
+/// What surrounds attributes in the text: a sum of these.
+constexpr std::size_t behind_others = 1, with_a_member_of_their_own = 2;
+
+AttributePlace place_behind(const JsonExtent& extent, std::size_t form) {
+  return {extent.last, form + (extent.is_empty() ? 0 : behind_others)};
+}
+
+std::optional<AttributePlace> place_in(const FileObjectContents& object) {
+  if (!object.takes_attributes) return std::nullopt;
+  return object.attributes ? place_behind(*object.attributes, 0) : place_behind(object.members, with_a_member_of_their_own);
+}
+
 /// A geometry, or an instance with the geometry of its template.
 struct FileShape {
   const FileGeometry* geometry = nullptr;
@@ -79,65 +94,16 @@ bool is_usable(const FilePolygon& polygon) {
   return std::set<std::int64_t>(polygon.rings[0].begin(), polygon.rings[0].end()).size() >= 3;
 }
 
-using LodsOfParts = std::vector<std::vector<double>>;
-
-std::optional<double> best_of(const std::vector<double>& lods, PackedLod choice) {
-  std::optional<double> best;
-  for (const double lod : lods) {
-    const double whole = std::floor(lod);
-    const bool is_wanted = choice ? whole == static_cast<double>(*choice) : whole >= 1.0 && whole <= 3.0;
-    if (is_wanted && (!best || lod > *best)) best = lod;
-  }
-  return best;
-}
-
-/// One level for the whole building. A part that lacks it has its own best; the building itself, which would enclose the parts
-/// again, has none.
-std::vector<std::optional<double>> chosen_lods(const LodsOfParts& lods_of_parts, PackedLod choice) {
-  std::vector<std::optional<double>> chosen;
-  for (const std::vector<double>& lods : lods_of_parts) chosen.push_back(best_of(lods, choice));
-  const std::optional<double> level = *std::max_element(chosen.begin(), chosen.end());
-  if (!level) return chosen;
-  for (std::size_t part = 0; part < chosen.size(); ++part) {
-    if (std::ranges::count(lods_of_parts[part], *level) > 0)
-      chosen[part] = level;
-    else if (part == 0)
-      chosen[part].reset();
-  }
-  return chosen;
-}
-
-using PointRing = std::vector<Point3d>;
-using PointRings = std::vector<PointRing>;
-
-/// Twice the area of a ring, as a vector along its normal. It counts from the first point: far from the origin, the rounding of
-/// the products would exceed the area.
-Point3d double_area_of(const PointRing& ring) {
-  Point3d sum{};
-  for (std::size_t i = 1; i + 1 < ring.size(); ++i) sum = sum + cross(ring[i] - ring[0], ring[i + 1] - ring[0]);
-  return sum;
-}
-
-/// The distinct corners in ascending order: two polygons with the same ones are one surface, whichever way they face.
-std::vector<std::array<double, 3>> corners_of(const PointRings& rings) {
-  // NaN has no place in an order
-  const auto ordered = [](double x) { return std::isnan(x) ? std::numeric_limits<double>::infinity() : x + 0.0; };
-  std::set<std::array<double, 3>> corners;
-  for (const PointRing& ring : rings)
-    for (const Point3d& p : ring) corners.insert({ordered(p.x), ordered(p.y), ordered(p.z)});
-  return {corners.begin(), corners.end()};
-}
-
 /// Numbers the polygons of one building.
 class BuildingNumbering {
  public:
-  BuildingNumbering(const CityJsonFile& file, const FileFamily& family, std::vector<bool>& visited)
+  BuildingNumbering(const CityJsonText& file, const FileFamily& family, std::vector<bool>& visited)
       : file_(file), family_(family), visited_(visited) {}
 
   FileBuilding building_of(std::size_t root, PackedLod lod) {
     building_.id = file_.objects()[root].id;
     gather(root);
-    for (std::size_t k = 0; k < building_.objects.size(); ++k) add_shapes(k);
+    for (std::size_t k = 0; k < contents_.size(); ++k) add_shapes(k);
     const std::vector<std::optional<double>> chosen = chosen_lods(usable_lods(), lod);
     std::vector<const FileShape*> wanted;
     for (const FileShape& shape : shapes_)
@@ -160,7 +126,7 @@ class BuildingNumbering {
       const bool shares_part = k == root || role == FileRole::installation || role == FileRole::element;
       if (!shares_part && parts_ < most_parts) ++parts_;
       const std::size_t part = shares_part ? part_of_parent : parts_;
-      building_.objects.push_back({&object, file_.contents_of(object)});
+      add_object(object);
       places_.emplace_back(part, k == root ? FileRole::building : role);
       const std::set<std::size_t>& children = family_.children_of(k);
       for (auto child = children.rbegin(); child != children.rend(); ++child)
@@ -168,8 +134,17 @@ class BuildingNumbering {
     }
   }
 
+  void add_object(const FileObject& object) {
+    const FileObjectContents& contents = contents_.emplace_back(file_.contents_of(object));
+    building_.objects.push_back(place_in(contents));
+    std::ranges::copy(contents.attribute_names, std::back_inserter(building_.names_of_objects));
+    for (const FileGeometry& geometry : contents.geometries)
+      for (const SemanticSurface& surface : geometry.semantics)
+        std::ranges::copy(surface.names, std::back_inserter(building_.names_of_surfaces));
+  }
+
   void add_shapes(std::size_t object) {
-    for (const FileGeometry& geometry : building_.objects[object].contents.geometries) {
+    for (const FileGeometry& geometry : contents_[object].geometries) {
       FileShape shape{&geometry, nullptr, object, places_[object].first, places_[object].second};
       if (geometry.instance) {
         if (geometry.instance->template_row >= file_.templates().size()) continue;
@@ -198,14 +173,15 @@ class BuildingNumbering {
 
   /// Equal polygons of one geometry are kept. Those of two geometries are the same surface twice.
   void add_polygons(const FileShape& shape, bool is_alone) {
-    std::vector<std::pair<std::vector<std::array<double, 3>>, std::uint32_t>> fresh;
+    std::vector<std::pair<FileCorners, std::uint32_t>> fresh;
     const std::size_t first_semantics = building_.semantics.size();
     if (!shape.instance)
-      for (const SemanticSurface& surface : shape.geometry->semantics) building_.semantics.push_back(&surface);
+      for (const SemanticSurface& surface : shape.geometry->semantics)
+        building_.semantics.push_back({surface.kind, place_behind(surface.members, 0)});
     for (const FilePolygon& polygon : shape.geometry->polygons) {
-      const std::optional<PointRings> rings = points_of(polygon, shape);
+      const std::optional<FileRings> rings = points_of(polygon, shape);
       if (!rings) continue;
-      const auto corners = is_alone ? std::vector<std::array<double, 3>>() : corners_of(*rings);
+      const auto corners = is_alone ? FileCorners() : corners_of(*rings);
       const auto seen = is_alone ? seen_.end() : seen_.find(corners);
       const std::uint32_t number = seen == seen_.end() ? next_number_++ : seen->second;
       if (!is_alone && seen == seen_.end()) fresh.emplace_back(corners, number);
@@ -216,20 +192,12 @@ class BuildingNumbering {
     seen_.insert(fresh.begin(), fresh.end());
   }
 
-  static void measure(const PointRings& rings, NumberedPolygon& polygon) {
-    Point3d sum{};
-    for (const PointRing& ring : rings) sum = sum + double_area_of(ring);
-    const double length = norm(sum);
-    polygon.area = 0.5 * length;
-    polygon.steepness = length > 0.0 ? std::abs(sum.z) / length : 0.0;
-  }
-
   /// Empty where a ring names a vertex that is not there: such a polygon has no number.
-  [[nodiscard]] std::optional<PointRings> points_of(const FilePolygon& polygon, const FileShape& shape) const {
+  [[nodiscard]] std::optional<FileRings> points_of(const FilePolygon& polygon, const FileShape& shape) const {
     const std::vector<Point3d>& vertices = shape.instance ? file_.template_vertices() : file_.vertices();
-    PointRings rings;
+    FileRings rings;
     for (const std::vector<std::int64_t>& rows : polygon.rings) {
-      PointRing& ring = rings.emplace_back();
+      FileRing& ring = rings.emplace_back();
       for (const std::int64_t row : rows) {
         const Point3d* p = vertex(vertices, row);
         const Point3d* anchor = shape.instance ? vertex(file_.vertices(), shape.instance->anchor) : p;
@@ -251,28 +219,73 @@ class BuildingNumbering {
 
   static constexpr std::size_t most_parts = std::numeric_limits<std::uint16_t>::max();
 
-  const CityJsonFile& file_;
+  const CityJsonText& file_;
   const FileFamily& family_;
   std::vector<bool>& visited_;
   FileBuilding building_;
+  std::vector<FileObjectContents> contents_;              ///< of the objects of the building
   std::vector<std::pair<std::size_t, FileRole>> places_;  ///< part and role of each object of the building
   std::vector<FileShape> shapes_;
-  std::map<std::vector<std::array<double, 3>>, std::uint32_t> seen_;
+  std::map<FileCorners, std::uint32_t> seen_;
   std::size_t parts_ = 0;
   std::uint32_t next_number_ = 0;
 };
 
-}  // namespace
-
-void for_each_building(const CityJsonFile& file, PackedLod lod, const std::function<void(const FileBuilding&)>& on) {
-  const std::vector<FileObject>& objects = file.objects();
+void for_each_building_of(const CityJsonText& text, PackedLod lod, const std::function<void(const FileBuilding&)>& on) {
+  const std::vector<FileObject>& objects = text.objects();
   const FileFamily family(objects);
   std::vector<bool> visited(objects.size());
   // The first round begins at objects without parent. The objects that it leaves form circles of parents
   for (const bool is_first_round : {true, false})
     for (std::size_t k = 0; k < objects.size(); ++k)
       if (role_of(objects[k].type) != FileRole::none && !visited[k] && (!is_first_round || !family.has_parent(k)))
-        on(BuildingNumbering(file, family, visited).building_of(k, lod));
+        on(BuildingNumbering(text, family, visited).building_of(k, lod));
+}
+
+}  // namespace
+
+CityJsonCity::CityJsonCity(std::string text) : text_(std::move(text)) {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  first_.emplace(text_, text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  JsonCursor behind(text_, first_->end());
+  is_sequence_ = behind.peek() == '{';
+  if (!is_sequence_ && behind.peek() != '\0') throw JsonCursorError(behind.at(), "there is more text behind its end");
+  std::unordered_set<std::string> ids;
+  for_each_text([&](const CityJsonText& part) {
+    for (const FileObject& object : part.objects())
+      if (!ids.insert(object.id).second) repeated_ids_.insert(object.id);
+    has_degrees_ = has_degrees_ && std::ranges::all_of(part.vertices(), [](const Point3d& p) {
+                     return std::abs(p.x) <= 360.0 && std::abs(p.y) <= 360.0;
+                   });
+  });
+}
+
+void CityJsonCity::for_each_text(const std::function<void(const CityJsonText&)>& on) const {
+  on(*first_);
+  if (!is_sequence_) return;
+  const std::string_view text = text_;
+  for (std::size_t at = first_->end(); at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::optional<CityJsonText> feature;
+    try {
+      feature.emplace(text.substr(0, end), at, *first_);
+    } catch (const JsonCursorError&) {
+    }
+    if (feature) on(*feature);
+    at = end + 1;
+  }
+}
+
+void CityJsonCity::for_each_building(PackedLod lod, const std::function<void(const FileBuilding&)>& on) const {
+  for_each_text([&](const CityJsonText& text) { for_each_building_of(text, lod, on); });
+}
+
+std::string CityJsonCity::text_of(const CityAttributes& attributes, std::size_t form) const {
+  std::string members;
+  for (const auto& [name, value] : attributes)
+    members.append(members.empty() ? "\"" : ",\"").append(name).append("\":").append(value);
+  if ((form & with_a_member_of_their_own) != 0) members = "\"attributes\":{" + members + "}";
+  return ((form & behind_others) != 0 ? "," : "") + members;
 }
 
 }  // namespace farlod

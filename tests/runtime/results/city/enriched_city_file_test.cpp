@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/city/enriched_cityjson.hpp"
+#include "results/city/enriched_city_file.hpp"
 
 #include <gmock/gmock.h>
 
@@ -60,13 +60,13 @@ constexpr const char* of_roof =
 constexpr const char* of_wall =
     ",\"svf_mean\":0.250000,\"svf_min\":0.150000,\"svf_max\":0.350000,\"svf_area_m2\":80,\"covered_area_m2\":0";
 
-class EnrichedCityJsonTest : public testing::Test {
+class EnrichedCityFileTest : public testing::Test {
  protected:
   /// What becomes of a text.
   std::string enriched(const std::string& text, const SurfaceMeans& means = means_of_b(),
                        const AnswerColumns& columns = {"svf"}) {
     std::ofstream(folder.file("a.city.json"), std::ios::binary) << text;
-    notes = EnrichedCityJson(folder.file("a.city.json"), columns).write(means, extent, folder.file("b.city.json"));
+    notes = EnrichedCityFile(folder.file("a.city.json"), columns).write(means, extent, folder.file("b.city.json"));
     return scenes::text_of(folder.file("b.city.json"));
   }
   void expect_refused(const std::string& text, const std::string& said, const SurfaceMeans& means = means_of_b()) {
@@ -90,7 +90,7 @@ std::string building(const std::string& attributes, const std::string& roof = ""
          geometry("2.2", roofs_and_wall, semantics_of(roof, wall)) + "]";
 }
 
-TEST_F(EnrichedCityJsonTest, AddsAttributesAndLeavesTheRestAsItIs) {
+TEST_F(EnrichedCityFileTest, AddsAttributesAndLeavesTheRestAsItIs) {
   const std::string before = file_with(building("\"attributes\":{\"h\": 8.00 },") + "}");
   const std::string after =
       file_with(building("\"attributes\":{\"h\": 8.00," + std::string(of_building) + " },", of_roof, of_wall) + "}");
@@ -98,19 +98,19 @@ TEST_F(EnrichedCityJsonTest, AddsAttributesAndLeavesTheRestAsItIs) {
   EXPECT_THAT(notes, IsEmpty());
 }
 
-TEST_F(EnrichedCityJsonTest, MakesAttributesWhereThereAreNone) {
+TEST_F(EnrichedCityFileTest, MakesAttributesWhereThereAreNone) {
   const std::string after = building("", of_roof, of_wall) + ",\"attributes\":{" + of_building + "}}";
   EXPECT_EQ(enriched(file_with(building("") + "}")), file_with(after));
   EXPECT_EQ(enriched(file_with(building("\"attributes\":{},") + "}")),
             file_with(building("\"attributes\":{" + std::string(of_building) + "},", of_roof, of_wall) + "}"));
 }
 
-TEST_F(EnrichedCityJsonTest, AByteOrderMarkDoesNoHarm) {
+TEST_F(EnrichedCityFileTest, AByteOrderMarkDoesNoHarm) {
   const std::string mark = "\xef\xbb\xbf", text = file_with(building("") + "}");
   EXPECT_EQ(enriched(mark + text), mark + enriched(text));
 }
 
-TEST_F(EnrichedCityJsonTest, WhatWasNotAskedForIsNotWritten) {
+TEST_F(EnrichedCityFileTest, WhatWasNotAskedForIsNotWritten) {
   SurfaceMeans roofs = means_of_b();
   roofs.surfaces.pop_back();
   roofs.buildings = {{"b", 175.0, 0.0, 25.0, 0.0, 8, 1, 0.65, {}}};
@@ -120,7 +120,7 @@ TEST_F(EnrichedCityJsonTest, WhatWasNotAskedForIsNotWritten) {
   EXPECT_THAT(text, HasSubstr("{ \"type\" : \"WallSurface\" }"));
 }
 
-TEST_F(EnrichedCityJsonTest, FurtherQuantitiesAreWeightedByArea) {
+TEST_F(EnrichedCityFileTest, FurtherQuantitiesAreWeightedByArea) {
   SurfaceMeans means = means_of_b();
   for (SurfaceMean& mean : means.surfaces) mean.further_mean = {*mean.svf_mean / 2.0};
   const std::string text = enriched(file_with(building("") + "}"), means, {"svf_solid", BoundsColumns::no, {"svfN"}});
@@ -130,7 +130,7 @@ TEST_F(EnrichedCityJsonTest, FurtherQuantitiesAreWeightedByArea) {
   EXPECT_THAT(text, HasSubstr("\"svfN_mean\":0.125 }"));
 }
 
-TEST_F(EnrichedCityJsonTest, PartsHaveTheValuesOfTheirSurfaces) {
+TEST_F(EnrichedCityFileTest, PartsHaveTheValuesOfTheirSurfaces) {
   // The roofs are of the part; the building has a coarse shell, which does not count
   const std::string roofs =
       geometry("2", "[[[0,1,4,3]],[[1,2,5,4]]]", ",\"semantics\":{\"surfaces\":[{},{}],\"values\":[null,1]}");
@@ -147,7 +147,7 @@ TEST_F(EnrichedCityJsonTest, PartsHaveTheValuesOfTheirSurfaces) {
   EXPECT_THAT(notes, ElementsAre(HasSubstr("2 surfaces with values have no semantics")));
 }
 
-TEST_F(EnrichedCityJsonTest, APolygonOfTwoGeometriesIsOneSurface) {
+TEST_F(EnrichedCityFileTest, APolygonOfTwoGeometriesIsOneSurface) {
   // The second geometry repeats the roofs, the other way round, before its wall, which has the number 2 nevertheless
   const std::string first = geometry("2", "[[[0,1,4,3]],[[1,2,5,4]]]", "");
   const std::string second = geometry("2", "[[[3,4,1,0]],[[1,2,5,4]],[[0,3,7,6]]]", semantics_of("", ""));
@@ -157,7 +157,7 @@ TEST_F(EnrichedCityJsonTest, APolygonOfTwoGeometriesIsOneSurface) {
   EXPECT_THAT(notes, IsEmpty());
 }
 
-TEST_F(EnrichedCityJsonTest, FindsTheLevelOfDetailThatWasPacked) {
+TEST_F(EnrichedCityFileTest, FindsTheLevelOfDetailThatWasPacked) {
   const std::string finer = geometry("2", "[[[0,3,7,6]],[[0,1,4,3]],[[1,2,5,4]]]", semantics_of("", ""));
   const std::string coarse = geometry("1", roofs_and_wall, semantics_of("", ""));
   const std::string enriched_coarse = geometry("1", roofs_and_wall, semantics_of(of_roof, of_wall));
@@ -165,13 +165,13 @@ TEST_F(EnrichedCityJsonTest, FindsTheLevelOfDetailThatWasPacked) {
               HasSubstr(finer + "," + enriched_coarse));
 }
 
-TEST_F(EnrichedCityJsonTest, BuildingsThatShareAnIdGetNothing) {
+TEST_F(EnrichedCityFileTest, BuildingsThatShareAnIdGetNothing) {
   const std::string text = file_with(building("") + "}," + building("") + "}");
   EXPECT_EQ(enriched(text), text);
   EXPECT_THAT(notes, ElementsAre(HasSubstr("No building of the file"), HasSubstr("2 buildings share their ids")));
 }
 
-TEST_F(EnrichedCityJsonTest, ABuildingThatSharesItsIdWithOneOfAnotherFileGetsNothing) {
+TEST_F(EnrichedCityFileTest, ABuildingThatSharesItsIdWithOneOfAnotherFileGetsNothing) {
   std::string others;
   SurfaceMeans means = means_of_b();
   for (int n = 0; n < 40; ++n) {
@@ -189,13 +189,13 @@ TEST_F(EnrichedCityJsonTest, ABuildingThatSharesItsIdWithOneOfAnotherFileGetsNot
   EXPECT_THAT(notes, testing::Contains(HasSubstr("1 building has other surfaces in the package")));
 }
 
-TEST_F(EnrichedCityJsonTest, AFileWithoutBuildingsOfTheRunComesBackAsItWas) {
+TEST_F(EnrichedCityFileTest, AFileWithoutBuildingsOfTheRunComesBackAsItWas) {
   const std::string text = file_with("\"tree\":{\"type\":\"SolitaryVegetationObject\"}");
   EXPECT_EQ(enriched(text), text);
   EXPECT_THAT(notes, ElementsAre(HasSubstr("No building of the file gets values")));
 }
 
-TEST_F(EnrichedCityJsonTest, ASurfaceThatAMaskCutsKeepsItsValues) {
+TEST_F(EnrichedCityFileTest, ASurfaceThatAMaskCutsKeepsItsValues) {
   SurfaceMeans means = means_of_b();
   for (SurfaceMean& mean : means.surfaces) mean.area_m2 *= 0.3;
   expect_refused(file_with(building("") + "}"), "cannot be found again", means);
@@ -203,7 +203,51 @@ TEST_F(EnrichedCityJsonTest, ASurfaceThatAMaskCutsKeepsItsValues) {
   EXPECT_THAT(enriched(file_with(building("") + "}"), means), HasSubstr("\"svf_area_m2\":24,"));
 }
 
-TEST_F(EnrichedCityJsonTest, OtherSurfacesAreRefused) {
+/// A line of a CityJSONSeq.
+std::string feature_with(const std::string& objects) {
+  return "{\"type\":\"CityJSONFeature\",\"id\":\"f\",\"CityObjects\":{" + objects + "},\"vertices\":" + vertices + "}\r\n";
+}
+
+TEST_F(EnrichedCityFileTest, AddsAttributesToTheLinesOfASequence) {
+  // Features have the transform of the first text; a line that is no feature stays as it is
+  const std::string first = file_with(""), others = "\n{\"type\": \"CityJSONFea\n{\"type\":\"CityJSONFeature\"}\n";
+  const std::string other = feature_with("\"c\":{\"type\":\"Building\"}");
+  EXPECT_EQ(enriched(first + other + others + feature_with(building("") + "}")),
+            first + other + others + feature_with(building("", of_roof, of_wall) + ",\"attributes\":{" + of_building + "}}"));
+  EXPECT_THAT(notes, IsEmpty());
+}
+
+TEST_F(EnrichedCityFileTest, TheFirstTextOfASequenceHasBuildingsToo) {
+  const std::string after = building("", of_roof, of_wall) + ",\"attributes\":{" + of_building + "}}", line = feature_with("");
+  EXPECT_EQ(enriched(file_with(building("") + "}") + line), file_with(after) + line);
+}
+
+TEST_F(EnrichedCityFileTest, BuildingsOfASequenceThatShareAnIdGetNothing) {
+  const std::string text = file_with("") + feature_with(building("") + "}") + feature_with(building("") + "}");
+  EXPECT_EQ(enriched(text), text);
+  EXPECT_THAT(notes, ElementsAre(HasSubstr("No building of the file"), HasSubstr("2 buildings share their ids")));
+}
+
+TEST_F(EnrichedCityFileTest, TheEndingOfTheOutputFits) {
+  const auto fits = [&](const std::string& text, const char* name) {
+    std::ofstream(folder.file("a.city.json"), std::ios::binary) << text;
+    try {
+      EnrichedCityFile(folder.file("a.city.json"), {"svf"}).require_fitting(name);
+    } catch (const OutputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("and comes back as such"));
+      return false;
+    }
+    return true;
+  };
+  EXPECT_TRUE(fits(file_with(""), "o.City.json"));
+  EXPECT_FALSE(fits(file_with(""), "o.city.jsonl"));
+  EXPECT_FALSE(fits(file_with(""), "o.gml"));
+  EXPECT_TRUE(fits(file_with("") + feature_with(""), "o.city.jsonl"));
+  EXPECT_TRUE(fits(file_with("") + feature_with(""), "o.jsonl"));
+  EXPECT_FALSE(fits(file_with("") + feature_with(""), "o.city.json"));
+}
+
+TEST_F(EnrichedCityFileTest, OtherSurfacesAreRefused) {
   const std::string text = file_with(building("") + "}");
   SurfaceMeans means = means_of_b();
   means.surfaces[2].tilt = Angle::degrees(70.0);
@@ -216,11 +260,11 @@ TEST_F(EnrichedCityJsonTest, OtherSurfacesAreRefused) {
   expect_refused(text, "cannot be found again in", means);
 }
 
-TEST_F(EnrichedCityJsonTest, WhatIsNoSuchFileIsRefused) {
+TEST_F(EnrichedCityFileTest, WhatIsNoSuchFileIsRefused) {
   const std::string text = file_with(building("") + "}");
   expect_refused(text.substr(0, text.size() / 2), "cannot be enriched as CityJSON");
   expect_refused("{\"type\":\"FeatureCollection\"}", "there is no \"type\": \"CityJSON\"");
-  expect_refused(text + "{\"type\":\"CityJSONFeature\"}\n", "CityJSONSeq");
+  expect_refused(text + "[]\n", "there is more text behind its end");
   expect_refused(file_with(building("\"attributes\":{\"svf_walls\":1},") + "}"),
                  "the building b has the attribute svf_walls already");
   expect_refused(file_with(building("", ",\"svf_mean\":1") + "}"), "the building b has the attribute svf_mean already");

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "farlod/point.hpp"
@@ -58,28 +59,36 @@ struct FileObjectContents {
   std::vector<FileGeometry> geometries;  ///< empty where one is malformed, as farlod-pack has it
 };
 
-/// A CityJSON file in memory: its text, its vertices, and where its objects are. Geometry is read object by object, so that a
-/// city needs little more memory than its text.
-class CityJsonFile {
+/// A JSON text of CityJSON: a file, or a line of a CityJSONSeq. It knows its vertices, and where its objects are. Geometry is
+/// read object by object, so that a city needs little more memory than its text, which has to outlive it.
+class CityJsonText {
  public:
-  /// Throws JsonCursorError, also for a text that is no CityJSON, and for a sequence of several texts.
-  explicit CityJsonFile(std::string text);
+  /// Reads the file that begins at `at`, or the first text of a sequence. Throws JsonCursorError, also for a text that is no
+  /// CityJSON.
+  CityJsonText(std::string_view text, std::size_t at);
+  /// Reads a CityJSONFeature. `header`: the first text of the sequence, which has to outlive it.
+  CityJsonText(std::string_view text, std::size_t at, const CityJsonText& header);
 
-  [[nodiscard]] const std::string& text() const { return text_; }
+  /// Behind its last byte.
+  [[nodiscard]] std::size_t end() const { return end_; }
   [[nodiscard]] const std::vector<FileObject>& objects() const { return objects_; }
   [[nodiscard]] const std::vector<Point3d>& vertices() const { return vertices_; }
-  [[nodiscard]] const std::vector<FileGeometry>& templates() const { return templates_; }
-  [[nodiscard]] const std::vector<Point3d>& template_vertices() const { return template_vertices_; }
+  [[nodiscard]] const std::vector<FileGeometry>& templates() const { return header().templates_; }
+  [[nodiscard]] const std::vector<Point3d>& template_vertices() const { return header().template_vertices_; }
   [[nodiscard]] FileObjectContents contents_of(const FileObject& object) const;
-  /// What it holds.
+  /// What it holds besides the text.
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  [[nodiscard]] const CityJsonText& header() const { return header_ == nullptr ? *this : *header_; }
+  void read(std::size_t at, std::string_view type);
   void read_objects(JsonCursor& cursor);
   void read_templates(JsonCursor& cursor);
   void read_transform(JsonCursor& cursor);
 
-  std::string text_;
+  std::string_view text_;
+  const CityJsonText* header_ = nullptr;
+  std::size_t end_ = 0;
   std::vector<FileObject> objects_;
   std::vector<Point3d> vertices_, template_vertices_;
   std::vector<FileGeometry> templates_;

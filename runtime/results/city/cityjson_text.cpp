@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/city/cityjson_file.hpp"
+#include "results/city/cityjson_text.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -8,19 +8,10 @@
 #include <string_view>
 #include <utility>
 
+#include "results/city/surface_numbering.hpp"
+
 namespace farlod {
 namespace {
-
-/// The kinds that farlod-pack takes from a file. Surfaces of other names are of the kind of their normal.
-SurfaceKind kind_of(std::string_view name) {
-  for (const std::string_view roof : {"RoofSurface", "OuterFloorSurface"})
-    if (name == roof) return SurfaceKind::roof;
-  for (const std::string_view wall : {"WallSurface", "Window", "Door", "WindowSurface", "DoorSurface"})
-    if (name == wall) return SurfaceKind::wall;
-  for (const std::string_view floor : {"GroundSurface", "OuterCeilingSurface"})
-    if (name == floor) return SurfaceKind::floor;
-  return SurfaceKind::unknown;
-}
 
 /// The number of nested lists around the surfaces of a geometry; empty for types without surfaces.
 std::optional<int> nesting_of(std::string_view type) {
@@ -123,7 +114,7 @@ class GeometryReading {
     SemanticSurface surface;
     surface.members = cursor.members([&](const std::string& name) {
       surface.names.push_back(name);
-      if (name == "type") surface.kind = kind_of(cursor.string());
+      if (name == "type") surface.kind = kind_of_semantics(cursor.string());
     });
     return surface;
   }
@@ -185,24 +176,29 @@ std::vector<FileGeometry> geometries_from(std::string_view text, JsonCursor& cur
 
 }  // namespace
 
-CityJsonFile::CityJsonFile(std::string text) : text_(std::move(text)) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  JsonCursor cursor(text_, text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
-  std::string type;
+CityJsonText::CityJsonText(std::string_view text, std::size_t at) : text_(text) { read(at, "CityJSON"); }
+
+CityJsonText::CityJsonText(std::string_view text, std::size_t at, const CityJsonText& header) : text_(text), header_(&header) {
+  read(at, "CityJSONFeature");
+}
+
+void CityJsonText::read(std::size_t at, std::string_view type) {
+  JsonCursor cursor(text_, at);
+  std::string found;
   cursor.members([&](const std::string& name) {
-    if (name == "type") type = cursor.string();
+    if (name == "type") found = cursor.string();
     if (name == "CityObjects") read_objects(cursor);
     if (name == "vertices") vertices_ = points_from(cursor);
     if (name == "transform") read_transform(cursor);
     if (name == "geometry-templates") read_templates(cursor);
   });
-  if (type != "CityJSON") throw JsonCursorError(0, "there is no \"type\": \"CityJSON\"");
-  if (cursor.peek() != '\0') throw JsonCursorError(cursor.at(), "a second text, as of a CityJSONSeq,");
-  for (Point3d& p : vertices_)
-    p = {p.x * scale_[0] + translate_[0], p.y * scale_[1] + translate_[1], p.z * scale_[2] + translate_[2]};
+  if (found != type) throw JsonCursorError(at, "there is no \"type\": \"" + std::string(type) + "\"");
+  end_ = cursor.at();
+  const std::array<double, 3>&scale = header().scale_, &translate = header().translate_;
+  for (Point3d& p : vertices_) p = {p.x * scale[0] + translate[0], p.y * scale[1] + translate[1], p.z * scale[2] + translate[2]};
 }
 
-void CityJsonFile::read_objects(JsonCursor& cursor) {
+void CityJsonText::read_objects(JsonCursor& cursor) {
   cursor.members([&](const std::string& id) {
     FileObject& object = objects_.emplace_back();
     object.id = id;
@@ -216,21 +212,21 @@ void CityJsonFile::read_objects(JsonCursor& cursor) {
   });
 }
 
-void CityJsonFile::read_templates(JsonCursor& cursor) {
+void CityJsonText::read_templates(JsonCursor& cursor) {
   cursor.members([&](const std::string& name) {
     if (name == "templates") templates_ = geometries_from(text_, cursor);
     if (name == "vertices-templates") template_vertices_ = points_from(cursor);
   });
 }
 
-void CityJsonFile::read_transform(JsonCursor& cursor) {
+void CityJsonText::read_transform(JsonCursor& cursor) {
   cursor.members([&](const std::string& name) {
     if (name == "scale") scale_ = numbers_from<3>(cursor);
     if (name == "translate") translate_ = numbers_from<3>(cursor);
   });
 }
 
-FileObjectContents CityJsonFile::contents_of(const FileObject& object) const {
+FileObjectContents CityJsonText::contents_of(const FileObject& object) const {
   FileObjectContents contents;
   std::optional<std::size_t> geometry;
   JsonCursor cursor(text_, object.at);
@@ -251,8 +247,6 @@ FileObjectContents CityJsonFile::contents_of(const FileObject& object) const {
   return contents;
 }
 
-std::size_t CityJsonFile::bytes() const {
-  return text_.size() + objects_.size() * sizeof(FileObject) + vertices_.size() * sizeof(Point3d);
-}
+std::size_t CityJsonText::bytes() const { return objects_.size() * sizeof(FileObject) + vertices_.size() * sizeof(Point3d); }
 
 }  // namespace farlod
