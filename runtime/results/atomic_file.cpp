@@ -32,6 +32,21 @@ void AtomicFile::commit() {
   if (error) throw OutputError(destination_, error.message());
 }
 
+AtomicFolder::~AtomicFolder() {
+  std::error_code nothing_to_remove;
+  std::filesystem::remove_all(temporary(), nothing_to_remove);
+}
+
+void AtomicFolder::commit(const std::string& mark) {
+  const std::filesystem::path& destination = name_.destination();
+  const AtomicFile older(destination, ".older");
+  std::error_code nothing_there, error;
+  if (std::filesystem::exists(destination / mark, nothing_there)) std::filesystem::rename(destination, older.temporary(), error);
+  if (error) throw OutputError(destination, error.message());
+  name_.commit();
+  std::filesystem::remove_all(older.temporary(), nothing_there);
+}
+
 void write_atomically(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write) {
   AtomicFile file(path);
   errno = 0;

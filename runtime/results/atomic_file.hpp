@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <string>
 #include <string_view>
 
 namespace farlod {
@@ -27,6 +28,24 @@ class AtomicFile {
 
  private:
   std::filesystem::path destination_, temporary_;
+};
+
+/// The same for a folder, which is removed with all that is in it.
+class AtomicFolder {
+ public:
+  explicit AtomicFolder(const std::filesystem::path& destination) : name_(destination, ".folder") {}
+  ~AtomicFolder();
+  AtomicFolder(const AtomicFolder&) = delete;
+  AtomicFolder& operator=(const AtomicFolder&) = delete;
+
+  /// The folder to write to. It does not exist yet.
+  [[nodiscard]] const std::filesystem::path& temporary() const { return name_.temporary(); }
+  /// Renames the folder. One of this name is replaced if it holds `mark`, a file that says what it is; else it is left alone.
+  /// Throws OutputError.
+  void commit(const std::string& mark);
+
+ private:
+  AtomicFile name_;
 };
 
 /// Writes a complete file, text or binary, or none: `write` fills the stream. Throws OutputError.

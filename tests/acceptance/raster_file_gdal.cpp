@@ -26,7 +26,10 @@ std::optional<double> RasterFile::at(Point2d p) const {
 
 RasterFile read_raster(const std::filesystem::path& file, int band_number) {
   GDALAllRegister();
-  const GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  const std::string name = file.extension() == ".zip"    ? "/vsizip/" + file.string() + "/svf.tif"
+                           : file.extension() == ".zarr" ? "ZARR:\"" + file.string() + "\":/svf"
+                                                         : file.string();
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
   std::array<double, 6> place{};
   if (!dataset || dataset->GetGeoTransform(place.data()) != CE_None)
     throw std::runtime_error(file.string() + " is not a raster with a place");

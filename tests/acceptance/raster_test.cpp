@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "console/exit_code.hpp"
 #include "contract/frame.hpp"
 #include "results/output_format.hpp"
 #include "tests/acceptance/packed_town.hpp"
@@ -97,7 +98,7 @@ void expect_same_map(const RasterFile& a, const RasterFile& b) {
 TEST_F(PackedTown, EachRasterFormatHoldsTheSameMap) {
   folder.must("farlod-svf a.farlod -o map.asc --grid 4");
   for (const OutputFormat& format : output_formats()) {
-    if (format.kind != OutputKind::raster) continue;
+    if (!format.holds_rasters()) continue;
     SCOPED_TRACE(format.name);
     // No two formats share the files beside a raster
     const std::string ending(format.endings[0]), name = "map_" + ending.substr(1);
@@ -113,9 +114,21 @@ TEST_F(PackedTown, EachRasterFormatHoldsTheSameMap) {
   }
 }
 
+#ifdef FARLOD_WITH_GDAL
+TEST_F(PackedTown, AZarrGroupIsReplacedAndAnotherFolderIsNot) {
+  const std::string run = "farlod-svf a.farlod -o map.zarr --quiet --grid ";
+  folder.must(run + "8");
+  folder.must(run + "4");
+  EXPECT_EQ(raster("map.zarr").step_m, 4.0);
+  folder.must("mkdir other.zarr && touch other.zarr/mine");
+  expect_refusal(folder.run("farlod-svf a.farlod -o other.zarr --grid 4"), exit_unusable_input, {"other.zarr", "no Zarr group"});
+  EXPECT_TRUE(folder.has("other.zarr/mine"));
+}
+#endif
+
 TEST_F(PackedTown, EachPictureFormatIsThatOfThePreview) {
   for (const OutputFormat& format : output_formats()) {
-    if (format.kind != OutputKind::picture) continue;
+    if (!format.is_picture) continue;
     const std::string ending(format.endings[0]);
     folder.must("farlod-svf a.farlod -o map.asc --grid 4 --preview preview" + ending);
     folder.must("farlod-svf a.farlod -o picture" + ending + " --grid 4");
@@ -148,6 +161,36 @@ TEST_F(PackedTown, WithTheWholeTownNearRaysAreExact) {
   const RasterFile rays = raster("rays.asc"), exact = raster("exact.asc");
   // The two scenes round their corners apart, so that a ray along an edge may be lost on one side
   EXPECT_LT(mean_difference(rays, exact), 0.01 / static_cast<double>(default_rays));
+}
+
+TEST_F(PackedTown, TheTableOfAVerificationHasTheValuesOfTheRaster) {
+  folder.must("farlod-svf a.farlod -o o.tif --grid 4 --verify 30 --verify-map v.csv --summary s.json");
+  const CsvTable verified = table("v.csv");
+  const RasterFile svf = raster("o.tif");
+  ASSERT_EQ(verified.size(), 30U);
+  double error_sum = 0.0;
+  for (std::size_t n = 0; n < verified.size(); ++n) {
+    const auto value = svf.at({verified.number(n, "x_m"), verified.number(n, "y_m")});
+    ASSERT_TRUE(value.has_value());
+    EXPECT_NEAR(verified.number(n, "svf"), *value, 2.0 * half_of_last_digit);
+    EXPECT_NEAR(verified.number(n, "z_m"), 1.5, 0.0005);
+    error_sum += std::abs(verified.number(n, "svf") - verified.number(n, "svf_exact"));
+  }
+  EXPECT_NEAR(folder.json_of("s.json").at("verify").at("mean_abs_error").get<double>(), error_sum / 30.0,
+              3.0 * half_of_last_digit);
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces all --spacing 12 --verify 30 --verify-map v.pdf --sky solid");
+  EXPECT_TRUE(folder.text_of("v.pdf").starts_with("%PDF"));
+}
+
+TEST_F(PackedTown, HistogramsAreTheSameForAnyNumberOfThreads) {
+  for (const std::string receivers : {"-o o.asc --grid 2", "-o o.csv --surfaces all --spacing 3"}) {
+    folder.must("farlod-svf a.farlod --threads 1 --histogram one.svg " + receivers);
+    folder.must("farlod-svf a.farlod --threads 4 --histogram four.svg " + receivers);
+    EXPECT_NE(folder.text_of("one.svg").find("<title>Distribution of svf</title>"), std::string::npos);
+    EXPECT_EQ(folder.text_of("one.svg"), folder.text_of("four.svg")) << receivers;
+  }
+  folder.must("farlod-svf a.farlod --histogram walls.svg -o o.csv --surfaces walls --spacing 3");
+  EXPECT_NE(folder.text_of("walls.svg"), folder.text_of("one.svg"));
 }
 
 TEST_F(PackedTown, VerifyTellsTheErrorOfTheFarMap) {

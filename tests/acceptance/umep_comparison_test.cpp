@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include "tests/acceptance/raster_file.hpp"
 #include "tests/acceptance/real_city.hpp"
 #include "validation/raster_comparison.hpp"
 
@@ -47,6 +48,20 @@ TEST_F(UmepComparison, TheWholeCityAgrees) {
   const RasterDifference d = compare_rasters(evaluate("exact"), umep, {.rim = rim});
   EXPECT_LE(std::abs(d.bias), largest_bias);
   EXPECT_GE(d.correlation, least_correlation);
+}
+
+TEST_F(UmepComparison, WhatSolweigGetsHasAValueForEachPixelOfTheSurfaceModel) {
+  folder.must("farlod-svf a.farlod --grid-like " + data("goteborg/dsm.asc") + " --on-surface --height 0.05 --quiet -o svfs.zip");
+  const RasterFile svf = read_raster(folder.path("svfs.zip"));
+  ASSERT_EQ(svf.values.size(), surface.columns * surface.rows);
+  // The map of the package has these pixels, too, since they begin at whole metres, and more around them
+  (void)evaluate("auto");
+  const RasterFile by_step = read_raster(folder.path("svf.asc"));
+  for (std::size_t n = 0; n < svf.values.size(); ++n) {
+    const std::optional<double> expected = by_step.at(svf.centre_of(n));
+    ASSERT_TRUE(svf.values[n] && expected) << n;
+    ASSERT_NEAR(*svf.values[n], *expected, 1e-6) << n;
+  }
 }
 
 TEST_F(UmepComparison, NeitherGroundNorRoofsAreOff) {

@@ -44,6 +44,9 @@ Band further_band(const std::string& column) {
   if (column == "sunlit_h") return {column, "h", "hours at which the middle of the sun is seen, were the sky clear"};
   if (column.starts_with("horizon_"))
     return {column, "degree", "elevation above which all is sky, at " + column.substr(8) + " degrees clockwise from true north"};
+  if (column.starts_with("distance_"))
+    return {column, "m",
+            "level distance to what makes the horizon at " + column.substr(9) + " degrees clockwise from true north"};
   if (column.starts_with("patch_"))
     return {column, "1", "share that is seen of patch " + column.substr(6) + " of the sky, weighted by the cosine to the normal"};
   return {column, "1", definition_of(column)};

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "results/raster/raster_writer.hpp"
+
+namespace farlod {
+
+/// Writes a ZIP file of GeoTIFF files, one for each band and called by it: svf.tif, svfN.tif, … With the directional values it is
+/// what SOLWEIG asks for, and UMEP calls svfs.zip. Until commit(), the files lie in a folder beside the result.
+class ZippedGeotiffWriter : public RasterWriter {
+ public:
+  /// Throws OutputError, as do the other functions.
+  ZippedGeotiffWriter(const RasterFrame& frame, const std::filesystem::path& path);
+  ~ZippedGeotiffWriter() override;
+  void write(const RasterTile& tile) override;
+  void commit() override;
+  /// What commit() holds: one band after the other is made a GeoTIFF.
+  [[nodiscard]] static std::uint64_t bytes_for(const RasterFrame& frame);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace farlod
