@@ -39,4 +39,10 @@ struct SunDirection {
 [[nodiscard]] std::vector<SunPosition> sun_positions(const PlaceOnEarth& place, std::chrono::sys_days first, std::size_t days,
                                                      std::chrono::minutes step);
 
+/// Where the sun is each minute of a day of local mean time, from midnight to midnight, above the horizon or below it.
+[[nodiscard]] std::vector<SunDirection> sun_course(const PlaceOnEarth& place, std::chrono::sys_days day);
+
+/// What local mean time is ahead of UTC.
+[[nodiscard]] std::chrono::milliseconds local_mean_time_ahead(Angle longitude);
+
 }  // namespace farlod

@@ -103,12 +103,24 @@ SunDirection sun_direction(const PlaceOnEarth& place, std::chrono::sys_time<std:
   return direction_at(place, times, EarthAxis(times.terrestrial), atmosphere);
 }
 
+std::chrono::milliseconds local_mean_time_ahead(Angle longitude) {
+  return std::chrono::milliseconds(static_cast<std::int64_t>(longitude.degrees() / 360.0 * 86'400'000.0));
+}
+
+std::vector<SunDirection> sun_course(const PlaceOnEarth& place, std::chrono::sys_days day) {
+  const auto midnight = day - local_mean_time_ahead(place.longitude);
+  const EarthAxis axis(times_of(midnight).terrestrial);
+  std::vector<SunDirection> course;
+  for (std::chrono::minutes m(0); m <= std::chrono::days(1); ++m)
+    course.push_back(direction_at(place, times_of(midnight + m), axis, {}));
+  return course;
+}
+
 std::vector<SunPosition> sun_positions(const PlaceOnEarth& place, std::chrono::sys_days first, std::size_t days,
                                        std::chrono::minutes step) {
   using std::chrono::milliseconds;
   FARLOD_EXPECTS(step.count() > 0);
-  const milliseconds of_longitude(static_cast<std::int64_t>(place.longitude.degrees() / 360.0 * 86'400'000.0));
-  const std::chrono::sys_time<milliseconds> begin = first - of_longitude,
+  const std::chrono::sys_time<milliseconds> begin = first - local_mean_time_ahead(place.longitude),
                                             end = begin + std::chrono::days(static_cast<std::int64_t>(days));
   std::vector<SunPosition> positions;
   EarthAxis axis(times_of(begin).terrestrial);

@@ -29,6 +29,7 @@ struct Line {
   std::vector<PagePoint> places;
   double width = 1.0;
   Colour colour;
+  std::vector<double> dashes = {};  ///< lengths of what is drawn and what is left out, in turn; empty: all is drawn
 };
 
 /// A straight line from one place to another.
@@ -56,6 +57,7 @@ struct Text {
   double height = 16.0;
   Alignment alignment = Alignment::left;
   Colour colour;
+  std::optional<Colour> halo = std::nullopt;  ///< around the letters, so that they are read wherever they stand
 };
 
 /// An image whose pixels are those of the drawing.
@@ -77,6 +79,9 @@ struct Drawing {
   const auto [x, y] = upper_left;
   return {{{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}}, colour};
 }
+
+/// A disc around a place, to the eye.
+[[nodiscard]] Polygon disc(PagePoint middle, double radius, Colour colour);
 
 /// The longest edge of a drawing, in pixels.
 inline constexpr std::size_t longest_drawing_edge = 32767;

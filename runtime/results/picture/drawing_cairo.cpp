@@ -100,7 +100,9 @@ class Pen {
     set_colour(get(), line.colour);
     cairo_set_line_width(get(), line.width);
     cairo_set_line_join(get(), CAIRO_LINE_JOIN_ROUND);
+    cairo_set_dash(get(), line.dashes.data(), static_cast<int>(line.dashes.size()), 0.0);
     cairo_stroke(get());
+    cairo_set_dash(get(), nullptr, 0, 0.0);
   }
   void operator()(const Segments& lines) const {
     // A path of all of them would take Cairo a time that grows with the square of their number
@@ -124,7 +126,9 @@ class Pen {
     PangoRectangle extents;
     pango_layout_line_get_extents(line, nullptr, &extents);
     const double share = text.alignment == Alignment::left ? 0.0 : text.alignment == Alignment::centre ? 0.5 : 1.0;
-    cairo_move_to(get(), text.place.x - share * pango_units_to_double(extents.width), text.place.y);
+    const double x = text.place.x - share * pango_units_to_double(extents.width);
+    if (text.halo) draw_halo(line, {x, text.place.y}, *text.halo);
+    cairo_move_to(get(), x, text.place.y);
     set_colour(get(), text.colour);
     pango_cairo_show_layout_line(get(), line);
     cairo_new_path(get());
@@ -144,6 +148,16 @@ class Pen {
   }
 
  private:
+  void draw_halo(PangoLayoutLine* line, PagePoint place, Colour colour) const {
+    constexpr double halo_width = 3.0;
+    cairo_move_to(get(), place.x, place.y);
+    pango_cairo_layout_line_path(get(), line);
+    set_colour(get(), colour);
+    cairo_set_line_width(get(), halo_width);
+    cairo_set_line_join(get(), CAIRO_LINE_JOIN_ROUND);
+    cairo_stroke(get());
+  }
+
   /// The shapes of letters depend on the font alone, and not on what a user's settings say of screens.
   [[nodiscard]] Layout layout_of(const Text& text) const {
     const FontOptions options(cairo_font_options_create());

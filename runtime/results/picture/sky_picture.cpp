@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "results/decimal.hpp"
+#include "results/picture/sun_courses.hpp"
 
 namespace farlod {
 namespace {
@@ -56,13 +57,13 @@ PagePoint page_point_of(const DiskPoint& p) {
   return {static_cast<double>(left) + disk_radius * (1.0 + p.u), static_cast<double>(top) + disk_radius * (1.0 - p.v)};
 }
 
-PagePoint page_point_of(double azimuth_deg, double elevation_deg, SkyProjection projection) {
-  return page_point_of(disk_point_of({azimuth_deg, 90.0 - elevation_deg}, projection));
+PagePoint page_point_at(double azimuth_deg, double elevation_deg, SkyProjection projection) {
+  return sky_page_point({azimuth_deg, 90.0 - elevation_deg}, projection);
 }
 
 Line ring(double elevation_deg, SkyProjection projection, double width, Colour colour) {
   Line line{{}, width, colour};
-  for (int n = 0; n <= 360; ++n) line.places.push_back(page_point_of(n, elevation_deg, projection));
+  for (int n = 0; n <= 360; ++n) line.places.push_back(page_point_at(n, elevation_deg, projection));
   return line;
 }
 
@@ -72,9 +73,9 @@ Line horizon_line(const Hemisphere& hemisphere, SkyProjection projection) {
   for (std::size_t n = 0; n <= hemisphere.azimuths; ++n) {
     const double elevation_deg = std::atan(hemisphere.horizon[n % hemisphere.azimuths]) / degrees;
     // From one end of the part to the other
-    line.places.push_back(page_point_of(static_cast<double>(n) * step_deg, elevation_deg, projection));
+    line.places.push_back(page_point_at(static_cast<double>(n) * step_deg, elevation_deg, projection));
     if (n < hemisphere.azimuths)
-      line.places.push_back(page_point_of(static_cast<double>(n + 1) * step_deg, elevation_deg, projection));
+      line.places.push_back(page_point_at(static_cast<double>(n + 1) * step_deg, elevation_deg, projection));
   }
   return line;
 }
@@ -83,7 +84,7 @@ void add_rings(Drawing& drawing, SkyProjection projection) {
   for (const int elevation_deg : {30, 60}) {
     drawing.shapes.emplace_back(ring(elevation_deg, projection, 0.7, ring_colour));
     // Between the directions, where no other text is
-    const PagePoint place = page_point_of(45.0, elevation_deg, projection);
+    const PagePoint place = page_point_at(45.0, elevation_deg, projection);
     drawing.shapes.emplace_back(
         Text{{place.x + 3.0, place.y - 3.0}, std::to_string(elevation_deg) + "°", 12.0, Alignment::left, ring_colour});
   }
@@ -102,7 +103,7 @@ void add_directions(Drawing& drawing) {
   add("W", middle_x + away, middle_y + half_height, Alignment::left);
 }
 
-void add_legend(Drawing& drawing, SkyProjection projection) {
+void add_legend(Drawing& drawing, SkyProjection projection, const std::optional<SunOfSky>& sun) {
   const double x = static_cast<double>(left + disk_edge) + 56.0;
   double y = static_cast<double>(top) + 10.0;
   const auto add_text = [&](const std::string& words, double indent, Colour colour) {
@@ -121,6 +122,7 @@ void add_legend(Drawing& drawing, SkyProjection projection) {
   for (const std::string& words : {std::string("Seen from below:"), std::string("north up, east on the left"),
                                    std::string("True north"), "Projection: " + name_of(projection)})
     add_text(words, 0.0, muted);
+  if (sun) add_sun_legend(drawing, {x, y + 12.0}, *sun);
 }
 
 }  // namespace
@@ -143,6 +145,10 @@ Colour colour_of(SkyPart part) {
   return part == SkyPart::near ? near_colour : far_colour;
 }
 
+PagePoint sky_page_point(const HemisphereDirection& direction, SkyProjection projection) {
+  return page_point_of(disk_point_of(direction, projection));
+}
+
 Picture draw_sky_disk(const Hemisphere& hemisphere, SkyProjection projection, std::size_t edge) {
   Picture picture({edge, edge}, {255, 255, 255});
   const auto number_of = [](double share, std::size_t count) {
@@ -161,7 +167,8 @@ Picture draw_sky_disk(const Hemisphere& hemisphere, SkyProjection projection, st
   return picture;
 }
 
-Drawing draw_sky(const Hemisphere& hemisphere, SkyProjection projection, const SkyCaption& caption) {
+Drawing draw_sky(const Hemisphere& hemisphere, SkyProjection projection, const SkyCaption& caption,
+                 const std::optional<SunOfSky>& sun) {
   const std::string name = caption.quantity == "svf" ? "Sky view factor (svf) " : "Solid angle share of the sky (svf_solid) ";
   Drawing drawing{picture_size, name + svf_decimal(hemisphere.svf).substr(0, 6)};
   drawing.shapes.emplace_back(Text{{24.0, 46.0}, drawing.title, title_height, Alignment::left, ink});
@@ -169,8 +176,9 @@ Drawing draw_sky(const Hemisphere& hemisphere, SkyProjection projection, const S
   drawing.shapes.emplace_back(Image{{left, top}, draw_sky_disk(hemisphere, projection, disk_edge)});
   add_rings(drawing, projection);
   drawing.shapes.emplace_back(horizon_line(hemisphere, projection));
+  if (sun) add_sun_courses(drawing, hemisphere, projection, *sun);
   add_directions(drawing);
-  add_legend(drawing, projection);
+  add_legend(drawing, projection, sun);
   return drawing;
 }
 

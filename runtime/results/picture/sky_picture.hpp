@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "farlod/hemisphere.hpp"
 #include "results/picture/drawing.hpp"
@@ -32,6 +33,9 @@ struct DiskPoint {
 
 [[nodiscard]] Colour colour_of(SkyPart part);
 
+/// Where a direction is drawn on the page of draw_sky.
+[[nodiscard]] PagePoint sky_page_point(const HemisphereDirection& direction, SkyProjection projection);
+
 /// The disk, in a square with edges of `edge` pixels; around it is paper.
 [[nodiscard]] Picture draw_sky_disk(const Hemisphere& hemisphere, SkyProjection projection, std::size_t edge);
 
@@ -41,7 +45,20 @@ struct SkyCaption {
   std::string place;     ///< coordinates and CRS
 };
 
-/// The disk with the horizon, the four directions, the view factor and a legend.
-[[nodiscard]] Drawing draw_sky(const Hemisphere& hemisphere, SkyProjection projection, const SkyCaption& caption);
+/// The sun's way through a day.
+struct SunCourse {
+  std::string day;
+  std::vector<HemisphereDirection> minutes;  ///< each minute from midnight to midnight; below the horizon it is not drawn
+};
+
+/// What a picture of the sky shows of the sun.
+struct SunOfSky {
+  std::vector<SunCourse> courses;   ///< three at the most
+  std::vector<std::string> legend;  ///< lines of text: which hours these are, for how long the sun shines
+};
+
+/// The disk with the horizon, the four directions, the view factor and a legend; and the sun's way, if it is given.
+[[nodiscard]] Drawing draw_sky(const Hemisphere& hemisphere, SkyProjection projection, const SkyCaption& caption,
+                               const std::optional<SunOfSky>& sun = {});
 
 }  // namespace farlod

@@ -57,5 +57,21 @@ TEST(SunPositions, SplitStepsThatDoNotFit) {
   EXPECT_NEAR(hours_of(sun_positions(place(25, 75), sys_days{year{2026} / June / 21}, 1, minutes(7))), 24.0, 1e-9);
 }
 
+TEST(SunCourse, IsWhereTheSunIsEachMinuteOfLocalMeanTime) {
+  // The Earth's axis is that of the day's beginning: it moves by a second of arc
+  constexpr double axis_moves_deg = 0.0005;
+  const PlaceOnEarth munich = place(11.5, 48.1);
+  const auto course = sun_course(munich, sys_days{year{2026} / June / 21});
+  ASSERT_EQ(course.size(), 24U * 60U + 1U);
+  EXPECT_EQ(local_mean_time_ahead(munich.longitude), minutes(46));
+  for (const int minute : {0, 300, 720, 1440}) {
+    const SunDirection sun = sun_direction(munich, sys_days{year{2026} / June / 21} + minutes(minute - 46));
+    EXPECT_NEAR(course[static_cast<std::size_t>(minute)].elevation.degrees(), sun.elevation.degrees(), axis_moves_deg);
+    EXPECT_NEAR(course[static_cast<std::size_t>(minute)].azimuth.degrees(), sun.azimuth.degrees(), axis_moves_deg);
+  }
+  // At noon it stands highest, in the south, but for the equation of time (2 minutes) and what an almanac says of its declination
+  EXPECT_NEAR(course[720].elevation.degrees(), 90.0 - 48.1 + 23.44, 0.05);
+}
+
 }  // namespace
 }  // namespace farlod

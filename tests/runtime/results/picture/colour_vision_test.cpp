@@ -75,6 +75,22 @@ TEST(ColourVision, ATenthIsSeenByEverybody) {
           << vision.name << ' ' << n / 10.0;
 }
 
+TEST(ColourVision, LargerErrorsAreDarkerForEverybody) {
+  for (const Vision& vision : visions)
+    for (int n = 1; n <= 20; ++n)
+      for (const double sign : {-1.0, 1.0})
+        EXPECT_LT(lab_of(colour_of_error(sign * n / 20.0), vision)[0], lab_of(colour_of_error(sign * (n - 1) / 20.0), vision)[0])
+            << vision.name << ' ' << sign * n / 20.0;
+}
+
+TEST(ColourVision, SignsOfErrorsAreToldApartByEverybodyButInGrey) {
+  constexpr double clear = 10.0;
+  for (const Vision& vision : visions)
+    for (int n = 4; n <= 20 && vision.name != "grey"; ++n)
+      EXPECT_GT(difference(colour_of_error(n / 20.0), colour_of_error(-n / 20.0), vision), clear)
+          << vision.name << ' ' << n / 20.0;
+}
+
 TEST(ColourVision, ZonesOfACellAreToldApartByEverybody) {
   constexpr double clear = 10.0;
   for (const Vision& vision : visions)

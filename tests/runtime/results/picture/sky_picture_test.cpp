@@ -4,8 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
+
+#include "sun/sun_positions.hpp"
+#include "tests/runtime/results/picture/decoded_png.hpp"
 
 namespace farlod {
 namespace {
@@ -81,6 +86,59 @@ TEST(SkyPicture, WeightedPixelsGiveTheViewFactor) {
   const Hemisphere hemisphere = basin_with_a_wall_in_the_east();
   for (const SkyProjection projection : projections)
     EXPECT_NEAR(svf_of(draw_sky_disk(hemisphere, projection, 400), projection), hemisphere.svf, 0.01);
+}
+
+/// The sun's way at 50° N on the longest day of 2026, where clocks show UTC.
+SunOfSky longest_day() {
+  SunCourse course{"2026-06-21", {}};
+  for (const SunDirection& d : sun_course({Angle::degrees(0.0), Angle::degrees(50.0)},
+                                          std::chrono::sys_days(std::chrono::year(2026) / std::chrono::June / 21)))
+    course.minutes.push_back({d.azimuth.degrees(), 90.0 - d.elevation.degrees()});
+  return {{course}, {"Local mean time"}};
+}
+
+/// The pixel of a direction in draw_sky's disk, by the definition of the equidistant projection.
+Pixel equidistant_pixel(double azimuth_deg, double elevation_deg) {
+  const double away = 400.0 * (90.0 - elevation_deg) / 90.0, azimuth = azimuth_deg * degrees;
+  return {static_cast<std::size_t>(56.0 + 400.0 - away * std::sin(azimuth)),
+          static_cast<std::size_t>(116.0 + 400.0 - away * std::cos(azimuth))};
+}
+
+class SunInThePicture : public testing::Test {
+ protected:
+  [[nodiscard]] Picture drawn(const std::optional<SunOfSky>& sun) const {
+    const auto file = std::filesystem::path(testing::TempDir()) / "farlod_sun_in_the_picture.png";
+    write_drawing(draw_sky(basin_with_a_wall_in_the_east(), SkyProjection::equidistant, {"svf", ""}, sun), file);
+    return decoded_png(file);
+  }
+  static SunDirection sun_at(int hour) {
+    return sun_direction({Angle::degrees(0.0), Angle::degrees(50.0)},
+                         std::chrono::sys_days(std::chrono::year(2026) / std::chrono::June / 21) + std::chrono::hours(hour));
+  }
+  static Pixel pixel_at(int hour) { return equidistant_pixel(sun_at(hour).azimuth.degrees(), sun_at(hour).elevation.degrees()); }
+};
+
+TEST_F(SunInThePicture, HasADotWhereTheSunIsAtEachFullHour) {
+  const Picture with = drawn(longest_day()), without = drawn({});
+  for (const int hour : {11, 12, 14, 15}) {  // above 30° in the south and the west
+    EXPECT_EQ(without.at(pixel_at(hour)), colour_of(SkyPart::sky)) << hour;
+    EXPECT_EQ(with.at(pixel_at(hour)), (Colour{178, 24, 43})) << hour;
+  }
+  EXPECT_EQ(with.at(equidistant_pixel(180.0, 80.0)), colour_of(SkyPart::sky));  // where it never is
+}
+
+TEST_F(SunInThePicture, IsPaleWhereGeometryHidesTheSun) {
+  const Picture picture = drawn(longest_day());
+  // In the morning behind the near wall in the east, in the evening behind what is far
+  for (const int hour : {6, 8, 18}) EXPECT_EQ(picture.at(pixel_at(hour)), (Colour{250, 200, 200})) << hour;
+}
+
+TEST_F(SunInThePicture, IsNotDrawnBelowTheHorizon) {
+  SunOfSky sun = longest_day();
+  for (HemisphereDirection& d : sun.courses.front().minutes) d.zenith_angle_deg = 91.0;
+  const Picture night = drawn(sun), without = drawn({});
+  for (std::size_t y = 116; y < 916; ++y)
+    for (std::size_t x = 56; x < 856; ++x) ASSERT_EQ(night.at({x, y}), without.at({x, y})) << x << ", " << y;
 }
 
 }  // namespace
