@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "farlod/export.hpp"
+#include "farlod/point.hpp"
 #include "farlod/quantities.hpp"
 #include "farlod/region.hpp"
 
@@ -58,6 +60,9 @@ struct EvaluationSettings {
   bool bounds = false;
   /// After the run, compute so many random receivers exactly and compare: EvaluationSummary::errors. All if there are fewer.
   std::size_t verify = 0;
+  /// Evaluates a few cells only, spread over the run, delivers no answers, and tells what the run would take:
+  /// EvaluationSummary::estimate. Nothing is verified.
+  bool dry_run = false;
   /// If not null, receivers outside of it have no value and cost next to nothing: EvaluationSummary::outside_of_region.
   std::shared_ptr<const Region> region = nullptr;
   /// What is computed beside the sky view factor. All but horizons and sunshine need SkyWeight::cosine.
@@ -86,6 +91,12 @@ struct ErrorSummary {
   std::size_t rays = 0;  ///< of each exact answer
 };
 
+/// A receiver that was computed again exactly.
+struct VerifiedReceiver {
+  Point3d p_projected;  ///< its height is above sea level
+  float svf = 0.0F, exact = 0.0F;
+};
+
 /// Seconds of wall clock by part of the work.
 struct EvaluationSeconds {
   double scenes = 0.0, evaluate = 0.0;
@@ -110,6 +121,14 @@ struct Accuracy {
 /// that is allowed.
 [[nodiscard]] FARLOD_EXPORT Accuracy accuracy_of(const EvaluationSettings& settings);
 
+/// What a run would take, from a few of its cells (EvaluationSettings::dry_run).
+struct RunEstimate {
+  std::size_t cells = 0, evaluated_cells = 0;
+  double receivers = 0.0;     ///< with a value
+  double seconds = 0.0;       ///< of wall clock, without files
+  double memory_bytes = 0.0;  ///< what RunSettings::memory_limit_mib is compared with
+};
+
 /// The figures of a run.
 struct EvaluationSummary {
   std::size_t receivers = 0;          ///< with a value
@@ -125,6 +144,8 @@ struct EvaluationSummary {
   std::uint64_t by_rays = 0;        ///< receivers that needed rays
   std::uint64_t retraced_rays = 0;  ///< traced against the whole city because the far map was not enough (max_error)
   std::optional<ErrorSummary> errors;
+  std::optional<RunEstimate> estimate;     ///< of a dry run, whose counts are 0
+  std::vector<VerifiedReceiver> verified;  ///< those that `errors` is about, in an order that depends on no number of threads
   Accuracy accuracy;
   EvaluationSeconds seconds;
 };

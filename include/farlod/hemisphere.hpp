@@ -32,6 +32,7 @@ struct Hemisphere {
   double height_m = 0.0;  ///< of the receiver, above sea level
   float svf = 0.0F;       ///< what evaluate_points answers
   EvaluationSummary summary;
+  std::vector<float> further = {};  ///< a value for each of columns_of(EvaluationSettings::further)
 
   [[nodiscard]] SkyPart part(std::size_t azimuth, std::size_t elevation) const { return parts[azimuth * elevations + elevation]; }
 };

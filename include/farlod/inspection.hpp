@@ -112,6 +112,7 @@ struct CellContents {
 struct MeshTriangle {
   std::array<std::uint32_t, 3> vertices{};
   SurfaceKind kind = SurfaceKind::unknown;
+  std::uint32_t surface = 0;  ///< its number within the building, as SurfaceMean has it; of the ground, no promise
 };
 
 /// What one cell owns of one building, or of the ground.

@@ -44,6 +44,10 @@ struct Quantities {
   /// The elevation in degrees above which all is sky, at so many azimuths (0, or 4 to 3,600), the first of them true north, the
   /// others clockwise. 90 where there is no sky. What is seen below a bridge is not told. Columns `horizon_AZIMUTH`.
   std::size_t horizons = 0;
+  /// The level distance in metres to what makes each horizon: the nearest thing that is met within a fiftieth of a degree below
+  /// it, or, where a far map is not as exact, within two degrees. NaN where the horizon is level. Rays find it in a scene of the
+  /// whole city, which takes its time and memory. Needs `horizons`. Columns `distance_AZIMUTH`.
+  bool horizon_distances = false;
   /// The share of each patch that is seen, weighted by the cosine to the receiver's normal: the sum of shares times the patches'
   /// own view factors is svf. 0 where a patch lies behind the receiver. Columns `patch_N`, from 1.
   SkyPatchSet sky_patches = SkyPatchSet::none;

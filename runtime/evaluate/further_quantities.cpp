@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "contract/expects.hpp"
+#include "evaluate/quantity_columns.hpp"
 #include "horizon/kernels.hpp"
 
 namespace farlod {
@@ -23,43 +24,6 @@ constexpr std::size_t lanes = ReceiverPacket::lanes;
 
 /// Above it is nothing that counts, and it is finite.
 constexpr float straight_up = 1e7F;
-
-std::string numbered(const char* name, std::size_t digits, std::size_t n) {
-  std::string number = std::to_string(n);
-  return name + std::string(number.size() < digits ? digits - number.size() : 0, '0') + number;
-}
-
-/// Degrees with as few decimals as tell the azimuths apart: 000, 010 or 000.00, 007.50.
-std::string horizon_name(std::size_t n, std::size_t count) {
-  std::array<char, 32> text{};
-  const double degrees = 360.0 * static_cast<double>(n) / static_cast<double>(count);
-  if (360 % count == 0)
-    std::snprintf(text.data(), text.size(), "horizon_%03.0f", degrees);
-  else
-    std::snprintf(text.data(), text.size(), "horizon_%06.2f", degrees);
-  return text.data();
-}
-
-/// Patches of each band from the horizon upwards, without the zenith, and the bands' height as a share of the right angle. A band
-/// of Reinhart's is half of one of Tregenza's, with twice as many patches; the zenith takes what is left.
-struct PatchBands {
-  std::vector<std::uint32_t> counts;
-  double height = 0.0;
-};
-PatchBands bands_of(SkyPatchSet set) {
-  if (set == SkyPatchSet::none) return {};
-  const std::size_t parts = set == SkyPatchSet::reinhart ? 2 : 1;
-  PatchBands bands;
-  for (const std::uint32_t count : {30U, 30U, 24U, 24U, 18U, 12U, 6U})
-    for (std::size_t n = 0; n < parts; ++n) bands.counts.push_back(count * static_cast<std::uint32_t>(parts));
-  bands.height = 1.0 / (static_cast<double>(bands.counts.size()) + 0.5);
-  return bands;
-}
-
-std::size_t patches_of(SkyPatchSet set) {
-  const PatchBands bands = bands_of(set);
-  return bands.counts.empty() ? 0 : std::accumulate(bands.counts.begin(), bands.counts.end(), std::size_t{1});
-}
 
 /// The share of [from, to] that lies in [low, high], on a turn of 1; neither is longer than half a turn.
 double share_within(double from, double to, double low, double high) {
@@ -164,17 +128,6 @@ SlopesInFront slopes_in_front(float outward, float upward) {
 
 }  // namespace
 
-std::vector<std::string> columns_of(const Quantities& quantities) {
-  std::vector<std::string> names;
-  if (quantities.svf_solid) names.emplace_back("svf_solid");
-  if (quantities.directional) names.insert(names.end(), {"svfN", "svfE", "svfS", "svfW"});
-  if (quantities.hidden) names.insert(names.end(), {"hidden_near", "hidden_far"});
-  for (std::size_t n = 0; n < quantities.horizons; ++n) names.push_back(horizon_name(n, quantities.horizons));
-  for (std::size_t n = 1; n <= patches_of(quantities.sky_patches); ++n) names.push_back(numbered("patch_", 3, n));
-  if (quantities.sun) names.emplace_back("sunlit_h");
-  return names;
-}
-
 std::size_t azimuths_for(const Quantities& quantities, std::size_t at_least) {
   if (quantities.horizons == 0) return at_least;
   return (at_least + quantities.horizons - 1) / quantities.horizons * quantities.horizons;
@@ -197,6 +150,18 @@ FurtherQuantities::FurtherQuantities(const Quantities& quantities, std::size_t a
   if (quantities.sun) sort_sun_positions();
 }
 
+HorizonColumns FurtherQuantities::horizon_columns() const {
+  HorizonColumns columns;
+  if (!quantities_.horizon_distances) return columns;
+  const std::vector<std::string> names = columns_of(quantities_);
+  const auto first = std::ranges::find_if(names, [](const std::string& name) { return name.starts_with(horizon_column); });
+  columns.elevations = static_cast<std::size_t>(first - names.begin());
+  columns.distances = columns.elevations + azimuth_of_horizon_.size();
+  for (const std::size_t k : azimuth_of_horizon_)
+    columns.directions_grid.push_back({static_cast<double>(azimuths_.cosine()[k]), static_cast<double>(azimuths_.sine()[k])});
+  return columns;
+}
+
 void FurtherQuantities::divide_into_halves() {
   const double half_part = 0.5 / static_cast<double>(azimuths_.size());
   constexpr std::array<double, 4> middles{0.0, 0.25, 0.5, 0.75};  // north, east, south, west
@@ -207,7 +172,7 @@ void FurtherQuantities::divide_into_halves() {
 }
 
 void FurtherQuantities::divide_into_patches() {
-  const PatchBands shape = bands_of(quantities_.sky_patches);
+  const PatchBands shape = patch_bands_of(quantities_.sky_patches);
   const double half_part = 0.5 / static_cast<double>(azimuths_.size());
   const auto slope_at = [&](std::size_t n) {
     return static_cast<float>(std::tan(0.5 * std::numbers::pi * shape.height * static_cast<double>(n)));
@@ -271,6 +236,7 @@ class FurtherQuantities::Columns {
     for (std::size_t l = 0; l * size_ < values_.size(); ++l) values_[l * size_ + next_] = column[l];
     ++next_;
   }
+  void skip(std::size_t count) { next_ += count; }
   [[nodiscard]] std::size_t count() const { return next_; }
 
  private:
@@ -301,6 +267,7 @@ void FurtherQuantities::evaluate(const SkyProfile& profile, const ReceiverPacket
       degrees[l] = static_cast<float>(Angle::radians(std::atan(static_cast<double>(profile.sky_from[k][l]))).degrees());
     columns.add(degrees);
   }
+  if (quantities_.horizon_distances) columns.skip(azimuth_of_horizon_.size());
   if (quantities_.sky_patches != SkyPatchSet::none) add_patches(profile, receivers, rows, columns);
   if (quantities_.sun) add_sunlit(profile, receivers, columns);
   FARLOD_EXPECTS(columns.count() == size_);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contract/package/manifest.hpp"
+#include "evaluate/horizon_distances.hpp"
 #include "farlod/quantities.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/receiver_packet.hpp"
@@ -45,6 +46,9 @@ class FurtherQuantities {
   struct Sky {
     PacketHorizon::Lanes svf, near_svf;
   };
+  /// Where the horizons are whose distances must be traced: profiles do not tell them, and evaluate() leaves their places out.
+  [[nodiscard]] HorizonColumns horizon_columns() const;
+
   /// Writes the values of the packet's receivers, one receiver after the other, in the order of columns_of.
   void evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky, Rows& rows,
                 std::span<float> values) const;

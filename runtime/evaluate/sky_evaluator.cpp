@@ -80,22 +80,6 @@ void count_and_store(const Occluder& occluder, std::span<const Point3f> origins,
 
 }  // namespace
 
-FarMapOfCell far_map_of(const PackageReader& package, Cell cell) {
-  if (!package.grid().cells.contains(cell)) return FarMapOfCell::outside_of_grid;
-  if (!package.has_far_map(cell)) return FarMapOfCell::missing;
-  return package.manifest().far_map.is_box() ? FarMapOfCell::box : FarMapOfCell::horizon;
-}
-
-EvaluationMethod method_of(Engine engine, FarMapOfCell far_map) {
-  using enum EvaluationMethod;
-  if (far_map == FarMapOfCell::outside_of_grid || engine == Engine::exact) return whole_city;
-  if (engine == Engine::near_only) return near_scene_alone;
-  if (far_map == FarMapOfCell::missing) return engine == Engine::horizon ? horizons_alone : whole_city;
-  if (far_map == FarMapOfCell::box) return near_scene_and_box;
-  if (engine == Engine::rays) return rays_against_horizons;
-  return engine == Engine::horizon ? horizons_alone : horizons_and_rays;
-}
-
 double sampling_error_of(const SkySettings& settings, FarMapOfCell far_map) {
   const EvaluationMethod method = method_of(settings.engine, far_map);
   const bool has_horizons = method == EvaluationMethod::horizons_alone || method == EvaluationMethod::horizons_and_rays;
@@ -138,6 +122,11 @@ EvaluationMethod SkyEvaluator::method_for(Cell cell) const { return method_of(se
 void SkyEvaluator::evaluate(const CellReceivers& cell, const SkyAnswers& answers) const {
   if (cell.receivers.empty()) return;
   throw_if_cancelled(stop_);
+  evaluate_by_method(cell, answers);
+  if (settings_.further.horizon_distances) find_horizon_distances(cell, answers);
+}
+
+void SkyEvaluator::evaluate_by_method(const CellReceivers& cell, const SkyAnswers& answers) const {
   switch (method_for(cell.cell)) {
     case EvaluationMethod::horizons_and_rays:
     case EvaluationMethod::horizons_alone:
@@ -150,6 +139,19 @@ void SkyEvaluator::evaluate(const CellReceivers& cell, const SkyAnswers& answers
     case EvaluationMethod::whole_city:
       return evaluate_by_whole_city(cell, answers);
   }
+}
+
+void SkyEvaluator::find_horizon_distances(const CellReceivers& cell, const SkyAnswers& answers) const {
+  const auto start = Clock::now();
+  const WholeCity& city = city_->get(package_, stop_);
+  const auto scene_ready = Clock::now();
+  const HorizonColumns wanted = further_.horizon_columns();
+  for (const Receiver& r : cell.receivers) {
+    throw_if_cancelled(stop_);
+    trace_horizon_distances(city.occluder(), city.scene_from_cell(r.p_cell, cell.cell), wanted,
+                            answers.further.subspan(r.index * further_.size(), further_.size()));
+  }
+  add_times(start, scene_ready);
 }
 
 void SkyEvaluator::add_times(Clock::time_point start, Clock::time_point scene_ready) const {

@@ -13,6 +13,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "evaluate/evaluation_method.hpp"
 #include "evaluate/further_quantities.hpp"
 #include "evaluate/sky_directions.hpp"
 #include "evaluate/traced_profile.hpp"
@@ -30,36 +31,6 @@ struct SkyParts;
 struct PacketAnswer;
 struct PlacedScene;
 struct FreeRays;
-
-/// The far map of a cell.
-enum class FarMapOfCell {
-  horizon,
-  box,
-  missing,         ///< the cell is one of the grid, and far maps were made for others
-  outside_of_grid  ///< there are no cells, and no far maps
-};
-
-[[nodiscard]] FarMapOfCell far_map_of(const PackageReader& package, Cell cell);
-
-/// How the receivers of a cell are answered. A direction is free when
-enum class EvaluationMethod {
-  horizons_and_rays,      ///< it lies above the horizon, or a ray through the gap below an overhang meets nothing
-  horizons_alone,         ///< it lies above the horizon; throws PackageUnusable where rays are needed
-  rays_against_horizons,  ///< the same as horizons_and_rays, asked for each of --rays directions instead of each azimuth
-  near_scene_and_box,     ///< its ray meets no near tile, and the box far map has no occluder in this direction
-  near_scene_alone,       ///< its ray meets no near tile
-  whole_city              ///< its ray meets no tile of the package
-};
-
-/// The only place that decides which method answers a cell:
-///
-///   engine      far map `horizon`       far map `box`        missing            outside of the grid
-///   automatic   horizons_and_rays       near_scene_and_box   whole_city         whole_city
-///   horizon     horizons_alone          near_scene_and_box   horizons_alone     whole_city
-///   rays        rays_against_horizons   near_scene_and_box   whole_city         whole_city
-///   exact       whole_city              whole_city           whole_city         whole_city
-///   near_only   near_scene_alone        near_scene_alone     near_scene_alone   whole_city
-[[nodiscard]] EvaluationMethod method_of(Engine engine, FarMapOfCell far_map);
 
 struct SkySettings {
   Engine engine = Engine::automatic;
@@ -130,6 +101,7 @@ class SkyEvaluator {
   SkyEvaluator(const PackageReader& package, const SkySettings& settings, std::stop_token stop,
                std::shared_ptr<WholeCityOnDemand> city);
   [[nodiscard]] EvaluationMethod method_for(Cell cell) const;
+  void evaluate_by_method(const CellReceivers& cell, const SkyAnswers& answers) const;
   // One function for each method, or for two that differ little
   void evaluate_by_horizons(const CellReceivers& cell, const SkyAnswers& answers) const;
   void evaluate_by_rays_against_horizons(const CellReceivers& cell, const SkyAnswers& answers) const;
@@ -137,6 +109,8 @@ class SkyEvaluator {
   void evaluate_by_whole_city(const CellReceivers& cell, const SkyAnswers& answers) const;
   /// What SkySettings::further asks for, of receivers whose svf is answered.
   void trace_further(const CellReceivers& cell, const BlockedRaysOfPacket& blocked, const SkyAnswers& answers) const;
+  /// Of receivers whose horizons are answered.
+  void find_horizon_distances(const CellReceivers& cell, const SkyAnswers& answers) const;
   /// The sky above the near geometry alone, of each receiver.
   [[nodiscard]] std::vector<float> trace_near_sky(const CellReceivers& cell) const;
 

@@ -35,9 +35,26 @@ SkySettings reference_settings(SkySettings settings) {
   return settings;
 }
 
-std::vector<double> joined(const std::vector<std::vector<float>>& parts) {
-  std::vector<double> all;
-  for (const std::vector<float>& part : parts) all.insert(all.end(), part.begin(), part.end());
+/// Where the receivers of a cell stand in the package's CRS.
+std::vector<VerifiedReceiver> placed(const CellReceivers& cell, const package::Manifest& m) {
+  const Point2d corner = m.grid.corner_of(cell.cell);
+  std::vector<VerifiedReceiver> receivers;
+  for (const Receiver& r : cell.receivers)
+    receivers.push_back(
+        {m.projected_from_grid({corner.x + r.p_cell.x, corner.y + r.p_cell.y, r.p_cell.z + m.height_origin_m}), 0.0F, 0.0F});
+  return receivers;
+}
+
+Verification joined(const std::vector<std::vector<VerifiedReceiver>>& cells, std::size_t rays) {
+  Verification all;
+  for (const auto& cell : cells) all.receivers.insert(all.receivers.end(), cell.begin(), cell.end());
+  std::vector<double> answers, exact;
+  for (const VerifiedReceiver& r : all.receivers) {
+    answers.push_back(r.svf);
+    exact.push_back(r.exact);
+  }
+  all.errors = summarize_errors(answers, exact);
+  all.errors.rays = rays;
   return all;
 }
 
@@ -76,23 +93,25 @@ std::vector<std::size_t> choose_some(std::size_t size, std::size_t count) {
   return {chosen.begin(), chosen.end()};
 }
 
-ErrorSummary verify(const SkyEvaluator& evaluator, const VerifySettings& settings, std::span<const std::size_t> counts,
+Verification verify(const SkyEvaluator& evaluator, const VerifySettings& settings, std::span<const std::size_t> counts,
                     const ReceiversOfCell& receivers_of) {
   const SkyEvaluator reference(evaluator, reference_settings(evaluator.settings()));
   const auto chosen = choose_receivers(counts, settings.receivers);
-  std::vector<std::vector<float>> answers(counts.size()), exact(counts.size());
+  std::vector<std::vector<VerifiedReceiver>> verified(counts.size());
   oneapi::tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t n) {
     if (chosen[n].empty()) return;
     const CellReceivers all = receivers_of(n);
     CellReceivers some{all.cell, {}};
     for (const std::size_t k : chosen[n]) some.receivers.push_back(all.receivers[k]);
-    const std::vector<float> answers_of_all = values_of(evaluator, all, settings.bounds).svf;
-    for (const std::size_t k : chosen[n]) answers[n].push_back(answers_of_all[k]);
-    exact[n] = values_of(reference, some, false).svf;
+    const std::vector<float> answers = values_of(evaluator, all, settings.bounds).svf;
+    const std::vector<float> exact = values_of(reference, some, false).svf;
+    verified[n] = placed(some, evaluator.package().manifest());
+    for (std::size_t k = 0; k < verified[n].size(); ++k) {
+      verified[n][k].svf = answers[chosen[n][k]];
+      verified[n][k].exact = exact[k];
+    }
   });
-  ErrorSummary errors = summarize_errors(joined(answers), joined(exact));
-  errors.rays = reference.settings().rays;
-  return errors;
+  return joined(verified, reference.settings().rays);
 }
 
 }  // namespace farlod

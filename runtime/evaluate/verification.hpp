@@ -26,10 +26,16 @@ struct VerifySettings {
   bool bounds = false;        ///< whether the run computed bounds
 };
 
+/// Errors, and the receivers that they were found at, cell by cell.
+struct Verification {
+  ErrorSummary errors;
+  std::vector<VerifiedReceiver> receivers;
+};
+
 /// What --verify does: chooses random receivers among those of all cells (`counts` are the receivers of each cell), computes them
 /// again by the engine `exact` with `verify_rays` rays or more, and compares. The answers of the run are not kept: each cell with
 /// a chosen receiver is evaluated again as a whole, as in the run, so that packets and answers are the same.
-[[nodiscard]] ErrorSummary verify(const SkyEvaluator& evaluator, const VerifySettings& settings,
+[[nodiscard]] Verification verify(const SkyEvaluator& evaluator, const VerifySettings& settings,
                                   std::span<const std::size_t> counts, const ReceiversOfCell& receivers_of);
 
 }  // namespace farlod

@@ -116,7 +116,8 @@ class PartsOfCity {
 
   void add_triangle(const TileView& tile, const Triangle& t, const package::SurfaceRecord& surface, NumberedPart& part) const {
     const Point3f a = tile.mesh.vertices[t.a], b = tile.mesh.vertices[t.b], c = tile.mesh.vertices[t.c];
-    MeshTriangle triangle{{vertex_in(part, tile, t.a), vertex_in(part, tile, t.b), vertex_in(part, tile, t.c)}, surface.kind()};
+    MeshTriangle triangle{
+        {vertex_in(part, tile, t.a), vertex_in(part, tile, t.b), vertex_in(part, tile, t.c)}, surface.kind(), surface.number};
     // A package makes no promise on the turn of a triangle; its surface has a normal
     if (dot(cross(b - a, c - a), surface.normal().direction()) < 0.0F) std::swap(triangle.vertices[1], triangle.vertices[2]);
     part.mesh.triangles.push_back(triangle);

@@ -49,7 +49,7 @@ std::optional<Hemisphere> look_up(const Package& package, Point2d place_m, std::
   const SkyEvaluator evaluator(reader, resolved(evaluation, run).sky, run.stop);
   SkyParts seen = evaluator.parts_of_sky(receivers, directions_of(reader.manifest()));
   return Hemisphere{hemisphere_azimuths,     hemisphere_elevations, std::move(seen.parts), std::move(seen.horizon),
-                    answer.height_m.front(), answer.svf.front(),    answer.summary};
+                    answer.height_m.front(), answer.svf.front(),    answer.summary,        answer.further};
 }
 
 }  // namespace farlod

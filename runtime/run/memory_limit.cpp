@@ -32,7 +32,8 @@ constexpr double profile_azimuth_bytes = (6 * (packets_in_group + 1) + 8) * 64;
 constexpr double ray_azimuth_bytes = 180 + 11 * 64;  // RayEngine, with the directions in the order of their azimuths
 
 bool traces_whole_city(const ResolvedSettings& settings) {
-  return settings.sky.engine == Engine::exact || settings.verify > 0 || settings.sky.max_far_error.has_value();
+  return settings.sky.engine == Engine::exact || settings.verify > 0 || settings.sky.max_far_error.has_value() ||
+         settings.sky.further.horizon_distances;
 }
 
 /// The directions as they are and turned to the grid, and those of a normal on each thread.
@@ -62,7 +63,7 @@ double bytes_of_whole_city(const package::Manifest& manifest, const ResolvedSett
 std::string in_mib(double bytes) { return std::to_string(static_cast<std::uint64_t>(std::ceil(bytes / mib))); }
 
 void require_below_limit(double bytes, const RunSettings& run, const std::string& what, const std::string& instead) {
-  if (bytes <= static_cast<double>(*run.memory_limit_mib) * mib) return;
+  if (!run.memory_limit_mib || bytes <= static_cast<double>(*run.memory_limit_mib) * mib) return;
   throw LimitReached(what + " needs about " + in_mib(bytes) + " MiB, more than the limit of " +
                      std::to_string(*run.memory_limit_mib) + " MiB: raise the memory limit, or " + instead + ".");
 }
@@ -90,8 +91,7 @@ RunSettings with_bytes_of_caller(RunSettings run, std::uint64_t bytes) {
   return run;
 }
 
-void require_memory(const package::Manifest& manifest, const ResolvedSettings& settings, const MemoryNeeds& needs) {
-  if (!settings.run.memory_limit_mib) return;
+double require_memory(const package::Manifest& manifest, const ResolvedSettings& settings, const MemoryNeeds& needs) {
   const auto threads = static_cast<double>(settings.threads);
   const double of_receiver = receiver_bytes + static_cast<double>(columns_of(settings.sky.further).size() * sizeof(float));
   const double in_flight = static_cast<double>(cells_in_flight(settings.threads)) * needs.receivers_of_cell * of_receiver;
@@ -99,14 +99,20 @@ void require_memory(const package::Manifest& manifest, const ResolvedSettings& s
                        in_flight + bytes_of_samples(manifest, settings) + static_cast<double>(bytes_of_blocks_at_work(manifest));
   require_below_limit(bytes, settings.run, "this run",
                       "use fewer threads, a coarser raster, a part at a time, or fewer rays and azimuths");
-  if (needs.whole_city || traces_whole_city(settings))
-    require_below_limit(bytes + bytes_of_whole_city(manifest, settings), settings.run, "tracing the whole city",
-                        "leave out what needs it (the engine exact, a verification, a largest error, points beyond the grid, "
-                        "cells without a far map)");
+  if (!needs.whole_city && !traces_whole_city(settings)) return bytes;
+  const double with_city = bytes + bytes_of_whole_city(manifest, settings);
+  require_below_limit(with_city, settings.run, "tracing the whole city",
+                      "leave out what needs it (the engine exact, a verification, a largest error, distances of horizons, points "
+                      "beyond the grid, cells without a far map)");
+  return with_city;
+}
+
+EvaluationSummary with_memory(EvaluationSummary summary, double bytes) {
+  summary.estimate->memory_bytes = bytes;
+  return summary;
 }
 
 void require_memory(const RunSettings& run, double bytes, const std::string& what, const std::string& instead) {
-  if (!run.memory_limit_mib) return;
   const double threads = static_cast<double>(thread_count(run));
   require_below_limit(program_bytes + threads * thread_bytes + static_cast<double>(run.caller_bytes) + bytes, run, what, instead);
 }

@@ -32,8 +32,12 @@ struct MemoryNeeds {
 [[nodiscard]] RunSettings with_bytes_of_caller(RunSettings run, std::uint64_t bytes);
 
 /// Throws LimitReached when the run needs more memory than the caller gives it. Where the caller says nothing, there is no limit
-/// to reach: what a run takes does not grow with the city, unless the whole city has to be one scene.
-void require_memory(const package::Manifest& manifest, const ResolvedSettings& settings, const MemoryNeeds& needs);
+/// to reach: what a run takes does not grow with the city, unless the whole city has to be one scene. Returns the bytes that it
+/// needs.
+double require_memory(const package::Manifest& manifest, const ResolvedSettings& settings, const MemoryNeeds& needs);
+
+/// Of a dry run: its estimate with the bytes that it needs.
+[[nodiscard]] EvaluationSummary with_memory(EvaluationSummary summary, double bytes);
 
 /// The same for runs that evaluate nothing, and hold so many bytes: "checking the package" needs more than there is, "use fewer
 /// threads" helps.

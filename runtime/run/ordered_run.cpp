@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -174,7 +177,77 @@ EvaluationSummary evaluate_and_verify(const PackageReader& package, const Resolv
   summary.by_rays = evaluation.by_rays;
   summary.retraced_rays = evaluation.retraced_rays;
   store_statistics(tally.statistics, settings.bounds, summary);
-  if (settings.verify > 0) summary.errors = verify(evaluator, {settings.verify, settings.bounds}, tally.counts, receivers_of);
+  if (settings.verify > 0) {
+    Verification found = verify(evaluator, {settings.verify, settings.bounds}, tally.counts, receivers_of);
+    summary.errors = found.errors;
+    summary.verified = std::move(found.receivers);
+  }
+  return summary;
+}
+
+/// The seconds that some cells took, by what they have to make first.
+struct SampledSeconds {
+  std::vector<double> first_of_group;  ///< which reads its block, and the first of all what is made once for the city
+  double others = 0.0;
+  std::size_t other_cells = 0;
+
+  [[nodiscard]] double of_run(double cells, double blocks) const {
+    if (first_of_group.empty()) return 0.0;
+    const auto mean = [](std::span<const double> s) {
+      return std::accumulate(s.begin(), s.end(), 0.0) / static_cast<double>(s.size());
+    };
+    const double first = mean(first_of_group.size() > 1 ? std::span(first_of_group).subspan(1) : std::span(first_of_group));
+    const double cell = other_cells > 0 ? others / static_cast<double>(other_cells) : first;
+    return std::max(0.0, first_of_group.front() - first) + cells * cell + blocks * std::max(0.0, first - cell);
+  }
+};
+
+/// Evaluates cells of a dry run, and tells how long it took.
+class SampledCells {
+ public:
+  SampledCells(const PackageReader& package, const ResolvedSettings& settings, const ReceiversOfCell& receivers_of)
+      : evaluator_(package, settings.sky, settings.run.stop), settings_(settings), receivers_of_(receivers_of) {}
+
+  double evaluate(std::size_t first, std::size_t end) {
+    const auto start = Clock::now();
+    const Tally tally = evaluate_and_store(
+        evaluator_, settings_, end - first, [&](std::size_t n) { return receivers_of_(first + n); },
+        [](std::size_t, const CellReceivers&, const SvfValues&) {});
+    receivers_ += tally.statistics.count;
+    cells_ += end - first;
+    return seconds_since(start);
+  }
+  [[nodiscard]] std::size_t cells() const { return cells_; }
+  [[nodiscard]] double receivers_per_cell() const {
+    return cells_ == 0 ? 0.0 : static_cast<double>(receivers_) / static_cast<double>(cells_);
+  }
+
+ private:
+  SkyEvaluator evaluator_;
+  const ResolvedSettings& settings_;
+  const ReceiversOfCell& receivers_of_;
+  std::size_t cells_ = 0, receivers_ = 0;
+};
+
+/// From groups of cells that follow each other, as they do in a run, spread over all.
+EvaluationSummary estimate(const PackageReader& package, const ResolvedSettings& settings, std::size_t cell_count,
+                           const ReceiversOfCell& receivers_of) {
+  constexpr std::size_t most_groups = 8, cells_in_group = 6;
+  const std::size_t groups = std::min(cell_count, most_groups);
+  SampledCells sample(package, settings, receivers_of);
+  SampledSeconds seconds;
+  for (std::size_t g = 0; g < groups; ++g) {
+    const std::size_t begin = g * cell_count / groups, end = (g + 1) * cell_count / groups;
+    const std::size_t size = std::min(cells_in_group, end - begin), first = begin + (end - begin - size) / 2;
+    seconds.first_of_group.push_back(sample.evaluate(first, first + 1));
+    seconds.others += sample.evaluate(first + 1, first + size);
+    seconds.other_cells += size - 1;
+  }
+  const double cells = static_cast<double>(cell_count), edge = static_cast<double>(package.grid().block_edge);
+  EvaluationSummary summary;
+  summary.accuracy = settings.accuracy;
+  summary.estimate = {cell_count, sample.cells(), cells * sample.receivers_per_cell(),
+                      seconds.of_run(cells, std::ceil(cells / (edge * edge))), 0.0};
   return summary;
 }
 
@@ -185,6 +258,7 @@ EvaluationSummary evaluate_cells(const PackageInUse& package, const ResolvedSett
   require_bounds_known(package, settings);
   // Of this run alone: another run of the process may have another number of threads
   oneapi::tbb::task_arena arena(static_cast<int>(settings.threads));
+  if (settings.dry_run) return arena.execute([&] { return estimate(package.reader(), settings, cell_count, receivers_of); });
   return arena.execute([&] { return evaluate_and_verify(package.reader(), settings, cell_count, receivers_of, store); });
 }
 

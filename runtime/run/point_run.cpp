@@ -157,7 +157,8 @@ EvaluationSummary evaluate_points(const Package& package, const Points& points, 
   require_same_sizes(points, answers, settings.bounds, columns_of(settings.sky.further).size());
   const std::vector<PlaceOfReceiver> places = places_of(points, reader.manifest());
   const PlacesByCell cells = places_along_curve(reader, places, settings);
-  require_memory(reader.manifest(), settings, needs_of(reader, settings.sky.engine, places.size(), cells));
+  const double memory_bytes =
+      require_memory(reader.manifest(), settings, needs_of(reader, settings.sky.engine, places.size(), cells));
   fill_with_no_data(answers);
   const float height_m = package_height_m(placed, reader.manifest());
   const auto receivers_of = [&](std::size_t n) {
@@ -167,6 +168,7 @@ EvaluationSummary evaluate_points(const Package& package, const Points& points, 
                                              [&](std::size_t, const CellReceivers& cell, const SvfValues& values) {
                                                store_answers(cell, values, reader.manifest().height_origin_m, answers);
                                              });
+  if (summary.estimate) return with_memory(std::move(summary), memory_bytes);
   std::size_t asked = 0;
   for (const auto& [cell, chosen] : cells) asked += chosen.size();
   summary.outside_of_region = places.size() - asked;

@@ -98,7 +98,7 @@ class RasterRun {
         further_bands_(columns_of(settings_.sky.further).size()) {
     MemoryNeeds needs = needs_of(plan_, tiles_, reader().grid(), (settings_.bounds ? 3 : 1) + further_bands_);
     needs.whole_city = any_traces_whole_city(reader(), settings_.sky.engine, cells_);
-    require_memory(reader().manifest(), settings_, needs);
+    memory_bytes_ = require_memory(reader().manifest(), settings_, needs);
   }
 
   [[nodiscard]] EvaluationSummary evaluate(const OnRasterTile& on_tile) const {
@@ -113,6 +113,7 @@ class RasterRun {
           put_values(cell, values, plan_.columns, open_tiles);
           pixels_in_grid += cell.receivers.size() + cell.left_out;
         });
+    if (summary.estimate) return with_memory(std::move(summary), memory_bytes_);
     summary.beyond_grid = plan_.columns * plan_.rows - pixels_in_grid - summary.outside_of_region;
     summary.no_data = pixels_in_grid - summary.receivers;
     return summary;
@@ -133,6 +134,7 @@ class RasterRun {
   std::vector<Cell> cells_;
   std::vector<TileRange> tiles_;
   std::size_t further_bands_;
+  double memory_bytes_ = 0.0;
 };
 
 }  // namespace

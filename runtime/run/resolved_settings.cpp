@@ -22,6 +22,8 @@ constexpr double sampling_share = 0.75;
 void check(const Quantities& q, SkyWeight weight) {
   require_one_of("further.sky_patches", q.sky_patches, SkyPatchSet::reinhart);
   if (q.horizons > 0) require_count_between("further.horizons", q.horizons, 4, 3600);
+  if (q.horizon_distances && q.horizons == 0)
+    throw InvalidArgument("further.horizon_distances are those of horizons, and further.horizons is 0: give their number");
   for (const SunPosition& sun : q.sun ? std::span<const SunPosition>(*q.sun) : std::span<const SunPosition>()) {
     require_between("an azimuth of the sun, in degrees", sun.azimuth.degrees(), -360.0, 360.0);
     require_between("an elevation of the sun, in degrees", sun.elevation.degrees(), -90.0, 90.0);
@@ -84,6 +86,7 @@ ResolvedSettings resolved(const EvaluationSettings& evaluation, const RunSetting
   s.accuracy = {s.sky.azimuths, s.sky.rays, sampling_error_of(s.sky), s.sky.max_far_error};
   s.bounds = evaluation.bounds;
   s.verify = evaluation.verify;
+  s.dry_run = evaluation.dry_run;
   s.region = evaluation.region;
   s.threads = thread_count(run);
   s.run = run;

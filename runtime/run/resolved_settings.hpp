@@ -18,6 +18,7 @@ struct ResolvedSettings {
   Accuracy accuracy;
   bool bounds = false;
   std::size_t verify = 0;
+  bool dry_run = false;
   std::size_t threads = 1;
   std::shared_ptr<const Region> region;  ///< null: everywhere
   RunSettings run;

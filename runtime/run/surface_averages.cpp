@@ -3,6 +3,7 @@
 #include "run/surface_averages.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace farlod {
@@ -39,7 +40,8 @@ void SurfaceAverages::add(PlaceInRun place, const SurfacePoint& r) {
   surface.row.area_m2 += r.area_m2;
   surface.mean.add(*r.svf, r.area_m2);
   surface.further.resize(r.further.size());
-  for (std::size_t n = 0; n < r.further.size(); ++n) surface.further[n].add(static_cast<double>(r.further[n]), r.area_m2);
+  for (std::size_t n = 0; n < r.further.size(); ++n)
+    if (!std::isnan(r.further[n])) surface.further[n].add(static_cast<double>(r.further[n]), r.area_m2);
   add_extremes(surface.row, *r.svf);
 }
 
@@ -48,7 +50,7 @@ std::vector<SurfaceMean> SurfaceAverages::rows() const {
   for (const Surface* surface : in_order(surfaces_)) {
     rows.push_back(surface->row);
     rows.back().svf_mean = surface->mean.value();
-    for (const AreaMean& mean : surface->further) rows.back().further_mean.push_back(*mean.value());
+    for (const AreaMean& mean : surface->further) rows.back().further_mean.push_back(mean.value().value_or(std::nan("")));
   }
   return rows;
 }

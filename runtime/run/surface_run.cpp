@@ -130,12 +130,12 @@ SurfaceMeans evaluate_surfaces(const Package& package, const SurfaceSettings& su
   const PackageReader& reader = in_use.reader();
   const CellRange& range = reader.grid().cells;
   const std::vector<Cell> cells = along_hilbert_curve(all_cells(range), reader.grid().block_edge);
-  require_memory(reader.manifest(), settings, needs_of(reader, settings.sky.engine, cells));
+  const double memory_bytes = require_memory(reader.manifest(), settings, needs_of(reader, settings.sky.engine, cells));
   MeansOfRun means(on_points);
   // What is known of a cell's receivers, from when they are placed until their answers are there
   std::vector<std::vector<SurfaceReceiver>> placed(cells.size());
   std::atomic<std::size_t> stored = 0;  // cells, in their order; a verification asks for the receivers of some of them again
-  const EvaluationSummary summary = evaluate_cells(
+  EvaluationSummary summary = evaluate_cells(
       in_use, settings, cells.size(),
       [&](std::size_t n) {
         PlacedReceivers receivers = placed_on_surfaces(reader, cells[n], surfaces, settings);
@@ -148,7 +148,7 @@ SurfaceMeans evaluate_surfaces(const Package& package, const SurfaceSettings& su
         placed[n] = {};
         ++stored;
       });
-  return means.with(summary);
+  return means.with(summary.estimate ? with_memory(std::move(summary), memory_bytes) : std::move(summary));
 }
 
 }  // namespace farlod

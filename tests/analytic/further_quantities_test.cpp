@@ -132,6 +132,38 @@ TEST(FurtherQuantities, DirectionalValuesOfCanyonsAreKnown) {
     }
 }
 
+TEST(FurtherQuantities, DistancesToTheHorizonAreThoseOfTheWalls) {
+  Quantities further;
+  further.directional = true;  // a column before, and one behind
+  further.horizons = 8;
+  further.horizon_distances = true;
+  further.sun.emplace();
+  const Canyon canyon{0.0};
+  const PackedAround packed(Angle::degrees(20.0), walls_of(canyon));
+  for (const Engine engine : engines) {
+    SCOPED_TRACE(static_cast<int>(engine));
+    auto got = packed.columns(engine, further);
+    EXPECT_NEAR(got["distance_090"], canyon.right_m, 1e-3);
+    EXPECT_NEAR(got["distance_270"], canyon.left_m, 1e-3);
+    for (const char* diagonal : {"distance_045", "distance_135"})
+      EXPECT_NEAR(got[diagonal], std::sqrt(2.0) * canyon.right_m, 1e-3);
+    EXPECT_TRUE(std::isnan(got["distance_000"])) << got["distance_000"];  // along the canyon, where the horizon is level
+    EXPECT_NEAR(got["horizon_090"], std::atan2(canyon.height_m, canyon.right_m) * 180.0 / pi, 0.02);
+    EXPECT_EQ(got["sunlit_h"], 0.0);
+  }
+}
+
+TEST(FurtherQuantities, DistancesReachBeyondTheNeighborhood) {
+  Quantities further;
+  further.horizons = 4;
+  further.horizon_distances = true;
+  const PackedAround packed({}, [](scenes::SceneBuilder& builder) {
+    builder.add_wall({-300.0, 700.0}, {300.0, 700.0}, -eye_m, 90.0);
+    builder.add_wall({-10.0, 15.0}, {10.0, 15.0}, -eye_m, 1.0);  // nearer, and below the horizon
+  });
+  for (const Engine engine : engines) EXPECT_NEAR(packed.columns(engine, further)["distance_000"], 700.0, 0.01);
+}
+
 TEST(FurtherQuantities, AreOneInTheOpen) {
   Quantities further;
   further.directional = further.svf_solid = further.hidden = true;

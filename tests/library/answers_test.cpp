@@ -278,6 +278,32 @@ TEST_F(Answers, SayWhatTheSettingsCameTo) {
   EXPECT_GE(raster.summary.errors->rays, 20'000U);
 }
 
+TEST_F(Answers, TellTheReceiversOfAVerification) {
+  EvaluationSettings settings;
+  settings.verify = 20;
+  const RasterPlan plan = plan_raster(package_, 8.0);
+  RunSettings one_thread;
+  one_thread.threads = 1;
+  const Raster raster = evaluate_raster(package_, plan, {}, settings),
+               same = evaluate_raster(package_, plan, {}, settings, one_thread);
+  ASSERT_EQ(raster.summary.verified.size(), 20U);
+  double error_sum = 0.0;
+  for (std::size_t n = 0; n < 20; ++n) {
+    const VerifiedReceiver& r = raster.summary.verified[n];
+    const auto column = static_cast<std::size_t>((r.p_projected.x - plan.north_west_m.x) / plan.step_m),
+               row = static_cast<std::size_t>((plan.north_west_m.y - r.p_projected.y) / plan.step_m);
+    EXPECT_EQ(r.svf, raster.svf[row * plan.columns + column]);
+    EXPECT_EQ(r.exact, same.summary.verified[n].exact);
+    EXPECT_EQ(r.p_projected.x, same.summary.verified[n].p_projected.x);
+    const double x = r.p_projected.x, y = r.p_projected.y, z = r.p_projected.z;
+    EXPECT_NEAR(evaluate_points(package_, {{&x, 1}, {&y, 1}, {&z, 1}}).svf.front(), r.svf, 0.01);
+    error_sum += std::abs(static_cast<double>(r.svf) - static_cast<double>(r.exact));
+  }
+  EXPECT_NEAR(raster.summary.errors->mean_abs_error, error_sum / 20.0, arithmetic_error);
+  settings.verify = 0;
+  EXPECT_TRUE(evaluate_raster(package_, plan, {}, settings).summary.verified.empty());
+}
+
 /// Rays answer from box maps and beyond the grid, whatever the engine: the error is theirs.
 TEST_F(Answers, SayTheErrorOfWhatAnswered) {
   EvaluationSettings horizons;
