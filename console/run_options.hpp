@@ -20,6 +20,7 @@ struct RunOptions {
   std::string summary_file;  ///< empty: none
   int threads = 0;           ///< 0: all cores
   Verbosity verbosity = Verbosity::normal;
+  std::string settings_json;  ///< what was given, for the summary (settings_of_summary)
 };
 
 [[nodiscard]] std::size_t thread_count(const RunOptions& options);

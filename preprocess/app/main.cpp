@@ -169,7 +169,7 @@ int run(const PackOptions& options) {
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_report(report, options.report_file);
-  write_text(options.run.summary_file, pack_summary_json(*result, report, seconds));
+  write_text(options.run.summary_file, pack_summary_json(*result, report, seconds, options.run.settings_json));
   if (options.run.verbosity == Verbosity::normal) print_result(*result, report, options, seconds);
   return exit_done;
 }

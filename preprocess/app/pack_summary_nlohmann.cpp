@@ -50,9 +50,17 @@ Json seconds_of(const PackResult& result, double total_seconds) {
   return seconds;
 }
 
+Json json_of(const PackEstimate& estimate) {
+  return {{"seconds", estimate.seconds},
+          {"memory_mib", estimate.memory_mib},
+          {"least_memory_mib", estimate.least_memory_mib},
+          {"package_mib", estimate.package_mib}};
+}
+
 }  // namespace
 
-std::string pack_summary_json(const PackResult& result, const Report& report, double total_seconds) {
+std::string pack_summary_json(const PackResult& result, const Report& report, double total_seconds,
+                              const std::string& settings_json) {
   const PackageDescription& m = result.package;
   Json j = {{"buildings", m.buildings},
             {"polygons", m.polygons},
@@ -70,13 +78,10 @@ std::string pack_summary_json(const PackResult& result, const Report& report, do
             {"peak_memory_mib", peak_memory_mib()},
             {"package_bytes", result.package_bytes},
             {"far_map_bytes", result.far_map_bytes},
-            {"estimate",
-             {{"seconds", result.estimate.seconds},
-              {"memory_mib", result.estimate.memory_mib},
-              {"least_memory_mib", result.estimate.least_memory_mib},
-              {"package_mib", result.estimate.package_mib}}}};
+            {"estimate", json_of(result.estimate)}};
   if (!result.skipped.empty()) j["skipped"] = result.skipped;
   if (result.chosen) j["chosen"] = json_of(*result.chosen);
+  j["settings"] = Json::parse(settings_json);
   return text_of(j);
 }
 

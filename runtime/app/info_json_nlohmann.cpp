@@ -118,10 +118,11 @@ Json json_of(const PackageFacts& facts) {
 
 std::string facts_json(const PackageFacts& facts) { return json_of(facts).dump(1) + "\n"; }
 
-std::string info_summary_json(const PackageFacts& facts, double total_seconds) {
+std::string info_summary_json(const PackageFacts& facts, double total_seconds, const std::string& settings_json) {
   Json json = json_of(facts);
   json["seconds"] = {{"total", total_seconds}};
   json["peak_memory_mib"] = peak_memory_mib();
+  json["settings"] = Json::parse(settings_json);
   return json.dump(1) + "\n";
 }
 

@@ -85,7 +85,8 @@ int run(const InfoOptions& options) {
   const PackageFacts facts = facts_of(package, options);
   if (!options.obj_file.empty()) write_neighborhood(package, facts, options.obj_file);
   if (!options.picture_file.empty()) draw_neighborhood(package, facts, options);
-  write_summary(options.run.summary_file, info_summary_json(facts, std::chrono::duration<double>(Clock::now() - start).count()));
+  const double total_s = std::chrono::duration<double>(Clock::now() - start).count();
+  write_summary(options.run.summary_file, info_summary_json(facts, total_s, options.run.settings_json));
   if (options.json)
     fmt::print("{}", facts_json(facts));
   else if (options.run.verbosity == Verbosity::normal)

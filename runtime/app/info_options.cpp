@@ -70,7 +70,7 @@ std::optional<CellPlace> cell_in(std::string_view text) {
 
 bool is_picture(const std::filesystem::path& path) {
   const OutputFormat* const format = output_format_of(path);
-  return format != nullptr && format->kind == OutputKind::picture;
+  return format != nullptr && format->is_picture;
 }
 
 void resolve(const RawOptions& raw, InfoOptions& o) {
@@ -85,7 +85,7 @@ void resolve(const RawOptions& raw, InfoOptions& o) {
     if (!file.empty() && !o.cell) throw CLI::ValidationError(name, "it goes with --cell");
   if (!raw.picture.empty() && !is_picture(o.picture_file))
     throw CLI::ValidationError("--png", "\"" + raw.picture + "\" is not the name of a picture: choose one of " +
-                                            endings_where([](const OutputFormat& f) { return f.kind == OutputKind::picture; }));
+                                            endings_where([](const OutputFormat& f) { return f.is_picture; }));
 }
 
 /// All options, and what they are bound to.

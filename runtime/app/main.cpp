@@ -13,8 +13,10 @@
 #include "app/sun_of_package.hpp"
 #include "app/svf_options.hpp"
 #include "app/svf_summary.hpp"
+#include "app/verification_file.hpp"
 #include "app/written_run.hpp"
 #include "console/exit_code.hpp"
+#include "console/rough_number.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod {
@@ -28,7 +30,7 @@ RunSettings run_settings(const SvfOptions& options, ProgressLine& progress) {
   RunSettings run;
   run.threads = thread_count(options.run);
   run.memory_limit_mib = options.memory_limit_mib;
-  run.on_progress = [&progress](const Progress& p) { progress.update(p.done, p.all); };
+  if (!options.evaluation.dry_run) run.on_progress = [&progress](const Progress& p) { progress.update(p.done, p.all); };
   return run;
 }
 
@@ -41,7 +43,7 @@ WrittenRun evaluate(SvfOptions options) {
   ProgressLine progress("sky view factors", options.run.verbosity);
   const RunSettings run = run_settings(options, progress);
   const bool is_city = !options.city_file.empty();
-  const bool is_sky = options.source == ReceiverSource::at && options.format->kind == OutputKind::picture;
+  const bool is_sky = options.source == ReceiverSource::at && options.format->is_picture;
   WrittenRun written = is_city                                      ? write_enriched_city(package, options, run)
                        : is_sky                                     ? write_sky(package, options, run)
                        : options.source == ReceiverSource::grid     ? write_raster(package, options, run)
@@ -49,6 +51,9 @@ WrittenRun evaluate(SvfOptions options) {
                                                                     : write_points(package, options, run);
   written.further_columns = columns_of(options.evaluation.further);
   written.open_s = open_s;
+  if (options.evaluation.dry_run) return written;
+  if (!options.histogram_file.empty()) written.files.emplace_back(options.histogram_file);
+  if (options.verify_format != nullptr) write_verification(package, options, run.threads, written);
   return written;
 }
 
@@ -71,6 +76,15 @@ void print_accuracy(const EvaluationSummary& run, const EvaluationSettings& aske
     fmt::print("Errors against exact ({} random receivers, {} rays): mean {:.4f}, 99 % within {:.4f}, max {:.4f}, bias {:+.4f}\n",
                run.errors->count, run.errors->rays, run.errors->mean_abs_error, run.errors->p99_abs_error,
                run.errors->max_abs_error, run.errors->bias);
+}
+
+void print_estimate(const WrittenRun& written, const RunEstimate& estimate) {
+  constexpr double mib = 1 << 20;
+  fmt::print("About {} receivers: {}, {} of memory and {} on the disk, from {} of {} cells. Nothing was written.\n",
+             with_commas(static_cast<std::uint64_t>(rough_number(estimate.receivers))), rough_duration(estimate.seconds),
+             rough_size(estimate.memory_bytes / mib), rough_size(written.output_bytes / mib), estimate.evaluated_cells,
+             with_commas(estimate.cells));
+  for (const std::string& note : written.notes) fmt::print("{}\n", note);
 }
 
 void print_run(const WrittenRun& written, const SvfOptions& options, double total_s) {
@@ -105,13 +119,15 @@ int run(const SvfOptions& options) {
   // The process is the program's: as many threads as are asked for, also where there are fewer cores
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
   for (const std::filesystem::path& file :
-       {options.output, std::filesystem::path(options.preview_file), std::filesystem::path(options.run.summary_file)})
+       {options.output, std::filesystem::path(options.preview_file), std::filesystem::path(options.verify_file),
+        std::filesystem::path(options.histogram_file), std::filesystem::path(options.run.summary_file)})
     require_folder_of(file);
   const auto start = Clock::now();
   const WrittenRun result = evaluate(options);
   const double total_s = seconds_since(start);
   write_summary(options.run.summary_file, svf_summary_json(result, options, total_s));
-  if (options.run.verbosity == Verbosity::normal) print_run(result, options, total_s);
+  if (options.run.verbosity != Verbosity::normal) return exit_done;
+  result.summary.estimate ? print_estimate(result, *result.summary.estimate) : print_run(result, options, total_s);
   return exit_done;
 }
 

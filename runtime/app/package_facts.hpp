@@ -28,7 +28,7 @@ struct PackageFacts {
 /// For programs; the keys are listed in docs/stages/results.md.
 [[nodiscard]] std::string facts_json(const PackageFacts& facts);
 /// The same, with the figures of the run.
-[[nodiscard]] std::string info_summary_json(const PackageFacts& facts, double total_seconds);
+[[nodiscard]] std::string info_summary_json(const PackageFacts& facts, double total_seconds, const std::string& settings_json);
 
 /// What is damaged, in a line that names the cell where there is one.
 [[nodiscard]] std::string damage_text(const PackageDamage& damage);

@@ -50,23 +50,27 @@ void add(const std::string& name, const RawQuantities& raw, RequestedQuantities&
     requested.further.hidden = true;
   } else if (name == "horizon") {
     requested.further.horizons = default_horizons;
+  } else if (name == "horizon_distance") {
+    requested.further.horizons = default_horizons;
+    requested.further.horizon_distances = true;
   } else if (name == "sky_patches") {
     requested.further.sky_patches = SkyPatchSet::tregenza;
   } else if (name == "sunlit") {
     if (raw.sun.empty()) throw CLI::ValidationError("--quantity", "sunlit needs a day or a year: give --sun");
   } else {
     throw CLI::ValidationError("--quantity", "\"" + name +
-                                                 "\" is not one of svf, svf_solid, directional, hidden, horizon, sky_patches, "
-                                                 "sunlit");
+                                                 "\" is not one of svf, svf_solid, directional, hidden, horizon, "
+                                                 "horizon_distance, sky_patches, sunlit");
   }
 }
 
 }  // namespace
 
 void add_quantity_options(CLI::App& app, RawQuantities& raw) {
-  app.add_option("--quantity", raw.quantities,
-                 "What to compute, with commas: svf (always), svf_solid, directional (svfN, svfE, svfS, svfW as UMEP has them), "
-                 "hidden (by near and by far geometry), horizon, sky_patches, sunlit")
+  app.add_option(
+         "--quantity", raw.quantities,
+         "What to compute, with commas: svf (always), svf_solid, directional (svfN, svfE, svfS, svfW as UMEP has them), "
+         "hidden (by near and by far geometry), horizon, horizon_distance (with the level distance to it), sky_patches, sunlit")
       ->group("Quantities");
   app.add_option(
          "--horizons", raw.horizons,
@@ -78,7 +82,10 @@ void add_quantity_options(CLI::App& app, RawQuantities& raw) {
                  "The share seen of each patch of the sky, as Radiance counts them: 145 (Tregenza) or 577 (Reinhart)")
       ->check(CLI::IsMember({tregenza_patches, reinhart_patches}))
       ->group("Quantities");
-  app.add_option("--sun", raw.sun, "Hours of sunshine, were the sky clear: of a day, as 2026-06-21, or a year, as 2026")
+  app.add_option(
+         "--sun", raw.sun,
+         "Hours of sunshine, were the sky clear: of a day, as 2026-06-21, or a year, as 2026. A picture of the sky above --at "
+         "shows the sun's path, too")
       ->group("Quantities");
   app.add_option("--sun-step", raw.sun_step_minutes,
                  "Minutes from one position of the sun to the next (default: " + std::to_string(step_of_days) + " for a day, " +

@@ -9,21 +9,6 @@
 namespace farlod {
 namespace {
 
-const char* name_of(Engine engine) {
-  switch (engine) {
-    case Engine::horizon:
-      return "horizon";
-    case Engine::rays:
-      return "rays";
-    case Engine::exact:
-      return "exact";
-    case Engine::automatic:
-    case Engine::near_only:  // which the program does not offer
-      break;
-  }
-  return "auto";
-}
-
 const char* name_of(SurfaceChoice choice) {
   return choice == SurfaceChoice::roofs ? "roofs" : choice == SurfaceChoice::walls ? "walls" : "all";
 }
@@ -36,11 +21,12 @@ std::string receivers_of(const SvfOptions& o) {
       fmt::format("--height {}{}", o.placing.height_m, o.placing.above == HeightAbove::highest_surface ? " --on-surface" : "");
   if (o.source == ReceiverSource::lines)
     return fmt::format("--along {} --spacing {} {}", o.points_file.filename().string(), spacing_m, height);
+  if (!o.grid_like.empty()) return fmt::format("--grid-like {} {}", o.grid_like.filename().string(), height);
   return o.source == ReceiverSource::grid ? fmt::format("--grid {} {}", o.grid_step_m, height) : height;
 }
 
 std::string accuracy_options(const EvaluationSettings& e) {
-  std::string text = fmt::format("--engine {} --sky {}", name_of(e.engine), e.weight == SkyWeight::cosine ? "cosine" : "solid");
+  std::string text = fmt::format("--engine {} --sky {}", word_for(e.engine), e.weight == SkyWeight::cosine ? "cosine" : "solid");
   if (e.directions == DirectionSet::fibonacci) text += " --directions fibonacci";
   if (e.azimuths) text += fmt::format(" --azimuths {}", *e.azimuths);
   if (e.rays) text += fmt::format(" --rays {}", *e.rays);
@@ -55,6 +41,7 @@ std::string quantity_options(const SvfOptions& o) {
   if (q.svf_solid) text += ",svf_solid";
   if (q.directional) text += ",directional";
   if (q.hidden) text += ",hidden";
+  if (q.horizon_distances) text += ",horizon_distance";
   if (!text.empty()) text = " --quantity svf" + text;
   if (q.horizons > 0) text += fmt::format(" --horizons {}", q.horizons);
   if (q.sky_patches != SkyPatchSet::none)

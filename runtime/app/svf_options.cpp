@@ -8,12 +8,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
+#include "app/format_advice.hpp"
+#include "app/picture_options.hpp"
 #include "console/exit_code.hpp"
 #include "console/number_range.hpp"
 #include "console/option_list.hpp"
-#include "contract/lower_case.hpp"
+#include "contract/expects.hpp"
 #include "farlod/error.hpp"
+#include "results/city/city_format.hpp"
 
 namespace farlod {
 namespace {
@@ -47,10 +51,11 @@ std::string known_endings() {
 
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
-  std::string package, output, city, points, along, surfaces, at, bbox, mask, engine = "auto", sky = "cosine",
-                                                                              directions = "partition", projection;
+  std::string package, output, city, grid_like, points, along, surfaces, at, bbox, mask, engine = "auto", sky = "cosine",
+                                                                                         directions = "partition";
   bool on_surface = false;
   RawQuantities quantities;
+  RawPictures pictures;
 };
 
 std::vector<double> numbers_in(const std::string& text, const std::string& option, const std::string& form) {
@@ -68,6 +73,8 @@ std::vector<double> numbers_in(const std::string& text, const std::string& optio
 void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   auto* receivers = app.add_option_group("Receivers", "Where the sky is looked at");
   receivers->add_option("--grid", o.grid_step_m, "A raster with pixels of this many metres")->check(between(0.01, 10000.0));
+  receivers->add_option("--grid-like", raw.grid_like, "The pixels of this raster, such as the surface model that SOLWEIG runs on")
+      ->type_name(file_value);
   receivers
       ->add_option("--points", raw.points,
                    "The points of this file: GeoPackage, GeoJSON, Shapefile, FlatGeobuf, another format of GDAL's, or CSV with "
@@ -101,22 +108,17 @@ void add_placing_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->group("Placing");
 }
 
-void add_output_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
+void add_output_options(CLI::App& app, RawOptions& raw) {
   app.add_option("PACKAGE", raw.package, "A folder that farlod-pack made")->required()->type_name(folder_value);
   app.add_option("-o,--output", raw.output, "File to write; its ending says the format: " + known_endings())
       ->required()
       ->type_name(file_value)
       ->group("Output");
-  app.add_option("--city", raw.city,
-                 "With --surfaces: the CityJSON file that the package was made of. It is written again as -o, with the values as "
-                 "attributes of its buildings and surfaces")
+  app.add_option(
+         "--city", raw.city,
+         "With --surfaces: the CityGML, CityJSON or CityJSONSeq file that the package was made of. It is written again as -o, "
+         "with the values as attributes of its buildings and surfaces")
       ->type_name(file_value)
-      ->group("Output");
-  app.add_option("--preview", o.preview_file, "Also draw the raster as this picture (PNG, SVG or PDF), with a colour scale")
-      ->type_name(file_value)
-      ->group("Output");
-  app.add_option("--projection", raw.projection, "Of a picture of the sky above --at (default: equal-area)")
-      ->check(CLI::IsMember({"equidistant", "equal-area", "orthographic"}))
       ->group("Output");
 }
 
@@ -159,9 +161,17 @@ void add_error_options(CLI::App& app, SvfOptions& o) {
   app.add_option("--verify", o.evaluation.verify, "Also compute this many random receivers exactly, and report the errors")
       ->check(CLI::Range(0, 1000000000))
       ->group("Accuracy");
+  app.add_option(
+         "--verify-map", o.verify_file,
+         "With --verify: draw the errors at these receivers as this map (PNG, SVG or PDF), or write them as a table (CSV)")
+      ->type_name(file_value)
+      ->group("Accuracy");
 }
 
-void add_memory_option(CLI::App& app, SvfOptions& o) {
+void add_limit_options(CLI::App& app, SvfOptions& o) {
+  app.add_flag("--dry-run", o.evaluation.dry_run,
+               "Write nothing, and tell what the run would take: receivers, memory, time and disk, from some of its cells")
+      ->group("Run");
   app.add_option("--memory-limit", o.memory_limit_mib,
                  "Refuse to begin when the run needs more than this many MiB (default: no limit)")
       ->check(CLI::Range(1, 1 << 30))
@@ -174,6 +184,8 @@ void resolve_place(const RawOptions& raw, SvfOptions& o) {
     if (n.size() != 2 && n.size() != 3) throw CLI::ValidationError("--at", "give X,Y or X,Y,Z");
     o.source = ReceiverSource::at;
     o.at = {"1", n[0], n[1], n.size() == 3 ? std::optional(n[2]) : std::nullopt, std::nullopt};
+  } else if (!raw.grid_like.empty()) {
+    o.grid_like = raw.grid_like;
   } else if (!raw.points.empty()) {
     o.source = ReceiverSource::points;
     o.points_file = raw.points;
@@ -194,6 +206,8 @@ void resolve_part(const RawOptions& raw, SvfOptions& o) {
   if (o.source == ReceiverSource::at && !(raw.mask.empty() && raw.bbox.empty()))
     throw CLI::ValidationError(raw.mask.empty() ? "--bbox" : "--mask", "it goes with --grid, --points, --along and --surfaces");
   if (raw.bbox.empty()) return;
+  if (!raw.grid_like.empty())
+    throw CLI::ValidationError("--bbox", "the raster of --grid-like says where its pixels are: give one of the two");
   const auto n = numbers_in(raw.bbox, "--bbox", "X0,Y0,X1,Y1");
   if (n.size() != 4 || n[0] >= n[2] || n[1] >= n[3])
     throw CLI::ValidationError("--bbox", "give X0,Y0,X1,Y1 with X0 < X1 and Y0 < Y1");
@@ -207,16 +221,8 @@ void resolve_part(const RawOptions& raw, SvfOptions& o) {
 
 /// A picture is a map of --grid, or the sky above --at.
 bool fits(const OutputFormat& format, ReceiverSource source) {
-  if (format.kind == OutputKind::picture) return source == ReceiverSource::grid || source == ReceiverSource::at;
-  return (format.kind == OutputKind::table) == (source != ReceiverSource::grid);
-}
-
-/// "choose .csv", or "choose one of .tif, .tiff"; says so when this build has no such format.
-template <class Condition>
-std::string advice(const Condition& condition) {
-  const std::string endings = endings_where(condition);
-  if (endings.empty()) return "this farlod-svf was built without such a format";
-  return (endings.find(',') == std::string::npos ? "choose " : "choose one of ") + endings;
+  if (format.is_picture) return source == ReceiverSource::grid || source == ReceiverSource::at;
+  return source == ReceiverSource::grid ? format.holds_rasters() : format.holds_tables();
 }
 
 void require_format_that_fits(const SvfOptions& o) {
@@ -231,24 +237,6 @@ void require_format_that_fits(const SvfOptions& o) {
     throw CLI::ValidationError("--bounds", "a file that ends in " + ending + " has no room for bounds: " + advice(holds_bounds));
 }
 
-void resolve_preview(SvfOptions& o) {
-  if (o.preview_file.empty()) return;
-  if (o.source != ReceiverSource::grid) throw CLI::ValidationError("--preview", "it goes with --grid");
-  const auto is_picture = [](const OutputFormat& f) { return f.kind == OutputKind::picture; };
-  o.preview_format = output_format_of(o.preview_file);
-  if (o.preview_format == nullptr || !is_picture(*o.preview_format))
-    throw CLI::ValidationError("--preview", "\"" + o.preview_file + "\" is not the name of a picture: " + advice(is_picture));
-}
-
-void resolve_projection(const RawOptions& raw, SvfOptions& o) {
-  if (raw.projection.empty()) return;
-  if (o.source != ReceiverSource::at || o.format->kind != OutputKind::picture)
-    throw CLI::ValidationError("--projection", "it goes with a picture of --at");
-  o.projection = raw.projection == "equidistant"  ? SkyProjection::equidistant
-                 : raw.projection == "equal-area" ? SkyProjection::equal_area
-                                                  : SkyProjection::orthographic;
-}
-
 void resolve_format(const RawOptions& raw, SvfOptions& o) {
   o.format = output_format_of(o.output);
   if (o.format == nullptr)
@@ -257,21 +245,20 @@ void resolve_format(const RawOptions& raw, SvfOptions& o) {
   require_format_that_fits(o);
 }
 
-/// The ending of a city file, whose name has another dot before it.
-constexpr std::string_view city_ending = ".city.json";
-
-bool is_city_name(const std::filesystem::path& path) {
-  const std::string name = lower_case(path.filename().string());
-  return name.size() > city_ending.size() && name.ends_with(city_ending);
+/// For messages: ".city.json (CityJSON), ...".
+std::string city_endings() {
+  std::string list;
+  for (const EnrichedFormat format : {EnrichedFormat::cityjson, EnrichedFormat::cityjsonseq, EnrichedFormat::citygml})
+    list += (list.empty() ? "" : ", ") + endings_of(format) + " (" + name_of(format) + ")";
+  return list;
 }
 
 /// A city file has no receivers, and its attributes are numbers of whole surfaces.
 void resolve_city(const RawOptions& raw, SvfOptions& o) {
   o.city_file = raw.city;
   if (o.source != ReceiverSource::surfaces) throw CLI::ValidationError("--city", "it goes with --surfaces");
-  if (!is_city_name(o.output))
-    throw CLI::ValidationError("-o",
-                               "with --city the output is CityJSON: choose a name that ends in " + std::string(city_ending));
+  if (!city_format_of(o.output))
+    throw CLI::ValidationError("-o", "with --city the output is a city file, too: choose a name that ends in " + city_endings());
   if (o.evaluation.bounds)
     throw CLI::ValidationError("--bounds", "the attributes of a city file (--city) have no room for bounds");
 }
@@ -280,13 +267,14 @@ void resolve_output(const RawOptions& raw, SvfOptions& o) {
   o.output = raw.output;
   if (!raw.city.empty()) {
     resolve_city(raw, o);
-  } else if (is_city_name(o.output)) {
+  } else if (city_format_of(o.output)) {
     throw CLI::ValidationError("-o", "a city file is the file that was packed, with values: name that file with --city");
   } else {
     resolve_format(raw, o);
   }
-  resolve_preview(o);
-  resolve_projection(raw, o);
+  resolve_pictures(raw.pictures, o);
+  if (o.evaluation.dry_run && o.source == ReceiverSource::at)
+    throw CLI::ValidationError("--dry-run", "it goes with --grid, --grid-like, --points, --along and --surfaces");
   const bool has_file = o.source == ReceiverSource::points || o.source == ReceiverSource::lines;
   if (!o.points_crs.empty() && !has_file) throw CLI::ValidationError("--points-crs", "it goes with --points or --along");
   if (!o.points_layer.empty() && !has_file) throw CLI::ValidationError("--points-layer", "it goes with --points or --along");
@@ -301,20 +289,27 @@ void require_accuracy(const EvaluationSettings& settings) {
   }
 }
 
+/// The engines that the program offers; near_only is for measurements.
+constexpr std::pair<const char*, Engine> engines[] = {
+    {"auto", Engine::automatic}, {"horizon", Engine::horizon}, {"rays", Engine::rays}, {"exact", Engine::exact}};
+
 Engine engine_of(const std::string& name) {
-  if (name == "exact") return Engine::exact;
-  if (name == "rays") return Engine::rays;
-  return name == "horizon" ? Engine::horizon : Engine::automatic;
+  return std::ranges::find_if(engines, [&](const auto& e) { return name == e.first; })->second;
 }
 
 void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
   RequestedQuantities requested = resolved(raw.quantities);
+  if (o.format != nullptr && o.format->is_for_solweig) requested.further.directional = true;
   const bool is_weighted = requested.further.svf_solid || requested.further.directional || requested.further.hidden ||
                            requested.further.sky_patches != SkyPatchSet::none;
   if (is_weighted && o.evaluation.weight == SkyWeight::solid_angle)
     throw CLI::ValidationError("--quantity", "with --sky solid only horizon and sunlit can be computed: leave --sky out");
+  const bool is_sky = o.source == ReceiverSource::at && o.format != nullptr && o.format->is_picture;
+  if (is_sky && requested.further.any())
+    throw CLI::ValidationError("--quantity",
+                               "a picture of the sky shows svf and, with --sun, the sun's path: leave the others out");
   const auto has_room = [&](const OutputFormat& f) { return fits(f, o.source) && f.holds_bounds; };
-  if (requested.any() && o.format != nullptr && !o.format->holds_bounds)
+  if (requested.any() && !is_sky && o.format != nullptr && !o.format->holds_bounds)
     throw CLI::ValidationError("--quantity", "a file that ends in " + o.output.extension().string() +
                                                  " has room for one quantity only: " + advice(has_room));
   o.evaluation.further = std::move(requested.further);
@@ -344,16 +339,23 @@ struct CommandLine {
     describe_program(app, svf_program());
     add_receiver_options(app, raw, options);
     add_placing_options(app, raw, options);
-    add_output_options(app, raw, options);
+    add_output_options(app, raw);
+    add_picture_options(app, raw.pictures, options);
     add_quantity_options(app, raw.quantities);
     add_sky_options(app, raw, options);
     add_error_options(app, options);
-    add_memory_option(app, options);
+    add_limit_options(app, options);
     add_run_options(app, svf_program().name, options.run);
   }
 };
 
 }  // namespace
+
+std::string word_for(Engine engine) {
+  const auto named = std::ranges::find(engines, engine, &std::pair<const char*, Engine>::second);
+  FARLOD_EXPECTS(named != std::end(engines));
+  return named->first;
+}
 
 ParsedSvfOptions parse_svf_options(int argc, char** argv) {
   CommandLine line;

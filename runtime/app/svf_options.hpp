@@ -28,8 +28,10 @@ struct SvfOptions {
   std::filesystem::path package, output;
   const OutputFormat* format = nullptr;          ///< of `output`; once the options are resolved, null for a city file alone
   const OutputFormat* preview_format = nullptr;  ///< of `preview_file`; null when there is none
+  const OutputFormat* verify_format = nullptr;   ///< of `verify_file`, a picture or a table; null when there is none
   ReceiverSource source = ReceiverSource::grid;
   double grid_step_m = 0.0;
+  std::filesystem::path grid_like;    ///< a raster whose pixels are the receivers; empty: pixels of `grid_step_m`
   std::filesystem::path points_file;  ///< of points, or of lines
   std::string points_crs, points_layer;
   SurfaceSettings surfaces;
@@ -40,7 +42,7 @@ struct SvfOptions {
   std::filesystem::path mask_file;    ///< of polygons; empty: no mask
   EvaluationSettings evaluation;      ///< but for the sun, whose positions depend on where the package is
   std::optional<SunPeriod> sunshine;  ///< when hours of sunshine are counted, if they are
-  std::string preview_file;
+  std::string preview_file, verify_file, histogram_file;
   SkyProjection projection = SkyProjection::equal_area;
   std::optional<std::uint64_t> memory_limit_mib;
   RunOptions run;
@@ -53,6 +55,9 @@ struct ParsedSvfOptions {
   int exit_code = 0;
 };
 [[nodiscard]] ParsedSvfOptions parse_svf_options(int argc, char** argv);
+
+/// The word of --engine.
+[[nodiscard]] std::string word_for(Engine engine);
 
 /// Hands over the command line, from which the manual page and the completion are made.
 void describe_svf_options(const CommandLineVisitor& visit);

@@ -12,21 +12,6 @@ using Json = nlohmann::ordered_json;
 
 Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-const char* name_of(Engine engine) {
-  switch (engine) {
-    case Engine::automatic:
-      return "auto";
-    case Engine::horizon:
-      return "horizon";
-    case Engine::exact:
-      return "exact";
-    case Engine::rays:
-    case Engine::near_only:
-      break;
-  }
-  return "rays";
-}
-
 Json seconds_json(const WrittenRun& written, double total) {
   const EvaluationSeconds& seconds = written.summary.seconds;
   return {{"total", total},
@@ -41,6 +26,12 @@ Json error_budget_json(const EvaluationSummary& run, double allowed) {
           {"sampling_share", run.accuracy.sampling_error},
           {"far_share", *run.accuracy.far_error_allowed},
           {"rays_traced_exactly", run.retraced_rays}};
+}
+
+Json json_of(const RunEstimate& estimate, double output_bytes) {
+  constexpr double mib = 1 << 20;
+  return {{"cells", estimate.cells},     {"evaluated_cells", estimate.evaluated_cells}, {"receivers", estimate.receivers},
+          {"seconds", estimate.seconds}, {"memory_mib", estimate.memory_bytes / mib},   {"output_mib", output_bytes / mib}};
 }
 
 Json json_of(const ErrorSummary& errors) {
@@ -60,7 +51,7 @@ std::string svf_summary_json(const WrittenRun& written, const SvfOptions& option
   Json j = {
       {"receivers", run.receivers},
       {"nodata", run.no_data + run.beyond_grid},
-      {"engine", name_of(options.evaluation.engine)},
+      {"engine", word_for(options.evaluation.engine)},
       {"seconds", seconds_json(written, total_seconds)},
       {"receivers_per_second", busy_s > 0.0 ? static_cast<double>(run.receivers) / busy_s : 0.0},
       {"rays", run.accuracy.rays},
@@ -73,9 +64,11 @@ std::string svf_summary_json(const WrittenRun& written, const SvfOptions& option
   if (!written.further_columns.empty()) j["quantities"] = written.further_columns;
   if (options.evaluation.max_error) j["max_error"] = error_budget_json(run, *options.evaluation.max_error);
   if (run.bounds) j["bounds"] = {{"mean_width", run.bounds->mean}, {"max_width", run.bounds->max}};
+  if (run.estimate) j["estimate"] = json_of(*run.estimate, written.output_bytes);
   if (run.errors) j["verify"] = json_of(*run.errors);
   if (run.outside_of_region > 0) j["outside_of_region"] = run.outside_of_region;
   if (written.skipped_features > 0) j["skipped_features"] = written.skipped_features;
+  j["settings"] = Json::parse(options.run.settings_json);
   return j.dump(1) + "\n";
 }
 

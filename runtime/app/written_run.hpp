@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "farlod/evaluation.hpp"
 #include "farlod/package.hpp"
 #include "farlod/run.hpp"
+#include "results/picture/error_map.hpp"
 
 namespace farlod {
 
@@ -17,11 +20,13 @@ namespace farlod {
 struct WrittenRun {
   EvaluationSummary summary;
   std::vector<std::filesystem::path> files = {};
+  double output_bytes = 0.0;  ///< of a dry run: how large they would be, more or less
   double open_s = 0.0;
   double write_s = 0.0;                           ///< besides EvaluationSeconds::deliver
   std::vector<std::string> further_columns = {};  ///< names of the further quantities
   std::vector<std::string> notes = {};            ///< what the user should know of how the points were read, a sentence each
   std::size_t skipped_features = 0;               ///< of the file of points, which are no points
+  std::optional<GreyMap> grey_map = {};           ///< of a raster, if a map of its errors is asked for
 };
 
 /// The three kinds of run: each evaluates and writes its files. They throw what the library throws, and PointsError.
@@ -30,6 +35,14 @@ struct WrittenRun {
 [[nodiscard]] WrittenRun write_surfaces(const Package& package, const SvfOptions& options, const RunSettings& run);
 /// The sky above --at, as a picture. Throws InputError where there is no answer.
 [[nodiscard]] WrittenRun write_sky(const Package& package, const SvfOptions& options, const RunSettings& run);
+
+/// Calls `work`, and returns its seconds.
+template <class Work>
+double seconds_of(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 /// "svf" or "svf_solid": never one ambiguous name.
 [[nodiscard]] std::string quantity_name(SkyWeight weight);

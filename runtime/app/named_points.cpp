@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/named_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "contract/lower_case.hpp"
+#include "points/point_reader.hpp"
+#ifdef FARLOD_WITH_GDAL
+#include "results/point_reader_gdal.hpp"
+#include "results/reproject_gdal.hpp"
+#endif
+
+namespace farlod {
+namespace {
+
+void move_to_package_crs(NamedPoints& named, const std::string& crs, const PackageDescription& package) {
+#ifdef FARLOD_WITH_GDAL
+  std::vector<Point2d> points;
+  for (std::size_t n = 0; n < named.ids.size(); ++n) points.push_back({named.x_m[n], named.y_m[n]});
+  points = reprojected(points, crs, package.crs_wkt);
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    named.x_m[n] = points[n].x;
+    named.y_m[n] = points[n].y;
+  }
+#else
+  throw PointsError("--points-crs " + crs +
+                    " needs GDAL, which this farlod-svf was built without: give the points in the CRS of the "
+                    "package (" +
+                    package.crs_name + "), of which there are " + std::to_string(named.ids.size()) + ".");
+#endif
+}
+
+/// The CRS that the user names wins: many a GeoJSON is in another one than it must be.
+std::string crs_of(const RequestedPoints& read, const SvfOptions& options, std::vector<std::string>& notes) {
+  const std::string file = options.points_file.string();
+  std::string own = read.crs_wkt.value_or("");
+  if (!options.points_crs.empty()) {
+    if (!own.empty())
+      notes.push_back("The points of " + file + " were taken to be in " + options.points_crs +
+                      " (--points-crs), whatever it says itself.");
+    return options.points_crs;
+  }
+  if (read.crs_wkt && own.empty())
+    notes.push_back(file + " says no CRS: its points were taken to be in that of the package (--points-crs names another).");
+  return own;
+}
+
+RequestedPoints read_points(const std::filesystem::path& file, const std::string& layer) {
+#ifdef FARLOD_WITH_GDAL
+  if (is_vector_file(file)) return read_points_gdal(file, layer);
+#else
+  if (const std::string ending = lower_case(file.extension().string());
+      ending == ".gpkg" || ending == ".geojson" || ending == ".shp" || ending == ".fgb")
+    throw PointsError(file.string() + " needs GDAL, which this farlod-svf was built without: give the points as CSV.");
+#endif
+  if (!layer.empty()) throw PointsError(file.string() + " is a table: it has no layers (--points-layer)");
+  return read_points_csv(file);
+}
+
+RequestedPoints read_lines(const SvfOptions& options, const PackageDescription& package) {
+#ifdef FARLOD_WITH_GDAL
+  return read_lines_gdal(options.points_file, options.points_layer,
+                         {options.surfaces.spacing_m, options.points_crs, package.crs_wkt});
+#else
+  throw PointsError(options.points_file.string() + " needs GDAL, which this farlod-svf was built without: give points of " +
+                    package.crs_name + " as CSV (--points).");
+#endif
+}
+
+bool has_column(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::any_of(names, [&](const std::string& n) { return lower_case(n) == lower_case(name); });
+}
+
+std::optional<double> known(double value) { return std::isnan(value) ? std::nullopt : std::optional(value); }
+std::optional<double> known(const std::vector<float>& values, std::size_t n) {
+  return values.empty() ? std::nullopt : known(static_cast<double>(values[n]));
+}
+
+std::optional<double> known_degrees(const std::vector<Angle>& angles, std::size_t n) {
+  return angles.empty() ? std::nullopt : known(angles[n].degrees());
+}
+
+}  // namespace
+
+NamedPoints::NamedPoints(RequestedPoints requested)
+    : attributes(std::move(requested.attributes)),
+      notes(std::move(requested.notes)),
+      skipped_features(requested.skipped_features) {
+  for (RequestedPoint& p : requested.points) {
+    ids.push_back(std::move(p.id));
+    x_m.push_back(p.x);
+    y_m.push_back(p.y);
+    z_m.push_back(p.z.value_or(std::nan("")));
+    if (!requested.has_normals) continue;
+    const RequestedNormal normal = p.normal.value_or(RequestedNormal{std::nan(""), std::nan("")});
+    azimuth.push_back(Angle::degrees(normal.azimuth_deg));
+    tilt.push_back(Angle::degrees(normal.tilt_deg));
+  }
+}
+
+void NamedPoints::keep(const Region& region) {
+  std::vector<std::size_t> kept;
+  for (std::size_t n = 0; n < ids.size(); ++n)
+    if (region.contains({x_m[n], y_m[n]})) kept.push_back(n);
+  if (kept.size() == ids.size()) return;
+  const std::size_t outside = ids.size() - kept.size();
+  const auto choose = [&kept](auto& values) {
+    if (values.empty()) return;
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      if (kept[k] != k) values[k] = std::move(values[kept[k]]);
+    values.resize(kept.size());
+  };
+  choose(ids);
+  choose(x_m);
+  choose(y_m);
+  choose(z_m);
+  choose(azimuth);
+  choose(tilt);
+  attributes = attributes.rows(kept);
+  notes.push_back(std::to_string(outside) + (outside == 1 ? " point lies outside of the mask or box, and was left out."
+                                                          : " points lie outside of the mask or box, and were left out."));
+}
+
+void NamedPoints::rename_attributes_that_clash(const AnswerColumns& columns) {
+  const std::vector<std::string> own = own_columns_of_points(has_normals(), columns);
+  for (std::size_t k = 0; k < attributes.names().size(); ++k) {
+    const std::string name = attributes.names()[k];
+    if (!has_column(own, name)) continue;
+    std::string free = name + "_input";
+    while (has_column(own, free) || has_column(attributes.names(), free)) free += "_input";
+    attributes.rename(k, free);
+    notes.push_back("The field \"" + name + "\" of the points comes back as \"" + free +
+                    "\": a column of the output has its name.");
+  }
+}
+
+NamedPoints requested_points(const SvfOptions& options, const PackageDescription& package) {
+  if (options.source == ReceiverSource::at) {
+    RequestedPoints one;
+    one.points = {options.at};
+    return NamedPoints(std::move(one));
+  }
+  if (options.source == ReceiverSource::lines) return NamedPoints(read_lines(options, package));
+  RequestedPoints read = read_points(options.points_file, options.points_layer);
+  const std::string crs = crs_of(read, options, read.notes);
+  NamedPoints named(std::move(read));
+  if (!crs.empty()) move_to_package_crs(named, crs, package);
+  return named;
+}
+
+PointRows rows_of(const NamedPoints& named, const PointAnswers& answers) {
+  const auto row = [&](std::size_t n) {
+    const std::size_t columns = answers.further.size() / named.ids.size();
+    return PointRow{named.ids[n],
+                    {named.x_m[n], named.y_m[n]},
+                    known(answers.height_m[n]),
+                    known(answers.svf, n),
+                    known(answers.low, n),
+                    known(answers.high, n),
+                    known_degrees(named.azimuth, n),
+                    known_degrees(named.tilt, n),
+                    std::span(answers.further).subspan(n * columns, columns)};
+  };
+  return {named.ids.size(), row, &named.attributes, named.has_normals()};
+}
+
+}  // namespace farlod

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "app/svf_options.hpp"
+#include "farlod/angle.hpp"
+#include "farlod/package.hpp"
+#include "farlod/points.hpp"
+#include "farlod/region.hpp"
+#include "points/attributes.hpp"
+#include "points/requested_points.hpp"
+#include "results/table/table_writer.hpp"
+
+namespace farlod {
+
+/// Points as the library takes them, and what is written of them besides.
+struct NamedPoints {
+  std::vector<std::string> ids;
+  std::vector<double> x_m, y_m, z_m;  ///< no height is NaN
+  std::vector<Angle> azimuth, tilt;   ///< empty where the file has none; no normal is NaN
+  Attributes attributes;
+  std::vector<std::string> notes;
+  std::size_t skipped_features = 0;
+
+  explicit NamedPoints(RequestedPoints requested);
+  /// Leaves out the points outside of a region.
+  void keep(const Region& region);
+  /// An attribute that is called like one of our columns comes back under another name: a measured `svf` beside the computed one.
+  void rename_attributes_that_clash(const AnswerColumns& columns);
+  [[nodiscard]] bool has_normals() const { return !tilt.empty(); }
+  [[nodiscard]] Points points() const { return {x_m, y_m, z_m, azimuth, tilt}; }
+  /// What it holds for each point, more or less: short ids lie within their string.
+  [[nodiscard]] std::size_t bytes() const {
+    return ids.size() * (sizeof(std::string) + (has_normals() ? 5 : 3) * sizeof(double)) + attributes.bytes();
+  }
+};
+
+/// Those of --points, --along or --at, in the CRS of the package. Throws PointsError.
+[[nodiscard]] NamedPoints requested_points(const SvfOptions& options, const PackageDescription& package);
+
+/// The rows of the table. Both must outlive them.
+[[nodiscard]] PointRows rows_of(const NamedPoints& named, const PointAnswers& answers);
+
+}  // namespace farlod
