@@ -15,30 +15,31 @@
 
 namespace farlod {
 
-/// What a file of a format holds, and therefore which receivers it is for.
-enum class OutputKind {
-  raster,   ///< the values of --grid
-  picture,  ///< a drawing of the values of --grid, also for --preview, or of the sky above --at
-  table     ///< a row for each receiver of --points, --at or --surfaces
-};
-
 /// All that the program knows about an output format. Options, memory planning and help read it here, and choose nothing by the
 /// format's name. How to add a format: CONTRIBUTING.md.
 struct OutputFormat {
   std::string_view name;
-  std::array<std::string_view, 2> endings;  ///< of file names, lower case, with the dot; the second may be empty
-  OutputKind kind;
-  bool holds_bounds;  ///< whether --bounds has bands or columns in it
+  std::array<std::string_view, 2> endings = {};  ///< of file names, lower case, with the dot; the second may be empty
+  bool is_picture = false;      ///< a drawing of the values of --grid, also for --preview, or of the sky above --at
+  bool holds_bounds = false;    ///< whether --bounds has bands or columns in it
+  bool is_for_solweig = false;  ///< whose reader needs the directional values: they are computed without being asked for
 
-  /// Rasters and pictures: makes the writer of a file; null for tables.
-  std::unique_ptr<RasterWriter> (*raster_writer)(const RasterFrame& frame, const std::filesystem::path& path);
-  /// Rasters and pictures: bytes that the writer holds in memory besides the tile that is being written; null for tables.
-  std::uint64_t (*raster_writer_bytes)(const RasterFrame& frame);
+  /// Of the values of --grid: makes the writer of a file; null where the format holds tables alone.
+  std::unique_ptr<RasterWriter> (*raster_writer)(const RasterFrame& frame, const std::filesystem::path& path) = nullptr;
+  /// Bytes that that writer holds in memory besides the tile that is being written.
+  std::uint64_t (*raster_writer_bytes)(const RasterFrame& frame) = nullptr;
 
-  /// Tables: writes the points; null for rasters and pictures.
-  void (*write_points)(const PointRows& rows, const TableFrame& frame, const std::filesystem::path& path);
-  /// Tables: makes the writer of the tables of surfaces; null for rasters and pictures.
-  std::unique_ptr<SurfaceTablesWriter> (*surface_tables_writer)(const TableFrame& frame, const std::filesystem::path& path);
+  /// Of a row for each receiver of --points, --along or --at: writes it; null where the format holds no tables.
+  void (*write_points)(const PointRows& rows, const TableFrame& frame, const std::filesystem::path& path) = nullptr;
+  /// Makes the writer of the tables of --surfaces; null where the format holds no tables.
+  std::unique_ptr<SurfaceTablesWriter> (*surface_tables_writer)(const TableFrame& frame,
+                                                                const std::filesystem::path& path) = nullptr;
+
+  /// What a file has for each band of a pixel, for each row of a table, and for each of its values, more or less: for estimates.
+  double bytes_of_pixel = 0.0, bytes_of_row = 0.0, bytes_of_value = 0.0;
+
+  [[nodiscard]] constexpr bool holds_rasters() const { return raster_writer != nullptr && !is_picture; }
+  [[nodiscard]] constexpr bool holds_tables() const { return write_points != nullptr; }
 };
 
 /// The formats of this build, in the order of the help text. GeoTIFF needs GDAL.

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/table/feature_writer_geojson.hpp"
 
-#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -12,31 +10,16 @@
 #include "contract/expects.hpp"
 #include "farlod/error.hpp"
 #include "results/decimal.hpp"
+#include "results/json_text.hpp"
 
 namespace farlod {
 namespace {
 
 constexpr std::size_t places_at_once = 1024;
 
-/// In quotes, as RFC 8259 says; bytes beyond ASCII stay as they are.
-void append_text(std::string& json, std::string_view text) {
-  json += '"';
-  for (const char c : text) {
-    if (c == '"' || c == '\\') json += '\\';
-    if (static_cast<unsigned char>(c) >= 0x20) {
-      json += c;
-    } else {
-      std::array<char, 7> escape{};
-      std::snprintf(escape.data(), escape.size(), "\\u%04x", static_cast<unsigned>(c));
-      json += escape.data();
-    }
-  }
-  json += '"';
-}
-
 void append_value(std::string& json, const FieldValue& value) {
   if (const auto* text = std::get_if<std::string_view>(&value))
-    append_text(json, *text);
+    append_json_text(json, *text);
   else if (const auto* whole = std::get_if<std::int64_t>(&value))
     json += std::to_string(*whole);
   else if (const auto* real = std::get_if<double>(&value))
@@ -47,14 +30,14 @@ void append_value(std::string& json, const FieldValue& value) {
 
 std::string head_of(const FeatureLayer& layer, const Provenance& provenance) {
   std::string json = "{\"type\": \"FeatureCollection\", \"name\": ";
-  append_text(json, layer.name);
+  append_json_text(json, layer.name);
   json += ", \"provenance\": {";
   std::string_view comma;
   for (const auto& [name, value] : entries_of(provenance)) {
     json += std::exchange(comma, ", ");
-    append_text(json, name);
+    append_json_text(json, name);
     json += ": ";
-    append_text(json, value);
+    append_json_text(json, value);
   }
   return json + "}, \"features\": [";
 }
@@ -78,7 +61,7 @@ void GeojsonWriter::begin(const FeatureLayer& layer) {
   FARLOD_EXPECTS(keys_.empty());
   for (const FeatureField& field : layer.fields) {
     std::string key = keys_.empty() ? "" : ", ";
-    append_text(key, field.name);
+    append_json_text(key, field.name);
     keys_.push_back(key + ": ");
   }
   stream_ << head_of(layer, provenance_);

@@ -21,7 +21,7 @@ FieldValue share(double value) { return rounded(value, 1e6); }
 FieldValue millimetres(const std::optional<double>& value) { return value ? millimetres(*value) : FieldValue(); }
 FieldValue share(const std::optional<double>& value) { return value ? share(*value) : FieldValue(); }
 FieldValue whole(std::uint64_t value) { return static_cast<std::int64_t>(value); }
-FieldValue further_value(float value) { return std::isnan(value) ? FieldValue() : FieldValue(static_cast<double>(value)); }
+FieldValue number(float value) { return std::isnan(value) ? FieldValue() : FieldValue(static_cast<double>(value)); }
 
 void add_fields(FeatureLayer& layer, FieldType type, std::initializer_list<std::string> names) {
   for (const std::string& name : names) layer.fields.push_back({name, type});
@@ -32,11 +32,11 @@ void add_answer_fields(FeatureLayer& layer, const AnswerColumns& columns) {
 }
 
 template <class Row>
-void add_answers(const Row& row, std::span<const float> further, const AnswerColumns& columns, FeatureRow& feature) {
-  FARLOD_EXPECTS(further.size() == columns.further.size());
+void add_answers(const Row& row, const AnswerColumns& columns, FeatureRow& feature) {
+  FARLOD_EXPECTS(row.further.empty() || row.further.size() == columns.further.size());
   feature.values.push_back(share(row.svf));
   if (columns.bounds == BoundsColumns::yes) feature.values.insert(feature.values.end(), {share(row.low), share(row.high)});
-  for (const float value : further) feature.values.push_back(further_value(value));
+  for (std::size_t k = 0; k < columns.further.size(); ++k) feature.values.push_back(number(further_value(row.further, k)));
 }
 
 template <class Number>
@@ -110,7 +110,7 @@ void write_points_as_features(const PointRows& rows, const TableFrame& frame, Fe
     feature.values.insert(feature.values.end(),
                           {millimetres(row.p_projected.x), millimetres(row.p_projected.y), millimetres(row.height_m)});
     if (rows.normals) feature.values.insert(feature.values.end(), {millimetres(row.azimuth_deg), millimetres(row.tilt_deg)});
-    add_answers(row, row.further, frame.columns, feature);
+    add_answers(row, frame.columns, feature);
     writer.add(feature);
   }
 }
@@ -123,7 +123,7 @@ void write_receivers_as_features(SurfaceSpool& receivers, const TableFrame& fram
   add_answer_fields(layer, frame.columns);
   writer.begin(layer);
   FeatureRow feature;
-  receivers.for_each([&](const SurfacePoint& r, std::span<const float> further) {
+  receivers.for_each([&](const SurfacePoint& r) {
     feature.p_projected = {r.p_projected.x, r.p_projected.y};
     feature.height_m = r.p_projected.z;
     feature.values = {std::string_view(r.building),
@@ -135,7 +135,7 @@ void write_receivers_as_features(SurfaceSpool& receivers, const TableFrame& fram
                       millimetres(r.azimuth.degrees()),
                       millimetres(r.tilt.degrees()),
                       millimetres(r.area_m2)};
-    add_answers(r, further, frame.columns, feature);
+    add_answers(r, frame.columns, feature);
     writer.add(feature);
   });
 }
@@ -157,7 +157,8 @@ void write_surfaces_as_features(std::span<const SurfaceMean> rows, const TableFr
                        {std::string_view(r.building), whole(r.surface), word_for(r.kind), millimetres(r.azimuth.degrees()),
                         millimetres(r.tilt.degrees()), millimetres(r.area_m2), whole(r.receivers), whole(r.nodata),
                         share(r.svf_mean), share(r.svf_min), share(r.svf_max), millimetres(r.covered_area_m2)}};
-    for (std::size_t n = 0; n < frame.columns.further.size(); ++n) feature.values.push_back(further_value(further_mean(r, n)));
+    for (std::size_t n = 0; n < frame.columns.further.size(); ++n)
+      feature.values.push_back(number(further_value(r.further_mean, n)));
     writer.add(feature);
   }
 }

@@ -38,9 +38,7 @@ class SurfaceTablesInLayers : public SurfaceTablesWriter {
  public:
   SurfaceTablesInLayers(const TableFrame& frame, const std::filesystem::path& path, std::unique_ptr<FeatureWriter> writer)
       : frame_(frame), path_(path), writer_(std::move(writer)), receivers_(path) {}
-  void write_part(std::size_t part, std::span<const SurfacePoint> rows, std::span<const float> further) override {
-    receivers_.add(part, rows, further);
-  }
+  void write_part(std::size_t part, std::span<const SurfacePoint> rows) override { receivers_.add(part, rows); }
   [[nodiscard]] std::vector<std::filesystem::path> commit(std::span<const SurfaceMean> surfaces,
                                                           std::span<const BuildingMean> buildings) override;
 
@@ -60,9 +58,7 @@ class SurfaceTablesBesideCsv : public SurfaceTablesWriter {
 
   SurfaceTablesBesideCsv(const TableFrame& frame, const std::filesystem::path& path, WriteReceivers write)
       : frame_(frame), path_(path), write_(std::move(write)), receivers_(path) {}
-  void write_part(std::size_t part, std::span<const SurfacePoint> rows, std::span<const float> further) override {
-    receivers_.add(part, rows, further);
-  }
+  void write_part(std::size_t part, std::span<const SurfacePoint> rows) override { receivers_.add(part, rows); }
   [[nodiscard]] std::vector<std::filesystem::path> commit(std::span<const SurfaceMean> surfaces,
                                                           std::span<const BuildingMean> buildings) override;
 

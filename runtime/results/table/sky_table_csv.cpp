@@ -43,11 +43,11 @@ CsvText receiver_header(std::initializer_list<std::string_view> identity, const 
 }
 
 template <class Row>
-void add_answer(const Row& row, std::span<const float> further, const AnswerColumns& columns, CsvText& text) {
-  FARLOD_EXPECTS(further.size() == columns.further.size());
+void add_answer(const Row& row, const AnswerColumns& columns, CsvText& text) {
+  FARLOD_EXPECTS(row.further.empty() || row.further.size() == columns.further.size());
   text.svf(row.svf);
   if (columns.bounds == BoundsColumns::yes) text.svf(row.low).svf(row.high);
-  for (const float value : further) text.number(value);
+  for (std::size_t k = 0; k < columns.further.size(); ++k) text.number(further_value(row.further, k));
   text.end_row();
 }
 
@@ -76,7 +76,7 @@ void add_surface(const SurfaceMean& r, const AnswerColumns& columns, CsvText& te
   text.field(r.building).whole(r.surface).field(word_for(r.kind));
   text.millimetres(degrees(r.azimuth)).millimetres(degrees(r.tilt)).millimetres(r.area_m2);
   text.whole(r.receivers).whole(r.nodata).svf(r.svf_mean).svf(r.svf_min).svf(r.svf_max).millimetres(r.covered_area_m2);
-  for (std::size_t k = 0; k < columns.further.size(); ++k) text.number(further_mean(r, k));
+  for (std::size_t k = 0; k < columns.further.size(); ++k) text.number(further_value(r.further_mean, k));
   text.end_row();
 }
 
@@ -96,7 +96,7 @@ void write_points_csv(const PointRows& rows, const AnswerColumns& columns, const
     for (std::size_t k = 0; k < attributes; ++k) text.field(rows.attributes->value(n, k));
     add_point(row, text);
     if (rows.normals) text.millimetres(row.azimuth_deg).millimetres(row.tilt_deg);
-    add_answer(row, row.further, columns, text);
+    add_answer(row, columns, text);
   });
 }
 
@@ -107,13 +107,12 @@ SurfacePointsCsv::SurfacePointsCsv(const AnswerColumns& columns, const std::file
       columns_(columns),
       spool_(path) {}
 
-void SurfacePointsCsv::write_part(std::size_t part, std::span<const SurfacePoint> rows, std::span<const float> further) {
+void SurfacePointsCsv::write_part(std::size_t part, std::span<const SurfacePoint> rows) {
   if (rows.empty()) return;
-  FARLOD_EXPECTS(further.size() == rows.size() * columns_.further.size());
   CsvText text;
-  for (std::size_t n = 0; n < rows.size(); ++n) {
-    add_surface_point(rows[n], text);
-    add_answer(rows[n], further.subspan(n * columns_.further.size(), columns_.further.size()), columns_, text);
+  for (const SurfacePoint& row : rows) {
+    add_surface_point(row, text);
+    add_answer(row, columns_, text);
   }
   const std::string& bytes = text.bytes();
   const bool is_new = parts_.emplace(part, Place{spool_.append(std::as_bytes(std::span(bytes))), bytes.size()}).second;

@@ -25,8 +25,8 @@ void write_points_csv(const PointRows& rows, const AnswerColumns& columns, const
 class SurfacePointsCsv {
  public:
   SurfacePointsCsv(const AnswerColumns& columns, const std::filesystem::path& path);
-  /// Each part comes once at the most. `further` as that of SurfaceTablesWriter::write_part.
-  void write_part(std::size_t part, std::span<const SurfacePoint> rows, std::span<const float> further = {});
+  /// Each part comes once at the most.
+  void write_part(std::size_t part, std::span<const SurfacePoint> rows);
   /// Writes the parts in the order of their numbers. The file appears now.
   void commit();
 
@@ -54,9 +54,7 @@ class SurfaceTablesCsv : public SurfaceTablesWriter {
  public:
   SurfaceTablesCsv(const AnswerColumns& columns, const std::filesystem::path& path)
       : columns_(columns), path_(path), receivers_(columns, path) {}
-  void write_part(std::size_t part, std::span<const SurfacePoint> rows, std::span<const float> further) override {
-    receivers_.write_part(part, rows, further);
-  }
+  void write_part(std::size_t part, std::span<const SurfacePoint> rows) override { receivers_.write_part(part, rows); }
   [[nodiscard]] std::vector<std::filesystem::path> commit(std::span<const SurfaceMean> surfaces,
                                                           std::span<const BuildingMean> buildings) override;
 

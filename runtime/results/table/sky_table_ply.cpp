@@ -52,7 +52,7 @@ class Vertices {
   }
 
   template <class Row>
-  void add(const Point3d& p, Angle azimuth, Angle tilt, const Row& row, std::span<const float> further) {
+  void add(const Point3d& p, Angle azimuth, Angle tilt, const Row& row) {
     for (const double number : {p.x, p.y, p.z}) append(bytes_, number);
     const double level = std::sin(tilt.radians()), bearing = azimuth.radians() - frame_.convergence.radians();
     for (const double number : {level * std::sin(bearing), level * std::cos(bearing), std::cos(tilt.radians())})
@@ -62,7 +62,7 @@ class Vertices {
       add_answer(row.low);
       add_answer(row.high);
     }
-    for (const float value : further) append(bytes_, value);
+    for (std::size_t k = 0; k < frame_.columns.further.size(); ++k) append(bytes_, further_value(row.further, k));
     const Colour colour = row.svf ? colour_of_svf(*row.svf) : nodata_colour;
     for (const std::uint8_t part : {colour.red, colour.green, colour.blue}) append(bytes_, part);
     if (bytes_.size() >= bytes_at_once) flush();
@@ -93,7 +93,7 @@ void write_points_ply(const PointRows& rows, const TableFrame& frame, const std:
       const PointRow row = rows.row(n);
       if (!row.height_m) continue;
       vertices.add({row.p_projected.x, row.p_projected.y, *row.height_m}, Angle::degrees(row.azimuth_deg.value_or(0.0)),
-                   Angle::degrees(row.tilt_deg.value_or(0.0)), row, row.further);
+                   Angle::degrees(row.tilt_deg.value_or(0.0)), row);
     }
     vertices.flush();
   });
@@ -102,9 +102,7 @@ void write_points_ply(const PointRows& rows, const TableFrame& frame, const std:
 void write_receivers_ply(SurfaceSpool& receivers, const TableFrame& frame, const std::filesystem::path& path) {
   write_atomically(path, [&](std::ostream& out) {
     Vertices vertices(out, receivers.size(), frame);
-    receivers.for_each([&](const SurfacePoint& row, std::span<const float> further) {
-      vertices.add(row.p_projected, row.azimuth, row.tilt, row, further);
-    });
+    receivers.for_each([&](const SurfacePoint& row) { vertices.add(row.p_projected, row.azimuth, row.tilt, row); });
     vertices.flush();
   });
 }

@@ -22,7 +22,9 @@ struct FixedPart {
 };
 static_assert(std::is_trivially_copyable_v<FixedPart>);
 
-void append(std::string& bytes, const void* value, std::size_t size) { bytes.append(static_cast<const char*>(value), size); }
+void append(std::string& bytes, const void* value, std::size_t size) {
+  if (size != 0) bytes.append(static_cast<const char*>(value), size);
+}
 
 void append_row(std::string& bytes, const SurfacePoint& r) {
   const FixedPart fixed{r.building.size(), r.surface, r.kind, r.p_projected, r.azimuth.radians(),
@@ -63,34 +65,35 @@ class Cursor {
 
 }  // namespace
 
-void SurfaceSpool::add(std::size_t part, std::span<const SurfacePoint> rows, std::span<const float> further) {
+void SurfaceSpool::add(std::size_t part, std::span<const SurfacePoint> rows) {
   if (rows.empty()) return;
-  FARLOD_EXPECTS(further.size() % rows.size() == 0);
-  const std::size_t further_of_row = further.size() / rows.size();
   std::string bytes;
-  for (std::size_t n = 0; n < rows.size(); ++n) {
-    append_row(bytes, rows[n]);
-    append(bytes, further.data() + n * further_of_row, further_of_row * sizeof(float));
+  for (const SurfacePoint& row : rows) {
+    append_row(bytes, row);
+    const std::size_t count = row.further.size();
+    append(bytes, &count, sizeof(count));
+    append(bytes, row.further.data(), count * sizeof(float));
   }
   const std::uint64_t begin = file_.append(std::as_bytes(std::span(bytes)));
-  const bool is_new = parts_.emplace(part, Part{begin, bytes.size(), rows.size(), further_of_row}).second;
+  const bool is_new = parts_.emplace(part, Part{begin, bytes.size(), rows.size()}).second;
   FARLOD_EXPECTS(is_new);
   size_ += rows.size();
 }
 
-void SurfaceSpool::for_each(const std::function<void(const SurfacePoint&, std::span<const float> further)>& take) {
+void SurfaceSpool::for_each(const std::function<void(const SurfacePoint&)>& take) {
   std::string bytes;
   SurfacePoint row;
-  std::vector<float> further;
   for (const auto& [number, part] : parts_) {
     bytes.resize(part.bytes);
     file_.read(part.begin, std::as_writable_bytes(std::span(bytes)));
     Cursor cursor(bytes);
-    further.resize(part.further_of_row);
     for (std::size_t n = 0; n < part.rows; ++n) {
       cursor.take(row);
-      cursor.take(further.data(), further.size() * sizeof(float));
-      take(row, further);
+      std::size_t count = 0;
+      cursor.take(&count, sizeof(count));
+      row.further.resize(count);
+      cursor.take(row.further.data(), count * sizeof(float));
+      take(row);
     }
   }
 }

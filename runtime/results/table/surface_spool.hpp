@@ -20,16 +20,16 @@ class SurfaceSpool {
  public:
   explicit SurfaceSpool(const std::filesystem::path& result) : file_(result) {}
 
-  /// Each part comes once at the most. `further` as that of SurfaceTablesWriter::write_part.
-  void add(std::size_t part, std::span<const SurfacePoint> rows, std::span<const float> further);
+  /// Each part comes once at the most.
+  void add(std::size_t part, std::span<const SurfacePoint> rows);
   /// Hands over all rows, one by one; a row is valid during its call only.
-  void for_each(const std::function<void(const SurfacePoint&, std::span<const float> further)>& take);
+  void for_each(const std::function<void(const SurfacePoint&)>& take);
   [[nodiscard]] std::size_t size() const { return size_; }
 
  private:
   struct Part {
     std::uint64_t begin;
-    std::size_t bytes, rows, further_of_row;
+    std::size_t bytes, rows;
   };
   SpoolFile file_;
   std::map<std::size_t, Part> parts_;

@@ -2,13 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/table/table_writer.hpp"
 
-#include <limits>
-
 namespace farlod {
-
-float further_mean(const SurfaceMean& surface, std::size_t k) {
-  return k < surface.further_mean.size() ? static_cast<float>(surface.further_mean[k]) : std::numeric_limits<float>::quiet_NaN();
-}
 
 std::string_view word_for(SurfaceKind kind) {
   switch (kind) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "farlod/angle.hpp"
+#include "farlod/package.hpp"
 #include "points/attributes.hpp"
 #include "results/provenance.hpp"
 #include "results/table/sky_table.hpp"
@@ -35,6 +37,7 @@ struct TableFrame {
   std::optional<int> epsg = {};  ///< the same CRS by its code, where it has one
   Angle convergence = {};        ///< true azimuth = grid azimuth + convergence
   Provenance provenance = {};
+  const Package* package = nullptr;  ///< which formats that show the city read; null: they have no geometry
 };
 
 /// The rows of a table of points, made one by one, so that nobody has to hold them all.
@@ -51,8 +54,11 @@ struct PointRows {
 /// The names of the columns of a table of points besides those of its attributes: id, x_m, y_m, z_m, those of normals, answers.
 [[nodiscard]] std::vector<std::string> own_columns_of_points(bool normals, const AnswerColumns& columns);
 
-/// The mean of the k-th further column over a surface; NaN where no receiver has an answer.
-[[nodiscard]] float further_mean(const SurfaceMean& surface, std::size_t k);
+/// The value of the k-th further column, of a receiver or a mean; NaN where there is no answer, and therefore no values.
+template <class Values>
+[[nodiscard]] float further_value(const Values& values, std::size_t k) {
+  return values.empty() ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(values[k]);
+}
 
 /// The word for a kind in tables, such as "roof".
 [[nodiscard]] std::string_view word_for(SurfaceKind kind);
@@ -69,8 +75,7 @@ class SurfaceTablesWriter {
   SurfaceTablesWriter& operator=(const SurfaceTablesWriter&) = delete;
 
   /// Receivers come in parts, in any order, each part once at the most. In the table, parts are ordered by their numbers.
-  /// `further` has the values of AnswerColumns::further, row by row; NaN where there is no answer.
-  virtual void write_part(std::size_t part, std::span<const SurfacePoint> rows, std::span<const float> further) = 0;
+  virtual void write_part(std::size_t part, std::span<const SurfacePoint> rows) = 0;
   /// Writes the other two tables. The files appear now, and not before; that of the receivers, the first path returned, last.
   [[nodiscard]] virtual std::vector<std::filesystem::path> commit(std::span<const SurfaceMean> surfaces,
                                                                   std::span<const BuildingMean> buildings) = 0;

@@ -34,9 +34,9 @@ TEST(OutputFormat, UnknownEndingsHaveNone) {
 
 TEST(OutputFormat, TheseAreAllEndings) {
 #ifdef FARLOD_WITH_GDAL
-  const std::string expected = ".tif, .tiff, .nc, .csv, .gpkg, .geojson, .fgb, .ply, .png, .svg, .pdf, .asc";
+  const std::string expected = ".tif, .tiff, .nc, .zarr, .zip, .csv, .gpkg, .geojson, .fgb, .ply, .glb, .png, .svg, .pdf, .asc";
 #else
-  const std::string expected = ".csv, .ply, .png, .svg, .pdf, .asc";
+  const std::string expected = ".csv, .ply, .glb, .png, .svg, .pdf, .asc";
 #endif
   EXPECT_EQ(endings_where([](const OutputFormat&) { return true; }), expected);
 }
@@ -78,10 +78,10 @@ std::string pixels_file(const OutputFormat& format, const WholeRaster& raster, c
   return scenes::text_of(output_of(format, folder));
 }
 
-/// Writes all files of a format: of a table those of --surfaces.
+/// Writes all files of a format: where it holds tables, those of --surfaces.
 void write_files(const OutputFormat& format, const scenes::TemporaryFolder& folder) {
   const std::filesystem::path path = output_of(format, folder);
-  if (format.kind != OutputKind::table) {
+  if (!format.holds_tables()) {
     WholeRaster raster = raster_with_bounds();
     raster.crs_wkt = small_raster().crs_wkt;
     (void)pixels_file(format, raster, folder);
@@ -95,7 +95,7 @@ TEST(OutputFormat, EachWritesAFileOfItsEnding) {
     const scenes::TemporaryFolder folder;
     write_files(format, folder);
     EXPECT_NE(scenes::text_of(output_of(format, folder)), "") << format.name;
-    if (format.kind != OutputKind::table) continue;
+    if (!format.holds_tables()) continue;
     const std::filesystem::path points = folder.file("points" + std::string(format.endings[0]));
     format.write_points({1, [](std::size_t) { return PointRow{}; }, nullptr, false}, {{"svf", BoundsColumns::yes}}, points);
     EXPECT_NE(scenes::text_of(points), "") << format.name;
@@ -120,7 +120,7 @@ TEST(OutputFormat, OfSeveralFilesTheOneOfTheOutputAppearsLast) {
 TEST(OutputFormat, ARasterThatHoldsBoundsWritesThem) {
   const scenes::TemporaryFolder folder;
   for (const OutputFormat& format : output_formats()) {
-    if (format.kind == OutputKind::table) continue;
+    if (format.raster_writer == nullptr) continue;
     WholeRaster raster = raster_with_bounds();
     const std::string before = pixels_file(format, raster, folder);
     raster.low[0] = 0.25F;
@@ -136,7 +136,7 @@ TEST(OutputFormat, WritersSayWhatTheyHold) {
   RasterTile tile({}, RasterBands::svf_and_bounds);
   for (auto* band : {&tile.svf, &tile.low, &tile.high}) band->assign(band->size(), 0.5F);
   for (const OutputFormat& format : output_formats()) {
-    if (format.kind == OutputKind::table) continue;
+    if (format.raster_writer == nullptr) continue;
     const scenes::TemporaryFolder folder;
     // Drivers and fonts that libraries keep once they have them
     (void)pixels_file(format, raster_with_bounds(), folder);

@@ -141,12 +141,13 @@ TEST(SurfacePointsCsv, FurtherColumnsFollowRowByRow) {
   const scenes::TemporaryFolder folder;
   std::vector<SurfacePoint> rows(2);
   SurfacePointsCsv table({"svf", BoundsColumns::no, {"a", "b"}}, folder.file("a.csv"));
-  table.write_part(0, rows, std::vector<float>{1.5F, 2.5F, std::nanf(""), 4.0F});
+  rows[0].further = {1.5F, std::nanf("")};
+  table.write_part(0, rows);
   table.commit();
   EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
             "building,surface,kind,x_m,y_m,z_m,azimuth_deg,tilt_deg,area_m2,svf,a,b\n"
-            ",0,unknown,0,0,0,0,0,0,,1.5,2.5\n"
-            ",0,unknown,0,0,0,0,0,0,,,4\n");
+            ",0,unknown,0,0,0,0,0,0,,1.5,\n"
+            ",0,unknown,0,0,0,0,0,0,,,\n");
 }
 
 TEST(SurfacesCsv, IsAsDocumented) {
@@ -166,7 +167,7 @@ TEST(SurfaceTablesCsv, AreThreeFilesThatAppearTogether) {
   const scenes::TemporaryFolder folder;
   const std::vector<SurfacePoint> rows(1);
   SurfaceTablesCsv tables({"svf", BoundsColumns::yes}, folder.file("a.b.csv"));
-  tables.write_part(3, rows, {});
+  tables.write_part(3, rows);
   EXPECT_FALSE(std::filesystem::exists(folder.file("a.b.csv")));
   const std::vector<std::filesystem::path> files = tables.commit({}, {});
   const std::vector<std::filesystem::path> expected{folder.file("a.b.csv"), folder.file("a.b.surfaces.csv"),

@@ -99,8 +99,8 @@ TEST(Ply, HasTheReceiversOfSurfacesInOrder) {
   SurfaceSpool spool(folder.file("a.ply"));
   std::vector<SurfacePoint> rows(3);
   for (std::size_t n = 0; n < rows.size(); ++n) rows[n].p_projected.x = static_cast<double>(n);
-  spool.add(2, std::span(rows).subspan(1), {});
-  spool.add(1, std::span(rows).first(1), {});
+  spool.add(2, std::span(rows).subspan(1));
+  spool.add(1, std::span(rows).first(1));
   write_receivers_ply(spool, {{"svf_solid"}}, folder.file("a.ply"));
   const Ply ply(scenes::text_of(folder.file("a.ply")));
   ASSERT_EQ(ply.vertices.size(), 3U);

@@ -198,8 +198,10 @@ std::vector<std::filesystem::path> write_surfaces(const std::filesystem::path& p
   }
   TableFrame frame{{"svf", BoundsColumns::no, {"sun_h"}}, small_raster().crs_wkt, 25832};
   const auto writer = output_format_of(path)->surface_tables_writer(frame, path);
-  writer->write_part(8, std::span(rows).subspan(1), std::vector<float>{1.5F, std::nanf("")});
-  writer->write_part(2, std::span(rows).first(1), std::vector<float>{0.5F});
+  rows[0].further = {0.5F};
+  rows[1].further = {1.5F};
+  writer->write_part(8, std::span(rows).subspan(1));
+  writer->write_part(2, std::span(rows).first(1));
   SurfaceMean mean;
   mean.building = "b1";
   mean.surface = 4;
@@ -248,7 +250,7 @@ TEST(VectorTables, NothingIsLeftOfAFileThatIsGivenUp) {
     const scenes::TemporaryFolder folder;
     {
       const auto writer = output_format_of("a" + ending)->surface_tables_writer({{"svf"}}, folder.file("a" + ending));
-      writer->write_part(0, std::vector<SurfacePoint>(3), {});
+      writer->write_part(0, std::vector<SurfacePoint>(3));
     }
     EXPECT_THAT(folder.names(), testing::IsEmpty()) << ending;
   }
