@@ -70,6 +70,8 @@ TEST_F(DocumentedResults, SummaryOfSvfHasTheDocumentedKeysAndNoOthers) {
   Keys keys = keys_of(folder.json_of("s.json"), title);
   const Keys of_points{"skipped_features"};
   keys.insert(of_points.begin(), of_points.end());
+  folder.must("farlod-svf a.farlod -o o.csv --surfaces roofs --quantity directional --dry-run --summary s.json");
+  keys.merge(keys_of(folder.json_of("s.json"), title));
   EXPECT_EQ(keys, documented_keys(title, false));
 #ifdef FARLOD_WITH_GDAL
   folder.write("mixed.geojson", R"({"type": "FeatureCollection", "features": [
@@ -122,7 +124,7 @@ TEST_F(DocumentedResults, FactsOfAPackageHaveTheDocumentedKeysAndNoOthers) {
   EXPECT_EQ(keys, documented_keys(title, false));
   folder.must("farlod-info a.farlod --quiet --summary s.json");
   keys = keys_said("a.farlod");
-  keys.insert({"seconds.total", "peak_memory_mib"});
+  keys.insert({"seconds.total", "peak_memory_mib", "settings.PACKAGE", "settings.quiet"});
   EXPECT_EQ(keys_of(folder.json_of("s.json"), title), keys);
 }
 
@@ -146,19 +148,17 @@ TEST(DocumentedFormats, AreThoseOfTheProgram) {
   for (const std::string& line : section("Formats")) {
     std::smatch cells;
     if (!std::regex_match(line, cells, row)) continue;
-    const bool table = cells[3].str().find("--points") != std::string::npos;
-    const bool picture = cells[3].str().find("--preview") != std::string::npos;
-    documented.push_back(cells[1].str() + " " + cells[2].str() +
-                         (table     ? " table"
-                          : picture ? " picture"
-                                    : " raster") +
-                         (cells[4] == " none " ? "" : " with bounds"));
+    const auto is_for = [&](const char* receivers) { return cells[3].str().find(receivers) != std::string::npos; };
+    const std::string holds =
+        is_for("--preview") ? " picture" : (is_for("--grid") ? " raster" : "") + std::string(is_for("--points") ? " table" : "");
+    documented.push_back(cells[1].str() + " " + cells[2].str() + holds + (cells[4] == " none " ? "" : " with bounds"));
   }
   for (const OutputFormat& f : output_formats()) {
     const std::string endings =
         "`" + std::string(f.endings[0]) + "`" + (f.endings[1].empty() ? "" : ", `" + std::string(f.endings[1]) + "`");
-    const char* kind = f.kind == OutputKind::table ? " table" : f.kind == OutputKind::picture ? " picture" : " raster";
-    found.push_back(endings + " " + std::string(f.name) + kind + (f.holds_bounds ? " with bounds" : ""));
+    const std::string holds =
+        f.is_picture ? " picture" : (f.holds_rasters() ? " raster" : "") + std::string(f.holds_tables() ? " table" : "");
+    found.push_back(endings + " " + std::string(f.name) + holds + (f.holds_bounds ? " with bounds" : ""));
   }
 #ifdef FARLOD_WITH_GDAL
   EXPECT_EQ(found, documented);
@@ -178,7 +178,7 @@ std::string words_of(const std::string& text) {
 TEST(DocumentedFormats, EachHasAParagraph) {
   for (const OutputFormat& f : output_formats()) {
     std::string text;
-    for (const std::string& line : section(f.kind == OutputKind::table ? "Tables" : "Rasters and pictures")) text += line + "\n";
+    for (const std::string& line : section(f.raster_writer == nullptr ? "Tables" : "Rasters and pictures")) text += line + "\n";
     EXPECT_THAT(text, testing::HasSubstr(f.name));
   }
 }

@@ -148,9 +148,9 @@ TEST_F(ErrorControl, FormatsWithoutRoomForBoundsAreRefused) {
   for (const OutputFormat& format : output_formats()) {
     if (format.holds_bounds) continue;
     const std::string ending(format.endings[0]);
-    const bool is_table = format.kind == OutputKind::table;
+    const bool is_table = format.holds_tables();
     const std::string with_room =
-        endings_where([&](const OutputFormat& f) { return f.holds_bounds && (f.kind == OutputKind::table) == is_table; });
+        endings_where([&](const OutputFormat& f) { return f.holds_bounds && (is_table ? f.holds_tables() : f.holds_rasters()); });
     expect_refusal(folder.run("farlod-svf a.farlod -o o" + ending + (is_table ? " --surfaces all" : " --grid 20") + " --bounds"),
                    exit_usage, {"--bounds", "ends in " + ending, with_room});
   }

@@ -84,8 +84,13 @@ TEST_F(WideTown, WhatNeedsTheWholeCityIsRefusedWhereItHasNoRoom) {
 std::vector<std::string> outputs_named(const std::string& name) {
   std::vector<std::string> outputs;
   for (const OutputFormat& format : output_formats())
-    outputs.push_back("-o " + name + std::string(format.endings[0]) +
-                      (format.kind == OutputKind::table ? " --surfaces all --spacing 6" : " --grid 3") + " --rays 50");
+    for (const bool is_table : {false, true})
+      if (is_table ? format.holds_tables() : format.raster_writer != nullptr)
+        outputs.push_back("-o " + name + (is_table ? "_table" : "") + std::string(format.endings[0]) +
+                          (is_table                ? " --surfaces all --spacing 6"
+                           : format.is_for_solweig ? " --grid 60"  // directional values of box maps take 30,000 rays a receiver
+                                                   : " --grid 3") +
+                          " --rays 50");
   return outputs;
 }
 
@@ -100,7 +105,7 @@ TEST_F(WideTown, NeitherTheLimitNorThreadsChangeAByte) {
   make("tight", " --threads 3" + limit(mib));
   std::size_t files = 0;
   for (const std::string& name : folder.names()) {
-    if (!name.starts_with("one.")) continue;
+    if (!name.starts_with("one")) continue;
     const std::string ending = name.substr(3), expected = folder.text_of(name);
     EXPECT_FALSE(expected.empty()) << name;
     EXPECT_TRUE(folder.text_of("two" + ending) == expected) << ending;

@@ -6,6 +6,7 @@
 
 #include "console/exit_code.hpp"
 #include "farlod/version.hpp"
+#include "results/output_format.hpp"
 #include "tests/acceptance/help_text.hpp"
 #include "tests/acceptance/packed_town.hpp"
 
@@ -57,12 +58,13 @@ INSTANTIATE_TEST_SUITE_P(
                  "--floor-height", "--default-height", "--cell",         "--neighborhood",  "--max-error", "--align",
                  "--assign",       "--far-map",        "--area",         "--output",        "--force",     "--report",
                  "--strict",       "--summary",        "--memory-limit", "--quiet",         "--threads",   "--config"}},
-        Program{"farlod-svf", {"--help",         "--version",    "--grid",        "--points",     "--surfaces",     "--at",
-                               "--height",       "--on-surface", "--spacing",     "--points-crs", "--points-layer", "--bbox",
-                               "--output",       "--preview",    "--projection",  "--summary",    "--engine",       "--rays",
-                               "--directions",   "--azimuths",   "--sky",         "--max-error",  "--bounds",       "--verify",
-                               "--memory-limit", "--quiet",      "--threads",     "--config",     "--along",        "--mask",
-                               "--quantity",     "--horizons",   "--sky-patches", "--sun",        "--sun-step",     "--city"}}),
+        Program{"farlod-svf",
+                {"--help",       "--version",   "--grid",       "--points",       "--surfaces",    "--at",       "--height",
+                 "--on-surface", "--spacing",   "--points-crs", "--points-layer", "--bbox",        "--output",   "--preview",
+                 "--projection", "--summary",   "--engine",     "--rays",         "--directions",  "--azimuths", "--sky",
+                 "--max-error",  "--bounds",    "--verify",     "--memory-limit", "--quiet",       "--threads",  "--config",
+                 "--along",      "--mask",      "--quantity",   "--horizons",     "--sky-patches", "--sun",      "--sun-step",
+                 "--city",       "--grid-like", "--dry-run",    "--verify-map",   "--histogram"}}),
     [](const auto& program) { return program.param.name + 7; });  // what follows "farlod-"
 
 TEST_F(PackedTown, QuietSaysNothing) {
@@ -83,6 +85,89 @@ TEST_F(PackedTown, OptionsMayComeFromAFile) {
   folder.must("farlod-svf a.farlod -o from_file.csv --config svf.toml --at " + a_place());
   folder.must("farlod-svf a.farlod -o typed.csv --rays 500 --height 3 --on-surface --at " + a_place());
   EXPECT_EQ(folder.text_of("from_file.csv"), folder.text_of("typed.csv"));
+}
+
+/// A dry run of these options: its estimate. Nothing else may be in the folder afterwards.
+class DryRun : public PackedTown {
+ protected:
+  [[nodiscard]] nlohmann::json estimate(const std::string& options) const {
+    const std::vector<std::string> before = folder.names();
+    folder.must("farlod-svf a.farlod --dry-run --summary s.json " + options);
+    const nlohmann::json summary = folder.json_of("s.json");
+    std::filesystem::remove(folder.path("s.json"));
+    EXPECT_EQ(folder.names(), before);
+    return summary.at("estimate");
+  }
+  /// What is estimated is what a run then takes, more or less.
+  void expect_near_run(const std::string& output, const std::string& options) const {
+    SCOPED_TRACE(output + options);
+    const nlohmann::json estimated = estimate("-o " + output + " " + options);
+    folder.must("farlod-svf a.farlod --summary run.json -o " + output + " " + options);
+    const double receivers = folder.json_of("run.json").at("receivers").get<double>();
+    EXPECT_NEAR(estimated.at("receivers").get<double>(), receivers, 0.35 * receivers);
+    const double mib = static_cast<double>(folder.text_of(output).size()) / (1 << 20);
+    EXPECT_LT(estimated.at("output_mib").get<double>(), 4.0 * mib);
+    EXPECT_GT(estimated.at("output_mib").get<double>(), 0.25 * mib);
+    EXPECT_GT(estimated.at("seconds").get<double>(), 0.0);
+    EXPECT_GT(estimated.at("memory_mib").get<double>(), 50.0);
+    std::filesystem::remove_all(folder.path(output));
+    std::filesystem::remove(folder.path("run.json"));
+  }
+};
+
+TEST_F(DryRun, TellsWhatARasterTakes) {
+  for (const OutputFormat& format : output_formats())
+    if (format.holds_rasters()) expect_near_run("o" + std::string(format.endings[0]), "--grid 0.5");
+}
+
+TEST_F(DryRun, TellsWhatSurfacesTake) { expect_near_run("o.csv", "--surfaces all --spacing 1"); }
+
+TEST_F(DryRun, TellsWhatPointsTake) {
+  std::string points = "x,y\n";
+  for (int n = 0; n < 20'000; ++n) points += text_of(p_projected({-170.0 + 0.017 * n, 170.0 - 3.4 * (n % 100)})) + "\n";
+  folder.write("points.csv", points);
+  for (const OutputFormat& format : output_formats())
+    if (format.holds_tables()) expect_near_run("o" + std::string(format.endings[0]), "--points points.csv");
+}
+
+TEST_F(DryRun, SaysSoInASentence) {
+  const Outcome outcome = folder.run("farlod-svf a.farlod -o o.asc --grid 1 --dry-run");
+  EXPECT_EQ(outcome.exit_code, exit_done);
+  EXPECT_THAT(outcome.out, StartsWith("About "));
+  EXPECT_THAT(outcome.out, HasSubstr("Nothing was written."));
+  EXPECT_EQ(lines_of(outcome.out).size(), 1U);
+}
+
+TEST_F(DryRun, KeepsTheMemoryLimit) {
+  expect_refusal(folder.run("farlod-svf a.farlod -o o.asc --grid 0.05 --dry-run --memory-limit 60"), exit_limit_reached,
+                 {"--memory-limit"});
+}
+
+TEST_F(PackedTown, ASummaryRepeatsItsRun) {
+  folder.must("farlod-pack town.geojson -o b.farlod --cell 25 --quiet --summary pack.json");
+  const std::string manifest = folder.text_of("b.farlod/manifest.json");
+  folder.must("rm -r b.farlod && farlod-pack --config pack.json");
+  EXPECT_EQ(folder.text_of("b.farlod/manifest.json"), manifest);
+  folder.must("farlod-svf a.farlod -o o.csv --rays 500 --on-surface --at " + a_place() + " --summary svf.json");
+  EXPECT_EQ(
+      folder.json_of("svf.json").at("settings"),
+      (nlohmann::json{{"PACKAGE", "a.farlod"}, {"output", "o.csv"}, {"rays", "500"}, {"on-surface", "true"}, {"at", a_place()}}));
+  const std::string answer = folder.text_of("o.csv");
+  folder.must("rm o.csv && farlod-svf --config svf.json --summary again.json");
+  EXPECT_EQ(folder.text_of("o.csv"), answer);
+  EXPECT_EQ(folder.json_of("again.json").at("settings"), folder.json_of("svf.json").at("settings"));
+  folder.must("farlod-svf --config svf.json -o typed.csv");
+  EXPECT_EQ(folder.text_of("typed.csv"), answer);
+  folder.must("farlod-info a.farlod --check --summary info.json && farlod-info --config info.json --quiet");
+}
+
+TEST_F(PackedTown, JsonThatIsNoSummaryIsRefused) {
+  folder.write("other.json", R"({"rays": 500})");
+  expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --config other.json --at " + a_place()), exit_usage,
+                 {"--config", "summary of a run", "TOML"});
+  folder.write("wrong.json", R"({"settings": {"rayz": "500"}})");
+  expect_refusal(folder.run("farlod-svf a.farlod -o o.csv --config wrong.json --at " + a_place()), exit_usage,
+                 {"--config", "rayz"});
 }
 
 TEST_F(PackedTown, WhatIsTypedWinsOverTheFile) {

@@ -4,6 +4,7 @@
 
 #include "console/exit_code.hpp"
 #include "tests/acceptance/packed_town.hpp"
+#include "tests/analytic/oracles.hpp"
 #include "tests/analytic/tolerance.hpp"
 
 namespace farlod::acceptance {
@@ -153,6 +154,26 @@ TEST_F(PackedTown, APointWithANormalIsAReceiverOnASurface) {
     ++compared;
   }
   EXPECT_GT(compared, answers.size() / 2);
+}
+
+TEST(LonelyShed, APointInTheOpenSeesTheSkyOfItsTilt) {
+  const WorkFolder folder;
+  folder.write("shed.geojson", footprints_geojson({{"shed", {}, 1.0, 0.5}}));
+  folder.must("farlod-pack shed.geojson -o a.farlod");
+  std::string points = "x,y,azimuth,tilt\n";
+  const std::vector<double> tilts_deg{0.0, 30.0, 60.0, 90.0, 120.0, 180.0};
+  for (std::size_t n = 0; n < tilts_deg.size(); ++n)
+    points += text_of(p_projected({-50.0, 7.0 * static_cast<double>(n)})) + "," + std::to_string(70 * n) + "," +
+              std::to_string(tilts_deg[n]) + "\n";
+  folder.write("points.csv", points);
+  for (const std::string engine : {"auto", "horizon", "rays", "exact"}) {
+    SCOPED_TRACE(engine);
+    folder.must("farlod-svf a.farlod -o o.csv --points points.csv --rays 20000 --engine " + engine + " --summary s.json");
+    ASSERT_EQ(folder.json_of("s.json").at("receivers"), tilts_deg.size());
+    const CsvTable answers(folder.text_of("o.csv"));
+    for (std::size_t n = 0; n < tilts_deg.size(); ++n)
+      EXPECT_NEAR(answers.number(n, "svf"), oracles::tilted_cos(Angle::degrees(tilts_deg[n]).radians()), 0.001) << tilts_deg[n];
+  }
 }
 
 TEST_F(PackedTown, MoreRaysComeCloserToTheTruth) {

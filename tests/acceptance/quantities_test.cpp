@@ -16,9 +16,11 @@
 namespace farlod::acceptance {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 const Point2d crossing = p_projected({-60.0, 0.0});
 
@@ -68,11 +70,26 @@ TEST_F(PackedTown, PatchesOfSurfacesComeWithTheirMeans) {
   EXPECT_EQ(points.number(0, "patch_145"), 1.0);
 }
 
+TEST_F(PackedTown, ThePictureOfTheSkyHasThePathsOfTheSun) {
+  const std::string place = " --at " + text_of(Point3d{town_middle.x, town_middle.y, 200.0});
+  // Red, green and violet of June, March and December, as Cairo writes them
+  const std::vector<std::string> colours{"rgb(69.803922%,9.411765%,16.862745%)", "rgb(0%,37.647059%,28.235294%)",
+                                         "rgb(32.941176%,15.294118%,53.333333%)"};
+  folder.must("farlod-svf a.farlod -o sky.svg" + place);
+  for (const std::string& colour : colours) EXPECT_THAT(folder.text_of("sky.svg"), Not(HasSubstr(colour)));
+  folder.must("farlod-svf a.farlod -o sky.svg --sun 2026-06-21 --summary s.json" + place);
+  EXPECT_THAT(folder.text_of("sky.svg"), AllOf(HasSubstr(colours[0]), Not(HasSubstr(colours[1])), Not(HasSubstr(colours[2]))));
+  EXPECT_EQ(folder.json_of("s.json").at("quantities").dump(), R"(["sunlit_h"])");
+  folder.must("farlod-svf a.farlod -o sky.svg --sun 2026" + place);
+  for (const std::string& colour : colours) EXPECT_THAT(folder.text_of("sky.svg"), HasSubstr(colour));
+}
+
 TEST_F(PackedTown, QuantitiesThatDoNotFitAreRefused) {
   const auto refused = [&](const std::string& arguments, const std::vector<std::string>& said) {
     expect_refusal(folder.run("farlod-svf a.farlod " + arguments), exit_usage, said);
   };
   refused("-o o.asc --grid 8 --quantity directional", {"--quantity", ".asc", "one quantity only"});
+  refused("-o o.png --at 1,2 --sun 2026 --horizons 36", {"--quantity", "--sun", "leave the others out"});
   refused("-o o.csv --at 1,2 --quantity light", {"--quantity", "light", "svf_solid"});
   refused("-o o.csv --at 1,2 --quantity sunlit", {"--quantity", "--sun"});
   refused("-o o.csv --at 1,2 --sun 2026-02-30", {"--sun", "2026-02-30"});

@@ -1,12 +1,17 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
+#include "console/exit_code.hpp"
+#include "results/picture/colour_map.hpp"
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/analytic/tolerance.hpp"
+#include "tests/scenes/glb_reader.hpp"
 
 namespace farlod::acceptance {
 namespace {
@@ -55,6 +60,87 @@ TEST_F(PackedTown, AreasAddUp) {
     EXPECT_NEAR(roofs.at(b.id + "/"), b.edge_m * b.edge_m, roof_error_m2(b) + printing) << b.id;
     EXPECT_NEAR(walls.at(b.id + "/"), 4.0 * b.edge_m * b.height_m, wall_error_m2(b) + printing) << b.id;
   }
+}
+
+/// A triangle of a mesh, by its normal of the length of its area: x east, y up, z south.
+Point3d area_vector(const scenes::Glb& glb, std::size_t first) {
+  const auto corner = [&](std::size_t n) {
+    const auto& p = glb.positions[first + n];
+    return Point3d{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+  };
+  return 0.5 * cross(corner(1) - corner(0), corner(2) - corner(0));
+}
+
+TEST_F(PackedTown, MeshesAndPointsAreWhatTheValidatorOfGltfTakes) {
+  folder.write("validate.js", R"(
+    const validator = require('gltf-validator'), fs = require('fs');
+    Promise.all(process.argv.slice(2).map(name => validator.validateBytes(new Uint8Array(fs.readFileSync(name)))))
+      .then(reports => reports.forEach(r => console.log(r.issues.numErrors + r.issues.numWarnings, r.info.totalVertexCount > 0)));
+  )");
+  const std::string node = "NODE_PATH=\"$(npm root -g)\" node validate.js";
+  if (folder.run(node).exit_code != exit_done)
+    GTEST_SKIP() << "gltf-validator is not installed (npm install --global gltf-validator)";
+  folder.must("farlod-svf a.farlod -o mesh.glb --surfaces all --spacing 4");
+  folder.must("farlod-svf a.farlod -o points.glb --at " + text_of(p_projected({-60.0, 0.0})));
+  EXPECT_EQ(folder.run(node + " mesh.glb points.glb").out, "0 true\n0 true\n");
+}
+
+TEST_F(PackedTown, AMeshHasEachSurfaceOnceInTheColourOfItsMean) {
+  folder.must("farlod-svf a.farlod -o o.glb --surfaces all --spacing 4");
+  const scenes::Glb glb(folder.text_of("o.glb"));
+  ASSERT_EQ(glb.positions.size() % 3, 0U);
+  std::map<std::array<std::uint16_t, 4>, double> area_of_colour;
+  double roofs_m2 = 0.0, walls_m2 = 0.0, floors_m2 = 0.0;
+  for (std::size_t first = 0; first < glb.positions.size(); first += 3) {
+    const Point3d a = area_vector(glb, first);
+    const double area_m2 = std::sqrt(dot(a, a));
+    (a.y > 0.5 * area_m2 ? roofs_m2 : a.y < -0.5 * area_m2 ? floors_m2 : walls_m2) += area_m2;
+    area_of_colour[glb.colours[first]] += area_m2;
+    EXPECT_EQ(glb.colours[first], glb.colours[first + 2]);
+  }
+  double wanted_roofs_m2 = 0.0, wanted_walls_m2 = 0.0, roof_error = 0.0, wall_error = 0.0;
+  for (const Block& b : small_town()) {
+    wanted_roofs_m2 += b.edge_m * b.edge_m;
+    wanted_walls_m2 += 4.0 * b.edge_m * b.height_m;
+    // Corners are floats some hundred metres from the origin, too: a tenth of a millimetre
+    roof_error += 1.2 * roof_error_m2(b);
+    wall_error += 1.2 * wall_error_m2(b);
+  }
+  EXPECT_NEAR(roofs_m2, wanted_roofs_m2, roof_error);
+  EXPECT_NEAR(walls_m2, wanted_walls_m2, wall_error);
+  EXPECT_NEAR(floors_m2, wanted_roofs_m2, roof_error);
+  const CsvTable surfaces = table("o.surfaces.csv");
+  for (std::size_t n = 0; n < surfaces.size(); ++n) {
+    // As --at and PLY have it: the colour of the same value in sRGB, decoded by IEC 61966-2-1
+    const Colour colour = colour_of_svf(surfaces.number(n, "svf_mean"));
+    const auto matches = [&](const auto& found) {
+      const auto near = [](std::uint16_t light, std::uint8_t channel) {
+        const double v = channel / 255.0, wanted = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+        return std::abs(light / 65535.0 - wanted) < 0.01;  // the mean was printed: a channel may differ by one
+      };
+      return near(found.first[0], colour.red) && near(found.first[1], colour.green) && near(found.first[2], colour.blue);
+    };
+    double area_m2 = 0.0;
+    for (const auto& found : area_of_colour)
+      if (matches(found)) area_m2 += found.second;
+    EXPECT_GE(area_m2, surfaces.number(n, "area_m2") - 1.0) << n;
+  }
+}
+
+TEST_F(PackedTown, AMeshStandsWhereItsOriginSays) {
+  folder.must("farlod-svf a.farlod -o o.glb --surfaces roofs --spacing 4");
+  const scenes::Glb glb(folder.text_of("o.glb"));
+  const auto origin = glb.extras().at("origin_m").get<std::vector<double>>();
+  EXPECT_EQ(glb.extras().at("crs"), town_crs);
+  const Block tower = tower_of(small_town());
+  std::size_t on_top = 0;
+  for (const auto& p : glb.positions) {
+    if (std::abs(static_cast<double>(p[1]) + origin[2] - tower.height_m) > 0.01) continue;
+    ++on_top;
+    const Point2d place{origin[0] + static_cast<double>(p[0]), origin[1] - static_cast<double>(p[2])};
+    EXPECT_LE(norm(place - p_projected(tower.centre)), tower.edge_m * std::sqrt(0.5) + 0.01);
+  }
+  EXPECT_GE(on_top, 6U);  // two triangles of its roof, and walls
 }
 
 TEST_F(PackedTown, RoofsAndWallsAreTheTwoHalvesOfAll) {

@@ -21,10 +21,9 @@ struct Refused {
 };
 void PrintTo(const Refused& refused, std::ostream* out) { *out << "farlod-svf " << refused.arguments; }
 
-std::string endings_of(const std::set<OutputKind>& kinds) {
-  return endings_where([&](const OutputFormat& format) { return kinds.contains(format.kind); });
+std::string all_endings() {
+  return endings_where([](const OutputFormat&) { return true; });
 }
-std::string all_endings() { return endings_of({OutputKind::raster, OutputKind::picture, OutputKind::table}); }
 
 std::string name_of(const testing::TestParamInfo<Refused>& info) { return info.param.name; }
 
@@ -71,11 +70,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"NoPackage", "-o o.csv --at 1,2", exit_usage, {"PACKAGE is required"}},
         Refused{"UnknownEnding", "a.farlod -o o.no_such_format --at 1,2", exit_usage, {"o.no_such_format", all_endings()}},
         Refused{"NoEnding", "a.farlod -o o --at 1,2", exit_usage, {"\"o\"", all_endings()}},
-        Refused{"NoReceivers", "a.farlod -o o.csv", exit_usage, {"--grid,--points,--along,--surfaces,--at", "required"}},
+        Refused{
+            "NoReceivers", "a.farlod -o o.csv", exit_usage, {"--grid,--grid-like,--points,--along,--surfaces,--at", "required"}},
         Refused{"TwoKindsOfReceivers",
                 "a.farlod -o o.csv --at 1,2 --surfaces all",
                 exit_usage,
-                {"--grid,--points,--along,--surfaces,--at", "2 were given"}},
+                {"--grid,--grid-like,--points,--along,--surfaces,--at", "2 were given"}},
         Refused{"NoRays", "a.farlod -o o.csv --at 1,2 --rays 0", exit_usage, {"--rays", "1 to 10000000"}},
         Refused{"NegativeRays", "a.farlod -o o.csv --at 1,2 --rays -3", exit_usage, {"--rays", "1 to 10000000"}},
         Refused{"NegativeVerify", "a.farlod -o o.csv --at 1,2 --verify -4", exit_usage, {"--verify", "-4"}},
@@ -108,6 +108,26 @@ INSTANTIATE_TEST_SUITE_P(
                 exit_usage,
                 {"--points-layer", "--points"}},
         Refused{"PreviewWithoutGrid", "a.farlod -o o.csv --at 1,2 --preview p.png", exit_usage, {"--preview", "--grid"}},
+        Refused{"HistogramOfOneValue",
+                "a.farlod -o o.csv --at 1,2 --histogram h.png",
+                exit_usage,
+                {"--histogram", "--grid, --points, --along and --surfaces"}},
+        Refused{"HistogramIsNoPicture",
+                "a.farlod -o o.asc --grid 5 --histogram h.csv",
+                exit_usage,
+                {"--histogram", "h.csv", ".png, .svg, .pdf"}},
+        Refused{"MapOfNoVerification",
+                "a.farlod -o o.asc --grid 5 --verify-map v.png",
+                exit_usage,
+                {"--verify-map", "give --verify"}},
+        Refused{"MapOfOneVerification",
+                "a.farlod -o o.csv --at 1,2 --verify 1 --verify-map v.png",
+                exit_usage,
+                {"--verify-map", "--grid, --points, --along and --surfaces"}},
+        Refused{"MapOfAVerificationIsNoPicture",
+                "a.farlod -o o.asc --grid 5 --verify 1 --verify-map v.asc",
+                exit_usage,
+                {"--verify-map", "v.asc", ".csv, .png, .svg, .pdf"}},
         Refused{"ProjectionOfATable",
                 "a.farlod -o o.csv --at 1,2 --projection equidistant",
                 exit_usage,
@@ -148,23 +168,24 @@ INSTANTIATE_TEST_SUITE_P(
 
 /// Each format with the receivers that it is not for.
 std::vector<Refused> formats_that_do_not_fit() {
-  const std::string tables = endings_of({OutputKind::table}), pictures = endings_of({OutputKind::picture});
-  const std::string rasters = endings_of({OutputKind::raster, OutputKind::picture});
+  const std::string tables = endings_where([](const OutputFormat& f) { return f.holds_tables(); });
+  const std::string pictures = endings_where([](const OutputFormat& f) { return f.is_picture; });
+  const std::string rasters = endings_where([](const OutputFormat& f) { return f.raster_writer != nullptr; });
   std::vector<Refused> refused;
   for (const OutputFormat& format : output_formats()) {
     const std::string ending(format.endings[0]), name = ending.substr(1), command = "a.farlod -o o" + ending;
-    if (format.kind == OutputKind::table)
+    if (format.raster_writer == nullptr)
       refused.push_back({"Grid_" + name, command + " --grid 5", exit_usage, {"-o", "--grid makes a raster", ending, rasters}});
-    else
+    if (!format.holds_tables())
       for (const std::string receivers : {"--points word.csv", "--at 1,2", "--surfaces all"}) {
         // The sky above a place is a picture
-        if (format.kind == OutputKind::picture && receivers == "--at 1,2") continue;
+        if (format.is_picture && receivers == "--at 1,2") continue;
         refused.push_back({receivers.substr(2, receivers.find(' ') - 2) + "_" + name,
                            command + " " + receivers,
                            exit_usage,
                            {"-o", "only --grid makes a raster", tables}});
       }
-    if (format.kind != OutputKind::picture)
+    if (!format.is_picture)
       refused.push_back({"Preview_" + name,
                          "a.farlod -o o.asc --grid 5 --preview p" + ending,
                          exit_usage,

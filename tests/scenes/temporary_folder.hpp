@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -43,8 +44,16 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// The bytes of a file; none when there is no such file.
+/// The bytes of a file; of a folder, those of all its files, in the order of their names; none when there is nothing.
 [[nodiscard]] inline std::string text_of(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) {
+    std::map<std::filesystem::path, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
+      if (entry.is_regular_file()) files.emplace(entry.path(), text_of(entry.path()));
+    std::string all;
+    for (const auto& [file, text] : files) all += file.lexically_relative(path).string() + text;
+    return all;
+  }
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
