@@ -30,12 +30,11 @@ function(farlod_public_headers target)
   set_target_properties(${target} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 endfunction()
 
-# What is to lie in a shared library shows nothing but what FARLOD_EXPORT marks.
+# What can be linked into a shared library, ours or a stranger's (a module of Python is one). Shows nothing but what FARLOD_EXPORT
+# marks, so that calls among our own functions take no detour.
 function(farlod_for_shared_library target)
-  if(BUILD_SHARED_LIBS)
-    set_target_properties(${target} PROPERTIES
-      POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-  endif()
+  set_target_properties(${target} PROPERTIES
+    POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 endfunction()
 
 # A library of ours: its sources are listed by the folders below it.
