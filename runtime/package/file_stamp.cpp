@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "package/file_stamp.hpp"
 
+#include <sys/stat.h>
 #include <xxhash.h>
 
 #include <string>
@@ -17,6 +18,20 @@ void check_stamp(const std::filesystem::path& path, std::span<const std::byte> b
   if (XXH3_64bits(bytes.data(), bytes.size()) != stamp.xxh3)
     throw PackageDamaged(path.string() +
                          " is damaged: its checksum is not the manifest's. Copy it again, or pack the city again.");
+}
+
+FileIdentity identity_of(const std::filesystem::path& path) {
+  struct stat found {};
+  if (stat(path.c_str(), &found) != 0) return {};
+  constexpr std::int64_t ns_per_s = 1'000'000'000;
+  return {static_cast<std::uint64_t>(found.st_dev), static_cast<std::uint64_t>(found.st_ino),
+          static_cast<std::uint64_t>(found.st_size), found.st_mtim.tv_sec * ns_per_s + found.st_mtim.tv_nsec};
+}
+
+void require_unchanged(const std::filesystem::path& path, const FileIdentity& opened) {
+  if (identity_of(path) != opened)
+    throw PackageDamaged(path.string() +
+                         " was written, replaced or removed while the package was open: open the package again.");
 }
 
 }  // namespace farlod

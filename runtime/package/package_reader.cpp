@@ -3,6 +3,7 @@
 #include "package/package_reader.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -27,6 +28,9 @@ struct OpenBlock {
   std::optional<BlockTiles> tiles;
   std::mutex far_map_mutex;
   std::shared_ptr<const FarMapReader> far_map;
+  // What the files were when they were opened; to be read once the flags are set
+  FileIdentity tiles_identity, far_map_identity;
+  std::atomic<bool> has_tiles = false, has_far_map = false;
 
   void let_go() {
     if (tiles_bytes) tiles_bytes->let_go();
@@ -39,6 +43,7 @@ struct OpenBlock {
 
 struct PackageReader::Impl {
   std::filesystem::path folder;
+  FileIdentity manifest_identity;  // first, so that a manifest that is replaced meanwhile is noticed
   package::Manifest manifest;
   std::vector<OpenBlock> blocks;
   std::mutex held_mutex;
@@ -47,7 +52,10 @@ struct PackageReader::Impl {
   std::optional<PackageInMemory> memory;
 
   explicit Impl(std::filesystem::path f)
-      : folder(std::move(f)), manifest(read_manifest(folder)), blocks(manifest.blocks.size()) {}
+      : folder(std::move(f)),
+        manifest_identity(identity_of(folder / package::manifest_file)),
+        manifest(read_manifest(folder)),
+        blocks(manifest.blocks.size()) {}
   explicit Impl(PackageInMemory contents)
       : manifest(std::move(contents.manifest)), blocks(manifest.blocks.size()), memory(std::move(contents)) {
     FARLOD_EXPECTS(memory->tiles.size() == blocks.size());
@@ -90,9 +98,11 @@ struct PackageReader::Impl {
         open.tiles.emplace(memory->tiles[n], cells, path.string());
         return;
       }
+      open.tiles_identity = identity_of(path);
       open.tiles_bytes.emplace(path);
       check_stamp(path, open.tiles_bytes->bytes(), manifest.blocks[n].tiles);
       open.tiles.emplace(open.tiles_bytes->bytes(), cells, path.string());
+      open.has_tiles = true;
     });
     if (!memory) use(n);
     return *open.tiles;
@@ -102,12 +112,25 @@ struct PackageReader::Impl {
   std::shared_ptr<const FarMapReader> far_maps(std::size_t n) {
     OpenBlock& open = blocks[n];
     const auto path = path_of(n, package::far_map_file);
-    std::call_once(open.far_map_checked, [&] { check_stamp(path, MappedFile(path).bytes(), manifest.blocks[n].far_map); });
+    std::call_once(open.far_map_checked, [&] {
+      open.far_map_identity = identity_of(path);
+      check_stamp(path, MappedFile(path).bytes(), manifest.blocks[n].far_map);
+      open.has_far_map = true;
+    });
     const std::lock_guard lock(open.far_map_mutex);
     if (!open.far_map)
       open.far_map = std::make_shared<const FarMapReader>(path, manifest.grid.cells_of(manifest.blocks[n].block),
                                                           manifest.far_map, manifest.blocks[n].mapped);
     return open.far_map;
+  }
+
+  void require_unchanged() const {
+    if (memory) return;
+    farlod::require_unchanged(folder / package::manifest_file, manifest_identity);
+    for (std::size_t n = 0; n < blocks.size(); ++n) {
+      if (blocks[n].has_tiles) farlod::require_unchanged(path_of(n, package::tiles_file), blocks[n].tiles_identity);
+      if (blocks[n].has_far_map) farlod::require_unchanged(path_of(n, package::far_map_file), blocks[n].far_map_identity);
+    }
   }
 };
 
@@ -158,6 +181,8 @@ std::uint64_t PackageReader::far_map_bytes(Cell cell) const {
   FARLOD_EXPECTS(!impl_->memory && has_far_map(cell));
   return impl_->far_maps(impl_->index_of(cell))->stored_bytes(cell);
 }
+
+void PackageReader::require_unchanged() const { impl_->require_unchanged(); }
 
 void PackageReader::hold_at_most(std::uint64_t bytes) {
   const std::lock_guard lock(impl_->held_mutex);

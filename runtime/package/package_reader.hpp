@@ -54,6 +54,10 @@ class PackageReader {
   /// Bytes that the picture of a cell's far map takes on disk; the cell must have one. Not of a package in memory.
   [[nodiscard]] std::uint64_t far_map_bytes(Cell cell) const;
 
+  /// Compares the manifest and all files that were opened with what they were then: mapped memory is what a file is now, so that
+  /// what was checked once may have changed. Throws PackageDamaged. Nothing of a package in memory.
+  void require_unchanged() const;
+
   /// From the next question on, the blocks hold no more memory than this together, except that one block always has room. There
   /// is no such limit before.
   void hold_at_most(std::uint64_t bytes);

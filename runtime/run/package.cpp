@@ -27,6 +27,7 @@ const std::shared_ptr<PackageContents>& Package::contents() const {
 const PackageDescription& Package::description() const { return contents()->description; }
 
 PackageInUse::PackageInUse(const Package& package) : contents_(package.contents()) {
+  contents_->reader.require_unchanged();
   const std::lock_guard lock(contents_->runs_mutex);
   ++contents_->runs;
   share_memory();

@@ -24,7 +24,8 @@ struct PackageContents {
 };
 
 /// A package while a run uses it: its contents stay, even when the caller closes it meanwhile, and its blocks have the memory
-/// that the cells in flight of all runs need, and no more. Throws InvalidArgument when the package is closed.
+/// that the cells in flight of all runs need, and no more. Throws InvalidArgument when the package is closed, PackageDamaged when
+/// a file of it is not what it was when it was opened.
 class PackageInUse {
  public:
   explicit PackageInUse(const Package& package);

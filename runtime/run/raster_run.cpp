@@ -137,6 +137,93 @@ class RasterRun {
   double memory_bytes_ = 0.0;
 };
 
+void require_within(const RasterWindow& window, const RasterPlan& plan) {
+  if (window.columns == 0 || window.rows == 0) throw InvalidArgument("the window has no pixels: give a column and a row at least");
+  if (window.column >= plan.columns || window.columns > plan.columns - window.column || window.row >= plan.rows ||
+      window.rows > plan.rows - window.row)
+    throw InvalidArgument("the window reaches beyond the raster, which has " + std::to_string(plan.columns) + " columns and " +
+                          std::to_string(plan.rows) + " rows");
+}
+
+/// A raster in which nothing has a value yet.
+Raster empty_raster(const RasterPlan& plan, bool bounds, std::size_t further_bands) {
+  const std::size_t count = plan.columns * plan.rows;
+  return {plan,
+          std::vector<float>(count, no_data),
+          std::vector<float>(bounds ? count : 0, no_data),
+          std::vector<float>(bounds ? count : 0, no_data),
+          std::vector(further_bands, std::vector<float>(count, no_data)),
+          {}};
+}
+
+std::size_t bytes_of(const RasterPlan& plan, bool bounds, std::size_t further_bands) {
+  return plan.columns * plan.rows * ((bounds ? 3 : 1) + further_bands) * sizeof(float);
+}
+
+/// Pixels of a window of a raster, and how their answers are stored.
+class WindowAnswers {
+ public:
+  WindowAnswers(const RasterPlan& whole, const RasterWindow& window, bool bounds, std::size_t further_bands)
+      : whole_columns_(whole.columns),
+        window_(window),
+        raster_(empty_raster(plan_of(whole, window), bounds, further_bands)) {}
+
+  [[nodiscard]] static RasterPlan plan_of(const RasterPlan& whole, const RasterWindow& window) {
+    return {{whole.north_west_m.x + static_cast<double>(window.column) * whole.step_m,
+             whole.north_west_m.y - static_cast<double>(window.row) * whole.step_m},
+            whole.step_m,
+            window.columns,
+            window.rows};
+  }
+  /// Of a cell's receivers, which are pixels of the whole raster by their numbers, those in the window count.
+  void store(const CellReceivers& cell, const SvfValues& values) {
+    for (std::size_t k = 0; k < cell.receivers.size(); ++k) {
+      const std::size_t column = cell.receivers[k].index % whole_columns_ - window_.column;
+      const std::size_t row = cell.receivers[k].index / whole_columns_ - window_.row;
+      // What lies west or north of the window has wrapped around to a large number
+      if (column < window_.columns && row < window_.rows) put(row * window_.columns + column, values, k);
+    }
+  }
+  [[nodiscard]] Raster take(EvaluationSummary summary) {
+    double sum = 0.0;
+    summary.receivers = 0;
+    summary.svf_min = summary.svf_mean = summary.svf_max = std::nullopt;
+    for (const float svf : raster_.svf) {
+      if (std::isnan(svf)) continue;
+      const double value = static_cast<double>(svf);
+      ++summary.receivers;
+      sum += value;
+      summary.svf_min = std::min(summary.svf_min.value_or(value), value);
+      summary.svf_max = std::max(summary.svf_max.value_or(value), value);
+    }
+    if (summary.receivers > 0) summary.svf_mean = sum / static_cast<double>(summary.receivers);
+    summary.no_data = raster_.svf.size() - summary.receivers;
+    summary.beyond_grid = 0;
+    raster_.summary = std::move(summary);
+    return std::move(raster_);
+  }
+
+ private:
+  void put(std::size_t pixel, const SvfValues& values, std::size_t k) {
+    raster_.svf[pixel] = values.svf[k];
+    if (!values.low.empty()) {
+      raster_.low[pixel] = values.low[k];
+      raster_.high[pixel] = values.high[k];
+    }
+    const std::span<const float> further = values.further_of(k);
+    for (std::size_t band = 0; band < further.size(); ++band) raster_.further[band][pixel] = further[band];
+  }
+
+  std::size_t whole_columns_;
+  RasterWindow window_;
+  Raster raster_;
+};
+
+bool meet(const PixelRange& pixels, const RasterWindow& window) {
+  return pixels.column_begin < window.column + window.columns && window.column < pixels.column_end &&
+         pixels.row_begin < window.row + window.rows && window.row < pixels.row_end;
+}
+
 }  // namespace
 
 RasterTile::RasterTile(TilePlace where, RasterBands bands, std::size_t further_bands)
@@ -162,16 +249,10 @@ EvaluationSummary evaluate_raster(const Package& package, const RasterPlan& plan
 Raster evaluate_raster(const Package& package, const RasterPlan& plan, const Placing& placing, const EvaluationSettings& settings,
                        const RunSettings& run) {
   require_usable(plan);
-  const std::size_t count = plan.columns * plan.rows, bounds = settings.bounds ? count : 0;
   const std::size_t further_bands = columns_of(settings.further).size();
-  const std::size_t bytes = (count + 2 * bounds + further_bands * count) * sizeof(float);
-  const RasterRun raster_run(package, plan, placing, settings, with_bytes_of_caller(run, bytes));
-  Raster raster{plan,
-                std::vector<float>(count, no_data),
-                std::vector<float>(bounds, no_data),
-                std::vector<float>(bounds, no_data),
-                std::vector(further_bands, std::vector<float>(count, no_data)),
-                {}};
+  const RasterRun raster_run(package, plan, placing, settings,
+                             with_bytes_of_caller(run, bytes_of(plan, settings.bounds, further_bands)));
+  Raster raster = empty_raster(plan, settings.bounds, further_bands);
   const auto copy_tile = [&raster](const RasterTile& tile) {
     copy_band(tile, tile.svf, raster.plan, raster.svf);
     for (std::size_t n = 0; n < tile.further.size(); ++n) copy_band(tile, tile.further[n], raster.plan, raster.further[n]);
@@ -181,6 +262,33 @@ Raster evaluate_raster(const Package& package, const RasterPlan& plan, const Pla
   };
   raster.summary = raster_run.evaluate(copy_tile);
   return raster;
+}
+
+Raster evaluate_window(const Package& package, const RasterPlan& plan, const RasterWindow& window, const Placing& placing,
+                       const EvaluationSettings& settings, const RunSettings& run) {
+  require_usable(plan);
+  require_within(window, plan);
+  const std::size_t further_bands = columns_of(settings.further).size();
+  const std::size_t bytes = bytes_of(WindowAnswers::plan_of(plan, window), settings.bounds, further_bands);
+  const ResolvedSettings resolved_settings = resolved(settings, with_bytes_of_caller(run, bytes));
+  const Placing where = resolved(placing);
+  const PackageInUse in_use(package);
+  const package::Manifest& manifest = in_use.reader().manifest();
+  const RasterReceivers receivers(manifest, plan, resolved_settings.region.get());
+  std::vector<Cell> cells = receivers.cells();
+  std::erase_if(cells, [&](Cell cell) { return !meet(receivers.range_of(cell), window); });
+  cells = along_hilbert_curve(std::move(cells), in_use.reader().grid().block_edge);
+  MemoryNeeds needs = needs_of(plan, {}, in_use.reader().grid(), 0);
+  needs.whole_city = any_traces_whole_city(in_use.reader(), resolved_settings.sky.engine, cells);
+  const double memory_bytes = require_memory(manifest, resolved_settings, needs);
+  WindowAnswers answers(plan, window, settings.bounds, further_bands);
+  const float height_m = package_height_m(where, manifest);
+  EvaluationSummary summary = evaluate_cells(
+      in_use, resolved_settings, cells.size(),
+      [&](std::size_t n) { return receivers.in_cell(in_use.reader(), cells[n], where.above, height_m, resolved_settings.run.stop); },
+      [&](std::size_t, const CellReceivers& cell, const SvfValues& values) { answers.store(cell, values); });
+  if (summary.estimate) summary = with_memory(std::move(summary), memory_bytes);
+  return answers.take(std::move(summary));
 }
 
 }  // namespace farlod

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "python/runtime_module/package.hpp"
+
+#include <pybind11/stl.h>
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "farlod/error.hpp"
+#include "farlod/inspection.hpp"
+#include "farlod/package.hpp"
+#include "farlod/plan_view.hpp"
+#include "python/binding/interruptible_run.hpp"
+#include "python/binding/owned_array.hpp"
+#include "python/runtime_module/surface_polygons.hpp"
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace farlod {
+namespace {
+
+using BboxInPython = std::array<double, 4>;  ///< west, south, east, north
+
+py::dict description_of(const Package& package) {
+  const PackageDescription& d = package.description();
+  const PackageInventory inventory = inventory_of(package);
+  py::list inputs;
+  for (const PackedInput& input : inventory.inputs) inputs.append(input.name);
+  return py::dict(
+      "software"_a = d.software, "crs_wkt"_a = d.crs_wkt, "crs_name"_a = d.crs_name, "epsg"_a = d.epsg,
+      "bounds_m"_a = BboxInPython{d.outline_projected.low.x, d.outline_projected.low.y, d.outline_projected.high.x,
+                                  d.outline_projected.high.y},
+      "grid_bearing_deg"_a = d.grid_bearing.degrees(), "convergence_deg"_a = d.convergence.degrees(),
+      "cell_edge_m"_a = d.cell_edge_m, "neighborhood"_a = d.neighborhood, "columns"_a = d.columns, "rows"_a = d.rows,
+      "far_map_kind"_a = d.far_map_kind, "cells_with_far_map"_a = d.cells_with_far_map, "buildings"_a = d.buildings,
+      "polygons"_a = d.polygons, "triangles"_a = d.triangles, "inputs"_a = inputs, "problems"_a = inventory.problems);
+}
+
+py::dict check_in_python(const Package& package, const CallerSettings& caller) {
+  PackageCheck check;
+  run_interruptibly(caller, [&](const RunSettings& run) { check = check_package(package, run); });
+  py::list damage;
+  for (const PackageDamage& found : check.damage) damage.append(found.what);
+  return py::dict("files"_a = check.files, "bytes"_a = check.bytes, "cells"_a = check.cells, "far_maps"_a = check.far_maps,
+                  "damage"_a = damage);
+}
+
+py::array_t<float> ground_in_python(const Package& package, const RasterPlan& plan, const CallerSettings& caller) {
+  std::vector<float> heights_m;
+  run_interruptibly(caller, [&](const RunSettings& run) { heights_m = ground_heights(package, plan, run); });
+  return owned_array(std::move(heights_m), {static_cast<py::ssize_t>(plan.rows), static_cast<py::ssize_t>(plan.columns)});
+}
+
+/// Segments as an array (n, 2, 2): two ends, x and y.
+py::array_t<double> outlines_in_python(const Package& package, const BboxInPython& bbox_m, const CallerSettings& caller) {
+  constexpr std::size_t most_segments = 50'000'000;
+  const Box2d part{{bbox_m[0], bbox_m[1]}, {bbox_m[2], bbox_m[3]}};
+  std::optional<BuildingOutlines> outlines;
+  run_interruptibly(caller, [&](const RunSettings& run) { outlines = building_outlines(package, part, most_segments, run); });
+  if (!outlines) throw LimitReached("the buildings here have more than 50,000,000 edges: choose a smaller part");
+  std::vector<double> ends;
+  ends.reserve(4 * outlines->segments.size());
+  for (const PlanSegment& s : outlines->segments) ends.insert(ends.end(), {s.a.x, s.a.y, s.b.x, s.b.y});
+  return owned_array(std::move(ends), {static_cast<py::ssize_t>(outlines->segments.size()), 2, 2});
+}
+
+/// Of each building that has surfaces: its id, the numbers of the surfaces, and their polygons as well-known binary.
+py::list polygons_in_python(const Package& package, const CallerSettings& caller) {
+  std::vector<SurfacePolygons> surfaces;
+  run_interruptibly(caller, [&](const RunSettings& run) { surfaces = surface_polygons(package, run.stop); });
+  py::list rows;
+  for (const SurfacePolygons& s : surfaces) rows.append(py::make_tuple(s.building, s.surface, py::bytes(s.multipolygon_wkb)));
+  return rows;
+}
+
+}  // namespace
+
+void add_package(py::module_& module) {
+  py::class_<Package>(module, "Package")
+      .def(py::init([](const std::string& folder) { return Package(std::filesystem::path(folder)); }), py::arg("folder"),
+           py::call_guard<py::gil_scoped_release>())
+      .def_property_readonly("is_open", &Package::is_open)
+      .def("close", &Package::close)
+      .def("description", &description_of);
+  module.def("check_package", &check_in_python, py::arg("package"), py::arg("caller"));
+  module.def("ground_heights", &ground_in_python, py::arg("package"), py::arg("plan"), py::arg("caller"));
+  module.def("building_outlines", &outlines_in_python, py::arg("package"), py::arg("bbox_m"), py::arg("caller"));
+  module.def("surface_polygons", &polygons_in_python, py::arg("package"), py::arg("caller"));
+}
+
+}  // namespace farlod

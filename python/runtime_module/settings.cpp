@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "python/runtime_module/settings.hpp"
+
+#include <pybind11/stl.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "farlod/error.hpp"
+#include "farlod/evaluation.hpp"
+#include "farlod/region.hpp"
+
+namespace py = pybind11;
+
+namespace farlod {
+namespace {
+
+template <class T>
+using Word = std::pair<std::string_view, T>;
+
+constexpr std::array<Word<Engine>, 5> engines{{{"auto", Engine::automatic},
+                                               {"horizon", Engine::horizon},
+                                               {"rays", Engine::rays},
+                                               {"exact", Engine::exact},
+                                               {"near", Engine::near_only}}};
+constexpr std::array<Word<SkyWeight>, 2> metrics{{{"cosine", SkyWeight::cosine}, {"solid", SkyWeight::solid_angle}}};
+constexpr std::array<Word<DirectionSet>, 2> direction_sets{
+    {{"partition", DirectionSet::partition}, {"fibonacci", DirectionSet::fibonacci}}};
+constexpr std::array<Word<HeightAbove>, 3> heights{
+    {{"ground", HeightAbove::ground}, {"surface", HeightAbove::highest_surface}, {"sea", HeightAbove::sea_level}}};
+constexpr std::array<Word<SkyPatchSet>, 3> patch_sets{
+    {{"none", SkyPatchSet::none}, {"tregenza", SkyPatchSet::tregenza}, {"reinhart", SkyPatchSet::reinhart}}};
+
+/// What a word means. Throws InvalidArgument, which lists the words that there are.
+template <class T, std::size_t n>
+T meaning_of(const char* name, const std::string& word, const std::array<Word<T>, n>& words) {
+  std::string list;
+  for (const auto& [known, meaning] : words) {
+    if (known == word) return meaning;
+    list.append(list.empty() ? "\"" : ", \"").append(known).append("\"");
+  }
+  throw InvalidArgument(std::string(name) + " is \"" + word + "\": give one of " + list);
+}
+
+/// A property that is a word in Python and an enum in C++.
+template <class Class, class T, std::size_t n>
+auto setter_of(const char* name, T Class::*member, const std::array<Word<T>, n>& words) {
+  return [name, member, &words](Class& object, const std::string& word) { object.*member = meaning_of(name, word, words); };
+}
+
+/// Positions of the sun, given as three arrays of one length.
+std::vector<SunPosition> sun_positions(const std::vector<double>& azimuth_deg, const std::vector<double>& elevation_deg,
+                                       const std::vector<double>& hours) {
+  if (elevation_deg.size() != azimuth_deg.size() || hours.size() != azimuth_deg.size())
+    throw InvalidArgument("the sun's azimuths are " + std::to_string(azimuth_deg.size()) + ", its elevations " +
+                          std::to_string(elevation_deg.size()) + " and the hours " + std::to_string(hours.size()) +
+                          ": give one of each for each position");
+  std::vector<SunPosition> positions(azimuth_deg.size());
+  for (std::size_t k = 0; k < positions.size(); ++k)
+    positions[k] = {Angle::degrees(azimuth_deg[k]), Angle::degrees(elevation_deg[k]), hours[k]};
+  return positions;
+}
+
+using RingInPython = std::vector<std::pair<double, double>>;
+
+std::shared_ptr<Region> region_of(const std::vector<RingInPython>& rings_m) {
+  std::vector<Region::Ring> rings;
+  for (const RingInPython& ring_m : rings_m) {
+    Region::Ring& ring = rings.emplace_back();
+    for (const auto& [x, y] : ring_m) ring.push_back({x, y});
+  }
+  return std::make_shared<Region>(rings);
+}
+
+}  // namespace
+
+void add_settings(py::module_& module) {
+  py::class_<Placing>(module, "Placing")
+      .def(py::init([](const std::string& above, double height_m) {
+             return Placing{meaning_of("above", above, heights), height_m};
+           }),
+           py::arg("above"), py::arg("height_m"));
+  py::class_<Region, std::shared_ptr<Region>>(module, "Region").def(py::init(&region_of), py::arg("rings_m"));
+  py::class_<Quantities>(module, "Quantities")
+      .def(py::init<>())
+      .def_readwrite("svf_solid", &Quantities::svf_solid)
+      .def_readwrite("directional", &Quantities::directional)
+      .def_readwrite("hidden", &Quantities::hidden)
+      .def_readwrite("horizons", &Quantities::horizons)
+      .def_readwrite("horizon_distances", &Quantities::horizon_distances)
+      .def("set_sky_patches", setter_of("sky_patches", &Quantities::sky_patches, patch_sets), py::arg("patches"))
+      .def("set_sun",
+           [](Quantities& quantities, const std::vector<double>& azimuth_deg, const std::vector<double>& elevation_deg,
+              const std::vector<double>& hours) { quantities.sun = sun_positions(azimuth_deg, elevation_deg, hours); },
+           py::arg("azimuth_deg"), py::arg("elevation_deg"), py::arg("hours"))
+      .def("columns", &columns_of);
+  py::class_<EvaluationSettings>(module, "EvaluationSettings")
+      .def(py::init<>())
+      .def("set_engine", setter_of("engine", &EvaluationSettings::engine, engines), py::arg("engine"))
+      .def("set_metric", setter_of("metric", &EvaluationSettings::weight, metrics), py::arg("metric"))
+      .def("set_directions", setter_of("directions", &EvaluationSettings::directions, direction_sets), py::arg("directions"))
+      .def("set_region",
+           [](EvaluationSettings& settings, const std::shared_ptr<Region>& region) { settings.region = region; },
+           py::arg("region"))
+      .def_readwrite("azimuths", &EvaluationSettings::azimuths)
+      .def_readwrite("rays", &EvaluationSettings::rays)
+      .def_readwrite("max_error", &EvaluationSettings::max_error)
+      .def_readwrite("bounds", &EvaluationSettings::bounds)
+      .def_readwrite("verify", &EvaluationSettings::verify)
+      .def_readwrite("dry_run", &EvaluationSettings::dry_run)
+      .def_readwrite("further", &EvaluationSettings::further);
+}
+
+}  // namespace farlod

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "python/runtime_module/summary.hpp"
+
+#include <pybind11/stl.h>
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace farlod {
+namespace {
+
+py::dict dict_of(const ErrorSummary& errors) {
+  return py::dict("count"_a = errors.count, "rays"_a = errors.rays, "mean_abs_error"_a = errors.mean_abs_error,
+                  "p99_abs_error"_a = errors.p99_abs_error, "max_abs_error"_a = errors.max_abs_error, "bias"_a = errors.bias);
+}
+
+py::dict dict_of(const RunEstimate& estimate) {
+  constexpr double mib = 1 << 20;
+  return py::dict("cells"_a = estimate.cells, "evaluated_cells"_a = estimate.evaluated_cells, "receivers"_a = estimate.receivers,
+                  "seconds"_a = estimate.seconds, "memory_mib"_a = estimate.memory_bytes / mib);
+}
+
+}  // namespace
+
+py::dict summary_dict(const EvaluationSummary& run) {
+  py::dict summary("receivers"_a = run.receivers, "nodata"_a = run.no_data + run.beyond_grid,
+                   "outside_of_grid"_a = run.outside_of_grid, "outside_of_region"_a = run.outside_of_region,
+                   "receivers_without_far_map"_a = run.without_far_map, "receivers_by_rays"_a = run.by_rays,
+                   "azimuths"_a = run.accuracy.azimuths, "rays"_a = run.accuracy.rays,
+                   "rays_traced_exactly"_a = run.retraced_rays,
+                   "seconds"_a = py::dict("scenes"_a = run.seconds.scenes, "evaluate"_a = run.seconds.evaluate,
+                                          "deliver"_a = run.seconds.deliver),
+                   "svf"_a = py::dict("min"_a = run.svf_min, "mean"_a = run.svf_mean, "max"_a = run.svf_max));
+  if (run.bounds) summary["bounds"] = py::dict("mean_width"_a = run.bounds->mean, "max_width"_a = run.bounds->max);
+  if (run.estimate) summary["estimate"] = dict_of(*run.estimate);
+  if (run.errors) summary["verify"] = dict_of(*run.errors);
+  return summary;
+}
+
+}  // namespace farlod

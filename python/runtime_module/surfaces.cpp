@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <pybind11/stl.h>
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "farlod/error.hpp"
+#include "farlod/surfaces.hpp"
+#include "python/binding/interruptible_run.hpp"
+#include "python/binding/owned_array.hpp"
+#include "python/runtime_module/evaluation.hpp"
+#include "python/runtime_module/summary.hpp"
+
+namespace py = pybind11;
+using namespace py::literals;
+
+namespace farlod {
+namespace {
+
+constexpr double no_data = std::numeric_limits<double>::quiet_NaN();
+
+SurfaceChoice choice_of(const std::string& word) {
+  if (word == "roofs") return SurfaceChoice::roofs;
+  if (word == "walls") return SurfaceChoice::walls;
+  if (word == "all") return SurfaceChoice::all;
+  throw InvalidArgument("which is \"" + word + R"(": give one of "roofs", "walls", "all")");
+}
+
+/// A column of a table: a value of each of its rows.
+template <class T, class Row, class Value>
+py::array_t<T> column(const std::vector<Row>& rows, const Value& value) {
+  std::vector<T> values;
+  values.reserve(rows.size());
+  for (const Row& row : rows) values.push_back(static_cast<T>(value(row)));
+  return owned_array(std::move(values));
+}
+
+template <class Row>
+py::list buildings_of(const std::vector<Row>& rows) {
+  py::list names;
+  for (const Row& row : rows) names.append(row.building);
+  return names;
+}
+
+/// Values of further columns, row by row; NaN where a row has none.
+template <class Row, class Values>
+py::array_t<double> further_of(const std::vector<Row>& rows, std::size_t columns, const Values& values_of) {
+  std::vector<double> table(rows.size() * columns, no_data);
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    const auto& values = values_of(rows[n]);
+    std::copy(values.begin(), values.end(), table.begin() + static_cast<std::ptrdiff_t>(n * columns));
+  }
+  return owned_array(std::move(table), {static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(columns)});
+}
+
+py::dict dict_of(const std::vector<SurfaceMean>& surfaces, std::size_t further_columns) {
+  using Row = SurfaceMean;
+  return py::dict(
+      "building"_a = buildings_of(surfaces),
+      "surface"_a = column<std::uint32_t>(surfaces, [](const Row& s) { return s.surface; }),
+      "kind"_a = column<std::uint8_t>(surfaces, [](const Row& s) { return s.kind; }),
+      "azimuth_deg"_a = column<double>(surfaces, [](const Row& s) { return s.azimuth.degrees(); }),
+      "tilt_deg"_a = column<double>(surfaces, [](const Row& s) { return s.tilt.degrees(); }),
+      "area_m2"_a = column<double>(surfaces, [](const Row& s) { return s.area_m2; }),
+      "covered_area_m2"_a = column<double>(surfaces, [](const Row& s) { return s.covered_area_m2; }),
+      "receivers"_a = column<std::int64_t>(surfaces, [](const Row& s) { return s.receivers; }),
+      "svf_mean"_a = column<double>(surfaces, [](const Row& s) { return s.svf_mean.value_or(no_data); }),
+      "svf_min"_a = column<double>(surfaces, [](const Row& s) { return s.svf_min.value_or(no_data); }),
+      "svf_max"_a = column<double>(surfaces, [](const Row& s) { return s.svf_max.value_or(no_data); }),
+      "further"_a = further_of(surfaces, further_columns, [](const Row& s) -> const auto& { return s.further_mean; }));
+}
+
+py::dict dict_of(const std::vector<SurfacePoint>& points, std::size_t further_columns) {
+  using Row = SurfacePoint;
+  return py::dict(
+      "building"_a = buildings_of(points), "surface"_a = column<std::uint32_t>(points, [](const Row& p) { return p.surface; }),
+      "kind"_a = column<std::uint8_t>(points, [](const Row& p) { return p.kind; }),
+      "x_m"_a = column<double>(points, [](const Row& p) { return p.p_projected.x; }),
+      "y_m"_a = column<double>(points, [](const Row& p) { return p.p_projected.y; }),
+      "z_m"_a = column<double>(points, [](const Row& p) { return p.p_projected.z; }),
+      "azimuth_deg"_a = column<double>(points, [](const Row& p) { return p.azimuth.degrees(); }),
+      "tilt_deg"_a = column<double>(points, [](const Row& p) { return p.tilt.degrees(); }),
+      "area_m2"_a = column<double>(points, [](const Row& p) { return p.area_m2; }),
+      "svf"_a = column<double>(points, [](const Row& p) { return p.svf.value_or(no_data); }),
+      "low"_a = column<double>(points, [](const Row& p) { return p.low.value_or(no_data); }),
+      "high"_a = column<double>(points, [](const Row& p) { return p.high.value_or(no_data); }),
+      "further"_a = further_of(points, further_columns, [](const Row& p) -> const auto& { return p.further; }));
+}
+
+py::dict evaluate_surfaces_in_python(const Package& package, const std::string& which, double spacing_m, bool wants_points,
+                                     const EvaluationSettings& settings, const CallerSettings& caller) {
+  const SurfaceSettings surfaces{choice_of(which), spacing_m};
+  std::vector<SurfacePoint> points;
+  const OnSurfacePoints keep = [&points](std::size_t, std::span<const SurfacePoint> of_cell) {
+    points.insert(points.end(), of_cell.begin(), of_cell.end());
+  };
+  SurfaceMeans means;
+  run_interruptibly(caller, [&](const RunSettings& run) {
+    means = evaluate_surfaces(package, surfaces, settings, wants_points ? keep : OnSurfacePoints(), run);
+  });
+  const std::size_t further_columns = columns_of(settings.further).size();
+  return py::dict("means"_a = dict_of(means.surfaces, further_columns), "points"_a = dict_of(points, further_columns),
+                  "summary"_a = summary_dict(means.summary));
+}
+
+}  // namespace
+
+void add_surfaces(py::module_& module) {
+  module.def("evaluate_surfaces", &evaluate_surfaces_in_python, py::arg("package"), py::arg("which"), py::arg("spacing_m"),
+             py::arg("points"), py::arg("settings"), py::arg("caller"));
+}
+
+}  // namespace farlod

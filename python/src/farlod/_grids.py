@@ -1,0 +1,215 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+"""Rasters as xarray has them, whole or block by block, and tables of horizons and patches."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from farlod import _arguments, _modules
+from farlod._settings import Evaluation
+from farlod._sky_patches import middle_of_patches
+from farlod.errors import InvalidArgument
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+_runtime = _modules.load("farlod._runtime")
+
+LONG_NAMES = {
+    "svf": "sky view factor",
+    "low": "certain lower bound of the sky view factor",
+    "high": "certain upper bound of the sky view factor",
+    "svf_solid": "share of the solid angle of the sky",
+    "svfN": "sky view factor of the northern half",
+    "svfE": "sky view factor of the eastern half",
+    "svfS": "sky view factor of the southern half",
+    "svfW": "sky view factor of the western half",
+    "hidden_near": "share of the sky hidden by geometry of the neighborhood",
+    "hidden_far": "share of the sky hidden by the far city alone",
+}
+
+
+def _require_crs_of_city(like: Any, crs: Any) -> None:
+    import pyproj
+
+    accessor = getattr(like, "rio", None)
+    wkt = like.coords["spatial_ref"].attrs.get("crs_wkt") if "spatial_ref" in like.coords else None
+    theirs = accessor.crs if accessor is not None and accessor.crs is not None else wkt
+    if theirs is None:
+        raise InvalidArgument("like has no CRS: import rioxarray, and set it with like.rio.write_crs()")
+    if not pyproj.CRS.from_user_input(theirs).equals(crs, ignore_axis_order=True):
+        raise InvalidArgument(f"like has another CRS than the city ({crs.name}): reproject it first")
+
+
+def _axis(like: Any, name: str) -> npt.NDArray[np.float64]:
+    if name not in like.coords or like.coords[name].ndim != 1 or like.sizes[name] < 2:
+        raise InvalidArgument(f"like has no coordinate {name} of two values or more: give a raster on (y, x)")
+    return _arguments.floats(f"like.{name}", like.coords[name].values)
+
+
+def _plan_like(like: Any, crs: Any) -> Any:
+    _require_crs_of_city(like, crs)
+    x, y = _axis(like, "x"), np.sort(_axis(like, "y"))[::-1]
+    steps = np.concatenate([np.diff(x), -np.diff(y)])
+    step = float(steps.mean())
+    if step <= 0.0 or np.abs(steps - step).max() > 1e-3 * step:
+        raise InvalidArgument("like has pixels that are not square, or no even coordinates: resample it first")
+    return _runtime.RasterPlan((float(x[0]) - step / 2, float(y[0]) + step / 2), step, x.size, y.size)
+
+
+def plan(package: Any, step: Any, bbox: Any, like: Any, crs: Any) -> Any:
+    """``RasterPlan`` of the library. Raises InvalidArgument."""
+    if like is not None:
+        if bbox is not None:
+            raise InvalidArgument("like and bbox both say which pixels: give one of them")
+        return _plan_like(like, crs)
+    box = None if bbox is None else _arguments.bbox("bbox", bbox)
+    return _runtime.plan_raster(package, _arguments.number("step", step), box)
+
+
+def _names(evaluation: Evaluation) -> list[str]:
+    bounds = ["low", "high"] if evaluation.bounds else []
+    return ["svf", *bounds, *evaluation.further().columns()]
+
+
+def _bands(raster: Mapping[str, Any]) -> list[Any]:
+    bounds = [] if raster["low"] is None else [raster["low"], raster["high"]]
+    return [raster["svf"], *bounds, *raster["further"]]
+
+
+def _coordinates(pixels: Any, crs: Any) -> dict[str, Any]:
+    import xarray
+
+    west, north = pixels.north_west_m
+    step = pixels.step_m
+    x = west + (np.arange(pixels.columns) + 0.5) * step
+    y = north - (np.arange(pixels.rows) + 0.5) * step
+    transform = f"{west!r} {step!r} 0.0 {north!r} 0.0 {-step!r}"
+    return {
+        "y": ("y", y, {"axis": "Y", "standard_name": "projection_y_coordinate", "units": "m"}),
+        "x": ("x", x, {"axis": "X", "standard_name": "projection_x_coordinate", "units": "m"}),
+        # Under both names, for readers of CF and of GDAL
+        "spatial_ref": xarray.Variable(
+            (), 0, {**crs.to_cf(), "spatial_ref": crs.to_wkt(), "GeoTransform": transform}
+        ),
+    }
+
+
+def _dataset(bands: Mapping[str, Any], pixels: Any, crs: Any, like: Any, attributes: Mapping[str, Any]) -> xarray.Dataset:
+    import xarray
+
+    variables = {
+        name: (("y", "x"), band, {"long_name": LONG_NAMES.get(name, name), "units": "1"}) for name, band in bands.items()
+    }
+    dataset = xarray.Dataset(variables, _coordinates(pixels, crs), dict(attributes))
+    for name in bands:
+        dataset[name].encoding["grid_mapping"] = "spatial_ref"
+    if like is None:
+        return dataset
+    if float(like.coords["y"][0]) < float(like.coords["y"][-1]):
+        dataset = dataset.isel(y=slice(None, None, -1))
+    # To the bit, so that xarray aligns the two
+    return dataset.assign_coords(x=("x", like.coords["x"].values), y=("y", like.coords["y"].values))
+
+
+def eager(package: Any, pixels: Any, evaluation: Evaluation, crs: Any, like: Any) -> xarray.Dataset:
+    """The raster, computed now. The figures of the run are its attribute ``summary``."""
+    raster = _runtime.evaluate_raster(
+        package, pixels, evaluation.placing(), evaluation.settings(), evaluation.caller()
+    )
+    bands = dict(zip(_names(evaluation), _bands(raster)))
+    return _dataset(bands, pixels, crs, like, {"summary": raster["summary"]})
+
+
+def _block(
+    city: Any, frame: tuple[tuple[float, float], float, int, int], evaluation: Evaluation, mask: Any, block_info: Any = None
+) -> npt.NDArray[np.float32]:
+    """The bands of one block of a raster, (band, row, column)."""
+    from dataclasses import replace
+
+    from farlod._regions import region_of
+
+    _, (row, row_end), (column, column_end) = block_info[None]["array-location"]
+    here = replace(evaluation, region=region_of(mask, city.crs_wkt))
+    raster = _runtime.evaluate_window(
+        city._open_package(),
+        _runtime.RasterPlan(*frame),
+        (column, row, column_end - column, row_end - row),
+        here.placing(),
+        here.settings(),
+        here.caller(),
+    )
+    return np.stack(_bands(raster))
+
+
+def lazy(city: Any, pixels: Any, evaluation: Evaluation, mask: Any, chunks: Any, like: Any) -> xarray.Dataset:
+    """The raster as arrays of dask, whose blocks are computed when they are asked for."""
+    import dask.array
+
+    names = _names(evaluation)
+    # What a block would refuse is refused now
+    evaluation.placing(), evaluation.settings(), evaluation.caller()
+    shape = (pixels.rows, pixels.columns)
+    try:
+        sizes = dask.array.core.normalize_chunks(2048 if chunks == "auto" else chunks, shape, dtype=np.float32)
+    except (TypeError, ValueError) as error:
+        raise InvalidArgument(f"chunks is {chunks!r}: give the edge of a block in pixels, as dask takes it ({error})") from error
+    frame = (pixels.north_west_m, pixels.step_m, pixels.columns, pixels.rows)
+    stack = dask.array.map_blocks(
+        _block,
+        chunks=((len(names),), *sizes),
+        dtype=np.float32,
+        meta=np.empty((0, 0, 0), np.float32),
+        city=city,
+        frame=frame,
+        evaluation=evaluation,
+        mask=mask,
+    )
+    return _dataset({name: stack[n] for n, name in enumerate(names)}, pixels, city.crs, like, {})
+
+
+def ground(package: Any, pixels: Any, caller: Any, crs: Any) -> xarray.DataArray:
+    """Heights of the ground."""
+    heights = _runtime.ground_heights(package, pixels, caller)
+    array = _dataset({"ground": heights}, pixels, crs, None, {})["ground"]
+    array.attrs = {"long_name": "height of the ground above sea level", "units": "m"}
+    return array
+
+
+def _points(index: pandas.Index | None, count: int) -> Any:
+    return np.arange(count) if index is None else index.to_numpy()
+
+
+def horizons(table: npt.NDArray[np.float32], count: int, index: Any) -> xarray.DataArray | xarray.Dataset:
+    """``table`` has a column for each azimuth, and then, where distances were asked for, another."""
+    import xarray
+
+    azimuth = ("azimuth", np.arange(count) * (360.0 / count), {"units": "degree", "long_name": "clockwise from true north"})
+    coords = {"point": _points(index, len(table)), "azimuth": azimuth}
+    dims = ("point", "azimuth")
+    elevation = xarray.DataArray(table[:, :count], coords, dims, "horizon", {"units": "degree", "long_name": "elevation"})
+    if table.shape[1] == count:
+        return elevation
+    distance = xarray.DataArray(table[:, count:], coords, dims, "distance", {"units": "m", "long_name": "level distance"})
+    return xarray.Dataset({"horizon": elevation, "distance": distance})
+
+
+def patches(table: npt.NDArray[np.float32], index: Any) -> xarray.DataArray:
+    """``table`` has a column for each patch."""
+    import xarray
+
+    azimuth, elevation, weight = middle_of_patches(table.shape[1])
+    coords = {
+        "point": _points(index, len(table)),
+        "patch": np.arange(1, table.shape[1] + 1),
+        "azimuth": ("patch", azimuth, {"units": "degree", "long_name": "clockwise from true north"}),
+        "elevation": ("patch", elevation, {"units": "degree"}),
+        "view_factor": ("patch", weight, {"units": "1", "long_name": "view factor of the patch from a level surface"}),
+    }
+    return xarray.DataArray(table, coords, ("point", "patch"), "sky_patches", {"units": "1", "long_name": "share seen"})

@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+"""Loads the compiled modules, and names the Debian packages where something is missing."""
+
+from __future__ import annotations
+
+import importlib
+import re
+from types import ModuleType
+
+#: The Debian 12 package that a shared library comes with, by the name that a module asks for.
+DEBIAN_PACKAGES = {
+    "libOpenEXR-3_1.so.30": "libopenexr-3-1-30",
+    "libOpenEXRCore-3_1.so.30": "libopenexr-3-1-30",
+    "libIlmThread-3_1.so.30": "libopenexr-3-1-30",
+    "libIex-3_1.so.30": "libopenexr-3-1-30",
+    "libImath-3_1.so.29": "libimath-3-1-29",
+    "libembree3.so.3": "libembree3-3",
+    "libexpat.so.1": "libexpat1",
+    "libfmt.so.9": "libfmt9",
+    "libgdal.so.32": "libgdal32",
+    "libGeographic.so.23": "libgeographiclib23",
+    "libGeographicLib.so.23": "libgeographiclib23",
+    "libgmp.so.10": "libgmp10",
+    "libmpfr.so.6": "libmpfr6",
+    "libproj.so.25": "libproj25",
+    "libtbb.so.12": "libtbb12",
+    "libxxhash.so.0": "libxxhash0",
+}
+
+
+def advice_for(message: str) -> str:
+    """What to install, from what the dynamic linker says of a library that is missing; empty where it says something else."""
+    missing = re.search(r"(\S+\.so\S*): cannot open shared object file", message)
+    if missing is None:
+        return ""
+    package = DEBIAN_PACKAGES.get(missing[1])
+    if package is None:
+        return f"The library {missing[1]} is missing: install the package of your system that has it."
+    return f"The library {missing[1]} is missing: on Debian 12, run apt-get install {package}."
+
+
+def load(name: str) -> ModuleType:
+    """The compiled module of this name. Raises ImportError, which says what is missing."""
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        advice = advice_for(str(error))
+        if not advice:
+            raise
+        raise ImportError(f"{name} cannot be loaded. {advice}", name=name) from error
+
+
+def load_preprocess() -> ModuleType:
+    """The module that packs cities. Raises ImportError, which says how to get it."""
+    try:
+        importlib.import_module("farlod_preprocess")
+    except ModuleNotFoundError as error:
+        if error.name != "farlod_preprocess":
+            raise
+        raise ImportError(
+            "farlod.pack() needs the package farlod-preprocess, which has a licence of its own (GPL-3.0-or-later): "
+            "pip install it from python/preprocess of the sources. farlod-pack, the program, makes the same packages.",
+            name="farlod_preprocess",
+        ) from error
+    return load("farlod_preprocess._preprocess")

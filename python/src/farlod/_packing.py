@@ -1,0 +1,298 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+"""Makes packages, from files or from what Python holds."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import warnings
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, Union
+
+from farlod import _arguments, _modules
+from farlod._city import City
+from farlod._models import is_path, saved_model
+from farlod._receivers import is_geo
+from farlod._settings import Progress, caller_settings
+from farlod.errors import InvalidArgument
+
+if TYPE_CHECKING:
+    import pandas
+
+
+class ProblemsWarning(UserWarning):
+    """The city has problems: :attr:`City.report` lists them."""
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One thing that is wrong with a city: docs/problems.md has a paragraph for each code.
+
+    ``place`` is the id of the building, the number of the feature or the line; ``position`` is easting, northing and height, or
+    as the file counts.
+    """
+
+    code: int
+    problem: str
+    effect: str
+    file: str
+    place: str
+    detail: str
+    position: tuple[float, float, float] | None
+    ring: str
+
+
+@dataclass(frozen=True)
+class Report:
+    """What :func:`farlod.pack` found out: the problems of the city, and the figures of the run.
+
+    Attributes
+    ----------
+    problems : list of Problem
+        In the order in which they were met.
+    facts : mapping
+        ``street_bearing_deg``, ``alignment_strength``, ``skipped`` features, ``notes``, ``package_bytes``, ``seconds`` of each
+        stage, ...
+    """
+
+    problems: list[Problem]
+    facts: Mapping[str, Any]
+
+    def to_frame(self) -> pandas.DataFrame:
+        """The problems as a table."""
+        import pandas
+
+        return pandas.DataFrame([vars(problem) for problem in self.problems], columns=list(Problem.__dataclass_fields__))
+
+    def __str__(self) -> str:
+        kinds = Counter((p.code, p.problem, p.effect) for p in self.problems)
+        return "\n".join(f"{count} x {code} {name} ({effect})" for (code, name, effect), count in sorted(kinds.items()))
+
+
+@dataclass(frozen=True)
+class Heights:
+    """Where the heights of footprints come from: names of attributes (columns), and values for features without them.
+
+    Attributes
+    ----------
+    height, base, roof, storeys : str, optional
+        Attributes with the height above the base, the elevation of the base, the elevation of the roof (metres), and the number
+        of storeys.
+    storey_height : float, default 3.0
+        Metres, 1 to 20.
+    default : float, optional
+        Metres, 0.01 to 1,000: for footprints without any height.
+    """
+
+    height: str | None = None
+    base: str | None = None
+    roof: str | None = None
+    storeys: str | None = None
+    storey_height: float = 3.0
+    default: float | None = None
+
+
+Align = Union[Literal["auto", "none"], float]
+
+
+def _footprints(heights: Heights, module: Any) -> Any:
+    fields = module.FootprintSettings()
+    for ours, theirs in (("height", "height_field"), ("base", "base_field"), ("roof", "roof_field"), ("storeys", "storeys_field")):
+        name = getattr(heights, ours)
+        if name is not None:
+            setattr(fields, theirs, _arguments.path(f"heights.{ours}", name))
+    fields.floor_height_m = _arguments.number("heights.storey_height", heights.storey_height)
+    if heights.default is not None:
+        fields.default_height_m = _arguments.number("heights.default", heights.default)
+    return fields
+
+
+def _set_grid(settings: Any, cell: Any, neighborhood: Any, max_error: Any, align: Any) -> None:
+    if cell is not None:
+        settings.cell_edge_m = _arguments.number("cell", cell)
+    if neighborhood is not None:
+        settings.neighborhood = _arguments.whole_number("neighborhood", neighborhood, 1, 999)
+    if max_error is not None:
+        settings.max_error = _arguments.number("max_error", max_error)
+    if isinstance(align, str):
+        settings.set_alignment(_arguments.word("align", align, ("auto", "none")))
+    else:
+        settings.set_bearing(_arguments.number("align", align))
+
+
+def _set_area(settings: Any, area: Any, folder: str) -> None:
+    if area is None:
+        return
+    if is_geo(area):
+        settings.set_area_file(saved_model(area, folder, "area").path)
+    elif is_path(area):
+        settings.set_area_file(_arguments.path("area", area))
+    else:
+        settings.set_area(_arguments.bbox("area", area))
+
+
+def _crs_text(name: str, crs: Any) -> str:
+    """"EPSG:n", from anything that pyproj takes."""
+    if crs is None:
+        return ""
+    if isinstance(crs, str):
+        return _arguments.path(name, crs)
+    import pyproj
+
+    try:
+        epsg = pyproj.CRS.from_user_input(crs).to_epsg()
+    except pyproj.exceptions.CRSError as error:
+        raise InvalidArgument(f"{name} is {crs!r}, which is no CRS: give one like \"EPSG:25832\" ({error})") from None
+    if epsg is None:
+        raise InvalidArgument(f"{name} has no EPSG code: give one that has, like \"EPSG:25832\"")
+    return f"EPSG:{epsg}"
+
+
+def _warn_of(problems: list[Problem]) -> None:
+    if problems:
+        text = str(Report(problems, {}))
+        warnings.warn(f"the city has problems, which city.report lists:\n{text}", ProblemsWarning, stacklevel=3)
+
+
+def pack(
+    city: Any,
+    path: str | os.PathLike[str],
+    *,
+    cell: float | None = None,
+    neighborhood: int | None = None,
+    max_error: float | None = None,
+    terrain: Any = None,
+    heights: Heights | str | None = None,
+    crs: Any = None,
+    out_crs: Any = None,
+    area: Any = None,
+    align: Align = "auto",
+    lod: int | None = None,
+    up: Literal["z", "y"] = "z",
+    obj_origin: Any = None,
+    assign: Literal["clip", "whole"] = "clip",
+    far_map: Literal["horizon", "box"] = "horizon",
+    overwrite: bool = False,
+    problems: Literal["pack", "refuse"] = "pack",
+    report: bool = True,
+    threads: int = 0,
+    memory_limit: int | None = None,
+    progress: Progress = None,
+) -> City:
+    """Makes a package of a city, and opens it.
+
+    Parameters
+    ----------
+    city : path, model in memory, or a list of these
+        Files, folders and archives of CityGML, CityJSON, OBJ, footprints of any vector format, or rasters of a surface model; a
+        geopandas.GeoDataFrame of footprints, with heights in columns; a mesh as (vertices, faces), or with these attributes as
+        trimesh has; an xarray.DataArray of surface heights on (y, x), in metres. All are put together.
+    path : str or path-like
+        The folder to make.
+    cell : float, optional
+        Edge of a cell in metres, 0.5 to 10,000 (default: 150, or what ``max_error`` needs).
+    neighborhood : int, optional
+        Cells along the edge of the near field, odd (default: 3, or what ``max_error`` needs).
+    max_error : float, optional
+        Chooses cells and neighborhood so that sky view factors keep this error, 0.0001 to 1.
+    terrain : path or xarray.DataArray, optional
+        Elevations of the ground, in metres.
+    heights : Heights or str, optional
+        Where the heights of footprints come from; a str is the attribute with the height above the base. Without it, names that
+        are usual (``height``, ``measuredHeight``, ``building:levels``, ...) are looked for.
+    crs, out_crs : anything that pyproj takes, optional
+        Of inputs that do not say theirs, and of the package: projected, and in metres. By default the input's, or UTM for
+        degrees.
+    area : (west, south, east, north), path or GeoDataFrame, optional
+        Makes far maps for this part only, or adds them to the package that is there.
+    align : {"auto", "none"} or float
+        The grid lies along the streets, to grid north, or along a bearing in degrees clockwise from grid north.
+    lod : int, optional
+        Level of detail to read, 0 to 3 (default: the best from 1 to 3).
+    up, obj_origin
+        Which axis of OBJ files and meshes is up, and (x, y, z) that is added to their coordinates.
+    assign, far_map
+        ``"whole"`` and ``"box"`` are the paper's ways, to compare with.
+    overwrite : bool, default False
+        Whether to replace a package that is there.
+    problems : {"pack", "refuse"}
+        Whether a city with problems is packed.
+    report : bool, default True
+        Whether to keep a :class:`Report` as ``city.report``, and to warn (:class:`ProblemsWarning`) of problems.
+    threads, memory_limit, progress
+        As for all runs: :class:`farlod.Options`.
+
+    Returns
+    -------
+    City
+
+    Raises
+    ------
+    InputError
+        A file cannot be read; ProblemsRefused with ``problems="refuse"``.
+    OutputError
+        The folder cannot be written, or is there already.
+    InvalidArgument, LimitReached
+        See :mod:`farlod.errors`. Ctrl-C raises KeyboardInterrupt, and leaves no package.
+    ImportError
+        The package farlod-preprocess is not installed.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> folder = tempfile.TemporaryDirectory()
+    >>> city = farlod.pack(village_file, folder.name + "/village.farlod")
+    >>> city.info["buildings"]
+    32
+
+    Footprints in a GeoDataFrame, with their heights in a column:
+
+    >>> import geopandas, shapely.geometry
+    >>> squares = [shapely.geometry.box(x, 5.3e6, x + 20, 5.3e6 + 20) for x in (690000, 690040)]
+    >>> blocks = geopandas.GeoDataFrame({"metres": [12.0, 20.0]}, geometry=squares, crs="EPSG:25832")
+    >>> city = farlod.pack(blocks, folder.name + "/blocks.farlod", heights="metres")
+    >>> city.info["buildings"], city.crs.to_epsg()
+    (2, 25832)
+    """
+    module = _modules.load_preprocess()
+    settings = module.PackSettings(_arguments.path("path", path))
+    settings.set_words(
+        _arguments.word("up", up, ("z", "y")),
+        _arguments.word("assign", assign, ("clip", "whole")),
+        _arguments.word("far_map", far_map, ("horizon", "box")),
+        _arguments.word("problems", problems, ("pack", "refuse")),
+    )
+    if _arguments.flag("overwrite", overwrite):
+        settings.set_overwrite()
+    _set_grid(settings, cell, neighborhood, max_error, align)
+    if lod is not None:
+        settings.lod = _arguments.whole_number("lod", lod, 0, 3)
+    if obj_origin is not None:
+        origin = _arguments.floats("obj_origin", obj_origin)
+        if origin.shape != (3,):
+            raise InvalidArgument(f"obj_origin is {obj_origin!r}: give x, y and z")
+        settings.set_obj_origin(origin.tolist())
+    settings.crs, settings.out_crs = _crs_text("crs", crs), _crs_text("out_crs", out_crs)
+    settings.footprints = _footprints(Heights(height=heights) if isinstance(heights, str) else heights or Heights(), module)
+    caller = caller_settings(module, threads, memory_limit, progress)
+    rows: list[dict[str, Any]] = []
+    with tempfile.TemporaryDirectory(prefix="farlod-") as folder:
+        models = city if isinstance(city, list) else [city]
+        saved = [saved_model(model, folder, f"city_{n}", crs=settings.crs) for n, model in enumerate(models)]
+        settings.set_inputs([model.path for model in saved])
+        if terrain is not None:
+            settings.set_terrain(saved_model(terrain, folder, "terrain", crs=settings.crs).path)
+        _set_area(settings, area, folder)
+        try:
+            facts = module.pack(settings, rows, caller)
+        finally:
+            found = [Problem(**row) for row in rows]
+            if report:
+                _warn_of(found)
+    opened = City(path)
+    if report:
+        opened._report = Report(found, facts)
+    return opened

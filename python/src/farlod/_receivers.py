@@ -1,0 +1,93 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+"""Points and normals of callers, coordinate by coordinate, in the CRS of a city."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from farlod import _arguments
+from farlod.errors import InvalidArgument
+
+if TYPE_CHECKING:
+    import pandas
+
+Floats = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Receivers:
+    """Where receivers stand and look: arrays of one length, in one piece."""
+
+    x: Floats
+    y: Floats
+    z: Floats | None
+    azimuth: Floats | None
+    tilt: Floats | None
+    index: pandas.Index | None = None  #: of the GeoSeries that the points came from
+
+    def __len__(self) -> int:
+        return int(self.x.size)
+
+
+def is_geo(points: Any) -> bool:
+    """Whether something is a GeoSeries or a GeoDataFrame, without importing geopandas for it."""
+    return hasattr(points, "to_crs") and hasattr(points, "geometry")
+
+
+def _columns_of_geometries(points: Any, crs_wkt: str) -> tuple[Floats, Floats, Floats | None]:
+    geometries = points.geometry
+    if geometries.crs is None:
+        raise InvalidArgument("points have no CRS: set it with set_crs(), so that they can be brought into the city's")
+    if not (geometries.geom_type == "Point").all() or geometries.is_empty.any():
+        raise InvalidArgument("points has geometries that are no points, or empty: leave them out, or take their centroid")
+    here = geometries.to_crs(crs_wkt)
+    x, y = here.x.to_numpy(np.float64), here.y.to_numpy(np.float64)
+    if not (np.isfinite(x) & np.isfinite(y)).all():
+        raise InvalidArgument("points lie where the CRS of the city does not reach: check their CRS")
+    has_z = here.has_z.to_numpy()
+    if not has_z.any():
+        return x, y, None
+    z = np.full(len(here), np.nan)
+    z[has_z] = here[has_z].z.to_numpy(np.float64)
+    return x, y, z
+
+
+def _columns_of_array(points: Any) -> tuple[Floats, Floats, Floats | None]:
+    array = _arguments.floats("points", points)
+    if array.ndim != 2 or array.shape[1] not in (2, 3):
+        raise InvalidArgument(
+            f"points has the shape {array.shape}: give (n, 2), easting and northing, or (n, 3), with the height above sea level;"
+            " one point is [[x, y]]"
+        )
+    columns = [np.ascontiguousarray(array[:, axis]) for axis in range(array.shape[1])]
+    return columns[0], columns[1], columns[2] if len(columns) == 3 else None
+
+
+def _facing(normals: Any, count: int, convergence_deg: float) -> tuple[Floats, Floats]:
+    array = _arguments.floats("normals", normals)
+    if array.ndim != 2 or array.shape[0] != count or array.shape[1] not in (2, 3):
+        raise InvalidArgument(
+            f"normals has the shape {array.shape}: give ({count}, 3), vectors along the axes of the city's CRS, or ({count}, 2), "
+            "azimuths clockwise from true north and tilts, in degrees"
+        )
+    if array.shape[1] == 2:
+        return np.ascontiguousarray(array[:, 0]), np.ascontiguousarray(array[:, 1])
+    east, north, up = array[:, 0], array[:, 1], array[:, 2]
+    level = np.hypot(east, north)
+    if not (np.isfinite(array).all() and (np.hypot(level, up) > 0.0).all()):
+        raise InvalidArgument("normals has vectors that are zero or not finite: give a direction for each point")
+    azimuth = np.mod(np.degrees(np.arctan2(east, north)) + convergence_deg, 360.0)
+    return azimuth, np.degrees(np.arctan2(level, up))
+
+
+def receivers_of(points: Any, normals: Any, crs_wkt: str, convergence_deg: float) -> Receivers:
+    """``points`` and ``normals`` as City.svf() describes them. Raises InvalidArgument."""
+    geo = is_geo(points)
+    x, y, z = _columns_of_geometries(points, crs_wkt) if geo else _columns_of_array(points)
+    azimuth, tilt = (None, None) if normals is None else _facing(normals, int(x.size), convergence_deg)
+    return Receivers(x, y, z, azimuth, tilt, points.index if geo else None)

@@ -1,0 +1,147 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+"""How values are computed, and how a run is carried out: the keyword arguments that all functions share."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import Any, Literal, TypedDict, Union
+
+from farlod import _arguments, _modules
+from farlod.errors import InvalidArgument
+
+_runtime = _modules.load("farlod._runtime")
+
+Engine = Literal["auto", "horizon", "rays", "exact", "near"]
+Metric = Literal["cosine", "solid"]
+Above = Literal["ground", "surface", "sea"]
+SkyPatches = Literal["tregenza", "reinhart"]
+Quantity = Literal["svf_solid", "directional", "hidden"]
+#: Called as ``progress(stage, done, all)`` some times a second, by the thread that called farlod; True prints a line.
+ProgressListener = Callable[[str, int, int], None]
+Progress = Union[bool, ProgressListener, None]
+
+QUANTITIES = ("svf_solid", "directional", "hidden")
+
+
+class Options(TypedDict, total=False):
+    """Keyword arguments that all evaluating functions take. None of them but ``engine``, ``azimuths``, ``rays`` and
+    ``directions`` changes a value.
+
+    Attributes
+    ----------
+    engine : {"auto", "horizon", "rays", "exact", "near"}
+        What answers: ``"auto"``, horizons, and rays where something overhangs; ``"horizon"`` alone; ``"rays"``, as in the
+        paper; ``"exact"``, rays against the whole city: the reference; ``"near"``, the far city left out.
+    azimuths : int
+        Azimuths of a horizon, 4 to 1,000,000 (default: 320, or as many as ``max_error`` needs).
+    rays : int
+        Rays of a receiver, 1 to 10,000,000 (default: 1,000, or as many as ``max_error`` needs).
+    directions : {"partition", "fibonacci"}
+        Where rays go: one in each cell of the Beckers partition of the sky, or a spherical Fibonacci lattice.
+    verify : int
+        So many random receivers are computed again, exactly: ``summary["verify"]``.
+    threads : int
+        0: as many as the machine has cores.
+    memory_limit : int
+        MiB. A run that would need more raises LimitReached before its long work.
+    progress : bool or callable
+        True prints a line; a function is called as ``progress(stage, done, all)`` some times a second. What it raises ends
+        the run.
+    """
+
+    engine: Engine
+    azimuths: int
+    rays: int
+    directions: Literal["partition", "fibonacci"]
+    verify: int
+    threads: int
+    memory_limit: int
+    progress: Progress
+
+
+def _print_line(stage: str, done: int, total: int) -> None:
+    end = "\n" if done == total else "\r"
+    print(f"{stage}: {done:,} of {total:,}", end=end, file=sys.stderr, flush=True)
+
+
+def listener_of(progress: Any) -> ProgressListener | None:
+    """The function that is told how far a run is. Raises InvalidArgument."""
+    if progress is None or progress is False:
+        return None
+    if progress is True:
+        return _print_line
+    if not callable(progress):
+        raise InvalidArgument(f"progress is {progress!r}: give True, or a function that takes (stage, done, all)")
+    listener: ProgressListener = progress
+    return listener
+
+
+def caller_settings(module: Any, threads: Any = 0, memory_limit: Any = None, progress: Any = None) -> Any:
+    """``CallerSettings`` of a compiled module. Raises InvalidArgument."""
+    limit = None if memory_limit is None else _arguments.whole_number("memory_limit", memory_limit, 1, 2**40)
+    return module.CallerSettings(_arguments.whole_number("threads", threads, 0, 4096), limit, listener_of(progress))
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """What is computed at a receiver, and how exactly. Unset options are the library's."""
+
+    metric: Metric = "cosine"
+    height: float = 1.5
+    above: Above = "ground"
+    bounds: bool = False
+    max_error: float | None = None
+    quantities: Iterable[Quantity] = ()
+    horizons: int = 0
+    horizon_distances: bool = False
+    sky_patches: str = "none"
+    sun: tuple[Any, Any, Any] | None = None
+    region: Any = None
+    options: Options = field(default_factory=lambda: Options())
+
+    def placing(self) -> Any:
+        """``Placing`` of the library."""
+        return _runtime.Placing(
+            _arguments.word("above", self.above, ("ground", "surface", "sea")), _arguments.number("height", self.height)
+        )
+
+    def further(self) -> Any:
+        """``Quantities`` of the library."""
+        asked = (self.quantities,) if isinstance(self.quantities, str) else tuple(self.quantities)
+        further = _runtime.Quantities()
+        for name in asked:
+            setattr(further, _arguments.word("quantities", name, QUANTITIES), True)
+        further.horizons = self.horizons
+        further.horizon_distances = self.horizon_distances
+        further.set_sky_patches(self.sky_patches)
+        if self.sun is not None:
+            further.set_sun(*(_arguments.floats("sun", values).ravel() for values in self.sun))
+        return further
+
+    def settings(self) -> Any:
+        """``EvaluationSettings`` of the library."""
+        settings = _runtime.EvaluationSettings()
+        settings.set_metric(_arguments.word("metric", self.metric, ("cosine", "solid")))
+        settings.bounds = _arguments.flag("bounds", self.bounds)
+        if self.max_error is not None:
+            settings.max_error = _arguments.number("max_error", self.max_error)
+        settings.further = self.further()
+        settings.set_region(self.region)
+        for name, value in self.options.items():
+            if name in ("azimuths", "rays", "verify"):
+                setattr(settings, name, _arguments.whole_number(name, value, 0 if name == "verify" else 1, 10**10))
+            elif name == "engine":
+                settings.set_engine(_arguments.word(name, value, ("auto", "horizon", "rays", "exact", "near")))
+            elif name == "directions":
+                settings.set_directions(_arguments.word(name, value, ("partition", "fibonacci")))
+            elif name not in ("threads", "memory_limit", "progress"):
+                raise TypeError(f"{name!r} is no argument of this function: see farlod.Options for those that there are")
+        return settings
+
+    def caller(self) -> Any:
+        """``CallerSettings`` of the library."""
+        run = {name: self.options[name] for name in ("threads", "memory_limit", "progress") if name in self.options}  # type: ignore[literal-required]
+        return caller_settings(_runtime, **run)

@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+"""Roofs and walls as a GeoDataFrame."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from farlod import _modules
+from farlod._settings import Evaluation, caller_settings
+
+if TYPE_CHECKING:
+    import geopandas
+
+_runtime = _modules.load("farlod._runtime")
+
+Choice = Literal["roofs", "walls", "all"]
+
+#: By the number that the package format gives each kind.
+KINDS = np.array(["unknown", "ground", "roof", "wall", "floor", "foundation"], dtype=object)
+
+
+def _columns(table: Mapping[str, Any], names: Mapping[str, str], further: list[str]) -> dict[str, Any]:
+    columns: dict[str, Any] = {"building": np.array(table["building"], dtype=object), "surface": table["surface"]}
+    columns["kind"] = KINDS[table["kind"]]
+    columns.update({ours: table[theirs] for ours, theirs in names.items()})
+    columns.update({name: table["further"][:, n] for n, name in enumerate(further)})
+    return columns
+
+
+def _of_points(table: Mapping[str, Any], evaluation: Evaluation, crs: Any) -> geopandas.GeoDataFrame:
+    import geopandas
+
+    names = {"azimuth": "azimuth_deg", "tilt": "tilt_deg", "area": "area_m2", "svf": "svf"}
+    if evaluation.bounds:
+        names.update(low="low", high="high")
+    columns = _columns(table, names, evaluation.further().columns())
+    geometry = geopandas.points_from_xy(table["x_m"], table["y_m"], table["z_m"], crs=crs)
+    return geopandas.GeoDataFrame(columns, geometry=geometry, crs=crs)
+
+
+def _polygons(package: Any, table: Mapping[str, Any], crs: Any) -> geopandas.GeoSeries:
+    """The polygons of the surfaces of a table, in its order. All pieces that cells have of a surface are one geometry."""
+    import geopandas
+
+    found = {(building, surface): wkb for building, surface, wkb in _runtime.surface_polygons(package, caller_settings(_runtime))}
+    rows = zip(table["building"], table["surface"].tolist())
+    return geopandas.GeoSeries.from_wkb([found.get(key) for key in rows], crs=crs)
+
+
+def frame(
+    package: Any, which: str, spacing: float, points: bool, geometry: bool, evaluation: Evaluation, crs: Any
+) -> geopandas.GeoDataFrame:
+    """What City.surfaces() returns, in the CRS of the city."""
+    import geopandas
+
+    found = _runtime.evaluate_surfaces(package, which, spacing, points, evaluation.settings(), evaluation.caller())
+    if points:
+        result = _of_points(found["points"], evaluation, crs)
+    else:
+        means = found["means"]
+        names = {"azimuth": "azimuth_deg", "tilt": "tilt_deg", "area": "area_m2", "covered_area": "covered_area_m2"}
+        names.update(receivers="receivers", svf="svf_mean", svf_min="svf_min", svf_max="svf_max")
+        columns = _columns(means, names, evaluation.further().columns())
+        shapes = _polygons(package, means, crs) if geometry else [None] * len(means["building"])
+        result = geopandas.GeoDataFrame(columns, geometry=shapes, crs=crs)
+    result.attrs["summary"] = found["summary"]
+    return result
