@@ -3,6 +3,7 @@
 #include "python/runtime_module/surface_polygons.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -161,16 +162,61 @@ std::string wkb_of(const PolygonRings& polygon, std::span<const Point3d> vertice
   return wkb.bytes();
 }
 
-/// The polygons of a surface, from all of its cells.
-struct Pieces {
-  std::uint32_t count = 0;
-  std::string polygons_wkb;
+/// The triangles of a surface, from all of its cells. Vertices that are one, but for the rounding of two cells, become one again.
+class WeldedSurface {
+ public:
+  void add(std::span<const MeshTriangle> triangles, std::span<const Point3d> vertices) {
+    for (MeshTriangle t : triangles) {
+      for (std::uint32_t& vertex : t.vertices) vertex = welded(vertices[vertex]);
+      const auto& [a, b, c] = t.vertices;
+      if (a != b && b != c && c != a) triangles_.push_back(t);
+    }
+  }
+  [[nodiscard]] std::string multipolygon_wkb() const {
+    const std::vector<PolygonRings> polygons = polygons_of(triangles_, vertices_);
+    WellKnownBinary wkb;
+    wkb.begin_geometry(multipolygon_z);
+    wkb.put(static_cast<std::uint32_t>(polygons.size()));
+    for (const PolygonRings& polygon : polygons) wkb.append(wkb_of(polygon, vertices_));
+    return wkb.bytes();
+  }
+
+ private:
+  /// Floats of a cell of 10 km are a millimetre apart, and nobody surveys one.
+  static constexpr double tolerance_m = 1e-3, bucket_m = 0.01;
+  using Bucket = std::array<std::int64_t, 3>;
+
+  [[nodiscard]] static Bucket bucket_of(const Point3d& p) {
+    const auto of = [](double x) { return static_cast<std::int64_t>(std::floor(x / bucket_m)); };
+    return {of(p.x), of(p.y), of(p.z)};
+  }
+  [[nodiscard]] std::optional<std::uint32_t> found_in(const Bucket& bucket, const Point3d& p) const {
+    const auto [begin, end] = by_bucket_.equal_range(bucket);
+    const auto near = std::find_if(begin, end, [&](const auto& v) { return norm(vertices_[v.second] - p) <= tolerance_m; });
+    return near == end ? std::nullopt : std::optional(near->second);
+  }
+  std::uint32_t welded(const Point3d& p) {
+    const Point3d reach{tolerance_m, tolerance_m, tolerance_m};
+    const Bucket low = bucket_of(p - reach), high = bucket_of(p + reach);
+    for (std::int64_t x = low[0]; x <= high[0]; ++x)
+      for (std::int64_t y = low[1]; y <= high[1]; ++y)
+        for (std::int64_t z = low[2]; z <= high[2]; ++z)
+          if (const auto vertex = found_in({x, y, z}, p)) return *vertex;
+    const auto vertex = static_cast<std::uint32_t>(vertices_.size());
+    vertices_.push_back(p);
+    by_bucket_.emplace(bucket_of(p), vertex);
+    return vertex;
+  }
+
+  std::vector<Point3d> vertices_;
+  std::vector<MeshTriangle> triangles_;
+  std::multimap<Bucket, std::uint32_t> by_bucket_;
 };
 
 using SurfaceKey = std::pair<std::uint32_t, std::uint32_t>;  ///< number of the building, number of the surface
 
 struct CollectedSurfaces {
-  std::map<SurfaceKey, Pieces> pieces;
+  std::map<SurfaceKey, WeldedSurface> surfaces;
   std::map<std::uint32_t, std::string> ids;
 };
 
@@ -180,11 +226,7 @@ void add_part(MeshPart part, CollectedSurfaces& to) {
   std::ranges::stable_sort(part.triangles, {}, &MeshTriangle::surface);
   for (auto begin = part.triangles.begin(); begin != part.triangles.end();) {
     const auto end = std::find_if(begin, part.triangles.end(), [&](const auto& t) { return t.surface != begin->surface; });
-    Pieces& pieces = to.pieces[{*part.building, begin->surface}];
-    for (const PolygonRings& polygon : polygons_of(std::span(begin, end), part.vertices_projected)) {
-      ++pieces.count;
-      pieces.polygons_wkb += wkb_of(polygon, part.vertices_projected);
-    }
+    to.surfaces[{*part.building, begin->surface}].add(std::span(begin, end), part.vertices_projected);
     begin = end;
   }
 }
@@ -203,14 +245,9 @@ std::vector<SurfacePolygons> surface_polygons(const Package& package, const std:
       for (MeshPart& part : geometry_of(package, some)) add_part(std::move(part), collected);
     }
   std::vector<SurfacePolygons> surfaces;
-  surfaces.reserve(collected.pieces.size());
-  for (const auto& [key, pieces] : collected.pieces) {
-    WellKnownBinary wkb;
-    wkb.begin_geometry(multipolygon_z);
-    wkb.put(pieces.count);
-    wkb.append(pieces.polygons_wkb);
-    surfaces.push_back({collected.ids[key.first], key.second, wkb.bytes()});
-  }
+  surfaces.reserve(collected.surfaces.size());
+  for (const auto& [key, surface] : collected.surfaces)
+    surfaces.push_back({collected.ids[key.first], key.second, surface.multipolygon_wkb()});
   return surfaces;
 }
 

@@ -11,7 +11,7 @@
 
 namespace farlod {
 
-/// A surface of a building as the grid cuts it: a polygon for each connected piece in each cell.
+/// A surface of a building: a polygon for each of its pieces that are not connected.
 struct SurfacePolygons {
   std::string building;
   std::uint32_t surface = 0;     ///< its number within the building, as SurfaceMean has it

@@ -69,6 +69,7 @@ py::dict dict_of(const std::vector<SurfaceMean>& surfaces, std::size_t further_c
       "area_m2"_a = column<double>(surfaces, [](const Row& s) { return s.area_m2; }),
       "covered_area_m2"_a = column<double>(surfaces, [](const Row& s) { return s.covered_area_m2; }),
       "receivers"_a = column<std::int64_t>(surfaces, [](const Row& s) { return s.receivers; }),
+      "nodata"_a = column<std::int64_t>(surfaces, [](const Row& s) { return s.nodata; }),
       "svf_mean"_a = column<double>(surfaces, [](const Row& s) { return s.svf_mean.value_or(no_data); }),
       "svf_min"_a = column<double>(surfaces, [](const Row& s) { return s.svf_min.value_or(no_data); }),
       "svf_max"_a = column<double>(surfaces, [](const Row& s) { return s.svf_max.value_or(no_data); }),

@@ -16,8 +16,10 @@ from farlod.errors import InvalidArgument
 
 _EVALUATION = ("height", "above", "metric", "max_error", "bounds", "quantities", "engine", "azimuths", "rays", "directions")
 
+_register: Any = xarray.register_dataarray_accessor  # it has no types
 
-@xarray.register_dataarray_accessor("farlod")
+
+@_register("farlod")
 class FarlodAccessor:
     """Accessor ``.farlod`` of an :class:`xarray.DataArray` of surface heights in metres on (y, x), with a CRS.
 
@@ -74,4 +76,4 @@ class FarlodAccessor:
         with tempfile.TemporaryDirectory(prefix="farlod-") as folder:
             with self.pack(os.path.join(folder, "surface.farlod"), terrain, **settings) as city:
                 grid = city.svf_grid(like=self._array, height=height, **evaluation, **run)
-        return grid if len(grid.data_vars) > 1 else grid.svf
+        return grid if len(grid.data_vars) > 1 else next(iter(grid.data_vars.values()))

@@ -10,7 +10,7 @@ import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union, overload
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union, Unpack, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     import matplotlib.axes
     import pandas
     import xarray
-    from typing_extensions import Unpack
 
 _runtime = _modules.load("farlod._runtime")
 
@@ -162,7 +161,7 @@ class City:
         Examples
         --------
         >>> city.crs.to_epsg()
-        25832
+        32632
         """
         import pyproj
 
@@ -300,7 +299,7 @@ class City:
         Examples
         --------
         >>> city.svf([[x, y]]).round(2)
-        array([0.78], dtype=float32)
+        array([0.94], dtype=float32)
         >>> city.svf([[x, y, 300.0]]).round(2)  # above all roofs
         array([1.], dtype=float32)
         >>> svf, low, high = city.svf([[x, y]], bounds=True)
@@ -441,7 +440,7 @@ class City:
         >>> shares.shape
         (1, 145)
         >>> round(float((shares * shares.view_factor).sum()), 2)
-        0.78
+        0.94
         """
         receivers = self._receivers(points, normals)
         evaluation = Evaluation(
@@ -517,7 +516,7 @@ class City:
         --------
         >>> sky = city.look_up((x, y))
         >>> sky.parts.shape, round(sky.svf, 2)
-        ((1440, 360), 0.78)
+        ((1440, 360), 0.94)
         """
         package = self._open_package()
         place = _arguments.floats("point", point)
@@ -611,7 +610,8 @@ class City:
         Returns
         -------
         xarray.Dataset on (y, x)
-            ``svf``, with ``bounds`` also ``low`` and ``high``, and a variable for each further quantity: float32, NaN where
+            ``svf`` (``svf_solid`` with that metric), with ``bounds`` also ``svf_low`` and ``svf_high``, and a variable for each
+            further quantity: float32, NaN where
             there is no data. ``spatial_ref`` holds the CRS, where rioxarray and GDAL look for it. y runs from north to south.
 
         Examples
@@ -625,7 +625,9 @@ class City:
         """
         package = self._open_package()
         plan = _grids.plan(package, step, bbox, like, self.crs)
-        lazy: Options = options if chunks is None or "threads" in options else {**options, "threads": 1}
+        lazy = options.copy()
+        if chunks is not None:
+            lazy.setdefault("threads", 1)
         region = region_of(mask, self.crs_wkt)
         evaluation = Evaluation(
             metric, height, above, bounds, max_error, quantities, region=region if chunks is None else None, options=lazy
@@ -679,16 +681,17 @@ class City:
         Returns
         -------
         geopandas.GeoDataFrame
-            A row for each surface: ``geometry`` (MultiPolygon Z, cut where the cells of the grid cut it), ``building``,
-            ``surface`` (its number in the building), ``kind``, ``azimuth`` and ``tilt`` of its outward normal in degrees,
-            ``area`` in m² of what has an answer, ``covered_area``, ``receivers``, ``svf`` (area-weighted mean), ``svf_min``,
-            ``svf_max``, and a column for each quantity. With ``points`` a row for each receiver: Point Z, ``building``, ``surface``,
-            ``kind``, ``azimuth``, ``tilt``, ``area``, ``svf``, with ``bounds`` also ``low`` and ``high``.
+            A row for each surface, with the columns of the tables of farlod-svf: ``geometry`` (MultiPolygon Z), ``building``,
+            ``surface`` (its number in the building), ``kind``, ``azimuth_deg`` and ``tilt_deg`` of its outward normal,
+            ``area_m2`` of what has an answer and ``covered_area_m2`` of what has none, ``receivers``, ``nodata`` (receivers
+            without an answer), ``svf_mean`` (weighted by area), ``svf_min``, ``svf_max``, and a column for each quantity. With
+            ``points`` a row for each receiver: Point Z, ``building``, ``surface``, ``kind``, ``azimuth_deg``, ``tilt_deg``,
+            ``area_m2``, ``svf``, with ``bounds`` also ``svf_low`` and ``svf_high``.
 
         Examples
         --------
         >>> walls = city.surfaces("walls", spacing=4.0)
-        >>> bool((walls.svf.dropna() <= 0.5 + 1e-3).all())  # the lower half of what a wall faces is ground
+        >>> bool((walls.svf_mean.dropna() <= 0.5 + 1e-3).all())  # the lower half of what a wall faces is ground
         True
         """
         package = self._open_package()
@@ -718,7 +721,7 @@ class City:
         grid: xarray.Dataset | None = None,
         *,
         ax: matplotlib.axes.Axes | None = None,
-        variable: str = "svf",
+        variable: str | None = None,
         outlines: bool = True,
         step: float | None = None,
         **imshow: Any,
@@ -731,8 +734,8 @@ class City:
             From :meth:`svf_grid`. Without it, one of at most 1,000 pixels along its edge is computed, or with ``step``.
         ax : matplotlib.axes.Axes, optional
             Where to draw; new axes without it.
-        variable : str, default "svf"
-            Which variable of the grid.
+        variable : str, optional
+            Which variable of the grid; the first by default.
         outlines : bool, default True
             Whether to draw the outlines of roofs.
         **imshow

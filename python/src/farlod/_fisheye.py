@@ -20,14 +20,17 @@ _TRANSPARENT = np.zeros(4, np.uint8)
 
 def _zenith_angle(radius: npt.NDArray[np.float64], projection: str) -> npt.NDArray[np.float64]:
     """The angle to the zenith in radians at a distance from the middle, which is 1 at the horizontal."""
+    angles: npt.NDArray[np.float64]
     inside = np.minimum(radius, 1.0)
     if projection == "equidistant":
-        return inside * (np.pi / 2)
-    if projection == "equisolid":
-        return 2.0 * np.arcsin(inside * np.sin(np.pi / 4))
-    if projection == "orthographic":
-        return np.arcsin(inside)
-    return 2.0 * np.arctan(inside)
+        angles = inside * (np.pi / 2)
+    elif projection == "equisolid":
+        angles = 2.0 * np.arcsin(inside * np.sin(np.pi / 4))
+    elif projection == "orthographic":
+        angles = np.arcsin(inside)
+    else:
+        angles = 2.0 * np.arctan(inside)
+    return angles
 
 
 def picture(parts: npt.NDArray[np.uint8], size: int, projection: Projection) -> npt.NDArray[np.uint8]:
@@ -43,6 +46,6 @@ def picture(parts: npt.NDArray[np.uint8], size: int, projection: Projection) -> 
     seen = parts[
         np.minimum(azimuth.astype(np.intp), azimuths - 1), np.clip(elevation.astype(np.intp), 0, elevations - 1)
     ]
-    image = COLOURS[seen]
+    image: npt.NDArray[np.uint8] = COLOURS[seen]
     image[radius > 1.0] = _TRANSPARENT
     return image

@@ -23,8 +23,10 @@ _runtime = _modules.load("farlod._runtime")
 
 LONG_NAMES = {
     "svf": "sky view factor",
-    "low": "certain lower bound of the sky view factor",
-    "high": "certain upper bound of the sky view factor",
+    "svf_low": "certain lower bound of the sky view factor",
+    "svf_high": "certain upper bound of the sky view factor",
+    "svf_solid_low": "certain lower bound of the share of solid angle",
+    "svf_solid_high": "certain upper bound of the share of solid angle",
     "svf_solid": "share of the solid angle of the sky",
     "svfN": "sky view factor of the northern half",
     "svfE": "sky view factor of the eastern half",
@@ -38,6 +40,8 @@ LONG_NAMES = {
 def _require_crs_of_city(like: Any, crs: Any) -> None:
     import pyproj
 
+    if not hasattr(like, "coords") or not hasattr(like, "sizes"):
+        raise InvalidArgument(f"like is a {type(like).__name__}: give a DataArray or Dataset on (y, x)")
     accessor = getattr(like, "rio", None)
     wkt = like.coords["spatial_ref"].attrs.get("crs_wkt") if "spatial_ref" in like.coords else None
     theirs = accessor.crs if accessor is not None and accessor.crs is not None else wkt
@@ -74,8 +78,9 @@ def plan(package: Any, step: Any, bbox: Any, like: Any, crs: Any) -> Any:
 
 
 def _names(evaluation: Evaluation) -> list[str]:
-    bounds = ["low", "high"] if evaluation.bounds else []
-    return ["svf", *bounds, *evaluation.further().columns()]
+    quantity = "svf" if evaluation.metric == "cosine" else "svf_solid"
+    bounds = [f"{quantity}_low", f"{quantity}_high"] if evaluation.bounds else []
+    return [quantity, *bounds, *evaluation.further().columns()]
 
 
 def _bands(raster: Mapping[str, Any]) -> list[Any]:
@@ -86,6 +91,7 @@ def _bands(raster: Mapping[str, Any]) -> list[Any]:
 def _coordinates(pixels: Any, crs: Any) -> dict[str, Any]:
     import xarray
 
+    variable: Any = xarray.Variable  # it has no types
     west, north = pixels.north_west_m
     step = pixels.step_m
     x = west + (np.arange(pixels.columns) + 0.5) * step
@@ -95,7 +101,7 @@ def _coordinates(pixels: Any, crs: Any) -> dict[str, Any]:
         "y": ("y", y, {"axis": "Y", "standard_name": "projection_y_coordinate", "units": "m"}),
         "x": ("x", x, {"axis": "X", "standard_name": "projection_x_coordinate", "units": "m"}),
         # Under both names, for readers of CF and of GDAL
-        "spatial_ref": xarray.Variable(
+        "spatial_ref": variable(
             (), 0, {**crs.to_cf(), "spatial_ref": crs.to_wkt(), "GeoTransform": transform}
         ),
     }
@@ -152,16 +158,17 @@ def lazy(city: Any, pixels: Any, evaluation: Evaluation, mask: Any, chunks: Any,
     """The raster as arrays of dask, whose blocks are computed when they are asked for."""
     import dask.array
 
+    array: Any = dask.array  # it has no types
     names = _names(evaluation)
     # What a block would refuse is refused now
     evaluation.placing(), evaluation.settings(), evaluation.caller()
     shape = (pixels.rows, pixels.columns)
     try:
-        sizes = dask.array.core.normalize_chunks(2048 if chunks == "auto" else chunks, shape, dtype=np.float32)
+        sizes = array.core.normalize_chunks(2048 if chunks == "auto" else chunks, shape, dtype=np.float32)
     except (TypeError, ValueError) as error:
         raise InvalidArgument(f"chunks is {chunks!r}: give the edge of a block in pixels, as dask takes it ({error})") from error
     frame = (pixels.north_west_m, pixels.step_m, pixels.columns, pixels.rows)
-    stack = dask.array.map_blocks(
+    stack = array.map_blocks(
         _block,
         chunks=((len(names),), *sizes),
         dtype=np.float32,

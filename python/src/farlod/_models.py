@@ -105,7 +105,8 @@ def saved_model(model: Any, folder: str, name: str, crs: str = "") -> SavedModel
         _save_mesh(model.vertices, model.faces, path)
     elif isinstance(model, tuple) and len(model) == 2:
         path = os.path.join(folder, f"{name}.obj")
-        _save_mesh(*model, path)
+        vertices, faces = model
+        _save_mesh(vertices, faces, path)
     else:
         raise InvalidArgument(
             f"city is a {type(model).__name__}: give a path, a GeoDataFrame of footprints, a mesh (vertices, faces), or a "

@@ -28,7 +28,7 @@ def extent(grid: xarray.Dataset) -> tuple[float, float, float, float]:
 
 def draw_map(
     grid: xarray.Dataset,
-    variable: str,
+    variable: str | None,
     outlines: npt.NDArray[np.float64] | None,
     ax: matplotlib.axes.Axes | None,
     imshow: Mapping[str, Any],
@@ -37,13 +37,15 @@ def draw_map(
     import matplotlib.pyplot
     from matplotlib.collections import LineCollection
 
-    if variable not in grid:
-        raise InvalidArgument(f"variable is {variable!r}: give one of " + ", ".join(map(repr, grid.data_vars)))
+    names = list(grid.data_vars)
+    if not names or (variable is not None and variable not in names):
+        raise InvalidArgument(f"variable is {variable!r}: give one of " + ", ".join(map(repr, names)))
+    shown = names[0] if variable is None else variable
     axes = matplotlib.pyplot.subplots()[1] if ax is None else ax
-    values = grid[variable].sortby("y", ascending=False)
+    values = grid[shown].sortby("y", ascending=False)
     style = {"cmap": "viridis", "vmin": 0.0, "vmax": 1.0, "interpolation": "nearest", **imshow}
     image = axes.imshow(values.values, extent=extent(grid), origin="upper", **style)
-    axes.figure.colorbar(image, ax=axes, label=values.attrs.get("long_name", variable))
+    axes.figure.colorbar(image, ax=axes, label=values.attrs.get("long_name", shown))
     if outlines is not None:
         axes.add_collection(LineCollection(outlines, colors="black", linewidths=0.4))
     axes.set_aspect("equal")

@@ -16,6 +16,8 @@ _runtime = _modules.load("farlod._runtime")
 
 def _polygons_of(geometry: Any) -> Iterator[Any]:
     kind = getattr(geometry, "geom_type", None)
+    if kind is not None and geometry.is_empty:
+        return
     if kind == "Polygon":
         yield geometry
     elif kind in ("MultiPolygon", "GeometryCollection"):

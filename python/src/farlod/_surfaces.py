@@ -34,9 +34,9 @@ def _columns(table: Mapping[str, Any], names: Mapping[str, str], further: list[s
 def _of_points(table: Mapping[str, Any], evaluation: Evaluation, crs: Any) -> geopandas.GeoDataFrame:
     import geopandas
 
-    names = {"azimuth": "azimuth_deg", "tilt": "tilt_deg", "area": "area_m2", "svf": "svf"}
+    names = {name: name for name in ("azimuth_deg", "tilt_deg", "area_m2", "svf")}
     if evaluation.bounds:
-        names.update(low="low", high="high")
+        names.update(svf_low="low", svf_high="high")
     columns = _columns(table, names, evaluation.further().columns())
     geometry = geopandas.points_from_xy(table["x_m"], table["y_m"], table["z_m"], crs=crs)
     return geopandas.GeoDataFrame(columns, geometry=geometry, crs=crs)
@@ -62,8 +62,7 @@ def frame(
         result = _of_points(found["points"], evaluation, crs)
     else:
         means = found["means"]
-        names = {"azimuth": "azimuth_deg", "tilt": "tilt_deg", "area": "area_m2", "covered_area": "covered_area_m2"}
-        names.update(receivers="receivers", svf="svf_mean", svf_min="svf_min", svf_max="svf_max")
+        names = {name: name for name in means if name not in ("building", "surface", "kind", "further")}
         columns = _columns(means, names, evaluation.further().columns())
         shapes = _polygons(package, means, crs) if geometry else [None] * len(means["building"])
         result = geopandas.GeoDataFrame(columns, geometry=shapes, crs=crs)

@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+"""Rasters: the same pixels as farlod-svf, what xarray and rioxarray make of them, and blocks of dask."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import dask
+import geopandas
+import numpy as np
+import pytest
+import rasterio
+import rioxarray  # noqa: F401  the accessor .rio
+import shapely.geometry
+import xarray
+from conftest import run_program
+from dask.distributed import Client, LocalCluster
+
+import farlod
+
+
+def test_same_pixels_as_the_program(village: farlod.City, tmp_path: Path) -> None:
+    run_program("farlod-svf", village.path, "--grid", 2, "--bounds", "--quantity", "directional", "-o", tmp_path / "svf.tif")
+    grid = village.svf_grid(2.0, bounds=True, quantities=["directional"])
+    with rasterio.open(tmp_path / "svf.tif") as file:
+        assert grid.rio.crs == file.crs
+        assert grid.rio.transform() == file.transform
+        for number, band in enumerate(grid.data_vars, start=1):
+            np.testing.assert_array_equal(grid[band].values, file.read(number))
+    assert list(grid.data_vars) == ["svf", "svf_low", "svf_high", "svfN", "svfE", "svfS", "svfW"]
+
+
+def test_part_has_the_pixels_of_the_whole(village: farlod.City) -> None:
+    west, south, east, north = village.bounds
+    box = (west + 20.5, south + 20.5, east - 20.5, north - 20.5)
+    part, whole = village.svf_grid(1.0, box), village.svf_grid(1.0)
+    there = whole.svf.sel(x=part.x, y=part.y)
+    np.testing.assert_allclose(part.svf, there, atol=0.01, equal_nan=True)
+    assert part.sizes["x"] < whole.sizes["x"] and float(part.x[0]) > west + 20.0
+
+
+def test_mask_leaves_the_rest_without_data(village: farlod.City) -> None:
+    west, south, east, north = village.bounds
+    half = shapely.geometry.box(west, south, (west + east) / 2, north)
+    grid, whole = village.svf_grid(2.0, mask=half), village.svf_grid(2.0)
+    inside = grid.x < (west + east) / 2
+    assert grid.svf.where(~inside).isnull().all()
+    np.testing.assert_allclose(grid.svf.where(inside), whole.svf.where(inside), atol=0.01, equal_nan=True)
+    frame = geopandas.GeoDataFrame(geometry=[half], crs=village.crs).to_crs("EPSG:3857")
+    other = village.svf_grid(2.0, mask=frame)
+    # The border may move by a rounding
+    assert (other.svf.isnull() != grid.svf.isnull()).sum() <= grid.sizes["y"]
+
+
+def test_like_another_raster(village: farlod.City) -> None:
+    whole = village.svf_grid(2.0)
+    upside_down = whole.svf.isel(y=slice(None, None, -1))
+    again = village.svf_grid(like=upside_down)
+    xarray.testing.assert_equal(again.svf, upside_down)
+    other = upside_down.rio.write_crs("EPSG:32633")
+    with pytest.raises(farlod.InvalidArgument, match="another CRS"):
+        village.svf_grid(like=other)
+
+
+def test_netcdf_round_trip(village: farlod.City, tmp_path: Path) -> None:
+    grid = village.svf_grid(2.0)
+    grid.drop_attrs() if hasattr(grid, "drop_attrs") else grid.attrs.clear()
+    grid.to_netcdf(tmp_path / "svf.nc")
+    with xarray.open_dataset(tmp_path / "svf.nc", decode_coords="all") as back:
+        np.testing.assert_array_equal(back.svf, grid.svf)
+        assert back.rio.crs == grid.rio.crs
+
+
+@pytest.mark.parametrize("chunks", [7, 32, (50, 20), "auto", -1])
+def test_blocks_have_the_pixels_of_the_whole_to_the_bit(bridges_path: str, chunks: object) -> None:
+    city = farlod.open(bridges_path)
+    # A step that is no sum of powers of two
+    whole = city.svf_grid(1.3, bounds=True, quantities=["hidden"])
+    blocks = city.svf_grid(1.3, bounds=True, quantities=["hidden"], chunks=chunks)
+    assert all(dask.is_dask_collection(variable) for variable in blocks.data_vars.values())
+    (computed,) = dask.compute(blocks, scheduler="threads")
+    for name in whole.data_vars:
+        np.testing.assert_array_equal(computed[name].values, whole[name].values)
+
+
+def test_blocks_with_a_mask(village: farlod.City) -> None:
+    west, south, east, north = village.bounds
+    disc = shapely.geometry.Point((west + east) / 2, (south + north) / 2).buffer(60.0)
+    np.testing.assert_array_equal(
+        village.svf_grid(2.0, mask=disc, chunks=40).svf.values, village.svf_grid(2.0, mask=disc).svf.values
+    )
+
+
+def test_cluster_of_processes_gives_the_same_bits(bridges_path: str) -> None:
+    city = farlod.open(bridges_path)
+    whole = city.svf_grid(1.0)
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, memory_limit="1GiB") as cluster:
+        with Client(cluster) as client:
+            lazy = city.svf_grid(1.0, chunks=64, memory_limit=900)
+            np.testing.assert_array_equal(lazy.svf.compute().values, whole.svf.values)
+            peaks = client.run(_peak_mib)
+    assert max(peaks.values()) < 1024, peaks
+
+
+def _peak_mib() -> float:
+    import resource
+
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+def test_blocks_refuse_what_does_not_fit_at_once(village: farlod.City) -> None:
+    with pytest.raises(farlod.InvalidArgument, match="chunks"):
+        village.svf_grid(1.0, chunks="many")
+    with pytest.raises(farlod.InvalidArgument, match="engine"):
+        village.svf_grid(1.0, chunks=64, engine="fast")  # type: ignore[arg-type]
+
+
+def test_ground(bridges_path: str) -> None:
+    ground = farlod.open(bridges_path).ground(5.0)
+    assert ground.dims == ("y", "x") and np.isfinite(ground.values).any()
+    assert ground.attrs["units"] == "m"

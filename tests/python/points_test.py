@@ -1,0 +1,139 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+"""Points: closed forms, layouts of arrays, normals, CRS, and the same numbers as farlod-svf."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import geopandas
+import numpy as np
+import pandas
+import pytest
+from conftest import CANYON_HEIGHT, CANYON_WIDTH, points_of, run_program
+
+import farlod
+
+STREET = [690000.0, 5335000.0]
+
+
+def test_floor_of_a_street_is_its_closed_form(canyon: farlod.City) -> None:
+    # Oke (1987): the view factor of the sky from the middle of the floor is the cosine of the elevation of the walls
+    height = 1.5
+    expected = np.cos(np.arctan((CANYON_HEIGHT - height) / (CANYON_WIDTH / 2)))
+    assert canyon.svf([STREET], height=height)[0] == pytest.approx(expected, abs=0.003)
+
+
+def test_share_of_solid_angle_is_its_closed_form(canyon: farlod.City) -> None:
+    # A lune between two planes through the horizontal axis of the street: its angle over the half turn
+    height = 1.5
+    expected = 1.0 - 2.0 * np.arctan((CANYON_HEIGHT - height) / (CANYON_WIDTH / 2)) / np.pi
+    assert canyon.svf([STREET], height=height, metric="solid")[0] == pytest.approx(expected, abs=0.003)
+
+
+def test_wall_in_the_open_sees_half_of_the_sky(canyon: farlod.City) -> None:
+    above_all = [[*STREET, 200.0]]
+    for normals in ([[1.0, 0.0, 0.0]], [[0.0, -3.0, 0.0]], [[37.0, 90.0]]):
+        assert canyon.svf(above_all, normals=normals)[0] == pytest.approx(0.5, abs=1e-3)
+    assert canyon.svf(above_all, normals=[[0.0, 0.0, -1.0]])[0] == 0.0
+
+
+def test_vectors_and_angles_are_the_same_normals(canyon: farlod.City) -> None:
+    points = np.repeat([[690003.0, 5335100.0, 2.0]], 50, axis=0)
+    vectors = np.random.default_rng(2).normal(size=(50, 3))
+    # Angles count from true north, vectors from the axes of the CRS
+    azimuth = np.degrees(np.arctan2(vectors[:, 0], vectors[:, 1])) + canyon.info["convergence_deg"]
+    tilt = np.degrees(np.arccos(vectors[:, 2] / np.linalg.norm(vectors, axis=1)))
+    angles = np.column_stack([np.mod(azimuth, 360.0), tilt])
+    by_vectors, by_angles = canyon.svf(points, normals=vectors), canyon.svf(points, normals=angles)
+    np.testing.assert_allclose(by_vectors, by_angles, atol=2e-6)
+    assert np.ptp(by_vectors) > 0.3
+
+
+def test_same_numbers_as_the_program(village: farlod.City, tmp_path: Path) -> None:
+    points = points_of(village, 2000)
+    table = pandas.DataFrame(points, columns=["x", "y"])
+    table.to_csv(tmp_path / "points.csv", index=False, float_format="%.17g")
+    run_program("farlod-svf", village.path, "--points", tmp_path / "points.csv", "-o", tmp_path / "svf.csv", "--bounds")
+    expected = pandas.read_csv(tmp_path / "svf.csv")
+    svf, low, high = village.svf(points, bounds=True)
+    assert np.isnan(svf).any() and not np.isnan(svf).all()
+    for name, found in (("svf", svf), ("svf_low", low), ("svf_high", high)):
+        # Six digits are what the program writes
+        np.testing.assert_allclose(found, expected[name], atol=6e-7, equal_nan=True)
+
+
+@pytest.mark.parametrize(
+    "layout",
+    [
+        lambda p: p,
+        np.asfortranarray,
+        lambda p: p.tolist(),
+        lambda p: np.repeat(p, 2, axis=0)[::2],
+        lambda p: np.hstack([p, p])[:, :2],
+        lambda p: np.column_stack([p, np.full(len(p), np.nan)]),
+        pandas.DataFrame,
+    ],
+)
+def test_layouts_of_arrays_give_the_same_bits(village: farlod.City, layout) -> None:  # type: ignore[no-untyped-def]
+    points = points_of(village, 300)
+    np.testing.assert_array_equal(village.svf(layout(points)), village.svf(points))
+
+
+def test_numbers_of_other_types(village: farlod.City) -> None:
+    west, south, _, _ = village.bounds
+    whole = np.array([[int(west) + 30, int(south) + 30]])
+    np.testing.assert_array_equal(village.svf(whole), village.svf(whole.astype(float)))
+
+
+def test_no_points_are_no_answers(village: farlod.City) -> None:
+    assert village.svf(np.empty((0, 2))).shape == (0,)
+
+
+def test_geoseries_of_another_crs(village: farlod.City) -> None:
+    points = points_of(village, 50)
+    here = geopandas.GeoSeries(geopandas.points_from_xy(*points.T), index=[f"p{n}" for n in range(50)], crs=village.crs)
+    answers = village.svf(here.to_crs("EPSG:4326"))
+    assert isinstance(answers, pandas.Series) and answers.index.equals(here.index)
+    np.testing.assert_allclose(answers.to_numpy(), village.svf(points), atol=1e-4, equal_nan=True)
+
+
+def test_heights_of_geoseries(canyon: farlod.City) -> None:
+    points = geopandas.GeoSeries(geopandas.points_from_xy([690000.0] * 2, [5335000.0] * 2, [2.0, 8.0]), crs=canyon.crs)
+    np.testing.assert_array_equal(canyon.svf(points).to_numpy(), canyon.svf([[*STREET, 2.0], [*STREET, 8.0]]))
+
+
+def test_bounds_enclose_the_exact_answer(village: farlod.City) -> None:
+    points = points_of(village, 200)
+    svf, low, high = village.svf(points, bounds=True)
+    exact = village.svf(points, engine="exact", rays=20000)
+    known = ~np.isnan(svf)
+    assert (low[known] <= svf[known]).all() and (svf[known] <= high[known]).all()
+    assert np.abs(exact - svf)[known].max() < 0.01
+    np.testing.assert_array_equal(np.isnan(exact), ~known)
+
+
+def test_further_quantities(village: farlod.City) -> None:
+    points = points_of(village, 200)
+    answers = village.evaluate(points, quantities=("svf_solid", "directional", "hidden"))
+    q = answers.quantities
+    np.testing.assert_array_equal(answers.svf, village.svf(points))
+    # Outside of the grid both are of rays, and not of the same
+    halves = np.abs(answers.svf - (q["svfE"] + q["svfW"]) / 2)
+    assert np.nanmedian(halves) < 1e-6 and np.nanmax(halves) < 0.003
+    np.testing.assert_allclose(answers.svf + q["hidden_near"] + q["hidden_far"], np.where(np.isnan(answers.svf), np.nan, 1.0), atol=0.003)
+    np.testing.assert_allclose(q["svf_solid"], village.svf(points, metric="solid"), atol=6e-3, equal_nan=True)
+    assert answers.summary["receivers"] == int((~np.isnan(answers.svf)).sum())
+
+
+def test_verification_is_in_the_summary(village: farlod.City) -> None:
+    answers = village.evaluate(points_of(village, 100), verify=20)
+    assert answers.summary["verify"]["count"] == 20 and answers.summary["verify"]["max_abs_error"] < 0.02
+
+
+def test_heights_above(canyon: farlod.City) -> None:
+    roof = [[690030.0, 5335000.0]]
+    assert np.isnan(canyon.svf(roof)[0])
+    assert canyon.svf(roof, above="surface", height=1.0)[0] == pytest.approx(1.0, abs=1e-3)
+    assert canyon.evaluate(roof, above="surface", height=1.0).height[0] == pytest.approx(CANYON_HEIGHT + 1.0, abs=1e-3)
+    assert canyon.evaluate(roof, above="sea", height=50.0).height[0] == pytest.approx(50.0, abs=1e-3)

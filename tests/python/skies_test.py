@@ -1,0 +1,109 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+"""Horizons, patches, the sun, and pictures: closed forms of a street."""
+
+from __future__ import annotations
+
+import matplotlib
+import numpy as np
+import pytest
+import xarray
+from conftest import CANYON_HEIGHT, CANYON_WIDTH, points_of
+
+import farlod
+
+matplotlib.use("Agg")
+
+STREET = (690000.0, 5335000.0)
+HEIGHT = 1.5
+
+
+def expected_horizon(canyon: farlod.City, azimuth: np.ndarray) -> np.ndarray:
+    """Of the middle of the street, which runs to grid north, in degrees."""
+    across = np.abs(np.sin(np.radians(azimuth - canyon.info["convergence_deg"])))
+    return np.degrees(np.arctan((CANYON_HEIGHT - HEIGHT) / (CANYON_WIDTH / 2) * across))
+
+
+def test_horizon_of_a_street(canyon: farlod.City) -> None:
+    found = canyon.horizon([STREET], 72, distances=True, height=HEIGHT)
+    assert isinstance(found, xarray.Dataset)
+    azimuth = found.azimuth.values
+    aside = np.abs(np.sin(np.radians(azimuth - canyon.info["convergence_deg"]))) > 0.05
+    np.testing.assert_allclose(found.horizon.values[0, aside], expected_horizon(canyon, azimuth)[aside], atol=0.1)
+    across = np.abs(np.sin(np.radians(azimuth - canyon.info["convergence_deg"])))
+    np.testing.assert_allclose(found.distance.values[0, aside], CANYON_WIDTH / 2 / across[aside], rtol=0.02)
+
+
+def test_view_factor_from_horizons(village: farlod.City) -> None:
+    points = points_of(village, 100)
+    # The integral of cos² of the horizon's elevation over the azimuths (Johnson & Watson 1984)
+    horizon = village.horizon(points, 360)
+    svf = (np.cos(np.radians(horizon)) ** 2).mean("azimuth")
+    np.testing.assert_allclose(svf, village.svf(points), atol=0.01, equal_nan=True)
+
+
+@pytest.mark.parametrize(("patches", "count"), [("tregenza", 145), ("reinhart", 577)])
+def test_patches(village: farlod.City, patches: str, count: int) -> None:
+    points = points_of(village, 50)
+    shares = village.sky_patches(points, patches)  # type: ignore[arg-type]
+    assert shares.shape == (50, count)
+    assert float(shares.view_factor.sum()) == pytest.approx(1.0, abs=1e-12)
+    svf = (shares * shares.view_factor).sum("patch", skipna=False)
+    np.testing.assert_allclose(svf, village.svf(points), atol=0.01, equal_nan=True)
+    assert shares.elevation[-1] == 90.0 and shares.azimuth[0] == 0.0
+
+
+def test_patches_behind_a_wall_are_dark(canyon: farlod.City) -> None:
+    # Seen from the middle of the street, patches below the walls are hidden; those along the street are not
+    shares = canyon.sky_patches([STREET], height=HEIGHT)[0]
+    low_band = shares[shares.elevation < 7.0]
+    across = np.abs(np.sin(np.radians(low_band.azimuth.values)))
+    assert float(low_band[across > 0.9].max()) < 0.01
+
+
+def test_sun_over_a_street(canyon: farlod.City) -> None:
+    across, limit = 90.0 + canyon.info["convergence_deg"], float(expected_horizon(canyon, np.array([90.0]))[0])
+    elevation = np.array([limit - 3.0, limit + 3.0, -5.0])
+    hours = canyon.sunlit([STREET], [across] * 3, elevation, [1.0, 2.0, 4.0], height=HEIGHT)
+    assert hours[0] == pytest.approx(2.0)
+
+
+def test_looking_up(canyon: farlod.City) -> None:
+    sky = canyon.look_up(STREET, height=HEIGHT)
+    assert sky is not None
+    assert sky.height == pytest.approx(HEIGHT) and sky.svf == pytest.approx(float(canyon.svf([STREET], height=HEIGHT)[0]))
+    azimuth = (np.arange(1440) + 0.5) / 4.0
+    # The part of each azimuth that is sky begins at the horizon
+    first_sky = (sky.parts == 0).argmax(axis=1) / 4.0
+    aside = np.abs(np.sin(np.radians(azimuth - canyon.info["convergence_deg"]))) > 0.05
+    np.testing.assert_allclose(first_sky[aside], expected_horizon(canyon, azimuth)[aside], atol=0.5)
+    assert canyon.look_up((690030.0, 5335000.0)) is None
+
+
+@pytest.mark.parametrize("projection", ["equidistant", "equisolid", "orthographic", "stereographic"])
+def test_picture_has_the_walls_where_they_are(canyon: farlod.City, projection: str) -> None:
+    # Close to the eastern wall: it fills the left of the picture
+    east_side = (STREET[0] + CANYON_WIDTH / 2 - 1.0, STREET[1])
+    image = canyon.fisheye(east_side, 101, projection)  # type: ignore[arg-type]
+    blue = image[50, :, 2] > 200
+    assert not blue[5:30].any() and blue[55:70].all()
+    assert image[0, 0, 3] == 0 and image[50, 50, 3] == 255
+
+
+def test_share_of_sky_in_an_equisolid_picture(canyon: farlod.City) -> None:
+    # Equal areas of this picture are equal solid angles
+    image = canyon.fisheye(STREET, 801, "equisolid", height=HEIGHT)
+    inside = image[..., 3] > 0
+    share = (image[inside][:, 2] > 200).mean()
+    assert share == pytest.approx(float(canyon.svf([STREET], height=HEIGHT, metric="solid")[0]), abs=0.01)
+
+
+def test_map(village: farlod.City) -> None:
+    axes = village.plot(step=4.0)
+    west, east = axes.get_xlim()
+    assert west < east and axes.get_ylabel() == "northing (m)"
+    assert len(axes.collections) == 1 and len(axes.images) == 1
+    grid = village.svf_grid(4.0, quantities=["directional"])
+    _, given = matplotlib.pyplot.subplots()
+    assert village.plot(grid, ax=given, variable="svfN", outlines=False, cmap="magma") is given
+    assert given.images[0].get_cmap().name == "magma" and not given.collections
