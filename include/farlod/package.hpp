@@ -34,7 +34,8 @@ struct PackageContents;
 
 /// An open package. Any number of runs may use it at the same time, from any threads; opening, moving, closing and destroying it
 /// are not for two threads at a time, as with any value. Files are mapped when a run needs them, and checked against their
-/// checksums then. Where one was written, replaced or removed since, the next run ends with PackageDamaged: open the package again.
+/// checksums then. Where one was written, replaced or removed since, the next run ends with PackageDamaged: open the package
+/// again.
 class FARLOD_EXPORT Package {
  public:
   /// Reads the manifest only. Throws PackageUnusable or PackageDamaged.

@@ -94,8 +94,9 @@ struct RasterWindow {
 /// A part of a raster, for those who divide one among processes: the pixels of the window have the values, to the bit, that
 /// evaluate_raster gives them in the whole raster. The receivers of a cell are evaluated together, so that all of a cell is
 /// evaluated that the window cuts: windows should be much larger than cells. The plan of the answer is the window's. Of its
-/// summary, receivers and no_data (pixels beyond the grid are among them) and the values are the window's, the rest is of all that
-/// was evaluated. Throws what evaluate_raster throws, InvalidArgument for a window that is empty or reaches beyond the plan, too.
+/// summary, receivers and no_data (pixels beyond the grid are among them) and the values are the window's, the rest is of all
+/// that was evaluated. Throws what evaluate_raster throws, InvalidArgument for a window that is empty or reaches beyond the plan,
+/// too.
 [[nodiscard]] FARLOD_EXPORT Raster evaluate_window(const Package& package, const RasterPlan& plan, const RasterWindow& window,
                                                    const Placing& placing = {}, const EvaluationSettings& settings = {},
                                                    const RunSettings& run = {});

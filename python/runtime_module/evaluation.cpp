@@ -51,18 +51,17 @@ struct PointColumns {
 py::dict evaluate_points_in_python(const Package& package, const PointColumns& columns, const Placing& placing,
                                    const EvaluationSettings& settings, const CallerSettings& caller) {
   const std::vector<Angle> azimuth = angles_of(columns.azimuth_deg), tilt = angles_of(columns.tilt_deg);
-  const Points points{span_of(columns.x_m), span_of(columns.y_m),
-                      columns.z_m ? span_of(*columns.z_m) : std::span<const double>(), azimuth, tilt};
+  const Points points{span_of(columns.x_m), span_of(columns.y_m), columns.z_m ? span_of(*columns.z_m) : std::span<const double>(),
+                      azimuth, tilt};
   const py::ssize_t count = columns.x_m.size(), bounds = settings.bounds ? count : 0;
   const py::ssize_t further_columns = signed_size(columns_of(settings.further).size());
   py::array_t<float> svf(count), low(bounds), high(bounds), further({count, further_columns});
   py::array_t<double> height_m(count);
-  const PointAnswerSpans answers{span_of(svf), span_of(low), span_of(high),
-                                 {height_m.mutable_data(), static_cast<std::size_t>(count)}, span_of(further)};
+  const PointAnswerSpans answers{
+      span_of(svf), span_of(low), span_of(high), {height_m.mutable_data(), static_cast<std::size_t>(count)}, span_of(further)};
   EvaluationSummary summary;
-  run_interruptibly(caller, [&](const RunSettings& run) {
-    summary = evaluate_points(package, points, placing, settings, answers, run);
-  });
+  run_interruptibly(caller,
+                    [&](const RunSettings& run) { summary = evaluate_points(package, points, placing, settings, answers, run); });
   return py::dict("svf"_a = svf, "low"_a = low, "high"_a = high, "height_m"_a = height_m, "further"_a = further,
                   "summary"_a = summary_dict(summary));
 }
@@ -82,8 +81,7 @@ py::dict dict_of(Raster raster) {
 py::dict evaluate_raster_in_python(const Package& package, const RasterPlan& plan, const Placing& placing,
                                    const EvaluationSettings& settings, const CallerSettings& caller) {
   Raster raster;
-  run_interruptibly(caller,
-                    [&](const RunSettings& run) { raster = evaluate_raster(package, plan, placing, settings, run); });
+  run_interruptibly(caller, [&](const RunSettings& run) { raster = evaluate_raster(package, plan, placing, settings, run); });
   return dict_of(std::move(raster));
 }
 
@@ -92,8 +90,8 @@ py::dict evaluate_window_in_python(const Package& package, const RasterPlan& pla
                                    const Placing& placing, const EvaluationSettings& settings, const CallerSettings& caller) {
   const RasterWindow pixels{window[0], window[1], window[2], window[3]};
   Raster raster;
-  run_interruptibly(
-      caller, [&](const RunSettings& run) { raster = evaluate_window(package, plan, pixels, placing, settings, run); });
+  run_interruptibly(caller,
+                    [&](const RunSettings& run) { raster = evaluate_window(package, plan, pixels, placing, settings, run); });
   return dict_of(std::move(raster));
 }
 

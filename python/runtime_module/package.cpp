@@ -32,14 +32,13 @@ py::dict description_of(const Package& package) {
   const PackageInventory inventory = inventory_of(package);
   py::list inputs;
   for (const PackedInput& input : inventory.inputs) inputs.append(input.name);
-  return py::dict(
-      "software"_a = d.software, "crs_wkt"_a = d.crs_wkt, "crs_name"_a = d.crs_name, "epsg"_a = d.epsg,
-      "bounds_m"_a = BboxInPython{d.outline_projected.low.x, d.outline_projected.low.y, d.outline_projected.high.x,
-                                  d.outline_projected.high.y},
-      "grid_bearing_deg"_a = d.grid_bearing.degrees(), "convergence_deg"_a = d.convergence.degrees(),
-      "cell_edge_m"_a = d.cell_edge_m, "neighborhood"_a = d.neighborhood, "columns"_a = d.columns, "rows"_a = d.rows,
-      "far_map_kind"_a = d.far_map_kind, "cells_with_far_map"_a = d.cells_with_far_map, "buildings"_a = d.buildings,
-      "polygons"_a = d.polygons, "triangles"_a = d.triangles, "inputs"_a = inputs, "problems"_a = inventory.problems);
+  return py::dict("software"_a = d.software, "crs_wkt"_a = d.crs_wkt, "crs_name"_a = d.crs_name, "epsg"_a = d.epsg,
+                  "bounds_m"_a = BboxInPython{d.outline_projected.low.x, d.outline_projected.low.y, d.outline_projected.high.x,
+                                              d.outline_projected.high.y},
+                  "grid_bearing_deg"_a = d.grid_bearing.degrees(), "convergence_deg"_a = d.convergence.degrees(),
+                  "cell_edge_m"_a = d.cell_edge_m, "neighborhood"_a = d.neighborhood, "columns"_a = d.columns, "rows"_a = d.rows,
+                  "far_map_kind"_a = d.far_map_kind, "cells_with_far_map"_a = d.cells_with_far_map, "buildings"_a = d.buildings,
+                  "polygons"_a = d.polygons, "triangles"_a = d.triangles, "inputs"_a = inputs, "problems"_a = inventory.problems);
 }
 
 py::dict check_in_python(const Package& package, const CallerSettings& caller) {

@@ -94,19 +94,20 @@ void add_settings(py::module_& module) {
       .def_readwrite("horizons", &Quantities::horizons)
       .def_readwrite("horizon_distances", &Quantities::horizon_distances)
       .def("set_sky_patches", setter_of("sky_patches", &Quantities::sky_patches, patch_sets), py::arg("patches"))
-      .def("set_sun",
-           [](Quantities& quantities, const std::vector<double>& azimuth_deg, const std::vector<double>& elevation_deg,
-              const std::vector<double>& hours) { quantities.sun = sun_positions(azimuth_deg, elevation_deg, hours); },
-           py::arg("azimuth_deg"), py::arg("elevation_deg"), py::arg("hours"))
+      .def(
+          "set_sun",
+          [](Quantities& quantities, const std::vector<double>& azimuth_deg, const std::vector<double>& elevation_deg,
+             const std::vector<double>& hours) { quantities.sun = sun_positions(azimuth_deg, elevation_deg, hours); },
+          py::arg("azimuth_deg"), py::arg("elevation_deg"), py::arg("hours"))
       .def("columns", &columns_of);
   py::class_<EvaluationSettings>(module, "EvaluationSettings")
       .def(py::init<>())
       .def("set_engine", setter_of("engine", &EvaluationSettings::engine, engines), py::arg("engine"))
       .def("set_metric", setter_of("metric", &EvaluationSettings::weight, metrics), py::arg("metric"))
       .def("set_directions", setter_of("directions", &EvaluationSettings::directions, direction_sets), py::arg("directions"))
-      .def("set_region",
-           [](EvaluationSettings& settings, const std::shared_ptr<Region>& region) { settings.region = region; },
-           py::arg("region"))
+      .def(
+          "set_region", [](EvaluationSettings& settings, const std::shared_ptr<Region>& region) { settings.region = region; },
+          py::arg("region"))
       .def_readwrite("azimuths", &EvaluationSettings::azimuths)
       .def_readwrite("rays", &EvaluationSettings::rays)
       .def_readwrite("max_error", &EvaluationSettings::max_error)

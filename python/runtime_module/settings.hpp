@@ -6,7 +6,8 @@
 
 namespace farlod {
 
-/// Adds Placing, Quantities, Region and EvaluationSettings to the module, with the words of the programs for what is an enum here.
+/// Adds Placing, Quantities, Region and EvaluationSettings to the module, with the words of the programs for what is an enum
+/// here.
 void add_settings(pybind11::module_& module);
 
 }  // namespace farlod

@@ -24,14 +24,14 @@ py::dict dict_of(const RunEstimate& estimate) {
 }  // namespace
 
 py::dict summary_dict(const EvaluationSummary& run) {
-  py::dict summary("receivers"_a = run.receivers, "nodata"_a = run.no_data + run.beyond_grid,
-                   "outside_of_grid"_a = run.outside_of_grid, "outside_of_region"_a = run.outside_of_region,
-                   "receivers_without_far_map"_a = run.without_far_map, "receivers_by_rays"_a = run.by_rays,
-                   "azimuths"_a = run.accuracy.azimuths, "rays"_a = run.accuracy.rays,
-                   "rays_traced_exactly"_a = run.retraced_rays,
-                   "seconds"_a = py::dict("scenes"_a = run.seconds.scenes, "evaluate"_a = run.seconds.evaluate,
-                                          "deliver"_a = run.seconds.deliver),
-                   "svf"_a = py::dict("min"_a = run.svf_min, "mean"_a = run.svf_mean, "max"_a = run.svf_max));
+  py::dict summary(
+      "receivers"_a = run.receivers, "nodata"_a = run.no_data + run.beyond_grid, "outside_of_grid"_a = run.outside_of_grid,
+      "outside_of_region"_a = run.outside_of_region, "receivers_without_far_map"_a = run.without_far_map,
+      "receivers_by_rays"_a = run.by_rays, "azimuths"_a = run.accuracy.azimuths, "rays"_a = run.accuracy.rays,
+      "rays_traced_exactly"_a = run.retraced_rays,
+      "seconds"_a =
+          py::dict("scenes"_a = run.seconds.scenes, "evaluate"_a = run.seconds.evaluate, "deliver"_a = run.seconds.deliver),
+      "svf"_a = py::dict("min"_a = run.svf_min, "mean"_a = run.svf_mean, "max"_a = run.svf_max));
   if (run.bounds) summary["bounds"] = py::dict("mean_width"_a = run.bounds->mean, "max_width"_a = run.bounds->max);
   if (run.estimate) summary["estimate"] = dict_of(*run.estimate);
   if (run.errors) summary["verify"] = dict_of(*run.errors);

@@ -25,7 +25,8 @@ struct PolygonRings {
   std::vector<Ring> holes;
 };
 
-/// The sides of the triangles that no other triangle has the other way round: the outline of what they cover. By their first vertex.
+/// The sides of the triangles that no other triangle has the other way round: the outline of what they cover. By their first
+/// vertex.
 std::multimap<std::uint32_t, std::uint32_t> outline_of(std::span<const MeshTriangle> triangles) {
   std::multimap<std::uint32_t, std::uint32_t> sides;
   for (const MeshTriangle& t : triangles)

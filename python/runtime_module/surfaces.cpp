@@ -60,37 +60,38 @@ py::array_t<double> further_of(const std::vector<Row>& rows, std::size_t columns
 
 py::dict dict_of(const std::vector<SurfaceMean>& surfaces, std::size_t further_columns) {
   using Row = SurfaceMean;
-  return py::dict(
-      "building"_a = buildings_of(surfaces),
-      "surface"_a = column<std::uint32_t>(surfaces, [](const Row& s) { return s.surface; }),
-      "kind"_a = column<std::uint8_t>(surfaces, [](const Row& s) { return s.kind; }),
-      "azimuth_deg"_a = column<double>(surfaces, [](const Row& s) { return s.azimuth.degrees(); }),
-      "tilt_deg"_a = column<double>(surfaces, [](const Row& s) { return s.tilt.degrees(); }),
-      "area_m2"_a = column<double>(surfaces, [](const Row& s) { return s.area_m2; }),
-      "covered_area_m2"_a = column<double>(surfaces, [](const Row& s) { return s.covered_area_m2; }),
-      "receivers"_a = column<std::int64_t>(surfaces, [](const Row& s) { return s.receivers; }),
-      "nodata"_a = column<std::int64_t>(surfaces, [](const Row& s) { return s.nodata; }),
-      "svf_mean"_a = column<double>(surfaces, [](const Row& s) { return s.svf_mean.value_or(no_data); }),
-      "svf_min"_a = column<double>(surfaces, [](const Row& s) { return s.svf_min.value_or(no_data); }),
-      "svf_max"_a = column<double>(surfaces, [](const Row& s) { return s.svf_max.value_or(no_data); }),
-      "further"_a = further_of(surfaces, further_columns, [](const Row& s) -> const auto& { return s.further_mean; }));
+  return py::dict("building"_a = buildings_of(surfaces),
+                  "surface"_a = column<std::uint32_t>(surfaces, [](const Row& s) { return s.surface; }),
+                  "kind"_a = column<std::uint8_t>(surfaces, [](const Row& s) { return s.kind; }),
+                  "azimuth_deg"_a = column<double>(surfaces, [](const Row& s) { return s.azimuth.degrees(); }),
+                  "tilt_deg"_a = column<double>(surfaces, [](const Row& s) { return s.tilt.degrees(); }),
+                  "area_m2"_a = column<double>(surfaces, [](const Row& s) { return s.area_m2; }),
+                  "covered_area_m2"_a = column<double>(surfaces, [](const Row& s) { return s.covered_area_m2; }),
+                  "receivers"_a = column<std::int64_t>(surfaces, [](const Row& s) { return s.receivers; }),
+                  "nodata"_a = column<std::int64_t>(surfaces, [](const Row& s) { return s.nodata; }),
+                  "svf_mean"_a = column<double>(surfaces, [](const Row& s) { return s.svf_mean.value_or(no_data); }),
+                  "svf_min"_a = column<double>(surfaces, [](const Row& s) { return s.svf_min.value_or(no_data); }),
+                  "svf_max"_a = column<double>(surfaces, [](const Row& s) { return s.svf_max.value_or(no_data); }),
+                  "further"_a = further_of(
+                      surfaces, further_columns, [](const Row& s) -> const auto& { return s.further_mean; }));
 }
 
 py::dict dict_of(const std::vector<SurfacePoint>& points, std::size_t further_columns) {
   using Row = SurfacePoint;
-  return py::dict(
-      "building"_a = buildings_of(points), "surface"_a = column<std::uint32_t>(points, [](const Row& p) { return p.surface; }),
-      "kind"_a = column<std::uint8_t>(points, [](const Row& p) { return p.kind; }),
-      "x_m"_a = column<double>(points, [](const Row& p) { return p.p_projected.x; }),
-      "y_m"_a = column<double>(points, [](const Row& p) { return p.p_projected.y; }),
-      "z_m"_a = column<double>(points, [](const Row& p) { return p.p_projected.z; }),
-      "azimuth_deg"_a = column<double>(points, [](const Row& p) { return p.azimuth.degrees(); }),
-      "tilt_deg"_a = column<double>(points, [](const Row& p) { return p.tilt.degrees(); }),
-      "area_m2"_a = column<double>(points, [](const Row& p) { return p.area_m2; }),
-      "svf"_a = column<double>(points, [](const Row& p) { return p.svf.value_or(no_data); }),
-      "low"_a = column<double>(points, [](const Row& p) { return p.low.value_or(no_data); }),
-      "high"_a = column<double>(points, [](const Row& p) { return p.high.value_or(no_data); }),
-      "further"_a = further_of(points, further_columns, [](const Row& p) -> const auto& { return p.further; }));
+  return py::dict("building"_a = buildings_of(points),
+                  "surface"_a = column<std::uint32_t>(points, [](const Row& p) { return p.surface; }),
+                  "kind"_a = column<std::uint8_t>(points, [](const Row& p) { return p.kind; }),
+                  "x_m"_a = column<double>(points, [](const Row& p) { return p.p_projected.x; }),
+                  "y_m"_a = column<double>(points, [](const Row& p) { return p.p_projected.y; }),
+                  "z_m"_a = column<double>(points, [](const Row& p) { return p.p_projected.z; }),
+                  "azimuth_deg"_a = column<double>(points, [](const Row& p) { return p.azimuth.degrees(); }),
+                  "tilt_deg"_a = column<double>(points, [](const Row& p) { return p.tilt.degrees(); }),
+                  "area_m2"_a = column<double>(points, [](const Row& p) { return p.area_m2; }),
+                  "svf"_a = column<double>(points, [](const Row& p) { return p.svf.value_or(no_data); }),
+                  "low"_a = column<double>(points, [](const Row& p) { return p.low.value_or(no_data); }),
+                  "high"_a = column<double>(points, [](const Row& p) { return p.high.value_or(no_data); }),
+                  "further"_a = further_of(
+                      points, further_columns, [](const Row& p) -> const auto& { return p.further; }));
 }
 
 py::dict evaluate_surfaces_in_python(const Package& package, const std::string& which, double spacing_m, bool wants_points,

@@ -30,8 +30,7 @@ FileIdentity identity_of(const std::filesystem::path& path) {
 
 void require_unchanged(const std::filesystem::path& path, const FileIdentity& opened) {
   if (identity_of(path) != opened)
-    throw PackageDamaged(path.string() +
-                         " was written, replaced or removed while the package was open: open the package again.");
+    throw PackageDamaged(path.string() + " was written, replaced or removed while the package was open: open the package again.");
 }
 
 }  // namespace farlod

@@ -138,7 +138,8 @@ class RasterRun {
 };
 
 void require_within(const RasterWindow& window, const RasterPlan& plan) {
-  if (window.columns == 0 || window.rows == 0) throw InvalidArgument("the window has no pixels: give a column and a row at least");
+  if (window.columns == 0 || window.rows == 0)
+    throw InvalidArgument("the window has no pixels: give a column and a row at least");
   if (window.column >= plan.columns || window.columns > plan.columns - window.column || window.row >= plan.rows ||
       window.rows > plan.rows - window.row)
     throw InvalidArgument("the window reaches beyond the raster, which has " + std::to_string(plan.columns) + " columns and " +
@@ -164,9 +165,7 @@ std::size_t bytes_of(const RasterPlan& plan, bool bounds, std::size_t further_ba
 class WindowAnswers {
  public:
   WindowAnswers(const RasterPlan& whole, const RasterWindow& window, bool bounds, std::size_t further_bands)
-      : whole_columns_(whole.columns),
-        window_(window),
-        raster_(empty_raster(plan_of(whole, window), bounds, further_bands)) {}
+      : whole_columns_(whole.columns), window_(window), raster_(empty_raster(plan_of(whole, window), bounds, further_bands)) {}
 
   [[nodiscard]] static RasterPlan plan_of(const RasterPlan& whole, const RasterWindow& window) {
     return {{whole.north_west_m.x + static_cast<double>(window.column) * whole.step_m,
@@ -285,7 +284,9 @@ Raster evaluate_window(const Package& package, const RasterPlan& plan, const Ras
   const float height_m = package_height_m(where, manifest);
   EvaluationSummary summary = evaluate_cells(
       in_use, resolved_settings, cells.size(),
-      [&](std::size_t n) { return receivers.in_cell(in_use.reader(), cells[n], where.above, height_m, resolved_settings.run.stop); },
+      [&](std::size_t n) {
+        return receivers.in_cell(in_use.reader(), cells[n], where.above, height_m, resolved_settings.run.stop);
+      },
       [&](std::size_t, const CellReceivers& cell, const SvfValues& values) { answers.store(cell, values); });
   if (summary.estimate) summary = with_memory(std::move(summary), memory_bytes);
   return answers.take(std::move(summary));

@@ -65,6 +65,10 @@ inline const Named points{"points", [](Arguments& a) {
 inline const Named tiles{"tiles",
                          [](Arguments& a) { (void)evaluate_raster(a.package, a.plan, a.placing, a.settings, a.on_tile, a.run); }};
 inline const Named raster{"raster", [](Arguments& a) { (void)evaluate_raster(a.package, a.plan, a.placing, a.settings, a.run); }};
+inline const Named window{
+    "window", [](Arguments& a) {
+      (void)evaluate_window(a.package, a.plan, {0, 0, a.plan.columns, a.plan.rows}, a.placing, a.settings, a.run);
+    }};
 inline const Named surfaces{"surfaces",
                             [](Arguments& a) { (void)evaluate_surfaces(a.package, a.surfaces, a.settings, a.on_points, a.run); }};
 inline const Named plan{"plan", [](Arguments& a) { (void)plan_raster(a.package, a.plan.step_m); }};

@@ -54,7 +54,7 @@ class Cases {
 };
 
 void add_settings(Cases& cases) {
-  const std::vector<Named> all{points_into, points, tiles, raster, surfaces};
+  const std::vector<Named> all{points_into, points, tiles, raster, window, surfaces};
   const auto with = [](auto member, auto value) { return [=](Arguments& a) { a.settings.*member = value; }; };
   using S = EvaluationSettings;
   cases.add(all, "no such engine", with(&S::engine, static_cast<Engine>(77)));
@@ -83,7 +83,7 @@ void add_settings(Cases& cases) {
 }
 
 void add_limits(Cases& cases) {
-  const std::vector<Named> all{points_into, points, tiles, raster, surfaces};
+  const std::vector<Named> all{points_into, points, tiles, raster, window, surfaces};
   cases.add(
       all, "too small a limit", [](Arguments& a) { a.run.memory_limit_mib = 1; }, Ends::limit);
   cases.add(
@@ -113,20 +113,20 @@ void add_limits(Cases& cases) {
   // Told before there is memory for pixels
   const auto with_40_gb = [](Arguments& a) { a.plan.rows = a.plan.columns = 100'000; };
   cases.add(
-      {raster}, "40 GB of pixels",
+      {raster, window}, "40 GB of pixels",
       [=](Arguments& a) {
         with_40_gb(a);
         a.run.memory_limit_mib = 1024;
       },
       Ends::limit);
-  cases.add({raster}, "40 GB of pixels of a closed package", [=](Arguments& a) {
+  cases.add({raster, window}, "40 GB of pixels of a closed package", [=](Arguments& a) {
     with_40_gb(a);
     a.package.close();
   });
 }
 
 void add_runs(Cases& cases) {
-  const std::vector<Named> all{points_into, points, tiles, raster, surfaces, check, outlines, heights};
+  const std::vector<Named> all{points_into, points, tiles, raster, window, surfaces, check, outlines, heights};
   cases.add(all, "too many threads", [](Arguments& a) { a.run.threads = 5000; });
   cases.add(all, "a limit of nothing", [](Arguments& a) { a.run.memory_limit_mib = 0; });
   cases.add(all, "an absurd limit", [](Arguments& a) { a.run.memory_limit_mib = 1ULL << 60; });
@@ -153,8 +153,8 @@ void add_runs(Cases& cases) {
 }
 
 void add_closed_packages(Cases& cases) {
-  const std::vector<Named> all{points_into, points,        tiles,    raster,   surfaces, plan,     description,
-                               inventory,   cell_contents, geometry, far_view, check,    outlines, heights};
+  const std::vector<Named> all{points_into, points,        tiles,    raster,   window, surfaces, plan,   description,
+                               inventory,   cell_contents, geometry, far_view, check,  outlines, heights};
   cases.add(all, "a closed package", [](Arguments& a) { a.package.close(); });
   cases.add(all, "a package closed twice", [](Arguments& a) {
     a.package.close();
@@ -164,7 +164,7 @@ void add_closed_packages(Cases& cases) {
 }
 
 void add_placings(Cases& cases) {
-  const std::vector<Named> all{points_into, points, tiles, raster};
+  const std::vector<Named> all{points_into, points, tiles, raster, window};
   for (const double h : {nan, infinity, -1.0, 10'001.0})
     cases.add(all, "height " + std::to_string(h), [h](Arguments& a) { a.placing.height_m = h; });
   cases.add(all, "above no such thing", [](Arguments& a) { a.placing.above = static_cast<HeightAbove>(3); });
@@ -229,7 +229,7 @@ void add_normals(Cases& cases) {
 }
 
 void add_rasters(Cases& cases) {
-  const std::vector<Named> both{tiles, raster, heights};
+  const std::vector<Named> both{tiles, raster, window, heights};
   for (const double step_m : {nan, infinity, 0.0, -2.0, 0.001, 1e6})
     cases.add({tiles, raster, heights, plan}, "step " + std::to_string(step_m),
               [step_m](Arguments& a) { a.plan.step_m = step_m; });
@@ -347,8 +347,8 @@ const char* name_of(Ends ends) {
 /// Each call is made with right arguments first, so that a case fails when it is the call that is wrong, and not its argument.
 TEST(WrongCalls, RightCallsEndWithNothing) {
   const PackedSample sample;
-  for (const Named& named : {points_into, points, tiles, raster, surfaces, plan, description, inventory, cell_contents, geometry,
-                             far_view, check, outlines, heights}) {
+  for (const Named& named : {points_into, points, tiles, raster, window, surfaces, plan, description, inventory, cell_contents,
+                             geometry, far_view, check, outlines, heights}) {
     Arguments arguments(sample.folder());
     EXPECT_NO_THROW(named.call(arguments)) << named.name;
   }

@@ -74,9 +74,8 @@ py::dict dict_of(const PackResult& result) {
                  "notes"_a = result.notes, "package_bytes"_a = result.package_bytes, "far_map_bytes"_a = result.far_map_bytes,
                  "seconds"_a = seconds);
   if (result.chosen)
-    facts["error_on_trial"] = py::dict("mean"_a = result.chosen->measured.mean_error,
-                                              "max"_a = result.chosen->measured.max_error,
-                                              "receivers"_a = result.chosen->measured.receivers);
+    facts["error_on_trial"] = py::dict("mean"_a = result.chosen->measured.mean_error, "max"_a = result.chosen->measured.max_error,
+                                       "receivers"_a = result.chosen->measured.receivers);
   return facts;
 }
 
