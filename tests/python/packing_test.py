@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import os
+import pickle
 import signal
 import threading
 import warnings
@@ -85,6 +86,35 @@ def test_surface_model_in_memory(tmp_path: Path) -> None:
     upside_down = dsm.isel(y=slice(None, None, -1))
     np.testing.assert_array_equal(upside_down.farlod.svf().values, svf.values[::-1])
     assert set(dsm.farlod.svf(bounds=True).data_vars) == {"svf", "svf_low", "svf_high"}
+
+
+def test_surface_model_in_degrees() -> None:
+    dsm = surface_model()
+    degrees = dsm.rio.reproject("EPSG:4326", nodata=np.nan)
+    degrees = degrees.fillna(0.0).rio.write_crs("EPSG:4326")
+    svf = degrees.farlod.svf()
+    assert svf.shape == degrees.shape and svf.dims == ("y", "x")
+    back = svf.rio.write_crs("EPSG:4326").rio.reproject_match(dsm)
+    there = dsm.farlod.svf()
+    middle = dict(x=slice(5, 55), y=slice(5, 55))
+    # Both rasters are steps of a metre
+    assert float(np.abs(back - there).isel(middle).mean()) < 0.05
+    without = dsm.drop_vars("spatial_ref")
+    np.testing.assert_array_equal(without.farlod.svf(crs="EPSG:25832"), there)
+    both = degrees.farlod.svf(quantities=["directional"], bounds=True)
+    assert set(both.data_vars) == {"svf", "svf_low", "svf_high", "svfN", "svfE", "svfS", "svfW"}
+
+
+def test_results_have_the_crs_of_the_footprints(tmp_path: Path) -> None:
+    squares = [shapely.geometry.box(11.5, 48.1, 11.5003, 48.1002)]
+    frame = geopandas.GeoDataFrame({"h": [9.0]}, geometry=squares, crs="EPSG:4326")
+    city = farlod.pack(frame, tmp_path / "degrees.farlod", heights="h", report=False)
+    assert city.crs.is_projected
+    roofs = city.surfaces("roofs", 5.0)
+    assert roofs.crs == frame.crs
+    np.testing.assert_allclose(roofs.total_bounds, frame.total_bounds, atol=1e-6)
+    assert pickle.loads(pickle.dumps(city)).surfaces("roofs", 5.0).crs == frame.crs
+    assert farlod.open(city.path).surfaces("roofs", 5.0).crs == city.crs
 
 
 def test_terrain_in_memory(tmp_path: Path) -> None:

@@ -6,15 +6,43 @@ from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
 import xarray
 
 from farlod._city import City
+from farlod._crs import crs_of_array
 from farlod._packing import pack
 from farlod.errors import InvalidArgument
 
 _EVALUATION = ("height", "above", "metric", "max_error", "bounds", "quantities", "engine", "azimuths", "rays", "directions")
+
+
+
+def _with_crs(array: xarray.DataArray, crs: Any) -> xarray.DataArray:
+    """An array that says its CRS: its own, or this one where it says none."""
+    import pyproj
+
+    if crs is None or crs_of_array(array) is not None:
+        return array
+    return array.assign_coords(spatial_ref=((), 0, pyproj.CRS.from_user_input(crs).to_cf()))
+
+
+def _by_points(city: City, array: xarray.DataArray, options: Mapping[str, Any]) -> xarray.Dataset:
+    """The pixels as points of a city whose CRS is another: pixels in degrees are no squares there."""
+    import geopandas
+
+    x, y = np.meshgrid(array.x.values, array.y.values)
+    places = geopandas.GeoSeries(geopandas.points_from_xy(x.ravel(), y.ravel()), crs=crs_of_array(array))
+    answers = city.evaluate(places, **options)
+    quantity = "svf_solid" if options.get("metric") == "solid" else "svf"
+    columns = {quantity: answers.svf, f"{quantity}_low": answers.low, f"{quantity}_high": answers.high, **answers.quantities}
+    bands = {name: (("y", "x"), column.reshape(x.shape)) for name, column in columns.items() if column is not None}
+    coords = {name: array.coords[name] for name in ("y", "x", "spatial_ref") if name in array.coords}
+    return xarray.Dataset(bands, coords)
+
 
 _register: Any = xarray.register_dataarray_accessor  # it has no types
 
@@ -75,5 +103,8 @@ class FarlodAccessor:
         evaluation.setdefault("above", "surface")
         with tempfile.TemporaryDirectory(prefix="farlod-") as folder:
             with self.pack(os.path.join(folder, "surface.farlod"), terrain, **settings) as city:
-                grid = city.svf_grid(like=self._array, height=height, **evaluation, **run)
+                options: dict[str, Any] = {"height": height, **evaluation, **run}
+                array = _with_crs(self._array, settings.get("crs"))
+                is_in_city_crs = crs_of_array(array).equals(city.crs, ignore_axis_order=True)
+                grid = city.svf_grid(like=array, **options) if is_in_city_crs else _by_points(city, array, options)
         return grid if len(grid.data_vars) > 1 else next(iter(grid.data_vars.values()))

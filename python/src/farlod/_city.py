@@ -125,6 +125,7 @@ class City:
         self._package: Any = _runtime.Package(self._path)
         self._description: Mapping[str, Any] = self._package.description()
         self._report: Any = None
+        self._features_crs: Any = None  # of the GeoDataFrame that the city was packed from
 
     # What it is
 
@@ -195,9 +196,9 @@ class City:
         state = "closed" if self.closed else f"{d['columns']} x {d['rows']} cells of {d['cell_edge_m']:g} m"
         return f"<farlod.City {os.path.basename(self._path)!r}: {d['buildings']:,} buildings, {d['crs_name']}, {state}>"
 
-    def __reduce__(self) -> tuple[Any, tuple[str, int]]:
+    def __reduce__(self) -> tuple[Any, tuple[str, int, Any]]:
         self._open_package()
-        return _reopened, (self._path, _stamp_of(self._path))
+        return _reopened, (self._path, _stamp_of(self._path), self._features_crs)
 
     def __dask_tokenize__(self) -> tuple[str, str, int]:
         return "farlod.City", self._path, _stamp_of(self._path)
@@ -675,7 +676,7 @@ class City:
         geometry : bool, default True
             Whether surfaces get their polygons; without, the geometry is None, and nothing is read for it.
         crs : anything that pyproj takes, optional
-            CRS of the result; that of the city by default.
+            CRS of the result. By default that of the GeoDataFrame that the city was packed from, else that of the city.
         mask : as for :meth:`svf_grid`
 
         Returns
@@ -712,7 +713,8 @@ class City:
             evaluation,
             self.crs,
         )
-        return frame if crs is None else frame.to_crs(crs)
+        wanted = self._features_crs if crs is None else crs
+        return frame if wanted is None or frame.crs == wanted else frame.to_crs(wanted)
 
     # Pictures and checks
 
@@ -794,7 +796,7 @@ def _opened_before(path: str, stamp: int) -> Any:
     return _runtime.Package(path)
 
 
-def _reopened(path: str, stamp: int) -> City:
+def _reopened(path: str, stamp: int, features_crs: Any) -> City:
     """A pickled city. A process that gets the same city again and again, as a worker of dask, opens it once."""
     if _stamp_of(path) != stamp:
         raise PackageUnusable(f"{path} has been packed again since the city was pickled: open it, and pickle it, again")
@@ -803,6 +805,7 @@ def _reopened(path: str, stamp: int) -> City:
     city._package = _opened_before(path, stamp)
     city._description = city._package.description()
     city._report = None
+    city._features_crs = features_crs
     return city
 
 

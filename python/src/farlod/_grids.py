@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from farlod import _arguments, _modules
+from farlod._crs import crs_of_array
 from farlod._settings import Evaluation
 from farlod._sky_patches import middle_of_patches
 from farlod.errors import InvalidArgument
@@ -38,16 +39,12 @@ LONG_NAMES = {
 
 
 def _require_crs_of_city(like: Any, crs: Any) -> None:
-    import pyproj
-
     if not hasattr(like, "coords") or not hasattr(like, "sizes"):
         raise InvalidArgument(f"like is a {type(like).__name__}: give a DataArray or Dataset on (y, x)")
-    accessor = getattr(like, "rio", None)
-    wkt = like.coords["spatial_ref"].attrs.get("crs_wkt") if "spatial_ref" in like.coords else None
-    theirs = accessor.crs if accessor is not None and accessor.crs is not None else wkt
+    theirs = crs_of_array(like)
     if theirs is None:
         raise InvalidArgument("like has no CRS: import rioxarray, and set it with like.rio.write_crs()")
-    if not pyproj.CRS.from_user_input(theirs).equals(crs, ignore_axis_order=True):
+    if not theirs.equals(crs, ignore_axis_order=True):
         raise InvalidArgument(f"like has another CRS than the city ({crs.name}): reproject it first")
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from farlod import _arguments
+from farlod._crs import crs_of_array
 from farlod._receivers import is_geo
 from farlod.errors import InvalidArgument
 
@@ -65,10 +66,8 @@ def _save_raster(array: Any, path: str, crs: str) -> None:
 
     if set(array.dims) != {"y", "x"} or min(array.sizes.values()) < 2:
         raise InvalidArgument(f"the DataArray has the dimensions {array.dims}: give heights on (y, x)")
-    accessor = getattr(array, "rio", None)
-    attributes = array.coords["spatial_ref"].attrs if "spatial_ref" in array.coords else {}
-    its_crs = accessor.crs if accessor is not None else attributes.get("crs_wkt")
-    if not its_crs and not crs:
+    its_crs = crs_of_array(array)
+    if its_crs is None and not crs:
         raise InvalidArgument("the DataArray has no CRS: import rioxarray, and set it with .rio.write_crs(), or give crs=")
     raster = array.transpose("y", "x").sortby("y", ascending=False).sortby("x")
     x, y = raster.x.values.astype(np.float64), raster.y.values.astype(np.float64)
@@ -81,7 +80,7 @@ def _save_raster(array: Any, path: str, crs: str) -> None:
         "count": 1,
         "width": x.size,
         "height": y.size,
-        "crs": its_crs or crs,
+        "crs": crs if its_crs is None else its_crs.to_wkt(),
         "transform": from_origin(x[0] - step_x / 2, y[0] + step_y / 2, step_x, step_y),
         "nodata": np.nan,
         "tiled": True,

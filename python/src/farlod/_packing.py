@@ -293,6 +293,7 @@ def pack(
             if report:
                 _warn_of(found)
     opened = City(path)
+    opened._features_crs = next((model.geometry.crs for model in models if is_geo(model)), None)
     if report:
         opened._report = Report(found, facts)
     return opened
