@@ -9,6 +9,6 @@
 namespace farlod {
 
 /// The figures of a run under the names that the summary of farlod-svf gives them; what there is not is left out.
-[[nodiscard]] pybind11::dict summary_dict(const EvaluationSummary& summary);
+[[nodiscard]] pybind11::dict summary_dict(const EvaluationSummary& run);
 
 }  // namespace farlod
