@@ -25,7 +25,7 @@ Values = dict[str, Any]
 
 
 class FarlodAlgorithm(QgsProcessingAlgorithm):
-    """An algorithm that calls programs of Far-LoD. A subclass says what it is in TITLE, NAME and HELP, and does it in `run`."""
+    """An algorithm that calls programs of Far-LoD. A subclass says what it is in TITLE, NAME and HELP, and does it in `compute`."""
 
     NAME = TITLE = HELP = ""
 
@@ -44,18 +44,21 @@ class FarlodAlgorithm(QgsProcessingAlgorithm):
     def groupId(self) -> str:
         return "skyviewfactor"
 
+    def shortDescription(self) -> str:
+        return self.HELP.split("\n", maxsplit=1)[0]
+
     def shortHelpString(self) -> str:
         return self.HELP
 
     def processAlgorithm(self, parameters: Values, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> Values:
         try:
-            return self.run(parameters, context, feedback)
+            return self.compute(parameters, context, feedback)
         except (ProgramMissing, ProgramFailed, OutputRefused) as reason:
             raise QgsProcessingException(str(reason)) from reason
         except Cancelled as reason:
             raise QgsProcessingException("The run was cancelled. Nothing was written.") from reason
 
-    def run(self, parameters: Values, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> Values:
+    def compute(self, parameters: Values, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> Values:
         raise NotImplementedError
 
     def call(self, program: str, arguments: list[str], feedback: QgsProcessingFeedback) -> list[str]:

@@ -117,7 +117,7 @@ class EvaluationAlgorithm(FarlodAlgorithm):
         return arguments
 
     def sky_arguments(self, parameters: Values, context: QgsProcessingContext) -> list[str]:
-        quantities = self.parameterAsEnumStrings(parameters, "QUANTITIES", context)
+        quantities = [name for name in self.parameterAsEnumStrings(parameters, "QUANTITIES", context) if name]
         arguments = ["--quantity", ",".join(quantities)] if quantities else []
         arguments += self.text_argument(parameters, "SUN", "--sun", context)
         arguments += self.number_argument(parameters, "HORIZONS", "--horizons", context)

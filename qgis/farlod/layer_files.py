@@ -9,6 +9,7 @@ from qgis.core import (
     QgsCoordinateReferenceSystem,
     QgsCoordinateTransformContext,
     QgsFeature,
+    QgsFeatureRequest,
     QgsFeatureSink,
     QgsFields,
     QgsGeometry,
@@ -29,7 +30,10 @@ ROW_NUMBER = "farlod_row"
 def vector_writer(
     path: pathlib.Path, fields: QgsFields, kind: QgsWkbTypes.Type, crs: QgsCoordinateReferenceSystem
 ) -> QgsVectorFileWriter:
-    """A GeoPackage with one layer. Its column of numbers has a name of its own: an attribute `fid` may hold anything."""
+    """A GeoPackage with one layer, which is whole when the writer goes out of scope.
+
+    Its column of numbers has a name of its own: an attribute `fid` may hold anything.
+    """
     options = QgsVectorFileWriter.SaveVectorOptions()
     options.driverName = "GPKG"
     options.layerName = path.stem
@@ -44,7 +48,7 @@ def save_source(source: QgsProcessingFeatureSource, path: pathlib.Path) -> str:
     """The features of the source, those that are selected where only these were asked for."""
     writer = vector_writer(path, source.fields(), source.wkbType(), source.sourceCrs())
     # Whether a building is valid is for farlod-pack to say: one that is not must not end the run
-    every = source.getFeatures(flags=QgsProcessingFeatureSource.FlagSkipGeometryValidityChecks)
+    every = source.getFeatures(QgsFeatureRequest(), QgsProcessingFeatureSource.FlagSkipGeometryValidityChecks)
     if not writer.addFeatures(every, QgsFeatureSink.FastInsert):
         raise QgsProcessingException(f"{path} cannot be written: {writer.errorMessage()}")
     return str(path)

@@ -118,7 +118,7 @@ class PackCity(FarlodAlgorithm):
         for name, title in COUNTS.items():
             self.addOutput(QgsProcessingOutputNumber(name, title))
 
-    def run(self, parameters: Values, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> Values:
+    def compute(self, parameters: Values, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> Values:
         output = pathlib.Path(self.parameterAsString(parameters, "OUTPUT", context)).absolute()
         overwrite = self.parameterAsBoolean(parameters, "OVERWRITE", context)
         has_area = self.is_given(parameters, "AREA_EXTENT") or self.is_given(parameters, "AREA_LAYER")

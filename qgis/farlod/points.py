@@ -30,11 +30,11 @@ from qgis.PyQt.QtCore import QVariant
 
 from .algorithm import Values
 from .evaluation import EvaluationAlgorithm
-from .layer_files import vector_writer
+from .layer_files import ROW_NUMBER, vector_writer
 from .staging import Staging
 
 # Columns of the answers that say what the layer says already
-KNOWN_COLUMNS = ("id", "x_m", "y_m", "azimuth_deg", "tilt_deg")
+KNOWN_COLUMNS = ("id", ROW_NUMBER, "x_m", "y_m", "azimuth_deg", "tilt_deg")
 NORMAL_HELP = (
     "In degrees: the azimuth of the normal clockwise from true north, its tilt from straight up (a window 90). Give both fields, "
     "or none: then points look straight up."
@@ -67,7 +67,7 @@ class SkyViewFactorsOfPoints(EvaluationAlgorithm):
         self.addParameter(sink)
         self.add_statistics()
 
-    def run(self, parameters: Values, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> Values:
+    def compute(self, parameters: Values, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> Values:
         source = self.parameterAsSource(parameters, "INPUT", context)
         if source is None:
             raise QgsProcessingException(self.invalidSourceError(parameters, "INPUT"))
@@ -113,10 +113,11 @@ class SkyViewFactorsOfPoints(EvaluationAlgorithm):
 def points_of(source: QgsProcessingFeatureSource) -> Iterator[QgsFeature]:
     """A feature for each point, in the order of the source; without a geometry where there is no point."""
     for feature in source.getFeatures():
-        parts = [] if feature.geometry().isEmpty() else list(feature.geometry().constParts())
-        for part in parts or [None]:
+        geometry = feature.geometry()  # outlives its parts
+        places = [] if geometry.isEmpty() else [QgsGeometry(part.clone()) for part in geometry.constParts()]
+        for place in places or [QgsGeometry()]:
             point = QgsFeature(feature)
-            point.setGeometry(QgsGeometry() if part is None else QgsGeometry(part.clone()))
+            point.setGeometry(place)
             yield point
 
 
@@ -130,11 +131,13 @@ def save_points(source: QgsProcessingFeatureSource, normals: dict[str, str], use
     for feature in points_of(source):
         if not feature.hasGeometry():
             continue
+        point = feature.geometry()
+        point.get().dropMValue()
+        if not has_z:
+            point.get().dropZValue()
         place = QgsFeature(fields)
         place.setAttributes([feature[field] for field in normals.values()])
-        place.setGeometry(feature.geometry())
-        if not has_z:
-            place.geometry().get().dropZValue()
+        place.setGeometry(point)
         if not writer.addFeature(place, QgsFeatureSink.FastInsert):
             raise QgsProcessingException(f"{path} cannot be written: {writer.errorMessage()}")
     return str(path)

@@ -18,7 +18,7 @@ class ProgramMissing(Exception):
 def find_program(name: str, folder_of_settings: str, environment: Mapping[str, str]) -> str:
     """The path of a program: in the folder of the settings, else in that of FARLOD_BIN, else along PATH.
 
-    A folder that is named and does not hold the program is not passed over: another version of it may be in the next place.
+    A folder that is named but does not hold the program is an error: the next place may hold another version of it.
     """
     named = {
         "the Processing option Far-LoD: Folder of the programs": folder_of_settings,

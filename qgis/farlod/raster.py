@@ -41,7 +41,7 @@ class SkyViewFactorRaster(EvaluationAlgorithm):
         self.addParameter(QgsProcessingParameterRasterDestination("OUTPUT", "Sky view factor"))
         self.add_statistics()
 
-    def run(self, parameters: Values, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> Values:
+    def compute(self, parameters: Values, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> Values:
         output = self.parameterAsOutputLayer(parameters, "OUTPUT", context)
         like = self.parameterAsRasterLayer(parameters, "LIKE", context)
         with Staging(output) as staging:

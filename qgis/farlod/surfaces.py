@@ -54,7 +54,7 @@ class SkyViewFactorsOfSurfaces(EvaluationAlgorithm):
             self.addParameter(QgsProcessingParameterFeatureSink(name, title, kind, None, True))
         self.add_statistics()
 
-    def run(self, parameters: Values, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> Values:
+    def compute(self, parameters: Values, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> Values:
         tables = pathlib.Path(QgsProcessingUtils.generateTempFilename("surfaces.gpkg"))
         with Staging(str(tables)) as staging:
             which = self.choice_argument(parameters, "WHICH", "--surfaces", context)
