@@ -13,6 +13,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -417,6 +418,26 @@ class Surfaces(QgisTest):
         said = algorithm("surfaces", PACKAGE=WORK / "village.farlod", WHICH="roofs", BUILDINGS=WORK / "alone.gpkg")
         self.assertEqual(self.new_names(), ["alone.gpkg"])
         self.assertNotIn("RECEIVERS:\t/", said)
+
+
+class Tutorial(QgisTest):
+    def test_its_commands_say_what_it_says(self) -> None:
+        """A block of the page is a command of qgis_process, or lines that the command above it says."""
+        folder = WORK / "tutorial"
+        folder.mkdir()
+        (folder / "datasets").symlink_to(ROOT / "datasets")
+        blocks = re.findall(r"^```\n(.*?)^```$", (ROOT / "docs/tutorials/qgis.md").read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+        said, commands, lines = "", 0, 0
+        for block in blocks:
+            if block.startswith("qgis_process run "):
+                said = must("sh", "-c", f"cd '{folder}' && '{QGIS_PROCESS}'" + block.removeprefix("qgis_process"))
+                commands += 1
+            elif commands > 0:
+                for line in block.splitlines():
+                    key, value = line.split(": ")
+                    self.assertRegex(said, rf"(?m)^{key}:\s*{value}")
+                    lines += 1
+        self.assertEqual((commands, lines), (6, 17))
 
 
 class Refusals(QgisTest):
