@@ -25,7 +25,7 @@ Values = dict[str, Any]
 
 
 class FarlodAlgorithm(QgsProcessingAlgorithm):
-    """An algorithm that calls programs of Far-LoD. A subclass says what it is in TITLE, NAME and HELP, and does it in `compute`."""
+    """Calls programs of Far-LoD. A subclass says what it is in TITLE, NAME and HELP, and does it in `compute`."""
 
     NAME = TITLE = HELP = ""
 

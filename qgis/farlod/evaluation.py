@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Far-LoD authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the three algorithms that call farlod-svf share: the package, the receivers that are asked for, and how the sky is seen."""
+"""What the three algorithms that call farlod-svf share: the package, which receivers are asked for, how the sky is seen."""
 from __future__ import annotations
 
 import json
@@ -44,7 +44,8 @@ class EvaluationAlgorithm(FarlodAlgorithm):
         self.add(package, "The folder that “Pack a city” has written.")
 
     def add_placing(self) -> None:
-        height = QgsProcessingParameterNumber("HEIGHT", "Height (m)", QgsProcessingParameterNumber.Double, 1.5, False, 0.0, 10000.0)
+        double = QgsProcessingParameterNumber.Double
+        height = QgsProcessingParameterNumber("HEIGHT", "Height (m)", double, 1.5, False, 0.0, 10000.0)
         self.add(height, "Of the receivers above the ground.")
         on_surface = QgsProcessingParameterBoolean("ON_SURFACE", "Count the height from roofs, too", False)
         self.add(on_surface, "From whatever is highest, ground or roof. Otherwise receivers inside of buildings have no data.")
@@ -91,7 +92,9 @@ class EvaluationAlgorithm(FarlodAlgorithm):
     def package(self, parameters: Values, context: QgsProcessingContext) -> str:
         return self.parameterAsFile(parameters, "PACKAGE", context)
 
-    def package_crs(self, parameters: Values, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> QgsCoordinateReferenceSystem:
+    def package_crs(
+        self, parameters: Values, context: QgsProcessingContext, feedback: QgsProcessingFeedback
+    ) -> QgsCoordinateReferenceSystem:
         facts = json.loads("\n".join(self.call("farlod-info", [self.package(parameters, context), "--json"], feedback)))
         epsg = facts["crs"]["epsg"]
         if epsg is not None:

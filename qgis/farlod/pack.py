@@ -64,10 +64,11 @@ class PackCity(FarlodAlgorithm):
     def _add_inputs(self) -> None:
         files = QgsProcessingParameterMultipleLayers("INPUT", "City files", QgsProcessing.TypeFile, None, True)
         self.add(files, "CityGML, CityJSON, OBJ, footprints in a vector format of GDAL, .zip or .gz.")
-        folder = QgsProcessingParameterFile("INPUT_FOLDER", "Folder with city files", QgsProcessingParameterFile.Folder, "", None, True)
+        kind = QgsProcessingParameterFile.Folder
+        folder = QgsProcessingParameterFile("INPUT_FOLDER", "Folder with city files", kind, "", None, True)
         self.add(folder, "All city files in it, and in the folders below it.")
         terrain = QgsProcessingParameterRasterLayer("TERRAIN", "Terrain", None, True)
-        self.add(terrain, "Elevations of the ground, in metres. Without it, the ground passes through the bases of the buildings.")
+        self.add(terrain, "Elevations of the ground, in metres. Without it, the ground passes through the bases of buildings.")
         crs = QgsProcessingParameterCrs("CRS", "CRS of inputs that do not say theirs", None, True)
         self.add(crs, "OBJ files, and some others, do not say it.")
         out = QgsProcessingParameterCrs("OUT_CRS", "CRS of the package", None, True)
@@ -179,7 +180,7 @@ class PackCity(FarlodAlgorithm):
             inputs.append(self._footprints(parameters, context, folder))
         terrain = self.parameterAsRasterLayer(parameters, "TERRAIN", context)
         if not inputs and terrain is None:
-            raise QgsProcessingException("There is nothing to pack: give city files, a folder with them, footprints or a terrain.")
+            raise QgsProcessingException("There is nothing to pack: give city files, a folder of them, footprints or a terrain.")
         return [*inputs, *([f"--terrain={raster_file(terrain)}"] if terrain is not None else [])]
 
     def _footprints(self, parameters: Values, context: QgsProcessingContext, folder: pathlib.Path) -> str:

@@ -46,8 +46,8 @@ class SkyViewFactorsOfPoints(EvaluationAlgorithm):
     TITLE = "Sky view factor of points"
     HELP = (
         "The sky view factor at each point of a layer, in any CRS: weather stations, panels, windows, trees.\n\n"
-        "The result has the points with all their attributes, and beside them the answers and z_m, the height at which the sky was "
-        "looked at. A point inside of a building or outside of the city has NULL. A feature of several points comes back as one "
+        "The result has the points with all their attributes, and beside them the answers and z_m, the height at which the sky "
+        "was looked at. A point inside of a building or outside of the city has NULL. A feature of several points comes back as one "
         "feature for each of them."
     )
 
@@ -98,7 +98,9 @@ class SkyViewFactorsOfPoints(EvaluationAlgorithm):
             added.append(QgsField(name, QVariant.Double))
         fields = QgsProcessingUtils.combineFields(source.fields(), added)
         kind = QgsWkbTypes.singleType(source.wkbType())
-        sink, output = self.parameterAsSink(parameters, "OUTPUT", context, fields, kind, source.sourceCrs())
+        # A feature of several points comes back several times, and its `fid` with it
+        flags = QgsFeatureSink.RegeneratePrimaryKey
+        sink, output = self.parameterAsSink(parameters, "OUTPUT", context, fields, kind, source.sourceCrs(), flags)
         if sink is None:
             raise QgsProcessingException(self.invalidSinkError(parameters, "OUTPUT"))
         for feature in points_of(source):

@@ -30,7 +30,8 @@ class SkyViewFactorRaster(EvaluationAlgorithm):
 
     def initAlgorithm(self, configuration: Values | None = None) -> None:
         self.add_package()
-        step = QgsProcessingParameterNumber("STEP", "Pixel size (m)", QgsProcessingParameterNumber.Double, 2.0, False, 0.01, 10000.0)
+        double = QgsProcessingParameterNumber.Double
+        step = QgsProcessingParameterNumber("STEP", "Pixel size (m)", double, 2.0, False, 0.01, 10000.0)
         self.add(step, "Pixels begin at multiples of it.")
         like = QgsProcessingParameterRasterLayer("LIKE", "Pixels of this raster instead", None, True)
         self.add(like, "Such as a surface model, for SOLWEIG. It has to be in the CRS of the package.", advanced=True)
@@ -45,7 +46,8 @@ class SkyViewFactorRaster(EvaluationAlgorithm):
         output = self.parameterAsOutputLayer(parameters, "OUTPUT", context)
         like = self.parameterAsRasterLayer(parameters, "LIKE", context)
         with Staging(output) as staging:
-            pixels = self.number_argument(parameters, "STEP", "--grid", context) if like is None else ["--grid-like", raster_file(like)]
+            step = self.number_argument(parameters, "STEP", "--grid", context)
+            pixels = step if like is None else ["--grid-like", raster_file(like)]
             region = self.region_arguments(parameters, context, feedback, staging.folder)
             arguments = [*pixels, *self.placing_arguments(parameters, context), *region]
             numbers = self.evaluate(arguments, parameters, context, feedback, staging)

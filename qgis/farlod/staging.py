@@ -28,7 +28,8 @@ class Staging:
         self.destination = pathlib.Path(destination).absolute()
         parent = self.destination.parent
         if not parent.is_dir():
-            raise OutputRefused(f"{destination} cannot be written: there is no folder {parent}; make it first, or choose another.")
+            missing = f"there is no folder {parent}; make it first, or choose another"
+            raise OutputRefused(f"{destination} cannot be written: {missing}.")
         try:
             self.folder = pathlib.Path(tempfile.mkdtemp(prefix=".farlod-", dir=parent))
         except OSError as reason:

@@ -6,7 +6,7 @@ Processing, progress, Cancel, and the style of a map.
 
     tests/qgis/processing_test.py PROGRAMS FOLDER
 
-PROGRAMS is the folder of the programs; FOLDER is emptied. Ends with 77 where PyQGIS is not installed, which ctest counts as skipped.
+PROGRAMS is the folder of the programs; FOLDER is emptied. Ends with 77 where PyQGIS is not installed: then ctest skips it.
 """
 from __future__ import annotations
 
@@ -88,7 +88,8 @@ class Projects(ProcessingTest):
         return layer
 
     def packed(self, **parameters: object) -> int:
-        return self.run_algorithm("pack", HEIGHT_FIELD="height", OVERWRITE=True, OUTPUT=WORK / "layer.farlod", **parameters)["BUILDINGS"]
+        output = WORK / "layer.farlod"
+        return self.run_algorithm("pack", HEIGHT_FIELD="height", OVERWRITE=True, OUTPUT=output, **parameters)["BUILDINGS"]
 
     def test_what_a_layer_shows_is_packed(self) -> None:
         layer = self.footprints()
@@ -130,7 +131,8 @@ class Programs(ProcessingTest):
 
     def test_progress_is_told(self) -> None:
         feedback = Feedback()
-        self.run_algorithm("raster", feedback, PACKAGE=WORK / "town.farlod", ENGINE="exact", RAYS=300, STEP=10, OUTPUT=WORK / "p.tif")
+        self.run_algorithm("raster", feedback, PACKAGE=WORK / "town.farlod", ENGINE="exact", RAYS=1500, STEP=8,
+                           OUTPUT=WORK / "p.tif")
         self.assertEqual(feedback.stages, ["sky view factors"])
         self.assertGreater(len(feedback.percents), 1)
         self.assertEqual(sorted(feedback.percents), feedback.percents)
@@ -169,7 +171,8 @@ class Refusals(ProcessingTest):
         polygons = str(SAMPLES / "village.geojson")
         points = processing.run("native:centroids", {"INPUT": polygons, "OUTPUT": "TEMPORARY_OUTPUT"})["OUTPUT"]
         package, output = WORK / "village.farlod", WORK / "none.gpkg"
-        self.refused("points", "A normal needs an azimuth and a tilt", PACKAGE=package, INPUT=points, AZIMUTH_FIELD="height", OUTPUT=output)
+        self.refused("points", "A normal needs an azimuth and a tilt", PACKAGE=package, INPUT=points, AZIMUTH_FIELD="height",
+                     OUTPUT=output)
         both = {"EXTENT": "0,1,0,1 [EPSG:32632]", "MASK": polygons}
         self.refused("surfaces", "with --mask it goes with --grid only", PACKAGE=package, RECEIVERS=output, **both)
 
