@@ -31,8 +31,11 @@ constexpr LongFunction long_functions[] = {
     {"runtime/horizon/gap_rays.cpp", "trace_gaps", "a kernel: its steps share vectors of 16 lanes"},
 };
 
+/// CGAL, which farlod-pack is built on, and PyQGIS, which the plug-in is, have the GPL.
+bool is_under_gpl(const SourceFile& file) { return file.path.starts_with("preprocess/") || file.path.starts_with("qgis/"); }
+
 bool begins_with_licence(const SourceFile& file, std::string_view mark) {
-  const std::string licence = file.path.starts_with("preprocess/") ? "GPL-3.0-or-later" : "Apache-2.0";
+  const std::string licence = is_under_gpl(file) ? "GPL-3.0-or-later" : "Apache-2.0";
   // A script's first line names its interpreter
   const std::size_t first = !file.lines.empty() && file.lines[0].starts_with("#!") ? 1 : 0;
   if (file.lines.size() < first + 2) return false;

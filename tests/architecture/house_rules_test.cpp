@@ -7,7 +7,9 @@
 namespace farlod {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
+using testing::Field;
 using testing::IsEmpty;
 
 const std::string authors = " SPDX-FileCopyrightText: The Far-LoD authors";
@@ -15,6 +17,11 @@ const std::string apache = " SPDX-License-Identifier: Apache-2.0";
 const std::string gpl = " SPDX-License-Identifier: GPL-3.0-or-later";
 
 TEST(HouseRules, EachFileNamesItsLicence) { EXPECT_THAT(files_without_licence(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty()); }
+
+TEST(HouseRules, PythonIsCode) {
+  const std::vector<SourceFile> tree = read_source_tree(FARLOD_SOURCE_DIR);
+  EXPECT_THAT(tree, Contains(Field(&SourceFile::path, "qgis/farlod/provider.py")));
+}
 
 TEST(HouseRules, NoFileIsTooLong) { EXPECT_THAT(files_too_long(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty()); }
 
@@ -35,12 +42,16 @@ TEST(HouseRules, LinesOfDocumentsFitAScreen) {
 TEST(HouseRules, AMissingOrWrongLicenceIsFound) {
   EXPECT_THAT(files_without_licence({{"runtime/good.cpp", {"//" + authors, "//" + apache}},
                                      {"preprocess/good.cpp", {"//" + authors, "//" + gpl}},
+                                     {"qgis/good.py", {"#" + authors, "#" + gpl}},
                                      {"scripts/good", {"#!/usr/bin/env bash", "#" + authors, "#" + apache}},
                                      {"runtime/gpl.cpp", {"//" + authors, "//" + gpl}},
                                      {"preprocess/apache.cpp", {"//" + authors, "//" + apache}},
                                      {"runtime/late.cpp", {"#pragma once", "//" + authors, "//" + apache}},
-                                     {"runtime/empty.cpp", {}}}),
-              ElementsAre("runtime/gpl.cpp", "preprocess/apache.cpp", "runtime/late.cpp", "runtime/empty.cpp"));
+                                     {"runtime/empty.cpp", {}},
+                                     {"qgis/apache.py", {"#" + authors, "#" + apache}},
+                                     {"tests/gpl.py", {"#" + authors, "#" + gpl}}}),
+              ElementsAre("runtime/gpl.cpp", "preprocess/apache.cpp", "runtime/late.cpp", "runtime/empty.cpp", "qgis/apache.py",
+                          "tests/gpl.py"));
 }
 
 TEST(HouseRules, ALongFileIsFound) {

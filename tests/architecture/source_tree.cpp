@@ -10,8 +10,9 @@
 namespace farlod {
 namespace {
 
-constexpr std::array folders{"include",    "contract", "console", "gdal", "preprocess", "runtime", "datasets", "benchmark",
-                             "validation", "tests",    "cmake",   "docs", "scripts",    ".ci",     ".github",  "packaging"};
+constexpr std::array folders{"include",  "contract",  "console",    "gdal",      "preprocess", "runtime",
+                             "datasets", "benchmark", "validation", "tests",     "cmake",      "docs",
+                             "scripts",  ".ci",       ".github",    "packaging", "qgis"};
 
 /// Whether a file without an ending says what runs it.
 bool is_script(const std::filesystem::path& path) {
@@ -22,7 +23,8 @@ bool is_script(const std::filesystem::path& path) {
 
 bool is_code(const std::filesystem::path& path) {
   const std::string ending = path.extension().string();
-  return ending == ".cpp" || ending == ".hpp" || ending == ".cmake" || path.filename() == "CMakeLists.txt" || is_script(path);
+  return ending == ".cpp" || ending == ".hpp" || ending == ".cmake" || ending == ".py" || path.filename() == "CMakeLists.txt" ||
+         is_script(path);
 }
 
 bool is_document(const std::filesystem::path& path) { return path.extension() == ".md"; }

@@ -9,6 +9,7 @@
 namespace farlod {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -27,8 +28,11 @@ SourceFile taken(std::vector<SourceFile>& files, const std::string& path) {
 TEST(Version, StandsInOnePlace) {
   std::vector<SourceFile> files = read_all_texts(root);
   const SourceFile changelog = taken(files, "CHANGELOG.md"), lists = taken(files, "CMakeLists.txt");
+  // QGIS reads it there, and a plug-in is installed without a build step
+  const SourceFile plug_in = taken(files, "qgis/farlod/metadata.txt");
   EXPECT_EQ(mentions_of_version({lists}, software_version).size(), 1U);
   EXPECT_THAT(mentions_of_version(files, software_version), IsEmpty()) << "CMakeLists.txt alone says the version";
+  EXPECT_THAT(plug_in.lines, Contains(std::string("version=") + software_version));
   EXPECT_EQ(topmost_release(changelog), software_version);
 }
 
