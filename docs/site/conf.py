@@ -20,7 +20,7 @@ extensions = [
     "repository_links", "formulas",
 ]
 root_doc = "index"
-templates_path = ["templates"]
+templates_path = [str(SITE / "templates")]
 # A notebook's own folder of checkpoints is none of ours
 exclude_patterns = ["**.ipynb_checkpoints"]
 
@@ -34,8 +34,8 @@ autosummary_generate = True
 autosummary_imported_members = True
 autosummary_ignore_module_all = False
 autodoc_member_order = "bysource"
-autodoc_typehints = "description"
-autodoc_typehints_description_target = "documented"
+# Docstrings say the types, with their shapes
+autodoc_typehints = "none"
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 # References to our own names must lead somewhere; those to other libraries have nowhere to go without a network

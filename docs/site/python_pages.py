@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Far-LoD authors
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the page about the Python package: its docstring, and its public names by kind, each with a page of its own.
+"""Writes the page about the Python package: its docstring, its values, and its other public names by kind, each with a page.
 
     docs/site/python_pages.py FILE.rst    ends with 1, and the reason in a line, where the package cannot be imported
 
@@ -33,9 +33,17 @@ def names_by_kind(package):
     return {kind: names for kind, names in kinds.items() if names}
 
 
-def table(kind, names):
+def value(package, name):
+    """A value has no docstring of its own: what its type says of itself would be no news."""
+    return f"\n.. py:data:: {name}\n   :value: {getattr(package, name)!r}\n"
+
+
+def section(package, kind, names):
+    head = f"\n.. rubric:: {kind}\n"
+    if kind == "Values":
+        return head + "".join(value(package, name) for name in names)
     rows = "".join(f"   {name}\n" for name in names)
-    return f"\n.. rubric:: {kind}\n\n.. autosummary::\n   :toctree: .\n\n{rows}"
+    return f"{head}\n.. autosummary::\n   :toctree: .\n\n{rows}"
 
 
 def main():
@@ -43,7 +51,7 @@ def main():
         import farlod
     except Exception as error:  # whatever it is, the site can be made without the package
         sys.exit(f"{type(error).__name__}: {str(error).splitlines()[0] if str(error) else 'no reason is given'}")
-    page = HEAD + "".join(table(kind, names) for kind, names in names_by_kind(farlod).items())
+    page = HEAD + "".join(section(farlod, kind, names) for kind, names in names_by_kind(farlod).items())
     pathlib.Path(sys.argv[1]).write_text(page)
 
 
