@@ -15,13 +15,13 @@ class SiteLinks(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
-        self.site = pathlib.Path(folder.name)
+        self.site = pathlib.Path(folder.name) / "site"
         self.write("deep/there.html", '<h1 id="höhe-1">Heights</h1>')
         self.write("picture.png", "")
 
     def write(self, name, text):
         path = self.site / name
-        path.parent.mkdir(exist_ok=True)
+        path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
 
     def found(self, link):
@@ -42,7 +42,8 @@ class SiteLinks(unittest.TestCase):
         self.assert_dead('<a href="deep">', "deep: is not there")
 
     def test_a_file_outside_of_the_site(self):
-        self.assert_dead('<a href="../index.html">', "../index.html: is not there")
+        self.write("../outside.html", "")
+        self.assert_dead('<a href="../outside.html">', "../outside.html: is not there")
 
     def test_an_anchor_that_no_page_has(self):
         self.assert_dead('<a href="deep/there.html#depths">', "deep/there.html#depths: has no such anchor")
