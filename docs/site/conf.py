@@ -20,7 +20,6 @@ extensions = [
     "repository_links", "formulas",
 ]
 root_doc = "index"
-templates_path = [str(SITE / "templates")]
 # A notebook's own folder of checkpoints is none of ours
 exclude_patterns = ["**.ipynb_checkpoints"]
 
@@ -29,10 +28,8 @@ myst_heading_anchors = 6
 myst_ref_domains = ["std"]
 suppress_warnings = ["myst.header"]
 
-# Python: a page for each public name, from the package itself. What is imported into it counts when __all__ has it
-autosummary_generate = True
-autosummary_imported_members = True
-autosummary_ignore_module_all = False
+# Python: python_pages.py has written a page for each public name
+autosummary_generate = False
 autodoc_member_order = "bysource"
 # Docstrings say the types, with their shapes
 autodoc_typehints = "none"

@@ -58,7 +58,8 @@ def resolve(app, env, node, contents):
 
 
 def list_folder(app, page, source):
-    if "/" in page and posixpath.basename(page) == "README":
+    folder, name = posixpath.split(page)
+    if folder and name == "README" and f"{folder}/index" not in app.env.found_docs:
         source[0] += LIST_OF_FOLDER
 
 
