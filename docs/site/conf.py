@@ -5,6 +5,8 @@ import pathlib
 import re
 import sys
 
+from sphinx.ext.napoleon import NumpyDocstring
+
 SITE = pathlib.Path(__file__).resolve().parent
 ROOT = SITE.parent.parent
 sys.path.insert(0, str(SITE))
@@ -35,6 +37,8 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 napoleon_google_docstring = False
 napoleon_use_rtype = False
+# A property's docstring begins with a sentence, which may have a colon. napoleon takes what is before it for the type
+NumpyDocstring._consume_inline_attribute = lambda self: ("", type(self)(self._dedent(self._consume_to_end()), self._config).lines())
 # References to our own names must lead somewhere; those to other libraries have nowhere to go without a network
 nitpicky = True
 nitpick_ignore_regex = [(r"py:.*", r"(?!farlod\b).*"), (r"cpp:.*", r".*")]
