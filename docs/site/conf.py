@@ -62,4 +62,6 @@ html_copy_source = False
 html_show_sphinx = False
 html_theme_options = {"navigation_with_keys": True}
 pygments_style = "friendly"
+# A block without a language is a command, a formula or a layout, and never Python
+highlight_language = "none"
 html_math_renderer = "katex"
