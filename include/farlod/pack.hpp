@@ -53,7 +53,7 @@ enum class Overwrite {
 
 /// A part of the city: a rectangle in the CRS of the package, or a file with points, lines and polygons. A vector file that GDAL
 /// reads is in its own CRS, and in that of the package where it says none. A table (.csv, .tsv, .txt) holds points in the CRS of
-/// the package, in columns that are called as those of farlod-svf --points.
+/// the package, in columns that are called as those of `farlod-svf --points`.
 using FarMapArea = std::variant<Box2d, std::filesystem::path>;
 
 /// Whether a city with problems is packed.

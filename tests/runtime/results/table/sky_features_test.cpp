@@ -11,7 +11,6 @@
 namespace farlod {
 namespace {
 
-
 FieldType type_of_values(const std::vector<std::string>& values) {
   Attributes attributes({"a"});
   for (const std::string& value : values) attributes.add_row(std::vector<std::string>{value});
