@@ -32,7 +32,9 @@ constexpr LongFunction long_functions[] = {
 };
 
 /// CGAL, which farlod-pack is built on, and PyQGIS, which the plug-in is, have the GPL.
-bool is_under_gpl(const SourceFile& file) { return file.path.starts_with("preprocess/") || file.path.starts_with("qgis/"); }
+bool is_under_gpl(const SourceFile& file) {
+  return file.path.starts_with("preprocess/") || file.path.starts_with("python/preprocess/") || file.path.starts_with("qgis/");
+}
 
 bool begins_with_licence(const SourceFile& file, std::string_view mark) {
   const std::string licence = is_under_gpl(file) ? "GPL-3.0-or-later" : "Apache-2.0";

@@ -49,6 +49,12 @@ constexpr Wall walls[] = {
     {"^runtime/", "^runtime/package/[a-z_]+\\.cpp$", "^(" EXR_HEADERS "|" MAPPING_HEADERS ")",
      "only the package room knows how far maps and tiles lie on disk"},
 
+    {"^python/", NOWHERE, "^(?!farlod/|python/|pybind11/|[a-z_0-9]+$|unistd\\.h$)",
+     "a module of Python is a user of the libraries"},
+    {"^python/(binding|runtime_module)/", NOWHERE, "^(farlod/(pack|problem)\\.hpp|python/preprocess/)",
+     "farlod._runtime is under Apache-2.0, and packs nothing"},
+    {"^(?!python/)", NOWHERE, "^(pybind11/|Python\\.h)", "python/ is the only wrapper of Python"},
+
     {"^console/", NOWHERE,
      "^(" CGAL_HEADERS "|" GDAL_HEADERS "|" PROJ_HEADERS "|" XML_HEADERS "|" EXR_HEADERS "|" EMBREE_HEADERS "|GeographicLib/)",
      "the console knows how to talk, not what about"},

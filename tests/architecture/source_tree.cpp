@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array folders{"include",  "contract",  "console",    "gdal",      "preprocess", "runtime",
                              "datasets", "benchmark", "validation", "tests",     "cmake",      "docs",
-                             "scripts",  ".ci",       ".github",    "packaging", "qgis"};
+                             "scripts",  ".ci",       ".github",    "packaging", "python",     "qgis"};
 
 /// Whether a file without an ending says what runs it.
 bool is_script(const std::filesystem::path& path) {
