@@ -4,12 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <cstdint>
+#include <unordered_map>
 
 #include "contract/cancellation.hpp"
 
 namespace farlod {
 namespace {
+
+struct CellHash {
+  /// Odd numbers without a pattern (the golden ratio's and another), so that rows of cells do not share their buckets.
+  std::size_t operator()(const Cell& c) const {
+    constexpr std::uint64_t of_column = 0x9E3779B97F4A7C15ULL, of_row = 0xC2B2AE3D27D4EB4FULL;
+    return (static_cast<std::uint64_t>(c.i) * of_column) ^ (static_cast<std::uint64_t>(c.j) * of_row);
+  }
+};
 
 Cell nearest_existing(Cell c, const CellRange& cells) {
   return {std::clamp(c.i, cells.i_begin, cells.i_end - 1), std::clamp(c.j, cells.j_begin, cells.j_end - 1)};
@@ -37,10 +46,16 @@ std::optional<Point3f> stand_outside(const PointLocator& locator, Point2d p_cell
 
 std::vector<std::pair<Cell, std::vector<std::size_t>>> places_by_cell(const PackageReader& package,
                                                                       std::span<const PlaceOfReceiver> places) {
-  std::map<Cell, std::vector<std::size_t>> cells;
-  for (std::size_t n = 0; n < places.size(); ++n)
-    cells[package.grid().cell_of(package.manifest().grid_from_projected(places[n].p_projected))].push_back(n);
-  return {cells.begin(), cells.end()};
+  std::vector<std::pair<Cell, std::vector<std::size_t>>> cells;
+  std::unordered_map<Cell, std::size_t, CellHash> numbers;
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    const Cell cell = package.grid().cell_of(package.manifest().grid_from_projected(places[n].p_projected));
+    const auto [found, is_new] = numbers.try_emplace(cell, cells.size());
+    if (is_new) cells.emplace_back(cell, std::vector<std::size_t>());
+    cells[found->second].second.push_back(n);
+  }
+  std::ranges::sort(cells, {}, [](const auto& places_of_cell) { return places_of_cell.first; });
+  return cells;
 }
 
 CellReceivers receivers_at(const PackageReader& package, Cell cell, std::span<const PlaceOfReceiver> places,

@@ -62,11 +62,14 @@ bool has_a_cell(const PlaceOfReceiver& place, const package::Manifest& manifest)
   return std::abs(p_grid.x) < farthest_m && std::abs(p_grid.y) < farthest_m;
 }
 
+InvalidPoint point_lies(std::size_t n, const std::string& where) {
+  return {n, "the point of index " + std::to_string(n) + " (counted from 0) lies " + where};
+}
+
 void require_usable(const PlaceOfReceiver& place, const package::Manifest& manifest, std::size_t n) {
-  const std::string named = "the point of index " + std::to_string(n) + " (counted from 0) lies ";
-  if (!is_on_earth(place)) throw InvalidPoint(n, named + "nowhere on Earth: check its coordinates, and their CRS");
+  if (!is_on_earth(place)) throw point_lies(n, "nowhere on Earth: check its coordinates, and their CRS");
   if (!has_a_cell(place, manifest))
-    throw InvalidPoint(n, named + "too far from the city for the cells of its grid: leave it out, or check its CRS");
+    throw point_lies(n, "too far from the city for the cells of its grid: leave it out, or check its CRS");
 }
 
 /// Where the n-th point looks. A tilt that is NaN says no more than that it looks straight up.
