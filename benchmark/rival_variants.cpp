@@ -3,6 +3,7 @@
 #include "benchmark/rival_variants.hpp"
 
 #include <memory>
+#include <string>
 
 #include "benchmark/measurement.hpp"
 
@@ -21,6 +22,17 @@ RivalVariant changed(const std::string& name, const Change& change) {
   return variant;
 }
 
+/// Embree cannot be started for what the processor does not have.
+bool processor_has(const std::string& device) {
+#if defined(__x86_64__)
+  if (device == "isa=avx2") return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (device == "isa=avx512")
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
+           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+#endif
+  return !device.starts_with("isa=");
+}
+
 std::vector<RivalVariant> all_variants() {
   using V = RivalVariant;
   std::vector<RivalVariant> variants{
@@ -32,7 +44,10 @@ std::vector<RivalVariant> all_variants() {
       changed("rays that end above the city", [](V& v) { v.ends_above_city = true; }),
       changed("BVH of high quality", [](V& v) { v.high_quality = true; })};
   for (const char* device : {"isa=avx2", "isa=avx512", "hugepages=1", "tri_accel=bvh4.triangle4", "tri_accel=bvh8.triangle4"})
-    variants.push_back(changed(device, [device](V& v) { v.device = device; }));
+    if (processor_has(device))
+      variants.push_back(changed(device, [device](V& v) { v.device = device; }));
+    else
+      tell(std::string("variants of the rival: without ") + device + ", which this processor does not have");
   return variants;
 }
 

@@ -77,15 +77,7 @@ std::shared_ptr<Region> region_of(const std::vector<RingInPython>& rings_m) {
   return std::make_shared<Region>(rings);
 }
 
-}  // namespace
-
-void add_settings(py::module_& module) {
-  py::class_<Placing>(module, "Placing")
-      .def(py::init([](const std::string& above, double height_m) {
-             return Placing{meaning_of("above", above, heights), height_m};
-           }),
-           py::arg("above"), py::arg("height_m"));
-  py::class_<Region, std::shared_ptr<Region>>(module, "Region").def(py::init(&region_of), py::arg("rings_m"));
+void add_quantities(py::module_& module) {
   py::class_<Quantities>(module, "Quantities")
       .def(py::init<>())
       .def_readwrite("svf_solid", &Quantities::svf_solid)
@@ -100,6 +92,9 @@ void add_settings(py::module_& module) {
              const std::vector<double>& hours) { quantities.sun = sun_positions(azimuth_deg, elevation_deg, hours); },
           py::arg("azimuth_deg"), py::arg("elevation_deg"), py::arg("hours"))
       .def("columns", &columns_of);
+}
+
+void add_evaluation_settings(py::module_& module) {
   py::class_<EvaluationSettings>(module, "EvaluationSettings")
       .def(py::init<>())
       .def("set_engine", setter_of("engine", &EvaluationSettings::engine, engines), py::arg("engine"))
@@ -115,6 +110,19 @@ void add_settings(py::module_& module) {
       .def_readwrite("verify", &EvaluationSettings::verify)
       .def_readwrite("dry_run", &EvaluationSettings::dry_run)
       .def_readwrite("further", &EvaluationSettings::further);
+}
+
+}  // namespace
+
+void add_settings(py::module_& module) {
+  py::class_<Placing>(module, "Placing")
+      .def(py::init([](const std::string& above, double height_m) {
+             return Placing{meaning_of("above", above, heights), height_m};
+           }),
+           py::arg("above"), py::arg("height_m"));
+  py::class_<Region, std::shared_ptr<Region>>(module, "Region").def(py::init(&region_of), py::arg("rings_m"));
+  add_quantities(module);
+  add_evaluation_settings(module);
 }
 
 }  // namespace farlod

@@ -117,15 +117,7 @@ void set_words(PackSettings& settings, const std::string& up, const std::string&
       either<ProblemPolicy>("problems", problems, {"pack", ProblemPolicy::pack}, {"refuse", ProblemPolicy::refuse});
 }
 
-}  // namespace
-
-void add_packing(py::module_& module) {
-  py::class_<CallerSettings>(module, "CallerSettings", py::module_local())
-      .def(py::init([](std::size_t threads, std::optional<std::uint64_t> memory_limit_mib, const py::object& progress) {
-             return CallerSettings{threads, memory_limit_mib, progress};
-           }),
-           py::arg("threads"), py::arg("memory_limit_mib"), py::arg("progress"));
-  add_footprints(module);
+void add_pack_settings(py::module_& module) {
   py::class_<PackSettings>(module, "PackSettings")
       .def(py::init([](const std::string& output) {
              PackSettings settings;
@@ -149,6 +141,18 @@ void add_packing(py::module_& module) {
       .def_readwrite("cell_edge_m", &PackSettings::cell_edge_m)
       .def_readwrite("neighborhood", &PackSettings::neighborhood)
       .def_readwrite("max_error", &PackSettings::max_error);
+}
+
+}  // namespace
+
+void add_packing(py::module_& module) {
+  py::class_<CallerSettings>(module, "CallerSettings", py::module_local())
+      .def(py::init([](std::size_t threads, std::optional<std::uint64_t> memory_limit_mib, const py::object& progress) {
+             return CallerSettings{threads, memory_limit_mib, progress};
+           }),
+           py::arg("threads"), py::arg("memory_limit_mib"), py::arg("progress"));
+  add_footprints(module);
+  add_pack_settings(module);
   module.def("pack", &pack_in_python, py::arg("settings"), py::arg("problems"), py::arg("caller"));
 }
 
