@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import dask
@@ -65,11 +66,17 @@ def test_like_another_raster(village: farlod.City) -> None:
 
 def test_netcdf_round_trip(village: farlod.City, tmp_path: Path) -> None:
     grid = village.svf_grid(2.0)
-    grid.drop_attrs() if hasattr(grid, "drop_attrs") else grid.attrs.clear()
     grid.to_netcdf(tmp_path / "svf.nc")
     with xarray.open_dataset(tmp_path / "svf.nc", decode_coords="all") as back:
         np.testing.assert_array_equal(back.svf, grid.svf)
         assert back.rio.crs == grid.rio.crs
+        assert json.loads(back.attrs["summary"])["receivers"] == int(grid.svf.notnull().sum())
+
+
+def test_geotiff_says_what_is_no_data(village: farlod.City, tmp_path: Path) -> None:
+    village.svf_grid(2.0).svf.rio.to_raster(tmp_path / "svf.tif")
+    with rasterio.open(tmp_path / "svf.tif") as file:
+        assert file.nodata is not None and np.isnan(file.nodata)
 
 
 @pytest.mark.parametrize("chunks", [7, 32, (50, 20), "auto", -1])

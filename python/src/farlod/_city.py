@@ -34,7 +34,11 @@ Values = Union[Floats, "pandas.Series[float]"]
 
 
 class SvfInterval(NamedTuple):
-    """Sky view factors with certain bounds: three arrays of one shape, ``low <= svf <= high``. NaN where there is no data."""
+    """Sky view factors with certain bounds: three arrays of one shape, ``low <= svf <= high``. NaN where there is no data.
+
+    The bounds enclose what the true far city gives with the same azimuths or rays. The sky between these is not in them:
+    ``max_error`` limits that.
+    """
 
     svf: Values
     low: Values
@@ -327,7 +331,7 @@ class City:
         quantities: Iterable[Quantity] = (),
         **options: Unpack[Options],
     ) -> PointAnswers:
-        """Sky view factors of points, further quantities, and the figures of the run.
+        """Sky view factors of points, further quantities, and the figures of the run: arrays in the order of the points.
 
         Parameters
         ----------
@@ -613,7 +617,8 @@ class City:
         xarray.Dataset on (y, x)
             ``svf`` (``svf_solid`` with that metric), with ``bounds`` also ``svf_low`` and ``svf_high``, and a variable for each
             further quantity: float32, NaN where
-            there is no data. ``spatial_ref`` holds the CRS, where rioxarray and GDAL look for it. y runs from north to south.
+            there is no data, and beyond the cells of the grid. ``spatial_ref`` holds the CRS, where rioxarray and GDAL look for
+            it; the attribute ``summary`` the figures of the run as JSON. y runs from north to south.
 
         Examples
         --------
@@ -725,6 +730,7 @@ class City:
         ax: matplotlib.axes.Axes | None = None,
         variable: str | None = None,
         outlines: bool = True,
+        colorbar: bool = True,
         step: float | None = None,
         **imshow: Any,
     ) -> matplotlib.axes.Axes:
@@ -740,6 +746,8 @@ class City:
             Which variable of the grid; the first by default.
         outlines : bool, default True
             Whether to draw the outlines of roofs.
+        colorbar : bool, default True
+            Whether to draw what the colours mean.
         **imshow
             Handed to :meth:`matplotlib.axes.Axes.imshow`.
 
@@ -761,7 +769,7 @@ class City:
         if outlines:
             box = _plots.extent(grid)
             lines = _runtime.building_outlines(package, (box[0], box[2], box[1], box[3]), caller_settings(_runtime))
-        return _plots.draw_map(grid, variable, lines, ax, imshow)
+        return _plots.draw_map(grid, variable, lines, ax, colorbar, imshow)
 
     def check(self, *, threads: int = 0, memory_limit: int | None = None, progress: Progress = None) -> PackageCheck:
         """Reads the whole package: each file is compared with its checksum, each tile is checked, each far map is decoded.

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -112,7 +113,7 @@ def _dataset(bands: Mapping[str, Any], pixels: Any, crs: Any, like: Any, attribu
     }
     dataset = xarray.Dataset(variables, _coordinates(pixels, crs), dict(attributes))
     for name in bands:
-        dataset[name].encoding["grid_mapping"] = "spatial_ref"
+        dataset[name].encoding.update(grid_mapping="spatial_ref", _FillValue=np.float32(np.nan))
     if like is None:
         return dataset
     if float(like.coords["y"][0]) < float(like.coords["y"][-1]):
@@ -122,12 +123,12 @@ def _dataset(bands: Mapping[str, Any], pixels: Any, crs: Any, like: Any, attribu
 
 
 def eager(package: Any, pixels: Any, evaluation: Evaluation, crs: Any, like: Any) -> xarray.Dataset:
-    """The raster, computed now. The figures of the run are its attribute ``summary``."""
+    """The raster, computed now. The figures of the run are its attribute ``summary``, as JSON: files keep words and numbers."""
     raster = _runtime.evaluate_raster(
         package, pixels, evaluation.placing(), evaluation.settings(), evaluation.caller()
     )
     bands = dict(zip(_names(evaluation), _bands(raster)))
-    return _dataset(bands, pixels, crs, like, {"summary": raster["summary"]})
+    return _dataset(bands, pixels, crs, like, {"summary": json.dumps(raster["summary"])})
 
 
 def _block(

@@ -31,6 +31,7 @@ def draw_map(
     variable: str | None,
     outlines: npt.NDArray[np.float64] | None,
     ax: matplotlib.axes.Axes | None,
+    colorbar: bool,
     imshow: Mapping[str, Any],
 ) -> matplotlib.axes.Axes:
     """A raster, a colour bar, and segments (n, 2, 2) above it."""
@@ -45,11 +46,13 @@ def draw_map(
     values = grid[shown].sortby("y", ascending=False)
     style = {"cmap": "viridis", "vmin": 0.0, "vmax": 1.0, "interpolation": "nearest", **imshow}
     image = axes.imshow(values.values, extent=extent(grid), origin="upper", **style)
-    axes.figure.colorbar(image, ax=axes, label=values.attrs.get("long_name", shown))
+    if colorbar:
+        axes.figure.colorbar(image, ax=axes, label=values.attrs.get("long_name", shown))
     if outlines is not None:
         axes.add_collection(LineCollection(outlines, colors="black", linewidths=0.4))
     axes.set_aspect("equal")
     axes.ticklabel_format(useOffset=False, style="plain")
+    axes.locator_params(nbins=5)
     axes.set_xlabel("easting (m)")
     axes.set_ylabel("northing (m)")
     return axes
