@@ -41,6 +41,9 @@ class Pillars : public testing::Test {
     return PackageReader(folder_.path() / "pillars.farlod");
   }
 
+  /// Four steps of a float of 100 m: Embree divides by an approximate reciprocal where the processor has no AVX-512.
+  static constexpr double rounding_m = 3.1e-5;
+
   /// Off the diagonals of the roofs, and exact in float.
   static constexpr Point3f on_the_pillar{10.5F, 9.25F, 0.0F};
 
@@ -53,7 +56,7 @@ TEST_F(Pillars, TheWholeCityHoldsEachTileInItsPlace) {
   const WholeCity whole(package_);
   for (std::size_t n = 0; n < static_cast<std::size_t>(grid_.cells.size()); ++n) {
     const Cell cell = grid_.cells.cell_at(n);
-    EXPECT_EQ(height_seen(whole.occluder(), whole.scene_from_cell(on_the_pillar, cell)), height_of(cell))
+    EXPECT_NEAR(height_seen(whole.occluder(), whole.scene_from_cell(on_the_pillar, cell)), height_of(cell), rounding_m)
         << cell.i << ", " << cell.j;
   }
 }
@@ -66,7 +69,7 @@ TEST_F(Pillars, TheNearSceneHoldsTheNeighborhoodAndNothingElse) {
       const Point2d shift = grid_.corner_of(other) - grid_.corner_of(cell);
       const Point3f p_cell = on_the_pillar + Point3f{static_cast<float>(shift.x), static_cast<float>(shift.y), 0.0F};
       const bool is_near = std::abs(other.i - cell.i) <= 1 && std::abs(other.j - cell.j) <= 1;
-      EXPECT_EQ(height_seen(near, p_cell), is_near ? height_of(other) : -1.0) << other.i << ", " << other.j;
+      EXPECT_NEAR(height_seen(near, p_cell), is_near ? height_of(other) : -1.0, rounding_m) << other.i << ", " << other.j;
     }
   }
 }
