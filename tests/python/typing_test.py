@@ -4,11 +4,14 @@
 
 from __future__ import annotations
 
+import ast
+import importlib
 import os
 import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from conftest import SOURCES
 
 PYTHON = SOURCES / "python"
@@ -24,6 +27,25 @@ def mypy(*files: object) -> subprocess.CompletedProcess[str]:
 def test_packages_and_examples_are_typed() -> None:
     checked = mypy("src/farlod", "preprocess/src/farlod_preprocess", SOURCES / "tests" / "python" / "typed_use.py")
     assert checked.returncode == 0, checked.stdout + checked.stderr
+
+
+@pytest.mark.parametrize(
+    ("stub", "module"),
+    [
+        (PYTHON / "src" / "farlod" / "_runtime.pyi", "farlod._runtime"),
+        (PYTHON / "preprocess" / "src" / "farlod_preprocess" / "_preprocess.pyi", "farlod_preprocess._preprocess"),
+    ],
+)
+def test_stubs_have_the_names_of_the_compiled_modules(stub: Path, module: str) -> None:
+    compiled = importlib.import_module(module)
+    body = ast.parse(stub.read_text(encoding="utf-8")).body
+    functions = {node.name for node in body if isinstance(node, ast.FunctionDef)}
+    classes = {node.name: node for node in body if isinstance(node, ast.ClassDef) and not node.name.startswith("_")}
+    assert functions | set(classes) | {"version"} == {name for name in dir(compiled) if not name.startswith("__")}
+    for name, node in classes.items():
+        members = {member.name for member in node.body if isinstance(member, ast.FunctionDef)}
+        members |= {m.target.id for m in node.body if isinstance(m, ast.AnnAssign) and isinstance(m.target, ast.Name)}
+        assert members - {"__init__"} == {m for m in vars(getattr(compiled, name)) if not m.startswith("__")}, name
 
 
 def test_wrong_use_is_found(tmp_path: Path) -> None:

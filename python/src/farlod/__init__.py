@@ -18,7 +18,7 @@ With xarray installed, ``import farlod`` also gives arrays the accessor ``.farlo
 from __future__ import annotations
 
 from farlod._city import City, Hemisphere, PackageCheck, PointAnswers, SvfInterval, open
-from farlod._modules import load as _load
+from farlod._modules import runtime as _runtime
 from farlod._packing import Heights, Problem, ProblemsWarning, Report, pack
 from farlod._settings import Options
 from farlod.errors import (
@@ -34,7 +34,7 @@ from farlod.errors import (
     ProblemsRefused,
 )
 
-__version__: str = _load("farlod._runtime").version
+__version__: str = _runtime.version
 
 __all__ = [
     "Cancelled",

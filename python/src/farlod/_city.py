@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union, Unpack, overl
 import numpy as np
 import numpy.typing as npt
 
-from farlod import _arguments, _fisheye, _grids, _modules, _plots, _surfaces
+from farlod import _arguments, _fisheye, _grids, _plots, _surfaces
+from farlod._modules import runtime as _runtime
 from farlod._receivers import Receivers, receivers_of
 from farlod._regions import region_of
 from farlod._settings import Above, Evaluation, Metric, Options, Progress, Quantity, SkyPatches, caller_settings
@@ -26,8 +27,6 @@ if TYPE_CHECKING:
     import matplotlib.axes
     import pandas
     import xarray
-
-_runtime = _modules.load("farlod._runtime")
 
 Floats = npt.NDArray[np.float32]
 Values = Union[Floats, "pandas.Series[float]"]

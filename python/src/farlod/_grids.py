@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from farlod import _arguments, _modules
+from farlod import _arguments
 from farlod._crs import crs_of_array
+from farlod._modules import runtime as _runtime
 from farlod._settings import Evaluation
 from farlod._sky_patches import middle_of_patches
 from farlod.errors import InvalidArgument
@@ -20,8 +21,6 @@ from farlod.errors import InvalidArgument
 if TYPE_CHECKING:
     import pandas
     import xarray
-
-_runtime = _modules.load("farlod._runtime")
 
 LONG_NAMES = {
     "svf": "sky view factor",

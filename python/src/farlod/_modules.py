@@ -7,6 +7,9 @@ from __future__ import annotations
 import importlib
 import re
 from types import ModuleType
+from typing import TYPE_CHECKING
+
+__all__ = ["DEBIAN_PACKAGES", "advice_for", "load", "load_preprocess", "runtime"]
 
 #: The Debian 12 package that a shared library comes with, by the name that a module asks for.
 DEBIAN_PACKAGES = {
@@ -45,6 +48,13 @@ def load(name: str) -> ModuleType:
         if not advice:
             raise
         raise ImportError(f"{name} cannot be loaded. {advice}", name=name) from error
+
+
+# What evaluates packages: each import of farlod needs it. Its types are in _runtime.pyi
+if TYPE_CHECKING:
+    from farlod import _runtime as runtime
+else:
+    runtime = load("farlod._runtime")
 
 
 def load_preprocess() -> ModuleType:

@@ -7,11 +7,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from farlod import _modules
+from farlod._modules import runtime as _runtime
 from farlod._receivers import is_geo
 from farlod.errors import InvalidArgument
-
-_runtime = _modules.load("farlod._runtime")
 
 
 def _polygons_of(geometry: Any) -> Iterator[Any]:

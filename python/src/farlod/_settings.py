@@ -9,10 +9,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypedDict, Union
 
-from farlod import _arguments, _modules
+from farlod import _arguments
+from farlod._modules import runtime as _runtime
 from farlod.errors import InvalidArgument
-
-_runtime = _modules.load("farlod._runtime")
 
 Engine = Literal["auto", "horizon", "rays", "exact", "near"]
 Metric = Literal["cosine", "solid"]

@@ -9,13 +9,11 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from farlod import _modules
+from farlod._modules import runtime as _runtime
 from farlod._settings import Evaluation, caller_settings
 
 if TYPE_CHECKING:
     import geopandas
-
-_runtime = _modules.load("farlod._runtime")
 
 Choice = Literal["roofs", "walls", "all"]
 

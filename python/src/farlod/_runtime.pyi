@@ -1,0 +1,137 @@
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+"""Types of the compiled module. Users call what farlod/__init__.py has."""
+
+from collections.abc import Callable, Sequence
+from typing import Any, TypedDict
+
+import numpy as np
+import numpy.typing as npt
+
+_Floats32 = npt.NDArray[np.float32]
+_Floats64 = npt.NDArray[np.float64]
+
+version: str
+
+class Package:
+    def __init__(self, folder: str) -> None: ...
+    @property
+    def is_open(self) -> bool: ...
+    def close(self) -> None: ...
+    def description(self) -> dict[str, Any]: ...
+
+class CallerSettings:
+    def __init__(
+        self, threads: int, memory_limit_mib: int | None, progress: Callable[[str, int, int], None] | None
+    ) -> None: ...
+
+class Placing:
+    def __init__(self, above: str, height_m: float) -> None: ...
+
+class Region:
+    def __init__(self, rings_m: Sequence[Sequence[tuple[float, float]]]) -> None: ...
+
+class Quantities:
+    svf_solid: bool
+    directional: bool
+    hidden: bool
+    horizons: int
+    horizon_distances: bool
+    def __init__(self) -> None: ...
+    def set_sky_patches(self, patches: str) -> None: ...
+    def set_sun(self, azimuth_deg: _Floats64, elevation_deg: _Floats64, hours: _Floats64) -> None: ...
+    def columns(self) -> list[str]: ...
+
+class EvaluationSettings:
+    azimuths: int | None
+    rays: int | None
+    max_error: float | None
+    bounds: bool
+    verify: int
+    dry_run: bool
+    further: Quantities
+    def __init__(self) -> None: ...
+    def set_engine(self, engine: str) -> None: ...
+    def set_metric(self, metric: str) -> None: ...
+    def set_directions(self, directions: str) -> None: ...
+    def set_region(self, region: Region | None) -> None: ...
+
+class PointColumns:
+    def __init__(
+        self,
+        x_m: _Floats64,
+        y_m: _Floats64,
+        z_m: _Floats64 | None,
+        azimuth_deg: _Floats64 | None,
+        tilt_deg: _Floats64 | None,
+    ) -> None: ...
+
+class RasterPlan:
+    def __init__(self, north_west_m: tuple[float, float], step_m: float, columns: int, rows: int) -> None: ...
+    @property
+    def north_west_m(self) -> tuple[float, float]: ...
+    @property
+    def step_m(self) -> float: ...
+    @property
+    def columns(self) -> int: ...
+    @property
+    def rows(self) -> int: ...
+
+class _PointAnswers(TypedDict):
+    svf: _Floats32
+    low: _Floats32
+    high: _Floats32
+    height_m: _Floats64
+    further: _Floats32
+    summary: dict[str, Any]
+
+class _Raster(TypedDict):
+    svf: _Floats32
+    low: _Floats32 | None
+    high: _Floats32 | None
+    further: list[_Floats32]
+    summary: dict[str, Any]
+
+class _Hemisphere(TypedDict):
+    svf: float
+    height_m: float
+    parts: npt.NDArray[np.uint8]
+    horizon_tangent: _Floats32
+
+class _Surfaces(TypedDict):
+    means: dict[str, Any]
+    points: dict[str, Any]
+    summary: dict[str, Any]
+
+def evaluate_points(
+    package: Package, points: PointColumns, placing: Placing, settings: EvaluationSettings, caller: CallerSettings
+) -> _PointAnswers: ...
+def plan_raster(package: Package, step_m: float, bbox_m: tuple[float, float, float, float] | None) -> RasterPlan: ...
+def evaluate_raster(
+    package: Package, plan: RasterPlan, placing: Placing, settings: EvaluationSettings, caller: CallerSettings
+) -> _Raster: ...
+def evaluate_window(
+    package: Package,
+    plan: RasterPlan,
+    window: tuple[int, int, int, int],
+    placing: Placing,
+    settings: EvaluationSettings,
+    caller: CallerSettings,
+) -> _Raster: ...
+def look_up(
+    package: Package,
+    place_m: tuple[float, float],
+    height_m: float | None,
+    placing: Placing,
+    settings: EvaluationSettings,
+    caller: CallerSettings,
+) -> _Hemisphere | None: ...
+def evaluate_surfaces(
+    package: Package, which: str, spacing_m: float, points: bool, settings: EvaluationSettings, caller: CallerSettings
+) -> _Surfaces: ...
+def check_package(package: Package, caller: CallerSettings) -> dict[str, Any]: ...
+def ground_heights(package: Package, plan: RasterPlan, caller: CallerSettings) -> _Floats32: ...
+def building_outlines(
+    package: Package, bbox_m: tuple[float, float, float, float], caller: CallerSettings
+) -> _Floats64: ...
+def surface_polygons(package: Package, caller: CallerSettings) -> list[tuple[str, int, bytes]]: ...
