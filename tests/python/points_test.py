@@ -131,6 +131,12 @@ def test_verification_is_in_the_summary(village: farlod.City) -> None:
     assert answers.summary["verify"]["count"] == 20 and answers.summary["verify"]["max_abs_error"] < 0.02
 
 
+def test_verification_belongs_to_what_has_a_summary(village: farlod.City) -> None:
+    with pytest.raises(TypeError, match="verify"):
+        village.svf([STREET], verify=5)  # type: ignore[call-overload]
+    assert village.surfaces("walls", 5.0, geometry=False, verify=5).attrs["summary"]["verify"]["count"] == 5
+
+
 def test_heights_above(canyon: farlod.City) -> None:
     roof = [[690030.0, 5335000.0]]
     assert np.isnan(canyon.svf(roof)[0])

@@ -114,6 +114,9 @@ CALLS = {
         ((), dict(like=xarray.DataArray(np.zeros((3, 3)), dims=("y", "x"))), "CRS"),
         ((), dict(like=3), "DataArray"),
         ((), dict(chunks=(1, 2, 3)), "chunks"),
+        ((), dict(chunks=64, verify=5), "verify"),
+        ((2.0,), dict(like=xarray.DataArray(np.zeros((3, 3)), dims=("y", "x"))), "like and step"),
+        ((), dict(like=3, bbox=(0, 0, 1, 1)), "like and bbox"),
         ((20.0,), dict(quantities=["wind"]), "quantities"),
     ],
     "ground": [((0.0,), {}, "step"), ((5.0,), dict(threads="two"), "threads")],
@@ -122,9 +125,11 @@ CALLS = {
         (("walls", 0.0), {}, "spacing"),
         (("walls",), dict(points="yes"), "points"),
         (("walls",), dict(geometry=None), "geometry"),
+        (("walls",), dict(points=True, geometry=False), "geometry"),
+        (("walls",), dict(verify=1.5), "verify"),
         (("walls",), dict(max_error=7.0), "max_error"),
     ],
-    "plot": [((xarray.Dataset(),), {}, "coordinates"), ((), dict(step=-1.0), "step")],
+    "plot": [((xarray.Dataset(),), {}, "coordinates"), ((xarray.Dataset(),), dict(step=2.0), "grid and step"), ((), dict(step=-1.0), "step")],
     "check": [((), dict(threads=1.5), "threads")],
 }
 

@@ -328,6 +328,7 @@ class City:
         max_error: float | None = None,
         bounds: bool = False,
         quantities: Iterable[Quantity] = (),
+        verify: int = 0,
         **options: Unpack[Options],
     ) -> PointAnswers:
         """Sky view factors of points, further quantities, and the figures of the run: arrays in the order of the points.
@@ -337,6 +338,8 @@ class City:
         quantities : iterable of {"svf_solid", "directional", "hidden"}
             What to compute besides: the share of solid angle; the four halves of the sky as UMEP has them (``svfN``, ``svfE``,
             ``svfS``, ``svfW``); the shares that near and far geometry hide (``hidden_near``, ``hidden_far``).
+        verify : int, default 0
+            So many random receivers are computed again, exactly, and compared: ``summary["verify"]``.
         points, normals, height, above, metric, max_error, bounds, **options
             As for :meth:`svf`.
 
@@ -353,7 +356,7 @@ class City:
         1.0
         """
         receivers = self._receivers(points, normals)
-        evaluation = Evaluation(metric, height, above, bounds, max_error, quantities, options=options)
+        evaluation = Evaluation(metric, height, above, bounds, max_error, quantities, verify=verify, options=options)
         answers = self._answers(receivers, evaluation)
         names = evaluation.further().columns()
         return PointAnswers(
@@ -580,7 +583,7 @@ class City:
 
     def svf_grid(
         self,
-        step: float = 1.0,
+        step: float | None = None,
         bbox: Any = None,
         mask: Any = None,
         *,
@@ -592,14 +595,15 @@ class City:
         max_error: float | None = None,
         bounds: bool = False,
         quantities: Iterable[Quantity] = (),
+        verify: int = 0,
         **options: Unpack[Options],
     ) -> xarray.Dataset:
         """A raster of sky view factors over the city, or a part of it.
 
         Parameters
         ----------
-        step : float, default 1.0
-            Edge of a pixel in metres, 0.01 to 10,000. Pixels begin at multiples of it.
+        step : float, optional
+            Edge of a pixel in metres, 0.01 to 10,000 (default: 1). Pixels begin at multiples of it.
         bbox : (west, south, east, north), optional
             In the CRS of the city.
         mask : geopandas.GeoSeries or GeoDataFrame of polygons, or a polygon of shapely in the CRS of the city, optional
@@ -609,7 +613,8 @@ class City:
         chunks : int, tuple or "auto", optional
             Edge of blocks in pixels. The raster is then computed lazily, block by block, by dask; each block with one thread,
             unless ``threads`` says otherwise. Its values are those of a raster without chunks, to the bit.
-        quantities : as for :meth:`evaluate`
+        quantities, verify : as for :meth:`evaluate`
+            Blocks are not verified.
 
         Returns
         -------
@@ -635,7 +640,15 @@ class City:
             lazy.setdefault("threads", 1)
         region = region_of(mask, self.crs_wkt)
         evaluation = Evaluation(
-            metric, height, above, bounds, max_error, quantities, region=region if chunks is None else None, options=lazy
+            metric,
+            height,
+            above,
+            bounds,
+            max_error,
+            quantities,
+            region=region if chunks is None else None,
+            verify=verify,
+            options=lazy,
         )
         if chunks is None:
             return _grids.eager(package, plan, evaluation, self.crs, like)
@@ -666,6 +679,7 @@ class City:
         bounds: bool = False,
         quantities: Iterable[Quantity] = (),
         mask: Any = None,
+        verify: int = 0,
         **options: Unpack[Options],
     ) -> geopandas.GeoDataFrame:
         """Sky view factors of the roofs and walls of all buildings.
@@ -678,10 +692,13 @@ class City:
         points : bool, default False
             Whether the rows are the receivers, and not the surfaces.
         geometry : bool, default True
-            Whether surfaces get their polygons; without, the geometry is None, and nothing is read for it.
+            Whether surfaces get their polygons; without, the geometry is None, and nothing is read for it. Receivers always have
+            theirs.
         crs : anything that pyproj takes, optional
             CRS of the result. By default that of the GeoDataFrame that the city was packed from, else that of the city.
         mask : as for :meth:`svf_grid`
+        verify : as for :meth:`evaluate`
+            The figures of the run are ``attrs["summary"]``.
 
         Returns
         -------
@@ -700,12 +717,15 @@ class City:
         True
         """
         package = self._open_package()
+        if points is True and geometry is False:
+            raise InvalidArgument("points always have a geometry: leave geometry out")
         evaluation = Evaluation(
             metric,
             bounds=bounds,
             max_error=max_error,
             quantities=quantities,
             region=region_of(mask, self.crs_wkt),
+            verify=verify,
             options=options,
         )
         frame = _surfaces.frame(
@@ -761,6 +781,8 @@ class City:
         'easting (m)'
         """
         package = self._open_package()
+        if grid is not None and step is not None:
+            raise InvalidArgument("grid and step both say which pixels: give one of them")
         if grid is None:
             west, south, east, north = self.bounds
             grid = self.svf_grid(step if step is not None else max(1.0, math.ceil(max(east - west, north - south) / 1000.0)))

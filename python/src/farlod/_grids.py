@@ -69,9 +69,11 @@ def plan(package: Any, step: Any, bbox: Any, like: Any, crs: Any) -> Any:
     if like is not None:
         if bbox is not None:
             raise InvalidArgument("like and bbox both say which pixels: give one of them")
+        if step is not None:
+            raise InvalidArgument("like and step both say which pixels: give one of them")
         return _plan_like(like, crs)
     box = None if bbox is None else _arguments.bbox("bbox", bbox)
-    return _runtime.plan_raster(package, _arguments.number("step", step), box)
+    return _runtime.plan_raster(package, 1.0 if step is None else _arguments.number("step", step), box)
 
 
 def _names(evaluation: Evaluation) -> list[str]:
@@ -157,6 +159,8 @@ def lazy(city: Any, pixels: Any, evaluation: Evaluation, mask: Any, chunks: Any,
 
     array: Any = dask.array  # it has no types
     names = _names(evaluation)
+    if evaluation.verify:
+        raise InvalidArgument("blocks are not verified: leave verify out, or chunks")
     # What a block would refuse is refused now
     evaluation.placing(), evaluation.settings(), evaluation.caller()
     shape = (pixels.rows, pixels.columns)

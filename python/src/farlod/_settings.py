@@ -40,8 +40,6 @@ class Options(TypedDict, total=False):
         Rays of a receiver, 1 to 10,000,000 (default: 1,000, or as many as ``max_error`` needs).
     directions : {"partition", "fibonacci"}
         Where rays go: one in each cell of the Beckers partition of the sky, or a spherical Fibonacci lattice.
-    verify : int
-        So many random receivers are computed again, exactly: ``summary["verify"]``.
     threads : int
         0: as many as the machine has cores.
     memory_limit : int
@@ -55,7 +53,6 @@ class Options(TypedDict, total=False):
     azimuths: int
     rays: int
     directions: Literal["partition", "fibonacci"]
-    verify: int
     threads: int
     memory_limit: int
     progress: Progress
@@ -99,6 +96,7 @@ class Evaluation:
     sky_patches: str = "none"
     sun: tuple[Any, Any, Any] | None = None
     region: Any = None
+    verify: int = 0
     options: Options = field(default_factory=lambda: Options())
 
     def placing(self) -> Any:
@@ -128,10 +126,11 @@ class Evaluation:
         if self.max_error is not None:
             settings.max_error = _arguments.number("max_error", self.max_error)
         settings.further = self.further()
+        settings.verify = _arguments.whole_number("verify", self.verify, 0, 10**10)
         settings.set_region(self.region)
         for name, value in self.options.items():
-            if name in ("azimuths", "rays", "verify"):
-                setattr(settings, name, _arguments.whole_number(name, value, 0 if name == "verify" else 1, 10**10))
+            if name in ("azimuths", "rays"):
+                setattr(settings, name, _arguments.whole_number(name, value, 1, 10**10))
             elif name == "engine":
                 settings.set_engine(_arguments.word(name, value, ("auto", "horizon", "rays", "exact", "near")))
             elif name == "directions":
