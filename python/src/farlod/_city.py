@@ -388,6 +388,7 @@ class City:
             4 to 3,600 azimuths in equal steps clockwise from true north, the first of them north.
         distances : bool, default False
             Whether to tell the level distance to what makes the horizon, too.
+        height, above, max_error, **options : as for :meth:`svf`
 
         Returns
         -------
@@ -433,6 +434,7 @@ class City:
         patches : {"tregenza", "reinhart"}
             145 or 577 patches, counted as Radiance counts them: band by band from the horizon upwards, the first of a band at
             true north, the others clockwise; the zenith is the last.
+        height, above, max_error, **options : as for :meth:`svf`
 
         Returns
         -------
@@ -481,6 +483,7 @@ class City:
             Where the sun is, in degrees; azimuths clockwise from true north, as pvlib has them.
         hours : array_like of float, (m,)
             The time that each position stands for.
+        height, above, max_error, **options : as for :meth:`svf`
 
         Returns
         -------
@@ -514,6 +517,7 @@ class City:
         ----------
         point : array_like of float, (2,) or (3,)
             Easting, northing, and the height above sea level.
+        height, above, max_error, **options : as for :meth:`svf`
 
         Returns
         -------
@@ -562,6 +566,7 @@ class City:
             Pixels along the edge, 16 to 8,192.
         projection : {"equidistant", "equisolid", "orthographic", "stereographic"}
             How the angle to the zenith becomes a distance from the middle.
+        height, above, **options : as for :meth:`svf`
 
         Returns
         -------
@@ -613,8 +618,10 @@ class City:
         chunks : int, tuple or "auto", optional
             Edge of blocks in pixels. The raster is then computed lazily, block by block, by dask; each block with one thread,
             unless ``threads`` says otherwise. Its values are those of a raster without chunks, to the bit.
-        quantities, verify : as for :meth:`evaluate`
-            Blocks are not verified.
+        height, above, metric, max_error, bounds, **options : as for :meth:`svf`
+        quantities : as for :meth:`evaluate`
+        verify : as for :meth:`evaluate`
+            Not with chunks.
 
         Returns
         -------
@@ -696,6 +703,8 @@ class City:
             theirs.
         crs : anything that pyproj takes, optional
             CRS of the result. By default that of the GeoDataFrame that the city was packed from, else that of the city.
+        metric, max_error, bounds, **options : as for :meth:`svf`
+        quantities : as for :meth:`evaluate`
         mask : as for :meth:`svf_grid`
         verify : as for :meth:`evaluate`
             The figures of the run are ``attrs["summary"]``.
