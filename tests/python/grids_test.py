@@ -91,6 +91,15 @@ def test_blocks_have_the_pixels_of_the_whole_to_the_bit(bridges_path: str, chunk
         np.testing.assert_array_equal(computed[name].values, whole[name].values)
 
 
+def test_mask_with_a_hole(village: farlod.City) -> None:
+    west, south, east, north = village.bounds
+    centre = shapely.geometry.Point((west + east) / 2, (south + north) / 2)
+    whole = village.svf_grid(2.0, mask=centre.buffer(50.0)).svf.notnull()
+    ring = village.svf_grid(2.0, mask=centre.buffer(50.0).difference(centre.buffer(20.0))).svf.notnull()
+    inner = village.svf_grid(2.0, mask=centre.buffer(20.0)).svf.notnull()
+    assert int(inner.sum()) > 50 and int(whole.sum()) == int(ring.sum()) + int(inner.sum())
+
+
 def test_blocks_with_a_mask(village: farlod.City) -> None:
     west, south, east, north = village.bounds
     disc = shapely.geometry.Point((west + east) / 2, (south + north) / 2).buffer(60.0)

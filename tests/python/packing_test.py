@@ -62,6 +62,9 @@ def test_mesh_in_memory(tmp_path: Path) -> None:
     points = points_of(pair, 100)
     np.testing.assert_allclose(pair.svf(points), moved.svf(points), atol=1e-4, equal_nan=True)
     assert pair.info["buildings"] == 1
+    surfaces = pair.surfaces("all", 5.0, geometry=False)
+    areas = surfaces.groupby("kind").area_m2.sum()
+    assert areas["roof"] == pytest.approx(400.0, rel=1e-4) and areas["wall"] == pytest.approx(1200.0, rel=1e-4)
 
 
 def surface_model(crs: str = "EPSG:25832") -> xarray.DataArray:
@@ -86,6 +89,8 @@ def test_surface_model_in_memory(tmp_path: Path) -> None:
     upside_down = dsm.isel(y=slice(None, None, -1))
     np.testing.assert_array_equal(upside_down.farlod.svf().values, svf.values[::-1])
     assert set(dsm.farlod.svf(bounds=True).data_vars) == {"svf", "svf_low", "svf_high"}
+    with pytest.raises(farlod.InputError, match="give one of them"):
+        dsm.farlod.svf(terrain=dsm)
 
 
 def test_surface_model_in_degrees() -> None:

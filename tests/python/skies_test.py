@@ -51,6 +51,8 @@ def test_patches(village: farlod.City, patches: str, count: int) -> None:
     svf = (shares * shares.view_factor).sum("patch", skipna=False)
     np.testing.assert_allclose(svf, village.svf(points), atol=0.01, equal_nan=True)
     assert shares.elevation[-1] == 90.0 and shares.azimuth[0] == 0.0
+    # A band is 12° high (Tregenza 1987), or half as high, more or less
+    assert float(shares.elevation[0]) == pytest.approx({145: 6.0, 577: 90.0 / 29.0}[count])
 
 
 def test_patches_behind_a_wall_are_dark(canyon: farlod.City) -> None:

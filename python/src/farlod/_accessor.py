@@ -61,15 +61,13 @@ class FarlodAccessor:
     def __init__(self, array: xarray.DataArray) -> None:
         self._array = array
 
-    def pack(self, path: str | os.PathLike[str], terrain: Any = None, **settings: Any) -> City:
-        """Makes a package of the surface model, and opens it.
+    def pack(self, path: str | os.PathLike[str], **settings: Any) -> City:
+        """Makes a package of the surface model, and opens it. All of the surface is ground.
 
         Parameters
         ----------
         path : str or path-like
             The folder to make.
-        terrain : path or xarray.DataArray, optional
-            Elevations of the ground. Without it, the surface is all ground.
         **settings
             As for :func:`farlod.pack`.
 
@@ -77,15 +75,13 @@ class FarlodAccessor:
         -------
         City
         """
-        return pack(self._array, path, terrain=terrain, **settings)
+        return pack(self._array, path, **settings)
 
-    def svf(self, *, terrain: Any = None, height: float = 0.0, **settings: Any) -> xarray.DataArray | xarray.Dataset:
+    def svf(self, *, height: float = 0.0, **settings: Any) -> xarray.DataArray | xarray.Dataset:
         """Sky view factors on the surface, pixel by pixel.
 
         Parameters
         ----------
-        terrain : path or xarray.DataArray, optional
-            Elevations of the ground.
         height : float, default 0.0
             Metres above the surface.
         **settings
@@ -100,9 +96,8 @@ class FarlodAccessor:
             raise InvalidArgument("svf() takes the pixels of the array: use .farlod.pack() and svf_grid() for others")
         evaluation = {name: settings.pop(name) for name in _EVALUATION if name in settings}
         run = {name: settings[name] for name in ("threads", "memory_limit", "progress") if name in settings}
-        evaluation.setdefault("above", "surface")
         with tempfile.TemporaryDirectory(prefix="farlod-") as folder:
-            with self.pack(os.path.join(folder, "surface.farlod"), terrain, **settings) as city:
+            with self.pack(os.path.join(folder, "surface.farlod"), **settings) as city:
                 options: dict[str, Any] = {"height": height, **evaluation, **run}
                 array = _with_crs(self._array, settings.get("crs"))
                 is_in_city_crs = crs_of_array(array).equals(city.crs, ignore_axis_order=True)

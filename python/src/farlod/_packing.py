@@ -199,7 +199,7 @@ def pack(
     max_error : float, optional
         Chooses cells and neighborhood so that sky view factors keep this error, 0.0001 to 1.
     terrain : path or xarray.DataArray, optional
-        Elevations of the ground, in metres.
+        Elevations of the ground, in metres; not with a surface model, which is all ground.
     heights : Heights or str, optional
         Where the heights of footprints come from; a str is the attribute with the height above the base. Without it, names that
         are usual (``height``, ``measuredHeight``, ``building:levels``, ...) are looked for.
