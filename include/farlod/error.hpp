@@ -35,7 +35,8 @@ class FARLOD_EXPORT InvalidPoint : public InvalidArgument {
   std::size_t index_;
 };
 
-/// The caller asked a run to stop (RunSettings::stop). What was computed is lost; no file is left half written.
+/// The caller asked a run to stop (RunSettings::stop). No file is left half written. Of a package that was being made, what is
+/// finished stays beside it (PackSettings::resume); what an evaluation has computed is lost.
 class FARLOD_EXPORT Cancelled : public Error {
  public:
   using Error::Error;
@@ -59,6 +60,12 @@ class FARLOD_EXPORT OutputError : public Error {
   using Error::Error;
   OutputError(const std::filesystem::path& path, const std::string& reason)
       : Error("cannot write " + path.string() + ": " + reason) {}
+};
+
+/// Another process is at work on the same package or file: it can be tried again later.
+class FARLOD_EXPORT Busy : public OutputError {
+ public:
+  using OutputError::OutputError;
 };
 
 /// A package that cannot be opened or used at all: it is not there, not a package, of another version of the format, or has not

@@ -19,6 +19,7 @@
 #include "farlod/point.hpp"
 #include "farlod/problem.hpp"
 #include "farlod/run.hpp"
+#include "farlod/shard.hpp"
 
 namespace farlod {
 
@@ -99,6 +100,15 @@ struct PackSettings {
   /// the same city and settings, they are added to it: its files become those of one run for all areas, whatever their order.
   /// Coordinates of a rectangle are within 100,000 km.
   std::optional<FarMapArea> area = {};
+
+  /// Goes on with what an interrupted run has left, as any run does whose inputs and settings are the same; but where they are not,
+  /// this is refused, with what differs. A package that is there is not refused: what is damaged or missing of it is made anew.
+  bool resume = false;
+  /// Makes one part of the package, and leaves it beside `output` for `merge`. The first shard that comes reads the city; the
+  /// others wait for it, and read what they need of it.
+  std::optional<Shard> shard = {};
+  /// Puts together what all shards have made. `inputs` may be empty; where they are not, they and the settings must be the same.
+  bool merge = false;
 };
 
 /// The expected cost of a run, estimated when the grid is known. An estimate, not a bound.
@@ -153,6 +163,8 @@ struct PackResult {
   std::uint64_t package_bytes = 0;
   std::uint64_t far_map_bytes = 0;  ///< of the far maps that this run wrote
   PackEstimate estimate;
+  std::uint64_t blocks = 0;        ///< that this run was to make: all of the package, or those of its shard
+  std::uint64_t blocks_found = 0;  ///< of these, that were finished before
   /// In the order in which the stages ran. The package is written while far maps are baked, so that these two overlap.
   std::vector<std::pair<std::string, double>> stage_seconds;
 };
@@ -161,10 +173,11 @@ struct PackResult {
 using OnEstimate = std::function<void(const PackEstimate&)>;
 
 /// Makes a package from city files. Problems of single buildings are added to the report, as far as the run comes, and end
-/// nothing. The folder appears with its manifest at the end; a run that ends before leaves nothing new that opens as a package. A
-/// package that is to be replaced stays until the first block of its successor is written. One to which far maps are added stays
-/// as it was until its new manifest takes the place of the old one; OutputError says what differs where its city or its settings
-/// are others. Throws InvalidArgument, InputError, ProblemsRefused, OutputError, LimitReached, Cancelled.
+/// nothing. The package is made beside its name, in NAME.farlod.unfinished, and gets its name in one step when it is whole. A
+/// package that is replaced, or to which far maps are added, stays as it was until then, and after that for those who have it
+/// open. A run that ends before leaves what is finished, and the next one with the same inputs and settings goes on with it.
+/// Where far maps are added to a package of another city or of other settings, OutputError says what differs. Throws
+/// InvalidArgument, InputError, ProblemsRefused, OutputError, Busy, LimitReached, Cancelled.
 FARLOD_EXPORT PackResult pack(const PackSettings& settings, Report& report, const RunSettings& run = {},
                               const OnEstimate& on_estimate = {});
 

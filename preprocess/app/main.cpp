@@ -18,6 +18,7 @@
 #include "app/pack_options.hpp"
 #include "app/pack_summary.hpp"
 #include "console/exit_code.hpp"
+#include "console/interruption.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod {
@@ -90,6 +91,19 @@ void print_choice(const ChosenGrid& chosen, const PackOptions& options) {
              m.receivers, m.mean_error, m.max_error, m.p99_half_width);
 }
 
+/// A package, or what a shard has made of one.
+void print_end(const PackResult& result, const PackOptions& options, double seconds) {
+  const std::string output = options.settings.output.string();
+  if (const auto& shard = options.settings.shard)
+    return fmt::print("Shard {}/{} of {}: {} blocks ({} of them were finished before), {:.1f} s. Once all are done: farlod-pack --merge "
+                      "-o {}\n",
+                      shard->index, shard->count, output, result.blocks, result.blocks_found, seconds, output);
+  if (result.blocks_found > 0) fmt::print("{} of {} blocks were finished before.\n", result.blocks_found, result.blocks);
+  fmt::print("{}: {:.1f} MiB ({:.1f} MiB far maps), {} triangles, {:.1f} s\n", output,
+             static_cast<double>(result.package_bytes) / 1048576.0, static_cast<double>(result.far_map_bytes) / 1048576.0,
+             result.package.triangles, seconds);
+}
+
 void print_result(const PackResult& result, const Report& report, const PackOptions& options, double seconds) {
   const PackageDescription& m = result.package;
   fmt::print("{} buildings, {} polygons", m.buildings, m.polygons);
@@ -107,9 +121,7 @@ void print_result(const PackResult& result, const Report& report, const PackOpti
     fmt::print("Far maps: {} of {} cells; receivers in cells without one are traced against the whole city\n",
                m.cells_with_far_map, m.columns * m.rows);
   if (result.chosen) print_choice(*result.chosen, options);
-  fmt::print("{}: {:.1f} MiB ({:.1f} MiB far maps), {} triangles, {:.1f} s\n", options.settings.output.string(),
-             static_cast<double>(result.package_bytes) / 1048576.0, static_cast<double>(result.far_map_bytes) / 1048576.0,
-             m.triangles, seconds);
+  print_end(result, options, seconds);
 }
 
 /// Shows one progress line for each stage.
@@ -139,6 +151,7 @@ class StageProgress {
 PackResult pack_as_told(const PackOptions& options, Report& report) {
   StageProgress progress(options.run.verbosity);
   RunSettings run;
+  run.stop = Interruption::token();
   run.threads = thread_count(options.run);
   run.memory_limit_mib = options.memory_limit_mib;
   run.on_progress = [&progress](const Progress& p) {
@@ -184,6 +197,7 @@ int complain(const std::exception& error, int exit_code) {
 
 int main(int argc, char** argv) {
   using namespace farlod;
+  const Interruption interruption;
   // What one stage frees in large pieces goes back to the system: left to itself, the threshold grows, and keeps them
   // No other thread runs yet. NOLINTNEXTLINE(concurrency-mt-unsafe)
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
@@ -194,8 +208,13 @@ int main(int argc, char** argv) {
     return complain(error, exit_usage);
   } catch (const InputError& error) {
     return complain(error, exit_unusable_input);
+  } catch (const Busy& error) {
+    return complain(error, exit_busy);
   } catch (const OutputError& error) {
     return complain(error, exit_unusable_input);
+  } catch (const Cancelled&) {
+    fmt::print(stderr, "farlod-pack: interrupted. What is finished is kept: the same command goes on with it.\n");
+    return Interruption::exit_code();
   } catch (const LimitReached& error) {
     return complain(error, exit_limit_reached);
   } catch (const std::bad_alloc&) {

@@ -14,6 +14,8 @@
 #include "console/exit_code.hpp"
 #include "console/number_range.hpp"
 #include "console/option_list.hpp"
+#include "console/shard_text.hpp"
+#include "farlod/error.hpp"
 
 namespace farlod {
 namespace {
@@ -27,7 +29,10 @@ ProgramDescription pack_program() {
       .background = {"A grid of square cells is laid over the city. A package holds the geometry of each cell, and a far map: "
                      "what matters there of the city far away.",
                      "One bad building never ends the run. It is reported, and left out or repaired; --report lists each "
-                     "problem, and --strict packs no city that has one."},
+                     "problem, and --strict packs no city that has one.",
+                     "A package is made in NAME.farlod.unfinished, and gets its name in one step when it is whole. A run that "
+                     "is interrupted leaves there what it has finished, and the same command goes on with it. One package may be "
+                     "made by several processes, on several machines: --shard and --merge."},
       .notes = {"Reads CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, OBJ, and footprints in any vector format of GDAL (GeoJSON, "
                 "GeoPackage, Shapefile …); also from folders, .zip and .gz. Several inputs become one city. "
                 "CityGML and OBJ may come through a pipe; - is the standard input."},
@@ -35,7 +40,9 @@ ProgramDescription pack_program() {
                      {exit_internal, "an internal error"},
                      {exit_usage, "a wrong command line"},
                      {exit_unusable_input, "an input cannot be read or used (with --strict: has a problem)"},
-                     {exit_limit_reached, "a limit was reached"}},
+                     {exit_limit_reached, "a limit was reached"},
+                     {exit_busy, "another process is at work on the same package: try again later"},
+                     {exit_interrupted, "and the number of a signal: interrupted; the same command goes on"}},
       .see_also = {"farlod-city", "farlod-info", "farlod-svf"},
       .licence = "GPL-3.0-or-later"};
 }
@@ -46,6 +53,7 @@ struct RawOptions {
   std::string output, origin, up = "z", lod = "best", align = "auto", assign = "clip", far_map = "horizon";
   std::optional<std::string> area;
   std::string terrain, height_field, base_field, storeys_field, roof_field;
+  std::string shard;
   bool force = false, strict = false;
 };
 
@@ -144,6 +152,17 @@ void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->type_name(folder_value)
       ->group("Output");
   app.add_flag("--force", raw.force, "Replace a package that is there already")->group("Output");
+  app.add_flag("--resume", o.settings.resume,
+               "Go on with what a run with the same inputs and options has left, and with no other; make a damaged package whole")
+      ->group("Output");
+  auto* const shard = app.add_option("--shard", raw.shard,
+                                     "Make one part of N, counted from 0: I/N; auto in a job array of Slurm or AWS Batch; auto/N "
+                                     "in an indexed job of Kubernetes")
+                          ->type_name("I/N")
+                          ->group("Output");
+  app.add_flag("--merge", o.settings.merge, "Put the package together of what all shards have made; needs no INPUT")
+      ->excludes(shard)
+      ->group("Output");
   add_area_option(app, raw);
   app.add_option("--memory-limit", o.memory_limit_mib,
                  "Pack within so many MiB of memory, with more on disk; end where no portion is small enough")
@@ -197,6 +216,14 @@ FarMapArea area_in(const std::string& text) {
   return Box2d{{n[0], n[1]}, {n[2], n[3]}};
 }
 
+Shard shard_in(const std::string& text) {
+  try {
+    return shard_from(text, environment_of_process);
+  } catch (const InvalidArgument& error) {
+    throw CLI::ValidationError("--shard", error.what());
+  }
+}
+
 void resolve(const RawOptions& raw, PackOptions& o) {
   PackSettings& s = o.settings;
   for (const std::string& input : raw.inputs) s.inputs.emplace_back(input == "-" ? "/dev/stdin" : input);
@@ -206,7 +233,8 @@ void resolve(const RawOptions& raw, PackOptions& o) {
   s.problems = raw.strict ? ProblemPolicy::refuse : ProblemPolicy::pack;
   if (!raw.terrain.empty()) s.terrain = raw.terrain;
   if (raw.area) s.area = area_in(*raw.area);
-  if (s.inputs.empty() && !s.terrain) throw CLI::RequiredError("INPUT");
+  if (!raw.shard.empty()) s.shard = shard_in(raw.shard);
+  if (s.inputs.empty() && !s.terrain && !s.merge) throw CLI::RequiredError("INPUT");
   if (s.neighborhood && *s.neighborhood % 2 == 0)
     throw CLI::ValidationError("--neighborhood", std::to_string(*s.neighborhood) +
                                                      " is even: a neighborhood has a cell in its middle, give an odd number");

@@ -78,6 +78,8 @@ std::string pack_summary_json(const PackResult& result, const Report& report, do
             {"peak_memory_mib", peak_memory_mib()},
             {"package_bytes", result.package_bytes},
             {"far_map_bytes", result.far_map_bytes},
+            {"blocks", result.blocks},
+            {"blocks_finished_before", result.blocks_found},
             {"estimate", json_of(result.estimate)}};
   if (!result.skipped.empty()) j["skipped"] = result.skipped;
   if (result.chosen) j["chosen"] = json_of(*result.chosen);

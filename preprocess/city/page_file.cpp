@@ -7,12 +7,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <map>
 #include <mutex>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
+
+#include "farlod/error.hpp"
 
 namespace farlod {
 namespace {
@@ -58,14 +62,27 @@ void let_go_of(std::byte* data, std::size_t bytes) { madvise(data, bytes, MADV_D
 }  // namespace
 
 PageFile::PageFile(std::size_t bytes) : file_(make_file()) {
-  if (file_ < 0 || !has_room(file_, bytes)) return;
+  if (file_ >= 0 && has_room(file_, bytes)) (void)map(bytes, PROT_READ | PROT_WRITE);
+}
+
+PageFile PageFile::to_read(const std::filesystem::path& path) {
+  PageFile file;
+  file.file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file.file_ < 0) throw InputError(path.string() + " cannot be read: " + std::generic_category().message(errno));
+  const std::size_t bytes = std::filesystem::file_size(path);
+  if (bytes > 0 && !file.map(bytes, PROT_READ)) throw InputError(path.string() + " cannot be mapped as memory");
+  return file;
+}
+
+bool PageFile::map(std::size_t bytes, int protection) {
   MappedFiles& files = mapped_files();
   const std::lock_guard lock(files.mutex);
-  void* const mapped = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
-  if (mapped == MAP_FAILED) return;
+  void* const mapped = mmap(nullptr, bytes, protection, MAP_SHARED, file_, 0);
+  if (mapped == MAP_FAILED) return false;
   data_ = static_cast<std::byte*>(mapped);
   size_ = bytes;
   files.sizes.emplace(data_, size_);
+  return true;
 }
 
 PageFile::~PageFile() {

@@ -3,16 +3,20 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 
 namespace farlod {
 
-/// A temporary file without a name (in $TMPDIR, or else in /var/tmp or /tmp), mapped as memory. It ends with its object. Of its
-/// pages, those in use take memory.
+/// A temporary file without a name (in $TMPDIR, or else in /var/tmp or /tmp), mapped as memory, which ends with its object; or a
+/// file that is there, mapped to be read. Of its pages, those in use take memory.
 class PageFile {
  public:
   PageFile() = default;
   /// Reserves the room on the disk. Has no bytes where no file can be made or the disk has no room.
   explicit PageFile(std::size_t bytes);
+  /// A file that is there: it is not written to, and stays. Throws InputError where it cannot be mapped. Has no bytes where the
+  /// file is empty.
+  [[nodiscard]] static PageFile to_read(const std::filesystem::path& path);
   PageFile(PageFile&& other) noexcept { swap(other); }
   PageFile& operator=(PageFile&& other) noexcept {
     swap(other);
@@ -32,6 +36,7 @@ class PageFile {
 
  private:
   void swap(PageFile& other) noexcept;
+  [[nodiscard]] bool map(std::size_t bytes, int protection);
 
   std::byte* data_ = nullptr;
   std::size_t size_ = 0;

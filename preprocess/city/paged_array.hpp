@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <initializer_list>
 #include <memory>
 #include <new>
@@ -27,6 +28,13 @@ class PagedArray {
   PagedArray() = default;
   PagedArray(std::initializer_list<T> elements) { append(elements); }
   PagedArray(const std::vector<T>& elements) { append(elements); }  // NOLINT(google-explicit-constructor): what holds the same
+  /// What a file holds from its beginning to its end, as raw elements. They may be read only. Throws InputError.
+  [[nodiscard]] static PagedArray of_file(const std::filesystem::path& path) {
+    PagedArray array;
+    array.pages_ = Pages(PageFile::to_read(path));
+    array.size_ = array.pages_.capacity() / sizeof(T);
+    return array;
+  }
   PagedArray(const PagedArray& other) { append(other); }
   PagedArray(PagedArray&& other) noexcept : pages_(std::move(other.pages_)), size_(std::exchange(other.size_, 0)) {}
   PagedArray& operator=(PagedArray other) noexcept {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 
 #include "city/page_file.hpp"
 
@@ -16,6 +17,8 @@ class Pages {
   static constexpr std::size_t least_on_disk = std::size_t{16} << 20;
 
   Pages() = default;
+  /// What a file holds. It may be read only.
+  explicit Pages(PageFile file) : data_(file.data()), capacity_(file.size()), file_(std::move(file)) {}
   Pages(Pages&& other) noexcept { swap(other); }
   Pages& operator=(Pages&& other) noexcept {
     swap(other);

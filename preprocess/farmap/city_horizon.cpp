@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace farlod {
 namespace {
@@ -23,6 +24,18 @@ CityHorizon::CityHorizon(const TileSet& tiles, const Grid& grid)
   if (occluders_.empty()) return;
   nodes_.push_back({});
   build(0, cells_);
+}
+
+CityHorizon::CityHorizon(const Grid& grid, PagedArray<OccluderEdge> occluders, PagedArray<Node> nodes)
+    : grid_(grid),
+      origin_grid_(grid.middle_corner()),
+      cells_(grid.cells),
+      occluders_(std::move(occluders)),
+      nodes_(std::move(nodes)) {}
+
+void CityHorizon::let_go() const {
+  occluders_.let_go();
+  nodes_.let_go();
 }
 
 void CityHorizon::gather(const Tile& tile, Cell cell) {

@@ -36,7 +36,11 @@ struct OccluderEdge {
 /// Frame: the grid frame moved to the corner of the middle cell, with heights as in the tiles.
 class CityHorizon {
  public:
+  struct Node;
+
   CityHorizon(const TileSet& tiles, const Grid& grid);
+  /// One that was made before, of its occluders and its nodes.
+  CityHorizon(const Grid& grid, PagedArray<OccluderEdge> occluders, PagedArray<Node> nodes);
 
   /// A box around everything in a rectangle of cells, or around some of what is in a cell; its children divide it.
   struct Node {
@@ -50,6 +54,8 @@ class CityHorizon {
   /// The root is the first, unless the city is empty.
   [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
   [[nodiscard]] std::span<const OccluderEdge> occluders() const { return occluders_; }
+  /// Gives back the memory of both, as far as they lie on disk.
+  void let_go() const;
   [[nodiscard]] Point2d corner_of(Cell cell) const { return grid_.corner_of(cell) - origin_grid_; }
 
  private:

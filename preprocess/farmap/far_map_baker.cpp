@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "farmap/far_map_baker.hpp"
 
+#include <utility>
 #include <vector>
 
 #include "farmap/box_map_baker.hpp"
@@ -16,6 +17,9 @@ FarMapBaker::FarMapBaker(const TileSet& tiles, const Grid& grid, Assign assign, 
     horizon_ = std::make_unique<HorizonMapBaker>(tiles, grid, settings.horizon);
   }
 }
+FarMapBaker::FarMapBaker(const TileSet& tiles, const Grid& grid, const HorizonMapSettings& settings, CityHorizon city)
+    : grid_(grid), horizon_(std::make_unique<HorizonMapBaker>(tiles, grid, settings, std::move(city))) {}
+const CityHorizon* FarMapBaker::horizon() const { return horizon_ ? &horizon_->city() : nullptr; }
 FarMapBaker::FarMapBaker(FarMapBaker&&) noexcept = default;
 FarMapBaker::~FarMapBaker() = default;
 

@@ -15,6 +15,7 @@
 namespace farlod {
 
 class BoxMapBaker;
+class CityHorizon;
 class HorizonMapBaker;
 
 /// Bakes far maps of the kind that the settings ask for.
@@ -22,8 +23,13 @@ class FarMapBaker {
  public:
   /// The tiles and the grid must outlive the baker.
   FarMapBaker(const TileSet& tiles, const Grid& grid, Assign assign, const FarMapSettings& settings);
+  /// Of the kind `horizon`, of the occluders of these tiles.
+  FarMapBaker(const TileSet& tiles, const Grid& grid, const HorizonMapSettings& settings, CityHorizon city);
   FarMapBaker(FarMapBaker&&) noexcept;
   ~FarMapBaker();
+
+  /// The occluders of far maps of the kind `horizon`; null for the kind `box`.
+  [[nodiscard]] const CityHorizon* horizon() const;
 
   /// In the order of CellRange::index_of. The same for any number of threads. Throws Cancelled when `stop` is asked for.
   [[nodiscard]] BakedBlock bake(Block block, const std::stop_token& stop = {}) const;

@@ -103,7 +103,10 @@ class BlockOccluders {
 }  // namespace
 
 HorizonMapBaker::HorizonMapBaker(const TileSet& tiles, const Grid& grid, const HorizonMapSettings& settings)
-    : tiles_(tiles), grid_(grid), settings_(settings), city_(tiles, grid), borders_({settings.azimuth_bins}) {
+    : HorizonMapBaker(tiles, grid, settings, CityHorizon(tiles, grid)) {}
+
+HorizonMapBaker::HorizonMapBaker(const TileSet& tiles, const Grid& grid, const HorizonMapSettings& settings, CityHorizon city)
+    : tiles_(tiles), grid_(grid), settings_(settings), city_(std::move(city)), borders_({settings.azimuth_bins}) {
   // Squares and layers must fit the bits of package::ExplicitOccluder; the street and the roofs are two layers
   FARLOD_EXPECTS(settings.squares_per_edge >= 1 && settings.squares_per_edge <= 4 && settings.layers >= 2 &&
                  settings.layers <= package::most_layers);

@@ -20,6 +20,10 @@ class HorizonMapBaker {
  public:
   /// The tiles and the grid must outlive the baker.
   HorizonMapBaker(const TileSet& tiles, const Grid& grid, const HorizonMapSettings& settings);
+  /// `city` is that of these tiles.
+  HorizonMapBaker(const TileSet& tiles, const Grid& grid, const HorizonMapSettings& settings, CityHorizon city);
+
+  [[nodiscard]] const CityHorizon& city() const { return city_; }
 
   [[nodiscard]] BakedHorizons bake(Block block, const std::stop_token& stop = {}) const;
   /// Of at least one cell. The explicit occluders are in the frame of the first.

@@ -20,7 +20,7 @@ enum class Known {
   all            ///< heights, counts and problems, too
 };
 
-/// A package on disk, to which far maps are added.
+/// A package on disk, to which far maps are added, or which is made whole again.
 class ExistingPackage {
  public:
   /// Reads its manifest. Nothing where the folder has none. Throws OutputError where the manifest cannot be used.
@@ -32,8 +32,10 @@ class ExistingPackage {
   /// Throws OutputError, which names the first difference, where the package is not of the city, the grid and the settings of
   /// `manifest`.
   void require_same(const package::Manifest& manifest, Known known) const;
-  /// The same where the tiles of its blocks on disk are not these, bit for bit. Reads all of them.
+  /// The same where the tiles of its blocks on disk are not these, bit for bit. Reads all of them. Damaged blocks do not count.
   void require_same_tiles(const TileSet& tiles, const Grid& grid) const;
+  /// Whether the files of one of its blocks are those that the manifest names. Reads them, once.
+  [[nodiscard]] bool is_whole(const package::BlockFiles& files) const;
   /// The same where somebody has changed the package since it was found.
   void require_unchanged() const;
   /// In the order of Grid::blocks(), once require_same() has not thrown.

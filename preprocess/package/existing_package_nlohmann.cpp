@@ -7,6 +7,7 @@
 #include <charconv>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -16,6 +17,7 @@
 
 #include "contract/package/layout.hpp"
 #include "package/existing_package.hpp"
+#include "package/file_stamp.hpp"
 #include "package/manifest_writer.hpp"
 #include "package/same_tiles.hpp"
 #include "package/tiles_writer.hpp"
@@ -103,10 +105,11 @@ struct ExistingPackage::Impl {
   std::string text;
   Json manifest;
   std::vector<package::BlockFiles> blocks;
+  std::map<Block, bool> whole;  ///< those that were read
 
   [[noreturn]] void refuse(const std::string& difference) const {
-    throw OutputError("Far maps cannot be added to " + folder.string() + ": " + difference +
-                      ". Let the package be replaced (--force), or choose another folder.");
+    throw OutputError(folder.string() + " is not the package of these inputs and options: " + difference +
+                      ". Let it be replaced (--force), or choose another folder.");
   }
   void require_same(const Json& now, std::span<const char* const> keys) const {
     for (const char* key : keys) {
@@ -126,7 +129,7 @@ std::optional<ExistingPackage> ExistingPackage::find(const fs::path& folder) {
   std::error_code unread;
   const fs::path path = folder / package::manifest_file;
   if (!fs::is_regular_file(path, unread)) return std::nullopt;
-  auto impl = std::make_unique<Impl>(Impl{folder, text_of(path), {}, {}});
+  auto impl = std::make_unique<Impl>(Impl{folder, text_of(path), {}, {}, {}});
   try {
     impl->manifest = Json::parse(impl->text);
     impl->read();
@@ -157,11 +160,18 @@ void ExistingPackage::require_same(const package::Manifest& manifest, Known know
 void ExistingPackage::require_same_tiles(const TileSet& tiles, const Grid& grid) const {
   oneapi::tbb::parallel_for(std::size_t{0}, impl_->blocks.size(), [&](std::size_t n) {
     const package::BlockFiles& files = impl_->blocks[n];
+    if (const auto read = impl_->whole.find(files.block); read != impl_->whole.end() && !read->second) return;
     const fs::path path = impl_->folder / package::folder_of(files) / package::tiles_file;
     const std::string there = text_of(path);
     if (!same_tiles(std::as_bytes(std::span(there)), tiles_file_without_maps(tiles, grid, files.block)))
       impl_->refuse("the tiles in " + path.string() + " are not those of this run (is an option of the input another one?)");
   });
+}
+
+bool ExistingPackage::is_whole(const package::BlockFiles& files) const {
+  const auto [entry, is_new] = impl_->whole.try_emplace(files.block, false);
+  if (is_new) entry->second = are_whole(impl_->folder, files);
+  return entry->second;
 }
 
 void ExistingPackage::require_unchanged() const {

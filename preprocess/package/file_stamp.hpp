@@ -14,4 +14,7 @@ namespace farlod {
 /// Reads the file piece by piece. Throws InputError when it cannot be read.
 [[nodiscard]] package::FileStamp stamp_of(const std::filesystem::path& path);
 
+/// Whether the files of a block are those that were written.
+[[nodiscard]] bool are_whole(const std::filesystem::path& package, const package::BlockFiles& files);
+
 }  // namespace farlod

@@ -4,8 +4,10 @@
 
 #include <fstream>
 #include <memory>
+#include <system_error>
 #include <vector>
 
+#include "contract/package/layout.hpp"
 #include "farlod/error.hpp"
 #include "package/file_stamp.hpp"
 
@@ -27,6 +29,26 @@ package::FileStamp stamp_of(const std::filesystem::path& path) {
   if (!file.eof()) throw InputError(path.string() + " cannot be read");
   stamp.xxh3 = XXH3_64bits_digest(state.get());
   return stamp;
+}
+
+namespace {
+
+bool is_whole(const std::filesystem::path& path, const package::FileStamp& stamp) {
+  std::error_code unread;
+  if (!std::filesystem::is_regular_file(path, unread) || std::filesystem::file_size(path, unread) != stamp.bytes) return false;
+  try {
+    return stamp_of(path) == stamp;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+bool are_whole(const std::filesystem::path& package, const package::BlockFiles& files) {
+  const std::filesystem::path folder = package / package::folder_of(files);
+  return is_whole(folder / package::tiles_file, files.tiles) &&
+         (!files.has_far_maps() || is_whole(folder / package::far_map_file, files.far_map));
 }
 
 }  // namespace farlod

@@ -16,6 +16,9 @@
 
 namespace farlod::pipeline {
 
+/// What of a package a run makes.
+enum class PackPart { whole, shard, merge };
+
 /// From which files a package is made, and what each stage is told.
 struct StageSettings {
   std::vector<std::filesystem::path> inputs;  ///< files, folders and archives; may be empty when there is a terrain
@@ -32,6 +35,9 @@ struct StageSettings {
   /// `far_map` are not used.
   std::optional<ChoiceSettings> choice;
   std::optional<FarMapArea> area = {};
+  PackPart part = PackPart::whole;
+  bool resume = false;
+  Shard shard = {};  ///< with PackPart::shard
 };
 
 /// Throws InvalidArgument where a setting is not what its declaration promises.
@@ -42,8 +48,8 @@ struct PackedCity : PackResult {
   package::Manifest manifest;
 };
 
-/// Runs the stages from city files to a package: ingest, georeference, align, tiles, far maps, package. Problems of single
-/// buildings are reported. Throws what farlod::pack throws, and OcclusionError. If problems are refused, throws ProblemsRefused
+/// Runs the stages from city files to a package: ingest, georeference, align, tiles, far maps, package. What an earlier run of the
+/// same origin has finished is taken over. Problems of single buildings are reported. Throws what farlod::pack throws, and OcclusionError. If problems are refused, throws ProblemsRefused
 /// when the report is complete, after the tiles and before the far maps; nothing is written then.
 PackedCity pack(const StageSettings& settings, Report& report, const RunSettings& run = {}, const OnEstimate& on_estimate = {});
 

@@ -13,7 +13,7 @@ namespace {
 
 void check_files(const PackSettings& s) {
   if (s.output.empty()) throw InvalidArgument("output is empty: give the folder of the package, NAME.farlod");
-  if (s.inputs.empty() && !s.terrain) throw InvalidArgument("inputs are empty: give a city file, or a terrain");
+  if (s.inputs.empty() && !s.terrain && !s.merge) throw InvalidArgument("inputs are empty: give a city file, or a terrain");
   for (const std::filesystem::path& input : s.inputs)
     if (input.empty()) throw InvalidArgument("one of the inputs has an empty name: give the path of a file or a folder");
   if (s.terrain && s.terrain->empty()) throw InvalidArgument("terrain is empty: give the path of a raster, or no terrain");
@@ -64,6 +64,12 @@ void check_area(const PackSettings& s) {
     throw InvalidArgument("area is empty: give a rectangle whose low is less than its high, in both coordinates");
 }
 
+void check_parts(const PackSettings& s) {
+  if (s.shard && s.merge) throw InvalidArgument("shard and merge exclude each other: merge when all shards are done");
+  if (s.shard && s.shard->index >= s.shard->count)
+    throw InvalidArgument(fmt::format("there is no shard {} of {}: they count from 0", s.shard->index, s.shard->count));
+}
+
 /// Half of the error is left for the sky between the samples of an evaluation. What the caller fixes is not chosen.
 ChoiceSettings choice_of(const PackSettings& s) {
   ChoiceSettings choice;
@@ -80,6 +86,7 @@ StageSettings resolved(const PackSettings& s) {
   check_input(s);
   check_grid(s);
   check_area(s);
+  check_parts(s);
   StageSettings stages;
   stages.inputs = s.inputs;
   stages.terrain = s.terrain;
@@ -97,6 +104,12 @@ StageSettings resolved(const PackSettings& s) {
   stages.problems = s.problems;
   stages.area = s.area;
   if (s.max_error) stages.choice = choice_of(s);
+  stages.resume = s.resume;
+  if (s.merge) stages.part = PackPart::merge;
+  if (s.shard) {
+    stages.part = PackPart::shard;
+    stages.shard = *s.shard;
+  }
   return stages;
 }
 

@@ -123,7 +123,7 @@ TEST_F(TownWithAnArea, SaysHowManyFarMapsThereAre) {
 
 TEST_F(TownWithAnArea, AnotherCityIsRefused) {
   expect_refusal(folder.run("farlod-pack town.geojson -o part.farlod --cell 25 --area " + area()), exit_unusable_input,
-                 {"cannot be added to part.farlod", "grid.cell_m", "--force"});
+                 {"part.farlod is not the package of these inputs and options", "grid.cell_m", "--force"});
   folder.must("farlod-pack town.geojson -o part.farlod --cell 25 --force --quiet --area " + area());
 }
 

@@ -66,7 +66,7 @@ Files blocks_written_in(const std::vector<Block>& order, FarMapKind kind) {
   const FarMapSettings settings = scenes::small_maps(kind);
   const FarMapBaker baker(tiles, grid, Assign::clip, settings);
   const scenes::TemporaryFolder folder;
-  PackageWriter writer(folder.path() / "town.farlod", Overwrite::refuse);
+  PackageWriter writer(folder.path() / "town.farlod");
   for (const Block block : order) (void)writer.write_block(tiles, baker.bake(block), grid, block, shape_of(settings));
   return files_in(folder.path());
 }

@@ -119,7 +119,7 @@ FarMapCost pack_tiles(const TileSet& tiles, const Grid& grid, const std::filesys
                       Assign assign, const ChosenCells& only) {
   package::Manifest manifest = manifest_of(tiles, grid, far_map, assign);
   const ChosenMaps maps(tiles, grid, assign, far_map, only);
-  PackageWriter writer(folder, Overwrite::refuse);
+  PackageWriter writer(folder);
   FarMapCost cost;
   for (const Block block : grid.blocks()) {
     const std::vector<Cell> chosen = maps.chosen_of(block);
@@ -133,7 +133,7 @@ FarMapCost pack_tiles(const TileSet& tiles, const Grid& grid, const std::filesys
     cost.cells_of_whole_blocks += chosen.size();
     cost.bytes_of_whole_blocks += writer.far_map_bytes() - bytes_before;
   }
-  writer.finish(manifest);
+  writer.write_manifest(manifest);
   return cost;
 }
 

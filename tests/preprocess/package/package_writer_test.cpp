@@ -39,7 +39,7 @@ class PackageWriting : public testing::Test {
 
   scenes::TemporaryFolder folder_;
   fs::path package_ = folder_.path() / "town.farlod";
-  PackageWriter writer_{package_, Overwrite::refuse};
+  PackageWriter writer_{package_};
   Grid grid_;
   TileSet tiles_;
   package::FarMapShape shape_;
@@ -68,6 +68,7 @@ TEST_F(PackageWriting, SaysThatAFileCannotBePutInItsPlace) {
 }
 
 TEST_F(PackageWriting, SaysThatAFolderCannotBeMade) {
+  fs::create_directories(block().parent_path());
   std::ofstream(block()) << "a file";
   EXPECT_THAT(complaint(), HasSubstr(block().string()));
 }

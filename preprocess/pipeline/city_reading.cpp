@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/city_reading.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "city/plan_boxes.hpp"
+#include "farlod/error.hpp"
+#include "georeference/terrain_reader.hpp"
+
+namespace farlod::pipeline {
+namespace {
+
+/// The bounding rectangle of the grid in the city frame.
+Box2d city_outline(const Grid& grid) {
+  const auto [low, high] = grid.rectangle();
+  Box2d outline;
+  for (const Point2d corner : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}})
+    outline.add(grid.rotation.city_from_grid(corner));
+  return outline;
+}
+
+Box2d outline_of(const TerrainRaster& terrain) {
+  Box2d outline;
+  outline.add(terrain.first);
+  outline.add(terrain.node(terrain.columns - 1, terrain.rows - 1));
+  return outline;
+}
+
+Box2d outline_of(std::span<const Point3d> points) {
+  Box2d outline;
+  for (const Point3d& p : points) outline.add(horizontal(p));
+  return outline;
+}
+
+/// The outline of a city without buildings: that of its terrain or relief.
+Box2d ground_outline(const LocatedCity& located, const std::optional<TerrainRaster>& terrain) {
+  return terrain ? outline_of(*terrain) : outline_of(located.relief_points);
+}
+
+void require_one_raster(const std::vector<ingest::InputFile>& surface_models,
+                        const std::optional<std::filesystem::path>& terrain) {
+  const std::string& first = surface_models.front().name;
+  if (surface_models.size() > 1)
+    throw InputError(first + " and " + surface_models[1].name +
+                     " are both rasters of heights: give one of them, or their mosaic.");
+  if (terrain)
+    throw InputError(first + " is a raster of heights, and so is --terrain " + terrain->string() + ": give one of them.");
+}
+
+void require_ground_below_roofs(const CityModel& city) {
+  const auto buildings = city.buildings();
+  const auto lacks_foot = [](const Building& b) { return b.height_reference == HeightReference::down_to_ground; };
+  if (std::none_of(buildings.begin(), buildings.end(), lacks_foot)) return;
+  throw InputError(
+      "--roof-field tells where roofs are, but not how far down the buildings reach: give --terrain DEM, or --base-field "
+      "NAME where the table knows the ground.");
+}
+
+/// Runs the stages from files to a grid over the city.
+class CityReading {
+ public:
+  CityReading(CityFiles files, const StageSettings& settings, Report& report, const std::stop_token& stop,
+              const RunStage& run_stage)
+      : files_(std::move(files)), settings_(settings), report_(report), stop_(stop), run_stage_(run_stage) {
+    read_.far_map = settings.far_map;
+    read_.skipped = std::move(files_.skipped);
+  }
+
+  ReadCity run() {
+    std::vector<SourceCity> sources;
+    if (!files_.files.empty()) run_stage_("ingest", [&] { sources = ingest(); });
+    run_stage_("georeference", [&] { locate(std::move(sources)); });
+    require_usable();
+    const align::GridSettings grid = choose_settings();
+    read_.ground = lay_grid(grid, report_, run_stage_);
+    return std::move(read_);
+  }
+
+ private:
+  std::vector<SourceCity> ingest() {
+    std::vector<SourceCity> sources = ingest::ingest_all(files_.files, settings_.ingest, report_, stop_);
+    for (SourceCity& source : sources) {
+      for (const auto& [what, count] : source.skipped) read_.skipped[what] += count;
+      std::move(source.notes.begin(), source.notes.end(), std::back_inserter(read_.notes));
+    }
+    return sources;
+  }
+
+  void locate(std::vector<SourceCity> sources) {
+    georeference::GeoreferenceSettings settings = settings_.georeference;
+    if (sources.empty()) {
+      read_.located = {{}, georeference::georeference_of_terrain(*files_.terrain, settings)};
+      return;
+    }
+    settings.crs_is_for_another |= files_.terrain && georeference::read_terrain_extent(*files_.terrain).crs_wkt.empty();
+    read_.located = georeference::georeference(std::move(sources), settings, report_);
+  }
+
+  void require_usable() {
+    if (files_.files.empty()) return;
+    if (read_.located.city.buildings().empty() && read_.located.relief_points.empty())
+      throw InputError("No building is left to pack: see --report for what was wrong with each of them.");
+    resolve_relief();
+    if (!files_.terrain && read_.located.relief_points.empty()) require_ground_below_roofs(read_.located.city);
+  }
+
+  /// Drops a relief that is not used: a raster replaces it, or it lies elsewhere than the city. Counts its points as skipped.
+  void resolve_relief() {
+    LocatedCity& located = read_.located;
+    if (located.relief_points.empty()) return;
+    const bool is_elsewhere = !located.city.buildings().empty() &&
+                              !boxes_meet(outline_of(located.relief_points), outline_of(std::as_const(located.city).points()));
+    if (!files_.terrain && !is_elsewhere) return;
+    const char* reason = files_.terrain ? " (the raster stands in for them)" : " (none lies where the city is)";
+    read_.skipped[std::string("points of reliefs") + reason] += located.relief_points.size();
+    located.relief_points.clear();
+  }
+
+  [[nodiscard]] align::GridSettings choose_settings() {
+    align::GridSettings settings = settings_.grid;
+    if (!settings_.choice) return settings;
+    run_stage_("choice", [&] { read_.best = choose(*settings_.choice); });
+    read_.is_chosen = true;
+    if (!read_.best) return settings;
+    settings.cell_edge_m = read_.best->cell_edge_m;
+    settings.neighborhood = read_.best->neighborhood;
+    read_.far_map.horizon.tolerance = read_.best->tolerance;
+    return settings;
+  }
+
+  /// Tries grids. What is wrong with the city is reported once, when it is packed.
+  [[nodiscard]] std::optional<GridChoice> choose(const ChoiceSettings& choice) const {
+    Report unread;
+    const RunStage run_untimed = [](const std::string&, const std::function<void()>& work) { work(); };
+    const auto lay = [&](double cell_edge_m) {
+      align::GridSettings settings = settings_.grid;
+      settings.cell_edge_m = cell_edge_m;
+      GridOnGround ground = lay_grid(settings, unread, run_untimed);
+      return std::pair(ground.grid, std::move(ground.terrain));
+    };
+    return choose_grid(read_.located, lay, settings_.assign, settings_.far_map.horizon, choice, stop_);
+  }
+
+  /// Buildings decide where the grid lies, and of a terrain only what it covers is read; a terrain alone decides itself.
+  [[nodiscard]] GridOnGround lay_grid(const align::GridSettings& settings, Report& report, const RunStage& run_stage) const {
+    std::optional<TerrainRaster> terrain;
+    const auto read = [&](const std::optional<Box2d>& wanted_city) {
+      if (files_.terrain) run_stage("terrain", [&] { terrain = read_ground(*files_.terrain, wanted_city); });
+    };
+    if (read_.located.city.buildings().empty()) {
+      read(std::nullopt);
+      Grid grid;
+      run_stage("align", [&] { grid = align::grid_over(ground_outline(read_.located, terrain), settings); });
+      return {grid, std::move(terrain)};
+    }
+    align::GridAlignment aligned;
+    run_stage("align", [&] { aligned = align::align(read_.located, settings, report); });
+    read(city_outline(aligned.grid));
+    return {aligned.grid, std::move(terrain), aligned.streets};
+  }
+
+  [[nodiscard]] TerrainRaster read_ground(const std::filesystem::path& file, const std::optional<Box2d>& wanted_city) const {
+    TerrainRaster terrain =
+        georeference::read_terrain(file, settings_.georeference.crs, read_.located.georeference, wanted_city);
+    if (std::none_of(terrain.height_m.begin(), terrain.height_m.end(), [](const auto& height) { return height.has_value(); }))
+      throw InputError(file.string() + " has no heights where the city lies: give a terrain that covers it.");
+    return terrain;
+  }
+
+  CityFiles files_;
+  const StageSettings& settings_;
+  Report& report_;
+  const std::stop_token& stop_;
+  const RunStage& run_stage_;
+  ReadCity read_;
+};
+
+}  // namespace
+
+CityFiles find_city_files(const StageSettings& settings, Report& report) {
+  CityFiles city{{}, {}, settings.terrain, settings.terrain, {}};
+  if (settings.inputs.empty()) return city;
+  ingest::FoundInputs found = ingest::find_input_files(settings.inputs, report);
+  if (!found.surface_models.empty()) {
+    require_one_raster(found.surface_models, settings.terrain);
+    city.terrain = found.surface_models.front().path;
+    city.terrain_on_disk = found.surface_models.front().on_disk;
+  }
+  for (const ingest::InputFile& file : found.files) city.on_disk.push_back(file.on_disk);
+  city.on_disk.erase(std::unique(city.on_disk.begin(), city.on_disk.end()), city.on_disk.end());
+  city.files = std::move(found.files);
+  city.skipped = std::move(found.skipped);
+  return city;
+}
+
+ReadCity read_city(CityFiles files, const StageSettings& settings, Report& report, const std::stop_token& stop,
+                   const RunStage& run_stage) {
+  return CityReading(std::move(files), settings, report, stop, run_stage).run();
+}
+
+}  // namespace farlod::pipeline
