@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "align/area_cells.hpp"
@@ -103,20 +102,6 @@ std::vector<double> costs_of(const BlockPlan& plan, const TileSet& tiles, const 
     costs.push_back(planned.kept ? 0.0 : cost);
   }
   return costs;
-}
-
-std::vector<std::size_t> blocks_of_shard(std::span<const double> costs, Shard shard) {
-  const double all = std::accumulate(costs.begin(), costs.end(), 0.0);
-  std::vector<std::size_t> blocks;
-  double before = 0.0;
-  for (std::size_t n = 0; n < costs.size(); ++n) {
-    // A block belongs to the shard in whose share its middle lies
-    const double middle = all > 0.0 ? (before + 0.5 * costs[n]) / all : 0.0;
-    const auto owner = std::min(static_cast<std::size_t>(middle * static_cast<double>(shard.count)), shard.count - 1);
-    if (owner == shard.index) blocks.push_back(n);
-    before += costs[n];
-  }
-  return blocks;
 }
 
 }  // namespace farlod::pipeline

@@ -5,13 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "city/located_city.hpp"
 #include "contract/grid.hpp"
 #include "contract/package/manifest.hpp"
-#include "farlod/shard.hpp"
 #include "georeference/area_reader.hpp"
 #include "package/existing_package.hpp"
 #include "tiles/tile_set.hpp"
@@ -41,10 +39,6 @@ struct BlockPlan {
 
 /// The far maps that a block has afterwards.
 [[nodiscard]] std::size_t far_maps_of(const PlannedBlock& planned, const Grid& grid);
-
-/// The blocks of a plan that a shard makes, by their places in it: runs of neighbouring ones whose cost is about the same for each
-/// shard, as far as blocks can be divided.
-[[nodiscard]] std::vector<std::size_t> blocks_of_shard(std::span<const double> costs, Shard shard);
 
 /// What it costs to make each block of the plan: seconds of one core, about. 0 for blocks that are kept.
 [[nodiscard]] std::vector<double> costs_of(const BlockPlan& plan, const TileSet& tiles, const Grid& grid);

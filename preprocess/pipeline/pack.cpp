@@ -16,6 +16,7 @@
 #include "city/memory_bound.hpp"
 #include "contract/cancellation.hpp"
 #include "contract/package/description.hpp"
+#include "contract/shard_parts.hpp"
 #include "farlod/error.hpp"
 #include "farmap/far_map_baker.hpp"
 #include "georeference/problem_locator.hpp"
@@ -233,7 +234,7 @@ class Packing {
     if (is_shard && !target.saved_city())
       timed("save", [&] { target.save_city(city.tiles, baker ? baker->horizon() : nullptr, record_, run_.stop); });
     const Shard shard = is_shard ? settings_.shard : Shard{};
-    const std::vector<std::size_t> places = blocks_of_shard(record_.costs, shard);
+    const std::vector<std::size_t> places = parts_of_shard(record_.costs, shard);
     const BlockSource source{city.tiles, grid, result.manifest.far_map, baker ? &*baker : nullptr};
     const BlockTally tally = make_blocks(source, record_.plan, places, target.unfinished(), run_, blocks_at_once_);
     throw_if_cancelled(run_.stop);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "contract/package/layout.hpp"
+#include "contract/shard_parts.hpp"
 #include "farlod/error.hpp"
 #include "package/package_place.hpp"
 #include "package/saved_city.hpp"
@@ -60,7 +61,7 @@ std::string missing_text(const CityRecord& record, const std::set<std::size_t>& 
   std::string text;
   for (std::size_t index = 0; index < shards; ++index) {
     std::string blocks;
-    for (const std::size_t n : blocks_of_shard(record.costs, {index, shards}))
+    for (const std::size_t n : parts_of_shard(record.costs, {index, shards}))
       if (missing.contains(n)) {
         const Block b = record.plan.blocks[n].block;
         blocks += " " + std::to_string(b.i) + "_" + std::to_string(b.j);

@@ -52,7 +52,7 @@ WrittenRun write_enriched_city(const Package& package, const SvfOptions& options
       evaluate_surfaces(package, options.surfaces, options.evaluation, histogram.is_wanted() ? count : OnSurfacePoints{}, run);
   WrittenRun written{means.summary};
   written.output_bytes = static_cast<double>(std::filesystem::file_size(options.city_file));
-  if (options.evaluation.dry_run) return written;
+  if (!options.writes()) return written;
   written.files = {options.output};
   const auto start = std::chrono::steady_clock::now();
   const auto extent = options.evaluation.region ? EnrichedExtent::part_of_the_city : EnrichedExtent::whole_buildings;

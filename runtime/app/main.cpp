@@ -8,6 +8,7 @@
 #include <new>
 
 #include "app/enriched_city.hpp"
+#include "app/kept_work.hpp"
 #include "app/output_files.hpp"
 #include "app/region_of_package.hpp"
 #include "app/sun_of_package.hpp"
@@ -16,6 +17,7 @@
 #include "app/verification_file.hpp"
 #include "app/written_run.hpp"
 #include "console/exit_code.hpp"
+#include "console/interruption.hpp"
 #include "console/rough_number.hpp"
 #include "farlod/error.hpp"
 
@@ -28,6 +30,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 RunSettings run_settings(const SvfOptions& options, ProgressLine& progress) {
   RunSettings run;
+  run.stop = Interruption::token();
   run.threads = thread_count(options.run);
   run.memory_limit_mib = options.memory_limit_mib;
   if (!options.evaluation.dry_run) run.on_progress = [&progress](const Progress& p) { progress.update(p.done, p.all); };
@@ -41,7 +44,9 @@ WrittenRun evaluate(SvfOptions options) {
   options.evaluation.region = region_of_package(options, package.description());
   if (options.sunshine) options.evaluation.further.sun = sun_of_package(package.description(), *options.sunshine);
   ProgressLine progress("sky view factors", options.run.verbosity);
-  const RunSettings run = run_settings(options, progress);
+  KeptWork kept(options);
+  RunSettings run = run_settings(options, progress);
+  kept.tell(run);
   const bool is_city = !options.city_file.empty();
   const bool is_sky = options.source == ReceiverSource::at && options.format->is_picture;
   WrittenRun written = is_city                                      ? write_enriched_city(package, options, run)
@@ -51,9 +56,15 @@ WrittenRun evaluate(SvfOptions options) {
                                                                     : write_points(package, options, run);
   written.further_columns = columns_of(options.evaluation.further);
   written.open_s = open_s;
+  if (!kept.finding().empty()) written.notes.insert(written.notes.begin(), kept.finding());
   if (options.evaluation.dry_run) return written;
+  if (options.shard) {
+    kept.finish();
+    return written;
+  }
   if (!options.histogram_file.empty()) written.files.emplace_back(options.histogram_file);
   if (options.verify_format != nullptr) write_verification(package, options, run.threads, written);
+  kept.finish();
   return written;
 }
 
@@ -115,6 +126,12 @@ void print_run(const WrittenRun& written, const SvfOptions& options, double tota
   for (const auto& file : written.files) fmt::print("{}\n", file.string());
 }
 
+void print_shard(const WrittenRun& written, const SvfOptions& options, double total_s) {
+  for (const std::string& note : written.notes) fmt::print("{}\n", note);
+  fmt::print("Shard {}/{} of {}: {} receivers, {:.1f} s. Once all are done, the same command with --merge writes it.\n",
+             options.shard->index, options.shard->count, options.output.string(), written.summary.receivers, total_s);
+}
+
 int run(const SvfOptions& options) {
   // The process is the program's: as many threads as are asked for, also where there are fewer cores
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
@@ -127,7 +144,12 @@ int run(const SvfOptions& options) {
   const double total_s = seconds_since(start);
   write_summary(options.run.summary_file, svf_summary_json(result, options, total_s));
   if (options.run.verbosity != Verbosity::normal) return exit_done;
-  result.summary.estimate ? print_estimate(result, *result.summary.estimate) : print_run(result, options, total_s);
+  if (result.summary.estimate)
+    print_estimate(result, *result.summary.estimate);
+  else if (options.shard)
+    print_shard(result, options, total_s);
+  else
+    print_run(result, options, total_s);
   return exit_done;
 }
 
@@ -150,6 +172,7 @@ int complain_of_memory(const LimitReached& error) {
 
 int main(int argc, char** argv) {
   using namespace farlod;
+  const Interruption interruption;
   try {
     const ParsedSvfOptions parsed = parse_svf_options(argc, argv);
     return parsed.options ? run(*parsed.options) : parsed.exit_code;
@@ -161,8 +184,13 @@ int main(int argc, char** argv) {
     return complain(error, exit_unusable_input);
   } catch (const InputError& error) {
     return complain(error, exit_unusable_input);
+  } catch (const Busy& error) {
+    return complain(error, exit_busy);
   } catch (const OutputError& error) {
     return complain(error, exit_unusable_input);
+  } catch (const Cancelled&) {
+    fmt::print(stderr, "farlod-svf: interrupted. The answers so far are kept: the same command goes on with them.\n");
+    return Interruption::exit_code();
   } catch (const LimitReached& error) {
     return complain_of_memory(error);
   } catch (const std::bad_alloc&) {

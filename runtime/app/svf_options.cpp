@@ -12,6 +12,7 @@
 
 #include "app/format_advice.hpp"
 #include "app/picture_options.hpp"
+#include "app/work_options.hpp"
 #include "console/exit_code.hpp"
 #include "console/number_range.hpp"
 #include "console/option_list.hpp"
@@ -40,7 +41,9 @@ ProgramDescription svf_program() {
                      {exit_usage, "a wrong command line"},
                      {exit_unusable_input, "an input cannot be read or used"},
                      {exit_damaged_package, "a damaged package"},
-                     {exit_limit_reached, "a limit was reached"}},
+                     {exit_limit_reached, "a limit was reached"},
+                     {exit_busy, "another process is at work on the same output: try again later"},
+                     {exit_interrupted, "and the number of a signal: interrupted; the same command goes on"}},
       .see_also = {"farlod-city", "farlod-info", "farlod-pack"},
       .licence = "Apache-2.0"};
 }
@@ -51,6 +54,7 @@ std::string known_endings() {
 
 /// Options whose text must be understood after CLI11 has taken them.
 struct RawOptions {
+  std::string shard;
   std::string package, output, city, grid_like, points, along, surfaces, at, bbox, mask, engine = "auto", sky = "cosine",
                                                                                          directions = "partition";
   bool on_surface = false;
@@ -326,6 +330,7 @@ void resolve(const RawOptions& raw, SvfOptions& o) {
   o.evaluation.engine = engine_of(raw.engine);
   o.evaluation.weight = raw.sky == "solid" ? SkyWeight::solid_angle : SkyWeight::cosine;
   resolve_quantities(raw, o);
+  resolve_work(raw.shard, o);
   require_accuracy(o.evaluation);
 }
 
@@ -345,6 +350,7 @@ struct CommandLine {
     add_sky_options(app, raw, options);
     add_error_options(app, options);
     add_limit_options(app, options);
+    add_work_options(app, raw.shard, options);
     add_run_options(app, svf_program().name, options.run);
   }
 };

@@ -13,6 +13,7 @@
 #include "console/run_options.hpp"
 #include "farlod/box.hpp"
 #include "farlod/evaluation.hpp"
+#include "farlod/shard.hpp"
 #include "farlod/surfaces.hpp"
 #include "points/requested_points.hpp"
 #include "results/output_format.hpp"
@@ -45,7 +46,12 @@ struct SvfOptions {
   std::string preview_file, verify_file, histogram_file;
   SkyProjection projection = SkyProjection::equal_area;
   std::optional<std::uint64_t> memory_limit_mib;
+  bool resume = false, merge = false;
+  std::optional<Shard> shard;
   RunOptions run;
+
+  /// Estimates write nothing, and shards leave that to whoever merges them.
+  [[nodiscard]] bool writes() const { return !evaluation.dry_run && !shard; }
 };
 
 /// The options, or the exit code when there is nothing to do (help, version) or the command line is wrong; what there is

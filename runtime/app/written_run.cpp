@@ -143,7 +143,7 @@ RasterPlan plan_of(const Package& package, const SvfOptions& options, [[maybe_un
 
 void add_files(const SvfOptions& options, const RasterFrame& frame, RasterFiles& files) {
   const auto add = [&](const OutputFormat& format, const std::filesystem::path& path) {
-    options.evaluation.dry_run ? files.plan(format, frame) : files.add(format, frame, path);
+    options.writes() ? files.add(format, frame, path) : files.plan(format, frame);
   };
   add(*options.format, options.output);
   if (options.preview_format != nullptr) add(*options.preview_format, options.preview_file);
@@ -170,7 +170,7 @@ WrittenRun write_raster(const Package& package, const SvfOptions& options, RunSe
   };
   written.summary = evaluate_raster(package, plan, options.placing, options.evaluation, take, run);
   written.output_bytes = files.output_bytes();
-  if (options.evaluation.dry_run) return written;
+  if (!options.writes()) return written;
   written.write_s = seconds_of([&] {
     written.files = files.commit();
     histogram.write(options);
@@ -191,7 +191,7 @@ WrittenRun write_points(const Package& package, const SvfOptions& options, RunSe
   written.skipped_features = named.skipped_features;
   written.output_bytes = bytes_of_table(*options.format, columns, named.attributes.names().size() + (named.has_normals() ? 2 : 0),
                                         static_cast<double>(named.ids.size()));
-  if (options.evaluation.dry_run) return written;
+  if (!options.writes()) return written;
   written.files = {options.output};
   const TableFrame frame = frame_of(columns, options, package);
   RunHistogram histogram(options);
@@ -224,13 +224,13 @@ WrittenRun write_sky(const Package& package, const SvfOptions& options, const Ru
 WrittenRun plan_surfaces(const Package& package, const SvfOptions& options, const RunSettings& run) {
   constexpr std::size_t columns_of_surface = 6;
   WrittenRun planned{evaluate_surfaces(package, options.surfaces, options.evaluation, {}, run).summary};
-  planned.output_bytes =
-      bytes_of_table(*options.format, answer_columns(options), columns_of_surface, planned.summary.estimate->receivers);
+  if (const auto& estimate = planned.summary.estimate)
+    planned.output_bytes = bytes_of_table(*options.format, answer_columns(options), columns_of_surface, estimate->receivers);
   return planned;
 }
 
 WrittenRun write_surfaces(const Package& package, const SvfOptions& options, const RunSettings& run) {
-  if (options.evaluation.dry_run) return plan_surfaces(package, options, run);
+  if (!options.writes()) return plan_surfaces(package, options, run);
   const auto writer = options.format->surface_tables_writer(frame_of(answer_columns(options), options, package), options.output);
   RunHistogram histogram(options);
   const auto take = [&](std::size_t cell, std::span<const SurfacePoint> points) {

@@ -48,6 +48,12 @@ std::vector<Point3d> directions_of(const SkyDirections& all, const Point3f& norm
   return all.facing(normalized(Point3d{normal.x, normal.y, normal.z}));
 }
 
+void count(const SkyAnswers& answers, const RayCounts& more) {
+  if (answers.counts == nullptr) return;
+  answers.counts->by_rays += more.by_rays;
+  answers.counts->retraced_rays += more.retraced_rays;
+}
+
 std::vector<Point3f> places_of(std::span<const Receiver> receivers) {
   std::vector<Point3f> places;
   for (const Receiver& r : receivers) places.push_back(r.p_cell);
@@ -327,8 +333,7 @@ void SkyEvaluator::store_packet(const PacketAnswer& packet, const CellReceivers&
                                 const SkyAnswers& answers) const {
   if (packet.by_gap_rays != 0) require_rays_allowed(cell.cell);
   for (std::size_t l = 0; l < numbers.size(); ++l) store(packet.svf[l], cell.receivers[numbers[l]].index, answers);
-  by_rays_ += static_cast<std::uint64_t>(std::popcount(packet.by_rays));
-  retraced_rays_ += packet.retraced_rays;
+  count(answers, {static_cast<std::uint64_t>(std::popcount(packet.by_rays)), packet.retraced_rays});
 }
 
 void SkyEvaluator::require_rays_allowed(Cell cell) const {
@@ -340,7 +345,7 @@ void SkyEvaluator::require_rays_allowed(Cell cell) const {
 }
 
 void SkyEvaluator::count_rays(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const {
-  by_rays_ += cell.receivers.size();
+  count(answers, {cell.receivers.size(), 0});
   std::vector<Receiver> receivers = cell.receivers;
   const auto by_normal = [](const Receiver& a, const Receiver& b) {
     return std::tie(a.normal.x, a.normal.y, a.normal.z) < std::tie(b.normal.x, b.normal.y, b.normal.z);
@@ -360,19 +365,19 @@ void SkyEvaluator::count_rays(CellGeometry& geometry, const CellReceivers& cell,
       throw_if_cancelled(stop_);
       const auto some = group.subspan(first, std::min(ReceiverPacket::lanes, group.size() - first));
       std::vector<FreeRays> free = engine.count(some);
-      if (settings_.max_far_error) retrace(cell.cell, some, engine, free);
+      if (settings_.max_far_error) count(answers, {0, retrace(cell.cell, some, engine, free)});
       for (std::size_t n = 0; n < some.size(); ++n) store(svf_of(free[n], directions_.ray_count()), some[n].index, answers);
     }
   });
 }
 
-void SkyEvaluator::retrace(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine,
-                           std::span<FreeRays> free) const {
+std::uint64_t SkyEvaluator::retrace(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine,
+                                    std::span<FreeRays> free) const {
   const double most = *settings_.max_far_error * static_cast<double>(directions_.ray_count());
   std::uint32_t uncertain = 0;
   for (std::size_t l = 0; l < free.size(); ++l)
     if (std::max(free[l].high - free[l].estimate, free[l].estimate - free[l].low) > most) uncertain |= 1U << l;
-  if (uncertain == 0) return;
+  if (uncertain == 0) return 0;
   const WholeCity& city = city_->get(package_, stop_);
   RayOrigins origins;
   for (std::size_t l = 0; l < receivers.size(); ++l) {
@@ -381,9 +386,9 @@ void SkyEvaluator::retrace(Cell cell, std::span<const Receiver> receivers, const
     origins.y[l] = p.y;
     origins.z[l] = p.z;
   }
-  retraced_rays_ += engine.retrace(city.occluder(), origins, uncertain, free);
+  return engine.retrace(city.occluder(), origins, uncertain, free);
 }
 
-EvaluationStatistics SkyEvaluator::statistics() const { return {scenes_s_, evaluate_s_, by_rays_, retraced_rays_}; }
+EvaluationStatistics SkyEvaluator::statistics() const { return {scenes_s_, evaluate_s_}; }
 
 }  // namespace farlod

@@ -49,11 +49,18 @@ struct SkySettings {
 /// error counts, not how large it is.
 [[nodiscard]] double sampling_error_of(const SkySettings& settings, FarMapOfCell far_map = FarMapOfCell::horizon);
 
+/// What took more than a horizon.
+struct RayCounts {
+  std::uint64_t by_rays = 0;        ///< receivers that needed rays
+  std::uint64_t retraced_rays = 0;  ///< rays traced against the whole city because the far map did not decide them
+};
+
 /// Arrays that take the answers, indexed by Receiver::index. `low` and `high` are empty where bounds are not wanted, `further`
 /// where nothing is that SkySettings::further asks for; otherwise it has a value for each column of each receiver, receiver by
 /// receiver.
 struct SkyAnswers {
   std::span<float> svf, low, high, further;
+  RayCounts* counts = nullptr;  ///< where rays are counted, too, if not null
   explicit SkyAnswers(std::span<float> s, std::span<float> l = {}, std::span<float> h = {}, std::span<float> f = {})
       : svf(s), low(l), high(h), further(f) {}
 };
@@ -61,8 +68,6 @@ struct SkyAnswers {
 /// What an evaluator has done so far.
 struct EvaluationStatistics {
   double scenes_s = 0.0, evaluate_s = 0.0;  ///< summed over threads
-  std::uint64_t by_rays = 0;                ///< receivers that needed rays
-  std::uint64_t retraced_rays = 0;          ///< rays traced against the whole city because the far map did not decide them
 };
 
 /// Computes sky view factors from a package. Thread-safe. The same receivers give the same answers whatever else is evaluated, up
@@ -125,7 +130,9 @@ class SkyEvaluator {
   /// Answers all receivers of a cell by rays against horizons.
   void count_rays(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const;
   /// Traces the rays that the far map leaves open, for receivers whose intervals are wider than the allowed error.
-  void retrace(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine, std::span<FreeRays> free) const;
+  /// Returns how many.
+  [[nodiscard]] std::uint64_t retrace(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine,
+                                      std::span<FreeRays> free) const;
   void require_rays_allowed(Cell cell) const;
   void require_far_map(Cell cell) const;
   [[nodiscard]] bool wants_bounds(const SkyAnswers& answers) const {
@@ -140,7 +147,6 @@ class SkyEvaluator {
   FurtherQuantities further_;  ///< and the azimuths of all horizons
   std::shared_ptr<WholeCityOnDemand> city_;
   mutable std::atomic<double> scenes_s_ = 0.0, evaluate_s_ = 0.0;
-  mutable std::atomic<std::uint64_t> by_rays_ = 0, retraced_rays_ = 0;
 };
 
 }  // namespace farlod

@@ -20,6 +20,7 @@ struct SvfValues {
   std::vector<float> svf, low, high;
   std::vector<float> further;  ///< the values of SkySettings::further, receiver by receiver
   std::size_t further_columns = 0;
+  RayCounts counts = {};
 
   SvfValues(std::size_t size, bool bounds, std::size_t columns = 0)
       : svf(size, no_data),
@@ -44,7 +45,9 @@ using ReceiversOfCell = std::function<CellReceivers(std::size_t n)>;
 [[nodiscard]] inline SvfValues values_of(const SkyEvaluator& evaluator, CellReceivers cell, bool bounds) {
   SvfValues values(cell.receivers.size(), bounds, evaluator.further_columns());
   for (std::size_t k = 0; k < cell.receivers.size(); ++k) cell.receivers[k].index = k;
-  evaluator.evaluate(cell, SkyAnswers(values.svf, values.low, values.high, values.further));
+  SkyAnswers answers(values.svf, values.low, values.high, values.further);
+  answers.counts = &values.counts;
+  evaluator.evaluate(cell, answers);
   return values;
 }
 

@@ -142,6 +142,8 @@ PackageReader::~PackageReader() = default;
 
 const package::Manifest& PackageReader::manifest() const { return impl_->manifest; }
 
+const package::BlockFiles& PackageReader::files_of(Cell cell) const { return impl_->manifest.blocks[impl_->index_of(cell)]; }
+
 const BlockTiles& PackageReader::block_tiles(Cell cell) const { return impl_->tiles(impl_->index_of(cell)); }
 
 bool PackageReader::has_far_map(Cell cell) const {

@@ -42,6 +42,8 @@ class PackageReader {
   [[nodiscard]] const package::Manifest& manifest() const;
   [[nodiscard]] const Grid& grid() const { return manifest().grid; }
 
+  /// What the manifest says of the block that owns a cell of the grid; the cell must exist.
+  [[nodiscard]] const package::BlockFiles& files_of(Cell cell) const;
   /// The block that owns a cell of the grid; the cell must exist.
   [[nodiscard]] const BlockTiles& block_tiles(Cell cell) const;
   [[nodiscard]] TileView tile(Cell cell) const { return block_tiles(cell).tile(cell); }

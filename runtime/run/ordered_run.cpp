@@ -14,8 +14,10 @@
 #include <vector>
 
 #include "contract/cancellation.hpp"
+#include "contract/shard_parts.hpp"
 #include "evaluate/verification.hpp"
 #include "farlod/error.hpp"
+#include "run/kept_answers.hpp"
 #include "run/memory_limit.hpp"
 
 namespace farlod {
@@ -114,12 +116,15 @@ struct Tally {
   std::vector<std::size_t> counts;  ///< receivers of each cell
   SvfStatistics statistics;
   std::size_t outside_of_grid = 0, without_far_map = 0, outside_of_region = 0;
+  RayCounts rays;
   double store_s = 0.0;
 
   void add(const PackageReader& package, const CellInFlight& cell) {
     counts.push_back(cell.receivers.receivers.size());
     statistics.add(statistics_of(cell.values));
     outside_of_region += cell.receivers.outside_of_region;
+    rays.by_rays += cell.values.counts.by_rays;
+    rays.retraced_rays += cell.values.counts.retraced_rays;
     const FarMapOfCell far_map = far_map_of(package, cell.receivers.cell);
     if (far_map == FarMapOfCell::outside_of_grid) outside_of_grid += counts.back();
     if (far_map == FarMapOfCell::missing) without_far_map += counts.back();
@@ -143,12 +148,26 @@ double sampling_error_of_run(const SkySettings& sky, const package::Manifest& ma
   return error;
 }
 
+/// Of the n-th cell: as they were kept, or computed now, and kept where that is asked for.
+SvfValues answers_of(const SkyEvaluator& evaluator, const ResolvedSettings& settings, std::size_t n, const CellReceivers& cell) {
+  const AnswerFile* const file = settings.run.answers.get();
+  if (file == nullptr) return values_of(evaluator, cell, settings.bounds);
+  auto found = find_answers(*file, n, SvfValues(cell.receivers.size(), settings.bounds, evaluator.further_columns()));
+  if (found) return std::move(*found);
+  if (file->is_read_only())
+    throw OutputError("The answers of cell " + std::to_string(cell.cell.i) + "," + std::to_string(cell.cell.j) +
+                      " are missing or damaged: run the shards again.");
+  SvfValues values = values_of(evaluator, cell, settings.bounds);
+  keep_answers(*file, n, values);
+  return values;
+}
+
 Tally evaluate_and_store(const SkyEvaluator& evaluator, const ResolvedSettings& settings, std::size_t cell_count,
                          const ReceiversOfCell& receivers_of, const StoreValues& store) {
   Tally tally;
   const auto evaluate_cell = [&](std::size_t n) {
     CellReceivers receivers = receivers_of(n);
-    SvfValues values = values_of(evaluator, receivers, settings.bounds);
+    SvfValues values = answers_of(evaluator, settings, n, receivers);
     return CellInFlight{n, std::move(receivers), std::move(values)};
   };
   evaluate_in_order(settings, cell_count, evaluate_cell, [&](const CellInFlight& cell) {
@@ -161,11 +180,50 @@ Tally evaluate_and_store(const SkyEvaluator& evaluator, const ResolvedSettings& 
   return tally;
 }
 
-EvaluationSummary evaluate_and_verify(const PackageReader& package, const ResolvedSettings& settings, std::size_t cell_count,
-                                      const ReceiversOfCell& receivers_of, const StoreValues& store) {
+/// What a cell costs: the more of the city is in its block, the more is drawn at each receiver.
+double cost_of(const PackageReader& package, const CellsOfRun& cells, std::size_t n) {
+  constexpr double bytes_that_double = 20'000.0;  // of the tile of a cell, about: one of a dense street costs twice a meadow
+  const Grid& grid = package.grid();
+  const Cell cell = cells.place(n);
+  double bytes = 0.0;
+  if (grid.cells.contains(cell)) {
+    const package::BlockFiles& block = package.files_of(cell);
+    bytes = static_cast<double>(block.tiles.bytes) / static_cast<double>(grid.cells_of(block.block).size());
+  }
+  return (1.0 + cells.receivers_about(n)) * (1.0 + bytes / bytes_that_double);
+}
+
+/// The cells of a shard, and nothing but their answers.
+EvaluationSummary keep_shard(const PackageReader& package, const ResolvedSettings& settings, const CellsOfRun& cells) {
+  std::vector<double> costs;
+  for (std::size_t n = 0; n < cells.count; ++n) costs.push_back(cost_of(package, cells, n));
+  const std::vector<std::size_t> mine = parts_of_shard(costs, *settings.run.shard);
   const SkyEvaluator evaluator(package, settings.sky, settings.run.stop);
   const auto start = Clock::now();
-  const Tally tally = evaluate_and_store(evaluator, settings, cell_count, receivers_of, store);
+  Tally tally;
+  const auto evaluate_cell = [&](std::size_t k) {
+    CellReceivers receivers = cells.receivers(mine[k]);
+    SvfValues values = answers_of(evaluator, settings, mine[k], receivers);
+    return CellInFlight{mine[k], std::move(receivers), std::move(values)};
+  };
+  evaluate_in_order(settings, mine.size(), evaluate_cell, [&](const CellInFlight& cell) {
+    tally.add(package, cell);
+    if (settings.run.on_progress) settings.run.on_progress({"sky view factors", tally.counts.size(), mine.size()});
+  });
+  EvaluationSummary summary;
+  summary.seconds = seconds_of(seconds_since(start), evaluator.statistics(), 0.0);
+  summary.accuracy = settings.accuracy;
+  summary.by_rays = tally.rays.by_rays;
+  summary.retraced_rays = tally.rays.retraced_rays;
+  store_statistics(tally.statistics, settings.bounds, summary);
+  return summary;
+}
+
+EvaluationSummary evaluate_and_verify(const PackageReader& package, const ResolvedSettings& settings, const CellsOfRun& cells,
+                                      const StoreValues& store) {
+  const SkyEvaluator evaluator(package, settings.sky, settings.run.stop);
+  const auto start = Clock::now();
+  const Tally tally = evaluate_and_store(evaluator, settings, cells.count, cells.receivers, store);
   const EvaluationStatistics evaluation = evaluator.statistics();
   EvaluationSummary summary;
   summary.seconds = seconds_of(seconds_since(start), evaluation, tally.store_s);
@@ -174,11 +232,11 @@ EvaluationSummary evaluate_and_verify(const PackageReader& package, const Resolv
   summary.outside_of_region = tally.outside_of_region;
   summary.outside_of_grid = tally.outside_of_grid;
   summary.without_far_map = tally.without_far_map;
-  summary.by_rays = evaluation.by_rays;
-  summary.retraced_rays = evaluation.retraced_rays;
+  summary.by_rays = tally.rays.by_rays;
+  summary.retraced_rays = tally.rays.retraced_rays;
   store_statistics(tally.statistics, settings.bounds, summary);
   if (settings.verify > 0) {
-    Verification found = verify(evaluator, {settings.verify, settings.bounds}, tally.counts, receivers_of);
+    Verification found = verify(evaluator, {settings.verify, settings.bounds}, tally.counts, cells.receivers);
     summary.errors = found.errors;
     summary.verified = std::move(found.receivers);
   }
@@ -206,7 +264,9 @@ struct SampledSeconds {
 class SampledCells {
  public:
   SampledCells(const PackageReader& package, const ResolvedSettings& settings, const ReceiversOfCell& receivers_of)
-      : evaluator_(package, settings.sky, settings.run.stop), settings_(settings), receivers_of_(receivers_of) {}
+      : evaluator_(package, settings.sky, settings.run.stop), settings_(settings), receivers_of_(receivers_of) {
+    settings_.run.answers = nullptr;
+  }
 
   double evaluate(std::size_t first, std::size_t end) {
     const auto start = Clock::now();
@@ -224,7 +284,7 @@ class SampledCells {
 
  private:
   SkyEvaluator evaluator_;
-  const ResolvedSettings& settings_;
+  ResolvedSettings settings_;
   const ReceiversOfCell& receivers_of_;
   std::size_t cells_ = 0, receivers_ = 0;
 };
@@ -253,13 +313,16 @@ EvaluationSummary estimate(const PackageReader& package, const ResolvedSettings&
 
 }  // namespace
 
-EvaluationSummary evaluate_cells(const PackageInUse& package, const ResolvedSettings& settings, std::size_t cell_count,
-                                 const ReceiversOfCell& receivers_of, const StoreValues& store) {
+EvaluationSummary evaluate_cells(const PackageInUse& package, const ResolvedSettings& settings, const CellsOfRun& cells,
+                                 const StoreValues& store) {
   require_bounds_known(package, settings);
   // Of this run alone: another run of the process may have another number of threads
   oneapi::tbb::task_arena arena(static_cast<int>(settings.threads));
-  if (settings.dry_run) return arena.execute([&] { return estimate(package.reader(), settings, cell_count, receivers_of); });
-  return arena.execute([&] { return evaluate_and_verify(package.reader(), settings, cell_count, receivers_of, store); });
+  return arena.execute([&] {
+    if (settings.dry_run) return estimate(package.reader(), settings, cells.count, cells.receivers);
+    if (settings.run.shard) return keep_shard(package.reader(), settings, cells);
+    return evaluate_and_verify(package.reader(), settings, cells, store);
+  });
 }
 
 }  // namespace farlod

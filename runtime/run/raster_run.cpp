@@ -48,6 +48,10 @@ TileRange tiles_over(const PixelRange& pixels) {
           {tiles_along(pixels.row_end), tiles_along(pixels.column_end)}};
 }
 
+double pixels_of(const PixelRange& pixels) {
+  return static_cast<double>(pixels.column_end - pixels.column_begin) * static_cast<double>(pixels.row_end - pixels.row_begin);
+}
+
 std::vector<TileRange> tiles_of_cells(const RasterReceivers& receivers, std::span<const Cell> cells) {
   std::vector<TileRange> tiles;
   tiles.reserve(cells.size());
@@ -107,13 +111,16 @@ class RasterRun {
     const float height_m = package_height_m(placing_, reader().manifest());
     std::size_t pixels_in_grid = 0;
     EvaluationSummary summary = evaluate_cells(
-        package_, settings_, cells_.size(),
-        [&](std::size_t n) { return receivers_.in_cell(reader(), cells_[n], placing_.above, height_m, settings_.run.stop); },
+        package_, settings_,
+        {cells_.size(),
+         [&](std::size_t n) { return receivers_.in_cell(reader(), cells_[n], placing_.above, height_m, settings_.run.stop); },
+         [&](std::size_t n) { return pixels_of(receivers_.range_of(cells_[n])); }, [&](std::size_t n) { return cells_[n]; }},
         [&](std::size_t, const CellReceivers& cell, const SvfValues& values) {
           put_values(cell, values, plan_.columns, open_tiles);
           pixels_in_grid += cell.receivers.size() + cell.left_out;
         });
     if (summary.estimate) return with_memory(std::move(summary), memory_bytes_);
+    if (settings_.run.shard) return summary;
     summary.beyond_grid = plan_.columns * plan_.rows - pixels_in_grid - summary.outside_of_region;
     summary.no_data = pixels_in_grid - summary.receivers;
     return summary;
@@ -270,6 +277,7 @@ Raster evaluate_window(const Package& package, const RasterPlan& plan, const Ras
   const std::size_t further_bands = columns_of(settings.further).size();
   const std::size_t bytes = bytes_of(WindowAnswers::plan_of(plan, window), settings.bounds, further_bands);
   const ResolvedSettings resolved_settings = resolved(settings, with_bytes_of_caller(run, bytes));
+  if (run.answers || run.shard) throw InvalidArgument("a window keeps no answers and has no shards: evaluate the raster for that");
   const Placing where = resolved(placing);
   const PackageInUse in_use(package);
   const package::Manifest& manifest = in_use.reader().manifest();
@@ -283,10 +291,11 @@ Raster evaluate_window(const Package& package, const RasterPlan& plan, const Ras
   WindowAnswers answers(plan, window, settings.bounds, further_bands);
   const float height_m = package_height_m(where, manifest);
   EvaluationSummary summary = evaluate_cells(
-      in_use, resolved_settings, cells.size(),
-      [&](std::size_t n) {
-        return receivers.in_cell(in_use.reader(), cells[n], where.above, height_m, resolved_settings.run.stop);
-      },
+      in_use, resolved_settings,
+      {cells.size(),
+       [&](std::size_t n) {
+         return receivers.in_cell(in_use.reader(), cells[n], where.above, height_m, resolved_settings.run.stop);
+       }},
       [&](std::size_t, const CellReceivers& cell, const SvfValues& values) { answers.store(cell, values); });
   if (summary.estimate) summary = with_memory(std::move(summary), memory_bytes);
   return answers.take(std::move(summary));

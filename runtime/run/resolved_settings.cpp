@@ -76,11 +76,21 @@ SkySettings sky_of(const EvaluationSettings& s) {
   return sky;
 }
 
+void require_usable_shard(const RunSettings& run) {
+  if (!run.shard) return;
+  if (run.shard->index >= run.shard->count)
+    throw InvalidArgument("there is no shard " + std::to_string(run.shard->index) + " of " + std::to_string(run.shard->count) +
+                          ": they count from 0");
+  if (run.answers == nullptr || run.answers->is_read_only())
+    throw InvalidArgument("a shard needs a file that its answers are kept in: give answers");
+}
+
 }  // namespace
 
 ResolvedSettings resolved(const EvaluationSettings& evaluation, const RunSettings& run) {
   check(evaluation);
   require_usable(run);
+  require_usable_shard(run);
   ResolvedSettings s;
   s.sky = sky_of(evaluation);
   s.accuracy = {s.sky.azimuths, s.sky.rays, sampling_error_of(s.sky), s.sky.max_far_error};

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/kept_work.hpp"
+
+#include <fmt/core.h>
+
+#include <fstream>
+#include <regex>
+#include <set>
+#include <system_error>
+#include <vector>
+
+#include "app/result_provenance.hpp"
+#include "farlod/error.hpp"
+#include "results/provenance.hpp"
+#include "storage/durable_file.hpp"
+
+namespace farlod {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string name_of(Shard shard) { return fmt::format("{}_of_{}", shard.index, shard.count); }
+
+/// "--grid 2 --height 1.5" as pairs. A flag has no value.
+void add_options(const std::string& text, AnswerKey& key) {
+  for (std::size_t at = text.find("--"); at != std::string::npos;) {
+    const std::size_t next = text.find(" --", at);
+    const std::string option = text.substr(at, next == std::string::npos ? next : next - at);
+    const std::size_t space = option.find(' ');
+    key.emplace_back(option.substr(0, space), space == std::string::npos ? "on" : option.substr(space + 1));
+    at = next == std::string::npos ? next : next + 1;
+  }
+}
+
+/// What decides the answers of a run. Files count by their contents.
+AnswerKey key_of(const SvfOptions& o) {
+  const Provenance provenance = provenance_of(o);
+  AnswerKey key{{"the program", provenance.software}, {"the checksum of the package", provenance.manifest_xxh3}};
+  add_options(provenance.settings, key);
+  if (const auto& box = o.bbox_projected)
+    key.emplace_back("the box", fmt::format("{},{},{},{}", box->low.x, box->low.y, box->high.x, box->high.y));
+  if (!o.points_crs.empty()) key.emplace_back("--points-crs", o.points_crs);
+  if (!o.points_layer.empty()) key.emplace_back("--points-layer", o.points_layer);
+  for (const fs::path& file : {o.points_file, o.mask_file, o.grid_like})
+    if (!file.empty()) key.emplace_back("the checksum of " + file.filename().string(), xxh3_of_file(file));
+  return key;
+}
+
+/// How many shards there are by the names of their files.
+std::set<std::size_t> shard_counts_in(const fs::path& folder) {
+  static const std::regex of_shard(R"([0-9]+_of_([0-9]+)\.(answers|done))");
+  std::set<std::size_t> counts;
+  std::error_code unread;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, unread)) {
+    std::smatch match;
+    const std::string name = entry.path().filename().string();
+    if (std::regex_match(name, match, of_shard)) counts.insert(std::stoul(match[1]));
+  }
+  return counts;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw OutputError(folder, error.message());
+}
+
+}  // namespace
+
+KeptWork::KeptWork(const SvfOptions& options) : folder_(options.output.string() + ".unfinished"), shard_(options.shard) {
+  // Single places and estimates take no time
+  if (options.source == ReceiverSource::at || options.evaluation.dry_run) return;
+  options.merge ? open_shards(options) : open_own(options);
+}
+
+void KeptWork::open_own(const SvfOptions& options) {
+  make_folder(folder_);
+  const auto of_another =
+      options.resume || shard_ ? AnswerFile::OfAnotherKey::refuse : AnswerFile::OfAnotherKey::replace;
+  if (shard_) {
+    for (const std::size_t count : shard_counts_in(folder_))
+      if (count != shard_->count)
+        throw OutputError(fmt::format("{} is being computed in {} shards, and --shard says {}: give the same number to all, or "
+                                      "remove {}.",
+                                      options.output.string(), count, shard_->count, folder_.string()));
+  }
+  const fs::path file = folder_ / (shard_ ? name_of(*shard_) + ".answers" : "answers");
+  answers_ = std::make_shared<AnswerFile>(AnswerFile::open(file, key_of(options), of_another));
+  if (!answers_->replaced().empty())
+    finding_ = "Removed what an earlier run had left of other answers (" + answers_->replaced() + ").";
+  else if (answers_->cells() > 0)
+    finding_ = fmt::format("Going on with what an earlier run has left: the answers of {} cells.", answers_->cells());
+}
+
+void KeptWork::open_shards(const SvfOptions& options) {
+  const std::set<std::size_t> counts = shard_counts_in(folder_);
+  if (counts.empty())
+    throw OutputError(fmt::format("there is nothing to merge into {}: no shard has computed a part of it (--shard).",
+                                  options.output.string()));
+  if (counts.size() > 1)
+    throw OutputError(fmt::format("{} holds shards of {} and of {}: remove those that are not wanted.", folder_.string(),
+                                  *counts.begin(), *counts.rbegin()));
+  std::vector<fs::path> files;
+  std::string missing;
+  for (Shard shard{0, *counts.begin()}; shard.index < shard.count; ++shard.index) {
+    files.push_back(folder_ / (name_of(shard) + ".answers"));
+    if (!fs::exists(folder_ / (name_of(shard) + ".done")))
+      missing += fmt::format("{}{}/{}", missing.empty() ? "" : ", ", shard.index, shard.count);
+  }
+  if (!missing.empty())
+    throw OutputError(fmt::format("{} is not complete: these shards are missing: {}. Run them, then merge.",
+                                  options.output.string(), missing));
+  answers_ = std::make_shared<AnswerFile>(AnswerFile::together(files, key_of(options)));
+}
+
+KeptWork::~KeptWork() {
+  if (!answers_) return;
+  const bool is_own = !answers_->is_read_only();
+  if (!is_own || answers_->cells() > 0) return;
+  std::error_code ignored;
+  fs::remove(folder_ / (shard_ ? name_of(*shard_) + ".answers" : "answers"), ignored);
+  fs::remove(folder_, ignored);  // where it is empty now
+}
+
+void KeptWork::tell(RunSettings& run) const {
+  run.answers = answers_;
+  run.shard = shard_;
+}
+
+void KeptWork::finish() {
+  if (!answers_) return;
+  if (shard_) return write_durably(folder_ / (name_of(*shard_) + ".done"), std::string_view(""));
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+  answers_.reset();
+}
+
+}  // namespace farlod
