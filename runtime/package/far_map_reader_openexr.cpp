@@ -90,8 +90,6 @@ struct FarMapReader::Impl {
       : name(path.string()), cells(c), shape(std::move(s)), mapped(std::move(m)) {
     exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
     how.error_handler_fn = ignore_message;
-    how.max_tile_width = static_cast<int>(shape.picture_columns());
-    how.max_tile_height = static_cast<int>(shape.picture_rows());
     const exr_result_t result = exr_start_read(&file, name.c_str(), &how);
     if (result == EXR_ERR_SUCCESS) return;
     exr_finish(&file);

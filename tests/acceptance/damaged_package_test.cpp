@@ -88,7 +88,7 @@ TEST_F(DamagedPackage, FarMapsMissing) {
 
 TEST_F(DamagedPackage, ManifestCutShort) {
   change("manifest.json", [this](const std::string& file) { cut(file, fs::file_size(folder.path(file)) / 2); });
-  expect_damage({"manifest.json is damaged", "Pack the city again"});
+  expect_damage({"manifest.json is damaged", "pack the city again"});
 }
 
 TEST_F(DamagedPackage, ManifestWithAnImpossibleCell) {

@@ -11,10 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "contract/package/manifest.hpp"
-
-/// The name that libFuzzer calls. Each target has one, in a program of its own.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+#include "tests/fuzz/fuzz_target.hpp"
 
 namespace farlod {
 

@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "tests/library/packed_sample.hpp"
+#include "tests/scenes/sealed_manifest.hpp"
 
 namespace farlod::library {
 namespace {
@@ -190,7 +191,7 @@ TEST(CheckedPackage, CountsTheTriangles) {
   std::string text = scenes::text_of(manifest);
   const std::string key = "\"triangles\": ";
   text.insert(text.find(key) + key.size(), "1");
-  std::ofstream(manifest) << text;
+  std::ofstream(manifest) << scenes::sealed(text);
   const PackageCheck check = check_package(Package(sample.folder()));
   ASSERT_EQ(check.damage.size(), 1U);
   EXPECT_EQ(check.damage[0].file, "manifest.json");

@@ -12,6 +12,8 @@
 
 #include "farlod/error.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
+#include "tests/scenes/sealed_manifest.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod::pipeline::test {
 namespace {
@@ -319,6 +321,14 @@ TEST(Area, AFolderThatIsNoPackageIsRefused) {
   EXPECT_THAT(p.refusal(corner), HasSubstr("its manifest is damaged"));
 }
 
+TEST(Area, NothingIsAddedToAManifestWithAnotherChecksum) {
+  AreaPacking p;
+  p.run_area(corner);
+  const fs::path manifest = p.settings.output / package::manifest_file;
+  std::ofstream(manifest) << "\n" + scenes::text_of(manifest);
+  EXPECT_THAT(p.refusal(middle), HasSubstr("its manifest is damaged (its checksum"));
+}
+
 /// Ends a run at the n-th of its calls of progress in the stage "far maps".
 void run_cancelled(AreaPacking& p, const FarMapArea& area, std::size_t after) {
   std::stop_source source;
@@ -361,9 +371,10 @@ TEST(Area, AnotherRunMeanwhileIsNotLost) {
   p.run_area(corner);
   p.settings.area = middle;
   const fs::path manifest = p.settings.output / package::manifest_file;
+  const std::string text = scenes::text_of(manifest);
   RunSettings run;
   run.on_progress = [&](const Progress& progress) {
-    if (progress.stage == "far maps" && progress.done == 1) std::ofstream(manifest, std::ios::app) << "\n";
+    if (progress.stage == "far maps" && progress.done == 1) std::ofstream(manifest) << scenes::sealed("\n" + text);
   };
   EXPECT_THROW((void)pack(p.settings, p.report, run), OutputError);
   EXPECT_EQ(PackageReader(p.settings.output).manifest().cells_with_far_map(), p.result.package.cells_with_far_map);
