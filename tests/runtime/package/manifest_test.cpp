@@ -103,21 +103,19 @@ TEST(Package, ManifestsOfTheNewestVersionNeedAChecksum) {
 }
 
 TEST(Package, NoByteOfTheManifestChangesUnnoticed) {
-  const SmallPackage small(FarMapKind::horizon);
-  const auto path = small.folder() / package::manifest_file;
-  Bytes bytes = bytes_of(path);
-  for (std::size_t n = 0; n < bytes.size(); ++n)
+  const Bytes bytes = bytes_of(SmallPackage(FarMapKind::horizon).folder() / package::manifest_file);
+  std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const auto damage = [&] { return damage_met_by([&] { (void)manifest_from_text(text, "manifest.json"); }); };
+  ASSERT_EQ(damage(), "no damage");
+  for (char& byte : text)
     for (std::uint32_t bit = 0; bit < 8; ++bit) {
-      const auto flip = static_cast<std::byte>(1U << bit);
-      bytes[n] ^= flip;
-      write_bytes(path, bytes);
-      EXPECT_THAT(damage_met_by([&] { (void)read_manifest(small.folder()); }), HasSubstr("manifest.json is damaged"))
-          << "bit " << bit << " of byte " << n;
-      bytes[n] ^= flip;
+      const char whole = byte;
+      byte = static_cast<char>(static_cast<unsigned char>(whole) ^ (1U << bit));
+      EXPECT_THAT(damage(), HasSubstr("manifest.json is damaged")) << "bit " << bit << " of byte " << &byte - text.data();
+      byte = whole;
     }
-  bytes.push_back(std::byte{'\n'});
-  write_bytes(path, bytes);
-  EXPECT_NE(damage_met_by([&] { (void)read_manifest(small.folder()); }), "no damage");
+  text += '\n';
+  EXPECT_NE(damage(), "no damage");
 }
 
 TEST(Package, AVersionThatDamageHasMadeIsNoNewerOne) {
