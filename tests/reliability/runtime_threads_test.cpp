@@ -102,6 +102,9 @@ TEST_P(RuntimeThreads, PackagesAreOpenedAndClosedAtOnce) {
 }
 
 TEST_P(RuntimeThreads, AllMeetTheSameDamage) {
+#ifdef __SANITIZE_THREAD__
+  GTEST_SKIP() << "what ThreadSanitizer puts in the place of pthread_once waits for ever after an exception";
+#endif
   const scenes::TemporaryFolder temporary;
   const fs::path copy = temporary.path() / "damaged.farlod";
   fs::copy(folder(), copy, fs::copy_options::recursive);
