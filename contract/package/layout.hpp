@@ -22,10 +22,16 @@ namespace farlod::package {
 static_assert(std::endian::native == std::endian::little,
               "packages are mapped, not decoded: a big-endian reader must swap bytes");
 
-/// Of `tiles.bin`, and of the manifest of a package each of whose cells has a far map.
-inline constexpr std::uint32_t format_version = 6;
-/// Of the manifest of a package some of whose cells have no far map: a reader of version 6 would look for it.
+/// Of the manifest, and so of the package: what is written.
+inline constexpr std::uint32_t format_version = 8;
+/// The oldest one that is read.
+inline constexpr std::uint32_t oldest_format_version = 6;
+/// Since this one, some cells may have no far map: a reader of version 6 would look for it.
 inline constexpr std::uint32_t partial_format_version = 7;
+/// Since this one, the manifest has a checksum of itself (ManifestSeal).
+inline constexpr std::uint32_t sealed_format_version = 8;
+/// Of `tiles.bin`, which changes on its own.
+inline constexpr std::uint32_t tiles_version = 6;
 inline constexpr std::array<char, 8> magic{'F', 'A', 'R', 'L', 'O', 'D', 'T', '\n'};
 inline constexpr std::uint64_t section_alignment = 64;
 inline constexpr std::uint64_t end_padding = 16;

@@ -3,8 +3,13 @@
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <string_view>
 
+#include "contract/expects.hpp"
 #include "contract/package/layout.hpp"
+#include "contract/package/manifest_seal.hpp"
+#include "package/file_stamp.hpp"
 #include "package/manifest_writer.hpp"
 
 namespace farlod {
@@ -63,11 +68,19 @@ Json inputs_of(const Manifest& m) {
   return inputs;
 }
 
+/// Puts a checksum of the text before it into the place of the last brace.
+std::string sealed(std::string text) {
+  constexpr std::string_view brace = "\n}";
+  FARLOD_EXPECTS(text.ends_with(brace));
+  text.replace(text.size() - brace.size(), brace.size(), ",\n ");
+  text += package::ManifestSeal::text_of(stamp_of(std::as_bytes(std::span(text))).xxh3);
+  return text;
+}
+
 }  // namespace
 
 std::string manifest_text(const Manifest& m) {
-  const std::uint32_t version = m.is_fully_mapped() ? package::format_version : package::partial_format_version;
-  Json j = {{"format", "farlod-package"}, {"version", version}, {"software", m.software}};
+  Json j = {{"format", "farlod-package"}, {"version", package::format_version}, {"software", m.software}};
   j.update(place_of(m));
   j["settings"] = {{"assign", m.assign}, {"far_map", json_of(m.far_map)}};
   j["inputs"] = inputs_of(m);
@@ -77,7 +90,7 @@ std::string manifest_text(const Manifest& m) {
   j["blocks"] = Json::array();
   for (const package::BlockFiles& b : m.blocks) j["blocks"].push_back(json_of(b));
   // An id or a name with broken UTF-8 must not end the run
-  return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return sealed(j.dump(1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace farlod

@@ -162,7 +162,7 @@ class TilesFile {
   /// `sections_bytes`: of all sections together.
   TilesFile(Block block, std::size_t sections_bytes) : bytes_(sizeof(Header) + section_count * sizeof(Section)) {
     header_.magic = magic;
-    header_.version = format_version;
+    header_.version = tiles_version;
     header_.section_count = section_count;
     header_.block_i = block.i;
     header_.block_j = block.j;

@@ -5,6 +5,7 @@
 #include "contract/package/layout.hpp"
 #include "farlod/error.hpp"
 #include "package/file_stamp.hpp"
+#include "package/plain_file.hpp"
 
 namespace farlod {
 
@@ -12,6 +13,7 @@ BlockCheck::BlockCheck(const std::filesystem::path& folder, const package::Manif
     : manifest_(manifest),
       files_(manifest.blocks[n]),
       cells_(manifest.grid.cells_of(files_.block)),
+      folder_(folder),
       tiles_path_(folder / package::folder_of(files_) / package::tiles_file),
       far_map_path_(folder / package::folder_of(files_) / package::far_map_file) {
   open_tiles();
@@ -33,7 +35,11 @@ bool BlockCheck::succeeds(const std::filesystem::path& file, const Work& work) {
 }
 
 void BlockCheck::open_tiles() {
-  if (!succeeds(tiles_path_, [&] { tiles_bytes_.emplace(tiles_path_); })) return;
+  const bool is_mapped = succeeds(tiles_path_, [&] {
+    require_plain_file(folder_, tiles_path_.lexically_relative(folder_));
+    tiles_bytes_.emplace(tiles_path_);
+  });
+  if (!is_mapped) return;
   succeeds(tiles_path_, [&] {
     check_stamp(tiles_path_, tiles_bytes_->bytes(), files_.tiles);
     tiles_.emplace(tiles_bytes_->bytes(), cells_, tiles_path_.string());
@@ -43,8 +49,9 @@ void BlockCheck::open_tiles() {
 }
 
 void BlockCheck::open_far_maps() {
-  std::uint64_t bytes = 0;
+  std::optional<std::uint64_t> bytes;
   succeeds(far_map_path_, [&] {
+    require_plain_file(folder_, far_map_path_.lexically_relative(folder_));
     const MappedFile file(far_map_path_);
     bytes = file.bytes().size();
     check_stamp(far_map_path_, file.bytes(), files_.far_map);

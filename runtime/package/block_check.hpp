@@ -52,7 +52,7 @@ class BlockCheck {
   const package::Manifest& manifest_;
   const package::BlockFiles& files_;
   CellRange cells_;
-  std::filesystem::path tiles_path_, far_map_path_;
+  std::filesystem::path folder_, tiles_path_, far_map_path_;
   std::vector<BlockDamage> damage_;
   std::optional<MappedFile> tiles_bytes_;
   std::optional<BlockTiles> tiles_;

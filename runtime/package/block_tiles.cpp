@@ -52,7 +52,7 @@ void BlockTiles::check_header() const {
   require(bytes_.size() >= sizeof(Header), "it is shorter than its header");
   const auto* header = reinterpret_cast<const Header*>(bytes_.data());
   require(header->magic == magic, "it does not begin as a tiles file");
-  require_readable_version(name_, header->version);
+  require_readable_version(name_, header->version, tiles_version, tiles_version);
   require(header->file_bytes == bytes_.size(), "its length is not what its header says");
   require(header->section_count <= (bytes_.size() - sizeof(Header)) / sizeof(Section), "its table of sections is cut off");
 }
@@ -84,9 +84,14 @@ std::span<const T> BlockTiles::section(SectionKind kind) const {
 }
 
 void BlockTiles::check_surfaces() const {
-  for (const BuildingRecord& b : buildings_)
+  std::uint64_t text_bytes = 0;
+  for (const BuildingRecord& b : buildings_) {
     require(b.text_offset <= text_.size() && b.text_bytes <= text_.size() - b.text_offset,
             "a building's id reaches beyond the text");
+    text_bytes += b.text_bytes;
+  }
+  // Or else the ids of a small file could take any amount of memory
+  require(text_bytes <= text_.size(), "its buildings share the bytes of their ids");
   for (const SurfaceRecord& s : surfaces_) {
     require(s.building == no_building || s.building < buildings_.size(), "a surface names a building that does not exist");
     require(s.kind() >= SurfaceKind::ground && s.kind() <= SurfaceKind::foundation, "a surface is of a kind that does not exist");

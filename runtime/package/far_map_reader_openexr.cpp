@@ -20,6 +20,10 @@ namespace farlod {
 namespace {
 
 constexpr int only_part = 0, only_level = 0;
+/// Those that are known, and room for those of later writers. The memory that a picture takes grows with them.
+constexpr int most_channels = 16;
+/// Deflate, which makes the most of nothing, shrinks to 1/1032. A tile that claims more does not hold what it claims.
+constexpr std::uint64_t most_shrinking = 1100;
 
 /// An error handler: OpenEXR's own prints, and a library never does. The result codes tell what went wrong.
 void ignore_message(exr_const_context_t, exr_result_t, const char*) {}
@@ -44,9 +48,7 @@ class TileDecoder {
     if (state_ != EXR_ERR_SUCCESS) return state_;
     // Give each channel of the file a place, wanted or not
     const std::span channels(pipeline_.channels, static_cast<std::size_t>(pipeline_.channel_count));
-    unwanted_.resize(channels.size());
-    for (std::size_t n = 0; n < channels.size(); ++n)
-      direct(channels[n], pixels_of(channels[n].channel_name, wanted, unwanted_[n]));
+    for (exr_coding_channel_info_t& channel : channels) direct(channel, pixels_of(channel.channel_name, wanted, unwanted_));
     state_ = exr_decoding_choose_default_routines(file_, only_part, &pipeline_);
     return state_ == EXR_ERR_SUCCESS ? exr_decoding_run(file_, only_part, &pipeline_) : state_;
   }
@@ -72,7 +74,7 @@ class TileDecoder {
   exr_const_context_t file_;
   exr_decode_pipeline_t pipeline_{};  // zeros, as EXR_DECODE_PIPELINE_INITIALIZER, which clang warns of
   exr_result_t state_ = EXR_ERR_SUCCESS;
-  std::vector<std::vector<float>> unwanted_;
+  std::vector<float> unwanted_;  ///< of all channels that nobody wants, one after the other
 };
 
 }  // namespace
@@ -136,6 +138,7 @@ struct FarMapReader::Impl {
     const exr_attr_chlist_t* channels = nullptr;
     require(exr_get_channels(file, only_part, &channels));
     const std::span entries(channels->entries, static_cast<std::size_t>(channels->num_channels));
+    if (channels->num_channels > most_channels) damaged("it has more than " + std::to_string(most_channels) + " channels");
     const auto has = [&](std::string_view wanted) {
       return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return wanted == entry.name.str; });
     };
@@ -147,6 +150,8 @@ struct FarMapReader::Impl {
     const package::PictureTile tile = package::picture_tile(cell, cells, mapped);
     exr_chunk_info_t chunk;
     require(exr_read_tile_chunk_info(file, only_part, tile.column, tile.row, only_level, only_level, &chunk));
+    // Before there is memory for it
+    if (chunk.unpacked_size / most_shrinking > chunk.packed_size) damaged("a map is larger than what is stored of it can be");
     return chunk;
   }
   /// The pixels of one cell, in the file's order of rows.

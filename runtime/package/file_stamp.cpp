@@ -8,6 +8,7 @@
 #include <string>
 
 #include "farlod/error.hpp"
+#include "package/manifest_reader.hpp"
 
 namespace farlod {
 
@@ -19,6 +20,8 @@ void check_stamp(const std::filesystem::path& path, std::span<const std::byte> b
     throw PackageDamaged(path.string() +
                          " is damaged: its checksum is not the manifest's. Copy it again, or pack the city again.");
 }
+
+std::uint64_t checksum_of_manifest(std::string_view sealed) { return XXH3_64bits(sealed.data(), sealed.size()); }
 
 FileIdentity identity_of(const std::filesystem::path& path) {
   struct stat found {};

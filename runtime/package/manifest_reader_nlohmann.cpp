@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,8 +13,10 @@
 #include <utility>
 
 #include "contract/package/layout.hpp"
+#include "contract/package/manifest_seal.hpp"
 #include "package/manifest_reader.hpp"
 #include "package/package_error.hpp"
+#include "package/plain_file.hpp"
 
 namespace farlod {
 namespace {
@@ -27,8 +30,44 @@ constexpr double farthest_m = 1e9;
 /// Of a map of 64 × 64 texels a side, 4096 times over: more than that is not a map of one cell.
 constexpr std::uint64_t most_texels = std::uint64_t{1} << 26;
 
+/// Some five million blocks, of 1024 cells each: more than that is not the list of a city.
+constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
+/// Values within values: what is known takes six levels, and what is not may take some.
+constexpr int deepest = 32;
+
 void require(bool rule, const std::string& what) {
   if (!rule) throw std::runtime_error(what);
+}
+
+/// The text that a message repeats may be as long as the file.
+std::string shortened(std::string text) {
+  constexpr std::size_t longest = 200;
+  if (text.size() <= longest) return text;
+  std::size_t end = longest;
+  // Not within a character of UTF-8
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end) + "…";
+}
+
+/// How deep the values of a JSON text are nested, at the most. Counted beforehand: nlohmann-json can count while it reads, but
+/// then takes a time that grows with the square of a list.
+int depth_of(std::string_view text) {
+  int depth = 0, most = 0;
+  bool in_string = false;
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    const char c = text[n];
+    if (c == '"') in_string = !in_string;
+    if (in_string && c == '\\') ++n;
+    if (in_string) continue;
+    if (c == '[' || c == '{') most = std::max(most, ++depth);
+    if (c == ']' || c == '}') --depth;
+  }
+  return most;
+}
+
+json parsed(std::string_view text) {
+  require(depth_of(text) <= deepest, "its values are nested deeper than " + std::to_string(deepest));
+  return json::parse(text);
 }
 
 /// nlohmann-json would cut 1.5 to 1 and 2³² + 1 to 1.
@@ -36,7 +75,7 @@ template <class T>
 T whole_number(const json& j) {
   const bool fits = j.is_number_unsigned() ? std::in_range<T>(j.get<std::uint64_t>())
                                            : j.is_number_integer() && std::in_range<T>(j.get<std::int64_t>());
-  require(fits, "a whole number was expected where it has " + j.dump());
+  require(fits, "a whole number was expected where it has " + shortened(j.dump()));
   return static_cast<T>(j.get<std::int64_t>());
 }
 
@@ -169,6 +208,7 @@ FarMapShape far_map_from(const json& j) {
 
 Manifest manifest_from(const json& j, std::uint32_t version) {
   Manifest m;
+  m.version = version;
   m.software = j.at("software").get<std::string>();
   read_place(j, m);
   m.assign = j.at("settings").at("assign").get<std::string>();
@@ -187,28 +227,57 @@ void require_folder(const std::filesystem::path& path) {
   throw PackageUnusable(path.string() + " is not a package: there is no such folder. farlod-pack makes one.");
 }
 
+/// Whether the manifest has a checksum, which is right.
+bool has_seal(std::string_view text) {
+  const auto seal = ManifestSeal::of(text);
+  require(!seal || checksum_of_manifest(seal->sealed) == seal->checksum, "its checksum is not that of its text");
+  return seal.has_value();
+}
+
+Manifest read_text(std::string_view text, const std::string& name) {
+  // First, so that a version which damage has made is not taken for one of another release
+  const bool is_sealed = has_seal(text);
+  const json j = parsed(text);
+  require(j.is_object() && j.value("format", "") == "farlod-package", "it is not the manifest of a package");
+  const auto version = whole_number<std::uint32_t>(j.at("version"));
+  require_readable_version(name, version, oldest_format_version, format_version);
+  require(is_sealed || (version < sealed_format_version && !j.contains("xxh3")), "its checksum is not at its end");
+  return manifest_from(j, version);
+}
+
+std::string text_of(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / manifest_file;
+  require_plain_file(folder, manifest_file);
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    throw PackageUnusable(folder.string() + " is not a finished package: it has no " + manifest_file +
+                          ". Was farlod-pack interrupted? Pack the city again.");
+  std::error_code unread;
+  if (std::filesystem::file_size(path, unread) > most_bytes)
+    throw PackageDamaged(path.string() + " is damaged: it has more than " + std::to_string(most_bytes) +
+                         " bytes. Copy it again, or pack the city again.");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 }  // namespace
 
-Manifest read_manifest(const std::filesystem::path& package_folder) {
-  const std::filesystem::path path = package_folder / manifest_file;
-  require_folder(package_folder);
-  std::ifstream file(path);
-  if (!file)
-    throw PackageUnusable(package_folder.string() + " is not a finished package: it has no " + manifest_file +
-                          ". Was farlod-pack interrupted? Pack the city again.");
+Manifest manifest_from_text(std::string_view text, const std::string& name) {
   try {
-    const json j = json::parse(file);
-    require(j.is_object() && j.value("format", "") == "farlod-package", "it is not the manifest of a package");
-    const auto version = whole_number<std::uint32_t>(j.at("version"));
-    require_readable_version(path.string(), version, partial_format_version);
-    return manifest_from(j, version);
+    return read_text(text, name);
   } catch (const PackageUnusable&) {
+    throw;
+  } catch (const PackageDamaged&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& reason) {
-    throw PackageDamaged(path.string() + " is damaged: " + reason.what() + ". Pack the city again.");
+    throw PackageDamaged(name + " is damaged: " + shortened(reason.what()) + ". Copy it again, or pack the city again.");
   }
+}
+
+Manifest read_manifest(const std::filesystem::path& package_folder) {
+  require_folder(package_folder);
+  return manifest_from_text(text_of(package_folder), (package_folder / manifest_file).string());
 }
 
 }  // namespace farlod

@@ -11,14 +11,12 @@
 namespace farlod {
 
 /// A file of a package whose version this program does not read is unusable; one of version 0, which never was, is damaged.
-/// Versions from package::format_version to `newest` are read.
-inline void require_readable_version(const std::string& file, std::uint32_t version,
-                                     std::uint32_t newest = package::format_version) {
-  if (package::format_version <= version && version <= newest) return;
+/// Versions from `oldest` to `newest` are read.
+inline void require_readable_version(const std::string& file, std::uint32_t version, std::uint32_t oldest, std::uint32_t newest) {
+  if (oldest <= version && version <= newest) return;
   if (version == 0) throw PackageDamaged(file + " is damaged: its format version does not exist. Pack the city again.");
-  const std::string readable = newest == package::format_version
-                                   ? "version " + std::to_string(newest)
-                                   : "versions " + std::to_string(package::format_version) + " to " + std::to_string(newest);
+  const std::string readable = oldest == newest ? "version " + std::to_string(newest)
+                                                : "versions " + std::to_string(oldest) + " to " + std::to_string(newest);
   throw PackageUnusable(
       file + " has format version " + std::to_string(version) + ", this program reads " + readable + ". " +
       (version > newest ? "Use a newer release, or pack the city again." : "Pack the city again with this release."));

@@ -14,6 +14,7 @@
 #include "package/manifest_reader.hpp"
 #include "package/mapped_file.hpp"
 #include "package/package_error.hpp"
+#include "package/plain_file.hpp"
 
 namespace farlod {
 namespace {
@@ -72,9 +73,10 @@ struct PackageReader::Impl {
     return static_cast<std::size_t>(found - manifest.blocks.begin());
   }
 
-  std::filesystem::path path_of(std::size_t n, const char* file) const {
-    return folder / package::folder_of(manifest.blocks[n]) / file;
+  std::filesystem::path name_of(std::size_t n, const char* file) const {
+    return std::filesystem::path(package::folder_of(manifest.blocks[n])) / file;
   }
+  std::filesystem::path path_of(std::size_t n, const char* file) const { return folder / name_of(n, file); }
 
   /// What a block holds at the most: its tiles, read from end to end, and where in its file the far map of each cell lies.
   std::uint64_t bytes_of(std::size_t n) const {
@@ -98,6 +100,7 @@ struct PackageReader::Impl {
         open.tiles.emplace(memory->tiles[n], cells, path.string());
         return;
       }
+      require_plain_file(folder, name_of(n, package::tiles_file));
       open.tiles_identity = identity_of(path);
       open.tiles_bytes.emplace(path);
       check_stamp(path, open.tiles_bytes->bytes(), manifest.blocks[n].tiles);
@@ -113,6 +116,7 @@ struct PackageReader::Impl {
     OpenBlock& open = blocks[n];
     const auto path = path_of(n, package::far_map_file);
     std::call_once(open.far_map_checked, [&] {
+      require_plain_file(folder, name_of(n, package::far_map_file));
       open.far_map_identity = identity_of(path);
       check_stamp(path, MappedFile(path).bytes(), manifest.blocks[n].far_map);
       open.has_far_map = true;

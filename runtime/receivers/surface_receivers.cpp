@@ -6,12 +6,24 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <string>
 
 #include "contract/cancellation.hpp"
 #include "contract/horizon/horizon_edge.hpp"
+#include "farlod/error.hpp"
 
 namespace farlod {
 namespace {
+
+/// 3 GiB. Areas are what a package says, and what is asked for is of its user: one of the two is not meant.
+constexpr double most_receivers_of_cell = 67'108'864.0;
+
+void require_room_for(double count, std::size_t placed, Cell cell) {
+  if (static_cast<double>(placed) + count <= most_receivers_of_cell) return;
+  throw LimitReached("the surfaces of cell (" + std::to_string(cell.i) + ", " + std::to_string(cell.j) +
+                     ") would have more than " + std::to_string(static_cast<std::size_t>(most_receivers_of_cell)) +
+                     " receivers: place them farther from each other, or pack the city in smaller cells.");
+}
 
 bool is_chosen(SurfaceKind kind, SurfaceChoice choice) {
   if (kind == SurfaceKind::roof) return choice != SurfaceChoice::walls;
@@ -38,6 +50,7 @@ class LocatorsAround {
  public:
   LocatorsAround(const PackageReader& package, Cell cell) : package_(package), cell_(cell) {}
 
+  [[nodiscard]] Cell cell() const { return cell_; }
   [[nodiscard]] bool is_buried(const Point3f& p_cell) {
     const Grid& grid = package_.grid();
     const auto edge_m = static_cast<float>(grid.cell_edge_m);
@@ -86,7 +99,9 @@ void spread(const TileView& tile, const Piece& piece, std::uint32_t t, double sp
   const Point3f ab = tile.mesh.vertices[corners.b] - a, ac = tile.mesh.vertices[corners.c] - a;
   const float area_m2 = 0.5F * norm(cross(ab, ac));
   if (area_m2 == 0.0F) return;  // rounded to nothing: it has no area to stand for
-  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(area_m2) / (spacing_m * spacing_m))));
+  const double wanted = std::max(1.0, std::ceil(static_cast<double>(area_m2) / (spacing_m * spacing_m)));
+  require_room_for(wanted, receivers.size(), locators.cell());
+  const auto count = static_cast<std::size_t>(wanted);
   for (std::size_t n = 0; n < count; ++n) {
     throw_if_cancelled(stop);
     const Point2d w = place_in_triangle(n, count);

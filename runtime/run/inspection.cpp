@@ -142,8 +142,7 @@ PackageInventory inventory_of(const Package& package) {
   const PackageInUse in_use(package);
   const package::Manifest& m = in_use.reader().manifest();
   PackageInventory inventory;
-  // As the format has it: a manifest of the other version would have been refused
-  inventory.format_version = m.is_fully_mapped() ? package::format_version : package::partial_format_version;
+  inventory.format_version = m.version;
   inventory.origin_m = m.origin_m;
   inventory.height_origin_m = m.height_origin_m;
   inventory.cells = rectangle_of(m.grid.cells);

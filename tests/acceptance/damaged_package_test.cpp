@@ -7,6 +7,7 @@
 #include "console/exit_code.hpp"
 #include "tests/acceptance/small_town.hpp"
 #include "tests/acceptance/work_folder.hpp"
+#include "tests/scenes/sealed_manifest.hpp"
 
 namespace farlod::acceptance {
 namespace {
@@ -41,7 +42,7 @@ class DamagedPackage : public testing::Test {
     std::string text = folder.text_of("a.farlod/manifest.json");
     const std::size_t place = text.find(from);
     ASSERT_NE(place, std::string::npos) << from;
-    folder.write("a.farlod/manifest.json", text.replace(place, from.size(), to));
+    folder.write("a.farlod/manifest.json", scenes::sealed(text.replace(place, from.size(), to)));
   }
 
   WorkFolder folder;
@@ -87,7 +88,7 @@ TEST_F(DamagedPackage, FarMapsMissing) {
 
 TEST_F(DamagedPackage, ManifestCutShort) {
   change("manifest.json", [this](const std::string& file) { cut(file, fs::file_size(folder.path(file)) / 2); });
-  expect_damage({"manifest.json is damaged", "Pack the city again"});
+  expect_damage({"manifest.json is damaged", "pack the city again"});
 }
 
 TEST_F(DamagedPackage, ManifestWithAnImpossibleCell) {
@@ -105,16 +106,27 @@ TEST_F(DamagedPackage, ManifestOfSomethingElse) {
   expect_damage({"manifest.json is damaged"});
 }
 
+TEST_F(DamagedPackage, OneDigitOfTheManifestsOriginChanged) {
+  // Within the range of origins: nothing but the checksum tells
+  std::string text = folder.text_of("a.farlod/manifest.json");
+  char& digit = text[text.find_first_of("0123456789", text.find("\"origin_m\""))];
+  digit = digit == '5' ? '4' : '5';
+  folder.write("a.farlod/manifest.json", text);
+  expect_damage({"manifest.json is damaged", "checksum"});
+  const Outcome checked = folder.run("farlod-info a.farlod --check");
+  expect_refusal(checked, exit_damaged_package, {"manifest.json is damaged", "checksum"});
+}
+
 TEST_F(DamagedPackage, ANewerVersionIsNoDamage) {
-  edit_manifest("\"version\": 6", "\"version\": 8");
+  edit_manifest("\"version\": 8", "\"version\": 9");
   expect_refusal(evaluate(), exit_unusable_input,
-                 {"manifest.json has format version 8", "reads versions 6 to 7", "newer release"});
+                 {"manifest.json has format version 9", "reads versions 6 to 8", "newer release"});
 }
 
 TEST_F(DamagedPackage, AnOlderVersionIsNoDamage) {
-  edit_manifest("\"version\": 6", "\"version\": 5");
+  edit_manifest("\"version\": 8", "\"version\": 5");
   expect_refusal(evaluate(), exit_unusable_input,
-                 {"manifest.json has format version 5", "reads versions 6 to 7", "Pack the city again"});
+                 {"manifest.json has format version 5", "reads versions 6 to 8", "Pack the city again"});
 }
 
 TEST_F(DamagedPackage, AnInterruptedPackingIsNoDamage) {

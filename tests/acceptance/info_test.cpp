@@ -51,7 +51,7 @@ TEST_F(Info, TellsWhatAPackageHolds) {
   EXPECT_EQ(outcome.exit_code, exit_done);
   EXPECT_EQ(outcome.err, "");
   for (const char* said :
-       {"a.farlod, format version 6, written by farlod-pack", "(EPSG:32632)", "bearing 20.00° from true north",
+       {"a.farlod, format version 8, written by farlod-pack", "(EPSG:32632)", "bearing 20.00° from true north",
         "36 buildings, 216 polygons", "cells of 150 m", "kind horizon, in all", "town.geojson, ", "XXH3 ", "Problems      none"})
     EXPECT_THAT(outcome.out, HasSubstr(said));
 }
@@ -81,7 +81,7 @@ TEST_F(Info, ProblemsHaveTheirNames) {
 TEST_F(Info, TellsHowManyCellsHaveAFarMap) {
   folder.must("farlod-pack town.geojson -o b.farlod --quiet --area 499999,5499999,500001,5500001");
   const json said = json::parse(folder.run("farlod-info b.farlod --json --check").out);
-  EXPECT_EQ(said.at("format_version"), 7);
+  EXPECT_EQ(said.at("format_version"), 8);
   EXPECT_LT(said.at("far_map").at("cells"), said.at("grid").at("cell_count"));
   EXPECT_EQ(said.at("check").at("far_maps"), said.at("far_map").at("cells"));
   EXPECT_EQ(said.at("check").at("damage"), json::array());

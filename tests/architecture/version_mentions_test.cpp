@@ -30,6 +30,10 @@ TEST(Version, StandsInOnePlace) {
   const SourceFile changelog = taken(files, "CHANGELOG.md"), lists = taken(files, "CMakeLists.txt");
   // QGIS reads it there, and a plug-in is installed without a build step
   const SourceFile plug_in = taken(files, "qgis/farlod/metadata.txt");
+  // Packages say which release wrote them, for ever
+  std::erase_if(files, [](const SourceFile& f) {
+    return f.path.starts_with("tests/golden/version_") || f.path.starts_with("tests/fuzz/corpus/");
+  });
   EXPECT_EQ(mentions_of_version({lists}, software_version).size(), 1U);
   EXPECT_THAT(mentions_of_version(files, software_version), IsEmpty()) << "CMakeLists.txt alone says the version";
   EXPECT_THAT(plug_in.lines, Contains(std::string("version=") + software_version));

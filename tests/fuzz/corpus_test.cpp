@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/fuzz/fuzzed_ingest.hpp"
+#include "tests/fuzz/fuzz_target.hpp"
 
 namespace farlod {
 namespace {

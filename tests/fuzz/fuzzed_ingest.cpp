@@ -2,38 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/fuzz/fuzzed_ingest.hpp"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "farlod/error.hpp"
+#include "tests/fuzz/scratch_folder.hpp"
 
 namespace farlod {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The readers open files by name. A folder in memory, the process's own, goes when the process ends.
-class ScratchFolder {
- public:
-  ScratchFolder() : path_(root() / ("farlod_fuzz_" + std::to_string(getpid()))) { fs::create_directories(path_); }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  static fs::path root() { return fs::is_directory("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path(); }
-
-  fs::path path_;
-};
 
 bool is_finite(const Point3d& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
@@ -60,12 +39,7 @@ void expect_promises_kept(const SourceCity& source) {
 
 fs::path write_file(std::span<const std::uint8_t> bytes, std::string_view ending) {
   static const ScratchFolder folder;
-  const fs::path file = folder.path() / ("city" + std::string(ending));
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  FARLOD_EXPECTS(stream);
-  return file;
+  return folder.write(bytes, "city" + std::string(ending));
 }
 
 void ingest_bytes(std::span<const std::uint8_t> bytes, std::string_view ending, const ingest::IngestSettings& settings) {

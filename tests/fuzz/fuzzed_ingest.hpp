@@ -9,9 +9,7 @@
 #include <string_view>
 
 #include "ingest/ingest.hpp"
-
-/// The name that libFuzzer calls. Each format has one, in a program of its own.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+#include "tests/fuzz/fuzz_target.hpp"
 
 namespace farlod {
 

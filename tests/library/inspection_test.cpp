@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "tests/library/packed_sample.hpp"
+#include "tests/scenes/sealed_manifest.hpp"
 
 namespace farlod::library {
 namespace {
@@ -57,7 +58,7 @@ TEST(Inspection, TheInventoryIsThatOfThePacking) {
   const PackedSample sample;
   const Package package(sample.folder());
   const PackageInventory inventory = inventory_of(package);
-  EXPECT_EQ(inventory.format_version, 6U);
+  EXPECT_EQ(inventory.format_version, 8U);
   EXPECT_EQ(static_cast<std::int64_t>(cells_of(package).size()), package.description().columns * package.description().rows);
   ASSERT_EQ(inventory.inputs.size(), 1U);
   EXPECT_EQ(inventory.inputs[0].name, "village.gml");
@@ -190,7 +191,7 @@ TEST(CheckedPackage, CountsTheTriangles) {
   std::string text = scenes::text_of(manifest);
   const std::string key = "\"triangles\": ";
   text.insert(text.find(key) + key.size(), "1");
-  std::ofstream(manifest) << text;
+  std::ofstream(manifest) << scenes::sealed(text);
   const PackageCheck check = check_package(Package(sample.folder()));
   ASSERT_EQ(check.damage.size(), 1U);
   EXPECT_EQ(check.damage[0].file, "manifest.json");

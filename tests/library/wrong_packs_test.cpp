@@ -17,6 +17,7 @@
 #include "farlod/raster.hpp"
 #include "farlod/surfaces.hpp"
 #include "tests/library/packed_sample.hpp"
+#include "tests/scenes/sealed_manifest.hpp"
 
 namespace farlod::library {
 namespace {
@@ -210,7 +211,7 @@ TEST(WrongPackages, PointsBeyondAllCells) {
   std::getline(std::ifstream(manifest), text, '\0');
   const std::string small_cells = std::regex_replace(text, std::regex("\"cell_m\": *[0-9.e+-]+"), "\"cell_m\": 0.015625");
   ASSERT_NE(small_cells, text);
-  std::ofstream(manifest) << small_cells;
+  std::ofstream(manifest) << scenes::sealed(small_cells);
   const Package package(sample.folder());
   const Point2d p = middle_of(package);
   for (const Point2d far : {Point2d{9.9e7, p.y}, {-9.9e7, p.y}, {p.x, 9.9e7}, {p.x, -9.9e7}}) {

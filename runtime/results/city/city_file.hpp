@@ -69,7 +69,8 @@ class CityFile {
   /// The ids that several objects of the file have.
   [[nodiscard]] virtual const std::unordered_set<std::string>& repeated_ids() const = 0;
   /// Calls `on` for each building, with its polygons numbered as farlod-pack numbers them (docs/stages/ingest.md): one after the
-  /// other in the level of detail that was packed, also those that are unusable. One building is in memory at a time.
+  /// other in the level of detail that was packed, also those that are unusable. One building is in memory at a time. Geometry is
+  /// read now: throws JsonCursorError or XmlTextError where it is malformed (telling_file).
   virtual void for_each_building(PackedLod lod, const std::function<void(const FileBuilding&)>& on) const = 0;
   /// What is inserted at a place of this form. There is at least one attribute.
   [[nodiscard]] virtual std::string text_of(const CityAttributes& attributes, std::size_t form) const = 0;

@@ -88,8 +88,14 @@ std::string endings_of(EnrichedFormat format) {
 ReadCity read_city(const std::filesystem::path& path) {
   std::string text = text_of_file(path);
   if (is_utf16(text)) throw InputError(path.string() + " is UTF-16: convert it to UTF-8 and pack it again");
+  ReadCity city;
+  telling_file(path, [&] { city = city_in(std::move(text)); });
+  return city;
+}
+
+void telling_file(const std::filesystem::path& path, const std::function<void()>& work) {
   try {
-    return city_in(std::move(text));
+    work();
   } catch (const JsonCursorError& flaw) {
     throw InputError(path.string() + " cannot be enriched as CityJSON: " + flaw.what());
   } catch (const XmlTextError& flaw) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,5 +28,9 @@ struct ReadCity {
 
 /// Reads a city file, whose content says its format. Throws InputError.
 [[nodiscard]] ReadCity read_city(const std::filesystem::path& path);
+
+/// Does what reads more of a city file, such as CityFile::for_each_building. What its text is not is an InputError that names the
+/// file.
+void telling_file(const std::filesystem::path& path, const std::function<void()>& work);
 
 }  // namespace farlod

@@ -217,7 +217,7 @@ void require_free_names(const CityFile& city, const AnswerColumns& columns, cons
 
 EnrichedCityFile::EnrichedCityFile(const std::filesystem::path& city, AnswerColumns columns)
     : path_(city), columns_(std::move(columns)), city_(read_city(city)) {
-  require_free_names(*city_.file, columns_, path_);
+  telling_file(path_, [this] { require_free_names(*city_.file, columns_, path_); });
 }
 
 void EnrichedCityFile::require_fitting(const std::filesystem::path& output) const {
@@ -230,7 +230,8 @@ std::vector<std::string> EnrichedCityFile::write(const SurfaceMeans& means, Enri
                                                  const std::filesystem::path& output) const {
   Enriching enriching(*city_.file, means, columns_, extent);
   for (const PackedLod lod : {PackedLod(), PackedLod(3), PackedLod(2), PackedLod(1)}) {
-    const Enrichment enrichment = enriching.of(lod);
+    Enrichment enrichment;
+    telling_file(path_, [&] { enrichment = enriching.of(lod); });
     if (!enrichment.fits()) continue;
     write_atomically(output, [&](std::ostream& out) { write_with(city_.file->text(), enrichment.insertions, out); });
     return notes_of(enrichment);

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <sstream>
 
 #include "farlod/error.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
+#include "tests/scenes/sealed_manifest.hpp"
 
 namespace farlod::pipeline::test {
 namespace {
@@ -22,11 +22,8 @@ using testing::Not;
 /// All files of a folder by their paths within it.
 std::map<std::string, std::string> files_in(const fs::path& folder) {
   std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    std::ifstream file(entry.path(), std::ios::binary);
-    files[fs::relative(entry.path(), folder).string()] = {std::istreambuf_iterator<char>(file), {}};
-  }
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = scenes::text_of(entry.path());
   return files;
 }
 
@@ -361,12 +358,15 @@ TEST(Area, AnotherRunMeanwhileIsNotLost) {
   p.run_area(corner);
   p.settings.area = middle;
   const fs::path manifest = p.settings.output / package::manifest_file;
+  const std::string text = scenes::text_of(manifest);
   RunSettings run;
   run.on_progress = [&](const Progress& progress) {
-    if (progress.stage == "far maps" && progress.done == 1) std::ofstream(manifest, std::ios::app) << "\n";
+    if (progress.stage == "far maps" && progress.done == 1) std::ofstream(manifest) << scenes::sealed("\n" + text);
   };
   EXPECT_THROW((void)pack(p.settings, p.report, run), OutputError);
   EXPECT_EQ(PackageReader(p.settings.output).manifest().cells_with_far_map(), p.result.package.cells_with_far_map);
+  std::ofstream(manifest) << "\n" + text;
+  EXPECT_THAT(p.refusal(middle), HasSubstr("its manifest is damaged (its checksum"));
 }
 
 TEST(Area, AnAreaBesideTheCityIsACallersMistake) {

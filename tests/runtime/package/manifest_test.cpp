@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <fstream>
 #include <iterator>
 
@@ -54,8 +55,7 @@ TEST(Package, ManifestTruncated) {
   const SmallPackage small;
   const auto path = small.folder() / package::manifest_file;
   const Bytes whole = bytes_of(path);
-  // All but the line feed at its end is needed
-  for (std::size_t cut = 0; cut + 1 < whole.size(); ++cut) {
+  for (std::size_t cut = 0; cut < whole.size(); ++cut) {
     write_bytes(path, std::span(whole).first(cut));
     EXPECT_THAT(damage_met_by([&] { (void)read_manifest(small.folder()); }), HasSubstr("manifest.json is damaged")) << cut;
   }
@@ -63,14 +63,107 @@ TEST(Package, ManifestTruncated) {
 
 TEST(Package, ManifestOfAnotherVersion) {
   const SmallPackage small;
-  for (const std::uint64_t version : {std::uint64_t{1}, std::uint64_t{package::format_version} - 1,
-                                      std::uint64_t{package::partial_format_version} + 1, std::uint64_t{0xFFFFFFFF}}) {
+  for (const std::uint64_t version : {std::uint64_t{1}, std::uint64_t{package::oldest_format_version} - 1,
+                                      std::uint64_t{package::format_version} + 1, std::uint64_t{0xFFFFFFFF}}) {
     json m = small.manifest();
     m["version"] = version;
     m.erase("grid");  // another version may say it otherwise
     small.write_manifest(m);
     EXPECT_THROW((void)read_manifest(small.folder()), PackageUnusable) << version;
   }
+}
+
+/// As versions 6 and 7 have it.
+void write_unsealed(const SmallPackage& small, const json& manifest) {
+  const std::string text = manifest.dump(1) + "\n";
+  write_bytes(small.folder() / package::manifest_file, std::as_bytes(std::span(text)));
+}
+
+TEST(Package, ManifestsOfOlderVersionsNeedNoChecksum) {
+  const SmallPackage small;
+  json m = small.manifest();
+  for (const std::uint32_t version : {6U, 7U}) {
+    m["version"] = version;
+    write_unsealed(small, m);
+    EXPECT_EQ(read_manifest(small.folder()).version, version);
+    // Where there is one, it is verified
+    small.write_manifest(m);
+    EXPECT_EQ(read_manifest(small.folder()).version, version);
+    m["xxh3"] = "0000000000000000";
+    write_unsealed(small, m);
+    EXPECT_THAT(damage_met_by([&] { (void)read_manifest(small.folder()); }), HasSubstr("checksum"));
+    m.erase("xxh3");
+  }
+}
+
+TEST(Package, ManifestsOfTheNewestVersionNeedAChecksum) {
+  const SmallPackage small;
+  write_unsealed(small, small.manifest());
+  EXPECT_THAT(damage_met_by([&] { (void)read_manifest(small.folder()); }), HasSubstr("its checksum is not at its end"));
+}
+
+TEST(Package, NoByteOfTheManifestChangesUnnoticed) {
+  const Bytes bytes = bytes_of(SmallPackage(FarMapKind::horizon).folder() / package::manifest_file);
+  std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const auto damage = [&] { return damage_met_by([&] { (void)manifest_from_text(text, "manifest.json"); }); };
+  ASSERT_EQ(damage(), "no damage");
+  for (char& byte : text)
+    for (std::uint32_t bit = 0; bit < 8; ++bit) {
+      const char whole = byte;
+      byte = static_cast<char>(static_cast<unsigned char>(whole) ^ (1U << bit));
+      EXPECT_THAT(damage(), HasSubstr("manifest.json is damaged")) << "bit " << bit << " of byte " << &byte - text.data();
+      byte = whole;
+    }
+  text += '\n';
+  EXPECT_NE(damage(), "no damage");
+}
+
+TEST(Package, AVersionThatDamageHasMadeIsNoNewerOne) {
+  const SmallPackage small;
+  const auto path = small.folder() / package::manifest_file;
+  const Bytes bytes = bytes_of(path);
+  std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  text.replace(text.find("\"version\": 8"), 12, "\"version\": 9");
+  write_bytes(path, std::as_bytes(std::span(text)));
+  EXPECT_THAT(damage_met_by([&] { (void)read_manifest(small.folder()); }), HasSubstr("checksum"));
+}
+
+TEST(Package, ManifestNestedTooDeep) {
+  const SmallPackage small;
+  json m = small.manifest();
+  json deep = 1;
+  for (int level = 0; level < 31; ++level) deep = json::array({deep});
+  m["weather"] = deep;
+  EXPECT_EQ(damage_of(small, m), "no damage");
+  m["weather"] = json::array({deep});
+  EXPECT_THAT(damage_of(small, m), HasSubstr("nested deeper than 32"));
+  const std::string endless(1'000'000, '[');
+  EXPECT_THAT(damage_met_by([&] { (void)manifest_from_text(endless, "manifest.json"); }), HasSubstr("nested deeper than 32"));
+}
+
+TEST(Package, BracketsInTextAreNoNesting) {
+  const SmallPackage small;
+  json m = small.manifest();
+  m["weather"] = "\\\"" + std::string(100, '[') + "\"";
+  EXPECT_EQ(damage_of(small, m), "no damage");
+}
+
+TEST(Package, ManifestsAreReadInATimeThatGrowsWithTheirLength) {
+  // Half a minute with a reader that walks through a list for each of its entries
+  const SmallPackage small;
+  json m = small.manifest();
+  m["weather"] = json::array();
+  for (int n = 0; n < 200'000; ++n) m["weather"].push_back(json::object());
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(damage_of(small, m), "no damage");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+}
+
+TEST(Package, MessagesRepeatLittleOfAManifest) {
+  const SmallPackage small;
+  json m = small.manifest();
+  m["settings"]["far_map"]["kind"] = std::string(100'000, 'k');
+  EXPECT_LT(damage_of(small, m).size(), 1000U);
 }
 
 TEST(Package, ManifestOfNoVersion) {
@@ -87,7 +180,6 @@ TEST(Package, ManifestOfNoVersion) {
 /// The manifest of the small package, were only some of its cells mapped: the runs are those of its block of two cells.
 json partial_manifest(const SmallPackage& small, const json& runs) {
   json m = small.manifest();
-  m["version"] = package::partial_format_version;
   m["blocks"][0]["cells_with_far_map"] = runs;
   return m;
 }
@@ -117,7 +209,7 @@ TEST(Package, ManifestOfABlockWithoutFarMaps) {
 TEST(Package, ManifestOfVersion6HasAllFarMaps) {
   const SmallPackage small;
   json m = partial_manifest(small, {{1, 2}});
-  m["version"] = package::format_version;  // which did not know the key
+  m["version"] = 6;  // which did not know the key
   small.write_manifest(m);
   EXPECT_TRUE(read_manifest(small.folder()).is_fully_mapped());
 }

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
+#include "package/block_check.hpp"
+#include "package/manifest_reader.hpp"
 #include "package/package_reader.hpp"
 #include "tests/runtime/package/small_package.hpp"
 
@@ -130,6 +133,57 @@ TEST_P(PackageFiles, WhatIsNotAskedForIsNotOpened) {
   EXPECT_GT(package.tile({0, 0}).mesh.triangles.size(), 0U);
   EXPECT_THROW((void)package.tile({2, 0}), PackageDamaged);
   EXPECT_THROW((void)package.tile({2, 0}), PackageDamaged) << "asking again must not help";
+}
+
+/// Everything below the folder of a package: its files, and the folders on the way to them.
+std::vector<std::filesystem::path> names_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    names.push_back(entry.path().lexically_relative(folder));
+  return names;
+}
+
+/// What farlod-info --check meets.
+std::string damage_checked_in(const SmallPackage& small) {
+  std::string all;
+  const std::string of_manifest = damage_met_by([&] {
+    const package::Manifest manifest = read_manifest(small.folder());
+    for (std::size_t n = 0; n < manifest.blocks.size(); ++n) {
+      const BlockCheck check(small.folder(), manifest, n);
+      for (const BlockDamage& damage : check.damage()) all += damage.what;
+    }
+  });
+  return of_manifest == "no damage" ? all : of_manifest;
+}
+
+TEST_P(PackageFiles, LinksWithinAPackageAreRefused) {
+  for (const std::filesystem::path& name : names_in(SmallPackage(GetParam()).folder())) {
+    const SmallPackage small(GetParam());
+    const std::filesystem::path outside = small.folder().parent_path() / "outside";
+    std::filesystem::rename(small.folder() / name, outside);
+    std::filesystem::create_symlink(outside, small.folder() / name);
+    EXPECT_THAT(damage_of(small), AllOf(HasSubstr(name.string()), HasSubstr("is a link"))) << name;
+    EXPECT_THAT(damage_checked_in(small), AllOf(HasSubstr(name.string()), HasSubstr("is a link"))) << name;
+  }
+}
+
+TEST_P(PackageFiles, APackageMayBeALink) {
+  const SmallPackage small(GetParam());
+  const std::filesystem::path link = small.folder().parent_path() / "link.farlod";
+  std::filesystem::create_directory_symlink(small.folder(), link);
+  EXPECT_EQ(damage_met_by([&] { (void)PackageReader(link).tile({0, 0}); }), "no damage");
+  const package::Manifest manifest = read_manifest(link);
+  EXPECT_TRUE(BlockCheck(link, manifest, 0).damage().empty());
+}
+
+TEST_P(PackageFiles, NobodyWaitsForAPipe) {
+  for (const std::filesystem::path& name : names_in(SmallPackage(GetParam()).folder())) {
+    const SmallPackage small(GetParam());
+    std::filesystem::remove_all(small.folder() / name);
+    ASSERT_EQ(mkfifo((small.folder() / name).c_str(), 0600), 0);
+    EXPECT_THAT(damage_of(small), AllOf(HasSubstr(name.string()), HasSubstr("is not a f"))) << name;
+    EXPECT_THAT(damage_checked_in(small), AllOf(HasSubstr(name.string()), HasSubstr("is not a f"))) << name;
+  }
 }
 
 TEST(Package, HorizonsWithoutNamesAreRefused) {

@@ -32,7 +32,9 @@ class SmallPackage {
   [[nodiscard]] std::filesystem::path file(Block block, const char* name) const {
     return folder_ / package::block_folder(block) / name;
   }
+  /// Without its checksum.
   [[nodiscard]] nlohmann::json manifest() const;
+  /// With a checksum that is right.
   void write_manifest(const nlohmann::json& manifest) const;
   /// Makes the manifest tell size and checksum of the files as they are now, so that damage gets past those.
   void stamp_anew() const;

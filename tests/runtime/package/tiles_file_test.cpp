@@ -79,7 +79,7 @@ TEST(Package, Magic) {
 }
 
 TEST(Package, AnotherVersion) {
-  for (const std::uint32_t version : {1U, format_version - 1, format_version + 1, 77U, 0xFFFFFFFFU}) {
+  for (const std::uint32_t version : {1U, tiles_version - 1, tiles_version + 1, 77U, 0xFFFFFFFFU}) {
     TilesBytes file = whole_file();
     file.header().version = version;
     EXPECT_THROW((void)open(file), PackageUnusable) << version;
@@ -246,6 +246,20 @@ TEST(Package, IdReachesBeyondTheText) {
   };
   EXPECT_THAT(damage_after([=](TilesBytes& f) { ++building(f).text_bytes; }), HasSubstr("id reaches beyond"));
   EXPECT_THAT(damage_after([=](TilesBytes& f) { building(f).text_offset = ~std::uint32_t{0}; }), HasSubstr("id reaches beyond"));
+}
+
+TEST(Package, BuildingsThatShareTheirText) {
+  // A thousand buildings whose ids are all of a text of a megabyte would take a gigabyte
+  EXPECT_THAT(damage_after([](TilesBytes& f) {
+                const auto& buildings = f.section(SectionKind::buildings);
+                ASSERT_GT(buildings.count, 1U);
+                for (std::size_t n = 0; n < buildings.count; ++n) {
+                  auto& building = f.element<BuildingRecord>(SectionKind::buildings, n);
+                  building.text_offset = 0;
+                  building.text_bytes = static_cast<std::uint32_t>(f.section(SectionKind::text).count);
+                }
+              }),
+              HasSubstr("share the bytes of their ids"));
 }
 
 TEST(Package, NotANumber) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "farlod/error.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
 
@@ -152,6 +153,18 @@ TEST(SurfaceReceivers, APartyWallOnABorderOfTheGridIsInsideFromBothSides) {
       const bool on_border = std::abs(grid.corner_of(cell).x + r.p_cell.x - 20.0) < 0.5 && std::abs(r.normal.x) > 0.5F;
       EXPECT_EQ(r.is_inside_building, on_border);
     }
+}
+
+TEST(SurfaceReceivers, AreNotMoreThanMemoryHolds) {
+  scenes::SceneBuilder builder;
+  builder.add_box({{10.0, 10.0}, {990.0, 990.0}}, 0.0, 9.0);
+  const scenes::TemporaryFolder folder;
+  scenes::pack_city(builder.city(), scenes::grid_covering(builder.city(), {}, 1000.0, 1), folder.path() / "hall.farlod",
+                    scenes::box_maps(1, 1));
+  const PackageReader package(folder.path() / "hall.farlod");
+  const Cell cell{package.grid().cells.i_begin, package.grid().cells.j_begin};
+  EXPECT_GT(surface_receivers(package, cell, SurfaceChoice::all, 10.0).size(), 980U * 980U / 100U);
+  EXPECT_THROW((void)surface_receivers(package, cell, SurfaceChoice::all, 0.05), LimitReached);
 }
 
 }  // namespace

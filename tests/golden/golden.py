@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Far-LoD authors
+# SPDX-License-Identifier: Apache-2.0
+"""Packages of each version of the format, and the sky view factors that they gave when they were made.
+
+  golden.py check BIN          reads each package with the programs in BIN, and compares the values
+  golden.py add BIN FOLDER     packs the town with the programs in BIN, and writes packages and values to FOLDER
+"""
+
+import csv
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+ENGINES = ["auto", "horizon", "rays", "exact"]
+# The only cells with far maps of the packages that are partial: half of a block
+AREA = "500025,5500000,500030,5500004"
+# Another Embree may let one ray of 1,000 go the other way, and points outside of the grid are traced by all engines
+TOLERANCE = 0.0011
+EXIT_UNUSABLE = 3
+
+
+def run(binaries: pathlib.Path, *arguments: object) -> subprocess.CompletedProcess[str]:
+    command = [str(binaries / str(arguments[0])), *map(str, arguments[1:])]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+
+
+def values_of(binaries: pathlib.Path, package: pathlib.Path) -> dict[tuple[str, str], str]:
+    """The value of each point by each engine; "" where it has none, "refused" where the engine refuses the package."""
+    values = {}
+    with tempfile.TemporaryDirectory() as folder:
+        table = pathlib.Path(folder) / "values.csv"
+        for engine in ENGINES:
+            result = run(binaries, "farlod-svf", package, "-o", table, "--points", HERE / "points.csv", "--points-crs",
+                         "EPSG:32632", "--engine", engine, "--quiet")
+            if result.returncode not in (0, EXIT_UNUSABLE):
+                raise SystemExit(f"{package.name}, engine {engine}: exit code {result.returncode}: {result.stderr}")
+            names = [row["id"] for row in read_table(HERE / "points.csv")]
+            answers = read_table(table) if result.returncode == 0 else [{"id": n, "svf": "refused"} for n in names]
+            values.update({(row["id"], engine): row["svf"] for row in answers})
+    return values
+
+
+def read_table(path: pathlib.Path) -> list[dict[str, str]]:
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def add(binaries: pathlib.Path, folder: pathlib.Path) -> None:
+    for kind in ("horizon", "box"):
+        for part, options in (("", []), ("_partial", ["--area", AREA])):
+            with tempfile.TemporaryDirectory() as work:
+                packed = pathlib.Path(work) / "town.farlod"
+                made = run(binaries, "farlod-pack", HERE / "town.geojson", "-o", packed, "--cell", 50, "--neighborhood", 1,
+                           "--align", "none", "--far-map", kind, "--quiet", *options)
+                if made.returncode != 0:
+                    raise SystemExit(made.stderr)
+                version = json.loads((packed / "manifest.json").read_text())["version"]
+                name = f"version_{version}_{kind}{part}"
+                shutil.copytree(packed, folder / f"{name}.farlod")
+                write_values(folder / f"{name}.csv", values_of(binaries, packed))
+
+
+def write_values(path: pathlib.Path, values: dict[tuple[str, str], str]) -> None:
+    with path.open("w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["point", "engine", "svf"])
+        writer.writerows([point, engine, svf] for (point, engine), svf in values.items())
+
+
+def differences(package: pathlib.Path, values: dict[tuple[str, str], str]) -> list[str]:
+    found = []
+    expected = {(row["point"], row["engine"]): row["svf"] for row in read_table(package.with_suffix(".csv"))}
+    if expected.keys() != values.keys():
+        found.append(f"{package.name}: other points or engines than in its table")
+    for key, was in expected.items():
+        now = values.get(key, "nothing")
+        numbers = re.fullmatch(r"[0-9.]+", was) and re.fullmatch(r"[0-9.]+", now)
+        same = abs(float(was) - float(now)) <= TOLERANCE if numbers else was == now
+        if not same:
+            found.append(f"{package.name}: {key[0]}, engine {key[1]}: {was or 'no value'} then, {now or 'no value'} now")
+    return found
+
+
+def check_packages(binaries: pathlib.Path) -> list[str]:
+    found = []
+    for package in sorted(HERE.glob("*.farlod")):
+        whole = run(binaries, "farlod-info", package, "--check")
+        if whole.returncode != 0:
+            found.append(f"{package.name}: {whole.stderr}")
+            continue
+        found += differences(package, values_of(binaries, package))
+    return found
+
+
+def readable_versions() -> range:
+    layout = (HERE.parent.parent / "contract/package/layout.hpp").read_text()
+    constant = {name: int(value) for name, value in re.findall(r"uint32_t (\w+_version) = (\d+);", layout)}
+    return range(constant["oldest_format_version"], constant["format_version"] + 1)
+
+
+def check_all_versions_are_there() -> list[str]:
+    names = [f"version_{version}_{kind}" for version in readable_versions() for kind in ("horizon", "box")]
+    there = [path.stem for path in HERE.glob("*.farlod")]
+    return [f"no package of {name}: see README.md" for name in names if not any(t.startswith(name) for t in there)]
+
+
+def check_other_versions(binaries: pathlib.Path) -> list[str]:
+    """Manifests without a checksum, as those before version 8 are, say an older and a newer version: both are refused by that
+    number."""
+    found = []
+    versions = readable_versions()
+    for source, version in (("version_6_horizon", versions[0] - 1), ("version_7_box_partial", versions[-1] + 1)):
+        with tempfile.TemporaryDirectory() as folder:
+            package = pathlib.Path(folder) / "other.farlod"
+            shutil.copytree(HERE / f"{source}.farlod", package)
+            manifest = package / "manifest.json"
+            manifest.write_text(re.sub(r'"version": \d+', f'"version": {version}', manifest.read_text(), count=1))
+            for program in (["farlod-info", package, "--check"], ["farlod-svf", package, "-o", f"{folder}/o.csv", "--at", "500001,5500022"]):
+                result = run(binaries, *program)
+                if result.returncode != EXIT_UNUSABLE or f"format version {version}," not in result.stderr:
+                    found.append(f"version {version} is not refused: {program[0]} ends with {result.returncode}: {result.stderr}")
+    return found
+
+
+def check(binaries: pathlib.Path) -> None:
+    found = check_all_versions_are_there() + check_packages(binaries) + check_other_versions(binaries)
+    print("\n".join(found) or "All packages of former versions give what they gave.")
+    raise SystemExit(1 if found else 0)
+
+
+if __name__ == "__main__":
+    if sys.argv[1:2] == ["check"] and len(sys.argv) == 3:
+        check(pathlib.Path(sys.argv[2]))
+    elif sys.argv[1:2] == ["add"] and len(sys.argv) == 4:
+        add(pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]))
+    else:
+        raise SystemExit(__doc__)
