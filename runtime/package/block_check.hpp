@@ -13,6 +13,7 @@
 #include "package/block_tiles.hpp"
 #include "package/far_map_reader.hpp"
 #include "package/mapped_file.hpp"
+#include "package/package_folder.hpp"
 
 namespace farlod {
 
@@ -27,9 +28,9 @@ struct BlockDamage {
 /// being read.
 class BlockCheck {
  public:
-  /// Compares the files of the n-th block with their checksums, checks the tiles, and opens the far maps. The manifest must
+  /// Compares the files of the n-th block with their checksums, checks the tiles, and opens the far maps. Folder and manifest must
   /// outlive it.
-  BlockCheck(const std::filesystem::path& folder, const package::Manifest& manifest, std::size_t n);
+  BlockCheck(const PackageFolder& folder, const package::Manifest& manifest, std::size_t n);
 
   /// What was wrong so far.
   [[nodiscard]] const std::vector<BlockDamage>& damage() const { return damage_; }
@@ -44,7 +45,7 @@ class BlockCheck {
  private:
   /// Calls `work`, and keeps what it says of a damage. Returns whether there was none.
   template <class Work>
-  bool succeeds(const std::filesystem::path& file, const Work& work);
+  bool succeeds(const PackageFile& file, const Work& work);
   void open_tiles();
   void open_far_maps();
   void read_far_map(Cell cell) const;
@@ -52,7 +53,9 @@ class BlockCheck {
   const package::Manifest& manifest_;
   const package::BlockFiles& files_;
   CellRange cells_;
-  std::filesystem::path folder_, tiles_path_, far_map_path_;
+  const PackageFolder& folder_;
+  std::filesystem::path tiles_name_, far_map_name_;  ///< within the folder
+  PackageFile tiles_file_, far_map_file_;
   std::vector<BlockDamage> damage_;
   std::optional<MappedFile> tiles_bytes_;
   std::optional<BlockTiles> tiles_;

@@ -12,6 +12,7 @@
 #include "contract/grid.hpp"
 #include "contract/package/manifest.hpp"
 #include "package/far_horizon.hpp"
+#include "package/package_folder.hpp"
 
 namespace farlod {
 
@@ -46,7 +47,7 @@ class FarMapReader {
  public:
   /// `mapped` are those of the cells that have a far map, where not all have one; not none. Throws PackageDamaged when the file
   /// does not hold the far maps of these cells.
-  FarMapReader(const std::filesystem::path& file, const CellRange& cells, const package::FarMapShape& shape,
+  FarMapReader(const PackageFile& file, const CellRange& cells, const package::FarMapShape& shape,
                const std::optional<package::CellRuns>& mapped = {});
   FarMapReader(FarMapReader&&) noexcept;
   FarMapReader& operator=(FarMapReader&&) noexcept;

@@ -86,11 +86,11 @@ struct FarMapReader::Impl {
   std::optional<package::CellRuns> mapped;
   exr_context_t file = nullptr;
 
-  Impl(const std::filesystem::path& path, const CellRange& c, package::FarMapShape s, std::optional<package::CellRuns> m)
-      : name(path.string()), cells(c), shape(std::move(s)), mapped(std::move(m)) {
+  Impl(const PackageFile& opened, const CellRange& c, package::FarMapShape s, std::optional<package::CellRuns> m)
+      : name(opened.name), cells(c), shape(std::move(s)), mapped(std::move(m)) {
     exr_context_initializer_t how = EXR_DEFAULT_CONTEXT_INITIALIZER;
     how.error_handler_fn = ignore_message;
-    const exr_result_t result = exr_start_read(&file, name.c_str(), &how);
+    const exr_result_t result = exr_start_read(&file, opened.path.c_str(), &how);
     if (result == EXR_ERR_SUCCESS) return;
     exr_finish(&file);
     throw PackageDamaged(name + " cannot be read as a far map: " + exr_get_default_error_message(result) +
@@ -163,7 +163,7 @@ struct FarMapReader::Impl {
   }
 };
 
-FarMapReader::FarMapReader(const std::filesystem::path& file, const CellRange& cells, const package::FarMapShape& shape,
+FarMapReader::FarMapReader(const PackageFile& file, const CellRange& cells, const package::FarMapShape& shape,
                            const std::optional<package::CellRuns>& mapped)
     : impl_(std::make_unique<Impl>(file, cells, shape, mapped)) {
   impl_->check();

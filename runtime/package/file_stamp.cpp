@@ -12,12 +12,12 @@
 
 namespace farlod {
 
-void check_stamp(const std::filesystem::path& path, std::span<const std::byte> bytes, const package::FileStamp& stamp) {
+void check_stamp(const PackageFile& file, std::span<const std::byte> bytes, const package::FileStamp& stamp) {
   if (bytes.size() != stamp.bytes)
-    throw PackageDamaged(path.string() + " is damaged: it has " + std::to_string(bytes.size()) + " bytes, the manifest says " +
+    throw PackageDamaged(file.name + " is damaged: it has " + std::to_string(bytes.size()) + " bytes, the manifest says " +
                          std::to_string(stamp.bytes) + ". Copy it again, or pack the city again.");
   if (XXH3_64bits(bytes.data(), bytes.size()) != stamp.xxh3)
-    throw PackageDamaged(path.string() +
+    throw PackageDamaged(file.name +
                          " is damaged: its checksum is not the manifest's. Copy it again, or pack the city again.");
 }
 
@@ -31,9 +31,9 @@ FileIdentity identity_of(const std::filesystem::path& path) {
           static_cast<std::uint64_t>(found.st_size), found.st_mtim.tv_sec * ns_per_s + found.st_mtim.tv_nsec};
 }
 
-void require_unchanged(const std::filesystem::path& path, const FileIdentity& opened) {
-  if (identity_of(path) != opened)
-    throw PackageDamaged(path.string() + " was written, replaced or removed while the package was open: open the package again.");
+void require_unchanged(const PackageFile& file, const FileIdentity& opened) {
+  if (identity_of(file.path) != opened)
+    throw PackageDamaged(file.name + " was written, replaced or removed while the package was open: open the package again.");
 }
 
 }  // namespace farlod

@@ -8,11 +8,12 @@
 #include <span>
 
 #include "contract/package/manifest.hpp"
+#include "package/package_folder.hpp"
 
 namespace farlod {
 
 /// Throws PackageDamaged when a file is not the one that the manifest names.
-void check_stamp(const std::filesystem::path& path, std::span<const std::byte> bytes, const package::FileStamp& stamp);
+void check_stamp(const PackageFile& file, std::span<const std::byte> bytes, const package::FileStamp& stamp);
 
 /// What tells a file that was written again, or replaced, from what it was.
 struct FileIdentity {
@@ -25,6 +26,6 @@ struct FileIdentity {
 [[nodiscard]] FileIdentity identity_of(const std::filesystem::path& path);
 
 /// Throws PackageDamaged where a file of an open package is not what it was when it was opened.
-void require_unchanged(const std::filesystem::path& path, const FileIdentity& opened);
+void require_unchanged(const PackageFile& file, const FileIdentity& opened);
 
 }  // namespace farlod

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "contract/package/manifest.hpp"
+#include "package/package_folder.hpp"
 
 namespace farlod {
 
@@ -24,6 +25,7 @@ inline constexpr std::int32_t farthest_cell_index = std::int32_t{1} << 29;
 
 /// Reads and checks `manifest.json` of a package's folder.
 /// Throws PackageUnusable (no package there, another version of the format) or PackageDamaged.
+[[nodiscard]] package::Manifest read_manifest(const PackageFolder& package_folder);
 [[nodiscard]] package::Manifest read_manifest(const std::filesystem::path& package_folder);
 
 }  // namespace farlod

@@ -16,7 +16,6 @@
 #include "contract/package/manifest_seal.hpp"
 #include "package/manifest_reader.hpp"
 #include "package/package_error.hpp"
-#include "package/plain_file.hpp"
 
 namespace farlod {
 namespace {
@@ -218,15 +217,6 @@ Manifest manifest_from(const json& j, std::uint32_t version) {
   return m;
 }
 
-void require_folder(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (std::filesystem::is_directory(status)) return;
-  if (!std::filesystem::status_known(status))
-    throw PackageUnusable(path.string() + " cannot be looked at: " + error.message() + ". Check its name, and who may read it.");
-  throw PackageUnusable(path.string() + " is not a package: there is no such folder. farlod-pack makes one.");
-}
-
 /// Whether the manifest has a checksum, which is right.
 bool has_seal(std::string_view text) {
   const auto seal = ManifestSeal::of(text);
@@ -245,16 +235,15 @@ Manifest read_text(std::string_view text, const std::string& name) {
   return manifest_from(j, version);
 }
 
-std::string text_of(const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / manifest_file;
-  require_plain_file(folder, manifest_file);
-  std::ifstream file(path, std::ios::binary);
+std::string text_of(const PackageFolder& folder) {
+  const PackageFile manifest = folder.plain_file(manifest_file);
+  std::ifstream file(manifest.path, std::ios::binary);
   if (!file)
-    throw PackageUnusable(folder.string() + " is not a finished package: it has no " + manifest_file +
+    throw PackageUnusable(folder.name().string() + " is not a finished package: it has no " + manifest_file +
                           ". Was farlod-pack interrupted? Pack the city again.");
   std::error_code unread;
-  if (std::filesystem::file_size(path, unread) > most_bytes)
-    throw PackageDamaged(path.string() + " is damaged: it has more than " + std::to_string(most_bytes) +
+  if (std::filesystem::file_size(manifest.path, unread) > most_bytes)
+    throw PackageDamaged(manifest.name + " is damaged: it has more than " + std::to_string(most_bytes) +
                          " bytes. Copy it again, or pack the city again.");
   return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -275,9 +264,10 @@ Manifest manifest_from_text(std::string_view text, const std::string& name) {
   }
 }
 
-Manifest read_manifest(const std::filesystem::path& package_folder) {
-  require_folder(package_folder);
-  return manifest_from_text(text_of(package_folder), (package_folder / manifest_file).string());
+Manifest read_manifest(const PackageFolder& package_folder) {
+  return manifest_from_text(text_of(package_folder), package_folder.file(manifest_file).name);
 }
+
+Manifest read_manifest(const std::filesystem::path& package_folder) { return read_manifest(PackageFolder(package_folder)); }
 
 }  // namespace farlod

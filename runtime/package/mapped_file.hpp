@@ -3,9 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <memory>
 #include <span>
+
+#include "package/package_folder.hpp"
 
 namespace farlod {
 
@@ -13,7 +14,7 @@ namespace farlod {
 /// is missing or unreadable is damage.
 class MappedFile {
  public:
-  explicit MappedFile(const std::filesystem::path& path);
+  explicit MappedFile(const PackageFile& file);
   MappedFile(MappedFile&&) noexcept;
   MappedFile& operator=(MappedFile&&) noexcept;
   ~MappedFile();

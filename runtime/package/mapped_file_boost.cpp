@@ -5,6 +5,7 @@
 #include <boost/interprocess/file_mapping.hpp>
 #include <boost/interprocess/mapped_region.hpp>
 
+#include <filesystem>
 #include <new>
 
 #include "package/mapped_file.hpp"
@@ -16,16 +17,16 @@ struct MappedFile::Impl {
   boost::interprocess::mapped_region region;
 };
 
-MappedFile::MappedFile(const std::filesystem::path& path) : impl_(std::make_unique<Impl>()) {
+MappedFile::MappedFile(const PackageFile& file) : impl_(std::make_unique<Impl>()) {
   namespace ipc = boost::interprocess;
   try {
     // An empty file cannot be mapped; it has no bytes, and the reader will say what is missing
-    if (std::filesystem::file_size(path) == 0) return;
-    impl_->region = ipc::mapped_region(ipc::file_mapping(path.c_str(), ipc::read_only), ipc::read_only);
+    if (std::filesystem::file_size(file.path) == 0) return;
+    impl_->region = ipc::mapped_region(ipc::file_mapping(file.path.c_str(), ipc::read_only), ipc::read_only);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& reason) {
-    throw PackageDamaged(path.string() + " is missing or cannot be read. Copy the package again, or pack the city again. (" +
+    throw PackageDamaged(file.name + " is missing or cannot be read. Copy the package again, or pack the city again. (" +
                          reason.what() + ")");
   }
 }

@@ -14,7 +14,6 @@
 #include "package/manifest_reader.hpp"
 #include "package/mapped_file.hpp"
 #include "package/package_error.hpp"
-#include "package/plain_file.hpp"
 
 namespace farlod {
 namespace {
@@ -43,7 +42,7 @@ struct OpenBlock {
 }  // namespace
 
 struct PackageReader::Impl {
-  std::filesystem::path folder;
+  std::optional<PackageFolder> folder;  ///< none of a package in memory
   FileIdentity manifest_identity;  // first, so that a manifest that is replaced meanwhile is noticed
   package::Manifest manifest;
   std::vector<OpenBlock> blocks;
@@ -52,10 +51,10 @@ struct PackageReader::Impl {
 
   std::optional<PackageInMemory> memory;
 
-  explicit Impl(std::filesystem::path f)
-      : folder(std::move(f)),
-        manifest_identity(identity_of(folder / package::manifest_file)),
-        manifest(read_manifest(folder)),
+  explicit Impl(const std::filesystem::path& name)
+      : folder(name),
+        manifest_identity(identity_of(folder->file(package::manifest_file).path)),
+        manifest(read_manifest(*folder)),
         blocks(manifest.blocks.size()) {}
   explicit Impl(PackageInMemory contents)
       : manifest(std::move(contents.manifest)), blocks(manifest.blocks.size()), memory(std::move(contents)) {
@@ -76,7 +75,11 @@ struct PackageReader::Impl {
   std::filesystem::path name_of(std::size_t n, const char* file) const {
     return std::filesystem::path(package::folder_of(manifest.blocks[n])) / file;
   }
-  std::filesystem::path path_of(std::size_t n, const char* file) const { return folder / name_of(n, file); }
+  PackageFile file_of(std::size_t n, const char* file) const { return folder->file(name_of(n, file)); }
+  /// Of a package in memory too, whose files have names alone.
+  std::string shown_name_of(std::size_t n, const char* file) const {
+    return folder ? file_of(n, file).name : name_of(n, file).string();
+  }
 
   /// What a block holds at the most: its tiles, read from end to end, and where in its file the far map of each cell lies.
   std::uint64_t bytes_of(std::size_t n) const {
@@ -94,17 +97,16 @@ struct PackageReader::Impl {
   const BlockTiles& tiles(std::size_t n) {
     OpenBlock& open = blocks[n];
     std::call_once(open.tiles_once, [&] {
-      const auto path = path_of(n, package::tiles_file);
       const CellRange cells = manifest.grid.cells_of(manifest.blocks[n].block);
       if (memory) {
-        open.tiles.emplace(memory->tiles[n], cells, path.string());
+        open.tiles.emplace(memory->tiles[n], cells, shown_name_of(n, package::tiles_file));
         return;
       }
-      require_plain_file(folder, name_of(n, package::tiles_file));
-      open.tiles_identity = identity_of(path);
-      open.tiles_bytes.emplace(path);
-      check_stamp(path, open.tiles_bytes->bytes(), manifest.blocks[n].tiles);
-      open.tiles.emplace(open.tiles_bytes->bytes(), cells, path.string());
+      const PackageFile file = folder->plain_file(name_of(n, package::tiles_file));
+      open.tiles_identity = identity_of(file.path);
+      open.tiles_bytes.emplace(file);
+      check_stamp(file, open.tiles_bytes->bytes(), manifest.blocks[n].tiles);
+      open.tiles.emplace(open.tiles_bytes->bytes(), cells, file.name);
       open.has_tiles = true;
     });
     if (!memory) use(n);
@@ -114,35 +116,40 @@ struct PackageReader::Impl {
   /// Whoever has the reader keeps it, even when the block has to go meanwhile. The block's tiles must be open.
   std::shared_ptr<const FarMapReader> far_maps(std::size_t n) {
     OpenBlock& open = blocks[n];
-    const auto path = path_of(n, package::far_map_file);
+    const PackageFile file = file_of(n, package::far_map_file);
     std::call_once(open.far_map_checked, [&] {
-      require_plain_file(folder, name_of(n, package::far_map_file));
-      open.far_map_identity = identity_of(path);
-      check_stamp(path, MappedFile(path).bytes(), manifest.blocks[n].far_map);
+      (void)folder->plain_file(name_of(n, package::far_map_file));
+      open.far_map_identity = identity_of(file.path);
+      check_stamp(file, MappedFile(file).bytes(), manifest.blocks[n].far_map);
       open.has_far_map = true;
     });
     const std::lock_guard lock(open.far_map_mutex);
     if (!open.far_map)
-      open.far_map = std::make_shared<const FarMapReader>(path, manifest.grid.cells_of(manifest.blocks[n].block),
+      open.far_map = std::make_shared<const FarMapReader>(file, manifest.grid.cells_of(manifest.blocks[n].block),
                                                           manifest.far_map, manifest.blocks[n].mapped);
     return open.far_map;
   }
 
   void require_unchanged() const {
     if (memory) return;
-    farlod::require_unchanged(folder / package::manifest_file, manifest_identity);
+    farlod::require_unchanged(folder->file(package::manifest_file), manifest_identity);
     for (std::size_t n = 0; n < blocks.size(); ++n) {
-      if (blocks[n].has_tiles) farlod::require_unchanged(path_of(n, package::tiles_file), blocks[n].tiles_identity);
-      if (blocks[n].has_far_map) farlod::require_unchanged(path_of(n, package::far_map_file), blocks[n].far_map_identity);
+      if (blocks[n].has_tiles) farlod::require_unchanged(file_of(n, package::tiles_file), blocks[n].tiles_identity);
+      if (blocks[n].has_far_map) farlod::require_unchanged(file_of(n, package::far_map_file), blocks[n].far_map_identity);
     }
   }
 };
 
-PackageReader::PackageReader(std::filesystem::path folder) : impl_(std::make_unique<Impl>(std::move(folder))) {}
+PackageReader::PackageReader(const std::filesystem::path& folder) : impl_(std::make_unique<Impl>(folder)) {}
 PackageReader::PackageReader(PackageInMemory contents) : impl_(std::make_unique<Impl>(std::move(contents))) {}
 PackageReader::PackageReader(PackageReader&&) noexcept = default;
 PackageReader& PackageReader::operator=(PackageReader&&) noexcept = default;
 PackageReader::~PackageReader() = default;
+
+const PackageFolder& PackageReader::folder() const {
+  FARLOD_EXPECTS(impl_->folder.has_value());
+  return *impl_->folder;
+}
 
 const package::Manifest& PackageReader::manifest() const { return impl_->manifest; }
 
@@ -169,7 +176,7 @@ FarHorizon PackageReader::far_horizon(Cell cell) const {
   const package::FarMapShape& shape = impl_->manifest.far_map;
   const BlockTiles& tiles = impl_->tiles(n);
   if (!tiles.has_far_cells())
-    throw PackageDamaged(impl_->path_of(n, package::tiles_file).string() +
+    throw PackageDamaged(impl_->shown_name_of(n, package::tiles_file) +
                          " is damaged: it does not name what its far maps need. Pack the city again.");
   const double cell_edge_m = grid().cell_edge_m;
   FarHorizon map{ReceiverPatches(cell_edge_m, shape.squares_per_edge, tiles.levels_m(cell, shape.layers)),

@@ -14,6 +14,7 @@
 #include "package/block_tiles.hpp"
 #include "package/far_horizon.hpp"
 #include "package/far_map_reader.hpp"
+#include "package/package_folder.hpp"
 
 namespace farlod {
 
@@ -32,7 +33,7 @@ class PackageReader {
  public:
   /// Reads the manifest only. Throws PackageUnusable or PackageDamaged, as do all the other functions when they meet a
   /// block that is not what the manifest says.
-  explicit PackageReader(std::filesystem::path folder);
+  explicit PackageReader(const std::filesystem::path& folder);
   /// The bytes of the tiles, and what the far maps view, must outlive it. It has no far maps of the kind `box`.
   explicit PackageReader(PackageInMemory contents);
   PackageReader(PackageReader&&) noexcept;
@@ -40,6 +41,8 @@ class PackageReader {
   ~PackageReader();
 
   [[nodiscard]] const package::Manifest& manifest() const;
+  /// Not of a package in memory.
+  [[nodiscard]] const PackageFolder& folder() const;
   [[nodiscard]] const Grid& grid() const { return manifest().grid; }
 
   /// What the manifest says of the block that owns a cell of the grid; the cell must exist.

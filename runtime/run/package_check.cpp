@@ -65,7 +65,7 @@ void check_far_maps(const BlockCheck& block, std::uint64_t bytes_of_file, BytesR
 
 CheckedBlock check_block(const PackageContents& contents, std::size_t n, BytesRead& read) {
   const package::Manifest& manifest = contents.reader.manifest();
-  const BlockCheck block(contents.folder, manifest, n);
+  const BlockCheck block(contents.reader.folder(), manifest, n);
   CheckedBlock checked{block.damage(), block.triangles(), 0, 0};
   if (checked.triangles) checked.cells = static_cast<std::uint64_t>(block.cell_count());
   read.add(manifest.blocks[n].tiles.bytes);
