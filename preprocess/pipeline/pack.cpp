@@ -91,7 +91,7 @@ void require_folders_above(const std::filesystem::path& output) {
 struct ResolvedInputs {
   std::vector<SourceCity> sources;
   std::vector<std::filesystem::path> files;              ///< on disk: an archive is one input, however many of its files are read
-  std::optional<std::filesystem::path> terrain;          ///< as GDAL opens it
+  std::optional<georeference::TerrainFile> terrain;      ///< as GDAL opens it
   std::optional<std::filesystem::path> terrain_on_disk;  ///< the file, or the archive that holds it
 };
 
@@ -169,8 +169,9 @@ class Packing {
     ResolvedInputs inputs{{}, {}, settings_.terrain, settings_.terrain};
     if (!found.surface_models.empty()) {
       require_one_raster(found.surface_models);
-      inputs.terrain = found.surface_models.front().path;
-      inputs.terrain_on_disk = found.surface_models.front().on_disk;
+      const ingest::InputFile& model = found.surface_models.front();
+      inputs.terrain = georeference::TerrainFile(model.path, model.is_named);
+      inputs.terrain_on_disk = model.on_disk;
     }
     for (const ingest::InputFile& file : found.files) inputs.files.push_back(file.on_disk);
     inputs.files.erase(std::unique(inputs.files.begin(), inputs.files.end()), inputs.files.end());
@@ -217,11 +218,11 @@ class Packing {
         "NAME where the table knows the ground.");
   }
 
-  [[nodiscard]] TerrainRaster read_ground(const std::filesystem::path& file, const LocatedCity& located,
+  [[nodiscard]] TerrainRaster read_ground(const georeference::TerrainFile& file, const LocatedCity& located,
                                           const std::optional<Box2d>& wanted_city) const {
     TerrainRaster terrain = georeference::read_terrain(file, settings_.georeference.crs, located.georeference, wanted_city);
     if (std::none_of(terrain.height_m.begin(), terrain.height_m.end(), [](const auto& height) { return height.has_value(); }))
-      throw InputError(file.string() + " has no heights where the city lies: give a terrain that covers it.");
+      throw InputError(file.path.string() + " has no heights where the city lies: give a terrain that covers it.");
     return terrain;
   }
 
