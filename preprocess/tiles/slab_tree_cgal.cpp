@@ -78,6 +78,7 @@ void SlabTree::enter(std::uint32_t edge) {
 }
 
 double SlabTree::key_of(std::uint32_t node, const RisingEdge& edge) const {
+  FARLOD_EXPECTS(node > 0);  // the root is 1
   const auto depth = static_cast<std::size_t>(std::bit_width(node)) - 1;
   const std::size_t width = leaf_count_ >> depth, first = (node - (std::size_t{1} << depth)) * width;
   const Point2d bottom = borders_[first], top = borders_[std::min(first + width, borders_.size() - 1)];

@@ -111,6 +111,41 @@ TEST(ManyRings, CrossWhereEdgesDo) {
   EXPECT_GT(others, 100U);
 }
 
+/// A line that goes up and down `teeth` times, and back to its beginning outside.
+FlatRing comb(int teeth, double low, double high) {
+  FlatRing ring;
+  for (int k = 0; k < teeth; ++k)
+    ring.insert(ring.end(), {{1.0 * k, k % 2 == 0 ? low : high}, {1.0 * k + 0.4, k % 2 == 0 ? high : low}});
+  ring.push_back({1.0 * teeth, high + 1.0});
+  ring.push_back({-1.0, high + 1.0});
+  return ring;
+}
+
+TEST(ManyRings, CrossWithoutACornerOfOneInTheOther) {
+  const FlatRing standing = comb(80, -10, 110);
+  FlatRing lying = comb(80, -10, 110), beside;
+  for (Point2d& p : lying) p = {p.y, p.x};
+  for (const Point2d& p : comb(80, -10, 50)) beside.push_back({p.x + 200.0, p.y});
+  RingSides one(standing), other(lying), third(beside);
+  ASSERT_TRUE(PairwiseRings::rings_cross(outline_of(standing), outline_of(lying)));
+  EXPECT_TRUE(one.crosses(other));
+  EXPECT_FALSE(one.crosses(third));
+  std::vector<RisingEdge> edges, others;
+  std::vector<Point2d> borders;
+  for (int k = 0; k < 200; ++k) {
+    edges.push_back(rising({1.0 * k, 0}, {1.0 * k + 5.0, 100}));
+    others.push_back(rising({1.0 * k + 0.5, 0}, {1.0 * k + 5.5, 100}));
+  }
+  for (const auto* some : {&edges, &others})
+    for (const RisingEdge& edge : *some) borders.insert(borders.end(), {edge.low, edge.high});
+  const RisingEdge across = rising(borders[0], borders[5]);
+  const SlabTree tree(edges, borders);
+  for (const RisingEdge& edge : others) EXPECT_FALSE(tree.crosses(edge));
+  for (std::size_t k = 0; k + 1 < 100; ++k) EXPECT_TRUE(tree.crosses(rising(others[k].low, others[k + 1].high))) << k;
+  EXPECT_EQ(tree.crosses(across),
+            std::any_of(edges.begin(), edges.end(), [&](const RisingEdge& e) { return edges_cross(e, across); }));
+}
+
 TEST(ManyRings, ArePlacedAsByPairs) {
   std::size_t misplaced = 0, exchanged = 0;
   for (unsigned int seed = 0; seed < 2000; ++seed) {
