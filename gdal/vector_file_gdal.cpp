@@ -7,6 +7,8 @@
 #include <sstream>
 #include <string>
 
+#include "gdal/local_data_gdal.hpp"
+
 namespace farlod {
 namespace {
 
@@ -26,9 +28,7 @@ bool lists(const char* endings, const std::string& ending) {
 }  // namespace
 
 GDALDatasetUniquePtr open_vector_file(const std::filesystem::path& file) {
-  (void)drivers();
-  constexpr std::array<const char*, 3> gml_options{"WRITE_GFS=NO", "DOWNLOAD_SCHEMA=NO", nullptr};
-  return GDALDatasetUniquePtr(GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, gml_options.data()));
+  return open_within(GdalReach::local_files, file, GDAL_OF_VECTOR);
 }
 
 GDALDatasetUniquePtr open_table(const std::filesystem::path& file) {

@@ -17,8 +17,8 @@ struct FeatureDeleter {
 };
 using Feature = std::unique_ptr<OGRFeature, FeatureDeleter>;
 
-/// Opens a vector file to read it. Nothing is written beside it, nor fetched from an address in it. Null where GDAL does not
-/// know what it is, or cannot read it.
+/// Opens a vector file that the user named, within GdalReach::local_files. Null where GDAL does not know what it is, or cannot
+/// read it. Throws InputError where it leads beyond this computer.
 [[nodiscard]] GDALDatasetUniquePtr open_vector_file(const std::filesystem::path& file);
 
 /// Opens a table of comma separated values, whatever its name ends with. Null where GDAL cannot read it.

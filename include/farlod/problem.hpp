@@ -46,7 +46,10 @@ enum class ProblemCode : std::uint16_t {
   unlikely_place = 205,
   zone_in_easting = 206,
   far_away = 207,
+  implausible_size = 208,
+  lies_on_its_side = 209,
   no_dominant_direction = 301,
+  nearly_empty_grid = 302,
   zero_area = 401,
   self_intersecting = 402,
   not_planar = 403,
@@ -68,6 +71,12 @@ struct ProblemDescription {
   Effect effect;
   std::string_view summary;
 };
+
+/// Whether the whole model is in doubt, so that the long work may be in vain: told before it begins.
+[[nodiscard]] constexpr bool doubts_the_model(ProblemCode code) {
+  return code == ProblemCode::unlikely_place || code == ProblemCode::implausible_size || code == ProblemCode::lies_on_its_side ||
+         code == ProblemCode::nearly_empty_grid;
+}
 
 /// All problems that exist, by code.
 inline constexpr std::array problem_descriptions{
@@ -115,8 +124,14 @@ inline constexpr std::array problem_descriptions{
                        "eastings begin with the number of their zone"},
     ProblemDescription{ProblemCode::far_away, "far_away", Effect::left_out,
                        "a facet or a building lies far from all the rest of the city"},
+    ProblemDescription{ProblemCode::implausible_size, "implausible_size", Effect::kept,
+                       "a file's buildings are larger than any on Earth, or tiny"},
+    ProblemDescription{ProblemCode::lies_on_its_side, "lies_on_its_side", Effect::kept,
+                       "a file's z axis does not seem to point upward"},
     ProblemDescription{ProblemCode::no_dominant_direction, "no_dominant_direction", Effect::kept,
                        "the streets have no dominant direction"},
+    ProblemDescription{ProblemCode::nearly_empty_grid, "nearly_empty_grid", Effect::kept,
+                       "the grid is very large for so few buildings"},
     ProblemDescription{ProblemCode::zero_area, "zero_area", Effect::left_out, "a facet has no area"},
     ProblemDescription{ProblemCode::self_intersecting, "self_intersecting", Effect::repaired,
                        "the rings of a facet cross each other"},
@@ -142,7 +157,7 @@ struct Problem {
   std::string place;   ///< the building's id, the feature's number or the line
   std::string detail;  ///< what exactly, with figures
   /// A place on the ground, where one is known. 1xx and 2xx: as the file counts, in its axis order (an OBJ file with its
-  /// origin added, z up); 207, 4xx and what waits for the terrain: easting, northing and height in the CRS
+  /// origin added, z up); 207 to 209, 4xx and what waits for the terrain: easting, northing and height in the CRS
   /// of the package.
   std::optional<Point3d> position = {};
   /// The same in degrees of WGS 84, longitude first; known once the CRS of the position is.

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "align/grid_doubt.hpp"
 #include "contract/expects.hpp"
 #include "farlod/error.hpp"
 
@@ -70,6 +71,8 @@ GridAlignment align(const LocatedCity& located, const GridSettings& settings, Re
     for (const Point3d& p_city : located.city.points_of(b)) box_grid.add(grid.rotation.grid_from_city(horizontal(p_city)));
   });
   cover(grid, box_grid);
+  if (const auto doubt = doubt_about_grid(located.city, grid))
+    report.add({ProblemCode::nearly_empty_grid, "", "whole city", *doubt});
   return {grid, streets};
 }
 

@@ -33,6 +33,7 @@ struct GridAlignment {
 ///   (1) its y axis runs along the bearing that the settings ask for
 ///   (2) every point of the city is in a cell, those on the outer borders included
 ///   (3) a city without a dominant direction is reported, and gets the bearing 0
+///   (4) a grid that is very large for its buildings is reported
 /// Throws InputError when the buildings lie so far apart that the grid would have too many cells.
 [[nodiscard]] GridAlignment align(const LocatedCity& located, const GridSettings& settings, Report& report);
 

@@ -61,6 +61,14 @@ void print_problems(const Report& report, const std::string& report_file) {
   if (!counts.empty() && report_file.empty()) fmt::print("  --report FILE.json lists each of them.\n");
 }
 
+/// What makes the whole city doubtful, with what would explain it: before the work, which may take hours and be in vain.
+void print_doubts(std::FILE* out, const Report& report) {
+  for (const Problem& p : report.problems())
+    if (doubts_the_model(p.code))
+      fmt::print(out, "Doubtful ({} {}): {}{}{}\n", static_cast<int>(p.code), describe(p.code).slug, p.source,
+                 p.source.empty() ? "" : ": ", p.detail);
+}
+
 /// What the files hold besides buildings and ground, most of it first.
 void print_skipped(const SkippedFeatures& skipped) {
   std::vector<std::pair<std::string, std::uint64_t>> rows(skipped.begin(), skipped.end());
@@ -136,9 +144,12 @@ class StageProgress {
     }
     line_->update(progress.done, progress.all);
   }
-  void show(const PackEstimate& estimate) {
+  void show(const PackEstimate& estimate, const Report& report) {
     line_.reset();
-    if (verbosity_ == Verbosity::normal) fmt::print("{}\n", estimate_text(estimate));
+    if (verbosity_ == Verbosity::normal) {
+      print_doubts(stdout, report);
+      fmt::print("{}\n", estimate_text(estimate));
+    }
     std::fflush(stdout);
   }
 
@@ -160,7 +171,7 @@ PackResult pack_as_told(const PackOptions& options, Report& report) {
     progress.update(p);
   };
   try {
-    return pack(options.settings, report, run, [&](const PackEstimate& e) { progress.show(e); });
+    return pack(options.settings, report, run, [&](const PackEstimate& e) { progress.show(e, report); });
   } catch (const ProblemsRefused& refused) {
     throw refusal(refused, options.report_file);
   }
@@ -178,6 +189,7 @@ int run(const PackOptions& options) {
     result = pack_as_told(options, report);
   } catch (...) {
     write_report(report, options.report_file);  // what was wrong is wanted most when nothing came of it
+    print_doubts(stderr, report);
     throw;
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

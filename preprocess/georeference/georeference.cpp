@@ -12,6 +12,7 @@
 
 #include "farlod/box.hpp"
 #include "farlod/error.hpp"
+#include "georeference/implausible_model.hpp"
 #include "georeference/input_crs.hpp"
 #include "georeference/misplaced_facets.hpp"
 #include "georeference/output_crs.hpp"
@@ -138,6 +139,15 @@ void leave_out_misplaced(LocatedCity& located, const Crs& output, Report& report
   for (Problem& problem : report.since(known)) locator.locate(problem);
 }
 
+/// Reports files whose buildings are implausible. Positions are in the output CRS.
+void report_doubts(const LocatedCity& located, const Crs& output, Report& report) {
+  const std::size_t known = report.problems().size();
+  report_implausible(located, report);
+  if (report.problems().size() == known) return;
+  ProblemLocator locator(output, FileAxes{}, horizontal(located.city.points().front()));
+  for (Problem& problem : report.since(known)) locator.locate(problem);
+}
+
 /// Moves all points from the projected frame to the city frame. Its origin is the middle of the buildings, or of the relief if
 /// there are no buildings.
 void move_to_origin(LocatedCity& located, const Crs& output) {
@@ -179,6 +189,7 @@ LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSett
   if (output) leave_out_misplaced(located, *output, report);
   if (located.city.points().empty() && located.relief_points.empty())
     throw InputError("no building is left that could be put on the map: see the report for what is wrong with each");
+  report_doubts(located, *output, report);
   move_to_origin(located, *output);
   return located;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "city/located_city.hpp"
 #include "city/terrain_raster.hpp"
@@ -13,6 +14,14 @@
 
 namespace farlod::georeference {
 
+/// A raster of heights as GDAL opens it. What the user did not name himself must not lead to other files.
+struct TerrainFile {
+  TerrainFile(std::filesystem::path file, bool named = true) : path(std::move(file)), is_named(named) {}  // NOLINT: a file is one
+
+  std::filesystem::path path;
+  bool is_named = true;
+};
+
 /// The place of a raster of heights, by its own metadata.
 struct TerrainExtent {
   std::string crs_wkt;  ///< empty when the file has no CRS
@@ -20,10 +29,10 @@ struct TerrainExtent {
 };
 
 /// Throws InputError when the file is not a raster, or has no place on the map.
-[[nodiscard]] TerrainExtent read_terrain_extent(const std::filesystem::path& file);
+[[nodiscard]] TerrainExtent read_terrain_extent(const TerrainFile& file);
 
 /// The frame of a city that consists of a terrain or surface model alone. The CRS is chosen by the same rules as for buildings.
-[[nodiscard]] Georeference georeference_of_terrain(const std::filesystem::path& file, const GeoreferenceSettings& settings);
+[[nodiscard]] Georeference georeference_of_terrain(const TerrainFile& file, const GeoreferenceSettings& settings);
 
 /// Reads the heights of the ground from band 1 of any raster that GDAL reads.
 ///   (1) a north-up raster in the output CRS is read as it is; the nodes of the terrain are the centres of its pixels
@@ -33,7 +42,7 @@ struct TerrainExtent {
 ///       horizontal unit
 /// A raster without a CRS is in `fallback_crs` or, if that is empty, in the output CRS. Only the part over `wanted_city` is read,
 /// and one pixel around it. Throws InputError when the file cannot be read, or does not cover `wanted_city`.
-[[nodiscard]] TerrainRaster read_terrain(const std::filesystem::path& file, const std::string& fallback_crs,
+[[nodiscard]] TerrainRaster read_terrain(const TerrainFile& file, const std::string& fallback_crs,
                                          const Georeference& georeference, std::optional<Box2d> wanted_city);
 
 }  // namespace farlod::georeference

@@ -15,6 +15,7 @@
 #include "contract/expects.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
+#include "gdal/local_data_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
 #include "georeference/crs.hpp"
 #include "georeference/input_crs.hpp"
@@ -34,12 +35,11 @@ using Dataset = std::unique_ptr<GDALDataset, DatasetDeleter>;
   throw InputError(file.string() + ": " + what + (reason.empty() ? "" : " (" + reason + ")"));
 }
 
-Dataset open_raster(const std::filesystem::path& file) {
-  GDALAllRegister();
+Dataset open_raster(const TerrainFile& file) {
   CPLErrorReset();
-  Dataset dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  Dataset dataset(open_within(file.is_named ? GdalReach::local_files : GdalReach::own_data, file.path, GDAL_OF_RASTER).release());
   if (!dataset || dataset->GetRasterCount() < 1)
-    fail(file,
+    fail(file.path,
          "is not a raster of heights that can be read: give a GeoTIFF, an ESRI ASCII grid or another format of GDAL; a relief "
          "of CityGML or CityJSON goes among the inputs");
   return dataset;
@@ -161,23 +161,23 @@ struct ReadyRaster {
   [[nodiscard]] GDALDataset& dataset() const { return warped ? *warped : *file; }
 };
 
-ReadyRaster make_ready(const std::filesystem::path& file, const std::string& fallback_crs, const Crs& output) {
+ReadyRaster make_ready(const TerrainFile& file, const std::string& fallback_crs, const Crs& output) {
   ReadyRaster ready{open_raster(file), nullptr, {}};
   const std::string own_wkt = wkt_of(ready.file->GetSpatialRef());
   const bool unnamed = own_wkt.empty() && fallback_crs.empty();
-  const Crs crs = unnamed ? output : crs_of_input(file.string(), own_wkt, fallback_crs).crs;
+  const Crs crs = unnamed ? output : crs_of_input(file.path.string(), own_wkt, fallback_crs).crs;
   ready.scale = height_scale(*ready.file->GetRasterBand(1), crs);
-  if (!crs.equals(output) || !is_north_up(geo_transform(*ready.file, file)))
-    ready.warped = warped(*ready.file, crs, output, file);
+  if (!crs.equals(output) || !is_north_up(geo_transform(*ready.file, file.path)))
+    ready.warped = warped(*ready.file, crs, output, file.path);
   return ready;
 }
 
 }  // namespace
 
-TerrainExtent read_terrain_extent(const std::filesystem::path& file) {
+TerrainExtent read_terrain_extent(const TerrainFile& file) {
   const GdalErrors quiet;
   const Dataset dataset = open_raster(file);
-  const GeoTransform t = geo_transform(*dataset, file);
+  const GeoTransform t = geo_transform(*dataset, file.path);
   TerrainExtent extent{wkt_of(dataset->GetSpatialRef()), {}};
   for (const double column : {0.0, static_cast<double>(dataset->GetRasterXSize())})
     for (const double row : {0.0, static_cast<double>(dataset->GetRasterYSize())})
@@ -185,31 +185,31 @@ TerrainExtent read_terrain_extent(const std::filesystem::path& file) {
   return extent;
 }
 
-Georeference georeference_of_terrain(const std::filesystem::path& file, const GeoreferenceSettings& settings) {
+Georeference georeference_of_terrain(const TerrainFile& file, const GeoreferenceSettings& settings) {
   const TerrainExtent extent = read_terrain_extent(file);
-  const Crs input = crs_of_input(file.string(), extent.crs_wkt, settings.crs).crs;
+  const Crs input = crs_of_input(file.path.string(), extent.crs_wkt, settings.crs).crs;
   const Point2d centre = 0.5 * (extent.box.low + extent.box.high);
   const Crs output = choose_output_crs(input, centre, settings.out_crs);
   const auto place = input.equals(output) ? centre : CrsTransformation(input, output, centre).apply(centre);
-  if (!place) throw InputError(file.string() + ": its centre has no place in " + output.name() + ": check its CRS");
+  if (!place) throw InputError(file.path.string() + ": its centre has no place in " + output.name() + ": check its CRS");
   return georeference_around(*place, output);
 }
 
-TerrainRaster read_terrain(const std::filesystem::path& file, const std::string& fallback_crs, const Georeference& georeference,
+TerrainRaster read_terrain(const TerrainFile& file, const std::string& fallback_crs, const Georeference& georeference,
                            std::optional<Box2d> wanted_city) {
   const GdalErrors quiet;
   const auto output = Crs::find(georeference.crs_wkt);
   FARLOD_EXPECTS(output.has_value());
   const ReadyRaster ready = make_ready(file, fallback_crs, *output);
-  const GeoTransform t = geo_transform(ready.dataset(), file);
+  const GeoTransform t = geo_transform(ready.dataset(), file.path);
   if (wanted_city) *wanted_city = {wanted_city->low + georeference.origin_m, wanted_city->high + georeference.origin_m};
   const Window window = window_of(ready.dataset(), t, wanted_city);
   if (window.column >= window.column_end || window.row >= window.row_end)
     throw InputError(
-        file.string() +
+        file.path.string() +
         ": does not cover the city: check its CRS, which was taken to be that of --crs or the output if it says none");
   auto terrain = read_window(ready.dataset(), t, window, ready.scale, georeference.origin_m);
-  if (!terrain) fail(file, "cannot be read to its end");
+  if (!terrain) fail(file.path, "cannot be read to its end");
   return std::move(*terrain);
 }
 

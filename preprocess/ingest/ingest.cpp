@@ -84,6 +84,8 @@ SourceCity read(const InputFile& file, const IngestSettings& settings, Report& r
       throw InputError(file.name + " is an archive within an archive, or of a kind that is not opened: unpack it first.");
     case FileFormat::raster:
       throw InputError(file.name + " is a raster among other files: give it with --terrain.");
+    case FileFormat::only_by_name:
+      throw InputError(file.name + " is of a format that may name other files: give it by its own name, unpacked.");
     case FileFormat::features:
     case FileFormat::unknown:
       break;

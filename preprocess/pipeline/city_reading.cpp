@@ -9,7 +9,6 @@
 
 #include "city/plan_boxes.hpp"
 #include "farlod/error.hpp"
-#include "georeference/terrain_reader.hpp"
 
 namespace farlod::pipeline {
 namespace {
@@ -163,11 +162,11 @@ class CityReading {
     return {aligned.grid, std::move(terrain), aligned.streets};
   }
 
-  [[nodiscard]] TerrainRaster read_ground(const std::filesystem::path& file, const std::optional<Box2d>& wanted_city) const {
+  [[nodiscard]] TerrainRaster read_ground(const georeference::TerrainFile& file, const std::optional<Box2d>& wanted_city) const {
     TerrainRaster terrain =
         georeference::read_terrain(file, settings_.georeference.crs, read_.located.georeference, wanted_city);
     if (std::none_of(terrain.height_m.begin(), terrain.height_m.end(), [](const auto& height) { return height.has_value(); }))
-      throw InputError(file.string() + " has no heights where the city lies: give a terrain that covers it.");
+      throw InputError(file.path.string() + " has no heights where the city lies: give a terrain that covers it.");
     return terrain;
   }
 
@@ -187,8 +186,9 @@ CityFiles find_city_files(const StageSettings& settings, Report& report) {
   ingest::FoundInputs found = ingest::find_input_files(settings.inputs, report);
   if (!found.surface_models.empty()) {
     require_one_raster(found.surface_models, settings.terrain);
-    city.terrain = found.surface_models.front().path;
-    city.terrain_on_disk = found.surface_models.front().on_disk;
+    const ingest::InputFile& model = found.surface_models.front();
+    city.terrain = georeference::TerrainFile(model.path, model.is_named);
+    city.terrain_on_disk = model.on_disk;
   }
   for (const ingest::InputFile& file : found.files) city.on_disk.push_back(file.on_disk);
   city.on_disk.erase(std::unique(city.on_disk.begin(), city.on_disk.end()), city.on_disk.end());

@@ -12,6 +12,7 @@
 #include "city/located_city.hpp"
 #include "city/terrain_raster.hpp"
 #include "farlod/pack.hpp"
+#include "georeference/terrain_reader.hpp"
 #include "ingest/files/input_search.hpp"
 #include "pipeline/pack.hpp"
 
@@ -24,7 +25,7 @@ using RunStage = std::function<void(const std::string& stage, const std::functio
 struct CityFiles {
   std::vector<ingest::InputFile> files;
   std::vector<std::filesystem::path> on_disk;            ///< an archive is one input, however many of its files are read
-  std::optional<std::filesystem::path> terrain;          ///< as GDAL opens it
+  std::optional<georeference::TerrainFile> terrain;      ///< as GDAL opens it
   std::optional<std::filesystem::path> terrain_on_disk;  ///< the file, or the archive that holds it
   SkippedFeatures skipped;
 };

@@ -28,7 +28,9 @@ struct RingPlaces {
 /// Finds holes that would add area under the even-odd rule, although a hole can only remove area:
 ///   (1) holes completely outside of the outer ring, and holes completely inside another hole
 ///   (2) copies of another hole, and copies of the outer ring, which would leave no area
-/// Rings that cross each other are not reported. The tests are exact: a hole may touch another ring.
+/// Rings that cross each other are not reported. The tests are exact: a hole may touch another ring. The time is about that of
+/// sorting the corners, unless very many rings run across each other: holes that could not be compared with all others before a
+/// limit that only hostile facets reach are reported, too, with a reason that says so.
 [[nodiscard]] RingPlaces places_of_rings(std::span<const std::span<const Point3d>> rings);
 
 }  // namespace farlod::tiles

@@ -16,6 +16,18 @@ namespace {
 
 /// More than the prefabricated buildings of a whole city have. Most templates are lamps and trees.
 constexpr std::uint64_t most_template_corners = 10'000'000;
+/// A polygon has a piece more for itself and one for each ring. Of thousands of instances, each is gone through before it is
+/// known which level of detail counts, and polygons without corners are gone through, too.
+constexpr std::uint64_t most_template_pieces = 3 * most_template_corners;
+
+std::uint64_t pieces_of(const CityJsonGeometry& geometry) {
+  std::uint64_t pieces = 1;
+  for (const CityJsonPolygon& polygon : geometry.polygons) {
+    pieces += 1 + polygon.rings.size();
+    for (const auto& ring : polygon.rings) pieces += ring.size();
+  }
+  return pieces;
+}
 
 enum class ObjectRole { none, building, part, installation, element, relief };
 
@@ -166,6 +178,8 @@ class BuildingAssembler {
       }
       shape.instance = &*geometry.instance;
       shape.geometry = &templates_.geometries[geometry.instance->template_row];
+      account_.template_pieces += pieces_of(*shape.geometry);
+      if (account_.template_pieces > most_template_pieces) refuse_unfolding();
     }
     if (has_surfaces(shape.geometry->type))
       shapes_.push_back(shape);
@@ -243,9 +257,12 @@ class BuildingAssembler {
   /// Counts the corners that instances of templates add, which could otherwise fill the memory from a small file.
   void count_unfolded(std::size_t corners) {
     account_.template_corners += corners;
-    if (account_.template_corners > most_template_corners)
-      throw InputError(builder_.source() + ": its geometry templates unfold to more than " +
-                       std::to_string(most_template_corners) + " corners of buildings. Split it into tiles.");
+    if (account_.template_corners > most_template_corners) refuse_unfolding();
+  }
+
+  [[noreturn]] void refuse_unfolding() const {
+    throw InputError(builder_.source() + ": its geometry templates unfold to more than " + std::to_string(most_template_corners) +
+                     " corners of buildings. Split it into tiles.");
   }
 
   static std::optional<Point3d> vertex(const std::vector<Point3d>& vertices, std::int64_t row) {

@@ -54,6 +54,8 @@ struct ObjectAccount {
   std::vector<Point3d> relief_points;  ///< corners of the triangles of terrain, in its best level of detail
   SkippedFeatures skipped;             ///< types of the objects that are not used
   std::uint64_t template_corners = 0;  ///< corners that instances of templates added
+  /// Polygons, rings and corners of the templates of all instances, whether or not they come to count.
+  std::uint64_t template_pieces = 0;
 };
 
 /// Adds the buildings among the objects that share a vertex list: those of a CityJSON file, or of a line of a CityJSONSeq.

@@ -18,6 +18,7 @@ constexpr std::size_t beginning_bytes = std::size_t{1} << 16;
 
 FileFormat format_by_map_kind(const InputFile& file) {
   const MapKind kind = map_kind_of(file);
+  if (kind == MapKind::only_by_name) return FileFormat::only_by_name;
   return kind == MapKind::features ? FileFormat::features : kind == MapKind::raster ? FileFormat::raster : FileFormat::unknown;
 }
 
@@ -39,6 +40,8 @@ std::string_view name_of(FileFormat format) {
       return "a raster";
     case FileFormat::archive:
       return "an archive";
+    case FileFormat::only_by_name:
+      return "of a format that may name other files";
     case FileFormat::unknown:
       break;
   }

@@ -13,10 +13,11 @@ enum class FileFormat {
   citygml,
   cityjson,  ///< and CityJSONSeq
   obj,
-  features,  ///< a vector format in which GDAL may find footprints
-  raster,    ///< a surface model
-  archive,   ///< of a kind that is not opened, or inside another archive
-  unknown,   ///< no format of a city
+  features,      ///< a vector format in which GDAL may find footprints
+  raster,        ///< a surface model
+  only_by_name,  ///< a format whose files may name others, of a file that the user did not name
+  archive,       ///< of a kind that is not opened, or inside another archive
+  unknown,       ///< no format of a city
 };
 
 /// Whether a file of this name is of a format of its own, although it is a zip archive inside: GDAL opens it.

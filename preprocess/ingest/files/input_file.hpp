@@ -25,6 +25,8 @@ struct InputFile {
   std::filesystem::path on_disk;                      ///< the file itself, or the archive that holds it
   std::optional<std::uintmax_t> declared_bytes = {};  ///< the unpacked size that the archive declares
   std::shared_ptr<InputPipe> pipe = {};               ///< what it is read from, if it is a pipe
+  /// The user named it. A file that was found in a folder or an archive must not make us read other files.
+  bool is_named = true;
 
   [[nodiscard]] bool is_packed() const { return path != on_disk; }
   /// The file name without folders and without `.gz`: "a.gml" of "town/a.gml.gz".

@@ -64,6 +64,12 @@ std::vector<fs::path> entries_below(const fs::path& folder) {
   return entries;
 }
 
+/// A file that the user did not name.
+InputFile found(InputFile file) {
+  file.is_named = false;
+  return file;
+}
+
 /// The geodatabase that a member of an archive belongs to, which is a folder; otherwise the member itself.
 InputFile whole_of(const InputFile& member) {
   fs::path inner = fs::path(member.name).lexically_relative(member.on_disk), outer = inner;
@@ -71,11 +77,11 @@ InputFile whole_of(const InputFile& member) {
   if (outer.empty()) return member;
   fs::path path = member.path;
   for (; inner != outer; inner = inner.parent_path()) path = path.parent_path();
-  return {(member.on_disk / outer).string(), path, member.on_disk};
+  return found({(member.on_disk / outer).string(), path, member.on_disk});
 }
 
 InputFile gzip_member(const fs::path& file) {
-  return {file.string(), "/vsigzip/" + fs::absolute(file).lexically_normal().string(), file};
+  return found({file.string(), "/vsigzip/" + fs::absolute(file).lexically_normal().string(), file});
 }
 
 InputFile readable_pipe(const fs::path& path) {
@@ -97,6 +103,7 @@ class InputSearch {
       if (!fs::exists(input, error)) throw InputError(input.string() + " does not exist. Check the path.");
     for (const fs::path& input : inputs) {
       rasters_.clear();
+      only_by_name_.clear();
       const std::size_t known = found_.files.size();
       attempt(input, [&] { take_named(input); });
       resolve_rasters(found_.files.size() == known);
@@ -122,7 +129,7 @@ class InputSearch {
     if (is_geodatabase(input)) return add(input);
     const std::size_t known = found_.files.size();
     for (const fs::path& entry : entries_below(input))
-      attempt(entry, [&] { take_file(entry, [this](const InputFile& file) { take_if_city(file); }); });
+      attempt(entry, [&] { take_file(entry, [this](const InputFile& file) { take_if_city(ingest::found(file)); }); });
     const bool is_empty = found_.files.size() == known && rasters_.empty();
     if (is_empty && map_kind_of(input) == MapKind::features) add(input);
   }
@@ -130,7 +137,7 @@ class InputSearch {
   /// Opens an archive and takes its members, which do not count as named by the user; hands any other file to `take`.
   template <class Take>
   void take_file(const fs::path& file, const Take& take) {
-    if (fs::is_directory(file)) return add(file);
+    if (fs::is_directory(file)) return add(ingest::found(file));
     if (is_pipe(file)) return add(readable_pipe(file));
     const std::string beginning = read_beginning(file, mark_bytes);
     if (is_zip(beginning) && !is_map_in_zip(file.string()))
@@ -141,18 +148,22 @@ class InputSearch {
 
   void take_archive(const fs::path& archive) {
     locked_.clear();
-    for (const ZipListing& listing : zip_listings(archive)) {
+    const std::vector<ZipListing> listings = zip_listings(archive);
+    is_listed_ = !listings.empty();
+    for (const ZipListing& listing : listings) {
       if (listing.is_locked) locked_.insert(listing.name);
       if (!leads_outside(listing.name)) continue;
       const std::string name = (archive / fs::path(listing.name).relative_path()).string();
       unusable_.emplace_back(name, name + " is not opened: its name, \"" + listing.name + "\", leads out of the archive.");
     }
-    for (const InputFile& member : files_in_zip(archive)) take_member(member);
+    for (const InputFile& member : files_in_zip(archive)) take_member(ingest::found(member));
   }
 
   void take_member(const InputFile& member) {
     const fs::path inside = fs::path(member.name).lexically_relative(member.on_disk);
     const InputFile whole = whole_of(member);
+    if (leads_outside(inside.generic_string()) && !is_listed_)
+      unusable_.emplace_back(member.name, member.name + " is not opened: its name leads out of the archive.");
     if (is_hidden(inside) || leads_outside(inside.generic_string())) return;
     if (whole.path != member.path)
       add(whole);
@@ -179,6 +190,8 @@ class InputSearch {
     const bool is_table = format == FileFormat::features, is_none = format == FileFormat::unknown;
     if (format == FileFormat::raster)
       rasters_.push_back(file);
+    else if (format == FileFormat::only_by_name)
+      only_by_name_.push_back(file);
     else if (!is_none && (!is_table || is_json))
       add(file);
     else if (!is_xml && !is_json)
@@ -208,6 +221,12 @@ class InputSearch {
     } else {
       for (const InputFile& raster : rasters_) skip(raster);
     }
+    for (const InputFile& file : only_by_name_)
+      if (is_alone && rasters_.empty())
+        unusable_.emplace_back(file.name,
+                               file.name + " is of a format that may name other files: give it by its own name, unpacked.");
+      else
+        skip(file);
   }
 
   void require_something(std::span<const fs::path> inputs) const {
@@ -222,7 +241,8 @@ class InputSearch {
 
   Report& report_;
   FoundInputs found_;
-  std::vector<InputFile> rasters_;                             ///< of the current input
+  bool is_listed_ = false;                                     ///< whether the directory of the current archive could be read
+  std::vector<InputFile> rasters_, only_by_name_;              ///< of the current input
   std::unordered_set<std::string> known_, locked_;             ///< files taken so far; locked names of the current archive
   std::vector<std::pair<std::string, std::string>> unusable_;  ///< names and reasons
 };

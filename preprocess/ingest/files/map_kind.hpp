@@ -7,7 +7,12 @@
 namespace farlod::ingest {
 
 /// What a file or a folder is to GDAL.
-enum class MapKind { unknown, features, raster };
+enum class MapKind {
+  unknown,
+  features,
+  raster,
+  only_by_name  ///< its format may name other files, and the user did not name this one
+};
 
 /// By its content, and for some formats by its name. A file with features and a raster counts as features. A raster without a
 /// place on the map, such as a photograph, is `unknown`.

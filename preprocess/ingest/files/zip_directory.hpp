@@ -15,7 +15,7 @@ struct ZipListing {
   bool is_locked = false;  ///< encrypted with a password
 };
 
-/// Reads the central directory alone. Empty when there is none, or when the archive has more than 4 GiB or 65,535 files.
+/// Reads the central directory alone. Empty when there is none, or when it has more than 256 MiB.
 [[nodiscard]] std::vector<ZipListing> zip_listings(const std::filesystem::path& archive);
 
 /// A name that is safe to show: control characters become "?".

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
 #include <sstream>
 #include <variant>
 
 #include "farlod/angle.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
+#include "gdal/local_data_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
 #include "ingest/footprints/footprint_heights.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
@@ -296,12 +296,11 @@ void report_other_layers(GDALDataset& dataset, OGRLayer* chosen, CityModelBuilde
 }
 
 GDALDatasetUniquePtr open(const InputFile& file, GdalErrors& messages) {
-  static std::once_flag once;
-  std::call_once(once, GDALAllRegister);
-  // For GML: GDAL must write nothing beside the input, and fetch no schema from an address in it
-  constexpr std::array<const char*, 3> options{"WRITE_GFS=NO", "DOWNLOAD_SCHEMA=NO", nullptr};
-  GDALDatasetUniquePtr dataset(GDALDataset::Open(file.path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, options.data()));
+  const GdalReach reach = file.is_named ? GdalReach::local_files : GdalReach::own_data;
+  GDALDatasetUniquePtr dataset = open_within(reach, file.path, GDAL_OF_VECTOR);
   const std::vector<std::string> errors = messages.take();
+  if (!dataset && !file.is_named && is_known_within(GdalReach::local_files, file.path, GDAL_OF_VECTOR))
+    throw InputError(file.name + " is of a format that may name other files: give it by its own name, unpacked.");
   if (!dataset)
     throw InputError(file.name +
                      " cannot be read as a city: it is no CityGML, CityJSON or OBJ, and GDAL finds no footprints in it" +

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "city/cyclic_order.hpp"
+
 namespace farlod::ingest {
 namespace {
 
@@ -43,18 +45,9 @@ std::uint64_t hash_of_rings(const Rings& rings) {
   return sum;
 }
 
-bool have_same_order(std::span<const Point3d> a, std::span<const Point3d> b) {
-  if (a.size() != b.size()) return false;
-  for (std::size_t shift = 0; shift < a.size(); ++shift)
-    if (std::equal(a.begin(), a.end() - static_cast<std::ptrdiff_t>(shift), b.begin() + static_cast<std::ptrdiff_t>(shift)) &&
-        std::equal(b.begin(), b.begin() + static_cast<std::ptrdiff_t>(shift), a.end() - static_cast<std::ptrdiff_t>(shift)))
-      return true;
-  return a.empty();
-}
-
 bool have_same_rings(const RingSpans& a, const Rings& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](std::span<const Point3d> p, const Ring& q) { return have_same_order(p, q); });
+                    [](std::span<const Point3d> p, const Ring& q) { return is_rotation_of(p, q); });
 }
 
 using Corner = std::array<double, 3>;
@@ -82,8 +75,10 @@ std::uint64_t hash_of_corners(const Rings& rings) {
 
 std::vector<std::span<const Point3d>> spans_of(const Rings& rings) { return {rings.begin(), rings.end()}; }
 
-std::uint64_t PolygonDeduplicator::hash_of(const Rings& rings) const {
-  return criterion_ == SamePolygon::corners ? hash_of_corners(rings) : hash_of_rings(rings);
+std::uint64_t PolygonDeduplicator::hash_of(const Rings& rings, std::uint16_t part) const {
+  // Thousands of parts may each have a copy of one polygon, and must not look through those of all others
+  const std::uint64_t of_rings = criterion_ == SamePolygon::corners ? hash_of_corners(rings) : hash_of_rings(rings);
+  return mixed(of_rings + part);
 }
 
 std::optional<std::uint64_t> PolygonDeduplicator::find_hashed(std::uint64_t hash, const Rings& rings, std::uint16_t part,
@@ -102,12 +97,12 @@ std::optional<std::uint64_t> PolygonDeduplicator::find_hashed(std::uint64_t hash
 
 std::optional<std::uint64_t> PolygonDeduplicator::find(const Rings& rings, std::uint16_t part,
                                                        const PolygonAt& polygon_at) const {
-  return find_hashed(hash_of(rings), rings, part, polygon_at);
+  return find_hashed(hash_of(rings, part), rings, part, polygon_at);
 }
 
 std::optional<std::uint64_t> PolygonDeduplicator::find_or_insert(const Rings& rings, std::uint16_t part, std::uint64_t number,
                                                                  const PolygonAt& polygon_at) {
-  const std::uint64_t hash = hash_of(rings);
+  const std::uint64_t hash = hash_of(rings, part);
   if (auto same = find_hashed(hash, rings, part, polygon_at)) return same;
   entries_by_hash_.emplace(hash, Entry{number, part});
   return std::nullopt;

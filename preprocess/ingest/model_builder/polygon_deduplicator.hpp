@@ -41,7 +41,7 @@ class PolygonDeduplicator {
     std::uint16_t part = 0;
   };
 
-  [[nodiscard]] std::uint64_t hash_of(const Rings& rings) const;
+  [[nodiscard]] std::uint64_t hash_of(const Rings& rings, std::uint16_t part) const;
   [[nodiscard]] std::optional<std::uint64_t> find_hashed(std::uint64_t hash, const Rings& rings, std::uint16_t part,
                                                          const PolygonAt& polygon_at) const;
 

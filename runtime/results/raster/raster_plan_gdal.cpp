@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
 #include <vector>
 
 #include "gdal/gdal_errors.hpp"
+#include "gdal/local_data_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
 #include "points/requested_points.hpp"
 #include "results/reproject_gdal.hpp"
@@ -23,9 +23,7 @@ constexpr double tolerance = 0.01;
 
 GDALDatasetUniquePtr open_raster(const std::filesystem::path& file, const GdalErrors& errors) {
   if (!std::filesystem::exists(file)) throw PointsError(file.string() + ": the file cannot be read; see that it exists");
-  static std::once_flag once;
-  std::call_once(once, GDALAllRegister);
-  GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  GDALDatasetUniquePtr dataset = open_within(GdalReach::local_files, file, GDAL_OF_RASTER);
   if (dataset == nullptr)
     throw PointsError(file.string() + " cannot be read as a raster" + (errors.any() ? " (" + errors.last() + ")" : ""));
   return dataset;

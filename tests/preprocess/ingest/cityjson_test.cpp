@@ -248,6 +248,24 @@ TEST(CityJson, NestingHasAnEnd) {
   EXPECT_THROW((void)read_text("b.city.json", R"({"CityObjects":{},"vertices":[],"type":)" + deep + "}"), InputError);
 }
 
+/// Thousands of instances of thousands of polygons without corners: nothing of it fills the memory, but all is gone through.
+TEST(CityJson, TemplatesThatWouldTakeTheSquareOfTheFileAreRefused) {
+  std::string polygons = "[]", instances;
+  for (int k = 1; k < 20'000; ++k) polygons += ",[]";
+  for (int k = 0; k < 2'000; ++k)
+    instances +=
+        std::string(k == 0 ? "" : ",") +
+        R"({"type":"GeometryInstance","template":0,"boundaries":[0],"transformationMatrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]})";
+  const std::string templates = R"("geometry-templates":{"templates":[)" + surface("2", "[" + polygons + "]") +
+                                R"(],"vertices-templates":[[0,0,0],[1,0,0],[0,0,1]]},)";
+  try {
+    (void)read_text("a.city.json", file_of(building(instances), templates));
+    ADD_FAILURE() << "40 million polygons were gone through";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("Split it into tiles"), std::string::npos);
+  }
+}
+
 TEST(CityJson, TemplatesThatWouldFillTheMemoryAreRefused) {
   constexpr int corners = 100'000, uses = 101;
   std::string ring = "0,1,2";

@@ -243,6 +243,30 @@ TEST_F(InputSearch, ARasterBesideCitiesIsCounted) {
   EXPECT_THAT(inputs.skipped, ElementsAre(Pair(".asc files", 1)));
 }
 
+/// A mosaic, and a layer of features under the name of a city: both name other files.
+TEST_F(InputSearch, WhatIsFoundNamesNoOtherFiles) {
+  write("outside/dsm.asc", elevations);
+  const fs::path secret = write("outside/a.geojson", geojson_of("secret"));
+  const std::string mosaic =
+                        "<VRTDataset rasterXSize=\"2\" rasterYSize=\"2\"><GeoTransform>0,10,0,20,0,-10</GeoTransform>"
+                        "<VRTRasterBand dataType=\"Float32\" band=\"1\"><SimpleSource><SourceFilename>" +
+                        (folder / "outside/dsm.asc").string() + "</SourceFilename></SimpleSource></VRTRasterBand></VRTDataset>",
+                    layer = "<OGRVRTDataSource><OGRVRTLayer name=\"a\"><SrcDataSource>" + secret.string() +
+                            "</SrcDataSource></OGRVRTLayer></OGRVRTDataSource>";
+  write("rasters/mosaic.vrt", mosaic);
+  write("town/a.geojson", layer);
+  for (const fs::path& input : {folder / "rasters", write("mosaic.zip", zip_of({{"mosaic.vrt", mosaic}}))})
+    EXPECT_THAT(refusal({input}), HasSubstr("give it by its own name")) << input;
+  for (const fs::path& input :
+       {folder / "town", write("a.zip", zip_of({{"a.geojson", layer}})), write("a.geojson.gz", gzip_of(layer))}) {
+    const std::vector<InputFile> files = find({input}).files;
+    ASSERT_EQ(files.size(), 1U) << input;
+    EXPECT_THROW((void)ingest_all(files, {}, report), InputError) << input;
+  }
+  EXPECT_THAT(buildings({folder / "town/a.geojson"}), ElementsAre("secret")) << "the user named it";
+  EXPECT_EQ(find({folder / "rasters/mosaic.vrt"}).surface_models.size(), 1U);
+}
+
 TEST_F(InputSearch, AFolderThatIsOneDataSetStaysOneInput) {
   write("town/land.gdb/a00000001.gdbtable", "nothing");
   write("town/land.gdb/gdb", "nothing");

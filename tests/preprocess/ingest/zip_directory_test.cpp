@@ -35,5 +35,24 @@ TEST(ZipDirectory, KnowsNamesThatLeadOutside) {
   for (const char* name : {"a", "a/b", "a..b", "..a", "a../b", "./a", ""}) EXPECT_FALSE(leads_outside(name)) << name;
 }
 
+/// As archives of more than 65,535 files or 4 GiB are written: the usual end says nothing.
+TEST(ZipDirectory, OfTheLargeFormatIsRead) {
+  using zip_parts::put;
+  std::string zip = zip_of({{"a.gml", "a"}, {"../b.gml", "b"}});
+  const std::size_t end = zip.rfind("PK\5\6");
+  const std::string sizes = zip.substr(end + 12, 8), comment = zip.substr(end + 20);
+  std::string large = "PK\6\6";
+  put(large, 44, 4), put(large, 0, 4);
+  for (int k = 0; k < 7; ++k) put(large, 0, 4);
+  large.resize(40, '\0');
+  large += sizes.substr(0, 4) + std::string(4, '\0') + sizes.substr(4, 4) + std::string(4, '\0');
+  std::string pointer = "PK\6\7";
+  put(pointer, 0, 4), put(pointer, static_cast<std::uint32_t>(end), 4), put(pointer, 0, 4), put(pointer, 1, 4);
+  const std::string small = std::string("PK\5\6") + std::string(4, '\0') + std::string(12, '\xFF') + comment;
+  const auto listings = zip_listings(write_file("large.zip", zip.substr(0, end) + large + pointer + small));
+  ASSERT_EQ(listings.size(), 2U);
+  EXPECT_EQ(listings[1].name, "../b.gml");
+}
+
 }  // namespace
 }  // namespace farlod::ingest::test

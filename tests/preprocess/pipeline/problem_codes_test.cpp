@@ -48,8 +48,9 @@ TEST_P(BrokenFile, IsRefusedWhereProblemsAre) {
 class PlacedProblem : public testing::TestWithParam<Fixture> {};
 
 TEST_P(PlacedProblem, IsOnTheMapUnlessItIsOfNoPlace) {
-  const std::set<ProblemCode> without_vertex{ProblemCode::no_geometry, ProblemCode::no_dominant_direction,
-                                             ProblemCode::another_format, ProblemCode::empty_file, ProblemCode::unusable_file};
+  const std::set<ProblemCode> without_vertex{ProblemCode::no_geometry,       ProblemCode::no_dominant_direction,
+                                             ProblemCode::nearly_empty_grid, ProblemCode::another_format,
+                                             ProblemCode::empty_file,        ProblemCode::unusable_file};
   Packing p;
   p.settings.inputs = inputs_with(GetParam());
   p.settings.georeference = georeference_of(GetParam());
@@ -71,6 +72,12 @@ struct Remains {
   std::uint64_t polygons;
 };
 
+std::set<std::string> house_names(int count) {
+  std::set<std::string> names;
+  for (int k = 0; k < count; ++k) names.insert("house " + std::to_string(k));
+  return names;
+}
+
 TEST(BrokenFiles, LoseWhatIsLeftOutAndNothingElse) {
   const std::map<std::string, Remains> expected{
       {"outside_of_projection", {{"house", "neighbour"}, 12}},  // of three houses
@@ -80,7 +87,10 @@ TEST(BrokenFiles, LoseWhatIsLeftOutAndNothingElse) {
       {"crs_unknown", {{"house"}, 6}},
       {"unlikely_place", {{"house"}, 6}},
       {"zone_in_easting", {{"house"}, 6}},
+      {"implausible_size", {{"house"}, 6}},
+      {"lies_on_its_side", {house_names(12), 72}},
       {"no_dominant_direction", {{"rotunda"}, 66}},
+      {"nearly_empty_grid", {{"house", "neighbour"}, 12}},
       {"zero_area", {{"house"}, 6}},  // of seven polygons
       {"self_intersecting", {{"house", "carport"}, 7}},
       {"not_planar", {{"house"}, 6}},
