@@ -48,12 +48,6 @@ std::vector<Point3d> directions_of(const SkyDirections& all, const Point3f& norm
   return all.facing(normalized(Point3d{normal.x, normal.y, normal.z}));
 }
 
-void count(const SkyAnswers& answers, const RayCounts& more) {
-  if (answers.counts == nullptr) return;
-  answers.counts->by_rays += more.by_rays;
-  answers.counts->retraced_rays += more.retraced_rays;
-}
-
 std::vector<Point3f> places_of(std::span<const Receiver> receivers) {
   std::vector<Point3f> places;
   for (const Receiver& r : receivers) places.push_back(r.p_cell);
@@ -158,6 +152,14 @@ void SkyEvaluator::find_horizon_distances(const CellReceivers& cell, const SkyAn
                             answers.further.subspan(r.index * further_.size(), further_.size()));
   }
   add_times(start, scene_ready);
+}
+
+void SkyEvaluator::count(const SkyAnswers& answers, const RayCounts& more) const {
+  by_rays_ += more.by_rays;
+  retraced_rays_ += more.retraced_rays;
+  if (answers.counts == nullptr) return;
+  answers.counts->by_rays += more.by_rays;
+  answers.counts->retraced_rays += more.retraced_rays;
 }
 
 void SkyEvaluator::add_times(Clock::time_point start, Clock::time_point scene_ready) const {
@@ -389,6 +391,6 @@ std::uint64_t SkyEvaluator::retrace(Cell cell, std::span<const Receiver> receive
   return engine.retrace(city.occluder(), origins, uncertain, free);
 }
 
-EvaluationStatistics SkyEvaluator::statistics() const { return {scenes_s_, evaluate_s_}; }
+EvaluationStatistics SkyEvaluator::statistics() const { return {{by_rays_, retraced_rays_}, scenes_s_, evaluate_s_}; }
 
 }  // namespace farlod

@@ -66,7 +66,7 @@ struct SkyAnswers {
 };
 
 /// What an evaluator has done so far.
-struct EvaluationStatistics {
+struct EvaluationStatistics : RayCounts {
   double scenes_s = 0.0, evaluate_s = 0.0;  ///< summed over threads
 };
 
@@ -138,6 +138,7 @@ class SkyEvaluator {
   [[nodiscard]] bool wants_bounds(const SkyAnswers& answers) const {
     return !answers.low.empty() || settings_.max_far_error.has_value();
   }
+  void count(const SkyAnswers& answers, const RayCounts& more) const;
   void add_times(Clock::time_point start, Clock::time_point scene_ready) const;
 
   const PackageReader& package_;
@@ -147,6 +148,7 @@ class SkyEvaluator {
   FurtherQuantities further_;  ///< and the azimuths of all horizons
   std::shared_ptr<WholeCityOnDemand> city_;
   mutable std::atomic<double> scenes_s_ = 0.0, evaluate_s_ = 0.0;
+  mutable std::atomic<std::uint64_t> by_rays_ = 0, retraced_rays_ = 0;
 };
 
 }  // namespace farlod
