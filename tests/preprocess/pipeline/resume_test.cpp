@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 using testing::Contains;
 using testing::HasSubstr;
 
-constexpr std::size_t block_count = 9;
+constexpr std::size_t block_count = 16;
 
-/// A row of houses in 3 × 3 blocks of 2 × 2 cells, one of which has a problem.
+/// Rows of houses in 4 × 4 blocks of 2 × 2 cells. One house has a problem.
 struct ResumedPacking : Packing {
   explicit ResumedPacking(FarMapKind kind = FarMapKind::horizon) {
     settings.grid.block_edge = 2;

@@ -48,7 +48,7 @@ class OneRow {
   }
   [[nodiscard]] FarHorizon read() const {
     FarHorizon map{patches_, AzimuthBins{shape_.azimuth_bins}, {}, {}, {}, {}, {}};
-    FarMapReader(file(), cells_, shape_).read_slopes({0, 0}, map);
+    FarMapReader(std::filesystem::path(file()), cells_, shape_).read_slopes({0, 0}, map);
     return map;
   }
   [[nodiscard]] std::string file() const { return (folder_.path() / package::far_map_file).string(); }
@@ -131,7 +131,7 @@ class ThreeTiles {
     file.setFrameBuffer(frame);
     file.writeTiles(0, 2, 0, 0);
   }
-  [[nodiscard]] FarMapReader reader() const { return {path(), {0, 0, 3, 1}, shape_}; }
+  [[nodiscard]] FarMapReader reader() const { return {std::filesystem::path(path()), {0, 0, 3, 1}, shape_}; }
   [[nodiscard]] static FarHorizon read(const FarMapReader& reader, std::int32_t tile) {
     FarHorizon map{ReceiverPatches(20.0, 2, std::vector<float>(rows / 4)), AzimuthBins{columns}, {}, {}, {}, {}, {}};
     reader.read_slopes({tile, 0}, map);

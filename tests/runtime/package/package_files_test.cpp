@@ -147,9 +147,10 @@ std::vector<std::filesystem::path> names_in(const std::filesystem::path& folder)
 std::string damage_checked_in(const SmallPackage& small) {
   std::string all;
   const std::string of_manifest = damage_met_by([&] {
-    const package::Manifest manifest = read_manifest(small.folder());
+    const PackageFolder folder(small.folder());
+    const package::Manifest manifest = read_manifest(folder);
     for (std::size_t n = 0; n < manifest.blocks.size(); ++n) {
-      const BlockCheck check(small.folder(), manifest, n);
+      const BlockCheck check(folder, manifest, n);
       for (const BlockDamage& damage : check.damage()) all += damage.what;
     }
   });
@@ -172,8 +173,9 @@ TEST_P(PackageFiles, APackageMayBeALink) {
   const std::filesystem::path link = small.folder().parent_path() / "link.farlod";
   std::filesystem::create_directory_symlink(small.folder(), link);
   EXPECT_EQ(damage_met_by([&] { (void)PackageReader(link).tile({0, 0}); }), "no damage");
-  const package::Manifest manifest = read_manifest(link);
-  EXPECT_TRUE(BlockCheck(link, manifest, 0).damage().empty());
+  const PackageFolder folder(link);
+  const package::Manifest manifest = read_manifest(folder);
+  EXPECT_TRUE(BlockCheck(folder, manifest, 0).damage().empty());
 }
 
 TEST_P(PackageFiles, NobodyWaitsForAPipe) {
