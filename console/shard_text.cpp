@@ -46,8 +46,8 @@ std::optional<ArrayTask> task_of_slurm(const Environment& environment) {
   const std::size_t expected = most >= least ? (most - least) / step + 1 : 0;
   const std::size_t count = number("SLURM_ARRAY_TASK_COUNT", expected);
   if (count != expected)
-    throw InvalidArgument("this Slurm array has gaps (" + std::to_string(count) + " tasks from " + std::to_string(least) + " to " +
-                          std::to_string(most) + "): number it without gaps, or give --shard I/N");
+    throw InvalidArgument("this Slurm array has gaps (" + std::to_string(count) + " tasks from " + std::to_string(least) +
+                          " to " + std::to_string(most) + "): number it without gaps, or give --shard I/N");
   return ArrayTask{(task - least) / step, count};
 }
 

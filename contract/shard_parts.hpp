@@ -12,8 +12,8 @@
 
 namespace farlod {
 
-/// The parts of a work that a shard does, ascending: a run of neighbouring ones, so that all shards cost about the same, as far as
-/// parts can be divided. Each part is of exactly one shard. The same on every machine.
+/// The parts of a work that a shard does, ascending: a run of neighbouring ones, so that all shards cost about the same, as far
+/// as parts can be divided. Each part is of exactly one shard. The same on every machine.
 [[nodiscard]] inline std::vector<std::size_t> parts_of_shard(std::span<const double> costs, Shard shard) {
   const double all = std::accumulate(costs.begin(), costs.end(), 0.0);
   std::vector<std::size_t> parts;

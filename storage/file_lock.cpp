@@ -32,7 +32,8 @@ bool is_locked_now(int file, LockKind kind) {
 
 /// Who holds a lock may remove the file, and another one may make it anew before we get our lock.
 bool is_still_there(int file, const std::filesystem::path& path) {
-  struct stat ours {}, there {};
+  struct stat ours {
+  }, there{};
   return fstat(file, &ours) == 0 && stat(path.c_str(), &there) == 0 && ours.st_dev == there.st_dev && ours.st_ino == there.st_ino;
 }
 

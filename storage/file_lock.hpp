@@ -11,9 +11,9 @@ namespace farlod {
 
 enum class LockKind { shared, exclusive };
 
-/// A lock on a file, which other processes ask for too (flock). It ends with the object or with the process, however that ends, so
-/// that no lock outlives a kill. Two locks of one process exclude each other as those of two processes do. On a file system that
-/// knows no locks, everybody gets one.
+/// A lock on a file, which other processes ask for too (flock). It ends with the object or with the process, however that ends,
+/// so that no lock outlives a kill. Two locks of one process exclude each other as those of two processes do. On a file system
+/// that knows no locks, everybody gets one.
 class FileLock {
  public:
   /// Makes the file where there is none. Nothing where a lock that somebody holds excludes this one. Throws OutputError where the

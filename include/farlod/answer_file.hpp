@@ -18,10 +18,11 @@ namespace farlod {
 /// What decides the answers of a run: names of settings and their values, texts of whoever makes the file.
 using AnswerKey = std::vector<std::pair<std::string, std::string>>;
 
-/// A file in which a run keeps the answers of each cell as soon as it has them, so that another run of the same package, receivers
-/// and settings takes them from there (RunSettings::answers): one that goes on after the first was interrupted, or one that puts
-/// together what several have computed, each its shard (RunSettings::shard). Whatever ends a process, what it kept is whole: a cell
-/// whose checksum is wrong counts as not computed. A file is for the processor architecture and the version that wrote it.
+/// A file in which a run keeps the answers of each cell as soon as it has them, so that another run of the same package,
+/// receivers and settings takes them from there (RunSettings::answers): one that goes on after the first was interrupted, or one
+/// that puts together what several have computed, each its shard (RunSettings::shard). Whatever ends a process, what it kept is
+/// whole: a cell whose checksum is wrong counts as not computed. A file is for the processor architecture and the version that
+/// wrote it.
 class FARLOD_EXPORT AnswerFile {
  public:
   /// What becomes of a file that is there and has another key, or cannot be read.

@@ -101,8 +101,9 @@ struct PackSettings {
   /// Coordinates of a rectangle are within 100,000 km.
   std::optional<FarMapArea> area = {};
 
-  /// Goes on with what an interrupted run has left, as any run does whose inputs and settings are the same; but where they are not,
-  /// this is refused, with what differs. A package that is there is not refused: what is damaged or missing of it is made anew.
+  /// Goes on with what an interrupted run has left, as any run does whose inputs and settings are the same; but where they are
+  /// not, this is refused, with what differs. A package that is there is not refused: what is damaged or missing of it is made
+  /// anew.
   bool resume = false;
   /// Makes one part of the package, and leaves it beside `output` for `merge`. The first shard that comes reads the city; the
   /// others wait for it, and read what they need of it.

@@ -34,8 +34,8 @@ struct RunSettings {
   /// Ask its std::stop_source to stop, from any thread or from a callback, and the run ends with Cancelled, unless its work is
   /// done.
   std::stop_token stop;
-  /// Of an evaluation: answers that are in the file are taken from there, and others are added to it. If it is read only and lacks
-  /// an answer, the run ends with OutputError. Of one run at a time.
+  /// Of an evaluation: answers that are in the file are taken from there, and others are added to it. If it is read only and
+  /// lacks an answer, the run ends with OutputError. Of one run at a time.
   std::shared_ptr<const AnswerFile> answers = nullptr;
   /// Of an evaluation with `answers`: computes the answers of a part of the cells, and does nothing else. Nothing is delivered or
   /// verified, and of the summary, what is about answers is about these.

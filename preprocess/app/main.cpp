@@ -103,9 +103,10 @@ void print_choice(const ChosenGrid& chosen, const PackOptions& options) {
 void print_end(const PackResult& result, const PackOptions& options, double seconds) {
   const std::string output = options.settings.output.string();
   if (const auto& shard = options.settings.shard)
-    return fmt::print("Shard {}/{} of {}: {} blocks ({} of them were finished before), {:.1f} s. Once all are done: farlod-pack --merge "
-                      "-o {}\n",
-                      shard->index, shard->count, output, result.blocks, result.blocks_found, seconds, output);
+    return fmt::print(
+        "Shard {}/{} of {}: {} blocks ({} of them were finished before), {:.1f} s. Once all are done: farlod-pack --merge "
+        "-o {}\n",
+        shard->index, shard->count, output, result.blocks, result.blocks_found, seconds, output);
   if (result.blocks_found > 0) fmt::print("{} of {} blocks were finished before.\n", result.blocks_found, result.blocks);
   fmt::print("{}: {:.1f} MiB ({:.1f} MiB far maps), {} triangles, {:.1f} s\n", output,
              static_cast<double>(result.package_bytes) / 1048576.0, static_cast<double>(result.far_map_bytes) / 1048576.0,

@@ -40,7 +40,8 @@ void require_package_or_empty(const fs::path& folder) {
 
 /// A disk that is mounted there keeps its name.
 bool is_mount_point(const fs::path& folder) {
-  struct stat own {}, above {};
+  struct stat own {
+  }, above{};
   return stat(folder.c_str(), &own) == 0 && stat((folder / "..").c_str(), &above) == 0 && own.st_dev != above.st_dev;
 }
 

@@ -18,7 +18,8 @@ void require_replaceable(const std::filesystem::path& package);
 
 /// Gives a finished package its name. What has the name already changes places with it, in one step where the file system can;
 /// `aside` is where it is meanwhile where it cannot. Throws OutputError.
-void put_in_place(const std::filesystem::path& finished, const std::filesystem::path& package, const std::filesystem::path& aside);
+void put_in_place(const std::filesystem::path& finished, const std::filesystem::path& package,
+                  const std::filesystem::path& aside);
 
 void move_package(const std::filesystem::path& from, const std::filesystem::path& to);
 

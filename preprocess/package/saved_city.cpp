@@ -31,7 +31,7 @@ struct TileRecord {
 
 /// What the arrays are for this build, and how many tiles there are.
 struct Layout {
-  std::array<std::uint64_t, 7> element_bytes{sizeof(Point3f), sizeof(Triangle),     sizeof(HorizonEdge),      sizeof(Surface),
+  std::array<std::uint64_t, 7> element_bytes{sizeof(Point3f),    sizeof(Triangle),     sizeof(HorizonEdge),      sizeof(Surface),
                                              sizeof(TileRecord), sizeof(OccluderEdge), sizeof(CityHorizon::Node)};
   double height_origin_m = 0.0;
   std::uint64_t tile_count = 0, polygon_count = 0, foundation_count = 0, has_horizon = 0;

@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char *lock_file = "lock", *origin_file = "origin.json", *finished_folder = "finished", *shards_folder = "shards",
-                     *publishing_file = "publishing", *city_lock_file = "city.lock", *records_lock_file = "records.lock", *shard_count_file = "count";
+                     *publishing_file = "publishing", *city_lock_file = "city.lock", *records_lock_file = "records.lock",
+                     *shard_count_file = "count";
 
 std::string text_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -37,14 +38,12 @@ void make_folder(const fs::path& folder) {
   if (error) throw OutputError(folder.string() + " cannot be made: " + error.message());
 }
 
-std::string stamp_text(const package::FileStamp& stamp) {
-  return std::to_string(stamp.bytes) + " " + std::to_string(stamp.xxh3);
-}
+std::string stamp_text(const package::FileStamp& stamp) { return std::to_string(stamp.bytes) + " " + std::to_string(stamp.xxh3); }
 
 [[noreturn]] void refuse_as_busy(const fs::path& lock, const fs::path& package) {
   const std::string holder = holder_of(lock);
   throw Busy("another farlod-pack is at work on " + package.string() + (holder.empty() ? "" : " (" + holder + ")") +
-                    ": wait for it, or choose another folder for -o.");
+             ": wait for it, or choose another folder for -o.");
 }
 
 FileLock locked(const fs::path& package, LockKind kind) {
@@ -190,7 +189,7 @@ FileLock UnfinishedPackage::lock_shard(std::size_t index, std::size_t count) con
   const std::string name = "shard " + std::to_string(index) + "/" + std::to_string(count);
   if (!lock)
     throw Busy("another process has " + name + " of " + package_.string() + " (" + holder_of(lock_path) +
-                      "): each shard is for one process.");
+               "): each shard is for one process.");
   lock->sign(name);
   const FileLock alone = lock_records();
   const std::optional<std::size_t> counted = shard_count();

@@ -16,8 +16,8 @@
 namespace farlod {
 
 /// The folder in which a package is made, NAME.farlod.unfinished beside NAME.farlod. A package has its name when it is whole, and
-/// never changes from then on. What is finished of it outlives the process that made it, however that ends, so that another one of
-/// the same origin goes on with it.
+/// never changes from then on. What is finished of it outlives the process that made it, however that ends, so that another one
+/// of the same origin goes on with it.
 ///   lock          who is at work
 ///   origin.json   from what the package is made
 ///   finished/     a record of each finished block
@@ -29,8 +29,8 @@ class UnfinishedPackage {
   /// What becomes of a folder in which a package of another origin was made.
   enum class OfAnotherOrigin { refuse, replace };
 
-  /// Makes the folder where there is none, and locks it. Brings to an end what an earlier run had begun when it put its package in
-  /// its place. Throws OutputError: another process is at work, the origin is another one, or the disk refuses.
+  /// Makes the folder where there is none, and locks it. Brings to an end what an earlier run had begun when it put its package
+  /// in its place. Throws OutputError: another process is at work, the origin is another one, or the disk refuses.
   [[nodiscard]] static UnfinishedPackage open(const std::filesystem::path& package, const PackageOrigin& origin, LockKind kind,
                                               OfAnotherOrigin of_another);
   /// The one that is there, of whatever origin. Nothing where there is none.

@@ -31,8 +31,12 @@ std::optional<T> record_from(const std::string& text, const Read& read) {
 std::string record_text(const PackageOrigin& origin) {
   Json inputs = Json::array(), settings = Json::array();
   for (const PackageOrigin::Input& input : origin.inputs)
-    inputs.push_back({{"name", input.name}, {"stamp", json_of(input.stamp)}, {"known", input.is_known}, {"beside", input.is_beside},
-                      {"path", input.path}, {"written_ns", input.written_ns}});
+    inputs.push_back({{"name", input.name},
+                      {"stamp", json_of(input.stamp)},
+                      {"known", input.is_known},
+                      {"beside", input.is_beside},
+                      {"path", input.path},
+                      {"written_ns", input.written_ns}});
   for (const auto& [name, value] : origin.settings) settings.push_back({name, value});
   return text_of({{"software", origin.software}, {"inputs", inputs}, {"settings", settings}});
 }
@@ -42,7 +46,8 @@ std::optional<PackageOrigin> origin_from(const std::string& text) {
     PackageOrigin origin{j.at("software").get<std::string>(), {}, {}};
     for (const Json& input : j.at("inputs"))
       origin.inputs.push_back({input.at("name").get<std::string>(), stamp_from(input.at("stamp")), input.at("known").get<bool>(),
-                               input.at("beside").get<bool>(), input.at("path").get<std::string>(), input.at("written_ns").get<std::int64_t>()});
+                               input.at("beside").get<bool>(), input.at("path").get<std::string>(),
+                               input.at("written_ns").get<std::int64_t>()});
     for (const Json& setting : j.at("settings"))
       origin.settings.emplace_back(setting.at(0).get<std::string>(), setting.at(1).get<std::string>());
     return origin;

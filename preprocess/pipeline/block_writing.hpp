@@ -31,8 +31,8 @@ struct BlockSource {
   const FarMapBaker* baker = nullptr;  ///< none where no block needs far maps
 };
 
-/// Bakes and writes the blocks of a plan that these places name, as far as they are not finished yet, several at a time: while one
-/// is written, another one is baked. Each is recorded when it is on the disk. Throws OutputError, Cancelled.
+/// Bakes and writes the blocks of a plan that these places name, as far as they are not finished yet, several at a time: while
+/// one is written, another one is baked. Each is recorded when it is on the disk. Throws OutputError, Cancelled.
 BlockTally make_blocks(const BlockSource& source, const BlockPlan& plan, std::span<const std::size_t> places,
                        const UnfinishedPackage& unfinished, const RunSettings& run, std::size_t blocks_at_once);
 

@@ -163,8 +163,7 @@ class CityReading {
   }
 
   [[nodiscard]] TerrainRaster read_ground(const georeference::TerrainFile& file, const std::optional<Box2d>& wanted_city) const {
-    TerrainRaster terrain =
-        georeference::read_terrain(file, settings_.georeference.crs, read_.located.georeference, wanted_city);
+    TerrainRaster terrain = georeference::read_terrain(file, settings_.georeference.crs, read_.located.georeference, wanted_city);
     if (std::none_of(terrain.height_m.begin(), terrain.height_m.end(), [](const auto& height) { return height.has_value(); }))
       throw InputError(file.path.string() + " has no heights where the city lies: give a terrain that covers it.");
     return terrain;

@@ -84,9 +84,7 @@ ChosenGrid chosen_from(const Json& j) {
   return chosen;
 }
 
-Json json_of(const PackEstimate& e) {
-  return {e.cells, e.far_maps, e.seconds, e.memory_mib, e.package_mib, e.least_memory_mib};
-}
+Json json_of(const PackEstimate& e) { return {e.cells, e.far_maps, e.seconds, e.memory_mib, e.package_mib, e.least_memory_mib}; }
 PackEstimate estimate_from(const Json& j) { return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4), j.at(5)}; }
 
 Json json_of(const PackedCity& r) {

@@ -48,9 +48,10 @@ struct PackedCity : PackResult {
   package::Manifest manifest;
 };
 
-/// Runs the stages from city files to a package: ingest, georeference, align, tiles, far maps, package. What an earlier run of the
-/// same origin has finished is taken over. Problems of single buildings are reported. Throws what farlod::pack throws, and OcclusionError. If problems are refused, throws ProblemsRefused
-/// when the report is complete, after the tiles and before the far maps; nothing is written then.
+/// Runs the stages from city files to a package: ingest, georeference, align, tiles, far maps, package. What an earlier run of
+/// the same origin has finished is taken over. Problems of single buildings are reported. Throws what farlod::pack throws, and
+/// OcclusionError. If problems are refused, throws ProblemsRefused when the report is complete, after the tiles and before the
+/// far maps; nothing is written then.
 PackedCity pack(const StageSettings& settings, Report& report, const RunSettings& run = {}, const OnEstimate& on_estimate = {});
 
 }  // namespace farlod::pipeline

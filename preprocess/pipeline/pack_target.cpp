@@ -67,8 +67,8 @@ std::string missing_text(const CityRecord& record, const std::set<std::size_t>& 
         blocks += " " + std::to_string(b.i) + "_" + std::to_string(b.j);
       }
     if (!blocks.empty())
-      text += (text.empty() ? "" : "; ") + ("shard " + std::to_string(index) + "/" + std::to_string(shards)) + " (blocks" + blocks +
-              ")";
+      text += (text.empty() ? "" : "; ") + ("shard " + std::to_string(index) + "/" + std::to_string(shards)) + " (blocks" +
+              blocks + ")";
   }
   return text;
 }
@@ -106,7 +106,8 @@ void PackTarget::find_saved_city() {
   if (const auto text = SavedCity::find_record(unfinished_.city_folder())) saved_city_ = city_record_from(*text);
 }
 
-std::pair<PackTarget, CityRecord> PackTarget::to_merge(const StageSettings& settings, const std::optional<PackageOrigin>& origin) {
+std::pair<PackTarget, CityRecord> PackTarget::to_merge(const StageSettings& settings,
+                                                       const std::optional<PackageOrigin>& origin) {
   const fs::path package = folder_of_output(settings.output);
   auto unfinished = UnfinishedPackage::open_existing(package, LockKind::exclusive);
   if (!unfinished)
@@ -151,7 +152,8 @@ void PackTarget::require_same_city(const TileSet& tiles, const package::Manifest
   existing_->require_same_tiles(tiles, manifest.grid);
 }
 
-void PackTarget::save_city(const TileSet& tiles, const CityHorizon* horizon, const CityRecord& record, const std::stop_token& stop) {
+void PackTarget::save_city(const TileSet& tiles, const CityHorizon* horizon, const CityRecord& record,
+                           const std::stop_token& stop) {
   farlod::save_city(unfinished_.city_folder(), tiles, horizon, record.result.manifest.grid, record_text(record), stop);
   city_lock_.reset();
 }

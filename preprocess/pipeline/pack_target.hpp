@@ -42,14 +42,15 @@ class PackTarget {
   /// What another process has saved of the city.
   [[nodiscard]] const std::optional<CityRecord>& saved_city() const { return saved_city_; }
 
-  /// The blocks to make, once CRS, grid, settings and inputs are known. Adds notes. Throws what plan_area() throws, and OutputError
-  /// when the package that is there is of another city, grid or settings.
+  /// The blocks to make, once CRS, grid, settings and inputs are known. Adds notes. Throws what plan_area() throws, and
+  /// OutputError when the package that is there is of another city, grid or settings.
   [[nodiscard]] BlockPlan plan(const Georeference& georeference, PackedCity& result) const;
   /// Once the tiles are described. Throws OutputError.
   void require_same_city(const TileSet& tiles, const package::Manifest& manifest) const;
   /// For the other shards, which wait for it. `horizon` is null for far maps of the kind `box`.
   void save_city(const TileSet& tiles, const CityHorizon* horizon, const CityRecord& record, const std::stop_token& stop);
-  /// Gives the package its name, when all blocks are made. Completes the manifest and the counts of the result. Throws OutputError.
+  /// Gives the package its name, when all blocks are made. Completes the manifest and the counts of the result. Throws
+  /// OutputError.
   void publish(CityRecord& record);
 
  private:

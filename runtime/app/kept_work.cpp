@@ -76,14 +76,14 @@ KeptWork::KeptWork(const SvfOptions& options) : folder_(options.output.string() 
 
 void KeptWork::open_own(const SvfOptions& options) {
   make_folder(folder_);
-  const auto of_another =
-      options.resume || shard_ ? AnswerFile::OfAnotherKey::refuse : AnswerFile::OfAnotherKey::replace;
+  const auto of_another = options.resume || shard_ ? AnswerFile::OfAnotherKey::refuse : AnswerFile::OfAnotherKey::replace;
   if (shard_) {
     for (const std::size_t count : shard_counts_in(folder_))
       if (count != shard_->count)
-        throw OutputError(fmt::format("{} is being computed in {} shards, and --shard says {}: give the same number to all, or "
-                                      "remove {}.",
-                                      options.output.string(), count, shard_->count, folder_.string()));
+        throw OutputError(
+            fmt::format("{} is being computed in {} shards, and --shard says {}: give the same number to all, or "
+                        "remove {}.",
+                        options.output.string(), count, shard_->count, folder_.string()));
   }
   const fs::path file = folder_ / (shard_ ? name_of(*shard_) + ".answers" : "answers");
   answers_ = std::make_shared<AnswerFile>(AnswerFile::open(file, key_of(options), of_another));
@@ -96,8 +96,8 @@ void KeptWork::open_own(const SvfOptions& options) {
 void KeptWork::open_shards(const SvfOptions& options) {
   const std::set<std::size_t> counts = shard_counts_in(folder_);
   if (counts.empty())
-    throw OutputError(fmt::format("there is nothing to merge into {}: no shard has computed a part of it (--shard).",
-                                  options.output.string()));
+    throw OutputError(
+        fmt::format("there is nothing to merge into {}: no shard has computed a part of it (--shard).", options.output.string()));
   if (counts.size() > 1)
     throw OutputError(fmt::format("{} holds shards of {} and of {}: remove those that are not wanted.", folder_.string(),
                                   *counts.begin(), *counts.rbegin()));
@@ -109,8 +109,8 @@ void KeptWork::open_shards(const SvfOptions& options) {
       missing += fmt::format("{}{}/{}", missing.empty() ? "" : ", ", shard.index, shard.count);
   }
   if (!missing.empty())
-    throw OutputError(fmt::format("{} is not complete: these shards are missing: {}. Run them, then merge.",
-                                  options.output.string(), missing));
+    throw OutputError(
+        fmt::format("{} is not complete: these shards are missing: {}. Run them, then merge.", options.output.string(), missing));
   answers_ = std::make_shared<AnswerFile>(AnswerFile::together(files, key_of(options)));
 }
 

@@ -19,8 +19,8 @@ namespace farlod {
 ///   3_of_8.answers, .done    of a shard, and that it has all of its answers
 class KeptWork {
  public:
-  /// Opens what is to be kept, or what is to be merged. Throws OutputError, which names the option that differs or the shard that is
-  /// missing; Busy.
+  /// Opens what is to be kept, or what is to be merged. Throws OutputError, which names the option that differs or the shard that
+  /// is missing; Busy.
   explicit KeptWork(const SvfOptions& options);
   KeptWork(const KeptWork&) = delete;
   KeptWork& operator=(const KeptWork&) = delete;

@@ -28,8 +28,8 @@ struct BlockDamage {
 /// being read.
 class BlockCheck {
  public:
-  /// Compares the files of the n-th block with their checksums, checks the tiles, and opens the far maps. Folder and manifest must
-  /// outlive it.
+  /// Compares the files of the n-th block with their checksums, checks the tiles, and opens the far maps. Folder and manifest
+  /// must outlive it.
   BlockCheck(const PackageFolder& folder, const package::Manifest& manifest, std::size_t n);
 
   /// What was wrong so far.

@@ -17,8 +17,7 @@ void check_stamp(const PackageFile& file, std::span<const std::byte> bytes, cons
     throw PackageDamaged(file.name + " is damaged: it has " + std::to_string(bytes.size()) + " bytes, the manifest says " +
                          std::to_string(stamp.bytes) + ". Copy it again, or pack the city again.");
   if (XXH3_64bits(bytes.data(), bytes.size()) != stamp.xxh3)
-    throw PackageDamaged(file.name +
-                         " is damaged: its checksum is not the manifest's. Copy it again, or pack the city again.");
+    throw PackageDamaged(file.name + " is damaged: its checksum is not the manifest's. Copy it again, or pack the city again.");
 }
 
 std::uint64_t checksum_of_manifest(std::string_view sealed) { return XXH3_64bits(sealed.data(), sealed.size()); }

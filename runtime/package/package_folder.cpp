@@ -28,8 +28,9 @@ void require_folder(const fs::path& name) {
     throw PackageUnusable(name.string() + " cannot be looked at: " + error.message() + ". Check its name, and who may read it.");
   const fs::path unfinished = (name.has_filename() ? name : name.parent_path()).string() + unfinished_ending;
   if (fs::is_directory(unfinished, error))
-    throw PackageUnusable(name.string() + " is not finished: farlod-pack is making it, or was interrupted; the same command goes "
-                                          "on with " +
+    throw PackageUnusable(name.string() +
+                          " is not finished: farlod-pack is making it, or was interrupted; the same command goes "
+                          "on with " +
                           unfinished.string() + ".");
   throw PackageUnusable(name.string() + " is not a package: there is no such folder. farlod-pack makes one.");
 }

@@ -18,8 +18,8 @@ struct PackageFile {
   std::string name;
 };
 
-/// The folder of an open package. It leads to the same files as long as it lives: farlod-pack may give its name to another package
-/// meanwhile, and removes the old one when nobody has it open.
+/// The folder of an open package. It leads to the same files as long as it lives: farlod-pack may give its name to another
+/// package meanwhile, and removes the old one when nobody has it open.
 class PackageFolder {
  public:
   /// Throws PackageUnusable where there is no such folder.

@@ -43,7 +43,7 @@ struct OpenBlock {
 
 struct PackageReader::Impl {
   std::optional<PackageFolder> folder;  ///< none of a package in memory
-  FileIdentity manifest_identity;  // first, so that a manifest that is replaced meanwhile is noticed
+  FileIdentity manifest_identity;       // first, so that a manifest that is replaced meanwhile is noticed
   package::Manifest manifest;
   std::vector<OpenBlock> blocks;
   std::mutex held_mutex;

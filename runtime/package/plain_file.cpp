@@ -19,7 +19,8 @@ void require_plain_file(const fs::path& folder, const fs::path& name, const fs::
     std::error_code unread;
     const fs::file_type type = fs::symlink_status(path, unread).type();
     if (type == fs::file_type::symlink)
-      throw PackageDamaged(shown_path.string() + " is a link, and may lead out of the package: put what it leads to in its place.");
+      throw PackageDamaged(shown_path.string() +
+                           " is a link, and may lead out of the package: put what it leads to in its place.");
     if (type == fs::file_type::none || type == fs::file_type::not_found) return;
     const bool is_last = std::next(part) == name.end();
     if (type != (is_last ? fs::file_type::regular : fs::file_type::directory))

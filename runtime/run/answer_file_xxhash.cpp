@@ -69,7 +69,8 @@ std::string difference(const AnswerKey& was, const AnswerKey& is) {
 /// A descriptor of a file, with reading and writing at places.
 class PlacedFile {
  public:
-  PlacedFile(std::filesystem::path path, int flags) : path_(std::move(path)), file_(::open(path_.c_str(), flags | O_CLOEXEC, 0666)) {
+  PlacedFile(std::filesystem::path path, int flags)
+      : path_(std::move(path)), file_(::open(path_.c_str(), flags | O_CLOEXEC, 0666)) {
     if (file_ < 0) throw OutputError(path_, std::generic_category().message(errno));
   }
   PlacedFile(PlacedFile&& other) noexcept : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)) {}

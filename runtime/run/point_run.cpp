@@ -170,10 +170,10 @@ EvaluationSummary evaluate_points(const Package& package, const Points& points, 
   const CellsOfRun cells_of_run{cells.size(), receivers_of,
                                 [&](std::size_t n) { return static_cast<double>(cells[n].second.size()); },
                                 [&](std::size_t n) { return cells[n].first; }};
-  EvaluationSummary summary = evaluate_cells(in_use, settings, cells_of_run,
-                                             [&](std::size_t, const CellReceivers& cell, const SvfValues& values) {
-                                               store_answers(cell, values, reader.manifest().height_origin_m, answers);
-                                             });
+  EvaluationSummary summary =
+      evaluate_cells(in_use, settings, cells_of_run, [&](std::size_t, const CellReceivers& cell, const SvfValues& values) {
+        store_answers(cell, values, reader.manifest().height_origin_m, answers);
+      });
   if (summary.estimate) return with_memory(std::move(summary), memory_bytes);
   if (settings.run.shard) return summary;
   std::size_t asked = 0;

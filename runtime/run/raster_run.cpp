@@ -277,7 +277,8 @@ Raster evaluate_window(const Package& package, const RasterPlan& plan, const Ras
   const std::size_t further_bands = columns_of(settings.further).size();
   const std::size_t bytes = bytes_of(WindowAnswers::plan_of(plan, window), settings.bounds, further_bands);
   const ResolvedSettings resolved_settings = resolved(settings, with_bytes_of_caller(run, bytes));
-  if (run.answers || run.shard) throw InvalidArgument("a window keeps no answers and has no shards: evaluate the raster for that");
+  if (run.answers || run.shard)
+    throw InvalidArgument("a window keeps no answers and has no shards: evaluate the raster for that");
   const Placing where = resolved(placing);
   const PackageInUse in_use(package);
   const package::Manifest& manifest = in_use.reader().manifest();
@@ -290,13 +291,13 @@ Raster evaluate_window(const Package& package, const RasterPlan& plan, const Ras
   const double memory_bytes = require_memory(manifest, resolved_settings, needs);
   WindowAnswers answers(plan, window, settings.bounds, further_bands);
   const float height_m = package_height_m(where, manifest);
-  EvaluationSummary summary = evaluate_cells(
-      in_use, resolved_settings,
-      {cells.size(),
-       [&](std::size_t n) {
-         return receivers.in_cell(in_use.reader(), cells[n], where.above, height_m, resolved_settings.run.stop);
-       }},
-      [&](std::size_t, const CellReceivers& cell, const SvfValues& values) { answers.store(cell, values); });
+  EvaluationSummary summary =
+      evaluate_cells(in_use, resolved_settings,
+                     {cells.size(),
+                      [&](std::size_t n) {
+                        return receivers.in_cell(in_use.reader(), cells[n], where.above, height_m, resolved_settings.run.stop);
+                      }},
+                     [&](std::size_t, const CellReceivers& cell, const SvfValues& values) { answers.store(cell, values); });
   if (summary.estimate) summary = with_memory(std::move(summary), memory_bytes);
   return answers.take(std::move(summary));
 }

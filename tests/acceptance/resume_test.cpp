@@ -30,8 +30,8 @@ const std::string fine_grid = "farlod-svf a.farlod --grid .1 --engine exact --ra
 TEST_F(InterruptedRuns, EndCleanlyWhenTheyAreAskedTo) {
   for (const auto& [signal, number] : {std::pair("TERM", SIGTERM), std::pair("INT", SIGINT), std::pair("HUP", SIGHUP)}) {
     // In the background, a shell has its programs ignore Ctrl-C
-    const Outcome outcome = folder.run(std::string("timeout --foreground --preserve-status -s ") + signal + " 1 " + fine_grid +
-                                       "-o svf.tif --quiet");
+    const Outcome outcome =
+        folder.run(std::string("timeout --foreground --preserve-status -s ") + signal + " 1 " + fine_grid + "-o svf.tif --quiet");
     EXPECT_EQ(outcome.exit_code, 128 + number) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("interrupted"));
     for (const std::string& name : folder.names()) EXPECT_EQ(name.find(".partial"), std::string::npos) << name;
@@ -67,8 +67,9 @@ TEST_F(InterruptedRuns, GoOnOnlyWithTheSameOptionsWhereThatIsAsked) {
 
 TEST_F(InterruptedRuns, OfEveryKindOfReceiversComeTogether) {
   folder.write("points.csv", "x,y\n500000,5500000\n500050,5500050\n500100,5500020\n499900,5499990\n");
-  for (const std::string receivers : {"--points points.csv -o X.csv", "--surfaces all --spacing 2 -o X.gpkg",
-                                      "--grid 3 --bounds --quantity svf,directional -o X.nc", "--surfaces roofs --spacing 3 -o X.ply"}) {
+  for (const std::string receivers :
+       {"--points points.csv -o X.csv", "--surfaces all --spacing 2 -o X.gpkg",
+        "--grid 3 --bounds --quantity svf,directional -o X.nc", "--surfaces roofs --spacing 3 -o X.ply"}) {
     const auto command = [&](const std::string& name) {
       std::string text = "farlod-svf a.farlod --quiet " + receivers;
       return text.replace(text.find("-o X"), 4, "-o " + name);
@@ -96,7 +97,8 @@ TEST_F(InterruptedRuns, OnAFullDiskGoOnLater) {
 }
 
 TEST_F(InterruptedRuns, OfTwoProcessesTheSecondOneIsTold) {
-  const std::string first = fine_grid + "-o svf.tif --quiet & p=$!; until test -e svf.tif.unfinished/answers; do sleep .01; done; ";
+  const std::string first =
+      fine_grid + "-o svf.tif --quiet & p=$!; until test -e svf.tif.unfinished/answers; do sleep .01; done; ";
   const Outcome second = folder.run(first + fine_grid + "-o svf.tif; code=$?; kill -KILL $p; wait $p; exit $code");
   EXPECT_EQ(second.exit_code, exit_busy);
   EXPECT_THAT(second.err, HasSubstr("another process is at work on svf.tif.unfinished/answers"));
@@ -114,8 +116,9 @@ TEST_F(InterruptedRuns, WrongShardsAreUsageErrors) {
 TEST_F(InterruptedRuns, ReadersOfAReplacedPackageComeToTheirEnd) {
   const std::string command = "farlod-svf a.farlod --grid .5 --engine exact --rays 500 --quiet -o ";
   folder.must(command + "expected.tif");
-  const Outcome outcome = folder.run(command + "read.tif & p=$!; until test -s read.tif.unfinished/answers; do sleep .01; done; " +
-                                     "farlod-pack town.geojson --cell 20 -o a.farlod --force; wait $p");
+  const Outcome outcome =
+      folder.run(command + "read.tif & p=$!; until test -s read.tif.unfinished/answers; do sleep .01; done; " +
+                 "farlod-pack town.geojson --cell 20 -o a.farlod --force; wait $p");
   EXPECT_EQ(outcome.exit_code, exit_done) << outcome.err;
   EXPECT_EQ(folder.text_of("read.tif"), folder.text_of("expected.tif"));
   EXPECT_THAT(outcome.out, HasSubstr("still being read"));

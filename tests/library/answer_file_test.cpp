@@ -107,7 +107,8 @@ TEST_F(AnswerFiles, OfAnotherRunAreRefusedWithBothValues) {
   }
   EXPECT_THAT(refusal({{"--grid", "3"}, {"--height", "1.5"}}), HasSubstr("--grid was 2, and is 3"));
   EXPECT_THAT(refusal({{"--grid", "2"}}), HasSubstr("--height was 1.5, and is not given"));
-  EXPECT_THAT(refusal({{"--grid", "2"}, {"--height", "1.5"}, {"--bounds", "on"}}), HasSubstr("--bounds was not given, and is on"));
+  EXPECT_THAT(refusal({{"--grid", "2"}, {"--height", "1.5"}, {"--bounds", "on"}}),
+              HasSubstr("--bounds was not given, and is on"));
   EXPECT_EQ(refusal(some_key), "no refusal");
   const AnswerFile other = opened({{"--grid", "3"}}, OfAnotherKey::replace);
   EXPECT_EQ(other.cells(), 0U);
@@ -210,7 +211,8 @@ TEST_F(KeptRuns, OfSurfacesGoOn) {
   for (int n = 0; n < 2; ++n) {
     const SurfaceMeans means = evaluate_surfaces(package_, surfaces, {}, {}, run);
     ASSERT_EQ(means.surfaces.size(), expected.surfaces.size());
-    for (std::size_t k = 0; k < expected.surfaces.size(); ++k) EXPECT_EQ(means.surfaces[k].svf_mean, expected.surfaces[k].svf_mean) << k;
+    for (std::size_t k = 0; k < expected.surfaces.size(); ++k)
+      EXPECT_EQ(means.surfaces[k].svf_mean, expected.surfaces[k].svf_mean) << k;
   }
 }
 

@@ -57,7 +57,7 @@ TEST_F(DurableFiles, ThatHaveNoRoomAreToldByName) {
   struct rlimit before {};
   getrlimit(RLIMIT_FSIZE, &before);
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
-  const struct rlimit little {1000, before.rlim_max};
+  const struct rlimit little { 1000, before.rlim_max };
   setrlimit(RLIMIT_FSIZE, &little);
   std::string said;
   try {

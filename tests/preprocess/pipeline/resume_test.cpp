@@ -35,14 +35,15 @@ struct ResumedPacking : Packing {
   }
   static std::string town(double height_m) {
     std::ostringstream text;
-    text << std::fixed
-         << R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32632"}},"features":[)";
+    text
+        << std::fixed
+        << R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32632"}},"features":[)";
     for (int n = 0; n < 36; ++n) {
       const double x = 500001.0 + 25.0 * (n % 6), y = 5500001.0 + 25.0 * (n / 6);
       text << (n > 0 ? "," : "") << R"({"type":"Feature","properties":{"id":"h)" << n << R"(","height":)"
-           << (n == 7 ? -1.0 : height_m * (1 + n % 5) / 5.0) << R"(},"geometry":{"type":"Polygon","coordinates":[[[)" << x << ',' << y
-           << "],[" << x + 9 << ',' << y << "],[" << x + 9 << ',' << y + 9 << "],[" << x << ',' << y + 9 << "],[" << x << ',' << y
-           << "]]]}}";
+           << (n == 7 ? -1.0 : height_m * (1 + n % 5) / 5.0) << R"(},"geometry":{"type":"Polygon","coordinates":[[[)" << x << ','
+           << y << "],[" << x + 9 << ',' << y << "],[" << x + 9 << ',' << y + 9 << "],[" << x << ',' << y + 9 << "],[" << x << ','
+           << y << "]]]}}";
     }
     return text.str() + "]}";
   }
@@ -169,7 +170,8 @@ TEST(Resume, MendsTheBlocksThatAreDamagedAndNoOthers) {
   ResumedPacking p;
   p.run_as("whole.farlod");
   p.run_as("mended.farlod");
-  const fs::path mended = p.settings.output, file = mended / "blocks" / "0_0" / "far.exr", kept = mended / "blocks" / "1_1" / "far.exr";
+  const fs::path mended = p.settings.output, file = mended / "blocks" / "0_0" / "far.exr",
+                 kept = mended / "blocks" / "1_1" / "far.exr";
   ASSERT_TRUE(fs::exists(file) && fs::exists(kept));
   const auto written = fs::last_write_time(kept);
   std::fstream(file, std::ios::binary | std::ios::in | std::ios::out).seekp(60).put('!');
