@@ -26,6 +26,7 @@ namespace farlod::package {
   d.buildings = m.buildings;
   d.polygons = m.polygons;
   d.triangles = m.triangles;
+  d.manifest_xxh3 = m.file_xxh3;
   return d;
 }
 

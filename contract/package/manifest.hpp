@@ -84,6 +84,7 @@ struct PictureTile {
 /// What `manifest.json` says. docs/package_format.md lists the keys.
 struct Manifest {
   std::uint32_t version = format_version;  ///< of the format, as read; what is written has the newest
+  std::uint64_t file_xxh3 = 0;             ///< XXH3-64 of the whole file, once it was read or written
   std::string software;
   std::string crs_wkt, crs_name;
   std::optional<int> epsg;

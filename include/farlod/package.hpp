@@ -28,14 +28,17 @@ struct PackageDescription {
   std::string far_map_kind;              ///< "horizon" or "box"
   std::uint64_t cells_with_far_map = 0;  ///< columns × rows, or fewer (PackSettings::area)
   std::uint64_t buildings = 0, polygons = 0, triangles = 0;
+  /// XXH3-64 of the manifest, which has the checksums of all other files: the same for the same package. 0 of one that a shard
+  /// makes.
+  std::uint64_t manifest_xxh3 = 0;
 };
 
 struct PackageContents;
 
 /// An open package. Any number of runs may use it at the same time, from any threads; opening, moving, closing and destroying it
 /// are not for two threads at a time, as with any value. Files are mapped when a run needs them, and checked against their
-/// checksums then. Where one was written, replaced or removed since, the next run ends with PackageDamaged: open the package
-/// again.
+/// checksums then. Where farlod-pack replaces the package meanwhile, this one stays as it was. Where anything else has written,
+/// replaced or removed a file since, the next run ends with PackageDamaged: open the package again.
 class FARLOD_EXPORT Package {
  public:
   /// Reads the manifest only. Throws PackageUnusable or PackageDamaged.

@@ -11,6 +11,7 @@
 #include "contract/package/layout.hpp"
 #include "contract/shard_parts.hpp"
 #include "farlod/error.hpp"
+#include "package/file_stamp.hpp"
 #include "package/package_place.hpp"
 #include "package/saved_city.hpp"
 
@@ -174,6 +175,7 @@ void PackTarget::publish(CityRecord& record) {
     const std::string note = unfinished_.publish(manifest);
     if (!note.empty()) record.result.notes.push_back(note);
   }
+  manifest.file_xxh3 = stamp_of(package_ / package::manifest_file).xxh3;
   record.result.package_bytes = bytes_of(package_, manifest);
 }
 

@@ -34,8 +34,8 @@ void add_options(const std::string& text, AnswerKey& key) {
 }
 
 /// What decides the answers of a run. Files count by their contents.
-AnswerKey key_of(const SvfOptions& o) {
-  const Provenance provenance = provenance_of(o);
+AnswerKey key_of(const SvfOptions& o, const PackageDescription& package) {
+  const Provenance provenance = provenance_of(o, package);
   AnswerKey key{{"the program", provenance.software}, {"the checksum of the package", provenance.manifest_xxh3}};
   add_options(provenance.settings, key);
   if (const auto& box = o.bbox_projected)
@@ -68,13 +68,15 @@ void make_folder(const fs::path& folder) {
 
 }  // namespace
 
-KeptWork::KeptWork(const SvfOptions& options) : folder_(options.output.string() + ".unfinished"), shard_(options.shard) {
+KeptWork::KeptWork(const SvfOptions& options, const PackageDescription& package)
+    : folder_(options.output.string() + ".unfinished"), shard_(options.shard) {
   // Single places and estimates take no time
   if (options.source == ReceiverSource::at || options.evaluation.dry_run) return;
-  options.merge ? open_shards(options) : open_own(options);
+  const AnswerKey key = key_of(options, package);
+  options.merge ? open_shards(options, key) : open_own(options, key);
 }
 
-void KeptWork::open_own(const SvfOptions& options) {
+void KeptWork::open_own(const SvfOptions& options, const AnswerKey& key) {
   make_folder(folder_);
   const auto of_another = options.resume || shard_ ? AnswerFile::OfAnotherKey::refuse : AnswerFile::OfAnotherKey::replace;
   if (shard_) {
@@ -86,14 +88,14 @@ void KeptWork::open_own(const SvfOptions& options) {
                         options.output.string(), count, shard_->count, folder_.string()));
   }
   const fs::path file = folder_ / (shard_ ? name_of(*shard_) + ".answers" : "answers");
-  answers_ = std::make_shared<AnswerFile>(AnswerFile::open(file, key_of(options), of_another));
+  answers_ = std::make_shared<AnswerFile>(AnswerFile::open(file, key, of_another));
   if (!answers_->replaced().empty())
     finding_ = "Removed what an earlier run had left of other answers (" + answers_->replaced() + ").";
   else if (answers_->cells() > 0)
     finding_ = fmt::format("Going on with what an earlier run has left: the answers of {} cells.", answers_->cells());
 }
 
-void KeptWork::open_shards(const SvfOptions& options) {
+void KeptWork::open_shards(const SvfOptions& options, const AnswerKey& key) {
   const std::set<std::size_t> counts = shard_counts_in(folder_);
   if (counts.empty())
     throw OutputError(
@@ -111,7 +113,7 @@ void KeptWork::open_shards(const SvfOptions& options) {
   if (!missing.empty())
     throw OutputError(
         fmt::format("{} is not complete: these shards are missing: {}. Run them, then merge.", options.output.string(), missing));
-  answers_ = std::make_shared<AnswerFile>(AnswerFile::together(files, key_of(options)));
+  answers_ = std::make_shared<AnswerFile>(AnswerFile::together(files, key));
 }
 
 KeptWork::~KeptWork() {

@@ -9,6 +9,7 @@
 
 #include "app/svf_options.hpp"
 #include "farlod/answer_file.hpp"
+#include "farlod/package.hpp"
 #include "farlod/run.hpp"
 
 namespace farlod {
@@ -21,7 +22,7 @@ class KeptWork {
  public:
   /// Opens what is to be kept, or what is to be merged. Throws OutputError, which names the option that differs or the shard that
   /// is missing; Busy.
-  explicit KeptWork(const SvfOptions& options);
+  KeptWork(const SvfOptions& options, const PackageDescription& package);
   KeptWork(const KeptWork&) = delete;
   KeptWork& operator=(const KeptWork&) = delete;
   /// Removes the folder where it holds no answers.
@@ -35,8 +36,8 @@ class KeptWork {
   void finish();
 
  private:
-  void open_own(const SvfOptions& options);
-  void open_shards(const SvfOptions& options);
+  void open_own(const SvfOptions& options, const AnswerKey& key);
+  void open_shards(const SvfOptions& options, const AnswerKey& key);
 
   std::filesystem::path folder_;
   std::optional<Shard> shard_;

@@ -72,9 +72,9 @@ std::string name_of(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Provenance provenance_of(const SvfOptions& options) {
+Provenance provenance_of(const SvfOptions& options, const PackageDescription& package) {
   return {
-      std::string("Far-LoD ") + software_version, name_of(options.package), xxh3_of_file(options.package / "manifest.json"),
+      std::string("Far-LoD ") + software_version, name_of(options.package), fmt::format("{:016x}", package.manifest_xxh3),
       receivers_of(options) + " " + accuracy_options(options.evaluation) + quantity_options(options) + part_of_package(options)};
 }
 

@@ -50,13 +50,13 @@ RasterFrame frame_of(const RasterPlan& plan, const SvfOptions& options, const Pa
           package.description().crs_wkt,
           package.description().epsg,
           threads,
-          provenance_of(options),
+          provenance_of(options, package.description()),
           &package};
 }
 
 TableFrame frame_of(const AnswerColumns& columns, const SvfOptions& options, const Package& package) {
   const PackageDescription& city = package.description();
-  return {columns, city.crs_wkt, city.epsg, city.convergence, provenance_of(options), &package};
+  return {columns, city.crs_wkt, city.epsg, city.convergence, provenance_of(options, city), &package};
 }
 
 bool draws_errors(const SvfOptions& options) { return options.verify_format != nullptr && options.verify_format->is_picture; }

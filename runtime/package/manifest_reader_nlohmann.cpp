@@ -232,7 +232,9 @@ Manifest read_text(std::string_view text, const std::string& name) {
   const auto version = whole_number<std::uint32_t>(j.at("version"));
   require_readable_version(name, version, oldest_format_version, format_version);
   require(is_sealed || (version < sealed_format_version && !j.contains("xxh3")), "its checksum is not at its end");
-  return manifest_from(j, version);
+  Manifest manifest = manifest_from(j, version);
+  manifest.file_xxh3 = checksum_of_manifest(text);
+  return manifest;
 }
 
 std::string text_of(const PackageFolder& folder) {
