@@ -52,19 +52,21 @@ INSTANTIATE_TEST_SUITE_P(
         Program{"farlod-info",
                 {"--help", "--version", "--json", "--check", "--cell", "--obj", "--png", "--summary", "--quiet", "--threads",
                  "--config"}},
-        Program{"farlod-pack",
-                {"--help",         "--version",        "--crs",          "--out-crs",       "--origin",    "--up",
-                 "--height-field", "--base-field",     "--roof-field",   "--storeys-field", "--lod",       "--terrain",
-                 "--floor-height", "--default-height", "--cell",         "--neighborhood",  "--max-error", "--align",
-                 "--assign",       "--far-map",        "--area",         "--output",        "--force",     "--report",
-                 "--strict",       "--summary",        "--memory-limit", "--quiet",         "--threads",   "--config"}},
+        Program{
+            "farlod-pack",
+            {"--help",       "--version",      "--crs",           "--out-crs", "--origin",  "--up",           "--height-field",
+             "--base-field", "--roof-field",   "--storeys-field", "--lod",     "--terrain", "--floor-height", "--default-height",
+             "--cell",       "--neighborhood", "--max-error",     "--align",   "--assign",  "--far-map",      "--area",
+             "--output",     "--force",        "--report",        "--strict",  "--summary", "--memory-limit", "--quiet",
+             "--threads",    "--config",       "--resume",        "--shard",   "--merge"}},
         Program{"farlod-svf",
                 {"--help",       "--version",   "--grid",       "--points",       "--surfaces",    "--at",       "--height",
                  "--on-surface", "--spacing",   "--points-crs", "--points-layer", "--bbox",        "--output",   "--preview",
                  "--projection", "--summary",   "--engine",     "--rays",         "--directions",  "--azimuths", "--sky",
                  "--max-error",  "--bounds",    "--verify",     "--memory-limit", "--quiet",       "--threads",  "--config",
                  "--along",      "--mask",      "--quantity",   "--horizons",     "--sky-patches", "--sun",      "--sun-step",
-                 "--city",       "--grid-like", "--dry-run",    "--verify-map",   "--histogram"}}),
+                 "--city",       "--grid-like", "--dry-run",    "--verify-map",   "--histogram",   "--resume",   "--shard",
+                 "--merge"}}),
     [](const auto& program) { return program.param.name + 7; });  // what follows "farlod-"
 
 TEST_F(PackedTown, QuietSaysNothing) {
