@@ -93,8 +93,8 @@ class Packing {
 
  private:
   void timed(const std::string& stage, const std::function<void()>& work) {
-    throw_if_cancelled(run_.stop);
     tell(stage, 0, 1);
+    throw_if_cancelled(run_.stop);
     const auto start = Clock::now();
     work();
     seconds_.emplace_back(stage, seconds_between(start, Clock::now()));

@@ -167,8 +167,10 @@ TEST_F(KeptRuns, ThatAreInterruptedGoOnToTheSameAnswers) {
   RunSettings run;
   run.answers = file("answers");
   run.stop = source.get_token();
+  // Two threads might have the last of the village's four cells in work already
+  run.threads = 1;
   run.on_progress = [&](const Progress& p) {
-    if (2 * p.done > p.all) source.request_stop();
+    if (p.done > 0) source.request_stop();
   };
   EXPECT_THROW((void)raster(run), Cancelled);
   const std::size_t kept = run.answers->cells();
