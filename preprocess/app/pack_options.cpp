@@ -146,6 +146,17 @@ void add_area_option(CLI::App& app, RawOptions& raw) {
       ->group("Output");
 }
 
+void add_shard_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
+  auto* const shard = app.add_option("--shard", raw.shard,
+                                     "Make one part of N, counted from 0: I/N; auto in a job array of Slurm or AWS Batch; auto/N "
+                                     "in an indexed job of Kubernetes")
+                          ->type_name("I/N")
+                          ->group("Output");
+  app.add_flag("--merge", o.settings.merge, "Put the package together of what all shards have made; needs no INPUT")
+      ->excludes(shard)
+      ->group("Output");
+}
+
 void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("-o,--output", raw.output, "Folder of the package, NAME.farlod")
       ->required()
@@ -155,14 +166,7 @@ void add_output_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_flag("--resume", o.settings.resume,
                "Go on with what a run with the same inputs and options has left, and with no other; make a damaged package whole")
       ->group("Output");
-  auto* const shard = app.add_option("--shard", raw.shard,
-                                     "Make one part of N, counted from 0: I/N; auto in a job array of Slurm or AWS Batch; auto/N "
-                                     "in an indexed job of Kubernetes")
-                          ->type_name("I/N")
-                          ->group("Output");
-  app.add_flag("--merge", o.settings.merge, "Put the package together of what all shards have made; needs no INPUT")
-      ->excludes(shard)
-      ->group("Output");
+  add_shard_options(app, raw, o);
   add_area_option(app, raw);
   app.add_option("--memory-limit", o.memory_limit_mib,
                  "Pack within so many MiB of memory, with more on disk; end where no portion is small enough")

@@ -79,6 +79,13 @@ ChoiceSettings choice_of(const PackSettings& s) {
   return choice;
 }
 
+void choose_part(const PackSettings& s, StageSettings& stages) {
+  if (s.merge) stages.part = PackPart::merge;
+  if (!s.shard) return;
+  stages.part = PackPart::shard;
+  stages.shard = *s.shard;
+}
+
 }  // namespace
 
 StageSettings resolved(const PackSettings& s) {
@@ -105,11 +112,7 @@ StageSettings resolved(const PackSettings& s) {
   stages.area = s.area;
   if (s.max_error) stages.choice = choice_of(s);
   stages.resume = s.resume;
-  if (s.merge) stages.part = PackPart::merge;
-  if (s.shard) {
-    stages.part = PackPart::shard;
-    stages.shard = *s.shard;
-  }
+  choose_part(s, stages);
   return stages;
 }
 

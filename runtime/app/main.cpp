@@ -37,6 +37,14 @@ RunSettings run_settings(const SvfOptions& options, ProgressLine& progress) {
   return run;
 }
 
+WrittenRun write(const Package& package, const SvfOptions& options, const RunSettings& run) {
+  if (!options.city_file.empty()) return write_enriched_city(package, options, run);
+  if (options.source == ReceiverSource::at && options.format->is_picture) return write_sky(package, options, run);
+  if (options.source == ReceiverSource::grid) return write_raster(package, options, run);
+  if (options.source == ReceiverSource::surfaces) return write_surfaces(package, options, run);
+  return write_points(package, options, run);
+}
+
 WrittenRun evaluate(SvfOptions options) {
   const auto start = Clock::now();
   const Package package(options.package);
@@ -44,16 +52,10 @@ WrittenRun evaluate(SvfOptions options) {
   options.evaluation.region = region_of_package(options, package.description());
   if (options.sunshine) options.evaluation.further.sun = sun_of_package(package.description(), *options.sunshine);
   ProgressLine progress("sky view factors", options.run.verbosity);
-  KeptWork kept(options);
+  KeptWork kept(options, package.description());
   RunSettings run = run_settings(options, progress);
   kept.tell(run);
-  const bool is_city = !options.city_file.empty();
-  const bool is_sky = options.source == ReceiverSource::at && options.format->is_picture;
-  WrittenRun written = is_city                                      ? write_enriched_city(package, options, run)
-                       : is_sky                                     ? write_sky(package, options, run)
-                       : options.source == ReceiverSource::grid     ? write_raster(package, options, run)
-                       : options.source == ReceiverSource::surfaces ? write_surfaces(package, options, run)
-                                                                    : write_points(package, options, run);
+  WrittenRun written = write(package, options, run);
   written.further_columns = columns_of(options.evaluation.further);
   written.open_s = open_s;
   if (!kept.finding().empty()) written.notes.insert(written.notes.begin(), kept.finding());
@@ -167,6 +169,21 @@ int complain_of_memory(const LimitReached& error) {
   return exit_limit_reached;
 }
 
+/// Runs that end before their end, though nothing is wrong with what was asked for.
+int run_within_limits(const SvfOptions& options) {
+  try {
+    return run(options);
+  } catch (const Cancelled&) {
+    fmt::print(stderr, "farlod-svf: interrupted. The answers so far are kept: the same command goes on with them.\n");
+    return Interruption::exit_code();
+  } catch (const LimitReached& error) {
+    return complain_of_memory(error);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "farlod-svf: out of memory. Evaluate a part at a time (--bbox), or use fewer --threads.\n");
+    return exit_limit_reached;
+  }
+}
+
 }  // namespace
 }  // namespace farlod
 
@@ -175,7 +192,7 @@ int main(int argc, char** argv) {
   const Interruption interruption;
   try {
     const ParsedSvfOptions parsed = parse_svf_options(argc, argv);
-    return parsed.options ? run(*parsed.options) : parsed.exit_code;
+    return parsed.options ? run_within_limits(*parsed.options) : parsed.exit_code;
   } catch (const InvalidArgument& error) {
     return complain(error, exit_usage);
   } catch (const PackageDamaged& error) {
@@ -188,14 +205,6 @@ int main(int argc, char** argv) {
     return complain(error, exit_busy);
   } catch (const OutputError& error) {
     return complain(error, exit_unusable_input);
-  } catch (const Cancelled&) {
-    fmt::print(stderr, "farlod-svf: interrupted. The answers so far are kept: the same command goes on with them.\n");
-    return Interruption::exit_code();
-  } catch (const LimitReached& error) {
-    return complain_of_memory(error);
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "farlod-svf: out of memory. Evaluate a part at a time (--bbox), or use fewer --threads.\n");
-    return exit_limit_reached;
   } catch (const std::exception& error) {
     return complain(error, exit_internal);
   }

@@ -149,6 +149,15 @@ void store_answers(const CellReceivers& cell, const SvfValues& values, double he
   }
 }
 
+/// Of a run over all points.
+EvaluationSummary with_counts(EvaluationSummary summary, std::size_t points, const PlacesByCell& cells) {
+  std::size_t asked = 0;
+  for (const auto& [cell, chosen] : cells) asked += chosen.size();
+  summary.outside_of_region = points - asked;
+  summary.no_data = asked - summary.receivers;
+  return summary;
+}
+
 }  // namespace
 
 EvaluationSummary evaluate_points(const Package& package, const Points& points, const Placing& placing,
@@ -175,12 +184,7 @@ EvaluationSummary evaluate_points(const Package& package, const Points& points, 
         store_answers(cell, values, reader.manifest().height_origin_m, answers);
       });
   if (summary.estimate) return with_memory(std::move(summary), memory_bytes);
-  if (settings.run.shard) return summary;
-  std::size_t asked = 0;
-  for (const auto& [cell, chosen] : cells) asked += chosen.size();
-  summary.outside_of_region = places.size() - asked;
-  summary.no_data = asked - summary.receivers;
-  return summary;
+  return settings.run.shard ? summary : with_counts(std::move(summary), places.size(), cells);
 }
 
 PointAnswers evaluate_points(const Package& package, const Points& points, const Placing& placing,

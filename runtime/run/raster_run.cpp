@@ -230,6 +230,17 @@ bool meet(const PixelRange& pixels, const RasterWindow& window) {
          pixels.row_begin < window.row + window.rows && window.row < pixels.row_end;
 }
 
+std::vector<Cell> cells_in(const RasterWindow& window, const RasterReceivers& receivers, const Grid& grid) {
+  std::vector<Cell> cells = receivers.cells();
+  std::erase_if(cells, [&](Cell cell) { return !meet(receivers.range_of(cell), window); });
+  return along_hilbert_curve(std::move(cells), grid.block_edge);
+}
+
+void require_nothing_kept(const RunSettings& run) {
+  if (run.answers || run.shard)
+    throw InvalidArgument("a window keeps no answers and has no shards: evaluate the raster for that");
+}
+
 }  // namespace
 
 RasterTile::RasterTile(TilePlace where, RasterBands bands, std::size_t further_bands)
@@ -274,18 +285,15 @@ Raster evaluate_window(const Package& package, const RasterPlan& plan, const Ras
                        const EvaluationSettings& settings, const RunSettings& run) {
   require_usable(plan);
   require_within(window, plan);
+  require_nothing_kept(run);
   const std::size_t further_bands = columns_of(settings.further).size();
   const std::size_t bytes = bytes_of(WindowAnswers::plan_of(plan, window), settings.bounds, further_bands);
   const ResolvedSettings resolved_settings = resolved(settings, with_bytes_of_caller(run, bytes));
-  if (run.answers || run.shard)
-    throw InvalidArgument("a window keeps no answers and has no shards: evaluate the raster for that");
   const Placing where = resolved(placing);
   const PackageInUse in_use(package);
   const package::Manifest& manifest = in_use.reader().manifest();
   const RasterReceivers receivers(manifest, plan, resolved_settings.region.get());
-  std::vector<Cell> cells = receivers.cells();
-  std::erase_if(cells, [&](Cell cell) { return !meet(receivers.range_of(cell), window); });
-  cells = along_hilbert_curve(std::move(cells), in_use.reader().grid().block_edge);
+  const std::vector<Cell> cells = cells_in(window, receivers, in_use.reader().grid());
   MemoryNeeds needs = needs_of(plan, {}, in_use.reader().grid(), 0);
   needs.whole_city = any_traces_whole_city(in_use.reader(), resolved_settings.sky.engine, cells);
   const double memory_bytes = require_memory(manifest, resolved_settings, needs);

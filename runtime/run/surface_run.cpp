@@ -120,6 +120,13 @@ void check(const SurfaceSettings& surfaces) {
   require_between("spacing_m", surfaces.spacing_m, 0.05, 1000.0);
 }
 
+/// The larger the tile, the more surfaces it has.
+CellsOfRun cells_of_run(const PackageReader& reader, const std::vector<Cell>& cells, ReceiversOfCell receivers_of) {
+  return {cells.size(), std::move(receivers_of),
+          [&](std::size_t n) { return static_cast<double>(reader.files_of(cells[n]).tiles.bytes); },
+          [&](std::size_t n) { return cells[n]; }};
+}
+
 }  // namespace
 
 SurfaceMeans evaluate_surfaces(const Package& package, const SurfaceSettings& surfaces, const EvaluationSettings& evaluation,
@@ -135,22 +142,18 @@ SurfaceMeans evaluate_surfaces(const Package& package, const SurfaceSettings& su
   // What is known of a cell's receivers, from when they are placed until their answers are there
   std::vector<std::vector<SurfaceReceiver>> placed(cells.size());
   std::atomic<std::size_t> stored = 0;  // cells, in their order; a verification asks for the receivers of some of them again
-  EvaluationSummary summary =
-      evaluate_cells(in_use, settings,
-                     {cells.size(),
-                      [&](std::size_t n) {
-                        PlacedReceivers receivers = placed_on_surfaces(reader, cells[n], surfaces, settings);
-                        CellReceivers result = answerable(cells[n], receivers);
-                        if (n >= stored && !settings.run.shard) placed[n] = std::move(receivers.receivers);
-                        return result;
-                      },
-                      [&](std::size_t n) { return static_cast<double>(reader.files_of(cells[n]).tiles.bytes); },
-                      [&](std::size_t n) { return cells[n]; }},
-                     [&](std::size_t n, const CellReceivers& cell, const SvfValues& values) {
-                       means.add(range.index_of(cells[n]), points_of(reader, cells[n], placed[n], cell.receivers, values));
-                       placed[n] = {};
-                       ++stored;
-                     });
+  const auto receivers_of = [&](std::size_t n) {
+    PlacedReceivers receivers = placed_on_surfaces(reader, cells[n], surfaces, settings);
+    CellReceivers result = answerable(cells[n], receivers);
+    if (n >= stored && !settings.run.shard) placed[n] = std::move(receivers.receivers);
+    return result;
+  };
+  const auto store = [&](std::size_t n, const CellReceivers& cell, const SvfValues& values) {
+    means.add(range.index_of(cells[n]), points_of(reader, cells[n], placed[n], cell.receivers, values));
+    placed[n] = {};
+    ++stored;
+  };
+  EvaluationSummary summary = evaluate_cells(in_use, settings, cells_of_run(reader, cells, receivers_of), store);
   if (settings.run.shard) return {{}, {}, std::move(summary)};
   return means.with(summary.estimate ? with_memory(std::move(summary), memory_bytes) : std::move(summary));
 }

@@ -33,6 +33,8 @@ constexpr Wall walls[] = {
     {"^include/", NOWHERE, "^(?!farlod/|[a-z_0-9]+$)", "what users include knows the standard library only"},
     {"^contract/", NOWHERE, "^(?!farlod/|contract/|[a-z_0-9]+$)", "the contract knows the standard library only"},
 
+    {"^storage/", NOWHERE, "^(?!farlod/|storage/|[a-z_0-9]+$|(fcntl|unistd|sys/[a-z_]+)\\.h$)",
+     "storage knows the file system, and nothing of packages"},
     {"^runtime/", NOWHERE, "^(" CGAL_HEADERS "|" PROJ_HEADERS "|libxml|citygml/|GeographicLib/)",
      "the runtime ships without the geometry stack"},
     {"^runtime/", "^runtime/results/[a-z_/]+_expat\\.cpp$", "^" EXPAT_HEADERS,
@@ -127,8 +129,8 @@ void check_stage_order(const SourceFile& file, std::vector<std::string>& breache
 }
 
 /// What a file may name in quotes besides the contract: the headers of its own side (both sides have a room `package` and a room
-/// `app`, so that the name alone does not say whose header is meant), the console from a program, the errors of GDAL, rays from
-/// preprocess, the evaluator from its stage `trial`.
+/// `app`, so that the name alone does not say whose header is meant), the console from a program, the errors of GDAL, durable
+/// files, rays from preprocess, the evaluator from its stage `trial`.
 bool may_quote(const SourceFile& file, const std::string& target, const std::set<std::string>& paths) {
   const std::string side = file.path.substr(0, file.path.find('/'));
   if (target.starts_with("farlod/") || target.starts_with("contract/") || paths.contains(side + "/" + target)) return true;
@@ -136,12 +138,13 @@ bool may_quote(const SourceFile& file, const std::string& target, const std::set
   if (target.starts_with("console/")) return side == "console" || file.path.find("/app/") != std::string::npos;
   // The walls above let only the wrappers of GDAL through
   if (target.starts_with("gdal/")) return side == "gdal" || side == "preprocess" || side == "runtime";
+  if (target.starts_with("storage/")) return side == "storage" || side == "preprocess" || side == "runtime";
   if (file.path.starts_with("preprocess/trial/") && std::ranges::count(runtime_headers_of_trial, target) > 0) return true;
   return side == "preprocess" && target.starts_with("occlusion/");
 }
 
 void check_side(const SourceFile& file, const std::set<std::string>& paths, std::vector<std::string>& breaches) {
-  static const std::regex walled("^(console|gdal|preprocess|runtime|datasets)/");
+  static const std::regex walled("^(console|gdal|preprocess|runtime|datasets|storage)/");
   if (!std::regex_search(file.path, walled)) return;
   for (const Include& include : includes_of(file))
     if (include.quoted && !may_quote(file, include.target, paths))
