@@ -29,7 +29,7 @@ from qgis.core import (
 
 from .algorithm import FarlodAlgorithm, Values
 from .layer_files import own_file, raster_file, save_rectangle, save_source
-from .staging import MANIFEST, BlocksKept, Staging, require_room_for_package
+from .staging import MANIFEST, NothingUnfinished, Staging, require_room_for_package
 
 # Of one run; the report has all
 MOST_WARNINGS = 20
@@ -129,7 +129,7 @@ class PackCity(FarlodAlgorithm):
         with Staging(str(output)) as staging:
             arguments = self._arguments(parameters, context, staging.folder)
             if adds:
-                with BlocksKept(output):
+                with NothingUnfinished(output):
                     results = self._pack(arguments, output, staging, parameters, context, feedback)
             else:
                 results = self._pack(arguments, staging.result, staging, parameters, context, feedback)

@@ -70,19 +70,17 @@ def require_room_for_package(folder: pathlib.Path, overwrite: bool) -> None:
         raise OutputRefused(f"{folder} exists already: let it be replaced (Replace a package that is there), or choose another.")
 
 
-class BlocksKept:
-    """Far maps are added to a package in its own folder. When that fails, blocks that were not there before go away."""
+class NothingUnfinished:
+    """Far maps are added to a package beside it, in NAME.unfinished. When that fails, the folder goes away; but one that was there
+    before stays, since it may be that of another process, or hold what an interrupted run has finished."""
 
     def __init__(self, package: pathlib.Path) -> None:
-        self._blocks = package / BLOCKS
-        self._before: set[str] = set()
+        self._folder = package.with_name(package.name + ".unfinished")
+        self._was_there = False
 
     def __enter__(self) -> None:
-        self._before = {path.name for path in self._blocks.iterdir()}
+        self._was_there = self._folder.exists()
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
-        if kind is None:
-            return
-        for path in self._blocks.iterdir():
-            if path.name not in self._before:
-                shutil.rmtree(path, ignore_errors=True)
+        if kind is not None and not self._was_there:
+            shutil.rmtree(self._folder, ignore_errors=True)

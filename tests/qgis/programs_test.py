@@ -203,15 +203,16 @@ class WhereProgramsWrite(InTemporaryFolder):
         with self.assertRaisesRegex(staging.OutputRefused, "is a file"):
             staging.require_room_for_package(package / "manifest.json", overwrite=True)
 
-    def test_blocks_that_were_added_go_away_when_a_run_fails(self) -> None:
-        package = self.package("town.farlod", "manifest.json", "blocks/0_0/tiles.bin")
-        with self.assertRaises(ZeroDivisionError), staging.BlocksKept(package):
-            self.package("town.farlod", "blocks/0_0_4/far.exr.part")
-            raise ZeroDivisionError
-        self.assertEqual([path.name for path in (package / "blocks").iterdir()], ["0_0"])
-        with staging.BlocksKept(package):
-            self.package("town.farlod", "blocks/0_0_4/far.exr")
-        self.assertEqual(sorted(path.name for path in (package / "blocks").iterdir()), ["0_0", "0_0_4"])
+    def test_unfinished_work_goes_away_when_a_run_fails_unless_it_was_there_before(self) -> None:
+        package = self.package("town.farlod", "manifest.json")
+        unfinished = self.folder / "town.farlod.unfinished"
+        for was_there in (False, True):
+            with self.assertRaises(ZeroDivisionError), staging.NothingUnfinished(package):
+                self.package("town.farlod.unfinished", "blocks/0_0/tiles.bin")
+                raise ZeroDivisionError
+            self.assertEqual(unfinished.exists(), was_there)
+            unfinished.mkdir(exist_ok=True)
+        self.assertTrue(package.exists())
 
 
 if __name__ == "__main__":
