@@ -85,6 +85,15 @@ std::optional<PackageOrigin> origin_of_unfinished(const fs::path& package) {
   return origin_from(text_of(unfinished_folder_of(package) / origin_file));
 }
 
+bool was_just_published(const fs::path& package, const PackageOrigin& origin) {
+  const fs::path folder = unfinished_folder_of(package), named = package / package::manifest_file;
+  const std::string published = text_of(folder / publishing_file);
+  std::error_code unread;
+  if (published.empty() || !fs::is_regular_file(named, unread) || stamp_text(stamp_of(named)) != published) return false;
+  const auto before = origin_from(text_of(folder / origin_file));
+  return before && difference(*before, origin).empty();
+}
+
 UnfinishedPackage::UnfinishedPackage(fs::path package, FileLock lock, LockKind kind)
     : package_(std::move(package)), folder_(unfinished_folder_of(package_)), lock_(std::move(lock)), kind_(kind) {}
 

@@ -86,6 +86,9 @@ class UnfinishedPackage {
 /// Of a city that is saved in UnfinishedPackage::city_folder(): there when the city is whole.
 inline constexpr const char* city_record_file = "city.json";
 
+/// Whether a run of this origin was killed after the package had got its name: what is there is what it was to make.
+[[nodiscard]] bool was_just_published(const std::filesystem::path& package, const PackageOrigin& origin);
+
 /// Of the one that is there; nothing where there is none. Takes no lock.
 [[nodiscard]] std::optional<PackageOrigin> origin_of_unfinished(const std::filesystem::path& package);
 

@@ -33,9 +33,11 @@ fs::path folder_of_output(const fs::path& output) {
 }
 
 /// The package that is there and is not replaced.
-std::optional<ExistingPackage> existing_package(const StageSettings& settings, const fs::path& package) {
+std::optional<ExistingPackage> existing_package(const StageSettings& settings, const fs::path& package,
+                                                const PackageOrigin& origin) {
   remove_replaced_packages(package);
-  const bool may_be_there = settings.overwrite == Overwrite::refuse && (settings.area || settings.resume);
+  const bool may_be_there =
+      settings.overwrite == Overwrite::refuse && (settings.area || settings.resume || was_just_published(package, origin));
   std::optional<ExistingPackage> existing = may_be_there ? ExistingPackage::find(package) : std::nullopt;
   existing ? require_replaceable(package) : require_room(package, settings.overwrite);
   return existing;
@@ -87,7 +89,7 @@ void require_folders_above(const fs::path& output) {
 PackTarget::PackTarget(const StageSettings& settings, const PackageOrigin& origin, const std::stop_token& stop)
     : settings_(&settings),
       package_(folder_of_output(settings.output)),
-      existing_(existing_package(settings, package_)),
+      existing_(existing_package(settings, package_, origin)),
       unfinished_(opened(settings, package_, origin)) {
   if (settings.area) area_ = requested(*settings.area);
   if (!unfinished_.finding().empty()) notes_.push_back(unfinished_.finding());
@@ -117,7 +119,7 @@ std::pair<PackTarget, CityRecord> PackTarget::to_merge(const StageSettings& sett
   if (!what.empty())
     throw OutputError("the shards of " + package.string() + " are of another package: " + what + ". Give what they were given.");
   PackTarget target(settings, std::move(*unfinished));
-  target.existing_ = existing_package(settings, package);
+  target.existing_ = existing_package(settings, package, target.unfinished_.origin());
   target.find_saved_city();
   if (!target.saved_city_)
     throw OutputError("the shards of " + package.string() + " have not read their city to the end: run them again.");

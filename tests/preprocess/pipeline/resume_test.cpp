@@ -9,6 +9,7 @@
 
 #include "contract/shard_parts.hpp"
 #include "farlod/error.hpp"
+#include "package/file_stamp.hpp"
 #include "package/saved_city.hpp"
 #include "package/unfinished_package.hpp"
 #include "pipeline/city_record.hpp"
@@ -96,6 +97,24 @@ TEST_P(Resumed, RunsTakeOverWhatIsFinishedAndEndInTheSameBytes) {
   EXPECT_GE(p.result.blocks_found, 4U);
   EXPECT_LT(p.result.blocks_found, block_count);
   EXPECT_EQ(p.bytes_of("resumed.farlod"), p.bytes_of("whole.farlod"));
+  EXPECT_FALSE(fs::exists(p.work()));
+}
+
+/// The same command must not refuse what it has made itself.
+TEST(Resume, RunsThatWereKilledWhenThePackageHadItsNameAreDone) {
+  ResumedPacking p;
+  p.interrupt_after(4);
+  const fs::path copy = p.folder.path() / "copy";
+  fs::copy(p.work(), copy, fs::copy_options::recursive);
+  p.run();
+  EXPECT_THAT(p.refusal(), HasSubstr("exists already"));
+  // As such a kill leaves it
+  fs::rename(copy, p.work());
+  const package::FileStamp manifest = stamp_of(p.settings.output / "manifest.json");
+  std::ofstream(p.work() / "publishing") << manifest.bytes << ' ' << manifest.xxh3;
+  p.run();
+  EXPECT_THAT(p.result.notes, Contains(HasSubstr("whole already")));
+  EXPECT_EQ(stamp_of(p.settings.output / "manifest.json"), manifest);
   EXPECT_FALSE(fs::exists(p.work()));
 }
 
