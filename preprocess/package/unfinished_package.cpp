@@ -148,6 +148,12 @@ std::optional<UnfinishedPackage> UnfinishedPackage::open_existing(const fs::path
   return unfinished;
 }
 
+void UnfinishedPackage::remove_useless(const fs::path& package) {
+  auto lock = FileLock::try_lock_existing(unfinished_folder_of(package) / lock_file, LockKind::exclusive);
+  // Its destructor removes a folder without work
+  if (lock) const UnfinishedPackage leftover(package, std::move(*lock), LockKind::exclusive);
+}
+
 void UnfinishedPackage::begin(const PackageOrigin& origin, OfAnotherOrigin of_another) {
   if (kind_ == LockKind::exclusive) finish_publishing();
   // Several shards may begin at once: the first one notes down what all are part of

@@ -57,6 +57,9 @@ class UnfinishedPackage {
   [[nodiscard]] std::optional<package::BlockFiles> finished(Block block, const std::optional<package::CellRuns>& mapped) const;
   /// The files are in package_folder().
   void record(const package::BlockFiles& files) const;
+  /// Removes what a killed run has left beside a package, where it is of no use and nobody is at work there.
+  static void remove_useless(const std::filesystem::path& package);
+
   /// Takes a block from a package, whose files stay: they have two names then, or are copied.
   void adopt(const std::filesystem::path& package, const package::BlockFiles& files) const;
 

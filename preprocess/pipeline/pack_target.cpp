@@ -39,6 +39,10 @@ std::optional<ExistingPackage> existing_package(const StageSettings& settings, c
   const bool may_be_there =
       settings.overwrite == Overwrite::refuse && (settings.area || settings.resume || was_just_published(package, origin));
   std::optional<ExistingPackage> existing = may_be_there ? ExistingPackage::find(package) : std::nullopt;
+  std::error_code unread;
+  // It is refused: nobody comes to go on with what a killed run has left beside it
+  if (!existing && settings.overwrite == Overwrite::refuse && fs::exists(package / package::manifest_file, unread))
+    UnfinishedPackage::remove_useless(package);
   existing ? require_replaceable(package) : require_room(package, settings.overwrite);
   return existing;
 }

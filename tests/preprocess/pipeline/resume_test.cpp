@@ -107,7 +107,11 @@ TEST(Resume, RunsThatWereKilledWhenThePackageHadItsNameAreDone) {
   const fs::path copy = p.folder.path() / "copy";
   fs::copy(p.work(), copy, fs::copy_options::recursive);
   p.run();
+  // A kill at the very end leaves a folder with nothing but a lock
+  fs::create_directory(p.work());
+  std::ofstream(p.work() / "lock").close();
   EXPECT_THAT(p.refusal(), HasSubstr("exists already"));
+  EXPECT_FALSE(fs::exists(p.work()));
   // As such a kill leaves it
   fs::rename(copy, p.work());
   const package::FileStamp manifest = stamp_of(p.settings.output / "manifest.json");
