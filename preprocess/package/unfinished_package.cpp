@@ -150,8 +150,10 @@ std::optional<UnfinishedPackage> UnfinishedPackage::open_existing(const fs::path
 
 void UnfinishedPackage::remove_useless(const fs::path& package) {
   auto lock = FileLock::try_lock_existing(unfinished_folder_of(package) / lock_file, LockKind::exclusive);
+  if (!lock) return;
+  UnfinishedPackage leftover(package, std::move(*lock), LockKind::exclusive);
+  leftover.finish_publishing();
   // Its destructor removes a folder without work
-  if (lock) const UnfinishedPackage leftover(package, std::move(*lock), LockKind::exclusive);
 }
 
 void UnfinishedPackage::begin(const PackageOrigin& origin, OfAnotherOrigin of_another) {

@@ -107,15 +107,19 @@ TEST(Resume, RunsThatWereKilledWhenThePackageHadItsNameAreDone) {
   const fs::path copy = p.folder.path() / "copy";
   fs::copy(p.work(), copy, fs::copy_options::recursive);
   p.run();
-  // A kill at the very end leaves a folder with nothing but a lock
-  fs::create_directory(p.work());
-  std::ofstream(p.work() / "lock").close();
-  EXPECT_THAT(p.refusal(), HasSubstr("exists already"));
-  EXPECT_FALSE(fs::exists(p.work()));
+  const package::FileStamp manifest = stamp_of(p.settings.output / "manifest.json");
+  const auto note_publishing = [&] { std::ofstream(p.work() / "publishing") << manifest.bytes << ' ' << manifest.xxh3; };
+  // A kill at the very end leaves a folder with nothing but a lock, or with the note as well
+  for (const bool has_note : {false, true}) {
+    fs::create_directory(p.work());
+    std::ofstream(p.work() / "lock").close();
+    if (has_note) note_publishing();
+    EXPECT_THAT(p.refusal(), HasSubstr("exists already"));
+    EXPECT_FALSE(fs::exists(p.work()));
+  }
   // As such a kill leaves it
   fs::rename(copy, p.work());
-  const package::FileStamp manifest = stamp_of(p.settings.output / "manifest.json");
-  std::ofstream(p.work() / "publishing") << manifest.bytes << ' ' << manifest.xxh3;
+  note_publishing();
   p.run();
   EXPECT_THAT(p.result.notes, Contains(HasSubstr("whole already")));
   EXPECT_EQ(stamp_of(p.settings.output / "manifest.json"), manifest);
