@@ -20,6 +20,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 ENGINES = ["auto", "horizon", "rays", "exact"]
 # The only cells with far maps of the packages that are partial: half of a block
 AREA = "500025,5500000,500030,5500004"
+KINDS = ("horizon", "box")
+PARTS = {"": [], "_partial": ["--area", AREA]}
 # Another Embree may let one ray of 1,000 go the other way, and points outside of the grid are traced by all engines
 TOLERANCE = 0.0011
 EXIT_UNUSABLE = 3
@@ -51,15 +53,19 @@ def read_table(path: pathlib.Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
+def pack_town(binaries: pathlib.Path, kind: str, part: str, packed: pathlib.Path) -> None:
+    made = run(binaries, "farlod-pack", HERE / "town.geojson", "-o", packed, "--cell", 50, "--neighborhood", 1, "--align", "none",
+               "--far-map", kind, "--quiet", *PARTS[part])
+    if made.returncode != 0:
+        raise SystemExit(made.stderr)
+
+
 def add(binaries: pathlib.Path, folder: pathlib.Path) -> None:
-    for kind in ("horizon", "box"):
-        for part, options in (("", []), ("_partial", ["--area", AREA])):
+    for kind in KINDS:
+        for part in PARTS:
             with tempfile.TemporaryDirectory() as work:
                 packed = pathlib.Path(work) / "town.farlod"
-                made = run(binaries, "farlod-pack", HERE / "town.geojson", "-o", packed, "--cell", 50, "--neighborhood", 1,
-                           "--align", "none", "--far-map", kind, "--quiet", *options)
-                if made.returncode != 0:
-                    raise SystemExit(made.stderr)
+                pack_town(binaries, kind, part, packed)
                 version = json.loads((packed / "manifest.json").read_text())["version"]
                 name = f"version_{version}_{kind}{part}"
                 shutil.copytree(packed, folder / f"{name}.farlod")
@@ -105,7 +111,7 @@ def readable_versions() -> range:
 
 
 def check_all_versions_are_there() -> list[str]:
-    names = [f"version_{version}_{kind}" for version in readable_versions() for kind in ("horizon", "box")]
+    names = [f"version_{version}_{kind}" for version in readable_versions() for kind in KINDS]
     there = [path.stem for path in HERE.glob("*.farlod")]
     return [f"no package of {name}: see README.md" for name in names if not any(t.startswith(name) for t in there)]
 
