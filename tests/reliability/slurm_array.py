@@ -63,6 +63,7 @@ class Slurm:
         self.write_configuration()
 
     def write_configuration(self) -> None:
+        # MinJobAge: on a slow machine the first tasks are forgotten before the last one has ended
         f, user = self.folder, getpass.getuser()
         cpus = os.cpu_count() or 1
         (f / "slurm.conf").write_text(f"""ClusterName=loopback
@@ -89,6 +90,7 @@ SwitchType=switch/none
 SelectType=select/cons_tres
 SelectTypeParameters=CR_Core
 ReturnToService=2
+MinJobAge=86400
 NodeName=localhost NodeAddr=127.0.0.1 CPUs={cpus} RealMemory=1000
 PartitionName=main Nodes=localhost Default=YES State=UP
 """)
