@@ -18,9 +18,9 @@ class FileLock {
  public:
   /// Makes the file where there is none. Nothing where a lock that somebody holds excludes this one. Throws OutputError where the
   /// file cannot be made.
-  [[nodiscard]] static std::optional<FileLock> try_lock(const std::filesystem::path& file, LockKind kind);
+  [[nodiscard]] static std::optional<FileLock> try_lock(const std::filesystem::path& path, LockKind kind);
   /// On a file that is there and is not written to, which may be of somebody else. Nothing where there is none.
-  [[nodiscard]] static std::optional<FileLock> try_lock_existing(const std::filesystem::path& file, LockKind kind);
+  [[nodiscard]] static std::optional<FileLock> try_lock_existing(const std::filesystem::path& path, LockKind kind);
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;
   ~FileLock();

@@ -30,9 +30,9 @@ class FARLOD_EXPORT AnswerFile {
 
   /// Opens the file to read and to add to it, or makes it. Throws Busy while another process has it, OutputError which names the
   /// setting that differs and both values, or what the disk refuses.
-  [[nodiscard]] static AnswerFile open(const std::filesystem::path& file, const AnswerKey& key, OfAnotherKey of_another);
+  [[nodiscard]] static AnswerFile open(const std::filesystem::path& path, const AnswerKey& key, OfAnotherKey of_another);
   /// Opens files of the same key to read them together; nothing is added. Throws OutputError where one is not there or differs.
-  [[nodiscard]] static AnswerFile together(const std::vector<std::filesystem::path>& files, const AnswerKey& key);
+  [[nodiscard]] static AnswerFile together(const std::vector<std::filesystem::path>& paths, const AnswerKey& key);
   AnswerFile(AnswerFile&&) noexcept;
   AnswerFile& operator=(AnswerFile&&) noexcept;
   ~AnswerFile();

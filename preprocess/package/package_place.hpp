@@ -11,10 +11,10 @@ namespace farlod {
 
 /// Throws OutputError when a package may not get this name: there is one already and it shall not be replaced, or a folder that
 /// holds anything that is not part of a package, or that cannot change its name. Touches nothing.
-void require_room(const std::filesystem::path& package, Overwrite overwrite);
+void require_room(const std::filesystem::path& folder, Overwrite overwrite);
 
 /// The same, whether or not there is a package already.
-void require_replaceable(const std::filesystem::path& package);
+void require_replaceable(const std::filesystem::path& folder);
 
 /// Gives a finished package its name. What has the name already changes places with it, in one step where the file system can;
 /// `aside` is where it is meanwhile where it cannot. Throws OutputError.
