@@ -22,8 +22,12 @@ namespace farlod::package {
 static_assert(std::endian::native == std::endian::little,
               "packages are mapped, not decoded: a big-endian reader must swap bytes");
 
-/// Of the manifest, and so of the package: what is written.
+/// Of the manifest, and so of the package: what is written of a city without trees.
 inline constexpr std::uint32_t format_version = 8;
+/// What is written of a city with trees: a reader of version 8 would not know of them (crown_layout.hpp).
+inline constexpr std::uint32_t canopy_format_version = 9;
+/// The newest one that is read.
+inline constexpr std::uint32_t newest_format_version = canopy_format_version;
 /// The oldest one that is read.
 inline constexpr std::uint32_t oldest_format_version = 6;
 /// Since this one, some cells may have no far map: a reader of version 6 would look for it.

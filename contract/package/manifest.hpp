@@ -3,12 +3,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "contract/canopy/crown.hpp"
 #include "contract/grid.hpp"
 #include "contract/package/cell_runs.hpp"
 #include "contract/package/layout.hpp"
@@ -47,6 +50,20 @@ struct BlockFiles {
   return block_folder(files.block) + (files.mapped ? "_" + std::to_string(files.mapped->size()) : "");
 }
 
+/// The keys of a manifest that count the crowns of each CrownShape.
+inline constexpr std::array<const char*, crown_shape_count> crown_shape_keys{"spheroids", "cylinders", "prisms"};
+
+/// The crowns of a package, in `crowns.bin`.
+struct CanopyFile {
+  FileStamp stamp;
+  std::array<std::uint64_t, crown_shape_count> crowns_of_shape{};  ///< by CrownShape
+
+  [[nodiscard]] std::uint64_t crowns() const {
+    return std::accumulate(crowns_of_shape.begin(), crowns_of_shape.end(), std::uint64_t{0});
+  }
+  bool operator==(const CanopyFile&) const = default;
+};
+
 /// The kind of a package's far maps, and the size of their pictures.
 struct FarMapShape {
   std::string kind;                                                  ///< "horizon" or "box"
@@ -83,7 +100,7 @@ struct PictureTile {
 
 /// What `manifest.json` says. docs/package_format.md lists the keys.
 struct Manifest {
-  std::uint32_t version = format_version;  ///< of the format, as read; what is written has the newest
+  std::uint32_t version = format_version;  ///< of the format, as read; what is written has version_of()
   std::uint64_t file_xxh3 = 0;             ///< XXH3-64 of the whole file, once it was read or written
   std::string software;
   std::string crs_wkt, crs_name;
@@ -98,6 +115,7 @@ struct Manifest {
   std::uint64_t buildings = 0, polygons = 0, triangles = 0;
   std::vector<std::pair<int, std::uint64_t>> problem_counts;  ///< by code, ascending
   std::vector<BlockFiles> blocks;                             ///< in the order of Grid::blocks()
+  std::optional<CanopyFile> canopy = {};                      ///< where there are crowns
 
   /// Whether each cell has a far map.
   [[nodiscard]] bool is_fully_mapped() const {
@@ -126,5 +144,10 @@ struct Manifest {
     return grid.rotation.grid_from_city(p_projected - origin_m);
   }
 };
+
+/// Of the format, in which a manifest is written.
+[[nodiscard]] inline std::uint32_t version_of(const Manifest& manifest) {
+  return manifest.canopy ? canopy_format_version : format_version;
+}
 
 }  // namespace farlod::package

@@ -43,6 +43,14 @@ struct PackedInput {
   std::uint64_t xxh3 = 0;   ///< XXH3-64 of the file, seed 0
 };
 
+/// The trees of a package: how many crowns there are of each shape.
+struct PackedCrowns {
+  std::uint64_t spheroids = 0, cylinders = 0, prisms = 0;
+  std::uint64_t bytes = 0;  ///< on disk
+
+  [[nodiscard]] constexpr std::uint64_t all() const { return spheroids + cylinders + prisms; }
+};
+
 /// What a manifest says besides PackageDescription.
 struct PackageInventory {
   std::uint32_t format_version = 0;
@@ -58,6 +66,7 @@ struct PackageInventory {
   /// Of far maps of the kind "box"; zero for the other.
   std::uint32_t side_columns = 0, rows = 0;
   std::uint64_t tile_bytes = 0, far_map_bytes = 0;  ///< on disk
+  PackedCrowns crowns;
   std::vector<PackedInput> inputs;
   std::vector<std::pair<int, std::uint64_t>> problems;  ///< how often each ProblemCode was met, ascending
 };
@@ -74,9 +83,10 @@ struct PackageDamage {
 
 /// What came of reading a whole package.
 struct PackageCheck {
-  std::uint64_t files = 0, bytes = 0;     ///< of the blocks, as the manifest lists them
+  std::uint64_t files = 0, bytes = 0;     ///< of the blocks and of the crowns, as the manifest lists them
   std::uint64_t cells = 0, far_maps = 0;  ///< tiles and far maps that were read from end to end, and are right
-  std::vector<PackageDamage> damage;      ///< in the order of the blocks, and within a block by file and cell
+  std::uint64_t crowns = 0;               ///< the same of crowns
+  std::vector<PackageDamage> damage;      ///< in the order of the blocks, and within a block by file and cell; then the crowns
 };
 
 /// Reads all of a package: each file is compared with its checksum, each tile is checked, and each far map is decoded. What is

@@ -17,7 +17,7 @@ namespace farlod {
 /// How much of a new manifest is known.
 enum class Known {
   before_tiles,  ///< software, inputs, settings, CRS and grid
-  all            ///< heights, counts and problems, too
+  all            ///< heights, counts, problems and crowns, too
 };
 
 /// A package on disk, to which far maps are added, or which is made whole again.

@@ -97,7 +97,9 @@ bool lists_cells_of(const package::BlockFiles& files, const Grid& grid) {
 }
 
 constexpr std::array keys_before_tiles{"software", "inputs", "settings", "crs", "grid"};
-constexpr std::array keys_after_tiles{"frame", "counts", "problems"};
+constexpr std::array keys_after_tiles{"frame", "counts", "problems", "canopy"};
+
+Json value_of(const Json& manifest, const char* key) { return manifest.contains(key) ? manifest.at(key) : Json(); }
 
 }  // namespace
 
@@ -114,7 +116,7 @@ struct ExistingPackage::Impl {
   }
   void require_same(const Json& now, std::span<const char* const> keys) const {
     for (const char* key : keys) {
-      const std::string what = difference(key, manifest.contains(key) ? manifest.at(key) : Json(), now.at(key));
+      const std::string what = difference(key, value_of(manifest, key), value_of(now, key));
       if (!what.empty()) refuse(what);
     }
   }
@@ -126,7 +128,7 @@ struct ExistingPackage::Impl {
   }
   void read() {
     const auto version = manifest.at("version").get<std::int64_t>();
-    if (version < package::oldest_format_version || version > package::format_version)
+    if (version < package::oldest_format_version || version > package::newest_format_version)
       refuse("it has format version " + std::to_string(version) + ", which this program does not write");
     require_seal(version);
     for (const Json& b : manifest.at("blocks")) blocks.push_back(block_from(b));

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <vector>
 
+#include "contract/package/crown_layout.hpp"
 #include "contract/package/layout.hpp"
 #include "farlod/error.hpp"
 #include "package/file_stamp.hpp"
@@ -49,6 +50,10 @@ bool are_whole(const std::filesystem::path& package, const package::BlockFiles& 
   const std::filesystem::path folder = package / package::folder_of(files);
   return is_whole(folder / package::tiles_file, files.tiles) &&
          (!files.has_far_maps() || is_whole(folder / package::far_map_file, files.far_map));
+}
+
+bool are_whole(const std::filesystem::path& package, const package::CanopyFile& canopy) {
+  return is_whole(package / package::crowns_file, canopy.stamp);
 }
 
 }  // namespace farlod

@@ -8,8 +8,8 @@
 
 namespace farlod {
 
-/// The text of `manifest.json`, in the newest version of the format, with its checksum at the end. docs/package_format.md lists
-/// the keys.
+/// The text of `manifest.json`, in the version of the format that its contents need, with its checksum at the end.
+/// docs/package_format.md lists the keys.
 [[nodiscard]] std::string manifest_text(const package::Manifest& manifest);
 
 }  // namespace farlod

@@ -58,6 +58,12 @@ Json json_of(const package::BlockFiles& b) {
   return j;
 }
 
+Json json_of(const package::CanopyFile& canopy) {
+  Json j = json_of(canopy.stamp);
+  for (std::size_t n = 0; n < crown_shape_count; ++n) j[package::crown_shape_keys[n]] = canopy.crowns_of_shape[n];
+  return j;
+}
+
 Json inputs_of(const Manifest& m) {
   Json inputs = Json::array();
   for (const package::InputFile& input : m.inputs) {
@@ -80,7 +86,7 @@ std::string sealed(std::string text) {
 }  // namespace
 
 std::string manifest_text(const Manifest& m) {
-  Json j = {{"format", "farlod-package"}, {"version", package::format_version}, {"software", m.software}};
+  Json j = {{"format", "farlod-package"}, {"version", package::version_of(m)}, {"software", m.software}};
   j.update(place_of(m));
   j["settings"] = {{"assign", m.assign}, {"far_map", json_of(m.far_map)}};
   j["inputs"] = inputs_of(m);
@@ -89,6 +95,7 @@ std::string manifest_text(const Manifest& m) {
   for (const auto& [code, count] : m.problem_counts) j["problems"][std::to_string(code)] = count;
   j["blocks"] = Json::array();
   for (const package::BlockFiles& b : m.blocks) j["blocks"].push_back(json_of(b));
+  if (m.canopy) j["canopy"] = json_of(*m.canopy);
   // An id or a name with broken UTF-8 must not end the run
   return sealed(j.dump(1, ' ', false, Json::error_handler_t::replace));
 }

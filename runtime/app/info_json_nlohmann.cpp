@@ -64,12 +64,18 @@ Json problems_json(const PackageInventory& inventory) {
   return problems;
 }
 
+Json crowns_json(const PackedCrowns& c) {
+  return {{"count", c.all()}, {"spheroids", c.spheroids}, {"cylinders", c.cylinders}, {"prisms", c.prisms}, {"bytes", c.bytes}};
+}
+
 Json check_json(const PackageCheck& check) {
   Json damage = Json::array();
   for (const PackageDamage& d : check.damage)
     damage.push_back({{"file", d.file}, {"cell", d.cell ? json_of(*d.cell) : Json(nullptr)}, {"what", d.what}});
-  return {
-      {"files", check.files}, {"bytes", check.bytes}, {"tiles", check.cells}, {"far_maps", check.far_maps}, {"damage", damage}};
+  Json json = {{"files", check.files}, {"bytes", check.bytes}, {"tiles", check.cells}, {"far_maps", check.far_maps}};
+  json["crowns"] = check.crowns;
+  json["damage"] = damage;
+  return json;
 }
 
 Json cell_json(const CellContents& c) {
@@ -107,6 +113,7 @@ Json json_of(const PackageFacts& facts) {
                {"far_map", far_map_json(facts)},
                {"tile_bytes", i.tile_bytes},
                {"far_map_bytes", i.far_map_bytes},
+               {"crowns", crowns_json(i.crowns)},
                {"inputs", inputs_json(i)},
                {"problems", problems_json(i)}};
   if (facts.check) json["check"] = check_json(*facts.check);

@@ -68,6 +68,13 @@ void add_far_maps(const PackageFacts& facts, AlignedText& text) {
   text.add("On disk", fmt::format("tiles {}, far maps {}", bytes_text(i.tile_bytes), bytes_text(i.far_map_bytes)));
 }
 
+void add_crowns(const PackedCrowns& c, AlignedText& text) {
+  if (c.all() == 0) return;
+  text.add("Trees",
+           fmt::format("{} ({}, {}, {}), {}", counted(c.all(), "crown", "crowns"), counted(c.spheroids, "spheroid", "spheroids"),
+                       counted(c.cylinders, "cylinder", "cylinders"), counted(c.prisms, "prism", "prisms"), bytes_text(c.bytes)));
+}
+
 std::string problem_text(int code, std::uint64_t count) {
   const auto found =
       std::ranges::find_if(problem_descriptions, [&](const ProblemDescription& p) { return static_cast<int>(p.code) == code; });
@@ -96,6 +103,7 @@ void add_check(const PackageCheck& check, AlignedText& text) {
   text.add("Check", fmt::format("{} read, {}", counted(check.files, "file", "files"), bytes_text(check.bytes)));
   text.go_on(
       fmt::format("{} and {} are right", counted(check.cells, "tile", "tiles"), counted(check.far_maps, "far map", "far maps")));
+  if (check.crowns > 0) text.go_on(fmt::format("{} right", counted(check.crowns, "crown is", "crowns are")));
   text.go_on(check.damage.empty() ? "the package is whole"
                                   : counted(check.damage.size(), "damage was found", "damages were found"));
 }
@@ -134,6 +142,7 @@ std::string facts_text(const PackageFacts& facts) {
   add_place(d, text);
   add_grid(facts, text);
   text.add("City", fmt::format("{} buildings, {} polygons, {} triangles", d.buildings, d.polygons, d.triangles));
+  add_crowns(facts.inventory.crowns, text);
   add_far_maps(facts, text);
   add_origin(facts.inventory, text);
   if (facts.check) add_check(*facts.check, text);

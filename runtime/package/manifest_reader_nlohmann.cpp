@@ -161,6 +161,17 @@ BlockFiles block_from(const json& j, std::uint32_t version) {
   return files;
 }
 
+CanopyFile canopy_from(const json& j) {
+  constexpr std::uint64_t most_crowns = std::uint64_t{1} << 36;
+  CanopyFile canopy{stamp_from(j), {}};
+  for (std::size_t n = 0; n < crown_shape_count; ++n) {
+    canopy.crowns_of_shape[n] = whole_number<std::uint64_t>(j.at(crown_shape_keys[n]));
+    require(canopy.crowns_of_shape[n] <= most_crowns, "its number of crowns is impossible");
+  }
+  require(canopy.crowns() > 0, "it names crowns, and counts none");
+  return canopy;
+}
+
 /// Some cells of the block have far maps, and not all.
 void require_some_of(const std::optional<CellRuns>& mapped, std::int64_t cell_count) {
   if (!mapped) return;
@@ -175,6 +186,7 @@ void read_contents(const json& j, std::uint32_t version, Manifest& m) {
   m.triangles = whole_number<std::uint64_t>(j.at("counts").at("triangles"));
   for (const auto& [code, count] : j.at("problems").items())
     m.problem_counts.emplace_back(number_from<int>(code, 10), whole_number<std::uint64_t>(count));
+  if (version >= canopy_format_version) m.canopy = canopy_from(j.at("canopy"));
   for (const json& b : j.at("blocks")) m.blocks.push_back(block_from(b, version));
   require(std::cmp_equal(m.blocks.size(), block_count(m.grid)), "it does not list each block of the grid");
   const std::vector<Block> expected = m.grid.blocks();
@@ -230,7 +242,7 @@ Manifest read_text(std::string_view text, const std::string& name) {
   const json j = parsed(text);
   require(j.is_object() && j.value("format", "") == "farlod-package", "it is not the manifest of a package");
   const auto version = whole_number<std::uint32_t>(j.at("version"));
-  require_readable_version(name, version, oldest_format_version, format_version);
+  require_readable_version(name, version, oldest_format_version, newest_format_version);
   require(is_sealed || (version < sealed_format_version && !j.contains("xxh3")), "its checksum is not at its end");
   Manifest manifest = manifest_from(j, version);
   manifest.file_xxh3 = checksum_of_manifest(text);

@@ -39,6 +39,14 @@ struct OpenBlock {
   }
 };
 
+/// The file of all crowns, opened when it is first needed, and mapped from then on.
+struct OpenCrowns {
+  std::once_flag once;
+  std::optional<CrownsFile> file;
+  FileIdentity identity;
+  std::atomic<bool> is_open = false;
+};
+
 }  // namespace
 
 struct PackageReader::Impl {
@@ -46,6 +54,7 @@ struct PackageReader::Impl {
   FileIdentity manifest_identity;       // first, so that a manifest that is replaced meanwhile is noticed
   package::Manifest manifest;
   std::vector<OpenBlock> blocks;
+  OpenCrowns open_crowns;
   std::mutex held_mutex;
   LruCache held;
 
@@ -130,9 +139,19 @@ struct PackageReader::Impl {
     return open.far_map;
   }
 
+  const CrownsFile& crowns() {
+    std::call_once(open_crowns.once, [&] {
+      open_crowns.identity = identity_of(folder->file(package::crowns_file).path);
+      open_crowns.file.emplace(*folder, manifest);
+      open_crowns.is_open = true;
+    });
+    return *open_crowns.file;
+  }
+
   void require_unchanged() const {
     if (memory) return;
     farlod::require_unchanged(folder->file(package::manifest_file), manifest_identity);
+    if (open_crowns.is_open) farlod::require_unchanged(folder->file(package::crowns_file), open_crowns.identity);
     for (std::size_t n = 0; n < blocks.size(); ++n) {
       if (blocks[n].has_tiles) farlod::require_unchanged(file_of(n, package::tiles_file), blocks[n].tiles_identity);
       if (blocks[n].has_far_map) farlod::require_unchanged(file_of(n, package::far_map_file), blocks[n].far_map_identity);
@@ -193,6 +212,18 @@ FarHorizon PackageReader::far_horizon(Cell cell) const {
 std::uint64_t PackageReader::far_map_bytes(Cell cell) const {
   FARLOD_EXPECTS(!impl_->memory && has_far_map(cell));
   return impl_->far_maps(impl_->index_of(cell))->stored_bytes(cell);
+}
+
+bool PackageReader::has_crowns() const { return !impl_->memory && impl_->manifest.canopy; }
+
+const CrownsFile& PackageReader::crowns() const {
+  FARLOD_EXPECTS(has_crowns());
+  return impl_->crowns();
+}
+
+std::span<const Crown> PackageReader::crowns_of(Cell cell) const {
+  FARLOD_EXPECTS(grid().cells.contains(cell));
+  return has_crowns() ? crowns().crowns_of(cell) : std::span<const Crown>{};
 }
 
 void PackageReader::require_unchanged() const { impl_->require_unchanged(); }

@@ -12,6 +12,7 @@
 
 #include "contract/package/manifest.hpp"
 #include "package/block_tiles.hpp"
+#include "package/crowns_file.hpp"
 #include "package/far_horizon.hpp"
 #include "package/far_map_reader.hpp"
 #include "package/package_folder.hpp"
@@ -58,6 +59,13 @@ class PackageReader {
   [[nodiscard]] FarHorizon far_horizon(Cell cell) const;
   /// Bytes that the picture of a cell's far map takes on disk; the cell must have one. Not of a package in memory.
   [[nodiscard]] std::uint64_t far_map_bytes(Cell cell) const;
+
+  /// Whether there are trees. Never in a package in memory.
+  [[nodiscard]] bool has_crowns() const;
+  /// Of a package that has crowns. It is opened when it is first asked for.
+  [[nodiscard]] const CrownsFile& crowns() const;
+  /// The crowns whose axes lie in a cell, in the frame of the cell, which must exist; none where there are no trees.
+  [[nodiscard]] std::span<const Crown> crowns_of(Cell cell) const;
 
   /// Compares the manifest and all files that were opened with what they were then: mapped memory is what a file is now, so that
   /// what was checked once may have changed. Throws PackageDamaged. Nothing of a package in memory.

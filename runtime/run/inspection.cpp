@@ -127,6 +127,12 @@ class PartsOfCity {
   std::map<Place, NumberedPart> parts_;
 };
 
+PackedCrowns crowns_in(const package::Manifest& manifest) {
+  if (!manifest.canopy) return {};
+  const auto& [spheroids, cylinders, prisms] = manifest.canopy->crowns_of_shape;
+  return {spheroids, cylinders, prisms, manifest.canopy->stamp.bytes};
+}
+
 void require_usable(const CellRectangle& cells) {
   constexpr std::int64_t most_cells = 10'000;
   if (cells.i_begin >= cells.i_end || cells.j_begin >= cells.j_end)
@@ -159,6 +165,7 @@ PackageInventory inventory_of(const Package& package) {
     inventory.tile_bytes += files.tiles.bytes;
     inventory.far_map_bytes += files.far_map.bytes;
   }
+  inventory.crowns = crowns_in(m);
   for (const package::InputFile& input : m.inputs) inventory.inputs.push_back({input.name, input.stamp.bytes, input.stamp.xxh3});
   inventory.problems = m.problem_counts;
   return inventory;

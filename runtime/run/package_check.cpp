@@ -23,6 +23,7 @@ class BytesRead {
  public:
   BytesRead(const package::Manifest& manifest, const RunSettings& run) : run_(run) {
     for (const package::BlockFiles& files : manifest.blocks) all_ += files.tiles.bytes + files.far_map.bytes;
+    if (manifest.canopy) all_ += manifest.canopy->stamp.bytes;
   }
   void add(std::uint64_t bytes) {
     throw_if_cancelled(run_.stop);
@@ -73,6 +74,21 @@ CheckedBlock check_block(const PackageContents& contents, std::size_t n, BytesRe
   return checked;
 }
 
+void check_crowns(const PackageContents& contents, PackageCheck& check) {
+  const package::Manifest& manifest = contents.reader.manifest();
+  if (!manifest.canopy) return;
+  ++check.files;
+  check.bytes += manifest.canopy->stamp.bytes;
+  try {
+    check.crowns = CrownsFile(contents.reader.folder(), manifest).crowns().size();
+  } catch (const PackageDamaged& error) {
+    check.damage.push_back({package::crowns_file, std::nullopt, error.what()});
+  } catch (const PackageUnusable& error) {
+    // A version that is not the manifest's
+    check.damage.push_back({package::crowns_file, std::nullopt, error.what()});
+  }
+}
+
 /// The blocks together; what can be said of the package as a whole comes last.
 PackageCheck summed(const PackageContents& contents, const std::vector<CheckedBlock>& blocks) {
   const package::Manifest& manifest = contents.reader.manifest();
@@ -114,7 +130,9 @@ PackageCheck check_package(const Package& package, const RunSettings& run) {
   const std::shared_ptr<PackageContents> contents = package.contents();
   const package::Manifest& manifest = contents->reader.manifest();
   const std::size_t threads = std::min(thread_count(run), manifest.blocks.size());
-  require_memory(run, static_cast<double>(threads) * bytes_of_thread(manifest), "checking the package", "use fewer threads");
+  const double bytes_of_crowns = manifest.canopy ? static_cast<double>(manifest.canopy->stamp.bytes) : 0.0;
+  require_memory(run, std::max(static_cast<double>(threads) * bytes_of_thread(manifest), bytes_of_crowns), "checking the package",
+                 "use fewer threads");
   BytesRead read(manifest, run);
   std::vector<CheckedBlock> blocks(manifest.blocks.size());
   oneapi::tbb::task_arena arena(static_cast<int>(thread_count(run)));
@@ -126,7 +144,10 @@ PackageCheck check_package(const Package& package, const RunSettings& run) {
         },
         oneapi::tbb::simple_partitioner());
   });
-  return summed(*contents, blocks);
+  PackageCheck check = summed(*contents, blocks);
+  check_crowns(*contents, check);
+  if (manifest.canopy) read.add(manifest.canopy->stamp.bytes);
+  return check;
 }
 
 }  // namespace farlod

@@ -11,6 +11,8 @@
 #include <string>
 #include <type_traits>
 
+#include "contract/package/crown_layout.hpp"
+
 // Another reader is written from docs/package_format.md. Where the document and the header differ, the header wins, and this test
 // fails.
 
@@ -156,6 +158,35 @@ TEST(Layout, ExplicitOccluderIsDocumented) {
   EXPECT_DOCUMENTED(ExplicitOccluder, row);
   EXPECT_DOCUMENTED(ExplicitOccluder, squares);
   EXPECT_DOCUMENTED(ExplicitOccluder, layers);
+}
+
+TEST(Layout, CrownsAreDocumented) {
+  EXPECT_DOCUMENTED(CrownsHeader, magic);
+  EXPECT_DOCUMENTED(CrownsHeader, version);
+  EXPECT_DOCUMENTED(CrownsHeader, largest_half_width_m);
+  EXPECT_DOCUMENTED(CrownsHeader, cell_count);
+  EXPECT_DOCUMENTED(CrownsHeader, crown_count);
+  EXPECT_DOCUMENTED(CrownsHeader, file_bytes);
+  EXPECT_DOCUMENTED(CrownsHeader, reserved);
+  EXPECT_DOCUMENTED(CrownCellRecord, i);
+  EXPECT_DOCUMENTED(CrownCellRecord, j);
+  EXPECT_DOCUMENTED(CrownCellRecord, first_crown);
+  EXPECT_DOCUMENTED(CrownCellRecord, crown_count);
+  EXPECT_DOCUMENTED(CrownCellRecord, z_low_m);
+  EXPECT_DOCUMENTED(CrownCellRecord, z_high_m);
+  EXPECT_DOCUMENTED(CrownCellRecord, reserved);
+  EXPECT_DOCUMENTED(Crown, x_m);
+  EXPECT_DOCUMENTED(Crown, y_m);
+  EXPECT_DOCUMENTED(Crown, bottom_m);
+  EXPECT_DOCUMENTED(Crown, top_m);
+  EXPECT_DOCUMENTED(Crown, half_width_m);
+  EXPECT_DOCUMENTED(Crown, shape);
+  EXPECT_DOCUMENTED(Crown, foliage);
+  EXPECT_DOCUMENTED(Crown, turn);
+  EXPECT_NE(chapter("CrownsHeader").find("| 8 | 4 | `version` | u32 | " + std::to_string(crowns_version) + " |"),
+            std::string::npos);
+  EXPECT_NE(chapter("Versions").find("* **" + std::to_string(canopy_format_version) + "** is"), std::string::npos);
+  EXPECT_EQ(crowns_file_bytes(3, 5), 64U + 3U * 32U + 5U * 24U);
 }
 
 TEST(Layout, VersionAndChannelsAreDocumented) {

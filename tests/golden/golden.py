@@ -104,14 +104,14 @@ def check_packages(binaries: pathlib.Path) -> list[str]:
     return found
 
 
-def readable_versions() -> range:
+def version_of(name: str) -> int:
     layout = (HERE.parent.parent / "contract/package/layout.hpp").read_text()
-    constant = {name: int(value) for name, value in re.findall(r"uint32_t (\w+_version) = (\d+);", layout)}
-    return range(constant["oldest_format_version"], constant["format_version"] + 1)
+    return {name: int(value) for name, value in re.findall(r"uint32_t (\w+_version) = (\d+);", layout)}[name]
 
 
 def check_all_versions_are_there() -> list[str]:
-    names = [f"version_{version}_{kind}" for version in readable_versions() for kind in KINDS]
+    versions = range(version_of("oldest_format_version"), version_of("format_version") + 1)
+    names = [f"version_{version}_{kind}" for version in versions for kind in KINDS]
     there = [path.stem for path in HERE.glob("*.farlod")]
     return [f"no package of {name}: see README.md" for name in names if not any(t.startswith(name) for t in there)]
 
@@ -120,8 +120,8 @@ def check_other_versions(binaries: pathlib.Path) -> list[str]:
     """Manifests without a checksum, as those before version 8 are, say an older and a newer version: both are refused by that
     number."""
     found = []
-    versions = readable_versions()
-    for source, version in (("version_6_horizon", versions[0] - 1), ("version_7_box_partial", versions[-1] + 1)):
+    older, newer = version_of("oldest_format_version") - 1, version_of("canopy_format_version") + 1
+    for source, version in (("version_6_horizon", older), ("version_7_box_partial", newer)):
         with tempfile.TemporaryDirectory() as folder:
             package = pathlib.Path(folder) / "other.farlod"
             shutil.copytree(HERE / f"{source}.farlod", package)

@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "tests/library/packed_sample.hpp"
+#include "tests/scenes/planted_crowns.hpp"
 #include "tests/scenes/sealed_manifest.hpp"
 
 namespace farlod::library {
@@ -195,6 +196,45 @@ TEST(CheckedPackage, CountsTheTriangles) {
   const PackageCheck check = check_package(Package(sample.folder()));
   ASSERT_EQ(check.damage.size(), 1U);
   EXPECT_EQ(check.damage[0].file, "manifest.json");
+}
+
+TEST(PackageWithTrees, TellsItsCrownsAndChecksThem) {
+  const PackedSample sample;
+  const PackageCheck without = check_package(Package(sample.folder()));
+  EXPECT_EQ(without.crowns, 0U);
+  EXPECT_EQ(inventory_of(Package(sample.folder())).crowns.all(), 0U);
+  CrownsOfCity crowns = scenes::crowns_for(sample.folder());
+  const Point2d middle_grid = crowns.grid().centre_of({crowns.grid().cells.i_begin, crowns.grid().cells.j_begin});
+  for (const CrownShape shape : {CrownShape::prism, CrownShape::spheroid, CrownShape::prism})
+    crowns.add(middle_grid, 10.0, 20.0, 3.0, shape, Foliage::unknown);
+  scenes::plant(crowns, sample.folder());
+  const Package package(sample.folder());
+  const PackageInventory inventory = inventory_of(package);
+  EXPECT_EQ(inventory.format_version, 9U);
+  EXPECT_EQ(inventory.crowns.spheroids, 1U);
+  EXPECT_EQ(inventory.crowns.cylinders, 0U);
+  EXPECT_EQ(inventory.crowns.prisms, 2U);
+  EXPECT_EQ(inventory.crowns.bytes, fs::file_size(sample.folder() / "crowns.bin"));
+  const PackageCheck check = check_package(package);
+  EXPECT_TRUE(check.damage.empty());
+  EXPECT_EQ(check.crowns, 3U);
+  EXPECT_EQ(check.files, without.files + 1);
+  EXPECT_EQ(check.bytes, without.bytes + inventory.crowns.bytes);
+}
+
+TEST(PackageWithTrees, TellsThatItsCrownsAreDamaged) {
+  const PackedSample sample;
+  CrownsOfCity crowns = scenes::crowns_for(sample.folder());
+  crowns.add(crowns.grid().centre_of({crowns.grid().cells.i_begin, crowns.grid().cells.j_begin}), 10.0, 20.0, 3.0,
+             CrownShape::spheroid, Foliage::unknown);
+  scenes::plant(crowns, sample.folder());
+  damage(sample.folder() / "crowns.bin", 0.9);
+  const PackageCheck check = check_package(Package(sample.folder()));
+  ASSERT_EQ(check.damage.size(), 1U);
+  EXPECT_EQ(check.damage[0].file, "crowns.bin");
+  EXPECT_NE(check.damage[0].what.find("checksum"), std::string::npos);
+  EXPECT_EQ(check.crowns, 0U);
+  EXPECT_EQ(check.cells, cells_of(Package(sample.folder())).size()) << "the tiles are whole";
 }
 
 /// A house at the middle of UTM 32N, a tower of 100 m that stands 500 m from it in a direction of the CRS, and a low house behind

@@ -64,7 +64,7 @@ TEST(Package, ManifestTruncated) {
 TEST(Package, ManifestOfAnotherVersion) {
   const SmallPackage small;
   for (const std::uint64_t version : {std::uint64_t{1}, std::uint64_t{package::oldest_format_version} - 1,
-                                      std::uint64_t{package::format_version} + 1, std::uint64_t{0xFFFFFFFF}}) {
+                                      std::uint64_t{package::newest_format_version} + 1, std::uint64_t{0xFFFFFFFF}}) {
     json m = small.manifest();
     m["version"] = version;
     m.erase("grid");  // another version may say it otherwise

@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "contract/canopy/crown.hpp"
+#include "contract/grid.hpp"
+#include "package/package_reader.hpp"
+
+namespace farlod {
+
+/// The crowns that reach, in the plan, to within a distance of the square of `cell`, in the frame of `cell`, and perhaps some
+/// prisms that just fail to. In the order of the package: cell by cell. Places are moved and rounded as `placed`
+/// (occlusion/placed_mesh.hpp) does it.
+[[nodiscard]] std::vector<Crown> crowns_near(const PackageReader& package, Cell cell, double distance_m);
+
+/// All crowns of a package, in the frame of `cell`, in the same order. That of the middle cell has the frame of WholeCity.
+[[nodiscard]] std::vector<Crown> crowns_of_whole_city(const PackageReader& package, Cell cell);
+
+}  // namespace farlod

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "contract/expects.hpp"
+#include "contract/package/crown_layout.hpp"
+#include "contract/package/manifest_seal.hpp"
+#include "farlod/error.hpp"
+#include "occlusion/crown_occluder.hpp"
+#include "package/manifest_reader.hpp"
+#include "scene/near_crowns.hpp"
+#include "tests/fuzz/fuzzed_package.hpp"
+#include "tests/fuzz/scratch_folder.hpp"
+#include "tests/scenes/sealed_manifest.hpp"
+
+namespace farlod {
+namespace {
+
+using nlohmann::json;
+
+/// Makes the header what no reader refuses, as far as it does not depend on the crowns: magic, version, length.
+void mend_crowns(std::span<std::byte> bytes) {
+  if (bytes.size() < sizeof(package::CrownsHeader)) return;
+  package::CrownsHeader header{};
+  std::memcpy(&header, bytes.data(), sizeof header);
+  header.magic = package::crowns_magic;
+  header.version = package::crowns_version;
+  header.file_bytes = bytes.size();
+  std::memcpy(bytes.data(), &header, sizeof header);
+}
+
+/// How many crowns of each shape a manifest must count for these bytes to be read, if they can be at all.
+std::array<std::uint64_t, crown_shape_count> crowns_of_shape(std::span<const std::byte> bytes) {
+  std::array<std::uint64_t, crown_shape_count> counts{};
+  if (bytes.size() < sizeof(package::CrownsHeader)) return counts;
+  package::CrownsHeader header{};
+  std::memcpy(&header, bytes.data(), sizeof header);
+  const std::uint64_t cells = std::min<std::uint64_t>(header.cell_count, bytes.size());
+  for (std::size_t at = package::crowns_file_bytes(cells, 0); at + sizeof(Crown) <= bytes.size(); at += sizeof(Crown))
+    if (const auto shape = static_cast<std::size_t>(bytes[at + offsetof(Crown, shape)]); shape < counts.size()) ++counts[shape];
+  return counts;
+}
+
+/// The sample's manifest, which names these crowns.
+std::string manifest_naming(std::span<const std::byte> bytes) {
+  json m = json::parse(file_text(sample_packages()[0] / package::manifest_file));
+  m.erase("xxh3");
+  m["version"] = package::canopy_format_version;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string seal = package::ManifestSeal::text_of(checksum_of_manifest(text));
+  m["canopy"] = {{"bytes", bytes.size()},
+                 {"xxh3", seal.substr(package::ManifestSeal::before_digits.size(), package::ManifestSeal::digits)}};
+  const auto counts = crowns_of_shape(bytes);
+  for (std::size_t n = 0; n < crown_shape_count; ++n) m["canopy"][package::crown_shape_keys[n]] = counts[n];
+  return scenes::sealed(m.dump(1) + "\n");
+}
+
+void ask_light(const std::vector<Crown>& crowns) {
+  for (const CanopyRule rule : {CanopyRule::once, CanopyRule::each, CanopyRule::beer}) {
+    CanopySettings settings;
+    settings.rule = rule;
+    const CrownOccluder occluder(crowns, settings);
+    for (const Point3f& direction : {Point3f{0.0F, 0.0F, 1.0F}, {1.0F, 0.0F, 0.0F}, {-0.5F, 0.25F, 0.5F}}) {
+      const CrownLight light = occluder.light({{20.0F, 20.0F, 1.5F}, direction});
+      FARLOD_EXPECTS(0.0F <= light.transmitted && light.transmitted <= 1.0F && light.nearest >= 0.0F);
+    }
+  }
+}
+
+void ask_everything(const std::filesystem::path& folder) {
+  const PackageReader package(folder);
+  std::size_t count = 0;
+  const CellRange& cells = package.grid().cells;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(cells.size()); ++n) {
+    count += package.crowns_of(cells.cell_at(n)).size();
+    ask_light(crowns_near(package, cells.cell_at(n), 10.0));
+  }
+  FARLOD_EXPECTS(count == package.manifest().canopy->crowns());
+  FARLOD_EXPECTS(count == crowns_of_whole_city(package, cells.cell_at(0)).size());
+}
+
+}  // namespace
+}  // namespace farlod
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace farlod;
+  static const ScratchFolder scratch;
+  const auto all = std::as_bytes(std::span(data, size));
+  std::vector<std::byte> bytes(all.begin(), all.end());
+  mend_crowns(bytes);
+  (void)scratch.write({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, package::crowns_file);
+  const std::string manifest = manifest_naming(bytes);
+  (void)scratch.write({reinterpret_cast<const std::uint8_t*>(manifest.data()), manifest.size()}, package::manifest_file);
+  expect_answer_or_refusal([&] { ask_everything(scratch.path()); });
+  return 0;
+}
