@@ -1,33 +1,15 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
-#include <limits>
-#include <new>
 #include <string>
 #include <utility>
 
-#include "contract/cancellation.hpp"
+#include "occlusion/device_embree.hpp"
 #include "occlusion/occluder.hpp"
 #include "occlusion/queries_embree.hpp"
+#include "occlusion/ray_packet_embree.hpp"
 
 namespace farlod {
 namespace {
-
-/// One device for the process: Embree's threads and caches are shared by all scenes.
-RTCDevice shared_device() {
-  struct Device {
-    RTCDevice handle = rtcNewDevice(nullptr);
-    Device() {
-      if (handle == nullptr)
-        throw OcclusionError("Embree could not be started (error " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
-    }
-    ~Device() { rtcReleaseDevice(handle); }
-    Device(const Device&) = delete;
-    Device& operator=(const Device&) = delete;
-  };
-  static const Device device;
-  return device.handle;
-}
 
 /// Embree hands the context of a query back to the filter; ours carries the question that the filter shall ask.
 struct QueryContext {
@@ -98,24 +80,8 @@ struct Occluder::Impl {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
-    commit(stop);
-    const RTCError error = rtcGetDeviceError(device);
-    throw_if_cancelled(stop);  // which is an error of Embree, too
-    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (error != RTC_ERROR_NONE)
-      throw OcclusionError("Embree could not index " + std::to_string(triangles.size()) + " triangles (error " +
-                           std::to_string(error) + ")");
-  }
-
-  void commit(const std::stop_token& stop) const {
-    // Embree asks from several threads, and not at all in its first steps: a build of millions of triangles ends some tenths of a
-    // second after the stop
-    if (stop.stop_possible())
-      rtcSetSceneProgressMonitorFunction(
-          scene, [](void* asked, double) { return !static_cast<const std::stop_token*>(asked)->stop_requested(); },
-          const_cast<std::stop_token*>(&stop));
-    rtcCommitScene(scene);
-    rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+    commit_unless_stopped(scene, stop);
+    throw_of_build(device, std::to_string(triangles.size()) + " triangles", stop);
   }
 
   /// The nearest of all triangles where `counts` is null.
@@ -146,37 +112,17 @@ bool Occluder::blocks(const Ray& ray) const {
 }
 
 std::uint32_t Occluder::blocked(const RayOrigins& origins, const Point3f& direction, float begin, std::uint32_t wanted) const {
-  Directions alike;
-  alike.x.fill(direction.x);
-  alike.y.fill(direction.y);
-  alike.z.fill(direction.z);
-  return blocked(origins, alike, begin, wanted);
+  return blocked(origins, sixteen_times(direction), begin, wanted);
 }
 
 std::uint32_t Occluder::blocked(const RayOrigins& origins, const Directions& directions, float begin,
                                 std::uint32_t wanted) const {
-  static_assert(RayOrigins::lanes == 16);
   if (impl_->scene == nullptr || wanted == 0) return 0;
   OcclusionArguments arguments = occlusion_arguments(/*coherent=*/true);
-  RTCRay16 packet;
-  alignas(64) std::array<int, RayOrigins::lanes> valid;
-  for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane) {
-    valid[lane] = ((wanted >> lane) & 1U) != 0 ? -1 : 0;
-    packet.org_x[lane] = origins.x[lane];
-    packet.org_y[lane] = origins.y[lane];
-    packet.org_z[lane] = origins.z[lane];
-    packet.dir_x[lane] = directions.x[lane];
-    packet.dir_y[lane] = directions.y[lane];
-    packet.dir_z[lane] = directions.z[lane];
-    packet.tnear[lane] = begin;
-    packet.tfar[lane] = std::numeric_limits<float>::infinity();
-    packet.time[lane] = 0.0F;
-    packet.mask[lane] = ~0U;
-    packet.flags[lane] = 0;
-  }
-  ask_occluded(valid.data(), impl_->scene, arguments, packet);
+  RayPacket packet(origins, directions, begin, wanted);
+  ask_occluded(packet.valid.data(), impl_->scene, arguments, packet.rays);
   std::uint32_t bits = 0;
-  for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane) bits |= packet.tfar[lane] < 0.0F ? 1U << lane : 0U;
+  for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane) bits |= packet.rays.tfar[lane] < 0.0F ? 1U << lane : 0U;
   return bits & wanted;
 }
 

@@ -42,6 +42,19 @@ inline void ask_occluded(const int* valid, RTCScene scene, OcclusionArguments& a
   rtcOccluded16(valid, scene, &rays, &arguments);
 }
 
+/// With a context of our own. Neighbors are not traced as one: Embree 3.13 may show a packet that is the same body twice.
+inline void ask_occluded(RTCScene scene, EmbreeContext& context, RTCRay& ray) {
+  OcclusionArguments arguments = occlusion_arguments(/*coherent=*/false);
+  arguments.context = &context;
+  rtcOccluded1(scene, &ray, &arguments);
+}
+
+inline void ask_occluded(const int* valid, RTCScene scene, EmbreeContext& context, RTCRay16& rays) {
+  OcclusionArguments arguments = occlusion_arguments(/*coherent=*/false);
+  arguments.context = &context;
+  rtcOccluded16(valid, scene, &rays, &arguments);
+}
+
 inline void ask_nearest(RTCScene scene, EmbreeContext& context, RTCRayHit& ray) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);

@@ -1,0 +1,235 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "contract/canopy/crown_light.hpp"
+#include "contract/expects.hpp"
+#include "occlusion/crown_chord.hpp"
+#include "occlusion/crown_occluder.hpp"
+#include "occlusion/device_embree.hpp"
+#include "occlusion/queries_embree.hpp"
+#include "occlusion/ray_packet_embree.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr std::size_t foliage_count = 3;
+
+/// Embree counts bodies with 32 bits, the last of which means none.
+void require_numbers_for(std::size_t crown_count) {
+  constexpr std::size_t most = 0xFFFFFFFE;
+  if (crown_count > most)
+    throw LimitReached("a scene would have " + std::to_string(crown_count) + " crowns, and can have " + std::to_string(most) +
+                       ": pack a part of the city.");
+}
+
+/// What a run makes of its settings: numbers for each Foliage.
+struct CrownEffects {
+  CanopyRule rule;
+  std::array<double, foliage_count> transmissivity{}, extinction_per_m{};
+
+  explicit CrownEffects(const CanopySettings& settings) : rule(settings.rule) {
+    for (std::size_t n = 0; n < foliage_count; ++n) {
+      transmissivity[n] = transmissivity_of(Foliage{static_cast<std::uint8_t>(n)}, settings);
+      extinction_per_m[n] = extinction_per_m_of(Foliage{static_cast<std::uint8_t>(n)}, settings);
+    }
+  }
+};
+
+/// A crown that a ray meets.
+struct Meeting {
+  std::uint32_t lane, crown;
+  double effect;  ///< ψ, or κ times the length by the rule `beer`
+
+  [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> key() const { return {lane, crown}; }
+};
+
+/// What was found along the rays of a question. Crowns come in the order in which Embree visits them, which nobody promises, and
+/// perhaps twice: products and sums are formed at the end, in the order of the crowns.
+class Findings {
+ public:
+  explicit Findings(CanopyRule rule) : rule_(rule) {
+    nearest_.fill(infinity);
+    least_.fill(1.0);
+  }
+
+  /// Called by Embree, through which nothing may be thrown.
+  void add(const Meeting& meeting, double begin) noexcept {
+    float& nearest = nearest_[meeting.lane];
+    nearest = std::min(nearest, static_cast<float>(begin));
+    double& least = least_[meeting.lane];
+    if (rule_ != CanopyRule::beer) least = std::min(least, meeting.effect);
+    if (rule_ == CanopyRule::once) return;
+    try {
+      meetings_.push_back(meeting);
+    } catch (const std::bad_alloc&) {
+      is_out_of_memory_ = true;
+    }
+  }
+
+  [[nodiscard]] CrownLights lights() {
+    if (is_out_of_memory_) throw std::bad_alloc();
+    std::array<double, RayOrigins::lanes> transmitted = rule_ == CanopyRule::once ? least_ : of_all_meetings();
+    CrownLights lights;
+    lights.nearest = nearest_;
+    for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane) {
+      lights.transmitted[lane] = static_cast<float>(transmitted[lane]);
+      lights.met |= nearest_[lane] < infinity ? 1U << lane : 0U;
+    }
+    return lights;
+  }
+
+ private:
+  [[nodiscard]] std::array<double, RayOrigins::lanes> of_all_meetings() {
+    const auto in_order = [](const Meeting& a, const Meeting& b) { return a.key() < b.key(); };
+    const auto alike = [](const Meeting& a, const Meeting& b) { return a.key() == b.key(); };
+    std::sort(meetings_.begin(), meetings_.end(), in_order);
+    meetings_.erase(std::unique(meetings_.begin(), meetings_.end(), alike), meetings_.end());
+    const bool is_beer = rule_ == CanopyRule::beer;
+    std::array<double, RayOrigins::lanes> result{};
+    result.fill(is_beer ? 0.0 : 1.0);
+    for (const Meeting& m : meetings_) result[m.lane] = is_beer ? result[m.lane] + m.effect : result[m.lane] * m.effect;
+    if (is_beer)
+      for (double& depth : result) depth = std::exp(-depth);
+    return result;
+  }
+
+  CanopyRule rule_;
+  std::array<float, RayOrigins::lanes> nearest_{};
+  std::array<double, RayOrigins::lanes> least_{};
+  std::vector<Meeting> meetings_;
+  bool is_out_of_memory_ = false;
+};
+
+/// Embree hands the context of a question back to us.
+struct QuestionContext {
+  EmbreeContext embree;
+  Findings findings;
+  double enough;  ///< a ray that met so small a ψ, or a smaller one, need not go on
+};
+
+}  // namespace
+
+struct CrownOccluder::Impl {
+  std::vector<Crown> crowns;
+  CrownEffects effects;
+  double smallest_transmissivity = 1.0;  ///< of all crowns
+  RTCScene scene = nullptr;
+
+  Impl(std::vector<Crown> c, const CanopySettings& settings, const std::stop_token& stop)
+      : crowns(std::move(c)), effects(settings) {
+    require_numbers_for(crowns.size());
+    for (const Crown& crown : crowns) smallest_transmissivity = std::min(smallest_transmissivity, transmissivity_of_crown(crown));
+    if (crowns.empty()) return;
+    try {
+      build(stop);
+    } catch (...) {
+      rtcReleaseScene(scene);
+      throw;
+    }
+  }
+  ~Impl() { rtcReleaseScene(scene); }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void build(const std::stop_token& stop) {
+    const RTCDevice device = shared_device();
+    (void)rtcGetDeviceError(device);  // what a build on this thread left, whatever it was: Embree keeps the first error
+    scene = rtcNewScene(device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(crowns.size()));
+    rtcSetGeometryUserData(geometry, this);
+    rtcSetGeometryBoundsFunction(geometry, tell_bounds, nullptr);
+    rtcSetGeometryOccludedFunction(geometry, visit);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    commit_unless_stopped(scene, stop);
+    throw_of_build(device, std::to_string(crowns.size()) + " crowns", stop);
+  }
+
+  double transmissivity_of_crown(const Crown& crown) const {
+    return effects.transmissivity[static_cast<std::size_t>(crown.foliage)];
+  }
+
+  double effect_of(const Crown& crown, double length_m) const {
+    if (effects.rule != CanopyRule::beer) return transmissivity_of_crown(crown);
+    return effects.extinction_per_m[static_cast<std::size_t>(crown.foliage)] * length_m;
+  }
+
+  static void tell_bounds(const RTCBoundsFunctionArguments* arguments) {
+    const Crown& crown = static_cast<const Impl*>(arguments->geometryUserPtr)->crowns[arguments->primID];
+    const double turned = crown.turn_rad();
+    const double half_m = crown.half_width_m * (crown.shape == CrownShape::prism ? std::cos(turned) + std::sin(turned) : 1.0);
+    // Nothing of the crown may be outside: floats are rounded to the nearest
+    const auto below = [](double x) { return std::nextafter(static_cast<float>(x), -infinity); };
+    const auto above = [](double x) { return std::nextafter(static_cast<float>(x), infinity); };
+    *arguments->bounds_o = {below(crown.x_m - half_m), below(crown.y_m - half_m), below(crown.bottom_m), 0.0F,
+                            above(crown.x_m + half_m), above(crown.y_m + half_m), above(crown.top_m),    0.0F};
+  }
+
+  /// Embree asks whether rays meet a crown. All answers but "enough" are no, so that it shows each ray all crowns on its way.
+  static void visit(const RTCOccludedFunctionNArguments* arguments) {
+    const Impl& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
+    auto& question = *reinterpret_cast<QuestionContext*>(arguments->context);
+    for (unsigned n = 0; n < arguments->N; ++n)
+      if (arguments->valid[n] == -1) self.visit(arguments->primID, arguments->ray, arguments->N, n, question);
+  }
+
+  void visit(unsigned number, RTCRayN* rays, unsigned count, unsigned n, QuestionContext& question) const {
+    const Crown& crown = crowns[number];
+    const Point3d origin{RTCRayN_org_x(rays, count, n), RTCRayN_org_y(rays, count, n), RTCRayN_org_z(rays, count, n)};
+    const Point3d direction{RTCRayN_dir_x(rays, count, n), RTCRayN_dir_y(rays, count, n), RTCRayN_dir_z(rays, count, n)};
+    const Chord chord = chord_of(crown, origin, direction).within({RTCRayN_tnear(rays, count, n), RTCRayN_tfar(rays, count, n)});
+    if (chord.is_none()) return;
+    const double effect = effect_of(crown, (chord.end - chord.begin) * norm(direction));
+    question.findings.add({RTCRayN_id(rays, count, n), number, effect}, chord.begin);
+    if (effect <= question.enough) RTCRayN_tfar(rays, count, n) = -infinity;
+  }
+
+  QuestionContext question_of(CrownQuestion question) const {
+    const bool may_end = question == CrownQuestion::light && effects.rule == CanopyRule::once;
+    return {embree_context(), Findings(effects.rule), may_end ? smallest_transmissivity : -1.0};
+  }
+};
+
+CrownOccluder::CrownOccluder(std::vector<Crown> crowns, const CanopySettings& settings, const std::stop_token& stop)
+    : impl_(std::make_unique<Impl>(std::move(crowns), settings, stop)) {}
+CrownOccluder::CrownOccluder(CrownOccluder&&) noexcept = default;
+CrownOccluder& CrownOccluder::operator=(CrownOccluder&&) noexcept = default;
+CrownOccluder::~CrownOccluder() = default;
+
+std::size_t CrownOccluder::crown_count() const { return impl_->crowns.size(); }
+
+CrownLight CrownOccluder::light(const Ray& ray, CrownQuestion question) const {
+  if (impl_->scene == nullptr) return {};
+  QuestionContext context = impl_->question_of(question);
+  const Point3f &o = ray.origin, &d = ray.direction;
+  RTCRay query{o.x, o.y, o.z, ray.begin, d.x, d.y, d.z, 0.0F, ray.end, ~0U, 0, 0};
+  ask_occluded(impl_->scene, context.embree, query);
+  const CrownLights lights = context.findings.lights();
+  return {lights.transmitted[0], lights.nearest[0]};
+}
+
+CrownLights CrownOccluder::light(const RayOrigins& origins, const Point3f& direction, float begin, std::uint32_t wanted,
+                                 CrownQuestion question) const {
+  return light(origins, sixteen_times(direction), begin, wanted, question);
+}
+
+CrownLights CrownOccluder::light(const RayOrigins& origins, const Occluder::Directions& directions, float begin,
+                                 std::uint32_t wanted, CrownQuestion question) const {
+  QuestionContext context = impl_->question_of(question);
+  if (impl_->scene == nullptr || wanted == 0) return context.findings.lights();
+  RayPacket packet(origins, directions, begin, wanted);
+  ask_occluded(packet.valid.data(), impl_->scene, context.embree, packet.rays);
+  return context.findings.lights();
+}
+
+}  // namespace farlod

@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "occlusion/crown_occluder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "contract/canopy/crown_light.hpp"
+#include "farlod/error.hpp"
+#include "tests/runtime/occlusion/crowns_by_hand.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::uint32_t all_lanes = 0xFFFF;
+
+// One ray
+
+constexpr Point3f up{0.0F, 0.0F, 1.0F}, east{1.0F, 0.0F, 0.0F};
+const Crown tree = crown_of(CrownShape::cylinder, {0.0, 0.0}, 4.0, 10.0, 3.0);
+
+TEST(CrownOccluder, NothingHidesNothing) {
+  const CrownOccluder nothing({}, {});
+  EXPECT_EQ(nothing.crown_count(), 0U);
+  EXPECT_EQ(nothing.light({{}, up}).transmitted, 1.0F);
+  EXPECT_FALSE(nothing.light({{}, up}).is_met());
+  const CrownLights lights = nothing.light(RayOrigins{}, up, 0.0F, all_lanes);
+  EXPECT_EQ(lights.met, 0U);
+  EXPECT_EQ(lights.transmitted[7], 1.0F);
+}
+
+TEST(CrownOccluder, EachRuleHasItsLight) {
+  const Crown above = crown_of(CrownShape::spheroid, {0.0, 0.0}, 12.0, 14.0, 1.0, Foliage::evergreen);
+  const auto light = [&](const CanopySettings& settings) {
+    return CrownOccluder({tree, above}, settings).light({{}, up}).transmitted;
+  };
+  EXPECT_FLOAT_EQ(light(settings_of(CanopyRule::once, 0.2)), 0.2F);
+  EXPECT_FLOAT_EQ(light(settings_of(CanopyRule::each, 0.2)), 0.04F);
+  EXPECT_FLOAT_EQ(light(settings_of(CanopyRule::beer, {}, 0.1)), static_cast<float>(std::exp(-0.8)));
+  // In winter, the evergreen one has the smaller share
+  EXPECT_FLOAT_EQ(light(settings_of(CanopyRule::once, 0.4, 0.1, Season::leaf_off)), 0.03F);
+  EXPECT_FLOAT_EQ(light(settings_of(CanopyRule::each, 0.4, 0.1, Season::leaf_off)), 0.012F);
+  const double bare = 0.1 * std::log(0.5) / std::log(0.03);
+  EXPECT_FLOAT_EQ(light(settings_of(CanopyRule::beer, {}, 0.1, Season::leaf_off)),
+                  static_cast<float>(std::exp(-6.0 * bare - 0.2)));
+}
+
+TEST(CrownOccluder, TheNearestEntryCountsInTheLengthOfTheDirection) {
+  const CrownOccluder occluder({tree, crown_of(CrownShape::prism, {0.0, 0.0}, 2.0, 3.0, 1.0)}, {});
+  EXPECT_FLOAT_EQ(occluder.light({{}, up}).nearest, 2.0F);
+  EXPECT_FLOAT_EQ(occluder.light({{}, {0.0F, 0.0F, 4.0F}}).nearest, 0.5F);
+  EXPECT_FLOAT_EQ(occluder.light({{2.0F, 0.0F, 0.0F}, up}).nearest, 4.0F);
+  EXPECT_FALSE(occluder.light({{4.0F, 0.0F, 0.0F}, up}).is_met());
+  EXPECT_FALSE(occluder.light({{0.0F, 0.0F, 11.0F}, up}).is_met());
+}
+
+TEST(CrownOccluder, ARayCountsFromItsBeginToItsEnd) {
+  const CrownOccluder occluder({tree}, settings_of(CanopyRule::beer, {}, 0.1));
+  const auto depth = [&](const Ray& ray) { return -10.0F * std::log(occluder.light(ray).transmitted); };
+  // Twice the rounding of a share to a float, over κ
+  constexpr float tolerance_m = 2e-6F;
+  EXPECT_NEAR(depth({{}, up}), 6.0F, tolerance_m);
+  EXPECT_NEAR(depth({{0.0F, 0.0F, 5.0F}, up}), 5.0F, tolerance_m);
+  EXPECT_NEAR(depth({{}, up, 8.0F}), 2.0F, tolerance_m);
+  EXPECT_NEAR(depth({{}, up, 0.0F, 7.0F}), 3.0F, tolerance_m);
+  EXPECT_NEAR(depth({{0.0F, 0.0F, 5.0F}, east}), 3.0F, tolerance_m);
+  EXPECT_NEAR(depth({{0.0F, 0.0F, 5.0F}, {2.0F, 0.0F, 0.0F}}), 3.0F, tolerance_m);
+  EXPECT_EQ(occluder.light({{0.0F, 0.0F, 5.0F}, up}).nearest, 0.0F);
+  EXPECT_EQ(occluder.light({{}, up, 8.0F}).nearest, 8.0F);
+  EXPECT_FALSE(occluder.light({{}, up, 0.0F, 3.0F}).is_met());
+  EXPECT_FALSE(occluder.light({{}, up, 10.5F}).is_met());
+}
+
+TEST(CrownOccluder, ARayThatTouchesDoesNotMeet) {
+  const CrownOccluder occluder({tree, crown_of(CrownShape::prism, {10.0, 0.0}, 4.0, 10.0, 1.0)}, {});
+  for (const float x : {3.0F, -3.0F, 9.0F, 11.0F}) EXPECT_FALSE(occluder.light({{x, 0.0F, 0.0F}, up}).is_met()) << x;
+  for (const float z : {4.0F, 10.0F}) EXPECT_FALSE(occluder.light({{-20.0F, 0.0F, z}, east}).is_met()) << z;
+}
+
+TEST(CrownOccluder, ASquareIsTurnedCounterClockwise) {
+  // By atan(1/2): the corner (1, 1) comes to lie at (1, 3)/√5
+  const auto turn = static_cast<std::uint16_t>(std::lround(std::atan(0.5) / (std::numbers::pi / 2.0) * 65536.0));
+  const CrownOccluder occluder({crown_of(CrownShape::prism, {0.0, 0.0}, 1.0, 2.0, 1.0, Foliage::unknown, turn)}, {});
+  const auto is_met = [&](double x, double y) {
+    return occluder.light({{static_cast<float>(x), static_cast<float>(y), 0.0F}, up}).is_met();
+  };
+  const double r = 1.0 / std::sqrt(5.0);
+  for (const double share : {0.99, 1.01}) {
+    EXPECT_EQ(is_met(share * r, share * 3.0 * r), share < 1.0);
+    EXPECT_EQ(is_met(-share * 3.0 * r, share * r), share < 1.0);
+    EXPECT_EQ(is_met(share * 2.0 * r, share * r), share < 1.0);
+  }
+}
+
+TEST(CrownOccluder, LightAloneIsTheSameLight) {
+  const CrownOccluder occluder({tree, crown_of(CrownShape::spheroid, {0.0, 0.0}, 12.0, 14.0, 1.0, Foliage::evergreen)},
+                               settings_of(CanopyRule::once, 0.4, 0.1, Season::leaf_off));
+  for (const float x : {0.0F, 2.0F, 5.0F}) {
+    const Ray ray{{x, 0.0F, 0.0F}, up};
+    EXPECT_EQ(occluder.light(ray, CrownQuestion::light).transmitted, occluder.light(ray).transmitted);
+    EXPECT_EQ(occluder.light(ray, CrownQuestion::light).is_met(), occluder.light(ray).is_met());
+  }
+}
+
+TEST(CrownOccluder, AStoppedBuildIsCancelled) {
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(CrownOccluder({tree}, {}, stop.get_token()), Cancelled);
+}
+
+// Against an independent judge: bodies by the textbook formula in double, one after the other
+
+struct Piece {
+  double begin = 0.0, end = 0.0;
+};
+
+/// Where a t² + 2 b t + c is below 0.
+Piece below_zero(double a, double b, double c) {
+  const double discriminant = b * b - a * c;
+  if (discriminant <= 0.0) return {};
+  return {(-b - std::sqrt(discriminant)) / a, (-b + std::sqrt(discriminant)) / a};
+}
+
+Piece judged(const Crown& crown, const Ray& ray) {
+  const double a = crown.half_width_m, h = (static_cast<double>(crown.top_m) - crown.bottom_m) / 2.0;
+  const double x = static_cast<double>(ray.origin.x) - crown.x_m, y = static_cast<double>(ray.origin.y) - crown.y_m,
+               z = static_cast<double>(ray.origin.z) - (static_cast<double>(crown.top_m) + crown.bottom_m) / 2.0;
+  const double dx = ray.direction.x, dy = ray.direction.y, dz = ray.direction.z;
+  if (crown.shape == CrownShape::spheroid)
+    return below_zero((dx * dx + dy * dy) / (a * a) + dz * dz / (h * h), (x * dx + y * dy) / (a * a) + z * dz / (h * h),
+                      (x * x + y * y) / (a * a) + z * z / (h * h) - 1.0);
+  Piece piece = below_zero(dx * dx + dy * dy, x * dx + y * dy, x * x + y * y - a * a);
+  if (crown.shape == CrownShape::prism) {
+    piece = {-infinity, infinity};
+    // The four sides, as half-planes whose normals turn with the square
+    for (int side = 0; side < 4; ++side) {
+      const double angle = crown.turn_rad() + side * std::numbers::pi / 2.0, nx = std::cos(angle), ny = std::sin(angle);
+      const double speed = nx * dx + ny * dy, t = (a - nx * x - ny * y) / speed;
+      speed > 0.0 ? piece.end = std::min(piece.end, t) : piece.begin = std::max(piece.begin, t);
+    }
+  }
+  const double low = (-h - z) / dz, high = (h - z) / dz;
+  return {std::max(piece.begin, std::min(low, high)), std::min(piece.end, std::max(low, high))};
+}
+
+struct Judgement {
+  double transmitted = 1.0, nearest = infinity;
+};
+
+Judgement judged(const std::vector<Crown>& crowns, const CanopySettings& settings, const Ray& ray) {
+  double least = 1.0, product = 1.0, depth = 0.0, nearest = infinity;
+  const double length_m =
+      std::sqrt(static_cast<double>(ray.direction.x) * ray.direction.x + static_cast<double>(ray.direction.y) * ray.direction.y +
+                static_cast<double>(ray.direction.z) * ray.direction.z);
+  for (const Crown& crown : crowns) {
+    const Piece whole = judged(crown, ray);
+    const Piece piece{std::max<double>(whole.begin, ray.begin), std::min<double>(whole.end, ray.end)};
+    if (piece.begin >= piece.end) continue;
+    least = std::min(least, transmissivity_of(crown.foliage, settings));
+    product *= transmissivity_of(crown.foliage, settings);
+    depth += extinction_per_m_of(crown.foliage, settings) * (piece.end - piece.begin) * length_m;
+    nearest = std::min(nearest, piece.begin);
+  }
+  const double by_rule[] = {least, product, std::exp(-depth)};
+  return {by_rule[static_cast<std::size_t>(settings.rule)], nearest};
+}
+
+class RandomCrowns : public testing::Test {
+ protected:
+  /// In [−1, 1), the same on every machine.
+  double random() { return static_cast<double>(random_() >> 11) * 0x1p-52 - 1.0; }
+  Point3f point(double size) {
+    return {static_cast<float>(size * random()), static_cast<float>(size * random()), static_cast<float>(size * random())};
+  }
+
+  std::vector<Crown> crowns(std::size_t count) {
+    std::vector<Crown> result;
+    for (std::size_t n = 0; n < count; ++n) {
+      const double bottom_m = 20.0 * random();
+      result.push_back(crown_of(static_cast<CrownShape>(n % 3), {40.0 * random(), 40.0 * random()}, bottom_m,
+                                bottom_m + 6.0 + 5.0 * random(), 4.0 + 3.5 * random(), static_cast<Foliage>(random_() % 3),
+                                static_cast<std::uint16_t>(n % 3 == 2 ? random_() & 0xFFFFU : 0U)));
+    }
+    return result;
+  }
+  Ray ray() {
+    Ray ray{point(45.0), point(2.0)};
+    if (random() < -0.5) ray.begin = static_cast<float>(5.0 + 5.0 * random());
+    if (random() < -0.5) ray.end = static_cast<float>(25.0 + 10.0 * random());
+    return ray;
+  }
+  std::mt19937_64 random_{20150101};
+};
+
+/// All numbers are computed in double, and rounded to a float once. Where a ray grazes a body, or begins far from it, some digits
+/// of the double are lost: a tenth of what a float has is never reached.
+constexpr double tolerance = 1.1 * 0x1p-24;
+
+TEST_F(RandomCrowns, LightIsThatOfTheJudge) {
+  const std::vector<Crown> all = crowns(400);
+  for (const CanopyRule rule : {CanopyRule::once, CanopyRule::each, CanopyRule::beer})
+    for (const Season season : {Season::leaf_on, Season::leaf_off}) {
+      const CanopySettings settings = settings_of(rule, 0.6, 0.02, season);
+      const CrownOccluder occluder(all, settings);
+      std::size_t met = 0, began_within = 0;
+      for (int n = 0; n < 4000; ++n) {
+        const Ray asked = ray();
+        const Judgement expected = judged(all, settings, asked);
+        const CrownLight light = occluder.light(asked);
+        ASSERT_NEAR(light.transmitted, expected.transmitted, tolerance) << n;
+        ASSERT_EQ(light.is_met(), expected.nearest < infinity) << n;
+        ASSERT_EQ(occluder.light(asked, CrownQuestion::light).transmitted, light.transmitted) << n;
+        if (!light.is_met()) continue;
+        ASSERT_NEAR(light.nearest, expected.nearest, tolerance * std::max(1.0, expected.nearest)) << n;
+        ++met;
+        began_within += light.nearest == asked.begin ? 1U : 0U;
+      }
+      EXPECT_TRUE(met > 1000 && met < 3900 && began_within > 100) << met << ' ' << began_within;
+    }
+}
+
+TEST_F(RandomCrowns, PacketsAnswerAsSingleRaysDo) {
+  const std::vector<Crown> all = crowns(300);
+  for (const CanopyRule rule : {CanopyRule::once, CanopyRule::each, CanopyRule::beer}) {
+    const CrownOccluder occluder(all, settings_of(rule, 0.6, 0.02));
+    for (std::uint32_t n = 0; n < 600; ++n) {
+      const std::uint32_t wanted = n % 3 == 0 ? all_lanes : (n * 2654435761U) >> 16;
+      const CrownQuestion question = n % 2 == 0 ? CrownQuestion::light : CrownQuestion::light_and_nearest;
+      const Point3f shared = point(1.0), corner = point(40.0);
+      constexpr float begin = 2.0F;
+      RayOrigins origins;
+      Occluder::Directions directions;
+      std::array<Ray, RayOrigins::lanes> rays;
+      for (std::size_t l = 0; l < rays.size(); ++l) {
+        rays[l] = {corner + point(4.0), point(1.0), begin};
+        origins.x[l] = rays[l].origin.x, origins.y[l] = rays[l].origin.y, origins.z[l] = rays[l].origin.z;
+        directions.x[l] = rays[l].direction.x, directions.y[l] = rays[l].direction.y, directions.z[l] = rays[l].direction.z;
+      }
+      const CrownLights lights = occluder.light(origins, directions, begin, wanted, question);
+      const CrownLights lights_shared = occluder.light(origins, shared, begin, wanted, question);
+      for (std::size_t l = 0; l < rays.size(); ++l) {
+        const bool is_wanted = ((wanted >> l) & 1U) != 0;
+        const CrownLight single = is_wanted ? occluder.light(rays[l], question) : CrownLight{};
+        const CrownLight single_shared = is_wanted ? occluder.light({rays[l].origin, shared, begin}, question) : CrownLight{};
+        ASSERT_EQ(lights.transmitted[l], single.transmitted);
+        ASSERT_EQ(lights_shared.transmitted[l], single_shared.transmitted);
+        ASSERT_EQ(((lights.met >> l) & 1U) != 0, single.is_met());
+        if (question == CrownQuestion::light) continue;
+        ASSERT_EQ(lights.nearest[l], single.nearest);
+        ASSERT_EQ(lights_shared.nearest[l], single_shared.nearest);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace farlod
