@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "canopy/crown_batches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "canopy/crown_kernels.hpp"
+#include "contract/canopy/crown_light.hpp"
+#include "contract/expects.hpp"
+
+namespace farlod {
+
+CrownBatches::CrownBatches(std::span<const Crown> crowns, const CanopySettings& settings) : rule_(settings.rule) {
+  batches_.reserve((crowns.size() + lanes - 1) / lanes);
+  for (const Crown& crown : crowns) add(crown, settings);
+}
+
+void CrownBatches::add(const Crown& crown, const CanopySettings& settings) {
+  FARLOD_EXPECTS(crown.bottom_m < crown.top_m && crown.half_width_m > 0.0F);
+  const std::size_t lane = size_++ % lanes;
+  if (lane == 0) batches_.emplace_back();
+  Batch& b = batches_.back();
+  const double transmissivity = transmissivity_of(crown.foliage, settings);
+  b.used |= 1U << lane;
+  b.x[lane] = crown.x_m;
+  b.y[lane] = crown.y_m;
+  b.bottom[lane] = crown.bottom_m;
+  b.top[lane] = crown.top_m;
+  b.half_width[lane] = crown.half_width_m;
+  b.plan_radius[lane] = crown.half_width_m * (crown.shape == CrownShape::prism ? std::numbers::sqrt2_v<float> : 1.0F);
+  b.cosine[lane] = static_cast<float>(std::cos(crown.turn_rad()));
+  b.sine[lane] = static_cast<float>(std::sin(crown.turn_rad()));
+  b.transmissivity[lane] = static_cast<float>(transmissivity);
+  // A depth that lets nothing through a float, in place of infinity
+  b.optical_depth[lane] = static_cast<float>(settings.rule == CanopyRule::beer
+                                                 ? extinction_per_m_of(crown.foliage, settings)
+                                                 : std::min(-std::log(transmissivity), static_cast<double>(opaque_depth)));
+  b.shape[lane] = crown.shape;
+  least_transmissivity_ = std::min(least_transmissivity_, b.transmissivity[lane]);
+  most_transmissivity_ = std::max(most_transmissivity_, b.transmissivity[lane]);
+}
+
+}  // namespace farlod

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contract/canopy/crown.hpp"
+#include "farlod/canopy.hpp"
+
+namespace farlod {
+
+/// Crowns of one run and one frame, in batches of 16 whose reach is computed at once: an array for each coordinate. It is made
+/// once for a cell, and serves all of its packets.
+class CrownBatches {
+ public:
+  static constexpr std::size_t lanes = 16;
+  struct Batch {
+    using Lanes = std::array<float, lanes>;
+    alignas(64) Lanes x{}, y{}, bottom{}, top{};
+    Lanes half_width{};
+    Lanes plan_radius{};     ///< of a circle around the crown's plan
+    Lanes cosine{}, sine{};  ///< of the turn of a prism
+    Lanes transmissivity{};  ///< ψ, from 0 to 1
+    Lanes optical_depth{};   ///< −ln ψ by the rule `each`, κ in 1/m by the rule `beer`
+    std::array<CrownShape, lanes> shape{};
+    std::uint32_t used = 0;  ///< a bit for each lane with a crown
+  };
+
+  CrownBatches(std::span<const Crown> crowns, const CanopySettings& settings);
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] bool empty() const { return size_ == 0; }
+  [[nodiscard]] std::span<const Batch> batches() const { return batches_; }
+  [[nodiscard]] CanopyRule rule() const { return rule_; }
+  /// The smallest ψ and the largest one, between which there is no other: a run knows crowns in leaf and bare ones.
+  [[nodiscard]] float least_transmissivity() const { return least_transmissivity_; }
+  [[nodiscard]] float most_transmissivity() const { return most_transmissivity_; }
+
+ private:
+  void add(const Crown& crown, const CanopySettings& settings);
+
+  CanopyRule rule_;
+  std::vector<Batch> batches_;
+  std::size_t size_ = 0;
+  float least_transmissivity_ = 1.0F, most_transmissivity_ = 0.0F;
+};
+
+}  // namespace farlod
