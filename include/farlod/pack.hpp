@@ -70,6 +70,30 @@ struct FootprintSettings {
   std::optional<double> default_height_m = {};    ///< 0.01 to 1,000: for footprints without any height
 };
 
+/// What the heights of a canopy raster count from.
+enum class CanopyHeights {
+  above_ground,
+  elevations  ///< from the zero of heights, as those of a surface model
+};
+
+/// Trees: from inventories, each tree with a crown of its own, and from a raster of canopies. docs/stages/ingest.md has the names
+/// of fields that are known, and the rules for sizes that are missing.
+struct TreeSettings {
+  /// Points or outlines of crowns, in any vector format of GDAL; a table (.csv, .tsv, .txt) with columns of coordinates; CityGML
+  /// and CityJSON, of which trees alone are read.
+  std::vector<std::filesystem::path> files;
+  std::optional<std::string> height_field = {};         ///< height of a tree
+  std::optional<std::string> crown_field = {};          ///< diameter of its crown; an area where the name says so
+  std::optional<std::string> trunk_field = {};          ///< height at which its crown begins
+  std::optional<std::filesystem::path> canopy = {};     ///< a raster of the tops of crowns; 0: none
+  std::optional<std::filesystem::path> trunks = {};     ///< a raster of the heights at which crowns begin; needs `canopy`
+  CanopyHeights heights = CanopyHeights::above_ground;  ///< of both rasters
+  /// 0 to 0.95: the height at which a crown begins, as a share of its top's, where nothing else says it.
+  double trunk_ratio = 0.25;
+
+  [[nodiscard]] bool any() const { return !files.empty() || canopy.has_value(); }
+};
+
 /// From which files a package is made, and how. The defaults are those of farlod-pack.
 struct PackSettings {
   /// Files, folders and archives; all are put together. A raster among them is a surface model. May be empty if there is a
@@ -86,6 +110,7 @@ struct PackSettings {
   UpAxis up = UpAxis::z;              ///< of OBJ files
   std::optional<int> lod;             ///< level of detail to read, 0 to 3; empty: the best from 1 to 3
   FootprintSettings footprints;
+  TreeSettings trees;
 
   std::optional<double> cell_edge_m;  ///< 0.5 to 10,000; empty: 150, or what `max_error` needs
   std::optional<int>
@@ -151,6 +176,14 @@ struct ChosenGrid {
 /// How often something was met that is not used, by what it is: vegetation, water, elements of extensions.
 using SkippedFeatures = std::map<std::string, std::uint64_t>;
 
+/// The crowns of a package.
+struct CrownCounts {
+  std::uint64_t of_trees = 0;   ///< of inventories
+  std::uint64_t of_canopy = 0;  ///< cells of the raster
+
+  bool operator==(const CrownCounts&) const = default;
+};
+
 /// The counts and measurements of a run.
 struct PackResult {
   PackageDescription package;
@@ -159,8 +192,9 @@ struct PackResult {
   std::optional<ChosenGrid> chosen;  ///< with PackSettings::max_error
   std::uint64_t facets = 0;          ///< polygons as the files have them: a surface of a mesh is made of several triangles
   std::uint64_t foundations = 0;     ///< buildings whose lowest floor was closed down to the ground
-  SkippedFeatures skipped;           ///< features of the files that are not used
-  std::vector<std::string> notes;    ///< for the user: what was read from files beside the inputs, or assumed
+  CrownCounts crowns;
+  SkippedFeatures skipped;         ///< features of the files that are not used
+  std::vector<std::string> notes;  ///< for the user: what was read from files beside the inputs, or assumed
   std::uint64_t package_bytes = 0;
   std::uint64_t far_map_bytes = 0;  ///< of the far maps that this run wrote
   PackEstimate estimate;

@@ -39,6 +39,12 @@ enum class ProblemCode : std::uint16_t {
   another_format = 117,
   empty_file = 118,
   unusable_file = 119,
+  tree_size_missing = 120,
+  tree_size_classes = 121,
+  absurd_tree_size = 122,
+  duplicate_tree = 123,
+  unusable_canopy_height = 124,
+  trunk_above_crown = 125,
   outside_of_projection = 201,
   axes_swapped = 202,
   two_crs = 203,
@@ -48,6 +54,7 @@ enum class ProblemCode : std::uint16_t {
   far_away = 207,
   implausible_size = 208,
   lies_on_its_side = 209,
+  tree_outside_of_grid = 210,
   no_dominant_direction = 301,
   nearly_empty_grid = 302,
   zero_area = 401,
@@ -111,6 +118,18 @@ inline constexpr std::array problem_descriptions{
                        "a file is of another format than its name says"},
     ProblemDescription{ProblemCode::empty_file, "empty_file", Effect::left_out, "a file has nothing in it"},
     ProblemDescription{ProblemCode::unusable_file, "unusable_file", Effect::left_out, "one of several files cannot be used"},
+    ProblemDescription{ProblemCode::tree_size_missing, "tree_size_missing", Effect::repaired,
+                       "trees lack a size, which is taken from their other sizes, or assumed"},
+    ProblemDescription{ProblemCode::tree_size_classes, "tree_size_classes", Effect::kept,
+                       "sizes of trees look like classes, not like metres"},
+    ProblemDescription{ProblemCode::absurd_tree_size, "absurd_tree_size", Effect::repaired,
+                       "trees have sizes that no tree on Earth has"},
+    ProblemDescription{ProblemCode::duplicate_tree, "duplicate_tree", Effect::left_out,
+                       "trees are there twice, at one place and with the same sizes"},
+    ProblemDescription{ProblemCode::unusable_canopy_height, "unusable_canopy_height", Effect::left_out,
+                       "cells of a canopy raster have heights that no tree has"},
+    ProblemDescription{ProblemCode::trunk_above_crown, "trunk_above_crown", Effect::repaired,
+                       "crowns begin below the ground, or not below their tops"},
     ProblemDescription{ProblemCode::outside_of_projection, "outside_of_projection", Effect::left_out,
                        "a building has a vertex that cannot be projected"},
     ProblemDescription{ProblemCode::axes_swapped, "axes_swapped", Effect::repaired,
@@ -128,6 +147,8 @@ inline constexpr std::array problem_descriptions{
                        "a file's buildings are larger than any on Earth, or tiny"},
     ProblemDescription{ProblemCode::lies_on_its_side, "lies_on_its_side", Effect::kept,
                        "a file's z axis does not seem to point upward"},
+    ProblemDescription{ProblemCode::tree_outside_of_grid, "tree_outside_of_grid", Effect::left_out,
+                       "trees stand outside of the grid"},
     ProblemDescription{ProblemCode::no_dominant_direction, "no_dominant_direction", Effect::kept,
                        "the streets have no dominant direction"},
     ProblemDescription{ProblemCode::nearly_empty_grid, "nearly_empty_grid", Effect::kept,
@@ -157,7 +178,7 @@ struct Problem {
   std::string place;   ///< the building's id, the feature's number or the line
   std::string detail;  ///< what exactly, with figures
   /// A place on the ground, where one is known. 1xx and 2xx: as the file counts, in its axis order (an OBJ file with its
-  /// origin added, z up); 207 to 209, 4xx and what waits for the terrain: easting, northing and height in the CRS
+  /// origin added, z up); 123, 124, 207 to 210, 4xx and what waits for the terrain: easting, northing and height in the CRS
   /// of the package.
   std::optional<Point3d> position = {};
   /// The same in degrees of WGS 84, longitude first; known once the CRS of the position is.

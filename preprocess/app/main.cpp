@@ -118,6 +118,8 @@ void print_result(const PackResult& result, const Report& report, const PackOpti
   fmt::print("{} buildings, {} polygons", m.buildings, m.polygons);
   if (result.facets > m.polygons) fmt::print(" (planar faces of {} facets)", result.facets);
   fmt::print(", {} {}\n", report.problems().size(), report.problems().size() == 1 ? "problem" : "problems");
+  if (result.crowns != CrownCounts{})
+    fmt::print("Crowns: {} of trees, {} of cells of a canopy\n", result.crowns.of_trees, result.crowns.of_canopy);
   print_problems(report, options.report_file);
   print_skipped(result.skipped);
   for (const std::string& note : result.notes) fmt::print("{}\n", note);

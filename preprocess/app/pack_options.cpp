@@ -53,6 +53,9 @@ struct RawOptions {
   std::string output, origin, up = "z", lod = "best", align = "auto", assign = "clip", far_map = "horizon";
   std::optional<std::string> area;
   std::string terrain, height_field, base_field, storeys_field, roof_field;
+  std::vector<std::string> trees;
+  std::string tree_height_field, crown_field, trunk_field, canopy, trunk;
+  bool canopy_absolute = false;
   std::string shard;
   bool force = false, strict = false;
 };
@@ -109,6 +112,39 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("--terrain", raw.terrain, "Raster of ground elevations (any that GDAL reads)")
       ->type_name(file_value)
       ->group("Input");
+}
+
+void add_tree_options(CLI::App& app, RawOptions& raw) {
+  app.add_option(
+         "--trees", raw.trees,
+         "Inventory of trees: points or outlines of crowns in a vector file, a table with columns lon, lat or x, y, or a city "
+         "model; may be given several times")
+      ->type_name(file_value)
+      ->expected(1)
+      ->take_all()
+      ->group("Trees");
+  app.add_option("--tree-height-field", raw.tree_height_field, "Attribute with a tree's height, in metres")->group("Trees");
+  app.add_option("--crown-field", raw.crown_field, "Attribute with the diameter of a tree's crown, in metres")->group("Trees");
+  app.add_option("--trunk-field", raw.trunk_field, "Attribute with the height at which a tree's crown begins, in metres")
+      ->group("Trees");
+}
+
+void add_canopy_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
+  auto* const canopy = app.add_option("--canopy", raw.canopy, "Raster of the heights of crowns above the ground; 0: none")
+                           ->type_name(file_value)
+                           ->group("Trees");
+  app.add_option("--trunk", raw.trunk, "Raster of the heights above the ground at which the crowns of --canopy begin")
+      ->needs(canopy)
+      ->type_name(file_value)
+      ->group("Trees");
+  app.add_flag("--canopy-absolute", raw.canopy_absolute, "The heights of --canopy and --trunk are elevations")
+      ->needs(canopy)
+      ->group("Trees");
+  app.add_option("--trunk-ratio", o.settings.trees.trunk_ratio,
+                 "Share of its height at which a crown begins, where nothing else says it")
+      ->check(between(0.0, 0.95))
+      ->capture_default_str()
+      ->group("Trees");
 }
 
 void add_grid_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
@@ -228,6 +264,29 @@ Shard shard_in(const std::string& text) {
   }
 }
 
+void resolve_trees(const RawOptions& raw, TreeSettings& trees) {
+  const auto require_name = [](const std::string& name, const char* option) {
+    if (name.empty()) throw CLI::ValidationError(option, "the name is empty: give a file");
+  };
+  for (const std::string& file : raw.trees) {
+    require_name(file, "--trees");
+    trees.files.emplace_back(file);
+  }
+  if (!raw.tree_height_field.empty()) trees.height_field = raw.tree_height_field;
+  if (!raw.crown_field.empty()) trees.crown_field = raw.crown_field;
+  if (!raw.trunk_field.empty()) trees.trunk_field = raw.trunk_field;
+  if (!raw.canopy.empty()) trees.canopy = raw.canopy;
+  if (!raw.trunk.empty()) trees.trunks = raw.trunk;
+  trees.heights = raw.canopy_absolute ? CanopyHeights::elevations : CanopyHeights::above_ground;
+}
+
+void resolve_fields(const RawOptions& raw, FootprintSettings& footprints) {
+  if (!raw.height_field.empty()) footprints.height_field = raw.height_field;
+  if (!raw.base_field.empty()) footprints.base_field = raw.base_field;
+  if (!raw.storeys_field.empty()) footprints.storeys_field = raw.storeys_field;
+  if (!raw.roof_field.empty()) footprints.roof_field = raw.roof_field;
+}
+
 void resolve(const RawOptions& raw, PackOptions& o) {
   PackSettings& s = o.settings;
   for (const std::string& input : raw.inputs) s.inputs.emplace_back(input == "-" ? "/dev/stdin" : input);
@@ -236,6 +295,7 @@ void resolve(const RawOptions& raw, PackOptions& o) {
   s.overwrite = raw.force ? Overwrite::replace : Overwrite::refuse;
   s.problems = raw.strict ? ProblemPolicy::refuse : ProblemPolicy::pack;
   if (!raw.terrain.empty()) s.terrain = raw.terrain;
+  resolve_trees(raw, s.trees);
   if (raw.area) s.area = area_in(*raw.area);
   if (!raw.shard.empty()) s.shard = shard_in(raw.shard);
   if (s.inputs.empty() && !s.terrain && !s.merge) throw CLI::RequiredError("INPUT");
@@ -245,10 +305,7 @@ void resolve(const RawOptions& raw, PackOptions& o) {
   if (!raw.origin.empty()) s.obj_origin = parse_origin(raw.origin);
   s.up = raw.up == "y" ? UpAxis::y : UpAxis::z;
   if (raw.lod != "best") s.lod = std::stoi(raw.lod);
-  if (!raw.height_field.empty()) s.footprints.height_field = raw.height_field;
-  if (!raw.base_field.empty()) s.footprints.base_field = raw.base_field;
-  if (!raw.storeys_field.empty()) s.footprints.storeys_field = raw.storeys_field;
-  if (!raw.roof_field.empty()) s.footprints.roof_field = raw.roof_field;
+  resolve_fields(raw, s.footprints);
   resolve_alignment(raw.align, s);
   s.far_map = raw.far_map == "box" ? FarMapKind::box : FarMapKind::horizon;
   s.assign = raw.assign == "whole" ? Assign::whole : Assign::clip;
@@ -265,6 +322,8 @@ struct CommandLine {
   CommandLine() {
     describe_program(app, pack_program());
     add_input_options(app, raw, options);
+    add_tree_options(app, raw);
+    add_canopy_options(app, raw, options);
     add_grid_options(app, raw, options);
     add_output_options(app, raw, options);
   }

@@ -68,6 +68,7 @@ std::string pack_summary_json(const PackResult& result, const Report& report, do
             {"triangles", m.triangles},
             {"problems", report.problems().size()},
             {"foundations", result.foundations},
+            {"crowns", {{"of_trees", result.crowns.of_trees}, {"of_canopy", result.crowns.of_canopy}}},
             {"cells", m.columns * m.rows},
             {"cells_with_far_map", m.cells_with_far_map},
             {"grid_rotation_deg", m.grid_bearing.degrees()},

@@ -13,15 +13,6 @@
 namespace farlod::pipeline {
 namespace {
 
-/// The bounding rectangle of the grid in the city frame.
-Box2d city_outline(const Grid& grid) {
-  const auto [low, high] = grid.rectangle();
-  Box2d outline;
-  for (const Point2d corner : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}})
-    outline.add(grid.rotation.city_from_grid(corner));
-  return outline;
-}
-
 Box2d outline_of(const TerrainRaster& terrain) {
   Box2d outline;
   outline.add(terrain.first);
@@ -178,6 +169,14 @@ class CityReading {
 };
 
 }  // namespace
+
+Box2d city_outline(const Grid& grid) {
+  const auto [low, high] = grid.rectangle();
+  Box2d outline;
+  for (const Point2d corner : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}})
+    outline.add(grid.rotation.city_from_grid(corner));
+  return outline;
+}
 
 CityFiles find_city_files(const StageSettings& settings, Report& report) {
   CityFiles city{{}, {}, settings.terrain, settings.terrain, {}};

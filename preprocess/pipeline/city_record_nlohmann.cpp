@@ -31,6 +31,13 @@ Json json_of(const package::FarMapShape& s) {
 }
 package::FarMapShape shape_from(const Json& j) { return {j.at(0), j.at(1), j.at(2), j.at(3), j.at(4), j.at(5), j.at(6)}; }
 
+Json json_of(const package::CanopyFile& c) { return {c.stamp.bytes, c.stamp.xxh3, c.crowns_of_shape}; }
+package::CanopyFile canopy_from(const Json& j) {
+  package::CanopyFile canopy{{j.at(0), j.at(1)}, {}};
+  j.at(2).get_to(canopy.crowns_of_shape);
+  return canopy;
+}
+
 Json json_of(const package::Manifest& m) {
   Json inputs = Json::array();
   for (const package::InputFile& i : m.inputs) inputs.push_back({i.name, i.stamp.bytes, i.stamp.xxh3});
@@ -43,7 +50,8 @@ Json json_of(const package::Manifest& m) {
           {"far_map", json_of(m.far_map)},
           {"inputs", inputs},
           {"counts", {m.buildings, m.polygons, m.triangles}},
-          {"problems", m.problem_counts}};
+          {"problems", m.problem_counts},
+          {"canopy", m.canopy ? json_of(*m.canopy) : Json()}};
 }
 package::Manifest manifest_from(const Json& j) {
   package::Manifest m;
@@ -63,6 +71,7 @@ package::Manifest manifest_from(const Json& j) {
   m.polygons = counts.at(1);
   m.triangles = counts.at(2);
   j.at("problems").get_to(m.problem_counts);
+  if (const Json& canopy = j.at("canopy"); !canopy.is_null()) m.canopy = canopy_from(canopy);
   return m;
 }
 
@@ -93,6 +102,7 @@ Json json_of(const PackedCity& r) {
           {"chosen", r.chosen ? json_of(*r.chosen) : Json()},
           {"facets", r.facets},
           {"foundations", r.foundations},
+          {"crowns", {r.crowns.of_trees, r.crowns.of_canopy}},
           {"skipped", r.skipped},
           {"notes", r.notes},
           {"estimate", json_of(r.estimate)}};
@@ -105,6 +115,7 @@ PackedCity result_from(const Json& j) {
   if (!j.at("chosen").is_null()) r.chosen = chosen_from(j.at("chosen"));
   r.facets = j.at("facets");
   r.foundations = j.at("foundations");
+  r.crowns = {j.at("crowns").at(0), j.at("crowns").at(1)};
   j.at("skipped").get_to(r.skipped);
   j.at("notes").get_to(r.notes);
   r.estimate = estimate_from(j.at("estimate"));

@@ -20,6 +20,7 @@
 #include "farlod/error.hpp"
 #include "farmap/far_map_baker.hpp"
 #include "georeference/problem_locator.hpp"
+#include "package/crowns_writer.hpp"
 #include "package/saved_city.hpp"
 #include "pipeline/block_writing.hpp"
 #include "pipeline/city_reading.hpp"
@@ -27,6 +28,8 @@
 #include "pipeline/pack_estimate.hpp"
 #include "pipeline/pack_origin.hpp"
 #include "pipeline/pack_target.hpp"
+#include "pipeline/tree_reading.hpp"
+#include "tiles/crowns_on_ground.hpp"
 #include "tiles/tiles.hpp"
 
 namespace farlod::pipeline {
@@ -78,6 +81,7 @@ class Packing {
     require_folders_above(settings_.output);
     CityFiles files;
     timed("inputs", [&] {
+      require_trees_exist(settings_.trees);
       files = find_city_files(settings_, report_);
       origin_ = origin_of(settings_, files, origin_of_unfinished(settings_.output));
     });
@@ -134,20 +138,29 @@ class Packing {
     result.manifest = manifest_of(city, settings_, origin_);
     result.street_bearing = city.ground.streets.bearing;
     result.alignment_strength = city.ground.streets.strength;
-    result.skipped = std::move(city.skipped);
-    result.notes.insert(result.notes.end(), city.notes.begin(), city.notes.end());
-    if (city.is_chosen) result.chosen = ChosenGrid{city.best, {}};
+    take_findings(city);
     record_.plan = target.plan(city.located.georeference, result);
     estimate(city);
     result.facets = city.located.city.facets().size();
+    tiles::TreesOfCity trees;
+    if (settings_.trees.any()) timed("trees", [&] { trees = read_trees_of(city); });
     CutCity cut;
-    timed("tiles", [&] { cut.tiles = cut_tiles(std::move(city)); });
+    std::optional<CrownsOfCity> crowns;
+    timed("tiles", [&] { cut.tiles = cut_tiles(std::move(city), std::move(trees), crowns); });
     require_no_problems();
     describe_tiles(cut.tiles);
+    if (crowns) timed("crowns", [&] { result.manifest.canopy = write_canopy(target.unfinished().package_folder(), *crowns); });
     if (target.existing()) timed("compare", [&] { target.require_same_city(cut.tiles, result.manifest); });
     if (result.chosen) timed("measure", [&] { result.chosen->measured = measure(cut.tiles); });
     record_.costs = costs_of(record_.plan, cut.tiles, result.manifest.grid);
     return cut;
+  }
+
+  void take_findings(ReadCity& city) {
+    PackedCity& result = record_.result;
+    result.skipped = std::move(city.skipped);
+    result.notes.insert(result.notes.end(), city.notes.begin(), city.notes.end());
+    if (city.is_chosen) result.chosen = ChosenGrid{city.best, {}};
   }
 
   void estimate(const ReadCity& city) {
@@ -173,12 +186,29 @@ class Packing {
     if (on_estimate_) on_estimate_(e);
   }
 
+  tiles::TreesOfCity read_trees_of(const ReadCity& city) {
+    PackedCity& result = record_.result;
+    ReadTrees read = read_trees(settings_, city.located.georeference, city.ground.grid, report_, run_.stop);
+    require_unchanged(origin_);
+    for (const auto& [what, count] : read.skipped) result.skipped[what] += count;
+    result.notes.insert(result.notes.end(), read.notes.begin(), read.notes.end());
+    return std::move(read.trees);
+  }
+
   /// The problems found here have positions in the CRS of the package.
-  TileSet cut_tiles(ReadCity city) {
+  TileSet cut_tiles(ReadCity city, tiles::TreesOfCity trees, std::optional<CrownsOfCity>& crowns) {
     const std::size_t known = report_.problems().size();
     const Georeference place = city.located.georeference;
+    tiles::OnGround place_crowns;
+    if (trees.any())
+      place_crowns = [&](const tiles::Ground& ground, double height_origin_m) {
+        tiles::CrownPlacing placing(settings_.trees, city.ground.grid, place.origin_m, report_);
+        crowns = placing.run(std::move(trees), ground, height_origin_m, run_.stop);
+        record_.result.crowns = placing.counts();
+        for (const std::string& note : placing.notes()) record_.result.notes.push_back(note);
+      };
     TileSet tiles = tiles::cut_into_tiles(std::move(city.located), city.ground.grid, settings_.assign, city.ground.terrain,
-                                          report_, run_.stop);
+                                          report_, run_.stop, place_crowns);
     if (const auto crs = georeference::Crs::find(place.crs_wkt)) {
       georeference::ProblemLocator locator(*crs, georeference::FileAxes{}, place.origin_m);
       for (Problem& problem : report_.since(known)) locator.locate(problem);

@@ -23,6 +23,7 @@ enum class PackPart { whole, shard, merge };
 struct StageSettings {
   std::vector<std::filesystem::path> inputs;  ///< files, folders and archives; may be empty when there is a terrain
   std::optional<std::filesystem::path> terrain;
+  TreeSettings trees = {};
   std::filesystem::path output;
   Overwrite overwrite = Overwrite::refuse;
   ingest::IngestSettings ingest;

@@ -124,6 +124,21 @@ void add_input_settings(const StageSettings& s, Values& values) {
   if (s.terrain) values.emplace_back("terrain", s.terrain->filename().string());
 }
 
+void add_tree_settings(const TreeSettings& trees, Values& values) {
+  if (!trees.any()) return;
+  const auto add_if = [&](const char* name, const std::optional<std::string>& value) {
+    if (value) values.emplace_back(name, *value);
+  };
+  for (const fs::path& file : trees.files) values.emplace_back("trees", file.filename().string());
+  add_if("tree-height-field", trees.height_field);
+  add_if("crown-field", trees.crown_field);
+  add_if("trunk-field", trees.trunk_field);
+  if (trees.canopy) values.emplace_back("canopy", trees.canopy->filename().string());
+  if (trees.trunks) values.emplace_back("trunk", trees.trunks->filename().string());
+  if (trees.canopy) values.emplace_back("canopy-absolute", trees.heights == CanopyHeights::elevations ? "yes" : "no");
+  values.emplace_back("trunk-ratio", fmt::format("{}", trees.trunk_ratio));
+}
+
 std::string align_text(const align::GridSettings& grid) {
   if (grid.align == AlignMode::fixed) return fmt::format("{}", grid.fixed_bearing.degrees());
   return grid.align == AlignMode::none ? "none" : "auto";
@@ -162,9 +177,13 @@ PackageOrigin origin_of(const StageSettings& settings, const CityFiles& files, c
   Inputs inputs(earlier);
   for (const fs::path& file : files.on_disk) inputs.add(file);
   if (files.terrain_on_disk) inputs.add(*files.terrain_on_disk);
+  for (const fs::path& file : settings.trees.files) inputs.add(file);
+  if (settings.trees.canopy) inputs.add(*settings.trees.canopy);
+  if (settings.trees.trunks) inputs.add(*settings.trees.trunks);
   if (settings.area && std::holds_alternative<fs::path>(*settings.area)) inputs.add(std::get<fs::path>(*settings.area), true);
   PackageOrigin origin{std::string("farlod-pack ") + software_version, inputs.take(), {}};
   add_input_settings(settings, origin.settings);
+  add_tree_settings(settings.trees, origin.settings);
   add_grid_settings(settings, origin.settings);
   return origin;
 }

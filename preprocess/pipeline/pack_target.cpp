@@ -60,6 +60,7 @@ std::uint64_t bytes_of(const fs::path& package, const package::Manifest& manifes
   const std::uintmax_t of_manifest = fs::file_size(package / package::manifest_file, unread);
   std::uint64_t bytes = unread ? 0 : of_manifest;
   for (const package::BlockFiles& b : manifest.blocks) bytes += b.tiles.bytes + b.far_map.bytes;
+  if (manifest.canopy) bytes += manifest.canopy->stamp.bytes;
   return bytes;
 }
 
@@ -166,14 +167,20 @@ void PackTarget::save_city(const TileSet& tiles, const CityHorizon* horizon, con
 }
 
 void PackTarget::publish(CityRecord& record) {
+  const auto require = [this](bool is_as_it_was) {
+    if (!is_as_it_was) throw OutputError(unfinished_.package_folder().string() + " was changed while it was made: pack again.");
+  };
   package::Manifest& manifest = record.result.manifest;
   const auto is_kept = [](const PlannedBlock& b) { return b.kept.has_value(); };
-  const bool is_there = existing_ && std::ranges::all_of(record.plan.blocks, is_kept);
+  const auto& canopy = manifest.canopy;
+  const bool is_there =
+      existing_ && std::ranges::all_of(record.plan.blocks, is_kept) && (!canopy || are_whole(package_, *canopy));
+  require(is_there || !canopy || are_whole(unfinished_.package_folder(), *canopy));
   manifest.blocks.clear();
   for (const PlannedBlock& b : record.plan.blocks) {
     if (b.kept && !is_there) unfinished_.adopt(package_, *b.kept);
     const auto files = b.kept ? b.kept : unfinished_.finished(b.block, b.mapped);
-    if (!files) throw OutputError(unfinished_.package_folder().string() + " was changed while it was made: pack again.");
+    require(files.has_value());
     manifest.blocks.push_back(*files);
   }
   if (existing_) existing_->require_unchanged();

@@ -34,6 +34,17 @@ void check_input(const PackSettings& s) {
   if (s.footprints.default_height_m) require_between("default_height_m", *s.footprints.default_height_m, 0.01, 1000.0);
 }
 
+void check_trees(const TreeSettings& trees) {
+  for (const std::filesystem::path& file : trees.files)
+    if (file.empty()) throw InvalidArgument("one of trees.files has an empty name: give the path of a file");
+  if (trees.canopy && trees.canopy->empty()) throw InvalidArgument("trees.canopy is empty: give the path of a raster, or none");
+  if (trees.trunks && trees.trunks->empty()) throw InvalidArgument("trees.trunks is empty: give the path of a raster, or none");
+  if (trees.trunks && !trees.canopy)
+    throw InvalidArgument("trees.trunks is a raster of the trunks below a canopy: give trees.canopy, too");
+  require_one_of("trees.heights", trees.heights, CanopyHeights::elevations);
+  require_between("trees.trunk_ratio", trees.trunk_ratio, 0.0, 0.95);
+}
+
 void check_grid(const PackSettings& s) {
   require_one_of("align", s.align, AlignMode::fixed);
   require_one_of("assign", s.assign, Assign::whole);
@@ -86,17 +97,23 @@ void choose_part(const PackSettings& s, StageSettings& stages) {
   stages.shard = *s.shard;
 }
 
-}  // namespace
-
-StageSettings resolved(const PackSettings& s) {
+void check(const PackSettings& s) {
   check_files(s);
   check_input(s);
+  check_trees(s.trees);
   check_grid(s);
   check_area(s);
   check_parts(s);
+}
+
+}  // namespace
+
+StageSettings resolved(const PackSettings& s) {
+  check(s);
   StageSettings stages;
   stages.inputs = s.inputs;
   stages.terrain = s.terrain;
+  stages.trees = s.trees;
   stages.output = s.output;
   stages.overwrite = s.overwrite;
   stages.ingest = {s.footprints, {s.lod}, s.obj_origin, s.up};

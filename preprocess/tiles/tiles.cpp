@@ -96,7 +96,8 @@ class TileCutter {
     tiles_.height_origin_m = lowest_whole_metre();
   }
 
-  TileSet run(Report& report) {
+  TileSet run(Report& report, const OnGround& on_ground) {
+    if (on_ground) on_ground(*ground_, tiles_.height_origin_m);
     place_ground();
     place_ground_edges();
     note_ground_heights();
@@ -371,7 +372,7 @@ class TileCutter {
 }  // namespace
 
 TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, const std::optional<TerrainRaster>& terrain,
-                       Report& report, const std::stop_token& stop) {
+                       Report& report, const std::stop_token& stop, const OnGround& on_ground) {
   throw_if_cancelled(stop);
   // The ground covers the whole grid between and around buildings. Of a terrain alone nothing is known beyond its points
   const GroundExtent extent = located.city.buildings().empty() ? GroundExtent::points : GroundExtent::rectangle;
@@ -389,7 +390,7 @@ TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, con
   // The bases of buildings define the ground only where no survey does
   const std::vector<Base> bases = surveyed ? std::vector(city.buildings().size(), Base::on_ground) : bases_of(city);
   Ground ground = surveyed ? std::move(*surveyed) : Ground(base_points(city, bases), grid.rectangle(), extent);
-  return TileCutter(std::move(city), located, grid, assign, std::move(ground), bases, stop).run(report);
+  return TileCutter(std::move(city), located, grid, assign, std::move(ground), bases, stop).run(report, on_ground);
 }
 
 }  // namespace farlod::tiles

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <stop_token>
 
@@ -9,12 +10,16 @@
 #include "city/terrain_raster.hpp"
 #include "contract/grid.hpp"
 #include "farlod/problem.hpp"
+#include "tiles/ground.hpp"
 #include "tiles/tile_set.hpp"
 
 namespace farlod::tiles {
 
 /// A facet farther than this from its plane is reported (the default tolerance of val3dity).
 inline constexpr double planarity_tolerance_m = 0.01;
+
+/// Called once, when the ground is known and before a building is cut. Heights in the tiles count from `height_origin_m`.
+using OnGround = std::function<void(const Ground& ground, double height_origin_m)>;
 
 /// Triangulates the city and its ground and cuts them into the cells of the grid.
 ///   (1) the tiles partition the city: the exact area vectors of a facet's pieces sum to its own, and no piece lies in two tiles
@@ -25,6 +30,6 @@ inline constexpr double planarity_tolerance_m = 0.01;
 /// above ground. Throws Cancelled when `stop` is asked for.
 [[nodiscard]] TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign,
                                      const std::optional<TerrainRaster>& terrain, Report& report,
-                                     const std::stop_token& stop = {});
+                                     const std::stop_token& stop = {}, const OnGround& on_ground = {});
 
 }  // namespace farlod::tiles

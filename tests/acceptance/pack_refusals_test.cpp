@@ -37,6 +37,7 @@ class PackRefuses : public testing::TestWithParam<Refused> {
         R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[0,0,0]},"CityObjects":{},"vertices":[]})");
     folder.write("cut.city.json", R"({"type":"CityJSON","vers)");
     folder.write("nothing.geojson", R"({"type":"FeatureCollection","features":[]})");
+    folder.write("text.txt", "no table");
     folder.write("typo.toml", "cel = 40\n");
   }
   WorkFolder folder;
@@ -68,6 +69,15 @@ INSTANTIATE_TEST_SUITE_P(
                 {"forest.city.json holds no Building"}},
         Refused{"FootprintsWithoutFeatures", "nothing.geojson -o a.farlod", exit_unusable_input, {"nothing.geojson"}},
         Refused{"OneOfTwoIsMissing", "town.geojson lost.gml -o a.farlod", exit_unusable_input, {"lost.gml does not exist"}},
+        Refused{"NoTrees", "town.geojson --trees lost.csv -o a.farlod", exit_unusable_input, {"lost.csv", "does not exist"}},
+        Refused{"TreesAreNoInventory", "town.geojson --trees text.txt -o a.farlod --quiet", exit_unusable_input, {"text.txt"}},
+        Refused{"CanopyIsNoRaster",
+                "town.geojson --canopy town.geojson -o a.farlod --quiet",
+                exit_unusable_input,
+                {"town.geojson", "is not a raster of the heights of crowns"}},
+        Refused{"TrunksWithoutCanopy", "town.geojson --trunk a.tif -o a.farlod", exit_usage, {"--trunk", "--canopy"}},
+        Refused{"TrunksAboveCrowns", "town.geojson --trunk-ratio 1.5 -o a.farlod", exit_usage, {"--trunk-ratio"}},
+        Refused{"TreesWithoutAName", "town.geojson --trees '' -o a.farlod", exit_usage, {"--trees", "empty"}},
         Refused{"NoTerrain", "town.geojson --terrain lost.tif -o a.farlod", exit_unusable_input, {"lost.tif"}},
         Refused{"TerrainIsNoRaster",
                 "town.geojson --terrain town.geojson -o a.farlod",

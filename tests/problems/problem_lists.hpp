@@ -67,6 +67,13 @@ inline bool needs_company(const Fixture& fixture) {
          fixture.name.first == static_cast<int>(ProblemCode::unusable_file);
 }
 
+/// Whether a file is of trees, and read beside a city.
+inline bool is_of_trees(const Fixture& fixture) {
+  const auto code = static_cast<ProblemCode>(fixture.name.first);
+  return (ProblemCode::tree_size_missing <= code && code <= ProblemCode::trunk_above_crown) ||
+         code == ProblemCode::tree_outside_of_grid;
+}
+
 /// What has to be read for the problem to show.
 inline std::vector<std::filesystem::path> inputs_with(const Fixture& fixture) {
   return needs_company(fixture) ? std::vector{fixture.path, good_city()} : std::vector{fixture.path};

@@ -131,6 +131,19 @@ def test_terrain_in_memory(tmp_path: Path) -> None:
     assert city.evaluate([[690005.0, 5.3e6 + 5.0]]).height[0] == pytest.approx(101.5, abs=0.01)
 
 
+def test_trees_in_memory(tmp_path: Path) -> None:
+    squares = [shapely.geometry.box(690000.0 + x, 5.3e6 + 20, 690010.0 + x, 5.3e6 + 30) for x in (0.0, 60.0)]
+    frame = geopandas.GeoDataFrame({"h": [6.0, 6.0]}, geometry=squares, crs="EPSG:25832")
+    places = [shapely.geometry.Point(690020.0 + x, 5.3e6 + 25) for x in (0.0, 10.0, 20.0)]
+    trees = geopandas.GeoDataFrame({"top": [8.0, 9.0, 10.0], "wide": [4.0, 5.0, 6.0]}, geometry=places, crs="EPSG:25832")
+    described = farlod.Trees(trees, height="top", crown="wide", trunk_ratio=0.5)
+    city = farlod.pack(frame, tmp_path / "trees.farlod", heights="h", trees=described)
+    assert city.report.facts["crowns_of_trees"] == 3 and not city.report.problems
+    with pytest.warns(farlod.ProblemsWarning, match="120 tree_size_missing"):
+        other = farlod.pack(frame, tmp_path / "others.farlod", heights="h", trees=trees.drop(columns=["top", "wide"]))
+    assert other.report.facts["crowns_of_trees"] == 3
+
+
 def test_problems_are_told(tmp_path: Path) -> None:
     broken = SOURCES / "datasets" / "broken" / "104_ring_not_closed.gml"
     with pytest.warns(farlod.ProblemsWarning, match="104 ring_not_closed"):

@@ -3,6 +3,7 @@
 #include "ingest/footprints/height_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -12,6 +13,19 @@ namespace {
 
 constexpr double metres_in_a_foot = 0.3048;
 constexpr double feet_in_an_inch = 1.0 / 12.0;
+
+struct UnitName {
+  std::string_view text;
+  LengthUnit unit;
+};
+constexpr std::array<UnitName, 20> unit_names{
+    {{"m", LengthUnit::metre},        {"m.", LengthUnit::metre},      {"metre", LengthUnit::metre},
+     {"metres", LengthUnit::metre},   {"meter", LengthUnit::metre},   {"meters", LengthUnit::metre},
+     {"ft", LengthUnit::foot},        {"ft.", LengthUnit::foot},      {"feet", LengthUnit::foot},
+     {"foot", LengthUnit::foot},      {"'", LengthUnit::foot},        {"cm", LengthUnit::centimetre},
+     {"cm.", LengthUnit::centimetre}, {"mm", LengthUnit::millimetre}, {"mm.", LengthUnit::millimetre},
+     {"in", LengthUnit::inch},        {"in.", LengthUnit::inch},      {"inch", LengthUnit::inch},
+     {"inches", LengthUnit::inch},    {"\"", LengthUnit::inch}}};
 
 void skip_blanks(std::string_view& text) { text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size())); }
 
@@ -34,10 +48,8 @@ std::optional<double> take_number(std::string_view& text) {
 
 std::optional<double> unit_m(std::string_view unit, LengthUnit plain) {
   if (unit.empty()) return metres_in(plain);
-  for (const std::string_view name : {"m", "m.", "metre", "metres", "meter", "meters"})
-    if (unit == name) return 1.0;
-  for (const std::string_view name : {"ft", "ft.", "feet", "foot", "'"})
-    if (unit == name) return metres_in_a_foot;
+  for (const UnitName& name : unit_names)
+    if (unit == name.text) return metres_in(name.unit);
   return std::nullopt;
 }
 
@@ -45,7 +57,21 @@ std::string_view without_blanks_behind(std::string_view text) { return text.subs
 
 }  // namespace
 
-double metres_in(LengthUnit unit) { return unit == LengthUnit::foot ? metres_in_a_foot : 1.0; }
+double metres_in(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::metre:
+      return 1.0;
+    case LengthUnit::foot:
+      return metres_in_a_foot;
+    case LengthUnit::centimetre:
+      return 0.01;
+    case LengthUnit::millimetre:
+      return 0.001;
+    case LengthUnit::inch:
+      break;
+  }
+  return feet_in_an_inch * metres_in_a_foot;
+}
 
 std::optional<double> length_m_from(std::string_view text, LengthUnit plain) {
   text = without_blanks_behind(text);

@@ -70,9 +70,9 @@ py::dict dict_of(const PackResult& result) {
   py::dict seconds;
   for (const auto& [stage, s] : result.stage_seconds) seconds[py::str(stage)] = s;
   py::dict facts("street_bearing_deg"_a = result.street_bearing.degrees(), "alignment_strength"_a = result.alignment_strength,
-                 "facets"_a = result.facets, "foundations"_a = result.foundations, "skipped"_a = result.skipped,
-                 "notes"_a = result.notes, "package_bytes"_a = result.package_bytes, "far_map_bytes"_a = result.far_map_bytes,
-                 "seconds"_a = seconds);
+                 "facets"_a = result.facets, "foundations"_a = result.foundations, "crowns_of_trees"_a = result.crowns.of_trees,
+                 "crowns_of_canopy"_a = result.crowns.of_canopy, "skipped"_a = result.skipped, "notes"_a = result.notes,
+                 "package_bytes"_a = result.package_bytes, "far_map_bytes"_a = result.far_map_bytes, "seconds"_a = seconds);
   if (result.chosen)
     facts["error_on_trial"] = py::dict("mean"_a = result.chosen->measured.mean_error, "max"_a = result.chosen->measured.max_error,
                                        "receivers"_a = result.chosen->measured.receivers);
@@ -108,6 +108,20 @@ void add_footprints(py::module_& module) {
       .def_readwrite("default_height_m", &FootprintSettings::default_height_m);
 }
 
+void add_trees(py::module_& module) {
+  py::class_<TreeSettings>(module, "TreeSettings")
+      .def(py::init<>())
+      .def("set_files",
+           [](TreeSettings& trees, const std::vector<std::string>& files) { trees.files.assign(files.begin(), files.end()); })
+      .def("set_canopy", [](TreeSettings& trees, const std::string& file) { trees.canopy = file; })
+      .def("set_trunks", [](TreeSettings& trees, const std::string& file) { trees.trunks = file; })
+      .def("set_elevations", [](TreeSettings& trees) { trees.heights = CanopyHeights::elevations; })
+      .def_readwrite("height_field", &TreeSettings::height_field)
+      .def_readwrite("crown_field", &TreeSettings::crown_field)
+      .def_readwrite("trunk_field", &TreeSettings::trunk_field)
+      .def_readwrite("trunk_ratio", &TreeSettings::trunk_ratio);
+}
+
 void set_words(PackSettings& settings, const std::string& up, const std::string& assign, const std::string& far_map,
                const std::string& problems) {
   settings.up = either<UpAxis>("up", up, {"z", UpAxis::z}, {"y", UpAxis::y});
@@ -138,6 +152,7 @@ void add_pack_settings(py::module_& module) {
       .def_readwrite("out_crs", &PackSettings::out_crs)
       .def_readwrite("lod", &PackSettings::lod)
       .def_readwrite("footprints", &PackSettings::footprints)
+      .def_readwrite("trees", &PackSettings::trees)
       .def_readwrite("cell_edge_m", &PackSettings::cell_edge_m)
       .def_readwrite("neighborhood", &PackSettings::neighborhood)
       .def_readwrite("max_error", &PackSettings::max_error);
@@ -152,6 +167,7 @@ void add_packing(py::module_& module) {
            }),
            py::arg("threads"), py::arg("memory_limit_mib"), py::arg("progress"));
   add_footprints(module);
+  add_trees(module);
   add_pack_settings(module);
   module.def("pack", &pack_in_python, py::arg("settings"), py::arg("problems"), py::arg("caller"));
 }

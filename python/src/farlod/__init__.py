@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from farlod._city import City, Hemisphere, PackageCheck, PointAnswers, SvfInterval, open
 from farlod._modules import runtime as _runtime
-from farlod._packing import Heights, Problem, ProblemsWarning, Report, pack
+from farlod._packing import Heights, Problem, ProblemsWarning, Report, Trees, pack
 from farlod._settings import Options
 from farlod.errors import (
     Cancelled,
@@ -57,6 +57,7 @@ __all__ = [
     "ProblemsWarning",
     "Report",
     "SvfInterval",
+    "Trees",
     "open",
     "pack",
 ]

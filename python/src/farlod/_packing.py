@@ -95,6 +95,36 @@ class Heights:
     default: float | None = None
 
 
+@dataclass(frozen=True)
+class Trees:
+    """The trees of a city: inventories, each tree with a crown of its own, and a raster of canopies.
+
+    Attributes
+    ----------
+    inventory : path, GeoDataFrame, or a list of these, optional
+        Points of trees or outlines of crowns, with their sizes in attributes; a table with columns ``lon`` and ``lat``, or ``x``
+        and ``y``.
+    height, crown, trunk : str, optional
+        Attributes with a tree's height, the diameter of its crown, and the height at which the crown begins (metres). Without
+        them, names that are usual are looked for.
+    canopy, canopy_trunk : path or xarray.DataArray, optional
+        Heights of the tops of crowns above the ground, 0 where there is none, and the heights at which these crowns begin.
+    absolute : bool, default False
+        Whether the heights of these rasters are elevations.
+    trunk_ratio : float, default 0.25
+        Share of its height at which a crown begins, where nothing else says it, 0 to 0.95.
+    """
+
+    inventory: Any = None
+    height: str | None = None
+    crown: str | None = None
+    trunk: str | None = None
+    canopy: Any = None
+    canopy_trunk: Any = None
+    absolute: bool = False
+    trunk_ratio: float = 0.25
+
+
 Align = Union[Literal["auto", "none"], float]
 
 
@@ -108,6 +138,25 @@ def _footprints(heights: Heights, module: Any) -> Any:
     if heights.default is not None:
         fields.default_height_m = _arguments.number("heights.default", heights.default)
     return fields
+
+
+def _trees(trees: Trees, module: Any, folder: str, crs: str) -> Any:
+    settings = module.TreeSettings()
+    if trees.inventory is not None:
+        inventories = trees.inventory if isinstance(trees.inventory, list) else [trees.inventory]
+        settings.set_files([saved_model(one, folder, f"trees_{n}", crs=crs).path for n, one in enumerate(inventories)])
+    for ours, theirs in (("height", "height_field"), ("crown", "crown_field"), ("trunk", "trunk_field")):
+        name = getattr(trees, ours)
+        if name is not None:
+            setattr(settings, theirs, _arguments.path(f"trees.{ours}", name))
+    if trees.canopy is not None:
+        settings.set_canopy(saved_model(trees.canopy, folder, "canopy", crs=crs).path)
+    if trees.canopy_trunk is not None:
+        settings.set_trunks(saved_model(trees.canopy_trunk, folder, "trunk", crs=crs).path)
+    if _arguments.flag("trees.absolute", trees.absolute):
+        settings.set_elevations()
+    settings.trunk_ratio = _arguments.number("trees.trunk_ratio", trees.trunk_ratio)
+    return settings
 
 
 def _set_grid(settings: Any, cell: Any, neighborhood: Any, max_error: Any, align: Any) -> None:
@@ -165,6 +214,7 @@ def pack(
     neighborhood: int | None = None,
     max_error: float | None = None,
     terrain: Any = None,
+    trees: Any = None,
     heights: Heights | str | None = None,
     crs: Any = None,
     out_crs: Any = None,
@@ -200,6 +250,8 @@ def pack(
         Chooses cells and neighborhood so that sky view factors keep this error, 0.0001 to 1.
     terrain : path or xarray.DataArray, optional
         Elevations of the ground, in metres; not with a surface model, which is all ground.
+    trees : Trees, path, GeoDataFrame, or a list of paths and GeoDataFrames, optional
+        The trees of the city; anything but :class:`Trees` is an inventory.
     heights : Heights or str, optional
         Where the heights of footprints come from; a str is the attribute with the height above the base. Without it, names that
         are usual (``height``, ``measuredHeight``, ``building:levels``, ...) are looked for.
@@ -285,6 +337,9 @@ def pack(
         settings.set_inputs([model.path for model in saved])
         if terrain is not None:
             settings.set_terrain(saved_model(terrain, folder, "terrain", crs=settings.crs).path)
+        if trees is not None:
+            trees = trees if isinstance(trees, Trees) else Trees(inventory=trees)
+            settings.trees = _trees(trees, module, folder, settings.crs)
         _set_area(settings, area, folder)
         try:
             facts = module.pack(settings, rows, caller)

@@ -12,11 +12,15 @@ using testing::ContainerEq;
 /// All options of farlod-pack: an option that is added, renamed or removed changes this list.
 TEST(PackHelp, ListsTheseOptionsAndNoOthers) {
   const std::set<std::string> options{
-      "--help",       "--version",      "--crs",           "--out-crs",      "--origin",         "--up",      "--height-field",
-      "--base-field", "--roof-field",   "--storeys-field", "--floor-height", "--default-height", "--lod",     "--terrain",
-      "--cell",       "--neighborhood", "--max-error",     "--align",        "--assign",         "--far-map", "--output",
-      "--area",       "--force",        "--memory-limit",  "--report",       "--strict",         "--summary", "--quiet",
-      "--threads",    "--config",       "--resume",        "--shard",        "--merge"};
+      "--help",         "--version",        "--crs",        "--out-crs",      "--origin",
+      "--up",           "--height-field",   "--base-field", "--roof-field",   "--storeys-field",
+      "--floor-height", "--default-height", "--lod",        "--terrain",      "--cell",
+      "--neighborhood", "--max-error",      "--align",      "--assign",       "--far-map",
+      "--output",       "--area",           "--force",      "--memory-limit", "--report",
+      "--strict",       "--summary",        "--quiet",      "--threads",      "--config",
+      "--resume",       "--shard",          "--merge",      "--trees",        "--tree-height-field",
+      "--crown-field",  "--trunk-field",    "--canopy",     "--trunk",        "--canopy-absolute",
+      "--trunk-ratio"};
   EXPECT_THAT(test::options_in(test::help_of("farlod-pack")), ContainerEq(options));
 }
 

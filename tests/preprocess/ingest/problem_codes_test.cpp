@@ -9,10 +9,11 @@ namespace {
 using farlod::test::Fixture;
 using farlod::test::fixtures_of_stages;
 using farlod::test::good_city;
+using farlod::test::is_of_trees;
 
 std::vector<Fixture> fixtures_of_ingest(bool in_company) {
   std::vector<Fixture> files = fixtures_of_stages(1, 1);
-  std::erase_if(files, [=](const Fixture& fixture) { return needs_company(fixture) != in_company; });
+  std::erase_if(files, [=](const Fixture& fixture) { return is_of_trees(fixture) || needs_company(fixture) != in_company; });
   return files;
 }
 

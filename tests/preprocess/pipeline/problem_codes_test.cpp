@@ -12,6 +12,7 @@ namespace {
 
 using farlod::test::Fixture;
 using farlod::test::fixtures_of_stages;
+using farlod::test::is_of_trees;
 
 /// --crs, which files that do not say their CRS need, and two of the problems are of. It overrules one file only.
 georeference::GeoreferenceSettings georeference_of(const Fixture& fixture) {
@@ -19,13 +20,28 @@ georeference::GeoreferenceSettings georeference_of(const Fixture& fixture) {
   return {"EPSG:32632", "", !is_overruled};
 }
 
+/// What has to be packed for the problem to show.
+void use(const Fixture& fixture, StageSettings& settings) {
+  settings.georeference = georeference_of(fixture);
+  settings.inputs = inputs_with(fixture);
+  if (!is_of_trees(fixture)) return;
+  settings.inputs = {farlod::test::good_city()};
+  const bool is_raster = fixture.path.extension() == ".asc";
+  is_raster ? static_cast<void>(settings.trees.canopy = fixture.path) : settings.trees.files.push_back(fixture.path);
+}
+
+std::vector<Fixture> trees_of_ingest() {
+  std::vector<Fixture> files = fixtures_of_stages(1, 1);
+  std::erase_if(files, [](const Fixture& fixture) { return !is_of_trees(fixture); });
+  return files;
+}
+
 class BrokenFile : public testing::TestWithParam<Fixture> {};
 
 TEST_P(BrokenFile, HasExactlyItsProblemAndIsPacked) {
   const int code = GetParam().name.first;
   Packing p;
-  p.settings.inputs = {GetParam().path};
-  p.settings.georeference = georeference_of(GetParam());
+  use(GetParam(), p.settings);
   p.run();
   EXPECT_EQ(p.codes(), std::set<int>{code});
   const std::vector<std::pair<int, std::uint64_t>> counts{{code, p.report.problems().size()}};
@@ -35,11 +51,12 @@ TEST_P(BrokenFile, HasExactlyItsProblemAndIsPacked) {
 
 INSTANTIATE_TEST_SUITE_P(Pipeline, BrokenFile, testing::ValuesIn(fixtures_of_stages(2, 4)),
                          [](const auto& test) { return test.param.name.second; });
+INSTANTIATE_TEST_SUITE_P(Trees, BrokenFile, testing::ValuesIn(trees_of_ingest()),
+                         [](const auto& test) { return test.param.name.second; });
 
 TEST_P(BrokenFile, IsRefusedWhereProblemsAre) {
   Packing p;
-  p.settings.inputs = {GetParam().path};
-  p.settings.georeference = georeference_of(GetParam());
+  use(GetParam(), p.settings);
   p.settings.problems = ProblemPolicy::refuse;
   EXPECT_THROW(p.run(), ProblemsRefused);
   EXPECT_EQ(p.codes(), std::set<int>{GetParam().name.first});
@@ -52,8 +69,7 @@ TEST_P(PlacedProblem, IsOnTheMapUnlessItIsOfNoPlace) {
                                              ProblemCode::nearly_empty_grid, ProblemCode::another_format,
                                              ProblemCode::empty_file,        ProblemCode::unusable_file};
   Packing p;
-  p.settings.inputs = inputs_with(GetParam());
-  p.settings.georeference = georeference_of(GetParam());
+  use(GetParam(), p.settings);
   p.run();
   ASSERT_FALSE(p.report.problems().empty());
   for (const Problem& problem : p.report.problems()) {
@@ -99,6 +115,7 @@ TEST(BrokenFiles, LoseWhatIsLeftOutAndNothingElse) {
       {"floor_in_the_air", {{"lower", "upper"}, 12}},
   };
   for (const Fixture& fixture : fixtures_of_stages(2, 4)) {
+    if (is_of_trees(fixture)) continue;
     const auto remains = expected.find(fixture.name.second);
     ASSERT_NE(remains, expected.end()) << "say what is left of " << fixture.path;
     Packing p;

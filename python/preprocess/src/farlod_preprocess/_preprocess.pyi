@@ -21,11 +21,23 @@ class FootprintSettings:
     default_height_m: float | None
     def __init__(self) -> None: ...
 
+class TreeSettings:
+    height_field: str | None
+    crown_field: str | None
+    trunk_field: str | None
+    trunk_ratio: float
+    def __init__(self) -> None: ...
+    def set_files(self, files: Sequence[str]) -> None: ...
+    def set_canopy(self, file: str) -> None: ...
+    def set_trunks(self, file: str) -> None: ...
+    def set_elevations(self) -> None: ...
+
 class PackSettings:
     crs: str
     out_crs: str
     lod: int | None
     footprints: FootprintSettings
+    trees: TreeSettings
     cell_edge_m: float | None
     neighborhood: int | None
     max_error: float | None

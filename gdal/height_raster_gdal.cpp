@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "gdal/height_raster_gdal.hpp"
+
+#include <cpl_error.h>
+#include <gdal_utils.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "farlod/error.hpp"
+
+namespace farlod {
+
+void refuse_raster(const std::filesystem::path& file, const std::string& what) {
+  const std::string reason = CPLGetLastErrorMsg();
+  throw InputError(file.string() + ": " + what + (reason.empty() ? "" : " (" + reason + ")"));
+}
+
+GDALDatasetUniquePtr open_height_raster(GdalReach reach, const std::filesystem::path& file, const std::string& what_it_is_not) {
+  CPLErrorReset();
+  GDALDatasetUniquePtr dataset = open_within(reach, file, GDAL_OF_RASTER);
+  if (!dataset || dataset->GetRasterCount() < 1) refuse_raster(file, what_it_is_not);
+  return dataset;
+}
+
+GeoTransform geo_transform_of(GDALDataset& dataset, const std::filesystem::path& file) {
+  GeoTransform t{};
+  if (dataset.GetGeoTransform(t.data()) != CE_None)
+    refuse_raster(file, "has no place on the map: give it one with gdal_translate -a_ullr, or a world file");
+  return t;
+}
+
+std::optional<double> named_unit_m(GDALRasterBand& band) {
+  const std::string unit = band.GetUnitType();
+  constexpr double us_survey_foot_m = 1200.0 / 3937.0, foot_m = 0.3048;
+  for (const char* name : {"ftUS", "us-ft", "US survey foot", "US survey feet", "Foot_US", "us_survey_feet"})
+    if (EQUAL(unit.c_str(), name)) return us_survey_foot_m;
+  for (const char* name : {"ft", "foot", "feet", "international foot"})
+    if (EQUAL(unit.c_str(), name)) return foot_m;
+  for (const char* name : {"m", "metre", "metres", "meter", "meters"})
+    if (EQUAL(unit.c_str(), name)) return 1.0;
+  return std::nullopt;
+}
+
+GDALDatasetUniquePtr warped_raster(GDALDataset& dataset, const WarpWay& way) {
+  // A scale of 1 keeps GDAL from widening the kernel where pixels get larger, which would change slopes
+  std::vector<std::string> words{"-of",          "VRT", "-s_srs", way.from_wkt, "-t_srs",  way.to_wkt, "-r",
+                                 way.resampling, "-et", "0",      "-ot",        "Float64", "-wt",      "Float64",
+                                 "-dstnodata",   "nan", "-wo",    "XSCALE=1",   "-wo",     "YSCALE=1"};
+  if (way.step) words.insert(words.end(), {"-tr", std::to_string(*way.step), std::to_string(*way.step)});
+  if (way.extent) {
+    const auto& [low, high] = *way.extent;
+    words.insert(words.end(),
+                 {"-te", std::to_string(low.x), std::to_string(low.y), std::to_string(high.x), std::to_string(high.y)});
+  }
+  std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const std::unique_ptr<GDALWarpAppOptions, void (*)(GDALWarpAppOptions*)> options(
+      GDALWarpAppOptionsNew(arguments.data(), nullptr), GDALWarpAppOptionsFree);
+  GDALDatasetH source = GDALDataset::ToHandle(&dataset);
+  return GDALDatasetUniquePtr(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &source, options.get(), nullptr)));
+}
+
+bool read_pixels(GDALRasterBand& band, int column, int row, std::vector<double>& values) {
+  const int count = static_cast<int>(values.size());
+  std::vector<unsigned char> mask(values.size());
+  if (band.RasterIO(GF_Read, column, row, count, 1, values.data(), count, 1, GDT_Float64, 0, 0, nullptr) != CE_None ||
+      band.GetMaskBand()->RasterIO(GF_Read, column, row, count, 1, mask.data(), count, 1, GDT_Byte, 0, 0, nullptr) != CE_None)
+    return false;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (mask[k] == 0 || !std::isfinite(values[k])) values[k] = std::numeric_limits<double>::quiet_NaN();
+  return true;
+}
+
+}  // namespace farlod

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "city/paged_array.hpp"
+#include "city/source.hpp"
+#include "contract/canopy/crown.hpp"
+#include "farlod/point.hpp"
+
+namespace farlod {
+
+/// No tree on Earth is higher, or has a wider crown.
+inline constexpr double highest_tree_m = 130.0, widest_crown_m = 80.0;
+
+/// A tree of an inventory, with all of its sizes: what the file does not say is filled in.
+struct Tree {
+  Point2d place;  ///< in a frame that is named
+  float height_m = 0.0F, crown_diameter_m = 0.0F;
+  float trunk_height_m = 0.0F;  ///< at which the crown begins; below the height
+  std::uint16_t source = 0;     ///< the number of its file
+  Foliage foliage = Foliage::unknown;
+
+  bool operator==(const Tree&) const = default;
+};
+
+/// An inventory, read: places are still those of the file.
+struct SourceTrees {
+  std::string source;  ///< the file's name as the user gave it
+  SourceCrs crs;
+  PagedArray<Tree> trees;
+  SkippedFeatures skipped = {};
+};
+
+}  // namespace farlod
