@@ -55,7 +55,8 @@ enum class RandomStream : std::uint64_t {
   projecting_floors,
   wrong_base,
   balconies,
-  facade
+  facade,
+  trees
 };
 
 [[nodiscard]] constexpr std::uint64_t key_of(RandomStream stream) { return static_cast<std::uint64_t>(stream); }

@@ -38,7 +38,7 @@ ProgramDescription city_program() {
 
 /// Options whose texts are resolved after parsing.
 struct RawOptions {
-  std::string output, crs = "EPSG:32632";
+  std::string output, trees, crs = "EPSG:32632";
   std::int64_t buildings = 0;
 };
 
@@ -55,6 +55,9 @@ void add_settings(CLI::App& app, CitySettings& settings) {
 
 void add_other_options(CLI::App& app, RawOptions& raw, CityOptions& o) {
   app.add_option("-o,--output", raw.output, "File to write")->required()->type_name(file_value)->group("Output");
+  app.add_option("--trees", raw.trees, "GeoJSON to write trees to as well: avenues, yards and parks; for farlod-pack --trees")
+      ->type_name(file_value)
+      ->group("Output");
   app.add_flag("--obj-from-centre", o.obj_from_centre,
                "OBJ: count x and y from the city's centre, for viewers that compute in float")
       ->group("Output");
@@ -89,6 +92,7 @@ void resolve(const RawOptions& raw, const CLI::App& app, CityOptions& o) {
   const auto format = city_format_of(o.output);
   if (!format) throw CLI::ValidationError("--output", raw.output + " must end in .gml, .city.json, .obj or .geojson");
   o.format = *format;
+  o.trees = raw.trees;
   if (o.obj_from_centre && o.format != CityFormat::obj) throw CLI::ValidationError("--obj-from-centre", "is for .obj only");
   const auto epsg = epsg_code(raw.crs);
   if (!epsg) throw CLI::ValidationError("--crs", "\"" + raw.crs + "\" is not like EPSG:32632");

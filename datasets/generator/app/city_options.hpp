@@ -17,6 +17,7 @@ struct CityOptions {
   std::filesystem::path output;
   CityFormat format = CityFormat::obj;
   bool obj_from_centre = false;
+  std::filesystem::path trees;  ///< empty: none are written
   RunOptions run;
 };
 

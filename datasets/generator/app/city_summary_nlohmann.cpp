@@ -12,6 +12,7 @@ std::string city_summary_json(const CityOptions& options, const CityCounts& coun
                                           {"polygons", counts.polygons},
                                           {"towers", counts.towers},
                                           {"bridges", counts.bridges},
+                                          {"trees", counts.trees},
                                           {"tallest_m", counts.tallest_m},
                                           {"size_m", options.settings.size_m},
                                           {"seconds", {{"total", counts.seconds}}},

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -76,6 +77,7 @@ TEST(CityHelp, ListsTheseOptionsAndNoOthers) {
                                       "--crs",
                                       "--output",
                                       "--obj-from-centre",
+                                      "--trees",
                                       "--summary",
                                       "--quiet",
                                       "--threads",
@@ -95,6 +97,36 @@ TEST_F(FarlodCity, WritesACityAndASummary) {
   EXPECT_GE(summary.at("seconds").at("total"), 0.0);
   EXPECT_EQ(summary.at("output_bytes"), fs::file_size(folder_.file("town.obj")));
   EXPECT_THAT(outcome.text, HasSubstr(std::to_string(summary.at("buildings").get<int>()) + " buildings"));
+}
+
+TEST_F(FarlodCity, WritesTreesBesideACity) {
+  const Outcome outcome = run("-o town.geojson --size 400 --trees trees.geojson --summary town.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  const auto trees = nlohmann::json::parse(text_of("trees.geojson"));
+  const std::size_t count = trees.at("features").size();
+  EXPECT_EQ(nlohmann::json::parse(text_of("town.json")).at("trees"), count);
+  EXPECT_THAT(outcome.text, HasSubstr("trees.geojson: " + std::to_string(count) + " trees"));
+  EXPECT_GT(count, 200U);
+  std::size_t evergreen = 0;
+  for (const auto& tree : trees.at("features")) {
+    const auto& p = tree.at("properties");
+    EXPECT_GE(p.at("height"), 5.0);
+    EXPECT_LE(p.at("height"), 18.0);
+    EXPECT_LT(p.at("trunk_height"), p.at("height"));
+    EXPECT_GT(p.at("crown_diameter"), 1.5);
+    evergreen += p.at("leaf_cycle") == "evergreen" ? 1 : 0;
+    // The city is 400 m wide, around its centre
+    EXPECT_LT(std::abs(tree.at("geometry").at("coordinates").at(0).get<double>() - 550000.0), 200.0);
+    EXPECT_LT(std::abs(tree.at("geometry").at("coordinates").at(1).get<double>() - 5500000.0), 200.0);
+  }
+  EXPECT_GT(evergreen, count / 20);
+  EXPECT_LT(evergreen, count / 4);
+  // Trees change no building, and are the same each time
+  EXPECT_EQ(run("-o town.geojson --size 400 --quiet --trees other.geojson").exit_code, 0);
+  EXPECT_EQ(text_of("other.geojson"), text_of("trees.geojson"));
+  const std::string with_trees = text_of("town.geojson");
+  EXPECT_EQ(run("-o town.geojson --size 400 --quiet").exit_code, 0);
+  EXPECT_EQ(text_of("town.geojson"), with_trees);
 }
 
 TEST_F(FarlodCity, QuietSaysNothing) {
