@@ -19,7 +19,8 @@ namespace farlod {
 enum class SkyPart : std::uint8_t {
   sky,
   near,  ///< geometry of the neighborhood, which may hide far geometry behind it
-  far    ///< geometry beyond the neighborhood alone
+  far,   ///< geometry beyond the neighborhood alone
+  crown  ///< the crown of a tree, with sky or anything else behind it
 };
 
 /// What a receiver sees when it looks up, direction by direction: parts of equal angles in azimuth and in elevation.

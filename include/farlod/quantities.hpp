@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "farlod/angle.hpp"
+#include "farlod/canopy.hpp"
 #include "farlod/export.hpp"
 
 namespace farlod {
@@ -54,10 +55,26 @@ struct Quantities {
   /// The hours of sunshine: those of the positions at which nothing hides the sun's centre, and it shines on the receiver's
   /// front. Column `sunlit_h`; of no positions, as in a polar night, it is 0.
   std::optional<std::vector<SunPosition>> sun = {};
+  /// What crowns of trees do to the sky, by the rule of `canopy`; a package without trees has none. `svf`, horizons and all else
+  /// stay those of buildings and ground.
+  ///
+  /// The light of the sky that comes past crowns and through them: column `svf_total`. And 1 − the sky that lies behind crowns,
+  /// as UMEP defines it: column `svfveg`. By the rule `once`, with one transmissivity ψ for all crowns,
+  /// svf_total = svf − (1 − svfveg)(1 − ψ).
+  bool svf_total = false;
+  /// 1 − the sky that buildings would hide and crowns in front of them hide first, as UMEP defines it: column `svfaveg`. Takes
+  /// rays for each receiver, whatever the engine.
+  bool svfaveg = false;
+  /// What fills a receiver's view: sky, crowns, and all else; they add up to 1. Columns `share_sky`, `share_vegetation`,
+  /// `share_building`. Takes the rays of svfaveg.
+  bool sky_shares = false;
+  CanopySettings canopy = {};
 
   [[nodiscard]] bool any() const {
-    return svf_solid || directional || hidden || horizons > 0 || sky_patches != SkyPatchSet::none || sun.has_value();
+    return svf_solid || directional || hidden || horizons > 0 || sky_patches != SkyPatchSet::none || sun.has_value() ||
+           any_of_canopies();
   }
+  [[nodiscard]] bool any_of_canopies() const { return svf_total || svfaveg || sky_shares; }
 };
 
 /// The names of the columns of some quantities, in their order.

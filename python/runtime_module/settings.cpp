@@ -6,6 +6,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,6 +36,9 @@ constexpr std::array<Word<HeightAbove>, 3> heights{
     {{"ground", HeightAbove::ground}, {"surface", HeightAbove::highest_surface}, {"sea", HeightAbove::sea_level}}};
 constexpr std::array<Word<SkyPatchSet>, 3> patch_sets{
     {{"none", SkyPatchSet::none}, {"tregenza", SkyPatchSet::tregenza}, {"reinhart", SkyPatchSet::reinhart}}};
+
+constexpr std::array<Word<CanopyRule>, 3> canopy_rules{
+    {{"umep", CanopyRule::once}, {"crowns", CanopyRule::each}, {"beer", CanopyRule::beer}}};
 
 /// What a word means. Throws InvalidArgument, which lists the words that there are.
 template <class T, std::size_t n>
@@ -77,9 +81,30 @@ std::shared_ptr<Region> region_of(const std::vector<RingInPython>& rings_m) {
   return std::make_shared<Region>(rings);
 }
 
+/// What crowns of trees do, as properties of the quantities themselves.
+void add_canopy(py::class_<Quantities>& quantities) {
+  quantities.def_readwrite("svf_total", &Quantities::svf_total)
+      .def_readwrite("svfaveg", &Quantities::svfaveg)
+      .def_readwrite("shares", &Quantities::sky_shares)
+      .def_property(
+          "leaf_off", [](const Quantities& q) { return q.canopy.season == Season::leaf_off; },
+          [](Quantities& q, bool is_off) { q.canopy.season = is_off ? Season::leaf_off : Season::leaf_on; })
+      .def_property(
+          "transmissivity", [](const Quantities& q) { return q.canopy.transmissivity; },
+          [](Quantities& q, std::optional<double> share) { q.canopy.transmissivity = share; })
+      .def_property(
+          "extinction", [](const Quantities& q) { return q.canopy.extinction_per_m; },
+          [](Quantities& q, double per_m) { q.canopy.extinction_per_m = per_m; })
+      .def(
+          "set_canopy_rule",
+          [](Quantities& q, const std::string& rule) { q.canopy.rule = meaning_of("canopy_rule", rule, canopy_rules); },
+          py::arg("rule"));
+}
+
 void add_quantities(py::module_& module) {
-  py::class_<Quantities>(module, "Quantities")
-      .def(py::init<>())
+  py::class_<Quantities> exposed(module, "Quantities");
+  add_canopy(exposed);
+  exposed.def(py::init<>())
       .def_readwrite("svf_solid", &Quantities::svf_solid)
       .def_readwrite("directional", &Quantities::directional)
       .def_readwrite("hidden", &Quantities::hidden)

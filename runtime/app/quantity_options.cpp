@@ -3,9 +3,11 @@
 #include "app/quantity_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <string_view>
+#include <utility>
 
 namespace farlod {
 namespace {
@@ -40,19 +42,22 @@ SunPeriod period_of(const std::string& text, std::size_t step_minutes) {
   return {std::chrono::sys_days(first), days, std::chrono::minutes(static_cast<std::int64_t>(minutes))};
 }
 
+/// The quantities that are asked for by their name alone.
+constexpr std::array<std::pair<std::string_view, bool Quantities::*>, 6> flags{{{"svf_solid", &Quantities::svf_solid},
+                                                                                {"directional", &Quantities::directional},
+                                                                                {"hidden", &Quantities::hidden},
+                                                                                {"svf_total", &Quantities::svf_total},
+                                                                                {"svfaveg", &Quantities::svfaveg},
+                                                                                {"shares", &Quantities::sky_shares}}};
+
 void add(const std::string& name, const RawQuantities& raw, RequestedQuantities& requested) {
   if (name == "svf") return;
-  if (name == "svf_solid") {
-    requested.further.svf_solid = true;
-  } else if (name == "directional") {
-    requested.further.directional = true;
-  } else if (name == "hidden") {
-    requested.further.hidden = true;
-  } else if (name == "horizon") {
+  const auto flag = std::ranges::find(flags, name, [](const auto& f) { return f.first; });
+  if (flag != flags.end()) {
+    requested.further.*(flag->second) = true;
+  } else if (name == "horizon" || name == "horizon_distance") {
     requested.further.horizons = default_horizons;
-  } else if (name == "horizon_distance") {
-    requested.further.horizons = default_horizons;
-    requested.further.horizon_distances = true;
+    requested.further.horizon_distances |= name == "horizon_distance";
   } else if (name == "sky_patches") {
     requested.further.sky_patches = SkyPatchSet::tregenza;
   } else if (name == "sunlit") {
@@ -60,28 +65,53 @@ void add(const std::string& name, const RawQuantities& raw, RequestedQuantities&
   } else {
     throw CLI::ValidationError("--quantity", "\"" + name +
                                                  "\" is not one of svf, svf_solid, directional, hidden, horizon, "
-                                                 "horizon_distance, sky_patches, sunlit");
+                                                 "horizon_distance, sky_patches, sunlit, svf_total, svfaveg, shares");
   }
+}
+
+void add_canopy_options(CLI::App& app, RawQuantities& raw) {
+  app.add_option(
+         "--canopy-rule", raw.canopy_rule,
+         "How light passes crowns: umep: a share in each direction that meets any; crowns: that share of each one that is "
+         "met, multiplied; beer: by the length within them (--extinction)")
+      ->check(CLI::IsMember({"umep", "crowns", "beer"}))
+      ->capture_default_str()
+      ->group("Trees");
+  app.add_option("--transmissivity", raw.transmissivity,
+                 "Share of light that passes a crown (default: 0.03, and with --leaf-off 0.5)")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group("Trees");
+  app.add_option("--extinction", raw.extinction_per_m,
+                 "With --canopy-rule beer: of crowns in leaf, per metre (default: 0.6); a fifth of it with --leaf-off")
+      ->check(CLI::Range(0.001, 100.0))
+      ->group("Trees");
+  app.add_flag("--leaf-off", raw.leaf_off, "Winter: all crowns are bare but those that are known to be evergreen")
+      ->group("Trees");
+}
+
+CanopySettings canopy_of(const RawQuantities& raw, const Quantities& quantities) {
+  CanopySettings canopy;
+  const bool is_beer = raw.canopy_rule == word_for(CanopyRule::beer);
+  if (is_beer || raw.canopy_rule == word_for(CanopyRule::each)) canopy.rule = is_beer ? CanopyRule::beer : CanopyRule::each;
+  canopy.season = raw.leaf_off ? Season::leaf_off : Season::leaf_on;
+  canopy.transmissivity = raw.transmissivity;
+  if (raw.extinction_per_m) canopy.extinction_per_m = *raw.extinction_per_m;
+  if (raw.transmissivity && is_beer)
+    throw CLI::ValidationError("--transmissivity", "--canopy-rule beer counts lengths within crowns: give --extinction");
+  if (raw.extinction_per_m && !is_beer) throw CLI::ValidationError("--extinction", "it goes with --canopy-rule beer");
+  if (!(canopy == CanopySettings{}) && !quantities.any_of_canopies())
+    throw CLI::ValidationError("--canopy-rule",
+                               "this run computes nothing of trees: add --quantity svf_total, svfaveg or shares");
+  return canopy;
 }
 
 }  // namespace
 
-void add_quantity_options(CLI::App& app, RawQuantities& raw) {
-  app.add_option(
-         "--quantity", raw.quantities,
-         "What to compute, with commas: svf (always), svf_solid, directional (svfN, svfE, svfS, svfW as UMEP has them), "
-         "hidden (by near and by far geometry), horizon, horizon_distance (with the level distance to it), sky_patches, sunlit")
-      ->group("Quantities");
-  app.add_option(
-         "--horizons", raw.horizons,
-         "Elevations of the horizon, in degrees, at so many azimuths, clockwise from true north (with --quantity horizon: " +
-             std::to_string(default_horizons) + ")")
-      ->check(CLI::Range(4, 3600))
-      ->group("Quantities");
-  app.add_option("--sky-patches", raw.sky_patches,
-                 "The share seen of each patch of the sky, as Radiance counts them: 145 (Tregenza) or 577 (Reinhart)")
-      ->check(CLI::IsMember({tregenza_patches, reinhart_patches}))
-      ->group("Quantities");
+std::string word_for(CanopyRule rule) { return rule == CanopyRule::once ? "umep" : rule == CanopyRule::each ? "crowns" : "beer"; }
+
+namespace {
+
+void add_sun_options(CLI::App& app, RawQuantities& raw) {
   app.add_option(
          "--sun", raw.sun,
          "Hours of sunshine, were the sky clear: of a day, as 2026-06-21, or a year, as 2026. A picture of the sky above --at "
@@ -94,6 +124,29 @@ void add_quantity_options(CLI::App& app, RawQuantities& raw) {
       ->group("Quantities");
 }
 
+}  // namespace
+
+void add_quantity_options(CLI::App& app, RawQuantities& raw) {
+  app.add_option("--quantity", raw.quantities,
+                 "What to compute, with commas: svf (always), svf_solid, directional (svfN, svfE, svfS, svfW as UMEP has them), "
+                 "hidden (by near and by far geometry), horizon, horizon_distance (with the level distance to it), sky_patches, "
+                 "sunlit; with the trees of a package svf_total (and svfveg), "
+                 "svfaveg, shares (of sky, vegetation and building)")
+      ->group("Quantities");
+  app.add_option(
+         "--horizons", raw.horizons,
+         "Elevations of the horizon, in degrees, at so many azimuths, clockwise from true north (with --quantity horizon: " +
+             std::to_string(default_horizons) + ")")
+      ->check(CLI::Range(4, 3600))
+      ->group("Quantities");
+  app.add_option("--sky-patches", raw.sky_patches,
+                 "The share seen of each patch of the sky, as Radiance counts them: 145 (Tregenza) or 577 (Reinhart)")
+      ->check(CLI::IsMember({tregenza_patches, reinhart_patches}))
+      ->group("Quantities");
+  add_sun_options(app, raw);
+  add_canopy_options(app, raw);
+}
+
 RequestedQuantities resolved(const RawQuantities& raw) {
   RequestedQuantities requested;
   if (!raw.quantities.empty())
@@ -102,6 +155,7 @@ RequestedQuantities resolved(const RawQuantities& raw) {
   if (raw.sky_patches > 0)
     requested.further.sky_patches = raw.sky_patches == reinhart_patches ? SkyPatchSet::reinhart : SkyPatchSet::tregenza;
   if (!raw.sun.empty()) requested.sunshine = period_of(raw.sun, raw.sun_step_minutes);
+  requested.further.canopy = canopy_of(raw, requested.further);
   if (raw.sun.empty() && raw.sun_step_minutes > 0) throw CLI::ValidationError("--sun-step", "it goes with --sun");
   return requested;
 }

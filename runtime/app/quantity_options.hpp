@@ -27,7 +27,9 @@ inline constexpr std::size_t tregenza_patches = 145, reinhart_patches = 577;
 
 /// What the options of this file say, as text.
 struct RawQuantities {
-  std::string quantities, sun;
+  std::string quantities, sun, canopy_rule = "umep";
+  std::optional<double> transmissivity, extinction_per_m;
+  bool leaf_off = false;
   std::size_t horizons = 0, sky_patches = 0, sun_step_minutes = 0;
 };
 
@@ -40,6 +42,9 @@ struct RequestedQuantities {
 };
 
 void add_quantity_options(CLI::App& app, RawQuantities& raw);
+
+/// The word of --canopy-rule.
+[[nodiscard]] std::string word_for(CanopyRule rule);
 
 /// Throws CLI::ValidationError.
 [[nodiscard]] RequestedQuantities resolved(const RawQuantities& raw);

@@ -35,6 +35,15 @@ std::string accuracy_options(const EvaluationSettings& e) {
   return text;
 }
 
+std::string canopy_options(const CanopySettings& canopy) {
+  std::string text = fmt::format(" --canopy-rule {}", word_for(canopy.rule));
+  if (canopy.rule == CanopyRule::beer)
+    text += fmt::format(" --extinction {}", canopy.extinction_per_m);
+  else if (canopy.transmissivity)
+    text += fmt::format(" --transmissivity {}", *canopy.transmissivity);
+  return text + (canopy.season == Season::leaf_off ? " --leaf-off" : "");
+}
+
 std::string quantity_options(const SvfOptions& o) {
   const Quantities& q = o.evaluation.further;
   std::string text;
@@ -42,6 +51,9 @@ std::string quantity_options(const SvfOptions& o) {
   if (q.directional) text += ",directional";
   if (q.hidden) text += ",hidden";
   if (q.horizon_distances) text += ",horizon_distance";
+  if (q.svf_total) text += ",svf_total";
+  if (q.svfaveg) text += ",svfaveg";
+  if (q.sky_shares) text += ",shares";
   if (!text.empty()) text = " --quantity svf" + text;
   if (q.horizons > 0) text += fmt::format(" --horizons {}", q.horizons);
   if (q.sky_patches != SkyPatchSet::none)
@@ -53,7 +65,7 @@ std::string quantity_options(const SvfOptions& o) {
       text += fmt::format("-{:02}-{:02}", static_cast<unsigned>(first.month()), static_cast<unsigned>(first.day()));
     text += fmt::format(" --sun-step {}", o.sunshine->step.count());
   }
-  return text;
+  return text + (q.any_of_canopies() ? canopy_options(q.canopy) : "");
 }
 
 std::string part_of_package(const SvfOptions& o) {

@@ -70,6 +70,11 @@ void FurtherAnswers::draw_near_sky(const PackageReader& package, const FarHorizo
   near_sky_ = std::make_unique<NearSky>(package, cell_, far, quantities_.azimuths(), gaps);
 }
 
+void FurtherAnswers::draw_canopies(const PackageReader& package, std::stop_token stop) {
+  canopies_ = std::make_unique<CanopyAnswers>(package, cell_, quantities_.quantities(), quantities_.azimuths());
+  stop_ = std::move(stop);
+}
+
 void FurtherAnswers::store(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
   if (near_sky_) near_sky_->evaluate(packets);
   for (std::size_t n = 0; n < packets.size(); ++n) {
@@ -88,6 +93,13 @@ void FurtherAnswers::store(std::size_t packet, const ReceiverPacket& receivers, 
   const std::size_t columns = quantities_.size();
   values_.resize(numbers.size() * columns);
   quantities_.evaluate(profiles_[packet], receivers, sky, rows_, values_);
+  if (canopies_) {
+    const auto [first, count] = quantities_.canopy_columns();
+    const CanopyAnswers::Losses losses = canopies_->evaluate(profiles_[packet], receivers, stop_);
+    for (std::size_t l = 0; l < numbers.size(); ++l)
+      write_canopy_columns(quantities_.quantities(), sky.svf[l], losses[l],
+                           std::span(values_).subspan(l * columns + first, count));
+  }
   for (std::size_t l = 0; l < numbers.size(); ++l)
     std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(l * columns), columns,
                 answers_.further.begin() + static_cast<std::ptrdiff_t>(cell_.receivers[numbers[l]].index * columns));

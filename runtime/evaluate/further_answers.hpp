@@ -8,6 +8,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "evaluate/canopy_answers.hpp"
 #include "evaluate/further_quantities.hpp"
 #include "evaluate/sky_evaluator.hpp"
 #include "evaluate/traced_profile.hpp"
@@ -34,6 +35,8 @@ class FurtherAnswers {
   /// The sky above the near geometry alone is drawn for each group, where the far map is this one; or it is known for each
   /// receiver of the cell.
   void draw_near_sky(const PackageReader& package, const FarHorizon& far, const GapSettings& gaps);
+  /// The values of canopies are found with each profile; otherwise their places are left out.
+  void draw_canopies(const PackageReader& package, std::stop_token stop);
   void set_near_sky(std::vector<float> svf) { near_svf_ = std::move(svf); }
 
   /// `numbers` are those of the receivers in the cell, packet by packet.
@@ -49,6 +52,8 @@ class FurtherAnswers {
   std::vector<SkyProfile> profiles_;  ///< of the packets of a group
   std::vector<float> near_svf_;
   std::unique_ptr<NearSky> near_sky_;
+  std::unique_ptr<CanopyAnswers> canopies_;
+  std::stop_token stop_;
   FurtherQuantities::Rows rows_;
   std::vector<float> values_;
 };

@@ -162,6 +162,11 @@ HorizonColumns FurtherQuantities::horizon_columns() const {
   return columns;
 }
 
+FurtherQuantities::CanopyColumns FurtherQuantities::canopy_columns() const {
+  const std::size_t count = count_canopy_columns(quantities_);
+  return {size_ - count, count};
+}
+
 void FurtherQuantities::divide_into_halves() {
   const double half_part = 0.5 / static_cast<double>(azimuths_.size());
   constexpr std::array<double, 4> middles{0.0, 0.25, 0.5, 0.75};  // north, east, south, west
@@ -270,6 +275,7 @@ void FurtherQuantities::evaluate(const SkyProfile& profile, const ReceiverPacket
   if (quantities_.horizon_distances) columns.skip(azimuth_of_horizon_.size());
   if (quantities_.sky_patches != SkyPatchSet::none) add_patches(profile, receivers, rows, columns);
   if (quantities_.sun) add_sunlit(profile, receivers, columns);
+  columns.skip(canopy_columns().count);
   FARLOD_EXPECTS(columns.count() == size_);
 }
 

@@ -36,6 +36,8 @@ class FurtherQuantities {
   [[nodiscard]] ProfileRows profile_rows() const {
     return quantities_.svf_solid ? ProfileRows::sky_and_solid_sky : ProfileRows::sky;
   }
+  /// Whether anything is made of profiles: canopies alone may be traced without them.
+  [[nodiscard]] bool needs_profiles() const { return size_ > canopy_columns().count; }
   [[nodiscard]] bool needs_near_sky() const { return quantities_.hidden; }
 
   /// Working memory, kept from packet to packet.
@@ -48,6 +50,12 @@ class FurtherQuantities {
   };
   /// Where the horizons are whose distances must be traced: profiles do not tell them, and evaluate() leaves their places out.
   [[nodiscard]] HorizonColumns horizon_columns() const;
+  /// Where the values of canopies are, which take crowns beside profiles (CanopyAnswers): evaluate() leaves their places out.
+  struct CanopyColumns {
+    std::size_t first = 0, count = 0;
+  };
+  [[nodiscard]] CanopyColumns canopy_columns() const;
+  [[nodiscard]] const Quantities& quantities() const { return quantities_; }
 
   /// Writes the values of the packet's receivers, one receiver after the other, in the order of columns_of.
   void evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky, Rows& rows,

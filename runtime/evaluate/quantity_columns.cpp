@@ -41,6 +41,10 @@ PatchBands patch_bands_of(SkyPatchSet set) {
   return bands;
 }
 
+std::size_t count_canopy_columns(const Quantities& quantities) {
+  return (quantities.svf_total ? 2 : 0) + (quantities.svfaveg ? 1 : 0) + (quantities.sky_shares ? 3 : 0);
+}
+
 std::vector<std::string> columns_of(const Quantities& quantities) {
   std::vector<std::string> names;
   if (quantities.svf_solid) names.emplace_back("svf_solid");
@@ -51,6 +55,9 @@ std::vector<std::string> columns_of(const Quantities& quantities) {
     names.push_back(azimuth_name("distance", n, quantities.horizons));
   for (std::size_t n = 1; n <= patches_of(quantities.sky_patches); ++n) names.push_back(numbered("patch_", 3, n));
   if (quantities.sun) names.emplace_back("sunlit_h");
+  if (quantities.svf_total) names.insert(names.end(), {"svf_total", "svfveg"});
+  if (quantities.svfaveg) names.emplace_back("svfaveg");
+  if (quantities.sky_shares) names.insert(names.end(), {"share_sky", "share_vegetation", "share_building"});
   return names;
 }
 

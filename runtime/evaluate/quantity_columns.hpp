@@ -21,4 +21,7 @@ struct PatchBands {
 };
 [[nodiscard]] PatchBands patch_bands_of(SkyPatchSet set);
 
+/// The last columns of columns_of: those of canopies.
+[[nodiscard]] std::size_t count_canopy_columns(const Quantities& quantities);
+
 }  // namespace farlod

@@ -10,6 +10,7 @@
 #include "farlod/evaluation.hpp"
 #include "farlod/point.hpp"
 #include "horizon/sky_partition.hpp"
+#include "receivers/receiver.hpp"
 
 namespace farlod {
 
@@ -27,6 +28,11 @@ class SkyDirections {
   [[nodiscard]] std::span<const Point3d> facing_up() const { return facing_up_; }
   /// The directions of a receiver with this normal (length 1, grid frame): those of its rays that point above the horizon.
   [[nodiscard]] std::vector<Point3d> facing(const Point3d& normal) const;
+  /// Those of a receiver.
+  [[nodiscard]] std::vector<Point3d> facing_as(const Receiver& receiver) const {
+    const Point3f& n = receiver.normal;
+    return n == Point3f{0.0F, 0.0F, 1.0F} ? facing_up_ : facing(normalized(Point3d{n.x, n.y, n.z}));
+  }
 
  private:
   std::vector<Point3d> local_;  ///< around the receiver's own axis

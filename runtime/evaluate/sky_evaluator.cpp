@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -13,40 +12,27 @@
 
 #include "contract/cancellation.hpp"
 #include "contract/expects.hpp"
+#include "evaluate/canopy_answers.hpp"
 #include "evaluate/error_budget.hpp"
 #include "evaluate/further_answers.hpp"
 #include "evaluate/sky_parts.hpp"
+#include "evaluate/traced_canopy.hpp"
 #include "evaluate/visibility.hpp"
+#include "evaluate/whole_city_on_demand.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/horizon_engine.hpp"
 #include "horizon/overhangs.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "package/package_error.hpp"
 #include "rays/ray_engine.hpp"
+#include "scene/canopy_around.hpp"
 #include "scene/near_scene.hpp"
-#include "scene/whole_city.hpp"
 
 namespace farlod {
 namespace {
 
 /// An index of the whole city takes some 150 bytes a triangle: 45 MB.
 constexpr std::uint64_t most_triangles_indexed_whole = 300'000;
-
-/// Calls `visit` for each group of consecutive receivers with the same normal: they share their directions.
-template <class Visit>
-void for_each_normal(std::span<const Receiver> receivers, const Visit& visit) {
-  for (std::size_t first = 0; first < receivers.size();) {
-    std::size_t end = first + 1;
-    while (end < receivers.size() && receivers[end].normal == receivers[first].normal) ++end;
-    visit(receivers.subspan(first, end - first));
-    first = end;
-  }
-}
-
-std::vector<Point3d> directions_of(const SkyDirections& all, const Point3f& normal) {
-  if (normal == Point3f{0.0F, 0.0F, 1.0F}) return {all.facing_up().begin(), all.facing_up().end()};
-  return all.facing(normalized(Point3d{normal.x, normal.y, normal.z}));
-}
 
 std::vector<Point3f> places_of(std::span<const Receiver> receivers) {
   std::vector<Point3f> places;
@@ -87,16 +73,6 @@ double sampling_error_of(const SkySettings& settings, FarMapOfCell far_map) {
   const bool has_rays = method != EvaluationMethod::horizons_alone || settings.max_far_error.has_value();
   return std::max(has_rays ? sampling_error(settings.rays) : 0.0, has_horizons ? azimuth_error(settings.azimuths) : 0.0);
 }
-
-struct SkyEvaluator::WholeCityOnDemand {
-  std::once_flag once;
-  std::optional<WholeCity> city;
-
-  const WholeCity& get(const PackageReader& package, const std::stop_token& stop) {
-    std::call_once(once, [&] { city.emplace(package, stop); });
-    return *city;
-  }
-};
 
 SkyEvaluator::SkyEvaluator(const PackageReader& package, const SkySettings& settings, std::stop_token stop)
     : SkyEvaluator(package, settings, std::move(stop), std::make_shared<WholeCityOnDemand>()) {}
@@ -143,7 +119,7 @@ void SkyEvaluator::evaluate_by_method(const CellReceivers& cell, const SkyAnswer
 
 void SkyEvaluator::find_horizon_distances(const CellReceivers& cell, const SkyAnswers& answers) const {
   const auto start = Clock::now();
-  const WholeCity& city = city_->get(package_, stop_);
+  const WholeCity& city = city_->city(package_, stop_);
   const auto scene_ready = Clock::now();
   const HorizonColumns wanted = further_.horizon_columns();
   for (const Receiver& r : cell.receivers) {
@@ -170,12 +146,12 @@ void SkyEvaluator::add_times(Clock::time_point start, Clock::time_point scene_re
 
 void SkyEvaluator::evaluate_by_whole_city(const CellReceivers& cell, const SkyAnswers& answers) const {
   const auto start = Clock::now();
-  const WholeCity& city = city_->get(package_, stop_);
+  const WholeCity& city = city_->city(package_, stop_);
   const auto scene_ready = Clock::now();
   for_each_normal(cell.receivers, [&](std::span<const Receiver> group) {
     std::vector<Point3f> origins;
     for (const Receiver& r : group) origins.push_back(city.scene_from_cell(r.p_cell, cell.cell));
-    const std::vector<Point3d> directions = directions_of(directions_, group.front().normal);
+    const std::vector<Point3d> directions = directions_.facing_as(group.front());
     count_and_store(city.occluder(), origins, directions, group, directions_.ray_count(), stop_, answers);
   });
   const PlacedScene scene = whole_city(cell.cell);
@@ -183,6 +159,10 @@ void SkyEvaluator::evaluate_by_whole_city(const CellReceivers& cell, const SkyAn
     return scene.occluder.blocked(scene.origins_of(packet), directions, least_distance_m, wanted);
   };
   trace_further(cell, blocked, answers);
+  if (further_.canopy_columns().count > 0) {
+    const CrownOccluder& crowns = city_->crowns(package_, settings_.further.canopy, stop_);
+    store_traced_canopies(cell, {city.occluder(), crowns}, scene.scene_from_cell_m, directions_, further_, answers, stop_);
+  }
   add_times(start, scene_ready);
 }
 
@@ -193,7 +173,7 @@ void SkyEvaluator::evaluate_by_near_scene(const CellReceivers& cell, const SkyAn
   const BoxFarMap far = has_box ? package_.box_far_map(cell.cell) : BoxFarMap();
   const auto scene_ready = Clock::now();
   for_each_normal(cell.receivers, [&](std::span<const Receiver> group) {
-    std::vector<Point3d> directions = directions_of(directions_, group.front().normal);
+    std::vector<Point3d> directions = directions_.facing_as(group.front());
     // A box map is looked up by direction alone: what it blocks is blocked for the whole group, and needs no ray
     std::erase_if(directions, [&far](const Point3d& d) { return far.blocks(d); });
     count_and_store(near, places_of(group), directions, group, directions_.ray_count(), stop_, answers);
@@ -206,6 +186,12 @@ void SkyEvaluator::evaluate_by_near_scene(const CellReceivers& cell, const SkyAn
     return by_far | near.blocked(scene.origins_of(packet), directions, least_distance_m, wanted);
   };
   trace_further(cell, blocked, answers);
+  if (further_.canopy_columns().count > 0) {
+    const CrownOccluder crowns(canopy_around(package_, cell.cell, bounding_box(cell.receivers).low.z), settings_.further.canopy,
+                               stop_);
+    const CanopyScene scene{near, crowns, [&](const Point3d& d) { return far.blocks(d); }};
+    store_traced_canopies(cell, scene, {}, directions_, further_, answers, stop_);
+  }
   add_times(start, scene_ready);
 }
 
@@ -213,7 +199,7 @@ std::vector<float> SkyEvaluator::trace_near_sky(const CellReceivers& cell) const
   const Occluder near = near_scene(package_, cell.cell);
   std::vector<float> svf;
   for_each_normal(cell.receivers, [&](std::span<const Receiver> group) {
-    const std::vector<Point3d> directions = directions_of(directions_, group.front().normal);
+    const std::vector<Point3d> directions = directions_.facing_as(group.front());
     for (const std::uint32_t free : count_free(near, places_of(group), directions, stop_))
       svf.push_back(svf_of({free, free, free}, directions_.ray_count()).estimate);
   });
@@ -221,7 +207,7 @@ std::vector<float> SkyEvaluator::trace_near_sky(const CellReceivers& cell) const
 }
 
 void SkyEvaluator::trace_further(const CellReceivers& cell, const BlockedRaysOfPacket& blocked, const SkyAnswers& answers) const {
-  if (further_.empty()) return;
+  if (!further_.needs_profiles()) return;
   FurtherAnswers further(further_, cell, answers);
   if (further_.needs_near_sky()) further.set_near_sky(trace_near_sky(cell));
   for_each_group(cell.receivers, packet_order(cell.receivers, stop_),
@@ -243,7 +229,7 @@ struct SkyEvaluator::CellGeometry {
 };
 
 PlacedScene SkyEvaluator::whole_city(Cell cell) const {
-  const WholeCity& city = city_->get(package_, stop_);
+  const WholeCity& city = city_->city(package_, stop_);
   return {city.occluder(), city.scene_from_cell_m(cell)};
 }
 
@@ -265,11 +251,21 @@ void SkyEvaluator::evaluate_by_horizons(const CellReceivers& cell, const SkyAnsw
 
 SkyParts SkyEvaluator::parts_of_sky(const CellReceivers& cell, const HemisphereDirections& directions) const {
   FARLOD_EXPECTS(cell.receivers.size() == 1);
+  SkyParts seen = parts_without_crowns(cell, directions);
+  if (!package_.has_crowns()) return seen;
+  const Receiver& receiver = cell.receivers.front();
+  const Occluder near = near_scene(package_, cell.cell);
+  const CrownOccluder crowns(canopy_around(package_, cell.cell, receiver.p_cell.z), settings_.further.canopy, stop_);
+  mark_crowns(directions, receiver, {near, crowns}, stop_, seen);
+  return seen;
+}
+
+SkyParts SkyEvaluator::parts_without_crowns(const CellReceivers& cell, const HemisphereDirections& directions) const {
   const Receiver& receiver = cell.receivers.front();
   const Occluder near = near_scene(package_, cell.cell);
   const EvaluationMethod method = method_for(cell.cell);
   if (method == EvaluationMethod::whole_city) {
-    const WholeCity& city = city_->get(package_, stop_);
+    const WholeCity& city = city_->city(package_, stop_);
     const Point3f origin = city.scene_from_cell(receiver.p_cell, cell.cell);
     return parts_by_rays(
         directions, receiver, near,
@@ -315,6 +311,7 @@ void SkyEvaluator::draw_horizons(CellGeometry& geometry, const CellReceivers& ce
   FurtherAnswers further(further_, cell, answers);
   if (!further_.empty()) further.listen_to(engine);
   if (further_.needs_near_sky()) further.draw_near_sky(package_, geometry.far, gaps);
+  if (further_.canopy_columns().count > 0) further.draw_canopies(package_, stop_);
   std::vector<PacketAnswer> of_packets;
   for_each_group(cell.receivers, packet_order(cell.receivers, stop_),
                  [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
@@ -356,7 +353,7 @@ void SkyEvaluator::count_rays(CellGeometry& geometry, const CellReceivers& cell,
   if (!std::is_sorted(receivers.begin(), receivers.end(), by_normal))
     std::stable_sort(receivers.begin(), receivers.end(), by_normal);
   for_each_normal(receivers, [&](std::span<const Receiver> group) {
-    const std::vector<Point3d> directions = directions_of(directions_, group.front().normal);
+    const std::vector<Point3d> directions = directions_.facing_as(group.front());
     if (directions.empty()) {
       for (const Receiver& r : group) store(SvfInterval{}, r.index, answers);
       return;
@@ -380,7 +377,7 @@ std::uint64_t SkyEvaluator::retrace(Cell cell, std::span<const Receiver> receive
   for (std::size_t l = 0; l < free.size(); ++l)
     if (std::max(free[l].high - free[l].estimate, free[l].estimate - free[l].low) > most) uncertain |= 1U << l;
   if (uncertain == 0) return 0;
-  const WholeCity& city = city_->get(package_, stop_);
+  const WholeCity& city = city_->city(package_, stop_);
   RayOrigins origins;
   for (std::size_t l = 0; l < receivers.size(); ++l) {
     const Point3f p = city.scene_from_cell(receivers[l].p_cell, cell);

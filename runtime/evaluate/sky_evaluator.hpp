@@ -26,6 +26,7 @@
 namespace farlod {
 
 class RayEngine;
+class WholeCityOnDemand;
 struct HemisphereDirections;
 struct SkyParts;
 struct PacketAnswer;
@@ -100,7 +101,6 @@ class SkyEvaluator {
 
  private:
   using Clock = std::chrono::steady_clock;
-  struct WholeCityOnDemand;
   struct CellGeometry;
 
   SkyEvaluator(const PackageReader& package, const SkySettings& settings, std::stop_token stop,
@@ -133,6 +133,7 @@ class SkyEvaluator {
   /// Returns how many.
   [[nodiscard]] std::uint64_t retrace(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine,
                                       std::span<FreeRays> free) const;
+  [[nodiscard]] SkyParts parts_without_crowns(const CellReceivers& cell, const HemisphereDirections& directions) const;
   void require_rays_allowed(Cell cell) const;
   void require_far_map(Cell cell) const;
   [[nodiscard]] bool wants_bounds(const SkyAnswers& answers) const {

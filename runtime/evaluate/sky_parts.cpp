@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "contract/cancellation.hpp"
+#include "evaluate/visibility.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/residual_horizon.hpp"
@@ -83,6 +84,23 @@ SkyParts parts_by_rays(const HemisphereDirections& directions, const Receiver& r
     }
   }
   return result;
+}
+
+void mark_crowns(const HemisphereDirections& directions, const Receiver& receiver, const CanopyScene& scene,
+                 const std::stop_token& stop, SkyParts& seen) {
+  const RayOrigins origins = gathered({&receiver.p_cell, 1});
+  const std::size_t elevations = directions.slopes.size();
+  for (std::size_t n = 0; n < directions.azimuths.size(); ++n) {
+    throw_if_cancelled(stop);
+    for (std::size_t e = 0; e < elevations; ++e) {
+      const Point3f direction = directions.direction(n, e);
+      const CrownLights light = scene.crowns.light(origins, direction, least_distance_m, only_receiver);
+      SkyPart& part = seen.parts[n * elevations + e];
+      if ((light.met & only_receiver) != 0 &&
+          (part == SkyPart::sky || is_crown_first(scene.solid, origins, 0, direction, light.nearest[0])))
+        part = SkyPart::crown;
+    }
+  }
 }
 
 }  // namespace farlod

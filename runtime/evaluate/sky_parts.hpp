@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "evaluate/traced_canopy.hpp"
 #include "farlod/hemisphere.hpp"
 #include "farlod/point.hpp"
 #include "horizon/cell_silhouettes.hpp"
@@ -42,5 +43,9 @@ struct SkyParts {
 /// What a receiver sees that is answered by rays: `is_hidden` says it of a direction.
 [[nodiscard]] SkyParts parts_by_rays(const HemisphereDirections& directions, const Receiver& receiver, const Occluder& near,
                                      const std::function<bool(const Point3f& direction)>& is_hidden, const std::stop_token& stop);
+
+/// Makes the parts crowns that meet one before anything solid. The scene has the frame of the receiver.
+void mark_crowns(const HemisphereDirections& directions, const Receiver& receiver, const CanopyScene& scene,
+                 const std::stop_token& stop, SkyParts& seen);
 
 }  // namespace farlod

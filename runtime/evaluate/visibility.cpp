@@ -8,7 +8,6 @@
 #include "receivers/receiver.hpp"
 
 namespace farlod {
-namespace {
 
 RayOrigins gathered(std::span<const Point3f> origins) {
   RayOrigins result;
@@ -21,8 +20,6 @@ RayOrigins gathered(std::span<const Point3f> origins) {
   return result;
 }
 
-}  // namespace
-
 std::vector<std::uint32_t> count_free(const Occluder& occluder, std::span<const Point3f> origins,
                                       std::span<const Point3d> directions, const std::stop_token& stop) {
   std::vector<std::uint32_t> free(origins.size(), 0);
@@ -32,9 +29,7 @@ std::vector<std::uint32_t> count_free(const Occluder& occluder, std::span<const 
     const std::uint32_t wanted = (1U << count) - 1;
     for (std::size_t k = 0; k < directions.size(); ++k) {
       if (k % directions_between_looks == 0) throw_if_cancelled(stop);
-      const Point3d& d = directions[k];
-      const Point3f direction{static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)};
-      const std::uint32_t open = wanted & ~occluder.blocked(together, direction, least_distance_m, wanted);
+      const std::uint32_t open = wanted & ~occluder.blocked(together, rounded(directions[k]), least_distance_m, wanted);
       for (std::size_t l = 0; l < count; ++l) free[first + l] += (open >> l) & 1U;
     }
   }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "contract/grid.hpp"
@@ -23,6 +24,17 @@ struct Receiver {
   Point3f p_cell;                    ///< in the frame of the cell that it belongs to
   Point3f normal{0.0F, 0.0F, 1.0F};  ///< length 1, grid frame
 };
+
+/// Calls `visit` for each group of consecutive receivers with the same normal: they share their directions.
+template <class Visit>
+void for_each_normal(std::span<const Receiver> receivers, const Visit& visit) {
+  for (std::size_t first = 0; first < receivers.size();) {
+    std::size_t end = first + 1;
+    while (end < receivers.size() && receivers[end].normal == receivers[first].normal) ++end;
+    visit(receivers.subspan(first, end - first));
+    first = end;
+  }
+}
 
 /// The receivers of one cell.
 struct CellReceivers {

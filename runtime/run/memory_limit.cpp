@@ -23,6 +23,9 @@ constexpr double thread_bytes = 12 * mib;   // scenes of cells, and what the all
 constexpr double receiver_bytes = 128;      // a receiver on its way, with its answers
 constexpr double triangle_bytes = 224;      // of the whole city's scene: the triangle, its corners, Embree's tree
 
+constexpr double crown_bytes = 160;        // of the scene of all crowns: the crown, and Embree's tree
+constexpr double canopy_bytes = 16 * mib;  // crowns around a cell, those far away merged
+
 // Of a sample of the sky: a direction, and what each thread has at an azimuth, 64 bytes for each of the horizons of an engine
 constexpr double direction_bytes = sizeof(Point3d);
 constexpr double azimuth_bytes = 100 + (10 + packets_in_group) * 64;  // HorizonEngine
@@ -34,6 +37,10 @@ constexpr double ray_azimuth_bytes = 180 + 11 * 64;  // RayEngine, with the dire
 bool traces_whole_city(const ResolvedSettings& settings) {
   return settings.sky.engine == Engine::exact || settings.verify > 0 || settings.sky.max_far_error.has_value() ||
          settings.sky.further.horizon_distances;
+}
+
+bool uses_crowns(const package::Manifest& manifest, const ResolvedSettings& settings) {
+  return manifest.canopy.has_value() && settings.sky.further.any_of_canopies();
 }
 
 /// The directions as they are and turned to the grid, and those of a normal on each thread.
@@ -57,7 +64,8 @@ double bytes_of_samples(const package::Manifest& manifest, const ResolvedSetting
 /// The scene, and the directions of a verification, which are others.
 double bytes_of_whole_city(const package::Manifest& manifest, const ResolvedSettings& settings) {
   const std::size_t rays = settings.verify > 0 ? std::max(verify_rays, settings.sky.rays) : 0;
-  return static_cast<double>(manifest.triangles) * triangle_bytes + bytes_of_directions(rays, settings.threads);
+  const double of_crowns = uses_crowns(manifest, settings) ? crown_bytes * static_cast<double>(manifest.canopy->crowns()) : 0.0;
+  return static_cast<double>(manifest.triangles) * triangle_bytes + bytes_of_directions(rays, settings.threads) + of_crowns;
 }
 
 std::string in_mib(double bytes) { return std::to_string(static_cast<std::uint64_t>(std::ceil(bytes / mib))); }
@@ -95,7 +103,8 @@ double require_memory(const package::Manifest& manifest, const ResolvedSettings&
   const auto threads = static_cast<double>(settings.threads);
   const double of_receiver = receiver_bytes + static_cast<double>(columns_of(settings.sky.further).size() * sizeof(float));
   const double in_flight = static_cast<double>(cells_in_flight(settings.threads)) * needs.receivers_of_cell * of_receiver;
-  const double bytes = program_bytes + threads * thread_bytes + needs.results + static_cast<double>(settings.run.caller_bytes) +
+  const double of_thread = thread_bytes + (uses_crowns(manifest, settings) ? canopy_bytes : 0.0);
+  const double bytes = program_bytes + threads * of_thread + needs.results + static_cast<double>(settings.run.caller_bytes) +
                        in_flight + bytes_of_samples(manifest, settings) + static_cast<double>(bytes_of_blocks_at_work(manifest));
   require_below_limit(bytes, settings.run, "this run",
                       "use fewer threads, a coarser raster, a part at a time, or fewer rays and azimuths");

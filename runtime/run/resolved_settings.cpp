@@ -19,6 +19,13 @@ namespace {
 /// rays for some receivers, azimuths cost all of them (docs/decisions/0019-halved-intervals.md).
 constexpr double sampling_share = 0.75;
 
+void check(const CanopySettings& canopy) {
+  require_one_of("further.canopy.rule", canopy.rule, CanopyRule::beer);
+  require_one_of("further.canopy.season", canopy.season, Season::leaf_off);
+  if (canopy.transmissivity) require_between("further.canopy.transmissivity", *canopy.transmissivity, 0.0, 1.0);
+  require_between("further.canopy.extinction_per_m", canopy.extinction_per_m, 0.001, 100.0);
+}
+
 void check(const Quantities& q, SkyWeight weight) {
   require_one_of("further.sky_patches", q.sky_patches, SkyPatchSet::reinhart);
   if (q.horizons > 0) require_count_between("further.horizons", q.horizons, 4, 3600);
@@ -29,7 +36,9 @@ void check(const Quantities& q, SkyWeight weight) {
     require_between("an elevation of the sun, in degrees", sun.elevation.degrees(), -90.0, 90.0);
     require_between("the hours of a position of the sun", sun.hours, 0.0, 8784.0);
   }
-  if (weight == SkyWeight::solid_angle && (q.svf_solid || q.directional || q.hidden || q.sky_patches != SkyPatchSet::none))
+  check(q.canopy);
+  if (weight == SkyWeight::solid_angle &&
+      (q.svf_solid || q.directional || q.hidden || q.sky_patches != SkyPatchSet::none || q.any_of_canopies()))
     throw InvalidArgument(
         "with the weight solid_angle only horizons and sunshine can be computed beside it: the others are weighted by the "
         "cosine; leave the weight out");

@@ -118,15 +118,15 @@ TEST_F(DamagedPackage, OneDigitOfTheManifestsOriginChanged) {
 }
 
 TEST_F(DamagedPackage, ANewerVersionIsNoDamage) {
-  edit_manifest("\"version\": 8", "\"version\": 9");
+  edit_manifest("\"version\": 8", "\"version\": 10");
   expect_refusal(evaluate(), exit_unusable_input,
-                 {"manifest.json has format version 9", "reads versions 6 to 8", "newer release"});
+                 {"manifest.json has format version 10", "reads versions 6 to 9", "newer release"});
 }
 
 TEST_F(DamagedPackage, AnOlderVersionIsNoDamage) {
   edit_manifest("\"version\": 8", "\"version\": 5");
   expect_refusal(evaluate(), exit_unusable_input,
-                 {"manifest.json has format version 5", "reads versions 6 to 8", "Pack the city again"});
+                 {"manifest.json has format version 5", "reads versions 6 to 9", "Pack the city again"});
 }
 
 TEST_F(DamagedPackage, AnInterruptedPackingIsNoDamage) {

@@ -62,7 +62,7 @@ TEST_P(Tutorials, SayWhatTheProgramsSay) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Tutorials,
-                         testing::Values(Tutorial{"city_files.md", 5, {}},
+                         testing::Values(Tutorial{"city_files.md", 5, {}}, Tutorial{"trees.md", 8, {}},
                                          Tutorial{
                                              "facades.md", 3, {"facades.csv", "facades.surfaces.csv", "facades.buildings.csv"}}));
 

@@ -202,6 +202,9 @@ PACKINGS = [
     (SAMPLES / "village.gml", dict(problems="ignore"), "problems"),
     (SAMPLES / "village.gml", dict(overwrite="yes"), "overwrite"),
     (SAMPLES / "village.gml", dict(heights=farlod.Heights(default=-3.0)), "default"),
+    (SAMPLES / "village.gml", dict(trees=farlod.Trees(trunk_ratio=2.0)), "trunk_ratio"),
+    (SAMPLES / "village.gml", dict(trees=farlod.Trees(canopy_trunk="trunk.tif")), "canopy"),
+    (SAMPLES / "village.gml", dict(trees=5), "city"),
     (SAMPLES / "village.gml", dict(threads=-2), "threads"),
 ]
 

@@ -81,7 +81,7 @@ class Hemisphere:
     height : float
         Where it stands, in metres above sea level.
     parts : numpy.ndarray of uint8, (1440, 360)
-        0: sky, 1: geometry of the neighborhood, 2: the far city alone. By azimuth, in quarters of a degree clockwise from true
+        0: sky, 1: geometry of the neighborhood, 2: the far city alone, 3: the crown of a tree. By azimuth, in quarters of a degree clockwise from true
         north, and by elevation, from the horizontal upwards.
     horizon : numpy.ndarray of float32, (n,)
         The elevation in degrees above which all is sky, at azimuths in equal steps clockwise from true north.
@@ -335,9 +335,10 @@ class City:
 
         Parameters
         ----------
-        quantities : iterable of {"svf_solid", "directional", "hidden"}
+        quantities : iterable of {"svf_solid", "directional", "hidden", "svf_total", "svfaveg", "shares"}
             What to compute besides: the share of solid angle; the four halves of the sky as UMEP has them (``svfN``, ``svfE``,
-            ``svfS``, ``svfW``); the shares that near and far geometry hide (``hidden_near``, ``hidden_far``).
+            ``svfS``, ``svfW``); the shares that near and far geometry hide (``hidden_near``, ``hidden_far``); with the crowns of
+            a package's trees ``svf_total`` and ``svfveg``, ``svfaveg``, and the shares of sky, vegetation and building.
         verify : int, default 0
             So many random receivers are computed again, exactly, and compared: ``summary["verify"]``.
         points, normals, height, above, metric, max_error, bounds, **options

@@ -35,6 +35,12 @@ LONG_NAMES = {
     "svfW": "sky view factor of the western half",
     "hidden_near": "share of the sky hidden by geometry of the neighborhood",
     "hidden_far": "share of the sky hidden by the far city alone",
+    "svf_total": "sky view factor with what passes the crowns of trees",
+    "svfveg": "1 - the sky behind crowns of trees",
+    "svfaveg": "1 - the view of solid things hidden by crowns of trees",
+    "share_sky": "share of the view that is sky",
+    "share_vegetation": "share of the view that is crowns of trees",
+    "share_building": "share of the view that is neither sky nor crowns of trees",
 }
 
 

@@ -17,17 +17,22 @@ Engine = Literal["auto", "horizon", "rays", "exact", "near"]
 Metric = Literal["cosine", "solid"]
 Above = Literal["ground", "surface", "sea"]
 SkyPatches = Literal["tregenza", "reinhart"]
-Quantity = Literal["svf_solid", "directional", "hidden"]
+Quantity = Literal["svf_solid", "directional", "hidden", "svf_total", "svfaveg", "shares"]
+CanopyRule = Literal["umep", "crowns", "beer"]
 #: Called as ``progress(stage, done, all)`` some times a second, by the thread that called farlod; True prints a line.
 ProgressListener = Callable[[str, int, int], None]
 Progress = Union[bool, ProgressListener, None]
 
-QUANTITIES = ("svf_solid", "directional", "hidden")
+QUANTITIES = ("svf_solid", "directional", "hidden", "svf_total", "svfaveg", "shares")
+
+
+#: Options that are no settings of an evaluation by themselves.
+OTHER_OPTIONS = ("canopy_rule", "leaf_off", "transmissivity", "extinction", "threads", "memory_limit", "progress")
 
 
 class Options(TypedDict, total=False):
-    """Keyword arguments that all evaluating functions take. None of them but ``engine``, ``azimuths``, ``rays`` and
-    ``directions`` changes a value.
+    """Keyword arguments that all evaluating functions take. Of them ``threads``, ``memory_limit`` and ``progress`` change no
+    value.
 
     Attributes
     ----------
@@ -40,6 +45,15 @@ class Options(TypedDict, total=False):
         Rays of a receiver, 1 to 10,000,000 (default: 1,000, or as many as ``max_error`` needs).
     directions : {"partition", "fibonacci"}
         Where rays go: one in each cell of the Beckers partition of the sky, or a spherical Fibonacci lattice.
+    canopy_rule : {"umep", "crowns", "beer"}
+        How light passes the crowns of trees: a share in each direction that meets any, that share of each one that is met,
+        or by the length within them. Of the quantities ``"svf_total"``, ``"svfaveg"`` and ``"shares"``, as the next three.
+    leaf_off : bool
+        All crowns are bare but those that are known to be evergreen.
+    transmissivity : float
+        Share of light that passes a crown, 0 to 1 (default: .03, and with ``leaf_off`` .5).
+    extinction : float
+        Of crowns in leaf, per metre, with the rule ``"beer"`` (default: .6).
     threads : int
         0: as many as the machine has cores.
     memory_limit : int
@@ -53,6 +67,10 @@ class Options(TypedDict, total=False):
     azimuths: int
     rays: int
     directions: Literal["partition", "fibonacci"]
+    canopy_rule: CanopyRule
+    leaf_off: bool
+    transmissivity: float
+    extinction: float
     threads: int
     memory_limit: int
     progress: Progress
@@ -114,9 +132,19 @@ class Evaluation:
         further.horizons = self.horizons
         further.horizon_distances = self.horizon_distances
         further.set_sky_patches(self.sky_patches)
+        self._set_canopy(further)
         if self.sun is not None:
             further.set_sun(*(_arguments.floats("sun", values).ravel() for values in self.sun))
         return further
+
+    def _set_canopy(self, further: Any) -> None:
+        rule = self.options.get("canopy_rule", "umep")
+        further.set_canopy_rule(_arguments.word("canopy_rule", rule, ("umep", "crowns", "beer")))
+        further.leaf_off = _arguments.flag("leaf_off", self.options.get("leaf_off", False))
+        if "transmissivity" in self.options:
+            further.transmissivity = _arguments.number("transmissivity", self.options["transmissivity"])
+        if "extinction" in self.options:
+            further.extinction = _arguments.number("extinction", self.options["extinction"])
 
     def settings(self) -> Any:
         """``EvaluationSettings`` of the library."""
@@ -135,7 +163,7 @@ class Evaluation:
                 settings.set_engine(_arguments.word(name, value, ("auto", "horizon", "rays", "exact", "near")))
             elif name == "directions":
                 settings.set_directions(_arguments.word(name, value, ("partition", "fibonacci")))
-            elif name not in ("threads", "memory_limit", "progress"):
+            elif name not in OTHER_OPTIONS:
                 raise TypeError(f"{name!r} is no argument of this function: see farlod.Options for those that there are")
         return settings
 

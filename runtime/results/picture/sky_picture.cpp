@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "results/decimal.hpp"
@@ -17,6 +18,8 @@ constexpr double pi = std::numbers::pi, degrees = pi / 180.0;
 
 // Alike to nobody, whatever colours he sees, and of three steps of lightness (sky, far, near), so that print keeps them apart
 constexpr Colour sky_colour{205, 229, 248}, far_colour{230, 159, 0}, near_colour{66, 66, 76};
+// Between the lightness of what is far and what is near
+constexpr Colour crown_colour{0, 140, 100};
 constexpr Colour horizon_colour{0, 84, 147}, ink{32, 32, 32}, muted{96, 96, 96}, ring_colour{140, 150, 160};
 constexpr std::size_t disk_edge = 800, left = 56, top = 116;
 constexpr PixelSize picture_size{left + disk_edge + 56 + 230, top + disk_edge + 60};
@@ -103,15 +106,23 @@ void add_directions(Drawing& drawing) {
   add("W", middle_x + away, middle_y + half_height, Alignment::left);
 }
 
-void add_legend(Drawing& drawing, SkyProjection projection, const std::optional<SunOfSky>& sun) {
+/// The colours that a picture may have, and what they mean.
+std::vector<std::pair<SkyPart, const char*>> colours_of(const Hemisphere& hemisphere) {
+  std::vector<std::pair<SkyPart, const char*>> colours{
+      {SkyPart::sky, "sky"}, {SkyPart::near, "near geometry"}, {SkyPart::far, "far geometry"}};
+  if (std::ranges::find(hemisphere.parts, SkyPart::crown) != hemisphere.parts.end())
+    colours.emplace_back(SkyPart::crown, "crowns of trees");
+  return colours;
+}
+
+void add_legend(Drawing& drawing, const Hemisphere& hemisphere, SkyProjection projection, const std::optional<SunOfSky>& sun) {
   const double x = static_cast<double>(left + disk_edge) + 56.0;
   double y = static_cast<double>(top) + 10.0;
   const auto add_text = [&](const std::string& words, double indent, Colour colour) {
     drawing.shapes.emplace_back(Text{{x + indent, y + 12.0}, words, text_height, Alignment::left, colour});
     y += 24.0;
   };
-  for (const auto& [part, words] :
-       {std::pair{SkyPart::sky, "sky"}, {SkyPart::near, "near geometry"}, {SkyPart::far, "far geometry"}}) {
+  for (const auto& [part, words] : colours_of(hemisphere)) {
     drawing.shapes.emplace_back(box({x, y - 1.0}, 16.0, 16.0, ink));
     drawing.shapes.emplace_back(box({x + 1.0, y}, 14.0, 14.0, colour_of(part)));
     add_text(words, 26.0, ink);
@@ -142,6 +153,7 @@ std::optional<HemisphereDirection> direction_of(const DiskPoint& point, SkyProje
 
 Colour colour_of(SkyPart part) {
   if (part == SkyPart::sky) return sky_colour;
+  if (part == SkyPart::crown) return crown_colour;
   return part == SkyPart::near ? near_colour : far_colour;
 }
 
@@ -178,7 +190,7 @@ Drawing draw_sky(const Hemisphere& hemisphere, SkyProjection projection, const S
   drawing.shapes.emplace_back(horizon_line(hemisphere, projection));
   if (sun) add_sun_courses(drawing, hemisphere, projection, *sun);
   add_directions(drawing);
-  add_legend(drawing, projection, sun);
+  add_legend(drawing, hemisphere, projection, sun);
   return drawing;
 }
 

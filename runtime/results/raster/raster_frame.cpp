@@ -11,6 +11,16 @@ std::string definition_of(const std::string& quantity) {
   return quantity;
 }
 
+/// Of canopies; others have no definition here.
+std::string canopy_definition_of(const std::string& column) {
+  if (column == "svf_total") return "sky view factor with what passes the crowns of trees and comes past them";
+  if (column == "svfveg") return "1 - the sky behind crowns, weighted as in svf";
+  if (column == "svfaveg") return "1 - the view of solid things that crowns hide, weighted as in svf";
+  if (column == "share_sky") return "share of the view that is sky";
+  if (column == "share_vegetation") return "share of the view that is crowns of trees";
+  return column == "share_building" ? "share of the view that is neither sky nor crowns of trees" : "";
+}
+
 Band half_of_sky(const std::string& column, const std::string& half) {
   return {column, "1", "sky view factor of the " + half + " half of the sky, twice its share"};
 }
@@ -35,6 +45,7 @@ std::vector<std::span<const float>> bands_of(const RasterTile& tile) {
 }
 
 Band further_band(const std::string& column) {
+  if (const std::string definition = canopy_definition_of(column); !definition.empty()) return {column, "1", definition};
   if (column == "svfN") return half_of_sky(column, "northern");
   if (column == "svfE") return half_of_sky(column, "eastern");
   if (column == "svfS") return half_of_sky(column, "southern");

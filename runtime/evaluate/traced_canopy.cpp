@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/traced_canopy.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "contract/cancellation.hpp"
+#include "evaluate/visibility.hpp"
+#include "receivers/receiver.hpp"
+
+namespace farlod {
+namespace {
+
+constexpr std::size_t lanes = RayOrigins::lanes;
+
+/// Sums of a packet over its directions.
+struct Sums {
+  std::array<double, lanes> light{}, sky{}, building{};
+};
+
+/// Adds what crowns take in one direction.
+void add(const CanopyScene& scene, const RayOrigins& origins, const Point3d& direction_d, std::uint32_t wanted, Sums& sums) {
+  const Point3f direction = rounded(direction_d);
+  const CrownLights light = scene.crowns.light(origins, direction, least_distance_m, wanted);
+  if (light.met == 0) return;
+  const bool is_hidden_far = scene.is_hidden_far && scene.is_hidden_far(direction_d);
+  const std::uint32_t blocked = is_hidden_far ? light.met : scene.solid.blocked(origins, direction, least_distance_m, light.met);
+  for (std::size_t l = 0; l < lanes; ++l) {
+    if (((light.met >> l) & 1U) == 0) continue;
+    if (((blocked >> l) & 1U) == 0) {
+      sums.light[l] += 1.0 - static_cast<double>(light.transmitted[l]);
+      sums.sky[l] += 1.0;
+    } else if (is_crown_first(scene.solid, origins, l, direction, light.nearest[l])) {
+      sums.building[l] += 1.0;
+    }
+  }
+}
+
+}  // namespace
+
+bool is_crown_first(const Occluder& solid, const RayOrigins& origins, std::size_t lane, const Point3f& direction, float entry) {
+  return !solid.blocks({{origins.x[lane], origins.y[lane], origins.z[lane]}, direction, least_distance_m, entry});
+}
+
+std::vector<CanopyLoss> trace_canopies(const CanopyScene& scene, std::span<const Point3f> origins,
+                                       std::span<const Point3d> directions, std::size_t ray_count, const std::stop_token& stop) {
+  std::vector<CanopyLoss> losses;
+  const double share = 1.0 / static_cast<double>(ray_count);
+  for (std::size_t first = 0; first < origins.size(); first += lanes) {
+    const std::size_t count = std::min(lanes, origins.size() - first);
+    const RayOrigins together = gathered(origins.subspan(first, count));
+    const auto wanted = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
+    Sums sums;
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+      if (k % directions_between_looks == 0) throw_if_cancelled(stop);
+      add(scene, together, directions[k], wanted, sums);
+    }
+    for (std::size_t l = 0; l < count; ++l)
+      losses.push_back({static_cast<float>(share * sums.light[l]), static_cast<float>(share * sums.sky[l]),
+                        static_cast<float>(share * sums.building[l])});
+  }
+  return losses;
+}
+
+}  // namespace farlod

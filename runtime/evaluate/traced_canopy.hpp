@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "farlod/point.hpp"
+#include "occlusion/crown_occluder.hpp"
+#include "occlusion/occluder.hpp"
+
+namespace farlod {
+
+/// What crowns take of the view of a receiver.
+struct CanopyLoss {
+  float light = 0.0F;     ///< svf − svf_total
+  float sky = 0.0F;       ///< 1 − svfveg: the sky behind crowns
+  float building = 0.0F;  ///< 1 − svfaveg: what is solid, behind crowns
+};
+
+/// Solid things and crowns, in one frame.
+struct CanopyScene {
+  const Occluder& solid;
+  const CrownOccluder& crowns;
+  /// Whether something solid beyond `solid` and all crowns lies in a direction. May be empty: then nothing does.
+  std::function<bool(const Point3d& direction)> is_hidden_far = {};
+};
+
+/// Whether a crown that a ray enters at this distance is met before anything solid. Distances count in the direction's length.
+[[nodiscard]] bool is_crown_first(const Occluder& solid, const RayOrigins& origins, std::size_t lane, const Point3f& direction,
+                                  float entry);
+
+/// Of each origin, by rays in these directions, each of which stands for 1 / ray_count of the view: the judge of all other ways.
+/// Throws Cancelled when `stop` is asked for.
+[[nodiscard]] std::vector<CanopyLoss> trace_canopies(const CanopyScene& scene, std::span<const Point3f> origins,
+                                                     std::span<const Point3d> directions, std::size_t ray_count,
+                                                     const std::stop_token& stop = {});
+
+}  // namespace farlod

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/canopy_around.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <tuple>
+
+#include "contract/expects.hpp"
+#include "scene/near_crowns.hpp"
+
+namespace farlod {
+namespace {
+
+/// How much of its width times its height the outline of a crown fills, as one looks at it from the side.
+double fill_of(CrownShape shape) { return shape == CrownShape::spheroid ? 0.25 * std::numbers::pi : 1.0; }
+
+/// From a place to the square [0, edge]² of a cell; 0 within it.
+double distance_to_cell(Point2d p_cell, double edge_m) {
+  const auto beyond = [edge_m](double x) { return std::max({0.0, -x, x - edge_m}); };
+  return std::hypot(beyond(p_cell.x), beyond(p_cell.y));
+}
+
+/// Takes the crowns near a cell, and merges those that are far away.
+class CanopyAround {
+ public:
+  CanopyAround(double cell_edge_m, float lowest_m, const CrownMerging& merging)
+      : cell_edge_m_(cell_edge_m), lowest_m_(lowest_m), merging_(merging) {}
+
+  void add(const Crown& crown) {
+    if (crown.top_m <= lowest_m_) return;
+    const double distance_m = distance_to_cell({crown.x_m, crown.y_m}, cell_edge_m_) - crown.half_width_m;
+    if (distance_m <= merging_.named_m) return crowns_.push_back(crown);
+    const double square_m = distance_m <= merging_.small_squares_m ? merging_.small_square_m : merging_.large_square_m;
+    squares_[{square_m, static_cast<std::int64_t>(std::floor(crown.x_m / square_m)),
+              static_cast<std::int64_t>(std::floor(crown.y_m / square_m)), crown.foliage}]
+        .push_back(crown);
+  }
+
+  [[nodiscard]] std::vector<Crown> crowns() && {
+    for (const auto& [square, crowns] : squares_) crowns_.push_back(merged(crowns, std::get<0>(square)));
+    return std::move(crowns_);
+  }
+
+ private:
+  double cell_edge_m_;
+  float lowest_m_;
+  CrownMerging merging_;
+  std::vector<Crown> crowns_;
+  /// By the edge of the square, and its place
+  std::map<std::tuple<double, std::int64_t, std::int64_t, Foliage>, std::vector<Crown>> squares_;
+};
+
+}  // namespace
+
+Crown merged(const std::vector<Crown>& crowns, double square_m) {
+  FARLOD_EXPECTS(!crowns.empty());
+  // What one sees of a crown from the side: the sums are weighted by it
+  double width = 0.0, x = 0.0, y = 0.0, bottom = 0.0, top = 0.0;
+  for (const Crown& c : crowns) {
+    const double w = 2.0 * fill_of(c.shape) * c.half_width_m;
+    width += w, x += w * c.x_m, y += w * c.y_m, bottom += w * c.bottom_m, top += w * c.top_m;
+  }
+  const double hidden_m = square_m * -std::expm1(-width / square_m);
+  const auto mean = [width](double sum) { return static_cast<float>(sum / width); };
+  return {
+      mean(x), mean(y), mean(bottom), mean(top), static_cast<float>(0.5 * hidden_m), CrownShape::cylinder, crowns.front().foliage,
+      0};
+}
+
+std::vector<Crown> canopy_around(const PackageReader& package, Cell cell, float lowest_m, const CrownMerging& merging) {
+  CanopyAround around(package.grid().cell_edge_m, lowest_m, merging);
+  for (const Crown& crown : crowns_near(package, cell, merging.farthest_m)) around.add(crown);
+  return std::move(around).crowns();
+}
+
+}  // namespace farlod

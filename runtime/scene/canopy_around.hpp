@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "contract/canopy/crown.hpp"
+#include "contract/grid.hpp"
+#include "farlod/point.hpp"
+#include "package/package_reader.hpp"
+
+namespace farlod {
+
+/// How crowns are merged that lie far away. What lies farther than `farthest_m` from a cell is left out.
+struct CrownMerging {
+  double named_m = 150.0;          ///< up to here from a cell each crown counts by itself
+  double small_square_m = 25.0;    ///< the crowns of such a square are one crown, up to `small_squares_m`
+  double small_squares_m = 600.0;  ///< and from there on those of larger ones
+  double large_square_m = 100.0;
+  double farthest_m = 3000.0;
+};
+
+/// One crown for several of the same foliage: upright, in their middle, and as wide as they hide together if they stand in a
+/// square of this edge by chance. docs/concepts.md, "Crowns far away". There must be one at least.
+[[nodiscard]] Crown merged(const std::vector<Crown>& crowns, double square_m);
+
+/// The crowns that receivers of a cell may see, the far ones merged, in the frame of the cell; those that rise above `lowest_m`.
+/// The same crowns in the same order at each call.
+[[nodiscard]] std::vector<Crown> canopy_around(const PackageReader& package, Cell cell, float lowest_m,
+                                               const CrownMerging& merging = {});
+
+}  // namespace farlod

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "console/exit_code.hpp"
+#include "farlod/box.hpp"
+#include "tests/acceptance/packed_town.hpp"
+#include "tests/acceptance/street_trees.hpp"
+
+// What farlod-svf computes of the trees of a package.
+
+namespace farlod::acceptance {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// The small town, `a.farlod`, and the same with trees in its streets, `b.farlod`.
+class TreeTown : public PackedTown {
+ protected:
+  TreeTown() {
+    folder.write("trees.csv", street_trees());
+    folder.must("farlod-pack town.geojson --trees trees.csv -o b.farlod --quiet");
+  }
+  /// The mean of a column over a part of a street.
+  [[nodiscard]] double mean_in_street(const std::string& column, const std::string& arguments) const {
+    Box2d street;
+    for (const Point2d p_town : {Point2d{-95.0, -8.0}, {95.0, 8.0}}) street.add(p_projected(p_town));
+    const std::string box = text_of(street.low) + "," + text_of(street.high);
+    folder.must("farlod-svf b.farlod -o street.tif --grid 2 --bbox " + box + " " + arguments);
+    const std::vector<std::string> names = band_names(folder.path("street.tif"));
+    const auto band = std::ranges::find(names, column) - names.begin() + 1;
+    double sum = 0.0, count = 0.0;
+    for (const auto& value : read_raster(folder.path("street.tif"), static_cast<int>(band)).values)
+      if (value) sum += *value, count += 1.0;
+    EXPECT_GT(count, 100.0);
+    return sum / count;
+  }
+};
+
+const std::string under_trees = text_of(p_projected({-60.0, 4.0}));
+
+TEST_F(TreeTown, HasColumnsOfItsCrowns) {
+  folder.must("farlod-svf b.farlod -o o.csv --quantity svf_total,svfaveg,shares --summary s.json --at " + under_trees);
+  const CsvTable row = table("o.csv");
+  EXPECT_THAT(row.header(), ElementsAre("id", "x_m", "y_m", "z_m", "svf", "svf_total", "svfveg", "svfaveg", "share_sky",
+                                        "share_vegetation", "share_building"));
+  const auto at = [&](const char* column) { return row.number(0, column); };
+  EXPECT_NEAR(at("svf_total"), at("svf") - (1.0 - at("svfveg")) * 0.97, 3.0 * half_of_last_digit);
+  EXPECT_NEAR(at("share_sky"), at("svf") + at("svfveg") - 1.0, 3.0 * half_of_last_digit);
+  EXPECT_NEAR(at("share_sky") + at("share_vegetation") + at("share_building"), 1.0, 3.0 * half_of_last_digit);
+  EXPECT_LT(at("svf_total"), 0.95 * at("svf")) << "it stands beside a tree";
+  EXPECT_EQ(folder.json_of("s.json").at("quantities").size(), 6U);
+}
+
+TEST_F(TreeTown, HasTheSameSkyViewFactorsAsTheTownWithoutTrees) {
+  for (const std::string package : {"a", "b"})
+    folder.must("farlod-svf " + package + ".farlod -o " + package + ".tif --grid 8 --quantity directional --horizons 8");
+  for (int band = 1; band <= 13; ++band)
+    EXPECT_EQ(read_raster(folder.path("a.tif"), band).values, read_raster(folder.path("b.tif"), band).values) << band;
+}
+
+TEST_F(TreeTown, IsOpenWhereThereAreNone) {
+  folder.must("farlod-svf a.farlod -o o.csv --quantity svf_total,svfaveg,shares --at " + under_trees);
+  const CsvTable row = table("o.csv");
+  EXPECT_NEAR(row.number(0, "svf_total"), row.number(0, "svf"), half_of_last_digit);
+  EXPECT_EQ(row.number(0, "svfveg"), 1.0);
+  EXPECT_EQ(row.number(0, "svfaveg"), 1.0);
+  EXPECT_EQ(row.number(0, "share_vegetation"), 0.0);
+}
+
+TEST_F(TreeTown, LetsMoreThroughInWinterAndByOtherRules) {
+  const double summer = mean_in_street("svf_total", "--quantity svf_total"),
+               winter = mean_in_street("svf_total", "--quantity svf_total --leaf-off"),
+               opaque = mean_in_street("svf_total", "--quantity svf_total --transmissivity 0"),
+               half = mean_in_street("svf_total", "--quantity svf_total --transmissivity 0.5"),
+               each = mean_in_street("svf_total", "--quantity svf_total --canopy-rule crowns --leaf-off"),
+               beer = mean_in_street("svf_total", "--quantity svf_total --canopy-rule beer"),
+               thin = mean_in_street("svf_total", "--quantity svf_total --canopy-rule beer --extinction 0.1"),
+               svf = mean_in_street("svf", "--quantity svf_total");
+  EXPECT_LT(opaque, summer);
+  EXPECT_LT(summer, winter);
+  EXPECT_NEAR(half, winter, 1e-6);
+  EXPECT_LT(each, winter);
+  EXPECT_LT(beer, thin);
+  EXPECT_LT(winter, svf);
+}
+
+TEST_F(TreeTown, IsTheSameToAllEngines) {
+  const std::string arguments = "--quantity svf_total,svfaveg --rays 20000 ";
+  for (const char* column : {"svf_total", "svfveg", "svfaveg"}) {
+    const double exact = mean_in_street(column, arguments + "--engine exact");
+    EXPECT_NEAR(mean_in_street(column, arguments + "--engine auto"), exact, 0.002) << column;
+    EXPECT_NEAR(mean_in_street(column, arguments + "--engine rays"), exact, 0.002) << column;
+  }
+}
+
+TEST_F(TreeTown, NamesTheRuleInItsResults) {
+  folder.must("farlod-svf b.farlod -o o.nc --grid 8 --quantity svf_total --canopy-rule beer --extinction 0.4 --leaf-off");
+  EXPECT_THAT(folder.text_of("o.nc"), HasSubstr("--canopy-rule beer --extinction 0.4 --leaf-off"));
+}
+
+TEST_F(TreeTown, ShowsItsCrownsInPicturesOfTheSky) {
+  const std::string colour_of_crowns = "rgb(0%,54.901961%,39.215686%)";  // in the legend, as Cairo writes it
+  for (const std::string package : {"a", "b"})
+    folder.must("farlod-svf " + package + ".farlod -o " + package + ".svg --at " + under_trees);
+  EXPECT_THAT(folder.text_of("b.svg"), HasSubstr(colour_of_crowns));
+  EXPECT_THAT(folder.text_of("a.svg"), testing::Not(HasSubstr(colour_of_crowns)));
+}
+
+TEST_F(TreeTown, OptionsThatDoNotFitAreRefused) {
+  const auto refused = [&](const std::string& arguments, const std::vector<std::string>& said) {
+    expect_refusal(folder.run("farlod-svf b.farlod -o o.csv --at 1,2 " + arguments), exit_usage, said);
+  };
+  refused("--quantity svf_total --transmissivity 3", {"--transmissivity"});
+  refused("--quantity svf_total --canopy-rule beer --transmissivity 0.1", {"--transmissivity", "--extinction"});
+  refused("--quantity svf_total --extinction 0.1", {"--extinction", "--canopy-rule beer"});
+  refused("--quantity svf_total --canopy-rule often", {"--canopy-rule"});
+  refused("--leaf-off", {"nothing of trees", "--quantity svf_total"});
+  refused("--sky solid --quantity svf_total", {"--quantity", "--sky solid"});
+}
+
+}  // namespace
+}  // namespace farlod::acceptance
