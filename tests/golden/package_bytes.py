@@ -88,7 +88,7 @@ def run(binaries: pathlib.Path, *arguments: object) -> None:
 
 
 def check_town(binaries: pathlib.Path, folder: pathlib.Path) -> Iterator[str]:
-    newest = golden.readable_versions()[-1]
+    newest = golden.version_of("format_version")
     for kind in golden.KINDS:
         for part in golden.PARTS:
             name = f"version_{newest}_{kind}{part}.farlod"
