@@ -38,7 +38,7 @@ std::vector<Planted> random_crowns(std::size_t count) {
   std::vector<Planted> crowns;
   for (std::size_t n = 0; n < count; ++n) {
     const double bottom_m = any(100, 104);
-    crowns.push_back({{any(-50, 50), any(-50, 50)}, bottom_m, bottom_m + any(1, 4), any(1, 3)});
+    crowns.push_back({{any(-2, 2), any(-2, 2)}, bottom_m, bottom_m + any(1, 4), any(1, 3)});
   }
   return crowns;
 }
