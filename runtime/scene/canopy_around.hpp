@@ -13,9 +13,9 @@ namespace farlod {
 
 /// How crowns are merged that lie far away. What lies farther than `farthest_m` from a cell is left out.
 struct CrownMerging {
-  double named_m = 150.0;          ///< up to here from a cell each crown counts by itself
+  double named_m = 100.0;          ///< up to here from a cell each crown counts by itself
   double small_square_m = 25.0;    ///< the crowns of such a square are one crown, up to `small_squares_m`
-  double small_squares_m = 600.0;  ///< and from there on those of larger ones
+  double small_squares_m = 300.0;  ///< and from there on those of larger ones
   double large_square_m = 100.0;
   double farthest_m = 3000.0;
 };
