@@ -4,10 +4,12 @@
 """Packages of each version of the format, and the sky view factors that they gave when they were made.
 
   golden.py check BIN          reads each package with the programs in BIN, and compares the values
-  golden.py add BIN FOLDER     packs the town with the programs in BIN, and writes packages and values to FOLDER
+  golden.py add BIN FOLDER     packs the town, without trees and with them, with the programs in BIN, and writes the packages whose
+                               version FOLDER has not yet, and their values, to FOLDER
 """
 
 import csv
+import itertools
 import json
 import pathlib
 import re
@@ -22,6 +24,8 @@ ENGINES = ["auto", "horizon", "rays", "exact"]
 AREA = "500025,5500000,500030,5500004"
 KINDS = ("horizon", "box")
 PARTS = {"": [], "_partial": ["--area", AREA]}
+TREES = ["--trees", HERE / "trees.csv", "--canopy", HERE / "canopy.asc"]
+CANOPIES = ([], TREES)
 # Another Embree may let one ray of 1,000 go the other way, and points outside of the grid are traced by all engines
 TOLERANCE = 0.0011
 EXIT_UNUSABLE = 3
@@ -32,19 +36,29 @@ def run(binaries: pathlib.Path, *arguments: object) -> subprocess.CompletedProce
     return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
 
 
-def values_of(binaries: pathlib.Path, package: pathlib.Path) -> dict[tuple[str, str], str]:
-    """The value of each point by each engine; "" where it has none, "refused" where the engine refuses the package."""
+def manifest_of(package: pathlib.Path) -> dict:
+    return json.loads((package / "manifest.json").read_text())
+
+
+def quantities_of(package: pathlib.Path) -> list[str]:
+    return ["svf", "svf_total"] if "canopy" in manifest_of(package) else ["svf"]
+
+
+def values_of(binaries: pathlib.Path, package: pathlib.Path) -> dict[tuple[str, str, str], str]:
+    """Each quantity of each point by each engine; "" where it has none, "refused" where the engine refuses the package."""
     values = {}
+    quantities = quantities_of(package)
     with tempfile.TemporaryDirectory() as folder:
         table = pathlib.Path(folder) / "values.csv"
         for engine in ENGINES:
             result = run(binaries, "farlod-svf", package, "-o", table, "--points", HERE / "points.csv", "--points-crs",
-                         "EPSG:32632", "--engine", engine, "--quiet")
+                         "EPSG:32632", "--engine", engine, "--quantity", ",".join(quantities), "--quiet")
             if result.returncode not in (0, EXIT_UNUSABLE):
                 raise SystemExit(f"{package.name}, engine {engine}: exit code {result.returncode}: {result.stderr}")
             names = [row["id"] for row in read_table(HERE / "points.csv")]
-            answers = read_table(table) if result.returncode == 0 else [{"id": n, "svf": "refused"} for n in names]
-            values.update({(row["id"], engine): row["svf"] for row in answers})
+            refused = [{"id": n} | dict.fromkeys(quantities, "refused") for n in names]
+            answers = read_table(table) if result.returncode == 0 else refused
+            values.update({(row["id"], engine, quantity): row[quantity] for row in answers for quantity in quantities})
     return values
 
 
@@ -53,43 +67,51 @@ def read_table(path: pathlib.Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def pack_town(binaries: pathlib.Path, kind: str, part: str, packed: pathlib.Path) -> None:
+def pack_town(binaries: pathlib.Path, kind: str, part: str, trees: list, packed: pathlib.Path) -> None:
     made = run(binaries, "farlod-pack", HERE / "town.geojson", "-o", packed, "--cell", 50, "--neighborhood", 1, "--align", "none",
-               "--far-map", kind, "--quiet", *PARTS[part])
+               "--far-map", kind, "--quiet", *PARTS[part], *trees)
     if made.returncode != 0:
         raise SystemExit(made.stderr)
 
 
 def add(binaries: pathlib.Path, folder: pathlib.Path) -> None:
-    for kind in KINDS:
-        for part in PARTS:
-            with tempfile.TemporaryDirectory() as work:
-                packed = pathlib.Path(work) / "town.farlod"
-                pack_town(binaries, kind, part, packed)
-                version = json.loads((packed / "manifest.json").read_text())["version"]
-                name = f"version_{version}_{kind}{part}"
-                shutil.copytree(packed, folder / f"{name}.farlod")
-                write_values(folder / f"{name}.csv", values_of(binaries, packed))
+    there = versions_in(folder)
+    for kind, part, trees in itertools.product(KINDS, PARTS, CANOPIES):
+        with tempfile.TemporaryDirectory() as work:
+            packed = pathlib.Path(work) / "town.farlod"
+            pack_town(binaries, kind, part, trees, packed)
+            version = manifest_of(packed)["version"]
+            if version in there:
+                continue
+            name = f"version_{version}_{kind}{part}"
+            shutil.copytree(packed, folder / f"{name}.farlod")
+            write_values(folder / f"{name}.csv", values_of(binaries, packed), quantities_of(packed))
 
 
-def write_values(path: pathlib.Path, values: dict[tuple[str, str], str]) -> None:
+def versions_in(folder: pathlib.Path) -> set[int]:
+    return {int(path.name.split("_")[1]) for path in folder.glob("version_*.farlod")}
+
+
+def write_values(path: pathlib.Path, values: dict[tuple[str, str, str], str], quantities: list[str]) -> None:
     with path.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["point", "engine", "svf"])
-        writer.writerows([point, engine, svf] for (point, engine), svf in values.items())
+        writer.writerow(["point", "engine", *quantities])
+        for point, engine in dict.fromkeys((point, engine) for point, engine, _ in values):
+            writer.writerow([point, engine, *(values[point, engine, quantity] for quantity in quantities)])
 
 
-def differences(package: pathlib.Path, values: dict[tuple[str, str], str]) -> list[str]:
+def differences(package: pathlib.Path, values: dict[tuple[str, str, str], str]) -> list[str]:
     found = []
-    expected = {(row["point"], row["engine"]): row["svf"] for row in read_table(package.with_suffix(".csv"))}
+    rows = read_table(package.with_suffix(".csv"))
+    expected = {(row["point"], row["engine"], quantity): row[quantity] for row in rows for quantity in list(row)[2:]}
     if expected.keys() != values.keys():
-        found.append(f"{package.name}: other points or engines than in its table")
+        found.append(f"{package.name}: other points, engines or quantities than in its table")
     for key, was in expected.items():
         now = values.get(key, "nothing")
         numbers = re.fullmatch(r"[0-9.]+", was) and re.fullmatch(r"[0-9.]+", now)
         same = abs(float(was) - float(now)) <= TOLERANCE if numbers else was == now
         if not same:
-            found.append(f"{package.name}: {key[0]}, engine {key[1]}: {was or 'no value'} then, {now or 'no value'} now")
+            found.append(f"{package.name}: {key[0]}, engine {key[1]}, {key[2]}: {was or 'no value'} then, {now or 'no value'} now")
     return found
 
 
@@ -110,7 +132,7 @@ def version_of(name: str) -> int:
 
 
 def check_all_versions_are_there() -> list[str]:
-    versions = range(version_of("oldest_format_version"), version_of("format_version") + 1)
+    versions = range(version_of("oldest_format_version"), version_of("canopy_format_version") + 1)
     names = [f"version_{version}_{kind}" for version in versions for kind in KINDS]
     there = [path.stem for path in HERE.glob("*.farlod")]
     return [f"no package of {name}: see README.md" for name in names if not any(t.startswith(name) for t in there)]

@@ -4,7 +4,7 @@
 """Does this build of farlod-pack write the bytes that every other build wrote?
 
   package_bytes.py check BIN     packs the town and some generated cities with the programs in BIN, and compares their files with the
-                                 packages of the newest version that are here, and with checksums.txt
+                                 packages of the newest versions that are here, and with checksums.txt
   package_bytes.py write BIN     writes checksums.txt
 
 Of a manifest, the version of the software and the checksum, which counts it, are left out. Ends with 77 where libraries have other
@@ -12,6 +12,7 @@ versions than those that checksums.txt was made with. Far maps of the kind box a
 """
 
 import hashlib
+import itertools
 import pathlib
 import platform
 import re
@@ -88,13 +89,12 @@ def run(binaries: pathlib.Path, *arguments: object) -> None:
 
 
 def check_town(binaries: pathlib.Path, folder: pathlib.Path) -> Iterator[str]:
-    newest = golden.version_of("format_version")
-    for kind in golden.KINDS:
-        for part in golden.PARTS:
-            name = f"version_{newest}_{kind}{part}.farlod"
-            golden.pack_town(binaries, kind, part, folder / name)
-            for file in differing(files_of(golden.HERE / name), files_of(folder / name)):
-                yield f"{name}/{file}"
+    for kind, part, trees in itertools.product(golden.KINDS, golden.PARTS, golden.CANOPIES):
+        version = golden.version_of("canopy_format_version" if trees else "format_version")
+        name = f"version_{version}_{kind}{part}.farlod"
+        golden.pack_town(binaries, kind, part, trees, folder / name)
+        for file in differing(files_of(golden.HERE / name), files_of(folder / name)):
+            yield f"{name}/{file}"
 
 
 def checksums(binaries: pathlib.Path, folder: pathlib.Path) -> dict[str, str]:

@@ -20,7 +20,7 @@ import tempfile
 from collections.abc import Callable, Iterator
 
 GOLDEN = pathlib.Path(__file__).resolve().parent.parent / "golden"
-NAMES = ("manifest.json", "tiles.bin", "far.exr")
+NAMES = ("manifest.json", "tiles.bin", "far.exr", "crowns.bin")
 ENGINES = ("auto", "rays", "exact")
 EXIT_UNUSABLE, EXIT_DAMAGED = 3, 4
 SECONDS = 60
@@ -185,7 +185,7 @@ class Judge:
         table = folder / "values.csv"
         table.unlink(missing_ok=True)
         code, said = run(self.binaries / "farlod-svf", package, "-o", table, "--points", GOLDEN / "points.csv", "--engine", engine,
-                         "--threads", "1", "--quiet")
+                         "--quantity", "svf_total", "--threads", "1", "--quiet")
         return code, said, table.read_bytes() if table.exists() else b""
 
     def findings(self, t: Trial) -> Iterator[str]:
@@ -223,7 +223,7 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=60)
     parser.add_argument("--seed", type=int, default=1, help="of the first damage; each other has the next")
     given = parser.parse_args()
-    sources = sorted(GOLDEN.glob("version_8_*.farlod"))
+    sources = sorted(GOLDEN.glob("version_9_*.farlod"))
     judge = Judge(given.binaries, sources)
     outcomes: dict[str, collections.Counter[str]] = collections.defaultdict(collections.Counter)
     failed = 0
