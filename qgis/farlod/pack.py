@@ -42,6 +42,12 @@ FIELDS = (
     ("ROOF_FIELD", "--roof-field", "Field: elevation of the roof", "In metres; needs the elevation of the base, or a terrain."),
     ("STOREYS_FIELD", "--storeys-field", "Field: number of storeys", "Used where no height is known."),
 )
+# The same of trees
+TREE_FIELDS = (
+    ("TREE_HEIGHT_FIELD", "--tree-height-field", "Field: height of a tree", "In metres. A field with a usual name is found."),
+    ("CROWN_FIELD", "--crown-field", "Field: diameter of the crown", "In metres; without it, half the height."),
+    ("TRUNK_FIELD", "--trunk-field", "Field: height at which the crown begins", "In metres; without it, a share of the height."),
+)
 
 
 class PackCity(FarlodAlgorithm):
@@ -58,6 +64,7 @@ class PackCity(FarlodAlgorithm):
     def initAlgorithm(self, configuration: Values | None = None) -> None:
         self._add_inputs()
         self._add_footprints()
+        self._add_trees()
         self._add_grid()
         self._add_outputs()
 
@@ -82,12 +89,30 @@ class PackCity(FarlodAlgorithm):
     def _add_footprints(self) -> None:
         layer = QgsProcessingParameterFeatureSource("FOOTPRINTS", "Footprints", [QgsProcessing.TypeVectorPolygon], None, True)
         self.add(layer, "A layer of polygons, with heights in one of its fields.")
-        for name, _, title, help_text in FIELDS:
-            field = QgsProcessingParameterField(name, title, None, "FOOTPRINTS", QgsProcessingParameterField.Any, False, True)
-            self.add(field, help_text)
+        self._add_fields(FIELDS, "FOOTPRINTS")
         self.add_optional_number("FLOOR_HEIGHT", "Height of a storey (m)", "Default: 3.", 1.0, 20.0, advanced=True)
         default = "Height of footprints that have none (m)"
         self.add_optional_number("DEFAULT_HEIGHT", default, "Without it, they are left out.", 0.01, 1000.0)
+
+    def _add_fields(self, fields: tuple[tuple[str, str, str, str], ...], layer: str) -> None:
+        for name, _, title, help_text in fields:
+            field = QgsProcessingParameterField(name, title, None, layer, QgsProcessingParameterField.Any, False, True)
+            self.add(field, help_text)
+
+    def _add_trees(self) -> None:
+        layer = QgsProcessingParameterFeatureSource("TREES", "Trees", [QgsProcessing.TypeVector], None, True)
+        self.add(layer, "Points, outlines of crowns, or a table with columns lon, lat or x, y.")
+        self._add_fields(TREE_FIELDS, "TREES")
+        files = QgsProcessingParameterMultipleLayers("TREE_FILES", "Files with trees", QgsProcessing.TypeFile, None, True)
+        self.add(files, "Inventories, or city models (CityGML, CityJSON) with vegetation.")
+        canopy = QgsProcessingParameterRasterLayer("CANOPY", "Canopy", None, True)
+        self.add(canopy, "Heights of crowns above the ground, in metres; 0: none.")
+        trunk = QgsProcessingParameterRasterLayer("TRUNK", "Canopy: where crowns begin", None, True)
+        self.add(trunk, "Heights above the ground, in metres. Needs a canopy.", advanced=True)
+        absolute = QgsProcessingParameterBoolean("CANOPY_ABSOLUTE", "Canopy: the rasters hold elevations", False)
+        self.add(absolute, "Of the canopy, and of the raster of where crowns begin.", advanced=True)
+        ratio = "Where nothing else says where a crown begins. Default: 0.25."
+        self.add_optional_number("TRUNK_RATIO", "Share of its height at which a crown begins", ratio, 0.0, 0.95, advanced=True)
 
     def _add_grid(self) -> None:
         self.add_optional_number("CELL", "Edge of a cell (m)", "Default: 150, or what the largest error needs.", 0.5, 10000.0)
@@ -168,6 +193,7 @@ class PackCity(FarlodAlgorithm):
         """What to pack, and how; layers are saved in the folder."""
         return [
             *self._inputs(parameters, context, folder),
+            *self._trees(parameters, context, folder),
             *self._settings(parameters, context),
             *self._area(parameters, context, folder),
         ]
@@ -177,23 +203,38 @@ class PackCity(FarlodAlgorithm):
         if self.is_given(parameters, "INPUT_FOLDER"):
             inputs.append(self.parameterAsFile(parameters, "INPUT_FOLDER", context))
         if self.is_given(parameters, "FOOTPRINTS"):
-            inputs.append(self._footprints(parameters, context, folder))
+            inputs.append(self._layer_file("FOOTPRINTS", folder, parameters, context))
         terrain = self.parameterAsRasterLayer(parameters, "TERRAIN", context)
         if not inputs and terrain is None:
             raise QgsProcessingException("There is nothing to pack: give city files, a folder of them, footprints or a terrain.")
         return [*inputs, *([f"--terrain={raster_file(terrain)}"] if terrain is not None else [])]
 
-    def _footprints(self, parameters: Values, context: QgsProcessingContext, folder: pathlib.Path) -> str:
-        value = parameters["FOOTPRINTS"]
-        layer = self.parameterAsVectorLayer(parameters, "FOOTPRINTS", context)
+    def _layer_file(self, name: str, folder: pathlib.Path, parameters: Values, context: QgsProcessingContext) -> str:
+        """The file of a layer, or one in the folder that holds what of it is wanted."""
+        value = parameters[name]
+        layer = self.parameterAsVectorLayer(parameters, name, context)
         is_part = isinstance(value, QgsProcessingFeatureSourceDefinition) and value.selectedFeaturesOnly
         file = own_file(layer) if layer is not None and not is_part else None
         if file is not None:
             return file
-        source = self.parameterAsSource(parameters, "FOOTPRINTS", context)
+        source = self.parameterAsSource(parameters, name, context)
         if source is None:
-            raise QgsProcessingException(self.invalidSourceError(parameters, "FOOTPRINTS"))
-        return save_source(source, folder / "footprints.gpkg")
+            raise QgsProcessingException(self.invalidSourceError(parameters, name))
+        return save_source(source, folder / f"{name.lower()}.gpkg")
+
+    def _trees(self, parameters: Values, context: QgsProcessingContext, folder: pathlib.Path) -> list[str]:
+        has_files = self.is_given(parameters, "TREE_FILES")
+        files = list(self.parameterAsFileList(parameters, "TREE_FILES", context)) if has_files else []
+        if self.is_given(parameters, "TREES"):
+            files.append(self._layer_file("TREES", folder, parameters, context))
+        arguments = [f"--trees={file}" for file in files]
+        for name, option, _, _ in TREE_FIELDS:
+            arguments += self.text_argument(parameters, name, option, context)
+        for name, option in (("CANOPY", "--canopy"), ("TRUNK", "--trunk")):
+            raster = self.parameterAsRasterLayer(parameters, name, context)
+            arguments += [f"{option}={raster_file(raster)}"] if raster is not None else []
+        arguments += self.flag_argument(parameters, "CANOPY_ABSOLUTE", "--canopy-absolute", context)
+        return arguments + self.number_argument(parameters, "TRUNK_RATIO", "--trunk-ratio", context)
 
     def _settings(self, parameters: Values, context: QgsProcessingContext) -> list[str]:
         arguments = []

@@ -227,6 +227,43 @@ class Footprints(QgisTest):
         must("diff", "--recursive", WORK / "expected_hilly.farlod", WORK / "hilly.farlod")
 
 
+class Trees(QgisTest):
+    TREES = "id,x,y,KRONE,H\n1,550010,5499990,4,9\n2,550030,5499990,6,12\n"
+
+    def packed(self, name: str, *options: object) -> pathlib.Path:
+        output = WORK / f"expected_{name}.farlod"
+        program("farlod-pack", SAMPLES / "village.gml", "--cell", 40, *options, "-o", output, "--quiet")
+        return output
+
+    def test_a_layer_gives_what_its_file_gives(self) -> None:
+        table, layer = WORK / "trees.csv", WORK / "trees.geojson"
+        table.write_text(self.TREES)
+        must("ogr2ogr", layer, table, "-oo", "X_POSSIBLE_NAMES=x", "-oo", "Y_POSSIBLE_NAMES=y", "-oo", "AUTODETECT_TYPE=YES",
+             "-a_srs", "EPSG:32632")
+        expected = self.packed("trees", "--trees", layer, "--tree-height-field", "H", "--crown-field", "KRONE")
+        algorithm("pack", INPUT=SAMPLES / "village.gml", CELL=40, TREES=layer, TREE_HEIGHT_FIELD="H", CROWN_FIELD="KRONE",
+                  OUTPUT=WORK / "trees.farlod")
+        must("diff", "--recursive", expected, WORK / "trees.farlod")
+        algorithm("pack", INPUT=SAMPLES / "village.gml", CELL=40, TREE_FILES=table, TREE_HEIGHT_FIELD="H", CROWN_FIELD="KRONE",
+                  OUTPUT=WORK / "table.farlod")
+        must("cmp", expected / "crowns.bin", WORK / "table.farlod" / "crowns.bin")
+
+    def test_canopies_are_read(self) -> None:
+        tops, trunks = WORK / "tops.asc", WORK / "trunks.asc"
+        head = "ncols 3\nnrows 2\nxllcorner 550000\nyllcorner 5499990\ncellsize 2\n"
+        tops.write_text(head + "0 8 9\n7 6 0\n")
+        trunks.write_text(head + "0 2 3\n2 1 0\n")
+        for raster in (tops, trunks):
+            raster.with_suffix(".prj").write_text(must("gdalsrsinfo", "-o", "wkt1_esri", "EPSG:32632"))
+        expected = self.packed("canopy", "--canopy", tops, "--trunk", trunks, "--canopy-absolute")
+        algorithm("pack", INPUT=SAMPLES / "village.gml", CELL=40, CANOPY=tops, TRUNK=trunks, CANOPY_ABSOLUTE=True,
+                  OUTPUT=WORK / "canopy.farlod")
+        must("diff", "--recursive", expected, WORK / "canopy.farlod")
+        expected = self.packed("ratio", "--canopy", tops, "--trunk-ratio", 0.5)
+        algorithm("pack", INPUT=SAMPLES / "village.gml", CELL=40, CANOPY=tops, TRUNK_RATIO=0.5, OUTPUT=WORK / "ratio.farlod")
+        must("diff", "--recursive", expected, WORK / "ratio.farlod")
+
+
 class Raster(QgisTest):
     def compare(self, name: str, options: list[object], **parameters: object) -> str:
         ours, theirs = WORK / f"{name}_qgis.tif", WORK / f"{name}.tif"

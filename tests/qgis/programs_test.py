@@ -1,13 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The Far-LoD authors
 # SPDX-License-Identifier: Apache-2.0
-"""Tests what of the plug-in needs no QGIS: finding and running programs, and where they write."""
+"""Tests what of the plug-in needs no QGIS: finding and running programs, their options, and where they write.
+
+    tests/qgis/programs_test.py PROGRAMS
+
+PROGRAMS is the folder of the programs.
+"""
 from __future__ import annotations
 
 import importlib
 import os
 import pathlib
+import re
 import stat
+import subprocess
 import sys
 import tempfile
 import time
@@ -15,6 +22,7 @@ import types
 import unittest
 
 PLUG_IN = pathlib.Path(__file__).resolve().parents[2] / "qgis" / "farlod"
+PROGRAMS = pathlib.Path()
 sys.dont_write_bytecode = True
 
 
@@ -125,6 +133,19 @@ class RunningPrograms(InTemporaryFolder):
         self.assertLess(time.monotonic() - start, 20.0)
 
 
+class Options(unittest.TestCase):
+    def options_in(self, text: str) -> set[str]:
+        return set(re.findall(r"--[a-z]+(?:-[a-z]+)*", text))
+
+    def test_those_of_the_plug_in_are_those_of_the_programs(self) -> None:
+        evaluation = ("evaluation.py", "raster.py", "points.py", "surfaces.py")
+        for programs, files in ((("farlod-pack",), ("pack.py",)), (("farlod-svf", "farlod-info"), evaluation)):
+            helped = "".join(subprocess.check_output([PROGRAMS / program, "--help"], text=True) for program in programs)
+            named = self.options_in("".join((PLUG_IN / file).read_text(encoding="utf-8") for file in files))
+            self.assertGreater(len(named), 5)
+            self.assertEqual(named - self.options_in(helped), set(), programs)
+
+
 class FindingPrograms(InTemporaryFolder):
     def setUp(self) -> None:
         super().setUp()
@@ -216,4 +237,5 @@ class WhereProgramsWrite(InTemporaryFolder):
 
 
 if __name__ == "__main__":
+    PROGRAMS = pathlib.Path(sys.argv.pop(1))
     unittest.main()
