@@ -77,6 +77,7 @@ MemoryBound::MemoryBound(std::optional<std::uint64_t> limit_bytes, const std::st
     : limit_(limit_bytes),
       forward_(asked, Forward{stop_}),
       of_files_(most_of_files),
+      fewest_files_(resident().files),
       watcher_([this](const std::stop_token& ended) { watch(ended); }) {
   expect(0);
   LivingBounds& living = living_bounds();
@@ -130,7 +131,8 @@ void MemoryBound::look_alone() {
   PageFile::let_go_of_all();
   const Resident left = resident();
   // Others may have read again by now what was let go
-  fewest_files_ = std::min(fewest_files_, left.files);
+  fewest_files_ = has_let_go_ ? std::min(fewest_files_, left.files) : left.files;
+  has_let_go_ = true;
   const std::uint64_t needed = left.in_memory() + fewest_files_;
   // What cannot be let go may lie above the thresholds: wait until half of what it leaves is used
   near_files_ = fewest_files_ + of_files_ / 2;

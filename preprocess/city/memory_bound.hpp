@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <limits>
 #include <mutex>
 #include <optional>
 #include <stop_token>
@@ -57,9 +56,11 @@ class MemoryBound {
   std::stop_callback<Forward> forward_;
   std::atomic<std::uint64_t> exceeded_at_ = 0, most_needed_ = 0;
   std::atomic<std::uint64_t> of_files_;
-  std::uint64_t near_limit_ = 0, near_files_ = 0;                           ///< pages are let go no sooner than at these
-  std::uint64_t fewest_files_ = std::numeric_limits<std::uint64_t>::max();  ///< programs and libraries
-  std::jthread watcher_;                                                    ///< last: it uses all the others
+  std::uint64_t near_limit_ = 0, near_files_ = 0;  ///< pages are let go no sooner than at these
+  /// Programs and libraries: until pages are let go, those that were there at the beginning.
+  std::uint64_t fewest_files_;
+  bool has_let_go_ = false;
+  std::jthread watcher_;  ///< last: it uses all the others
 };
 
 }  // namespace farlod

@@ -21,6 +21,10 @@ struct CanopyFiles {
   std::optional<std::filesystem::path> trunks;
 };
 
+/// Throws InputError when one of the files is no raster that can be opened, or has no place on the map: told before the long
+/// stages.
+void require_canopy(const CanopyFiles& files);
+
 /// Reads band 1 of a raster of the tops of crowns, and of one of the heights at which they begin.
 ///   (1) a raster in the output CRS whose pixels are squares is read as it is, however it is turned
 ///   (2) any other raster is brought into squares of the output CRS, each with the height of the nearest pixel

@@ -78,12 +78,16 @@ void bring_into_squares(Raster& raster, const Crs& own, const Crs& output) {
                 text_of(norm(raster.frame().column_step)) + " m, each with the height of the nearest pixel";
 }
 
+Raster open(const std::filesystem::path& path) {
+  return {path,
+          open_height_raster(GdalReach::local_files, path,
+                             "is not a raster of the heights of crowns that can be read: give a GeoTIFF, an ESRI ASCII grid or "
+                             "another format of GDAL"),
+          nullptr};
+}
+
 Raster make_ready(const std::filesystem::path& path, const std::string& fallback_crs, const Crs& output) {
-  Raster raster{path,
-                open_height_raster(GdalReach::local_files, path,
-                                   "is not a raster of the heights of crowns that can be read: give a GeoTIFF, an ESRI "
-                                   "ASCII grid or another format of GDAL"),
-                nullptr};
+  Raster raster = open(path);
   const std::string own_wkt = wkt_of(raster.file->GetSpatialRef());
   const bool unnamed = own_wkt.empty() && fallback_crs.empty();
   const Crs crs = unnamed ? output : crs_of_input(path.string(), own_wkt, fallback_crs).crs;
@@ -179,6 +183,12 @@ CanopyRaster read_tops(const Raster& tops, const Box2d& wanted, Point2d origin_m
 }
 
 }  // namespace
+
+void require_canopy(const CanopyFiles& files) {
+  const GdalErrors quiet;
+  (void)open(files.tops).frame();
+  if (files.trunks) (void)open(*files.trunks).frame();
+}
 
 std::pair<CanopyRaster, std::vector<std::string>> read_canopy(const CanopyFiles& files, const std::string& fallback_crs,
                                                               const Georeference& georeference, const Box2d& wanted_city,

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "align/area_cells.hpp"
+#include "contract/grid_outline.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod::pipeline {
@@ -17,15 +18,6 @@ namespace {
 std::string extent_text(const Box2d& box, Point2d origin) {
   return fmt::format("from {:.1f},{:.1f} to {:.1f},{:.1f}", box.low.x + origin.x, box.low.y + origin.y, box.high.x + origin.x,
                      box.high.y + origin.y);
-}
-
-/// The outline of a grid in the city frame.
-Box2d outline_of_grid(const Grid& grid) {
-  const auto [low, high] = grid.rectangle();
-  Box2d outline;
-  for (const Point2d corner : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}})
-    outline.add(grid.rotation.city_from_grid(corner));
-  return outline;
 }
 
 /// The cells of the block that have far maps afterwards; absent where all have one.
@@ -78,7 +70,7 @@ BlockPlan plan_area(const georeference::RequestedArea& area, const Georeference&
   if (met.cells.empty())
     throw InvalidArgument(area.name + " meets no cell of the grid: it reaches " +
                           extent_text(outline_of(area_city), georeference.origin_m) + ", and the city " +
-                          extent_text(outline_of_grid(grid), georeference.origin_m) + " (" + georeference.crs_name +
+                          extent_text(outline_city(grid), georeference.origin_m) + " (" + georeference.crs_name +
                           "): check its coordinates, and their CRS");
   std::map<Block, std::vector<std::size_t>> places;
   for (const Cell cell : met.cells) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "city/plan_boxes.hpp"
+#include "contract/grid_outline.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod::pipeline {
@@ -149,7 +150,7 @@ class CityReading {
     }
     align::GridAlignment aligned;
     run_stage("align", [&] { aligned = align::align(read_.located, settings, report); });
-    read(city_outline(aligned.grid));
+    read(outline_city(aligned.grid));
     return {aligned.grid, std::move(terrain), aligned.streets};
   }
 
@@ -169,14 +170,6 @@ class CityReading {
 };
 
 }  // namespace
-
-Box2d city_outline(const Grid& grid) {
-  const auto [low, high] = grid.rectangle();
-  Box2d outline;
-  for (const Point2d corner : {low, Point2d{high.x, low.y}, high, Point2d{low.x, high.y}})
-    outline.add(grid.rotation.city_from_grid(corner));
-  return outline;
-}
 
 CityFiles find_city_files(const StageSettings& settings, Report& report) {
   CityFiles city{{}, {}, settings.terrain, settings.terrain, {}};

@@ -33,9 +33,6 @@ struct CityFiles {
 /// Searches the inputs for files. A raster among them becomes the terrain. Throws InputError.
 [[nodiscard]] CityFiles find_city_files(const StageSettings& settings, Report& report);
 
-/// The bounding rectangle of the grid in the city frame.
-[[nodiscard]] Box2d city_outline(const Grid& grid);
-
 /// A grid, the ground below it where a raster is read, and how the streets lie.
 struct GridOnGround {
   Grid grid;

@@ -81,7 +81,6 @@ class Packing {
     require_folders_above(settings_.output);
     CityFiles files;
     timed("inputs", [&] {
-      require_trees_exist(settings_.trees);
       files = find_city_files(settings_, report_);
       origin_ = origin_of(settings_, files, origin_of_unfinished(settings_.output));
     });
@@ -101,7 +100,9 @@ class Packing {
     throw_if_cancelled(run_.stop);
     const auto start = Clock::now();
     work();
-    seconds_.emplace_back(stage, seconds_between(start, Clock::now()));
+    const double taken_s = seconds_between(start, Clock::now());
+    const auto known = std::find_if(seconds_.begin(), seconds_.end(), [&](const auto& entry) { return entry.first == stage; });
+    known == seconds_.end() ? (void)seconds_.emplace_back(stage, taken_s) : (void)(known->second += taken_s);
   }
 
   /// A shard waits for another one that reads the city.
@@ -131,6 +132,9 @@ class Packing {
   /// Reads and cuts the city, and plans its blocks.
   CutCity cut_anew(PackTarget& target, CityFiles files) {
     const RunStage run_stage = [this](const std::string& stage, const std::function<void()>& work) { timed(stage, work); };
+    std::vector<SourceTrees> inventories;
+    const bool has_trees = settings_.trees.any();
+    if (has_trees) timed("trees", [&] { inventories = read_inventories(settings_.trees, report_, run_.stop); });
     ReadCity city = read_city(std::move(files), settings_, report_, run_.stop, run_stage);
     require_unchanged(origin_);
     PackedCity& result = record_.result;
@@ -140,10 +144,10 @@ class Packing {
     result.alignment_strength = city.ground.streets.strength;
     take_findings(city);
     record_.plan = target.plan(city.located.georeference, result);
-    estimate(city);
-    result.facets = city.located.city.facets().size();
     tiles::TreesOfCity trees;
-    if (settings_.trees.any()) timed("trees", [&] { trees = read_trees_of(city); });
+    if (has_trees) timed("trees", [&] { trees = trees_at(city, std::move(inventories)); });
+    estimate(city, trees);
+    result.facets = city.located.city.facets().size();
     CutCity cut;
     std::optional<CrownsOfCity> crowns;
     timed("tiles", [&] { cut.tiles = cut_tiles(std::move(city), std::move(trees), crowns); });
@@ -163,15 +167,16 @@ class Packing {
     if (city.is_chosen) result.chosen = ChosenGrid{city.best, {}};
   }
 
-  void estimate(const ReadCity& city) {
+  void estimate(const ReadCity& city, const tiles::TreesOfCity& trees) {
     const CityModel& model = city.located.city;
     const GridOnGround& ground = city.ground;
     const auto threads = static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency());
     const std::size_t ground_points = ground.terrain ? ground.terrain->height_m.size() : city.located.relief_points.size();
     const FarMapKind kind = settings_.far_map.kind;
-    record_.memory = memory_of_pack(model, ground_points, ground.grid, kind);
+    const CanopyLoad canopy = canopy_load_of(trees);
+    record_.memory = memory_of_pack(model, ground_points, ground.grid, kind, canopy);
     record_.result.estimate =
-        estimate_pack(record_.memory, model, ground_points, ground.grid, kind, threads, record_.plan.far_maps);
+        estimate_pack(record_.memory, model, ground_points, ground.grid, kind, canopy, threads, record_.plan.far_maps);
     expect_memory();
   }
 
@@ -186,9 +191,10 @@ class Packing {
     if (on_estimate_) on_estimate_(e);
   }
 
-  tiles::TreesOfCity read_trees_of(const ReadCity& city) {
+  tiles::TreesOfCity trees_at(const ReadCity& city, std::vector<SourceTrees> inventories) {
     PackedCity& result = record_.result;
-    ReadTrees read = read_trees(settings_, city.located.georeference, city.ground.grid, report_, run_.stop);
+    ReadTrees read =
+        bring_to_city(std::move(inventories), settings_, city.located.georeference, city.ground.grid, report_, run_.stop);
     require_unchanged(origin_);
     for (const auto& [what, count] : read.skipped) result.skipped[what] += count;
     result.notes.insert(result.notes.end(), read.notes.begin(), read.notes.end());

@@ -47,11 +47,18 @@ constexpr double bytes_per_baked_map = 48.0 * 1024.0, written_bytes_per_triangle
 /// Of what lies on disk, about so much is in use at a time, or not let go yet.
 constexpr double in_use_of_files = 0.3;
 
+/// Beside each other: the trees, or the pixels of a canopy, and their crowns.
+constexpr std::array bytes_per_tree{static_cast<double>(sizeof(Tree))};
+constexpr std::array bytes_per_crown{static_cast<double>(sizeof(CrownsOfCity::OwnedCrown))};
+constexpr std::array bytes_per_canopy_pixel{static_cast<double>(sizeof(float))};
+
 constexpr double package_bytes_per_triangle = 28.0;
 constexpr double package_bytes_per_horizon_map = 10000.0, package_bytes_per_box_map = 6000.0;
 
 /// On one core: cutting and writing a triangle; baking and writing a far map of either kind.
 constexpr double seconds_per_triangle = 4e-6, seconds_per_far_map = 4e-3;
+/// Placing a crown, sorting it and writing it, on one core however many there are.
+constexpr double seconds_per_crown = 1e-6;
 
 constexpr double bytes_per_mib = 1048576.0;
 
@@ -92,7 +99,18 @@ struct Arrays {
 
 }  // namespace
 
-PackMemory memory_of_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map) {
+CanopyLoad canopy_load_of(const tiles::TreesOfCity& trees) {
+  CanopyLoad load;
+  load.trees = trees.trees.size();
+  if (!trees.canopy) return load;
+  load.pixels = trees.canopy->top_m.size();
+  load.has_trunks = !trees.canopy->trunk_m.empty();
+  for (const float top_m : trees.canopy->top_m) load.cells += std::isfinite(top_m) && top_m != 0.0F ? 1 : 0;
+  return load;
+}
+
+PackMemory memory_of_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map,
+                          const CanopyLoad& canopy) {
   const auto points = static_cast<double>(city.points().size()), surveyed = static_cast<double>(ground_points);
   const double triangles = triangles_in_tiles(city, ground_points, grid);
   Arrays arrays;
@@ -100,6 +118,10 @@ PackMemory memory_of_pack(const CityModel& city, std::size_t ground_points, cons
   arrays.add(bytes_per_facet, static_cast<double>(city.facets().size()));
   arrays.add(bytes_per_tile_triangle, triangles);
   arrays.add(bytes_per_ground_point, ground_points > 0 ? surveyed : base_points_per_point * points);
+  arrays.add(bytes_per_tree, static_cast<double>(canopy.trees));
+  arrays.add(bytes_per_crown, static_cast<double>(canopy.crowns()));
+  arrays.add(bytes_per_canopy_pixel, static_cast<double>(canopy.pixels));
+  if (canopy.has_trunks) arrays.add(bytes_per_canopy_pixel, static_cast<double>(canopy.pixels));
   const double index = bytes_per_building * static_cast<double>(city.buildings().size()) +
                        bytes_per_cell * static_cast<double>(grid.cells.size()) + bytes_per_surveyed_point * surveyed +
                        (far_map == FarMapKind::box ? ray_index_bytes_per_triangle * triangles : 0.0);
@@ -127,17 +149,20 @@ std::size_t PackMemory::blocks_at_once(std::size_t wanted, const RunSettings& ru
 }
 
 PackEstimate estimate_pack(const PackMemory& memory, const CityModel& city, std::size_t ground_points, const Grid& grid,
-                           FarMapKind far_map, std::size_t threads, std::optional<std::uint64_t> far_maps) {
+                           FarMapKind far_map, const CanopyLoad& canopy, std::size_t threads,
+                           std::optional<std::uint64_t> far_maps) {
   const bool is_box = far_map == FarMapKind::box;
   const double triangles = triangles_in_tiles(city, ground_points, grid);
   PackEstimate e;
   e.cells = static_cast<std::uint64_t>(grid.cells.size());
   e.far_maps = far_maps.value_or(e.cells);
   const auto maps = static_cast<double>(e.far_maps);
+  const auto crowns = static_cast<double>(canopy.crowns());
   e.seconds =
-      (triangles * seconds_per_triangle + maps * seconds_per_far_map) / static_cast<double>(std::max<std::size_t>(threads, 1));
+      (triangles * seconds_per_triangle + maps * seconds_per_far_map) / static_cast<double>(std::max<std::size_t>(threads, 1)) +
+      crowns * seconds_per_crown;
   const double per_map = is_box ? package_bytes_per_box_map : package_bytes_per_horizon_map;
-  e.package_mib = (triangles * package_bytes_per_triangle + maps * per_map) / bytes_per_mib;
+  e.package_mib = (triangles * package_bytes_per_triangle + maps * per_map + crowns * sizeof(Crown)) / bytes_per_mib;
   e.memory_mib = memory.in_memory_mib(usual_blocks_at_once) +
                  std::min(in_use_of_files * memory.on_disk_mib, static_cast<double>(MemoryBound::most_of_files) / bytes_per_mib);
   e.least_memory_mib = memory.least_mib();

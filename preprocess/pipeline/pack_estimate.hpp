@@ -10,6 +10,7 @@
 #include "contract/grid.hpp"
 #include "farlod/pack.hpp"
 #include "farmap/far_map_settings.hpp"
+#include "tiles/crowns_on_ground.hpp"
 
 namespace farlod::pipeline {
 
@@ -28,15 +29,28 @@ struct PackMemory {
   /// How many blocks may be in work under the limit of a run, at most as many as wanted.
   [[nodiscard]] std::size_t blocks_at_once(std::size_t wanted, const RunSettings& run) const;
 };
+
+/// What is known of trees before they are placed.
+struct CanopyLoad {
+  std::uint64_t trees = 0;   ///< of inventories
+  std::uint64_t pixels = 0;  ///< of a raster of canopies
+  std::uint64_t cells = 0;   ///< of these, those that may have a crown
+  bool has_trunks = false;   ///< whether there is a raster of trunks, too
+
+  [[nodiscard]] std::uint64_t crowns() const { return trees + cells; }
+};
+[[nodiscard]] CanopyLoad canopy_load_of(const tiles::TreesOfCity& trees);
+
 /// For cities of grounded buildings (Surface::grounded). `ground_points`: nodes of a terrain or points of a relief, 0 without
 /// either.
-[[nodiscard]] PackMemory memory_of_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map);
+[[nodiscard]] PackMemory memory_of_pack(const CityModel& city, std::size_t ground_points, const Grid& grid, FarMapKind far_map,
+                                        const CanopyLoad& canopy = {});
 
 /// Estimates memory and package size within a factor of two for cities of grounded buildings; cities of open shells have larger
 /// far maps. The time is that of an idle machine like the one of docs/performance.md. `far_maps` are baked, of all cells when
 /// absent.
 [[nodiscard]] PackEstimate estimate_pack(const PackMemory& memory, const CityModel& city, std::size_t ground_points,
-                                         const Grid& grid, FarMapKind far_map, std::size_t threads,
+                                         const Grid& grid, FarMapKind far_map, const CanopyLoad& canopy, std::size_t threads,
                                          std::optional<std::uint64_t> far_maps = {});
 
 /// Throws LimitReached, whose message says what would do, when the limit cannot be kept.

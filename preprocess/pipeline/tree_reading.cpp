@@ -3,85 +3,70 @@
 #include "pipeline/tree_reading.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "contract/cancellation.hpp"
+#include "contract/grid_outline.hpp"
 #include "farlod/error.hpp"
 #include "georeference/canopy_reader.hpp"
 #include "georeference/tree_places.hpp"
 #include "ingest/trees/tree_reader.hpp"
-#include "pipeline/city_reading.hpp"
 
 namespace farlod::pipeline {
 namespace {
 
-class TreeReading {
+/// Of several inventories, those that cannot be used are reported and left out; of one alone the reason is thrown.
+class Usable {
  public:
-  TreeReading(const StageSettings& settings, const Georeference& georeference, Report& report, const std::stop_token& stop)
-      : settings_(settings), georeference_(georeference), report_(report), stop_(stop) {}
+  Usable(std::size_t count, Report& report) : count_(count), report_(report) {}
 
-  ReadTrees run(const Grid& grid) {
-    const auto& files = settings_.trees.files;
-    if (files.size() > std::numeric_limits<decltype(Tree::source)>::max())
-      throw InputError("There are " + std::to_string(files.size()) + " inventories of trees: put them together into fewer.");
-    for (const std::filesystem::path& file : files) files.size() == 1 ? take(read(file)) : take_if_usable(file);
-    if (!files.empty() && read_.trees.sources.empty())
-      throw InputError("None of the " + std::to_string(files.size()) +
-                       " inventories of trees can be used. The first problem: " + first_failure_);
-    if (settings_.trees.canopy) read_canopy(grid);
-    return std::move(read_);
-  }
-
- private:
-  [[nodiscard]] SourceTrees read(const std::filesystem::path& file) const {
-    SourceTrees trees = ingest::read_trees(file, settings_.trees, report_, stop_);
-    georeference::locate_trees(trees, settings_.georeference.crs, georeference_, report_);
-    return trees;
-  }
-
-  void take(SourceTrees trees) {
-    const auto number = static_cast<std::uint16_t>(read_.trees.sources.size());
-    read_.trees.sources.push_back(trees.source);
-    for (const auto& [what, count] : trees.skipped) read_.skipped[what] += count;
-    for (Tree& tree : trees.trees) tree.source = number;
-    if (read_.trees.trees.empty())
-      read_.trees.trees = std::move(trees.trees);
-    else
-      read_.trees.trees.append({trees.trees.begin(), trees.trees.end()});
-  }
-
-  void take_if_usable(const std::filesystem::path& file) {
-    std::error_code unread;
-    const bool is_empty = std::filesystem::is_regular_file(file, unread) && std::filesystem::file_size(file, unread) == 0;
+  void take(const std::filesystem::path& file, const std::function<void()>& work) {
     try {
-      take(read(file));
+      work();
+      ++taken_;
     } catch (const InputError& error) {
+      if (count_ == 1) throw;
       if (first_failure_.empty()) first_failure_ = error.what();
+      std::error_code unread;
+      const bool is_empty = std::filesystem::is_regular_file(file, unread) && std::filesystem::file_size(file, unread) == 0;
       report_.add({is_empty ? ProblemCode::empty_file : ProblemCode::unusable_file, file.string(), "the whole file",
                    is_empty ? "0 bytes: was the download cut short?" : error.what()});
     }
   }
-
-  void read_canopy(const Grid& grid) {
-    auto [canopy, notes] = georeference::read_canopy({*settings_.trees.canopy, settings_.trees.trunks},
-                                                     settings_.georeference.crs, georeference_, city_outline(grid), stop_);
-    read_.trees.canopy = std::move(canopy);
-    read_.notes.insert(read_.notes.end(), notes.begin(), notes.end());
+  void require_one() const {
+    if (count_ > 0 && taken_ == 0)
+      throw InputError("None of the " + std::to_string(count_) +
+                       " inventories of trees can be used. The first problem: " + first_failure_);
   }
 
-  const StageSettings& settings_;
-  const Georeference& georeference_;
+ private:
+  std::size_t count_, taken_ = 0;
   Report& report_;
-  const std::stop_token& stop_;
   std::string first_failure_;
-  ReadTrees read_;
 };
 
-}  // namespace
+void append(ReadTrees& read, SourceTrees source) {
+  const auto number = static_cast<std::uint16_t>(read.trees.sources.size());
+  read.trees.sources.push_back(source.source);
+  for (const auto& [what, count] : source.skipped) read.skipped[what] += count;
+  for (Tree& tree : source.trees) tree.source = number;
+  if (read.trees.trees.empty())
+    read.trees.trees = std::move(source.trees);
+  else
+    read.trees.trees.append({source.trees.begin(), source.trees.end()});
+}
 
-void require_trees_exist(const TreeSettings& settings) {
+std::optional<georeference::CanopyFiles> canopy_files(const TreeSettings& settings) {
+  if (!settings.canopy) return std::nullopt;
+  return georeference::CanopyFiles{*settings.canopy, settings.trunks};
+}
+
+void require_files_exist(const TreeSettings& settings) {
   std::vector<std::filesystem::path> files = settings.files;
   if (settings.canopy) files.push_back(*settings.canopy);
   if (settings.trunks) files.push_back(*settings.trunks);
@@ -90,9 +75,41 @@ void require_trees_exist(const TreeSettings& settings) {
     if (!std::filesystem::exists(file, unread)) throw InputError(file.string() + " does not exist. Check the path.");
 }
 
-ReadTrees read_trees(const StageSettings& settings, const Georeference& georeference, const Grid& grid, Report& report,
-                     const std::stop_token& stop) {
-  return TreeReading(settings, georeference, report, stop).run(grid);
+}  // namespace
+
+std::vector<SourceTrees> read_inventories(const TreeSettings& settings, Report& report, const std::stop_token& stop) {
+  require_files_exist(settings);
+  if (settings.files.size() > std::numeric_limits<decltype(Tree::source)>::max())
+    throw InputError("There are " + std::to_string(settings.files.size()) +
+                     " inventories of trees: put them together into fewer.");
+  if (const auto canopy = canopy_files(settings)) georeference::require_canopy(*canopy);
+  std::vector<SourceTrees> inventories;
+  Usable usable(settings.files.size(), report);
+  for (const std::filesystem::path& file : settings.files)
+    usable.take(file, [&] { inventories.push_back(ingest::read_trees(file, settings, report, stop)); });
+  usable.require_one();
+  return inventories;
+}
+
+ReadTrees bring_to_city(std::vector<SourceTrees> inventories, const StageSettings& settings, const Georeference& georeference,
+                        const Grid& grid, Report& report, const std::stop_token& stop) {
+  const std::string& fallback_crs = settings.georeference.crs;
+  ReadTrees read;
+  Usable usable(inventories.size(), report);
+  for (SourceTrees& inventory : inventories) {
+    throw_if_cancelled(stop);
+    usable.take(inventory.source, [&] {
+      georeference::locate_trees(inventory, fallback_crs, georeference, report);
+      append(read, std::move(inventory));
+    });
+  }
+  usable.require_one();
+  if (const auto files = canopy_files(settings.trees)) {
+    auto [canopy, notes] = georeference::read_canopy(*files, fallback_crs, georeference, outline_city(grid), stop);
+    read.trees.canopy = std::move(canopy);
+    read.notes.insert(read.notes.end(), notes.begin(), notes.end());
+  }
+  return read;
 }
 
 }  // namespace farlod::pipeline

@@ -161,6 +161,12 @@ TEST_F(ManyTrees, AreReadInTimeAndInLittleMemory) {
   EXPECT_EQ(trees_of(city), std::size_t{rows} * rows);
   EXPECT_LT(city.summary.at("seconds").at("total"), longest_s);
   EXPECT_LT(city.summary.at("peak_memory_mib"), most_mib);
+  // PackEstimate promises a factor of two
+  const nlohmann::json& estimate = city.summary.at("estimate");
+  const double package_mib = city.summary.at("package_bytes").get<double>() / 1048576.0;
+  EXPECT_GT(estimate.at("package_mib"), package_mib / 2.0);
+  EXPECT_LT(estimate.at("package_mib"), package_mib * 2.0);
+  EXPECT_GT(estimate.at("memory_mib"), city.summary.at("peak_memory_mib").get<double>() / 2.0);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <limits>
 #include <map>
 
+#include "contract/grid_outline.hpp"
+
 namespace farlod {
 namespace {
 
@@ -122,6 +124,18 @@ INSTANTIATE_TEST_SUITE_P(OfEdge, Blocks, testing::Values(1, 3, 4, 32));
 TEST(Grid, AnEmptyGridHasNoBlocks) {
   Grid grid;
   EXPECT_TRUE(grid.blocks().empty());
+}
+
+TEST(Grid, ItsOutlineInTheCityIsTheBoxAroundIt) {
+  Grid grid = grid_of(10.0);
+  grid.cells = {-1, 0, 3, 2};
+  EXPECT_EQ(outline_city(grid), grid.rectangle());
+  grid.rotation = GridRotation(Angle::degrees(30.0));
+  const Box2d outline = outline_city(grid);
+  // Of a rectangle of a × b that is turned by 30°: a cos 30° + b sin 30° by a sin 30° + b cos 30°
+  constexpr double rounding_m = 1e-12, cosine = 0.8660254037844386, sine = 0.5;
+  EXPECT_NEAR(outline.high.x - outline.low.x, 40.0 * cosine + 20.0 * sine, rounding_m);
+  EXPECT_NEAR(outline.high.y - outline.low.y, 40.0 * sine + 20.0 * cosine, rounding_m);
 }
 
 }  // namespace

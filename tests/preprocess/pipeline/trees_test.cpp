@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 /// Crowns are floats of some hundred metres.
 constexpr double float_error_m = 1e-4;
@@ -139,6 +140,44 @@ TEST(PackedTrees, FilesThatCannotBeUsedAreLeftOutAmongOthers) {
   EXPECT_THAT(p.refusal(), HasSubstr("no columns named lon and lat"));
   p.settings.trees.files = {p.folder.path() / "good.csv", p.folder.path() / "lost.csv"};
   EXPECT_THAT(p.refusal(), HasSubstr("lost.csv does not exist"));
+}
+
+TEST(PackedTrees, WrongFilesAreToldBeforeTheCityIsRead) {
+  TreePacking p;
+  const TreeSettings none = p.settings.trees;
+  const auto expect = [&](const std::string& message) {
+    p.told.clear();
+    EXPECT_THAT(p.refusal(), HasSubstr(message));
+    EXPECT_THAT(p.stages_told(), Not(Contains("ingest")));
+    p.settings.trees = none;
+  };
+  p.settings.trees.files = {p.write("columns.csv", "a,b\n1,2\n")};
+  expect("no columns named lon and lat");
+  p.settings.trees.files = {p.write_rows("rows.csv", 3)};
+  p.settings.trees.height_field = "HOEHE";
+  expect("has no field \"HOEHE\"");
+  p.settings.trees.files = {p.write("lines.geojson", R"({"type": "Feature", "properties": {}, "geometry": {"type": "LineString",
+      "coordinates": [[9, 49], [9, 50]]}})")};
+  expect("holds no layer of points or areas");
+  p.settings.trees.canopy = p.folder.path() / "rows.csv";
+  expect("is not a raster of the heights of crowns");
+  p.settings.trees.canopy = p.write_canopy("tops.asc", "8 9 0\n-9999 7 6\n");
+  p.settings.trees.trunks = p.folder.path() / "rows.csv";
+  expect("is not a raster of the heights of crowns");
+}
+
+TEST(PackedTrees, AreCountedInTheEstimate) {
+  TreePacking p;
+  p.run_as("plain.farlod");
+  const PackEstimate plain = p.result.estimate;
+  p.settings.trees.files = {p.write_rows("a.csv", 50)};
+  p.settings.trees.canopy = p.write_canopy("tops.asc", "8 9 0\n-9999 7 6\n");
+  p.run_as("trees.farlod");
+  const PackEstimate& e = p.result.estimate;
+  constexpr double mib = 1048576.0, rounding = 1e-9;
+  EXPECT_NEAR(e.package_mib - plain.package_mib, 54 * sizeof(Crown) / mib, rounding);
+  // Trees and crowns are 32 bytes each, and the pixels of the raster that lie over the city four
+  EXPECT_NEAR(e.memory_mib - plain.memory_mib, (50 * 32 + 54 * 32 + 6 * 4) / mib, rounding);
 }
 
 TEST(PackedTrees, PackagesWithoutAnyHaveNoFile) {
