@@ -20,6 +20,9 @@ using package::CrownsHeader;
 
 constexpr std::uint64_t most_crowns = std::uint64_t{1} << 36;
 
+/// So many are in memory while all are checked: some MiB.
+constexpr std::uint64_t crowns_between = std::uint64_t{1} << 19;
+
 /// Not of a number that is none.
 bool is_on_earth(float coordinate_m) { return std::abs(coordinate_m) <= package::farthest_crown_m; }
 
@@ -42,12 +45,11 @@ const char* breach_of(const Crown& c, float cell_edge_m) {
 
 CrownsFile::CrownsFile(const PackageFolder& folder, const package::Manifest& manifest)
     : name_(folder.file(package::crowns_file).name), file_(folder.plain_file(package::crowns_file)) {
-  check_stamp(folder.file(package::crowns_file), file_.bytes(), manifest.canopy->stamp);
+  check_stamp(folder.file(package::crowns_file), file_, manifest.canopy->stamp);
   check_header();
   check_cells(manifest.grid);
   check_crowns(manifest);
-  // Only what is asked for shall be in memory
-  file_.let_go();
+  let_go();
 }
 
 std::span<const Crown> CrownsFile::crowns_of(Cell cell) const {
@@ -91,7 +93,12 @@ void CrownsFile::check_crowns(const package::Manifest& manifest) const {
   const auto cell_edge_m = static_cast<float>(manifest.grid.cell_edge_m);
   std::array<std::uint64_t, crown_shape_count> of_shape{};
   float half_width_m = 0.0F;
+  std::uint64_t let_go_at = crowns_between;
   for (const CrownCellRecord& cell : cells_) {
+    if (cell.first_crown >= let_go_at) {
+      let_go();
+      let_go_at = cell.first_crown + crowns_between;
+    }
     float low_m = std::numeric_limits<float>::infinity(), high_m = -low_m;
     for (const Crown& crown : crowns_of(cell)) {
       const char* const breach = breach_of(crown, cell_edge_m);

@@ -12,10 +12,10 @@
 
 namespace farlod {
 
-/// The `crowns.bin` of a package, mapped. Everything is checked once:
+/// The `crowns.bin` of a package, mapped: what is read of it is in memory until it is let go. Everything is checked once, of
+/// which no more than some MiB are in memory at a time:
 ///   (1) each crown is that of a cell of the grid, and lies in its square; its numbers are finite, its bottom is below its top,
-///   its
-///       half width is above 0, its shape and its foliage exist
+///       its half width is above 0, its shape and its foliage exist
 ///   (2) the bounds of the cells, and of all crowns, are those of the crowns, so that nobody misses one who relies on them
 ///   (3) there are as many crowns of each shape as the manifest says
 class CrownsFile {
@@ -33,6 +33,8 @@ class CrownsFile {
   [[nodiscard]] std::span<const Crown> crowns_of(Cell cell) const;
   /// The cells from the first that is not before `first`, in the order of cells().
   [[nodiscard]] std::span<const package::CrownCellRecord> cells_from(Cell first) const;
+  /// Gives the memory of all crowns back. They stay readable, and come back from the file when somebody reads them.
+  void let_go() const { file_.let_go(); }
   [[nodiscard]] float largest_half_width_m() const { return header().largest_half_width_m; }
 
  private:

@@ -8,12 +8,16 @@
 #include <span>
 
 #include "contract/package/manifest.hpp"
+#include "package/mapped_file.hpp"
 #include "package/package_folder.hpp"
 
 namespace farlod {
 
 /// Throws PackageDamaged when a file is not the one that the manifest names.
 void check_stamp(const PackageFile& file, std::span<const std::byte> bytes, const package::FileStamp& stamp);
+
+/// The same of a mapped file, of which some MiB are in memory at a time, and none afterwards.
+void check_stamp(const PackageFile& file, const MappedFile& mapped, const package::FileStamp& stamp);
 
 /// What tells a file that was written again, or replaced, from what it was.
 struct FileIdentity {

@@ -100,7 +100,10 @@ struct PackageReader::Impl {
   /// A block that is open is being used; others may have to go.
   void use(std::size_t n) {
     const std::lock_guard lock(held_mutex);
-    for (const std::size_t other : held.use(n, bytes_of(n))) blocks[other].let_go();
+    const std::vector<std::size_t> others = held.use(n, bytes_of(n));
+    for (const std::size_t other : others) blocks[other].let_go();
+    // Those around the blocks that are left come back
+    if (!others.empty() && open_crowns.is_open) open_crowns.file->let_go();
   }
 
   const BlockTiles& tiles(std::size_t n) {

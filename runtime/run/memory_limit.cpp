@@ -11,6 +11,7 @@
 #include "evaluate/verification.hpp"
 #include "farlod/error.hpp"
 #include "horizon/receiver_packet.hpp"
+#include "scene/canopy_around.hpp"
 
 namespace farlod {
 namespace {
@@ -23,7 +24,7 @@ constexpr double thread_bytes = 12 * mib;   // scenes of cells, and what the all
 constexpr double receiver_bytes = 128;      // a receiver on its way, with its answers
 constexpr double triangle_bytes = 224;      // of the whole city's scene: the triangle, its corners, Embree's tree
 
-constexpr double crown_bytes = 160;        // of the scene of all crowns: the crown, and Embree's tree
+constexpr double crown_bytes = 160;        // of the scene of all crowns, beside the file: the crown, and Embree's tree
 constexpr double canopy_bytes = 16 * mib;  // crowns around a cell, those far away merged
 
 // Of a sample of the sky: a direction, and what each thread has at an azimuth, 64 bytes for each of the horizons of an engine
@@ -61,10 +62,12 @@ double bytes_of_samples(const package::Manifest& manifest, const ResolvedSetting
   return static_cast<double>(settings.threads) * of_thread + bytes_of_directions(sky.rays, settings.threads);
 }
 
+double crowns_of(const package::Manifest& manifest) { return static_cast<double>(manifest.canopy->crowns()); }
+
 /// The scene, and the directions of a verification, which are others.
 double bytes_of_whole_city(const package::Manifest& manifest, const ResolvedSettings& settings) {
   const std::size_t rays = settings.verify > 0 ? std::max(verify_rays, settings.sky.rays) : 0;
-  const double of_crowns = uses_crowns(manifest, settings) ? crown_bytes * static_cast<double>(manifest.canopy->crowns()) : 0.0;
+  const double of_crowns = uses_crowns(manifest, settings) ? (sizeof(Crown) + crown_bytes) * crowns_of(manifest) : 0.0;
   return static_cast<double>(manifest.triangles) * triangle_bytes + bytes_of_directions(rays, settings.threads) + of_crowns;
 }
 
@@ -89,6 +92,20 @@ std::uint64_t bytes_of_blocks_at_work(const package::Manifest& manifest) {
   return std::min<std::uint64_t>(blocks_at_work, manifest.blocks.size()) * largest;
 }
 
+/// Four blocks lie two by two at the widest.
+double bytes_of_crowns_at_work(const package::Manifest& manifest) {
+  if (!manifest.canopy) return 0.0;
+  // Trees of parks stand closer than those of streets
+  constexpr double uneven = 2.0, blocks_beside = 2.0;
+  const Grid& grid = manifest.grid;
+  const double around_m = blocks_beside * grid.block_edge * grid.cell_edge_m + 2.0 * CrownMerging{}.farthest_m;
+  const auto share_of = [&](std::int64_t cells) {
+    return std::min(1.0, around_m / (static_cast<double>(cells) * grid.cell_edge_m));
+  };
+  const double share = share_of(grid.cells.width()) * share_of(grid.cells.height());
+  return std::min(1.0, uneven * share) * static_cast<double>(manifest.canopy->stamp.bytes);
+}
+
 bool any_traces_whole_city(const PackageReader& package, Engine engine, std::span<const Cell> cells) {
   return std::any_of(cells.begin(), cells.end(),
                      [&](Cell cell) { return method_of(engine, far_map_of(package, cell)) == EvaluationMethod::whole_city; });
@@ -103,9 +120,12 @@ double require_memory(const package::Manifest& manifest, const ResolvedSettings&
   const auto threads = static_cast<double>(settings.threads);
   const double of_receiver = receiver_bytes + static_cast<double>(columns_of(settings.sky.further).size() * sizeof(float));
   const double in_flight = static_cast<double>(cells_in_flight(settings.threads)) * needs.receivers_of_cell * of_receiver;
-  const double of_thread = thread_bytes + (uses_crowns(manifest, settings) ? canopy_bytes : 0.0);
+  const bool has_crowns = uses_crowns(manifest, settings);
+  const double of_thread = thread_bytes + (has_crowns ? canopy_bytes : 0.0);
+  const double of_blocks =
+      static_cast<double>(bytes_of_blocks_at_work(manifest)) + (has_crowns ? bytes_of_crowns_at_work(manifest) : 0.0);
   const double bytes = program_bytes + threads * of_thread + needs.results + static_cast<double>(settings.run.caller_bytes) +
-                       in_flight + bytes_of_samples(manifest, settings) + static_cast<double>(bytes_of_blocks_at_work(manifest));
+                       in_flight + bytes_of_samples(manifest, settings) + of_blocks;
   require_below_limit(bytes, settings.run, "this run",
                       "use fewer threads, a coarser raster, a part at a time, or fewer rays and azimuths");
   if (!needs.whole_city && !traces_whole_city(settings)) return bytes;

@@ -28,6 +28,10 @@ struct MemoryNeeds {
 /// Bytes of the blocks that the cells in flight of a run need.
 [[nodiscard]] std::uint64_t bytes_of_blocks_at_work(const package::Manifest& manifest);
 
+/// Bytes of the crowns that a run reads between two times that it lets a block go: those around the cells in flight, as far as
+/// they are seen. 0 without crowns.
+[[nodiscard]] double bytes_of_crowns_at_work(const package::Manifest& manifest);
+
 /// The same run, whose caller holds so many bytes more.
 [[nodiscard]] RunSettings with_bytes_of_caller(RunSettings run, std::uint64_t bytes);
 

@@ -9,7 +9,9 @@
 #include <fstream>
 #include <string>
 
+#include "contract/package/crown_layout.hpp"
 #include "tests/runtime/package/small_package.hpp"
+#include "tests/scenes/planted_crowns.hpp"
 
 namespace farlod {
 namespace {
@@ -120,6 +122,25 @@ TEST_P(HeldBlocks, WhatWasHandedOutStaysReadable) {
   EXPECT_EQ(mappings_in_memory(small.file(SmallPackage::two_cells, package::tiles_file)), 0U);
   EXPECT_TRUE(std::equal(before.begin(), before.end(), first.mesh.vertices.begin(), first.mesh.vertices.end()));
   EXPECT_EQ(package.tile({0, 0}).mesh.vertices.data(), first.mesh.vertices.data());
+}
+
+TEST_P(HeldBlocks, CrownsGoWithThem) {
+  const SmallPackage small(GetParam());
+  CrownsOfCity crowns = scenes::crowns_for(small.folder());
+  for (int n = 0; n < 500; ++n) crowns.add({0.1 * n, 10.0}, 3.0, 9.0, 2.0, CrownShape::spheroid, Foliage::deciduous);
+  scenes::plant(crowns, small.folder());
+  PackageReader package(small.folder());
+  package.hold_at_most(1);
+  const auto file = small.folder() / package::crowns_file;
+  for (int round = 0; round < 3; ++round)
+    for (const Cell cell : {Cell{0, 0}, {2, 0}}) {
+      (void)package.tile(cell);
+      EXPECT_EQ(mappings_in_memory(file), 0U);
+      const std::span<const Crown> of_cell = package.crowns_of(cell);
+      ASSERT_FALSE(of_cell.empty());
+      EXPECT_EQ(of_cell.front().half_width_m, 2.0F);
+      EXPECT_EQ(mappings_in_memory(file), 1U);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, HeldBlocks, testing::Values(FarMapKind::box, FarMapKind::horizon),
