@@ -120,40 +120,23 @@ struct CrownOccluder::Impl {
   std::vector<Crown> crowns;
   CrownEffects effects;
   double smallest_transmissivity = 1.0;  ///< of all crowns
-  RTCScene scene = nullptr;
+  OwnedScene scene;                      ///< none without crowns
 
   Impl(std::vector<Crown> c, const CanopySettings& settings, const std::stop_token& stop)
       : crowns(std::move(c)), effects(settings) {
     require_numbers_for(crowns.size());
     for (const Crown& crown : crowns) smallest_transmissivity = std::min(smallest_transmissivity, transmissivity_of_crown(crown));
     if (crowns.empty()) return;
-    try {
-      build(stop);
-    } catch (...) {
-      rtcReleaseScene(scene);
-      throw;
-    }
+    scene = scene_of(RTC_GEOMETRY_TYPE_USER, std::to_string(crowns.size()) + " crowns", stop, [this](RTCGeometry geometry) {
+      rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(crowns.size()));
+      rtcSetGeometryUserData(geometry, this);
+      rtcSetGeometryBoundsFunction(geometry, tell_bounds, nullptr);
+      rtcSetGeometryOccludedFunction(geometry, visit);
+    });
   }
-  ~Impl() { rtcReleaseScene(scene); }
-  Impl(const Impl&) = delete;
+  ~Impl() = default;
+  Impl(const Impl&) = delete;  // Embree knows where it is
   Impl& operator=(const Impl&) = delete;
-
-  void build(const std::stop_token& stop) {
-    const RTCDevice device = shared_device();
-    (void)rtcGetDeviceError(device);  // what a build on this thread left, whatever it was: Embree keeps the first error
-    scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(crowns.size()));
-    rtcSetGeometryUserData(geometry, this);
-    rtcSetGeometryBoundsFunction(geometry, tell_bounds, nullptr);
-    rtcSetGeometryOccludedFunction(geometry, visit);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    commit_unless_stopped(scene, stop);
-    throw_of_build(device, std::to_string(crowns.size()) + " crowns", stop);
-  }
 
   double transmissivity_of_crown(const Crown& crown) const {
     return effects.transmissivity[static_cast<std::size_t>(crown.foliage)];
@@ -213,7 +196,7 @@ CrownLight CrownOccluder::light(const Ray& ray, CrownQuestion question) const {
   QuestionContext context = impl_->question_of(question);
   const Point3f &o = ray.origin, &d = ray.direction;
   RTCRay query{o.x, o.y, o.z, ray.begin, d.x, d.y, d.z, 0.0F, ray.end, ~0U, 0, 0};
-  ask_occluded(impl_->scene, context.embree, query);
+  ask_occluded(impl_->scene.get(), context.embree, query);
   const CrownLights lights = context.findings.lights();
   return {lights.transmitted[0], lights.nearest[0]};
 }
@@ -228,7 +211,7 @@ CrownLights CrownOccluder::light(const RayOrigins& origins, const Occluder::Dire
   QuestionContext context = impl_->question_of(question);
   if (impl_->scene == nullptr || wanted == 0) return context.findings.lights();
   RayPacket packet(origins, directions, begin, wanted);
-  ask_occluded(packet.valid.data(), impl_->scene, context.embree, packet.rays);
+  ask_occluded(packet.valid.data(), impl_->scene.get(), context.embree, packet.rays);
   return context.findings.lights();
 }
 

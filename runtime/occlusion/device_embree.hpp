@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <new>
 #include <stop_token>
 #include <string>
+#include <type_traits>
 
 #include "contract/cancellation.hpp"
 #include "occlusion/occluder.hpp"
@@ -46,6 +48,30 @@ inline void throw_of_build(RTCDevice device, const std::string& counted, const s
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
   if (error != RTC_ERROR_NONE)
     throw OcclusionError("Embree could not index " + counted + " (error " + std::to_string(error) + ")");
+}
+
+struct ReleaseScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using OwnedScene = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
+
+/// A scene of one geometry, whose bodies `describe(geometry)` says. `counted` names them, as in "3 triangles". Throws
+/// OcclusionError, std::bad_alloc, or Cancelled after a stop.
+template <class Describe>
+[[nodiscard]] OwnedScene scene_of(RTCGeometryType type, const std::string& counted, const std::stop_token& stop,
+                                  const Describe& describe) {
+  const RTCDevice device = shared_device();
+  (void)rtcGetDeviceError(device);  // what a build on this thread left, whatever it was: Embree keeps the first error
+  OwnedScene scene(rtcNewScene(device));
+  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+  const RTCGeometry geometry = rtcNewGeometry(device, type);
+  describe(geometry);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene.get(), geometry);
+  rtcReleaseGeometry(geometry);
+  commit_unless_stopped(scene.get(), stop);
+  throw_of_build(device, counted, stop);
+  return scene;
 }
 
 }  // namespace farlod

@@ -48,40 +48,21 @@ RTCRayHit embree_ray(const Ray& ray) {
 struct Occluder::Impl {
   std::vector<Point3f> vertices;
   std::vector<Triangle> triangles;
-  RTCScene scene = nullptr;
+  OwnedScene scene;  ///< none without triangles
 
   Impl(std::vector<Point3f> v, std::vector<Triangle> t, const std::stop_token& stop)
       : vertices(std::move(v)), triangles(std::move(t)) {
     if (triangles.empty()) return;
     const std::size_t vertex_count = vertices.size();
     vertices.push_back({});  // Embree reads the last vertex as 16 bytes
-    try {
-      build(vertex_count, stop);
-    } catch (...) {
-      rtcReleaseScene(scene);
-      throw;
-    }
-  }
-  ~Impl() { rtcReleaseScene(scene); }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-
-  void build(std::size_t vertex_count, const std::stop_token& stop) {
-    const RTCDevice device = shared_device();
-    (void)rtcGetDeviceError(device);  // what a build on this thread left, whatever it was: Embree keeps the first error
-    scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
-    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(), 0, sizeof(Point3f),
-                               vertex_count);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0, sizeof(Triangle),
-                               triangles.size());
-    rtcSetGeometryIntersectFilterFunction(geometry, ask_query);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    commit_unless_stopped(scene, stop);
-    throw_of_build(device, std::to_string(triangles.size()) + " triangles", stop);
+    scene =
+        scene_of(RTC_GEOMETRY_TYPE_TRIANGLE, std::to_string(triangles.size()) + " triangles", stop, [&](RTCGeometry geometry) {
+          rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(), 0, sizeof(Point3f),
+                                     vertex_count);
+          rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0, sizeof(Triangle),
+                                     triangles.size());
+          rtcSetGeometryIntersectFilterFunction(geometry, ask_query);
+        });
   }
 
   /// The nearest of all triangles where `counts` is null.
@@ -89,7 +70,7 @@ struct Occluder::Impl {
     if (scene == nullptr) return std::nullopt;
     QueryContext context{embree_context(), counts};
     RTCRayHit query = embree_ray(ray);
-    ask_nearest(scene, context.embree, query);
+    ask_nearest(scene.get(), context.embree, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return Hit{query.ray.tfar, query.hit.primID};
   }
@@ -107,7 +88,7 @@ bool Occluder::blocks(const Ray& ray) const {
   if (impl_->scene == nullptr) return false;
   OcclusionArguments arguments = occlusion_arguments(/*coherent=*/false);
   RTCRay query = embree_ray(ray).ray;
-  ask_occluded(impl_->scene, arguments, query);
+  ask_occluded(impl_->scene.get(), arguments, query);
   return query.tfar < 0.0F;  // Embree's sign for "blocked"
 }
 
@@ -120,7 +101,7 @@ std::uint32_t Occluder::blocked(const RayOrigins& origins, const Directions& dir
   if (impl_->scene == nullptr || wanted == 0) return 0;
   OcclusionArguments arguments = occlusion_arguments(/*coherent=*/true);
   RayPacket packet(origins, directions, begin, wanted);
-  ask_occluded(packet.valid.data(), impl_->scene, arguments, packet.rays);
+  ask_occluded(packet.valid.data(), impl_->scene.get(), arguments, packet.rays);
   std::uint32_t bits = 0;
   for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane) bits |= packet.rays.tfar[lane] < 0.0F ? 1U << lane : 0U;
   return bits & wanted;
