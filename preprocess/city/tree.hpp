@@ -15,13 +15,14 @@ namespace farlod {
 /// No tree on Earth is higher, or has a wider crown.
 inline constexpr double highest_tree_m = 130.0, widest_crown_m = 80.0;
 
-/// A tree of an inventory, with all of its sizes: what the file does not say is filled in.
+/// A tree of an inventory, or a square of a plant cover, with all of its sizes: what the file does not say is filled in.
 struct Tree {
   Point2d place;  ///< in a frame that is named
   float height_m = 0.0F, crown_diameter_m = 0.0F;
   float trunk_height_m = 0.0F;  ///< at which the crown begins; below the height
   std::uint16_t source = 0;     ///< the number of its file
   Foliage foliage = Foliage::unknown;
+  CrownShape shape = CrownShape::spheroid;  ///< or a prism, as wide as the diameter, along the axes of its frame
 
   bool operator==(const Tree&) const = default;
 };

@@ -15,6 +15,8 @@ namespace {
 
 /// Lower than this above the ground, what a raster of elevations says is the ground itself.
 constexpr double lowest_canopy_m = 0.5;
+/// Of heights above the ground, less is what is left of a 0 after resampling.
+constexpr float least_height_m = 0.01F;
 constexpr std::size_t trees_between_looks = 4096;
 
 std::int64_t centimetres(double length_m) { return std::llround(100.0 * length_m); }
@@ -82,11 +84,17 @@ class CellHeights {
  public:
   CellHeights(const CanopyRaster& canopy, const TreeSettings& settings) : canopy_(canopy), settings_(settings) {}
 
+  /// Whether a value says that no crown is there, wherever the ground is.
+  [[nodiscard]] bool is_none(double top_m) const {
+    const bool is_elevation = settings_.heights == CanopyHeights::elevations;
+    return !std::isfinite(top_m) || (is_elevation ? top_m == 0.0 : std::abs(top_m) < least_height_m);
+  }
+
   /// Empty where no crown is.
   [[nodiscard]] std::optional<double> height_m(std::size_t n, double ground_m, Point2d p_city) {
     const double top_m = canopy_.top_m[n];
     const bool is_elevation = settings_.heights == CanopyHeights::elevations;
-    if (!std::isfinite(top_m) || top_m == 0.0) return std::nullopt;
+    if (is_none(top_m)) return std::nullopt;
     const double above_m = is_elevation ? top_m - ground_m : top_m;
     if (is_elevation && above_m < lowest_canopy_m) return std::nullopt;
     if (above_m > 0.0 && above_m <= highest_tree_m) return above_m;
@@ -124,6 +132,8 @@ void CrownPlacing::place_trees(TreesOfCity& of_city, const Ground& ground, Crown
   const auto full_key = [](const Tree& t) { return std::tuple(key_of(t), t.source, t.place.x, t.place.y, t.foliage); };
   std::sort(trees.begin(), trees.end(), [&](const Tree& a, const Tree& b) { return full_key(a) < full_key(b); });
   CountBySource outside(of_city.sources.size()), twice(of_city.sources.size());
+  const Point2d axis_grid = grid_.rotation.grid_from_city(Point2d{1.0, 0.0});
+  const double turn_rad = std::atan2(axis_grid.y, axis_grid.x);
   for (std::size_t n = 0; n < trees.size(); ++n) {
     const Tree& tree = trees[n];
     if (n % trees_between_looks == 0) throw_if_cancelled(stop);
@@ -135,7 +145,7 @@ void CrownPlacing::place_trees(TreesOfCity& of_city, const Ground& ground, Crown
     } else {
       const double foot_m = ground.height_at(p_grid);
       crowns.add(p_grid, foot_m + double{tree.trunk_height_m}, foot_m + double{tree.height_m},
-                 0.5 * double{tree.crown_diameter_m}, CrownShape::spheroid, tree.foliage);
+                 0.5 * double{tree.crown_diameter_m}, tree.shape, tree.foliage, turn_rad);
       ++counts_.of_trees;
     }
   }
@@ -153,8 +163,7 @@ void CrownPlacing::place_canopy(const CanopyRaster& canopy, const Ground& ground
     throw_if_cancelled(stop);
     for (std::size_t column = 0; column < canopy.columns; ++column) {
       const std::size_t n = row * canopy.columns + column;
-      const double top_m = canopy.top_m[n];
-      if (!std::isfinite(top_m) || top_m == 0.0) continue;
+      if (cells.is_none(canopy.top_m[n])) continue;
       const Point2d p_city = canopy.centre(column, row), p_grid = grid_.rotation.grid_from_city(p_city);
       if (!is_in(grid_, p_grid)) continue;
       const double foot_m = ground.height_at(p_grid);

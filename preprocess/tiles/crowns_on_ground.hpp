@@ -26,7 +26,8 @@ struct TreesOfCity {
 };
 
 /// Puts the crowns of a city on its ground.
-///   (1) a tree of an inventory is a spheroid from its trunk's height above the ground at its place to its own
+///   (1) a tree of an inventory is a spheroid from its trunk's height above the ground at its place to its own; a square of a
+///       plant cover is a prism along the axes of the city frame
 ///   (2) a cell of the canopy's raster whose top is above the ground there is a square prism of its size, turned as it is
 ///   (3) where the raster of trunks knows nothing, or nothing below the top, a crown begins at the share of its height that the
 ///       settings say

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
+#include "tests/acceptance/csv_table.hpp"
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/acceptance/real_city.hpp"
 #include "tests/acceptance/street_trees.hpp"
@@ -138,6 +140,27 @@ TEST_F(RealTrees, OfGothenburgsParkMayHaveTrunksOfAnotherPlace) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("has another extent or resolution"));
   EXPECT_THAT(outcome.out, HasSubstr(std::to_string(gvc_cells) + " cells have crowns, and no height"));
+}
+
+/// A hedge 400 m long, 4 m wide and 6 m high, to the north of a receiver.
+class Hedge : public RealTrees {};
+
+TEST_F(Hedge, OfAPlantCoverHidesWhatAnEndlessOneHides) {
+  const Point2d eye{400000.0, 5500000.0};
+  folder.write("hedge.city.json",
+               R"({"type":"CityJSON","version":"2.0","transform":{"scale":[1,1,1],"translate":[400000,5500000,0]},
+    "metadata":{"referenceSystem":"https://www.opengis.net/def/crs/EPSG/0/25832"},"CityObjects":{"hedge":{"type":"PlantCover",
+    "attributes":{"averageHeight":6},"geometry":[{"type":"MultiSurface","lod":"1","boundaries":[[[0,1,2,3]]]}]}},
+    "vertices":[[-200,5,7],[200,5,7],[200,9,7],[-200,9,7]]})");
+  const PackedCity city = pack(square("EPSG:25832", eye, 1000.0) + " --align none --trees hedge.city.json");
+  EXPECT_EQ(trees_of(city), 404U * 4U) << "squares of 0.99 m: area and outline are those of a strip 3.96 m wide";
+  folder.must("farlod-svf a.farlod -o o.csv --at 400000,5500000 --height 1 --quantity svf_total --transmissivity 0.1");
+  // An endless wall that rises to β above the eye hides (1 − cos β)/2 of the sky; the hedge 0.9 of that. What is missing behind
+  // its ends is less than 1e-5, and the terrain is level
+  const double cosine = 1.0 / std::sqrt(2.0), expected = 1.0 - 0.9 * 0.5 * (1.0 - cosine);
+  // The share of azimuths that a crown may be wrong by, and the ends of squares that are merged far away
+  constexpr double tolerance = 5e-4;
+  EXPECT_NEAR(CsvTable(folder.text_of("o.csv")).number(0, "svf_total"), expected, tolerance);
 }
 
 /// A city of a million trees is packed within this time, and this memory.

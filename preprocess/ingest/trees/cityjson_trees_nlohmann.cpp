@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contract/cancellation.hpp"
@@ -14,6 +15,7 @@
 #include "ingest/footprints/height_text.hpp"
 #include "ingest/trees/city_trees.hpp"
 #include "ingest/trees/foliage_text.hpp"
+#include "ingest/trees/plant_cover.hpp"
 #include "ingest/trees/tree_shape.hpp"
 
 namespace farlod::ingest {
@@ -45,8 +47,11 @@ class CityJsonTrees {
     if (!city.contains("CityObjects")) return;
     static const json no_vertices = json::array();
     vertices_ = city.contains("vertices") ? &city.at("vertices") : &no_vertices;
-    for (const auto& [id, object] : city.at("CityObjects").items())
-      if (object.value("type", "") == "SolitaryVegetationObject") take_tree(id, object);
+    for (const auto& [id, object] : city.at("CityObjects").items()) {
+      const std::string type = object.value("type", "");
+      if (type == "SolitaryVegetationObject") take_tree(id, object);
+      if (type == "PlantCover") take_cover(id, object);
+    }
   }
   [[nodiscard]] std::uint64_t count() const { return count_; }
 
@@ -72,6 +77,46 @@ class CityJsonTrees {
     if (const auto geometry = object.find("geometry"); geometry != object.end())
       for (const json& one : *geometry) take_geometry(one, tree);
     tree.hand_over(trees_);
+  }
+
+  /// A number, or a text such as "2.1".
+  static int level_of_detail(const json& lod) {
+    const std::string text = lod.is_string() ? lod.get<std::string>() : lod.dump();
+    return !text.empty() && text[0] >= '0' && text[0] <= '9' ? text[0] - '0' : 0;
+  }
+
+  void take_cover(const std::string& id, const json& object) {
+    ++count_;
+    PlantCover cover;
+    cover.name = id;
+    if (const auto attributes = object.find("attributes"); attributes != object.end() && attributes->is_object())
+      cover.average_height_m = size_in(*attributes, "averageHeight");
+    if (const auto geometry = object.find("geometry"); geometry != object.end())
+      for (const json& one : *geometry) take_geometry(one, cover);
+    cover.hand_over(trees_);
+  }
+
+  void take_geometry(const json& geometry, PlantCover& cover) const {
+    const std::string type = geometry.value("type", "");
+    const std::size_t lists_around_faces = type.ends_with("Surface") ? 0 : type == "Solid" ? 1 : 2;
+    if (type != "MultiSurface" && !type.ends_with("Solid") && type != "CompositeSurface") return;
+    cover.begin_geometry(level_of_detail(geometry.value("lod", json())), lists_around_faces > 0);
+    add_faces(geometry.at("boundaries"), lists_around_faces, cover);
+  }
+
+  void add_faces(const json& boundaries, std::size_t lists_around_faces, PlantCover& cover) const {
+    for (const json& one : boundaries) {
+      if (lists_around_faces > 0) {
+        add_faces(one, lists_around_faces - 1, cover);
+        continue;
+      }
+      PlantCover::Face face;
+      for (const json& ring : one) {
+        face.emplace_back();
+        for (const json& number : ring) face.back().push_back(vertex(number));
+      }
+      cover.add_face(std::move(face));
+    }
   }
 
   void take_geometry(const json& geometry, TreeShape& tree) const {

@@ -30,6 +30,13 @@ void TreeCollector::add(const std::string& name, Point2d place, const StatedSize
   result_.trees.push_back(sizes_.complete(sizes, name, place));
 }
 
+void TreeCollector::add_square(Point2d centre, double edge_m, double height_m) {
+  result_.trees.push_back({.place = centre,
+                           .height_m = static_cast<float>(height_m),
+                           .crown_diameter_m = static_cast<float>(edge_m),
+                           .shape = CrownShape::prism});
+}
+
 void TreeCollector::note_sizes() {
   constexpr const char* whole_file = "the whole file";
   const Point2d somewhere = result_.trees[0].place;
@@ -43,9 +50,12 @@ void TreeCollector::note_sizes() {
 }
 
 SourceTrees TreeCollector::finish(std::uint64_t count, Report& report) {
-  if (result_.trees.empty())
+  if (result_.trees.empty()) {
+    std::string skipped;
+    for (const auto& [what, times] : result_.skipped) skipped += "; " + std::to_string(times) + " " + what;
     throw InputError(result_.source + " holds no trees: of " + std::to_string(count) + " objects none can be used" +
-                     (found_.empty() ? "." : ", since " + found_.begin()->second.first_detail + "."));
+                     (found_.empty() ? "" : ", since " + found_.begin()->second.first_detail) + skipped + ".");
+  }
   note_sizes();
   for (const auto& [code, f] : found_) {
     const std::string counted = f.count > 1 ? std::to_string(f.count) + " trees, of which the first: " : "";

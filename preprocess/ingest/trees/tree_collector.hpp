@@ -20,6 +20,8 @@ class TreeCollector {
   [[nodiscard]] SourceCrs& crs() { return result_.crs; }
   /// `name`: of the tree, for messages. A place that is not a finite one is noted as a problem.
   void add(const std::string& name, Point2d place, const StatedSizes& sizes);
+  /// A square of a plant cover, full of plants from the ground to a height.
+  void add_square(Point2d centre, double edge_m, double height_m);
   void note(ProblemCode code, const std::string& name, const std::string& detail, Point2d place = {});
   /// Something that is no tree.
   void skip(const std::string& what, std::uint64_t count = 1) { result_.skipped[what] += count; }

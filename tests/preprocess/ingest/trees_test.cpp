@@ -8,40 +8,13 @@
 #include "ingest/trees/tag_text.hpp"
 #include "ingest/trees/tree_columns.hpp"
 #include "ingest/trees/tree_fields.hpp"
-#include "ingest/trees/tree_reader.hpp"
-#include "reading.hpp"
+#include "tree_reading.hpp"
 
 namespace farlod::ingest::test {
 namespace {
 
 /// Sizes are kept as floats: half a step at 130 m.
 constexpr double float_error_m = 1e-5;
-
-struct TreeReading {
-  SourceTrees source;
-  Report report;
-
-  [[nodiscard]] std::vector<Tree> trees() const { return {source.trees.begin(), source.trees.end()}; }
-  [[nodiscard]] std::set<int> codes() const {
-    std::set<int> codes;
-    for (const Problem& problem : report.problems()) codes.insert(static_cast<int>(problem.code));
-    return codes;
-  }
-  [[nodiscard]] std::string detail_of(ProblemCode code) const {
-    for (const Problem& problem : report.problems())
-      if (problem.code == code) return problem.detail;
-    return "";
-  }
-};
-
-TreeReading read_inventory(const std::filesystem::path& file, const TreeSettings& settings = {}) {
-  TreeReading reading;
-  reading.source = read_trees(file, settings, reading.report);
-  return reading;
-}
-TreeReading read_inventory(const std::string& name, const std::string& text, const TreeSettings& settings = {}) {
-  return read_inventory(write_file(name, text), settings);
-}
 
 std::string collection(const std::vector<std::string>& features) {
   std::string text =
@@ -250,18 +223,6 @@ TEST(Trees, FilesWithoutAnyAreRefused) {
   EXPECT_THROW((void)read_inventory("a.geojson", collection({feature("", "LineString", "[[1,2],[3,4]]")})), InputError);
 }
 
-constexpr const char* citygml_head = R"(<CityModel xmlns="http://www.opengis.net/citygml/2.0"
-  xmlns:veg="http://www.opengis.net/citygml/vegetation/2.0" xmlns:gml="http://www.opengis.net/gml"><gml:boundedBy>
-  <gml:Envelope srsName="EPSG:25833"/></gml:boundedBy>)";
-
-std::string citygml(const std::string& trees) {
-  std::string text = citygml_head;
-  return text + "<cityObjectMember>" + trees + "</cityObjectMember></CityModel>";
-}
-std::string citygml_tree(const std::string& inside) {
-  return "<veg:SolitaryVegetationObject>" + inside + "</veg:SolitaryVegetationObject>";
-}
-
 TEST(Trees, OfCityGmlStandAtTheirReferencePoints) {
   const std::string instance =
       "<veg:species>Pinus</veg:species><veg:height uom=\"m\">8</veg:height><veg:trunkDiameter>30</veg:trunkDiameter>"
@@ -326,6 +287,13 @@ TEST(Trees, OfCityJsonAreReadToo) {
   expect_oak_and_lime(read_inventory("a.city.jsonl", first + "\n" + second + "\n"));
   EXPECT_THROW((void)read_inventory("b.city.json", head + R"("CityObjects":{},"vertices":[]})"), InputError);
   EXPECT_THROW((void)read_inventory("c.city.json", head + cityjson_tree), InputError);
+}
+
+// A crown of such a height would end where it begins, once it stands on the ground
+TEST(Trees, HaveNoSizesThatAreLeftOfAZero) {
+  const Tree t = only_tree(R"("height":1e-30,"crown_diameter":1e-60,"trunk_height":1e-31)");
+  EXPECT_EQ(t.height_m, 10.0F);
+  EXPECT_EQ(t.crown_diameter_m, 5.0F);
 }
 
 struct Inventory {

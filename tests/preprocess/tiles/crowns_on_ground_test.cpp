@@ -157,6 +157,28 @@ TEST(CrownsOnGround, HeightsThatNoTreeHasAreLeftOut) {
   EXPECT_THAT(town.problems().at(124), HasSubstr("2 cells, of which the first: a height of -2.000 m above the ground"));
 }
 
+// A crown that ends where it begins, as far as a number of the ground's size can tell
+TEST(CrownsOnGround, WhatIsLeftOfAZeroIsNone) {
+  Town town;
+  town.add_canopy({8.0F, 1e-30F, -1e-9F, 0.009F});
+  EXPECT_EQ(town.crowns().size(), 1U);
+  EXPECT_TRUE(town.report.problems().empty());
+}
+
+TEST(CrownsOnGround, SquaresOfPlantCoversArePrismsAlongTheAxesOfTheCity) {
+  Town town;
+  town.add({50.0, 50.0}, 6.0F, 2.0F, 0.0F);
+  town.trees.trees.back().shape = CrownShape::prism;
+  const auto crowns = town.crowns();
+  ASSERT_EQ(crowns.size(), 1U);
+  const Crown& c = crowns[0].crown;
+  EXPECT_EQ(c.shape, CrownShape::prism);
+  EXPECT_NEAR(c.turn_rad(), Angle::degrees(30.0).radians(), 1e-4);
+  EXPECT_NEAR(c.bottom_m, 15.0 - height_origin_m, float_error_m);
+  EXPECT_NEAR(c.top_m, 15.0 + 6.0 - height_origin_m, float_error_m);
+  EXPECT_EQ(c.half_width_m, 1.0F);
+}
+
 TEST(CrownsOnGround, ElevationsAreLessTheGround) {
   Town town;
   town.settings.heights = CanopyHeights::elevations;
