@@ -140,8 +140,6 @@ class Packing {
     PackedCity& result = record_.result;
     result.notes = target.notes();
     result.manifest = manifest_of(city, settings_, origin_);
-    result.street_bearing = city.ground.streets.bearing;
-    result.alignment_strength = city.ground.streets.strength;
     take_findings(city);
     record_.plan = target.plan(city.located.georeference, result);
     tiles::TreesOfCity trees;
@@ -162,6 +160,8 @@ class Packing {
 
   void take_findings(ReadCity& city) {
     PackedCity& result = record_.result;
+    result.street_bearing = city.ground.streets.bearing;
+    result.alignment_strength = city.ground.streets.strength;
     result.skipped = std::move(city.skipped);
     result.notes.insert(result.notes.end(), city.notes.begin(), city.notes.end());
     if (city.is_chosen) result.chosen = ChosenGrid{city.best, {}};
