@@ -12,6 +12,9 @@ namespace {
 /// Fewer different numbers are no classes, but values that stand for all trees.
 constexpr std::size_t fewest_classes = 3;
 
+/// Smaller ones are what is left of a 0 after computing with it.
+constexpr double smallest_m = 1e-3;
+
 /// Of the thickest trunk on Earth, twelve metres and more.
 constexpr double thickest_trunk_m = 15.0;
 
@@ -44,7 +47,7 @@ void TreeSizes::note(Finding& finding, const std::string& detail) const {
 std::optional<double> TreeSizes::possible(std::optional<double> size_m, double largest_m, const char* what) {
   // Many inventories write 0 for what they do not know
   if (!size_m || *size_m == 0.0) return std::nullopt;
-  if (*size_m > 0.0 && *size_m <= largest_m) return size_m;
+  if (*size_m >= smallest_m && *size_m <= largest_m) return size_m;
   note(absurd_, std::string(what) + " of " + text_of(*size_m));
   return std::nullopt;
 }
