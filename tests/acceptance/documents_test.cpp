@@ -8,8 +8,8 @@
 #include <regex>
 
 #include "console/exit_code.hpp"
-#include "tests/acceptance/help_text.hpp"
 #include "tests/acceptance/work_folder.hpp"
+#include "tests/console/help_options.hpp"
 
 namespace farlod::acceptance {
 namespace {
@@ -53,8 +53,8 @@ class DocumentsOf : public testing::TestWithParam<std::string> {
 TEST_P(DocumentsOf, EachOptionOfHelpIsInThePageAndInTheCompletions) {
   const std::string page = folder.run("cat " + file(".1")).out, zsh = folder.run("cat " + file(".zsh")).out;
   const std::vector<std::string> offered = completed({"--"});
-  ASSERT_GT(options_in(help()).size(), 10U);
-  for (const std::string& option : options_in(help())) {
+  ASSERT_GT(test::options_in(help()).size(), 10U);
+  for (const std::string& option : test::options_in(help())) {
     // A line that begins with it, perhaps after a short name: where it is explained, not where it is mentioned
     EXPECT_THAT(
         page, testing::ContainsRegex("\n.TP\n(.fB.-[a-z].fR, )?.fB" + std::regex_replace(option, std::regex("-"), ".-") + ".fR"))
@@ -62,7 +62,7 @@ TEST_P(DocumentsOf, EachOptionOfHelpIsInThePageAndInTheCompletions) {
     EXPECT_THAT(offered, Contains(option));
     EXPECT_THAT(zsh, testing::ContainsRegex("[' )]" + option + "=?\\["));
   }
-  EXPECT_EQ(offered.size(), options_in(help()).size()) << "and nothing else";
+  EXPECT_EQ(offered.size(), test::options_in(help()).size()) << "and nothing else";
 }
 
 TEST_P(DocumentsOf, BashCompletesChoices) {

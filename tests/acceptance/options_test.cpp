@@ -7,8 +7,8 @@
 #include "console/exit_code.hpp"
 #include "farlod/version.hpp"
 #include "results/output_format.hpp"
-#include "tests/acceptance/help_text.hpp"
 #include "tests/acceptance/packed_town.hpp"
+#include "tests/console/help_options.hpp"
 
 namespace farlod::acceptance {
 namespace {
@@ -42,7 +42,7 @@ TEST_P(EachProgram, HelpBeginsWithWhatItIsAndWhatToTry) {
   ASSERT_GT(lines.size(), 3U);
   EXPECT_EQ(lines[2], "Try this first:");
   EXPECT_THAT(lines[3], StartsWith("  " + std::string(GetParam().name) + " "));
-  EXPECT_EQ(options_in(outcome.out), GetParam().options);
+  EXPECT_EQ(test::options_in(outcome.out), GetParam().options);
   EXPECT_THAT(outcome.out, HasSubstr("Exit codes: 0 done"));
 }
 
