@@ -161,18 +161,25 @@ TEST_P(Canopies, HideMuchAndKeepToTheirDefinitions) {
   }
 }
 
-TEST_P(Canopies, LetOneShareThroughByTheRuleOfUmep) {
+constexpr Where everywhere[] = {{"Streets", in_streets}, {"Surfaces", on_surfaces}};
+
+class CanopiesOfOneShare : public testing::TestWithParam<Where> {};
+
+TEST_P(CanopiesOfOneShare, LetItThroughByTheRuleOfUmep) {
   const PackageReader package = town_with_trees();
-  SkySettings with_one_share = settings(Engine::automatic);
-  with_one_share.further.canopy = {CanopyRule::once, Season::leaf_on, 0.2};
-  const Columns columns = columns_of_receivers(package, with_one_share, receivers(package));
+  SkySettings settings{Engine::automatic, SkyWeight::cosine, 20000};
+  settings.further.canopy = {CanopyRule::once, Season::leaf_on, 0.2};
+  const Columns columns = columns_of_receivers(package, settings, GetParam().receivers(package));
   for (std::size_t n = 0; n < columns.at("svf").size(); ++n)
     EXPECT_NEAR(columns.at("svf_total")[n], columns.at("svf")[n] - (1.0 - columns.at("svfveg")[n]) * 0.8, 2e-5);
 }
 
+INSTANTIATE_TEST_SUITE_P(Town, CanopiesOfOneShare, testing::ValuesIn(everywhere),
+                         [](const auto& where) { return std::string(where.param.name); });
+
 INSTANTIATE_TEST_SUITE_P(
     Town, Canopies,
-    testing::Combine(testing::Values(Where{"Streets", in_streets}, Where{"Surfaces", on_surfaces}),
+    testing::Combine(testing::ValuesIn(everywhere),
                      testing::Values(Rule{"Umep", {}}, Rule{"UmepLeafOff", {CanopyRule::once, Season::leaf_off}},
                                      Rule{"Crowns", {CanopyRule::each}}, Rule{"Beer", {CanopyRule::beer, Season::leaf_off}})),
     [](const auto& test) { return std::string(std::get<0>(test.param).name) + std::get<1>(test.param).name; });
