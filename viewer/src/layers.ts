@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+import type { LayerName } from "./link.ts";
+import { part } from "./page_parts.ts";
+
+const names: readonly LayerName[] = ["ground", "roofs", "facades", "grid"];
+
+/** The boxes that switch layers. */
+export class LayerBoxes {
+  private readonly boxes = new Map(names.map((name) => [name, part(`layer-${name}`, HTMLInputElement)]));
+
+  constructor(onChange: () => void) {
+    for (const box of this.boxes.values()) box.addEventListener("change", onChange);
+  }
+
+  shows(name: LayerName): boolean {
+    return this.boxes.get(name)?.checked ?? false;
+  }
+
+  get shown(): LayerName[] {
+    return names.filter((name) => this.shows(name));
+  }
+
+  choose(shown: readonly LayerName[]): void {
+    for (const [name, box] of this.boxes) box.checked = shown.includes(name);
+  }
+}

@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+import { Vector2 } from "three";
+import { hideBanner, isSilent, sentenceOf, showBanner, tell } from "./banner.ts";
+import { CellPanel } from "./cell_panel.ts";
+import { CityScene } from "./city_scene.ts";
+import { Frames } from "./frames.ts";
+import { GridLines } from "./grid_lines.ts";
+import { GridView } from "./grid_view.ts";
+import { GroundHeights } from "./ground_heights.ts";
+import { listenToKeys, zoomStep } from "./keyboard.ts";
+import { LayerBoxes } from "./layers.ts";
+import { cameraOf, hashOf, linkedCamera, linkedPlace, type LinkedView, linkOf } from "./link.ts";
+import { MapOrnaments } from "./map_ornaments.ts";
+import { Marker } from "./marker.ts";
+import { Navigation } from "./navigation.ts";
+import { part } from "./page_parts.ts";
+import { type PickedFacet, Picker } from "./picking.ts";
+import { PlacePanel } from "./place_panel.ts";
+import { PlaceView } from "./place_view.ts";
+import { listenToPointer } from "./pointing.ts";
+import { loadViewInfo, type ViewInfo } from "./view_info.ts";
+import { isSkyProjection, type SkyProjection } from "./sky_projection.ts";
+import { ThemeSwitch } from "./theme.ts";
+import { CityTiles } from "./tiles.ts";
+
+/** A linked place is looked for this far in front of its facet and behind it: tiles are cut finer or coarser by turns. */
+const reachOfLink_m = 2;
+
+/** While tiles come, frames are this far apart: what draws them would only delay what comes. */
+const betweenFrames_ms = 500;
+
+/** The page: one package in its window. */
+export class Page {
+  readonly city: CityScene;
+  readonly frames: Frames;
+  readonly tiles: CityTiles;
+  readonly navigation: Navigation;
+  readonly place: PlaceView;
+  readonly grid: GridView;
+  /** When the first complete frame was drawn, in milliseconds of performance.now(). */
+  readyAt_ms: number | null = null;
+  private readonly picker: Picker;
+  private readonly marker: Marker;
+  private readonly layers = new LayerBoxes(() => this.applyLayers());
+  private readonly theme: ThemeSwitch;
+  private readonly placePanel: PlacePanel;
+  private readonly cellPanel: CellPanel;
+  private readonly ornaments: MapOrnaments;
+  private readonly projection = part("projection", HTMLSelectElement);
+  private waitingPlace: LinkedView["place"] = null;
+  private linkTimer = 0;
+  private isStale = false;
+  private drawnAt_ms = 0;
+
+  constructor(readonly view: ViewInfo) {
+    const canvas = part("city", HTMLCanvasElement), fail = (error: unknown): void => this.fail(error);
+    this.frames = new Frames(view);
+    this.city = new CityScene(canvas, () => this.beforeFrame(), () => this.afterFrame());
+    this.tiles = new CityTiles(view, this.city.camera, fail);
+    this.city.scene.add(this.tiles.group);
+    this.picker = new Picker(this.tiles);
+    this.navigation = new Navigation(this.city.camera, canvas, this.frames, view.heights_m);
+    this.placePanel = new PlacePanel(view, this.frames);
+    this.cellPanel = new CellPanel(this.frames, view.far_map_kind);
+    this.place = new PlaceView(this.frames, this.placePanel, view.can_answer, () => this.skyProjection(), fail);
+    this.grid = this.makeGridView(fail);
+    this.marker = new Marker(part("marker", HTMLButtonElement), this.city, this.picker, (facet) => this.select(facet),
+                             (dragging) => { this.navigation.enabled = !dragging; });
+    this.ornaments = new MapOrnaments(this.city, this.frames);
+    this.theme = new ThemeSwitch(part("theme", HTMLButtonElement), (background) => this.applyTheme(background));
+    this.listen(canvas);
+    this.restore(linkOf(location.hash));
+    this.city.start();
+  }
+
+  get isResting(): boolean {
+    return this.city.isResting && this.tiles.isComplete && !this.navigation.isFlying && !this.place.isAsking;
+  }
+
+  select(facet: PickedFacet): void {
+    part("panel").hidden = false;
+    this.marker.show(facet);
+    this.place.select(facet);
+    if (this.grid.shown && this.view.can_answer) this.grid.choose(facet);
+    this.noteLink();
+  }
+
+  close(): void {
+    part("panel").hidden = true;
+    this.marker.show(null);
+    this.place.clear();
+    this.grid.clear();
+    this.noteLink();
+  }
+
+  dispose(): void {
+    this.city.dispose();
+    this.tiles.dispose();
+  }
+
+  private makeGridView(fail: (error: unknown) => void): GridView {
+    const heights = new GroundHeights(this.picker, this.view.heights_m);
+    const lines = new GridLines(this.frames, (x, y) => heights.at(x, y));
+    this.city.scene.add(lines.object);
+    return new GridView(this.frames, lines, this.cellPanel, () => this.city.redraw(), fail);
+  }
+
+  private listen(canvas: HTMLCanvasElement): void {
+    listenToPointer(canvas, (place) => this.choose(place), (place) => this.hover(place));
+    listenToKeys(canvas, this.navigation, { choose: () => this.choose(new Vector2(0, 0)), close: () => this.close() });
+    const press = (id: string, action: () => void): void => part(id, HTMLButtonElement).addEventListener("click", action);
+    press("zoom-in", () => this.navigation.zoom(1 / zoomStep));
+    press("zoom-out", () => this.navigation.zoom(zoomStep));
+    press("north", () => this.navigation.northUp());
+    press("home", () => this.navigation.home());
+    press("close-panel", () => this.close());
+    press("ask-cell", () => this.showCellOfPlace());
+    this.projection.addEventListener("change", () => {
+      this.placePanel.redraw(this.skyProjection());
+      this.noteLink();
+    });
+    window.addEventListener("hashchange", () => this.restore(linkOf(location.hash)));
+    window.addEventListener("pagehide", (event) => {
+      if (!event.persisted) this.dispose();
+    });
+  }
+
+  private choose(place: Vector2): void {
+    const facet = this.picker.below(place, this.city.camera);
+    if (facet) this.select(facet);
+    else tell("There is nothing at this place.");
+  }
+
+  private hover(place: Vector2 | null): void {
+    if (this.grid.shown) this.grid.hover(place ? this.picker.below(place, this.city.camera) : null);
+  }
+
+  private showCellOfPlace(): void {
+    this.layers.choose([...this.layers.shown, "grid"]);
+    this.applyLayers();
+    const { selection } = this.place;
+    if (selection) this.grid.choose(selection.facet);
+    part("cell").scrollIntoView({ block: "nearest" });
+  }
+
+  private applyLayers(): void {
+    const shown = { ground: this.layers.shows("ground"), roofs: this.layers.shows("roofs"), facades: this.layers.shows("facades") };
+    this.tiles.layers = shown;
+    this.picker.layers = shown;
+    if (this.grid.shown !== this.layers.shows("grid")) this.grid.show(this.layers.shows("grid"));
+    this.city.redraw();
+    this.noteLink();
+  }
+
+  private applyTheme(background: string): void {
+    this.city.setBackground(background);
+    if (this.place.skyIsDrawn) this.placePanel.redraw(this.skyProjection());
+    this.cellPanel.redraw();
+    this.noteLink();
+  }
+
+  private skyProjection(): SkyProjection {
+    return isSkyProjection(this.projection.value) ? this.projection.value : "orthographic";
+  }
+
+  private beforeFrame(): boolean {
+    const moved = this.navigation.update();
+    if (moved) this.noteLink();
+    const changed = this.tiles.update(this.city.size(), moved);
+    part("loading").style.width = this.tiles.isComplete ? "0" : `${Math.max(4, 100 * this.tiles.progress)}%`;
+    this.isStale ||= changed;
+    const isDue = this.tiles.isComplete || performance.now() - this.drawnAt_ms > betweenFrames_ms;
+    if (this.tiles.visibleTiles > 0 && isDue) this.city.release();
+    if (!moved && !(this.isStale && isDue)) return false;
+    this.marker.prepare();
+    return true;
+  }
+
+  private afterFrame(): void {
+    this.isStale = false;
+    this.drawnAt_ms = performance.now();
+    this.marker.follow();
+    this.ornaments.update(this.navigation.view());
+    if (!this.tiles.isComplete) return;
+    if (this.readyAt_ms === null) this.becomeReady();
+    else this.selectWaitingPlace();
+  }
+
+  private becomeReady(): void {
+    // Waits until the frame is not only asked for, but drawn
+    this.city.renderer.getContext().finish();
+    this.readyAt_ms = performance.now();
+    document.documentElement.dataset["ready"] = "true";
+    if (this.grid.shown) this.grid.show(true);
+    tell(`${this.view.name} is shown.`);
+    this.tiles.sharpen();
+  }
+
+  private restore(link: LinkedView): void {
+    if (link.camera) this.navigation.set(cameraOf(link.camera, this.frames));
+    if (link.layers) this.layers.choose(link.layers);
+    if (link.projection) this.projection.value = link.projection;
+    this.waitingPlace = link.place;
+    this.theme.choose(link.theme);
+    this.applyLayers();
+  }
+
+  /** The place of a link is picked when its tiles are there. */
+  private selectWaitingPlace(): void {
+    if (!this.waitingPlace) return;
+    const [x, y, z, azimuth_deg, tilt] = this.waitingPlace, normal = this.frames.directionOf(azimuth_deg, tilt);
+    this.waitingPlace = null;
+    const front = this.frames.localOf([x, y, z]).addScaledVector(normal, 0.5 * reachOfLink_m);
+    const facet = this.picker.along(front, normal.negate(), reachOfLink_m);
+    if (facet) this.select(facet);
+  }
+
+  /** Writes the address some time after the last change, since browsers refuse many writes at once. */
+  private noteLink(): void {
+    window.clearTimeout(this.linkTimer);
+    this.linkTimer = window.setTimeout(() => history.replaceState(null, "", hashOf(this.link())), 250);
+  }
+
+  private link(): LinkedView {
+    const { selection } = this.place;
+    return {
+      camera: linkedCamera(this.navigation.view(), this.frames),
+      place: this.waitingPlace ?? (selection ? linkedPlace(selection.facet, this.frames) : null),
+      layers: this.layers.shown, theme: this.theme.choice, projection: this.skyProjection(),
+    };
+  }
+
+  private fail(error: unknown): void {
+    showBanner(sentenceOf(error), () => void this.tryAgain());
+  }
+
+  private async tryAgain(): Promise<void> {
+    try {
+      await loadViewInfo();
+    } catch (error) {
+      showBanner(sentenceOf(error) + (isSilent(error) ? " It is still silent." : ""), () => void this.tryAgain());
+      return;
+    }
+    hideBanner();
+    this.tiles.retry();
+    this.place.askAgain();
+  }
+}

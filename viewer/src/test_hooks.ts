@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+import type { CellIndex } from "./view_info.ts";
+import type { CameraView } from "./navigation.ts";
+import type { Page } from "./page.ts";
+
+/** What tests ask of the page: `farlod.state()`. The attribute `data-ready` of the document says when it is worth asking. */
+interface PageState {
+  loaded: boolean;
+  /** The camera stands still, all tiles are drawn, and no question is open. */
+  resting: boolean;
+  readyAt_ms: number | null;
+  visibleTiles: number;
+  drawnFrames: number;
+  camera: CameraView;
+  picked: { building: string; surface: number; kind: string; svf: number | null; projected_m: [number, number, number] } | null;
+  answer: string | null;
+  skyIsDrawn: boolean;
+  cell: CellIndex | null;
+}
+
+declare global {
+  interface Window {
+    farlod?: { state(): PageState };
+  }
+}
+
+export function offerState(page: Page): void {
+  window.farlod = { state: () => stateOf(page) };
+}
+
+function stateOf(page: Page): PageState {
+  const facet = page.place.selection?.facet ?? null;
+  return {
+    loaded: page.readyAt_ms !== null && page.tiles.isComplete,
+    resting: page.isResting,
+    readyAt_ms: page.readyAt_ms,
+    visibleTiles: page.tiles.visibleTiles,
+    drawnFrames: page.city.renderer.info.render.frame,
+    camera: page.navigation.view(),
+    picked: facet && { building: facet.building, surface: facet.surface, kind: facet.kind, svf: facet.svf, projected_m: page.frames.projectedOf(facet.p_local) },
+    answer: page.place.isAnswered ? (page.place.answer?.text ?? "no data") : null,
+    skyIsDrawn: page.place.skyIsDrawn,
+    cell: page.grid.chosen,
+  };
+}
