@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is seen when the page opens.
+import { differing, pixels, ready, settled, share, state } from "./browser.mjs";
+import { expect, expectEqual } from "./checks.mjs";
+
+/** The city, without the cards at its sides. */
+const city = { x: 260, y: 120, width: 480, height: 460 };
+
+/** Of a pixel, its distance to the nearest colour of the ramp, dimmed as the shading does. */
+function distanceToRamp(colours, red, green, blue) {
+  let least = Infinity;
+  for (let dim = 0.7; dim <= 1.001; dim += 0.05)
+    for (const [r, g, b] of colours) least = Math.min(least, Math.abs(red - r * dim) + Math.abs(green - g * dim) + Math.abs(blue - b * dim));
+  return least;
+}
+
+export const lookTests = {
+  async "opens without errors, and asks no other host"({ url, context }) {
+    const page = await context.newPage(), wrong = [];
+    page.on("console", (message) => { if (message.type() === "error") wrong.push(message.text()); });
+    page.on("pageerror", (error) => wrong.push(error.message));
+    page.on("request", (request) => { if (!request.url().startsWith(url) && !request.url().startsWith("data:")) wrong.push(request.url()); });
+    await page.goto(url);
+    await ready(page);
+    await settled(page);
+    expectEqual(wrong, [], "errors and foreign addresses");
+  },
+
+  async "says when the first complete frame was drawn"({ url, context }) {
+    const page = await context.newPage();
+    await page.goto(url);
+    await ready(page);
+    const { readyAt_ms, visibleTiles } = await state(page), now_ms = await page.evaluate(() => performance.now());
+    expect(visibleTiles > 0 && readyAt_ms > 0 && readyAt_ms <= now_ms, `ready at ${readyAt_ms} ms of ${now_ms} ms with ${visibleTiles} tiles`);
+    expect((await settled(page)).loaded, "tiles are still missing at rest");
+  },
+
+  async "is coloured by the ramp"({ url, context }) {
+    const page = await context.newPage(), { colours, nodata_colour, origin_m } = await (await fetch(`${url}view.json`)).json();
+    // So near that few pixels are of two facets
+    await page.goto(`${url}#camera=${origin_m.join(",")},400,0,30`);
+    await ready(page);
+    await settled(page);
+    const picture = await pixels(page, city), few = colours.filter((_, n) => n % 8 === 0), surround = [228, 232, 235];
+    const isSurround = (r, g, b) => Math.abs(r - surround[0]) + Math.abs(g - surround[1]) + Math.abs(b - surround[2]) < 6;
+    const near = (r, g, b) => !isSurround(r, g, b) && distanceToRamp([...few, nodata_colour], r, g, b) < 24;
+    const drawn = 1 - share(picture, isSurround), coloured = share(picture, near) / drawn;
+    expect(drawn > 0.4, `the city fills ${(100 * drawn).toFixed(1)} % of the middle of the window`);
+    expect(coloured > 0.9, `${(100 * coloured).toFixed(1)} % of the city's pixels have colours of the ramp`);
+    const kinds = new Set();
+    share(picture, (r, g, b) => kinds.add((r >> 5) * 64 + (g >> 5) * 8 + (b >> 5)));
+    expect(kinds.size >= 6, `the city has ${kinds.size} colours`);
+  },
+
+  async "tells the package, and has a legend and a scale"({ url, context }) {
+    const page = await context.newPage();
+    await page.goto(url);
+    await ready(page);
+    const view = await page.evaluate(async () => (await fetch("view.json")).json());
+    expectEqual(await page.textContent("h1"), view.name.replace(/\.farlod$/, ""), "the heading");
+    await page.click("summary");
+    const facts = await page.textContent("#package-facts");
+    expect(facts.includes(view.crs) && facts.includes(view.counts.buildings.toLocaleString("en-GB")), `the facts are ${facts}`);
+    const [left, right] = await page.evaluate(() => {
+      const ramp = document.getElementById("ramp"), context = ramp.getContext("2d");
+      return [0, ramp.width - 1].map((x) => [...context.getImageData(x, 0, 1, 1).data].slice(0, 3));
+    });
+    expectEqual([left, right], [view.colours[0], view.colours[255]], "the ends of the legend");
+    expect(/^\d+ k?m$/.test(await page.textContent("#scale-text")), "the scale bar has no length");
+  },
+
+  async "is dark where the system is, until it is switched"({ url, browser }) {
+    const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, colorScheme: "dark" }), page = await context.newPage();
+    await page.goto(url);
+    await ready(page);
+    await settled(page);
+    const corner = { x: 500, y: 5, width: 60, height: 40 }, isDark = (r, g, b) => r + g + b < 120;
+    expect(share(await pixels(page, corner), isDark) === 1, "the surroundings are not dark");
+    await page.click("#theme");
+    await settled(page);
+    expect(share(await pixels(page, corner), isDark) === 0, "the surroundings stay dark");
+    expectEqual(await page.getAttribute("html", "data-theme"), "light", "the theme");
+    await context.close();
+  },
+
+  async "shows and hides layers"({ url, context }) {
+    const page = await context.newPage();
+    await page.goto(url);
+    await ready(page);
+    await settled(page);
+    const whole = await pixels(page, city), changes = {};
+    for (const layer of ["ground", "roofs", "facades", "grid"]) {
+      await page.click(`#layer-${layer}`);
+      await page.waitForTimeout(300);
+      await settled(page);
+      changes[layer] = differing(whole, await pixels(page, city));
+      await page.click(`#layer-${layer}`);
+      await page.waitForTimeout(300);
+      await settled(page);
+    }
+    for (const [layer, change] of Object.entries(changes)) expect(change > 0.002, `the layer ${layer} changes ${(100 * change).toFixed(2)} % of the picture`);
+    expect(differing(whole, await pixels(page, city)) < 0.001, "the layers do not come back as they were");
+  },
+};

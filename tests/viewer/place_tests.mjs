@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Clicks on the city: values, fisheyes, cells.
+import { differing, pixels, ready, settled, share, state, until } from "./browser.mjs";
+import { expect, expectEqual, expectNear } from "./checks.mjs";
+
+/** Places of the window to click at, from its middle outwards. */
+const places = [];
+for (let ring = 0; ring < 9; ++ring) for (let n = 0; n < 8; ++n)
+  places.push([400 + 14 * ring * Math.cos((n * Math.PI) / 4), 360 + 12 * ring * Math.sin((n * Math.PI) / 4)]);
+
+/** The page with a place of this kind chosen, and the questions that it asked for it. */
+async function choose(context, url, kind, hash = "") {
+  const page = await context.newPage(), asked = [];
+  page.on("request", (request) => { if (/\/(at|hemisphere|cell)\?/.test(request.url())) asked.push(request.url()); });
+  await page.goto(url + hash);
+  await ready(page);
+  await settled(page);
+  for (const [x, y] of places) {
+    asked.length = 0;
+    await page.mouse.click(x, y);
+    await page.waitForTimeout(100);
+    const { picked } = await state(page);
+    if (picked?.kind !== kind) continue;
+    const now = await until(page, "the answer", ({ answer, skyIsDrawn }) => answer !== null && skyIsDrawn);
+    if (now.answer !== "no data") return { page, now, asked };
+  }
+  throw new Error(`found no place of the kind ${kind}`);
+}
+
+const answerTo = async (address) => (await fetch(address)).json();
+
+async function expectAnswerShown(page, asked) {
+  const answer = await answerTo(asked.find((address) => address.includes("/at?")));
+  expectEqual(await page.textContent("#value"), answer.text, "the value shown");
+  const bounds = await page.textContent("#bounds");
+  const digits = answer.text.split(".")[1].length, [low, high] = [answer.low.toFixed(digits), answer.high.toFixed(digits)];
+  expectEqual(bounds, low === high ? "certain to the last digit" : `between ${low} and ${high}`, "the bounds shown");
+  return answer;
+}
+
+export const placeTests = {
+  async "a click on the ground gives the value of `at`"({ url, context }) {
+    const { page, now, asked } = await choose(context, url, "ground");
+    const query = new URL(asked[0]).searchParams;
+    expectEqual([...query.keys()], ["x", "y"], "what is asked for the ground");
+    expectNear(Number(query.get("x")), now.picked.projected_m[0], 1e-3, "x");
+    expectNear(Number(query.get("y")), now.picked.projected_m[1], 1e-3, "y");
+    await expectAnswerShown(page, asked);
+    expectEqual(await page.textContent("#place-title"), "Ground", "the title");
+  },
+
+  async "a click on a façade asks in front of it, along its normal"({ url, context }) {
+    const { page, now, asked } = await choose(context, url, "wall");
+    const query = new URL(asked[0]).searchParams, [x, y, z] = now.picked.projected_m, read = (name) => Number(query.get(name));
+    const away = [read("x") - x, read("y") - y, read("z") - z], { convergence_deg } = (await answerTo(`${url}view.json`)).grid;
+    expectNear(Math.hypot(...away), 0.01, 2e-4, "the distance to the façade");
+    const azimuth_deg = (Math.atan2(away[0], away[1]) * 180) / Math.PI + convergence_deg;
+    // Coordinates are asked for in tenths of a millimetre
+    expectNear(((azimuth_deg - read("azimuth") + 540) % 360) - 180, 0, 2, "the azimuth");
+    expectNear(read("tilt"), 90, 0.5, "the tilt");
+    await expectAnswerShown(page, asked);
+    expectEqual(await page.textContent("#place-title"), now.picked.building, "the title");
+    const facts = await page.textContent("#place-facts");
+    expect(facts.includes("façade") && facts.includes(z.toFixed(2)), `the facts are ${facts}`);
+  },
+
+  async "a click on a roof gives the value of `at`"({ url, context }) {
+    const { page, asked } = await choose(context, url, "roof");
+    expect(Number(new URL(asked[0]).searchParams.get("tilt")) < 80, "the roof is upright");
+    await expectAnswerShown(page, asked);
+  },
+
+  async "the fisheye is drawn as the hemisphere has it"({ url, context }) {
+    const { page, asked } = await choose(context, url, "ground");
+    const bytes = new Uint8Array(await (await fetch(asked.find((address) => address.includes("/hemisphere?")))).arrayBuffer());
+    const colours = [[205, 229, 248], [66, 66, 76], [230, 159, 0], [0, 140, 100]];
+    // Half-way to the horizon of an orthographic disk of 282 pixels: sin z = .5; east is on the left
+    const found = await page.evaluate(() => {
+      const canvas = document.getElementById("fisheye"), context = canvas.getContext("2d"), scale = canvas.width / 316;
+      return Array.from({ length: 72 }, (_, n) => {
+        const a = (n * 5 + 2.6) * Math.PI / 180;
+        return [...context.getImageData(Math.floor((158 - 0.95 * 141 * Math.sin(a)) * scale), Math.floor((158 - 0.95 * 141 * Math.cos(a)) * scale), 1, 1).data].slice(0, 3);
+      });
+    });
+    const elevation = Math.floor((Math.acos(0.95) * 180) / Math.PI * 4);
+    const wrong = found.filter((colour, n) => {
+      const part = bytes[Math.floor((n * 5 + 2.6) * 4) * 360 + elevation];
+      return colours[part].some((c, k) => Math.abs(c - colour[k]) > 3);
+    });
+    // Rings and the horizon's line cover some places
+    expect(wrong.length <= 14, `${wrong.length} of 72 directions have another colour`);
+    const label = await page.getAttribute("#fisheye", "aria-label"), shares = [...label.matchAll(/([\d.]+) %/g)].map((m) => Number(m[1]));
+    expectNear(shares.reduce((sum, s) => sum + s, 0), 100, 0.3, `the sum of the shares (${label})`);
+    const before = await page.evaluate(() => document.getElementById("fisheye").toDataURL());
+    await page.selectOption("#projection", "equidistant");
+    expect((await page.evaluate(() => document.getElementById("fisheye").toDataURL())) !== before, "the projection changes nothing");
+  },
+
+  async "a drag moves the place, with one question at a time"({ url, context }) {
+    const { page, now, asked } = await choose(context, url, "ground");
+    const open = new Set();
+    let most = 0;
+    page.on("request", (request) => { if (/\/(at|hemisphere)\?/.test(request.url())) { open.add(request); most = Math.max(most, open.size); } });
+    for (const end of ["requestfinished", "requestfailed"]) page.on(end, (request) => open.delete(request));
+    const box = await page.locator("#marker").boundingBox(), x = box.x + box.width / 2, y = box.y + box.height / 2;
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    for (let n = 1; n <= 30; ++n) await page.mouse.move(x + 3 * n, y + n);
+    await page.mouse.up();
+    const moved = await until(page, "the answer", ({ answer, skyIsDrawn }) => answer !== null && skyIsDrawn);
+    expect(Math.hypot(moved.picked.projected_m[0] - now.picked.projected_m[0], moved.picked.projected_m[1] - now.picked.projected_m[1]) > 5, "the place did not move");
+    for (const axis of ["x", "y"]) expectNear(moved.camera.target_local[axis], now.camera.target_local[axis], 1e-3, `the camera's target, ${axis}`);
+    expectEqual(most, 1, "questions under way at once");
+    const last = asked.filter((address) => address.includes("/at?")).pop();
+    expectEqual(await page.textContent("#value"), (await answerTo(last)).text, "the value shown");
+    expectNear(Number(new URL(last).searchParams.get("x")), moved.picked.projected_m[0], 0.02, "x of the last question");
+  },
+
+  async "the grid shows a cell, its neighbourhood and its far map"({ url, context }) {
+    const { page, now } = await choose(context, url, "ground"), clip = { x: 260, y: 120, width: 260, height: 460 };
+    const before = await pixels(page, clip);
+    await page.click("#ask-cell");
+    await page.waitForSelector("#cell h2");
+    await settled(page);
+    const { cell } = await state(page), facts = await answerTo(`${url}cell?i=${cell[0]}&j=${cell[1]}`), at = await answerTo(`${url}at?x=${now.picked.projected_m[0]}&y=${now.picked.projected_m[1]}`);
+    expectEqual(cell, at.cell, "the cell of the place");
+    expectEqual(await page.textContent("#cell h2"), `Cell ${cell[0]}, ${cell[1]}`, "the heading");
+    expectEqual(await page.locator(".near-table td").count(), facts.near_cells.length, "cells of the neighbourhood");
+    expectEqual(await page.locator(".near-table td.middle").textContent(), facts.near_cells.find((near) => `${near.cell}` === `${cell}`).triangles.toLocaleString("en-GB"), "triangles of the cell");
+    expect(differing(before, await pixels(page, clip)) > 0.01, "no lines were drawn");
+    if (!facts.far) return;
+    expect((await page.textContent("#cell")).includes(`${facts.explicit_edges.toLocaleString("en-GB")} explicit edges`), "the explicit edges are not told");
+    const panorama = page.locator(".panorama");
+    await panorama.scrollIntoViewIfNeeded();
+    const picture = await pixels(page, await panorama.boundingBox()), is = (c) => (r, g, b) => Math.abs(r - c[0]) + Math.abs(g - c[1]) + Math.abs(b - c[2]) < 8;
+    expect(share(picture, is([205, 229, 248])) > 0.1 && share(picture, is([230, 159, 0])) > 0.005, "the panorama is empty");
+  },
+
+  async "the pointer lights up the cell below it"({ url, context }) {
+    const page = await context.newPage();
+    await page.goto(url);
+    await ready(page);
+    await page.click("#layer-grid");
+    await page.waitForTimeout(300);
+    await settled(page);
+    const clip = { x: 260, y: 120, width: 480, height: 460 }, isPink = (r, g, b) => r > 170 && g < 90 && b > 60 && b < 140;
+    await page.mouse.move(5, 690);
+    await page.waitForTimeout(300);
+    const without = share(await pixels(page, clip), isPink);
+    await page.mouse.move(420, 380);
+    await page.waitForTimeout(600);
+    const lit = share(await pixels(page, clip), isPink);
+    expect(lit > without + 0.0005, `pink is ${(100 * without).toFixed(3)} % before and ${(100 * lit).toFixed(3)} % after`);
+  },
+};
