@@ -93,4 +93,7 @@ void write_drawing(const Drawing& drawing, const std::filesystem::path& path);
 /// What write_drawing holds in memory besides the drawing, of one with so many pixels; the images are no larger than that.
 [[nodiscard]] constexpr std::uint64_t bytes_to_write_drawing(std::uint64_t pixels) { return pixels * 2 * sizeof(std::uint32_t); }
 
+/// The bytes of a PNG file. Throws OutputError.
+[[nodiscard]] std::string png_of(const Drawing& drawing);
+
 }  // namespace farlod

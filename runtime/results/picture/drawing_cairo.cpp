@@ -269,4 +269,6 @@ void write_drawing(const Drawing& drawing, const std::filesystem::path& path) {
   write_atomically(path, [&text](std::ostream& file) { file << text; });
 }
 
+std::string png_of(const Drawing& drawing) { return png_of(drawing, "a picture in memory"); }
+
 }  // namespace farlod

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "view/view_city.hpp"
+
+namespace farlod {
+
+/// What a server listens to.
+struct HttpServerSettings {
+  std::string address = "127.0.0.1";
+  int port = 0;  ///< 0: any that is free
+};
+
+/// A server of pages for browsers, by HTTP/1.1. It knows no files: all it sends comes from one function.
+///   (1) a request for another host than the one it listens to is refused (status 421), so that a page of another site that gave
+///       its name our address (DNS rebinding) reads nothing
+///   (2) a request has 16 KiB of head, no body, and ten seconds to arrive; another one ends its connection
+///   (3) who sends slowly, or connects and sends nothing, keeps nobody else waiting until there are more than 128 of them
+class HttpServer {
+ public:
+  /// `answer` takes the path without its first slash; it is called by several threads at a time.
+  using Answer = std::function<ViewReply(std::string_view path, const ViewQuery& query)>;
+
+  /// Begins to listen. Throws OutputError where the address cannot be had.
+  HttpServer(const HttpServerSettings& settings, Answer answer);
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+  ~HttpServer();
+
+  [[nodiscard]] int port() const;
+  /// Answers until stop() is called, by another thread, or has been called before. Once only.
+  void run();
+  void stop();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "farlod/package.hpp"
+#include "view/tile_cache.hpp"
+#include "view/tile_tree.hpp"
+#include "view/view_frame.hpp"
+
+namespace farlod {
+
+/// What a request for a page or its data comes to.
+struct ViewReply {
+  int status = 200;  ///< as HTTP has it
+  std::string type = "application/json";
+  std::string body = {};
+};
+
+using ViewQuery = std::map<std::string, std::string, std::less<>>;
+
+/// How a city is placed on the globe: the matrix that takes local metres to earth-centred ones (WGS 84), column by column. The
+/// unit matrix where the CRS is not known.
+using EcefFromLocal = std::array<double, 16>;
+
+/// A package as the page asks for it: viewer/README.md lists the requests. Any number of threads may ask at the same time. The
+/// package must outlive it.
+class ViewCity {
+ public:
+  ViewCity(const Package& package, std::string name, const ViewFrame& frame, const EcefFromLocal& ecef_from_local);
+
+  /// What is at this path, which has no slash in front. A request that makes no sense has the status 400, what is not there 404,
+  /// and a package that is damaged 500, each with a sentence.
+  [[nodiscard]] ViewReply answer(std::string_view path, const ViewQuery& query) const;
+
+  [[nodiscard]] const TileTree& tree() const { return tree_; }
+  /// view.json; `can_answer` says whether single places can be asked for.
+  [[nodiscard]] std::string description(bool can_answer) const;
+  [[nodiscard]] std::string tile(const TileAddress& address) const;
+  /// tileset.json of a tree of the city.
+  [[nodiscard]] std::string tileset(const TileTree& tree) const;
+
+ private:
+  [[nodiscard]] ViewReply answer_or_throw(std::string_view path, const ViewQuery& query) const;
+  [[nodiscard]] std::optional<ViewReply> file_of_tileset(std::string_view path) const;
+  [[nodiscard]] ViewReply at(const ViewQuery& query) const;
+  [[nodiscard]] ViewReply hemisphere(const ViewQuery& query) const;
+  [[nodiscard]] ViewReply cell(const ViewQuery& query) const;
+
+  const Package& package_;
+  std::string name_;
+  EcefFromLocal ecef_from_local_;
+  ViewFrame frame_;
+  TileTree tree_;
+  mutable TileCache tiles_;
+};
+
+}  // namespace farlod

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "view/http_server.hpp"
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+#include <vector>
+
+#include "farlod/error.hpp"
+
+namespace farlod {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A connection of a client that sends what it likes.
+class Connection {
+ public:
+  explicit Connection(int port) : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+  }
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+  ~Connection() { close(socket_); }
+
+  bool say(const std::string& text) const {
+    return send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
+  }
+  /// All that comes until the other side closes.
+  [[nodiscard]] std::string heard() const {
+    std::string text;
+    char part[4096];
+    for (ssize_t count = 0; (count = recv(socket_, part, sizeof(part), 0)) > 0;)
+      text.append(part, static_cast<std::size_t>(count));
+    return text;
+  }
+
+ private:
+  int socket_;
+};
+
+class Served : public testing::Test {
+ protected:
+  Served() : server({}, [this](std::string_view path, const ViewQuery& query) { return answer(path, query); }) {
+    running = std::thread([this] { server.run(); });
+  }
+  void TearDown() override {
+    server.stop();
+    running.join();
+  }
+  ViewReply answer(std::string_view path, const ViewQuery& query) {
+    ++asked;
+    const auto found = query.find("q");
+    return {.type = "text/plain", .body = std::string(path) + (found == query.end() ? "" : "?" + found->second)};
+  }
+  [[nodiscard]] std::string request(const std::string& line, const std::string& host, const std::string& more = "") const {
+    const Connection connection(server.port());
+    EXPECT_TRUE(connection.say(line + "\r\nHost: " + host + "\r\nConnection: close\r\n" + more + "\r\n"));
+    return connection.heard();
+  }
+  [[nodiscard]] std::string own_host() const { return "127.0.0.1:" + std::to_string(server.port()); }
+  static int status_of(const std::string& reply) { return reply.size() > 12 ? std::stoi(reply.substr(9, 3)) : 0; }
+
+  std::atomic<int> asked = 0;
+  HttpServer server;
+  std::thread running;
+};
+
+TEST_F(Served, AnswersWithWhatTheFunctionSays) {
+  const std::string reply = request("GET /a/b.glb?q=1%2B2 HTTP/1.1", own_host());
+  EXPECT_EQ(status_of(reply), 200);
+  EXPECT_TRUE(reply.ends_with("\r\n\r\na/b.glb?1+2")) << reply;
+  EXPECT_NE(reply.find("Content-Security-Policy: default-src 'self'"), std::string::npos);
+  EXPECT_NE(reply.find("X-Content-Type-Options: nosniff"), std::string::npos);
+  EXPECT_EQ(status_of(request("GET / HTTP/1.1", "localhost:" + std::to_string(server.port()))), 200);
+}
+
+TEST_F(Served, OtherHostsAreRefused) {
+  for (const std::string& host :
+       {std::string("city.example"), std::string("127.0.0.1"), "127.0.0.1:" + std::to_string(server.port() + 1)})
+    EXPECT_EQ(status_of(request("GET /a HTTP/1.1", host)), 421) << host;
+  EXPECT_EQ(asked, 0);
+}
+
+TEST_F(Served, NothingIsWritten) {
+  EXPECT_EQ(status_of(request("POST /a HTTP/1.1", own_host(), "Content-Length: 3\r\n")), 405);
+  EXPECT_EQ(status_of(request("DELETE /a HTTP/1.1", own_host())), 405);
+  EXPECT_EQ(asked, 0);
+}
+
+TEST_F(Served, OversizedHeadsEndTheConnection) {
+  const Connection connection(server.port());
+  (void)connection.say("GET / HTTP/1.1\r\nHost: " + own_host() + "\r\n");
+  for (int n = 0; n < 1000; ++n)
+    if (!connection.say("X-" + std::to_string(n) + ": " + std::string(100, 'x') + "\r\n")) break;
+  (void)connection.say("\r\n");
+  EXPECT_NE(status_of(connection.heard()), 200);
+  EXPECT_EQ(asked, 0);
+  EXPECT_NE(status_of(request("GET /" + std::string(20000, 'x') + " HTTP/1.1", own_host())), 200);
+  EXPECT_EQ(asked, 0);
+}
+
+TEST_F(Served, WhoSendsSlowlyKeepsNobodyWaiting) {
+  std::vector<std::unique_ptr<Connection>> slow;
+  for (int n = 0; n < 60; ++n) {
+    slow.push_back(std::make_unique<Connection>(server.port()));
+    ASSERT_TRUE(slow.back()->say("GET /"));
+  }
+  const auto start = Clock::now();
+  EXPECT_EQ(status_of(request("GET /a HTTP/1.1", own_host())), 200);
+  EXPECT_LT(Clock::now() - start, std::chrono::seconds(5));
+}
+
+TEST_F(Served, SlowRequestsEndThemselves) {
+  const Connection connection(server.port());
+  const auto start = Clock::now();
+  ASSERT_TRUE(connection.say("GET /a HTTP/1.1\r\nHost: "));
+  // A byte now and then would keep a limit of single reads from ever being reached
+  std::thread drip([&] {
+    while (Clock::now() - start < std::chrono::seconds(30) && connection.say("x"))
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  });
+  EXPECT_NE(status_of(connection.heard()), 200);
+  EXPECT_LT(Clock::now() - start, std::chrono::seconds(20));
+  drip.join();
+}
+
+TEST_F(Served, AHundredClientsAtOnce) {
+  std::atomic<int> right = 0;
+  std::vector<std::thread> clients;
+  for (int n = 0; n < 100; ++n)
+    clients.emplace_back([&, n] {
+      if (request("GET /tile?q=" + std::to_string(n) + " HTTP/1.1", own_host()).ends_with("\ntile?" + std::to_string(n))) ++right;
+    });
+  for (std::thread& client : clients) client.join();
+  EXPECT_EQ(right, 100);
+}
+
+TEST(HttpServer, MayBeStoppedBeforeItRuns) {
+  HttpServer server({}, [](std::string_view, const ViewQuery&) { return ViewReply{}; });
+  server.stop();
+  server.run();
+}
+
+TEST_F(Served, StopsWhileClientsAreConnected) {
+  const Connection idle(server.port()), half(server.port());
+  ASSERT_TRUE(half.say("GET /a HTTP/1.1\r\n"));
+  EXPECT_EQ(status_of(request("GET /a HTTP/1.1", own_host())), 200);
+  const auto start = Clock::now();
+  server.stop();
+  EXPECT_EQ(half.heard(), "");
+  EXPECT_LT(Clock::now() - start, std::chrono::seconds(4)) << "an idle connection waits for five";
+}
+
+TEST_F(Served, APortThatIsTakenIsSaid) {
+  try {
+    const HttpServer second({.address = "127.0.0.1", .port = server.port()}, {});
+    FAIL() << "two servers at one port";
+  } catch (const OutputError& error) {
+    EXPECT_NE(std::string(error.what()).find("--port"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace farlod

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "view/tile_surfaces.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "tests/library/packed_sample.hpp"
+#include "view/vertex_clusters.hpp"
+
+namespace farlod {
+namespace {
+
+double area_of(const TileFacet& facet) {
+  const auto& [a, b, c] = facet.corners_local;
+  return 0.5 * norm(cross(b - a, c - a));
+}
+
+double area_of(const TileSurfaces& surfaces) {
+  double area = 0.0;
+  for (const TileFacet& facet : surfaces.facets) area += area_of(facet);
+  return area;
+}
+
+/// The village in cells of 50 m.
+class TilesOfVillage : public testing::Test {
+ protected:
+  static PackSettings in_small_cells(const std::filesystem::path& folder) {
+    PackSettings settings = library::village_settings(folder);
+    settings.cell_edge_m = 50.0;
+    return settings;
+  }
+  TilesOfVillage() {
+    Report report;
+    (void)pack(in_small_cells(folder_.path() / "village.farlod"), report);
+    package_.emplace(folder_.path() / "village.farlod");
+    frame_ = view_frame_of(*package_);
+  }
+  [[nodiscard]] TileSurfaces surfaces(const TileAddress& tile) const {
+    return surfaces_of(*package_, frame_, TileTree(frame_), tile);
+  }
+  /// Of all that the package holds.
+  [[nodiscard]] double whole_area() const {
+    double area = 0.0;
+    for (const MeshPart& part : geometry_of(*package_, frame_.cells))
+      for (const MeshTriangle& t : part.triangles) {
+        const auto& v = part.vertices_projected;
+        area += 0.5 * norm(cross(v[t.vertices[1]] - v[t.vertices[0]], v[t.vertices[2]] - v[t.vertices[0]]));
+      }
+    return area;
+  }
+  template <class Visit>
+  void for_each_tile(std::uint32_t level, const Visit& visit) const {
+    const TileTree tree(frame_);
+    for (std::uint32_t y = 0; y < 1U << level; ++y)
+      for (std::uint32_t x = 0; x < 1U << level; ++x)
+        if (tree.has_content({level, x, y})) visit(TileAddress{level, x, y});
+  }
+
+  scenes::TemporaryFolder folder_;
+  std::optional<Package> package_;
+  ViewFrame frame_;
+};
+
+TEST_F(TilesOfVillage, CellsAndTheirPartsHaveAllGeometryOnce) {
+  const TileTree tree(frame_);
+  for (std::uint32_t level = tree.level_of_cells(); level < tree.levels(); ++level) {
+    double area = 0.0;
+    for_each_tile(level, [&](const TileAddress& tile) { area += area_of(surfaces(tile)); });
+    EXPECT_NEAR(area, whole_area(), 1e-6 * whole_area()) << level;
+  }
+}
+
+TEST_F(TilesOfVillage, FacetsAreAsSmallAsTheErrorSays) {
+  const TileTree tree(frame_);
+  const std::uint32_t level = tree.levels() - 1;
+  for_each_tile(level, [&](const TileAddress& tile) {
+    for (const TileFacet& facet : surfaces(tile).facets)
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_LE(norm(facet.corners_local[(k + 1) % 3] - facet.corners_local[k]), 2.0 * tree.geometric_error_m(level) + 1e-9);
+  });
+}
+
+TEST_F(TilesOfVillage, FacetsLieInTheirTileAndLookOutwards) {
+  const TileTree tree(frame_);
+  for_each_tile(tree.level_of_cells(), [&](const TileAddress& tile) {
+    const TileSurfaces of_tile = surfaces(tile);
+    for (const TileFacet& facet : of_tile.facets) {
+      EXPECT_TRUE(tree.square_of(tile).contains(frame_.grid_from_local(horizontal(facet.middle_local))));
+      const auto& [a, b, c] = facet.corners_local;
+      EXPECT_GT(dot(facet.normal, cross(b - a, c - a)), 0.0);
+      const bool is_ground = of_tile.features[facet.feature].kind == SurfaceKind::ground;
+      EXPECT_TRUE(!is_ground || facet.normal.z > 0.0);
+    }
+  });
+}
+
+TEST_F(TilesOfVillage, HeightsAreWithinTheFrame) {
+  for (const TileFacet& facet : surfaces({}).facets)
+    for (const Point3d& corner : facet.corners_local) {
+      EXPECT_GE(corner.z, frame_.low_local - 1e-3);
+      EXPECT_LE(corner.z, frame_.high_local + 1e-3);
+    }
+  EXPECT_GT(frame_.high_local, 3.0);
+}
+
+/// Facets of a wavy ground, and of roofs above it, spread evenly.
+TileSurfaces spread_surfaces(const TileSquare& square, const ViewFrame& frame) {
+  constexpr std::uint32_t count = 2000;
+  constexpr double edge_m = 3.0, storey_m = 8.0;
+  TileSurfaces surfaces{{}, {{"", 0, SurfaceKind::ground}, {"a", 1, SurfaceKind::roof}}};
+  for (std::uint32_t n = 0; n < count; ++n) {
+    const double turn = n * std::numbers::phi;
+    const Point2d low{(square.edge_m - edge_m) * (turn - std::floor(turn)), (square.edge_m - edge_m) * n / count};
+    TileFacet facet;
+    facet.feature = n % 2;
+    const double z = 10.0 * std::sin(0.1 * low.x) + storey_m * facet.feature;
+    const std::array<Point2d, 3> corners{low, low + Point2d{edge_m, 0.0}, low + Point2d{0.0, edge_m}};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Point2d p = frame.local_from_grid(square.low + corners[k]);
+      facet.corners_local[k] = {p.x, p.y, z};
+    }
+    facet.middle_local = facet.corners_local[0];
+    surfaces.facets.push_back(facet);
+  }
+  return surfaces;
+}
+
+TEST_F(TilesOfVillage, ClustersMoveNothingByMoreThanTheError) {
+  const TileSquare square{{200.0, 400.0}, 200.0};
+  for (const double error_m : {1.0, 5.0, 20.0}) {
+    const TileSurfaces before = spread_surfaces(square, frame_);
+    TileSurfaces after = before;
+    move_into_clusters(frame_, square, error_m, after);
+    ASSERT_FALSE(after.facets.empty());
+    std::map<std::tuple<double, double, double>, const TileFacet*> of_middle;
+    for (const TileFacet& facet : before.facets)
+      of_middle[{facet.middle_local.x, facet.middle_local.y, facet.middle_local.z}] = &facet;
+    double largest_m = 0.0;
+    for (const TileFacet& facet : after.facets) {
+      const TileFacet& was = *of_middle.at({facet.middle_local.x, facet.middle_local.y, facet.middle_local.z});
+      for (std::size_t k = 0; k < 3; ++k) largest_m = std::max(largest_m, norm(facet.corners_local[k] - was.corners_local[k]));
+    }
+    EXPECT_LE(largest_m, error_m);
+    EXPECT_GT(largest_m, 0.3 * error_m) << "and they do move";
+  }
+}
+
+TEST_F(TilesOfVillage, ClustersStayOnTheBorder) {
+  const TileSquare square{{200.0, 400.0}, 200.0}, east{{400.0, 400.0}, 200.0};
+  TileSurfaces one{{}, {{"", 0, SurfaceKind::ground}}}, other = one;
+  TileFacet facet;
+  const auto at = [&](double x, double y) {
+    const Point2d p = frame_.local_from_grid({x, y});
+    return Point3d{p.x, p.y, 0.0};
+  };
+  facet.corners_local = {at(400.0, 417.3), at(350.0, 430.0), at(400.0, 481.9)};
+  one.facets = {facet};
+  facet.corners_local = {at(400.0, 417.3), at(400.0, 481.9), at(450.0, 430.0)};
+  other.facets = {facet};
+  move_into_clusters(frame_, square, 5.0, one);
+  move_into_clusters(frame_, east, 5.0, other);
+  ASSERT_EQ(one.facets.size(), 1U);
+  const Point3d a = one.facets[0].corners_local[0], b = other.facets[0].corners_local[0];
+  EXPECT_NEAR(norm(a - b), 0.0, 1e-9);
+  EXPECT_NEAR(frame_.grid_from_local(horizontal(a)).x, 400.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace farlod
