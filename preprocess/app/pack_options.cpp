@@ -43,7 +43,7 @@ ProgramDescription pack_program() {
                      {exit_limit_reached, "a limit was reached"},
                      {exit_busy, "another process is at work on the same package: try again later"},
                      {exit_interrupted, "and the number of a signal: interrupted; the same command goes on"}},
-      .see_also = {"farlod-city", "farlod-info", "farlod-svf"},
+      .see_also = {"farlod-city", "farlod-info", "farlod-svf", "farlod-view"},
       .licence = "GPL-3.0-or-later"};
 }
 

@@ -34,7 +34,7 @@ ProgramDescription info_program() {
                      {exit_unusable_input, "an input cannot be read or used"},
                      {exit_damaged_package, "a damaged package"},
                      {exit_limit_reached, "a limit was reached"}},
-      .see_also = {"farlod-city", "farlod-pack", "farlod-svf"},
+      .see_also = {"farlod-city", "farlod-pack", "farlod-svf", "farlod-view"},
       .licence = "Apache-2.0"};
 }
 

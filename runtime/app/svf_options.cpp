@@ -44,7 +44,7 @@ ProgramDescription svf_program() {
                      {exit_limit_reached, "a limit was reached"},
                      {exit_busy, "another process is at work on the same output: try again later"},
                      {exit_interrupted, "and the number of a signal: interrupted; the same command goes on"}},
-      .see_also = {"farlod-city", "farlod-info", "farlod-pack"},
+      .see_also = {"farlod-city", "farlod-info", "farlod-pack", "farlod-view"},
       .licence = "Apache-2.0"};
 }
 

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <atomic>
+#include <chrono>
+#include <new>
+#include <stop_token>
+
+#include "app/output_files.hpp"
+#include "app/view_options.hpp"
+#include "app/view_summary.hpp"
+#include "console/exit_code.hpp"
+#include "console/interruption.hpp"
+#include "farlod/error.hpp"
+#include "view/bundle_files.hpp"
+#include "view/exported_view.hpp"
+#include "view/http_server.hpp"
+#include "view/placed_on_globe.hpp"
+
+namespace farlod {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// The name alone, also where the user writes a slash behind it.
+std::string name_of(const std::filesystem::path& package) {
+  return (package.has_filename() ? package : package.parent_path()).filename().string();
+}
+
+ViewReply answer(const ViewCity& city, std::string_view path, const ViewQuery& query) {
+  const std::string_view file = path.empty() ? bundle_files().front().name : path;
+  for (const BundleFile& page : bundle_files())
+    if (page.name == file) return {.type = std::string(page.type), .body = std::string(page.bytes)};
+  return city.answer(path, query);
+}
+
+void serve(const ViewCity& city, const ViewOptions& options, ViewSummary& summary) {
+  std::atomic<std::uint64_t> requests = 0;
+  HttpServer server(options.server, [&](std::string_view path, const ViewQuery& query) {
+    ++requests;
+    return answer(city, path, query);
+  });
+  if (options.server.address != "127.0.0.1" && options.server.address != "localhost" && options.server.address != "::1")
+    fmt::print(stderr, "farlod-view: other machines that reach {} can look at this city, and keep this one at work\n",
+               options.server.address);
+  fmt::print("http://{}:{}/\n", options.server.address, server.port());
+  if (options.run.verbosity == Verbosity::normal) fmt::print("Open this address in a browser; Ctrl-C ends the program.\n");
+  std::fflush(stdout);
+  const std::stop_callback stop(Interruption::token(), [&] { server.stop(); });
+  server.run();
+  summary.requests = requests;
+}
+
+void write_folder(const ViewCity& city, const ViewOptions& options, ViewSummary& summary) {
+  ProgressLine progress("tiles", options.run.verbosity);
+  const ExportedView exported =
+      export_view(city, options.export_folder, [&](std::size_t done, std::size_t all) { progress.update(done, all); });
+  if (options.run.verbosity == Verbosity::normal)
+    fmt::print("{}: {} tiles, {:.1f} MiB. It is seen by a web server only: python3 -m http.server --directory {}\n",
+               options.export_folder.string(), exported.tiles, static_cast<double>(exported.bytes) / (1 << 20),
+               options.export_folder.string());
+  summary.tiles = exported.tiles;
+  summary.bytes = exported.bytes;
+}
+
+int run(const ViewOptions& options) {
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
+  for (const std::filesystem::path& file : {options.export_folder, std::filesystem::path(options.run.summary_file)})
+    require_folder_of(file);
+  const auto start = Clock::now();
+  const Package package(options.package);
+  const ViewFrame frame = view_frame_of(package);
+  const ViewCity city(package, name_of(options.package), frame, placed_on_globe(package.description(), frame));
+  ViewSummary summary{.open_seconds = seconds_since(start)};
+  options.export_folder.empty() ? serve(city, options, summary) : write_folder(city, options, summary);
+  summary.total_seconds = seconds_since(start);
+  write_summary(options.run.summary_file, view_summary_json(summary, options.run.settings_json));
+  return Interruption::signal() == 0 ? exit_done : Interruption::exit_code();
+}
+
+int complain(const std::exception& error, int exit_code) {
+  fmt::print(stderr, "farlod-view: {}\n", error.what());
+  return exit_code;
+}
+
+}  // namespace
+}  // namespace farlod
+
+int main(int argc, char** argv) {
+  using namespace farlod;
+  const Interruption interruption;
+  try {
+    const ParsedViewOptions parsed = parse_view_options(argc, argv);
+    return parsed.options ? run(*parsed.options) : parsed.exit_code;
+  } catch (const InvalidArgument& error) {
+    return complain(error, exit_usage);
+  } catch (const PackageDamaged& error) {
+    return complain(error, exit_damaged_package);
+  } catch (const PackageUnusable& error) {
+    return complain(error, exit_unusable_input);
+  } catch (const OutputError& error) {
+    return complain(error, exit_unusable_input);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "farlod-view: out of memory. Use fewer --threads.\n");
+    return exit_limit_reached;
+  } catch (const std::exception& error) {
+    return complain(error, exit_internal);
+  }
+}

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "console/program_description.hpp"
+#include "console/run_options.hpp"
+#include "view/http_server.hpp"
+
+namespace farlod {
+
+/// The command line of farlod-view, resolved.
+struct ViewOptions {
+  std::filesystem::path package;
+  HttpServerSettings server;
+  std::filesystem::path export_folder;  ///< perhaps empty
+  RunOptions run;
+};
+
+/// As ParsedInfoOptions.
+struct ParsedViewOptions {
+  std::optional<ViewOptions> options;
+  int exit_code = 0;
+};
+[[nodiscard]] ParsedViewOptions parse_view_options(int argc, char** argv);
+
+/// Hands over the command line, from which the manual page and the completion are made.
+void describe_view_options(const CommandLineVisitor& visit);
+
+}  // namespace farlod
