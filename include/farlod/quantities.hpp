@@ -65,6 +65,11 @@ struct Quantities {
   /// 1 − the sky that buildings would hide and crowns in front of them hide first, as UMEP defines it: column `svfaveg`. Takes
   /// rays for each receiver, whatever the engine.
   bool svfaveg = false;
+  /// svfveg and svfaveg of the northern, eastern, southern and western half of the sky, as UMEP defines them: what crowns hide in
+  /// a half counts twice, so that the mean of opposite halves is the value of the whole sky. Of a receiver that is tilted, one
+  /// may be less than 0. Columns `svfNveg`, `svfEveg`, `svfSveg`, `svfWveg`, `svfNaveg`, `svfEaveg`, `svfSaveg`, `svfWaveg`.
+  /// Takes the rays of svfaveg.
+  bool directional_vegetation = false;
   /// What fills a receiver's view: sky, crowns, and all else; they add up to 1. Columns `share_sky`, `share_vegetation`,
   /// `share_building`. Takes the rays of svfaveg.
   bool sky_shares = false;
@@ -74,7 +79,7 @@ struct Quantities {
     return svf_solid || directional || hidden || horizons > 0 || sky_patches != SkyPatchSet::none || sun.has_value() ||
            any_of_canopies();
   }
-  [[nodiscard]] bool any_of_canopies() const { return svf_total || svfaveg || sky_shares; }
+  [[nodiscard]] bool any_of_canopies() const { return svf_total || svfaveg || directional_vegetation || sky_shares; }
 };
 
 /// The names of the columns of some quantities, in their order.

@@ -85,6 +85,7 @@ std::shared_ptr<Region> region_of(const std::vector<RingInPython>& rings_m) {
 void add_canopy(py::class_<Quantities>& quantities) {
   quantities.def_readwrite("svf_total", &Quantities::svf_total)
       .def_readwrite("svfaveg", &Quantities::svfaveg)
+      .def_readwrite("directional_vegetation", &Quantities::directional_vegetation)
       .def_readwrite("shares", &Quantities::sky_shares)
       .def_property(
           "leaf_off", [](const Quantities& q) { return q.canopy.season == Season::leaf_off; },

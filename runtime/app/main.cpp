@@ -10,6 +10,7 @@
 #include "app/enriched_city.hpp"
 #include "app/kept_work.hpp"
 #include "app/output_files.hpp"
+#include "app/quantity_options.hpp"
 #include "app/region_of_package.hpp"
 #include "app/sun_of_package.hpp"
 #include "app/svf_options.hpp"
@@ -20,6 +21,7 @@
 #include "console/interruption.hpp"
 #include "console/rough_number.hpp"
 #include "farlod/error.hpp"
+#include "farlod/inspection.hpp"
 
 namespace farlod {
 namespace {
@@ -51,6 +53,8 @@ WrittenRun evaluate(SvfOptions options) {
   const double open_s = seconds_since(start);
   options.evaluation.region = region_of_package(options, package.description());
   if (options.sunshine) options.evaluation.further.sun = sun_of_package(package.description(), *options.sunshine);
+  if (options.format != nullptr && options.format->is_for_solweig)
+    add_for_solweig(inventory_of(package).crowns.all() > 0, options.evaluation.further);
   ProgressLine progress("sky view factors", options.run.verbosity);
   KeptWork kept(options, package.description());
   RunSettings run = run_settings(options, progress);

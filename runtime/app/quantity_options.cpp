@@ -43,12 +43,14 @@ SunPeriod period_of(const std::string& text, std::size_t step_minutes) {
 }
 
 /// The quantities that are asked for by their name alone.
-constexpr std::array<std::pair<std::string_view, bool Quantities::*>, 6> flags{{{"svf_solid", &Quantities::svf_solid},
-                                                                                {"directional", &Quantities::directional},
-                                                                                {"hidden", &Quantities::hidden},
-                                                                                {"svf_total", &Quantities::svf_total},
-                                                                                {"svfaveg", &Quantities::svfaveg},
-                                                                                {"shares", &Quantities::sky_shares}}};
+constexpr std::array<std::pair<std::string_view, bool Quantities::*>, 7> flags{
+    {{"svf_solid", &Quantities::svf_solid},
+     {"directional", &Quantities::directional},
+     {"hidden", &Quantities::hidden},
+     {"svf_total", &Quantities::svf_total},
+     {"svfaveg", &Quantities::svfaveg},
+     {"directional_vegetation", &Quantities::directional_vegetation},
+     {"shares", &Quantities::sky_shares}}};
 
 void add(const std::string& name, const RawQuantities& raw, RequestedQuantities& requested) {
   if (name == "svf") return;
@@ -65,7 +67,8 @@ void add(const std::string& name, const RawQuantities& raw, RequestedQuantities&
   } else {
     throw CLI::ValidationError("--quantity", "\"" + name +
                                                  "\" is not one of svf, svf_solid, directional, hidden, horizon, "
-                                                 "horizon_distance, sky_patches, sunlit, svf_total, svfaveg, shares");
+                                                 "horizon_distance, sky_patches, sunlit, svf_total, svfaveg, "
+                                                 "directional_vegetation, shares");
   }
 }
 
@@ -89,7 +92,7 @@ void add_canopy_options(CLI::App& app, RawQuantities& raw) {
       ->group("Trees");
 }
 
-CanopySettings canopy_of(const RawQuantities& raw, const Quantities& quantities) {
+CanopySettings canopy_of(const RawQuantities& raw, bool knows_trees) {
   CanopySettings canopy;
   const bool is_beer = raw.canopy_rule == word_for(CanopyRule::beer);
   if (is_beer || raw.canopy_rule == word_for(CanopyRule::each)) canopy.rule = is_beer ? CanopyRule::beer : CanopyRule::each;
@@ -99,9 +102,10 @@ CanopySettings canopy_of(const RawQuantities& raw, const Quantities& quantities)
   if (raw.transmissivity && is_beer)
     throw CLI::ValidationError("--transmissivity", "--canopy-rule beer counts lengths within crowns: give --extinction");
   if (raw.extinction_per_m && !is_beer) throw CLI::ValidationError("--extinction", "it goes with --canopy-rule beer");
-  if (!(canopy == CanopySettings{}) && !quantities.any_of_canopies())
+  if (!(canopy == CanopySettings{}) && !knows_trees)
     throw CLI::ValidationError("--canopy-rule",
-                               "this run computes nothing of trees: add --quantity svf_total, svfaveg or shares");
+                               "this run computes nothing of trees: add --quantity svf_total, svfaveg, "
+                               "directional_vegetation or shares");
   return canopy;
 }
 
@@ -127,11 +131,13 @@ void add_sun_options(CLI::App& app, RawQuantities& raw) {
 }  // namespace
 
 void add_quantity_options(CLI::App& app, RawQuantities& raw) {
-  app.add_option("--quantity", raw.quantities,
-                 "What to compute, with commas: svf (always), svf_solid, directional (svfN, svfE, svfS, svfW as UMEP has them), "
-                 "hidden (by near and by far geometry), horizon, horizon_distance (with the level distance to it), sky_patches, "
-                 "sunlit; with the trees of a package svf_total (and svfveg), "
-                 "svfaveg, shares (of sky, vegetation and building)")
+  app.add_option(
+         "--quantity", raw.quantities,
+         "What to compute, with commas: svf (always), svf_solid, directional (svfN, svfE, svfS, svfW as UMEP has them), "
+         "hidden (by near and by far geometry), horizon, horizon_distance (with the level distance to it), sky_patches, "
+         "sunlit; with the trees of a package svf_total (and svfveg), "
+         "svfaveg, directional_vegetation (both of each half of the sky, as UMEP has them), shares (of sky, vegetation and "
+         "building)")
       ->group("Quantities");
   app.add_option(
          "--horizons", raw.horizons,
@@ -147,15 +153,21 @@ void add_quantity_options(CLI::App& app, RawQuantities& raw) {
   add_canopy_options(app, raw);
 }
 
-RequestedQuantities resolved(const RawQuantities& raw) {
+void add_for_solweig(bool has_trees, Quantities& quantities) {
+  quantities.directional = true;
+  if (has_trees) quantities.svf_total = quantities.svfaveg = quantities.directional_vegetation = true;
+}
+
+RequestedQuantities resolved(const RawQuantities& raw, bool is_for_solweig) {
   RequestedQuantities requested;
+  if (is_for_solweig) add_for_solweig(/*has_trees=*/false, requested.further);
   if (!raw.quantities.empty())
     for (const std::string& name : CLI::detail::split(raw.quantities + ',', ',')) add(name, raw, requested);
   if (raw.horizons > 0) requested.further.horizons = raw.horizons;
   if (raw.sky_patches > 0)
     requested.further.sky_patches = raw.sky_patches == reinhart_patches ? SkyPatchSet::reinhart : SkyPatchSet::tregenza;
   if (!raw.sun.empty()) requested.sunshine = period_of(raw.sun, raw.sun_step_minutes);
-  requested.further.canopy = canopy_of(raw, requested.further);
+  requested.further.canopy = canopy_of(raw, is_for_solweig || requested.further.any_of_canopies());
   if (raw.sun.empty() && raw.sun_step_minutes > 0) throw CLI::ValidationError("--sun-step", "it goes with --sun");
   return requested;
 }

@@ -46,7 +46,11 @@ void add_quantity_options(CLI::App& app, RawQuantities& raw);
 /// The word of --canopy-rule.
 [[nodiscard]] std::string word_for(CanopyRule rule);
 
-/// Throws CLI::ValidationError.
-[[nodiscard]] RequestedQuantities resolved(const RawQuantities& raw);
+/// What SOLWEIG reads beside the sky view factor, of a package with trees or without.
+void add_for_solweig(bool has_trees, Quantities& quantities);
+
+/// With what SOLWEIG reads in any case, where the result is for it: whether the package has trees is not known yet. Throws
+/// CLI::ValidationError.
+[[nodiscard]] RequestedQuantities resolved(const RawQuantities& raw, bool is_for_solweig);
 
 }  // namespace farlod

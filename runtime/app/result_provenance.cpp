@@ -53,6 +53,7 @@ std::string quantity_options(const SvfOptions& o) {
   if (q.horizon_distances) text += ",horizon_distance";
   if (q.svf_total) text += ",svf_total";
   if (q.svfaveg) text += ",svfaveg";
+  if (q.directional_vegetation) text += ",directional_vegetation";
   if (q.sky_shares) text += ",shares";
   if (!text.empty()) text = " --quantity svf" + text;
   if (q.horizons > 0) text += fmt::format(" --horizons {}", q.horizons);

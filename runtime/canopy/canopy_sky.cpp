@@ -12,6 +12,7 @@ namespace farlod {
 namespace {
 
 using Row = PacketHorizon::Row;
+constexpr std::size_t lanes = ReceiverPacket::lanes;
 
 bool all_look_straight_up(const ReceiverPacket& r) {
   bool all_do = true;
@@ -49,14 +50,19 @@ CanopySky::CanopySky(const AzimuthSampling& azimuths, float range_m, const Crown
       ground_(azimuths.size()),
       lowest_ground_(azimuths.size()) {}
 
-CanopyShares CanopySky::evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const CrownBatches& crowns) {
+CanopyShares CanopySky::evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const CrownBatches& crowns,
+                                 std::span<Row> behind_of_azimuths) {
   FARLOD_EXPECTS(profile.sky_from.size() == azimuths_.size());
+  FARLOD_EXPECTS(behind_of_azimuths.empty() || behind_of_azimuths.size() == azimuths_.size());
+  std::ranges::fill(behind_of_azimuths, Row{});
   if (crowns.empty()) return {};
   const SkyRows sky = rows_of(profile);
   const CrownScene scene{crowns.batches(), &receivers, azimuths_.view(), range_square_, all_look_straight_up(receivers)};
   find_seen(sky, scene, crowns);
   if (seen_.empty()) return {};
-  return crowns.rule() == CanopyRule::once ? by_smallest(sky, scene, crowns) : by_depth(sky, scene, crowns.rule());
+  float* const of_azimuths = behind_of_azimuths.empty() ? nullptr : behind_of_azimuths.front().data();
+  return crowns.rule() == CanopyRule::once ? by_smallest(sky, scene, crowns, of_azimuths)
+                                           : by_depth(sky, scene, crowns.rule(), of_azimuths);
 }
 
 void CanopySky::find_seen(const SkyRows& sky, const CrownScene& scene, const CrownBatches& crowns) {
@@ -101,10 +107,9 @@ std::size_t CanopySky::begin_lists() {
   return begin;
 }
 
-CanopySky::Lanes CanopySky::sky_behind(const SkyRows& sky, const CrownScene& scene, float most_transmissivity) {
+CanopySky::Lanes CanopySky::sky_behind(const SkyRows& sky, const CrownScene& scene, float most_transmissivity, float* rows) {
   drawn_.clear();
   for (const SeenCrown& s : seen_) {
-    const std::size_t lanes = ReceiverPacket::lanes;
     if (scene.batches[s.crown / lanes].transmissivity[s.crown % lanes] <= most_transmissivity) drawn_.push_back(s);
   }
   sort_from_near_to_far();
@@ -118,34 +123,41 @@ CanopySky::Lanes CanopySky::sky_behind(const SkyRows& sky, const CrownScene& sce
   core_high_.assign(azimuths_.size(), filled(none_high));
   // In each list, the first place is kept for it
   counts_.assign(azimuths_.size(), 1);
-  const CoverRows covered{
-      risen_ground_.front().data(), core_low_.front().data(), core_high_.front().data(), begins_.data(), counts_.data(),
-      low_.front().data(),          high_.front().data()};
+  const CoverRows covered{risen_ground_.front().data(),
+                          core_low_.front().data(),
+                          core_high_.front().data(),
+                          begins_.data(),
+                          counts_.data(),
+                          low_.front().data(),
+                          high_.front().data(),
+                          rows};
   kernels_.cover->cover(scene, by_distance_, covered);
   Lanes behind;
   kernels_.cover->sum_covered(sky, scene, covered, behind.data());
   return behind;
 }
 
-CanopyShares CanopySky::by_smallest(const SkyRows& sky, const CrownScene& scene, const CrownBatches& crowns) {
+CanopyShares CanopySky::by_smallest(const SkyRows& sky, const CrownScene& scene, const CrownBatches& crowns,
+                                    float* behind_of_azimuths) {
   // 1 − ψ of all that is behind crowns, with the largest ψ, and the rest of what is behind crowns with the smallest
   const float least = crowns.least_transmissivity(), most = crowns.most_transmissivity();
   CanopyShares shares;
-  shares.behind = sky_behind(sky, scene, most);
+  shares.behind = sky_behind(sky, scene, most, behind_of_azimuths);
   for (std::size_t l = 0; l < shares.lost.size(); ++l) shares.lost[l] = (1.0F - most) * shares.behind[l];
   if (least == most) return shares;
-  const Lanes behind_least = sky_behind(sky, scene, least);
+  const Lanes behind_least = sky_behind(sky, scene, least, nullptr);
   for (std::size_t l = 0; l < shares.lost.size(); ++l) shares.lost[l] += (most - least) * behind_least[l];
   return shares;
 }
 
-CanopyShares CanopySky::by_depth(const SkyRows& sky, const CrownScene& scene, CanopyRule rule) {
+CanopyShares CanopySky::by_depth(const SkyRows& sky, const CrownScene& scene, CanopyRule rule, float* behind_of_azimuths) {
   // In the order of the crowns, so that depths are added up in the same order for all packets
   drawn_ = seen_;
   const std::size_t room = begin_lists();
   make_room(sections_, room);
   make_room(section_crowns_, room);
-  const SectionRows rows{lowest_ground_.data(), begins_.data(), counts_.data(), sections_.data(), section_crowns_.data()};
+  const SectionRows rows{lowest_ground_.data(), begins_.data(),         counts_.data(),
+                         sections_.data(),      section_crowns_.data(), behind_of_azimuths};
   kernels_.light->cut(scene, drawn_, rows);
   // At most four ends of each section
   constexpr std::size_t most_ends = 4;

@@ -43,7 +43,13 @@ class CanopySky {
   /// Profile, receivers and crowns are of one frame and the azimuths those of the profile. Crowns behind solid things do not
   /// count, since the profile has no sky there. In a gap below an overhang, of whose sky the profile knows the share that is seen
   /// and not where, crowns take the same share of what they would take from all of it.
-  [[nodiscard]] CanopyShares evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const CrownBatches& crowns);
+  [[nodiscard]] CanopyShares evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const CrownBatches& crowns) {
+    return evaluate(profile, receivers, crowns, {});
+  }
+  /// The same, and `behind` of each azimuth by itself, unless there are no rows for it: their mean over the azimuths is `behind`,
+  /// but for rounding.
+  [[nodiscard]] CanopyShares evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const CrownBatches& crowns,
+                                      std::span<PacketHorizon::Row> behind_of_azimuths);
 
  private:
   using Lanes = PacketHorizon::Lanes;
@@ -52,10 +58,11 @@ class CanopySky {
   void sort_from_near_to_far();
   /// Where the list of each azimuth begins, with room for all crowns seen there and one more. Returns the room of all.
   std::size_t begin_lists();
-  /// The share of the sky behind those of the crowns in sight that are no more transmissive than this.
-  [[nodiscard]] Lanes sky_behind(const SkyRows& sky, const CrownScene& scene, float most_transmissivity);
-  [[nodiscard]] CanopyShares by_smallest(const SkyRows& sky, const CrownScene& scene, const CrownBatches& crowns);
-  [[nodiscard]] CanopyShares by_depth(const SkyRows& sky, const CrownScene& scene, CanopyRule rule);
+  /// The share of the sky behind those of the crowns in sight that are no more transmissive than this; rows of it, or null.
+  [[nodiscard]] Lanes sky_behind(const SkyRows& sky, const CrownScene& scene, float most_transmissivity, float* rows);
+  [[nodiscard]] CanopyShares by_smallest(const SkyRows& sky, const CrownScene& scene, const CrownBatches& crowns,
+                                         float* behind_of_azimuths);
+  [[nodiscard]] CanopyShares by_depth(const SkyRows& sky, const CrownScene& scene, CanopyRule rule, float* behind_of_azimuths);
 
   const AzimuthSampling& azimuths_;
   float range_square_;

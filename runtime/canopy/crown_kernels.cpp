@@ -215,7 +215,7 @@ FARLOD_LANES Floats covered_sky(const CoverRows& c, std::size_t k, const Sky& sk
 template <class Sky>
 FARLOD_LANES void sum_covered_of(const SkyRows& rows, const CrownScene& scene, const CoverRows& c, float* sum) {
   const Normals normals = normals_of(*scene.receivers);
-  Sum total(nullptr);
+  Sum total(c.behind);
   for (std::size_t k = 0; k < scene.azimuths.size; ++k) {
     const Sky sky = sky_at<Sky>(normals, scene.azimuths.cosine[k], scene.azimuths.sine[k]);
     const SkyWindow above = window_above(rows, k, sky);

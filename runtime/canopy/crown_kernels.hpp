@@ -52,6 +52,7 @@ struct CoverRows {
   const std::uint32_t* begins;  ///< of the list of each azimuth
   std::uint32_t* counts;        ///< of its intervals, with a free first place
   float *low, *high;            ///< rows of the lists
+  float* behind = nullptr;      ///< takes the sky behind what is covered, F of each azimuth: rows, or null
 };
 
 /// A crown at one azimuth, for all receivers: between which slopes they see it, and where. A spheroid's u and e, or the distances
@@ -64,7 +65,8 @@ struct SectionRows {
   const std::uint32_t* begins;  ///< of the sections of each azimuth
   std::uint32_t* counts;
   CrownSection* sections;
-  std::uint32_t* crowns;  ///< of each section
+  std::uint32_t* crowns;    ///< of each section
+  float* behind = nullptr;  ///< as that of CoverRows
 };
 
 /// Sums over the azimuths, for each receiver: of the sky that crowns take away, and of that which is behind crowns.

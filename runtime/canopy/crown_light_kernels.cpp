@@ -287,9 +287,12 @@ FARLOD_LANES void sum_light_of(const SkyRows& rows, const CrownScene& scene, con
                                float* ends, CrownSums& sums) {
   const Normals normals = normals_of(*scene.receivers);
   const Eyes eye = eyes_of(*scene.receivers);
-  Sum lost(nullptr), behind(nullptr);
+  Sum lost(nullptr), behind(c.behind);
   for (std::size_t k = 0; k < scene.azimuths.size; ++k) {
-    if (c.counts[k] == 0) continue;
+    if (c.counts[k] == 0) {
+      behind.skip();
+      continue;
+    }
     const Sections sections{c.sections + c.begins[k], c.crowns + c.begins[k], c.counts[k]};
     const std::size_t count = find_ends(scene, sections, eye, Light::has_bends, ends);
     sort_ends(ends, count);

@@ -11,10 +11,12 @@
 
 #include "canopy/canopy_sky.hpp"
 #include "contract/canopy/crown.hpp"
+#include "evaluate/further_quantities.hpp"
 #include "evaluate/sky_evaluator.hpp"
+#include "evaluate/sky_halves.hpp"
 #include "evaluate/traced_canopy.hpp"
 #include "farlod/quantities.hpp"
-#include "horizon/azimuth_sampling.hpp"
+#include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/sky_profile.hpp"
 #include "package/package_reader.hpp"
@@ -37,8 +39,7 @@ class CanopyAnswers {
   using Losses = std::array<CanopyLoss, ReceiverPacket::lanes>;
 
   /// All must outlive it.
-  CanopyAnswers(const PackageReader& package, const CellReceivers& cell, const Quantities& quantities,
-                const AzimuthSampling& azimuths);
+  CanopyAnswers(const PackageReader& package, const CellReceivers& cell, const FurtherQuantities& further);
 
   /// Of the receivers of a packet. CanopyLoss::building, which takes rays, is that of a quantity that needs it, or 0.
   [[nodiscard]] Losses evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const std::stop_token& stop);
@@ -46,12 +47,16 @@ class CanopyAnswers {
  private:
   const PackageReader& package_;
   const CellReceivers& cell_;
-  const Quantities& quantities_;
-  const AzimuthSampling& azimuths_;
+  /// Sums over the azimuths, of what is behind crowns, for CanopyLoss.
+  void add_halves(std::span<const PacketHorizon::Row> terms, std::array<float, SkyHalves::count> CanopyLoss::*of_half,
+                  double share, Losses& losses) const;
+
+  const FurtherQuantities& further_;
   std::vector<Crown> crowns_;  ///< cell frame
   CrownBatches batches_;       ///< the same for horizons
   CanopySky sky_;
-  std::optional<Occluder> near_;  ///< for rays, as the next one; made when first needed
+  std::vector<PacketHorizon::Row> behind_, hidden_;  ///< at each azimuth: sky and what is solid, behind crowns
+  std::optional<Occluder> near_;                     ///< for rays, as the next one; made when first needed
   std::optional<CrownOccluder> occluder_;
 };
 

@@ -71,7 +71,7 @@ void FurtherAnswers::draw_near_sky(const PackageReader& package, const FarHorizo
 }
 
 void FurtherAnswers::draw_canopies(const PackageReader& package, std::stop_token stop) {
-  canopies_ = std::make_unique<CanopyAnswers>(package, cell_, quantities_.quantities(), quantities_.azimuths());
+  canopies_ = std::make_unique<CanopyAnswers>(package, cell_, quantities_);
   stop_ = std::move(stop);
 }
 

@@ -25,13 +25,6 @@ constexpr std::size_t lanes = ReceiverPacket::lanes;
 /// Above it is nothing that counts, and it is finite.
 constexpr float straight_up = 1e7F;
 
-/// The share of [from, to] that lies in [low, high], on a turn of 1; neither is longer than half a turn.
-double share_within(double from, double to, double low, double high) {
-  double within = 0.0;
-  for (const double turn : {-1.0, 0.0, 1.0}) within += std::max(0.0, std::min(to + turn, high) - std::max(from + turn, low));
-  return std::min(1.0, within / (to - from));
-}
-
 std::vector<Point3d> directions_clockwise_from_north(std::size_t count, const package::Manifest& manifest) {
   std::vector<Point3d> directions;
   for (std::size_t n = 0; n < count; ++n) {
@@ -50,11 +43,8 @@ AzimuthSampling sampling_for(const Quantities& quantities, std::size_t azimuths,
 
 std::vector<double> turns_of(const AzimuthSampling& azimuths, const package::Manifest& manifest) {
   std::vector<double> turns;
-  for (std::size_t k = 0; k < azimuths.size(); ++k) {
-    const Point2d direction = manifest.grid.rotation.city_from_grid(Point2d{azimuths.cosine()[k], azimuths.sine()[k]});
-    const double turn = (azimuth_of(direction) + manifest.convergence).radians() / (2.0 * std::numbers::pi);
-    turns.push_back(turn - std::floor(turn));
-  }
+  for (std::size_t k = 0; k < azimuths.size(); ++k)
+    turns.push_back(turn_of(Point2d{azimuths.cosine()[k], azimuths.sine()[k]}, manifest.grid.rotation, manifest.convergence));
   return turns;
 }
 
@@ -137,7 +127,8 @@ FurtherQuantities::FurtherQuantities(const Quantities& quantities, std::size_t a
     : quantities_(quantities),
       size_(columns_of(quantities).size()),
       azimuths_(sampling_for(quantities, azimuths, manifest)),
-      turns_(turns_of(azimuths_, manifest)) {
+      turns_(turns_of(azimuths_, manifest)),
+      halves_(azimuths_, manifest) {
   FARLOD_EXPECTS(azimuths_for(quantities, azimuths) == azimuths);
   if (quantities.horizons > 0) {
     azimuth_of_horizon_.resize(quantities.horizons);
@@ -145,7 +136,6 @@ FurtherQuantities::FurtherQuantities(const Quantities& quantities, std::size_t a
     for (std::size_t k = 0; k < azimuths; ++k)
       if (const std::size_t n = azimuths_.order()[k]; n % step == 0) azimuth_of_horizon_[n / step] = k;
   }
-  if (quantities.directional) divide_into_halves();
   if (quantities.sky_patches != SkyPatchSet::none) divide_into_patches();
   if (quantities.sun) sort_sun_positions();
 }
@@ -165,15 +155,6 @@ HorizonColumns FurtherQuantities::horizon_columns() const {
 FurtherQuantities::CanopyColumns FurtherQuantities::canopy_columns() const {
   const std::size_t count = count_canopy_columns(quantities_);
   return {size_ - count, count};
-}
-
-void FurtherQuantities::divide_into_halves() {
-  const double half_part = 0.5 / static_cast<double>(azimuths_.size());
-  constexpr std::array<double, 4> middles{0.0, 0.25, 0.5, 0.75};  // north, east, south, west
-  for (std::size_t h = 0; h < middles.size(); ++h)
-    for (const double turn : turns_)
-      in_half_[h].push_back(
-          static_cast<float>(share_within(turn - half_part, turn + half_part, middles[h] - 0.25, middles[h] + 0.25)));
 }
 
 void FurtherQuantities::divide_into_patches() {
@@ -291,11 +272,7 @@ void FurtherQuantities::add_directional(const SkyProfile& profile, const Receive
                                         Columns& columns) const {
   find_sky(profile, profile.sky, receivers, azimuths_, false, rows);
   const Lanes all = sum(rows.terms);
-  for (const std::vector<float>& in_half : in_half_) {
-    std::array<double, lanes> sums{};
-    for (std::size_t k = 0; k < rows.terms.size(); ++k)
-      for (std::size_t l = 0; l < lanes; ++l)
-        sums[l] += 2.0 * static_cast<double>(in_half[k]) * static_cast<double>(rows.terms[k][l]);
+  for (const std::array<double, lanes>& sums : halves_.sums(rows.terms)) {
     Lanes half;
     for (std::size_t l = 0; l < lanes; ++l) {
       // What the answer knows better than the profile is not known by azimuth: it goes to both halves alike

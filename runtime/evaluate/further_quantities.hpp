@@ -10,6 +10,7 @@
 
 #include "contract/package/manifest.hpp"
 #include "evaluate/horizon_distances.hpp"
+#include "evaluate/sky_halves.hpp"
 #include "farlod/quantities.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/receiver_packet.hpp"
@@ -56,6 +57,8 @@ class FurtherQuantities {
   };
   [[nodiscard]] CanopyColumns canopy_columns() const;
   [[nodiscard]] const Quantities& quantities() const { return quantities_; }
+  /// The halves of the sky, for the azimuths.
+  [[nodiscard]] const SkyHalves& halves() const { return halves_; }
 
   /// Writes the values of the packet's receivers, one receiver after the other, in the order of columns_of.
   void evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky, Rows& rows,
@@ -70,7 +73,6 @@ class FurtherQuantities {
   void add_patches(const SkyProfile& profile, const ReceiverPacket& receivers, Rows& rows, Columns& columns) const;
   void add_sunlit(const SkyProfile& profile, const ReceiverPacket& receivers, Columns& columns) const;
 
-  void divide_into_halves();
   void divide_into_patches();
   void sort_sun_positions();
   [[nodiscard]] std::size_t nearest_azimuth(Angle azimuth) const;
@@ -97,7 +99,7 @@ class FurtherQuantities {
   AzimuthSampling azimuths_;
   std::vector<double> turns_;  ///< of each azimuth: clockwise from true north, as a share of the turn
   std::vector<std::size_t> azimuth_of_horizon_;
-  std::array<std::vector<float>, 4> in_half_;  ///< N, E, S, W: the share of the azimuth's part of the turn in that half
+  SkyHalves halves_;
   std::vector<Band> bands_;
   std::vector<SunAtAzimuth> sun_;
 };

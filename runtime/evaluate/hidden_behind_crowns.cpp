@@ -83,12 +83,11 @@ std::uint32_t meet_crown_first(const CanopyScene& scene, const RayOrigins& origi
 
 }  // namespace
 
-ReceiverPacket::Lanes hidden_behind_crowns(const SkyProfile& profile, const ReceiverPacket& receivers,
-                                           const AzimuthSampling& azimuths, const CanopyScene& scene,
-                                           const std::stop_token& stop) {
+void find_hidden_behind_crowns(const SkyProfile& profile, const ReceiverPacket& receivers, const AzimuthSampling& azimuths,
+                               const CanopyScene& scene, const std::stop_token& stop, std::span<Row> hidden) {
   const RayOrigins origins{receivers.x, receivers.y, receivers.z};
   const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << receivers.count) - 1);
-  std::array<double, lanes> hidden{};
+  std::ranges::fill(hidden, Row{});
   for (std::size_t n = 0; n < parts; ++n) {
     throw_if_cancelled(stop);
     const PartBelowSky part(n, profile, receivers, azimuths);
@@ -100,12 +99,9 @@ ReceiverPacket::Lanes hidden_behind_crowns(const SkyProfile& profile, const Rece
       directions.z = slopes;
       const std::uint32_t first = meet_crown_first(scene, origins, directions, all, part.in_gap(k, slopes));
       for (std::size_t l = 0; l < lanes; ++l)
-        if ((first >> l & 1U) != 0) hidden[l] += static_cast<double>(azimuths_between) * static_cast<double>(part.view(k)[l]);
+        if ((first >> l & 1U) != 0) hidden[k][l] += static_cast<float>(azimuths_between) * part.view(k)[l];
     }
   }
-  ReceiverPacket::Lanes result;
-  std::transform(hidden.begin(), hidden.end(), result.begin(), [](double share) { return static_cast<float>(share); });
-  return result;
 }
 
 }  // namespace farlod

@@ -42,7 +42,8 @@ PatchBands patch_bands_of(SkyPatchSet set) {
 }
 
 std::size_t count_canopy_columns(const Quantities& quantities) {
-  return (quantities.svf_total ? 2 : 0) + (quantities.svfaveg ? 1 : 0) + (quantities.sky_shares ? 3 : 0);
+  return (quantities.svf_total ? 2 : 0) + (quantities.svfaveg ? 1 : 0) + (quantities.directional_vegetation ? 8 : 0) +
+         (quantities.sky_shares ? 3 : 0);
 }
 
 std::vector<std::string> columns_of(const Quantities& quantities) {
@@ -57,6 +58,8 @@ std::vector<std::string> columns_of(const Quantities& quantities) {
   if (quantities.sun) names.emplace_back("sunlit_h");
   if (quantities.svf_total) names.insert(names.end(), {"svf_total", "svfveg"});
   if (quantities.svfaveg) names.emplace_back("svfaveg");
+  if (quantities.directional_vegetation)
+    names.insert(names.end(), {"svfNveg", "svfEveg", "svfSveg", "svfWveg", "svfNaveg", "svfEaveg", "svfSaveg", "svfWaveg"});
   if (quantities.sky_shares) names.insert(names.end(), {"share_sky", "share_vegetation", "share_building"});
   return names;
 }

@@ -15,13 +15,39 @@ namespace {
 
 constexpr std::size_t lanes = RayOrigins::lanes;
 
+/// Counts of a receiver's rays, and of those in each half of the sky.
+struct Count {
+  double all = 0.0;
+  std::array<double, SkyHalves::count> of_half{};
+
+  void add(SkyHalves::Bits halves) {
+    all += 1.0;
+    for (std::size_t h = 0; h < SkyHalves::count; ++h)
+      if ((halves >> h & 1U) != 0) of_half[h] += 1.0;
+  }
+  /// Twice the share of the halves.
+  [[nodiscard]] std::array<float, SkyHalves::count> shares_of_halves(double share) const {
+    std::array<float, SkyHalves::count> shares;
+    std::ranges::transform(of_half, shares.begin(), [&](double count) { return static_cast<float>(2.0 * share * count); });
+    return shares;
+  }
+};
+
 /// Sums of a packet over its directions.
 struct Sums {
-  std::array<double, lanes> light{}, sky{}, building{};
+  std::array<double, lanes> light{};
+  std::array<Count, lanes> sky, building;
+
+  [[nodiscard]] CanopyLoss loss(std::size_t lane, double share) const {
+    return {static_cast<float>(share * light[lane]), static_cast<float>(share * sky[lane].all),
+            static_cast<float>(share * building[lane].all), sky[lane].shares_of_halves(share),
+            building[lane].shares_of_halves(share)};
+  }
 };
 
 /// Adds what crowns take in one direction.
-void add(const CanopyScene& scene, const RayOrigins& origins, const Point3d& direction_d, std::uint32_t wanted, Sums& sums) {
+void add(const CanopyScene& scene, const RayOrigins& origins, const Point3d& direction_d, SkyHalves::Bits halves,
+         std::uint32_t wanted, Sums& sums) {
   const Point3f direction = rounded(direction_d);
   const CrownLights light = scene.crowns.light(origins, direction, least_distance_m, wanted);
   if (light.met == 0) return;
@@ -31,9 +57,9 @@ void add(const CanopyScene& scene, const RayOrigins& origins, const Point3d& dir
     if (((light.met >> l) & 1U) == 0) continue;
     if (((blocked >> l) & 1U) == 0) {
       sums.light[l] += 1.0 - static_cast<double>(light.transmitted[l]);
-      sums.sky[l] += 1.0;
+      sums.sky[l].add(halves);
     } else if (is_crown_first(scene.solid, origins, l, direction, light.nearest[l])) {
-      sums.building[l] += 1.0;
+      sums.building[l].add(halves);
     }
   }
 }
@@ -44,22 +70,21 @@ bool is_crown_first(const Occluder& solid, const RayOrigins& origins, std::size_
   return !solid.blocks({{origins.x[lane], origins.y[lane], origins.z[lane]}, direction, least_distance_m, entry});
 }
 
-std::vector<CanopyLoss> trace_canopies(const CanopyScene& scene, std::span<const Point3f> origins,
-                                       std::span<const Point3d> directions, std::size_t ray_count, const std::stop_token& stop) {
+std::vector<CanopyLoss> trace_canopies(const CanopyScene& scene, std::span<const Point3f> origins, const TracedDirections& traced,
+                                       const std::stop_token& stop) {
   std::vector<CanopyLoss> losses;
-  const double share = 1.0 / static_cast<double>(ray_count);
+  const double share = 1.0 / static_cast<double>(traced.ray_count);
   for (std::size_t first = 0; first < origins.size(); first += lanes) {
     const std::size_t count = std::min(lanes, origins.size() - first);
     const RayOrigins together = gathered(origins.subspan(first, count));
     const auto wanted = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
     Sums sums;
-    for (std::size_t k = 0; k < directions.size(); ++k) {
+    for (std::size_t k = 0; k < traced.directions.size(); ++k) {
       if (k % directions_between_looks == 0) throw_if_cancelled(stop);
-      add(scene, together, directions[k], wanted, sums);
+      const SkyHalves::Bits halves = traced.halves.empty() ? SkyHalves::Bits{0} : traced.halves[k];
+      add(scene, together, traced.directions[k], halves, wanted, sums);
     }
-    for (std::size_t l = 0; l < count; ++l)
-      losses.push_back({static_cast<float>(share * sums.light[l]), static_cast<float>(share * sums.sky[l]),
-                        static_cast<float>(share * sums.building[l])});
+    for (std::size_t l = 0; l < count; ++l) losses.push_back(sums.loss(l, share));
   }
   return losses;
 }

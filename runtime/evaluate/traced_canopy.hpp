@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <span>
 #include <stop_token>
 #include <vector>
 
+#include "evaluate/sky_halves.hpp"
 #include "farlod/point.hpp"
 #include "occlusion/crown_occluder.hpp"
 #include "occlusion/occluder.hpp"
@@ -19,6 +21,8 @@ struct CanopyLoss {
   float light = 0.0F;     ///< svf − svf_total
   float sky = 0.0F;       ///< 1 − svfveg: the sky behind crowns
   float building = 0.0F;  ///< 1 − svfaveg: what is solid, behind crowns
+  /// Twice the parts of `sky` and of `building` in the halves of the sky, where somebody asked for them.
+  std::array<float, SkyHalves::count> sky_of_half{}, building_of_half{};
 };
 
 /// Solid things and crowns, in one frame.
@@ -33,10 +37,16 @@ struct CanopyScene {
 [[nodiscard]] bool is_crown_first(const Occluder& solid, const RayOrigins& origins, std::size_t lane, const Point3f& direction,
                                   float entry);
 
-/// Of each origin, by rays in these directions, each of which stands for 1 / ray_count of the view: the judge of all other ways.
-/// Throws Cancelled when `stop` is asked for.
+/// Directions, each of which stands for 1 / ray_count of the view, and the halves of the sky that each lies in: none where nobody
+/// asks for the halves.
+struct TracedDirections {
+  std::span<const Point3d> directions;
+  std::span<const SkyHalves::Bits> halves;
+  std::size_t ray_count;
+};
+
+/// Of each origin, by rays: the judge of all other ways. Throws Cancelled when `stop` is asked for.
 [[nodiscard]] std::vector<CanopyLoss> trace_canopies(const CanopyScene& scene, std::span<const Point3f> origins,
-                                                     std::span<const Point3d> directions, std::size_t ray_count,
-                                                     const std::stop_token& stop = {});
+                                                     const TracedDirections& traced, const std::stop_token& stop = {});
 
 }  // namespace farlod

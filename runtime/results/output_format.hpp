@@ -22,7 +22,7 @@ struct OutputFormat {
   std::array<std::string_view, 2> endings = {};  ///< of file names, lower case, with the dot; the second may be empty
   bool is_picture = false;      ///< a drawing of the values of --grid, also for --preview, or of the sky above --at
   bool holds_bounds = false;    ///< whether --bounds has bands or columns in it
-  bool is_for_solweig = false;  ///< whose reader needs the directional values: they are computed without being asked for
+  bool is_for_solweig = false;  ///< whose reader needs the values of add_for_solweig: they are computed without being asked for
 
   /// Of the values of --grid: makes the writer of a file; null where the format holds tables alone.
   std::unique_ptr<RasterWriter> (*raster_writer)(const RasterFrame& frame, const std::filesystem::path& path) = nullptr;

@@ -74,6 +74,37 @@ TEST_F(TreeTown, IsOpenWhereThereAreNone) {
   EXPECT_EQ(row.number(0, "share_vegetation"), 0.0);
 }
 
+TEST_F(TreeTown, HasTheFifteenFilesOfUmepForSolweigAndItsTotal) {
+  std::vector<std::string> names{"svf"};
+  for (const std::string kind : {"", "veg", "aveg"})
+    for (const std::string half : {"N", "E", "S", "W"}) names.push_back("svf" + half + kind);
+  names.insert(names.end(), {"svfveg", "svfaveg", "svf_total"});
+  const auto band = [&](const std::string& name) {
+    return read_raster("/vsizip/" + folder.path("svfs.zip").string() + "/" + name + ".tif");
+  };
+  for (const std::string package : {"b", "a"}) {
+    folder.must("farlod-svf " + package + ".farlod -o svfs.zip --grid 8 --leaf-off");
+    const std::string zip = folder.text_of("svfs.zip");
+    for (const std::string& name : names)
+      EXPECT_EQ(zip.find(name + ".tif") != std::string::npos, package == "b" || name.size() <= 4) << package << ' ' << name;
+  }
+  folder.must("farlod-svf b.farlod -o svfs.zip --grid 8");
+  for (const std::string kind : {"", "veg", "aveg"}) {
+    const RasterFile whole = band("svf" + kind), north = band("svfN" + kind), south = band("svfS" + kind);
+    for (std::size_t n = 0; n < whole.values.size(); ++n) {
+      ASSERT_EQ(whole.values[n].has_value(), north.values[n].has_value());
+      if (whole.values[n]) EXPECT_NEAR(0.5 * (*north.values[n] + *south.values[n]), *whole.values[n], 2e-6) << kind;
+    }
+  }
+}
+
+TEST_F(TreeTown, HasNoVegetationInItsHalvesWhereThereAreNoTrees) {
+  folder.must("farlod-svf a.farlod -o svfs.zip --grid 8 --quantity svf_total,svfaveg,directional_vegetation");
+  for (const std::string name : {"svfveg", "svfaveg", "svfNveg", "svfWaveg"})
+    for (const auto& value : read_raster("/vsizip/" + folder.path("svfs.zip").string() + "/" + name + ".tif").values)
+      if (value) EXPECT_EQ(*value, 1.0) << name;
+}
+
 TEST_F(TreeTown, LetsMoreThroughInWinterAndByOtherRules) {
   const auto in_summer = means_in_street("--quantity svf_total");
   const auto mean_with = [&](const std::string& options) {

@@ -68,7 +68,8 @@ PackageReader real_city_with_trees(const std::filesystem::path& file, const std:
 using Columns = std::map<std::string, std::vector<double>>;
 
 Columns columns_of_receivers(const PackageReader& package, SkySettings settings, const std::vector<CellReceivers>& receivers) {
-  settings.further.svf_total = settings.further.svfaveg = settings.further.sky_shares = true;
+  settings.further.svf_total = settings.further.svfaveg = settings.further.sky_shares = settings.further.directional_vegetation =
+      true;
   const SkyEvaluator evaluator(package, settings);
   std::size_t count = 0;
   for (const CellReceivers& cell : receivers) count += cell.receivers.size();
@@ -132,7 +133,7 @@ TEST_P(Canopies, OfHorizonsAreThoseOfRays) {
   const Columns exact = columns_of_receivers(package, settings(Engine::exact), places),
                 automatic = columns_of_receivers(package, settings(Engine::automatic), places);
   ASSERT_GT(exact.at("svf").size(), 250U);
-  for (const char* column : {"svf_total", "svfveg"}) {
+  for (const char* column : {"svf_total", "svfveg", "svfNveg", "svfEveg", "svfSveg", "svfWveg"}) {
     const ErrorSummary errors = summarize_errors(automatic.at(column), exact.at(column));
     RecordProperty(std::string("max_error_") + column, std::to_string(errors.max_abs_error));
     RecordProperty(std::string("mean_error_") + column, std::to_string(errors.mean_abs_error));
@@ -140,7 +141,7 @@ TEST_P(Canopies, OfHorizonsAreThoseOfRays) {
     EXPECT_LE(errors.mean_abs_error, 0.001) << column;
   }
   // What crowns hide of solid things is asked of some hundred rays
-  for (const char* column : {"svfaveg", "share_building", "share_vegetation"})
+  for (const char* column : {"svfaveg", "svfNaveg", "svfEaveg", "svfSaveg", "svfWaveg", "share_building", "share_vegetation"})
     EXPECT_LE(summarize_errors(automatic.at(column), exact.at(column)).mean_abs_error, 0.01) << column;
 }
 
@@ -155,6 +156,11 @@ TEST_P(Canopies, HideMuchAndKeepToTheirDefinitions) {
       EXPECT_LE(at("svf_total"), at("svf"));
       EXPECT_NEAR(at("share_sky") + at("share_vegetation") + at("share_building"), 1.0, 1e-6);
       EXPECT_NEAR(at("share_sky"), at("svf") + at("svfveg") - 1.0, 1e-6);
+      for (const std::string kind : {"veg", "aveg"}) {
+        const auto half = [&](const char* name) { return columns.at(name + kind)[n]; };
+        EXPECT_NEAR(0.5 * (half("svfN") + half("svfS")), half("svf"), 2e-6);
+        EXPECT_NEAR(0.5 * (half("svfE") + half("svfW")), half("svf"), 2e-6);
+      }
       hidden += at("svf") - at("share_sky");
     }
     EXPECT_GT(hidden / static_cast<double>(columns.at("svf").size()), 0.05) << "crowns hide too little to tell";

@@ -335,10 +335,11 @@ class City:
 
         Parameters
         ----------
-        quantities : iterable of {"svf_solid", "directional", "hidden", "svf_total", "svfaveg", "shares"}
+        quantities : iterable of {"svf_solid", "directional", "hidden", "svf_total", "svfaveg", "directional_vegetation", "shares"}
             What to compute besides: the share of solid angle; the four halves of the sky as UMEP has them (``svfN``, ``svfE``,
             ``svfS``, ``svfW``); the shares that near and far geometry hide (``hidden_near``, ``hidden_far``); with the crowns of
-            a package's trees ``svf_total`` and ``svfveg``, ``svfaveg``, and the shares of sky, vegetation and building.
+            a package's trees ``svf_total`` and ``svfveg``, ``svfaveg``, both of the halves of the sky (``svfNveg``, …,
+            ``svfNaveg``, …), and the shares of sky, vegetation and building.
         verify : int, default 0
             So many random receivers are computed again, exactly, and compared: ``summary["verify"]``.
         points, normals, height, above, metric, max_error, bounds, **options

@@ -39,6 +39,7 @@ class Quantities:
     horizon_distances: bool
     svf_total: bool
     svfaveg: bool
+    directional_vegetation: bool
     shares: bool
     leaf_off: bool
     transmissivity: float | None

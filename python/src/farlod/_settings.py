@@ -17,13 +17,13 @@ Engine = Literal["auto", "horizon", "rays", "exact", "near"]
 Metric = Literal["cosine", "solid"]
 Above = Literal["ground", "surface", "sea"]
 SkyPatches = Literal["tregenza", "reinhart"]
-Quantity = Literal["svf_solid", "directional", "hidden", "svf_total", "svfaveg", "shares"]
+Quantity = Literal["svf_solid", "directional", "hidden", "svf_total", "svfaveg", "directional_vegetation", "shares"]
 CanopyRule = Literal["umep", "crowns", "beer"]
 #: Called as ``progress(stage, done, all)`` some times a second, by the thread that called farlod; True prints a line.
 ProgressListener = Callable[[str, int, int], None]
 Progress = Union[bool, ProgressListener, None]
 
-QUANTITIES = ("svf_solid", "directional", "hidden", "svf_total", "svfaveg", "shares")
+QUANTITIES = ("svf_solid", "directional", "hidden", "svf_total", "svfaveg", "directional_vegetation", "shares")
 
 
 #: Options that are no settings of an evaluation by themselves.
@@ -47,7 +47,8 @@ class Options(TypedDict, total=False):
         Where rays go: one in each cell of the Beckers partition of the sky, or a spherical Fibonacci lattice.
     canopy_rule : {"umep", "crowns", "beer"}
         How light passes the crowns of trees: a share in each direction that meets any, that share of each one that is met,
-        or by the length within them. Of the quantities ``"svf_total"``, ``"svfaveg"`` and ``"shares"``, as the next three.
+        or by the length within them. Of the quantities ``"svf_total"``, ``"svfaveg"``, ``"directional_vegetation"`` and
+        ``"shares"``, as the next three.
     leaf_off : bool
         All crowns are bare but those that are known to be evergreen.
     transmissivity : float

@@ -11,6 +11,14 @@ std::string definition_of(const std::string& quantity) {
   return quantity;
 }
 
+/// Of svfNveg and the like; of others none.
+std::string half_of_vegetation(const std::string& column) {
+  if (column == "svfNveg" || column == "svfNaveg") return "northern";
+  if (column == "svfEveg" || column == "svfEaveg") return "eastern";
+  if (column == "svfSveg" || column == "svfSaveg") return "southern";
+  return column == "svfWveg" || column == "svfWaveg" ? "western" : "";
+}
+
 /// Of canopies; others have no definition here.
 std::string canopy_definition_of(const std::string& column) {
   if (column == "svf_total") return "sky view factor with what passes the crowns of trees and comes past them";
@@ -18,6 +26,9 @@ std::string canopy_definition_of(const std::string& column) {
   if (column == "svfaveg") return "1 - the view of solid things that crowns hide, weighted as in svf";
   if (column == "share_sky") return "share of the view that is sky";
   if (column == "share_vegetation") return "share of the view that is crowns of trees";
+  if (const std::string half = half_of_vegetation(column); !half.empty())
+    return column.ends_with("aveg") ? "svfaveg of the " + half + " half of the sky"
+                                    : "svfveg of the " + half + " half of the sky";
   return column == "share_building" ? "share of the view that is neither sky nor crowns of trees" : "";
 }
 

@@ -10,8 +10,9 @@
 
 namespace farlod {
 
-/// Writes a ZIP file of GeoTIFF files, one for each band and called by it: svf.tif, svfN.tif, … With the directional values it is
-/// what SOLWEIG asks for, and UMEP calls svfs.zip. Until commit(), the files lie in a folder beside the result.
+/// Writes a ZIP file of GeoTIFF files, one for each band and called by it: svf.tif, svfN.tif, … With the directional values, and
+/// with those of vegetation where there are trees, it is what SOLWEIG asks for, and UMEP calls svfs.zip. Until commit(), the
+/// files lie in a folder beside the result.
 class ZippedGeotiffWriter : public RasterWriter {
  public:
   /// Throws OutputError, as do the other functions.

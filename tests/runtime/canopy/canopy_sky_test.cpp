@@ -214,6 +214,32 @@ TEST(CanopySky, LosesTheShareOfTheSkyThatJumpsLeave) {
     }
 }
 
+TEST(CanopySky, TheSkyBehindCrownsIsTheMeanOverAzimuths) {
+  Stage s;
+  for (const CanopyRule rule : all_rules)
+    for (const Looks looks : all_looks) {
+      const CrownBatches crowns(some_crowns(s.random, 30, 40.0), with_rule(rule));
+      const ReceiverPacket receivers = some_receivers(s.random, looks);
+      const SkyProfile profile = some_profile(s.random, s.azimuths, true);
+      SkyProfile::Rows behind(s.azimuths.size(), PacketHorizon::Row{{9.0F}});
+      const CanopyShares shares = s.sky.evaluate(profile, receivers, crowns, behind);
+      EXPECT_EQ(shares.behind, s.sky.evaluate(profile, receivers, crowns).behind);
+      for (std::size_t l = 0; l < lanes; ++l) {
+        double sum = 0.0;
+        for (const PacketHorizon::Row& row : behind) sum += static_cast<double>(row[l]);
+        EXPECT_NEAR(sum / static_cast<double>(s.azimuths.size()), static_cast<double>(shares.behind[l]),
+                    static_cast<double>(rounding));
+      }
+    }
+}
+
+TEST(CanopySky, WithoutCrownsInSightNothingIsBehindThem) {
+  Stage s;
+  SkyProfile::Rows behind(s.azimuths.size(), PacketHorizon::Row{{9.0F}});
+  (void)s.sky.evaluate(SkyProfile(s.azimuths), receiver_at_origin(), CrownBatches({}, {}), behind);
+  for (const PacketHorizon::Row& row : behind) EXPECT_EQ(row, PacketHorizon::Row{});
+}
+
 TEST(CanopySky, AllTargetsGiveTheSameBits) {
   Stage s;
   for (const CanopyRule rule : all_rules)
