@@ -53,12 +53,14 @@ void add(const CanopyScene& scene, const RayOrigins& origins, const Point3d& dir
   if (light.met == 0) return;
   const bool is_hidden_far = scene.is_hidden_far && scene.is_hidden_far(direction_d);
   const std::uint32_t blocked = is_hidden_far ? light.met : scene.solid.blocked(origins, direction, least_distance_m, light.met);
+  // What is solid may be nearer than the first crown, or hide its light from behind
+  const Occluder::Distances solid = scene.solid.distances(origins, direction, least_distance_m, blocked);
   for (std::size_t l = 0; l < lanes; ++l) {
     if (((light.met >> l) & 1U) == 0) continue;
     if (((blocked >> l) & 1U) == 0) {
       sums.light[l] += 1.0 - static_cast<double>(light.transmitted[l]);
       sums.sky[l].add(halves);
-    } else if (is_crown_first(scene.solid, origins, l, direction, light.nearest[l])) {
+    } else if (light.nearest[l] <= solid[l]) {
       sums.building[l].add(halves);
     }
   }

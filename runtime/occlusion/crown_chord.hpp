@@ -41,8 +41,17 @@ struct Chord {
   return {middle - half, middle + half};
 }
 
+/// The turn of a prism, which is the same for all rays.
+struct CrownTurn {
+  double cosine = 1.0, sine = 0.0;
+
+  explicit CrownTurn(const Crown& crown) {
+    if (crown.shape == CrownShape::prism) cosine = std::cos(crown.turn_rad()), sine = std::sin(crown.turn_rad());
+  }
+};
+
 /// Of a line with a crown, in the crown's frame. The direction is not 0.
-[[nodiscard]] inline Chord chord_of(const Crown& crown, const Point3d& origin, const Point3d& direction) {
+[[nodiscard]] inline Chord chord_of(const Crown& crown, const CrownTurn& turn, const Point3d& origin, const Point3d& direction) {
   const double half_height_m = 0.5 * (static_cast<double>(crown.top_m) - crown.bottom_m), half_width_m = crown.half_width_m;
   const Point3d p{origin.x - crown.x_m, origin.y - crown.y_m, origin.z - crown.bottom_m - half_height_m};
   const auto scaled = [&](const Point3d& v, double z) { return Point3d{v.x / half_width_m, v.y / half_width_m, z}; };
@@ -50,9 +59,12 @@ struct Chord {
     return chord_of_unit_ball(scaled(p, p.z / half_height_m), scaled(direction, direction.z / half_height_m));
   const Chord layer = chord_of_slab(p.z, direction.z, half_height_m);
   if (crown.shape == CrownShape::cylinder) return layer.within(chord_of_unit_ball(scaled(p, 0.0), scaled(direction, 0.0)));
-  const double c = std::cos(crown.turn_rad()), s = std::sin(crown.turn_rad());
+  const double c = turn.cosine, s = turn.sine;
   return layer.within(chord_of_slab(c * p.x + s * p.y, c * direction.x + s * direction.y, half_width_m))
       .within(chord_of_slab(c * p.y - s * p.x, c * direction.y - s * direction.x, half_width_m));
+}
+[[nodiscard]] inline Chord chord_of(const Crown& crown, const Point3d& origin, const Point3d& direction) {
+  return chord_of(crown, CrownTurn(crown), origin, direction);
 }
 
 }  // namespace farlod

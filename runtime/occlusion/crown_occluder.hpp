@@ -58,6 +58,10 @@ class CrownOccluder {
   [[nodiscard]] CrownLights light(const RayOrigins& origins, const Occluder::Directions& directions, float begin,
                                   std::uint32_t wanted, CrownQuestion question = CrownQuestion::light_and_nearest) const;
 
+  /// Bits of the rays that meet a crown between `begin` and their end.
+  [[nodiscard]] std::uint32_t met_before(const Occluder::Distances& ends, const RayOrigins& origins,
+                                         const Occluder::Directions& directions, float begin, std::uint32_t wanted) const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

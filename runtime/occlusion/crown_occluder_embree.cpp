@@ -111,7 +111,8 @@ class Findings {
 struct QuestionContext {
   EmbreeContext embree;
   Findings findings;
-  double enough;  ///< a ray that met so small a ψ, or a smaller one, need not go on
+  double enough;               ///< a ray that met so small a ψ, or a smaller one, need not go on
+  bool is_any_enough = false;  ///< no ray need go on that met a crown, and nothing is to be found besides
 };
 
 }  // namespace
@@ -162,17 +163,32 @@ struct CrownOccluder::Impl {
   static void visit(const RTCOccludedFunctionNArguments* arguments) {
     const Impl& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
     auto& question = *reinterpret_cast<QuestionContext*>(arguments->context);
+    if (question.is_any_enough) return self.end_rays_that_meet(arguments->primID, *arguments);
     for (unsigned n = 0; n < arguments->N; ++n)
       if (arguments->valid[n] == -1) self.visit(arguments->primID, arguments->ray, arguments->N, n, question);
   }
 
+  /// The part of a ray that lies within a crown.
+  static Chord chord_on(RTCRayN* rays, unsigned count, unsigned n, const Crown& crown, const CrownTurn& turn) {
+    const Point3d origin{RTCRayN_org_x(rays, count, n), RTCRayN_org_y(rays, count, n), RTCRayN_org_z(rays, count, n)};
+    return chord_of(crown, turn, origin, direction_of(rays, count, n))
+        .within({RTCRayN_tnear(rays, count, n), RTCRayN_tfar(rays, count, n)});
+  }
+  static Point3d direction_of(RTCRayN* rays, unsigned count, unsigned n) {
+    return {RTCRayN_dir_x(rays, count, n), RTCRayN_dir_y(rays, count, n), RTCRayN_dir_z(rays, count, n)};
+  }
+
+  void end_rays_that_meet(unsigned number, const RTCOccludedFunctionNArguments& a) const {
+    const CrownTurn turn(crowns[number]);
+    for (unsigned n = 0; n < a.N; ++n)
+      if (a.valid[n] == -1 && !chord_on(a.ray, a.N, n, crowns[number], turn).is_none()) RTCRayN_tfar(a.ray, a.N, n) = -infinity;
+  }
+
   void visit(unsigned number, RTCRayN* rays, unsigned count, unsigned n, QuestionContext& question) const {
     const Crown& crown = crowns[number];
-    const Point3d origin{RTCRayN_org_x(rays, count, n), RTCRayN_org_y(rays, count, n), RTCRayN_org_z(rays, count, n)};
-    const Point3d direction{RTCRayN_dir_x(rays, count, n), RTCRayN_dir_y(rays, count, n), RTCRayN_dir_z(rays, count, n)};
-    const Chord chord = chord_of(crown, origin, direction).within({RTCRayN_tnear(rays, count, n), RTCRayN_tfar(rays, count, n)});
+    const Chord chord = chord_on(rays, count, n, crown, CrownTurn(crown));
     if (chord.is_none()) return;
-    const double effect = effect_of(crown, (chord.end - chord.begin) * norm(direction));
+    const double effect = effect_of(crown, (chord.end - chord.begin) * norm(direction_of(rays, count, n)));
     question.findings.add({RTCRayN_id(rays, count, n), number, effect}, chord.begin);
     if (effect <= question.enough) RTCRayN_tfar(rays, count, n) = -infinity;
   }
@@ -213,6 +229,20 @@ CrownLights CrownOccluder::light(const RayOrigins& origins, const Occluder::Dire
   RayPacket packet(origins, directions, begin, wanted);
   ask_occluded(packet.valid.data(), impl_->scene.get(), context.embree, packet.rays);
   return context.findings.lights();
+}
+
+std::uint32_t CrownOccluder::met_before(const Occluder::Distances& ends, const RayOrigins& origins,
+                                        const Occluder::Directions& directions, float begin, std::uint32_t wanted) const {
+  if (impl_->scene == nullptr || wanted == 0) return 0;
+  QuestionContext context = impl_->question_of(CrownQuestion::light);
+  context.is_any_enough = true;
+  RayPacket packet(origins, directions, begin, wanted);
+  for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane)
+    packet.rays.tfar[lane] = std::min(packet.rays.tfar[lane], ends[lane]);
+  ask_occluded(packet.valid.data(), impl_->scene, context.embree, packet.rays);
+  std::uint32_t met = 0;
+  for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane) met |= packet.rays.tfar[lane] < 0.0F ? 1U << lane : 0U;
+  return met & wanted;
 }
 
 }  // namespace farlod

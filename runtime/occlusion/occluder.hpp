@@ -75,6 +75,13 @@ class Occluder {
   [[nodiscard]] std::uint32_t blocked(const RayOrigins& origins, const Directions& directions, float begin,
                                       std::uint32_t wanted) const;
 
+  /// Where each ray first meets something beyond `begin`, in lengths of its direction; infinite where it meets nothing, or is not
+  /// wanted.
+  using Distances = std::array<float, RayOrigins::lanes>;
+  [[nodiscard]] Distances distances(const RayOrigins& origins, const Point3f& direction, float begin, std::uint32_t wanted) const;
+  [[nodiscard]] Distances distances(const RayOrigins& origins, const Directions& directions, float begin,
+                                    std::uint32_t wanted) const;
+
   [[nodiscard]] std::optional<Hit> nearest(const Ray& ray) const;
   /// The nearest among the triangles that `counts` says yes to.
   [[nodiscard]] std::optional<Hit> nearest(const Ray& ray, const std::function<bool(std::uint32_t triangle)>& counts) const;

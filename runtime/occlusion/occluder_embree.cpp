@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -105,6 +106,28 @@ std::uint32_t Occluder::blocked(const RayOrigins& origins, const Directions& dir
   std::uint32_t bits = 0;
   for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane) bits |= packet.rays.tfar[lane] < 0.0F ? 1U << lane : 0U;
   return bits & wanted;
+}
+
+Occluder::Distances Occluder::distances(const RayOrigins& origins, const Point3f& direction, float begin,
+                                        std::uint32_t wanted) const {
+  return distances(origins, sixteen_times(direction), begin, wanted);
+}
+
+Occluder::Distances Occluder::distances(const RayOrigins& origins, const Directions& directions, float begin,
+                                        std::uint32_t wanted) const {
+  Distances distances;
+  distances.fill(std::numeric_limits<float>::infinity());
+  if (impl_->scene == nullptr || wanted == 0) return distances;
+  QueryContext context{embree_context(), nullptr};
+  const RayPacket packet(origins, directions, begin, wanted);
+  RTCRayHit16 query;
+  query.ray = packet.rays;
+  std::fill_n(query.hit.geomID, RayOrigins::lanes, RTC_INVALID_GEOMETRY_ID);
+  std::fill_n(query.hit.instID[0], RayOrigins::lanes, RTC_INVALID_GEOMETRY_ID);
+  ask_nearest(packet.valid.data(), impl_->scene, context.embree, query);
+  for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane)
+    if (query.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID) distances[lane] = query.ray.tfar[lane];
+  return distances;
 }
 
 std::optional<Hit> Occluder::nearest(const Ray& ray) const { return impl_->nearest(ray, nullptr); }

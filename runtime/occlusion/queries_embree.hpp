@@ -62,6 +62,15 @@ inline void ask_nearest(RTCScene scene, EmbreeContext& context, RTCRayHit& ray) 
   rtcIntersect1(scene, &ray, &arguments);
 }
 
+/// Neighbors, traced as one.
+inline void ask_nearest(const int* valid, RTCScene scene, EmbreeContext& context, RTCRayHit16& rays) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect16(valid, scene, &rays, &arguments);
+}
+
 #else
 
 using EmbreeContext = RTCIntersectContext;
@@ -86,6 +95,12 @@ inline void ask_occluded(const int* valid, RTCScene scene, OcclusionArguments& a
 }
 
 inline void ask_nearest(RTCScene scene, EmbreeContext& context, RTCRayHit& ray) { rtcIntersect1(scene, &context, &ray); }
+
+/// Neighbors, traced as one.
+inline void ask_nearest(const int* valid, RTCScene scene, EmbreeContext& context, RTCRayHit16& rays) {
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid, scene, &context, &rays);
+}
 
 #endif
 

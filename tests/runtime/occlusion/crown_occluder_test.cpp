@@ -32,6 +32,7 @@ TEST(CrownOccluder, NothingHidesNothing) {
   const CrownLights lights = nothing.light(RayOrigins{}, up, 0.0F, all_lanes);
   EXPECT_EQ(lights.met, 0U);
   EXPECT_EQ(lights.transmitted[7], 1.0F);
+  EXPECT_EQ(nothing.met_before({}, RayOrigins{}, Occluder::Directions{}, 0.0F, all_lanes), 0U);
 }
 
 TEST(CrownOccluder, EachRuleHasItsLight) {
@@ -256,6 +257,32 @@ TEST_F(RandomCrowns, PacketsAnswerAsSingleRaysDo) {
       }
     }
   }
+}
+
+TEST_F(RandomCrowns, RaysThatEndMeetTheirCrownsBefore) {
+  const CrownOccluder occluder(crowns(300), settings_of(CanopyRule::each, 0.6, 0.02));
+  std::size_t met = 0, ended = 0;
+  for (std::uint32_t n = 0; n < 600; ++n) {
+    const std::uint32_t wanted = n % 3 == 0 ? all_lanes : (n * 2654435761U) >> 16;
+    const Point3f corner = point(40.0);
+    constexpr float begin = 2.0F;
+    RayOrigins origins;
+    Occluder::Directions directions;
+    Occluder::Distances ends;
+    std::uint32_t expected = 0;
+    for (std::size_t l = 0; l < RayOrigins::lanes; ++l) {
+      const Ray one{corner + point(4.0), point(1.0), begin, static_cast<float>(40.0 + 39.0 * random())};
+      origins.x[l] = one.origin.x, origins.y[l] = one.origin.y, origins.z[l] = one.origin.z;
+      directions.x[l] = one.direction.x, directions.y[l] = one.direction.y, directions.z[l] = one.direction.z;
+      ends[l] = l == 0 ? std::numeric_limits<float>::infinity() : one.end;
+      const bool is_met = occluder.light({one.origin, one.direction, begin, ends[l]}).is_met();
+      expected |= is_met ? 1U << l : 0U;
+      met += is_met ? 1U : 0U;
+      ended += !is_met && occluder.light({one.origin, one.direction, begin}).is_met() ? 1U : 0U;
+    }
+    ASSERT_EQ(occluder.met_before(ends, origins, directions, begin, wanted), expected & wanted) << n;
+  }
+  EXPECT_TRUE(met > 1000 && ended > 500) << met << ' ' << ended;
 }
 
 }  // namespace

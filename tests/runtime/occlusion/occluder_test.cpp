@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "occlusion/placed_mesh.hpp"
@@ -144,6 +145,41 @@ TEST_F(RandomScene, PacketsAnswerAsSingleRaysDo) {
     asked_count += static_cast<std::size_t>(std::popcount(wanted));
   }
   EXPECT_TRUE(blocked_count > asked_count / 10 && blocked_count < 9 * asked_count / 10) << "the scene tests little";
+}
+
+TEST_F(RandomScene, PacketsAreAsFarAsSingleRays) {
+  const Occluder occluder = triangles(400);
+  constexpr float begin = 5.0F, infinity = std::numeric_limits<float>::infinity();
+  // Of single rays and packets, both of which divide by an approximate reciprocal
+  constexpr float tolerance = 1e-4F;
+  std::size_t met = 0;
+  for (std::uint32_t n = 0; n < 500; ++n) {
+    const std::uint32_t wanted = n % 3 == 0 ? all_lanes : (n * 2654435761U) >> 16;
+    const Point3f shared = point(1.0F);
+    Packet packet;
+    for (std::size_t l = 0; l < RayOrigins::lanes; ++l) packet.set(l, {point(60.0F), point(1.0F), begin});
+    const Occluder::Distances own = occluder.distances(packet.origins, packet.directions, begin, wanted),
+                              of_shared = occluder.distances(packet.origins, shared, begin, wanted);
+    for (std::size_t l = 0; l < RayOrigins::lanes; ++l) {
+      const Point3f origin{packet.origins.x[l], packet.origins.y[l], packet.origins.z[l]},
+          direction{packet.directions.x[l], packet.directions.y[l], packet.directions.z[l]};
+      const auto expected = [&](const Point3f& d) {
+        const auto hit = occluder.nearest({origin, d, begin});
+        return (wanted >> l & 1U) != 0 && hit ? hit->distance : infinity;
+      };
+      if (const float distance = expected(direction); distance < infinity) {
+        EXPECT_NEAR(own[l], distance, tolerance * distance);
+        ++met;
+      } else {
+        EXPECT_EQ(own[l], infinity);
+      }
+      if (const float distance = expected(shared); distance < infinity)
+        EXPECT_NEAR(of_shared[l], distance, tolerance * distance);
+      else
+        EXPECT_EQ(of_shared[l], infinity);
+    }
+  }
+  EXPECT_GT(met, 500U) << "the scene tests little";
 }
 
 TEST_F(RandomScene, WhatBlocksIsTheNearestOfAll) {
