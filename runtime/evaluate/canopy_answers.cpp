@@ -69,8 +69,7 @@ CanopyAnswers::CanopyAnswers(const PackageReader& package, const CellReceivers& 
       cell_(cell),
       further_(further),
       crowns_(canopy_around(package, cell.cell, lowest_z(cell))),
-      batches_(crowns_, further.quantities().canopy),
-      sky_(further.azimuths()) {
+      sky_(crowns_, further.quantities().canopy, further.azimuths()) {
   const Quantities& q = further.quantities();
   if (q.directional_vegetation) behind_.resize(further.azimuths().size());
   if (q.svfaveg || q.directional_vegetation || q.sky_shares) hidden_.resize(further.azimuths().size());
@@ -80,7 +79,7 @@ CanopyAnswers::Losses CanopyAnswers::evaluate(const SkyProfile& profile, const R
                                               const std::stop_token& stop) {
   Losses losses{};
   if (crowns_.empty()) return losses;
-  const CanopyShares shares = sky_.evaluate(profile, receivers, batches_, behind_);
+  const CanopyShares shares = sky_.evaluate(profile, receivers, behind_);
   for (std::size_t l = 0; l < receivers.count; ++l) losses[l] = {shares.lost[l], shares.behind[l]};
   if (!behind_.empty())
     add_halves(behind_, &CanopyLoss::sky_of_half, 1.0 / static_cast<double>(further_.azimuths().size()), losses);

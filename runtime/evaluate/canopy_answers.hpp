@@ -9,8 +9,8 @@
 #include <stop_token>
 #include <vector>
 
-#include "canopy/canopy_sky.hpp"
 #include "contract/canopy/crown.hpp"
+#include "evaluate/canopy_by_place.hpp"
 #include "evaluate/further_quantities.hpp"
 #include "evaluate/sky_evaluator.hpp"
 #include "evaluate/sky_halves.hpp"
@@ -52,9 +52,8 @@ class CanopyAnswers {
                   double share, Losses& losses) const;
 
   const FurtherQuantities& further_;
-  std::vector<Crown> crowns_;  ///< cell frame
-  CrownBatches batches_;       ///< the same for horizons
-  CanopySky sky_;
+  std::vector<Crown> crowns_;                        ///< cell frame
+  CanopyByPlace sky_;                                ///< the same for horizons
   std::vector<PacketHorizon::Row> behind_, hidden_;  ///< at each azimuth: sky and what is solid, behind crowns
   std::optional<Occluder> near_;                     ///< for rays, as the next one; made when first needed
   std::optional<CrownOccluder> occluder_;

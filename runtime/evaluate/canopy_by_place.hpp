@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "canopy/canopy_sky.hpp"
+#include "canopy/crown_batches.hpp"
+#include "contract/canopy/crown.hpp"
+#include "farlod/canopy.hpp"
+#include "horizon/azimuth_sampling.hpp"
+#include "horizon/packet_horizon.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "horizon/sky_profile.hpp"
+#include "scene/canopy_levels.hpp"
+
+namespace farlod {
+
+/// CanopySky, where pixels of canopy rasters are merged as a receiver's own place in the plan says: in squares of `place_m`. So
+/// what a receiver sees depends on nothing that is in its packet besides. Of one thread.
+class CanopyByPlace {
+ public:
+  static constexpr double place_m = 12.5;
+
+  /// Crowns of the frame of the receivers. The sampling must outlive it.
+  CanopyByPlace(const std::vector<Crown>& crowns, const CanopySettings& settings, const AzimuthSampling& azimuths);
+
+  /// As CanopySky::evaluate.
+  [[nodiscard]] CanopyShares evaluate(const SkyProfile& profile, const ReceiverPacket& receivers,
+                                      std::span<PacketHorizon::Row> behind_of_azimuths);
+
+ private:
+  using Place = std::pair<std::int32_t, std::int32_t>;
+  [[nodiscard]] static Place place_of(const ReceiverPacket& receivers, std::size_t lane);
+  [[nodiscard]] const CrownBatches& batches_at(const Place& place);
+
+  CanopyLevels levels_;
+  CanopySettings settings_;
+  CanopySky sky_;
+  std::map<Place, CrownBatches> batches_;  ///< made when first needed
+  std::vector<PacketHorizon::Row> behind_of_some_;
+};
+
+}  // namespace farlod
