@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "contract/expects.hpp"
+#include "farlod/box.hpp"
 #include "scene/near_crowns.hpp"
 
 namespace farlod {
@@ -22,6 +23,24 @@ double fill_of(CrownShape shape) { return shape == CrownShape::spheroid ? 0.25 *
 double distance_to_cell(Point2d p_cell, double edge_m) {
   const auto beyond = [edge_m](double x) { return std::max({0.0, -x, x - edge_m}); };
   return std::hypot(beyond(p_cell.x), beyond(p_cell.y));
+}
+
+/// No place of a cell at `lowest_m` or above sees a crown at a larger slope whose plan is farther than `farthest_m` from the
+/// cell.
+double highest_slope_beyond(const PackageReader& package, Cell cell, float lowest_m, double farthest_m) {
+  double slope = 0.0;
+  if (!package.has_crowns()) return slope;
+  const double edge_m = package.grid().cell_edge_m;
+  const auto cells_apart = [](std::int32_t a, std::int32_t b) {
+    return std::abs(static_cast<double>(a) - static_cast<double>(b));
+  };
+  for (const package::CrownCellRecord& record : package.crowns().cells()) {
+    // Of two squares so many cells apart, the farther side of one is so far from the other
+    const double farthest_axis_m = edge_m * std::hypot(cells_apart(record.i, cell.i), cells_apart(record.j, cell.j));
+    if (farthest_axis_m > farthest_m)
+      slope = std::max(slope, (static_cast<double>(record.z_high_m) - static_cast<double>(lowest_m)) / farthest_m);
+  }
+  return slope;
 }
 
 /// Takes the crowns near a cell, and merges those that are far away.
@@ -40,9 +59,14 @@ class CanopyAround {
         .push_back(crown);
   }
 
-  [[nodiscard]] std::vector<Crown> crowns() && {
-    for (const auto& [square, crowns] : squares_) crowns_.push_back(merged(crowns, std::get<0>(square)));
-    return std::move(crowns_);
+  [[nodiscard]] BoundedCanopy crowns() && {
+    BoundedCanopy canopy{std::move(crowns_), {}};
+    for (auto& [square, crowns] : squares_) {
+      canopy.crowns.push_back(merged(crowns, std::get<0>(square)));
+      crowns.push_back(canopy.crowns.back());
+      canopy.envelopes.push_back(enclosing(crowns));
+    }
+    return canopy;
   }
 
  private:
@@ -71,10 +95,40 @@ Crown merged(const std::vector<Crown>& crowns, double square_m) {
       0};
 }
 
-std::vector<Crown> canopy_around(const PackageReader& package, Cell cell, float lowest_m, const CrownMerging& merging) {
+Crown enclosing(const std::vector<Crown>& crowns) {
+  FARLOD_EXPECTS(!crowns.empty());
+  Box2d plan;
+  Crown all = crowns.front();
+  for (const Crown& c : crowns) {
+    const Point2d axis{c.x_m, c.y_m}, reach{reach_m(c), reach_m(c)};
+    plan.add(axis - reach);
+    plan.add(axis + reach);
+    all.bottom_m = std::min(all.bottom_m, c.bottom_m);
+    all.top_m = std::max(all.top_m, c.top_m);
+  }
+  constexpr double rounding_m = 0.01;  // of floats 100 km from the origin
+  const Point2d middle = 0.5 * (plan.low + plan.high), size = plan.high - plan.low;
+  const auto half_width_m = static_cast<float>(0.5 * std::max(size.x, size.y) + rounding_m);
+  return {static_cast<float>(middle.x),
+          static_cast<float>(middle.y),
+          all.bottom_m,
+          all.top_m,
+          half_width_m,
+          CrownShape::prism,
+          all.foliage,
+          0};
+}
+
+BoundedCanopy bounded_canopy_around(const PackageReader& package, Cell cell, float lowest_m, const CrownMerging& merging) {
   CanopyAround around(package.grid().cell_edge_m, lowest_m, merging);
   for (const Crown& crown : crowns_near(package, cell, merging.farthest_m)) around.add(crown);
-  return std::move(around).crowns();
+  BoundedCanopy canopy = std::move(around).crowns();
+  canopy.highest_slope_left_out = static_cast<float>(highest_slope_beyond(package, cell, lowest_m, merging.farthest_m));
+  return canopy;
+}
+
+std::vector<Crown> canopy_around(const PackageReader& package, Cell cell, float lowest_m, const CrownMerging& merging) {
+  return bounded_canopy_around(package, cell, lowest_m, merging).crowns;
 }
 
 }  // namespace farlod

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "contract/canopy/crown.hpp"
@@ -20,6 +21,12 @@ struct CrownMerging {
   double farthest_m = 3000.0;
 };
 
+/// For bounds: squares of one size from where their crowns are low above the level; and no squares at all.
+inline constexpr CrownMerging merging_for_bounds{300.0, 100.0, 300.0, 100.0, 3000.0};
+inline constexpr CrownMerging no_merging{3000.0, 100.0, 3000.0, 100.0, 3000.0};
+/// Where there are more around a cell, as of a raster of canopies, rays take less time and memory than to merge none of them.
+inline constexpr std::size_t most_crowns_by_name = 400'000;
+
 /// One crown for several of the same foliage: upright, in their middle, and as wide as they hide together if they stand in a
 /// square of this edge by chance. docs/concepts.md, "Crowns far away". There must be one at least.
 [[nodiscard]] Crown merged(const std::vector<Crown>& crowns, double square_m);
@@ -28,5 +35,19 @@ struct CrownMerging {
 /// The same crowns in the same order at each call.
 [[nodiscard]] std::vector<Crown> canopy_around(const PackageReader& package, Cell cell, float lowest_m,
                                                const CrownMerging& merging = {});
+
+/// An upright square prism around all of these crowns, whose foliage is that of the first. There must be one at least.
+[[nodiscard]] Crown enclosing(const std::vector<Crown>& crowns);
+
+/// The crowns that receivers of a cell may see, and what encloses those that do not count by themselves.
+struct BoundedCanopy {
+  std::vector<Crown> crowns;  ///< as canopy_around gives them
+  /// In the same frame, a prism for the crowns of each square and foliage, and for the one they are merged to.
+  std::vector<Crown> envelopes;
+  /// No place of the cell at `lowest_m` or above sees a crown that was left out at a larger slope than this.
+  float highest_slope_left_out = 0.0F;
+};
+[[nodiscard]] BoundedCanopy bounded_canopy_around(const PackageReader& package, Cell cell, float lowest_m,
+                                                  const CrownMerging& merging);
 
 }  // namespace farlod

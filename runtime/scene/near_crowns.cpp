@@ -11,11 +11,6 @@ namespace {
 
 using package::CrownCellRecord;
 
-/// How far from its axis a crown may reach in the plan, at the most.
-double reach_m(const Crown& crown) {
-  return crown.shape == CrownShape::prism ? std::numbers::sqrt2 * crown.half_width_m : crown.half_width_m;
-}
-
 /// Of a coordinate from the interval 0 to `edge_m`.
 double distance_to_interval_m(double x_m, double edge_m) { return std::max({-x_m, x_m - edge_m, 0.0}); }
 
@@ -64,6 +59,15 @@ std::vector<Crown> crowns_near(const PackageReader& package, Cell cell, double d
       if (reaches(crown, corner_m, grid.cell_edge_m, distance_m)) near.push_back(moved(crown, corner_m));
   });
   return near;
+}
+
+std::size_t count_crowns_near(const PackageReader& package, Cell cell, double distance_m) {
+  std::size_t count = 0;
+  if (!package.has_crowns()) return count;
+  const CrownsFile& crowns = package.crowns();
+  const CellRange range = cells_within(package.grid(), cell, distance_m + std::numbers::sqrt2 * crowns.largest_half_width_m());
+  visit_cells(crowns, range, [&](const CrownCellRecord& record) { count += record.crown_count; });
+  return count;
 }
 
 std::vector<Crown> crowns_of_whole_city(const PackageReader& package, Cell cell) {
