@@ -52,8 +52,8 @@ struct EvaluationSettings {
   std::optional<std::size_t> azimuths;
   /// Directions of a receiver's rays, 1 to 10,000,000; if empty, default_rays, or as many as `max_error` needs.
   std::optional<std::size_t> rays;
-  /// Largest error allowed, 0.0001 to 1: chooses azimuths and rays, and traces exactly where the far map is not enough. Needs far
-  /// maps of the kind `horizon`, or Engine::exact.
+  /// Largest error allowed, 0.0001 to 1, of the sky view factor and of Quantities::svf_total: chooses azimuths and rays, and
+  /// traces exactly where the far map and merged crowns are not enough. Needs far maps of the kind `horizon`, or Engine::exact.
   std::optional<double> max_error;
   /// Also compute a certain lower and upper bound of each value, with these azimuths or rays and the true far city. Needs the
   /// same.
@@ -108,6 +108,11 @@ struct BoundsWidth {
   double mean = 0.0, max = 0.0;
 };
 
+/// Of all values of a run.
+struct ValueRange {
+  double min = 0.0, mean = 0.0, max = 0.0;
+};
+
 /// What the settings came to, and the error that follows from it.
 struct Accuracy {
   std::size_t azimuths = default_azimuths, rays = default_rays;
@@ -144,6 +149,10 @@ struct EvaluationSummary {
   std::uint64_t by_rays = 0;        ///< receivers that needed rays
   std::uint64_t retraced_rays = 0;  ///< traced against the whole city because the far map was not enough (max_error)
   std::optional<ErrorSummary> errors;
+  /// Where these are computed: Quantities::svf_total, its bounds, and the errors of EvaluationSettings::verify.
+  std::optional<ValueRange> svf_total;
+  std::optional<BoundsWidth> svf_total_bounds;
+  std::optional<ErrorSummary> svf_total_errors;
   std::optional<RunEstimate> estimate;     ///< of a dry run, whose counts are 0
   std::vector<VerifiedReceiver> verified;  ///< those that `errors` is about, in an order that depends on no number of threads
   Accuracy accuracy;

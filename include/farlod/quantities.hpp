@@ -62,6 +62,9 @@ struct Quantities {
   /// as UMEP defines it: column `svfveg`. By the rule `once`, with one transmissivity ψ for all crowns,
   /// svf_total = svf − (1 − svfveg)(1 − ψ).
   bool svf_total = false;
+  /// A certain lower and upper bound of svf_total, with the same azimuths or rays, the true far city and each of its crowns by
+  /// itself: columns `svf_total_low`, `svf_total_high`. Needs svf_total and EvaluationSettings::bounds.
+  bool svf_total_bounds = false;
   /// 1 − the sky that buildings would hide and crowns in front of them hide first, as UMEP defines it: column `svfaveg`. Takes
   /// rays for each receiver, whatever the engine.
   bool svfaveg = false;

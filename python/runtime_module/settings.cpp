@@ -84,6 +84,7 @@ std::shared_ptr<Region> region_of(const std::vector<RingInPython>& rings_m) {
 /// What crowns of trees do, as properties of the quantities themselves.
 void add_canopy(py::class_<Quantities>& quantities) {
   quantities.def_readwrite("svf_total", &Quantities::svf_total)
+      .def_readwrite("svf_total_bounds", &Quantities::svf_total_bounds)
       .def_readwrite("svfaveg", &Quantities::svfaveg)
       .def_readwrite("directional_vegetation", &Quantities::directional_vegetation)
       .def_readwrite("shares", &Quantities::sky_shares)

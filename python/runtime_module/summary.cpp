@@ -15,6 +15,8 @@ py::dict dict_of(const ErrorSummary& errors) {
                   "p99_abs_error"_a = errors.p99_abs_error, "max_abs_error"_a = errors.max_abs_error, "bias"_a = errors.bias);
 }
 
+py::dict dict_of(const BoundsWidth& width) { return py::dict("mean_width"_a = width.mean, "max_width"_a = width.max); }
+
 py::dict dict_of(const RunEstimate& estimate) {
   constexpr double mib = 1 << 20;
   return py::dict("cells"_a = estimate.cells, "evaluated_cells"_a = estimate.evaluated_cells, "receivers"_a = estimate.receivers,
@@ -32,9 +34,13 @@ py::dict summary_dict(const EvaluationSummary& run) {
       "seconds"_a =
           py::dict("scenes"_a = run.seconds.scenes, "evaluate"_a = run.seconds.evaluate, "deliver"_a = run.seconds.deliver),
       "svf"_a = py::dict("min"_a = run.svf_min, "mean"_a = run.svf_mean, "max"_a = run.svf_max));
-  if (run.bounds) summary["bounds"] = py::dict("mean_width"_a = run.bounds->mean, "max_width"_a = run.bounds->max);
+  if (run.bounds) summary["bounds"] = dict_of(*run.bounds);
+  if (run.svf_total)
+    summary["svf_total"] = py::dict("min"_a = run.svf_total->min, "mean"_a = run.svf_total->mean, "max"_a = run.svf_total->max);
+  if (run.svf_total_bounds) summary["svf_total_bounds"] = dict_of(*run.svf_total_bounds);
   if (run.estimate) summary["estimate"] = dict_of(*run.estimate);
   if (run.errors) summary["verify"] = dict_of(*run.errors);
+  if (run.svf_total_errors) summary["svf_total_verify"] = dict_of(*run.svf_total_errors);
   return summary;
 }
 

@@ -74,11 +74,22 @@ WrittenRun evaluate(SvfOptions options) {
   return written;
 }
 
+void print_values(const EvaluationSummary& run, const std::string& quantity) {
+  if (run.svf_mean) fmt::print("{}: min {:.4f}, mean {:.4f}, max {:.4f}\n", quantity, *run.svf_min, *run.svf_mean, *run.svf_max);
+  if (run.svf_total)
+    fmt::print("svf_total: min {:.4f}, mean {:.4f}, max {:.4f}\n", run.svf_total->min, run.svf_total->mean, run.svf_total->max);
+}
+
 void print_sanity(const EvaluationSummary& run) {
   if (!run.svf_mean)
     return fmt::print("No receiver has an answer: all of them lie inside buildings or outside of the package.\n");
   if (*run.svf_min == *run.svf_max && run.receivers > 100)
     fmt::print("Every receiver has the same value: is the package the right one, and the height above its roofs?\n");
+}
+
+void print_errors(const char* of_what, const ErrorSummary& e) {
+  fmt::print("Errors{} against exact ({} random receivers, {} rays): mean {:.4f}, 99 % within {:.4f}, max {:.4f}, bias {:+.4f}\n",
+             of_what, e.count, e.rays, e.mean_abs_error, e.p99_abs_error, e.max_abs_error, e.bias);
 }
 
 /// How exact the answers are, as far as somebody asked.
@@ -89,10 +100,11 @@ void print_accuracy(const EvaluationSummary& run, const EvaluationSettings& aske
         *asked.max_error, run.accuracy.azimuths, run.accuracy.rays, run.retraced_rays);
   if (run.bounds)
     fmt::print("Certain intervals: {:.4f} wide on average, {:.4f} at the most\n", run.bounds->mean, run.bounds->max);
-  if (run.errors)
-    fmt::print("Errors against exact ({} random receivers, {} rays): mean {:.4f}, 99 % within {:.4f}, max {:.4f}, bias {:+.4f}\n",
-               run.errors->count, run.errors->rays, run.errors->mean_abs_error, run.errors->p99_abs_error,
-               run.errors->max_abs_error, run.errors->bias);
+  if (run.svf_total_bounds)
+    fmt::print("Certain intervals of svf_total: {:.4f} wide on average, {:.4f} at the most\n", run.svf_total_bounds->mean,
+               run.svf_total_bounds->max);
+  if (run.errors) print_errors("", *run.errors);
+  if (run.svf_total_errors) print_errors(" of svf_total", *run.svf_total_errors);
 }
 
 void print_estimate(const WrittenRun& written, const RunEstimate& estimate) {
@@ -107,13 +119,12 @@ void print_estimate(const WrittenRun& written, const RunEstimate& estimate) {
 void print_run(const WrittenRun& written, const SvfOptions& options, double total_s) {
   const EvaluationSummary& run = written.summary;
   const EvaluationSettings& asked = options.evaluation;
-  const std::string quantity = quantity_name(asked.weight);
   fmt::print("{} receivers, {:.1f} s in all; no data: {} inside buildings or without ground", run.receivers, total_s,
              run.no_data);
   if (run.beyond_grid > 0) fmt::print(", {} beyond the grid", run.beyond_grid);
   if (run.outside_of_region > 0) fmt::print("; {} outside of the mask or box", run.outside_of_region);
   fmt::print("\n");
-  if (run.svf_mean) fmt::print("{}: min {:.4f}, mean {:.4f}, max {:.4f}\n", quantity, *run.svf_min, *run.svf_mean, *run.svf_max);
+  print_values(run, quantity_name(asked.weight));
   print_sanity(run);
   if (run.outside_of_grid > 0)
     fmt::print("{} receivers lie outside of the grid, where there is no far map: they were traced against the whole city.\n",

@@ -315,6 +315,7 @@ void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
   if (requested.any() && !is_sky && o.format != nullptr && !o.format->holds_bounds)
     throw CLI::ValidationError("--quantity", "a file that ends in " + o.output.extension().string() +
                                                  " has room for one quantity only: " + advice(has_room));
+  requested.further.svf_total_bounds = requested.further.svf_total && o.evaluation.bounds;
   o.evaluation.further = std::move(requested.further);
   o.sunshine = requested.sunshine;
 }

@@ -34,6 +34,8 @@ Json json_of(const RunEstimate& estimate, double output_bytes) {
           {"seconds", estimate.seconds}, {"memory_mib", estimate.memory_bytes / mib},   {"output_mib", output_bytes / mib}};
 }
 
+Json json_of(const BoundsWidth& width) { return {{"mean_width", width.mean}, {"max_width", width.max}}; }
+
 Json json_of(const ErrorSummary& errors) {
   return {{"count", errors.count},
           {"rays", errors.rays},
@@ -41,6 +43,12 @@ Json json_of(const ErrorSummary& errors) {
           {"p99_abs_error", errors.p99_abs_error},
           {"max_abs_error", errors.max_abs_error},
           {"bias", errors.bias}};
+}
+
+void add_totals(const EvaluationSummary& run, Json& j) {
+  if (run.svf_total) j["svf_total"] = {{"min", run.svf_total->min}, {"mean", run.svf_total->mean}, {"max", run.svf_total->max}};
+  if (run.svf_total_bounds) j["svf_total_bounds"] = json_of(*run.svf_total_bounds);
+  if (run.svf_total_errors) j["svf_total_verify"] = json_of(*run.svf_total_errors);
 }
 
 }  // namespace
@@ -63,9 +71,10 @@ std::string svf_summary_json(const WrittenRun& written, const SvfOptions& option
        {{"min", number_or_null(run.svf_min)}, {"mean", number_or_null(run.svf_mean)}, {"max", number_or_null(run.svf_max)}}}};
   if (!written.further_columns.empty()) j["quantities"] = written.further_columns;
   if (options.evaluation.max_error) j["max_error"] = error_budget_json(run, *options.evaluation.max_error);
-  if (run.bounds) j["bounds"] = {{"mean_width", run.bounds->mean}, {"max_width", run.bounds->max}};
+  if (run.bounds) j["bounds"] = json_of(*run.bounds);
   if (run.estimate) j["estimate"] = json_of(*run.estimate, written.output_bytes);
   if (run.errors) j["verify"] = json_of(*run.errors);
+  add_totals(run, j);
   if (run.outside_of_region > 0) j["outside_of_region"] = run.outside_of_region;
   if (written.skipped_features > 0) j["skipped_features"] = written.skipped_features;
   j["settings"] = Json::parse(options.run.settings_json);

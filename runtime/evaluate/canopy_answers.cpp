@@ -3,34 +3,31 @@
 #include "evaluate/canopy_answers.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 #include "contract/expects.hpp"
 #include "evaluate/hidden_behind_crowns.hpp"
 #include "evaluate/quantity_columns.hpp"
 #include "occlusion/placed_mesh.hpp"
 #include "scene/canopy_around.hpp"
+#include "scene/near_crowns.hpp"
 #include "scene/near_scene.hpp"
 
 namespace farlod {
-namespace {
 
-float lowest_z(const CellReceivers& cell) {
-  float lowest = std::numeric_limits<float>::infinity();
-  for (const Receiver& r : cell.receivers) lowest = std::min(lowest, r.p_cell.z);
-  return lowest;
-}
-
-}  // namespace
-
-void write_canopy_columns(const Quantities& quantities, float svf, const CanopyLoss& loss, std::span<float> values) {
+void write_canopy_columns(const Quantities& quantities, float svf, const CanopyAnswer& answer, std::span<float> values) {
   FARLOD_EXPECTS(values.size() == count_canopy_columns(quantities));
   std::size_t next = 0;
   const auto add = [&](float value) { values[next++] = value; };
   // Both are sampled: crowns hide no more than the sky that there is
+  const CanopyLoss& loss = answer.loss;
   const float behind = std::clamp(loss.sky, 0.0F, svf);
   if (quantities.svf_total) {
-    add(std::clamp(svf - loss.light, 0.0F, svf));
+    add(answer.svf_total.estimate);
+    if (quantities.svf_total_bounds) {
+      add(answer.svf_total.low);
+      add(answer.svf_total.high);
+    }
     add(1.0F - behind);
   }
   if (quantities.svfaveg) add(1.0F - loss.building);
@@ -58,50 +55,125 @@ void store_traced_canopies(const CellReceivers& cell, const CanopyScene& scene, 
     std::vector<SkyHalves::Bits> halves;
     for (const Point3d& d : facing) halves.push_back(quantities.halves().of(d));
     const std::vector<CanopyLoss> losses = trace_canopies(scene, origins, {facing, halves, directions.ray_count()}, stop);
-    for (std::size_t n = 0; n < group.size(); ++n)
-      write_canopy_columns(quantities.quantities(), answers.svf[group[n].index], losses[n],
+    for (std::size_t n = 0; n < group.size(); ++n) {
+      const float svf = answers.svf[group[n].index];
+      const SvfInterval exact{svf, svf, svf};
+      write_canopy_columns(quantities.quantities(), svf, {losses[n], svf_total_of({exact, exact}, losses[n].light, 0.0F)},
                            answers.further.subspan(group[n].index * quantities.size() + columns.first, columns.count));
+    }
   });
 }
 
-CanopyAnswers::CanopyAnswers(const PackageReader& package, const CellReceivers& cell, const FurtherQuantities& further)
+SkiesOfPacket skies_of(const PacketAnswer& packet, const CellReceivers& cell, std::span<const std::uint32_t> numbers,
+                       const SkyAnswers& answers, bool are_drawn, const std::optional<double>& max_error) {
+  SkiesOfPacket skies;
+  for (std::size_t l = 0; l < numbers.size(); ++l) {
+    const std::size_t index = cell.receivers[numbers[l]].index;
+    const float svf = answers.svf[index], error = static_cast<float>(max_error.value_or(0.0));
+    SvfInterval traced{std::max(0.0F, svf - error), svf, std::min(1.0F, svf + error)};
+    if (!answers.low.empty()) traced = {answers.low[index], svf, answers.high[index]};
+    skies[l] = {are_drawn ? packet.svf[l] : traced, packet.drawn[l], are_drawn};
+  }
+  return skies;
+}
+
+CanopyAnswers::CanopyAnswers(const PackageReader& package, const CellReceivers& cell, const FurtherQuantities& further,
+                             CanopyCertainty certainty, std::stop_token stop)
     : package_(package),
       cell_(cell),
       further_(further),
-      crowns_(canopy_around(package, cell.cell, lowest_z(cell))),
-      sky_(crowns_, further.quantities().canopy, further.azimuths()) {
+      certainty_(std::move(certainty)),
+      stop_(std::move(stop)),
+      crowns_(package, cell, further.quantities().canopy, further.azimuths(),
+              certainty_.bounds ? merging_for_bounds : CrownMerging(),
+              certainty_.bounds || certainty_.max_error ? no_pixel_merging : PixelMerging()) {
   const Quantities& q = further.quantities();
   if (q.directional_vegetation) behind_.resize(further.azimuths().size());
   if (q.svfaveg || q.directional_vegetation || q.sky_shares) hidden_.resize(further.azimuths().size());
 }
 
-CanopyAnswers::Losses CanopyAnswers::evaluate(const SkyProfile& profile, const ReceiverPacket& receivers,
-                                              const std::stop_token& stop) {
-  Losses losses{};
-  if (crowns_.empty()) return losses;
-  const CanopyShares shares = sky_.evaluate(profile, receivers, behind_);
-  for (std::size_t l = 0; l < receivers.count; ++l) losses[l] = {shares.lost[l], shares.behind[l]};
+CanopyAnswers::Answers CanopyAnswers::evaluate(const SkyProfile& profile, const ReceiverPacket& receivers,
+                                               const SkiesOfPacket& skies) {
+  Answers answers{};
+  if (crowns_.are_none()) {
+    for (std::size_t l = 0; l < receivers.count; ++l) answers[l].svf_total = skies[l].svf;
+    return answers;
+  }
+  const CanopyShares shares = crowns_.shares(profile, receivers, behind_);
+  const PacketHorizon::Lanes error = certainty_.bounds ? crowns_.most_error(profile, receivers) : PacketHorizon::Lanes{};
+  for (std::size_t l = 0; l < receivers.count; ++l)
+    answers[l] = {{shares.lost[l], shares.behind[l]}, svf_total_of(skies[l], shares.lost[l], error[l])};
+  if (!crowns_.crowns().empty()) add_directions(profile, receivers, answers);
+  if (!certainty_.max_error) return answers;
+  count_by_name(profile, receivers, skies, too_wide(receivers, answers), answers);
+  trace(receivers, skies, too_wide(receivers, answers), answers);
+  for (std::size_t l = 0; l < receivers.count; ++l) {
+    SvfInterval& total = answers[l].svf_total;
+    total = within_error(total, static_cast<float>(*certainty_.max_error));
+    total.estimate = std::min(total.estimate, skies[l].svf.estimate);
+  }
+  return answers;
+}
+
+std::uint32_t CanopyAnswers::too_wide(const ReceiverPacket& receivers, const Answers& answers) const {
+  std::uint32_t wide = 0;
+  for (std::size_t l = 0; l < receivers.count; ++l)
+    wide |= static_cast<double>(answers[l].svf_total.width()) > 2.0 * *certainty_.max_error ? 1U << l : 0U;
+  return wide;
+}
+
+void CanopyAnswers::count_by_name(const SkyProfile& profile, const ReceiverPacket& receivers, const SkiesOfPacket& skies,
+                                  std::uint32_t wanted, Answers& answers) {
+  if (wanted == 0 || count_crowns_near(package_, cell_.cell, no_merging.farthest_m) > most_crowns_by_name) return;
+  if (!by_name_)
+    by_name_.emplace(package_, cell_, further_.quantities().canopy, further_.azimuths(), no_merging, no_pixel_merging);
+  const CanopyShares shares = by_name_->shares(profile, receivers, {});
+  const PacketHorizon::Lanes error = by_name_->most_error(profile, receivers);
+  for (std::size_t l = 0; l < receivers.count; ++l) {
+    if (((wanted >> l) & 1U) == 0) continue;
+    answers[l].loss.light = shares.lost[l];
+    answers[l].loss.sky = shares.behind[l];
+    answers[l].svf_total = svf_total_of(skies[l], shares.lost[l], error[l]);
+  }
+}
+
+void CanopyAnswers::trace(const ReceiverPacket& receivers, const SkiesOfPacket& skies, std::uint32_t wanted,
+                          Answers& answers) const {
+  if (wanted == 0) return;
+  std::vector<Receiver> traced;
+  for (std::size_t l = 0; l < receivers.count; ++l)
+    if (((wanted >> l) & 1U) != 0)
+      traced.push_back({l,
+                        {receivers.x[l], receivers.y[l], receivers.z[l]},
+                        {receivers.normal_x[l], receivers.normal_y[l], receivers.normal_z[l]}});
+  const std::vector<float> totals = certainty_.trace(traced);
+  for (std::size_t n = 0; n < traced.size(); ++n) {
+    const float total = std::min(totals[n], skies[traced[n].index].svf.estimate);
+    answers[traced[n].index].svf_total = {total, total, total};
+  }
+}
+
+void CanopyAnswers::add_directions(const SkyProfile& profile, const ReceiverPacket& receivers, Answers& answers) {
   if (!behind_.empty())
-    add_halves(behind_, &CanopyLoss::sky_of_half, 1.0 / static_cast<double>(further_.azimuths().size()), losses);
-  if (hidden_.empty()) return losses;
+    add_halves(behind_, &CanopyLoss::sky_of_half, 1.0 / static_cast<double>(further_.azimuths().size()), answers);
+  if (hidden_.empty()) return;
   if (!occluder_) {
     near_.emplace(near_scene(package_, cell_.cell));
-    occluder_.emplace(crowns_, further_.quantities().canopy, stop);
+    occluder_.emplace(crowns_.crowns(), further_.quantities().canopy, stop_);
   }
-  find_hidden_behind_crowns(profile, receivers, further_.azimuths(), {*near_, *occluder_}, stop, hidden_);
+  find_hidden_behind_crowns(profile, receivers, further_.azimuths(), {*near_, *occluder_}, stop_, hidden_);
   SkyHalves::Sums sums{};
   for (const PacketHorizon::Row& row : hidden_)
     for (std::size_t l = 0; l < receivers.count; ++l) sums[l] += static_cast<double>(row[l]);
-  for (std::size_t l = 0; l < receivers.count; ++l) losses[l].building = static_cast<float>(sums[l]);
-  if (!behind_.empty()) add_halves(hidden_, &CanopyLoss::building_of_half, 1.0, losses);
-  return losses;
+  for (std::size_t l = 0; l < receivers.count; ++l) answers[l].loss.building = static_cast<float>(sums[l]);
+  if (!behind_.empty()) add_halves(hidden_, &CanopyLoss::building_of_half, 1.0, answers);
 }
 
 void CanopyAnswers::add_halves(std::span<const PacketHorizon::Row> terms,
-                               std::array<float, SkyHalves::count> CanopyLoss::*of_half, double share, Losses& losses) const {
+                               std::array<float, SkyHalves::count> CanopyLoss::*of_half, double share, Answers& answers) const {
   const std::array<SkyHalves::Sums, SkyHalves::count> sums = further_.halves().sums(terms);
   for (std::size_t h = 0; h < SkyHalves::count; ++h)
-    for (std::size_t l = 0; l < losses.size(); ++l) (losses[l].*of_half)[h] = static_cast<float>(share * sums[h][l]);
+    for (std::size_t l = 0; l < answers.size(); ++l) (answers[l].loss.*of_half)[h] = static_cast<float>(share * sums[h][l]);
 }
 
 }  // namespace farlod

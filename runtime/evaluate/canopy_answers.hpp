@@ -4,16 +4,18 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
 
 #include "contract/canopy/crown.hpp"
-#include "evaluate/canopy_by_place.hpp"
+#include "evaluate/crowns_of_cell.hpp"
 #include "evaluate/further_quantities.hpp"
 #include "evaluate/sky_evaluator.hpp"
 #include "evaluate/sky_halves.hpp"
+#include "evaluate/svf_total.hpp"
 #include "evaluate/traced_canopy.hpp"
 #include "farlod/quantities.hpp"
 #include "horizon/packet_horizon.hpp"
@@ -24,8 +26,14 @@
 
 namespace farlod {
 
+/// What crowns do to the view of a receiver.
+struct CanopyAnswer {
+  CanopyLoss loss;
+  SvfInterval svf_total;
+};
+
 /// The values of a receiver whose sky view factor is known, in the order of columns_of: as many as count_canopy_columns says.
-void write_canopy_columns(const Quantities& quantities, float svf, const CanopyLoss& loss, std::span<float> values);
+void write_canopy_columns(const Quantities& quantities, float svf, const CanopyAnswer& answer, std::span<float> values);
 
 /// Stores what canopies do, of receivers whose svf is stored, by rays in their directions. Added to a place of the cell's frame,
 /// `scene_from_cell_m` gives one of the scene's. Throws Cancelled when `stop` is asked for.
@@ -33,29 +41,56 @@ void store_traced_canopies(const CellReceivers& cell, const CanopyScene& scene, 
                            const SkyDirections& directions, const FurtherQuantities& quantities, const SkyAnswers& answers,
                            const std::stop_token& stop);
 
+/// What is known of the skies of a packet, whose receivers have these numbers in the cell and whose answers are stored: made of
+/// its profile (`are_drawn`), or of rays, which keep `max_error`.
+using SkiesOfPacket = std::array<SkyOfReceiver, ReceiverPacket::lanes>;
+[[nodiscard]] SkiesOfPacket skies_of(const PacketAnswer& packet, const CellReceivers& cell,
+                                     std::span<const std::uint32_t> numbers, const SkyAnswers& answers, bool are_drawn,
+                                     const std::optional<double>& max_error);
+
+/// How certain svf_total is to be.
+struct CanopyCertainty {
+  bool bounds = false;  ///< whether it has an interval
+  /// How far answers may be from the ends of it: otherwise crowns count one by one, and where that is not enough, rays are
+  /// traced.
+  std::optional<double> max_error = std::nullopt;
+  /// The exact answers of receivers of the cell.
+  std::function<std::vector<float>(std::span<const Receiver>)> trace = {};
+};
+
 /// What the crowns around a cell take of the view of its receivers, by profiles of the sky. Of one thread.
 class CanopyAnswers {
  public:
-  using Losses = std::array<CanopyLoss, ReceiverPacket::lanes>;
+  using Answers = std::array<CanopyAnswer, ReceiverPacket::lanes>;
 
   /// All must outlive it.
-  CanopyAnswers(const PackageReader& package, const CellReceivers& cell, const FurtherQuantities& further);
+  CanopyAnswers(const PackageReader& package, const CellReceivers& cell, const FurtherQuantities& further,
+                CanopyCertainty certainty, std::stop_token stop);
 
   /// Of the receivers of a packet. CanopyLoss::building, which takes rays, is that of a quantity that needs it, or 0.
-  [[nodiscard]] Losses evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const std::stop_token& stop);
+  [[nodiscard]] Answers evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const SkiesOfPacket& skies);
 
  private:
+  /// What of the sky and of solid things lies behind crowns in each half of the sky, and in all, as far as it is asked for.
+  void add_directions(const SkyProfile& profile, const ReceiverPacket& receivers, Answers& answers);
+  /// Sums over the azimuths, for CanopyLoss.
+  void add_halves(std::span<const PacketHorizon::Row> terms, std::array<float, SkyHalves::count> CanopyLoss::*of_half,
+                  double share, Answers& answers) const;
+  /// A bit for each receiver whose interval is too wide.
+  [[nodiscard]] std::uint32_t too_wide(const ReceiverPacket& receivers, const Answers& answers) const;
+  void count_by_name(const SkyProfile& profile, const ReceiverPacket& receivers, const SkiesOfPacket& skies, std::uint32_t wanted,
+                     Answers& answers);
+  void trace(const ReceiverPacket& receivers, const SkiesOfPacket& skies, std::uint32_t wanted, Answers& answers) const;
+
   const PackageReader& package_;
   const CellReceivers& cell_;
-  /// Sums over the azimuths, of what is behind crowns, for CanopyLoss.
-  void add_halves(std::span<const PacketHorizon::Row> terms, std::array<float, SkyHalves::count> CanopyLoss::*of_half,
-                  double share, Losses& losses) const;
-
   const FurtherQuantities& further_;
-  std::vector<Crown> crowns_;                        ///< cell frame
-  CanopyByPlace sky_;                                ///< the same for horizons
+  CanopyCertainty certainty_;
+  std::stop_token stop_;
+  CrownsOfCell crowns_;
   std::vector<PacketHorizon::Row> behind_, hidden_;  ///< at each azimuth: sky and what is solid, behind crowns
-  std::optional<Occluder> near_;                     ///< for rays, as the next one; made when first needed
+  std::optional<CrownsOfCell> by_name_;              ///< made when first needed, as the next ones, which are for rays
+  std::optional<Occluder> near_;
   std::optional<CrownOccluder> occluder_;
 };
 

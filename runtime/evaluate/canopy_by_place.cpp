@@ -52,8 +52,13 @@ void copy_lanes(const PacketHorizon::Lanes& from, std::uint32_t some, PacketHori
 
 }  // namespace
 
-CanopyByPlace::CanopyByPlace(const std::vector<Crown>& crowns, const CanopySettings& settings, const AzimuthSampling& azimuths)
-    : levels_(crowns), settings_(settings), sky_(azimuths) {}
+CanopyByPlace::CanopyByPlace(const std::vector<Crown>& crowns, const CanopySettings& settings, const AzimuthSampling& azimuths,
+                             const PixelMerging& merging)
+    : levels_(crowns),
+      merging_(merging),
+      depends_on_place_(levels_.has_pixels() && std::isfinite(merging.edges_away)),
+      settings_(settings),
+      sky_(azimuths) {}
 
 CanopyByPlace::Place CanopyByPlace::place_of(const ReceiverPacket& receivers, std::size_t lane) {
   const auto number = [](float x) { return static_cast<std::int32_t>(std::floor(static_cast<double>(x) / place_m)); };
@@ -64,12 +69,13 @@ const CrownBatches& CanopyByPlace::batches_at(const Place& place) {
   const auto found = batches_.find(place);
   if (found != batches_.end()) return found->second;
   const Point2d corner{place.first * place_m, place.second * place_m};
-  return batches_.try_emplace(place, levels_.seen_from({corner, corner + Point2d{place_m, place_m}}), settings_).first->second;
+  return batches_.try_emplace(place, levels_.seen_from({corner, corner + Point2d{place_m, place_m}}, merging_), settings_)
+      .first->second;
 }
 
 CanopyShares CanopyByPlace::evaluate(const SkyProfile& profile, const ReceiverPacket& receivers,
                                      std::span<PacketHorizon::Row> behind_of_azimuths) {
-  if (!levels_.has_pixels()) return sky_.evaluate(profile, receivers, batches_at({}), behind_of_azimuths);
+  if (!depends_on_place_) return sky_.evaluate(profile, receivers, batches_at({}), behind_of_azimuths);
   CanopyShares shares;
   behind_of_some_.resize(behind_of_azimuths.size());
   for (std::uint32_t left = all_lanes; left != 0;) {

@@ -27,7 +27,8 @@ class CanopyByPlace {
   static constexpr double place_m = 12.5;
 
   /// Crowns of the frame of the receivers. The sampling must outlive it.
-  CanopyByPlace(const std::vector<Crown>& crowns, const CanopySettings& settings, const AzimuthSampling& azimuths);
+  CanopyByPlace(const std::vector<Crown>& crowns, const CanopySettings& settings, const AzimuthSampling& azimuths,
+                const PixelMerging& merging = {});
 
   /// As CanopySky::evaluate.
   [[nodiscard]] CanopyShares evaluate(const SkyProfile& profile, const ReceiverPacket& receivers,
@@ -39,6 +40,8 @@ class CanopyByPlace {
   [[nodiscard]] const CrownBatches& batches_at(const Place& place);
 
   CanopyLevels levels_;
+  PixelMerging merging_;
+  bool depends_on_place_;
   CanopySettings settings_;
   CanopySky sky_;
   std::map<Place, CrownBatches> batches_;  ///< made when first needed

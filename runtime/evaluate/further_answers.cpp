@@ -3,7 +3,9 @@
 #include "evaluate/further_answers.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "contract/expects.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/overhangs.hpp"
 
@@ -70,20 +72,22 @@ void FurtherAnswers::draw_near_sky(const PackageReader& package, const FarHorizo
   near_sky_ = std::make_unique<NearSky>(package, cell_, far, quantities_.azimuths(), gaps);
 }
 
-void FurtherAnswers::draw_canopies(const PackageReader& package, std::stop_token stop) {
-  canopies_ = std::make_unique<CanopyAnswers>(package, cell_, quantities_);
-  stop_ = std::move(stop);
+void FurtherAnswers::draw_canopies(const PackageReader& package, CanopyCertainty certainty, std::stop_token stop) {
+  canopies_ = std::make_unique<CanopyAnswers>(package, cell_, quantities_, std::move(certainty), std::move(stop));
 }
 
-void FurtherAnswers::store(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
+void FurtherAnswers::store(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers,
+                           const DrawnAnswers& drawn) {
+  FARLOD_EXPECTS(!canopies_ || drawn.packets.size() == packets.size());
   if (near_sky_) near_sky_->evaluate(packets);
   for (std::size_t n = 0; n < packets.size(); ++n) {
-    store(n, packets[n], numbers.first(packets[n].count));
+    store(n, packets[n], numbers.first(packets[n].count), drawn);
     numbers = numbers.subspan(packets[n].count);
   }
 }
 
-void FurtherAnswers::store(std::size_t packet, const ReceiverPacket& receivers, std::span<const std::uint32_t> numbers) {
+void FurtherAnswers::store(std::size_t packet, const ReceiverPacket& receivers, std::span<const std::uint32_t> numbers,
+                           const DrawnAnswers& drawn) {
   FurtherQuantities::Sky sky{};
   for (std::size_t l = 0; l < numbers.size(); ++l) {
     sky.svf[l] = answers_.svf[cell_.receivers[numbers[l]].index];
@@ -95,9 +99,10 @@ void FurtherAnswers::store(std::size_t packet, const ReceiverPacket& receivers, 
   quantities_.evaluate(profiles_[packet], receivers, sky, rows_, values_);
   if (canopies_) {
     const auto [first, count] = quantities_.canopy_columns();
-    const CanopyAnswers::Losses losses = canopies_->evaluate(profiles_[packet], receivers, stop_);
+    const SkiesOfPacket skies = skies_of(drawn.packets[packet], cell_, numbers, answers_, drawn.are_answers, drawn.max_error);
+    const CanopyAnswers::Answers canopies = canopies_->evaluate(profiles_[packet], receivers, skies);
     for (std::size_t l = 0; l < numbers.size(); ++l)
-      write_canopy_columns(quantities_.quantities(), sky.svf[l], losses[l],
+      write_canopy_columns(quantities_.quantities(), sky.svf[l], canopies[l],
                            std::span(values_).subspan(l * columns + first, count));
   }
   for (std::size_t l = 0; l < numbers.size(); ++l)

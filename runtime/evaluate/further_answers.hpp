@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -18,6 +19,13 @@
 #include "receivers/receiver.hpp"
 
 namespace farlod {
+
+/// What was drawn for a group.
+struct DrawnAnswers {
+  std::span<const PacketAnswer> packets;
+  bool are_answers = true;  ///< they are what is stored; otherwise that is of rays, which keep `max_error`
+  std::optional<double> max_error = std::nullopt;
+};
 
 /// Stores further quantities of the receivers of a cell, group by group of packets: first their profiles are drawn or traced, and
 /// their svf is stored among the answers, then store() is called.
@@ -35,16 +43,17 @@ class FurtherAnswers {
   /// The sky above the near geometry alone is drawn for each group, where the far map is this one; or it is known for each
   /// receiver of the cell.
   void draw_near_sky(const PackageReader& package, const FarHorizon& far, const GapSettings& gaps);
-  /// The values of canopies are found with each profile; otherwise their places are left out.
-  void draw_canopies(const PackageReader& package, std::stop_token stop);
+  /// The values of canopies are found with each profile; otherwise their places are left out. store() then needs what is drawn.
+  void draw_canopies(const PackageReader& package, CanopyCertainty certainty, std::stop_token stop);
   void set_near_sky(std::vector<float> svf) { near_svf_ = std::move(svf); }
 
   /// `numbers` are those of the receivers in the cell, packet by packet.
-  void store(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers);
+  void store(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers, const DrawnAnswers& drawn = {});
 
  private:
   class NearSky;
-  void store(std::size_t packet, const ReceiverPacket& receivers, std::span<const std::uint32_t> numbers);
+  void store(std::size_t packet, const ReceiverPacket& receivers, std::span<const std::uint32_t> numbers,
+             const DrawnAnswers& drawn);
 
   const FurtherQuantities& quantities_;
   const CellReceivers& cell_;
@@ -53,7 +62,6 @@ class FurtherAnswers {
   std::vector<float> near_svf_;
   std::unique_ptr<NearSky> near_sky_;
   std::unique_ptr<CanopyAnswers> canopies_;
-  std::stop_token stop_;
   FurtherQuantities::Rows rows_;
   std::vector<float> values_;
 };

@@ -41,9 +41,15 @@ PatchBands patch_bands_of(SkyPatchSet set) {
   return bands;
 }
 
+TotalColumns total_columns_of(const Quantities& quantities) {
+  if (!quantities.svf_total) return {};
+  const std::size_t total = columns_of(quantities).size() - count_canopy_columns(quantities);
+  return {total, quantities.svf_total_bounds ? std::optional(total + 1) : std::nullopt};
+}
+
 std::size_t count_canopy_columns(const Quantities& quantities) {
-  return (quantities.svf_total ? 2 : 0) + (quantities.svfaveg ? 1 : 0) + (quantities.directional_vegetation ? 8 : 0) +
-         (quantities.sky_shares ? 3 : 0);
+  return (quantities.svf_total ? 2 : 0) + (quantities.svf_total_bounds ? 2 : 0) + (quantities.svfaveg ? 1 : 0) +
+         (quantities.directional_vegetation ? 8 : 0) + (quantities.sky_shares ? 3 : 0);
 }
 
 std::vector<std::string> columns_of(const Quantities& quantities) {
@@ -56,7 +62,9 @@ std::vector<std::string> columns_of(const Quantities& quantities) {
     names.push_back(azimuth_name("distance", n, quantities.horizons));
   for (std::size_t n = 1; n <= patches_of(quantities.sky_patches); ++n) names.push_back(numbered("patch_", 3, n));
   if (quantities.sun) names.emplace_back("sunlit_h");
-  if (quantities.svf_total) names.insert(names.end(), {"svf_total", "svfveg"});
+  if (quantities.svf_total) names.emplace_back("svf_total");
+  if (quantities.svf_total_bounds) names.insert(names.end(), {"svf_total_low", "svf_total_high"});
+  if (quantities.svf_total) names.emplace_back("svfveg");
   if (quantities.svfaveg) names.emplace_back("svfaveg");
   if (quantities.directional_vegetation)
     names.insert(names.end(), {"svfNveg", "svfEveg", "svfSveg", "svfWveg", "svfNaveg", "svfEaveg", "svfSaveg", "svfWaveg"});

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +22,12 @@ struct PatchBands {
   double height = 0.0;
 };
 [[nodiscard]] PatchBands patch_bands_of(SkyPatchSet set);
+
+/// Where svf_total is among columns_of, and its lower bound, which the upper one follows; nothing where they are not.
+struct TotalColumns {
+  std::optional<std::size_t> total, low;
+};
+[[nodiscard]] TotalColumns total_columns_of(const Quantities& quantities);
 
 /// The last columns of columns_of: those of canopies.
 [[nodiscard]] std::size_t count_canopy_columns(const Quantities& quantities);

@@ -15,6 +15,7 @@
 #include "evaluate/canopy_answers.hpp"
 #include "evaluate/error_budget.hpp"
 #include "evaluate/further_answers.hpp"
+#include "evaluate/retraced_rays.hpp"
 #include "evaluate/sky_parts.hpp"
 #include "evaluate/traced_canopy.hpp"
 #include "evaluate/visibility.hpp"
@@ -311,7 +312,7 @@ void SkyEvaluator::draw_horizons(CellGeometry& geometry, const CellReceivers& ce
   FurtherAnswers further(further_, cell, answers);
   if (!further_.empty()) further.listen_to(engine);
   if (further_.needs_near_sky()) further.draw_near_sky(package_, geometry.far, gaps);
-  if (further_.canopy_columns().count > 0) further.draw_canopies(package_, stop_);
+  if (further_.canopy_columns().count > 0) further.draw_canopies(package_, certainty_of_canopies(cell.cell, answers), stop_);
   std::vector<PacketAnswer> of_packets;
   for_each_group(cell.receivers, packet_order(cell.receivers, stop_),
                  [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
@@ -324,8 +325,24 @@ void SkyEvaluator::draw_horizons(CellGeometry& geometry, const CellReceivers& ce
                      store_packet(of_packets[n], cell, left.first(packets[n].count), answers);
                      left = left.subspan(packets[n].count);
                    }
-                   if (!further_.empty()) further.store(packets, numbers);
+                   if (!further_.empty())
+                     further.store(packets, numbers, {of_packets, stored == StoredAnswers::all, settings_.max_far_error});
                  });
+}
+
+CanopyCertainty SkyEvaluator::certainty_of_canopies(Cell cell, const SkyAnswers& answers) const {
+  const Quantities& wanted = settings_.further;
+  CanopyCertainty certainty;
+  if (!wanted.svf_total) return certainty;
+  certainty.bounds = wanted.svf_total_bounds || settings_.max_far_error;
+  certainty.max_error = settings_.max_far_error;
+  certainty.trace = [this, cell, &answers](std::span<const Receiver> receivers) {
+    count(answers, {0, receivers.size() * directions_.ray_count()});
+    const PlacedScene scene = whole_city(cell);
+    const CrownOccluder& crowns = city_->crowns(package_, settings_.further.canopy, stop_);
+    return trace_svf_totals({scene.occluder, crowns}, scene.scene_from_cell_m, directions_, receivers, stop_);
+  };
+  return certainty;
 }
 
 void SkyEvaluator::store_packet(const PacketAnswer& packet, const CellReceivers& cell, std::span<const std::uint32_t> numbers,
@@ -345,6 +362,8 @@ void SkyEvaluator::require_rays_allowed(Cell cell) const {
 
 void SkyEvaluator::count_rays(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const {
   count(answers, {cell.receivers.size(), 0});
+  const double most_open = settings_.max_far_error.value_or(1.0) * static_cast<double>(directions_.ray_count());
+  const auto city = [&] { return whole_city(cell.cell); };
   std::vector<Receiver> receivers = cell.receivers;
   const auto by_normal = [](const Receiver& a, const Receiver& b) {
     return std::tie(a.normal.x, a.normal.y, a.normal.z) < std::tie(b.normal.x, b.normal.y, b.normal.z);
@@ -364,28 +383,10 @@ void SkyEvaluator::count_rays(CellGeometry& geometry, const CellReceivers& cell,
       throw_if_cancelled(stop_);
       const auto some = group.subspan(first, std::min(ReceiverPacket::lanes, group.size() - first));
       std::vector<FreeRays> free = engine.count(some);
-      if (settings_.max_far_error) count(answers, {0, retrace(cell.cell, some, engine, free)});
+      if (settings_.max_far_error) count(answers, {0, retrace_open_rays(most_open, some, engine, city, free)});
       for (std::size_t n = 0; n < some.size(); ++n) store(svf_of(free[n], directions_.ray_count()), some[n].index, answers);
     }
   });
-}
-
-std::uint64_t SkyEvaluator::retrace(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine,
-                                    std::span<FreeRays> free) const {
-  const double most = *settings_.max_far_error * static_cast<double>(directions_.ray_count());
-  std::uint32_t uncertain = 0;
-  for (std::size_t l = 0; l < free.size(); ++l)
-    if (std::max(free[l].high - free[l].estimate, free[l].estimate - free[l].low) > most) uncertain |= 1U << l;
-  if (uncertain == 0) return 0;
-  const WholeCity& city = city_->city(package_, stop_);
-  RayOrigins origins;
-  for (std::size_t l = 0; l < receivers.size(); ++l) {
-    const Point3f p = city.scene_from_cell(receivers[l].p_cell, cell);
-    origins.x[l] = p.x;
-    origins.y[l] = p.y;
-    origins.z[l] = p.z;
-  }
-  return engine.retrace(city.occluder(), origins, uncertain, free);
 }
 
 EvaluationStatistics SkyEvaluator::statistics() const { return {{by_rays_, retraced_rays_}, scenes_s_, evaluate_s_}; }

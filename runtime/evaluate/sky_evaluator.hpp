@@ -25,13 +25,12 @@
 
 namespace farlod {
 
-class RayEngine;
 class WholeCityOnDemand;
+struct CanopyCertainty;
 struct HemisphereDirections;
 struct SkyParts;
 struct PacketAnswer;
 struct PlacedScene;
-struct FreeRays;
 
 struct SkySettings {
   Engine engine = Engine::automatic;
@@ -129,15 +128,13 @@ class SkyEvaluator {
                     const SkyAnswers& answers) const;
   /// Answers all receivers of a cell by rays against horizons.
   void count_rays(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const;
-  /// Traces the rays that the far map leaves open, for receivers whose intervals are wider than the allowed error.
-  /// Returns how many.
-  [[nodiscard]] std::uint64_t retrace(Cell cell, std::span<const Receiver> receivers, const RayEngine& engine,
-                                      std::span<FreeRays> free) const;
+  /// For as long as the answers are there.
+  [[nodiscard]] CanopyCertainty certainty_of_canopies(Cell cell, const SkyAnswers& answers) const;
   [[nodiscard]] SkyParts parts_without_crowns(const CellReceivers& cell, const HemisphereDirections& directions) const;
   void require_rays_allowed(Cell cell) const;
   void require_far_map(Cell cell) const;
   [[nodiscard]] bool wants_bounds(const SkyAnswers& answers) const {
-    return !answers.low.empty() || settings_.max_far_error.has_value();
+    return !answers.low.empty() || settings_.max_far_error.has_value() || settings_.further.svf_total_bounds;
   }
   void count(const SkyAnswers& answers, const RayCounts& more) const;
   void add_times(Clock::time_point start, Clock::time_point scene_ready) const;

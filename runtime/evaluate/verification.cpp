@@ -12,6 +12,7 @@
 #include <set>
 
 #include "contract/expects.hpp"
+#include "evaluate/quantity_columns.hpp"
 
 namespace farlod {
 namespace {
@@ -31,7 +32,10 @@ SkySettings reference_settings(SkySettings settings) {
   settings.engine = Engine::exact;
   settings.rays = std::max(verify_rays, settings.rays);
   settings.max_far_error.reset();
-  settings.further = {};
+  Quantities further;
+  further.svf_total = settings.further.svf_total;
+  further.canopy = settings.further.canopy;
+  settings.further = further;
   return settings;
 }
 
@@ -45,9 +49,29 @@ std::vector<VerifiedReceiver> placed(const CellReceivers& cell, const package::M
   return receivers;
 }
 
-Verification joined(const std::vector<std::vector<VerifiedReceiver>>& cells, std::size_t rays) {
+/// What was found in a cell.
+struct VerifiedCell {
+  std::vector<VerifiedReceiver> receivers;
+  std::vector<double> totals, exact_totals;
+
+  void add(std::size_t k, float svf, float exact) {
+    receivers[k].svf = svf;
+    receivers[k].exact = exact;
+  }
+};
+
+Verification joined(const std::vector<VerifiedCell>& cells, std::size_t rays) {
   Verification all;
-  for (const auto& cell : cells) all.receivers.insert(all.receivers.end(), cell.begin(), cell.end());
+  std::vector<double> totals, exact_totals;
+  for (const VerifiedCell& cell : cells) {
+    all.receivers.insert(all.receivers.end(), cell.receivers.begin(), cell.receivers.end());
+    totals.insert(totals.end(), cell.totals.begin(), cell.totals.end());
+    exact_totals.insert(exact_totals.end(), cell.exact_totals.begin(), cell.exact_totals.end());
+  }
+  if (!totals.empty()) {
+    all.svf_total_errors = summarize_errors(totals, exact_totals);
+    all.svf_total_errors->rays = rays;
+  }
   std::vector<double> answers, exact;
   for (const VerifiedReceiver& r : all.receivers) {
     answers.push_back(r.svf);
@@ -97,18 +121,20 @@ Verification verify(const SkyEvaluator& evaluator, const VerifySettings& setting
                     const ReceiversOfCell& receivers_of) {
   const SkyEvaluator reference(evaluator, reference_settings(evaluator.settings()));
   const auto chosen = choose_receivers(counts, settings.receivers);
-  std::vector<std::vector<VerifiedReceiver>> verified(counts.size());
+  std::vector<VerifiedCell> verified(counts.size());
+  const std::optional<std::size_t> total = total_columns_of(evaluator.settings().further).total;
   oneapi::tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t n) {
     if (chosen[n].empty()) return;
     const CellReceivers all = receivers_of(n);
     CellReceivers some{all.cell, {}};
     for (const std::size_t k : chosen[n]) some.receivers.push_back(all.receivers[k]);
-    const std::vector<float> answers = values_of(evaluator, all, settings.bounds).svf;
-    const std::vector<float> exact = values_of(reference, some, false).svf;
-    verified[n] = placed(some, evaluator.package().manifest());
-    for (std::size_t k = 0; k < verified[n].size(); ++k) {
-      verified[n][k].svf = answers[chosen[n][k]];
-      verified[n][k].exact = exact[k];
+    const SvfValues answers = values_of(evaluator, all, settings.bounds), exact = values_of(reference, some, false);
+    verified[n].receivers = placed(some, evaluator.package().manifest());
+    for (std::size_t k = 0; k < some.receivers.size(); ++k) {
+      verified[n].add(k, answers.svf[chosen[n][k]], exact.svf[k]);
+      if (!total) continue;
+      verified[n].totals.push_back(answers.further_of(chosen[n][k])[*total]);
+      verified[n].exact_totals.push_back(exact.further_of(k)[0]);
     }
   });
   return joined(verified, reference.settings().rays);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct VerifySettings {
 struct Verification {
   ErrorSummary errors;
   std::vector<VerifiedReceiver> receivers;
+  std::optional<ErrorSummary> svf_total_errors;  ///< of the same receivers, where the run computes it
 };
 
 /// What --verify does: chooses random receivers among those of all cells (`counts` are the receivers of each cell), computes them

@@ -33,6 +33,11 @@ bool has_bit(std::uint32_t bits, std::size_t lane) { return ((bits >> lane) & 1U
 
 }  // namespace
 
+SvfInterval within_error(const SvfInterval& svf, float error) {
+  const float most = std::max(svf.low, svf.high - error), least = std::min(svf.high, svf.low + error);
+  return {svf.low, std::clamp(svf.estimate, std::min(most, least), std::max(most, least)), svf.high};
+}
+
 HorizonEngine::HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, const FarHorizon& far,
                              const CellSilhouettes& silhouettes, OverhangGeometry& overhangs, const GapSettings& gaps,
                              JumpPlaces jumps)
@@ -101,7 +106,7 @@ void HorizonEngine::evaluate(const ReceiverPacket& receivers, PacketAnswer& answ
   // Without overhangs in sight, the sky above it is the answer
   if (below == 0 && in_sight_.empty()) {
     const Lanes sky = sky_above(horizons_.grounded, receivers).sky;
-    for (std::size_t l = 0; l < sky.size(); ++l) answer.svf[l] = {sky[l], sky[l], sky[l]};
+    for (std::size_t l = 0; l < sky.size(); ++l) answer.svf[l] = answer.drawn[l] = {sky[l], sky[l], sky[l]};
     answer.by_rays = answer.by_gap_rays = 0;
     answer.retraced_rays = 0;
     return;
@@ -114,7 +119,7 @@ void HorizonEngine::evaluate(const ReceiverPacket& receivers, PacketAnswer& answ
   const SkyInGaps gaps = sky_in_gaps(receivers);
   for (std::size_t l = 0; l < sky.size(); ++l) {
     const float sum = std::min(sky[l] + gaps.sky[l], 1.0F);
-    answer.svf[l] = {sum, sum, sum};
+    answer.svf[l] = answer.drawn[l] = {sum, sum, sum};
   }
   answer.by_rays = answer.by_gap_rays = gaps.by_rays;
   answer.retraced_rays = 0;
@@ -124,22 +129,22 @@ void HorizonEngine::evaluate_with_bounds(const ReceiverPacket& receivers, Packet
   const std::uint32_t below = overhangs_.receivers_below(receivers);
   const bool has_overhangs = below != 0 || !in_sight_.empty() || !residual_.is_grounded();
   BoundedSky sky = has_overhangs ? bounded_with_overhangs(receivers, below) : bounded_without_overhangs(receivers);
+  for (std::size_t l = 0; l < sky.low.size(); ++l) answer.drawn[l] = sky.interval(l);
   const Retraced retraced = allowed_ ? retrace(receivers, has_overhangs, sky) : Retraced{sky.gaps.by_rays, 0};
   const float allowed = allowed_ ? static_cast<float>(allowed_->error) : 1.0F;
-  for (std::size_t l = 0; l < sky.low.size(); ++l) {
-    // Both are rounded: where the interval has no width, the sums may differ in their last bit
-    const float even_high = std::max(sky.low[l], std::min(sky.high[l], 1.0F));
-    // Jumps are placed where they are for the bounds, too
-    const auto placed = [&](float svf) { return std::clamp(svf + sky.estimate.correction[l], 0.0F, 1.0F); };
-    const float lowest = placed(sky.low[l]), highest = placed(even_high);
-    // An answer in the middle keeps an error that the estimate does not
-    const float most = std::max(lowest, highest - allowed), least = std::min(highest, lowest + allowed);
-    const float within = std::clamp(sky.estimate.sky[l] + sky.gaps.sky[l], std::min(most, least), std::max(most, least));
-    answer.svf[l] = {lowest, within, highest};
-  }
+  for (std::size_t l = 0; l < sky.low.size(); ++l) answer.svf[l] = within_error(sky.interval(l), allowed);
   answer.by_rays = retraced.receivers;
   answer.by_gap_rays = sky.gaps.by_rays;
   answer.retraced_rays = retraced.rays;
+}
+
+SvfInterval HorizonEngine::BoundedSky::interval(std::size_t lane) const {
+  // Both are rounded: where the interval has no width, the sums may differ in their last bit
+  const float even_high = std::max(low[lane], std::min(high[lane], 1.0F));
+  // Jumps are placed where they are for the bounds, too
+  const auto placed = [&](float svf) { return std::clamp(svf + estimate.correction[lane], 0.0F, 1.0F); };
+  const float lowest = placed(low[lane]), highest = placed(even_high);
+  return {lowest, std::clamp(estimate.sky[lane] + gaps.sky[lane], lowest, highest), highest};
 }
 
 HorizonEngine::BoundedSky HorizonEngine::bounded_without_overhangs(const ReceiverPacket& receivers) {

@@ -30,11 +30,19 @@ namespace farlod {
 /// A sky view factor, and the bounds that are certain for the same azimuths.
 struct SvfInterval {
   float low = 0.0F, estimate = 0.0F, high = 0.0F;
+
+  [[nodiscard]] float width() const { return high - low; }
 };
+
+/// The interval with its estimate moved towards the middle, until it is no farther than `error` from either end, as long as
+/// that is possible.
+[[nodiscard]] SvfInterval within_error(const SvfInterval& svf, float error);
 
 /// The answers of a packet, in the order of its receivers.
 struct PacketAnswer {
   std::array<SvfInterval, ReceiverPacket::lanes> svf{};
+  /// Before rays of an AllowedFarError, and without moving towards the middle: those of the profiles that OnProfile is told.
+  std::array<SvfInterval, ReceiverPacket::lanes> drawn{};
   std::uint32_t by_rays = 0;        ///< a bit for each receiver that rays were traced for
   std::uint32_t by_gap_rays = 0;    ///< a bit for each whose gaps hold more sky than the tolerance
   std::uint64_t retraced_rays = 0;  ///< rays that were traced because of an AllowedFarError
@@ -110,6 +118,9 @@ class HorizonEngine {
     HorizonJumps::SkyAbove estimate;
     SkyInGaps gaps;
     Lanes low, high;
+
+    /// Of a lane, with its jumps where they are.
+    [[nodiscard]] SvfInterval interval(std::size_t lane) const;
   };
   [[nodiscard]] BoundedSky bounded_without_overhangs(const ReceiverPacket& receivers);
   [[nodiscard]] BoundedSky bounded_with_overhangs(const ReceiverPacket& receivers, std::uint32_t below);

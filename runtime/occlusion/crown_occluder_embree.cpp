@@ -239,7 +239,7 @@ std::uint32_t CrownOccluder::met_before(const Occluder::Distances& ends, const R
   RayPacket packet(origins, directions, begin, wanted);
   for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane)
     packet.rays.tfar[lane] = std::min(packet.rays.tfar[lane], ends[lane]);
-  ask_occluded(packet.valid.data(), impl_->scene, context.embree, packet.rays);
+  ask_occluded(packet.valid.data(), impl_->scene.get(), context.embree, packet.rays);
   std::uint32_t met = 0;
   for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane) met |= packet.rays.tfar[lane] < 0.0F ? 1U << lane : 0U;
   return met & wanted;

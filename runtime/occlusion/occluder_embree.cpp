@@ -124,7 +124,7 @@ Occluder::Distances Occluder::distances(const RayOrigins& origins, const Directi
   query.ray = packet.rays;
   std::fill_n(query.hit.geomID, RayOrigins::lanes, RTC_INVALID_GEOMETRY_ID);
   std::fill_n(query.hit.instID[0], RayOrigins::lanes, RTC_INVALID_GEOMETRY_ID);
-  ask_nearest(packet.valid.data(), impl_->scene, context.embree, query);
+  ask_nearest(packet.valid.data(), impl_->scene.get(), context.embree, query);
   for (std::size_t lane = 0; lane < RayOrigins::lanes; ++lane)
     if (query.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID) distances[lane] = query.ray.tfar[lane];
   return distances;

@@ -26,6 +26,7 @@ constexpr double triangle_bytes = 224;      // of the whole city's scene: the tr
 
 constexpr double crown_bytes = 160;        // of the scene of all crowns, beside the file: the crown, and Embree's tree
 constexpr double canopy_bytes = 16 * mib;  // crowns around a cell, those far away merged
+constexpr double named_crown_bytes = 100;  // of one in CrownsOfCell, where an error is allowed
 
 // Of a sample of the sky: a direction, and what each thread has at an azimuth, 64 bytes for each of the horizons of an engine
 constexpr double direction_bytes = sizeof(Point3d);
@@ -42,6 +43,12 @@ bool traces_whole_city(const ResolvedSettings& settings) {
 
 bool uses_crowns(const package::Manifest& manifest, const ResolvedSettings& settings) {
   return manifest.canopy.has_value() && settings.sky.further.any_of_canopies();
+}
+
+double bytes_of_canopies(const package::Manifest& manifest, const ResolvedSettings& settings) {
+  if (!settings.sky.further.svf_total || !settings.sky.max_far_error) return canopy_bytes;
+  return canopy_bytes +
+         named_crown_bytes * static_cast<double>(std::min<std::uint64_t>(manifest.canopy->crowns(), most_crowns_by_name));
 }
 
 /// The directions as they are and turned to the grid, and those of a normal on each thread.
@@ -121,7 +128,7 @@ double require_memory(const package::Manifest& manifest, const ResolvedSettings&
   const double of_receiver = receiver_bytes + static_cast<double>(columns_of(settings.sky.further).size() * sizeof(float));
   const double in_flight = static_cast<double>(cells_in_flight(settings.threads)) * needs.receivers_of_cell * of_receiver;
   const bool has_crowns = uses_crowns(manifest, settings);
-  const double of_thread = thread_bytes + (has_crowns ? canopy_bytes : 0.0);
+  const double of_thread = thread_bytes + (has_crowns ? bytes_of_canopies(manifest, settings) : 0.0);
   const double of_blocks =
       static_cast<double>(bytes_of_blocks_at_work(manifest)) + (has_crowns ? bytes_of_crowns_at_work(manifest) : 0.0);
   const double bytes = program_bytes + threads * of_thread + needs.results + static_cast<double>(settings.run.caller_bytes) +

@@ -15,6 +15,7 @@
 
 #include "contract/cancellation.hpp"
 #include "contract/shard_parts.hpp"
+#include "evaluate/quantity_columns.hpp"
 #include "evaluate/verification.hpp"
 #include "farlod/error.hpp"
 #include "run/kept_answers.hpp"
@@ -27,8 +28,8 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Statistics of the sky view factors of some cells. Sums are added cell by cell, in order, so that the mean does not depend on
-/// the number of threads.
+/// Statistics of the sky view factors of some cells, with crowns or without. Sums are added cell by cell, in order, so that the
+/// mean does not depend on the number of threads.
 struct SvfStatistics {
   std::size_t count = 0;
   double sum = 0.0;
@@ -36,6 +37,17 @@ struct SvfStatistics {
   double width_sum = 0.0;
   float width_max = 0.0F;
 
+  void add(float svf) {
+    ++count;
+    sum += svf;
+    min = std::min(min, svf);
+    max = std::max(max, svf);
+  }
+  void add_width(float width) {
+    width_sum += width;
+    width_max = std::max(width_max, width);
+  }
+  [[nodiscard]] BoundsWidth width() const { return {width_sum / static_cast<double>(count), width_max}; }
   void add(const SvfStatistics& o) {
     *this = {count + o.count,         sum + o.sum,
              std::min(min, o.min),    std::max(max, o.max),
@@ -44,16 +56,20 @@ struct SvfStatistics {
 };
 
 SvfStatistics statistics_of(const SvfValues& values) {
-  SvfStatistics statistics{values.svf.size()};
-  for (const float svf : values.svf) {
-    statistics.sum += svf;
-    statistics.min = std::min(statistics.min, svf);
-    statistics.max = std::max(statistics.max, svf);
-  }
-  for (std::size_t n = 0; n < values.low.size(); ++n) {
-    const float width = values.high[n] - values.low[n];
-    statistics.width_sum += width;
-    statistics.width_max = std::max(statistics.width_max, width);
+  SvfStatistics statistics;
+  for (const float svf : values.svf) statistics.add(svf);
+  for (std::size_t n = 0; n < values.low.size(); ++n) statistics.add_width(values.high[n] - values.low[n]);
+  return statistics;
+}
+
+/// Of the total sky view factors among the further values, where they are.
+SvfStatistics total_statistics_of(const SvfValues& values, const Quantities& further) {
+  SvfStatistics statistics;
+  const TotalColumns columns = total_columns_of(further);
+  for (std::size_t n = 0; n < values.svf.size() && columns.total; ++n) {
+    const std::span<const float> row = values.further_of(n);
+    statistics.add(row[*columns.total]);
+    if (columns.low) statistics.add_width(row[*columns.low + 1] - row[*columns.low]);
   }
   return statistics;
 }
@@ -64,7 +80,13 @@ void store_statistics(const SvfStatistics& all, bool bounds, EvaluationSummary& 
   run.svf_min = all.min;
   run.svf_max = all.max;
   run.svf_mean = all.sum / static_cast<double>(all.count);
-  if (bounds) run.bounds = {all.width_sum / static_cast<double>(all.count), all.width_max};
+  if (bounds) run.bounds = all.width();
+}
+
+void store_statistics_of_totals(const SvfStatistics& all, const Quantities& further, EvaluationSummary& run) {
+  if (all.count == 0) return;
+  run.svf_total = {all.min, all.sum / static_cast<double>(all.count), all.max};
+  if (further.svf_total_bounds) run.svf_total_bounds = all.width();
 }
 
 /// A cell that is being evaluated, or waits for its turn to be stored.
@@ -114,14 +136,15 @@ void require_bounds_known(const PackageInUse& package, const ResolvedSettings& s
 /// Counts and statistics of the cells that were stored so far.
 struct Tally {
   std::vector<std::size_t> counts;  ///< receivers of each cell
-  SvfStatistics statistics;
+  SvfStatistics statistics, totals;
   std::size_t outside_of_grid = 0, without_far_map = 0, outside_of_region = 0;
   RayCounts rays;
   double store_s = 0.0;
 
-  void add(const PackageReader& package, const CellInFlight& cell) {
+  void add(const PackageReader& package, const Quantities& further, const CellInFlight& cell) {
     counts.push_back(cell.receivers.receivers.size());
     statistics.add(statistics_of(cell.values));
+    totals.add(total_statistics_of(cell.values, further));
     outside_of_region += cell.receivers.outside_of_region;
     rays.by_rays += cell.values.counts.by_rays;
     rays.retraced_rays += cell.values.counts.retraced_rays;
@@ -172,7 +195,7 @@ Tally evaluate_and_store(const SkyEvaluator& evaluator, const ResolvedSettings& 
   };
   evaluate_in_order(settings, cell_count, evaluate_cell, [&](const CellInFlight& cell) {
     const auto start = Clock::now();
-    tally.add(evaluator.package(), cell);
+    tally.add(evaluator.package(), settings.sky.further, cell);
     store(cell.n, cell.receivers, cell.values);
     tally.store_s += seconds_since(start);
     if (settings.run.on_progress) settings.run.on_progress({"sky view factors", tally.counts.size(), cell_count});
@@ -207,7 +230,7 @@ EvaluationSummary keep_shard(const PackageReader& package, const ResolvedSetting
     return CellInFlight{mine[k], std::move(receivers), std::move(values)};
   };
   evaluate_in_order(settings, mine.size(), evaluate_cell, [&](const CellInFlight& cell) {
-    tally.add(package, cell);
+    tally.add(package, settings.sky.further, cell);
     if (settings.run.on_progress) settings.run.on_progress({"sky view factors", tally.counts.size(), mine.size()});
   });
   EvaluationSummary summary;
@@ -216,6 +239,7 @@ EvaluationSummary keep_shard(const PackageReader& package, const ResolvedSetting
   summary.by_rays = tally.rays.by_rays;
   summary.retraced_rays = tally.rays.retraced_rays;
   store_statistics(tally.statistics, settings.bounds, summary);
+  store_statistics_of_totals(tally.totals, settings.sky.further, summary);
   return summary;
 }
 
@@ -235,9 +259,11 @@ EvaluationSummary evaluate_and_verify(const PackageReader& package, const Resolv
   summary.by_rays = tally.rays.by_rays;
   summary.retraced_rays = tally.rays.retraced_rays;
   store_statistics(tally.statistics, settings.bounds, summary);
+  store_statistics_of_totals(tally.totals, settings.sky.further, summary);
   if (settings.verify > 0) {
     Verification found = verify(evaluator, {settings.verify, settings.bounds}, tally.counts, cells.receivers);
     summary.errors = found.errors;
+    summary.svf_total_errors = found.svf_total_errors;
     summary.verified = std::move(found.receivers);
   }
   return summary;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contract/run_settings.hpp"
+#include "evaluate/quantity_columns.hpp"
 #include "farlod/error.hpp"
 #include "farlod/raster.hpp"
 #include "receivers/hilbert_curve.hpp"
@@ -168,11 +169,28 @@ std::size_t bytes_of(const RasterPlan& plan, bool bounds, std::size_t further_ba
   return plan.columns * plan.rows * ((bounds ? 3 : 1) + further_bands) * sizeof(float);
 }
 
+/// The number of the values, and their range, where there is one.
+std::pair<std::size_t, ValueRange> range_of(const std::vector<float>& values) {
+  std::size_t count = 0;
+  ValueRange range{1.0, 0.0, 0.0};
+  for (const float v : values) {
+    if (std::isnan(v)) continue;
+    const double value = static_cast<double>(v);
+    ++count;
+    range = {std::min(range.min, value), range.mean + value, std::max(range.max, value)};
+  }
+  if (count > 0) range.mean /= static_cast<double>(count);
+  return {count, range};
+}
+
 /// Pixels of a window of a raster, and how their answers are stored.
 class WindowAnswers {
  public:
-  WindowAnswers(const RasterPlan& whole, const RasterWindow& window, bool bounds, std::size_t further_bands)
-      : whole_columns_(whole.columns), window_(window), raster_(empty_raster(plan_of(whole, window), bounds, further_bands)) {}
+  WindowAnswers(const RasterPlan& whole, const RasterWindow& window, bool bounds, const Quantities& further)
+      : whole_columns_(whole.columns),
+        window_(window),
+        total_band_(total_columns_of(further).total.value_or(0)),
+        raster_(empty_raster(plan_of(whole, window), bounds, columns_of(further).size())) {}
 
   [[nodiscard]] static RasterPlan plan_of(const RasterPlan& whole, const RasterWindow& window) {
     return {{whole.north_west_m.x + static_cast<double>(window.column) * whole.step_m,
@@ -191,18 +209,12 @@ class WindowAnswers {
     }
   }
   [[nodiscard]] Raster take(EvaluationSummary summary) {
-    double sum = 0.0;
-    summary.receivers = 0;
+    const auto [count, svf] = range_of(raster_.svf);
+    summary.receivers = count;
     summary.svf_min = summary.svf_mean = summary.svf_max = std::nullopt;
-    for (const float svf : raster_.svf) {
-      if (std::isnan(svf)) continue;
-      const double value = static_cast<double>(svf);
-      ++summary.receivers;
-      sum += value;
-      summary.svf_min = std::min(summary.svf_min.value_or(value), value);
-      summary.svf_max = std::max(summary.svf_max.value_or(value), value);
-    }
-    if (summary.receivers > 0) summary.svf_mean = sum / static_cast<double>(summary.receivers);
+    if (count > 0) summary.svf_min = svf.min, summary.svf_mean = svf.mean, summary.svf_max = svf.max;
+    if (count == 0) summary.svf_total.reset();
+    if (summary.svf_total) summary.svf_total = range_of(raster_.further[total_band_]).second;
     summary.no_data = raster_.svf.size() - summary.receivers;
     summary.beyond_grid = 0;
     raster_.summary = std::move(summary);
@@ -222,6 +234,7 @@ class WindowAnswers {
 
   std::size_t whole_columns_;
   RasterWindow window_;
+  std::size_t total_band_;
   Raster raster_;
 };
 
@@ -297,7 +310,7 @@ Raster evaluate_window(const Package& package, const RasterPlan& plan, const Ras
   MemoryNeeds needs = needs_of(plan, {}, in_use.reader().grid(), 0);
   needs.whole_city = any_traces_whole_city(in_use.reader(), resolved_settings.sky.engine, cells);
   const double memory_bytes = require_memory(manifest, resolved_settings, needs);
-  WindowAnswers answers(plan, window, settings.bounds, further_bands);
+  WindowAnswers answers(plan, window, settings.bounds, settings.further);
   const float height_m = package_height_m(where, manifest);
   EvaluationSummary summary =
       evaluate_cells(in_use, resolved_settings,

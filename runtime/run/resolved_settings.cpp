@@ -52,6 +52,9 @@ void check(const EvaluationSettings& s) {
   if (s.rays) require_count_between("rays", *s.rays, 1, 10'000'000);
   if (s.max_error) require_between("max_error", *s.max_error, 0.0001, 1.0);
   check(s.further, s.weight);
+  if (s.further.svf_total_bounds && !(s.further.svf_total && s.bounds))
+    throw InvalidArgument(
+        "further.svf_total_bounds are those of svf_total, beside those of svf: ask for svf_total and for bounds, too");
   if (s.engine == Engine::near_only && (s.bounds || s.max_error))
     throw InvalidArgument(
         "the engine near_only leaves the far city out, of which it knows neither bounds nor errors: leave bounds and max_error "

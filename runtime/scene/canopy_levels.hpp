@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "contract/canopy/crown.hpp"
@@ -16,6 +17,8 @@ struct PixelMerging {
   /// An aligned square of pixels is one prism for those who are so many of its edges away from it.
   double edges_away = 12.0;
 };
+/// Each pixel counts by itself, wherever a receiver is.
+inline constexpr PixelMerging no_pixel_merging{std::numeric_limits<double>::infinity()};
 
 /// Crowns of which those that are pixels of a canopy raster are merged, the more the farther away they are: 2 × 2 pixels, 4 × 4
 /// and so on. docs/concepts.md, "Canopies of rasters". Immutable: threads may share it.

@@ -58,6 +58,44 @@ TEST_F(TreeTown, HasColumnsOfItsCrowns) {
   EXPECT_EQ(folder.json_of("s.json").at("quantities").size(), 6U);
 }
 
+TEST_F(TreeTown, HasBoundsOfTheTotalWhereThereAreSomeOfSvf) {
+  folder.must(
+      "farlod-svf b.farlod -o o.csv --surfaces all --spacing 10 --quantity svf_total --bounds --verify 40 --summary s.json");
+  const CsvTable rows = table("o.csv");
+  const std::vector<std::string> header = rows.header();
+  const auto first = std::ranges::find(header, "svf_total");
+  ASSERT_GE(header.end() - first, 4);
+  EXPECT_THAT(std::vector(first, first + 4), ElementsAre("svf_total", "svf_total_low", "svf_total_high", "svfveg"));
+  double least = 1.0, width = 0.0, count = 0.0;
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    if (rows.text(n, "svf_total").empty()) continue;
+    const double total = rows.number(n, "svf_total"), low = rows.number(n, "svf_total_low"),
+                 high = rows.number(n, "svf_total_high");
+    EXPECT_LE(low, total);
+    EXPECT_LE(total, high);
+    least = std::min(least, total);
+    width += high - low;
+    count += 1.0;
+  }
+  const auto summary = folder.json_of("s.json");
+  EXPECT_NEAR(summary.at("svf_total").at("min"), least, half_of_last_digit);
+  EXPECT_NEAR(summary.at("svf_total_bounds").at("mean_width"), width / count, 2.0 * half_of_last_digit);
+  EXPECT_EQ(summary.at("svf_total_verify").at("count"), 40U);
+  EXPECT_LT(summary.at("svf_total_verify").at("mean_abs_error"), 0.01);
+}
+
+TEST_F(TreeTown, KeepsErrorsThatAreAskedForWithItsCrowns) {
+  folder.must(
+      "farlod-svf b.farlod -o o.csv --surfaces all --spacing 10 --quantity svf_total --max-error 0.005 --verify 60 --summary "
+      "s.json");
+  EXPECT_LE(folder.json_of("s.json").at("svf_total_verify").at("max_abs_error"), 0.005);
+}
+
+TEST_F(TreeTown, SaysTheTotalAtTheEnd) {
+  const Outcome run = folder.run("farlod-svf b.farlod -o o.csv --quantity svf_total --at " + under_trees);
+  EXPECT_THAT(run.out, HasSubstr("svf_total: min 0."));
+}
+
 TEST_F(TreeTown, HasTheSameSkyViewFactorsAsTheTownWithoutTrees) {
   for (const std::string package : {"a", "b"})
     folder.must("farlod-svf " + package + ".farlod -o " + package + ".tif --grid 8 --quantity directional --horizons 8");

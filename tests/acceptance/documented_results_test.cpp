@@ -66,7 +66,9 @@ TEST_F(DocumentedResults, SummaryOfSvfHasTheDocumentedKeysAndNoOthers) {
   const std::string title = "Summary of farlod-svf";
   folder.must("farlod-svf a.farlod -o o.csv --surfaces roofs --spacing 10 --summary s.json");
   EXPECT_EQ(keys_of(folder.json_of("s.json"), title), documented_keys(title, true));
-  folder.must("farlod-svf a.farlod -o o.csv --surfaces roofs --spacing 10 --bounds --max-error 0.05 --verify 3 --summary s.json");
+  folder.must(
+      "farlod-svf a.farlod -o o.csv --surfaces roofs --spacing 10 --quantity svf_total --bounds --max-error 0.05 --verify 3 "
+      "--summary s.json");
   Keys keys = keys_of(folder.json_of("s.json"), title);
   const Keys of_points{"skipped_features"};
   keys.insert(of_points.begin(), of_points.end());

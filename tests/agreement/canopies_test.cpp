@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "align/align.hpp"
+#include "evaluate/error_budget.hpp"
 #include "evaluate/sky_evaluator.hpp"
 #include "evaluate/verification.hpp"
 #include "georeference/georeference.hpp"
@@ -190,6 +191,57 @@ INSTANTIATE_TEST_SUITE_P(
                                      Rule{"Crowns", {CanopyRule::each}}, Rule{"Beer", {CanopyRule::beer, Season::leaf_off}})),
     [](const auto& test) { return std::string(std::get<0>(test.param).name) + std::get<1>(test.param).name; });
 
+/// What the samples themselves may do: the laws of docs/stages/evaluate.md, "How sure".
+constexpr std::size_t many_azimuths = 2048, many_rays = 20000;
+double error_of_samples() { return azimuth_error(many_azimuths) + sampling_error(many_rays); }
+
+/// Where bounds hold the exact values of as many rays, how wide they are on average.
+double width_of_bounds(const PackageReader& package, SkySettings settings, const std::vector<CellReceivers>& places) {
+  settings.rays = many_rays;
+  settings.engine = Engine::exact;
+  const Columns exact = columns_of_receivers(package, settings, places);
+  settings.engine = Engine::automatic;
+  settings.azimuths = many_azimuths;
+  settings.further.svf_total_bounds = true;
+  const Columns bounded = columns_of_receivers(package, settings, places);
+  double width = 0.0;
+  for (std::size_t n = 0; n < exact.at("svf_total").size(); ++n) {
+    const auto at = [&](const char* column) { return bounded.at(column)[n]; };
+    EXPECT_LE(at("svf_total_low") - error_of_samples(), exact.at("svf_total")[n]) << n;
+    EXPECT_GE(at("svf_total_high") + error_of_samples(), exact.at("svf_total")[n]) << n;
+    EXPECT_LE(at("svf_total_low"), at("svf_total"));
+    EXPECT_LE(at("svf_total"), at("svf_total_high"));
+    width += at("svf_total_high") - at("svf_total_low");
+  }
+  width /= static_cast<double>(exact.at("svf_total").size());
+  testing::Test::RecordProperty("mean_width", std::to_string(width));
+  return width;
+}
+
+TEST_P(Canopies, LieWithinTheirBounds) {
+  const PackageReader package = town_with_trees();
+  EXPECT_LE(width_of_bounds(package, settings(Engine::automatic), receivers(package)), 0.01);
+}
+
+TEST_P(Canopies, KeepAnErrorThatIsAllowed) {
+  constexpr double allowed = 0.005, of_samples = 0.75 * allowed, of_far = allowed - of_samples;
+  const PackageReader package = town_with_trees();
+  const std::vector<CellReceivers> places = receivers(package);
+  const Columns exact = columns_of_receivers(package, settings(Engine::exact, many_rays), places);
+  SkySettings with_error = settings(Engine::automatic, rays_for_sampling_error(of_samples));
+  with_error.azimuths = azimuths_for_error(of_samples);
+  with_error.max_far_error = of_far;
+  with_error.further.svf_total_bounds = true;
+  const Columns kept = columns_of_receivers(package, with_error, places);
+  const ErrorSummary errors = summarize_errors(kept.at("svf_total"), exact.at("svf_total"));
+  RecordProperty("max_error", std::to_string(errors.max_abs_error));
+  EXPECT_LE(errors.max_abs_error, allowed);
+  for (std::size_t n = 0; n < places.size() && n < kept.at("svf").size(); ++n) {
+    EXPECT_LE(kept.at("svf_total_high")[n] - kept.at("svf_total_low")[n], 2.0 * of_far + 1e-6) << n;
+    EXPECT_LE(kept.at("svf_total")[n], kept.at("svf")[n]);
+  }
+}
+
 class CanopiesOfRealCities : public testing::TestWithParam<const char*> {};
 
 TEST_P(CanopiesOfRealCities, OfHorizonsAreThoseOfRays) {
@@ -207,6 +259,14 @@ TEST_P(CanopiesOfRealCities, OfHorizonsAreThoseOfRays) {
     EXPECT_LE(errors.max_abs_error, 0.02) << column;
     EXPECT_LE(errors.mean_abs_error, 0.001) << column;
   }
+}
+
+TEST_P(CanopiesOfRealCities, LieWithinTheirBounds) {
+  const std::filesystem::path file = std::string(FARLOD_SHARED_DATA_DIR) + "/" + GetParam();
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << ": this test runs where the shared data is";
+  const scenes::TemporaryFolder folder;
+  const PackageReader package = real_city_with_trees(file, folder.path() / "city.farlod");
+  EXPECT_LE(width_of_bounds(package, {}, in_streets(package)), 0.01);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cities, CanopiesOfRealCities, testing::Values("rotterdam/delfshaven.city.json", "omiya/omiya.geojson"),

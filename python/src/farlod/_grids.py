@@ -36,6 +36,8 @@ LONG_NAMES = {
     "hidden_near": "share of the sky hidden by geometry of the neighborhood",
     "hidden_far": "share of the sky hidden by the far city alone",
     "svf_total": "sky view factor with what passes the crowns of trees",
+    "svf_total_low": "certain lower bound of svf_total",
+    "svf_total_high": "certain upper bound of svf_total",
     "svfveg": "1 - the sky behind crowns of trees",
     "svfaveg": "1 - the view of solid things hidden by crowns of trees",
     "svfNveg": "svfveg of the northern half",

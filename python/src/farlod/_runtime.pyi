@@ -38,6 +38,7 @@ class Quantities:
     horizons: int
     horizon_distances: bool
     svf_total: bool
+    svf_total_bounds: bool
     svfaveg: bool
     directional_vegetation: bool
     shares: bool

@@ -130,6 +130,7 @@ class Evaluation:
         further = _runtime.Quantities()
         for name in asked:
             setattr(further, _arguments.word("quantities", name, QUANTITIES), True)
+        further.svf_total_bounds = further.svf_total and _arguments.flag("bounds", self.bounds)
         further.horizons = self.horizons
         further.horizon_distances = self.horizon_distances
         further.set_sky_patches(self.sky_patches)

@@ -22,6 +22,8 @@ std::string half_of_vegetation(const std::string& column) {
 /// Of canopies; others have no definition here.
 std::string canopy_definition_of(const std::string& column) {
   if (column == "svf_total") return "sky view factor with what passes the crowns of trees and comes past them";
+  if (column == "svf_total_low" || column == "svf_total_high")
+    return column == "svf_total_low" ? "certain lower bound of svf_total" : "certain upper bound of svf_total";
   if (column == "svfveg") return "1 - the sky behind crowns, weighted as in svf";
   if (column == "svfaveg") return "1 - the view of solid things that crowns hide, weighted as in svf";
   if (column == "share_sky") return "share of the view that is sky";

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "canopy/canopy_sky.hpp"
+#include "evaluate/canopy_by_place.hpp"
+#include "farlod/canopy.hpp"
+#include "horizon/azimuth_sampling.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "horizon/sky_profile.hpp"
+#include "package/package_reader.hpp"
+#include "receivers/receiver.hpp"
+#include "scene/canopy_around.hpp"
+
+namespace farlod {
+
+/// The crowns around a cell, those far away merged, and how far that may lead astray. Of one thread.
+class CrownsOfCell {
+ public:
+  /// All but the settings must outlive it.
+  CrownsOfCell(const PackageReader& package, const CellReceivers& cell, const CanopySettings& settings,
+               const AzimuthSampling& azimuths, const CrownMerging& merging, const PixelMerging& pixel_merging);
+
+  [[nodiscard]] const std::vector<Crown>& crowns() const { return canopy_.crowns; }
+  /// Whether no receiver of the cell sees a crown.
+  [[nodiscard]] bool are_none() const { return canopy_.crowns.empty() && canopy_.highest_slope_left_out <= 0.0F; }
+  /// Of the receivers of a packet, as CanopySky::evaluate.
+  [[nodiscard]] CanopyShares shares(const SkyProfile& profile, const ReceiverPacket& receivers,
+                                    std::span<PacketHorizon::Row> behind_of_azimuths) {
+    return by_place_.evaluate(profile, receivers, behind_of_azimuths);
+  }
+  /// CanopyShares::lost of these crowns and that of all crowns of the city, one by one, differ by at most so much, above the same
+  /// profile, but for what merging pixels does. docs/concepts.md, "Bounds with crowns".
+  [[nodiscard]] PacketHorizon::Lanes most_error(const SkyProfile& profile, const ReceiverPacket& receivers);
+
+ private:
+  /// The sky below the slope at which crowns may be seen that were left out.
+  [[nodiscard]] PacketHorizon::Lanes sky_left_out(const SkyProfile& profile, const ReceiverPacket& receivers);
+
+  const AzimuthSampling& azimuths_;
+  BoundedCanopy canopy_;  ///< cell frame
+  CanopyByPlace by_place_;
+  CrownBatches envelopes_;
+  CanopySky sky_;                                        ///< of the envelopes
+  std::vector<PacketHorizon::Row> from_, to_, between_;  ///< working memory
+};
+
+}  // namespace farlod
