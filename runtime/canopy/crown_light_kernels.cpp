@@ -124,7 +124,7 @@ FARLOD_LANES std::size_t find_ends(const CrownScene& scene, const Sections& sect
     const CrownSection& s = sections.of[n];
     // A crown that a receiver does not see has no ends there: both are those of an interval below the level
     const Floats low = load(s.low.data()), high = load(s.high.data());
-    const Mask is_seen = high > low;
+    const Mask is_seen = high > max(low, broadcast(0.0F));
     store(choose(is_seen, low, broadcast(-1.0F)), ends + count++ * lane_count);
     store(choose(is_seen, high, broadcast(-1.0F)), ends + count++ * lane_count);
     const std::uint32_t crown = sections.crowns[n];
@@ -290,7 +290,9 @@ FARLOD_LANES void sum_light_of(const SkyRows& rows, const CrownScene& scene, con
   Sum lost(nullptr), behind(c.behind);
   for (std::size_t k = 0; k < scene.azimuths.size; ++k) {
     if (c.counts[k] == 0) {
-      behind.skip();
+      // 0 counts as a term, since there may be a crown in other packets of the receiver
+      lost.add(Floats{});
+      behind.add(Floats{});
       continue;
     }
     const Sections sections{c.sections + c.begins[k], c.crowns + c.begins[k], c.counts[k]};
