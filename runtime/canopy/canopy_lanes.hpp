@@ -52,11 +52,16 @@ struct SkyWindow {
   Floats from, to, weight;
 };
 
+/// Where the sky above the horizon begins.
+FARLOD_LANES Floats begin_above(const SkyRows& rows, std::size_t k, const SlopeInterval& in_front) {
+  return min(max(load(rows.sky_from + k * lane_count), in_front.lowest), in_front.highest);
+}
+
 /// The sky above the horizon. Its weight makes what is above the horizon's slope as much as what the jumps leave of it.
 template <class Sky>
 FARLOD_LANES SkyWindow window_above(const SkyRows& rows, std::size_t k, const Sky& sky) {
   const SlopeInterval in_front = sky.in_front();
-  const Floats from = min(max(load(rows.sky_from + k * lane_count), in_front.lowest), in_front.highest);
+  const Floats from = begin_above(rows, k, in_front);
   if (rows.sky == nullptr) return {from, in_front.highest, broadcast(1.0F)};
   const Floats all = sky.between(from, in_front.highest), known = load(rows.sky + k * lane_count);
   const Mask is_some = all > 0.0F;
@@ -71,6 +76,11 @@ FARLOD_LANES SkyWindow window_of_gap(const SkyRows& rows, std::size_t k, const S
   const Floats from = min(max(load(rows.gap_from + k * lane_count), in_front.lowest), in_front.highest),
                to = min(max(load(rows.gap_to + k * lane_count), from), in_front.highest);
   return {from, choose(share > 0.0F, to, from), share};
+}
+
+/// Where sky begins that counts: above the horizon, or in a gap below it.
+FARLOD_LANES Floats ground_of(const Floats& above, const SkyWindow& gap) {
+  return choose(gap.to > gap.from, min(gap.from, above), above);
 }
 
 /// The sky of a window between the slopes low and high, as weighted.

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "canopy/canopy_sky.hpp"
 
-#include <array>
-#include <cmath>
-#include <iterator>
+#include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "contract/expects.hpp"
 
@@ -12,7 +12,6 @@ namespace farlod {
 namespace {
 
 using Row = PacketHorizon::Row;
-constexpr std::size_t lanes = ReceiverPacket::lanes;
 
 bool all_look_straight_up(const ReceiverPacket& r) {
   bool all_do = true;
@@ -29,12 +28,6 @@ SkyRows rows_of(const SkyProfile& profile) {
           data_of(profile.sky)};
 }
 
-Row filled(float value) {
-  Row row;
-  row.fill(value);
-  return row;
-}
-
 /// Grows and never shrinks: what it holds is written before it is read.
 template <class T>
 void make_room(std::vector<T>& room, std::size_t size) {
@@ -44,46 +37,79 @@ void make_room(std::vector<T>& room, std::size_t size) {
 }  // namespace
 
 CanopySky::CanopySky(const AzimuthSampling& azimuths, float range_m, const CrownTarget& kernels)
-    : azimuths_(azimuths),
-      range_square_(range_m * range_m),
-      kernels_(kernels),
-      ground_(azimuths.size()),
-      lowest_ground_(azimuths.size()) {}
+    : azimuths_(azimuths), range_square_(range_m * range_m), kernels_(kernels) {}
 
 CanopyShares CanopySky::evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const CrownBatches& crowns,
                                  std::span<Row> behind_of_azimuths) {
-  FARLOD_EXPECTS(profile.sky_from.size() == azimuths_.size());
-  FARLOD_EXPECTS(behind_of_azimuths.empty() || behind_of_azimuths.size() == azimuths_.size());
-  std::ranges::fill(behind_of_azimuths, Row{});
-  if (crowns.empty()) return {};
-  const SkyRows sky = rows_of(profile);
-  const CrownScene scene{crowns.batches(), &receivers, azimuths_.view(), range_square_, all_look_straight_up(receivers)};
-  find_seen(sky, scene, crowns);
-  if (seen_.empty()) return {};
-  float* const of_azimuths = behind_of_azimuths.empty() ? nullptr : behind_of_azimuths.front().data();
-  return crowns.rule() == CanopyRule::once ? by_smallest(sky, scene, crowns, of_azimuths)
-                                           : by_depth(sky, scene, crowns.rule(), of_azimuths);
+  CanopyShares shares;
+  evaluate({&profile, 1}, {&receivers, 1}, crowns, {&shares, 1}, behind_of_azimuths);
+  return shares;
 }
 
-void CanopySky::find_seen(const SkyRows& sky, const CrownScene& scene, const CrownBatches& crowns) {
-  float* const ground = ground_.front().data();
-  kernels_.cover->find_ground(sky, scene, ground, lowest_ground_.data());
-  seen_.resize(crowns.size());
-  seen_.resize(kernels_.cover->find_seen(scene, bounds_of(*scene.receivers).box, ground, seen_.data()));
+void CanopySky::evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets,
+                         const CrownBatches& crowns, std::span<CanopyShares> shares, std::span<Row> behind_of_azimuths) {
+  FARLOD_EXPECTS(profiles.size() == packets.size() && shares.size() == packets.size());
+  FARLOD_EXPECTS(behind_of_azimuths.empty() || behind_of_azimuths.size() == packets.size() * azimuths_.size());
+  std::ranges::fill(shares, CanopyShares{});
+  std::ranges::fill(behind_of_azimuths, Row{});
+  if (crowns.empty() || packets.empty()) return;
+  find_lowest_grounds(profiles, packets);
+  find_in_sight(packets, crowns);
+  if (in_sight_.empty()) return;
+  for (std::size_t n = 0; n < packets.size(); ++n) {
+    float* const of_packet = behind_of_azimuths.empty() ? nullptr : behind_of_azimuths[n * azimuths_.size()].data();
+    shares[n] = evaluate(rows_of(profiles[n]), packets[n], lowest_grounds_[n].data(), of_packet);
+  }
+}
+
+CrownScene CanopySky::scene_of(const ReceiverPacket& receivers, const CrownBatches& crowns) const {
+  return {crowns.batches(), &receivers, azimuths_.view(), range_square_, all_look_straight_up(receivers)};
+}
+
+void CanopySky::find_lowest_grounds(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets) {
+  // Sixteen more than azimuths, that no crown rises above
+  if (lowest_grounds_.size() < packets.size())
+    lowest_grounds_.resize(packets.size(),
+                           std::vector<float>(azimuths_.size() + ReceiverPacket::lanes, std::numeric_limits<float>::infinity()));
+  for (std::size_t n = 0; n < packets.size(); ++n) {
+    FARLOD_EXPECTS(profiles[n].sky_from.size() == azimuths_.size());
+    kernels_.cover->find_lowest_ground(rows_of(profiles[n]), scene_of(packets[n], {}), lowest_grounds_[n].data());
+  }
+}
+
+void CanopySky::find_in_sight(std::span<const ReceiverPacket> packets, const CrownBatches& crowns) {
+  std::vector<PacketBounds> bounds;
+  std::vector<const float*> lowest;
+  for (std::size_t n = 0; n < packets.size(); ++n) {
+    bounds.push_back(bounds_of(packets[n]));
+    lowest.push_back(lowest_grounds_[n].data());
+  }
+  find_seen(scene_of(packets.front(), crowns), joined(bounds).box, lowest);
+  // The rule `once` is fastest from near to far. By the other rules, depths are added up in the same order for all packets
+  if (crowns.rule() == CanopyRule::once) sort_from_near_to_far();
+  numbers_.clear();
+  for (const SeenCrown& s : seen_) numbers_.push_back(s.crown);
+  in_sight_.assign(crowns, numbers_);
+}
+
+void CanopySky::find_seen(const CrownScene& scene, const CenteredBox& box, std::span<const float* const> lowest) {
+  seen_.resize(scene.batches.size() * ReceiverPacket::lanes);
+  seen_.resize(kernels_.cover->find_seen(scene, box, lowest, seen_.data()));
 }
 
 void CanopySky::sort_from_near_to_far() {
-  // By rings of equal width, which is near enough, and linear
-  constexpr std::size_t rings = 256;
-  float farthest = 1.0F;
-  for (const SeenCrown& s : drawn_) farthest = std::max(farthest, s.distance);
-  const float per_distance = 0.999F * static_cast<float>(rings) / farthest;
-  const auto ring_of = [&](const SeenCrown& s) { return static_cast<std::size_t>(s.distance * per_distance); };
-  std::array<std::uint32_t, rings + 1> begins{};
-  for (const SeenCrown& s : drawn_) ++begins[ring_of(s) + 1];
-  for (std::size_t ring = 0; ring < rings; ++ring) begins[ring + 1] += begins[ring];
-  by_distance_.resize(drawn_.size());
-  for (const SeenCrown& s : drawn_) by_distance_[begins[ring_of(s)]++] = s;
+  std::ranges::sort(seen_, [](const SeenCrown& a, const SeenCrown& b) {
+    return std::pair(a.distance, a.crown) < std::pair(b.distance, b.crown);
+  });
+}
+
+CanopyShares CanopySky::evaluate(const SkyRows& sky, const ReceiverPacket& receivers, const float* lowest,
+                                 float* behind_of_azimuths) {
+  const CrownScene scene = scene_of(receivers, in_sight_);
+  find_seen(scene, bounds_of(receivers).box, {&lowest, 1});
+  if (seen_.empty()) return {};
+  return in_sight_.rule() == CanopyRule::once ? by_smallest(sky, scene, lowest, behind_of_azimuths)
+                                              : by_depth(sky, scene, lowest, behind_of_azimuths);
 }
 
 std::size_t CanopySky::begin_lists() {
@@ -101,69 +127,55 @@ std::size_t CanopySky::begin_lists() {
   for (std::uint32_t& entry : begins_) {
     here += entry;
     entry = begin;
-    begin += here + 1;
+    begin += here;
   }
-  counts_.assign(azimuths_.size(), 0);
   return begin;
 }
 
-CanopySky::Lanes CanopySky::sky_behind(const SkyRows& sky, const CrownScene& scene, float most_transmissivity, float* rows) {
+CanopySky::Lanes CanopySky::sky_behind(const SkyRows& sky, const CrownScene& scene, const float* lowest,
+                                       float most_transmissivity, float* rows) {
   drawn_.clear();
   for (const SeenCrown& s : seen_) {
+    constexpr std::size_t lanes = ReceiverPacket::lanes;
     if (scene.batches[s.crown / lanes].transmissivity[s.crown % lanes] <= most_transmissivity) drawn_.push_back(s);
   }
-  sort_from_near_to_far();
-  const std::size_t room = begin_lists();
-  make_room(low_, room);
-  make_room(high_, room);
-  // No core: it begins above all slopes, and ends below
-  constexpr float none_low = 1e30F, none_high = -1.0F;
-  risen_ground_ = ground_;
-  core_low_.assign(azimuths_.size(), filled(none_low));
-  core_high_.assign(azimuths_.size(), filled(none_high));
-  // In each list, the first place is kept for it
-  counts_.assign(azimuths_.size(), 1);
-  const CoverRows covered{risen_ground_.front().data(),
-                          core_low_.front().data(),
-                          core_high_.front().data(),
-                          begins_.data(),
-                          counts_.data(),
-                          low_.front().data(),
-                          high_.front().data(),
-                          rows};
-  kernels_.cover->cover(scene, by_distance_, covered);
+  make_room(listed_, begin_lists());
+  ends_.assign(begins_.begin(), begins_.end());
+  const CrownLists lists{begins_.data(), ends_.data(), listed_.data()};
+  drawn_.resize(kernels_.cover->list(drawn_, lowest, scene.azimuths.size, lists));
+  make_room(placed_, drawn_.size());
+  kernels_.cover->place(scene, drawn_, placed_.data());
+  make_room(room_, 2 * drawn_.size() + 2);
   Lanes behind;
-  kernels_.cover->sum_covered(sky, scene, covered, behind.data());
+  kernels_.cover->sum_behind(sky, scene, lists, placed_.data(), room_.front().data(), rows, behind.data());
   return behind;
 }
 
-CanopyShares CanopySky::by_smallest(const SkyRows& sky, const CrownScene& scene, const CrownBatches& crowns,
-                                    float* behind_of_azimuths) {
+CanopyShares CanopySky::by_smallest(const SkyRows& sky, const CrownScene& scene, const float* lowest, float* behind_of_azimuths) {
   // 1 − ψ of all that is behind crowns, with the largest ψ, and the rest of what is behind crowns with the smallest
-  const float least = crowns.least_transmissivity(), most = crowns.most_transmissivity();
+  const float least = in_sight_.least_transmissivity(), most = in_sight_.most_transmissivity();
   CanopyShares shares;
-  shares.behind = sky_behind(sky, scene, most, behind_of_azimuths);
+  shares.behind = sky_behind(sky, scene, lowest, most, behind_of_azimuths);
   for (std::size_t l = 0; l < shares.lost.size(); ++l) shares.lost[l] = (1.0F - most) * shares.behind[l];
   if (least == most) return shares;
-  const Lanes behind_least = sky_behind(sky, scene, least, nullptr);
+  const Lanes behind_least = sky_behind(sky, scene, lowest, least, nullptr);
   for (std::size_t l = 0; l < shares.lost.size(); ++l) shares.lost[l] += (most - least) * behind_least[l];
   return shares;
 }
 
-CanopyShares CanopySky::by_depth(const SkyRows& sky, const CrownScene& scene, CanopyRule rule, float* behind_of_azimuths) {
-  // In the order of the crowns, so that depths are added up in the same order for all packets
+CanopyShares CanopySky::by_depth(const SkyRows& sky, const CrownScene& scene, const float* lowest, float* behind_of_azimuths) {
   drawn_ = seen_;
   const std::size_t room = begin_lists();
+  counts_.assign(azimuths_.size(), 0);
   make_room(sections_, room);
-  make_room(section_crowns_, room);
-  const SectionRows rows{lowest_ground_.data(), begins_.data(),         counts_.data(),
-                         sections_.data(),      section_crowns_.data(), behind_of_azimuths};
+  make_room(listed_, room);
+  const SectionRows rows{lowest, begins_.data(), counts_.data(), sections_.data(), listed_.data(), behind_of_azimuths};
   kernels_.light->cut(scene, drawn_, rows);
   // At most four ends of each section
   constexpr std::size_t most_ends = 4;
-  make_room(ends_, most_ends * static_cast<std::size_t>(*std::max_element(counts_.begin(), counts_.end())) + 1);
+  make_room(room_, most_ends * static_cast<std::size_t>(*std::ranges::max_element(counts_)) + 1);
   CrownSums sums;
-  kernels_.light->sum_light(sky, scene, rows, rule, ends_.front().data(), sums);
+  kernels_.light->sum_light(sky, scene, rows, in_sight_.rule(), room_.front().data(), sums);
   return {sums.lost, sums.behind};
 }
 

@@ -40,39 +40,50 @@ class CanopySky {
   explicit CanopySky(const AzimuthSampling& azimuths, float range_m = std::numeric_limits<float>::infinity(),
                      const CrownTarget& kernels = crown_kernels());
 
-  /// Profile, receivers and crowns are of one frame and the azimuths those of the profile. Crowns behind solid things do not
-  /// count, since the profile has no sky there. In a gap below an overhang, of whose sky the profile knows the share that is seen
-  /// and not where, crowns take the same share of what they would take from all of it.
-  [[nodiscard]] CanopyShares evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const CrownBatches& crowns) {
-    return evaluate(profile, receivers, crowns, {});
-  }
-  /// The same, and `behind` of each azimuth by itself, unless there are no rows for it: their mean over the azimuths is `behind`,
-  /// but for rounding.
+  /// Of packets near each other, for which most crowns are culled at once. Profiles, receivers and crowns are of one frame, and
+  /// the azimuths those of the profiles. Crowns behind solid things do not count, since a profile has no sky there. In a gap
+  /// below an overhang, of whose sky the profile knows the share that is seen and not where, crowns take the same share of what
+  /// they would take from all of it. `behind_of_azimuths`, unless it is empty, takes `behind` of each azimuth by itself, packet
+  /// by packet: the mean over the azimuths is `behind`, but for rounding.
+  void evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets, const CrownBatches& crowns,
+                std::span<CanopyShares> shares, std::span<PacketHorizon::Row> behind_of_azimuths = {});
+  /// The same of one packet.
   [[nodiscard]] CanopyShares evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const CrownBatches& crowns,
-                                      std::span<PacketHorizon::Row> behind_of_azimuths);
+                                      std::span<PacketHorizon::Row> behind_of_azimuths = {});
 
  private:
   using Lanes = PacketHorizon::Lanes;
-  /// Finds the crowns that the packet may see.
-  void find_seen(const SkyRows& sky, const CrownScene& scene, const CrownBatches& crowns);
+  [[nodiscard]] CrownScene scene_of(const ReceiverPacket& receivers, const CrownBatches& crowns) const;
+  void find_lowest_grounds(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets);
+  /// The crowns that some of the packets may see.
+  void find_in_sight(std::span<const ReceiverPacket> packets, const CrownBatches& crowns);
+  /// The crowns of a scene that may be seen from the box, above the lowest ground of some packet.
+  void find_seen(const CrownScene& scene, const CenteredBox& box, std::span<const float* const> lowest);
   void sort_from_near_to_far();
-  /// Where the list of each azimuth begins, with room for all crowns seen there and one more. Returns the room of all.
+  /// Of one packet, whose lowest ground at each azimuth is `lowest`.
+  [[nodiscard]] CanopyShares evaluate(const SkyRows& sky, const ReceiverPacket& receivers, const float* lowest,
+                                      float* behind_of_azimuths);
+  /// Where the list of each azimuth begins, with room for all crowns to be drawn there. Returns the room of all.
   std::size_t begin_lists();
-  /// The share of the sky behind those of the crowns in sight that are no more transmissive than this; rows of it, or null.
-  [[nodiscard]] Lanes sky_behind(const SkyRows& sky, const CrownScene& scene, float most_transmissivity, float* rows);
-  [[nodiscard]] CanopyShares by_smallest(const SkyRows& sky, const CrownScene& scene, const CrownBatches& crowns,
+  /// The share of the sky behind those of the crowns seen that are no more transmissive than this; rows of it, or null.
+  [[nodiscard]] Lanes sky_behind(const SkyRows& sky, const CrownScene& scene, const float* lowest, float most_transmissivity,
+                                 float* rows);
+  [[nodiscard]] CanopyShares by_smallest(const SkyRows& sky, const CrownScene& scene, const float* lowest,
                                          float* behind_of_azimuths);
-  [[nodiscard]] CanopyShares by_depth(const SkyRows& sky, const CrownScene& scene, CanopyRule rule, float* behind_of_azimuths);
+  [[nodiscard]] CanopyShares by_depth(const SkyRows& sky, const CrownScene& scene, const float* lowest,
+                                      float* behind_of_azimuths);
 
   const AzimuthSampling& azimuths_;
   float range_square_;
   const CrownTarget& kernels_;
-  // Working memory, kept from packet to packet
-  std::vector<SeenCrown> seen_, by_distance_, drawn_;
-  std::vector<PacketHorizon::Row> ground_, risen_ground_, core_low_, core_high_, low_, high_, ends_;
-  std::vector<float> lowest_ground_;
-  std::vector<std::uint32_t> begins_, counts_, section_crowns_;
+  // Working memory, kept from group to group
+  std::vector<std::vector<float>> lowest_grounds_;  ///< of each packet, at each azimuth
+  CrownBatches in_sight_;
+  std::vector<SeenCrown> seen_, drawn_;
+  std::vector<PlacedCrown> placed_;
+  std::vector<std::uint32_t> numbers_, begins_, ends_, counts_, listed_;
   std::vector<CrownSection> sections_;
+  std::vector<PacketHorizon::Row> room_;
 };
 
 }  // namespace farlod

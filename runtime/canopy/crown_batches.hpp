@@ -22,7 +22,10 @@ class CrownBatches {
     using Lanes = std::array<float, lanes>;
     alignas(64) Lanes x{}, y{}, bottom{}, top{};
     Lanes half_width{};
-    Lanes plan_radius{};     ///< of a circle around the crown's plan
+    Lanes plan_radius{};  ///< of a circle around the crown's plan
+    /// The spheroid that has the upper tangents of the crown: z of its middle, and its height over its width. That of an upright
+    /// crown is flat.
+    Lanes cap_z{}, cap_ratio{};
     Lanes cosine{}, sine{};  ///< of the turn of a prism
     Lanes transmissivity{};  ///< ψ, from 0 to 1
     Lanes optical_depth{};   ///< −ln ψ by the rule `each`, κ in 1/m by the rule `beer`
@@ -30,7 +33,10 @@ class CrownBatches {
     std::uint32_t used = 0;  ///< a bit for each lane with a crown
   };
 
+  CrownBatches() = default;
   CrownBatches(std::span<const Crown> crowns, const CanopySettings& settings);
+  /// Makes them some crowns of others, which are numbered batch by batch. Rule and transmissivities stay those of all.
+  void assign(const CrownBatches& all, std::span<const std::uint32_t> numbers);
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
@@ -42,8 +48,10 @@ class CrownBatches {
 
  private:
   void add(const Crown& crown, const CanopySettings& settings);
+  /// The batch of the next crown, which is not counted yet.
+  Batch& next_batch();
 
-  CanopyRule rule_;
+  CanopyRule rule_ = CanopyRule::once;
   std::vector<Batch> batches_;
   std::size_t size_ = 0;
   float least_transmissivity_ = 1.0F, most_transmissivity_ = 0.0F;

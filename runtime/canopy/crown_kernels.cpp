@@ -25,54 +25,62 @@ static_assert(ReceiverPacket::lanes == lane_count && CrownBatches::lanes == lane
 // -------------------------------------------------------------------------------------------------------
 
 template <class Sky>
-FARLOD_LANES void find_ground_of(const SkyRows& rows, const CrownScene& scene, float* ground, float* lowest_ground) {
+FARLOD_LANES void find_lowest_ground_of(const SkyRows& rows, const CrownScene& scene, float* lowest) {
   const Normals normals = normals_of(*scene.receivers);
   for (std::size_t k = 0; k < scene.azimuths.size; ++k) {
     const Sky sky = sky_at<Sky>(normals, scene.azimuths.cosine[k], scene.azimuths.sine[k]);
-    const SlopeInterval in_front = sky.in_front();
-    Floats slope = min(max(load(rows.sky_from + k * lane_count), in_front.lowest), in_front.highest);
-    // Where a gap has sky, what counts begins with it
-    if (rows.gap_share != nullptr) {
-      const SkyWindow gap = window_of_gap(rows, k, sky);
-      slope = choose(gap.to > gap.from, min(gap.from, slope), slope);
-    }
-    store(slope, ground + k * lane_count);
-    lowest_ground[k] = min_lane(slope);
+    const Floats above = begin_above(rows, k, sky.in_front());
+    lowest[k] = min_lane(rows.gap_share == nullptr ? above : ground_of(above, window_of_gap(rows, k, sky)));
   }
 }
 
-void find_ground(const SkyRows& rows, const CrownScene& scene, float* ground, float* lowest_ground) {
-  if (scene.all_look_up) return find_ground_of<SkyStraightUp>(rows, scene, ground, lowest_ground);
-  find_ground_of<SkyOfNormals>(rows, scene, ground, lowest_ground);
+void find_lowest_ground(const SkyRows& rows, const CrownScene& scene, float* lowest) {
+  if (scene.all_look_up) return find_lowest_ground_of<SkyStraightUp>(rows, scene, lowest);
+  find_lowest_ground_of<SkyOfNormals>(rows, scene, lowest);
 }
 
-/// Sixteen crowns as seen from a packet: at which slopes and azimuths at most, with the margins of EdgeReach.
+/// Of one packet or several. A sector without azimuths has a minimum that no crown reaches.
+FARLOD_LANES void find_sector_minima_of(std::span<const float* const> lowest, const std::uint32_t* first_of_sector,
+                                        SectorMinHorizon& horizon) {
+  for (std::size_t s = 0; s < SectorMinHorizon::sectors; ++s) {
+    float minimum = std::numeric_limits<float>::max();
+    for (const float* of_packet : lowest)
+      for (std::uint32_t k = first_of_sector[s]; k < first_of_sector[s + 1]; ++k)
+        minimum = of_packet[k] < minimum ? of_packet[k] : minimum;
+    (&horizon.minima[0])[s] = minimum;
+  }
+  find_levels(horizon);
+}
+
+/// Sixteen crowns as seen from a packet: below which slopes and at which azimuths, with the margins of EdgeReach.
 struct CrownReach {
   EdgeReach edge;
-  Floats min_slope, distance;
+  Floats distance;
 };
 
-/// The packet's box lies within `along` of its middle towards the axis, and `across` beside that way. The sine of the angle
-/// between axis and crown is at most (across + a) / (distance − along): the sum of both angles has a sine of no more than that.
+/// The packet's box lies within `along` of its middle towards the axis, and `across` beside that way. Of all places there, the
+/// nearest corner sees the crown's side farthest aside, at α + β with sin β = across / d and sin α = a / d; the lowest and
+/// nearest place sees it highest. docs/concepts.md, "Crowns".
 FARLOD_LANES CrownReach reach_of(const CrownBatches::Batch& b, const CenteredBox& box) {
   const Floats x = load(b.x.data()) - box.x, y = load(b.y.data()) - box.y, radius = load(b.plan_radius.data());
   const Floats distance = sqrt(x * x + y * y), inverse = 1.0F / max(distance, broadcast(min_clearance_m));
   const Floats along = (abs(x) * box.half_x + abs(y) * box.half_y) * inverse + min_clearance_m,
                across = (abs(y) * box.half_x + abs(x) * box.half_y) * inverse + min_clearance_m;
-  // Azimuths
-  const Floats clear = max(distance - along, broadcast(min_clearance_m)), sine = (across + radius) / clear;
-  const Floats bounded_sine = min(sine, broadcast(1.0F)), cosine = sqrt(1.0F - bounded_sine * bounded_sine);
-  const Floats from = pseudo_angle(x * cosine + y * bounded_sine, y * cosine - x * bounded_sine),
-               to = pseudo_angle(x * cosine - y * bounded_sine, y * cosine + x * bounded_sine);
-  // Slopes: the highest corner at the nearest place, the lowest one at the farthest
-  const Floats rise = load(b.top.data()) - box.low_z, bottom = load(b.bottom.data()) - box.high_z;
-  const Floats nearest = max(distance - along - radius, broadcast(min_clearance_m));
-  const Mask is_close = choose(sine < 0.99F, distance - along - radius, broadcast(0.0F)) < 2.0F * min_clearance_m;
+  const Floats clearance = distance - along - radius, nearest = max(clearance, broadcast(min_clearance_m)) + radius;
+  // Too close for a bound: also where rounding takes more than a part of the margin from q = |p|² − a²
+  const Mask is_close = clearance < 2.0F * min_clearance_m + 0.01F * radius;
+  // Azimuths: what the tangents of the corner are turned by, times d²
+  const Floats tangent = sqrt(nearest * nearest + across * across - radius * radius);
+  const Floats cosine = nearest * tangent - across * radius, sine = nearest * radius + across * tangent;
+  const Floats from = pseudo_angle(x * cosine + y * sine, y * cosine - x * sine),
+               to = pseudo_angle(x * cosine - y * sine, y * cosine + x * sine);
+  // Slopes: the upper tangent of the cap
+  const Floats rise = load(b.top.data()) - box.low_z, h = load(b.cap_z.data()) - box.low_z, ratio = load(b.cap_ratio.data());
+  const Floats q = (nearest - radius) * (nearest + radius), slope = (nearest * h + radius * sqrt(h * h + q * ratio * ratio)) / q;
   CrownReach reach;
   reach.distance = distance;
-  reach.edge.max_slope = choose(is_close, broadcast(EdgeReach::unbounded), rise / nearest * (1.0F + reach_margin) + reach_margin);
+  reach.edge.max_slope = choose(is_close, broadcast(EdgeReach::unbounded), slope * (1.0F + reach_margin) + reach_margin);
   reach.edge.max_slope = choose(rise > 0.0F, reach.edge.max_slope, broadcast(-1.0F));
-  reach.min_slope = max(bottom / (distance + along + radius) * (1.0F - reach_margin) - reach_margin, broadcast(0.0F));
   reach.edge.from = from + (1.0F - reach_margin);
   reach.edge.to = from + within_half_a_turn(to - from) + (1.0F + reach_margin);
   return reach;
@@ -92,10 +100,11 @@ FARLOD_LANES void add_seen(std::uint32_t crown, std::uint32_t first, std::uint32
   *next++ = bounds;
 }
 
-std::size_t find_seen(const CrownScene& scene, const CenteredBox& box, const float* ground, SeenCrown* seen) {
+std::size_t find_seen(const CrownScene& scene, const CenteredBox& box, std::span<const float* const> lowest_of_packets,
+                      SeenCrown* seen) {
   const AzimuthView& a = scene.azimuths;
   SectorMinHorizon lowest;
-  find_sector_minima({&ground, 1}, a.first_of_sector, lowest);
+  find_sector_minima_of(lowest_of_packets, a.first_of_sector, lowest);
   SeenCrown* next = seen;
   for (std::size_t n = 0; n < scene.batches.size(); ++n) {
     // Above the ground in their sectors, and some of them in range
@@ -106,12 +115,11 @@ std::size_t find_seen(const CrownScene& scene, const CenteredBox& box, const flo
     if (kept == 0) continue;
     const std::array first_slot = to_array(truncate(reach.edge.from * a.slots)),
                      end_slot = to_array(truncate(reach.edge.to * a.slots) + 1);
-    const std::array max_slope = to_array(reach.edge.max_slope), min_slope = to_array(reach.min_slope),
-                     distance = to_array(reach.distance);
+    const std::array max_slope = to_array(reach.edge.max_slope), distance = to_array(reach.distance);
     for (; kept != 0; kept &= kept - 1) {
       const auto l = static_cast<std::size_t>(std::countr_zero(kept));
       add_seen(static_cast<std::uint32_t>(n * lane_count + l), a.first_of_slot[first_slot[l]], a.first_of_slot[end_slot[l]],
-               {0, 0, 0, min_slope[l], max_slope[l], distance[l]}, a, next);
+               {0, 0, 0, max_slope[l], distance[l]}, a, next);
     }
   }
   return static_cast<std::size_t>(next - seen);
@@ -120,49 +128,90 @@ std::size_t find_seen(const CrownScene& scene, const CenteredBox& box, const flo
 // --- The union of what crowns cover
 // ----------------------------------------------------------------------------------------------
 
+/// Appends a crown to the lists of the azimuths from `begin` to `end` at which it may rise above the ground. Returns whether
+/// there is any.
+FARLOD_LANES bool list_crown(std::uint32_t number, float max_slope, std::uint32_t begin, std::uint32_t end, const float* lowest,
+                             const CrownLists& lists) {
+  std::uint32_t any = 0;
+  for (std::uint32_t k = begin; k < end; k += lane_count) {
+    std::uint32_t rises = bits_of(broadcast(max_slope) > load(lowest + k));
+    if (end - k < lane_count) rises &= (1U << (end - k)) - 1;
+    any |= rises;
+    for (; rises != 0; rises &= rises - 1)
+      lists.numbers[lists.ends[k + static_cast<std::uint32_t>(std::countr_zero(rises))]++] = number;
+  }
+  return any != 0;
+}
+
+std::size_t list(std::span<SeenCrown> seen, const float* lowest, std::uint32_t azimuths, const CrownLists& lists) {
+  std::uint32_t kept = 0;
+  for (const SeenCrown& s : seen) {
+    const std::uint32_t end = s.first + s.count;
+    bool is_listed = list_crown(kept, s.max_slope, s.first, end < azimuths ? end : azimuths, lowest, lists);
+    if (end > azimuths && list_crown(kept, s.max_slope, 0, end - azimuths, lowest, lists)) is_listed = true;
+    (&seen.front())[kept] = s;
+    kept += is_listed ? 1 : 0;
+  }
+  return kept;
+}
+
+void place(const CrownScene& scene, std::span<const SeenCrown> seen, PlacedCrown* placed) {
+  const Eyes eye = eyes_of(*scene.receivers);
+  for (std::size_t n = 0; n < seen.size(); ++n) {
+    const CrownBatches::Batch& b = scene.batches[seen[n].crown / lane_count];
+    const std::size_t lane = seen[n].crown % lane_count;
+    placed[n].max_slope = seen[n].max_slope;
+    if (b.shape[lane] == CrownShape::prism) {
+      SquareCrown crown;
+      set_prism(b, lane, eye, scene.range_square, crown);
+      keep(crown, placed[n]);
+    } else {
+      RoundCrown crown;
+      set_round(b, lane, eye, scene.range_square, crown);
+      keep(crown, placed[n]);
+    }
+  }
+}
+
+FARLOD_LANES CutCrown cut_placed(const PlacedCrown& placed, float cosine, float sine) {
+  return placed.is_prism ? cut_prism(kept_square(placed), cosine, sine) : cut_round(kept_round(placed), true, cosine, sine);
+}
+
 /// An interval that is none: it begins above all slopes, and ends below.
 constexpr float none_low = 1e30F, none_high = -1.0F;
 
-/// Joins intervals with what is covered at an azimuth: with the ground or with the core where they touch it, else as one more of
-/// the list. Which of these holds them changes no sum, which is taken over the whole union. Nothing depends on a branch that the
-/// processor could not foresee.
-struct Cover {
-  const CoverRows& rows;
+/// What is hidden or behind crowns at an azimuth: slopes up to `ground`, which is the horizon and what has been joined to it; the
+/// core, from core_low to core_high; and the intervals of a list, which touch neither. Which of these holds an interval changes
+/// no sum, which is taken over the whole union.
+struct Union {
+  Floats ground, core_low = broadcast(none_low), core_high = broadcast(none_high);
+  float *low, *high;  ///< rows of the list, the first of which is free
+  std::size_t count = 1;
 
-  /// Whether the bounds of a crown are below the ground or in the core of each receiver.
-  FARLOD_LANES bool skips(const SeenCrown& seen, std::uint32_t k) const {
-    const std::size_t row = std::size_t{k} * lane_count;
-    const Floats ground = load(rows.ground + row), core_low = load(rows.core_low + row), core_high = load(rows.core_high + row);
-    const Floats outside = max(core_low - seen.min_slope, seen.max_slope - core_high);
-    return bits_of(min(outside, seen.max_slope - ground) > 0.0F) == 0;
-  }
-
-  FARLOD_LANES void visit(const SeenCrown&, std::uint32_t k, const CutCrown& cut) const {
-    const std::size_t row = std::size_t{k} * lane_count;
-    const Floats ground = load(rows.ground + row), core_low = load(rows.core_low + row), core_high = load(rows.core_high + row);
+  FARLOD_LANES void join(const CutCrown& cut) {
+    // Below the ground for all receivers, or not met
+    if (bits_of(cut.high > ground) == 0) return;
     // The ground rises to intervals that begin in it
     const Mask is_apart = cut.low > ground;
-    store(max(ground, choose(is_apart, broadcast(none_high), cut.high)), rows.ground + row);
-    // The core grows to intervals above it that touch the core, and begins with the first
+    ground = max(ground, choose(is_apart, broadcast(none_high), cut.high));
     const Floats width = choose(is_apart, cut.high - cut.low, broadcast(-1.0F));
+    if (bits_of(width > 0.0F) != 0) join_above(cut, width);
+  }
+
+  /// The core grows to intervals above the ground that touch it, and begins with the first.
+  FARLOD_LANES void join_above(const CutCrown& cut, const Floats& width) {
     const Mask is_empty = core_high < 0.0F;
     const Floats overlap = min(choose(is_empty, cut.high, core_high) - cut.low, cut.high - choose(is_empty, cut.low, core_low));
     const Mask joins = choose(width > 0.0F, overlap, broadcast(-1.0F)) >= 0.0F;
-    store(choose(joins, min(core_low, cut.low), core_low), rows.core_low + row);
-    store(choose(joins, max(core_high, cut.high), core_high), rows.core_high + row);
-    // What is left is put at the end of the list, which is as long as before if nothing is. Lanes without it stay at the end
+    core_low = choose(joins, min(core_low, cut.low), core_low);
+    core_high = choose(joins, max(core_high, cut.high), core_high);
     const Mask is_left = choose(joins, broadcast(-1.0F), width) > 0.0F;
-    const std::size_t place = (std::size_t{rows.begins[k]} + rows.counts[k]) * lane_count;
-    store(choose(is_left, cut.low, broadcast(-none_low)), rows.low + place);
-    store(choose(is_left, cut.high, broadcast(none_high)), rows.high + place);
-    rows.counts[k] += bits_of(is_left) != 0 ? 1 : 0;
+    if (bits_of(is_left) == 0) return;
+    store(choose(is_left, cut.low, broadcast(-none_low)), low + count * lane_count);
+    store(choose(is_left, cut.high, broadcast(none_high)), high + count * lane_count);
+    ++count;
   }
 };
-
-void cover(const CrownScene& scene, std::span<const SeenCrown> seen, const CoverRows& covered) {
-  const Eyes eyes = eyes_of(*scene.receivers);
-  for (const SeenCrown& crown : seen) cut_crown(scene, crown, eyes, Cover{covered});
-}
 
 /// Puts the upper interval of two before the lower one, for each receiver.
 FARLOD_LANES void order_two(float* low, float* high, std::size_t first, std::size_t second) {
@@ -189,16 +238,18 @@ FARLOD_LANES void sort_intervals(float* low, float* high, std::size_t count) {
   }
 }
 
-/// The sky of the union of what is covered at an azimuth, from the maximal intervals that make it up.
+/// The sky of a union, from the maximal intervals that make it up.
 template <class Sky>
-FARLOD_LANES Floats covered_sky(const CoverRows& c, std::size_t k, const Sky& sky, const SkyWindow& above, const SkyWindow* gap) {
-  const float *low = c.low + std::size_t{c.begins[k]} * lane_count, *high = c.high + std::size_t{c.begins[k]} * lane_count;
-  const std::size_t count = c.counts[k];
+FARLOD_LANES Floats sky_of(const Union& u, const Sky& sky, const SkyWindow& above, const SkyWindow* gap) {
+  // The core is the first interval of the list
+  store(u.core_low, u.low);
+  store(u.core_high, u.high);
+  sort_intervals(u.low, u.high, u.count);
   // A run of intervals that touch each other, from the ground on
-  Floats from = broadcast(-1.0F), to = load(c.ground + k * lane_count), sum{};
-  for (std::size_t n = count + 1; n-- > 0;) {
+  Floats from = broadcast(-1.0F), to = u.ground, sum{};
+  for (std::size_t n = u.count + 1; n-- > 0;) {
     // Beyond the last, the run ends in all lanes
-    const Floats next_low = n > 0 ? load(low + (n - 1) * lane_count) : broadcast(none_low);
+    const Floats next_low = n > 0 ? load(u.low + (n - 1) * lane_count) : broadcast(none_low);
     const Mask opens = next_low > to;
     if (bits_of(opens) != 0) {
       // The run ends in some lanes: add its sky there
@@ -207,39 +258,49 @@ FARLOD_LANES Floats covered_sky(const CoverRows& c, std::size_t k, const Sky& sk
       sum += choose(opens, term, broadcast(0.0F));
       from = choose(opens, next_low, from);
     }
-    if (n > 0) to = max(choose(opens, load(high + (n - 1) * lane_count), to), load(high + (n - 1) * lane_count));
+    if (n > 0) to = max(choose(opens, load(u.high + (n - 1) * lane_count), to), load(u.high + (n - 1) * lane_count));
   }
   return sum;
 }
 
-template <class Sky>
-FARLOD_LANES void sum_covered_of(const SkyRows& rows, const CrownScene& scene, const CoverRows& c, float* sum) {
+/// The sky behind the crowns of one azimuth: those with these numbers.
+template <class Sky, bool has_gaps>
+FARLOD_LANES Floats sky_behind(const SkyRows& rows, const AzimuthView& azimuths, std::size_t k, const Normals& normals,
+                               std::span<const std::uint32_t> numbers, const PlacedCrown* placed, float* room) {
+  const float cosine = azimuths.cosine[k], sine = azimuths.sine[k];
+  const Sky sky = sky_at<Sky>(normals, cosine, sine);
+  const SkyWindow above = window_above(rows, k, sky);
+  SkyWindow gap{};
+  if constexpr (has_gaps) gap = window_of_gap(rows, k, sky);
+  Union u{.ground = above.from, .low = room, .high = room + (numbers.size() + 1) * lane_count};
+  if constexpr (has_gaps) u.ground = ground_of(above.from, gap);
+  for (const std::uint32_t number : numbers)
+    if (bits_of(broadcast(placed[number].max_slope) > u.ground) != 0) u.join(cut_placed(placed[number], cosine, sine));
+  return sky_of(u, sky, above, has_gaps ? &gap : nullptr);
+}
+
+template <class Sky, bool has_gaps>
+FARLOD_LANES void sum_behind_of(const SkyRows& rows, const CrownScene& scene, const CrownLists& lists, const PlacedCrown* placed,
+                                float* room, float* behind, float* sum) {
   const Normals normals = normals_of(*scene.receivers);
-  Sum total(c.behind);
+  Sum total(behind);
   for (std::size_t k = 0; k < scene.azimuths.size; ++k) {
-    const Sky sky = sky_at<Sky>(normals, scene.azimuths.cosine[k], scene.azimuths.sine[k]);
-    const SkyWindow above = window_above(rows, k, sky);
-    if (rows.gap_share == nullptr) {
-      total.add(covered_sky(c, k, sky, above, nullptr));
-      continue;
-    }
-    const SkyWindow gap = window_of_gap(rows, k, sky);
-    total.add(covered_sky(c, k, sky, above, &gap));
+    const std::uint32_t begin = lists.begins[k], end = lists.ends[k];
+    // Where there is no crown, 0 counts as a term, since there may be one in other packets of the receiver
+    total.add(begin == end ? Floats{}
+                           : sky_behind<Sky, has_gaps>(rows, scene.azimuths, k, normals, {lists.numbers + begin, end - begin},
+                                                       placed, room));
   }
   store(total.total() / static_cast<float>(scene.azimuths.size), sum);
 }
 
-void sum_covered(const SkyRows& rows, const CrownScene& scene, const CoverRows& c, float* sum) {
-  // The core is the first interval of the list
-  for (std::uint32_t k = 0; k < scene.azimuths.size; ++k) {
-    float *const low = c.low + std::size_t{c.begins[k]} * lane_count, *const high =
-                                                                          c.high + std::size_t{c.begins[k]} * lane_count;
-    store(load(c.core_low + std::size_t{k} * lane_count), low);
-    store(load(c.core_high + std::size_t{k} * lane_count), high);
-    sort_intervals(low, high, c.counts[k]);
-  }
-  if (scene.all_look_up) return sum_covered_of<SkyStraightUp>(rows, scene, c, sum);
-  sum_covered_of<SkyOfNormals>(rows, scene, c, sum);
+void sum_behind(const SkyRows& rows, const CrownScene& scene, const CrownLists& lists, const PlacedCrown* placed, float* room,
+                float* behind, float* sum) {
+  if (rows.gap_share != nullptr && scene.all_look_up)
+    return sum_behind_of<SkyStraightUp, true>(rows, scene, lists, placed, room, behind, sum);
+  if (rows.gap_share != nullptr) return sum_behind_of<SkyOfNormals, true>(rows, scene, lists, placed, room, behind, sum);
+  if (scene.all_look_up) return sum_behind_of<SkyStraightUp, false>(rows, scene, lists, placed, room, behind, sum);
+  sum_behind_of<SkyOfNormals, false>(rows, scene, lists, placed, room, behind, sum);
 }
 
 }  // namespace
@@ -247,7 +308,7 @@ void sum_covered(const SkyRows& rows, const CrownScene& scene, const CoverRows& 
 namespace FARLOD_TARGET {
 extern const CrownKernels crown_kernels;
 constexpr CrownKernels crown_kernels{
-    .find_ground = find_ground, .find_seen = find_seen, .cover = cover, .sum_covered = sum_covered};
+    .find_lowest_ground = find_lowest_ground, .find_seen = find_seen, .list = list, .place = place, .sum_behind = sum_behind};
 }  // namespace FARLOD_TARGET
 
 }  // namespace farlod

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -25,7 +26,7 @@ inline constexpr float opaque_depth = 80.0F;
 struct SeenCrown {
   std::uint32_t crown;         ///< batch · 16 + lane
   std::uint32_t first, count;  ///< at most a whole turn
-  float min_slope, max_slope;  ///< bounds of what all receivers see of it; 0 and infinity if it is too close for bounds
+  float max_slope;             ///< of all receivers at most; infinity if it is too close for a bound
   float distance;              ///< in the plan, from the middle of the packet
 };
 
@@ -45,14 +46,19 @@ struct CrownScene {
   bool all_look_up;    ///< all normals point straight up
 };
 
-/// At each azimuth, what is hidden or behind crowns: slopes up to `ground`; from core_low to core_high; and the intervals of a
-/// list. Rows.
-struct CoverRows {
-  float *ground, *core_low, *core_high;
-  const std::uint32_t* begins;  ///< of the list of each azimuth
-  std::uint32_t* counts;        ///< of its intervals, with a free first place
-  float *low, *high;            ///< rows of the lists
-  float* behind = nullptr;      ///< takes the sky behind what is covered, F of each azimuth: rows, or null
+/// A crown in its place before the receivers, ready to be cut at any azimuth: the members of RoundCrown or of SquareCrown
+/// (crown_sections.hpp), in their order.
+struct PlacedCrown {
+  alignas(64) std::array<ReceiverPacket::Lanes, 7> rows;
+  float max_slope;                 ///< of all receivers at most
+  float half_width, cosine, sine;  ///< of a prism
+  bool is_prism;
+};
+
+/// Numbers of crowns, listed for each azimuth: from begins[k] to ends[k].
+struct CrownLists {
+  const std::uint32_t* begins;
+  std::uint32_t *ends, *numbers;
 };
 
 /// A crown at one azimuth, for all receivers: between which slopes they see it, and where. A spheroid's u and e, or the distances
@@ -66,7 +72,7 @@ struct SectionRows {
   std::uint32_t* counts;
   CrownSection* sections;
   std::uint32_t* crowns;    ///< of each section
-  float* behind = nullptr;  ///< as that of CoverRows
+  float* behind = nullptr;  ///< takes the sky behind crowns, F of each azimuth: rows, or null
 };
 
 /// Sums over the azimuths, for each receiver: of the sky that crowns take away, and of that which is behind crowns.
@@ -75,14 +81,20 @@ struct CrownSums {
 };
 
 struct CrownKernels {
-  /// The slopes below which nothing counts for a receiver: rows, and the lowest of each azimuth.
-  void (*find_ground)(const SkyRows& sky, const CrownScene& scene, float* ground, float* lowest_ground);
-  /// The crowns that may rise above this ground for some receiver within the box. Returns their number.
-  std::size_t (*find_seen)(const CrownScene& scene, const CenteredBox& box, const float* ground, SeenCrown* seen);
-  /// Draws crowns into what is covered.
-  void (*cover)(const CrownScene& scene, std::span<const SeenCrown> seen, const CoverRows& covered);
-  /// The share of the sky behind what is covered: `sum`, one number a receiver.
-  void (*sum_covered)(const SkyRows& sky, const CrownScene& scene, const CoverRows& covered, float* sum);
+  /// The slopes below which nothing counts for any receiver: one for each azimuth.
+  void (*find_lowest_ground)(const SkyRows& sky, const CrownScene& scene, float* lowest);
+  /// The crowns that may rise above the lowest ground of some packet for some receiver within the box. Returns their number.
+  std::size_t (*find_seen)(const CrownScene& scene, const CenteredBox& box, std::span<const float* const> lowest,
+                           SeenCrown* seen);
+  /// Appends each crown to the lists of the azimuths at which it may rise above the lowest ground, which has sixteen values more
+  /// than there are azimuths. Keeps those that are in a list, to whose places the numbers lead, and returns how many.
+  std::size_t (*list)(std::span<SeenCrown> seen, const float* lowest, std::uint32_t azimuths, const CrownLists& lists);
+  /// Puts crowns in their places before the receivers.
+  void (*place)(const CrownScene& scene, std::span<const SeenCrown> seen, PlacedCrown* placed);
+  /// The share of the sky behind the crowns of lists: `sum`, one number a receiver. `room` has place for two rows for each crown
+  /// of the longest list, and two more. `behind` takes the sky behind crowns, F of each azimuth: rows, or null.
+  void (*sum_behind)(const SkyRows& sky, const CrownScene& scene, const CrownLists& lists, const PlacedCrown* placed, float* room,
+                     float* behind, float* sum);
 };
 
 struct CrownLightKernels {

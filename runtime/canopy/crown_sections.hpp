@@ -83,6 +83,30 @@ FARLOD_LANES void set_cylinder(const CrownBatches::Batch& b, std::size_t lane, c
   c.high_r = choose(in_plan, to_zenith, top);
 }
 
+FARLOD_LANES void set_round(const CrownBatches::Batch& b, std::size_t lane, const Eyes& eye, float range_square, RoundCrown& c) {
+  b.shape[lane] == CrownShape::spheroid ? set_spheroid(b, lane, eye, c) : set_cylinder(b, lane, eye, c);
+  forget_beyond(c.x * c.x + c.y * c.y, range_square, c);
+}
+
+FARLOD_LANES void keep(const RoundCrown& c, PlacedCrown& placed) {
+  placed.is_prism = false;
+  float* row = &placed.rows[0][0];
+  for (const Floats* member : {&c.x, &c.y, &c.q, &c.low_u, &c.low_r, &c.high_u, &c.high_r}) {
+    store(*member, row);
+    row += lane_count;
+  }
+}
+FARLOD_LANES RoundCrown kept_round(const PlacedCrown& placed) {
+  const float* const row = &placed.rows[0][0];
+  return {load(row),
+          load(row + lane_count),
+          load(row + 2 * lane_count),
+          load(row + 3 * lane_count),
+          load(row + 4 * lane_count),
+          load(row + 5 * lane_count),
+          load(row + 6 * lane_count)};
+}
+
 /// Of a round crown, where the azimuth meets it in front of the receiver.
 FARLOD_LANES CutCrown cut_round(const RoundCrown& c, bool is_spheroid, float cosine, float sine) {
   const Floats u = c.x * cosine + c.y * sine, e = u * u - c.q, r = sqrt(max(e, broadcast(0.0F)));
@@ -106,6 +130,28 @@ FARLOD_LANES void set_prism(const CrownBatches::Batch& b, std::size_t lane, cons
   c.bottom = b.bottom[lane] - eye.z;
   // Out of range, it ends below the eye
   c.top = choose(x * x + y * y > range_square, broadcast(-1.0F), b.top[lane] - eye.z);
+}
+
+FARLOD_LANES void keep(const SquareCrown& c, PlacedCrown& placed) {
+  placed.is_prism = true;
+  placed.half_width = c.half_width;
+  placed.cosine = c.cosine;
+  placed.sine = c.sine;
+  float* row = &placed.rows[0][0];
+  for (const Floats* member : {&c.x, &c.y, &c.bottom, &c.top}) {
+    store(*member, row);
+    row += lane_count;
+  }
+}
+FARLOD_LANES SquareCrown kept_square(const PlacedCrown& placed) {
+  const float* const row = &placed.rows[0][0];
+  return {load(row),
+          load(row + lane_count),
+          load(row + 2 * lane_count),
+          load(row + 3 * lane_count),
+          placed.half_width,
+          placed.cosine,
+          placed.sine};
 }
 
 /// 1 / x, and a large number in place of infinity, so that a side along the azimuth is entered far behind the eye, or not at all.
@@ -146,8 +192,7 @@ FARLOD_LANES void cut_crown(const CrownScene& scene, const SeenCrown& seen, cons
   }
   const bool is_spheroid = b.shape[lane] == CrownShape::spheroid;
   RoundCrown crown;
-  is_spheroid ? set_spheroid(b, lane, eye, crown) : set_cylinder(b, lane, eye, crown);
-  forget_beyond(crown.x * crown.x + crown.y * crown.y, scene.range_square, crown);
+  set_round(b, lane, eye, scene.range_square, crown);
   for (std::uint32_t n = 0; n < seen.count; ++n, k = next_azimuth(k, a.size))
     if (!visitor.skips(seen, k)) visitor.visit(seen, k, cut_round(crown, is_spheroid, a.cosine[k], a.sine[k]));
 }

@@ -88,22 +88,35 @@ CanopyAnswers::CanopyAnswers(const PackageReader& package, const CellReceivers& 
               certainty_.bounds ? merging_for_bounds : CrownMerging(),
               certainty_.bounds || certainty_.max_error ? no_pixel_merging : PixelMerging()) {
   const Quantities& q = further.quantities();
-  if (q.directional_vegetation) behind_.resize(further.azimuths().size());
   if (q.svfaveg || q.directional_vegetation || q.sky_shares) hidden_.resize(further.azimuths().size());
 }
 
-CanopyAnswers::Answers CanopyAnswers::evaluate(const SkyProfile& profile, const ReceiverPacket& receivers,
-                                               const SkiesOfPacket& skies) {
-  Answers answers{};
-  if (crowns_.are_none()) {
-    for (std::size_t l = 0; l < receivers.count; ++l) answers[l].svf_total = skies[l].svf;
-    return answers;
+std::span<const CanopyAnswers::Answers> CanopyAnswers::evaluate(std::span<const SkyProfile> profiles,
+                                                                std::span<const ReceiverPacket> packets,
+                                                                std::span<const SkiesOfPacket> skies) {
+  FARLOD_EXPECTS(skies.size() == packets.size());
+  answers_.assign(packets.size(), Answers{});
+  shares_.resize(packets.size());
+  const std::size_t azimuths = further_.quantities().directional_vegetation ? further_.azimuths().size() : 0;
+  behind_.resize(packets.size() * azimuths);
+  if (!crowns_.are_none()) crowns_.evaluate(profiles, packets, shares_, behind_);
+  for (std::size_t n = 0; n < packets.size(); ++n) {
+    if (crowns_.are_none())
+      for (std::size_t l = 0; l < packets[n].count; ++l) answers_[n][l].svf_total = skies[n][l].svf;
+    else
+      answers_[n] = of_packet(profiles[n], packets[n], skies[n], shares_[n], std::span(behind_).subspan(n * azimuths, azimuths));
   }
-  const CanopyShares shares = crowns_.shares(profile, receivers, behind_);
+  return answers_;
+}
+
+CanopyAnswers::Answers CanopyAnswers::of_packet(const SkyProfile& profile, const ReceiverPacket& receivers,
+                                                const SkiesOfPacket& skies, const CanopyShares& shares,
+                                                std::span<const PacketHorizon::Row> behind) {
+  Answers answers{};
   const PacketHorizon::Lanes error = certainty_.bounds ? crowns_.most_error(profile, receivers) : PacketHorizon::Lanes{};
   for (std::size_t l = 0; l < receivers.count; ++l)
     answers[l] = {{shares.lost[l], shares.behind[l]}, svf_total_of(skies[l], shares.lost[l], error[l])};
-  if (!crowns_.crowns().empty()) add_directions(profile, receivers, answers);
+  if (!crowns_.crowns().empty()) add_directions(profile, receivers, behind, answers);
   if (!certainty_.max_error) return answers;
   count_by_name(profile, receivers, skies, too_wide(receivers, answers), answers);
   trace(receivers, skies, too_wide(receivers, answers), answers);
@@ -127,7 +140,8 @@ void CanopyAnswers::count_by_name(const SkyProfile& profile, const ReceiverPacke
   if (wanted == 0 || count_crowns_near(package_, cell_.cell, no_merging.farthest_m) > most_crowns_by_name) return;
   if (!by_name_)
     by_name_.emplace(package_, cell_, further_.quantities().canopy, further_.azimuths(), no_merging, no_pixel_merging);
-  const CanopyShares shares = by_name_->shares(profile, receivers, {});
+  CanopyShares shares;
+  by_name_->evaluate({&profile, 1}, {&receivers, 1}, {&shares, 1}, {});
   const PacketHorizon::Lanes error = by_name_->most_error(profile, receivers);
   for (std::size_t l = 0; l < receivers.count; ++l) {
     if (((wanted >> l) & 1U) == 0) continue;
@@ -153,9 +167,10 @@ void CanopyAnswers::trace(const ReceiverPacket& receivers, const SkiesOfPacket& 
   }
 }
 
-void CanopyAnswers::add_directions(const SkyProfile& profile, const ReceiverPacket& receivers, Answers& answers) {
-  if (!behind_.empty())
-    add_halves(behind_, &CanopyLoss::sky_of_half, 1.0 / static_cast<double>(further_.azimuths().size()), answers);
+void CanopyAnswers::add_directions(const SkyProfile& profile, const ReceiverPacket& receivers,
+                                   std::span<const PacketHorizon::Row> behind, Answers& answers) {
+  if (!behind.empty())
+    add_halves(behind, &CanopyLoss::sky_of_half, 1.0 / static_cast<double>(further_.azimuths().size()), answers);
   if (hidden_.empty()) return;
   if (!occluder_) {
     near_.emplace(near_scene(package_, cell_.cell));
@@ -166,7 +181,7 @@ void CanopyAnswers::add_directions(const SkyProfile& profile, const ReceiverPack
   for (const PacketHorizon::Row& row : hidden_)
     for (std::size_t l = 0; l < receivers.count; ++l) sums[l] += static_cast<double>(row[l]);
   for (std::size_t l = 0; l < receivers.count; ++l) answers[l].loss.building = static_cast<float>(sums[l]);
-  if (!behind_.empty()) add_halves(hidden_, &CanopyLoss::building_of_half, 1.0, answers);
+  if (!behind.empty()) add_halves(hidden_, &CanopyLoss::building_of_half, 1.0, answers);
 }
 
 void CanopyAnswers::add_halves(std::span<const PacketHorizon::Row> terms,

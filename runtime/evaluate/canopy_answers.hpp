@@ -61,18 +61,24 @@ struct CanopyCertainty {
 /// What the crowns around a cell take of the view of its receivers, by profiles of the sky. Of one thread.
 class CanopyAnswers {
  public:
+  /// Of the receivers of a packet.
   using Answers = std::array<CanopyAnswer, ReceiverPacket::lanes>;
 
   /// All must outlive it.
   CanopyAnswers(const PackageReader& package, const CellReceivers& cell, const FurtherQuantities& further,
                 CanopyCertainty certainty, std::stop_token stop);
 
-  /// Of the receivers of a packet. CanopyLoss::building, which takes rays, is that of a quantity that needs it, or 0.
-  [[nodiscard]] Answers evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const SkiesOfPacket& skies);
+  /// Of packets near each other. CanopyLoss::building, which takes rays, is that of a quantity that needs it, or 0. Valid until
+  /// the next call.
+  [[nodiscard]] std::span<const Answers> evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets,
+                                                  std::span<const SkiesOfPacket> skies);
 
  private:
+  [[nodiscard]] Answers of_packet(const SkyProfile& profile, const ReceiverPacket& receivers, const SkiesOfPacket& skies,
+                                  const CanopyShares& shares, std::span<const PacketHorizon::Row> behind);
   /// What of the sky and of solid things lies behind crowns in each half of the sky, and in all, as far as it is asked for.
-  void add_directions(const SkyProfile& profile, const ReceiverPacket& receivers, Answers& answers);
+  void add_directions(const SkyProfile& profile, const ReceiverPacket& receivers, std::span<const PacketHorizon::Row> behind,
+                      Answers& answers);
   /// Sums over the azimuths, for CanopyLoss.
   void add_halves(std::span<const PacketHorizon::Row> terms, std::array<float, SkyHalves::count> CanopyLoss::*of_half,
                   double share, Answers& answers) const;
@@ -88,8 +94,10 @@ class CanopyAnswers {
   CanopyCertainty certainty_;
   std::stop_token stop_;
   CrownsOfCell crowns_;
-  std::vector<PacketHorizon::Row> behind_, hidden_;  ///< at each azimuth: sky and what is solid, behind crowns
-  std::optional<CrownsOfCell> by_name_;              ///< made when first needed, as the next ones, which are for rays
+  std::vector<PacketHorizon::Row> behind_, hidden_;  ///< at each azimuth: sky of all packets, and what is solid, behind crowns
+  std::vector<CanopyShares> shares_;
+  std::vector<Answers> answers_;
+  std::optional<CrownsOfCell> by_name_;  ///< made when first needed, as the next ones, which are for rays
   std::optional<Occluder> near_;
   std::optional<CrownOccluder> occluder_;
 };

@@ -73,9 +73,16 @@ const CrownBatches& CanopyByPlace::batches_at(const Place& place) {
       .first->second;
 }
 
+void CanopyByPlace::evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets,
+                             std::span<CanopyShares> shares, std::span<PacketHorizon::Row> behind_of_azimuths) {
+  if (!depends_on_place_) return sky_.evaluate(profiles, packets, batches_at({}), shares, behind_of_azimuths);
+  const std::size_t azimuths = behind_of_azimuths.size() / std::max<std::size_t>(packets.size(), 1);
+  for (std::size_t n = 0; n < packets.size(); ++n)
+    shares[n] = evaluate(profiles[n], packets[n], behind_of_azimuths.subspan(n * azimuths, azimuths));
+}
+
 CanopyShares CanopyByPlace::evaluate(const SkyProfile& profile, const ReceiverPacket& receivers,
                                      std::span<PacketHorizon::Row> behind_of_azimuths) {
-  if (!depends_on_place_) return sky_.evaluate(profile, receivers, batches_at({}), behind_of_azimuths);
   CanopyShares shares;
   behind_of_some_.resize(behind_of_azimuths.size());
   for (std::uint32_t left = all_lanes; left != 0;) {

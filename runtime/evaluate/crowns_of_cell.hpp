@@ -27,10 +27,10 @@ class CrownsOfCell {
   [[nodiscard]] const std::vector<Crown>& crowns() const { return canopy_.crowns; }
   /// Whether no receiver of the cell sees a crown.
   [[nodiscard]] bool are_none() const { return canopy_.crowns.empty() && canopy_.highest_slope_left_out <= 0.0F; }
-  /// Of the receivers of a packet, as CanopySky::evaluate.
-  [[nodiscard]] CanopyShares shares(const SkyProfile& profile, const ReceiverPacket& receivers,
-                                    std::span<PacketHorizon::Row> behind_of_azimuths) {
-    return by_place_.evaluate(profile, receivers, behind_of_azimuths);
+  /// As CanopySky::evaluate.
+  void evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets, std::span<CanopyShares> shares,
+                std::span<PacketHorizon::Row> behind_of_azimuths) {
+    by_place_.evaluate(profiles, packets, shares, behind_of_azimuths);
   }
   /// CanopyShares::lost of these crowns and that of all crowns of the city, one by one, differ by at most so much, above the same
   /// profile, but for what merging pixels does. docs/concepts.md, "Bounds with crowns".

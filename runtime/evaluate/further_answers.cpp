@@ -50,9 +50,9 @@ FurtherAnswers::FurtherAnswers(const FurtherQuantities& quantities, const CellRe
 FurtherAnswers::~FurtherAnswers() = default;
 
 void FurtherAnswers::listen_to(HorizonEngine& engine) {
-  engine.tell_profiles(quantities_.profile_rows(), [this](std::size_t n, const SkyProfile& profile) {
+  engine.tell_profiles(quantities_.profile_rows(), [this](std::size_t n, SkyProfile& profile) {
     if (profiles_.size() <= n) profiles_.resize(n + 1, profile);
-    profiles_[n] = profile;
+    std::swap(profiles_[n], profile);
   });
 }
 
@@ -76,18 +76,29 @@ void FurtherAnswers::draw_canopies(const PackageReader& package, CanopyCertainty
   canopies_ = std::make_unique<CanopyAnswers>(package, cell_, quantities_, std::move(certainty), std::move(stop));
 }
 
+void FurtherAnswers::find_canopies(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers,
+                                   const DrawnAnswers& drawn) {
+  skies_.clear();
+  for (std::size_t n = 0; n < packets.size(); ++n) {
+    const std::span<const std::uint32_t> of_packet = numbers.first(packets[n].count);
+    skies_.push_back(skies_of(drawn.packets[n], cell_, of_packet, answers_, drawn.are_answers, drawn.max_error));
+    numbers = numbers.subspan(packets[n].count);
+  }
+  of_canopies_ = canopies_->evaluate(std::span(profiles_).first(packets.size()), packets, skies_);
+}
+
 void FurtherAnswers::store(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers,
                            const DrawnAnswers& drawn) {
   FARLOD_EXPECTS(!canopies_ || drawn.packets.size() == packets.size());
   if (near_sky_) near_sky_->evaluate(packets);
+  if (canopies_) find_canopies(packets, numbers, drawn);
   for (std::size_t n = 0; n < packets.size(); ++n) {
-    store(n, packets[n], numbers.first(packets[n].count), drawn);
+    store(n, packets[n], numbers.first(packets[n].count));
     numbers = numbers.subspan(packets[n].count);
   }
 }
 
-void FurtherAnswers::store(std::size_t packet, const ReceiverPacket& receivers, std::span<const std::uint32_t> numbers,
-                           const DrawnAnswers& drawn) {
+void FurtherAnswers::store(std::size_t packet, const ReceiverPacket& receivers, std::span<const std::uint32_t> numbers) {
   FurtherQuantities::Sky sky{};
   for (std::size_t l = 0; l < numbers.size(); ++l) {
     sky.svf[l] = answers_.svf[cell_.receivers[numbers[l]].index];
@@ -99,10 +110,8 @@ void FurtherAnswers::store(std::size_t packet, const ReceiverPacket& receivers, 
   quantities_.evaluate(profiles_[packet], receivers, sky, rows_, values_);
   if (canopies_) {
     const auto [first, count] = quantities_.canopy_columns();
-    const SkiesOfPacket skies = skies_of(drawn.packets[packet], cell_, numbers, answers_, drawn.are_answers, drawn.max_error);
-    const CanopyAnswers::Answers canopies = canopies_->evaluate(profiles_[packet], receivers, skies);
     for (std::size_t l = 0; l < numbers.size(); ++l)
-      write_canopy_columns(quantities_.quantities(), sky.svf[l], canopies[l],
+      write_canopy_columns(quantities_.quantities(), sky.svf[l], of_canopies_[packet][l],
                            std::span(values_).subspan(l * columns + first, count));
   }
   for (std::size_t l = 0; l < numbers.size(); ++l)

@@ -43,7 +43,7 @@ class FurtherAnswers {
   /// The sky above the near geometry alone is drawn for each group, where the far map is this one; or it is known for each
   /// receiver of the cell.
   void draw_near_sky(const PackageReader& package, const FarHorizon& far, const GapSettings& gaps);
-  /// The values of canopies are found with each profile; otherwise their places are left out. store() then needs what is drawn.
+  /// The values of canopies are found for each group; otherwise their places are left out. store() then needs what is drawn.
   void draw_canopies(const PackageReader& package, CanopyCertainty certainty, std::stop_token stop);
   void set_near_sky(std::vector<float> svf) { near_svf_ = std::move(svf); }
 
@@ -52,8 +52,8 @@ class FurtherAnswers {
 
  private:
   class NearSky;
-  void store(std::size_t packet, const ReceiverPacket& receivers, std::span<const std::uint32_t> numbers,
-             const DrawnAnswers& drawn);
+  void find_canopies(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers, const DrawnAnswers& drawn);
+  void store(std::size_t packet, const ReceiverPacket& receivers, std::span<const std::uint32_t> numbers);
 
   const FurtherQuantities& quantities_;
   const CellReceivers& cell_;
@@ -62,6 +62,8 @@ class FurtherAnswers {
   std::vector<float> near_svf_;
   std::unique_ptr<NearSky> near_sky_;
   std::unique_ptr<CanopyAnswers> canopies_;
+  std::vector<SkiesOfPacket> skies_;  ///< of each packet, as the next one
+  std::span<const CanopyAnswers::Answers> of_canopies_;
   FurtherQuantities::Rows rows_;
   std::vector<float> values_;
 };

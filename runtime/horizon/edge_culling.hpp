@@ -200,12 +200,26 @@ struct SectorMinHorizon {
   std::array<float, levels * sectors> minima;
 };
 
+/// Fills the levels above level 0: level n holds the minima of two neighboring runs of half the length.
+FARLOD_LANES void find_levels(SectorMinHorizon& horizon) {
+  constexpr std::size_t sectors = SectorMinHorizon::sectors;
+  // data() could be emitted on its own, for one target in the place of all. NOLINTNEXTLINE(readability-container-data-pointer)
+  float* const minima = &horizon.minima[0];
+  for (std::size_t level = 1; level < SectorMinHorizon::levels; ++level) {
+    const std::size_t apart = std::size_t{1} << (level - 1);
+    const float* half = minima + (level - 1) * sectors;
+    float* whole = minima + level * sectors;
+    for (std::size_t s = 0; s < sectors - apart; ++s) whole[s] = std::min(half[s], half[s + apart]);
+    for (std::size_t s = sectors - apart; s < sectors; ++s) whole[s] = std::min(half[s], half[s + apart - sectors]);
+  }
+}
+
 /// Of one packet or several, each slopes[azimuth][receiver]. A sector without azimuths has no horizon that an edge could raise:
 /// its minimum is the largest float.
 FARLOD_LANES void find_sector_minima(std::span<const float* const> packets, const std::uint32_t* first_of_sector,
                                      SectorMinHorizon& horizon) {
   constexpr std::size_t sectors = SectorMinHorizon::sectors;
-  // data() could be emitted on its own, for one target in the place of all. NOLINTNEXTLINE(readability-container-data-pointer)
+  // As above. NOLINTNEXTLINE(readability-container-data-pointer)
   float* const minima = &horizon.minima[0];
   // Level 0: the minimum over the azimuths of a sector and over the packets, then over the lanes
   for (std::size_t first = 0; first < sectors; first += lane_count) {
@@ -218,14 +232,7 @@ FARLOD_LANES void find_sector_minima(std::span<const float* const> packets, cons
     }
     store(min_lanes(lowest), minima + first);
   }
-  // Level n: two neighboring runs of half the length
-  for (std::size_t level = 1; level < SectorMinHorizon::levels; ++level) {
-    const std::size_t apart = std::size_t{1} << (level - 1);
-    const float* half = minima + (level - 1) * sectors;
-    float* whole = minima + level * sectors;
-    for (std::size_t s = 0; s < sectors - apart; ++s) whole[s] = std::min(half[s], half[s + apart]);
-    for (std::size_t s = sectors - apart; s < sectors; ++s) whole[s] = std::min(half[s], half[s + apart - sectors]);
-  }
+  find_levels(horizon);
 }
 
 /// The edges that some receiver may see: a bit for each lane.

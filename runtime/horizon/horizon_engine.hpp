@@ -78,9 +78,9 @@ class HorizonEngine {
   /// From now on, evaluate_with_bounds keeps this error.
   void keep(AllowedFarError allowed) { allowed_ = std::move(allowed); }
   /// From now on, calls `on_profile(n, profile)` for each packet when its answer is known, with its number in the call, and what
-  /// its answer is the estimate of. Rays that an allowed error asks for do not change it. Only with SkyWeight::cosine, and jumps
-  /// at the ends of edges.
-  using OnProfile = std::function<void(std::size_t n, const SkyProfile& profile)>;
+  /// its answer is the estimate of, which may be swapped with another profile of these azimuths. Rays that an allowed error asks
+  /// for do not change it. Only with SkyWeight::cosine, and jumps at the ends of edges.
+  using OnProfile = std::function<void(std::size_t n, SkyProfile& profile)>;
   void tell_profiles(ProfileRows rows, OnProfile on_profile);
 
   /// Computes the receivers of packets near each other; low = estimate = high. The answers do not depend on which packets are

@@ -22,7 +22,8 @@ double fill_of(CrownShape shape) { return shape == CrownShape::spheroid ? 0.25 *
 /// From a place to the square [0, edge]² of a cell; 0 within it.
 double distance_to_cell(Point2d p_cell, double edge_m) {
   const auto beyond = [edge_m](double x) { return std::max({0.0, -x, x - edge_m}); };
-  return std::hypot(beyond(p_cell.x), beyond(p_cell.y));
+  const double x = beyond(p_cell.x), y = beyond(p_cell.y);
+  return std::sqrt(x * x + y * y);
 }
 
 /// No place of a cell at `lowest_m` or above sees a crown at a larger slope whose plan is farther than `farthest_m` from the

@@ -33,23 +33,46 @@ struct Stage {
 // (1) the shares of a receiver depend on its own profile, place and normal, and on the crowns
 TEST(CanopySky, SharesDoNotDependOnTheRestOfThePacket) {
   Stage s;
+  constexpr int repeats = 20;
+  for (int scene = 0; scene < 9 * repeats; ++scene) {
+    const CanopyRule rule = all_rules[scene % 3];
+    const Looks looks = all_looks[scene / 3 % 3];
+    const CrownBatches crowns(some_crowns(s.random, 40, 40.0), with_rule(rule));
+    ReceiverPacket receivers = some_receivers(s.random, looks);
+    SkyProfile profile = some_profile(s.random, s.azimuths, true);
+    const CanopyShares together = s.sky.evaluate(profile, receivers, crowns);
+    // The last of them is alone, in all lanes
+    constexpr std::size_t last = lanes - 1;
+    for (auto* values : {&receivers.x, &receivers.y, &receivers.z, &receivers.normal_x, &receivers.normal_y, &receivers.normal_z})
+      values->fill((*values)[last]);
+    for (SkyProfile::Rows* rows : {&profile.sky_from, &profile.gap_from, &profile.gap_to, &profile.gap_share})
+      for (PacketHorizon::Row& row : *rows) row.fill(row[last]);
+    const CanopyShares alone = s.sky.evaluate(profile, receivers, crowns);
+    EXPECT_EQ(alone.lost[last], together.lost[last]);
+    EXPECT_EQ(alone.behind[last], together.behind[last]);
+    EXPECT_EQ(alone.lost[0], together.lost[last]);
+  }
+}
+
+// Nor on the other packets, for which crowns are culled together
+TEST(CanopySky, SharesDoNotDependOnTheRestOfTheGroup) {
+  Stage s;
   for (const CanopyRule rule : all_rules)
     for (const Looks looks : all_looks) {
-      const CrownBatches crowns(some_crowns(s.random, 40, 40.0), with_rule(rule));
-      ReceiverPacket receivers = some_receivers(s.random, looks);
-      SkyProfile profile = some_profile(s.random, s.azimuths, true);
-      const CanopyShares together = s.sky.evaluate(profile, receivers, crowns);
-      // The last of them is alone, in all lanes
-      constexpr std::size_t last = lanes - 1;
-      for (auto* values :
-           {&receivers.x, &receivers.y, &receivers.z, &receivers.normal_x, &receivers.normal_y, &receivers.normal_z})
-        values->fill((*values)[last]);
-      for (SkyProfile::Rows* rows : {&profile.sky_from, &profile.gap_from, &profile.gap_to, &profile.gap_share})
-        for (PacketHorizon::Row& row : *rows) row.fill(row[last]);
-      const CanopyShares alone = s.sky.evaluate(profile, receivers, crowns);
-      EXPECT_EQ(alone.lost[last], together.lost[last]);
-      EXPECT_EQ(alone.behind[last], together.behind[last]);
-      EXPECT_EQ(alone.lost[0], together.lost[last]);
+      const CrownBatches crowns(some_crowns(s.random, 90, 40.0), with_rule(rule));
+      std::vector<ReceiverPacket> packets;
+      std::vector<SkyProfile> profiles;
+      for (int n = 0; n < 5; ++n) {
+        packets.push_back(some_receivers(s.random, looks));
+        profiles.push_back(some_profile(s.random, s.azimuths, n % 2 == 1));
+      }
+      std::vector<CanopyShares> together(packets.size());
+      s.sky.evaluate(profiles, packets, crowns, together);
+      for (std::size_t n = 0; n < packets.size(); ++n) {
+        const CanopyShares alone = s.sky.evaluate(profiles[n], packets[n], crowns);
+        EXPECT_EQ(alone.lost, together[n].lost);
+        EXPECT_EQ(alone.behind, together[n].behind);
+      }
     }
 }
 
