@@ -36,7 +36,7 @@ export const ready = (page) => page.waitForSelector("html[data-ready=true]", { t
 export const state = (page) => page.evaluate(() => window.farlod.state());
 
 /** Waits until a condition on the page's state holds; fails with what it is instead. */
-export async function until(page, what, condition, timeout_ms = 30000) {
+export async function until(page, what, condition, timeout_ms = 90000) {
   const end = Date.now() + timeout_ms;
   for (;;) {
     const now = await state(page);

@@ -8,10 +8,13 @@ import type { CellFacts, FarView } from "./server.ts";
 
 const sentences = {
   near: "Near geometry: what lies in these cells is used without simplification.",
-  explicit: "Far edges that may rise noticeably over everything else are stored as edges, and each receiver sees them from where it stands. They are the orange lines in the city.",
-  residual: "All other far geometry is left to the residual horizon: for each azimuth the slope that is hidden for certain, the one above which all is sky, and an estimate between them. This is the layer nearest to the ground, seen from the middle of the cell.",
+  explicit: "Far edges that may rise noticeably over everything else are stored as edges, and each receiver sees them from where " +
+    "it stands. They are the orange lines in the city.",
+  residual: "All other far geometry is left to the residual horizon: for each azimuth the slope that is hidden for certain, the one " +
+    "above which all is sky, and an estimate between them. This is the layer nearest to the ground, seen from the middle of the cell.",
   noFar: "This cell has no far map: there is nothing but near geometry, or it lies outside of the area that was packed.",
-  box: "The far map of this package is a box map, the picture of the far city on the walls around the neighbourhood; it has no edges and no residual horizon.",
+  box: "The far map of this package is a box map, the picture of the far city on the walls around the neighbourhood; it has no " +
+    "edges and no residual horizon.",
 } as const;
 
 /** What is told of a cell: the method, step by step. */
@@ -30,7 +33,7 @@ export class CellPanel {
 
   showFailure(sentence: string): void {
     this.root.hidden = false;
-    this.root.replaceChildren(element("p", "note", sentence));
+    this.root.replaceChildren(note(sentence));
   }
 
   hide(): void {
@@ -46,32 +49,35 @@ export class CellPanel {
 
   private nearOf(facts: CellFacts): HTMLElement {
     const triangles = facts.near_cells.reduce((sum, near) => sum + near.triangles, 0), section = element("section");
-    section.append(element("h3", "", `Near: ${countText(triangles)} triangles`), element("p", "note", sentences.near), nearTable(facts));
+    section.append(heading(`Near: ${countText(triangles)} triangles`), note(sentences.near), nearTable(facts));
     return section;
   }
 
   private farOf(facts: CellFacts): HTMLElement[] {
     const { far } = facts, explicit = element("section"), residual = element("section");
     if (!far) {
-      explicit.append(element("h3", "", "Far"), element("p", "note", this.farMapKind === "box" ? sentences.box : sentences.noFar));
+      explicit.append(heading("Far"), note(this.farMapKind === "box" ? sentences.box : sentences.noFar));
       this.shown = this.panorama = null;
       return [explicit];
     }
-    explicit.append(element("h3", "", `Far, by name: ${countText(facts.explicit_edges)} explicit edges`), element("p", "note", sentences.explicit));
+    explicit.append(heading(`Far, by name: ${countText(facts.explicit_edges)} explicit edges`), note(sentences.explicit));
     this.shown = far;
     this.panorama = document.createElement("canvas");
     this.panorama.className = "panorama";
     this.panorama.setAttribute("role", "img");
     this.panorama.setAttribute("aria-label", panoramaLabel(far));
-    residual.append(element("h3", "", "Far, the rest: the residual horizon"), this.panorama, keyOfPanorama(), element("p", "note", sentences.residual));
+    residual.append(heading("Far, the rest: the residual horizon"), this.panorama, keyOfPanorama(), note(sentences.residual));
     return [explicit, residual];
   }
 }
 
+const heading = (text: string): HTMLElement => element("h3", "", text);
+const note = (text: string): HTMLElement => element("p", "note", text);
 const headingOf = (facts: CellFacts): HTMLElement => element("h2", "", `Cell ${facts.cell[0]}, ${facts.cell[1]}`);
 
 function sizesOf(facts: CellFacts): HTMLElement {
-  const list = element("dl"), heights = facts.low_m === null || facts.high_m === null ? null : `${facts.low_m.toFixed(1)} to ${facts.high_m.toFixed(1)} m`;
+  const list = element("dl"), { low_m, high_m } = facts;
+  const heights = low_m === null || high_m === null ? null : `${low_m.toFixed(1)} to ${high_m.toFixed(1)} m`;
   showFacts(list, [
     ["Buildings", countText(facts.buildings)],
     ["Triangles, vertices", `${countText(facts.triangles)}, ${countText(facts.vertices)}`],
@@ -91,7 +97,7 @@ function nearTable(facts: CellFacts): HTMLElement {
   for (let j = j_end - 1; j >= j_begin; --j) {
     const row = element("tr");
     for (let i = i_begin; i < i_end; ++i)
-      row.append(element("td", i === facts.cell[0] && j === facts.cell[1] ? "middle" : "", countText(triangles.get(`${i},${j}`) ?? 0)));
+      row.append(element("td", `${i},${j}` === facts.cell.join() ? "middle" : "", countText(triangles.get(`${i},${j}`) ?? 0)));
     table.append(row);
   }
   return table;
@@ -115,5 +121,6 @@ function keyOfPanorama(): HTMLElement {
 
 function panoramaLabel(far: FarView): string {
   const highest = (slopes: readonly number[]): string => ((Math.atan(Math.max(...slopes)) * 180) / Math.PI).toFixed(1);
-  return `Panorama of the residual horizon: its highest elevation is ${highest(far.low)}° for certain, ${highest(far.estimate)}° as estimated, ${highest(far.high)}° at the most.`;
+  const elevations = `${highest(far.low)}° for certain, ${highest(far.estimate)}° as estimated, ${highest(far.high)}° at the most`;
+  return `Panorama of the residual horizon: its highest elevation is ${elevations}.`;
 }

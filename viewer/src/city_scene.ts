@@ -5,7 +5,8 @@ import { Color, PerspectiveCamera, Scene, Vector2, WebGLRenderer } from "three";
 /** The browser cannot draw. */
 export class NoWebGl extends Error {
   constructor() {
-    super("This browser offers no WebGL 2, without which the city cannot be drawn. Another browser may, or a graphics driver has to be enabled.");
+    super("This browser offers no WebGL 2, without which the city cannot be drawn. Another browser may, or a graphics driver has to " +
+      "be enabled.");
   }
 }
 
@@ -23,7 +24,8 @@ export class CityScene {
   private frame = 0;
 
   /** `beforeFrame` prepares a frame, and says whether it would look other than the last one. */
-  constructor(readonly canvas: HTMLCanvasElement, private readonly beforeFrame: () => boolean, private readonly afterFrame: () => void) {
+  constructor(readonly canvas: HTMLCanvasElement, private readonly beforeFrame: () => boolean,
+              private readonly afterFrame: () => void) {
     const context = canvas.getContext("webgl2", { antialias: true, powerPreference: "high-performance" });
     if (!context) throw new NoWebGl();
     this.renderer = new WebGLRenderer({ canvas, context });

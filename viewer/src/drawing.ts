@@ -28,10 +28,12 @@ export function paperOf(canvas: HTMLCanvasElement, width: number, height: number
   const context = canvas.getContext("2d");
   if (!context) throw new Error("This browser draws no pictures.");
   context.scale(ratio, ratio);
-  return { context, width, height, ratio, ink: style.getPropertyValue("--ink").trim(), muted: style.getPropertyValue("--muted").trim() };
+  const ofTheme = (name: string): string => style.getPropertyValue(name).trim();
+  return { context, width, height, ratio, ink: ofTheme("--ink"), muted: ofTheme("--muted") };
 }
 
-export function drawText(paper: Paper, text: string, x: number, y: number, align: CanvasTextAlign, px: number, colour = paper.ink): void {
+export function drawText(paper: Paper, text: string, x: number, y: number, align: CanvasTextAlign, px: number,
+                         colour = paper.ink): void {
   paper.context.font = `${px}px system-ui, "Noto Sans", "DejaVu Sans", sans-serif`;
   paper.context.textAlign = align;
   paper.context.textBaseline = "middle";

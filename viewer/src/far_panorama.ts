@@ -3,7 +3,7 @@
 import { drawText, lineColours, type Paper, paperOf, partColours, cssOf } from "./drawing.ts";
 import { type Frames, turned } from "./frames.ts";
 import { Vector3 } from "three";
-import type { FarView } from "./server.ts";
+import type { FarEdge, FarView } from "./server.ts";
 
 const degree = Math.PI / 180, width_px = 316, height_px = 150;
 const box = { left: 26, top: 6, width: width_px - 34, height: height_px - 26 };
@@ -12,9 +12,12 @@ const partsOfEdge = 12;
 
 const elevation_deg = (slope: number): number => Math.atan(slope) / degree;
 
-/** The least round elevation that shows all; none below 5°. */
+/** The least round elevation that shows the residual city and the ends of all edges; none below 5°. */
 function topOf(far: FarView): number {
-  const highest = Math.max(...far.high.map(elevation_deg));
+  const [x, y, z] = far.eye_m, steepness = (px: number, py: number, pz: number): number => (pz - z) / Math.hypot(px - x, py - y);
+  const steepest = (most: number, [ax, ay, az, bx, by, bz]: FarEdge): number =>
+    Math.max(most, steepness(ax, ay, az), steepness(bx, by, bz));
+  const highest = elevation_deg(far.edges.reduce(steepest, Math.max(...far.high)));
   return [5, 10, 15, 30, 45, 60, 90].find((top) => top >= highest) ?? 90;
 }
 

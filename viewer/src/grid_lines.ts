@@ -10,6 +10,15 @@ import type { CellIndex } from "./view_info.ts";
 
 /** Lines of the ground lie this far above it, so that it does not cover them. */
 const lift_m = 0.4;
+/** Along an edge of the grid. More would be a grey area, and take seconds to drape. */
+const greatestLines = 128;
+
+/** From begin to end, both included. */
+function steps(begin: number, end: number, each: number): number[] {
+  const places: number[] = [];
+  for (let n = begin; n < end; n += each) places.push(n);
+  return [...places, end];
+}
 
 /** What of a line is hidden by buildings is drawn paler, not left out: a grid is no thing of the town. */
 class SeenThroughLines {
@@ -47,7 +56,8 @@ export class GridLines {
   private readonly near = new SeenThroughLines("#ffffff", 3, 0.3, 12);
   private readonly cell = new SeenThroughLines("#d81b60", 4, 0.35, 14);
   private readonly edges = new SeenThroughLines("#ff6d00", 3, 0.5, 16);
-  private readonly area = new Mesh(new BufferGeometry(), new MeshBasicMaterial({ color: "#ffffff", opacity: 0.2, transparent: true, depthWrite: false, side: DoubleSide }));
+  private readonly area = new Mesh(new BufferGeometry(), new MeshBasicMaterial(
+    { color: "#ffffff", opacity: 0.2, transparent: true, depthWrite: false, side: DoubleSide }));
 
   constructor(private readonly frames: Frames, private readonly heightAt: GroundHeight) {
     this.area.renderOrder = 10;
@@ -56,14 +66,16 @@ export class GridLines {
     this.object.visible = false;
   }
 
-  /** All cells, at the heights of the ground that is loaded now. */
+  /** All cells, at the heights of the ground that is loaded now; of very many, each second line or fewer. */
   drape(): void {
     const { i_begin, i_end, j_begin, j_end } = this.frames.grid, positions: number[] = [];
-    for (let i = i_begin; i <= i_end; ++i)
-      for (let j = j_begin; j <= j_end; ++j) {
-        if (i < i_end) positions.push(...this.corner(i, j), ...this.corner(i + 1, j));
-        if (j < j_end) positions.push(...this.corner(i, j), ...this.corner(i, j + 1));
-      }
+    const each = Math.ceil(Math.max(i_end - i_begin, j_end - j_begin) / greatestLines);
+    const columns = steps(i_begin, i_end, each), rows = steps(j_begin, j_end, each);
+    columns.forEach((i, n) => rows.forEach((j, m) => {
+      const east = columns[n + 1], north = rows[m + 1];
+      if (east !== undefined) positions.push(...this.corner(i, j), ...this.corner(east, j));
+      if (north !== undefined) positions.push(...this.corner(i, j), ...this.corner(i, north));
+    }));
     this.cells.set(positions);
     this.casing.set(positions);
   }
@@ -109,7 +121,8 @@ export class GridLines {
   }
 }
 
-const closed = (ring: readonly Vector3[]): number[] => ring.flatMap((p, n) => [...p.toArray(), ...(ring[(n + 1) % ring.length] ?? p).toArray()]);
+const closed = (ring: readonly Vector3[]): number[] =>
+  ring.flatMap((p, n) => [...p.toArray(), ...(ring[(n + 1) % ring.length] ?? p).toArray()]);
 
 function fan(ring: readonly Vector3[]): number[] {
   const middle = ring.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(Math.max(1, ring.length));

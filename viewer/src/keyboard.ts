@@ -18,9 +18,10 @@ function actionsOf(navigation: Navigation, actions: KeyActions): Record<string, 
     if (event.shiftKey) navigation.turn(right * turn_deg, -forward * tilt_deg);
     else navigation.move(right * step, forward * step);
   };
+  const nearer = (): void => navigation.zoom(1 / zoomFactor), farther = (): void => navigation.zoom(zoomFactor);
   return {
     ArrowLeft: arrow(-1, 0), ArrowRight: arrow(1, 0), ArrowUp: arrow(0, 1), ArrowDown: arrow(0, -1),
-    "+": () => navigation.zoom(1 / zoomFactor), "=": () => navigation.zoom(1 / zoomFactor), "-": () => navigation.zoom(zoomFactor), "−": () => navigation.zoom(zoomFactor),
+    "+": nearer, "=": nearer, "-": farther, "−": farther,
     n: () => navigation.northUp(), h: () => navigation.home(), Enter: () => actions.choose(), Escape: () => actions.close(),
   };
 }

@@ -34,6 +34,7 @@ export class Marker {
     this.normalLine.visible = facet !== null;
     this.button.hidden = facet === null;
     this.prepare();
+    this.follow();
     this.city.redraw();
   }
 
@@ -42,7 +43,8 @@ export class Marker {
     if (!this.facet) return;
     const { p_local, normal_local } = this.facet;
     const length_m = normalShare * this.city.camera.position.distanceTo(p_local);
-    this.normalLine.geometry.setPositions([...p_local.toArray(), ...p_local.clone().addScaledVector(normal_local, length_m).toArray()]);
+    const end = p_local.clone().addScaledVector(normal_local, length_m);
+    this.normalLine.geometry.setPositions([...p_local.toArray(), ...end.toArray()]);
   }
 
   /** After each frame, follows the camera. */
@@ -50,7 +52,8 @@ export class Marker {
     if (!this.facet) return;
     const seen = this.facet.p_local.clone().project(this.city.camera), size = this.city.size();
     this.button.hidden = seen.z > 1 || Math.abs(seen.x) > 1 || Math.abs(seen.y) > 1;
-    this.button.style.transform = `translate(${(0.5 * (seen.x + 1) * size.x).toFixed(1)}px, ${(0.5 * (1 - seen.y) * size.y).toFixed(1)}px)`;
+    const x_px = 0.5 * (seen.x + 1) * size.x, y_px = 0.5 * (1 - seen.y) * size.y;
+    this.button.style.transform = `translate(${x_px.toFixed(1)}px, ${y_px.toFixed(1)}px)`;
     this.button.classList.toggle("behind", !this.dragging && this.isBehind(this.facet.p_local));
   }
 

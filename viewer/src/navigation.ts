@@ -55,9 +55,9 @@ export class Navigation {
   homeView(): CameraView {
     const { middle, radius_m } = this.frames.extent();
     const narrow = Math.min(1, this.camera.aspect);
-    const distance_m = (0.84 * radius_m) / Math.tan(0.5 * this.camera.fov * degree) / narrow;
-    // True north up, as on a map
-    return { target_local: new Vector3(...middle, this.heights_m[0]), distance_m, bearing_deg: -this.frames.grid.convergence_deg, tilt_deg: tiltAtHome_deg };
+    const distance_m = (0.92 * radius_m) / Math.tan(0.5 * this.camera.fov * degree) / narrow;
+    const target_local = new Vector3(...middle, this.heights_m[0]);
+    return { target_local, distance_m, bearing_deg: this.northUp_deg(), tilt_deg: tiltAtHome_deg };
   }
 
   view(): CameraView {
@@ -89,7 +89,7 @@ export class Navigation {
   }
 
   northUp(): void {
-    this.flyTo({ bearing_deg: -this.frames.grid.convergence_deg });
+    this.flyTo({ bearing_deg: this.northUp_deg() });
   }
 
   zoom(factor: number): void {
@@ -99,7 +99,8 @@ export class Navigation {
 
   turn(bearing_deg: number, tilt_deg: number): void {
     const aim = this.flight?.to ?? this.view();
-    this.flyTo({ bearing_deg: aim.bearing_deg + bearing_deg, tilt_deg: Math.min(greatestTilt_deg, Math.max(0, aim.tilt_deg + tilt_deg)) });
+    const tilt = Math.min(greatestTilt_deg, Math.max(0, aim.tilt_deg + tilt_deg));
+    this.flyTo({ bearing_deg: aim.bearing_deg + bearing_deg, tilt_deg: tilt });
   }
 
   /** By shares of the distance, rightwards and forwards as the user sees it. */
@@ -118,6 +119,11 @@ export class Navigation {
     this.moved = false;
     if (moved) this.adaptDepth();
     return moved;
+  }
+
+  /** True north, as fisheyes have it. */
+  private northUp_deg(): number {
+    return -this.frames.grid.convergence_deg;
   }
 
   private fly(): void {

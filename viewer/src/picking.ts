@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-import { type BufferAttribute, type BufferGeometry, type Intersection, type Mesh, type PerspectiveCamera, Raycaster, type Vector2, Vector3 } from "three";
+import type { BufferAttribute, BufferGeometry, Intersection, Mesh, PerspectiveCamera, Vector2 } from "three";
+import { Raycaster, Vector3 } from "three";
 import { acceleratedRaycast, MeshBVH } from "three-mesh-bvh";
 import { kindOfVertex, nameOfFeature, nameOfValue, type SurfaceTable } from "./facets.ts";
 import { hiddenMask, type ShownLayers, type SurfaceKind, surfaceKinds } from "./surface_kinds.ts";
@@ -17,6 +18,8 @@ export interface PickedFacet {
   kind: SurfaceKind;
   /** null where the facet has no value. */
   svf: number | null;
+  /** The facet stands for others, of which it lies some metres off. */
+  isSimplified: boolean;
 }
 
 interface TreeOwner {
@@ -57,7 +60,7 @@ export class Picker {
 
   private firstFacet(): PickedFacet | null {
     const first = this.hits().find((hit) => (this.hidden & (1 << kindOfHit(hit))) === 0);
-    return first ? facetOf(first, this.raycaster.ray.direction) : null;
+    return first ? { ...facetOf(first, this.raycaster.ray.direction), isSimplified: this.tiles.isSimplified(first.object) } : null;
   }
 
   /** All facets on the ray, the nearest first. */
@@ -89,12 +92,12 @@ function prepare(mesh: Mesh): void {
 const firstVertex = (hit: Intersection): number => 3 * (hit.faceIndex ?? 0);
 const kindOfHit = (hit: Intersection<Mesh>): number => kindOfVertex(hit.object.geometry, firstVertex(hit));
 
-function facetOf(hit: Intersection<Mesh>, direction: Vector3): PickedFacet {
+function facetOf(hit: Intersection<Mesh>, direction: Vector3): Omit<PickedFacet, "isSimplified"> {
   const geometry = hit.object.geometry, vertex = firstVertex(hit);
   const normal_local = (hit.face?.normal.clone() ?? new Vector3(0, 1, 0)).transformDirection(hit.object.matrixWorld);
   if (normal_local.dot(direction) > 0) normal_local.negate();
   const row = (geometry.getAttribute(nameOfFeature) as BufferAttribute).getX(vertex);
   const { building, surface } = (hit.object.userData["structuralMetadata"] as SurfaceTable).getPropertyTableData(0, row);
-  const value = geometry.hasAttribute(nameOfValue) ? geometry.getAttribute(nameOfValue).getX(vertex) : null;
-  return { p_local: hit.point.clone(), normal_local, building, surface, kind: surfaceKinds[kindOfHit(hit)] ?? "unknown", svf: value };
+  const svf = geometry.hasAttribute(nameOfValue) ? geometry.getAttribute(nameOfValue).getX(vertex) : null;
+  return { p_local: hit.point.clone(), normal_local, building, surface, kind: surfaceKinds[kindOfHit(hit)] ?? "unknown", svf };
 }

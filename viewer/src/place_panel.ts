@@ -10,9 +10,15 @@ import type { SkyProjection } from "./sky_projection.ts";
 import type { SurfaceKind } from "./surface_kinds.ts";
 import type { ViewInfo } from "./view_info.ts";
 
-const kindWords: Record<SurfaceKind, string> = { ground: "ground", roof: "roof", wall: "façade", floor: "underside", unknown: "unknown" };
-const partWords: Record<(typeof partNames)[number], string> = { sky: "sky", near: "near geometry", far: "far geometry", crown: "crowns of trees" };
-const captionOfFisheye = "As seen from below: true north is up, and east is on the left. Shares are those of the view of a level surface.";
+const kindWords: Record<SurfaceKind, string> =
+  { ground: "ground", roof: "roof", wall: "façade", floor: "underside", unknown: "unknown" };
+const partWords: Record<(typeof partNames)[number], string> =
+  { sky: "sky", near: "near geometry", far: "far geometry", crown: "crowns of trees" };
+const captionOfFisheye =
+  "As seen from below: true north is up, and east is on the left. Shares are those of the view of a level surface.";
+
+const noAnswer = "This place has no answer: it lies inside a building, below the ground, or where there is no ground.";
+const noAnswerFromAfar = "This place has no answer. From so far, the city is drawn in a simplified form: come nearer, and ask again.";
 
 /** What is told of the selected place. */
 export class PlacePanel {
@@ -28,8 +34,8 @@ export class PlacePanel {
   /** What the tiles know; the server's answer follows. */
   showFacet({ facet, receiver }: Selection): void {
     part("place-title").textContent = facet.building === "" ? "Ground" : facet.building;
-    const [x_m, y_m, z_m] = this.frames.projectedOf(facet.p_local), isLevel = receiver.tilt_deg === undefined || receiver.tilt_deg < 0.05;
-    const looks = isLevel ? "straight up" : `azimuth ${(receiver.azimuth_deg ?? 0).toFixed(1)}°, tilt ${(receiver.tilt_deg ?? 0).toFixed(1)}°`;
+    const [x_m, y_m, z_m] = this.frames.projectedOf(facet.p_local), { azimuth_deg = 0, tilt_deg = 0 } = receiver;
+    const looks = tilt_deg < 0.05 ? "straight up" : `azimuth ${azimuth_deg.toFixed(1)}°, tilt ${tilt_deg.toFixed(1)}°`;
     showFacts(part("place-facts"), [
       ["Kind", kindWords[facet.kind]],
       ["Surface", facet.building === "" ? null : String(facet.surface)],
@@ -49,7 +55,7 @@ export class PlacePanel {
     const isBounded = answer.svf !== null && answer.low !== null && answer.high !== null;
     part("bounds").textContent = isBounded ? boundsText(answer) : "";
     const place = facet.kind === "ground" ? `${this.view.receiver_height_m} m above the ground` : "at this point of the surface";
-    part("value-note").textContent = answer.svf === null ? "This place has no answer: it lies inside a building, below the ground, or where there is no ground."
+    part("value-note").textContent = answer.svf === null ? (facet.isSimplified ? noAnswerFromAfar : noAnswer)
       : `Sky view factor ${place}${isBounded ? ", with certain bounds" : ""}. Computed in ${(1000 * answer.seconds).toFixed(1)} ms.`;
   }
 
@@ -64,8 +70,11 @@ export class PlacePanel {
     this.hemisphere = hemisphere;
     const shares = hemisphere ? sharesOf(hemisphere) : null;
     const rows = partNames.filter((name) => shares !== null && (name !== "crown" || shares.crown > 0));
-    part("sky-parts").replaceChildren(...rows.map((name) => keyRow(partWords[name], cssOf(partColours[name]), shares?.[name])), ...(shares ? [horizonRow()] : []));
-    part("fisheye").setAttribute("aria-label", shares ? `Fisheye: ${rows.map((name) => `${partWords[name]} ${percent(shares[name])}`).join(", ")}` : "Fisheye: no data");
+    const texts = rows.map((name) => `${partWords[name]} ${percent(shares?.[name] ?? 0)}`);
+    const keys = rows.map((name, n) => keyRow("swatch", cssOf(partColours[name]), texts[n] ?? ""));
+    if (shares) keys.push(keyRow("line-swatch", lineColours.horizon, "horizon"));
+    part("sky-parts").replaceChildren(...keys);
+    part("fisheye").setAttribute("aria-label", `Fisheye: ${shares ? texts.join(", ") : "no data"}`);
     this.redraw(projection);
   }
 
@@ -95,16 +104,9 @@ function boundsText({ text, low, high }: PointAnswer): string {
 
 const percent = (share: number): string => `${(100 * share).toFixed(1)} %`;
 
-function keyRow(words: string, colour: string, share: number | undefined): HTMLElement {
-  const row = element("li"), swatch = element("span", "swatch");
+function keyRow(kind: string, colour: string, words: string): HTMLElement {
+  const row = element("li"), swatch = element("span", kind);
   swatch.style.background = colour;
-  row.append(swatch, share === undefined ? words : `${words} ${percent(share)}`);
-  return row;
-}
-
-function horizonRow(): HTMLElement {
-  const row = element("li"), swatch = element("span", "line-swatch");
-  swatch.style.background = lineColours.horizon;
-  row.append(swatch, "horizon");
+  row.append(swatch, words);
   return row;
 }

@@ -11,7 +11,8 @@ const placeOn = (canvas: HTMLCanvasElement, event: PointerEvent): Vector2 => {
 };
 
 /** Tells clicks on the canvas from drags, and where the pointer hovers; places are from −1 to 1 rightwards and upwards. */
-export function listenToPointer(canvas: HTMLCanvasElement, onClick: (place: Vector2) => void, onHover: (place: Vector2 | null) => void): void {
+export function listenToPointer(canvas: HTMLCanvasElement, onClick: (place: Vector2) => void,
+                                onHover: (place: Vector2 | null) => void): void {
   let down: { x: number; y: number; time_ms: number } | null = null;
   canvas.addEventListener("pointerdown", (event) => {
     down = event.isPrimary && event.button === 0 ? { x: event.clientX, y: event.clientY, time_ms: event.timeStamp } : null;

@@ -42,13 +42,16 @@ export interface Hemisphere {
 export const azimuthsOfHemisphere = 1440;
 export const elevationsOfHemisphere = 360;
 
+/** From one local point to another. */
+export type FarEdge = [number, number, number, number, number, number];
+
 export interface FarView {
   eye_m: Triple;
   first_azimuth_deg: number;
   low: number[];
   estimate: number[];
   high: number[];
-  edges: [number, number, number, number, number, number][];
+  edges: FarEdge[];
 }
 
 export interface CellFacts {

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-import type { CellIndex } from "./view_info.ts";
+import type { CellIndex, Triple } from "./view_info.ts";
 import type { CameraView } from "./navigation.ts";
 import type { Page } from "./page.ts";
+import type { PickedFacet } from "./picking.ts";
 
 /** What tests ask of the page: `farlod.state()`. The attribute `data-ready` of the document says when it is worth asking. */
 interface PageState {
@@ -13,7 +14,7 @@ interface PageState {
   visibleTiles: number;
   drawnFrames: number;
   camera: CameraView;
-  picked: { building: string; surface: number; kind: string; svf: number | null; projected_m: [number, number, number] } | null;
+  picked: (Omit<PickedFacet, "p_local" | "normal_local"> & { projected_m: Triple }) | null;
   answer: string | null;
   skyIsDrawn: boolean;
   cell: CellIndex | null;
@@ -30,7 +31,6 @@ export function offerState(page: Page): void {
 }
 
 function stateOf(page: Page): PageState {
-  const facet = page.place.selection?.facet ?? null;
   return {
     loaded: page.readyAt_ms !== null && page.tiles.isComplete,
     resting: page.isResting,
@@ -38,9 +38,13 @@ function stateOf(page: Page): PageState {
     visibleTiles: page.tiles.visibleTiles,
     drawnFrames: page.city.renderer.info.render.frame,
     camera: page.navigation.view(),
-    picked: facet && { building: facet.building, surface: facet.surface, kind: facet.kind, svf: facet.svf, projected_m: page.frames.projectedOf(facet.p_local) },
+    picked: page.place.selection && pickedOf(page.place.selection.facet, page),
     answer: page.place.isAnswered ? (page.place.answer?.text ?? "no data") : null,
     skyIsDrawn: page.place.skyIsDrawn,
     cell: page.grid.chosen,
   };
+}
+
+function pickedOf({ p_local, building, surface, kind, svf, isSimplified }: PickedFacet, page: Page): PageState["picked"] {
+  return { building, surface, kind, svf, isSimplified, projected_m: page.frames.projectedOf(p_local) };
 }

@@ -26,8 +26,11 @@ class NoMaterials {
 }
 
 interface Tileset {
-  root: { transform?: number[] };
+  root: { transform?: number[]; boundingVolume: { box: number[] } };
 }
+
+/** What the implicit tiling says of its tiles. */
+type ImplicitTile = Tile & { implicitTilingData?: { level: number } };
 
 /** Lets all files of tiles come through the door of server.ts, so that what goes wrong is told in one way. */
 class FetchOfTiles {
@@ -72,6 +75,7 @@ async function localTileset(url: string): Promise<Tileset> {
 export class CityTiles {
   private readonly renderer: TilesRenderer;
   private readonly materials: SvfMaterials;
+  private readonly cellEdge_m: number;
   private readonly meshes = new Map<Tile, Mesh[]>();
   private readonly failed = new Set<Tile>();
   /** The next update may choose other tiles. */
@@ -81,6 +85,7 @@ export class CityTiles {
   private quietUpdates = 0;
 
   constructor(view: ViewInfo, private readonly camera: PerspectiveCamera, onError: (error: unknown) => void) {
+    this.cellEdge_m = view.grid.cell_edge_m;
     this.materials = new SvfMaterials(view);
     const tileset = new URL(view.tileset, document.baseURI).href;
     this.renderer = new TilesRenderer(tileset);
@@ -90,7 +95,7 @@ export class CityTiles {
     this.renderer.registerPlugin(new GLTFExtensionsPlugin({ plugins: [() => new NoMaterials()] }));
     this.renderer.setCamera(camera);
     this.renderer.errorTarget = firstError_px;
-    // The first picture needs the tiles in view alone
+    // Coarser tiles need not come first. The first picture is made of the tiles in view alone
     this.renderer.loadAncestors = this.renderer.loadSiblings = false;
     this.renderer.lruCache.minBytesSize = keptBytes;
     this.renderer.lruCache.maxBytesSize = greatestBytes;
@@ -103,6 +108,13 @@ export class CityTiles {
 
   get visibleTiles(): number {
     return this.renderer.visibleTiles.size;
+  }
+
+  /** Whether the geometry that a mesh shows is a simplified one: tiles larger than a cell are. */
+  isSimplified(mesh: Mesh): boolean {
+    const box = (this.renderer.rootTileset as Tileset | null)?.root.boundingVolume.box ?? [];
+    const edge_m = 2 * Math.hypot(box[3] ?? 0, box[4] ?? 0, box[5] ?? 0), tile = mesh.userData["tile"] as ImplicitTile;
+    return edge_m / 2 ** (tile.implicitTilingData?.level ?? 0) > 1.01 * this.cellEdge_m;
   }
 
   /** The share of what is being loaded that has come. */
@@ -138,9 +150,9 @@ export class CityTiles {
     for (const tile of this.renderer.activeTiles) yield* this.meshes.get(tile) ?? [];
   }
 
-  /** After the first complete picture. From now on, coarser tiles stand by, so that a moving camera sees no holes. */
+  /** After the first complete picture. From now on, tiles beside those in view are loaded, too: a camera that turns sees no holes. */
   sharpen(): void {
-    this.renderer.loadAncestors = this.renderer.loadSiblings = true;
+    this.renderer.loadSiblings = true;
     this.renderer.errorTarget = error_px;
     this.changed = true;
     this.quietUpdates = 0;
