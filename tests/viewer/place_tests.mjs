@@ -10,29 +10,44 @@ const places = [];
 for (let ring = 0; ring < 9; ++ring) for (let n = 0; n < 8; ++n)
   places.push([400 + 14 * ring * Math.cos((n * Math.PI) / 4), 360 + 12 * ring * Math.sin((n * Math.PI) / 4)]);
 
-/** The page with a place of this kind chosen, so near that nothing is simplified, and the questions that it asked for it. */
-async function choose(context, url, kind) {
-  const page = await context.newPage(), asked = [], { origin_m } = await (await fetch(`${url}view.json`)).json();
-  page.on("request", (request) => { if (/\/(at|hemisphere|cell)\?/.test(request.url())) asked.push(request.url()); });
-  await page.goto(`${url}#camera=${origin_m.join(",")},300,0,40`);
-  await ready(page);
-  await settled(page);
+/** Where to look for a place, in metres from the origin: a square or a large roof may fill one view. */
+const surroundings = [[0, 0], [260, -200], [-300, 120], [150, 400], [-200, -420]];
+
+/** A click at some place of the kind, where nothing is simplified and there is an answer; null where the view has none. */
+async function clickOn(page, kind, asked) {
   for (const [x, y] of places) {
     asked.length = 0;
     await page.mouse.click(x, y);
-    await page.waitForTimeout(100);
     const { picked } = await state(page);
     if (picked?.kind !== kind || picked.isSimplified) continue;
-    const now = await until(page, "the answer", ({ answer, skyIsDrawn }) => answer !== null && skyIsDrawn);
-    if (now.answer !== "no data") return { page, now, asked };
+    const now = await until(page, "the answer", ({ answer, resting }) => answer !== null && resting);
+    if (now.answer !== "no data") return now;
+  }
+  return null;
+}
+
+/** The page with a place of this kind chosen, and the questions that it asked for it. */
+async function choose(context, url, kind) {
+  const page = await context.newPage(), asked = [], { origin_m: [east, north, height] } = await (await fetch(`${url}view.json`)).json();
+  page.on("request", (request) => { if (/\/(at|hemisphere|cell)\?/.test(request.url())) asked.push(request.url()); });
+  await page.goto(`${url}#camera=${east},${north},${height},160,0,40`);
+  await ready(page);
+  for (const [dx, dy] of surroundings) {
+    await page.evaluate((hash) => { location.hash = hash; }, `camera=${east + dx},${north + dy},${height},160,0,40`);
+    await settled(page);
+    const now = await clickOn(page, kind, asked);
+    if (now) return { page, now, asked };
   }
   throw new Error(`found no place of the kind ${kind}`);
 }
 
+/** The last question of a kind: earlier ones may be of places that were clicked at before. */
+const lastOf = (asked, path) => new URL(asked.filter((address) => address.includes(`/${path}?`)).pop());
+
 const answerTo = async (address) => (await fetch(address)).json();
 
 async function expectAnswerShown(page, asked) {
-  const answer = await answerTo(asked.find((address) => address.includes("/at?")));
+  const answer = await answerTo(lastOf(asked, "at"));
   expectEqual(await page.textContent("#value"), answer.text, "the value shown");
   const bounds = await page.textContent("#bounds");
   const digits = answer.text.split(".")[1].length, [low, high] = [answer.low.toFixed(digits), answer.high.toFixed(digits)];
@@ -58,7 +73,7 @@ function countQuestions() {
 export const placeTests = {
   async "a click on the ground gives the value of `at`"({ url, context }) {
     const { page, now, asked } = await choose(context, url, "ground");
-    const query = new URL(asked[0]).searchParams;
+    const query = lastOf(asked, "at").searchParams;
     expectEqual([...query.keys()], ["x", "y"], "what is asked for the ground");
     expectNear(Number(query.get("x")), now.picked.projected_m[0], 1e-3, "x");
     expectNear(Number(query.get("y")), now.picked.projected_m[1], 1e-3, "y");
@@ -68,7 +83,7 @@ export const placeTests = {
 
   async "a click on a façade asks in front of it, along its normal"({ url, context }) {
     const { page, now, asked } = await choose(context, url, "wall");
-    const query = new URL(asked[0]).searchParams, [x, y, z] = now.picked.projected_m, read = (name) => Number(query.get(name));
+    const query = lastOf(asked, "at").searchParams, [x, y, z] = now.picked.projected_m, read = (name) => Number(query.get(name));
     const away = [read("x") - x, read("y") - y, read("z") - z], { convergence_deg } = (await answerTo(`${url}view.json`)).grid;
     expectNear(Math.hypot(...away), 0.01, 2e-4, "the distance to the façade");
     const azimuth_deg = (Math.atan2(away[0], away[1]) * 180) / Math.PI + convergence_deg;
@@ -83,13 +98,13 @@ export const placeTests = {
 
   async "a click on a roof gives the value of `at`"({ url, context }) {
     const { page, asked } = await choose(context, url, "roof");
-    expect(Number(new URL(asked[0]).searchParams.get("tilt")) < 80, "the roof is upright");
+    expect(Number(lastOf(asked, "at").searchParams.get("tilt")) < 80, "the roof is upright");
     await expectAnswerShown(page, asked);
   },
 
   async "the fisheye is drawn as the hemisphere has it"({ url, context }) {
     const { page, asked } = await choose(context, url, "ground");
-    const bytes = new Uint8Array(await (await fetch(asked.find((address) => address.includes("/hemisphere?")))).arrayBuffer());
+    const bytes = new Uint8Array(await (await fetch(lastOf(asked, "hemisphere"))).arrayBuffer());
     const colours = [[205, 229, 248], [66, 66, 76], [230, 159, 0], [0, 140, 100]];
     // Half-way to the horizon of an orthographic disk of 282 pixels: sin z = .5; east is on the left
     const found = await page.evaluate(() => {
@@ -126,9 +141,9 @@ export const placeTests = {
     expect(Math.hypot(moved.picked.projected_m[0] - now.picked.projected_m[0], moved.picked.projected_m[1] - now.picked.projected_m[1]) > 5, "the place did not move");
     for (const axis of ["x", "y"]) expectNear(moved.camera.target_local[axis], now.camera.target_local[axis], 1e-3, `the camera's target, ${axis}`);
     expectEqual(await page.evaluate(() => window.questions.most), 1, "questions under way at once");
-    const last = asked.filter((address) => address.includes("/at?")).pop();
+    const last = lastOf(asked, "at");
     expectEqual(await page.textContent("#value"), (await answerTo(last)).text, "the value shown");
-    expectNear(Number(new URL(last).searchParams.get("x")), moved.picked.projected_m[0], 0.02, "x of the last question");
+    expectNear(Number(last.searchParams.get("x")), moved.picked.projected_m[0], 0.02, "x of the last question");
   },
 
   async "the grid shows a cell, its neighbourhood and its far map"({ url, context }) {
