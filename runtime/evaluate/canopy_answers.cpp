@@ -32,8 +32,9 @@ void write_canopy_columns(const Quantities& quantities, float svf, const CanopyA
   }
   if (quantities.svfaveg) add(1.0F - loss.building);
   if (quantities.directional_vegetation) {
-    // What the answer knows better than the azimuths is not known by halves: it goes to opposite ones alike
-    for (const float half : loss.sky_of_half) add(1.0F - std::max(0.0F, half + (behind - loss.sky)));
+    // What the answer knows better than the azimuths is not known by halves: each keeps its share of it
+    const float share = loss.sky > 0.0F ? behind / loss.sky : 1.0F;
+    for (const float half : loss.sky_of_half) add(1.0F - share * half);
     for (const float half : loss.building_of_half) add(1.0F - half);
   }
   if (quantities.sky_shares) {

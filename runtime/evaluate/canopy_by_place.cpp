@@ -83,6 +83,7 @@ void CanopyByPlace::evaluate(std::span<const SkyProfile> profiles, std::span<con
 
 CanopyShares CanopyByPlace::evaluate(const SkyProfile& profile, const ReceiverPacket& receivers,
                                      std::span<PacketHorizon::Row> behind_of_azimuths) {
+  if (!depends_on_place_) return sky_.evaluate(profile, receivers, batches_at({}), behind_of_azimuths);
   CanopyShares shares;
   behind_of_some_.resize(behind_of_azimuths.size());
   for (std::uint32_t left = all_lanes; left != 0;) {

@@ -33,13 +33,14 @@ class CanopyByPlace {
   /// As CanopySky::evaluate.
   void evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets, std::span<CanopyShares> shares,
                 std::span<PacketHorizon::Row> behind_of_azimuths);
+  /// The same of one packet.
+  [[nodiscard]] CanopyShares evaluate(const SkyProfile& profile, const ReceiverPacket& receivers,
+                                      std::span<PacketHorizon::Row> behind_of_azimuths);
 
  private:
   using Place = std::pair<std::int32_t, std::int32_t>;
   [[nodiscard]] static Place place_of(const ReceiverPacket& receivers, std::size_t lane);
   [[nodiscard]] const CrownBatches& batches_at(const Place& place);
-  [[nodiscard]] CanopyShares evaluate(const SkyProfile& profile, const ReceiverPacket& receivers,
-                                      std::span<PacketHorizon::Row> behind_of_azimuths);
 
   CanopyLevels levels_;
   PixelMerging merging_;

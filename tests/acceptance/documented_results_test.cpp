@@ -11,6 +11,7 @@
 #include "results/output_format.hpp"
 #include "results/provenance.hpp"
 #include "tests/acceptance/packed_town.hpp"
+#include "tests/acceptance/street_trees.hpp"
 
 // docs/stages/results.md, and the formats of README.md, against what the programs write.
 
@@ -106,6 +107,9 @@ TEST_F(DocumentedResults, SummaryOfPackHasTheDocumentedKeysAndNoOthers) {
         "farlod-pack house.city.json -o c.farlod --max-error 0.05 --cell 4 --terrain ground.asc --summary s.json --area " + area);
   auto keys = keys_of(folder.json_of("s.json"), title);
   folder.must("farlod-pack town.geojson -o d.farlod --shard 0/2 --summary s.json");
+  keys.merge(keys_of(folder.json_of("s.json"), title));
+  folder.write("trees.csv", street_trees());
+  folder.must("farlod-pack town.geojson -o e.farlod --trees trees.csv --summary s.json");
   keys.merge(keys_of(folder.json_of("s.json"), title));
   EXPECT_EQ(keys, documented_keys(title, false));
 }

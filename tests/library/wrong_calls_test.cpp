@@ -71,11 +71,6 @@ void add_settings(Cases& cases) {
     a.settings.max_error = 0.001;
     a.settings.rays = 10;
   });
-  cases.add(all, "bounds of svf_total without svf_total", [](Arguments& a) {
-    a.settings.further.svf_total_bounds = true;
-    a.settings.bounds = true;
-    a.low = a.high = a.svf;
-  });
   cases.add(all, "bounds without the far city", [](Arguments& a) {
     a.settings.engine = Engine::near_only;
     a.settings.bounds = true;

@@ -54,6 +54,14 @@ TEST_F(WrongQuantities, AreRefused) {
     });
 }
 
+TEST_F(WrongQuantities, BoundsAreOfWhatIsComputed) {
+  expect_refused(all_, "bounds of svf_total without svf_total", [](Arguments& a) {
+    a.settings.further.svf_total_bounds = true;
+    a.settings.bounds = true;
+    a.low = a.high = a.svf;
+  });
+}
+
 TEST_F(WrongQuantities, NeedRoomForThemselvesAndNoOther) {
   expect_refused({points_into}, "no room for quantities", [](Arguments& a) { a.settings.further.directional = true; });
   expect_refused({points_into}, "room that nobody asked for", [](Arguments& a) { a.further.resize(2); });

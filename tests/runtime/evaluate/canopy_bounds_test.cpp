@@ -55,7 +55,12 @@ class FieldOfCrowns : public testing::TestWithParam<Rule> {
     return PackageReader(folder_.path() / "a.farlod");
   }
   [[nodiscard]] CrownsOfCell crowns_of(const CellReceivers& cell, const CrownMerging& merging) const {
-    return {package_, cell, GetParam().canopy, azimuths_, merging};
+    return {package_, cell, GetParam().canopy, azimuths_, merging, no_pixel_merging};
+  }
+  [[nodiscard]] static CanopyShares shares_of(CrownsOfCell& crowns, const SkyProfile& profile, const ReceiverPacket& packet) {
+    CanopyShares shares;
+    crowns.evaluate({&profile, 1}, {&packet, 1}, {&shares, 1}, {});
+    return shares;
   }
   /// One packet in the middle of the field: on the ground or above it, and looking up, aslant or to the side.
   [[nodiscard]] static CellReceivers receivers() {
@@ -97,7 +102,7 @@ TEST_P(FieldOfCrowns, TakeAsMuchAsTheirBoundSays) {
     for (const float highest : {0.0F, 0.05F, 0.4F}) {
       const SkyProfile profile = profile_below(highest);
       CrownsOfCell some = crowns_of(cell, merging);
-      const CanopyShares exact = all.shares(profile, packet), shares = some.shares(profile, packet);
+      const CanopyShares exact = shares_of(all, profile, packet), shares = shares_of(some, profile, packet);
       const PacketHorizon::Lanes most = some.most_error(profile, packet);
       for (std::size_t l = 0; l < packet.count; ++l)
         EXPECT_LE(std::abs(static_cast<double>(shares.lost[l] - exact.lost[l])),
