@@ -137,8 +137,9 @@ export const placeTests = {
     await page.mouse.down();
     for (let n = 1; n <= 30; ++n) await page.mouse.move(x + 3 * n, y + n);
     await page.mouse.up();
-    const moved = await until(page, "the answer", ({ answer, skyIsDrawn }) => answer !== null && skyIsDrawn);
-    expect(Math.hypot(moved.picked.projected_m[0] - now.picked.projected_m[0], moved.picked.projected_m[1] - now.picked.projected_m[1]) > 5, "the place did not move");
+    const from = now.picked.projected_m, distance = ({ projected_m: to }) => Math.hypot(to[0] - from[0], to[1] - from[1]);
+    const moved = await until(page, "the answer at another place", ({ picked, answer, skyIsDrawn, resting }) =>
+      distance(picked) > 5 && answer !== null && skyIsDrawn && resting);
     for (const axis of ["x", "y"]) expectNear(moved.camera.target_local[axis], now.camera.target_local[axis], 1e-3, `the camera's target, ${axis}`);
     expectEqual(await page.evaluate(() => window.questions.most), 1, "questions under way at once");
     const last = lastOf(asked, "at");
@@ -155,7 +156,8 @@ export const placeTests = {
     const { cell } = await state(page), facts = await answerTo(`${url}cell?i=${cell[0]}&j=${cell[1]}`), at = await answerTo(`${url}at?x=${now.picked.projected_m[0]}&y=${now.picked.projected_m[1]}`);
     expectEqual(cell, at.cell, "the cell of the place");
     expectEqual(await page.textContent("#cell h2"), `Cell ${cell[0]}, ${cell[1]}`, "the heading");
-    expectEqual(await page.locator(".near-table td").count(), facts.near_cells.length, "cells of the neighbourhood");
+    const { i_begin, i_end, j_begin, j_end } = facts.neighborhood;
+    expectEqual(await page.locator(".near-table td").count(), (i_end - i_begin) * (j_end - j_begin), "cells of the neighbourhood");
     expectEqual(await page.locator(".near-table td.middle").textContent(), facts.near_cells.find((near) => `${near.cell}` === `${cell}`).triangles.toLocaleString("en-GB"), "triangles of the cell");
     expect(differing(before, await pixels(page, clip)) > 0.01, "no lines were drawn");
     if (!facts.far) return;

@@ -79,6 +79,7 @@ export class Page {
   }
 
   select(facet: PickedFacet): void {
+    this.waitingPlace = null;
     part("panel").hidden = false;
     this.marker.show(facet);
     this.place.select(facet);
@@ -206,11 +207,10 @@ export class Page {
     this.applyLayers();
   }
 
-  /** The place of a link is picked when its tiles are there. */
+  /** The place of a link is picked when its tiles are there; those of the first frames may be coarser than the place. */
   private selectWaitingPlace(): void {
     if (!this.waitingPlace) return;
     const [x, y, z, azimuth_deg, tilt] = this.waitingPlace, normal = this.frames.directionOf(azimuth_deg, tilt);
-    this.waitingPlace = null;
     const front = this.frames.localOf([x, y, z]).addScaledVector(normal, 0.5 * reachOfLink_m);
     const facet = this.picker.along(front, normal.negate(), reachOfLink_m);
     if (facet) this.select(facet);
