@@ -26,6 +26,8 @@ import { CityTiles } from "./tiles.ts";
 
 /** A linked place is looked for this far in front of its facet and behind it: tiles are cut finer or coarser by turns. */
 const reachOfLink_m = 2;
+/** And this far, where it was on a facet of a simplified tile, once no finer tiles have come for a while. */
+const reachOfSimplified_m = 50, beforeSimplified_ms = 1500;
 
 /** While tiles come, frames are this far apart: what draws them would only delay what comes. */
 const betweenFrames_ms = 500;
@@ -50,6 +52,7 @@ export class Page {
   private readonly projection = part("projection", HTMLSelectElement);
   private waitingPlace: LinkedView["place"] = null;
   private linkTimer = 0;
+  private simplifiedTimer = 0;
   private isStale = false;
   private drawnAt_ms = 0;
 
@@ -210,10 +213,22 @@ export class Page {
   /** The place of a link is picked when its tiles are there; those of the first frames may be coarser than the place. */
   private selectWaitingPlace(): void {
     if (!this.waitingPlace) return;
-    const [x, y, z, azimuth_deg, tilt] = this.waitingPlace, normal = this.frames.directionOf(azimuth_deg, tilt);
-    const front = this.frames.localOf([x, y, z]).addScaledVector(normal, 0.5 * reachOfLink_m);
-    const facet = this.picker.along(front, normal.negate(), reachOfLink_m);
+    const facet = this.facetAt(this.waitingPlace, reachOfLink_m);
+    window.clearTimeout(this.simplifiedTimer);
     if (facet) this.select(facet);
+    else this.simplifiedTimer = window.setTimeout(() => this.selectNearWaitingPlace(), beforeSimplified_ms);
+  }
+
+  /** A place on a simplified facet is on none of the finer ones: the facet before or behind it has to do. */
+  private selectNearWaitingPlace(): void {
+    const facet = this.waitingPlace && this.tiles.isComplete ? this.facetAt(this.waitingPlace, reachOfSimplified_m) : null;
+    if (facet) this.select(facet);
+  }
+
+  private facetAt([x, y, z, azimuth_deg, tilt]: NonNullable<LinkedView["place"]>, reach_m: number): PickedFacet | null {
+    const normal = this.frames.directionOf(azimuth_deg, tilt);
+    const front = this.frames.localOf([x, y, z]).addScaledVector(normal, 0.5 * reach_m);
+    return this.picker.along(front, normal.negate(), reach_m);
   }
 
   /** Writes the address some time after the last change, since browsers refuse many writes at once. */
