@@ -67,6 +67,12 @@ void write_folder(const ViewCity& city, const ViewOptions& options, ViewSummary&
   summary.bytes = exported.bytes;
 }
 
+std::vector<ResultLayer> read_results(const ViewOptions& options, const Package& package, const ViewFrame& frame) {
+  std::vector<ResultLayer> layers;
+  for (const std::string& request : options.results) layers.push_back(read_result_layer(request, package, frame));
+  return layers;
+}
+
 int run(const ViewOptions& options) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
   for (const std::filesystem::path& file : {options.export_folder, std::filesystem::path(options.run.summary_file)})
@@ -74,7 +80,8 @@ int run(const ViewOptions& options) {
   const auto start = Clock::now();
   const Package package(options.package);
   const ViewFrame frame = view_frame_of(package);
-  const ViewCity city(package, name_of(options.package), frame, placed_on_globe(package.description(), frame));
+  const ViewCity city(package, name_of(options.package), frame, placed_on_globe(package.description(), frame),
+                      read_results(options, package, frame));
   ViewSummary summary{.open_seconds = seconds_since(start)};
   options.export_folder.empty() ? serve(city, options, summary) : write_folder(city, options, summary);
   summary.total_seconds = seconds_since(start);
@@ -101,6 +108,8 @@ int main(int argc, char** argv) {
   } catch (const PackageDamaged& error) {
     return complain(error, exit_damaged_package);
   } catch (const PackageUnusable& error) {
+    return complain(error, exit_unusable_input);
+  } catch (const InputError& error) {
     return complain(error, exit_unusable_input);
   } catch (const OutputError& error) {
     return complain(error, exit_unusable_input);

@@ -17,7 +17,8 @@ namespace {
 ProgramDescription view_program() {
   return {.name = "farlod-view",
           .purpose = "shows a package of farlod-pack in a browser, coloured by its sky view factors",
-          .examples = {"farlod-view town.farlod", "farlod-view town.farlod --export town_view"},
+          .examples = {"farlod-view town.farlod", "farlod-view town.farlod svf.tif problems.geojson",
+                       "farlod-view town.farlod --export town_view"},
           .background =
               {"The program answers a browser on the same machine until it is interrupted. Values are computed when they are "
                "looked at: the colours with 96 azimuths, and those of a place that is clicked as farlod-svf --at computes them.",
@@ -42,6 +43,10 @@ struct RawOptions {
 void add_options(CLI::App& app, RawOptions& raw, ViewOptions& o) {
   constexpr int most_ports = 65535;
   app.add_option("PACKAGE", raw.package, "A folder that farlod-pack made")->required()->type_name(folder_value);
+  app.add_option("RESULTS", o.results,
+                 "Results to draw: rasters and points of farlod-svf, each perhaps with the name of a band or field "
+                 "(svf.tif:svf_total), and reports of farlod-pack --report FILE.geojson")
+      ->type_name("FILE[:NAME]");
   auto* const port = app.add_option("--port", o.server.port, "Port to listen at; 0: any that is free")
                          ->capture_default_str()
                          ->check(between(0, most_ports))

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "console/program_description.hpp"
 #include "console/run_options.hpp"
@@ -14,6 +16,7 @@ namespace farlod {
 /// The command line of farlod-view, resolved.
 struct ViewOptions {
   std::filesystem::path package;
+  std::vector<std::string> results;  ///< as read_result_layer has them
   HttpServerSettings server;
   std::filesystem::path export_folder;  ///< perhaps empty
   RunOptions run;

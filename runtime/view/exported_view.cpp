@@ -71,6 +71,12 @@ ExportedView export_view(const ViewCity& city, const std::filesystem::path& fold
     on_progress(n + 1, tiles.size());
   }
   for (const BundleFile& file : bundle_files()) files.write(std::string(file.name), file.bytes);
+  for (std::size_t n = 0; n < city.results().size(); ++n) {
+    const ResultLayer& layer = city.results()[n];
+    const std::string name = "results/" + std::to_string(n);
+    files.write(name, layer.bytes());
+    files.write(name + ".json", labels_json(layer));
+  }
   files.write("view.json", city.description(false));
   files.write("tileset.json", city.tileset(tree));
   exported.bytes = files.bytes();

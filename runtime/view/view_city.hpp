@@ -7,8 +7,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "farlod/package.hpp"
+#include "view/result_layer.hpp"
 #include "view/tile_cache.hpp"
 #include "view/tile_tree.hpp"
 #include "view/view_frame.hpp"
@@ -32,13 +34,15 @@ using EcefFromLocal = std::array<double, 16>;
 /// package must outlive it.
 class ViewCity {
  public:
-  ViewCity(const Package& package, std::string name, const ViewFrame& frame, const EcefFromLocal& ecef_from_local);
+  ViewCity(const Package& package, std::string name, const ViewFrame& frame, const EcefFromLocal& ecef_from_local,
+           std::vector<ResultLayer> results = {});
 
   /// What is at this path, which has no slash in front. A request that makes no sense has the status 400, what is not there 404,
   /// and a package that is damaged 500, each with a sentence.
   [[nodiscard]] ViewReply answer(std::string_view path, const ViewQuery& query) const;
 
   [[nodiscard]] const TileTree& tree() const { return tree_; }
+  [[nodiscard]] const std::vector<ResultLayer>& results() const { return results_; }
   /// view.json; `can_answer` says whether single places can be asked for.
   [[nodiscard]] std::string description(bool can_answer) const;
   [[nodiscard]] std::string tile(const TileAddress& address) const;
@@ -48,6 +52,7 @@ class ViewCity {
  private:
   [[nodiscard]] ViewReply answer_or_throw(std::string_view path, const ViewQuery& query) const;
   [[nodiscard]] std::optional<ViewReply> file_of_tileset(std::string_view path) const;
+  [[nodiscard]] std::optional<ViewReply> file_of_result(std::string_view path) const;
   [[nodiscard]] ViewReply at(const ViewQuery& query) const;
   [[nodiscard]] ViewReply hemisphere(const ViewQuery& query) const;
   [[nodiscard]] ViewReply cell(const ViewQuery& query) const;
@@ -57,7 +62,11 @@ class ViewCity {
   EcefFromLocal ecef_from_local_;
   ViewFrame frame_;
   TileTree tree_;
+  std::vector<ResultLayer> results_;
   mutable TileCache tiles_;
 };
+
+/// The labels of a layer's points, as JSON.
+[[nodiscard]] std::string labels_json(const ResultLayer& layer);
 
 }  // namespace farlod

@@ -106,6 +106,22 @@ Json colours_json() {
   return colours;
 }
 
+Json results_json(const std::vector<ResultLayer>& results) {
+  Json list = Json::array();
+  for (const ResultLayer& layer : results) {
+    Json json = {{"name", layer.name},         {"form", name_of(layer.form)},
+                 {"quantity", layer.quantity}, {"url", "results/" + std::to_string(list.size())},
+                 {"count", layer.count},       {"range", layer.range()}};
+    if (layer.form == ResultForm::raster) {
+      json["width"] = layer.width;
+      json["height"] = layer.height;
+      json["local_from_pixel"] = layer.local_from_pixel;
+    }
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
 /// The cell of a place, where there is one.
 Json cell_of(const ViewFrame& frame, const Point3d& p_projected) {
   const Point2d p = frame.grid_from_local(horizontal(frame.local_from_projected(p_projected)));
@@ -145,12 +161,14 @@ Json corners_json(const ViewFrame& frame, const CellContents& contents) {
 
 }  // namespace
 
-ViewCity::ViewCity(const Package& package, std::string name, const ViewFrame& frame, const EcefFromLocal& ecef_from_local)
+ViewCity::ViewCity(const Package& package, std::string name, const ViewFrame& frame, const EcefFromLocal& ecef_from_local,
+                   std::vector<ResultLayer> results)
     : package_(package),
       name_(std::move(name)),
       ecef_from_local_(ecef_from_local),
       frame_(frame),
       tree_(frame_),
+      results_(std::move(results)),
       tiles_(most_bytes_of_tiles) {}
 
 ViewReply ViewCity::answer(std::string_view path, const ViewQuery& query) const {
@@ -171,6 +189,7 @@ ViewReply ViewCity::answer_or_throw(std::string_view path, const ViewQuery& quer
   if (path == "hemisphere") return hemisphere(query);
   if (path == "cell") return cell(query);
   if (std::optional<ViewReply> file = file_of_tileset(path)) return *std::move(file);
+  if (std::optional<ViewReply> file = file_of_result(path)) return *std::move(file);
   throw BadRequest{404, "There is nothing at this address."};
 }
 
@@ -184,6 +203,18 @@ std::optional<ViewReply> ViewCity::file_of_tileset(std::string_view path) const 
   if (!tile_address) return std::nullopt;
   if (!tree_.has_content(*tile_address)) throw BadRequest{404, "There is no such tile."};
   return ViewReply{.type = of_glb, .body = *tiles_.get(*tile_address, [&] { return tile(*tile_address); })};
+}
+
+std::optional<ViewReply> ViewCity::file_of_result(std::string_view path) const {
+  constexpr std::string_view folder = "results/", ending = ".json";
+  if (!path.starts_with(folder)) return std::nullopt;
+  path.remove_prefix(folder.size());
+  const bool is_labels = path.ends_with(ending);
+  if (is_labels) path.remove_suffix(ending.size());
+  const auto number = number_in<std::size_t>(path);
+  if (!number || *number >= results_.size()) throw BadRequest{404, "There is no such result."};
+  const ResultLayer& layer = results_[*number];
+  return is_labels ? ViewReply{.body = labels_json(layer)} : ViewReply{.type = of_bytes, .body = layer.bytes()};
 }
 
 std::string ViewCity::tile(const TileAddress& address) const {
@@ -213,6 +244,7 @@ std::string ViewCity::description(bool can_answer) const {
                      {"receiver_height_m", Placing{}.height_m},
                      {"colours", colours_json()},
                      {"nodata_colour", json_of(nodata_colour)},
+                     {"results", results_json(results_)},
                      {"tileset", "tileset.json"}};
   return json.dump() + "\n";
 }
@@ -275,6 +307,10 @@ ViewReply ViewCity::cell(const ViewQuery& query) const {
                      {"low_m", above_origin(c.low_m)},
                      {"high_m", above_origin(c.high_m)},
                      {"far", far_json(frame_, far_view_of(package_, place))}});
+}
+
+std::string labels_json(const ResultLayer& layer) {
+  return Json(layer.labels).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace farlod

@@ -7,6 +7,7 @@
 import { readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { fileURLToPath } from "node:url";
+import { resultsOfTown } from "./mock_results.mjs";
 import { boxesOfCell, glbOfTile, grid, gridOfLocal, localOfGrid, origin_m, subtreeOfTown, tilesetOfTown, valueAt } from "./mock_town.mjs";
 
 const bundle = new URL("../../viewer/bundle/", import.meta.url);
@@ -27,6 +28,7 @@ function viewOf(canAnswer) {
     software: "mock of farlod-view", name: "boxes.farlod", crs: "JGD2011 / Japan Plane Rectangular CS IX", epsg: 6677, origin_m, can_answer: canAnswer, grid,
     heights_m: [0, 85], counts: { buildings: boxes.length, polygons: boxes.length * 5, triangles: boxes.length * 10, crowns: 0 },
     far_map_kind: "horizon", receiver_height_m: 1.5, colours, nodata_colour: [190, 190, 190], tileset: "tileset.json",
+    results: resultsOfTown.map(({ body, labels, ...info }) => info),
   };
 }
 
@@ -102,6 +104,9 @@ function cell(query) {
 function file(path) {
   const tile = path.match(/^tiles\/(\d)\/(\d+)\/(\d+)\.glb$/);
   if (tile) return { type: "model/gltf-binary", body: glbOfTile(...tile.slice(1).map(Number)) };
+  const result = resultsOfTown.find(({ url }) => url === path), labels = resultsOfTown.find(({ url }) => `${url}.json` === path)?.labels;
+  if (result) return { type: "application/octet-stream", body: result.body };
+  if (labels) return { type: "application/json", body: Buffer.from(JSON.stringify(labels)) };
   if (/^subtrees\/0\/0\/0\.subtree$/.test(path)) return { type: "application/octet-stream", body: subtreeOfTown() };
   const name = path === "" ? "index.html" : path;
   if (!/^(index\.html|viewer\.js|viewer\.css|licences\.txt)$/.test(name)) throw new Refusal(404, `there is no ${path}`);

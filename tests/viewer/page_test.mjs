@@ -11,6 +11,7 @@ import { missing, openBrowser } from "./browser.mjs";
 import { failureTests } from "./failure_tests.mjs";
 import { lookTests } from "./look_tests.mjs";
 import { placeTests } from "./place_tests.mjs";
+import { resultTests } from "./result_tests.mjs";
 import { starterOf } from "./servers.mjs";
 import { useTests } from "./use_tests.mjs";
 
@@ -22,7 +23,9 @@ if (missing()) {
 }
 
 const start = starterOf({ program: values.program, packageFolder: values.package });
-const tests = Object.entries({ ...lookTests, ...placeTests, ...useTests, ...failureTests }).filter(([name]) => name.includes(values.only));
+// What is expected of results is known of the mock's alone
+const groups = [lookTests, placeTests, useTests, failureTests, ...(values.program ? [] : [resultTests])];
+const tests = Object.entries(Object.assign({}, ...groups)).filter(([name]) => name.includes(values.only));
 const browser = await openBrowser(), server = await start();
 let failed = 0;
 for (const [name, test] of tests) {

@@ -5,6 +5,8 @@ import type { Frames } from "./frames.ts";
 import type { CameraView } from "./navigation.ts";
 import type { PickedFacet } from "./picking.ts";
 import { tilt_deg } from "./frames.ts";
+import { comparisons } from "./ground_values.ts";
+import { computed, type ResultChoice } from "./result_controls.ts";
 import { isSkyProjection, type SkyProjection } from "./sky_projection.ts";
 import type { Theme } from "./theme.ts";
 
@@ -20,6 +22,9 @@ export interface LinkedView {
   layers: LayerName[] | null;
   theme: Theme | null;
   projection: SkyProjection | null;
+  results: ResultChoice | null;
+  /** Of two results, from the left. */
+  divider: number | null;
 }
 
 export function linkedCamera(view: CameraView, frames: Frames): NonNullable<LinkedView["camera"]> {
@@ -44,7 +49,28 @@ export function hashOf(link: LinkedView): string {
   if (link.layers) fields.push(`layers=${link.layers.join(",")}`);
   if (link.theme) fields.push(`theme=${link.theme}`);
   if (link.projection && link.projection !== "orthographic") fields.push(`projection=${link.projection}`);
+  if (link.results) fields.push(...fieldsOfResults(link.results, link.divider));
   return `#${fields.join("&")}`;
+}
+
+/** Numbers of results, in the order of the command line. */
+function fieldsOfResults({ shown, compared, comparison, dots }: ResultChoice, divider: number | null): string[] {
+  const fields = [`ground=${shown === computed ? "computed" : shown}`, `dots=${dots.join(",")}`];
+  if (compared === null) return fields;
+  fields.push(`compared=${compared === computed ? "computed" : compared}`, `comparison=${comparison}`);
+  if (comparison === "divider" && divider !== null) fields.push(`divider=${text([divider])}`);
+  return fields;
+}
+
+function resultsOf(fields: URLSearchParams): ResultChoice | null {
+  const number = (field: string): number => (field === "computed" ? computed : Number(field));
+  const ground = fields.get("ground"), compared = fields.get("compared");
+  if (ground === null) return null;
+  return {
+    shown: number(ground), compared: compared === null ? null : number(compared),
+    comparison: comparisons.find((name) => name === fields.get("comparison")) ?? "divider",
+    dots: (fields.get("dots") ?? "").split(",").filter((field) => field !== "").map(Number),
+  };
 }
 
 function numbersOf<T extends number[]>(field: string | null, count: T["length"]): T | null {
@@ -61,5 +87,7 @@ export function linkOf(hash: string): LinkedView {
     layers: fields.has("layers") ? layerNames.filter((name) => fields.get("layers")?.split(",").includes(name)) : null,
     theme: theme === "light" || theme === "dark" ? theme : null,
     projection: isSkyProjection(projection) ? projection : null,
+    results: resultsOf(fields),
+    divider: numbersOf<[number]>(fields.get("divider"), 1)?.[0] ?? null,
   };
 }

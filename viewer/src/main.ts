@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { sentenceOf, showBanner } from "./banner.ts";
 import { NoWebGl } from "./city_scene.ts";
-import { showLegend } from "./legend.ts";
 import { Page } from "./page.ts";
 import { countText, part, showFacts } from "./page_parts.ts";
 import { offerState } from "./test_hooks.ts";
@@ -27,7 +26,6 @@ async function start(): Promise<void> {
   try {
     const view = await loadViewInfo();
     showPackage(view);
-    showLegend(view);
     offerState(new Page(view));
   } catch (error) {
     showBanner(sentenceOf(error), error instanceof NoWebGl ? null : () => location.reload());

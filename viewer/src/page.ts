@@ -8,6 +8,7 @@ import { Frames } from "./frames.ts";
 import { GridLines } from "./grid_lines.ts";
 import { GridView } from "./grid_view.ts";
 import { GroundHeights } from "./ground_heights.ts";
+import { GroundValues } from "./ground_values.ts";
 import { listenToKeys, zoomStep } from "./keyboard.ts";
 import { LayerBoxes } from "./layers.ts";
 import { cameraOf, hashOf, linkedCamera, linkedPlace, type LinkedView, linkOf } from "./link.ts";
@@ -19,6 +20,7 @@ import { type PickedFacet, Picker } from "./picking.ts";
 import { PlacePanel } from "./place_panel.ts";
 import { PlaceView } from "./place_view.ts";
 import { listenToPointer } from "./pointing.ts";
+import { ResultView } from "./result_view.ts";
 import { loadViewInfo, type ViewInfo } from "./view_info.ts";
 import { isSkyProjection, type SkyProjection } from "./sky_projection.ts";
 import { ThemeSwitch } from "./theme.ts";
@@ -40,9 +42,12 @@ export class Page {
   readonly navigation: Navigation;
   readonly place: PlaceView;
   readonly grid: GridView;
+  readonly results: ResultView;
   /** When the first complete frame was drawn, in milliseconds of performance.now(). */
   readyAt_ms: number | null = null;
+  private readonly ground = new GroundValues();
   private readonly picker: Picker;
+  private readonly heights: GroundHeights;
   private readonly marker: Marker;
   private readonly layers = new LayerBoxes(() => this.applyLayers());
   private readonly theme: ThemeSwitch;
@@ -50,6 +55,7 @@ export class Page {
   private readonly cellPanel: CellPanel;
   private readonly ornaments: MapOrnaments;
   private readonly projection = part("projection", HTMLSelectElement);
+  private onReady: () => void = () => undefined;
   private waitingPlace: LinkedView["place"] = null;
   private linkTimer = 0;
   private simplifiedTimer = 0;
@@ -60,9 +66,10 @@ export class Page {
     const canvas = part("city", HTMLCanvasElement), fail = (error: unknown): void => this.fail(error);
     this.frames = new Frames(view);
     this.city = new CityScene(canvas, () => this.beforeFrame(), () => this.afterFrame());
-    this.tiles = new CityTiles(view, this.city.camera, fail);
+    this.tiles = new CityTiles(view, this.ground, this.city.camera, fail);
     this.city.scene.add(this.tiles.group);
     this.picker = new Picker(this.tiles);
+    this.heights = new GroundHeights(this.picker, view.heights_m);
     this.navigation = new Navigation(this.city.camera, canvas, this.frames, view.heights_m);
     this.placePanel = new PlacePanel(view, this.frames);
     this.cellPanel = new CellPanel(this.frames, view.far_map_kind);
@@ -72,13 +79,15 @@ export class Page {
                              (dragging) => { this.navigation.enabled = !dragging; });
     this.ornaments = new MapOrnaments(this.city, this.frames);
     this.theme = new ThemeSwitch(part("theme", HTMLButtonElement), (background) => this.applyTheme(background));
+    this.results = new ResultView(view, this.city, this.ground, new Promise((resolve) => { this.onReady = resolve; }),
+                                  (x, y) => this.heights.at(x, y), () => this.noteLink(), fail);
     this.listen(canvas);
     this.restore(linkOf(location.hash));
     this.city.start();
   }
 
   get isResting(): boolean {
-    return this.city.isResting && this.tiles.isComplete && !this.navigation.isFlying && !this.place.isAsking;
+    return this.city.isResting && this.tiles.isComplete && !this.navigation.isFlying && !this.place.isAsking && !this.results.isLoading;
   }
 
   select(facet: PickedFacet): void {
@@ -86,6 +95,7 @@ export class Page {
     part("panel").hidden = false;
     this.marker.show(facet);
     this.place.select(facet);
+    this.results.select(facet);
     if (this.grid.shown && this.view.can_answer) this.grid.choose(facet);
     this.noteLink();
   }
@@ -94,6 +104,7 @@ export class Page {
     part("panel").hidden = true;
     this.marker.show(null);
     this.place.clear();
+    this.results.select(null);
     this.grid.clear();
     this.noteLink();
   }
@@ -101,11 +112,11 @@ export class Page {
   dispose(): void {
     this.city.dispose();
     this.tiles.dispose();
+    this.ground.dispose();
   }
 
   private makeGridView(fail: (error: unknown) => void): GridView {
-    const heights = new GroundHeights(this.picker, this.view.heights_m);
-    const lines = new GridLines(this.frames, (x, y) => heights.at(x, y));
+    const lines = new GridLines(this.frames, (x, y) => this.heights.at(x, y));
     this.city.scene.add(lines.object);
     return new GridView(this.frames, lines, this.cellPanel, () => this.city.redraw(), fail);
   }
@@ -198,6 +209,7 @@ export class Page {
     document.documentElement.dataset["ready"] = "true";
     if (this.grid.shown) this.grid.show(true);
     tell(`${this.view.name} is shown.`);
+    this.onReady();
     this.tiles.sharpen();
   }
 
@@ -205,6 +217,7 @@ export class Page {
     if (link.camera) this.navigation.set(cameraOf(link.camera, this.frames));
     if (link.layers) this.layers.choose(link.layers);
     if (link.projection) this.projection.value = link.projection;
+    this.results.restore(link.results, link.divider);
     this.waitingPlace = link.place;
     this.theme.choose(link.theme);
     this.applyLayers();
@@ -243,6 +256,7 @@ export class Page {
       camera: linkedCamera(this.navigation.view(), this.frames),
       place: this.waitingPlace ?? (selection ? linkedPlace(selection.facet, this.frames) : null),
       layers: this.layers.shown, theme: this.theme.choice, projection: this.skyProjection(),
+      results: this.view.results.length > 0 ? this.results.choice : null, divider: this.results.dividerShare,
     };
   }
 

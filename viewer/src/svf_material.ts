@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-import { DataTexture, DoubleSide, GLSL3, LinearFilter, RGBAFormat, ShaderMaterial, UnsignedByteType } from "three";
-import type { Triple, ViewInfo } from "./view_info.ts";
+import { type DataTexture, DoubleSide, GLSL3, ShaderMaterial } from "three";
+import { type GroundValues, rampTexture } from "./ground_values.ts";
+import { noValue } from "./results.ts";
+import type { ViewInfo } from "./view_info.ts";
 
 /** What both materials read, changed in one place. */
 export interface SharedUniforms {
@@ -17,6 +19,8 @@ const vertexShader = /* glsl */ `
   #endif
   uniform int hidden;
   out float shade;
+  out vec2 place;       // local
+  flat out int isGround;
 
   // From the north-west and above, as maps are lit. A level facet keeps the colour of the legend
   const vec3 light = vec3(-0.51, 0.51, 0.69);
@@ -26,6 +30,8 @@ const vertexShader = /* glsl */ `
     #ifdef WITH_VALUE
     svf = _svf;
     #endif
+    isGround = kind == 0 ? 1 : 0;
+    place = (modelMatrix * vec4(position, 1.0)).xy;
     vec3 normal = normalize(facet.xyz);
     // Simplified ground has slivers, whichever way they look
     if (kind == 0) normal = normalize(vec3(0.5 * normal.xy, max(0.5, abs(normal.z))));
@@ -37,34 +43,58 @@ const vertexShader = /* glsl */ `
 `;
 
 const fragmentShader = /* glsl */ `
+  precision highp sampler2D;
   in float shade;
+  in vec2 place;
+  flat in int isGround;
   #ifdef WITH_VALUE
   in float svf;
-  uniform sampler2D ramp;
-  #else
-  uniform vec3 nodata;
   #endif
+  uniform sampler2D ramp, differences, shownRaster, comparedRaster;
+  uniform mat3 shownPixel, comparedPixel;
+  uniform bool shownIsComputed, comparedIsComputed;
+  uniform vec2 shownRange, comparedRange;
+  uniform int comparing;  // 0: nothing; 1: side by side; 2: by the difference
+  uniform float greatestDifference, divider_px;
+  uniform vec3 nodata;
   out vec4 colour;
+
+  const float noValue = ${noValue.toExponential()};
+  bool isValue(float value) { return value > 0.5 * noValue; }
+
+  float valueAt(sampler2D raster, mat3 pixel_from_local) {
+    ivec2 pixel = ivec2(floor((pixel_from_local * vec3(place, 1.0)).xy)), size = textureSize(raster, 0);
+    if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size.x || pixel.y >= size.y) return noValue;
+    return texelFetch(raster, pixel, 0).r;
+  }
+
+  // The middles of the ramp's outermost texels are the ends of the range
+  vec3 colourOf(sampler2D colours, float value, vec2 range) {
+    float t = clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
+    return isValue(value) ? texture(colours, vec2(t * (255.0 / 256.0) + 0.5 / 256.0, 0.5)).rgb : nodata;
+  }
+
+  vec3 colourOfGround(float computed) {
+    float a = shownIsComputed ? computed : valueAt(shownRaster, shownPixel);
+    if (comparing == 0) return colourOf(ramp, a, shownRange);
+    float b = comparedIsComputed ? computed : valueAt(comparedRaster, comparedPixel);
+    if (comparing == 1) return gl_FragCoord.x < divider_px ? colourOf(ramp, a, shownRange) : colourOf(ramp, b, comparedRange);
+    float difference = isValue(a) && isValue(b) ? a - b : noValue;
+    return colourOf(differences, difference, vec2(-greatestDifference, greatestDifference));
+  }
 
   void main() {
     #ifdef WITH_VALUE
-    // The middles of the ramp's outermost texels are 0 and 1
-    vec3 flatColour = texture(ramp, vec2(svf * (255.0 / 256.0) + 0.5 / 256.0, 0.5)).rgb;
+    float computed = svf;
     #else
-    vec3 flatColour = nodata;
+    float computed = noValue;
     #endif
+    vec3 flatColour = isGround == 1 ? colourOfGround(computed) : colourOf(ramp, computed, vec2(0.0, 1.0));
+    // The legend has one ramp: beside differences, buildings are paper
+    if (isGround == 0 && comparing == 2) flatColour = vec3(0.87, 0.87, 0.85);
     colour = vec4(flatColour * shade, 1.0);
   }
 `;
-
-function rampOf(colours: readonly Triple[]): DataTexture {
-  const bytes = new Uint8Array(4 * colours.length);
-  colours.forEach(([red, green, blue], n) => bytes.set([red, green, blue, 255], 4 * n));
-  const texture = new DataTexture(bytes, colours.length, 1, RGBAFormat, UnsignedByteType);
-  texture.magFilter = texture.minFilter = LinearFilter;
-  texture.needsUpdate = true;
-  return texture;
-}
 
 /** The two materials of all tiles: facets with a value, and facets without. Colours are written as they are, without light. */
 export class SvfMaterials {
@@ -72,12 +102,12 @@ export class SvfMaterials {
   readonly withoutValue: ShaderMaterial;
   private readonly shared: SharedUniforms;
 
-  constructor(view: ViewInfo) {
-    this.shared = { hidden: { value: 0 }, ramp: { value: rampOf(view.colours) } };
-    const common = { vertexShader, fragmentShader, glslVersion: GLSL3, side: DoubleSide };
-    this.withValue = new ShaderMaterial({ ...common, defines: { WITH_VALUE: 1 }, uniforms: { ...this.shared } });
-    const nodata = { value: view.nodata_colour.map((c) => c / 255) };
-    this.withoutValue = new ShaderMaterial({ ...common, uniforms: { hidden: this.shared.hidden, nodata } });
+  constructor(view: ViewInfo, ground: GroundValues) {
+    this.shared = { hidden: { value: 0 }, ramp: { value: rampTexture(view.colours) } };
+    const nodata = { value: view.nodata_colour.map((c) => c / 255) }, uniforms = { ...this.shared, ...ground.uniforms, nodata };
+    const common = { vertexShader, fragmentShader, glslVersion: GLSL3, side: DoubleSide, uniforms };
+    this.withValue = new ShaderMaterial({ ...common, defines: { WITH_VALUE: 1 } });
+    this.withoutValue = new ShaderMaterial(common);
   }
 
   set hiddenKinds(mask: number) {

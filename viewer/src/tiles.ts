@@ -6,6 +6,7 @@ import { ImplicitTilingPlugin } from "3d-tiles-renderer/core/plugins";
 import { TilesRenderer } from "3d-tiles-renderer/three";
 import { GLTFExtensionsPlugin } from "3d-tiles-renderer/three/plugins";
 import { addFacetAttribute, nameOfValue, type SurfaceTable } from "./facets.ts";
+import type { GroundValues } from "./ground_values.ts";
 import { fetchJson, fetchOfServer } from "./server.ts";
 import { hiddenMask, type ShownLayers } from "./surface_kinds.ts";
 import { SvfMaterials } from "./svf_material.ts";
@@ -84,9 +85,9 @@ export class CityTiles {
   private drawnChanged = false;
   private quietUpdates = 0;
 
-  constructor(view: ViewInfo, private readonly camera: PerspectiveCamera, onError: (error: unknown) => void) {
+  constructor(view: ViewInfo, ground: GroundValues, private readonly camera: PerspectiveCamera, onError: (error: unknown) => void) {
     this.cellEdge_m = view.grid.cell_edge_m;
-    this.materials = new SvfMaterials(view);
+    this.materials = new SvfMaterials(view, ground);
     const tileset = new URL(view.tileset, document.baseURI).href;
     this.renderer = new TilesRenderer(tileset);
     this.renderer.registerPlugin(new ImplicitTilingPlugin());

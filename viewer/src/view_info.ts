@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+import type { ResultInfo } from "./results.ts";
 import { fetchJson } from "./server.ts";
 
 export type Triple = [number, number, number];
@@ -36,9 +37,11 @@ export interface ViewInfo {
   colours: Triple[];
   nodata_colour: Triple;
   tileset: string;
+  /** The files that farlod-view was given besides the package. */
+  results: ResultInfo[];
 }
 
-const needed: readonly (keyof ViewInfo)[] = ["name", "origin_m", "grid", "heights_m", "counts", "colours", "nodata_colour", "tileset"];
+const needed: readonly (keyof ViewInfo)[] = ["name", "origin_m", "grid", "heights_m", "counts", "colours", "nodata_colour", "tileset", "results"];
 
 export async function loadViewInfo(): Promise<ViewInfo> {
   const view = await fetchJson<Partial<ViewInfo>>("view.json");

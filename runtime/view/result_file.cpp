@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "farlod/error.hpp"
+#include "farlod/points.hpp"
+#include "points/point_reader.hpp"
+#include "view/result_layer.hpp"
+#ifdef FARLOD_WITH_GDAL
+#include "results/point_reader_gdal.hpp"
+#include "results/raster/raster_reader_gdal.hpp"
+#include "results/reproject_gdal.hpp"
+#endif
+
+namespace farlod {
+namespace {
+
+/// What the user named: a file, and what of it.
+struct ResultRequest {
+  std::filesystem::path file;
+  std::string quantity;  ///< perhaps empty
+};
+
+ResultRequest parsed(const std::string& request) {
+  const std::size_t colon = request.rfind(':');
+  if (colon == std::string::npos || std::filesystem::exists(request)) return {request, ""};
+  return {request.substr(0, colon), request.substr(colon + 1)};
+}
+
+/// The column with this name, if there is one.
+std::optional<std::size_t> column_of(const Attributes& attributes, std::string_view name) {
+  const auto found = std::ranges::find(attributes.names(), name);
+  if (found == attributes.names().end()) return std::nullopt;
+  return static_cast<std::size_t>(found - attributes.names().begin());
+}
+
+/// The column of the values. Throws InputError, with the columns that are there.
+std::size_t column_of_values(const Attributes& attributes, const ResultRequest& request) {
+  const std::string name = request.quantity.empty() ? "svf" : request.quantity;
+  if (const auto column = column_of(attributes, name)) return *column;
+  std::string names;
+  for (const std::string& other : attributes.names()) names += (names.empty() ? "" : ", ") + other;
+  throw InputError(request.file.string() + " has no field " + name + (names.empty() ? "." : ": it has " + names + ".") +
+                   " Name one behind a colon: " + request.file.filename().string() + ":FIELD");
+}
+
+float number_of(std::string_view text) {
+  float value = NAN;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? value : NAN;
+}
+
+RequestedPoints read_points(const std::filesystem::path& file, const std::string& package_crs) {
+#ifdef FARLOD_WITH_GDAL
+  if (!is_vector_file(file)) return read_points_csv(file);
+  RequestedPoints read = read_points_gdal(file, "");
+  if (read.crs_wkt.value_or("").empty()) return read;
+  std::vector<Point2d> places;
+  for (const RequestedPoint& p : read.points) places.push_back({p.x, p.y});
+  places = reprojected(places, *read.crs_wkt, package_crs);
+  for (std::size_t n = 0; n < places.size(); ++n)
+    std::tie(read.points[n].x, read.points[n].y) = std::pair(places[n].x, places[n].y);
+  return read;
+#else
+  (void)package_crs;
+  return read_points_csv(file);
+#endif
+}
+
+/// Keeps each n-th, so that there are no more than `most`.
+void thin(RequestedPoints& read, std::size_t most) {
+  const std::size_t step = (read.points.size() + most - 1) / most;
+  if (step <= 1) return;
+  std::vector<std::size_t> kept;
+  for (std::size_t n = 0; n < read.points.size(); n += step) kept.push_back(n);
+  read.attributes = read.attributes.rows(kept);
+  for (std::size_t k = 0; k < kept.size(); ++k) read.points[k] = std::move(read.points[kept[k]]);
+  read.points.resize(kept.size());
+}
+
+/// Points without a height get that of a receiver of a map.
+std::vector<double> heights_of(const std::vector<RequestedPoint>& points, const Package& package) {
+  std::vector<double> x, y, z;
+  for (const RequestedPoint& p : points) {
+    x.push_back(p.x);
+    y.push_back(p.y);
+    z.push_back(p.z.value_or(NAN));
+  }
+  if (std::ranges::none_of(z, [](double height) { return std::isnan(height); })) return z;
+  EvaluationSettings coarse;
+  coarse.azimuths = 32;  // Only heights are asked for
+  const PointAnswers answers = evaluate_points(package, {.x_m = x, .y_m = y, .z_m = z}, {}, coarse);
+  return answers.height_m;
+}
+
+std::vector<std::array<float, 3>> places_of(const std::vector<RequestedPoint>& points, const Package& package,
+                                            const ViewFrame& frame) {
+  const std::vector<double> heights = heights_of(points, package);
+  std::vector<std::array<float, 3>> places;
+  places.reserve(points.size());
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    const Point3d p = frame.local_from_projected({points[n].x, points[n].y, heights[n]});
+    places.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  }
+  return places;
+}
+
+/// "107 zero_area, left out: house_3. All points lie on a line."
+std::string problem_text(const Attributes& attributes, std::size_t row) {
+  const auto text = [&](std::string_view name) {
+    const auto column = column_of(attributes, name);
+    return column ? std::string(attributes.value(row, *column)) : std::string();
+  };
+  std::string words = text("code") + " " + text("problem");
+  if (const std::string effect = text("effect"); !effect.empty()) words += ", " + effect;
+  if (const std::string place = text("place"); !place.empty()) words += ": " + place;
+  if (const std::string detail = text("detail"); !detail.empty()) words += ". " + detail;
+  return words;
+}
+
+/// The third of the three numbers of `position`, which GDAL writes as one text.
+std::optional<double> height_of_problem(std::string_view position) {
+  const std::size_t comma = position.rfind(',');
+  if (comma == std::string_view::npos) return std::nullopt;
+  position = position.substr(std::min(position.find_first_not_of(", ", comma), position.size()));
+  double height = 0.0;
+  const auto [end, error] = std::from_chars(position.data(), position.data() + position.size(), height);
+  return error == std::errc() && end != position.data() ? std::optional(height) : std::nullopt;
+}
+
+void label_problems(RequestedPoints& read, ResultLayer& layer) {
+  layer.form = ResultForm::problems;
+  const auto position = column_of(read.attributes, "position");
+  for (std::size_t n = 0; n < read.points.size(); ++n) {
+    layer.labels.push_back(problem_text(read.attributes, n));
+    if (position && !read.points[n].z) read.points[n].z = height_of_problem(read.attributes.value(n, *position));
+  }
+}
+
+ResultLayer layer_of_points(const ResultRequest& request, const Package& package, const ViewFrame& frame) {
+  RequestedPoints read = read_points(request.file, package.description().crs_wkt);
+  ResultLayer layer{.name = request.file.filename().string(), .count = read.points.size()};
+  thin(read, most_points_of_layer);
+  const bool is_report = column_of(read.attributes, "problem") && column_of(read.attributes, "effect");
+  if (is_report) {
+    label_problems(read, layer);
+  } else {
+    const std::size_t column = column_of_values(read.attributes, request);
+    layer.quantity = read.attributes.names()[column];
+    for (std::size_t n = 0; n < read.points.size(); ++n) {
+      layer.values.push_back(number_of(read.attributes.value(n, column)));
+      layer.labels.push_back(std::move(read.points[n].id));
+    }
+  }
+  layer.places_local = places_of(read.points, package, frame);
+  return layer;
+}
+
+#ifdef FARLOD_WITH_GDAL
+ResultLayer layer_of_raster(const ResultRequest& request, const Package& package, const ViewFrame& frame) {
+  RasterBand band = read_raster_gdal(request.file, {.band = request.quantity, .package_crs = package.description().crs_wkt});
+  ResultLayer layer{.form = ResultForm::raster,
+                    .name = request.file.filename().string(),
+                    .quantity = std::move(band.name),
+                    .count = band.pixels_of_file,
+                    .width = band.width,
+                    .height = band.height,
+                    .local_from_pixel = band.projected_from_pixel};
+  layer.local_from_pixel[0] -= frame.origin_projected.x;
+  layer.local_from_pixel[3] -= frame.origin_projected.y;
+  layer.values = std::move(band.values);
+  return layer;
+}
+#endif
+
+}  // namespace
+
+ResultLayer read_result_layer(const std::string& request, const Package& package, const ViewFrame& frame) {
+  const ResultRequest wanted = parsed(request);
+  if (!std::filesystem::exists(wanted.file))
+    throw InputError(wanted.file.string() + " does not exist. Check the path of the result.");
+  if (wanted.file.extension() == ".json")
+    throw InputError(wanted.file.string() +
+                     " is no result that can be drawn. Problems are drawn from farlod-pack --report FILE.geojson.");
+#ifdef FARLOD_WITH_GDAL
+  if (!is_vector_file(wanted.file) && is_raster_file(wanted.file)) return layer_of_raster(wanted, package, frame);
+#endif
+  return layer_of_points(wanted, package, frame);
+}
+
+}  // namespace farlod

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Results beside the town of boxes, as farlod-view hands them over: two rasters that are the same everywhere, points, a problem.
+
+const floats = (numbers) => Buffer.from(new Float32Array(numbers).buffer);
+
+/** 2 × 2 pixels over the whole town; the western half has the first value, the eastern one the second. */
+const raster = (name, url, west, east) => ({
+  name, form: "raster", quantity: "svf", url, count: 4, range: [0, 1], width: 2, height: 2, local_from_pixel: [-2000, 2000, 0, 2000, 0, -2000],
+  body: floats([west, east, west, east]),
+});
+
+/** Low in the west and high in the east, and the other way round. The third has a hole in the west. */
+export const resultsOfTown = [
+  raster("summer.tif", "results/0", 0.25, 0.75),
+  raster("winter.tif", "results/1", 0.5, 0.5),
+  raster("hole.tif", "results/2", NaN, 1),
+  { name: "posts.csv", form: "points", quantity: "svf", url: "results/3", count: 2, range: [0, 1], labels: ["north post", "south post"],
+    body: floats([0, 40, 1.5, 0.125, 0, -40, 1.5, NaN]) },
+  { name: "report.geojson", form: "problems", quantity: "", url: "results/4", count: 1, range: [0, 1],
+    labels: ["107 zero_area, left out: b-3-3-1. All points lie on a line."], body: floats([-60, 0, NaN, NaN]) },
+];

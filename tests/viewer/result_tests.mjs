@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Results beside the package: with the mock, whose results are known; farlod-view is given the results of the town by its runner.
+import { pixels, ready, settled, share, state, until } from "./browser.mjs";
+import { expect, expectEqual } from "./checks.mjs";
+
+const colourOf = async (url, value) => (await (await fetch(`${url}view.json`)).json()).colours[Math.round(255 * value)];
+const near = ([r0, g0, b0]) => (r, g, b) => Math.abs(r - r0) + Math.abs(g - g0) + Math.abs(b - b0) < 12;
+/** Left and right of the window's middle, beside the cards. */
+const [west, east] = [{ x: 290, y: 150, width: 190, height: 400 }, { x: 520, y: 150, width: 190, height: 400 }];
+
+/** Straight above the origin of the town, with the ground alone. */
+async function above(context, url, fields) {
+  const page = await context.newPage(), { origin_m } = await (await fetch(`${url}view.json`)).json();
+  await page.goto(`${url}#camera=${origin_m.join(",")},500,0,0&layers=ground&${fields}`);
+  await ready(page);
+  await settled(page);
+  return page;
+}
+
+async function expectGround(page, clip, colour, what) {
+  const covered = share(await pixels(page, clip), near(colour));
+  expect(covered > 0.5, `${what} cover ${(100 * covered).toFixed(1)} % of the ground`);
+}
+
+async function clickAt(page, place) {
+  await page.mouse.click(...place);
+  await until(page, "the answer", ({ picked, resting }) => picked !== null && resting);
+}
+
+const factsOf = (page) => page.$$eval("#result-facts dt, #result-facts dd", (parts) => parts.map((part) => part.textContent));
+
+export const resultTests = {
+  async "a raster lies on the ground, in its colours"({ url, context }) {
+    const page = await above(context, url, "ground=0&dots=");
+    await expectGround(page, west, await colourOf(url, 0.25), "the western values");
+    await expectGround(page, east, await colourOf(url, 0.75), "the eastern values");
+    expectEqual(await page.textContent("#ramp-title"), "summer.tif: svf", "the title of the legend");
+    await page.selectOption("#ground-values", "2");
+    await settled(page);
+    await expectGround(page, west, [190, 190, 190], "pixels without data");
+    await page.selectOption("#ground-values", "-1");
+    await settled(page);
+    expect(share(await pixels(page, west), near([190, 190, 190])) < 0.1, "the computed values did not come back");
+  },
+
+  async "two rasters are compared by their difference"({ url, context }) {
+    const page = await above(context, url, "ground=0&dots=");
+    await page.selectOption("#compared", "1");
+    await page.selectOption("#comparison", "difference");
+    await settled(page);
+    // All differences are .25, for which a scale to .5 is the least of 1, 2 and 5
+    const ticks = await page.$$eval("#ticks span", (spans) => spans.map((span) => span.textContent));
+    expectEqual(ticks, ["−.5", "−.25", "0", ".25", ".5"], "the ticks");
+    await expectGround(page, west, [103, 169, 207], "differences of −.25");
+    await expectGround(page, east, [239, 138, 98], "differences of .25");
+    await clickAt(page, [330, 350]);
+    expectEqual(await factsOf(page), ["summer.tif: svf", "0.2500", "winter.tif: svf", "0.5000", "Difference", "-0.2500"], "what is told");
+  },
+
+  async "two rasters are compared side by side"({ url, context }) {
+    const page = await above(context, url, "ground=0&dots=&compared=1&comparison=divider&divider=0.5");
+    await expectGround(page, west, await colourOf(url, 0.25), "the first values, left of the divider,");
+    await expectGround(page, east, await colourOf(url, 0.5), "the second values, right of it,");
+    await page.focus("#divider");
+    for (let n = 0; n < 4; ++n) await page.keyboard.press("Shift+ArrowRight");
+    await settled(page);
+    await expectGround(page, east, await colourOf(url, 0.75), "the first values, after the divider was moved by keys,");
+    const box = await page.locator("#divider").boundingBox(), x = box.x + box.width / 2;
+    await page.mouse.move(x, 300);
+    await page.mouse.down();
+    await page.mouse.move(250, 300, { steps: 4 });
+    await page.mouse.up();
+    await settled(page);
+    await expectGround(page, west, await colourOf(url, 0.5), "the second values, after the divider was dragged,");
+  },
+
+  async "points and problems are marked, and told when they are clicked at"({ url, context }) {
+    const page = await above(context, url, "ground=computed&dots=3,4"), size = page.viewportSize();
+    expectEqual(await page.isChecked("#result-3"), true, "the box of the points");
+    const perMetre = size.height / (2 * Math.tan((20 * Math.PI) / 180) * 500), middle = [size.width / 2, size.height / 2];
+    await clickAt(page, [middle[0], middle[1] - 40 * perMetre]);
+    await page.waitForSelector("#result-facts dt");
+    expectEqual(await factsOf(page), ["posts.csv: svf, north post", "0.1250"], "the point");
+    await clickAt(page, [middle[0] - 60 * perMetre, middle[1]]);
+    await page.waitForFunction(() => document.querySelector("#result-facts")?.textContent.includes("107"));
+    expectEqual((await factsOf(page))[1], "107 zero_area, left out: b-3-3-1. All points lie on a line.", "the problem");
+    const mark = { x: middle[0] - 60 * perMetre - 6, y: middle[1] - 6, width: 12, height: 12 };
+    await page.keyboard.press("Escape");
+    await settled(page);
+    const isMark = near([217, 28, 97]);
+    expect(share(await pixels(page, mark), isMark) > 0.2, "the mark of the problem is not seen");
+    await page.uncheck("#result-4");
+    await settled(page);
+    expect(share(await pixels(page, mark), isMark) === 0, "the mark is still seen");
+  },
+
+  async "a link holds what is shown and compared"({ url, context }) {
+    const page = await above(context, url, "ground=0&dots=4&compared=1&comparison=divider&divider=0.3");
+    await page.waitForTimeout(500);
+    const again = await context.newPage();
+    await again.goto(page.url());
+    await ready(again);
+    await settled(again);
+    const chosen = await Promise.all(["#ground-values", "#compared", "#comparison"].map((id) => again.inputValue(id)));
+    expectEqual(chosen, ["0", "1", "divider"], "the lists");
+    expectEqual([await again.isChecked("#result-3"), await again.isChecked("#result-4")], [false, true], "the boxes");
+    expectEqual(await again.getAttribute("#divider", "aria-valuenow"), "30", "the divider");
+    expect((await state(again)).loaded, "tiles are missing");
+  },
+};
