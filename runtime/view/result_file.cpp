@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "contract/lower_case.hpp"
 #include "farlod/error.hpp"
 #include "farlod/points.hpp"
 #include "points/point_reader.hpp"
@@ -31,6 +32,12 @@ ResultRequest parsed(const std::string& request) {
   const std::size_t colon = request.rfind(':');
   if (colon == std::string::npos || std::filesystem::exists(request)) return {request, ""};
   return {request.substr(0, colon), request.substr(colon + 1)};
+}
+
+/// GDAL would take a table for a raster of scattered pixels.
+bool is_table(const std::filesystem::path& file) {
+  const std::string ending = lower_case(file.extension().string());
+  return ending == ".csv" || ending == ".tsv" || ending == ".txt";
 }
 
 /// The column with this name, if there is one.
@@ -189,7 +196,8 @@ ResultLayer read_result_layer(const std::string& request, const Package& package
     throw InputError(wanted.file.string() +
                      " is no result that can be drawn. Problems are drawn from farlod-pack --report FILE.geojson.");
 #ifdef FARLOD_WITH_GDAL
-  if (!is_vector_file(wanted.file) && is_raster_file(wanted.file)) return layer_of_raster(wanted, package, frame);
+  if (!is_vector_file(wanted.file) && !is_table(wanted.file) && is_raster_file(wanted.file))
+    return layer_of_raster(wanted, package, frame);
 #endif
   return layer_of_points(wanted, package, frame);
 }
