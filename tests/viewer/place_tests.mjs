@@ -135,7 +135,8 @@ export const placeTests = {
     const box = await page.locator("#marker").boundingBox(), x = box.x + box.width / 2, y = box.y + box.height / 2;
     await page.mouse.move(x, y);
     await page.mouse.down();
-    for (let n = 1; n <= 30; ++n) await page.mouse.move(x + 3 * n, y + n);
+    // Westwards: in the east, the town of farlod-view may end
+    for (let n = 1; n <= 30; ++n) await page.mouse.move(x - 3 * n, y + n);
     await page.mouse.up();
     const from = now.picked.projected_m, distance = ({ projected_m: to }) => Math.hypot(to[0] - from[0], to[1] - from[1]);
     const moved = await until(page, "the answer at another place", ({ picked, answer, skyIsDrawn, resting }) =>
