@@ -163,6 +163,7 @@ CanopyShares CanopySky::by_smallest(const SkyRows& sky, const CrownScene& scene,
   return shares;
 }
 
+// It is written to, through a struct. NOLINTNEXTLINE(readability-non-const-parameter)
 CanopyShares CanopySky::by_depth(const SkyRows& sky, const CrownScene& scene, const float* lowest, float* behind_of_azimuths) {
   drawn_ = seen_;
   const std::size_t room = begin_lists();

@@ -42,12 +42,14 @@ void find_lowest_ground(const SkyRows& rows, const CrownScene& scene, float* low
 /// Of one packet or several. A sector without azimuths has a minimum that no crown reaches.
 FARLOD_LANES void find_sector_minima_of(std::span<const float* const> lowest, const std::uint32_t* first_of_sector,
                                         SectorMinHorizon& horizon) {
+  // As in edge_culling.hpp. NOLINTNEXTLINE(readability-container-data-pointer)
+  float* const minima = &horizon.minima[0];
   for (std::size_t s = 0; s < SectorMinHorizon::sectors; ++s) {
     float minimum = std::numeric_limits<float>::max();
     for (const float* of_packet : lowest)
       for (std::uint32_t k = first_of_sector[s]; k < first_of_sector[s + 1]; ++k)
         minimum = of_packet[k] < minimum ? of_packet[k] : minimum;
-    (&horizon.minima[0])[s] = minimum;
+    minima[s] = minimum;
   }
   find_levels(horizon);
 }
@@ -264,6 +266,7 @@ FARLOD_LANES Floats sky_of(const Union& u, const Sky& sky, const SkyWindow& abov
 }
 
 /// The sky behind the crowns of one azimuth: those with these numbers.
+// The room is written to, through the union. NOLINTBEGIN(readability-non-const-parameter)
 template <class Sky, bool has_gaps>
 FARLOD_LANES Floats sky_behind(const SkyRows& rows, const AzimuthView& azimuths, std::size_t k, const Normals& normals,
                                std::span<const std::uint32_t> numbers, const PlacedCrown* placed, float* room) {
@@ -278,6 +281,7 @@ FARLOD_LANES Floats sky_behind(const SkyRows& rows, const AzimuthView& azimuths,
     if (bits_of(broadcast(placed[number].max_slope) > u.ground) != 0) u.join(cut_placed(placed[number], cosine, sine));
   return sky_of(u, sky, above, has_gaps ? &gap : nullptr);
 }
+// NOLINTEND(readability-non-const-parameter)
 
 template <class Sky, bool has_gaps>
 FARLOD_LANES void sum_behind_of(const SkyRows& rows, const CrownScene& scene, const CrownLists& lists, const PlacedCrown* placed,

@@ -88,16 +88,21 @@ FARLOD_LANES void set_round(const CrownBatches::Batch& b, std::size_t lane, cons
   forget_beyond(c.x * c.x + c.y * c.y, range_square, c);
 }
 
+// data() could be emitted on its own, for one target in the place of all. NOLINTBEGIN(readability-container-data-pointer)
+FARLOD_LANES float* first_row(PlacedCrown& placed) { return &placed.rows[0][0]; }
+FARLOD_LANES const float* first_row(const PlacedCrown& placed) { return &placed.rows[0][0]; }
+// NOLINTEND(readability-container-data-pointer)
+
 FARLOD_LANES void keep(const RoundCrown& c, PlacedCrown& placed) {
   placed.is_prism = false;
-  float* row = &placed.rows[0][0];
+  float* row = first_row(placed);
   for (const Floats* member : {&c.x, &c.y, &c.q, &c.low_u, &c.low_r, &c.high_u, &c.high_r}) {
     store(*member, row);
     row += lane_count;
   }
 }
 FARLOD_LANES RoundCrown kept_round(const PlacedCrown& placed) {
-  const float* const row = &placed.rows[0][0];
+  const float* const row = first_row(placed);
   return {load(row),
           load(row + lane_count),
           load(row + 2 * lane_count),
@@ -137,14 +142,14 @@ FARLOD_LANES void keep(const SquareCrown& c, PlacedCrown& placed) {
   placed.half_width = c.half_width;
   placed.cosine = c.cosine;
   placed.sine = c.sine;
-  float* row = &placed.rows[0][0];
+  float* row = first_row(placed);
   for (const Floats* member : {&c.x, &c.y, &c.bottom, &c.top}) {
     store(*member, row);
     row += lane_count;
   }
 }
 FARLOD_LANES SquareCrown kept_square(const PlacedCrown& placed) {
-  const float* const row = &placed.rows[0][0];
+  const float* const row = first_row(placed);
   return {load(row),
           load(row + lane_count),
           load(row + 2 * lane_count),

@@ -281,11 +281,11 @@ bool is_vector_file(const std::filesystem::path& path) {
   return ending != ".csv" && ending != ".tsv" && ending != ".txt" && has_vector_ending(path);
 }
 
-RequestedPoints read_points_gdal(const std::filesystem::path& path, const std::string& layer_name) {
+RequestedPoints read_points_gdal(const std::filesystem::path& path, const std::string& layer_name, bool may_be_empty) {
   const OpenLayer open(path, layer_name);
   RequestedPoints read = LayerReader(path, open.layer()).read();
   open.require_all_read();
-  require_any(read, path, "points", "one; give points, not lines or polygons");
+  if (!may_be_empty) require_any(read, path, "points", "one; give points, not lines or polygons");
   if (read.skipped_features > 0) read.notes.push_back(sentence_on_skipped(read, path, "point"));
   read.crs_wkt = crs_of(open.layer());
   return read;

@@ -19,8 +19,9 @@ namespace farlod {
 ///       the point. Normals are the fields `azimuth` and `tilt`, or `azimuth_deg` and `tilt_deg`. All fields but `id` and these
 ///       are attributes; numbers have all their digits.
 ///   (4) Features that are no points are skipped, and told in a note.
-/// `layer` may be empty where there is only one. Throws PointsError.
-[[nodiscard]] RequestedPoints read_points_gdal(const std::filesystem::path& path, const std::string& layer);
+/// `layer` may be empty where there is only one. A file without points is refused, unless it `may_be_empty`. Throws PointsError.
+[[nodiscard]] RequestedPoints read_points_gdal(const std::filesystem::path& path, const std::string& layer,
+                                               bool may_be_empty = false);
 
 /// Where points are placed along lines.
 struct LineSampling {

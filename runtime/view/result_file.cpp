@@ -66,7 +66,7 @@ float number_of(std::string_view text) {
 RequestedPoints read_points(const std::filesystem::path& file, const std::string& package_crs) {
 #ifdef FARLOD_WITH_GDAL
   if (!is_vector_file(file)) return read_points_csv(file);
-  RequestedPoints read = read_points_gdal(file, "");
+  RequestedPoints read = read_points_gdal(file, "", true);
   if (read.crs_wkt.value_or("").empty()) return read;
   std::vector<Point2d> places;
   for (const RequestedPoint& p : read.points) places.push_back({p.x, p.y});
@@ -154,7 +154,12 @@ ResultLayer layer_of_points(const ResultRequest& request, const Package& package
   RequestedPoints read = read_points(request.file, package.description().crs_wkt);
   ResultLayer layer{.name = request.file.filename().string(), .count = read.points.size()};
   thin(read, most_points_of_layer);
-  const bool is_report = column_of(read.attributes, "problem") && column_of(read.attributes, "effect");
+  const bool has_fields_of_report = column_of(read.attributes, "problem") && column_of(read.attributes, "effect");
+  // A report of a city without problems has no features, and so no fields
+  const bool is_report = has_fields_of_report || (read.points.empty() && read.skipped_features == 0);
+  if (read.points.empty() && !is_report)
+    throw InputError(request.file.string() + " holds no points: none of its " + std::to_string(read.skipped_features) +
+                     " features is one. Results are drawn as rasters or points.");
   if (is_report) {
     label_problems(read, layer);
   } else {

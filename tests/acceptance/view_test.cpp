@@ -71,6 +71,21 @@ TEST_F(View, ExportsFilesForAnyServer) {
   folder.must("farlod-view a.farlod --export page --quiet && diff -r page again");
 }
 
+TEST_F(View, DrawsResultsBesideThePackage) {
+  folder.must("farlod-svf a.farlod -o svf.tif --grid 5 && farlod-svf a.farlod -o at.csv --at " +
+              text_of(p_projected({-60.0, 0.0})));
+  folder.must("farlod-pack town.geojson -o b.farlod --report problems.geojson --quiet");
+  folder.must("farlod-view a.farlod svf.tif at.csv:svf problems.geojson --export page --quiet");
+  const json results = folder.json_of("page/view.json").at("results");
+  ASSERT_EQ(results.size(), 3U);
+  EXPECT_EQ(results[0].at("form"), "raster");
+  EXPECT_EQ(folder.text_of("page/results/0").size(),
+            results[0].at("width").get<std::size_t>() * results[0].at("height").get<std::size_t>() * sizeof(float));
+  EXPECT_EQ(results[1].at("form"), "points");
+  EXPECT_EQ(folder.json_of("page/results/1.json").size(), 1U);
+  EXPECT_EQ(results[2].at("form"), "problems");
+}
+
 TEST_F(View, ExportsReplaceNothingElse) {
   folder.must("mkdir mine && touch mine/photo.jpg");
   expect_refusal(folder.run("farlod-view a.farlod --export mine --quiet"), exit_unusable_input, {"mine"});
@@ -79,6 +94,7 @@ TEST_F(View, ExportsReplaceNothingElse) {
 
 TEST_F(View, WrongUseIsToldInOneLine) {
   expect_refusal(folder.run("farlod-view b.farlod"), exit_unusable_input, {"b.farlod", "farlod-pack"});
+  expect_refusal(folder.run("farlod-view a.farlod nowhere.tif"), exit_unusable_input, {"nowhere.tif", "does not exist"});
   expect_refusal(folder.run("farlod-view a.farlod --port 99999"), exit_usage, {"--port"});
   expect_refusal(folder.run("farlod-view a.farlod --export x --port 8000"), exit_usage, {"--export", "--port"});
   expect_refusal(folder.run("farlod-view a.farlod --listen 192.0.2.1"), exit_unusable_input, {"192.0.2.1"});

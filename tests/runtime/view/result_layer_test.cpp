@@ -135,7 +135,21 @@ TEST_F(Results, AReportIsAsMarksAtItsHeights) {
   EXPECT_NEAR(layer.places_local[0][0] + frame.origin_projected.x, 500000.0, 0.1) << "9° E is the middle of the zone";
 }
 
+TEST_F(Results, AReportMayBeOfACityWithoutProblems) {
+  const ResultLayer layer = read(file("report.geojson", R"({"type": "FeatureCollection", "features": []})"));
+  EXPECT_EQ(layer.form, ResultForm::problems);
+  EXPECT_EQ(layer.count, 0U);
+  // Without any position
+  EXPECT_EQ(read(file("placeless.geojson", R"({"type": "FeatureCollection", "features": [{"type": "Feature", "geometry": null,
+    "properties": {"code": 204, "problem": "x", "effect": "kept"}}]})"))
+                .form,
+            ResultForm::problems);
+}
+
 TEST_F(Results, WhatIsNoResultIsRefused) {
+  EXPECT_THAT(refusal_of(file("roofs.geojson", R"({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {},
+    "geometry": {"type": "LineString", "coordinates": [[9, 50], [9, 51]]}}]})")),
+              HasSubstr("none of its 1 features is one"));
   EXPECT_THAT(refusal_of("nowhere.tif"), HasSubstr("nowhere.tif does not exist"));
   EXPECT_THAT(refusal_of(file("report.json", "[]")), HasSubstr("--report FILE.geojson"));
   EXPECT_NE(refusal_of(file("noise.tif", "no picture")), "none");
