@@ -49,9 +49,12 @@ export async function until(page, what, condition, timeout_ms = 90000) {
 /** Until the camera stands still, all tiles are drawn and all answers are there. */
 export const settled = (page) => until(page, "rest", ({ resting }) => resting);
 
-/** The pixels of a screenshot, in rows of red, green, blue, alpha; the browser itself decodes them. */
-export async function pixels(page, clip) {
-  const png = (await page.screenshot({ clip })).toString("base64");
+/** The pixels of a screenshot, in rows of red, green, blue, alpha. */
+export const pixels = async (page, clip) => decoded(page, await page.screenshot({ clip }));
+
+/** The pixels of a PNG; the browser itself decodes them. */
+export async function decoded(page, bytes) {
+  const png = bytes.toString("base64");
   const { width, height, text } = await page.evaluate(async (base64) => {
     const image = new Image();
     image.src = `data:image/png;base64,${base64}`;

@@ -6,6 +6,7 @@
 //   node tests/viewer/page_test.mjs                                        with a mock of the server, and a town of boxes
 //   node tests/viewer/page_test.mjs --program farlod-view --package x.farlod
 //   node tests/viewer/page_test.mjs … --only WORD                          tests whose name has it
+//   node tests/viewer/page_test.mjs --write-pictures                       writes the pictures anew: look at them before committing
 import { parseArgs } from "node:util";
 import { missing, openBrowser } from "./browser.mjs";
 import { failureTests } from "./failure_tests.mjs";
@@ -16,7 +17,7 @@ import { starterOf } from "./servers.mjs";
 import { useTests } from "./use_tests.mjs";
 
 const skipped = 77;
-const { values } = parseArgs({ options: { program: { type: "string" }, package: { type: "string" }, only: { type: "string", default: "" } } });
+const { values } = parseArgs({ options: { program: { type: "string" }, package: { type: "string" }, only: { type: "string", default: "" }, "write-pictures": { type: "boolean", default: false } } });
 if (missing()) {
   console.log(`skipped: ${missing()}`);
   process.exit(skipped);
@@ -31,7 +32,7 @@ let failed = 0;
 for (const [name, test] of tests) {
   const begin = Date.now(), context = await browser.newContext({ viewport: { width: 1000, height: 700 } });
   try {
-    await test({ url: server.url, start, context, browser });
+    await test({ url: server.url, start, context, browser, isMock: !values.program, writesPictures: values["write-pictures"] });
     console.log(`passed ${name} (${((Date.now() - begin) / 1000).toFixed(1)} s)`);
   } catch (error) {
     ++failed;
