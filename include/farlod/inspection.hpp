@@ -74,6 +74,16 @@ struct PackageInventory {
 /// Throws InvalidArgument when the package is closed.
 [[nodiscard]] FARLOD_EXPORT PackageInventory inventory_of(const Package& package);
 
+/// The heights of all geometry, above sea level.
+struct HeightRange {
+  double low_m = 0.0, high_m = 0.0;
+};
+
+/// Empty where there is no geometry. It reads what a package says of its cells, and no geometry, so that it takes a moment even
+/// of a large package, and a checksum that is wrong is not noticed. Throws InvalidArgument when the package is closed,
+/// PackageDamaged.
+[[nodiscard]] FARLOD_EXPORT std::optional<HeightRange> heights_of(const Package& package);
+
 /// Something in a package that is not what it should be.
 struct PackageDamage {
   std::string file;               ///< within the folder of the package

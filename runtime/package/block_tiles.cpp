@@ -32,9 +32,15 @@ bool are_angles(AdjacentSlopes adjacent) {
 
 }  // namespace
 
-BlockTiles::BlockTiles(std::span<const std::byte> bytes, const CellRange& cells, std::string name)
-    : bytes_(bytes), range_(cells), name_(std::move(name)) {
+BlockTiles::BlockTiles(std::span<const std::byte> bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {
   check_header();
+  const auto* header = reinterpret_cast<const Header*>(bytes_.data());
+  sections_ = {reinterpret_cast<const Section*>(bytes_.data() + sizeof(Header)), header->section_count};
+}
+
+BlockTiles::BlockTiles(std::span<const std::byte> bytes, const CellRange& cells, std::string name)
+    : BlockTiles(bytes, std::move(name)) {
+  range_ = cells;
   find_sections();
   check_surfaces();
   check_cells();
@@ -48,6 +54,10 @@ void BlockTiles::require(bool rule, const char* what) const {
   if (!rule) throw PackageDamaged(name_ + " is damaged: " + what + ". Pack the city again.");
 }
 
+std::span<const CellRecord> BlockTiles::records_of_cells(std::span<const std::byte> bytes, std::string name) {
+  return BlockTiles(bytes, std::move(name)).section<CellRecord>(SectionKind::cells);
+}
+
 void BlockTiles::check_header() const {
   require(bytes_.size() >= sizeof(Header), "it is shorter than its header");
   const auto* header = reinterpret_cast<const Header*>(bytes_.data());
@@ -58,8 +68,6 @@ void BlockTiles::check_header() const {
 }
 
 void BlockTiles::find_sections() {
-  const auto* header = reinterpret_cast<const Header*>(bytes_.data());
-  sections_ = {reinterpret_cast<const Section*>(bytes_.data() + sizeof(Header)), header->section_count};
   cells_ = section<CellRecord>(SectionKind::cells);
   surfaces_ = section<SurfaceRecord>(SectionKind::surfaces);
   buildings_ = section<BuildingRecord>(SectionKind::buildings);

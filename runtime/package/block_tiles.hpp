@@ -64,6 +64,9 @@ class BlockTiles {
   /// Throws PackageDamaged naming the first rule that is broken, PackageUnusable for another version of the format.
   BlockTiles(std::span<const std::byte> bytes, const CellRange& cells, std::string name);
 
+  /// The records of its cells alone, of whose bytes only the header is checked, and no others are read.
+  [[nodiscard]] static std::span<const package::CellRecord> records_of_cells(std::span<const std::byte> bytes, std::string name);
+
   [[nodiscard]] TileView tile(Cell cell) const;  ///< `cell` must be one of the block's
   /// What the far map of a cell names, and the levels of its layers. Only where far maps are of the kind `horizon`:
   /// has_far_cells().
@@ -77,6 +80,7 @@ class BlockTiles {
   }
 
  private:
+  BlockTiles(std::span<const std::byte> bytes, std::string name);
   void check_header() const;
   void find_sections();
   void check_cells() const;

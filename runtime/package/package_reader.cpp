@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -178,6 +179,25 @@ const package::Manifest& PackageReader::manifest() const { return impl_->manifes
 const package::BlockFiles& PackageReader::files_of(Cell cell) const { return impl_->manifest.blocks[impl_->index_of(cell)]; }
 
 const BlockTiles& PackageReader::block_tiles(Cell cell) const { return impl_->tiles(impl_->index_of(cell)); }
+
+std::pair<float, float> PackageReader::z_range_m() const {
+  auto [low, high] = std::pair(std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity());
+  const auto add = [&low = low, &high = high](std::span<const std::byte> bytes, const std::string& name) {
+    for (const package::CellRecord& cell : BlockTiles::records_of_cells(bytes, name)) {
+      if (!(cell.z_low_m <= cell.z_high_m)) continue;
+      low = std::min(low, cell.z_low_m);
+      high = std::max(high, cell.z_high_m);
+    }
+  };
+  for (std::size_t n = 0; n < impl_->blocks.size(); ++n) {
+    const std::string shown = impl_->shown_name_of(n, package::tiles_file);
+    if (impl_->memory)
+      add(impl_->memory->tiles[n], shown);
+    else
+      add(MappedFile(impl_->folder->plain_file(impl_->name_of(n, package::tiles_file))).bytes(), shown);
+  }
+  return {low, high};
+}
 
 bool PackageReader::has_far_map(Cell cell) const {
   const BlockFiles& files = impl_->manifest.blocks[impl_->index_of(cell)];

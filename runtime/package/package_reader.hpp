@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "contract/package/manifest.hpp"
@@ -51,6 +52,9 @@ class PackageReader {
   /// The block that owns a cell of the grid; the cell must exist.
   [[nodiscard]] const BlockTiles& block_tiles(Cell cell) const;
   [[nodiscard]] TileView tile(Cell cell) const { return block_tiles(cell).tile(cell); }
+  /// The least z_low_m and the greatest z_high_m of all cells; low > high where there is no vertex. Reads the records of the
+  /// cells alone, without the checksums of their files.
+  [[nodiscard]] std::pair<float, float> z_range_m() const;
   /// The cell must exist.
   [[nodiscard]] bool has_far_map(Cell cell) const;
   /// Of packages whose far maps are of the kind `box`, for a cell that has one.

@@ -144,6 +144,14 @@ void require_usable(const CellRectangle& cells) {
 
 }  // namespace
 
+std::optional<HeightRange> heights_of(const Package& package) {
+  const PackageInUse in_use(package);
+  const auto [low, high] = in_use.reader().z_range_m();
+  if (!(low <= high)) return std::nullopt;
+  const double origin = in_use.reader().manifest().height_origin_m;
+  return HeightRange{origin + low, origin + high};
+}
+
 PackageInventory inventory_of(const Package& package) {
   const PackageInUse in_use(package);
   const package::Manifest& m = in_use.reader().manifest();

@@ -32,7 +32,7 @@ struct ViewFrame {
   [[nodiscard]] Point2d y_axis() const { return {sin(grid_bearing), cos(grid_bearing)}; }
 };
 
-/// Looks at all cells for their heights. Throws PackageUnusable, PackageDamaged.
+/// Throws PackageUnusable, PackageDamaged.
 [[nodiscard]] ViewFrame view_frame_of(const Package& package);
 
 }  // namespace farlod

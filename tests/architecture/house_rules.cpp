@@ -56,14 +56,17 @@ std::vector<std::string> paths_where(const std::vector<SourceFile>& tree, Condit
 }  // namespace
 
 std::vector<std::string> files_without_licence(const std::vector<SourceFile>& tree) {
-  return paths_where(tree, [](const SourceFile& file) { return !begins_with_licence(file, is_cpp(file) ? "//" : "#"); });
+  return paths_where(tree, [](const SourceFile& file) {
+    const bool has_slashes = is_cpp(file) || is_script_of_page(file);
+    return !begins_with_licence(file, has_slashes ? "//" : "#");
+  });
 }
 
 std::vector<std::string> files_too_long(const std::vector<SourceFile>& tree) {
   return paths_where(tree, [](const SourceFile& file) {
     const bool excused =
         std::any_of(long_for_a_reason.begin(), long_for_a_reason.end(), [&](const auto& e) { return e.first == file.path; });
-    return is_cpp(file) && file.lines.size() > longest_file && !excused;
+    return (is_cpp(file) || is_script_of_page(file)) && file.lines.size() > longest_file && !excused;
   });
 }
 

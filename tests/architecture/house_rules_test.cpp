@@ -55,8 +55,10 @@ TEST(HouseRules, AMissingOrWrongLicenceIsFound) {
 }
 
 TEST(HouseRules, ALongFileIsFound) {
-  EXPECT_THAT(files_too_long({{"a.cpp", std::vector<std::string>(400)}, {"b.cpp", std::vector<std::string>(401)}}),
-              ElementsAre("b.cpp"));
+  EXPECT_THAT(files_too_long({{"a.cpp", std::vector<std::string>(400)},
+                              {"b.cpp", std::vector<std::string>(401)},
+                              {"c.ts", std::vector<std::string>(401)}}),
+              ElementsAre("b.cpp", "c.ts"));
 }
 
 /// A file whose lines are `before`, `lines` statements, a comment, a blank line and `after`.

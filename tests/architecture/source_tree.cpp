@@ -10,9 +10,9 @@
 namespace farlod {
 namespace {
 
-constexpr std::array folders{"include",  "contract",  "console",    "gdal",      "preprocess", "runtime",
-                             "datasets", "benchmark", "validation", "tests",     "cmake",      "docs",
-                             "scripts",  ".ci",       ".github",    "packaging", "python",     "qgis"};
+constexpr std::array folders{"include",   "contract",   "console", "gdal",  "preprocess", "runtime", "datasets",
+                             "benchmark", "validation", "tests",   "cmake", "docs",       "scripts", ".ci",
+                             ".github",   "packaging",  "python",  "qgis",  "viewer"};
 
 /// Whether a file without an ending says what runs it.
 bool is_script(const std::filesystem::path& path) {
@@ -23,9 +23,12 @@ bool is_script(const std::filesystem::path& path) {
 
 bool is_code(const std::filesystem::path& path) {
   const std::string ending = path.extension().string();
-  return ending == ".cpp" || ending == ".hpp" || ending == ".cmake" || ending == ".py" || path.filename() == "CMakeLists.txt" ||
-         is_script(path);
+  return ending == ".cpp" || ending == ".hpp" || ending == ".cmake" || ending == ".py" || ending == ".ts" || ending == ".mjs" ||
+         path.filename() == "CMakeLists.txt" || is_script(path);
 }
+
+/// What npm installs.
+bool is_of_others(const std::filesystem::path& path) { return path.filename() == "node_modules"; }
 
 bool is_document(const std::filesystem::path& path) { return path.extension() == ".md"; }
 
@@ -46,7 +49,8 @@ std::vector<SourceFile> read_where(const std::filesystem::path& root, Condition 
   for (const auto& entry : std::filesystem::directory_iterator(root)) add(entry);
   for (const char* folder : folders)
     if (std::filesystem::exists(root / folder))
-      for (const auto& entry : std::filesystem::recursive_directory_iterator(root / folder)) add(entry);
+      for (std::filesystem::recursive_directory_iterator entry(root / folder), end; entry != end; ++entry)
+        is_of_others(entry->path()) ? entry.disable_recursion_pending() : add(*entry);
   std::sort(files.begin(), files.end(), [](const SourceFile& a, const SourceFile& b) { return a.path < b.path; });
   return files;
 }
@@ -76,6 +80,7 @@ std::vector<Include> includes_of(const SourceFile& file) {
   return includes;
 }
 
+bool is_script_of_page(const SourceFile& file) { return file.path.ends_with(".ts") || file.path.ends_with(".mjs"); }
 bool is_cpp(const SourceFile& file) { return file.path.ends_with(".cpp") || file.path.ends_with(".hpp"); }
 
 }  // namespace farlod

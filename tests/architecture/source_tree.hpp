@@ -34,5 +34,7 @@ struct Include {
 
 /// .hpp and .cpp
 [[nodiscard]] bool is_cpp(const SourceFile& file);
+/// TypeScript, or JavaScript that node runs.
+[[nodiscard]] bool is_script_of_page(const SourceFile& file);
 
 }  // namespace farlod

@@ -55,6 +55,30 @@ void damage(const fs::path& file, double share) {
   stream.put(static_cast<char>(byte ^ 1));
 }
 
+TEST(Inspection, HeightsAreThoseOfAllCells) {
+  const PackedSample sample;
+  const Package package(sample.folder());
+  double low_m = 1e9, high_m = -1e9;
+  for (const CellPlace cell : cells_of(package)) {
+    const CellContents contents = inspect_cell(package, cell);
+    if (!contents.low_m) continue;
+    low_m = std::min(low_m, *contents.low_m);
+    high_m = std::max(high_m, *contents.high_m);
+  }
+  const std::optional<HeightRange> heights = heights_of(package);
+  ASSERT_TRUE(heights);
+  EXPECT_EQ(heights->low_m, low_m);
+  EXPECT_EQ(heights->high_m, high_m);
+  EXPECT_LT(low_m, high_m);
+}
+
+TEST(Inspection, HeightsOfAFileThatIsCutShortAreDamage) {
+  const PackedSample sample;
+  const fs::path file = files_of_blocks(sample.folder(), "tiles.bin").front();
+  fs::resize_file(file, fs::file_size(file) / 2);
+  EXPECT_THROW((void)heights_of(Package(sample.folder())), PackageDamaged);
+}
+
 TEST(Inspection, TheInventoryIsThatOfThePacking) {
   const PackedSample sample;
   const Package package(sample.folder());

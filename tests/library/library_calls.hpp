@@ -73,6 +73,7 @@ inline const Named surfaces{"surfaces",
                             [](Arguments& a) { (void)evaluate_surfaces(a.package, a.surfaces, a.settings, a.on_points, a.run); }};
 inline const Named plan{"plan", [](Arguments& a) { (void)plan_raster(a.package, a.plan.step_m); }};
 inline const Named inventory{"inventory", [](Arguments& a) { (void)inventory_of(a.package); }};
+inline const Named height_range{"height range", [](Arguments& a) { (void)heights_of(a.package); }};
 inline const Named check{"check", [](Arguments& a) { (void)check_package(a.package, a.run); }};
 inline const Named cell_contents{"cell", [](Arguments& a) { (void)inspect_cell(a.package, a.cell); }};
 inline const Named geometry{"geometry", [](Arguments& a) { (void)geometry_of(a.package, a.cells); }};

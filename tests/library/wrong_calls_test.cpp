@@ -153,8 +153,8 @@ void add_runs(Cases& cases) {
 }
 
 void add_closed_packages(Cases& cases) {
-  const std::vector<Named> all{points_into, points,        tiles,    raster,   window, surfaces, plan,   description,
-                               inventory,   cell_contents, geometry, far_view, check,  outlines, heights};
+  const std::vector<Named> all{points_into, points,       tiles,         raster,   window,   surfaces, plan,     description,
+                               inventory,   height_range, cell_contents, geometry, far_view, check,    outlines, heights};
   cases.add(all, "a closed package", [](Arguments& a) { a.package.close(); });
   cases.add(all, "a package closed twice", [](Arguments& a) {
     a.package.close();
@@ -347,8 +347,8 @@ const char* name_of(Ends ends) {
 /// Each call is made with right arguments first, so that a case fails when it is the call that is wrong, and not its argument.
 TEST(WrongCalls, RightCallsEndWithNothing) {
   const PackedSample sample;
-  for (const Named& named : {points_into, points, tiles, raster, window, surfaces, plan, description, inventory, cell_contents,
-                             geometry, far_view, check, outlines, heights}) {
+  for (const Named& named : {points_into, points, tiles, raster, window, surfaces, plan, description, inventory, height_range,
+                             cell_contents, geometry, far_view, check, outlines, heights}) {
     Arguments arguments(sample.folder());
     EXPECT_NO_THROW(named.call(arguments)) << named.name;
   }
