@@ -42,4 +42,7 @@ writeFileSync(join(folder, "viewer.js"), banner + outputFiles[0].text);
 writeFileSync(join(folder, "viewer.css"), style.code);
 writeFileSync(join(folder, "licences.txt"), licencesOf(packages));
 copyFileSync(join(here, "index.html"), join(folder, "index.html"));
+// farlod-view --export NAME.html puts them between tags
+for (const [file, end] of [["viewer.js", /<\/script|<!--/i], ["viewer.css", /<\/style/i], ["licences.txt", /<\/script|<!--/i]])
+  if (end.test(readFileSync(join(folder, file), "utf8"))) throw new Error(`${file} would end the element of a page that holds it`);
 if (existsSync(join(folder, "viewer.js.map"))) throw new Error("a source map in the bundle");

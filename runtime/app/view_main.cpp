@@ -55,14 +55,17 @@ void serve(const ViewCity& city, const ViewOptions& options, ViewSummary& summar
   summary.requests = requests;
 }
 
-void write_folder(const ViewCity& city, const ViewOptions& options, ViewSummary& summary) {
+void write_files(const ViewCity& city, const ViewOptions& options, ViewSummary& summary) {
   ProgressLine progress("tiles", options.run.verbosity);
+  const auto tell = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
+  const bool is_page = !options.export_page.empty();
   const ExportedView exported =
-      export_view(city, options.export_folder, [&](std::size_t done, std::size_t all) { progress.update(done, all); });
+      is_page ? export_page(city, options.export_page, tell) : export_view(city, options.export_folder, tell);
+  const std::string name = (is_page ? options.export_page : options.export_folder).string();
   if (options.run.verbosity == Verbosity::normal)
-    fmt::print("{}: {} tiles, {:.1f} MiB. It is seen by a web server only: python3 -m http.server --directory {}\n",
-               options.export_folder.string(), exported.tiles, static_cast<double>(exported.bytes) / (1 << 20),
-               options.export_folder.string());
+    fmt::print("{}: {} tiles, {:.1f} MiB. {}\n", name, exported.tiles, static_cast<double>(exported.bytes) / (1 << 20),
+               is_page ? "A browser opens it from the disk"
+                       : "It is seen by a web server only: python3 -m http.server --directory " + name);
   summary.tiles = exported.tiles;
   summary.bytes = exported.bytes;
 }
@@ -73,17 +76,25 @@ std::vector<ResultLayer> read_results(const ViewOptions& options, const Package&
   return layers;
 }
 
+/// What can be known before anything is computed.
+void require_room(const ViewOptions& options, const Package& package) {
+  if (!options.export_page.empty()) require_page_is_possible(options.export_page, package.description().triangles);
+}
+
 int run(const ViewOptions& options) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
-  for (const std::filesystem::path& file : {options.export_folder, std::filesystem::path(options.run.summary_file)})
+  for (const std::filesystem::path& file :
+       {options.export_folder, options.export_page, std::filesystem::path(options.run.summary_file)})
     require_folder_of(file);
   const auto start = Clock::now();
   const Package package(options.package);
+  require_room(options, package);
   const ViewFrame frame = view_frame_of(package);
   const ViewCity city(package, name_of(options.package), frame, placed_on_globe(package.description(), frame),
                       read_results(options, package, frame));
   ViewSummary summary{.open_seconds = seconds_since(start)};
-  options.export_folder.empty() ? serve(city, options, summary) : write_folder(city, options, summary);
+  const bool is_served = options.export_folder.empty() && options.export_page.empty();
+  is_served ? serve(city, options, summary) : write_files(city, options, summary);
   summary.total_seconds = seconds_since(start);
   write_summary(options.run.summary_file, view_summary_json(summary, options.run.settings_json));
   return Interruption::signal() == 0 ? exit_done : Interruption::exit_code();

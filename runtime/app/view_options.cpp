@@ -10,34 +10,43 @@
 #include "console/exit_code.hpp"
 #include "console/number_range.hpp"
 #include "console/option_list.hpp"
+#include "contract/lower_case.hpp"
 
 namespace farlod {
 namespace {
 
 ProgramDescription view_program() {
-  return {.name = "farlod-view",
-          .purpose = "shows a package of farlod-pack in a browser, coloured by its sky view factors",
-          .examples = {"farlod-view town.farlod", "farlod-view town.farlod svf.tif problems.geojson",
-                       "farlod-view town.farlod --export town_view"},
-          .background =
-              {"The program answers a browser on the same machine until it is interrupted. Values are computed when they are "
-               "looked at: the colours with 96 azimuths, and those of a place that is clicked as farlod-svf --at computes them.",
-               "A folder of --export is for any web server. It has the values down to whole cells of the grid, and answers for "
-               "no single places, since no program stands behind it."},
-          .notes = {},
-          .exit_codes = {{exit_done, "done"},
-                         {exit_internal, "an internal error"},
-                         {exit_usage, "a wrong command line"},
-                         {exit_unusable_input, "an input cannot be read or used, or nobody can listen at the address"},
-                         {exit_damaged_package, "a damaged package"},
-                         {exit_limit_reached, "a limit was reached"},
-                         {exit_interrupted, "and the number of a signal: interrupted"}},
-          .see_also = {"farlod-city", "farlod-info", "farlod-pack", "farlod-svf"},
-          .licence = "Apache-2.0"};
+  return {
+      .name = "farlod-view",
+      .purpose = "shows a package of farlod-pack in a browser, coloured by its sky view factors",
+      .examples = {"farlod-view town.farlod", "farlod-view town.farlod svf.tif problems.geojson",
+                   "farlod-view town.farlod --export town.html", "farlod-view town.farlod --export town_view"},
+      .background =
+          {"The program answers a browser on the same machine until it is interrupted. Values are computed when they are "
+           "looked at: the colours with 96 azimuths, and those of a place that is clicked as farlod-svf --at computes them.",
+           "What --export writes has the values down to whole cells of the grid, and answers for no single places, since no "
+           "program stands behind it. A file of HTML is for areas of up to 64 MiB, and needs neither a server nor a network. A "
+           "folder is for any web server."},
+      .notes = {},
+      .exit_codes = {{exit_done, "done"},
+                     {exit_internal, "an internal error"},
+                     {exit_usage, "a wrong command line"},
+                     {exit_unusable_input, "an input cannot be read or used, or nobody can listen at the address"},
+                     {exit_damaged_package, "a damaged package"},
+                     {exit_limit_reached, "a limit was reached"},
+                     {exit_interrupted, "and the number of a signal: interrupted"}},
+      .see_also = {"farlod-city", "farlod-info", "farlod-pack", "farlod-svf"},
+      .licence = "Apache-2.0"};
+}
+
+/// Whether --export means one file.
+bool is_of_html(const std::filesystem::path& name) {
+  const std::string ending = lower_case(name.extension().string());
+  return ending == ".html" || ending == ".htm";
 }
 
 struct RawOptions {
-  std::string package, folder;
+  std::string package, exported;
 };
 
 void add_options(CLI::App& app, RawOptions& raw, ViewOptions& o) {
@@ -55,8 +64,11 @@ void add_options(CLI::App& app, RawOptions& raw, ViewOptions& o) {
       app.add_option("--listen", o.server.address, "Address to listen at. Any but 127.0.0.1 lets other machines look at the city")
           ->capture_default_str()
           ->group("Server");
-  app.add_option("--export", raw.folder, "Write all to this folder, for any web server, instead of serving it")
-      ->type_name(folder_value)
+  app.add_option(
+         "--export", raw.exported,
+         "Write all instead of serving it: to this file where its name ends in .html, which a browser opens from the disk, "
+         "or else to a folder for any web server")
+      ->type_name(file_value)
       ->excludes(port)
       ->excludes(address)
       ->group("Output");
@@ -81,7 +93,7 @@ ParsedViewOptions parse_view_options(int argc, char** argv) {
   CommandLine line;
   const auto resolve = [&] {
     line.options.package = line.raw.package;
-    line.options.export_folder = line.raw.folder;
+    (is_of_html(line.raw.exported) ? line.options.export_page : line.options.export_folder) = line.raw.exported;
   };
   if (const auto exit_code = parse_command_line(line.app, argc, argv, resolve)) return {std::nullopt, *exit_code};
   return {std::move(line.options), exit_done};

@@ -18,7 +18,7 @@ struct ViewOptions {
   std::filesystem::path package;
   std::vector<std::string> results;  ///< as read_result_layer has them
   HttpServerSettings server;
-  std::filesystem::path export_folder;  ///< perhaps empty
+  std::filesystem::path export_folder, export_page;  ///< one of them, or both, are empty
   RunOptions run;
 };
 

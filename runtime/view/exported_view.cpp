@@ -3,13 +3,16 @@
 #include "view/exported_view.hpp"
 
 #include <fstream>
+#include <ostream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "farlod/error.hpp"
 #include "results/atomic_file.hpp"
 #include "view/bundle_files.hpp"
+#include "view/one_page.hpp"
 
 namespace farlod {
 namespace {
@@ -53,35 +56,72 @@ std::string name_of_subtree(const TileAddress& t) {
   return "subtrees/" + std::to_string(t.level) + "." + std::to_string(t.x) + "." + std::to_string(t.y) + ".subtree";
 }
 
-}  // namespace
+/// Takes a file by its name.
+using TakeFile = std::function<void(const std::string& name, std::string_view bytes)>;
 
-ExportedView export_view(const ViewCity& city, const std::filesystem::path& folder,
-                         const std::function<void(std::size_t done, std::size_t all)>& on_progress) {
-  AtomicFolder atomic(folder);
-  FolderWriter files(atomic.temporary());
+/// Hands over all files that the page asks for; how many of them are tiles with content.
+std::size_t make_files(const ViewCity& city, const TakeFile& take, const OnExportProgress& on_progress) {
   const TileTree tree = city.tree().down_to_cells();
   const std::vector<TileAddress> tiles = tiles_of(tree);
-  ExportedView exported;
+  std::size_t with_content = 0;
+  take("view.json", city.description(false));
+  take("tileset.json", city.tileset(tree));
+  for (std::size_t n = 0; n < city.results().size(); ++n) {
+    const std::string name = "results/" + std::to_string(n);
+    take(name, city.results()[n].bytes());
+    take(name + ".json", labels_json(city.results()[n]));
+  }
   for (std::size_t n = 0; n < tiles.size(); ++n) {
+    if (tiles[n].level % levels_of_subtree == 0) take(name_of_subtree(tiles[n]), subtree_file(tree, tiles[n]));
     if (tree.has_content(tiles[n])) {
-      files.write(name_of_tile(tiles[n]), city.tile(tiles[n]));
-      ++exported.tiles;
+      take(name_of_tile(tiles[n]), city.tile(tiles[n]));
+      ++with_content;
     }
-    if (tiles[n].level % levels_of_subtree == 0) files.write(name_of_subtree(tiles[n]), subtree_file(tree, tiles[n]));
     on_progress(n + 1, tiles.size());
   }
+  return with_content;
+}
+
+OutputError too_large(const std::filesystem::path& file, std::uint64_t most_bytes) {
+  return {file, "one page of this city would have more than " + std::to_string(most_bytes >> 20U) +
+                    " MiB, which browsers are slow to open. Export a folder, by a name without .html, or pack a smaller --area"};
+}
+
+}  // namespace
+
+ExportedView export_view(const ViewCity& city, const std::filesystem::path& folder, const OnExportProgress& on_progress) {
+  AtomicFolder atomic(folder);
+  FolderWriter files(atomic.temporary());
   for (const BundleFile& file : bundle_files()) files.write(std::string(file.name), file.bytes);
-  for (std::size_t n = 0; n < city.results().size(); ++n) {
-    const ResultLayer& layer = city.results()[n];
-    const std::string name = "results/" + std::to_string(n);
-    files.write(name, layer.bytes());
-    files.write(name + ".json", labels_json(layer));
-  }
-  files.write("view.json", city.description(false));
-  files.write("tileset.json", city.tileset(tree));
+  ExportedView exported;
+  exported.tiles = make_files(
+      city, [&](const std::string& name, std::string_view bytes) { files.write(name, bytes); }, on_progress);
   exported.bytes = files.bytes();
   atomic.commit("tileset.json");
   return exported;
+}
+
+ExportedView export_page(const ViewCity& city, const std::filesystem::path& file, const OnExportProgress& on_progress,
+                         std::uint64_t most_bytes) {
+  ExportedView exported;
+  write_atomically(file, [&](std::ostream& stream) {
+    OnePage page(stream);
+    const auto take = [&](const std::string& name, std::string_view bytes) {
+      page.add(name, bytes);
+      if (page.bytes() > most_bytes) throw too_large(file, most_bytes);
+    };
+    exported.tiles = make_files(city, take, on_progress);
+    page.finish();
+    exported.bytes = page.bytes();
+  });
+  return exported;
+}
+
+void require_page_is_possible(const std::filesystem::path& file, std::uint64_t triangles) {
+  // Of three real cities with their ground, 170 to 390 bytes were written for each triangle
+  constexpr std::uint64_t least_bytes_of_triangle = 40;
+  if (triangles > most_bytes_of_page / least_bytes_of_triangle) throw too_large(file, most_bytes_of_page);
+  if (std::filesystem::is_directory(file)) throw OutputError(file, "there is a folder of this name; choose another");
 }
 
 }  // namespace farlod

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 
@@ -14,10 +16,23 @@ struct ExportedView {
   std::uint64_t bytes = 0;
 };
 
+/// Is told tiles that are done, and how many there are.
+using OnExportProgress = std::function<void(std::size_t done, std::size_t all)>;
+
 /// Writes the page, and all that it asks for of a city but single places, as files for any web server: the tiles down to whole
-/// cells. The folder must be empty or not be there. `on_progress` is told tiles that are done, and how many there are. Throws
-/// OutputError, and what making a tile throws.
-ExportedView export_view(const ViewCity& city, const std::filesystem::path& folder,
-                         const std::function<void(std::size_t done, std::size_t all)>& on_progress);
+/// cells. The folder must be empty or not be there. Throws OutputError, and what making a tile throws.
+ExportedView export_view(const ViewCity& city, const std::filesystem::path& folder, const OnExportProgress& on_progress);
+
+/// A page of more bytes is slow to open, and too large to be sent.
+inline constexpr std::uint64_t most_bytes_of_page = std::uint64_t{64} << 20U;
+
+/// Writes the same as one file of HTML, which a browser opens from a disk. Throws OutputError as well where the file would have
+/// more than `most_bytes`, and leaves none then.
+ExportedView export_page(const ViewCity& city, const std::filesystem::path& file, const OnExportProgress& on_progress,
+                         std::uint64_t most_bytes = most_bytes_of_page);
+
+/// To be asked before anything is computed: refuses a city that is certainly too large for one page, and a name that is a
+/// folder's. Throws OutputError.
+void require_page_is_possible(const std::filesystem::path& file, std::uint64_t triangles);
 
 }  // namespace farlod

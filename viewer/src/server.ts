@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+import { embeddedAnswer, hasEmbeddedFiles } from "./embedded_files.ts";
 import type { CellIndex, Triple } from "./view_info.ts";
 
 /** Nothing answers at the address of the page. */
@@ -85,7 +86,7 @@ export interface Receiver {
 export async function fetchOfServer(url: string, options: RequestInit = {}): Promise<Response> {
   let response: Response;
   try {
-    response = await fetch(url, options);
+    response = hasEmbeddedFiles ? await embeddedAnswer(url) : await fetch(url, options);
   } catch (error) {
     if (error instanceof DOMException && error.name === "AbortError") throw error;
     throw new ServerSilent();
