@@ -16,7 +16,7 @@ import { readFileSync } from "node:fs";
 import { basename } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
-import { missing, openBrowser, ready, settled, until } from "../tests/viewer/browser.mjs";
+import { missing, openBrowser, ready, atRest, until } from "../tests/viewer/browser.mjs";
 import { starterOf } from "../tests/viewer/servers.mjs";
 
 const { values: options, positionals: packages } = parseArgs({
@@ -46,7 +46,7 @@ async function firstPicture(browser, start) {
 
 /** Clicks at places of the window; how long each question of the page took, in milliseconds. */
 async function questions(page, clicks) {
-  await settled(page);
+  await atRest(page);
   for (let n = 0; n < clicks; ++n) {
     await page.mouse.click(300 + ((n * 97) % 560), 200 + ((n * 61) % 420));
     await until(page, "the answer", ({ resting }) => resting);
@@ -80,7 +80,7 @@ async function fly(page, grid, places, look) {
     const x = grid.corner_m[0] + u * Math.cos(bearing) + v * Math.sin(bearing), y = grid.corner_m[1] - u * Math.sin(bearing) + v * Math.cos(bearing);
     await page.evaluate((hash) => { location.hash = hash; }, `camera=${look.origin[0] + x},${look.origin[1] + y},${look.origin[2]},${n % 3 === 2 ? 6000 : 500},${(n * 37) % 360},55`);
     await page.waitForTimeout(100);
-    await settled(page);
+    await atRest(page);
     look.record(n);
   }
 }

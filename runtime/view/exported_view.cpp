@@ -106,12 +106,16 @@ ExportedView export_page(const ViewCity& city, const std::filesystem::path& file
   ExportedView exported;
   write_atomically(file, [&](std::ostream& stream) {
     OnePage page(stream);
+    const auto expect_room = [&] {
+      if (page.bytes() > most_bytes) throw too_large(file, most_bytes);
+    };
     const auto take = [&](const std::string& name, std::string_view bytes) {
       page.add(name, bytes);
-      if (page.bytes() > most_bytes) throw too_large(file, most_bytes);
+      expect_room();
     };
     exported.tiles = make_files(city, take, on_progress);
     page.finish();
+    expect_room();
     exported.bytes = page.bytes();
   });
   return exported;

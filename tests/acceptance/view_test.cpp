@@ -86,10 +86,36 @@ TEST_F(View, DrawsResultsBesideThePackage) {
   EXPECT_EQ(results[2].at("form"), "problems");
 }
 
+/// Writes the files that a page carries to the folder `carried`.
+constexpr const char* unpack_page =
+    "python3 -c 'import base64, gzip, os, re\n"
+    "for name, text in re.findall(r\"<script type=.text/plain. data-file=.([^>]*).>([^<]*)</script>\", "
+    "open(\"town.html\").read()):\n"
+    "  os.makedirs(os.path.dirname(\"carried/\" + name), exist_ok=True)\n"
+    "  open(\"carried/\" + name, \"wb\").write(gzip.decompress(base64.b64decode(text, validate=True)))'";
+
+TEST_F(View, ExportsOnePageWithAllThatTheFolderHas) {
+  folder.must("farlod-view a.farlod --export town.html --summary s.json --quiet");
+  folder.must("farlod-view a.farlod --export page --quiet");
+  folder.must(unpack_page);
+  const std::string html = folder.text_of("town.html");
+  for (const char* name : {"viewer.js", "viewer.css", "licences.txt"})
+    EXPECT_THAT(html, HasSubstr(folder.text_of(std::string("page/") + name))) << name;
+  for (const char* request : {"src=\"", "rel=\"preload\"", "rel=\"stylesheet\""})
+    EXPECT_EQ(html.find(request), std::string::npos) << request;
+  EXPECT_THAT(html, HasSubstr("Content-Security-Policy"));
+  folder.must("rm page/index.html page/viewer.js page/viewer.css page/licences.txt && diff -r page carried");
+  EXPECT_EQ(folder.json_of("s.json").at("bytes"), html.size());
+  folder.must("farlod-view a.farlod --export again.HTM --quiet --threads 1 && cmp town.html again.HTM");
+}
+
 TEST_F(View, ExportsReplaceNothingElse) {
   folder.must("mkdir mine && touch mine/photo.jpg");
   expect_refusal(folder.run("farlod-view a.farlod --export mine --quiet"), exit_unusable_input, {"mine"});
   EXPECT_TRUE(folder.has("mine/photo.jpg"));
+  folder.must("mv mine mine.html");
+  expect_refusal(folder.run("farlod-view a.farlod --export mine.html --quiet"), exit_unusable_input, {"mine.html", "folder"});
+  EXPECT_TRUE(folder.has("mine.html/photo.jpg"));
 }
 
 TEST_F(View, WrongUseIsToldInOneLine) {
@@ -97,6 +123,7 @@ TEST_F(View, WrongUseIsToldInOneLine) {
   expect_refusal(folder.run("farlod-view a.farlod nowhere.tif"), exit_unusable_input, {"nowhere.tif", "does not exist"});
   expect_refusal(folder.run("farlod-view a.farlod --port 99999"), exit_usage, {"--port"});
   expect_refusal(folder.run("farlod-view a.farlod --export x --port 8000"), exit_usage, {"--export", "--port"});
+  expect_refusal(folder.run("farlod-view a.farlod --export nowhere/x.html"), exit_unusable_input, {"nowhere"});
   expect_refusal(folder.run("farlod-view a.farlod --listen 192.0.2.1"), exit_unusable_input, {"192.0.2.1"});
 }
 

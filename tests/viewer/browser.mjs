@@ -47,7 +47,7 @@ export async function until(page, what, condition, timeout_ms = 90000) {
 }
 
 /** Until the camera stands still, all tiles are drawn and all answers are there. */
-export const settled = (page) => until(page, "rest", ({ resting }) => resting);
+export const atRest = (page) => until(page, "rest", ({ resting }) => resting);
 
 /** The pixels of a screenshot, in rows of red, green, blue, alpha. */
 export const pixels = async (page, clip) => decoded(page, await page.screenshot({ clip }));

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What the page says when something is wrong. Damaged and exported packages are the mock's.
-import { ready, settled, state, until } from "./browser.mjs";
+import { ready, atRest, state, until } from "./browser.mjs";
 import { expect, expectEqual } from "./checks.mjs";
 import { startMock } from "./mock_server.mjs";
 
@@ -16,7 +16,7 @@ export const failureTests = {
     const server = await start(), page = await context.newPage();
     await page.goto(server.url);
     await ready(page);
-    await settled(page);
+    await atRest(page);
     await server.stop();
     await page.focus("#city");
     await page.keyboard.press("Enter");
@@ -53,7 +53,7 @@ export const failureTests = {
     const server = await startMock({ canAnswer: false }), page = await context.newPage();
     await page.goto(server.url);
     await ready(page);
-    await settled(page);
+    await atRest(page);
     await page.focus("#city");
     await page.keyboard.press("Enter");
     const { picked } = await until(page, "the place", (now) => now.picked !== null);
@@ -82,7 +82,7 @@ export const failureTests = {
     await page.route("**/hemisphere?*", (route) => route.fulfill({ status: 204 }));
     await page.goto(url);
     await ready(page);
-    await settled(page);
+    await atRest(page);
     await page.focus("#city");
     await page.keyboard.press("Enter");
     await until(page, "the answer", ({ answer }) => answer === "no data");
@@ -98,7 +98,7 @@ export const failureTests = {
     await page.route("**/at?*", (route) => route.fulfill({ status: 500, json: { error: "The tile of the cell 3, 4 is damaged." } }));
     await page.goto(url);
     await ready(page);
-    await settled(page);
+    await atRest(page);
     await page.focus("#city");
     await page.keyboard.press("Enter");
     await page.waitForFunction(() => document.getElementById("value-note").textContent.length > 0);

@@ -3,7 +3,7 @@
 //
 // What is seen when the page opens.
 import { readFileSync, writeFileSync } from "node:fs";
-import { decoded, differing, pixels, ready, settled, share, state } from "./browser.mjs";
+import { decoded, differing, pixels, ready, atRest, share, state } from "./browser.mjs";
 import { expect, expectEqual } from "./checks.mjs";
 
 /** The city, without the cards at its sides. */
@@ -17,6 +17,19 @@ function distanceToRamp(colours, red, green, blue) {
   return least;
 }
 
+/** The city in the middle of the window is drawn in colours of the ramp, and in several of them. */
+export async function expectColoursOfRamp(page, colours, nodata_colour) {
+  const picture = await pixels(page, city), few = colours.filter((_, n) => n % 8 === 0), surround = [228, 232, 235];
+  const isSurround = (r, g, b) => Math.abs(r - surround[0]) + Math.abs(g - surround[1]) + Math.abs(b - surround[2]) < 6;
+  const near = (r, g, b) => !isSurround(r, g, b) && distanceToRamp([...few, nodata_colour], r, g, b) < 24;
+  const drawn = 1 - share(picture, isSurround), coloured = share(picture, near) / drawn;
+  expect(drawn > 0.4, `the city fills ${(100 * drawn).toFixed(1)} % of the middle of the window`);
+  expect(coloured > 0.9, `${(100 * coloured).toFixed(1)} % of the city's pixels have colours of the ramp`);
+  const kinds = new Set();
+  share(picture, (r, g, b) => kinds.add((r >> 5) * 64 + (g >> 5) * 8 + (b >> 5)));
+  expect(kinds.size >= 6, `the city has ${kinds.size} colours`);
+}
+
 export const lookTests = {
   async "opens without errors, and asks no other host"({ url, context }) {
     const page = await context.newPage(), wrong = [];
@@ -25,7 +38,7 @@ export const lookTests = {
     page.on("request", (request) => { if (!request.url().startsWith(url) && !request.url().startsWith("data:")) wrong.push(request.url()); });
     await page.goto(url);
     await ready(page);
-    await settled(page);
+    await atRest(page);
     expectEqual(wrong, [], "errors and foreign addresses");
   },
 
@@ -35,7 +48,7 @@ export const lookTests = {
     await ready(page);
     const { readyAt_ms, visibleTiles } = await state(page), now_ms = await page.evaluate(() => performance.now());
     expect(visibleTiles > 0 && readyAt_ms > 0 && readyAt_ms <= now_ms, `ready at ${readyAt_ms} ms of ${now_ms} ms with ${visibleTiles} tiles`);
-    expect((await settled(page)).loaded, "tiles are still missing at rest");
+    expect((await atRest(page)).loaded, "tiles are still missing at rest");
   },
 
   async "is coloured by the ramp"({ url, context }) {
@@ -43,16 +56,8 @@ export const lookTests = {
     // So near that few pixels are of two facets
     await page.goto(`${url}#camera=${origin_m.join(",")},400,0,30`);
     await ready(page);
-    await settled(page);
-    const picture = await pixels(page, city), few = colours.filter((_, n) => n % 8 === 0), surround = [228, 232, 235];
-    const isSurround = (r, g, b) => Math.abs(r - surround[0]) + Math.abs(g - surround[1]) + Math.abs(b - surround[2]) < 6;
-    const near = (r, g, b) => !isSurround(r, g, b) && distanceToRamp([...few, nodata_colour], r, g, b) < 24;
-    const drawn = 1 - share(picture, isSurround), coloured = share(picture, near) / drawn;
-    expect(drawn > 0.4, `the city fills ${(100 * drawn).toFixed(1)} % of the middle of the window`);
-    expect(coloured > 0.9, `${(100 * coloured).toFixed(1)} % of the city's pixels have colours of the ramp`);
-    const kinds = new Set();
-    share(picture, (r, g, b) => kinds.add((r >> 5) * 64 + (g >> 5) * 8 + (b >> 5)));
-    expect(kinds.size >= 6, `the city has ${kinds.size} colours`);
+    await atRest(page);
+    await expectColoursOfRamp(page, colours, nodata_colour);
   },
 
   async "looks as the picture that was looked at"({ url, context, isMock, writesPictures }) {
@@ -62,7 +67,7 @@ export const lookTests = {
     const { origin_m } = await (await fetch(`${url}view.json`)).json();
     await page.goto(`${url}#camera=${origin_m.join(",")},700,30,50`);
     await ready(page);
-    await settled(page);
+    await atRest(page);
     if (writesPictures) writeFileSync(file, await page.screenshot({ clip: city }));
     const differ = differing(await pixels(page, city), await decoded(page, readFileSync(file)));
     expect(differ < 0.01, `${(100 * differ).toFixed(2)} % of the pixels differ from tests/viewer/pictures/boxes.png`);
@@ -89,11 +94,11 @@ export const lookTests = {
     const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, colorScheme: "dark" }), page = await context.newPage();
     await page.goto(url);
     await ready(page);
-    await settled(page);
+    await atRest(page);
     const corner = { x: 500, y: 5, width: 60, height: 40 }, isDark = (r, g, b) => r + g + b < 120;
     expect(share(await pixels(page, corner), isDark) === 1, "the surroundings are not dark");
     await page.click("#theme");
-    await settled(page);
+    await atRest(page);
     expect(share(await pixels(page, corner), isDark) === 0, "the surroundings stay dark");
     expectEqual(await page.getAttribute("html", "data-theme"), "light", "the theme");
     await context.close();
@@ -103,16 +108,16 @@ export const lookTests = {
     const page = await context.newPage();
     await page.goto(url);
     await ready(page);
-    await settled(page);
+    await atRest(page);
     const whole = await pixels(page, city), changes = {};
     for (const layer of ["ground", "roofs", "facades", "grid"]) {
       await page.click(`#layer-${layer}`);
       await page.waitForTimeout(300);
-      await settled(page);
+      await atRest(page);
       changes[layer] = differing(whole, await pixels(page, city));
       await page.click(`#layer-${layer}`);
       await page.waitForTimeout(300);
-      await settled(page);
+      await atRest(page);
     }
     for (const [layer, change] of Object.entries(changes)) expect(change > 0.002, `the layer ${layer} changes ${(100 * change).toFixed(2)} % of the picture`);
     expect(differing(whole, await pixels(page, city)) < 0.001, "the layers do not come back as they were");

@@ -11,6 +11,7 @@ import { parseArgs } from "node:util";
 import { missing, openBrowser } from "./browser.mjs";
 import { failureTests } from "./failure_tests.mjs";
 import { lookTests } from "./look_tests.mjs";
+import { onePageTests } from "./one_page_tests.mjs";
 import { placeTests } from "./place_tests.mjs";
 import { resultTests } from "./result_tests.mjs";
 import { starterOf } from "./servers.mjs";
@@ -24,8 +25,8 @@ if (missing()) {
 }
 
 const start = starterOf({ program: values.program, packageFolder: values.package });
-// What is expected of results is known of the mock's alone
-const groups = [lookTests, placeTests, useTests, failureTests, ...(values.program ? [] : [resultTests])];
+// What is expected of results is known of the mock's alone, and only farlod-view exports
+const groups = [lookTests, placeTests, useTests, failureTests, values.program ? onePageTests(values.program, values.package) : resultTests];
 const tests = Object.entries(Object.assign({}, ...groups)).filter(([name]) => name.includes(values.only));
 const browser = await openBrowser(), server = await start();
 let failed = 0;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Clicks on the city: values, fisheyes, cells.
-import { differing, pixels, ready, settled, share, state, until } from "./browser.mjs";
+import { differing, pixels, ready, atRest, share, state, until } from "./browser.mjs";
 import { expect, expectEqual, expectNear } from "./checks.mjs";
 
 /** Places of the window to click at, from its middle outwards. */
@@ -34,7 +34,7 @@ async function choose(context, url, kind) {
   await ready(page);
   for (const [dx, dy] of surroundings) {
     await page.evaluate((hash) => { location.hash = hash; }, `camera=${east + dx},${north + dy},${height},160,0,40`);
-    await settled(page);
+    await atRest(page);
     const now = await clickOn(page, kind, asked);
     if (now) return { page, now, asked };
   }
@@ -153,7 +153,7 @@ export const placeTests = {
     const before = await pixels(page, clip);
     await page.click("#ask-cell");
     await page.waitForSelector("#cell h2");
-    await settled(page);
+    await atRest(page);
     const { cell } = await state(page), facts = await answerTo(`${url}cell?i=${cell[0]}&j=${cell[1]}`), at = await answerTo(`${url}at?x=${now.picked.projected_m[0]}&y=${now.picked.projected_m[1]}`);
     expectEqual(cell, at.cell, "the cell of the place");
     expectEqual(await page.textContent("#cell h2"), `Cell ${cell[0]}, ${cell[1]}`, "the heading");
@@ -176,7 +176,7 @@ export const placeTests = {
     await ready(page);
     await page.click("#layer-grid");
     await page.waitForTimeout(300);
-    await settled(page);
+    await atRest(page);
     const clip = { x: 260, y: 120, width: 480, height: 460 }, isPink = (r, g, b) => r > 170 && g < 90 && b > 60 && b < 140;
     await page.mouse.move(5, 690);
     await page.waitForTimeout(300);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Results beside the package: with the mock, whose results are known; farlod-view is given the results of the town by its runner.
-import { pixels, ready, settled, share, state, until } from "./browser.mjs";
+import { pixels, ready, atRest, share, state, until } from "./browser.mjs";
 import { expect, expectEqual } from "./checks.mjs";
 
 const colourOf = async (url, value) => (await (await fetch(`${url}view.json`)).json()).colours[Math.round(255 * value)];
@@ -15,7 +15,7 @@ async function above(context, url, fields) {
   const page = await context.newPage(), { origin_m } = await (await fetch(`${url}view.json`)).json();
   await page.goto(`${url}#camera=${origin_m.join(",")},500,0,0&layers=ground&${fields}`);
   await ready(page);
-  await settled(page);
+  await atRest(page);
   return page;
 }
 
@@ -38,10 +38,10 @@ export const resultTests = {
     await expectGround(page, east, await colourOf(url, 0.75), "the eastern values");
     expectEqual(await page.textContent("#ramp-title"), "summer.tif: svf", "the title of the legend");
     await page.selectOption("#ground-values", "2");
-    await settled(page);
+    await atRest(page);
     await expectGround(page, west, [190, 190, 190], "pixels without data");
     await page.selectOption("#ground-values", "-1");
-    await settled(page);
+    await atRest(page);
     expect(share(await pixels(page, west), near([190, 190, 190])) < 0.1, "the computed values did not come back");
   },
 
@@ -49,7 +49,7 @@ export const resultTests = {
     const page = await above(context, url, "ground=0&dots=");
     await page.selectOption("#compared", "1");
     await page.selectOption("#comparison", "difference");
-    await settled(page);
+    await atRest(page);
     // All differences are .25, for which a scale to .5 is the least of 1, 2 and 5
     const ticks = await page.$$eval("#ticks span", (spans) => spans.map((span) => span.textContent));
     expectEqual(ticks, ["−.5", "−.25", "0", ".25", ".5"], "the ticks");
@@ -65,14 +65,14 @@ export const resultTests = {
     await expectGround(page, east, await colourOf(url, 0.5), "the second values, right of it,");
     await page.focus("#divider");
     for (let n = 0; n < 4; ++n) await page.keyboard.press("Shift+ArrowRight");
-    await settled(page);
+    await atRest(page);
     await expectGround(page, east, await colourOf(url, 0.75), "the first values, after the divider was moved by keys,");
     const box = await page.locator("#divider").boundingBox(), x = box.x + box.width / 2;
     await page.mouse.move(x, 300);
     await page.mouse.down();
     await page.mouse.move(250, 300, { steps: 4 });
     await page.mouse.up();
-    await settled(page);
+    await atRest(page);
     await expectGround(page, west, await colourOf(url, 0.5), "the second values, after the divider was dragged,");
   },
 
@@ -88,11 +88,11 @@ export const resultTests = {
     expectEqual((await factsOf(page))[1], "107 zero_area, left out: b-3-3-1. All points lie on a line.", "the problem");
     const mark = { x: middle[0] - 60 * perMetre - 6, y: middle[1] - 6, width: 12, height: 12 };
     await page.keyboard.press("Escape");
-    await settled(page);
+    await atRest(page);
     const isMark = near([217, 28, 97]);
     expect(share(await pixels(page, mark), isMark) > 0.2, "the mark of the problem is not seen");
     await page.uncheck("#result-4");
-    await settled(page);
+    await atRest(page);
     expect(share(await pixels(page, mark), isMark) === 0, "the mark is still seen");
   },
 
@@ -102,7 +102,7 @@ export const resultTests = {
     const again = await context.newPage();
     await again.goto(page.url());
     await ready(again);
-    await settled(again);
+    await atRest(again);
     const chosen = await Promise.all(["#ground-values", "#compared", "#comparison"].map((id) => again.inputValue(id)));
     expectEqual(chosen, ["0", "1", "divider"], "the lists");
     expectEqual([await again.isChecked("#result-3"), await again.isChecked("#result-4")], [false, true], "the boxes");

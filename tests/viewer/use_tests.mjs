@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Links, keys, touch, and what screen readers are told.
-import { ready, settled, state, until } from "./browser.mjs";
+import { ready, atRest, state, until } from "./browser.mjs";
 import { expect, expectEqual, expectNear } from "./checks.mjs";
 
 async function open(context, address) {
   const page = await context.newPage();
   await page.goto(address);
   await ready(page);
-  await settled(page);
+  await atRest(page);
   return page;
 }
 
@@ -28,7 +28,7 @@ export const useTests = {
     await page.keyboard.press("Escape");
     await page.focus("#city");
     for (const key of ["+", "+", "Shift+ArrowLeft", "ArrowUp"]) await page.keyboard.press(key);
-    await settled(page);
+    await atRest(page);
     await page.keyboard.press("Enter");
     const before = await until(page, "the answer", ({ answer, skyIsDrawn }) => answer !== null && skyIsDrawn);
     await page.selectOption("#projection", "equal-area");
@@ -51,7 +51,7 @@ export const useTests = {
   },
 
   async "keys move the view"({ url, context }) {
-    const page = await open(context, url), press = async (key) => { await page.keyboard.press(key); return (await settled(page)).camera; };
+    const page = await open(context, url), press = async (key) => { await page.keyboard.press(key); return (await atRest(page)).camera; };
     await page.focus("#city");
     const home = (await state(page)).camera, near = await press("+");
     expect(near.distance_m < 0.9 * home.distance_m, "+ does not come nearer");
@@ -135,7 +135,7 @@ export const useTests = {
     await touch("touchStart", [{ x: 150, y: 400, id: 0 }, { x: 240, y: 400, id: 1 }]);
     for (let n = 1; n <= 8; ++n) await touch("touchMove", [{ x: 150 - 10 * n, y: 400, id: 0 }, { x: 240 + 10 * n, y: 400, id: 1 }]);
     await touch("touchEnd", []);
-    expect((await settled(page)).camera.distance_m < 0.8 * home.distance_m, "two fingers do not zoom");
+    expect((await atRest(page)).camera.distance_m < 0.8 * home.distance_m, "two fingers do not zoom");
     await context.close();
   },
 };
