@@ -96,10 +96,10 @@ export const lookTests = {
     await ready(page);
     await atRest(page);
     const corner = { x: 500, y: 5, width: 60, height: 40 }, isDark = (r, g, b) => r + g + b < 120;
-    expect(share(await pixels(page, corner), isDark) === 1, "the surroundings are not dark");
+    expect(share(await pixels(page, corner), isDark) === 1, "the surround are not dark");
     await page.click("#theme");
     await atRest(page);
-    expect(share(await pixels(page, corner), isDark) === 0, "the surroundings stay dark");
+    expect(share(await pixels(page, corner), isDark) === 0, "the surround stay dark");
     expectEqual(await page.getAttribute("html", "data-theme"), "light", "the theme");
     await context.close();
   },

@@ -11,7 +11,7 @@ for (let ring = 0; ring < 9; ++ring) for (let n = 0; n < 8; ++n)
   places.push([400 + 14 * ring * Math.cos((n * Math.PI) / 4), 360 + 12 * ring * Math.sin((n * Math.PI) / 4)]);
 
 /** Where to look for a place, in metres from the origin: a square or a large roof may fill one view. */
-const surroundings = [[0, 0], [260, -200], [-300, 120], [150, 400], [-200, -420]];
+const otherPlaces = [[0, 0], [260, -200], [-300, 120], [150, 400], [-200, -420]];
 
 /** A click at some place of the kind, where nothing is simplified and there is an answer; null where the view has none. */
 async function clickOn(page, kind, asked) {
@@ -32,7 +32,7 @@ async function choose(context, url, kind) {
   page.on("request", (request) => { if (/\/(at|hemisphere|cell)\?/.test(request.url())) asked.push(request.url()); });
   await page.goto(`${url}#camera=${east},${north},${height},160,0,40`);
   await ready(page);
-  for (const [dx, dy] of surroundings) {
+  for (const [dx, dy] of otherPlaces) {
     await page.evaluate((hash) => { location.hash = hash; }, `camera=${east + dx},${north + dy},${height},160,0,40`);
     await atRest(page);
     const now = await clickOn(page, kind, asked);
