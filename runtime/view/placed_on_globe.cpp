@@ -34,13 +34,20 @@ EcefFromLocal tangent_at(const Point3d& origin, const std::string& crs_wkt) {
                               {origin.x, origin.y + half_step_m}};
   places = reprojected(places, crs_wkt, "EPSG:4326");
   const auto at = [&](std::size_t n) { return ecef_of(places[n], origin.z); };
-  const Point3d x = (0.5 / half_step_m) * (at(2) - at(1)), y = (0.5 / half_step_m) * (at(4) - at(3));
-  const Point3d z = normalized(cross(x, y)), o = at(0);
-  return {x.x, x.y, x.z, 0.0, y.x, y.y, y.z, 0.0, z.x, z.y, z.z, 0.0, o.x, o.y, o.z, 1.0};
+  return similar_frame((0.5 / half_step_m) * (at(2) - at(1)), (0.5 / half_step_m) * (at(4) - at(3)), at(0));
 }
 #endif
 
 }  // namespace
+
+EcefFromLocal similar_frame(const Point3d& east, const Point3d& north, const Point3d& o) {
+  // As far from the one as from the other, where they are not at right angles
+  const Point3d e = normalized(east), n = normalized(north), between = normalized(e + n), across = normalized(e - n);
+  const double scale = std::sqrt(norm(east) * norm(north));
+  const Point3d x = (scale * std::sqrt(0.5)) * (between + across), y = (scale * std::sqrt(0.5)) * (between - across);
+  const Point3d z = (1.0 / scale) * cross(x, y);
+  return {x.x, x.y, x.z, 0.0, y.x, y.y, y.z, 0.0, z.x, z.y, z.z, 0.0, o.x, o.y, o.z, 1.0};
+}
 
 EcefFromLocal placed_on_globe([[maybe_unused]] const PackageDescription& description, [[maybe_unused]] const ViewFrame& frame) {
 #ifdef FARLOD_WITH_GDAL

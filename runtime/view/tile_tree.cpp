@@ -50,4 +50,9 @@ double TileTree::geometric_error_m(std::uint32_t level) const {
   return std::ldexp(error_of_cells_m, static_cast<int>(level_of_cells_) - static_cast<int>(level));
 }
 
+double TileTree::error_as_drawn_m(std::uint32_t level) const {
+  const double error_m = geometric_error_m(level);
+  return level >= first_level_with_content() ? error_m : std::max(error_m, square_of({level, 0, 0}).edge_m);
+}
+
 }  // namespace farlod

@@ -53,6 +53,9 @@ class TileTree {
   [[nodiscard]] CellRectangle cells_of(const TileAddress& tile) const;
   /// In metres: by how much the content of a tile of this level is off, where its children's is right.
   [[nodiscard]] double geometric_error_m(std::uint32_t level) const;
+  /// In metres: by how much a picture is off that ends at tiles of this level. Where they have no content, a whole tile is
+  /// missing.
+  [[nodiscard]] double error_as_drawn_m(std::uint32_t level) const;
 
  private:
   CellRectangle cells_;
@@ -63,12 +66,14 @@ class TileTree {
 /// The levels of one file of a subtree.
 inline constexpr std::uint32_t levels_of_subtree = 6;
 
-/// tileset.json: the root's box and error, and where subtrees and contents are (subtrees/LEVEL.X.Y.subtree, tiles/LEVEL/X/Y.glb).
-/// `ecef_from_local` is the root's transform, column by column.
+/// tileset.json: the root's box and error, the class of the tiles' metadata, and where subtrees and contents are
+/// (subtrees/LEVEL.X.Y.subtree, tiles/LEVEL/X/Y.glb). `ecef_from_local` is the root's transform, column by column.
 [[nodiscard]] std::string tileset_json(const ViewFrame& frame, const TileTree& tree,
                                        const std::array<double, 16>& ecef_from_local);
 
 /// The binary subtree whose root is this tile: which tiles there are, and which of them have content and subtrees below them.
+/// Where there may be tiles without content, it has the errors of its tiles as drawn: Cesium draws nothing in the place of a tile
+/// whose error is small enough, and that of its level would be.
 [[nodiscard]] std::string subtree_file(const TileTree& tree, const TileAddress& root);
 
 }  // namespace farlod

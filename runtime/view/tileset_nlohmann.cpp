@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -59,12 +60,13 @@ SubtreeBits bits_of(const TileTree& tree, const TileAddress& root) {
 /// Views of the one buffer, each at a multiple of eight bytes.
 class SubtreeBuffer {
  public:
-  Json add(const TileBits& bits) {
-    views_.push_back({{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bits.bytes().size()}});
-    bytes_ += bits.bytes();
+  std::size_t add(const std::string& bytes) {
+    views_.push_back({{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}});
+    bytes_ += bytes;
     bytes_.resize((bytes_.size() + 7) / 8 * 8);
-    return {{"bitstream", views_.size() - 1}, {"availableCount", bits.count()}};
+    return views_.size() - 1;
   }
+  Json add(const TileBits& bits) { return {{"bitstream", add(bits.bytes())}, {"availableCount", bits.count()}}; }
   [[nodiscard]] const Json& views() const { return views_; }
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
 
@@ -76,6 +78,24 @@ class SubtreeBuffer {
 template <class Number>
 void append(std::string& bytes, Number number) {
   bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+}
+
+constexpr const char *class_of_tiles = "tile", *property_of_error = "geometricError";
+
+/// Of the tiles' metadata, which overrides what follows from their level.
+Json schema() {
+  const Json error = {{"type", "SCALAR"}, {"componentType", "FLOAT64"}, {"semantic", "TILE_GEOMETRIC_ERROR"}, {"required", true}};
+  return {{"id", "farlod"}, {"classes", {{class_of_tiles, {{"properties", {{property_of_error, error}}}}}}}};
+}
+
+/// A row for each tile that is there, in the order of their bits.
+Json errors_of_tiles(const TileTree& tree, const TileAddress& root, std::size_t tiles, SubtreeBuffer& buffer) {
+  std::string errors;
+  for (std::uint32_t depth = 0; depth < levels_of_subtree; ++depth)
+    for (std::uint32_t place = 0; place < 1U << (2 * depth); ++place)
+      if (tree.contains(tile_of_morton(root, depth, place))) append(errors, tree.error_as_drawn_m(root.level + depth));
+  return Json::array(
+      {{{"class", class_of_tiles}, {"count", tiles}, {"properties", {{property_of_error, {{"values", buffer.add(errors)}}}}}}});
 }
 
 /// The box of the root: its centre, and half of its edges as vectors. Its axes are the grid's.
@@ -100,7 +120,10 @@ std::string tileset_json(const ViewFrame& frame, const TileTree& tree, const std
                      {"transform", ecef_from_local},
                      {"content", {{"uri", "tiles/{level}/{x}/{y}.glb"}}},
                      {"implicitTiling", implicit}};
-  return Json{{"asset", {{"version", "1.1"}}}, {"geometricError", 2.0 * tree.geometric_error_m(0)}, {"root", root}}.dump() + "\n";
+  // Of the tileset, the error is that of a picture without it
+  const double of_nothing_m = std::max(2.0 * tree.geometric_error_m(0), tree.square_of({}).edge_m);
+  return Json{{"asset", {{"version", "1.1"}}}, {"schema", schema()}, {"geometricError", of_nothing_m}, {"root", root}}.dump() +
+         "\n";
 }
 
 std::string subtree_file(const TileTree& tree, const TileAddress& root) {
@@ -108,6 +131,10 @@ std::string subtree_file(const TileTree& tree, const TileAddress& root) {
   SubtreeBuffer buffer;
   Json json = {{"tileAvailability", buffer.add(bits.tiles)}, {"contentAvailability", Json::array({buffer.add(bits.contents)})}};
   json["childSubtreeAvailability"] = bits.children.count() > 0 ? buffer.add(bits.children) : Json{{"constant", 0}};
+  if (root.level < tree.first_level_with_content()) {
+    json["propertyTables"] = errors_of_tiles(tree, root, bits.tiles.count(), buffer);
+    json["tileMetadata"] = 0;
+  }
   json["buffers"] = Json::array({{{"byteLength", buffer.bytes().size()}}});
   json["bufferViews"] = buffer.views();
   std::string text = json.dump();

@@ -135,6 +135,31 @@ TEST(TileTree, SubtreesGoOnBelow) {
   EXPECT_EQ(below.head.at("childSubtreeAvailability"), (json{{"constant", 0}}));
 }
 
+TEST(TileTree, TilesWithoutContentAreOffByTheirSize) {
+  const TileTree tree(frame_of(64, 40));
+  const Subtree root(subtree_file(tree, {})), below(subtree_file(tree, {6, 0, 0}));
+  const json& table = root.head.at("propertyTables").at(root.head.at("tileMetadata").get<std::size_t>());
+  EXPECT_EQ(table.at("count"), root.head.at("tileAvailability").at("availableCount"));
+  const json& view = root.head.at("bufferViews").at(table.at("properties").at("geometricError").at("values").get<std::size_t>());
+  std::vector<double> errors(view.at("byteLength").get<std::size_t>() / sizeof(double));
+  ASSERT_EQ(errors.size(), table.at("count"));
+  ASSERT_EQ(view.at("byteOffset").get<std::size_t>() % sizeof(double), 0U);
+  std::memcpy(errors.data(), root.bytes.data() + view.at("byteOffset").get<std::size_t>(), errors.size() * sizeof(double));
+  // Levels 0 to 2 have no content; 64 × 40 cells are 1, 2 × 2, 4 × 3 and 8 × 5 tiles
+  EXPECT_EQ(errors.front(), 6400.0);
+  EXPECT_EQ(errors.at(1 + 3), 3200.0);
+  EXPECT_EQ(errors.at(1 + 4 + 11), 1600.0);
+  EXPECT_EQ(errors.at(1 + 4 + 12), 24.0);
+  EXPECT_EQ(errors.at(1 + 4 + 12 + 40), 12.0);
+  EXPECT_EQ(errors.back(), tree.geometric_error_m(5));
+  EXPECT_FALSE(below.head.contains("propertyTables")) << "all of its tiles have content";
+  const json tileset = json::parse(tileset_json(frame_of(64, 40), tree, {}));
+  EXPECT_GE(tileset.at("geometricError").get<double>(), errors.front());
+  EXPECT_EQ(tileset.at("root").at("geometricError"), tree.geometric_error_m(0)) << "those of all levels follow from it";
+  const json& property = tileset.at("schema").at("classes").at(table.at("class")).at("properties").at("geometricError");
+  EXPECT_EQ(property.at("semantic"), "TILE_GEOMETRIC_ERROR");
+}
+
 TEST(TileTree, TheTilesetHasTheBoxOfTheGrid) {
   const ViewFrame frame = frame_of(5, 3);
   const json root =
