@@ -7,6 +7,7 @@
 #include <chrono>
 #include <new>
 #include <stop_token>
+#include <thread>
 
 #include "app/output_files.hpp"
 #include "app/view_options.hpp"
@@ -51,6 +52,7 @@ void serve(const ViewCity& city, const ViewOptions& options, ViewSummary& summar
   if (options.run.verbosity == Verbosity::normal) fmt::print("Open this address in a browser; Ctrl-C ends the program.\n");
   std::fflush(stdout);
   const std::stop_callback stop(Interruption::token(), [&] { server.stop(); });
+  const std::jthread ahead([&](const std::stop_token& stopped) { city.make_first_tiles(stopped); });
   server.run();
   summary.requests = requests;
 }

@@ -2,25 +2,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/tile_cache.hpp"
 
+#include <exception>
+
 namespace farlod {
 
 std::shared_ptr<const std::string> TileCache::get(const TileAddress& tile, const std::function<std::string()>& make) {
-  {
-    const std::scoped_lock lock(mutex_);
-    const auto found = entries_.find(tile);
-    if (found != entries_.end()) {
-      uses_.splice(uses_.begin(), uses_, found->second.use);
-      return found->second.glb;
-    }
+  std::unique_lock lock(mutex_);
+  nobody_makes_it_.wait(lock, [&] { return !being_made_.contains(tile); });
+  const auto found = entries_.find(tile);
+  if (found != entries_.end()) {
+    uses_.splice(uses_.begin(), uses_, found->second.use);
+    return found->second.glb;
   }
-  auto made = std::make_shared<const std::string>(make());
-  const std::scoped_lock lock(mutex_);
-  if (entries_.contains(tile)) return made;
+  being_made_.insert(tile);
+  lock.unlock();
+  std::shared_ptr<const std::string> made;
+  std::exception_ptr failure;
+  try {
+    made = std::make_shared<const std::string>(make());
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  lock.lock();
+  being_made_.erase(tile);
+  nobody_makes_it_.notify_all();
+  if (failure) std::rethrow_exception(failure);
+  keep(tile, made);
+  return made;
+}
+
+void TileCache::keep(const TileAddress& tile, const std::shared_ptr<const std::string>& made) {
   uses_.push_front(tile);
   entries_[tile] = {made, uses_.begin()};
   bytes_ += made->size();
   let_go();
-  return made;
 }
 
 void TileCache::let_go() {

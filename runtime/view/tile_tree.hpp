@@ -39,8 +39,12 @@ class TileTree {
   [[nodiscard]] std::uint32_t level_of_cells() const { return level_of_cells_; }
   /// Levels, of which the last is levels() − 1.
   [[nodiscard]] std::uint32_t levels() const { return level_of_cells_ + 1 + levels_within_cells_; }
-  /// Tiles of more cells than 8 × 8 have children, and no content of their own: it would be a whole city's.
-  [[nodiscard]] std::uint32_t first_level_with_content() const { return level_of_cells_ > 3 ? level_of_cells_ - 3 : 0; }
+  /// Tiles of more cells than 8 × 8, in a city of more than 32 × 32 than 16 × 16, have children, and no content of their own: it
+  /// would be a whole city's. Coarser tiles than those would be seen from the first view, which has the whole city.
+  [[nodiscard]] std::uint32_t first_level_with_content() const {
+    const std::uint32_t coarser = level_of_cells_ > 5 ? 4 : 3;
+    return level_of_cells_ > coarser ? level_of_cells_ - coarser : 0;
+  }
   /// The same tree without the levels below that of cells.
   [[nodiscard]] TileTree down_to_cells() const;
   /// Whether the tile is in the tree and meets a cell.

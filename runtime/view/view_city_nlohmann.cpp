@@ -223,6 +223,20 @@ std::string ViewCity::tile(const TileAddress& address) const {
   return glb_of(surfaces, values_of(package_, frame_, surfaces, is_large ? azimuths_of_larger_tiles : azimuths_of_cells));
 }
 
+void ViewCity::make_first_tiles(const std::stop_token& stop) const {
+  const std::uint32_t level = tree_.first_level_with_content();
+  for (std::uint32_t y = 0; y < 1U << level; ++y)
+    for (std::uint32_t x = 0; x < 1U << level; ++x) {
+      const TileAddress address{level, x, y};
+      if (stop.stop_requested() || !tree_.has_content(address)) continue;
+      try {
+        (void)tiles_.get(address, [&] { return tile(address); });
+      } catch (const std::exception&) {
+        return;
+      }
+    }
+}
+
 std::string ViewCity::tileset(const TileTree& tree) const { return tileset_json(frame_, tree, ecef_from_local_); }
 
 std::string ViewCity::description(bool can_answer) const {

@@ -86,6 +86,13 @@ TEST_F(Served, AnswersWithWhatTheFunctionSays) {
   EXPECT_EQ(status_of(request("GET / HTTP/1.1", "localhost:" + std::to_string(server.port()))), 200);
 }
 
+TEST_F(Served, NothingIsCompressed) {
+  // httplib would let the page wait for that longer than for all else
+  const std::string reply = request("GET /a HTTP/1.1", own_host(), "Accept-Encoding: gzip, deflate, br\r\n");
+  EXPECT_EQ(reply.find("Content-Encoding"), std::string::npos) << reply;
+  EXPECT_TRUE(reply.ends_with("\r\n\r\na")) << reply;
+}
+
 TEST_F(Served, OtherHostsAreRefused) {
   for (const std::string& host :
        {std::string("city.example"), std::string("127.0.0.1"), "127.0.0.1:" + std::to_string(server.port() + 1)})

@@ -4,6 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
 namespace farlod {
 namespace {
 
@@ -29,6 +36,30 @@ TEST(TileCache, KeepsWhatWasAskedForLast) {
   (void)get(1);
   EXPECT_EQ(made, 4);
   EXPECT_EQ(*held, std::string(100, 'b')) << "who holds a tile keeps it";
+}
+
+TEST(TileCache, OneMakesATileForAllWhoWait) {
+  TileCache cache(1000);
+  std::atomic<int> made = 0;
+  const auto ask = [&] {
+    EXPECT_EQ(*cache.get({},
+                         [&] {
+                           ++made;
+                           std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                           return std::string("tile");
+                         }),
+              "tile");
+  };
+  std::vector<std::jthread> clients;
+  for (int n = 0; n < 8; ++n) clients.emplace_back(ask);
+  clients.clear();
+  EXPECT_EQ(made, 1);
+}
+
+TEST(TileCache, AfterAFailureTheNextOneTries) {
+  TileCache cache(1000);
+  EXPECT_THROW((void)cache.get({}, []() -> std::string { throw std::runtime_error("damaged"); }), std::runtime_error);
+  EXPECT_EQ(*cache.get({}, [] { return std::string("mended"); }), "mended");
 }
 
 TEST(TileCache, ATileLargerThanAllIsGivenToo) {

@@ -35,6 +35,15 @@ std::vector<TileAddress> tiles_of_level(const TileTree& tree, std::uint32_t leve
   return tiles;
 }
 
+TEST(TileTree, TheLargestTilesGrowWithTheCity) {
+  const auto first = [](std::int32_t edge) { return TileTree(frame_of(edge, edge)).first_level_with_content(); };
+  EXPECT_EQ(first(8), 0U);
+  EXPECT_EQ(first(16), 1U);
+  EXPECT_EQ(first(32), 2U) << "of 8 × 8 cells";
+  EXPECT_EQ(first(33), 2U) << "of 16 × 16 cells";
+  EXPECT_EQ(first(100), 3U);
+}
+
 TEST(TileTree, FrameIsItsOwnInverse) {
   const ViewFrame frame = frame_of(3, 3);
   const Point2d p{12.0, 345.0}, there = frame.local_from_grid(p), back = frame.grid_from_local(there);
@@ -145,10 +154,10 @@ TEST(TileTree, TilesWithoutContentAreOffByTheirSize) {
   ASSERT_EQ(errors.size(), table.at("count"));
   ASSERT_EQ(view.at("byteOffset").get<std::size_t>() % sizeof(double), 0U);
   std::memcpy(errors.data(), root.bytes.data() + view.at("byteOffset").get<std::size_t>(), errors.size() * sizeof(double));
-  // Levels 0 to 2 have no content; 64 × 40 cells are 1, 2 × 2, 4 × 3 and 8 × 5 tiles
+  // Levels 0 and 1 have no content; 64 × 40 cells are 1, 2 × 2, 4 × 3 and 8 × 5 tiles
   EXPECT_EQ(errors.front(), 6400.0);
   EXPECT_EQ(errors.at(1 + 3), 3200.0);
-  EXPECT_EQ(errors.at(1 + 4 + 11), 1600.0);
+  EXPECT_EQ(errors.at(1 + 4 + 11), 48.0);
   EXPECT_EQ(errors.at(1 + 4 + 12), 24.0);
   EXPECT_EQ(errors.at(1 + 4 + 12 + 40), 12.0);
   EXPECT_EQ(errors.back(), tree.geometric_error_m(5));
