@@ -6,9 +6,9 @@
 //
 //   benchmark/page.mjs [--turns 5] [--clicks 40] [--flight 0] PACKAGE...
 //
-// The first picture counts from the start of the program to the first complete frame, in a headless Chromium that is open already,
-// and draws without a graphics processor unless it finds one. A click's answer and its fisheye count from the request to the last
-// byte of the answer. --flight N looks at N places along a path through the whole city, close to the ground and from afar by turns, and
+// The first picture counts from the start of the program to the first complete frame, in an empty page of a headless Chromium that
+// is open already, and draws without a graphics processor. A click's answer and its fisheye count from the request to the last byte
+// of the answer. --flight N looks at N places along a path through the whole city, close to the ground and from afar by turns, and
 // prints the memory of the browser's processes and of the server in the thirds of the flight. FARLOD_BIN says which program is
 // measured (default: build/bin). It needs what the tests of the page need: scripts/viewer, and Chromium.
 import { execFileSync } from "node:child_process";
@@ -38,8 +38,12 @@ async function withPage(browser, url, look) {
 }
 
 async function firstPicture(browser, start) {
-  const begin = performance.now(), server = await start();
-  const seconds = await withPage(browser, server.url, () => (performance.now() - begin) / 1000);
+  const context = await browser.newContext({ viewport: size }), page = await context.newPage(), begin = performance.now();
+  const server = await start();
+  await page.goto(server.url);
+  await ready(page);
+  const seconds = (performance.now() - begin) / 1000;
+  await context.close();
   await server.stop();
   return seconds;
 }
@@ -112,7 +116,7 @@ for (const packageFolder of packages) {
   for (let n = 0; n < Number(options.turns); ++n) pictures.push(await firstPicture(browser, start));
   const server = await start(), { at, hemisphere } = await withPage(browser, server.url, (page) => questions(page, Number(options.clicks)));
   await server.stop();
-  const both = (durations) => `${median(durations).toFixed(1)} (at the most ${greatest(durations).toFixed(0)})`;
+  const both = (durations) => durations.length === 0 ? "–" : `${median(durations).toFixed(1)} (at the most ${greatest(durations).toFixed(0)})`;
   console.log(`| ${basename(packageFolder)} | ${median(pictures).toFixed(2)} | ${both(at)} | ${both(hemisphere)} |`);
   if (Number(options.flight) > 0) await flight(browser, start, Number(options.flight));
 }

@@ -89,9 +89,9 @@ TEST(TileTree, ErrorsHalve) {
 
 TEST(TileTree, TilesOfManyCellsHaveNoContent) {
   const TileTree tree(frame_of(64, 64));
-  EXPECT_TRUE(tree.contains({2, 0, 0}));
-  EXPECT_FALSE(tree.has_content({2, 0, 0}));
-  EXPECT_TRUE(tree.has_content({3, 0, 0}));
+  EXPECT_TRUE(tree.contains({1, 0, 0}));
+  EXPECT_FALSE(tree.has_content({1, 0, 0}));
+  EXPECT_TRUE(tree.has_content({2, 0, 0}));
   EXPECT_EQ(tree.cells_of({3, 1, 0}), (CellRectangle{6, -1, 14, 7}));
 }
 
