@@ -36,6 +36,24 @@ bool TileTree::contains(const TileAddress& tile) const {
   return low.x < (cells_.i_end - cells_.i_begin) * cell_edge_m_ && low.y < (cells_.j_end - cells_.j_begin) * cell_edge_m_;
 }
 
+std::vector<TileAddress> TileTree::largest_tiles_from_the_middle(std::size_t most) const {
+  const std::uint32_t level = first_level_with_content();
+  const Point2d middle =
+      0.5 * cell_edge_m_ *
+      Point2d{static_cast<double>(cells_.i_end - cells_.i_begin), static_cast<double>(cells_.j_end - cells_.j_begin)};
+  const auto distance = [&](const TileAddress& tile) {
+    const auto [low, edge_m] = square_of(tile);
+    return norm(low + 0.5 * Point2d{edge_m, edge_m} - middle);
+  };
+  std::vector<TileAddress> tiles;
+  for (std::uint32_t y = 0; y < 1U << level; ++y)
+    for (std::uint32_t x = 0; x < 1U << level; ++x)
+      if (has_content({level, x, y})) tiles.push_back({level, x, y});
+  std::ranges::stable_sort(tiles, {}, distance);
+  tiles.resize(std::min(most, tiles.size()));
+  return tiles;
+}
+
 CellRectangle TileTree::cells_of(const TileAddress& tile) const {
   const auto first_of = [&](std::uint32_t n) {
     return static_cast<std::int32_t>(tile.level >= level_of_cells_ ? n >> (tile.level - level_of_cells_)

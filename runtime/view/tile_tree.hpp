@@ -4,8 +4,10 @@
 
 #include <array>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "view/view_frame.hpp"
 
@@ -45,6 +47,8 @@ class TileTree {
     const std::uint32_t coarser = level_of_cells_ > 5 ? 4 : 3;
     return level_of_cells_ > coarser ? level_of_cells_ - coarser : 0;
   }
+  /// Tiles of that level, those nearest to the middle of the grid first.
+  [[nodiscard]] std::vector<TileAddress> largest_tiles_from_the_middle(std::size_t most) const;
   /// The same tree without the levels below that of cells.
   [[nodiscard]] TileTree down_to_cells() const;
   /// Whether the tile is in the tree and meets a cell.

@@ -44,8 +44,8 @@ class ViewCity {
 
   [[nodiscard]] const TileTree& tree() const { return tree_; }
   [[nodiscard]] const std::vector<ResultLayer>& results() const { return results_; }
-  /// Makes the tiles of the first picture until it is told to stop, so that they are there when a browser has started. What goes
-  /// wrong is told to who asks for the tile.
+  /// Makes tiles of the first picture, the middle ones first, until it is told to stop, so that they are there when a browser has
+  /// started. What goes wrong is told to who asks for the tile.
   void make_first_tiles(const std::stop_token& stop) const;
   /// view.json; `can_answer` says whether single places can be asked for.
   [[nodiscard]] std::string description(bool can_answer) const;

@@ -24,6 +24,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t most_bytes_of_tiles = std::size_t{256} << 20U;
+constexpr std::size_t tiles_made_ahead = 16;
 constexpr const char* of_glb = "model/gltf-binary";
 constexpr const char* of_bytes = "application/octet-stream";
 
@@ -224,17 +225,14 @@ std::string ViewCity::tile(const TileAddress& address) const {
 }
 
 void ViewCity::make_first_tiles(const std::stop_token& stop) const {
-  const std::uint32_t level = tree_.first_level_with_content();
-  for (std::uint32_t y = 0; y < 1U << level; ++y)
-    for (std::uint32_t x = 0; x < 1U << level; ++x) {
-      const TileAddress address{level, x, y};
-      if (stop.stop_requested() || !tree_.has_content(address)) continue;
-      try {
-        (void)tiles_.get(address, [&] { return tile(address); });
-      } catch (const std::exception&) {
-        return;
-      }
+  for (const TileAddress& address : tree_.largest_tiles_from_the_middle(tiles_made_ahead)) {
+    if (stop.stop_requested()) return;
+    try {
+      (void)tiles_.get(address, [&] { return tile(address); });
+    } catch (const std::exception&) {
+      return;
     }
+  }
 }
 
 std::string ViewCity::tileset(const TileTree& tree) const { return tileset_json(frame_, tree, ecef_from_local_); }

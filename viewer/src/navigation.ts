@@ -6,6 +6,8 @@ import { type Frames, turned } from "./frames.ts";
 
 const degree = Math.PI / 180;
 const greatestTilt_deg = 89, tiltAtHome_deg = 52;
+/** A city with a larger radius is first seen in a part with the second one, from steeper above: fewer tiles are in view. */
+const greatestWhole_m = 4000, middleOfLarge_m = 1500, tiltOfLarge_deg = 35;
 
 /** What the camera looks at. The bearing is where it looks, clockwise from the local y axis; a tilt of 0 looks straight down. */
 export interface CameraView {
@@ -40,7 +42,7 @@ export class Navigation {
     this.controls.addEventListener("start", () => {
       this.flight = null;
     });
-    this.set(this.homeView());
+    this.set(this.firstView());
   }
 
   /** While a marker is dragged, the city stands still. */
@@ -52,8 +54,17 @@ export class Navigation {
     return this.flight !== null;
   }
 
+  /** The whole city; of a very large one, whose tiles would take a minute, its middle. */
+  firstView(): CameraView {
+    return this.frames.extent().radius_m > greatestWhole_m ? { ...this.viewOf(middleOfLarge_m), tilt_deg: tiltOfLarge_deg } : this.homeView();
+  }
+
   homeView(): CameraView {
-    const { middle, radius_m } = this.frames.extent();
+    return this.viewOf(this.frames.extent().radius_m);
+  }
+
+  private viewOf(radius_m: number): CameraView {
+    const { middle } = this.frames.extent();
     const narrow = Math.min(1, this.camera.aspect);
     const distance_m = (0.92 * radius_m) / Math.tan(0.5 * this.camera.fov * degree) / narrow;
     const target_local = new Vector3(...middle, this.heights_m[0]);

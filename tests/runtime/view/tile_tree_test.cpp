@@ -44,6 +44,15 @@ TEST(TileTree, TheLargestTilesGrowWithTheCity) {
   EXPECT_EQ(first(100), 3U);
 }
 
+TEST(TileTree, TheMiddleComesFirst) {
+  // 40 × 40 cells of a square of 64 × 64: 3 × 3 tiles of 16 × 16 cells, of which the second one has the middle
+  const TileTree tree(frame_of(40, 40));
+  EXPECT_EQ(tree.largest_tiles_from_the_middle(1), (std::vector<TileAddress>{{2, 1, 1}}));
+  const std::vector<TileAddress> all = tree.largest_tiles_from_the_middle(100);
+  EXPECT_EQ(all.size(), 9U);
+  EXPECT_EQ(all.back(), (TileAddress{2, 2, 2})) << "the farthest one";
+}
+
 TEST(TileTree, FrameIsItsOwnInverse) {
   const ViewFrame frame = frame_of(3, 3);
   const Point2d p{12.0, 345.0}, there = frame.local_from_grid(p), back = frame.grid_from_local(there);
