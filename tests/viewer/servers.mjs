@@ -6,8 +6,8 @@ import { spawn } from "node:child_process";
 import { startMock } from "./mock_server.mjs";
 
 /** farlod-view, once it has printed its address. */
-function startProgram(program, packageFolder, port) {
-  const child = spawn(program, [packageFolder, "--port", String(port)], { stdio: ["ignore", "pipe", "pipe"] });
+function startProgram(program, packageFolder, results, port) {
+  const child = spawn(program, [packageFolder, ...results, "--port", String(port)], { stdio: ["ignore", "pipe", "pipe"] });
   const ended = new Promise((resolve) => child.on("exit", resolve));
   return new Promise((resolve, reject) => {
     let said = "";
@@ -24,6 +24,6 @@ function startProgram(program, packageFolder, port) {
 }
 
 /** What starts a server on a port, 0 for any: by the arguments of the runner. */
-export function starterOf({ program, packageFolder }) {
-  return program ? (port = 0) => startProgram(program, packageFolder, port) : (port = 0) => startMock({ port });
+export function starterOf({ program, packageFolder, results = [] }) {
+  return program ? (port = 0) => startProgram(program, packageFolder, results, port) : (port = 0) => startMock({ port });
 }

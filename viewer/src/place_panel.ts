@@ -40,7 +40,7 @@ export class PlacePanel {
       ["Kind", kindWords[facet.kind]],
       ["Surface", facet.building === "" ? null : String(facet.surface)],
       ["East, north", `${x_m.toFixed(2)}, ${y_m.toFixed(2)}`],
-      ["Height", `${z_m.toFixed(2)} m above sea level`],
+      ["Height", `${z_m.toFixed(2).replace(/^-(0\.0*)$/, "$1")} m above sea level`],
       ["Facet as drawn", facet.svf === null ? "no data" : facet.svf.toFixed(3)],
       ["Looks", looks],
     ]);
