@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "contract/lower_case.hpp"
-#include "points/point_reader.hpp"
+#include "results/point_file.hpp"
 #ifdef FARLOD_WITH_GDAL
 #include "results/point_reader_gdal.hpp"
 #include "results/reproject_gdal.hpp"
@@ -48,18 +48,6 @@ std::string crs_of(const RequestedPoints& read, const SvfOptions& options, std::
   if (read.crs_wkt && own.empty())
     notes.push_back(file + " says no CRS: its points were taken to be in that of the package (--points-crs names another).");
   return own;
-}
-
-RequestedPoints read_points(const std::filesystem::path& file, const std::string& layer) {
-#ifdef FARLOD_WITH_GDAL
-  if (is_vector_file(file)) return read_points_gdal(file, layer);
-#else
-  if (const std::string ending = lower_case(file.extension().string());
-      ending == ".gpkg" || ending == ".geojson" || ending == ".shp" || ending == ".fgb")
-    throw PointsError(file.string() + " needs GDAL, which this farlod-svf was built without: give the points as CSV.");
-#endif
-  if (!layer.empty()) throw PointsError(file.string() + " is a table: it has no layers (--points-layer)");
-  return read_points_csv(file);
 }
 
 RequestedPoints read_lines(const SvfOptions& options, const PackageDescription& package) {
@@ -146,7 +134,7 @@ NamedPoints requested_points(const SvfOptions& options, const PackageDescription
     return NamedPoints(std::move(one));
   }
   if (options.source == ReceiverSource::lines) return NamedPoints(read_lines(options, package));
-  RequestedPoints read = read_points(options.points_file, options.points_layer);
+  RequestedPoints read = read_point_file(options.points_file, options.points_layer);
   const std::string crs = crs_of(read, options, read.notes);
   NamedPoints named(std::move(read));
   if (!crs.empty()) move_to_package_crs(named, crs, package);

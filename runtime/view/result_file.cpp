@@ -8,10 +8,9 @@
 #include <tuple>
 #include <utility>
 
-#include "contract/lower_case.hpp"
 #include "farlod/error.hpp"
 #include "farlod/points.hpp"
-#include "points/point_reader.hpp"
+#include "results/point_file.hpp"
 #include "view/result_layer.hpp"
 #ifdef FARLOD_WITH_GDAL
 #include "results/point_reader_gdal.hpp"
@@ -32,12 +31,6 @@ ResultRequest parsed(const std::string& request) {
   const std::size_t colon = request.rfind(':');
   if (colon == std::string::npos || std::filesystem::exists(request)) return {request, ""};
   return {request.substr(0, colon), request.substr(colon + 1)};
-}
-
-/// GDAL would take a table for a raster of scattered pixels.
-bool is_table(const std::filesystem::path& file) {
-  const std::string ending = lower_case(file.extension().string());
-  return ending == ".csv" || ending == ".tsv" || ending == ".txt";
 }
 
 /// The column with this name, if there is one.
@@ -63,21 +56,18 @@ float number_of(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size() ? value : NAN;
 }
 
-RequestedPoints read_points(const std::filesystem::path& file, const std::string& package_crs) {
+/// The points of a file, in the CRS of the package.
+RequestedPoints read_points(const std::filesystem::path& file, [[maybe_unused]] const std::string& package_crs) {
+  RequestedPoints read = read_point_file(file, "", true);
 #ifdef FARLOD_WITH_GDAL
-  if (!is_vector_file(file)) return read_points_csv(file);
-  RequestedPoints read = read_points_gdal(file, "", true);
   if (read.crs_wkt.value_or("").empty()) return read;
   std::vector<Point2d> places;
   for (const RequestedPoint& p : read.points) places.push_back({p.x, p.y});
   places = reprojected(places, *read.crs_wkt, package_crs);
   for (std::size_t n = 0; n < places.size(); ++n)
     std::tie(read.points[n].x, read.points[n].y) = std::pair(places[n].x, places[n].y);
-  return read;
-#else
-  (void)package_crs;
-  return read_points_csv(file);
 #endif
+  return read;
 }
 
 /// Keeps each n-th, so that there are no more than `most`.
@@ -201,7 +191,8 @@ ResultLayer read_result_layer(const std::string& request, const Package& package
     throw InputError(wanted.file.string() +
                      " is no result that can be drawn. Problems are drawn from farlod-pack --report FILE.geojson.");
 #ifdef FARLOD_WITH_GDAL
-  if (!is_vector_file(wanted.file) && !is_table(wanted.file) && is_raster_file(wanted.file))
+  // GDAL would take a table for a raster of scattered pixels
+  if (!is_vector_file(wanted.file) && !is_point_table(wanted.file) && is_raster_file(wanted.file))
     return layer_of_raster(wanted, package, frame);
 #endif
   return layer_of_points(wanted, package, frame);
