@@ -6,8 +6,8 @@
 const floats = (numbers) => Buffer.from(new Float32Array(numbers).buffer);
 
 /** 2 × 2 pixels over the whole town; the western half has the first value, the eastern one the second. */
-const raster = (name, url, west, east) => ({
-  name, form: "raster", quantity: "svf", url, count: 4, range: [0, 1], width: 2, height: 2, local_from_pixel: [-2000, 2000, 0, 2000, 0, -2000],
+const raster = (name, url, west, east, range = [0, 1]) => ({
+  name, form: "raster", quantity: "svf", url, count: 4, range, width: 2, height: 2, local_from_pixel: [-2000, 2000, 0, 2000, 0, -2000],
   body: floats([west, east, west, east]),
 });
 
@@ -20,4 +20,5 @@ export const resultsOfTown = [
     body: floats([0, 40, 1.5, 0.125, 0, -40, 1.5, NaN]) },
   { name: "report.geojson", form: "problems", quantity: "", url: "results/4", count: 1, range: [0, 1],
     labels: ["107 zero_area, left out: b-3-3-1. All points lie on a line."], body: floats([-60, 0, NaN, NaN]) },
+  raster("hours.tif", "results/5", 2.5, 7.5, [0, 10]),
 ];

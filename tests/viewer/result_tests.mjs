@@ -76,6 +76,13 @@ export const resultTests = {
     await expectGround(page, west, await colourOf(url, 0.5), "the second values, after the divider was dragged,");
   },
 
+  async "both sides of a divider have the colours of one legend"({ url, context }) {
+    const page = await above(context, url, "ground=0&dots=&compared=5&comparison=divider&divider=0.5");
+    expectEqual(await page.$$eval("#ticks span", (spans) => spans.map((span) => span.textContent)), ["0", "2", "4", "6", "8", "10"], "the ticks");
+    await expectGround(page, west, await colourOf(url, 0.025), "0.25 of 10, left of the divider,");
+    await expectGround(page, east, await colourOf(url, 0.75), "7.5 of 10, right of it,");
+  },
+
   async "points and problems are marked, and told when they are clicked at"({ url, context }) {
     const page = await above(context, url, "ground=computed&dots=3,4"), size = page.viewportSize();
     expectEqual(await page.isChecked("#result-3"), true, "the box of the points");

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 import { DataTexture, FloatType, LinearFilter, Matrix3, NearestFilter, RedFormat, RGBAFormat, UnsignedByteType, Vector2 } from "three";
-import { isValue, type RasterResult } from "./results.ts";
+import { isValue, noValue, type RasterResult } from "./results.ts";
 import type { Triple } from "./view_info.ts";
 
 /** What the ground shows: the values of the tiles, or a raster. */
@@ -31,6 +31,17 @@ function rampOf(stops: readonly Triple[]): Triple[] {
   });
 }
 
+/** In a shader: the colour of a value, of a ramp whose outermost texels have the ends of the range in their middles. */
+export const colourOfRamp = /* glsl */ `
+  const float noValue = ${noValue.toExponential()};
+  bool isValue(float value) { return value > 0.5 * noValue; }
+
+  vec3 colourOf(sampler2D colours, float value, vec2 range, vec3 nodata) {
+    float t = clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
+    return isValue(value) ? texture(colours, vec2(t * (255.0 / 256.0) + 0.5 / 256.0, 0.5)).rgb : nodata;
+  }
+`;
+
 /** A ramp of colours as a texture of one row. */
 export function rampTexture(colours: readonly Triple[]): DataTexture {
   const bytes = new Uint8Array(4 * colours.length);
@@ -46,7 +57,6 @@ interface SourceUniforms {
   raster: { value: DataTexture };
   pixel_from_local: { value: Matrix3 };
   isComputed: { value: boolean };
-  range: { value: Vector2 };
 }
 
 const noRaster = (): DataTexture => textureOf(1, 1, new Float32Array(1));
@@ -59,8 +69,7 @@ function textureOf(width: number, height: number, values: Float32Array): DataTex
 }
 
 function sourceUniforms(): SourceUniforms {
-  return { raster: { value: noRaster() }, pixel_from_local: { value: new Matrix3() }, isComputed: { value: true },
-           range: { value: new Vector2(0, 1) } };
+  return { raster: { value: noRaster() }, pixel_from_local: { value: new Matrix3() }, isComputed: { value: true } };
 }
 
 function setSource(uniforms: SourceUniforms, source: GroundSource): void {
@@ -68,19 +77,18 @@ function setSource(uniforms: SourceUniforms, source: GroundSource): void {
   uniforms.isComputed.value = source === "computed";
   if (source === "computed") {
     uniforms.raster.value = noRaster();
-    uniforms.range.value.set(0, 1);
     return;
   }
   const [a, b, c, d, e, f] = source.pixel_from_local;
   uniforms.raster.value = textureOf(source.width, source.height, source.values);
   uniforms.pixel_from_local.value.set(a, b, c, d, e, f, 0, 0, 1);
-  uniforms.range.value.set(...source.info.range);
 }
 
 /** What the shader of the ground reads. Rasters are looked up by place, so that they lie on the ground at any level of detail. */
 export class GroundValues {
   private readonly shown = sourceUniforms();
   private readonly compared = sourceUniforms();
+  private readonly range = { value: new Vector2(0, 1) };
   private readonly comparing = { value: comparingNothing };
   private readonly greatest = { value: usualDifference };
   private readonly divider_px = { value: 0 };
@@ -90,10 +98,15 @@ export class GroundValues {
   get uniforms(): Record<string, { value: unknown }> {
     return {
       shownRaster: this.shown.raster, shownPixel: this.shown.pixel_from_local, shownIsComputed: this.shown.isComputed,
-      shownRange: this.shown.range, comparedRaster: this.compared.raster, comparedPixel: this.compared.pixel_from_local,
-      comparedIsComputed: this.compared.isComputed, comparedRange: this.compared.range, comparing: this.comparing,
+      range: this.range, comparedRaster: this.compared.raster, comparedPixel: this.compared.pixel_from_local,
+      comparedIsComputed: this.compared.isComputed, comparing: this.comparing,
       greatestDifference: this.greatest, divider_px: this.divider_px, differences: this.differences,
     };
+  }
+
+  /** Of the colours, which are the same on both sides of a divider. */
+  get colouredRange(): [number, number] {
+    return [this.range.value.x, this.range.value.y];
   }
 
   /** Differences are coloured from minus this to plus this. */
@@ -106,6 +119,7 @@ export class GroundValues {
     if (choice.compared && choice.compared !== this.choice.compared) setSource(this.compared, choice.compared);
     const comparing = choice.comparison === "difference" ? comparingByDifference : comparingSideBySide;
     this.comparing.value = choice.compared ? comparing : comparingNothing;
+    this.range.value.set(...commonRange(choice.shown, choice.compared ?? choice.shown));
     if (choice.compared) this.greatest.value = greatestDifferenceOf(choice.shown, choice.compared);
     this.choice = choice;
   }
@@ -120,6 +134,11 @@ export class GroundValues {
   }
 }
 
+function commonRange(...sources: GroundSource[]): [number, number] {
+  const ranges = sources.map((source): [number, number] => (source === "computed" ? [0, 1] : source.info.range));
+  return [Math.min(...ranges.map(([low]) => low)), Math.max(...ranges.map(([, high]) => high))];
+}
+
 /** What nearly all differences lie within, rounded up to 1, 2 or 5. */
 function greatestDifferenceOf(shown: GroundSource, compared: GroundSource): number {
   if (shown === "computed" || compared === "computed") return usualDifference;
@@ -132,7 +151,7 @@ function greatestDifferenceOf(shown: GroundSource, compared: GroundSource): numb
   return roundedUp(differences[Math.floor(0.99 * differences.length)] ?? usualDifference);
 }
 
-export function roundedUp(value: number): number {
+function roundedUp(value: number): number {
   const least = 0.001;
   if (value <= least) return least;
   const power = 10 ** Math.floor(Math.log10(value));

@@ -14,7 +14,6 @@ export interface ResultChoice {
 }
 
 export const computed = -1;
-export const noResults: ResultChoice = { shown: computed, compared: null, comparison: "divider", dots: [] };
 
 /** The boxes and lists that choose among results. Without any results, there are none. */
 export class ResultControls {

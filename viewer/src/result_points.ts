@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 import { BufferAttribute, BufferGeometry, GLSL3, Points, ShaderMaterial, Vector2 } from "three";
-import { rampTexture } from "./ground_values.ts";
-import { noValue, type PointsResult } from "./results.ts";
+import { colourOfRamp, rampTexture } from "./ground_values.ts";
+import type { PointsResult } from "./results.ts";
 import type { ViewInfo } from "./view_info.ts";
 
 const vertexShader = /* glsl */ `
@@ -25,6 +25,7 @@ const fragmentShader = /* glsl */ `
   uniform vec2 range;
   uniform vec3 nodata;
   out vec4 colour;
+  ${colourOfRamp}
 
   void main() {
     vec2 p = 2.0 * gl_PointCoord - 1.0;
@@ -32,8 +33,8 @@ const fragmentShader = /* glsl */ `
     float distance = abs(p.x) + abs(p.y);
     vec3 inside = vec3(0.85, 0.11, 0.38);
     #else
-    float distance = length(p), t = clamp((v - range.x) / (range.y - range.x), 0.0, 1.0);
-    vec3 inside = v > ${(0.5 * noValue).toExponential()} ? texture(ramp, vec2(t * (255.0 / 256.0) + 0.5 / 256.0, 0.5)).rgb : nodata;
+    float distance = length(p);
+    vec3 inside = colourOf(ramp, v, range, nodata);
     #endif
     if (distance > 1.0) discard;
     colour = vec4(distance > 0.72 ? vec3(1.0) : inside, 1.0);

@@ -108,7 +108,7 @@ export class ResultView {
   }
 
   private showLegend({ shown, compared, comparison }: ResultChoice): void {
-    const [a, b] = [this.nameOf(shown), compared === null ? null : this.nameOf(compared)], range = this.view.results[shown]?.range ?? [0, 1];
+    const [a, b] = [this.nameOf(shown), compared === null ? null : this.nameOf(compared)], range = this.ground.colouredRange;
     if (b === null) this.legend.showValues(shown === computed ? "Sky view factor" : a, range);
     else if (comparison === "divider") this.legend.showValues(`${a} | ${b}`, range);
     else this.legend.showDifferences(`${a} less ${b}`, this.ground.greatestDifference);

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 import { type DataTexture, DoubleSide, GLSL3, ShaderMaterial } from "three";
-import { type GroundValues, rampTexture } from "./ground_values.ts";
-import { noValue } from "./results.ts";
+import { colourOfRamp, type GroundValues, rampTexture } from "./ground_values.ts";
 import type { ViewInfo } from "./view_info.ts";
 
 /** What both materials read, changed in one place. */
@@ -53,34 +52,26 @@ const fragmentShader = /* glsl */ `
   uniform sampler2D ramp, differences, shownRaster, comparedRaster;
   uniform mat3 shownPixel, comparedPixel;
   uniform bool shownIsComputed, comparedIsComputed;
-  uniform vec2 shownRange, comparedRange;
+  uniform vec2 range;
   uniform int comparing;  // 0: nothing; 1: side by side; 2: by the difference
   uniform float greatestDifference, divider_px;
   uniform vec3 nodata;
   out vec4 colour;
 
-  const float noValue = ${noValue.toExponential()};
-  bool isValue(float value) { return value > 0.5 * noValue; }
-
+  ${colourOfRamp}
   float valueAt(sampler2D raster, mat3 pixel_from_local) {
     ivec2 pixel = ivec2(floor((pixel_from_local * vec3(place, 1.0)).xy)), size = textureSize(raster, 0);
     if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size.x || pixel.y >= size.y) return noValue;
     return texelFetch(raster, pixel, 0).r;
   }
 
-  // The middles of the ramp's outermost texels are the ends of the range
-  vec3 colourOf(sampler2D colours, float value, vec2 range) {
-    float t = clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
-    return isValue(value) ? texture(colours, vec2(t * (255.0 / 256.0) + 0.5 / 256.0, 0.5)).rgb : nodata;
-  }
-
   vec3 colourOfGround(float computed) {
     float a = shownIsComputed ? computed : valueAt(shownRaster, shownPixel);
-    if (comparing == 0) return colourOf(ramp, a, shownRange);
+    if (comparing == 0) return colourOf(ramp, a, range, nodata);
     float b = comparedIsComputed ? computed : valueAt(comparedRaster, comparedPixel);
-    if (comparing == 1) return gl_FragCoord.x < divider_px ? colourOf(ramp, a, shownRange) : colourOf(ramp, b, comparedRange);
+    if (comparing == 1) return colourOf(ramp, gl_FragCoord.x < divider_px ? a : b, range, nodata);
     float difference = isValue(a) && isValue(b) ? a - b : noValue;
-    return colourOf(differences, difference, vec2(-greatestDifference, greatestDifference));
+    return colourOf(differences, difference, vec2(-greatestDifference, greatestDifference), nodata);
   }
 
   void main() {
@@ -89,9 +80,9 @@ const fragmentShader = /* glsl */ `
     #else
     float computed = noValue;
     #endif
-    vec3 flatColour = isGround == 1 ? colourOfGround(computed) : colourOf(ramp, computed, vec2(0.0, 1.0));
-    // The legend has one ramp: beside differences, buildings are paper
-    if (isGround == 0 && comparing == 2) flatColour = vec3(0.87, 0.87, 0.85);
+    vec3 flatColour = isGround == 1 ? colourOfGround(computed) : colourOf(ramp, computed, vec2(0.0, 1.0), nodata);
+    // The legend has one ramp: beside differences and other quantities, buildings are paper
+    if (isGround == 0 && (comparing == 2 || range != vec2(0.0, 1.0))) flatColour = vec3(0.87, 0.87, 0.85);
     colour = vec4(flatColour * shade, 1.0);
   }
 `;
