@@ -144,6 +144,15 @@ std::vector<std::string> files_with_notes_to_self(const std::vector<SourceFile>&
   return paths_where(tree, [&](const SourceFile& file) { return std::any_of(file.lines.begin(), file.lines.end(), has_note); });
 }
 
+std::vector<std::string> tests_without_own_folder(const std::vector<SourceFile>& tree) {
+  static const std::regex shared_folder(R"(\b(TempDir|temp_directory_path)\(\))");
+  const auto names_it = [](const std::string& line) { return std::regex_search(line, shared_folder); };
+  return paths_where(tree, [&](const SourceFile& file) {
+    const bool gives_own = file.path == "tests/scenes/temporary_folder.hpp" || file.path == "tests/fuzz/scratch_folder.hpp";
+    return file.path.starts_with("tests/") && is_cpp(file) && !gives_own && std::ranges::any_of(file.lines, names_it);
+  });
+}
+
 namespace {
 
 /// Of UTF-8, whose bytes 10xxxxxx continue a character.

@@ -26,6 +26,10 @@ namespace farlod {
 /// C++ files that carry a note to do something later, which belongs into an issue.
 [[nodiscard]] std::vector<std::string> files_with_notes_to_self(const std::vector<SourceFile>& tree);
 
+/// Tests that write where another one may: only scenes::TemporaryFolder gives each its own folder, since ctest runs a test
+/// beside others, and in a process of its own.
+[[nodiscard]] std::vector<std::string> tests_without_own_folder(const std::vector<SourceFile>& tree);
+
 /// Lines of prose in documents that have more than 120 characters: "path:line has n characters". Rows of tables may, since
 /// Markdown cannot break them.
 [[nodiscard]] std::vector<std::string> prose_lines_too_long(const std::vector<SourceFile>& documents);

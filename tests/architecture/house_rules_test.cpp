@@ -33,6 +33,10 @@ TEST(HouseRules, FileNamesSayWhatIsInside) {
 
 TEST(HouseRules, NothingIsLeftForLater) { EXPECT_THAT(files_with_notes_to_self(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty()); }
 
+TEST(HouseRules, EachTestWritesInAFolderOfItsOwn) {
+  EXPECT_THAT(tests_without_own_folder(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty());
+}
+
 TEST(HouseRules, LinesOfDocumentsFitAScreen) {
   const std::vector<SourceFile> documents = read_documents(FARLOD_SOURCE_DIR);
   ASSERT_GT(documents.size(), 30U) << "the documents were not found at " << FARLOD_SOURCE_DIR;
@@ -98,6 +102,14 @@ TEST(HouseRules, AnEmptyNameIsFound) {
 TEST(HouseRules, ANoteToSelfIsFound) {
   const std::string word = std::string("TO") + "DO";
   EXPECT_THAT(files_with_notes_to_self({{"a.cpp", {"// " + word + ": later"}}, {"b.cpp", {"// done"}}}), ElementsAre("a.cpp"));
+}
+
+TEST(HouseRules, ATestInASharedFolderIsFound) {
+  const std::string shared = std::string("testing::Temp") + "Dir()";
+  EXPECT_THAT(tests_without_own_folder({{"tests/a.cpp", {"  auto file = " + shared + " / \"a\";"}},
+                                        {"tests/b.cpp", {"  scenes::TemporaryFolder folder;"}},
+                                        {"runtime/c.cpp", {"  " + shared}}}),
+              ElementsAre("tests/a.cpp"));
 }
 
 }  // namespace

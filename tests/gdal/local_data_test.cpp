@@ -9,6 +9,7 @@
 
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -18,10 +19,10 @@ using testing::HasSubstr;
 
 class LocalData : public testing::Test {
  protected:
-  fs::path folder = fs::path(testing::TempDir()) / "farlod_local_data";
+  const scenes::TemporaryFolder own;
+  const fs::path& folder = own.path();
 
   void SetUp() override {
-    fs::remove_all(folder);
     fs::create_directories(folder / "tiles");
     write("tiles/a.asc", "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\n1 2\n3 4\n");
     write(

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "tests/scenes/temporary_folder.hpp"
+
 namespace farlod {
 namespace {
 
@@ -93,18 +95,15 @@ TEST(RasterComparison, HeightsChoosePixels) {
   EXPECT_EQ(compare_rasters(counting(), counting(), {.rim = 1, .height = &height, .high_m = 20.0}).count, 8U);
 }
 
-/// A file that is gone after the test.
 class AsciiGridFile : public testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(file_); }
   [[nodiscard]] AsciiGrid read(const std::string& text) const {
-    std::ofstream(file_) << text;
-    return read_ascii_grid(file_);
+    std::ofstream(folder_.file("grid.asc")) << text;
+    return read_ascii_grid(folder_.file("grid.asc"));
   }
 
  private:
-  std::filesystem::path file_ = std::filesystem::path(testing::TempDir()) /
-                                (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".asc");
+  scenes::TemporaryFolder folder_;
 };
 
 TEST_F(AsciiGridFile, IsReadFromTheNorthWest) {

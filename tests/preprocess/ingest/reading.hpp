@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ingest/ingest.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod::ingest::test {
 
@@ -58,11 +59,11 @@ inline std::string described(const SourceCity& source, const Report& report) {
   return text.str();
 }
 
-/// Writes a file of the running test's own.
+/// Writes a file of the running test's own, which is gone when the program ends.
 inline std::filesystem::path write_file(const std::string& name, const std::string& text) {
+  static const scenes::TemporaryFolder folders;
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / (std::string("farlod_") + test->test_suite_name() + "_" + test->name());
+  const std::filesystem::path folder = folders.path() / test->test_suite_name() / test->name();
   std::filesystem::create_directories(folder);
   std::ofstream(folder / name, std::ios::binary) << text;
   return folder / name;

@@ -142,7 +142,7 @@ TEST(PointReader, NothingToReadIsRefused) {
   EXPECT_THROW((void)read_points_csv("/no such folder/points.csv"), PointsError);
 }
 
-TEST(PointReader, AFolderIsRefused) { EXPECT_THROW((void)read_points_csv(std::filesystem::temp_directory_path()), PointsError); }
+TEST(PointReader, AFolderIsRefused) { EXPECT_THROW((void)read_points_csv(scenes::TemporaryFolder().path()), PointsError); }
 
 }  // namespace
 }  // namespace farlod

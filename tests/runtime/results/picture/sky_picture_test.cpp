@@ -6,11 +6,11 @@
 
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
 #include "sun/sun_positions.hpp"
 #include "tests/runtime/results/picture/decoded_png.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -107,7 +107,7 @@ Pixel equidistant_pixel(double azimuth_deg, double elevation_deg) {
 class SunInThePicture : public testing::Test {
  protected:
   [[nodiscard]] Picture drawn(const std::optional<SunOfSky>& sun) const {
-    const auto file = std::filesystem::path(testing::TempDir()) / "farlod_sun_in_the_picture.png";
+    const auto file = folder_.file("sun.png");
     write_drawing(draw_sky(basin_with_a_wall_in_the_east(), SkyProjection::equidistant, {"svf", ""}, sun), file);
     return decoded_png(file);
   }
@@ -116,6 +116,9 @@ class SunInThePicture : public testing::Test {
                          std::chrono::sys_days(std::chrono::year(2026) / std::chrono::June / 21) + std::chrono::hours(hour));
   }
   static Pixel pixel_at(int hour) { return equidistant_pixel(sun_at(hour).azimuth.degrees(), sun_at(hour).elevation.degrees()); }
+
+ private:
+  scenes::TemporaryFolder folder_;
 };
 
 TEST_F(SunInThePicture, HasADotWhereTheSunIsAtEachFullHour) {
