@@ -67,64 +67,85 @@ class PartsOfCity {
 
   void add(const BlockTiles& block, Cell cell) {
     const TileView tile = block.tile(cell);
-    std::uint32_t begin = 0;
-    for (const package::SurfaceRun& run : tile.surface_runs) {
-      const package::SurfaceRecord& surface = tile.surfaces[run.surface];
-      NumberedPart& part = part_of(block, tile, surface, cell);
-      for (std::uint32_t t = begin; t < run.end; ++t) add_triangle(tile, tile.mesh.triangles[t], surface, part);
-      begin = run.end;
+    numbers_.assign(tile.mesh.vertices.size(), {});
+    for (const auto& [building, runs] : runs_by_building(tile)) {
+      MeshPart& part = parts_.emplace_back(PlacedPart{building, cell, new_part(block, tile, runs.front(), cell)}).mesh;
+      for (const TriangleRun& run : runs)
+        for (std::uint32_t t = run.begin; t < run.end; ++t)
+          add_triangle(tile, tile.mesh.triangles[t], tile.surfaces[run.surface], part);
     }
   }
   /// The ground comes first.
   [[nodiscard]] std::vector<MeshPart> parts() && {
+    std::ranges::sort(parts_, {}, [](const PlacedPart& part) { return std::pair{part.building, part.cell}; });
     std::vector<MeshPart> parts;
-    for (auto& [place, part] : parts_) parts.push_back(std::move(part.mesh));
+    parts.reserve(parts_.size());
+    for (PlacedPart& part : parts_) parts.push_back(std::move(part.mesh));
     return parts;
   }
 
  private:
-  struct NumberedPart {
-    MeshPart mesh;
-    std::map<std::uint32_t, std::uint32_t> number_of;  ///< vertices of the tile by their number
+  /// Triangles of a tile that follow each other, of one surface.
+  struct TriangleRun {
+    std::uint32_t surface, begin, end;
   };
-  using Place = std::pair<std::uint64_t, Cell>;  ///< 0 for the ground, and the buildings from 1 on
+  struct PlacedPart {
+    std::uint64_t building;  ///< 0 for the ground, and the buildings from 1 on
+    Cell cell;
+    MeshPart mesh;
+  };
+  /// The number of a tile's vertex in the part that has met it last.
+  struct VertexNumber {
+    std::size_t part = 0;  ///< counted from 1
+    std::uint32_t number = 0;
+  };
 
-  NumberedPart& part_of(const BlockTiles& block, const TileView& tile, const package::SurfaceRecord& surface, Cell cell) {
-    const bool is_ground = surface.building == package::no_building;
-    const std::uint32_t number = tile.building_number(surface);
-    const Place place{is_ground ? 0 : std::uint64_t{number} + 1, {cell.i, cell.j}};
-    const auto [found, is_new] = parts_.try_emplace(place);
-    if (!is_new) return found->second;
-    MeshPart& mesh = found->second.mesh;
-    mesh.cell = {cell.i, cell.j};
-    if (is_ground) return found->second;
-    mesh.building = number;
-    mesh.id = block.id_of(tile.buildings[surface.building]);
-    return found->second;
+  static std::map<std::uint64_t, std::vector<TriangleRun>> runs_by_building(const TileView& tile) {
+    std::map<std::uint64_t, std::vector<TriangleRun>> runs;
+    std::uint32_t begin = 0;
+    for (const package::SurfaceRun& run : tile.surface_runs) {
+      const package::SurfaceRecord& surface = tile.surfaces[run.surface];
+      const bool is_ground = surface.building == package::no_building;
+      runs[is_ground ? 0 : std::uint64_t{tile.building_number(surface)} + 1].push_back({run.surface, begin, run.end});
+      begin = run.end;
+    }
+    return runs;
   }
 
-  std::uint32_t vertex_in(NumberedPart& part, const TileView& tile, std::uint32_t vertex) const {
-    const auto [found, is_new] = part.number_of.try_emplace(vertex, static_cast<std::uint32_t>(part.number_of.size()));
-    if (is_new) {
+  static MeshPart new_part(const BlockTiles& block, const TileView& tile, const TriangleRun& run, Cell cell) {
+    MeshPart part;
+    part.cell = {cell.i, cell.j};
+    const package::SurfaceRecord& surface = tile.surfaces[run.surface];
+    if (surface.building == package::no_building) return part;
+    part.building = tile.building_number(surface);
+    part.id = std::string(block.id_of(tile.buildings[surface.building]));
+    return part;
+  }
+
+  std::uint32_t vertex_in(MeshPart& part, const TileView& tile, std::uint32_t vertex) {
+    VertexNumber& known = numbers_[vertex];
+    if (known.part != parts_.size()) {
+      known = {parts_.size(), static_cast<std::uint32_t>(part.vertices_projected.size())};
       const Point3f p = tile.mesh.vertices[vertex];
-      const Point2d corner = manifest_.grid.corner_of({part.mesh.cell.i, part.mesh.cell.j});
-      part.mesh.vertices_projected.push_back(
+      const Point2d corner = manifest_.grid.corner_of({part.cell.i, part.cell.j});
+      part.vertices_projected.push_back(
           manifest_.projected_from_grid({corner.x + p.x, corner.y + p.y, manifest_.height_origin_m + p.z}));
     }
-    return found->second;
+    return known.number;
   }
 
-  void add_triangle(const TileView& tile, const Triangle& t, const package::SurfaceRecord& surface, NumberedPart& part) const {
+  void add_triangle(const TileView& tile, const Triangle& t, const package::SurfaceRecord& surface, MeshPart& part) {
     const Point3f a = tile.mesh.vertices[t.a], b = tile.mesh.vertices[t.b], c = tile.mesh.vertices[t.c];
     MeshTriangle triangle{
         {vertex_in(part, tile, t.a), vertex_in(part, tile, t.b), vertex_in(part, tile, t.c)}, surface.kind(), surface.number};
     // A package makes no promise on the turn of a triangle; its surface has a normal
     if (dot(cross(b - a, c - a), surface.normal().direction()) < 0.0F) std::swap(triangle.vertices[1], triangle.vertices[2]);
-    part.mesh.triangles.push_back(triangle);
+    part.triangles.push_back(triangle);
   }
 
   const package::Manifest& manifest_;
-  std::map<Place, NumberedPart> parts_;
+  std::vector<PlacedPart> parts_;
+  std::vector<VertexNumber> numbers_;  ///< of the vertices of the tile that is being read
 };
 
 PackedCrowns crowns_in(const package::Manifest& manifest) {

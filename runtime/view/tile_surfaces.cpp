@@ -3,9 +3,8 @@
 #include "view/tile_surfaces.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <map>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -19,6 +18,10 @@ using Corners = std::array<Point3d, 3>;
 double square_of_edge(const Corners& c, std::size_t k) {
   const Point3d edge = c[(k + 1) % 3] - c[k];
   return dot(edge, edge);
+}
+
+double longest_square_of(const Corners& c) {
+  return std::max({square_of_edge(c, 0), square_of_edge(c, 1), square_of_edge(c, 2)});
 }
 
 /// Divides triangles at the middle of their longest edge until no edge is too long, and keeps those whose middle is in a square.
@@ -78,20 +81,71 @@ class FeatureNumbers {
 
 }  // namespace
 
+namespace {
+
+/// Which triangles of a larger tile are a line or a point once their vertices have moved into clusters: nearly all of them.
+class VanishingTriangles {
+ public:
+  VanishingTriangles(const ClusterLattice& lattice, double longest_edge_m)
+      : lattice_(lattice), longest_square_(longest_edge_m * longest_edge_m) {}
+
+  void enter(const std::vector<Point3d>& vertices_local) {
+    places_.clear();
+    for (const Point3d& p : vertices_local) places_.push_back(lattice_.place_of(p));
+  }
+  /// A triangle that will be divided does not vanish: its parts fill the gap between those of its neighbors.
+  [[nodiscard]] bool contain(const MeshTriangle& triangle, const Corners& corners) const {
+    const auto& [a, b, c] = triangle.vertices;
+    const bool is_line = places_[a] == places_[b] || places_[b] == places_[c] || places_[c] == places_[a];
+    return is_line && longest_square_of(corners) <= longest_square_;
+  }
+
+ private:
+  ClusterLattice lattice_;
+  double longest_square_;
+  std::vector<ClusterPlace> places_;  ///< of the vertices of the part that was entered
+};
+
+/// Leaves features out that no facet has any more, and keeps the order of the others.
+void drop_unused_features(TileSurfaces& surfaces) {
+  constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number_of(surfaces.features.size(), unused);
+  for (const TileFacet& facet : surfaces.facets) number_of[facet.feature] = 0;
+  std::uint32_t used = 0;
+  for (std::size_t n = 0; n < number_of.size(); ++n) {
+    if (number_of[n] == unused) continue;
+    number_of[n] = used;
+    std::swap(surfaces.features[used++], surfaces.features[n]);
+  }
+  surfaces.features.resize(used);
+  for (TileFacet& facet : surfaces.facets) facet.feature = number_of[facet.feature];
+}
+
+}  // namespace
+
 TileSurfaces surfaces_of(const Package& package, const ViewFrame& frame, const TileTree& tree, const TileAddress& tile) {
-  const double error_m = tree.geometric_error_m(tile.level);
-  FacetsOfSquare facets(frame, tree.square_of(tile), 2.0 * error_m);
+  const double error_m = tree.geometric_error_m(tile.level), longest_edge_m = 2.0 * error_m;
+  const TileSquare square = tree.square_of(tile);
+  const bool is_simplified = tile.level < tree.level_of_cells();
+  FacetsOfSquare facets(frame, square, longest_edge_m);
+  VanishingTriangles vanishing(ClusterLattice(frame, square, error_m), longest_edge_m);
   FeatureNumbers features;
-  for (const MeshPart& part : geometry_of(package, tree.cells_of(tile)))
+  std::vector<Point3d> vertices_local;
+  for (const MeshPart& part : geometry_of(package, tree.cells_of(tile))) {
+    vertices_local.clear();
+    for (const Point3d& p : part.vertices_projected) vertices_local.push_back(frame.local_from_projected(p));
+    if (is_simplified) vanishing.enter(vertices_local);
     for (const MeshTriangle& triangle : part.triangles) {
-      Corners corners;
-      for (std::size_t k = 0; k < 3; ++k) corners[k] = frame.local_from_projected(part.vertices_projected[triangle.vertices[k]]);
+      const auto& [a, b, c] = triangle.vertices;
+      const Corners corners{vertices_local[a], vertices_local[b], vertices_local[c]};
+      if (is_simplified && vanishing.contain(triangle, corners)) continue;
       const Point3d normal = normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
-      if (normal == Point3d{}) continue;
-      facets.add(corners, normal, features.of(part, triangle));
+      if (normal != Point3d{}) facets.add(corners, normal, features.of(part, triangle));
     }
+  }
   TileSurfaces surfaces{std::move(facets).facets(), std::move(features).features()};
-  if (tile.level < tree.level_of_cells()) move_into_clusters(frame, tree.square_of(tile), error_m, surfaces);
+  if (is_simplified) move_into_clusters(frame, square, error_m, surfaces);
+  drop_unused_features(surfaces);
   return surfaces;
 }
 

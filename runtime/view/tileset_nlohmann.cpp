@@ -101,7 +101,7 @@ Json errors_of_tiles(const TileTree& tree, const TileAddress& root, std::size_t 
 /// The box of the root: its centre, and half of its edges as vectors. Its axes are the grid's.
 Json root_box(const ViewFrame& frame, const TileTree& tree) {
   const double half_m = 0.5 * tree.square_of({}).edge_m;
-  const Point2d middle = frame.local_from_grid({half_m, half_m}), x = half_m * frame.x_axis(), y = half_m * frame.y_axis();
+  const Point2d middle = frame.local_from_grid({half_m, half_m}), x = half_m * frame.grid_axes.x, y = half_m * frame.grid_axes.y;
   // A metre more, for what floats round
   const double half_height_m = 0.5 * (frame.high_local - frame.low_local) + 1.0;
   return {middle.x, middle.y, 0.5 * (frame.low_local + frame.high_local), x.x, x.y, 0.0, y.x, y.y, 0.0, 0.0, 0.0, half_height_m};

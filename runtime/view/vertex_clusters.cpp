@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace farlod {
@@ -17,25 +17,14 @@ namespace {
 /// What shares no vertices.
 enum class Layer : std::uint8_t { ground, buildings };
 
-/// A point of a lattice, of the vertices of one layer.
-struct ClusterPlace {
-  std::int32_t x = 0, y = 0, z = 0;
-  Layer layer = Layer::ground;
-  auto operator<=>(const ClusterPlace&) const = default;
-};
-
-/// In the plan, vertices go to the nearest point of a lattice that divides the square's edges evenly; in height, to the mean of
-/// those that have the same nearest level. With a step s they move by s/√2 in the plan, and by s in height at the most: √1.5 s.
+/// The clusters that vertices of a tile have come into, each with their mean height.
 class ClustersOfTile {
  public:
-  ClustersOfTile(const ViewFrame& frame, const TileSquare& square, double error_m)
-      : frame_(frame), square_(square), step_m_(square.edge_m / std::ceil(square.edge_m * std::sqrt(1.5) / error_m)) {}
+  explicit ClustersOfTile(const ClusterLattice& lattice) : lattice_(lattice) {}
 
   std::uint32_t number_of(const Point3d& p_local, Layer layer) {
-    const Point2d p = frame_.grid_from_local(horizontal(p_local)) - square_.low;
-    const auto nearest = [&](double along) { return static_cast<std::int32_t>(std::lround(along / step_m_)); };
-    const ClusterPlace place{nearest(p.x), nearest(p.y), nearest(p_local.z), layer};
-    const auto [found, is_new] = numbers_.try_emplace(place, static_cast<std::uint32_t>(clusters_.size()));
+    const ClusterPlace place = lattice_.place_of(p_local);
+    const auto [found, is_new] = numbers_.try_emplace({place, layer}, static_cast<std::uint32_t>(clusters_.size()));
     if (is_new) clusters_.push_back({place, 0.0, 0});
     Cluster& cluster = clusters_[found->second];
     cluster.sum_of_heights += p_local.z;
@@ -44,7 +33,7 @@ class ClustersOfTile {
   }
   [[nodiscard]] Point3d point_local(std::uint32_t number) const {
     const Cluster& c = clusters_[number];
-    const Point2d p = frame_.local_from_grid(square_.low + Point2d{c.place.x * step_m_, c.place.y * step_m_});
+    const Point2d p = lattice_.point_local(c.place);
     return {p.x, p.y, c.sum_of_heights / static_cast<double>(c.count)};
   }
 
@@ -55,10 +44,8 @@ class ClustersOfTile {
     std::size_t count;
   };
 
-  const ViewFrame& frame_;
-  TileSquare square_;
-  double step_m_;
-  std::map<ClusterPlace, std::uint32_t> numbers_;
+  ClusterLattice lattice_;
+  std::map<std::pair<ClusterPlace, Layer>, std::uint32_t> numbers_;
   std::vector<Cluster> clusters_;
 };
 
@@ -73,8 +60,21 @@ ClusterTriangle sorted(ClusterTriangle t) {
 
 }  // namespace
 
+ClusterLattice::ClusterLattice(const ViewFrame& frame, const TileSquare& square, double error_m)
+    : frame_(frame), square_(square), step_m_(square.edge_m / std::ceil(square.edge_m * std::sqrt(1.5) / error_m)) {}
+
+ClusterPlace ClusterLattice::place_of(const Point3d& p_local) const {
+  const Point2d p = frame_.grid_from_local(horizontal(p_local)) - square_.low;
+  const auto nearest = [&](double along) { return static_cast<std::int32_t>(std::floor(along / step_m_ + 0.5)); };
+  return {nearest(p.x), nearest(p.y), nearest(p_local.z)};
+}
+
+Point2d ClusterLattice::point_local(const ClusterPlace& place) const {
+  return frame_.local_from_grid(square_.low + Point2d{place.x * step_m_, place.y * step_m_});
+}
+
 void move_into_clusters(const ViewFrame& frame, const TileSquare& square, double error_m, TileSurfaces& surfaces) {
-  ClustersOfTile clusters(frame, square, error_m);
+  ClustersOfTile clusters(ClusterLattice(frame, square, error_m));
   std::vector<std::pair<TileFacet, ClusterTriangle>> kept;
   std::set<ClusterTriangle> known;
   for (const TileFacet& facet : surfaces.facets) {

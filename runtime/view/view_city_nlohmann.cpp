@@ -89,7 +89,7 @@ std::optional<TileAddress> address_in(std::string_view path, std::string_view he
 }
 
 Json grid_json(const ViewFrame& frame, const PackageDescription& d) {
-  return {{"bearing_deg", frame.grid_bearing.degrees()},
+  return {{"bearing_deg", frame.grid_axes.bearing.degrees()},
           {"convergence_deg", frame.convergence.degrees()},
           {"cell_edge_m", frame.cell_edge_m},
           {"neighborhood", d.neighborhood},

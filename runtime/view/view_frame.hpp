@@ -9,12 +9,20 @@
 
 namespace farlod {
 
+/// The axes of a grid in the local frame, of length 1.
+struct GridAxes {
+  Angle bearing;  ///< of y, clockwise from grid north
+  Point2d x{1.0, 0.0}, y{0.0, 1.0};
+
+  static GridAxes turned_by(Angle bearing) { return {bearing, {cos(bearing), -sin(bearing)}, {sin(bearing), cos(bearing)}}; }
+};
+
 /// The local frame in which a city is drawn: metres, x grid east and y grid north of the package's CRS, z up, counted from a
 /// place amid the city, so that floats are exact enough. And how the grid lies in it.
 struct ViewFrame {
   Point3d origin_projected;  ///< its height is above sea level
-  Angle grid_bearing;        ///< of the grid's y axis, clockwise from grid north
-  Angle convergence;         ///< true azimuth = grid azimuth + convergence
+  GridAxes grid_axes;
+  Angle convergence;  ///< true azimuth = grid azimuth + convergence
   double cell_edge_m = 0.0;
   CellRectangle cells;
   Point2d corner_local;                      ///< the south-west corner of the first cell
@@ -25,11 +33,11 @@ struct ViewFrame {
   /// Metres along the axes of the grid, from the first cell's corner.
   [[nodiscard]] Point2d grid_from_local(Point2d p_local) const {
     const Point2d p = p_local - corner_local;
-    return {dot(p, x_axis()), dot(p, y_axis())};
+    return {dot(p, grid_axes.x), dot(p, grid_axes.y)};
   }
-  [[nodiscard]] Point2d local_from_grid(Point2d p_grid) const { return corner_local + p_grid.x * x_axis() + p_grid.y * y_axis(); }
-  [[nodiscard]] Point2d x_axis() const { return {cos(grid_bearing), -sin(grid_bearing)}; }
-  [[nodiscard]] Point2d y_axis() const { return {sin(grid_bearing), cos(grid_bearing)}; }
+  [[nodiscard]] Point2d local_from_grid(Point2d p_grid) const {
+    return corner_local + p_grid.x * grid_axes.x + p_grid.y * grid_axes.y;
+  }
 };
 
 /// Throws PackageUnusable, PackageDamaged.

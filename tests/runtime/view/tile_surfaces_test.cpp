@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -96,6 +97,16 @@ TEST_F(TilesOfVillage, FacetsLieInTheirTileAndLookOutwards) {
       EXPECT_TRUE(!is_ground || facet.normal.z > 0.0);
     }
   });
+}
+
+TEST_F(TilesOfVillage, EachFeatureHasAFacet) {
+  for (std::uint32_t level = 0; level < TileTree(frame_).levels(); ++level)
+    for_each_tile(level, [&](const TileAddress& tile) {
+      const TileSurfaces of_tile = surfaces(tile);
+      std::vector<int> facets(of_tile.features.size());
+      for (const TileFacet& facet : of_tile.facets) ++facets.at(facet.feature);
+      EXPECT_EQ(std::ranges::count(facets, 0), 0) << level;
+    });
 }
 
 TEST_F(TilesOfVillage, HeightsAreWithinTheFrame) {

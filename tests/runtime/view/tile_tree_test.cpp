@@ -18,7 +18,7 @@ using nlohmann::json;
 /// A grid of so many cells of 100 m, turned by 20°.
 ViewFrame frame_of(std::int32_t columns, std::int32_t rows) {
   return {.origin_projected = {500000.0, 5000000.0, 100.0},
-          .grid_bearing = Angle::degrees(20.0),
+          .grid_axes = GridAxes::turned_by(Angle::degrees(20.0)),
           .convergence = {},
           .cell_edge_m = 100.0,
           .cells = {-2, -1, columns - 2, rows - 1},
