@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 import { Color, PerspectiveCamera, Scene, Vector2, WebGLRenderer } from "three";
+import { FrameStopwatch } from "./frame_stopwatch.ts";
 
 /** The browser cannot draw. */
 export class NoWebGl extends Error {
@@ -18,6 +19,7 @@ export class CityScene {
   readonly scene = new Scene();
   readonly camera = new PerspectiveCamera(40, 1, 1, 10000);
   readonly renderer: WebGLRenderer;
+  private readonly stopwatch: FrameStopwatch;
   private dirty = true;
   private moving = true;
   private isHeld = true;
@@ -29,6 +31,7 @@ export class CityScene {
     const context = canvas.getContext("webgl2", { antialias: true, powerPreference: "high-performance" });
     if (!context) throw new NoWebGl();
     this.renderer = new WebGLRenderer({ canvas, context });
+    this.stopwatch = new FrameStopwatch(context);
     this.camera.up.set(0, 0, 1);
     this.resize();
     window.addEventListener("resize", () => this.resize());
@@ -37,10 +40,13 @@ export class CityScene {
   start(): void {
     const loop = (): void => {
       this.frame = requestAnimationFrame(loop);
+      this.stopwatch.look();
       this.moving = this.beforeFrame();
       if (this.isHeld || (!this.moving && !this.dirty)) return;
       this.dirty = false;
+      this.stopwatch.begin();
       this.renderer.render(this.scene, this.camera);
+      this.stopwatch.end();
       this.afterFrame();
     };
     loop();
@@ -49,6 +55,11 @@ export class CityScene {
   /** Whether what is drawn stays as it is. */
   get isResting(): boolean {
     return !this.moving && !this.dirty;
+  }
+
+  /** How long the last frame took until it was drawn, in milliseconds; Infinity as long as it is not. */
+  get lastFrame_ms(): number {
+    return this.stopwatch.last_ms;
   }
 
   /** Asks for a frame. Several requests give one. */

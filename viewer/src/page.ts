@@ -31,8 +31,11 @@ const reachOfLink_m = 2;
 /** And this far, where it was on a facet of a simplified tile, once no finer tiles have come for a while. */
 const reachOfSimplified_m = 50, beforeSimplified_ms = 1500;
 
-/** While tiles come, frames are this far apart: what draws them would only delay what comes. */
-const betweenFrames_ms = 500;
+/**
+ * While tiles come, frames are at least this far apart, and the first one is that far behind the first tile. Without a graphics
+ * processor, what draws them would delay what comes: it gets a quarter of the time at the most.
+ */
+const betweenFrames_ms = 500, framesToPause = 4;
 
 /** The page: one package in its window. */
 export class Page {
@@ -60,7 +63,10 @@ export class Page {
   private linkTimer = 0;
   private simplifiedTimer = 0;
   private isStale = false;
-  private drawnAt_ms = 0;
+  /** The first complete frame has been begun. */
+  private isComplete = false;
+  /** When the last frame was begun, or the first tile came; null before. */
+  private begunAt_ms: number | null = null;
 
   constructor(readonly view: ViewInfo) {
     const canvas = part("city", HTMLCanvasElement), fail = (error: unknown): void => this.fail(error);
@@ -180,31 +186,36 @@ export class Page {
   }
 
   private beforeFrame(): boolean {
+    if (this.readyAt_ms === null && this.isComplete && this.city.lastFrame_ms < Infinity) this.becomeReady();
     const moved = this.navigation.update();
     if (moved) this.noteLink();
     const changed = this.tiles.update(this.city.size(), moved);
     part("loading").style.width = this.tiles.isComplete ? "0" : `${Math.max(4, 100 * this.tiles.progress)}%`;
     this.isStale ||= changed;
-    const isDue = this.tiles.isComplete || performance.now() - this.drawnAt_ms > betweenFrames_ms;
+    const isDue = this.tiles.isComplete || this.isDueWhileTilesCome();
     if (this.tiles.visibleTiles > 0 && isDue) this.city.release();
     if (!moved && !(this.isStale && isDue)) return false;
     this.marker.prepare();
     return true;
   }
 
+  private isDueWhileTilesCome(): boolean {
+    const now_ms = performance.now();
+    if (this.tiles.visibleTiles > 0) this.begunAt_ms ??= now_ms;
+    return now_ms - (this.begunAt_ms ?? now_ms) > Math.max(betweenFrames_ms, framesToPause * this.city.lastFrame_ms);
+  }
+
   private afterFrame(): void {
     this.isStale = false;
-    this.drawnAt_ms = performance.now();
+    this.begunAt_ms = performance.now();
     this.marker.follow();
     this.ornaments.update(this.navigation.view());
     if (!this.tiles.isComplete) return;
-    if (this.readyAt_ms === null) this.becomeReady();
-    else this.selectWaitingPlace();
+    this.isComplete = true;
+    if (this.readyAt_ms !== null) this.selectWaitingPlace();
   }
 
   private becomeReady(): void {
-    // Waits until the frame is not only asked for, but drawn
-    this.city.renderer.getContext().finish();
     this.readyAt_ms = performance.now();
     document.documentElement.dataset["ready"] = "true";
     if (this.grid.shown) this.grid.show(true);
