@@ -49,6 +49,22 @@ export async function until(page, what, condition, timeout_ms = 90000) {
 /** Until the camera stands still, all tiles are drawn and all answers are there. */
 export const atRest = (page) => until(page, "rest", ({ resting }) => resting);
 
+/** The address of a page, which it writes some time after the last change, once it has a text. */
+export async function linkWith(page, text) {
+  await page.waitForFunction((wanted) => decodeURIComponent(location.hash).includes(wanted), text);
+  return page.url();
+}
+
+/** Looks again until a condition holds of what is seen, or for so long; what was seen last. */
+export async function seen(look, condition, timeout_ms = 20000) {
+  const end = Date.now() + timeout_ms;
+  for (;;) {
+    const now = await look();
+    if (condition(now) || Date.now() > end) return now;
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+}
+
 /** The pixels of a screenshot, in rows of red, green, blue, alpha. */
 export const pixels = async (page, clip) => decoded(page, await page.screenshot({ clip }));
 

@@ -86,7 +86,7 @@ export const failureTests = {
     await page.focus("#city");
     await page.keyboard.press("Enter");
     await until(page, "the answer", ({ answer }) => answer === "no data");
-    await page.waitForTimeout(300);
+    await page.waitForFunction(() => document.getElementById("fisheye").getAttribute("aria-label").includes("no data"));
     expectEqual(await page.textContent("#value"), "no data", "the value");
     expect((await page.textContent("#value-note")).includes("no answer"), "the reason is not told");
     expectEqual(await page.getAttribute("#fisheye", "aria-label"), "Fisheye: no data", "the fisheye");

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Clicks on the city: values, fisheyes, cells.
-import { differing, pixels, ready, atRest, share, state, until } from "./browser.mjs";
+import { differing, pixels, ready, atRest, seen, share, state, until } from "./browser.mjs";
 import { expect, expectEqual, expectNear } from "./checks.mjs";
 
 /** Places of the window to click at, from its middle outwards. */
@@ -182,8 +182,7 @@ export const placeTests = {
     await page.waitForTimeout(300);
     const without = share(await pixels(page, clip), isPink);
     await page.mouse.move(420, 380);
-    await page.waitForTimeout(600);
-    const lit = share(await pixels(page, clip), isPink);
+    const lit = await seen(async () => share(await pixels(page, clip), isPink), (now) => now > without + 0.0005);
     expect(lit > without + 0.0005, `pink is ${(100 * without).toFixed(3)} % before and ${(100 * lit).toFixed(3)} % after`);
   },
 };

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Results beside the package: with the mock, whose results are known; farlod-view is given the results of the town by its runner.
-import { pixels, ready, atRest, share, state, until } from "./browser.mjs";
+import { atRest, linkWith, pixels, ready, share, state, until } from "./browser.mjs";
 import { expect, expectEqual } from "./checks.mjs";
 
 const colourOf = async (url, value) => (await (await fetch(`${url}view.json`)).json()).colours[Math.round(255 * value)];
@@ -105,9 +105,8 @@ export const resultTests = {
 
   async "a link holds what is shown and compared"({ url, context }) {
     const page = await above(context, url, "ground=0&dots=4&compared=1&comparison=divider&divider=0.3");
-    await page.waitForTimeout(500);
     const again = await context.newPage();
-    await again.goto(page.url());
+    await again.goto(await linkWith(page, "compared=1"));
     await ready(again);
     await atRest(again);
     const chosen = await Promise.all(["#ground-values", "#compared", "#comparison"].map((id) => again.inputValue(id)));

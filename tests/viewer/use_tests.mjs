@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Links, keys, touch, and what screen readers are told.
-import { ready, atRest, state, until } from "./browser.mjs";
+import { atRest, linkWith, ready, state, until } from "./browser.mjs";
 import { expect, expectEqual, expectNear } from "./checks.mjs";
 
 async function open(context, address) {
@@ -32,8 +32,7 @@ export const useTests = {
     await page.keyboard.press("Enter");
     const before = await until(page, "the answer", ({ answer, skyIsDrawn }) => answer !== null && skyIsDrawn);
     await page.selectOption("#projection", "equal-area");
-    await page.waitForTimeout(500);
-    const link = page.url(), again = await open(context, link);
+    const again = await open(context, await linkWith(page, "projection=equal-area"));
     const after = await until(again, "the place of the link", ({ answer, picked }) => picked !== null && answer !== null);
     for (const name of ["distance_m", "bearing_deg", "tilt_deg"]) expectNear(after.camera[name], before.camera[name], 0.01, name);
     for (const axis of ["x", "y", "z"]) expectNear(after.camera.target_local[axis], before.camera.target_local[axis], 0.01, `the target's ${axis}`);
