@@ -22,6 +22,7 @@ class Attributes {
 
   /// Adds the row of the next point, in the order of the names. A field that the row lacks is empty.
   void add_row(std::span<const std::string> fields);
+  [[nodiscard]] std::size_t row_count() const { return names_.empty() ? 0 : ends_.size() / names_.size(); }
   [[nodiscard]] std::string_view value(std::size_t row, std::size_t column) const;
 
   /// The table of some of its rows.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <numeric>
 #include <span>
 #include <string_view>
 
@@ -91,11 +92,16 @@ Attributes attributes_of_header(const TextRecord& header, std::span<const std::s
   return Attributes(std::move(names));
 }
 
-std::string text_of(const std::filesystem::path& path) {
+std::ifstream open_table(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   // A folder opens like a file, and fails only when it is read
   if (!stream || std::filesystem::is_directory(path))
     throw PointsError(path.string() + ": the file cannot be read; see that it exists and that you may read it");
+  return stream;
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream stream = open_table(path);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
@@ -120,6 +126,28 @@ RequestedPoints read_points_csv(const std::filesystem::path& path) {
   }
   if (points.empty()) throw PointsError(path.string() + ": the file has a header row but no points; add one in each row");
   return result;
+}
+
+std::vector<std::string> read_header_csv(const std::filesystem::path& path) {
+  std::ifstream stream = open_table(path);
+  std::string line;
+  std::getline(stream, line);
+  const std::vector<TextRecord> records = split_records(line);
+  return records.empty() || !is_header(records.front()) ? std::vector<std::string>() : records.front().fields;
+}
+
+Attributes read_table_csv(const std::filesystem::path& path) {
+  const std::vector<TextRecord> records = split_records(text_of(path));
+  if (records.empty() || !is_header(records.front()))
+    throw PointsError(path.string() + ": the table has no header row; name its columns in the first row");
+  std::vector<std::size_t> all(records.front().fields.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  Attributes table = attributes_of_header(records.front(), all);
+  for (const TextRecord& record : std::span(records).subspan(1)) {
+    require_columns_for_all(record, all.size(), path);
+    table.add_row(chosen_fields(record, all));
+  }
+  return table;
 }
 
 }  // namespace farlod

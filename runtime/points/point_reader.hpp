@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "points/requested_points.hpp"
 
@@ -16,5 +18,11 @@ namespace farlod {
 ///   (4) All columns but `id`, coordinates and normals are attributes.
 /// Throws PointsError.
 [[nodiscard]] RequestedPoints read_points_csv(const std::filesystem::path& path);
+
+/// The names of the columns of a table, of which only the first line is read; none where it is no header row. Throws PointsError.
+[[nodiscard]] std::vector<std::string> read_header_csv(const std::filesystem::path& path);
+
+/// Reads all columns of a table with a header row, of any content: (3) holds. Throws PointsError.
+[[nodiscard]] Attributes read_table_csv(const std::filesystem::path& path);
 
 }  // namespace farlod

@@ -291,6 +291,25 @@ RequestedPoints read_points_gdal(const std::filesystem::path& path, const std::s
   return read;
 }
 
+std::optional<Attributes> read_table_gdal(const std::filesystem::path& path, const std::string& layer_name) {
+  const GdalErrors messages;
+  const GDALDatasetUniquePtr dataset = open_vector_file(path);
+  OGRLayer* layer = dataset ? dataset->GetLayerByName(layer_name.c_str()) : nullptr;
+  if (layer == nullptr) return std::nullopt;
+  const std::vector<Field> fields = fields_of(*layer);
+  std::vector<std::string> values;
+  for (const Field& field : fields) values.push_back(field.name);
+  Attributes table(values);
+  layer->ResetReading();
+  for (Feature feature(layer->GetNextFeature()); feature; feature.reset(layer->GetNextFeature())) {
+    values.clear();
+    for (const Field& field : fields) values.push_back(text_of(*feature, field));
+    table.add_row(values);
+  }
+  if (messages.any()) throw PointsError(path.string() + " cannot be read to its end (" + messages.last() + ")");
+  return table;
+}
+
 RequestedPoints read_lines_gdal(const std::filesystem::path& path, const std::string& layer_name, const LineSampling& sampling) {
   const OpenLayer open(path, layer_name);
   const std::string own = crs_of(open.layer());

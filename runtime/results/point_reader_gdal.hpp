@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "points/requested_points.hpp"
@@ -22,6 +23,10 @@ namespace farlod {
 /// `layer` may be empty where there is only one. A file without points is refused, unless it `may_be_empty`. Throws PointsError.
 [[nodiscard]] RequestedPoints read_points_gdal(const std::filesystem::path& path, const std::string& layer,
                                                bool may_be_empty = false);
+
+/// All fields of all features of a layer, with a geometry or without; none where the file has no such layer, or cannot be opened.
+/// Throws PointsError where it cannot be read to its end.
+[[nodiscard]] std::optional<Attributes> read_table_gdal(const std::filesystem::path& path, const std::string& layer);
 
 /// Where points are placed along lines.
 struct LineSampling {

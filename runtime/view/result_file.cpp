@@ -11,7 +11,7 @@
 #include "farlod/error.hpp"
 #include "farlod/points.hpp"
 #include "results/point_file.hpp"
-#include "view/result_layer.hpp"
+#include "view/result_table.hpp"
 #ifdef FARLOD_WITH_GDAL
 #include "results/point_reader_gdal.hpp"
 #include "results/raster/raster_reader_gdal.hpp"
@@ -21,39 +21,10 @@
 namespace farlod {
 namespace {
 
-/// What the user named: a file, and what of it.
-struct ResultRequest {
-  std::filesystem::path file;
-  std::string quantity;  ///< perhaps empty
-};
-
 ResultRequest parsed(const std::string& request) {
   const std::size_t colon = request.rfind(':');
   if (colon == std::string::npos || std::filesystem::exists(request)) return {request, ""};
   return {request.substr(0, colon), request.substr(colon + 1)};
-}
-
-/// The column with this name, if there is one.
-std::optional<std::size_t> column_of(const Attributes& attributes, std::string_view name) {
-  const auto found = std::ranges::find(attributes.names(), name);
-  if (found == attributes.names().end()) return std::nullopt;
-  return static_cast<std::size_t>(found - attributes.names().begin());
-}
-
-/// The column of the values. Throws InputError, with the columns that are there.
-std::size_t column_of_values(const Attributes& attributes, const ResultRequest& request) {
-  const std::string name = request.quantity.empty() ? "svf" : request.quantity;
-  if (const auto column = column_of(attributes, name)) return *column;
-  std::string names;
-  for (const std::string& other : attributes.names()) names += (names.empty() ? "" : ", ") + other;
-  throw InputError(request.file.string() + " has no field " + name + (names.empty() ? "." : ": it has " + names + ".") +
-                   " Name one behind a colon: " + request.file.filename().string() + ":FIELD");
-}
-
-float number_of(std::string_view text) {
-  float value = NAN;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? value : NAN;
 }
 
 /// The points of a file, in the CRS of the package.
@@ -153,10 +124,10 @@ ResultLayer layer_of_points(const ResultRequest& request, const Package& package
   if (is_report) {
     label_problems(read, layer);
   } else {
-    const std::size_t column = column_of_values(read.attributes, request);
+    const std::size_t column = column_of_values(read.attributes, request, "svf");
     layer.quantity = read.attributes.names()[column];
     for (std::size_t n = 0; n < read.points.size(); ++n) {
-      layer.values.push_back(number_of(read.attributes.value(n, column)));
+      layer.values.push_back(number_or_nan(read.attributes.value(n, column)));
       layer.labels.push_back(std::move(read.points[n].id));
     }
   }
@@ -195,6 +166,7 @@ ResultLayer read_result_layer(const std::string& request, const Package& package
   if (!is_vector_file(wanted.file) && !is_point_table(wanted.file) && is_raster_file(wanted.file))
     return layer_of_raster(wanted, package, frame);
 #endif
+  if (std::optional<ResultLayer> surfaces = layer_of_surfaces(wanted)) return *std::move(surfaces);
   return layer_of_points(wanted, package, frame);
 }
 

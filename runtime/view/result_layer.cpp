@@ -21,6 +21,8 @@ std::string_view name_of(ResultForm form) {
   switch (form) {
     case ResultForm::raster:
       return "raster";
+    case ResultForm::surfaces:
+      return "surfaces";
     case ResultForm::points:
       return "points";
     case ResultForm::problems:
@@ -46,6 +48,10 @@ std::string ResultLayer::bytes() const {
   if (form == ResultForm::raster) {
     append(bytes, values.data(), values.size());
     return bytes;
+  }
+  for (std::size_t n = 0; n < surfaces.size(); ++n) {
+    const std::array<float, 3> row{static_cast<float>(surfaces[n][0]), static_cast<float>(surfaces[n][1]), values[n]};
+    append(bytes, row.data(), row.size());
   }
   for (std::size_t n = 0; n < places_local.size(); ++n) {
     append(bytes, places_local[n].data(), places_local[n].size());

@@ -15,9 +15,10 @@ namespace farlod {
 
 /// How a result file is drawn.
 enum class ResultForm : std::uint8_t {
-  raster,   ///< on the ground, in place of the values of the tiles
-  points,   ///< a dot each, in the colours of its values
-  problems  ///< a mark each: what a report of farlod-pack says
+  raster,    ///< on the ground, in place of the values of the tiles
+  surfaces,  ///< on the surfaces of buildings, in place of the values of the tiles
+  points,    ///< a dot each, in the colours of its values
+  problems   ///< a mark each: what a report of farlod-pack says
 };
 [[nodiscard]] std::string_view name_of(ResultForm form);
 
@@ -26,7 +27,7 @@ struct ResultLayer {
   ResultForm form = ResultForm::points;
   std::string name = {};      ///< of the file
   std::string quantity = {};  ///< of the band or the field; empty for problems
-  std::uint64_t count = 0;    ///< of pixels or points in the file; there are fewer here where they were thinned
+  std::uint64_t count = 0;    ///< of pixels, points or surfaces in the file; there are fewer here where they were thinned
 
   // Of rasters
   std::uint32_t width = 0, height = 0;
@@ -34,13 +35,18 @@ struct ResultLayer {
 
   // Of points and problems
   std::vector<std::array<float, 3>> places_local = {};  ///< z is NaN where no height is known
-  std::vector<std::string> labels = {};                 ///< an id, or what the problem is
 
-  std::vector<float> values = {};  ///< of pixels or points, NaN where there is none; empty for problems
+  // Of surfaces: the building of each as a number of `labels`, and the surface's own number within it
+  std::vector<std::array<std::uint32_t, 2>> surfaces = {};
+
+  std::vector<std::string> labels = {};  ///< ids of points, or what the problems are, or ids of buildings
+
+  std::vector<float> values = {};  ///< of pixels, points or surfaces, NaN where there is none; empty for problems
 
   /// From 0 to 1 where all values lie there, else the least and the greatest of them.
   [[nodiscard]] std::array<float, 2> range() const;
-  /// The values of a raster, or the three coordinates and the value of each point, as little-endian floats.
+  /// The values of a raster, or the three coordinates and the value of each point, or the two numbers and the value of each
+  /// surface, as little-endian floats, which hold whole numbers up to 16,777,216.
   [[nodiscard]] std::string bytes() const;
 };
 
@@ -49,9 +55,10 @@ inline constexpr std::size_t most_points_of_layer = 1'000'000;
 
 /// Reads a result file. `request` is its name, perhaps with a colon and the name of a band or a field behind it; without one, it
 /// is `svf`, and of a raster without that the first band. Rasters are all that GDAL knows; points are those of `farlod-svf
-/// --points` or of any vector file; a report of `farlod-pack --report FILE.geojson` is known by its fields. What is in another
-/// CRS is brought into that of the package. Points without a height stand as high as receivers of a map. Throws InputError,
-/// PackageDamaged.
+/// --points` or of any vector file; surfaces are the table FILE.surfaces.csv of `farlod-svf --surfaces`, or the layer `surfaces`
+/// of its GeoPackage, of which `svf_mean` is taken without a name; a report of `farlod-pack --report FILE.geojson` is known by
+/// its fields. What is in another CRS is brought into that of the package. Points without a height stand as high as receivers of
+/// a map. Throws InputError, PackageDamaged.
 [[nodiscard]] ResultLayer read_result_layer(const std::string& request, const Package& package, const ViewFrame& frame);
 
 }  // namespace farlod

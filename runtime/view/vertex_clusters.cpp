@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -76,13 +75,18 @@ Point2d ClusterLattice::point_local(const ClusterPlace& place) const {
 void move_into_clusters(const ViewFrame& frame, const TileSquare& square, double error_m, TileSurfaces& surfaces) {
   ClustersOfTile clusters(ClusterLattice(frame, square, error_m));
   std::vector<std::pair<TileFacet, ClusterTriangle>> kept;
-  std::set<ClusterTriangle> known;
+  std::map<ClusterTriangle, std::size_t> known;
   for (const TileFacet& facet : surfaces.facets) {
     const bool is_ground = surfaces.features[facet.feature].kind == SurfaceKind::ground;
     const Layer layer = is_ground ? Layer::ground : Layer::buildings;
     ClusterTriangle triangle;
     for (std::size_t k = 0; k < 3; ++k) triangle[k] = clusters.number_of(facet.corners_local[k], layer);
-    if (!is_degenerate(triangle) && known.insert(sorted(triangle)).second) kept.emplace_back(facet, triangle);
+    if (is_degenerate(triangle)) continue;
+    const auto [found, is_new] = known.try_emplace(sorted(triangle), kept.size());
+    if (is_new)
+      kept.emplace_back(facet, triangle);
+    else if (facet.normal.z > kept[found->second].first.normal.z)  // A flat building shows its roof, not its floor
+      kept[found->second] = {facet, triangle};
   }
   surfaces.facets.clear();
   for (auto& [facet, triangle] : kept) {

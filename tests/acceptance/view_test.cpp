@@ -75,15 +75,22 @@ TEST_F(View, DrawsResultsBesideThePackage) {
   folder.must("farlod-svf a.farlod -o svf.tif --grid 5 && farlod-svf a.farlod -o at.csv --at " +
               text_of(p_projected({-60.0, 0.0})));
   folder.must("farlod-pack town.geojson -o b.farlod --report problems.geojson --quiet");
-  folder.must("farlod-view a.farlod svf.tif at.csv:svf problems.geojson --export page --quiet");
+  folder.must(
+      "farlod-svf a.farlod -o walls.csv --surfaces all --spacing 5 && farlod-svf a.farlod -o walls.gpkg --surfaces all --spacing "
+      "5");
+  folder.must("farlod-view a.farlod svf.tif at.csv:svf problems.geojson walls.surfaces.csv walls.gpkg --export page --quiet");
   const json results = folder.json_of("page/view.json").at("results");
-  ASSERT_EQ(results.size(), 3U);
+  ASSERT_EQ(results.size(), 5U);
   EXPECT_EQ(results[0].at("form"), "raster");
   EXPECT_EQ(folder.text_of("page/results/0").size(),
             results[0].at("width").get<std::size_t>() * results[0].at("height").get<std::size_t>() * sizeof(float));
   EXPECT_EQ(results[1].at("form"), "points");
   EXPECT_EQ(folder.json_of("page/results/1.json").size(), 1U);
   EXPECT_EQ(results[2].at("form"), "problems");
+  EXPECT_EQ(results[3].at("form"), "surfaces");
+  EXPECT_EQ(folder.json_of("page/results/3.json").size(), 36U) << "all buildings";
+  EXPECT_EQ(folder.json_of("page/results/4.json"), folder.json_of("page/results/3.json")) << "whatever the format";
+  EXPECT_EQ(results[4].at("count"), results[3].at("count"));
 }
 
 /// Writes the files that a page carries to the folder `carried`.

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Results beside the town of boxes, as farlod-view hands them over: two rasters that are the same everywhere, points, a problem.
+// Results beside the town of boxes, as farlod-view hands them over: rasters,
+// points, a problem, and tables of the surfaces of its buildings.
+
+import { boxesOfCell, grid } from "./mock_town.mjs";
 
 const floats = (numbers) => Buffer.from(new Float32Array(numbers).buffer);
 
@@ -10,6 +13,15 @@ const raster = (name, url, west, east, range = [0, 1]) => ({
   name, form: "raster", quantity: "svf", url, count: 4, range, width: 2, height: 2, local_from_pixel: [-2000, 2000, 0, 2000, 0, -2000],
   body: floats([west, east, west, east]),
 });
+
+const boxes = Array.from({ length: grid.i_end * grid.j_end }, (_, n) => boxesOfCell(n % grid.i_end, Math.floor(n / grid.i_end))).flat();
+
+/** One value for all roofs but those of some buildings, which the table lacks. */
+function tableOfRoofs(name, url, value, range = [0, 1], isKnown = () => true) {
+  const known = boxes.filter(isKnown);
+  return { name, form: "surfaces", quantity: "svf_mean", url, count: known.length, range, labels: known.map((box) => box.name),
+           body: floats(known.flatMap((_, n) => [n, 0, value])) };
+}
 
 /** Low in the west and high in the east, and the other way round. The third has a hole in the west. */
 export const resultsOfTown = [
@@ -21,4 +33,8 @@ export const resultsOfTown = [
   { name: "report.geojson", form: "problems", quantity: "", url: "results/4", count: 1, range: [0, 1],
     labels: ["107 zero_area, left out: b-3-3-1. All points lie on a line."], body: floats([-60, 0, NaN, NaN]) },
   raster("hours.tif", "results/5", 2.5, 7.5, [0, 10]),
+  tableOfRoofs("before.surfaces.csv", "results/6", 0.875),
+  tableOfRoofs("after.surfaces.csv", "results/7", 0.375),
+  tableOfRoofs("sun.surfaces.csv", "results/8", 5, [0, 10]),
+  tableOfRoofs("some.surfaces.csv", "results/9", 0.375, [0, 1], ({ name }) => Number(name.split("-")[3]) % 2 === 0),
 ];

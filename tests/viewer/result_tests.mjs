@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Results beside the package: with the mock, whose results are known; farlod-view is given the results of the town by its runner.
-import { atRest, linkWith, pixels, ready, share, state, until } from "./browser.mjs";
+import { atRest, linkWith, pixels, ready, seen, share, state, until } from "./browser.mjs";
 import { expect, expectEqual } from "./checks.mjs";
 
 const colourOf = async (url, value) => (await (await fetch(`${url}view.json`)).json()).colours[Math.round(255 * value)];
@@ -10,10 +10,10 @@ const near = ([r0, g0, b0]) => (r, g, b) => Math.abs(r - r0) + Math.abs(g - g0) 
 /** Left and right of the window's middle, beside the cards. */
 const [west, east] = [{ x: 290, y: 150, width: 190, height: 400 }, { x: 520, y: 150, width: 190, height: 400 }];
 
-/** Straight above the origin of the town, with the ground alone. */
-async function above(context, url, fields) {
+/** Straight above the origin of the town, with the ground alone, or with other layers. */
+async function above(context, url, fields, layers = "ground") {
   const page = await context.newPage(), { origin_m } = await (await fetch(`${url}view.json`)).json();
-  await page.goto(`${url}#camera=${origin_m.join(",")},500,0,0&layers=ground&${fields}`);
+  await page.goto(`${url}#camera=${origin_m.join(",")},500,0,0&layers=${layers}&${fields}`);
   await ready(page);
   await atRest(page);
   return page;
@@ -27,6 +27,16 @@ async function expectGround(page, clip, colour, what) {
 async function clickAt(page, place) {
   await page.mouse.click(...place);
   await until(page, "the answer", ({ picked, resting }) => picked !== null && resting);
+}
+
+/** What results say of the first roof that a click finds, north-west of the origin. */
+async function roofIn(page) {
+  for (let n = 0; n < 12; ++n) {
+    await page.mouse.click(330 + 23 * (n % 4), 250 + 31 * Math.floor(n / 4));
+    const { picked } = await atRest(page);
+    if (picked?.kind === "roof") return factsOf(page);
+  }
+  return [];
 }
 
 const factsOf = (page) => page.$$eval("#result-facts dt, #result-facts dd", (parts) => parts.map((part) => part.textContent));
@@ -81,6 +91,46 @@ export const resultTests = {
     expectEqual(await page.$$eval("#ticks span", (spans) => spans.map((span) => span.textContent)), ["0", "2", "4", "6", "8", "10"], "the ticks");
     await expectGround(page, west, await colourOf(url, 0.025), "0.25 of 10, left of the divider,");
     await expectGround(page, east, await colourOf(url, 0.75), "7.5 of 10, right of it,");
+  },
+
+  async "a table colours the surfaces of buildings"({ url, context }) {
+    const page = await above(context, url, "buildings=6&dots=", "roofs"), roofs = async (clip, colour) => share(await pixels(page, clip), near(colour));
+    expect((await roofs(west, await colourOf(url, 0.875))) > 0.3, "the roofs have other colours than their values");
+    expectEqual(await page.textContent("#ramp-title"), "before.surfaces.csv: svf_mean", "the title of the legend");
+    await page.selectOption("#building-values", "9");
+    await atRest(page);
+    expect((await roofs(west, await colourOf(url, 0.375))) > 0.1, "the roofs did not change");
+    expect((await roofs(west, [190, 190, 190])) > 0.1, "roofs that the table lacks have a colour");
+    await page.selectOption("#building-values", "-1");
+    await atRest(page);
+    expect((await roofs(west, await colourOf(url, 0.375))) < 0.1, "the computed values did not come back");
+  },
+
+  async "tables are compared, and told at a click"({ url, context }) {
+    const page = await above(context, url, "buildings=6&buildings-compared=7&comparison=divider&divider=0.5&dots=", "roofs");
+    const covered = async (clip, colour) => share(await pixels(page, clip), near(colour));
+    expect((await covered(west, await colourOf(url, 0.875))) > 0.3, "the first table is not left of the divider");
+    expect((await covered(east, await colourOf(url, 0.875))) < 0.05, "the first table is right of the divider, too");
+    await page.selectOption("#comparison", "difference");
+    await atRest(page);
+    expectEqual(await page.textContent("#ramp-title"), "before.surfaces.csv: svf_mean less after.surfaces.csv: svf_mean", "the title");
+    expect((await covered(west, [178, 24, 43])) > 0.3, "roofs that differ by .5 are not at the end of the scale");
+    const roof = await seen(() => roofIn(page), (facts) => facts.length > 0);
+    expectEqual(roof, ["before.surfaces.csv: svf_mean", "0.8750", "after.surfaces.csv: svf_mean", "0.3750", "Difference", "0.5000"], "what is told");
+    const again = await context.newPage();
+    await again.goto(await linkWith(page, "buildings-compared=7&comparison=difference"));
+    await ready(again);
+    expectEqual(await Promise.all(["#building-values", "#buildings-compared", "#comparison"].map((id) => again.inputValue(id))), ["6", "7", "difference"], "the lists");
+  },
+
+  async "other quantities have the legend, and what they do not colour is paper"({ url, context }) {
+    const page = await above(context, url, "ground=computed&buildings=8&dots=", "ground,roofs"), covered = async (clip, colour) => share(await pixels(page, clip), near(colour));
+    expectEqual(await page.$$eval("#ticks span", (spans) => spans.map((span) => span.textContent)), ["0", "2", "4", "6", "8", "10"], "the ticks");
+    expect((await covered(west, await colourOf(url, 0.5))) > 0.2, "5 of 10 is not in the middle of the colours");
+    expect((await covered(west, [222, 222, 217])) > 0.2, "the ground keeps colours that the legend does not have");
+    await page.selectOption("#ground-values", "5");
+    await atRest(page);
+    expect((await covered(west, await colourOf(url, 0.25))) > 0.2, "hours on the ground are paper beside hours on roofs");
   },
 
   async "points and problems are marked, and told when they are clicked at"({ url, context }) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 import { cssOf } from "./drawing.ts";
-import { differenceColours } from "./ground_values.ts";
+import { differenceColours } from "./value_colours.ts";
 import { element, part } from "./page_parts.ts";
 import type { Triple, ViewInfo } from "./view_info.ts";
 

@@ -5,10 +5,10 @@ import type { Frames } from "./frames.ts";
 import type { CameraView } from "./navigation.ts";
 import type { PickedFacet } from "./picking.ts";
 import { tilt_deg } from "./frames.ts";
-import { comparisons } from "./ground_values.ts";
 import { computed, type ResultChoice } from "./result_controls.ts";
 import { isSkyProjection, type SkyProjection } from "./sky_projection.ts";
 import type { Theme } from "./theme.ts";
+import { comparisons } from "./value_pairs.ts";
 
 const layerNames = ["ground", "roofs", "facades", "grid"] as const;
 export type LayerName = (typeof layerNames)[number];
@@ -53,21 +53,27 @@ export function hashOf(link: LinkedView): string {
   return `#${fields.join("&")}`;
 }
 
+const numberText = (n: number): string => (n === computed ? "computed" : String(n));
+
 /** Numbers of results, in the order of the command line. */
-function fieldsOfResults({ shown, compared, comparison, dots }: ResultChoice, divider: number | null): string[] {
-  const fields = [`ground=${shown === computed ? "computed" : shown}`, `dots=${dots.join(",")}`];
-  if (compared === null) return fields;
-  fields.push(`compared=${compared === computed ? "computed" : compared}`, `comparison=${comparison}`);
+function fieldsOfResults({ ground, buildings, comparison, dots }: ResultChoice, divider: number | null): string[] {
+  const fields = [`ground=${numberText(ground.shown)}`, `dots=${dots.join(",")}`];
+  if (buildings.shown !== computed) fields.push(`buildings=${numberText(buildings.shown)}`);
+  if (ground.compared !== null) fields.push(`compared=${numberText(ground.compared)}`);
+  if (buildings.compared !== null) fields.push(`buildings-compared=${numberText(buildings.compared)}`);
+  if (ground.compared === null && buildings.compared === null) return fields;
+  fields.push(`comparison=${comparison}`);
   if (comparison === "divider" && divider !== null) fields.push(`divider=${text([divider])}`);
   return fields;
 }
 
 function resultsOf(fields: URLSearchParams): ResultChoice | null {
-  const number = (field: string): number => (field === "computed" ? computed : Number(field));
-  const ground = fields.get("ground"), compared = fields.get("compared");
-  if (ground === null) return null;
+  const ground = fields.get("ground"), buildings = fields.get("buildings");
+  const number = (field: string | null): number => (field === null || field === "computed" ? computed : Number(field));
+  const compared = (name: string): number | null => (fields.has(name) ? number(fields.get(name)) : null);
+  if (ground === null && buildings === null) return null;
   return {
-    shown: number(ground), compared: compared === null ? null : number(compared),
+    ground: { shown: number(ground), compared: compared("compared") }, buildings: { shown: number(buildings), compared: compared("buildings-compared") },
     comparison: comparisons.find((name) => name === fields.get("comparison")) ?? "divider",
     dots: (fields.get("dots") ?? "").split(",").filter((field) => field !== "").map(Number),
   };

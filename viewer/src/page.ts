@@ -8,7 +8,6 @@ import { Frames } from "./frames.ts";
 import { GridLines } from "./grid_lines.ts";
 import { GridView } from "./grid_view.ts";
 import { GroundHeights } from "./ground_heights.ts";
-import { GroundValues } from "./ground_values.ts";
 import { listenToKeys, zoomStep } from "./keyboard.ts";
 import { LayerBoxes } from "./layers.ts";
 import { cameraOf, hashOf, linkedCamera, linkedPlace, type LinkedView, linkOf } from "./link.ts";
@@ -21,6 +20,7 @@ import { PlacePanel } from "./place_panel.ts";
 import { PlaceView } from "./place_view.ts";
 import { listenToPointer } from "./pointing.ts";
 import { ResultView } from "./result_view.ts";
+import { ShownValues } from "./shown_values.ts";
 import { loadViewInfo, type ViewInfo } from "./view_info.ts";
 import { isSkyProjection, type SkyProjection } from "./sky_projection.ts";
 import { ThemeSwitch } from "./theme.ts";
@@ -48,7 +48,7 @@ export class Page {
   readonly results: ResultView;
   /** When the first complete frame was drawn, in milliseconds of performance.now(). */
   readyAt_ms: number | null = null;
-  private readonly ground = new GroundValues();
+  private readonly values = new ShownValues();
   private readonly picker: Picker;
   private readonly heights: GroundHeights;
   private readonly marker: Marker;
@@ -63,8 +63,7 @@ export class Page {
   private linkTimer = 0;
   private simplifiedTimer = 0;
   private isStale = false;
-  /** The first complete frame has been begun. */
-  private isComplete = false;
+  private firstCompleteFrame: "missing" | "begun" | "drawn" | "shown" = "missing";
   /** When the last frame was begun, or the first tile came; null before. */
   private begunAt_ms: number | null = null;
 
@@ -72,7 +71,7 @@ export class Page {
     const canvas = part("city", HTMLCanvasElement), fail = (error: unknown): void => this.fail(error);
     this.frames = new Frames(view);
     this.city = new CityScene(canvas, () => this.beforeFrame(), () => this.afterFrame());
-    this.tiles = new CityTiles(view, this.ground, this.city.camera, fail);
+    this.tiles = new CityTiles(view, this.values, this.city.camera, fail);
     this.city.scene.add(this.tiles.group);
     this.picker = new Picker(this.tiles);
     this.heights = new GroundHeights(this.picker, view.heights_m);
@@ -85,7 +84,7 @@ export class Page {
                              (dragging) => { this.navigation.enabled = !dragging; });
     this.ornaments = new MapOrnaments(this.city, this.frames);
     this.theme = new ThemeSwitch(part("theme", HTMLButtonElement), (background) => this.applyTheme(background));
-    this.results = new ResultView(view, this.city, this.ground, new Promise((resolve) => { this.onReady = resolve; }),
+    this.results = new ResultView(view, this.city, this.values, new Promise((resolve) => { this.onReady = resolve; }),
                                   (x, y) => this.heights.at(x, y), () => this.noteLink(), fail);
     this.listen(canvas);
     this.restore(linkOf(location.hash));
@@ -118,7 +117,7 @@ export class Page {
   dispose(): void {
     this.city.dispose();
     this.tiles.dispose();
-    this.ground.dispose();
+    this.values.dispose();
   }
 
   private makeGridView(fail: (error: unknown) => void): GridView {
@@ -186,7 +185,7 @@ export class Page {
   }
 
   private beforeFrame(): boolean {
-    if (this.readyAt_ms === null && this.isComplete && this.city.lastFrame_ms < Infinity) this.becomeReady();
+    this.followFirstFrame();
     const moved = this.navigation.update();
     if (moved) this.noteLink();
     const changed = this.tiles.update(this.city.size(), moved);
@@ -211,8 +210,18 @@ export class Page {
     this.marker.follow();
     this.ornaments.update(this.navigation.view());
     if (!this.tiles.isComplete) return;
-    this.isComplete = true;
+    if (this.firstCompleteFrame === "missing") this.firstCompleteFrame = "begun";
     if (this.readyAt_ms !== null) this.selectWaitingPlace();
+  }
+
+  /** What was drawn is shown at the next turn of the browser's loop. */
+  private followFirstFrame(): void {
+    if (this.firstCompleteFrame === "drawn") {
+      this.firstCompleteFrame = "shown";
+      this.becomeReady();
+    } else if (this.firstCompleteFrame === "begun" && this.city.lastFrame_ms < Infinity) {
+      this.firstCompleteFrame = "drawn";
+    }
   }
 
   private becomeReady(): void {

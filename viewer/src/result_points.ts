@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 import { BufferAttribute, BufferGeometry, GLSL3, Points, ShaderMaterial, Vector2 } from "three";
-import { colourOfRamp, rampTexture } from "./ground_values.ts";
+import { colourOfRamp, rampTexture } from "./value_colours.ts";
 import type { PointsResult } from "./results.ts";
 import type { ViewInfo } from "./view_info.ts";
 

@@ -4,14 +4,15 @@ import type { Points } from "three";
 import { tell } from "./banner.ts";
 import type { CityScene } from "./city_scene.ts";
 import { Divider } from "./divider.ts";
-import type { GroundSource, GroundValues } from "./ground_values.ts";
 import { LatestOnly } from "./latest_only.ts";
 import { Legend } from "./legend.ts";
 import { part, showFacts } from "./page_parts.ts";
 import type { PickedFacet } from "./picking.ts";
-import { computed, type ResultChoice, ResultControls } from "./result_controls.ts";
+import { computed, type NumberPair, type ResultChoice, ResultControls } from "./result_controls.ts";
 import { dotsOf } from "./result_points.ts";
-import { isValue, PointsResult, RasterResult, titleOf } from "./results.ts";
+import { isValue, PointsResult, RasterResult, type ResultInfo, SurfacesResult, titleOf } from "./results.ts";
+import type { ShownValues } from "./shown_values.ts";
+import type { SourcePair } from "./value_pairs.ts";
 import type { ViewInfo } from "./view_info.ts";
 
 /** A dot is told of when it is this near to the place that was clicked at, on the screen. */
@@ -24,11 +25,12 @@ export class ResultView {
   private readonly divider: Divider;
   private readonly legend: Legend;
   private readonly rasters = new Map<number, RasterResult>();
+  private readonly surfaces = new Map<number, SurfacesResult>();
   private readonly points = new Map<number, { result: PointsResult; dots: Points }>();
   private readonly loading = new LatestOnly<ResultChoice>((choice) => this.load(choice));
   private facet: PickedFacet | null = null;
 
-  constructor(private readonly view: ViewInfo, private readonly city: CityScene, private readonly ground: GroundValues,
+  constructor(private readonly view: ViewInfo, private readonly city: CityScene, private readonly values: ShownValues,
               private readonly tilesAreThere: Promise<void>,
               private readonly heightAt: (x_local: number, y_local: number) => number, private readonly onChange: () => void,
               private readonly onError: (error: unknown) => void) {
@@ -69,18 +71,19 @@ export class ResultView {
   }
 
   private moveDivider(share: number): void {
-    this.ground.setDivider(share * this.city.canvas.width);
+    this.values.setDivider(share * this.city.canvas.width);
     this.city.redraw();
     this.onChange();
   }
 
   private async load(choice: ResultChoice): Promise<void> {
     try {
-      const shown = await this.sourceOf(choice.shown), compared = choice.compared === null ? null : await this.sourceOf(choice.compared);
+      const ground = await this.pairOf(choice.ground, this.rasters, (info) => RasterResult.load(info));
+      const buildings = await this.pairOf(choice.buildings, this.surfaces, (info) => SurfacesResult.load(info));
       for (const n of choice.dots) await this.addDots(n);
       for (const [n, { dots }] of this.points) dots.visible = choice.dots.includes(n);
-      this.ground.choose({ shown, compared, comparison: choice.comparison });
-      this.divider.shown = compared !== null && choice.comparison === "divider";
+      this.values.choose({ ground, buildings, comparison: choice.comparison });
+      this.divider.shown = (ground.compared !== null || buildings.compared !== null) && choice.comparison === "divider";
       this.showLegend(choice);
       await this.tellValues();
     } catch (error) {
@@ -89,12 +92,17 @@ export class ResultView {
     this.city.redraw();
   }
 
-  private async sourceOf(n: number): Promise<GroundSource> {
-    const info = this.view.results[n];
-    if (n === computed || !info) return "computed";
-    const raster = this.rasters.get(n) ?? (await RasterResult.load(info));
-    this.rasters.set(n, raster);
-    return raster;
+  /** The results of two numbers, each loaded once. */
+  private async pairOf<Result>({ shown, compared }: NumberPair, loaded: Map<number, Result>,
+                               load: (info: ResultInfo) => Promise<Result>): Promise<SourcePair<Result>> {
+    const sourceOf = async (n: number): Promise<Result | "computed"> => {
+      const info = this.view.results[n];
+      if (n === computed || !info) return "computed";
+      const result = loaded.get(n) ?? (await load(info));
+      loaded.set(n, result);
+      return result;
+    };
+    return { shown: await sourceOf(shown), compared: compared === null ? null : await sourceOf(compared) };
   }
 
   private async addDots(n: number): Promise<void> {
@@ -107,12 +115,21 @@ export class ResultView {
     this.city.scene.add(dots);
   }
 
-  private showLegend({ shown, compared, comparison }: ResultChoice): void {
-    const [a, b] = [this.nameOf(shown), compared === null ? null : this.nameOf(compared)], range = this.ground.colouredRange;
-    if (b === null) this.legend.showValues(shown === computed ? "Sky view factor" : a, range);
-    else if (comparison === "divider") this.legend.showValues(`${a} | ${b}`, range);
-    else this.legend.showDifferences(`${a} less ${b}`, this.ground.greatestDifference);
-    if (b !== null) tell(comparison === "divider" ? `${a} left of the divider, ${b} right of it.` : `The difference of ${a} and ${b}.`);
+  private showLegend({ ground, buildings, comparison }: ResultChoice): void {
+    const pairs = [ground, buildings].filter((pair) => pair.shown !== computed || pair.compared !== null), range = this.values.colouredRange;
+    const compared = pairs.filter((pair) => pair.compared !== null), byDivider = comparison === "divider";
+    const titles = (byDivider || compared.length === 0 ? pairs : compared).map((pair) => this.titleOfPair(pair, byDivider ? " | " : " less "));
+    if (titles.length === 0) this.legend.showValues("Sky view factor", range);
+    else if (compared.length === 0 || byDivider) this.legend.showValues(titles.join(", "), range);
+    else this.legend.showDifferences(titles.join(", "), this.values.greatestDifference);
+    for (const { shown, compared: other } of compared) {
+      const [a, b] = [this.nameOf(shown), this.nameOf(other ?? computed)];
+      tell(byDivider ? `${a} left of the divider, ${b} right of it.` : `The difference of ${a} and ${b}.`);
+    }
+  }
+
+  private titleOfPair({ shown, compared }: NumberPair, between: string): string {
+    return this.nameOf(shown) + (compared === null ? "" : between + this.nameOf(compared));
   }
 
   private nameOf(n: number): string {
@@ -121,22 +138,16 @@ export class ResultView {
   }
 
   private async tellValues(): Promise<void> {
-    const facet = this.facet, { shown, compared } = this.controls.choice, rows: [string, string][] = [];
+    const facet = this.facet;
     if (!facet) return;
-    const rasters = facet.kind === "ground" ? [...this.rasters].filter(([n]) => n === shown || n === compared) : [];
-    for (const [, raster] of rasters) rows.push([titleOf(raster.info), svfText(raster.at(facet.p_local.x, facet.p_local.y))]);
-    if (rasters.length === 2) rows.push(["Difference", this.differenceAt(facet)]);
+    const rows = facet.kind === "ground" ? rowsOf(this.values.ground.choice, (raster) => raster.at(facet.p_local.x, facet.p_local.y))
+      : rowsOf(this.values.buildings.choice, (surfaces) => surfaces.valueOf(facet.building, facet.surface));
     const perMetre_px = this.pixelsPerMetreAt(facet);
     for (const { result, dots } of this.points.values()) {
       const n = dots.visible ? result.nearest(facet.p_local, reach_px / perMetre_px) : null;
-      if (n !== null) rows.push(await rowOf(result, n));
+      if (n !== null) rows.push(await rowOfPoint(result, n));
     }
     if (this.facet === facet) showFacts(part("result-facts"), rows);
-  }
-
-  private differenceAt({ p_local: { x, y } }: PickedFacet): string {
-    const { shown, compared } = this.ground.choice, [a, b] = [shown, compared].map((s) => (s instanceof RasterResult ? s.at(x, y) : NaN));
-    return a !== undefined && b !== undefined && isValue(a) && isValue(b) ? (a - b).toFixed(4) : "no data";
   }
 
   private pixelsPerMetreAt({ p_local }: PickedFacet): number {
@@ -145,7 +156,16 @@ export class ResultView {
   }
 }
 
-async function rowOf(result: PointsResult, n: number): Promise<[string, string]> {
+/** What the results of a pair say, and their difference. */
+function rowsOf<Result extends { info: ResultInfo }>({ shown, compared }: SourcePair<Result>, valueIn: (result: Result) => number): [string, string][] {
+  const results = [shown, compared].filter((source): source is Result => source !== null && source !== "computed");
+  const values = results.map(valueIn), [a, b] = values;
+  const rows = results.map((result, n): [string, string] => [titleOf(result.info), svfText(values[n] ?? NaN)]);
+  if (a !== undefined && b !== undefined) rows.push(["Difference", isValue(a) && isValue(b) ? (a - b).toFixed(4) : "no data"]);
+  return rows;
+}
+
+async function rowOfPoint(result: PointsResult, n: number): Promise<[string, string]> {
   const label = await result.labelOf(n), { info } = result;
   return info.form === "problems" ? ["Problem", label] : [`${titleOf(info)}, ${label}`, svfText(result.values[n] ?? NaN)];
 }

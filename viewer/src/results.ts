@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { fetchJson, fetchOfServer } from "./server.ts";
 
-export type ResultForm = "raster" | "points" | "problems";
+export type ResultForm = "raster" | "surfaces" | "points" | "problems";
 
 /** A result file that farlod-view was given, as view.json tells of it. */
 export interface ResultInfo {
@@ -11,7 +11,7 @@ export interface ResultInfo {
   /** The band or the field; empty for problems. */
   quantity: string;
   url: string;
-  /** Pixels or points in the file; what is drawn may be thinned. */
+  /** Pixels, surfaces or points in the file; what is drawn may be thinned. */
   count: number;
   /** 0 and 1 where all values lie between. */
   range: [number, number];
@@ -66,6 +66,34 @@ export class RasterResult {
 function inverseOf([x0, xc, xr, y0, yc, yr]: NonNullable<ResultInfo["local_from_pixel"]>): RasterResult["pixel_from_local"] {
   const determinant = xc * yr - xr * yc, a = yr / determinant, b = -xr / determinant, d = -yc / determinant, e = xc / determinant;
   return [a, b, -(a * x0 + b * y0), d, e, -(d * x0 + e * y0)];
+}
+
+/** A value for each surface of buildings that a table has. */
+export class SurfacesResult {
+  private constructor(readonly info: ResultInfo, private readonly ofBuilding: ReadonlyMap<string, ReadonlyMap<number, number>>) {}
+
+  static async load(info: ResultInfo): Promise<SurfacesResult> {
+    const [floats, ids] = await Promise.all([loadFloats(info), fetchJson<string[]>(`${info.url}.json`)]);
+    const ofBuilding = new Map<string, Map<number, number>>(ids.map((id) => [id, new Map<number, number>()]));
+    for (let n = 0; n + 2 < floats.length; n += 3) ofBuilding.get(ids[floats[n] ?? -1] ?? "")?.set(floats[n + 1] ?? -1, floats[n + 2] ?? noValue);
+    return new SurfacesResult(info, ofBuilding);
+  }
+
+  /** `noValue` where the table has no such surface. */
+  valueOf(building: string, surface: number): number {
+    return this.ofBuilding.get(building)?.get(surface) ?? noValue;
+  }
+
+  /** The values of the same surfaces here and in another table: of so many at the most. */
+  pairsWith(other: SurfacesResult, most: number): [number, number][] {
+    const pairs: [number, number][] = [];
+    for (const [building, ofSurface] of this.ofBuilding)
+      for (const [surface, value] of ofSurface) {
+        if (pairs.length >= most) return pairs;
+        pairs.push([value, other.valueOf(building, surface)]);
+      }
+    return pairs;
+  }
 }
 
 /** Points or problems, each with a place and perhaps a value. */

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 import { type DataTexture, DoubleSide, GLSL3, ShaderMaterial } from "three";
-import { colourOfRamp, type GroundValues, rampTexture } from "./ground_values.ts";
+import type { ShownValues } from "./shown_values.ts";
+import { colourOfRamp, rampTexture } from "./value_colours.ts";
 import type { ViewInfo } from "./view_info.ts";
 
 /** What both materials read, changed in one place. */
@@ -12,6 +13,7 @@ export interface SharedUniforms {
 
 const vertexShader = /* glsl */ `
   in vec4 facet;  // the normal, local, and the number of the kind
+  in vec2 tabled;  // of a surface of a building, where tables have values: shown and compared
   #ifdef WITH_VALUE
   in float _svf;
   out float svf;
@@ -20,6 +22,7 @@ const vertexShader = /* glsl */ `
   out float shade;
   out vec2 place;       // local
   flat out int isGround;
+  flat out vec2 ofTables;
 
   // From the north-west and above, as maps are lit. A level facet keeps the colour of the legend
   const vec3 light = vec3(-0.51, 0.51, 0.69);
@@ -30,6 +33,7 @@ const vertexShader = /* glsl */ `
     svf = _svf;
     #endif
     isGround = kind == 0 ? 1 : 0;
+    ofTables = tabled;
     place = (modelMatrix * vec4(position, 1.0)).xy;
     vec3 normal = normalize(facet.xyz);
     // Simplified ground has slivers, whichever way they look
@@ -46,17 +50,20 @@ const fragmentShader = /* glsl */ `
   in float shade;
   in vec2 place;
   flat in int isGround;
+  flat in vec2 ofTables;
   #ifdef WITH_VALUE
   in float svf;
   #endif
   uniform sampler2D ramp, differences, shownRaster, comparedRaster;
   uniform mat3 shownPixel, comparedPixel;
-  uniform bool shownIsComputed, comparedIsComputed;
+  uniform bool shownIsComputed, comparedIsComputed, shownIsTabled, comparedIsTabled;
   uniform vec2 range;
-  uniform int comparing;  // 0: nothing; 1: side by side; 2: by the difference
+  uniform int groundComparing, buildingsComparing;  // 0: nothing; 1: side by side; 2: by the difference; 3: without colours
   uniform float greatestDifference, divider_px;
   uniform vec3 nodata;
   out vec4 colour;
+
+  const vec3 paper = vec3(0.87, 0.87, 0.85);
 
   ${colourOfRamp}
   float valueAt(sampler2D raster, mat3 pixel_from_local) {
@@ -65,13 +72,22 @@ const fragmentShader = /* glsl */ `
     return texelFetch(raster, pixel, 0).r;
   }
 
-  vec3 colourOfGround(float computed) {
-    float a = shownIsComputed ? computed : valueAt(shownRaster, shownPixel);
+  vec3 colourOfPair(float a, float b, int comparing) {
+    if (comparing == 3) return paper;
     if (comparing == 0) return colourOf(ramp, a, range, nodata);
-    float b = comparedIsComputed ? computed : valueAt(comparedRaster, comparedPixel);
     if (comparing == 1) return colourOf(ramp, gl_FragCoord.x < divider_px ? a : b, range, nodata);
     float difference = isValue(a) && isValue(b) ? a - b : noValue;
     return colourOf(differences, difference, vec2(-greatestDifference, greatestDifference), nodata);
+  }
+
+  vec3 colourOfGround(float computed) {
+    float a = shownIsComputed ? computed : valueAt(shownRaster, shownPixel);
+    float b = groundComparing == 0 || comparedIsComputed ? computed : valueAt(comparedRaster, comparedPixel);
+    return colourOfPair(a, b, groundComparing);
+  }
+
+  vec3 colourOfBuilding(float computed) {
+    return colourOfPair(shownIsTabled ? ofTables.x : computed, comparedIsTabled ? ofTables.y : computed, buildingsComparing);
   }
 
   void main() {
@@ -80,10 +96,7 @@ const fragmentShader = /* glsl */ `
     #else
     float computed = noValue;
     #endif
-    vec3 flatColour = isGround == 1 ? colourOfGround(computed) : colourOf(ramp, computed, vec2(0.0, 1.0), nodata);
-    // The legend has one ramp: beside differences and other quantities, buildings are paper
-    if (isGround == 0 && (comparing == 2 || range != vec2(0.0, 1.0))) flatColour = vec3(0.87, 0.87, 0.85);
-    colour = vec4(flatColour * shade, 1.0);
+    colour = vec4((isGround == 1 ? colourOfGround(computed) : colourOfBuilding(computed)) * shade, 1.0);
   }
 `;
 
@@ -93,9 +106,9 @@ export class SvfMaterials {
   readonly withoutValue: ShaderMaterial;
   private readonly shared: SharedUniforms;
 
-  constructor(view: ViewInfo, ground: GroundValues) {
+  constructor(view: ViewInfo, values: ShownValues) {
     this.shared = { hidden: { value: 0 }, ramp: { value: rampTexture(view.colours) } };
-    const nodata = { value: view.nodata_colour.map((c) => c / 255) }, uniforms = { ...this.shared, ...ground.uniforms, nodata };
+    const nodata = { value: view.nodata_colour.map((c) => c / 255) }, uniforms = { ...this.shared, ...values.uniforms, nodata };
     const common = { vertexShader, fragmentShader, glslVersion: GLSL3, side: DoubleSide, uniforms };
     this.withValue = new ShaderMaterial({ ...common, defines: { WITH_VALUE: 1 } });
     this.withoutValue = new ShaderMaterial(common);

@@ -6,8 +6,8 @@ import { ImplicitTilingPlugin } from "3d-tiles-renderer/core/plugins";
 import { TilesRenderer } from "3d-tiles-renderer/three";
 import { GLTFExtensionsPlugin } from "3d-tiles-renderer/three/plugins";
 import { addFacetAttribute, nameOfValue, type SurfaceTable } from "./facets.ts";
-import type { GroundValues } from "./ground_values.ts";
 import { fetchJson, fetchOfServer } from "./server.ts";
+import type { ShownValues } from "./shown_values.ts";
 import { hiddenMask, type ShownLayers } from "./surface_kinds.ts";
 import { SvfMaterials } from "./svf_material.ts";
 import type { ViewInfo } from "./view_info.ts";
@@ -85,9 +85,9 @@ export class CityTiles {
   private drawnChanged = false;
   private quietUpdates = 0;
 
-  constructor(view: ViewInfo, ground: GroundValues, private readonly camera: PerspectiveCamera, onError: (error: unknown) => void) {
+  constructor(view: ViewInfo, private readonly values: ShownValues, private readonly camera: PerspectiveCamera, onError: (error: unknown) => void) {
     this.cellEdge_m = view.grid.cell_edge_m;
-    this.materials = new SvfMaterials(view, ground);
+    this.materials = new SvfMaterials(view, values);
     const tileset = new URL(view.tileset, document.baseURI).href;
     this.renderer = new TilesRenderer(tileset);
     this.renderer.registerPlugin(new ImplicitTilingPlugin());
@@ -184,7 +184,10 @@ export class CityTiles {
     this.renderer.addEventListener("load-error", ({ tile }) => {
       if (tile) this.failed.add(tile);
     });
-    this.renderer.addEventListener("dispose-model", ({ tile }) => this.meshes.delete(tile));
+    this.renderer.addEventListener("dispose-model", ({ tile }) => {
+      for (const { geometry } of this.meshes.get(tile) ?? []) this.values.buildings.remove(geometry);
+      this.meshes.delete(tile);
+    });
   }
 
   private take(scene: Object3D, tile: Tile): void {
@@ -193,7 +196,9 @@ export class CityTiles {
       if (object instanceof Mesh) meshes.push(object);
     });
     for (const mesh of meshes) {
-      addFacetAttribute(mesh.geometry, mesh.userData["structuralMetadata"] as SurfaceTable);
+      const table = mesh.userData["structuralMetadata"] as SurfaceTable;
+      addFacetAttribute(mesh.geometry, table);
+      this.values.buildings.add(mesh.geometry, table);
       // Only other programs need the texture's coordinates
       mesh.geometry.deleteAttribute("uv");
       mesh.material = mesh.geometry.hasAttribute(nameOfValue) ? this.materials.withValue : this.materials.withoutValue;

@@ -142,6 +142,19 @@ TEST(PointReader, NothingToReadIsRefused) {
   EXPECT_THROW((void)read_points_csv("/no such folder/points.csv"), PointsError);
 }
 
+TEST(PointReader, ATableOfAnyContentIsReadWhole) {
+  const scenes::TemporaryFolder folder;
+  std::ofstream(folder.file("a.csv")) << "building;kind\r\n\"a; b\";roof\r\nc;\r\n";
+  EXPECT_THAT(read_header_csv(folder.file("a.csv")), ElementsAre("building", "kind"));
+  const Attributes table = read_table_csv(folder.file("a.csv"));
+  ASSERT_EQ(table.row_count(), 2U);
+  EXPECT_EQ(table.value(0, 0), "a; b");
+  EXPECT_EQ(table.value(1, 1), "");
+  std::ofstream(folder.file("b.csv")) << "1,2\n3,4\n";
+  EXPECT_TRUE(read_header_csv(folder.file("b.csv")).empty());
+  EXPECT_THROW((void)read_table_csv(folder.file("b.csv")), PointsError);
+}
+
 TEST(PointReader, AFolderIsRefused) { EXPECT_THROW((void)read_points_csv(scenes::TemporaryFolder().path()), PointsError); }
 
 }  // namespace

@@ -200,6 +200,24 @@ TEST_F(PointReaderGdal, OfSeveralLayersOneIsChosen) {
 
 LineSampling every(double spacing_m, const std::string& crs = "") { return {spacing_m, crs, "EPSG:25832"}; }
 
+TEST_F(PointReaderGdal, ALayerMayBeReadAsATable) {
+  {
+    VectorFile file("GPKG", path);
+    file.layer("receivers", 25832, wkbPoint, {{"svf", OFTReal}}).feature("POINT (1 2)");
+    file.layer("surfaces", 0, wkbNone, {{"building", OFTString}, {"surface", OFTInteger}});
+    file.feature(nullptr, [](OGRFeature& f) {
+      f.SetField("building", "a");
+      f.SetField("surface", 7);
+    });
+  }
+  const std::optional<Attributes> table = read_table_gdal(path, "surfaces");
+  ASSERT_TRUE(table);
+  EXPECT_THAT(table->names(), ElementsAre("fid", "building", "surface"));
+  EXPECT_THAT(row_of(*table, 0), ElementsAre("1", "a", "7"));
+  EXPECT_FALSE(read_table_gdal(path, "buildings"));
+  EXPECT_FALSE(read_table_gdal(folder.file("none.gpkg"), "surfaces"));
+}
+
 TEST_F(PointReaderGdal, PointsAlongLinesStandInTheMiddlesOfEqualParts) {
   VectorFile("GPKG", path)
       .layer("axes", 25832, wkbLineString, {{"street", OFTString}, {"along_m", OFTInteger}})

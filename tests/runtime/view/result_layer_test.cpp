@@ -8,11 +8,15 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
 
 #include "farlod/error.hpp"
+#include "farlod/surfaces.hpp"
 #include "results/raster/raster_reader_gdal.hpp"
 #include "tests/library/packed_sample.hpp"
 #include "tests/scenes/temporary_folder.hpp"
+#include "view/tile_surfaces.hpp"
 #include "view/view_city.hpp"
 
 namespace farlod {
@@ -120,6 +124,45 @@ TEST_F(Results, AFieldIsNamedBehindAColon) {
   EXPECT_THAT(refusal_of(path + ":years"),
               AllOf(HasSubstr("no field years"), HasSubstr("svf, hours"), HasSubstr("points.csv:FIELD")));
   EXPECT_THAT(refusal_of(grid() + ":svf_total"), AllOf(HasSubstr("no band svf_total"), HasSubstr("band 1")));
+}
+
+TEST_F(Results, ATableHasValuesOfSurfaces) {
+  const std::string path =
+      file("walls.surfaces.csv", "building,surface,kind,svf_mean,svf_max\na,1,roof,.75,1\n\"b, c\",7,wall,.25,.5\na,2,wall,,\n");
+  const ResultLayer layer = read(path);
+  EXPECT_EQ(layer.form, ResultForm::surfaces);
+  EXPECT_EQ(layer.quantity, "svf_mean");
+  EXPECT_EQ(layer.count, 3U);
+  EXPECT_THAT(layer.labels, ElementsAre("a", "b, c"));
+  EXPECT_THAT(layer.surfaces, ElementsAre(ElementsAre(0U, 1U), ElementsAre(1U, 7U), ElementsAre(0U, 2U)));
+  EXPECT_THAT(layer.values, ElementsAre(0.75F, 0.25F, NanSensitiveFloatEq(NAN)));
+  std::array<float, 9> sent{};
+  ASSERT_EQ(layer.bytes().size(), sizeof sent);
+  std::memcpy(sent.data(), layer.bytes().data(), sizeof sent);
+  EXPECT_THAT(sent, ElementsAre(0.0F, 1.0F, 0.75F, 1.0F, 7.0F, 0.25F, 0.0F, 2.0F, NanSensitiveFloatEq(NAN)));
+  EXPECT_THAT(read(path + ":svf_max").values, ElementsAre(1.0F, 0.5F, NanSensitiveFloatEq(NAN)));
+  EXPECT_THAT(refusal_of(path + ":hours"), AllOf(HasSubstr("no field hours"), HasSubstr("svf_mean, svf_max")));
+}
+
+TEST_F(Results, ATableOfSurfacesThatIsNoneIsRefused) {
+  EXPECT_THAT(refusal_of(file("a.csv", "building,surface,svf_mean\na,first,.5\n")),
+              HasSubstr("\"first\" is no number of a surface"));
+  // With places it has receivers
+  EXPECT_EQ(read(file("b.csv", "building,surface,x_m,y_m,svf\na,1," + place(1, 2) + ",.5\n")).form, ResultForm::points);
+}
+
+TEST_F(Results, TheTableOfARunHasTheSurfacesOfTheTiles) {
+  const SurfaceMeans means = evaluate_surfaces(package, {SurfaceChoice::all, 3.0});
+  std::set<std::pair<std::string, std::uint32_t>> known;
+  for (const SurfaceMean& s : means.surfaces) known.emplace(s.building, s.surface);
+  const TileTree tree(frame);
+  std::size_t checked = 0;
+  for (const TileFeature& f : surfaces_of(package, frame, tree, {tree.level_of_cells(), 0, 0}).features) {
+    if (f.kind != SurfaceKind::roof && f.kind != SurfaceKind::wall) continue;
+    EXPECT_TRUE(known.contains({f.building, f.surface})) << f.building << ' ' << f.surface;
+    ++checked;
+  }
+  EXPECT_GT(checked, 0U);
 }
 
 TEST_F(Results, AReportIsAsMarksAtItsHeights) {

@@ -160,6 +160,25 @@ TEST_F(TilesOfVillage, ClustersMoveNothingByMoreThanTheError) {
   }
 }
 
+TEST_F(TilesOfVillage, AFlatBuildingShowsItsRoof) {
+  const TileSquare square{{200.0, 400.0}, 200.0};
+  TileSurfaces surfaces{{}, {{"a", 1, SurfaceKind::floor}, {"a", 2, SurfaceKind::roof}, {"a", 3, SurfaceKind::floor}}};
+  for (const std::uint32_t feature : {0U, 1U, 2U}) {
+    TileFacet facet;
+    facet.feature = feature;
+    facet.normal = {0.0, 0.0, feature == 1 ? 1.0 : -1.0};
+    const std::array<Point2d, 3> corners{Point2d{210.0, 410.0}, Point2d{260.0, 410.0}, Point2d{210.0, 460.0}};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Point2d p = frame_.local_from_grid(corners[feature == 1 ? k : 2 - k]);
+      facet.corners_local[k] = {p.x, p.y, feature == 1 ? 4.0 : 0.0};
+    }
+    surfaces.facets.push_back(facet);
+  }
+  move_into_clusters(frame_, square, 20.0, surfaces);
+  ASSERT_EQ(surfaces.facets.size(), 1U);
+  EXPECT_EQ(surfaces.facets[0].feature, 1U);
+}
+
 TEST_F(TilesOfVillage, ClustersStayOnTheBorder) {
   const TileSquare square{{200.0, 400.0}, 200.0}, east{{400.0, 400.0}, 200.0};
   TileSurfaces one{{}, {{"", 0, SurfaceKind::ground}}}, other = one;
