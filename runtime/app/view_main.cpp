@@ -59,7 +59,10 @@ void serve(const ViewCity& city, const ViewOptions& options, ViewSummary& summar
 
 void write_files(const ViewCity& city, const ViewOptions& options, ViewSummary& summary) {
   ProgressLine progress("tiles", options.run.verbosity);
-  const auto tell = [&](std::size_t done, std::size_t all) { progress.update(done, all); };
+  const auto tell = [&](std::size_t done, std::size_t all) {
+    progress.update(done, all);
+    if (Interruption::token().stop_requested()) throw Cancelled("the export was interrupted");
+  };
   const bool is_page = !options.export_page.empty();
   const ExportedView exported =
       is_page ? export_page(city, options.export_page, tell) : export_view(city, options.export_folder, tell);
@@ -116,6 +119,9 @@ int main(int argc, char** argv) {
   try {
     const ParsedViewOptions parsed = parse_view_options(argc, argv);
     return parsed.options ? run(*parsed.options) : parsed.exit_code;
+  } catch (const Cancelled&) {
+    fmt::print(stderr, "farlod-view: interrupted. Nothing was written.\n");
+    return Interruption::exit_code();
   } catch (const InvalidArgument& error) {
     return complain(error, exit_usage);
   } catch (const PackageDamaged& error) {

@@ -52,9 +52,10 @@ struct RawOptions {
 void add_options(CLI::App& app, RawOptions& raw, ViewOptions& o) {
   constexpr int most_ports = 65535;
   app.add_option("PACKAGE", raw.package, "A folder that farlod-pack made")->required()->type_name(folder_value);
-  app.add_option("RESULTS", o.results,
-                 "Results to draw: rasters and points of farlod-svf, each perhaps with the name of a band or field "
-                 "(svf.tif:svf_total), and reports of farlod-pack --report FILE.geojson")
+  app.add_option(
+         "RESULTS", o.results,
+         "Results to draw: rasters, points and surfaces (walls.surfaces.csv) of farlod-svf, each perhaps with the name of "
+         "a band or field (svf.tif:svf_total), and reports of farlod-pack --report FILE.geojson")
       ->type_name("FILE[:NAME]");
   auto* const port = app.add_option("--port", o.server.port, "Port to listen at; 0: any that is free")
                          ->capture_default_str()

@@ -17,6 +17,7 @@ struct ExportedView {
 };
 
 /// Is told tiles that are done, and how many there are.
+/// What it throws ends the export, of which nothing is left.
 using OnExportProgress = std::function<void(std::size_t done, std::size_t all)>;
 
 /// Writes the page, and all that it asks for of a city but single places, as files for any web server: the tiles down to whole

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <map>
 #include <optional>
 #include <stop_token>
@@ -44,8 +45,8 @@ class ViewCity {
 
   [[nodiscard]] const TileTree& tree() const { return tree_; }
   [[nodiscard]] const std::vector<ResultLayer>& results() const { return results_; }
-  /// Makes tiles of the first picture, the middle ones first, until it is told to stop, so that they are there when a browser has
-  /// started. What goes wrong is told to who asks for the tile.
+  /// Makes tiles that may be those of the first picture, the middle ones first, until it is told to stop or somebody asks for a
+  /// tile: a browser that has started knows which ones it needs. What goes wrong is told to who asks for the tile.
   void make_first_tiles(const std::stop_token& stop) const;
   /// view.json; `can_answer` says whether single places can be asked for.
   [[nodiscard]] std::string description(bool can_answer) const;
@@ -68,6 +69,7 @@ class ViewCity {
   TileTree tree_;
   std::vector<ResultLayer> results_;
   mutable TileCache tiles_;
+  mutable std::atomic<bool> tile_was_asked_for_ = false;
 };
 
 /// The labels of a layer's points, as JSON.

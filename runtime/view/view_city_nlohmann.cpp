@@ -203,6 +203,7 @@ std::optional<ViewReply> ViewCity::file_of_tileset(std::string_view path) const 
   const auto tile_address = address_in(path, "tiles/", '/', ".glb");
   if (!tile_address) return std::nullopt;
   if (!tree_.has_content(*tile_address)) throw BadRequest{404, "There is no such tile."};
+  tile_was_asked_for_ = true;
   return ViewReply{.type = of_glb, .body = *tiles_.get(*tile_address, [&] { return tile(*tile_address); })};
 }
 
@@ -226,7 +227,7 @@ std::string ViewCity::tile(const TileAddress& address) const {
 
 void ViewCity::make_first_tiles(const std::stop_token& stop) const {
   for (const TileAddress& address : tree_.largest_tiles_from_the_middle(tiles_made_ahead)) {
-    if (stop.stop_requested()) return;
+    if (stop.stop_requested() || tile_was_asked_for_) return;
     try {
       (void)tiles_.get(address, [&] { return tile(address); });
     } catch (const std::exception&) {

@@ -116,6 +116,18 @@ TEST_F(View, ExportsOnePageWithAllThatTheFolderHas) {
   folder.must("farlod-view a.farlod --export again.HTM --quiet --threads 1 && cmp town.html again.HTM");
 }
 
+TEST_F(View, ASignalEndsAnExportAndLeavesNothing) {
+  folder.must("farlod-city -o city.obj --size 1500 --quiet && farlod-pack city.obj -o city.farlod --crs EPSG:32632 --quiet");
+  for (const char* name : {"city_page", "city.html"}) {
+    const std::string begun = "until ls -A | grep -q '" + std::string(name) + ".'; do sleep .01; done";
+    const Outcome outcome =
+        folder.run("farlod-view city.farlod --export " + std::string(name) + " & p=$!; " + begun + "; kill -TERM $p; wait $p");
+    EXPECT_EQ(outcome.exit_code, exit_interrupted + 15);
+    EXPECT_THAT(outcome.err, HasSubstr("interrupted. Nothing was written."));
+    EXPECT_EQ(folder.run("ls -A | grep " + std::string(name)).out, "");
+  }
+}
+
 TEST_F(View, ExportsReplaceNothingElse) {
   folder.must("mkdir mine && touch mine/photo.jpg");
   expect_refusal(folder.run("farlod-view a.farlod --export mine --quiet"), exit_unusable_input, {"mine"});

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 import { type DataTexture, DoubleSide, GLSL3, ShaderMaterial } from "three";
+import { noValue } from "./results.ts";
 import type { ShownValues } from "./shown_values.ts";
 import { colourOfRamp, rampTexture } from "./value_colours.ts";
 import type { ViewInfo } from "./view_info.ts";
@@ -16,13 +17,15 @@ const vertexShader = /* glsl */ `
   in vec2 tabled;  // of a surface of a building, where tables have values: shown and compared
   #ifdef WITH_VALUE
   in float _svf;
-  out float svf;
   #endif
   uniform int hidden;
+  uniform bool shownIsTabled, comparedIsTabled;
   out float shade;
   out vec2 place;       // local
   flat out int isGround;
-  flat out vec2 ofTables;
+  flat out vec2 values;  // shown and compared; of the ground, those that its rasters stand in for
+
+  const float noValue = ${noValue.toExponential()};
 
   // From the north-west and above, as maps are lit. A level facet keeps the colour of the legend
   const vec3 light = vec3(-0.51, 0.51, 0.69);
@@ -30,10 +33,13 @@ const vertexShader = /* glsl */ `
   void main() {
     int kind = int(facet.w * 127.0 + 0.5);
     #ifdef WITH_VALUE
-    svf = _svf;
+    values = vec2(_svf);
+    #else
+    values = vec2(noValue);
     #endif
+    if (kind != 0 && shownIsTabled) values.x = tabled.x;
+    if (kind != 0 && comparedIsTabled) values.y = tabled.y;
     isGround = kind == 0 ? 1 : 0;
-    ofTables = tabled;
     place = (modelMatrix * vec4(position, 1.0)).xy;
     vec3 normal = normalize(facet.xyz);
     // Simplified ground has slivers, whichever way they look
@@ -50,13 +56,10 @@ const fragmentShader = /* glsl */ `
   in float shade;
   in vec2 place;
   flat in int isGround;
-  flat in vec2 ofTables;
-  #ifdef WITH_VALUE
-  in float svf;
-  #endif
+  flat in vec2 values;
   uniform sampler2D ramp, differences, shownRaster, comparedRaster;
   uniform mat3 shownPixel, comparedPixel;
-  uniform bool shownIsComputed, comparedIsComputed, shownIsTabled, comparedIsTabled;
+  uniform bool shownIsComputed, comparedIsComputed;
   uniform vec2 range;
   uniform int groundComparing, buildingsComparing;  // 0: nothing; 1: side by side; 2: by the difference; 3: without colours
   uniform float greatestDifference, divider_px;
@@ -80,23 +83,11 @@ const fragmentShader = /* glsl */ `
     return colourOf(differences, difference, vec2(-greatestDifference, greatestDifference), nodata);
   }
 
-  vec3 colourOfGround(float computed) {
-    float a = shownIsComputed ? computed : valueAt(shownRaster, shownPixel);
-    float b = groundComparing == 0 || comparedIsComputed ? computed : valueAt(comparedRaster, comparedPixel);
-    return colourOfPair(a, b, groundComparing);
-  }
-
-  vec3 colourOfBuilding(float computed) {
-    return colourOfPair(shownIsTabled ? ofTables.x : computed, comparedIsTabled ? ofTables.y : computed, buildingsComparing);
-  }
-
   void main() {
-    #ifdef WITH_VALUE
-    float computed = svf;
-    #else
-    float computed = noValue;
-    #endif
-    colour = vec4((isGround == 1 ? colourOfGround(computed) : colourOfBuilding(computed)) * shade, 1.0);
+    vec2 shown = values;
+    if (isGround == 1 && !shownIsComputed) shown.x = valueAt(shownRaster, shownPixel);
+    if (isGround == 1 && !comparedIsComputed && groundComparing != 0) shown.y = valueAt(comparedRaster, comparedPixel);
+    colour = vec4(colourOfPair(shown.x, shown.y, isGround == 1 ? groundComparing : buildingsComparing) * shade, 1.0);
   }
 `;
 
