@@ -79,10 +79,6 @@ class FeatureNumbers {
   std::vector<TileFeature> features_;
 };
 
-}  // namespace
-
-namespace {
-
 /// Which triangles of a larger tile are a line or a point once their vertices have moved into clusters: nearly all of them.
 class VanishingTriangles {
  public:

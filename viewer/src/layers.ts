@@ -5,12 +5,16 @@ import { part } from "./page_parts.ts";
 
 const names: readonly LayerName[] = ["ground", "roofs", "facades", "grid"];
 
+/** On a screen as small as style.css has it, the boxes and lists would cover the city: they are folded until somebody opens them. */
+const smallScreen = "(max-width: 760px)";
+
 /** The boxes that switch layers. */
 export class LayerBoxes {
   private readonly boxes = new Map(names.map((name) => [name, part(`layer-${name}`, HTMLInputElement)]));
 
   constructor(onChange: () => void) {
     for (const box of this.boxes.values()) box.addEventListener("change", onChange);
+    part("controls", HTMLDetailsElement).open = !window.matchMedia(smallScreen).matches;
   }
 
   shows(name: LayerName): boolean {

@@ -21,7 +21,7 @@ const vertexShader = /* glsl */ `
   uniform int hidden;
   uniform bool shownIsTabled, comparedIsTabled;
   out float shade;
-  out vec2 place;       // local
+  out vec2 place;  // local
   flat out int isGround;
   flat out vec2 values;  // shown and compared; of the ground, those that its rasters stand in for
 
