@@ -46,8 +46,12 @@ export async function until(page, what, condition, timeout_ms = 90000) {
   }
 }
 
-/** Until the camera stands still, all tiles are drawn and all answers are there. */
-export const atRest = (page) => until(page, "rest", ({ resting }) => resting);
+/** Until the camera stands still, all tiles are drawn and all answers are there; and the browser has shown what was drawn. */
+export async function atRest(page) {
+  const now = await until(page, "rest", ({ resting }) => resting);
+  await page.evaluate(() => new Promise((shown) => requestAnimationFrame(() => requestAnimationFrame(shown))));
+  return now;
+}
 
 /** The address of a page, which it writes some time after the last change, once it has a text. */
 export async function linkWith(page, text) {

@@ -3,7 +3,7 @@
 //
 // What is seen when the page opens.
 import { readFileSync, writeFileSync } from "node:fs";
-import { decoded, differing, pixels, ready, atRest, share, state } from "./browser.mjs";
+import { decoded, differing, pixels, ready, atRest, seen, share, state } from "./browser.mjs";
 import { expect, expectEqual } from "./checks.mjs";
 
 /** The city, without the cards at its sides. */
@@ -120,6 +120,7 @@ export const lookTests = {
       await atRest(page);
     }
     for (const [layer, change] of Object.entries(changes)) expect(change > 0.002, `the layer ${layer} changes ${(100 * change).toFixed(2)} % of the picture`);
-    expect(differing(whole, await pixels(page, city)) < 0.001, "the layers do not come back as they were");
+    const change = await seen(async () => differing(whole, await pixels(page, city)), (now) => now < 0.001);
+    expect(change < 0.001, `the layers do not come back as they were: ${(100 * change).toFixed(2)} % differ`);
   },
 };

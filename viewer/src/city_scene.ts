@@ -52,9 +52,9 @@ export class CityScene {
     loop();
   }
 
-  /** Whether what is drawn stays as it is. */
+  /** Whether all is drawn that was asked for, and stays as it is. */
   get isResting(): boolean {
-    return !this.moving && !this.dirty;
+    return !this.moving && !this.dirty && this.lastFrame_ms < Infinity;
   }
 
   /** How long the last frame took until it was drawn, in milliseconds; Infinity as long as it is not. */
