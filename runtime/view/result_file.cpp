@@ -82,7 +82,7 @@ std::vector<std::array<float, 3>> places_of(const std::vector<RequestedPoint>& p
 /// "107 zero_area, left out: house_3. All points lie on a line."
 std::string problem_text(const Attributes& attributes, std::size_t row) {
   const auto text = [&](std::string_view name) {
-    const auto column = column_of(attributes, name);
+    const auto column = column_of(attributes.names(), name);
     return column ? std::string(attributes.value(row, *column)) : std::string();
   };
   std::string words = text("code") + " " + text("problem");
@@ -104,7 +104,7 @@ std::optional<double> height_of_problem(std::string_view position) {
 
 void label_problems(RequestedPoints& read, ResultLayer& layer) {
   layer.form = ResultForm::problems;
-  const auto position = column_of(read.attributes, "position");
+  const auto position = column_of(read.attributes.names(), "position");
   for (std::size_t n = 0; n < read.points.size(); ++n) {
     layer.labels.push_back(problem_text(read.attributes, n));
     if (position && !read.points[n].z) read.points[n].z = height_of_problem(read.attributes.value(n, *position));
@@ -115,7 +115,7 @@ ResultLayer layer_of_points(const ResultRequest& request, const Package& package
   RequestedPoints read = read_points(request.file, package.description().crs_wkt);
   ResultLayer layer{.name = request.file.filename().string(), .count = read.points.size()};
   thin(read, most_points_of_layer);
-  const bool has_fields_of_report = column_of(read.attributes, "problem") && column_of(read.attributes, "effect");
+  const bool has_fields_of_report = column_of(read.attributes.names(), "problem") && column_of(read.attributes.names(), "effect");
   // A report of a city without problems has no features, and so no fields
   const bool is_report = has_fields_of_report || (read.points.empty() && read.skipped_features == 0);
   if (read.points.empty() && !is_report)

@@ -18,16 +18,21 @@
 namespace farlod {
 namespace {
 
-bool has(const std::vector<std::string>& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
-
 /// Receivers on surfaces have places besides, and are drawn as points.
 bool are_of_surfaces(const std::vector<std::string>& names) {
-  return has(names, "building") && has(names, "surface") && !has(names, "x_m");
+  return column_of(names, "building") && column_of(names, "surface") && !column_of(names, "x_m");
 }
 
 /// The table of surfaces in a file, if there is one.
 std::optional<Attributes> read_table(const std::filesystem::path& file) {
-  if (is_point_table(file)) return are_of_surfaces(read_header_csv(file)) ? std::optional(read_table_csv(file)) : std::nullopt;
+  if (is_point_table(file)) {
+    const std::vector<std::string> names = read_header_csv(file);
+    if (column_of(names, "building") && !column_of(names, "surface") && !column_of(names, "x_m"))
+      throw InputError(file.string() +
+                       " has a row for each building. Buildings are coloured surface by surface: give the table " +
+                       "FILE.surfaces.csv of farlod-svf --surfaces.");
+    return are_of_surfaces(names) ? std::optional(read_table_csv(file)) : std::nullopt;
+  }
 #ifdef FARLOD_WITH_GDAL
   std::optional<Attributes> table = read_table_gdal(file, "surfaces");
   return table && are_of_surfaces(table->names()) ? std::move(table) : std::nullopt;
@@ -46,15 +51,15 @@ std::uint32_t surface_number_in(std::string_view text, const ResultRequest& requ
 
 }  // namespace
 
-std::optional<std::size_t> column_of(const Attributes& table, std::string_view name) {
-  const auto found = std::ranges::find(table.names(), name);
-  if (found == table.names().end()) return std::nullopt;
-  return static_cast<std::size_t>(found - table.names().begin());
+std::optional<std::size_t> column_of(const std::vector<std::string>& names, std::string_view name) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names.begin());
 }
 
 std::size_t column_of_values(const Attributes& table, const ResultRequest& request, std::string_view usual) {
   const std::string name = request.quantity.empty() ? std::string(usual) : request.quantity;
-  if (const auto column = column_of(table, name)) return *column;
+  if (const auto column = column_of(table.names(), name)) return *column;
   std::string names;
   for (const std::string& other : table.names()) names += (names.empty() ? "" : ", ") + other;
   throw InputError(request.file.string() + " has no field " + name + (names.empty() ? "." : ": it has " + names + ".") +
@@ -70,7 +75,7 @@ float number_or_nan(std::string_view text) {
 std::optional<ResultLayer> layer_of_surfaces(const ResultRequest& request) {
   const std::optional<Attributes> table = read_table(request.file);
   if (!table) return std::nullopt;
-  const std::size_t building = *column_of(*table, "building"), surface = *column_of(*table, "surface");
+  const std::size_t building = *column_of(table->names(), "building"), surface = *column_of(table->names(), "surface");
   const std::size_t column = column_of_values(*table, request, "svf_mean");
   ResultLayer layer{.form = ResultForm::surfaces,
                     .name = request.file.filename().string(),

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "points/attributes.hpp"
 #include "view/result_layer.hpp"
@@ -18,8 +19,8 @@ struct ResultRequest {
   std::string quantity;  ///< perhaps empty
 };
 
-/// The column with this name, if there is one.
-[[nodiscard]] std::optional<std::size_t> column_of(const Attributes& table, std::string_view name);
+/// The number of the column with this name, if there is one.
+[[nodiscard]] std::optional<std::size_t> column_of(const std::vector<std::string>& names, std::string_view name);
 
 /// The column of the values: that which the request names, else `usual`. Throws InputError, with the columns that are there.
 [[nodiscard]] std::size_t column_of_values(const Attributes& table, const ResultRequest& request, std::string_view usual);

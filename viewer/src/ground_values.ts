@@ -5,7 +5,7 @@ import type { RasterResult } from "./results.ts";
 import type { SourcePair } from "./value_pairs.ts";
 
 /** What the ground shows: the values of the tiles, or a raster. */
-export type GroundSource = RasterResult | "computed";
+type GroundSource = RasterResult | "computed";
 
 /** One source in the shader. */
 interface SourceUniforms {

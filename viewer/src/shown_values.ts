@@ -7,7 +7,7 @@ import type { RasterResult, SurfacesResult } from "./results.ts";
 import { differenceColours, rampTexture } from "./value_colours.ts";
 import { commonRange, type Comparison, greatestDifference, isUnit, type SourcePair, usualDifference } from "./value_pairs.ts";
 
-export interface ValueChoice {
+interface ValueChoice {
   ground: SourcePair<RasterResult>;
   buildings: SourcePair<SurfacesResult>;
   comparison: Comparison;

@@ -147,6 +147,8 @@ TEST_F(Results, ATableHasValuesOfSurfaces) {
 TEST_F(Results, ATableOfSurfacesThatIsNoneIsRefused) {
   EXPECT_THAT(refusal_of(file("a.csv", "building,surface,svf_mean\na,first,.5\n")),
               HasSubstr("\"first\" is no number of a surface"));
+  EXPECT_THAT(refusal_of(file("walls.buildings.csv", "building,roof_area_m2,svf_roofs\na,10,.5\n")),
+              AllOf(HasSubstr("a row for each building"), HasSubstr("FILE.surfaces.csv")));
   // With places it has receivers
   EXPECT_EQ(read(file("b.csv", "building,surface,x_m,y_m,svf\na,1," + place(1, 2) + ",.5\n")).form, ResultForm::points);
 }
