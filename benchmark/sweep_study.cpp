@@ -11,7 +11,7 @@ namespace farlod::benchmark {
 namespace {
 
 constexpr std::array<std::size_t, 2> azimuth_counts{64, 128};
-constexpr float head_m = 1.5F;
+constexpr float eye_height_m = 1.5F;
 
 /// The pixels on whose centres receivers stand: both come from the same plan.
 std::vector<std::size_t> pixels_of(const PackageReader& package, const RasterPlan& plan, const CityReceivers& receivers) {
@@ -46,7 +46,7 @@ SweepStudy study_sweep(const City& city, const Extent& extent) {
   SweepStudy study;
   HeightRaster raster;
   study.raster_s = median_seconds(extent.turns, [&] { raster = rasterise(city.package, extent.spacing_m(Place::ground)); });
-  const LineSweep sweep(raster, head_m);
+  const LineSweep sweep(raster, eye_height_m);
   study.pixel_m = extent.spacing_m(Place::ground);
   study.pixels = raster.surface_m.size();
   study.receivers = sweep.receiver_count();

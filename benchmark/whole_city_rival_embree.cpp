@@ -17,7 +17,7 @@
 namespace farlod::benchmark {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float farthest_m = std::numeric_limits<float>::infinity();
 /// Packets that a thread takes at a time.
 constexpr std::size_t packets_at_once = 16;
 
@@ -115,7 +115,7 @@ struct WholeCityRival::Impl {
     if (variant.ends_above_city)
       lanes.end_at(top_m);
     else
-      std::fill_n(lanes.rays.tfar, packet_lanes, infinity);
+      std::fill_n(lanes.rays.tfar, packet_lanes, farthest_m);
     if (variant.packets)
       ask_occluded(lanes.valid.data(), scene, arguments, lanes.rays);
     else

@@ -12,7 +12,7 @@
 namespace farlod {
 namespace {
 
-constexpr const char* beginning = R"(# SPDX-FileCopyrightText: The Far-LoD authors
+constexpr const char* bash_beginning = R"(# SPDX-FileCopyrightText: The Far-LoD authors
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
 
@@ -81,7 +81,7 @@ std::string bash_completion(const std::string& program, const OptionList& option
     for (const OptionDescription& option : group.options) names.insert(names.end(), option.names.begin(), option.names.end());
   std::string function = "_" + program;
   std::ranges::replace(function, '-', '_');
-  std::string script = beginning + cases_of(options) + with(middle, "OPTIONS", fmt::format("{}", fmt::join(names, " ")));
+  std::string script = bash_beginning + cases_of(options) + with(middle, "OPTIONS", fmt::format("{}", fmt::join(names, " ")));
   script += options.arguments.empty() ? "" : "  " + completed(options.arguments.front()) + "\n";
   return with(with(script + end, "FUNCTION", function), "PROGRAM", program);
 }

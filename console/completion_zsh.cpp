@@ -10,7 +10,7 @@
 namespace farlod {
 namespace {
 
-constexpr const char* beginning = R"(
+constexpr const char* zsh_beginning = R"(
 # SPDX-FileCopyrightText: The Far-LoD authors
 # SPDX-License-Identifier: Apache-2.0
 
@@ -68,7 +68,7 @@ std::string specification_of_argument(const OptionDescription& argument) {
 }  // namespace
 
 std::string zsh_completion(const std::string& program, const OptionList& options) {
-  std::string script = "#compdef " + program + beginning;
+  std::string script = "#compdef " + program + zsh_beginning;
   for (const OptionGroup& group : options.groups)
     for (const OptionDescription& option : group.options) script += specifications(option, group);
   for (const OptionDescription& argument : options.arguments) script += specification_of_argument(argument);

@@ -12,7 +12,7 @@
 namespace farlod {
 namespace {
 
-constexpr std::size_t longest_line = 80;
+constexpr std::size_t longest_source_line = 80;
 
 /// The first character of UTF-8, which is taken from `text`. Bytes that are no UTF-8 are taken one by one.
 char32_t take_character(std::string_view& text) {
@@ -93,7 +93,7 @@ std::string roff_paragraph(std::string_view text) {
   for (std::sregex_token_iterator word(all.begin(), all.end(), blanks, -1); word != std::sregex_token_iterator(); ++word) {
     if (word->length() == 0) continue;
     const std::string next = roff_word(*word);
-    const bool breaks = length > 0 && (sentence_ended || length + 1 + next.size() > longest_line);
+    const bool breaks = length > 0 && (sentence_ended || length + 1 + next.size() > longest_source_line);
     roff.append(breaks ? "\n" : length > 0 ? " " : "").append(next);
     length = (breaks || length == 0 ? 0 : length + 1) + next.size();
     sentence_ended = ends_sentence(word->str());

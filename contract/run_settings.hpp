@@ -37,6 +37,13 @@ inline void require_count_between(const char* setting, std::size_t value, std::s
                         " to " + std::to_string(high));
 }
 
+/// Beyond it lies nothing that anybody maps, in metres or degrees.
+inline constexpr double farthest_coordinate = 1e8;
+
+inline void require_coordinate(const char* setting, double value) {
+  require_between(setting, value, -farthest_coordinate, farthest_coordinate);
+}
+
 /// An enumeration may hold any number, when a caller casts to it.
 template <class Enum>
 void require_one_of(const char* setting, Enum value, Enum last) {

@@ -31,7 +31,7 @@ constexpr std::array file_names{"SourceFilename"sv, "SourceDataset"sv, "SrcDataS
 constexpr std::array refused_elements{"PixelFunctionCode"sv, "PixelFunctionLanguage"sv, "SrcSQL"sv, "OpenOptions"sv};
 
 template <std::size_t n>
-bool lists(const std::array<std::string_view, n>& names, const char* name) {
+bool names_entry(const std::array<std::string_view, n>& names, const char* name) {
   return std::any_of(names.begin(), names.end(), [&](std::string_view one) { return EQUAL(one.data(), name); });
 }
 
@@ -85,11 +85,11 @@ class VirtualFiles {
     if (node.eType == CXT_Text) return require_no_system(node.pszValue);
     // GDAL takes an attribute for an element of the same name
     if (node.eType != CXT_Element && node.eType != CXT_Attribute) return;
-    if (lists(refused_elements, node.pszValue))
+    if (names_entry(refused_elements, node.pszValue))
       throw InputError(file_ + " has an element " + node.pszValue +
                        ", which may run code or open anything: have gdal_translate or ogr2ogr write it to a file of its own.");
     const bool is_entry = EQUAL(node.pszValue, "MDI");
-    if (lists(file_names, is_entry ? CPLGetXMLValue(&node, "key", "") : node.pszValue)) {
+    if (names_entry(file_names, is_entry ? CPLGetXMLValue(&node, "key", "") : node.pszValue)) {
       const std::string name = CPLGetXMLValue(&node, nullptr, "");
       if (!name.empty()) take_source(name);
     }

@@ -11,13 +11,13 @@
 namespace farlod::validation {
 namespace {
 
-constexpr double cell_edge_m = 50.0;
-constexpr int neighborhood = 3;
+constexpr double turned_cell_edge_m = 50.0;
+constexpr int turned_neighborhood = 3;
 /// Four blocks meet in the middle of the city. However the grid is turned or moved, receivers within this circle are in them.
-constexpr int block_edge = 8;
+constexpr int turned_block_edge = 8;
 constexpr double circle_m = 370.0;
 
-std::vector<Cell> middle_cells(const Grid& grid) {
+std::vector<Cell> cells_of_circle(const Grid& grid) {
   std::vector<Cell> cells;
   for (const Cell cell : all_cells(grid)) {
     const Block block = grid.block_of(cell);
@@ -27,15 +27,15 @@ std::vector<Cell> middle_cells(const Grid& grid) {
   return cells;
 }
 
-struct MiddleSites {
+struct CircleSites {
   std::vector<Site> sites;
   std::vector<double> exact;
 };
 
-MiddleSites middle_sites(const StudiedCity& city, const Extent& extent) {
-  const CutCity pieces = cut(city, city.streets, cell_edge_m, block_edge);
+CircleSites sites_in_circle(const StudiedCity& city, const Extent& extent) {
+  const CutCity pieces = cut(city, city.streets, turned_cell_edge_m, turned_block_edge);
   const SitePackage nothing_baked = without_far_maps(pieces);
-  MiddleSites middle{ground_sites(nothing_baked.package(), middle_cells(pieces.grid), extent.fewer_receivers), {}};
+  CircleSites middle{ground_sites(nothing_baked.package(), cells_of_circle(pieces.grid), extent.fewer_receivers), {}};
   std::erase_if(middle.sites, [](const Site& s) { return norm(horizontal(s.p_city)) > circle_m; });
   middle.exact =
       sky_at(nothing_baked.package(), {Engine::exact, SkyWeight::cosine, extent.reference_rays, std::nullopt}, middle.sites).svf;
@@ -47,12 +47,12 @@ struct Turned {
   SkyFigures figures;  ///< of the kind `horizon`
 };
 
-Turned study_turn(const StudiedCity& city, const MiddleSites& middle, double turn_deg, std::size_t rays) {
+Turned study_turn(const StudiedCity& city, const CircleSites& middle, double turn_deg, std::size_t rays) {
   tell(city.name + ": grid turned by " + std::to_string(static_cast<int>(turn_deg)) + " degrees");
-  const CutCity pieces = cut(city, city.streets + Angle::degrees(turn_deg), cell_edge_m, block_edge);
-  const std::vector<Cell> cells = middle_cells(pieces.grid);
-  const SitePackage box(pieces, neighborhood, of_kind(FarMapKind::box), cells);
-  const SitePackage horizon(pieces, neighborhood, of_kind(FarMapKind::horizon), cells);
+  const CutCity pieces = cut(city, city.streets + Angle::degrees(turn_deg), turned_cell_edge_m, turned_block_edge);
+  const std::vector<Cell> cells = cells_of_circle(pieces.grid);
+  const SitePackage box(pieces, turned_neighborhood, of_kind(FarMapKind::box), cells);
+  const SitePackage horizon(pieces, turned_neighborhood, of_kind(FarMapKind::horizon), cells);
   const SkySettings settings{Engine::rays, SkyWeight::cosine, rays, std::nullopt};
   SkyFigures ours = sky_at(horizon.package(), settings, middle.sites);
   const std::vector<double> papers = sky_at(box.package(), settings, middle.sites).svf;
@@ -62,14 +62,14 @@ Turned study_turn(const StudiedCity& city, const MiddleSites& middle, double tur
 }
 
 /// The same city, somewhere else under the grid.
-SkyFigures figures_of_moved(const StudiedCity& city, const MiddleSites& middle, double move_m, std::size_t rays) {
+SkyFigures figures_of_moved(const StudiedCity& city, const CircleSites& middle, double move_m, std::size_t rays) {
   tell(city.name + ": grid moved");
   StudiedCity moved = city;
   for (Point3d& p : moved.city.points()) p = p + Point3d{move_m, move_m, 0.0};
   std::vector<Site> sites = middle.sites;
   for (Site& site : sites) site.p_city = site.p_city + Point3d{move_m, move_m, 0.0};
-  const CutCity pieces = cut(moved, moved.streets, cell_edge_m, block_edge);
-  const SitePackage horizon(pieces, neighborhood, {}, cells_of(pieces.grid, sites));
+  const CutCity pieces = cut(moved, moved.streets, turned_cell_edge_m, turned_block_edge);
+  const SitePackage horizon(pieces, turned_neighborhood, {}, cells_of(pieces.grid, sites));
   return sky_at(horizon.package(), {Engine::rays, SkyWeight::cosine, rays, std::nullopt}, sites);
 }
 
@@ -90,13 +90,13 @@ MovedGrid compare(const SkyFigures& a, const SkyFigures& b, std::size_t rays) {
 }  // namespace
 
 AlignmentStudy study_alignment(const StudiedCity& city, const Extent& extent) {
-  const MiddleSites middle = middle_sites(city, extent);
+  const CircleSites middle = sites_in_circle(city, extent);
   const std::size_t rays = extent.reference_rays;
   std::vector<Turned> turned;
   for (const double turn_deg : {0.0, 10.0, 20.0, 30.0, 45.0}) turned.push_back(study_turn(city, middle, turn_deg, rays));
   AlignmentStudy study;
   for (const Turned& t : turned) study.turned.push_back(t.row);
-  const SkyFigures moved = figures_of_moved(city, middle, cell_edge_m / 3.0, rays);
+  const SkyFigures moved = figures_of_moved(city, middle, turned_cell_edge_m / 3.0, rays);
   study.by_a_third_of_a_cell = compare(turned[0].figures, moved, rays);
   study.turned_by_10_deg = compare(turned[0].figures, turned[1].figures, rays);
   return study;

@@ -16,7 +16,7 @@ namespace {
 /// Along a kerb: from tree to tree at least, and what may be added to it; from the kerb towards the street.
 constexpr double kerb_spacing_m = 6.0, kerb_slack_m = 6.0, from_kerb_m = 1.0;
 /// A yard has about one place for a tree in so many square metres; in how many of them one stands, in yards and in parks.
-constexpr double yard_place_m2 = 120.0, yard_share = 0.35, park_share = 0.9, from_house_m = 2.0;
+constexpr double yard_place_m2 = 120.0, yard_place_share = 0.35, park_place_share = 0.9, from_house_m = 2.0;
 /// A block with fewer buildings is a park.
 constexpr std::size_t least_buildings = 3;
 
@@ -69,7 +69,7 @@ std::vector<GeneratedTree> trees_of_block(const CitySettings& settings, CityBloc
         trees.push_back(tree_at(frame.plan_from_lot({on_plan_grid_m(u), -from_kerb_m}), random, rotation));
   }
   const std::vector<Box2d> houses = houses_in_plan(buildings, rotation);
-  const double share = buildings.size() < least_buildings ? park_share : yard_share;
+  const double share = buildings.size() < least_buildings ? park_place_share : yard_place_share;
   const Point2d size = rectangle.high - rectangle.low;
   const auto places = static_cast<int>(size.x * size.y / yard_place_m2);
   for (int n = 0; n < places; ++n) {

@@ -18,8 +18,6 @@ constexpr std::size_t least_piece = std::size_t{64} << 10;
 /// Each file is a quarter of all before it, or as large as this: few files, little of their room unused.
 constexpr std::size_t least_file = std::size_t{16} << 20;
 
-std::size_t rounded_up(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
-
 /// A file, filled from its beginning. It ends when none of its pieces is in use.
 struct Segment {
   PageFile file;

@@ -14,8 +14,6 @@ namespace {
 /// By how much a file grows at a time. All that is behind is let go then.
 constexpr std::size_t step_on_disk = std::size_t{8} << 20;
 
-std::size_t rounded_up(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
-
 }  // namespace
 
 // Only realloc grows memory in its place, and it takes what malloc gave. NOLINTBEGIN(cppcoreguidelines-no-malloc)

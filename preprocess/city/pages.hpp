@@ -9,6 +9,9 @@
 
 namespace farlod {
 
+/// The least multiple of `unit` that is no smaller.
+[[nodiscard]] constexpr std::size_t rounded_up(std::size_t bytes, std::size_t unit) { return (bytes + unit - 1) / unit * unit; }
+
 /// Bytes that grow at their end. Many of them move to a file (PageFile), so that their pages can be let go. Where no such file
 /// has room, they stay in memory. Growing moves `data`.
 class Pages {

@@ -76,7 +76,7 @@ Area shapes_of(OGRLayer& layer) {
   return area;
 }
 
-std::string_view trimmed(std::string_view field) {
+std::string_view trimmed_field(std::string_view field) {
   const auto blank = [](char c) { return c == ' ' || c == '\t'; };
   while (!field.empty() && blank(field.front())) field.remove_prefix(1);
   while (!field.empty() && blank(field.back())) field.remove_suffix(1);
@@ -84,7 +84,7 @@ std::string_view trimmed(std::string_view field) {
 }
 
 double number_in(std::string_view field, const Feature& feature, const std::filesystem::path& file) {
-  std::string_view digits = trimmed(field);
+  std::string_view digits = trimmed_field(field);
   if (digits.starts_with('+')) digits.remove_prefix(1);
   double value = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);

@@ -100,7 +100,7 @@ Raster make_ready(const std::filesystem::path& path, const std::string& fallback
 }
 
 /// Half-open ranges of columns and rows.
-struct Window {
+struct CanopyWindow {
   int column = 0, row = 0, column_end = 0, row_end = 0;
 
   [[nodiscard]] bool is_empty() const { return column >= column_end || row >= row_end; }
@@ -109,7 +109,7 @@ struct Window {
 };
 
 /// The pixels that a rectangle meets, and one more at each side.
-Window window_of(const Raster& raster, const Box2d& wanted) {
+CanopyWindow window_of(const Raster& raster, const Box2d& wanted) {
   const PixelFrame frame = raster.frame();
   Box2d box;
   for (const Point2d corner :
@@ -123,7 +123,7 @@ Window window_of(const Raster& raster, const Box2d& wanted) {
           within(std::ceil(box.high.x) + 1.0, columns), within(std::ceil(box.high.y) + 1.0, rows)};
 }
 
-PagedArray<float> read_heights(const Raster& raster, const Window& w, const std::stop_token& stop) {
+PagedArray<float> read_heights(const Raster& raster, const CanopyWindow& w, const std::stop_token& stop) {
   PagedArray<float> heights;
   std::vector<double> values(w.columns());
   GDALRasterBand& band = *raster.dataset().GetRasterBand(1);
@@ -149,7 +149,7 @@ bool lie_alike(const Raster& a, const Raster& b) {
 /// The trunks below each cell that has data: those of the pixel at its centre.
 PagedArray<float> trunks_below(const CanopyRaster& canopy, const Raster& trunks, const Box2d& wanted, Point2d origin_m,
                                const std::stop_token& stop) {
-  const Window w = window_of(trunks, wanted);
+  const CanopyWindow w = window_of(trunks, wanted);
   const PagedArray<float> heights = w.is_empty() ? PagedArray<float>() : read_heights(trunks, w, stop);
   const PixelFrame frame = trunks.frame();
   PagedArray<float> below;
@@ -165,7 +165,7 @@ PagedArray<float> trunks_below(const CanopyRaster& canopy, const Raster& trunks,
 }
 
 CanopyRaster read_tops(const Raster& tops, const Box2d& wanted, Point2d origin_m, const std::stop_token& stop) {
-  const Window w = window_of(tops, wanted);
+  const CanopyWindow w = window_of(tops, wanted);
   if (w.is_empty())
     throw InputError(
         tops.path.string() +

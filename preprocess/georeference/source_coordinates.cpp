@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "farlod/box.hpp"
 #include "farlod/error.hpp"
 #include "georeference/crs_area.hpp"
+#include "georeference/place_text.hpp"
 
 namespace farlod::georeference {
 namespace {
@@ -34,13 +34,6 @@ double larger_side(std::span<const Point3d> points) {
 
 bool may_be_lon_lat(Point2d p) {
   return std::abs(p.x) <= 180.0 && std::abs(p.y) <= 180.0 && std::min(std::abs(p.x), std::abs(p.y)) <= 90.0;
-}
-
-std::string text_of(Point2d p) {
-  std::ostringstream text;
-  text.precision(10);
-  text << p.x << ", " << p.y;
-  return text.str();
 }
 
 /// By medians, which a few stray buildings do not change.
@@ -118,7 +111,7 @@ bool may_count_in(const TypicalPlace& typical, const Crs& crs) {
 
 void check_units(const SourceCity& source, const TypicalPlace& typical, const Crs& crs, const std::string& advice) {
   if (may_count_in(typical, crs)) return;
-  const std::string end = " (" + text_of(horizontal(typical.place)) + "): " + advice;
+  const std::string end = " (" + place_text(horizontal(typical.place)) + "): " + advice;
   if (crs.is_projected())
     throw InputError(source.source + ": its CRS " + crs.name() + " is projected, but its coordinates look like degrees" + end);
   throw InputError(source.source + ": its CRS " + crs.name() + " counts in degrees, but its coordinates cannot be degrees" + end);

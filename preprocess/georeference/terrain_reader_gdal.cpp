@@ -39,7 +39,7 @@ GDALDatasetUniquePtr warped(GDALDataset& dataset, const Crs& from, const Crs& to
 }
 
 /// Half-open ranges of columns and rows.
-struct Window {
+struct TerrainWindow {
   int column = 0, row = 0, column_end = 0, row_end = 0;
 };
 
@@ -51,7 +51,7 @@ std::pair<int, int> pixels_around(double low, double high, int count) {
   return {static_cast<int>(begin), static_cast<int>(end)};
 }
 
-Window window_of(GDALDataset& dataset, const GeoTransform& t, const std::optional<Box2d>& wanted) {
+TerrainWindow window_of(GDALDataset& dataset, const GeoTransform& t, const std::optional<Box2d>& wanted) {
   const int columns = dataset.GetRasterXSize(), rows = dataset.GetRasterYSize();
   if (!wanted) return {0, 0, columns, rows};
   const auto [column, column_end] = pixels_around((wanted->low.x - t[0]) / t[1], (wanted->high.x - t[0]) / t[1], columns);
@@ -72,7 +72,8 @@ HeightScale height_scale(GDALRasterBand& band, const Crs& crs) {
 }
 
 /// Appends a row of pixels; masked pixels are empty. Returns false when the file is cut short.
-[[nodiscard]] bool append_row(GDALRasterBand& band, const Window& w, int row, const HeightScale& scale, TerrainRaster& terrain) {
+[[nodiscard]] bool append_row(GDALRasterBand& band, const TerrainWindow& w, int row, const HeightScale& scale,
+                              TerrainRaster& terrain) {
   std::vector<double> values(static_cast<std::size_t>(w.column_end - w.column));
   if (!read_pixels(band, w.column, row, values)) return false;
   for (const double value : values)
@@ -81,8 +82,8 @@ HeightScale height_scale(GDALRasterBand& band, const Crs& crs) {
 }
 
 /// Empty when the file is cut short.
-std::optional<TerrainRaster> read_window(GDALDataset& dataset, const GeoTransform& t, const Window& w, const HeightScale& scale,
-                                         Point2d origin) {
+std::optional<TerrainRaster> read_window(GDALDataset& dataset, const GeoTransform& t, const TerrainWindow& w,
+                                         const HeightScale& scale, Point2d origin) {
   TerrainRaster terrain;
   terrain.columns = static_cast<std::size_t>(w.column_end - w.column);
   terrain.rows = static_cast<std::size_t>(w.row_end - w.row);
@@ -146,7 +147,7 @@ TerrainRaster read_terrain(const TerrainFile& file, const std::string& fallback_
   const ReadyRaster ready = make_ready(file, fallback_crs, *output);
   const GeoTransform t = geo_transform_of(ready.dataset(), file.path);
   if (wanted_city) *wanted_city = {wanted_city->low + georeference.origin_m, wanted_city->high + georeference.origin_m};
-  const Window window = window_of(ready.dataset(), t, wanted_city);
+  const TerrainWindow window = window_of(ready.dataset(), t, wanted_city);
   if (window.column >= window.column_end || window.row >= window.row_end)
     throw InputError(
         file.path.string() +

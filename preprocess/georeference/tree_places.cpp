@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "contract/expects.hpp"
 #include "farlod/error.hpp"
 #include "georeference/input_crs.hpp"
+#include "georeference/place_text.hpp"
 #include "georeference/problem_locator.hpp"
 #include "georeference/projection.hpp"
 #include "georeference/resolved_source.hpp"
@@ -51,13 +51,6 @@ bool look_like_degrees(const Spread& spread, std::size_t count) {
   return count > 1 && may_be_degrees(spread.middle) && spread.length < 2.0;
 }
 
-std::string text_of(Point2d p) {
-  std::ostringstream text;
-  text.precision(10);
-  text << p.x << ", " << p.y;
-  return text.str();
-}
-
 /// The CRS of the file, or what stands in for it.
 InputCrs crs_of(const SourceTrees& trees, const std::string& fallback, const Crs& output, const Spread& spread) {
   const std::string& own = trees.crs.definition;
@@ -70,13 +63,14 @@ InputCrs crs_of(const SourceTrees& trees, const std::string& fallback, const Crs
   // GeoJSON without a CRS is in degrees by its standard; many programs write it in metres all the same
   const bool cannot_be = !found->crs.is_projected() && !may_be_degrees(spread.middle);
   if (cannot_be && given && given->crs.is_projected())
-    return {*given, ProblemCode::two_crs,
-            "the file says " + found->crs.name() + ", but " + text_of(spread.middle) + " are no degrees; that of --crs is used"};
+    return {
+        *given, ProblemCode::two_crs,
+        "the file says " + found->crs.name() + ", but " + place_text(spread.middle) + " are no degrees; that of --crs is used"};
   return {*found};
 }
 
 void require_possible(const SourceTrees& trees, const Crs& crs, const Spread& spread) {
-  const std::string place = " (" + text_of(spread.middle) + "): ";
+  const std::string place = " (" + place_text(spread.middle) + "): ";
   if (!crs.is_projected() && !may_be_degrees(spread.middle))
     throw InputError(trees.source + ": its CRS " + crs.name() + " counts in degrees, but its coordinates cannot be degrees" +
                      place + "name the CRS that they are in, in the file or with --crs EPSG:n");
@@ -113,10 +107,10 @@ FileAxes axes_at_city(const ResolvedSource& resolved, Point2d middle, const Crs&
   const FileAxes other = in_other_order(resolved.axes);
   if (is_near(resolved.axes) || !is_near(other)) return resolved.axes;
   const char* const first = other.order == AxisOrder::northing_first ? "latitude" : "longitude";
-  report.add(
-      {ProblemCode::axes_swapped, resolved.source.source, "the whole file",
-       "coordinates such as " + text_of(middle) + " are taken " + first + " first: in the other order they lie far from the city",
-       Point3d{middle.x, middle.y, 0.0}});
+  report.add({ProblemCode::axes_swapped, resolved.source.source, "the whole file",
+              "coordinates such as " + place_text(middle) + " are taken " + first +
+                  " first: in the other order they lie far from the city",
+              Point3d{middle.x, middle.y, 0.0}});
   return other;
 }
 
@@ -162,7 +156,7 @@ void locate_trees(SourceTrees& trees, const std::string& fallback_crs, const Geo
   if (lost)
     report.add({ProblemCode::outside_of_projection, trees.source, "trees",
                 std::to_string(all - trees.trees.size()) + " of " + std::to_string(all) + " trees, of which the first is at " +
-                    text_of(*lost) + ", have no place in " + output->name(),
+                    place_text(*lost) + ", have no place in " + output->name(),
                 Point3d{lost->x, lost->y, 0.0}});
   ProblemLocator locator(resolved.crs, axes, typical);
   for (Problem& problem : report.since(0))

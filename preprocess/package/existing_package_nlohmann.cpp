@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -20,6 +18,7 @@
 #include "package/existing_package.hpp"
 #include "package/file_stamp.hpp"
 #include "package/manifest_writer.hpp"
+#include "package/package_files.hpp"
 #include "package/same_tiles.hpp"
 #include "package/tiles_writer.hpp"
 
@@ -28,11 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 package::FileStamp stamp_from(const Json& j) {
   const auto digits = j.at("xxh3").get<std::string>();

@@ -5,7 +5,6 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <variant>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "package/far_map_writer.hpp"
 #include "package/file_stamp.hpp"
 #include "package/manifest_writer.hpp"
+#include "package/package_files.hpp"
 #include "package/tiles_writer.hpp"
 #include "storage/durable_file.hpp"
 
@@ -29,12 +29,6 @@ std::uint64_t explicit_occluder_bytes(const BakedBlock& maps) {
   for (const BakedHorizon& cell : horizons->cells)
     bytes += sizeof(package::FarCellRecord) + cell.explicit_edges.size() * sizeof(package::ExplicitOccluder);
   return bytes;
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw OutputError(folder.string() + " cannot be written: " + error.message());
 }
 
 package::FileStamp write_tiles(const fs::path& path, std::span<const std::byte> bytes) {

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstdint>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <span>
 #include <system_error>
@@ -16,6 +15,7 @@
 
 #include "contract/cancellation.hpp"
 #include "farlod/error.hpp"
+#include "package/package_files.hpp"
 #include "package/unfinished_package.hpp"
 #include "storage/durable_file.hpp"
 
@@ -114,11 +114,6 @@ std::vector<std::string> building_ids_from(const fs::path& path) {
   std::vector<std::string> ids;
   for (std::string id; std::getline(file, id, '\0');) ids.push_back(std::move(id));
   return ids;
-}
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::optional<Layout> layout_from(const fs::path& path) {

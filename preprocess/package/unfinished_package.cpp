@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "farlod/error.hpp"
 #include "package/file_stamp.hpp"
 #include "package/manifest_writer.hpp"
+#include "package/package_files.hpp"
 #include "package/package_place.hpp"
 #include "package/work_records.hpp"
 #include "storage/durable_file.hpp"
@@ -26,17 +26,6 @@ namespace {
 constexpr const char *lock_file = "lock", *origin_file = "origin.json", *finished_folder = "finished", *shards_folder = "shards",
                      *publishing_file = "publishing", *city_lock_file = "city.lock", *records_lock_file = "records.lock",
                      *shard_count_file = "count";
-
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw OutputError(folder.string() + " cannot be made: " + error.message());
-}
 
 std::string stamp_text(const package::FileStamp& stamp) { return std::to_string(stamp.bytes) + " " + std::to_string(stamp.xxh3); }
 

@@ -11,8 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(const package::FileStamp& stamp) { return {stamp.bytes, stamp.xxh3}; }
-package::FileStamp stamp_from(const Json& j) { return {j.at(0).get<std::uint64_t>(), j.at(1).get<std::uint64_t>()}; }
+Json pair_of(const package::FileStamp& stamp) { return {stamp.bytes, stamp.xxh3}; }
+package::FileStamp stamp_of_pair(const Json& j) { return {j.at(0).get<std::uint64_t>(), j.at(1).get<std::uint64_t>()}; }
 
 std::string text_of(const Json& j) { return j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
@@ -32,7 +32,7 @@ std::string record_text(const PackageOrigin& origin) {
   Json inputs = Json::array(), settings = Json::array();
   for (const PackageOrigin::Input& input : origin.inputs)
     inputs.push_back({{"name", input.name},
-                      {"stamp", json_of(input.stamp)},
+                      {"stamp", pair_of(input.stamp)},
                       {"known", input.is_known},
                       {"beside", input.is_beside},
                       {"path", input.path},
@@ -45,8 +45,8 @@ std::optional<PackageOrigin> origin_from(const std::string& text) {
   return record_from<PackageOrigin>(text, [](const Json& j) {
     PackageOrigin origin{j.at("software").get<std::string>(), {}, {}};
     for (const Json& input : j.at("inputs"))
-      origin.inputs.push_back({input.at("name").get<std::string>(), stamp_from(input.at("stamp")), input.at("known").get<bool>(),
-                               input.at("beside").get<bool>(), input.at("path").get<std::string>(),
+      origin.inputs.push_back({input.at("name").get<std::string>(), stamp_of_pair(input.at("stamp")),
+                               input.at("known").get<bool>(), input.at("beside").get<bool>(), input.at("path").get<std::string>(),
                                input.at("written_ns").get<std::int64_t>()});
     for (const Json& setting : j.at("settings"))
       origin.settings.emplace_back(setting.at(0).get<std::string>(), setting.at(1).get<std::string>());
@@ -55,7 +55,7 @@ std::optional<PackageOrigin> origin_from(const std::string& text) {
 }
 
 std::string record_text(const package::BlockFiles& files) {
-  Json j = {{"block", {files.block.i, files.block.j}}, {"tiles", json_of(files.tiles)}, {"far_map", json_of(files.far_map)}};
+  Json j = {{"block", {files.block.i, files.block.j}}, {"tiles", pair_of(files.tiles)}, {"far_map", pair_of(files.far_map)}};
   if (files.mapped) {
     j["mapped"] = Json::array();
     for (const package::CellRun& run : files.mapped->runs) j["mapped"].push_back({run.begin, run.end});
@@ -66,8 +66,8 @@ std::string record_text(const package::BlockFiles& files) {
 std::optional<package::BlockFiles> block_files_from(const std::string& text) {
   return record_from<package::BlockFiles>(text, [](const Json& j) {
     package::BlockFiles files{{j.at("block").at(0).get<std::int32_t>(), j.at("block").at(1).get<std::int32_t>()},
-                              stamp_from(j.at("tiles")),
-                              stamp_from(j.at("far_map"))};
+                              stamp_of_pair(j.at("tiles")),
+                              stamp_of_pair(j.at("far_map"))};
     if (!j.contains("mapped")) return files;
     files.mapped.emplace();
     for (const Json& run : j.at("mapped"))

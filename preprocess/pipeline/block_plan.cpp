@@ -11,6 +11,7 @@
 #include "align/area_cells.hpp"
 #include "contract/grid_outline.hpp"
 #include "farlod/error.hpp"
+#include "pipeline/pack_estimate.hpp"
 
 namespace farlod::pipeline {
 namespace {
@@ -49,8 +50,8 @@ BlockPlan plan_blocks(const Grid& grid, const ExistingPackage* existing, const M
   return plan;
 }
 
-/// On one core: writing a triangle of the tiles, and baking a far map. Measured as those of pack_estimate.cpp.
-constexpr double seconds_per_written_triangle = 5e-7, seconds_per_far_map = 4e-3;
+/// Writing a triangle of the tiles on one core. Measured as those of pack_estimate.cpp.
+constexpr double seconds_per_written_triangle = 5e-7;
 
 }  // namespace
 

@@ -55,8 +55,8 @@ constexpr std::array bytes_per_canopy_pixel{static_cast<double>(sizeof(float))};
 constexpr double package_bytes_per_triangle = 28.0;
 constexpr double package_bytes_per_horizon_map = 10000.0, package_bytes_per_box_map = 6000.0;
 
-/// On one core: cutting and writing a triangle; baking and writing a far map of either kind.
-constexpr double seconds_per_triangle = 4e-6, seconds_per_far_map = 4e-3;
+/// On one core: cutting and writing a triangle.
+constexpr double seconds_per_triangle = 4e-6;
 /// Placing a crown, sorting it and writing it, on one core however many there are.
 constexpr double seconds_per_crown = 1e-6;
 

@@ -17,6 +17,9 @@ namespace farlod::pipeline {
 /// Blocks that are in work at a time, where there is memory: one is baked while another one is written.
 inline constexpr std::size_t usual_blocks_at_once = 2;
 
+/// On one core: baking and writing a far map of either kind.
+inline constexpr double seconds_per_far_map = 4e-3;
+
 /// The memory that packing takes. Pages of files take as much besides as there is.
 struct PackMemory {
   double always_mib = 0.0;   ///< the program, and an index of the city: its buildings and cells

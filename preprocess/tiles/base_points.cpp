@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
-#include <tuple>
 
 #include "city/plan_boxes.hpp"
+#include "city/point_order.hpp"
 #include "farlod/box.hpp"
 
 namespace farlod::tiles {
@@ -32,8 +32,6 @@ Footprint footprint_of(std::span<const Point3d> points) {
   }
   return base;
 }
-
-bool comes_first(const Point3d& a, const Point3d& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
 /// Finds the buildings near a building: buildings are listed by the squares of a coarse grid that their outlines touch. The grid
 /// is rolled up: squares that lie a whole number of its sides apart share a list, so that it is as long as the buildings are

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
+#include "city/point_order.hpp"
 #include "tiles/cutting.hpp"
 
 namespace farlod::tiles {
@@ -15,8 +15,6 @@ namespace {
 
 /// -0.0 equals 0.0, but its bits differ.
 Point3d without_minus_zero(const Point3d& p) { return {p.x + 0.0, p.y + 0.0, p.z + 0.0}; }
-
-bool comes_first(const Point3d& a, const Point3d& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
 /// The point at the share `t` of a segment. Both ends are exact, and no point lies beyond them.
 Point3d lerped(const Segment3d& s, double t) {
@@ -37,18 +35,18 @@ double distance_from_line_m(const Point3d& p, const Segment3d& s) {
 Point3d point_at(const Segment3d& s, double share) { return s.a + share * (s.b - s.a); }
 
 /// A part of a segment, in shares of its length.
-struct Stretch {
+struct ShareStretch {
   double from = 0.0, to = 1.0;
 };
 
 /// The part of `s` that `other` covers, where both lie on one line; nothing where they do not.
-std::optional<Stretch> shared_stretch(const Segment3d& s, const Segment3d& other) {
+std::optional<ShareStretch> shared_stretch(const Segment3d& s, const Segment3d& other) {
   // Project the ends of the other segment onto this one
   const Point3d along = s.b - s.a;
   const double square = dot(along, along);
   const auto share_of = [&](const Point3d& p) { return dot(p - s.a, along) / square; };
   const auto [low, high] = std::minmax({share_of(other.a), share_of(other.b)});
-  const Stretch shared{std::max(low, 0.0), std::min(high, 1.0)};
+  const ShareStretch shared{std::max(low, 0.0), std::min(high, 1.0)};
   if ((shared.to - shared.from) * std::sqrt(square) <= on_line_m) return std::nullopt;
   // Test the distance of the other segment from the line at the ends of the shared part: beyond them it may be anywhere
   const Point3d other_along = other.b - other.a;
@@ -62,9 +60,9 @@ std::optional<Stretch> shared_stretch(const Segment3d& s, const Segment3d& other
 }
 
 /// `stretches` without the part `taken`.
-std::vector<Stretch> without(const std::vector<Stretch>& stretches, const Stretch& taken) {
-  std::vector<Stretch> rest;
-  for (const Stretch& s : stretches) {
+std::vector<ShareStretch> without(const std::vector<ShareStretch>& stretches, const ShareStretch& taken) {
+  std::vector<ShareStretch> rest;
+  for (const ShareStretch& s : stretches) {
     if (s.from < taken.from) rest.push_back({s.from, std::min(s.to, taken.from)});
     if (s.to > taken.to) rest.push_back({std::max(s.from, taken.to), s.to});
   }
@@ -104,8 +102,8 @@ class SortedEdges {
 };
 
 /// The parts of an edge at which it stays an underside when the facets of each other edge on the same line are added.
-std::vector<Stretch> open_stretches(const EdgeSides& edge, const SortedEdges& closing) {
-  std::vector<Stretch> open{{}};
+std::vector<ShareStretch> open_stretches(const EdgeSides& edge, const SortedEdges& closing) {
+  std::vector<ShareStretch> open{{}};
   closing.visit_near(edge, [&](const EdgeSides& other) {
     if (open.empty()) return;
     EdgeSides both = edge;
@@ -256,7 +254,7 @@ std::vector<HorizonSegment> undersides(std::span<const EdgeSides> edges) {
   for (const EdgeSides& edge : edges) {
     if (!edge.can_be_underside()) continue;
     const double length_m = norm(edge.edge().b - edge.edge().a);
-    for (const Stretch& s : open_stretches(edge, closing_edges)) {
+    for (const ShareStretch& s : open_stretches(edge, closing_edges)) {
       if ((s.to - s.from) * length_m <= on_line_m) continue;
       is_open |= edge.triangle_count() == 1;
       result.push_back(

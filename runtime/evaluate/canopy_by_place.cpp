@@ -11,8 +11,7 @@
 namespace farlod {
 namespace {
 
-constexpr std::size_t lanes = ReceiverPacket::lanes;
-constexpr std::uint32_t all_lanes = (1U << lanes) - 1;
+constexpr std::uint32_t all_lanes = (1U << packet_lanes) - 1;
 constexpr double widest_m = 5.0;
 
 /// A packet whose other lanes stand where the first of these does: what they have is not asked for, and it is a small packet.
@@ -21,7 +20,7 @@ ReceiverPacket packet_of(const ReceiverPacket& receivers, std::uint32_t some) {
   const auto first = static_cast<std::size_t>(std::countr_zero(some));
   for (auto member : {&ReceiverPacket::x, &ReceiverPacket::y, &ReceiverPacket::z, &ReceiverPacket::normal_x,
                       &ReceiverPacket::normal_y, &ReceiverPacket::normal_z})
-    for (std::size_t l = 0; l < lanes; ++l)
+    for (std::size_t l = 0; l < packet_lanes; ++l)
       if ((some >> l & 1U) == 0) (packet.*member)[l] = (packet.*member)[first];
   return packet;
 }
@@ -31,13 +30,13 @@ ReceiverPacket packet_of(const ReceiverPacket& receivers, std::uint32_t some) {
 std::vector<std::uint32_t> split(const ReceiverPacket& receivers, std::uint32_t some) {
   Box2d box;
   const auto place = [&](std::size_t l) { return Point2d{receivers.x[l], receivers.y[l]}; };
-  for (std::size_t l = 0; l < lanes; ++l)
+  for (std::size_t l = 0; l < packet_lanes; ++l)
     if ((some >> l & 1U) != 0) box.add(place(l));
   const Point2d edges = box.high - box.low;
   if (std::max(edges.x, edges.y) <= widest_m) return {some};
   const double middle_x = 0.5 * (box.low.x + box.high.x), middle_y = 0.5 * (box.low.y + box.high.y);
   std::uint32_t first = 0;
-  for (std::size_t l = 0; l < lanes; ++l)
+  for (std::size_t l = 0; l < packet_lanes; ++l)
     if (edges.x > edges.y ? place(l).x < middle_x : place(l).y < middle_y) first |= 1U << l;
   std::vector<std::uint32_t> groups = split(receivers, some & first);
   const std::vector<std::uint32_t> others = split(receivers, some & ~first);
@@ -46,7 +45,7 @@ std::vector<std::uint32_t> split(const ReceiverPacket& receivers, std::uint32_t 
 }
 
 void copy_lanes(const PacketHorizon::Lanes& from, std::uint32_t some, PacketHorizon::Lanes& to) {
-  for (std::size_t l = 0; l < lanes; ++l)
+  for (std::size_t l = 0; l < packet_lanes; ++l)
     if ((some >> l & 1U) != 0) to[l] = from[l];
 }
 
@@ -89,7 +88,7 @@ CanopyShares CanopyByPlace::evaluate(const SkyProfile& profile, const ReceiverPa
   for (std::uint32_t left = all_lanes; left != 0;) {
     const Place place = place_of(receivers, static_cast<std::size_t>(std::countr_zero(left)));
     std::uint32_t some = 0;
-    for (std::size_t l = 0; l < lanes; ++l) some |= place_of(receivers, l) == place ? 1U << l : 0U;
+    for (std::size_t l = 0; l < packet_lanes; ++l) some |= place_of(receivers, l) == place ? 1U << l : 0U;
     left &= ~some;
     for (const std::uint32_t together : split(receivers, some)) {
       const CanopyShares of_some = sky_.evaluate(profile, packet_of(receivers, together), batches_at(place), behind_of_some_);

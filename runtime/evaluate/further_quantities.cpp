@@ -20,7 +20,6 @@ namespace {
 
 using Row = PacketHorizon::Row;
 using Lanes = PacketHorizon::Lanes;
-constexpr std::size_t lanes = ReceiverPacket::lanes;
 
 /// Above it is nothing that counts, and it is finite.
 constexpr float straight_up = 1e7F;
@@ -49,9 +48,9 @@ std::vector<double> turns_of(const AzimuthSampling& azimuths, const package::Man
 }
 
 Lanes sum(const std::vector<Row>& rows) {
-  std::array<double, lanes> sums{};
+  std::array<double, packet_lanes> sums{};
   for (const Row& row : rows)
-    for (std::size_t l = 0; l < lanes; ++l) sums[l] += static_cast<double>(row[l]);
+    for (std::size_t l = 0; l < packet_lanes; ++l) sums[l] += static_cast<double>(row[l]);
   Lanes result;
   std::transform(sums.begin(), sums.end(), result.begin(), [](double s) { return static_cast<float>(s); });
   return result;
@@ -68,7 +67,7 @@ void find_sky_between(const std::vector<Row>& low, const std::vector<Row>& high,
 void clamp_rows(const std::vector<Row>& rows, float low, float high, std::vector<Row>& clamped) {
   clamped.resize(rows.size());
   for (std::size_t k = 0; k < rows.size(); ++k)
-    for (std::size_t l = 0; l < lanes; ++l) clamped[k][l] = std::clamp(rows[k][l], low, high);
+    for (std::size_t l = 0; l < packet_lanes; ++l) clamped[k][l] = std::clamp(rows[k][l], low, high);
 }
 
 void fill_rows(std::size_t count, float value, std::vector<Row>& rows) {
@@ -85,7 +84,7 @@ void add_sky_in_gaps(const SkyProfile& profile, const ReceiverPacket& receivers,
   clamp_rows(profile.gap_to, from, to, rows.high);
   find_sky_between(rows.low, rows.high, receivers, azimuths, is_solid, rows.open_terms);
   for (std::size_t k = 0; k < rows.terms.size(); ++k)
-    for (std::size_t l = 0; l < lanes; ++l) rows.terms[k][l] += profile.gap_share[k][l] * rows.open_terms[k][l];
+    for (std::size_t l = 0; l < packet_lanes; ++l) rows.terms[k][l] += profile.gap_share[k][l] * rows.open_terms[k][l];
 }
 
 /// The shares of the turn of the sky above profiles, from rows of F(φ) where they are known.
@@ -238,7 +237,7 @@ void FurtherQuantities::evaluate(const SkyProfile& profile, const ReceiverPacket
   if (quantities_.directional) add_directional(profile, receivers, sky, rows, columns);
   if (quantities_.hidden) {
     Lanes near, far;
-    for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t l = 0; l < packet_lanes; ++l) {
       // Both skies are sampled: what is far hides something or nothing
       const float near_svf = std::max(sky.near_svf[l], sky.svf[l]);
       near[l] = std::max(0.0F, 0.5F * (1.0F + receivers.normal_z[l]) - near_svf);
@@ -249,7 +248,7 @@ void FurtherQuantities::evaluate(const SkyProfile& profile, const ReceiverPacket
   }
   for (const std::size_t k : azimuth_of_horizon_) {
     Lanes degrees;
-    for (std::size_t l = 0; l < lanes; ++l)
+    for (std::size_t l = 0; l < packet_lanes; ++l)
       degrees[l] = static_cast<float>(Angle::radians(std::atan(static_cast<double>(profile.sky_from[k][l]))).degrees());
     columns.add(degrees);
   }
@@ -272,9 +271,9 @@ void FurtherQuantities::add_directional(const SkyProfile& profile, const Receive
                                         Columns& columns) const {
   find_sky(profile, profile.sky, receivers, azimuths_, false, rows);
   const Lanes all = sum(rows.terms);
-  for (const std::array<double, lanes>& sums : halves_.sums(rows.terms)) {
+  for (const std::array<double, packet_lanes>& sums : halves_.sums(rows.terms)) {
     Lanes half;
-    for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t l = 0; l < packet_lanes; ++l) {
       // What the answer knows better than the profile is not known by azimuth: it goes to both halves alike
       half[l] = std::max(0.0F, static_cast<float>(sums[l] + static_cast<double>(sky.svf[l]) - static_cast<double>(all[l])));
       if (looks_straight_up(receivers, l)) half[l] = std::min(half[l], 1.0F);
@@ -286,11 +285,11 @@ void FurtherQuantities::add_directional(const SkyProfile& profile, const Receive
 void FurtherQuantities::add_patches(const SkyProfile& profile, const ReceiverPacket& receivers, Rows& rows,
                                     Columns& columns) const {
   for (const Band& band : bands_) {
-    std::vector<std::array<double, lanes>> seen(band.patches), all(band.patches);
-    const auto add_to = [&](std::vector<std::array<double, lanes>>& patches, const std::vector<Row>& terms) {
+    std::vector<std::array<double, packet_lanes>> seen(band.patches), all(band.patches);
+    const auto add_to = [&](std::vector<std::array<double, packet_lanes>>& patches, const std::vector<Row>& terms) {
       for (std::size_t k = 0; k < terms.size(); ++k)
         for (const PatchShare& part : band.of_azimuth[k])
-          for (std::size_t l = 0; l < lanes; ++l)
+          for (std::size_t l = 0; l < packet_lanes; ++l)
             patches[part.patch - band.first_patch][l] += static_cast<double>(part.share) * static_cast<double>(terms[k][l]);
     };
     fill_rows(azimuths_.size(), band.slope_from, rows.low);
@@ -303,7 +302,7 @@ void FurtherQuantities::add_patches(const SkyProfile& profile, const ReceiverPac
     add_to(seen, rows.terms);
     for (std::size_t patch = 0; patch < band.patches; ++patch) {
       Lanes share{};
-      for (std::size_t l = 0; l < lanes; ++l)
+      for (std::size_t l = 0; l < packet_lanes; ++l)
         if (all[patch][l] > 0.0) share[l] = static_cast<float>(std::min(1.0, seen[patch][l] / all[patch][l]));
       columns.add(share);
     }
@@ -311,7 +310,7 @@ void FurtherQuantities::add_patches(const SkyProfile& profile, const ReceiverPac
 }
 
 void FurtherQuantities::add_sunlit(const SkyProfile& profile, const ReceiverPacket& receivers, Columns& columns) const {
-  std::array<double, lanes> hours{};
+  std::array<double, packet_lanes> hours{};
   for (std::size_t k = 0; k < azimuths_.size(); ++k) {
     const SunAtAzimuth& sun = sun_[k];
     if (sun.slopes.empty()) continue;

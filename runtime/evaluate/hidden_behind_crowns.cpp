@@ -17,20 +17,19 @@ namespace farlod {
 namespace {
 
 using Row = PacketHorizon::Row;
-constexpr std::size_t lanes = ReceiverPacket::lanes;
 
 /// Parts of the sin² below the sky at an azimuth, a ray in the middle of each; and azimuths from one with a ray of some part to
 /// the next. An azimuth has a ray in two of its parts, so that 320 azimuths have 640 rays.
 constexpr std::size_t parts = 8, azimuths_between = 4, layers = parts / azimuths_between;
 /// Above it is nothing that counts, and it is finite.
-constexpr float straight_up = 1e6F;
+constexpr float steepest_row = 1e6F;
 
 /// The slope below which this share of the sin² lies that is below the sky: with sin² = t²/(1 + t²), its square is
 /// share · t² / (1 + (1 − share) t²).
 Row slopes_at(float share, const Row& sky_from) {
   Row slopes;
-  for (std::size_t l = 0; l < lanes; ++l) {
-    const float slope = std::min(sky_from[l], straight_up);
+  for (std::size_t l = 0; l < packet_lanes; ++l) {
+    const float slope = std::min(sky_from[l], steepest_row);
     slopes[l] = slope * std::sqrt(share / (1.0F + (1.0F - share) * slope * slope));
   }
   return slopes;
@@ -58,13 +57,13 @@ class Layer {
   /// Bits of the receivers that see the part.
   [[nodiscard]] std::uint32_t seen(std::size_t azimuth) const {
     std::uint32_t bits = 0;
-    for (std::size_t l = 0; l < lanes; ++l) bits |= view_[azimuth][l] > 0.0F ? 1U << l : 0U;
+    for (std::size_t l = 0; l < packet_lanes; ++l) bits |= view_[azimuth][l] > 0.0F ? 1U << l : 0U;
     return bits;
   }
   /// Bits of the receivers that may see sky there, below an overhang.
   [[nodiscard]] std::uint32_t in_gap(std::size_t azimuth) const {
     std::uint32_t bits = 0;
-    for (std::size_t l = 0; l < lanes && !profile_.gap_share.empty(); ++l)
+    for (std::size_t l = 0; l < packet_lanes && !profile_.gap_share.empty(); ++l)
       if (profile_.gap_from[azimuth][l] < middles_[azimuth][l] && middles_[azimuth][l] < profile_.gap_to[azimuth][l])
         bits |= 1U << l;
     return bits;
@@ -81,7 +80,7 @@ std::uint32_t meet_crown_first(const CanopyScene& scene, const RayOrigins& origi
                                std::uint32_t wanted, std::uint32_t in_gap) {
   const Occluder::Distances ends = scene.solid.distances(origins, directions, least_distance_m, wanted);
   std::uint32_t open = 0;
-  for (std::size_t l = 0; l < lanes; ++l) open |= ends[l] == std::numeric_limits<float>::infinity() ? 1U << l : 0U;
+  for (std::size_t l = 0; l < packet_lanes; ++l) open |= ends[l] == std::numeric_limits<float>::infinity() ? 1U << l : 0U;
   return scene.crowns.met_before(ends, origins, directions, least_distance_m, wanted & ~(in_gap & open));
 }
 
@@ -103,7 +102,7 @@ void find_hidden_behind_crowns(const SkyProfile& profile, const ReceiverPacket& 
       directions.y.fill(azimuths.sine()[k]);
       directions.z = layer.slopes(k);
       const std::uint32_t first = meet_crown_first(scene, origins, directions, wanted, layer.in_gap(k));
-      for (std::size_t l = 0; l < lanes; ++l)
+      for (std::size_t l = 0; l < packet_lanes; ++l)
         if ((first >> l & 1U) != 0) hidden[k][l] += static_cast<float>(azimuths_between) * layer.view(k)[l];
     }
   }

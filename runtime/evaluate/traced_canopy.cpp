@@ -13,8 +13,6 @@
 namespace farlod {
 namespace {
 
-constexpr std::size_t lanes = RayOrigins::lanes;
-
 /// Counts of a receiver's rays, and of those in each half of the sky.
 struct Count {
   double all = 0.0;
@@ -35,8 +33,8 @@ struct Count {
 
 /// Sums of a packet over its directions.
 struct Sums {
-  std::array<double, lanes> light{};
-  std::array<Count, lanes> sky, building;
+  std::array<double, RayOrigins::lanes> light{};
+  std::array<Count, RayOrigins::lanes> sky, building;
 
   [[nodiscard]] CanopyLoss loss(std::size_t lane, double share) const {
     return {static_cast<float>(share * light[lane]), static_cast<float>(share * sky[lane].all),
@@ -55,7 +53,7 @@ void add(const CanopyScene& scene, const RayOrigins& origins, const Point3d& dir
   const std::uint32_t blocked = is_hidden_far ? light.met : scene.solid.blocked(origins, direction, least_distance_m, light.met);
   // What is solid may be nearer than the first crown, or hide its light from behind
   const Occluder::Distances solid = scene.solid.distances(origins, direction, least_distance_m, blocked);
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < RayOrigins::lanes; ++l) {
     if (((light.met >> l) & 1U) == 0) continue;
     if (((blocked >> l) & 1U) == 0) {
       sums.light[l] += 1.0 - static_cast<double>(light.transmitted[l]);
@@ -76,8 +74,8 @@ std::vector<CanopyLoss> trace_canopies(const CanopyScene& scene, std::span<const
                                        const std::stop_token& stop) {
   std::vector<CanopyLoss> losses;
   const double share = 1.0 / static_cast<double>(traced.ray_count);
-  for (std::size_t first = 0; first < origins.size(); first += lanes) {
-    const std::size_t count = std::min(lanes, origins.size() - first);
+  for (std::size_t first = 0; first < origins.size(); first += RayOrigins::lanes) {
+    const std::size_t count = std::min(RayOrigins::lanes, origins.size() - first);
     const RayOrigins together = gathered(origins.subspan(first, count));
     const auto wanted = static_cast<std::uint32_t>((std::uint64_t{1} << count) - 1);
     Sums sums;

@@ -15,10 +15,8 @@
 namespace farlod {
 namespace {
 
-constexpr std::size_t lanes = ReceiverPacket::lanes, degrees = 90;
+constexpr std::size_t whole_degrees = 90;
 constexpr int halvings = 8;
-
-bool has_bit(std::uint32_t bits, std::size_t lane) { return ((bits >> lane) & 1U) != 0; }
 
 float slope_at(double elevation_deg) { return static_cast<float>(tan(Angle::degrees(elevation_deg))); }
 
@@ -41,22 +39,22 @@ class RaysAtAzimuth {
     directions_.z.fill(slope_at(elevation_deg));
     return blocked_(directions_, wanted) & wanted;
   }
-  [[nodiscard]] std::uint32_t are_blocked(const std::array<double, lanes>& elevations_deg, std::uint32_t wanted) {
-    for (std::size_t l = 0; l < lanes; ++l) directions_.z[l] = slope_at(elevations_deg[l]);
+  [[nodiscard]] std::uint32_t are_blocked(const std::array<double, packet_lanes>& elevations_deg, std::uint32_t wanted) {
+    for (std::size_t l = 0; l < packet_lanes; ++l) directions_.z[l] = slope_at(elevations_deg[l]);
     return blocked_(directions_, wanted) & wanted;
   }
   /// The elevation between one that is blocked and one that is free, at which that changes. Where nothing above the horizontal is
   /// blocked, the horizontal.
-  [[nodiscard]] std::array<double, lanes> border_between(std::array<double, lanes> blocked_deg,
-                                                         std::array<double, lanes> free_deg, std::uint32_t wanted) {
-    std::array<double, lanes> middle_deg{};
+  [[nodiscard]] std::array<double, packet_lanes> border_between(std::array<double, packet_lanes> blocked_deg,
+                                                                std::array<double, packet_lanes> free_deg, std::uint32_t wanted) {
+    std::array<double, packet_lanes> middle_deg{};
     for (int n = 0; n <= halvings; ++n) {
-      for (std::size_t l = 0; l < lanes; ++l) middle_deg[l] = 0.5 * (blocked_deg[l] + free_deg[l]);
+      for (std::size_t l = 0; l < packet_lanes; ++l) middle_deg[l] = 0.5 * (blocked_deg[l] + free_deg[l]);
       if (n == halvings || wanted == 0) break;
       const std::uint32_t is_blocked = are_blocked(middle_deg, wanted);
-      for (std::size_t l = 0; l < lanes; ++l) (has_bit(is_blocked, l) ? blocked_deg : free_deg)[l] = middle_deg[l];
+      for (std::size_t l = 0; l < packet_lanes; ++l) (has_bit(is_blocked, l) ? blocked_deg : free_deg)[l] = middle_deg[l];
     }
-    for (std::size_t l = 0; l < lanes; ++l)
+    for (std::size_t l = 0; l < packet_lanes; ++l)
       if (blocked_deg[l] == 0.0) middle_deg[l] = 0.0;
     return middle_deg;
   }
@@ -67,15 +65,15 @@ class RaysAtAzimuth {
 };
 
 /// Which degrees are blocked for each receiver: a bit for each receiver.
-std::array<std::uint32_t, degrees> look_at_degrees(RaysAtAzimuth& rays, std::uint32_t wanted) {
-  std::array<std::uint32_t, degrees> blocked{};
-  for (std::size_t e = 0; e < degrees; ++e) blocked[e] = rays.are_blocked(middle_of(e), wanted);
+std::array<std::uint32_t, whole_degrees> look_at_degrees(RaysAtAzimuth& rays, std::uint32_t wanted) {
+  std::array<std::uint32_t, whole_degrees> blocked{};
+  for (std::size_t e = 0; e < whole_degrees; ++e) blocked[e] = rays.are_blocked(middle_of(e), wanted);
   return blocked;
 }
 
 /// The highest blocked degree of a receiver, counted from 1; 0 where there is none.
-std::size_t end_of_blocked(const std::array<std::uint32_t, degrees>& blocked, std::size_t lane) {
-  std::size_t end = degrees;
+std::size_t end_of_blocked(const std::array<std::uint32_t, whole_degrees>& blocked, std::size_t lane) {
+  std::size_t end = whole_degrees;
   while (end > 0 && !has_bit(blocked[end - 1], lane)) --end;
   return end;
 }
@@ -85,7 +83,7 @@ struct Gap {
   std::size_t begin = 0, end = 0;
   double share = 0.0;
 };
-Gap gap_of(const std::array<std::uint32_t, degrees>& blocked, std::size_t lane, std::size_t end_of_hidden) {
+Gap gap_of(const std::array<std::uint32_t, whole_degrees>& blocked, std::size_t lane, std::size_t end_of_hidden) {
   Gap gap{end_of_hidden, 0, 0.0};
   for (std::size_t e = 0; e < end_of_hidden; ++e) {
     if (has_bit(blocked[e], lane)) continue;
@@ -112,29 +110,29 @@ class ProfileAtAzimuth {
  public:
   ProfileAtAzimuth(RaysAtAzimuth& rays, std::uint32_t wanted)
       : rays_(rays), wanted_(wanted), blocked_(look_at_degrees(rays, wanted)) {
-    for (std::size_t l = 0; l < lanes; ++l) ends_[l] = end_of_blocked(blocked_, l);
+    for (std::size_t l = 0; l < packet_lanes; ++l) ends_[l] = end_of_blocked(blocked_, l);
   }
 
   /// The sky begins between the highest blocked degree and the next.
   void find_sky(PacketHorizon::Row& sky_from) {
-    std::array<double, lanes> blocked_deg{}, free_deg{};
+    std::array<double, packet_lanes> blocked_deg{}, free_deg{};
     std::uint32_t is_closed = 0;
-    for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t l = 0; l < packet_lanes; ++l) {
       blocked_deg[l] = ends_[l] == 0 ? 0.0 : middle_of(ends_[l] - 1);
-      free_deg[l] = ends_[l] == degrees ? 90.0 : middle_of(ends_[l]);
-      is_closed |= ends_[l] == degrees ? 1U << l : 0U;
+      free_deg[l] = ends_[l] == whole_degrees ? 90.0 : middle_of(ends_[l]);
+      is_closed |= ends_[l] == whole_degrees ? 1U << l : 0U;
     }
-    const std::array<double, lanes> from_deg = rays_.border_between(blocked_deg, free_deg, wanted_ & ~is_closed);
-    for (std::size_t l = 0; l < lanes; ++l)
+    const std::array<double, packet_lanes> from_deg = rays_.border_between(blocked_deg, free_deg, wanted_ & ~is_closed);
+    for (std::size_t l = 0; l < packet_lanes; ++l)
       sky_from[l] = has_bit(is_closed, l) ? std::numeric_limits<float>::infinity() : slope_at(from_deg[l]);
   }
 
   /// Gaps: from below the lowest free degree to above the highest one that is not the sky's.
   void find_gaps(std::size_t azimuth, SkyProfile& profile) {
-    std::array<Gap, lanes> gaps{};
-    std::array<double, lanes> hidden_below{}, open_lowest{}, open_highest{}, hidden_above{};
+    std::array<Gap, packet_lanes> gaps{};
+    std::array<double, packet_lanes> hidden_below{}, open_lowest{}, open_highest{}, hidden_above{};
     std::uint32_t with_gap = 0;
-    for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t l = 0; l < packet_lanes; ++l) {
       gaps[l] = gap_of(blocked_, l, ends_[l]);
       if (gaps[l].end == 0 || !has_bit(wanted_, l)) continue;
       with_gap |= 1U << l;
@@ -145,9 +143,9 @@ class ProfileAtAzimuth {
     }
     if (with_gap == 0) return;
     add_gap_rows(profile);
-    const std::array<double, lanes> from_deg = rays_.border_between(hidden_below, open_lowest, with_gap),
-                                    to_deg = rays_.border_between(hidden_above, open_highest, with_gap);
-    for (std::size_t l = 0; l < lanes; ++l) {
+    const std::array<double, packet_lanes> from_deg = rays_.border_between(hidden_below, open_lowest, with_gap),
+                                           to_deg = rays_.border_between(hidden_above, open_highest, with_gap);
+    for (std::size_t l = 0; l < packet_lanes; ++l) {
       if (!has_bit(with_gap, l)) continue;
       profile.gap_from[azimuth][l] = slope_at(from_deg[l]);
       profile.gap_to[azimuth][l] = slope_at(to_deg[l]);
@@ -158,8 +156,8 @@ class ProfileAtAzimuth {
  private:
   RaysAtAzimuth& rays_;
   std::uint32_t wanted_;
-  std::array<std::uint32_t, degrees> blocked_;
-  std::array<std::size_t, lanes> ends_{};
+  std::array<std::uint32_t, whole_degrees> blocked_;
+  std::array<std::size_t, packet_lanes> ends_{};
 };
 
 }  // namespace

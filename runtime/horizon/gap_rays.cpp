@@ -16,8 +16,6 @@ namespace {
 
 using Lanes = PacketHorizon::Lanes;
 
-bool has_bit(std::uint32_t bits, std::size_t lane) { return ((bits >> lane) & 1U) != 0; }
-
 /// Offsets of the rays of neighboring azimuths within their parts of a gap: fractional parts of the multiples of the golden
 /// ratio, which spread evenly.
 float offset_of(std::size_t azimuth) {

@@ -29,8 +29,6 @@ Lanes sum(std::span<const PacketHorizon::Row> rows) {
   return sums;
 }
 
-bool has_bit(std::uint32_t bits, std::size_t lane) { return ((bits >> lane) & 1U) != 0; }
-
 }  // namespace
 
 SvfInterval within_error(const SvfInterval& svf, float error) {

@@ -15,6 +15,9 @@
 
 namespace farlod {
 
+/// Whether a set of lanes, a bit each, holds this one.
+[[nodiscard]] constexpr bool has_bit(std::uint32_t bits, std::size_t lane) { return ((bits >> lane) & 1U) != 0; }
+
 /// Receivers that are computed at once, coordinate by coordinate. Lanes without a receiver repeat the last one. Cell frame.
 struct ReceiverPacket {
   static constexpr std::size_t lanes = 16;
@@ -47,6 +50,8 @@ struct ReceiverPacket {
     normal_z[lane] = r.normal.z;
   }
 };
+
+inline constexpr std::size_t packet_lanes = ReceiverPacket::lanes;
 
 /// An upright box around receivers: the centre of its plan, half its sides, and its lowest and highest z.
 struct CenteredBox {

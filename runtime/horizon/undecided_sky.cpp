@@ -12,11 +12,7 @@
 #include "horizon/kernels.hpp"
 
 namespace farlod {
-namespace {
-
-bool has_bit(std::uint32_t bits, std::size_t lane) { return ((bits >> lane) & 1U) != 0; }
-
-}  // namespace
+namespace {}  // namespace
 
 void UndecidedSky::measure(const PacketHorizon& estimate, SkyWeight weight, const ReceiverPacket& receivers) {
   from.find_sky_below(to, weight, receivers, most_);

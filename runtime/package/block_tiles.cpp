@@ -18,11 +18,11 @@ namespace {
 
 /// No city reaches farther from one of its cells than the Earth is wide. What does would be lost on the way to the ray index,
 /// which takes no triangle beyond 1.8e18 and says nothing.
-constexpr float farthest_m = 1.3e7F;
+constexpr float farthest_in_tile_m = 1.3e7F;
 
 /// False for what is not a number, too.
 bool is_on_earth(const Point3f& p) {
-  return std::abs(p.x) <= farthest_m && std::abs(p.y) <= farthest_m && std::abs(p.z) <= farthest_m;
+  return std::abs(p.x) <= farthest_in_tile_m && std::abs(p.y) <= farthest_in_tile_m && std::abs(p.z) <= farthest_in_tile_m;
 }
 
 /// −128 is no angle: its tangent would come out on the other side of the vertical.
@@ -201,7 +201,7 @@ void BlockTiles::check_far_cells() const {
                 c.explicit_edge_count <= explicit_edges_.size() - c.first_explicit_edge,
             "a far map's edges reach beyond the end");
     for (std::size_t l = 0; l < c.levels_m.size(); ++l)
-      require(std::abs(c.levels_m[l]) <= farthest_m && (l == 0 || c.levels_m[l - 1] <= c.levels_m[l]),
+      require(std::abs(c.levels_m[l]) <= farthest_in_tile_m && (l == 0 || c.levels_m[l - 1] <= c.levels_m[l]),
               "the levels of a far map are not in order");
   }
   for (const ExplicitOccluder& n : explicit_edges_)

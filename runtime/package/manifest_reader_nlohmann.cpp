@@ -25,7 +25,7 @@ using namespace package;
 
 constexpr std::int64_t most_cells = std::int64_t{1} << 34;
 /// Eastings with a zone's number in front come to some ten million metres; no reference system reaches a thousand million.
-constexpr double farthest_m = 1e9;
+constexpr double farthest_origin_m = 1e9;
 /// Of a map of 64 × 64 texels a side, 4096 times over: more than that is not a map of one cell.
 constexpr std::uint64_t most_texels = std::uint64_t{1} << 26;
 
@@ -133,9 +133,9 @@ void read_place(const json& j, Manifest& m) {
   const json& frame = j.at("frame");
   m.origin_m = {frame.at("origin_m").at(0).get<double>(), frame.at("origin_m").at(1).get<double>()};
   m.height_origin_m = frame.at("height_origin_m").get<double>();
-  require(
-      std::abs(m.origin_m.x) <= farthest_m && std::abs(m.origin_m.y) <= farthest_m && std::abs(m.height_origin_m) <= farthest_m,
-      "its origin lies nowhere on Earth");
+  require(std::abs(m.origin_m.x) <= farthest_origin_m && std::abs(m.origin_m.y) <= farthest_origin_m &&
+              std::abs(m.height_origin_m) <= farthest_origin_m,
+          "its origin lies nowhere on Earth");
   m.convergence = Angle::degrees(frame.at("convergence_deg").get<double>());
   m.grid = grid_from(j.at("grid"), frame.at("grid_rotation_deg").get<double>());
 }

@@ -10,7 +10,6 @@
 namespace farlod {
 namespace {
 
-constexpr double farthest_m = 1e8;
 /// A band holds some edges on average: a place is compared with those of one band.
 constexpr std::size_t edges_in_band = 4, most_bands = 1 << 16;
 
@@ -19,8 +18,8 @@ constexpr std::size_t edges_in_band = 4, most_bands = 1 << 16;
 Region::Region(const std::vector<Ring>& rings) {
   for (const Ring& ring : rings) {
     for (const Point2d p : ring) {
-      require_between("a coordinate of the region", p.x, -farthest_m, farthest_m);
-      require_between("a coordinate of the region", p.y, -farthest_m, farthest_m);
+      require_coordinate("a coordinate of the region", p.x);
+      require_coordinate("a coordinate of the region", p.y);
     }
     for (std::size_t n = 0; n < ring.size(); ++n) {
       const Point2d a = ring[n], b = ring[n + 1 < ring.size() ? n + 1 : 0];

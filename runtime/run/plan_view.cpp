@@ -136,20 +136,18 @@ BuildingOutlines joined(const std::vector<CellOutlines>& cells) {
   return all;
 }
 
-constexpr double farthest_m = 1e8;  // as for the rasters of answers
 constexpr const char* smaller_part = "choose a smaller part";
 
-void require_usable(const Box2d& part) {
-  for (const double x : {part.low.x, part.low.y, part.high.x, part.high.y})
-    require_between("a coordinate of the part", x, -farthest_m, farthest_m);
+void require_usable_part(const Box2d& part) {
+  for (const double x : {part.low.x, part.low.y, part.high.x, part.high.y}) require_coordinate("a coordinate of the part", x);
   if (part.empty()) throw InvalidArgument("the part is empty: its low corner must lie south-west of its high corner");
 }
 
-void require_usable(const RasterPlan& plan) {
+void require_usable_view(const RasterPlan& plan) {
   constexpr double most_pixels = 1e9;
   require_between("step_m", plan.step_m, 0.01, 10'000.0);
-  require_between("north_west_m.x", plan.north_west_m.x, -farthest_m, farthest_m);
-  require_between("north_west_m.y", plan.north_west_m.y, -farthest_m, farthest_m);
+  require_coordinate("north_west_m.x", plan.north_west_m.x);
+  require_coordinate("north_west_m.y", plan.north_west_m.y);
   if (plan.columns == 0 || plan.rows == 0) throw InvalidArgument("the raster has no pixels: give a column and a row at least");
   if (static_cast<double>(plan.columns) * static_cast<double>(plan.rows) > most_pixels)
     throw InvalidArgument("the raster has too many pixels: choose a smaller part, or a larger step");
@@ -159,8 +157,8 @@ void require_usable(const RasterPlan& plan) {
 
 std::optional<BuildingOutlines> building_outlines(const Package& package, const Box2d& part, std::size_t most_segments,
                                                   const RunSettings& run) {
-  farlod::require_usable(run);
-  require_usable(part);
+  require_usable(run);
+  require_usable_part(part);
   const PackageInUse in_use(package);
   const PackageReader& reader = in_use.reader();
   const double bytes =
@@ -180,8 +178,8 @@ std::optional<BuildingOutlines> building_outlines(const Package& package, const 
 }
 
 std::vector<float> ground_heights(const Package& package, const RasterPlan& plan, const RunSettings& run) {
-  farlod::require_usable(run);
-  require_usable(plan);
+  require_usable(run);
+  require_usable_view(plan);
   const PackageInUse in_use(package);
   const PackageReader& reader = in_use.reader();
   const std::size_t count = plan.columns * plan.rows;

@@ -49,10 +49,11 @@ void require_same_sizes(const Points& points, const PointAnswerSpans& answers, b
 
 /// No map is as large, and no place on it as high or as low.
 bool is_on_earth(const PlaceOfReceiver& place) {
-  constexpr double farthest_m = 1e8, highest_m = 1e5;
+  constexpr double highest_m = 1e5;
   const Point2d& p = place.p_projected;
   // Written so that NaN is not, either
-  return std::abs(p.x) <= farthest_m && std::abs(p.y) <= farthest_m && std::abs(place.height_m.value_or(0.0)) <= highest_m;
+  return std::abs(p.x) <= farthest_coordinate && std::abs(p.y) <= farthest_coordinate &&
+         std::abs(place.height_m.value_or(0.0)) <= highest_m;
 }
 
 /// Of small cells, so many would lie between the grid and a place far away that its cell has no number (exact_cell_edge_m).

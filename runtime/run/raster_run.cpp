@@ -22,22 +22,21 @@ namespace {
 
 constexpr float no_data = SvfValues::no_data;
 constexpr std::size_t pixels_in_tile = raster_tile_edge * raster_tile_edge;
-constexpr double farthest_m = 1e8, most_pixels = 1e11;  // beyond what any machine holds, and below what a count can be
+constexpr double most_pixels = 1e11;  // beyond what any machine holds, and below what a count can be
 
 void require_step(double step_m) { require_between("step_m", step_m, 0.01, 10'000.0); }
 
 void require_usable(const RasterPlan& plan) {
   require_step(plan.step_m);
-  require_between("north_west_m.x", plan.north_west_m.x, -farthest_m, farthest_m);
-  require_between("north_west_m.y", plan.north_west_m.y, -farthest_m, farthest_m);
+  require_coordinate("north_west_m.x", plan.north_west_m.x);
+  require_coordinate("north_west_m.y", plan.north_west_m.y);
   if (plan.columns == 0 || plan.rows == 0) throw InvalidArgument("the raster has no pixels: give a column and a row at least");
   if (static_cast<double>(plan.columns) * static_cast<double>(plan.rows) > most_pixels)
     throw InvalidArgument("the raster has too many pixels: choose a smaller part, or a larger step");
 }
 
 void require_usable(const Box2d& part, double step_m) {
-  for (const double x : {part.low.x, part.low.y, part.high.x, part.high.y})
-    require_between("a coordinate of the part", x, -farthest_m, farthest_m);
+  for (const double x : {part.low.x, part.low.y, part.high.x, part.high.y}) require_coordinate("a coordinate of the part", x);
   if (part.low.x >= part.high.x || part.low.y >= part.high.y)
     throw InvalidArgument("the part of the raster is empty: its low corner must lie south-west of its high corner");
   if ((part.high.x - part.low.x) / step_m * ((part.high.y - part.low.y) / step_m) > most_pixels)

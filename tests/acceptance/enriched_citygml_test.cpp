@@ -191,7 +191,7 @@ std::string solid(const std::vector<std::string>& members, int lod = 2) {
   return "<" + property + "<gml:Solid><gml:exterior><gml:CompositeSurface>" + all_of(members) +
          "</gml:CompositeSurface></gml:exterior></gml:Solid></" + property;
 }
-std::string surfaces(const std::vector<std::string>& faces) {
+std::string boundaries(const std::vector<std::string>& faces) {
   std::string text;
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const std::string name = k == 0 ? "GroundSurface" : k == 1 ? "RoofSurface" : "WallSurface";
@@ -209,16 +209,16 @@ std::string building(const std::string& id, const std::string& content) {
 std::string strange_town(const std::string& encoding) {
   std::vector<std::string> shared = box("s", 500180, 11, 9);
   shared[3] = reference("p", 5);
-  const std::string part = "<bldg:consistsOfBuildingPart><bldg:BuildingPart>" + surfaces(box("p", 500100, 10, 8)) +
+  const std::string part = "<bldg:consistsOfBuildingPart><bldg:BuildingPart>" + boundaries(box("p", 500100, 10, 8)) +
                            "</bldg:BuildingPart></bldg:consistsOfBuildingPart>";
   return "<?xml version='1.0' encoding='" + encoding +
          "'?>\n<CityModel xmlns='http://www.opengis.net/citygml/2.0' xmlns:gml='http://www.opengis.net/gml' "
          "xmlns:xlink='http://www.w3.org/1999/xlink' xmlns:bldg='http://www.opengis.net/citygml/building/2.0'>\n" +
-         building("H\xe4user", solid(references("h")) + surfaces(box("h", 500000, 7, 5))) +
-         building("refers", solid(box("r", 500020, 8, 6)) + surfaces(references("r"))) +
-         building("copies", surfaces(box("c", 500040, 9, 7)) + solid(box("d", 500040, 9, 7))) +
-         building("levels", solid(box("e", 500060, 12, 4), 1) + surfaces(box("f", 500060, 13, 5))) +
-         building("parts", solid(box("q", 500080, 14, 3)) + part) + building("shares", surfaces(shared)) + "</CityModel>";
+         building("H\xe4user", solid(references("h")) + boundaries(box("h", 500000, 7, 5))) +
+         building("refers", solid(box("r", 500020, 8, 6)) + boundaries(references("r"))) +
+         building("copies", boundaries(box("c", 500040, 9, 7)) + solid(box("d", 500040, 9, 7))) +
+         building("levels", solid(box("e", 500060, 12, 4), 1) + boundaries(box("f", 500060, 13, 5))) +
+         building("parts", solid(box("q", 500080, 14, 3)) + part) + building("shares", boundaries(shared)) + "</CityModel>";
 }
 
 TEST_F(EnrichedCityGml, EachWayToWriteABoxHasItsValues) {

@@ -22,12 +22,12 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-const Point2d crossing = p_projected({-60.0, 0.0});
+const Point2d middle_crossing = p_projected({-60.0, 0.0});
 
 TEST_F(PackedTown, QuantitiesAreColumnsOfATable) {
   folder.must(
       "farlod-svf a.farlod -o o.csv --quantity svf,svf_solid,directional,hidden,horizon --horizons 8 --summary s.json --at " +
-      text_of(crossing));
+      text_of(middle_crossing));
   const CsvTable row = table("o.csv");
   EXPECT_THAT(row.header(), ElementsAre("id", "x_m", "y_m", "z_m", "svf", "svf_solid", "svfN", "svfE", "svfS", "svfW",
                                         "hidden_near", "hidden_far", "horizon_000", "horizon_045", "horizon_090", "horizon_135",
@@ -159,7 +159,7 @@ TEST_F(PackedTown, PointsAlongAStreetAreAnswered) {
   folder.write("axes.geojson",
                R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32632"}}, "features":
   [{"type": "Feature", "properties": {"street": "main"}, "geometry": {"type": "LineString", "coordinates": [[)" +
-                   text_of(crossing) + "], [" + text_of(end) + "]]}}]}");
+                   text_of(middle_crossing) + "], [" + text_of(end) + "]]}}]}");
   folder.must("farlod-svf a.farlod -o o.csv --along axes.geojson --spacing 5");
   const CsvTable points = table("o.csv");
   EXPECT_EQ(points.size(), 24U);

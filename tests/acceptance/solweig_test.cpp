@@ -14,16 +14,16 @@ namespace {
 using testing::ElementsAre;
 
 constexpr std::size_t columns = 40, rows = 25;
-constexpr double step_m = 3.0;
+constexpr double pixel_step_m = 3.0;
 
 /// A surface model whose pixels begin where those of --grid 3 do not.
 class Solweig : public PackedTown {
  protected:
-  Solweig() : north_west_(town_middle + Point2d{-61.25, 31.75}) { write_model("dsm.asc", step_m); }
+  Solweig() : north_west_(town_middle + Point2d{-61.25, 31.75}) { write_model("dsm.asc", pixel_step_m); }
 
   void write_model(const std::string& name, double cell_m) const {
     std::string text = fmt::format("ncols {}\nnrows {}\nxllcorner {}\nyllcorner {}\ncellsize {}\nNODATA_value -9999\n", columns,
-                                   rows, north_west_.x, north_west_.y - static_cast<double>(rows) * step_m, cell_m);
+                                   rows, north_west_.x, north_west_.y - static_cast<double>(rows) * pixel_step_m, cell_m);
     for (std::size_t n = 0; n < columns * rows; ++n) text += "0 ";
     folder.write(name, text + "\n");
   }
@@ -48,7 +48,7 @@ TEST_F(Solweig, FilesHaveTheNamesAndThePixelsThatItNeeds) {
     const RasterFile raster = band(name);
     EXPECT_EQ(raster.columns, columns);
     EXPECT_EQ(raster.rows, rows);
-    EXPECT_EQ(raster.step_m, step_m);
+    EXPECT_EQ(raster.step_m, pixel_step_m);
     EXPECT_EQ(raster.north_west, north_west_);
   }
 }

@@ -13,21 +13,21 @@ namespace farlod::acceptance {
 namespace {
 
 /// A command of farlod-svf that cannot be followed, and what the user must be told.
-struct Refused {
+struct RefusedSvf {
   std::string name;
   std::string arguments;
   int exit_code;
   std::vector<std::string> said;
 };
-void PrintTo(const Refused& refused, std::ostream* out) { *out << "farlod-svf " << refused.arguments; }
+void PrintTo(const RefusedSvf& refused, std::ostream* out) { *out << "farlod-svf " << refused.arguments; }
 
 std::string all_endings() {
   return endings_where([](const OutputFormat&) { return true; });
 }
 
-std::string name_of(const testing::TestParamInfo<Refused>& info) { return info.param.name; }
+std::string name_of_refused(const testing::TestParamInfo<RefusedSvf>& info) { return info.param.name; }
 
-class SvfRefuses : public testing::TestWithParam<Refused> {
+class SvfRefuses : public testing::TestWithParam<RefusedSvf> {
  protected:
   SvfRefuses() {
     add_packed_town(folder, "one_block", {{"block", {}, 20.0, 10.0}});
@@ -52,126 +52,130 @@ TEST_P(SvfRefuses, InOneLine) {
 
 INSTANTIATE_TEST_SUITE_P(
     PackageReader, SvfRefuses,
-    testing::Values(Refused{"Missing",
-                            "lost.farlod -o o.csv --at 1,2",
-                            exit_unusable_input,
-                            {"lost.farlod is not a package", "no such folder", "farlod-pack"}},
-                    Refused{"OtherFolder",
-                            "no_package -o o.csv --at 1,2",
-                            exit_unusable_input,
-                            {"no_package is not a finished package", "manifest.json"}},
-                    Refused{"File", "town.geojson -o o.csv --at 1,2", exit_unusable_input, {"town.geojson is not a package"}}),
-    name_of);
+    testing::Values(RefusedSvf{"Missing",
+                               "lost.farlod -o o.csv --at 1,2",
+                               exit_unusable_input,
+                               {"lost.farlod is not a package", "no such folder", "farlod-pack"}},
+                    RefusedSvf{"OtherFolder",
+                               "no_package -o o.csv --at 1,2",
+                               exit_unusable_input,
+                               {"no_package is not a finished package", "manifest.json"}},
+                    RefusedSvf{"File", "town.geojson -o o.csv --at 1,2", exit_unusable_input, {"town.geojson is not a package"}}),
+    name_of_refused);
 
 INSTANTIATE_TEST_SUITE_P(
     Usage, SvfRefuses,
     testing::Values(
-        Refused{"NoOutput", "a.farlod --at 1,2", exit_usage, {"--output is required"}},
-        Refused{"NoPackage", "-o o.csv --at 1,2", exit_usage, {"PACKAGE is required"}},
-        Refused{"UnknownEnding", "a.farlod -o o.no_such_format --at 1,2", exit_usage, {"o.no_such_format", all_endings()}},
-        Refused{"NoEnding", "a.farlod -o o --at 1,2", exit_usage, {"\"o\"", all_endings()}},
-        Refused{
+        RefusedSvf{"NoOutput", "a.farlod --at 1,2", exit_usage, {"--output is required"}},
+        RefusedSvf{"NoPackage", "-o o.csv --at 1,2", exit_usage, {"PACKAGE is required"}},
+        RefusedSvf{"UnknownEnding", "a.farlod -o o.no_such_format --at 1,2", exit_usage, {"o.no_such_format", all_endings()}},
+        RefusedSvf{"NoEnding", "a.farlod -o o --at 1,2", exit_usage, {"\"o\"", all_endings()}},
+        RefusedSvf{
             "NoReceivers", "a.farlod -o o.csv", exit_usage, {"--grid,--grid-like,--points,--along,--surfaces,--at", "required"}},
-        Refused{"TwoKindsOfReceivers",
-                "a.farlod -o o.csv --at 1,2 --surfaces all",
-                exit_usage,
-                {"--grid,--grid-like,--points,--along,--surfaces,--at", "2 were given"}},
-        Refused{"NoRays", "a.farlod -o o.csv --at 1,2 --rays 0", exit_usage, {"--rays", "1 to 10000000"}},
-        Refused{"NegativeRays", "a.farlod -o o.csv --at 1,2 --rays -3", exit_usage, {"--rays", "1 to 10000000"}},
-        Refused{"NegativeVerify", "a.farlod -o o.csv --at 1,2 --verify -4", exit_usage, {"--verify", "-4"}},
-        Refused{"UnknownEngine",
-                "a.farlod -o o.csv --at 1,2 --engine magic",
-                exit_usage,
-                {"--engine: magic", "auto,horizon,rays,exact"}},
-        Refused{"OneCoordinate", "a.farlod -o o.csv --at 1", exit_usage, {"--at: give X,Y or X,Y,Z"}},
-        Refused{"CoordinateIsNoNumber", "a.farlod -o o.csv --at nan,2", exit_usage, {"--at", "nan,2"}},
-        Refused{"ZeroStep", "a.farlod -o o.asc --grid 0", exit_usage, {"--grid: 0", "from 0.01 to 10000"}},
-        Refused{"StepIsNoNumber", "a.farlod -o o.asc --grid nan", exit_usage, {"--grid: nan", "from 0.01 to 10000"}},
-        Refused{"HeightIsNoNumber", "a.farlod -o o.asc --grid 5 --height nan", exit_usage, {"--height: nan", "from 0 to 10000"}},
-        Refused{"HeightInSpace", "a.farlod -o o.asc --grid 5 --height 1e30", exit_usage, {"--height: 1e30", "from 0 to 10000"}},
-        Refused{"SpacingIsNoNumber", "a.farlod -o o.csv --surfaces all --spacing nan", exit_usage, {"--spacing: nan"}},
-        Refused{"BoxOfThreeNumbers", "a.farlod -o o.asc --grid 5 --bbox 1,2,3", exit_usage, {"--bbox", "X0,Y0,X1,Y1"}},
-        Refused{"BoxWithACommaTooMany", "a.farlod -o o.asc --grid 5 --bbox 1,2,3,4,", exit_usage, {"--bbox", "X0,Y0,X1,Y1"}},
-        Refused{"PlaceWithACommaTooMany", "a.farlod -o o.csv --at 1,2,", exit_usage, {"--at", "X,Y"}},
-        Refused{"BoxInsideOut", "a.farlod -o o.asc --grid 5 --bbox 3,2,1,4", exit_usage, {"--bbox", "X0 < X1"}},
-        Refused{"BoxBeyondAllMachines",
-                "a.farlod -o o.asc --grid 1 --bbox 0,0,1e300,1e300",
-                exit_usage,
-                {"--bbox", "nowhere on Earth"}},
-        Refused{"BoxWithoutGrid", "a.farlod -o o.csv --at 1,2 --bbox 0,0,1,1", exit_usage, {"--bbox", "--grid"}},
-        Refused{"PointsCrsWithoutPoints",
-                "a.farlod -o o.csv --at 1,2 --points-crs EPSG:4326",
-                exit_usage,
-                {"--points-crs", "--points"}},
-        Refused{"PointsLayerWithoutPoints",
-                "a.farlod -o o.csv --at 1,2 --points-layer a",
-                exit_usage,
-                {"--points-layer", "--points"}},
-        Refused{"PreviewWithoutGrid", "a.farlod -o o.csv --at 1,2 --preview p.png", exit_usage, {"--preview", "--grid"}},
-        Refused{"HistogramOfOneValue",
-                "a.farlod -o o.csv --at 1,2 --histogram h.png",
-                exit_usage,
-                {"--histogram", "--grid, --points, --along and --surfaces"}},
-        Refused{"HistogramIsNoPicture",
-                "a.farlod -o o.asc --grid 5 --histogram h.csv",
-                exit_usage,
-                {"--histogram", "h.csv", ".png, .svg, .pdf"}},
-        Refused{"MapOfNoVerification",
-                "a.farlod -o o.asc --grid 5 --verify-map v.png",
-                exit_usage,
-                {"--verify-map", "give --verify"}},
-        Refused{"MapOfOneVerification",
-                "a.farlod -o o.csv --at 1,2 --verify 1 --verify-map v.png",
-                exit_usage,
-                {"--verify-map", "--grid, --points, --along and --surfaces"}},
-        Refused{"MapOfAVerificationIsNoPicture",
-                "a.farlod -o o.asc --grid 5 --verify 1 --verify-map v.asc",
-                exit_usage,
-                {"--verify-map", "v.asc", ".csv, .png, .svg, .pdf"}},
-        Refused{"ProjectionOfATable",
-                "a.farlod -o o.csv --at 1,2 --projection equidistant",
-                exit_usage,
-                {"--projection", "picture of --at"}},
-        Refused{"PreviewIsNoPicture",
-                "a.farlod -o o.asc --grid 5 --preview p.jpg",
-                exit_usage,
-                {"--preview", "p.jpg", ".png, .svg, .pdf"}},
-        Refused{"NoMemory", "a.farlod -o o.csv --at 1,2 --memory-limit 0", exit_usage, {"--memory-limit", "0"}},
-        Refused{"UnknownOptionInConfig", "a.farlod -o o.asc --config typo.toml", exit_usage, {"--config", "rayz"}}),
-    name_of);
+        RefusedSvf{"TwoKindsOfReceivers",
+                   "a.farlod -o o.csv --at 1,2 --surfaces all",
+                   exit_usage,
+                   {"--grid,--grid-like,--points,--along,--surfaces,--at", "2 were given"}},
+        RefusedSvf{"NoRays", "a.farlod -o o.csv --at 1,2 --rays 0", exit_usage, {"--rays", "1 to 10000000"}},
+        RefusedSvf{"NegativeRays", "a.farlod -o o.csv --at 1,2 --rays -3", exit_usage, {"--rays", "1 to 10000000"}},
+        RefusedSvf{"NegativeVerify", "a.farlod -o o.csv --at 1,2 --verify -4", exit_usage, {"--verify", "-4"}},
+        RefusedSvf{"UnknownEngine",
+                   "a.farlod -o o.csv --at 1,2 --engine magic",
+                   exit_usage,
+                   {"--engine: magic", "auto,horizon,rays,exact"}},
+        RefusedSvf{"OneCoordinate", "a.farlod -o o.csv --at 1", exit_usage, {"--at: give X,Y or X,Y,Z"}},
+        RefusedSvf{"CoordinateIsNoNumber", "a.farlod -o o.csv --at nan,2", exit_usage, {"--at", "nan,2"}},
+        RefusedSvf{"ZeroStep", "a.farlod -o o.asc --grid 0", exit_usage, {"--grid: 0", "from 0.01 to 10000"}},
+        RefusedSvf{"StepIsNoNumber", "a.farlod -o o.asc --grid nan", exit_usage, {"--grid: nan", "from 0.01 to 10000"}},
+        RefusedSvf{
+            "HeightIsNoNumber", "a.farlod -o o.asc --grid 5 --height nan", exit_usage, {"--height: nan", "from 0 to 10000"}},
+        RefusedSvf{
+            "HeightInSpace", "a.farlod -o o.asc --grid 5 --height 1e30", exit_usage, {"--height: 1e30", "from 0 to 10000"}},
+        RefusedSvf{"SpacingIsNoNumber", "a.farlod -o o.csv --surfaces all --spacing nan", exit_usage, {"--spacing: nan"}},
+        RefusedSvf{"BoxOfThreeNumbers", "a.farlod -o o.asc --grid 5 --bbox 1,2,3", exit_usage, {"--bbox", "X0,Y0,X1,Y1"}},
+        RefusedSvf{"BoxWithACommaTooMany", "a.farlod -o o.asc --grid 5 --bbox 1,2,3,4,", exit_usage, {"--bbox", "X0,Y0,X1,Y1"}},
+        RefusedSvf{"PlaceWithACommaTooMany", "a.farlod -o o.csv --at 1,2,", exit_usage, {"--at", "X,Y"}},
+        RefusedSvf{"BoxInsideOut", "a.farlod -o o.asc --grid 5 --bbox 3,2,1,4", exit_usage, {"--bbox", "X0 < X1"}},
+        RefusedSvf{"BoxBeyondAllMachines",
+                   "a.farlod -o o.asc --grid 1 --bbox 0,0,1e300,1e300",
+                   exit_usage,
+                   {"--bbox", "nowhere on Earth"}},
+        RefusedSvf{"BoxWithoutGrid", "a.farlod -o o.csv --at 1,2 --bbox 0,0,1,1", exit_usage, {"--bbox", "--grid"}},
+        RefusedSvf{"PointsCrsWithoutPoints",
+                   "a.farlod -o o.csv --at 1,2 --points-crs EPSG:4326",
+                   exit_usage,
+                   {"--points-crs", "--points"}},
+        RefusedSvf{"PointsLayerWithoutPoints",
+                   "a.farlod -o o.csv --at 1,2 --points-layer a",
+                   exit_usage,
+                   {"--points-layer", "--points"}},
+        RefusedSvf{"PreviewWithoutGrid", "a.farlod -o o.csv --at 1,2 --preview p.png", exit_usage, {"--preview", "--grid"}},
+        RefusedSvf{"HistogramOfOneValue",
+                   "a.farlod -o o.csv --at 1,2 --histogram h.png",
+                   exit_usage,
+                   {"--histogram", "--grid, --points, --along and --surfaces"}},
+        RefusedSvf{"HistogramIsNoPicture",
+                   "a.farlod -o o.asc --grid 5 --histogram h.csv",
+                   exit_usage,
+                   {"--histogram", "h.csv", ".png, .svg, .pdf"}},
+        RefusedSvf{"MapOfNoVerification",
+                   "a.farlod -o o.asc --grid 5 --verify-map v.png",
+                   exit_usage,
+                   {"--verify-map", "give --verify"}},
+        RefusedSvf{"MapOfOneVerification",
+                   "a.farlod -o o.csv --at 1,2 --verify 1 --verify-map v.png",
+                   exit_usage,
+                   {"--verify-map", "--grid, --points, --along and --surfaces"}},
+        RefusedSvf{"MapOfAVerificationIsNoPicture",
+                   "a.farlod -o o.asc --grid 5 --verify 1 --verify-map v.asc",
+                   exit_usage,
+                   {"--verify-map", "v.asc", ".csv, .png, .svg, .pdf"}},
+        RefusedSvf{"ProjectionOfATable",
+                   "a.farlod -o o.csv --at 1,2 --projection equidistant",
+                   exit_usage,
+                   {"--projection", "picture of --at"}},
+        RefusedSvf{"PreviewIsNoPicture",
+                   "a.farlod -o o.asc --grid 5 --preview p.jpg",
+                   exit_usage,
+                   {"--preview", "p.jpg", ".png, .svg, .pdf"}},
+        RefusedSvf{"NoMemory", "a.farlod -o o.csv --at 1,2 --memory-limit 0", exit_usage, {"--memory-limit", "0"}},
+        RefusedSvf{"UnknownOptionInConfig", "a.farlod -o o.asc --config typo.toml", exit_usage, {"--config", "rayz"}}),
+    name_of_refused);
 
 INSTANTIATE_TEST_SUITE_P(
     City, SvfRefuses,
     testing::Values(
-        Refused{"WithoutSurfaces", "a.farlod -o o.city.json --grid 5 --city town.geojson", exit_usage, {"--city", "--surfaces"}},
-        Refused{"OtherEnding", "a.farlod -o o.csv --surfaces all --city town.geojson", exit_usage, {"-o", "ends in .city.json"}},
-        Refused{"NotNamed", "a.farlod -o o.city.json --surfaces all", exit_usage, {"-o", "--city"}},
-        Refused{
+        RefusedSvf{
+            "WithoutSurfaces", "a.farlod -o o.city.json --grid 5 --city town.geojson", exit_usage, {"--city", "--surfaces"}},
+        RefusedSvf{
+            "OtherEnding", "a.farlod -o o.csv --surfaces all --city town.geojson", exit_usage, {"-o", "ends in .city.json"}},
+        RefusedSvf{"NotNamed", "a.farlod -o o.city.json --surfaces all", exit_usage, {"-o", "--city"}},
+        RefusedSvf{
             "Bounds", "a.farlod -o o.city.json --surfaces all --city town.geojson --bounds", exit_usage, {"--bounds", "--city"}},
-        Refused{"Missing",
-                "a.farlod -o o.city.json --surfaces all --city lost.city.json",
-                exit_unusable_input,
-                {"lost.city.json cannot be read"}},
-        Refused{"AnotherFile",
-                "a.farlod -o o.city.json --surfaces all --city word.csv",
-                exit_unusable_input,
-                {"word.csv is not a file that a.farlod was made of", "checksum"}},
-        Refused{"NoFolder",
-                "a.farlod -o lost/o.city.json --surfaces all --city town.geojson",
-                exit_unusable_input,
-                {"lost/o.city.json", "no folder lost"}},
-        Refused{"NoCityJson",
-                "a.farlod -o o.city.json --surfaces all --city town.geojson",
-                exit_unusable_input,
-                {"town.geojson cannot be enriched as CityJSON", "there is no \"type\": \"CityJSON\""}}),
-    name_of);
+        RefusedSvf{"Missing",
+                   "a.farlod -o o.city.json --surfaces all --city lost.city.json",
+                   exit_unusable_input,
+                   {"lost.city.json cannot be read"}},
+        RefusedSvf{"AnotherFile",
+                   "a.farlod -o o.city.json --surfaces all --city word.csv",
+                   exit_unusable_input,
+                   {"word.csv is not a file that a.farlod was made of", "checksum"}},
+        RefusedSvf{"NoFolder",
+                   "a.farlod -o lost/o.city.json --surfaces all --city town.geojson",
+                   exit_unusable_input,
+                   {"lost/o.city.json", "no folder lost"}},
+        RefusedSvf{"NoCityJson",
+                   "a.farlod -o o.city.json --surfaces all --city town.geojson",
+                   exit_unusable_input,
+                   {"town.geojson cannot be enriched as CityJSON", "there is no \"type\": \"CityJSON\""}}),
+    name_of_refused);
 
 /// Each format with the receivers that it is not for.
-std::vector<Refused> formats_that_do_not_fit() {
+std::vector<RefusedSvf> formats_that_do_not_fit() {
   const std::string tables = endings_where([](const OutputFormat& f) { return f.holds_tables(); });
   const std::string pictures = endings_where([](const OutputFormat& f) { return f.is_picture; });
   const std::string rasters = endings_where([](const OutputFormat& f) { return f.raster_writer != nullptr; });
-  std::vector<Refused> refused;
+  std::vector<RefusedSvf> refused;
   for (const OutputFormat& format : output_formats()) {
     const std::string ending(format.endings[0]), name = ending.substr(1), command = "a.farlod -o o" + ending;
     if (format.raster_writer == nullptr)
@@ -193,61 +197,68 @@ std::vector<Refused> formats_that_do_not_fit() {
   }
   return refused;
 }
-INSTANTIATE_TEST_SUITE_P(Formats, SvfRefuses, testing::ValuesIn(formats_that_do_not_fit()), name_of);
+INSTANTIATE_TEST_SUITE_P(Formats, SvfRefuses, testing::ValuesIn(formats_that_do_not_fit()), name_of_refused);
 
 INSTANTIATE_TEST_SUITE_P(
     Points, SvfRefuses,
     testing::Values(
-        Refused{"Missing", "a.farlod -o o.csv --points lost.csv", exit_unusable_input, {"lost.csv", "cannot be read"}},
-        Refused{"Word", "a.farlod -o o.csv --points word.csv", exit_unusable_input, {"word.csv:3", "\"north\" is not a number"}},
-        Refused{"ShortRow", "a.farlod -o o.csv --points short.csv", exit_unusable_input, {"short.csv:3", "ends before y"}},
-        Refused{"NamelessColumns", "a.farlod -o o.csv --points nameless.csv", exit_unusable_input, {"nameless.csv:1", "x and y"}},
-        Refused{"Empty", "a.farlod -o o.csv --points empty.csv", exit_unusable_input, {"empty.csv", "no points"}},
-        Refused{"LayerOfATable",
-                "a.farlod -o o.csv --points word.csv --points-layer a",
-                exit_unusable_input,
-                {"word.csv", "no layers"}},
-        Refused{"HeaderAlone", "a.farlod -o o.csv --points headed.csv", exit_unusable_input, {"headed.csv", "no points"}},
-        Refused{"BeyondAllMaps", "a.farlod -o o.csv --points galaxy.csv", exit_unusable_input, {"point 1", "nowhere on Earth"}},
-        Refused{"AtBeyondAllMaps", "a.farlod -o o.csv --at 1e12,1e12", exit_unusable_input, {"point 1", "nowhere on Earth"}},
-        Refused{"AtInSpace", "a.farlod -o o.csv --at 500000,5500000,1e30", exit_unusable_input, {"point 1", "nowhere on Earth"}}),
-    name_of);
+        RefusedSvf{"Missing", "a.farlod -o o.csv --points lost.csv", exit_unusable_input, {"lost.csv", "cannot be read"}},
+        RefusedSvf{
+            "Word", "a.farlod -o o.csv --points word.csv", exit_unusable_input, {"word.csv:3", "\"north\" is not a number"}},
+        RefusedSvf{"ShortRow", "a.farlod -o o.csv --points short.csv", exit_unusable_input, {"short.csv:3", "ends before y"}},
+        RefusedSvf{
+            "NamelessColumns", "a.farlod -o o.csv --points nameless.csv", exit_unusable_input, {"nameless.csv:1", "x and y"}},
+        RefusedSvf{"Empty", "a.farlod -o o.csv --points empty.csv", exit_unusable_input, {"empty.csv", "no points"}},
+        RefusedSvf{"LayerOfATable",
+                   "a.farlod -o o.csv --points word.csv --points-layer a",
+                   exit_unusable_input,
+                   {"word.csv", "no layers"}},
+        RefusedSvf{"HeaderAlone", "a.farlod -o o.csv --points headed.csv", exit_unusable_input, {"headed.csv", "no points"}},
+        RefusedSvf{
+            "BeyondAllMaps", "a.farlod -o o.csv --points galaxy.csv", exit_unusable_input, {"point 1", "nowhere on Earth"}},
+        RefusedSvf{"AtBeyondAllMaps", "a.farlod -o o.csv --at 1e12,1e12", exit_unusable_input, {"point 1", "nowhere on Earth"}},
+        RefusedSvf{
+            "AtInSpace", "a.farlod -o o.csv --at 500000,5500000,1e30", exit_unusable_input, {"point 1", "nowhere on Earth"}}),
+    name_of_refused);
 
-INSTANTIATE_TEST_SUITE_P(
-    Output, SvfRefuses,
-    testing::Values(
-        Refused{"NoFolder", "a.farlod -o lost/o.csv --at 500030,5500010", exit_unusable_input, {"lost/o.csv", "no folder lost"}},
-        Refused{"NoFolderForPreview",
-                "a.farlod -o o.asc --grid 5 --preview lost/p.png",
-                exit_unusable_input,
-                {"lost/p.png", "no folder lost"}},
-        Refused{"NoFolderForSummary",
-                "a.farlod -o o.asc --grid 5 --summary lost/s.json",
-                exit_unusable_input,
-                {"lost/s.json", "no folder lost"}},
-        Refused{
-            "FolderIsAFile", "a.farlod -o town.geojson/o.csv --at 500030,5500010", exit_unusable_input, {"town.geojson/o.csv"}}),
-    name_of);
+INSTANTIATE_TEST_SUITE_P(Output, SvfRefuses,
+                         testing::Values(RefusedSvf{"NoFolder",
+                                                    "a.farlod -o lost/o.csv --at 500030,5500010",
+                                                    exit_unusable_input,
+                                                    {"lost/o.csv", "no folder lost"}},
+                                         RefusedSvf{"NoFolderForPreview",
+                                                    "a.farlod -o o.asc --grid 5 --preview lost/p.png",
+                                                    exit_unusable_input,
+                                                    {"lost/p.png", "no folder lost"}},
+                                         RefusedSvf{"NoFolderForSummary",
+                                                    "a.farlod -o o.asc --grid 5 --summary lost/s.json",
+                                                    exit_unusable_input,
+                                                    {"lost/s.json", "no folder lost"}},
+                                         RefusedSvf{"FolderIsAFile",
+                                                    "a.farlod -o town.geojson/o.csv --at 500030,5500010",
+                                                    exit_unusable_input,
+                                                    {"town.geojson/o.csv"}}),
+                         name_of_refused);
 
 #ifdef FARLOD_WITH_GDAL
 INSTANTIATE_TEST_SUITE_P(Gdal, SvfRefuses,
-                         testing::Values(Refused{"BeyondThePole",
-                                                 "a.farlod -o o.csv --points pole.csv --points-crs EPSG:4326",
-                                                 exit_unusable_input,
-                                                 {"point 1 at (9, 95)", "x is the longitude"}},
-                                         Refused{"PolygonsForPoints",
-                                                 "a.farlod -o o.csv --points town.geojson",
-                                                 exit_unusable_input,
-                                                 {"town.geojson", "holds no points"}},
-                                         Refused{"MissingVectorFile",
-                                                 "a.farlod -o o.csv --points lost.gpkg",
-                                                 exit_unusable_input,
-                                                 {"lost.gpkg", "cannot be read"}},
-                                         Refused{"UnknownPointsCrs",
-                                                 "a.farlod -o o.csv --points pole.csv --points-crs EPSG:99999",
-                                                 exit_unusable_input,
-                                                 {"EPSG:99999", "not known", "EPSG:4326"}}),
-                         name_of);
+                         testing::Values(RefusedSvf{"BeyondThePole",
+                                                    "a.farlod -o o.csv --points pole.csv --points-crs EPSG:4326",
+                                                    exit_unusable_input,
+                                                    {"point 1 at (9, 95)", "x is the longitude"}},
+                                         RefusedSvf{"PolygonsForPoints",
+                                                    "a.farlod -o o.csv --points town.geojson",
+                                                    exit_unusable_input,
+                                                    {"town.geojson", "holds no points"}},
+                                         RefusedSvf{"MissingVectorFile",
+                                                    "a.farlod -o o.csv --points lost.gpkg",
+                                                    exit_unusable_input,
+                                                    {"lost.gpkg", "cannot be read"}},
+                                         RefusedSvf{"UnknownPointsCrs",
+                                                    "a.farlod -o o.csv --points pole.csv --points-crs EPSG:99999",
+                                                    exit_unusable_input,
+                                                    {"EPSG:99999", "not known", "EPSG:4326"}}),
+                         name_of_refused);
 #endif
 
 TEST(SvfAnswersFromOutside, ABoxBesideTheCityIsAllNoData) {

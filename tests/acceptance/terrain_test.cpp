@@ -30,14 +30,14 @@ std::string ascii_grid(const std::function<double(Point2d)>& height_m) {
   return text.str();
 }
 
-double slope_m(Point2d p) { return 100.0 + 0.1 * p.x + 0.05 * p.y; }
+double plane_m(Point2d p) { return 100.0 + 0.1 * p.x + 0.05 * p.y; }
 
 /// Sides as steep as 20° all around, from a single lowest point.
 constexpr Angle bowl_side = Angle::degrees(20.0);
 double bowl_m(Point2d p) { return 50.0 + norm(p) * tan(bowl_side); }
 
 /// Tables print millimetres, packages keep floats of the height above their lowest whole metre.
-constexpr double height_error_m = 0.0005 + 0.0001;
+constexpr double plane_error_m = 0.0005 + 0.0001;
 
 class Terrain : public testing::Test {
  protected:
@@ -49,16 +49,16 @@ class Terrain : public testing::Test {
 };
 
 TEST_F(Terrain, ReceiversStandOnIt) {
-  folder.write("slope.asc", ascii_grid(slope_m));
+  folder.write("slope.asc", ascii_grid(plane_m));
   folder.must("farlod-pack --terrain slope.asc --crs EPSG:32632 -o a.farlod");
   for (const Point2d p : {Point2d{}, {100.0, 0.0}, {-123.0, 77.0}, {401.5, -398.25}}) {
-    EXPECT_NEAR(answer_at(town_middle + p, "").number(0, "z_m"), slope_m(p) + 1.5, height_error_m);
-    EXPECT_NEAR(answer_at(town_middle + p, "--on-surface").number(0, "z_m"), slope_m(p) + 1.5, height_error_m);
+    EXPECT_NEAR(answer_at(town_middle + p, "").number(0, "z_m"), plane_m(p) + 1.5, plane_error_m);
+    EXPECT_NEAR(answer_at(town_middle + p, "--on-surface").number(0, "z_m"), plane_m(p) + 1.5, plane_error_m);
   }
 }
 
 TEST_F(Terrain, AloneItIsACityToo) {
-  folder.write("slope.asc", ascii_grid(slope_m));
+  folder.write("slope.asc", ascii_grid(plane_m));
   folder.must("farlod-pack --terrain slope.asc --crs EPSG:32632 -o a.farlod --summary p.json");
   EXPECT_EQ(folder.json_of("p.json").at("buildings"), 0);
   folder.must("farlod-svf a.farlod -o o.asc --grid 20 --on-surface --summary s.json");
@@ -81,7 +81,7 @@ TEST_F(Terrain, AHillHidesTheSky) {
 }
 
 TEST_F(Terrain, BuildingsThatKnowOnlyTheirHeightStandOnIt) {
-  folder.write("slope.asc", ascii_grid(slope_m));
+  folder.write("slope.asc", ascii_grid(plane_m));
   folder.write("town.geojson", footprints_geojson(small_town()));
   folder.must("farlod-pack town.geojson --terrain slope.asc -o a.farlod");
   folder.must("farlod-svf a.farlod -o o.csv --surfaces roofs --spacing 30");
@@ -91,18 +91,18 @@ TEST_F(Terrain, BuildingsThatKnowOnlyTheirHeightStandOnIt) {
   for (const Block& b : small_town()) {
     double lowest_m = 1e9;
     for (const Point2d corner : {Point2d{-18.0, -18.0}, {18.0, -18.0}, {18.0, 18.0}, {-18.0, 18.0}})
-      lowest_m = std::min(lowest_m, slope_m(p_projected(b.centre + corner) - town_middle));
+      lowest_m = std::min(lowest_m, plane_m(p_projected(b.centre + corner) - town_middle));
     // Receivers float 1 cm above the roof; corners are off by 0.71 mm at most
-    EXPECT_NEAR(roof_m.at(b.id), lowest_m + b.height_m + 0.01, height_error_m + 0.11 * 0.00071) << b.id;
+    EXPECT_NEAR(roof_m.at(b.id), lowest_m + b.height_m + 0.01, plane_error_m + 0.11 * 0.00071) << b.id;
   }
 }
 
 TEST_F(Terrain, BetweenBuildingsReceiversStandOnTheTerrain) {
-  folder.write("slope.asc", ascii_grid(slope_m));
+  folder.write("slope.asc", ascii_grid(plane_m));
   folder.write("town.geojson", footprints_geojson(small_town()));
   folder.must("farlod-pack town.geojson --terrain slope.asc -o a.farlod");
   const Point2d street = p_projected({-60.0, 0.0});
-  EXPECT_NEAR(answer_at(street, "").number(0, "z_m"), slope_m(street - town_middle) + 1.5, height_error_m);
+  EXPECT_NEAR(answer_at(street, "").number(0, "z_m"), plane_m(street - town_middle) + 1.5, plane_error_m);
 }
 
 }  // namespace

@@ -97,11 +97,11 @@ std::vector<double> svf_of(const SkyEvaluator& evaluator, const Receivers& recei
   return {svf.begin(), svf.end()};
 }
 
-struct Where {
+struct Standing {
   const char* name;
   Receivers (*receivers)(const PackageReader&);
 };
-void PrintTo(const Where& where, std::ostream* out) { *out << where.name; }
+void PrintTo(const Standing& where, std::ostream* out) { *out << where.name; }
 
 /// Exact rays so many that they are the truth, and what they leave unseen.
 constexpr std::size_t many = 20000;
@@ -109,14 +109,14 @@ std::vector<double> truth_of(const PackageReader& package, const Receivers& rece
   return svf_of(SkyEvaluator(package, {Engine::exact, SkyWeight::cosine, many}), receivers);
 }
 
-/// Where something hangs over a receiver's horizon, rays stand in: as many as the truth has.
+/// Standing something hangs over a receiver's horizon, rays stand in: as many as the truth has.
 SkySettings automatic_with(std::size_t azimuths) {
   SkySettings settings{Engine::automatic, SkyWeight::cosine, many};
   settings.azimuths = azimuths;
   return settings;
 }
 
-class Horizons : public testing::TestWithParam<Where> {};
+class Horizons : public testing::TestWithParam<Standing> {};
 
 TEST_P(Horizons, WhereAllIsNearAndStandsAreWithinTheirBudget) {
   const PackedTown town(41, false);
@@ -162,9 +162,9 @@ TEST_P(Horizons, WithRaysForOverhangsAreWithinTheirBoundsAndTheirBudget) {
 
 INSTANTIATE_TEST_SUITE_P(
     Town, Horizons,
-    testing::Values(Where{"Streets", [](const PackageReader& p) { return in_streets(p, 40); }},
-                    Where{"Roofs", [](const PackageReader& p) { return on_surfaces(p, SurfaceChoice::roofs, 400); }},
-                    Where{"Walls", [](const PackageReader& p) { return on_surfaces(p, SurfaceChoice::walls, 400); }}),
+    testing::Values(Standing{"Streets", [](const PackageReader& p) { return in_streets(p, 40); }},
+                    Standing{"Roofs", [](const PackageReader& p) { return on_surfaces(p, SurfaceChoice::roofs, 400); }},
+                    Standing{"Walls", [](const PackageReader& p) { return on_surfaces(p, SurfaceChoice::walls, 400); }}),
     [](const auto& test) { return test.param.name; });
 
 TEST(Agreement, RaysInANeighborhoodThatCoversTheCityAreExactRays) {

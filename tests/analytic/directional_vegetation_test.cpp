@@ -19,18 +19,18 @@ namespace {
 
 using Columns = std::map<std::string, double>;
 
-constexpr float eye_m = 1.5F;
+constexpr float hedge_eye_m = 1.5F;
 /// The hedge, seen from the origin: where it begins, how wide it is, between which heights above the eye, and how far it goes.
 constexpr double near_m = 6.0, width_m = 2.0, bottom_m = 1.5, top_m = 7.0, end_m = 90.0;
 /// The share of the view between its bottom and its top, which lies in the eastern half alone.
 const double hidden = 0.5 * (std::cos(std::atan(bottom_m / (near_m + width_m))) - std::cos(std::atan(top_m / near_m)));
 /// Beyond its ends an endless one has slopes below .08 within .14 of the azimuths in radians; rays and azimuths err by less.
-constexpr double tolerance = 0.003;
+constexpr double hedge_tolerance = 0.003;
 /// With horizons, what is solid is asked of 640 rays, whose error is 2.4 · 640^(−3/4) at the most; a third of it. A half of the
 /// sky counts twice.
 constexpr double tolerance_of_rays = 0.0063;
 
-constexpr std::array engines{Engine::automatic, Engine::horizon, Engine::rays, Engine::exact};
+constexpr std::array engines_of_crowns{Engine::automatic, Engine::horizon, Engine::rays, Engine::exact};
 
 class HedgeToTheEast {
  public:
@@ -47,7 +47,7 @@ class HedgeToTheEast {
     const CellReceivers receivers{cell,
                                   {{0,
                                     {static_cast<float>(p_cell.x), static_cast<float>(p_cell.y),
-                                     static_cast<float>(eye_m - package_.manifest().height_origin_m)}}}};
+                                     static_cast<float>(hedge_eye_m - package_.manifest().height_origin_m)}}}};
     const SkyEvaluator evaluator(package_, settings);
     std::vector<float> svf(1), values(evaluator.further_columns());
     evaluator.evaluate(receivers, SkyAnswers(svf, {}, {}, values));
@@ -68,8 +68,8 @@ class HedgeToTheEast {
     scenes::pack_city(builder.city(), grid, folder);
     CrownsOfCity crowns = scenes::crowns_for(folder);
     for (double y = -end_m; y <= end_m; y += width_m)
-      crowns.add(grid.rotation.grid_from_city(Point2d{near_m + 0.5 * width_m, y}), eye_m + bottom_m, eye_m + top_m, 0.5 * width_m,
-                 CrownShape::prism, Foliage::unknown,
+      crowns.add(grid.rotation.grid_from_city(Point2d{near_m + 0.5 * width_m, y}), hedge_eye_m + bottom_m, hedge_eye_m + top_m,
+                 0.5 * width_m, CrownShape::prism, Foliage::unknown,
                  std::fmod(4.0 * std::numbers::pi + grid_bearing.radians(), 0.5 * std::numbers::pi));
     scenes::plant(crowns, folder);
     return PackageReader(folder);
@@ -92,20 +92,21 @@ void expect_hidden_to_the_east(const Columns& got, const std::string& kind, doub
   EXPECT_NEAR(got.at("svfE" + kind), 1.0 - 2.0 * hidden, 2.0 * error) << kind;
   EXPECT_NEAR(got.at("svfN" + kind), 1.0 - hidden, 2.0 * error) << kind;
   EXPECT_NEAR(got.at("svfS" + kind), 1.0 - hidden, 2.0 * error) << kind;
-  EXPECT_NEAR(got.at("svfW" + kind), 1.0, tolerance) << kind;
+  EXPECT_NEAR(got.at("svfW" + kind), 1.0, hedge_tolerance) << kind;
 }
 
 void expect_nothing_hidden(const Columns& got, const std::string& kind) {
-  for (const char* half : {"", "N", "E", "S", "W"}) EXPECT_NEAR(got.at(std::string("svf") + half + kind), 1.0, tolerance) << half;
+  for (const char* half : {"", "N", "E", "S", "W"})
+    EXPECT_NEAR(got.at(std::string("svf") + half + kind), 1.0, hedge_tolerance) << half;
 }
 
 TEST(DirectionalVegetation, OfAHedgeInTheOpenIsKnown) {
   for (const double bearing_deg : {0.0, 20.0}) {
     const HedgeToTheEast scene(Angle::degrees(bearing_deg), /*has_wall=*/false);
-    for (const Engine engine : engines) {
+    for (const Engine engine : engines_of_crowns) {
       SCOPED_TRACE(std::to_string(bearing_deg) + ", engine " + std::to_string(static_cast<int>(engine)));
       const Columns got = scene.columns(engine);
-      expect_hidden_to_the_east(got, "veg", tolerance);
+      expect_hidden_to_the_east(got, "veg", hedge_tolerance);
       expect_nothing_hidden(got, "aveg");
       expect_opposite_halves_to_add_up(got);
     }
@@ -114,11 +115,11 @@ TEST(DirectionalVegetation, OfAHedgeInTheOpenIsKnown) {
 
 TEST(DirectionalVegetation, OfAHedgeBeforeAWallIsKnown) {
   const HedgeToTheEast scene(Angle::degrees(20.0), /*has_wall=*/true);
-  for (const Engine engine : engines) {
+  for (const Engine engine : engines_of_crowns) {
     SCOPED_TRACE("engine " + std::to_string(static_cast<int>(engine)));
     const Columns got = scene.columns(engine);
     expect_nothing_hidden(got, "veg");
-    expect_hidden_to_the_east(got, "aveg", engine == Engine::exact ? tolerance : tolerance_of_rays);
+    expect_hidden_to_the_east(got, "aveg", engine == Engine::exact ? hedge_tolerance : tolerance_of_rays);
     expect_opposite_halves_to_add_up(got);
   }
 }
@@ -127,7 +128,7 @@ TEST(DirectionalVegetation, IsTheSameByAllRules) {
   const HedgeToTheEast scene(Angle::degrees(20.0), /*has_wall=*/false);
   for (const CanopyRule rule : {CanopyRule::each, CanopyRule::beer}) {
     const Columns got = scene.columns(Engine::automatic, rule);
-    expect_hidden_to_the_east(got, "veg", tolerance);
+    expect_hidden_to_the_east(got, "veg", hedge_tolerance);
     expect_opposite_halves_to_add_up(got);
   }
 }

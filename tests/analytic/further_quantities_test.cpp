@@ -21,7 +21,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr float eye_m = 1.5F;
+constexpr float packed_eye_m = 1.5F;
 constexpr double cell_edge_m = 40.0;
 
 /// A city around the middle of its only cell in which there are receivers, packed.
@@ -43,7 +43,7 @@ class PackedAround {
     const auto half = static_cast<float>(0.5 * cell_edge_m);
     const CellReceivers receivers{{0, 0},
                                   {{0,
-                                    {half, half, static_cast<float>(eye_m - package_.manifest().height_origin_m)},
+                                    {half, half, static_cast<float>(packed_eye_m - package_.manifest().height_origin_m)},
                                     {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)}}}};
     std::vector<float> svf(1), values(evaluator.further_columns());
     evaluator.evaluate(receivers, SkyAnswers(svf, {}, {}, values));
@@ -58,9 +58,9 @@ class PackedAround {
   PackageReader packed(Angle grid_bearing, const Build& build) const {
     const GridRotation rotation(grid_bearing);
     const Point2d middle_city = rotation.city_from_grid(Point2d{0.5 * cell_edge_m, 0.5 * cell_edge_m});
-    scenes::SceneBuilder builder({middle_city.x, middle_city.y, eye_m});
+    scenes::SceneBuilder builder({middle_city.x, middle_city.y, packed_eye_m});
     build(builder);
-    builder.add_box({{-0.05, -0.05}, {0.05, 0.05}}, -eye_m, -eye_m + 0.01);  // says where the ground is
+    builder.add_box({{-0.05, -0.05}, {0.05, 0.05}}, -packed_eye_m, -packed_eye_m + 0.01);  // says where the ground is
     const CityModel city = builder.city();
     const Grid grid = scenes::grid_covering(city, grid_bearing, cell_edge_m, 1, 1);
     scenes::pack_city(city, grid, folder_.path() / "scene.farlod", {}, Assign::clip, {{Cell{0, 0}}});
@@ -81,7 +81,7 @@ auto walls_of(const Canyon& c) {
     const Angle axis = Angle::degrees(c.axis_deg);
     const Point2d along{sin(axis), cos(axis)}, right{cos(axis), -sin(axis)};
     for (const double side : {c.right_m, -c.left_m})
-      builder.add_wall(side * right - 900.0 * along, side * right + 900.0 * along, -eye_m, c.height_m);
+      builder.add_wall(side * right - 900.0 * along, side * right + 900.0 * along, -packed_eye_m, c.height_m);
   };
 }
 
@@ -158,8 +158,8 @@ TEST(FurtherQuantities, DistancesReachBeyondTheNeighborhood) {
   further.horizons = 4;
   further.horizon_distances = true;
   const PackedAround packed({}, [](scenes::SceneBuilder& builder) {
-    builder.add_wall({-300.0, 700.0}, {300.0, 700.0}, -eye_m, 90.0);
-    builder.add_wall({-10.0, 15.0}, {10.0, 15.0}, -eye_m, 1.0);  // nearer, and below the horizon
+    builder.add_wall({-300.0, 700.0}, {300.0, 700.0}, -packed_eye_m, 90.0);
+    builder.add_wall({-10.0, 15.0}, {10.0, 15.0}, -packed_eye_m, 1.0);  // nearer, and below the horizon
   });
   for (const Engine engine : engines) EXPECT_NEAR(packed.columns(engine, further)["distance_000"], 700.0, 0.01);
 }
@@ -256,7 +256,7 @@ TEST(FurtherQuantities, PatchesAreCountedFromNorthClockwise) {
   further.sky_patches = SkyPatchSet::tregenza;
   // A wall in the east hides the lowest patches there: the eighth is centred at 84°, the 23rd at 264°
   const PackedAround packed(Angle::degrees(20.0), [](scenes::SceneBuilder& builder) {
-    builder.add_wall({8.0, -300.0}, {8.0, 300.0}, -eye_m, 30.0);
+    builder.add_wall({8.0, -300.0}, {8.0, 300.0}, -packed_eye_m, 30.0);
   });
   for (const Engine engine : engines) {
     auto got = packed.columns(engine, further);
@@ -272,8 +272,8 @@ TEST(FurtherQuantities, HiddenSharesAddUpAndAreOfTheirGeometry) {
   further.hidden = true;
   // A wall 5 m away in the cell, and a tower beyond it, which alone is seen in the west
   const PackedAround packed({}, [](scenes::SceneBuilder& builder) {
-    builder.add_wall({5.0, -15.0}, {5.0, 15.0}, -eye_m, 4.0);
-    builder.add_box({{-400.0, -60.0}, {-300.0, 60.0}}, -eye_m, 200.0);
+    builder.add_wall({5.0, -15.0}, {5.0, 15.0}, -packed_eye_m, 4.0);
+    builder.add_box({{-400.0, -60.0}, {-300.0, 60.0}}, -packed_eye_m, 200.0);
   });
   const double near = 1.0 - oracles::finite_wall_cos(4.0, 5.0, 15.0, 15.0),
                far = 1.0 - oracles::finite_wall_cos(200.0, 300.0, 60.0, 60.0);
@@ -319,7 +319,7 @@ TEST(FurtherQuantities, SkyBelowAnOverhangCountsWhereItIsSeen) {
   // Below a wide roof without walls, and a wall in the west that leaves no gap there
   const PackedAround packed({}, [](scenes::SceneBuilder& builder) {
     builder.add_box({{-14.0, -14.0}, {14.0, 14.0}}, 3.0, 3.5);
-    builder.add_wall({-13.9, -13.9}, {-13.9, 13.9}, -eye_m, 3.0);
+    builder.add_wall({-13.9, -13.9}, {-13.9, 13.9}, -packed_eye_m, 3.0);
   });
   std::map<std::string, double> by_engine;
   for (const Engine engine : {Engine::automatic, Engine::rays, Engine::exact}) {

@@ -20,12 +20,12 @@ const ProgramDescription program{.name = "farlod-see",
                                  .see_also = {"farlod-city", "farlod-pack"},
                                  .licence = "Apache-2.0"};
 
-OptionDescription option(std::vector<std::string> names, std::string value = "") {
-  OptionDescription option;
-  option.names = std::move(names);
-  option.value = std::move(value);
-  option.text = "Text";
-  return option;
+OptionDescription page_option(std::vector<std::string> names, std::string value = "") {
+  OptionDescription page_option;
+  page_option.names = std::move(names);
+  page_option.value = std::move(value);
+  page_option.text = "Text";
+  return page_option;
 }
 
 std::string page_of(const OptionList& list, const std::string& date = "") { return manual_page(program, list, {"1.2.3", date}); }
@@ -47,17 +47,17 @@ TEST(ManualPage, HasTheSectionsInTheirUsualOrder) {
 }
 
 TEST(ManualPage, SynopsisShowsWhatMustBeGiven) {
-  OptionDescription input = option({"INPUT"}, "FILE"), output = option({"-o", "--output"}, "FILE");
+  OptionDescription input = page_option({"INPUT"}, "FILE"), output = page_option({"-o", "--output"}, "FILE");
   input.repeatable = output.required = true;
-  const OptionGroup place{"Place", "", true, {option({"--here"}, "TEXT"), option({"--there"})}};
-  const OptionGroup rest{"Rest", "", false, {output, option({"--quiet"})}};
+  const OptionGroup place{"Place", "", true, {page_option({"--here"}, "TEXT"), page_option({"--there"})}};
+  const OptionGroup rest{"Rest", "", false, {output, page_option({"--quiet"})}};
   EXPECT_THAT(page_of({{input}, {place, rest}}),
               HasSubstr(".SY farlod\\-see\n[\\fIINPUT\\fR...]\n{\\fB\\-\\-here\\fR\\ \\fITEXT\\fR |\n\\fB\\-\\-there\\fR}\n"
                         "\\fB\\-o\\fR\\ \\fIFILE\\fR\n[\\fIOPTION\\fR]...\n.YS\n"));
 }
 
 TEST(ManualPage, AnOptionIsExplainedAsInHelp) {
-  OptionDescription full = option({"-k", "--kind"}, "TEXT");
+  OptionDescription full = page_option({"-k", "--kind"}, "TEXT");
   full.text = "a: the first; b: the other";
   full.choices = {"a", "b"};
   full.standard = "a";
@@ -67,15 +67,15 @@ TEST(ManualPage, AnOptionIsExplainedAsInHelp) {
       page_of({{}, {{"Group", "", false, {full}}}}),
       HasSubstr(".SS Group\n.TP\n\\fB\\-k\\fR, \\fB\\-\\-kind\\fR \\fITEXT\\fR\na: the first; b: the other.\nOne of a, b.\n"
                 "Default: a.\nRequired.\nNot together with \\fB\\-\\-less\\fR.\n"));
-  OptionDescription number = option({"--height"}, "FLOAT");
+  OptionDescription number = page_option({"--height"}, "FLOAT");
   number.range = "from 0 to 10";
   EXPECT_THAT(page_of({{}, {{"Group", "", false, {number}}}}), HasSubstr("Text.\nFrom 0 to 10.\n"));
 }
 
 TEST(ManualPage, AGroupSaysItsRule) {
-  EXPECT_THAT(page_of({{}, {{"Place", "Where", true, {option({"--here"})}}}}),
+  EXPECT_THAT(page_of({{}, {{"Place", "Where", true, {page_option({"--here"})}}}}),
               HasSubstr(".SS Place\nWhere.\nExactly one of these options is required.\n.TP\n"));
-  EXPECT_THAT(page_of({{}, {{"Place", "", false, {option({"--here"})}}}}), HasSubstr(".SS Place\n.TP\n"));
+  EXPECT_THAT(page_of({{}, {{"Place", "", false, {page_option({"--here"})}}}}), HasSubstr(".SS Place\n.TP\n"));
 }
 
 TEST(ManualPage, EndsWithCodesExamplesAndOtherPrograms) {

@@ -22,8 +22,8 @@
 namespace farlod::library {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double endless = std::numeric_limits<double>::infinity();
 
 struct WrongPack {
   std::string name;
@@ -40,7 +40,7 @@ std::vector<WrongPack> wrong_files() {
           {"trunks without a canopy", [](PackSettings& s) { s.trees.trunks = "trunks.tif"; }},
           {"heights of no kind", [](PackSettings& s) { s.trees.heights = static_cast<CanopyHeights>(2); }},
           {"crowns of nothing", [](PackSettings& s) { s.trees.trunk_ratio = 1.0; }},
-          {"crowns at no height", [](PackSettings& s) { s.trees.trunk_ratio = nan; }},
+          {"crowns at no height", [](PackSettings& s) { s.trees.trunk_ratio = not_a_number; }},
           {"no such overwrite", [](PackSettings& s) { s.overwrite = static_cast<Overwrite>(5); }},
           {"no such policy", [](PackSettings& s) { s.problems = static_cast<ProblemPolicy>(-1); }},
           {"no such axis", [](PackSettings& s) { s.up = static_cast<UpAxis>(2); }},
@@ -48,37 +48,37 @@ std::vector<WrongPack> wrong_files() {
           {"lod 4", [](PackSettings& s) { s.lod = 4; }},
           {"an origin at no place",
            [](PackSettings& s) {
-             s.obj_origin = Point3d{0.0, nan, 0.0};
+             s.obj_origin = Point3d{0.0, not_a_number, 0.0};
            }},
           {"an origin without end",
            [](PackSettings& s) {
-             s.obj_origin = Point3d{infinity, 0.0, 0.0};
+             s.obj_origin = Point3d{endless, 0.0, 0.0};
            }},
           {"an origin beyond the Earth",
            [](PackSettings& s) {
              s.obj_origin = Point3d{0.0, 0.0, 1e10};
            }},
           {"a storey of nothing", [](PackSettings& s) { s.footprints.floor_height_m = 0.0; }},
-          {"a storey at no height", [](PackSettings& s) { s.footprints.floor_height_m = nan; }},
+          {"a storey at no height", [](PackSettings& s) { s.footprints.floor_height_m = not_a_number; }},
           {"houses of nothing", [](PackSettings& s) { s.footprints.default_height_m = 0.0; }},
-          {"houses without end", [](PackSettings& s) { s.footprints.default_height_m = infinity; }}};
+          {"houses without end", [](PackSettings& s) { s.footprints.default_height_m = endless; }}};
 }
 
 std::vector<WrongPack> wrong_grids() {
   std::vector<WrongPack> list{{"no such alignment", [](PackSettings& s) { s.align = static_cast<AlignMode>(3); }},
                               {"no such assignment", [](PackSettings& s) { s.assign = static_cast<Assign>(2); }},
                               {"no such far map", [](PackSettings& s) { s.far_map = static_cast<FarMapKind>(2); }},
-                              {"a bearing at no angle", [](PackSettings& s) { s.fixed_bearing = Angle::degrees(nan); }},
+                              {"a bearing at no angle", [](PackSettings& s) { s.fixed_bearing = Angle::degrees(not_a_number); }},
                               {"a bearing of two turns", [](PackSettings& s) { s.fixed_bearing = Angle::degrees(720.0); }},
                               {"an error of box maps", [](PackSettings& s) {
                                  s.max_error = 0.01;
                                  s.far_map = FarMapKind::box;
                                }}};
-  for (const double edge_m : {nan, infinity, 0.0, -50.0, 0.1, 1e6})
+  for (const double edge_m : {not_a_number, endless, 0.0, -50.0, 0.1, 1e6})
     list.push_back({"cells of " + std::to_string(edge_m), [edge_m](PackSettings& s) { s.cell_edge_m = edge_m; }});
   for (const int n : {0, -3, 2, 4, 1001})
     list.push_back({"neighborhood " + std::to_string(n), [n](PackSettings& s) { s.neighborhood = n; }});
-  for (const double e : {nan, infinity, 0.0, -0.1, 2.0})
+  for (const double e : {not_a_number, endless, 0.0, -0.1, 2.0})
     list.push_back({"max_error " + std::to_string(e), [e](PackSettings& s) { s.max_error = e; }});
   return list;
 }
@@ -91,8 +91,8 @@ std::vector<WrongPack> wrong_areas() {
           {"an empty area", [](PackSettings& s) { s.area = Box2d{}; }},
           {"an area that runs back", box(2.0, 0.0, 1.0, 1.0)},
           {"an area without width", box(1.0, 0.0, 1.0, 1.0)},
-          {"an area at no place", box(0.0, nan, 1.0, 1.0)},
-          {"an area without end", box(0.0, 0.0, 1.0, infinity)},
+          {"an area at no place", box(0.0, not_a_number, 1.0, 1.0)},
+          {"an area without end", box(0.0, 0.0, 1.0, endless)},
           {"an area beyond the Earth", box(0.0, 0.0, 1e10, 1.0)},
           {"an area beside the city", box(0.0, 0.0, 1.0, 1.0)}};
 }

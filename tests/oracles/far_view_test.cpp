@@ -21,14 +21,14 @@ constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr Point3f middle{10.0F, 10.0F, 1.5F};
 
 /// Directions in each of which the tests below look, steep ones and flat ones.
-std::vector<Point3d> directions() { return SkyPartition(SkyWeight::solid_angle, 4000).directions(); }
+std::vector<Point3d> far_directions() { return SkyPartition(SkyWeight::solid_angle, 4000).directions(); }
 
 Point3d toward(double azimuth_rad, double slope) { return {std::cos(azimuth_rad), std::sin(azimuth_rad), slope}; }
 
-/// Verdicts in the order in which the directions are given.
-std::vector<FarVerdict> verdicts_of(const FarHorizon& map, const std::vector<Point3d>& directions, const Point3f& p_cell) {
-  const AzimuthFan fan(directions);
-  std::vector<FarVerdict> by_azimuth(directions.size()), verdicts(directions.size());
+/// Verdicts in the order in which the far_directions are given.
+std::vector<FarVerdict> verdicts_of(const FarHorizon& map, const std::vector<Point3d>& far_directions, const Point3f& p_cell) {
+  const AzimuthFan fan(far_directions);
+  std::vector<FarVerdict> by_azimuth(far_directions.size()), verdicts(far_directions.size());
   FarView(fan, map).classify(p_cell, by_azimuth);
   for (std::size_t n = 0; n < fan.size(); ++n) verdicts[fan.place()[n]] = by_azimuth[n];
   return verdicts;
@@ -65,7 +65,7 @@ class RandomEdges {
 
 TEST(FarView, WhatIsCertainIsTrueForRandomEdges) {
   RandomEdges random;
-  const std::vector<Point3d> looks = directions();
+  const std::vector<Point3d> looks = far_directions();
   std::array<std::size_t, 4> met{};
   for (int n = 0; n < 200; ++n) {
     std::vector<HorizonEdge> edges;
@@ -83,7 +83,7 @@ TEST(FarView, WhatIsCertainIsTrueForRandomEdges) {
   }
   EXPECT_GT(met[static_cast<std::size_t>(FarVerdict::blocked)], 10000U);
   EXPECT_GT(met[static_cast<std::size_t>(FarVerdict::free)], 10000U);
-  // A corner's rounding of half a millimetre, 5 m away or more, opens 2e-4 of a turn or of a slope: of 800,000 directions few
+  // A corner's rounding of half a millimetre, 5 m away or more, opens 2e-4 of a turn or of a slope: of 800,000 far_directions few
   EXPECT_LT(
       met[static_cast<std::size_t>(FarVerdict::estimated_free)] + met[static_cast<std::size_t>(FarVerdict::estimated_blocked)],
       looks.size() * 200 / 1000);
@@ -114,7 +114,7 @@ TEST(FarView, TheOrderOfTheEndsMeansNothing) {
   for (int n = 0; n < 50; ++n) {
     const HorizonEdge e = random.edge(15.0);
     FarHorizonByHand far({e}), turned({HorizonEdge{e.b, e.a}});
-    EXPECT_EQ(verdicts_of(far.map(), directions(), middle), verdicts_of(turned.map(), directions(), middle));
+    EXPECT_EQ(verdicts_of(far.map(), far_directions(), middle), verdicts_of(turned.map(), far_directions(), middle));
   }
 }
 
@@ -142,14 +142,14 @@ TEST(FarView, AnEdgeThatTouchesTheReceiverSettlesNothing) {
 
 TEST(FarView, WhatLiesBelowTheReceiverHidesNothing) {
   FarHorizonByHand far({edge_toward(1.0, 1.0F)});
-  for (const FarVerdict v : verdicts_of(far.map(), directions(), middle)) EXPECT_EQ(v, FarVerdict::free);
+  for (const FarVerdict v : verdicts_of(far.map(), far_directions(), middle)) EXPECT_EQ(v, FarVerdict::free);
 }
 
 TEST(FarView, LowerBordersHideNothing) {
   HorizonEdge border = edge_toward(1.0, 16.5F);
   border.role = EdgeRole::underside;
   FarHorizonByHand far({border});
-  for (const FarVerdict v : verdicts_of(far.map(), directions(), middle)) EXPECT_EQ(v, FarVerdict::free);
+  for (const FarVerdict v : verdicts_of(far.map(), far_directions(), middle)) EXPECT_EQ(v, FarVerdict::free);
 }
 
 TEST(FarView, EdgesMatterInTheirPatchesAlone) {
@@ -203,7 +203,7 @@ TEST(FarView, BelowTheLowestLevelNothingUnnamedIsCertain) {
 
 TEST(FarView, AReceiverDoesNotRememberTheOneBefore) {
   FarHorizonByHand far({edge_toward(1.0, 16.5F)});
-  const std::vector<Point3d> looks = directions();
+  const std::vector<Point3d> looks = far_directions();
   const AzimuthFan fan(looks);
   FarView view(fan, far.map());
   std::vector<FarVerdict> first(looks.size()), again(looks.size()), other(looks.size());

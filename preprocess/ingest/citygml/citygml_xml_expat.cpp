@@ -20,7 +20,7 @@ namespace {
 /// Expat puts it between a namespace and a name. It cannot occur in either.
 constexpr char name_separator = '\n';
 constexpr std::string_view gml_space = "http://www.opengis.net/gml";
-constexpr std::size_t piece_bytes = std::size_t{1} << 16;
+constexpr std::size_t parsed_piece_bytes = std::size_t{1} << 16;
 /// Known cities are nested up to 14 levels deep.
 constexpr std::size_t deepest_element = 256;
 /// Expat keeps a tag or a comment in memory as a whole, and scans it again with each piece.
@@ -225,9 +225,9 @@ void parse_xml(const InputFile& file, XmlListener& listener, const std::stop_tok
   XML_Index bytes_read = 0;
   for (bool is_last = false; !is_last;) {
     throw_if_cancelled(stop);
-    void* buffer = XML_GetBuffer(parser.get(), static_cast<int>(piece_bytes));
+    void* buffer = XML_GetBuffer(parser.get(), static_cast<int>(parsed_piece_bytes));
     if (buffer == nullptr) throw std::bad_alloc();
-    stream->read(static_cast<char*>(buffer), static_cast<std::streamsize>(piece_bytes));
+    stream->read(static_cast<char*>(buffer), static_cast<std::streamsize>(parsed_piece_bytes));
     is_last = !*stream;
     bytes_read += static_cast<XML_Index>(stream->gcount());
     if (XML_ParseBuffer(parser.get(), static_cast<int>(stream->gcount()), is_last ? 1 : 0) != XML_STATUS_OK)

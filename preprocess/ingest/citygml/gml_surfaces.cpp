@@ -13,7 +13,7 @@ namespace {
 constexpr double unreadable = std::numeric_limits<double>::quiet_NaN();
 
 template <std::size_t n>
-bool is_one_of(std::string_view name, const std::array<std::string_view, n>& names) {
+bool is_gml_name(std::string_view name, const std::array<std::string_view, n>& names) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
@@ -39,11 +39,11 @@ void GmlSurfaceReader::begin_use(std::uint32_t use) {
 GmlSurfaceReader::Answer GmlSurfaceReader::start(const XmlElement& element) {
   note_dimension(element.srs_dimension);
   if (in_polygon_) return start_in_polygon(element);
-  if (is_one_of(element.name, polygon_names)) {
+  if (is_gml_name(element.name, polygon_names)) {
     start_polygon(element);
     return Answer::entered;
   }
-  if (is_one_of(element.name, aggregate_names)) {
+  if (is_gml_name(element.name, aggregate_names)) {
     start_aggregate(element);
     return Answer::entered;
   }
@@ -66,7 +66,7 @@ void GmlSurfaceReader::start_aggregate(const XmlElement& element) {
 }
 
 GmlSurfaceReader::Answer GmlSurfaceReader::start_property(const XmlElement& element) {
-  if (is_one_of(element.name, property_names)) {
+  if (is_gml_name(element.name, property_names)) {
     if (!element.href.empty()) add_reference(element.href);
     return Answer::entered;
   }
@@ -86,10 +86,10 @@ GmlSurfaceReader::Answer GmlSurfaceReader::start_in_polygon(const XmlElement& el
   } else if (element.name == "Ring") {
     surfaces_.polygons.back().has_curves = true;
     return Answer::skip;
-  } else if (in_ring_ && is_one_of(element.name, coordinate_names)) {
+  } else if (in_ring_ && is_gml_name(element.name, coordinate_names)) {
     in_coordinates_ = true;
     numbers_.clear();
-  } else if (!in_ring_ || !is_one_of(element.name, ring_element_names)) {
+  } else if (!in_ring_ || !is_gml_name(element.name, ring_element_names)) {
     return Answer::skip;
   }
   return Answer::entered;
@@ -101,10 +101,10 @@ void GmlSurfaceReader::end(std::string_view name) {
     take_coordinates(name);
   } else if (name == "LinearRing") {
     in_ring_ = false;
-  } else if (is_one_of(name, polygon_names)) {
+  } else if (is_gml_name(name, polygon_names)) {
     in_polygon_ = false;
     end_open();
-  } else if (is_one_of(name, aggregate_names)) {
+  } else if (is_gml_name(name, aggregate_names)) {
     end_open();
   }
 }

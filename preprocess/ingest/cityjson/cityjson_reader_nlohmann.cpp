@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double unreadable = std::numeric_limits<double>::quiet_NaN();
+constexpr double unreadable_number = std::numeric_limits<double>::quiet_NaN();
 
 /// No city is nested this deep. nlohmann copies and deletes trees by recursion, which would overflow the stack.
 constexpr std::size_t deepest_nesting = 500;
@@ -219,7 +219,7 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
   bool take(json value) {
     if (depth_ == 0) return fail("it is no JSON object");
     if (in_vertices())
-      vertex_.push_back(unreadable);
+      vertex_.push_back(unreadable_number);
     else if (!stack_.empty())
       attach(std::move(value));
     else
@@ -268,7 +268,7 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
   void add_vertex() {
     const bool is_point = vertex_.size() == 3;
     text_.vertices.push_back(is_point ? Point3d{vertex_[0], vertex_[1], vertex_[2]}
-                                      : Point3d{unreadable, unreadable, unreadable});
+                                      : Point3d{unreadable_number, unreadable_number, unreadable_number});
   }
 
   bool fail(std::string what) {

@@ -14,6 +14,7 @@
 #include "gdal/gdal_errors.hpp"
 #include "gdal/local_data_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
+#include "ingest/degree_length.hpp"
 #include "ingest/footprints/footprint_heights.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
 #include "ingest/footprints/height_text.hpp"
@@ -26,8 +27,6 @@ constexpr std::array<const char*, 10> id_field_names{"gml_id",      "@id", "id",
                                                      "building_id", "bin", "identifier", "objectid", "fid"};
 /// Enough features to find out whether a text column holds lengths, and whether features are bodies.
 constexpr int most_features_to_sample = 100;
-/// The length of a degree of latitude, to three digits.
-constexpr double metres_in_a_degree = 111e3;
 
 struct FeatureDeleter {
   void operator()(OGRFeature* feature) const { OGRFeature::DestroyFeature(feature); }

@@ -24,7 +24,7 @@ namespace {
 using nlohmann::json;
 
 /// No city is nested this deep. nlohmann deletes trees by recursion, which would overflow the stack.
-constexpr int deepest_nesting = 500;
+constexpr int deepest_tree_nesting = 500;
 
 struct Transform {
   std::array<double, 3> scale{1.0, 1.0, 1.0}, translate{0.0, 0.0, 0.0};
@@ -153,7 +153,7 @@ class CityJsonTrees {
 
 json parsed(const std::string& text, const InputFile& file) {
   return json::parse(text, [&](int depth, json::parse_event_t, const json&) {
-    if (depth > deepest_nesting) throw InputError(file.name + " is nested deeper than any city.");
+    if (depth > deepest_tree_nesting) throw InputError(file.name + " is nested deeper than any city.");
     return true;
   });
 }

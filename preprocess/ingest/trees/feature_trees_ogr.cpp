@@ -16,6 +16,7 @@
 #include "gdal/gdal_errors.hpp"
 #include "gdal/vector_file_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
+#include "ingest/degree_length.hpp"
 #include "ingest/trees/feature_trees.hpp"
 #include "ingest/trees/tree_collector.hpp"
 #include "ingest/trees/tree_columns.hpp"
@@ -23,9 +24,6 @@
 
 namespace farlod::ingest {
 namespace {
-
-/// The length of a degree of latitude, to three digits.
-constexpr double metres_in_a_degree = 111e3;
 
 bool is_table(const std::filesystem::path& file) {
   const std::string ending = lower_case(file.extension().string());

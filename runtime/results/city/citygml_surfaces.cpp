@@ -15,7 +15,7 @@ constexpr std::size_t most_points_of_ring = std::size_t{1} << 20;
 constexpr double unreadable = std::numeric_limits<double>::quiet_NaN();
 
 template <std::size_t n>
-bool is_one_of(std::string_view name, const std::array<std::string_view, n>& names) {
+bool is_gml_name(std::string_view name, const std::array<std::string_view, n>& names) {
   return std::ranges::find(names, name) != names.end();
 }
 
@@ -65,14 +65,14 @@ bool CityGmlSurfaceReader::start(const XmlTag& tag) {
   if (tag.srs_dimension == "2") dimension_ = 2;
   if (tag.srs_dimension == "3") dimension_ = 3;
   if (in_polygon_) return start_in_polygon(tag);
-  if (is_one_of(tag.name, polygons)) {
+  if (is_gml_name(tag.name, polygons)) {
     open_object(tag, Level::polygon);
     surfaces_.members.push_back({surfaces_.polygons.size(), {}, use_});
     surfaces_.polygons.emplace_back();
     in_polygon_ = true;
-  } else if (is_one_of(tag.name, objects)) {
+  } else if (is_gml_name(tag.name, objects)) {
     open_object(tag, Level::object);
-  } else if (is_one_of(tag.name, properties)) {
+  } else if (is_gml_name(tag.name, properties)) {
     if (!tag.href.empty()) add_reference(tag.href);
     open_.push_back({});
   } else {
@@ -88,7 +88,7 @@ void CityGmlSurfaceReader::open_object(const XmlTag& tag, Level level) {
 bool CityGmlSurfaceReader::start_in_polygon(const XmlTag& tag) {
   CityGmlPolygon& polygon = surfaces_.polygons.back();
   Level level = Level::property;
-  if (is_one_of(tag.name, borders)) {
+  if (is_gml_name(tag.name, borders)) {
     polygon.rings.emplace_back();
   } else if (tag.name == "LinearRing") {
     if (polygon.rings.empty()) polygon.rings.emplace_back();
@@ -97,11 +97,11 @@ bool CityGmlSurfaceReader::start_in_polygon(const XmlTag& tag) {
   } else if (tag.name == "Ring") {
     polygon.has_number = false;
     return false;
-  } else if (in_ring_ && is_one_of(tag.name, coordinate_lists)) {
+  } else if (in_ring_ && is_gml_name(tag.name, coordinate_lists)) {
     coordinates_.clear();
     is_one_position_ = tag.name == "pos";
     level = Level::coordinates;
-  } else if (!in_ring_ || !is_one_of(tag.name, around_positions)) {
+  } else if (!in_ring_ || !is_gml_name(tag.name, around_positions)) {
     return false;
   }
   open_.push_back({level, {}, 0});

@@ -89,7 +89,7 @@ bool has_surfaces(std::string_view type) {
   return false;
 }
 
-bool is_usable(const FilePolygon& polygon) {
+bool has_usable_rings(const FilePolygon& polygon) {
   if (polygon.rings.empty()) return false;
   return std::set<std::int64_t>(polygon.rings[0].begin(), polygon.rings[0].end()).size() >= 3;
 }
@@ -166,7 +166,7 @@ class BuildingNumbering {
   LodsOfParts lods_of(const Decides& decides) const {
     LodsOfParts lods(parts_ + 1);
     for (const FileShape& shape : shapes_)
-      if (decides(shape.role) && std::ranges::any_of(shape.geometry->polygons, is_usable))
+      if (decides(shape.role) && std::ranges::any_of(shape.geometry->polygons, has_usable_rings))
         lods[shape.part].push_back(shape.geometry->lod);
     return lods;
   }

@@ -152,7 +152,8 @@ class GeometryReading {
   void add_polygons(JsonCursor& lists, std::optional<std::size_t> values, int nesting) {
     const std::vector<std::size_t> places = places_of(values);
     lists.elements([&](std::size_t i) {
-      const auto value = i < places.size() ? std::optional(places[i]) : std::nullopt;
+      std::optional<std::size_t> value;
+      if (i < places.size()) value = places[i];
       if (nesting > 0) return add_polygons(lists, value, nesting - 1);
       FilePolygon& polygon = geometry_.polygons.emplace_back();
       polygon.semantics = semantics_at(value);

@@ -18,7 +18,7 @@ namespace {
 
 /// Expat puts it between a namespace and a name. It cannot occur in either.
 constexpr char name_separator = '\n';
-constexpr std::string_view gml_space = "http://www.opengis.net/gml", white_space = " \t\r\n";
+constexpr std::string_view gml_space = "http://www.opengis.net/gml", xml_space = " \t\r\n";
 constexpr std::size_t piece_bytes = std::size_t{1} << 20, deepest_element = 256;
 /// Expat scans a tag or a comment again with each piece.
 constexpr XML_Index most_bytes_of_tag = XML_Index{1} << 22;
@@ -168,7 +168,7 @@ void read_xml_text(std::string_view text, XmlTextReader& reader) {
   const OwnedParser parser(XML_ParserCreateNS(nullptr, name_separator), &XML_ParserFree);
   if (!parser) throw std::bad_alloc();
   // An XML declaration must come first, and some exports begin with blank lines
-  const std::size_t begin = std::min(text.find_first_not_of(white_space), text.size());
+  const std::size_t begin = std::min(text.find_first_not_of(xml_space), text.size());
   TextParsing parsing{.parser = parser.get(), .reader = reader, .skipped = text.substr(0, begin)};
   set_handlers(parsing);
   for (std::size_t at = begin; at == begin || at < text.size();) {

@@ -8,15 +8,16 @@
 
 #include "results/picture/far_panorama.hpp"
 #include "results/picture/map_ornaments.hpp"
+#include "results/picture/picture_style.hpp"
 
 namespace farlod {
 namespace {
 
-constexpr Colour muted{96, 96, 96}, outline_colour{255, 255, 255};
-constexpr double title_height = 22.0, heading_height = 17.0;
+constexpr Colour white{255, 255, 255};
+constexpr double heading_height = 17.0;
 constexpr std::size_t margin = 24, plan_top = 100, panorama_left = margin + cell_plan_edge + 90;
 constexpr PageBox panorama_box{{static_cast<double>(panorama_left), static_cast<double>(plan_top)}, 900.0, 300.0};
-constexpr PixelSize picture_size{panorama_left + 900 + 2 * margin, plan_top + cell_plan_edge + 110};
+constexpr PixelSize cell_picture_size{panorama_left + 900 + 2 * margin, plan_top + cell_plan_edge + 110};
 
 void add_text(Drawing& drawing, PagePoint place, const std::string& words, double height, Colour colour) {
   drawing.shapes.emplace_back(Text{place, words, height, Alignment::left, colour});
@@ -36,7 +37,7 @@ Line square_of_cells(const CellPlanFrame& frame, std::int32_t begin, std::int32_
 
 void add_outlines(Drawing& drawing, const CellPlanFrame& frame, const BuildingOutlines& outlines) {
   const double edge = static_cast<double>(cell_plan_edge);
-  Segments lines{{}, 0.5, outline_colour};
+  Segments lines{{}, 0.5, white};
   for (const PlanSegment& s : outlines.segments)
     if (const auto seen = clipped({frame.place_of(s.a), frame.place_of(s.b)}, {0.0, 0.0}, {edge, edge}))
       lines.segments.push_back({on_page(seen->a), on_page(seen->b)});
@@ -108,7 +109,7 @@ void add_far(Drawing& drawing, const CellScenery& scenery) {
 
 Drawing draw_cell(const CellScenery& scenery) {
   const CellPlace cell = scenery.contents.cell;
-  Drawing drawing{picture_size, fmt::format("Cell {},{} of {}", cell.i, cell.j, scenery.package)};
+  Drawing drawing{cell_picture_size, fmt::format("Cell {},{} of {}", cell.i, cell.j, scenery.package)};
   const double left = static_cast<double>(margin);
   add_text(drawing, {left, left + title_height}, drawing.title, title_height, ink);
   add_text(drawing, {left, static_cast<double>(plan_top) - 22.0}, scenery.crs + ", grid north up", text_height, muted);

@@ -14,17 +14,18 @@
 #include "results/decimal.hpp"
 #include "results/picture/colour_map.hpp"
 #include "results/picture/map_ornaments.hpp"
+#include "results/picture/picture_style.hpp"
 #include "results/picture/raster_preview.hpp"
 
 namespace farlod {
 namespace {
 
-constexpr Colour muted{96, 96, 96}, outline_colour{64, 64, 68}, pale_outline_colour{176, 176, 182}, nothing{255, 255, 255};
+constexpr Colour dark_outline_colour{64, 64, 68}, pale_outline_colour{176, 176, 182}, nothing{255, 255, 255};
 constexpr std::uint8_t darkest_grey = 120, lightest_grey = 232;
-constexpr double left = 24.0, title_base = 46.0, subtitle_base = 74.0, title_height = 22.0;
+constexpr double left = 24.0, title_base = 46.0, subtitle_base = 74.0;
 constexpr double smallest_mark = 2.5, largest_mark = 8.0, mark_rim = 0.8;
 constexpr double share_of_marks = 0.05;  // of the map's area, that marks may cover
-constexpr double step_of_lines = 24.0, half_digit_height = 0.36;
+constexpr double step_of_lines = 24.0;
 
 PagePoint point_of(Pixel p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
 
@@ -83,7 +84,7 @@ void add_map(Drawing& drawing, const PreviewLayout& layout, const GreyMap& map, 
   const double right = x + static_cast<double>(layout.map_size.width), bottom = y + static_cast<double>(layout.map_size.height);
   drawing.shapes.emplace_back(Image{layout.map, grey_picture_of(map.raster)});
   // Without values below them, marks would drown in dark outlines
-  Segments lines{{}, 0.7, has_values(map) ? outline_colour : pale_outline_colour};
+  Segments lines{{}, 0.7, has_values(map) ? dark_outline_colour : pale_outline_colour};
   for (const auto& [a, b] : outlines) lines.segments.push_back({{x + a.x, y + a.y}, {x + b.x, y + b.y}});
   if (!lines.segments.empty()) drawing.shapes.emplace_back(std::move(lines));
   drawing.shapes.emplace_back(Line{{{x, y}, {right, y}, {right, bottom}, {x, bottom}, {x, y}}, 1.0, muted});

@@ -5,16 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "results/picture/map_ornaments.hpp"
+#include "results/picture/picture_style.hpp"
 #include "results/picture/sky_picture.hpp"
 
 namespace farlod {
 namespace {
 
-constexpr double degrees = std::numbers::pi / 180.0;
 constexpr Colour hidden_colour{230, 159, 0}, undecided_colour{250, 222, 160}, edge_colour{102, 62, 0};
 constexpr Colour estimate_colour{0, 84, 147}, grid_colour{140, 150, 160};
 constexpr double label_height = 12.0;
@@ -46,7 +45,7 @@ std::vector<PagePoint> steps_of(const std::vector<float>& slopes, Angle first_az
     const double azimuth_deg = (static_cast<double>(column) + 0.5) / static_cast<double>(columns) * 360.0;
     const double turn = turned(azimuth_deg - first_azimuth.degrees()) / 360.0;
     const std::size_t bin = std::min(static_cast<std::size_t>(turn * static_cast<double>(slopes.size())), slopes.size() - 1);
-    const double y = panorama.y_of(std::atan(static_cast<double>(slopes[bin])) / degrees);
+    const double y = panorama.y_of(std::atan(static_cast<double>(slopes[bin])) / rad_per_deg);
     const double x = panorama.where.upper_left.x + static_cast<double>(column);
     places.push_back({x, y});
     places.push_back({x + 1.0, y});
@@ -149,7 +148,7 @@ void add_box(Drawing& drawing, const PageBox& where, const FarView& view) {
   for (int n = 0; n < 4; ++n)
     add_direction(drawing, where, where.upper_left.x + 0.25 * place_along_sides(90.0 * n, map) * where.width, letters[n]);
   const double left = where.upper_left.x - 6.0, bottom = where.upper_left.y + where.height;
-  const std::string top = std::to_string(std::lround(std::atan(map.top) / degrees)) + "°";
+  const std::string top = std::to_string(std::lround(std::atan(map.top) / rad_per_deg)) + "°";
   drawing.shapes.emplace_back(Text{{left, bottom + 4.0}, "0°", label_height, Alignment::right, ink});
   drawing.shapes.emplace_back(Text{{left, where.upper_left.y + 8.0}, top, label_height, Alignment::right, ink});
 }
@@ -176,14 +175,15 @@ std::vector<Meaning> meanings_of(const FarView& view) {
 
 SeenPlace seen_from(const Point3d& eye, const Point3d& p, Angle convergence) {
   const Point3d d = p - eye;
-  return {turned(std::atan2(d.x, d.y) / degrees + convergence.degrees()), std::atan2(d.z, std::hypot(d.x, d.y)) / degrees};
+  return {turned(std::atan2(d.x, d.y) / rad_per_deg + convergence.degrees()),
+          std::atan2(d.z, std::hypot(d.x, d.y)) / rad_per_deg};
 }
 
 double top_of_panorama_deg(const FarView& view, Angle convergence) {
   double top_deg = 0.0;
   for (const std::vector<float>* slopes : {&view.horizon.low, &view.horizon.estimate, &view.horizon.high})
     for (const float slope : *slopes)
-      if (std::isfinite(slope)) top_deg = std::max(top_deg, std::atan(static_cast<double>(slope)) / degrees);
+      if (std::isfinite(slope)) top_deg = std::max(top_deg, std::atan(static_cast<double>(slope)) / rad_per_deg);
   for (const FarEdge& edge : view.horizon.edges)
     for (const Point3d& p : {edge.a_projected, edge.b_projected})
       top_deg = std::max(top_deg, seen_from(view.eye_projected, p, convergence).elevation_deg);
@@ -194,7 +194,7 @@ double place_along_sides(double true_azimuth_deg, const FarBoxView& map) {
   // From the west end of the north side
   const double turn_deg = turned(true_azimuth_deg - map.north_azimuth.degrees() + 45.0);
   const double side = std::min(std::floor(turn_deg / 90.0), 3.0);
-  return side + 0.5 * (1.0 + std::tan((turn_deg - 90.0 * side - 45.0) * degrees));
+  return side + 0.5 * (1.0 + std::tan((turn_deg - 90.0 * side - 45.0) * rad_per_deg));
 }
 
 void add_far_panorama(Drawing& drawing, const PageBox& where, const FarView& view, Angle convergence) {

@@ -11,17 +11,18 @@
 #include "contract/expects.hpp"
 #include "results/decimal.hpp"
 #include "results/picture/map_ornaments.hpp"
+#include "results/picture/picture_style.hpp"
 
 namespace farlod {
 namespace {
 
 // The blue and the orange of Okabe and Ito, of which the first is darker also in a print in grey
 constexpr std::array<Colour, 2> series_colours{{{0, 114, 178}, {230, 159, 0}}};
-constexpr Colour muted{96, 96, 96}, grid_colour{216, 220, 224};
-constexpr double left = 96.0, plot_width = 750.0, plot_top = 170.0, plot_height = 340.0;
-constexpr PixelSize picture_size{900, 680};
-constexpr double first_strip = 106.0, step_of_strips = 28.0, half_stroke = 8.0, title_height = 22.0;
-constexpr double bottom = plot_top + plot_height, half_digit_height = 0.36;
+constexpr Colour grid_line_colour{216, 220, 224};
+constexpr double plot_left = 96.0, plot_width = 750.0, plot_top = 170.0, plot_height = 340.0;
+constexpr PixelSize histogram_size{900, 680};
+constexpr double first_strip = 106.0, step_of_strips = 28.0, half_stroke = 8.0;
+constexpr double bottom = plot_top + plot_height;
 constexpr double share_of_bin = 0.86;  // that bars take, so that bins are told apart
 
 void add_text(Drawing& drawing, PagePoint place, const std::string& words, Alignment alignment, Colour colour = ink) {
@@ -29,21 +30,22 @@ void add_text(Drawing& drawing, PagePoint place, const std::string& words, Align
 }
 
 void add_axis_of_values(Drawing& drawing, const std::string& quantity) {
-  drawing.shapes.emplace_back(Line{{{left, bottom}, {left + plot_width, bottom}}, 1.5, ink});
+  drawing.shapes.emplace_back(Line{{{plot_left, bottom}, {plot_left + plot_width, bottom}}, 1.5, ink});
   for (int n = 0; n <= 10; ++n) {
     const double x = histogram_point(n / 10.0, 0.0, 1.0).x;
     drawing.shapes.emplace_back(Line{{{x, bottom}, {x, bottom + 6.0}}, 1.5, ink});
     add_text(drawing, {x, bottom + 24.0}, svf_decimal(n / 10.0).substr(0, 3), Alignment::centre);
   }
-  add_text(drawing, {left + 0.5 * plot_width, bottom + 48.0}, quantity, Alignment::centre);
+  add_text(drawing, {plot_left + 0.5 * plot_width, bottom + 48.0}, quantity, Alignment::centre);
 }
 
 void add_axis_of_shares(Drawing& drawing, double highest) {
   constexpr int steps = 5;
   for (int n = 0; n <= steps; ++n) {
     const double share = highest * n / steps, y = histogram_point(0.0, share, highest).y;
-    if (n > 0) drawing.shapes.emplace_back(Line{{{left, y}, {left + plot_width, y}}, 0.8, grid_colour});
-    add_text(drawing, {left - 10.0, y + half_digit_height * text_height}, fmt::format("{:g} %", 100.0 * share), Alignment::right);
+    if (n > 0) drawing.shapes.emplace_back(Line{{{plot_left, y}, {plot_left + plot_width, y}}, 0.8, grid_line_colour});
+    add_text(drawing, {plot_left - 10.0, y + half_digit_height * text_height}, fmt::format("{:g} %", 100.0 * share),
+             Alignment::right);
   }
 }
 
@@ -66,7 +68,7 @@ void add_strip(Drawing& drawing, const HistogramSeries& series, double y, Colour
   const auto x_at = [&](std::optional<double> value) { return histogram_point(*value, 0.0, 1.0).x; };
   const double low = x_at(series.counts.quantile(0.25)), high = x_at(series.counts.quantile(0.75)),
                median = x_at(series.counts.quantile(0.5)), mean = x_at(series.counts.mean());
-  drawing.shapes.emplace_back(Line{{{left, y}, {left + plot_width, y}}, 0.8, grid_colour});
+  drawing.shapes.emplace_back(Line{{{plot_left, y}, {plot_left + plot_width, y}}, 0.8, grid_line_colour});
   drawing.shapes.emplace_back(box({low, y - 4.0}, std::max(high - low, 1.0), 8.0, colour));
   drawing.shapes.emplace_back(Line{{{median, y - half_stroke}, {median, y + half_stroke}}, 2.5, ink});
   drawing.shapes.emplace_back(disc({mean, y}, 6.0, ink));
@@ -84,22 +86,22 @@ std::string figures_of(const HistogramSeries& series) {
 void add_legend(Drawing& drawing, std::span<const HistogramSeries> series) {
   double y = bottom + 84.0;
   for (std::size_t s = 0; s < series.size(); ++s, y += 24.0) {
-    drawing.shapes.emplace_back(box({left, y - 12.0}, 16.0, 14.0, colour_of_series(s)));
-    add_text(drawing, {left + 26.0, y}, figures_of(series[s]), Alignment::left);
+    drawing.shapes.emplace_back(box({plot_left, y - 12.0}, 16.0, 14.0, colour_of_series(s)));
+    add_text(drawing, {plot_left + 26.0, y}, figures_of(series[s]), Alignment::left);
   }
-  drawing.shapes.emplace_back(Line{{{left + 8.0, y - 13.0}, {left + 8.0, y + 3.0}}, 2.5, ink});
-  add_text(drawing, {left + 26.0, y}, "median", Alignment::left, muted);
-  drawing.shapes.emplace_back(disc({left + 108.0, y - 5.0}, 6.0, ink));
-  drawing.shapes.emplace_back(disc({left + 108.0, y - 5.0}, 4.0, {255, 255, 255}));
-  add_text(drawing, {left + 122.0, y}, "mean", Alignment::left, muted);
-  drawing.shapes.emplace_back(box({left + 186.0, y - 9.0}, 24.0, 8.0, muted));
-  add_text(drawing, {left + 220.0, y}, "lower to upper quartile", Alignment::left, muted);
+  drawing.shapes.emplace_back(Line{{{plot_left + 8.0, y - 13.0}, {plot_left + 8.0, y + 3.0}}, 2.5, ink});
+  add_text(drawing, {plot_left + 26.0, y}, "median", Alignment::left, muted);
+  drawing.shapes.emplace_back(disc({plot_left + 108.0, y - 5.0}, 6.0, ink));
+  drawing.shapes.emplace_back(disc({plot_left + 108.0, y - 5.0}, 4.0, {255, 255, 255}));
+  add_text(drawing, {plot_left + 122.0, y}, "mean", Alignment::left, muted);
+  drawing.shapes.emplace_back(box({plot_left + 186.0, y - 9.0}, 24.0, 8.0, muted));
+  add_text(drawing, {plot_left + 220.0, y}, "lower to upper quartile", Alignment::left, muted);
 }
 
 }  // namespace
 
 PagePoint histogram_point(double value, double share, double highest) {
-  return {left + value * plot_width, bottom - share / highest * plot_height};
+  return {plot_left + value * plot_width, bottom - share / highest * plot_height};
 }
 
 double highest_share(std::span<const HistogramSeries> series) {
@@ -122,7 +124,7 @@ Colour colour_of_series(std::size_t n) {
 
 Drawing draw_histogram(std::span<const HistogramSeries> series, const HistogramCaption& caption) {
   FARLOD_EXPECTS(!series.empty() && series.size() <= series_colours.size());
-  Drawing drawing{picture_size, "Distribution of " + caption.quantity};
+  Drawing drawing{histogram_size, "Distribution of " + caption.quantity};
   drawing.shapes.emplace_back(Text{{24.0, 46.0}, drawing.title, title_height, Alignment::left, ink});
   add_text(drawing, {24.0, 74.0}, caption.shares + " in bins of 0.02", Alignment::left, muted);
   const double highest = highest_share(series);

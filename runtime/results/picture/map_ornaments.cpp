@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "results/decimal.hpp"
+#include "results/picture/picture_style.hpp"
 
 namespace farlod {
 namespace {

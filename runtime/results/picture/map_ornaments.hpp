@@ -6,10 +6,6 @@
 
 namespace farlod {
 
-/// What all maps have: the colour of their lines and letters, and the size of these.
-inline constexpr Colour ink{32, 32, 32};
-inline constexpr double text_height = 15.0;
-
 /// A length of 1, 2 or 5 times a power of ten, the longest that is not above `limit_m` (which is positive).
 [[nodiscard]] double round_length_m(double limit_m);
 

@@ -8,19 +8,18 @@
 
 #include "results/decimal.hpp"
 #include "results/picture/colour_map.hpp"
+#include "results/picture/picture_style.hpp"
 
 namespace farlod {
 namespace {
 
-constexpr Colour muted{96, 96, 96}, outline_colour{24, 24, 28};
-constexpr double outline_width = 0.7, line_width = 1.5, tick = 6.0;
-constexpr double title_height = 22.0;
+constexpr Colour outline_colour{24, 24, 28};
+constexpr double outline_width = 0.7, tick_width = 1.5, tick_length = 6.0;
 constexpr std::size_t margin = 24, gap = 16, heading_height = 50;
 constexpr PixelSize legend_size{96, 280};
 constexpr std::size_t colour_bar_width = 28, footer_height = 48;
 constexpr std::size_t narrowest_content = 560;  // the longest title must fit
 constexpr int colour_ticks = 5;                 // at 0.0, 0.2, … 1.0
-constexpr double half_digit_height = 0.36;      // of a font's size
 
 std::string title_of(const std::string& quantity) {
   if (quantity == "svf") return "Sky view factor (svf)";
@@ -73,8 +72,8 @@ void add_colour_bar(Drawing& drawing, const PreviewLayout& layout) {
   for (int n = 0; n <= colour_ticks; ++n) {
     const double svf = static_cast<double>(n) / colour_ticks;
     const double y = top + 0.5 + (1.0 - svf) * static_cast<double>(layout.colour_bar_size.height - 1);
-    drawing.shapes.emplace_back(Line{{{right, y}, {right + tick, y}}, line_width, ink});
-    drawing.shapes.emplace_back(Text{{right + tick + 4.0, y + half_digit_height * text_height},
+    drawing.shapes.emplace_back(Line{{{right, y}, {right + tick_length, y}}, tick_width, ink});
+    drawing.shapes.emplace_back(Text{{right + tick_length + 4.0, y + half_digit_height * text_height},
                                      svf_decimal(svf).substr(0, 3),
                                      text_height,
                                      Alignment::left,

@@ -9,21 +9,21 @@
 #include <vector>
 
 #include "results/decimal.hpp"
+#include "results/picture/picture_style.hpp"
 #include "results/picture/sun_courses.hpp"
 
 namespace farlod {
 namespace {
 
-constexpr double pi = std::numbers::pi, degrees = pi / 180.0;
+constexpr double pi = std::numbers::pi;
 
 // Alike to nobody, whatever colours he sees, and of three steps of lightness (sky, far, near), so that print keeps them apart
 constexpr Colour sky_colour{205, 229, 248}, far_colour{230, 159, 0}, near_colour{66, 66, 76};
 // Between the lightness of what is far and what is near
 constexpr Colour crown_colour{0, 140, 100};
-constexpr Colour horizon_colour{0, 84, 147}, ink{32, 32, 32}, muted{96, 96, 96}, ring_colour{140, 150, 160};
-constexpr std::size_t disk_edge = 800, left = 56, top = 116;
-constexpr PixelSize picture_size{left + disk_edge + 56 + 230, top + disk_edge + 60};
-constexpr double title_height = 22.0, text_height = 15.0;
+constexpr Colour horizon_colour{0, 84, 147}, ring_colour{140, 150, 160};
+constexpr std::size_t disk_edge = 800, disk_left = 56, disk_top = 116;
+constexpr PixelSize sky_picture_size{disk_left + disk_edge + 56 + 230, disk_top + disk_edge + 60};
 
 /// The distance from the middle, and its inverse.
 double radius_of(double zenith_angle, SkyProjection projection) {
@@ -57,7 +57,7 @@ std::string name_of(SkyProjection projection) {
 constexpr double disk_radius = 0.5 * disk_edge;
 
 PagePoint page_point_of(const DiskPoint& p) {
-  return {static_cast<double>(left) + disk_radius * (1.0 + p.u), static_cast<double>(top) + disk_radius * (1.0 - p.v)};
+  return {static_cast<double>(disk_left) + disk_radius * (1.0 + p.u), static_cast<double>(disk_top) + disk_radius * (1.0 - p.v)};
 }
 
 PagePoint page_point_at(double azimuth_deg, double elevation_deg, SkyProjection projection) {
@@ -74,7 +74,7 @@ Line horizon_line(const Hemisphere& hemisphere, SkyProjection projection) {
   Line line{{}, 1.2, horizon_colour};
   const double step_deg = 360.0 / static_cast<double>(hemisphere.azimuths);
   for (std::size_t n = 0; n <= hemisphere.azimuths; ++n) {
-    const double elevation_deg = std::atan(hemisphere.horizon[n % hemisphere.azimuths]) / degrees;
+    const double elevation_deg = std::atan(hemisphere.horizon[n % hemisphere.azimuths]) / rad_per_deg;
     // From one end of the part to the other
     line.places.push_back(page_point_at(static_cast<double>(n) * step_deg, elevation_deg, projection));
     if (n < hemisphere.azimuths)
@@ -95,7 +95,7 @@ void add_rings(Drawing& drawing, SkyProjection projection) {
 }
 
 void add_directions(Drawing& drawing) {
-  const double middle_x = static_cast<double>(left) + disk_radius, middle_y = static_cast<double>(top) + disk_radius;
+  const double middle_x = static_cast<double>(disk_left) + disk_radius, middle_y = static_cast<double>(disk_top) + disk_radius;
   const double away = disk_radius + 14.0, half_height = 0.36 * 20.0;
   const auto add = [&](const char* letter, double x, double y, Alignment alignment) {
     drawing.shapes.emplace_back(Text{{x, y}, letter, 20.0, alignment, ink});
@@ -116,8 +116,8 @@ std::vector<std::pair<SkyPart, const char*>> colours_of(const Hemisphere& hemisp
 }
 
 void add_legend(Drawing& drawing, const Hemisphere& hemisphere, SkyProjection projection, const std::optional<SunOfSky>& sun) {
-  const double x = static_cast<double>(left + disk_edge) + 56.0;
-  double y = static_cast<double>(top) + 10.0;
+  const double x = static_cast<double>(disk_left + disk_edge) + 56.0;
+  double y = static_cast<double>(disk_top) + 10.0;
   const auto add_text = [&](const std::string& words, double indent, Colour colour) {
     drawing.shapes.emplace_back(Text{{x + indent, y + 12.0}, words, text_height, Alignment::left, colour});
     y += 24.0;
@@ -139,16 +139,17 @@ void add_legend(Drawing& drawing, const Hemisphere& hemisphere, SkyProjection pr
 }  // namespace
 
 DiskPoint disk_point_of(const HemisphereDirection& direction, SkyProjection projection) {
-  const double radius = radius_of(direction.zenith_angle_deg * degrees, projection), azimuth = direction.azimuth_deg * degrees;
+  const double radius = radius_of(direction.zenith_angle_deg * rad_per_deg, projection),
+               azimuth = direction.azimuth_deg * rad_per_deg;
   return {-radius * std::sin(azimuth), radius * std::cos(azimuth)};
 }
 
 std::optional<HemisphereDirection> direction_of(const DiskPoint& point, SkyProjection projection) {
   const double radius = std::hypot(point.u, point.v);
   if (radius > 1.0) return std::nullopt;
-  const double azimuth_deg = std::atan2(-point.u, point.v) / degrees;
+  const double azimuth_deg = std::atan2(-point.u, point.v) / rad_per_deg;
   return HemisphereDirection{azimuth_deg < 0.0 ? azimuth_deg + 360.0 : azimuth_deg,
-                             zenith_angle_of(radius, projection) / degrees};
+                             zenith_angle_of(radius, projection) / rad_per_deg};
 }
 
 Colour colour_of(SkyPart part) {
@@ -182,10 +183,10 @@ Picture draw_sky_disk(const Hemisphere& hemisphere, SkyProjection projection, st
 Drawing draw_sky(const Hemisphere& hemisphere, SkyProjection projection, const SkyCaption& caption,
                  const std::optional<SunOfSky>& sun) {
   const std::string name = caption.quantity == "svf" ? "Sky view factor (svf) " : "Solid angle share of the sky (svf_solid) ";
-  Drawing drawing{picture_size, name + svf_decimal(hemisphere.svf).substr(0, 6)};
+  Drawing drawing{sky_picture_size, name + svf_decimal(hemisphere.svf).substr(0, 6)};
   drawing.shapes.emplace_back(Text{{24.0, 46.0}, drawing.title, title_height, Alignment::left, ink});
   drawing.shapes.emplace_back(Text{{24.0, 74.0}, caption.place, text_height, Alignment::left, muted});
-  drawing.shapes.emplace_back(Image{{left, top}, draw_sky_disk(hemisphere, projection, disk_edge)});
+  drawing.shapes.emplace_back(Image{{disk_left, disk_top}, draw_sky_disk(hemisphere, projection, disk_edge)});
   add_rings(drawing, projection);
   drawing.shapes.emplace_back(horizon_line(hemisphere, projection));
   if (sun) add_sun_courses(drawing, hemisphere, projection, *sun);

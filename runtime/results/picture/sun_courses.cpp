@@ -8,6 +8,7 @@
 
 #include "contract/expects.hpp"
 #include "results/picture/map_ornaments.hpp"
+#include "results/picture/picture_style.hpp"
 
 namespace farlod {
 namespace {
@@ -19,7 +20,7 @@ struct CourseColours {
 constexpr std::array<CourseColours, 3> course_colours{
     {{{178, 24, 43}, {250, 200, 200}}, {{0, 96, 72}, {176, 236, 214}}, {{84, 39, 136}, {216, 200, 240}}}};
 constexpr Colour halo{255, 255, 255};
-constexpr double line_width = 2.4, halo_width = 4.6, dot_radius = 4.0;
+constexpr double course_width = 2.4, halo_width = 4.6, dot_radius = 4.0;
 constexpr double label_height = 13.0, label_away = 15.5, least_room = 17.0;
 constexpr std::size_t minutes_of_hour = 60;
 
@@ -51,7 +52,7 @@ std::vector<Minute> minutes_of(const SunCourse& course, const Hemisphere& hemisp
 void add_cased(Drawing& drawing, std::vector<PagePoint> places, bool is_hidden, const CourseColours& colours) {
   const std::vector<double> dashes = is_hidden ? std::vector{5.0, 4.0} : std::vector<double>{};
   if (!is_hidden) drawing.shapes.emplace_back(Line{places, halo_width, halo});
-  drawing.shapes.emplace_back(Line{std::move(places), line_width, is_hidden ? colours.hidden : colours.seen, dashes});
+  drawing.shapes.emplace_back(Line{std::move(places), course_width, is_hidden ? colours.hidden : colours.seen, dashes});
 }
 
 /// A line for each stretch of time in which the sun is seen, or hidden.
@@ -148,7 +149,7 @@ void add_sun_legend(Drawing& drawing, PagePoint upper_left, const SunOfSky& sun)
   add_text("Sun's path, hours", 0.0);
   for (std::size_t n = 0; n < sun.courses.size(); ++n) {
     const double at = y + middle_of_line;
-    drawing.shapes.emplace_back(Line{{{x, at}, {x + sample, at}}, line_width, course_colours[n].seen});
+    drawing.shapes.emplace_back(Line{{{x, at}, {x + sample, at}}, course_width, course_colours[n].seen});
     drawing.shapes.emplace_back(disc({x + 0.5 * sample, at}, dot_radius, course_colours[n].seen));
     add_text(sun.courses[n].day, indent);
   }

@@ -28,7 +28,7 @@ namespace {
 using Array = std::shared_ptr<GDALMDArray>;
 using Dimension = std::shared_ptr<GDALDimension>;
 
-constexpr std::uint64_t chunk_bytes = raster_tile_edge * raster_tile_edge * sizeof(float);
+constexpr std::uint64_t zarr_chunk_bytes = raster_tile_edge * raster_tile_edge * sizeof(float);
 constexpr const char* mark_of_group = ".zgroup";
 
 const GDALExtendedDataType& text_type() {
@@ -188,7 +188,7 @@ void ZarrWriter::write(const RasterTile& tile) {
   impl_->throw_if_any(errors);
 }
 
-std::uint64_t ZarrWriter::bytes_for(const RasterFrame& frame) { return (2 * frame.bands.size() + 2) * chunk_bytes; }
+std::uint64_t ZarrWriter::bytes_for(const RasterFrame& frame) { return (2 * frame.bands.size() + 2) * zarr_chunk_bytes; }
 
 void ZarrWriter::commit() {
   const GdalErrors errors;

@@ -22,12 +22,6 @@ bool are_same(const GeneratedBuilding& a, const GeneratedBuilding& b) {
   return a.id == b.id && a.vertices == b.vertices && rings_of(a) == rings_of(b);
 }
 
-std::vector<GeneratedFacet> facets_with(const GeneratedBuilding& building, FacetRole role) {
-  std::vector<GeneratedFacet> result;
-  std::ranges::copy_if(building.facets, std::back_inserter(result), [role](const auto& facet) { return facet.role == role; });
-  return result;
-}
-
 TEST(ProjectingFloors, StandHalfAMetreToTwoMetresOverTheGroundFloor) {
   CitySettings settings = plain_city();
   settings.projecting_floors = true;

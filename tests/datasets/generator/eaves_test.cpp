@@ -20,12 +20,6 @@ CitySettings city_with_eaves(double eaves_m) {
   return settings;
 }
 
-std::vector<GeneratedFacet> facets_with(const GeneratedBuilding& building, FacetRole role) {
-  std::vector<GeneratedFacet> result;
-  std::ranges::copy_if(building.facets, std::back_inserter(result), [role](const auto& facet) { return facet.role == role; });
-  return result;
-}
-
 struct RoofBorder {
   std::array<std::int64_t, 4> beyond_mm;  ///< west, south, east, north of the walls
 };

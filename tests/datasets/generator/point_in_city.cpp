@@ -5,11 +5,10 @@
 #include <cmath>
 
 #include "generator/convex_faces.hpp"
+#include "tests/datasets/generator/solid_geometry.hpp"
 
 namespace farlod {
 namespace {
-
-Point3d as_double(const PointMm& p) { return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)}; }
 
 double turn(const Point3d& a, const Point3d& b, const Point3d& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);

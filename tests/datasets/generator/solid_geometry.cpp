@@ -3,6 +3,7 @@
 #include "tests/datasets/generator/solid_geometry.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -11,8 +12,6 @@
 
 namespace farlod {
 namespace {
-
-Point3d as_double(const PointMm& p) { return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)}; }
 
 double thickness_along(const Point3d& unit_normal, std::span<const PointMm> points) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -40,6 +39,12 @@ std::vector<RingNumbers> rings_of(const GeneratedBuilding& building, const Gener
     rings.insert(rings.end(), facet.openings.begin(), facet.openings.end());
   }
   return rings;
+}
+
+std::vector<GeneratedFacet> facets_with(const GeneratedBuilding& building, FacetRole role) {
+  std::vector<GeneratedFacet> result;
+  std::ranges::copy_if(building.facets, std::back_inserter(result), [role](const auto& facet) { return facet.role == role; });
+  return result;
 }
 
 std::span<const GeneratedFacet> facets_of(const GeneratedBuilding& building, const GeneratedComponent& component) {

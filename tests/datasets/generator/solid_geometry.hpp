@@ -17,6 +17,11 @@ using RingNumbers = std::vector<std::uint32_t>;
 [[nodiscard]] std::vector<RingNumbers> rings_of(const GeneratedBuilding& building, const GeneratedComponent& component);
 /// The facets of a component.
 [[nodiscard]] std::span<const GeneratedFacet> facets_of(const GeneratedBuilding& building, const GeneratedComponent& component);
+/// The facets of a role.
+[[nodiscard]] std::vector<GeneratedFacet> facets_with(const GeneratedBuilding& building, FacetRole role);
+[[nodiscard]] inline Point3d as_double(const PointMm& p) {
+  return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+}
 /// Whether each edge is used once in each direction.
 [[nodiscard]] bool is_closed(std::span<const RingNumbers> rings);
 /// Six times the volume that the rings enclose, in cubic millimetres; exact. Positive if they look outwards.

@@ -16,7 +16,7 @@ namespace {
 /// Directions of walls of 12 m between coordinates below 1,024 m, whose last bit is 1.2e-13 m, and sums of 400 of them.
 constexpr double rounding_rad = 2.0 * 1.2e-13 / 12.0 + 400.0 * 2.3e-16;
 
-CityModel town(Angle bearing) {
+CityModel town_at(Angle bearing) {
   CityModel city;
   add_quarter(city, 40, bearing);
   return city;
@@ -36,7 +36,7 @@ CityModel moved(CityModel city, const std::function<Point2d(Point2d)>& move) {
 
 /// A city with an irregular quarter: no symmetry helps.
 CityModel irregular_town() {
-  CityModel city = town(Angle::degrees(17.0));
+  CityModel city = town_at(Angle::degrees(17.0));
   for (int k = 0; k < 20; ++k)
     add_extruded(city, rectangle({50.0 * k, -80.0}, Angle::degrees(17.0 + 0.37 * k * k - 3.0 * k)), 5.0 + k);
   return city;
@@ -44,7 +44,7 @@ CityModel irregular_town() {
 
 TEST(StreetAlignment, FindsTheBearingOfATown) {
   for (double bearing_deg = -44.5; bearing_deg <= 45.0; bearing_deg += 0.5) {
-    const Alignment found = street_alignment(town(Angle::degrees(bearing_deg)));
+    const Alignment found = street_alignment(town_at(Angle::degrees(bearing_deg)));
     EXPECT_LE(degrees_apart(found.bearing, Angle::degrees(bearing_deg)), rounding_deg) << bearing_deg;
     EXPECT_GT(found.bearing.degrees(), -45.0) << bearing_deg;
     EXPECT_LE(found.bearing.degrees(), 45.0) << bearing_deg;
@@ -53,9 +53,9 @@ TEST(StreetAlignment, FindsTheBearingOfATown) {
 }
 
 TEST(StreetAlignment, TakesOneOfTheEqualBearings) {
-  EXPECT_LE(degrees_apart(street_alignment(town(Angle::degrees(45.0))).bearing, Angle::degrees(45.0)), rounding_deg);
-  EXPECT_LE(degrees_apart(street_alignment(town(Angle::degrees(-45.0))).bearing, Angle::degrees(45.0)), rounding_deg);
-  EXPECT_LE(degrees_apart(street_alignment(town(Angle::degrees(120.0))).bearing, Angle::degrees(30.0)), rounding_deg);
+  EXPECT_LE(degrees_apart(street_alignment(town_at(Angle::degrees(45.0))).bearing, Angle::degrees(45.0)), rounding_deg);
+  EXPECT_LE(degrees_apart(street_alignment(town_at(Angle::degrees(-45.0))).bearing, Angle::degrees(45.0)), rounding_deg);
+  EXPECT_LE(degrees_apart(street_alignment(town_at(Angle::degrees(120.0))).bearing, Angle::degrees(30.0)), rounding_deg);
 }
 
 TEST(StreetAlignment, NeverSaysMinusFortyFive) {

@@ -22,7 +22,7 @@ using test::Chance;
 
 constexpr int places_asked = 60;
 
-struct Town {
+struct BakedTown {
   std::string name;
   CitySettings city;
   double cell_edge_m = 30.0;
@@ -42,7 +42,7 @@ CitySettings city_of(std::uint64_t seed, int lod, bool overhangs, double relief_
   return settings;
 }
 
-std::vector<Town> towns() {
+std::vector<BakedTown> towns() {
   return {{"flat", city_of(1, 1, false, 0)},
           {"overhangs", city_of(2, 2, true, 0)},
           {"hills", city_of(3, 2, true, 60)},
@@ -59,7 +59,7 @@ struct Baked {
   BakedHorizons block;
 };
 
-Baked bake(const Town& town, const HorizonMapSettings& settings = {}) {
+Baked bake(const BakedTown& town, const HorizonMapSettings& settings = {}) {
   const CityModel city = scenes::generated_town(town.city);
   Report ignored;
   Baked baked;
@@ -89,7 +89,7 @@ Place random_place(const Baked& baked, Chance& chance) {
   return {baked.cells.cell_at(n), map, patch, test::place_in(map.patches.box(patch), chance)};
 }
 
-class HorizonMaps : public testing::TestWithParam<Town> {};
+class HorizonMaps : public testing::TestWithParam<BakedTown> {};
 
 TEST_P(HorizonMaps, AllThatIsResidualAndDoesNotFaceAwayLiesBelowHigh) {
   const Baked baked = bake(GetParam());

@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double us_survey_foot_m = 1200.0 / 3937.0;
+constexpr double foot_m = 1200.0 / 3937.0;
 /// One rounding of a coordinate below 40,000 km, moved to the origin and back: two ulps.
 constexpr double rounding_m = 2.0 * 7.5e-9;
 
@@ -143,7 +143,7 @@ TEST(UnlikelyPlace, IsSaidOfASiteThatStaysWhereItIs) {
   }
   const Georeferencing in_feet = run("", first, 10.0, {"EPSG:2225", ""});
   EXPECT_THAT(in_feet.codes(), ElementsAre(205));
-  expect_near(in_feet.projected(), us_survey_foot_m * first, rounding_m);
+  expect_near(in_feet.projected(), foot_m * first, rounding_m);
 }
 
 TEST(UnlikelyPlace, IsNotSaidWhereZeroIsWithinTheCountry) {

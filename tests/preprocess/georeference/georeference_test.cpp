@@ -18,9 +18,9 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr double us_survey_foot_m = 1200.0 / 3937.0;
+constexpr double survey_foot_m = 1200.0 / 3937.0;
 /// One rounding of a coordinate below 8,000 km, moved to the origin and back: two ulps.
-constexpr double rounding_m = 2.0 * 9.4e-10;
+constexpr double double_rounding_m = 2.0 * 9.4e-10;
 /// PROJ and GeographicLib, on degrees whose last bit is 3 nm.
 constexpr double two_series_m = 2.0 * (5e-9 + 3e-9);
 
@@ -48,7 +48,7 @@ std::string message_of(const std::function<void()>& action) {
   return "nothing was thrown";
 }
 
-void expect_near(const Point3d& p, const Point3d& expected, double tolerance_m) {
+void expect_place(const Point3d& p, const Point3d& expected, double tolerance_m) {
   EXPECT_NEAR(p.x, expected.x, tolerance_m);
   EXPECT_NEAR(p.y, expected.y, tolerance_m);
   EXPECT_NEAR(p.z, expected.z, tolerance_m);
@@ -75,13 +75,15 @@ TEST(Georeference, ReadsLatitudeFirstAsSuch) {
   const LocatedCity tokyo =
       locate(source_with("http://www.opengis.net/def/crs/EPSG/0/6697", {35.5327, 139.7937, 3.0}, ten_metres_deg));
   EXPECT_EQ(tokyo.georeference.epsg, 6691) << "UTM 54N on the datum of the input, JGD2011";
-  expect_near(first_projected(tokyo), in_crs("EPSG:6668", "EPSG:6691", {139.7937, 35.5327, 3.0}), two_series_m + rounding_m);
+  expect_place(first_projected(tokyo), in_crs("EPSG:6668", "EPSG:6691", {139.7937, 35.5327, 3.0}),
+               two_series_m + double_rounding_m);
 }
 
 TEST(Georeference, ReadsLongitudeFirstWhereTheNameSaysSo) {
   const LocatedCity located = locate(source_with("urn:ogc:def:crs:OGC:1.3:CRS84", {-73.97, 40.78, 3.0}, ten_metres_deg));
   EXPECT_EQ(located.georeference.epsg, 32618);
-  expect_near(first_projected(located), in_crs("EPSG:4326", "EPSG:32618", {-73.97, 40.78, 3.0}), two_series_m + rounding_m);
+  expect_place(first_projected(located), in_crs("EPSG:4326", "EPSG:32618", {-73.97, 40.78, 3.0}),
+               two_series_m + double_rounding_m);
 }
 
 TEST(Georeference, ReadsLongitudeFirstWhereTheReaderSaysSo) {
@@ -98,24 +100,24 @@ TEST(Georeference, NeverSecondGuessesAPlaceThatIsPossible) {
 TEST(Georeference, TakesEastingFirstFromFilesOfNorthingFirstCrss) {
   const Point3d easting_first{3512000.0, 5403000.0, 250.0};  // Stuttgart
   const LocatedCity as_files_do = locate(source_with("urn:ogc:def:crs:EPSG::31467", easting_first, 10.0));
-  expect_near(first_projected(as_files_do), easting_first, rounding_m);
+  expect_place(first_projected(as_files_do), easting_first, double_rounding_m);
   const LocatedCity as_the_authority = locate(source_with("EPSG:31467", {5403000.0, 3512000.0, 250.0}, 10.0));
-  expect_near(first_projected(as_the_authority), easting_first, rounding_m);
+  expect_place(first_projected(as_the_authority), easting_first, double_rounding_m);
 }
 
 TEST(Georeference, TakesEastingFirstWhereBothOrdersArePlaces) {
   // Soldner Berlin, Alexanderplatz: swapped, it would be in Berlin too
   const Point3d place{25400.0, 21600.0, 36.0};
-  expect_near(first_projected(locate(source_with("urn:ogc:def:crs,crs:EPSG:6.12:3068,crs:EPSG:6.12:5783", place, 10.0))), place,
-              rounding_m);
+  expect_place(first_projected(locate(source_with("urn:ogc:def:crs,crs:EPSG:6.12:3068,crs:EPSG:6.12:5783", place, 10.0))), place,
+               double_rounding_m);
 }
 
 TEST(Georeference, CountsFeetAsFeet) {
   const Point3d first_ft{1025000.0, 172918.0, 100.0};
   const LocatedCity located = locate(source_with("EPSG:2263", first_ft, 30.0));
   EXPECT_EQ(located.georeference.epsg, 32118);
-  expect_near(first_projected(located), us_survey_foot_m * first_ft, rounding_m);
-  EXPECT_NEAR(located.city.points()[2].z, 130.0 * us_survey_foot_m, rounding_m);
+  expect_place(first_projected(located), survey_foot_m * first_ft, double_rounding_m);
+  EXPECT_NEAR(located.city.points()[2].z, 130.0 * survey_foot_m, double_rounding_m);
 }
 
 TEST(Georeference, KeepsHeightsOfAttributesInMetres) {
@@ -132,7 +134,7 @@ TEST(Georeference, LeavesWebMercator) {
   const Point3d place = in_crs("EPSG:4326", "EPSG:3857", {8.0, 60.0, 5.0});
   const LocatedCity located = locate(source_with("EPSG:3857", place, 10.0));
   EXPECT_EQ(located.georeference.epsg, 32632) << "its metres are half metres there";
-  expect_near(first_projected(located), in_crs("EPSG:4326", "EPSG:32632", {8.0, 60.0, 5.0}), two_series_m + rounding_m);
+  expect_place(first_projected(located), in_crs("EPSG:4326", "EPSG:32632", {8.0, 60.0, 5.0}), two_series_m + double_rounding_m);
 }
 
 TEST(Georeference, LeavesAxesThatRunWestAndSouth) {
@@ -151,7 +153,7 @@ TEST(Georeference, PutsCitiesInGradsFromParisIntoUtm) {
 TEST(Georeference, ObeysOutCrs) {
   const LocatedCity located = locate(source_with("EPSG:28992", {92461.0, 436007.0, 3.0}, 10.0), {"", "EPSG:32631"});
   EXPECT_EQ(located.georeference.epsg, 32631);
-  expect_near(first_projected(located), in_crs("EPSG:28992", "EPSG:32631", {92461.0, 436007.0, 3.0}), rounding_m);
+  expect_place(first_projected(located), in_crs("EPSG:28992", "EPSG:32631", {92461.0, 436007.0, 3.0}), double_rounding_m);
 }
 
 TEST(Georeference, RefusesAnOutCrsThatIsNotInMetres) {
@@ -240,7 +242,7 @@ TEST(Georeference, BringsFilesOfDifferentCrssTogether) {
   ASSERT_EQ(located.city.buildings().size(), 2u);
   // Heights are not shifted, so each way starts on its own ellipsoid: 50 m apart, along normals that differ by 100 m / 6,400 km
   constexpr double shift_and_back_m = 50.0 * 100.0 / 6.4e6;
-  expect_near(located.city.points_of(located.city.buildings()[1])[0], located.city.points()[0], shift_and_back_m);
+  expect_place(located.city.points_of(located.city.buildings()[1])[0], located.city.points()[0], shift_and_back_m);
 }
 
 TEST(Georeference, KeepsAllOfABuilding) {

@@ -8,7 +8,7 @@
 namespace farlod::ingest::test {
 namespace {
 
-const std::string house = building(surface("bldg:lod1MultiSurface", "a", "1"));
+const std::string plain_house = building(surface("bldg:lod1MultiSurface", "a", "1"));
 
 std::string refusal(const std::string& text) {
   try {
@@ -21,7 +21,7 @@ std::string refusal(const std::string& text) {
 }
 
 std::string with_doctype(const std::string& doctype) {
-  std::string text = model(house);
+  std::string text = model(plain_house);
   return text.insert(text.find("?>") + 2, doctype);
 }
 
@@ -55,7 +55,7 @@ TEST(CityGmlHostile, DeepElementsAreRefused) {
       begins += "<gml:a>";
       ends += "</gml:a>";
     }
-    return model(begins + ends + house);
+    return model(begins + ends + plain_house);
   };
   EXPECT_EQ(refusal(nested(255)), "") << "the model itself is the first of 256";
   EXPECT_NE(refusal(nested(256)).find("nested deeper than 256"), std::string::npos);
@@ -64,7 +64,7 @@ TEST(CityGmlHostile, DeepElementsAreRefused) {
 TEST(CityGmlHostile, EndlessTagsAreRefused) {
   constexpr std::size_t four_mib = std::size_t{1} << 22;
   const auto said_of = [](std::size_t bytes) {
-    return refusal(model("<gml:name gml:id=\"" + std::string(bytes, 'x') + "\"/>" + house));
+    return refusal(model("<gml:name gml:id=\"" + std::string(bytes, 'x') + "\"/>" + plain_house));
   };
   EXPECT_EQ(said_of(four_mib / 2), "");
   EXPECT_NE(said_of(four_mib + four_mib / 2).find("4194304 bytes"), std::string::npos);
@@ -109,7 +109,7 @@ TEST(CityGmlHostile, ManyReferencesToUnusablePolygonsTakeNoTime) {
     references += reference("all");
   }
   const std::string all = R"(<gml:CompositeSurface gml:id="all">)" + polygons + "</gml:CompositeSurface>";
-  const Reading r = read_citygml_text(model(building(multi_surface("2", references + member(all))) + house));
+  const Reading r = read_citygml_text(model(building(multi_surface("2", references + member(all))) + plain_house));
   EXPECT_EQ(r.codes(), (std::set<int>{106, 111}));
 }
 
@@ -123,7 +123,8 @@ TEST(CityGmlHostile, ALongChainOfReferencesIsFollowedToItsEnd) {
   EXPECT_TRUE(r.codes().empty());
 }
 
-/// A house whose wall lies behind so many links, each in a thing of its own, and each found by one more reading of the file.
+/// A house whose wall lies behind so many links, each in a thing of its own, and each found by one more reading of the
+/// file.
 Reading house_behind(int links) {
   const auto thing = [](int k, const std::string& content) {
     return R"(<cityObjectMember><uro:Thing><gml:MultiSurface gml:id="p)" + std::to_string(k) + R"(">)" + content +

@@ -7,13 +7,13 @@
 namespace farlod::ingest::test {
 namespace {
 
-const std::string house = building(surface("bldg:lod1MultiSurface", "a", "1"));
+const std::string skipped_house = building(surface("bldg:lod1MultiSurface", "a", "1"));
 
 TEST(CityGmlSkipped, ObjectsOfOtherThemesAreCountedByName) {
   const std::string tree = within("cityObjectMember veg:SolitaryVegetationObject", surface("veg:lod2Geometry", "t", "9"));
   const std::string hedge = within("cityObjectMember veg:PlantCover", surface("veg:lod2MultiSurface", "h", "9"));
   const std::string relic = within("cityObjectMember uro:Relic uro:lod2Solid", polygon("r", "9"));
-  const Reading r = read_citygml_text(model(tree + house + hedge + tree + relic));
+  const Reading r = read_citygml_text(model(tree + skipped_house + hedge + tree + relic));
   EXPECT_EQ(heights(r.city()), std::vector<double>{1});
   EXPECT_EQ(r.source.skipped, (SkippedFeatures{{"PlantCover", 1}, {"Relic (urn:some:ade)", 1}, {"SolitaryVegetationObject", 2}}));
   EXPECT_TRUE(r.codes().empty());
@@ -41,7 +41,7 @@ TEST(CityGmlSkipped, ThereIsAnEndToNames) {
     members += within("cityObjectMember", "<uro:Thing" + std::to_string(k) + "/>");
   members += within("cityObjectMember", "<uro:Thing0/>");
   const std::string long_name = "uro:" + std::string(10'000, 'x');
-  const Reading r = read_citygml_text(model(within("cityObjectMember", "<" + long_name + "/>") + members + house));
+  const Reading r = read_citygml_text(model(within("cityObjectMember", "<" + long_name + "/>") + members + skipped_house));
   EXPECT_EQ(r.source.skipped.size(), SkippedCount::most_names + 1);
   EXPECT_EQ(r.source.skipped.at(SkippedCount::other_names), SkippedCount::most_names + 1);
   EXPECT_EQ(r.source.skipped.at("Thing0 (urn:some:ade)"), 2u);

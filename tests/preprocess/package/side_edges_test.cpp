@@ -106,7 +106,8 @@ TEST_P(EdgesOfATown, ComeBackAsTheSameSet) {
   std::size_t sides = 0, loose = 0;
   for (const Block block : grid.blocks()) {
     const CellRange cells = grid.cells_of(block);
-    const std::vector<std::byte> file = tiles_file(tiles, BakedBoxes(static_cast<std::size_t>(cells.size())), grid, block);
+    const std::vector<std::byte> file =
+        farlod::tiles_file(tiles, BakedBoxes(static_cast<std::size_t>(cells.size())), grid, block);
     const BlockTiles written(file, cells, "tiles.bin");
     for (std::size_t n = 0; n < static_cast<std::size_t>(cells.size()); ++n) {
       const TileView view = written.tile(cells.cell_at(n));

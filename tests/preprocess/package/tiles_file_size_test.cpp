@@ -55,7 +55,7 @@ TEST_P(TilesFileSize, IsCloseToThatOfTheBareMesh) {
   Bytes bytes;
   for (const Block block : grid.blocks()) {
     const BakedBoxes no_far_city(static_cast<std::size_t>(grid.cells_of(block).size()));
-    add(bytes, tiles_file(tiles, no_far_city, grid, block));
+    add(bytes, farlod::tiles_file(tiles, no_far_city, grid, block));
   }
   // All triangles are written, and neighbors share their vertices: there are fewer of those than of triangles
   EXPECT_GT(bytes.bare_mesh, tiles.triangle_count() * sizeof(Triangle));

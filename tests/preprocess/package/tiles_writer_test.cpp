@@ -49,7 +49,7 @@ class TilesWriter : public testing::Test {
 
   /// What comes back from the file.
   TileView written() {
-    bytes_ = tiles_file(tiles_, BakedBoxes(1), grid_, Block{0, 0});
+    bytes_ = farlod::tiles_file(tiles_, BakedBoxes(1), grid_, Block{0, 0});
     block_.emplace(bytes_, grid_.cells, "tiles.bin");
     return block_->tile({0, 0});
   }
@@ -120,7 +120,7 @@ TEST_F(TilesWriter, KeepsTheEdgesOfEachCellToItself) {
   const Point3f beside{2, 0, 0.5F};
   tile().horizon_edges = {{corners_[2], corners_[3]}, {corners_[0], beside}};
   tiles_.tiles[1].horizon_edges = {{corners_[0], corners_[1]}, {beside, corners_[1]}};
-  bytes_ = tiles_file(tiles_, BakedBoxes(2), grid_, Block{0, 0});
+  bytes_ = farlod::tiles_file(tiles_, BakedBoxes(2), grid_, Block{0, 0});
   const BlockTiles block(bytes_, grid_.cells, "tiles.bin");
   for (const int i : {0, 1}) {
     std::vector<HorizonEdge> read;

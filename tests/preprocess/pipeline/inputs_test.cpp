@@ -19,7 +19,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// An ESRI ASCII grid of 3 × 3 pixels of 1 km around the sample city.
-constexpr const char* plain = "ncols 3\nnrows 3\nxllcorner 548500\nyllcorner 5498500\ncellsize 1000\n7 7 7\n7 7 7\n7 7 7\n";
+constexpr const char* flat_raster = "ncols 3\nnrows 3\nxllcorner 548500\nyllcorner 5498500\ncellsize 1000\n7 7 7\n7 7 7\n7 7 7\n";
 
 class PackInputs : public testing::Test {
  protected:
@@ -60,7 +60,7 @@ TEST_F(PackInputs, AFolderIsTheFilesInIt) {
 
 TEST_F(PackInputs, ARasterIsASurfaceModel) {
   packing.settings.georeference.crs = "EPSG:32632";
-  packing.settings.inputs = {write("dsm.asc", plain)};
+  packing.settings.inputs = {write("dsm.asc", flat_raster)};
   packing.run();
   EXPECT_EQ(packing.result.manifest.buildings, 0U);
   EXPECT_EQ(packing.result.manifest.height_origin_m, 7.0);
@@ -68,7 +68,7 @@ TEST_F(PackInputs, ARasterIsASurfaceModel) {
 }
 
 TEST_F(PackInputs, ARasterBesideACityIsItsTerrain) {
-  packing.settings.inputs = {write("dem.asc", plain), good_city()};
+  packing.settings.inputs = {write("dem.asc", flat_raster), good_city()};
   packing.run();
   EXPECT_THAT(inputs_named(), ElementsAre("village.city.json", "dem.asc"));
   EXPECT_THAT(packing.stages_timed(), testing::Contains("terrain"));
@@ -76,10 +76,10 @@ TEST_F(PackInputs, ARasterBesideACityIsItsTerrain) {
 
 TEST_F(PackInputs, TwoRastersAreOneTooMany) {
   packing.settings.georeference.crs = "EPSG:32632";
-  packing.settings.inputs = {write("a.asc", plain), write("b.asc", plain)};
+  packing.settings.inputs = {write("a.asc", flat_raster), write("b.asc", flat_raster)};
   EXPECT_THAT(refusal(), testing::AllOf(HasSubstr("a.asc"), HasSubstr("b.asc"), HasSubstr("give one of them")));
-  packing.settings.inputs = {write("a.asc", plain)};
-  packing.settings.terrain = write("b.asc", plain);
+  packing.settings.inputs = {write("a.asc", flat_raster)};
+  packing.settings.terrain = write("b.asc", flat_raster);
   EXPECT_THAT(refusal(), testing::AllOf(HasSubstr("a.asc"), HasSubstr("--terrain"), HasSubstr("give one of them")));
 }
 

@@ -19,7 +19,7 @@ constexpr const char* footprints = R"({"type":"FeatureCollection","features":[
  [[[8.401,49],[8.4011,49],[8.4011,49.0001],[8.401,49.0001],[8.401,49]]]}}]})";
 
 /// An ESRI ASCII grid of 3 × 3 pixels of 1 km, 250 m high, around them.
-constexpr const char* plain =
+constexpr const char* plain_name =
     "ncols 3\nnrows 3\nxllcorner 455000\nyllcorner 5426000\ncellsize 1000\n"
     "250 250 250\n250 250 250\n250 250 250\n";
 
@@ -29,7 +29,7 @@ struct RoofPacking : Packing {
     settings.ingest.footprints.roof_field = "roof";
   }
   void run_on_plain() {
-    settings.terrain = write("dem.asc", plain);
+    settings.terrain = write("dem.asc", plain_name);
     settings.georeference.crs = "EPSG:32632";  // of the terrain
     run();
   }
