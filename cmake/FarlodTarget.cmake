@@ -3,7 +3,9 @@
 
 # Warnings that all our code is free of.
 function(farlod_warnings target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow $<$<BOOL:${FARLOD_WARNINGS_AS_ERRORS}>:-Werror>)
+  # In a unit of several files, names of one file may be local names of another, and each file looks like a header
+  set(of_units $<IF:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>,-Wshadow=local$<SEMICOLON>-Wno-subobject-linkage,-Wshadow>)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion ${of_units} $<$<BOOL:${FARLOD_WARNINGS_AS_ERRORS}>:-Werror>)
   # g++ 12 sees an overlap in every `"literal" + std::string` (GCC bug 105651)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict)
@@ -44,4 +46,27 @@ function(farlod_library name)
   target_link_libraries(farlod_${name} PUBLIC farlod::contract)
   farlod_warnings(farlod_${name})
   farlod_for_shared_library(farlod_${name})
+  cmake_language(EVAL CODE "cmake_language(DEFER DIRECTORY [[${PROJECT_SOURCE_DIR}]] CALL farlod_group_units farlod_${name})")
+endfunction()
+
+# What a unit of a unity build (CMAKE_UNITY_BUILD) holds: the files behind the door of one heavy library together, whose headers
+# are then read once, and of the others sixteen a unit, in the order of their lists. Called when all folders have named their files.
+function(farlod_group_units target)
+  get_target_property(sources ${target} SOURCES)
+  get_target_property(folder ${target} SOURCE_DIR)
+  set(count 0)
+  foreach(source ${sources})
+    if(NOT source MATCHES "\\.cpp$")
+      continue()
+    endif()
+    if(source MATCHES "_(cgal|cli11|nlohmann)\\.cpp$")
+      set(group ${CMAKE_MATCH_1})
+    else()
+      math(EXPR group "${count} / 16")
+      math(EXPR count "${count} + 1")
+    endif()
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder})
+    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${group})
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
