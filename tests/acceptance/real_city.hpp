@@ -25,7 +25,7 @@ struct PackedCity {
 class RealCity : public testing::Test {
  protected:
   /// Absolute path of a file below the shared data; the test is skipped by `needs` when it is not there.
-  [[nodiscard]] static std::string data(const std::string& name) { return std::string(FARLOD_SHARED_DATA_DIR) + "/" + name; }
+  [[nodiscard]] static std::string data(const std::string& name) { return FARLOD_SHARED_DATA_DIR "/" + name; }
   void needs(const std::vector<std::string>& names) const {
     for (const std::string& name : names)
       if (!std::filesystem::exists(data(name)))

@@ -25,7 +25,7 @@ Grid grid_turned_by(double bearing_deg) {
   return grid;
 }
 
-Area::Line rectangle(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
+Area::Line outline(double x0, double y0, double x1, double y1) { return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}; }
 
 std::set<Cell> cells_of(const Area& area, const Grid& grid) {
   const AreaCells met = cells_met_by(area, grid);
@@ -61,12 +61,12 @@ TEST(AreaCells, AreInTheOrderOfTheGrid) {
 
 TEST(AreaCells, ACellWithinAHoleIsNotMet) {
   const Grid grid = grid_turned_by(0.0);
-  const Area::Polygon ring{rectangle(-15, -15, 45, 35), rectangle(5, 5, 35, 25)};
+  const Area::Polygon ring{outline(-15, -15, 45, 35), outline(5, 5, 35, 25)};
   std::set<Cell> expected = range({-2, -2, 5, 4});
   for (const Cell inside : range({1, 1, 3, 2})) expected.erase(inside);
   EXPECT_EQ(cells_of({{}, {}, {ring}}, grid), expected);
   // Another polygon fills the hole
-  EXPECT_EQ(cells_of({{}, {}, {ring, {rectangle(12, 12, 28, 18)}}}, grid), range({-2, -2, 5, 4}));
+  EXPECT_EQ(cells_of({{}, {}, {ring, {outline(12, 12, 28, 18)}}}, grid), range({-2, -2, 5, 4}));
 }
 
 TEST(AreaCells, PointsMeetTheirCells) {
@@ -91,7 +91,7 @@ TEST(AreaCells, ALineMeetsTheCellsThatItRunsThrough) {
 }
 
 TEST(AreaCells, CountsShapesThatMeetNothing) {
-  const Area area{{{5, 5}, {100, 100}}, {{{-100, 0}, {-100, 5}}}, {{rectangle(1, 1, 2, 2)}, {rectangle(70, 0, 80, 10)}, {}}};
+  const Area area{{{5, 5}, {100, 100}}, {{{-100, 0}, {-100, 5}}}, {{outline(1, 1, 2, 2)}, {outline(70, 0, 80, 10)}, {}}};
   EXPECT_EQ(cells_met_by(area, grid_turned_by(0.0)).shapes_outside_of_grid, 4U);
 }
 

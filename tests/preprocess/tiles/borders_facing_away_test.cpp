@@ -87,7 +87,7 @@ void expect_nothing_lost(const std::vector<Body>& bodies, const std::vector<Hori
   }
 }
 
-void compare(RandomCity& random, double box_edge_m, Count& count) {
+void compare_borders(RandomCity& random, double box_edge_m, Count& count) {
   std::vector<Body> bodies;
   std::vector<HorizonSegment> borders;
   for (const Body& body : random.bodies()) {
@@ -105,7 +105,7 @@ class BordersFacingAway : public testing::TestWithParam<double> {};
 TEST_P(BordersFacingAway, AreLowestForNoEyeOutside) {
   RandomCity random(43);
   Count count;
-  for (int n = 0; n < 4000 && !HasFailure(); ++n) compare(random, GetParam(), count);
+  for (int n = 0; n < 4000 && !HasFailure(); ++n) compare_borders(random, GetParam(), count);
   EXPECT_GT(count.looks, 2000) << "the test tests nothing";
   EXPECT_GT(count.away, count.seen / 4) << "the test tests nothing";
 }

@@ -62,7 +62,7 @@ void expect_nothing_lost(const std::vector<HorizonSegment>& all, const std::vect
   }
 }
 
-void compare(RandomCity& random, double box_edge_m, Count& count) {
+void compare_edges(RandomCity& random, double box_edge_m, Count& count) {
   const std::vector<Body> bodies = random.bodies();
   const std::vector<HorizonSegment> edges = horizon_edges_of(bodies);
   test::compare_for_a_box(bodies, edges, box_edge_m, random, count,
@@ -74,7 +74,7 @@ class EdgesFacingAway : public testing::TestWithParam<double> {};
 TEST_P(EdgesFacingAway, AreNoHorizonForAnyEyeOutside) {
   RandomCity random(42);
   Count count;
-  for (int n = 0; n < 4000 && !HasFailure(); ++n) compare(random, GetParam(), count);
+  for (int n = 0; n < 4000 && !HasFailure(); ++n) compare_edges(random, GetParam(), count);
   EXPECT_GT(count.looks, 2000) << "the test tests nothing";
   EXPECT_GT(count.away, count.seen / 4) << "the test tests nothing";
 }

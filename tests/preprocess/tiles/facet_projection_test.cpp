@@ -10,7 +10,7 @@ namespace farlod::tiles {
 namespace {
 
 /// Coordinates below 16, normals of length 1 of which the largest part is at least 1/√3: a dozen sums and products, one quotient.
-constexpr double rounding_m = 12 * 16 * 1.7321 * std::numeric_limits<double>::epsilon();
+constexpr double projection_rounding_m = 12 * 16 * 1.7321 * std::numeric_limits<double>::epsilon();
 
 TEST(FacetProjection, LiftsBackWhatItLaidFlat) {
   const Point3d origin{1, -2, 3};
@@ -20,7 +20,7 @@ TEST(FacetProjection, LiftsBackWhatItLaidFlat) {
          {FacetProjection::dropping_a_coordinate(normal), FacetProjection::onto_plane(origin, normal)})
       for (const Point2d in_plane : {Point2d{0, 0}, {5, 0}, {-3, 7}, {0.25, -8}}) {
         const Point3d p = origin + in_plane.x * u + in_plane.y * v;
-        EXPECT_LE(norm(project.lift(project(p), origin) - p), rounding_m);
+        EXPECT_LE(norm(project.lift(project(p), origin) - p), projection_rounding_m);
       }
   }
 }
@@ -42,7 +42,7 @@ TEST(FacetProjection, KeepsDistancesInItsOwnPlaneOnly) {
   const Point3d normal = normalized(Point3d{0, -1, 1}), along_slope{0, 3, 3};
   const FacetProjection flat = FacetProjection::onto_plane({}, normal),
                         from_above = FacetProjection::dropping_a_coordinate(normal);
-  EXPECT_NEAR(norm(flat(along_slope)), norm(along_slope), rounding_m);
+  EXPECT_NEAR(norm(flat(along_slope)), norm(along_slope), projection_rounding_m);
   EXPECT_EQ(norm(from_above(along_slope)), 3.0);
 }
 

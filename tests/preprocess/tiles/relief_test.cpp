@@ -60,7 +60,7 @@ std::pair<double, double> heights_of(const TileSet& tiles, std::uint32_t surface
 }
 
 /// Heights of some ten metres above a tile's zero, as float.
-constexpr double rounding_m = 64.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
+constexpr double ground_rounding_m = 64.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
 
 TEST(Relief, IsTheGround) {
   const TileSet tiles = tiles_on(plane(-200, 300));
@@ -74,8 +74,8 @@ TEST(Relief, IsTheGround) {
 TEST(Relief, CarriesBuildingsThatKnowOnlyTheirHeight) {
   const TileSet tiles = tiles_on(plane(-200, 300));
   const auto [lowest, highest] = heights_of(tiles, 1);
-  EXPECT_NEAR(lowest, slope_m(40.0) + 9.0, rounding_m);  // the lowest ground under it
-  EXPECT_NEAR(highest, slope_m(40.0) + 9.0, rounding_m);
+  EXPECT_NEAR(lowest, slope_m(40.0) + 9.0, ground_rounding_m);  // the lowest ground under it
+  EXPECT_NEAR(highest, slope_m(40.0) + 9.0, ground_rounding_m);
 }
 
 void expect_same_ground(const TileSet& found, const TileSet& expected, double tolerance_m) {
@@ -91,7 +91,7 @@ TEST(Relief, GivesTheSameGroundAsARasterOfTheSamePlane) {
   for (std::size_t row = 0; row < raster.rows; ++row)
     for (std::size_t column = 0; column < raster.columns; ++column)
       raster.height_m.emplace_back(static_cast<float>(slope_m(raster.node(column, row).x)));
-  expect_same_ground(tiles_on(plane(-200, 300)), tiles_on({}, raster), rounding_m);
+  expect_same_ground(tiles_on(plane(-200, 300)), tiles_on({}, raster), ground_rounding_m);
 }
 
 /// A city's grid lies within a single triangle.

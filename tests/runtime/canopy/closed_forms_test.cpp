@@ -18,7 +18,7 @@ constexpr std::size_t azimuths = 16384;
 /// again.
 constexpr double azimuth_error = 2.0 / (2.0 * azimuths);
 /// Floats: a sum in blocks of 256 terms of at most 1.
-constexpr double rounding = 258.0 * 0x1p-24;
+constexpr double form_rounding = 258.0 * 0x1p-24;
 /// Of the eight nodes, at most: that of a layer over the whole hemisphere of depth .25.
 constexpr double quadrature_error = 1e-4;
 
@@ -47,7 +47,8 @@ TEST(CanopyClosedForms, AnEndlessLayerPasses2E3OfItsDepth) {
   };
   for (const Layer& l : {Layer{0.25, 0.649368}, Layer{0.5, 0.443209}, Layer{1.0, 0.219384}, Layer{2.0, 0.060267}}) {
     EXPECT_NEAR(2.0 * exponential_integral_3(l.depth), l.passed, 1e-6);
-    EXPECT_NEAR(svf_total_at_origin(layer, with_kappa(l.depth / thickness_m), 64), l.passed, quadrature_error + side + rounding)
+    EXPECT_NEAR(svf_total_at_origin(layer, with_kappa(l.depth / thickness_m), 64), l.passed,
+                quadrature_error + side + form_rounding)
         << l.depth;
   }
 }
@@ -61,7 +62,8 @@ TEST(CanopyClosedForms, AnEndlessHedge) {
   const double low = std::atan(1.5 / (near_m + width_m)), high = std::atan(7.0 / near_m);
   const double passed = 1.0 - (1.0 - psi) * 0.5 * (std::cos(low) - std::cos(high));
   EXPECT_NEAR(passed, 0.838941, 1e-6);
-  EXPECT_NEAR(svf_total_at_origin(hedge, with_psi(CanopyRule::once, psi), azimuths), passed, azimuth_error + cut_off + rounding);
+  EXPECT_NEAR(svf_total_at_origin(hedge, with_psi(CanopyRule::once, psi), azimuths), passed,
+              azimuth_error + cut_off + form_rounding);
 }
 
 TEST(CanopyClosedForms, ASphereAtADistance) {
@@ -70,25 +72,25 @@ TEST(CanopyClosedForms, ASphereAtADistance) {
       crown_at(CrownShape::spheroid, {away_m, 0.0}, radius_m, {height_m - radius_m, height_m + radius_m})};
   const double share = radius_m * radius_m * height_m / std::pow(std::hypot(away_m, height_m), 3);
   EXPECT_NEAR(1.0 - (1.0 - psi) * share, 0.916820, 1e-6);
-  EXPECT_NEAR(svf_total_at_origin(sphere, with_psi(CanopyRule::once, psi), azimuths), 0.916820, azimuth_error + rounding);
+  EXPECT_NEAR(svf_total_at_origin(sphere, with_psi(CanopyRule::once, psi), azimuths), 0.916820, azimuth_error + form_rounding);
   const double x = 2.0 * kappa_per_m * radius_m, passed = 2.0 * (1.0 - (1.0 + x) * std::exp(-x)) / (x * x);
   EXPECT_NEAR(1.0 - share * (1.0 - passed), 0.942681, 1e-6);
   EXPECT_NEAR(svf_total_at_origin(sphere, with_kappa(kappa_per_m), azimuths), 0.942681,
-              azimuth_error + share * quadrature_error + rounding);
+              azimuth_error + share * quadrature_error + form_rounding);
 }
 
 TEST(CanopyClosedForms, ASpheroidOverhead) {
   const std::vector<Crown> spheroid{crown_at(CrownShape::spheroid, {}, 4.0, {7.0 - 2.5, 7.0 + 2.5})};
   EXPECT_NEAR(1.0 - 16.0 / (16.0 + 49.0 - 6.25), 0.727660, 1e-6);
   for (const CanopyRule rule : {CanopyRule::once, CanopyRule::each})
-    EXPECT_NEAR(svf_total_at_origin(spheroid, with_psi(rule, 0.0), 64), 0.727660, 1e-6 + rounding);
+    EXPECT_NEAR(svf_total_at_origin(spheroid, with_psi(rule, 0.0), 64), 0.727660, 1e-6 + form_rounding);
 }
 
 TEST(CanopyClosedForms, ACylinderOverhead) {
   const std::vector<Crown> cylinder{crown_at(CrownShape::cylinder, {}, 3.0, {2.5, 9.0})};
   EXPECT_NEAR(1.0 - 9.0 / (9.0 + 2.5 * 2.5), 0.409836, 1e-6);
-  EXPECT_NEAR(svf_total_at_origin(cylinder, with_psi(CanopyRule::once, 0.0), 64), 0.409836, 1e-6 + rounding);
-  EXPECT_NEAR(svf_total_at_origin(cylinder, with_kappa(0.4), 64), 0.647656, 1e-6 + quadrature_error + rounding);
+  EXPECT_NEAR(svf_total_at_origin(cylinder, with_psi(CanopyRule::once, 0.0), 64), 0.409836, 1e-6 + form_rounding);
+  EXPECT_NEAR(svf_total_at_origin(cylinder, with_kappa(0.4), 64), 0.647656, 1e-6 + quadrature_error + form_rounding);
 }
 
 // --- Spheres at random places

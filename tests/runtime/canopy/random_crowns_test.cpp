@@ -15,8 +15,8 @@
 namespace farlod {
 namespace {
 
-constexpr CanopyRule all_rules[] = {CanopyRule::once, CanopyRule::each, CanopyRule::beer};
-constexpr Looks all_looks[] = {Looks::up, Looks::level, Looks::anywhere};
+constexpr CanopyRule judged_rules[] = {CanopyRule::once, CanopyRule::each, CanopyRule::beer};
+constexpr Looks judged_looks[] = {Looks::up, Looks::level, Looks::anywhere};
 constexpr std::size_t azimuth_count = 16;
 constexpr int elevations = 1500;
 /// Of the kernels: the quadrature, which is exact but for the rule `beer`, on all of the sky; and floats.
@@ -33,9 +33,9 @@ struct RandomScene {
 RandomScene scene_of(unsigned number, RandomPlaces& random) {
   RandomScene scene;
   scene.crowns = some_crowns(random, number % 5 == 0 ? 2 : 12, number % 4 == 0 ? 5.0 : 25.0);
-  scene.looks = all_looks[number % 3];
+  scene.looks = judged_looks[number % 3];
   scene.has_gaps = number % 2 == 1;
-  scene.settings.rule = all_rules[number / 3 % 3];
+  scene.settings.rule = judged_rules[number / 3 % 3];
   scene.settings.season = number / 9 % 2 == 0 ? Season::leaf_on : Season::leaf_off;
   scene.settings.extinction_per_m = 0.3;
   return scene;
@@ -99,7 +99,7 @@ TEST(RandomCrowns, PixelsOfACanopyTakeWhatRaysSay) {
         pixels.push_back(
             crown_at(CrownShape::prism, {x + 0.5, y + 0.5}, 0.5, {random.between(0.5, 4.0), random.between(4.0, 12.0)}));
   const ReceiverPacket receivers = some_receivers(random, Looks::up);
-  for (const CanopyRule rule : all_rules) {
+  for (const CanopyRule rule : judged_rules) {
     const CanopySettings settings{rule, Season::leaf_on, {}, 0.2};
     const SkyProfile profile = some_profile(random, azimuths, false);
     const CanopyShares shares = CanopySky(azimuths).evaluate(profile, receivers, CrownBatches(pixels, settings));

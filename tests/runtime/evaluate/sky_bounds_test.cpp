@@ -19,10 +19,10 @@
 namespace farlod {
 namespace {
 
-constexpr std::size_t rays = 1000;
+constexpr std::size_t bounded_rays = 1000;
 /// The near scene and the whole city round to floats in frames of their own: a ray that grazes an edge may pass it on either
 /// side.
-constexpr double one_ray = 1.5 / static_cast<double>(rays);
+constexpr double one_bounded_ray = 1.5 / static_cast<double>(bounded_rays);
 
 struct Town {
   const char* name;
@@ -94,7 +94,7 @@ class SkyBounds : public testing::TestWithParam<Town> {
   }
 
   [[nodiscard]] Answers answers(Engine engine, std::optional<double> max_far_error = std::nullopt) const {
-    const SkyEvaluator evaluator(package_, {engine, SkyWeight::cosine, rays, max_far_error});
+    const SkyEvaluator evaluator(package_, {engine, SkyWeight::cosine, bounded_rays, max_far_error});
     Answers a{std::vector<float>(count_), std::vector<float>(count_), std::vector<float>(count_)};
     for (const CellReceivers& cell : places_) evaluator.evaluate(cell, SkyAnswers(a.svf, a.low, a.high));
     return a;
@@ -117,8 +117,8 @@ TEST_P(SkyBounds, HoldTheExactAnswer) {
   const Answers exact = answers(Engine::exact), bounded = answers(Engine::rays);
   double widest = 0.0;
   for (std::size_t n = 0; n < exact.svf.size(); ++n) {
-    EXPECT_LE(bounded.low[n], exact.svf[n] + one_ray) << "receiver " << n;
-    EXPECT_GE(bounded.high[n], exact.svf[n] - one_ray) << "receiver " << n;
+    EXPECT_LE(bounded.low[n], exact.svf[n] + one_bounded_ray) << "receiver " << n;
+    EXPECT_GE(bounded.high[n], exact.svf[n] - one_bounded_ray) << "receiver " << n;
     EXPECT_LE(bounded.low[n], bounded.svf[n]);
     EXPECT_LE(bounded.svf[n], bounded.high[n]);
     widest = std::max<double>(widest, bounded.high[n] - bounded.low[n]);
@@ -130,9 +130,9 @@ TEST_P(SkyBounds, HoldTheExactAnswer) {
 }
 
 /// What horizons and the exact rays may differ by where all is certain: both look at parts of the sky only.
-constexpr std::size_t azimuths = 256;
+constexpr std::size_t bounded_azimuths = 256;
 constexpr double rounding = 1e-6;  // of floats up to 1, and of sums of them
-const double between_looks = azimuth_error(azimuths) + sampling_error(rays);
+const double between_looks = azimuth_error(bounded_azimuths) + sampling_error(bounded_rays);
 
 TEST_P(SkyBounds, OfHorizonsHoldTheExactAnswerUpToWhatIsBetweenAzimuths) {
   const Answers exact = answers(Engine::exact);
@@ -163,7 +163,7 @@ TEST_P(SkyBounds, OfHorizonsAreDecidedByRays) {
 
 TEST_P(SkyBounds, OfHorizonsNeedFewRaysWhereMuchMayStayOpen) {
   const auto rays_of = [&](double most) {
-    const SkyEvaluator evaluator(package_, {Engine::automatic, SkyWeight::cosine, rays, most});
+    const SkyEvaluator evaluator(package_, {Engine::automatic, SkyWeight::cosine, bounded_rays, most});
     std::vector<float> svf(count_);
     for (const CellReceivers& cell : places_) evaluator.evaluate(cell, svf);
     return evaluator.statistics().retraced_rays;
@@ -179,7 +179,7 @@ TEST_P(SkyBounds, OfHorizonsNeedFewRaysWhereMuchMayStayOpen) {
 TEST_P(SkyBounds, WithoutAnyFarErrorTheAnswerIsExact) {
   const Answers exact = answers(Engine::exact), resolved = answers(Engine::rays, 0.0);
   for (std::size_t n = 0; n < exact.svf.size(); ++n) {
-    EXPECT_NEAR(resolved.svf[n], exact.svf[n], one_ray) << "receiver " << n;
+    EXPECT_NEAR(resolved.svf[n], exact.svf[n], one_bounded_ray) << "receiver " << n;
     EXPECT_EQ(resolved.low[n], resolved.high[n]) << "receiver " << n;
   }
 }
@@ -188,13 +188,13 @@ TEST_P(SkyBounds, TheFarErrorStaysBelowTheMost) {
   constexpr double most = 0.005;
   const Answers exact = answers(Engine::exact), resolved = answers(Engine::rays, most);
   for (std::size_t n = 0; n < exact.svf.size(); ++n)
-    EXPECT_NEAR(resolved.svf[n], exact.svf[n], most + one_ray) << "receiver " << n;
+    EXPECT_NEAR(resolved.svf[n], exact.svf[n], most + one_bounded_ray) << "receiver " << n;
 }
 
 TEST_P(SkyBounds, AskingForThemChangesNoAnswer) {
   for (const Engine engine : {Engine::rays, Engine::automatic}) {
     const Answers bounded = answers(engine);
-    const SkyEvaluator evaluator(package_, {engine, SkyWeight::cosine, rays});
+    const SkyEvaluator evaluator(package_, {engine, SkyWeight::cosine, bounded_rays});
     std::vector<float> plain(bounded.svf.size());
     for (const CellReceivers& cell : places_) evaluator.evaluate(cell, plain);
     // With bounds, rays answer for a few more of those who may look below something
@@ -204,15 +204,15 @@ TEST_P(SkyBounds, AskingForThemChangesNoAnswer) {
 }
 
 TEST_P(SkyBounds, RaysAreTracedAgainstTheWholeCityOnlyWhereTheyMust) {
-  const SkyEvaluator lax(package_, {Engine::rays, SkyWeight::cosine, rays, 1.0}),
-      strict(package_, {Engine::rays, SkyWeight::cosine, rays, 0.0});
+  const SkyEvaluator lax(package_, {Engine::rays, SkyWeight::cosine, bounded_rays, 1.0}),
+      strict(package_, {Engine::rays, SkyWeight::cosine, bounded_rays, 0.0});
   std::vector<float> svf(count_);
   for (const CellReceivers& cell : places_) {
     lax.evaluate(cell, svf);
     strict.evaluate(cell, svf);
   }
   EXPECT_EQ(lax.statistics().retraced_rays, 0U);
-  EXPECT_LT(strict.statistics().retraced_rays, rays * svf.size() / 4);
+  EXPECT_LT(strict.statistics().retraced_rays, bounded_rays * svf.size() / 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(

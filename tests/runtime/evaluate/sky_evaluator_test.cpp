@@ -18,7 +18,7 @@
 namespace farlod {
 namespace {
 
-constexpr double cell_m = 20.0;
+constexpr double edge_of_cell_m = 20.0;
 
 /// Far maps of the kind `box` know no horizons.
 std::vector<Engine> engines_of(FarMapKind kind) {
@@ -28,7 +28,7 @@ std::vector<Engine> engines_of(FarMapKind kind) {
 
 Grid grid_of(const CellRange& cells, int neighborhood = 3) {
   Grid grid;
-  grid.cell_edge_m = cell_m;
+  grid.cell_edge_m = edge_of_cell_m;
   grid.neighborhood = neighborhood;
   grid.block_edge = 4;
   grid.cells = cells;

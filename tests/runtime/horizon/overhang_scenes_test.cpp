@@ -23,15 +23,15 @@ namespace farlod {
 namespace {
 
 constexpr float eye_m = 1.5F;
-constexpr std::size_t azimuths = 1024, rays_per_azimuth = 64;
-constexpr Point3f up{0.0F, 0.0F, 1.0F};
+constexpr std::size_t scene_azimuths = 1024, rays_per_azimuth = 64;
+constexpr Point3f level_normal{0.0F, 0.0F, 1.0F};
 
 /// The mean over the circle from the middles of equal parts errs in each part by its variation there at the most. Of these scenes
 /// the sky at an azimuth, at most 1, rises and falls twice.
-constexpr double azimuth_rounding = 4.0 / static_cast<double>(azimuths);
+constexpr double azimuth_rounding = 4.0 / static_cast<double>(scene_azimuths);
 
-/// Two ways of adding up the sky of a thousand azimuths, one of them in a hundred parts for each, as floats. At most each
-/// addition rounds by 3e-8; what is seen is a hundredth of that.
+/// Two ways of adding up the sky of a thousand azimuths, one of them in a hundred parts for each, as floats. At
+/// most each addition rounds by 3e-8; what is seen is a hundredth of that.
 constexpr double summing_error = 0.01 * 1024 * 128 * 6e-8;
 
 struct Known {
@@ -137,13 +137,13 @@ class OverhangScenes : public testing::TestWithParam<Scene> {
  protected:
   [[nodiscard]] std::vector<Receiver> receivers(const std::vector<Point3f>& places) const {
     std::vector<Receiver> result;
-    for (const Point3f& p : places) result.push_back({result.size(), p, up});
+    for (const Point3f& p : places) result.push_back({result.size(), p, level_normal});
     return result;
   }
   [[nodiscard]] std::vector<SvfInterval> evaluate(const std::vector<Point3f>& places, bool wants_bounds) const {
     const PackedOverhangs packed(GetParam().town.overhanging());
     OverhangGeometry overhangs = packed.geometry();
-    const AzimuthSampling ring = AzimuthSampling::even(azimuths, {});
+    const AzimuthSampling ring = AzimuthSampling::even(scene_azimuths, {});
     FarHorizonByHand far({});
     HorizonEngine engine(ring, SkyWeight::cosine, far.map(), GetParam().town.silhouettes(), overhangs, {0.0F, rays_per_azimuth},
                          JumpPlaces::between_azimuths);
@@ -151,7 +151,7 @@ class OverhangScenes : public testing::TestWithParam<Scene> {
     for (std::size_t first = 0; first < places.size(); first += ReceiverPacket::lanes) {
       const std::size_t count = std::min(ReceiverPacket::lanes, places.size() - first);
       ReceiverPacket packet;
-      for (std::size_t n = first; n < first + count; ++n) packet.add({n, places[n], up});
+      for (std::size_t n = first; n < first + count; ++n) packet.add({n, places[n], level_normal});
       PacketAnswer answer;
       wants_bounds ? engine.evaluate_with_bounds({&packet, 1}, {&answer, 1}) : engine.evaluate({&packet, 1}, {&answer, 1});
       std::copy_n(answer.svf.begin(), count, intervals.begin() + static_cast<std::ptrdiff_t>(first));

@@ -21,7 +21,7 @@ std::vector<AzimuthSampling> some_rings() {
           DirectionSampling(SkyPartition(SkyWeight::solid_angle, 1).directions()).azimuths()};
 }
 
-Point2d azimuth(const AzimuthSampling& ring, std::size_t k) { return {ring.cosine()[k], ring.sine()[k]}; }
+Point2d direction_at(const AzimuthSampling& ring, std::size_t k) { return {ring.cosine()[k], ring.sine()[k]}; }
 
 float just_above(double slope) { return std::nextafter(static_cast<float>(slope), std::numeric_limits<float>::infinity()); }
 float just_below(double slope) { return std::nextafter(static_cast<float>(slope), 0.0F); }
@@ -43,7 +43,7 @@ std::size_t compare_with_oracle(const std::vector<HorizonEdge>& edges, const std
     horizon.raise(silhouettes_of(edges), packet_of(eyes));
     for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane)
       for (std::size_t k = 0; k < ring.size(); ++k) {
-        const SlopeRange range = expected_horizon(edges, eyes[std::min(lane, eyes.size() - 1)], azimuth(ring, k));
+        const SlopeRange range = expected_horizon(edges, eyes[std::min(lane, eyes.size() - 1)], direction_at(ring, k));
         EXPECT_TRUE(lies_in(horizon, lane, k, range));
         raised += range.low > 0.0 ? 1 : 0;
       }

@@ -16,7 +16,7 @@
 namespace farlod {
 namespace {
 
-constexpr Point3f up{0.0F, 0.0F, 1.0F}, east{1.0F, 0.0F, 0.0F}, south{0.0F, -1.0F, 0.0F};
+constexpr Point3f upwards{0.0F, 0.0F, 1.0F}, east{1.0F, 0.0F, 0.0F}, south{0.0F, -1.0F, 0.0F};
 
 std::vector<Receiver> random_receivers(std::size_t count, const std::vector<Point3f>& normals) {
   RandomPlaces random;
@@ -47,7 +47,7 @@ std::vector<Receiver> raster(int columns, int rows) {
   std::vector<Receiver> receivers;
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column)
-      receivers.push_back({receivers.size(), {static_cast<float>(column), static_cast<float>(row), 1.5F}, up});
+      receivers.push_back({receivers.size(), {static_cast<float>(column), static_cast<float>(row), 1.5F}, upwards});
   return receivers;
 }
 
@@ -89,7 +89,7 @@ void expect_bounds(const std::vector<Receiver>& receivers, bool has_plane) {
 
 TEST(PacketBounds, HoldAllReceivers) {
   for (std::size_t count = 1; count <= ReceiverPacket::lanes; ++count)
-    for (const Point3f& normal : {up, east, south}) expect_bounds(random_receivers(count, {normal}), true);
+    for (const Point3f& normal : {upwards, east, south}) expect_bounds(random_receivers(count, {normal}), true);
 }
 
 TEST(PacketBounds, HaveAPlaneWhereAllLookTheSameWay) {
@@ -106,7 +106,7 @@ TEST(PacketBounds, HaveNoPlaneWhereAllLookDown) { expect_bounds(random_receivers
 TEST(PacketOrder, EachReceiverIsInOnePacket) {
   for (const std::size_t count : {0U, 1U, 15U, 16U, 17U, 500U}) {
     std::vector<std::size_t> seen;
-    for (const auto& packet : packets_of(random_receivers(count, {up, east, south}))) {
+    for (const auto& packet : packets_of(random_receivers(count, {upwards, east, south}))) {
       EXPECT_FALSE(packet.empty());
       EXPECT_LE(packet.size(), ReceiverPacket::lanes);
       for (const Receiver& r : packet) seen.push_back(r.index);
@@ -170,7 +170,8 @@ TEST(PacketOrder, ARasterComesInGroupsThatAreSquaresToo) {
 TEST(PacketBounds, HoldThoseOfEachPacketOfAGroup) {
   constexpr float rounding_m = 1e-4F;
   RandomPlaces random;
-  for (const std::vector<Point3f>& normals : {std::vector{up, up, up}, {south, south, south}, {up, south, up}}) {
+  for (const std::vector<Point3f>& normals :
+       {std::vector{upwards, upwards, upwards}, {south, south, south}, {upwards, south, upwards}}) {
     std::vector<PacketBounds> bounds;
     std::vector<Point3f> places;
     for (const Point3f& normal : normals) {
@@ -199,7 +200,7 @@ TEST(PacketOrder, EndsWhenItIsAskedTo) {
 }
 
 TEST(PacketOrder, ManyAtOnePlace) {
-  const std::vector<Receiver> receivers(40, Receiver{0, {1.0F, 2.0F, 3.0F}, up});
+  const std::vector<Receiver> receivers(40, Receiver{0, {1.0F, 2.0F, 3.0F}, upwards});
   EXPECT_EQ(packets_of(receivers).size(), 3U);
 }
 

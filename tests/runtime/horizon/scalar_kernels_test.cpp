@@ -24,8 +24,8 @@ static void PrintTo(const KernelTarget& target, std::ostream* out) { *out << tar
 
 namespace {
 
-using Row = PacketHorizon::Row;
-using Rows = std::vector<Row>;  ///< rows[azimuth][receiver]
+using KernelRow = PacketHorizon::Row;
+using Rows = std::vector<KernelRow>;  ///< rows[azimuth][receiver]
 using Numbers = std::vector<std::array<std::int32_t, ReceiverPacket::lanes>>;
 constexpr std::size_t lanes = ReceiverPacket::lanes;
 
@@ -41,7 +41,7 @@ class ScalarKernels : public testing::TestWithParam<KernelTarget> {
   /// Level, low and steep ones, and some up to the zenith.
   [[nodiscard]] Rows random_slopes() {
     Rows rows(azimuths_.size());
-    for (Row& row : rows)
+    for (KernelRow& row : rows)
       for (float& slope : row) {
         const float kind = random_.between(0.0, 1.0);
         slope = kind < 0.2F ? 0.0F : kind > 0.97F ? scalar::infinity : random_.between(0.0, kind < 0.6F ? 0.3 : 30.0);
@@ -133,7 +133,7 @@ TEST_P(ScalarKernels, HorizonsLoweredToEdgesAboveAMinimum) {
     const std::vector<HorizonEdge> edges = random_edges(EdgeRole::underside, packet);
     const SilhouetteEdges silhouettes_of_role = silhouettes(EdgeRole::underside, edges);
     Rows min_slopes = random_slopes(), slopes(azimuths_.size());
-    for (Row& row : slopes) row.fill(scalar::infinity);
+    for (KernelRow& row : slopes) row.fill(scalar::infinity);
     edge().lower_to_edges({silhouettes_of_role.batches(), EdgeRole::underside}, packet, bounds, azimuths_.view(),
                           data(min_slopes), data(slopes));
     for (std::size_t k = 0; k < azimuths_.size(); ++k)
@@ -206,7 +206,7 @@ TEST_P(ScalarKernels, SkyBetweenHorizons) {
       for (std::size_t k = 0; k < high.size(); k += 2)
         for (float& slope : high[k]) slope += random_.between(0.0, 2.0);
       for (Rows* finite : {&low, &high})
-        for (Row& row : *finite)
+        for (KernelRow& row : *finite)
           for (float& slope : row) slope = std::min(slope, 1e9F);
       sky().find_sky_between(data(low), data(high), packet, azimuths_.view(), weight == SkyWeight::solid_angle, data(rows));
       for (std::size_t k = 0; k < rows.size(); ++k)
@@ -240,7 +240,7 @@ TEST_P(ScalarKernels, DifferencesAndCounts) {
   Rows a = random_slopes(), b = random_slopes();
   // A difference of two infinite slopes is no number
   for (Rows* finite : {&a, &b})
-    for (Row& row : *finite)
+    for (KernelRow& row : *finite)
       for (float& slope : row) slope = std::min(slope, 1e9F);
   // The first receiver's horizon is far below the other one; a ray along a horizon is not above it
   std::vector<float> ray_slopes;

@@ -14,7 +14,7 @@
 namespace farlod {
 namespace {
 
-constexpr SkyWeight both_weights[] = {SkyWeight::cosine, SkyWeight::solid_angle};
+constexpr SkyWeight partition_weights[] = {SkyWeight::cosine, SkyWeight::solid_angle};
 constexpr std::size_t sizes[] = {1, 2, 7, 145, 290, 1000, 5000};
 
 /// A dozen operations on numbers below 4π, each rounded once.
@@ -46,7 +46,7 @@ TEST(SkyPartition, RingsAreThoseOfBeckersAndBeckers) {
 }
 
 TEST(SkyPartition, TheZenithIsOneCellAndTheNextCircleHoldsSixOrSevenAtLeast) {
-  for (const SkyWeight weight : both_weights) {
+  for (const SkyWeight weight : partition_weights) {
     std::size_t fewest = 1000;
     for (std::size_t cells = 10; cells < 2000; ++cells) {
       const std::vector<std::size_t> rings = SkyPartition(weight, cells).cells_inside();
@@ -78,7 +78,7 @@ std::vector<Ring> rings_of(const SkyPartition& sky) {
 }
 
 TEST(SkyPartition, EachDirectionLiesInItsRing) {
-  for (const SkyWeight weight : both_weights)
+  for (const SkyWeight weight : partition_weights)
     for (const std::size_t cells : sizes)
       for (const Ring& ring : rings_of(SkyPartition(weight, cells)))
         for (const Point3d& d : ring.directions) {
@@ -91,7 +91,7 @@ TEST(SkyPartition, EachDirectionLiesInItsRing) {
 }
 
 TEST(SkyPartition, EachSectorOfARingHasOneDirection) {
-  for (const SkyWeight weight : both_weights)
+  for (const SkyWeight weight : partition_weights)
     for (const std::size_t cells : sizes)
       for (const Ring& ring : rings_of(SkyPartition(weight, cells))) {
         if (ring.directions.size() == 1) continue;
@@ -106,7 +106,7 @@ TEST(SkyPartition, EachSectorOfARingHasOneDirection) {
 }
 
 TEST(SkyPartition, RingsAreTurnedAgainstEachOther) {
-  for (const SkyWeight weight : both_weights) {
+  for (const SkyWeight weight : partition_weights) {
     const std::vector<Ring> rings = rings_of(SkyPartition(weight, 1000));
     for (std::size_t r = 2; r < rings.size(); ++r) {
       const double sector = 2.0 * std::numbers::pi / static_cast<double>(rings[r].directions.size());
@@ -118,7 +118,7 @@ TEST(SkyPartition, RingsAreTurnedAgainstEachOther) {
 }
 
 TEST(SkyPartition, DirectionAndShareAreInverse) {
-  for (const SkyWeight weight : both_weights)
+  for (const SkyWeight weight : partition_weights)
     for (int step = 0; step <= 1000; ++step) {
       const double u = step / 1000.0, azimuth = 2.0 * std::numbers::pi * std::fmod(step * 0.618, 1.0);
       const Point3d d = sky_direction(weight, u, azimuth);
@@ -137,7 +137,7 @@ double discrepancy(std::size_t n) {
 }
 
 TEST(SkyPartition, MeanCosineIsTwoThirdsByViewFactorAndOneHalfBySolidAngle) {
-  for (const SkyWeight weight : both_weights) {
+  for (const SkyWeight weight : partition_weights) {
     const SkyPartition sky(weight, 5000);
     const double k = static_cast<double>(sky.size());
     double mean = 0.0, error = rounding;
@@ -153,7 +153,7 @@ TEST(SkyPartition, MeanCosineIsTwoThirdsByViewFactorAndOneHalfBySolidAngle) {
 }
 
 TEST(SkyPartition, AConstantHorizonHidesItsShare) {
-  for (const SkyWeight weight : both_weights)
+  for (const SkyWeight weight : partition_weights)
     for (const double elevation_deg : {1.0, 10.0, 33.0, 60.0, 80.0}) {
       const SkyPartition sky(weight, 1000);
       const double sin_b = sin(Angle::degrees(elevation_deg));
@@ -168,7 +168,7 @@ TEST(SkyPartition, AConstantHorizonHidesItsShare) {
 }
 
 TEST(SkyPartition, AHalfPlaneHidesAHalfWhateverItsAzimuth) {
-  for (const SkyWeight weight : both_weights)
+  for (const SkyWeight weight : partition_weights)
     for (int azimuth_deg = 0; azimuth_deg < 360; azimuth_deg += 15) {
       const SkyPartition sky(weight, 1000);
       const Point2d towards{sin(Angle::degrees(azimuth_deg)), cos(Angle::degrees(azimuth_deg))};

@@ -15,7 +15,7 @@
 namespace farlod {
 namespace {
 
-constexpr Point3f up{0.0F, 0.0F, 1.0F}, down{0.0F, 0.0F, -1.0F};
+constexpr Point3f upwards{0.0F, 0.0F, 1.0F}, down{0.0F, 0.0F, -1.0F};
 
 /// Horizontal triangles around the z axis, one at each height.
 Occluder layers(const std::vector<float>& heights_m) {
@@ -32,16 +32,16 @@ Occluder layers(const std::vector<float>& heights_m) {
 TEST(Occluder, BlocksWhatMeetsATriangleFromEitherSide) {
   const Occluder occluder = layers({1.0F, 2.0F});
   EXPECT_EQ(occluder.triangle_count(), 2U);
-  EXPECT_TRUE(occluder.blocks({{0.1F, 0.2F, 0.0F}, up}));
+  EXPECT_TRUE(occluder.blocks({{0.1F, 0.2F, 0.0F}, upwards}));
   EXPECT_TRUE(occluder.blocks({{0.1F, 0.2F, 3.0F}, down}));
-  EXPECT_TRUE(occluder.blocks({{0.1F, 0.2F, 1.5F}, up}));
-  EXPECT_FALSE(occluder.blocks({{5.0F, 0.2F, 0.0F}, up}));
+  EXPECT_TRUE(occluder.blocks({{0.1F, 0.2F, 1.5F}, upwards}));
+  EXPECT_FALSE(occluder.blocks({{5.0F, 0.2F, 0.0F}, upwards}));
   EXPECT_FALSE(occluder.blocks({{0.1F, 0.2F, 0.0F}, down}));
 }
 
 TEST(Occluder, WhatLiesBehindDoesNotCount) {
   const Occluder occluder = layers({1.0F, 2.0F});
-  const Ray from_above{{0.1F, 0.2F, 3.0F}, up};
+  const Ray from_above{{0.1F, 0.2F, 3.0F}, upwards};
   EXPECT_FALSE(occluder.blocks(from_above));
   EXPECT_FALSE(occluder.nearest(from_above));
 }
@@ -49,40 +49,40 @@ TEST(Occluder, WhatLiesBehindDoesNotCount) {
 TEST(Occluder, RaysBeginAndEndWhereTheySay) {
   const Occluder occluder = layers({1.0F, 2.0F});
   const Point3f origin{0.1F, 0.2F, 0.0F};
-  EXPECT_FALSE(occluder.blocks({origin, up, 0.0F, 0.5F}));
-  EXPECT_TRUE(occluder.blocks({origin, up, 0.0F, 1.5F}));
-  EXPECT_TRUE(occluder.blocks({origin, up, 1.5F}));
-  EXPECT_FALSE(occluder.blocks({origin, up, 2.5F}));
-  EXPECT_EQ(occluder.nearest({origin, up, 1.5F})->triangle, 1U);
-  EXPECT_EQ(occluder.nearest({origin, up, 0.0F, 1.5F})->triangle, 0U);
+  EXPECT_FALSE(occluder.blocks({origin, upwards, 0.0F, 0.5F}));
+  EXPECT_TRUE(occluder.blocks({origin, upwards, 0.0F, 1.5F}));
+  EXPECT_TRUE(occluder.blocks({origin, upwards, 1.5F}));
+  EXPECT_FALSE(occluder.blocks({origin, upwards, 2.5F}));
+  EXPECT_EQ(occluder.nearest({origin, upwards, 1.5F})->triangle, 1U);
+  EXPECT_EQ(occluder.nearest({origin, upwards, 0.0F, 1.5F})->triangle, 0U);
 }
 
 // Of distances: Embree divides by an approximate reciprocal where the processor has no AVX-512
 
 TEST(Occluder, DistancesCountInTheLengthOfTheDirection) {
   const Occluder occluder = layers({1.0F, 2.0F});
-  EXPECT_FLOAT_EQ(occluder.nearest({{0.1F, 0.2F, 0.0F}, up})->distance, 1.0F);
+  EXPECT_FLOAT_EQ(occluder.nearest({{0.1F, 0.2F, 0.0F}, upwards})->distance, 1.0F);
   EXPECT_FLOAT_EQ(occluder.nearest({{0.1F, 0.2F, 0.0F}, {0.0F, 0.0F, 4.0F}})->distance, 0.25F);
 }
 
 TEST(Occluder, NearestIsTheFirstOfThoseThatCount) {
   const Occluder occluder = layers({3.0F, 1.0F, 2.0F});
-  const Ray ray{{0.1F, 0.2F, 0.0F}, up};
+  const Ray ray{{0.1F, 0.2F, 0.0F}, upwards};
   EXPECT_EQ(occluder.nearest(ray)->triangle, 1U);
   EXPECT_EQ(occluder.nearest(ray, [](std::uint32_t t) { return t != 1; })->triangle, 2U);
   EXPECT_FLOAT_EQ(occluder.nearest(ray, [](std::uint32_t t) { return t == 0; })->distance, 3.0F);
   EXPECT_FALSE(occluder.nearest(ray, [](std::uint32_t) { return false; }));
 }
 
-constexpr std::uint32_t all_lanes = 0xFFFF;
+constexpr std::uint32_t all_rays = 0xFFFF;
 
 TEST(Occluder, NothingHidesNothing) {
   const Occluder nothing({}, {});
   const Occluder points_only({{1.0F, 2.0F, 3.0F}}, {});
   for (const Occluder* occluder : {&nothing, &points_only}) {
-    EXPECT_EQ(occluder->blocked(RayOrigins{}, up, 0.0F, all_lanes), 0U);
-    EXPECT_FALSE(occluder->blocks({{}, up}));
-    EXPECT_FALSE(occluder->nearest({{}, up}));
+    EXPECT_EQ(occluder->blocked(RayOrigins{}, upwards, 0.0F, all_rays), 0U);
+    EXPECT_FALSE(occluder->blocks({{}, upwards}));
+    EXPECT_FALSE(occluder->nearest({{}, upwards}));
     EXPECT_EQ(occluder->triangle_count(), 0U);
   }
 }
@@ -129,7 +129,7 @@ TEST_F(RandomScene, PacketsAnswerAsSingleRaysDo) {
   std::size_t blocked_count = 0, asked_count = 0;
   for (std::uint32_t n = 0; n < 2000; ++n) {
     // Of each pattern of lanes that are asked, many packets; with one direction for all, and with one for each
-    const std::uint32_t wanted = n % 3 == 0 ? all_lanes : (n * 2654435761U) >> 16;
+    const std::uint32_t wanted = n % 3 == 0 ? all_rays : (n * 2654435761U) >> 16;
     const Point3f shared = point(1.0F);
     Packet packet;
     std::uint32_t expected = 0, expected_shared = 0;
@@ -154,7 +154,7 @@ TEST_F(RandomScene, PacketsAreAsFarAsSingleRays) {
   constexpr float tolerance = 1e-4F;
   std::size_t met = 0;
   for (std::uint32_t n = 0; n < 500; ++n) {
-    const std::uint32_t wanted = n % 3 == 0 ? all_lanes : (n * 2654435761U) >> 16;
+    const std::uint32_t wanted = n % 3 == 0 ? all_rays : (n * 2654435761U) >> 16;
     const Point3f shared = point(1.0F);
     Packet packet;
     for (std::size_t l = 0; l < RayOrigins::lanes; ++l) packet.set(l, {point(60.0F), point(1.0F), begin});
@@ -228,7 +228,7 @@ TEST_F(Fan, SharedEdgesAndASharedVertexLetNothingThrough) {
     EXPECT_TRUE(fan.blocks(ray)) << n;
     Packet packet;
     for (std::size_t l = 0; l < RayOrigins::lanes; ++l) packet.set(l, ray);
-    EXPECT_EQ(fan.blocked(packet.origins, packet.directions, 0.0F, all_lanes), all_lanes) << n;
+    EXPECT_EQ(fan.blocked(packet.origins, packet.directions, 0.0F, all_rays), all_rays) << n;
   }
 }
 
@@ -255,9 +255,9 @@ TEST(PlacedMesh, NumbersTrianglesThrough) {
       PlacedMesh{{vertices, triangles}, {-100.0, 0.0}}, {{}, {-50.0, 0.0}}, {{vertices, triangles}, {100.0, 50.0}}};
   const Occluder occluder = occluder_of(tiles);
   EXPECT_EQ(occluder.triangle_count(), 2U);
-  EXPECT_EQ(occluder.nearest({{-98.0F, 2.0F, 0.0F}, up})->triangle, 0U);
-  EXPECT_EQ(occluder.nearest({{102.0F, 52.0F, 0.0F}, up})->triangle, 1U);
-  EXPECT_FALSE(occluder.blocks({{2.0F, 2.0F, 0.0F}, up}));
+  EXPECT_EQ(occluder.nearest({{-98.0F, 2.0F, 0.0F}, upwards})->triangle, 0U);
+  EXPECT_EQ(occluder.nearest({{102.0F, 52.0F, 0.0F}, upwards})->triangle, 1U);
+  EXPECT_FALSE(occluder.blocks({{2.0F, 2.0F, 0.0F}, upwards}));
 }
 
 TEST(PlacedMesh, WhatTouchesAcrossABorderStillTouches) {
@@ -272,7 +272,7 @@ TEST(PlacedMesh, WhatTouchesAcrossABorderStillTouches) {
   for (int i = -299; i < 300; ++i) {
     const auto border = static_cast<float>(i * edge_m);
     for (const float x : {border, std::nextafter(border, -1e9F), std::nextafter(border, 1e9F)})
-      EXPECT_TRUE(occluder.blocks({{x, 7.0F, 0.0F}, up})) << i;
+      EXPECT_TRUE(occluder.blocks({{x, 7.0F, 0.0F}, upwards})) << i;
   }
 }
 

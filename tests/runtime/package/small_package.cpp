@@ -28,7 +28,7 @@ void write_bytes(const fs::path& path, std::span<const std::byte> bytes) {
 
 namespace {
 
-FarMapSettings maps_of(FarMapKind kind) {
+FarMapSettings small_maps_of(FarMapKind kind) {
   if (kind == FarMapKind::box) return scenes::box_maps(4, 4);
   FarMapSettings settings;
   settings.horizon.azimuth_bins = 8;
@@ -44,7 +44,7 @@ SmallPackage::SmallPackage(FarMapKind kind) {
   builder.add_box({{10.0, 14.0}, {32.0, 17.0}}, 9.0, 10.0);
   const Grid grid = scenes::grid_covering(builder.city(), {}, 20.0, 1, 2);
   FARLOD_EXPECTS(grid.cells == (CellRange{0, 0, 3, 1}));
-  scenes::pack_city(builder.city(), grid, folder_, maps_of(kind));
+  scenes::pack_city(builder.city(), grid, folder_, small_maps_of(kind));
   // Give all lists of the manifest an entry
   json m = manifest();
   m["inputs"].push_back({{"name", "town.gml"}, {"bytes", 1}, {"xxh3", "ff"}});

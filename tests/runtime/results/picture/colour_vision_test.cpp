@@ -31,7 +31,7 @@ const std::array<Vision, 4> visions{
     Vision{"tritanopia", {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}}},
     Vision{"grey", {{{0.2126, 0.7152, 0.0722}, {0.2126, 0.7152, 0.0722}, {0.2126, 0.7152, 0.0722}}}}};
 
-double linear(std::uint8_t c) {
+double linear_channel(std::uint8_t c) {
   const double v = c / 255.0;
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
@@ -40,7 +40,7 @@ double product(const Channels& a, const Channels& b) { return a[0] * b[0] + a[1]
 
 /// CIELAB (white D65) of a colour as somebody sees it: lightness, and the two axes of hue.
 Channels lab_of(Colour colour, const Vision& vision) {
-  const Channels rgb{linear(colour.red), linear(colour.green), linear(colour.blue)};
+  const Channels rgb{linear_channel(colour.red), linear_channel(colour.green), linear_channel(colour.blue)};
   Channels seen{};
   for (std::size_t n = 0; n < 3; ++n) seen[n] = std::clamp(product(vision.matrix[n], rgb), 0.0, 1.0);
   constexpr Matrix xyz{{{0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}}};

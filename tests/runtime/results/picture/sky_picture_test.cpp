@@ -18,7 +18,7 @@ namespace {
 constexpr double degrees = std::numbers::pi / 180.0;
 constexpr SkyProjection projections[]{SkyProjection::equidistant, SkyProjection::equal_area, SkyProjection::orthographic};
 /// Of a few sines and arcs of doubles.
-constexpr double arithmetic_error = 1e-9;
+constexpr double rounding_error = 1e-9;
 
 /// A basin whose horizon is at 30°, but for the east, where a near wall rises to 60°; what is hidden elsewhere is far.
 Hemisphere basin_with_a_wall_in_the_east() {
@@ -60,16 +60,16 @@ TEST(SkyPicture, ADirectionComesBackFromItsPlace) {
       for (const double zenith : {1.0, 45.0, 89.0}) {
         const auto back = direction_of(disk_point_of({azimuth, zenith}, projection), projection);
         ASSERT_TRUE(back.has_value());
-        EXPECT_NEAR(back->azimuth_deg, azimuth, arithmetic_error);
-        EXPECT_NEAR(back->zenith_angle_deg, zenith, arithmetic_error);
+        EXPECT_NEAR(back->azimuth_deg, azimuth, rounding_error);
+        EXPECT_NEAR(back->zenith_angle_deg, zenith, rounding_error);
       }
 }
 
 TEST(SkyPicture, NorthIsUpAndEastIsOnTheLeft) {
   for (const SkyProjection projection : projections) {
     const DiskPoint north = disk_point_of({0.0, 90.0}, projection), east = disk_point_of({90.0, 90.0}, projection);
-    EXPECT_NEAR(north.v, 1.0, arithmetic_error);
-    EXPECT_NEAR(east.u, -1.0, arithmetic_error);
+    EXPECT_NEAR(north.v, 1.0, rounding_error);
+    EXPECT_NEAR(east.u, -1.0, rounding_error);
   }
 }
 
