@@ -9,12 +9,12 @@
 #include <sstream>
 #include <variant>
 
+#include "city/degree_length.hpp"
 #include "farlod/angle.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/local_data_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
-#include "ingest/degree_length.hpp"
 #include "ingest/footprints/footprint_heights.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
 #include "ingest/footprints/height_text.hpp"

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "city/degree_length.hpp"
 #include "contract/cancellation.hpp"
 #include "contract/lower_case.hpp"
 #include "farlod/angle.hpp"
@@ -16,7 +17,6 @@
 #include "gdal/gdal_errors.hpp"
 #include "gdal/vector_file_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
-#include "ingest/degree_length.hpp"
 #include "ingest/trees/feature_trees.hpp"
 #include "ingest/trees/tree_collector.hpp"
 #include "ingest/trees/tree_columns.hpp"
