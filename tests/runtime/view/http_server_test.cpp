@@ -10,6 +10,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -19,6 +20,9 @@ namespace farlod {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// More than the system keeps of what is sent and not yet received.
+constexpr std::size_t bytes_of_large_reply = std::size_t{32} << 20U;
 
 /// A connection of a client that sends what it likes.
 class Connection {
@@ -61,6 +65,8 @@ class Served : public testing::Test {
   }
   ViewReply answer(std::string_view path, const ViewQuery& query) {
     ++asked;
+    if (path == "wrong") throw std::runtime_error("the city fell over");
+    if (path == "large") return {.type = "text/plain", .body = std::string(bytes_of_large_reply, 'x')};
     const auto found = query.find("q");
     return {.type = "text/plain", .body = std::string(path) + (found == query.end() ? "" : "?" + found->second)};
   }
@@ -87,10 +93,34 @@ TEST_F(Served, AnswersWithWhatTheFunctionSays) {
 }
 
 TEST_F(Served, NothingIsCompressed) {
-  // httplib would let the page wait for that longer than for all else
+  // The page would wait for that longer than for all else
   const std::string reply = request("GET /a HTTP/1.1", own_host(), "Accept-Encoding: gzip, deflate, br\r\n");
   EXPECT_EQ(reply.find("Content-Encoding"), std::string::npos) << reply;
   EXPECT_TRUE(reply.ends_with("\r\n\r\na")) << reply;
+}
+
+TEST_F(Served, AConnectionAnswersOneRequestAfterAnother) {
+  const Connection connection(server.port());
+  const std::string line = " HTTP/1.1\r\nHost: " + own_host() + "\r\n";
+  ASSERT_TRUE(connection.say("GET /a" + line + "\r\nHEAD /b" + line + "\r\nGET /c" + line + "Connection: close\r\n\r\n"));
+  const std::string replies = connection.heard();
+  const std::size_t head = replies.find("\r\n\r\naHTTP/1.1 200");
+  ASSERT_NE(head, std::string::npos) << replies;
+  EXPECT_NE(replies.find("\r\n\r\nHTTP/1.1 200", head), std::string::npos) << "HEAD has no body: " << replies;
+  EXPECT_TRUE(replies.ends_with("Connection: close\r\n\r\nc")) << replies;
+}
+
+TEST_F(Served, WhatGoesWrongEndsTheRequestAlone) {
+  const std::string reply = request("GET /wrong HTTP/1.1", own_host());
+  EXPECT_EQ(status_of(reply), 500);
+  EXPECT_TRUE(reply.ends_with("the city fell over")) << reply;
+  EXPECT_EQ(status_of(request("no request", own_host())), 400);
+  EXPECT_EQ(status_of(request("GET /a HTTP/1.1", own_host())), 200);
+}
+
+TEST_F(Served, ALargeReplyArrivesWhole) {
+  const std::string reply = request("GET /large HTTP/1.1", own_host());
+  EXPECT_TRUE(reply.ends_with("\r\n\r\n" + std::string(bytes_of_large_reply, 'x'))) << reply.size();
 }
 
 TEST_F(Served, OtherHostsAreRefused) {
@@ -103,6 +133,7 @@ TEST_F(Served, OtherHostsAreRefused) {
 TEST_F(Served, NothingIsWritten) {
   EXPECT_EQ(status_of(request("POST /a HTTP/1.1", own_host(), "Content-Length: 3\r\n")), 405);
   EXPECT_EQ(status_of(request("DELETE /a HTTP/1.1", own_host())), 405);
+  EXPECT_EQ(status_of(request("GET /a HTTP/1.1", own_host(), "Content-Length: 3\r\n")), 413);
   EXPECT_EQ(asked, 0);
 }
 
