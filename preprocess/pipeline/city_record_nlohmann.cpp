@@ -134,10 +134,10 @@ Json json_of(const BlockPlan& plan) {
 BlockPlan plan_from(const Json& j) {
   BlockPlan plan{{}, j.at("far_maps"), j.at("outside")};
   for (const Json& b : j.at("blocks")) {
-    package::BlockFiles files = block_files_from(b.at(0)).value();
+    std::optional<package::BlockFiles> files = block_files_from(b.at(0));
     PlannedBlock& planned = plan.blocks.emplace_back();
-    planned.block = files.block;
-    planned.mapped = std::move(files.mapped);
+    planned.block = files.value().block;
+    planned.mapped = std::move(files->mapped);
     if (!b.at(1).is_null()) planned.kept = block_files_from(b.at(1));
   }
   return plan;

@@ -183,7 +183,8 @@ const BlockTiles& PackageReader::block_tiles(Cell cell) const { return impl_->ti
 std::pair<float, float> PackageReader::z_range_m() const {
   auto [low, high] = std::pair(std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity());
   const auto add = [&low = low, &high = high](std::span<const std::byte> bytes, const std::string& name) {
-    for (const package::CellRecord& cell : BlockTiles::records_of_cells(bytes, name)) {
+    const std::span<const package::CellRecord> cells = BlockTiles::records_of_cells(bytes, name);
+    for (const package::CellRecord& cell : cells) {
       if (!(cell.z_low_m <= cell.z_high_m)) continue;
       low = std::min(low, cell.z_low_m);
       high = std::max(high, cell.z_high_m);

@@ -4,6 +4,7 @@
 #include <iconv.h>
 
 #include <array>
+#include <cstdint>
 #include <exception>
 #include <istream>
 #include <memory>
@@ -141,8 +142,8 @@ int XMLCALL on_unknown_encoding(void*, const XML_Char* name, XML_Encoding* encod
 }
 
 std::string place_of(XML_Parser parser) {
-  return "line " + std::to_string(XML_GetCurrentLineNumber(parser)) + ", column " +
-         std::to_string(XML_GetCurrentColumnNumber(parser) + 1);
+  return "line " + std::to_string(XML_GetCurrentLineNumber64(parser)) + ", column " +
+         std::to_string(XML_GetCurrentColumnNumber64(parser) + 1);
 }
 
 [[noreturn]] void throw_failure(const InputFile& file, const Parsing& parsing) {
@@ -185,8 +186,9 @@ struct RootSearch {
 void XMLCALL on_root(void* user, const XML_Char* name, const XML_Char**) {
   RootSearch& search = *static_cast<RootSearch*>(user);
   if (search.root) return;
-  const XML_Index end = XML_GetCurrentByteIndex(search.parser) + XML_GetCurrentByteCount(search.parser);
-  search.root = {std::string(split(name).name), static_cast<std::size_t>(end)};
+  const std::size_t end = static_cast<std::size_t>(XML_GetCurrentByteIndex64(search.parser)) +
+                          static_cast<std::size_t>(XML_GetCurrentByteCount64(search.parser));
+  search.root = {std::string(split(name).name), end};
   XML_StopParser(search.parser, XML_FALSE);
 }
 
@@ -212,8 +214,8 @@ bool parse_xml_segment(const XmlSegment& segment, XmlListener& listener) {
   if (parsing.exception) std::rethrow_exception(parsing.exception);
   if (!is_well_formed || segment.is_last) return is_well_formed;
   // A comment and the like would not be parsed to its end yet; a CDATA section would have given text
-  const auto size = static_cast<XML_Index>(segment.head.size() + segment.text.size());
-  return parsing.depth == 1 && parsing.ended_element && XML_GetCurrentByteIndex(parser.get()) == size;
+  const auto size = static_cast<std::int64_t>(segment.head.size() + segment.text.size());
+  return parsing.depth == 1 && parsing.ended_element && XML_GetCurrentByteIndex64(parser.get()) == size;
 }
 
 void parse_xml(const InputFile& file, XmlListener& listener, const std::stop_token& stop) {
@@ -222,18 +224,18 @@ void parse_xml(const InputFile& file, XmlListener& listener, const std::stop_tok
   set_handlers(parsing);
   const std::unique_ptr<std::istream> stream = open_input(file);
   *stream >> std::ws;  // an XML declaration must come first, and some exports begin with blank lines
-  XML_Index bytes_read = 0;
+  std::int64_t bytes_read = 0;
   for (bool is_last = false; !is_last;) {
     throw_if_cancelled(stop);
     void* buffer = XML_GetBuffer(parser.get(), static_cast<int>(parsed_piece_bytes));
     if (buffer == nullptr) throw std::bad_alloc();
     stream->read(static_cast<char*>(buffer), static_cast<std::streamsize>(parsed_piece_bytes));
     is_last = !*stream;
-    bytes_read += static_cast<XML_Index>(stream->gcount());
+    bytes_read += static_cast<std::int64_t>(stream->gcount());
     if (XML_ParseBuffer(parser.get(), static_cast<int>(stream->gcount()), is_last ? 1 : 0) != XML_STATUS_OK)
       throw_failure(file, parsing);
     // The bytes that were read and not parsed yet belong to a tag that has not ended
-    if (bytes_read - XML_GetCurrentByteIndex(parser.get()) > static_cast<XML_Index>(most_bytes_of_tag)) {
+    if (bytes_read - XML_GetCurrentByteIndex64(parser.get()) > static_cast<std::int64_t>(most_bytes_of_tag)) {
       parsing.refusal = "it has a tag or a comment of more than " + std::to_string(most_bytes_of_tag) + " bytes";
       throw_failure(file, parsing);
     }

@@ -131,7 +131,7 @@ class GeometryReading {
   }
 
   /// Where the elements of a list begin; none where the value is null.
-  std::vector<std::size_t> places_of(std::optional<std::size_t> at) const {
+  std::vector<std::size_t> places_of(const std::optional<std::size_t>& at) const {
     std::vector<std::size_t> places;
     if (!at) return places;
     JsonCursor cursor(text_, *at);
@@ -139,7 +139,7 @@ class GeometryReading {
     return places;
   }
 
-  std::optional<std::size_t> semantics_at(std::optional<std::size_t> at) const {
+  std::optional<std::size_t> semantics_at(const std::optional<std::size_t>& at) const {
     if (!at) return std::nullopt;
     JsonCursor cursor(text_, *at);
     if (!is_number(cursor)) return std::nullopt;
@@ -149,7 +149,7 @@ class GeometryReading {
   }
 
   /// Polygons in the order of the file; the numbers of their semantics are nested as they are, and may be null at any depth.
-  void add_polygons(JsonCursor& lists, std::optional<std::size_t> values, int nesting) {
+  void add_polygons(JsonCursor& lists, const std::optional<std::size_t>& values, int nesting) {
     const std::vector<std::size_t> places = places_of(values);
     lists.elements([&](std::size_t i) {
       std::optional<std::size_t> value;

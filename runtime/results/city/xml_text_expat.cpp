@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <exception>
 #include <memory>
 #include <new>
@@ -21,7 +22,7 @@ constexpr char name_separator = '\n';
 constexpr std::string_view gml_space = "http://www.opengis.net/gml", xml_space = " \t\r\n";
 constexpr std::size_t piece_bytes = std::size_t{1} << 20, deepest_element = 256;
 /// Expat scans a tag or a comment again with each piece.
-constexpr XML_Index most_bytes_of_tag = XML_Index{1} << 22;
+constexpr std::int64_t most_bytes_of_tag = std::int64_t{1} << 22;
 
 /// The user data of Expat's callbacks.
 struct TextParsing {
@@ -34,7 +35,8 @@ struct TextParsing {
 
   /// One past the last byte of the current event.
   [[nodiscard]] std::size_t end_of_event() const {
-    return skipped.size() + static_cast<std::size_t>(XML_GetCurrentByteIndex(parser) + XML_GetCurrentByteCount(parser));
+    return skipped.size() + static_cast<std::size_t>(XML_GetCurrentByteIndex64(parser)) +
+           static_cast<std::size_t>(XML_GetCurrentByteCount64(parser));
   }
 };
 
@@ -148,7 +150,7 @@ using OwnedParser = std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)>
   if (error == XML_ERROR_UNKNOWN_ENCODING)
     throw XmlTextError("its encoding is neither UTF-8 nor one of one byte a character; convert it to UTF-8 and pack it again");
   const auto line =
-      static_cast<std::size_t>(std::ranges::count(parsing.skipped, '\n')) + XML_GetCurrentLineNumber(parsing.parser);
+      static_cast<std::size_t>(std::ranges::count(parsing.skipped, '\n')) + XML_GetCurrentLineNumber64(parsing.parser);
   throw XmlTextError((parsing.refusal.empty() ? XML_ErrorString(error) : parsing.refusal) + " at line " + std::to_string(line));
 }
 
@@ -178,7 +180,7 @@ void read_xml_text(std::string_view text, XmlTextReader& reader) {
     if (XML_Parse(parser.get(), piece.data(), static_cast<int>(piece.size()), is_last ? 1 : 0) != XML_STATUS_OK)
       throw_failure(parsing);
     // The bytes that were read and not parsed yet belong to a tag that has not ended
-    if (static_cast<XML_Index>(at - begin) - XML_GetCurrentByteIndex(parser.get()) > most_bytes_of_tag) {
+    if (static_cast<std::int64_t>(at - begin) - XML_GetCurrentByteIndex64(parser.get()) > most_bytes_of_tag) {
       parsing.refusal = "it has a tag or a comment of more than " + std::to_string(most_bytes_of_tag) + " bytes";
       throw_failure(parsing);
     }

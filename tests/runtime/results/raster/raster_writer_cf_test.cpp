@@ -30,9 +30,13 @@ WholeRaster described_raster() {
   return raster;
 }
 
+struct Closed {
+  void operator()(FILE* pipe) const { pclose(pipe); }
+};
+
 /// What a program prints; nothing where it is missing.
 std::string output_of(const std::string& command) {
-  const std::unique_ptr<FILE, decltype(&pclose)> pipe(popen((command + " 2>/dev/null").c_str(), "r"), pclose);
+  const std::unique_ptr<FILE, Closed> pipe(popen((command + " 2>/dev/null").c_str(), "r"));
   std::string text;
   std::array<char, 4096> bytes{};
   while (pipe != nullptr) {
