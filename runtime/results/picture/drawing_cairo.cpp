@@ -208,6 +208,8 @@ std::string pdf_of(const Drawing& drawing, const std::filesystem::path& path) {
   const Surface surface(cairo_pdf_surface_create_for_stream(append_bytes, &text,
                                                             static_cast<double>(drawing.size.width) * points_of_pixel,
                                                             static_cast<double>(drawing.size.height) * points_of_pixel));
+  // What later versions have, such as objects in compressed streams, is not needed
+  cairo_pdf_surface_restrict_to_version(surface.get(), CAIRO_PDF_VERSION_1_4);
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_TITLE, drawing.title.c_str());
   // No date: the same input gives the same bytes
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "");
@@ -223,8 +225,7 @@ std::string escaped(const std::string& words) {
 }
 
 /// Cairo counts the surfaces of a process, and names images and groups by these numbers: here they count from 1, in the order of
-/// the text. Pixels
-/// in base 64 have neither quotes nor hashes.
+/// the text. Pixels in base 64 have neither quotes nor hashes.
 std::string with_own_numbers(const std::string& text, const std::string& word) {
   const auto is_digit = [](char c) { return '0' <= c && c <= '9'; };
   std::map<std::string, std::size_t> numbers;
@@ -250,7 +251,7 @@ std::string svg_of(const Drawing& drawing, const std::filesystem::path& path) {
   cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
   draw(drawing, surface.get(), path);
   finish(surface.get(), path);
-  text = with_own_numbers(with_own_numbers(text, "surface"), "image");
+  for (const char* const word : {"surface", "image", "source-"}) text = with_own_numbers(text, word);
   const std::size_t head = text.find("<svg");
   FARLOD_EXPECTS(head != std::string::npos);
   return text.insert(text.find('>', head) + 1, "\n<title>" + escaped(drawing.title) + "</title>");
