@@ -13,9 +13,9 @@ CLI::Validator between(double low, double high) {
   const auto complaint = [low, high](const std::string& text) {
     double value = 0.0;
     const bool fits = CLI::detail::lexical_cast(text, value) && low <= value && value <= high;
-    return fits ? std::string() : fmt::format("{} is not a number from {:g} to {:g}", text, low, high);
+    return fits ? std::string() : fmt::format("{} is not a number from {} to {}", text, low, high);
   };
-  return {complaint, fmt::format("[{:g}, {:g}]", low, high), "between"};
+  return {complaint, fmt::format("[{}, {}]", low, high), "between"};
 }
 
 }  // namespace farlod

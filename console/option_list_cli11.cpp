@@ -14,9 +14,9 @@ namespace {
 /// CLI11 calls the group of --help and --version "Options", as all options are called.
 constexpr const char *unnamed_group = "Options", *name_of_unnamed_group = "Help";
 
-/// What the checks of an option say of themselves, as CLI11 shows it: "{roofs,walls}", "[0, 10]", "INT in [1 - 10]".
+/// What the checks of an option say of themselves, as CLI11 shows it: "{roofs,walls}", "[0, 10]".
 void add_condition(const std::string& condition, OptionDescription& option) {
-  static const std::regex set(R"(\{(.*)\})"), interval(R"(.*\[(\S+?)(?:, | - )(\S+)\])");
+  static const std::regex set(R"(\{(.*)\})"), interval(R"(\[(\S+), (\S+)\])");
   std::smatch found;
   if (std::regex_match(condition, found, set))
     option.choices = CLI::detail::split(found[1], ',');

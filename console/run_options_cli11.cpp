@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "console/exit_code.hpp"
+#include "console/number_range.hpp"
 #include "console/option_list.hpp"
 #include "console/run_settings.hpp"
 #include "farlod/version.hpp"
@@ -65,7 +66,7 @@ void add_run_options(CLI::App& app, const std::string& program, RunOptions& o) {
   app.add_flag_callback(
          "--quiet", [&o] { o.verbosity = Verbosity::quiet; }, "Say nothing but errors")
       ->group("Run");
-  app.add_option("--threads", o.threads, "Threads to use (default: all cores)")->check(CLI::Range(1, 4096))->group("Run");
+  app.add_option("--threads", o.threads, "Threads to use (default: all cores)")->check(between(1, 4096))->group("Run");
   app.set_config("--config", "", "Read options from this file: TOML, or the --summary of a run, to repeat it")
       ->type_name(file_value)
       ->group("Run");

@@ -153,7 +153,7 @@ void add_grid_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
       ->group("Grid");
   app.add_option("--neighborhood", o.settings.neighborhood,
                  "Cells along the edge of the near field, N: odd (default: 3, or what --max-error needs)")
-      ->check(CLI::Range(1, 999))
+      ->check(between(1, 999))
       ->group("Grid");
   app.add_option("--max-error", o.settings.max_error,
                  "Choose cells and neighborhood so that sky view factors keep this error; tell farlod-svf the same")

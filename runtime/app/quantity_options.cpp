@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "console/number_range.hpp"
+
 namespace farlod {
 namespace {
 
@@ -82,11 +84,11 @@ void add_canopy_options(CLI::App& app, RawQuantities& raw) {
       ->group("Trees");
   app.add_option("--transmissivity", raw.transmissivity,
                  "Share of light that passes a crown (default: 0.03, and with --leaf-off 0.5)")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(between(0.0, 1.0))
       ->group("Trees");
   app.add_option("--extinction", raw.extinction_per_m,
                  "With --canopy-rule beer: of crowns in leaf, per metre (default: 0.6); a fifth of it with --leaf-off")
-      ->check(CLI::Range(0.001, 100.0))
+      ->check(between(0.001, 100.0))
       ->group("Trees");
   app.add_flag("--leaf-off", raw.leaf_off, "Winter: all crowns are bare but those that are known to be evergreen")
       ->group("Trees");
@@ -124,7 +126,7 @@ void add_sun_options(CLI::App& app, RawQuantities& raw) {
   app.add_option("--sun-step", raw.sun_step_minutes,
                  "Minutes from one position of the sun to the next (default: " + std::to_string(step_of_days) + " for a day, " +
                      std::to_string(step_of_years) + " for a year)")
-      ->check(CLI::Range(1, 60))
+      ->check(between(1, 60))
       ->group("Quantities");
 }
 
@@ -143,7 +145,7 @@ void add_quantity_options(CLI::App& app, RawQuantities& raw) {
          "--horizons", raw.horizons,
          "Elevations of the horizon, in degrees, at so many azimuths, clockwise from true north (with --quantity horizon: " +
              std::to_string(default_horizons) + ")")
-      ->check(CLI::Range(4, 3600))
+      ->check(between(4, 3600))
       ->group("Quantities");
   app.add_option("--sky-patches", raw.sky_patches,
                  "The share seen of each patch of the sky, as Radiance counts them: 145 (Tregenza) or 577 (Reinhart)")

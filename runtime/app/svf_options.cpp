@@ -137,7 +137,7 @@ void add_sky_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_option(
          "--rays", o.evaluation.rays,
          "Directions a receiver, for rays (default: " + std::to_string(default_rays) + ", or as many as --max-error needs)")
-      ->check(CLI::Range(1, 10000000))
+      ->check(between(1, 10000000))
       ->group("Accuracy");
   app.add_option("--directions", raw.directions,
                  "Where rays go: partition, one in each of equal cells of the sky; fibonacci, a lattice of low discrepancy")
@@ -146,7 +146,7 @@ void add_sky_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->group("Accuracy");
   app.add_option("--azimuths", o.evaluation.azimuths,
                  "Azimuths of a horizon (default: " + std::to_string(default_azimuths) + ", or as many as --max-error needs)")
-      ->check(CLI::Range(4, 1000000))
+      ->check(between(4, 1000000))
       ->group("Accuracy");
   app.add_option("--sky", raw.sky, "Weight of the sky: cosine (svf) or solid (svf_solid)")
       ->check(CLI::IsMember({"cosine", "solid"}))
@@ -163,7 +163,7 @@ void add_error_options(CLI::App& app, SvfOptions& o) {
                "Also write a certain lower and upper bound of each value, with these azimuths or rays")
       ->group("Accuracy");
   app.add_option("--verify", o.evaluation.verify, "Also compute this many random receivers exactly, and report the errors")
-      ->check(CLI::Range(0, 1000000000))
+      ->check(between(0, 1000000000))
       ->group("Accuracy");
   app.add_option(
          "--verify-map", o.verify_file,
@@ -178,7 +178,7 @@ void add_limit_options(CLI::App& app, SvfOptions& o) {
       ->group("Run");
   app.add_option("--memory-limit", o.memory_limit_mib,
                  "Refuse to begin when the run needs more than this many MiB (default: no limit)")
-      ->check(CLI::Range(1, 1 << 30))
+      ->check(between(1, 1 << 30))
       ->group("Run");
 }
 

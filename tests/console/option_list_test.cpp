@@ -24,7 +24,7 @@ class OptionsOfAProgram : public testing::Test {
     place->require_option(1);
     app.add_option("-k,--kind", text, "Kind")->check(CLI::IsMember({"one", "two"}))->capture_default_str()->group("Group");
     app.add_option("--height", number, "Height")->check(between(0.5, 10.0))->group("Group");
-    app.add_option("--count", integer, "Count")->check(CLI::Range(-5, 10))->group("Group");
+    app.add_option("--count", integer, "Count")->check(between(-5, 10))->group("Group");
     app.add_option("--more", integer, "More")->check(CLI::PositiveNumber)->excludes("--count")->group("Group");
     app.add_flag("--flag", flag, "Flag")->group("Group");
     app.add_flag("--secret", flag, "Secret")->group("");
