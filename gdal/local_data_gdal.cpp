@@ -8,13 +8,13 @@
 
 #include <algorithm>
 #include <array>
-#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "contract/lower_case.hpp"
 #include "farlod/error.hpp"
+#include "gdal/registered_formats_gdal.hpp"
 #include "gdal/virtual_file_gdal.hpp"
 
 namespace farlod {
@@ -49,11 +49,10 @@ bool lists(const std::array<std::string_view, n>& names, const char* name) {
 }
 
 CPLStringList allowed_formats(GdalReach reach) {
-  static std::once_flag once;
-  std::call_once(once, GDALAllRegister);
+  GDALDriverManager& formats = registered_formats();
   CPLStringList names;
-  for (int n = 0; n < GetGDALDriverManager()->GetDriverCount(); ++n) {
-    const char* name = GetGDALDriverManager()->GetDriver(n)->GetDescription();
+  for (int n = 0; n < formats.GetDriverCount(); ++n) {
+    const char* name = formats.GetDriver(n)->GetDescription();
     if (reach == GdalReach::own_data ? lists(self_contained, name) : !lists(beyond_this_computer, name)) names.AddString(name);
   }
   return names;

@@ -3,20 +3,14 @@
 #include "gdal/vector_file_gdal.hpp"
 
 #include <array>
-#include <mutex>
 #include <sstream>
 #include <string>
 
 #include "gdal/local_data_gdal.hpp"
+#include "gdal/registered_formats_gdal.hpp"
 
 namespace farlod {
 namespace {
-
-GDALDriverManager& drivers() {
-  static std::once_flag once;
-  std::call_once(once, GDALAllRegister);
-  return *GetGDALDriverManager();
-}
 
 bool lists(const char* endings, const std::string& ending) {
   std::istringstream list(endings == nullptr ? "" : endings);
@@ -32,7 +26,7 @@ GDALDatasetUniquePtr open_vector_file(const std::filesystem::path& file) {
 }
 
 GDALDatasetUniquePtr open_table(const std::filesystem::path& file) {
-  (void)drivers();
+  (void)registered_formats();
   constexpr std::array<const char*, 2> table_driver{"CSV", nullptr};
   const std::string name = "CSV:" + file.string();  // the prefix lets GDAL take any ending
   return GDALDatasetUniquePtr(GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, table_driver.data()));
@@ -41,8 +35,8 @@ GDALDatasetUniquePtr open_table(const std::filesystem::path& file) {
 bool has_vector_ending(const std::filesystem::path& file) {
   const std::string ending = file.extension().string();
   if (ending.size() < 2) return false;
-  for (int n = 0; n < drivers().GetDriverCount(); ++n) {
-    GDALDriver& driver = *drivers().GetDriver(n);
+  for (int n = 0; n < registered_formats().GetDriverCount(); ++n) {
+    GDALDriver& driver = *registered_formats().GetDriver(n);
     if (driver.GetMetadataItem(GDAL_DCAP_VECTOR) != nullptr &&
         lists(driver.GetMetadataItem(GDAL_DMD_EXTENSIONS), ending.substr(1)))
       return true;
