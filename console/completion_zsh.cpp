@@ -18,7 +18,7 @@ _arguments -S \
 )";
 
 /// Text within a specification of _arguments, within single quotes.
-std::string quoted(std::string_view text) {
+std::string within_quotes(std::string_view text) {
   std::string result;
   for (const char c : text) {
     if (c == '\\' || c == '[' || c == ']' || c == ':') result += '\\';
@@ -36,7 +36,7 @@ std::string action_of(const OptionDescription& option) {
 
 std::string value_of(const OptionDescription& option) {
   const std::string message = option.range.empty() ? option.value : option.value + ", " + option.range;
-  return option.value.empty() ? "" : ":" + quoted(message) + ":" + action_of(option);
+  return option.value.empty() ? "" : ":" + within_quotes(message) + ":" + action_of(option);
 }
 
 /// The options that go when one of the names of this option is given: its other names, and what it excludes.
@@ -54,15 +54,15 @@ std::string specifications(const OptionDescription& option, const OptionGroup& g
   for (const std::string& name : option.names) {
     // The value may follow at once: -oFILE, --output=FILE
     const std::string sign = option.value.empty() ? "" : name.starts_with("--") ? "=" : "+";
-    lines +=
-        fmt::format("  '{}{}{}[{}]{}' \\\n", excluded_by(name, option, group), name, sign, quoted(option.text), value_of(option));
+    lines += fmt::format("  '{}{}{}[{}]{}' \\\n", excluded_by(name, option, group), name, sign, within_quotes(option.text),
+                         value_of(option));
   }
   return lines;
 }
 
 std::string specification_of_argument(const OptionDescription& argument) {
   const char* place = argument.repeatable ? "*" : "1";
-  return fmt::format("  '{}:{}:{}' \\\n", place, quoted(argument.names.front()), action_of(argument));
+  return fmt::format("  '{}:{}:{}' \\\n", place, within_quotes(argument.names.front()), action_of(argument));
 }
 
 }  // namespace

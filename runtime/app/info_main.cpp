@@ -10,6 +10,7 @@
 #include "app/info_options.hpp"
 #include "app/output_files.hpp"
 #include "app/package_facts.hpp"
+#include "console/bundled_fonts.hpp"
 #include "console/exit_code.hpp"
 #include "farlod/error.hpp"
 #include "results/mesh/mesh_obj.hpp"
@@ -107,6 +108,7 @@ int complain(const std::exception& error, int exit_code) {
 
 int main(int argc, char** argv) {
   using namespace farlod;
+  use_bundled_fonts();
   try {
     const ParsedInfoOptions parsed = parse_info_options(argc, argv);
     return parsed.options ? run(*parsed.options) : parsed.exit_code;

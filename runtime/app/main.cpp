@@ -17,6 +17,7 @@
 #include "app/svf_summary.hpp"
 #include "app/verification_file.hpp"
 #include "app/written_run.hpp"
+#include "console/bundled_fonts.hpp"
 #include "console/exit_code.hpp"
 #include "console/interruption.hpp"
 #include "console/rough_number.hpp"
@@ -205,6 +206,7 @@ int run_within_limits(const SvfOptions& options) {
 int main(int argc, char** argv) {
   using namespace farlod;
   const Interruption interruption;
+  use_bundled_fonts();
   try {
     const ParsedSvfOptions parsed = parse_svf_options(argc, argv);
     return parsed.options ? run_within_limits(*parsed.options) : parsed.exit_code;
