@@ -154,9 +154,18 @@ class FindingPrograms(InTemporaryFolder):
             self.script(f"{place}/farlod-svf", "")
         (self.folder / "empty").mkdir()
 
+        # What is installed on this computer is not what is looked for
+        self.addCleanup(setattr, program_folder, "USUAL_PLACES", program_folder.USUAL_PLACES)
+        program_folder.USUAL_PLACES = tuple(place for place in program_folder.USUAL_PLACES if place.startswith("~"))
+
+    def installed(self, place: str) -> str:
+        (self.folder / place / "bin").mkdir(parents=True)
+        return self.script(f"{place}/bin/farlod-svf", "")
+
     def found(self, settings: str, **environment: str) -> str:
-        places = {name: str(self.folder / place) for name, place in environment.items()}
-        return program_folder.find_program("farlod-svf", str(self.folder / settings) if settings else "", places)
+        places = {name: str(self.folder / place) for name, place in {"HOME": "home", **environment}.items()}
+        python_path = [str(self.folder / "site-packages"), str(self.folder / "lost")]
+        return program_folder.find_program("farlod-svf", str(self.folder / settings) if settings else "", places, python_path)
 
     def test_the_setting_comes_before_the_variable_before_the_path(self) -> None:
         places = {"FARLOD_BIN": "variable", "PATH": "path"}
@@ -171,8 +180,23 @@ class FindingPrograms(InTemporaryFolder):
             self.found("", FARLOD_BIN="empty", PATH="path")
 
     def test_what_to_do_is_told_when_it_is_nowhere(self) -> None:
-        with self.assertRaisesRegex(program_folder.ProgramMissing, "farlod-svf was not found. Install .*FARLOD_BIN.*PATH"):
+        with self.assertRaisesRegex(program_folder.ProgramMissing, "farlod-svf was not found. Install .*archive.*FARLOD_BIN.*PATH"):
             self.found("", PATH="empty")
+
+    def test_an_archive_is_found_where_people_unpack_it(self) -> None:
+        for place in ("home/farlod-0.9.0-linux-x86_64", "home/farlod-0.10.1-linux-x86_64", "home/.local/opt/farlod", "home/.local"):
+            program = self.installed(place)
+            self.assertEqual(self.found("", PATH="empty"), program)
+
+    def test_the_latest_archive_is_taken(self) -> None:
+        programs = {version: self.installed(f"home/farlod-{version}-linux-x86_64") for version in ("0.10.0", "0.9.1", "0.8.2")}
+        self.assertEqual(self.found("", PATH="empty"), programs["0.10.0"])
+
+    def test_a_wheel_in_this_python_comes_after_the_path_before_archives(self) -> None:
+        self.installed("home/.local")
+        program = self.installed("site-packages/farlod/_prefix")
+        self.assertEqual(self.found("", PATH="empty"), program)
+        self.assertEqual(self.found("", PATH="path"), str(self.folder / "path/farlod-svf"))
 
 
 class WhereProgramsWrite(InTemporaryFolder):
