@@ -10,12 +10,9 @@
 
 #include "contract/expects.hpp"
 #include "results/decimal.hpp"
-#include "results/netcdf_file.hpp"
 
 namespace farlod {
 namespace {
-
-constexpr std::size_t chunk_bytes = raster_tile_edge * raster_tile_edge * sizeof(float);
 
 int add_axis(NetcdfFile& file, int dimension, const char* name, const char* axis) {
   const int variable = file.variable(name, NetcdfType::real, std::array{dimension});
@@ -95,11 +92,6 @@ void CfRasterWriter::write(const RasterTile& tile) {
       std::copy_n(bands[n].data() + row * raster_tile_edge, size[1], inside.data() + row * size[1]);
     impl_->file.put(impl_->bands[n], first, size, inside);
   }
-}
-
-std::uint64_t CfRasterWriter::bytes_for(const RasterFrame& frame) {
-  // A chunk in the cache of each variable; one as it is filtered, and the pixels of a tile that lie inside
-  return (frame.bands.size() + 3) * chunk_bytes + NetcdfFile::library_bytes;
 }
 
 void CfRasterWriter::commit() { impl_->file.commit(); }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "results/netcdf_file.hpp"
 #include "results/raster/raster_writer.hpp"
 
 namespace farlod {
@@ -21,7 +22,10 @@ class CfRasterWriter : public RasterWriter {
   void write(const RasterTile& tile) override;
   void commit() override;
   /// The caches of chunks.
-  [[nodiscard]] static std::uint64_t bytes_for(const RasterFrame& frame);
+  [[nodiscard]] static std::uint64_t bytes_for(const RasterFrame& frame) {
+    // A chunk in the cache of each variable; one as it is filtered, and the pixels of a tile that lie inside
+    return (frame.bands.size() + 3) * raster_tile_edge * raster_tile_edge * sizeof(float) + NetcdfFile::library_bytes;
+  }
 
  private:
   struct Impl;

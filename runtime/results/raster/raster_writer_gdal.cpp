@@ -23,16 +23,10 @@
 namespace farlod {
 namespace {
 
-// GDAL's cache of blocks while the file is copied. Its default, a twentieth of the machine's memory, is more than a copy from one
-// tile to the next has use for
-constexpr GIntBig cache_bytes = 16 << 20;
-// What GDAL holds besides while it makes overviews: measured on rasters of 3 to 26 million pixels, for which it is much the same
-constexpr std::uint64_t overview_bytes = 36 << 20;
-
 /// GDAL's cache is one for the process: it has its own size again when this is destroyed.
 class SmallCache {
  public:
-  SmallCache() : before_(GDALGetCacheMax64()) { GDALSetCacheMax64(std::min(before_, cache_bytes)); }
+  SmallCache() : before_(GDALGetCacheMax64()) { GDALSetCacheMax64(std::min(before_, static_cast<GIntBig>(geotiff_cache_bytes))); }
   ~SmallCache() { GDALSetCacheMax64(before_); }
   SmallCache(const SmallCache&) = delete;
   SmallCache& operator=(const SmallCache&) = delete;
@@ -152,12 +146,6 @@ void GeotiffWriter::write(const RasterTile& tile) {
   for (std::size_t n = 0; n < bands.size(); ++n)
     write_block(*impl_->dataset->GetRasterBand(static_cast<int>(n) + 1), tile.place, bands[n]);
   impl_->throw_if_any(errors);
-}
-
-std::uint64_t GeotiffWriter::bytes_for(const RasterFrame& frame) {
-  // A block as it came, and its compressed bytes, which may be as many; GDAL has one more in turn than it has threads
-  const std::uint64_t bytes_of_block = 2 * geotiff_block_edge * geotiff_block_edge * sizeof(float) * frame.bands.size();
-  return static_cast<std::uint64_t>(cache_bytes) + overview_bytes + (frame.threads == 1 ? 1 : frame.threads + 1) * bytes_of_block;
 }
 
 void GeotiffWriter::commit() {

@@ -28,7 +28,6 @@ namespace {
 using Array = std::shared_ptr<GDALMDArray>;
 using Dimension = std::shared_ptr<GDALDimension>;
 
-constexpr std::uint64_t zarr_chunk_bytes = raster_tile_edge * raster_tile_edge * sizeof(float);
 constexpr const char* mark_of_group = ".zgroup";
 
 const GDALExtendedDataType& text_type() {
@@ -187,8 +186,6 @@ void ZarrWriter::write(const RasterTile& tile) {
     impl_->bands[n]->Write(first.data(), size.data(), nullptr, stride.data(), single_real_type(), bands[n].data());
   impl_->throw_if_any(errors);
 }
-
-std::uint64_t ZarrWriter::bytes_for(const RasterFrame& frame) { return (2 * frame.bands.size() + 2) * zarr_chunk_bytes; }
 
 void ZarrWriter::commit() {
   const GdalErrors errors;

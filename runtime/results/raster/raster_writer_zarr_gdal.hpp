@@ -22,7 +22,9 @@ class ZarrWriter : public RasterWriter {
   void write(const RasterTile& tile) override;
   void commit() override;
   /// A chunk of each array, which GDAL keeps until it gets the next, and that chunk compressed.
-  [[nodiscard]] static std::uint64_t bytes_for(const RasterFrame& frame);
+  [[nodiscard]] static std::uint64_t bytes_for(const RasterFrame& frame) {
+    return (2 * frame.bands.size() + 2) * raster_tile_edge * raster_tile_edge * sizeof(float);
+  }
 
  private:
   struct Impl;

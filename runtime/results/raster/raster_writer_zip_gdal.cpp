@@ -15,12 +15,9 @@
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "results/atomic_file.hpp"
-#include "results/raster/raster_writer_gdal.hpp"
 
 namespace farlod {
 namespace {
-
-constexpr std::size_t bytes_at_once = 1 << 20;
 
 RasterFrame frame_of_band(const RasterFrame& frame, std::size_t band) {
   RasterFrame one = frame;
@@ -54,7 +51,7 @@ class ZipFile {
     options.SetNameValue("TIMESTAMP", "315532800");  // the first second that a ZIP file can name, where GDAL asks (3.7 and later)
     must(CPLCreateFileInZip(zip_, file.filename().c_str(), options.List()));
     std::ifstream bytes(file, std::ios::binary);
-    std::vector<char> piece(bytes_at_once);
+    std::vector<char> piece(ZippedGeotiffWriter::bytes_at_once);
     while (bytes.read(piece.data(), static_cast<std::streamsize>(piece.size())) || bytes.gcount() > 0)
       must(CPLWriteFileInZip(zip_, piece.data(), static_cast<int>(bytes.gcount())));
     if (!bytes.eof()) fail();
@@ -105,10 +102,6 @@ void ZippedGeotiffWriter::write(const RasterTile& tile) {
   const std::vector<std::span<const float>> values = bands_of(tile);
   FARLOD_EXPECTS(values.size() == impl_->bands.size());
   for (std::size_t n = 0; n < values.size(); ++n) impl_->bands[n]->write(tile_of_band(tile.place, values[n]));
-}
-
-std::uint64_t ZippedGeotiffWriter::bytes_for(const RasterFrame& frame) {
-  return GeotiffWriter::bytes_for(frame_of_band(frame, 0)) + bytes_at_once;
 }
 
 void ZippedGeotiffWriter::commit() {
