@@ -21,7 +21,7 @@ constexpr std::array<CourseColours, 3> course_colours{
     {{{178, 24, 43}, {250, 200, 200}}, {{0, 96, 72}, {176, 236, 214}}, {{84, 39, 136}, {216, 200, 240}}}};
 constexpr Colour halo{255, 255, 255};
 constexpr double course_width = 2.4, halo_width = 4.6, dot_radius = 4.0;
-constexpr double label_height = 13.0, label_away = 15.5, least_room = 17.0;
+constexpr double hour_label_height = 13.0, label_away = 15.5, least_room = 17.0;
 constexpr std::size_t minutes_of_hour = 60;
 
 /// A minute of a course, as it is drawn.
@@ -114,8 +114,12 @@ class HourLabels {
     const auto is_near = [&](PagePoint other) { return distance(middle, other) < least_room; };
     if (std::ranges::any_of(taken_, is_near)) return;
     taken_.push_back(middle);
-    drawing_.shapes.emplace_back(
-        Text{{middle.x, middle.y + 0.36 * label_height}, std::to_string(hour), label_height, Alignment::centre, colour, halo});
+    drawing_.shapes.emplace_back(Text{{middle.x, middle.y + 0.36 * hour_label_height},
+                                      std::to_string(hour),
+                                      hour_label_height,
+                                      Alignment::centre,
+                                      colour,
+                                      halo});
   }
 
   Drawing& drawing_;
