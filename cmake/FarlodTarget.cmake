@@ -70,3 +70,19 @@ function(farlod_group_units target)
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
+
+# What programs load when they need it, and not before: farlod_NAME.so in lib/farlod, beside the folder of the programs, in the
+# build as where it is installed. It has its own copy of what it links, and shows nothing but its entry.
+function(farlod_module name)
+  set(target farlod_module_${name})
+  add_library(${target} MODULE)
+  farlod_warnings(${target})
+  farlod_for_shared_library(${target})
+  target_link_options(${target} PRIVATE -Wl,--exclude-libs,ALL)
+  set_target_properties(${target} PROPERTIES
+    PREFIX "" OUTPUT_NAME farlod_${name} LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/farlod)
+  set_property(GLOBAL APPEND PROPERTY FARLOD_MODULES ${target})
+  if(FARLOD_WITH_INSTALL)
+    install(TARGETS ${target} LIBRARY DESTINATION lib/farlod COMPONENT programs)
+  endif()
+endfunction()

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <chrono>
 #include <filesystem>
@@ -153,6 +154,8 @@ void print_shard(const WrittenRun& written, const SvfOptions& options, double to
 int run(const SvfOptions& options) {
   // The process is the program's: as many threads as are asked for, also where there are fewer cores
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, thread_count(options.run));
+  // oneTBB looks for libraries when it is first used, and would wait until that of GDAL is loaded, which a thread begins soon
+  oneapi::tbb::task_arena().initialize();
   for (const std::filesystem::path& file :
        {options.output, std::filesystem::path(options.preview_file), std::filesystem::path(options.verify_file),
         std::filesystem::path(options.histogram_file), std::filesystem::path(options.run.summary_file)})

@@ -11,8 +11,7 @@
 #include "contract/lower_case.hpp"
 #include "results/point_file.hpp"
 #ifdef FARLOD_WITH_GDAL
-#include "results/point_reader_gdal.hpp"
-#include "results/reproject_gdal.hpp"
+#include "results/gdal_files.hpp"
 #endif
 
 namespace farlod {
@@ -22,7 +21,7 @@ void move_to_package_crs(NamedPoints& named, const std::string& crs, const Packa
 #ifdef FARLOD_WITH_GDAL
   std::vector<Point2d> points;
   for (std::size_t n = 0; n < named.ids.size(); ++n) points.push_back({named.x_m[n], named.y_m[n]});
-  points = reprojected(points, crs, package.crs_wkt);
+  points = gdal_files().reprojected(points, crs, package.crs_wkt);
   for (std::size_t n = 0; n < points.size(); ++n) {
     named.x_m[n] = points[n].x;
     named.y_m[n] = points[n].y;
@@ -52,8 +51,8 @@ std::string crs_of(const RequestedPoints& read, const SvfOptions& options, std::
 
 RequestedPoints read_lines(const SvfOptions& options, const PackageDescription& package) {
 #ifdef FARLOD_WITH_GDAL
-  return read_lines_gdal(options.points_file, options.points_layer,
-                         {options.surfaces.spacing_m, options.points_crs, package.crs_wkt});
+  return gdal_files().read_lines(options.points_file, options.points_layer,
+                                 {options.surfaces.spacing_m, options.points_crs, package.crs_wkt});
 #else
   throw PointsError(options.points_file.string() + " needs GDAL, which this farlod-svf was built without: give points of " +
                     package.crs_name + " as CSV (--points).");

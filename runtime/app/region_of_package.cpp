@@ -3,7 +3,7 @@
 #include "app/region_of_package.hpp"
 
 #ifdef FARLOD_WITH_GDAL
-#include "results/region_reader_gdal.hpp"
+#include "results/gdal_files.hpp"
 #endif
 
 namespace farlod {
@@ -13,7 +13,7 @@ Region region_of(const Box2d& box) { return Region({{box.low, {box.high.x, box.l
 
 Region region_in(const std::filesystem::path& file, const PackageDescription& package) {
 #ifdef FARLOD_WITH_GDAL
-  return read_region_gdal(file, package.crs_wkt);
+  return gdal_files().read_region(file, package.crs_wkt);
 #else
   throw PointsError(file.string() + " needs GDAL, which this farlod-svf was built without: give --bbox in " + package.crs_name +
                     " instead of --mask.");

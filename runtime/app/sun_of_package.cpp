@@ -12,7 +12,7 @@
 #include "farlod/error.hpp"
 #include "sun/sun_positions.hpp"
 #ifdef FARLOD_WITH_GDAL
-#include "results/reproject_gdal.hpp"
+#include "results/gdal_files.hpp"
 #endif
 
 namespace farlod {
@@ -21,7 +21,7 @@ namespace {
 PlaceOnEarth middle_of(const PackageDescription& package) {
 #ifdef FARLOD_WITH_GDAL
   const Point2d middle = 0.5 * (package.outline_projected.low + package.outline_projected.high);
-  const Point2d degrees = reprojected({&middle, 1}, package.crs_wkt, "EPSG:4326").front();
+  const Point2d degrees = gdal_files().reprojected({&middle, 1}, package.crs_wkt, "EPSG:4326").front();
   return {Angle::degrees(degrees.x), Angle::degrees(degrees.y)};
 #else
   throw InputError("--sun needs GDAL, which this farlod-svf was built without, to find out where on the Earth " +

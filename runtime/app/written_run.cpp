@@ -23,7 +23,7 @@
 #include "results/picture/raster_preview.hpp"
 #include "results/picture/sky_picture.hpp"
 #ifdef FARLOD_WITH_GDAL
-#include "results/raster/raster_plan_gdal.hpp"
+#include "results/gdal_files.hpp"
 #endif
 
 namespace farlod {
@@ -132,7 +132,7 @@ std::optional<Box2d> extent_of(const SvfOptions& options) {
 RasterPlan plan_of(const Package& package, const SvfOptions& options, [[maybe_unused]] std::vector<std::string>& notes) {
   if (options.grid_like.empty()) return plan_raster(package, options.grid_step_m, extent_of(options));
 #ifdef FARLOD_WITH_GDAL
-  const RasterGrid grid = read_raster_grid_gdal(options.grid_like, package.description().crs_wkt);
+  const RasterGrid grid = gdal_files().read_raster_grid(options.grid_like, package.description().crs_wkt);
   if (!grid.says_crs)
     notes.push_back(options.grid_like.string() + " says no CRS: its pixels were taken to be in that of the package.");
   return grid.plan;

@@ -12,14 +12,12 @@
 #include "results/table/sky_table_csv.hpp"
 #include "results/table/sky_table_ply.hpp"
 #ifdef FARLOD_WITH_GDAL
-#include "results/raster/esri_wkt_gdal.hpp"
+#include "results/gdal_files.hpp"
+#include "results/raster/awaited_raster_writer.hpp"
 #include "results/raster/raster_writer_cf.hpp"
 #include "results/raster/raster_writer_gdal.hpp"
 #include "results/raster/raster_writer_zarr_gdal.hpp"
 #include "results/raster/raster_writer_zip_gdal.hpp"
-#include "results/table/feature_writer_cf.hpp"
-#include "results/table/feature_writer_gdal.hpp"
-#include "results/table/feature_writer_geojson.hpp"
 #endif
 
 namespace farlod {
@@ -33,7 +31,7 @@ std::unique_ptr<RasterWriter> make(const RasterFrame& frame, const std::filesyst
 /// GIS programs read a `.prj` file only in Esri's WKT 1. Without GDAL it stays as the package has it.
 std::string prj_wkt_of(const std::string& wkt) {
 #ifdef FARLOD_WITH_GDAL
-  return esri_wkt_of(wkt);
+  return gdal_files().esri_wkt_of(wkt);
 #else
   return wkt;
 #endif
@@ -69,22 +67,15 @@ std::unique_ptr<SurfaceTablesWriter> make_surfaces_glb(const TableFrame& frame, 
 }
 
 #ifdef FARLOD_WITH_GDAL
-std::unique_ptr<FeatureWriter> geopackage(const TableFrame& frame, const std::filesystem::path& path) {
-  return std::make_unique<GdalFeatureWriter>(GdalFeatureWriter::Format::geopackage, frame, path);
-}
-std::unique_ptr<FeatureWriter> flatgeobuf(const TableFrame& frame, const std::filesystem::path& path) {
-  return std::make_unique<GdalFeatureWriter>(GdalFeatureWriter::Format::flatgeobuf, frame, path);
-}
-std::unique_ptr<FeatureWriter> cf_points(const TableFrame& frame, const std::filesystem::path& path) {
-  return std::make_unique<CfPointWriter>(frame, path);
-}
-std::unique_ptr<FeatureWriter> geojson(const TableFrame& frame, const std::filesystem::path& path) {
-  return std::make_unique<GeojsonWriter>(frame, path);
+/// GDAL is loaded while the first cells are evaluated.
+template <auto make_writer>
+std::unique_ptr<RasterWriter> await(const RasterFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<AwaitedRasterWriter>([frame, path] { return (gdal_files().*make_writer)(frame, path); }, frame.threads);
 }
 
 template <auto make_writer>
 void write_points_by(const PointRows& rows, const TableFrame& frame, const std::filesystem::path& path) {
-  const std::unique_ptr<FeatureWriter> writer = make_writer(frame, path);
+  const std::unique_ptr<FeatureWriter> writer = (gdal_files().*make_writer)(frame, path);
   write_points_as_features(rows, frame, *writer);
   writer->commit();
 }
@@ -92,14 +83,14 @@ void write_points_by(const PointRows& rows, const TableFrame& frame, const std::
 /// For a format that has several layers in a file.
 template <auto make_writer>
 std::unique_ptr<SurfaceTablesWriter> make_layers(const TableFrame& frame, const std::filesystem::path& path) {
-  return std::make_unique<SurfaceTablesInLayers>(frame, path, make_writer(frame, path));
+  return std::make_unique<SurfaceTablesInLayers>(frame, path, (gdal_files().*make_writer)(frame, path));
 }
 
 /// For a format of one layer a file.
 template <auto make_writer>
 std::unique_ptr<SurfaceTablesWriter> make_layer_beside_csv(const TableFrame& frame, const std::filesystem::path& path) {
   return std::make_unique<SurfaceTablesBesideCsv>(frame, path, [frame, path](SurfaceSpool& receivers) {
-    const std::unique_ptr<FeatureWriter> writer = make_writer(frame, path);
+    const std::unique_ptr<FeatureWriter> writer = (gdal_files().*make_writer)(frame, path);
     write_receivers_as_features(receivers, frame, *writer);
     writer->commit();
   });
@@ -113,30 +104,30 @@ constexpr OutputFormat formats[] = {
     {.name = "GeoTIFF",
      .endings = {".tif", ".tiff"},
      .holds_bounds = true,
-     .raster_writer = make<GeotiffWriter>,
+     .raster_writer = await<&GdalFiles::geotiff>,
      .raster_writer_bytes = GeotiffWriter::bytes_for,
      .bytes_of_pixel = 2.1},
     {.name = "netCDF",
      .endings = {".nc", ""},
      .holds_bounds = true,
-     .raster_writer = make<CfRasterWriter>,
+     .raster_writer = await<&GdalFiles::netcdf>,
      .raster_writer_bytes = CfRasterWriter::bytes_for,
-     .write_points = write_points_by<cf_points>,
-     .surface_tables_writer = make_layer_beside_csv<cf_points>,
+     .write_points = write_points_by<&GdalFiles::netcdf_points>,
+     .surface_tables_writer = make_layer_beside_csv<&GdalFiles::netcdf_points>,
      .bytes_of_pixel = 1.5,
      .bytes_of_row = 16.0,
      .bytes_of_value = 4.0},
     {.name = "Zarr",
      .endings = {".zarr", ""},
      .holds_bounds = true,
-     .raster_writer = make<ZarrWriter>,
+     .raster_writer = await<&GdalFiles::zarr>,
      .raster_writer_bytes = ZarrWriter::bytes_for,
      .bytes_of_pixel = 1.5},
     {.name = "GeoTIFFs in a ZIP file",
      .endings = {".zip", ""},
      .holds_bounds = true,
      .is_for_solweig = true,
-     .raster_writer = make<ZippedGeotiffWriter>,
+     .raster_writer = await<&GdalFiles::zipped_geotiffs>,
      .raster_writer_bytes = ZippedGeotiffWriter::bytes_for,
      .bytes_of_pixel = 2.1},
 #endif
@@ -151,22 +142,22 @@ constexpr OutputFormat formats[] = {
     {.name = "GeoPackage",
      .endings = {".gpkg", ""},
      .holds_bounds = true,
-     .write_points = write_points_by<geopackage>,
-     .surface_tables_writer = make_layers<geopackage>,
+     .write_points = write_points_by<&GdalFiles::geopackage>,
+     .surface_tables_writer = make_layers<&GdalFiles::geopackage>,
      .bytes_of_row = 73.0,
      .bytes_of_value = 7.3},
     {.name = "GeoJSON",
      .endings = {".geojson", ""},
      .holds_bounds = true,
-     .write_points = write_points_by<geojson>,
-     .surface_tables_writer = make_layer_beside_csv<geojson>,
+     .write_points = write_points_by<&GdalFiles::geojson>,
+     .surface_tables_writer = make_layer_beside_csv<&GdalFiles::geojson>,
      .bytes_of_row = 140.0,
      .bytes_of_value = 30.0},
     {.name = "FlatGeobuf",
      .endings = {".fgb", ""},
      .holds_bounds = true,
-     .write_points = write_points_by<flatgeobuf>,
-     .surface_tables_writer = make_layer_beside_csv<flatgeobuf>,
+     .write_points = write_points_by<&GdalFiles::flatgeobuf>,
+     .surface_tables_writer = make_layer_beside_csv<&GdalFiles::flatgeobuf>,
      .bytes_of_row = 175.0,
      .bytes_of_value = 7.9},
 #endif

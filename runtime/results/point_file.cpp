@@ -5,7 +5,7 @@
 #include "contract/lower_case.hpp"
 #include "points/point_reader.hpp"
 #ifdef FARLOD_WITH_GDAL
-#include "results/point_reader_gdal.hpp"
+#include "results/gdal_files.hpp"
 #endif
 
 namespace farlod {
@@ -17,7 +17,7 @@ bool is_point_table(const std::filesystem::path& file) {
 
 RequestedPoints read_point_file(const std::filesystem::path& file, const std::string& layer, [[maybe_unused]] bool may_be_empty) {
 #ifdef FARLOD_WITH_GDAL
-  if (is_vector_file(file)) return read_points_gdal(file, layer, may_be_empty);
+  if (!is_point_table(file) && gdal_files().is_vector_file(file)) return gdal_files().read_points(file, layer, may_be_empty);
 #else
   if (const std::string ending = lower_case(file.extension().string());
       ending == ".gpkg" || ending == ".geojson" || ending == ".shp" || ending == ".fgb")

@@ -6,7 +6,7 @@
 
 #ifdef FARLOD_WITH_GDAL
 #include "farlod/points.hpp"
-#include "results/reproject_gdal.hpp"
+#include "results/gdal_files.hpp"
 #endif
 
 namespace farlod {
@@ -32,7 +32,7 @@ EcefFromLocal tangent_at(const Point3d& origin, const std::string& crs_wkt) {
                               {origin.x + half_step_m, origin.y},
                               {origin.x, origin.y - half_step_m},
                               {origin.x, origin.y + half_step_m}};
-  places = reprojected(places, crs_wkt, "EPSG:4326");
+  places = gdal_files().reprojected(places, crs_wkt, "EPSG:4326");
   const auto at = [&](std::size_t n) { return ecef_of(places[n], origin.z); };
   return similar_frame((0.5 / half_step_m) * (at(2) - at(1)), (0.5 / half_step_m) * (at(4) - at(3)), at(0));
 }
@@ -53,7 +53,7 @@ EcefFromLocal placed_on_globe([[maybe_unused]] const PackageDescription& descrip
 #ifdef FARLOD_WITH_GDAL
   try {
     if (!description.crs_wkt.empty()) return tangent_at(frame.origin_projected, description.crs_wkt);
-  } catch (const std::exception&) {
+  } catch (const PointsError&) {
     // A CRS of an engineer, say: the city is seen, and is nowhere on the globe
   }
 #endif

@@ -13,9 +13,7 @@
 #include "results/point_file.hpp"
 #include "view/result_table.hpp"
 #ifdef FARLOD_WITH_GDAL
-#include "results/point_reader_gdal.hpp"
-#include "results/raster/raster_reader_gdal.hpp"
-#include "results/reproject_gdal.hpp"
+#include "results/gdal_files.hpp"
 #endif
 
 namespace farlod {
@@ -34,7 +32,7 @@ RequestedPoints read_points(const std::filesystem::path& file, [[maybe_unused]] 
   if (read.crs_wkt.value_or("").empty()) return read;
   std::vector<Point2d> places;
   for (const RequestedPoint& p : read.points) places.push_back({p.x, p.y});
-  places = reprojected(places, *read.crs_wkt, package_crs);
+  places = gdal_files().reprojected(places, *read.crs_wkt, package_crs);
   for (std::size_t n = 0; n < places.size(); ++n)
     std::tie(read.points[n].x, read.points[n].y) = std::pair(places[n].x, places[n].y);
 #endif
@@ -137,7 +135,8 @@ ResultLayer layer_of_points(const ResultRequest& request, const Package& package
 
 #ifdef FARLOD_WITH_GDAL
 ResultLayer layer_of_raster(const ResultRequest& request, const Package& package, const ViewFrame& frame) {
-  RasterBand band = read_raster_gdal(request.file, {.band = request.quantity, .package_crs = package.description().crs_wkt});
+  RasterBand band =
+      gdal_files().read_raster(request.file, {.band = request.quantity, .package_crs = package.description().crs_wkt});
   ResultLayer layer{.form = ResultForm::raster,
                     .name = request.file.filename().string(),
                     .quantity = std::move(band.name),
@@ -163,7 +162,7 @@ ResultLayer read_result_layer(const std::string& request, const Package& package
                      " is no result that can be drawn. Problems are drawn from farlod-pack --report FILE.geojson.");
 #ifdef FARLOD_WITH_GDAL
   // GDAL would take a table for a raster of scattered pixels
-  if (!is_vector_file(wanted.file) && !is_point_table(wanted.file) && is_raster_file(wanted.file))
+  if (!is_point_table(wanted.file) && !gdal_files().is_vector_file(wanted.file) && gdal_files().is_raster_file(wanted.file))
     return layer_of_raster(wanted, package, frame);
 #endif
   if (std::optional<ResultLayer> surfaces = layer_of_surfaces(wanted)) return *std::move(surfaces);

@@ -12,7 +12,7 @@
 #include "points/point_reader.hpp"
 #include "results/point_file.hpp"
 #ifdef FARLOD_WITH_GDAL
-#include "results/point_reader_gdal.hpp"
+#include "results/gdal_files.hpp"
 #endif
 
 namespace farlod {
@@ -34,7 +34,7 @@ std::optional<Attributes> read_table(const std::filesystem::path& file) {
     return are_of_surfaces(names) ? std::optional(read_table_csv(file)) : std::nullopt;
   }
 #ifdef FARLOD_WITH_GDAL
-  std::optional<Attributes> table = read_table_gdal(file, "surfaces");
+  std::optional<Attributes> table = gdal_files().read_table(file, "surfaces");
   return table && are_of_surfaces(table->names()) ? std::move(table) : std::nullopt;
 #else
   return std::nullopt;

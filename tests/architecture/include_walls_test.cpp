@@ -72,6 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Planted{"python/runtime_module/a.cpp", "#include \"farlod/pack.hpp\"", "under Apache-2.0"},
                     Planted{"python/binding/a.hpp", "#include \"python/preprocess/module/packing.hpp\"", "under Apache-2.0"},
                     Planted{"runtime/view/a.cpp", "#include <zlib.h>", "wrapper of zlib"},
+                    Planted{"runtime/view/a_dlopen.cpp", "#include <dlfcn.h>", "one file loads modules"},
                     Planted{"runtime/app/a.cpp", "#include <pybind11/pybind11.h>", "only wrapper of Python"},
                     Planted{"runtime/app/a.cpp", "#include \"package/reader.hpp\"", "a user of the library"},
                     Planted{"runtime/results/a.cpp", "#include \"evaluate/sky_evaluator.hpp\"", "a user of the library"},

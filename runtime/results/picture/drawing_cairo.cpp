@@ -9,14 +9,14 @@
 #include <map>
 #include <memory>
 #include <new>
-#include <ostream>
 #include <utility>
 
 #include "contract/expects.hpp"
-#include "contract/lower_case.hpp"
 #include "farlod/error.hpp"
-#include "results/atomic_file.hpp"
-#include "results/picture/drawing.hpp"
+#include "farlod/export.hpp"
+#include "farlod/version.hpp"
+#include "results/module.hpp"
+#include "results/picture/drawing_formats.hpp"
 
 namespace farlod {
 namespace {
@@ -257,19 +257,9 @@ std::string svg_of(const Drawing& drawing, const std::filesystem::path& path) {
   return text.insert(text.find('>', head) + 1, "\n<title>" + escaped(drawing.title) + "</title>");
 }
 
+constexpr DrawingFormats functions{.png = png_of, .svg = svg_of, .pdf = pdf_of};
+
 }  // namespace
-
-void write_drawing(const Drawing& drawing, const std::filesystem::path& path) {
-  const std::string ending = lower_case(path.extension().string());
-  FARLOD_EXPECTS(ending == ".png" || ending == ".svg" || ending == ".pdf");
-  if (std::max(drawing.size.width, drawing.size.height) > longest_drawing_edge)
-    throw OutputError(path, "the picture has more than " + std::to_string(longest_drawing_edge) + " pixels along an edge");
-  const std::string text = ending == ".png"   ? png_of(drawing, path)
-                           : ending == ".svg" ? svg_of(drawing, path)
-                                              : pdf_of(drawing, path);
-  write_atomically(path, [&text](std::ostream& file) { file << text; });
-}
-
-std::string png_of(const Drawing& drawing) { return png_of(drawing, "a picture in memory"); }
-
 }  // namespace farlod
+
+extern "C" FARLOD_EXPORT const farlod::ModuleEntry farlod_module{farlod::software_version, &farlod::functions};
