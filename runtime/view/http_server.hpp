@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -14,13 +15,14 @@ namespace farlod {
 /// What a server listens to.
 struct HttpServerSettings {
   std::string address = "127.0.0.1";
-  int port = 0;  ///< 0: any that is free
+  int port = 0;                                             ///< 0: any that is free
+  std::chrono::seconds time_for_request{10}, idle_time{5};  ///< of a connection: for one to arrive, and between two
 };
 
 /// A server of pages for browsers, by HTTP/1.1. It knows no files: all it sends comes from one function.
 ///   (1) a request for another host than the one it listens to is refused (status 421), so that a page of another site that gave
 ///       its name our address (DNS rebinding) reads nothing
-///   (2) a request has 16 KiB of head, no body, and ten seconds to arrive; another one ends its connection
+///   (2) a request has 16 KiB of head, no body, and `time_for_request` to arrive; another one ends its connection
 ///   (3) who sends slowly, or connects and sends nothing, keeps nobody else waiting until there are more than 128 of them
 class HttpServer {
  public:

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
+#include <latch>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -40,19 +40,21 @@ TEST(TileCache, KeepsWhatWasAskedForLast) {
 
 TEST(TileCache, OneMakesATileForAllWhoWait) {
   TileCache cache(1000);
+  constexpr int clients = 8;
   std::atomic<int> made = 0;
-  const auto ask = [&] {
-    EXPECT_EQ(*cache.get({},
-                         [&] {
-                           ++made;
-                           std::this_thread::sleep_for(std::chrono::milliseconds(20));
-                           return std::string("tile");
-                         }),
-              "tile");
+  std::latch all_ask(clients);
+  const auto make = [&] {
+    ++made;
+    all_ask.wait();
+    return std::string("tile");
   };
-  std::vector<std::jthread> clients;
-  for (int n = 0; n < 8; ++n) clients.emplace_back(ask);
-  clients.clear();
+  const auto ask = [&] {
+    all_ask.count_down();
+    EXPECT_EQ(*cache.get({}, make), "tile");
+  };
+  std::vector<std::jthread> asking;
+  for (int n = 0; n < clients; ++n) asking.emplace_back(ask);
+  asking.clear();
   EXPECT_EQ(made, 1);
 }
 
