@@ -22,8 +22,6 @@
 namespace farlod {
 namespace {
 
-constexpr std::chrono::milliseconds between_looks{2};
-
 /// The least and the largest distance from the limit at which pages are let go: some threads read a gigabyte a second each, and
 /// other programs may keep the watcher from looking for some milliseconds.
 constexpr std::uint64_t least_margin = std::uint64_t{16} << 20, largest_margin = std::uint64_t{256} << 20;
@@ -73,17 +71,19 @@ LivingBounds& living_bounds() {
 
 }  // namespace
 
-MemoryBound::MemoryBound(std::optional<std::uint64_t> limit_bytes, const std::stop_token& asked)
+MemoryBound::MemoryBound(std::optional<std::uint64_t> limit_bytes, const std::stop_token& asked,
+                         std::chrono::milliseconds between_looks)
     : limit_(limit_bytes),
       forward_(asked, Forward{stop_}),
       of_files_(most_of_files),
       fewest_files_(resident().files),
-      watcher_([this](const std::stop_token& ended) { watch(ended); }) {
+      watcher_([this, between_looks](const std::stop_token& ended) { watch(ended, between_looks); }) {
   expect(0);
   LivingBounds& living = living_bounds();
   const std::lock_guard lock(living.mutex);
   living.bounds.push_back(this);
   ++living.count;
+  look();
 }
 
 MemoryBound::~MemoryBound() {
@@ -107,13 +107,14 @@ void MemoryBound::expect(std::uint64_t in_memory_bytes) {
   of_files_ = std::max(*limit_ - std::min(*limit_, needed), least_of_files);
 }
 
-void MemoryBound::watch(const std::stop_token& ended) {
+void MemoryBound::watch(const std::stop_token& ended, std::chrono::milliseconds between_looks) {
   std::mutex mutex;
   std::condition_variable_any woken;
   std::unique_lock lock(mutex);
-  while (!ended.stop_requested()) {
-    look();
+  for (;;) {
     woken.wait_for(lock, ended, between_looks, [] { return false; });
+    if (ended.stop_requested()) return;
+    look();
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -20,8 +21,9 @@ class MemoryBound {
   /// What pages of files may take without a limit, and what they must have so that the work goes on at a good pace.
   static constexpr std::uint64_t most_of_files = std::uint64_t{512} << 20, least_of_files = std::uint64_t{48} << 20;
 
-  /// `asked`: the token by which the caller may stop.
-  explicit MemoryBound(std::optional<std::uint64_t> limit_bytes, const std::stop_token& asked = {});
+  /// `asked`: the token by which the caller may stop. `between_looks`: so often it looks by itself.
+  explicit MemoryBound(std::optional<std::uint64_t> limit_bytes, const std::stop_token& asked = {},
+                       std::chrono::milliseconds between_looks = std::chrono::milliseconds(2));
   MemoryBound(const MemoryBound&) = delete;
   MemoryBound& operator=(const MemoryBound&) = delete;
   ~MemoryBound();
@@ -42,7 +44,7 @@ class MemoryBound {
   [[nodiscard]] std::uint64_t exceeded_at() const { return exceeded_at_; }
 
  private:
-  void watch(const std::stop_token& ended);
+  void watch(const std::stop_token& ended, std::chrono::milliseconds between_looks);
   void look();
   void look_alone();
 
