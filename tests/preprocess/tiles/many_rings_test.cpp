@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
-#include <limits>
 #include <numbers>
 #include <random>
 
 #include "city/cyclic_order.hpp"
+#include "tests/counted/steps.hpp"
 #include "tests/preprocess/tiles/pairwise_rings.hpp"
 #include "tiles/misplaced_holes.hpp"
 #include "tiles/ring_sides.hpp"
@@ -183,27 +182,18 @@ TEST(ManyRings, AreTheSameWhereverTheyBegin) {
   }
 }
 
-/// Of the processor, which does not depend on how long others have it.
-template <class Work>
-double processor_seconds(const Work& work) {
-  const std::clock_t begin = std::clock();  // NOLINT(cert-err33-c): it always succeeds here
-  work();
-  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+std::uint64_t steps_of_placing(const FlatRings& rings) {
+  const CountedSteps steps;
+  (void)places(rings);
+  return steps.count();
 }
 
-/// Eight times the corners take 64 times as long if each is compared with each, and some 10 times if they are sorted.
-/// What shares a core or its caches only makes a run longer: of up to ten runs of both, the shortest ones are compared.
+/// Eight times the corners take 64 times as many steps if each is compared with each, and some 10 times if they are sorted.
 template <class MakeRings>
 void expect_no_square(const MakeRings& make, std::size_t small) {
-  constexpr double between = 28.0;
-  constexpr int most_runs = 10;
-  const FlatRings few = make(small), many = make(8 * small);
-  double of_few = std::numeric_limits<double>::infinity(), of_many = of_few;
-  for (int run = 0; run < most_runs && !(of_many < between * std::max(of_few, 1e-3)); ++run) {
-    of_few = std::min(of_few, processor_seconds([&] { (void)places(few); }));
-    of_many = std::min(of_many, processor_seconds([&] { (void)places(many); }));
-  }
-  EXPECT_LT(of_many, between * std::max(of_few, 1e-3));
+  const std::uint64_t of_few = steps_of_placing(make(small)), of_many = steps_of_placing(make(8 * small));
+  EXPECT_GT(of_few, small) << "nothing is counted";
+  EXPECT_LT(of_many, 16 * of_few);
 }
 
 FlatRing square(double x, double y, double edge) { return {{x, y}, {x + edge, y}, {x + edge, y + edge}, {x, y + edge}}; }
