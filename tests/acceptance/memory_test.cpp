@@ -27,6 +27,8 @@ std::vector<Block> wide_town() {
   return town;
 }
 
+std::string limit(int mib) { return " --memory-limit " + std::to_string(mib); }
+
 class WideTown : public testing::Test {
  protected:
   WideTown() { add_packed_town(folder, "wide_town", wide_town(), "--far-map box"); }
@@ -37,12 +39,17 @@ class WideTown : public testing::Test {
     std::smatch found;
     return std::regex_search(outcome.err, found, std::regex("needs about ([0-9]+) MiB")) ? std::stoi(found[1]) : 0;
   }
-  [[nodiscard]] double peak_mib(const std::string& summary) const { return folder.json_of(summary).at("peak_memory_mib"); }
+  /// The run keeps the limit: of that, the program with its libraries has its share, and what it holds has the rest.
+  void expect_held_within(int limit_mib, const std::string& arguments) const {
+    constexpr double program_mib = 80.0;  // memory_limit.cpp
+    const std::optional<double> held = folder.held_mib("farlod-svf a.farlod " + arguments + limit(limit_mib));
+    if (held) {
+      EXPECT_LE(*held, limit_mib - program_mib) << arguments;
+    }
+  }
 
   WorkFolder folder;
 };
-
-std::string limit(int mib) { return " --memory-limit " + std::to_string(mib); }
 
 TEST_F(WideTown, ALimitThatIsTooLowIsRefused) {
   const Outcome outcome = folder.run("farlod-svf a.farlod -o o.asc --grid 20 --memory-limit 1");
@@ -53,15 +60,11 @@ TEST_F(WideTown, ALimitThatIsTooLowIsRefused) {
 }
 
 TEST_F(WideTown, TheLimitThatARunAsksForIsKept) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "AddressSanitizer keeps freed memory";
-#endif
   for (const std::string arguments :
        {"-o o.asc --grid 5 --rays 50 --preview p.png", "-o o.csv --surfaces all --spacing 5 --rays 50"}) {
     const int mib = limit_asked_for(arguments);
     ASSERT_GT(mib, 0);
-    folder.must("farlod-svf a.farlod " + arguments + limit(mib) + " --summary s.json");
-    EXPECT_LE(peak_mib("s.json"), mib) << arguments;
+    expect_held_within(mib, arguments);
   }
 }
 
@@ -121,13 +124,10 @@ TEST_F(WideTown, ARasterManyTimesTheLimitIsWritten) {
   const std::string raster = "-o o.tif --grid 1 --rays 50 --bbox 500550,5500000,516550,5516000";
   const int mib = limit_asked_for(raster);
   EXPECT_LT(mib, 256);
-  folder.must("farlod-svf a.farlod " + raster + limit(mib) + " --summary s.json");
+  expect_held_within(mib, raster + " --summary s.json");
   EXPECT_EQ(
       folder.json_of("s.json").at("receivers").get<std::size_t>() + folder.json_of("s.json").at("nodata").get<std::size_t>(),
       std::size_t{16000} * 16000);
-#ifndef __SANITIZE_ADDRESS__
-  EXPECT_LE(peak_mib("s.json"), mib);
-#endif
 }
 #endif
 

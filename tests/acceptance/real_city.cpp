@@ -17,8 +17,9 @@ std::size_t first_number_in(const std::string& text) {
 }  // namespace
 
 PackedCity RealCity::pack(const std::string& arguments) const {
-  folder.must("farlod-pack " + arguments + " -o a.farlod --summary pack.json --report report.json --quiet");
-  PackedCity city{folder.json_of("pack.json"), {}, {}};
+  const std::optional<double> held_mib =
+      folder.held_mib("farlod-pack " + arguments + " -o a.farlod --summary pack.json --report report.json --quiet");
+  PackedCity city{folder.json_of("pack.json"), {}, {}, held_mib};
   for (const nlohmann::json& entry : folder.json_of("report.json")) {
     ++city.problems[entry.at("code")];
     city.told_counts[entry.at("code")] += first_number_in(entry.at("detail"));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct PackedCity {
   nlohmann::json summary;
   std::map<int, std::size_t> problems;     ///< entries of the report by code
   std::map<int, std::size_t> told_counts;  ///< sums of the first number in each entry's detail, by code
+  std::optional<double> held_mib;          ///< WorkFolder::held_mib() of packing
 
   [[nodiscard]] std::size_t count(const std::string& key) const { return summary.at(key).get<std::size_t>(); }
 };

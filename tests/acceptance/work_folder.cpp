@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "console/exit_code.hpp"
+#include "tests/counted/held_memory.hpp"
 
 namespace farlod::acceptance {
 using testing::HasSubstr;
@@ -25,6 +26,17 @@ Outcome WorkFolder::run(const std::string& command) const {
 void WorkFolder::must(const std::string& command) const {
   const Outcome outcome = run(command);
   ASSERT_EQ(outcome.exit_code, exit_done) << command << '\n' << outcome.err;
+}
+
+std::optional<double> WorkFolder::held_mib(const std::string& command) const {
+  if (!HeldMemory::counts_malloc) {
+    must(command);
+    return {};
+  }
+  must("LD_PRELOAD='" FARLOD_HELD_MEMORY_LIBRARY "' FARLOD_HELD_MEMORY=.held " + command);
+  const std::string bytes = text_of(".held");
+  std::filesystem::remove(path(".held"));
+  return std::stod(bytes) / 1048576.0;
 }
 
 void WorkFolder::write(const std::string& name, const std::string& text) const {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,11 @@ class WorkFolder {
   [[nodiscard]] Outcome run(const std::string& command) const;
   /// The same, for steps on the way: the test fails when the command does.
   void must(const std::string& command) const;
+
+  /// Runs a program with its arguments, and tells the most memory that it holds at a time, in MiB: what it asks malloc for,
+  /// whatever of that is resident, and without libraries and mapped files. So no other program of the machine changes it. Nothing
+  /// where a sanitizer has a malloc of its own.
+  [[nodiscard]] std::optional<double> held_mib(const std::string& command) const;
 
   void write(const std::string& name, const std::string& text) const;
   [[nodiscard]] std::string text_of(const std::string& name) const;

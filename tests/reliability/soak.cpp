@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include <malloc.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -26,6 +25,7 @@
 #include "farlod/points.hpp"
 #include "farlod/raster.hpp"
 #include "farlod/surfaces.hpp"
+#include "tests/counted/held_memory.hpp"
 
 // Asks whether a process that evaluates for hours stays as it is: opens a package once, evaluates all of its cells again and
 // again, and fails where an answer changes, or memory, open files or threads become more.
@@ -33,25 +33,26 @@
 namespace farlod {
 namespace {
 
-/// By which the peak of the last third of the passes may be above that of the second: what the allocator keeps depends on which
-/// threads happened to work at the same time. The larger of the two counts.
-constexpr double memory_slack = 0.05, memory_slack_mib = 4.0;
-/// By which what is allocated after the passes of the last third may be above that of the second: caches of threads
-constexpr double allocated_slack_mib = 1.0;
+/// By which the most that the last third of the passes hold at a time may be above that of the second: which threads happen to
+/// work at the same time. The larger of the two counts.
+constexpr double memory_slack = 0.05, memory_slack_mib = 1.0;
+/// By which what is held after the passes of the last third may be above that of the second: caches of threads
+constexpr double kept_slack_mib = 1.0;
 
 struct Options {
   std::string package;
   double seconds = 1200.0;
+  std::size_t passes = 0;  ///< 0: as many as the seconds allow
   std::uint64_t memory_limit_mib = 512;
   std::size_t threads = 0;
   double step_m = 16.0;
 };
 
-/// What the kernel says of this process, and the allocator.
+/// What the kernel says of this process, and what was asked of malloc.
 struct ProcessSample {
   double peak_mib = 0.0;  ///< largest resident memory since the sample before
   double resident_mib = 0.0, anonymous_mib = 0.0, files_mib = 0.0;
-  double allocated_mib = 0.0;  ///< of the anonymous memory: what is not freed
+  double most_held_mib = 0.0, kept_mib = 0.0;  ///< at a time since the sample before, and now
   std::size_t descriptors = 0, threads = 0;
 };
 
@@ -68,15 +69,12 @@ double status_mib(const std::string& key) {
   throw std::runtime_error("/proc/self/status has no " + key);
 }
 
-double allocated_mib() {
-  const struct mallinfo2 info = mallinfo2();
-  return static_cast<double>(info.uordblks + info.hblkhd) / (1 << 20);
-}
+double mib_of(std::size_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
 
-ProcessSample take_sample() {
-  const ProcessSample sample{status_mib("VmHWM:"),         status_mib("VmRSS:"), status_mib("RssAnon:"),
-                             status_mib("RssFile:"),       allocated_mib(),      entries_of("/proc/self/fd"),
-                             entries_of("/proc/self/task")};
+ProcessSample take_sample(std::size_t most_held_bytes) {
+  const ProcessSample sample{status_mib("VmHWM:"),        status_mib("VmRSS:"),         status_mib("RssAnon:"),
+                             status_mib("RssFile:"),      mib_of(most_held_bytes),      mib_of(HeldMemory::now_bytes()),
+                             entries_of("/proc/self/fd"), entries_of("/proc/self/task")};
   // Forgets the peak. Where that is not allowed, the peak is that of all passes, and the comparison is stricter
   std::ofstream("/proc/self/clear_refs") << 5;
   return sample;
@@ -294,8 +292,8 @@ class Clock {
 
 void tell(double seconds, std::size_t passes, std::uint64_t receivers, const ProcessSample& sample) {
   std::printf("%6.0f s: %zu passes, %.1f million receivers; ", seconds, passes, 1e-6 * static_cast<double>(receivers));
-  std::printf("resident %.1f MiB (anonymous %.1f, of it allocated %.1f, files %.1f), peak %.1f; %zu open files, %zu threads\n",
-              sample.resident_mib, sample.anonymous_mib, sample.allocated_mib, sample.files_mib, sample.peak_mib,
+  std::printf("resident %.1f MiB (anonymous %.1f, files %.1f), peak %.1f; held %.2f, at most %.2f; %zu open files, %zu threads\n",
+              sample.resident_mib, sample.anonymous_mib, sample.files_mib, sample.peak_mib, sample.kept_mib, sample.most_held_mib,
               sample.descriptors, sample.threads);
   std::fflush(stdout);
 }
@@ -308,6 +306,8 @@ struct Passes {
 };
 
 void evaluate_pass(const Soak& soak, const std::vector<Work>& works, std::vector<Tally>& first, Passes& passes) {
+  const std::size_t before = HeldMemory::now_bytes();
+  const HeldMemory held;
   for (std::size_t n = 0; n < works.size(); ++n) {
     const Tally tally = soak.evaluate(works[n]);
     passes.receivers += tally.receivers;
@@ -316,7 +316,7 @@ void evaluate_pass(const Soak& soak, const std::vector<Work>& works, std::vector
       passes.findings.push_back(std::string(works[n].name) + ": other answers in pass " +
                                 std::to_string(passes.samples.size() + 1));
   }
-  passes.samples.push_back(take_sample());
+  passes.samples.push_back(take_sample(before + held.most_bytes()));
 }
 
 Passes evaluate_for(const Options& options) {
@@ -327,9 +327,12 @@ Passes evaluate_for(const Options& options) {
   double next_line_s = 0.0;
   std::vector<Tally> first;
   Passes passes;
-  while (clock.seconds() < options.seconds || passes.samples.size() < 3) {
+  const auto is_over = [&] {
+    return options.passes > 0 ? passes.samples.size() >= options.passes : clock.seconds() >= options.seconds;
+  };
+  while (!is_over() || passes.samples.size() < 3) {
     evaluate_pass(soak, works, first, passes);
-    const bool is_last = clock.seconds() >= options.seconds;
+    const bool is_last = is_over();
     if (clock.seconds() < next_line_s && !is_last) continue;
     tell(clock.seconds(), passes.samples.size(), passes.receivers, passes.samples.back());
     next_line_s += between_lines_s * (1.0 + std::floor((clock.seconds() - next_line_s) / between_lines_s));
@@ -345,18 +348,15 @@ double largest(std::span<const ProcessSample> samples, double ProcessSample::*fi
 
 /// The first third of the passes fills what is kept from then on, and is compared with nothing.
 void judge_memory(const Passes& passes, const Options& options, std::vector<std::string>& findings) {
-#ifdef __SANITIZE_ADDRESS__
-  return;  // it keeps freed memory
-#endif
+  if (!HeldMemory::counts_malloc) return;
   const std::span all(passes.samples);
   const auto second = all.subspan(all.size() / 3, all.size() - 2 * (all.size() / 3)), last = all.last(all.size() / 3);
-  const double peaks_mib[] = {largest(second, &ProcessSample::peak_mib), largest(last, &ProcessSample::peak_mib)};
-  const double kept_mib[] = {largest(second, &ProcessSample::allocated_mib), largest(last, &ProcessSample::allocated_mib)};
-  std::printf("second third: peak %.1f MiB, allocated after a pass %.2f MiB; last third: %.1f, %.2f MiB\n", peaks_mib[0],
-              kept_mib[0], peaks_mib[1], kept_mib[1]);
-  if (peaks_mib[1] > peaks_mib[0] + std::max(memory_slack * peaks_mib[0], memory_slack_mib))
-    findings.emplace_back("memory grows");
-  if (kept_mib[1] > kept_mib[0] + allocated_slack_mib) findings.emplace_back("allocated memory grows");
+  const double most_mib[] = {largest(second, &ProcessSample::most_held_mib), largest(last, &ProcessSample::most_held_mib)};
+  const double kept_mib[] = {largest(second, &ProcessSample::kept_mib), largest(last, &ProcessSample::kept_mib)};
+  std::printf("second third: holds %.2f MiB at most, %.2f after a pass; last third: %.2f, %.2f\n", most_mib[0], kept_mib[0],
+              most_mib[1], kept_mib[1]);
+  if (most_mib[1] > most_mib[0] + std::max(memory_slack * most_mib[0], memory_slack_mib)) findings.emplace_back("memory grows");
+  if (kept_mib[1] > kept_mib[0] + kept_slack_mib) findings.emplace_back("what is kept grows");
   if (largest(all, &ProcessSample::peak_mib) > static_cast<double>(options.memory_limit_mib))
     findings.emplace_back("more memory than the limit");
 }
@@ -381,6 +381,7 @@ int main(int argc, char** argv) {
   farlod::Options options;
   app.add_option("PACKAGE", options.package, "A package with far maps of the kind horizon")->required();
   app.add_option("--seconds", options.seconds, "How long; three passes at least")->capture_default_str();
+  app.add_option("--passes", options.passes, "So many passes, whatever the time; 0: as --seconds says")->capture_default_str();
   app.add_option("--memory-limit", options.memory_limit_mib, "MiB, of each run and of the process")->capture_default_str();
   app.add_option("--threads", options.threads, "Of each run; 0: as many as cores")->capture_default_str();
   app.add_option("--step", options.step_m, "Edge of a pixel of the rasters, in metres")->capture_default_str();

@@ -6,7 +6,7 @@
 
 #include "farlod/error.hpp"
 #include "results/picture/preview_raster.hpp"
-#include "tests/runtime/results/held_memory.hpp"
+#include "tests/counted/held_memory.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/runtime/results/held_memory.hpp"
+#include "tests/counted/held_memory.hpp"
 
 #include <malloc.h>
 
@@ -113,5 +113,7 @@ namespace farlod {
 HeldMemory::HeldMemory() : before_(held_bytes) { most_held_bytes = before_; }
 
 std::size_t HeldMemory::most_bytes() const { return most_held_bytes - before_; }
+
+std::size_t HeldMemory::now_bytes() { return held_bytes; }
 
 }  // namespace farlod

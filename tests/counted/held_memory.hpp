@@ -12,6 +12,8 @@ class HeldMemory {
  public:
   HeldMemory();
   [[nodiscard]] std::size_t most_bytes() const;
+  /// What is held now, of all that the process has taken.
+  [[nodiscard]] static std::size_t now_bytes();
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   static constexpr bool counts_malloc = false;  ///< malloc is the sanitizer's: what libraries of C take is not seen
