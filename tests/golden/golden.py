@@ -33,7 +33,7 @@ EXIT_UNUSABLE = 3
 
 def run(binaries: pathlib.Path, *arguments: object) -> subprocess.CompletedProcess[str]:
     command = [str(binaries / str(arguments[0])), *map(str, arguments[1:])]
-    return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
 
 
 def manifest_of(package: pathlib.Path) -> dict:

@@ -23,7 +23,7 @@ GOLDEN = pathlib.Path(__file__).resolve().parent.parent / "golden"
 NAMES = ("manifest.json", "tiles.bin", "far.exr", "crowns.bin")
 ENGINES = ("auto", "rays", "exact")
 EXIT_UNUSABLE, EXIT_DAMAGED = 3, 4
-SECONDS = 60
+SECONDS = 600
 
 
 class Trial:

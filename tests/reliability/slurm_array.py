@@ -44,7 +44,7 @@ def free_port() -> int:
         return s.getsockname()[1]
 
 
-def wait_until(condition, what: str, seconds: float = 120.0) -> None:
+def wait_until(condition, what: str, seconds: float = 600.0) -> None:
     end = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > end:
@@ -103,13 +103,13 @@ PartitionName=main Nodes=localhost Default=YES State=UP
         munge = [f"--key-file={key}", f"--socket={f}/munge/socket", f"--pid-file={f}/munge/pid", f"--log-file={f}/munge/log",
                  f"--seed-file={f}/munge/seed"]
         self.start([tool("munged"), "--foreground", "--force", *munge])
-        wait_until(lambda: (f / "munge/socket").exists(), "munged has no socket", 20)
+        wait_until(lambda: (f / "munge/socket").exists(), "munged has no socket")
         self.start([tool("slurmctld"), "-D", "-f", f"{f}/slurm.conf", "-c"])
         self.start([tool("slurmd"), "-D", "-f", f"{f}/slurm.conf", "-N", "localhost", "-c"])
         idle = [tool("sinfo"), "--noheader", "--format=%T"]
         try:
             wait_until(lambda: "idle" in subprocess.run(idle, capture_output=True, text=True, env=self.environment).stdout,
-                       "the node is not idle", 60)
+                       "the node is not idle")
         except Failure:
             self.__exit__()
             raise Failure("Slurm does not start: " + "".join(p.read_text()[-2000:] for p in f.glob("*.log")))
@@ -123,7 +123,7 @@ PartitionName=main Nodes=localhost Default=YES State=UP
         for daemon in reversed(self.daemons):
             daemon.terminate()
         for daemon in self.daemons:
-            daemon.wait(timeout=20)
+            daemon.wait(timeout=600)
 
     def submit(self, script: Path, arguments: list[str]) -> str:
         command = [tool("sbatch"), "--parsable", f"--array=0-{SHARDS - 1}", f"--chdir={self.folder}", str(script), *arguments]

@@ -12,6 +12,9 @@ const executablePath = process.env.FARLOD_CHROMIUM ?? "/usr/bin/chromium";
 const flags = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
                "--disable-background-networking", "--disable-component-update", "--disable-sync"];
 
+/** How long a test waits for what must come, on a machine that does other things: it is never told by this that the page is slow. */
+export const longest_ms = 600000;
+
 /** What is missing to run a browser, or null. */
 export function missing() {
   if (!existsSync(executablePath)) return `${executablePath} was not found; run: apt-get install chromium`;
@@ -23,7 +26,12 @@ export function missing() {
 export async function openBrowser() {
   const { chromium } = createRequire(new URL("../../viewer/package.json", import.meta.url))("playwright-core");
   const browser = await chromium.launch({ executablePath, headless: true, args: flags });
-  return { newContext: (options) => browser.newContext(options), close: () => browser.close() };
+  const newContext = async (options) => {
+    const context = await browser.newContext(options);
+    context.setDefaultTimeout(longest_ms);
+    return context;
+  };
+  return { newContext, close: () => browser.close() };
 }
 
 /** A folder below the system's own for what a test writes. */
@@ -32,11 +40,11 @@ export function scratch() {
   return { folder, remove: () => rmSync(folder, { recursive: true }) };
 }
 
-export const ready = (page) => page.waitForSelector("html[data-ready=true]", { timeout: 90000 });
+export const ready = (page) => page.waitForSelector("html[data-ready=true]");
 export const state = (page) => page.evaluate(() => window.farlod.state());
 
 /** Waits until a condition on the page's state holds; fails with what it is instead. */
-export async function until(page, what, condition, timeout_ms = 90000) {
+export async function until(page, what, condition, timeout_ms = longest_ms) {
   const end = Date.now() + timeout_ms;
   for (;;) {
     const now = await state(page);
@@ -60,7 +68,7 @@ export async function linkWith(page, text) {
 }
 
 /** Looks again until a condition holds of what is seen, or for so long; what was seen last. */
-export async function seen(look, condition, timeout_ms = 20000) {
+export async function seen(look, condition, timeout_ms = longest_ms) {
   const end = Date.now() + timeout_ms;
   for (;;) {
     const now = await look();

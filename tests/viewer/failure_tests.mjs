@@ -7,7 +7,7 @@ import { expect, expectEqual } from "./checks.mjs";
 import { startMock } from "./mock_server.mjs";
 
 const banner = async (page) => {
-  await page.waitForSelector("#banner:not([hidden])", { timeout: 20000 });
+  await page.waitForSelector("#banner:not([hidden])");
   return page.textContent("#banner-text");
 };
 
@@ -21,12 +21,11 @@ export const failureTests = {
     await page.focus("#city");
     await page.keyboard.press("Enter");
     expect((await banner(page)).startsWith("The server does not answer; start farlod-view again."), "the banner says something else");
-    await page.click("#retry");
-    await page.waitForTimeout(500);
-    expect(await page.isVisible("#banner"), "the banner went away without a server");
+    await Promise.all([page.waitForEvent("requestfailed"), page.click("#retry")]);
+    await banner(page);
     const again = await start(Number(new URL(server.url).port));
     await page.click("#retry");
-    await page.waitForSelector("#banner", { state: "hidden", timeout: 10000 });
+    await page.waitForSelector("#banner", { state: "hidden" });
     await until(page, "the answer", ({ answer }) => answer !== null);
     await again.stop();
   },
@@ -60,7 +59,7 @@ export const failureTests = {
     expectEqual(await page.textContent("#value"), picked.svf.toFixed(3), "the value");
     expect(await page.isHidden("#sky") && (await page.isHidden("#ask-cell")) && (await page.isHidden("#banner")), "something is offered that nobody can answer");
     await page.click("#layer-grid");
-    await page.waitForTimeout(300);
+    await atRest(page);
     expectEqual(["at", "hemisphere", "cell"].filter((path) => server.counts[path]), [], "what was asked for");
     await server.stop();
   },

@@ -175,11 +175,10 @@ export const placeTests = {
     await page.goto(url);
     await ready(page);
     await page.click("#layer-grid");
-    await page.waitForTimeout(300);
     await atRest(page);
     const clip = { x: 260, y: 120, width: 480, height: 460 }, isPink = (r, g, b) => r > 170 && g < 90 && b > 60 && b < 140;
     await page.mouse.move(5, 690);
-    await page.waitForTimeout(300);
+    await atRest(page);
     const without = share(await pixels(page, clip), isPink);
     await page.mouse.move(420, 380);
     const lit = await seen(async () => share(await pixels(page, clip), isPink), (now) => now > without + 0.0005);
