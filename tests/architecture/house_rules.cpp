@@ -6,6 +6,7 @@
 #include <array>
 #include <iterator>
 #include <regex>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -150,6 +151,23 @@ std::vector<std::string> tests_without_own_folder(const std::vector<SourceFile>&
   return paths_where(tree, [&](const SourceFile& file) {
     const bool gives_own = file.path == "tests/scenes/temporary_folder.hpp" || file.path == "tests/fuzz/scratch_folder.hpp";
     return file.path.starts_with("tests/") && is_cpp(file) && !gives_own && std::ranges::any_of(file.lines, names_it);
+  });
+}
+
+std::vector<std::string> tests_that_depend_on_the_machine(const std::vector<SourceFile>& tree) {
+  static const std::regex measure(
+      R"(\b(steady_clock|system_clock|high_resolution_clock|sleep_(for|until)|getrusage|VmHWM|VmRSS)\b|std::clock\()");
+  static const std::set<std::string_view> exempt{
+      "tests/architecture/house_rules.cpp",           // says them
+      "tests/preprocess/city/memory_bound_test.cpp",  // a limit lies above what is resident
+      "tests/reliability/soak.cpp",                   // goes on for so long; the memory limit before a release
+      "tests/runtime/view/http_server_test.cpp",      // a client that is slow
+      "tests/scenes/packed_city.cpp",                 // tells benchmarks what packing took
+  };
+  const auto measures = [](const std::string& line) { return std::regex_search(line, measure); };
+  return paths_where(tree, [&](const SourceFile& file) {
+    return file.path.starts_with("tests/") && is_cpp(file) && !exempt.contains(file.path) &&
+           std::ranges::any_of(file.lines, measures);
   });
 }
 

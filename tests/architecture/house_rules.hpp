@@ -30,6 +30,10 @@ namespace farlod {
 /// beside others, and in a process of its own.
 [[nodiscard]] std::vector<std::string> tests_without_own_folder(const std::vector<SourceFile>& tree);
 
+/// Tests that measure time or resident memory, or sleep: what they find depends on what else the machine does. But for those that
+/// have a reason to; they compare nothing with it.
+[[nodiscard]] std::vector<std::string> tests_that_depend_on_the_machine(const std::vector<SourceFile>& tree);
+
 /// Lines of prose in documents that have more than 120 characters: "path:line has n characters". Rows of tables may, since
 /// Markdown cannot break them.
 [[nodiscard]] std::vector<std::string> prose_lines_too_long(const std::vector<SourceFile>& documents);

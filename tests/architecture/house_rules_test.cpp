@@ -37,6 +37,10 @@ TEST(HouseRules, EachTestWritesInAFolderOfItsOwn) {
   EXPECT_THAT(tests_without_own_folder(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty());
 }
 
+TEST(HouseRules, NoTestDependsOnTheMachine) {
+  EXPECT_THAT(tests_that_depend_on_the_machine(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty());
+}
+
 TEST(HouseRules, LinesOfDocumentsFitAScreen) {
   const std::vector<SourceFile> documents = read_documents(FARLOD_SOURCE_DIR);
   ASSERT_GT(documents.size(), 30U) << "the documents were not found at " << FARLOD_SOURCE_DIR;
@@ -110,6 +114,15 @@ TEST(HouseRules, ATestInASharedFolderIsFound) {
                                         {"tests/b.cpp", {"  scenes::TemporaryFolder folder;"}},
                                         {"runtime/c.cpp", {"  " + shared}}}),
               ElementsAre("tests/a.cpp"));
+}
+
+TEST(HouseRules, ATestThatMeasuresTimeOrMemoryIsFound) {
+  const std::string clock = std::string("steady_") + "clock", resident = std::string("Vm") + "HWM";
+  EXPECT_THAT(tests_that_depend_on_the_machine({{"tests/a.cpp", {"  const auto begin = std::chrono::" + clock + "::now();"}},
+                                                {"tests/b.cpp", {"  const CountedSteps steps;"}},
+                                                {"tests/c.cpp", {"  if (line.starts_with(\"" + resident + ":\"))"}},
+                                                {"runtime/d.cpp", {"  std::chrono::" + clock + "::now();"}}}),
+              ElementsAre("tests/a.cpp", "tests/c.cpp"));
 }
 
 }  // namespace
