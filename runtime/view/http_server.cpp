@@ -29,7 +29,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t connections_at_once = 128;
 constexpr std::size_t most_bytes_of_head = std::size_t{16} << 10U;
-constexpr auto time_for_request = std::chrono::seconds(10), idle_time = std::chrono::seconds(5);
 /// How long a wait may last before it asks whether the server has been stopped.
 constexpr auto slice = std::chrono::milliseconds(100);
 
@@ -66,13 +65,14 @@ class Socket {
 /// A connection, each of whose requests must arrive within a time and a size, however slowly it is sent.
 class TimedConnection {
  public:
-  TimedConnection(Socket socket, const std::atomic<bool>& is_stopped) : socket_(std::move(socket)), is_stopped_(is_stopped) {}
+  TimedConnection(Socket socket, const HttpServerSettings& times, const std::atomic<bool>& is_stopped)
+      : socket_(std::move(socket)), times_(times), is_stopped_(is_stopped) {}
 
   /// The next head of a request, but for its empty line. Nothing where none arrives.
   std::optional<std::string> next_head() {
     constexpr std::string_view end_of_head = "\r\n\r\n";
-    if (received_.empty() && !wait(POLLIN, Clock::now() + idle_time)) return std::nullopt;
-    const auto deadline = Clock::now() + time_for_request;
+    if (received_.empty() && !wait(POLLIN, Clock::now() + times_.idle_time)) return std::nullopt;
+    const auto deadline = Clock::now() + times_.time_for_request;
     std::size_t end = 0;
     while ((end = received_.find(end_of_head)) == std::string::npos)
       if (!receive_more(deadline)) return std::nullopt;
@@ -82,7 +82,7 @@ class TimedConnection {
   }
   /// False where the other side does not take it.
   bool send_all(std::string_view bytes) const {
-    while (!bytes.empty() && wait(POLLOUT, Clock::now() + time_for_request)) {
+    while (!bytes.empty() && wait(POLLOUT, Clock::now() + times_.time_for_request)) {
       const ssize_t count = send(socket_.descriptor(), bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
       if (count < 0 && errno != EAGAIN) break;
       if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
@@ -106,6 +106,7 @@ class TimedConnection {
   }
 
   Socket socket_;
+  const HttpServerSettings& times_;
   const std::atomic<bool>& is_stopped_;
   std::string received_;  ///< and not yet taken
 };
@@ -167,6 +168,7 @@ std::string head_of(const ViewReply& reply, bool keeps_connection) {
 }  // namespace
 
 struct HttpServer::Impl {
+  HttpServerSettings settings;
   Socket listening;
   Answer answer;
   int port = port_of(listening);
@@ -178,7 +180,7 @@ struct HttpServer::Impl {
     while (!is_stopped) {
       const int descriptor = accept4(listening.descriptor(), nullptr, nullptr, SOCK_CLOEXEC);
       if (descriptor >= 0)
-        serve(TimedConnection(Socket(descriptor), is_stopped));
+        serve(TimedConnection(Socket(descriptor), settings, is_stopped));
       else if (!is_stopped)  // out of what the system will have again
         std::this_thread::sleep_for(slice);
     }
@@ -218,7 +220,7 @@ struct HttpServer::Impl {
 };
 
 HttpServer::HttpServer(const HttpServerSettings& settings, Answer answer)
-    : impl_(new Impl{.listening = listening_socket(settings), .answer = std::move(answer)}) {
+    : impl_(new Impl{.settings = settings, .listening = listening_socket(settings), .answer = std::move(answer)}) {
   impl_->hosts = hosts_of(settings, impl_->port);
 }
 

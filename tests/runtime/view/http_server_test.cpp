@@ -19,14 +19,9 @@
 namespace farlod {
 namespace {
 
-<<<<<<< HEAD
-using Clock = std::chrono::steady_clock;
-
 /// More than the system keeps of what is sent and not yet received.
 constexpr std::size_t bytes_of_large_reply = std::size_t{32} << 20U;
 
-=======
->>>>>>> d96454e (Let a test of the page's server choose how long it waits)
 /// A connection of a client that sends what it likes.
 class Connection {
  public:

@@ -13,7 +13,7 @@
 
 #include "farlod/error.hpp"
 #include "farlod/surfaces.hpp"
-#include "results/raster/raster_reader_gdal.hpp"
+#include "results/gdal_files.hpp"
 #include "tests/library/packed_sample.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 #include "view/tile_surfaces.hpp"
@@ -79,10 +79,10 @@ TEST_F(Results, ARasterHasThePlacesOfItsPixels) {
 }
 
 TEST_F(Results, ALargeRasterIsThinnedToMeans) {
-  const RasterBand band = read_raster_gdal(file("large.asc",
-                                                "ncols 4\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n"
-                                                "NODATA_value -1\n1 3 5 -1\n1 3 -1 7\n"),
-                                           {.band = "", .package_crs = "", .longest_side = 2});
+  const RasterBand band = gdal_files().read_raster(file("large.asc",
+                                                        "ncols 4\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n"
+                                                        "NODATA_value -1\n1 3 5 -1\n1 3 -1 7\n"),
+                                                   {.band = "", .package_crs = "", .longest_side = 2});
   EXPECT_THAT((std::vector{band.width, band.height}), ElementsAre(2U, 1U));
   EXPECT_EQ(band.pixels_of_file, 8U);
   EXPECT_THAT(band.values, ElementsAre(2.0F, 6.0F)) << "what has no data does not count";
@@ -94,7 +94,7 @@ TEST_F(Results, ARasterIsBroughtIntoTheCrsOfThePackage) {
   const std::string path = file("degrees.asc", "ncols 2\nnrows 2\nxllcorner 8.99\nyllcorner 0\ncellsize 0.01\n1 2\n3 4\n");
   (void)file("degrees.prj", R"(GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],)"
                             R"(UNIT["degree",0.0174532925199433]])");
-  const RasterBand band = read_raster_gdal(path, {.band = "", .package_crs = package.description().crs_wkt});
+  const RasterBand band = gdal_files().read_raster(path, {.band = "", .package_crs = package.description().crs_wkt});
   ASSERT_EQ(package.description().epsg, 32632) << "the zone of this test";
   const double columns = (500000.0 + 100.0 - band.projected_from_pixel[0]) / band.projected_from_pixel[1];
   const double rows = (100.0 - band.projected_from_pixel[3]) / band.projected_from_pixel[5];
