@@ -29,19 +29,16 @@ class PackEstimate : public testing::TestWithParam<const char*> {
 /// What a run has in memory beside what it holds: the program and its libraries (memory_mib_of_program of PackEstimate).
 constexpr double program_mib = 50.0;
 
-void expect_within_the_promise(double estimate, double actual) {
-  EXPECT_GT(estimate, actual / promised_factor);
-  EXPECT_LT(estimate, actual * promised_factor);
-}
+double mib_of_package(const nlohmann::json& summary) { return summary.at("package_bytes").get<double>() / 1048576.0; }
 
 TEST_P(PackEstimate, KeepsItsPromise) {
   const std::optional<double> held =
       folder.held_mib(std::string("farlod-pack city.gml -o a.farlod --threads 2 --summary s.json ") + GetParam());
   const nlohmann::json summary = folder.json_of("s.json"), estimate = summary.at("estimate");
-  expect_within_the_promise(estimate.at("package_mib"), summary.at("package_bytes").get<double>() / 1048576.0);
-  if (held) {
-    expect_within_the_promise(estimate.at("memory_mib"), *held + program_mib);
-  }
+  EXPECT_GT(estimate.at("package_mib"), mib_of_package(summary) / promised_factor);
+  EXPECT_LT(estimate.at("package_mib"), mib_of_package(summary) * promised_factor);
+  // The estimate counts pages of files, too, of which a machine keeps as many as it likes
+  EXPECT_GT(estimate.at("memory_mib"), (held.value_or(0.0) + program_mib) / promised_factor);
 }
 INSTANTIATE_TEST_SUITE_P(Settings, PackEstimate,
                          testing::Values("--cell 50", "--cell 25", "--cell 100", "--far-map box", "--neighborhood 7"));

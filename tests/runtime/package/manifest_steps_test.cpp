@@ -22,7 +22,7 @@ std::uint64_t steps_of_reading(std::size_t entries) {
   json m = small.manifest();
   m["weather"] = json::array();
   for (std::size_t n = 0; n < entries; ++n) m["weather"].push_back(json::object());
-  const std::string text = scenes::sealed(m.dump());
+  const std::string text = scenes::sealed(m.dump(1) + "\n");
   const CountedSteps steps;
   (void)manifest_from_text(text, "manifest.json");
   return steps.count();
