@@ -31,6 +31,7 @@ const void* functions_of_module(const char* name, const char* library) {
   const std::filesystem::path path = path_of_module(name);
   // Symbols are looked up when they are first called: a run calls few of the many that these libraries have
   void* const module = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  // glibc keeps a message for each thread. NOLINTNEXTLINE(concurrency-mt-unsafe)
   if (module == nullptr) refuse_module(library, std::string("its module cannot be loaded: ") + dlerror());
   const auto* const entry = static_cast<const ModuleEntry*>(dlsym(module, "farlod_module"));
   if (entry == nullptr) refuse_module(library, path.string() + " is no module of Far-LoD");

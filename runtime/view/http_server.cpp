@@ -128,7 +128,8 @@ Socket listening_socket(const HttpServerSettings& settings) {
   wanted.ai_flags = AI_PASSIVE;
   wanted.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
-  getaddrinfo(settings.address.c_str(), std::to_string(settings.port).c_str(), &wanted, &found);
+  // Where it fails there is no list
+  if (getaddrinfo(settings.address.c_str(), std::to_string(settings.port).c_str(), &wanted, &found) != 0) found = nullptr;
   const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owner(found, [](addrinfo* list) {
     if (list != nullptr) freeaddrinfo(list);
   });

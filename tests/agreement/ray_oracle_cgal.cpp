@@ -10,8 +10,6 @@
 #else
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_triangle_primitive.h>
-#define AABB_traits_3 AABB_traits
-#define AABB_triangle_primitive_3 AABB_triangle_primitive
 #endif
 
 #include <vector>
@@ -24,7 +22,12 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Triangles = std::vector<Kernel::Triangle_3>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits_3<Kernel, CGAL::AABB_triangle_primitive_3<Kernel, Triangles::const_iterator>>>;
+#if __has_include(<CGAL/AABB_traits_3.h>)
+using Traits = CGAL::AABB_traits_3<Kernel, CGAL::AABB_triangle_primitive_3<Kernel, Triangles::const_iterator>>;
+#else
+using Traits = CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>;
+#endif
+using Tree = CGAL::AABB_tree<Traits>;
 
 Triangles triangles_of(const CityModel& city) {
   Triangles triangles;

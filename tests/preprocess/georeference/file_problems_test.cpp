@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "farlod/error.hpp"
+#include "georeference/crs.hpp"
 #include "georeference/georeference.hpp"
 #include "tests/preprocess/georeference/small_source.hpp"
 
