@@ -80,6 +80,7 @@ constexpr Wall walls[] = {
     {"^(preprocess|runtime)/", "_xxhash\\.cpp$|^runtime/package/", "^xxhash", "the wrappers of xxHash are *_xxhash.cpp"},
     {"^(preprocess|runtime)/", "_cairo\\.cpp$", "^(cairo|pango/|png\\.h)", "the wrapper of Cairo and Pango is *_cairo.cpp"},
     {"^runtime/", "^runtime/results/module_dlopen\\.cpp$", "^dlfcn", "one file loads modules"},
+    {"^(preprocess|runtime)/", "_beast\\.cpp$", "^boost/(asio|beast)", "the wrapper of Boost.Beast is *_beast.cpp"},
     {"^(preprocess|runtime)/", "_zlib\\.cpp$", "^zlib", "the wrapper of zlib is *_zlib.cpp"},
     {"^(preprocess|runtime)/", "_erfa\\.cpp$", "^erfa", "ERFA's wrapper is *_erfa.cpp"},
     {"^(preprocess|runtime)/", "/app/", "^(CLI/|spdlog/|iostream$|print$)", "libraries neither print nor read command lines"},

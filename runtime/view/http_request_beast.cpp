@@ -3,12 +3,20 @@
 #include "view/http_request.hpp"
 
 #include <algorithm>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/parser.hpp>
 #include <charconv>
-
-#include "contract/lower_case.hpp"
 
 namespace farlod {
 namespace {
+
+namespace http = boost::beast::http;
+
+/// Empty where the field is missing.
+std::string_view value_of(const http::request_header<>& header, http::field field) {
+  const auto value = header[field];
+  return {value.data(), value.size()};
+}
 
 /// What stands in front of the separator, which is taken off `text` with it; all of `text` where there is none.
 std::string_view take_until(std::string_view& text, std::string_view separator) {
@@ -16,11 +24,6 @@ std::string_view take_until(std::string_view& text, std::string_view separator) 
   const std::string_view taken = text.substr(0, end);
   text.remove_prefix(end == std::string_view::npos ? text.size() : end + separator.size());
   return taken;
-}
-
-std::string_view without_blanks(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 /// The character of two hexadecimal digits. Nothing where they are none.
@@ -60,40 +63,35 @@ ViewQuery query_of(std::string_view text) {
   return query;
 }
 
-bool read_request_line(std::string_view line, HttpRequest& request) {
-  request.method = take_until(line, " ");
-  std::string_view target = take_until(line, " ");
-  if (!target.starts_with('/') || (line != "HTTP/1.1" && line != "HTTP/1.0")) return false;
-  request.keeps_connection = line == "HTTP/1.1";
-  request.path = decoded(take_until(target, "?"));
-  request.query = query_of(target);
-  return true;
+/// The head of a message, if that is all of the text. Beast refuses what RFC 9112 does.
+std::optional<http::request_header<>> header_of(std::string_view head) {
+  const std::string text = std::string(head) + "\r\n\r\n";
+  http::request_parser<http::empty_body> parser;
+  boost::system::error_code error;
+  const std::size_t length = parser.put(boost::asio::buffer(text), error);
+  if (error || !parser.is_header_done() || length != text.size()) return std::nullopt;
+  return parser.release().base();
 }
 
-/// A second host is refused: a server in between could take the other one for what is meant.
-bool read_field(std::string_view line, HttpRequest& request) {
-  if (line.find(':') == std::string_view::npos) return false;
-  const std::string name = lower_case(take_until(line, ":"));
-  const std::string_view value = without_blanks(line);
-  if (name == "host") {
-    if (!request.host.empty()) return false;
-    request.host = value;
-  } else if (name == "connection") {
-    if (lower_case(value).find("close") != std::string::npos) request.keeps_connection = false;
-  } else if (name == "transfer-encoding" || (name == "content-length" && value != "0")) {
-    request.has_body = true;
-  }
-  return true;
+bool announces_body(const http::request_header<>& header) {
+  const std::string_view length = value_of(header, http::field::content_length);
+  return header.count(http::field::transfer_encoding) > 0 || (!length.empty() && length != "0");
 }
 
 }  // namespace
 
 std::optional<HttpRequest> http_request_of(std::string_view head) {
-  HttpRequest request;
-  if (!read_request_line(take_until(head, "\r\n"), request)) return std::nullopt;
-  while (!head.empty())
-    if (!read_field(take_until(head, "\r\n"), request)) return std::nullopt;
-  return request;
+  const auto header = header_of(head);
+  // A second host is refused: a server in between could take the other one for what is meant
+  if (!header || !header->target().starts_with('/') || header->count(http::field::host) > 1) return std::nullopt;
+  std::string_view target(header->target().data(), header->target().size());
+  const std::string path = decoded(take_until(target, "?"));
+  return HttpRequest{.method = std::string(header->method_string()),
+                     .path = path,
+                     .query = query_of(target),
+                     .host = std::string(value_of(*header, http::field::host)),
+                     .has_body = announces_body(*header),
+                     .keeps_connection = http::message<true, http::empty_body>(*header).keep_alive()};
 }
 
 }  // namespace farlod
