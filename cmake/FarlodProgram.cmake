@@ -15,6 +15,7 @@ function(farlod_program name)
   add_executable(${writer} ${P_DOCUMENTS})
   target_link_libraries(${writer} PRIVATE ${P_OPTIONS})
   farlod_warnings(${writer})
+  farlod_runs_once(${writer})
   set_target_properties(${writer} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${FARLOD_DOCUMENTS_DIR}/bin)
 
   set(stem ${FARLOD_DOCUMENTS_DIR}/${name})

@@ -39,6 +39,13 @@ function(farlod_for_shared_library target)
     POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 endfunction()
 
+# For code that runs once in a program, such as that of its options: -O1 takes two thirds of the time of -O3
+function(farlod_runs_once target)
+  if(CMAKE_BUILD_TYPE STREQUAL Release)
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
+endfunction()
+
 # A library of ours: its sources are listed by the folders below it.
 function(farlod_library name)
   add_library(farlod_${name} STATIC)
