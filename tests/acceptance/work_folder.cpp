@@ -6,8 +6,11 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iomanip>
+#include <regex>
 #include <sstream>
 
 #include "console/exit_code.hpp"
@@ -47,6 +50,19 @@ void WorkFolder::write(const std::string& name, const std::string& text) const {
 }
 
 std::string WorkFolder::text_of(const std::string& name) const { return scenes::text_of(path(name)); }
+
+std::set<std::string> WorkFolder::colours_of(const std::string& name) const {
+  static const std::regex colour(R"(rgb\(([0-9.]+)%, ?([0-9.]+)%, ?([0-9.]+)%\))");
+  const std::string text = text_of(name);
+  std::set<std::string> colours;
+  for (std::sregex_iterator found(text.begin(), text.end(), colour); found != std::sregex_iterator(); ++found) {
+    std::ostringstream hex;
+    hex << '#' << std::hex << std::setfill('0');
+    for (const int part : {1, 2, 3}) hex << std::setw(2) << std::lround(std::stod((*found)[part]) * 2.55);
+    colours.insert(hex.str());
+  }
+  return colours;
+}
 
 std::vector<std::string> WorkFolder::names() const {
   std::vector<std::string> names = folder_.names();

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ class WorkFolder {
 
   void write(const std::string& name, const std::string& text) const;
   [[nodiscard]] std::string text_of(const std::string& name) const;
+  /// The colours of a picture in SVG, such as #b2182b. Cairo writes them as rgb(69.8%,9.4%,16.9%), since 1.18 with spaces.
+  [[nodiscard]] std::set<std::string> colours_of(const std::string& name) const;
   [[nodiscard]] nlohmann::json json_of(const std::string& name) const;
   [[nodiscard]] std::filesystem::path path(const std::string& name) const { return folder_.file(name); }
   /// Of all files and folders in it, sorted, except for those in which run() keeps what commands say.

@@ -82,7 +82,7 @@ def bbox(name: str, value: Any) -> Bbox:
     corners = floats(name, value)
     if corners.shape != (4,) or not np.isfinite(corners).all():
         raise InvalidArgument(f"{name} is {value!r}: give four numbers, west, south, east, north, in the CRS of the city")
-    west, south, east, north = corners.tolist()
+    west, south, east, north = (float(corner) for corner in corners)
     if west >= east or south >= north:
         raise InvalidArgument(f"{name} is {value!r}, which is empty: give west < east and south < north")
     return west, south, east, north

@@ -53,10 +53,10 @@ def _save_mesh(vertices: Any, faces: Any, path: str) -> None:
         raise InvalidArgument(f"faces has the shape {corners.shape} and type {corners.dtype}: give (m, 3) numbers of vertices")
     if corners.min() < 0 or corners.max() >= len(points):
         raise InvalidArgument(f"faces names vertices from {corners.min()} to {corners.max()}, and there are {len(points)}")
-    with open(path, "w", encoding="ascii") as file:
+    with open(path, "wb") as file:
         # 17 digits are a 64-bit float to the bit
         np.savetxt(file, points, fmt="v %.17g %.17g %.17g")
-        file.write("o mesh\n")
+        file.write(b"o mesh\n")
         np.savetxt(file, corners + 1, fmt="f %d %d %d")
 
 

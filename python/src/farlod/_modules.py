@@ -11,20 +11,24 @@ from typing import TYPE_CHECKING
 
 __all__ = ["DEBIAN_PACKAGES", "advice_for", "load", "load_preprocess", "runtime"]
 
-#: The Debian 12 package that a shared library comes with, by the name that a module asks for.
+#: The Debian package that a shared library comes with, by the name that a module asks for, and the releases that have it.
 DEBIAN_PACKAGES = {
-    "libOpenEXR-3_1.so.30": "libopenexr-3-1-30",
-    "libOpenEXRCore-3_1.so.30": "libopenexr-3-1-30",
-    "libImath-3_1.so.29": "libimath-3-1-29",
-    "libembree3.so.3": "libembree3-3",
-    "libexpat.so.1": "libexpat1",
-    "libfmt.so.9": "libfmt9",
-    "libgdal.so.32": "libgdal32",
-    "libGeographicLib.so.23": "libgeographiclib23",
-    "libgmp.so.10": "libgmp10",
-    "libproj.so.25": "libproj25",
-    "libtbb.so.12": "libtbb12",
-    "libxxhash.so.0": "libxxhash0",
+    "libOpenEXR-3_1.so.30": ("libopenexr-3-1-30", "12 and 13"),
+    "libOpenEXRCore-3_1.so.30": ("libopenexr-3-1-30", "12 and 13"),
+    "libImath-3_1.so.29": ("libimath-3-1-29", "12 and 13"),
+    "libembree3.so.3": ("libembree3-3", "12"),
+    "libembree4.so.4": ("libembree4-4", "13"),
+    "libexpat.so.1": ("libexpat1", "12 and 13"),
+    "libfmt.so.9": ("libfmt9", "12"),
+    "libfmt.so.10": ("libfmt10", "13"),
+    "libgdal.so.32": ("libgdal32", "12"),
+    "libgdal.so.36": ("libgdal36", "13"),
+    "libGeographicLib.so.23": ("libgeographiclib23", "12"),
+    "libGeographicLib.so.26": ("libgeographiclib26", "13"),
+    "libgmp.so.10": ("libgmp10", "12 and 13"),
+    "libproj.so.25": ("libproj25", "12 and 13"),
+    "libtbb.so.12": ("libtbb12", "12 and 13"),
+    "libxxhash.so.0": ("libxxhash0", "12 and 13"),
 }
 
 
@@ -33,10 +37,10 @@ def advice_for(message: str) -> str:
     missing = re.search(r"(\S+\.so\S*): cannot open shared object file", message)
     if missing is None:
         return ""
-    package = DEBIAN_PACKAGES.get(missing[1])
-    if package is None:
+    if missing[1] not in DEBIAN_PACKAGES:
         return f"The library {missing[1]} is missing: install the package of your system that has it."
-    return f"The library {missing[1]} is missing: on Debian 12, run apt-get install {package}."
+    package, releases = DEBIAN_PACKAGES[missing[1]]
+    return f"The library {missing[1]} is missing: on Debian {releases}, run apt-get install {package}."
 
 
 def load(name: str) -> ModuleType:

@@ -49,7 +49,7 @@ def draw_map(
     if colorbar:
         axes.figure.colorbar(image, ax=axes, label=values.attrs.get("long_name", shown))
     if outlines is not None:
-        axes.add_collection(LineCollection(outlines, colors="black", linewidths=0.4))
+        axes.add_collection(LineCollection(list(outlines), colors="black", linewidths=0.4))
     axes.set_aspect("equal")
     axes.ticklabel_format(useOffset=False, style="plain")
     axes.locator_params(nbins=5)
