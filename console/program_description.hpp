@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 
 namespace CLI {
 class App;

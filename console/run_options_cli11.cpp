@@ -11,10 +11,10 @@
 #include <sstream>
 #include <thread>
 
-#include "console/exit_code.hpp"
 #include "console/number_range.hpp"
 #include "console/option_list.hpp"
 #include "console/run_settings.hpp"
+#include "farlod/error.hpp"
 #include "farlod/version.hpp"
 
 namespace farlod {

@@ -8,6 +8,8 @@
 #include <array>
 #include <charconv>
 
+#include "farlod/error.hpp"
+
 namespace farlod {
 namespace {
 
@@ -19,7 +21,7 @@ constexpr std::array well_known_geographic_codes{4258, 4269, 4326, 4612, 4979, 6
 
 void check_street(std::string_view name, double width_m, double spacing_m) {
   if (width_m > largest_street_share * spacing_m)
-    throw SettingsError(
+    throw InvalidArgument(
         fmt::format("--{0}-width is {1:g} m, more than a quarter of the {2:g} m between two {0}s: narrow it, or raise "
                     "--{0}-spacing and --size",
                     name, width_m, spacing_m));
@@ -27,13 +29,13 @@ void check_street(std::string_view name, double width_m, double spacing_m) {
 
 void check_combination(const CitySettings& settings) {
   const auto need_roofs = [&](std::string_view name, bool asked) {
-    if (asked && settings.lod < 2) throw SettingsError(fmt::format("--{} has no place on prisms: add --lod 2", name));
+    if (asked && settings.lod < 2) throw InvalidArgument(fmt::format("--{} has no place on prisms: add --lod 2", name));
   };
   need_roofs("eaves", settings.eaves_m > 0.0);
   need_roofs("balconies", settings.balconies);
   need_roofs("facade-details", settings.facade_details);
   if (settings.hillside && settings.terrain_relief_m > 0.0)
-    throw SettingsError("--hillside has slopes of its own: leave out --terrain-relief");
+    throw InvalidArgument("--hillside has slopes of its own: leave out --terrain-relief");
 }
 
 }  // namespace
@@ -43,16 +45,16 @@ void check(const CitySettings& settings) {
     const auto number = static_cast<double>(value);
     // The negation also refuses NaN
     if (!(number >= range.low && number <= range.high))
-      throw SettingsError(
+      throw InvalidArgument(
           fmt::format("--{} is {:.12g}; it must be between {:.12g} and {:.12g}", name, number, range.low, range.high));
   });
   // A city smaller than the spacing is one block
   check_street("avenue", settings.avenue_width_m, std::min(settings.avenue_spacing_m, settings.size_m));
   check_street("street", settings.street_width_m, std::min(settings.street_spacing_m, settings.size_m));
   check_combination(settings);
-  if (settings.epsg <= 0) throw SettingsError("--crs must be like EPSG:32632");
+  if (settings.epsg <= 0) throw InvalidArgument("--crs must be like EPSG:32632");
   if (std::ranges::count(well_known_geographic_codes, settings.epsg) > 0)
-    throw SettingsError(
+    throw InvalidArgument(
         fmt::format("--crs EPSG:{} is in degrees; name a projected one in metres, such as EPSG:32632", settings.epsg));
 }
 

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -98,13 +97,7 @@ struct CitySettings {
 /// The level of detail that is written to the files.
 [[nodiscard]] inline int written_lod(const CitySettings& settings) { return settings.facade_details ? 3 : settings.lod; }
 
-/// A setting is not allowed. The message has its name on the command line, its value and the allowed range.
-class SettingsError : public std::invalid_argument {
- public:
-  using std::invalid_argument::invalid_argument;
-};
-
-/// Throws SettingsError for the first setting that is out of its range or contradicts another.
+/// Throws InvalidArgument for the first setting that is out of its range or contradicts another.
 void check(const CitySettings& settings);
 
 /// The code in "EPSG:n", in capitals or not; empty if the text is not of this form.

@@ -10,10 +10,17 @@
 #include <system_error>
 #include <utility>
 
+#include "farlod/error.hpp"
+
 namespace farlod {
 
-CityWriteError::CityWriteError(const std::filesystem::path& path, const std::string& reason)
-    : std::runtime_error(fmt::format("cannot write {}: {}", path.string(), reason)) {}
+namespace {
+
+OutputError refused_by_disk(const std::filesystem::path& path, const std::string& reason) {
+  return {path, reason + ". Is the folder there, may you write to it, and is there room on the disk?"};
+}
+
+}  // namespace
 
 CityTextFile::CityTextFile(std::filesystem::path destination) : destination_(std::move(destination)) {
   errno = 0;
@@ -60,7 +67,7 @@ std::uint64_t CityTextFile::commit() {
   if (temporary_.empty()) return bytes;
   std::error_code error;
   std::filesystem::rename(temporary_, destination_, error);
-  if (error) throw CityWriteError(destination_, error.message());
+  if (error) throw refused_by_disk(destination_, error.message());
   return bytes;
 }
 
@@ -75,7 +82,7 @@ void CityTextFile::flush() {
 
 void CityTextFile::fail() const {
   // The stream has no reason of its failure; the last error of the system has
-  throw CityWriteError(destination_, errno != 0 ? std::generic_category().message(errno) : "the disk refused the data");
+  throw refused_by_disk(destination_, errno != 0 ? std::generic_category().message(errno) : "the disk refused the data");
 }
 
 void append_metres(std::string& text, std::int64_t value_mm) {

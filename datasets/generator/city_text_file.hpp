@@ -11,15 +11,9 @@
 
 namespace farlod {
 
-/// The city cannot be written. The message has the file and the reason of the system.
-class CityWriteError : public std::runtime_error {
- public:
-  CityWriteError(const std::filesystem::path& path, const std::string& reason);
-};
-
 /// A text file that is written by appending and gets its name when it is committed. A file that is not committed is removed. A
 /// destination that is a pipe is written to at once, and cannot be overwritten. Uses a buffer of fixed size. All members throw
-/// CityWriteError.
+/// OutputError.
 class CityTextFile {
  public:
   explicit CityTextFile(std::filesystem::path destination);

@@ -29,7 +29,7 @@ struct GeneratedTree {
                                                         std::span<const GeneratedBuilding> buildings);
 
 /// Writes trees as points of GeoJSON in the CRS of the city, with `height`, `crown_diameter`, `trunk_height` and `leaf_cycle`.
-/// The file gets its name at the end. All members throw CityWriteError.
+/// The file gets its name at the end. All members throw OutputError.
 class TreeWriter {
  public:
   TreeWriter(const std::filesystem::path& path, const CityHeader& header);

@@ -30,7 +30,7 @@ struct CityHeader {
 [[nodiscard]] CityHeader header_of(const CitySettings& settings, const std::filesystem::path& path);
 
 /// Writes a city building by building: begin, add …, end. Memory does not grow with the city. The file gets its name at the end.
-/// All members throw CityWriteError.
+/// All members throw OutputError.
 class GeneratedCityWriter {
  public:
   virtual ~GeneratedCityWriter() = default;

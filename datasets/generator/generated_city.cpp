@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "farlod/error.hpp"
 #include "generator/block_buildings.hpp"
 #include "generator/building_plan.hpp"
 
@@ -54,7 +55,7 @@ double size_for_buildings_m(CitySettings settings, std::int64_t buildings) {
   });
   const auto wanted = static_cast<double>(buildings);
   if (buildings < 1 || wanted > count_at(range.high))
-    throw SettingsError(
+    throw InvalidArgument(
         fmt::format("--buildings is {}; a city can have from 1 to about {:.3g}", buildings, count_at(range.high)));
   // Halve the interval of sizes that brackets the wanted number
   double low_m = range.low, high_m = range.high;

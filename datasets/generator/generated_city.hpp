@@ -22,11 +22,11 @@ struct CityVisitor {
   std::function<void(std::int64_t)> block_done = [](std::int64_t) {};
 };
 
-/// Makes the whole city, with one block at a time in memory. Throws SettingsError if the settings cannot be used.
+/// Makes the whole city, with one block at a time in memory. Throws InvalidArgument if the settings cannot be used.
 void visit_city(const CitySettings& settings, const CityVisitor& visitor);
 
 /// The edge of a city with about `buildings` buildings, to some percent: cities consist of whole blocks, and the number is
-/// estimated from samples. Throws SettingsError if no allowed size has about as many.
+/// estimated from samples. Throws InvalidArgument if no allowed size has about as many.
 [[nodiscard]] double size_for_buildings_m(CitySettings settings, std::int64_t buildings);
 
 }  // namespace farlod

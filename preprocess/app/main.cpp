@@ -7,38 +7,21 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
-#include <new>
 #include <utility>
 #include <vector>
 
 #include "app/estimate_text.hpp"
 #include "app/pack_options.hpp"
 #include "app/pack_summary.hpp"
-#include "console/exit_code.hpp"
 #include "console/interruption.hpp"
+#include "console/output_files.hpp"
+#include "console/run_program.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod {
 namespace {
-
-void write_text(const std::string& path, const std::string& text) {
-  if (path.empty()) return;
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw OutputError(path + " cannot be written: is there room on the disk?");
-}
-
-/// Asked before the work, which may take hours.
-void require_folder_of(const std::filesystem::path& file) {
-  const auto folder = file.parent_path();
-  if (folder.empty() || std::filesystem::is_directory(folder)) return;
-  throw OutputError(file.string() + " cannot be written: there is no folder " + folder.string() +
-                    ". Make it first, or choose another.");
-}
 
 void write_report(const Report& report, const std::string& path) {
   write_text(path, std::filesystem::path(path).extension() == ".geojson" ? report_geojson(report) : report_json(report));
@@ -202,11 +185,6 @@ int run(const PackOptions& options) {
   return exit_done;
 }
 
-int complain(const std::exception& error, int exit_code) {
-  fmt::print(stderr, "farlod-pack: {}\n", error.what());
-  return exit_code;
-}
-
 }  // namespace
 }  // namespace farlod
 
@@ -216,26 +194,11 @@ int main(int argc, char** argv) {
   // What one stage frees in large pieces goes back to the system: left to itself, the threshold grows, and keeps them
   // No other thread runs yet. NOLINTNEXTLINE(concurrency-mt-unsafe)
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
-  try {
-    const ParsedPackOptions parsed = parse_pack_options(argc, argv);
-    return parsed.options ? run(*parsed.options) : parsed.exit_code;
-  } catch (const InvalidArgument& error) {
-    return complain(error, exit_usage);
-  } catch (const InputError& error) {
-    return complain(error, exit_unusable_input);
-  } catch (const Busy& error) {
-    return complain(error, exit_busy);
-  } catch (const OutputError& error) {
-    return complain(error, exit_unusable_input);
-  } catch (const Cancelled&) {
-    fmt::print(stderr, "farlod-pack: interrupted. What is finished is kept: the same command goes on with it.\n");
-    return Interruption::exit_code();
-  } catch (const LimitReached& error) {
-    return complain(error, exit_limit_reached);
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "farlod-pack: out of memory. Pack the city in parts, or with larger cells.\n");
-    return exit_limit_reached;
-  } catch (const std::exception& error) {
-    return complain(error, exit_internal);
-  }
+  return run_program({.name = "farlod-pack",
+                      .when_interrupted = "What is finished is kept: the same command goes on with it.",
+                      .when_out_of_memory = "Pack the city in parts, or with larger cells."},
+                     [&] {
+                       const ParsedPackOptions parsed = parse_pack_options(argc, argv);
+                       return parsed.options ? run(*parsed.options) : parsed.exit_code;
+                     });
 }

@@ -11,7 +11,6 @@
 #include <optional>
 #include <vector>
 
-#include "console/exit_code.hpp"
 #include "console/number_range.hpp"
 #include "console/option_list.hpp"
 #include "console/shard_text.hpp"

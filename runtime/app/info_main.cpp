@@ -8,10 +8,10 @@
 #include <new>
 
 #include "app/info_options.hpp"
-#include "app/output_files.hpp"
 #include "app/package_facts.hpp"
 #include "console/bundled_fonts.hpp"
-#include "console/exit_code.hpp"
+#include "console/output_files.hpp"
+#include "console/run_program.hpp"
 #include "farlod/error.hpp"
 #include "results/mesh/mesh_obj.hpp"
 #include "results/picture/cell_picture.hpp"
@@ -87,7 +87,7 @@ int run(const InfoOptions& options) {
   if (!options.obj_file.empty()) write_neighborhood(package, facts, options.obj_file);
   if (!options.picture_file.empty()) draw_neighborhood(package, facts, options);
   const double total_s = std::chrono::duration<double>(Clock::now() - start).count();
-  write_summary(options.run.summary_file, info_summary_json(facts, total_s, options.run.settings_json));
+  write_text(options.run.summary_file, info_summary_json(facts, total_s, options.run.settings_json));
   if (options.json)
     fmt::print("{}", facts_json(facts));
   else if (options.run.verbosity == Verbosity::normal)
@@ -98,34 +98,14 @@ int run(const InfoOptions& options) {
   return exit_damaged_package;
 }
 
-int complain(const std::exception& error, int exit_code) {
-  fmt::print(stderr, "farlod-info: {}\n", error.what());
-  return exit_code;
-}
-
 }  // namespace
 }  // namespace farlod
 
 int main(int argc, char** argv) {
   using namespace farlod;
   use_bundled_fonts();
-  try {
+  return run_program({.name = "farlod-info", .when_out_of_memory = "Use fewer --threads."}, [&] {
     const ParsedInfoOptions parsed = parse_info_options(argc, argv);
     return parsed.options ? run(*parsed.options) : parsed.exit_code;
-  } catch (const InvalidArgument& error) {
-    return complain(error, exit_usage);
-  } catch (const PackageDamaged& error) {
-    return complain(error, exit_damaged_package);
-  } catch (const PackageUnusable& error) {
-    return complain(error, exit_unusable_input);
-  } catch (const InputError& error) {
-    return complain(error, exit_unusable_input);
-  } catch (const OutputError& error) {
-    return complain(error, exit_unusable_input);
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "farlod-info: out of memory. Use fewer --threads.\n");
-    return exit_limit_reached;
-  } catch (const std::exception& error) {
-    return complain(error, exit_internal);
-  }
+  });
 }

@@ -10,8 +10,8 @@
 #include <system_error>
 #include <utility>
 
-#include "console/exit_code.hpp"
 #include "console/option_list.hpp"
+#include "farlod/error.hpp"
 #include "results/output_format.hpp"
 
 namespace farlod {

@@ -6,11 +6,9 @@
 
 #include <chrono>
 #include <filesystem>
-#include <new>
 
 #include "app/enriched_city.hpp"
 #include "app/kept_work.hpp"
-#include "app/output_files.hpp"
 #include "app/quantity_options.hpp"
 #include "app/region_of_package.hpp"
 #include "app/sun_of_package.hpp"
@@ -19,9 +17,10 @@
 #include "app/verification_file.hpp"
 #include "app/written_run.hpp"
 #include "console/bundled_fonts.hpp"
-#include "console/exit_code.hpp"
 #include "console/interruption.hpp"
+#include "console/output_files.hpp"
 #include "console/rough_number.hpp"
+#include "console/run_program.hpp"
 #include "farlod/error.hpp"
 #include "farlod/inspection.hpp"
 
@@ -163,7 +162,7 @@ int run(const SvfOptions& options) {
   const auto start = Clock::now();
   const WrittenRun result = evaluate(options);
   const double total_s = seconds_since(start);
-  write_summary(options.run.summary_file, svf_summary_json(result, options, total_s));
+  write_text(options.run.summary_file, svf_summary_json(result, options, total_s));
   if (options.run.verbosity != Verbosity::normal) return exit_done;
   if (result.summary.estimate)
     print_estimate(result, *result.summary.estimate);
@@ -174,35 +173,6 @@ int run(const SvfOptions& options) {
   return exit_done;
 }
 
-int complain(const std::exception& error, int exit_code) {
-  fmt::print(stderr, "farlod-svf: {}\n", error.what());
-  return exit_code;
-}
-
-/// The library tells what is needed; what decides it are options of this program.
-int complain_of_memory(const LimitReached& error) {
-  fmt::print(stderr,
-             "farlod-svf: {} The limit is --memory-limit; --threads, --grid and --bbox decide what is needed; --engine exact, "
-             "--verify and --max-error trace the whole city.\n",
-             error.what());
-  return exit_limit_reached;
-}
-
-/// Runs that end before their end, though nothing is wrong with what was asked for.
-int run_within_limits(const SvfOptions& options) {
-  try {
-    return run(options);
-  } catch (const Cancelled&) {
-    fmt::print(stderr, "farlod-svf: interrupted. The answers so far are kept: the same command goes on with them.\n");
-    return Interruption::exit_code();
-  } catch (const LimitReached& error) {
-    return complain_of_memory(error);
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "farlod-svf: out of memory. Evaluate a part at a time (--bbox), or use fewer --threads.\n");
-    return exit_limit_reached;
-  }
-}
-
 }  // namespace
 }  // namespace farlod
 
@@ -210,22 +180,14 @@ int main(int argc, char** argv) {
   using namespace farlod;
   const Interruption interruption;
   use_bundled_fonts();
-  try {
-    const ParsedSvfOptions parsed = parse_svf_options(argc, argv);
-    return parsed.options ? run_within_limits(*parsed.options) : parsed.exit_code;
-  } catch (const InvalidArgument& error) {
-    return complain(error, exit_usage);
-  } catch (const PackageDamaged& error) {
-    return complain(error, exit_damaged_package);
-  } catch (const PackageUnusable& error) {
-    return complain(error, exit_unusable_input);
-  } catch (const InputError& error) {
-    return complain(error, exit_unusable_input);
-  } catch (const Busy& error) {
-    return complain(error, exit_busy);
-  } catch (const OutputError& error) {
-    return complain(error, exit_unusable_input);
-  } catch (const std::exception& error) {
-    return complain(error, exit_internal);
-  }
+  return run_program({.name = "farlod-svf",
+                      .when_interrupted = "The answers so far are kept: the same command goes on with them.",
+                      .when_out_of_memory = "Evaluate a part at a time (--bbox), or use fewer --threads.",
+                      // The library tells what is needed; what decides it are options of this program
+                      .at_limit = " The limit is --memory-limit; --threads, --grid and --bbox decide what is needed; --engine "
+                                  "exact, --verify and --max-error trace the whole city."},
+                     [&] {
+                       const ParsedSvfOptions parsed = parse_svf_options(argc, argv);
+                       return parsed.options ? run(*parsed.options) : parsed.exit_code;
+                     });
 }

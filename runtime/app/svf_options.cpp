@@ -13,7 +13,6 @@
 #include "app/format_advice.hpp"
 #include "app/picture_options.hpp"
 #include "app/work_options.hpp"
-#include "console/exit_code.hpp"
 #include "console/number_range.hpp"
 #include "console/option_list.hpp"
 #include "contract/expects.hpp"

@@ -9,11 +9,11 @@
 #include <stop_token>
 #include <thread>
 
-#include "app/output_files.hpp"
 #include "app/view_options.hpp"
 #include "app/view_summary.hpp"
-#include "console/exit_code.hpp"
 #include "console/interruption.hpp"
+#include "console/output_files.hpp"
+#include "console/run_program.hpp"
 #include "farlod/error.hpp"
 #include "view/bundle_files.hpp"
 #include "view/exported_view.hpp"
@@ -101,13 +101,8 @@ int run(const ViewOptions& options) {
   const bool is_served = options.export_folder.empty() && options.export_page.empty();
   is_served ? serve(city, options, summary) : write_files(city, options, summary);
   summary.total_seconds = seconds_since(start);
-  write_summary(options.run.summary_file, view_summary_json(summary, options.run.settings_json));
+  write_text(options.run.summary_file, view_summary_json(summary, options.run.settings_json));
   return Interruption::signal() == 0 ? exit_done : Interruption::exit_code();
-}
-
-int complain(const std::exception& error, int exit_code) {
-  fmt::print(stderr, "farlod-view: {}\n", error.what());
-  return exit_code;
 }
 
 }  // namespace
@@ -116,26 +111,9 @@ int complain(const std::exception& error, int exit_code) {
 int main(int argc, char** argv) {
   using namespace farlod;
   const Interruption interruption;
-  try {
-    const ParsedViewOptions parsed = parse_view_options(argc, argv);
-    return parsed.options ? run(*parsed.options) : parsed.exit_code;
-  } catch (const Cancelled&) {
-    fmt::print(stderr, "farlod-view: interrupted. Nothing was written.\n");
-    return Interruption::exit_code();
-  } catch (const InvalidArgument& error) {
-    return complain(error, exit_usage);
-  } catch (const PackageDamaged& error) {
-    return complain(error, exit_damaged_package);
-  } catch (const PackageUnusable& error) {
-    return complain(error, exit_unusable_input);
-  } catch (const InputError& error) {
-    return complain(error, exit_unusable_input);
-  } catch (const OutputError& error) {
-    return complain(error, exit_unusable_input);
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "farlod-view: out of memory. Use fewer --threads.\n");
-    return exit_limit_reached;
-  } catch (const std::exception& error) {
-    return complain(error, exit_internal);
-  }
+  return run_program(
+      {.name = "farlod-view", .when_interrupted = "Nothing was written.", .when_out_of_memory = "Use fewer --threads."}, [&] {
+        const ParsedViewOptions parsed = parse_view_options(argc, argv);
+        return parsed.options ? run(*parsed.options) : parsed.exit_code;
+      });
 }

@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
-#include "console/exit_code.hpp"
 #include "console/number_range.hpp"
 #include "console/option_list.hpp"
 #include "contract/lower_case.hpp"
+#include "farlod/error.hpp"
 
 namespace farlod {
 namespace {

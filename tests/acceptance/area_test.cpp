@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "tests/acceptance/packed_town.hpp"
 
 namespace farlod::acceptance {

@@ -4,8 +4,8 @@
 
 #include <map>
 
-#include "console/exit_code.hpp"
 #include "farlod/box.hpp"
+#include "farlod/error.hpp"
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/acceptance/street_trees.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "tests/acceptance/small_town.hpp"
 #include "tests/acceptance/work_folder.hpp"
 #include "tests/scenes/sealed_manifest.hpp"

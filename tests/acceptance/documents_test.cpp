@@ -7,7 +7,7 @@
 #include <map>
 #include <regex>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "tests/acceptance/work_folder.hpp"
 #include "tests/console/help_options.hpp"
 

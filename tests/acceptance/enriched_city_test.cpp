@@ -5,7 +5,7 @@
 #include <map>
 #include <regex>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "tests/acceptance/csv_table.hpp"
 #include "tests/acceptance/real_city.hpp"
 #include "tests/scenes/temporary_folder.hpp"

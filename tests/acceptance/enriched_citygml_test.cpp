@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "tests/acceptance/real_city.hpp"
 
 namespace farlod::acceptance {

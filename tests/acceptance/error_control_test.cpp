@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "results/output_format.hpp"
 #include "runtime/evaluate/error_budget.hpp"
 #include "tests/acceptance/packed_town.hpp"

@@ -5,7 +5,7 @@
 
 #include <regex>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "tests/acceptance/packed_town.hpp"
 
 namespace farlod::acceptance {

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "farlod/version.hpp"
 #include "results/output_format.hpp"
 #include "tests/acceptance/packed_town.hpp"

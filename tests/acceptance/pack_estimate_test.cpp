@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "tests/acceptance/work_folder.hpp"
 
 namespace farlod::acceptance {

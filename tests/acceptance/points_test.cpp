@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/analytic/oracles.hpp"
 #include "tests/analytic/tolerance.hpp"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <fstream>
 
-#include "console/exit_code.hpp"
 #include "contract/frame.hpp"
 #include "farlod/box.hpp"
+#include "farlod/error.hpp"
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/analytic/oracles.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "console/exit_code.hpp"
 #include "contract/frame.hpp"
+#include "farlod/error.hpp"
 #include "results/output_format.hpp"
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/analytic/tolerance.hpp"

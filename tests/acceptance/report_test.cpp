@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "tests/acceptance/small_town.hpp"
 #include "tests/acceptance/work_folder.hpp"
 

@@ -5,7 +5,7 @@
 #include <csignal>
 #include <string>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "tests/acceptance/small_town.hpp"
 #include "tests/acceptance/work_folder.hpp"
 

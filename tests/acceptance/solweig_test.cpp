@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "tests/acceptance/packed_town.hpp"
 
 // What SOLWEIG takes: the sky view factors of a surface model's pixels, in a ZIP file of GeoTIFF files with UMEP's names.

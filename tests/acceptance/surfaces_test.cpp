@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "results/picture/colour_map.hpp"
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/analytic/tolerance.hpp"

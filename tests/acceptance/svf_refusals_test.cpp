@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "results/output_format.hpp"
 #include "tests/acceptance/small_town.hpp"
 #include "tests/acceptance/work_folder.hpp"

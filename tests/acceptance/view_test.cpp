@@ -3,7 +3,7 @@
 // farlod-view, as users start it
 #include <gmock/gmock.h>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "tests/acceptance/packed_town.hpp"
 
 namespace farlod::acceptance {

@@ -13,7 +13,7 @@
 #include <regex>
 #include <sstream>
 
-#include "console/exit_code.hpp"
+#include "farlod/error.hpp"
 #include "tests/counted/held_memory.hpp"
 
 namespace farlod::acceptance {

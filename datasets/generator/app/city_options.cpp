@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "console/exit_code.hpp"
 #include "console/option_list.hpp"
+#include "farlod/error.hpp"
 #include "generator/generated_city.hpp"
 
 namespace farlod {
@@ -119,13 +119,8 @@ struct CommandLine {
 
 ParsedCityOptions parse_city_options(int argc, char** argv) {
   CommandLine line;
-  try {
-    if (const auto exit_code = parse_command_line(line.app, argc, argv, [&] { resolve(line.raw, line.app, line.options); }))
-      return {std::nullopt, *exit_code};
-  } catch (const SettingsError& error) {
-    fmt::print(stderr, "farlod-city: {}\n", error.what());
-    return {std::nullopt, exit_usage};
-  }
+  if (const auto exit_code = parse_command_line(line.app, argc, argv, [&] { resolve(line.raw, line.app, line.options); }))
+    return {std::nullopt, *exit_code};
   return {std::move(line.options), exit_done};
 }
 

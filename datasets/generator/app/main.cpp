@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
 #include <optional>
 #include <vector>
 
-#include "console/exit_code.hpp"
+#include "console/output_files.hpp"
+#include "console/run_program.hpp"
+#include "farlod/error.hpp"
 #include "generator/app/city_options.hpp"
 #include "generator/app/city_summary.hpp"
-#include "generator/city_text_file.hpp"
 #include "generator/city_trees.hpp"
 #include "generator/generated_city.hpp"
 
@@ -84,13 +84,6 @@ class TreesBeside {
   return counts;
 }
 
-void write_summary(const CityOptions& options, const CityCounts& counts) {
-  if (options.run.summary_file.empty()) return;
-  CityTextFile file(options.run.summary_file);
-  file.text() += city_summary_json(options, counts);
-  file.commit();
-}
-
 void print_counts(const CityOptions& options, const CityCounts& counts) {
   if (options.run.verbosity == Verbosity::quiet) return;
   if (counts.trees > 0) fmt::print("{}: {} trees\n", options.trees.string(), counts.trees);
@@ -99,25 +92,19 @@ void print_counts(const CityOptions& options, const CityCounts& counts) {
 }
 
 int run(const CityOptions& options) {
-  try {
-    const CityCounts counts = write_city(options);
-    write_summary(options, counts);
-    print_counts(options, counts);
-    return exit_done;
-  } catch (const CityWriteError& error) {
-    fmt::print(stderr, "farlod-city: {}. Is the folder there, may you write to it, and is there room on the disk?\n",
-               error.what());
-    return exit_unusable_input;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "farlod-city: internal error: {}\n", error.what());
-    return exit_internal;
-  }
+  const CityCounts counts = write_city(options);
+  write_text(options.run.summary_file, city_summary_json(options, counts));
+  print_counts(options, counts);
+  return exit_done;
 }
 
 }  // namespace
 }  // namespace farlod
 
 int main(int argc, char** argv) {
-  const farlod::ParsedCityOptions parsed = farlod::parse_city_options(argc, argv);
-  return parsed.options ? farlod::run(*parsed.options) : parsed.exit_code;
+  using namespace farlod;
+  return run_program({.name = "farlod-city", .when_out_of_memory = "Make a smaller city."}, [&] {
+    const ParsedCityOptions parsed = parse_city_options(argc, argv);
+    return parsed.options ? run(*parsed.options) : parsed.exit_code;
+  });
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include "generator/city_settings.hpp"
+#include "farlod/error.hpp"
 
 #include <gmock/gmock.h>
 
@@ -23,7 +24,8 @@ TEST(CitySettings, EachSettingIsRefusedBeyondItsRangeAndTheMessageNamesIt) {
     CitySettings::describe(settings, [&](std::string_view name, auto& value, SettingRange range, auto&&...) {
       if (name == wanted) value = static_cast<std::decay_t<decltype(value)>>(range.high + 1.0);
     });
-    EXPECT_THAT([&] { check(settings); }, ThrowsMessage<SettingsError>(HasSubstr("--" + std::string(wanted) + " is"))) << wanted;
+    EXPECT_THAT([&] { check(settings); }, ThrowsMessage<InvalidArgument>(HasSubstr("--" + std::string(wanted) + " is")))
+        << wanted;
   });
   EXPECT_GT(settings_seen, 0);
 }
@@ -32,7 +34,7 @@ TEST(CitySettings, RefusesOnPrismsWhatNeedsRoofsOrStoreys) {
   CitySettings eaves, balconies, facades;
   eaves.eaves_m = 0.5, balconies.balconies = true, facades.facade_details = true;
   for (auto& [settings, name] : {std::pair{&eaves, "--eaves"}, {&balconies, "--balconies"}, {&facades, "--facade-details"}}) {
-    EXPECT_THAT([&s = *settings] { check(s); }, ThrowsMessage<SettingsError>(HasSubstr(name)));
+    EXPECT_THAT([&s = *settings] { check(s); }, ThrowsMessage<InvalidArgument>(HasSubstr(name)));
     settings->lod = 2;
     EXPECT_NO_THROW(check(*settings));
   }
@@ -43,7 +45,7 @@ TEST(CitySettings, AHillsideIsTheOnlyGround) {
   settings.hillside = true;
   EXPECT_NO_THROW(check(settings));
   settings.terrain_relief_m = 20.0;
-  EXPECT_THAT([&] { check(settings); }, ThrowsMessage<SettingsError>(HasSubstr("--terrain-relief")));
+  EXPECT_THAT([&] { check(settings); }, ThrowsMessage<InvalidArgument>(HasSubstr("--terrain-relief")));
 }
 
 TEST(CitySettings, FacadesAreLevelOfDetail3) {
@@ -57,13 +59,13 @@ TEST(CitySettings, FacadesAreLevelOfDetail3) {
 TEST(CitySettings, RefusesWhatIsNotANumber) {
   CitySettings settings;
   settings.size_m = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(check(settings), SettingsError);
+  EXPECT_THROW(check(settings), InvalidArgument);
 }
 
 TEST(CitySettings, RefusesStreetsThatLeaveNoRoomForBlocks) {
   CitySettings settings;
   settings.street_width_m = 0.26 * settings.street_spacing_m;
-  EXPECT_THAT([&] { check(settings); }, ThrowsMessage<SettingsError>(HasSubstr("--street-width")));
+  EXPECT_THAT([&] { check(settings); }, ThrowsMessage<InvalidArgument>(HasSubstr("--street-width")));
   settings.street_width_m = 0.25 * settings.street_spacing_m;
   EXPECT_NO_THROW(check(settings));
 }
@@ -71,7 +73,7 @@ TEST(CitySettings, RefusesStreetsThatLeaveNoRoomForBlocks) {
 TEST(CitySettings, RefusesACrsInDegrees) {
   CitySettings settings;
   settings.epsg = 4326;
-  EXPECT_THAT([&] { check(settings); }, ThrowsMessage<SettingsError>(HasSubstr("degrees")));
+  EXPECT_THAT([&] { check(settings); }, ThrowsMessage<InvalidArgument>(HasSubstr("degrees")));
 }
 
 TEST(CitySettings, ReadsEpsgCodes) {

@@ -7,6 +7,7 @@
 #include <regex>
 #include <sstream>
 
+#include "farlod/error.hpp"
 #include "generator/city_text_file.hpp"
 #include "generator/city_writer.hpp"
 #include "generator/convex_faces.hpp"
@@ -305,7 +306,7 @@ TEST(ObjWriter, CountsFromTheCentreWhenAsked) {
 TEST(GeneratedCityWriter, NamesTheFolderThatIsNotThere) {
   const CityHeader header;
   EXPECT_THAT([&] { (void)make_obj_writer("/no/such/folder/city.obj", header); },
-              ::testing::ThrowsMessage<CityWriteError>(
+              ::testing::ThrowsMessage<OutputError>(
                   ::testing::AllOf(HasSubstr("/no/such/folder/city.obj"), HasSubstr("No such file or directory"))));
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "farlod/error.hpp"
 #include "tests/datasets/generator/solid_geometry.hpp"
 
 namespace farlod {
@@ -101,7 +102,7 @@ TEST(GeneratedCity, IdsAreUniqueAndDoNotDependOnTheLevelOfDetail) {
 TEST(GeneratedCity, RefusesUnusableSettings) {
   CitySettings settings;
   settings.tower_share = 2.0;
-  EXPECT_THROW(visit_city(settings, {.building = [](const GeneratedBuilding&) {}}), SettingsError);
+  EXPECT_THROW(visit_city(settings, {.building = [](const GeneratedBuilding&) {}}), InvalidArgument);
 }
 
 TEST(GeneratedCity, TowersComeNearToTheGreatestHeightAndNotAbove) {
@@ -128,8 +129,8 @@ TEST(SizeForBuildings, FindsTheSizeBetweenTooFewAndTooMany) {
 }
 
 TEST(SizeForBuildings, RefusesWhatNoCityHas) {
-  EXPECT_THROW((void)size_for_buildings_m(CitySettings{}, 0), SettingsError);
-  EXPECT_THROW((void)size_for_buildings_m(CitySettings{}, std::int64_t{1} << 50), SettingsError);
+  EXPECT_THROW((void)size_for_buildings_m(CitySettings{}, 0), InvalidArgument);
+  EXPECT_THROW((void)size_for_buildings_m(CitySettings{}, std::int64_t{1} << 50), InvalidArgument);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/output_files.hpp"
+#include "console/output_files.hpp"
 
 #include <fstream>
 
@@ -14,7 +14,7 @@ void require_folder_of(const std::filesystem::path& file) {
   throw OutputError(file, "there is no folder " + folder.string() + "; make it first, or choose another");
 }
 
-void write_summary(const std::string& path, const std::string& text) {
+void write_text(const std::string& path, const std::string& text) {
   if (path.empty()) return;
   std::ofstream file(path);
   file << text;

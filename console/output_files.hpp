@@ -10,7 +10,7 @@ namespace farlod {
 /// Asked before the work, which may take hours. No name needs no folder. Throws OutputError.
 void require_folder_of(const std::filesystem::path& file);
 
-/// Writes the text of `--summary`; nothing without a name. Throws OutputError.
-void write_summary(const std::string& path, const std::string& text);
+/// Writes a file such as that of `--summary`; nothing without a name. Throws OutputError.
+void write_text(const std::string& path, const std::string& text);
 
 }  // namespace farlod
