@@ -10,9 +10,8 @@
 #include <system_error>
 #include <vector>
 
-#include "app/result_provenance.hpp"
+#include "app/result_key.hpp"
 #include "farlod/error.hpp"
-#include "results/provenance.hpp"
 #include "storage/durable_file.hpp"
 
 namespace farlod {
@@ -21,31 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string name_of(Shard shard) { return fmt::format("{}_of_{}", shard.index, shard.count); }
-
-/// "--grid 2 --height 1.5" as pairs. A flag has no value.
-void add_options(const std::string& text, AnswerKey& key) {
-  for (std::size_t at = text.find("--"); at != std::string::npos;) {
-    const std::size_t next = text.find(" --", at);
-    const std::string option = text.substr(at, next == std::string::npos ? next : next - at);
-    const std::size_t space = option.find(' ');
-    key.emplace_back(option.substr(0, space), space == std::string::npos ? "on" : option.substr(space + 1));
-    at = next == std::string::npos ? next : next + 1;
-  }
-}
-
-/// What decides the answers of a run. Files count by their contents.
-AnswerKey key_of(const SvfOptions& o, const PackageDescription& package) {
-  const Provenance provenance = provenance_of(o, package);
-  AnswerKey key{{"the program", provenance.software}, {"the checksum of the package", provenance.manifest_xxh3}};
-  add_options(provenance.settings, key);
-  if (const auto& box = o.bbox_projected)
-    key.emplace_back("the box", fmt::format("{},{},{},{}", box->low.x, box->low.y, box->high.x, box->high.y));
-  if (!o.points_crs.empty()) key.emplace_back("--points-crs", o.points_crs);
-  if (!o.points_layer.empty()) key.emplace_back("--points-layer", o.points_layer);
-  for (const fs::path& file : {o.points_file, o.mask_file, o.grid_like})
-    if (!file.empty()) key.emplace_back("the checksum of " + file.filename().string(), xxh3_of_file(file));
-  return key;
-}
 
 /// How many shards there are by the names of their files.
 std::set<std::size_t> shard_counts_in(const fs::path& folder) {
@@ -72,7 +46,7 @@ KeptWork::KeptWork(const SvfOptions& options, const PackageDescription& package)
     : folder_(options.output.string() + ".unfinished"), shard_(options.shard) {
   // Single places and estimates take no time
   if (options.source == ReceiverSource::at || options.evaluation.dry_run) return;
-  const AnswerKey key = key_of(options, package);
+  const AnswerKey key = key_of_answers(options, package);
   options.merge ? open_shards(options, key) : open_own(options, key);
 }
 

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "app/named_points.hpp"
-#include "app/result_provenance.hpp"
+#include "app/result_key.hpp"
 #include "app/run_histogram.hpp"
 #include "app/sun_of_package.hpp"
 #include "farlod/error.hpp"

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/result_key.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/scenes/temporary_folder.hpp"
+
+// Kept answers are taken again where the key is the same. So each setting either changes the key or changes no value.
+
+namespace farlod {
+namespace {
+
+struct Change {
+  std::string name;
+  std::function<void(SvfOptions&)> make;
+};
+
+/// The members of each kind of settings are bound here one by one: a new one does not compile until somebody has said below
+/// whether it changes values.
+[[maybe_unused]] void all_members_are_known(SvfOptions& o) {
+  [[maybe_unused]] auto& [package, output, format, preview_format, verify_format, source, grid_step_m, grid_like, points_file,
+                          points_crs, points_layer, surfaces, city_file, at, placing, bbox, mask, evaluation, sunshine, preview,
+                          verify_file, histogram, projection, memory_limit, resume, merge, shard, run] = o;
+  [[maybe_unused]] auto& [choice, spacing_m] = surfaces;
+  [[maybe_unused]] auto& [above, height_m] = placing;
+  [[maybe_unused]] auto& [engine, weight, directions, azimuths, rays, max_error, bounds, verify, dry_run, region, further] =
+      evaluation;
+  [[maybe_unused]] auto& [svf_solid, directional, hidden, horizons, distances, sky_patches, sun, svf_total, svf_total_bounds,
+                          svfaveg, directional_vegetation, sky_shares, canopy] = further;
+  [[maybe_unused]] auto& [rule, season, transmissivity, extinction] = canopy;
+  [[maybe_unused]] auto& [first, days, step] = *sunshine;
+}
+
+class ResultKey : public testing::Test {
+ protected:
+  ResultKey() {
+    for (const char* name : {"a.csv", "b.csv", "a.geojson", "b.geojson", "a.tif", "b.tif"})
+      std::ofstream(folder.file(name)) << name;
+  }
+
+  [[nodiscard]] AnswerKey changed(const SvfOptions& before, const Change& change) const {
+    SvfOptions after = before;
+    change.make(after);
+    return key_of_answers(after, package);
+  }
+  void expect_each_to_change(const SvfOptions& before, const std::vector<Change>& changes) const {
+    std::vector<AnswerKey> seen{key_of_answers(before, package)};
+    for (const Change& change : changes) {
+      seen.push_back(changed(before, change));
+      for (std::size_t n = 0; n + 1 < seen.size(); ++n) EXPECT_NE(seen[n], seen.back()) << change.name << " and change " << n;
+    }
+  }
+
+  scenes::TemporaryFolder folder;
+  PackageDescription package;
+};
+
+SvfOptions raster() {
+  SvfOptions o;
+  o.package = "town.farlod";
+  o.grid_step_m = 2.0;
+  return o;
+}
+
+TEST_F(ResultKey, HasEachReceiver) {
+  const SvfOptions grid = raster();
+  expect_each_to_change(
+      grid, {{"--grid", [](SvfOptions& o) { o.grid_step_m = 1.0; }},
+             {"--grid-like", [&](SvfOptions& o) { o.grid_like = folder.file("a.tif"); }},
+             {"--grid-like of other contents", [&](SvfOptions& o) { o.grid_like = folder.file("b.tif"); }},
+             {"--height", [](SvfOptions& o) { o.placing.height_m = 2.0; }},
+             {"--on-surface", [](SvfOptions& o) { o.placing.above = HeightAbove::highest_surface; }},
+             {"--bbox",
+              [](SvfOptions& o) {
+                o.bbox_projected = Box2d{{0, 0}, {1, 1}};
+              }},
+             {"--mask", [&](SvfOptions& o) { o.mask_file = folder.file("a.geojson"); }},
+             {"--mask of other contents", [&](SvfOptions& o) { o.mask_file = folder.file("b.geojson"); }},
+             {"--surfaces", [](SvfOptions& o) { o.source = ReceiverSource::surfaces; }},
+             {"--along", [&](SvfOptions& o) { o.source = ReceiverSource::lines, o.points_file = folder.file("a.geojson"); }},
+             {"--points", [&](SvfOptions& o) { o.source = ReceiverSource::points, o.points_file = folder.file("a.csv"); }}});
+  SvfOptions points = raster();
+  points.source = ReceiverSource::points;
+  points.points_file = folder.file("a.csv");
+  expect_each_to_change(points, {{"--points", [&](SvfOptions& o) { o.points_file = folder.file("b.csv"); }},
+                                 {"--points-crs", [](SvfOptions& o) { o.points_crs = "EPSG:4326"; }},
+                                 {"--points-layer", [](SvfOptions& o) { o.points_layer = "a"; }},
+                                 {"--bbox",
+                                  [](SvfOptions& o) {
+                                    o.bbox_projected = Box2d{{0, 0}, {1, 1}};
+                                  }},
+                                 {"--height", [](SvfOptions& o) { o.placing.height_m = 2.0; }}});
+  SvfOptions surfaces = raster();
+  surfaces.source = ReceiverSource::surfaces;
+  expect_each_to_change(surfaces, {{"--surfaces", [](SvfOptions& o) { o.surfaces.choice = SurfaceChoice::walls; }},
+                                   {"--spacing", [](SvfOptions& o) { o.surfaces.spacing_m = 1.0; }}});
+}
+
+TEST_F(ResultKey, HasWhatDecidesErrors) {
+  expect_each_to_change(raster(), {{"--engine", [](SvfOptions& o) { o.evaluation.engine = Engine::exact; }},
+                                   {"--sky", [](SvfOptions& o) { o.evaluation.weight = SkyWeight::solid_angle; }},
+                                   {"--directions", [](SvfOptions& o) { o.evaluation.directions = DirectionSet::fibonacci; }},
+                                   {"--azimuths", [](SvfOptions& o) { o.evaluation.azimuths = 100; }},
+                                   {"--rays", [](SvfOptions& o) { o.evaluation.rays = 100; }},
+                                   {"--max-error", [](SvfOptions& o) { o.evaluation.max_error = 0.01; }},
+                                   {"--bounds", [](SvfOptions& o) { o.evaluation.bounds = true; }}});
+}
+
+TEST_F(ResultKey, HasEachQuantity) {
+  using namespace std::chrono;
+  const auto sun = [](sys_days first, std::size_t days, minutes step) {
+    return [=](SvfOptions& o) { o.sunshine = SunPeriod{first, days, step}; };
+  };
+  const auto further = [](auto member) { return [member](SvfOptions& o) { o.evaluation.further.*member = true; }; };
+  expect_each_to_change(raster(),
+                        {{"svf_solid", further(&Quantities::svf_solid)},
+                         {"directional", further(&Quantities::directional)},
+                         {"hidden", further(&Quantities::hidden)},
+                         {"horizon", [](SvfOptions& o) { o.evaluation.further.horizons = 36; }},
+                         {"horizon at more azimuths", [](SvfOptions& o) { o.evaluation.further.horizons = 72; }},
+                         {"horizon_distance", further(&Quantities::horizon_distances)},
+                         {"145 patches", [](SvfOptions& o) { o.evaluation.further.sky_patches = SkyPatchSet::tregenza; }},
+                         {"577 patches", [](SvfOptions& o) { o.evaluation.further.sky_patches = SkyPatchSet::reinhart; }},
+                         {"svf_total", further(&Quantities::svf_total)},
+                         {"svfaveg", further(&Quantities::svfaveg)},
+                         {"directional_vegetation", further(&Quantities::directional_vegetation)},
+                         {"shares", further(&Quantities::sky_shares)},
+                         {"sun of a day", sun(2026y / 6 / 21, 1, 5min)},
+                         {"sun of another day", sun(2026y / 1 / 1, 1, 5min)},
+                         {"sun of a year", sun(2026y / 1 / 1, 365, 5min)},
+                         {"sun in other steps", sun(2026y / 1 / 1, 365, 10min)}});
+}
+
+TEST_F(ResultKey, HasWhatCrownsDo) {
+  SvfOptions trees = raster();
+  trees.evaluation.further.svf_total = true;
+  const auto canopy = [](auto change) { return [change](SvfOptions& o) { change(o.evaluation.further.canopy); }; };
+  expect_each_to_change(trees, {{"--canopy-rule", canopy([](CanopySettings& c) { c.rule = CanopyRule::each; })},
+                                {"--transmissivity", canopy([](CanopySettings& c) { c.transmissivity = 0.1; })},
+                                {"--leaf-off", canopy([](CanopySettings& c) { c.season = Season::leaf_off; })},
+                                {"beer", canopy([](CanopySettings& c) { c.rule = CanopyRule::beer; })},
+                                {"--extinction", canopy([](CanopySettings& c) {
+                                   c.rule = CanopyRule::beer;
+                                   c.extinction_per_m = 0.1;
+                                 })}});
+}
+
+TEST_F(ResultKey, HasThePackage) {
+  const AnswerKey before = key_of_answers(raster(), package);
+  package.manifest_xxh3 += 1;
+  EXPECT_NE(key_of_answers(raster(), package), before);
+}
+
+TEST_F(ResultKey, HasNothingThatChangesNoValue) {
+  for (const Change& change :
+       {Change{"-o", [](SvfOptions& o) { o.output = "b.tif"; }},
+        Change{"the package's folder", [](SvfOptions& o) { o.package = "elsewhere/town.farlod"; }},
+        Change{"--preview", [](SvfOptions& o) { o.preview_file = "b.png"; }},
+        Change{"--verify", [](SvfOptions& o) { o.evaluation.verify = 100, o.verify_file = "b.csv"; }},
+        Change{"--histogram", [](SvfOptions& o) { o.histogram_file = "b.csv"; }},
+        Change{"--projection", [](SvfOptions& o) { o.projection = SkyProjection::equidistant; }},
+        Change{"--memory-limit", [](SvfOptions& o) { o.memory_limit_mib = 100; }},
+        Change{"--city", [](SvfOptions& o) { o.city_file = "b.gml"; }},
+        Change{"--dry-run", [](SvfOptions& o) { o.evaluation.dry_run = true; }},
+        Change{"--resume", [](SvfOptions& o) { o.resume = true; }},
+        Change{"--shard",
+               [](SvfOptions& o) {
+                 o.shard = Shard{0, 2};
+               }},
+        Change{"--merge", [](SvfOptions& o) { o.merge = true; }}, Change{"--threads", [](SvfOptions& o) { o.run.threads = 1; }},
+        Change{"crowns that nobody asks for", [](SvfOptions& o) { o.evaluation.further.canopy.season = Season::leaf_off; }}})
+    EXPECT_EQ(changed(raster(), change), key_of_answers(raster(), package)) << change.name;
+}
+
+TEST_F(ResultKey, IsTheCommandLineOfAResult) {
+  SvfOptions o = raster();
+  o.placing.above = HeightAbove::highest_surface;
+  o.evaluation.bounds = true;
+  o.evaluation.further.svf_total = true;
+  EXPECT_EQ(provenance_of(o, package).settings,
+            "--grid 2 --height 1.5 --on-surface --engine auto --sky cosine --bounds --quantity svf,svf_total --canopy-rule umep");
+}
+
+}  // namespace
+}  // namespace farlod
