@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "farlod/angle.hpp"
@@ -78,13 +79,25 @@ struct Quantities {
   bool sky_shares = false;
   CanopySettings canopy = {};
 
-  [[nodiscard]] bool any() const {
-    return svf_solid || directional || hidden || horizons > 0 || sky_patches != SkyPatchSet::none || sun.has_value() ||
-           any_of_canopies();
-  }
-  [[nodiscard]] bool any_of_canopies() const { return svf_total || svfaveg || directional_vegetation || sky_shares; }
+  [[nodiscard]] FARLOD_EXPORT bool any() const;
+  [[nodiscard]] FARLOD_EXPORT bool any_of_canopies() const;
+  /// Those that know SkyWeight::cosine alone.
+  [[nodiscard]] FARLOD_EXPORT bool any_weighted() const;
 };
 
+/// Asks for a quantity by its word, as farlod-svf --quantity does: with 36 horizons, or 145 patches, where their number is not
+/// chosen yet. False: there is no quantity of this word.
+[[nodiscard]] FARLOD_EXPORT bool ask_for(std::string_view word, Quantities& quantities);
+
+/// One of the numbers that a receiver has.
+struct ColumnDescription {
+  std::string name;             ///< such as "svf_low"
+  std::string unit = "1";       ///< in the words of UDUNITS; "1" of a share
+  std::string definition = {};  ///< what the number is, as a phrase
+};
+
+/// The columns of some quantities, in their order.
+[[nodiscard]] FARLOD_EXPORT std::vector<ColumnDescription> column_descriptions_of(const Quantities& quantities);
 /// The names of the columns of some quantities, in their order.
 [[nodiscard]] FARLOD_EXPORT std::vector<std::string> columns_of(const Quantities& quantities);
 

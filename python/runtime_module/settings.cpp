@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -83,11 +84,8 @@ std::shared_ptr<Region> region_of(const std::vector<RingInPython>& rings_m) {
 
 /// What crowns of trees do, as properties of the quantities themselves.
 void add_canopy(py::class_<Quantities>& quantities) {
-  quantities.def_readwrite("svf_total", &Quantities::svf_total)
+  quantities.def_readonly("svf_total", &Quantities::svf_total)
       .def_readwrite("svf_total_bounds", &Quantities::svf_total_bounds)
-      .def_readwrite("svfaveg", &Quantities::svfaveg)
-      .def_readwrite("directional_vegetation", &Quantities::directional_vegetation)
-      .def_readwrite("shares", &Quantities::sky_shares)
       .def_property(
           "leaf_off", [](const Quantities& q) { return q.canopy.season == Season::leaf_off; },
           [](Quantities& q, bool is_off) { q.canopy.season = is_off ? Season::leaf_off : Season::leaf_on; })
@@ -107,9 +105,12 @@ void add_quantities(py::module_& module) {
   py::class_<Quantities> exposed(module, "Quantities");
   add_canopy(exposed);
   exposed.def(py::init<>())
-      .def_readwrite("svf_solid", &Quantities::svf_solid)
-      .def_readwrite("directional", &Quantities::directional)
-      .def_readwrite("hidden", &Quantities::hidden)
+      .def(
+          "ask",
+          [](Quantities& quantities, const std::string& word) {
+            if (!ask_for(word, quantities)) throw InvalidArgument("there is no quantity \"" + word + "\"");
+          },
+          py::arg("word"))
       .def_readwrite("horizons", &Quantities::horizons)
       .def_readwrite("horizon_distances", &Quantities::horizon_distances)
       .def("set_sky_patches", setter_of("sky_patches", &Quantities::sky_patches, patch_sets), py::arg("patches"))
@@ -118,7 +119,13 @@ void add_quantities(py::module_& module) {
           [](Quantities& quantities, const std::vector<double>& azimuth_deg, const std::vector<double>& elevation_deg,
              const std::vector<double>& hours) { quantities.sun = sun_positions(azimuth_deg, elevation_deg, hours); },
           py::arg("azimuth_deg"), py::arg("elevation_deg"), py::arg("hours"))
-      .def("columns", &columns_of);
+      .def("columns", &columns_of)
+      .def("descriptions", [](const Quantities& quantities) {
+        std::vector<std::tuple<std::string, std::string, std::string>> columns;
+        for (const ColumnDescription& column : column_descriptions_of(quantities))
+          columns.emplace_back(column.name, column.unit, column.definition);
+        return columns;
+      });
 }
 
 void add_evaluation_settings(py::module_& module) {

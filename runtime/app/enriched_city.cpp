@@ -42,8 +42,8 @@ void require_writable(const SvfOptions& options) {
 WrittenRun write_enriched_city(const Package& package, const SvfOptions& options, RunSettings run) {
   require_packed(package, options);
   require_writable(options);
-  const EnrichedCityFile city(
-      options.city_file, {quantity_name(options.evaluation.weight), BoundsColumns::no, columns_of(options.evaluation.further)});
+  const EnrichedCityFile city(options.city_file, {quantity_name(options.evaluation.weight), BoundsColumns::no,
+                                                  column_descriptions_of(options.evaluation.further)});
   city.require_fitting(options.output);
   run.caller_bytes = city.bytes();
   RunHistogram histogram(options);

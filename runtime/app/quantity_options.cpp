@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "console/number_range.hpp"
+#include "evaluate/quantity_table.hpp"
 
 namespace farlod {
 namespace {
 
-constexpr std::size_t default_horizons = 36;
 constexpr int first_year = 1960, last_year = 2200;  // of ERFA's leap seconds, and of what it promises of the Earth's orbit
 constexpr std::size_t step_of_days = 5, step_of_years = 15;
 
@@ -44,34 +44,27 @@ SunPeriod period_of(const std::string& text, std::size_t step_minutes) {
   return {std::chrono::sys_days(first), days, std::chrono::minutes(static_cast<std::int64_t>(minutes))};
 }
 
-/// The quantities that are asked for by their name alone.
-constexpr std::array<std::pair<std::string_view, bool Quantities::*>, 7> flags{
-    {{"svf_solid", &Quantities::svf_solid},
-     {"directional", &Quantities::directional},
-     {"hidden", &Quantities::hidden},
-     {"svf_total", &Quantities::svf_total},
-     {"svfaveg", &Quantities::svfaveg},
-     {"directional_vegetation", &Quantities::directional_vegetation},
-     {"shares", &Quantities::sky_shares}}};
+/// "svf_solid, directional, hidden ...", with their meanings in brackets.
+std::string words_of(bool is_of_crowns) {
+  std::string words;
+  for (const QuantityRow& row : quantity_table())
+    if (row.is_of_crowns == is_of_crowns)
+      words.append(words.empty() ? "" : ", ").append(row.word).append(" (").append(row.meaning).append(")");
+  return words;
+}
 
-void add(const std::string& name, const RawQuantities& raw, RequestedQuantities& requested) {
-  if (name == "svf") return;
-  const auto flag = std::ranges::find(flags, name, [](const auto& f) { return f.first; });
-  if (flag != flags.end()) {
-    requested.further.*(flag->second) = true;
-  } else if (name == "horizon" || name == "horizon_distance") {
-    requested.further.horizons = default_horizons;
-    requested.further.horizon_distances |= name == "horizon_distance";
-  } else if (name == "sky_patches") {
-    requested.further.sky_patches = SkyPatchSet::tregenza;
-  } else if (name == "sunlit") {
-    if (raw.sun.empty()) throw CLI::ValidationError("--quantity", "sunlit needs a day or a year: give --sun");
-  } else {
-    throw CLI::ValidationError("--quantity", "\"" + name +
-                                                 "\" is not one of svf, svf_solid, directional, hidden, horizon, "
-                                                 "horizon_distance, sky_patches, sunlit, svf_total, svfaveg, "
-                                                 "directional_vegetation, shares");
+void add(const std::string& word, const RawQuantities& raw, Quantities& quantities) {
+  if (word == "svf") return;
+  const std::span<const QuantityRow> table = quantity_table();
+  const auto row = std::ranges::find(table, word, &QuantityRow::word);
+  if (row == table.end()) {
+    std::string words = "svf";
+    for (const QuantityRow& known : table) words.append(", ").append(known.word);
+    throw CLI::ValidationError("--quantity", "\"" + word + "\" is not one of " + words);
   }
+  // Where the sun stands depends on the package
+  if (row->quantity != Quantity::sunlit) return row->ask(quantities);
+  if (raw.sun.empty()) throw CLI::ValidationError("--quantity", "sunlit needs a day or a year: give --sun");
 }
 
 void add_canopy_options(CLI::App& app, RawQuantities& raw) {
@@ -135,16 +128,10 @@ void add_sun_options(CLI::App& app, RawQuantities& raw) {
 void add_quantity_options(CLI::App& app, RawQuantities& raw) {
   app.add_option(
          "--quantity", raw.quantities,
-         "What to compute, with commas: svf (always), svf_solid, directional (svfN, svfE, svfS, svfW as UMEP has them), "
-         "hidden (by near and by far geometry), horizon, horizon_distance (with the level distance to it), sky_patches, "
-         "sunlit; with the trees of a package svf_total (and svfveg), "
-         "svfaveg, directional_vegetation (both of each half of the sky, as UMEP has them), shares (of sky, vegetation and "
-         "building)")
+         "What to compute, with commas: svf (always), " + words_of(false) + "; with the trees of a package " + words_of(true))
       ->group("Quantities");
-  app.add_option(
-         "--horizons", raw.horizons,
-         "Elevations of the horizon, in degrees, at so many azimuths, clockwise from true north (with --quantity horizon: " +
-             std::to_string(default_horizons) + ")")
+  app.add_option("--horizons", raw.horizons,
+                 "Elevations of the horizon, in degrees, at so many azimuths, clockwise from true north")
       ->check(between(4, 3600))
       ->group("Quantities");
   app.add_option("--sky-patches", raw.sky_patches,
@@ -164,7 +151,7 @@ RequestedQuantities resolved(const RawQuantities& raw, bool is_for_solweig) {
   RequestedQuantities requested;
   if (is_for_solweig) add_for_solweig(/*has_trees=*/false, requested.further);
   if (!raw.quantities.empty())
-    for (const std::string& name : CLI::detail::split(raw.quantities + ',', ',')) add(name, raw, requested);
+    for (const std::string& name : CLI::detail::split(raw.quantities + ',', ',')) add(name, raw, requested.further);
   if (raw.horizons > 0) requested.further.horizons = raw.horizons;
   if (raw.sky_patches > 0)
     requested.further.sky_patches = raw.sky_patches == reinhart_patches ? SkyPatchSet::reinhart : SkyPatchSet::tregenza;

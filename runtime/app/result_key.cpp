@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "evaluate/quantity_table.hpp"
 #include "farlod/version.hpp"
 
 namespace farlod {
@@ -75,14 +76,11 @@ void add_canopy(const CanopySettings& canopy, AnswerKey& key) {
 
 void add_quantities(const Quantities& q, AnswerKey& key) {
   std::string further;
-  if (q.svf_solid) further += ",svf_solid";
-  if (q.directional) further += ",directional";
-  if (q.hidden) further += ",hidden";
-  if (q.horizon_distances) further += ",horizon_distance";
-  if (q.svf_total) further += ",svf_total";
-  if (q.svfaveg) further += ",svfaveg";
-  if (q.directional_vegetation) further += ",directional_vegetation";
-  if (q.sky_shares) further += ",shares";
+  for (const QuantityRow& row : quantity_table())
+    // Numbers of horizons and patches have options of their own, as the days of the sun
+    if (row.is_asked(q) && row.quantity != Quantity::horizon && row.quantity != Quantity::sky_patches &&
+        row.quantity != Quantity::sunlit)
+      further.append(",").append(row.word);
   if (!further.empty()) key.emplace_back("--quantity", "svf" + further);
   if (q.horizons > 0) key.emplace_back("--horizons", fmt::format("{}", q.horizons));
   if (q.sky_patches != SkyPatchSet::none)

@@ -302,9 +302,7 @@ Engine engine_of(const std::string& name) {
 
 void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
   RequestedQuantities requested = resolved(raw.quantities, o.format != nullptr && o.format->is_for_solweig);
-  const bool is_weighted = requested.further.svf_solid || requested.further.directional || requested.further.hidden ||
-                           requested.further.sky_patches != SkyPatchSet::none || requested.further.any_of_canopies();
-  if (is_weighted && o.evaluation.weight == SkyWeight::solid_angle)
+  if (requested.further.any_weighted() && o.evaluation.weight == SkyWeight::solid_angle)
     throw CLI::ValidationError("--quantity", "with --sky solid only horizon and sunlit can be computed: leave --sky out");
   const bool is_sky = o.source == ReceiverSource::at && o.format != nullptr && o.format->is_picture;
   if (is_sky && requested.further.any())

@@ -31,13 +31,14 @@ namespace {
 
 AnswerColumns answer_columns(const SvfOptions& options) {
   return {quantity_name(options.evaluation.weight), options.evaluation.bounds ? BoundsColumns::yes : BoundsColumns::no,
-          columns_of(options.evaluation.further)};
+          column_descriptions_of(options.evaluation.further)};
 }
 
 std::vector<Band> bands_of_run(const SvfOptions& options) {
   std::vector<Band> bands = svf_bands(quantity_name(options.evaluation.weight),
                                       options.evaluation.bounds ? RasterBands::svf_and_bounds : RasterBands::svf);
-  for (const std::string& column : columns_of(options.evaluation.further)) bands.push_back(further_band(column));
+  const std::vector<ColumnDescription> further = column_descriptions_of(options.evaluation.further);
+  bands.insert(bands.end(), further.begin(), further.end());
   return bands;
 }
 

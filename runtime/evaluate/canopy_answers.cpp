@@ -7,7 +7,7 @@
 
 #include "contract/expects.hpp"
 #include "evaluate/hidden_behind_crowns.hpp"
-#include "evaluate/quantity_columns.hpp"
+#include "evaluate/quantity_table.hpp"
 #include "occlusion/placed_mesh.hpp"
 #include "scene/canopy_around.hpp"
 #include "scene/near_crowns.hpp"
@@ -16,7 +16,7 @@
 namespace farlod {
 
 void write_canopy_columns(const Quantities& quantities, float svf, const CanopyAnswer& answer, std::span<float> values) {
-  FARLOD_EXPECTS(values.size() == count_canopy_columns(quantities));
+  FARLOD_EXPECTS(values.size() == range_of_crowns(quantities).count);
   std::size_t next = 0;
   const auto add = [&](float value) { values[next++] = value; };
   // Both are sampled: crowns hide no more than the sky that there is
@@ -48,7 +48,7 @@ void write_canopy_columns(const Quantities& quantities, float svf, const CanopyA
 void store_traced_canopies(const CellReceivers& cell, const CanopyScene& scene, Point2d scene_from_cell_m,
                            const SkyDirections& directions, const FurtherQuantities& quantities, const SkyAnswers& answers,
                            const std::stop_token& stop) {
-  const FurtherQuantities::CanopyColumns columns = quantities.canopy_columns();
+  const ColumnRange columns = quantities.canopy_columns();
   for_each_normal(cell.receivers, [&](std::span<const Receiver> group) {
     std::vector<Point3f> origins;
     for (const Receiver& r : group) origins.push_back(placed(r.p_cell, scene_from_cell_m));

@@ -32,7 +32,7 @@ struct CanopyAnswer {
   SvfInterval svf_total;
 };
 
-/// The values of a receiver whose sky view factor is known, in the order of columns_of: as many as count_canopy_columns says.
+/// The values of a receiver whose sky view factor is known, in the order of columns_of: as many as range_of_crowns says.
 void write_canopy_columns(const Quantities& quantities, float svf, const CanopyAnswer& answer, std::span<float> values);
 
 /// Stores what canopies do, of receivers whose svf is stored, by rays in their directions. Added to a place of the cell's frame,

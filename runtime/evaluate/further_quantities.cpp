@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "contract/expects.hpp"
-#include "evaluate/quantity_columns.hpp"
 #include "horizon/kernels.hpp"
 
 namespace farlod {
@@ -142,18 +141,11 @@ FurtherQuantities::FurtherQuantities(const Quantities& quantities, std::size_t a
 HorizonColumns FurtherQuantities::horizon_columns() const {
   HorizonColumns columns;
   if (!quantities_.horizon_distances) return columns;
-  const std::vector<std::string> names = columns_of(quantities_);
-  const auto first = std::ranges::find_if(names, [](const std::string& name) { return name.starts_with(horizon_column); });
-  columns.elevations = static_cast<std::size_t>(first - names.begin());
-  columns.distances = columns.elevations + azimuth_of_horizon_.size();
+  columns.elevations = range_of(Quantity::horizon, quantities_).first;
+  columns.distances = range_of(Quantity::horizon_distance, quantities_).first;
   for (const std::size_t k : azimuth_of_horizon_)
     columns.directions_grid.push_back({static_cast<double>(azimuths_.cosine()[k]), static_cast<double>(azimuths_.sine()[k])});
   return columns;
-}
-
-FurtherQuantities::CanopyColumns FurtherQuantities::canopy_columns() const {
-  const std::size_t count = count_canopy_columns(quantities_);
-  return {size_ - count, count};
 }
 
 void FurtherQuantities::divide_into_patches() {
@@ -233,30 +225,54 @@ void FurtherQuantities::evaluate(const SkyProfile& profile, const ReceiverPacket
                                  std::span<float> values) const {
   FARLOD_EXPECTS(values.size() == receivers.count * size_);
   Columns columns(size_, values);
-  if (quantities_.svf_solid) add_solid(profile, receivers, rows, columns);
-  if (quantities_.directional) add_directional(profile, receivers, sky, rows, columns);
-  if (quantities_.hidden) {
-    Lanes near, far;
-    for (std::size_t l = 0; l < packet_lanes; ++l) {
-      // Both skies are sampled: what is far hides something or nothing
-      const float near_svf = std::max(sky.near_svf[l], sky.svf[l]);
-      near[l] = std::max(0.0F, 0.5F * (1.0F + receivers.normal_z[l]) - near_svf);
-      far[l] = near_svf - sky.svf[l];
-    }
-    columns.add(near);
-    columns.add(far);
+  for (const QuantityRow& row : quantity_table())
+    if (row.is_asked(quantities_)) add(row.quantity, profile, receivers, sky, rows, columns);
+  FARLOD_EXPECTS(columns.count() == size_);
+}
+
+void FurtherQuantities::add(Quantity quantity, const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky,
+                            Rows& rows, Columns& columns) const {
+  switch (quantity) {
+    case Quantity::svf_solid:
+      return add_solid(profile, receivers, rows, columns);
+    case Quantity::directional:
+      return add_directional(profile, receivers, sky, rows, columns);
+    case Quantity::hidden:
+      return add_hidden(receivers, sky, columns);
+    case Quantity::horizon:
+      return add_horizons(profile, columns);
+    case Quantity::sky_patches:
+      return add_patches(profile, receivers, rows, columns);
+    case Quantity::sunlit:
+      return add_sunlit(profile, receivers, columns);
+    case Quantity::horizon_distance:
+    case Quantity::svf_total:
+    case Quantity::svfaveg:
+    case Quantity::directional_vegetation:
+    case Quantity::shares:
+      return columns.skip(range_of(quantity, quantities_).count);
   }
+}
+
+void FurtherQuantities::add_hidden(const ReceiverPacket& receivers, const Sky& sky, Columns& columns) {
+  Lanes near, far;
+  for (std::size_t l = 0; l < packet_lanes; ++l) {
+    // Both skies are sampled: what is far hides something or nothing
+    const float near_svf = std::max(sky.near_svf[l], sky.svf[l]);
+    near[l] = std::max(0.0F, 0.5F * (1.0F + receivers.normal_z[l]) - near_svf);
+    far[l] = near_svf - sky.svf[l];
+  }
+  columns.add(near);
+  columns.add(far);
+}
+
+void FurtherQuantities::add_horizons(const SkyProfile& profile, Columns& columns) const {
   for (const std::size_t k : azimuth_of_horizon_) {
     Lanes degrees;
     for (std::size_t l = 0; l < packet_lanes; ++l)
       degrees[l] = static_cast<float>(Angle::radians(std::atan(static_cast<double>(profile.sky_from[k][l]))).degrees());
     columns.add(degrees);
   }
-  if (quantities_.horizon_distances) columns.skip(azimuth_of_horizon_.size());
-  if (quantities_.sky_patches != SkyPatchSet::none) add_patches(profile, receivers, rows, columns);
-  if (quantities_.sun) add_sunlit(profile, receivers, columns);
-  columns.skip(canopy_columns().count);
-  FARLOD_EXPECTS(columns.count() == size_);
 }
 
 void FurtherQuantities::add_solid(const SkyProfile& profile, const ReceiverPacket& receivers, Rows& rows,

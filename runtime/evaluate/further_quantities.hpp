@@ -10,6 +10,7 @@
 
 #include "contract/package/manifest.hpp"
 #include "evaluate/horizon_distances.hpp"
+#include "evaluate/quantity_table.hpp"
 #include "evaluate/sky_halves.hpp"
 #include "farlod/quantities.hpp"
 #include "horizon/azimuth_sampling.hpp"
@@ -52,10 +53,7 @@ class FurtherQuantities {
   /// Where the horizons are whose distances must be traced: profiles do not tell them, and evaluate() leaves their places out.
   [[nodiscard]] HorizonColumns horizon_columns() const;
   /// Where the values of canopies are, which take crowns beside profiles (CanopyAnswers): evaluate() leaves their places out.
-  struct CanopyColumns {
-    std::size_t first = 0, count = 0;
-  };
-  [[nodiscard]] CanopyColumns canopy_columns() const;
+  [[nodiscard]] ColumnRange canopy_columns() const { return range_of_crowns(quantities_); }
   [[nodiscard]] const Quantities& quantities() const { return quantities_; }
   /// The halves of the sky, for the azimuths.
   [[nodiscard]] const SkyHalves& halves() const { return halves_; }
@@ -67,9 +65,13 @@ class FurtherQuantities {
  private:
   /// Takes the values of a packet, column by column.
   class Columns;
+  void add(Quantity quantity, const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky, Rows& rows,
+           Columns& columns) const;
   void add_solid(const SkyProfile& profile, const ReceiverPacket& receivers, Rows& rows, Columns& columns) const;
   void add_directional(const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky, Rows& rows,
                        Columns& columns) const;
+  static void add_hidden(const ReceiverPacket& receivers, const Sky& sky, Columns& columns);
+  void add_horizons(const SkyProfile& profile, Columns& columns) const;
   void add_patches(const SkyProfile& profile, const ReceiverPacket& receivers, Rows& rows, Columns& columns) const;
   void add_sunlit(const SkyProfile& profile, const ReceiverPacket& receivers, Columns& columns) const;
 

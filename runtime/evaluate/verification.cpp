@@ -12,7 +12,7 @@
 #include <set>
 
 #include "contract/expects.hpp"
-#include "evaluate/quantity_columns.hpp"
+#include "evaluate/quantity_table.hpp"
 
 namespace farlod {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "contract/cancellation.hpp"
 #include "contract/shard_parts.hpp"
-#include "evaluate/quantity_columns.hpp"
+#include "evaluate/quantity_table.hpp"
 #include "evaluate/verification.hpp"
 #include "farlod/error.hpp"
 #include "run/kept_answers.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contract/run_settings.hpp"
-#include "evaluate/quantity_columns.hpp"
+#include "evaluate/quantity_table.hpp"
 #include "farlod/error.hpp"
 #include "farlod/raster.hpp"
 #include "receivers/hilbert_curve.hpp"

@@ -37,8 +37,7 @@ void check(const Quantities& q, SkyWeight weight) {
     require_between("the hours of a position of the sun", sun.hours, 0.0, 8784.0);
   }
   check(q.canopy);
-  if (weight == SkyWeight::solid_angle &&
-      (q.svf_solid || q.directional || q.hidden || q.sky_patches != SkyPatchSet::none || q.any_of_canopies()))
+  if (weight == SkyWeight::solid_angle && q.any_weighted())
     throw InvalidArgument(
         "with the weight solid_angle only horizons and sunshine can be computed beside it: the others are weighted by the "
         "cosine; leave the weight out");

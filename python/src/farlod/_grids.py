@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
+#: Of the sky view factor itself, which is no further quantity.
 LONG_NAMES = {
     "svf": "sky view factor",
     "svf_low": "certain lower bound of the sky view factor",
@@ -29,28 +30,6 @@ LONG_NAMES = {
     "svf_solid_low": "certain lower bound of the share of solid angle",
     "svf_solid_high": "certain upper bound of the share of solid angle",
     "svf_solid": "share of the solid angle of the sky",
-    "svfN": "sky view factor of the northern half",
-    "svfE": "sky view factor of the eastern half",
-    "svfS": "sky view factor of the southern half",
-    "svfW": "sky view factor of the western half",
-    "hidden_near": "share of the sky hidden by geometry of the neighborhood",
-    "hidden_far": "share of the sky hidden by the far city alone",
-    "svf_total": "sky view factor with what passes the crowns of trees",
-    "svf_total_low": "certain lower bound of svf_total",
-    "svf_total_high": "certain upper bound of svf_total",
-    "svfveg": "1 - the sky behind crowns of trees",
-    "svfaveg": "1 - the view of solid things hidden by crowns of trees",
-    "svfNveg": "svfveg of the northern half",
-    "svfEveg": "svfveg of the eastern half",
-    "svfSveg": "svfveg of the southern half",
-    "svfWveg": "svfveg of the western half",
-    "svfNaveg": "svfaveg of the northern half",
-    "svfEaveg": "svfaveg of the eastern half",
-    "svfSaveg": "svfaveg of the southern half",
-    "svfWaveg": "svfaveg of the western half",
-    "share_sky": "share of the view that is sky",
-    "share_vegetation": "share of the view that is crowns of trees",
-    "share_building": "share of the view that is neither sky nor crowns of trees",
 }
 
 
@@ -98,6 +77,11 @@ def _names(evaluation: Evaluation) -> list[str]:
     return [quantity, *bounds, *evaluation.further().columns()]
 
 
+def _attributes(evaluation: Evaluation) -> dict[str, dict[str, str]]:
+    further = {name: {"long_name": text, "units": unit} for name, unit, text in evaluation.further().descriptions()}
+    return {name: {"long_name": text, "units": "1"} for name, text in LONG_NAMES.items()} | further
+
+
 def _bands(raster: Mapping[str, Any]) -> list[Any]:
     bounds = [] if raster["low"] is None else [raster["low"], raster["high"]]
     return [raster["svf"], *bounds, *raster["further"]]
@@ -122,12 +106,17 @@ def _coordinates(pixels: Any, crs: Any) -> dict[str, Any]:
     }
 
 
-def _dataset(bands: Mapping[str, Any], pixels: Any, crs: Any, like: Any, attributes: Mapping[str, Any]) -> xarray.Dataset:
+def _dataset(
+    bands: Mapping[str, Any],
+    pixels: Any,
+    of_bands: Mapping[str, Mapping[str, str]],
+    crs: Any,
+    like: Any,
+    attributes: Mapping[str, Any],
+) -> xarray.Dataset:
     import xarray
 
-    variables = {
-        name: (("y", "x"), band, {"long_name": LONG_NAMES.get(name, name), "units": "1"}) for name, band in bands.items()
-    }
+    variables = {name: (("y", "x"), band, dict(of_bands.get(name, {}))) for name, band in bands.items()}
     dataset = xarray.Dataset(variables, _coordinates(pixels, crs), dict(attributes))
     for name in bands:
         dataset[name].encoding.update(grid_mapping="spatial_ref", _FillValue=np.float32(np.nan))
@@ -145,7 +134,7 @@ def eager(package: Any, pixels: Any, evaluation: Evaluation, crs: Any, like: Any
         package, pixels, evaluation.placing(), evaluation.settings(), evaluation.caller()
     )
     bands = dict(zip(_names(evaluation), _bands(raster)))
-    return _dataset(bands, pixels, crs, like, {"summary": json.dumps(raster["summary"])})
+    return _dataset(bands, pixels, _attributes(evaluation), crs, like, {"summary": json.dumps(raster["summary"])})
 
 
 def _block(
@@ -195,13 +184,13 @@ def lazy(city: Any, pixels: Any, evaluation: Evaluation, mask: Any, chunks: Any,
         evaluation=evaluation,
         mask=mask,
     )
-    return _dataset({name: stack[n] for n, name in enumerate(names)}, pixels, city.crs, like, {})
+    return _dataset({name: stack[n] for n, name in enumerate(names)}, pixels, _attributes(evaluation), city.crs, like, {})
 
 
 def ground(package: Any, pixels: Any, caller: Any, crs: Any) -> xarray.DataArray:
     """Heights of the ground."""
     heights = _runtime.ground_heights(package, pixels, caller)
-    array = _dataset({"ground": heights}, pixels, crs, None, {})["ground"]
+    array = _dataset({"ground": heights}, pixels, {}, crs, None, {})["ground"]
     array.attrs = {"long_name": "height of the ground above sea level", "units": "m"}
     return array
 

@@ -32,16 +32,10 @@ class Region:
     def __init__(self, rings_m: Sequence[Sequence[tuple[float, float]]]) -> None: ...
 
 class Quantities:
-    svf_solid: bool
-    directional: bool
-    hidden: bool
     horizons: int
     horizon_distances: bool
     svf_total: bool
     svf_total_bounds: bool
-    svfaveg: bool
-    directional_vegetation: bool
-    shares: bool
     leaf_off: bool
     transmissivity: float | None
     extinction: float
@@ -49,7 +43,9 @@ class Quantities:
     def set_sky_patches(self, patches: str) -> None: ...
     def set_canopy_rule(self, rule: str) -> None: ...
     def set_sun(self, azimuth_deg: _Floats64, elevation_deg: _Floats64, hours: _Floats64) -> None: ...
+    def ask(self, word: str) -> None: ...
     def columns(self) -> list[str]: ...
+    def descriptions(self) -> list[tuple[str, str, str]]: ...
 
 class EvaluationSettings:
     azimuths: int | None

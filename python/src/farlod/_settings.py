@@ -7,7 +7,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from typing import Any, Literal, TypedDict, Union
+from typing import Any, Literal, TypedDict, Union, get_args
 
 from farlod import _arguments
 from farlod._modules import runtime as _runtime
@@ -22,8 +22,6 @@ CanopyRule = Literal["umep", "crowns", "beer"]
 #: Called as ``progress(stage, done, all)`` some times a second, by the thread that called farlod; True prints a line.
 ProgressListener = Callable[[str, int, int], None]
 Progress = Union[bool, ProgressListener, None]
-
-QUANTITIES = ("svf_solid", "directional", "hidden", "svf_total", "svfaveg", "directional_vegetation", "shares")
 
 
 #: Options that are no settings of an evaluation by themselves.
@@ -129,7 +127,7 @@ class Evaluation:
         asked = (self.quantities,) if isinstance(self.quantities, str) else tuple(self.quantities)
         further = _runtime.Quantities()
         for name in asked:
-            setattr(further, _arguments.word("quantities", name, QUANTITIES), True)
+            further.ask(_arguments.word("quantities", name, get_args(Quantity)))
         further.svf_total_bounds = further.svf_total and _arguments.flag("bounds", self.bounds)
         further.horizons = self.horizons
         further.horizon_distances = self.horizon_distances

@@ -55,7 +55,7 @@ SurfaceMean merged(std::span<const SurfaceMean* const> surfaces) {
 std::vector<std::string> attribute_names_of_surfaces(const AnswerColumns& columns) {
   const std::string& q = columns.quantity;
   std::vector<std::string> names{q + "_mean", q + "_min", q + "_max", "svf_area_m2", "covered_area_m2"};
-  for (const std::string& name : columns.further) names.push_back(name + "_mean");
+  for (const ColumnDescription& column : columns.further) names.push_back(column.name + "_mean");
   return names;
 }
 

@@ -8,24 +8,18 @@
 #include <string>
 #include <vector>
 
+#include "farlod/quantities.hpp"
 #include "farlod/raster.hpp"
 #include "results/provenance.hpp"
 
 namespace farlod {
 
 /// One of the numbers that a pixel has.
-struct Band {
-  std::string name;        ///< such as "svf_low"
-  std::string unit;        ///< in the words of UDUNITS; "1" of a share
-  std::string definition;  ///< what the number is, as a phrase
-};
+using Band = ColumnDescription;
 
 /// The bands of sky view factors. `quantity` is "svf" or "svf_solid": the name of the first band; `_low` and `_high` behind it
 /// are those of the bounds.
 [[nodiscard]] std::vector<Band> svf_bands(const std::string& quantity, RasterBands bands);
-
-/// The band of a further quantity, by the name of its column (columns_of).
-[[nodiscard]] Band further_band(const std::string& column);
 
 /// The values of a tile, band by band in the order of RasterFrame::bands. They are those of the tile, and live as long.
 [[nodiscard]] std::vector<std::span<const float>> bands_of(const RasterTile& tile);

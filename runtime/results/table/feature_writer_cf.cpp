@@ -39,7 +39,7 @@ bool is_coordinate(const std::string& name) { return name == "x_m" || name == "y
 std::vector<Band> bands_of(const AnswerColumns& columns) {
   std::vector<Band> bands =
       svf_bands(columns.quantity, columns.bounds == BoundsColumns::yes ? RasterBands::svf_and_bounds : RasterBands::svf);
-  for (const std::string& column : columns.further) bands.push_back(further_band(column));
+  bands.insert(bands.end(), columns.further.begin(), columns.further.end());
   return bands;
 }
 

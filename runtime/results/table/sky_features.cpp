@@ -149,7 +149,7 @@ void write_surfaces_as_features(std::span<const SurfaceMean> rows, const TableFr
   add_fields(layer, FieldType::real, {"azimuth_deg", "tilt_deg", "area_m2"});
   add_fields(layer, FieldType::whole, {"receivers", "nodata"});
   add_fields(layer, FieldType::real, {quantity + "_mean", quantity + "_min", quantity + "_max", "covered_area_m2"});
-  for (const std::string& name : frame.columns.further) add_fields(layer, FieldType::real, {name + "_mean"});
+  for (const ColumnDescription& column : frame.columns.further) add_fields(layer, FieldType::real, {column.name + "_mean"});
   writer.begin(layer);
   for (const SurfaceMean& r : rows) {
     FeatureRow feature{{},

@@ -133,7 +133,7 @@ void write_surfaces_csv(std::span<const SurfaceMean> rows, const AnswerColumns& 
   CsvText header;
   header.fields({"building", "surface", "kind", "azimuth_deg", "tilt_deg", "area_m2", "receivers", "nodata",
                  columns.quantity + "_mean", columns.quantity + "_min", columns.quantity + "_max", "covered_area_m2"});
-  for (const std::string& name : columns.further) header.field(name + "_mean");
+  for (const ColumnDescription& column : columns.further) header.field(column.name + "_mean");
   header.end_row();
   write_table(path, std::move(header), rows.size(), [&](std::size_t n, CsvText& text) { add_surface(rows[n], columns, text); });
 }

@@ -25,7 +25,7 @@ std::string_view word_for(SurfaceKind kind) {
 std::vector<std::string> names_of(const AnswerColumns& columns) {
   std::vector<std::string> names{columns.quantity};
   if (columns.bounds == BoundsColumns::yes) names.insert(names.end(), {columns.quantity + "_low", columns.quantity + "_high"});
-  names.insert(names.end(), columns.further.begin(), columns.further.end());
+  for (const ColumnDescription& column : columns.further) names.push_back(column.name);
   return names;
 }
 

@@ -27,7 +27,7 @@ enum class BoundsColumns { no, yes };
 struct AnswerColumns {
   std::string quantity;  ///< "svf" or "svf_solid"
   BoundsColumns bounds = BoundsColumns::no;
-  std::vector<std::string> further = {};  ///< names of the columns of other quantities
+  std::vector<ColumnDescription> further = {};
 };
 
 /// Columns of a table, and what its file says of the whole of it.

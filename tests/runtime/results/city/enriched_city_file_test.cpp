@@ -123,7 +123,7 @@ TEST_F(EnrichedCityFileTest, WhatWasNotAskedForIsNotWritten) {
 TEST_F(EnrichedCityFileTest, FurtherQuantitiesAreWeightedByArea) {
   SurfaceMeans means = means_of_b();
   for (SurfaceMean& mean : means.surfaces) mean.further_mean = {*mean.svf_mean / 2.0};
-  const std::string text = enriched(file_with(building("") + "}"), means, {"svf_solid", BoundsColumns::no, {"svfN"}});
+  const std::string text = enriched(file_with(building("") + "}"), means, {"svf_solid", BoundsColumns::no, {{"svfN"}}});
   EXPECT_THAT(text, HasSubstr("\"svf_solid_roofs\":0.650000"));
   EXPECT_THAT(text, HasSubstr("\"svf_solid_mean\":0.250000"));
   EXPECT_THAT(text, HasSubstr("\"svfN_mean\":0.325}"));

@@ -82,7 +82,7 @@ TEST(PointsCsv, FurtherColumnsFollowTheBounds) {
   const std::vector<float> of_first{12.25F, std::nanf("")}, of_second{1e-7F, 300.0F};
   const std::vector<PointRow> rows{{"1", {1.0, 2.0}, 3.0, 0.5, 0.25, 0.75, {}, {}, of_first},
                                    {"2", {3.0, 4.0}, {}, {}, {}, {}, {}, {}, of_second}};
-  const AnswerColumns columns{"svf", BoundsColumns::yes, {"sun_h", "sky_w_m2"}};
+  const AnswerColumns columns{"svf", BoundsColumns::yes, {{"sun_h"}, {"sky_w_m2"}}};
   write_points_csv(point_rows(rows), columns, folder.file("a.csv"));
   EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
             "id,x_m,y_m,z_m,svf,svf_low,svf_high,sun_h,sky_w_m2\n"
@@ -140,7 +140,7 @@ TEST(SurfacePointsCsv, PartsStandInOrderHoweverTheyCome) {
 TEST(SurfacePointsCsv, FurtherColumnsFollowRowByRow) {
   const scenes::TemporaryFolder folder;
   std::vector<SurfacePoint> rows(2);
-  SurfacePointsCsv table({"svf", BoundsColumns::no, {"a", "b"}}, folder.file("a.csv"));
+  SurfacePointsCsv table({"svf", BoundsColumns::no, {{"a"}, {"b"}}}, folder.file("a.csv"));
   rows[0].further = {1.5F, std::nanf("")};
   table.write_part(0, rows);
   table.commit();
@@ -155,7 +155,7 @@ TEST(SurfacesCsv, IsAsDocumented) {
   std::vector<SurfaceMean> rows(2);
   rows[0] = {"b1", 0, SurfaceKind::roof, Angle::degrees(0.0), Angle::degrees(0.0), 100.5, 4.5, 25, 1, 0.75, 0.5, 1.0, {0.25}};
   rows[1].building = "b2";
-  write_surfaces_csv(rows, {"svf", BoundsColumns::no, {"svfN"}}, folder.file("a.csv"));
+  write_surfaces_csv(rows, {"svf", BoundsColumns::no, {{"svfN"}}}, folder.file("a.csv"));
   EXPECT_EQ(
       scenes::text_of(folder.file("a.csv")),
       "building,surface,kind,azimuth_deg,tilt_deg,area_m2,receivers,nodata,svf_mean,svf_min,svf_max,covered_area_m2,svfN_mean\n"

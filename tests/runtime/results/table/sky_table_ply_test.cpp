@@ -69,7 +69,7 @@ TEST(Ply, HasPlacesNormalsAnswersAndColours) {
   const std::vector<PointRow> rows{{"a", {500000.125, 5700010.5}, 7.25, 0.5, 0.25, 0.75, 92.0, 90.0, further},
                                    {"in a house", {1.0, 2.0}, {}, {}, {}, {}, {}, {}, further},
                                    {"no answer", {3.0, 4.0}, 5.0, {}, {}, {}, {}, {}, further}};
-  TableFrame frame{{"svf", BoundsColumns::yes, {"sun_h"}}};
+  TableFrame frame{{"svf", BoundsColumns::yes, {{"sun_h"}}}};
   frame.epsg = 25832;
   frame.convergence = Angle::degrees(2.0);
   frame.provenance = {"Far-LoD", "two\nlines", "", ""};

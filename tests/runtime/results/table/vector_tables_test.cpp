@@ -196,7 +196,7 @@ std::vector<std::filesystem::path> write_surfaces(const std::filesystem::path& p
     rows[n].p_projected = {500000.0 + static_cast<double>(n), 5700000.0, 10.0};
     if (n > 0) rows[n].svf = 0.25;
   }
-  TableFrame frame{{"svf", BoundsColumns::no, {"sun_h"}}, small_raster().crs_wkt, 25832};
+  TableFrame frame{{"svf", BoundsColumns::no, {{"sun_h"}}}, small_raster().crs_wkt, 25832};
   const auto writer = output_format_of(path)->surface_tables_writer(frame, path);
   rows[0].further = {0.5F};
   rows[1].further = {1.5F};

@@ -1,0 +1,272 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include "evaluate/quantity_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <numeric>
+#include <string>
+#include <utility>
+
+namespace farlod {
+namespace {
+
+using Columns = std::vector<ColumnDescription>;
+
+/// Asked for by a flag, with one column or a few.
+template <bool Quantities::*Flag>
+constexpr auto is_flagged = [](const Quantities& q) { return q.*Flag; };
+template <bool Quantities::*Flag>
+constexpr auto set_flag = [](Quantities& q) { q.*Flag = true; };
+
+constexpr std::array<std::pair<const char*, const char*>, 4> halves{
+    {{"N", "northern"}, {"E", "eastern"}, {"S", "southern"}, {"W", "western"}}};
+
+void describe_solid(const Quantities&, Columns& columns) {
+  columns.push_back({"svf_solid", "1", "share of the solid angle of the sky that the receiver sees"});
+}
+
+void describe_directional(const Quantities&, Columns& columns) {
+  for (const auto& [letter, half] : halves)
+    columns.push_back(
+        {std::string("svf") + letter, "1", std::string("sky view factor of the ") + half + " half of the sky, twice its share"});
+}
+
+void describe_hidden(const Quantities&, Columns& columns) {
+  columns.push_back({"hidden_near", "1", "share of the sky that geometry of the neighborhood hides"});
+  columns.push_back({"hidden_far", "1", "share of the sky that geometry beyond the neighborhood alone hides"});
+}
+
+/// Degrees with as few decimals as tell the azimuths apart: 000, 010 or 000.00, 007.50.
+std::string azimuth_name(std::size_t n, std::size_t count) {
+  std::array<char, 32> text{};
+  const double degrees = 360.0 * static_cast<double>(n) / static_cast<double>(count);
+  std::snprintf(text.data(), text.size(), 360 % count == 0 ? "%03.0f" : "%06.2f", degrees);
+  return text.data();
+}
+
+void describe_horizons(const Quantities& q, Columns& columns) {
+  for (std::size_t n = 0; n < q.horizons; ++n) {
+    const std::string azimuth = azimuth_name(n, q.horizons);
+    columns.push_back({"horizon_" + azimuth, "degree",
+                       "elevation above which all is sky, at " + azimuth + " degrees clockwise from true north"});
+  }
+}
+
+void describe_distances(const Quantities& q, Columns& columns) {
+  for (std::size_t n = 0; n < q.horizons; ++n) {
+    const std::string azimuth = azimuth_name(n, q.horizons);
+    columns.push_back({"distance_" + azimuth, "m",
+                       "level distance to what makes the horizon at " + azimuth + " degrees clockwise from true north"});
+  }
+}
+
+std::size_t patches_of(SkyPatchSet set) {
+  const PatchBands bands = patch_bands_of(set);
+  return bands.counts.empty() ? 0 : std::accumulate(bands.counts.begin(), bands.counts.end(), std::size_t{1});
+}
+
+void describe_patches(const Quantities& q, Columns& columns) {
+  constexpr std::size_t digits = 3;
+  for (std::size_t n = 1; n <= patches_of(q.sky_patches); ++n) {
+    std::string number = std::to_string(n);
+    number.insert(0, digits - std::min(digits, number.size()), '0');
+    columns.push_back(
+        {"patch_" + number, "1", "share that is seen of patch " + number + " of the sky, weighted by the cosine to the normal"});
+  }
+}
+
+void describe_sunlit(const Quantities&, Columns& columns) {
+  columns.push_back({"sunlit_h", "h", "hours at which the middle of the sun is seen, were the sky clear"});
+}
+
+void describe_total(const Quantities& q, Columns& columns) {
+  columns.push_back({"svf_total", "1", "sky view factor with what passes the crowns of trees and comes past them"});
+  if (q.svf_total_bounds) {
+    columns.push_back({"svf_total_low", "1", "certain lower bound of svf_total"});
+    columns.push_back({"svf_total_high", "1", "certain upper bound of svf_total"});
+  }
+  columns.push_back({"svfveg", "1", "1 - the sky behind crowns, weighted as in svf"});
+}
+
+void describe_svfaveg(const Quantities&, Columns& columns) {
+  columns.push_back({"svfaveg", "1", "1 - the view of solid things that crowns hide, weighted as in svf"});
+}
+
+void describe_directional_vegetation(const Quantities&, Columns& columns) {
+  for (const std::string of : {"veg", "aveg"})
+    for (const auto& [letter, half] : halves)
+      columns.push_back({"svf" + (letter + of), "1", "svf" + of + " of the " + half + " half of the sky"});
+}
+
+void describe_shares(const Quantities&, Columns& columns) {
+  columns.push_back({"share_sky", "1", "share of the view that is sky"});
+  columns.push_back({"share_vegetation", "1", "share of the view that is crowns of trees"});
+  columns.push_back({"share_building", "1", "share of the view that is neither sky nor crowns of trees"});
+}
+
+constexpr std::size_t usual_horizons = 36;
+
+void ask_for_horizons(Quantities& q) {
+  if (q.horizons == 0) q.horizons = usual_horizons;
+}
+
+constexpr std::array<QuantityRow, 11> table{{
+    {.quantity = Quantity::svf_solid,
+     .word = "svf_solid",
+     .meaning = "share of the solid angle",
+     .is_asked = is_flagged<&Quantities::svf_solid>,
+     .ask = set_flag<&Quantities::svf_solid>,
+     .describe = describe_solid},
+    {.quantity = Quantity::directional,
+     .word = "directional",
+     .meaning = "svfN, svfE, svfS, svfW as UMEP has them",
+     .is_asked = is_flagged<&Quantities::directional>,
+     .ask = set_flag<&Quantities::directional>,
+     .describe = describe_directional},
+    {.quantity = Quantity::hidden,
+     .word = "hidden",
+     .meaning = "by near and by far geometry",
+     .is_asked = is_flagged<&Quantities::hidden>,
+     .ask = set_flag<&Quantities::hidden>,
+     .describe = describe_hidden},
+    {.quantity = Quantity::horizon,
+     .word = "horizon",
+     .meaning = "its elevations, at 36 azimuths",
+     .is_weighted = false,
+     .is_asked = [](const Quantities& q) { return q.horizons > 0; },
+     .ask = ask_for_horizons,
+     .describe = describe_horizons},
+    {.quantity = Quantity::horizon_distance,
+     .word = "horizon_distance",
+     .meaning = "with the level distance to it",
+     .is_weighted = false,
+     .is_asked = [](const Quantities& q) { return q.horizon_distances; },
+     .ask =
+         [](Quantities& q) {
+           ask_for_horizons(q);
+           q.horizon_distances = true;
+         },
+     .describe = describe_distances},
+    {.quantity = Quantity::sky_patches,
+     .word = "sky_patches",
+     .meaning = "the share seen of each of 145",
+     .is_asked = [](const Quantities& q) { return q.sky_patches != SkyPatchSet::none; },
+     .ask =
+         [](Quantities& q) {
+           if (q.sky_patches == SkyPatchSet::none) q.sky_patches = SkyPatchSet::tregenza;
+         },
+     .describe = describe_patches},
+    {.quantity = Quantity::sunlit,
+     .word = "sunlit",
+     .meaning = "hours of sunshine",
+     .is_weighted = false,
+     .is_asked = [](const Quantities& q) { return q.sun.has_value(); },
+     .ask =
+         [](Quantities& q) {
+           if (!q.sun) q.sun.emplace();
+         },
+     .describe = describe_sunlit},
+    {.quantity = Quantity::svf_total,
+     .word = "svf_total",
+     .meaning = "and svfveg",
+     .is_of_crowns = true,
+     .is_asked = is_flagged<&Quantities::svf_total>,
+     .ask = set_flag<&Quantities::svf_total>,
+     .describe = describe_total},
+    {.quantity = Quantity::svfaveg,
+     .word = "svfaveg",
+     .meaning = "as UMEP has it",
+     .is_of_crowns = true,
+     .is_asked = is_flagged<&Quantities::svfaveg>,
+     .ask = set_flag<&Quantities::svfaveg>,
+     .describe = describe_svfaveg},
+    {.quantity = Quantity::directional_vegetation,
+     .word = "directional_vegetation",
+     .meaning = "both of each half of the sky, as UMEP has them",
+     .is_of_crowns = true,
+     .is_asked = is_flagged<&Quantities::directional_vegetation>,
+     .ask = set_flag<&Quantities::directional_vegetation>,
+     .describe = describe_directional_vegetation},
+    {.quantity = Quantity::shares,
+     .word = "shares",
+     .meaning = "of sky, vegetation and building",
+     .is_of_crowns = true,
+     .is_asked = is_flagged<&Quantities::sky_shares>,
+     .ask = set_flag<&Quantities::sky_shares>,
+     .describe = describe_shares},
+}};
+
+/// The columns of the rows before one.
+std::size_t columns_before(const QuantityRow* end, const Quantities& quantities) {
+  Columns columns;
+  for (const QuantityRow* row = table.data(); row != end; ++row)
+    if (row->is_asked(quantities)) row->describe(quantities, columns);
+  return columns.size();
+}
+
+}  // namespace
+
+std::span<const QuantityRow> quantity_table() { return table; }
+
+ColumnRange range_of(Quantity quantity, const Quantities& quantities) {
+  const QuantityRow* const row = std::ranges::find(table, quantity, &QuantityRow::quantity);
+  const std::size_t first = columns_before(row, quantities);
+  return {first, columns_before(row + 1, quantities) - first};
+}
+
+ColumnRange range_of_crowns(const Quantities& quantities) {
+  const QuantityRow* const row = std::ranges::find(table, true, &QuantityRow::is_of_crowns);
+  const std::size_t first = columns_before(row, quantities);
+  return {first, columns_before(table.data() + table.size(), quantities) - first};
+}
+
+PatchBands patch_bands_of(SkyPatchSet set) {
+  if (set == SkyPatchSet::none) return {};
+  const std::size_t parts = set == SkyPatchSet::reinhart ? 2 : 1;
+  PatchBands bands;
+  for (const std::uint32_t count : {30U, 30U, 24U, 24U, 18U, 12U, 6U})
+    for (std::size_t n = 0; n < parts; ++n) bands.counts.push_back(count * static_cast<std::uint32_t>(parts));
+  bands.height = 1.0 / (static_cast<double>(bands.counts.size()) + 0.5);
+  return bands;
+}
+
+TotalColumns total_columns_of(const Quantities& quantities) {
+  const ColumnRange range = range_of(Quantity::svf_total, quantities);
+  if (range.count == 0) return {};
+  return {range.first, quantities.svf_total_bounds ? std::optional(range.first + 1) : std::nullopt};
+}
+
+std::vector<ColumnDescription> column_descriptions_of(const Quantities& quantities) {
+  std::vector<ColumnDescription> columns;
+  for (const QuantityRow& row : table)
+    if (row.is_asked(quantities)) row.describe(quantities, columns);
+  return columns;
+}
+
+std::vector<std::string> columns_of(const Quantities& quantities) {
+  std::vector<std::string> names;
+  for (ColumnDescription& column : column_descriptions_of(quantities)) names.push_back(std::move(column.name));
+  return names;
+}
+
+bool ask_for(std::string_view word, Quantities& quantities) {
+  const auto row = std::ranges::find(table, word, &QuantityRow::word);
+  if (row != table.end()) row->ask(quantities);
+  return row != table.end();
+}
+
+bool Quantities::any() const {
+  return std::ranges::any_of(table, [this](const QuantityRow& row) { return row.is_asked(*this); });
+}
+
+bool Quantities::any_of_canopies() const {
+  return std::ranges::any_of(table, [this](const QuantityRow& row) { return row.is_of_crowns && row.is_asked(*this); });
+}
+
+bool Quantities::any_weighted() const {
+  return std::ranges::any_of(table, [this](const QuantityRow& row) { return row.is_weighted && row.is_asked(*this); });
+}
+
+}  // namespace farlod

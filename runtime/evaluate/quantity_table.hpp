@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "farlod/quantities.hpp"
+
+namespace farlod {
+
+/// What can be computed beside the sky view factor, in the order of its columns.
+enum class Quantity : std::uint8_t {
+  svf_solid,
+  directional,
+  hidden,
+  horizon,
+  horizon_distance,
+  sky_patches,
+  sunlit,
+  svf_total,
+  svfaveg,
+  directional_vegetation,
+  shares
+};
+
+/// A row of the table of quantities. A new quantity is a row here, a member of Quantities, and a function that computes it:
+/// FurtherQuantities of profiles, write_canopy_columns of crowns.
+struct QuantityRow {
+  Quantity quantity{};
+  std::string_view word;     ///< by which it is asked for
+  std::string_view meaning;  ///< for the help of whoever asks, behind the word
+  bool is_of_crowns = false;
+  bool is_weighted = true;  ///< by the cosine: it has no place beside SkyWeight::solid_angle
+  bool (*is_asked)(const Quantities&) = nullptr;
+  void (*ask)(Quantities&) = nullptr;  ///< with as many values as are usual
+  void (*describe)(const Quantities&, std::vector<ColumnDescription>&) = nullptr;
+};
+
+[[nodiscard]] std::span<const QuantityRow> quantity_table();
+
+/// Where the columns of a quantity are among columns_of; none where it is not asked for.
+struct ColumnRange {
+  std::size_t first = 0, count = 0;
+};
+[[nodiscard]] ColumnRange range_of(Quantity quantity, const Quantities& quantities);
+/// The last columns of columns_of: those of crowns.
+[[nodiscard]] ColumnRange range_of_crowns(const Quantities& quantities);
+
+/// Patches of each band from the horizon upwards, without the zenith, and the bands' height as a share of the right angle. A band
+/// of Reinhart's is half of one of Tregenza's, with twice as many patches; the zenith takes what is left.
+struct PatchBands {
+  std::vector<std::uint32_t> counts;
+  double height = 0.0;
+};
+[[nodiscard]] PatchBands patch_bands_of(SkyPatchSet set);
+
+/// Where svf_total is among columns_of, and its lower bound, which the upper one follows; nothing where they are not.
+struct TotalColumns {
+  std::optional<std::size_t> total, low;
+};
+[[nodiscard]] TotalColumns total_columns_of(const Quantities& quantities);
+
+}  // namespace farlod
