@@ -13,7 +13,7 @@
 #include "benchmark/measurement.hpp"
 #include "benchmark/performance_tables.hpp"
 
-// Measures us against tracing the whole city, and prints the tables of docs/performance.md. benchmark/run runs it.
+// Measures us against tracing the whole city, and prints the tables behind docs/performance.md. benchmark/run runs it.
 
 namespace farlod::benchmark {
 namespace {

@@ -25,7 +25,7 @@ struct Results {
   std::vector<SizeRow> sizes;
 };
 
-/// The measured part of docs/performance.md.
+/// The tables behind docs/performance.md.
 [[nodiscard]] std::string markdown(const Results& results);
 
 }  // namespace farlod::benchmark

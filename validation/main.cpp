@@ -10,7 +10,7 @@
 
 #include "validation/report.hpp"
 
-// Prints the sections of docs/validation.md that are measured, and writes their plots. scripts/validate runs it.
+// Prints the tables behind docs/validation.md, and writes their plots. scripts/validate runs it.
 
 namespace farlod::validation {
 namespace {
@@ -20,7 +20,7 @@ constexpr std::size_t city_count = 3;
 
 struct Options {
   bool quick = false;
-  std::filesystem::path data, figures = "docs/figures";
+  std::filesystem::path data, figures = "build/validation/figures";
 };
 
 std::vector<StudiedCity> cities_of(const Options& options, const Extent& extent) {

@@ -28,8 +28,7 @@ struct Results {
   std::vector<SettingRow> settings;
 };
 
-/// The sections of docs/validation.md that this program measures, in Markdown; their plots go to a folder, to which the
-/// text refers as `figures/`.
+/// The tables behind docs/validation.md, in Markdown; their plots go to a folder, to which the text refers as `figures/`.
 [[nodiscard]] std::string markdown(const Results& results);
 void write_plots(const Results& results, const std::filesystem::path& folder);
 
