@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/architecture/vocabulary.hpp"
 
-#include <algorithm>
 #include <cctype>
 #include <fstream>
 #include <stdexcept>
@@ -13,23 +12,6 @@ namespace {
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
 bool is_name_part(char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; }
-
-std::string trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return std::string(text);
-}
-
-/// The cells of a row of a Markdown table.
-std::vector<std::string> cells_of(const std::string& row) {
-  std::vector<std::string> cells;
-  for (std::size_t begin = 1; begin < row.size();) {
-    const std::size_t end = std::min(row.find('|', begin), row.size());
-    cells.push_back(trimmed(std::string_view(row).substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return cells;
-}
 
 bool holds_identifier(std::string_view line, const std::string& name) {
   line = line.substr(0, line.find("//"));
@@ -53,20 +35,18 @@ std::string words_of(std::string_view line) {
   return words;
 }
 
-std::vector<RetiredWord> read_retired_words(const std::filesystem::path& glossary) {
-  std::ifstream in(glossary);
+std::vector<RetiredWord> read_retired_words(const std::filesystem::path& list) {
+  std::ifstream in(list);
   std::vector<RetiredWord> words;
-  bool in_section = false;
   for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("## ")) in_section = line == "## Retired words";
-    if (!in_section || !line.starts_with("| ") || line.starts_with("| retired ")) continue;
-    const std::vector<std::string> cells = cells_of(line);
-    if (cells.size() != 2) throw std::runtime_error(glossary.string() + ": not a row of two cells: " + line);
-    const std::string& word = cells[0];
+    if (line.starts_with('#')) continue;
+    const std::size_t bar = line.find(" | ");
+    if (bar == 0 || bar == std::string::npos) throw std::runtime_error(list.string() + ": not \"word | term\": " + line);
+    const std::string word = line.substr(0, bar), term = line.substr(bar + 3);
     const bool is_identifier = word.size() > 2 && word.front() == '`' && word.back() == '`';
-    words.push_back({is_identifier ? word.substr(1, word.size() - 2) : word, cells[1], is_identifier});
+    words.push_back({is_identifier ? word.substr(1, word.size() - 2) : word, term, is_identifier});
   }
-  if (words.empty()) throw std::runtime_error(glossary.string() + " has no table below \"## Retired words\"");
+  if (words.empty()) throw std::runtime_error(list.string() + " has no words");
   return words;
 }
 

@@ -20,8 +20,8 @@ struct RetiredWord {
   bool is_identifier = false;
 };
 
-/// The rows of the table "Retired words" of docs/glossary.md. Throws std::runtime_error where there is none.
-[[nodiscard]] std::vector<RetiredWord> read_retired_words(const std::filesystem::path& glossary);
+/// The lines of retired_words.txt. Throws std::runtime_error where there are none, or where one is not "word | term".
+[[nodiscard]] std::vector<RetiredWord> read_retired_words(const std::filesystem::path& list);
 
 /// "path:line: word -> term" for each retired word in a file.
 [[nodiscard]] std::vector<std::string> find_retired_words(const std::vector<SourceFile>& files,
