@@ -29,11 +29,7 @@ inline constexpr std::uint32_t canopy_format_version = 9;
 /// The newest one that is read.
 inline constexpr std::uint32_t newest_format_version = canopy_format_version;
 /// The oldest one that is read.
-inline constexpr std::uint32_t oldest_format_version = 6;
-/// Since this one, some cells may have no far map: a reader of version 6 would look for it.
-inline constexpr std::uint32_t partial_format_version = 7;
-/// Since this one, the manifest has a checksum of itself (ManifestSeal).
-inline constexpr std::uint32_t sealed_format_version = 8;
+inline constexpr std::uint32_t oldest_format_version = 8;
 /// Of `tiles.bin`, which changes on its own.
 inline constexpr std::uint32_t tiles_version = 6;
 inline constexpr std::array<char, 8> magic{'F', 'A', 'R', 'L', 'O', 'D', 'T', '\n'};

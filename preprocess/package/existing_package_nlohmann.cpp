@@ -114,17 +114,16 @@ struct ExistingPackage::Impl {
       if (!what.empty()) refuse(what);
     }
   }
-  void require_seal(std::int64_t version) const {
+  void require_seal() const {
     const auto seal = package::ManifestSeal::of(text);
-    const bool is_right = seal ? stamp_of(std::as_bytes(std::span(seal->sealed))).xxh3 == seal->checksum
-                               : version < package::sealed_format_version && !manifest.contains("xxh3");
-    if (!is_right) refuse("its manifest is damaged (its checksum is not that of its text)");
+    if (!seal || stamp_of(std::as_bytes(std::span(seal->sealed))).xxh3 != seal->checksum)
+      refuse("its manifest is damaged (its checksum is not that of its text)");
   }
   void read() {
     const auto version = manifest.at("version").get<std::int64_t>();
     if (version < package::oldest_format_version || version > package::newest_format_version)
       refuse("it has format version " + std::to_string(version) + ", which this program does not write");
-    require_seal(version);
+    require_seal();
     for (const Json& b : manifest.at("blocks")) blocks.push_back(block_from(b));
   }
 };

@@ -154,9 +154,9 @@ std::optional<CellRuns> mapped_from(const json& j) {
   return cells;
 }
 
-BlockFiles block_from(const json& j, std::uint32_t version) {
+BlockFiles block_from(const json& j) {
   BlockFiles files{{whole_number<std::int32_t>(j.at("i")), whole_number<std::int32_t>(j.at("j"))}, stamp_from(j.at("tiles")), {}};
-  if (version >= partial_format_version) files.mapped = mapped_from(j);
+  files.mapped = mapped_from(j);
   if (files.has_far_maps()) files.far_map = stamp_from(j.at("far_map"));
   return files;
 }
@@ -187,7 +187,7 @@ void read_contents(const json& j, std::uint32_t version, Manifest& m) {
   for (const auto& [code, count] : j.at("problems").items())
     m.problem_counts.emplace_back(number_from<int>(code, 10), whole_number<std::uint64_t>(count));
   if (version >= canopy_format_version) m.canopy = canopy_from(j.at("canopy"));
-  for (const json& b : j.at("blocks")) m.blocks.push_back(block_from(b, version));
+  for (const json& b : j.at("blocks")) m.blocks.push_back(block_from(b));
   require(std::cmp_equal(m.blocks.size(), block_count(m.grid)), "it does not list each block of the grid");
   const std::vector<Block> expected = m.grid.blocks();
   for (std::size_t n = 0; n < expected.size(); ++n) {
@@ -243,7 +243,7 @@ Manifest read_text(std::string_view text, const std::string& name) {
   require(j.is_object() && j.value("format", "") == "farlod-package", "it is not the manifest of a package");
   const auto version = whole_number<std::uint32_t>(j.at("version"));
   require_readable_version(name, version, oldest_format_version, newest_format_version);
-  require(is_sealed || (version < sealed_format_version && !j.contains("xxh3")), "its checksum is not at its end");
+  require(is_sealed, "its checksum is not at its end");
   Manifest manifest = manifest_from(j, version);
   manifest.file_xxh3 = checksum_of_manifest(text);
   return manifest;

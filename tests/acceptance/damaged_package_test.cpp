@@ -120,13 +120,19 @@ TEST_F(DamagedPackage, OneDigitOfTheManifestsOriginChanged) {
 TEST_F(DamagedPackage, ANewerVersionIsNoDamage) {
   edit_manifest("\"version\": 8", "\"version\": 10");
   expect_refusal(evaluate(), exit_unusable_input,
-                 {"manifest.json has format version 10", "reads versions 6 to 9", "newer release"});
+                 {"manifest.json has format version 10", "reads versions 8 to 9", "newer release"});
 }
 
 TEST_F(DamagedPackage, AnOlderVersionIsNoDamage) {
-  edit_manifest("\"version\": 8", "\"version\": 5");
-  expect_refusal(evaluate(), exit_unusable_input,
-                 {"manifest.json has format version 5", "reads versions 6 to 9", "Pack the city again"});
+  const std::string text = folder.text_of("a.farlod/manifest.json");
+  for (const std::string version : {"5", "6", "7"}) {
+    folder.write("a.farlod/manifest.json", text);
+    edit_manifest("\"version\": 8", "\"version\": " + version);
+    const std::vector<std::string> said{"manifest.json has format version " + version, "reads versions 8 to 9",
+                                        "Pack the city again"};
+    expect_refusal(evaluate(), exit_unusable_input, said);
+    expect_refusal(folder.run("farlod-info a.farlod --check"), exit_unusable_input, said);
+  }
 }
 
 TEST_F(DamagedPackage, AnInterruptedPackingIsNoDamage) {

@@ -139,16 +139,17 @@ def check_all_versions_are_there() -> list[str]:
 
 
 def check_other_versions(binaries: pathlib.Path) -> list[str]:
-    """Manifests without a checksum, as those before version 8 are, say an older and a newer version: both are refused by that
-    number."""
+    """Manifests without a checksum, as those before version 8 are, say the older versions and a newer one: each is refused by
+    that number."""
     found = []
-    older, newer = version_of("oldest_format_version") - 1, version_of("canopy_format_version") + 1
-    for source, version in (("version_6_horizon", older), ("version_7_box_partial", newer)):
+    oldest, newer = version_of("oldest_format_version"), version_of("canopy_format_version") + 1
+    for source, version in itertools.product((f"version_{oldest}_horizon", f"version_{oldest}_box_partial"), (*range(1, oldest), newer)):
         with tempfile.TemporaryDirectory() as folder:
             package = pathlib.Path(folder) / "other.farlod"
             shutil.copytree(HERE / f"{source}.farlod", package)
-            manifest = package / "manifest.json"
-            manifest.write_text(re.sub(r'"version": \d+', f'"version": {version}', manifest.read_text(), count=1))
+            manifest = manifest_of(package) | {"version": version}
+            del manifest["xxh3"]
+            (package / "manifest.json").write_text(json.dumps(manifest))
             for program in (["farlod-info", package, "--check"], ["farlod-svf", package, "-o", f"{folder}/o.csv", "--at", "500001,5500022"]):
                 result = run(binaries, *program)
                 if result.returncode != EXIT_UNUSABLE or f"format version {version}," not in result.stderr:
