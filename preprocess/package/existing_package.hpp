@@ -23,7 +23,8 @@ enum class Known {
 /// A package on disk, to which far maps are added, or which is made whole again.
 class ExistingPackage {
  public:
-  /// Reads its manifest. Nothing where the folder has none. Throws OutputError where the manifest cannot be used.
+  /// Reads its manifest, as the runtime does (manifest_from_text). Nothing where the folder has none. Throws OutputError where
+  /// the manifest cannot be used.
   [[nodiscard]] static std::optional<ExistingPackage> find(const std::filesystem::path& folder);
   ExistingPackage(ExistingPackage&&) noexcept;
   ExistingPackage& operator=(ExistingPackage&&) noexcept;
@@ -38,7 +39,7 @@ class ExistingPackage {
   [[nodiscard]] bool is_whole(const package::BlockFiles& files) const;
   /// The same where somebody has changed the package since it was found.
   void require_unchanged() const;
-  /// In the order of Grid::blocks(), once require_same() has not thrown.
+  /// The blocks of its grid, in the order of Grid::blocks().
   [[nodiscard]] const std::vector<package::BlockFiles>& blocks() const;
 
  private:

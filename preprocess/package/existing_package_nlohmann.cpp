@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <oneapi/tbb/parallel_for.h>
 
-#include <algorithm>
 #include <array>
-#include <charconv>
 #include <map>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -14,9 +11,10 @@
 #include <utility>
 
 #include "contract/package/layout.hpp"
-#include "contract/package/manifest_seal.hpp"
+#include "farlod/error.hpp"
 #include "package/existing_package.hpp"
 #include "package/file_stamp.hpp"
+#include "package/manifest_reader.hpp"
 #include "package/manifest_writer.hpp"
 #include "package/package_files.hpp"
 #include "package/same_tiles.hpp"
@@ -27,24 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-package::FileStamp stamp_from(const Json& j) {
-  const auto digits = j.at("xxh3").get<std::string>();
-  package::FileStamp stamp{j.at("bytes").get<std::uint64_t>(), 0};
-  std::from_chars(digits.data(), digits.data() + digits.size(), stamp.xxh3, 16);
-  return stamp;
-}
-
-package::BlockFiles block_from(const Json& j) {
-  package::BlockFiles files{{j.at("i").get<std::int32_t>(), j.at("j").get<std::int32_t>()}, stamp_from(j.at("tiles")), {}};
-  if (j.contains("cells_with_far_map")) {
-    files.mapped.emplace();
-    for (const Json& run : j.at("cells_with_far_map"))
-      files.mapped->runs.push_back({run.at(0).get<std::uint32_t>(), run.at(1).get<std::uint32_t>()});
-  }
-  if (files.has_far_maps()) files.far_map = stamp_from(j.at("far_map"));
-  return files;
-}
 
 /// Of a value in a message.
 std::string shortened(const Json& j) {
@@ -79,17 +59,6 @@ std::string difference(std::string_view key, const Json& there, const Json& now)
   return name_of_key(key) + " was " + shortened(there) + ", and is " + shortened(now);
 }
 
-/// Whether the cells with far maps are some of the block's, in order.
-bool lists_cells_of(const package::BlockFiles& files, const Grid& grid) {
-  if (!files.mapped) return true;
-  std::uint32_t after = 0;
-  for (const package::CellRun& run : files.mapped->runs) {
-    if (run.begin < after || run.end <= run.begin) return false;
-    after = run.end;
-  }
-  return std::int64_t{after} <= grid.cells_of(files.block).size();
-}
-
 constexpr std::array keys_before_tiles{"software", "inputs", "settings", "crs", "grid"};
 constexpr std::array keys_after_tiles{"frame", "counts", "problems", "canopy"};
 
@@ -100,13 +69,17 @@ Json value_of(const Json& manifest, const char* key) { return manifest.contains(
 struct ExistingPackage::Impl {
   fs::path folder;
   std::string text;
-  Json manifest;
-  std::vector<package::BlockFiles> blocks;
-  std::map<Block, bool> whole;  ///< those that were read
+  Json manifest;                            ///< to be compared with another one, value by value
+  std::vector<package::BlockFiles> blocks;  ///< as the runtime reads them
+  std::map<Block, bool> whole;              ///< those that were read
 
   [[noreturn]] void refuse(const std::string& difference) const {
     throw OutputError(folder.string() + " is not the package of these inputs and options: " + difference +
                       ". Let it be replaced (--force), or choose another folder.");
+  }
+  [[noreturn]] void refuse_unread(const Error& reason) const {
+    throw OutputError("cannot go on with " + folder.string() + ": " + reason.what() +
+                      " Let it be replaced (--force), or choose another folder.");
   }
   void require_same(const Json& now, std::span<const char* const> keys) const {
     for (const char* key : keys) {
@@ -114,17 +87,16 @@ struct ExistingPackage::Impl {
       if (!what.empty()) refuse(what);
     }
   }
-  void require_seal() const {
-    const auto seal = package::ManifestSeal::of(text);
-    if (!seal || stamp_of(std::as_bytes(std::span(seal->sealed))).xxh3 != seal->checksum)
-      refuse("its manifest is damaged (its checksum is not that of its text)");
-  }
+  /// The reader of the runtime decides what a manifest is, so that no number means another thing here.
   void read() {
-    const auto version = manifest.at("version").get<std::int64_t>();
-    if (version < package::oldest_format_version || version > package::newest_format_version)
-      refuse("it has format version " + std::to_string(version) + ", which this program does not write");
-    require_seal();
-    for (const Json& b : manifest.at("blocks")) blocks.push_back(block_from(b));
+    try {
+      blocks = manifest_from_text(text, (folder / package::manifest_file).string()).blocks;
+    } catch (const PackageUnusable& reason) {
+      refuse_unread(reason);
+    } catch (const PackageDamaged& reason) {
+      refuse_unread(reason);
+    }
+    manifest = Json::parse(text);
   }
 };
 
@@ -133,12 +105,7 @@ std::optional<ExistingPackage> ExistingPackage::find(const fs::path& folder) {
   const fs::path path = folder / package::manifest_file;
   if (!fs::is_regular_file(path, unread)) return std::nullopt;
   auto impl = std::make_unique<Impl>(Impl{folder, text_of(path), {}, {}, {}});
-  try {
-    impl->manifest = Json::parse(impl->text);
-    impl->read();
-  } catch (const nlohmann::json::exception& reason) {
-    impl->refuse(std::string("its manifest is damaged (") + reason.what() + ")");
-  }
+  impl->read();
   return ExistingPackage(std::move(impl));
 }
 
@@ -153,11 +120,6 @@ void ExistingPackage::require_same(const package::Manifest& manifest, Known know
   const Json now = Json::parse(manifest_text(manifest));
   impl_->require_same(now, keys_before_tiles);
   if (known == Known::all) impl_->require_same(now, keys_after_tiles);
-  const std::vector<Block> expected = manifest.grid.blocks();
-  const auto is_block = [](const package::BlockFiles& files, Block block) { return files.block == block; };
-  if (!std::ranges::equal(impl_->blocks, expected, is_block)) impl_->refuse("its manifest does not list the blocks of its grid");
-  for (const package::BlockFiles& files : impl_->blocks)
-    if (!lists_cells_of(files, manifest.grid)) impl_->refuse("its manifest lists cells with far maps that do not exist");
 }
 
 void ExistingPackage::require_same_tiles(const TileSet& tiles, const Grid& grid) const {

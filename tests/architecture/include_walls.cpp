@@ -93,10 +93,18 @@ constexpr Wall walls[] = {
 constexpr std::array<std::string_view, 10> stages{"city",   "ingest",  "georeference", "align",    "tiles",
                                                   "farmap", "package", "trial",        "pipeline", "app"};
 
-/// The headers of the runtime that preprocess/trial may include: it measures far maps with the evaluator that users will run, and
-/// with nothing of its own that could differ from it.
-constexpr std::array<std::string_view, 3> runtime_headers_of_trial{"evaluate/sky_evaluator.hpp", "package/package_reader.hpp",
-                                                                   "receivers/receiver.hpp"};
+/// A header of the runtime that a room of preprocess may include.
+struct SharedHeader {
+  std::string_view room, header;
+  bool operator==(const SharedHeader&) const = default;
+};
+
+/// The stage `trial` measures far maps with the evaluator that users will run, and the stage `package` goes on with a package
+/// that the runtime reads: neither has anything of its own that could differ from it.
+constexpr SharedHeader shared_headers[] = {{"preprocess/trial", "evaluate/sky_evaluator.hpp"},
+                                           {"preprocess/trial", "package/package_reader.hpp"},
+                                           {"preprocess/trial", "receivers/receiver.hpp"},
+                                           {"preprocess/package", "package/manifest_reader.hpp"}};
 
 std::size_t stage_of(std::string_view path_in_preprocess) {
   const std::string_view folder = path_in_preprocess.substr(0, path_in_preprocess.find('/'));
@@ -135,7 +143,7 @@ void check_stage_order(const SourceFile& file, std::vector<std::string>& breache
 
 /// What a file may name in quotes besides the contract: the headers of its own side (both sides have a room `package` and a room
 /// `app`, so that the name alone does not say whose header is meant), the console from a program, the errors of GDAL, durable
-/// files, rays from preprocess, the evaluator from its stage `trial`.
+/// files, rays from preprocess, the evaluator and the reader of manifests from two of its stages.
 bool may_quote(const SourceFile& file, const std::string& target, const std::set<std::string>& paths) {
   const std::string side = file.path.substr(0, file.path.find('/'));
   if (target.starts_with("farlod/") || target.starts_with("contract/") || paths.contains(side + "/" + target)) return true;
@@ -144,7 +152,8 @@ bool may_quote(const SourceFile& file, const std::string& target, const std::set
   // The walls above let only the wrappers of GDAL through
   if (target.starts_with("gdal/")) return side == "gdal" || side == "preprocess" || side == "runtime";
   if (target.starts_with("storage/")) return side == "storage" || side == "preprocess" || side == "runtime";
-  if (file.path.starts_with("preprocess/trial/") && std::ranges::count(runtime_headers_of_trial, target) > 0) return true;
+  const std::string_view room = std::string_view(file.path).substr(0, file.path.rfind('/'));
+  if (std::ranges::count(shared_headers, SharedHeader{room, target}) > 0) return true;
   return side == "preprocess" && target.starts_with("occlusion/");
 }
 

@@ -113,6 +113,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Planted{"preprocess/app/a.cpp", "#include \"scene/scene.hpp\"", "own side"},
                     Planted{"preprocess/farmap/a.cpp", "#include \"evaluate/sky_evaluator.hpp\"", "own side"},
                     Planted{"preprocess/trial/a.cpp", "#include \"horizon/horizon_engine.hpp\"", "own side"},
+                    Planted{"preprocess/trial/a.cpp", "#include \"package/manifest_reader.hpp\"", "own side"},
+                    Planted{"preprocess/package/a.cpp", "#include \"package/package_reader.hpp\"", "own side"},
                     Planted{"preprocess/package/a.cpp", "#include \"trial/far_map_trial.hpp\"", "that stage is later"},
                     Planted{"preprocess/farmap/a.cpp", "#include <png.h>", "the wrapper of Cairo"},
                     Planted{"runtime/results/picture/a.cpp", "#include <cairo.h>", "the wrapper of Cairo"},
@@ -146,6 +148,7 @@ TEST(IncludeWalls, WrappersMayInclude) {
                           {"preprocess/farmap/a.cpp", "#include \"tiles/cutter.hpp\"", ""},
                           {"preprocess/farmap/a.cpp", "#include \"occlusion/occluder.hpp\"", ""},
                           {"preprocess/trial/a.cpp", "#include \"evaluate/sky_evaluator.hpp\"", ""},
+                          {"preprocess/package/a.cpp", "#include \"package/manifest_reader.hpp\"", ""},
                           {"validation/a.hpp", "#include \"tests/scenes/packed_city.hpp\"", ""},
                           {"tests/agreement/a.cpp", "#include <CGAL/Gmpq.h>", ""}};
   for (const Planted& planted : allowed)

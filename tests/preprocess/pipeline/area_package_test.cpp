@@ -15,6 +15,7 @@ namespace farlod::pipeline::test {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
@@ -312,7 +313,7 @@ TEST(Area, AFolderThatIsNoPackageIsRefused) {
   EXPECT_THAT(p.refusal(corner), HasSubstr("thesis.txt"));
   fs::remove(p.settings.output / "thesis.txt");
   std::ofstream(p.settings.output / package::manifest_file) << "{";
-  EXPECT_THAT(p.refusal(corner), HasSubstr("its manifest is damaged"));
+  EXPECT_THAT(p.refusal(corner), AllOf(HasSubstr("manifest.json is damaged"), HasSubstr("--force")));
 }
 
 /// Ends a run at the n-th of its calls of progress in the stage "far maps".
@@ -366,7 +367,7 @@ TEST(Area, AnotherRunMeanwhileIsNotLost) {
   EXPECT_THROW((void)pack(p.settings, p.report, run), OutputError);
   EXPECT_EQ(PackageReader(p.settings.output).manifest().cells_with_far_map(), p.result.package.cells_with_far_map);
   std::ofstream(manifest) << "\n" + text;
-  EXPECT_THAT(p.refusal(middle), HasSubstr("its manifest is damaged (its checksum"));
+  EXPECT_THAT(p.refusal(middle), HasSubstr("manifest.json is damaged: its checksum"));
 }
 
 TEST(Area, AnAreaBesideTheCityIsACallersMistake) {
