@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array asking{SIGINT, SIGTERM, SIGHUP};
 
-/// Of the process. A handler may do little more than write a byte to a pipe; a thread asks the token.
+/// The state of the process. A handler may do little more than write a byte to a pipe; a thread asks the token.
 struct State {
   std::stop_source stop;
   std::atomic<int> signal = 0;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t longest_line = 110;
 
-/// Of UTF-8, whose bytes 10xxxxxx continue a character.
+/// Number of characters of UTF-8, whose bytes 10xxxxxx continue a character.
 std::size_t character_count(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }

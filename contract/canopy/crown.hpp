@@ -29,7 +29,7 @@ struct Crown {
   float half_width_m;     ///< radius of a spheroid or a cylinder, half of a square's edge; above 0
   CrownShape shape;
   Foliage foliage;
-  /// Of a prism: the square is turned counter-clockwise by so many 65536ths of a right angle. Of others 0.
+  /// Turn of the square of a prism, counter-clockwise, in 65536ths of a right angle. Other shapes have 0.
   std::uint16_t turn;
 
   [[nodiscard]] double turn_rad() const { return turn * (std::numbers::pi / 2.0 / 65536.0); }

@@ -22,7 +22,7 @@ struct CellRuns {
   std::vector<CellRun> runs;
   bool operator==(const CellRuns&) const = default;
 
-  /// Of places that ascend.
+  /// The runs of places that ascend.
   [[nodiscard]] static CellRuns of(std::span<const std::size_t> places) {
     CellRuns result;
     for (const std::size_t place : places) {

@@ -14,12 +14,12 @@
 /// file wins. All numbers are little-endian.
 namespace farlod::package {
 
-/// Of `crowns.bin`, which changes on its own.
+/// The version of `crowns.bin`, which changes on its own.
 inline constexpr std::uint32_t crowns_version = 1;
 inline constexpr std::array<char, 8> crowns_magic{'F', 'A', 'R', 'L', 'O', 'D', 'C', '\n'};
 inline constexpr const char* crowns_file = "crowns.bin";  ///< in the folder of the package
 
-/// Of the coordinates and the half width of a crown.
+/// Limit of the coordinates and the half width of a crown.
 inline constexpr float farthest_crown_m = 1.3e7F;
 
 struct CrownsHeader {

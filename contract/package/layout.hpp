@@ -22,7 +22,7 @@ namespace farlod::package {
 static_assert(std::endian::native == std::endian::little,
               "packages are mapped, not decoded: a big-endian reader must swap bytes");
 
-/// Of the manifest, and so of the package: what is written of a city without trees.
+/// The version of the manifest, and so of the package, that is written of a city without trees.
 inline constexpr std::uint32_t format_version = 8;
 /// What is written of a city with trees: a reader of version 8 would not know of them (crown_layout.hpp).
 inline constexpr std::uint32_t canopy_format_version = 9;
@@ -30,7 +30,7 @@ inline constexpr std::uint32_t canopy_format_version = 9;
 inline constexpr std::uint32_t newest_format_version = canopy_format_version;
 /// The oldest one that is read.
 inline constexpr std::uint32_t oldest_format_version = 8;
-/// Of `tiles.bin`, which changes on its own.
+/// The version of `tiles.bin`, which changes on its own.
 inline constexpr std::uint32_t tiles_version = 6;
 inline constexpr std::array<char, 8> magic{'F', 'A', 'R', 'L', 'O', 'D', 'T', '\n'};
 inline constexpr std::uint64_t section_alignment = 64;
@@ -48,7 +48,7 @@ enum class SectionKind : std::uint32_t {
   far_cells = 8,        ///< FarCellRecord, as many and in the same order as `cells`
   far_edges = 9,        ///< HorizonEdge, block frame: the explicit occluders of the cells' far maps
   explicit_edges = 11,  ///< ExplicitOccluder: rows of `far_edges`, cell by cell
-  // Of the tiles again
+  // The tiles again
   tile_edges = 13,  ///< TileEdge, cell by cell, and within a cell role by role, in the order of EdgeRole
   loose_edges = 14  ///< HorizonEdge, cell frame, cell by cell: those that are no side of a triangle
 };
@@ -180,10 +180,10 @@ inline constexpr const char* manifest_file = "manifest.json";
 
 // Channels of far.exr, all half. Either kind has a channel Y, which any viewer shows as a grey picture.
 //
-// Of the kind `box`:
+// The kind `box` has:
 inline constexpr const char* sky_channel = "Y";       ///< 1 where the sky is seen, 0 where the far city hides it
 inline constexpr const char* distance_channel = "Z";  ///< metres from the capture point to what hides the sky; infinite for sky
-// Of the kind `horizon`: slopes (tangents of elevations) of the residual city; a column for each azimuth bin, a row for each
+// The kind `horizon` has slopes (tangents of elevations) of the residual city; a column for each azimuth bin, a row for each
 // patch from the first. Three are bounds all over the patch, and Y is an estimate on the floor of the patch.
 inline constexpr const char* estimate_channel = "Y";
 inline constexpr const char* low_channel = "low";

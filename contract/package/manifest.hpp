@@ -39,7 +39,7 @@ struct BlockFiles {
   /// The cells that have far maps, where not all have one. Where none has, there is no file of far maps.
   std::optional<CellRuns> mapped = {};
 
-  /// Of the cell at this place in CellRange::index_of.
+  /// Whether the cell at this place in CellRange::index_of has a far map.
   [[nodiscard]] bool has_far_map(std::size_t place) const { return !mapped || mapped->contains(place); }
   [[nodiscard]] bool has_far_maps() const { return !mapped || !mapped->runs.empty(); }
 };
@@ -145,7 +145,7 @@ struct Manifest {
   }
 };
 
-/// Of the format, in which a manifest is written.
+/// The version of the format in which a manifest is written.
 [[nodiscard]] inline std::uint32_t version_of(const Manifest& manifest) {
   return manifest.canopy ? canopy_format_version : format_version;
 }

@@ -19,7 +19,7 @@ namespace farlod::package {
 struct OctNormal {
   static constexpr std::uint32_t bits = 22;
   static constexpr std::uint32_t largest = (1U << bits) - 1;
-  /// Of u and v on either side of the middle.
+  /// Number of steps of u and v on either side of the middle.
   static constexpr std::int32_t steps = largest / 2;
   /// Between a direction and what comes back: half a diagonal of a step of u and v, which is up to √3 times as long on the
   /// octahedron, whose faces are tilted, and again as far seen from its centre, which is 1/√3 away.
@@ -41,7 +41,7 @@ struct OctNormal {
     return nearest_corner(steps * u, steps * v, direction);
   }
 
-  /// Of length 1.
+  /// The direction, of length 1.
   [[nodiscard]] Point3f direction() const {
     const Point3d d = normalized(on_octahedron());
     return {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)};

@@ -16,7 +16,7 @@ enum class CanopyRule : std::uint8_t {
 
 enum class Season : std::uint8_t { leaf_on, leaf_off };
 
-/// Of crowns in leaf, and of those that have shed their leaves: Konarska et al. 2014 measured 1.3 to 5.3 % and 40 to 52 %.
+/// Light that crowns let through in leaf and without leaves: Konarska et al. 2014 measured 1.3 to 5.3 % and 40 to 52 %.
 inline constexpr double leaf_on_transmissivity = 0.03, leaf_off_transmissivity = 0.5;
 /// κ in 1/m: an extinction coefficient of 0.6, and a square metre of leaves in a cubic metre.
 inline constexpr double leaf_on_extinction_per_m = 0.6;

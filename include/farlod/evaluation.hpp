@@ -108,7 +108,7 @@ struct BoundsWidth {
   double mean = 0.0, max = 0.0;
 };
 
-/// Of all values of a run.
+/// Least, mean and largest of all values of a run.
 struct ValueRange {
   double min = 0.0, mean = 0.0, max = 0.0;
 };

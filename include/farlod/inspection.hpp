@@ -60,10 +60,10 @@ struct PackageInventory {
   int block_edge = 0;            ///< cells along the edge of a block
   std::uint64_t blocks = 0;
   std::string assign;  ///< "clip" or "whole"
-  /// Of far maps of the kind "horizon"; zero for the other.
+  /// Sizes of far maps of the kind "horizon"; zero for the other kind.
   std::uint32_t azimuth_bins = 0, squares_per_edge = 0, layers = 0;
   double tolerance = 0.0;
-  /// Of far maps of the kind "box"; zero for the other.
+  /// Sizes of far maps of the kind "box"; zero for the other kind.
   std::uint32_t side_columns = 0, rows = 0;
   std::uint64_t tile_bytes = 0, far_map_bytes = 0;  ///< on disk
   PackedCrowns crowns;
@@ -156,7 +156,7 @@ struct FarEdge {
 /// A far map of the kind "horizon", seen from one place: tangents of elevations, clockwise from `first_azimuth` in equal bins.
 struct FarHorizonView {
   Angle first_azimuth;  ///< true azimuth where bin 0 begins
-  /// Of the residual city: everything below `low` is hidden (but what is seen below an overhang), nothing above `high` is.
+  /// The residual city hides everything below `low` (but what is seen below an overhang), and nothing above `high`.
   std::vector<float> low, estimate, high;
   std::vector<FarEdge> edges;  ///< that count besides
 };

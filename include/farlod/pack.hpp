@@ -23,7 +23,7 @@
 
 namespace farlod {
 
-// Of the library farlod::preprocess, which is under GPL-3.0-or-later, as CGAL's packages are that it uses.
+// The library farlod::preprocess has what follows. It is under GPL-3.0-or-later, as CGAL's packages are that it uses.
 
 /// Which axis of an OBJ file points upwards.
 enum class UpAxis { z, y };

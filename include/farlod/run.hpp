@@ -34,11 +34,11 @@ struct RunSettings {
   /// Ask its std::stop_source to stop, from any thread or from a callback, and the run ends with Cancelled, unless its work is
   /// done.
   std::stop_token stop;
-  /// Of an evaluation: answers that are in the file are taken from there, and others are added to it. If it is read only and
-  /// lacks an answer, the run ends with OutputError. Of one run at a time.
+  /// An evaluation takes the answers that are in the file from there, and adds others to it. If the file is read only and lacks
+  /// an answer, the run ends with OutputError. A file serves one run at a time.
   std::shared_ptr<const AnswerFile> answers = nullptr;
-  /// Of an evaluation with `answers`: computes the answers of a part of the cells, and does nothing else. Nothing is delivered or
-  /// verified, and of the summary, what is about answers is about these.
+  /// An evaluation with `answers` computes the answers of a part of the cells, and does nothing else. Nothing is delivered or
+  /// verified. What the summary says about answers is about these.
   std::optional<Shard> shard = {};
 };
 

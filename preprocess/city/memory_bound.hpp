@@ -33,7 +33,7 @@ class MemoryBound {
   /// nothing without a bound. Any number of threads at once.
   static void look_now();
 
-  /// Of the limit, leaves as much to pages of files as work that needs `in_memory_bytes` besides them leaves.
+  /// Leaves to pages of files what is left of the limit by work that needs `in_memory_bytes` besides them.
   void expect(std::uint64_t in_memory_bytes);
   /// The most that was seen in use, without what lies on disk.
   [[nodiscard]] std::uint64_t most_needed() const { return most_needed_; }

@@ -26,7 +26,7 @@ class BoxMapBaker {
       : tiles_(tiles), grid_(grid), assign_(assign), settings_(settings), city_(tiles, grid), height_bound_(tiles, grid) {}
 
   [[nodiscard]] BakedBoxes bake(Block block, const std::stop_token& stop = {}) const;
-  /// Of these cells, in their order.
+  /// The far maps of these cells, in their order.
   [[nodiscard]] BakedBoxes bake(std::span<const Cell> cells, const std::stop_token& stop = {}) const;
 
  private:

@@ -23,7 +23,7 @@ class FarMapBaker {
  public:
   /// The tiles and the grid must outlive the baker.
   FarMapBaker(const TileSet& tiles, const Grid& grid, Assign assign, const FarMapSettings& settings);
-  /// Of the kind `horizon`, of the occluders of these tiles.
+  /// Bakes far maps of the kind `horizon`, of the occluders of these tiles.
   FarMapBaker(const TileSet& tiles, const Grid& grid, const HorizonMapSettings& settings, CityHorizon city);
   FarMapBaker(FarMapBaker&&) noexcept;
   ~FarMapBaker();
@@ -33,7 +33,7 @@ class FarMapBaker {
 
   /// In the order of CellRange::index_of. The same for any number of threads. Throws Cancelled when `stop` is asked for.
   [[nodiscard]] BakedBlock bake(Block block, const std::stop_token& stop = {}) const;
-  /// Of some cells of the block, at least one, in their order.
+  /// The far maps of some cells of the block, at least one, in their order.
   [[nodiscard]] BakedBlock bake(Block block, const package::CellRuns& cells, const std::stop_token& stop = {}) const;
 
  private:

@@ -8,14 +8,14 @@
 
 namespace farlod {
 
-/// Of the kind `box`.
+/// Settings of the kind `box`.
 struct BoxMapSettings {
   std::uint32_t side_columns = 64;
   std::uint32_t rows = 64;
   double capture_height_m = 1.5;  ///< above the ground at the cell's centre, where most receivers will stand
 };
 
-/// Of the kind `horizon`.
+/// Settings of the kind `horizon`.
 struct HorizonMapSettings {
   std::uint32_t azimuth_bins = 256;
   std::uint32_t squares_per_edge = 1;  ///< 1 to 4

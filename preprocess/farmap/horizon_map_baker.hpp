@@ -26,7 +26,7 @@ class HorizonMapBaker {
   [[nodiscard]] const CityHorizon& city() const { return city_; }
 
   [[nodiscard]] BakedHorizons bake(Block block, const std::stop_token& stop = {}) const;
-  /// Of at least one cell. The explicit occluders are in the frame of the first.
+  /// The far maps of these cells, at least one. The explicit occluders are in the frame of the first.
   [[nodiscard]] BakedHorizons bake(std::span<const Cell> cells, const std::stop_token& stop = {}) const;
   /// The same in the frame of another cell.
   [[nodiscard]] BakedHorizons bake(std::span<const Cell> cells, Cell frame, const std::stop_token& stop = {}) const;

@@ -30,7 +30,7 @@ class ViewpointHorizons {
   [[nodiscard]] std::span<const float> lowest(std::uint32_t bin);
 
  private:
-  /// Of the lowest level. The others follow: an edge is drawn at all levels in one pass.
+  /// The place of the lowest level. The others follow: an edge is drawn at all levels in one pass.
   [[nodiscard]] std::size_t index_of(std::uint32_t i, std::uint32_t j, std::uint32_t bin) const {
     return ((static_cast<std::size_t>(j) * corners_per_edge_ + i) * centres_.size() + bin) * levels_m_.size();
   }

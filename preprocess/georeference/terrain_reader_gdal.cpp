@@ -43,7 +43,7 @@ struct TerrainWindow {
   int column = 0, row = 0, column_end = 0, row_end = 0;
 };
 
-/// Of `count` pixels, those whose centres lie between `low` and `high`, and one more at each end. Both are counted in pixels from
+/// The pixels, of `count`, whose centres lie between `low` and `high`, and one more at each end. Both are counted in pixels from
 /// the edge of the first pixel.
 std::pair<int, int> pixels_around(double low, double high, int count) {
   const double begin = std::clamp(std::floor(low - 0.5) - 1.0, 0.0, static_cast<double>(count));

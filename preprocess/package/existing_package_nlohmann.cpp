@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Of a value in a message.
+/// The text of a value in a message.
 std::string shortened(const Json& j) {
   constexpr std::size_t longest = 60;
   const std::string text = j.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -25,7 +25,7 @@ class PackageWriter {
   /// Makes a package of the blocks. Throws OutputError.
   void write_manifest(const package::Manifest& manifest);
 
-  /// Of all far maps: their pictures, and their explicit occluders.
+  /// Bytes of all far maps: their pictures, and their explicit occluders.
   [[nodiscard]] std::uint64_t far_map_bytes() const { return far_map_bytes_; }
 
  private:

@@ -23,7 +23,7 @@ namespace farlod {
 namespace fs = std::filesystem;
 namespace {
 
-/// Of a tile, beside what it has many of.
+/// What is saved of a tile beside what it has many of.
 struct TileRecord {
   std::uint64_t vertices, triangles, edges;
   float z_low_m, z_high_m, ground_at_centre_m;

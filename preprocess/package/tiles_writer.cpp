@@ -61,7 +61,7 @@ class BlockSections {
     explicit_edges.insert(explicit_edges.end(), map.explicit_edges.begin(), map.explicit_edges.end());
   }
 
-  /// Of a cell without a far map, where others have one.
+  /// Adds a cell without a far map, where others have one.
   void add_missing_map() { far_cells.push_back({explicit_edges.size(), 0, {}, 0}); }
 
   /// Calls visit(kind, elements) for each section, in the order of the file.

@@ -48,7 +48,7 @@ class UnfinishedPackage {
 
   /// Waits until no other process makes the city that all share. Throws Cancelled when `stop` is asked for meanwhile.
   [[nodiscard]] FileLock lock_city(const std::stop_token& stop) const;
-  /// Of one of several shards. Throws OutputError where another process has it, or where the shards were counted otherwise.
+  /// Locks one of several shards. Throws OutputError where another process has it, or where the shards were counted otherwise.
   [[nodiscard]] FileLock lock_shard(std::size_t index, std::size_t count) const;
   /// The number of shards, once there is one.
   [[nodiscard]] std::optional<std::size_t> shard_count() const;
@@ -86,13 +86,13 @@ class UnfinishedPackage {
   std::string finding_;
 };
 
-/// Of a city that is saved in UnfinishedPackage::city_folder(): there when the city is whole.
+/// The record of a city that is saved in UnfinishedPackage::city_folder(). It is there when the city is whole.
 inline constexpr const char* city_record_file = "city.json";
 
 /// Whether a run of this origin was killed after the package had got its name: what is there is what it was to make.
 [[nodiscard]] bool was_just_published(const std::filesystem::path& package, const PackageOrigin& origin);
 
-/// Of the one that is there; nothing where there is none. Takes no lock.
+/// The origin of the unfinished package that is there; nothing where there is none. Takes no lock.
 [[nodiscard]] std::optional<PackageOrigin> origin_of_unfinished(const std::filesystem::path& package);
 
 /// Beside a package, where it is made.

@@ -44,7 +44,7 @@ constexpr double base_points_per_point = 0.16;
 /// A block: a baked far map, and of a triangle in the tiles what is written, while it is gathered and put in order.
 constexpr double bytes_per_baked_map = 48.0 * 1024.0, written_bytes_per_triangle = 60.0;
 
-/// Of what lies on disk, about so much is in use at a time, or not let go yet.
+/// Share of what lies on disk that is in use at a time, or not let go yet: about so much.
 constexpr double in_use_of_files = 0.3;
 
 /// Beside each other: the trees, or the pixels of a canopy, and their crowns.

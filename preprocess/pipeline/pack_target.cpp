@@ -54,7 +54,7 @@ UnfinishedPackage opened(const StageSettings& settings, const fs::path& package,
                                  is_shard || settings.resume ? OfAnotherOrigin::refuse : OfAnotherOrigin::replace);
 }
 
-/// Of the package's files.
+/// Bytes of the package's files.
 std::uint64_t bytes_of(const fs::path& package, const package::Manifest& manifest) {
   std::error_code unread;
   const std::uintmax_t of_manifest = fs::file_size(package / package::manifest_file, unread);

@@ -20,7 +20,7 @@
 namespace farlod::pipeline {
 namespace {
 
-/// Of several inventories, those that cannot be used are reported and left out; of one alone the reason is thrown.
+/// Inventories that cannot be used are reported and left out where there are several; of one alone the reason is thrown.
 class Usable {
  public:
   Usable(std::size_t count, Report& report) : count_(count), report_(report) {}

@@ -41,7 +41,7 @@ struct BuildingPieces {
   std::vector<UpperBorder> upper_borders;
   std::vector<CellEdge> upper_pieces;      ///< of the upper borders, one after the other
   std::vector<HorizonSegment> undersides;  ///< including those on the ground; grid frame
-  /// Of a building with undersides above its lowest floor. Of others, few need them: there, wall_profiles gives them.
+  /// The walls of a building with undersides above its lowest floor. Few others need them: there, wall_profiles gives them.
   std::optional<std::vector<WallProfile>> walls;
   std::optional<Cell> only_cell;  ///< the cell of the whole building when it is not cut
   std::vector<Problem> problems;  ///< without the source, which a building alone does not know; grid frame

@@ -15,7 +15,7 @@ namespace {
 
 /// Lower than this above the ground, what a raster of elevations says is the ground itself.
 constexpr double lowest_canopy_m = 0.5;
-/// Of heights above the ground, less is what is left of a 0 after resampling.
+/// A height above the ground that is less is what is left of a 0 after resampling.
 constexpr float least_height_m = 0.01F;
 constexpr std::size_t trees_between_looks = 4096;
 

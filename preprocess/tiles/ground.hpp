@@ -62,7 +62,7 @@ class Ground {
   /// Whether a point is higher above the ground than that. As height_at says, but for a point whose height decides by a
   /// millimetre; much faster for points beside each other. Not thread-safe.
   [[nodiscard]] bool is_above(const Point3d& p_grid, double height_m) const;
-  /// Of all corners of its triangles; nothing when it has none.
+  /// The lowest of all corners of its triangles; nothing when it has none.
   [[nodiscard]] std::optional<double> lowest_m() const;
 
  private:

@@ -16,7 +16,7 @@
 namespace farlod::tiles {
 namespace {
 
-/// Of rings that really hide each other, each is looked at a few times. Only rings that are all tangled up need more than this
+/// Rings that really hide each other are looked at a few times each. Only rings that are all tangled up need more than this
 /// for each of their corners.
 constexpr std::size_t usual_work = 20'000'000, work_for_each_corner = 256;
 

@@ -15,7 +15,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// Of a place with regard to an edge: 1 to the west of it, -1 to the east, 0 on its line. Exact.
+/// The side of an edge on which a place is: 1 to the west of it, -1 to the east, 0 on its line. Exact.
 int turn(const RisingEdge& edge, Point2d p) {
   const auto exact = [](Point2d q) { return Kernel::Point_2(q.x, q.y); };
   return static_cast<int>(CGAL::orientation(exact(edge.low), exact(edge.high), exact(p)));

@@ -80,7 +80,7 @@ std::size_t count_receivers(std::span<const CellReceivers> cells) {
   return count;
 }
 
-/// Of each receiver, by its index.
+/// The answers of each receiver, by its index.
 struct Answers {
   std::vector<float> svf, low, high;
   explicit Answers(std::size_t count) : svf(count), low(count), high(count) {}

@@ -113,7 +113,7 @@ void GmlSurfaceReader::end_open() {
   Open& open = open_.back();
   open.range.end = surfaces_.members.size();
   if (open.reverses) is_reversed_ = !is_reversed_;
-  // Of two equal ids, references lead to the first. The polygons of both are read
+  // References lead to the first of two equal ids. The polygons of both are read
   if (!open.id.empty()) surfaces_.ranges.try_emplace(std::move(open.id), open.range);
   open_.pop_back();
 }

@@ -39,7 +39,7 @@ struct DirectoryPlace {
   std::uint64_t place = 0, bytes = 0;
 };
 
-/// Of an archive of the large format; otherwise what the end says. `tail`: the last bytes of the archive, with its end at `end`.
+/// The place that an archive of the large format says, or else its end. `tail`: the last bytes of the archive, its end at `end`.
 DirectoryPlace directory_place(std::ifstream& stream, std::string_view tail, std::size_t end) {
   const DirectoryPlace small{number_at(tail, end + 16, 4), number_at(tail, end + 12, 4)};
   if (end < pointer_bytes || !tail.substr(end - pointer_bytes).starts_with(pointer_mark)) return small;

@@ -46,7 +46,7 @@ class CoverListener {
     if (name == "Solid") is_in_solid_ = false;
     if (is_face(name)) cover_.add_face(std::exchange(face_, {}));
   }
-  /// Of a ring, in one piece or in several.
+  /// Adds points of a ring, in one piece or in several.
   void add(const std::vector<double>& coordinates) {
     for (std::size_t n = 0; n + 2 < coordinates.size() && !face_.empty(); n += 3)
       face_.back().push_back({coordinates[n], coordinates[n + 1], coordinates[n + 2]});

@@ -18,7 +18,7 @@ namespace farlod::ingest {
 ///   (3) where the file has no geometries, two of its columns are the coordinates: longitude and latitude in WGS 84, or x and y
 ///       in a CRS that the file does not say
 ///   (4) the sizes are those that TreeFields finds
-/// Of several layers, the first with points or areas is read (of those, the first with the height field that the settings name);
+/// The first of several layers with points or areas is read (of those, the first with the height field that the settings name);
 /// others are in the report. Features that OpenStreetMap calls something else than a tree are not read. Throws InputError when
 /// the file cannot be read, or holds no tree; Cancelled.
 [[nodiscard]] SourceTrees read_feature_trees(const std::filesystem::path& file, const TreeSettings& settings, Report& report,

@@ -21,7 +21,7 @@ constexpr double largest_in_degrees = 0.05;
 /// No CRS has larger coordinates.
 constexpr double farthest = 1e9;
 
-/// Of a face in the plan: positive where it is seen counter-clockwise from above.
+/// Sums over a face in the plan: positive where it is seen counter-clockwise from above.
 struct PlanSums {
   double area = 0.0, volume = 0.0;  ///< `volume`: between it and the height of the origin
 

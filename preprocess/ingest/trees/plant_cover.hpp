@@ -31,7 +31,7 @@ class PlantCover {
 
   /// Surfaces of several levels of detail may come in any order: those of the highest count.
   void begin_geometry(int level_of_detail, bool is_solid);
-  /// Of the geometry that was begun last. What is not finite leaves the face out.
+  /// Adds a face to the geometry that was begun last. A face that is not finite is left out.
   void add_face(Face face);
 
   /// Gives the crowns to the collector.

@@ -11,7 +11,7 @@
 namespace farlod::ingest {
 namespace {
 
-/// Of these, there is no place that could be told.
+/// Whether a problem has no place that could be told.
 bool is_without_place(ProblemCode code) {
   return code == ProblemCode::no_geometry || code == ProblemCode::unreadable_coordinate ||
          code == ProblemCode::malformed_feature || code == ProblemCode::unsupported_geometry;

@@ -15,7 +15,7 @@ constexpr std::size_t fewest_classes = 3;
 /// Smaller ones are what is left of a 0 after computing with it.
 constexpr double smallest_m = 1e-3;
 
-/// Of the thickest trunk on Earth, twelve metres and more.
+/// Above the diameter of the thickest trunk on Earth, twelve metres and more.
 constexpr double thickest_trunk_m = 15.0;
 
 std::string text_of(double size_m) {

@@ -55,7 +55,7 @@ class TreeSizes {
   [[nodiscard]] const Finding& trunks() const { return trunks_; }
 
  private:
-  /// Of one size in all trees: whether it looks like a class.
+  /// The values of one size in all trees, which tell whether they look like classes.
   struct Spread {
     std::size_t count = 0;
     double largest = 0.0;
