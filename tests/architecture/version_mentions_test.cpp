@@ -30,6 +30,8 @@ TEST(Version, StandsInOnePlace) {
   const SourceFile changelog = taken(files, "CHANGELOG.md"), lists = taken(files, "CMakeLists.txt");
   // QGIS reads it there, and a plug-in is installed without a build step
   const SourceFile plug_in = taken(files, "qgis/farlod/metadata.txt");
+  // Hosts and libraries read what is to be cited there, from the tree
+  const SourceFile citation = taken(files, "CITATION.cff");
   // Packages say which release wrote them, for ever
   std::erase_if(files, [](const SourceFile& f) {
     return f.path.starts_with("tests/golden/version_") || f.path.starts_with("tests/fuzz/corpus/");
@@ -37,6 +39,7 @@ TEST(Version, StandsInOnePlace) {
   EXPECT_EQ(mentions_of_version({lists}, software_version).size(), 1U);
   EXPECT_THAT(mentions_of_version(files, software_version), IsEmpty()) << "CMakeLists.txt alone says the version";
   EXPECT_THAT(plug_in.lines, Contains(std::string("version=") + software_version));
+  EXPECT_THAT(citation.lines, Contains(std::string("version: ") + software_version));
   EXPECT_EQ(topmost_release(changelog), software_version);
 }
 
