@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/acceptance/work_folder.hpp"
+#include "tests/scenes/test_data.hpp"
 
 namespace farlod::acceptance {
 
@@ -26,12 +27,11 @@ struct PackedCity {
 /// A test on data that is not part of the project.
 class RealCity : public testing::Test {
  protected:
-  /// Absolute path of a file below the shared data; the test is skipped by `needs` when it is not there.
-  [[nodiscard]] static std::string data(const std::string& name) { return FARLOD_SHARED_DATA_DIR "/" + name; }
+  /// The path of a file of the test data; the test is skipped by `needs` when it is not there.
+  [[nodiscard]] static std::string data(const std::string& name) { return scenes::test_data(name).string(); }
   void needs(const std::vector<std::string>& names) const {
     for (const std::string& name : names)
-      if (!std::filesystem::exists(data(name)))
-        GTEST_SKIP() << "no " << data(name) << ": this test runs where the shared data is";
+      if (!std::filesystem::exists(data(name))) GTEST_SKIP() << scenes::absence_of(data(name));
   }
   /// Packs with default settings.
   [[nodiscard]] PackedCity pack(const std::string& arguments) const;

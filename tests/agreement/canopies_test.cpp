@@ -21,6 +21,7 @@
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/packed_once.hpp"
 #include "tests/scenes/planted_crowns.hpp"
+#include "tests/scenes/test_data.hpp"
 #include "tiles/tiles.hpp"
 
 // Crowns as intervals of slopes above horizons against crowns that are traced, in a town with 100 trees a hectare.
@@ -245,8 +246,8 @@ TEST_P(Canopies, KeepAnErrorThatIsAllowed) {
 class CanopiesOfRealCities : public testing::TestWithParam<const char*> {};
 
 TEST_P(CanopiesOfRealCities, OfHorizonsAreThoseOfRays) {
-  const std::filesystem::path file = std::string(FARLOD_SHARED_DATA_DIR) + "/" + GetParam();
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << ": this test runs where the shared data is";
+  const std::filesystem::path file = scenes::test_data(GetParam());
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << scenes::absence_of(file);
   const scenes::TemporaryFolder folder;
   const PackageReader package = real_city_with_trees(file, folder.path() / "city.farlod");
   const std::vector<CellReceivers> places = in_streets(package);
@@ -262,8 +263,8 @@ TEST_P(CanopiesOfRealCities, OfHorizonsAreThoseOfRays) {
 }
 
 TEST_P(CanopiesOfRealCities, LieWithinTheirBounds) {
-  const std::filesystem::path file = std::string(FARLOD_SHARED_DATA_DIR) + "/" + GetParam();
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << ": this test runs where the shared data is";
+  const std::filesystem::path file = scenes::test_data(GetParam());
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << scenes::absence_of(file);
   const scenes::TemporaryFolder folder;
   const PackageReader package = real_city_with_trees(file, folder.path() / "city.farlod");
   EXPECT_LE(width_of_bounds(package, {}, in_streets(package)), 0.01);

@@ -19,6 +19,7 @@
 #include "tests/agreement/random_receivers.hpp"
 #include "tests/agreement/ray_oracle.hpp"
 #include "tests/scenes/packed_city.hpp"
+#include "tests/scenes/test_data.hpp"
 #include "tiles/tiles.hpp"
 
 // Cities as they are, against CGAL's AABB tree: facets as they were before anything was turned, cut or rounded.
@@ -138,8 +139,8 @@ void expect_agreement(const CityWithOracle& city, const Chosen& chosen, const st
 class RealCityAgreement : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealCityAgreement, EnginesSeeWhatCgalSees) {
-  const std::filesystem::path file = std::string(FARLOD_SHARED_DATA_DIR) + "/" + GetParam();
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << ": this test runs where the shared data is";
+  const std::filesystem::path file = scenes::test_data(GetParam());
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << scenes::absence_of(file);
   const scenes::TemporaryFolder folder;
   const CityWithOracle city(file, folder.path() / "city.farlod");
   expect_agreement(city, some_of_ground(city.package()), "ground");

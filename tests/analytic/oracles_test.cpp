@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/analytic/oracles.hpp"
+#include "tests/scenes/test_data.hpp"
 
 #include <gtest/gtest.h>
 
@@ -61,8 +62,9 @@ TEST(Oracles, TheCanyonsMeansAreTheIntegralsOfItsPoints) {
 }
 
 TEST(Oracles, AgreeWithErellsTableOfCanyonMidPoints) {
-  std::ifstream table(std::string(FARLOD_SHARED_DATA_DIR) + "/canyon/erell2012_canyon_midpoint.csv");
-  if (!table) GTEST_SKIP() << "the table of Erell et al. (2012) is not here";
+  const std::filesystem::path path = scenes::test_data("canyon/erell2012_canyon_midpoint.csv");
+  std::ifstream table(path);
+  if (!table) GTEST_SKIP() << scenes::absence_of(path);
   int rows = 0;
   for (std::string line; std::getline(table, line);) {
     double h = 0, svf = 0;

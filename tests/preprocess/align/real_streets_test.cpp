@@ -10,6 +10,7 @@
 #include "align/align.hpp"
 #include "georeference/georeference.hpp"
 #include "tests/preprocess/align/extruded_town.hpp"
+#include "tests/scenes/test_data.hpp"
 
 namespace farlod::align {
 namespace {
@@ -41,11 +42,9 @@ LocatedCity read_footprints(const std::filesystem::path& path) {
   return georeference::georeference(std::move(sources), {}, report);
 }
 
-std::filesystem::path shared(const std::string& name) { return std::string(FARLOD_SHARED_DATA_DIR) + "/" + name; }
-
 TEST(RealStreets, ManhattanIsAtTwentyEightDegrees) {
-  const auto path = shared("manhattan/manhattan.geojson");
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent";
+  const auto path = scenes::test_data("manhattan/manhattan.geojson");
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << scenes::absence_of(path);
   const LocatedCity located = read_footprints(path);
   EXPECT_EQ(located.georeference.epsg, 32618);
   const Alignment streets = street_alignment(located.city);
@@ -58,8 +57,9 @@ TEST(RealStreets, ManhattanIsAtTwentyEightDegrees) {
 }
 
 TEST(RealStreets, OmiyaIsWeakerThanManhattan) {
-  const auto omiya = shared("omiya/omiya.geojson"), manhattan = shared("manhattan/manhattan.geojson");
-  if (!std::filesystem::exists(omiya) || !std::filesystem::exists(manhattan)) GTEST_SKIP() << omiya << " is absent";
+  const auto omiya = scenes::test_data("omiya/omiya.geojson"), manhattan = scenes::test_data("manhattan/manhattan.geojson");
+  for (const auto& path : {omiya, manhattan})
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << scenes::absence_of(path);
   const LocatedCity located = read_footprints(omiya);
   EXPECT_EQ(located.georeference.epsg, 32654);
   EXPECT_LT(street_alignment(located.city).strength, street_alignment(read_footprints(manhattan).city).strength);

@@ -12,6 +12,7 @@
 #include "farlod/error.hpp"
 #include "georeference/output_crs.hpp"
 #include "tests/scenes/temporary_folder.hpp"
+#include "tests/scenes/test_data.hpp"
 
 namespace farlod::georeference {
 namespace {
@@ -185,8 +186,8 @@ TEST_F(TerrainReader, SaysWhatIsWrong) {
 }
 
 TEST_F(TerrainReader, ReadsTheSurfaceModelOfGothenburg) {
-  const std::filesystem::path path = std::string(FARLOD_SHARED_DATA_DIR) + "/goteborg/dsm.asc";
-  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent";
+  const std::filesystem::path path = scenes::test_data("goteborg/dsm.asc");
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << scenes::absence_of(path);
   const Georeference frame = georeference_of_terrain(path, {"EPSG:3007", ""});
   EXPECT_EQ(frame.epsg, 3007);
   EXPECT_EQ(frame.origin_m, (Point2d{147740.0 + 95.0, 6398620.0 + 65.0}));

@@ -14,6 +14,7 @@
 
 #include "ingest/ingest.hpp"
 #include "tests/scenes/temporary_folder.hpp"
+#include "tests/scenes/test_data.hpp"
 
 namespace farlod::ingest::test {
 
@@ -86,11 +87,11 @@ inline std::size_t count_kind(const CityModel& city, SurfaceKind kind) {
       std::count_if(city.facets().begin(), city.facets().end(), [&](const Facet& f) { return f.kind == kind; }));
 }
 
-inline std::filesystem::path shared_data(const std::string& name) { return std::filesystem::path(FARLOD_SHARED_DATA_DIR) / name; }
+inline std::filesystem::path shared_data(const std::string& name) { return scenes::test_data(name); }
 
 }  // namespace farlod::ingest::test
 
 /// Real data lies outside of the project; where it is absent the test says so and skips.
 #define FARLOD_NEEDS_DATA(name)                                          \
   if (!std::filesystem::exists(farlod::ingest::test::shared_data(name))) \
-  GTEST_SKIP() << "needs real data: " << farlod::ingest::test::shared_data(name)
+  GTEST_SKIP() << farlod::scenes::absence_of(farlod::ingest::test::shared_data(name))

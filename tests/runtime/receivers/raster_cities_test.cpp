@@ -17,6 +17,7 @@
 #include "receivers/raster_receivers.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"
+#include "tests/scenes/test_data.hpp"
 #include "tiles/tiles.hpp"
 
 // Pixels are placed all at once, triangle by triangle. The judge looks at each of them alone.
@@ -105,8 +106,8 @@ INSTANTIATE_TEST_SUITE_P(Towns, RasterOfGeneratedTown,
 class RasterOfRealCity : public testing::TestWithParam<const char*> {};
 
 TEST_P(RasterOfRealCity, HasTheReceiversOfSinglePlaces) {
-  const std::filesystem::path file = std::string(FARLOD_SHARED_DATA_DIR) + "/" + GetParam();
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << ": this test runs where the shared data is";
+  const std::filesystem::path file = scenes::test_data(GetParam());
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << scenes::absence_of(file);
   const scenes::TemporaryFolder folder;
   Report report;
   const std::vector inputs{file};
