@@ -6,7 +6,6 @@
 #include <array>
 #include <iterator>
 #include <regex>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -18,6 +17,21 @@ constexpr std::size_t longest_file = 400, longest_function = 25, longest_prose_l
 /// Path and reason of each file that may be longer. Nobody has needed it so far.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 0> long_for_a_reason{};
 
+/// Tests that measure time or resident memory, and why they may.
+constexpr std::pair<std::string_view, std::string_view> measuring_for_a_reason[] = {
+    {"tests/architecture/house_rules.cpp", "says what is forbidden"},
+    {"tests/preprocess/city/memory_bound_test.cpp", "a limit lies above what is resident"},
+    {"tests/reliability/soak.cpp", "goes on for so long; the memory limit before a release"},
+    {"tests/runtime/view/http_server_test.cpp", "a client that is slow"},
+    {"tests/scenes/packed_city.cpp", "tells benchmarks what packing took"},
+};
+
+/// What gives tests a folder of their own, of the folder that all share.
+constexpr std::pair<std::string_view, std::string_view> givers_of_folders[] = {
+    {"tests/scenes/temporary_folder.hpp", "for the tests"},
+    {"tests/fuzz/scratch_folder.hpp", "for the fuzz programs, which link no gtest"},
+};
+
 struct LongFunction {
   std::string_view path, name, reason;
 };
@@ -26,8 +40,6 @@ constexpr LongFunction long_functions[] = {
     {"preprocess/app/pack_options.cpp", "add_input_options", "a list: one statement for each option"},
     {"preprocess/ingest/citygml/citygml_parser.cpp", "undo", "a switch: one case for each meaning of an element"},
     {"contract/horizon/edge_facing.hpp", "may_be_silhouette", "a proof, case by case"},
-    {"preprocess/farmap/city_horizon.cpp", "build", "one loop over edges that fills three arrays at once"},
-    {"preprocess/pipeline/pack.cpp", "write_package", "one pipeline whose steps share what they measure"},
     {"preprocess/tiles/tiles.cpp", "place_building", "one building's way through cutting, which shares a dozen values"},
     {"runtime/horizon/gap_rays.cpp", "trace_gaps", "a kernel: its steps share vectors of 16 lanes"},
 };
@@ -44,6 +56,12 @@ bool begins_with_licence(const SourceFile& file, std::string_view mark) {
   if (file.lines.size() < first + 2) return false;
   return file.lines[first] == std::string(mark) + " SPDX-FileCopyrightText: The Far-LoD authors" &&
          file.lines[first + 1] == std::string(mark) + " SPDX-License-Identifier: " + licence;
+}
+
+/// Whether a list of paths and reasons has this path.
+template <class List>
+bool lists(const List& excuses, std::string_view path) {
+  return std::any_of(std::begin(excuses), std::end(excuses), [&](const auto& excuse) { return excuse.first == path; });
 }
 
 template <class Condition>
@@ -63,12 +81,14 @@ std::vector<std::string> files_without_licence(const std::vector<SourceFile>& tr
   });
 }
 
+namespace {
+
+bool is_long(const SourceFile& file) { return (is_cpp(file) || is_script_of_page(file)) && file.lines.size() > longest_file; }
+
+}  // namespace
+
 std::vector<std::string> files_too_long(const std::vector<SourceFile>& tree) {
-  return paths_where(tree, [](const SourceFile& file) {
-    const bool excused =
-        std::any_of(long_for_a_reason.begin(), long_for_a_reason.end(), [&](const auto& e) { return e.first == file.path; });
-    return (is_cpp(file) || is_script_of_page(file)) && file.lines.size() > longest_file && !excused;
-  });
+  return paths_where(tree, [](const SourceFile& file) { return is_long(file) && !lists(long_for_a_reason, file.path); });
 }
 
 namespace {
@@ -98,12 +118,19 @@ bool is_code(const std::string& line) {
   return begin != std::string::npos && line.compare(begin, 2, "//") != 0;
 }
 
-bool may_be_long(const std::string& path, const std::string& name) {
+struct FoundFunction {
+  std::string path, name;
+  std::size_t line = 0, code = 0;
+
+  [[nodiscard]] bool is_meant_by(const LongFunction& excuse) const { return excuse.path == path && excuse.name == name; }
+};
+
+bool is_excused(const FoundFunction& function) {
   return std::any_of(std::begin(long_functions), std::end(long_functions),
-                     [&](const LongFunction& f) { return f.path == path && f.name == name; });
+                     [&](const LongFunction& excuse) { return function.is_meant_by(excuse); });
 }
 
-void add_long_functions(const SourceFile& file, std::vector<std::string>& found) {
+void add_long_functions(const SourceFile& file, std::vector<FoundFunction>& found) {
   for (std::size_t brace = 0; brace < file.lines.size(); ++brace) {
     if (!file.lines[brace].ends_with(" {")) continue;
     std::size_t begin = brace;
@@ -113,18 +140,26 @@ void add_long_functions(const SourceFile& file, std::vector<std::string>& found)
     const std::string close = std::string(indentation(file.lines[begin]), ' ') + "}";
     std::size_t end = brace + 1, code = 0;
     for (; end < file.lines.size() && !file.lines[end].starts_with(close); ++end) code += is_code(file.lines[end]) ? 1 : 0;
-    if (code > longest_function && !may_be_long(file.path, name))
-      found.push_back(file.path + ":" + std::to_string(begin + 1) + " " + name + " has " + std::to_string(code) + " lines");
+    if (code > longest_function) found.push_back({file.path, name, begin + 1, code});
     brace = end;
   }
+}
+
+/// Those with an excuse, too.
+std::vector<FoundFunction> long_functions_of(const std::vector<SourceFile>& tree) {
+  std::vector<FoundFunction> found;
+  for (const SourceFile& file : tree)
+    if (is_cpp(file) && !file.path.starts_with("tests/")) add_long_functions(file, found);
+  return found;
 }
 
 }  // namespace
 
 std::vector<std::string> functions_too_long(const std::vector<SourceFile>& tree) {
   std::vector<std::string> found;
-  for (const SourceFile& file : tree)
-    if (is_cpp(file) && !file.path.starts_with("tests/")) add_long_functions(file, found);
+  for (const FoundFunction& f : long_functions_of(tree))
+    if (!is_excused(f))
+      found.push_back(f.path + ":" + std::to_string(f.line) + " " + f.name + " has " + std::to_string(f.code) + " lines");
   return found;
 }
 
@@ -145,35 +180,72 @@ std::vector<std::string> files_with_notes_to_self(const std::vector<SourceFile>&
   return paths_where(tree, [&](const SourceFile& file) { return std::any_of(file.lines.begin(), file.lines.end(), has_note); });
 }
 
-std::vector<std::string> tests_without_own_folder(const std::vector<SourceFile>& tree) {
+namespace {
+
+bool has_line_with(const SourceFile& file, const std::regex& what) {
+  return std::ranges::any_of(file.lines, [&](const std::string& line) { return std::regex_search(line, what); });
+}
+
+bool names_shared_folder(const SourceFile& file) {
   static const std::regex shared_folder(R"(\b(TempDir|temp_directory_path)\(\))");
-  const auto names_it = [](const std::string& line) { return std::regex_search(line, shared_folder); };
-  return paths_where(tree, [&](const SourceFile& file) {
-    const bool gives_own = file.path == "tests/scenes/temporary_folder.hpp" || file.path == "tests/fuzz/scratch_folder.hpp";
-    return file.path.starts_with("tests/") && is_cpp(file) && !gives_own && std::ranges::any_of(file.lines, names_it);
-  });
+  return file.path.starts_with("tests/") && is_cpp(file) && has_line_with(file, shared_folder);
+}
+
+bool measures(const SourceFile& file) {
+  static const std::regex measure(
+      R"(\b(steady_clock|system_clock|high_resolution_clock|sleep_(for|until)|getrusage|VmHWM|VmRSS)\b|std::clock\()");
+  return file.path.starts_with("tests/") && is_cpp(file) && has_line_with(file, measure);
+}
+
+}  // namespace
+
+std::vector<std::string> tests_without_own_folder(const std::vector<SourceFile>& tree) {
+  return paths_where(tree,
+                     [](const SourceFile& file) { return names_shared_folder(file) && !lists(givers_of_folders, file.path); });
 }
 
 std::vector<std::string> tests_that_depend_on_the_machine(const std::vector<SourceFile>& tree) {
-  static const std::regex measure(
-      R"(\b(steady_clock|system_clock|high_resolution_clock|sleep_(for|until)|getrusage|VmHWM|VmRSS)\b|std::clock\()");
-  static const std::set<std::string_view> exempt{
-      "tests/architecture/house_rules.cpp",           // says them
-      "tests/preprocess/city/memory_bound_test.cpp",  // a limit lies above what is resident
-      "tests/reliability/soak.cpp",                   // goes on for so long; the memory limit before a release
-      "tests/runtime/view/http_server_test.cpp",      // a client that is slow
-      "tests/scenes/packed_city.cpp",                 // tells benchmarks what packing took
-  };
-  const auto measures = [](const std::string& line) { return std::regex_search(line, measure); };
-  return paths_where(tree, [&](const SourceFile& file) {
-    return file.path.starts_with("tests/") && is_cpp(file) && !exempt.contains(file.path) &&
-           std::ranges::any_of(file.lines, measures);
-  });
+  return paths_where(tree, [](const SourceFile& file) { return measures(file) && !lists(measuring_for_a_reason, file.path); });
 }
 
 namespace {
 
-/// Of UTF-8, whose bytes 10xxxxxx continue a character.
+/// Adds the paths of a list that do not break the rule.
+template <class List, class Breaks>
+void add_useless(const List& excuses, const std::vector<SourceFile>& tree, const Breaks& breaks,
+                 std::vector<std::string>& found) {
+  for (const auto& excuse : excuses)
+    if (std::ranges::none_of(tree, [&](const SourceFile& file) { return file.path == excuse.first && breaks(file); }))
+      found.emplace_back(excuse.first);
+}
+
+}  // namespace
+
+std::vector<std::string> useless_excuses(const std::vector<SourceFile>& tree) {
+  std::vector<std::string> found;
+  add_useless(long_for_a_reason, tree, is_long, found);
+  const std::vector<FoundFunction> functions = long_functions_of(tree);
+  for (const LongFunction& excuse : long_functions)
+    if (std::ranges::none_of(functions, [&](const FoundFunction& f) { return f.is_meant_by(excuse); }))
+      found.push_back(std::string(excuse.path) + " " + std::string(excuse.name));
+  add_useless(givers_of_folders, tree, names_shared_folder, found);
+  add_useless(measuring_for_a_reason, tree, measures, found);
+  return found;
+}
+
+std::vector<std::string> comments_without_subject(const std::vector<SourceFile>& tree) {
+  static const std::regex room("^(contract|include|console|gdal|storage|preprocess)/"), begins_with_of(R"(//[/<!]*\s*Of\s)");
+  std::vector<std::string> found;
+  for (const SourceFile& file : tree)
+    for (std::size_t n = 0; n < file.lines.size(); ++n)
+      if (is_cpp(file) && std::regex_search(file.path, room) && std::regex_search(file.lines[n], begins_with_of))
+        found.push_back(file.path + ":" + std::to_string(n + 1));
+  return found;
+}
+
+namespace {
+
+/// Number of characters of UTF-8, whose bytes 10xxxxxx continue a character.
 std::size_t character_count(const std::string& line) {
   return static_cast<std::size_t>(std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; }));
 }

@@ -34,6 +34,14 @@ namespace farlod {
 /// have a reason to; they compare nothing with it.
 [[nodiscard]] std::vector<std::string> tests_that_depend_on_the_machine(const std::vector<SourceFile>& tree);
 
+/// Excuses from the rules above that excuse nothing, since the file or the function is not there any more, or keeps the rule:
+/// "path", or "path name" of a function.
+[[nodiscard]] std::vector<std::string> useless_excuses(const std::vector<SourceFile>& tree);
+
+/// Lines of comments that begin with "Of": they have no subject, and a reader must guess it from the declaration. In contract/,
+/// include/, console/, gdal/, storage/ and preprocess/, as "path:line".
+[[nodiscard]] std::vector<std::string> comments_without_subject(const std::vector<SourceFile>& tree);
+
 /// Lines of prose in documents that have more than 120 characters: "path:line has n characters". Rows of tables may, since
 /// Markdown cannot break them.
 [[nodiscard]] std::vector<std::string> prose_lines_too_long(const std::vector<SourceFile>& documents);

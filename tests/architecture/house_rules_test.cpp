@@ -11,6 +11,8 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::Field;
 using testing::IsEmpty;
+using testing::IsSupersetOf;
+using testing::Not;
 
 const std::string authors = " SPDX-FileCopyrightText: The Far-LoD authors";
 const std::string apache = " SPDX-License-Identifier: Apache-2.0";
@@ -39,6 +41,12 @@ TEST(HouseRules, EachTestWritesInAFolderOfItsOwn) {
 
 TEST(HouseRules, NoTestDependsOnTheMachine) {
   EXPECT_THAT(tests_that_depend_on_the_machine(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty());
+}
+
+TEST(HouseRules, EachExcuseExcusesSomething) { EXPECT_THAT(useless_excuses(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty()); }
+
+TEST(HouseRules, CommentsSayTheirSubjectFirst) {
+  EXPECT_THAT(comments_without_subject(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty());
 }
 
 TEST(HouseRules, LinesOfDocumentsFitAScreen) {
@@ -86,6 +94,27 @@ TEST(HouseRules, ALongFunctionIsFound) {
                           file_with("e.hpp", member, 26, "  }"), file_with("f.cpp", not_one, 26, "};"),
                           file_with("tests/g.cpp", plain, 26, "}")}),
       ElementsAre("b.cpp:1 f has 26 lines", "c.cpp:2 f has 26 lines", "d.cpp:1 C has 26 lines", "e.hpp:2 g has 26 lines"));
+}
+
+TEST(HouseRules, AnExcuseForNothingIsFound) {
+  const std::string clock = std::string("steady_") + "clock";
+  const std::string function = "runtime/horizon/gap_rays.cpp", test = "tests/reliability/soak.cpp";
+  const std::vector<std::string> kernel{"void trace_gaps(int a) {"}, renamed{"void trace(int a) {"};
+  const std::string excuse = function + " trace_gaps";
+  EXPECT_THAT(useless_excuses({}), IsSupersetOf({excuse, test, std::string("tests/scenes/temporary_folder.hpp")}));
+  EXPECT_THAT(useless_excuses({file_with(function, kernel, 26, "}")}), Not(Contains(excuse)));
+  EXPECT_THAT(useless_excuses({file_with(function, kernel, 25, "}")}), Contains(excuse));
+  EXPECT_THAT(useless_excuses({file_with(function, renamed, 26, "}")}), Contains(excuse));
+  EXPECT_THAT(useless_excuses({{test, {"std::chrono::" + clock + "::now();"}}}), Not(Contains(test)));
+  EXPECT_THAT(useless_excuses({{test, {"const CountedSteps steps;"}}}), Contains(test));
+}
+
+TEST(HouseRules, ACommentWithoutASubjectIsFound) {
+  EXPECT_THAT(comments_without_subject({{"contract/a.hpp", {"/// Of a cell.", "/// The edge.", "int a;  ///< Of it."}},
+                                        {"preprocess/tiles/b.cpp", {"  //Of two", "  // Often", "  // one", "  // of two"}},
+                                        {"runtime/c.hpp", {"/// Of a cell."}},
+                                        {"preprocess/d.py", {"# Of a cell."}}}),
+              ElementsAre("contract/a.hpp:1", "contract/a.hpp:3", "preprocess/tiles/b.cpp:1"));
 }
 
 TEST(HouseRules, ALongLineOfProseIsFound) {

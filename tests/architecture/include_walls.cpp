@@ -86,7 +86,7 @@ constexpr Wall walls[] = {
     {"^(preprocess|runtime)/", "/app/", "^(CLI/|spdlog/|iostream$|print$)", "libraries neither print nor read command lines"},
     {"^(preprocess|runtime)/.*\\.hpp$", "/app/|_(cgal|embree)\\.hpp$", "^(?![a-z_0-9]+$|[a-z_]+/[a-z_0-9/]+\\.hpp$)",
      "headers name no foreign library"},
-    {"^(preprocess|runtime)/.*\\.hpp$", "/app/", "^(boost|tbb|nlohmann|fmt|oneapi)/", "headers name no foreign library"},
+    {"^(preprocess|runtime)/.*\\.hpp$", NOWHERE, "^(boost|tbb|nlohmann|fmt|oneapi)/", "headers name no foreign library"},
 };
 
 /// In the order in which the data goes through them.
@@ -141,6 +141,8 @@ void check_stage_order(const SourceFile& file, std::vector<std::string>& breache
   }
 }
 
+std::string_view room_of(const SourceFile& file) { return std::string_view(file.path).substr(0, file.path.rfind('/')); }
+
 /// What a file may name in quotes besides the contract: the headers of its own side (both sides have a room `package` and a room
 /// `app`, so that the name alone does not say whose header is meant), the console from a program, the errors of GDAL, durable
 /// files, rays from preprocess, the evaluator and the reader of manifests from two of its stages.
@@ -152,8 +154,7 @@ bool may_quote(const SourceFile& file, const std::string& target, const std::set
   // The walls above let only the wrappers of GDAL through
   if (target.starts_with("gdal/")) return side == "gdal" || side == "preprocess" || side == "runtime";
   if (target.starts_with("storage/")) return side == "storage" || side == "preprocess" || side == "runtime";
-  const std::string_view room = std::string_view(file.path).substr(0, file.path.rfind('/'));
-  if (std::ranges::count(shared_headers, SharedHeader{room, target}) > 0) return true;
+  if (std::ranges::count(shared_headers, SharedHeader{room_of(file), target}) > 0) return true;
   return side == "preprocess" && target.starts_with("occlusion/");
 }
 
@@ -165,7 +166,35 @@ void check_side(const SourceFile& file, const std::set<std::string>& paths, std:
       breaches.push_back(sentence(file, include, "quotes are for the contract and the headers of the own side"));
 }
 
+bool has_forbidden_include(const SourceFile& file, const Wall& wall) {
+  const std::regex forbidden(wall.forbidden);
+  return std::ranges::any_of(includes_of(file),
+                             [&](const Include& include) { return std::regex_search(include.target, forbidden); });
+}
+
+bool is_used(const SharedHeader& shared, const std::vector<SourceFile>& tree) {
+  return std::ranges::any_of(tree, [&](const SourceFile& file) {
+    return room_of(file) == shared.room && std::ranges::count(includes_of(file), shared.header, &Include::target) > 0;
+  });
+}
+
 }  // namespace
+
+std::vector<std::string> useless_exemptions(const std::vector<SourceFile>& tree) {
+  std::vector<std::string> found;
+  for (const Wall& wall : walls) {
+    const std::regex room(wall.room), exempt(wall.exempt);
+    const auto is_exempt = [&](const SourceFile& file) {
+      return is_cpp(file) && std::regex_search(file.path, room) && std::regex_search(file.path, exempt) &&
+             has_forbidden_include(file, wall);
+    };
+    if (std::string_view(wall.exempt) != NOWHERE && std::ranges::none_of(tree, is_exempt))
+      found.push_back(std::string(wall.exempt) + ": " + wall.reason);
+  }
+  for (const SharedHeader& shared : shared_headers)
+    if (!is_used(shared, tree)) found.push_back(std::string(shared.room) + ": " + std::string(shared.header));
+  return found;
+}
 
 std::vector<std::string> breaches_of_include_walls(const std::vector<SourceFile>& tree) {
   std::set<std::string> paths;

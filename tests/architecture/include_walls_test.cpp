@@ -7,9 +7,11 @@
 namespace farlod {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 /// A tree around the file under test, with a header on each side that it may name.
 std::vector<SourceFile> tree_with(const std::string& path, const std::string& include_line) {
@@ -26,6 +28,20 @@ TEST(IncludeWalls, StandInThisTree) {
   std::string all;
   for (const std::string& breach : breaches_of_include_walls(tree)) all.append(breach).append("\n");
   EXPECT_EQ(all, "");
+}
+
+TEST(IncludeWalls, HaveNoExemptionThatNobodyNeeds) {
+  EXPECT_THAT(useless_exemptions(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty());
+}
+
+TEST(IncludeWalls, AnExemptionThatNobodyNeedsIsFound) {
+  const auto found = [](const char* path, const char* include_line) { return useless_exemptions(tree_with(path, include_line)); };
+  const auto for_cgal = HasSubstr("CGAL's wrapper"), for_trial = HasSubstr("trial: evaluate/sky_evaluator.hpp");
+  EXPECT_THAT(useless_exemptions({}), AllOf(Contains(for_cgal), Contains(for_trial)));
+  EXPECT_THAT(found("preprocess/tiles/kernel_cgal.hpp", "#include <CGAL/Gmpq.h>"), Not(Contains(for_cgal)));
+  EXPECT_THAT(found("preprocess/tiles/kernel_cgal.hpp", "#include <vector>"), Contains(for_cgal));
+  EXPECT_THAT(found("preprocess/trial/a.cpp", "#include \"evaluate/sky_evaluator.hpp\""), Not(Contains(for_trial)));
+  EXPECT_THAT(found("preprocess/tiles/a.cpp", "#include \"evaluate/sky_evaluator.hpp\""), Contains(for_trial));
 }
 
 struct Planted {

@@ -4,12 +4,16 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 namespace farlod {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Matcher;
+using testing::Not;
 
 const std::filesystem::path source_root = FARLOD_SOURCE_DIR;
 
