@@ -12,8 +12,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Matcher;
-using testing::Not;
 
 const std::filesystem::path source_root = FARLOD_SOURCE_DIR;
 
