@@ -89,6 +89,16 @@ struct Quantities {
 /// chosen yet. False: there is no quantity of this word.
 [[nodiscard]] FARLOD_EXPORT bool ask_for(std::string_view word, Quantities& quantities);
 
+/// The word of a quantity, and what it stands for, as a phrase behind the word.
+struct QuantityWord {
+  std::string_view word, meaning;
+  bool is_of_crowns = false;  ///< it needs a package with trees
+};
+/// All that there are, in the order of their columns.
+[[nodiscard]] FARLOD_EXPORT std::vector<QuantityWord> quantity_words();
+/// Those of the quantities that are asked for.
+[[nodiscard]] FARLOD_EXPORT std::vector<QuantityWord> words_of(const Quantities& quantities);
+
 /// One of the numbers that a receiver has.
 struct ColumnDescription {
   std::string name;             ///< such as "svf_low"

@@ -3,14 +3,12 @@
 #include "app/quantity_options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <string_view>
 #include <utility>
 
 #include "console/number_range.hpp"
-#include "evaluate/quantity_table.hpp"
 
 namespace farlod {
 namespace {
@@ -44,27 +42,26 @@ SunPeriod period_of(const std::string& text, std::size_t step_minutes) {
   return {std::chrono::sys_days(first), days, std::chrono::minutes(static_cast<std::int64_t>(minutes))};
 }
 
-/// "svf_solid, directional, hidden ...", with their meanings in brackets.
-std::string words_of(bool is_of_crowns) {
+/// "svf_solid (share of the solid angle), directional ...".
+std::string words_with_meanings(bool of_crowns) {
   std::string words;
-  for (const QuantityRow& row : quantity_table())
-    if (row.is_of_crowns == is_of_crowns)
-      words.append(words.empty() ? "" : ", ").append(row.word).append(" (").append(row.meaning).append(")");
+  for (const QuantityWord& q : quantity_words())
+    if (q.is_of_crowns == of_crowns)
+      words.append(words.empty() ? "" : ", ").append(q.word).append(" (").append(q.meaning).append(")");
   return words;
 }
 
 void add(const std::string& word, const RawQuantities& raw, Quantities& quantities) {
   if (word == "svf") return;
-  const std::span<const QuantityRow> table = quantity_table();
-  const auto row = std::ranges::find(table, word, &QuantityRow::word);
-  if (row == table.end()) {
-    std::string words = "svf";
-    for (const QuantityRow& known : table) words.append(", ").append(known.word);
-    throw CLI::ValidationError("--quantity", "\"" + word + "\" is not one of " + words);
-  }
   // Where the sun stands depends on the package
-  if (row->quantity != Quantity::sunlit) return row->ask(quantities);
-  if (raw.sun.empty()) throw CLI::ValidationError("--quantity", "sunlit needs a day or a year: give --sun");
+  if (word == "sunlit") {
+    if (raw.sun.empty()) throw CLI::ValidationError("--quantity", "sunlit needs a day or a year: give --sun");
+    return;
+  }
+  if (ask_for(word, quantities)) return;
+  std::string words = "svf";
+  for (const QuantityWord& known : quantity_words()) words.append(", ").append(known.word);
+  throw CLI::ValidationError("--quantity", "\"" + word + "\" is not one of " + words);
 }
 
 void add_canopy_options(CLI::App& app, RawQuantities& raw) {
@@ -126,9 +123,9 @@ void add_sun_options(CLI::App& app, RawQuantities& raw) {
 }  // namespace
 
 void add_quantity_options(CLI::App& app, RawQuantities& raw) {
-  app.add_option(
-         "--quantity", raw.quantities,
-         "What to compute, with commas: svf (always), " + words_of(false) + "; with the trees of a package " + words_of(true))
+  app.add_option("--quantity", raw.quantities,
+                 "What to compute, with commas: svf (always), " + words_with_meanings(false) + "; with the trees of a package " +
+                     words_with_meanings(true))
       ->group("Quantities");
   app.add_option("--horizons", raw.horizons,
                  "Elevations of the horizon, in degrees, at so many azimuths, clockwise from true north")

@@ -4,7 +4,6 @@
 
 #include <fmt/core.h>
 
-#include "evaluate/quantity_table.hpp"
 #include "farlod/version.hpp"
 
 namespace farlod {
@@ -76,11 +75,9 @@ void add_canopy(const CanopySettings& canopy, AnswerKey& key) {
 
 void add_quantities(const Quantities& q, AnswerKey& key) {
   std::string further;
-  for (const QuantityRow& row : quantity_table())
+  for (const QuantityWord& asked : words_of(q))
     // Numbers of horizons and patches have options of their own, as the days of the sun
-    if (row.is_asked(q) && row.quantity != Quantity::horizon && row.quantity != Quantity::sky_patches &&
-        row.quantity != Quantity::sunlit)
-      further.append(",").append(row.word);
+    if (asked.word != "horizon" && asked.word != "sky_patches" && asked.word != "sunlit") further.append(",").append(asked.word);
   if (!further.empty()) key.emplace_back("--quantity", "svf" + further);
   if (q.horizons > 0) key.emplace_back("--horizons", fmt::format("{}", q.horizons));
   if (q.sky_patches != SkyPatchSet::none)

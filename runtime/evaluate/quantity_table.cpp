@@ -114,33 +114,28 @@ void ask_for_horizons(Quantities& q) {
 
 constexpr std::array<QuantityRow, 11> table{{
     {.quantity = Quantity::svf_solid,
-     .word = "svf_solid",
-     .meaning = "share of the solid angle",
+     .word = {"svf_solid", "share of the solid angle"},
      .is_asked = is_flagged<&Quantities::svf_solid>,
      .ask = set_flag<&Quantities::svf_solid>,
      .describe = describe_solid},
     {.quantity = Quantity::directional,
-     .word = "directional",
-     .meaning = "svfN, svfE, svfS, svfW as UMEP has them",
+     .word = {"directional", "svfN, svfE, svfS, svfW as UMEP has them"},
      .is_asked = is_flagged<&Quantities::directional>,
      .ask = set_flag<&Quantities::directional>,
      .describe = describe_directional},
     {.quantity = Quantity::hidden,
-     .word = "hidden",
-     .meaning = "by near and by far geometry",
+     .word = {"hidden", "by near and by far geometry"},
      .is_asked = is_flagged<&Quantities::hidden>,
      .ask = set_flag<&Quantities::hidden>,
      .describe = describe_hidden},
     {.quantity = Quantity::horizon,
-     .word = "horizon",
-     .meaning = "its elevations, at 36 azimuths",
+     .word = {"horizon", "its elevations, at 36 azimuths"},
      .is_weighted = false,
      .is_asked = [](const Quantities& q) { return q.horizons > 0; },
      .ask = ask_for_horizons,
      .describe = describe_horizons},
     {.quantity = Quantity::horizon_distance,
-     .word = "horizon_distance",
-     .meaning = "with the level distance to it",
+     .word = {"horizon_distance", "with the level distance to it"},
      .is_weighted = false,
      .is_asked = [](const Quantities& q) { return q.horizon_distances; },
      .ask =
@@ -150,8 +145,7 @@ constexpr std::array<QuantityRow, 11> table{{
          },
      .describe = describe_distances},
     {.quantity = Quantity::sky_patches,
-     .word = "sky_patches",
-     .meaning = "the share seen of each of 145",
+     .word = {"sky_patches", "the share seen of each of 145"},
      .is_asked = [](const Quantities& q) { return q.sky_patches != SkyPatchSet::none; },
      .ask =
          [](Quantities& q) {
@@ -159,8 +153,7 @@ constexpr std::array<QuantityRow, 11> table{{
          },
      .describe = describe_patches},
     {.quantity = Quantity::sunlit,
-     .word = "sunlit",
-     .meaning = "hours of sunshine",
+     .word = {"sunlit", "hours of sunshine"},
      .is_weighted = false,
      .is_asked = [](const Quantities& q) { return q.sun.has_value(); },
      .ask =
@@ -169,30 +162,22 @@ constexpr std::array<QuantityRow, 11> table{{
          },
      .describe = describe_sunlit},
     {.quantity = Quantity::svf_total,
-     .word = "svf_total",
-     .meaning = "and svfveg",
-     .is_of_crowns = true,
+     .word = {"svf_total", "and svfveg", true},
      .is_asked = is_flagged<&Quantities::svf_total>,
      .ask = set_flag<&Quantities::svf_total>,
      .describe = describe_total},
     {.quantity = Quantity::svfaveg,
-     .word = "svfaveg",
-     .meaning = "as UMEP has it",
-     .is_of_crowns = true,
+     .word = {"svfaveg", "as UMEP has it", true},
      .is_asked = is_flagged<&Quantities::svfaveg>,
      .ask = set_flag<&Quantities::svfaveg>,
      .describe = describe_svfaveg},
     {.quantity = Quantity::directional_vegetation,
-     .word = "directional_vegetation",
-     .meaning = "both of each half of the sky, as UMEP has them",
-     .is_of_crowns = true,
+     .word = {"directional_vegetation", "both of each half of the sky, as UMEP has them", true},
      .is_asked = is_flagged<&Quantities::directional_vegetation>,
      .ask = set_flag<&Quantities::directional_vegetation>,
      .describe = describe_directional_vegetation},
     {.quantity = Quantity::shares,
-     .word = "shares",
-     .meaning = "of sky, vegetation and building",
-     .is_of_crowns = true,
+     .word = {"shares", "of sky, vegetation and building", true},
      .is_asked = is_flagged<&Quantities::sky_shares>,
      .ask = set_flag<&Quantities::sky_shares>,
      .describe = describe_shares},
@@ -217,7 +202,7 @@ ColumnRange range_of(Quantity quantity, const Quantities& quantities) {
 }
 
 ColumnRange range_of_crowns(const Quantities& quantities) {
-  const QuantityRow* const row = std::ranges::find(table, true, &QuantityRow::is_of_crowns);
+  const QuantityRow* const row = std::ranges::find_if(table, [](const QuantityRow& r) { return r.word.is_of_crowns; });
   const std::size_t first = columns_before(row, quantities);
   return {first, columns_before(table.data() + table.size(), quantities) - first};
 }
@@ -252,9 +237,22 @@ std::vector<std::string> columns_of(const Quantities& quantities) {
 }
 
 bool ask_for(std::string_view word, Quantities& quantities) {
-  const auto row = std::ranges::find(table, word, &QuantityRow::word);
+  const auto row = std::ranges::find_if(table, [&](const QuantityRow& r) { return r.word.word == word; });
   if (row != table.end()) row->ask(quantities);
   return row != table.end();
+}
+
+std::vector<QuantityWord> quantity_words() {
+  std::vector<QuantityWord> words;
+  for (const QuantityRow& row : table) words.push_back(row.word);
+  return words;
+}
+
+std::vector<QuantityWord> words_of(const Quantities& quantities) {
+  std::vector<QuantityWord> words;
+  for (const QuantityRow& row : table)
+    if (row.is_asked(quantities)) words.push_back(row.word);
+  return words;
 }
 
 bool Quantities::any() const {
@@ -262,7 +260,7 @@ bool Quantities::any() const {
 }
 
 bool Quantities::any_of_canopies() const {
-  return std::ranges::any_of(table, [this](const QuantityRow& row) { return row.is_of_crowns && row.is_asked(*this); });
+  return std::ranges::any_of(table, [this](const QuantityRow& row) { return row.word.is_of_crowns && row.is_asked(*this); });
 }
 
 bool Quantities::any_weighted() const {

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "farlod/quantities.hpp"
@@ -32,9 +31,7 @@ enum class Quantity : std::uint8_t {
 /// FurtherQuantities of profiles, write_canopy_columns of crowns.
 struct QuantityRow {
   Quantity quantity{};
-  std::string_view word;     ///< by which it is asked for
-  std::string_view meaning;  ///< for the help of whoever asks, behind the word
-  bool is_of_crowns = false;
+  QuantityWord word;
   bool is_weighted = true;  ///< by the cosine: it has no place beside SkyWeight::solid_angle
   bool (*is_asked)(const Quantities&) = nullptr;
   void (*ask)(Quantities&) = nullptr;  ///< with as many values as are usual

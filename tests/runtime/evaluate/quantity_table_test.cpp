@@ -19,16 +19,16 @@ Quantities all_quantities() {
 TEST(QuantityTable, AsksForOneQuantityByItsWord) {
   for (const QuantityRow& row : quantity_table()) {
     Quantities one;
-    EXPECT_FALSE(row.is_asked(one)) << row.word;
-    EXPECT_TRUE(ask_for(row.word, one)) << row.word;
-    EXPECT_TRUE(row.is_asked(one)) << row.word;
-    EXPECT_GT(range_of(row.quantity, one).count, 0U) << row.word;
-    EXPECT_EQ(one.any_of_canopies(), row.is_of_crowns) << row.word;
+    EXPECT_FALSE(row.is_asked(one)) << row.word.word;
+    EXPECT_TRUE(ask_for(row.word.word, one)) << row.word.word;
+    EXPECT_TRUE(row.is_asked(one)) << row.word.word;
+    EXPECT_GT(range_of(row.quantity, one).count, 0U) << row.word.word;
+    EXPECT_EQ(one.any_of_canopies(), row.word.is_of_crowns) << row.word.word;
     // Distances are those of horizons
     for (const QuantityRow& other : quantity_table()) {
       const bool is_asked =
           other.quantity == row.quantity || (row.quantity == Quantity::horizon_distance && other.quantity == Quantity::horizon);
-      EXPECT_EQ(other.is_asked(one), is_asked) << row.word << ' ' << other.word;
+      EXPECT_EQ(other.is_asked(one), is_asked) << row.word.word << ' ' << other.word.word;
     }
   }
   Quantities none;
@@ -41,7 +41,7 @@ TEST(QuantityTable, ColumnsOfItsRowsFollowEachOther) {
   std::size_t next = 0;
   for (const QuantityRow& row : quantity_table()) {
     const ColumnRange range = range_of(row.quantity, all);
-    EXPECT_EQ(range.first, next) << row.word;
+    EXPECT_EQ(range.first, next) << row.word.word;
     next += range.count;
   }
   EXPECT_EQ(columns_of(all).size(), next);
@@ -57,6 +57,15 @@ TEST(QuantityTable, DescribesEachColumnOnce) {
     EXPECT_FALSE(column.unit.empty()) << column.name;
     EXPECT_FALSE(column.definition.empty()) << column.name;
   }
+}
+
+TEST(QuantityTable, TellsTheWordsOfWhatIsAskedFor) {
+  EXPECT_EQ(words_of(all_quantities()).size(), quantity_words().size());
+  EXPECT_TRUE(words_of({}).empty());
+  Quantities two;
+  two.sky_shares = two.hidden = true;
+  EXPECT_EQ(words_of(two).at(0).word, "hidden");
+  EXPECT_EQ(words_of(two).at(1).word, "shares");
 }
 
 TEST(QuantityTable, KeepsTheNumbersThatAreChosen) {
