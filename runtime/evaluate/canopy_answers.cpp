@@ -16,7 +16,6 @@
 namespace farlod {
 
 void write_canopy_columns(const Quantities& quantities, float svf, const CanopyAnswer& answer, std::span<float> values) {
-  FARLOD_EXPECTS(values.size() == range_of_crowns(quantities).count);
   std::size_t next = 0;
   const auto add = [&](float value) { values[next++] = value; };
   // Both are sampled: crowns hide no more than the sky that there is
@@ -43,6 +42,7 @@ void write_canopy_columns(const Quantities& quantities, float svf, const CanopyA
     add(vegetation);
     add(1.0F - (svf - behind) - vegetation);
   }
+  FARLOD_EXPECTS(next == values.size());
 }
 
 void store_traced_canopies(const CellReceivers& cell, const CanopyScene& scene, Point2d scene_from_cell_m,

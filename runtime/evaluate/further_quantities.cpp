@@ -124,6 +124,7 @@ std::size_t azimuths_for(const Quantities& quantities, std::size_t at_least) {
 FurtherQuantities::FurtherQuantities(const Quantities& quantities, std::size_t azimuths, const package::Manifest& manifest)
     : quantities_(quantities),
       size_(columns_of(quantities).size()),
+      crowns_(range_of_crowns(quantities)),
       azimuths_(sampling_for(quantities, azimuths, manifest)),
       turns_(turns_of(azimuths_, manifest)),
       halves_(azimuths_, manifest) {
@@ -227,6 +228,7 @@ void FurtherQuantities::evaluate(const SkyProfile& profile, const ReceiverPacket
   Columns columns(size_, values);
   for (const QuantityRow& row : quantity_table())
     if (row.is_asked(quantities_)) add(row.quantity, profile, receivers, sky, rows, columns);
+  columns.skip(crowns_.count);
   FARLOD_EXPECTS(columns.count() == size_);
 }
 
@@ -246,11 +248,12 @@ void FurtherQuantities::add(Quantity quantity, const SkyProfile& profile, const 
     case Quantity::sunlit:
       return add_sunlit(profile, receivers, columns);
     case Quantity::horizon_distance:
+      return columns.skip(azimuth_of_horizon_.size());
     case Quantity::svf_total:
     case Quantity::svfaveg:
     case Quantity::directional_vegetation:
     case Quantity::shares:
-      return columns.skip(range_of(quantity, quantities_).count);
+      return;  // the last columns, all together
   }
 }
 

@@ -39,7 +39,7 @@ class FurtherQuantities {
     return quantities_.svf_solid ? ProfileRows::sky_and_solid_sky : ProfileRows::sky;
   }
   /// Whether anything is made of profiles: canopies alone may be traced without them.
-  [[nodiscard]] bool needs_profiles() const { return size_ > canopy_columns().count; }
+  [[nodiscard]] bool needs_profiles() const { return size_ > crowns_.count; }
   [[nodiscard]] bool needs_near_sky() const { return quantities_.hidden; }
 
   /// Working memory, kept from packet to packet.
@@ -53,7 +53,7 @@ class FurtherQuantities {
   /// Where the horizons are whose distances must be traced: profiles do not tell them, and evaluate() leaves their places out.
   [[nodiscard]] HorizonColumns horizon_columns() const;
   /// Where the values of canopies are, which take crowns beside profiles (CanopyAnswers): evaluate() leaves their places out.
-  [[nodiscard]] ColumnRange canopy_columns() const { return range_of_crowns(quantities_); }
+  [[nodiscard]] const ColumnRange& canopy_columns() const { return crowns_; }
   [[nodiscard]] const Quantities& quantities() const { return quantities_; }
   /// The halves of the sky, for the azimuths.
   [[nodiscard]] const SkyHalves& halves() const { return halves_; }
@@ -98,6 +98,7 @@ class FurtherQuantities {
 
   Quantities quantities_;
   std::size_t size_;
+  ColumnRange crowns_;
   AzimuthSampling azimuths_;
   std::vector<double> turns_;  ///< of each azimuth: clockwise from true north, as a share of the turn
   std::vector<std::size_t> azimuth_of_horizon_;

@@ -197,6 +197,7 @@ std::span<const QuantityRow> quantity_table() { return table; }
 
 ColumnRange range_of(Quantity quantity, const Quantities& quantities) {
   const QuantityRow* const row = std::ranges::find(table, quantity, &QuantityRow::quantity);
+  if (!row->is_asked(quantities)) return {};
   const std::size_t first = columns_before(row, quantities);
   return {first, columns_before(row + 1, quantities) - first};
 }
