@@ -65,22 +65,21 @@ bool has_word(const SourceFile& file, const std::string& word) {
   return std::ranges::any_of(file.lines, [&](const std::string& line) { return std::ranges::count(words_in(line), word) > 0; });
 }
 
-/// Rules (1) to (4) for what stands between two backticks.
-bool is_dead(const std::string& name, const std::string& document, bool is_source_list, const NamedTree& tree) {
+/// Rules (1) to (3) for what stands between two backticks.
+bool is_dead(const std::string& name, const std::string& document, const NamedTree& tree) {
   static const std::regex path(R"(\.?[\w.+*-]+(/[\w.+*-]+)*/?)"), source(R"([\w-][\w.-]*\.(hpp|cpp|md|py|ts|mjs|cmake|css))"),
-      function(R"((\w+::)*\w+\(\)|(\w+::)+\w+)"), foreign("(std|CGAL)::.*"), file_stem("[a-z0-9]+(_[a-z0-9]+)+");
+      function(R"((\w+::)*\w+\(\)|(\w+::)+\w+)"), foreign("(std|CGAL)::.*");
   if (name.find('/') != std::string::npos && std::regex_match(name, path) && tree.paths.contains(first_folder(name))) {
     const std::string from_root = name.ends_with('/') ? name.substr(0, name.size() - 1) : name;
     const fs::path from_document = (fs::path(document).parent_path() / from_root).lexically_normal();
     return !has_path(tree, from_root) && !has_path(tree, from_document.generic_string());
   }
   if (std::regex_match(name, source)) return !has_file_named(tree, name);
-  if (std::regex_match(name, function) && !std::regex_match(name, foreign))
-    return std::ranges::any_of(words_in(name), [&](const std::string& word) { return !tree.words.contains(word); });
-  return is_source_list && std::regex_match(name, file_stem) && !tree.stems.contains(name);
+  return std::regex_match(name, function) && !std::regex_match(name, foreign) &&
+         std::ranges::any_of(words_in(name), [&](const std::string& word) { return !tree.words.contains(word); });
 }
 
-/// Rule (5), for one line.
+/// Rule (4), for one line.
 void add_names_elsewhere(const std::string& line, const std::string& place, const NamedTree& tree,
                          std::vector<std::string>& dead) {
   static const std::regex pair(R"re(`(\w+)` \(`([\w/.-]+\.(?:hpp|cpp|py|ts))`\))re");
@@ -93,17 +92,16 @@ void add_names_elsewhere(const std::string& line, const std::string& place, cons
 }
 
 void add_dead_names(const SourceFile& document, const NamedTree& tree, std::vector<std::string>& dead) {
-  static const std::regex code("`([^`]+)`"), heading("#+ +(.*)"), source_heading("#+ +Source *");
-  bool is_block = false, is_source_list = false;
+  static const std::regex code("`([^`]+)`");
+  bool is_block = false;
   for (std::size_t n = 0; n < document.lines.size(); ++n) {
     const std::string& line = document.lines[n];
     const bool is_fence = line.starts_with("```");
     is_block = is_block != is_fence;
     if (is_block || is_fence) continue;
-    if (std::regex_match(line, heading)) is_source_list = std::regex_match(line, source_heading);
     const std::string place = document.path + ":" + std::to_string(n + 1) + " ";
     for (std::sregex_iterator match(line.begin(), line.end(), code), end; match != end; ++match)
-      if (is_dead((*match)[1], document.path, is_source_list, tree)) dead.push_back(place + (*match)[1].str());
+      if (is_dead((*match)[1], document.path, tree)) dead.push_back(place + (*match)[1].str());
     add_names_elsewhere(line, place, tree, dead);
   }
 }
@@ -113,8 +111,6 @@ void add_dead_names(const SourceFile& document, const NamedTree& tree, std::vect
 NamedTree::NamedTree(const std::vector<SourceFile>& all_texts) : texts(&all_texts) {
   for (const SourceFile& file : all_texts) {
     for (fs::path path = file.path; !path.empty(); path = path.parent_path()) paths.insert(path.generic_string());
-    const std::string name = fs::path(file.path).filename().string();
-    stems.insert(name.substr(0, name.find('.', 1)));
     // What others wrote into one file says nothing about names of ours
     if (is_document(file) || file.path.starts_with("viewer/bundle/")) continue;
     for (const std::string& line : file.lines)

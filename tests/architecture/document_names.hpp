@@ -15,7 +15,6 @@ struct NamedTree {
   explicit NamedTree(const std::vector<SourceFile>& all_texts);
 
   std::set<std::string> paths;  ///< of files and folders
-  std::set<std::string> stems;  ///< names of files without folder and ending
   std::set<std::string> words;  ///< of all texts but documents
   const std::vector<SourceFile>* texts;
 };
@@ -24,8 +23,7 @@ struct NamedTree {
 ///   (1) a path below a folder of the project, from the root or from the document; it may lack its ending, or have a `*`
 ///   (2) the name of a source file
 ///   (3) a function, `name()`, or a qualified name, `A::b`, but for those of std and CGAL
-///   (4) below a heading "Source", a name with an underscore, which is that of a file
-///   (5) in `name` (`file.hpp`), a name that is not in this file
+///   (4) in `name` (`file.hpp`), a name that is not in this file
 /// Blocks of code are not read.
 [[nodiscard]] std::vector<std::string> dead_names(const std::vector<SourceFile>& documents, const NamedTree& tree);
 

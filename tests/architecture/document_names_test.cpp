@@ -47,12 +47,6 @@ TEST(DocumentNames, AFunctionThatIsGoneIsFound) {
       ElementsAre("docs/stages/a.md:1 gone_function()", "docs/stages/a.md:2 PlanIndex::gone"));
 }
 
-TEST(DocumentNames, AFileThatIsGoneIsFoundInAListOfSources) {
-  EXPECT_THAT(
-      dead_names_of({"`gone_file`", "## Source", "`runtime/scene/`: `plan_index`, `gone_file`", "## Speed", "`gone_file`"}),
-      ElementsAre("docs/stages/a.md:3 gone_file"));
-}
-
 TEST(DocumentNames, ANameInAnotherFileIsFound) {
   EXPECT_THAT(dead_names_of({"`PlanIndex` (`plan_index.hpp`)", "`PlanIndex` (`scene/plan_index.cpp`)"}),
               ElementsAre("docs/stages/a.md:2 PlanIndex in scene/plan_index.cpp"));
