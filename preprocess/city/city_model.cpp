@@ -17,7 +17,7 @@ std::span<const Point3d> CityModel::points_of(const Building& b) const {
 }
 
 void CityModel::begin_building(std::string id, HeightReference height_reference, std::uint32_t source) {
-  buildings_.push_back({std::move(id), facets_.size(), 0, height_reference, source});
+  buildings_.push_back({std::move(id), facets_.size(), 0, height_reference, source, origins_.size()});
 }
 
 void CityModel::begin_facet(SurfaceKind kind, std::uint32_t surface, std::uint16_t part) {
@@ -33,9 +33,16 @@ void CityModel::add_ring(std::span<const Point3d> points) {
   ++facets_.back().ring_count;
 }
 
+void CityModel::set_origin(std::span<const std::uint8_t> origin) {
+  FARLOD_EXPECTS(!buildings_.empty() && buildings_.back().origin_bytes == 0);
+  origins_.append(origin);
+  buildings_.back().origin_bytes = origin.size();
+}
+
 void CityModel::drop_last_building() {
   FARLOD_EXPECTS(!buildings_.empty());
   const Building& b = buildings_.back();
+  origins_.resize(b.first_origin_byte);
   if (b.facet_count > 0) {
     const std::uint64_t ring = facets_[b.first_facet].first_ring;
     points_.resize(ring_begin(ring));
@@ -51,6 +58,7 @@ void CityModel::drop_facets(const std::vector<bool>& is_dropped) {
   CityModel kept;
   for (const Building& b : buildings_) {
     kept.begin_building(b.id, b.height_reference, b.source);
+    kept.set_origin(origin_of(b));
     for (std::uint64_t n = b.first_facet; n < b.first_facet + b.facet_count; ++n) {
       if (is_dropped[n]) continue;
       const Facet& f = facets_[n];
@@ -80,8 +88,10 @@ void CityModel::append(CityModel&& other) {
   const std::uint64_t facet_shift = facets_.size();
   const std::uint64_t ring_shift = ring_end_.size();
   const std::uint64_t point_shift = points_.size();
+  const std::uint64_t origin_shift = origins_.size();
   for (Building& b : other.buildings_) {
     b.first_facet += facet_shift;
+    b.first_origin_byte += origin_shift;
     buildings_.push_back(std::move(b));
   }
   for (Facet f : other.facets_) {
@@ -90,6 +100,7 @@ void CityModel::append(CityModel&& other) {
   }
   for (const std::uint64_t end : other.ring_end_) ring_end_.push_back(end + point_shift);
   points_.append(other.points_);
+  origins_.append(other.origins_);
 }
 
 void CityModel::let_go_before(std::size_t building) const {
@@ -100,6 +111,7 @@ void CityModel::let_go_before(std::size_t building) const {
   facets_.let_go(0, facet);
   ring_end_.let_go(0, ring);
   points_.let_go(0, point);
+  origins_.let_go(0, is_end ? origins_.size() : buildings_[building].first_origin_byte);
 }
 
 }  // namespace farlod

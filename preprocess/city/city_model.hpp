@@ -39,6 +39,8 @@ struct Building {
   std::uint32_t facet_count = 0;
   HeightReference height_reference = HeightReference::elevation;
   std::uint32_t source = 0;  ///< place in LocatedCity::sources of the file that it comes from
+  std::uint64_t first_origin_byte = 0;
+  std::uint64_t origin_bytes = 0;  ///< 0: nothing is known of the places of its surfaces in a file
 };
 
 /// All buildings of a city, as flat arrays: a city has millions of rings, and a vector for each would double it.
@@ -55,6 +57,9 @@ class CityModel {
     FARLOD_EXPECTS(k < f.ring_count);
     return points_of_ring(f.first_ring + k);
   }
+  [[nodiscard]] std::span<const std::uint8_t> origin_of(const Building& b) const {
+    return std::span(origins_).subspan(b.first_origin_byte, b.origin_bytes);
+  }
   [[nodiscard]] std::span<const Point3d> points_of(const Building& b) const;
   [[nodiscard]] std::span<Point3d> points_of(const Building& b);
   [[nodiscard]] std::span<const Point3d> points() const { return points_; }
@@ -64,6 +69,9 @@ class CityModel {
   void begin_building(std::string id, HeightReference height_reference = HeightReference::elevation, std::uint32_t source = 0);
   void begin_facet(SurfaceKind kind, std::uint32_t surface, std::uint16_t part = 0);
   void add_ring(std::span<const Point3d> points);
+  /// Where the building begun last comes from in its file, as package::append_origin writes it. Facets that are dropped leave it
+  /// as it is: it counts by the numbers of surfaces.
+  void set_origin(std::span<const std::uint8_t> origin);
   /// Removes the building begun last with all its facets.
   void drop_last_building();
   /// Removes the facets for which `is_dropped` is true, and buildings without other facets.
@@ -98,6 +106,7 @@ class CityModel {
   PagedArray<Facet> facets_;
   PagedArray<std::uint64_t> ring_end_;  ///< one past the last point of each ring
   PagedArray<Point3d> points_;
+  PagedArray<std::uint8_t> origins_;  ///< one building after the other
 };
 
 }  // namespace farlod

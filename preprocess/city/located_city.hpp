@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "city/city_model.hpp"
+#include "city/source.hpp"
 #include "farlod/angle.hpp"
 #include "farlod/point.hpp"
 
@@ -26,8 +27,9 @@ struct Georeference {
 struct LocatedCity {
   CityModel city;
   Georeference georeference;
-  std::vector<std::string> sources = {};    ///< names of the files, for messages
-  std::vector<Point3d> relief_points = {};  ///< points of the ground that the files give as terrain
+  std::vector<std::string> sources = {};               ///< names of the files, for messages
+  std::vector<Point3d> relief_points = {};             ///< points of the ground that the files give as terrain
+  std::vector<std::optional<PlacedFile>> placed = {};  ///< of the sources: empty where attributes have no places
 };
 
 }  // namespace farlod

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "city/city_model.hpp"
+#include "contract/package/sources_layout.hpp"
 #include "farlod/pack.hpp"
 #include "farlod/point.hpp"
 
@@ -21,6 +24,13 @@ struct SourceCrs {
   bool heights_in_metres = false;
 };
 
+/// A city file into whose text attributes can be inserted: CityModel::origin_of has the places.
+struct PlacedFile {
+  std::filesystem::path path;
+  package::CityFileFormat format = package::CityFileFormat::citygml;
+  std::vector<package::AttributeForm> forms;
+};
+
 /// One input file, read: coordinates are still those of the file.
 struct SourceCity {
   std::string source;  ///< the file's name as the user gave it
@@ -29,6 +39,7 @@ struct SourceCity {
   std::vector<Point3d> relief_points = {};  ///< corners of the triangles that the file gives as terrain; may repeat
   SkippedFeatures skipped = {};
   std::vector<std::string> notes = {};  ///< for the user: what was taken from elsewhere, or guessed
+  std::optional<PlacedFile> placed = {};
 };
 
 }  // namespace farlod

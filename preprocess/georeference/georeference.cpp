@@ -154,6 +154,7 @@ LocatedCity georeference(std::vector<SourceCity> sources, const GeoreferenceSett
     locate_problems(resolved, report);
     resolved.source.city.set_source(static_cast<std::uint32_t>(located.sources.size()));
     located.sources.push_back(resolved.source.source);
+    located.placed.push_back(std::move(resolved.source.placed));
     located.city.append(std::move(resolved.source.city));
     append(located.relief_points, std::move(resolved.source.relief_points));
   }

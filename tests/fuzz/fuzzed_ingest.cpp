@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "contract/package/sources_layout.hpp"
 #include "farlod/error.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
 
@@ -24,8 +25,21 @@ void expect_clean_ring(std::span<const Point3d> ring) {
   }
 }
 
-void expect_promises_kept(const SourceCity& source) {
+/// Places are in the file, and what is written around attributes there is known.
+void expect_origin_in_file(const SourceCity& source, const Building& building, std::size_t file_bytes) {
+  const std::span<const std::uint8_t> bytes = source.city.origin_of(building);
+  FARLOD_EXPECTS(bytes.empty() != source.placed.has_value());
+  if (bytes.empty()) return;
+  const auto origin = package::origin_from(bytes);
+  FARLOD_EXPECTS(origin.has_value());
+  for (const auto* places : {&origin->objects, &origin->semantics})
+    for (const AttributePlace& place : *places)
+      FARLOD_EXPECTS(place.at <= file_bytes && place.form <= source.placed->forms.size());
+}
+
+void expect_promises_kept(const SourceCity& source, std::size_t file_bytes) {
   const CityModel& city = source.city;
+  for (const Building& building : city.buildings()) expect_origin_in_file(source, building, file_bytes);
   FARLOD_EXPECTS(!city.buildings().empty() || !source.relief_points.empty());
   for (const Point3d& p : source.relief_points) FARLOD_EXPECTS(is_finite(p));
   for (const Building& building : city.buildings()) FARLOD_EXPECTS(building.facet_count > 0);
@@ -45,7 +59,7 @@ fs::path write_file(std::span<const std::uint8_t> bytes, std::string_view ending
 void ingest_bytes(std::span<const std::uint8_t> bytes, std::string_view ending, const ingest::IngestSettings& settings) {
   Report report;
   try {
-    expect_promises_kept(ingest::ingest(write_file(bytes, ending), settings, report));
+    expect_promises_kept(ingest::ingest(write_file(bytes, ending), settings, report), bytes.size());
   } catch (const InputError& refusal) {
     FARLOD_EXPECTS(!std::string_view(refusal.what()).empty());
   }

@@ -34,7 +34,7 @@ class BuildingAssembler {
                     CityModelBuilder& builder)
       : building_(building), foreign_(foreign), budget_(budget), builder_(builder) {}
 
-  void add(LodChoice lod) {
+  void add(LodChoice lod, const PlacesOfBuilding* places) {
     const std::vector<std::vector<double>> lods = usable_lods();
     chosen_ = choose_lods(lods, lod);
     builder_.begin_building(building_.id);
@@ -45,7 +45,7 @@ class BuildingAssembler {
     for (const WantedPolygon& p : wanted_)
       if (!has_shells || !is_copy(p)) add(p);
     report_other_lods(lods);
-    builder_.end_building("no usable surface in the level of detail asked for; it has LoD " + list_lods(lods));
+    builder_.end_building("no usable surface in the level of detail asked for; it has LoD " + list_lods(lods), places);
   }
 
  private:
@@ -118,7 +118,14 @@ class BuildingAssembler {
     if (p.resolved.is_reversed)
       for (Ring& ring : rings) std::reverse(ring.begin(), ring.end());
     builder_.add_polygon(rings, RingEnd::repeats_first,
-                         {.kind = p.use->kind, .part = p.use->part, .surface = {}, .name = polygon.id});
+                         {.kind = p.use->kind, .part = p.use->part, .surface = {}, .name = polygon.id, .origin = origin_of(p)});
+  }
+
+  /// What many objects share is of none of their semantic surfaces.
+  static PolygonOrigin origin_of(const WantedPolygon& p) {
+    PolygonOrigin origin = p.use->origin;
+    if (p.use->placement || p.resolved.is_foreign) origin.semantics.reset();
+    return origin;
   }
 
   static std::string flaw_of(const GmlPolygon& polygon) {
@@ -140,7 +147,7 @@ class BuildingAssembler {
                            first_readable(rings));
     else
       builder_.add_prism(rings, RingEnd::repeats_first, use.role == SurfaceRole::roof_edge ? z - *height_m : z,
-                         use.role == SurfaceRole::roof_edge ? z : z + *height_m, use.part);
+                         use.role == SurfaceRole::roof_edge ? z : z + *height_m, use.part, use.origin.object);
   }
 
   void report_unread() {
@@ -196,8 +203,8 @@ std::vector<std::string> foreign_references(const CityGmlBuilding& building) {
 }
 
 void add_building(const CityGmlBuilding& building, const GmlSurfaces& foreign, LodChoice lod, ReferenceBudget& budget,
-                  CityModelBuilder& builder) {
-  BuildingAssembler(building, foreign, budget, builder).add(lod);
+                  CityModelBuilder& builder, const PlacesOfBuilding* places) {
+  BuildingAssembler(building, foreign, budget, builder).add(lod, places);
 }
 
 }  // namespace farlod::ingest

@@ -34,6 +34,7 @@ struct SurfaceUse {
   SurfaceRole role = SurfaceRole::shell;
   SurfaceKind kind = SurfaceKind::unknown;
   std::optional<std::size_t> placement = {};  ///< row in CityGmlBuilding::placements, where the surfaces are a prototype's
+  PolygonOrigin origin = {};
 };
 
 /// One building of a CityGML file with all its parts and all its levels of detail, as read.
@@ -44,6 +45,7 @@ struct CityGmlBuilding {
   std::vector<std::optional<Placement>> placements;                    ///< empty: cannot be placed; `unread` has the reason
   std::vector<std::optional<double>> measured_height_m{std::nullopt};  ///< of the building and of each part
   std::map<std::string, std::size_t> unread;                           ///< what is not read, with its number
+  PlacesOfBuilding places;
 
   /// Counts something that is not read. After a few kinds, all others are counted as one.
   void add_unread(std::string what);
@@ -52,8 +54,9 @@ struct CityGmlBuilding {
 /// The references of a building to ids that it does not contain.
 [[nodiscard]] std::vector<std::string> foreign_references(const CityGmlBuilding& building);
 
-/// Chooses the level of detail, and adds the building's polygons to the model: each once, semantic surfaces first.
+/// Chooses the level of detail, and adds the building's polygons to the model: each once, semantic surfaces first. `places`: as
+/// CityModelBuilder::end_building has it.
 void add_building(const CityGmlBuilding& building, const GmlSurfaces& foreign, LodChoice lod, ReferenceBudget& budget,
-                  CityModelBuilder& builder);
+                  CityModelBuilder& builder, const PlacesOfBuilding* places = nullptr);
 
 }  // namespace farlod::ingest

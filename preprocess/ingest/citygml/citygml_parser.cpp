@@ -27,6 +27,7 @@ bool is_read_relief(std::string_view name) { return name == "ReliefFeature" || n
 void CityGmlParser::start(const XmlElement& element) {
   if (root_.empty()) root_ = element.name;
   if (srs_name_.empty() && !element.srs_name.empty()) srs_name_ = element.srs_name;
+  places_.start(element);
   if (skipped_depth_ > 0) {
     ++skipped_depth_;
   } else if (const MaybeMeaning meaning = meaning_of(element)) {
@@ -85,17 +86,22 @@ CityGmlParser::MaybeMeaning CityGmlParser::meaning_inside(const XmlElement& elem
 CityGmlParser::MaybeMeaning CityGmlParser::meaning_of_thing(const XmlElement& element, Vocabulary vocabulary) {
   const std::string_view name = element.name;
   if (is_part_name(name)) {
-    begin_part();
+    begin_part(element);
     return Meaning::part;
   }
   if (is_element_name(name) || is_installation_name(name) || name == "OtherConstruction") {
-    begin_installation(is_element_name(name) ? SurfaceRole::element : SurfaceRole::installation);
+    begin_installation(element, is_element_name(name) ? SurfaceRole::element : SurfaceRole::installation);
     return Meaning::installation;
   }
   if (is_boundary_name(name)) {
     ++boundaries_;
     kinds_.push_back(kind_of_surface_name(name));
+    open_semantics(element);
     return Meaning::boundary;
+  }
+  if (name == "Window" || name == "Door") {
+    open_semantics(element);
+    return Meaning::opening;
   }
   if (name == "measuredHeight" || (name == "value" && vocabulary == Vocabulary::constructions))
     return begin_words(Meaning::height);
@@ -114,14 +120,20 @@ CityGmlParser::MaybeMeaning CityGmlParser::meaning_of_lod_property(const XmlElem
   const std::string_view what = element.name.substr(4);
   if (lod > 3) return std::nullopt;
   if (what == "ImplicitRepresentation") {
-    prototype_.begin(element.name, {lod, parts_.back(), role_here(), kinds_.back(), building_.placements.size()});
+    SurfaceUse use = use_here(lod, role_here());
+    use.placement = building_.placements.size();
+    prototype_.begin(element.name, use);
     in_prototype_ = true;
     return Meaning::prototype;
   }
   const std::optional<SurfaceRole> role = role_of_lod_property(lod, what);
   if (!role) return std::nullopt;
-  begin_surfaces({lod, parts_.back(), *role, kinds_.back()}, element);
+  begin_surfaces(use_here(lod, *role), element);
   return Meaning::surfaces;
+}
+
+SurfaceUse CityGmlParser::use_here(int lod, SurfaceRole role) const {
+  return {lod, parts_.back(), role, kinds_.back(), {}, origins_.back()};
 }
 
 SurfaceRole CityGmlParser::role_here() const {
@@ -163,32 +175,54 @@ void CityGmlParser::begin_building(const XmlElement& element) {
   building_.id = element.id.empty() ? "building " + std::to_string(buildings_) : std::string(element.id);
   parts_ = {0};
   kinds_ = {SurfaceKind::unknown};
+  open_object(element);
   in_building_ = true;
 }
 
-void CityGmlParser::begin_part() {
+void CityGmlParser::open_object(const XmlElement& element) {
+  origins_.push_back({static_cast<std::uint32_t>(building_.places.objects.size()), {}});
+  building_.places.objects.emplace_back();
+  places_.open(element);
+}
+
+void CityGmlParser::open_semantics(const XmlElement& element) {
+  origins_.push_back({origins_.back().object, static_cast<std::uint32_t>(building_.places.semantics.size())});
+  building_.places.semantics.emplace_back();
+  places_.open(element);
+}
+
+void CityGmlParser::close_place() {
+  const PolygonOrigin& of = origins_.back();
+  (of.semantics ? building_.places.semantics[*of.semantics] : building_.places.objects[of.object]) = places_.close();
+  origins_.pop_back();
+}
+
+void CityGmlParser::begin_part(const XmlElement& element) {
   FARLOD_EXPECTS(!building_.measured_height_m.empty());
   // All parts beyond 65,535 share the last number. They count as one volume
   const std::size_t number = std::min<std::size_t>(building_.measured_height_m.size(), std::numeric_limits<std::uint16_t>::max());
   building_.measured_height_m.resize(number + 1);
   parts_.push_back(static_cast<std::uint16_t>(number));
   kinds_.push_back(SurfaceKind::unknown);
+  open_object(element);
 }
 
-void CityGmlParser::begin_installation(SurfaceRole role) {
+void CityGmlParser::begin_installation(const XmlElement& element, SurfaceRole role) {
+  open_object(element);
   installations_.push_back({role, building_.uses.size()});
   kinds_.push_back(SurfaceKind::unknown);
 }
 
-void CityGmlParser::end(std::string_view name) {
+void CityGmlParser::end(std::string_view name, std::uint64_t end) {
   if (skipped_depth_ > 0) {
     --skipped_depth_;
-    return;
+  } else {
+    FARLOD_EXPECTS(!open_.empty());
+    const Meaning meaning = open_.back();
+    open_.pop_back();
+    undo(meaning, name);
   }
-  FARLOD_EXPECTS(!open_.empty());
-  const Meaning meaning = open_.back();
-  open_.pop_back();
-  undo(meaning, name);
+  places_.end(end);
 }
 
 void CityGmlParser::undo(Meaning meaning, std::string_view name) {
@@ -202,10 +236,12 @@ void CityGmlParser::undo(Meaning meaning, std::string_view name) {
       return end_building();
     case Meaning::part:
       parts_.pop_back();
-      break;
+      return close_place();
     case Meaning::boundary:
       --boundaries_;
-      break;
+      return close_place();
+    case Meaning::opening:
+      return close_place();
     case Meaning::installation:
       return end_installation();
     case Meaning::surfaces:
@@ -231,7 +267,9 @@ void CityGmlParser::undo(Meaning meaning, std::string_view name) {
 }
 
 void CityGmlParser::end_building() {
+  close_place();
   take_(building_);
+  building_.places = {};
   building_.uses.clear();
   building_.unread.clear();
   building_.placements.clear();
@@ -246,6 +284,7 @@ void CityGmlParser::end_installation() {
     for (std::size_t k = installations_.back().first_use; k < building_.uses.size(); ++k)
       building_.uses[k].role = SurfaceRole::inside;
   installations_.pop_back();
+  close_place();
 }
 
 void CityGmlParser::end_prototype() {
@@ -270,7 +309,7 @@ bool CityGmlParser::append(const CityGmlParser& next) {
   if (root_.empty()) root_ = next.root_;
   if (srs_name_.empty()) srs_name_ = next.srs_name_;
   relief_.append(next.relief_);
-  return skipped_.append(next.skipped_) && is_as_one;
+  return skipped_.append(next.skipped_) && places_.append(next.places_) && is_as_one;
 }
 
 void CityGmlParser::text(std::string_view piece) {

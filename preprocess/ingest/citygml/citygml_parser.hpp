@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ingest/citygml/citygml_building.hpp"
+#include "ingest/citygml/citygml_places.hpp"
 #include "ingest/citygml/citygml_prototype.hpp"
 #include "ingest/citygml/citygml_relief.hpp"
 #include "ingest/citygml/citygml_skipped.hpp"
@@ -23,22 +24,26 @@ namespace farlod::ingest {
 class CityGmlParser : public XmlListener {
  public:
   using TakeBuilding = std::function<void(const CityGmlBuilding&)>;
-  /// `has_crs`: whether an earlier segment of the file names a CRS.
-  explicit CityGmlParser(TakeBuilding take, bool has_crs = false) : take_(std::move(take)), has_crs_(has_crs) {}
+  /// `has_crs`: whether an earlier segment of the file names a CRS. `forms`: those of attributes in earlier segments.
+  explicit CityGmlParser(TakeBuilding take, bool has_crs = false, std::vector<package::AttributeForm> forms = {})
+      : take_(std::move(take)), has_crs_(has_crs), places_(std::move(forms)) {}
 
+  void bind(std::string_view prefix, std::string_view space) override { places_.bind(prefix, space); }
+  void unbind() override { places_.unbind(); }
   void start(const XmlElement& element) override;
-  void end(std::string_view name) override;
+  void end(std::string_view name, std::uint64_t end) override;
   void text(std::string_view piece) override;
 
   /// Adds what was found in the next segment of the file, but for its buildings. Returns false when the segment would have been
-  /// read otherwise had one parser read both: a building without an id is called by its number in the file, and where a prototype
-  /// is placed depends on whether a CRS was named before it.
+  /// read otherwise had one parser read both: a building without an id is called by its number in the file, where a prototype is
+  /// placed depends on whether a CRS was named before it, and forms of attributes are numbered as they occur.
   [[nodiscard]] bool append(const CityGmlParser& next);
 
   [[nodiscard]] const std::string& srs_name() const { return srs_name_; }
   [[nodiscard]] const std::string& root() const { return root_; }
   [[nodiscard]] ReliefReader& relief() { return relief_; }
   [[nodiscard]] const SkippedFeatures& skipped() const { return skipped_.counts(); }
+  [[nodiscard]] const std::vector<package::AttributeForm>& forms() const { return places_.forms(); }
 
  private:
   /// The role of an open element. It is undone when the element ends.
@@ -48,6 +53,7 @@ class CityGmlParser : public XmlListener {
     building,
     part,
     boundary,
+    opening,  ///< a window or a door: a semantic surface of the kind of what it is in
     installation,
     surfaces,
     geometry,
@@ -72,8 +78,13 @@ class CityGmlParser : public XmlListener {
   [[nodiscard]] std::optional<SurfaceRole> role_of_lod_property(int lod, std::string_view what) const;
   [[nodiscard]] SurfaceRole role_here() const;
   void begin_building(const XmlElement& element);
-  void begin_part();
-  void begin_installation(SurfaceRole role);
+  void begin_part(const XmlElement& element);
+  void begin_installation(const XmlElement& element, SurfaceRole role);
+  /// An object, or a semantic surface, to which all that follows belongs until the place is closed.
+  void open_object(const XmlElement& element);
+  void open_semantics(const XmlElement& element);
+  void close_place();
+  [[nodiscard]] SurfaceUse use_here(int lod, SurfaceRole role) const;
   void begin_surfaces(const SurfaceUse& use, const XmlElement& element);
   void end_building();
   void end_installation();
@@ -101,6 +112,8 @@ class CityGmlParser : public XmlListener {
   std::vector<std::uint16_t> parts_;
   std::vector<SurfaceKind> kinds_;
   std::vector<Installation> installations_;
+  std::vector<PolygonOrigin> origins_;  ///< of what is open, the innermost last
+  CityGmlPlaces places_;
   std::size_t boundaries_ = 0, buildings_ = 0;
   std::string words_, srs_name_, root_;
 };

@@ -38,7 +38,7 @@ class GmlSurfaceFinder : public XmlListener {
     }
   }
 
-  void end(std::string_view name) override {
+  void end(std::string_view name, std::uint64_t /*end*/) override {
     if (skipped_depth_ > 0) {
       --skipped_depth_;
     } else if (wanted_depth_ > 0) {

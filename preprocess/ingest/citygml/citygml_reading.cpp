@@ -22,15 +22,17 @@ std::string list(const SkippedFeatures& skipped) {
 
 }  // namespace
 
-CityGmlReading::CityGmlReading(const ReadingTask& task, const ReferenceBudget& budget, RepeatedIds repeated_ids, bool has_crs)
+CityGmlReading::CityGmlReading(const ReadingTask& task, const ReferenceBudget& budget, RepeatedIds repeated_ids, bool has_crs,
+                               std::vector<package::AttributeForm> forms)
     : task_(task),
+      has_places_(has_byte_places(task.file)),
       budget_(budget),
       builder_(task.file.name, report_, repeated_ids),
-      parser_([this](const CityGmlBuilding& building) { take(building); }, has_crs) {}
+      parser_([this](const CityGmlBuilding& building) { take(building); }, has_crs, std::move(forms)) {}
 
 void CityGmlReading::take(const CityGmlBuilding& building) {
   for (std::string& href : foreign_references(building)) foreign_hrefs_.insert(std::move(href));
-  add_building(building, task_.foreign, task_.lod, budget_, builder_);
+  add_building(building, task_.foreign, task_.lod, budget_, builder_, has_places_ ? &building.places : nullptr);
 }
 
 void CityGmlReading::append(CityGmlReading&& next) {
@@ -43,11 +45,14 @@ CityGmlContents CityGmlReading::finish() {
   ReliefReader& relief = parser_.relief();
   if (builder_.buildings_met() == 0 && relief.points().empty()) throw_nothing_there();
   report_unreadable_relief(relief.unreadable_points());
+  std::optional<PlacedFile> placed;
+  if (has_places_) placed = {task_.file.on_disk, package::CityFileFormat::citygml, parser_.forms()};
   return {{.source = task_.file.name,
            .crs = {parser_.srs_name()},
            .city = builder_.take_city(),
            .relief_points = std::move(relief.points()),
-           .skipped = parser_.skipped()},
+           .skipped = parser_.skipped(),
+           .placed = std::move(placed)},
           std::move(report_),
           std::move(foreign_hrefs_)};
 }

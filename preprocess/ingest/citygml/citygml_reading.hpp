@@ -40,11 +40,14 @@ struct ReadingTask {
 class CityGmlReading {
  public:
   /// `budget`: nothing is taken of it yet. `has_crs`: whether an earlier segment names a CRS.
-  CityGmlReading(const ReadingTask& task, const ReferenceBudget& budget, RepeatedIds repeated_ids, bool has_crs = false);
+  /// `forms`: those of attributes in earlier segments.
+  CityGmlReading(const ReadingTask& task, const ReferenceBudget& budget, RepeatedIds repeated_ids, bool has_crs = false,
+                 std::vector<package::AttributeForm> forms = {});
 
   /// What the file, or the segment, is passed to.
   [[nodiscard]] XmlListener& listener() { return parser_; }
   [[nodiscard]] bool has_crs() const { return !parser_.srs_name().empty(); }
+  [[nodiscard]] const std::vector<package::AttributeForm>& forms() const { return parser_.forms(); }
   /// Adds the next segment. Throws CannotBeCut where the two would have been read otherwise as one.
   void append(CityGmlReading&& next);
   /// Throws InputError when there is neither a building nor terrain.
@@ -56,6 +59,7 @@ class CityGmlReading {
   void report_unreadable_relief(std::size_t points);
 
   const ReadingTask& task_;
+  bool has_places_;
   Report report_;
   ReferenceBudget budget_;
   CityModelBuilder builder_;

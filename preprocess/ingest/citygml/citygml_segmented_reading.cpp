@@ -22,11 +22,13 @@ class SegmentedReading {
 
   /// Throws CannotBeCut for a file that has to be read as a whole, and for one that is too short to be cut.
   void read_all() {
-    // As a rule the first segment tells whether the file names a CRS, on which depends where prototypes are placed
+    // As a rule the first segment tells whether the file names a CRS, on which depends where prototypes are placed, and has all
+    // forms of attributes that there are
     const FileSegment first = *cutter_.next();
     if (first.is_last) throw CannotBeCut();
     whole_.append(std::move(*read(first)));
     has_crs_ = whole_.has_crs();
+    forms_ = whole_.forms();
     read_on();
   }
 
@@ -56,8 +58,9 @@ class SegmentedReading {
   }
 
   [[nodiscard]] std::unique_ptr<CityGmlReading> read(const FileSegment& segment) const {
-    auto reading = std::make_unique<CityGmlReading>(task_, budget_, RepeatedIds::reported_by_append, has_crs_);
-    if (!parse_xml_segment({cutter_.head(), segment.text, segment.is_last}, reading->listener())) throw CannotBeCut();
+    auto reading = std::make_unique<CityGmlReading>(task_, budget_, RepeatedIds::reported_by_append, has_crs_, forms_);
+    if (!parse_xml_segment({cutter_.head(), segment.text, segment.is_last, segment.begin}, reading->listener()))
+      throw CannotBeCut();
     return reading;
   }
 
@@ -66,6 +69,7 @@ class SegmentedReading {
   const ReferenceBudget budget_{task_.foreign};  ///< nothing is taken of it
   CityGmlReading whole_;
   bool has_crs_ = false;
+  std::vector<package::AttributeForm> forms_;  ///< of the first segment
 };
 
 }  // namespace

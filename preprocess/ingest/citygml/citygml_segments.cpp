@@ -31,11 +31,13 @@ std::size_t end_of_last_member(std::string_view text) {
 
 SegmentCutter::SegmentCutter(const InputFile& file, const SegmentSizes& sizes) : stream_(open_input(file)), sizes_(sizes) {
   *stream_ >> std::ws;
+  if (const std::streamoff begin = stream_->tellg(); begin > 0) at_ahead_ = static_cast<std::uint64_t>(begin);
   read_up_to(most_bytes_of_head);
   const std::optional<XmlRoot> root = find_root(ahead_);
   if (!root || root->name != "CityModel") throw CannotBeCut();
   head_ = ahead_.substr(0, root->tag_end);
   ahead_.erase(0, root->tag_end);
+  at_ahead_ += root->tag_end;
 }
 
 void SegmentCutter::read_up_to(std::size_t bytes) {
@@ -51,10 +53,11 @@ std::optional<FileSegment> SegmentCutter::next() {
   for (std::size_t bytes = std::min(sizes_.least, sizes_.most);; bytes = std::min(2 * bytes, sizes_.most)) {
     read_up_to(bytes);
     is_done_ = !*stream_ && ahead_.size() <= bytes;
-    if (is_done_) return FileSegment{std::move(ahead_), true};
+    if (is_done_) return FileSegment{std::move(ahead_), true, at_ahead_};
     if (const std::size_t end = end_of_last_member(std::string_view(ahead_).substr(0, bytes)); end > 0) {
-      FileSegment segment{ahead_.substr(0, end)};
+      FileSegment segment{ahead_.substr(0, end), false, at_ahead_};
       ahead_.erase(0, end);
+      at_ahead_ += end;
       return segment;
     }
     if (bytes == sizes_.most) throw CannotBeCut();

@@ -29,6 +29,7 @@ struct SegmentSizes {
 struct FileSegment {
   std::string text;
   bool is_last = false;
+  std::uint64_t begin = 0;  ///< its place in a file that is not packed
 };
 
 /// Cuts a CityGML file behind end tags of cityObjectMember, as far as the text tells: what looks like one may be within a
@@ -49,7 +50,8 @@ class SegmentCutter {
 
   std::unique_ptr<std::istream> stream_;
   SegmentSizes sizes_;
-  std::string head_, ahead_;  ///< `ahead_`: what was read and not handed out yet
+  std::string head_, ahead_;    ///< `ahead_`: what was read and not handed out yet
+  std::uint64_t at_ahead_ = 0;  ///< its place in the file
   bool is_done_ = false;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -32,6 +33,7 @@ struct XmlSegment {
   std::string_view head;  ///< the file up to the end of the root's start tag, which precedes each segment once more
   std::string_view text;
   bool is_last = false;
+  std::uint64_t begin = 0;  ///< the place of the text in the file
 };
 
 /// Parses a segment, and calls the listener for the root's start tag, too. Returns whether the segment can be told to be parsed

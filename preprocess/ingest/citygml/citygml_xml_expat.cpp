@@ -31,10 +31,16 @@ constexpr std::size_t most_bytes_of_tag = std::size_t{1} << 22;
 struct Parsing {
   XML_Parser parser;
   XmlListener& listener;
+  std::uint64_t shift = 0;  ///< from what Expat counts to places in the file; it may wrap
   std::size_t depth = 0;
   bool ended_element = false;         ///< the last event was the end of an element
   std::string refusal = {};           ///< why the file is not read on
   std::exception_ptr exception = {};  ///< of the listener: it must not pass through a library written in C
+
+  [[nodiscard]] std::uint64_t end_of_event() const {
+    return shift + static_cast<std::uint64_t>(XML_GetCurrentByteIndex64(parser)) +
+           static_cast<std::uint64_t>(XML_GetCurrentByteCount64(parser));
+  }
 };
 
 void refuse(Parsing& parsing, std::string why) {
@@ -93,14 +99,29 @@ void XMLCALL on_start(void* user, const XML_Char* name, const XML_Char** attribu
   parsing.ended_element = false;
   if (++parsing.depth > deepest_element)
     return refuse(parsing, "its elements are nested deeper than " + std::to_string(deepest_element) + ", as in no city model");
-  tell(parsing, [&](XmlListener& listener) { listener.start(element_of(name, attributes)); });
+  tell(parsing, [&](XmlListener& listener) {
+    XmlElement element = element_of(name, attributes);
+    element.end = parsing.end_of_event();
+    listener.start(element);
+  });
 }
 
 void XMLCALL on_end(void* user, const XML_Char* name) {
   Parsing& parsing = *static_cast<Parsing*>(user);
   --parsing.depth;
   parsing.ended_element = true;
-  tell(parsing, [&](XmlListener& listener) { listener.end(split(name).name); });
+  tell(parsing, [&](XmlListener& listener) { listener.end(split(name).name, parsing.end_of_event()); });
+}
+
+std::string_view text_or_nothing(const XML_Char* text) { return text == nullptr ? std::string_view() : std::string_view(text); }
+
+void XMLCALL on_bind(void* user, const XML_Char* prefix, const XML_Char* space) {
+  tell(*static_cast<Parsing*>(user),
+       [&](XmlListener& listener) { listener.bind(text_or_nothing(prefix), text_or_nothing(space)); });
+}
+
+void XMLCALL on_unbind(void* user, const XML_Char*) {
+  tell(*static_cast<Parsing*>(user), [](XmlListener& listener) { listener.unbind(); });
 }
 
 void XMLCALL on_text(void* user, const XML_Char* text, int length) {
@@ -166,6 +187,7 @@ OwnedParser make_parser() {
 void set_handlers(Parsing& parsing) {
   XML_Parser parser = parsing.parser;
   XML_SetUserData(parser, &parsing);
+  XML_SetNamespaceDeclHandler(parser, on_bind, on_unbind);
   XML_SetElementHandler(parser, on_start, on_end);
   XML_SetCharacterDataHandler(parser, on_text);
   XML_SetStartDoctypeDeclHandler(parser, on_doctype);
@@ -207,7 +229,7 @@ std::optional<XmlRoot> find_root(std::string_view beginning) {
 bool parse_xml_segment(const XmlSegment& segment, XmlListener& listener) {
   FARLOD_EXPECTS(segment.text.size() <= most_bytes_of_tag);
   const OwnedParser parser = make_parser();
-  Parsing parsing{.parser = parser.get(), .listener = listener};
+  Parsing parsing{.parser = parser.get(), .listener = listener, .shift = segment.begin - segment.head.size()};
   set_handlers(parsing);
   const bool is_well_formed =
       parse_text(parser.get(), segment.head, false) && parse_text(parser.get(), segment.text, segment.is_last);
@@ -224,6 +246,8 @@ void parse_xml(const InputFile& file, XmlListener& listener, const std::stop_tok
   set_handlers(parsing);
   const std::unique_ptr<std::istream> stream = open_input(file);
   *stream >> std::ws;  // an XML declaration must come first, and some exports begin with blank lines
+  // A packed file cannot tell, and nobody asks
+  if (const std::streamoff begin = stream->tellg(); begin > 0) parsing.shift = static_cast<std::uint64_t>(begin);
   std::int64_t bytes_read = 0;
   for (bool is_last = false; !is_last;) {
     throw_if_cancelled(stop);

@@ -63,7 +63,7 @@ bool ReferenceWalk::step(const GmlSurfaces& home, const GmlMember& member, bool 
   const bool turned = is_reversed != member.is_reversed;
   if (&home == &foreign_ && !budget_.take(member.polygon ? home.polygons[*member.polygon].point_count() : 1)) return false;
   if (!member.polygon) return enter(member.href, turned);
-  return is_enough({&home.polygons[*member.polygon], turned});
+  return is_enough({&home.polygons[*member.polygon], turned, &home == &foreign_});
 }
 
 bool ReferenceWalk::enter(const std::string& href, bool is_reversed) {

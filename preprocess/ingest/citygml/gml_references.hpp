@@ -35,6 +35,7 @@ class ReferenceBudget {
 struct ResolvedPolygon {
   const GmlPolygon* polygon = nullptr;
   bool is_reversed = false;
+  bool is_foreign = false;  ///< not of the building
 };
 
 /// Follows the references of members to polygons: first among the `own`, then among the `foreign` surfaces. A walk visits the

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <limits>
 #include <set>
-#include <unordered_map>
 #include <utility>
 
 #include "farlod/error.hpp"
+#include "ingest/cityjson/cityjson_family.hpp"
 #include "ingest/model_builder/polygon_deduplicator.hpp"
 
 namespace farlod::ingest {
@@ -29,28 +29,6 @@ std::uint64_t pieces_of(const CityJsonGeometry& geometry) {
   return pieces;
 }
 
-enum class ObjectRole { none, building, part, installation, element, relief };
-
-ObjectRole role_of(std::string_view type) {
-  if (type == "TINRelief") return ObjectRole::relief;
-  if (type == "OtherConstruction") return ObjectRole::building;
-  for (const std::string_view kind : {"Building", "Bridge", "Tunnel"}) {
-    if (!type.starts_with(kind)) continue;
-    const std::string_view rest = type.substr(kind.size());
-    if (rest.empty()) return ObjectRole::building;
-    if (rest == "Part") return ObjectRole::part;
-    if (rest == "Installation") return ObjectRole::installation;
-    // CityJSON 1.0 says ConstructionElement
-    if (rest == "ConstructiveElement" || rest == "ConstructionElement") return ObjectRole::element;
-  }
-  return ObjectRole::none;
-}
-
-bool hides_the_sky(const CityJsonObject& object) {
-  const ObjectRole role = role_of(object.type);
-  return role != ObjectRole::none && role != ObjectRole::relief;
-}
-
 bool has_surfaces(std::string_view type) {
   for (const std::string_view name : {"MultiSurface", "CompositeSurface", "Solid", "MultiSolid", "CompositeSolid"})
     if (type == name) return true;
@@ -62,8 +40,15 @@ struct Shape {
   const CityJsonGeometry* geometry = nullptr;
   const CityJsonInstance* instance = nullptr;
   const CityJsonObject* object = nullptr;
+  std::uint32_t object_row = 0;  ///< in PlacesOfBuilding
   std::uint16_t part = 0;
   ObjectRole role = ObjectRole::building;  ///< decides whether it makes its level of detail eligible
+};
+
+/// A polygon of an earlier geometry, and the surface that it is; none where it cannot be used, or became a prism.
+struct EarlierPolygon {
+  Rings rings;
+  std::optional<std::uint32_t> surface;
 };
 
 bool is_usable(const CityJsonPolygon& polygon) {
@@ -71,45 +56,11 @@ bool is_usable(const CityJsonPolygon& polygon) {
   return std::set<std::int64_t>(polygon.rings[0].begin(), polygon.rings[0].end()).size() >= 3;
 }
 
-/// The hierarchy of objects, which files give in `children`, in `parents`, or in both.
-class Family {
- public:
-  explicit Family(const std::vector<CityJsonObject>& objects)
-      : objects_(objects), children_(objects.size()), has_parent_(objects.size()) {
-    for (std::size_t k = 0; k < objects.size(); ++k) row_of_.try_emplace(objects[k].id, k);
-    for (std::size_t k = 0; k < objects.size(); ++k) {
-      for (const std::string& child : objects[k].children) link(k, find(child));
-      for (const std::string& parent : objects[k].parents)
-        if (const auto row = find(parent)) link(*row, k);
-    }
-  }
-
-  std::optional<std::size_t> find(const std::string& id) const {
-    const auto found = row_of_.find(id);
-    return found == row_of_.end() ? std::nullopt : std::optional(found->second);
-  }
-  const std::set<std::size_t>& children_of(std::size_t k) const { return children_[k]; }
-  bool has_parent(std::size_t k) const { return has_parent_[k]; }
-
- private:
-  void link(std::size_t parent, std::optional<std::size_t> child) {
-    // Only objects that hide the sky are parents here: a building in a CityObjectGroup has no parent
-    if (!child || *child == parent || !hides_the_sky(objects_[parent])) return;
-    children_[parent].insert(*child);
-    has_parent_[*child] = true;
-  }
-
-  const std::vector<CityJsonObject>& objects_;
-  std::unordered_map<std::string, std::size_t> row_of_;
-  std::vector<std::set<std::size_t>> children_;
-  std::vector<bool> has_parent_;
-};
-
 class BuildingAssembler {
  public:
-  BuildingAssembler(const std::vector<CityJsonObject>& objects, const Family& family, const std::vector<Point3d>& vertices,
-                    const CityJsonTemplates& templates, std::vector<bool>& visited, CityModelBuilder& builder,
-                    ObjectAccount& account)
+  BuildingAssembler(const std::vector<CityJsonObject>& objects, const CityJsonFamily& family,
+                    const std::vector<Point3d>& vertices, const CityJsonTemplates& templates, std::vector<bool>& visited,
+                    CityModelBuilder& builder, ObjectAccount& account)
       : objects_(objects),
         family_(family),
         vertices_(vertices),
@@ -133,7 +84,8 @@ class BuildingAssembler {
     }
     for (const Shape* shape : wanted) add(*shape, wanted.size() == 1);
     if (!wanted.empty() && others > 0) builder_.add_problem(ProblemCode::other_level_of_detail, unused_polygons(others, lods));
-    builder_.end_building("no usable surface in the level of detail asked for; it has LoD " + list_lods(lods));
+    builder_.end_building("no usable surface in the level of detail asked for; it has LoD " + list_lods(lods),
+                          root_->places ? &places_ : nullptr);
   }
 
  private:
@@ -156,6 +108,7 @@ class BuildingAssembler {
   }
 
   void gather_own(const CityJsonObject& object, std::uint16_t part) {
+    places_.objects.push_back(object.places ? object.places->object : package::AttributePlace());
     if (!object.malformed.empty()) builder_.add_problem(ProblemCode::malformed_feature, object.id + ": " + object.malformed);
     for (const CityJsonGeometry& geometry : object.geometries) add_shape(object, geometry, part);
     for (const std::vector<std::string>* relatives : {&object.parents, &object.children})
@@ -169,7 +122,8 @@ class BuildingAssembler {
   }
 
   void add_shape(const CityJsonObject& object, const CityJsonGeometry& geometry, std::uint16_t part) {
-    Shape shape{&geometry, nullptr, &object, part, &object == root_ ? ObjectRole::building : role_of(object.type)};
+    const auto row = static_cast<std::uint32_t>(places_.objects.size() - 1);
+    Shape shape{&geometry, nullptr, &object, row, part, &object == root_ ? ObjectRole::building : role_of(object.type)};
     if (geometry.instance) {
       if (geometry.instance->template_row >= templates_.geometries.size()) {
         builder_.add_problem(ProblemCode::dangling_reference,
@@ -207,30 +161,60 @@ class BuildingAssembler {
 
   void add(const Shape& shape, bool is_alone) {
     // Equal polygons of one geometry are kept. Those of two geometries are the same surface twice
-    std::vector<Rings> fresh;
+    std::vector<EarlierPolygon> fresh;
+    const std::uint32_t first_semantics = begin_semantics(shape);
     for (const CityJsonPolygon& polygon : shape.geometry->polygons) {
       std::optional<Rings> rings = points_of(polygon, shape);
-      if (!rings || (!is_alone && is_seen(*rings))) continue;
-      if (!is_alone) fresh.push_back(*rings);
+      if (!rings) continue;
+      const PolygonOrigin origin = origin_of(polygon, shape, first_semantics);
+      if (const EarlierPolygon* seen = is_alone ? nullptr : find_seen(*rings)) {
+        if (seen->surface) builder_.add_origin(*seen->surface, origin);
+        continue;
+      }
+      if (!is_alone) fresh.push_back({*rings, {}});
+      std::optional<std::uint32_t> surface;
       if (shape.geometry->lod < 1.0)
         add_footprint(*rings, shape);
       else
-        builder_.add_polygon(*rings, RingEnd::implied, {.kind = polygon.kind, .part = shape.part, .surface = {}, .name = {}});
+        surface = builder_.add_polygon(*rings, RingEnd::implied,
+                                       {.kind = polygon.kind, .part = shape.part, .surface = {}, .name = {}, .origin = origin});
+      if (!is_alone) fresh.back().surface = surface;
     }
-    for (Rings& rings : fresh) note_seen(std::move(rings));
+    for (EarlierPolygon& polygon : fresh) note_seen(std::move(polygon));
+  }
+
+  /// Adds the semantic surfaces of a geometry to those of the building. Returns the row of the first.
+  std::uint32_t begin_semantics(const Shape& shape) {
+    const auto first = static_cast<std::uint32_t>(places_.semantics.size());
+    if (shape.instance || !shape.object->places) return first;
+    const auto geometry = static_cast<std::size_t>(shape.geometry - shape.object->geometries.data());
+    const std::vector<std::vector<package::AttributePlace>>& by_geometry = shape.object->places->semantics;
+    // A list that is written as an object has no places
+    if (geometry < by_geometry.size())
+      places_.semantics.insert(places_.semantics.end(), by_geometry[geometry].begin(), by_geometry[geometry].end());
+    return first;
+  }
+
+  /// Many objects share the semantic surfaces of a template.
+  [[nodiscard]] PolygonOrigin origin_of(const CityJsonPolygon& polygon, const Shape& shape, std::uint32_t first_semantics) const {
+    PolygonOrigin origin{shape.object_row, {}};
+    if (!polygon.semantics || shape.instance) return origin;
+    if (const std::uint32_t row = first_semantics + *polygon.semantics; row < places_.semantics.size()) origin.semantics = row;
+    return origin;
   }
 
   [[nodiscard]] std::vector<std::span<const Point3d>> seen_at(std::uint64_t number) const {
-    return spans_of(seen_rings_[number]);
+    return spans_of(earlier_[number].rings);
   }
 
-  [[nodiscard]] bool is_seen(const Rings& rings) const {
-    return seen_.find(rings, 0, [this](std::uint64_t n) { return seen_at(n); }).has_value();
+  [[nodiscard]] const EarlierPolygon* find_seen(const Rings& rings) const {
+    const auto number = seen_.find(rings, 0, [this](std::uint64_t n) { return seen_at(n); });
+    return number ? &earlier_[*number] : nullptr;
   }
 
-  void note_seen(Rings&& rings) {
-    if (!seen_.find_or_insert(rings, 0, seen_rings_.size(), [this](std::uint64_t n) { return seen_at(n); }))
-      seen_rings_.push_back(std::move(rings));
+  void note_seen(EarlierPolygon&& polygon) {
+    if (!seen_.find_or_insert(polygon.rings, 0, earlier_.size(), [this](std::uint64_t n) { return seen_at(n); }))
+      earlier_.push_back(std::move(polygon));
   }
 
   std::optional<Rings> points_of(const CityJsonPolygon& polygon, const Shape& shape) {
@@ -286,11 +270,11 @@ class BuildingAssembler {
       builder_.add_problem(ProblemCode::height_not_positive, "measuredHeight is " + std::to_string(*height_m),
                            first_readable(rings));
     else
-      builder_.add_prism(rings, RingEnd::implied, base_m, base_m + *height_m, shape.part);
+      builder_.add_prism(rings, RingEnd::implied, base_m, base_m + *height_m, shape.part, shape.object_row);
   }
 
   const std::vector<CityJsonObject>& objects_;
-  const Family& family_;
+  const CityJsonFamily& family_;
   const std::vector<Point3d>& vertices_;
   const CityJsonTemplates& templates_;
   std::vector<bool>& visited_;
@@ -299,7 +283,8 @@ class BuildingAssembler {
   const CityJsonObject* root_ = nullptr;
   std::vector<Shape> shapes_;
   PolygonDeduplicator seen_{SamePolygon::corners};
-  std::vector<Rings> seen_rings_;  ///< by their numbers in `seen_`
+  std::vector<EarlierPolygon> earlier_;  ///< by their numbers in `seen_`
+  PlacesOfBuilding places_;
   std::uint16_t parts_ = 0;
 };
 
@@ -344,7 +329,7 @@ class ReliefCollector {
 
 void add_objects(const std::vector<CityJsonObject>& objects, const std::vector<Point3d>& vertices,
                  const CityJsonTemplates& templates, LodChoice lod, CityModelBuilder& builder, ObjectAccount& account) {
-  const Family family(objects);
+  const CityJsonFamily family(objects);
   std::vector<bool> visited(objects.size());
   // The first round begins at objects without parent. The objects that it leaves form circles of parents
   for (const bool is_first_round : {true, false})

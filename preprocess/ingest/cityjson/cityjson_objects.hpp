@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "city/source.hpp"
 #include "farlod/point.hpp"
 #include "farlod/surface_kind.hpp"
+#include "ingest/cityjson/cityjson_places.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
 #include "ingest/model_builder/lod_choice.hpp"
 
@@ -19,7 +21,16 @@ namespace farlod::ingest {
 struct CityJsonPolygon {
   std::vector<std::vector<std::int64_t>> rings;  ///< rows of the vertex list, not checked yet
   SurfaceKind kind = SurfaceKind::unknown;
+  std::optional<std::uint32_t> semantics = {};  ///< row of `semantics.surfaces`
 };
+
+/// The number of nested lists around the surfaces of a geometry; empty for types without surfaces.
+[[nodiscard]] inline std::optional<int> nesting_of(std::string_view type) {
+  if (type == "MultiSurface" || type == "CompositeSurface") return 0;
+  if (type == "Solid") return 1;
+  if (type == "MultiSolid" || type == "CompositeSolid") return 2;
+  return std::nullopt;
+}
 
 /// An instance of a template: transformed by a 4 × 4 matrix (row by row), then moved to a vertex.
 struct CityJsonInstance {
@@ -40,7 +51,8 @@ struct CityJsonObject {
   std::vector<std::string> parents, children;
   std::vector<CityJsonGeometry> geometries;
   std::optional<double> measured_height_m;
-  std::string malformed;  ///< how it breaks the format; it has no geometries then
+  std::string malformed;                      ///< how it breaks the format; it has no geometries then
+  std::optional<CityJsonPlaces> places = {};  ///< in a file into which attributes can be inserted
 };
 
 /// The templates of a file, which all its objects may use.

@@ -5,11 +5,14 @@
 #include <istream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <type_traits>
+#include <utility>
 
 #include "farlod/error.hpp"
+#include "ingest/cityjson/cityjson_flaws.hpp"
 #include "ingest/cityjson/cityjson_objects.hpp"
+#include "ingest/cityjson/cityjson_places.hpp"
 #include "ingest/cityjson/cityjson_reader.hpp"
+#include "ingest/cityjson/placed_buffer.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
 #include "ingest/model_builder/surface_names.hpp"
 
@@ -23,22 +26,6 @@ constexpr double unreadable_number = std::numeric_limits<double>::quiet_NaN();
 /// No city is nested this deep. nlohmann copies and deletes trees by recursion, which would overflow the stack.
 constexpr std::size_t deepest_nesting = 500;
 
-/// A text that is JSON, but not CityJSON.
-class JsonFlaw : public std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-/// A text that is not JSON.
-class SyntaxFlaw : public JsonFlaw {
-  using JsonFlaw::JsonFlaw;
-};
-
-/// A message of nlohmann without the number in brackets that it begins with.
-std::string plain(std::string_view message) {
-  const std::size_t at = message.find("] ");
-  return std::string(at == message.npos ? message : message.substr(at + 2));
-}
-
 double lod_from(const json& geometry) {
   const auto lod = geometry.find("lod");
   if (lod == geometry.end()) return 0.0;
@@ -47,14 +34,6 @@ double lod_from(const json& geometry) {
   double value = 0.0;
   std::from_chars(text.data(), text.data() + text.size(), value);
   return std::isfinite(value) ? value : 0.0;
-}
-
-/// The number of nested lists around the surfaces of a geometry; empty for types without surfaces.
-std::optional<int> nesting_of(std::string_view type) {
-  if (type == "MultiSurface" || type == "CompositeSurface") return 0;
-  if (type == "Solid") return 1;
-  if (type == "MultiSolid" || type == "CompositeSolid") return 2;
-  return std::nullopt;
 }
 
 std::vector<SurfaceKind> kinds_from(const json& geometry) {
@@ -103,7 +82,10 @@ void add_polygons(const json& boundaries, const json& values, int nesting, const
       continue;
     }
     const auto row = value.is_number_unsigned() ? value.get<std::size_t>() : kinds.size();
-    polygons.push_back({rings_from(list[i]), row < kinds.size() ? kinds[row] : SurfaceKind::unknown});
+    CityJsonPolygon& polygon = polygons.emplace_back(CityJsonPolygon{rings_from(list[i])});
+    if (row >= kinds.size()) continue;
+    polygon.kind = kinds[row];
+    polygon.semantics = static_cast<std::uint32_t>(row);
   }
 }
 
@@ -170,6 +152,9 @@ struct CityJsonText {
 /// vertices, and would lose the order of the objects and those with a repeated id.
 class CityJsonCollector : public nlohmann::json_sax<json> {
  public:
+  /// `text`: what is parsed. `has_places`: attributes can be inserted into its file.
+  CityJsonCollector(const PlacedBuffer& text, bool has_places) : buffer_(text), has_places_(has_places) {}
+
   bool null() override { return take(json()); }
   bool boolean(bool value) override { return take(json(value)); }
   bool number_integer(number_integer_t value) override { return take_number(value); }
@@ -203,6 +188,7 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
 
   bool in_vertices() const { return depth_ >= 2 && kind_ == Member::vertices; }
   bool among_objects() const { return depth_ == 2 && kind_ == Member::objects; }
+  bool finds_places() const { return has_places_ && kind_ == Member::objects; }
 
   void begin_member(const std::string& name) {
     member_ = name;
@@ -211,13 +197,17 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
 
   template <class Number>
   bool take_number(Number value) {
-    if (!in_vertices()) return take(json(value));
+    if (!in_vertices()) return take(json(value), buffer_.at() - 1);  // a number ends where the next byte is none of it
     vertex_.push_back(static_cast<double>(value));
     return true;
   }
 
-  bool take(json value) {
+  bool take(json value) { return take(std::move(value), buffer_.at()); }
+
+  /// `at`: behind its last byte.
+  bool take(json value, std::uint64_t at) {
     if (depth_ == 0) return fail("it is no JSON object");
+    if (finds_places()) places_.value(key_, at);
     if (in_vertices())
       vertex_.push_back(unreadable_number);
     else if (!stack_.empty())
@@ -234,6 +224,7 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
     ++depth_;
     if (in_vertices() && depth_ == 3) vertex_.clear();
     if (is_ours) return true;
+    if (finds_places()) places_.open(key_, container.is_object(), buffer_.at());
     if (stack_.empty()) {
       tree_ = std::move(container);
       stack_.push_back(&tree_);
@@ -247,6 +238,7 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
     if (in_vertices() && depth_ == 3) add_vertex();
     --depth_;
     if (stack_.empty()) return true;
+    if (finds_places()) places_.close(buffer_.at());
     stack_.pop_back();
     if (stack_.empty()) complete(std::move(tree_));
     return true;
@@ -259,10 +251,12 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
   }
 
   void complete(json value) {
-    if (among_objects())
-      text_.objects.push_back(object_from(object_, value));
-    else if (depth_ == 1 && member_ != "appearance")
+    if (among_objects()) {
+      CityJsonObject& object = text_.objects.emplace_back(object_from(object_, value));
+      if (has_places_) object.places = places_.take();
+    } else if (depth_ == 1 && member_ != "appearance") {
       text_.rest[member_] = std::move(value);
+    }
   }
 
   void add_vertex() {
@@ -276,6 +270,9 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
     return false;
   }
 
+  const PlacedBuffer& buffer_;
+  bool has_places_;
+  CityJsonPlaceFinder places_;
   CityJsonText text_;
   std::string member_, object_, key_, flaw_;
   Member kind_ = Member::other;
@@ -286,39 +283,47 @@ class CityJsonCollector : public nlohmann::json_sax<json> {
   std::vector<json*> stack_;
 };
 
-/// ", but 15 SolitaryVegetationObject": the objects of a file without buildings.
-std::string said(const SkippedFeatures& skipped) {
-  std::string text;
-  for (const auto& [type, count] : skipped) text += (text.empty() ? ", but " : ", ") + std::to_string(count) + " " + type;
-  return text;
-}
-
 class CityJsonFile {
  public:
-  CityJsonFile(const InputFile& file, LodChoice lod, CityModelBuilder& builder) : file_(file), lod_(lod), builder_(builder) {}
+  CityJsonFile(const InputFile& file, LodChoice lod, CityModelBuilder& builder)
+      : file_(file), has_places_(has_byte_places(file)), lod_(lod), builder_(builder) {}
 
   /// The first text has the CRS and the transform. In a sequence, the features follow, one a line.
   void read() {
-    const std::unique_ptr<std::istream> stream = open_input(file_);
-    take_header(parse(*stream));
-    *stream >> std::ws;
-    if (stream->peek() == std::istream::traits_type::eof()) return;
-    if (stream->peek() != '{') throw SyntaxFlaw("there is more text behind its end");
+    const std::unique_ptr<std::istream> source = open_input(file_);
+    PlacedBuffer buffer(*source);
+    std::istream stream(&buffer);
+    stream.exceptions(std::ios::badbit);  // so that what the source throws passes through
+    take_header(parse(buffer, Behind::may_follow));
+    stream >> std::ws;
+    if (stream.peek() == std::istream::traits_type::eof()) return;
+    if (stream.peek() != '{') throw SyntaxFlaw("there is more text behind its end");
+    format = package::CityFileFormat::cityjsonseq;
     std::string line;
-    for (number_ = 2; std::getline(*stream, line); ++number_)
-      if (line.find_first_not_of(" \t\r") != line.npos) take_feature(line);
+    std::uint64_t begin = buffer.at();
+    for (number_ = 2; std::getline(stream, line); ++number_, begin = buffer.at())
+      if (line.find_first_not_of(" \t\r") != line.npos) take_feature(line, begin);
+  }
+
+  /// Nothing where attributes cannot be inserted.
+  [[nodiscard]] std::optional<PlacedFile> placed() const {
+    if (!has_places_) return std::nullopt;
+    return PlacedFile{file_.on_disk, format, CityJsonPlaceFinder::forms()};
   }
 
   std::string reference_system;
+  package::CityFileFormat format = package::CityFileFormat::cityjson;
   ObjectAccount account;
 
  private:
-  /// Parses the first JSON text of a stream, and leaves the stream at its end.
-  template <class Text>
-  CityJsonText parse(Text&& text) {
-    constexpr bool is_stream = std::is_base_of_v<std::istream, std::remove_cvref_t<Text>>;
-    CityJsonCollector collector;
-    if (json::sax_parse(text, &collector, json::input_format_t::json, !is_stream)) return collector.text();
+  /// Whether another text may follow.
+  enum class Behind { may_follow, nothing };
+
+  /// Parses the first JSON text in a buffer, and leaves the buffer at its end.
+  CityJsonText parse(PlacedBuffer& buffer, Behind behind) {
+    std::istream text(&buffer);
+    CityJsonCollector collector(buffer, has_places_);
+    if (json::sax_parse(text, &collector, json::input_format_t::json, behind == Behind::nothing)) return collector.text();
     if (collector.is_json()) throw JsonFlaw(collector.flaw());
     throw SyntaxFlaw(collector.flaw());
   }
@@ -341,9 +346,10 @@ class CityJsonFile {
   }
 
   /// A line that is not JSON is reported. The other features of the city are read.
-  void take_feature(const std::string& line) {
+  void take_feature(std::string& line, std::uint64_t begin) {
     try {
-      CityJsonText text = parse(line);
+      PlacedBuffer buffer(line, begin);
+      CityJsonText text = parse(buffer, Behind::nothing);
       if (text.rest.value("type", json()) != "CityJSONFeature") throw JsonFlaw("it is no CityJSONFeature");
       add_to_model(text);
     } catch (const JsonFlaw& flaw) {
@@ -358,6 +364,7 @@ class CityJsonFile {
   }
 
   const InputFile& file_;
+  bool has_places_;
   LodChoice lod_;
   CityModelBuilder& builder_;
   std::size_t number_ = 1;
@@ -386,7 +393,8 @@ SourceCity read_cityjson(const InputFile& file, LodChoice lod, Report& report) {
           .crs = {reader.reference_system, false, false},
           .city = builder.take_city(),
           .relief_points = std::move(reader.account.relief_points),
-          .skipped = std::move(reader.account.skipped)};
+          .skipped = std::move(reader.account.skipped),
+          .placed = reader.placed()};
 }
 
 }  // namespace farlod::ingest

@@ -51,4 +51,12 @@ std::string read_beginning(const InputFile& file, std::size_t most_bytes) {
   return file.pipe ? file.pipe->beginning(most_bytes).substr(0, most_bytes) : read_from(*open_input(file), most_bytes);
 }
 
+bool has_byte_places(const InputFile& file) {
+  constexpr std::size_t marked_bytes = 2;
+  if (file.pipe || file.is_packed()) return false;
+  const std::string beginning = read_beginning(file, marked_bytes);
+  const bool is_marked = beginning == "\xff\xfe" || beginning == "\xfe\xff";
+  return !is_marked && beginning.find('\0') == beginning.npos;
+}
+
 }  // namespace farlod::ingest

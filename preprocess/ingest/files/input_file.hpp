@@ -47,6 +47,10 @@ struct InputFile {
 /// The first unpacked bytes of a file, at most `most_bytes`. Throws as open_input does.
 [[nodiscard]] std::string read_beginning(const InputFile& file, std::size_t most_bytes);
 
+/// Whether bytes have places in the file as it lies on the disk, and its text those of ASCII: it is neither packed, nor a pipe,
+/// nor in UTF-16.
+[[nodiscard]] bool has_byte_places(const InputFile& file);
+
 /// As read_beginning, for a small file beside a city, which need not exist.
 [[nodiscard]] std::optional<std::string> find_beginning(const InputFile& file, std::size_t most_bytes);
 

@@ -42,6 +42,8 @@ void CityModelBuilder::begin_building(std::string id, HeightReference height_ref
   largest_gap_ = 0.0;
   at_repeating_ring_ = at_largest_gap_ = first_vertex_ = std::nullopt;
   added_.clear();
+  origins_.clear();
+  object_of_surface_.clear();
   problems_before_ = report_.problems().size();
   city_.begin_building(id_, height_reference);
   if (repeated_ids_ == RepeatedIds::reported && !ids_.insert(id_).second) report_.add(repeated_id(id_, {}));
@@ -112,17 +114,38 @@ bool CityModelBuilder::clean_polygon(Rings& rings, RingEnd end, std::string_view
   return true;
 }
 
-void CityModelBuilder::add_facet(const Rings& rings, SurfaceKind kind, std::uint32_t surface, std::uint16_t part) {
+void CityModelBuilder::add_facet(const Rings& rings, SurfaceKind kind, std::uint32_t surface, std::uint16_t part,
+                                 std::uint32_t object) {
+  if (object != 0) {
+    object_of_surface_.resize(std::size_t{surface} + 1);
+    object_of_surface_[surface] = object;
+    origins_.push_back({surface, object});
+  }
   city_.begin_facet(kind, surface, part);
   for (const Ring& ring : rings) city_.add_ring(ring);
 }
 
-void CityModelBuilder::add_polygon(Rings& rings, RingEnd end, const PolygonTraits& traits) {
-  if (clean_polygon(rings, end, traits.name)) add_once(rings, traits);
+std::optional<std::uint32_t> CityModelBuilder::add_polygon(Rings& rings, RingEnd end, const PolygonTraits& traits) {
+  std::optional<std::uint32_t> surface;
+  if (clean_polygon(rings, end, traits.name)) {
+    surface = add_once(rings, traits);
+    add_origin(*surface, traits.origin);
+  }
   ++next_surface_;
+  return surface;
 }
 
-void CityModelBuilder::add_once(const Rings& rings, const PolygonTraits& traits) {
+void CityModelBuilder::add_origin(std::uint32_t surface, const PolygonOrigin& origin) {
+  const std::uint32_t object = surface < object_of_surface_.size() ? object_of_surface_[surface] : 0;
+  if (!origin.semantics) return;
+  // What add_facet has noted down of the surface without semantics
+  if (!origins_.empty() && origins_.back().surface == surface && !origins_.back().semantics)
+    origins_.back().semantics = origin.semantics;
+  else
+    origins_.push_back({surface, object, origin.semantics});
+}
+
+std::uint32_t CityModelBuilder::add_once(const Rings& rings, const PolygonTraits& traits) {
   const auto rings_of_facet = [this](std::uint64_t facet) {
     const Facet& f = city_.facets()[facet];
     std::vector<std::span<const Point3d>> spans;
@@ -131,21 +154,23 @@ void CityModelBuilder::add_once(const Rings& rings, const PolygonTraits& traits)
   };
   if (const auto same = added_.find_or_insert(rings, traits.part, city_.facets().size(), rings_of_facet)) {
     const std::string ring = name_of_ring(traits.name, 0);
-    add_problem(ProblemCode::duplicate_surface,
-                ring + ": the building has a polygon with the same corners, the same way round, as its surface " +
-                    std::to_string(city_.facets()[*same].surface),
-                rings.front().front(), ring);
-    return;
+    const std::uint32_t first = city_.facets()[*same].surface;
+    add_problem(
+        ProblemCode::duplicate_surface,
+        ring + ": the building has a polygon with the same corners, the same way round, as its surface " + std::to_string(first),
+        rings.front().front(), ring);
+    return first;
   }
-  add_facet(rings, traits.kind, traits.surface.value_or(next_surface_), traits.part);
+  const std::uint32_t surface = traits.surface.value_or(next_surface_);
+  add_facet(rings, traits.kind, surface, traits.part, traits.origin.object);
+  return surface;
 }
 
-void CityModelBuilder::add_walls(const Ring& ring, double base_m, double top_m, std::uint16_t part) {
+void CityModelBuilder::add_walls(const Ring& ring, double base_m, double top_m, std::uint16_t part, std::uint32_t object) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point3d &a = ring[i], &b = ring[(i + 1) % ring.size()];
-    wall_ = {{a.x, a.y, base_m}, {b.x, b.y, base_m}, {b.x, b.y, top_m}, {a.x, a.y, top_m}};
-    city_.begin_facet(SurfaceKind::wall, next_surface_++, part);
-    city_.add_ring(wall_);
+    wall_.front() = {{a.x, a.y, base_m}, {b.x, b.y, base_m}, {b.x, b.y, top_m}, {a.x, a.y, top_m}};
+    add_facet(wall_, SurfaceKind::wall, next_surface_++, part, object);
   }
 }
 
@@ -158,16 +183,17 @@ bool CityModelBuilder::leaves_room_for_walls(double base_m, double top_m) {
   return false;
 }
 
-void CityModelBuilder::add_prism(Rings& rings, RingEnd end, double base_m, double top_m, std::uint16_t part) {
+void CityModelBuilder::add_prism(Rings& rings, RingEnd end, double base_m, double top_m, std::uint16_t part,
+                                 std::uint32_t object) {
   lift(rings, top_m);
   if (!clean_polygon(rings, end, "footprint")) return;
   if (!leaves_room_for_walls(base_m, top_m)) return;
   orient_footprint(rings);
-  add_facet(rings, SurfaceKind::roof, next_surface_++, part);
-  for (const Ring& ring : rings) add_walls(ring, base_m, top_m, part);
+  add_facet(rings, SurfaceKind::roof, next_surface_++, part, object);
+  for (const Ring& ring : rings) add_walls(ring, base_m, top_m, part, object);
   lift(rings, base_m);
   for (Ring& ring : rings) std::reverse(ring.begin(), ring.end());
-  add_facet(rings, SurfaceKind::floor, next_surface_++, part);
+  add_facet(rings, SurfaceKind::floor, next_surface_++, part, object);
 }
 
 void CityModelBuilder::report_repairs() {
@@ -187,8 +213,41 @@ void CityModelBuilder::place_problems() {
     if (!problem.position) problem.position = first_vertex_;
 }
 
-void CityModelBuilder::end_building(std::string_view missing) {
+package::BuildingOrigin CityModelBuilder::origin_among(const PlacesOfBuilding& places) {
+  // Repetitions come later than what they repeat
+  std::stable_sort(origins_.begin(), origins_.end(), [](const auto& a, const auto& b) { return a.surface < b.surface; });
+  std::vector<bool> has_surfaces(places.objects.size()), is_used(places.semantics.size());
+  has_surfaces[0] = true;
+  for (const package::SurfaceOrigin& surface : origins_) {
+    has_surfaces[surface.object] = true;
+    if (surface.semantics) is_used[*surface.semantics] = true;
+  }
+  package::BuildingOrigin origin;
+  const auto kept_rows = [](const auto& all, const std::vector<bool>& is_kept, auto& kept) {
+    std::vector<std::uint32_t> rows(all.size());
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      rows[n] = static_cast<std::uint32_t>(kept.size());
+      if (is_kept[n]) kept.push_back(all[n]);
+    }
+    return rows;
+  };
+  const std::vector<std::uint32_t> objects = kept_rows(places.objects, has_surfaces, origin.objects);
+  const std::vector<std::uint32_t> semantics = kept_rows(places.semantics, is_used, origin.semantics);
+  for (package::SurfaceOrigin& surface : origins_) {
+    surface.object = objects[surface.object];
+    if (surface.semantics) surface.semantics = semantics[*surface.semantics];
+  }
+  origin.surfaces = std::move(origins_);
+  return origin;
+}
+
+void CityModelBuilder::end_building(std::string_view missing, const PlacesOfBuilding* places) {
   report_repairs();
+  if (places != nullptr && city_.buildings().back().facet_count > 0) {
+    std::vector<std::uint8_t> bytes;
+    package::append_origin(bytes, origin_among(*places));
+    city_.set_origin(bytes);
+  }
   if (city_.buildings().back().facet_count == 0) {
     city_.drop_last_building();
     add_problem(ProblemCode::no_geometry, std::string(missing));

@@ -10,11 +10,24 @@
 #include <vector>
 
 #include "city/city_model.hpp"
+#include "contract/package/sources_layout.hpp"
 #include "farlod/problem.hpp"
 #include "ingest/model_builder/polygon_deduplicator.hpp"
 #include "ingest/model_builder/ring_cleaning.hpp"
 
 namespace farlod::ingest {
+
+/// What a polygon is of in its file: rows of PlacesOfBuilding.
+struct PolygonOrigin {
+  std::uint32_t object = 0;
+  std::optional<std::uint32_t> semantics = {};
+};
+
+/// Where attributes of a building are inserted into its file.
+struct PlacesOfBuilding {
+  std::vector<package::AttributePlace> objects;    ///< the building itself first, then its parts and installations
+  std::vector<package::AttributePlace> semantics;  ///< of all its semantic surfaces
+};
 
 /// The properties of a polygon besides its points.
 struct PolygonTraits {
@@ -22,6 +35,7 @@ struct PolygonTraits {
   std::uint16_t part = 0;
   std::optional<std::uint32_t> surface;  ///< empty: the polygon is a surface by itself
   std::string_view name;                 ///< in the report; empty: its number is used
+  PolygonOrigin origin = {};
 };
 
 /// Whether a builder reports an id that it has met before, or leaves that to the builder that it is appended to.
@@ -36,16 +50,21 @@ class CityModelBuilder {
 
   void begin_building(std::string id, HeightReference height_reference = HeightReference::elevation);
   /// Cleans the rings in place and adds the polygon, unless its outer ring is unusable or the part of the building already has
-  /// the same polygon. Unusable holes are filled.
-  void add_polygon(Rings& rings, RingEnd end, const PolygonTraits& traits);
+  /// the same polygon. Unusable holes are filled. Returns the number of the surface that the polygon is, the same for one that
+  /// is there already; nothing where it is unusable.
+  std::optional<std::uint32_t> add_polygon(Rings& rings, RingEnd end, const PolygonTraits& traits);
+  /// The file has a surface of the current building once more.
+  void add_origin(std::uint32_t surface, const PolygonOrigin& origin);
   /// Adds a prism over a footprint: roof, floor, and a wall for each edge, all facing outwards. The z of the rings is ignored.
-  void add_prism(Rings& rings, RingEnd end, double base_m, double top_m, std::uint16_t part);
+  /// Its surfaces are of the object, and of no semantic surface.
+  void add_prism(Rings& rings, RingEnd end, double base_m, double top_m, std::uint16_t part, std::uint32_t object = 0);
   /// Reports a problem of the current building. Without a position, it is at the first vertex of the building.
   void add_problem(ProblemCode code, std::string detail, std::optional<Point3d> position = {}, std::string ring = {});
   /// Reports a problem of something that is not a building.
   void add_problem_at(std::string place, ProblemCode code, std::string detail, std::optional<Point3d> position = {});
   /// Ends the current building. If nothing of it is usable, it is removed, and `missing` is the reason that the reader knows.
-  void end_building(std::string_view missing = "it has no surfaces");
+  /// `places`: of a file into which attributes can be inserted.
+  void end_building(std::string_view missing = "it has no surfaces", const PlacesOfBuilding* places = nullptr);
   /// Adds the buildings and the problems of a builder of the next segment of the file, which leaves repeated ids to this one and
   /// has a report of its own. City and report become those of a single builder of both segments.
   void append(CityModelBuilder&& next);
@@ -61,12 +80,14 @@ class CityModelBuilder {
   [[nodiscard]] std::string name_of_ring(std::string_view polygon, std::size_t k) const;
   void note_repairs(const RingFindings& findings, const std::optional<Point3d>& position, std::string_view polygon,
                     std::size_t k);
-  void add_once(const Rings& rings, const PolygonTraits& traits);
-  void add_facet(const Rings& rings, SurfaceKind kind, std::uint32_t surface, std::uint16_t part);
+  /// Returns the number of the surface that it is.
+  std::uint32_t add_once(const Rings& rings, const PolygonTraits& traits);
+  void add_facet(const Rings& rings, SurfaceKind kind, std::uint32_t surface, std::uint16_t part, std::uint32_t object = 0);
+  [[nodiscard]] package::BuildingOrigin origin_among(const PlacesOfBuilding& places);
   /// Whether the base is on the Earth and below the top; reports it if not. The sum of a large base and a small height may be the
   /// base itself.
   [[nodiscard]] bool leaves_room_for_walls(double base_m, double top_m);
-  void add_walls(const Ring& ring, double base_m, double top_m, std::uint16_t part);
+  void add_walls(const Ring& ring, double base_m, double top_m, std::uint16_t part, std::uint32_t object);
   void report_repairs();
   void place_problems();
   [[nodiscard]] Problem repeated_id(std::string id, std::optional<Point3d> position) const;
@@ -88,12 +109,15 @@ class CityModelBuilder {
   std::size_t buildings_met_ = 0;
   std::uint32_t next_surface_ = 0;
   PolygonDeduplicator added_{SamePolygon::rings};
+  // Of the current building
+  std::vector<package::SurfaceOrigin> origins_;   ///< rows of all places; what is not worth noting down is not there
+  std::vector<std::uint32_t> object_of_surface_;  ///< by number; of those beyond its end, the building itself
   std::size_t repeated_vertices_ = 0, open_rings_ = 0;
   double largest_gap_ = 0.0;
   std::string repeating_ring_, widest_open_ring_;
   std::optional<Point3d> at_repeating_ring_, at_largest_gap_, first_vertex_;
   std::size_t problems_before_ = 0;  ///< problems in the report when the building began
-  Ring wall_ = Ring(4);
+  Rings wall_ = Rings(1);
 };
 
 }  // namespace farlod::ingest

@@ -88,7 +88,7 @@ class TreeListener : public XmlListener {
     numbers_.clear();
   }
 
-  void end(std::string_view name) override {
+  void end(std::string_view name, std::uint64_t /*end*/) override {
     if (is_words_) take_words(name);
     if (is_numbers_) take_numbers();
     is_words_ = is_numbers_ = false;

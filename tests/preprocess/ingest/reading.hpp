@@ -43,6 +43,7 @@ inline std::string described(const SourceCity& source, const Report& report) {
   text << source.source << ' ' << source.crs.definition << '\n';
   for (const Building& b : source.city.buildings()) {
     text << b.id << ' ' << b.first_facet << '\n';
+    for (const std::uint8_t byte : source.city.origin_of(b)) text << static_cast<int>(byte) << ' ';
     for (const Facet& f : source.city.facets_of(b)) {
       text << f.first_ring << ' ' << f.surface << ' ' << f.part << ' ' << static_cast<int>(f.kind) << ':';
       for (std::uint32_t k = 0; k < f.ring_count; ++k)
@@ -50,6 +51,8 @@ inline std::string described(const SourceCity& source, const Report& report) {
       text << '\n';
     }
   }
+  if (source.placed)
+    for (const AttributeForm& form : source.placed->forms) text << form.before_name << form.behind_value << '\n';
   for (const Point3d& p : source.relief_points) text << "relief " << p.x << ' ' << p.y << ' ' << p.z << '\n';
   for (const auto& [name, count] : source.skipped) text << count << ' ' << name << '\n';
   for (const Problem& p : report.problems()) {
