@@ -22,12 +22,13 @@ namespace farlod::package {
 static_assert(std::endian::native == std::endian::little,
               "packages are mapped, not decoded: a big-endian reader must swap bytes");
 
-/// The version of the manifest, and so of the package, that is written of a city without trees.
-inline constexpr std::uint32_t format_version = 8;
-/// What is written of a city with trees: a reader of version 8 would not know of them (crown_layout.hpp).
+/// The version of the manifest, and so of the package, that is written: trees (crown_layout.hpp) and the places that surfaces
+/// come from (sources_layout.hpp) are there where the city has them.
+inline constexpr std::uint32_t format_version = 10;
+/// The version of a city with trees, before version 10.
 inline constexpr std::uint32_t canopy_format_version = 9;
 /// The newest one that is read.
-inline constexpr std::uint32_t newest_format_version = canopy_format_version;
+inline constexpr std::uint32_t newest_format_version = format_version;
 /// The oldest one that is read.
 inline constexpr std::uint32_t oldest_format_version = 8;
 /// The version of `tiles.bin`, which changes on its own.

@@ -100,7 +100,7 @@ struct PictureTile {
 
 /// What `manifest.json` says. docs/package_format.md lists the keys.
 struct Manifest {
-  std::uint32_t version = format_version;  ///< of the format, as read; what is written has version_of()
+  std::uint32_t version = format_version;  ///< of the format, as read; what is written has format_version
   std::uint64_t file_xxh3 = 0;             ///< XXH3-64 of the whole file, once it was read or written
   std::string software;
   std::string crs_wkt, crs_name;
@@ -116,6 +116,7 @@ struct Manifest {
   std::vector<std::pair<int, std::uint64_t>> problem_counts;  ///< by code, ascending
   std::vector<BlockFiles> blocks;                             ///< in the order of Grid::blocks()
   std::optional<CanopyFile> canopy = {};                      ///< where there are crowns
+  std::optional<FileStamp> sources = {};                      ///< of `sources.bin`, where city files have places for attributes
 
   /// Whether each cell has a far map.
   [[nodiscard]] bool is_fully_mapped() const {
@@ -144,10 +145,5 @@ struct Manifest {
     return grid.rotation.grid_from_city(p_projected - origin_m);
   }
 };
-
-/// The version of the format in which a manifest is written.
-[[nodiscard]] inline std::uint32_t version_of(const Manifest& manifest) {
-  return manifest.canopy ? canopy_format_version : format_version;
-}
 
 }  // namespace farlod::package

@@ -93,10 +93,10 @@ struct PackageDamage {
 
 /// What came of reading a whole package.
 struct PackageCheck {
-  std::uint64_t files = 0, bytes = 0;     ///< of the blocks and of the crowns, as the manifest lists them
+  std::uint64_t files = 0, bytes = 0;     ///< of all files that the manifest lists
   std::uint64_t cells = 0, far_maps = 0;  ///< tiles and far maps that were read from end to end, and are right
   std::uint64_t crowns = 0;               ///< the same of crowns
-  std::vector<PackageDamage> damage;      ///< in the order of the blocks, and within a block by file and cell; then the crowns
+  std::vector<PackageDamage> damage;      ///< in the order of the blocks, and within a block by file and cell; then others
 };
 
 /// Reads all of a package: each file is compared with its checksum, each tile is checked, and each far map is decoded. What is

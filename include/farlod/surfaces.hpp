@@ -42,6 +42,7 @@ struct SurfacePoint {
   std::optional<double> low, high;  ///< certain bounds, where asked for
   /// A value for each of columns_of(EvaluationSettings::further); empty where there is no svf.
   std::vector<float> further = {};
+  std::uint32_t building_number = 0;  ///< of the building, within the city; ids may be those of several
 };
 
 /// Area-weighted mean over the receivers of a surface that have an answer.
@@ -64,6 +65,8 @@ struct BuildingMean {
   double covered_roof_area_m2 = 0.0, covered_wall_area_m2 = 0.0;  ///< of those that have none
   std::size_t receivers = 0, nodata = 0;
   std::optional<double> svf_roofs = {}, svf_walls = {};
+  /// The numbers of the buildings, within the city, ascending: one, unless several share the id, and have this row together.
+  std::vector<std::uint32_t> building_numbers = {};
 };
 
 /// The means of a run, in an order that depends on nothing but the package and the settings.

@@ -16,7 +16,7 @@ namespace farlod {
 
 /// Whether the files of a block are those that were written.
 [[nodiscard]] bool are_whole(const std::filesystem::path& package, const package::BlockFiles& files);
-/// The same of its crowns.
-[[nodiscard]] bool are_whole(const std::filesystem::path& package, const package::CanopyFile& canopy);
+/// Whether its files besides the blocks are whole: crowns, and the places that surfaces come from.
+[[nodiscard]] bool are_others_whole(const std::filesystem::path& package, const package::Manifest& manifest);
 
 }  // namespace farlod

@@ -9,6 +9,7 @@
 
 #include "contract/package/crown_layout.hpp"
 #include "contract/package/layout.hpp"
+#include "contract/package/sources_layout.hpp"
 #include "farlod/error.hpp"
 #include "package/file_stamp.hpp"
 
@@ -52,8 +53,9 @@ bool are_whole(const std::filesystem::path& package, const package::BlockFiles& 
          (!files.has_far_maps() || is_whole(folder / package::far_map_file, files.far_map));
 }
 
-bool are_whole(const std::filesystem::path& package, const package::CanopyFile& canopy) {
-  return is_whole(package / package::crowns_file, canopy.stamp);
+bool are_others_whole(const std::filesystem::path& package, const package::Manifest& manifest) {
+  return (!manifest.canopy || is_whole(package / package::crowns_file, manifest.canopy->stamp)) &&
+         (!manifest.sources || is_whole(package / package::sources_file, *manifest.sources));
 }
 
 }  // namespace farlod

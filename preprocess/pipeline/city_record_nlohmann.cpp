@@ -51,7 +51,8 @@ Json json_of(const package::Manifest& m) {
           {"inputs", inputs},
           {"counts", {m.buildings, m.polygons, m.triangles}},
           {"problems", m.problem_counts},
-          {"canopy", m.canopy ? json_of(*m.canopy) : Json()}};
+          {"canopy", m.canopy ? json_of(*m.canopy) : Json()},
+          {"sources", m.sources ? Json{m.sources->bytes, m.sources->xxh3} : Json()}};
 }
 package::Manifest manifest_from(const Json& j) {
   package::Manifest m;
@@ -72,6 +73,7 @@ package::Manifest manifest_from(const Json& j) {
   m.triangles = counts.at(2);
   j.at("problems").get_to(m.problem_counts);
   if (const Json& canopy = j.at("canopy"); !canopy.is_null()) m.canopy = canopy_from(canopy);
+  if (const Json& sources = j.at("sources"); !sources.is_null()) m.sources = package::FileStamp{sources.at(0), sources.at(1)};
   return m;
 }
 

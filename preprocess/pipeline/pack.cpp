@@ -22,6 +22,7 @@
 #include "georeference/problem_locator.hpp"
 #include "package/crowns_writer.hpp"
 #include "package/saved_city.hpp"
+#include "package/sources_writer.hpp"
 #include "pipeline/block_writing.hpp"
 #include "pipeline/city_reading.hpp"
 #include "pipeline/city_record.hpp"
@@ -151,14 +152,21 @@ class Packing {
     timed("tiles", [&] { cut.tiles = cut_tiles(std::move(city), std::move(trees), crowns); });
     require_no_problems();
     describe_tiles(cut.tiles);
-    if (crowns) timed("crowns", [&] { result.manifest.canopy = write_canopy(target.unfinished().package_folder(), *crowns); });
+    write_beside_blocks(target.unfinished().package_folder(), cut.tiles, crowns);
     if (target.existing()) timed("compare", [&] { target.require_same_city(cut.tiles, result.manifest); });
     if (result.chosen) timed("measure", [&] { result.chosen->measured = measure(cut.tiles); });
     record_.costs = costs_of(record_.plan, cut.tiles, result.manifest.grid);
     return cut;
   }
 
+  void write_beside_blocks(const std::filesystem::path& folder, TileSet& tiles, std::optional<CrownsOfCity>& crowns) {
+    package::Manifest& m = record_.result.manifest;
+    m.sources = write_sources(folder, std::exchange(tiles.sources, {}), sources_);
+    if (crowns) timed("crowns", [&] { m.canopy = write_canopy(folder, *crowns); });
+  }
+
   void take_findings(ReadCity& city) {
+    sources_ = sources_of(origin_, std::move(city.located.placed));
     PackedCity& result = record_.result;
     result.street_bearing = city.ground.streets.bearing;
     result.alignment_strength = city.ground.streets.strength;
@@ -307,6 +315,7 @@ class Packing {
   std::size_t blocks_at_once_ = usual_blocks_at_once;
   PackageOrigin origin_;
   CityRecord record_;
+  std::vector<std::optional<SourceOfPackage>> sources_;
   std::vector<std::pair<std::string, double>> seconds_;
 };
 

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "farlod/error.hpp"
 #include "farlod/version.hpp"
@@ -193,6 +195,24 @@ std::vector<package::InputFile> inputs_of(const PackageOrigin& origin) {
   for (const PackageOrigin::Input& input : origin.inputs)
     if (!input.is_beside) inputs.push_back({input.name, input.stamp});
   return inputs;
+}
+
+std::vector<std::optional<SourceOfPackage>> sources_of(const PackageOrigin& origin,
+                                                       std::vector<std::optional<PlacedFile>> placed) {
+  std::map<std::string, std::uint32_t> inputs;  // by path: the first that has it
+  std::uint32_t number = 0;
+  for (const PackageOrigin::Input& input : origin.inputs) {
+    if (input.is_beside) continue;
+    if (input.is_known) inputs.try_emplace(input.path, number);
+    ++number;
+  }
+  std::vector<std::optional<SourceOfPackage>> sources(placed.size());
+  for (std::size_t n = 0; n < placed.size(); ++n) {
+    if (!placed[n]) continue;
+    const auto input = inputs.find(placed[n]->path.string());
+    if (input != inputs.end()) sources[n] = SourceOfPackage{input->second, placed[n]->format, std::move(placed[n]->forms)};
+  }
+  return sources;
 }
 
 void require_unchanged(const PackageOrigin& origin) {

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "city/source.hpp"
 #include "package/package_origin.hpp"
+#include "package/sources_writer.hpp"
 #include "pipeline/city_reading.hpp"
 #include "pipeline/pack.hpp"
 
@@ -17,6 +20,10 @@ namespace farlod::pipeline {
 
 /// What the manifest says of the inputs: those that the user named or that were found, in their order.
 [[nodiscard]] std::vector<package::InputFile> inputs_of(const PackageOrigin& origin);
+
+/// The files into which attributes can be inserted, in the order of `placed` (LocatedCity), with their inputs.
+[[nodiscard]] std::vector<std::optional<SourceOfPackage>> sources_of(const PackageOrigin& origin,
+                                                                     std::vector<std::optional<PlacedFile>> placed);
 
 /// Throws InputError where a file has changed or vanished since its origin was told.
 void require_unchanged(const PackageOrigin& origin);

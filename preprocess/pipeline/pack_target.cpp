@@ -61,6 +61,7 @@ std::uint64_t bytes_of(const fs::path& package, const package::Manifest& manifes
   std::uint64_t bytes = unread ? 0 : of_manifest;
   for (const package::BlockFiles& b : manifest.blocks) bytes += b.tiles.bytes + b.far_map.bytes;
   if (manifest.canopy) bytes += manifest.canopy->stamp.bytes;
+  if (manifest.sources) bytes += manifest.sources->bytes;
   return bytes;
 }
 
@@ -172,10 +173,8 @@ void PackTarget::publish(CityRecord& record) {
   };
   package::Manifest& manifest = record.result.manifest;
   const auto is_kept = [](const PlannedBlock& b) { return b.kept.has_value(); };
-  const auto& canopy = manifest.canopy;
-  const bool is_there =
-      existing_ && std::ranges::all_of(record.plan.blocks, is_kept) && (!canopy || are_whole(package_, *canopy));
-  require(is_there || !canopy || are_whole(unfinished_.package_folder(), *canopy));
+  const bool is_there = existing_ && std::ranges::all_of(record.plan.blocks, is_kept) && are_others_whole(package_, manifest);
+  require(is_there || are_others_whole(unfinished_.package_folder(), manifest));
   manifest.blocks.clear();
   for (const PlannedBlock& b : record.plan.blocks) {
     if (b.kept && !is_there) unfinished_.adopt(package_, *b.kept);

@@ -61,6 +61,16 @@ struct TilePages {
   void let_go() const;
 };
 
+/// Where the buildings of a city come from in its files.
+struct TileSources {
+  struct OfBuilding {
+    std::uint32_t source = 0;  ///< place in LocatedCity::sources
+    std::uint64_t bytes = 0;   ///< of its origin
+  };
+  PagedArray<OfBuilding> buildings;  ///< as TileSet::building_ids
+  PagedArray<std::uint8_t> origins;  ///< CityModel::origin_of, one building after the other
+};
+
 /// The whole city, cut into the cells of the grid. The tiles are a partition of it.
 struct TileSet {
   double height_origin_m = 0.0;
@@ -69,6 +79,7 @@ struct TileSet {
   std::shared_ptr<const TilePages> pages;  ///< what the tiles view; none where each holds its own
   PagedArray<Surface> surfaces;
   std::vector<std::string> building_ids;
+  TileSources sources;
   std::uint64_t polygon_count = 0;     ///< surfaces of buildings
   std::uint64_t foundation_count = 0;  ///< buildings whose lowest floor was closed down to the ground
 

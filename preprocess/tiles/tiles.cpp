@@ -218,6 +218,8 @@ class TileCutter {
     const auto number = static_cast<std::uint32_t>(tiles_.building_ids.size());
     const auto first_surface = static_cast<std::uint32_t>(tiles_.surfaces.size());
     tiles_.building_ids.push_back(building.id);
+    tiles_.sources.buildings.push_back({building.source, building.origin_bytes});
+    tiles_.sources.origins.append(city_.origin_of(building));
     tiles_.polygon_count += cut_building.surfaces.size();
     for (BuildingSurface& s : cut_building.surfaces) {
       s.surface.building = number;

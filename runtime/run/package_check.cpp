@@ -12,6 +12,7 @@
 #include "contract/run_settings.hpp"
 #include "farlod/inspection.hpp"
 #include "package/block_check.hpp"
+#include "package/sources_file.hpp"
 #include "run/memory_limit.hpp"
 #include "run/package_contents.hpp"
 
@@ -24,6 +25,7 @@ class BytesRead {
   BytesRead(const package::Manifest& manifest, const RunSettings& run) : run_(run) {
     for (const package::BlockFiles& files : manifest.blocks) all_ += files.tiles.bytes + files.far_map.bytes;
     if (manifest.canopy) all_ += manifest.canopy->stamp.bytes;
+    if (manifest.sources) all_ += manifest.sources->bytes;
   }
   void add(std::uint64_t bytes) {
     throw_if_cancelled(run_.stop);
@@ -89,6 +91,21 @@ void check_crowns(const PackageContents& contents, PackageCheck& check) {
   }
 }
 
+void check_sources(const PackageContents& contents, PackageCheck& check) {
+  const package::Manifest& manifest = contents.reader.manifest();
+  if (!manifest.sources) return;
+  ++check.files;
+  check.bytes += manifest.sources->bytes;
+  try {
+    (void)SourcesFile(contents.reader.folder(), manifest);
+  } catch (const PackageDamaged& error) {
+    check.damage.push_back({package::sources_file, std::nullopt, error.what()});
+  } catch (const PackageUnusable& error) {
+    // A version that is not the manifest's
+    check.damage.push_back({package::sources_file, std::nullopt, error.what()});
+  }
+}
+
 /// The blocks together; what can be said of the package as a whole comes last.
 PackageCheck summed(const PackageContents& contents, const std::vector<CheckedBlock>& blocks) {
   const package::Manifest& manifest = contents.reader.manifest();
@@ -147,6 +164,8 @@ PackageCheck check_package(const Package& package, const RunSettings& run) {
   PackageCheck check = summed(*contents, blocks);
   check_crowns(*contents, check);
   if (manifest.canopy) read.add(manifest.canopy->stamp.bytes);
+  check_sources(*contents, check);
+  if (manifest.sources) read.add(manifest.sources->bytes);
   return check;
 }
 

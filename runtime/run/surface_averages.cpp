@@ -57,8 +57,9 @@ std::vector<SurfaceMean> SurfaceAverages::rows() const {
 
 void BuildingAverages::add(PlaceInRun place, const SurfacePoint& r) {
   const auto [entry, is_new] = places_.try_emplace(r.building, buildings_.size());
-  if (is_new) buildings_.push_back({place, {r.building}, {}, {}});
+  if (is_new) buildings_.push_back({place, {r.building}, {}, {}, {}});
   Building& building = buildings_[entry->second];
+  building.numbers.insert(r.building_number);
   building.first = std::min(building.first, place);
   const bool is_roof = r.kind == SurfaceKind::roof;
   ++building.row.receivers;
@@ -75,6 +76,7 @@ std::vector<BuildingMean> BuildingAverages::rows() const {
     rows.push_back(building->row);
     rows.back().svf_roofs = building->roofs.value();
     rows.back().svf_walls = building->walls.value();
+    rows.back().building_numbers.assign(building->numbers.begin(), building->numbers.end());
   }
   return rows;
 }

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -60,6 +61,7 @@ class BuildingAverages {
     PlaceInRun first;
     BuildingMean row;
     AreaMean roofs, walls;
+    std::set<std::uint32_t> numbers;
   };
   std::map<std::string, std::size_t> places_;
   std::vector<Building> buildings_;

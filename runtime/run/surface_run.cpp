@@ -49,6 +49,7 @@ SurfacePoint point_of(const package::Manifest& m, Cell cell, const BlockTiles& b
   const Point3d normal{r.normal.x, r.normal.y, r.normal.z};
   SurfacePoint point;
   point.building = block.id_of(block.buildings()[surface.building]);
+  point.building_number = block.buildings()[surface.building].number;
   point.surface = surface.number;
   point.kind = surface.kind();
   point.p_projected = m.projected_from_grid({corner.x + r.p_cell.x, corner.y + r.p_cell.y, r.p_cell.z + m.height_origin_m});

@@ -120,7 +120,7 @@ TEST_F(DamagedPackage, OneDigitOfTheManifestsOriginChanged) {
 TEST_F(DamagedPackage, ANewerVersionIsNoDamage) {
   edit_manifest("\"version\": 8", "\"version\": 10");
   expect_refusal(evaluate(), exit_unusable_input,
-                 {"manifest.json has format version 10", "reads versions 8 to 9", "newer release"});
+                 {"manifest.json has format version 11", "reads versions 8 to 10", "newer release"});
 }
 
 TEST_F(DamagedPackage, AnOlderVersionIsNoDamage) {
@@ -128,7 +128,7 @@ TEST_F(DamagedPackage, AnOlderVersionIsNoDamage) {
   for (const std::string version : {"5", "6", "7"}) {
     folder.write("a.farlod/manifest.json", text);
     edit_manifest("\"version\": 8", "\"version\": " + version);
-    const std::vector<std::string> said{"manifest.json has format version " + version, "reads versions 8 to 9",
+    const std::vector<std::string> said{"manifest.json has format version " + version, "reads versions 8 to 10",
                                         "Pack the city again"};
     expect_refusal(evaluate(), exit_unusable_input, said);
     expect_refusal(folder.run("farlod-info a.farlod --check"), exit_unusable_input, said);

@@ -12,6 +12,7 @@
 #include <type_traits>
 
 #include "contract/package/crown_layout.hpp"
+#include "contract/package/sources_layout.hpp"
 
 // Another reader is written from docs/package_format.md. Where the document and the header differ, the header wins, and this test
 // fails.
@@ -187,6 +188,18 @@ TEST(Layout, CrownsAreDocumented) {
             std::string::npos);
   EXPECT_NE(chapter("Versions").find("* **" + std::to_string(canopy_format_version) + "** is"), std::string::npos);
   EXPECT_EQ(crowns_file_bytes(3, 5), 64U + 3U * 32U + 5U * 24U);
+}
+
+TEST(Layout, SourcesAreDocumented) {
+  EXPECT_DOCUMENTED(SourcesHeader, magic);
+  EXPECT_DOCUMENTED(SourcesHeader, version);
+  EXPECT_DOCUMENTED(SourcesHeader, file_count);
+  EXPECT_DOCUMENTED(SourcesHeader, building_count);
+  EXPECT_DOCUMENTED(SourcesHeader, file_bytes);
+  EXPECT_DOCUMENTED(SourcesHeader, reserved);
+  EXPECT_NE(chapter("SourcesHeader").find("| 8 | 4 | `version` | u32 | " + std::to_string(sources_version) + " |"),
+            std::string::npos);
+  EXPECT_NE(chapter("Versions").find("* **" + std::to_string(format_version) + "** may have [sources.bin]"), std::string::npos);
 }
 
 TEST(Layout, VersionAndChannelsAreDocumented) {

@@ -47,7 +47,7 @@ std::array<std::uint64_t, crown_shape_count> crowns_of_shape(std::span<const std
 std::string manifest_naming(std::span<const std::byte> bytes) {
   json m = json::parse(file_text(sample_packages()[0] / package::manifest_file));
   m.erase("xxh3");
-  m["version"] = package::canopy_format_version;
+  m["version"] = package::format_version;
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::string seal = package::ManifestSeal::text_of(checksum_of_manifest(text));
   m["canopy"] = {{"bytes", bytes.size()},

@@ -83,7 +83,7 @@ def add(binaries: pathlib.Path, folder: pathlib.Path) -> None:
             version = manifest_of(packed)["version"]
             if version in there:
                 continue
-            name = f"version_{version}_{kind}{part}"
+            name = f"version_{version}_{kind}{part}{'_trees' if trees else ''}"
             shutil.copytree(packed, folder / f"{name}.farlod")
             write_values(folder / f"{name}.csv", values_of(binaries, packed), quantities_of(packed))
 
@@ -132,7 +132,7 @@ def version_of(name: str) -> int:
 
 
 def check_all_versions_are_there() -> list[str]:
-    versions = range(version_of("oldest_format_version"), version_of("canopy_format_version") + 1)
+    versions = range(version_of("oldest_format_version"), version_of("format_version") + 1)
     names = [f"version_{version}_{kind}" for version in versions for kind in KINDS]
     there = [path.stem for path in HERE.glob("*.farlod")]
     return [f"no package of {name}: see README.md" for name in names if not any(t.startswith(name) for t in there)]
@@ -142,7 +142,7 @@ def check_other_versions(binaries: pathlib.Path) -> list[str]:
     """Manifests without a checksum, as those before version 8 are, say the older versions and a newer one: each is refused by
     that number."""
     found = []
-    oldest, newer = version_of("oldest_format_version"), version_of("canopy_format_version") + 1
+    oldest, newer = version_of("oldest_format_version"), version_of("format_version") + 1
     for source, version in itertools.product((f"version_{oldest}_horizon", f"version_{oldest}_box_partial"), (*range(1, oldest), newer)):
         with tempfile.TemporaryDirectory() as folder:
             package = pathlib.Path(folder) / "other.farlod"

@@ -83,7 +83,7 @@ TEST(Inspection, TheInventoryIsThatOfThePacking) {
   const PackedSample sample;
   const Package package(sample.folder());
   const PackageInventory inventory = inventory_of(package);
-  EXPECT_EQ(inventory.format_version, 8U);
+  EXPECT_EQ(inventory.format_version, 10U);
   EXPECT_EQ(static_cast<std::int64_t>(cells_of(package).size()), package.description().columns * package.description().rows);
   ASSERT_EQ(inventory.inputs.size(), 1U);
   EXPECT_EQ(inventory.inputs[0].name, "village.gml");
@@ -234,7 +234,7 @@ TEST(PackageWithTrees, TellsItsCrownsAndChecksThem) {
   scenes::plant(crowns, sample.folder());
   const Package package(sample.folder());
   const PackageInventory inventory = inventory_of(package);
-  EXPECT_EQ(inventory.format_version, 9U);
+  EXPECT_EQ(inventory.format_version, 10U);
   EXPECT_EQ(inventory.crowns.spheroids, 1U);
   EXPECT_EQ(inventory.crowns.cylinders, 0U);
   EXPECT_EQ(inventory.crowns.prisms, 2U);

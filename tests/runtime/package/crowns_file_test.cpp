@@ -75,7 +75,7 @@ class SmallPark : public testing::Test {
 TEST_F(SmallPark, CrownsComeBackCellByCell) {
   const PackageReader package(small.folder());
   ASSERT_TRUE(package.has_crowns());
-  EXPECT_EQ(package.manifest().version, 9U);
+  EXPECT_EQ(package.manifest().version, format_version);
   EXPECT_EQ(package.manifest().canopy->crowns_of_shape, (std::array<std::uint64_t, 3>{2, 1, 1}));
   const auto low_m = static_cast<float>(package.manifest().height_origin_m);
   const auto first = package.crowns_of({0, 0});
@@ -94,7 +94,7 @@ TEST(PackageWithoutTrees, HasNoCrowns) {
   const SmallPackage small;
   const PackageReader package(small.folder());
   EXPECT_FALSE(package.has_crowns());
-  EXPECT_EQ(package.manifest().version, 8U);
+  EXPECT_EQ(package.manifest().version, format_version);
   EXPECT_TRUE(package.crowns_of({0, 0}).empty());
 }
 
@@ -114,6 +114,8 @@ TEST_F(SmallPark, AManifestSaysWhatTheVersionDemands) {
   EXPECT_EQ(damage_of(right), "no damage");
   json m = right;
   m.erase("canopy");
+  EXPECT_EQ(damage_of(m), "no damage");
+  m["version"] = canopy_format_version;
   EXPECT_THAT(damage_of(m), HasSubstr("canopy"));
   m = right;
   for (const char* key : crown_shape_keys) m["canopy"][key] = 0;
@@ -128,7 +130,7 @@ TEST_F(SmallPark, AManifestSaysWhatTheVersionDemands) {
   m["version"] = 8;
   EXPECT_EQ(damage_of(m), "no damage");
   EXPECT_FALSE(PackageReader(small.folder()).has_crowns());
-  m["version"] = 10;
+  m["version"] = newest_format_version + 1;
   small.write_manifest(m);
   EXPECT_THROW((void)PackageReader(small.folder()), PackageUnusable);
 }

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "contract/expects.hpp"
+#include "contract/package/manifest_seal.hpp"
+#include "contract/package/sources_layout.hpp"
+#include "farlod/city_sources.hpp"
+#include "package/manifest_reader.hpp"
+#include "tests/fuzz/fuzzed_package.hpp"
+#include "tests/fuzz/scratch_folder.hpp"
+#include "tests/scenes/sealed_manifest.hpp"
+
+namespace farlod {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint64_t most_buildings = 1000;
+
+/// Makes the header what no reader refuses, as far as it does not depend on the rest. Returns the number of buildings.
+std::uint64_t mend_sources(std::span<std::byte> bytes) {
+  if (bytes.size() < sizeof(package::SourcesHeader)) return 0;
+  package::SourcesHeader header{};
+  std::memcpy(&header, bytes.data(), sizeof header);
+  header.magic = package::sources_magic;
+  header.version = package::sources_version;
+  header.file_bytes = bytes.size();
+  header.building_count %= most_buildings;
+  std::memcpy(bytes.data(), &header, sizeof header);
+  return header.building_count;
+}
+
+/// The sample's manifest, which names these sources, and two inputs.
+std::string manifest_naming(std::span<const std::byte> bytes, std::uint64_t buildings) {
+  json m = json::parse(file_text(sample_packages()[0] / package::manifest_file));
+  m.erase("xxh3");
+  m["version"] = package::format_version;
+  m["counts"]["buildings"] = buildings;
+  m["inputs"] = {{{"name", "a.gml"}, {"bytes", 300}, {"xxh3", "1"}}, {{"name", "b.city.json"}, {"bytes", 70'000}, {"xxh3", "2"}}};
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string seal = package::ManifestSeal::text_of(checksum_of_manifest(text));
+  m["sources"] = {{"bytes", bytes.size()},
+                  {"xxh3", seal.substr(package::ManifestSeal::before_digits.size(), package::ManifestSeal::digits)}};
+  return scenes::sealed(m.dump(1) + "\n");
+}
+
+void ask_everything(const std::filesystem::path& folder) {
+  const Package package(folder);
+  const std::vector<PackedCityFile> files = city_files_of(package);
+  visit_origins(package, [&](std::uint32_t, std::size_t file, const BuildingOrigin& origin) {
+    FARLOD_EXPECTS(file < files.size() && !origin.objects.empty());
+    for (const auto* places : {&origin.objects, &origin.semantics})
+      for (const AttributePlace& place : *places)
+        FARLOD_EXPECTS(place.at <= files[file].input.bytes && place.form <= files[file].forms.size());
+    for (const SurfaceOrigin& surface : origin.surfaces)
+      FARLOD_EXPECTS(surface.object < origin.objects.size() &&
+                     (!surface.semantics || *surface.semantics < origin.semantics.size()));
+  });
+}
+
+}  // namespace
+}  // namespace farlod
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace farlod;
+  static const ScratchFolder scratch;
+  const auto all = std::as_bytes(std::span(data, size));
+  std::vector<std::byte> bytes(all.begin(), all.end());
+  const std::uint64_t buildings = mend_sources(bytes);
+  (void)scratch.write({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, package::sources_file);
+  const std::string manifest = manifest_naming(bytes, buildings);
+  (void)scratch.write({reinterpret_cast<const std::uint8_t*>(manifest.data()), manifest.size()}, package::manifest_file);
+  expect_answer_or_refusal([&] { ask_everything(scratch.path()); });
+  return 0;
+}
