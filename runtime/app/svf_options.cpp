@@ -251,7 +251,7 @@ void resolve_format(const RawOptions& raw, SvfOptions& o) {
 /// For messages: ".city.json (CityJSON), ...".
 std::string city_endings() {
   std::string list;
-  for (const EnrichedFormat format : {EnrichedFormat::cityjson, EnrichedFormat::cityjsonseq, EnrichedFormat::citygml})
+  for (const CityFileFormat format : {CityFileFormat::cityjson, CityFileFormat::cityjsonseq, CityFileFormat::citygml})
     list += (list.empty() ? "" : ", ") + endings_of(format) + " (" + name_of(format) + ")";
   return list;
 }

@@ -144,8 +144,8 @@ TEST_F(TownWithAnArea, WrongAreasAreRefused) {
 }
 
 TEST_F(TownWithAnArea, AReaderOfVersion6IsTold) {
-  EXPECT_EQ(folder.json_of("part.farlod/manifest.json").at("version"), 8);
-  EXPECT_EQ(folder.json_of("a.farlod/manifest.json").at("version"), 8);
+  EXPECT_EQ(folder.json_of("part.farlod/manifest.json").at("version"), 10);
+  EXPECT_EQ(folder.json_of("a.farlod/manifest.json").at("version"), 10);
 }
 
 }  // namespace

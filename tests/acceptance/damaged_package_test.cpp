@@ -118,7 +118,7 @@ TEST_F(DamagedPackage, OneDigitOfTheManifestsOriginChanged) {
 }
 
 TEST_F(DamagedPackage, ANewerVersionIsNoDamage) {
-  edit_manifest("\"version\": 8", "\"version\": 10");
+  edit_manifest("\"version\": 10", "\"version\": 11");
   expect_refusal(evaluate(), exit_unusable_input,
                  {"manifest.json has format version 11", "reads versions 8 to 10", "newer release"});
 }
@@ -127,7 +127,7 @@ TEST_F(DamagedPackage, AnOlderVersionIsNoDamage) {
   const std::string text = folder.text_of("a.farlod/manifest.json");
   for (const std::string version : {"5", "6", "7"}) {
     folder.write("a.farlod/manifest.json", text);
-    edit_manifest("\"version\": 8", "\"version\": " + version);
+    edit_manifest("\"version\": 10", "\"version\": " + version);
     const std::vector<std::string> said{"manifest.json has format version " + version, "reads versions 8 to 10",
                                         "Pack the city again"};
     expect_refusal(evaluate(), exit_unusable_input, said);

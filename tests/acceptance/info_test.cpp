@@ -81,7 +81,7 @@ TEST_F(Info, ProblemsHaveTheirNames) {
 TEST_F(Info, TellsHowManyCellsHaveAFarMap) {
   folder.must("farlod-pack town.geojson -o b.farlod --quiet --area 499999,5499999,500001,5500001");
   const json said = json::parse(folder.run("farlod-info b.farlod --json --check").out);
-  EXPECT_EQ(said.at("format_version"), 8);
+  EXPECT_EQ(said.at("format_version"), 10);
   EXPECT_LT(said.at("far_map").at("cells"), said.at("grid").at("cell_count"));
   EXPECT_EQ(said.at("check").at("far_maps"), said.at("far_map").at("cells"));
   EXPECT_EQ(said.at("check").at("damage"), json::array());

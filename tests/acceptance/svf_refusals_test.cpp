@@ -164,10 +164,10 @@ INSTANTIATE_TEST_SUITE_P(
                    "a.farlod -o lost/o.city.json --surfaces all --city town.geojson",
                    exit_unusable_input,
                    {"lost/o.city.json", "no folder lost"}},
-        RefusedSvf{"NoCityJson",
+        RefusedSvf{"NoPlaces",
                    "a.farlod -o o.city.json --surfaces all --city town.geojson",
                    exit_unusable_input,
-                   {"town.geojson cannot be enriched as CityJSON", "there is no \"type\": \"CityJSON\""}}),
+                   {"town.geojson has no places for attributes", "CityGML and CityJSON"}}),
     name_of_refused);
 
 /// Each format with the receivers that it is not for.

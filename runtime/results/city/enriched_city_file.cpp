@@ -2,165 +2,140 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/city/enriched_city_file.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <limits>
 #include <map>
 #include <optional>
 #include <ostream>
-#include <set>
 #include <string_view>
 #include <unordered_map>
-#include <unordered_set>
-#include <utility>
 
 #include "farlod/error.hpp"
+#include "farlod/inspection.hpp"
 #include "results/atomic_file.hpp"
+#include "results/city/city_format.hpp"
 #include "results/city/surface_attributes.hpp"
+#include "results/provenance.hpp"
 
 namespace farlod {
 namespace {
 
-/// Slivers have no normal worth the name, and a polygon that is bent has more area than its plan. All others match.
-constexpr double least_share_of_matches = 0.95;
-/// The package's projection stretches lengths by a few thousandths at most.
-constexpr double relative_area_tolerance = 0.02, area_tolerance_m2 = 0.05, steepness_tolerance = 0.02;
-constexpr double metres_per_foot = 0.3048;
+/// The first version of packages that says where surfaces come from.
+constexpr std::uint32_t first_version_with_sources = 10;
+constexpr std::size_t piece_bytes = std::size_t{1} << 20;
+
+std::ifstream opened(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path.string() + " cannot be read");
+  return file;
+}
+
+/// Up to so many bytes of a file.
+std::string next_bytes(std::ifstream& file, std::uint64_t count) {
+  std::string bytes(static_cast<std::size_t>(std::min<std::uint64_t>(count, piece_bytes)), '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
+}
+
+/// Whether the text has two bytes a character, so that no byte of an attribute would fit.
+bool is_utf16(const std::filesystem::path& path) {
+  std::ifstream file = opened(path);
+  const std::string beginning = next_bytes(file, 2);
+  return beginning == "\xff\xfe" || beginning == "\xfe\xff" || beginning.find('\0') != beginning.npos;
+}
 
 /// The means of a run by building.
 class MeansByBuilding {
  public:
   explicit MeansByBuilding(const SurfaceMeans& means) {
     for (const SurfaceMean& surface : means.surfaces) surfaces_[surface.building].push_back(&surface);
-    for (const BuildingMean& building : means.buildings) buildings_.emplace(building.building, &building);
+    for (const BuildingMean& building : means.buildings)
+      for (const std::uint32_t number : building.building_numbers) buildings_.emplace(number, &building);
   }
-  [[nodiscard]] const std::vector<const SurfaceMean*>& surfaces_of(const std::string& building) const {
-    static const std::vector<const SurfaceMean*> none;
-    const auto found = surfaces_.find(building);
-    return found == surfaces_.end() ? none : found->second;
+  [[nodiscard]] const std::vector<const SurfaceMean*>& surfaces_of(const BuildingMean& building) const {
+    return surfaces_.at(building.building);
   }
-  [[nodiscard]] const BuildingMean* mean_of_building(const std::string& building) const {
+  /// Null where the run has none.
+  [[nodiscard]] const BuildingMean* find(std::uint32_t building) const {
     const auto found = buildings_.find(building);
     return found == buildings_.end() ? nullptr : found->second;
   }
 
  private:
   std::unordered_map<std::string_view, std::vector<const SurfaceMean*>> surfaces_;
-  std::unordered_map<std::string_view, const BuildingMean*> buildings_;
+  std::unordered_map<std::uint32_t, const BuildingMean*> buildings_;
 };
 
-/// Texts to insert, by their places.
-using Insertions = std::map<std::size_t, std::string>;
-
-/// What becomes of a file, if its package was made of one level of detail.
-struct Enrichment {
-  Insertions insertions;
-  std::size_t surfaces = 0, matching = 0, without_semantics = 0, without_place = 0;
-  std::size_t buildings = 0, repeated_buildings = 0, other_buildings = 0;
-  [[nodiscard]] bool fits() const {
-    return static_cast<double>(matching) >= least_share_of_matches * static_cast<double>(surfaces);
+std::string text_of(const CityAttributes& attributes, const AttributeForm& form) {
+  std::string text = form.before_all;
+  for (const auto& [name, value] : attributes) {
+    if (text.size() > form.before_all.size()) text += form.between;
+    text.append(form.before_name).append(name).append(form.before_value).append(value).append(form.behind_value);
   }
-};
+  return text + form.behind_all;
+}
 
+/// Collects texts to insert, building by building. Those that share an id have their rows together, and get none.
 class Enriching {
  public:
-  Enriching(const CityFile& city, const SurfaceMeans& means, const AnswerColumns& columns, EnrichedExtent extent)
-      : city_(city), means_(means), columns_(columns), extent_(extent), has_degrees_(city.has_degrees()) {}
+  Enriching(const PackedCityFile& file, const SurfaceMeans& means, const AnswerColumns& columns)
+      : file_(file), means_(means), columns_(columns) {}
 
-  [[nodiscard]] Enrichment of(PackedLod lod) {
-    result_ = {};
-    city_.for_each_building(lod, [this](const FileBuilding& building) { add(building); });
-    return std::move(result_);
-  }
-
- private:
-  /// The surfaces of a building of the run, each with its polygons in the file.
-  using FoundSurfaces = std::vector<std::pair<const SurfaceMean*, std::vector<const NumberedPolygon*>>>;
-
-  void add(const FileBuilding& building) {
-    const std::vector<const SurfaceMean*>& surfaces = means_.surfaces_of(building.id);
-    if (surfaces.empty()) return;
-    // The run has one row for all that have this id
-    if (city_.repeated_ids().contains(building.id)) {
-      ++result_.repeated_buildings;
+  void add(std::uint32_t number, const BuildingOrigin& origin) {
+    const BuildingMean* building = means_.find(number);
+    if (building == nullptr) return;
+    if (building->building_numbers.size() > 1) {
+      ++repeated_buildings_;
       return;
     }
-    const FoundSurfaces found = found_surfaces(building, surfaces);
-    const auto matching = static_cast<std::size_t>(
-        std::ranges::count_if(found, [&](const auto& entry) { return matches(*entry.first, *entry.second.front(), building); }));
-    result_.surfaces += surfaces.size();
-    result_.matching += matching;
-    if (2 * matching < surfaces.size())
-      ++result_.other_buildings;
-    else
-      enrich(building, found);
+    ++buildings_;
+    insert(origin.objects.front(), attributes_of(*building, columns_));
+    SurfacesOf by_semantics, by_object;
+    for (const SurfaceMean* surface : means_.surfaces_of(*building)) sort_in(*surface, origin, by_semantics, by_object);
+    for (const auto& [row, surfaces] : by_semantics) insert(origin.semantics[row], attributes_of(surfaces, columns_));
+    for (const auto& [object, surfaces] : by_object)
+      if (object != 0) insert(origin.objects[object], attributes_of(mean_of(surfaces), columns_));
   }
 
-  static FoundSurfaces found_surfaces(const FileBuilding& building, const std::vector<const SurfaceMean*>& surfaces) {
-    std::unordered_map<std::uint32_t, std::vector<const NumberedPolygon*>> polygons;
-    for (const NumberedPolygon& polygon : building.polygons) polygons[polygon.number].push_back(&polygon);
-    FoundSurfaces found;
-    for (const SurfaceMean* surface : surfaces)
-      if (const auto same = polygons.find(surface->surface); same != polygons.end()) found.emplace_back(surface, same->second);
-    return found;
-  }
+  /// By their places.
+  [[nodiscard]] const std::map<std::uint64_t, std::string>& insertions() const { return insertions_; }
+  [[nodiscard]] std::vector<std::string> notes() const;
 
-  void enrich(const FileBuilding& building, const FoundSurfaces& found) {
-    ++result_.buildings;
-    std::map<std::size_t, std::vector<const SurfaceMean*>> by_semantics, by_object;
-    for (const auto& [surface, polygons] : found) {
-      by_object[polygons.front()->object].push_back(surface);
-      add_semantics(*surface, polygons, by_semantics);
+ private:
+  using SurfacesOf = std::map<std::uint32_t, std::vector<const SurfaceMean*>>;
+
+  /// A polygon that the file has twice may be of two semantic surfaces, and both get its values.
+  void sort_in(const SurfaceMean& surface, const BuildingOrigin& origin, SurfacesOf& by_semantics, SurfacesOf& by_object) {
+    const auto [first, last] = std::ranges::equal_range(origin.surfaces, surface.surface, {}, &SurfaceOrigin::surface);
+    by_object[first == last ? 0 : first->object].push_back(&surface);
+    bool has_semantics = false;
+    for (auto of = first; of != last; ++of) {
+      if (!of->semantics) continue;
+      has_semantics = true;
+      std::vector<const SurfaceMean*>& surfaces = by_semantics[*of->semantics];
+      if (surfaces.empty() || surfaces.back() != &surface) surfaces.push_back(&surface);
     }
-    for (const auto& [row, rows] : by_semantics) insert(building.semantics[row].place, attributes_of(rows, columns_));
-    add_to_objects(building, by_object);
+    without_semantics_ += has_semantics ? 0 : 1;
   }
 
-  /// A polygon that the file has twice has two semantic surfaces, and both get its values.
-  void add_semantics(const SurfaceMean& surface, const std::vector<const NumberedPolygon*>& polygons,
-                     std::map<std::size_t, std::vector<const SurfaceMean*>>& by_semantics) {
-    std::set<std::size_t> rows;
-    for (const NumberedPolygon* polygon : polygons)
-      if (polygon->semantics) rows.insert(*polygon->semantics);
-    for (const std::size_t row : rows) by_semantics[row].push_back(&surface);
-    result_.without_semantics += rows.empty() ? 1 : 0;
-  }
-
-  void add_to_objects(const FileBuilding& building, const std::map<std::size_t, std::vector<const SurfaceMean*>>& by_object) {
-    if (const BuildingMean* mean = means_.mean_of_building(building.id))
-      insert(building.objects.front(), attributes_of(*mean, columns_));
-    for (const auto& [object, rows] : by_object)
-      if (object != 0) insert(building.objects[object], attributes_of(mean_of(rows), columns_));
-  }
-
-  void insert(const std::optional<AttributePlace>& place, const CityAttributes& attributes) {
+  void insert(const AttributePlace& place, const CityAttributes& attributes) {
     if (attributes.empty()) return;
-    if (place)
-      result_.insertions[place->at] += city_.text_of(attributes, place->form);
+    if (place.form == 0)
+      ++without_place_;
     else
-      ++result_.without_place;
+      insertions_[place.at] += text_of(attributes, file_.forms[place.form - 1]);
   }
 
-  [[nodiscard]] bool matches(const SurfaceMean& surface, const NumberedPolygon& polygon, const FileBuilding& building) const {
-    const SurfaceKind kind = polygon.semantics ? building.semantics[*polygon.semantics].kind : SurfaceKind::unknown;
-    if (kind != SurfaceKind::unknown && kind != surface.kind) return false;
-    if (has_degrees_) return true;
-    return std::abs(std::abs(cos(surface.tilt)) - polygon.steepness) <= steepness_tolerance &&
-           (has_area(surface, polygon.area) || has_area(surface, polygon.area * metres_per_foot * metres_per_foot));
-  }
-
-  [[nodiscard]] bool has_area(const SurfaceMean& surface, double area_m2) const {
-    const double found_m2 = surface.area_m2 + surface.covered_area_m2;
-    const double tolerance_m2 = relative_area_tolerance * area_m2 + area_tolerance_m2;
-    return found_m2 <= area_m2 + tolerance_m2 &&
-           (extent_ == EnrichedExtent::part_of_the_city || found_m2 >= area_m2 - tolerance_m2);
-  }
-
-  const CityFile& city_;
+  const PackedCityFile& file_;
   MeansByBuilding means_;
   const AnswerColumns& columns_;
-  EnrichedExtent extent_;
-  bool has_degrees_;
-  Enrichment result_;
+  std::map<std::uint64_t, std::string> insertions_;
+  std::size_t buildings_ = 0, repeated_buildings_ = 0, without_semantics_ = 0, without_place_ = 0;
 };
 
 /// "3 surfaces", "1 surface".
@@ -168,77 +143,112 @@ std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
-std::vector<std::string> notes_of(const Enrichment& enrichment) {
+std::vector<std::string> Enriching::notes() const {
   std::vector<std::string> notes;
-  if (enrichment.buildings == 0) notes.emplace_back("No building of the file gets values: it comes back as it was.");
-  if (enrichment.without_semantics > 0)
-    notes.push_back(counted(enrichment.without_semantics, "surface") +
+  if (buildings_ == 0) notes.emplace_back("No building of the file gets values: it comes back as it was.");
+  if (without_semantics_ > 0)
+    notes.push_back(counted(without_semantics_, "surface") +
                     " with values have no semantics of their own in the file: only their buildings get values.");
-  if (enrichment.repeated_buildings > 0)
-    notes.push_back(counted(enrichment.repeated_buildings, "building") +
-                    " share their ids with others of the file, and get no values.");
-  if (enrichment.other_buildings > 0)
-    notes.push_back(counted(enrichment.other_buildings, "building") + (enrichment.other_buildings == 1 ? " has" : " have") +
-                    " other surfaces in the package than in this file, and no values: is the same id in another file, too?");
-  if (enrichment.without_place > 0)
-    notes.push_back(counted(enrichment.without_place, "object") +
-                    " have no place for attributes in the file, and get no values.");
+  if (repeated_buildings_ > 0)
+    notes.push_back(counted(repeated_buildings_, "building") +
+                    (repeated_buildings_ == 1 ? " shares its id with others of the package, and gets no values."
+                                              : " share their ids with others of the package, and get no values."));
+  if (without_place_ > 0)
+    notes.push_back(counted(without_place_, "object") + (without_place_ == 1
+                                                             ? " has no place for attributes in the file, and gets no values."
+                                                             : " have no place for attributes in the file, and get no values."));
   return notes;
 }
 
-void write_with(const std::string& text, const Insertions& insertions, std::ostream& out) {
-  std::size_t done = 0;
-  for (const auto& [place, inserted] : insertions) {
-    out.write(text.data() + done, static_cast<std::streamsize>(place - done));
-    out << inserted;
-    done = place;
+/// Copies a file, with texts inserted.
+void copy_with(const std::map<std::uint64_t, std::string>& insertions, std::ifstream file, std::ostream& out) {
+  std::uint64_t done = 0;
+  const auto copy_up_to = [&](std::uint64_t end) {
+    while (done < end) {
+      const std::string bytes = next_bytes(file, end - done);
+      if (bytes.empty()) return;
+      out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+      done += bytes.size();
+    }
+  };
+  for (const auto& [place, text] : insertions) {
+    copy_up_to(place);
+    out << text;
   }
-  out.write(text.data() + done, static_cast<std::streamsize>(text.size() - done));
+  copy_up_to(std::numeric_limits<std::uint64_t>::max());
 }
 
-void require_none_of(const std::vector<std::string>& taken, const std::vector<std::string>& names, const FileBuilding& building,
-                     const std::filesystem::path& path) {
-  for (const std::string& name : names)
-    if (std::ranges::count(taken, name) > 0)
-      throw InputError(path.string() + ": the building " + building.id + " has the attribute " + name +
-                       " already. Give the file as it was before it had view factors.");
-}
-
-void require_free_names(const CityFile& city, const AnswerColumns& columns, const std::filesystem::path& path) {
-  const std::vector<std::string> of_surfaces = attribute_names_of_surfaces(columns);
-  const std::vector<std::string> of_buildings = attribute_names_of_buildings(columns);
-  city.for_each_building({}, [&](const FileBuilding& building) {
-    require_none_of(building.names_of_objects, of_buildings, building, path);
-    require_none_of(building.names_of_surfaces, of_surfaces, building, path);
-  });
+/// Whether a name stands in a text as that of an attribute may: within quotes, or between tags.
+bool has_name(std::string_view text, std::string_view name) {
+  for (std::size_t at = text.find(name); at != text.npos; at = text.find(name, at + 1)) {
+    if (at == 0 || at + name.size() >= text.size()) continue;
+    const char before = text[at - 1], behind = text[at + name.size()];
+    if ((before == '"' && behind == '"') || (before == '\'' && behind == '\'') || (before == '>' && behind == '<')) return true;
+  }
+  return false;
 }
 
 }  // namespace
 
-EnrichedCityFile::EnrichedCityFile(const std::filesystem::path& city, AnswerColumns columns)
-    : path_(city), columns_(std::move(columns)), city_(read_city(city)) {
-  telling_file(path_, [this] { require_free_names(*city_.file, columns_, path_); });
+EnrichedCityFile::EnrichedCityFile(const Package& package, const std::string& package_name, std::filesystem::path city,
+                                   AnswerColumns columns)
+    : path_(std::move(city)), columns_(std::move(columns)), xxh3_(xxh3_of_file(path_)) {
+  if (xxh3_.empty()) throw InputError(path_.string() + " cannot be read");
+  const PackageInventory inventory = inventory_of(package);
+  if (std::ranges::none_of(inventory.inputs, [this](const PackedInput& input) { return is_this_file(input); }))
+    throw InputError(path_.string() + " is not a file that " + package_name +
+                     " was made of: its checksum is not in the manifest. Give the file as it was packed, or pack this one.");
+  if (inventory.format_version < first_version_with_sources)
+    throw InputError(package_name + " has format version " + std::to_string(inventory.format_version) +
+                     ", which does not say where its surfaces are in " + path_.string() + ": pack the file again.");
+  const std::vector<PackedCityFile> files = city_files_of(package);
+  const auto packed = std::ranges::find_if(files, [this](const PackedCityFile& file) { return is_this_file(file.input); });
+  if (packed == files.end() && is_utf16(path_))
+    throw InputError(path_.string() + " is UTF-16: convert it to UTF-8 and pack it again");
+  if (packed == files.end())
+    throw InputError(path_.string() +
+                     " has no places for attributes: only CityGML and CityJSON files come back with values. If it is an archive, "
+                     "pack the file that is in it.");
+  packed_ = *packed;
+  require_free_names();
+}
+
+bool EnrichedCityFile::is_this_file(const PackedInput& input) const { return fmt::format("{:016x}", input.xxh3) == xxh3_; }
+
+void EnrichedCityFile::require_free_names() const {
+  std::vector<std::string> names = attribute_names_of_surfaces(columns_);
+  for (std::string& name : attribute_names_of_buildings(columns_)) names.push_back(std::move(name));
+  std::size_t longest = 0;
+  for (const std::string& name : names) longest = std::max(longest, name.size());
+  std::ifstream file = opened(path_);
+  std::string text;
+  for (std::string piece = next_bytes(file, piece_bytes); !piece.empty(); piece = next_bytes(file, piece_bytes)) {
+    // A name may begin in the piece before
+    text.erase(0, text.size() - std::min(text.size(), longest + 1));
+    text += piece;
+    for (const std::string& name : names)
+      if (has_name(text, name))
+        throw InputError(path_.string() + " has the name " + name +
+                         " already, as if it had values: give the file as it was before it had view factors.");
+  }
 }
 
 void EnrichedCityFile::require_fitting(const std::filesystem::path& output) const {
-  if (city_format_of(output) != city_.format)
-    throw OutputError(output, path_.string() + " is " + name_of(city_.format) +
-                                  ", and comes back as such: choose a name that ends in " + endings_of(city_.format));
+  if (city_format_of(output) != packed_.format)
+    throw OutputError(output, path_.string() + " is " + name_of(packed_.format) +
+                                  ", and comes back as such: choose a name that ends in " + endings_of(packed_.format));
 }
 
-std::vector<std::string> EnrichedCityFile::write(const SurfaceMeans& means, EnrichedExtent extent,
+std::vector<std::string> EnrichedCityFile::write(const Package& package, const SurfaceMeans& means,
                                                  const std::filesystem::path& output) const {
-  Enriching enriching(*city_.file, means, columns_, extent);
-  for (const PackedLod lod : {PackedLod(), PackedLod(3), PackedLod(2), PackedLod(1)}) {
-    Enrichment enrichment;
-    telling_file(path_, [&] { enrichment = enriching.of(lod); });
-    if (!enrichment.fits()) continue;
-    write_atomically(output, [&](std::ostream& out) { write_with(city_.file->text(), enrichment.insertions, out); });
-    return notes_of(enrichment);
-  }
-  throw InputError(
-      "The surfaces of the package cannot be found again in " + path_.string() +
-      " by their numbers, tilts and areas. A package of LoD 0 (--lod 0) has other surfaces than its file: write CSV.");
+  if (xxh3_of_file(path_) != xxh3_) throw InputError(path_.string() + " has changed since the run began: pack it again.");
+  Enriching enriching(packed_, means, columns_);
+  const std::vector<PackedCityFile> files = city_files_of(package);
+  visit_origins(package, [&](std::uint32_t building, std::size_t file, const BuildingOrigin& origin) {
+    if (is_this_file(files[file].input)) enriching.add(building, origin);
+  });
+  write_atomically(output, [&](std::ostream& out) { copy_with(enriching.insertions(), opened(path_), out); });
+  return enriching.notes();
 }
 
 }  // namespace farlod

@@ -34,7 +34,7 @@ std::string subtitle_of(const RasterFrame& frame) {
   return text;
 }
 
-PagePoint point_of(Pixel p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
+PagePoint page_point_of(Pixel p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
 
 /// Darker or lighter, by a factor around 1.
 Colour lit(Colour colour, float factor) {
@@ -67,7 +67,7 @@ Picture colour_scale_of(PixelSize size) {
 
 void add_colour_bar(Drawing& drawing, const PreviewLayout& layout) {
   drawing.shapes.emplace_back(Image{layout.colour_bar, colour_scale_of(layout.colour_bar_size)});
-  const auto [left, top] = point_of(layout.colour_bar);
+  const auto [left, top] = page_point_of(layout.colour_bar);
   const double right = left + static_cast<double>(layout.colour_bar_size.width);
   for (int n = 0; n <= colour_ticks; ++n) {
     const double svf = static_cast<double>(n) / colour_ticks;
@@ -99,7 +99,7 @@ void add_background_legend(Drawing& drawing, PagePoint place, const PlanBackgrou
 }
 
 void add_outlines(Drawing& drawing, const PreviewLayout& layout, const PlanBackground& background) {
-  const auto [left, top] = point_of(layout.map);
+  const auto [left, top] = page_point_of(layout.map);
   Segments lines{{}, outline_width, outline_colour};
   for (const auto& [a, b] : background.outlines) lines.segments.push_back({{left + a.x, top + a.y}, {left + b.x, top + b.y}});
   if (!lines.segments.empty()) drawing.shapes.emplace_back(std::move(lines));
@@ -129,12 +129,12 @@ Drawing draw_preview(const PreviewRaster& raster, const RasterFrame& frame, cons
   drawing.shapes.emplace_back(Image{layout.map, map_of(raster, background.shading)});
   add_outlines(drawing, layout, background);
   add_colour_bar(drawing, layout);
-  const PagePoint footer = point_of(layout.footer);
+  const PagePoint footer = page_point_of(layout.footer);
   add_scale_bar(drawing, footer, raster.metres_per_pixel);
   const PagePoint legend{footer.x + 230.0, footer.y + 14.0};
   add_nodata_legend(drawing, legend);
   add_background_legend(drawing, legend, background);
-  add_north_arrow(drawing, {point_of(layout.colour_bar).x + 0.5 * static_cast<double>(legend_size.width), footer.y - 4.0});
+  add_north_arrow(drawing, {page_point_of(layout.colour_bar).x + 0.5 * static_cast<double>(legend_size.width), footer.y - 4.0});
   return drawing;
 }
 
