@@ -10,7 +10,7 @@
 namespace farlod::ingest {
 namespace {
 
-constexpr std::string_view citygml = "http://www.opengis.net/citygml/", generics_module = "generics/";
+constexpr std::string_view citygml_space = "http://www.opengis.net/citygml/", generics_module = "generics/";
 
 /// In CityGML 3.0, appearances come before generic attributes; in older versions either may come first.
 constexpr std::array<std::string_view, 13> before_generic_attributes{"adeOfAbstractFeature",
@@ -28,7 +28,9 @@ constexpr std::array<std::string_view, 13> before_generic_attributes{"adeOfAbstr
                                                                      "genericAttribute"};
 
 /// Behind the beginning that all namespaces of CityGML share.
-std::string_view module_of(std::string_view space) { return space.starts_with(citygml) ? space.substr(citygml.size()) : ""; }
+std::string_view module_of(std::string_view space) {
+  return space.starts_with(citygml_space) ? space.substr(citygml_space.size()) : "";
+}
 
 bool precedes_generic_attributes(const XmlElement& property) {
   const Vocabulary vocabulary = vocabulary_of(property.space);
@@ -118,10 +120,10 @@ bool CityGmlPlaces::append(const CityGmlPlaces& next) {
 std::optional<package::AttributeForm> CityGmlPlaces::form_of(std::string_view space) const {
   const std::string_view module = module_of(space);
   const std::string version(module.substr(std::min(module.rfind('/') + 1, module.size())));
-  const std::string space_of_generics = std::string(citygml).append(generics_module) + version;
+  const std::string space_of_generics = std::string(citygml_space).append(generics_module) + version;
   const Prefix generics = prefix_or(prefix_of(space_of_generics), "gen", space_of_generics);
   if (version == "1.0" || version == "2.0") return form_of_version_2(generics);
-  const std::string core = std::string(citygml) + version;
+  const std::string core = std::string(citygml_space) + version;
   if (version == "3.0") return form_of_version_3(prefix_or(prefix_of(core), "core", core), generics);
   return std::nullopt;
 }
