@@ -18,7 +18,7 @@
 /// in words.
 namespace farlod::package {
 
-/// Of `sources.bin`, which changes on its own.
+/// The version of `sources.bin`, which changes on its own.
 inline constexpr std::uint32_t sources_version = 1;
 inline constexpr std::array<char, 8> sources_magic{'F', 'A', 'R', 'L', 'O', 'D', 'S', '\n'};
 inline constexpr const char* sources_file = "sources.bin";  ///< in the folder of the package

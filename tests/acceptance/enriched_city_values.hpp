@@ -14,7 +14,6 @@
 #include <random>
 #include <regex>
 
-#include "console/exit_code.hpp"
 #include "tests/acceptance/csv_table.hpp"
 #include "tests/acceptance/work_folder.hpp"
 #include "tests/scenes/sealed_manifest.hpp"

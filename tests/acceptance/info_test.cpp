@@ -51,7 +51,7 @@ TEST_F(Info, TellsWhatAPackageHolds) {
   EXPECT_EQ(outcome.exit_code, exit_done);
   EXPECT_EQ(outcome.err, "");
   for (const char* said :
-       {"a.farlod, format version 8, written by farlod-pack", "(EPSG:32632)", "bearing 20.00° from true north",
+       {"a.farlod, format version 10, written by farlod-pack", "(EPSG:32632)", "bearing 20.00° from true north",
         "36 buildings, 216 polygons", "cells of 150 m", "kind horizon, in all", "town.geojson, ", "XXH3 ", "Problems      none"})
     EXPECT_THAT(outcome.out, HasSubstr(said));
 }

@@ -52,7 +52,7 @@ TEST_F(WithoutModules, MapsAreRefused) {
 }
 
 TEST_F(WithoutModules, AStrangeLibraryIsNoModule) {
-  folder.must("cp $(ldd bin/farlod-svf | sed -n 's/.*libexpat.* => \\([^ ]*\\).*/\\1/p') lib/farlod/farlod_gdal.so");
+  folder.must("cp $(ldd bin/farlod-svf | sed -n 's/.*libtbb.* => \\([^ ]*\\).*/\\1/p') lib/farlod/farlod_gdal.so");
   expect_refusal(folder.run(map + "o.tif"), exit_unusable_input, {"farlod_gdal.so is no module of Far-LoD"});
 }
 

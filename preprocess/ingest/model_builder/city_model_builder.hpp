@@ -109,7 +109,7 @@ class CityModelBuilder {
   std::size_t buildings_met_ = 0;
   std::uint32_t next_surface_ = 0;
   PolygonDeduplicator added_{SamePolygon::rings};
-  // Of the current building
+  // What is known of the current building
   std::vector<package::SurfaceOrigin> origins_;   ///< rows of all places; what is not worth noting down is not there
   std::vector<std::uint32_t> object_of_surface_;  ///< by number; of those beyond its end, the building itself
   std::size_t repeated_vertices_ = 0, open_rings_ = 0;

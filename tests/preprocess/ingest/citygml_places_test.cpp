@@ -5,7 +5,7 @@
 #include "archive_writer.hpp"
 #include "marked_text.hpp"
 
-namespace farlod::ingest::test {
+namespace farlod::ingest::test::citygml_places {
 namespace {
 
 using testing::HasSubstr;
@@ -275,4 +275,4 @@ TEST(CityGmlOrigins, AFootprintGivesSurfacesToItsPart) {
 }
 
 }  // namespace
-}  // namespace farlod::ingest::test
+}  // namespace farlod::ingest::test::citygml_places

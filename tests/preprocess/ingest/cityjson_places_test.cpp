@@ -4,7 +4,7 @@
 
 #include "marked_text.hpp"
 
-namespace farlod::ingest::test {
+namespace farlod::ingest::test::cityjson_places {
 namespace {
 
 using testing::HasSubstr;
@@ -171,4 +171,4 @@ TEST(CityJsonOrigins, WhatIsNoListOfSurfacesHasNoPlaces) {
 }
 
 }  // namespace
-}  // namespace farlod::ingest::test
+}  // namespace farlod::ingest::test::cityjson_places

@@ -124,7 +124,7 @@ TEST(Package, AVersionThatDamageHasMadeIsNoNewerOne) {
   const auto path = small.folder() / package::manifest_file;
   const Bytes bytes = bytes_of(path);
   std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  text.replace(text.find("\"version\": 8"), 12, "\"version\": 9");
+  text.replace(text.find("\"version\": 10"), 13, "\"version\": 11");
   write_bytes(path, std::as_bytes(std::span(text)));
   EXPECT_THAT(damage_met_by([&] { (void)read_manifest(small.folder()); }), HasSubstr("checksum"));
 }

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <variant>
 
 #include "results/picture/far_panorama.hpp"
+#include "results/picture/picture_style.hpp"
 #include "results/picture/sky_picture.hpp"
 #include "tests/runtime/results/picture/decoded_png.hpp"
 #include "tests/scenes/temporary_folder.hpp"
@@ -19,14 +19,12 @@
 namespace farlod {
 namespace {
 
-constexpr double degrees = std::numbers::pi / 180.0;
-
 /// A cell of 10 m at the origin, turned counter-clockwise by some angle, with N = 3.
 CellContents turned_cell(double turn_deg) {
   CellContents contents;
   contents.cell = {4, 7};
   contents.neighborhood = {3, 6, 6, 9};
-  const Point2d east{10.0 * std::cos(turn_deg * degrees), 10.0 * std::sin(turn_deg * degrees)}, north{-east.y, east.x};
+  const Point2d east{10.0 * std::cos(turn_deg * rad_per_deg), 10.0 * std::sin(turn_deg * rad_per_deg)}, north{-east.y, east.x};
   contents.corners_projected = {Point2d{}, east, east + north, north};
   return contents;
 }
@@ -83,7 +81,7 @@ TEST(FarPanorama, PlacesAreSeenFromTheMiddleByTrueAzimuth) {
   const SeenPlace east = seen_from(eye, {150.0, 200.0, 60.0}, Angle::degrees(2.0));
   EXPECT_NEAR(east.azimuth_deg, 92.0, 1e-9);
   EXPECT_NEAR(east.elevation_deg, 45.0, 1e-9);
-  EXPECT_NEAR(seen_from(eye, {99.0, 300.0, 10.0}, {}).azimuth_deg, 360.0 - std::atan(0.01) / degrees, 1e-9);
+  EXPECT_NEAR(seen_from(eye, {99.0, 300.0, 10.0}, {}).azimuth_deg, 360.0 - std::atan(0.01) / rad_per_deg, 1e-9);
 }
 
 TEST(FarPanorama, SidesFollowTheStreets) {
@@ -93,7 +91,7 @@ TEST(FarPanorama, SidesFollowTheStreets) {
   EXPECT_NEAR(place_along_sides(120.0, box), 1.5, 1e-9);
   EXPECT_NEAR(place_along_sides(300.0, box), 3.5, 1e-9);
   EXPECT_NEAR(place_along_sides(75.0, box), 1.0, 1e-9);
-  EXPECT_NEAR(place_along_sides(0.0, box), 0.5 - 0.5 * std::tan(30.0 * degrees), 1e-9);
+  EXPECT_NEAR(place_along_sides(0.0, box), 0.5 - 0.5 * std::tan(30.0 * rad_per_deg), 1e-9);
 }
 
 TEST(FarPanorama, HasRoomForTheHighestThatItShows) {

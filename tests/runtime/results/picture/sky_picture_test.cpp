@@ -6,8 +6,8 @@
 
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
+#include "results/picture/picture_style.hpp"
 #include "sun/sun_positions.hpp"
 #include "tests/runtime/results/picture/decoded_png.hpp"
 #include "tests/scenes/temporary_folder.hpp"
@@ -15,7 +15,6 @@
 namespace farlod {
 namespace {
 
-constexpr double degrees = std::numbers::pi / 180.0;
 constexpr SkyProjection projections[]{SkyProjection::equidistant, SkyProjection::equal_area, SkyProjection::orthographic};
 /// Of a few sines and arcs of doubles.
 constexpr double rounding_error = 1e-9;
@@ -26,10 +25,10 @@ Hemisphere basin_with_a_wall_in_the_east() {
   for (std::size_t a = 0; a < 360; ++a) {
     const bool east = 45 <= a && a < 135;
     const std::size_t edge = east ? 60 : 30;
-    h.horizon[a] = static_cast<float>(std::tan(static_cast<double>(edge) * degrees));
+    h.horizon[a] = static_cast<float>(std::tan(static_cast<double>(edge) * rad_per_deg));
     for (std::size_t e = 0; e < edge; ++e) h.parts[a * 90 + e] = east ? SkyPart::near : SkyPart::far;
   }
-  h.svf = static_cast<float>(0.75 * std::pow(std::cos(30.0 * degrees), 2) + 0.25 * std::pow(std::cos(60.0 * degrees), 2));
+  h.svf = static_cast<float>(0.75 * std::pow(std::cos(30.0 * rad_per_deg), 2) + 0.25 * std::pow(std::cos(60.0 * rad_per_deg), 2));
   return h;
 }
 
@@ -43,7 +42,7 @@ double svf_of(const Picture& disk, SkyProjection projection) {
       const auto d =
           direction_of({(static_cast<double>(x) + 0.5) * pixel - 1.0, 1.0 - (static_cast<double>(y) + 0.5) * pixel}, projection);
       if (!d) continue;
-      const double zenith = d->zenith_angle_deg * degrees;
+      const double zenith = d->zenith_angle_deg * rad_per_deg;
       const double solid_angle = projection == SkyProjection::equidistant  ? std::sin(zenith) / std::max(zenith, 1e-3)
                                  : projection == SkyProjection::equal_area ? 1.0
                                                                            : 1.0 / std::cos(zenith);
@@ -99,7 +98,7 @@ SunOfSky longest_day() {
 
 /// The pixel of a direction in draw_sky's disk, by the definition of the equidistant projection.
 Pixel equidistant_pixel(double azimuth_deg, double elevation_deg) {
-  const double away = 400.0 * (90.0 - elevation_deg) / 90.0, azimuth = azimuth_deg * degrees;
+  const double away = 400.0 * (90.0 - elevation_deg) / 90.0, azimuth = azimuth_deg * rad_per_deg;
   return {static_cast<std::size_t>(56.0 + 400.0 - away * std::sin(azimuth)),
           static_cast<std::size_t>(116.0 + 400.0 - away * std::cos(azimuth))};
 }
