@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod::benchmark {
 

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contract/lower_case.hpp"
+#include "base/lower_case.hpp"
 #include "farlod/error.hpp"
 #include "gdal/registered_formats_gdal.hpp"
 #include "gdal/virtual_file_gdal.hpp"

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "contract/lower_case.hpp"
+#include "base/lower_case.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod {

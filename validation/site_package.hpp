@@ -4,11 +4,11 @@
 
 #include <span>
 
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
 #include "farmap/far_map_settings.hpp"
 #include "package/package_reader.hpp"
+#include "package/tile_set.hpp"
 #include "tests/scenes/packed_city.hpp"
-#include "tiles/tile_set.hpp"
 #include "validation/studied_city.hpp"
 
 namespace farlod::validation {

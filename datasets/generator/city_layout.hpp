@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "farlod/box.hpp"
 #include "generator/city_settings.hpp"
 #include "generator/plan_frame.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "generator/plane_polygons.hpp"
 
 namespace farlod {

@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod {
 namespace {

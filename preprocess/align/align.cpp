@@ -7,7 +7,7 @@
 #include <string>
 
 #include "align/grid_doubt.hpp"
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod::align {

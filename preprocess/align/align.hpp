@@ -3,8 +3,8 @@
 #pragma once
 
 #include "align/street_alignment.hpp"
+#include "base/grid.hpp"
 #include "city/located_city.hpp"
-#include "contract/grid.hpp"
 #include "farlod/box.hpp"
 #include "farlod/pack.hpp"
 #include "farlod/problem.hpp"

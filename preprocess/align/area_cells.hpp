@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/grid.hpp"
 #include "city/area.hpp"
-#include "contract/grid.hpp"
 
 namespace farlod::align {
 

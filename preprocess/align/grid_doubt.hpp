@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "base/grid.hpp"
 #include "city/city_model.hpp"
-#include "contract/grid.hpp"
 
 namespace farlod::align {
 

@@ -8,7 +8,7 @@
 #include <complex>
 #include <numbers>
 
-#include "city/paged_array.hpp"
+#include "base/paging/paged_array.hpp"
 #include "farlod/surface_kind.hpp"
 
 namespace farlod::align {

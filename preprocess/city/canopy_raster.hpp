@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include "city/paged_array.hpp"
+#include "base/paging/paged_array.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {

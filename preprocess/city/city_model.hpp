@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "city/paged_array.hpp"
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
+#include "base/paging/paged_array.hpp"
 #include "farlod/point.hpp"
 #include "farlod/surface_kind.hpp"
 

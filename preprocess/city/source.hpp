@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "city/city_model.hpp"
-#include "contract/package/sources_layout.hpp"
 #include "farlod/pack.hpp"
 #include "farlod/point.hpp"
+#include "package/sources_layout.hpp"
 
 namespace farlod {
 

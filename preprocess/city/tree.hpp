@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <string>
 
-#include "city/paged_array.hpp"
+#include "base/paging/paged_array.hpp"
 #include "city/source.hpp"
-#include "contract/canopy/crown.hpp"
 #include "farlod/point.hpp"
+#include "package/crown.hpp"
 
 namespace farlod {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "contract/expects.hpp"
-#include "contract/horizon/azimuth.hpp"
+#include "base/azimuth.hpp"
+#include "base/expects.hpp"
 #include "farlod/box.hpp"
 #include "farlod/point.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "farmap/box_map_baker.hpp"
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 

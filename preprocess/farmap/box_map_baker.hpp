@@ -7,12 +7,12 @@
 #include <stop_token>
 #include <vector>
 
-#include "contract/grid.hpp"
-#include "farmap/baked_block.hpp"
+#include "base/grid.hpp"
 #include "farmap/city_occluder.hpp"
 #include "farmap/far_height_bound.hpp"
 #include "farmap/far_map_settings.hpp"
-#include "tiles/tile_set.hpp"
+#include "package/baked_block.hpp"
+#include "package/tile_set.hpp"
 #include "tiles/tiles.hpp"
 
 namespace farlod {

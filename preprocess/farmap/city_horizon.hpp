@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "city/paged_array.hpp"
-#include "contract/grid.hpp"
-#include "contract/horizon/horizon_edge.hpp"
+#include "base/grid.hpp"
+#include "base/paging/paged_array.hpp"
 #include "farlod/box.hpp"
-#include "tiles/tile_set.hpp"
+#include "package/horizon_edge.hpp"
+#include "package/tile_set.hpp"
 
 namespace farlod {
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
 #include "occlusion/occluder.hpp"
-#include "tiles/tile_set.hpp"
+#include "package/tile_set.hpp"
 
 namespace farlod {
 

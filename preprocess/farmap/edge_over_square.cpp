@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "contract/horizon/edge_view.hpp"
+#include "package/edge_view.hpp"
 
 namespace farlod {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
 #include "farlod/box.hpp"
-#include "tiles/tile_set.hpp"
+#include "package/tile_set.hpp"
 
 namespace farlod {
 

@@ -5,11 +5,11 @@
 #include <memory>
 #include <stop_token>
 
-#include "contract/grid.hpp"
-#include "contract/package/manifest.hpp"
-#include "farmap/baked_block.hpp"
+#include "base/grid.hpp"
 #include "farmap/far_map_settings.hpp"
-#include "tiles/tile_set.hpp"
+#include "package/baked_block.hpp"
+#include "package/manifest.hpp"
+#include "package/tile_set.hpp"
 #include "tiles/tiles.hpp"
 
 namespace farlod {

@@ -9,8 +9,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "contract/cancellation.hpp"
-#include "contract/expects.hpp"
+#include "base/cancellation.hpp"
+#include "base/expects.hpp"
 #include "farmap/occluder_classifier.hpp"
 #include "farmap/occlusion_culler.hpp"
 

@@ -5,12 +5,12 @@
 #include <span>
 #include <stop_token>
 
-#include "contract/grid.hpp"
-#include "farmap/baked_block.hpp"
+#include "base/grid.hpp"
 #include "farmap/bin_borders.hpp"
 #include "farmap/city_horizon.hpp"
 #include "farmap/far_map_settings.hpp"
-#include "tiles/tile_set.hpp"
+#include "package/baked_block.hpp"
+#include "package/tile_set.hpp"
 
 namespace farlod {
 

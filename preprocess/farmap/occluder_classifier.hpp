@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "farmap/baked_block.hpp"
 #include "farmap/bin_borders.hpp"
 #include "farmap/city_horizon.hpp"
 #include "farmap/edge_over_square.hpp"
 #include "farmap/occlusion_culler.hpp"
 #include "farmap/viewpoint_horizons.hpp"
+#include "package/baked_block.hpp"
 
 namespace farlod {
 

@@ -8,9 +8,9 @@
 #include <queue>
 #include <utility>
 
-#include "city/memory_bound.hpp"
+#include "base/paging/memory_bound.hpp"
 #include "city/plan_boxes.hpp"
-#include "contract/horizon/edge_facing.hpp"
+#include "package/edge_facing.hpp"
 
 namespace farlod {
 namespace {

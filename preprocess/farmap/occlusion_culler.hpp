@@ -8,14 +8,14 @@
 #include <limits>
 #include <vector>
 
-#include "contract/far_map/receiver_patches.hpp"
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
 #include "farlod/box.hpp"
 #include "farmap/bin_borders.hpp"
 #include "farmap/city_horizon.hpp"
 #include "farmap/edge_over_square.hpp"
 #include "farmap/far_map_settings.hpp"
 #include "farmap/viewpoint_horizons.hpp"
+#include "package/receiver_patches.hpp"
 
 namespace farlod {
 

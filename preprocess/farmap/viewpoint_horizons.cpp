@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contract/horizon/edge_view.hpp"
+#include "package/edge_view.hpp"
 
 namespace farlod {
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "contract/far_map/receiver_patches.hpp"
 #include "farlod/point.hpp"
 #include "farmap/bin_borders.hpp"
+#include "package/receiver_patches.hpp"
 
 namespace farlod {
 

@@ -22,7 +22,7 @@ struct RequestedArea {
 };
 
 /// Reads an area from a file.
-///   (1) a table (.csv, .tsv, .txt) holds points, in the columns that contract/point_columns.hpp names (without a header row: x
+///   (1) a table (.csv, .tsv, .txt) holds points, in the columns that base/point_columns.hpp names (without a header row: x
 ///       and y), in the CRS of the package
 ///   (2) of any other vector file that GDAL reads, all points, lines and polygons of all layers count; arcs become chords
 /// Throws InputError when the file cannot be read to its end, or holds nothing of this.

@@ -11,9 +11,9 @@
 #include <system_error>
 #include <vector>
 
-#include "contract/expects.hpp"
-#include "contract/lower_case.hpp"
-#include "contract/point_columns.hpp"
+#include "base/expects.hpp"
+#include "base/lower_case.hpp"
+#include "base/point_columns.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/vector_file_gdal.hpp"

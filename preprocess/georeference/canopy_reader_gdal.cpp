@@ -8,8 +8,8 @@
 #include <sstream>
 #include <utility>
 
-#include "contract/cancellation.hpp"
-#include "contract/expects.hpp"
+#include "base/cancellation.hpp"
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/height_raster_gdal.hpp"

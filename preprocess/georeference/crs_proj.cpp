@@ -10,7 +10,7 @@
 #include <numbers>
 #include <utility>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "georeference/crs.hpp"
 
 namespace farlod::georeference {

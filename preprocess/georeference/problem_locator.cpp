@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod::georeference {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "farlod/box.hpp"
 #include "farlod/error.hpp"
 #include "georeference/crs_area.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/height_raster_gdal.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "georeference/input_crs.hpp"
 #include "georeference/place_text.hpp"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "farlod/error.hpp"
 #include "ingest/citygml/citygml_reader.hpp"
 #include "ingest/cityjson/cityjson_reader.hpp"

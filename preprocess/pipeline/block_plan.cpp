@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "align/area_cells.hpp"
-#include "contract/grid_outline.hpp"
+#include "base/grid_outline.hpp"
 #include "farlod/error.hpp"
 #include "pipeline/pack_estimate.hpp"
 

@@ -7,12 +7,12 @@
 #include <optional>
 #include <vector>
 
+#include "base/grid.hpp"
 #include "city/located_city.hpp"
-#include "contract/grid.hpp"
-#include "contract/package/manifest.hpp"
 #include "georeference/area_reader.hpp"
 #include "package/existing_package.hpp"
-#include "tiles/tile_set.hpp"
+#include "package/manifest.hpp"
+#include "package/tile_set.hpp"
 
 namespace farlod::pipeline {
 

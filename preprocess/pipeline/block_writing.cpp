@@ -10,8 +10,8 @@
 #include <chrono>
 #include <mutex>
 
-#include "contract/cancellation.hpp"
-#include "contract/expects.hpp"
+#include "base/cancellation.hpp"
+#include "base/expects.hpp"
 #include "package/package_writer.hpp"
 
 namespace farlod::pipeline {

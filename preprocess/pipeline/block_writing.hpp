@@ -7,12 +7,12 @@
 #include <span>
 #include <utility>
 
-#include "contract/package/manifest.hpp"
 #include "farlod/run.hpp"
 #include "farmap/far_map_baker.hpp"
+#include "package/manifest.hpp"
+#include "package/tile_set.hpp"
 #include "package/unfinished_package.hpp"
 #include "pipeline/block_plan.hpp"
-#include "tiles/tile_set.hpp"
 
 namespace farlod::pipeline {
 

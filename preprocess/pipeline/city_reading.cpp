@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "base/grid_outline.hpp"
 #include "city/plan_boxes.hpp"
-#include "contract/grid_outline.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod::pipeline {

@@ -13,15 +13,14 @@
 #include <utility>
 #include <vector>
 
-#include "city/memory_bound.hpp"
-#include "contract/cancellation.hpp"
-#include "contract/package/description.hpp"
-#include "contract/shard_parts.hpp"
+#include "base/cancellation.hpp"
+#include "base/paging/memory_bound.hpp"
+#include "base/shard_parts.hpp"
 #include "farlod/error.hpp"
 #include "farmap/far_map_baker.hpp"
 #include "georeference/problem_locator.hpp"
 #include "package/crowns_writer.hpp"
-#include "package/saved_city.hpp"
+#include "package/description.hpp"
 #include "package/sources_writer.hpp"
 #include "pipeline/block_writing.hpp"
 #include "pipeline/city_reading.hpp"
@@ -29,6 +28,7 @@
 #include "pipeline/pack_estimate.hpp"
 #include "pipeline/pack_origin.hpp"
 #include "pipeline/pack_target.hpp"
+#include "pipeline/saved_city.hpp"
 #include "pipeline/tree_reading.hpp"
 #include "tiles/crowns_on_ground.hpp"
 #include "tiles/tiles.hpp"

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "align/align.hpp"
-#include "contract/package/manifest.hpp"
 #include "farlod/pack.hpp"
 #include "farmap/far_map_settings.hpp"
 #include "georeference/georeference.hpp"
 #include "ingest/ingest.hpp"
+#include "package/manifest.hpp"
 #include "pipeline/grid_choice.hpp"
 
 namespace farlod::pipeline {

@@ -9,8 +9,8 @@
 #include <span>
 #include <string>
 
-#include "city/memory_bound.hpp"
-#include "city/pages.hpp"
+#include "base/paging/memory_bound.hpp"
+#include "base/paging/pages.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod::pipeline {

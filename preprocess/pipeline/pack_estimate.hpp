@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "base/grid.hpp"
 #include "city/city_model.hpp"
-#include "contract/grid.hpp"
 #include "farlod/pack.hpp"
 #include "farmap/far_map_settings.hpp"
 #include "tiles/crowns_on_ground.hpp"

@@ -14,7 +14,7 @@
 
 #include "farlod/error.hpp"
 #include "farlod/version.hpp"
-#include "package/file_stamp.hpp"
+#include "package/written_stamp.hpp"
 
 namespace farlod::pipeline {
 namespace {

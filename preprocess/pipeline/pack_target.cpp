@@ -8,12 +8,12 @@
 #include <system_error>
 #include <utility>
 
-#include "contract/package/layout.hpp"
-#include "contract/shard_parts.hpp"
+#include "base/shard_parts.hpp"
 #include "farlod/error.hpp"
-#include "package/file_stamp.hpp"
+#include "package/layout.hpp"
 #include "package/package_place.hpp"
-#include "package/saved_city.hpp"
+#include "package/written_stamp.hpp"
+#include "pipeline/saved_city.hpp"
 
 namespace farlod::pipeline {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "contract/run_settings.hpp"
+#include "base/run_settings.hpp"
 #include "farlod/error.hpp"
 #include "farlod/pack.hpp"
 #include "pipeline/pack.hpp"

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "contract/cancellation.hpp"
-#include "contract/grid_outline.hpp"
+#include "base/cancellation.hpp"
+#include "base/grid_outline.hpp"
 #include "farlod/error.hpp"
 #include "georeference/canopy_reader.hpp"
 #include "georeference/tree_places.hpp"

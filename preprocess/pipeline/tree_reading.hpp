@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/grid.hpp"
 #include "city/located_city.hpp"
-#include "contract/grid.hpp"
 #include "farlod/problem.hpp"
 #include "pipeline/pack.hpp"
 #include "tiles/crowns_on_ground.hpp"

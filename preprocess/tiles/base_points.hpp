@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "base/paging/paged_array.hpp"
 #include "city/city_model.hpp"
-#include "city/paged_array.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod::tiles {

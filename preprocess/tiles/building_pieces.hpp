@@ -6,13 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "base/grid.hpp"
 #include "city/city_model.hpp"
-#include "contract/grid.hpp"
 #include "farlod/problem.hpp"
+#include "package/tile_set.hpp"
 #include "tiles/cutting.hpp"
 #include "tiles/grounded_walls.hpp"
 #include "tiles/horizon_edges.hpp"
-#include "tiles/tile_set.hpp"
 #include "tiles/tiles.hpp"
 
 namespace farlod::tiles {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "contract/horizon/horizon_edge.hpp"
-#include "tiles/tile_set.hpp"
+#include "package/horizon_edge.hpp"
+#include "package/tile_set.hpp"
 
 namespace farlod::tiles {
 

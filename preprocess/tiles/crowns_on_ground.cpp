@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "tiles/metres_text.hpp"
 
 namespace farlod::tiles {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "city/canopy_raster.hpp"
-#include "city/crowns_of_city.hpp"
 #include "city/tree.hpp"
 #include "farlod/pack.hpp"
 #include "farlod/problem.hpp"
+#include "package/crowns_of_city.hpp"
 #include "tiles/ground.hpp"
 
 namespace farlod::tiles {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "contract/expects.hpp"
-#include "contract/grid.hpp"
+#include "base/expects.hpp"
+#include "base/grid.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod::tiles {

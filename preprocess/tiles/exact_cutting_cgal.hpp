@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
 #include "farlod/point.hpp"
 
 // Private to the wrappers of CGAL and to their tests: the only header of this stage that names its number type.

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "contract/mesh_view.hpp"
+#include "base/mesh_view.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod::tiles {

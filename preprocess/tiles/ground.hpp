@@ -11,8 +11,8 @@
 #include <optional>
 #include <vector>
 
-#include "city/paged_array.hpp"
-#include "contract/ground_contact.hpp"
+#include "base/ground_contact.hpp"
+#include "base/paging/paged_array.hpp"
 #include "farlod/box.hpp"
 #include "farlod/point.hpp"
 #include "tiles/horizon_edges.hpp"

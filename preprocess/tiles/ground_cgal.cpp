@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "city/memory_bound.hpp"
-#include "city/paged_heap.hpp"
+#include "base/paging/memory_bound.hpp"
+#include "base/paging/paged_heap.hpp"
 // The network of a large city has a hundred million faces. Its containers ask for memory through this name; see decision 0020
 #define CGAL_ALLOCATOR(T) farlod::PagedAllocator<T>
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -16,7 +16,7 @@
 #include <tuple>
 #include <utility>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "tiles/ground.hpp"
 
 namespace farlod::tiles {

@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "contract/grid.hpp"
-#include "contract/horizon/horizon_edge.hpp"
+#include "base/grid.hpp"
 #include "farlod/point.hpp"
+#include "package/horizon_edge.hpp"
 
 namespace farlod::tiles {
 

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "tiles/slab_tree.hpp"
 
 namespace farlod::tiles {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
+#include "base/grid.hpp"
 #include "city/terrain_raster.hpp"
-#include "contract/grid.hpp"
 #include "tiles/ground.hpp"
 
 namespace farlod::tiles {

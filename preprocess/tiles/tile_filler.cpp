@@ -10,7 +10,7 @@
 #include <cstring>
 #include <utility>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod::tiles {
 namespace {

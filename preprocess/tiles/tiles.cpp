@@ -11,8 +11,8 @@
 #include <optional>
 #include <utility>
 
-#include "contract/cancellation.hpp"
-#include "contract/expects.hpp"
+#include "base/cancellation.hpp"
+#include "base/expects.hpp"
 #include "tiles/base_points.hpp"
 #include "tiles/building_pieces.hpp"
 #include "tiles/contacts.hpp"

@@ -6,12 +6,12 @@
 #include <optional>
 #include <stop_token>
 
+#include "base/grid.hpp"
 #include "city/located_city.hpp"
 #include "city/terrain_raster.hpp"
-#include "contract/grid.hpp"
 #include "farlod/problem.hpp"
+#include "package/tile_set.hpp"
 #include "tiles/ground.hpp"
-#include "tiles/tile_set.hpp"
 
 namespace farlod::tiles {
 

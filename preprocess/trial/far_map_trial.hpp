@@ -7,10 +7,10 @@
 #include <memory>
 #include <stop_token>
 
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
 #include "farlod/pack.hpp"
 #include "farmap/far_map_settings.hpp"
-#include "tiles/tile_set.hpp"
+#include "package/tile_set.hpp"
 #include "tiles/tiles.hpp"
 
 namespace farlod {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "app/result_key.hpp"
+#include "base/durable_file.hpp"
 #include "farlod/error.hpp"
-#include "storage/durable_file.hpp"
 
 namespace farlod {
 namespace {

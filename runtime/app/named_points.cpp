@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "contract/lower_case.hpp"
+#include "base/lower_case.hpp"
 #include "results/point_file.hpp"
 #ifdef FARLOD_WITH_GDAL
 #include "results/gdal_files.hpp"

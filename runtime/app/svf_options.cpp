@@ -13,9 +13,9 @@
 #include "app/format_advice.hpp"
 #include "app/picture_options.hpp"
 #include "app/work_options.hpp"
+#include "base/expects.hpp"
 #include "console/number_range.hpp"
 #include "console/option_list.hpp"
-#include "contract/expects.hpp"
 #include "farlod/error.hpp"
 #include "results/city/city_format.hpp"
 

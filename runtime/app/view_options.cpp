@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "base/lower_case.hpp"
 #include "console/number_range.hpp"
 #include "console/option_list.hpp"
-#include "contract/lower_case.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod {
 namespace {

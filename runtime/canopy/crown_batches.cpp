@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/expects.hpp"
 #include "canopy/crown_kernels.hpp"
-#include "contract/canopy/crown_light.hpp"
-#include "contract/expects.hpp"
+#include "package/crown_light.hpp"
 
 namespace farlod {
 

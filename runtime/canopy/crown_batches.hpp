@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "contract/canopy/crown.hpp"
 #include "farlod/canopy.hpp"
+#include "package/crown.hpp"
 
 namespace farlod {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "evaluate/hidden_behind_crowns.hpp"
 #include "evaluate/quantity_table.hpp"
 #include "occlusion/placed_mesh.hpp"

@@ -10,7 +10,6 @@
 #include <stop_token>
 #include <vector>
 
-#include "contract/canopy/crown.hpp"
 #include "evaluate/crowns_of_cell.hpp"
 #include "evaluate/further_quantities.hpp"
 #include "evaluate/sky_evaluator.hpp"
@@ -21,6 +20,7 @@
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/sky_profile.hpp"
+#include "package/crown.hpp"
 #include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 

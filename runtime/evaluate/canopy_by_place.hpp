@@ -10,12 +10,12 @@
 
 #include "canopy/canopy_sky.hpp"
 #include "canopy/crown_batches.hpp"
-#include "contract/canopy/crown.hpp"
 #include "farlod/canopy.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/sky_profile.hpp"
+#include "package/crown.hpp"
 #include "scene/canopy_levels.hpp"
 
 namespace farlod {

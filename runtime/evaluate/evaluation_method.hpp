@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
 #include "farlod/evaluation.hpp"
 #include "package/package_reader.hpp"
 

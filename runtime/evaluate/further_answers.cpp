@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/overhangs.hpp"
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "horizon/kernels.hpp"
 
 namespace farlod {

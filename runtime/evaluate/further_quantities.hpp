@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "contract/package/manifest.hpp"
 #include "evaluate/horizon_distances.hpp"
 #include "evaluate/quantity_table.hpp"
 #include "evaluate/sky_halves.hpp"
@@ -16,6 +15,7 @@
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/sky_profile.hpp"
+#include "package/manifest.hpp"
 
 namespace farlod {
 

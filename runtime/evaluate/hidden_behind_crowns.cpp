@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "horizon/kernels.hpp"
 #include "receivers/receiver.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 
 namespace farlod {
 

@@ -6,7 +6,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "contract/frame.hpp"
+#include "base/frame.hpp"
 #include "farlod/evaluation.hpp"
 #include "farlod/point.hpp"
 #include "horizon/sky_partition.hpp"

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "contract/cancellation.hpp"
-#include "contract/expects.hpp"
+#include "base/cancellation.hpp"
+#include "base/expects.hpp"
 #include "evaluate/canopy_answers.hpp"
 #include "evaluate/error_budget.hpp"
 #include "evaluate/further_answers.hpp"

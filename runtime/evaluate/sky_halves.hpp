@@ -8,12 +8,12 @@
 #include <span>
 #include <vector>
 
-#include "contract/frame.hpp"
-#include "contract/package/manifest.hpp"
+#include "base/frame.hpp"
 #include "farlod/angle.hpp"
 #include "farlod/point.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/packet_horizon.hpp"
+#include "package/manifest.hpp"
 
 namespace farlod {
 

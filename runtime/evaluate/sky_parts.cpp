@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "evaluate/visibility.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/receiver_packet.hpp"

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "evaluate/visibility.hpp"
 #include "receivers/receiver.hpp"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "farlod/angle.hpp"
 #include "horizon/receiver_packet.hpp"
 

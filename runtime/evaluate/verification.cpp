@@ -11,7 +11,7 @@
 #include <random>
 #include <set>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "evaluate/quantity_table.hpp"
 
 namespace farlod {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod {
 namespace {

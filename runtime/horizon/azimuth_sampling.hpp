@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "contract/frame.hpp"
+#include "base/frame.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "occlusion/placed_mesh.hpp"
 
 namespace farlod {

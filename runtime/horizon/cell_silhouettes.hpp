@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
 #include "horizon/border_ends.hpp"
 #include "horizon/silhouette_edges.hpp"
 #include "package/far_horizon.hpp"

@@ -10,11 +10,11 @@
 #include <limits>
 #include <span>
 
-#include "contract/horizon/edge_facing.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/lanes.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/silhouette_edges.hpp"
+#include "package/edge_facing.hpp"
 
 /// Which edges of a batch can change a horizon of a packet: three conservative tests, each for sixteen edges at once.
 ///   1. facing: can the edge be a silhouette for some receiver of the box? docs/concepts.md, "Edges that face away"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "horizon/kernels.hpp"
 
 namespace farlod {

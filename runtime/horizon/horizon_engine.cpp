@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "contract/cancellation.hpp"
-#include "contract/expects.hpp"
+#include "base/cancellation.hpp"
+#include "base/expects.hpp"
 #include "horizon/kernels.hpp"
 
 namespace farlod {

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <span>
 
-#include "contract/horizon/horizon_edge.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/silhouette_edges.hpp"
+#include "package/horizon_edge.hpp"
 
 /// The inner loops of the horizon engine, for sixteen receivers or edges at once. edge_kernels.cpp and sky_kernels.cpp are
 /// compiled once for each target, a generation of processors; all targets give the same bits.

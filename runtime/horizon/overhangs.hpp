@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
 #include "farlod/point.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/cell_silhouettes.hpp"

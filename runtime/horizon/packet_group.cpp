@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "horizon/packet_group.hpp"
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "horizon/kernels.hpp"
 
 namespace farlod {

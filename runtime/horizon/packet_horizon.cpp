@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod {
 namespace {

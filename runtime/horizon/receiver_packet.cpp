@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 
 namespace farlod {
 namespace {

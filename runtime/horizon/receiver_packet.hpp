@@ -10,7 +10,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "contract/horizon/horizon_edge.hpp"
+#include "package/horizon_edge.hpp"
 
 namespace farlod {
 

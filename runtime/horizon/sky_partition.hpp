@@ -9,8 +9,8 @@
 #include <stop_token>
 #include <vector>
 
-#include "contract/cancellation.hpp"
-#include "contract/expects.hpp"
+#include "base/cancellation.hpp"
+#include "base/expects.hpp"
 #include "farlod/evaluation.hpp"
 #include "farlod/point.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "horizon/gap_rays.hpp"
 #include "horizon/kernels.hpp"
 

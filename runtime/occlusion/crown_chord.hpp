@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "contract/canopy/crown.hpp"
 #include "farlod/point.hpp"
+#include "package/crown.hpp"
 
 namespace farlod {
 

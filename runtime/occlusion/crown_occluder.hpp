@@ -10,9 +10,9 @@
 #include <stop_token>
 #include <vector>
 
-#include "contract/canopy/crown.hpp"
 #include "farlod/canopy.hpp"
 #include "occlusion/occluder.hpp"
+#include "package/crown.hpp"
 
 namespace farlod {
 

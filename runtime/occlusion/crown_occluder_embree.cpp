@@ -7,13 +7,13 @@
 #include <string>
 #include <utility>
 
-#include "contract/canopy/crown_light.hpp"
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "occlusion/crown_chord.hpp"
 #include "occlusion/crown_occluder.hpp"
 #include "occlusion/device_embree.hpp"
 #include "occlusion/queries_embree.hpp"
 #include "occlusion/ray_packet_embree.hpp"
+#include "package/crown_light.hpp"
 
 namespace farlod {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <type_traits>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "occlusion/occluder.hpp"
 #include "occlusion/queries_embree.hpp"
 

@@ -12,7 +12,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "contract/mesh_view.hpp"
+#include "base/mesh_view.hpp"
 #include "farlod/error.hpp"
 #include "farlod/point.hpp"
 

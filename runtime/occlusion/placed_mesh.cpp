@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "farlod/error.hpp"
 
 namespace farlod {

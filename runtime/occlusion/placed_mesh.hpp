@@ -6,8 +6,8 @@
 #include <span>
 #include <stop_token>
 
-#include "contract/grid.hpp"
-#include "contract/mesh_view.hpp"
+#include "base/grid.hpp"
+#include "base/mesh_view.hpp"
 #include "farlod/point.hpp"
 #include "occlusion/occluder.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <system_error>
 
-#include "contract/point_columns.hpp"
+#include "base/point_columns.hpp"
 
 namespace farlod {
 

@@ -22,7 +22,7 @@ struct PointFields {
 /// Where a file says where a point is. What is called x in a file with geometries is an attribute.
 enum class PlacesIn : std::uint8_t { fields, geometry };
 
-/// Finds them by their names (contract/point_columns.hpp). An azimuth without a tilt, or the other way round, is no normal but an
+/// Finds them by their names (base/point_columns.hpp). An azimuth without a tilt, or the other way round, is no normal but an
 /// attribute. Where two mean the same, `refuse` is called with what is wrong; it throws.
 [[nodiscard]] PointFields point_fields(std::span<const std::string> names, PlacesIn places,
                                        const std::function<void(const std::string& what)>& refuse);

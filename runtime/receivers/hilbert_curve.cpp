@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod {
 namespace {

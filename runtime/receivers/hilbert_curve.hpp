@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
 
 namespace farlod {
 

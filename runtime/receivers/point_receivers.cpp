@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 
 namespace farlod {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 
 namespace farlod {
 namespace {

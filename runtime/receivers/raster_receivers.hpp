@@ -7,9 +7,9 @@
 #include <stop_token>
 #include <vector>
 
-#include "contract/package/manifest.hpp"
 #include "farlod/box.hpp"
 #include "farlod/raster.hpp"
+#include "package/manifest.hpp"
 #include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
 #include "farlod/evaluation.hpp"
 #include "farlod/point.hpp"
 #include "scene/vertical_profile.hpp"

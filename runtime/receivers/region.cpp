@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "contract/run_settings.hpp"
+#include "base/run_settings.hpp"
 
 namespace farlod {
 namespace {

@@ -8,9 +8,9 @@
 #include <map>
 #include <string>
 
-#include "contract/cancellation.hpp"
-#include "contract/horizon/horizon_edge.hpp"
+#include "base/cancellation.hpp"
 #include "farlod/error.hpp"
+#include "package/horizon_edge.hpp"
 
 namespace farlod {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "contract/lower_case.hpp"
+#include "base/lower_case.hpp"
 #include "results/mesh/sky_mesh_glb.hpp"
 #include "results/picture/raster_preview.hpp"
 #include "results/raster/raster_writer_esri_ascii.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/point_file.hpp"
 
-#include "contract/lower_case.hpp"
+#include "base/lower_case.hpp"
 #include "points/point_reader.hpp"
 #ifdef FARLOD_WITH_GDAL
 #include "results/gdal_files.hpp"

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "contract/lower_case.hpp"
+#include "base/lower_case.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/vector_file_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"

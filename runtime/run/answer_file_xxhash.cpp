@@ -13,10 +13,10 @@
 #include <set>
 #include <system_error>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
+#include "base/file_lock.hpp"
 #include "farlod/answer_file.hpp"
 #include "farlod/error.hpp"
-#include "storage/file_lock.hpp"
 
 namespace farlod {
 namespace {

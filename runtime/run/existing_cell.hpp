@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
 #include "farlod/error.hpp"
 #include "farlod/inspection.hpp"
 

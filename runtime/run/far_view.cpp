@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "contract/far_map/box_map.hpp"
 #include "farlod/inspection.hpp"
+#include "package/box_map.hpp"
 #include "run/existing_cell.hpp"
 #include "run/package_contents.hpp"
 #include "scene/vertical_profile.hpp"

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "contract/package/layout.hpp"
 #include "farlod/error.hpp"
+#include "package/layout.hpp"
 #include "run/existing_cell.hpp"
 #include "run/package_contents.hpp"
 

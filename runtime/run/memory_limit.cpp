@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "contract/run_settings.hpp"
+#include "base/run_settings.hpp"
 #include "evaluate/verification.hpp"
 #include "farlod/error.hpp"
 #include "horizon/receiver_packet.hpp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "contract/package/manifest.hpp"
+#include "package/manifest.hpp"
 #include "package/package_reader.hpp"
 #include "run/resolved_settings.hpp"
 

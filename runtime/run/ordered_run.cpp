@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "contract/cancellation.hpp"
-#include "contract/shard_parts.hpp"
+#include "base/cancellation.hpp"
+#include "base/shard_parts.hpp"
 #include "evaluate/quantity_table.hpp"
 #include "evaluate/verification.hpp"
 #include "farlod/error.hpp"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farlod/package.hpp"
 
-#include "contract/package/description.hpp"
 #include "farlod/error.hpp"
+#include "package/description.hpp"
 #include "run/memory_limit.hpp"
 #include "run/package_contents.hpp"
 

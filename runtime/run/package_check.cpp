@@ -8,8 +8,8 @@
 #include <mutex>
 #include <utility>
 
-#include "contract/cancellation.hpp"
-#include "contract/run_settings.hpp"
+#include "base/cancellation.hpp"
+#include "base/run_settings.hpp"
 #include "farlod/inspection.hpp"
 #include "package/block_check.hpp"
 #include "package/sources_file.hpp"

@@ -15,8 +15,8 @@
 #include <mutex>
 #include <utility>
 
-#include "contract/cancellation.hpp"
-#include "contract/run_settings.hpp"
+#include "base/cancellation.hpp"
+#include "base/run_settings.hpp"
 #include "receivers/raster_receivers.hpp"
 #include "run/memory_limit.hpp"
 #include "run/package_contents.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "contract/run_settings.hpp"
+#include "base/run_settings.hpp"
 #include "farlod/error.hpp"
 #include "farlod/points.hpp"
 #include "package/manifest_reader.hpp"

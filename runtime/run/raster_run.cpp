@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "contract/run_settings.hpp"
+#include "base/run_settings.hpp"
 #include "evaluate/quantity_table.hpp"
 #include "farlod/error.hpp"
 #include "farlod/raster.hpp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "contract/run_settings.hpp"
+#include "base/run_settings.hpp"
 #include "evaluate/error_budget.hpp"
 #include "evaluate/further_quantities.hpp"
 #include "farlod/error.hpp"

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <memory>
 
-#include "contract/package/manifest.hpp"
 #include "evaluate/sky_evaluator.hpp"
 #include "farlod/evaluation.hpp"
 #include "farlod/run.hpp"
+#include "package/manifest.hpp"
 
 namespace farlod {
 

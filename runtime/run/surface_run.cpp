@@ -3,7 +3,7 @@
 #include <atomic>
 #include <utility>
 
-#include "contract/run_settings.hpp"
+#include "base/run_settings.hpp"
 #include "farlod/surfaces.hpp"
 #include "receivers/hilbert_curve.hpp"
 #include "receivers/surface_receivers.hpp"

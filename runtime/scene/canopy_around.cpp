@@ -9,7 +9,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "farlod/box.hpp"
 #include "scene/near_crowns.hpp"
 

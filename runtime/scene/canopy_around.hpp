@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "contract/canopy/crown.hpp"
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
 #include "farlod/point.hpp"
+#include "package/crown.hpp"
 #include "package/package_reader.hpp"
 
 namespace farlod {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "contract/canopy/crown.hpp"
 #include "farlod/box.hpp"
+#include "package/crown.hpp"
 
 namespace farlod {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod {
 namespace {

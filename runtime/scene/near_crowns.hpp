@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "contract/canopy/crown.hpp"
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
+#include "package/crown.hpp"
 #include "package/package_reader.hpp"
 
 namespace farlod {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "contract/ground_contact.hpp"
+#include "base/ground_contact.hpp"
 #include "occlusion/placed_mesh.hpp"
 
 namespace farlod {

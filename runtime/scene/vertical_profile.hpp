@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "contract/grid.hpp"
-#include "contract/package/layout.hpp"
+#include "base/grid.hpp"
+#include "package/layout.hpp"
 #include "package/package_reader.hpp"
 #include "scene/lattice_crossings.hpp"
 #include "scene/plan_index.hpp"

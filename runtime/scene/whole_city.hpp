@@ -4,7 +4,7 @@
 
 #include <stop_token>
 
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
 #include "occlusion/occluder.hpp"
 #include "package/package_reader.hpp"
 

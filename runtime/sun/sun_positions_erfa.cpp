@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "sun/sun_positions.hpp"
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <new>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "view/gzip.hpp"
 
 namespace farlod {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "view/bundle_files.hpp"
 #include "view/gzip.hpp"
 

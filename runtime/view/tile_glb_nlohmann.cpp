@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "results/picture/colour_map.hpp"
 #include "results/picture/drawing.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "contract/frame.hpp"
+#include "base/frame.hpp"
 #include "farlod/box.hpp"
 #include "farlod/error.hpp"
 #include "tests/acceptance/packed_town.hpp"

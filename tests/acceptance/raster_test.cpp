@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "contract/frame.hpp"
+#include "base/frame.hpp"
 #include "farlod/error.hpp"
 #include "results/output_format.hpp"
 #include "tests/acceptance/packed_town.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "contract/frame.hpp"
+#include "base/frame.hpp"
 #include "tests/acceptance/packed_town.hpp"
 
 namespace farlod::acceptance {

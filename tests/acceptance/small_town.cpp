@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "contract/frame.hpp"
+#include "base/frame.hpp"
 #include "tests/acceptance/work_folder.hpp"
 #include "tests/scenes/packed_once.hpp"
 

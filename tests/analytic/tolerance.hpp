@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "contract/far_map/box_map.hpp"
+#include "package/box_map.hpp"
 
 namespace farlod {
 

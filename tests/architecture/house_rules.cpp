@@ -39,7 +39,7 @@ constexpr LongFunction long_functions[] = {
     {"datasets/generator/city_settings.hpp", "describe", "a list: one line for each setting"},
     {"preprocess/app/pack_options.cpp", "add_input_options", "a list: one statement for each option"},
     {"preprocess/ingest/citygml/citygml_parser.cpp", "undo", "a switch: one case for each meaning of an element"},
-    {"contract/horizon/edge_facing.hpp", "may_be_silhouette", "a proof, case by case"},
+    {"package/edge_facing.hpp", "may_be_silhouette", "a proof, case by case"},
     {"preprocess/tiles/tiles.cpp", "place_building", "one building's way through cutting, which shares a dozen values"},
     {"runtime/horizon/gap_rays.cpp", "trace_gaps", "a kernel: its steps share vectors of 16 lanes"},
 };
@@ -234,7 +234,7 @@ std::vector<std::string> useless_excuses(const std::vector<SourceFile>& tree) {
 }
 
 std::vector<std::string> comments_without_subject(const std::vector<SourceFile>& tree) {
-  static const std::regex room("^(contract|include|console|gdal|storage|preprocess)/"), begins_with_of(R"(//[/<!]*\s*Of\s)");
+  static const std::regex room("^(base|include|console|gdal|package|preprocess)/"), begins_with_of(R"(//[/<!]*\s*Of\s)");
   std::vector<std::string> found;
   for (const SourceFile& file : tree)
     for (std::size_t n = 0; n < file.lines.size(); ++n)

@@ -110,11 +110,11 @@ TEST(HouseRules, AnExcuseForNothingIsFound) {
 }
 
 TEST(HouseRules, ACommentWithoutASubjectIsFound) {
-  EXPECT_THAT(comments_without_subject({{"contract/a.hpp", {"/// Of a cell.", "/// The edge.", "int a;  ///< Of it."}},
+  EXPECT_THAT(comments_without_subject({{"base/a.hpp", {"/// Of a cell.", "/// The edge.", "int a;  ///< Of it."}},
                                         {"preprocess/tiles/b.cpp", {"  //Of two", "  // Often", "  // one", "  // of two"}},
                                         {"runtime/c.hpp", {"/// Of a cell."}},
                                         {"preprocess/d.py", {"# Of a cell."}}}),
-              ElementsAre("contract/a.hpp:1", "contract/a.hpp:3", "preprocess/tiles/b.cpp:1"));
+              ElementsAre("base/a.hpp:1", "base/a.hpp:3", "preprocess/tiles/b.cpp:1"));
 }
 
 TEST(HouseRules, ALongLineOfProseIsFound) {

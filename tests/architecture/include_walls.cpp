@@ -31,25 +31,27 @@ struct Wall {
 
 constexpr Wall walls[] = {
     {"^include/", NOWHERE, "^(?!farlod/|[a-z_0-9]+$)", "what users include knows the standard library only"},
-    {"^contract/", NOWHERE, "^(?!farlod/|contract/|[a-z_0-9]+$)", "the contract knows the standard library only"},
-
-    {"^storage/", NOWHERE, "^(?!farlod/|storage/|[a-z_0-9]+$|(fcntl|unistd|sys/[a-z_]+)\\.h$)",
-     "storage knows the file system, and nothing of packages"},
+    {"^base/.*\\.hpp$", NOWHERE, "^(?!farlod/|base/|[a-z_0-9]+$)", "the base knows the standard library only"},
+    {"^base/.*\\.cpp$", NOWHERE, "^(?!farlod/|base/|[a-z_0-9]+$|(fcntl|unistd|dlfcn|malloc|sys/[a-z_]+)\\.h$)",
+     "the base knows the system, and nothing of packages"},
+    {"^package/.*\\.hpp$", NOWHERE, "^(?!farlod/|base/|package/|[a-z_0-9]+$)", "headers name no foreign library"},
+    {"^package/", "_openexr\\.cpp$", "^(" EXR_HEADERS ")", "OpenEXR's wrappers are *_openexr.cpp"},
+    {"^package/", "_boost\\.cpp$", "^(" MAPPING_HEADERS ")", "files are mapped by one wrapper"},
     {"^runtime/", NOWHERE, "^(" CGAL_HEADERS "|" PROJ_HEADERS "|libxml|citygml/|GeographicLib/)",
      "the runtime ships without the geometry stack"},
     {"^runtime/", NOWHERE, "^" EXPAT_HEADERS, "the runtime never needs Expat"},
     {"^runtime/", "^runtime/results/[a-z_/]+_gdal\\.cpp$", "^(" GDAL_HEADERS ")",
      "the runtime library never needs GDAL; results/*_gdal.cpp are a library apart"},
     {"^runtime/(app|points|results|sun|view)/", NOWHERE,
-     "^(package|occlusion|scene|horizon|canopy|rays|receivers|evaluate|run|contract/(?!expects|lower_case|point_columns))",
+     "^(package|occlusion|scene|horizon|canopy|rays|receivers|evaluate|run|base/(?!expects|lower_case|point_columns))",
      "a program is a user of the library"},
-    {"^preprocess/app/", NOWHERE, "^(city|ingest|georeference|align|tiles|farmap|package|trial|pipeline|occlusion|contract)/",
+    {"^preprocess/app/", NOWHERE, "^(city|ingest|georeference|align|tiles|farmap|package|trial|pipeline|occlusion|base)/",
      "a program is a user of the library"},
-    {"^runtime/canopy/", NOWHERE, "^(?!farlod/|contract/|horizon/|canopy/|[a-z_0-9]+$)",
+    {"^runtime/canopy/", NOWHERE, "^(?!farlod/|base/|package/|horizon/|canopy/|[a-z_0-9]+$)",
      "crowns are seen above horizons, and know no more"},
     {"^runtime/", "^runtime/occlusion/[a-z_]+_embree\\.[hc]pp$", "^(" EMBREE_HEADERS ")",
      "occlusion is the only wrapper of Embree"},
-    {"^runtime/", "^runtime/package/[a-z_]+\\.cpp$", "^(" EXR_HEADERS "|" MAPPING_HEADERS ")",
+    {"^(preprocess|runtime)/", NOWHERE, "^(" EXR_HEADERS "|" MAPPING_HEADERS ")",
      "only the package room knows how far maps and tiles lie on disk"},
 
     {"^python/", NOWHERE, "^(?!farlod/|python/|pybind11/|[a-z_0-9]+$|unistd\\.h$)",
@@ -68,15 +70,13 @@ constexpr Wall walls[] = {
     {"^preprocess/", "_proj\\.cpp$", "^" PROJ_HEADERS, "PROJ's wrapper is *_proj.cpp"},
     {"^preprocess/", "_geographiclib\\.cpp$", "^GeographicLib/", "GeographicLib's wrapper is *_geographiclib.cpp"},
     {"^preprocess/", "_expat\\.cpp$", "^(" XML_HEADERS ")", "Expat's wrapper is *_expat.cpp"},
-    {"^preprocess/", "_nlohmann\\.cpp$", "^nlohmann/", "nlohmann-json's wrapper is *_nlohmann.cpp"},
-    {"^preprocess/", "^preprocess/(farmap|package)/[a-z_]+_openexr\\.cpp$", "^(" EXR_HEADERS ")",
-     "OpenEXR's wrappers are farmap/ and package/*_openexr.cpp"},
+    {"^(package|preprocess)/", "_nlohmann\\.cpp$", "^nlohmann/", "nlohmann-json's wrapper is *_nlohmann.cpp"},
     {"^preprocess/(?!farmap/)", NOWHERE, "^occlusion/", "only farmap casts rays"},
 
     {"^(benchmark|validation)/", NOWHERE, "^tests/(?!scenes/)", "what measures shares the scenes of the tests, and no test"},
 
     {"^(preprocess|runtime)/", "_netcdf\\.cpp$", "^netcdf", "the wrapper of netCDF is *_netcdf.cpp"},
-    {"^(preprocess|runtime)/", "_xxhash\\.cpp$|^runtime/package/", "^xxhash", "the wrappers of xxHash are *_xxhash.cpp"},
+    {"^(package|preprocess|runtime)/", "_xxhash\\.cpp$|^package/", "^xxhash", "the wrappers of xxHash are *_xxhash.cpp"},
     {"^(preprocess|runtime)/", "_cairo\\.cpp$", "^(cairo|pango/|png\\.h)", "the wrapper of Cairo and Pango is *_cairo.cpp"},
     {"^runtime/", "^runtime/results/module_dlopen\\.cpp$", "^dlfcn", "one file loads modules"},
     {"^(preprocess|runtime)/", "_beast\\.cpp$", "^boost/(asio|beast)", "the wrapper of Boost.Beast is *_beast.cpp"},
@@ -89,8 +89,8 @@ constexpr Wall walls[] = {
 };
 
 /// In the order in which the data goes through them.
-constexpr std::array<std::string_view, 10> stages{"city",   "ingest",  "georeference", "align",    "tiles",
-                                                  "farmap", "package", "trial",        "pipeline", "app"};
+constexpr std::array<std::string_view, 9> stages{"city",   "ingest", "georeference", "align", "tiles",
+                                                 "farmap", "trial",  "pipeline",     "app"};
 
 /// A header of the runtime that a room of preprocess may include.
 struct SharedHeader {
@@ -98,12 +98,10 @@ struct SharedHeader {
   bool operator==(const SharedHeader&) const = default;
 };
 
-/// The stage `trial` measures far maps with the evaluator that users will run, and the stage `package` goes on with a package
-/// that the runtime reads: neither has anything of its own that could differ from it.
+/// The stage `trial` measures far maps with the evaluator that users will run: it has nothing of its own that could differ from
+/// it.
 constexpr SharedHeader shared_headers[] = {{"preprocess/trial", "evaluate/sky_evaluator.hpp"},
-                                           {"preprocess/trial", "package/package_reader.hpp"},
-                                           {"preprocess/trial", "receivers/receiver.hpp"},
-                                           {"preprocess/package", "package/manifest_reader.hpp"}};
+                                           {"preprocess/trial", "receivers/receiver.hpp"}};
 
 std::size_t stage_of(std::string_view path_in_preprocess) {
   const std::string_view folder = path_in_preprocess.substr(0, path_in_preprocess.find('/'));
@@ -142,27 +140,27 @@ void check_stage_order(const SourceFile& file, std::vector<std::string>& breache
 
 std::string_view room_of(const SourceFile& file) { return std::string_view(file.path).substr(0, file.path.rfind('/')); }
 
-/// What a file may name in quotes besides the contract: the headers of its own side (both sides have a room `package` and a room
-/// `app`, so that the name alone does not say whose header is meant), the console from a program, the errors of GDAL, durable
-/// files, rays from preprocess, the evaluator and the reader of manifests from two of its stages.
+/// What a file may name in quotes besides the base: the headers of its own side (both sides have a room `app`, so that the name
+/// alone does not say whose header is meant), packages, the console from a program, the errors of GDAL, rays from preprocess, and
+/// the evaluator from one of its stages.
 bool may_quote(const SourceFile& file, const std::string& target, const std::set<std::string>& paths) {
   const std::string side = file.path.substr(0, file.path.find('/'));
-  if (target.starts_with("farlod/") || target.starts_with("contract/") || paths.contains(side + "/" + target)) return true;
+  if (target.starts_with("farlod/") || target.starts_with("base/") || paths.contains(side + "/" + target)) return true;
   if (side == "datasets" && paths.contains("datasets/generator/" + target)) return true;
   if (target.starts_with("console/")) return side == "console" || file.path.find("/app/") != std::string::npos;
   // The walls above let only the wrappers of GDAL through
   if (target.starts_with("gdal/")) return side == "gdal" || side == "preprocess" || side == "runtime";
-  if (target.starts_with("storage/")) return side == "storage" || side == "preprocess" || side == "runtime";
+  if (target.starts_with("package/")) return side == "package" || side == "preprocess" || side == "runtime";
   if (std::ranges::count(shared_headers, SharedHeader{room_of(file), target}) > 0) return true;
   return side == "preprocess" && target.starts_with("occlusion/");
 }
 
 void check_side(const SourceFile& file, const std::set<std::string>& paths, std::vector<std::string>& breaches) {
-  static const std::regex walled("^(console|gdal|preprocess|runtime|datasets|storage)/");
+  static const std::regex walled("^(base|console|gdal|package|preprocess|runtime|datasets)/");
   if (!std::regex_search(file.path, walled)) return;
   for (const Include& include : includes_of(file))
     if (include.quoted && !may_quote(file, include.target, paths))
-      breaches.push_back(sentence(file, include, "quotes are for the contract and the headers of the own side"));
+      breaches.push_back(sentence(file, include, "quotes are for the base and the headers of the own side"));
 }
 
 bool has_forbidden_include(const SourceFile& file, const Wall& wall) {

@@ -10,9 +10,9 @@
 namespace farlod {
 namespace {
 
-constexpr std::array folders{"include",   "contract",   "console", "gdal",  "preprocess", "runtime", "datasets",
-                             "benchmark", "validation", "tests",   "cmake", "docs",       "scripts", ".ci",
-                             ".github",   "packaging",  "python",  "qgis",  "viewer"};
+constexpr std::array folders{"include",  "base",      "package",    "console", "gdal",  "preprocess", "runtime",
+                             "datasets", "benchmark", "validation", "tests",   "cmake", "docs",       "scripts",
+                             ".ci",      ".github",   "packaging",  "python",  "qgis",  "viewer"};
 
 /// Whether a file without an ending says what runs it.
 bool is_script(const std::filesystem::path& path) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "ingest/citygml/citygml_segmented_reading.hpp"
 #include "ingest/citygml/citygml_xml.hpp"

@@ -4,12 +4,12 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "contract/expects.hpp"
-#include "contract/package/crown_layout.hpp"
-#include "contract/package/manifest_seal.hpp"
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "occlusion/crown_occluder.hpp"
+#include "package/crown_layout.hpp"
 #include "package/manifest_reader.hpp"
+#include "package/manifest_seal.hpp"
 #include "scene/near_crowns.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"
 #include "tests/fuzz/scratch_folder.hpp"

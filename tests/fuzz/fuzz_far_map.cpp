@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "package/far_map_reader.hpp"
 #include "package/manifest_reader.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "package/manifest_reader.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"
 #include "tests/scenes/sealed_manifest.hpp"

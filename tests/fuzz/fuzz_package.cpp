@@ -3,14 +3,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "contract/expects.hpp"
-#include "contract/package/layout.hpp"
-#include "contract/package/manifest_seal.hpp"
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "farlod/inspection.hpp"
 #include "farlod/plan_view.hpp"
 #include "farlod/points.hpp"
+#include "package/layout.hpp"
 #include "package/manifest_reader.hpp"
+#include "package/manifest_seal.hpp"
 #include "tests/fuzz/changed_file.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"
 #include "tests/fuzz/scratch_folder.hpp"

@@ -3,11 +3,11 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "contract/expects.hpp"
-#include "contract/package/manifest_seal.hpp"
-#include "contract/package/sources_layout.hpp"
+#include "base/expects.hpp"
 #include "farlod/city_sources.hpp"
 #include "package/manifest_reader.hpp"
+#include "package/manifest_seal.hpp"
+#include "package/sources_layout.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
 #include "tests/scenes/sealed_manifest.hpp"

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "contract/expects.hpp"
-#include "contract/package/layout.hpp"
+#include "base/expects.hpp"
 #include "evaluate/sky_evaluator.hpp"
 #include "farlod/error.hpp"
+#include "package/layout.hpp"
 #include "package/package_reader.hpp"
 #include "receivers/surface_receivers.hpp"
 #include "scene/near_scene.hpp"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "ingest/files/file_format.hpp"
 #include "ingest/trees/tree_reader.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "farlod/region.hpp"
 #include "results/point_reader_gdal.hpp"
 #include "results/region_reader_gdal.hpp"

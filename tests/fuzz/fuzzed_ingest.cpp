@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string>
 
-#include "contract/package/sources_layout.hpp"
 #include "farlod/error.hpp"
+#include "package/sources_layout.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
 
 namespace farlod {

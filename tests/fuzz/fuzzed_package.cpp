@@ -7,9 +7,9 @@
 #include <iterator>
 #include <string_view>
 
-#include "contract/expects.hpp"
-#include "contract/package/layout.hpp"
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
+#include "package/layout.hpp"
 
 namespace farlod {
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <string>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "contract/package/layout.hpp"
+#include "package/layout.hpp"
 #include "tests/fuzz/tiles_mutator.hpp"
 
 // Changes a `tiles.bin` element by element, and keeps what a reader checks first: libFuzzer's own changes, which move all bytes

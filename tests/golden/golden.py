@@ -127,7 +127,7 @@ def check_packages(binaries: pathlib.Path) -> list[str]:
 
 
 def version_of(name: str) -> int:
-    layout = (HERE.parent.parent / "contract/package/layout.hpp").read_text()
+    layout = (HERE.parent.parent / "package/layout.hpp").read_text()
     return {name: int(value) for name, value in re.findall(r"uint32_t (\w+_version) = (\d+);", layout)}[name]
 
 

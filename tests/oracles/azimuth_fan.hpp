@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "contract/horizon/azimuth.hpp"
+#include "base/azimuth.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod {

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "contract/far_map/receiver_patches.hpp"
-#include "contract/package/layout.hpp"
+#include "package/layout.hpp"
+#include "package/receiver_patches.hpp"
 
 namespace farlod {
 

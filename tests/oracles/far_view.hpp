@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "contract/expects.hpp"
-#include "contract/horizon/edge_view.hpp"
+#include "base/expects.hpp"
+#include "package/edge_view.hpp"
 #include "package/far_horizon.hpp"
 #include "tests/oracles/azimuth_fan.hpp"
 #include "tests/oracles/distance_to_segment.hpp"

@@ -10,7 +10,7 @@
 
 #include "horizon/sky_partition.hpp"
 #include "tests/oracles/distance_to_segment.hpp"
-#include "tests/runtime/package/far_horizon_by_hand.hpp"
+#include "tests/package/far_horizon_by_hand.hpp"
 
 // What a far map says is compared with each edge, direction by direction.
 

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "contract/horizon/horizon_edge.hpp"
+#include "package/horizon_edge.hpp"
 
 namespace farlod::scenes {
 

@@ -7,8 +7,8 @@
 #include <ostream>
 #include <vector>
 
+#include "base/grid.hpp"
 #include "city/city_model.hpp"
-#include "contract/grid.hpp"
 #include "farmap/far_map_settings.hpp"
 #include "package/package_reader.hpp"
 #include "tests/scenes/temporary_folder.hpp"

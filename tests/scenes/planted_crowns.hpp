@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "city/crowns_of_city.hpp"
+#include "package/crowns_of_city.hpp"
 #include "package/package_reader.hpp"
 
 namespace farlod::scenes {

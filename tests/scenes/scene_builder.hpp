@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/frame.hpp"
 #include "city/city_model.hpp"
-#include "contract/frame.hpp"
 #include "farlod/box.hpp"
 #include "farlod/point.hpp"
 

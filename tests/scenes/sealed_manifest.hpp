@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "contract/package/manifest_seal.hpp"
 #include "package/manifest_reader.hpp"
+#include "package/manifest_seal.hpp"
 
 namespace farlod::scenes {
 

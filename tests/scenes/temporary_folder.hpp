@@ -12,7 +12,7 @@
 #include <system_error>
 #include <vector>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod::scenes {
 

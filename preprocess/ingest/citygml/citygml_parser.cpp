@@ -6,7 +6,7 @@
 #include <charconv>
 #include <limits>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "ingest/model_builder/surface_names.hpp"
 
 namespace farlod::ingest {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "contract/package/sources_layout.hpp"
 #include "ingest/citygml/xml_element.hpp"
+#include "package/sources_layout.hpp"
 
 namespace farlod::ingest {
 

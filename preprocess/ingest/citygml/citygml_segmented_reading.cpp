@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "farlod/error.hpp"
 #include "ingest/citygml/citygml_xml.hpp"
 #include "ingest/ordered/ordered_work.hpp"

@@ -10,8 +10,8 @@
 #include <memory>
 #include <new>
 
-#include "contract/cancellation.hpp"
-#include "contract/expects.hpp"
+#include "base/cancellation.hpp"
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "ingest/citygml/citygml_xml.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod::ingest {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contract/package/sources_layout.hpp"
+#include "package/sources_layout.hpp"
 
 namespace farlod::ingest {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "contract/lower_case.hpp"
+#include "base/lower_case.hpp"
 
 namespace farlod::ingest {
 

@@ -8,9 +8,9 @@
 #include <span>
 #include <sstream>
 
+#include "base/expects.hpp"
+#include "base/lower_case.hpp"
 #include "city/height_limits.hpp"
-#include "contract/expects.hpp"
-#include "contract/lower_case.hpp"
 #include "ingest/footprints/height_text.hpp"
 
 namespace farlod::ingest {

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "city/city_model.hpp"
-#include "contract/package/sources_layout.hpp"
 #include "farlod/problem.hpp"
 #include "ingest/model_builder/polygon_deduplicator.hpp"
 #include "ingest/model_builder/ring_cleaning.hpp"
+#include "package/sources_layout.hpp"
 
 namespace farlod::ingest {
 

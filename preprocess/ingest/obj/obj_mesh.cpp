@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "ingest/obj/obj_segment.hpp"
 #include "ingest/ordered/ordered_work.hpp"
 

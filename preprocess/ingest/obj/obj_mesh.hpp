@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "city/paged_array.hpp"
+#include "base/paging/paged_array.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod::ingest {

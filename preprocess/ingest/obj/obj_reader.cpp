@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "farlod/error.hpp"
 #include "ingest/obj/disjoint_sets.hpp"
 #include "ingest/obj/obj_mesh.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "farlod/error.hpp"
 #include "ingest/footprints/height_text.hpp"
 #include "ingest/trees/city_trees.hpp"

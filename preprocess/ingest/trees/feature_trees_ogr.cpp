@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/cancellation.hpp"
+#include "base/lower_case.hpp"
 #include "city/degree_length.hpp"
-#include "contract/cancellation.hpp"
-#include "contract/lower_case.hpp"
 #include "farlod/angle.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"

@@ -6,7 +6,7 @@
 #include <array>
 #include <string>
 
-#include "contract/lower_case.hpp"
+#include "base/lower_case.hpp"
 
 namespace farlod::ingest {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "contract/canopy/crown.hpp"
+#include "package/crown.hpp"
 
 namespace farlod::ingest {
 

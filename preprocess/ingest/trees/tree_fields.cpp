@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "contract/lower_case.hpp"
+#include "base/lower_case.hpp"
 #include "ingest/trees/foliage_text.hpp"
 
 namespace farlod::ingest {

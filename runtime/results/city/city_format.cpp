@@ -5,7 +5,7 @@
 #include <array>
 #include <string_view>
 
-#include "contract/lower_case.hpp"
+#include "base/lower_case.hpp"
 
 namespace farlod {
 namespace {

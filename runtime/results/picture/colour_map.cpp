@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod {
 namespace {

@@ -11,7 +11,7 @@
 #include <new>
 #include <utility>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "farlod/export.hpp"
 #include "farlod/version.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <ostream>
 
-#include "contract/expects.hpp"
-#include "contract/lower_case.hpp"
+#include "base/expects.hpp"
+#include "base/lower_case.hpp"
 #include "farlod/error.hpp"
 #include "results/atomic_file.hpp"
 #include "results/module.hpp"

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "results/decimal.hpp"
 #include "results/picture/map_ornaments.hpp"
 #include "results/picture/picture_style.hpp"

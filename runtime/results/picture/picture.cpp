@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/picture/picture.hpp"
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod {
 

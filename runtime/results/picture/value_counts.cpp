@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod {
 

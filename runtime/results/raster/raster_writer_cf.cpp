@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "results/decimal.hpp"
 
 namespace farlod {

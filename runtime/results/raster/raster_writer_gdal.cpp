@@ -13,7 +13,7 @@
 #include <span>
 #include <string>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "farlod/version.hpp"
 #include "gdal/gdal_errors.hpp"

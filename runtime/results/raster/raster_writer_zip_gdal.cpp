@@ -11,7 +11,7 @@
 #include <system_error>
 #include <vector>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "results/atomic_file.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "results/netcdf_file.hpp"
 #include "results/raster/raster_frame.hpp"
 

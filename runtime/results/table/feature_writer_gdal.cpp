@@ -11,8 +11,8 @@
 #include <limits>
 #include <string>
 
-#include "contract/expects.hpp"
-#include "contract/lower_case.hpp"
+#include "base/expects.hpp"
+#include "base/lower_case.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/vector_file_gdal.hpp"

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <utility>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "results/decimal.hpp"
 #include "results/json_text.hpp"

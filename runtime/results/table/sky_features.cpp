@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "results/table/sky_table_csv.hpp"
 
 namespace farlod {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 #include "results/atomic_file.hpp"
 #include "results/table/csv_text.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <type_traits>
 
-#include "contract/expects.hpp"
+#include "base/expects.hpp"
 
 namespace farlod {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "contract/frame.hpp"
+#include "base/frame.hpp"
 
 namespace farlod {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contract/frame.hpp"
+#include "base/frame.hpp"
 
 namespace farlod {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "city/crowns_of_city.hpp"
+#include "package/crowns_of_city.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "city/memory_bound.hpp"
+#include "base/paging/memory_bound.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "city/paged_array.hpp"
+#include "base/paging/paged_array.hpp"
 #include "tests/preprocess/city/temporary_files.hpp"
 
 namespace farlod {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "city/paged_array.hpp"
+#include "base/paging/paged_array.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "city/paged_heap.hpp"
+#include "base/paging/paged_heap.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numeric>
 #include <vector>
 
-#include "city/page_file.hpp"
-#include "city/pages.hpp"
+#include "base/paging/page_file.hpp"
+#include "base/paging/pages.hpp"
 #include "tests/preprocess/city/temporary_files.hpp"
 
 namespace farlod {

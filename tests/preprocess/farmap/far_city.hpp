@@ -8,12 +8,12 @@
 #include <tuple>
 #include <vector>
 
-#include "contract/grid.hpp"
-#include "contract/horizon/edge_facing.hpp"
-#include "farmap/baked_block.hpp"
+#include "base/grid.hpp"
+#include "package/baked_block.hpp"
+#include "package/edge_facing.hpp"
+#include "package/tile_set.hpp"
 #include "tests/oracles/explicit_in_patch.hpp"
 #include "tests/preprocess/farmap/sight.hpp"
-#include "tiles/tile_set.hpp"
 
 namespace farlod::test {
 

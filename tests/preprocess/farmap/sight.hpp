@@ -7,7 +7,7 @@
 #include <optional>
 #include <random>
 
-#include "contract/horizon/azimuth.hpp"
+#include "base/azimuth.hpp"
 #include "farlod/point.hpp"
 
 namespace farlod::test {

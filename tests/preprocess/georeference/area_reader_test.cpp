@@ -8,7 +8,7 @@
 
 #include <fstream>
 
-#include "contract/point_columns.hpp"
+#include "base/point_columns.hpp"
 #include "farlod/error.hpp"
 #include "georeference/output_crs.hpp"
 #include "georeference/utm_projection.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "contract/package/sources_layout.hpp"
+#include "package/sources_layout.hpp"
 #include "reading.hpp"
 
 namespace farlod::ingest::test {

@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "ingest/obj/obj_segment.hpp"
 #include "reading.hpp"
 

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "contract/shard_parts.hpp"
+#include "base/shard_parts.hpp"
 #include "farlod/error.hpp"
-#include "package/file_stamp.hpp"
-#include "package/saved_city.hpp"
 #include "package/unfinished_package.hpp"
+#include "package/written_stamp.hpp"
 #include "pipeline/city_record.hpp"
+#include "pipeline/saved_city.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
 
 namespace farlod::pipeline::test {

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "contract/package/crown_layout.hpp"
 #include "farlod/error.hpp"
+#include "package/crown_layout.hpp"
 #include "package/unfinished_package.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
 #include "tests/problems/problem_lists.hpp"

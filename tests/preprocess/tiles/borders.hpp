@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "contract/grid.hpp"
+#include "base/grid.hpp"
 #include "tests/preprocess/tiles/bodies.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tiles/horizon_edges.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "contract/horizon/edge_facing.hpp"
+#include "package/edge_facing.hpp"
 #include "tests/preprocess/tiles/borders.hpp"
 #include "tests/preprocess/tiles/random_bodies.hpp"
 #include "tiles/horizon_edges.hpp"

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "city/page_file.hpp"
-#include "city/paged_heap.hpp"
+#include "base/paging/page_file.hpp"
+#include "base/paging/paged_heap.hpp"
 #include "tests/preprocess/city/temporary_files.hpp"
 #include "tests/preprocess/tiles/whole_ground.hpp"
 

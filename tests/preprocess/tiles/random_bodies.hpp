@@ -10,8 +10,8 @@
 #include <random>
 #include <vector>
 
-#include "contract/horizon/edge_facing.hpp"
 #include "farlod/box.hpp"
+#include "package/edge_facing.hpp"
 #include "tests/preprocess/tiles/bodies.hpp"
 #include "tiles/horizon_edges.hpp"
 

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "canopy/canopy_sky.hpp"
-#include "contract/canopy/crown.hpp"
 #include "farlod/canopy.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/sky_profile.hpp"
+#include "package/crown.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
 
 namespace farlod {

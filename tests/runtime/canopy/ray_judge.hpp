@@ -12,12 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include "contract/canopy/crown.hpp"
-#include "contract/canopy/crown_light.hpp"
 #include "farlod/point.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/sky_profile.hpp"
+#include "package/crown.hpp"
+#include "package/crown_light.hpp"
 
 // What crowns do to the sky, by rays in double that are clipped by solids: none of the formulas of runtime/canopy.
 

@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-#include "contract/horizon/azimuth.hpp"
+#include "base/azimuth.hpp"
 #include "farlod/angle.hpp"
 #include "tests/oracles/distance_to_segment.hpp"
 #include "tests/runtime/horizon/random_places.hpp"

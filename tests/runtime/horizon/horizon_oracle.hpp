@@ -8,9 +8,9 @@
 #include <numbers>
 #include <span>
 
-#include "contract/horizon/horizon_edge.hpp"
 #include "farlod/box.hpp"
 #include "farlod/point.hpp"
+#include "package/horizon_edge.hpp"
 
 // Horizons edge by edge and azimuth by azimuth, in double: what the kernels must find, and how far floats may lead them astray.
 

@@ -12,9 +12,9 @@
 #include "horizon/sky_partition.hpp"
 #include "tests/analytic/oracles.hpp"
 #include "tests/analytic/tolerance.hpp"
+#include "tests/package/far_horizon_by_hand.hpp"
 #include "tests/runtime/horizon/packed_overhangs.hpp"
 #include "tests/runtime/horizon/town_by_hand.hpp"
-#include "tests/runtime/package/far_horizon_by_hand.hpp"
 
 // What overhangs, in scenes whose sky view factors are known in closed form, and in others that are traced ray by ray. Edges are
 // drawn by hand.

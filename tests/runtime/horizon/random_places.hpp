@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
-#include "contract/horizon/horizon_edge.hpp"
 #include "farlod/point.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/silhouette_edges.hpp"
+#include "package/horizon_edge.hpp"
 
 namespace farlod {
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/package/far_horizon_by_hand.hpp"
 #include "tests/runtime/horizon/horizon_oracle.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
-#include "tests/runtime/package/far_horizon_by_hand.hpp"
 
 namespace farlod {
 namespace {

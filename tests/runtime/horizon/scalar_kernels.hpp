@@ -7,10 +7,10 @@
 #include <limits>
 #include <span>
 
-#include "contract/horizon/horizon_edge.hpp"
 #include "farlod/point.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/sky_partition.hpp"
+#include "package/horizon_edge.hpp"
 
 /// What the kernels (horizon/kernels.hpp) compute, for one receiver and one azimuth at a time: without lanes, culling or slots.
 /// The operations on floats come in the same order, so that the results must be equal bit for bit.

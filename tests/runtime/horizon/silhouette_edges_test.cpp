@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "contract/horizon/edge_facing.hpp"
 #include "horizon/packet_horizon.hpp"
+#include "package/edge_facing.hpp"
 #include "tests/oracles/distance_to_segment.hpp"
 #include "tests/runtime/horizon/horizon_oracle.hpp"
 #include "tests/runtime/horizon/random_places.hpp"

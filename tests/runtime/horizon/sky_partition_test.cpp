@@ -9,7 +9,7 @@
 #include <numeric>
 #include <string>
 
-#include "contract/frame.hpp"
+#include "base/frame.hpp"
 
 namespace farlod {
 namespace {

@@ -8,11 +8,11 @@
 #include <iterator>
 #include <vector>
 
-#include "contract/horizon/horizon_edge.hpp"
-#include "contract/mesh_view.hpp"
+#include "base/mesh_view.hpp"
 #include "farlod/point.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "occlusion/occluder.hpp"
+#include "package/horizon_edge.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
 
 namespace farlod {

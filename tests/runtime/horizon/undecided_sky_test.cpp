@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stop_token>
 
-#include "contract/cancellation.hpp"
+#include "base/cancellation.hpp"
 #include "tests/runtime/horizon/fence.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
 #include "tests/runtime/horizon/sky_oracle.hpp"

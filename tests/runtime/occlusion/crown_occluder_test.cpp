@@ -9,8 +9,8 @@
 #include <numbers>
 #include <random>
 
-#include "contract/canopy/crown_light.hpp"
 #include "farlod/error.hpp"
+#include "package/crown_light.hpp"
 #include "tests/runtime/occlusion/crowns_by_hand.hpp"
 
 namespace farlod {

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "contract/canopy/crown.hpp"
 #include "farlod/canopy.hpp"
+#include "package/crown.hpp"
 
 namespace farlod {
 

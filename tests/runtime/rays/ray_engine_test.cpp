@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "horizon/sky_partition.hpp"
+#include "tests/package/far_horizon_by_hand.hpp"
 #include "tests/runtime/horizon/grazing_rays.hpp"
 #include "tests/runtime/horizon/packed_overhangs.hpp"
 #include "tests/runtime/horizon/town_by_hand.hpp"
-#include "tests/runtime/package/far_horizon_by_hand.hpp"
 
 // Most rays are told from horizons, some below lower borders are traced: together they must give what rays against all of it
 // give.

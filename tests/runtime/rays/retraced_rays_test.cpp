@@ -7,8 +7,8 @@
 #include "evaluate/visibility.hpp"
 #include "horizon/sky_partition.hpp"
 #include "rays/ray_engine.hpp"
+#include "tests/package/far_horizon_by_hand.hpp"
 #include "tests/runtime/horizon/packed_overhangs.hpp"
-#include "tests/runtime/package/far_horizon_by_hand.hpp"
 
 // A wall to the east is near, on the ground or floating; one to the west is far, once explicit, once residual.
 

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "farlod/city_sources.hpp"
+#include "package/manifest.hpp"
+#include "package/mapped_file.hpp"
+#include "package/package_folder.hpp"
+#include "package/sources_layout.hpp"
+
+namespace farlod {
+
+/// The `sources.bin` of a package, mapped. Everything is checked once:
+///   (1) each file is an input of the manifest, and each building is of one of these files or of none
+///   (2) places are within their file, and their forms are there
+///   (3) surfaces are in order, and name objects and semantic surfaces of their building
+class SourcesFile {
+ public:
+  /// Of a package whose manifest names it. Throws PackageDamaged or PackageUnusable.
+  SourcesFile(const PackageFolder& folder, const package::Manifest& manifest);
+
+  [[nodiscard]] const std::vector<PackedCityFile>& files() const { return files_; }
+  /// Calls visit(building, file, origin) for each building of the city that is of one of files().
+  template <class Visit>
+  void visit(const Visit& visit) const {
+    for (std::size_t n = 0; n < buildings_.size(); ++n)
+      if (buildings_[n].file > 0) visit(static_cast<std::uint32_t>(n), buildings_[n].file - std::size_t{1}, origin_of(n));
+  }
+
+ private:
+  struct Row {
+    std::uint32_t file = 0;  ///< counted from 1
+    std::span<const std::uint8_t> bytes;
+  };
+
+  void check_header(const package::Manifest& manifest) const;
+  void read_file(package::SourcesCursor& cursor, const package::Manifest& manifest);
+  void read_building(package::SourcesCursor& cursor);
+  [[nodiscard]] BuildingOrigin origin_of(std::size_t building) const;
+  void check(const BuildingOrigin& origin, const PackedCityFile& file) const;
+  void require(bool rule, const char* what) const;
+
+  std::string name_;
+  MappedFile mapped_;
+  std::vector<PackedCityFile> files_;
+  std::vector<Row> buildings_;
+};
+
+}  // namespace farlod

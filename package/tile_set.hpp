@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/grid.hpp"
+#include "base/mesh_view.hpp"
+#include "base/paging/paged_array.hpp"
+#include "farlod/pack.hpp"
+#include "farlod/surface_kind.hpp"
+#include "package/horizon_edge.hpp"
+#include "package/tile_array.hpp"
+
+namespace farlod {
+
+/// The geometry that one cell owns. Vertices are in the cell frame: x and y from the cell's south-west corner, heights
+/// from TileSet::height_origin_m.
+struct Tile {
+  TileArray<Point3f> vertices;
+  TileArray<Triangle> triangles;
+  TileArray<std::uint32_t> triangle_surfaces;  ///< for each triangle, its number in TileSet::surfaces
+  /// The edges of the ground and of buildings that can be silhouettes, cut at the cell's borders.
+  TileArray<HorizonEdge> horizon_edges;
+  float z_low_m = std::numeric_limits<float>::infinity();
+  float z_high_m = -std::numeric_limits<float>::infinity();
+  float ground_at_centre_m = 0.0F;
+
+  [[nodiscard]] MeshView mesh() const { return {vertices, triangles}; }
+  /// Adds a convex polygon as a fan of triangles.
+  void add_polygon(const std::vector<Point3f>& polygon, std::uint32_t surface);
+};
+
+/// A whole surface of a building, or the ground. Its pieces may lie in several tiles.
+struct Surface {
+  std::uint32_t building = 0;  ///< place in TileSet::building_ids; `ground_building` for the ground
+  std::uint32_t number = 0;    ///< within the building
+  std::uint16_t part = 0;
+  SurfaceKind kind = SurfaceKind::unknown;
+  Point3d normal;  ///< outward, length 1, grid frame
+  double area_m2 = 0.0;
+  /// The building has no lower borders above the ground: no receiver outside of it has the surface overhead.
+  bool grounded = true;
+};
+
+inline constexpr std::uint32_t ground_building = 0xFFFFFFFF;
+/// The ground is the first surface of every tile set.
+inline constexpr std::uint32_t ground_surface = 0;
+
+/// What the tiles of a city hold, one tile after the other and block by block: a city has more of it than there is memory.
+struct TilePages {
+  PagedArray<Point3f> vertices;
+  PagedArray<Triangle> triangles;
+  PagedArray<std::uint32_t> triangle_surfaces;
+  PagedArray<HorizonEdge> horizon_edges;
+
+  void let_go() const;
+};
+
+/// Where the buildings of a city come from in its files.
+struct TileSources {
+  struct OfBuilding {
+    std::uint32_t source = 0;  ///< place in LocatedCity::sources
+    std::uint64_t bytes = 0;   ///< of its origin
+  };
+  PagedArray<OfBuilding> buildings;  ///< as TileSet::building_ids
+  PagedArray<std::uint8_t> origins;  ///< CityModel::origin_of, one building after the other
+};
+
+/// The whole city, cut into the cells of the grid. The tiles are a partition of it.
+struct TileSet {
+  double height_origin_m = 0.0;
+  CellRange cells;
+  std::vector<Tile> tiles;                 ///< one for each cell, in the order of CellRange::index_of
+  std::shared_ptr<const TilePages> pages;  ///< what the tiles view; none where each holds its own
+  PagedArray<Surface> surfaces;
+  std::vector<std::string> building_ids;
+  TileSources sources;
+  std::uint64_t polygon_count = 0;     ///< surfaces of buildings
+  std::uint64_t foundation_count = 0;  ///< buildings whose lowest floor was closed down to the ground
+
+  [[nodiscard]] const Tile& tile(Cell c) const { return tiles[cells.index_of(c)]; }
+  [[nodiscard]] Tile& tile(Cell c) { return tiles[cells.index_of(c)]; }
+  [[nodiscard]] std::uint64_t triangle_count() const;
+  /// Gives back the memory of what the tiles of one block hold, as far as it lies on disk, and that of the surfaces. What is
+  /// asked for later is read again. May be called while others read.
+  void let_go(const CellRange& block) const;
+  /// The same for all tiles.
+  void let_go() const;
+};
+
+}  // namespace farlod
