@@ -14,7 +14,7 @@
 namespace farlod {
 
 const std::array<std::filesystem::path, 2>& sample_packages() {
-  static const std::filesystem::path golden = std::filesystem::path(FARLOD_SOURCE_DIR) / "tests/golden";
+  static const std::filesystem::path golden = FARLOD_GOLDEN_DIR;
   static const std::array<std::filesystem::path, 2> samples{golden / "version_8_horizon.farlod", golden / "version_8_box.farlod"};
   return samples;
 }

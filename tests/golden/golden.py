@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Packages of each version of the format, and the sky view factors that they gave when they were made.
 
-  golden.py check BIN          reads each package with the programs in BIN, and compares the values
-  golden.py add BIN FOLDER     packs the town, without trees and with them, with the programs in BIN, and writes the packages whose
-                               version FOLDER has not yet, and their values, to FOLDER
+  golden.py check BIN     reads each package with the programs in BIN, and compares the values
+  golden.py add BIN       packs the town, without trees and with them, with the programs in BIN, and writes the packages and their
+                          values, if their version is not here yet
 """
 
 import csv
@@ -13,10 +13,10 @@ import itertools
 import json
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
+import zipfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 ENGINES = ["auto", "horizon", "rays", "exact"]
@@ -38,6 +38,13 @@ def run(binaries: pathlib.Path, *arguments: object) -> subprocess.CompletedProce
 
 def manifest_of(package: pathlib.Path) -> dict:
     return json.loads((package / "manifest.json").read_text())
+
+
+def unpack(version: int, folder: pathlib.Path) -> list[pathlib.Path]:
+    """The packages of a version, in a folder of the caller's."""
+    with zipfile.ZipFile(HERE / f"version_{version}.zip") as archive:
+        archive.extractall(folder)
+    return sorted(folder.glob("*.farlod"))
 
 
 def quantities_of(package: pathlib.Path) -> list[str]:
@@ -74,55 +81,58 @@ def pack_town(binaries: pathlib.Path, kind: str, part: str, trees: list, packed:
         raise SystemExit(made.stderr)
 
 
-def add(binaries: pathlib.Path, folder: pathlib.Path) -> None:
-    there = versions_in(folder)
-    for kind, part, trees in itertools.product(KINDS, PARTS, CANOPIES):
-        with tempfile.TemporaryDirectory() as work:
-            packed = pathlib.Path(work) / "town.farlod"
+def add(binaries: pathlib.Path) -> None:
+    with tempfile.TemporaryDirectory() as work:
+        folder = pathlib.Path(work)
+        values = {}
+        for kind, part, trees in itertools.product(KINDS, PARTS, CANOPIES):
+            packed = folder / "town.farlod"
             pack_town(binaries, kind, part, trees, packed)
             version = manifest_of(packed)["version"]
-            if version in there:
-                continue
-            name = f"version_{version}_{kind}{part}{'_trees' if trees else ''}"
-            shutil.copytree(packed, folder / f"{name}.farlod")
-            write_values(folder / f"{name}.csv", values_of(binaries, packed), quantities_of(packed))
+            package = packed.rename(folder / f"version_{version}_{kind}{part}{'_trees' if trees else ''}.farlod")
+            values |= {(package.stem, *key): value for key, value in values_of(binaries, package).items()}
+        if (HERE / f"version_{version}.zip").exists():
+            raise SystemExit(f"packages of version {version} are here already")
+        with zipfile.ZipFile(HERE / f"version_{version}.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+            for path in sorted(path for path in folder.rglob("*") if path.is_file()):
+                archive.write(path, path.relative_to(folder))
+        write_values(HERE / f"version_{version}.csv", values)
 
 
-def versions_in(folder: pathlib.Path) -> set[int]:
-    return {int(path.name.split("_")[1]) for path in folder.glob("version_*.farlod")}
-
-
-def write_values(path: pathlib.Path, values: dict[tuple[str, str, str], str], quantities: list[str]) -> None:
+def write_values(path: pathlib.Path, values: dict[tuple[str, str, str, str], str]) -> None:
+    quantities = ["svf", "svf_total"]
     with path.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["point", "engine", *quantities])
-        for point, engine in dict.fromkeys((point, engine) for point, engine, _ in values):
-            writer.writerow([point, engine, *(values[point, engine, quantity] for quantity in quantities)])
+        writer.writerow(["package", "point", "engine", *quantities])
+        for key in dict.fromkeys(key[:3] for key in values):
+            writer.writerow([*key, *(values.get((*key, quantity), "") for quantity in quantities)])
 
 
-def differences(package: pathlib.Path, values: dict[tuple[str, str, str], str]) -> list[str]:
+def differences(package: pathlib.Path, then: dict[tuple[str, str], dict[str, str]], now: dict[tuple[str, str, str], str]) -> list[str]:
     found = []
-    rows = read_table(package.with_suffix(".csv"))
-    expected = {(row["point"], row["engine"], quantity): row[quantity] for row in rows for quantity in list(row)[2:]}
-    if expected.keys() != values.keys():
+    quantities = quantities_of(package)
+    expected = {(*key, quantity): row[quantity] for key, row in then.items() for quantity in quantities}
+    if expected.keys() != now.keys():
         found.append(f"{package.name}: other points, engines or quantities than in its table")
     for key, was in expected.items():
-        now = values.get(key, "nothing")
-        numbers = re.fullmatch(r"[0-9.]+", was) and re.fullmatch(r"[0-9.]+", now)
-        same = abs(float(was) - float(now)) <= TOLERANCE if numbers else was == now
+        value = now.get(key, "nothing")
+        numbers = re.fullmatch(r"[0-9.]+", was) and re.fullmatch(r"[0-9.]+", value)
+        same = abs(float(was) - float(value)) <= TOLERANCE if numbers else was == value
         if not same:
-            found.append(f"{package.name}: {key[0]}, engine {key[1]}, {key[2]}: {was or 'no value'} then, {now or 'no value'} now")
+            found.append(f"{package.name}: {key[0]}, engine {key[1]}, {key[2]}: {was or 'no value'} then, {value or 'no value'} now")
     return found
 
 
-def check_packages(binaries: pathlib.Path) -> list[str]:
+def check_packages(binaries: pathlib.Path, packages: list[pathlib.Path], values: pathlib.Path) -> list[str]:
     found = []
-    for package in sorted(HERE.glob("*.farlod")):
+    rows = read_table(values)
+    for package in packages:
         whole = run(binaries, "farlod-info", package, "--check")
         if whole.returncode != 0:
             found.append(f"{package.name}: {whole.stderr}")
             continue
-        found += differences(package, values_of(binaries, package))
+        then = {(row["point"], row["engine"]): row for row in rows if row["package"] == package.stem}
+        found += differences(package, then, values_of(binaries, package))
     return found
 
 
@@ -131,34 +141,34 @@ def version_of(name: str) -> int:
     return {name: int(value) for name, value in re.findall(r"uint32_t (\w+_version) = (\d+);", layout)}[name]
 
 
-def check_all_versions_are_there() -> list[str]:
-    versions = range(version_of("oldest_format_version"), version_of("format_version") + 1)
-    names = [f"version_{version}_{kind}" for version in versions for kind in KINDS]
-    there = [path.stem for path in HERE.glob("*.farlod")]
-    return [f"no package of {name}: see README.md" for name in names if not any(t.startswith(name) for t in there)]
+def check_kinds(version: int, packages: list[pathlib.Path]) -> list[str]:
+    kinds = [f"version_{version}_{kind}" for kind in KINDS]
+    return [f"no package of {kind}: see README.md" for kind in kinds if not any(p.stem.startswith(kind) for p in packages)]
 
 
-def check_other_versions(binaries: pathlib.Path) -> list[str]:
+def check_other_versions(binaries: pathlib.Path, package: pathlib.Path) -> list[str]:
     """Manifests without a checksum, as those before version 8 are, say the older versions and a newer one: each is refused by
     that number."""
     found = []
-    oldest, newer = version_of("oldest_format_version"), version_of("format_version") + 1
-    for source, version in itertools.product((f"version_{oldest}_horizon", f"version_{oldest}_box_partial"), (*range(1, oldest), newer)):
-        with tempfile.TemporaryDirectory() as folder:
-            package = pathlib.Path(folder) / "other.farlod"
-            shutil.copytree(HERE / f"{source}.farlod", package)
-            manifest = manifest_of(package) | {"version": version}
-            del manifest["xxh3"]
-            (package / "manifest.json").write_text(json.dumps(manifest))
-            for program in (["farlod-info", package, "--check"], ["farlod-svf", package, "-o", f"{folder}/o.csv", "--at", "500001,5500022"]):
-                result = run(binaries, *program)
-                if result.returncode != EXIT_UNUSABLE or f"format version {version}," not in result.stderr:
-                    found.append(f"version {version} is not refused: {program[0]} ends with {result.returncode}: {result.stderr}")
+    manifest = manifest_of(package)
+    del manifest["xxh3"]
+    for version in (*range(1, version_of("oldest_format_version")), version_of("format_version") + 1):
+        (package / "manifest.json").write_text(json.dumps(manifest | {"version": version}))
+        table = package.parent / "o.csv"
+        for program in (["farlod-info", package, "--check"], ["farlod-svf", package, "-o", table, "--at", "500001,5500022"]):
+            result = run(binaries, *program)
+            if result.returncode != EXIT_UNUSABLE or f"format version {version}," not in result.stderr:
+                found.append(f"version {version} is not refused: {program[0]} ends with {result.returncode}: {result.stderr}")
     return found
 
 
 def check(binaries: pathlib.Path) -> None:
-    found = check_all_versions_are_there() + check_packages(binaries) + check_other_versions(binaries)
+    found = []
+    for version in range(version_of("oldest_format_version"), version_of("format_version") + 1):
+        with tempfile.TemporaryDirectory() as folder:
+            packages = unpack(version, pathlib.Path(folder))
+            found += check_kinds(version, packages) + check_packages(binaries, packages, HERE / f"version_{version}.csv")
+            found += [line for package in packages for line in check_other_versions(binaries, package)]
     print("\n".join(found) or "All packages of former versions give what they gave.")
     raise SystemExit(1 if found else 0)
 
@@ -166,7 +176,7 @@ def check(binaries: pathlib.Path) -> None:
 if __name__ == "__main__":
     if sys.argv[1:2] == ["check"] and len(sys.argv) == 3:
         check(pathlib.Path(sys.argv[2]))
-    elif sys.argv[1:2] == ["add"] and len(sys.argv) == 4:
-        add(pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]))
+    elif sys.argv[1:2] == ["add"] and len(sys.argv) == 3:
+        add(pathlib.Path(sys.argv[2]))
     else:
         raise SystemExit(__doc__)

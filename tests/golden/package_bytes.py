@@ -89,11 +89,12 @@ def run(binaries: pathlib.Path, *arguments: object) -> None:
 
 
 def check_town(binaries: pathlib.Path, folder: pathlib.Path) -> Iterator[str]:
+    version = golden.version_of("format_version")
+    golden.unpack(version, folder / "then")
     for kind, part, trees in itertools.product(golden.KINDS, golden.PARTS, golden.CANOPIES):
-        version = golden.version_of("format_version")
         name = f"version_{version}_{kind}{part}{'_trees' if trees else ''}.farlod"
         golden.pack_town(binaries, kind, part, trees, folder / name)
-        for file in differing(files_of(golden.HERE / name), files_of(folder / name)):
+        for file in differing(files_of(folder / "then" / name), files_of(folder / name)):
             yield f"{name}/{file}"
 
 

@@ -46,7 +46,7 @@ class PackageToGoOnWith : public testing::Test {
 
   scenes::TemporaryFolder folder_;
   fs::path package_ = folder_.file("town.farlod");
-  std::string text_ = scenes::text_of(FARLOD_SOURCE_DIR "/tests/golden/version_8_horizon_partial.farlod/manifest.json");
+  std::string text_ = scenes::text_of(FARLOD_GOLDEN_DIR "/version_8_horizon_partial.farlod/manifest.json");
 };
 
 TEST_F(PackageToGoOnWith, HasTheBlocksThatTheRuntimeReads) {

@@ -45,7 +45,7 @@ void at_once(const std::function<void(std::size_t)>& work) {
 class RuntimeThreads : public testing::TestWithParam<const char*> {
  protected:
   [[nodiscard]] static fs::path folder() {
-    return fs::path(FARLOD_SOURCE_DIR) / "tests/golden" / (std::string("version_8_") + GetParam() + ".farlod");
+    return fs::path(FARLOD_GOLDEN_DIR) / (std::string("version_8_") + GetParam() + ".farlod");
   }
   [[nodiscard]] static std::vector<float> answers_of(const Package& package, Engine engine, std::stop_token stop = {}) {
     const Box2d outline = package.description().outline_projected;
