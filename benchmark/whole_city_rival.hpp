@@ -2,18 +2,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "benchmark/receiver_packets.hpp"
-#include "benchmark/rival_directions.hpp"
+#include "benchmark/city_receivers.hpp"
 #include "farlod/point.hpp"
 #include "package/package_reader.hpp"
 
 namespace farlod::benchmark {
+
+/// Directions around the z axis whose mean is a cosine-weighted view factor: a spherical Fibonacci lattice (u = (i + ½)/n,
+/// azimuths one golden angle apart) mapped to the hemisphere by r = √u. At the same number of rays its error is below that of
+/// random or stratified directions.
+[[nodiscard]] std::vector<Point3d> fibonacci_directions(std::size_t count);
+
+/// The order in which directions are traced.
+enum class DirectionOrder {
+  as_given,  ///< successive ones of the lattice are far apart
+  curve      ///< along a space-filling curve over the disk under the hemisphere: successive ones meet the same part of the city
+};
+void put_in_order(DirectionOrder order, std::vector<Point3d>& directions);
+
+/// Turned from the z axis to a normal of length 1; those that point below the horizon are left out.
+[[nodiscard]] std::vector<Point3f> directions_around(std::span<const Point3d> local, const Point3f& normal);
+
+/// One packet of Embree.
+inline constexpr std::size_t packet_lanes = 16;
+
+/// Neighboring receivers that look the same way, so that they can share each direction. In the frame of WholeCity.
+struct SharedPacket {
+  Point3f normal;
+  std::size_t count = 0;
+  std::array<Point3f, packet_lanes> p_scene;
+  std::array<std::size_t, packet_lanes> index{};
+};
+
+/// Puts the receivers of each cell into packets: those of one surface along a curve over it. Ground receivers come as patches of
+/// 4 × 4 pixels already.
+[[nodiscard]] std::vector<SharedPacket> packets_of(const Grid& grid, const CityReceivers& receivers);
 
 /// Ways to use Embree. The defaults are the fastest that were found.
 struct RivalVariant {

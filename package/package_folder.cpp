@@ -5,15 +5,47 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <filesystem>
+#include <iterator>
 #include <optional>
+#include <string>
 #include <system_error>
 
 #include "base/file_lock.hpp"
 #include "farlod/error.hpp"
 #include "package/layout.hpp"
-#include "package/plain_file.hpp"
 
 namespace farlod {
+namespace {
+
+/// Throws PackageDamaged where a name within the folder of a package is anything but a file, or a folder on the way to it is
+/// anything but a folder: a link, which may lead out of the package; a pipe or a device, which a reader could wait for without an
+/// end. The folder itself may be a link; `shown` is what messages call it. A file that is missing is for its reader to tell.
+void require_plain_file(const std::filesystem::path& folder, const std::filesystem::path& name,
+                        const std::filesystem::path& shown);
+
+namespace fs = std::filesystem;
+
+void require_plain_file(const fs::path& folder, const fs::path& name, const fs::path& shown) {
+  fs::path path = folder, shown_path = shown;
+  for (auto part = name.begin(); part != name.end(); ++part) {
+    path /= *part;
+    shown_path /= *part;
+    std::error_code unread;
+    const fs::file_type type = fs::symlink_status(path, unread).type();
+    if (type == fs::file_type::symlink)
+      throw PackageDamaged(shown_path.string() +
+                           " is a link, and may lead out of the package: put what it leads to in its place.");
+    if (type == fs::file_type::none || type == fs::file_type::not_found) return;
+    const bool is_last = std::next(part) == name.end();
+    if (type != (is_last ? fs::file_type::regular : fs::file_type::directory))
+      throw PackageDamaged(shown_path.string() + (is_last ? " is not a file" : " is not a folder") +
+                           ". Copy the package again, or pack the city again.");
+  }
+}
+
+}  // namespace
+
 namespace fs = std::filesystem;
 namespace {
 

@@ -9,19 +9,30 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "app/estimate_text.hpp"
 #include "app/pack_options.hpp"
 #include "app/pack_summary.hpp"
 #include "console/interruption.hpp"
 #include "console/output_files.hpp"
+#include "console/rough_number.hpp"
 #include "console/run_program.hpp"
 #include "farlod/error.hpp"
+#include "farlod/pack.hpp"
 
 namespace farlod {
 namespace {
+
+/// What is told before the long work: a line, rounded to what an estimate can know.
+[[nodiscard]] std::string estimate_text(const PackEstimate& estimate);
+
+std::string estimate_text(const PackEstimate& e) {
+  const std::string far_maps = e.far_maps < e.cells ? ", far maps to make for " + with_commas(e.far_maps) : "";
+  return fmt::format("{} cells{}: about {} from here on, {} of memory, and a package of {}", with_commas(e.cells), far_maps,
+                     rough_duration(e.seconds), rough_size(e.memory_mib), rough_size(e.package_mib));
+}
 
 void write_report(const Report& report, const std::string& path) {
   write_text(path, std::filesystem::path(path).extension() == ".geojson" ? report_geojson(report) : report_json(report));
@@ -186,6 +197,7 @@ int run(const PackOptions& options) {
 }
 
 }  // namespace
+
 }  // namespace farlod
 
 int main(int argc, char** argv) {

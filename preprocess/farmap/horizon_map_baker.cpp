@@ -5,17 +5,148 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "base/cancellation.hpp"
 #include "base/expects.hpp"
-#include "farmap/occluder_classifier.hpp"
+#include "farmap/bin_borders.hpp"
+#include "farmap/city_horizon.hpp"
+#include "farmap/edge_over_square.hpp"
 #include "farmap/occlusion_culler.hpp"
+#include "farmap/viewpoint_horizons.hpp"
+#include "package/baked_block.hpp"
 
 namespace farlod {
 namespace {
+
+/// Decides for each patch of a cell which candidates are explicit, and bounds the others.
+class OccluderClassifier {
+ public:
+  /// All must outlive it; `map` gets the explicit occluders and the bounds. The tolerance is HorizonMapSettings::tolerance.
+  OccluderClassifier(const CityHorizon& city, const ReceiverCell& cell, const ViewpointHorizons& viewpoints,
+                     const BinBorders& borders, double tolerance, BakedHorizon& map);
+
+  /// Makes an occluder (by its number in the city) explicit for the patches where it is significant, and bounds it for the
+  /// others. Returns the layers in which it is explicit, as bits.
+  std::uint32_t classify(std::uint32_t number);
+  /// No sky is seen below a lower border that grounded edges hide for certain: takes such ones out of the map. To be called last.
+  void drop_hidden_overhangs();
+
+ private:
+  void set_thresholds(std::uint32_t patch);
+  [[nodiscard]] bool is_significant(std::uint32_t patch, EdgeRole role);
+  void add_to_residual(std::uint32_t patch, EdgeRole role);
+
+  const CityHorizon& city_;
+  const ReceiverCell& cell_;
+  const ViewpointHorizons& viewpoints_;
+  const AzimuthBins& bins_;
+  double tolerance_;
+  BakedHorizon& map_;
+  std::vector<float> lowest_horizon_;      ///< rows as in the map: the lowest horizon that the patch's viewpoints see
+  std::vector<double> significant_above_;  ///< likewise: no edge below this slope is significant
+  std::vector<float> grounded_low_;        ///< likewise: residual grounded edges hide everything below it for certain
+  EdgeOverSquare edge_;                    ///< the current occluder, seen from all over a square
+};
+
+/// The threshold spares the exact comparison, and must not decide it: it is lower by more than its own rounding.
+constexpr double just_below = 1.0 - 1e-9;
+
+OccluderClassifier::OccluderClassifier(const CityHorizon& city, const ReceiverCell& cell, const ViewpointHorizons& viewpoints,
+                                       const BinBorders& borders, double tolerance, BakedHorizon& map)
+    : city_(city),
+      cell_(cell),
+      viewpoints_(viewpoints),
+      bins_(borders.bins()),
+      tolerance_(tolerance),
+      map_(map),
+      lowest_horizon_(map.high.size()),
+      significant_above_(map.high.size()),
+      grounded_low_(map.high.size()),
+      edge_(borders) {
+  for (std::uint32_t patch = 0; patch < cell_.patches.count(); ++patch) set_thresholds(patch);
+}
+
+/// Finds the lowest horizon of the patch's four viewpoints at its ceiling, and the slopes that exceed it by the tolerance.
+void OccluderClassifier::set_thresholds(std::uint32_t patch) {
+  const std::uint32_t n = cell_.patches.squares_per_edge(), square = patch % cell_.patches.squares(),
+                      level = cell_.ceiling_level(patch / cell_.patches.squares());
+  const std::uint32_t i = square % n, j = square / n;
+  for (std::uint32_t bin = 0; bin < bins_.count; ++bin) {
+    float lowest = viewpoints_.slope(i, j, level, bin);
+    for (const auto& [di, dj] : {std::pair{1U, 0U}, std::pair{0U, 1U}, std::pair{1U, 1U}})
+      lowest = std::min(lowest, viewpoints_.slope(i + di, j + dj, level, bin));
+    const std::size_t index = std::size_t{patch} * bins_.count + bin;
+    lowest_horizon_[index] = lowest;
+    significant_above_[index] = std::max<double>(lowest, just_below * slope_of_sine(sine_of_slope(lowest) + tolerance_));
+  }
+}
+
+std::uint32_t OccluderClassifier::classify(std::uint32_t number) {
+  const OccluderEdge& occluder = city_.occluders()[number];
+  const OccluderEdge placed = occluder.from(cell_.corner);
+  package::ExplicitOccluder explicit_in{number, 0, 0};
+  for (std::uint32_t square = 0; square < cell_.patches.squares(); ++square) {
+    const PatchBox box = cell_.patches.box(square);
+    edge_.set_edge(placed.a, placed.b, {box.low, box.high});
+    for (std::uint32_t layer = 0; layer < cell_.patches.layers(); ++layer) {
+      // What does not rise above the floor hides nothing there, nor in the layers above
+      if (occluder.z_high_m() <= cell_.patches.levels_m()[layer]) break;
+      const std::uint32_t patch = cell_.patches.number(square, layer);
+      if (edge_.is_unbounded() || is_significant(patch, occluder.role)) {
+        explicit_in.squares = static_cast<std::uint16_t>(explicit_in.squares | (1U << square));
+        explicit_in.layers = static_cast<std::uint16_t>(explicit_in.layers | (1U << layer));
+      } else {
+        add_to_residual(patch, occluder.role);
+      }
+    }
+  }
+  if (explicit_in.squares != 0) map_.explicit_edges.push_back(explicit_in);
+  return explicit_in.layers;
+}
+
+/// Whether the current edge can rise by more than the tolerance over what hides the sky anyway: the lowest horizon of the
+/// viewpoints, or the edge's own lower bound.
+bool OccluderClassifier::is_significant(std::uint32_t patch, EdgeRole role) {
+  const std::uint32_t layer = patch / cell_.patches.squares();
+  const std::size_t row = std::size_t{patch} * bins_.count;
+  const std::span<const double> high = edge_.high(cell_.patches.levels_m()[layer]);
+  const std::span<const double> low = edge_.low(cell_.patches.ceiling_m(layer));
+  bool significant = false;
+  for_each_bin(bins_, edge_.first_bin(), high.size(), [&](std::size_t n, std::uint32_t bin) {
+    if (significant || high[n] <= significant_above_[row + bin]) return;
+    // A lower border hides nothing: what is below it is open
+    const double hidden = role == EdgeRole::underside ? 0.0 : low[n];
+    const double hidden_anyway = std::max(static_cast<double>(lowest_horizon_[row + bin]), hidden);
+    significant = high[n] > hidden_anyway && sine_of_slope(high[n]) - sine_of_slope(hidden_anyway) > tolerance_;
+  });
+  return significant;
+}
+
+/// Raises the bounds of a patch by those of the current edge.
+void OccluderClassifier::add_to_residual(std::uint32_t patch, EdgeRole role) {
+  const std::uint32_t layer = patch / cell_.patches.squares();
+  const std::size_t row = std::size_t{patch} * bins_.count;
+  const auto raise = [&](std::vector<float>& rows, std::span<const double> slopes) {
+    for_each_bin(bins_, edge_.first_bin(), slopes.size(), [&](std::size_t n, std::uint32_t bin) {
+      rows[row + bin] = std::max(rows[row + bin], static_cast<float>(slopes[n]));
+    });
+  };
+  // An edge is seen steepest from the floor of the patch, and flattest from its ceiling
+  if (role == EdgeRole::underside) return raise(map_.overhang, edge_.high(cell_.patches.levels_m()[layer]));
+  raise(map_.high, edge_.high(cell_.patches.levels_m()[layer]));
+  raise(map_.low, edge_.low(cell_.patches.ceiling_m(layer)));
+  if (role == EdgeRole::grounded) raise(grounded_low_, edge_.low(cell_.patches.ceiling_m(layer)));
+}
+
+void OccluderClassifier::drop_hidden_overhangs() {
+  for (std::size_t n = 0; n < grounded_low_.size(); ++n)
+    if (map_.overhang[n] <= grounded_low_[n]) map_.overhang[n] = 0.0F;
+}
 
 /// Heads rise this much above the highest ground of a cell: receivers at 1.5 m stand in the lowest layer.
 constexpr float street_layer_m = 2.0F;

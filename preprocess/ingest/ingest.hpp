@@ -2,16 +2,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
 
 #include "city/source.hpp"
+#include "farlod/pack.hpp"
+#include "farlod/point.hpp"
 #include "farlod/problem.hpp"
 #include "ingest/files/input_file.hpp"
-#include "ingest/ingest_settings.hpp"
+#include "ingest/model_builder/lod_choice.hpp"
+#include "ingest/obj/obj_reader.hpp"
 
 namespace farlod::ingest {
+
+struct IngestSettings {
+  FootprintSettings footprints;
+  LodChoice lod;                      ///< CityGML and CityJSON
+  std::optional<Point3d> obj_origin;  ///< added to the coordinates of OBJ files, after turning them upright
+  UpAxis up = UpAxis::z;              ///< OBJ
+};
 
 /// Reads one file of a city: CityGML, CityJSON, OBJ, or footprints in any format that GDAL knows. For every file:
 ///   (1) coordinates are handed on as the file has them, in its own axis order;

@@ -5,27 +5,222 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <regex>
+#include <set>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
 
-#include "app/enriched_city.hpp"
-#include "app/kept_work.hpp"
 #include "app/quantity_options.hpp"
 #include "app/region_of_package.hpp"
+#include "app/result_key.hpp"
+#include "app/run_histogram.hpp"
 #include "app/sun_of_package.hpp"
 #include "app/svf_options.hpp"
 #include "app/svf_summary.hpp"
-#include "app/verification_file.hpp"
 #include "app/written_run.hpp"
+#include "base/durable_file.hpp"
 #include "console/bundled_fonts.hpp"
 #include "console/interruption.hpp"
 #include "console/output_files.hpp"
 #include "console/rough_number.hpp"
 #include "console/run_program.hpp"
+#include "farlod/answer_file.hpp"
 #include "farlod/error.hpp"
 #include "farlod/inspection.hpp"
+#include "farlod/package.hpp"
+#include "farlod/run.hpp"
+#include "farlod/surfaces.hpp"
+#include "results/city/enriched_city_file.hpp"
+#include "results/picture/error_map.hpp"
+#include "results/picture/plan_background.hpp"
+#include "results/spool_file.hpp"
+#include "results/table/verification_csv.hpp"
 
 namespace farlod {
 namespace {
+
+void write_map(const Package& package, const SvfOptions& options, std::size_t threads, const WrittenRun& written) {
+  const PackageDescription& city = package.description();
+  const EvaluationSummary& run = written.summary;
+  const GreyMap map = written.grey_map ? *written.grey_map : map_around(run.verified, city.outline_projected);
+  const ErrorMapCaption caption{quantity_name(options.evaluation.weight),
+                                city.epsg ? "EPSG:" + std::to_string(*city.epsg) : city.crs_name};
+  const PlanBackground background = plan_background(package, map.plan(), threads);
+  write_drawing(draw_error_map(map, background.outlines, run.verified, *run.errors, caption), options.verify_file);
+}
+
+/// Writes what --verify found out as --verify-map asks for it, a picture or a table, and adds the file to those of the run.
+void write_verification(const Package& package, const SvfOptions& options, std::size_t threads, WrittenRun& written) {
+  written.write_s += seconds_of([&] {
+    if (options.verify_format->is_picture)
+      write_map(package, options, threads, written);
+    else
+      write_verification_csv(written.summary.verified, quantity_name(options.evaluation.weight), options.verify_file);
+  });
+  written.files.emplace_back(options.verify_file);
+}
+
+/// The folder beside an output, OUT.unfinished, in which a run keeps the answers that it has, for the case that it does not come
+/// to its end: the same command goes on from there. Shards keep theirs in it, until they are merged.
+///   answers                  of a run that is no shard
+///   3_of_8.answers, .done    of a shard, and that it has all of its answers
+class KeptWork {
+ public:
+  /// Opens what is to be kept, or what is to be merged. Throws OutputError, which names the option that differs or the shard that
+  /// is missing; Busy.
+  KeptWork(const SvfOptions& options, const PackageDescription& package);
+  KeptWork(const KeptWork&) = delete;
+  KeptWork& operator=(const KeptWork&) = delete;
+  /// Removes the folder where it holds no answers.
+  ~KeptWork();
+
+  /// Tells a run what is kept, and which part of the work it has.
+  void tell(RunSettings& run) const;
+  /// What was found, for the user; empty if nothing.
+  [[nodiscard]] const std::string& finding() const { return finding_; }
+  /// The output is written, or the shard has all of its answers.
+  void finish();
+
+ private:
+  void open_own(const SvfOptions& options, const AnswerKey& key);
+  void open_shards(const SvfOptions& options, const AnswerKey& key);
+
+  std::filesystem::path folder_;
+  std::optional<Shard> shard_;
+  std::shared_ptr<AnswerFile> answers_;  ///< null where nothing is kept
+  std::string finding_;
+};
+
+namespace fs = std::filesystem;
+
+std::string name_of(Shard shard) { return fmt::format("{}_of_{}", shard.index, shard.count); }
+
+/// How many shards there are by the names of their files.
+std::set<std::size_t> shard_counts_in(const fs::path& folder) {
+  static const std::regex of_shard(R"([0-9]+_of_([0-9]+)\.(answers|done))");
+  std::set<std::size_t> counts;
+  std::error_code unread;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, unread)) {
+    std::smatch match;
+    const std::string name = entry.path().filename().string();
+    if (std::regex_match(name, match, of_shard)) counts.insert(std::stoul(match[1]));
+  }
+  return counts;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw OutputError(folder, error.message());
+}
+
+KeptWork::KeptWork(const SvfOptions& options, const PackageDescription& package)
+    : folder_(options.output.string() + ".unfinished"), shard_(options.shard) {
+  // Single places and estimates take no time
+  if (options.source == ReceiverSource::at || options.evaluation.dry_run) return;
+  const AnswerKey key = key_of_answers(options, package);
+  options.merge ? open_shards(options, key) : open_own(options, key);
+}
+
+void KeptWork::open_own(const SvfOptions& options, const AnswerKey& key) {
+  make_folder(folder_);
+  const auto of_another = options.resume || shard_ ? AnswerFile::OfAnotherKey::refuse : AnswerFile::OfAnotherKey::replace;
+  if (shard_) {
+    for (const std::size_t count : shard_counts_in(folder_))
+      if (count != shard_->count)
+        throw OutputError(
+            fmt::format("{} is being computed in {} shards, and --shard says {}: give the same number to all, or "
+                        "remove {}.",
+                        options.output.string(), count, shard_->count, folder_.string()));
+  }
+  const fs::path file = folder_ / (shard_ ? name_of(*shard_) + ".answers" : "answers");
+  answers_ = std::make_shared<AnswerFile>(AnswerFile::open(file, key, of_another));
+  if (!answers_->replaced().empty())
+    finding_ = "Removed what an earlier run had left of other answers (" + answers_->replaced() + ").";
+  else if (answers_->cells() > 0)
+    finding_ = fmt::format("Going on with what an earlier run has left: the answers of {} cells.", answers_->cells());
+}
+
+void KeptWork::open_shards(const SvfOptions& options, const AnswerKey& key) {
+  const std::set<std::size_t> counts = shard_counts_in(folder_);
+  if (counts.empty())
+    throw OutputError(
+        fmt::format("there is nothing to merge into {}: no shard has computed a part of it (--shard).", options.output.string()));
+  if (counts.size() > 1)
+    throw OutputError(fmt::format("{} holds shards of {} and of {}: remove those that are not wanted.", folder_.string(),
+                                  *counts.begin(), *counts.rbegin()));
+  std::vector<fs::path> files;
+  std::string missing;
+  for (Shard shard{0, *counts.begin()}; shard.index < shard.count; ++shard.index) {
+    files.push_back(folder_ / (name_of(shard) + ".answers"));
+    if (!fs::exists(folder_ / (name_of(shard) + ".done")))
+      missing += fmt::format("{}{}/{}", missing.empty() ? "" : ", ", shard.index, shard.count);
+  }
+  if (!missing.empty())
+    throw OutputError(
+        fmt::format("{} is not complete: these shards are missing: {}. Run them, then merge.", options.output.string(), missing));
+  answers_ = std::make_shared<AnswerFile>(AnswerFile::together(files, key));
+}
+
+KeptWork::~KeptWork() {
+  if (!answers_) return;
+  const bool is_own = !answers_->is_read_only();
+  if (!is_own || answers_->cells() > 0) return;
+  std::error_code ignored;
+  fs::remove(folder_ / (shard_ ? name_of(*shard_) + ".answers" : "answers"), ignored);
+  fs::remove(folder_, ignored);  // where it is empty now
+}
+
+void KeptWork::tell(RunSettings& run) const {
+  run.answers = answers_;
+  run.shard = shard_;
+}
+
+void KeptWork::finish() {
+  if (!answers_) return;
+  if (shard_) return write_durably(folder_ / (name_of(*shard_) + ".done"), std::string_view(""));
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+  answers_.reset();
+}
+
+/// Asked before the work, which may take hours.
+void require_writable(const SvfOptions& options) {
+  std::error_code does_not_exist;
+  if (std::filesystem::equivalent(options.output, options.city_file, does_not_exist))
+    throw OutputError(options.output, "it is the file of --city; choose another name");
+  const SpoolFile probe(options.output);
+}
+
+/// The run of --city: writes the file that the package was made of again, with the values as attributes of its buildings and
+/// semantic surfaces. Throws InputError before the work where the file is another one, and what the library throws.
+WrittenRun write_enriched_city(const Package& package, const SvfOptions& options, const RunSettings& run) {
+  require_writable(options);
+  const EnrichedCityFile city(
+      package, options.package.string(), options.city_file,
+      {quantity_name(options.evaluation.weight), BoundsColumns::no, column_descriptions_of(options.evaluation.further)});
+  city.require_fitting(options.output);
+  RunHistogram histogram(options);
+  const OnSurfacePoints count = [&histogram](std::size_t, std::span<const SurfacePoint> points) { histogram.add(points); };
+  const SurfaceMeans means =
+      evaluate_surfaces(package, options.surfaces, options.evaluation, histogram.is_wanted() ? count : OnSurfacePoints{}, run);
+  WrittenRun written{means.summary};
+  written.output_bytes = static_cast<double>(std::filesystem::file_size(options.city_file));
+  if (!options.writes()) return written;
+  written.files = {options.output};
+  const auto start = std::chrono::steady_clock::now();
+  written.notes = city.write(package, means, options.output);
+  histogram.write(options);
+  written.write_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return written;
+}
 
 using Clock = std::chrono::steady_clock;
 
@@ -174,6 +369,7 @@ int run(const SvfOptions& options) {
 }
 
 }  // namespace
+
 }  // namespace farlod
 
 int main(int argc, char** argv) {

@@ -8,16 +8,28 @@
 #include <span>
 #include <vector>
 
-#include "evaluate/horizon_distances.hpp"
 #include "evaluate/quantity_table.hpp"
 #include "evaluate/sky_halves.hpp"
+#include "farlod/point.hpp"
 #include "farlod/quantities.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/sky_profile.hpp"
+#include "occlusion/occluder.hpp"
 #include "package/manifest.hpp"
 
 namespace farlod {
+
+/// Where a receiver's values have its horizons and their distances: from `elevations` and `distances` on, one for each direction.
+struct HorizonColumns {
+  std::size_t elevations = 0, distances = 0;
+  std::vector<Point2d> directions_grid = {};  ///< of length 1; empty where no distances are asked for
+};
+
+/// Fills the distances of a receiver whose horizons are known: level ones, in metres, to what is met nearest just below the
+/// horizon. NaN where the horizon is level ground, and where nothing is met within two degrees below it. `origin` is the place of
+/// the receiver in a scene of the whole city.
+void trace_horizon_distances(const Occluder& city, const Point3f& origin, const HorizonColumns& columns, std::span<float> values);
 
 /// Azimuths at which horizons are sampled, where these quantities are asked for: at least so many, and a multiple of the
 /// horizons.

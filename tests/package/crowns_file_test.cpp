@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-#include "package/file_stamp.hpp"
+#include "package/written_stamp.hpp"
 #include "package/manifest_reader.hpp"
 #include "package/package_reader.hpp"
 #include "tests/package/small_package.hpp"

@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-#include "package/file_stamp.hpp"
+#include "package/written_stamp.hpp"
 #include "package/manifest_reader.hpp"
 #include "package/sources_writer.hpp"
 #include "tests/package/small_package.hpp"

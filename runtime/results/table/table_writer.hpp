@@ -14,11 +14,24 @@
 
 #include "farlod/angle.hpp"
 #include "farlod/package.hpp"
+#include "farlod/point.hpp"
+#include "farlod/surfaces.hpp"
 #include "points/attributes.hpp"
 #include "results/provenance.hpp"
-#include "results/table/sky_table.hpp"
 
 namespace farlod {
+
+/// A receiver that the user named, with its answer; no answer when it lies inside a building.
+struct PointRow {
+  std::string id;
+  Point2d p_projected;             ///< easting and northing
+  std::optional<double> height_m;  ///< where it stands; unknown inside a building
+  std::optional<double> svf;
+  std::optional<double> low, high;  ///< certain bounds, where asked for
+  /// Where it looks, clockwise from true north and from straight up; none: straight up.
+  std::optional<double> azimuth_deg = {}, tilt_deg = {};
+  std::span<const float> further = {};  ///< as many as AnswerColumns::further; NaN where there is no answer
+};
 
 /// Whether tables of receivers have columns for the bounds.
 enum class BoundsColumns { no, yes };
