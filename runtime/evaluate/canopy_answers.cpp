@@ -265,8 +265,7 @@ void CanopyAnswers::count_by_name(const SkyProfile& profile, const ReceiverPacke
   }
 }
 
-void CanopyAnswers::trace(const ReceiverPacket& receivers, const SkiesOfPacket& skies, std::uint32_t wanted,
-                          Answers& answers) const {
+void CanopyAnswers::trace(const ReceiverPacket& receivers, const SkiesOfPacket& skies, std::uint32_t wanted, Answers& answers) {
   if (wanted == 0) return;
   std::vector<Receiver> traced;
   for (std::size_t l = 0; l < receivers.count; ++l)
@@ -274,7 +273,11 @@ void CanopyAnswers::trace(const ReceiverPacket& receivers, const SkiesOfPacket& 
       traced.push_back({l,
                         {receivers.x[l], receivers.y[l], receivers.z[l]},
                         {receivers.normal_x[l], receivers.normal_y[l], receivers.normal_z[l]}});
-  const std::vector<float> totals = certainty_.trace(traced);
+  const PlacedScene scene = certainty_.city->seen_from(cell_.cell);
+  const CrownOccluder& crowns = certainty_.city->crowns(further_.quantities().canopy);
+  retraced_rays_ += traced.size() * certainty_.directions->ray_count();
+  const std::vector<float> totals =
+      trace_svf_totals({scene.occluder, crowns}, scene.scene_from_cell_m, *certainty_.directions, traced, stop_);
   for (std::size_t n = 0; n < traced.size(); ++n) {
     const float total = std::min(totals[n], skies[traced[n].index].svf.estimate);
     answers[traced[n].index].svf_total = {total, total, total};

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -12,7 +11,8 @@
 
 #include "evaluate/crowns_of_cell.hpp"
 #include "evaluate/further_quantities.hpp"
-#include "evaluate/sky_evaluator.hpp"
+#include "evaluate/sky_answers.hpp"
+#include "evaluate/sky_directions.hpp"
 #include "evaluate/sky_halves.hpp"
 #include "evaluate/svf_total.hpp"
 #include "evaluate/traced_canopy.hpp"
@@ -23,6 +23,7 @@
 #include "package/crown.hpp"
 #include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
+#include "scene/whole_city.hpp"
 
 namespace farlod {
 
@@ -54,8 +55,8 @@ struct CanopyCertainty {
   /// How far answers may be from the ends of it: otherwise crowns count one by one, and where that is not enough, rays are
   /// traced.
   std::optional<double> max_error = std::nullopt;
-  /// The exact answers of receivers of the cell.
-  std::function<std::vector<float>(std::span<const Receiver>)> trace = {};
+  const WholeCityOnDemand* city = nullptr;    ///< what rays are traced against
+  const SkyDirections* directions = nullptr;  ///< of these rays
 };
 
 /// What the crowns around a cell take of the view of its receivers, by profiles of the sky. Of one thread.
@@ -72,6 +73,8 @@ class CanopyAnswers {
   /// the next call.
   [[nodiscard]] std::span<const Answers> evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets,
                                                   std::span<const SkiesOfPacket> skies);
+  /// How many rays were traced against the whole city so far.
+  [[nodiscard]] std::uint64_t retraced_rays() const { return retraced_rays_; }
 
  private:
   [[nodiscard]] Answers of_packet(const SkyProfile& profile, const ReceiverPacket& receivers, const SkiesOfPacket& skies,
@@ -86,7 +89,7 @@ class CanopyAnswers {
   [[nodiscard]] std::uint32_t too_wide(const ReceiverPacket& receivers, const Answers& answers) const;
   void count_by_name(const SkyProfile& profile, const ReceiverPacket& receivers, const SkiesOfPacket& skies, std::uint32_t wanted,
                      Answers& answers);
-  void trace(const ReceiverPacket& receivers, const SkiesOfPacket& skies, std::uint32_t wanted, Answers& answers) const;
+  void trace(const ReceiverPacket& receivers, const SkiesOfPacket& skies, std::uint32_t wanted, Answers& answers);
 
   const PackageReader& package_;
   const CellReceivers& cell_;
@@ -100,6 +103,7 @@ class CanopyAnswers {
   std::optional<CrownsOfCell> by_name_;  ///< made when first needed, as the next ones, which are for rays
   std::optional<Occluder> near_;
   std::optional<CrownOccluder> occluder_;
+  std::uint64_t retraced_rays_ = 0;
 };
 
 }  // namespace farlod

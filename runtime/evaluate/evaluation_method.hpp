@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include "base/grid.hpp"
 #include "farlod/evaluation.hpp"
 #include "package/package_reader.hpp"
@@ -27,6 +29,7 @@ enum class EvaluationMethod {
   near_scene_alone,       ///< its ray meets no near tile
   whole_city              ///< its ray meets no tile of the package
 };
+inline constexpr std::size_t evaluation_method_count = 6;
 
 /// The only place that decides which method answers a cell:
 ///

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/expects.hpp"
+#include "evaluate/traced_profile.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/overhangs.hpp"
 
@@ -56,16 +57,9 @@ void FurtherAnswers::listen_to(HorizonEngine& engine) {
   });
 }
 
-void FurtherAnswers::trace(std::span<const ReceiverPacket> packets, const BlockedRaysOfPacket& blocked,
-                           const std::stop_token& stop) {
+void FurtherAnswers::trace(std::span<const ReceiverPacket> packets, const RayScene& scene, const std::stop_token& stop) {
   while (profiles_.size() < packets.size()) profiles_.emplace_back(quantities_.azimuths());
-  for (std::size_t n = 0; n < packets.size(); ++n) {
-    const auto all = static_cast<std::uint32_t>((std::uint64_t{1} << packets[n].count) - 1);
-    const auto of_packet = [&](const Occluder::Directions& directions, std::uint32_t wanted) {
-      return blocked(packets[n], directions, wanted);
-    };
-    trace_profile(quantities_.azimuths(), of_packet, all, profiles_[n], stop);
-  }
+  for (std::size_t n = 0; n < packets.size(); ++n) trace_profile(quantities_.azimuths(), scene, packets[n], profiles_[n], stop);
 }
 
 void FurtherAnswers::draw_near_sky(const PackageReader& package, const FarHorizon& far, const GapSettings& gaps) {

@@ -11,8 +11,8 @@
 
 #include "evaluate/canopy_answers.hpp"
 #include "evaluate/further_quantities.hpp"
-#include "evaluate/sky_evaluator.hpp"
-#include "evaluate/traced_profile.hpp"
+#include "evaluate/sky_answers.hpp"
+#include "evaluate/visibility.hpp"
 #include "horizon/horizon_engine.hpp"
 #include "package/far_horizon.hpp"
 #include "package/package_reader.hpp"
@@ -38,7 +38,7 @@ class FurtherAnswers {
   /// Profiles are those that the engine draws for a group.
   void listen_to(HorizonEngine& engine);
   /// Profiles are traced for a group.
-  void trace(std::span<const ReceiverPacket> packets, const BlockedRaysOfPacket& blocked, const std::stop_token& stop);
+  void trace(std::span<const ReceiverPacket> packets, const RayScene& scene, const std::stop_token& stop);
 
   /// The sky above the near geometry alone is drawn for each group, where the far map is this one; or it is known for each
   /// receiver of the cell.
@@ -46,6 +46,8 @@ class FurtherAnswers {
   /// The values of canopies are found for each group; otherwise their places are left out. store() then needs what is drawn.
   void draw_canopies(const PackageReader& package, CanopyCertainty certainty, std::stop_token stop);
   void set_near_sky(std::vector<float> svf) { near_svf_ = std::move(svf); }
+  /// How many rays were traced against the whole city so far.
+  [[nodiscard]] std::uint64_t retraced_rays() const { return canopies_ ? canopies_->retraced_rays() : 0; }
 
   /// `numbers` are those of the receivers in the cell, packet by packet.
   void store(std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers, const DrawnAnswers& drawn = {});

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/cancellation.hpp"
-#include "evaluate/visibility.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/residual_horizon.hpp"
@@ -58,7 +57,8 @@ SkyParts parts_by_horizons(const HemisphereDirections& directions, const Receive
       const Point3f direction = directions.direction(n, e);
       if (has_gaps && is_in_gap(horizons, k, directions.slopes[e])) {
         const PlacedScene scene = overhangs.scene();
-        if ((scene.occluder.blocked(scene.origins_of(packet), direction, least_distance_m, only_receiver) & only_receiver) == 0)
+        if ((scene.occluder.blocked(origins_of(packet, scene.scene_from_cell_m), direction, least_distance_m, only_receiver) &
+             only_receiver) == 0)
           continue;
       }
       result.parts[n * elevations + e] = part_of_hidden(near, receiver, direction);
@@ -68,7 +68,7 @@ SkyParts parts_by_horizons(const HemisphereDirections& directions, const Receive
 }
 
 SkyParts parts_by_rays(const HemisphereDirections& directions, const Receiver& receiver, const Occluder& near,
-                       const std::function<bool(const Point3f& direction)>& is_hidden, const std::stop_token& stop) {
+                       const RayScene& scene, const std::stop_token& stop) {
   const std::size_t elevations = directions.slopes.size();
   SkyParts result{std::vector(directions.azimuths.size() * elevations, SkyPart::sky),
                   std::vector<float>(directions.azimuths.size(), 0.0F)};
@@ -76,7 +76,7 @@ SkyParts parts_by_rays(const HemisphereDirections& directions, const Receiver& r
     throw_if_cancelled(stop);
     for (std::size_t e = 0; e < elevations; ++e) {
       const Point3f direction = directions.direction(n, e);
-      if (!is_hidden(direction)) continue;
+      if (!scene.blocks(receiver.p_cell, direction)) continue;
       result.parts[n * elevations + e] = part_of_hidden(near, receiver, direction);
       // The sky begins in the middle between two directions
       result.horizon[n] =

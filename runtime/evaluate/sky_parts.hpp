@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <stop_token>
 #include <vector>
 
 #include "evaluate/traced_canopy.hpp"
+#include "evaluate/visibility.hpp"
 #include "farlod/hemisphere.hpp"
 #include "farlod/point.hpp"
 #include "horizon/cell_silhouettes.hpp"
@@ -40,9 +40,9 @@ struct SkyParts {
                                          const CellSilhouettes& silhouettes, OverhangGeometry& overhangs, const Occluder& near,
                                          const std::stop_token& stop);
 
-/// What a receiver sees that is answered by rays: `is_hidden` says it of a direction.
+/// What a receiver sees that is answered by rays against a scene.
 [[nodiscard]] SkyParts parts_by_rays(const HemisphereDirections& directions, const Receiver& receiver, const Occluder& near,
-                                     const std::function<bool(const Point3f& direction)>& is_hidden, const std::stop_token& stop);
+                                     const RayScene& scene, const std::stop_token& stop);
 
 /// Makes the parts crowns that meet one before anything solid. The scene has the frame of the receiver.
 void mark_crowns(const HemisphereDirections& directions, const Receiver& receiver, const CanopyScene& scene,

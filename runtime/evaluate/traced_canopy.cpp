@@ -49,7 +49,7 @@ void add(const CanopyScene& scene, const RayOrigins& origins, const Point3d& dir
   const Point3f direction = rounded(direction_d);
   const CrownLights light = scene.crowns.light(origins, direction, least_distance_m, wanted);
   if (light.met == 0) return;
-  const bool is_hidden_far = scene.is_hidden_far && scene.is_hidden_far(direction_d);
+  const bool is_hidden_far = scene.far != nullptr && scene.far->blocks(direction_d);
   const std::uint32_t blocked = is_hidden_far ? light.met : scene.solid.blocked(origins, direction, least_distance_m, light.met);
   // What is solid may be nearer than the first crown, or hide its light from behind
   const Occluder::Distances solid = scene.solid.distances(origins, direction, least_distance_m, blocked);

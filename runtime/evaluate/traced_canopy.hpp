@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "farlod/point.hpp"
 #include "occlusion/crown_occluder.hpp"
 #include "occlusion/occluder.hpp"
+#include "package/far_map_reader.hpp"
 
 namespace farlod {
 
@@ -29,8 +29,7 @@ struct CanopyLoss {
 struct CanopyScene {
   const Occluder& solid;
   const CrownOccluder& crowns;
-  /// Whether something solid beyond `solid` and all crowns lies in a direction. May be empty: then nothing does.
-  std::function<bool(const Point3d& direction)> is_hidden_far = {};
+  const BoxFarMap* far = nullptr;  ///< what is solid beyond `solid` and all crowns; null where nothing is
 };
 
 /// Whether a crown that a ray enters at this distance is met before anything solid. Distances count in the direction's length.

@@ -10,7 +10,7 @@
 
 #include "base/cancellation.hpp"
 #include "farlod/angle.hpp"
-#include "horizon/receiver_packet.hpp"
+#include "horizon/overhangs.hpp"
 
 namespace farlod {
 namespace {
@@ -31,17 +31,17 @@ double sky_of(std::size_t degree) {
 /// Asks rays at one azimuth, each receiver at an elevation of its own.
 class RaysAtAzimuth {
  public:
-  RaysAtAzimuth(float cosine, float sine, const BlockedRays& blocked) : blocked_(blocked) {
+  RaysAtAzimuth(float cosine, float sine, const RayScene& scene, const RayOrigins& origins) : scene_(scene), origins_(origins) {
     directions_.x.fill(cosine);
     directions_.y.fill(sine);
   }
   [[nodiscard]] std::uint32_t are_blocked(double elevation_deg, std::uint32_t wanted) {
     directions_.z.fill(slope_at(elevation_deg));
-    return blocked_(directions_, wanted) & wanted;
+    return scene_.blocked(origins_, directions_, wanted) & wanted;
   }
   [[nodiscard]] std::uint32_t are_blocked(const std::array<double, packet_lanes>& elevations_deg, std::uint32_t wanted) {
     for (std::size_t l = 0; l < packet_lanes; ++l) directions_.z[l] = slope_at(elevations_deg[l]);
-    return blocked_(directions_, wanted) & wanted;
+    return scene_.blocked(origins_, directions_, wanted) & wanted;
   }
   /// The elevation between one that is blocked and one that is free, at which that changes. Where nothing above the horizontal is
   /// blocked, the horizontal.
@@ -60,7 +60,8 @@ class RaysAtAzimuth {
   }
 
  private:
-  const BlockedRays& blocked_;
+  const RayScene& scene_;
+  const RayOrigins& origins_;
   Occluder::Directions directions_;
 };
 
@@ -162,13 +163,15 @@ class ProfileAtAzimuth {
 
 }  // namespace
 
-void trace_profile(const AzimuthSampling& azimuths, const BlockedRays& blocked_rays, std::uint32_t wanted, SkyProfile& profile,
+void trace_profile(const AzimuthSampling& azimuths, const RayScene& scene, const ReceiverPacket& receivers, SkyProfile& profile,
                    const std::stop_token& stop) {
+  const RayOrigins origins = origins_of(receivers, scene.solid.scene_from_cell_m);
+  const auto wanted = static_cast<std::uint32_t>((std::uint64_t{1} << receivers.count) - 1);
   for (SkyProfile::Rows* rows : {&profile.gap_from, &profile.gap_to, &profile.gap_share, &profile.sky, &profile.solid_sky})
     rows->clear();
   for (std::size_t k = 0; k < azimuths.size(); ++k) {
     throw_if_cancelled(stop);
-    RaysAtAzimuth rays(azimuths.cosine()[k], azimuths.sine()[k], blocked_rays);
+    RaysAtAzimuth rays(azimuths.cosine()[k], azimuths.sine()[k], scene, origins);
     ProfileAtAzimuth at_azimuth(rays, wanted);
     at_azimuth.find_sky(profile.sky_from[k]);
     at_azimuth.find_gaps(k, profile);

@@ -36,4 +36,16 @@ std::vector<std::uint32_t> count_free(const Occluder& occluder, std::span<const 
   return free;
 }
 
+bool RayScene::blocks(const Point3f& p_cell, const Point3f& direction) const {
+  return is_far_blocked({direction.x, direction.y, direction.z}) ||
+         solid.occluder.blocks({placed(p_cell, solid.scene_from_cell_m), direction, least_distance_m});
+}
+
+std::uint32_t RayScene::blocked(const RayOrigins& origins, const Occluder::Directions& directions, std::uint32_t wanted) const {
+  std::uint32_t by_far = 0;
+  for (std::size_t l = 0; l < RayOrigins::lanes && far != nullptr; ++l)
+    by_far |= far->blocks({directions.x[l], directions.y[l], directions.z[l]}) ? 1U << l : 0U;
+  return by_far | solid.occluder.blocked(origins, directions, least_distance_m, wanted);
+}
+
 }  // namespace farlod

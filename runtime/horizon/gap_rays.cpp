@@ -77,7 +77,7 @@ SeenInGaps trace_gaps(const Gaps& gaps, const AzimuthSampling& azimuths, SkyWeig
                       std::uint32_t wanted, std::size_t rays_per_azimuth, const PlacedScene& scene, const std::stop_token& stop,
                       std::span<PacketHorizon::Row> of_azimuths) {
   const SkyKernels& kernels = sky_kernels();
-  const RayOrigins origins = scene.origins_of(receivers);
+  const RayOrigins origins = origins_of(receivers, scene.scene_from_cell_m);
   SeenInGaps seen;
   for (std::size_t k = 0; k < azimuths.size(); ++k) {
     const OpenLanes open = open_lanes(gaps.sky[k], wanted);

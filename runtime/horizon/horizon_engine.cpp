@@ -202,7 +202,7 @@ HorizonEngine::Retraced HorizonEngine::retrace(const ReceiverPacket& receivers, 
     }
     undecided_.add_gaps(most_sky_of_gaps_, sky_of_gaps_, without_residual_);
   }
-  const UndecidedSky::Decided decided = undecided_.decide(wanted, allowed_->whole_city(), weight_, receivers);
+  const UndecidedSky::Decided decided = undecided_.decide(wanted, allowed_->city.seen_from(allowed_->cell), weight_, receivers);
   for (std::size_t l = 0; l < receivers.count; ++l) {
     if (!has_bit(wanted.receivers, l)) continue;
     const double low = static_cast<double>(sky.low[l]) + decided.seen[l];

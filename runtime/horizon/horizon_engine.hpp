@@ -65,7 +65,8 @@ struct GapSettings {
 /// How far answers may be from the ends of their bounds. Where the far map and gaps leave more undecided, rays decide it.
 struct AllowedFarError {
   double error = 0.0;
-  std::function<PlacedScene()> whole_city;  ///< is asked for when it is needed first
+  const WholeCityOnDemand& city;
+  Cell cell;  ///< that of the receivers
 };
 
 /// Sky view factors from horizons: edges are drawn for each receiver, and the sky above them is integrated in closed form. For
@@ -76,7 +77,7 @@ class HorizonEngine {
   HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, const FarHorizon& far, const CellSilhouettes& silhouettes,
                 OverhangGeometry& overhangs, const GapSettings& gaps, JumpPlaces jumps = JumpPlaces::at_edge_ends);
   /// From now on, evaluate_with_bounds keeps this error.
-  void keep(AllowedFarError allowed) { allowed_ = std::move(allowed); }
+  void keep(const AllowedFarError& allowed) { allowed_.emplace(allowed); }
   /// From now on, calls `on_profile(n, profile)` for each packet when its answer is known, with its number in the call, and what
   /// its answer is the estimate of, which may be swapped with another profile of these azimuths. Rays that an allowed error asks
   /// for do not change it. Only with SkyWeight::cosine, and jumps at the ends of edges.

@@ -54,8 +54,8 @@ bool is_upright(const OverhangGeometry::TriangleCorners& t) {
 
 }  // namespace
 
-OverhangGeometry::OverhangGeometry(const PackageReader& package, Cell cell, WholeScene whole_scene)
-    : package_(package), cell_(cell), whole_scene_(std::move(whole_scene)) {
+OverhangGeometry::OverhangGeometry(const PackageReader& package, Cell cell, const WholeCityOnDemand* city)
+    : package_(package), cell_(cell), city_(city) {
   // Buildings that are cut at the borders of cells are above their own cell alone
   const bool is_cut = package.manifest().assign != "whole";
   constexpr std::int32_t reach = TrianglesOfCell::reach_of_whole_buildings;
@@ -87,7 +87,7 @@ std::vector<OverhangGeometry::TriangleCorners> OverhangGeometry::triangles_in(co
 }
 
 PlacedScene OverhangGeometry::scene() {
-  if (whole_scene_) return whole_scene_(cell_);
+  if (city_ != nullptr) return city_->seen_from(cell_);
   if (scene_) return {*scene_, {}};
   std::vector<Point3f> vertices;
   std::vector<Triangle> triangles;

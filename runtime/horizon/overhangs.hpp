@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,36 +16,30 @@
 #include "horizon/receiver_packet.hpp"
 #include "horizon/sky_partition.hpp"
 #include "occlusion/occluder.hpp"
+#include "occlusion/placed_mesh.hpp"
 #include "package/package_reader.hpp"
+#include "scene/whole_city.hpp"
 
 /// Overhangs: occluders that sky may be seen below. docs/concepts.md, "What is grounded, and what overhangs".
 namespace farlod {
 
-/// A scene, and the place of its frame: added to a place of the cell frame, gives one of the scene.
-struct PlacedScene {
-  const Occluder& occluder;
-  Point2d scene_from_cell_m;
-
-  [[nodiscard]] RayOrigins origins_of(const ReceiverPacket& receivers) const {
-    RayOrigins origins{receivers.x, receivers.y, receivers.z};
-    for (std::size_t l = 0; l < RayOrigins::lanes; ++l) {
-      origins.x[l] = static_cast<float>(origins.x[l] + scene_from_cell_m.x);
-      origins.y[l] = static_cast<float>(origins.y[l] + scene_from_cell_m.y);
-    }
-    return origins;
+/// The receivers of a cell in the frame of a scene.
+[[nodiscard]] inline RayOrigins origins_of(const ReceiverPacket& receivers, Point2d scene_from_cell_m) {
+  RayOrigins origins{receivers.x, receivers.y, receivers.z};
+  for (std::size_t l = 0; l < RayOrigins::lanes; ++l) {
+    origins.x[l] = static_cast<float>(origins.x[l] + scene_from_cell_m.x);
+    origins.y[l] = static_cast<float>(origins.y[l] + scene_from_cell_m.y);
   }
-};
+  return origins;
+}
 
 /// The overhanging buildings around a cell (not SurfaceRecord::is_grounded), triangle by triangle. Cell frame. Of one thread.
 class OverhangGeometry {
  public:
   using TriangleCorners = std::array<Point3f, 3>;
 
-  /// Answers with a scene of the whole city.
-  using WholeScene = std::function<PlacedScene(Cell)>;
-
-  /// The package must outlive it. With `whole_scene`, rays are traced against that instead of a scene of the cell's own.
-  OverhangGeometry(const PackageReader& package, Cell cell, WholeScene whole_scene = {});
+  /// The package and the city must outlive it. With a city, rays are traced against that instead of a scene of the cell's own.
+  OverhangGeometry(const PackageReader& package, Cell cell, const WholeCityOnDemand* city = nullptr);
 
   /// A bit for each receiver that is below an overhang.
   [[nodiscard]] std::uint32_t receivers_below(const ReceiverPacket& receivers) const;
@@ -58,7 +51,7 @@ class OverhangGeometry {
 
   const PackageReader& package_;
   Cell cell_;
-  WholeScene whole_scene_;
+  const WholeCityOnDemand* city_;
   std::vector<TriangleCorners> overhead_;  ///< what may lie above receivers of the cell
   std::optional<Occluder> scene_;
 };

@@ -102,7 +102,7 @@ UndecidedSky::Decided UndecidedSky::decide(const Wanted& wanted, const PlacedSce
   std::uint32_t closed = 0;
   for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
     if (has_bit(wanted.receivers, l) && plan(l, wanted.max_width) == most_halvings) closed |= 1U << l;
-  const Tracing tracing{wanted, city, weight, receivers, city.origins_of(receivers)};
+  const Tracing tracing{wanted, city, weight, receivers, origins_of(receivers, city.scene_from_cell_m)};
   for (std::size_t k = 0; k < azimuths_.size(); ++k)
     if (halved_at(k, 0) != 0) halve(k, tracing, decided);
   trace_gaps(tracing, decided);

@@ -19,6 +19,12 @@ struct PlacedMesh {
   Point2d corner_m;
 };
 
+/// An occluder, and the place of its frame: added to a place of the cell frame, gives one of the occluder's.
+struct PlacedScene {
+  const Occluder& occluder;
+  Point2d scene_from_cell_m;
+};
+
 /// A place of a tile in the frame of a scene. The offset is added in double and rounded once, so that what touches across a
 /// border of cells still touches: docs/concepts.md, "Why a border has no gap".
 [[nodiscard]] inline Point3f placed(const Point3f& p, Point2d corner_m) {

@@ -86,7 +86,7 @@ void RayEngine::trace_gaps() {
                         (wants_bounds_ && for_high_.lower_borders.exceeds(for_high_.grounded) != 0);
   if (!has_gaps) return;
   const PlacedScene scene = overhangs_.scene();
-  const RayOrigins origins = scene.origins_of(packet_);
+  const RayOrigins origins = origins_of(packet_, scene.scene_from_cell_m);
   for (std::uint32_t k = 0; k < directions_.size(); ++k) {
     look_for_stop(k);
     const float slope = directions_.slopes()[k];

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/whole_city.hpp"
 
-#include "occlusion/placed_mesh.hpp"
+#include <utility>
+
+#include "scene/near_crowns.hpp"
 
 namespace farlod {
 
@@ -13,5 +15,21 @@ WholeCity::WholeCity(const PackageReader& package, const std::stop_token& stop)
           grid_, grid_.cells, origin_grid_, [&](Cell c) { return package.tile(c).mesh; }, stop)) {}
 
 Point3f WholeCity::scene_from_cell(const Point3f& p_cell, Cell cell) const { return placed(p_cell, scene_from_cell_m(cell)); }
+
+WholeCityOnDemand::WholeCityOnDemand(const PackageReader& package, std::stop_token stop)
+    : package_(package), stop_(std::move(stop)) {}
+
+const WholeCity& WholeCityOnDemand::city() const {
+  std::call_once(has_city_, [&] { city_.emplace(package_, stop_); });
+  return *city_;
+}
+
+const CrownOccluder& WholeCityOnDemand::crowns(const CanopySettings& settings) const {
+  std::call_once(has_crowns_, [&] {
+    const Grid& grid = package_.grid();
+    crowns_.emplace(crowns_of_whole_city(package_, grid.cell_of(grid.middle_corner())), settings, stop_);
+  });
+  return *crowns_;
+}
 
 }  // namespace farlod

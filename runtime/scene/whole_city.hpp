@@ -2,10 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <mutex>
+#include <optional>
 #include <stop_token>
 
 #include "base/grid.hpp"
+#include "farlod/canopy.hpp"
+#include "occlusion/crown_occluder.hpp"
 #include "occlusion/occluder.hpp"
+#include "occlusion/placed_mesh.hpp"
 #include "package/package_reader.hpp"
 
 namespace farlod {
@@ -27,6 +32,27 @@ class WholeCity {
   const Grid& grid_;
   Point2d origin_grid_;
   Occluder occluder_;
+};
+
+/// The scene of the whole city, and its crowns in the frame of that scene: each is made when it is first asked for. Threads may
+/// share it.
+class WholeCityOnDemand {
+ public:
+  /// The package must outlive it. What is asked for ends with Cancelled when `stop` is asked for.
+  WholeCityOnDemand(const PackageReader& package, std::stop_token stop);
+
+  [[nodiscard]] const WholeCity& city() const;
+  /// The scene for receivers of a cell.
+  [[nodiscard]] PlacedScene seen_from(Cell cell) const { return {city().occluder(), city().scene_from_cell_m(cell)}; }
+  /// `settings` are the same at each call.
+  [[nodiscard]] const CrownOccluder& crowns(const CanopySettings& settings) const;
+
+ private:
+  const PackageReader& package_;
+  std::stop_token stop_;
+  mutable std::once_flag has_city_, has_crowns_;
+  mutable std::optional<WholeCity> city_;
+  mutable std::optional<CrownOccluder> crowns_;
 };
 
 }  // namespace farlod

@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "base/cancellation.hpp"
+#include "evaluate/error_budget.hpp"
+#include "evaluate/evaluation_method.hpp"
+#include "evaluate/further_answers.hpp"
+#include "evaluate/sky_method.hpp"
+#include "horizon/cell_silhouettes.hpp"
+#include "horizon/horizon_engine.hpp"
+#include "horizon/overhangs.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "package/package_error.hpp"
+#include "rays/ray_engine.hpp"
+
+namespace farlod {
+namespace {
+
+/// An index of the whole city takes some 150 bytes a triangle: 45 MB.
+constexpr std::uint64_t most_triangles_indexed_whole = 300'000;
+
+std::string text_of(Cell cell) { return std::to_string(cell.i) + "," + std::to_string(cell.j); }
+
+/// What the receivers of a cell may see.
+struct CellGeometry {
+  CellGeometry(const Evaluation& e, const CellReceivers& cell)
+      : far(e.package.far_horizon(cell.cell)),
+        silhouettes(cell_silhouettes(e.package, cell.cell, far, bounding_box(cell.receivers))),
+        overhangs(e.package, cell.cell, is_small(e.package) ? e.city.get() : nullptr) {}
+  FarHorizon far;
+  CellSilhouettes silhouettes;
+  OverhangGeometry overhangs;
+
+  /// Of a small city, one scene is indexed for all cells; of a large one, what each cell needs.
+  static bool is_small(const PackageReader& package) { return package.manifest().triangles <= most_triangles_indexed_whole; }
+};
+
+/// What both methods share: horizons, and what is made of them.
+class MethodWithHorizons : public SkyMethod {
+ public:
+  explicit MethodWithHorizons(const Evaluation& evaluation) : evaluation_(evaluation) {}
+
+  [[nodiscard]] SkyParts parts(const CellReceivers& cell, const HemisphereDirections& directions,
+                               const Occluder& near) const final {
+    CellGeometry g(evaluation_, cell);
+    return parts_by_horizons(directions, cell.receivers.front(), g.far, g.silhouettes, g.overhangs, near, evaluation_.stop);
+  }
+
+ protected:
+  /// Draws horizons, and tells `on_packet(answer, numbers)` of each packet, whose receivers have these numbers in the cell: it
+  /// stores svf. What is asked for besides is stored afterwards. `are_answers`: svf is that of the horizons.
+  template <class OnPacket>
+  void draw(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers, bool are_answers,
+            const OnPacket& on_packet) const;
+
+  const Evaluation& evaluation_;
+
+ private:
+  [[nodiscard]] GapSettings gap_settings() const {
+    const std::size_t azimuths = evaluation_.further.azimuths().size();
+    const std::size_t rays_per_azimuth = std::max<std::size_t>(1, (evaluation_.settings.rays + azimuths / 2) / azimuths);
+    return {static_cast<float>(azimuth_error(azimuths)), rays_per_azimuth, evaluation_.stop};
+  }
+  [[nodiscard]] CanopyCertainty certainty_of_canopies() const {
+    const Quantities& wanted = evaluation_.settings.further;
+    CanopyCertainty certainty;
+    if (!wanted.svf_total) return certainty;
+    certainty.max_error = evaluation_.settings.max_far_error;
+    certainty.bounds = wanted.svf_total_bounds || certainty.max_error;
+    certainty.city = evaluation_.city.get();
+    certainty.directions = &evaluation_.directions;
+    return certainty;
+  }
+  void begin_further(FurtherAnswers& further, HorizonEngine& engine, const FarHorizon& far) const {
+    const FurtherQuantities& wanted = evaluation_.further;
+    if (!wanted.empty()) further.listen_to(engine);
+    if (wanted.needs_near_sky()) further.draw_near_sky(evaluation_.package, far, gap_settings());
+    if (wanted.canopy_columns().count > 0) further.draw_canopies(evaluation_.package, certainty_of_canopies(), evaluation_.stop);
+  }
+};
+
+template <class OnPacket>
+void MethodWithHorizons::draw(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers, bool are_answers,
+                              const OnPacket& on_packet) const {
+  const Evaluation& e = evaluation_;
+  const std::optional<double>& max_error = e.settings.max_far_error;
+  HorizonEngine engine(e.further.azimuths(), e.settings.weight, geometry.far, geometry.silhouettes, geometry.overhangs,
+                       gap_settings());
+  if (max_error) engine.keep({*max_error, *e.city, cell.cell});
+  FurtherAnswers further(e.further, cell, answers);
+  begin_further(further, engine, geometry.far);
+  std::vector<PacketAnswer> of_packets;
+  for_each_group(cell.receivers, packet_order(cell.receivers, e.stop),
+                 [&](std::span<const ReceiverPacket> packets, std::span<const std::uint32_t> numbers) {
+                   throw_if_cancelled(e.stop);
+                   of_packets.resize(packets.size());
+                   e.wants_bounds(answers) ? engine.evaluate_with_bounds(packets, of_packets)
+                                           : engine.evaluate(packets, of_packets);
+                   std::span<const std::uint32_t> left = numbers;
+                   for (std::size_t n = 0; n < packets.size(); ++n) {
+                     on_packet(of_packets[n], left.first(packets[n].count));
+                     left = left.subspan(packets[n].count);
+                   }
+                   if (!e.further.empty()) further.store(packets, numbers, {of_packets, are_answers, max_error});
+                 });
+  e.counter->add({0, further.retraced_rays()}, answers);
+}
+
+class HorizonMethod final : public MethodWithHorizons {
+ public:
+  HorizonMethod(const Evaluation& evaluation, bool rays_are_allowed)
+      : MethodWithHorizons(evaluation), rays_are_allowed_(rays_are_allowed) {}
+
+  void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const override {
+    const auto start = EvaluationCounter::Clock::now();
+    require_far_map(cell.cell);
+    CellGeometry geometry(evaluation_, cell);
+    const auto scene_ready = EvaluationCounter::Clock::now();
+    draw(geometry, cell, answers, true, [&](const PacketAnswer& packet, std::span<const std::uint32_t> numbers) {
+      if (packet.by_gap_rays != 0) require_rays_allowed(cell.cell);
+      for (std::size_t l = 0; l < numbers.size(); ++l) answers.store(cell.receivers[numbers[l]].index, packet.svf[l]);
+      evaluation_.counter->add({static_cast<std::uint64_t>(std::popcount(packet.by_rays)), packet.retraced_rays}, answers);
+    });
+    evaluation_.counter->add_times(start, scene_ready);
+  }
+
+ private:
+  void require_far_map(Cell cell) const {
+    if (far_map_of(evaluation_.package, cell) != FarMapOfCell::missing) return;
+    throw PackageUnusable("The engine horizon needs a far map, and cell " + text_of(cell) +
+                          " has none, since far maps were made for a part of the city: add those that are missing (farlod-pack "
+                          "--area), or use the engine auto.");
+  }
+  void require_rays_allowed(Cell cell) const {
+    if (rays_are_allowed_) return;
+    throw PackageUnusable(
+        "The engine horizon cannot tell how much sky is seen below bridges, balconies and projecting floors, and there is too "
+        "much of it in sight of cell " +
+        text_of(cell) + ": use the engine auto.");
+  }
+
+  bool rays_are_allowed_;
+};
+
+class RayMethod final : public MethodWithHorizons {
+ public:
+  using MethodWithHorizons::MethodWithHorizons;
+
+  void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const override {
+    const auto start = EvaluationCounter::Clock::now();
+    CellGeometry geometry(evaluation_, cell);
+    const auto scene_ready = EvaluationCounter::Clock::now();
+    count_rays(geometry, cell, answers);
+    if (!evaluation_.further.empty())
+      draw(geometry, cell, answers, false, [](const PacketAnswer&, std::span<const std::uint32_t>) {});
+    evaluation_.counter->add_times(start, scene_ready);
+  }
+
+ private:
+  void count_rays(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const;
+  void count_packet(RayEngine& engine, Cell cell, std::span<const Receiver> receivers, const SkyAnswers& answers) const;
+  /// Traces the rays that the far map leaves open, of receivers for whom they are more than the allowed error to one side of the
+  /// estimate. Returns how many.
+  [[nodiscard]] std::uint64_t retrace_open_rays(const RayEngine& engine, Cell cell, std::span<const Receiver> receivers,
+                                                std::span<FreeRays> free) const;
+};
+
+void RayMethod::count_rays(CellGeometry& geometry, const CellReceivers& cell, const SkyAnswers& answers) const {
+  evaluation_.counter->add({cell.receivers.size(), 0}, answers);
+  std::vector<Receiver> receivers = cell.receivers;
+  const auto by_normal = [](const Receiver& a, const Receiver& b) {
+    return std::tie(a.normal.x, a.normal.y, a.normal.z) < std::tie(b.normal.x, b.normal.y, b.normal.z);
+  };
+  // Those of a raster all look up; to sort millions of them takes longer than a cancelled run may wait
+  if (!std::is_sorted(receivers.begin(), receivers.end(), by_normal))
+    std::stable_sort(receivers.begin(), receivers.end(), by_normal);
+  for_each_normal(receivers, [&](std::span<const Receiver> group) {
+    const std::vector<Point3d> directions = evaluation_.directions.facing_as(group.front());
+    if (directions.empty()) {
+      for (const Receiver& r : group) answers.store(r.index, SvfInterval{});
+      return;
+    }
+    const DirectionSampling sampling(directions);
+    RayEngine engine(sampling, geometry.far, geometry.silhouettes, geometry.overhangs, evaluation_.wants_bounds(answers),
+                     evaluation_.stop);
+    for (std::size_t first = 0; first < group.size(); first += ReceiverPacket::lanes)
+      count_packet(engine, cell.cell, group.subspan(first, std::min(ReceiverPacket::lanes, group.size() - first)), answers);
+  });
+}
+
+void RayMethod::count_packet(RayEngine& engine, Cell cell, std::span<const Receiver> receivers, const SkyAnswers& answers) const {
+  throw_if_cancelled(evaluation_.stop);
+  std::vector<FreeRays> free = engine.count(receivers);
+  if (evaluation_.settings.max_far_error)
+    evaluation_.counter->add({0, retrace_open_rays(engine, cell, receivers, free)}, answers);
+  const double ray_count = static_cast<double>(evaluation_.directions.ray_count());
+  const auto part = [ray_count](std::uint32_t n) { return static_cast<float>(static_cast<double>(n) / ray_count); };
+  for (std::size_t n = 0; n < receivers.size(); ++n)
+    answers.store(receivers[n].index, {part(free[n].low), part(free[n].estimate), part(free[n].high)});
+}
+
+std::uint64_t RayMethod::retrace_open_rays(const RayEngine& engine, Cell cell, std::span<const Receiver> receivers,
+                                           std::span<FreeRays> free) const {
+  const double most = *evaluation_.settings.max_far_error * static_cast<double>(evaluation_.directions.ray_count());
+  std::uint32_t uncertain = 0;
+  for (std::size_t l = 0; l < free.size(); ++l)
+    if (std::max(free[l].high - free[l].estimate, free[l].estimate - free[l].low) > most) uncertain |= 1U << l;
+  if (uncertain == 0) return 0;
+  const PlacedScene city = evaluation_.city->seen_from(cell);
+  RayOrigins origins;
+  for (std::size_t l = 0; l < receivers.size(); ++l) {
+    const Point3f p = placed(receivers[l].p_cell, city.scene_from_cell_m);
+    origins.x[l] = p.x;
+    origins.y[l] = p.y;
+    origins.z[l] = p.z;
+  }
+  return engine.retrace(city.occluder, origins, uncertain, free);
+}
+
+}  // namespace
+
+std::unique_ptr<const SkyMethod> horizon_method(const Evaluation& evaluation, bool rays_are_allowed) {
+  return std::make_unique<HorizonMethod>(evaluation, rays_are_allowed);
+}
+
+std::unique_ptr<const SkyMethod> ray_method(const Evaluation& evaluation) { return std::make_unique<RayMethod>(evaluation); }
+
+}  // namespace farlod

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "evaluate/further_quantities.hpp"
+#include "evaluate/sky_directions.hpp"
+#include "farlod/evaluation.hpp"
+#include "horizon/horizon_engine.hpp"
+#include "horizon/sky_partition.hpp"
+
+namespace farlod {
+
+struct SkySettings {
+  Engine engine = Engine::automatic;
+  SkyWeight weight = SkyWeight::cosine;
+  std::size_t rays = default_rays;
+  /// Allowed error of the far map: where the interval of an answer is wider, the directions that the far map leaves open are
+  /// traced against the whole city. Needs far maps of the kind `horizon`.
+  std::optional<double> max_far_error = std::nullopt;
+  DirectionSet directions = DirectionSet::partition;
+  std::size_t azimuths = default_azimuths;  ///< of horizons
+  Quantities further = {};                  ///< what is computed beside the sky view factor
+};
+
+/// What took more than a horizon.
+struct RayCounts {
+  std::uint64_t by_rays = 0;        ///< receivers that needed rays
+  std::uint64_t retraced_rays = 0;  ///< rays traced against the whole city because the far map did not decide them
+};
+
+/// Arrays that take the answers, indexed by Receiver::index. `low` and `high` are empty where bounds are not wanted, `further`
+/// where nothing is that SkySettings::further asks for; otherwise it has a value for each column of each receiver, receiver by
+/// receiver.
+struct SkyAnswers {
+  std::span<float> svf, low, high, further;
+  RayCounts* counts = nullptr;  ///< where rays are counted, too, if not null
+  explicit SkyAnswers(std::span<float> s, std::span<float> l = {}, std::span<float> h = {}, std::span<float> f = {})
+      : svf(s), low(l), high(h), further(f) {}
+
+  void store(std::size_t index, const SvfInterval& value) const {
+    svf[index] = value.estimate;
+    if (low.empty()) return;
+    low[index] = value.low;
+    high[index] = value.high;
+  }
+};
+
+}  // namespace farlod

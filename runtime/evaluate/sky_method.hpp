@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "evaluate/further_quantities.hpp"
+#include "evaluate/sky_answers.hpp"
+#include "evaluate/sky_directions.hpp"
+#include "evaluate/sky_parts.hpp"
+#include "package/package_reader.hpp"
+#include "receivers/receiver.hpp"
+#include "scene/whole_city.hpp"
+
+namespace farlod {
+
+/// What an evaluator has done so far.
+struct EvaluationStatistics : RayCounts {
+  double scenes_s = 0.0, evaluate_s = 0.0;  ///< summed over threads
+};
+
+/// Counts what all threads do.
+class EvaluationCounter {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// Also among the answers, where they are counted.
+  void add(const RayCounts& counts, const SkyAnswers& answers);
+  /// The time from `start` to `scene_ready`, and from there to now.
+  void add_times(Clock::time_point start, Clock::time_point scene_ready);
+  [[nodiscard]] EvaluationStatistics statistics() const { return {{by_rays_, retraced_rays_}, scenes_s_, evaluate_s_}; }
+
+ private:
+  std::atomic<double> scenes_s_ = 0.0, evaluate_s_ = 0.0;
+  std::atomic<std::uint64_t> by_rays_ = 0, retraced_rays_ = 0;
+};
+
+/// What is asked of all cells, and what they share.
+struct Evaluation {
+  using City = std::shared_ptr<const WholeCityOnDemand>;
+  Evaluation(const PackageReader& package, const SkySettings& settings, std::stop_token stop, City city);
+
+  const PackageReader& package;
+  SkySettings settings;
+  std::stop_token stop;
+  SkyDirections directions;
+  FurtherQuantities further;  ///< and the azimuths of all horizons
+  City city;
+  std::unique_ptr<EvaluationCounter> counter = std::make_unique<EvaluationCounter>();
+
+  [[nodiscard]] bool wants_bounds(const SkyAnswers& answers) const {
+    return !answers.low.empty() || settings.max_far_error.has_value() || settings.further.svf_total_bounds;
+  }
+};
+
+/// A way to answer the receivers of a cell. Thread-safe.
+class SkyMethod {
+ public:
+  virtual ~SkyMethod() = default;
+  /// Writes what SkyEvaluator::evaluate promises, but for the distances of horizons.
+  virtual void evaluate(const CellReceivers& cell, const SkyAnswers& answers) const = 0;
+  /// What the only receiver of a cell sees, direction by direction, but for crowns. `near` is the near scene of the cell.
+  [[nodiscard]] virtual SkyParts parts(const CellReceivers& cell, const HemisphereDirections& directions,
+                                       const Occluder& near) const = 0;
+};
+
+// The evaluation must outlive the methods. Which one answers a cell says method_of (evaluate/evaluation_method.hpp)
+/// Horizons, and rays in the gaps below overhangs where they are allowed; otherwise receivers that need them are refused.
+[[nodiscard]] std::unique_ptr<const SkyMethod> horizon_method(const Evaluation& evaluation, bool rays_are_allowed);
+/// Rays against horizons.
+[[nodiscard]] std::unique_ptr<const SkyMethod> ray_method(const Evaluation& evaluation);
+/// Rays against the near tiles, and a look-up in the box far map where it is asked for.
+[[nodiscard]] std::unique_ptr<const SkyMethod> near_scene_method(const Evaluation& evaluation, bool has_box);
+/// Rays against all tiles.
+[[nodiscard]] std::unique_ptr<const SkyMethod> whole_city_method(const Evaluation& evaluation);
+
+}  // namespace farlod
