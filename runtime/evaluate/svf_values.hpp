@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -38,8 +37,20 @@ struct SvfValues {
   }
 };
 
-/// The receivers of the n-th cell of a run. Must give the same receivers at each call, on any thread.
-using ReceiversOfCell = std::function<CellReceivers(std::size_t n)>;
+/// The cells of a run, in their order, and what becomes of their answers.
+class CellsOfRun {
+ public:
+  virtual ~CellsOfRun() = default;
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  [[nodiscard]] virtual Cell place(std::size_t n) const = 0;
+  /// About how many receivers the n-th cell has, before they are placed.
+  [[nodiscard]] virtual double receivers_about(std::size_t n) const = 0;
+  /// The receivers of the n-th cell: the same at each call, on any thread.
+  [[nodiscard]] virtual CellReceivers receivers(std::size_t n) = 0;
+  /// Takes the values of the n-th cell, which are in the order of its receivers. Called for one cell at a time, in the order of
+  /// the cells.
+  virtual void store(std::size_t n, const CellReceivers& cell, const SvfValues& values) = 0;
+};
 
 /// Evaluates all receivers of a cell. The values are in the order of the receivers, whatever their indices.
 [[nodiscard]] inline SvfValues values_of(const SkyEvaluator& evaluator, CellReceivers cell, bool bounds) {

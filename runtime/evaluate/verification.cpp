@@ -118,14 +118,14 @@ std::vector<std::size_t> choose_some(std::size_t size, std::size_t count) {
 }
 
 Verification verify(const SkyEvaluator& evaluator, const VerifySettings& settings, std::span<const std::size_t> counts,
-                    const ReceiversOfCell& receivers_of) {
+                    CellsOfRun& cells) {
   const SkyEvaluator reference(evaluator, reference_settings(evaluator.settings()));
   const auto chosen = choose_receivers(counts, settings.receivers);
   std::vector<VerifiedCell> verified(counts.size());
   const std::optional<std::size_t> total = total_columns_of(evaluator.settings().further).total;
   oneapi::tbb::parallel_for(std::size_t{0}, counts.size(), [&](std::size_t n) {
     if (chosen[n].empty()) return;
-    const CellReceivers all = receivers_of(n);
+    const CellReceivers all = cells.receivers(n);
     CellReceivers some{all.cell, {}};
     for (const std::size_t k : chosen[n]) some.receivers.push_back(all.receivers[k]);
     const SvfValues answers = values_of(evaluator, all, settings.bounds), exact = values_of(reference, some, false);

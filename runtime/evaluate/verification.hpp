@@ -38,6 +38,6 @@ struct Verification {
 /// again by the engine `exact` with `verify_rays` rays or more, and compares. The answers of the run are not kept: each cell with
 /// a chosen receiver is evaluated again as a whole, as in the run, so that packets and answers are the same.
 [[nodiscard]] Verification verify(const SkyEvaluator& evaluator, const VerifySettings& settings,
-                                  std::span<const std::size_t> counts, const ReceiversOfCell& receivers_of);
+                                  std::span<const std::size_t> counts, CellsOfRun& cells);
 
 }  // namespace farlod

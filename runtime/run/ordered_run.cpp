@@ -97,9 +97,8 @@ struct CellInFlight {
 };
 
 /// Evaluates cells on all threads, and stores them one at a time, in their order.
-void evaluate_in_order(const ResolvedSettings& settings, std::size_t cell_count,
-                       const std::function<CellInFlight(std::size_t)>& evaluate,
-                       const std::function<void(const CellInFlight&)>& store) {
+template <class Evaluate, class Store>
+void evaluate_in_order(const ResolvedSettings& settings, std::size_t cell_count, const Evaluate& evaluate, const Store& store) {
   using oneapi::tbb::filter_mode, oneapi::tbb::make_filter;
   // Cells are stored in their order, so that those in flight follow each other, and each has a place of its own. What the
   // pipeline itself held when a run is cancelled, oneTBB would lose
@@ -185,23 +184,28 @@ SvfValues answers_of(const SkyEvaluator& evaluator, const ResolvedSettings& sett
   return values;
 }
 
-Tally evaluate_and_store(const SkyEvaluator& evaluator, const ResolvedSettings& settings, std::size_t cell_count,
-                         const ReceiversOfCell& receivers_of, const StoreValues& store) {
+/// Evaluates the cells whose numbers `number_of(k)` gives, k below `count`, and tells `store` of each, in this order.
+template <class NumberOf, class Store>
+Tally evaluate_some(const SkyEvaluator& evaluator, const ResolvedSettings& settings, CellsOfRun& cells, std::size_t count,
+                    const NumberOf& number_of, const Store& store) {
   Tally tally;
-  const auto evaluate_cell = [&](std::size_t n) {
-    CellReceivers receivers = receivers_of(n);
+  const auto evaluate_cell = [&](std::size_t k) {
+    const std::size_t n = number_of(k);
+    CellReceivers receivers = cells.receivers(n);
     SvfValues values = answers_of(evaluator, settings, n, receivers);
     return CellInFlight{n, std::move(receivers), std::move(values)};
   };
-  evaluate_in_order(settings, cell_count, evaluate_cell, [&](const CellInFlight& cell) {
+  evaluate_in_order(settings, count, evaluate_cell, [&](const CellInFlight& cell) {
     const auto start = Clock::now();
     tally.add(evaluator.package(), settings.sky.further, cell);
-    store(cell.n, cell.receivers, cell.values);
+    store(cell);
     tally.store_s += seconds_since(start);
-    if (settings.run.on_progress) settings.run.on_progress({"sky view factors", tally.counts.size(), cell_count});
+    if (settings.run.on_progress) settings.run.on_progress({"sky view factors", tally.counts.size(), count});
   });
   return tally;
 }
+
+void forget(const CellInFlight&) {}
 
 /// What a cell costs: the more of the city is in its block, the more is drawn at each receiver.
 double cost_of(const PackageReader& package, const CellsOfRun& cells, std::size_t n) {
@@ -217,22 +221,14 @@ double cost_of(const PackageReader& package, const CellsOfRun& cells, std::size_
 }
 
 /// The cells of a shard, and nothing but their answers.
-EvaluationSummary keep_shard(const PackageReader& package, const ResolvedSettings& settings, const CellsOfRun& cells) {
+EvaluationSummary keep_shard(const PackageReader& package, const ResolvedSettings& settings, CellsOfRun& cells) {
   std::vector<double> costs;
-  for (std::size_t n = 0; n < cells.count; ++n) costs.push_back(cost_of(package, cells, n));
+  for (std::size_t n = 0; n < cells.size(); ++n) costs.push_back(cost_of(package, cells, n));
   const std::vector<std::size_t> mine = parts_of_shard(costs, *settings.run.shard);
   const SkyEvaluator evaluator(package, settings.sky, settings.run.stop);
   const auto start = Clock::now();
-  Tally tally;
-  const auto evaluate_cell = [&](std::size_t k) {
-    CellReceivers receivers = cells.receivers(mine[k]);
-    SvfValues values = answers_of(evaluator, settings, mine[k], receivers);
-    return CellInFlight{mine[k], std::move(receivers), std::move(values)};
-  };
-  evaluate_in_order(settings, mine.size(), evaluate_cell, [&](const CellInFlight& cell) {
-    tally.add(package, settings.sky.further, cell);
-    if (settings.run.on_progress) settings.run.on_progress({"sky view factors", tally.counts.size(), mine.size()});
-  });
+  const Tally tally = evaluate_some(
+      evaluator, settings, cells, mine.size(), [&](std::size_t k) { return mine[k]; }, forget);
   EvaluationSummary summary;
   summary.seconds = seconds_of(seconds_since(start), evaluator.statistics(), 0.0);
   summary.accuracy = settings.accuracy;
@@ -243,11 +239,12 @@ EvaluationSummary keep_shard(const PackageReader& package, const ResolvedSetting
   return summary;
 }
 
-EvaluationSummary evaluate_and_verify(const PackageReader& package, const ResolvedSettings& settings, const CellsOfRun& cells,
-                                      const StoreValues& store) {
+EvaluationSummary evaluate_and_verify(const PackageReader& package, const ResolvedSettings& settings, CellsOfRun& cells) {
   const SkyEvaluator evaluator(package, settings.sky, settings.run.stop);
   const auto start = Clock::now();
-  const Tally tally = evaluate_and_store(evaluator, settings, cells.count, cells.receivers, store);
+  const Tally tally = evaluate_some(
+      evaluator, settings, cells, cells.size(), [](std::size_t k) { return k; },
+      [&](const CellInFlight& cell) { cells.store(cell.n, cell.receivers, cell.values); });
   const EvaluationStatistics evaluation = evaluator.statistics();
   EvaluationSummary summary;
   summary.seconds = seconds_of(seconds_since(start), evaluation, tally.store_s);
@@ -261,7 +258,7 @@ EvaluationSummary evaluate_and_verify(const PackageReader& package, const Resolv
   store_statistics(tally.statistics, settings.bounds, summary);
   store_statistics_of_totals(tally.totals, settings.sky.further, summary);
   if (settings.verify > 0) {
-    Verification found = verify(evaluator, {settings.verify, settings.bounds}, tally.counts, cells.receivers);
+    Verification found = verify(evaluator, {settings.verify, settings.bounds}, tally.counts, cells);
     summary.errors = found.errors;
     summary.svf_total_errors = found.svf_total_errors;
     summary.verified = std::move(found.receivers);
@@ -289,16 +286,15 @@ struct SampledSeconds {
 /// Evaluates cells of a dry run, and tells how long it took.
 class SampledCells {
  public:
-  SampledCells(const PackageReader& package, const ResolvedSettings& settings, const ReceiversOfCell& receivers_of)
-      : evaluator_(package, settings.sky, settings.run.stop), settings_(settings), receivers_of_(receivers_of) {
+  SampledCells(const PackageReader& package, const ResolvedSettings& settings, CellsOfRun& cells_of_run)
+      : evaluator_(package, settings.sky, settings.run.stop), settings_(settings), cells_of_run_(cells_of_run) {
     settings_.run.answers = nullptr;
   }
 
   double evaluate(std::size_t first, std::size_t end) {
     const auto start = Clock::now();
-    const Tally tally = evaluate_and_store(
-        evaluator_, settings_, end - first, [&](std::size_t n) { return receivers_of_(first + n); },
-        [](std::size_t, const CellReceivers&, const SvfValues&) {});
+    const Tally tally = evaluate_some(
+        evaluator_, settings_, cells_of_run_, end - first, [&](std::size_t k) { return first + k; }, forget);
     receivers_ += tally.statistics.count;
     cells_ += end - first;
     return seconds_since(start);
@@ -311,16 +307,15 @@ class SampledCells {
  private:
   SkyEvaluator evaluator_;
   ResolvedSettings settings_;
-  const ReceiversOfCell& receivers_of_;
+  CellsOfRun& cells_of_run_;
   std::size_t cells_ = 0, receivers_ = 0;
 };
 
 /// From groups of cells that follow each other, as they do in a run, spread over all.
-EvaluationSummary estimate(const PackageReader& package, const ResolvedSettings& settings, std::size_t cell_count,
-                           const ReceiversOfCell& receivers_of) {
+EvaluationSummary estimate(const PackageReader& package, const ResolvedSettings& settings, CellsOfRun& cells_of_run) {
   constexpr std::size_t most_groups = 8, cells_in_group = 6;
-  const std::size_t groups = std::min(cell_count, most_groups);
-  SampledCells sample(package, settings, receivers_of);
+  const std::size_t cell_count = cells_of_run.size(), groups = std::min(cell_count, most_groups);
+  SampledCells sample(package, settings, cells_of_run);
   SampledSeconds seconds;
   for (std::size_t g = 0; g < groups; ++g) {
     const std::size_t begin = g * cell_count / groups, end = (g + 1) * cell_count / groups;
@@ -339,15 +334,14 @@ EvaluationSummary estimate(const PackageReader& package, const ResolvedSettings&
 
 }  // namespace
 
-EvaluationSummary evaluate_cells(const PackageInUse& package, const ResolvedSettings& settings, const CellsOfRun& cells,
-                                 const StoreValues& store) {
+EvaluationSummary evaluate_cells(const PackageInUse& package, const ResolvedSettings& settings, CellsOfRun& cells) {
   require_bounds_known(package, settings);
   // Of this run alone: another run of the process may have another number of threads
   oneapi::tbb::task_arena arena(static_cast<int>(settings.threads));
   return arena.execute([&] {
-    if (settings.dry_run) return estimate(package.reader(), settings, cells.count, cells.receivers);
+    if (settings.dry_run) return estimate(package.reader(), settings, cells);
     if (settings.run.shard) return keep_shard(package.reader(), settings, cells);
-    return evaluate_and_verify(package.reader(), settings, cells, store);
+    return evaluate_and_verify(package.reader(), settings, cells);
   });
 }
 

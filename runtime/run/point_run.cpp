@@ -151,6 +151,33 @@ void store_answers(const CellReceivers& cell, const SvfValues& values, double he
   }
 }
 
+/// Points cell by cell. All must outlive it.
+class PointCells final : public CellsOfRun {
+ public:
+  PointCells(const PackageReader& package, std::span<const PlaceOfReceiver> places, const PlacesByCell& cells,
+             const Placing& placing, const std::stop_token& stop, const PointAnswerSpans& answers)
+      : package_(package), places_(places), cells_(cells), placing_(placing), stop_(stop), answers_(answers) {}
+
+  [[nodiscard]] std::size_t size() const override { return cells_.size(); }
+  [[nodiscard]] Cell place(std::size_t n) const override { return cells_[n].first; }
+  [[nodiscard]] double receivers_about(std::size_t n) const override { return static_cast<double>(cells_[n].second.size()); }
+  [[nodiscard]] CellReceivers receivers(std::size_t n) override {
+    return receivers_at(package_, cells_[n].first, places_, cells_[n].second, placing_.above,
+                        package_height_m(placing_, package_.manifest()), stop_);
+  }
+  void store(std::size_t, const CellReceivers& cell, const SvfValues& values) override {
+    store_answers(cell, values, package_.manifest().height_origin_m, answers_);
+  }
+
+ private:
+  const PackageReader& package_;
+  std::span<const PlaceOfReceiver> places_;
+  const PlacesByCell& cells_;
+  const Placing& placing_;
+  const std::stop_token& stop_;
+  const PointAnswerSpans& answers_;
+};
+
 /// Of a run over all points.
 EvaluationSummary with_counts(EvaluationSummary summary, std::size_t points, const PlacesByCell& cells) {
   std::size_t asked = 0;
@@ -174,17 +201,8 @@ EvaluationSummary evaluate_points(const Package& package, const Points& points, 
   const double memory_bytes =
       require_memory(reader.manifest(), settings, needs_of(reader, settings.sky.engine, places.size(), cells));
   fill_with_no_data(answers);
-  const float height_m = package_height_m(placed, reader.manifest());
-  const auto receivers_of = [&](std::size_t n) {
-    return receivers_at(reader, cells[n].first, places, cells[n].second, placed.above, height_m, run.stop);
-  };
-  const CellsOfRun cells_of_run{cells.size(), receivers_of,
-                                [&](std::size_t n) { return static_cast<double>(cells[n].second.size()); },
-                                [&](std::size_t n) { return cells[n].first; }};
-  EvaluationSummary summary =
-      evaluate_cells(in_use, settings, cells_of_run, [&](std::size_t, const CellReceivers& cell, const SvfValues& values) {
-        store_answers(cell, values, reader.manifest().height_origin_m, answers);
-      });
+  PointCells point_cells(reader, places, cells, placed, run.stop, answers);
+  EvaluationSummary summary = evaluate_cells(in_use, settings, point_cells);
   if (summary.estimate) return with_memory(std::move(summary), memory_bytes);
   return settings.run.shard ? summary : with_counts(std::move(summary), places.size(), cells);
 }

@@ -87,6 +87,32 @@ void copy_band(const RasterTile& tile, const std::vector<float>& from, const Ras
   }
 }
 
+/// The pixels of a raster cell by cell. `store(cell, values)` takes their answers. All must outlive it.
+template <class Store>
+class PixelCells final : public CellsOfRun {
+ public:
+  PixelCells(const PackageReader& package, const RasterReceivers& pixels, const std::vector<Cell>& cells, const Placing& placing,
+             const std::stop_token& stop, const Store& store)
+      : package_(package), pixels_(pixels), cells_(cells), placing_(placing), stop_(stop), store_(store) {}
+
+  [[nodiscard]] std::size_t size() const override { return cells_.size(); }
+  [[nodiscard]] Cell place(std::size_t n) const override { return cells_[n]; }
+  [[nodiscard]] double receivers_about(std::size_t n) const override { return pixels_of(pixels_.range_of(cells_[n])); }
+  [[nodiscard]] CellReceivers receivers(std::size_t n) override {
+    const float height_m = package_height_m(placing_, package_.manifest());
+    return pixels_.in_cell(package_, cells_[n], placing_.above, height_m, stop_);
+  }
+  void store(std::size_t, const CellReceivers& cell, const SvfValues& values) override { store_(cell, values); }
+
+ private:
+  const PackageReader& package_;
+  const RasterReceivers& pixels_;
+  const std::vector<Cell>& cells_;
+  const Placing& placing_;
+  const std::stop_token& stop_;
+  const Store& store_;
+};
+
 /// The run of a raster: what can be refused is refused before there is any memory for answers.
 class RasterRun {
  public:
@@ -108,17 +134,13 @@ class RasterRun {
   [[nodiscard]] EvaluationSummary evaluate(const OnRasterTile& on_tile) const {
     OpenTiles open_tiles(plan_, settings_.bounds ? RasterBands::svf_and_bounds : RasterBands::svf, further_bands_, tiles_,
                          on_tile);
-    const float height_m = package_height_m(placing_, reader().manifest());
     std::size_t pixels_in_grid = 0;
-    EvaluationSummary summary = evaluate_cells(
-        package_, settings_,
-        {cells_.size(),
-         [&](std::size_t n) { return receivers_.in_cell(reader(), cells_[n], placing_.above, height_m, settings_.run.stop); },
-         [&](std::size_t n) { return pixels_of(receivers_.range_of(cells_[n])); }, [&](std::size_t n) { return cells_[n]; }},
-        [&](std::size_t, const CellReceivers& cell, const SvfValues& values) {
-          put_values(cell, values, plan_.columns, open_tiles);
-          pixels_in_grid += cell.receivers.size() + cell.left_out;
-        });
+    const auto store = [&](const CellReceivers& cell, const SvfValues& values) {
+      put_values(cell, values, plan_.columns, open_tiles);
+      pixels_in_grid += cell.receivers.size() + cell.left_out;
+    };
+    PixelCells pixel_cells(reader(), receivers_, cells_, placing_, settings_.run.stop, store);
+    EvaluationSummary summary = evaluate_cells(package_, settings_, pixel_cells);
     if (summary.estimate) return with_memory(std::move(summary), memory_bytes_);
     if (settings_.run.shard) return summary;
     summary.beyond_grid = plan_.columns * plan_.rows - pixels_in_grid - summary.outside_of_region;
@@ -310,14 +332,9 @@ Raster evaluate_window(const Package& package, const RasterPlan& plan, const Ras
   needs.whole_city = any_traces_whole_city(in_use.reader(), resolved_settings.sky.engine, cells);
   const double memory_bytes = require_memory(manifest, resolved_settings, needs);
   WindowAnswers answers(plan, window, settings.bounds, settings.further);
-  const float height_m = package_height_m(where, manifest);
-  EvaluationSummary summary =
-      evaluate_cells(in_use, resolved_settings,
-                     {cells.size(),
-                      [&](std::size_t n) {
-                        return receivers.in_cell(in_use.reader(), cells[n], where.above, height_m, resolved_settings.run.stop);
-                      }},
-                     [&](std::size_t, const CellReceivers& cell, const SvfValues& values) { answers.store(cell, values); });
+  const auto store = [&](const CellReceivers& cell, const SvfValues& values) { answers.store(cell, values); };
+  PixelCells pixel_cells(in_use.reader(), receivers, cells, where, resolved_settings.run.stop, store);
+  EvaluationSummary summary = evaluate_cells(in_use, resolved_settings, pixel_cells);
   if (summary.estimate) summary = with_memory(std::move(summary), memory_bytes);
   return answers.take(std::move(summary));
 }

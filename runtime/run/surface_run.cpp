@@ -91,41 +91,65 @@ MemoryNeeds needs_of(const PackageReader& package, Engine engine, std::span<cons
           0.0, any_traces_whole_city(package, engine, cells)};
 }
 
-/// The means of a run. Points come cell by cell along a curve, and are handed on with the cell's place in CellRange::index_of.
-class MeansOfRun {
+/// Roofs and walls cell by cell, and their means. All must outlive it.
+class SurfaceCells final : public CellsOfRun {
  public:
-  explicit MeansOfRun(const OnSurfacePoints& on_points) : on_points_(on_points) {}
+  SurfaceCells(const PackageReader& package, const std::vector<Cell>& cells, const SurfaceSettings& surfaces,
+               const ResolvedSettings& settings, const OnSurfacePoints& on_points)
+      : package_(package),
+        cells_(cells),
+        surfaces_(surfaces),
+        settings_(settings),
+        on_points_(on_points),
+        placed_(cells.size()) {}
 
-  void add(std::size_t cell_index, std::span<const SurfacePoint> points) {
-    if (on_points_) on_points_(cell_index, points);
+  [[nodiscard]] std::size_t size() const override { return cells_.size(); }
+  [[nodiscard]] Cell place(std::size_t n) const override { return cells_[n]; }
+  /// The larger the tile, the more surfaces it has.
+  [[nodiscard]] double receivers_about(std::size_t n) const override {
+    return static_cast<double>(package_.files_of(cells_[n]).tiles.bytes);
+  }
+  [[nodiscard]] CellReceivers receivers(std::size_t n) override {
+    PlacedReceivers receivers = placed_on_surfaces(package_, cells_[n], surfaces_, settings_);
+    CellReceivers result = answerable(cells_[n], receivers);
+    if (n >= stored_ && !settings_.run.shard) placed_[n] = std::move(receivers.receivers);
+    return result;
+  }
+  /// Hands points on with the cell's place in CellRange::index_of.
+  void store(std::size_t n, const CellReceivers& cell, const SvfValues& values) override {
+    const std::size_t index = package_.grid().cells.index_of(cells_[n]);
+    const std::vector<SurfacePoint> points = points_of(package_, cells_[n], placed_[n], cell.receivers, values);
+    if (on_points_) on_points_(index, points);
     for (std::size_t k = 0; k < points.size(); ++k) {
-      surfaces_.add({cell_index, k}, points[k]);
-      buildings_.add({cell_index, k}, points[k]);
+      surface_averages_.add({index, k}, points[k]);
+      building_averages_.add({index, k}, points[k]);
     }
     receivers_ += points.size();
+    placed_[n] = {};
+    ++stored_;
   }
-  [[nodiscard]] SurfaceMeans with(EvaluationSummary summary) const {
+  [[nodiscard]] SurfaceMeans means(EvaluationSummary summary) const {
     summary.no_data = receivers_ - summary.receivers;
-    return {surfaces_.rows(), buildings_.rows(), summary};
+    return {surface_averages_.rows(), building_averages_.rows(), summary};
   }
 
  private:
+  const PackageReader& package_;
+  const std::vector<Cell>& cells_;
+  const SurfaceSettings& surfaces_;
+  const ResolvedSettings& settings_;
   const OnSurfacePoints& on_points_;
-  SurfaceAverages surfaces_;
-  BuildingAverages buildings_;
+  /// What is known of a cell's receivers, from when they are placed until their answers are there.
+  std::vector<std::vector<SurfaceReceiver>> placed_;
+  std::atomic<std::size_t> stored_ = 0;  ///< cells; a verification asks for the receivers of some of them again
+  SurfaceAverages surface_averages_;
+  BuildingAverages building_averages_;
   std::size_t receivers_ = 0;
 };
 
 void check(const SurfaceSettings& surfaces) {
   require_one_of("choice", surfaces.choice, SurfaceChoice::all);
   require_between("spacing_m", surfaces.spacing_m, 0.05, 1000.0);
-}
-
-/// The larger the tile, the more surfaces it has.
-CellsOfRun cells_of_run(const PackageReader& reader, const std::vector<Cell>& cells, ReceiversOfCell receivers_of) {
-  return {cells.size(), std::move(receivers_of),
-          [&](std::size_t n) { return static_cast<double>(reader.files_of(cells[n]).tiles.bytes); },
-          [&](std::size_t n) { return cells[n]; }};
 }
 
 }  // namespace
@@ -136,27 +160,12 @@ SurfaceMeans evaluate_surfaces(const Package& package, const SurfaceSettings& su
   check(surfaces);
   const PackageInUse in_use(package);
   const PackageReader& reader = in_use.reader();
-  const CellRange& range = reader.grid().cells;
-  const std::vector<Cell> cells = along_hilbert_curve(all_cells(range), reader.grid().block_edge);
+  const std::vector<Cell> cells = along_hilbert_curve(all_cells(reader.grid().cells), reader.grid().block_edge);
   const double memory_bytes = require_memory(reader.manifest(), settings, needs_of(reader, settings.sky.engine, cells));
-  MeansOfRun means(on_points);
-  // What is known of a cell's receivers, from when they are placed until their answers are there
-  std::vector<std::vector<SurfaceReceiver>> placed(cells.size());
-  std::atomic<std::size_t> stored = 0;  // cells, in their order; a verification asks for the receivers of some of them again
-  const auto receivers_of = [&](std::size_t n) {
-    PlacedReceivers receivers = placed_on_surfaces(reader, cells[n], surfaces, settings);
-    CellReceivers result = answerable(cells[n], receivers);
-    if (n >= stored && !settings.run.shard) placed[n] = std::move(receivers.receivers);
-    return result;
-  };
-  const auto store = [&](std::size_t n, const CellReceivers& cell, const SvfValues& values) {
-    means.add(range.index_of(cells[n]), points_of(reader, cells[n], placed[n], cell.receivers, values));
-    placed[n] = {};
-    ++stored;
-  };
-  EvaluationSummary summary = evaluate_cells(in_use, settings, cells_of_run(reader, cells, receivers_of), store);
+  SurfaceCells surface_cells(reader, cells, surfaces, settings, on_points);
+  EvaluationSummary summary = evaluate_cells(in_use, settings, surface_cells);
   if (settings.run.shard) return {{}, {}, std::move(summary)};
-  return means.with(summary.estimate ? with_memory(std::move(summary), memory_bytes) : std::move(summary));
+  return surface_cells.means(summary.estimate ? with_memory(std::move(summary), memory_bytes) : std::move(summary));
 }
 
 }  // namespace farlod
