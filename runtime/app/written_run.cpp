@@ -65,7 +65,7 @@ bool draws_errors(const SvfOptions& options) { return options.verify_format != n
 /// Larger rasters are averaged.
 constexpr auto most_pixels_of_picture = static_cast<double>(longest_preview_edge * longest_preview_edge);
 
-/// Of a table of receivers. It has places, too.
+/// The bytes of a table of receivers, with their places.
 double bytes_of_table(const OutputFormat& format, const AnswerColumns& columns, std::size_t further_columns, double rows) {
   constexpr std::size_t svf = 1, bounds = 2;
   const std::size_t answers = svf + (columns.bounds == BoundsColumns::yes ? bounds : 0) + columns.further.size();
@@ -124,7 +124,7 @@ std::optional<SunOfSky> sun_of_sky(const Package& package, const SvfOptions& opt
   return sun;
 }
 
-/// Of a raster: a mask needs no pixels around it.
+/// The extent of a raster: a mask needs no pixels around it.
 std::optional<Box2d> extent_of(const SvfOptions& options) {
   if (options.bbox_projected || options.evaluation.region == nullptr) return options.bbox_projected;
   return options.evaluation.region->outline();
@@ -221,7 +221,7 @@ WrittenRun write_sky(const Package& package, const SvfOptions& options, const Ru
   return written;
 }
 
-/// Of a table of surfaces' receivers, the building, the surface, its kind, azimuth, tilt and area are besides.
+/// A table of surfaces' receivers also has the building, the surface, its kind, azimuth, tilt and area.
 WrittenRun plan_surfaces(const Package& package, const SvfOptions& options, const RunSettings& run) {
   constexpr std::size_t columns_of_surface = 6;
   WrittenRun planned{evaluate_surfaces(package, options.surfaces, options.evaluation, {}, run).summary};

@@ -40,11 +40,11 @@ class CanopySky {
   explicit CanopySky(const AzimuthSampling& azimuths, float range_m = std::numeric_limits<float>::infinity(),
                      const CrownTarget& kernels = crown_kernels());
 
-  /// Of packets near each other, for which most crowns are culled at once. Profiles, receivers and crowns are of one frame, and
-  /// the azimuths those of the profiles. Crowns behind solid things do not count, since a profile has no sky there. In a gap
-  /// below an overhang, of whose sky the profile knows the share that is seen and not where, crowns take the same share of what
-  /// they would take from all of it. `behind_of_azimuths`, unless it is empty, takes `behind` of each azimuth by itself, packet
-  /// by packet: the mean over the azimuths is `behind`, but for rounding.
+  /// Evaluates packets near each other, for which most crowns are culled at once. Profiles, receivers and crowns are of one
+  /// frame, and the azimuths those of the profiles. Crowns behind solid things do not count, since a profile has no sky there. In
+  /// a gap below an overhang, of whose sky the profile knows the share that is seen and not where, crowns take the same share of
+  /// what they would take from all of it. `behind_of_azimuths`, unless it is empty, takes `behind` of each azimuth by itself,
+  /// packet by packet: the mean over the azimuths is `behind`, but for rounding.
   void evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets, const CrownBatches& crowns,
                 std::span<CanopyShares> shares, std::span<PacketHorizon::Row> behind_of_azimuths = {});
   /// The same of one packet.
@@ -60,7 +60,7 @@ class CanopySky {
   /// The crowns of a scene that may be seen from the box, above the lowest ground of some packet.
   void find_seen(const CrownScene& scene, const CenteredBox& box, std::span<const float* const> lowest);
   void sort_from_near_to_far();
-  /// Of one packet, whose lowest ground at each azimuth is `lowest`.
+  /// Evaluates one packet, whose lowest ground at each azimuth is `lowest`.
   [[nodiscard]] CanopyShares evaluate(const SkyRows& sky, const ReceiverPacket& receivers, const float* lowest,
                                       float* behind_of_azimuths);
   /// Where the list of each azimuth begins, with room for all crowns to be drawn there. Returns the room of all.

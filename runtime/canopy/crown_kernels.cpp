@@ -39,7 +39,7 @@ void find_lowest_ground(const SkyRows& rows, const CrownScene& scene, float* low
   find_lowest_ground_of<SkyOfNormals>(rows, scene, lowest);
 }
 
-/// Of one packet or several. A sector without azimuths has a minimum that no crown reaches.
+/// The minima of one packet or several. A sector without azimuths has a minimum that no crown reaches.
 FARLOD_LANES void find_sector_minima_of(std::span<const float* const> lowest, const std::uint32_t* first_of_sector,
                                         SectorMinHorizon& horizon) {
   // As in edge_culling.hpp. NOLINTNEXTLINE(readability-container-data-pointer)

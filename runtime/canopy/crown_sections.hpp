@@ -112,7 +112,7 @@ FARLOD_LANES RoundCrown kept_round(const PlacedCrown& placed) {
           load(row + 6 * lane_count)};
 }
 
-/// Of a round crown, where the azimuth meets it in front of the receiver.
+/// The section of a round crown, where the azimuth meets it in front of the receiver.
 FARLOD_LANES CutCrown cut_round(const RoundCrown& c, bool is_spheroid, float cosine, float sine) {
   const Floats u = c.x * cosine + c.y * sine, e = u * u - c.q, r = sqrt(max(e, broadcast(0.0F)));
   const Floats met = min(e, max(u, -c.q)), high = u * c.high_u + r * c.high_r;

@@ -62,15 +62,15 @@ struct CanopyCertainty {
 /// What the crowns around a cell take of the view of its receivers, by profiles of the sky. Of one thread.
 class CanopyAnswers {
  public:
-  /// Of the receivers of a packet.
+  /// An answer for each receiver of a packet.
   using Answers = std::array<CanopyAnswer, ReceiverPacket::lanes>;
 
   /// All must outlive it.
   CanopyAnswers(const PackageReader& package, const CellReceivers& cell, const FurtherQuantities& further,
                 CanopyCertainty certainty, std::stop_token stop);
 
-  /// Of packets near each other. CanopyLoss::building, which takes rays, is that of a quantity that needs it, or 0. Valid until
-  /// the next call.
+  /// The answers of packets near each other, valid until the next call. CanopyLoss::building, which takes rays, is 0 where no
+  /// quantity needs it.
   [[nodiscard]] std::span<const Answers> evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets,
                                                   std::span<const SkiesOfPacket> skies);
   /// How many rays were traced against the whole city so far.

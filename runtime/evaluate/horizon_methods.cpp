@@ -37,7 +37,7 @@ struct CellGeometry {
   CellSilhouettes silhouettes;
   OverhangGeometry overhangs;
 
-  /// Of a small city, one scene is indexed for all cells; of a large one, what each cell needs.
+  /// A small city is indexed once for all cells; of a large one, each cell indexes what it needs.
   static bool is_small(const PackageReader& package) { return package.manifest().triangles <= most_triangles_indexed_whole; }
 };
 

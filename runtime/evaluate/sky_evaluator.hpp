@@ -28,7 +28,7 @@ class SkyEvaluator {
  public:
   /// The package must outlive the evaluator. When `stop` is asked for, evaluate() ends with Cancelled within some milliseconds.
   SkyEvaluator(const PackageReader& package, const SkySettings& settings, const std::stop_token& stop = {});
-  /// Of the same package, and stopped by the same token. The two share the scene of the whole city, where they need it.
+  /// An evaluator of the same package, stopped by the same token. The two share the scene of the whole city, where they need it.
   SkyEvaluator(const SkyEvaluator& other, const SkySettings& settings);
 
   /// Writes the sky view factor of each receiver, in [0, 1], by the method of the cell (method_of). Where `low` and `high` are
@@ -52,7 +52,7 @@ class SkyEvaluator {
  private:
   explicit SkyEvaluator(std::unique_ptr<const Evaluation> evaluation);
   [[nodiscard]] const SkyMethod& method_for(Cell cell) const;
-  /// Of receivers whose horizons are answered.
+  /// The horizons of the receivers are answered already.
   void find_horizon_distances(const CellReceivers& cell, const SkyAnswers& answers) const;
 
   std::unique_ptr<const Evaluation> evaluation_;

@@ -24,7 +24,7 @@ namespace farlod {
 class SkyHalves {
  public:
   static constexpr std::size_t count = 4;
-  /// Of the receivers of a packet.
+  /// A sum for each receiver of a packet.
   using Sums = std::array<double, ReceiverPacket::lanes>;
   /// A bit for each half.
   using Bits = std::uint8_t;

@@ -44,7 +44,7 @@ struct TracedDirections {
   std::size_t ray_count;
 };
 
-/// Of each origin, by rays: the judge of all other ways. Throws Cancelled when `stop` is asked for.
+/// The losses of each origin, by rays: the judge of all other ways. Throws Cancelled when `stop` is asked for.
 [[nodiscard]] std::vector<CanopyLoss> trace_canopies(const CanopyScene& scene, std::span<const Point3f> origins,
                                                      const TracedDirections& traced, const std::stop_token& stop = {});
 

@@ -51,7 +51,7 @@ class AzimuthSampling {
   }
 
  private:
-  /// Of unit vectors in any order.
+  /// The azimuths of unit vectors in any order.
   explicit AzimuthSampling(std::span<const Point2d> unit_vectors);
   /// For each of `count` equal parts of the turn (a power of two) the first azimuth at or after its beginning, and the end.
   [[nodiscard]] std::vector<std::uint32_t> first_of_parts(std::size_t count) const;

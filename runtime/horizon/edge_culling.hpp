@@ -214,8 +214,8 @@ FARLOD_LANES void find_levels(SectorMinHorizon& horizon) {
   }
 }
 
-/// Of one packet or several, each slopes[azimuth][receiver]. A sector without azimuths has no horizon that an edge could raise:
-/// its minimum is the largest float.
+/// The minima of one packet or several, each slopes[azimuth][receiver]. A sector without azimuths has no horizon that an edge
+/// could raise: its minimum is the largest float.
 FARLOD_LANES void find_sector_minima(std::span<const float* const> packets, const std::uint32_t* first_of_sector,
                                      SectorMinHorizon& horizon) {
   constexpr std::size_t sectors = SectorMinHorizon::sectors;

@@ -38,7 +38,7 @@ FARLOD_LANES void set_ends(const SilhouetteEdges::Batch& edges, std::size_t lane
   e.qz = edges.bz[lane] - r.z;
 }
 
-/// Of an edge clear of the packet. A receiver in line with the edge sees no width of it: its inverse is 0, which gives the slope
+/// The edge is clear of the packet. A receiver in line with the edge sees no width of it: its inverse is 0, which gives the slope
 /// 0.
 FARLOD_LANES void invert_cross(RelativeEdge& e) {
   const Floats cross = e.px * e.qy - e.py * e.qx, inverse = 1.0F / cross;
@@ -48,7 +48,7 @@ FARLOD_LANES void invert_cross(RelativeEdge& e) {
 /// On which side of an edge right above it a receiver is taken to stand.
 enum class Beside { front, back };
 
-/// Of an edge that may be close, or above a receiver. A receiver within `min_sine` of the edge's line
+/// The edge may be close, or above a receiver. A receiver within `min_sine` of the edge's line
 ///   * in front of both ends, or behind both, sees the edge end-on: it has no width, and the slope 0;
 ///   * between the ends stands right below the edge: p × q is replaced as if it stood 1 mm beside it.
 /// Returns whether any receiver stands right below.

@@ -15,11 +15,11 @@ namespace {
 
 using Lanes = PacketHorizon::Lanes;
 
-/// Of a receiver that needs rays, the smallest gaps are not traced, as long as they hold no more of the tolerance than this. They
+/// The smallest gaps of a receiver that needs rays are not traced, as long as they hold no more of the tolerance than this. They
 /// are filled more often than large ones: a quarter of them is sky on average (docs/decisions/0014).
 constexpr float untraced_of_tolerance = 0.5F, sky_in_untraced = 0.25F;
 
-/// Of two sums over the azimuths.
+/// The rounding of two sums over the azimuths.
 constexpr double rounding_of_width = 1e-6;
 
 Lanes sum(std::span<const PacketHorizon::Row> rows) {

@@ -106,9 +106,9 @@ class HorizonEngine {
   };
   /// The sky above a horizon of upper borders, with its jumps where `jump_places_` says.
   [[nodiscard]] HorizonJumps::SkyAbove sky_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
-  /// Of the gaps in `horizons_`, as drawn. Where an error is allowed, no gap is traced, and half of its sky counts.
+  /// The sky in the gaps of `horizons_`, as drawn. Where an error is allowed, no gap is traced, and half of its sky counts.
   [[nodiscard]] SkyInGaps sky_in_gaps(const ReceiverPacket& receivers);
-  /// Of the receivers that need rays.
+  /// Does so for the receivers that need rays.
   void trace_sky_in_gaps(const ReceiverPacket& receivers, SkyInGaps& gaps);
   /// What is known of a profile at the estimate of a horizon, and of the gaps below it.
   void profile_above(const PacketHorizon& horizon, const ReceiverPacket& receivers);
@@ -120,7 +120,7 @@ class HorizonEngine {
     SkyInGaps gaps;
     Lanes low, high;
 
-    /// Of a lane, with its jumps where they are.
+    /// The interval of a lane, with its jumps where they are.
     [[nodiscard]] SvfInterval interval(std::size_t lane) const;
   };
   [[nodiscard]] BoundedSky bounded_without_overhangs(const ReceiverPacket& receivers);

@@ -12,7 +12,7 @@
 namespace farlod {
 namespace {
 
-/// Of a place around a receiver: how far its azimuth is from a direction d, as a sine, and its slope.
+/// A place around a receiver: how far its azimuth is from a direction d, as a sine, and its slope.
 struct SeenPlace {
   float angle, slope;
 };

@@ -29,7 +29,7 @@ void PacketGroup::raise(const SilhouetteEdges& edges, std::span<const ReceiverPa
   drawn_.assign(edges, first_);
   for (std::size_t n = 0; n < packets.size(); ++n)
     if (n != middle) horizons[n].raise(drawn_, packets[n], bounds_[n], Culling::none);
-  // Of the other edges, those that may rise above some of the horizons that this gave
+  // Then those of the other edges that may rise above some of the horizons that this gave
   find_raising(edges, joined(bounds_), horizons, others_);
   for (std::size_t batch = 0; batch < others_.size(); ++batch) others_[batch] &= static_cast<std::uint16_t>(~first_[batch]);
   drawn_.assign(edges, others_);

@@ -81,7 +81,7 @@ class PacketHorizon {
     for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) bits |= slopes_[azimuth][l] < slope ? 1U << l : 0U;
     return bits;
   }
-  /// Of rays with these slopes, one at each azimuth, how many pass above each receiver's horizon.
+  /// How many rays with these slopes, one at each azimuth, pass above each receiver's horizon.
   [[nodiscard]] Lanes count_above(std::span<const float> ray_slopes) const;
   /// The view factors of the sky above the horizons, for each receiver's normal, in [0, 1].
   [[nodiscard]] Lanes sky_above(SkyWeight weight, const ReceiverPacket& receivers) const {

@@ -47,8 +47,8 @@ class UndecidedSky {
     std::size_t rays_per_azimuth = 1;  ///< of a gap that is all of its azimuth's sky
     std::stop_token stop = {};         ///< ends decide() with Cancelled
   };
-  /// Of the receivers that are wanted: how much of the undecided sky is seen for certain, how much more is expected to be seen,
-  /// and how much is still undecided.
+  /// How much of the undecided sky each wanted receiver sees for certain, how much more it is expected to see, and how much is
+  /// still undecided.
   struct Decided {
     std::array<double, ReceiverPacket::lanes> seen{}, expected{}, width{};
     std::uint64_t rays = 0;

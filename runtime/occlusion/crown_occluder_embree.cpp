@@ -30,15 +30,15 @@ struct Chord {
   [[nodiscard]] Chord within(const Chord& other) const { return {std::max(begin, other.begin), std::min(end, other.end)}; }
 };
 
-/// Of the line p + t d with |x| ≤ half.
+/// The part of the line p + t d with |x| ≤ half.
 [[nodiscard]] inline Chord chord_of_slab(double p, double d, double half) {
   if (d == 0.0) return std::abs(p) < half ? Chord{} : Chord::none();
   const double a = (-half - p) / d, b = (half - p) / d;
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// Of a line with the unit ball, or with the unit circle times the z axis where both z are 0. The place that is nearest to the
-/// middle comes first: the usual formula loses all digits of a ball that is far away.
+/// The chord of a line with the unit ball, or with the unit circle times the z axis where both z are 0. The place that is nearest
+/// to the middle comes first: the usual formula loses all digits of a ball that is far away.
 [[nodiscard]] inline Chord chord_of_unit_ball(const Point3d& p, const Point3d& d) {
   const double dd = dot(d, d);
   if (dd == 0.0) return dot(p, p) < 1.0 ? Chord{} : Chord::none();
@@ -59,7 +59,7 @@ struct CrownTurn {
   }
 };
 
-/// Of a line with a crown, in the crown's frame. The direction is not 0.
+/// The chord of a line with a crown, in the crown's frame. The direction is not 0.
 [[nodiscard]] inline Chord chord_of(const Crown& crown, const CrownTurn& turn, const Point3d& origin, const Point3d& direction) {
   const double half_height_m = 0.5 * (static_cast<double>(crown.top_m) - crown.bottom_m), half_width_m = crown.half_width_m;
   const Point3d p{origin.x - crown.x_m, origin.y - crown.y_m, origin.z - crown.bottom_m - half_height_m};

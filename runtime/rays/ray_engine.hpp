@@ -45,7 +45,7 @@ class RayEngine {
 
  private:
   void draw_horizons(std::span<const Receiver> receivers);
-  /// Of a loop over the directions: looks from time to time whether there is an end asked for.
+  /// A loop over the directions looks from time to time whether an end is asked for.
   void look_for_stop(std::uint32_t k) const {
     if (k % directions_between_looks == 0) throw_if_cancelled(stop_);
   }

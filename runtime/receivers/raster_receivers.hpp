@@ -30,7 +30,8 @@ struct PixelRange {
 /// The pixels of a raster by the cells that hold their centres; pixel (column, row) has index row·columns + column.
 class RasterReceivers {
  public:
-  /// Of pixels whose centres lie in the region, or of all when it is null. It must outlive this, as must the manifest.
+  /// The receivers are the pixels whose centres lie in the region, or all when it is null. It must outlive this, as must the
+  /// manifest.
   RasterReceivers(const package::Manifest& manifest, RasterPlan plan, const Region* region = nullptr)
       : manifest_(manifest), plan_(plan), region_(region) {}
 

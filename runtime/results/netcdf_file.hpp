@@ -31,7 +31,7 @@ class NetcdfFile {
   static constexpr std::size_t unlimited = 0;  ///< as long as what is put
   [[nodiscard]] int dimension(const std::string& name, std::size_t length);
   [[nodiscard]] int variable(const std::string& name, NetcdfType type, std::span<const int> dimensions);
-  /// Of numbers: what is missing, or not put, is NaN, and of whole numbers `no_whole`.
+  /// A number that is missing, or not put, is NaN, and a whole number `no_whole`.
   void declare_missing(int variable);
   static constexpr std::int64_t no_whole = INT64_MIN;
   /// Chunks that come once and as a whole need no cache but for one of them.

@@ -24,12 +24,12 @@ struct OutputFormat {
   bool holds_bounds = false;    ///< whether --bounds has bands or columns in it
   bool is_for_solweig = false;  ///< whose reader needs the values of add_for_solweig: they are computed without being asked for
 
-  /// Of the values of --grid: makes the writer of a file; null where the format holds tables alone.
+  /// Makes the writer of a file for the values of --grid; null where the format holds tables alone.
   std::unique_ptr<RasterWriter> (*raster_writer)(const RasterFrame& frame, const std::filesystem::path& path) = nullptr;
   /// Bytes that that writer holds in memory besides the tile that is being written.
   std::uint64_t (*raster_writer_bytes)(const RasterFrame& frame) = nullptr;
 
-  /// Of a row for each receiver of --points, --along or --at: writes it; null where the format holds no tables.
+  /// Writes a row for each receiver of --points, --along or --at; null where the format holds no tables.
   void (*write_points)(const PointRows& rows, const TableFrame& frame, const std::filesystem::path& path) = nullptr;
   /// Makes the writer of the tables of --surfaces; null where the format holds no tables.
   std::unique_ptr<SurfaceTablesWriter> (*surface_tables_writer)(const TableFrame& frame,

@@ -28,7 +28,7 @@ constexpr double crown_bytes = 160;        // of the scene of all crowns, beside
 constexpr double canopy_bytes = 16 * mib;  // crowns around a cell, those far away merged
 constexpr double named_crown_bytes = 100;  // of one in CrownsOfCell, where an error is allowed
 
-// Of a sample of the sky: a direction, and what each thread has at an azimuth, 64 bytes for each of the horizons of an engine
+// A sample of the sky takes: a direction, and what each thread has at an azimuth, 64 bytes for each of the horizons of an engine
 constexpr double direction_bytes = sizeof(Point3d);
 constexpr double azimuth_bytes = 100 + (10 + packets_in_group) * 64;  // HorizonEngine
 constexpr double undecided_azimuth_bytes = 20 + 4 * 64;               // what UndecidedSky adds where an error is allowed

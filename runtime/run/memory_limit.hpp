@@ -40,7 +40,7 @@ struct MemoryNeeds {
 /// needs.
 double require_memory(const package::Manifest& manifest, const ResolvedSettings& settings, const MemoryNeeds& needs);
 
-/// Of a dry run: its estimate with the bytes that it needs.
+/// The estimate of a dry run, with the bytes that it needs.
 [[nodiscard]] EvaluationSummary with_memory(EvaluationSummary summary, double bytes);
 
 /// The same for runs that evaluate nothing, and hold so many bytes: "checking the package" needs more than there is, "use fewer

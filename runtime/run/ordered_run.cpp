@@ -62,7 +62,7 @@ SvfStatistics statistics_of(const SvfValues& values) {
   return statistics;
 }
 
-/// Of the total sky view factors among the further values, where they are.
+/// The statistics of the total sky view factors among the further values, where they are.
 SvfStatistics total_statistics_of(const SvfValues& values, const Quantities& further) {
   SvfStatistics statistics;
   const TotalColumns columns = total_columns_of(further);
@@ -170,7 +170,7 @@ double sampling_error_of_run(const SkySettings& sky, const package::Manifest& ma
   return error;
 }
 
-/// Of the n-th cell: as they were kept, or computed now, and kept where that is asked for.
+/// The answers of the n-th cell: as they were kept, or computed now, and kept where that is asked for.
 SvfValues answers_of(const SkyEvaluator& evaluator, const ResolvedSettings& settings, std::size_t n, const CellReceivers& cell) {
   const AnswerFile* const file = settings.run.answers.get();
   if (file == nullptr) return values_of(evaluator, cell, settings.bounds);
@@ -336,7 +336,7 @@ EvaluationSummary estimate(const PackageReader& package, const ResolvedSettings&
 
 EvaluationSummary evaluate_cells(const PackageInUse& package, const ResolvedSettings& settings, CellsOfRun& cells) {
   require_bounds_known(package, settings);
-  // Of this run alone: another run of the process may have another number of threads
+  // Threads of this run alone: another run of the process may have another number of threads
   oneapi::tbb::task_arena arena(static_cast<int>(settings.threads));
   return arena.execute([&] {
     if (settings.dry_run) return estimate(package.reader(), settings, cells);

@@ -57,7 +57,7 @@ bool is_on_earth(const PlaceOfReceiver& place) {
          std::abs(place.height_m.value_or(0.0)) <= highest_m;
 }
 
-/// Of small cells, so many would lie between the grid and a place far away that its cell has no number (exact_cell_edge_m).
+/// So many small cells would lie between the grid and a place far away that its cell has no number (exact_cell_edge_m).
 bool has_a_cell(const PlaceOfReceiver& place, const package::Manifest& manifest) {
   const Point2d p_grid = manifest.grid_from_projected(place.p_projected);
   const double farthest_m = farthest_cell_index * manifest.grid.cell_edge_m;
@@ -178,7 +178,7 @@ class PointCells final : public CellsOfRun {
   const PointAnswerSpans& answers_;
 };
 
-/// Of a run over all points.
+/// The summary of a run over all points.
 EvaluationSummary with_counts(EvaluationSummary summary, std::size_t points, const PlacesByCell& cells) {
   std::size_t asked = 0;
   for (const auto& [cell, chosen] : cells) asked += chosen.size();

@@ -220,7 +220,7 @@ class WindowAnswers {
             window.columns,
             window.rows};
   }
-  /// Of a cell's receivers, which are pixels of the whole raster by their numbers, those in the window count.
+  /// Takes the receivers of a cell, which are pixels of the whole raster by their numbers, as far as they lie in the window.
   void store(const CellReceivers& cell, const SvfValues& values) {
     for (std::size_t k = 0; k < cell.receivers.size(); ++k) {
       const std::size_t column = cell.receivers[k].index % whole_columns_ - window_.column;

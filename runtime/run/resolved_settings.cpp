@@ -15,8 +15,8 @@
 namespace farlod {
 namespace {
 
-/// Of an allowed error, for the sky between the samples; the rest is for the far map. What the far map leaves undecided costs
-/// rays for some receivers, azimuths cost all of them (docs/decisions/0019-halved-intervals.md).
+/// The share of an allowed error for the sky between the samples; the rest is for the far map. What the far map leaves undecided
+/// costs rays for some receivers, azimuths cost all of them (docs/decisions/0019-halved-intervals.md).
 constexpr double sampling_share = 0.75;
 
 void check(const CanopySettings& canopy) {

@@ -36,7 +36,7 @@ double highest_slope_beyond(const PackageReader& package, Cell cell, float lowes
     return std::abs(static_cast<double>(a) - static_cast<double>(b));
   };
   for (const package::CrownCellRecord& record : package.crowns().cells()) {
-    // Of two squares so many cells apart, the farther side of one is so far from the other
+    // The farther side of a square is so far from another one that lies so many cells apart
     const double farthest_axis_m = edge_m * std::hypot(cells_apart(record.i, cell.i), cells_apart(record.j, cell.j));
     if (farthest_axis_m > farthest_m)
       slope = std::max(slope, (static_cast<double>(record.z_high_m) - static_cast<double>(lowest_m)) / farthest_m);

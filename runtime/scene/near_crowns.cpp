@@ -11,7 +11,7 @@ namespace {
 
 using package::CrownCellRecord;
 
-/// Of a coordinate from the interval 0 to `edge_m`.
+/// The distance of a coordinate from the interval 0 to `edge_m`.
 double distance_to_interval_m(double x_m, double edge_m) { return std::max({-x_m, x_m - edge_m, 0.0}); }
 
 bool reaches(const Crown& crown, Point2d corner_m, double cell_edge_m, double distance_m) {

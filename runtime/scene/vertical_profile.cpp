@@ -19,7 +19,7 @@ using Crossing = VerticalProfile::Crossing;
 
 bool are_of_one_part(const Crossing& a, const Crossing& b) { return a.building == b.building && a.part == b.part; }
 
-/// Of the part of the first of some crossings: how many of its surfaces look up, minus those that look down.
+/// How many surfaces of the part of the first crossing look up, minus those that look down.
 int up_minus_down(std::span<const Crossing> crossings) {
   const Crossing& first = crossings.front();
   int count = 0;

@@ -122,7 +122,7 @@ ExportedView export_page(const ViewCity& city, const std::filesystem::path& file
 }
 
 void require_page_is_possible(const std::filesystem::path& file, std::uint64_t triangles) {
-  // Of three real cities with their ground, 170 to 390 bytes were written for each triangle
+  // Three real cities with their ground took 170 to 390 bytes for each triangle
   constexpr std::uint64_t least_bytes_of_triangle = 40;
   if (triangles > most_bytes_of_page / least_bytes_of_triangle) throw too_large(file, most_bytes_of_page);
   if (std::filesystem::is_directory(file)) throw OutputError(file, "there is a folder of this name; choose another");

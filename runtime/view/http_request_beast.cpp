@@ -45,7 +45,7 @@ std::string decoded(std::string_view text) {
   return plain;
 }
 
-/// Of a query, where a plus sign is a blank.
+/// A value of a query, where a plus sign is a blank.
 std::string decoded_value(std::string_view text) {
   std::string blanks(text);
   std::ranges::replace(blanks, '+', ' ');

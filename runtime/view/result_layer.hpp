@@ -29,14 +29,14 @@ struct ResultLayer {
   std::string quantity = {};  ///< of the band or the field; empty for problems
   std::uint64_t count = 0;    ///< of pixels, points or surfaces in the file; there are fewer here where they were thinned
 
-  // Of rasters
+  // Rasters
   std::uint32_t width = 0, height = 0;
   std::array<double, 6> local_from_pixel{};  ///< as RasterBand::projected_from_pixel, and from the origin of the view
 
-  // Of points and problems
+  // Points and problems
   std::vector<std::array<float, 3>> places_local = {};  ///< z is NaN where no height is known
 
-  // Of surfaces: the building of each as a number of `labels`, and the surface's own number within it
+  // Surfaces: the building of each as a number of `labels`, and the surface's own number within it
   std::vector<std::array<std::uint32_t, 2>> surfaces = {};
 
   std::vector<std::string> labels = {};  ///< ids of points, or what the problems are, or ids of buildings

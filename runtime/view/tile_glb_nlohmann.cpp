@@ -59,7 +59,7 @@ class GlbText {
     bytes_ += bytes;
     return json_["bufferViews"].size() - 1;
   }
-  /// Of attributes of vertices.
+  /// An accessor for an attribute of vertices.
   std::size_t add_accessor(const std::vector<float>& numbers, const char* type, std::size_t components) {
     std::string bytes;
     for (const float number : numbers) append(bytes, number);

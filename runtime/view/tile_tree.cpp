@@ -8,7 +8,7 @@
 namespace farlod {
 namespace {
 
-/// Of tiles that are one cell: less than what is seen of a wall. Those of larger tiles are its multiples.
+/// The error of tiles that are one cell: less than what is seen of a wall. Those of larger tiles are its multiples.
 constexpr double error_of_cells_m = 3.0;
 
 }  // namespace

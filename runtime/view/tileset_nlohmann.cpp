@@ -82,7 +82,7 @@ void append_little_endian(std::string& bytes, Number number) {
 
 constexpr const char *class_of_tiles = "tile", *property_of_error = "geometricError";
 
-/// Of the tiles' metadata, which overrides what follows from their level.
+/// The schema of the tiles' metadata, which overrides what follows from their level.
 Json schema() {
   const Json error = {{"type", "SCALAR"}, {"componentType", "FLOAT64"}, {"semantic", "TILE_GEOMETRIC_ERROR"}, {"required", true}};
   return {{"id", "farlod"}, {"classes", {{class_of_tiles, {{"properties", {{property_of_error, error}}}}}}}};
@@ -121,7 +121,7 @@ std::string tileset_json(const ViewFrame& frame, const TileTree& tree, const std
                      {"transform", ecef_from_local},
                      {"content", {{"uri", "tiles/{level}/{x}/{y}.glb"}}},
                      {"implicitTiling", implicit}};
-  // Of the tileset, the error is that of a picture without it
+  // The error of the tileset is that of a picture without it
   const double of_nothing_m = std::max(2.0 * tree.geometric_error_m(0), tree.square_of({}).edge_m);
   return Json{{"asset", {{"version", "1.1"}}}, {"schema", schema()}, {"geometricError", of_nothing_m}, {"root", root}}.dump() +
          "\n";

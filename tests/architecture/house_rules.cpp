@@ -234,7 +234,7 @@ std::vector<std::string> useless_excuses(const std::vector<SourceFile>& tree) {
 }
 
 std::vector<std::string> comments_without_subject(const std::vector<SourceFile>& tree) {
-  static const std::regex room("^(base|include|console|gdal|package|preprocess)/"), begins_with_of(R"(//[/<!]*\s*Of\s)");
+  static const std::regex room("^(base|include|console|gdal|package|preprocess|runtime)/"), begins_with_of(R"(//[/<!]*\s*Of\s)");
   std::vector<std::string> found;
   for (const SourceFile& file : tree)
     for (std::size_t n = 0; n < file.lines.size(); ++n)

@@ -39,7 +39,7 @@ namespace farlod {
 [[nodiscard]] std::vector<std::string> useless_excuses(const std::vector<SourceFile>& tree);
 
 /// Lines of comments that begin with "Of": they have no subject, and a reader must guess it from the declaration. In base/,
-/// include/, console/, gdal/, package/ and preprocess/, as "path:line".
+/// include/, console/, gdal/, package/, preprocess/ and runtime/, as "path:line".
 [[nodiscard]] std::vector<std::string> comments_without_subject(const std::vector<SourceFile>& tree);
 
 /// Lines of prose in documents that have more than 120 characters: "path:line has n characters". Rows of tables may, since

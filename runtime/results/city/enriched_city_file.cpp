@@ -86,8 +86,8 @@ std::vector<std::string> attribute_names_of_buildings(const AnswerColumns& colum
           "covered_roof_area_m2",      "covered_wall_area_m2"};
 }
 
-/// Of one surface of a city file that is made of these: means are weighted by area, areas are added. Of a single one, the numbers
-/// are those of its row in the table of surfaces.
+/// The attributes of one surface of a city file that is made of these: means are weighted by area, areas are added. Where it is
+/// one, the numbers are those of its row in the table of surfaces.
 CityAttributes attributes_of(std::span<const SurfaceMean* const> surfaces, const AnswerColumns& columns) {
   const SurfaceMean mean = merged(surfaces);
   const std::vector<std::string> names = attribute_names_of_surfaces(columns);
@@ -118,7 +118,7 @@ CityAttributes attributes_of(const BuildingMean& building, const AnswerColumns& 
   return attributes;
 }
 
-/// Of a part of a building that has these surfaces.
+/// The means of a part of a building that has these surfaces.
 BuildingMean mean_of(std::span<const SurfaceMean* const> surfaces) {
   SurfaceMean roofs, walls;
   for (const SurfaceMean* surface : surfaces) add(surface->kind == SurfaceKind::roof ? roofs : walls, *surface);

@@ -21,7 +21,7 @@
 namespace farlod {
 namespace {
 
-// Of Debian's fonts-dejavu-core; where it is missing, fontconfig chooses another
+// Debian's fonts-dejavu-core has it; where it is missing, fontconfig chooses another
 constexpr const char* font_family = "DejaVu Sans";
 constexpr double points_of_pixel = 72.0 / 96.0;
 

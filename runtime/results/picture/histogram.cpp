@@ -110,7 +110,7 @@ double highest_share(std::span<const HistogramSeries> series) {
     const std::vector<double> shares = s.counts.shares(histogram_bins);
     largest = std::max(largest, *std::ranges::max_element(shares));
   }
-  // Of all values in one bin, a sum of shares may miss 1 by its rounding
+  // Where all values are in one bin, the sum of shares may miss 1 by its rounding
   constexpr double rounding = 1e-9;
   for (const double share : {0.02, 0.05, 0.1, 0.2, 0.5})
     if (largest <= share + rounding) return share;

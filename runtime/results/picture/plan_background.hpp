@@ -15,8 +15,8 @@ namespace farlod {
 
 /// What a map shows besides its values, so that a reader finds his way.
 struct PlanBackground {
-  /// Of roofs, in pixels from the upper left corner of the map. None where there would be more than most_outlines, or where a
-  /// building would be smaller than smallest_building pixels: they would hide the map.
+  /// Outlines of roofs, in pixels from the upper left corner of the map. None where there would be more than most_outlines, or
+  /// where a building would be smaller than smallest_building pixels: they would hide the map.
   std::vector<Segment> outlines;
   /// Factors of the lightness of the map's pixels, row by row; empty where no ground rises visibly.
   std::vector<float> shading;

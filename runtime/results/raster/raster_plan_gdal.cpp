@@ -18,7 +18,7 @@
 namespace farlod {
 namespace {
 
-/// Of a pixel: what files that were written with few digits are off.
+/// The part of a pixel that files are off which were written with few digits.
 constexpr double tolerance = 0.01;
 
 GDALDatasetUniquePtr open_raster(const std::filesystem::path& file, const GdalErrors& errors) {

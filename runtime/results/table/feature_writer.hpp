@@ -28,7 +28,7 @@ struct FeatureLayer {
   bool has_places = true;  ///< whether rows are points, or have no geometry
 };
 
-/// Of the type of its field; the first alternative where the row has none.
+/// A value of the type of its field; the first alternative where the row has none.
 using FieldValue = std::variant<std::monostate, std::string_view, std::int64_t, double>;
 
 /// A row of a layer.

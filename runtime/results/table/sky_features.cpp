@@ -89,7 +89,7 @@ FieldType type_of_column(const Attributes& attributes, std::size_t column, std::
     const std::string_view text = attributes.value(row, column);
     if (text.empty()) continue;
     const FieldType one = type_of(text);
-    // Of whole numbers and others, all are numbers
+    // Whole numbers and others are all numbers
     type = !type || one == FieldType::text ? one : *type == one ? one : FieldType::real;
   }
   return type.value_or(FieldType::text);
