@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
+
+#include "farlod/word.hpp"
 
 namespace farlod {
 
@@ -13,6 +16,8 @@ enum class CanopyRule : std::uint8_t {
   each,  ///< the product of the ψ of all crowns that a direction meets
   beer   ///< exp(−Σ κ l), with the length l in metres within each crown: the law of Beer and Lambert
 };
+inline constexpr std::array<Word<CanopyRule>, 3> canopy_rule_words{
+    {{"umep", CanopyRule::once}, {"crowns", CanopyRule::each}, {"beer", CanopyRule::beer}}};
 
 enum class Season : std::uint8_t { leaf_on, leaf_off };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "farlod/point.hpp"
 #include "farlod/quantities.hpp"
 #include "farlod/region.hpp"
+#include "farlod/word.hpp"
 
 namespace farlod {
 
@@ -28,18 +30,27 @@ enum class Engine {
   /// nor errors: not with EvaluationSettings::bounds or max_error.
   near_only
 };
+inline constexpr std::array<Word<Engine>, 5> engine_words{{{"auto", Engine::automatic},
+                                                           {"horizon", Engine::horizon},
+                                                           {"rays", Engine::rays},
+                                                           {"exact", Engine::exact},
+                                                           {"near", Engine::near_only}}};
 
 /// How directions of the sky are weighted.
 enum class SkyWeight {
   cosine,      ///< by the cosine to the receiver's normal: the view factor of the sky (`svf`)
   solid_angle  ///< all alike: the share of the sky's solid angle (`svf_solid`)
 };
+inline constexpr std::array<Word<SkyWeight>, 2> sky_weight_words{
+    {{"cosine", SkyWeight::cosine}, {"solid", SkyWeight::solid_angle}}};
 
 /// The set of directions in which rays are sent.
 enum class DirectionSet {
   partition,  ///< one ray in each cell of the Beckers & Beckers partition of the sky, as in the paper
   fibonacci   ///< a spherical Fibonacci lattice with the sky's weight: fixed, of low discrepancy
 };
+inline constexpr std::array<Word<DirectionSet>, 2> direction_set_words{
+    {{"partition", DirectionSet::partition}, {"fibonacci", DirectionSet::fibonacci}}};
 
 inline constexpr std::size_t default_azimuths = 320, default_rays = 1000;
 
@@ -75,6 +86,8 @@ enum class HeightAbove {
   highest_surface,  ///< the ground or the roof, whichever is on top
   sea_level         ///< the zero of the package's heights
 };
+inline constexpr std::array<Word<HeightAbove>, 3> height_above_words{
+    {{"ground", HeightAbove::ground}, {"surface", HeightAbove::highest_surface}, {"sea", HeightAbove::sea_level}}};
 
 /// How high receivers stand that have no height of their own.
 struct Placing {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "farlod/angle.hpp"
 #include "farlod/canopy.hpp"
 #include "farlod/export.hpp"
+#include "farlod/word.hpp"
 
 namespace farlod {
 
@@ -23,6 +25,8 @@ enum class SkyPatchSet : std::uint8_t {
   tregenza,  ///< 145: bands of 12° with 30, 30, 24, 24, 18, 12, 6 patches, and the zenith
   reinhart   ///< 577: each of those divided into four; bands of 6.2°
 };
+inline constexpr std::array<Word<SkyPatchSet>, 3> sky_patch_words{
+    {{"none", SkyPatchSet::none}, {"tregenza", SkyPatchSet::tregenza}, {"reinhart", SkyPatchSet::reinhart}}};
 
 /// Where the sun is for some time. What lies at the horizon or below it is no sunshine.
 struct SunPosition {

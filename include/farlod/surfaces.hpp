@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -17,10 +18,13 @@
 #include "farlod/point.hpp"
 #include "farlod/run.hpp"
 #include "farlod/surface_kind.hpp"
+#include "farlod/word.hpp"
 
 namespace farlod {
 
 enum class SurfaceChoice { roofs, walls, all };
+inline constexpr std::array<Word<SurfaceChoice>, 3> surface_choice_words{
+    {{"roofs", SurfaceChoice::roofs}, {"walls", SurfaceChoice::walls}, {"all", SurfaceChoice::all}}};
 
 /// Which surfaces have receivers, and how densely: each triangle of area A has ⌈A/spacing²⌉ of them, evenly placed, each standing
 /// for an equal share of its area.

@@ -16,41 +16,12 @@
 #include "farlod/error.hpp"
 #include "farlod/evaluation.hpp"
 #include "farlod/region.hpp"
+#include "python/binding/word.hpp"
 
 namespace py = pybind11;
 
 namespace farlod {
 namespace {
-
-template <class T>
-using Word = std::pair<std::string_view, T>;
-
-constexpr std::array<Word<Engine>, 5> engines{{{"auto", Engine::automatic},
-                                               {"horizon", Engine::horizon},
-                                               {"rays", Engine::rays},
-                                               {"exact", Engine::exact},
-                                               {"near", Engine::near_only}}};
-constexpr std::array<Word<SkyWeight>, 2> metrics{{{"cosine", SkyWeight::cosine}, {"solid", SkyWeight::solid_angle}}};
-constexpr std::array<Word<DirectionSet>, 2> direction_sets{
-    {{"partition", DirectionSet::partition}, {"fibonacci", DirectionSet::fibonacci}}};
-constexpr std::array<Word<HeightAbove>, 3> heights{
-    {{"ground", HeightAbove::ground}, {"surface", HeightAbove::highest_surface}, {"sea", HeightAbove::sea_level}}};
-constexpr std::array<Word<SkyPatchSet>, 3> patch_sets{
-    {{"none", SkyPatchSet::none}, {"tregenza", SkyPatchSet::tregenza}, {"reinhart", SkyPatchSet::reinhart}}};
-
-constexpr std::array<Word<CanopyRule>, 3> canopy_rules{
-    {{"umep", CanopyRule::once}, {"crowns", CanopyRule::each}, {"beer", CanopyRule::beer}}};
-
-/// What a word means. Throws InvalidArgument, which lists the words that there are.
-template <class T, std::size_t n>
-T meaning_of(const char* name, const std::string& word, const std::array<Word<T>, n>& words) {
-  std::string list;
-  for (const auto& [known, meaning] : words) {
-    if (known == word) return meaning;
-    list.append(list.empty() ? "\"" : ", \"").append(known).append("\"");
-  }
-  throw InvalidArgument(std::string(name) + " is \"" + word + "\": give one of " + list);
-}
 
 /// A property that is a word in Python and an enum in C++.
 template <class Class, class T, std::size_t n>
@@ -97,7 +68,7 @@ void add_canopy(py::class_<Quantities>& quantities) {
           [](Quantities& q, double per_m) { q.canopy.extinction_per_m = per_m; })
       .def(
           "set_canopy_rule",
-          [](Quantities& q, const std::string& rule) { q.canopy.rule = meaning_of("canopy_rule", rule, canopy_rules); },
+          [](Quantities& q, const std::string& rule) { q.canopy.rule = meaning_of("canopy_rule", rule, canopy_rule_words); },
           py::arg("rule"));
 }
 
@@ -113,7 +84,7 @@ void add_quantities(py::module_& module) {
           py::arg("word"))
       .def_readwrite("horizons", &Quantities::horizons)
       .def_readwrite("horizon_distances", &Quantities::horizon_distances)
-      .def("set_sky_patches", setter_of("sky_patches", &Quantities::sky_patches, patch_sets), py::arg("patches"))
+      .def("set_sky_patches", setter_of("sky_patches", &Quantities::sky_patches, sky_patch_words), py::arg("patches"))
       .def(
           "set_sun",
           [](Quantities& quantities, const std::vector<double>& azimuth_deg, const std::vector<double>& elevation_deg,
@@ -131,9 +102,9 @@ void add_quantities(py::module_& module) {
 void add_evaluation_settings(py::module_& module) {
   py::class_<EvaluationSettings>(module, "EvaluationSettings")
       .def(py::init<>())
-      .def("set_engine", setter_of("engine", &EvaluationSettings::engine, engines), py::arg("engine"))
-      .def("set_metric", setter_of("metric", &EvaluationSettings::weight, metrics), py::arg("metric"))
-      .def("set_directions", setter_of("directions", &EvaluationSettings::directions, direction_sets), py::arg("directions"))
+      .def("set_engine", setter_of("engine", &EvaluationSettings::engine, engine_words), py::arg("engine"))
+      .def("set_metric", setter_of("metric", &EvaluationSettings::weight, sky_weight_words), py::arg("metric"))
+      .def("set_directions", setter_of("directions", &EvaluationSettings::directions, direction_set_words), py::arg("directions"))
       .def(
           "set_region", [](EvaluationSettings& settings, const std::shared_ptr<Region>& region) { settings.region = region; },
           py::arg("region"))
@@ -151,7 +122,7 @@ void add_evaluation_settings(py::module_& module) {
 void add_settings(py::module_& module) {
   py::class_<Placing>(module, "Placing")
       .def(py::init([](const std::string& above, double height_m) {
-             return Placing{meaning_of("above", above, heights), height_m};
+             return Placing{meaning_of("above", above, height_above_words), height_m};
            }),
            py::arg("above"), py::arg("height_m"));
   py::class_<Region, std::shared_ptr<Region>>(module, "Region").def(py::init(&region_of), py::arg("rings_m"));

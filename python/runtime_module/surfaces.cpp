@@ -13,6 +13,7 @@
 #include "farlod/surfaces.hpp"
 #include "python/binding/interruptible_run.hpp"
 #include "python/binding/owned_array.hpp"
+#include "python/binding/word.hpp"
 #include "python/runtime_module/evaluation.hpp"
 #include "python/runtime_module/summary.hpp"
 
@@ -23,13 +24,6 @@ namespace farlod {
 namespace {
 
 constexpr double no_data = std::numeric_limits<double>::quiet_NaN();
-
-SurfaceChoice choice_of(const std::string& word) {
-  if (word == "roofs") return SurfaceChoice::roofs;
-  if (word == "walls") return SurfaceChoice::walls;
-  if (word == "all") return SurfaceChoice::all;
-  throw InvalidArgument("which is \"" + word + R"(": give one of "roofs", "walls", "all")");
-}
 
 /// A column of a table: a value of each of its rows.
 template <class T, class Row, class Value>
@@ -96,7 +90,7 @@ py::dict dict_of(const std::vector<SurfacePoint>& points, std::size_t further_co
 
 py::dict evaluate_surfaces_in_python(const Package& package, const std::string& which, double spacing_m, bool wants_points,
                                      const EvaluationSettings& settings, const CallerSettings& caller) {
-  const SurfaceSettings surfaces{choice_of(which), spacing_m};
+  const SurfaceSettings surfaces{meaning_of("which", which, surface_choice_words), spacing_m};
   std::vector<SurfacePoint> points;
   const OnSurfacePoints keep = [&points](std::size_t, std::span<const SurfacePoint> of_cell) {
     points.insert(points.end(), of_cell.begin(), of_cell.end());

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/word_choice.hpp"
 #include "console/number_range.hpp"
 
 namespace farlod {
@@ -69,7 +70,7 @@ void add_canopy_options(CLI::App& app, RawQuantities& raw) {
          "--canopy-rule", raw.canopy_rule,
          "How light passes crowns: umep: a share in each direction that meets any; crowns: that share of each one that is "
          "met, multiplied; beer: by the length within them (--extinction)")
-      ->check(CLI::IsMember({"umep", "crowns", "beer"}))
+      ->check(one_of(canopy_rule_words))
       ->capture_default_str()
       ->group("Trees");
   app.add_option("--transmissivity", raw.transmissivity,
@@ -86,8 +87,8 @@ void add_canopy_options(CLI::App& app, RawQuantities& raw) {
 
 CanopySettings canopy_of(const RawQuantities& raw, bool knows_trees) {
   CanopySettings canopy;
-  const bool is_beer = raw.canopy_rule == word_for(CanopyRule::beer);
-  if (is_beer || raw.canopy_rule == word_for(CanopyRule::each)) canopy.rule = is_beer ? CanopyRule::beer : CanopyRule::each;
+  canopy.rule = value_of(canopy_rule_words, raw.canopy_rule).value_or(CanopyRule::once);
+  const bool is_beer = canopy.rule == CanopyRule::beer;
   canopy.season = raw.leaf_off ? Season::leaf_off : Season::leaf_on;
   canopy.transmissivity = raw.transmissivity;
   if (raw.extinction_per_m) canopy.extinction_per_m = *raw.extinction_per_m;
@@ -100,12 +101,6 @@ CanopySettings canopy_of(const RawQuantities& raw, bool knows_trees) {
                                "directional_vegetation or shares");
   return canopy;
 }
-
-}  // namespace
-
-std::string word_for(CanopyRule rule) { return rule == CanopyRule::once ? "umep" : rule == CanopyRule::each ? "crowns" : "beer"; }
-
-namespace {
 
 void add_sun_options(CLI::App& app, RawQuantities& raw) {
   app.add_option(

@@ -43,9 +43,6 @@ struct RequestedQuantities {
 
 void add_quantity_options(CLI::App& app, RawQuantities& raw);
 
-/// The word of --canopy-rule.
-[[nodiscard]] std::string word_for(CanopyRule rule);
-
 /// What SOLWEIG reads beside the sky view factor, of a package with trees or without.
 void add_for_solweig(bool has_trees, Quantities& quantities);
 

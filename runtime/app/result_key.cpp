@@ -11,10 +11,6 @@ namespace {
 
 constexpr const char* flag = "on";
 
-const char* name_of(SurfaceChoice choice) {
-  return choice == SurfaceChoice::roofs ? "roofs" : choice == SurfaceChoice::walls ? "walls" : "all";
-}
-
 std::string name_of_file(const std::filesystem::path& file) { return file.filename().string(); }
 
 std::string text_of(const Box2d& box) { return fmt::format("{},{},{},{}", box.low.x, box.low.y, box.high.x, box.high.y); }
@@ -28,7 +24,7 @@ void add_receivers(const SvfOptions& o, AnswerKey& key) {
   const auto spacing = [&] { key.emplace_back("--spacing", fmt::format("{}", o.surfaces.spacing_m)); };
   switch (o.source) {
     case ReceiverSource::surfaces:
-      key.emplace_back("--surfaces", name_of(o.surfaces.choice));
+      key.emplace_back("--surfaces", word_for(surface_choice_words, o.surfaces.choice));
       return spacing();
     case ReceiverSource::lines:
       key.emplace_back("--along", name_of_file(o.points_file));
@@ -46,9 +42,9 @@ void add_receivers(const SvfOptions& o, AnswerKey& key) {
 }
 
 void add_accuracy(const EvaluationSettings& e, AnswerKey& key) {
-  key.emplace_back("--engine", word_for(e.engine));
-  key.emplace_back("--sky", e.weight == SkyWeight::cosine ? "cosine" : "solid");
-  if (e.directions == DirectionSet::fibonacci) key.emplace_back("--directions", "fibonacci");
+  key.emplace_back("--engine", word_for(engine_words, e.engine));
+  key.emplace_back("--sky", word_for(sky_weight_words, e.weight));
+  if (e.directions == DirectionSet::fibonacci) key.emplace_back("--directions", word_for(direction_set_words, e.directions));
   if (e.azimuths) key.emplace_back("--azimuths", fmt::format("{}", *e.azimuths));
   if (e.rays) key.emplace_back("--rays", fmt::format("{}", *e.rays));
   if (e.max_error) key.emplace_back("--max-error", fmt::format("{}", *e.max_error));
@@ -65,7 +61,7 @@ void add_sun(const SunPeriod& sun, AnswerKey& key) {
 }
 
 void add_canopy(const CanopySettings& canopy, AnswerKey& key) {
-  key.emplace_back("--canopy-rule", word_for(canopy.rule));
+  key.emplace_back("--canopy-rule", word_for(canopy_rule_words, canopy.rule));
   if (canopy.rule == CanopyRule::beer)
     key.emplace_back("--extinction", fmt::format("{}", canopy.extinction_per_m));
   else if (canopy.transmissivity)

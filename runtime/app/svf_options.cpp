@@ -12,6 +12,7 @@
 
 #include "app/format_advice.hpp"
 #include "app/picture_options.hpp"
+#include "app/word_choice.hpp"
 #include "app/work_options.hpp"
 #include "base/expects.hpp"
 #include "console/number_range.hpp"
@@ -86,7 +87,7 @@ void add_receiver_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   receivers->add_option("--along", raw.along, "Points along the lines of this vector file, such as the axes of streets")
       ->type_name(file_value);
   receivers->add_option("--surfaces", raw.surfaces, "Points spread over the buildings, with averages per surface and building")
-      ->check(CLI::IsMember({"roofs", "walls", "all"}));
+      ->check(one_of(surface_choice_words));
   receivers->add_option("--at", raw.at, "One point: X,Y or X,Y,Z in the package's CRS");
   receivers->require_option(1);
 }
@@ -130,7 +131,7 @@ void add_sky_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
   app.add_option("--engine", raw.engine,
                  "auto: horizons, and rays in the gaps below what overhangs; horizon: horizons alone; rays: directions of rays "
                  "compared with horizons, and traced in those gaps; exact: rays against all tiles, the reference")
-      ->check(CLI::IsMember({"auto", "horizon", "rays", "exact"}))
+      ->check(one_of(engine_words, Engine::near_only))
       ->capture_default_str()
       ->group("Accuracy");
   app.add_option(
@@ -140,7 +141,7 @@ void add_sky_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->group("Accuracy");
   app.add_option("--directions", raw.directions,
                  "Where rays go: partition, one in each of equal cells of the sky; fibonacci, a lattice of low discrepancy")
-      ->check(CLI::IsMember({"partition", "fibonacci"}))
+      ->check(one_of(direction_set_words))
       ->capture_default_str()
       ->group("Accuracy");
   app.add_option("--azimuths", o.evaluation.azimuths,
@@ -148,7 +149,7 @@ void add_sky_options(CLI::App& app, RawOptions& raw, SvfOptions& o) {
       ->check(between(4, 1000000))
       ->group("Accuracy");
   app.add_option("--sky", raw.sky, "Weight of the sky: cosine (svf) or solid (svf_solid)")
-      ->check(CLI::IsMember({"cosine", "solid"}))
+      ->check(one_of(sky_weight_words))
       ->capture_default_str()
       ->group("Accuracy");
 }
@@ -197,9 +198,7 @@ void resolve_place(const RawOptions& raw, SvfOptions& o) {
     o.points_file = raw.along;
   } else if (!raw.surfaces.empty()) {
     o.source = ReceiverSource::surfaces;
-    o.surfaces.choice = raw.surfaces == "roofs"   ? SurfaceChoice::roofs
-                        : raw.surfaces == "walls" ? SurfaceChoice::walls
-                                                  : SurfaceChoice::all;
+    o.surfaces.choice = *value_of(surface_choice_words, raw.surfaces);
   }
 }
 
@@ -292,14 +291,6 @@ void require_accuracy(const EvaluationSettings& settings) {
   }
 }
 
-/// The engines that the program offers; near_only is for measurements.
-constexpr std::pair<const char*, Engine> engines[] = {
-    {"auto", Engine::automatic}, {"horizon", Engine::horizon}, {"rays", Engine::rays}, {"exact", Engine::exact}};
-
-Engine engine_of(const std::string& name) {
-  return std::ranges::find_if(engines, [&](const auto& e) { return name == e.first; })->second;
-}
-
 void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
   RequestedQuantities requested = resolved(raw.quantities, o.format != nullptr && o.format->is_for_solweig);
   if (requested.further.any_weighted() && o.evaluation.weight == SkyWeight::solid_angle)
@@ -323,9 +314,9 @@ void resolve(const RawOptions& raw, SvfOptions& o) {
   resolve_part(raw, o);
   resolve_output(raw, o);
   o.placing.above = raw.on_surface ? HeightAbove::highest_surface : HeightAbove::ground;
-  o.evaluation.directions = raw.directions == "fibonacci" ? DirectionSet::fibonacci : DirectionSet::partition;
-  o.evaluation.engine = engine_of(raw.engine);
-  o.evaluation.weight = raw.sky == "solid" ? SkyWeight::solid_angle : SkyWeight::cosine;
+  o.evaluation.directions = *value_of(direction_set_words, raw.directions);
+  o.evaluation.engine = *value_of(engine_words, raw.engine);
+  o.evaluation.weight = *value_of(sky_weight_words, raw.sky);
   resolve_quantities(raw, o);
   resolve_work(raw.shard, o);
   require_accuracy(o.evaluation);
@@ -353,12 +344,6 @@ struct CommandLine {
 };
 
 }  // namespace
-
-std::string word_for(Engine engine) {
-  const auto named = std::ranges::find(engines, engine, &std::pair<const char*, Engine>::second);
-  FARLOD_EXPECTS(named != std::end(engines));
-  return named->first;
-}
 
 ParsedSvfOptions parse_svf_options(int argc, char** argv) {
   CommandLine line;

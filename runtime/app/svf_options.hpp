@@ -62,9 +62,6 @@ struct ParsedSvfOptions {
 };
 [[nodiscard]] ParsedSvfOptions parse_svf_options(int argc, char** argv);
 
-/// The word of --engine.
-[[nodiscard]] std::string word_for(Engine engine);
-
 /// Hands over the command line, from which the manual page and the completion are made.
 void describe_svf_options(const CommandLineVisitor& visit);
 

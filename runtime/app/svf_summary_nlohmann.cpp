@@ -59,7 +59,7 @@ std::string svf_summary_json(const WrittenRun& written, const SvfOptions& option
   Json j = {
       {"receivers", run.receivers},
       {"nodata", run.no_data + run.beyond_grid},
-      {"engine", word_for(options.evaluation.engine)},
+      {"engine", word_for(engine_words, options.evaluation.engine)},
       {"seconds", seconds_json(written, total_seconds)},
       {"receivers_per_second", busy_s > 0.0 ? static_cast<double>(run.receivers) / busy_s : 0.0},
       {"rays", run.accuracy.rays},

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "farlod/word.hpp"
+
+namespace farlod {
+
+/// Checks that an option is one of the words of an enum, but for those of values that the program does not offer.
+template <class T, std::size_t n, class... Left>
+[[nodiscard]] CLI::IsMember one_of(const std::array<Word<T>, n>& words, Left... left_out) {
+  std::vector<std::string> offered;
+  for (const Word<T>& word : words)
+    if (((word.value != left_out) && ...)) offered.emplace_back(word.text);
+  return CLI::IsMember(offered);
+}
+
+}  // namespace farlod
