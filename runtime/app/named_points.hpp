@@ -11,8 +11,8 @@
 #include "farlod/package.hpp"
 #include "farlod/points.hpp"
 #include "farlod/region.hpp"
-#include "points/attributes.hpp"
-#include "points/requested_points.hpp"
+#include "inputs/attributes.hpp"
+#include "inputs/requested_points.hpp"
 #include "results/table/table_writer.hpp"
 
 namespace farlod {

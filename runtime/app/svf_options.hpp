@@ -15,7 +15,7 @@
 #include "farlod/evaluation.hpp"
 #include "farlod/shard.hpp"
 #include "farlod/surfaces.hpp"
-#include "points/requested_points.hpp"
+#include "inputs/requested_points.hpp"
 #include "results/output_format.hpp"
 #include "results/picture/sky_picture.hpp"
 

@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <memory>
 
-#include "results/point_reader_gdal.hpp"
+#include "inputs/point_reader_gdal.hpp"
+#include "inputs/raster_plan_gdal.hpp"
+#include "inputs/raster_reader_gdal.hpp"
+#include "inputs/region_reader_gdal.hpp"
+#include "inputs/reproject_gdal.hpp"
 #include "results/raster/esri_wkt_gdal.hpp"
-#include "results/raster/raster_plan_gdal.hpp"
-#include "results/raster/raster_reader_gdal.hpp"
 #include "results/raster/raster_writer.hpp"
-#include "results/region_reader_gdal.hpp"
-#include "results/reproject_gdal.hpp"
 #include "results/table/feature_writer.hpp"
 #include "results/table/table_writer.hpp"
 

@@ -3,7 +3,7 @@
 #include "results/point_file.hpp"
 
 #include "base/lower_case.hpp"
-#include "points/point_reader.hpp"
+#include "inputs/point_reader.hpp"
 #ifdef FARLOD_WITH_GDAL
 #include "results/gdal_files.hpp"
 #endif

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "points/requested_points.hpp"
+#include "inputs/requested_points.hpp"
 
 namespace farlod {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "farlod/error.hpp"
-#include "points/point_reader.hpp"
+#include "inputs/point_reader.hpp"
 #include "results/point_file.hpp"
 #ifdef FARLOD_WITH_GDAL
 #include "results/gdal_files.hpp"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "points/attributes.hpp"
+#include "inputs/attributes.hpp"
 #include "view/result_layer.hpp"
 
 namespace farlod {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/expects.hpp"
-#include "points/point_reader.hpp"
+#include "inputs/point_reader.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "inputs/reproject_gdal.hpp"
 #include "results/atomic_file.hpp"
-#include "results/reproject_gdal.hpp"
 #include "results/table/feature_writer.hpp"
 #include "results/table/table_writer.hpp"
 

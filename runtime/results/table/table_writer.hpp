@@ -16,7 +16,7 @@
 #include "farlod/package.hpp"
 #include "farlod/point.hpp"
 #include "farlod/surfaces.hpp"
-#include "points/attributes.hpp"
+#include "inputs/attributes.hpp"
 #include "results/provenance.hpp"
 
 namespace farlod {

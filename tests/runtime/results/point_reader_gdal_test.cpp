@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/point_reader_gdal.hpp"
+#include "inputs/point_reader_gdal.hpp"
 
 #include <gdal_priv.h>
 #include <gmock/gmock.h>

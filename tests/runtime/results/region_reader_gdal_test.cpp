@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/region_reader_gdal.hpp"
+#include "inputs/region_reader_gdal.hpp"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
 
-#include "points/requested_points.hpp"
+#include "inputs/requested_points.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {

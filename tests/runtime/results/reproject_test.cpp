@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/reproject_gdal.hpp"
+#include "inputs/reproject_gdal.hpp"
 
 #include <gmock/gmock.h>
 
-#include "points/point_reader.hpp"
+#include "inputs/point_reader.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
 
 namespace farlod {

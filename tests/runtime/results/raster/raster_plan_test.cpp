@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/raster/raster_plan_gdal.hpp"
+#include "inputs/raster_plan_gdal.hpp"
 
 #include <gdal_priv.h>
 #include <gmock/gmock.h>
 
 #include <array>
 
-#include "points/requested_points.hpp"
+#include "inputs/requested_points.hpp"
 #include "results/raster/raster_writer_gdal.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
 #include "tests/scenes/temporary_folder.hpp"

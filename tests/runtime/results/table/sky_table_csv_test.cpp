@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "points/point_reader.hpp"
+#include "inputs/point_reader.hpp"
 #include "results/table/csv_text.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 

@@ -9,8 +9,8 @@
 #include <map>
 
 #include "farlod/error.hpp"
+#include "inputs/point_reader_gdal.hpp"
 #include "results/output_format.hpp"
-#include "results/point_reader_gdal.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 

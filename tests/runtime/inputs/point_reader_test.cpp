@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "points/point_reader.hpp"
+#include "inputs/point_reader.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "points/point_fields.hpp"
+#include "inputs/point_fields.hpp"
 
 #include <charconv>
 #include <cmath>

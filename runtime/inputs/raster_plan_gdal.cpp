@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/raster/raster_plan_gdal.hpp"
+#include "inputs/raster_plan_gdal.hpp"
 
 #include <gdal_priv.h>
 
@@ -12,8 +12,8 @@
 #include "gdal/gdal_errors.hpp"
 #include "gdal/local_data_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
-#include "points/requested_points.hpp"
-#include "results/reproject_gdal.hpp"
+#include "inputs/reproject_gdal.hpp"
+#include "inputs/requested_points.hpp"
 
 namespace farlod {
 namespace {

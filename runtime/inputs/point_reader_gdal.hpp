@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "points/requested_points.hpp"
+#include "inputs/requested_points.hpp"
 
 namespace farlod {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "points/attributes.hpp"
+#include "inputs/attributes.hpp"
 
 namespace farlod {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/region_reader_gdal.hpp"
+#include "inputs/region_reader_gdal.hpp"
 
 #include <ogrsf_frmts.h>
 
@@ -10,8 +10,8 @@
 #include "gdal/gdal_errors.hpp"
 #include "gdal/vector_file_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
-#include "points/requested_points.hpp"
-#include "results/reproject_gdal.hpp"
+#include "inputs/reproject_gdal.hpp"
+#include "inputs/requested_points.hpp"
 
 namespace farlod {
 namespace {

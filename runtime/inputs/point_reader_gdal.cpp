@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/point_reader_gdal.hpp"
+#include "inputs/point_reader_gdal.hpp"
 
 #include <ogrsf_frmts.h>
 
@@ -15,8 +15,8 @@
 #include "gdal/gdal_errors.hpp"
 #include "gdal/vector_file_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
-#include "points/point_fields.hpp"
-#include "results/reproject_gdal.hpp"
+#include "inputs/point_fields.hpp"
+#include "inputs/reproject_gdal.hpp"
 
 namespace farlod {
 namespace {

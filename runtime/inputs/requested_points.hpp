@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "farlod/error.hpp"
-#include "points/attributes.hpp"
+#include "inputs/attributes.hpp"
 
 namespace farlod {
 

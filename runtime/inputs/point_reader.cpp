@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "points/point_reader.hpp"
+#include "inputs/point_reader.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "points/point_fields.hpp"
+#include "inputs/point_fields.hpp"
 
 namespace farlod {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/reproject_gdal.hpp"
+#include "inputs/reproject_gdal.hpp"
 
 #include <fmt/core.h>
 #include <ogr_spatialref.h>
@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "gdal/gdal_errors.hpp"
-#include "points/requested_points.hpp"
+#include "inputs/requested_points.hpp"
 
 namespace farlod {
 namespace {
