@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
 #include "farlod/point.hpp"
+#include "farlod/word.hpp"
 
 namespace farlod {
 
@@ -18,6 +20,12 @@ enum class SurfaceKind : std::uint8_t {
   floor = 4,       ///< looks down: the ground slab of a building, the underside of a bridge
   foundation = 5,  ///< of no file: what closes the gap between a building's lowest floor and the ground
 };
+inline constexpr std::array<Word<SurfaceKind>, 6> surface_kind_words{{{"unknown", SurfaceKind::unknown},
+                                                                      {"ground", SurfaceKind::ground},
+                                                                      {"roof", SurfaceKind::roof},
+                                                                      {"wall", SurfaceKind::wall},
+                                                                      {"floor", SurfaceKind::floor},
+                                                                      {"foundation", SurfaceKind::foundation}}};
 
 /// A surface whose outward normal is at least this steep counts as a wall (cosine of 75° to the vertical).
 inline constexpr double wall_normal_z = 0.2588190451025207;

@@ -16,12 +16,20 @@
 #include "farlod/error.hpp"
 #include "farlod/evaluation.hpp"
 #include "farlod/region.hpp"
+#include "farlod/surfaces.hpp"
 #include "python/binding/word.hpp"
 
 namespace py = pybind11;
 
 namespace farlod {
 namespace {
+
+template <class T, std::size_t n>
+py::tuple texts_of(const std::array<Word<T>, n>& words) {
+  py::tuple texts(n);
+  for (std::size_t k = 0; k < n; ++k) texts[k] = std::string(words[k].text);
+  return texts;
+}
 
 /// A property that is a word in Python and an enum in C++.
 template <class Class, class T, std::size_t n>
@@ -128,6 +136,17 @@ void add_settings(py::module_& module) {
   py::class_<Region, std::shared_ptr<Region>>(module, "Region").def(py::init(&region_of), py::arg("rings_m"));
   add_quantities(module);
   add_evaluation_settings(module);
+  // A test compares them with the types of the package
+  py::dict words;
+  words["engine"] = texts_of(engine_words);
+  words["metric"] = texts_of(sky_weight_words);
+  words["directions"] = texts_of(direction_set_words);
+  words["above"] = texts_of(height_above_words);
+  words["sky_patches"] = texts_of(sky_patch_words);
+  words["canopy_rule"] = texts_of(canopy_rule_words);
+  words["which"] = texts_of(surface_choice_words);
+  words["kind"] = texts_of(surface_kind_words);
+  module.attr("words") = words;
 }
 
 }  // namespace farlod

@@ -16,7 +16,4 @@ namespace farlod {
 /// `building`, `surface` and `kind`. `svf` has a value for each facet, NaN for none. Empty surfaces are an empty scene.
 [[nodiscard]] std::string glb_of(const TileSurfaces& surfaces, std::span<const float> svf);
 
-/// "ground", "roof", "wall", "floor", "foundation", "unknown".
-[[nodiscard]] const char* name_of(SurfaceKind kind);
-
 }  // namespace farlod

@@ -162,7 +162,7 @@ void add_property_table(const std::vector<TileFeature>& features, GlbText& glb) 
   std::string surfaces;
   for (const TileFeature& feature : features) {
     buildings.push_back(feature.building);
-    kinds.emplace_back(name_of(feature.kind));
+    kinds.emplace_back(word_for(surface_kind_words, feature.kind));
     append(surfaces, feature.surface);
   }
   Json properties;
@@ -206,24 +206,6 @@ Point3d middle_of(const TileSurfaces& surfaces) {
 }
 
 }  // namespace
-
-const char* name_of(SurfaceKind kind) {
-  switch (kind) {
-    case SurfaceKind::ground:
-      return "ground";
-    case SurfaceKind::roof:
-      return "roof";
-    case SurfaceKind::wall:
-      return "wall";
-    case SurfaceKind::floor:
-      return "floor";
-    case SurfaceKind::foundation:
-      return "foundation";
-    case SurfaceKind::unknown:
-      break;
-  }
-  return "unknown";
-}
 
 std::string glb_of(const TileSurfaces& surfaces, std::span<const float> svf) {
   FARLOD_EXPECTS(svf.size() == surfaces.facets.size());

@@ -40,8 +40,9 @@ def test_stubs_have_the_names_of_the_compiled_modules(stub: Path, module: str) -
     compiled = importlib.import_module(module)
     body = ast.parse(stub.read_text(encoding="utf-8")).body
     functions = {node.name for node in body if isinstance(node, ast.FunctionDef)}
+    values = {node.target.id for node in body if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name)}
     classes = {node.name: node for node in body if isinstance(node, ast.ClassDef) and not node.name.startswith("_")}
-    assert functions | set(classes) | {"version"} == {name for name in dir(compiled) if not name.startswith("__")}
+    assert functions | values | set(classes) == {name for name in dir(compiled) if not name.startswith("__")}
     for name, node in classes.items():
         members = {member.name for member in node.body if isinstance(member, ast.FunctionDef)}
         members |= {m.target.id for m in node.body if isinstance(m, ast.AnnAssign) and isinstance(m.target, ast.Name)}

@@ -7,7 +7,7 @@ from __future__ import annotations
 import itertools
 import math
 import os
-from typing import Any
+from typing import Any, get_args
 
 import geopandas
 import numpy as np
@@ -19,6 +19,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import farlod
+from farlod import _settings, _surfaces
+from farlod._modules import runtime
 
 NAN, INF = math.nan, math.inf
 HERE = [[550000.0, 5500000.0]]
@@ -291,3 +293,16 @@ def test_random_rasters(village_path: str, step: Any, box: Any, keywords: Any) -
     if keywords.get("engine") in ("rays", "exact"):
         keywords["rays"] = 20
     answers_or_refuses(lambda: city.svf_grid(step, box, **keywords))
+
+
+def test_types_name_the_words_of_the_library():
+    types = {
+        "engine": _settings.Engine,
+        "metric": _settings.Metric,
+        "directions": _settings.Directions,
+        "above": _settings.Above,
+        "canopy_rule": _settings.CanopyRule,
+        "which": _surfaces.Choice,
+    }
+    assert {name: get_args(words) for name, words in types.items()} == {name: runtime.words[name] for name in types}
+    assert ("none", *get_args(_settings.SkyPatches)) == runtime.words["sky_patches"]

@@ -10,7 +10,7 @@ import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union, Unpack, overload
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union, Unpack, get_args, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -458,7 +458,7 @@ class City:
             height=height,
             above=above,
             max_error=max_error,
-            sky_patches=_arguments.word("patches", patches, ("tregenza", "reinhart")),
+            sky_patches=_arguments.word("patches", patches, get_args(SkyPatches)),
             options=options,
         )
         return _grids.patches(self._answers(receivers, evaluation)["further"], receivers.index)
@@ -741,7 +741,7 @@ class City:
         )
         frame = _surfaces.frame(
             package,
-            _arguments.word("which", which, ("roofs", "walls", "all")),
+            _arguments.word("which", which, get_args(_surfaces.Choice)),
             _arguments.number("spacing", spacing),
             _arguments.flag("points", points),
             _arguments.flag("geometry", geometry),

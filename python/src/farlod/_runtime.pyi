@@ -12,6 +12,7 @@ _Floats32 = npt.NDArray[np.float32]
 _Floats64 = npt.NDArray[np.float64]
 
 version: str
+words: dict[str, tuple[str, ...]]
 
 class Package:
     def __init__(self, folder: str) -> None: ...

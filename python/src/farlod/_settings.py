@@ -14,6 +14,7 @@ from farlod._modules import runtime as _runtime
 from farlod.errors import InvalidArgument
 
 Engine = Literal["auto", "horizon", "rays", "exact", "near"]
+Directions = Literal["partition", "fibonacci"]
 Metric = Literal["cosine", "solid"]
 Above = Literal["ground", "surface", "sea"]
 SkyPatches = Literal["tregenza", "reinhart"]
@@ -65,7 +66,7 @@ class Options(TypedDict, total=False):
     engine: Engine
     azimuths: int
     rays: int
-    directions: Literal["partition", "fibonacci"]
+    directions: Directions
     canopy_rule: CanopyRule
     leaf_off: bool
     transmissivity: float
@@ -119,7 +120,7 @@ class Evaluation:
     def placing(self) -> Any:
         """``Placing`` of the library."""
         return _runtime.Placing(
-            _arguments.word("above", self.above, ("ground", "surface", "sea")), _arguments.number("height", self.height)
+            _arguments.word("above", self.above, get_args(Above)), _arguments.number("height", self.height)
         )
 
     def further(self) -> Any:
@@ -139,7 +140,7 @@ class Evaluation:
 
     def _set_canopy(self, further: Any) -> None:
         rule = self.options.get("canopy_rule", "umep")
-        further.set_canopy_rule(_arguments.word("canopy_rule", rule, ("umep", "crowns", "beer")))
+        further.set_canopy_rule(_arguments.word("canopy_rule", rule, get_args(CanopyRule)))
         further.leaf_off = _arguments.flag("leaf_off", self.options.get("leaf_off", False))
         if "transmissivity" in self.options:
             further.transmissivity = _arguments.number("transmissivity", self.options["transmissivity"])
@@ -149,7 +150,7 @@ class Evaluation:
     def settings(self) -> Any:
         """``EvaluationSettings`` of the library."""
         settings = _runtime.EvaluationSettings()
-        settings.set_metric(_arguments.word("metric", self.metric, ("cosine", "solid")))
+        settings.set_metric(_arguments.word("metric", self.metric, get_args(Metric)))
         settings.bounds = _arguments.flag("bounds", self.bounds)
         if self.max_error is not None:
             settings.max_error = _arguments.number("max_error", self.max_error)
@@ -160,9 +161,9 @@ class Evaluation:
             if name in ("azimuths", "rays"):
                 setattr(settings, name, _arguments.whole_number(name, value, 1, 10**10))
             elif name == "engine":
-                settings.set_engine(_arguments.word(name, value, ("auto", "horizon", "rays", "exact", "near")))
+                settings.set_engine(_arguments.word(name, value, get_args(Engine)))
             elif name == "directions":
-                settings.set_directions(_arguments.word(name, value, ("partition", "fibonacci")))
+                settings.set_directions(_arguments.word(name, value, get_args(Directions)))
             elif name not in OTHER_OPTIONS:
                 raise TypeError(f"{name!r} is no argument of this function: see farlod.Options for those that there are")
         return settings

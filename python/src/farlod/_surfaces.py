@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Choice = Literal["roofs", "walls", "all"]
 
 #: By the number that the package format gives each kind.
-KINDS = np.array(["unknown", "ground", "roof", "wall", "floor", "foundation"], dtype=object)
+KINDS = np.array(_runtime.words["kind"], dtype=object)
 
 
 def _columns(table: Mapping[str, Any], names: Mapping[str, str], further: list[str]) -> dict[str, Any]:

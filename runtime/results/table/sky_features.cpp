@@ -128,7 +128,7 @@ void write_receivers_as_features(SurfaceSpool& receivers, const TableFrame& fram
     feature.height_m = r.p_projected.z;
     feature.values = {std::string_view(r.building),
                       whole(r.surface),
-                      word_for(r.kind),
+                      word_for(surface_kind_words, r.kind),
                       millimetres(r.p_projected.x),
                       millimetres(r.p_projected.y),
                       millimetres(r.p_projected.z),
@@ -154,7 +154,7 @@ void write_surfaces_as_features(std::span<const SurfaceMean> rows, const TableFr
   for (const SurfaceMean& r : rows) {
     FeatureRow feature{{},
                        {},
-                       {std::string_view(r.building), whole(r.surface), word_for(r.kind), millimetres(r.azimuth.degrees()),
+                       {std::string_view(r.building), whole(r.surface), word_for(surface_kind_words, r.kind), millimetres(r.azimuth.degrees()),
                         millimetres(r.tilt.degrees()), millimetres(r.area_m2), whole(r.receivers), whole(r.nodata),
                         share(r.svf_mean), share(r.svf_min), share(r.svf_max), millimetres(r.covered_area_m2)}};
     for (std::size_t n = 0; n < frame.columns.further.size(); ++n)

@@ -65,13 +65,13 @@ CsvText point_header(const PointRows& rows, const AnswerColumns& columns) {
 
 // A thousandth of a degree is 1.7 cm over a kilometre
 void add_surface_point(const SurfacePoint& r, CsvText& text) {
-  text.field(r.building).whole(r.surface).field(word_for(r.kind));
+  text.field(r.building).whole(r.surface).field(word_for(surface_kind_words, r.kind));
   text.millimetres(r.p_projected.x).millimetres(r.p_projected.y).millimetres(r.p_projected.z);
   text.millimetres(r.azimuth.degrees()).millimetres(r.tilt.degrees()).millimetres(r.area_m2);
 }
 
 void add_surface(const SurfaceMean& r, const AnswerColumns& columns, CsvText& text) {
-  text.field(r.building).whole(r.surface).field(word_for(r.kind));
+  text.field(r.building).whole(r.surface).field(word_for(surface_kind_words, r.kind));
   text.millimetres(r.azimuth.degrees()).millimetres(r.tilt.degrees()).millimetres(r.area_m2);
   text.whole(r.receivers).whole(r.nodata).svf(r.svf_mean).svf(r.svf_min).svf(r.svf_max).millimetres(r.covered_area_m2);
   for (std::size_t k = 0; k < columns.further.size(); ++k) text.number(further_value(r.further_mean, k));

@@ -4,24 +4,6 @@
 
 namespace farlod {
 
-std::string_view word_for(SurfaceKind kind) {
-  switch (kind) {
-    case SurfaceKind::ground:
-      return "ground";
-    case SurfaceKind::roof:
-      return "roof";
-    case SurfaceKind::wall:
-      return "wall";
-    case SurfaceKind::foundation:
-      return "foundation";
-    case SurfaceKind::floor:
-      return "floor";
-    case SurfaceKind::unknown:
-      break;
-  }
-  return "unknown";
-}
-
 std::vector<std::string> names_of(const AnswerColumns& columns) {
   std::vector<std::string> names{columns.quantity};
   if (columns.bounds == BoundsColumns::yes) names.insert(names.end(), {columns.quantity + "_low", columns.quantity + "_high"});

@@ -73,9 +73,6 @@ template <class Values>
   return values.empty() ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(values[k]);
 }
 
-/// The word for a kind in tables, such as "roof".
-[[nodiscard]] std::string_view word_for(SurfaceKind kind);
-
 /// The file of another table of --surfaces: OUT.csv → OUT.surfaces.csv.
 [[nodiscard]] std::filesystem::path table_beside(const std::filesystem::path& output, const std::string& what);
 
