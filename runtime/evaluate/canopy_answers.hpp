@@ -17,6 +17,7 @@
 #include "evaluate/svf_total.hpp"
 #include "evaluate/traced_canopy.hpp"
 #include "farlod/quantities.hpp"
+#include "horizon/horizon_engine.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/sky_profile.hpp"

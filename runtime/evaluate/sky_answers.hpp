@@ -10,8 +10,8 @@
 #include "evaluate/further_quantities.hpp"
 #include "evaluate/sky_directions.hpp"
 #include "farlod/evaluation.hpp"
-#include "horizon/horizon_engine.hpp"
 #include "horizon/sky_partition.hpp"
+#include "horizon/svf_interval.hpp"
 
 namespace farlod {
 
@@ -31,6 +31,11 @@ struct SkySettings {
 struct RayCounts {
   std::uint64_t by_rays = 0;        ///< receivers that needed rays
   std::uint64_t retraced_rays = 0;  ///< rays traced against the whole city because the far map did not decide them
+};
+
+/// What an evaluator has done so far.
+struct EvaluationStatistics : RayCounts {
+  double scenes_s = 0.0, evaluate_s = 0.0;  ///< summed over threads
 };
 
 /// Arrays that take the answers, indexed by Receiver::index. `low` and `high` are empty where bounds are not wanted, `further`

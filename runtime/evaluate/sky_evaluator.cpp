@@ -8,6 +8,7 @@
 #include "base/cancellation.hpp"
 #include "base/expects.hpp"
 #include "evaluate/error_budget.hpp"
+#include "evaluate/sky_method.hpp"
 #include "scene/canopy_around.hpp"
 #include "scene/near_scene.hpp"
 
@@ -63,6 +64,13 @@ SkyEvaluator::SkyEvaluator(std::unique_ptr<const Evaluation> evaluation) : evalu
   method(near_scene_alone) = near_scene_method(*evaluation_, false);
   method(whole_city) = whole_city_method(*evaluation_);
 }
+
+SkyEvaluator::~SkyEvaluator() = default;
+
+EvaluationStatistics SkyEvaluator::statistics() const { return evaluation_->counter->statistics(); }
+const PackageReader& SkyEvaluator::package() const { return evaluation_->package; }
+const SkySettings& SkyEvaluator::settings() const { return evaluation_->settings; }
+std::size_t SkyEvaluator::further_columns() const { return evaluation_->further.size(); }
 
 const SkyMethod& SkyEvaluator::method_for(Cell cell) const {
   return *methods_[static_cast<std::size_t>(method_of(settings().engine, far_map_of(package(), cell)))];

@@ -10,12 +10,15 @@
 
 #include "evaluate/evaluation_method.hpp"
 #include "evaluate/sky_answers.hpp"
-#include "evaluate/sky_method.hpp"
-#include "evaluate/sky_parts.hpp"
 #include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {
+
+class SkyMethod;
+struct Evaluation;
+struct HemisphereDirections;
+struct SkyParts;
 
 /// Upper bound of the sampling error, without the error of the far map, where cells have far maps of this kind: that of the
 /// azimuths or that of the rays, whichever is larger among those that answer there (method_of). Whether there is an allowed far
@@ -30,6 +33,7 @@ class SkyEvaluator {
   SkyEvaluator(const PackageReader& package, const SkySettings& settings, const std::stop_token& stop = {});
   /// An evaluator of the same package, stopped by the same token. The two share the scene of the whole city, where they need it.
   SkyEvaluator(const SkyEvaluator& other, const SkySettings& settings);
+  ~SkyEvaluator();
 
   /// Writes the sky view factor of each receiver, in [0, 1], by the method of the cell (method_of). Where `low` and `high` are
   /// wanted, the value for the same azimuths or rays, with jumps of the horizon at the same places, and the true far city lies
@@ -43,11 +47,11 @@ class SkyEvaluator {
   /// What the only receiver of a cell sees, direction by direction, by the method of the cell.
   [[nodiscard]] SkyParts parts_of_sky(const CellReceivers& cell, const HemisphereDirections& directions) const;
 
-  [[nodiscard]] EvaluationStatistics statistics() const { return evaluation_->counter->statistics(); }
-  [[nodiscard]] const PackageReader& package() const { return evaluation_->package; }
-  [[nodiscard]] const SkySettings& settings() const { return evaluation_->settings; }
+  [[nodiscard]] EvaluationStatistics statistics() const;
+  [[nodiscard]] const PackageReader& package() const;
+  [[nodiscard]] const SkySettings& settings() const;
   /// The columns of SkyAnswers::further.
-  [[nodiscard]] std::size_t further_columns() const { return evaluation_->further.size(); }
+  [[nodiscard]] std::size_t further_columns() const;
 
  private:
   explicit SkyEvaluator(std::unique_ptr<const Evaluation> evaluation);

@@ -19,11 +19,6 @@
 
 namespace farlod {
 
-/// What an evaluator has done so far.
-struct EvaluationStatistics : RayCounts {
-  double scenes_s = 0.0, evaluate_s = 0.0;  ///< summed over threads
-};
-
 /// Counts what all threads do.
 class EvaluationCounter {
  public:

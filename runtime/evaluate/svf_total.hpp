@@ -9,7 +9,7 @@
 #include "evaluate/sky_directions.hpp"
 #include "evaluate/traced_canopy.hpp"
 #include "farlod/point.hpp"
-#include "horizon/horizon_engine.hpp"
+#include "horizon/svf_interval.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {

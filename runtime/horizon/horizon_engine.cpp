@@ -31,11 +31,6 @@ Lanes sum(std::span<const PacketHorizon::Row> rows) {
 
 }  // namespace
 
-SvfInterval within_error(const SvfInterval& svf, float error) {
-  const float most = std::max(svf.low, svf.high - error), least = std::min(svf.high, svf.low + error);
-  return {svf.low, std::clamp(svf.estimate, std::min(most, least), std::max(most, least)), svf.high};
-}
-
 HorizonEngine::HorizonEngine(const AzimuthSampling& azimuths, SkyWeight weight, const FarHorizon& far,
                              const CellSilhouettes& silhouettes, OverhangGeometry& overhangs, const GapSettings& gaps,
                              JumpPlaces jumps)

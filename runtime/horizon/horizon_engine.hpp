@@ -22,21 +22,11 @@
 #include "horizon/residual_horizon.hpp"
 #include "horizon/sky_partition.hpp"
 #include "horizon/sky_profile.hpp"
+#include "horizon/svf_interval.hpp"
 #include "horizon/undecided_sky.hpp"
 #include "package/far_horizon.hpp"
 
 namespace farlod {
-
-/// A sky view factor, and the bounds that are certain for the same azimuths.
-struct SvfInterval {
-  float low = 0.0F, estimate = 0.0F, high = 0.0F;
-
-  [[nodiscard]] float width() const { return high - low; }
-};
-
-/// The interval with its estimate moved towards the middle, until it is no farther than `error` from either end, as long as
-/// that is possible.
-[[nodiscard]] SvfInterval within_error(const SvfInterval& svf, float error);
 
 /// The answers of a packet, in the order of its receivers.
 struct PacketAnswer {
