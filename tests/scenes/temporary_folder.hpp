@@ -33,6 +33,12 @@ class TemporaryFolder {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return path_ / name; }
+  /// Writes a file, and says its path.
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories(file(name).parent_path());
+    std::ofstream(file(name), std::ios::binary) << text;
+    return file(name);
+  }
   /// Of all files in it, in any order.
   [[nodiscard]] std::vector<std::string> names() const {
     std::vector<std::string> result;
