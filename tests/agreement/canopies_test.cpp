@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -33,10 +31,7 @@ constexpr double town_m = 500.0, trees_per_ha = 100.0;
 
 PackageReader town_with_trees() {
   const auto pack = [](const std::filesystem::path& folder) {
-    CitySettings settings;
-    settings.size_m = town_m;
-    settings.lod = 2;
-    settings.overhangs = true;
+    CitySettings settings{.size_m = town_m, .lod = 2, .overhangs = true};
     const CityModel city = scenes::generated_town(settings);
     scenes::pack_city(city, scenes::grid_covering(city, Angle::degrees(23.0), 50.0, 3), folder / "town.farlod");
     const auto trees = static_cast<std::size_t>(1e-4 * town_m * town_m * trees_per_ha);

@@ -4,13 +4,21 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "base/grid.hpp"
 #include "farmap/occlusion_culler.hpp"
+#include "package/baked_block.hpp"
+#include "package/edge_facing.hpp"
+#include "package/tile_set.hpp"
 #include "tests/determinism/threads.hpp"
-#include "tests/preprocess/farmap/far_city.hpp"
+#include "tests/oracles/far_view.hpp"
+#include "tests/preprocess/farmap/sight.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
@@ -19,6 +27,58 @@ namespace farlod {
 namespace {
 
 using test::Chance;
+
+/// An edge of the far city of a cell (frame of that cell), and how a block would store it if it were explicit.
+struct FarThing {
+  Point3d a, b;
+  std::array<std::array<float, 3>, 2> stored;  ///< both ends in the frame of the block's south-west cell
+  AdjacentSlopes adjacent = {};
+  EdgeRole role = EdgeRole::grounded;
+
+  [[nodiscard]] bool is_upper() const { return role != EdgeRole::underside; }
+  auto operator<=>(const FarThing& o) const { return std::tie(role, stored) <=> std::tie(o.role, o.stored); }
+};
+
+/// Everything outside of a cell's neighborhood, tile by tile.
+std::vector<FarThing> far_city(const TileSet& tiles, const Grid& grid, Cell cell) {
+  const Point2d block_corner = grid.corner_of(grid.cells_of(grid.block_of(cell)).cell_at(0));
+  std::vector<FarThing> things;
+  for (std::size_t n = 0; n < tiles.tiles.size(); ++n) {
+    const Cell place = tiles.cells.cell_at(n);
+    if (grid.neighborhood_of(cell).contains(place)) continue;
+    const Point2d shift = grid.corner_of(place) - grid.corner_of(cell), in_block = grid.corner_of(place) - block_corner;
+    const auto placed = [&](const Point3f& p) { return Point3d{p.x + shift.x, p.y + shift.y, p.z}; };
+    const auto stored = [&](const Point3f& p) {
+      return std::array<float, 3>{static_cast<float>(p.x + in_block.x), static_cast<float>(p.y + in_block.y), p.z};
+    };
+    for (const HorizonEdge& e : tiles.tiles[n].horizon_edges)
+      things.push_back({placed(e.a), placed(e.b), {stored(e.a), stored(e.b)}, e.adjacent, e.role});
+  }
+  return things;
+}
+
+/// Whether an edge is no silhouette for anybody in a cell: what goes on beyond it is there by other edges.
+bool faces_away(const FarThing& t, const BakedHorizon& map, double cell_edge_m) {
+  return !may_be_silhouette(t.a, t.b, t.adjacent, t.role, {{0.0, 0.0}, {cell_edge_m, cell_edge_m}},
+                            map.patches.levels_m().front(), std::max(t.a.z, t.b.z));
+}
+
+/// The explicit occluders of a cell's map for one of its patches.
+std::set<FarThing> explicit_in(const BakedHorizons& block, const BakedHorizon& map, std::uint32_t patch) {
+  const auto stored = [](const Point3f& p) { return std::array<float, 3>{p.x, p.y, p.z}; };
+  std::set<FarThing> things;
+  for (const package::ExplicitOccluder& occluder : map.explicit_edges) {
+    const HorizonEdge& e = block.edges[occluder.row];
+    if (is_explicit_in(occluder, map.patches, patch)) things.insert({{}, {}, {stored(e.a), stored(e.b)}, e.adjacent, e.role});
+  }
+  return things;
+}
+
+/// A place in a patch. Of the uppermost, which has no lid, one in its first 40 m.
+Point3d place_in(const PatchBox& box, Chance& chance) {
+  return {chance.between(box.low.x, box.high.x), chance.between(box.low.y, box.high.y),
+          chance.between(box.z_low_m, std::min(box.z_high_m, box.z_low_m + 40.0))};
+}
 
 constexpr int places_asked = 60;
 
@@ -31,15 +91,13 @@ struct BakedTown {
 };
 
 CitySettings city_of(std::uint64_t seed, int lod, bool overhangs, double relief_m) {
-  CitySettings settings;
-  settings.size_m = 420;
-  settings.seed = seed;
-  settings.tower_share = 0.5;
-  settings.rotation_deg = 10;
-  settings.lod = lod;
-  settings.overhangs = overhangs;
-  settings.terrain_relief_m = relief_m;
-  return settings;
+  return {.size_m = 420,
+          .seed = seed,
+          .rotation_deg = 10,
+          .tower_share = 0.5,
+          .terrain_relief_m = relief_m,
+          .lod = lod,
+          .overhangs = overhangs};
 }
 
 std::vector<BakedTown> towns() {
@@ -86,7 +144,7 @@ Place random_place(const Baked& baked, Chance& chance) {
   const std::size_t n = chance.below(baked.block.cells.size());
   const BakedHorizon& map = baked.block.cells[n];
   const auto patch = static_cast<std::uint32_t>(chance.below(map.patches.count()));
-  return {baked.cells.cell_at(n), map, patch, test::place_in(map.patches.box(patch), chance)};
+  return {baked.cells.cell_at(n), map, patch, place_in(map.patches.box(patch), chance)};
 }
 
 class HorizonMaps : public testing::TestWithParam<BakedTown> {};
@@ -98,12 +156,12 @@ TEST_P(HorizonMaps, AllThatIsResidualAndDoesNotFaceAwayLiesBelowHigh) {
   std::size_t explicit_count = 0, bounded = 0, away = 0;
   for (int n = 0; n < places_asked; ++n) {
     const Place place = random_place(baked, chance);
-    const auto explicit_things = test::explicit_in(baked.block, place.map, place.patch);
-    for (const test::FarThing& thing : test::far_city(baked.tiles, baked.grid, place.cell)) {
+    const auto explicit_things = explicit_in(baked.block, place.map, place.patch);
+    for (const FarThing& thing : far_city(baked.tiles, baked.grid, place.cell)) {
       if (!thing.is_upper()) continue;
-      const bool faces_away = test::faces_away(thing, place.map, baked.grid.cell_edge_m);
-      ++(faces_away ? away : explicit_things.contains(thing) ? explicit_count : bounded);
-      if (faces_away || explicit_things.contains(thing)) continue;
+      const bool is_away = faces_away(thing, place.map, baked.grid.cell_edge_m);
+      ++(is_away ? away : explicit_things.contains(thing) ? explicit_count : bounded);
+      if (is_away || explicit_things.contains(thing)) continue;
       for (const double share : {0.0, 1.0, chance.between(0, 1), chance.between(0, 1)}) {
         const Point3d p = test::point_between(thing.a, thing.b, share);
         const test::Sight sight = test::sight_of(p, place.eye, bins);
@@ -117,10 +175,10 @@ TEST_P(HorizonMaps, AllThatIsResidualAndDoesNotFaceAwayLiesBelowHigh) {
 }
 
 /// The horizon that residual things make which are grounded.
-double residual_ground(const std::vector<test::FarThing>& things, const std::set<test::FarThing>& explicit_things,
-                       const Point3d& eye, double azimuth) {
+double residual_ground(const std::vector<FarThing>& things, const std::set<FarThing>& explicit_things, const Point3d& eye,
+                       double azimuth) {
   double horizon = 0.0;
-  for (const test::FarThing& thing : things)
+  for (const FarThing& thing : things)
     if (thing.role == EdgeRole::grounded && !explicit_things.contains(thing))
       horizon = std::max(horizon, test::slope_at(azimuth, thing.a, thing.b, eye).value_or(0.0));
   return horizon;
@@ -133,11 +191,10 @@ TEST_P(HorizonMaps, ResidualLowerBordersLieBelowOverhangOrBeforeHigherGroundedTh
   std::size_t bounded = 0, hidden = 0;
   for (int n = 0; n < places_asked; ++n) {
     const Place place = random_place(baked, chance);
-    const auto explicit_things = test::explicit_in(baked.block, place.map, place.patch);
-    const auto things = test::far_city(baked.tiles, baked.grid, place.cell);
-    for (const test::FarThing& thing : things) {
-      if (thing.is_upper() || explicit_things.contains(thing) || test::faces_away(thing, place.map, baked.grid.cell_edge_m))
-        continue;
+    const auto explicit_things = explicit_in(baked.block, place.map, place.patch);
+    const auto things = far_city(baked.tiles, baked.grid, place.cell);
+    for (const FarThing& thing : things) {
+      if (thing.is_upper() || explicit_things.contains(thing) || faces_away(thing, place.map, baked.grid.cell_edge_m)) continue;
       const Point3d p = test::point_between(thing.a, thing.b, chance.between(0, 1));
       const test::Sight sight = test::sight_of(p, place.eye, bins);
       if (sight.slope <= place.overhang(sight.bin, bins.count)) {
@@ -170,13 +227,13 @@ TEST_P(HorizonMaps, AllBelowLowIsHidden) {
   int promises = 0;
   for (int n = 0; n < places_asked; ++n) {
     const Place place = random_place(baked, chance);
-    const auto things = test::far_city(baked.tiles, baked.grid, place.cell);
+    const auto things = far_city(baked.tiles, baked.grid, place.cell);
     for (std::uint32_t bin = 0; bin < bins.count; ++bin) {
       if (place.low(bin, bins.count) == 0.0F) continue;
       ++promises;
       const double azimuth = (bin + chance.between(0, 1)) * bins.width_rad();
       double horizon = 0.0;
-      for (const test::FarThing& thing : things)
+      for (const FarThing& thing : things)
         if (thing.is_upper()) horizon = std::max(horizon, test::slope_at(azimuth, thing.a, thing.b, place.eye).value_or(0.0));
       ASSERT_GE(horizon, place.low(bin, bins.count)) << "place " << n << ", patch " << place.patch << ", bin " << bin;
     }
@@ -202,12 +259,12 @@ struct CornerView {
   bool sees_no_explicit = true;
 };
 
-CornerView view_from_corners(const std::vector<test::FarThing>& things, const std::set<test::FarThing>& explicit_things,
-                             const PatchBox& box, double azimuth, double weak_sine) {
+CornerView view_from_corners(const std::vector<FarThing>& things, const std::set<FarThing>& explicit_things, const PatchBox& box,
+                             double azimuth, double weak_sine) {
   CornerView view;
   for (const Point2d at : {box.low, box.high, Point2d{box.low.x, box.high.y}, Point2d{box.high.x, box.low.y}}) {
     double horizon = 0.0;
-    for (const test::FarThing& thing : things) {
+    for (const FarThing& thing : things) {
       if (!thing.is_upper()) continue;
       const Point3d eye{at.x, at.y, box.z_low_m};
       const double slope = test::slope_at(azimuth, thing.a, thing.b, eye).value_or(0.0);
@@ -230,9 +287,9 @@ TEST(HorizonMapBaker, TheEstimateKnowsOnlyTheResidualCityAndLeavesOutTheWeakest)
   int weak = 0;
   for (int n = 0; n < places_asked; ++n) {
     const Place place = random_place(baked, chance);
-    const auto explicit_things = test::explicit_in(baked.block, place.map, place.patch);
-    auto things = test::far_city(baked.tiles, baked.grid, place.cell);
-    std::erase_if(things, [&](const auto& t) { return test::faces_away(t, place.map, baked.grid.cell_edge_m); });
+    const auto explicit_things = explicit_in(baked.block, place.map, place.patch);
+    auto things = far_city(baked.tiles, baked.grid, place.cell);
+    std::erase_if(things, [&](const auto& t) { return faces_away(t, place.map, baked.grid.cell_edge_m); });
     const PatchBox box = place.map.patches.box(place.patch);
     for (std::uint32_t bin = 0; bin < bins.count; bin += 5) {
       const double azimuth = (bin + 0.5) * bins.width_rad(), estimate = place.map.estimate[place.patch * bins.count + bin];
