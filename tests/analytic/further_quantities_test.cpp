@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <string>
 
 #include "evaluate/sky_evaluator.hpp"
@@ -33,11 +32,7 @@ class PackedAround {
   /// The columns of a receiver in the middle.
   [[nodiscard]] std::map<std::string, double> columns(Engine engine, const Quantities& further,
                                                       const Point3d& normal_city = {0.0, 0.0, 1.0}) const {
-    SkySettings settings;
-    settings.engine = engine;
-    settings.rays = 20000;
-    settings.azimuths = azimuths_for(further, 720);
-    settings.further = further;
+    SkySettings settings{.engine = engine, .rays = 20000, .azimuths = azimuths_for(further, 720), .further = further};
     const SkyEvaluator evaluator(package_, settings);
     const Point3d n = package_.grid().rotation.grid_from_city(normal_city);
     const auto half = static_cast<float>(0.5 * cell_edge_m);
@@ -112,8 +107,7 @@ constexpr std::array engines{Engine::automatic, Engine::horizon, Engine::rays, E
 constexpr double tolerance = 0.003;
 
 TEST(FurtherQuantities, DirectionalValuesOfCanyonsAreKnown) {
-  Quantities further;
-  further.directional = true;
+  Quantities further{.directional = true};
   for (const double axis_deg : {0.0, 30.0, 90.0})
     for (const double grid_deg : {0.0, 20.0}) {
       const Canyon canyon{axis_deg};
@@ -154,9 +148,7 @@ TEST(FurtherQuantities, DistancesToTheHorizonAreThoseOfTheWalls) {
 }
 
 TEST(FurtherQuantities, DistancesReachBeyondTheNeighborhood) {
-  Quantities further;
-  further.horizons = 4;
-  further.horizon_distances = true;
+  Quantities further{.horizons = 4, .horizon_distances = true};
   const PackedAround packed({}, [](scenes::SceneBuilder& builder) {
     builder.add_wall({-300.0, 700.0}, {300.0, 700.0}, -packed_eye_m, 90.0);
     builder.add_wall({-10.0, 15.0}, {10.0, 15.0}, -packed_eye_m, 1.0);  // nearer, and below the horizon
@@ -178,8 +170,7 @@ TEST(FurtherQuantities, AreOneInTheOpen) {
 }
 
 TEST(FurtherQuantities, SolidAngleIsThatOfARunByItself) {
-  Quantities further;
-  further.svf_solid = true;
+  Quantities further{.svf_solid = true};
   const Canyon canyon{30.0};
   const PackedAround packed({}, walls_of(canyon));
   const double expected = 1.0 - (std::atan(canyon.height_m / canyon.right_m) + std::atan(canyon.height_m / canyon.left_m)) / pi;
@@ -187,8 +178,7 @@ TEST(FurtherQuantities, SolidAngleIsThatOfARunByItself) {
 }
 
 TEST(FurtherQuantities, HorizonsOfACanyonAreKnown) {
-  Quantities further;
-  further.horizons = 24;
+  Quantities further{.horizons = 24};
   const Canyon canyon{30.0};
   const PackedAround packed(Angle::degrees(10.0), walls_of(canyon));
   for (const Engine engine : engines) {
@@ -207,8 +197,7 @@ TEST(FurtherQuantities, HorizonsOfACanyonAreKnown) {
 }
 
 TEST(FurtherQuantities, HorizonsGiveTheSkyViewFactorBack) {
-  Quantities further;
-  further.horizons = 360;
+  Quantities further{.horizons = 360};
   const Canyon canyon{30.0};
   const PackedAround packed({}, walls_of(canyon));
   for (const Engine engine : engines) {
@@ -228,8 +217,7 @@ TEST(FurtherQuantities, PatchesAddUpToTheSkyViewFactor) {
   const Canyon canyon{30.0};
   const PackedAround packed({}, walls_of(canyon));
   for (const SkyPatchSet set : {SkyPatchSet::tregenza, SkyPatchSet::reinhart}) {
-    Quantities further;
-    further.sky_patches = set;
+    Quantities further{.sky_patches = set};
     const int parts = set == SkyPatchSet::tregenza ? 1 : 2;
     std::vector<int> bands;
     for (const int count : {30, 30, 24, 24, 18, 12, 6}) bands.insert(bands.end(), static_cast<std::size_t>(parts), parts * count);
@@ -252,8 +240,7 @@ TEST(FurtherQuantities, PatchesAddUpToTheSkyViewFactor) {
 }
 
 TEST(FurtherQuantities, PatchesAreCountedFromNorthClockwise) {
-  Quantities further;
-  further.sky_patches = SkyPatchSet::tregenza;
+  Quantities further{.sky_patches = SkyPatchSet::tregenza};
   // A wall in the east hides the lowest patches there: the eighth is centred at 84°, the 23rd at 264°
   const PackedAround packed(Angle::degrees(20.0), [](scenes::SceneBuilder& builder) {
     builder.add_wall({8.0, -300.0}, {8.0, 300.0}, -packed_eye_m, 30.0);
@@ -268,8 +255,7 @@ TEST(FurtherQuantities, PatchesAreCountedFromNorthClockwise) {
 }
 
 TEST(FurtherQuantities, HiddenSharesAddUpAndAreOfTheirGeometry) {
-  Quantities further;
-  further.hidden = true;
+  Quantities further{.hidden = true};
   // A wall 5 m away in the cell, and a tower beyond it, which alone is seen in the west
   const PackedAround packed({}, [](scenes::SceneBuilder& builder) {
     builder.add_wall({5.0, -15.0}, {5.0, 15.0}, -packed_eye_m, 4.0);
@@ -313,9 +299,7 @@ TEST(FurtherQuantities, SunlitHoursAreThoseAboveTheHorizonAndInFront) {
 }
 
 TEST(FurtherQuantities, SkyBelowAnOverhangCountsWhereItIsSeen) {
-  Quantities further;
-  further.directional = true;
-  further.sky_patches = SkyPatchSet::tregenza;
+  Quantities further{.directional = true, .sky_patches = SkyPatchSet::tregenza};
   // Below a wide roof without walls, and a wall in the west that leaves no gap there
   const PackedAround packed({}, [](scenes::SceneBuilder& builder) {
     builder.add_box({{-14.0, -14.0}, {14.0, 14.0}}, 3.0, 3.5);
