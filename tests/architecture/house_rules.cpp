@@ -20,7 +20,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 0> long_for_
 /// Tests that measure time or resident memory, and why they may.
 constexpr std::pair<std::string_view, std::string_view> measuring_for_a_reason[] = {
     {"tests/architecture/house_rules.cpp", "says what is forbidden"},
-    {"tests/preprocess/city/memory_bound_test.cpp", "a limit lies above what is resident"},
+    {"tests/preprocess/city/paged_memory_test.cpp", "a limit lies above what is resident"},
     {"tests/reliability/soak.cpp", "goes on for so long; the memory limit before a release"},
     {"tests/runtime/view/http_server_test.cpp", "a client that is slow"},
     {"tests/scenes/packed_city.cpp", "tells benchmarks what packing took"},
@@ -113,7 +113,7 @@ std::string function_opened_by(const SourceFile& file, std::size_t begin, std::s
   return match[1];
 }
 
-bool is_code(const std::string& line) {
+bool is_line_of_code(const std::string& line) {
   const std::size_t begin = line.find_first_not_of(' ');
   return begin != std::string::npos && line.compare(begin, 2, "//") != 0;
 }
@@ -139,7 +139,8 @@ void add_long_functions(const SourceFile& file, std::vector<FoundFunction>& foun
     if (name.empty()) continue;
     const std::string close = std::string(indentation(file.lines[begin]), ' ') + "}";
     std::size_t end = brace + 1, code = 0;
-    for (; end < file.lines.size() && !file.lines[end].starts_with(close); ++end) code += is_code(file.lines[end]) ? 1 : 0;
+    for (; end < file.lines.size() && !file.lines[end].starts_with(close); ++end)
+      code += is_line_of_code(file.lines[end]) ? 1 : 0;
     if (code > longest_function) found.push_back({file.path, name, begin + 1, code});
     brace = end;
   }

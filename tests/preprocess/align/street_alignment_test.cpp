@@ -4,11 +4,17 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cmath>
 #include <complex>
+#include <filesystem>
+#include <fstream>
 #include <functional>
+#include <nlohmann/json.hpp>
 
+#include "align/align.hpp"
+#include "georeference/georeference.hpp"
 #include "tests/preprocess/align/extruded_town.hpp"
+#include "tests/scenes/test_data.hpp"
 
 namespace farlod::align {
 namespace {
@@ -157,6 +163,86 @@ TEST(StreetAlignment, DoesNotDependOnOrder) {
     add_extruded(backwards, rectangle({50.0 * (29 - k), 0.0}, Angle::degrees(17.0 + 0.2 * (29 - k))), 10.0);
   }
   EXPECT_LE(degrees_apart(street_alignment(forwards).bearing, street_alignment(backwards).bearing), 4.0 * rounding_deg);
+}
+
+// Bearings and convergences belong together: a street has one true azimuth, whatever map it is drawn on.
+
+/// A town of 450 m by 150 m in Queens, in the metric CRS of Long Island.
+SourceCity town_in_queens() {
+  SourceCity source;
+  source.source = "queens.obj";
+  source.crs.definition = "EPSG:32118";
+  add_quarter(source.city, 40, Angle::degrees(17.0), {315000.0, 54500.0});
+  return source;
+}
+
+double true_bearing_deg(const std::string& out_crs) {
+  std::vector<SourceCity> sources;
+  sources.push_back(town_in_queens());
+  Report report;
+  const LocatedCity located = georeference::georeference(std::move(sources), {"", out_crs}, report);
+  return (street_alignment(located.city).bearing + located.georeference.convergence).degrees();
+}
+
+TEST(TrueBearing, IsTheSameOnEveryMap) {
+  // The convergence is that of the origin; it changes by sin φ < 1 per degree of longitude, of which the town's half spans this
+  // many
+  constexpr double half_a_town_deg = 225.0 / 84000.0;
+  const double in_its_own_crs = true_bearing_deg("");
+  for (const char* out_crs : {"EPSG:32618", "EPSG:26918", "EPSG:32619"})
+    EXPECT_NEAR(true_bearing_deg(out_crs), in_its_own_crs, half_a_town_deg) << out_crs;
+}
+
+// Streets of real cities, from footprints as the surveys and OpenStreetMap drew them.
+
+using Json = nlohmann::json;
+
+/// Extrudes the outer ring of a GeoJSON polygon, whose last point is its first again.
+void add_polygon(CityModel& city, const Json& polygon) {
+  std::vector<Point2d> ring;
+  for (const Json& p : polygon.at(0)) ring.push_back({p.at(0).get<double>(), p.at(1).get<double>()});
+  ring.pop_back();
+  if (ring.size() >= 3) add_extruded(city, ring, 10.0);
+}
+
+LocatedCity read_footprints(const std::filesystem::path& path) {
+  SourceCity source;
+  source.source = path.string();
+  source.crs.definition = "OGC:CRS84";
+  const Json file = Json::parse(std::ifstream(path));
+  for (const Json& feature : file.at("features")) {
+    const Json& geometry = feature.at("geometry");
+    if (geometry.at("type") == "Polygon") add_polygon(source.city, geometry.at("coordinates"));
+    if (geometry.at("type") == "MultiPolygon")
+      for (const Json& polygon : geometry.at("coordinates")) add_polygon(source.city, polygon);
+  }
+  std::vector<SourceCity> sources;
+  sources.push_back(std::move(source));
+  Report report;
+  return georeference::georeference(std::move(sources), {}, report);
+}
+
+TEST(RealStreets, ManhattanIsAtTwentyEightDegrees) {
+  const auto path = scenes::test_data("manhattan/manhattan.geojson");
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << scenes::absence_of(path);
+  const LocatedCity located = read_footprints(path);
+  EXPECT_EQ(located.georeference.epsg, 32618);
+  const Alignment streets = street_alignment(located.city);
+  // The Commissioners' Plan of 1811: 29° from true north, as published to the degree
+  constexpr double published_to_deg = 0.5;
+  EXPECT_NEAR(streets.bearing.degrees(), 28.3, published_to_deg);
+  EXPECT_NEAR((streets.bearing + located.georeference.convergence).degrees(), 29.0, published_to_deg);
+  RecordProperty("bearing_deg", std::to_string(streets.bearing.degrees()));
+  RecordProperty("strength", std::to_string(streets.strength));
+}
+
+TEST(RealStreets, OmiyaIsWeakerThanManhattan) {
+  const auto omiya = scenes::test_data("omiya/omiya.geojson"), manhattan = scenes::test_data("manhattan/manhattan.geojson");
+  for (const auto& path : {omiya, manhattan})
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << scenes::absence_of(path);
+  const LocatedCity located = read_footprints(omiya);
+  EXPECT_EQ(located.georeference.epsg, 32654);
+  EXPECT_LT(street_alignment(located.city).strength, street_alignment(read_footprints(manhattan).city).strength);
 }
 
 }  // namespace

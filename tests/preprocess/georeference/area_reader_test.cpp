@@ -6,12 +6,11 @@
 #include <gmock/gmock.h>
 #include <ogrsf_frmts.h>
 
-#include <fstream>
-
 #include "base/point_columns.hpp"
 #include "farlod/error.hpp"
 #include "georeference/output_crs.hpp"
 #include "georeference/utm_projection.hpp"
+#include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod::georeference {
@@ -23,8 +22,7 @@ using testing::HasSubstr;
 class AreaReader : public testing::Test {
  protected:
   [[nodiscard]] std::filesystem::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_.file(name), std::ios::binary) << text;
-    return folder_.file(name);
+    return folder_.write(name, text);
   }
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_.file(name); }
   /// The city frame of EPSG:32632 with its origin at (500000, 5500000).
@@ -32,12 +30,7 @@ class AreaReader : public testing::Test {
     return located(read_area(path), georeference_around({500000.0, 5500000.0}, *Crs::find("EPSG:32632")));
   }
   [[nodiscard]] static std::string refusal(const std::filesystem::path& path) {
-    try {
-      (void)read(path);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no refusal";
+    return scenes::refusal_of<InputError>([&] { (void)read(path); });
   }
   [[nodiscard]] std::vector<Point2d> points_in(const std::string& table) const { return read(write("p.csv", table)).points; }
 

@@ -10,6 +10,9 @@
 
 namespace farlod::georeference {
 
+/// Two series, each good to 5 nm (Karney 2011), from degrees whose last bit is 3 nm: PROJ and GeographicLib may differ by this.
+inline constexpr double two_series_m = 2.0 * (5e-9 + 3e-9);
+
 /// One triangle that stands for a building: enough to be put on a map.
 inline void add_building(CityModel& city, const std::string& id, const std::vector<Point3d>& ring) {
   city.begin_building(id);

@@ -10,8 +10,10 @@
 
 #include "archive_writer.hpp"
 #include "farlod/error.hpp"
+#include "ingest/files/zip_directory.hpp"
 #include "reading.hpp"
 #include "small_cities.hpp"
+#include "tests/scenes/refusal.hpp"
 
 namespace farlod::ingest::test {
 namespace {
@@ -24,11 +26,7 @@ namespace fs = std::filesystem;
 /// A folder of the running test's own.
 class InputSearch : public testing::Test {
  protected:
-  fs::path write(const std::string& name, const std::string& text) const {
-    fs::create_directories((folder / name).parent_path());
-    std::ofstream(folder / name, std::ios::binary) << text;
-    return folder / name;
-  }
+  fs::path write(const std::string& name, const std::string& text) const { return own.write(name, text); }
   FoundInputs find(const std::vector<fs::path>& inputs) { return find_input_files(inputs, report); }
   /// Names within the test's folder.
   std::vector<std::string> names(const std::vector<InputFile>& files) const {
@@ -38,12 +36,7 @@ class InputSearch : public testing::Test {
   }
   std::vector<std::string> found(const std::vector<fs::path>& inputs) { return names(find(inputs).files); }
   std::string refusal(const std::vector<fs::path>& inputs) {
-    try {
-      (void)find(inputs);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return scenes::refusal_of<InputError>([&] { (void)find(inputs); });
   }
   /// The ids of the buildings in all files behind the names.
   std::vector<std::string> buildings(const std::vector<fs::path>& inputs) {
@@ -53,13 +46,9 @@ class InputSearch : public testing::Test {
     return ids;
   }
 
-  fs::path folder = write_file("x", "").parent_path() / "search";
+  const scenes::TemporaryFolder own;
+  const fs::path folder = own.path();
   Report report;
-
-  void SetUp() override {
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-  }
 };
 
 TEST_F(InputSearch, AFolderGivesItsCitiesInOrder) {
@@ -199,12 +188,9 @@ TEST_F(InputSearch, ABombIsRefusedByWhatItUnpacks) {
   const std::string blanks(static_cast<std::size_t>(most_unpacked_bytes(0)) + 1, ' ');
   for (const char* name : {"a.gml.gz", "a.city.json.gz", "a.obj.gz", "a.geojson.gz"}) {
     const std::vector<InputFile> files = find({write(name, gzip_of(blanks))}).files;
-    try {
-      (void)ingest_all(files, {}, report);
-      ADD_FAILURE() << name;
-    } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("unpacks to more than 64 MiB")) << name;
-    }
+    EXPECT_THAT(scenes::refusal_of<InputError>([&] { (void)ingest_all(files, {}, report); }),
+                HasSubstr("unpacks to more than 64 MiB"))
+        << name;
   }
 }
 
@@ -326,6 +312,52 @@ TEST_F(InputSearch, APipeIsReadFromItsBeginningToItsEnd) {
 TEST_F(InputSearch, APipeOfAnotherFormatIsRefused) {
   const FilledPipe pipe(folder / "pipe", cityjson_of("a"));
   EXPECT_THAT(refusal({folder / "pipe"}), HasSubstr("is a pipe, and gives neither CityGML nor OBJ"));
+}
+
+TEST(ZipDirectory, NamesEachFileAndItsLock) {
+  const auto listings = zip_listings(write_file("a.zip", zip_of({{"a/b.gml", "x"}, {"c", "y", 0, true}})));
+  ASSERT_EQ(listings.size(), 2u);
+  EXPECT_EQ(listings[0].name, "a/b.gml");
+  EXPECT_FALSE(listings[0].is_locked);
+  EXPECT_EQ(listings[1].name, "c");
+  EXPECT_TRUE(listings[1].is_locked);
+}
+
+/// Whatever is cut off or overwritten: no byte outside of the file is asked for.
+TEST(ZipDirectory, StaysWithinADamagedFile) {
+  const std::string whole = zip_of({{"a/b.gml", "x"}, {"c", "y"}});
+  for (std::size_t bytes = 0; bytes < whole.size(); ++bytes)
+    EXPECT_TRUE(zip_listings(write_file("a.zip", whole.substr(0, bytes))).empty()) << bytes;
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    std::string damaged = whole;
+    damaged[at] = '\xFF';
+    EXPECT_LE(zip_listings(write_file("a.zip", damaged)).size(), 2u) << at;
+  }
+}
+
+TEST(ZipDirectory, KnowsNamesThatLeadOutside) {
+  for (const char* name : {"/a", "\\a", "C:/a", "C:a", "..", "../a", "a/../../b", "a/..", "a\\..\\b"})
+    EXPECT_TRUE(leads_outside(name)) << name;
+  for (const char* name : {"a", "a/b", "a..b", "..a", "a../b", "./a", ""}) EXPECT_FALSE(leads_outside(name)) << name;
+}
+
+/// As archives of more than 65,535 files or 4 GiB are written: the usual end says nothing.
+TEST(ZipDirectory, OfTheLargeFormatIsRead) {
+  using zip_parts::put;
+  std::string zip = zip_of({{"a.gml", "a"}, {"../b.gml", "b"}});
+  const std::size_t end = zip.rfind("PK\5\6");
+  const std::string sizes = zip.substr(end + 12, 8), comment = zip.substr(end + 20);
+  std::string large = "PK\6\6";
+  put(large, 44, 4), put(large, 0, 4);
+  for (int k = 0; k < 7; ++k) put(large, 0, 4);
+  large.resize(40, '\0');
+  large += sizes.substr(0, 4) + std::string(4, '\0') + sizes.substr(4, 4) + std::string(4, '\0');
+  std::string pointer = "PK\6\7";
+  put(pointer, 0, 4), put(pointer, static_cast<std::uint32_t>(end), 4), put(pointer, 0, 4), put(pointer, 1, 4);
+  const std::string small = std::string("PK\5\6") + std::string(4, '\0') + std::string(12, '\xFF') + comment;
+  const auto listings = zip_listings(write_file("large.zip", zip.substr(0, end) + large + pointer + small));
+  ASSERT_EQ(listings.size(), 2U);
+  EXPECT_EQ(listings[1].name, "../b.gml");
 }
 
 }  // namespace

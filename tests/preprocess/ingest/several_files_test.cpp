@@ -3,9 +3,15 @@
 #include <gmock/gmock.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
 #include "farlod/error.hpp"
+#include "ingest/ordered/ordered_work.hpp"
 #include "reading.hpp"
 #include "small_cities.hpp"
+#include "tests/scenes/refusal.hpp"
 
 namespace farlod::ingest::test {
 namespace {
@@ -72,12 +78,8 @@ TEST(SeveralFiles, AreNotReadOnceAStopIsRequested) {
 TEST(SeveralFiles, OfWhichNoneIsLeftEndTheRun) {
   const std::vector<InputFile> files{write_file("empty.gml", ""), write_file("text.txt", "hello")};
   Report report;
-  try {
-    (void)ingest_all(files, {}, report);
-    ADD_FAILURE();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("none of the 2 files"), HasSubstr("empty.gml"), HasSubstr("0 bytes")));
-  }
+  EXPECT_THAT(scenes::refusal_of<InputError>([&] { (void)ingest_all(files, {}, report); }),
+              testing::AllOf(HasSubstr("none of the 2 files"), HasSubstr("empty.gml"), HasSubstr("0 bytes")));
   EXPECT_EQ(report.problems().size(), 2u);
 }
 
@@ -86,6 +88,44 @@ TEST(SeveralFiles, ASingleFileEndsTheRunItself) {
   const std::vector<InputFile> file{write_file("empty.gml", "")};
   EXPECT_THROW((void)ingest_all(file, {}, report), InputError);
   EXPECT_TRUE(report.problems().empty());
+}
+
+constexpr int pieces = 1'000;
+
+TEST(OrderedWork, BeginsAndEndsInOrderWithinItsPlaces) {
+  for (const int threads : {1, 4})
+    oneapi::tbb::task_arena(threads).execute([&] {
+      EXPECT_EQ(threads_here(), static_cast<std::size_t>(threads));
+      std::vector<int> piece_at(3, -1), ended;
+      int next = 0;
+      const auto begin = [&](std::size_t place) {
+        EXPECT_EQ(piece_at.at(place), -1) << "the place is free";
+        if (next == pieces) return false;
+        piece_at[place] = next++;
+        return true;
+      };
+      const auto work = [&](std::size_t place) { piece_at[place] *= 2; };
+      const auto end = [&](std::size_t place) {
+        ended.push_back(piece_at[place] / 2);
+        piece_at[place] = -1;
+      };
+      run_in_order(piece_at.size(), {begin, work, end});
+      std::vector<int> all(pieces);
+      std::iota(all.begin(), all.end(), 0);
+      EXPECT_EQ(ended, all);
+    });
+}
+
+TEST(OrderedWork, EndsWithWhatIsThrown) {
+  const auto go_on = [](std::size_t) {};
+  const auto fail = [](std::size_t) { throw std::runtime_error("no more"); };
+  for (const int threads : {1, 4})
+    oneapi::tbb::task_arena(threads).execute([&] {
+      EXPECT_THROW(run_in_order(2, {[](std::size_t) -> bool { throw std::runtime_error("no more"); }, go_on, go_on}),
+                   std::runtime_error);
+      EXPECT_THROW(run_in_order(2, {[](std::size_t) { return true; }, fail, go_on}), std::runtime_error);
+      EXPECT_THROW(run_in_order(2, {[](std::size_t) { return true; }, go_on, fail}), std::runtime_error);
+    });
 }
 
 }  // namespace

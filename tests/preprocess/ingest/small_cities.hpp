@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace farlod::ingest::test {
 
@@ -27,6 +28,18 @@ inline std::string obj_of(const std::string& id) { return "g " + id + "\nv 0 0 0
 inline std::string geojson_of(const std::string& id) {
   return R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"id":")" + id +
          R"(","height":5},"geometry":{"type":"Polygon","coordinates":[[[9,48],[9.0001,48],[9,48.0001],[9,48]]]}}]})";
+}
+
+/// A feature of GeoJSON.
+inline std::string feature(const std::string& properties, const std::string& type, const std::string& coordinates) {
+  return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":{"type":")" + type + R"(","coordinates":)" +
+         coordinates + "}}";
+}
+/// A file of features, with further members that end with a comma.
+inline std::string collection(const std::vector<std::string>& features, const std::string& more = "") {
+  std::string text = R"({"type":"FeatureCollection",)" + more + R"("features":[)";
+  for (const std::string& f : features) text += (&f == &features.front() ? "" : ",") + f;
+  return text + "]}";
 }
 
 /// A table of footprints, which has GML in common with CityGML.

@@ -12,6 +12,9 @@
 
 namespace farlod::ingest::test {
 
+/// Sizes are kept as floats: half a step at 130 m.
+inline constexpr double float_error_m = 1e-5;
+
 struct TreeReading {
   SourceTrees source;
   Report report;

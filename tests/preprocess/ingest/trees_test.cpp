@@ -8,27 +8,18 @@
 #include "ingest/trees/tag_text.hpp"
 #include "ingest/trees/tree_columns.hpp"
 #include "ingest/trees/tree_fields.hpp"
+#include "small_cities.hpp"
 #include "tree_reading.hpp"
 
 namespace farlod::ingest::test {
 namespace {
 
-/// Sizes are kept as floats: half a step at 130 m.
-constexpr double float_error_m = 1e-5;
-
-std::string collection(const std::vector<std::string>& features) {
-  std::string text =
-      R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32632"}},"features":[)";
-  for (const std::string& f : features) text += (&f == &features.front() ? "" : ",") + f;
-  return text + "]}";
-}
-std::string feature(const std::string& properties, const std::string& type, const std::string& coordinates) {
-  return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":{"type":")" + type + R"(","coordinates":)" +
-         coordinates + "}}";
+std::string utm_collection(const std::vector<std::string>& features) {
+  return collection(features, R"("crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32632"}},)");
 }
 std::string tree(const std::string& properties) { return feature(properties, "Point", "[500000,5500000]"); }
 Tree only_tree(const std::string& properties, const TreeSettings& settings = {}) {
-  return read_inventory("a.geojson", collection({tree(properties)}), settings).source.trees[0];
+  return read_inventory("a.geojson", utm_collection({tree(properties)}), settings).source.trees[0];
 }
 
 struct Named {
@@ -89,9 +80,9 @@ TEST(Trees, FieldsAreThoseThatAreNamed) {
 
 TEST(Trees, TagsOfOpenStreetMapAreFields) {
   const std::string text =
-      collection({tree(R"("tags":{"natural":"tree","height":"12 m","diameter_crown":"6","leaf_cycle":"evergreen"})"),
-                  tree(R"("tags":{"natural":"tree","species":"Taxus baccata"})"),
-                  tree(R"("tags":{"amenity":"bench","height":"1"})"), tree(R"("tags":{"natural":"shrub"})")});
+      utm_collection({tree(R"("tags":{"natural":"tree","height":"12 m","diameter_crown":"6","leaf_cycle":"evergreen"})"),
+                      tree(R"("tags":{"natural":"tree","species":"Taxus baccata"})"),
+                      tree(R"("tags":{"amenity":"bench","height":"1"})"), tree(R"("tags":{"natural":"shrub"})")});
   const TreeReading r = read_inventory("a.geojson", text);
   ASSERT_EQ(r.source.trees.size(), 2U);
   EXPECT_EQ(r.source.trees[0].height_m, 12.0F);
@@ -127,9 +118,9 @@ TEST(Trees, OutlinesAreCrowns) {
   const std::string square = "[[[500000,5500000],[500004,5500000],[500004,5500004],[500000,5500004],[500000,5500000]]]";
   const std::string court =
       "[[[0,0],[4,0],[4,4],[0,4],[0,0]],[[2,2],[4,2],[4,4],[2,4],[2,2]]]";  // without its north-eastern quarter
-  const TreeReading r = read_inventory("a.geojson", collection({feature(R"("height":8)", "Polygon", square),
-                                                                feature(R"("height":8)", "MultiPolygon", "[" + court + "]"),
-                                                                feature(R"("height":8,"d_crown":3)", "Polygon", square)}));
+  const TreeReading r = read_inventory("a.geojson", utm_collection({feature(R"("height":8)", "Polygon", square),
+                                                                    feature(R"("height":8)", "MultiPolygon", "[" + court + "]"),
+                                                                    feature(R"("height":8,"d_crown":3)", "Polygon", square)}));
   ASSERT_EQ(r.source.trees.size(), 3U);
   EXPECT_EQ(r.source.trees[0].place, (Point2d{500002.0, 5500002.0}));
   EXPECT_NEAR(r.source.trees[0].crown_diameter_m, 8.0 / std::sqrt(std::numbers::pi), float_error_m);
@@ -147,7 +138,7 @@ TEST(Trees, OutlinesInDegreesHaveMetres) {
 }
 
 TEST(Trees, EachPointOfSeveralIsOne) {
-  const TreeReading r = read_inventory("a.geojson", collection({feature(R"("height":8)", "MultiPoint", "[[1,2],[3,4]]")}));
+  const TreeReading r = read_inventory("a.geojson", utm_collection({feature(R"("height":8)", "MultiPoint", "[[1,2],[3,4]]")}));
   ASSERT_EQ(r.source.trees.size(), 2U);
   EXPECT_EQ(r.source.trees[1].place, (Point2d{3.0, 4.0}));
 }
@@ -166,8 +157,8 @@ TEST(Trees, TablesHaveTheirColumnsInAnyOrder) {
 
 TEST(Trees, WhatIsMissingIsCounted) {
   const TreeReading r =
-      read_inventory("a.geojson", collection({tree(R"("height":8,"crown":4,"dbh":20)"), tree(R"("height":8)"),
-                                              tree(R"("crown":4)"), tree(R"("dbh":20)"), tree(R"("height":"unknown")")}));
+      read_inventory("a.geojson", utm_collection({tree(R"("height":8,"crown":4,"dbh":20)"), tree(R"("height":8)"),
+                                                  tree(R"("crown":4)"), tree(R"("dbh":20)"), tree(R"("height":"unknown")")}));
   EXPECT_EQ(r.codes(), std::set<int>{120});
   EXPECT_EQ(r.detail_of(ProblemCode::tree_size_missing),
             "heights from crown diameters: 1 of 5; heights from trunk diameters: 1 of 5; heights of 10 m by default: 1 of 5; "
@@ -180,20 +171,20 @@ TEST(Trees, ClassesAreDoubted) {
     classes.push_back(tree("\"height\":" + std::to_string(1 + n % 5) + ",\"crown\":4.5"));
     metres.push_back(tree("\"height\":" + std::to_string(1 + n % 12) + ",\"crown\":4.5"));
   }
-  const TreeReading r = read_inventory("a.geojson", collection(classes));
+  const TreeReading r = read_inventory("a.geojson", utm_collection(classes));
   EXPECT_EQ(r.codes(), std::set<int>{121});
   EXPECT_TRUE(r.detail_of(ProblemCode::tree_size_classes).starts_with("the 20 heights are whole numbers up to 5 m: "));
-  EXPECT_EQ(read_inventory("b.geojson", collection(metres)).codes(), std::set<int>{});
+  EXPECT_EQ(read_inventory("b.geojson", utm_collection(metres)).codes(), std::set<int>{});
   for (int n = 0; n < 20; ++n) one_value.push_back(tree(R"("height":9,"crown":4)"));
-  EXPECT_EQ(read_inventory("d.geojson", collection(one_value)).codes(), std::set<int>{});
+  EXPECT_EQ(read_inventory("d.geojson", utm_collection(one_value)).codes(), std::set<int>{});
   classes.pop_back();
-  EXPECT_EQ(read_inventory("c.geojson", collection(classes)).codes(), std::set<int>{});
+  EXPECT_EQ(read_inventory("c.geojson", utm_collection(classes)).codes(), std::set<int>{});
 }
 
 TEST(Trees, AbsurdSizesAreNotStated) {
   const TreeReading r =
-      read_inventory("a.geojson", collection({tree(R"("height":9999,"crown":4)"), tree(R"("height":-1,"crown":4)"),
-                                              tree(R"("height":8,"crown":4,"trunk_height":8)")}));
+      read_inventory("a.geojson", utm_collection({tree(R"("height":9999,"crown":4)"), tree(R"("height":-1,"crown":4)"),
+                                                  tree(R"("height":8,"crown":4,"trunk_height":8)")}));
   EXPECT_EQ(r.codes(), (std::set<int>{120, 122, 125}));
   EXPECT_EQ(r.detail_of(ProblemCode::absurd_tree_size), "2 trees, of which the first: a height of 9999 m");
   EXPECT_EQ(r.detail_of(ProblemCode::trunk_above_crown), "a crown from 8 m to 8 m");
@@ -204,8 +195,8 @@ TEST(Trees, AbsurdSizesAreNotStated) {
 TEST(Trees, FeaturesThatAreNoneAreLeftOut) {
   const TreeReading r = read_inventory(
       "a.geojson",
-      collection({tree(R"("height":8,"crown":4)"), feature("", "LineString", "[[1,2],[3,4]]"),
-                  R"({"type":"Feature","properties":{},"geometry":null})", feature("", "Polygon", "[[[1,1],[2,2],[1,1]]]")}));
+      utm_collection({tree(R"("height":8,"crown":4)"), feature("", "LineString", "[[1,2],[3,4]]"),
+                      R"({"type":"Feature","properties":{},"geometry":null})", feature("", "Polygon", "[[[1,1],[2,2],[1,1]]]")}));
   EXPECT_EQ(r.source.trees.size(), 1U);
   EXPECT_EQ(r.codes(), (std::set<int>{108, 111, 112}));
   const TreeReading table = read_inventory("a.csv", "x,y,height,crown\n1,2,8,4\n,2,8,4\nnan,2,8,4\n");
@@ -220,7 +211,7 @@ TEST(Trees, FilesWithoutAnyAreRefused) {
   EXPECT_THROW((void)read_inventory("a.csv", "x,y\n"), InputError);
   EXPECT_THROW((void)read_inventory("a.geojson", "no map at all"), InputError);
   EXPECT_THROW((void)read_inventory("a.geojson", R"({"type":"FeatureCollection","features":[]})"), InputError);
-  EXPECT_THROW((void)read_inventory("a.geojson", collection({feature("", "LineString", "[[1,2],[3,4]]")})), InputError);
+  EXPECT_THROW((void)read_inventory("a.geojson", utm_collection({feature("", "LineString", "[[1,2],[3,4]]")})), InputError);
 }
 
 TEST(Trees, OfCityGmlStandAtTheirReferencePoints) {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fstream>
 #include <map>
@@ -63,10 +62,6 @@ struct AreaPacking : Packing {
     settings.grid.cell_edge_m = 25.0;
     settings.far_map = scenes::small_maps(kind);
     settings.inputs = {write("town.geojson", town())};
-  }
-  fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder.path() / name, std::ios::binary) << text;
-    return folder.path() / name;
   }
   /// Packs with an area in metres from the south-west of the town, into a folder of this name.
   void run_area(const FarMapArea& area, const std::string& name = "city.farlod") {

@@ -3,7 +3,6 @@
 #include "pipeline/pack.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fstream>
 #include <span>
@@ -48,10 +47,6 @@ struct TownPacking : Packing {
     settings.grid.block_edge = 2;
     settings.grid.cell_edge_m = 50.0;
     settings.inputs = {write("town.geojson", three_houses_and_a_pit())};
-  }
-  fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder.path() / name, std::ios::binary) << text;
-    return folder.path() / name;
   }
 };
 

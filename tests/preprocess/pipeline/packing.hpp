@@ -36,6 +36,7 @@ struct Packing {
     result = pack(settings, report, run_settings);
   }
 
+  std::filesystem::path write(const std::string& name, const std::string& text) const { return folder.write(name, text); }
   [[nodiscard]] std::set<int> codes() const {
     std::set<int> codes;
     for (const Problem& problem : report.problems()) codes.insert(static_cast<int>(problem.code));

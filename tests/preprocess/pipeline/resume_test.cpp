@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
@@ -14,6 +13,7 @@
 #include "pipeline/city_record.hpp"
 #include "pipeline/saved_city.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
+#include "tests/scenes/refusal.hpp"
 
 namespace farlod::pipeline::test {
 namespace {
@@ -48,10 +48,6 @@ struct ResumedPacking : Packing {
     }
     return text.str() + "]}";
   }
-  fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder.path() / name, std::ios::binary) << text;
-    return folder.path() / name;
-  }
   void run_as(const std::string& name) {
     settings.output = folder.path() / name;
     run();
@@ -67,12 +63,7 @@ struct ResumedPacking : Packing {
     EXPECT_THROW((void)pack(settings, report, stopped), Cancelled);
   }
   [[nodiscard]] std::string refusal() {
-    try {
-      run();
-    } catch (const OutputError& error) {
-      return error.what();
-    }
-    return "no refusal";
+    return scenes::refusal_of<OutputError>([&] { run(); });
   }
   [[nodiscard]] std::string bytes_of(const std::string& name) const { return scenes::text_of(folder.path() / name); }
   [[nodiscard]] fs::path work() const { return unfinished_folder_of(settings.output); }

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstring>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include "package/unfinished_package.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
 #include "tests/problems/problem_lists.hpp"
+#include "tests/scenes/refusal.hpp"
 
 namespace farlod::pipeline::test {
 namespace {
@@ -61,10 +61,6 @@ struct TreePacking : Packing {
     settings.far_map = scenes::small_maps(FarMapKind::horizon);
     settings.inputs = {farlod::test::good_city()};
   }
-  fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder.path() / name, std::ios::binary) << text;
-    return folder.path() / name;
-  }
   /// A table of trees in rows from a corner of the village, which is flat at 0 m.
   fs::path write_rows(const std::string& name, int count, double height_m = 9.0) const {
     std::ostringstream table;
@@ -87,12 +83,7 @@ struct TreePacking : Packing {
   [[nodiscard]] std::string bytes_of(const std::string& name) const { return scenes::text_of(folder.path() / name); }
   [[nodiscard]] std::vector<PlacedCrown> crowns() const { return crowns_in(settings.output, result.manifest); }
   [[nodiscard]] std::string refusal() {
-    try {
-      run();
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no refusal";
+    return scenes::refusal_of<Error>([&] { run(); });
   }
 };
 

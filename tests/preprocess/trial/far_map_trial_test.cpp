@@ -22,12 +22,7 @@ struct Town {
 };
 
 Town town(Assign assign = Assign::clip) {
-  CitySettings settings;
-  settings.size_m = 400;
-  settings.seed = 3;
-  settings.tower_share = 0.5;
-  settings.lod = 2;
-  settings.overhangs = true;
+  CitySettings settings{.size_m = 400, .seed = 3, .tower_share = 0.5, .lod = 2, .overhangs = true};
   const CityModel city = scenes::generated_town(settings);
   Town result;
   result.grid = scenes::grid_covering(city, Angle::degrees(7), 30.0, 3);
