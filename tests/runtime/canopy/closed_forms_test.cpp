@@ -2,10 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <numbers>
+#include <span>
+#include <utility>
 #include <vector>
 
+#include "farlod/point.hpp"
+#include "horizon/azimuth_sampling.hpp"
+#include "horizon/receiver_packet.hpp"
+#include "horizon/sky_profile.hpp"
+#include "package/crown.hpp"
+#include "package/crown_light.hpp"
 #include "tests/runtime/canopy/crown_scenes.hpp"
 
 // Sky view factors with canopies that are known, of a receiver that looks up. docs/concepts.md, "Crowns", has the formulas.
@@ -141,6 +153,241 @@ TEST(CanopyClosedForms, RandomSpheresPassWhatALayerOfTheirDepthPasses) {
   EXPECT_NEAR(once.mean, psi + (1.0 - psi) * 2.0 * exponential_integral_3(cover), 4.0 * once.standard_error + end_of_field);
   EXPECT_LT(each.standard_error, 0.01);
   EXPECT_LT(once.standard_error, 0.01);
+}
+
+// Random crowns, horizons, gaps and normals against rays.
+
+// What crowns do to the sky, by rays in double that are clipped by solids: none of the formulas of runtime/canopy.
+
+/// The part of a ray within a solid, from and to these distances.
+using RayPart = std::pair<double, double>;
+constexpr RayPart no_part{1.0, 0.0};
+
+/// Where |origin + s direction| ≤ radius, of vectors of two or three coordinates.
+template <std::size_t n>
+RayPart part_in_ball(const std::array<double, n>& origin, const std::array<double, n>& direction, double radius) {
+  double dd = 0.0, od = 0.0, oo = -radius * radius;
+  for (std::size_t i = 0; i < n; ++i) {
+    dd += direction[i] * direction[i];
+    od += origin[i] * direction[i];
+    oo += origin[i] * origin[i];
+  }
+  const double square = od * od - dd * oo;
+  if (square <= 0.0) return no_part;
+  return {(-od - std::sqrt(square)) / dd, (-od + std::sqrt(square)) / dd};
+}
+
+/// Where low ≤ origin + s direction ≤ high.
+RayPart part_in_slab(double origin, double direction, double low, double high) {
+  if (direction == 0.0) return low <= origin && origin <= high ? RayPart{-1e9, 1e9} : no_part;
+  const double a = (low - origin) / direction, b = (high - origin) / direction;
+  return {std::min(a, b), std::max(a, b)};
+}
+
+RayPart common_part(const RayPart& a, const RayPart& b) { return {std::max(a.first, b.first), std::min(a.second, b.second)}; }
+
+/// The length of a ray, whose direction has length 1, in a crown.
+double length_in(const Crown& crown, const Point3d& eye, const Point3d& direction) {
+  const double x = eye.x - double{crown.x_m}, y = eye.y - double{crown.y_m}, a = crown.half_width_m;
+  const double half_height = 0.5 * (double{crown.top_m} - double{crown.bottom_m});
+  const RayPart ahead{0.0, std::numeric_limits<double>::max()};
+  RayPart part = part_in_slab(eye.z, direction.z, crown.bottom_m, crown.top_m);
+  if (crown.shape == CrownShape::spheroid) {
+    const double stretch = a / half_height, z = (eye.z - double{crown.bottom_m} - half_height) * stretch;
+    part = part_in_ball<3>({x, y, z}, {direction.x, direction.y, direction.z * stretch}, a);
+  } else if (crown.shape == CrownShape::cylinder) {
+    // A ray straight up meets its plan everywhere or nowhere
+    part = common_part(part, part_in_ball<2>({x, y}, {direction.x, direction.y}, a));
+  } else {
+    const double c = std::cos(crown.turn_rad()), s = std::sin(crown.turn_rad());
+    part = common_part(part, part_in_slab(c * x + s * y, c * direction.x + s * direction.y, -a, a));
+    part = common_part(part, part_in_slab(c * y - s * x, c * direction.y - s * direction.x, -a, a));
+  }
+  part = common_part(part, ahead);
+  return std::max(0.0, part.second - part.first);
+}
+
+/// The share of the light that passes all crowns along a ray, and whether it meets any.
+struct Passed {
+  double light = 1.0;
+  bool meets = false;
+};
+Passed passed(std::span<const Crown> crowns, const CanopySettings& settings, const Point3d& eye, const Point3d& direction) {
+  Passed result;
+  for (const Crown& crown : crowns) {
+    const double length = length_in(crown, eye, direction);
+    if (length <= 0.0) continue;
+    result.meets = true;
+    const double psi = transmissivity_of(crown.foliage, settings);
+    if (settings.rule == CanopyRule::once) result.light = std::min(result.light, psi);
+    if (settings.rule == CanopyRule::each) result.light *= psi;
+    if (settings.rule == CanopyRule::beer) result.light *= std::exp(-extinction_per_m_of(crown.foliage, settings) * length);
+  }
+  return result;
+}
+
+/// Shares of the sky as CanopyShares has them, and that of the profile. The error is that of the rule of the middle for what
+/// varies by V along the elevation: V/2 of a step, by the proof of docs/concepts.md, "The error of K azimuths". Twice that, since
+/// V is what the rays show of it.
+struct JudgedShares {
+  double lost = 0.0, behind = 0.0, sky = 0.0, error = 0.0;
+};
+
+/// By rays at the azimuths of a sampling and in the middles of `steps` equal parts of the elevation, for the sky above `sky_from`
+/// and in gaps.
+JudgedShares judged_shares(std::span<const Crown> crowns, const CanopySettings& settings, const AzimuthSampling& azimuths,
+                           const SkyProfile& profile, const ReceiverPacket& receivers, std::size_t lane, int steps) {
+  const Point3d eye{receivers.x[lane], receivers.y[lane], receivers.z[lane]};
+  const Point3d normal{receivers.normal_x[lane], receivers.normal_y[lane], receivers.normal_z[lane]};
+  const double step = 0.5 * std::numbers::pi / steps;
+  JudgedShares sums;
+  for (std::size_t k = 0; k < azimuths.size(); ++k) {
+    double lost_before = 0.0, behind_before = 0.0, variation = 0.0;
+    for (int n = 0; n < steps; ++n) {
+      const double elevation = (n + 0.5) * step, across = std::cos(elevation), slope = std::tan(elevation);
+      double share = slope > double{profile.sky_from[k][lane]} ? 1.0 : 0.0;
+      if (!profile.gap_share.empty() && slope > double{profile.gap_from[k][lane]} && slope < double{profile.gap_to[k][lane]})
+        share += double{profile.gap_share[k][lane]};
+      const Point3d d{across * double{azimuths.cosine()[k]}, across * double{azimuths.sine()[k]}, std::sin(elevation)};
+      const double weight = 2.0 * step * across * share * std::max(0.0, d.x * normal.x + d.y * normal.y + d.z * normal.z);
+      const Passed p = weight == 0.0 ? Passed{} : passed(crowns, settings, eye, d);
+      const double lost = weight * (1.0 - p.light), behind = p.meets ? weight : 0.0;
+      sums.sky += weight;
+      sums.lost += lost;
+      sums.behind += behind;
+      variation += std::max(std::abs(lost - lost_before), std::abs(behind - behind_before));
+      lost_before = lost;
+      behind_before = behind;
+    }
+    sums.error += variation + behind_before;
+  }
+  const auto count = static_cast<double>(azimuths.size());
+  return {sums.lost / count, sums.behind / count, sums.sky / count, sums.error / count};
+}
+
+constexpr CanopyRule judged_rules[] = {CanopyRule::once, CanopyRule::each, CanopyRule::beer};
+constexpr Looks judged_looks[] = {Looks::up, Looks::level, Looks::anywhere};
+constexpr std::size_t azimuth_count = 16;
+constexpr int elevations = 1500;
+/// Of the kernels: the quadrature, which is exact but for the rule `beer`, on all of the sky; and floats.
+constexpr double kernel_error = 2e-4;
+
+struct RandomScene {
+  std::vector<Crown> crowns;
+  CanopySettings settings;
+  Looks looks = Looks::up;
+  bool has_gaps = false;
+};
+
+/// With the scene's number, so that it can be repeated alone.
+RandomScene scene_of(unsigned number, RandomPlaces& random) {
+  RandomScene scene;
+  scene.crowns = some_crowns(random, number % 5 == 0 ? 2 : 12, number % 4 == 0 ? 5.0 : 25.0);
+  scene.looks = judged_looks[number % 3];
+  scene.has_gaps = number % 2 == 1;
+  scene.settings.rule = judged_rules[number / 3 % 3];
+  scene.settings.season = number / 9 % 2 == 0 ? Season::leaf_on : Season::leaf_off;
+  scene.settings.extinction_per_m = 0.3;
+  return scene;
+}
+
+TEST(RandomCrowns, TakeWhatRaysSay) {
+  const AzimuthSampling azimuths = AzimuthSampling::even(azimuth_count, GridRotation(Angle::degrees(7.0)));
+  CanopySky sky(azimuths);
+  RandomPlaces random;
+  for (unsigned number = 0; number < 54; ++number) {
+    const RandomScene scene = scene_of(number, random);
+    const ReceiverPacket receivers = some_receivers(random, scene.looks);
+    const SkyProfile profile = some_profile(random, azimuths, scene.has_gaps);
+    const CanopyShares shares = sky.evaluate(profile, receivers, CrownBatches(scene.crowns, scene.settings));
+    for (const std::size_t lane : {std::size_t{number % 8}, std::size_t{8 + number % 7}}) {
+      const JudgedShares judged = judged_shares(scene.crowns, scene.settings, azimuths, profile, receivers, lane, elevations);
+      EXPECT_NEAR(static_cast<double>(shares.lost[lane]), judged.lost, judged.error + kernel_error)
+          << "scene " << number << ", lane " << lane;
+      EXPECT_NEAR(static_cast<double>(shares.behind[lane]), judged.behind, judged.error + kernel_error)
+          << "scene " << number << ", lane " << lane;
+    }
+  }
+}
+
+/// Receivers all around one crown, in its plan and beside it, below, in and above it: also between its upper surface and the
+/// height of its highest point.
+TEST(RandomCrowns, OneCrownTakesWhatRaysSayFromAllAround) {
+  const AzimuthSampling azimuths = AzimuthSampling::even(azimuth_count, GridRotation(Angle::degrees(7.0)));
+  CanopySky sky(azimuths);
+  const SkyProfile profile(azimuths);
+  for (const CrownShape shape : {CrownShape::spheroid, CrownShape::cylinder, CrownShape::prism}) {
+    Crown crown = crown_at(shape, {1.0, 2.0}, 3.0, {2.0, 8.0});
+    if (shape == CrownShape::prism) crown.turn = 20000;
+    for (const CanopyRule rule : {CanopyRule::each, CanopyRule::beer})
+      for (const float away_m : {0.0F, 1.0F, 2.0F, 2.9F, 3.1F, 6.0F}) {
+        ReceiverPacket receivers;
+        for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
+          receivers.add({l, {1.0F + away_m, 2.2F, 0.55F * static_cast<float>(l) + 0.3F}, {0.0F, 0.0F, 1.0F}});
+        const CanopySettings settings{rule, Season::leaf_on, {}, 0.2}, by_once{CanopyRule::once};
+        const CanopyShares shares = sky.evaluate(profile, receivers, CrownBatches({&crown, 1}, settings)),
+                           once = sky.evaluate(profile, receivers, CrownBatches({&crown, 1}, by_once));
+        for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) {
+          const JudgedShares judged = judged_shares({&crown, 1}, settings, azimuths, profile, receivers, l, 400);
+          EXPECT_NEAR(static_cast<double>(shares.lost[l]), judged.lost, judged.error + kernel_error)
+              << away_m << " m, lane " << l;
+          EXPECT_NEAR(static_cast<double>(once.behind[l]), judged.behind, judged.error + kernel_error)
+              << away_m << " m, lane " << l;
+        }
+      }
+  }
+}
+
+/// Pixels of a canopy: more intervals at an azimuth than any other scene has.
+TEST(RandomCrowns, PixelsOfACanopyTakeWhatRaysSay) {
+  const AzimuthSampling azimuths = AzimuthSampling::even(azimuth_count, {});
+  RandomPlaces random;
+  std::vector<Crown> pixels;
+  for (int x = -20; x < 20; ++x)
+    for (int y = -20; y < 20; ++y)
+      if (random.between(0.0, 1.0) < 0.25F)
+        pixels.push_back(
+            crown_at(CrownShape::prism, {x + 0.5, y + 0.5}, 0.5, {random.between(0.5, 4.0), random.between(4.0, 12.0)}));
+  const ReceiverPacket receivers = some_receivers(random, Looks::up);
+  for (const CanopyRule rule : judged_rules) {
+    const CanopySettings settings{rule, Season::leaf_on, {}, 0.2};
+    const SkyProfile profile = some_profile(random, azimuths, false);
+    const CanopyShares shares = CanopySky(azimuths).evaluate(profile, receivers, CrownBatches(pixels, settings));
+    const JudgedShares judged = judged_shares(pixels, settings, azimuths, profile, receivers, 3, elevations);
+    EXPECT_NEAR(static_cast<double>(shares.lost[3]), judged.lost, judged.error + kernel_error);
+    EXPECT_NEAR(static_cast<double>(shares.behind[3]), judged.behind, judged.error + kernel_error);
+  }
+}
+
+/// Crowns are sampled in the middles of K parts of the turn: docs/concepts.md, "Crowns", has what that costs. Twice the errors
+/// that were measured there.
+TEST(RandomCrowns, ErrorOfTheAzimuthsIsSmallAndOfNoSign) {
+  constexpr std::size_t count = 320, fine_count = 8192;
+  constexpr double rms_allowed = 2.0 * 0.25 / count, max_allowed = 2.0 * 0.9 / count, mean_allowed = 0.2 * rms_allowed;
+  const AzimuthSampling azimuths = AzimuthSampling::even(count, {}), fine = AzimuthSampling::even(fine_count, {});
+  RandomPlaces random;
+  std::vector<Crown> crowns;
+  for (int n = 0; n < 600; ++n) {
+    const Point3f p = random.place(120.0, 1.5, 4.0);
+    crowns.push_back(
+        crown_at(static_cast<CrownShape>(n % 3), {p.x, p.y}, random.between(2.0, 4.0), {p.z, p.z + random.between(4.0, 10.0)}));
+  }
+  const CrownBatches batches(crowns, CanopySettings{});
+  double sum = 0.0, squares = 0.0, values = 0.0;
+  for (int n = 0; n < 20; ++n) {
+    const ReceiverPacket receivers = some_receivers(random, Looks::up);
+    const CanopyShares shares = CanopySky(azimuths).evaluate(SkyProfile(azimuths), receivers, batches),
+                       truth = CanopySky(fine).evaluate(SkyProfile(fine), receivers, batches);
+    for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) {
+      const double error = static_cast<double>(shares.lost[l]) - static_cast<double>(truth.lost[l]);
+      sum += error;
+      squares += error * error;
+      values += 1.0;
+      EXPECT_LE(std::abs(error), max_allowed);
+    }
+  }
+  EXPECT_LE(std::sqrt(squares / values), rms_allowed);
+  EXPECT_LE(std::abs(sum / values), mean_allowed);
 }
 
 }  // namespace

@@ -6,15 +6,21 @@
 #include <fstream>
 #include <optional>
 #include <regex>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "evaluate/error_budget.hpp"
+#include "evaluate/quantity_table.hpp"
 #include "evaluate/sky_evaluator.hpp"
+#include "evaluate/verification.hpp"
 
 namespace farlod {
 namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
 
 std::string name_of(EvaluationMethod method) {
   switch (method) {
@@ -80,6 +86,164 @@ TEST(EvaluationMethod, SaysWhoseSamplingErrorCounts) {
     for (const Engine engine : {Engine::automatic, Engine::rays, Engine::exact})
       EXPECT_EQ(error(engine, FarMapOfCell::missing), of_rays);
   }
+}
+
+Quantities all_quantities() {
+  Quantities all;
+  for (const QuantityRow& row : quantity_table()) row.ask(all);
+  return all;
+}
+
+TEST(QuantityTable, AsksForOneQuantityByItsWord) {
+  for (const QuantityRow& row : quantity_table()) {
+    Quantities one;
+    EXPECT_FALSE(row.is_asked(one)) << row.word.word;
+    EXPECT_TRUE(ask_for(row.word.word, one)) << row.word.word;
+    EXPECT_TRUE(row.is_asked(one)) << row.word.word;
+    EXPECT_GT(range_of(row.quantity, one).count, 0U) << row.word.word;
+    EXPECT_EQ(one.any_of_canopies(), row.word.is_of_crowns) << row.word.word;
+    // Distances are those of horizons
+    for (const QuantityRow& other : quantity_table()) {
+      const bool is_asked =
+          other.quantity == row.quantity || (row.quantity == Quantity::horizon_distance && other.quantity == Quantity::horizon);
+      EXPECT_EQ(other.is_asked(one), is_asked) << row.word.word << ' ' << other.word.word;
+    }
+  }
+  Quantities none;
+  EXPECT_FALSE(ask_for("svf_cubic", none));
+  EXPECT_FALSE(none.any());
+}
+
+TEST(QuantityTable, ColumnsOfItsRowsFollowEachOther) {
+  const Quantities all = all_quantities();
+  std::size_t next = 0;
+  for (const QuantityRow& row : quantity_table()) {
+    const ColumnRange range = range_of(row.quantity, all);
+    EXPECT_EQ(range.first, next) << row.word.word;
+    next += range.count;
+  }
+  EXPECT_EQ(columns_of(all).size(), next);
+  const ColumnRange crowns = range_of_crowns(all);
+  EXPECT_EQ(crowns.first, range_of(Quantity::svf_total, all).first);
+  EXPECT_EQ(crowns.first + crowns.count, next);
+}
+
+TEST(QuantityTable, DescribesEachColumnOnce) {
+  std::set<std::string> names;
+  for (const ColumnDescription& column : column_descriptions_of(all_quantities())) {
+    EXPECT_TRUE(names.insert(column.name).second) << column.name;
+    EXPECT_FALSE(column.unit.empty()) << column.name;
+    EXPECT_FALSE(column.definition.empty()) << column.name;
+  }
+}
+
+TEST(QuantityTable, TellsTheWordsOfWhatIsAskedFor) {
+  EXPECT_EQ(words_of(all_quantities()).size(), quantity_words().size());
+  EXPECT_TRUE(words_of({}).empty());
+  Quantities two;
+  two.sky_shares = two.hidden = true;
+  EXPECT_EQ(words_of(two).at(0).word, "hidden");
+  EXPECT_EQ(words_of(two).at(1).word, "shares");
+}
+
+TEST(QuantityTable, KeepsTheNumbersThatAreChosen) {
+  Quantities chosen{.horizons = 12, .sky_patches = SkyPatchSet::reinhart};
+  EXPECT_TRUE(ask_for("horizon_distance", chosen));
+  EXPECT_TRUE(ask_for("sky_patches", chosen));
+  EXPECT_EQ(range_of(Quantity::horizon_distance, chosen).count, 12U);
+  EXPECT_EQ(range_of(Quantity::sky_patches, chosen).count, 577U);
+}
+
+TEST(QuantityTable, BoundsStandBehindTheTotal) {
+  Quantities q{.svf_total = true};
+  EXPECT_EQ(total_columns_of(q).total, 0U);
+  EXPECT_FALSE(total_columns_of(q).low);
+  q.svf_total_bounds = true;
+  EXPECT_EQ(total_columns_of(q).low, 1U);
+  EXPECT_THAT(columns_of(q), testing::ElementsAre("svf_total", "svf_total_low", "svf_total_high", "svfveg"));
+}
+
+TEST(ErrorBudget, AsManyRaysAsItTakesAndNoMore) {
+  for (const double error : {0.05, 0.01, 0.005, 0.001, 0.0001}) {
+    const std::size_t rays = rays_for_sampling_error(error);
+    EXPECT_LE(sampling_error(rays), error);
+    EXPECT_GT(sampling_error(rays - 1), error);
+  }
+}
+
+TEST(ErrorBudget, AsManyAzimuthsAsItTakesAndNoMore) {
+  for (const double error : {0.05, 0.011, 0.007, 0.0013, 0.0001}) {
+    const std::size_t azimuths = azimuths_for_error(error);
+    EXPECT_LE(azimuth_error(azimuths), error);
+    EXPECT_GT(azimuth_error(azimuths - 1), error);
+  }
+}
+
+// Receivers of the generated city of docs/validation.md: the largest errors seen
+TEST(ErrorBudget, CoversWhatWasMeasured) {
+  EXPECT_GE(sampling_error(500), 0.0246);
+  EXPECT_GE(sampling_error(1000), 0.0107);
+  EXPECT_GE(sampling_error(4000), 0.0047);
+}
+
+TEST(ErrorSummary, CountsWhatItSays) {
+  // Binary fractions, so that sums are exact
+  const std::vector<double> exact{0.5, 0.5, 0.5, 0.5}, answers{0.5, 0.75, 0.375, 0.625};
+  const ErrorSummary summary = summarize_errors(answers, exact);
+  EXPECT_EQ(summary.count, 4U);
+  EXPECT_EQ(summary.mean_abs_error, 0.125);
+  EXPECT_EQ(summary.max_abs_error, 0.25);
+  EXPECT_EQ(summary.p99_abs_error, 0.25);
+  EXPECT_EQ(summary.bias, 0.0625);
+}
+
+TEST(ErrorSummary, BiasIsAnswerMinusExact) {
+  EXPECT_EQ(summarize_errors(std::vector{0.75}, std::vector{0.5}).bias, 0.25);
+  EXPECT_EQ(summarize_errors(std::vector{0.25}, std::vector{0.5}).bias, -0.25);
+}
+
+TEST(ErrorSummary, ThePercentileIsTheSmallestErrorThat99PercentDoNotExceed) {
+  std::vector<double> answers, exact(200, 0.0);
+  for (int n = 1; n <= 200; ++n) answers.push_back(n / 256.0);
+  std::reverse(answers.begin(), answers.end());
+  EXPECT_EQ(summarize_errors(answers, exact).p99_abs_error, 198 / 256.0);
+  EXPECT_EQ(summarize_errors(std::span(answers).first(1), std::span(exact).first(1)).p99_abs_error, 200 / 256.0);
+}
+
+TEST(ErrorSummary, OfNothingIsNothing) {
+  const ErrorSummary summary = summarize_errors({}, {});
+  EXPECT_EQ(summary.count, 0U);
+  EXPECT_EQ(summary.mean_abs_error, 0.0);
+}
+
+TEST(ChooseSome, AscendsWithoutRepeats) {
+  for (const std::size_t size : {2U, 10U, 1000U, 100000U})
+    for (const std::size_t count : {std::size_t{1}, size / 2, size - 1}) {
+      const std::vector<std::size_t> chosen = choose_some(size, count);
+      EXPECT_EQ(chosen.size(), count);
+      EXPECT_TRUE(std::adjacent_find(chosen.begin(), chosen.end(), std::greater_equal<>()) == chosen.end());
+      EXPECT_LT(chosen.back(), size);
+      EXPECT_EQ(chosen, choose_some(size, count));
+    }
+}
+
+TEST(ChooseSome, TakesAllWhenThereAreNoMore) {
+  EXPECT_THAT(choose_some(3, 3), ElementsAre(0U, 1U, 2U));
+  EXPECT_THAT(choose_some(3, 300), ElementsAre(0U, 1U, 2U));
+  EXPECT_THAT(choose_some(0, 5), IsEmpty());
+  EXPECT_THAT(choose_some(5, 0), IsEmpty());
+}
+
+TEST(ChooseSome, IsTheSameOnEveryMachine) {
+  // mt19937_64 is fixed by the standard; with it these numbers, taken down once
+  EXPECT_THAT(choose_some(1000, 4), ElementsAre(300U, 431U, 459U, 563U));
+}
+
+TEST(ChooseSome, LooksEverywhere) {
+  // 1,000 of 10,000 in ten equal drawers: 100 each, with a standard deviation below √100; five of them
+  std::vector<int> drawers(10, 0);
+  for (const std::size_t n : choose_some(10000, 1000)) ++drawers[n / 1000];
+  for (const int count : drawers) EXPECT_NEAR(count, 100, 50);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 #include "package/edge_facing.hpp"
 #include "tests/package/far_horizon_by_hand.hpp"
+#include "tests/runtime/horizon/horizon_oracle.hpp"
 #include "tests/runtime/horizon/packed_overhangs.hpp"
-#include "tests/runtime/horizon/sky_oracle.hpp"
 #include "tests/runtime/horizon/town_by_hand.hpp"
 
 namespace farlod {

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
@@ -30,12 +31,7 @@ std::vector<std::string> row_of(const Attributes& attributes, std::size_t row) {
 }
 
 std::string complaint_about(const std::string& text) {
-  try {
-    (void)points_in(text);
-  } catch (const PointsError& error) {
-    return error.what();
-  }
-  return "no complaint";
+  return scenes::refusal_of<PointsError>([&] { (void)points_in(text); });
 }
 
 void expect_the_two_points(const std::vector<RequestedPoint>& points) {

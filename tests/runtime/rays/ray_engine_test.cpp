@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "evaluate/visibility.hpp"
 #include "horizon/sky_partition.hpp"
 #include "tests/package/far_horizon_by_hand.hpp"
 #include "tests/runtime/horizon/grazing_rays.hpp"
@@ -93,6 +96,157 @@ TEST(RayEngine, AnEmptyTownHidesNothing) {
     EXPECT_EQ(free.high, 145U);
   }
 }
+
+// A wall to the east is near, on the ground or floating; one to the west is far, once explicit, once residual.
+
+constexpr float near_x = 25.0F, far_x = -40.0F, south = -50.0F, north = 70.0F, top = 30.0F, gap = 6.0F;
+
+using Corners = std::array<Point3f, 3>;
+
+std::array<Corners, 2> wall_at(float x, float foot) {
+  const Point3f a{x, south, foot}, b{x, north, foot}, c{x, north, top}, d{x, south, top};
+  return {{{a, b, c}, {a, c, d}}};
+}
+
+struct Walls {
+  const char* name;
+  bool near_floats, far_is_explicit;
+  [[nodiscard]] float near_foot() const { return near_floats ? gap : 0.0F; }
+};
+void PrintTo(const Walls& walls, std::ostream* out) { *out << walls.name; }
+
+Occluder both_walls(const Walls& walls) {
+  std::vector<Point3f> vertices;
+  std::vector<Triangle> triangles;
+  for (const auto& wall : {wall_at(near_x, walls.near_foot()), wall_at(far_x, 0.0F)})
+    for (const Corners& t : wall) {
+      const auto first = static_cast<std::uint32_t>(vertices.size());
+      vertices.insert(vertices.end(), t.begin(), t.end());
+      triangles.push_back({first, first + 1, first + 2});
+    }
+  return {vertices, triangles};
+}
+
+CellSilhouettes silhouettes_of(const Walls& walls) {
+  CellSilhouettes silhouettes;
+  const HorizonEdge near_top{{near_x, south, top}, {near_x, north, top}};
+  (walls.near_floats ? silhouettes.near.overhangs : silhouettes.grounded).add(near_top);
+  if (walls.near_floats) {
+    constexpr AdjacentSlopes nothing_beside{AdjacentSlopes::straight_up, AdjacentSlopes::straight_up};
+    silhouettes.near.undersides.add({{near_x, south, gap}, {near_x, north, gap}, nothing_beside, EdgeRole::underside});
+  }
+  if (walls.far_is_explicit) silhouettes.grounded.add({{far_x, south, top}, {far_x, north, top}});
+  return silhouettes;
+}
+
+class TwoWalls : public testing::TestWithParam<Walls> {
+ protected:
+  TwoWalls() {
+    // Residual, the wall may hide all below 45° anywhere, and surely hides nothing
+    std::fill(far_.map().high.begin(), far_.map().high.end(), 1.0F);
+    std::fill(far_.map().estimate.begin(), far_.map().estimate.end(), 0.4F);
+    for (std::size_t n = 0; n < 16; ++n) {
+      receivers_.push_back({n, {1.0F + 1.2F * static_cast<float>(n), 7.0F, 1.5F}});
+      places_.push_back(receivers_.back().p_cell);
+      origins_.x[n] = places_[n].x;
+      origins_.y[n] = places_[n].y;
+      origins_.z[n] = places_[n].z;
+    }
+  }
+  [[nodiscard]] std::vector<std::uint32_t> exact() const { return count_free(city_, places_, directions_); }
+
+  const Occluder city_ = both_walls(GetParam());
+  const std::vector<Point3d> directions_ = SkyPartition(SkyWeight::cosine, 1000).directions();
+  const DirectionSampling sampling_{directions_};
+  const CellSilhouettes silhouettes_ = silhouettes_of(GetParam());
+  const PackedOverhangs packed_{GetParam().near_floats ? wall_at(near_x, gap) : std::array<Corners, 2>{}};
+  OverhangGeometry overhangs_ = packed_.geometry();
+  FarHorizonByHand far_{{}};
+  RayEngine engine_{sampling_, far_.map(), silhouettes_, overhangs_, true};
+  std::vector<Receiver> receivers_;
+  std::vector<Point3f> places_;
+  RayOrigins origins_;
+};
+
+TEST_P(TwoWalls, TheExactCountLiesWithinTheBounds) {
+  const std::vector<FreeRays> free = engine_.count(receivers_);
+  const std::vector<std::uint32_t> truth = exact();
+  std::uint32_t open = 0;
+  for (std::size_t n = 0; n < free.size(); ++n) {
+    EXPECT_LE(free[n].low, free[n].estimate);
+    EXPECT_LE(free[n].estimate, free[n].high);
+    EXPECT_LE(free[n].low, truth[n]);
+    EXPECT_GE(free[n].high, truth[n]);
+    open += free[n].high - free[n].low;
+  }
+  EXPECT_GT(open, 0U) << "nothing is left open to tell";
+}
+
+TEST_P(TwoWalls, RetracingMakesTheUncertainExactAndLeavesTheRest) {
+  const std::vector<FreeRays> before = engine_.count(receivers_);
+  std::vector<FreeRays> after = before;
+  std::uint32_t uncertain = 0;
+  std::uint64_t open = 0;
+  for (std::size_t n = 0; n < before.size(); n += 3) {
+    uncertain |= 1U << n;
+    open += before[n].high - before[n].low;
+  }
+  EXPECT_EQ(engine_.retrace(city_, origins_, uncertain, after), open);
+  const std::vector<std::uint32_t> truth = exact();
+  for (std::size_t n = 0; n < after.size(); ++n) {
+    const FreeRays expected = ((uncertain >> n) & 1U) != 0 ? FreeRays{truth[n], truth[n], truth[n]} : before[n];
+    EXPECT_EQ(after[n].low, expected.low) << n;
+    EXPECT_EQ(after[n].estimate, expected.estimate) << n;
+    EXPECT_EQ(after[n].high, expected.high) << n;
+  }
+}
+
+TEST_P(TwoWalls, AStopEndsCountingAndRetracing) {
+  std::stop_source stop;
+  RayEngine engine(sampling_, far_.map(), silhouettes_, overhangs_, true, stop.get_token());
+  std::vector<FreeRays> free = engine.count(receivers_);
+  stop.request_stop();
+  EXPECT_THROW((void)engine.retrace(city_, origins_, 0xFFFF, free), Cancelled);
+  EXPECT_THROW((void)engine.count(receivers_), Cancelled);
+}
+
+TEST_P(TwoWalls, WithoutBoundsTheEstimateIsTheSame) {
+  RayEngine without(sampling_, far_.map(), silhouettes_, overhangs_, false);
+  const std::vector<FreeRays> bounded = engine_.count(receivers_), plain = without.count(receivers_);
+  for (std::size_t n = 0; n < receivers_.size(); ++n) {
+    EXPECT_EQ(plain[n].estimate, bounded[n].estimate) << n;
+    EXPECT_EQ(plain[n].low, plain[n].estimate) << n;
+    EXPECT_EQ(plain[n].high, plain[n].estimate) << n;
+  }
+}
+
+TEST_P(TwoWalls, APacketDoesNotRememberTheOneBefore) {
+  const std::vector<FreeRays> all = engine_.count(receivers_);
+  const std::vector<FreeRays> some = engine_.count(std::span(receivers_).subspan(3, 5));
+  ASSERT_EQ(some.size(), 5U);
+  for (std::size_t n = 0; n < some.size(); ++n) {
+    EXPECT_EQ(some[n].low, all[n + 3].low);
+    EXPECT_EQ(some[n].estimate, all[n + 3].estimate);
+    EXPECT_EQ(some[n].high, all[n + 3].high);
+  }
+}
+
+TEST_P(TwoWalls, ReceiversAtDifferentHeightsSeeEachAtItsOwn) {
+  for (std::size_t n = 0; n < receivers_.size(); ++n) receivers_[n].p_cell.z = 1.5F + 1.5F * static_cast<float>(n);
+  const std::vector<FreeRays> together = engine_.count(receivers_);
+  for (std::size_t n = 0; n < receivers_.size(); ++n) {
+    const std::vector<FreeRays> alone = engine_.count(std::span(receivers_).subspan(n, 1));
+    EXPECT_EQ(together[n].low, alone[0].low) << n;
+    EXPECT_EQ(together[n].estimate, alone[0].estimate) << n;
+    EXPECT_EQ(together[n].high, alone[0].high) << n;
+  }
+  EXPECT_LT(together.front().estimate, together.back().estimate) << "the higher, the more sky";
+}
+
+INSTANTIATE_TEST_SUITE_P(RayEngine, TwoWalls,
+                         testing::Values(Walls{"GroundedAndResidual", false, false}, Walls{"GroundedAndExplicit", false, true},
+                                         Walls{"FloatingAndResidual", true, false}, Walls{"FloatingAndExplicit", true, true}),
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace farlod

@@ -5,10 +5,29 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
 #include <map>
+#include <numbers>
+#include <optional>
+#include <ostream>
+#include <random>
+#include <utility>
+#include <vector>
 
+#include "align/align.hpp"
+#include "farlod/error.hpp"
+#include "farlod/region.hpp"
+#include "georeference/georeference.hpp"
+#include "ingest/files/input_search.hpp"
+#include "ingest/ingest.hpp"
+#include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
+#include "tests/scenes/test_data.hpp"
+#include "tiles/tiles.hpp"
 
 namespace farlod {
 namespace {
@@ -169,6 +188,157 @@ TEST_P(RasterOfATown, HousesHaveNoPixelsUnlessOneStandsOnThem) {
 }
 
 INSTANTIATE_TEST_SUITE_P(TurnedBy, RasterOfATown, testing::Values(0.0, 33.0, 90.0, -71.5));
+
+// Pixels are placed all at once, triangle by triangle. The judge looks at each of them alone.
+
+std::map<std::size_t, Point3f> one_by_one(const PackageReader& package, const RasterPlan& plan, const PixelRange& range,
+                                          Cell cell, HeightAbove above) {
+  const PointLocator locator(package, cell);
+  std::map<std::size_t, Point3f> result;
+  for (std::size_t row = range.row_begin; row < range.row_end; ++row)
+    for (std::size_t column = range.column_begin; column < range.column_end; ++column) {
+      const Point2d p_grid = package.manifest().grid_from_projected(plan.centre_m(column, row));
+      if (package.grid().cell_of(p_grid) != cell) continue;
+      const Point2d p = p_grid - package.grid().corner_of(cell);
+      if (const auto standing = stand(locator, static_cast<float>(p.x), static_cast<float>(p.y), above, 1.5F))
+        result[row * plan.columns + column] = *standing;
+    }
+  return result;
+}
+
+/// Returns the number of receivers.
+std::size_t expect_as_one_by_one(const PackageReader& package, double step_m) {
+  const RasterPlan plan = plan_raster(package.manifest(), step_m, std::nullopt);
+  const RasterReceivers receivers(package.manifest(), plan);
+  std::size_t count = 0;
+  for (const Cell cell : receivers.cells())
+    for (const HeightAbove above : {HeightAbove::ground, HeightAbove::highest_surface}) {
+      std::map<std::size_t, Point3f> found;
+      for (const Receiver& r : receivers.in_cell(package, cell, above, 1.5F).receivers) found.emplace(r.index, r.p_cell);
+      EXPECT_EQ(found, one_by_one(package, plan, receivers.range_of(cell), cell, above)) << cell.i << "," << cell.j;
+      count += found.size();
+    }
+  return count;
+}
+
+struct Town {
+  const char* name;
+  CitySettings settings;
+};
+void PrintTo(const Town& town, std::ostream* out) { *out << town.name; }
+
+Town town(const char* name, const std::function<void(CitySettings&)>& change) {
+  CitySettings settings{.size_m = 220.0, .seed = 5, .rotation_deg = 33.0};
+  change(settings);
+  return {name, settings};
+}
+
+class RasterOfGeneratedTown : public testing::TestWithParam<Town> {};
+
+TEST_P(RasterOfGeneratedTown, HasTheReceiversOfSinglePlaces) {
+  const CityModel city = scenes::generated_town(GetParam().settings);
+  for (const Assign assign : {Assign::clip, Assign::whole}) {
+    const scenes::TemporaryFolder folder;
+    const Grid grid = scenes::grid_covering(city, Angle::degrees(33.0), 40.0, 1);
+    scenes::pack_city(city, grid, folder.path() / "town.farlod", scenes::box_maps(1, 1), assign);
+    const PackageReader package(folder.path() / "town.farlod");
+    EXPECT_GT(expect_as_one_by_one(package, 1.0), 30'000U);
+    EXPECT_GT(expect_as_one_by_one(package, 7.3), 500U);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Towns, RasterOfGeneratedTown,
+                         testing::Values(town("Prisms", [](CitySettings& s) { s.lod = 1; }),
+                                         town("Roofs",
+                                              [](CitySettings& s) {
+                                                s.lod = 2;
+                                                s.eaves_m = 0.5;
+                                                s.balconies = s.projecting_floors = s.overhangs = true;
+                                              }),
+                                         town("OpenShells", [](CitySettings& s) { s.open_shells = s.overhangs = true; }),
+                                         town("Hillside", [](CitySettings& s) { s.hillside = s.overlapping_parts = true; }),
+                                         town("Details",
+                                              [](CitySettings& s) {
+                                                s.lod = 2;
+                                                s.terrain_relief_m = 30.0;
+                                                s.facade_details = true;
+                                                s.wrong_base_share = 0.2;
+                                              })),
+                         [](const auto& town) { return town.param.name; });
+
+class RasterOfRealCity : public testing::TestWithParam<const char*> {};
+
+TEST_P(RasterOfRealCity, HasTheReceiversOfSinglePlaces) {
+  const std::filesystem::path file = scenes::test_data(GetParam());
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << scenes::absence_of(file);
+  const scenes::TemporaryFolder folder;
+  Report report;
+  const std::vector inputs{file};
+  LocatedCity located = georeference::georeference(ingest::ingest_all(ingest::find_input_files(inputs, report).files, {}, report),
+                                                   georeference::GeoreferenceSettings(), report);
+  const Grid grid = align::align(located, {}, report).grid;
+  const TileSet tiles = tiles::cut_into_tiles(std::move(located), grid, Assign::clip, std::nullopt, report);
+  scenes::pack_tiles(tiles, grid, folder.path() / "city.farlod", scenes::box_maps(1, 1));
+  const PackageReader package(folder.path() / "city.farlod");
+  EXPECT_GT(expect_as_one_by_one(package, 2.0), 10'000U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cities, RasterOfRealCity,
+                         testing::Values("rotterdam/delfshaven.city.json", "tokyo/53392633_bldg_6697_2_op.gml"),
+                         [](const auto& city) { return city.index == 0 ? "Rotterdam" : "Tokyo"; });
+
+Region::Ring square(double low, double high) { return {{low, low}, {high, low}, {high, high}, {low, high}}; }
+
+TEST(Region, HasHoles) {
+  const Region region({square(0, 10), square(4, 6)});
+  EXPECT_TRUE(region.contains({1, 1}));
+  EXPECT_FALSE(region.contains({5, 5}));
+  EXPECT_TRUE(region.contains({7, 5}));
+  EXPECT_FALSE(region.contains({11, 5}));
+  EXPECT_EQ(region.outline(), (Box2d{{0, 0}, {10, 10}}));
+}
+
+TEST(Region, GivesAPlaceOnASharedEdgeToOneOfTwoPolygons) {
+  const Region west({{{0, 0}, {3, 1}, {2, 7}, {0, 8}}}), east({{{3, 1}, {9, 0}, {9, 8}, {2, 7}}});
+  for (int n = 0; n <= 100; ++n) {
+    const double share = n / 100.0;
+    const Point2d p{3.0 - share, 1.0 + 6.0 * share};
+    EXPECT_EQ(west.contains(p) + east.contains(p), 1) << n;
+  }
+}
+
+TEST(Region, OfNothingHoldsNothing) {
+  EXPECT_FALSE(Region({}).contains({0, 0}));
+  EXPECT_FALSE(Region({{}, {{1, 1}}, {{1, 1}, {2, 2}}}).contains({1.5, 1.5}));
+}
+
+TEST(Region, IsThatOfAStarWithManyPoints) {
+  // A ring whose radius is known at each azimuth, of so many edges that they are divided into bands
+  constexpr int corners = 20000;
+  const auto radius = [](double t) { return 100.0 + 40.0 * std::sin(7.0 * t) + 5.0 * std::sin(90.0 * t); };
+  Region::Ring ring;
+  for (int n = 0; n < corners; ++n) {
+    const double t = 2.0 * std::numbers::pi * n / corners;
+    ring.push_back({500000.0 + radius(t) * std::cos(t), 5e6 + radius(t) * std::sin(t)});
+  }
+  const Region region({ring});
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> place(-150.0, 150.0);
+  int inside = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const Point2d p{place(random), place(random)};
+    const double distance = std::hypot(p.x, p.y), at = radius(std::atan2(p.y, p.x));
+    if (std::abs(distance - at) < 0.5) continue;
+    ASSERT_EQ(region.contains({500000.0 + p.x, 5e6 + p.y}), distance < at) << p.x << ", " << p.y;
+    inside += distance < at ? 1 : 0;
+  }
+  EXPECT_GT(inside, 1000);
+}
+
+TEST(Region, OfPlacesNowhereIsRefused) {
+  EXPECT_THROW(Region({{{0, 0}, {1, 0}, {std::numeric_limits<double>::quiet_NaN(), 1}}}), InvalidArgument);
+  EXPECT_THROW(Region({{{0, 0}, {1, 0}, {1, 1e9}}}), InvalidArgument);
+}
 
 }  // namespace
 }  // namespace farlod

@@ -4,14 +4,23 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+
 #include "farlod/error.hpp"
+#include "results/decimal.hpp"
 #include "results/picture/preview_raster.hpp"
+#include "results/provenance.hpp"
 #include "tests/counted/held_memory.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
+
+using testing::ElementsAre;
+using testing::Pair;
 
 std::string_view name_of(const std::filesystem::path& path) {
   const OutputFormat* format = output_format_of(path);
@@ -152,6 +161,69 @@ TEST(OutputFormat, WritersSayWhatTheyHold) {
       EXPECT_LE(said, held.most_bytes() + held.most_bytes() / 2) << format.name;
     }
   }
+}
+
+TEST(Xxh3OfFile, IsThatOfItsBytes) {
+  const scenes::TemporaryFolder folder;
+  std::ofstream(folder.file("empty"));
+  // The test vector of xxHash for no bytes
+  EXPECT_EQ(xxh3_of_file(folder.file("empty")), "2d06800538d394c2");
+  // Longer than what is read at a time
+  std::ofstream(folder.file("a")) << std::string(200'000, 'a');
+  std::ofstream(folder.file("b")) << std::string(199'999, 'a') << 'b';
+  EXPECT_EQ(xxh3_of_file(folder.file("a")).size(), 16U);
+  EXPECT_NE(xxh3_of_file(folder.file("a")), xxh3_of_file(folder.file("b")));
+}
+
+TEST(Xxh3OfFile, IsEmptyOfNoFile) {
+  const scenes::TemporaryFolder folder;
+  EXPECT_EQ(xxh3_of_file(folder.file("missing")), "");
+}
+
+TEST(EntriesOf, LeavesOutWhatIsEmpty) {
+  EXPECT_THAT(entries_of({"Far-LoD 1", "town.farlod", "0123", "--grid 1"}),
+              ElementsAre(Pair("software", "Far-LoD 1"), Pair("package", "town.farlod"), Pair("package_manifest_xxh3", "0123"),
+                          Pair("settings", "--grid 1")));
+  EXPECT_THAT(entries_of({"Far-LoD 1", "", "", ""}), ElementsAre(Pair("software", "Far-LoD 1")));
+}
+
+std::string millimetre_decimal(double value) {
+  std::string text;
+  append_millimetres(text, value);
+  return text;
+}
+
+TEST(Decimal, ShortestReadsBackAsTheSame) {
+  for (const double value : {0.1, 1.0 / 3.0, 5700010.123456789, -1e-7, 1e22, std::numeric_limits<double>::denorm_min()})
+    EXPECT_EQ(std::strtod(shortest_decimal(value).c_str(), nullptr), value);
+  EXPECT_EQ(shortest_decimal(0.1F), "0.1");
+}
+
+TEST(Decimal, HasNoExponentAndNoNegativeZero) {
+  EXPECT_EQ(shortest_decimal(1e6), "1000000");
+  EXPECT_EQ(shortest_decimal(-0.0), "0");
+  EXPECT_EQ(millimetre_decimal(-0.0001), "0");
+}
+
+TEST(Decimal, LongestNumbersFit) {
+  EXPECT_EQ(shortest_decimal(std::numeric_limits<double>::max()).size(), 309U);
+  EXPECT_EQ(shortest_decimal(-std::numeric_limits<double>::denorm_min()).size(), 327U);
+}
+
+TEST(Decimal, CoordinatesEndAtTheMillimetre) {
+  EXPECT_EQ(millimetre_decimal(5700010.123456), "5700010.123");
+  EXPECT_EQ(millimetre_decimal(1.5), "1.5");
+  EXPECT_EQ(millimetre_decimal(2.0), "2");
+  EXPECT_EQ(millimetre_decimal(-0.05), "-0.05");
+  EXPECT_EQ(millimetre_decimal(-12.345678), "-12.346");
+  EXPECT_EQ(millimetre_decimal(999999999999.9995), "1000000000000");
+  EXPECT_EQ(millimetre_decimal(1e15 + 0.25), "1000000000000000.2");
+  EXPECT_EQ(millimetre_decimal(0.001), "0.001");
+}
+
+TEST(Decimal, SharesHaveSixDigits) {
+  EXPECT_EQ(svf_decimal(1.0), "1.000000");
+  EXPECT_EQ(svf_decimal(0.3390174), "0.339017");
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "inputs/reproject_gdal.hpp"
-
 #include <gmock/gmock.h>
 
 #include "inputs/point_reader.hpp"
+#include "inputs/reproject_gdal.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
+#include "tests/scenes/refusal.hpp"
 
 namespace farlod {
 namespace {
@@ -31,22 +31,14 @@ TEST(ToProjected, TheSameCrsChangesNothing) {
 }
 
 TEST(ToProjected, UnknownCrsIsNamed) {
-  try {
-    (void)reprojected({}, "EPSG:1", small_raster().crs_wkt);
-    FAIL() << "EPSG:1 was taken for a CRS";
-  } catch (const PointsError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("EPSG:1"));
-  }
+  EXPECT_THAT(scenes::refusal_of<PointsError>([&] { (void)reprojected({}, "EPSG:1", small_raster().crs_wkt); }),
+              testing::HasSubstr("EPSG:1"));
 }
 
 TEST(ToProjected, APointThatCannotBeProjectedIsNamed) {
   const std::vector<Point2d> points{{9.0, 50.0}, {9.0, 500.0}};
-  try {
-    (void)reprojected(points, "EPSG:4258", small_raster().crs_wkt);
-    FAIL() << "latitude 500 was projected";
-  } catch (const PointsError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("point 2 at (9, 500)"));
-  }
+  EXPECT_THAT(scenes::refusal_of<PointsError>([&] { (void)reprojected(points, "EPSG:4258", small_raster().crs_wkt); }),
+              testing::HasSubstr("point 2 at (9, 500)"));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "farlod/surfaces.hpp"
 #include "results/gdal_files.hpp"
 #include "tests/library/packed_sample.hpp"
+#include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 #include "view/tile_surfaces.hpp"
 #include "view/view_city.hpp"
@@ -52,12 +53,7 @@ class Results : public testing::Test {
   }
   [[nodiscard]] ResultLayer read(const std::string& request) const { return read_result_layer(request, package, frame); }
   [[nodiscard]] std::string refusal_of(const std::string& request) const {
-    try {
-      (void)read(request);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "none";
+    return scenes::refusal_of<InputError>([&] { (void)read(request); });
   }
 
   scenes::TemporaryFolder folder;
@@ -197,7 +193,7 @@ TEST_F(Results, WhatIsNoResultIsRefused) {
               HasSubstr("none of its 1 features is one"));
   EXPECT_THAT(refusal_of("nowhere.tif"), HasSubstr("nowhere.tif does not exist"));
   EXPECT_THAT(refusal_of(file("report.json", "[]")), HasSubstr("--report FILE.geojson"));
-  EXPECT_NE(refusal_of(file("noise.tif", "no picture")), "none");
+  EXPECT_NE(refusal_of(file("noise.tif", "no picture")), "no refusal");
 }
 
 TEST_F(Results, ThePageIsToldOfThem) {

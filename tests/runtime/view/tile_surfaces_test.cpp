@@ -5,15 +5,27 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstring>
+#include <latch>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numbers>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "tests/library/packed_sample.hpp"
+#include "view/tile_cache.hpp"
+#include "view/tile_glb.hpp"
 #include "view/vertex_clusters.hpp"
 
 namespace farlod {
 namespace {
+
+using nlohmann::json;
 
 double area_of(const TileFacet& facet) {
   const auto& [a, b, c] = facet.corners_local;
@@ -197,6 +209,138 @@ TEST_F(TilesOfVillage, ClustersStayOnTheBorder) {
   const Point3d a = one.facets[0].corners_local[0], b = other.facets[0].corners_local[0];
   EXPECT_NEAR(norm(a - b), 0.0, 1e-9);
   EXPECT_NEAR(frame_.grid_from_local(horizontal(a)).x, 400.0, 1e-9);
+}
+
+/// A GLB, read by what it says of itself.
+struct Glb {
+  json head;
+  std::string bytes;
+
+  explicit Glb(const std::string& file) {
+    std::uint32_t length = 0, all = 0;
+    std::memcpy(&all, file.data() + 8, sizeof(all));
+    std::memcpy(&length, file.data() + 12, sizeof(length));
+    EXPECT_EQ(all, file.size());
+    EXPECT_EQ(length % 4, 0U);
+    head = json::parse(file.substr(20, length));
+    if (file.size() > 28 + length) bytes = file.substr(28 + length);
+  }
+  [[nodiscard]] std::string view(std::size_t n) const {
+    const json& v = head.at("bufferViews").at(n);
+    return bytes.substr(v.at("byteOffset").get<std::size_t>(), v.at("byteLength").get<std::size_t>());
+  }
+  [[nodiscard]] std::vector<float> floats(std::size_t primitive, const char* attribute) const {
+    const json& a = head.at("meshes").at(0).at("primitives").at(primitive).at("attributes").at(attribute);
+    const std::string text = view(head.at("accessors").at(a.get<std::size_t>()).at("bufferView").get<std::size_t>());
+    std::vector<float> numbers(text.size() / sizeof(float));
+    std::memcpy(numbers.data(), text.data(), text.size());
+    return numbers;
+  }
+};
+
+TileSurfaces two_facets() {
+  TileSurfaces surfaces{{}, {{"", 0, SurfaceKind::ground}, {"Haus \"A\"", 7, SurfaceKind::wall}}};
+  surfaces.facets.push_back({{{{0.0, 0.0, 0.0}, {10.0, 0.0, 0.0}, {0.0, 10.0, 0.0}}}, {}, {0.0, 0.0, 1.0}, 0});
+  surfaces.facets.push_back({{{{0.0, 0.0, 0.0}, {10.0, 0.0, 0.0}, {10.0, 0.0, 20.0}}}, {}, {0.0, -1.0, 0.0}, 1});
+  return surfaces;
+}
+
+TEST(TileGlb, HasPlacesValuesAndFeatures) {
+  const Glb glb(glb_of(two_facets(), std::vector{0.25F, 0.5F}));
+  ASSERT_EQ(glb.head.at("meshes").at(0).at("primitives").size(), 1U);
+  EXPECT_EQ(glb.floats(0, "_SVF"), (std::vector{0.25F, 0.25F, 0.25F, 0.5F, 0.5F, 0.5F}));
+  EXPECT_EQ(glb.floats(0, "_FEATURE_ID_0"), (std::vector{0.0F, 0.0F, 0.0F, 1.0F, 1.0F, 1.0F}));
+  // y up, around the middle (5, 5, 10)
+  const auto moved = glb.head.at("nodes").at(0).at("translation").get<std::vector<double>>();
+  EXPECT_EQ(moved, (std::vector{5.0, 10.0, -5.0}));
+  const std::vector<float> places = glb.floats(0, "POSITION");
+  EXPECT_EQ(std::vector(places.end() - 3, places.end()), (std::vector{5.0F, 10.0F, 5.0F})) << "(10, 0, 20)";
+  const std::vector<float> ramp = glb.floats(0, "TEXCOORD_0");
+  EXPECT_FLOAT_EQ(ramp[0], (0.25F * 255.0F + 0.5F) / 256.0F);
+}
+
+TEST(TileGlb, FacetsWithoutAValueAreGreyOnes) {
+  const Glb glb(glb_of(two_facets(), std::vector{NAN, 0.5F}));
+  const json& primitives = glb.head.at("meshes").at(0).at("primitives");
+  ASSERT_EQ(primitives.size(), 2U);
+  EXPECT_EQ(glb.head.at("materials").at(primitives.at(1).at("material").get<std::size_t>()).at("name"), "no data");
+  EXPECT_FALSE(primitives.at(1).at("attributes").contains("_SVF"));
+  EXPECT_EQ(glb.floats(1, "_FEATURE_ID_0"), std::vector(3, 0.0F));
+}
+
+TEST(TileGlb, FeaturesAreATable) {
+  const Glb glb(glb_of(two_facets(), std::vector{0.25F, 0.5F}));
+  const json& table = glb.head.at("extensions").at("EXT_structural_metadata").at("propertyTables").at(0);
+  EXPECT_EQ(table.at("count"), 2);
+  const json& building = table.at("properties").at("building");
+  EXPECT_EQ(glb.view(building.at("values").get<std::size_t>()), "Haus \"A\"");
+  const std::string offsets = glb.view(building.at("stringOffsets").get<std::size_t>());
+  std::array<std::uint32_t, 3> begins{};
+  ASSERT_EQ(offsets.size(), sizeof(begins));
+  std::memcpy(begins.data(), offsets.data(), sizeof(begins));
+  EXPECT_EQ(begins, (std::array<std::uint32_t, 3>{0, 0, 8}));
+  EXPECT_EQ(glb.view(table.at("properties").at("kind").at("values").get<std::size_t>()), "groundwall");
+}
+
+TEST(TileGlb, NothingIsAnEmptyScene) {
+  const Glb glb(glb_of({}, {}));
+  EXPECT_EQ(glb.head.at("scenes"), json::array({json::object()}));
+  EXPECT_FALSE(glb.head.contains("meshes"));
+}
+
+TEST(TileCache, KeepsWhatWasAskedForLast) {
+  TileCache cache(250);
+  int made = 0;
+  const auto get = [&](std::uint32_t x) {
+    return cache.get({0, x, 0}, [&] {
+      ++made;
+      return std::string(100, static_cast<char>('a' + x));
+    });
+  };
+  EXPECT_EQ(*get(0), std::string(100, 'a'));
+  EXPECT_EQ(*get(1), std::string(100, 'b'));
+  EXPECT_EQ(*get(0), std::string(100, 'a'));
+  EXPECT_EQ(made, 2);
+  const auto held = get(1);
+  (void)get(0);
+  (void)get(2);  // 1 goes
+  EXPECT_EQ(made, 3);
+  (void)get(0);
+  EXPECT_EQ(made, 3);
+  (void)get(1);
+  EXPECT_EQ(made, 4);
+  EXPECT_EQ(*held, std::string(100, 'b')) << "who holds a tile keeps it";
+}
+
+TEST(TileCache, OneMakesATileForAllWhoWait) {
+  TileCache cache(1000);
+  constexpr int clients = 8;
+  std::atomic<int> made = 0;
+  std::latch all_ask(clients);
+  const auto make = [&] {
+    ++made;
+    all_ask.wait();
+    return std::string("tile");
+  };
+  const auto ask = [&] {
+    all_ask.count_down();
+    EXPECT_EQ(*cache.get({}, make), "tile");
+  };
+  std::vector<std::jthread> asking;
+  for (int n = 0; n < clients; ++n) asking.emplace_back(ask);
+  asking.clear();
+  EXPECT_EQ(made, 1);
+}
+
+TEST(TileCache, AfterAFailureTheNextOneTries) {
+  TileCache cache(1000);
+  EXPECT_THROW((void)cache.get({}, []() -> std::string { throw std::runtime_error("damaged"); }), std::runtime_error);
+  EXPECT_EQ(*cache.get({}, [] { return std::string("mended"); }), "mended");
+}
+
+TEST(TileCache, ATileLargerThanAllIsGivenToo) {
+  TileCache cache(10);
+  EXPECT_EQ(cache.get({}, [] { return std::string(100, 'a'); })->size(), 100U);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "farlod/error.hpp"
 #include "farlod/pack.hpp"
+#include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
@@ -88,12 +89,7 @@ class EnrichedCityFileTest : public testing::Test {
     return scenes::text_of(folder.file("b.city.json"));
   }
   void expect_refused(const std::string& text, const std::string& said) {
-    try {
-      (void)enriched(text);
-      ADD_FAILURE() << "not refused: " << said;
-    } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr(said));
-    }
+    EXPECT_THAT(scenes::refusal_of<InputError>([&] { (void)enriched(text); }), HasSubstr(said));
     EXPECT_FALSE(std::filesystem::exists(folder.file("b.city.json")));
   }
 

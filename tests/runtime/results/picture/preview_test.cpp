@@ -4,8 +4,12 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <vector>
 
 #include "results/picture/colour_map.hpp"
+#include "results/picture/histogram.hpp"
+#include "results/picture/plan_background.hpp"
 #include "results/picture/raster_preview.hpp"
 #include "tests/runtime/results/picture/decoded_png.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
@@ -140,6 +144,151 @@ TEST(ScaleBar, IsRoundAndAsLongAsItMayBe) {
   EXPECT_EQ(round_length_m(9.9), 5.0);
   EXPECT_EQ(round_length_m(1.0), 1.0);
   EXPECT_EQ(round_length_m(0.3), 0.2);
+}
+
+const RasterPlan small_plan{{0.0, 0.0}, 2.0, 8, 6};
+
+/// A plane that rises by so much a metre to the east and to the north.
+std::vector<float> plane(double east, double north) {
+  std::vector<float> heights;
+  for (std::size_t row = 0; row < small_plan.rows; ++row)
+    for (std::size_t column = 0; column < small_plan.columns; ++column) {
+      const Point2d p = small_plan.centre_m(column, row);
+      heights.push_back(static_cast<float>(east * p.x + north * p.y));
+    }
+  return heights;
+}
+
+/// Of a handful of floats near 1.
+constexpr float rounding = 1e-5F;
+
+TEST(Shading, LevelGroundHasNone) { EXPECT_TRUE(shading_of(plane(0.0, 0.0), small_plan).empty()); }
+
+TEST(Shading, WhatLooksToTheNorthWestIsLit) {
+  // It falls to the north-west, and therefore rises to the east and the south
+  for (const float f : shading_of(plane(0.3, -0.3), small_plan)) EXPECT_GT(f, 1.1F);
+  for (const float f : shading_of(plane(-0.3, 0.3), small_plan)) EXPECT_LT(f, 0.9F);
+}
+
+TEST(Shading, IsWhatLambertsLawSays) {
+  const double slope = 0.2;
+  const std::vector<float> shading = shading_of(plane(slope, 0.0), small_plan);
+  const double up = std::numbers::sqrt2 / 2.0;
+  const double light = (0.5 * slope + up) / std::hypot(1.0, slope) / up;
+  for (const float f : shading) EXPECT_NEAR(f, light, rounding);
+}
+
+TEST(Shading, UnknownGroundIsTakenAsLevel) {
+  std::vector<float> heights = plane(0.3, -0.3);
+  const std::size_t hole = 3 * small_plan.columns + 4;
+  for (const std::size_t n : {hole - 1, hole, hole + 1, hole - small_plan.columns, hole + small_plan.columns})
+    heights[n] = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<float> shading = shading_of(heights, small_plan);
+  EXPECT_EQ(shading[hole], 1.0F);
+  EXPECT_GT(shading[0], 1.1F);
+}
+
+TEST(Shading, AWeakSlopeThatNobodySeesIsLeftOut) {
+  EXPECT_TRUE(shading_of(plane(0.01, 0.0), small_plan).empty());
+  EXPECT_FALSE(shading_of(plane(0.1, 0.0), small_plan).empty());
+}
+
+TEST(Shading, OneSteepPixelInThousandsIsNoRelief) {
+  const RasterPlan plan{{0.0, 0.0}, 2.0, 100, 100};
+  std::vector<float> heights(10'000, 5.0F);
+  heights[5050] = 9.0F;
+  EXPECT_TRUE(shading_of(heights, plan).empty());
+}
+
+TEST(ClippedSegment, EndsAtTheBorder) {
+  const auto middle = clipped({{-10.0, 5.0}, {30.0, 5.0}}, {0.0, 0.0}, {20.0, 10.0});
+  ASSERT_TRUE(middle);
+  EXPECT_EQ(middle->a.x, 0.0);
+  EXPECT_EQ(middle->b.x, 20.0);
+  EXPECT_EQ(middle->a.y, 5.0);
+  const auto corner = clipped({{-5.0, 5.0}, {5.0, -5.0}}, {0.0, 0.0}, {20.0, 10.0});
+  ASSERT_TRUE(corner) << "it touches the corner";
+  EXPECT_FALSE(clipped({{-5.0, 4.0}, {4.0, -5.0}}, {0.0, 0.0}, {20.0, 10.0}));
+  EXPECT_FALSE(clipped({{21.0, 1.0}, {21.0, 9.0}}, {0.0, 0.0}, {20.0, 10.0}));
+  const auto inside = clipped({{3.0, 4.0}, {5.0, 6.0}}, {0.0, 0.0}, {20.0, 10.0});
+  ASSERT_TRUE(inside);
+  EXPECT_EQ(inside->a.x, 3.0);
+  EXPECT_EQ(inside->b.y, 6.0);
+}
+
+/// Half of the width of the bins that a value is counted in.
+constexpr double half_a_bin = 0.5e-4, arithmetic_error = 1e-9;
+
+TEST(ValueCounts, KnowMeanAndQuartiles) {
+  ValueCounts counts;
+  for (int n = 0; n <= 100; ++n) counts.add(n / 100.0);
+  counts.add(NAN);
+  EXPECT_EQ(counts.count(), 101U);
+  EXPECT_NEAR(*counts.mean(), 0.5, arithmetic_error);
+  EXPECT_NEAR(*counts.quantile(0.25), 0.25, 2.0 * half_a_bin);
+  EXPECT_NEAR(*counts.quantile(0.5), 0.5, 2.0 * half_a_bin);
+  EXPECT_NEAR(*counts.quantile(1.0), 1.0, half_a_bin + arithmetic_error);
+}
+
+TEST(ValueCounts, WeighValues) {
+  ValueCounts counts;
+  counts.add(0.1, 3.0);
+  counts.add(0.9, 1.0);
+  EXPECT_NEAR(*counts.mean(), 0.3, arithmetic_error);
+  EXPECT_NEAR(*counts.quantile(0.5), 0.1, 2.0 * half_a_bin);
+  EXPECT_NEAR(*counts.quantile(0.9), 0.9, 2.0 * half_a_bin);
+  const std::vector<double> shares = counts.shares(10);
+  EXPECT_NEAR(shares[1], 0.75, arithmetic_error);
+  EXPECT_NEAR(shares[9], 0.25, arithmetic_error);
+}
+
+TEST(ValueCounts, EndsBelongToTheLastBins) {
+  ValueCounts counts;
+  counts.add(0.0);
+  counts.add(1.0);
+  counts.add(1.0);
+  EXPECT_NEAR(counts.shares(50)[0], 1.0 / 3.0, arithmetic_error);
+  EXPECT_NEAR(counts.shares(50)[49], 2.0 / 3.0, arithmetic_error);
+}
+
+TEST(ValueCounts, OfNothingAreNothing) {
+  const ValueCounts counts;
+  EXPECT_FALSE(counts.mean());
+  EXPECT_FALSE(counts.quantile(0.5));
+  EXPECT_EQ(counts.shares(50)[0], 0.0);
+}
+
+TEST(Histogram, BarsAreAsHighAsTheirShares) {
+  // 40 % in the bin from .1 to .12, 10 % in that from .9 to .92, of roofs; all walls in one
+  std::vector<HistogramSeries> series{{"roofs", "10 m²", {}}, {"walls", "1 m²", {}}};
+  series[0].counts.add(0.11, 4.0);
+  series[0].counts.add(0.91, 1.0);
+  series[0].counts.add(0.51, 5.0);
+  series[1].counts.add(0.11, 0.25);
+  series[1].counts.add(0.31, 0.75);
+  ASSERT_DOUBLE_EQ(highest_share(series), 1.0);
+  const scenes::TemporaryFolder folder;
+  write_drawing(draw_histogram(series, {"svf", "Share of the area"}), folder.file("h.png"));
+  const Picture picture = decoded_png(folder.file("h.png"));
+  const auto at = [&](double value, double share) {
+    const PagePoint p = histogram_point(value, share, 1.0);
+    return picture.at({static_cast<std::size_t>(p.x), static_cast<std::size_t>(p.y)});
+  };
+  // Bars of roofs are in the left half of their bins, and those of walls in the right one
+  EXPECT_EQ(at(0.107, 0.38), colour_of_series(0));
+  EXPECT_EQ(at(0.107, 0.43), (Colour{255, 255, 255}));
+  EXPECT_EQ(at(0.113, 0.23), colour_of_series(1));
+  EXPECT_EQ(at(0.113, 0.27), (Colour{255, 255, 255}));
+  EXPECT_EQ(at(0.907, 0.08), colour_of_series(0));
+  EXPECT_EQ(at(0.907, 0.12), (Colour{255, 255, 255}));
+  EXPECT_EQ(at(0.313, 0.73), colour_of_series(1));
+}
+
+TEST(Histogram, OfNoValuesIsDrawn) {
+  const std::vector<HistogramSeries> series{{"pixels", "0", {}}};
+  const scenes::TemporaryFolder folder;
+  write_drawing(draw_histogram(series, {"svf", ""}), folder.file("h.png"));
+  EXPECT_EQ(decoded_png(folder.file("h.png")).size(), (PixelSize{900, 680}));
 }
 
 }  // namespace

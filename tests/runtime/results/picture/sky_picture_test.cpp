@@ -4,10 +4,20 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <string>
+#include <variant>
+#include <vector>
 
+#include "results/picture/cell_picture.hpp"
+#include "results/picture/colour_map.hpp"
+#include "results/picture/error_map.hpp"
+#include "results/picture/far_panorama.hpp"
 #include "results/picture/picture_style.hpp"
+#include "results/picture/raster_preview.hpp"
 #include "sun/sun_positions.hpp"
 #include "tests/runtime/results/picture/decoded_png.hpp"
 #include "tests/scenes/temporary_folder.hpp"
@@ -141,6 +151,194 @@ TEST_F(SunInThePicture, IsNotDrawnBelowTheHorizon) {
   const Picture night = drawn(sun), without = drawn({});
   for (std::size_t y = 116; y < 916; ++y)
     for (std::size_t x = 56; x < 856; ++x) ASSERT_EQ(night.at({x, y}), without.at({x, y})) << x << ", " << y;
+}
+
+/// A cell of 10 m at the origin, turned counter-clockwise by some angle, with N = 3.
+CellContents turned_cell(double turn_deg) {
+  CellContents contents;
+  contents.cell = {4, 7};
+  contents.neighborhood = {3, 6, 6, 9};
+  const Point2d east{10.0 * std::cos(turn_deg * rad_per_deg), 10.0 * std::sin(turn_deg * rad_per_deg)}, north{-east.y, east.x};
+  contents.corners_projected = {Point2d{}, east, east + north, north};
+  return contents;
+}
+
+/// A square with an edge of 2 m in the middle of a cell, as two triangles; of a building or of the ground.
+MeshPart square_in(CellPlace cell, std::optional<std::uint32_t> building) {
+  MeshPart part;
+  part.cell = cell;
+  part.building = building;
+  const Point3d middle{10.0 * (cell.i - 4) + 5.0, 10.0 * (cell.j - 7) + 5.0, 3.0};
+  for (const Point3d d : {Point3d{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}) part.vertices_projected.push_back(middle + d);
+  const SurfaceKind kind = building ? SurfaceKind::roof : SurfaceKind::ground;
+  part.triangles = {{{0, 1, 2}, kind}, {{0, 2, 3}, kind}};
+  return part;
+}
+
+TEST(CellPlan, HasNorthUpAndTheCellInTheMiddle) {
+  for (const double turn_deg : {0.0, 20.0, -44.0}) {
+    const CellContents contents = turned_cell(turn_deg);
+    const CellPlanFrame frame(contents, 500);
+    const Point2d middle = 0.5 * (contents.corners_projected[0] + contents.corners_projected[2]);
+    EXPECT_NEAR(frame.place_of(middle).x, 250.0, 1e-9);
+    EXPECT_NEAR(frame.place_of(middle + Point2d{0.0, 1.0}).y, 250.0 - 1.0 / frame.metres_per_pixel(), 1e-9);
+    EXPECT_GT(frame.place_of(middle + Point2d{1.0, 0.0}).x, 250.0);
+    // All of the ring is on paper, and reaches its border
+    double farthest = 0.0;
+    for (const auto& [i, j] : {std::pair{-2, -2}, {3, -2}, {3, 3}, {-2, 3}}) {
+      const PagePoint p = frame.corner(i, j);
+      farthest = std::max({farthest, std::abs(p.x - 250.0), std::abs(p.y - 250.0)});
+    }
+    EXPECT_NEAR(farthest, 250.0, 1e-9);
+  }
+}
+
+TEST(CellPlan, ColoursSayWhatBelongsToTheCell) {
+  const CellContents contents = turned_cell(0.0);
+  const CellPlanFrame frame(contents, 500);
+  const std::vector<MeshPart> parts{square_in({4, 8}, std::nullopt), square_in({4, 7}, 1), square_in({5, 7}, 2),
+                                    square_in({6, 9}, 3)};
+  const Picture picture = draw_cell_plan(contents, parts, frame);
+  const auto at = [&](double x, double y) {
+    const PagePoint p = frame.place_of({x, y});
+    return picture.at({static_cast<std::size_t>(p.x), static_cast<std::size_t>(p.y)});
+  };
+  EXPECT_EQ(at(5.0, 5.0), building_colour(CellZone::cell));
+  EXPECT_EQ(at(15.0, 5.0), building_colour(CellZone::near));
+  EXPECT_EQ(at(25.0, 25.0), building_colour(CellZone::far));
+  EXPECT_EQ(at(5.0, 15.0), street_colour(CellZone::near));
+  EXPECT_EQ(at(7.0, 5.0), (Colour{255, 255, 255})) << "nothing is there";
+}
+
+TEST(FarPanorama, PlacesAreSeenFromTheMiddleByTrueAzimuth) {
+  const Point3d eye{100.0, 200.0, 10.0};
+  const SeenPlace east = seen_from(eye, {150.0, 200.0, 60.0}, Angle::degrees(2.0));
+  EXPECT_NEAR(east.azimuth_deg, 92.0, 1e-9);
+  EXPECT_NEAR(east.elevation_deg, 45.0, 1e-9);
+  EXPECT_NEAR(seen_from(eye, {99.0, 300.0, 10.0}, {}).azimuth_deg, 360.0 - std::atan(0.01) / rad_per_deg, 1e-9);
+}
+
+TEST(FarPanorama, SidesFollowTheStreets) {
+  FarBoxView box;
+  box.north_azimuth = Angle::degrees(30.0);
+  EXPECT_NEAR(place_along_sides(30.0, box), 0.5, 1e-9);
+  EXPECT_NEAR(place_along_sides(120.0, box), 1.5, 1e-9);
+  EXPECT_NEAR(place_along_sides(300.0, box), 3.5, 1e-9);
+  EXPECT_NEAR(place_along_sides(75.0, box), 1.0, 1e-9);
+  EXPECT_NEAR(place_along_sides(0.0, box), 0.5 - 0.5 * std::tan(30.0 * rad_per_deg), 1e-9);
+}
+
+TEST(FarPanorama, HasRoomForTheHighestThatItShows) {
+  FarView view;
+  view.horizon.low = {0.1F};
+  view.horizon.estimate = {0.2F};
+  view.horizon.high = {std::numeric_limits<float>::infinity()};
+  EXPECT_EQ(top_of_panorama_deg(view, {}), 15.0);  // atan 0.2 is 11.3°
+  view.horizon.edges = {{{0.0, 100.0, 100.0}, {10.0, 100.0, 0.0}}};
+  EXPECT_EQ(top_of_panorama_deg(view, {}), 50.0);
+}
+
+/// The residual city: everything low in the east is hidden for certain, higher it is undecided; elsewhere is sky.
+TEST(CellPicture, UnfoldsTheHorizon) {
+  CellScenery scenery;
+  scenery.contents = turned_cell(0.0);
+  scenery.contents.has_far_map = true;
+  scenery.package = "town.farlod";
+  scenery.far = FarView{};
+  FarHorizonView& h = scenery.far->horizon;
+  h.first_azimuth = Angle::degrees(-270.0);  // as clockwise bins that begin in the east
+  h.low = {0.2F, 0.0F, 0.0F, 0.0F};
+  h.estimate = {0.3F, 0.0F, 0.0F, 0.0F};
+  h.high = {0.5F, 0.0F, 0.0F, 0.0F};
+  const scenes::TemporaryFolder folder;
+  write_drawing(draw_cell(scenery), folder.file("a.png"));
+  const Picture picture = decoded_png(folder.file("a.png"));
+  // The panorama begins at its upper left pixel that has the colour of the sky
+  std::size_t left = 0, top = 0;
+  const std::size_t width = picture.size().width;
+  for (std::size_t n = 0; n < picture.pixels().size() && left == 0; ++n)
+    if (picture.pixels()[n] == colour_of(SkyPart::sky)) {
+      left = n % width;
+      top = n / width;
+    }
+  ASSERT_GT(left, 0U);
+  const double top_deg = top_of_panorama_deg(*scenery.far, {});
+  const auto at = [&](double azimuth_deg, double elevation_deg) {
+    return picture.at({left + static_cast<std::size_t>(azimuth_deg / 360.0 * 900.0),
+                       top + static_cast<std::size_t>(300.0 * (1.0 - elevation_deg / top_deg))});
+  };
+  EXPECT_EQ(at(130.0, 7.0), colour_of(SkyPart::far));
+  EXPECT_NE(at(130.0, 22.0), colour_of(SkyPart::far));
+  EXPECT_NE(at(130.0, 22.0), colour_of(SkyPart::sky));
+  EXPECT_EQ(at(130.0, 28.0), colour_of(SkyPart::sky));
+  EXPECT_EQ(at(50.0, 7.0), colour_of(SkyPart::sky));
+  EXPECT_EQ(at(230.0, 7.0), colour_of(SkyPart::sky));
+}
+
+TEST(CellPicture, SaysWhereThereIsNoFarMap) {
+  CellScenery scenery;
+  scenery.contents = turned_cell(0.0);
+  std::string words;
+  for (const auto& shape : draw_cell(scenery).shapes)
+    if (const auto* text = std::get_if<Text>(&shape)) words += text->words + "\n";
+  EXPECT_NE(words.find("Far map: none"), std::string::npos);
+}
+
+/// 400 × 300 pixels of half a metre, of which the eastern half has the value 1.
+GreyMap half_a_map() {
+  GreyMap map{{1000.0, 2000.0}, {400, 300, 0.5, std::vector<float>(std::size_t{400} * 300, NAN)}};
+  for (std::size_t n = 0; n < map.raster.svf.size(); ++n)
+    if (n % 400 >= 200) map.raster.svf[n] = 1.0F;
+  return map;
+}
+
+/// Too large by .25 in the west, too small by .5 in the east.
+const std::vector<VerifiedReceiver> two_receivers{{{1050.0, 1950.0, 3.0}, 0.75F, 0.5F}, {{1150.0, 1900.0, 3.0}, 0.25F, 0.75F}};
+constexpr ErrorSummary errors_of_two{2, 0.375, 0.5, 0.5, -0.125, 20000};
+
+TEST(ErrorMap, MarksHaveTheirColoursWhereTheReceiversAre) {
+  const scenes::TemporaryFolder folder;
+  const auto file = folder.path() / "errors.png";
+  write_drawing(draw_error_map(half_a_map(), {}, two_receivers, errors_of_two, {"svf", "EPSG:1"}), file);
+  const Picture picture = decoded_png(file);
+  const Pixel corner = preview_layout({400, 300}).map;
+  const auto at = [&](std::size_t x, std::size_t y) { return picture.at({corner.x + x, corner.y + y}); };
+  EXPECT_EQ(at(100, 100), colour_of_error(0.5));  // 50 m east of the corner and 50 m south of it, half a metre a pixel
+  EXPECT_EQ(at(300, 200), colour_of_error(-1.0));
+  EXPECT_EQ(at(50, 250), (Colour{255, 255, 255}));   // no data
+  EXPECT_EQ(at(350, 250), (Colour{232, 232, 232}));  // open sky
+  // One points up and one down: six pixels below the middle is the wide side of the first alone
+  EXPECT_EQ(at(104, 103), colour_of_error(0.5));
+  EXPECT_NE(at(304, 203), colour_of_error(-1.0));
+  EXPECT_EQ(at(304, 197), colour_of_error(-1.0));
+}
+
+TEST(ErrorMap, LargerErrorsLieOnTop) {
+  const scenes::TemporaryFolder folder;
+  const auto file = folder.path() / "errors.png";
+  const std::vector<VerifiedReceiver> at_one_place{{{1050.0, 1950.0, 0.0}, 1.0F, 0.5F}, {{1050.0, 1950.0, 0.0}, 0.5F, 0.5F}};
+  write_drawing(draw_error_map(half_a_map(), {}, at_one_place, {2, 0.25, 0.5, 0.5, 0.25, 20000}, {"svf", ""}), file);
+  const Pixel corner = preview_layout({400, 300}).map;
+  EXPECT_EQ(decoded_png(file).at({corner.x + 100, corner.y + 100}), colour_of_error(1.0));
+}
+
+TEST(ErrorMap, ColoursReachToARoundErrorAboveThe99thPercentile) {
+  const auto full = [](double p99) { return error_of_full_colour({1, 0.0, p99, 1.0, 0.0, 1}); };
+  EXPECT_DOUBLE_EQ(full(0.0), 0.0001);
+  EXPECT_DOUBLE_EQ(full(0.0011), 0.002);
+  EXPECT_DOUBLE_EQ(full(0.002), 0.002);
+  EXPECT_DOUBLE_EQ(full(0.03), 0.05);
+  EXPECT_DOUBLE_EQ(full(0.6), 1.0);
+}
+
+TEST(ErrorMap, OfPointsLiesAroundThem) {
+  const GreyMap map = map_around(two_receivers, {});
+  EXPECT_DOUBLE_EQ(map.north_west_m.x, 1030.0);  // 20 m
+  EXPECT_DOUBLE_EQ(map.north_west_m.y, 1970.0);
+  EXPECT_DOUBLE_EQ(map.raster.metres_per_pixel, 0.14);
+  EXPECT_EQ(map.raster.columns, 1000U);
+  EXPECT_NEAR(static_cast<double>(map.raster.rows), 90.0 / 0.14, 1.0);
+  EXPECT_DOUBLE_EQ(map_around({}, {{0.0, 0.0}, {10.0, 20.0}}).north_west_m.y, 20.0);
 }
 
 }  // namespace

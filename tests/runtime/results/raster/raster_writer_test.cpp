@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-// What we write is read back by GDAL, which most of those who open our files use.
 #include <gdal_priv.h>
 #include <gmock/gmock.h>
 #include <ogr_spatialref.h>
-
 #include <sys/resource.h>
 
 #include <array>
@@ -17,8 +15,12 @@
 #include "results/raster/esri_wkt_gdal.hpp"
 #include "results/raster/raster_writer_esri_ascii.hpp"
 #include "results/raster/raster_writer_gdal.hpp"
+#include "results/raster/raster_writer_zip_gdal.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
+#include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"
+
+// What we write is read back by GDAL, which most of those who open our files use.
 
 namespace farlod {
 namespace {
@@ -243,12 +245,9 @@ TEST(GeoTiff, LeavesNothingBehindOnFailure) {
 
 TEST(GeoTiff, NamesTheFileThatCannotBeWritten) {
   const scenes::TemporaryFolder folder;
-  try {
-    write_whole<GeotiffWriter>(small_raster(), folder.file("missing") / "a.tif");
-    FAIL() << "a folder that does not exist was written to";
-  } catch (const OutputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("missing/a.tif: "));
-  }
+  EXPECT_THAT(
+      scenes::refusal_of<OutputError>([&] { write_whole<GeotiffWriter>(small_raster(), folder.file("missing") / "a.tif"); }),
+      HasSubstr("missing/a.tif: "));
 }
 
 TEST(EsriAscii, IsReadByGdalAsTheSameRaster) {
@@ -300,6 +299,41 @@ TEST(EsriAscii, WithoutCrsHasNoPrj) {
   raster.crs_wkt.clear();
   write_whole<EsriAsciiWriter>(raster, folder.file("a.asc"));
   EXPECT_THAT(folder.names(), ElementsAre("a.asc"));
+}
+
+WholeRaster raster_with_bounds() {
+  WholeRaster raster = small_raster();
+  raster.bands = svf_bands("svf", RasterBands::svf_and_bounds);
+  raster.low = raster.high = raster.svf;
+  return raster;
+}
+
+TEST(ZippedGeotiffs, AreTheFilesThatTheirBandsWouldBe) {
+  const scenes::TemporaryFolder folder;
+  write_whole<ZippedGeotiffWriter>(raster_with_bounds(), folder.file("a.zip"));
+  EXPECT_THAT(folder.names(), ElementsAre("a.zip"));
+  const std::string zip = scenes::text_of(folder.file("a.zip"));
+  WholeRaster low = small_raster();
+  low.bands = {raster_with_bounds().bands[1]};
+  write_whole<GeotiffWriter>(low, folder.file("svf_low.tif"));
+  // Stored as it is, so that its bytes stand in the ZIP file
+  EXPECT_THAT(zip, HasSubstr(scenes::text_of(folder.file("svf_low.tif"))));
+}
+
+TEST(ZippedGeotiffs, HaveTheSameBytesEachTime) {
+  const scenes::TemporaryFolder folder;
+  write_whole<ZippedGeotiffWriter>(raster_with_bounds(), folder.file("a.zip"));
+  write_whole<ZippedGeotiffWriter>(raster_with_bounds(), folder.file("b.zip"));
+  EXPECT_EQ(scenes::text_of(folder.file("a.zip")), scenes::text_of(folder.file("b.zip")));
+}
+
+TEST(ZippedGeotiffs, LeaveNothingOfAFileThatIsGivenUp) {
+  const scenes::TemporaryFolder folder;
+  {
+    ZippedGeotiffWriter writer(raster_with_bounds(), folder.file("a.zip"));
+    writer.write(tile_of(raster_with_bounds(), {0, 0}));
+  }
+  EXPECT_THAT(folder.names(), IsEmpty());
 }
 
 }  // namespace

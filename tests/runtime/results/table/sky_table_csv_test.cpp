@@ -2,12 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/table/sky_table_csv.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <vector>
 
 #include "inputs/point_reader.hpp"
+#include "results/picture/colour_map.hpp"
 #include "results/table/csv_text.hpp"
+#include "results/table/sky_features.hpp"
+#include "results/table/sky_table_ply.hpp"
+#include "results/table/verification_csv.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
@@ -183,6 +191,178 @@ TEST(BuildingsCsv, IsAsDocumented) {
   EXPECT_EQ(scenes::text_of(folder.file("a.csv")),
             "building,roof_area_m2,wall_area_m2,receivers,nodata,svf_roofs,svf_walls,covered_roof_area_m2,covered_wall_area_m2\n"
             "b1,100,0,25,0,0.750000,,2.5,0\n");
+}
+
+/// A PLY file, read by its own header.
+struct Ply {
+  std::vector<std::string> names, types;
+  std::vector<std::string> comments;
+  std::vector<std::vector<double>> vertices;
+
+  explicit Ply(const std::string& bytes) {
+    const std::string end = "end_header\n";
+    const std::size_t data = bytes.find(end) + end.size();
+    std::istringstream header(bytes.substr(0, data));
+    std::size_t count = 0;
+    for (std::string line; std::getline(header, line);) take(line, count);
+    std::size_t place = data;
+    for (std::size_t n = 0; n < count; ++n) {
+      vertices.emplace_back();
+      for (const std::string& type : types) vertices.back().push_back(value(bytes, place, type));
+    }
+    EXPECT_EQ(place, bytes.size());
+  }
+  [[nodiscard]] double at(std::size_t vertex, const std::string& name) const {
+    for (std::size_t n = 0; n < names.size(); ++n)
+      if (names[n] == name) return vertices.at(vertex)[n];
+    ADD_FAILURE() << "no property " << name;
+    return 0.0;
+  }
+
+ private:
+  void take(const std::string& line, std::size_t& count) {
+    std::istringstream words(line);
+    std::string word, type, name;
+    words >> word >> type >> name;
+    if (word == "comment") comments.push_back(line.substr(8));
+    if (word == "element") count = std::stoul(name);
+    if (word != "property") return;
+    types.push_back(type);
+    names.push_back(name);
+  }
+  static double value(const std::string& bytes, std::size_t& place, const std::string& type) {
+    const auto read = [&]<class Number>(Number number) {
+      std::memcpy(&number, bytes.data() + place, sizeof(number));
+      place += sizeof(number);
+      return static_cast<double>(number);
+    };
+    return type == "double" ? read(0.0) : type == "float" ? read(0.0F) : read(static_cast<unsigned char>(0));
+  }
+};
+
+constexpr double rounding_of_float = 1e-7;  // of numbers up to 1
+
+TEST(Ply, HasPlacesNormalsAnswersAndColours) {
+  const scenes::TemporaryFolder folder;
+  const std::vector<float> further{12.5F};
+  const std::vector<PointRow> rows{{"a", {500000.125, 5700010.5}, 7.25, 0.5, 0.25, 0.75, 92.0, 90.0, further},
+                                   {"in a house", {1.0, 2.0}, {}, {}, {}, {}, {}, {}, further},
+                                   {"no answer", {3.0, 4.0}, 5.0, {}, {}, {}, {}, {}, further}};
+  TableFrame frame{{"svf", BoundsColumns::yes, {{"sun_h"}}}};
+  frame.epsg = 25832;
+  frame.convergence = Angle::degrees(2.0);
+  frame.provenance = {"Far-LoD", "two\nlines", "", ""};
+  write_points_ply({rows.size(), [&](std::size_t n) { return rows[n]; }, nullptr, true}, frame, folder.file("a.ply"));
+  const Ply ply(scenes::text_of(folder.file("a.ply")));
+  EXPECT_THAT(ply.comments, testing::ElementsAre("software: Far-LoD", "package: two lines", "crs: EPSG:25832"));
+  EXPECT_THAT(ply.names, testing::ElementsAre("x", "y", "z", "nx", "ny", "nz", "svf", "svf_low", "svf_high", "sun_h", "red",
+                                              "green", "blue"));
+  ASSERT_EQ(ply.vertices.size(), 2U);
+  EXPECT_EQ(ply.at(0, "x"), 500000.125);
+  EXPECT_EQ(ply.at(0, "y"), 5700010.5);
+  EXPECT_EQ(ply.at(0, "z"), 7.25);
+  // 92° from true north is 90° from the north of the grid
+  EXPECT_NEAR(ply.at(0, "nx"), 1.0, rounding_of_float);
+  EXPECT_NEAR(ply.at(0, "ny"), 0.0, rounding_of_float);
+  EXPECT_NEAR(ply.at(0, "nz"), 0.0, rounding_of_float);
+  EXPECT_EQ(ply.at(0, "svf_high"), 0.75);
+  EXPECT_EQ(ply.at(0, "sun_h"), 12.5);
+  EXPECT_EQ(ply.at(0, "green"), colour_of_svf(0.5).green);
+  EXPECT_TRUE(std::isnan(ply.at(1, "svf")));
+  EXPECT_EQ(ply.at(1, "nz"), 1.0);
+  EXPECT_EQ(ply.at(1, "blue"), nodata_colour.blue);
+}
+
+TEST(Ply, HasTheReceiversOfSurfacesInOrder) {
+  const scenes::TemporaryFolder folder;
+  SurfaceSpool spool(folder.file("a.ply"));
+  std::vector<SurfacePoint> rows(3);
+  for (std::size_t n = 0; n < rows.size(); ++n) rows[n].p_projected.x = static_cast<double>(n);
+  spool.add(2, std::span(rows).subspan(1));
+  spool.add(1, std::span(rows).first(1));
+  write_receivers_ply(spool, {{"svf_solid"}}, folder.file("a.ply"));
+  const Ply ply(scenes::text_of(folder.file("a.ply")));
+  ASSERT_EQ(ply.vertices.size(), 3U);
+  for (std::size_t n = 0; n < rows.size(); ++n) EXPECT_EQ(ply.at(n, "x"), static_cast<double>(n));
+  EXPECT_EQ(ply.names[6], "svf_solid");
+}
+
+FieldType type_of_values(const std::vector<std::string>& values) {
+  Attributes attributes({"a"});
+  for (const std::string& value : values) attributes.add_row(std::vector<std::string>{value});
+  return type_of_column(attributes, 0, values.size());
+}
+
+TEST(TypeOfColumn, IsOfNumbersWhereAllValuesAre) {
+  EXPECT_EQ(type_of_values({"1", "-20", "", "9007199254740993"}), FieldType::whole);
+  EXPECT_EQ(type_of_values({"1", "0.25", "1e-3", ""}), FieldType::real);
+  EXPECT_EQ(type_of_values({"1", "0.25", "east"}), FieldType::text);
+  EXPECT_EQ(type_of_values({"", ""}), FieldType::text);
+}
+
+TEST(TypeOfColumn, IsTextWhereANumberWouldNotComeBackAsItWas) {
+  for (const char* text :
+       {"007", "-01.5", "+1", "1,5", "0x10", "1 ", "inf", "nan", "3.14159265358979323846264338", "12.3.4", "-"})
+    EXPECT_EQ(type_of_values({"1", text}), FieldType::text) << text;
+  EXPECT_EQ(type_of_values({"0", "0.5", "-0.5"}), FieldType::real);
+  // More than 64 bits
+  EXPECT_EQ(type_of_values({"92233720368547758080"}), FieldType::real);
+}
+
+std::vector<SurfacePoint> rows_numbered(std::uint32_t first, std::size_t count) {
+  std::vector<SurfacePoint> rows(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    rows[n].building = std::string(n, 'b');
+    rows[n].surface = first + static_cast<std::uint32_t>(n);
+    rows[n].kind = SurfaceKind::roof;
+    rows[n].p_projected = {1.25, 2.5, 3.75};
+    rows[n].azimuth = Angle::degrees(90.0);
+    rows[n].tilt = Angle::degrees(30.0);
+    rows[n].area_m2 = 7.5;
+    if (n % 2 == 0) rows[n].svf = 0.5;
+    if (n % 2 == 1) rows[n].high = 0.75;
+  }
+  return rows;
+}
+
+TEST(SurfaceSpool, GivesRowsBackInTheOrderOfTheirParts) {
+  const scenes::TemporaryFolder folder;
+  SurfaceSpool spool(folder.file("a.gpkg"));
+  std::vector<SurfacePoint> last = rows_numbered(100, 2);
+  last[0].further = {0.5F, 1.5F};
+  spool.add(9, last);
+  spool.add(3, rows_numbered(50, 3));
+  spool.add(5, {});
+  EXPECT_EQ(spool.size(), 5U);
+  std::vector<SurfacePoint> rows;
+  spool.for_each([&](const SurfacePoint& row) { rows.push_back(row); });
+  std::vector<SurfacePoint> expected = rows_numbered(50, 3);
+  for (const SurfacePoint& row : last) expected.push_back(row);
+  ASSERT_EQ(rows.size(), expected.size());
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    EXPECT_EQ(rows[n].building, expected[n].building);
+    EXPECT_EQ(rows[n].surface, expected[n].surface);
+    EXPECT_EQ(rows[n].kind, expected[n].kind);
+    EXPECT_EQ(rows[n].p_projected, expected[n].p_projected);
+    EXPECT_EQ(rows[n].azimuth.degrees(), expected[n].azimuth.degrees());
+    EXPECT_EQ(rows[n].tilt.degrees(), expected[n].tilt.degrees());
+    EXPECT_EQ(rows[n].area_m2, expected[n].area_m2);
+    EXPECT_EQ(rows[n].svf, expected[n].svf);
+    EXPECT_EQ(rows[n].further, expected[n].further);
+    EXPECT_EQ(rows[n].low, expected[n].low);
+    EXPECT_EQ(rows[n].high, expected[n].high);
+  }
+}
+
+TEST(VerificationCsv, HasPlacesValuesAndExactValues) {
+  const scenes::TemporaryFolder folder;
+  const std::vector<VerifiedReceiver> receivers{{{691000.25, 5335000.0, 512.5}, 0.75F, 0.5F}, {{1.0, 2.0, -3.0}, 0.0F, 1.0F}};
+  write_verification_csv(receivers, "svf_solid", folder.path() / "v.csv");
+  std::stringstream text;
+  text << std::ifstream(folder.path() / "v.csv").rdbuf();
+  EXPECT_EQ(text.str(),
+            "x_m,y_m,z_m,svf_solid,svf_solid_exact\n"
+            "691000.25,5335000,512.5,0.750000,0.500000\n1,2,-3,0.000000,1.000000\n");
 }
 
 }  // namespace
