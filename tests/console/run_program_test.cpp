@@ -2,16 +2,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "console/run_program.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include <cstdlib>
+#include <fstream>
+#include <map>
 #include <new>
 #include <stdexcept>
 #include <string>
 
+#include "console/bundled_fonts.hpp"
+#include "console/shard_text.hpp"
+#include "console/wrapped_document.hpp"
 #include "farlod/error.hpp"
+#include "tests/scenes/refusal.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
+
+using testing::HasSubstr;
 
 struct Ended {
   int exit_code;
@@ -65,6 +75,119 @@ TEST(RunProgram, SaysWhatIsLeftOfAnInterruptedRun) {
 
 TEST(RunProgram, AnErrorOfAnotherLibraryIsAFaultOfOurs) {
   EXPECT_EQ(ended_by(std::out_of_range("e")), (Ended{1, "farlod-x: e\n"}));
+}
+
+using Variables = std::map<std::string, std::string>;
+
+Environment environment_of(const Variables& variables) {
+  return [variables](const char* name) -> std::optional<std::string> {
+    const auto found = variables.find(name);
+    return found != variables.end() ? std::optional(found->second) : std::nullopt;
+  };
+}
+
+Shard shard(const std::string& text, const Variables& variables = {}) { return shard_from(text, environment_of(variables)); }
+
+std::string refusal(const std::string& text, const Variables& variables = {}) {
+  return scenes::refusal_of<InvalidArgument>([&] { (void)shard(text, variables); });
+}
+
+Variables slurm(const char* id, const char* least, const char* most, const char* step, const char* count) {
+  return {{"SLURM_ARRAY_TASK_ID", id},
+          {"SLURM_ARRAY_TASK_MIN", least},
+          {"SLURM_ARRAY_TASK_MAX", most},
+          {"SLURM_ARRAY_TASK_STEP", step},
+          {"SLURM_ARRAY_TASK_COUNT", count}};
+}
+
+TEST(ShardText, IsANumberOfSo) {
+  EXPECT_EQ(shard("0/1"), (Shard{0, 1}));
+  EXPECT_EQ(shard("3/8"), (Shard{3, 8}));
+  EXPECT_EQ(shard("999999/1000000"), (Shard{999'999, 1'000'000}));
+}
+
+TEST(ShardText, CountsFromZero) {
+  EXPECT_THAT(refusal("8/8"), HasSubstr("there is no shard 8 of 8: they count from 0 to 7"));
+  EXPECT_THAT(refusal("0/0"), HasSubstr("1 to 1000000 shards, not 0"));
+  EXPECT_THAT(refusal("0/1000001"), HasSubstr("not 1000001"));
+}
+
+TEST(ShardText, OfAnotherFormIsRefused) {
+  for (const char* text : {"", "3", "/8", "3/", "a/8", "-1/8", "3/8/2", "1.5/8", "auto/", "3 /8", "99999999999999999999/8"})
+    EXPECT_NE(refusal(text), "no refusal") << text;
+}
+
+TEST(ShardText, IsTheTaskOfASlurmArray) {
+  EXPECT_EQ(shard("auto", slurm("3", "0", "7", "1", "8")), (Shard{3, 8}));
+  EXPECT_EQ(shard("auto", slurm("3", "1", "8", "1", "8")), (Shard{2, 8})) << "counted from the least index";
+  EXPECT_EQ(shard("auto", slurm("30", "10", "40", "10", "4")), (Shard{2, 4})) << "in steps";
+  EXPECT_EQ(shard("auto/16", slurm("3", "0", "7", "1", "8")), (Shard{3, 16})) << "the number may be given";
+}
+
+TEST(ShardText, OfASlurmArrayWithGapsIsRefused) {
+  EXPECT_THAT(refusal("auto", slurm("7", "1", "7", "1", "3")), HasSubstr("has gaps"));
+  EXPECT_THAT(refusal("auto", slurm("35", "10", "40", "10", "4")), HasSubstr("is none of 10, 20"));
+  EXPECT_THAT(refusal("auto", slurm("x", "0", "7", "1", "8")), HasSubstr("SLURM_ARRAY_TASK_ID is \"x\""));
+}
+
+TEST(ShardText, IsTheIndexOfKubernetesOrAwsBatch) {
+  EXPECT_EQ(shard("auto/8", {{"JOB_COMPLETION_INDEX", "5"}}), (Shard{5, 8}));
+  EXPECT_THAT(refusal("auto", {{"JOB_COMPLETION_INDEX", "5"}}), HasSubstr("give --shard auto/N"));
+  EXPECT_EQ(shard("auto", {{"AWS_BATCH_JOB_ARRAY_INDEX", "5"}, {"AWS_BATCH_JOB_ARRAY_SIZE", "6"}}), (Shard{5, 6}));
+  EXPECT_THAT(refusal("auto/5", {{"JOB_COMPLETION_INDEX", "5"}}), HasSubstr("no shard 5 of 5"));
+}
+
+TEST(ShardText, WithoutAnArraySaysWhatIsMissing) { EXPECT_THAT(refusal("auto"), HasSubstr("SLURM_ARRAY_TASK_ID")); }
+
+const std::string fifty_four(54, 'a'), fifty_five(55, 'b');
+
+TEST(WrappedDocument, LinesOfParagraphsEndAfter110Characters) {
+  EXPECT_EQ(wrapped_document(fifty_four + " " + fifty_five + "\n"), fifty_four + " " + fifty_five + "\n");
+  EXPECT_EQ(wrapped_document(fifty_five + " " + fifty_five + "\n"), fifty_five + "\n" + fifty_five + "\n");
+  EXPECT_EQ(wrapped_document("a\n\nb\n"), "a\n\nb\n");
+}
+
+TEST(WrappedDocument, CharactersAreCountedAndNotBytes) {
+  std::string dashes;
+  for (int n = 0; n < 54; ++n) dashes += "–";
+  EXPECT_EQ(wrapped_document(dashes + " " + fifty_five + "\n"), dashes + " " + fifty_five + "\n");
+}
+
+TEST(WrappedDocument, ALongWordStaysWhole) {
+  const std::string word(120, 'w');
+  EXPECT_EQ(wrapped_document("a " + word + " b\n"), "a\n" + word + "\nb\n");
+  EXPECT_EQ(wrapped_document(word + " b\n"), word + "\nb\n");
+}
+
+TEST(WrappedDocument, ACodeSpanStaysOnOneLine) {
+  EXPECT_EQ(wrapped_document(fifty_five + " `a " + fifty_five + "` b\n"), fifty_five + "\n`a " + fifty_five + "` b\n");
+  EXPECT_EQ(wrapped_document("a `never closed\n"), "a `never closed\n");
+}
+
+TEST(WrappedDocument, TablesHeadingsAndPicturesStayWhole) {
+  for (const std::string mark : {"| ", "## ", "!["}) {
+    const std::string line = mark + fifty_five + " " + fifty_five + "\n";
+    EXPECT_EQ(wrapped_document(line), line);
+  }
+}
+
+TEST(WrappedDocument, ItemsOfListsAreIndented) {
+  EXPECT_EQ(wrapped_document("* " + fifty_five + " " + fifty_five + "\n"), "* " + fifty_five + "\n  " + fifty_five + "\n");
+}
+
+TEST(BundledFonts, AreThoseBesideTheFolderOfTheProgram) {
+  const scenes::TemporaryFolder folder;
+  const std::filesystem::path program = folder.path() / "bin/farlod-svf",
+                              settings = folder.path() / "lib/farlod/share/farlod/fonts.conf";
+  EXPECT_EQ(bundled_font_settings(program), "");
+  std::filesystem::create_directories(settings.parent_path());
+  std::ofstream(settings) << "<fontconfig/>";
+  EXPECT_EQ(bundled_font_settings(program), settings);
+}
+
+TEST(BundledFonts, AreNobodysWhereNoneWereBroughtAlong) {
+  use_bundled_fonts();
+  EXPECT_EQ(std::getenv("FONTCONFIG_FILE"), nullptr);  // NOLINT(concurrency-mt-unsafe): there is one thread
 }
 
 }  // namespace

@@ -4,15 +4,14 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <numbers>
 
-#include "package/written_stamp.hpp"
 #include "package/manifest_reader.hpp"
 #include "package/package_reader.hpp"
+#include "package/written_stamp.hpp"
 #include "tests/package/small_package.hpp"
 #include "tests/scenes/planted_crowns.hpp"
 

@@ -30,9 +30,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr float infinite = std::numeric_limits<float>::infinity();
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-
 /// A block of one cell, with one patch: its picture is one row.
 class OneRow {
  public:

@@ -18,9 +18,6 @@ using namespace package;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinite = std::numeric_limits<float>::infinity();
-
 TilesBytes whole_file() {
   static const Bytes bytes = bytes_of(SmallPackage(FarMapKind::horizon).file(SmallPackage::two_cells, package::tiles_file));
   return TilesBytes(bytes);

@@ -3,22 +3,28 @@
 #include "package/unfinished_package.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 
 #include "farlod/error.hpp"
+#include "package/existing_package.hpp"
 #include "package/layout.hpp"
+#include "package/manifest_reader.hpp"
 #include "package/written_stamp.hpp"
+#include "tests/scenes/refusal.hpp"
+#include "tests/scenes/sealed_manifest.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
 
-namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::HasSubstr;
+namespace fs = std::filesystem;
+
 using OfAnotherOrigin = UnfinishedPackage::OfAnotherOrigin;
 
 /// A package of one block without far maps; its files are texts.
@@ -33,12 +39,7 @@ class PackageInTheMaking : public testing::Test {
     return UnfinishedPackage::open(package_, origin, kind, of_another);
   }
   [[nodiscard]] std::string refusal(const PackageOrigin& origin) const {
-    try {
-      (void)opened(origin);
-    } catch (const OutputError& error) {
-      return error.what();
-    }
-    return "no refusal";
+    return scenes::refusal_of<OutputError>([&] { (void)opened(origin); });
   }
   /// Makes the block's file, and records it.
   package::BlockFiles make_block(const UnfinishedPackage& unfinished, const std::string& text) const {
@@ -195,6 +196,73 @@ TEST_F(PackageInTheMaking, ThatWasKilledBetweenTwoStepsGivesTheNameBack) {
   const auto unfinished = opened(origin_);
   EXPECT_EQ(tiles_of_package(), "old");
   EXPECT_TRUE(unfinished.finished(block_, none_)) << "and the work stays";
+}
+
+/// In `text` from `begin` on, `from` once replaced by `to`.
+std::string replaced(std::string text, std::size_t begin, const std::string& from, const std::string& to) {
+  const std::size_t place = text.find(from, begin);
+  EXPECT_NE(place, std::string::npos) << from;
+  return place == std::string::npos ? text : text.replace(place, from.size(), to);
+}
+
+/// The manifest of a package some of whose cells have far maps; nothing else of the package is there.
+class PackageToGoOnWith : public testing::Test {
+ protected:
+  PackageToGoOnWith() { fs::create_directory(package_); }
+  void write(const std::string& text) const { std::ofstream(package_ / package::manifest_file, std::ios::binary) << text; }
+  [[nodiscard]] std::string refusal() const {
+    return scenes::refusal_of<OutputError>([&] { (void)ExistingPackage::find(package_); });
+  }
+
+  scenes::TemporaryFolder folder_;
+  fs::path package_ = folder_.file("town.farlod");
+  std::string text_ = scenes::text_of(FARLOD_GOLDEN_DIR "/version_8_horizon_partial.farlod/manifest.json");
+};
+
+TEST_F(PackageToGoOnWith, HasTheBlocksThatTheRuntimeReads) {
+  EXPECT_FALSE(ExistingPackage::find(package_));
+  write(text_);
+  const auto existing = ExistingPackage::find(package_);
+  ASSERT_TRUE(existing);
+  const std::vector<package::BlockFiles> read = read_manifest(package_).blocks;
+  ASSERT_GT(read.size(), 0U);
+  ASSERT_EQ(existing->blocks().size(), read.size());
+  for (std::size_t n = 0; n < read.size(); ++n) {
+    EXPECT_EQ(existing->blocks()[n].block, read[n].block);
+    EXPECT_EQ(existing->blocks()[n].tiles, read[n].tiles);
+    EXPECT_EQ(package::folder_of(existing->blocks()[n]), package::folder_of(read[n]));
+  }
+}
+
+TEST_F(PackageToGoOnWith, OfAnOlderVersionIsRefusedWithWhatToDo) {
+  for (const std::string version : {"6", "7"}) {
+    write(scenes::sealed(replaced(text_, 0, "\"version\": 8", "\"version\": " + version)));
+    EXPECT_THAT(refusal(),
+                AllOf(HasSubstr("has format version " + version), HasSubstr("Pack the city again"), HasSubstr("--force")));
+  }
+}
+
+/// Each would be cut to another number that looks right. The program that goes on with a package and those that read it refuse
+/// the same ones.
+TEST_F(PackageToGoOnWith, WithANumberThatDoesNotFitIsRefusedByBothPrograms) {
+  const std::size_t blocks = text_.find("\"blocks\"");
+  const std::string whole = replaced(text_, blocks, "\"i\": 0", "\"i\":  0");
+  write(scenes::sealed(whole));
+  ASSERT_EQ(refusal(), "no refusal");
+  const std::pair<std::string, std::string> changes[] = {{"\"i\": 0", "\"i\": 4294967296"},
+                                                         {"\"j\": 0", "\"j\": 0.5"},
+                                                         {"\"bytes\": ", "\"bytes\": -"},
+                                                         {"\"bytes\": ", "\"bytes\": 9999999999999999"}};
+  for (const auto& [from, to] : changes) {
+    write(scenes::sealed(replaced(text_, blocks, from, to)));
+    EXPECT_THAT(refusal(), HasSubstr("manifest.json is damaged")) << to;
+    EXPECT_THROW((void)read_manifest(package_), PackageDamaged) << to;
+  }
+}
+
+TEST_F(PackageToGoOnWith, WithAnotherChecksumIsRefused) {
+  write(" " + text_);
+  EXPECT_THAT(refusal(), HasSubstr("manifest.json is damaged: its checksum"));
 }
 
 }  // namespace
