@@ -3,8 +3,8 @@
 #include "farlod/answer_file.hpp"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -17,13 +17,16 @@
 #include "farlod/error.hpp"
 #include "farlod/raster.hpp"
 #include "farlod/surfaces.hpp"
+#include "tests/library/library_calls.hpp"
 #include "tests/library/packed_sample.hpp"
+#include "tests/scenes/refusal.hpp"
 
 namespace farlod::library {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::HasSubstr;
+namespace fs = std::filesystem;
+
 using OfAnotherKey = AnswerFile::OfAnotherKey;
 
 const AnswerKey some_key{{"--grid", "2"}, {"--height", "1.5"}};
@@ -34,12 +37,7 @@ class AnswerFiles : public testing::Test {
     return AnswerFile::open(file_, key, of_another);
   }
   [[nodiscard]] std::string refusal(const AnswerKey& key) const {
-    try {
-      (void)opened(key);
-    } catch (const OutputError& error) {
-      return error.what();
-    }
-    return "no refusal";
+    return scenes::refusal_of<OutputError>([&] { (void)opened(key); });
   }
   static std::vector<std::byte> bytes(const std::string& text) {
     const auto* begin = reinterpret_cast<const std::byte*>(text.data());
@@ -225,6 +223,65 @@ TEST_F(KeptRuns, WithoutAFileHaveNoShards) {
   run.answers = file("answers");
   run.shard = Shard{2, 2};
   EXPECT_THROW((void)raster(run), InvalidArgument);
+}
+
+/// Files of a package are mapped: once checked, they may change under a program that has it open.
+class ChangedPackage : public testing::Test {
+ protected:
+  void SetUp() override { raster.call(arguments_); }
+
+  /// The first file of this name in the package.
+  [[nodiscard]] std::filesystem::path file(const std::string& name) const {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(sample_.folder()))
+      if (entry.path().filename() == name) return entry.path();
+    ADD_FAILURE() << "no " << name;
+    return {};
+  }
+  void expect_refused(const std::string& name) {
+    for (const Named& named :
+         {points_into, points, tiles, raster, window, surfaces, cell_contents, geometry, far_view, outlines, heights})
+      EXPECT_THAT(scenes::refusal_of<PackageDamaged>([&] { named.call(arguments_); }),
+                  testing::AllOf(HasSubstr(name), HasSubstr("open the package again")))
+          << named.name;
+  }
+
+  PackedSample sample_;
+  Arguments arguments_{sample_.folder()};
+};
+
+TEST_F(ChangedPackage, AsItWasAnswers) { EXPECT_NO_THROW(raster.call(arguments_)); }
+
+TEST_F(ChangedPackage, WithAShorterFileIsRefused) {
+  // A mapping of what is beyond a file's end would end the process
+  std::filesystem::resize_file(file("tiles.bin"), 100);
+  expect_refused("tiles.bin");
+  EXPECT_FALSE(check_package(arguments_.package).damage.empty());
+}
+
+TEST_F(ChangedPackage, WithAFarMapWrittenAgainIsRefused) {
+  const auto far_map = file("far.exr");
+  std::filesystem::last_write_time(far_map, std::filesystem::last_write_time(far_map) + std::chrono::seconds(5));
+  expect_refused("far.exr");
+}
+
+TEST_F(ChangedPackage, WithAnotherManifestIsRefused) {
+  // As when it was packed again: another file under the same name
+  const auto manifest = file("manifest.json");
+  std::filesystem::copy_file(manifest, manifest.string() + ".new");
+  std::filesystem::rename(manifest.string() + ".new", manifest);
+  expect_refused("manifest.json");
+}
+
+TEST_F(ChangedPackage, WithoutAFileIsRefused) {
+  std::filesystem::remove(file("tiles.bin"));
+  expect_refused("tiles.bin");
+}
+
+TEST_F(ChangedPackage, OpenedAgainAnswers) {
+  const auto far_map = file("far.exr");
+  std::filesystem::last_write_time(far_map, std::filesystem::last_write_time(far_map) + std::chrono::seconds(5));
+  arguments_.package = Package(sample_.folder());
+  EXPECT_NO_THROW(raster.call(arguments_));
 }
 
 }  // namespace

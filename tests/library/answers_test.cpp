@@ -33,19 +33,12 @@ constexpr double few_rays = 0.003 + 1e-6;
 
 class Answers : public testing::Test {
  protected:
-  static void SetUpTestSuite() { sample_ = new PackedSample; }
-  static void TearDownTestSuite() {
-    delete sample_;
-    sample_ = nullptr;
-  }
-  static inline PackedSample* sample_ = nullptr;
-
-  Package package_{sample_->folder()};
+  Package package_{PackedSample::shared().folder()};
 };
 
 TEST_F(Answers, TheDescriptionIsThatOfThePacking) {
   const PackageDescription& opened = package_.description();
-  const PackageDescription& packed = sample_->result().package;
+  const PackageDescription& packed = PackedSample::shared().result().package;
   EXPECT_EQ(opened.software, std::string("farlod-pack ") + software_version);
   EXPECT_GT(opened.buildings, 0U);
   EXPECT_EQ(opened.buildings, packed.buildings);
@@ -344,7 +337,7 @@ TEST_F(Answers, ARunOutlivesItsPackage) {
 /// Far maps for the cells in the middle: the figures of the library say which receivers have none.
 TEST_F(Answers, ReceiversWithoutAFarMapAreCountedAndExact) {
   const scenes::TemporaryFolder folder;
-  PackSettings packing = sample_->settings();
+  PackSettings packing = PackedSample::shared().settings();
   packing.output = folder.path() / "part.farlod";
   const Point2d middle = middle_of(package_);
   packing.area = Box2d{middle, middle + Point2d{1.0, 1.0}};

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <stop_token>
 
@@ -26,9 +25,7 @@ class CancelledTown : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::make_unique<scenes::TemporaryFolder>();
-    CitySettings settings;
-    settings.size_m = 300.0;
-    settings.seed = 7;
+    CitySettings settings{.size_m = 300.0, .seed = 7};
     const CityModel city = scenes::generated_town(settings);
     scenes::pack_city(city, scenes::grid_covering(city, {}, 100.0, 3), folder_->path() / "town.farlod",
                       scenes::small_maps(FarMapKind::horizon));

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@
 #include "tests/library/packed_sample.hpp"
 
 namespace farlod::library {
+
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// The arguments of a call, right until a case makes one of them wrong.
 struct Arguments {

@@ -14,6 +14,11 @@ namespace farlod::library {
 class PackedSample {
  public:
   explicit PackedSample(FarMapKind far_map = FarMapKind::horizon);
+  /// The one for all tests of this process.
+  [[nodiscard]] static const PackedSample& shared() {
+    static const PackedSample sample;
+    return sample;
+  }
 
   [[nodiscard]] const std::filesystem::path& folder() const { return settings_.output; }
   [[nodiscard]] const PackResult& result() const { return result_; }

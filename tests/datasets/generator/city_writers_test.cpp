@@ -22,16 +22,14 @@ namespace {
 using ::testing::HasSubstr;
 
 CitySettings small_city(int lod) {
-  CitySettings settings;
-  settings.size_m = 450.0;
-  settings.seed = 7;
-  settings.rotation_deg = 29.0;
-  settings.lod = lod;
-  settings.overhangs = true;
-  settings.terrain_relief_m = 30.0;
-  settings.epsg = 25832;
-  settings.centre_easting_m = 566000.25;
-  return settings;
+  return {.size_m = 450.0,
+          .seed = 7,
+          .rotation_deg = 29.0,
+          .terrain_relief_m = 30.0,
+          .lod = lod,
+          .overhangs = true,
+          .epsg = 25832,
+          .centre_easting_m = 566000.25};
 }
 
 void write(const CitySettings& settings, const std::filesystem::path& path) {

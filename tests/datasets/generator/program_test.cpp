@@ -7,19 +7,23 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <string>
 
+#include "generator/plan_frame.hpp"
 #include "tests/console/help_options.hpp"
+#include "tests/counted/held_memory.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
 
+using testing::HasSubstr;
+using testing::StartsWith;
 namespace fs = std::filesystem;
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 struct Outcome {
   int exit_code;
@@ -182,6 +186,74 @@ TEST_F(FarlodCity, WhatCannotBeWrittenIsThree) {
   const Outcome outcome = run("-o nowhere/town.obj --size 200");
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_THAT(outcome.text, HasSubstr("nowhere/town.obj"));
+}
+
+struct CityRun {
+  double buildings, held_bytes;
+};
+
+/// Makes a city in a process of its own, which tells the most that it has held at a time.
+CityRun make_city(const fs::path& folder, const std::string& file, int size_m) {
+  const std::string command = "cd '" + folder.string() + "' && LD_PRELOAD='" + FARLOD_HELD_MEMORY_LIBRARY +
+                              "' FARLOD_HELD_MEMORY=held '" + FARLOD_BIN_DIR + "/farlod-city' --quiet --overhangs -o " + file +
+                              " --size " + std::to_string(size_m) + " --summary summary.json";
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;
+  std::ifstream text(folder / "summary.json"), held(folder / "held");
+  CityRun run{nlohmann::json::parse(text).at("buildings"), 0.0};
+  held >> run.held_bytes;
+  EXPECT_TRUE(held);
+  return run;
+}
+
+/// Whoever kept a city in memory would keep its corners at least, and no building has fewer than eight.
+constexpr double least_bytes_of_a_kept_building = 8.0 * sizeof(PointMm);
+
+class Memory : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Formats, Memory, ::testing::Values("c.gml", "c.city.json", "c.obj", "c.geojson"));
+
+TEST_P(Memory, DoesNotGrowWithTheCity) {
+  if (!HeldMemory::counts_malloc) GTEST_SKIP() << "a sanitizer has a malloc of its own";
+  const scenes::TemporaryFolder folder;
+  // Both cities are large enough to fill the writers' buffers, which are of fixed size
+  const CityRun small = make_city(folder.path(), GetParam(), 3000), large = make_city(folder.path(), GetParam(), 5000);
+  ASSERT_GT(large.buildings, 2.0 * small.buildings);
+  EXPECT_LT(large.held_bytes - small.held_bytes, least_bytes_of_a_kept_building * (large.buildings - small.buildings));
+  RecordProperty("growth_bytes", std::to_string(large.held_bytes - small.held_bytes));
+}
+
+const fs::path datasets = fs::path(FARLOD_SOURCE_DIR) / "datasets";
+
+/// The commands of the README's table, by the name of the sample that they make.
+std::map<std::string, std::string> commands() {
+  const std::string readme = scenes::text_of(datasets / "README.md");
+  const std::regex command("`farlod-city (-o samples/([^ `]+)[^`]*)`");
+  std::map<std::string, std::string> result;
+  for (std::sregex_iterator m(readme.begin(), readme.end(), command), end; m != end; ++m) result[(*m)[2]] = (*m)[1];
+  return result;
+}
+
+TEST(Samples, EachFileHasItsCommandAndEachCommandItsFile) {
+  std::map<std::string, std::string> rows = commands();
+  for (const auto& entry : fs::directory_iterator(datasets / "samples"))
+    EXPECT_EQ(rows.erase(entry.path().filename().string()), 1U) << entry.path().filename();
+  for (const auto& [name, arguments] : rows) ADD_FAILURE() << name << " is in the README and not there";
+}
+
+TEST(Samples, AreSmall) {
+  for (const auto& entry : fs::directory_iterator(datasets / "samples")) EXPECT_LT(entry.file_size(), 150'000U) << entry.path();
+}
+
+TEST(Samples, EachIsMadeAgainToTheByte) {
+  const scenes::TemporaryFolder folder;
+  fs::create_directory(folder.file("samples"));
+  ASSERT_FALSE(commands().empty());
+  for (const auto& [name, arguments] : commands()) {
+    const std::string line =
+        "cd '" + folder.path().string() + "' && '" + std::string(FARLOD_BIN_DIR) + "/farlod-city' --quiet " + arguments;
+    ASSERT_EQ(std::system(line.c_str()), 0) << line;
+    EXPECT_TRUE(scenes::text_of(folder.file("samples") / name) == scenes::text_of(datasets / "samples" / name))
+        << name << " differs: if the generator was meant to change, run the README's commands in datasets/";
+  }
 }
 
 }  // namespace
