@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "base/frame.hpp"
 #include "farlod/box.hpp"

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include <set>
-
 #include "farlod/error.hpp"
 #include "results/output_format.hpp"
 #include "tests/acceptance/small_town.hpp"

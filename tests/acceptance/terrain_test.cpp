@@ -4,7 +4,9 @@
 #include <functional>
 #include <sstream>
 
+#include "base/frame.hpp"
 #include "tests/acceptance/packed_town.hpp"
+#include "tests/analytic/oracles.hpp"
 #include "tests/analytic/tolerance.hpp"
 
 namespace farlod::acceptance {
@@ -103,6 +105,220 @@ TEST_F(Terrain, BetweenBuildingsReceiversStandOnTheTerrain) {
   folder.must("farlod-pack town.geojson --terrain slope.asc -o a.farlod");
   const Point2d street = p_projected({-60.0, 0.0});
   EXPECT_NEAR(answer_at(street, "").number(0, "z_m"), plane_m(street - town_middle) + 1.5, plane_error_m);
+}
+
+/// A plane that rises to the east, 2 km by 2 km around the town's middle, which is at 100 m.
+constexpr Angle slope_angle = Angle::degrees(20.0);
+constexpr double half_m = 1000.0;
+double slope_m(double east_m) { return 100.0 + east_m * tan(slope_angle); }
+
+/// Its corners, counter-clockwise from the south-west.
+std::vector<Point3d> corners() {
+  std::vector<Point3d> points;
+  for (const Point2d d : {Point2d{-half_m, -half_m}, {half_m, -half_m}, {half_m, half_m}, {-half_m, half_m}}) {
+    const Point2d p = town_middle + d;
+    points.push_back({p.x, p.y, slope_m(d.x)});
+  }
+  return points;
+}
+
+std::string relief_cityjson() {
+  nlohmann::json file = {{"type", "CityJSON"},
+                         {"version", "2.0"},
+                         {"transform", {{"scale", {0.001, 0.001, 0.001}}, {"translate", {0.0, 0.0, 0.0}}}},
+                         {"metadata", {{"referenceSystem", "https://www.opengis.net/def/crs/EPSG/0/32632"}}},
+                         {"vertices", nlohmann::json::array()}};
+  for (const Point3d& p : corners())
+    file["vertices"].push_back({std::llround(p.x * 1000), std::llround(p.y * 1000), std::llround(p.z * 1000)});
+  file["CityObjects"]["slope"] = {
+      {"type", "TINRelief"},
+      {"geometry", {{{"type", "CompositeSurface"}, {"lod", "1"}, {"boundaries", {{{0, 1, 2}}, {{0, 2, 3}}}}}}}};
+  return file.dump();
+}
+
+std::string triangle_gml(const Point3d& a, const Point3d& b, const Point3d& c) {
+  std::ostringstream text;
+  text.precision(12);
+  text << "<gml:Triangle><gml:exterior><gml:LinearRing><gml:posList srsDimension=\"3\">";
+  for (const Point3d& p : {a, b, c, a}) text << p.x << ' ' << p.y << ' ' << p.z << ' ';
+  text << "</gml:posList></gml:LinearRing></gml:exterior></gml:Triangle>";
+  return text.str();
+}
+
+std::string relief_citygml() {
+  const std::vector<Point3d> p = corners();
+  return R"(<core:CityModel xmlns:core="http://www.opengis.net/citygml/2.0" xmlns:dem="http://www.opengis.net/citygml/relief/2.0")"
+         R"( xmlns:gml="http://www.opengis.net/gml"><gml:boundedBy><gml:Envelope srsName="EPSG:32632" srsDimension="3"/></gml:boundedBy>)"
+         R"(<core:cityObjectMember><dem:ReliefFeature><dem:lod>1</dem:lod><dem:reliefComponent><dem:TINRelief><dem:lod>1</dem:lod><dem:tin>)"
+         R"(<gml:TriangulatedSurface><gml:trianglePatches>)" +
+         triangle_gml(p[0], p[1], p[2]) + triangle_gml(p[0], p[2], p[3]) +
+         "</gml:trianglePatches></gml:TriangulatedSurface></dem:tin></dem:TINRelief></dem:reliefComponent></dem:ReliefFeature>"
+         "</core:cityObjectMember></core:CityModel>";
+}
+
+/// Files have whole millimetres, and so have tables; packages keep floats of the height above their lowest whole metre.
+constexpr double height_error_m = 0.0005 + 0.0005 + 0.0001;
+
+/// Under a square of 20 m in the town's middle, turned with the town: at its westernmost corner.
+double lowest_ground_m() {
+  double west_m = 0.0;
+  for (const Point2d corner : {Point2d{-10, -10}, Point2d{10, -10}, Point2d{10, 10}, Point2d{-10, 10}})
+    west_m = std::min(west_m, GridRotation(town_bearing).city_from_grid(corner).x);
+  return slope_m(west_m);
+}
+
+/// Receivers of a surface stand so far off it.
+constexpr double off_surface_m = 0.01;
+
+struct ReliefFile {
+  const char* name;
+  std::string (*text)();
+};
+
+class Relief : public testing::TestWithParam<ReliefFile> {
+ protected:
+  Relief() { folder.write(GetParam().name, GetParam().text()); }
+  [[nodiscard]] CsvTable answer_at(Point2d p) const {
+    folder.must("farlod-svf a.farlod -o at.csv --at " + text_of(p) + " --engine exact --rays 20000");
+    return CsvTable(folder.text_of("at.csv"));
+  }
+  WorkFolder folder;
+};
+
+TEST_P(Relief, AloneIsASlopeWithItsKnownSkyViewFactor) {
+  folder.must(std::string("farlod-pack ") + GetParam().name + " -o a.farlod --cell 200");
+  // The slope hides what lies below tan(elevation) = tan(slope)·cos(azimuth) uphill: the mean of cos² over it is (1 + cos
+  // slope)/2. From 1.5 m above, and with an end after 1 km, the horizon is lower by 1.5/1000; a ring of the sky has less than 1
+  // in 100 of it
+  constexpr double eye_m = 1.5, nearest_end_m = half_m - 100.0;
+  const double error = eye_m / nearest_end_m + 1.0 / std::sqrt(20000.0) / 10.0;
+  for (const double east_m : {0.0, -100.0, 57.5}) {
+    const CsvTable answer = answer_at(town_middle + Point2d{east_m, 20.0});
+    EXPECT_NEAR(answer.number(0, "z_m"), slope_m(east_m) + eye_m, height_error_m);
+    EXPECT_NEAR(answer.number(0, "svf"), 0.5 * (1.0 + cos(slope_angle)), error);
+  }
+}
+
+TEST_P(Relief, CarriesFootprints) {
+  const Block house{"house", {}, 20.0, 10.0};
+  folder.write("house.geojson", footprints_geojson({house}));
+  folder.must(std::string("farlod-pack house.geojson ") + GetParam().name + " -o a.farlod");
+  folder.must("farlod-svf a.farlod -o roofs.csv --surfaces roofs --spacing 5");
+  const CsvTable roofs(folder.text_of("roofs.csv"));
+  ASSERT_GT(roofs.size(), 0U);
+  EXPECT_NEAR(roofs.number(0, "z_m"), lowest_ground_m() + 10.0 + off_surface_m, height_error_m);
+}
+
+TEST_P(Relief, TellsHowFarDownARoofOfKnownElevationReaches) {
+  nlohmann::json town = nlohmann::json::parse(footprints_geojson({{"house", {}, 20.0, 10.0}}));
+  town["features"][0]["properties"]["roof"] = 120.0;
+  folder.write("house.geojson", town.dump());
+  folder.must(std::string("farlod-pack house.geojson ") + GetParam().name + " --roof-field roof -o a.farlod");
+  folder.must("farlod-svf a.farlod -o walls.csv --surfaces walls --spacing 5");
+  const CsvTable walls(folder.text_of("walls.csv"));
+  // Four walls of 20 m, from the lowest ground under the house up to 120 m; what lies below the ground has no value
+  const double height_m = 120.0 - lowest_ground_m();
+  double all_m2 = 0.0, seen_m2 = 0.0;
+  for (std::size_t n = 0; n < walls.size(); ++n) {
+    all_m2 += walls.number(n, "area_m2");
+    seen_m2 += walls.text(n, "svf").empty() ? 0.0 : walls.number(n, "area_m2");
+  }
+  EXPECT_NEAR(all_m2, 80.0 * height_m, 80.0 * height_error_m + 4 * 0.002 * height_m);
+  const CsvTable buildings(folder.text_of("walls.buildings.csv"));
+  ASSERT_EQ(buildings.size(), 1U);
+  EXPECT_NEAR(buildings.number(0, "wall_area_m2"), seen_m2, 1.0) << "areas are rounded, receiver by receiver";
+  EXPECT_LT(seen_m2, all_m2) << "the ground is higher along the other walls";
+}
+
+TEST_P(Relief, OfAnotherPlaceIsNotUsedAndThatIsSaid) {
+  folder.write("house.geojson", footprints_geojson({{"house", {5.0 * half_m, 0.0}, 20.0, 10.0}}));
+  folder.must(std::string("farlod-pack house.geojson ") + GetParam().name + " -o a.farlod --summary s.json");
+  EXPECT_TRUE(folder.json_of("s.json").at("skipped").contains("points of reliefs (none lies where the city is)"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, Relief,
+                         testing::Values(ReliefFile{"slope.city.json", relief_cityjson}, ReliefFile{"slope.gml", relief_citygml}),
+                         [](const auto& test) {
+                           return std::string(test.param.name).find(".gml") == std::string::npos ? "CityJson" : "CityGml";
+                         });
+
+constexpr double floor_m = 5.0, roof_m = 25.0, receiver_m = 0.05;
+/// From a receiver to the roofs around it.
+constexpr double rise_m = roof_m - floor_m - receiver_m;
+constexpr double pixel_m = 0.25;
+constexpr std::size_t rays = 20000;
+
+/// A surface model around the town's middle, a square of 80 m with pixel centres at whole pixels from the middle.
+constexpr double half_edge_m = 40.0;
+constexpr int pixels = static_cast<int>(2.0 * half_edge_m / pixel_m) + 1;
+std::string surface_model(const std::function<bool(Point2d)>& is_roof) {
+  std::ostringstream text;
+  text.precision(12);
+  const Point2d corner = town_middle - (half_edge_m + 0.5 * pixel_m) * Point2d{1.0, 1.0};
+  text << "ncols " << pixels << "\nnrows " << pixels << "\nxllcorner " << corner.x << "\nyllcorner " << corner.y << "\ncellsize "
+       << pixel_m << "\nNODATA_value -9999\n";
+  for (int row = 0; row < pixels; ++row) {
+    for (int column = 0; column < pixels; ++column)
+      text << (is_roof({-half_edge_m + column * pixel_m, half_edge_m - row * pixel_m}) ? roof_m : floor_m) << ' ';
+    text << '\n';
+  }
+  return text.str();
+}
+
+/// A city that is known only as a raster of its surface: its walls stand between two pixels, with their tops at the roof's.
+class SurfaceModel : public testing::Test {
+ protected:
+  void pack(const std::function<bool(Point2d)>& is_roof) const {
+    folder.write("dsm.asc", surface_model(is_roof));
+    folder.must("farlod-pack --terrain dsm.asc --crs EPSG:32632 --quiet -o a.farlod");
+  }
+  [[nodiscard]] double svf_at(Point2d p, const std::string& engine) const {
+    std::ostringstream command;
+    command << "farlod-svf a.farlod -o at.csv --at " << text_of(town_middle + p) << " --on-surface --height " << receiver_m
+            << " --rays " << rays << " --engine " << engine;
+    folder.must(command.str());
+    return CsvTable(folder.text_of("at.csv")).number(0, "svf");
+  }
+
+  WorkFolder folder;
+};
+
+TEST_F(SurfaceModel, RectangularCourt) {
+  constexpr double a = 10.0, b = 25.0;  // half its edges
+  pack([](Point2d p) { return std::abs(p.x) >= a || std::abs(p.y) >= b; });
+  // The opening is convex, and so is its picture on the unit disk: no longer than the circle
+  const double sampling = sampling_error(rays, 2.0 * oracles::pi);
+  // A corner may be cut off by half a pixel, which is seen from right below at best
+  const double corners = 4.0 * 0.5 * pixel_m * pixel_m / (oracles::pi * rise_m * rise_m);
+  for (const Point2d p : {Point2d{}, {4.0, 0.0}, {-7.0, 12.5}, {6.25, -20.0}}) {
+    double expected = 0.0;
+    for (const double to_x : {a - p.x, a + p.x})
+      for (const double to_y : {b - p.y, b + p.y}) expected += oracles::court_quadrant_cos(to_x, to_y, rise_m);
+    for (const char* engine : {"auto", "exact"})
+      EXPECT_NEAR(svf_at(p, engine), expected, sampling + corners) << p.x << ' ' << p.y;
+  }
+}
+
+TEST_F(SurfaceModel, RoundCourt) {
+  constexpr double radius_m = 25.0;
+  pack([](Point2d p) { return norm(p) >= radius_m; });
+  // Roof pixels lie outside of the circle; what joins two neighbors reaches into it by a chord's sagitta at most. A point that
+  // is farther than a pixel's diagonal outside has roof pixels all around.
+  const double diagonal_m = std::sqrt(2.0) * pixel_m;
+  const double least_radius_m = radius_m - diagonal_m * diagonal_m / (8.0 * radius_m), largest_radius_m = radius_m + diagonal_m;
+  // Stairs around a circle are no longer than the square around it, and the unit disk shows them smaller by the rise at least
+  const double sampling = sampling_error(rays, 8.0 * largest_radius_m / rise_m);
+  for (const Point2d p : {Point2d{}, {10.0, 0.0}, {-6.0, 8.0}, {0.0, -20.0}})
+    for (const char* engine : {"auto", "exact"}) {
+      const double svf = svf_at(p, engine);
+      EXPECT_GE(svf, oracles::round_court_cos(least_radius_m, rise_m, norm(p)) - sampling) << p.x << ' ' << p.y;
+      EXPECT_LE(svf, oracles::round_court_cos(largest_radius_m, rise_m, norm(p)) + sampling) << p.x << ' ' << p.y;
+    }
+}
+
+TEST_F(SurfaceModel, OnARoofThereIsNothingAbove) {
+  pack([](Point2d p) { return norm(p) >= 25.0; });
+  for (const Point2d p : {Point2d{30.0, 0.0}, {-32.5, 31.0}}) EXPECT_EQ(svf_at(p, "exact"), 1.0);
 }
 
 }  // namespace
