@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/architecture/source_tree.hpp"
@@ -15,5 +16,9 @@ namespace farlod {
 /// Exemptions from these rules that no file needs: wrappers that are not there any more or include nothing foreign, and headers
 /// of the runtime that a room of preprocess may include and does not.
 [[nodiscard]] std::vector<std::string> useless_exemptions(const std::vector<SourceFile>& tree);
+
+/// Circles in the graph of folders below `side` ("preprocess/"): a folder points to another one when one of its files includes a
+/// header of it. Each circle is one sentence, "a -> b -> a", and names the includes that make it.
+[[nodiscard]] std::vector<std::string> include_circles(const std::vector<SourceFile>& tree, std::string_view side);
 
 }  // namespace farlod
