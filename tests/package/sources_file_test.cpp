@@ -6,9 +6,9 @@
 
 #include <cstring>
 
-#include "package/written_stamp.hpp"
 #include "package/manifest_reader.hpp"
 #include "package/sources_writer.hpp"
+#include "package/written_stamp.hpp"
 #include "tests/package/small_package.hpp"
 
 namespace farlod {
