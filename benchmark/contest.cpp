@@ -6,14 +6,63 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
-#include "benchmark/measurement.hpp"
+#include "base/expects.hpp"
 #include "evaluate/sky_directions.hpp"
 #include "evaluate/verification.hpp"
 
 namespace farlod::benchmark {
+
+double median(std::vector<double> values) {
+  FARLOD_EXPECTS(!values.empty());
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+Duel duel(std::size_t turns, const std::function<void()>& first, const std::function<void()>& second) {
+  std::vector<double> first_s, second_s, ratio;
+  for (std::size_t turn = 0; turn < turns; ++turn) {
+    first_s.push_back(seconds_of(first));
+    second_s.push_back(seconds_of(second));
+    ratio.push_back(second_s.back() / first_s.back());
+  }
+  return {median(first_s), median(second_s), median(ratio)};
+}
+
+double median_seconds(std::size_t turns, const std::function<void()>& work) {
+  std::vector<double> seconds;
+  for (std::size_t turn = 0; turn < turns; ++turn) seconds.push_back(seconds_of(work));
+  return median(seconds);
+}
+
+Errors errors_of(std::span<const float> answers, std::span<const float> truth) {
+  FARLOD_EXPECTS(answers.size() == truth.size() && !truth.empty());
+  Errors errors;
+  double squares = 0.0;
+  for (std::size_t n = 0; n < truth.size(); ++n) {
+    const double error = std::abs(static_cast<double>(answers[n]) - static_cast<double>(truth[n]));
+    errors.mean_abs += error / static_cast<double>(truth.size());
+    squares += error * error;
+    errors.max_abs = std::max(errors.max_abs, error);
+  }
+  errors.rms = std::sqrt(squares / static_cast<double>(truth.size()));
+  return errors;
+}
+
+std::vector<Rung> climb(std::span<const std::size_t> ladder, const Answer& answer, std::span<const float> truth) {
+  std::vector<Rung> rungs;
+  for (const std::size_t samples : ladder) rungs.push_back({samples, errors_of(answer(samples), truth)});
+  return rungs;
+}
+
+std::optional<Rung> rung_within(std::span<const Rung> rungs, double max_error) {
+  const auto found = std::find_if(rungs.begin(), rungs.end(), [&](const Rung& r) { return r.errors.max_abs <= max_error; });
+  return found == rungs.end() ? std::nullopt : std::optional(*found);
+}
 
 SkySettings OurEngine::settings(std::size_t samples) const {
   SkySettings settings;
@@ -172,5 +221,56 @@ std::vector<ContestRow> same_directions_contest(const City& city, const Extent& 
 }
 
 void tell(const std::string& what) { fmt::print(stderr, "{}\n", what); }
+
+namespace {
+
+void open_all(const std::filesystem::path& folder) {
+  const PackageReader package(folder);
+  const CellRange& cells = package.grid().cells;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(cells.size()); ++n) static_cast<void>(package.tile(cells.cell_at(n)));
+}
+
+SizeRow study_size(const SizedCity& sized, const OurEngine& ours, Accuracy accuracy, const Extent& extent) {
+  const City city(sized.package);
+  const PackageReader& package = city.package;
+  tell("a city of " + std::to_string(package.manifest().polygons) + " polygons");
+  const std::vector<Cell> cells = spread_cells(package.grid(), extent.cells);
+  const CityReceivers receivers = place_receivers(package, cells, Place::ground, extent.spacing_m(Place::ground));
+  const std::vector<SharedPacket> packets = packets_of(package.grid(), receivers);
+  SizeRow row;
+  row.polygons = package.manifest().polygons;
+  row.triangles = city.triangles.triangles.size();
+  row.index_bytes = city.rival.index_bytes();
+  row.receivers = receivers.count;
+  row.all_receivers =
+      static_cast<double>(receivers.count) * static_cast<double>(package.grid().cells.size()) / static_cast<double>(cells.size());
+  row.pack_s = sized.pack_s;
+  row.open_s = median_seconds(extent.turns, [&] { open_all(sized.package); });
+  row.build_s = median_seconds(extent.turns, [&] { static_cast<void>(WholeCityRival(city.triangles)); });
+  std::vector<float> svf(receivers.count);
+  const std::vector<Point3d> directions = fibonacci_directions(accuracy.rival_rays);
+  const Duel result = duel(
+      extent.turns, [&] { evaluate(package, ours.settings(accuracy.our_samples), receivers, svf); },
+      [&] { city.rival.evaluate(packets, directions, svf); });
+  row.ours_s = result.first_s;
+  row.rival_s = result.second_s;
+  row.ratio = result.ratio;
+  return row;
+}
+
+}  // namespace
+
+std::optional<double> SizeRow::break_even() const {
+  const double gained_s_each = rival_s_each() - ours_s_each();
+  if (gained_s_each <= 0.0) return std::nullopt;
+  return std::max(0.0, (pack_s + open_s - build_s) / gained_s_each);
+}
+
+std::vector<SizeRow> study_sizes(std::span<const SizedCity> cities, const OurEngine& ours, Accuracy accuracy,
+                                 const Extent& extent) {
+  std::vector<SizeRow> rows;
+  for (const SizedCity& city : cities) rows.push_back(study_size(city, ours, accuracy, extent));
+  return rows;
+}
 
 }  // namespace farlod::benchmark

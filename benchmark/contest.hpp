@@ -2,20 +2,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "benchmark/city_receivers.hpp"
-#include "benchmark/error_ladder.hpp"
 #include "benchmark/whole_city_rival.hpp"
 #include "evaluate/sky_evaluator.hpp"
 #include "package/package_reader.hpp"
 
 namespace farlod::benchmark {
+
+/// Wall clock of a call.
+template <class Work>
+[[nodiscard]] double seconds_of(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The middle value; of an even number, the mean of the two in the middle. At least one.
+[[nodiscard]] double median(std::vector<double> values);
+
+/// Two ways to do the same, measured in turn (A B A B …), so that what else the machine does meets both.
+struct Duel {
+  double first_s = 0.0, second_s = 0.0;  ///< medians
+  double ratio = 0.0;                    ///< median of second/first, each within one turn
+};
+[[nodiscard]] Duel duel(std::size_t turns, const std::function<void()>& first, const std::function<void()>& second);
+
+/// Median wall clock of so many calls.
+[[nodiscard]] double median_seconds(std::size_t turns, const std::function<void()>& work);
+
+struct Errors {
+  double mean_abs = 0.0, rms = 0.0, max_abs = 0.0;
+};
+/// Of the same length, at least one.
+[[nodiscard]] Errors errors_of(std::span<const float> answers, std::span<const float> truth);
+
+/// One accuracy that a method can be set to: so many rays, or azimuths.
+struct Rung {
+  std::size_t samples = 0;
+  Errors errors;
+};
+
+/// The errors at each number of samples. `answer` gives the answers of the receivers whose truth is known.
+using Answer = std::function<std::vector<float>(std::size_t samples)>;
+[[nodiscard]] std::vector<Rung> climb(std::span<const std::size_t> ladder, const Answer& answer, std::span<const float> truth);
+
+/// The lowest rung whose largest error is at most this; none when no rung is.
+[[nodiscard]] std::optional<Rung> rung_within(std::span<const Rung> rungs, double max_error);
 
 /// One of our engines, and the accuracies that it is tried at.
 struct OurEngine {
@@ -105,5 +145,32 @@ struct Contest {
 
 /// Says what is being done; contests take minutes.
 void tell(const std::string& what);
+
+/// The accuracy at which both are compared in cities of all sizes.
+struct Accuracy {
+  std::size_t rival_rays = 0, our_samples = 0;
+};
+
+/// One city among those of several sizes, ground receivers.
+struct SizeRow {
+  std::uint64_t polygons = 0;
+  std::size_t triangles = 0, index_bytes = 0, receivers = 0;
+  double all_receivers = 0.0;          ///< about so many stand on the whole ground
+  double open_s = 0.0, build_s = 0.0;  ///< reading all tiles once; indexing the city for the rival
+  double pack_s = 0.0;                 ///< of farlod-pack
+  double rival_s = 0.0, ours_s = 0.0, ratio = 0.0;
+
+  [[nodiscard]] double rival_s_each() const { return rival_s / static_cast<double>(receivers); }
+  [[nodiscard]] double ours_s_each() const { return ours_s / static_cast<double>(receivers); }
+  /// So many receivers cost as much with a package as without: packing, opening and asking us, or indexing and asking the rival.
+  /// None when we are not faster.
+  [[nodiscard]] std::optional<double> break_even() const;
+};
+struct SizedCity {
+  std::filesystem::path package;
+  double pack_s = 0.0;
+};
+[[nodiscard]] std::vector<SizeRow> study_sizes(std::span<const SizedCity> cities, const OurEngine& ours, Accuracy accuracy,
+                                               const Extent& extent);
 
 }  // namespace farlod::benchmark

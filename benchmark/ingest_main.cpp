@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "console/peak_memory.hpp"
+#include "console/run_program.hpp"
 #include "ingest/ingest.hpp"
 #include "tests/scenes/surface_count.hpp"
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "benchmark/contest.hpp"
 #include "package/package_reader.hpp"
 #include "receivers/raster_receivers.hpp"
 
@@ -46,5 +47,18 @@ class LineSweep {
   double pixel_m_;
   Field field_, transposed_;
 };
+
+/// A line sweep over the whole city's raster at so many azimuths.
+struct SweepRow {
+  std::size_t azimuths = 0;
+  Errors errors;  ///< at the receivers of the ground contest that have a pixel without a building
+  double seconds = 0.0;
+};
+struct SweepStudy {
+  double pixel_m = 0.0, raster_s = 0.0;  ///< making the raster is not part of a row's time
+  std::size_t pixels = 0, receivers = 0, compared = 0;
+  std::vector<SweepRow> rows;
+};
+[[nodiscard]] SweepStudy study_sweep(const City& city, const Extent& extent);
 
 }  // namespace farlod::benchmark

@@ -15,11 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/city_sizes.hpp"
 #include "benchmark/contest.hpp"
-#include "benchmark/measurement.hpp"
-#include "benchmark/sweep_study.hpp"
-#include "console/wrapped_document.hpp"
+#include "benchmark/line_sweep.hpp"
+#include "console/progress.hpp"
+#include "validation/wrapped_document.hpp"
 
 // Measures us against tracing the whole city, and prints the tables behind docs/performance.md. benchmark/run runs it.
 
@@ -128,22 +127,16 @@ struct Results {
   std::vector<SizeRow> sizes;
 };
 
-/// With a comma between thousands: 1,536.
-std::string count_text(std::uint64_t value) {
-  std::string digits = fmt::format("{}", value);
-  for (std::size_t n = digits.size(); n > 3; n -= 3) digits.insert(n - 3, ",");
-  return digits;
-}
 /// Rounded to three digits: more are noise.
 std::string about_text(double value) {
   const double unit = value > 0.0 ? std::pow(10.0, std::max(0.0, std::floor(std::log10(value)) - 2.0)) : 1.0;
-  return count_text(static_cast<std::uint64_t>(std::round(value / unit) * unit));
+  return with_commas(static_cast<std::uint64_t>(std::round(value / unit) * unit));
 }
 std::string rate_text(std::size_t receivers, double seconds) {
   return seconds > 0.0 ? about_text(static_cast<double>(receivers) / seconds) : "";
 }
 std::string rung_text(const std::optional<Rung>& rung) {
-  return rung ? fmt::format("{} | {:.4f}", count_text(rung->samples), rung->errors.max_abs) : "none | ";
+  return rung ? fmt::format("{} | {:.4f}", with_commas(rung->samples), rung->errors.max_abs) : "none | ";
 }
 
 std::string contest_line(const ContestRow& row) {
@@ -162,7 +155,7 @@ std::string main_table(const Results& results) {
       "Ratio: rival's time by ours, the median over {} turns (both back to back in each).\n\n"
       "| receivers | rival: rays | max error | receivers/s | ours: {} | max error | receivers/s | ratio |\n"
       "|---|---|---|---|---|---|---|---|\n",
-      results.ours.name, results.ours.sample_name, results.contests.front().sample, count_text(results.extent.truth_rays),
+      results.ours.name, results.ours.sample_name, results.contests.front().sample, with_commas(results.extent.truth_rays),
       results.city, results.extent.cells, results.extent.turns, results.ours.sample_name);
   for (const Contest& contest : results.contests)
     for (const ContestRow& row : contest.rows) text += contest_line(row);
@@ -173,7 +166,7 @@ std::string main_table(const Results& results) {
 std::string placing_sentence(const Results& results) {
   std::string text;
   for (const Contest& c : results.contests)
-    text += fmt::format("{}{} {} in {:.2f} s", text.empty() ? "" : ", ", count_text(c.rows.front().receivers), name_of(c.place),
+    text += fmt::format("{}{} {} in {:.2f} s", text.empty() ? "" : ", ", with_commas(c.rows.front().receivers), name_of(c.place),
                         c.placing_s);
   return text +
          ". Reading far maps and indexing near scenes is part of our time; indexing the whole city is not part of the rival's.\n";
@@ -188,7 +181,7 @@ std::string ladder_table(const char* who, const std::string& samples, const std:
   }
   text += "\n" + rule + "\n";
   for (std::size_t n = 0; n < (contests.front().*ladder).size(); ++n) {
-    text += fmt::format("| {} |", count_text((contests.front().*ladder)[n].samples));
+    text += fmt::format("| {} |", with_commas((contests.front().*ladder)[n].samples));
     for (const Contest& c : contests) {
       const Errors& e = (c.*ladder)[n].errors;
       text += fmt::format(" {:.5f} | {:.5f} | {:.4f} |", e.mean_abs, e.rms, e.max_abs);
@@ -203,7 +196,7 @@ std::string sweep_table(const SweepStudy& study) {
       "\n## Beside a line sweep over a raster\n\nThe same city as a north-up raster of {:g} m ({} pixels), all of it at once, "
       "since a sweep has to; receivers are the {} pixels of the ground. Errors are those at the receivers of the table above. "
       "Making the raster takes {:.2f} s more.\n\n| azimuths | receivers/s | mean error | rms | max |\n|---|---|---|---|---|\n",
-      study.pixel_m, count_text(study.pixels), count_text(study.receivers), study.raster_s);
+      study.pixel_m, with_commas(study.pixels), with_commas(study.receivers), study.raster_s);
   for (const SweepRow& row : study.rows)
     text += fmt::format("| {} | {} | {:.4f} | {:.4f} | {:.3f} |\n", row.azimuths, rate_text(study.receivers, row.seconds),
                         row.errors.mean_abs, row.errors.rms, row.errors.max_abs);
@@ -232,8 +225,8 @@ std::string sizes_table(const std::vector<SizeRow>& rows) {
       "| polygons | triangles | rival: index, s | index, MiB | µs a receiver | ours: µs a receiver | ratio "
       "|\n|---|---|---|---|---|---|---|\n";
   for (const SizeRow& row : rows)
-    text += fmt::format("| {} | {} | {:.2f} | {:.1f} | {:.2f} | {:.2f} | **{:.2f}** |\n", count_text(row.polygons),
-                        count_text(row.triangles), row.build_s, static_cast<double>(row.index_bytes) / 0x1p20,
+    text += fmt::format("| {} | {} | {:.2f} | {:.1f} | {:.2f} | {:.2f} | **{:.2f}** |\n", with_commas(row.polygons),
+                        with_commas(row.triangles), row.build_s, static_cast<double>(row.index_bytes) / 0x1p20,
                         1e6 * row.rival_s_each(), 1e6 * row.ours_s_each(), row.ratio);
   return text;
 }
@@ -246,7 +239,7 @@ std::string break_even_table(const std::vector<SizeRow>& rows) {
       "|\n|---|---|---|---|---|---|\n";
   for (const SizeRow& row : rows) {
     const std::optional<double> receivers = row.break_even();
-    text += fmt::format("| {} | {:.2f} | {:.3f} | {:.3f} | {} | {} |\n", count_text(row.polygons), row.pack_s, row.open_s,
+    text += fmt::format("| {} | {:.2f} | {:.3f} | {:.3f} | {} | {} |\n", with_commas(row.polygons), row.pack_s, row.open_s,
                         row.build_s, receivers ? about_text(*receivers) : "never: not faster", about_text(row.all_receivers));
   }
   return text;

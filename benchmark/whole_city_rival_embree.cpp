@@ -4,7 +4,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -13,10 +12,8 @@
 #include <tuple>
 #include <utility>
 
-#include "benchmark/plane_curve.hpp"
 #include "benchmark/whole_city_rival.hpp"
 #include "occlusion/queries_embree.hpp"
-#include "receivers/receiver.hpp"
 
 namespace farlod::benchmark {
 

@@ -46,7 +46,7 @@ function(farlod_runs_once target)
   endif()
 endfunction()
 
-# A library of ours: its sources are listed by the folders below it.
+# A library of ours. Its sources are listed by its folder, or by the folders below it.
 function(farlod_library name)
   add_library(farlod_${name} STATIC)
   add_library(farlod::${name} ALIAS farlod_${name})

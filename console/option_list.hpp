@@ -7,9 +7,14 @@
 
 namespace CLI {
 class App;
-}
+class Validator;
+}  // namespace CLI
 
 namespace farlod {
+
+/// Checks that an option is a number from `low` to `high`. CLI11's own Range accepts NaN, which is neither below
+/// nor above, and says something else in each version.
+[[nodiscard]] CLI::Validator between(double low, double high);
 
 /// What --help calls the value of an option that names a file, or a folder; completion offers those that are there.
 inline constexpr const char* file_value = "FILE";

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <string>
 
@@ -30,5 +31,13 @@ class ProgressLine {
   bool line_open_ = false;
   std::mutex mutex_;
 };
+
+/// Estimates for people: two digits, the rest zeros, and a unit that suits.
+[[nodiscard]] double rough_number(double value);
+[[nodiscard]] std::string rough_duration(double seconds);
+[[nodiscard]] std::string rough_size(double mib);
+
+/// "1,234,567"
+[[nodiscard]] std::string with_commas(std::uint64_t number);
 
 }  // namespace farlod

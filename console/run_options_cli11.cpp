@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "console/run_options.hpp"
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -11,13 +9,25 @@
 #include <sstream>
 #include <thread>
 
-#include "console/number_range.hpp"
 #include "console/option_list.hpp"
-#include "console/run_settings.hpp"
-#include "farlod/error.hpp"
+#include "console/run_options.hpp"
 #include "farlod/version.hpp"
 
 namespace farlod {
+
+void describe_program(CLI::App& app, const ProgramDescription& program) {
+  std::string beginning = program.name + " — " + program.purpose + ".\n\nTry this first:\n";
+  for (const std::string& example : program.examples) beginning.append("  ").append(example).append("\n");
+  std::string end = "\n";
+  for (const std::string& note : program.notes) end.append(note).append("\n");
+  end.append("Exit codes:");
+  for (const ExitMeaning& meaning : program.exit_codes)
+    end.append(meaning.code == exit_done ? " " : ", ").append(std::to_string(meaning.code)).append(" ").append(meaning.text);
+  app.name(program.name);
+  app.description(beginning);
+  app.footer(end + ".");
+}
+
 namespace {
 
 /// A file of --config: TOML, or the summary of a run, whose settings it repeats.

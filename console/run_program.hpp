@@ -2,10 +2,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <stop_token>
 #include <string>
 
 namespace farlod {
+
+/// The most memory that this process ever held, in MiB.
+[[nodiscard]] double peak_memory_mib();
+
+/// Lets a program end cleanly when it is asked to (SIGINT, SIGTERM, SIGHUP): from its making on, the first such signal asks the
+/// token to stop. The second one ends the program at once. Made in main(), before any other thread is.
+class Interruption {
+ public:
+  Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+  ~Interruption();
+
+  [[nodiscard]] static std::stop_token token();
+  /// The signal that came; 0 if none did.
+  [[nodiscard]] static int signal();
+  /// As shells number it: 128 and the signal.
+  [[nodiscard]] static int exit_code();
+};
+
+/// Asked before the work, which may take hours. No name needs no folder. Throws OutputError.
+void require_folder_of(const std::filesystem::path& file);
+
+/// Writes a file such as that of `--summary`; nothing without a name. Throws OutputError.
+void write_text(const std::string& path, const std::string& text);
 
 /// What a program says where a run ends before its end.
 struct ProgramName {
@@ -17,5 +44,13 @@ struct ProgramName {
 
 /// Runs a program, and tells on standard error, in one line, what ended it: main() of each program. Returns its exit code.
 [[nodiscard]] int run_program(const ProgramName& program, const std::function<int()>& run);
+
+/// The settings of Fontconfig that an archive or a wheel brings along, for a program that lies in its folder bin; empty for a
+/// program without.
+[[nodiscard]] std::filesystem::path bundled_font_settings(const std::filesystem::path& program);
+
+/// Lets this program draw texts with the font that was brought along, on systems that may have none, unless FONTCONFIG_FILE names
+/// other settings. In main(), before any other thread is.
+void use_bundled_fonts();
 
 }  // namespace farlod

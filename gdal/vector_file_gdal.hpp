@@ -7,6 +7,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 // Private to the wrappers of GDAL: it names its classes.
 
@@ -21,8 +23,13 @@ using Feature = std::unique_ptr<OGRFeature, FeatureDeleter>;
 /// read it. Throws InputError where it leads beyond this computer.
 [[nodiscard]] GDALDatasetUniquePtr open_vector_file(const std::filesystem::path& file);
 
-/// Opens a table of comma separated values, whatever its name ends with. Null where GDAL cannot read it.
-[[nodiscard]] GDALDatasetUniquePtr open_table(const std::filesystem::path& file);
+/// Whether a name ends as tables of values do: .csv, .tsv, .txt.
+[[nodiscard]] bool is_table(const std::filesystem::path& file);
+
+/// The same, but a table is one of comma separated values, whatever its name ends with.
+[[nodiscard]] GDALDatasetUniquePtr open_vector_file_or_table(const std::filesystem::path& file);
+
+[[nodiscard]] std::vector<std::string> field_names(OGRLayer& layer);
 
 /// Whether the ending of a name is one of those that GDAL's vector formats have.
 [[nodiscard]] bool has_vector_ending(const std::filesystem::path& file);

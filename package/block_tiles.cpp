@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "package/block_tiles.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "base/expects.hpp"
-#include "package/package_error.hpp"
 
 namespace farlod {
 
@@ -48,10 +46,6 @@ BlockTiles::BlockTiles(std::span<const std::byte> bytes, const CellRange& cells,
   for (const TileView& tile : tiles_) check_tile(tile);
   check_far_cells();
   check_far_places();
-}
-
-void BlockTiles::require(bool rule, const char* what) const {
-  if (!rule) throw PackageDamaged(name_ + " is damaged: " + what + ". Pack the city again.");
 }
 
 std::span<const CellRecord> BlockTiles::records_of_cells(std::span<const std::byte> bytes, std::string name) {

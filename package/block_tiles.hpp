@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,8 +12,9 @@
 
 #include "base/grid.hpp"
 #include "base/mesh_view.hpp"
-#include "package/far_horizon.hpp"
+#include "package/far_map.hpp"
 #include "package/layout.hpp"
+#include "package/package_folder.hpp"
 
 namespace farlod {
 
@@ -96,7 +96,7 @@ class BlockTiles {
   void check_far_places() const;
   template <class T>
   [[nodiscard]] std::span<const T> section(package::SectionKind kind) const;
-  void require(bool rule, const char* what) const;
+  void require(bool rule, const char* what) const { require_whole(rule, name_, what); }
 
   std::span<const std::byte> bytes_;
   CellRange range_;

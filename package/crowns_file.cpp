@@ -10,7 +10,6 @@
 
 #include "farlod/error.hpp"
 #include "package/file_stamp.hpp"
-#include "package/package_error.hpp"
 
 namespace farlod {
 namespace {
@@ -112,10 +111,6 @@ void CrownsFile::check_crowns(const package::Manifest& manifest) const {
   }
   require(largest_half_width_m() == half_width_m, "its largest half width is not that of its crowns");
   require(of_shape == manifest.canopy->crowns_of_shape, "it does not have the crowns that the manifest counts");
-}
-
-void CrownsFile::require(bool rule, const char* what) const {
-  if (!rule) throw PackageDamaged(name_ + " is damaged: " + what + ". Pack the city again.");
 }
 
 }  // namespace farlod

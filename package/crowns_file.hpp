@@ -5,9 +5,8 @@
 #include <span>
 #include <string>
 
-#include "package/crown_layout.hpp"
+#include "package/crown.hpp"
 #include "package/manifest.hpp"
-#include "package/mapped_file.hpp"
 #include "package/package_folder.hpp"
 
 namespace farlod {
@@ -44,7 +43,7 @@ class CrownsFile {
   void check_header();
   void check_cells(const Grid& grid) const;
   void check_crowns(const package::Manifest& manifest) const;
-  void require(bool rule, const char* what) const;
+  void require(bool rule, const char* what) const { require_whole(rule, name_, what); }
 
   std::string name_;
   MappedFile file_;

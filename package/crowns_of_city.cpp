@@ -4,12 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <numbers>
+#include <system_error>
 #include <tuple>
+#include <vector>
 
+#include "base/durable_file.hpp"
 #include "base/expects.hpp"
-#include "package/crown_layout.hpp"
+#include "farlod/error.hpp"
+#include "package/file_stamp.hpp"
 
 namespace farlod {
 namespace {
@@ -19,11 +24,6 @@ std::uint16_t steps_of_turn(double turn_rad) {
   constexpr double right_angle_rad = std::numbers::pi / 2.0, steps = 65536.0;
   const double turned_rad = std::fmod(std::fmod(turn_rad, right_angle_rad) + right_angle_rad, right_angle_rad);
   return static_cast<std::uint16_t>(static_cast<std::uint32_t>(std::lround(turned_rad / right_angle_rad * steps)) & 0xFFFFU);
-}
-
-bool holds(const Grid& grid, Point2d p_grid) {
-  const auto& [low, high] = grid.rectangle();
-  return low.x <= p_grid.x && p_grid.x < high.x && low.y <= p_grid.y && p_grid.y < high.y;
 }
 
 /// −0 is 0, so that equal crowns have equal bytes.
@@ -66,6 +66,70 @@ const PagedArray<CrownsOfCity::OwnedCrown>& CrownsOfCity::in_order() {
     std::sort(crowns_.begin(), crowns_.end(), [](const OwnedCrown& a, const OwnedCrown& b) { return key_of(a) < key_of(b); });
   is_in_order_ = true;
   return crowns_;
+}
+
+namespace fs = std::filesystem;
+namespace {
+
+using Crowns = PagedArray<CrownsOfCity::OwnedCrown>;
+
+std::vector<package::CrownCellRecord> cells_of(const Crowns& crowns, const CellRange& cells) {
+  std::vector<package::CrownCellRecord> records;
+  for (std::size_t n = 0; n < crowns.size(); ++n) {
+    const Crown& crown = crowns[n].crown;
+    if (n == 0 || crowns[n].cell != crowns[n - 1].cell) {
+      const Cell cell = cells.cell_at(crowns[n].cell);
+      records.push_back({cell.i, cell.j, n, 0, crown.bottom_m, crown.top_m, 0});
+    }
+    package::CrownCellRecord& record = records.back();
+    ++record.crown_count;
+    record.z_low_m = std::min(record.z_low_m, crown.bottom_m);
+    record.z_high_m = std::max(record.z_high_m, crown.top_m);
+  }
+  return records;
+}
+
+package::CrownsHeader header_of(const Crowns& crowns, std::size_t cell_count) {
+  package::CrownsHeader header{};
+  header.magic = package::crowns_magic;
+  header.version = package::crowns_version;
+  header.cell_count = cell_count;
+  header.crown_count = crowns.size();
+  header.file_bytes = package::crowns_file_bytes(cell_count, crowns.size());
+  for (const auto& owned : crowns) header.largest_half_width_m = std::max(header.largest_half_width_m, owned.crown.half_width_m);
+  return header;
+}
+
+void write(const fs::path& path, const Crowns& crowns, const CellRange& cells) {
+  const std::vector<package::CrownCellRecord> records = cells_of(crowns, cells);
+  const package::CrownsHeader header = header_of(crowns, records.size());
+  std::ofstream file(path, std::ios::binary);
+  const auto put = [&file](const auto* first, std::size_t count) {
+    file.write(reinterpret_cast<const char*>(first), static_cast<std::streamsize>(count * sizeof(*first)));
+  };
+  put(&header, 1);
+  put(records.data(), records.size());
+  for (const auto& owned : crowns) put(&owned.crown, 1);
+  file.close();
+  if (!file) throw OutputError(path.string() + " cannot be written. Is the disk full?");
+}
+
+}  // namespace
+
+std::optional<package::CanopyFile> write_canopy(const fs::path& folder, CrownsOfCity& crowns) {
+  if (crowns.empty()) return std::nullopt;
+  const Crowns& in_order = crowns.in_order();
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw OutputError(folder.string() + " cannot be written: " + error.message());
+  package::CanopyFile canopy;
+  for (const auto& owned : in_order) ++canopy.crowns_of_shape[static_cast<std::size_t>(owned.crown.shape)];
+  write_durably(folder / package::crowns_file, [&](const fs::path& part) {
+    write(part, in_order, crowns.grid().cells);
+    canopy.stamp = stamp_of(part);
+  });
+  in_order.let_go();
+  return canopy;
 }
 
 }  // namespace farlod

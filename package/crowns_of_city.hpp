@@ -3,12 +3,21 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 
 #include "base/grid.hpp"
 #include "base/paging/paged_array.hpp"
 #include "package/crown.hpp"
+#include "package/manifest.hpp"
 
 namespace farlod {
+
+/// Whether a place is in a cell of the grid.
+[[nodiscard]] inline bool holds(const Grid& grid, Point2d p_grid) {
+  const auto& [low, high] = grid.rectangle();
+  return low.x <= p_grid.x && p_grid.x < high.x && low.y <= p_grid.y && p_grid.y < high.y;
+}
 
 /// The crowns of a city. Each belongs to the cell of the grid in which its axis lies, and is kept in the frame of that cell, as
 /// it will be stored. A city has millions of crowns: they take 32 bytes each, on disk where there are many.
@@ -44,5 +53,9 @@ class CrownsOfCity {
   std::uint64_t outside_ = 0;
   bool is_in_order_ = true;
 };
+
+/// Writes `crowns.bin` into the folder of a package, and returns what the manifest says of it (Manifest::canopy). Where there is
+/// no crown, it returns nothing, and there is no file. Throws OutputError.
+[[nodiscard]] std::optional<package::CanopyFile> write_canopy(const std::filesystem::path& folder, CrownsOfCity& crowns);
 
 }  // namespace farlod

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "farlod/error.hpp"
@@ -13,6 +14,10 @@
 #include "package/tile_set.hpp"
 
 namespace farlod {
+
+/// Whether a block's `tiles.bin` holds the same tiles as another one that has no far maps. Far maps are not compared: neither the
+/// sections of the kind `horizon`, nor the fields of a cell of the kind `box`.
+[[nodiscard]] bool same_tiles(std::span<const std::byte> file, std::span<const std::byte> file_without_maps);
 
 /// How much of a new manifest is known.
 enum class Known {

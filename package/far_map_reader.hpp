@@ -2,15 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "base/grid.hpp"
-#include "package/box_map.hpp"
-#include "package/far_horizon.hpp"
+#include "package/far_map.hpp"
 #include "package/manifest.hpp"
 #include "package/package_folder.hpp"
 

@@ -11,7 +11,6 @@
 #include "base/expects.hpp"
 #include "package/far_map_reader.hpp"
 #include "package/layout.hpp"
-#include "package/package_error.hpp"
 
 // Reads with OpenEXR's core library (in C): it takes a third of the time of the C++ classes for a tile, and any number of threads
 // may read one file at once.

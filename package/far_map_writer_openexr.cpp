@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "base/expects.hpp"
-#include "package/far_map_writer.hpp"
 #include "package/layout.hpp"
+#include "package/package_writer.hpp"
 
 namespace farlod {
 namespace {

@@ -8,7 +8,6 @@
 #include <span>
 
 #include "package/manifest.hpp"
-#include "package/mapped_file.hpp"
 #include "package/package_folder.hpp"
 
 namespace farlod {
@@ -31,5 +30,14 @@ struct FileIdentity {
 
 /// Throws PackageDamaged where a file of an open package is not what it was when it was opened.
 void require_unchanged(const PackageFile& file, const FileIdentity& opened);
+
+[[nodiscard]] package::FileStamp stamp_of(std::span<const std::byte> bytes);
+/// Reads the file piece by piece. Throws InputError when it cannot be read.
+[[nodiscard]] package::FileStamp stamp_of(const std::filesystem::path& path);
+
+/// Whether the files of a block are those that were written.
+[[nodiscard]] bool are_whole(const std::filesystem::path& package, const package::BlockFiles& files);
+/// Whether its files besides the blocks are whole: crowns, and the places that surfaces come from.
+[[nodiscard]] bool are_others_whole(const std::filesystem::path& package, const package::Manifest& manifest);
 
 }  // namespace farlod

@@ -4,22 +4,79 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/grid.hpp"
 #include "farlod/angle.hpp"
 #include "farlod/box.hpp"
+#include "farlod/package.hpp"
 #include "farlod/point.hpp"
-#include "package/cell_runs.hpp"
 #include "package/crown.hpp"
 #include "package/layout.hpp"
+#include "package/package_folder.hpp"
 
 namespace farlod::package {
+
+/// Consecutive cells of a block, by their places in CellRange::index_of; half open.
+struct CellRun {
+  std::uint32_t begin = 0, end = 0;
+  bool operator==(const CellRun&) const = default;
+};
+
+/// Some of a block's cells. The runs ascend, and are neither empty nor adjacent, so that a set of cells has one form.
+struct CellRuns {
+  std::vector<CellRun> runs;
+  bool operator==(const CellRuns&) const = default;
+
+  /// The runs of places that ascend.
+  [[nodiscard]] static CellRuns of(std::span<const std::size_t> places) {
+    CellRuns result;
+    for (const std::size_t place : places) {
+      const auto n = static_cast<std::uint32_t>(place);
+      if (!result.runs.empty() && result.runs.back().end == n) {
+        ++result.runs.back().end;
+      } else {
+        result.runs.push_back({n, n + 1});
+      }
+    }
+    return result;
+  }
+  [[nodiscard]] std::size_t size() const {
+    std::size_t count = 0;
+    for (const CellRun& run : runs) count += run.end - run.begin;
+    return count;
+  }
+  [[nodiscard]] bool contains(std::size_t place) const {
+    const auto after =
+        std::upper_bound(runs.begin(), runs.end(), place, [](std::size_t p, const CellRun& r) { return p < r.begin; });
+    return after != runs.begin() && place < (after - 1)->end;
+  }
+  /// How many of the cells come before a place.
+  [[nodiscard]] std::size_t count_before(std::size_t place) const {
+    std::size_t count = 0;
+    for (const CellRun& run : runs) {
+      if (place <= run.begin) break;
+      count += std::min<std::size_t>(place, run.end) - run.begin;
+    }
+    return count;
+  }
+  [[nodiscard]] std::vector<std::size_t> places() const {
+    std::vector<std::size_t> result;
+    for (const CellRun& run : runs)
+      for (std::size_t place = run.begin; place < run.end; ++place) result.push_back(place);
+    return result;
+  }
+};
 
 /// Size and XXH3-64 checksum of a file, as found when it was written.
 struct FileStamp {
@@ -145,5 +202,87 @@ struct Manifest {
     return grid.rotation.grid_from_city(p_projected - origin_m);
   }
 };
+
+}  // namespace farlod::package
+
+namespace farlod {
+
+/// Of a cell that a package can speak of: beyond it, multiples of the cell edge are no longer exact (exact_cell_edge_m).
+inline constexpr std::int32_t farthest_cell_index = std::int32_t{1} << 29;
+
+/// XXH3-64 with seed 0: what a manifest says at its end of the text before (package::ManifestSeal).
+[[nodiscard]] std::uint64_t checksum_of_manifest(std::string_view sealed);
+
+/// Checks the text of a manifest; `name` is for messages. What it takes in memory is at most 64 times the text.
+/// Throws PackageUnusable (another version of the format) or PackageDamaged (its checksum is not that of its text, a key is
+/// missing or impossible).
+[[nodiscard]] package::Manifest manifest_from_text(std::string_view text, const std::string& name);
+
+/// Reads and checks `manifest.json` of a package's folder.
+/// Throws PackageUnusable (no package there, another version of the format) or PackageDamaged.
+[[nodiscard]] package::Manifest read_manifest(const PackageFolder& package_folder);
+[[nodiscard]] package::Manifest read_manifest(const std::filesystem::path& package_folder);
+
+/// The text of `manifest.json`, in the version of the format that its contents need, with its checksum at the end.
+/// docs/package_format.md lists the keys.
+[[nodiscard]] std::string manifest_text(const package::Manifest& manifest);
+
+}  // namespace farlod
+
+namespace farlod::package {
+
+/// The end of a manifest that has a checksum of itself: the key `xxh3`, the last one of the manifest, in exactly these bytes. It
+/// is the same in each version of the format that has one, so that damage is told from another version.
+struct ManifestSeal {
+  static constexpr std::string_view before_digits = "\"xxh3\": \"", after_digits = "\"\n}\n";
+  static constexpr std::size_t digits = 16;
+  static constexpr std::size_t bytes = before_digits.size() + digits + after_digits.size();
+
+  std::string_view sealed;     ///< all bytes of the manifest before the seal
+  std::uint64_t checksum = 0;  ///< their XXH3-64 with seed 0
+
+  /// The seal of a manifest; none where its last bytes are not one. Digits are lower case, so that no bit can change unnoticed.
+  [[nodiscard]] static std::optional<ManifestSeal> of(std::string_view manifest) {
+    if (manifest.size() < bytes) return std::nullopt;
+    const std::string_view end = manifest.substr(manifest.size() - bytes);
+    const std::string_view number = end.substr(before_digits.size(), digits);
+    const bool is_seal = end.starts_with(before_digits) && end.ends_with(after_digits) &&
+                         number.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+    if (!is_seal) return std::nullopt;
+    ManifestSeal seal{manifest.substr(0, manifest.size() - bytes), 0};
+    std::from_chars(number.data(), number.data() + number.size(), seal.checksum, 16);
+    return seal;
+  }
+
+  /// The bytes that end a manifest whose other bytes have this checksum.
+  [[nodiscard]] static std::string text_of(std::uint64_t checksum) {
+    std::string number(digits, '0');
+    for (std::size_t n = digits; n > 0; --n, checksum >>= 4U) number[n - 1] = "0123456789abcdef"[checksum & 15U];
+    return std::string(before_digits) + number + std::string(after_digits);
+  }
+};
+
+/// What users are told of a package.
+[[nodiscard]] inline PackageDescription described(const Manifest& m) {
+  PackageDescription d;
+  d.software = m.software;
+  d.crs_wkt = m.crs_wkt;
+  d.crs_name = m.crs_name;
+  d.epsg = m.epsg;
+  d.outline_projected = m.projected_outline(m.grid.rectangle());
+  d.grid_bearing = m.grid.rotation.bearing();
+  d.convergence = m.convergence;
+  d.cell_edge_m = m.grid.cell_edge_m;
+  d.neighborhood = m.grid.neighborhood;
+  d.columns = m.grid.cells.width();
+  d.rows = m.grid.cells.height();
+  d.far_map_kind = m.far_map.kind;
+  d.cells_with_far_map = m.cells_with_far_map();
+  d.buildings = m.buildings;
+  d.polygons = m.polygons;
+  d.triangles = m.triangles;
+  d.manifest_xxh3 = m.file_xxh3;
+  return d;
+}
 
 }  // namespace farlod::package

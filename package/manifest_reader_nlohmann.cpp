@@ -13,9 +13,8 @@
 #include <utility>
 
 #include "package/layout.hpp"
-#include "package/manifest_reader.hpp"
-#include "package/manifest_seal.hpp"
-#include "package/package_error.hpp"
+#include "package/manifest.hpp"
+#include "package/package_folder.hpp"
 
 namespace farlod {
 namespace {

@@ -7,10 +7,9 @@
 #include <string_view>
 
 #include "base/expects.hpp"
+#include "package/file_stamp.hpp"
 #include "package/layout.hpp"
-#include "package/manifest_seal.hpp"
-#include "package/manifest_writer.hpp"
-#include "package/written_stamp.hpp"
+#include "package/manifest.hpp"
 
 namespace farlod {
 namespace {

@@ -8,8 +8,7 @@
 #include <filesystem>
 #include <new>
 
-#include "package/mapped_file.hpp"
-#include "package/package_error.hpp"
+#include "package/package_folder.hpp"
 
 namespace farlod {
 

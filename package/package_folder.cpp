@@ -5,27 +5,17 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <filesystem>
-#include <iterator>
 #include <optional>
-#include <string>
-#include <system_error>
 
 #include "base/file_lock.hpp"
-#include "farlod/error.hpp"
-#include "package/layout.hpp"
 
 namespace farlod {
+namespace fs = std::filesystem;
 namespace {
 
 /// Throws PackageDamaged where a name within the folder of a package is anything but a file, or a folder on the way to it is
 /// anything but a folder: a link, which may lead out of the package; a pipe or a device, which a reader could wait for without an
 /// end. The folder itself may be a link; `shown` is what messages call it. A file that is missing is for its reader to tell.
-void require_plain_file(const std::filesystem::path& folder, const std::filesystem::path& name,
-                        const std::filesystem::path& shown);
-
-namespace fs = std::filesystem;
-
 void require_plain_file(const fs::path& folder, const fs::path& name, const fs::path& shown) {
   fs::path path = folder, shown_path = shown;
   for (auto part = name.begin(); part != name.end(); ++part) {

@@ -5,20 +5,46 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
+#include <list>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "package/block_tiles.hpp"
 #include "package/crowns_file.hpp"
-#include "package/far_horizon.hpp"
+#include "package/far_map.hpp"
 #include "package/far_map_reader.hpp"
 #include "package/manifest.hpp"
 #include "package/package_folder.hpp"
 
 namespace farlod {
+
+/// Decides which items stay in memory when not all of them fit: the least recently used are evicted. It only counts; the caller
+/// loads and releases the items.
+///   (1) the items that are kept hold no more bytes than the limit together, unless it is a single item
+///   (2) the item that was used last is kept
+class LruCache {
+ public:
+  /// Without a call there is no limit. What is too much now is evicted with the next use.
+  void keep_at_most(std::uint64_t bytes) { limit_bytes_ = bytes; }
+  /// An item is used, and is kept from now on. Returns the items that are evicted for it, the longest unused first.
+  [[nodiscard]] std::vector<std::size_t> use(std::size_t item, std::uint64_t bytes);
+
+ private:
+  struct Kept {
+    std::size_t item;
+    std::uint64_t bytes;
+  };
+  std::uint64_t limit_bytes_ = std::numeric_limits<std::uint64_t>::max(), bytes_ = 0;
+  std::list<Kept> by_use_;  ///< the last used first
+  std::unordered_map<std::size_t, std::list<Kept>::iterator> entries_;
+};
 
 /// A package that is not on disk: farlod-pack tries far maps out before it writes any.
 struct PackageInMemory {
@@ -82,6 +108,52 @@ class PackageReader {
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+};
+
+/// Something in the files of a block that is not what it should be.
+struct BlockDamage {
+  std::filesystem::path file;
+  std::optional<Cell> cell;  ///< where a single cell is concerned
+  std::string what;
+};
+
+/// The files of one block, opened to be checked and for nothing else: what is wrong with one of them does not keep the other from
+/// being read.
+class BlockCheck {
+ public:
+  /// Compares the files of the n-th block with their checksums, checks the tiles, and opens the far maps. Folder and manifest
+  /// must outlive it.
+  BlockCheck(const PackageFolder& folder, const package::Manifest& manifest, std::size_t n);
+
+  /// What was wrong so far.
+  [[nodiscard]] const std::vector<BlockDamage>& damage() const { return damage_; }
+  /// Triangles and cells of the tiles; none where these cannot be read.
+  [[nodiscard]] std::optional<std::uint64_t> triangles() const;
+  [[nodiscard]] std::int64_t cell_count() const { return cells_.size(); }
+  /// The cells whose far maps can be asked for. None when their file cannot be opened.
+  [[nodiscard]] const std::vector<Cell>& mapped_cells() const { return mapped_cells_; }
+  /// Decodes the far map of one of them. May be asked by many threads.
+  [[nodiscard]] std::optional<BlockDamage> check_far_map(Cell cell) const;
+
+ private:
+  /// Calls `work`, and keeps what it says of a damage. Returns whether there was none.
+  template <class Work>
+  bool succeeds(const PackageFile& file, const Work& work);
+  void open_tiles();
+  void open_far_maps();
+  void read_far_map(Cell cell) const;
+
+  const package::Manifest& manifest_;
+  const package::BlockFiles& files_;
+  CellRange cells_;
+  const PackageFolder& folder_;
+  std::filesystem::path tiles_name_, far_map_name_;  ///< within the folder
+  PackageFile tiles_file_, far_map_file_;
+  std::vector<BlockDamage> damage_;
+  std::optional<MappedFile> tiles_bytes_;
+  std::optional<BlockTiles> tiles_;
+  std::optional<FarMapReader> far_maps_;
+  std::vector<Cell> mapped_cells_;
 };
 
 }  // namespace farlod

@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "package/sources_file.hpp"
 
-#include <optional>
 #include <utility>
 
 #include "farlod/error.hpp"
 #include "package/file_stamp.hpp"
-#include "package/package_error.hpp"
 
 namespace farlod {
 
@@ -77,10 +75,6 @@ BuildingOrigin SourcesFile::origin_of(std::size_t building) const {
   std::optional<BuildingOrigin> origin = package::origin_from(buildings_[building].bytes);
   require(origin.has_value(), "it has changed since it was opened");
   return std::move(*origin);
-}
-
-void SourcesFile::require(bool rule, const char* what) const {
-  if (!rule) throw PackageDamaged(name_ + " is damaged: " + what + ". Pack the city again.");
 }
 
 }  // namespace farlod

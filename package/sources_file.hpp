@@ -4,15 +4,17 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "farlod/city_sources.hpp"
 #include "package/manifest.hpp"
-#include "package/mapped_file.hpp"
 #include "package/package_folder.hpp"
 #include "package/sources_layout.hpp"
+#include "package/tile_set.hpp"
 
 namespace farlod {
 
@@ -44,12 +46,24 @@ class SourcesFile {
   void read_building(package::SourcesCursor& cursor);
   [[nodiscard]] BuildingOrigin origin_of(std::size_t building) const;
   void check(const BuildingOrigin& origin, const PackedCityFile& file) const;
-  void require(bool rule, const char* what) const;
+  void require(bool rule, const char* what) const { require_whole(rule, name_, what); }
 
   std::string name_;
   MappedFile mapped_;
   std::vector<PackedCityFile> files_;
   std::vector<Row> buildings_;
 };
+
+/// A city file of a package into which attributes can be inserted.
+struct SourceOfPackage {
+  std::uint32_t input = 0;  ///< in Manifest::inputs
+  package::CityFileFormat format = package::CityFileFormat::citygml;
+  std::vector<package::AttributeForm> forms;
+};
+
+/// Writes `sources.bin` into the folder of a package, which is made where there is none. `files`: as LocatedCity::sources; empty
+/// where attributes have no places. Returns its stamp; nothing where no file has places. Throws OutputError.
+[[nodiscard]] std::optional<package::FileStamp> write_sources(const std::filesystem::path& folder, const TileSources& sources,
+                                                              std::span<const std::optional<SourceOfPackage>> files);
 
 }  // namespace farlod

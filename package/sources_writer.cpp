@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "package/sources_writer.hpp"
+#include "package/sources_file.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -8,8 +8,8 @@
 
 #include "base/durable_file.hpp"
 #include "farlod/error.hpp"
-#include "package/package_files.hpp"
-#include "package/written_stamp.hpp"
+#include "package/file_stamp.hpp"
+#include "package/package_folder.hpp"
 
 namespace farlod {
 namespace {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "package/tile_set.hpp"
 
-#include <algorithm>
-
 namespace farlod {
 
 void Tile::add_polygon(const std::vector<Point3f>& polygon, std::uint32_t surface) {

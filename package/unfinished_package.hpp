@@ -3,17 +3,49 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/file_lock.hpp"
 #include "package/manifest.hpp"
-#include "package/package_origin.hpp"
 
 namespace farlod {
+
+/// From what a package is made: whatever decides its bytes. Two runs of the same origin make the same package.
+struct PackageOrigin {
+  struct Input {
+    std::string name;
+    package::FileStamp stamp;
+    /// What comes through a pipe has no stamp before it was read: it is another one each time.
+    bool is_known = true;
+    bool is_beside = false;  ///< read together with an input, and not one itself
+    // Where the file was, and when it was last written: who finds it the same need not read it. Not compared.
+    std::string path = {};
+    std::int64_t written_ns = 0;
+  };
+
+  std::string software;
+  std::vector<Input> inputs;
+  /// Options that were given, and their values, in a fixed order.
+  std::vector<std::pair<std::string, std::string>> settings;
+};
+
+/// The first difference, for people: "the input town.gml has changed", "--cell was 150, and is 100"; empty if there is none.
+[[nodiscard]] std::string difference(const PackageOrigin& was, const PackageOrigin& is);
+
+// What an unfinished package notes down for the process that goes on with it. A text that is none of these gives nothing: what it
+// says is made anew.
+
+[[nodiscard]] std::string record_text(const PackageOrigin& origin);
+[[nodiscard]] std::optional<PackageOrigin> origin_from(const std::string& text);
+
+[[nodiscard]] std::string record_text(const package::BlockFiles& files);
+[[nodiscard]] std::optional<package::BlockFiles> block_files_from(const std::string& text);
 
 /// The folder in which a package is made, NAME.farlod.unfinished beside NAME.farlod. A package has its name when it is whole, and
 /// never changes from then on. What is finished of it outlives the process that made it, however that ends, so that another one

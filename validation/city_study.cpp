@@ -9,11 +9,8 @@
 #include <cstdio>
 #include <map>
 #include <random>
-#include <span>
 
-#include "evaluate/verification.hpp"
 #include "tests/scenes/surface_count.hpp"
-#include "validation/site_package.hpp"
 
 namespace farlod::validation {
 namespace {

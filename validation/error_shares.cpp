@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "validation/site_package.hpp"
+#include "validation/studied_city.hpp"
 
 namespace farlod::validation {
 namespace {

@@ -6,12 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
-#include "console/wrapped_document.hpp"
 #include "evaluate/error_budget.hpp"
-#include "validation/site_package.hpp"
+#include "validation/studied_city.hpp"
+#include "validation/wrapped_document.hpp"
 
 namespace farlod::validation {
 namespace {

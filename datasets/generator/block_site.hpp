@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "farlod/box.hpp"
-#include "generator/building_plan.hpp"
+#include "generator/generated_building.hpp"
 #include "generator/keyed_random.hpp"
 
 namespace farlod {

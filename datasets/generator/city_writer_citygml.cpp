@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "farlod/point.hpp"
-#include "generator/city_text_file.hpp"
 #include "generator/city_writer.hpp"
 
 namespace farlod {

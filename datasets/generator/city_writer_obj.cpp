@@ -4,7 +4,6 @@
 
 #include <iterator>
 
-#include "generator/city_text_file.hpp"
 #include "generator/city_writer.hpp"
 #include "generator/convex_faces.hpp"
 

@@ -7,19 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "farlod/error.hpp"
-#include "generator/building_plan.hpp"
+#include "generator/building_details.hpp"
 #include "generator/building_solid.hpp"
-#include "generator/city_layout.hpp"
-#include "generator/facade_openings.hpp"
 #include "generator/keyed_random.hpp"
-#include "generator/open_shells.hpp"
 #include "generator/plan_solid.hpp"
-#include "generator/roof_installations.hpp"
-#include "generator/solid_builder.hpp"
-#include "generator/touching_walls.hpp"
 
 namespace farlod {
 namespace {

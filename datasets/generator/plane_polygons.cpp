@@ -3,7 +3,6 @@
 #include "generator/plane_polygons.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/expects.hpp"

@@ -14,10 +14,7 @@
 #include <vector>
 
 #include "app/pack_options.hpp"
-#include "app/pack_summary.hpp"
-#include "console/interruption.hpp"
-#include "console/output_files.hpp"
-#include "console/rough_number.hpp"
+#include "console/progress.hpp"
 #include "console/run_program.hpp"
 #include "farlod/error.hpp"
 #include "farlod/pack.hpp"
@@ -26,8 +23,6 @@ namespace farlod {
 namespace {
 
 /// What is told before the long work: a line, rounded to what an estimate can know.
-[[nodiscard]] std::string estimate_text(const PackEstimate& estimate);
-
 std::string estimate_text(const PackEstimate& e) {
   const std::string far_maps = e.far_maps < e.cells ? ", far maps to make for " + with_commas(e.far_maps) : "";
   return fmt::format("{} cells{}: about {} from here on, {} of memory, and a package of {}", with_commas(e.cells), far_maps,

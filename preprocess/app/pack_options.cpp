@@ -8,10 +8,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
 #include <vector>
 
-#include "console/number_range.hpp"
 #include "console/option_list.hpp"
 #include "console/shard_text.hpp"
 #include "farlod/error.hpp"

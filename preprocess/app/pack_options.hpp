@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "console/program_description.hpp"
 #include "console/run_options.hpp"
 #include "farlod/pack.hpp"
+#include "farlod/problem.hpp"
 
 namespace farlod {
 
@@ -29,5 +29,14 @@ struct ParsedPackOptions {
 
 /// Hands over the command line, from which the manual page and the completion are made.
 void describe_pack_options(const CommandLineVisitor& visit);
+
+/// The text of `--summary`, with RunOptions::settings_json.
+[[nodiscard]] std::string pack_summary_json(const PackResult& result, const Report& report, double total_seconds,
+                                            const std::string& settings_json);
+/// The text of `--report`: every problem, one entry each.
+[[nodiscard]] std::string report_json(const Report& report);
+/// The same as a FeatureCollection (RFC 7946): points in WGS 84, properties as in report_json; no geometry where no place is
+/// known.
+[[nodiscard]] std::string report_geojson(const Report& report);
 
 }  // namespace farlod

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <nlohmann/json.hpp>
 
-#include "app/pack_summary.hpp"
-#include "console/peak_memory.hpp"
+#include "app/pack_options.hpp"
+#include "console/run_program.hpp"
 
 namespace farlod {
 namespace {

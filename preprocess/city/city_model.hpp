@@ -4,14 +4,19 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/expects.hpp"
 #include "base/paging/paged_array.hpp"
+#include "farlod/angle.hpp"
+#include "farlod/pack.hpp"
 #include "farlod/point.hpp"
 #include "farlod/surface_kind.hpp"
+#include "package/sources_layout.hpp"
 
 namespace farlod {
 
@@ -107,6 +112,76 @@ class CityModel {
   PagedArray<std::uint64_t> ring_end_;  ///< one past the last point of each ring
   PagedArray<Point3d> points_;
   PagedArray<std::uint8_t> origins_;  ///< one building after the other
+};
+
+/// What a file says of its coordinate reference system.
+struct SourceCrs {
+  /// "EPSG:n", a URN, a URL, an AdV name or WKT, as found in the file; empty when the file does not say.
+  std::string definition;
+  /// x is the longitude whatever the definition's axis order says (GeoJSON, and all that GDAL hands out).
+  bool longitude_first = false;
+  /// z is in metres whatever the horizontal unit is (heights taken from an attribute).
+  bool heights_in_metres = false;
+};
+
+/// A city file into whose text attributes can be inserted: CityModel::origin_of has the places.
+struct PlacedFile {
+  std::filesystem::path path;
+  package::CityFileFormat format = package::CityFileFormat::citygml;
+  std::vector<package::AttributeForm> forms;
+};
+
+/// One input file, read: coordinates are still those of the file.
+struct SourceCity {
+  std::string source;  ///< the file's name as the user gave it
+  SourceCrs crs;
+  CityModel city;
+  std::vector<Point3d> relief_points = {};  ///< corners of the triangles that the file gives as terrain; may repeat
+  SkippedFeatures skipped = {};
+  std::vector<std::string> notes = {};  ///< for the user: what was taken from elsewhere, or guessed
+  std::optional<PlacedFile> placed = {};
+};
+
+/// Where the city frame lies on the Earth.
+struct Georeference {
+  std::string crs_wkt;      ///< the output CRS: projected, in metres
+  std::optional<int> epsg;  ///< its code, where it has one
+  std::string crs_name;     ///< for people
+  Point2d origin_m;         ///< easting and northing of the city frame's origin
+  /// Meridian convergence γ at the origin: true azimuth = grid azimuth + γ.
+  Angle convergence;
+};
+
+/// A city in the city frame: metres, x along the output CRS's easting, y along its northing, minus the origin.
+struct LocatedCity {
+  CityModel city;
+  Georeference georeference;
+  std::vector<std::string> sources = {};               ///< names of the files, for messages
+  std::vector<Point3d> relief_points = {};             ///< points of the ground that the files give as terrain
+  std::vector<std::optional<PlacedFile>> placed = {};  ///< of the sources: empty where attributes have no places
+};
+
+/// No building is higher: the highest has 828 m.
+inline constexpr double highest_building_m = 1000.0;
+/// The highest building on the highest mountain (8,849 m); and below the deepest shore (-430 m).
+inline constexpr double highest_elevation_m = 9850.0, lowest_elevation_m = -500.0;
+
+/// The length of a degree of latitude, to three digits.
+inline constexpr double metres_in_a_degree = 111e3;
+
+/// Heights of the ground at the nodes of a regular net in the city frame (not turned: a terrain in another CRS is
+/// resampled on reading). Node (column, row) lies at first + (column, row)·step; rows go north.
+struct TerrainRaster {
+  Point2d first;  ///< the south-west node, city frame
+  Point2d step_m{1.0, 1.0};
+  std::size_t columns = 0, rows = 0;
+  std::vector<std::optional<float>> height_m;  ///< row by row from the south; empty where the raster has no data
+
+  [[nodiscard]] Point2d node(std::size_t column, std::size_t row) const {
+    return {first.x + static_cast<double>(column) * step_m.x, first.y + static_cast<double>(row) * step_m.y};
+  }
+  /// Bilinear height; empty outside or where a node around it has no data.
+  [[nodiscard]] std::optional<double> height_at(Point2d p_city) const;
 };
 
 }  // namespace farlod

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "farmap/city_horizon.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 

@@ -3,11 +3,10 @@
 #include "farmap/edge_over_square.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
-#include "package/edge_view.hpp"
+#include "package/horizon_edge.hpp"
 
 namespace farlod {
 namespace {

@@ -5,7 +5,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -13,12 +12,8 @@
 
 #include "base/cancellation.hpp"
 #include "base/expects.hpp"
-#include "farmap/bin_borders.hpp"
-#include "farmap/city_horizon.hpp"
 #include "farmap/edge_over_square.hpp"
 #include "farmap/occlusion_culler.hpp"
-#include "farmap/viewpoint_horizons.hpp"
-#include "package/baked_block.hpp"
 
 namespace farlod {
 namespace {

@@ -2,17 +2,42 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <stop_token>
 
 #include "base/grid.hpp"
+#include "farlod/pack.hpp"
 #include "farmap/bin_borders.hpp"
 #include "farmap/city_horizon.hpp"
-#include "farmap/far_map_settings.hpp"
-#include "package/baked_block.hpp"
+#include "package/far_map.hpp"
 #include "package/tile_set.hpp"
 
 namespace farlod {
+
+/// Settings of the kind `box`.
+struct BoxMapSettings {
+  std::uint32_t side_columns = 64;
+  std::uint32_t rows = 64;
+  double capture_height_m = 1.5;  ///< above the ground at the cell's centre, where most receivers will stand
+};
+
+/// Settings of the kind `horizon`.
+struct HorizonMapSettings {
+  std::uint32_t azimuth_bins = 256;
+  std::uint32_t squares_per_edge = 1;  ///< 1 to 4
+  std::uint32_t layers = 8;            ///< 2 to package::most_layers
+  /// An occluder is explicit where it may rise by more than this (sine of the elevation) over what hides the sky anyway.
+  double tolerance = 0.05;
+  /// A hidden occluder is weak, and counts for the estimate, where it may rise by more than this share of the tolerance.
+  double weak_share = 0.6;
+};
+
+struct FarMapSettings {
+  FarMapKind kind = FarMapKind::horizon;
+  BoxMapSettings box;
+  HorizonMapSettings horizon;
+};
 
 /// Bakes far maps without parallax: occluders that shift against the horizon behind them within a patch are explicit, so that the
 /// runtime draws them from where each receiver stands; the residual city is bounded. docs/stages/farmap.md.

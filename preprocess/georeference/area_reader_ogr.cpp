@@ -6,13 +6,10 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <system_error>
-#include <vector>
 
 #include "base/expects.hpp"
-#include "base/lower_case.hpp"
 #include "base/point_columns.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
@@ -28,13 +25,8 @@ namespace {
   throw InputError(file.string() + what + " (" + messages.last() + ").");
 }
 
-bool is_table(const std::filesystem::path& file) {
-  const std::string ending = lower_case(file.extension().string());
-  return ending == ".csv" || ending == ".tsv" || ending == ".txt";
-}
-
 GDALDatasetUniquePtr open(const std::filesystem::path& file, GdalErrors& messages) {
-  GDALDatasetUniquePtr dataset = is_table(file) ? open_table(file) : open_vector_file(file);
+  GDALDatasetUniquePtr dataset = open_vector_file_or_table(file);
   if (!dataset)
     fail(file, " cannot be read as an area: give X0,Y0,X1,Y1, a vector file that GDAL reads, or a table of points", messages);
   return dataset;
@@ -102,8 +94,7 @@ bool has_header(const OGRFeatureDefn& fields) {
 Area points_of(OGRLayer& table, const std::filesystem::path& file) {
   const OGRFeatureDefn& fields = *table.GetLayerDefn();
   const auto refuse = [&](const std::string& what) { throw InputError(file.string() + ": " + what); };
-  std::vector<std::string> names;
-  for (int n = 0; n < fields.GetFieldCount(); ++n) names.emplace_back(fields.GetFieldDefn(n)->GetNameRef());
+  const std::vector<std::string> names = field_names(table);
   std::optional<std::size_t> x = 0, y = 1;
   if (has_header(fields)) {
     x = point_columns::find_column(names, point_columns::x_names, refuse);

@@ -10,9 +10,39 @@
 
 #include "farlod/angle.hpp"
 #include "farlod/point.hpp"
-#include "georeference/utm_projection.hpp"
 
 namespace farlod::georeference {
+
+struct Ellipsoid {
+  double semi_major_m = 0.0;
+  double inverse_flattening = 0.0;  ///< 0 for a sphere
+};
+
+struct UtmZone {
+  int number = 0;  ///< 1 to 60
+  bool north = true;
+  bool operator==(const UtmZone&) const = default;
+};
+
+/// The UTM zone of a place, with the exceptions of Norway and Svalbard; near the poles, the zone of its longitude.
+[[nodiscard]] UtmZone utm_zone_of(Point2d lon_lat_deg);
+
+/// UTM on the ellipsoid of the datum of the coordinates, without a datum shift.
+///   (1) accurate to nanometres within the zone and its neighbors (Karney 2011, series of order 6)
+///   (2) a point that is not finite, or more than 500 km from the meridian of the zone, where UTM ends, has no projection
+class UtmProjection {
+ public:
+  UtmProjection(UtmZone zone, Ellipsoid ellipsoid) : zone_(zone), ellipsoid_(ellipsoid) {}
+
+  [[nodiscard]] std::optional<Point2d> projected(Point2d lon_lat_deg) const;
+  [[nodiscard]] Point2d lon_lat_deg(Point2d p_projected) const;
+  /// Meridian convergence γ: true azimuth = grid azimuth + γ.
+  [[nodiscard]] Angle convergence_at(Point2d p_projected) const;
+
+ private:
+  UtmZone zone_;
+  Ellipsoid ellipsoid_;
+};
 
 /// The area of use of a CRS. West is greater than east if it contains the antimeridian.
 struct AreaOfUse {
@@ -116,5 +146,13 @@ class CrsTransformation {
   struct Impl;
   std::shared_ptr<const Impl> impl_;
 };
+
+/// The entry of PROJ's registers with a name such as "ETRS89 / UTM zone 32N" or "Amersfoort / RD New + NAP height", as "EPSG:n"
+/// or "EPSG:n+m". These names are found:
+///   (1) names and aliases of the register, in upper or lower case
+///   (2) the same letters and digits with other characters between them ("ETRS89_UTM_zone_32N", "WGS84 UTM 32N")
+///   (3) a name without its datum ("RD New"), if only one name of the register ends with it
+/// Empty when no entry has the name, or more than one.
+[[nodiscard]] std::optional<std::string> code_of_crs_name(const std::string& name);
 
 }  // namespace farlod::georeference

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "georeference/crs_name.hpp"
+#include "georeference/crs.hpp"
 
 namespace farlod::georeference {
 namespace {

@@ -4,7 +4,6 @@
 // Builds CRSs from parts; needs proj.h before it
 #include <proj_experimental.h>
 
-#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <numbers>

@@ -5,19 +5,204 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
-#include <span>
-#include <sstream>
-#include <string>
-#include <utility>
+#include <limits>
 #include <vector>
 
-#include "georeference/crs.hpp"
-#include "georeference/crs_area.hpp"
-#include "georeference/source_coordinates.hpp"
+#include "base/expects.hpp"
+#include "farlod/box.hpp"
+#include "farlod/error.hpp"
 
 namespace farlod::georeference {
 namespace {
+
+/// Larger than all coordinates of maps of the Earth, including eastings that begin with a zone number.
+constexpr double beyond_all_maps_m = 1e8;
+
+void project_to_utm(std::span<Point3d> points, const UtmProjection& utm) {
+  for (Point3d& p : points) {
+    constexpr double nowhere = std::numeric_limits<double>::infinity();
+    const Point2d there = utm.projected(horizontal(p)).value_or(Point2d{nowhere, nowhere});
+    p = {there.x, there.y, p.z};
+  }
+}
+
+}  // namespace
+
+Projection make_projection(const Crs& from, const Crs& to, Point2d typical) {
+  // Coordinates in the output CRS stay the same, to the last bit
+  if (from.equals(to)) return [](std::span<Point3d>) {};
+  // Between two units of the same projection, coordinates differ by a factor
+  if (from.is_projected() && from.unit() != 1.0 && from.counted_in(metre).equals(to))
+    return [unit_m = from.unit()](std::span<Point3d> points) {
+      for (Point3d& p : points) p = {unit_m * p.x, unit_m * p.y, p.z};
+    };
+  // UTM on the same datum is a formula without a datum shift
+  if (const auto zone = to.utm_zone(); zone && from.is_in_degrees_from_greenwich() && to.geographic().equals(from))
+    return [utm = UtmProjection(*zone, to.ellipsoid())](std::span<Point3d> points) { project_to_utm(points, utm); };
+  return [way = CrsTransformation(from, to, typical)](std::span<Point3d> points) { way.apply(points); };
+}
+
+bool is_on_a_map(const Point3d& p) { return std::abs(p.x) < beyond_all_maps_m && std::abs(p.y) < beyond_all_maps_m; }
+
+namespace {
+
+bool is_on_earth(Point2d lon_lat_deg) { return std::abs(lon_lat_deg.x) <= 180.0 && std::abs(lon_lat_deg.y) <= 90.0; }
+
+CrsTransformation make_transformation(const Crs& crs, Point2d typical) {
+  const auto wgs84 = Crs::find("EPSG:4326");
+  FARLOD_EXPECTS(wgs84.has_value());
+  return {crs, *wgs84, typical};
+}
+
+}  // namespace
+
+void ProblemLocator::locate(Problem& problem) {
+  if (!problem.position) return;
+  if (!lon_lat_from_crs_) lon_lat_from_crs_ = make_transformation(crs_, typical_);
+  const auto lon_lat_deg = lon_lat_from_crs_->apply(horizontal(axes_.p_map(*problem.position)));
+  if (lon_lat_deg && is_on_earth(*lon_lat_deg)) problem.lon_lat_deg = lon_lat_deg;
+}
+
+namespace {
+
+/// Areas of use are bounding boxes of countries and zones. Towns at a border extend beyond them.
+constexpr double least_margin_deg = 1.0;
+
+/// Whether a place lies in the area of use of a CRS. If the area of a CRS in degrees is not known: whether it lies on the Earth.
+bool lies_in_area_of_use(const Crs& crs, Point2d p) {
+  const auto place = crs.lon_lat_deg(p);
+  const auto area = crs.area_of_use();
+  return place && (area ? area->contains(*place) : !crs.is_projected());
+}
+
+/// Whether the CRS may be used at a place: the area of use is not known, or is at most 1° away. If the CRS has zones, it may be
+/// one zone away, since some surveys use one zone for a whole country.
+bool may_be_used_at(const Crs& crs, Point2d p) {
+  const auto area = crs.area_of_use();
+  if (!area && crs.is_projected()) return true;
+  const auto place = crs.lon_lat_deg(p);
+  const double lon_margin_deg = std::max(least_margin_deg, crs.zone_width_deg());
+  return place && (!area || area->contains(*place, lon_margin_deg, least_margin_deg));
+}
+
+/// Tells metres and feet from degrees: most facets, and the distances between points of a relief, are larger than 5 cm and
+/// smaller than 0.05° (5 km).
+constexpr double between_degrees_and_metres = 0.05;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double larger_side(std::span<const Point3d> points) {
+  Box2d box;
+  for (const Point3d& p : points) box.add(horizontal(p));
+  return std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+}
+
+bool may_be_lon_lat(Point2d p) {
+  return std::abs(p.x) <= 180.0 && std::abs(p.y) <= 180.0 && std::min(std::abs(p.x), std::abs(p.y)) <= 90.0;
+}
+
+/// The typical coordinates of a file, which a few stray buildings do not change. In the units and axes of the file.
+struct TypicalPlace {
+  /// The median, by axis, of the first vertices of the buildings; without buildings, of the points of the relief.
+  Point3d place;
+  std::optional<double> building_extent;  ///< median of the larger side of the bounding rectangles of the buildings
+  /// The median of the larger side of the facets; without facets, of the distances between consecutive points of the relief. It
+  /// tells metres from degrees. Facets are used, since one stray facet can make a building as large as the Earth.
+  std::optional<double> grain;
+};
+
+/// By medians, which a few stray buildings do not change.
+TypicalPlace typical_of_buildings(const CityModel& city) {
+  std::vector<double> x, y, z, extent, grain;
+  city.for_each_building([&](std::size_t, const Building& b) {
+    const auto points = city.points_of(b);
+    if (points.empty()) return;
+    x.push_back(points.front().x);
+    y.push_back(points.front().y);
+    z.push_back(points.front().z);
+    extent.push_back(larger_side(points));
+    for (const Facet& facet : city.facets_of(b)) grain.push_back(larger_side(city.ring(facet, 0)));
+  });
+  return {
+      {median(std::move(x)), median(std::move(y)), median(std::move(z))}, median(std::move(extent)), median(std::move(grain))};
+}
+
+/// By medians of a sample. Most points of a relief follow a neighboring point, since it is written by triangles or rows.
+TypicalPlace typical_of_relief(std::span<const Point3d> points) {
+  constexpr std::size_t enough = 10'000;
+  const std::size_t stride = std::max<std::size_t>(points.size() / enough, 1);
+  std::vector<double> x, y, z, steps;
+  for (std::size_t n = 0; n < points.size(); n += stride) {
+    x.push_back(points[n].x);
+    y.push_back(points[n].y);
+    z.push_back(points[n].z);
+    const double step = n == 0 ? 0.0 : larger_side(points.subspan(n - 1, 2));
+    if (step > 0.0) steps.push_back(step);
+  }
+  const auto grain = steps.empty() ? std::nullopt : std::optional(median(std::move(steps)));
+  return {{median(std::move(x)), median(std::move(y)), median(std::move(z))}, std::nullopt, grain};
+}
+
+AxisOrder other(AxisOrder order) {
+  return order == AxisOrder::easting_first ? AxisOrder::northing_first : AxisOrder::easting_first;
+}
+
+/// The number added to eastings that begin with the number of their UTM zone: 32,356,123. With the number of another zone, they
+/// do not lie in the area of use.
+double zone_before_easting(const Crs& crs) {
+  constexpr double one_zone = 1e6;  // no easting of UTM has as many digits
+  const auto zone = crs.utm_zone();
+  return zone ? zone->number * one_zone : 0.0;
+}
+
+Point2d on_map(const FileAxes& axes, Point2d p_file) { return horizontal(axes.p_map({p_file.x, p_file.y, 0.0})); }
+
+/// The source must have at least one point.
+TypicalPlace typical_place(const SourceCity& source) {
+  if (!source.city.points().empty()) return typical_of_buildings(source.city);
+  FARLOD_EXPECTS(!source.relief_points.empty());
+  return typical_of_relief(source.relief_points);
+}
+
+/// The order of the axes by definition: that of the authority, or easting first if the name or the format requires
+/// `longitude_first`.
+AxisOrder stated_order(const Crs& crs, bool longitude_first) {
+  return crs.northing_first() && !longitude_first ? AxisOrder::northing_first : AxisOrder::easting_first;
+}
+
+/// The axes of the file, without the unit of heights.
+///   (1) degrees are in the stated order; projected coordinates have the easting first, as in CityGML and CityJSON files, even if
+///       the authority has the other order
+///   (2) if the CRS cannot be used at that place, another order or a zone number before the easting is assumed, provided that the
+///       place then lies in the area of use
+FileAxes find_axes(Point2d typical_place, const Crs& crs, bool longitude_first) {
+  const FileAxes usual{crs.is_projected() ? AxisOrder::easting_first : stated_order(crs, longitude_first)};
+  if (may_be_used_at(crs, on_map(usual, typical_place))) return usual;
+  for (const AxisOrder order : {usual.order, other(usual.order)})
+    for (const FileAxes axes : {FileAxes{order}, FileAxes{order, zone_before_easting(crs)}})
+      if (lies_in_area_of_use(crs, on_map(axes, typical_place))) return axes;
+  return usual;
+}
+
+/// Whether the coordinates can be in a CRS: those of a geographic CRS look like degrees, those of a projected one do not.
+bool may_count_in(const TypicalPlace& typical, const Crs& crs) {
+  if (!typical.grain) return true;
+  const bool looks_like_degrees = may_be_lon_lat(horizontal(typical.place)) && *typical.grain < between_degrees_and_metres;
+  return crs.is_projected() == !looks_like_degrees;
+}
+
+/// Throws InputError if the coordinates cannot be in the CRS (may_count_in). `advice` ends the message.
+void check_units(const SourceCity& source, const TypicalPlace& typical, const Crs& crs, const std::string& advice) {
+  if (may_count_in(typical, crs)) return;
+  const std::string end = " (" + place_text(horizontal(typical.place)) + "): " + advice;
+  if (crs.is_projected())
+    throw InputError(source.source + ": its CRS " + crs.name() + " is projected, but its coordinates look like degrees" + end);
+  throw InputError(source.source + ": its CRS " + crs.name() + " counts in degrees, but its coordinates cannot be degrees" + end);
+}
 
 /// The model of a site has its own origin, and no coordinate as large as this.
 constexpr double largest_site_m = 20'000.0;

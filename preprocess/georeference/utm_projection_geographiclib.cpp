@@ -4,7 +4,7 @@
 #include <GeographicLib/UTMUPS.hpp>
 #include <cmath>
 
-#include "georeference/utm_projection.hpp"
+#include "georeference/crs.hpp"
 
 namespace farlod::georeference {
 namespace {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <optional>
 #include <utility>
 
 #include "base/cancellation.hpp"
@@ -13,9 +12,6 @@
 #include "ingest/cityjson/cityjson_reader.hpp"
 #include "ingest/files/file_format.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
-#include "ingest/obj/obj_placement.hpp"
-#include "ingest/obj/obj_reader.hpp"
-#include "ingest/ordered/ordered_work.hpp"
 
 namespace farlod::ingest {
 namespace {

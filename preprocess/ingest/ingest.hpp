@@ -7,12 +7,12 @@
 #include <stop_token>
 #include <vector>
 
-#include "city/source.hpp"
+#include "city/city_model.hpp"
 #include "farlod/pack.hpp"
 #include "farlod/point.hpp"
 #include "farlod/problem.hpp"
 #include "ingest/files/input_file.hpp"
-#include "ingest/model_builder/lod_choice.hpp"
+#include "ingest/model_builder/city_model_builder.hpp"
 #include "ingest/obj/obj_reader.hpp"
 
 namespace farlod::ingest {

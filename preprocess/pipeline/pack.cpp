@@ -6,32 +6,22 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 #include <map>
-#include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "base/cancellation.hpp"
 #include "base/paging/memory_bound.hpp"
 #include "base/shard_parts.hpp"
 #include "farlod/error.hpp"
 #include "farmap/far_map_baker.hpp"
-#include "georeference/problem_locator.hpp"
-#include "package/crowns_writer.hpp"
-#include "package/description.hpp"
-#include "package/sources_writer.hpp"
-#include "pipeline/block_writing.hpp"
+#include "georeference/resolved_source.hpp"
+#include "package/crowns_of_city.hpp"
+#include "package/sources_file.hpp"
+#include "pipeline/blocks.hpp"
 #include "pipeline/city_reading.hpp"
-#include "pipeline/city_record.hpp"
 #include "pipeline/pack_estimate.hpp"
-#include "pipeline/pack_origin.hpp"
 #include "pipeline/pack_target.hpp"
-#include "pipeline/saved_city.hpp"
-#include "pipeline/tree_reading.hpp"
 #include "tiles/crowns_on_ground.hpp"
-#include "tiles/tiles.hpp"
 
 namespace farlod::pipeline {
 namespace {

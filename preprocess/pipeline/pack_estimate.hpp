@@ -9,7 +9,7 @@
 #include "base/grid.hpp"
 #include "city/city_model.hpp"
 #include "farlod/pack.hpp"
-#include "farmap/far_map_settings.hpp"
+#include "farmap/horizon_map_baker.hpp"
 #include "tiles/crowns_on_ground.hpp"
 
 namespace farlod::pipeline {

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pipeline/pack_origin.hpp"
+#include "pipeline/pack_target.hpp"
 
 #include <fmt/core.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -14,7 +13,7 @@
 
 #include "farlod/error.hpp"
 #include "farlod/version.hpp"
-#include "package/written_stamp.hpp"
+#include "package/file_stamp.hpp"
 
 namespace farlod::pipeline {
 namespace {
@@ -24,17 +23,6 @@ namespace fs = std::filesystem;
 /// Files that formats keep beside the one that is named.
 constexpr std::array<std::string_view, 16> side_endings{".prj", ".shx", ".dbf", ".cpg", ".qpj",     ".dat", ".map", ".id",
                                                         ".mid", ".tfw", ".wld", ".hdr", ".aux.xml", ".ovr", ".msk", ".gfs"};
-
-struct FileState {
-  std::uint64_t bytes = 0;
-  std::int64_t written_ns = 0;
-};
-std::optional<FileState> state_of(const fs::path& path) {
-  struct stat found {};
-  if (stat(path.c_str(), &found) != 0) return std::nullopt;
-  constexpr std::int64_t ns_per_s = 1'000'000'000;
-  return FileState{static_cast<std::uint64_t>(found.st_size), found.st_mtim.tv_sec * ns_per_s + found.st_mtim.tv_nsec};
-}
 
 /// Files that are read together with one.
 std::vector<fs::path> files_beside(const fs::path& path) {
@@ -83,18 +71,18 @@ class Inputs {
     std::error_code unread;
     if (!fs::is_regular_file(path, unread)) {
       input.is_known = false;
-    } else if (const auto state = state_of(path)) {
-      input.written_ns = state->written_ns;
-      const PackageOrigin::Input* same = unwritten(input.path, *state);
+    } else if (const FileIdentity state = identity_of(path); state != FileIdentity{}) {
+      input.written_ns = state.changed_ns;
+      const PackageOrigin::Input* same = unwritten(input.path, state);
       input.stamp = same != nullptr ? same->stamp : stamp_of(path);
     }
     inputs_.push_back(std::move(input));
   }
 
-  [[nodiscard]] const PackageOrigin::Input* unwritten(const std::string& path, const FileState& state) const {
+  [[nodiscard]] const PackageOrigin::Input* unwritten(const std::string& path, const FileIdentity& state) const {
     if (!earlier_) return nullptr;
     for (const PackageOrigin::Input& input : earlier_->inputs)
-      if (input.path == path && input.stamp.bytes == state.bytes && input.written_ns == state.written_ns && input.is_known)
+      if (input.path == path && input.stamp.bytes == state.bytes && input.written_ns == state.changed_ns && input.is_known)
         return &input;
     return nullptr;
   }
@@ -218,9 +206,9 @@ std::vector<std::optional<SourceOfPackage>> sources_of(const PackageOrigin& orig
 void require_unchanged(const PackageOrigin& origin) {
   for (const PackageOrigin::Input& input : origin.inputs) {
     if (!input.is_known || input.written_ns == 0) continue;
-    const auto state = state_of(input.path);
-    if (!state) throw InputError(input.path + " has vanished while it was read: nothing was packed.");
-    if (state->bytes != input.stamp.bytes || state->written_ns != input.written_ns)
+    const FileIdentity state = identity_of(input.path);
+    if (state == FileIdentity{}) throw InputError(input.path + " has vanished while it was read: nothing was packed.");
+    if (state.bytes != input.stamp.bytes || state.changed_ns != input.written_ns)
       throw InputError(input.path + " was written while it was read: pack it again when it is whole.");
   }
 }

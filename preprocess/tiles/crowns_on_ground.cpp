@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <utility>
 
 #include "base/cancellation.hpp"
-#include "tiles/metres_text.hpp"
+#include "city/geometry.hpp"
 
 namespace farlod::tiles {
 namespace {
@@ -54,11 +53,6 @@ class CountBySource {
   };
   std::vector<Entry> entries_;
 };
-
-bool is_in(const Grid& grid, Point2d p_grid) {
-  const auto& [low, high] = grid.rectangle();
-  return low.x <= p_grid.x && p_grid.x < high.x && low.y <= p_grid.y && p_grid.y < high.y;
-}
 
 /// Counts cells of a raster with something wrong.
 struct CellCount {
@@ -138,7 +132,7 @@ void CrownPlacing::place_trees(TreesOfCity& of_city, const Ground& ground, Crown
     const Tree& tree = trees[n];
     if (n % trees_between_looks == 0) throw_if_cancelled(stop);
     const Point2d p_grid = grid_.rotation.grid_from_city(tree.place);
-    if (!is_in(grid_, p_grid)) {
+    if (!holds(grid_, p_grid)) {
       outside.add(tree);
     } else if (n > 0 && key_of(tree) == key_of(trees[n - 1])) {
       twice.add(tree);
@@ -165,7 +159,7 @@ void CrownPlacing::place_canopy(const CanopyRaster& canopy, const Ground& ground
       const std::size_t n = row * canopy.columns + column;
       if (cells.is_none(canopy.top_m[n])) continue;
       const Point2d p_city = canopy.centre(column, row), p_grid = grid_.rotation.grid_from_city(p_city);
-      if (!is_in(grid_, p_grid)) continue;
+      if (!holds(grid_, p_grid)) continue;
       const double foot_m = ground.height_at(p_grid);
       const auto height_m = cells.height_m(n, foot_m, p_city);
       if (!height_m) continue;

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "city/canopy_raster.hpp"
 #include "city/tree.hpp"
 #include "farlod/pack.hpp"
 #include "farlod/problem.hpp"

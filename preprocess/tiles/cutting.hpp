@@ -14,22 +14,29 @@
 
 namespace farlod::tiles {
 
-/// The corners of a convex polygon. The part of a triangle within a square has at most seven.
-class CellPolygon {
+/// The corners of a convex polygon, of which there are few.
+template <class Corner, std::size_t most>
+class SmallPolygon {
  public:
-  void push_back(const Point3f& corner) {
+  using value_type = Corner;
+
+  void push_back(const Corner& corner) {
     FARLOD_EXPECTS(size_ < corners_.size());
     corners_[size_++] = corner;
   }
   [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] const Point3f& operator[](std::size_t n) const { return corners_[n]; }
-  [[nodiscard]] const Point3f* begin() const { return corners_.data(); }
-  [[nodiscard]] const Point3f* end() const { return corners_.data() + size_; }
+  [[nodiscard]] Corner& operator[](std::size_t n) { return corners_[n]; }
+  [[nodiscard]] const Corner& operator[](std::size_t n) const { return corners_[n]; }
+  [[nodiscard]] const Corner* begin() const { return corners_.data(); }
+  [[nodiscard]] const Corner* end() const { return corners_.data() + size_; }
 
  private:
-  std::array<Point3f, 7> corners_;
+  std::array<Corner, most> corners_;
   std::uint32_t size_ = 0;
 };
+
+/// The part of a triangle within a square has at most seven corners.
+using CellPolygon = SmallPolygon<Point3f, 7>;
 
 /// A convex polygon in one cell, rounded to the cell frame.
 struct CellPiece {

@@ -1,15 +1,10 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
-#include "tiles/bounded_number.hpp"
 #include "tiles/cutting.hpp"
 #include "tiles/exact_cutting_cgal.hpp"
 
@@ -35,23 +30,7 @@ struct BoundedCorner {
   std::int8_t original = -1;
 };
 
-class BoundedPolygon {
- public:
-  using value_type = BoundedCorner;
-
-  void push_back(const BoundedCorner& corner) {
-    FARLOD_EXPECTS(size_ < corners_.size());
-    corners_[size_++] = corner;
-  }
-  [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] BoundedCorner& operator[](std::size_t n) { return corners_[n]; }
-  [[nodiscard]] const BoundedCorner* begin() const { return corners_.data(); }
-  [[nodiscard]] const BoundedCorner* end() const { return corners_.data() + size_; }
-
- private:
-  std::array<BoundedCorner, most_corners> corners_;
-  std::size_t size_ = 0;
-};
+using BoundedPolygon = SmallPolygon<BoundedCorner, most_corners>;
 
 double approximate(const Rational& x) { return CGAL::to_double(x); }
 double approximate(const BoundedNumber& x) { return x.value(); }

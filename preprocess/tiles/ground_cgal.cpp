@@ -9,14 +9,11 @@
 #include <CGAL/Projection_traits_xy_3.h>
 #include <CGAL/spatial_sort.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "base/expects.hpp"
+#include "city/geometry.hpp"
 #include "tiles/ground.hpp"
 
 namespace farlod::tiles {
@@ -32,8 +29,7 @@ constexpr std::size_t accesses_between_looks = 64;
 
 /// Sorts the points by place and height, and keeps the lowest point of each place.
 void keep_lowest(PagedArray<Point3d>& points) {
-  std::sort(points.begin(), points.end(),
-            [](const Point3d& a, const Point3d& b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
+  std::sort(points.begin(), points.end(), comes_first);
   const Point3d* const end =
       std::unique(points.begin(), points.end(), [](const Point3d& a, const Point3d& b) { return a.x == b.x && a.y == b.y; });
   points.resize(static_cast<std::size_t>(end - points.begin()));

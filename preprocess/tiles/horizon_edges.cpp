@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "city/point_order.hpp"
+#include "city/geometry.hpp"
 #include "tiles/cutting.hpp"
 
 namespace farlod::tiles {
@@ -120,6 +120,7 @@ CellEdge whole_edge(const HorizonSegment& edge, Cell cell, const Grid& grid, dou
           {cell_from_grid(edge.segment.a, cell, grid, height_origin_m),
            cell_from_grid(edge.segment.b, cell, grid, height_origin_m), edge.adjacent, edge.role}};
 }
+constexpr double least_extent_m = 1e-4;
 
 }  // namespace
 
@@ -182,6 +183,13 @@ bool EdgeSides::can_be_underside() const {
 bool EdgeSides::is_valley() const {
   return triangle_count_ > 1 && has_roof_ && !has_soffit_ && !over_wall_ && left_low_rad_ + right_low_rad_ > slight_bend_rad;
 }
+
+namespace {
+
+/// An edge with a shorter horizontal run than this is vertical: the rounding to the floats of a tile moves its ends farther.
+constexpr double upright_m = 1e-6;
+
+}  // namespace
 
 bool EdgeSides::can_be_horizon() const {
   if (norm(horizontal(edge_.b - edge_.a)) <= upright_m || under_wall_) return false;

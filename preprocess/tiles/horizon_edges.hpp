@@ -32,9 +32,6 @@ struct HorizonSegment {
 /// Two directions that differ by less than this count as one. The rotation into the grid frame rounds a point by less than
 /// 1e-10 m (53 bits of a double, a city below 400 km); over `least_extent_m` this gives the angle.
 inline constexpr double angle_tolerance_rad = 1e-6;
-inline constexpr double least_extent_m = 1e-4;
-/// An edge with a shorter horizontal run than this is vertical: the rounding to the floats of a tile moves its ends farther.
-inline constexpr double upright_m = 1e-6;
 /// For undersides, a facet or an edge counts as vertical when its tangent from the vertical is below this, and when it leans by
 /// no more than max_lean_m in all. Surveyed walls lean by as much.
 inline constexpr double leaning_wall_z = 0.01;

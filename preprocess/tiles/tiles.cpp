@@ -8,20 +8,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "base/cancellation.hpp"
 #include "base/expects.hpp"
-#include "tiles/base_points.hpp"
+#include "city/geometry.hpp"
+#include "tiles/building_bases.hpp"
 #include "tiles/building_pieces.hpp"
-#include "tiles/contacts.hpp"
-#include "tiles/foundations.hpp"
-#include "tiles/ground.hpp"
-#include "tiles/lift_onto_terrain.hpp"
-#include "tiles/metres_text.hpp"
-#include "tiles/surveyed_ground.hpp"
 #include "tiles/tile_filler.hpp"
+#include "tiles/undersides.hpp"
 
 namespace farlod::tiles {
 namespace {

@@ -7,8 +7,7 @@
 #include <stop_token>
 
 #include "base/grid.hpp"
-#include "city/located_city.hpp"
-#include "city/terrain_raster.hpp"
+#include "city/city_model.hpp"
 #include "farlod/problem.hpp"
 #include "package/tile_set.hpp"
 #include "tiles/ground.hpp"

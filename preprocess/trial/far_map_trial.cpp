@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <map>
 #include <optional>
 #include <random>
@@ -17,9 +16,8 @@
 #include <vector>
 
 #include "evaluate/sky_evaluator.hpp"
-#include "farmap/horizon_map_baker.hpp"
-#include "package/far_map_writer.hpp"
 #include "package/package_reader.hpp"
+#include "package/package_writer.hpp"
 #include "package/tiles_writer.hpp"
 #include "receivers/receiver.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "base/grid.hpp"
 #include "farlod/pack.hpp"
-#include "farmap/far_map_settings.hpp"
+#include "farmap/horizon_map_baker.hpp"
 #include "package/tile_set.hpp"
 #include "tiles/tiles.hpp"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/package_facts.hpp"
-#include "console/peak_memory.hpp"
+#include "console/run_program.hpp"
 
 namespace farlod {
 namespace {

@@ -9,8 +9,6 @@
 
 #include "app/info_options.hpp"
 #include "app/package_facts.hpp"
-#include "console/bundled_fonts.hpp"
-#include "console/output_files.hpp"
 #include "console/run_program.hpp"
 #include "farlod/error.hpp"
 #include "results/mesh/mesh_obj.hpp"

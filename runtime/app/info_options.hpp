@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "console/program_description.hpp"
 #include "console/run_options.hpp"
 #include "farlod/inspection.hpp"
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "app/word_choice.hpp"
-#include "console/number_range.hpp"
+#include "console/option_list.hpp"
 
 namespace farlod {
 namespace {

@@ -15,7 +15,6 @@
 #include "app/word_choice.hpp"
 #include "app/work_options.hpp"
 #include "base/expects.hpp"
-#include "console/number_range.hpp"
 #include "console/option_list.hpp"
 #include "farlod/error.hpp"
 #include "results/city/city_format.hpp"

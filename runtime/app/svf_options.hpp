@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "app/quantity_options.hpp"
-#include "console/program_description.hpp"
 #include "console/run_options.hpp"
 #include "farlod/box.hpp"
 #include "farlod/evaluation.hpp"

@@ -11,8 +11,6 @@
 
 #include "app/view_options.hpp"
 #include "app/view_summary.hpp"
-#include "console/interruption.hpp"
-#include "console/output_files.hpp"
 #include "console/run_program.hpp"
 #include "farlod/error.hpp"
 #include "view/bundle_files.hpp"

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/lower_case.hpp"
-#include "console/number_range.hpp"
 #include "console/option_list.hpp"
 #include "farlod/error.hpp"
 

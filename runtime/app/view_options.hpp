@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "console/program_description.hpp"
 #include "console/run_options.hpp"
 #include "view/http_server.hpp"
 

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/view_summary.hpp"
-#include "console/peak_memory.hpp"
+#include "console/run_program.hpp"
 
 namespace farlod {
 

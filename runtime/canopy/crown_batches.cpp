@@ -8,7 +8,7 @@
 
 #include "base/expects.hpp"
 #include "canopy/crown_kernels.hpp"
-#include "package/crown_light.hpp"
+#include "package/crown.hpp"
 
 namespace farlod {
 

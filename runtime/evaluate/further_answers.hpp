@@ -14,7 +14,7 @@
 #include "evaluate/sky_answers.hpp"
 #include "evaluate/visibility.hpp"
 #include "horizon/horizon_engine.hpp"
-#include "package/far_horizon.hpp"
+#include "package/far_map.hpp"
 #include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 

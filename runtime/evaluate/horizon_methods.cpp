@@ -16,7 +16,7 @@
 #include "horizon/horizon_engine.hpp"
 #include "horizon/overhangs.hpp"
 #include "horizon/receiver_packet.hpp"
-#include "package/package_error.hpp"
+#include "package/package_folder.hpp"
 #include "rays/ray_engine.hpp"
 
 namespace farlod {

@@ -12,7 +12,7 @@
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/overhangs.hpp"
 #include "occlusion/occluder.hpp"
-#include "package/far_horizon.hpp"
+#include "package/far_map.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {

@@ -7,7 +7,7 @@
 #include "base/grid.hpp"
 #include "horizon/border_ends.hpp"
 #include "horizon/silhouette_edges.hpp"
-#include "package/far_horizon.hpp"
+#include "package/far_map.hpp"
 #include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 

@@ -14,7 +14,7 @@
 #include "horizon/lanes.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/silhouette_edges.hpp"
-#include "package/edge_facing.hpp"
+#include "package/horizon_edge.hpp"
 
 /// Which edges of a batch can change a horizon of a packet: three conservative tests, each for sixteen edges at once.
 ///   1. facing: can the edge be a silhouette for some receiver of the box? docs/concepts.md, "Edges that face away"
@@ -29,7 +29,7 @@ inline constexpr auto facing_margin_m = static_cast<float>(facing_slack_m);
 /// Relative to the coordinates in a sum: more than the rounding of all its operations, 16 · 2⁻²⁴.
 inline constexpr float facing_rounding = 0x1p-20F;
 
-/// The terms of may_be_silhouette (farlod/horizon/edge_facing.hpp), all multiplied by the edge's run (horizontal length), which
+/// The terms of may_be_silhouette (package/horizon_edge.hpp), all multiplied by the edge's run (horizontal length), which
 /// saves divisions. c is the centre of the receivers' box, relative to the edge's end a; e = b − a.
 struct FacingTerms {
   Floats center_x, center_y;              ///< c

@@ -24,7 +24,7 @@
 #include "horizon/sky_profile.hpp"
 #include "horizon/svf_interval.hpp"
 #include "horizon/undecided_sky.hpp"
-#include "package/far_horizon.hpp"
+#include "package/far_map.hpp"
 
 namespace farlod {
 

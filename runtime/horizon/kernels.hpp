@@ -34,7 +34,7 @@ enum class Culling : std::uint8_t {
 
 struct EdgeKernels {
   /// For each edge its distance in the plan from the centre of a box of receivers, or −1 if it can be a silhouette for none of
-  /// them: may_be_silhouette (farlod/horizon/edge_facing.hpp) and a test of its height, in floats.
+  /// them: may_be_silhouette (package/horizon_edge.hpp) and a test of its height, in floats.
   ///   (1) an edge that may_be_silhouette keeps is kept, unless no end is above the box's floor
   ///   (2) other edges are kept only within rounding
   /// distances_m[batch][lane]; lanes without an edge mean nothing.

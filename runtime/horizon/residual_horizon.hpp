@@ -10,7 +10,7 @@
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
-#include "package/far_horizon.hpp"
+#include "package/far_map.hpp"
 
 namespace farlod {
 

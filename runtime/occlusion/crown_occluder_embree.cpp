@@ -15,7 +15,6 @@
 #include "occlusion/queries_embree.hpp"
 #include "occlusion/ray_packet_embree.hpp"
 #include "package/crown.hpp"
-#include "package/crown_light.hpp"
 
 namespace farlod {
 namespace {

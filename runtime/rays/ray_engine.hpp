@@ -15,7 +15,7 @@
 #include "horizon/receiver_packet.hpp"
 #include "horizon/residual_horizon.hpp"
 #include "occlusion/occluder.hpp"
-#include "package/far_horizon.hpp"
+#include "package/far_map.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {

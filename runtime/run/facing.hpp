@@ -4,7 +4,7 @@
 
 #include "farlod/angle.hpp"
 #include "farlod/point.hpp"
-#include "package/manifest_reader.hpp"
+#include "package/manifest.hpp"
 
 namespace farlod {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "farlod/inspection.hpp"
-#include "package/box_map.hpp"
+#include "package/far_map.hpp"
 #include "run/existing_cell.hpp"
 #include "run/package_contents.hpp"
 #include "scene/vertical_profile.hpp"

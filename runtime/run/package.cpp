@@ -3,7 +3,7 @@
 #include "farlod/package.hpp"
 
 #include "farlod/error.hpp"
-#include "package/description.hpp"
+#include "package/manifest.hpp"
 #include "run/memory_limit.hpp"
 #include "run/package_contents.hpp"
 

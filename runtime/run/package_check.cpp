@@ -11,7 +11,7 @@
 #include "base/cancellation.hpp"
 #include "base/run_settings.hpp"
 #include "farlod/inspection.hpp"
-#include "package/block_check.hpp"
+#include "package/package_reader.hpp"
 #include "package/sources_file.hpp"
 #include "run/memory_limit.hpp"
 #include "run/package_contents.hpp"

@@ -10,7 +10,7 @@
 #include "base/run_settings.hpp"
 #include "farlod/error.hpp"
 #include "farlod/points.hpp"
-#include "package/manifest_reader.hpp"
+#include "package/manifest.hpp"
 #include "receivers/hilbert_curve.hpp"
 #include "receivers/point_receivers.hpp"
 #include "run/facing.hpp"

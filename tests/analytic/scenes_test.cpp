@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "evaluate/sky_evaluator.hpp"
-#include "package/package_error.hpp"
+#include "package/package_folder.hpp"
 #include "receivers/receiver.hpp"
 #include "scene/vertical_profile.hpp"
 #include "tests/analytic/analytic_scenes.hpp"

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "package/box_map.hpp"
+#include "package/far_map.hpp"
 
 namespace farlod {
 

@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "benchmark/measurement.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <string>
 
-#include "benchmark/city_sizes.hpp"
-#include "benchmark/error_ladder.hpp"
-#include "benchmark/plane_curve.hpp"
+#include "benchmark/contest.hpp"
+#include "benchmark/whole_city_rival.hpp"
 
 namespace farlod::benchmark {
 namespace {

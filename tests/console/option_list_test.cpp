@@ -8,10 +8,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "console/completion.hpp"
 #include "console/manual_page.hpp"
-#include "console/number_range.hpp"
-#include "console/roff_text.hpp"
+#include "console/program_documents.hpp"
 #include "tests/console/help_options.hpp"
 
 namespace farlod {

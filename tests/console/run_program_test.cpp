@@ -11,7 +11,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "console/bundled_fonts.hpp"
 #include "console/shard_text.hpp"
 #include "console/wrapped_document.hpp"
 #include "farlod/error.hpp"

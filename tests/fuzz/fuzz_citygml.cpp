@@ -5,7 +5,7 @@
 
 #include "base/expects.hpp"
 #include "farlod/error.hpp"
-#include "ingest/citygml/citygml_segmented_reading.hpp"
+#include "ingest/citygml/citygml_reader.hpp"
 #include "ingest/citygml/citygml_xml.hpp"
 #include "tests/fuzz/fuzzed_ingest.hpp"
 

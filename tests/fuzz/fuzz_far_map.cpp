@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/expects.hpp"
 #include "package/far_map_reader.hpp"
-#include "package/manifest_reader.hpp"
+#include "package/manifest.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
 

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "base/expects.hpp"
-#include "package/manifest_reader.hpp"
+#include "package/manifest.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"
 #include "tests/scenes/sealed_manifest.hpp"
 

@@ -5,8 +5,7 @@
 
 #include "base/expects.hpp"
 #include "farlod/city_sources.hpp"
-#include "package/manifest_reader.hpp"
-#include "package/manifest_seal.hpp"
+#include "package/manifest.hpp"
 #include "package/sources_layout.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"
 #include "tests/fuzz/scratch_folder.hpp"

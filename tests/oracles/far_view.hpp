@@ -15,10 +15,9 @@
 #include "base/azimuth.hpp"
 #include "base/expects.hpp"
 #include "farlod/point.hpp"
-#include "package/edge_view.hpp"
-#include "package/far_horizon.hpp"
+#include "package/far_map.hpp"
+#include "package/horizon_edge.hpp"
 #include "package/layout.hpp"
-#include "package/receiver_patches.hpp"
 #include "tests/oracles/distance_to_segment.hpp"
 
 namespace farlod {

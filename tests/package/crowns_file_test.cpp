@@ -9,9 +9,9 @@
 #include <limits>
 #include <numbers>
 
-#include "package/manifest_reader.hpp"
+#include "package/file_stamp.hpp"
+#include "package/manifest.hpp"
 #include "package/package_reader.hpp"
-#include "package/written_stamp.hpp"
 #include "tests/package/small_package.hpp"
 #include "tests/scenes/planted_crowns.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "package/edge_facing.hpp"
+#include "package/horizon_edge.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 
 #include "farlod/angle.hpp"
-#include "package/oct_normal.hpp"
+#include "package/layout.hpp"
 
 namespace farlod::package {
 namespace {

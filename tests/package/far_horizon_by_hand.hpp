@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "package/far_horizon.hpp"
+#include "package/far_map.hpp"
 
 namespace farlod {
 

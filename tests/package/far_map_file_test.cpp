@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "package/far_horizon.hpp"
+#include "package/far_map.hpp"
 #include "package/far_map_reader.hpp"
 #include "package/layout.hpp"
 #include "package/package_reader.hpp"

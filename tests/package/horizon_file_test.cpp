@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "package/far_map_reader.hpp"
-#include "package/far_map_writer.hpp"
 #include "package/layout.hpp"
+#include "package/package_writer.hpp"
 #include "tests/package/small_package.hpp"
 
 // The far.exr of the kind `horizon`: slopes that are rounded to the safe side, and what is refused.

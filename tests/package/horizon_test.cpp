@@ -8,9 +8,8 @@
 #include <set>
 
 #include "base/azimuth.hpp"
-#include "package/box_map.hpp"
-#include "package/edge_view.hpp"
-#include "package/receiver_patches.hpp"
+#include "package/far_map.hpp"
+#include "package/horizon_edge.hpp"
 
 namespace farlod {
 namespace {

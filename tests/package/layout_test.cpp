@@ -11,7 +11,7 @@
 #include <string>
 #include <type_traits>
 
-#include "package/crown_layout.hpp"
+#include "package/crown.hpp"
 #include "package/sources_layout.hpp"
 
 // Another reader is written from docs/package_format.md. Where the document and the header differ, the header wins, and this test

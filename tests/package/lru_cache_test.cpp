@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "package/lru_cache.hpp"
+#include "package/package_reader.hpp"
 
 #include <gmock/gmock.h>
 
@@ -12,8 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "package/crown_layout.hpp"
-#include "package/package_reader.hpp"
+#include "package/crown.hpp"
 #include "tests/package/small_package.hpp"
 #include "tests/scenes/planted_crowns.hpp"
 

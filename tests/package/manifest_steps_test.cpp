@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "package/manifest_reader.hpp"
+#include "package/manifest.hpp"
 #include "tests/counted/steps.hpp"
 #include "tests/package/small_package.hpp"
 #include "tests/scenes/sealed_manifest.hpp"

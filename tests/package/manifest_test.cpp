@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "package/manifest_reader.hpp"
+#include "package/manifest.hpp"
 #include "package/package_reader.hpp"
 #include "tests/package/small_package.hpp"
 #include "tests/scenes/refusal.hpp"

@@ -7,9 +7,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "package/block_check.hpp"
 #include "package/block_tiles.hpp"
-#include "package/manifest_reader.hpp"
+#include "package/manifest.hpp"
 #include "package/package_reader.hpp"
 #include "tests/package/small_package.hpp"
 

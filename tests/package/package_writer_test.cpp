@@ -12,12 +12,11 @@
 #include <string>
 
 #include "farlod/error.hpp"
-#include "package/crown_layout.hpp"
-#include "package/crowns_writer.hpp"
+#include "package/crown.hpp"
+#include "package/crowns_of_city.hpp"
+#include "package/file_stamp.hpp"
 #include "package/layout.hpp"
-#include "package/manifest_writer.hpp"
-#include "package/package_place.hpp"
-#include "package/written_stamp.hpp"
+#include "package/manifest.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"

@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "base/expects.hpp"
-#include "package/written_stamp.hpp"
+#include "package/file_stamp.hpp"
 #include "tests/scenes/scene_builder.hpp"
 #include "tests/scenes/sealed_manifest.hpp"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "package/layout.hpp"
-#include "package/package_error.hpp"
+#include "package/package_folder.hpp"
 #include "tests/scenes/packed_city.hpp"
 
 namespace farlod {

@@ -6,9 +6,8 @@
 
 #include <cstring>
 
-#include "package/manifest_reader.hpp"
-#include "package/sources_writer.hpp"
-#include "package/written_stamp.hpp"
+#include "package/file_stamp.hpp"
+#include "package/manifest.hpp"
 #include "tests/package/small_package.hpp"
 
 namespace farlod {

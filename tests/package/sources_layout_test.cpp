@@ -7,7 +7,6 @@
 #include <random>
 #include <set>
 
-#include "package/cell_runs.hpp"
 #include "package/manifest.hpp"
 
 namespace farlod::package {

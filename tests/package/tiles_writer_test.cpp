@@ -13,10 +13,8 @@
 #include <vector>
 
 #include "package/block_tiles.hpp"
+#include "package/existing_package.hpp"
 #include "package/layout.hpp"
-#include "package/same_tiles.hpp"
-#include "package/shared_vertices.hpp"
-#include "package/side_edges.hpp"
 #include "tests/scenes/edges_as_set.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"

@@ -11,9 +11,9 @@
 
 #include "farlod/error.hpp"
 #include "package/existing_package.hpp"
+#include "package/file_stamp.hpp"
 #include "package/layout.hpp"
-#include "package/manifest_reader.hpp"
-#include "package/written_stamp.hpp"
+#include "package/manifest.hpp"
 #include "tests/scenes/refusal.hpp"
 #include "tests/scenes/sealed_manifest.hpp"
 #include "tests/scenes/temporary_folder.hpp"

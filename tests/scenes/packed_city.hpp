@@ -9,7 +9,7 @@
 
 #include "base/grid.hpp"
 #include "city/city_model.hpp"
-#include "farmap/far_map_settings.hpp"
+#include "farmap/horizon_map_baker.hpp"
 #include "package/package_reader.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 #include "tiles/tiles.hpp"

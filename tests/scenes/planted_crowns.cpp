@@ -5,8 +5,8 @@
 #include <array>
 #include <random>
 
-#include "package/crowns_writer.hpp"
-#include "package/manifest_reader.hpp"
+#include "package/crowns_of_city.hpp"
+#include "package/manifest.hpp"
 #include "package/package_writer.hpp"
 #include "scene/vertical_profile.hpp"
 

@@ -5,8 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "package/manifest_reader.hpp"
-#include "package/manifest_seal.hpp"
+#include "package/manifest.hpp"
 
 namespace farlod::scenes {
 

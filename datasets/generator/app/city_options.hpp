@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
-#include "console/program_description.hpp"
 #include "console/run_options.hpp"
 #include "generator/city_settings.hpp"
 #include "generator/city_writer.hpp"
@@ -30,5 +31,16 @@ struct ParsedCityOptions {
 
 /// Hands over the command line, from which the manual page and the completion are made.
 void describe_city_options(const CommandLineVisitor& visit);
+
+/// The counts of a generated city.
+struct CityCounts {
+  std::uint64_t buildings = 0, polygons = 0, towers = 0, bridges = 0, trees = 0;
+  double tallest_m = 0.0;  ///< of one building, from its base
+  double seconds = 0.0;
+  std::uint64_t bytes = 0;
+};
+
+/// The text of `--summary`.
+[[nodiscard]] std::string city_summary_json(const CityOptions& options, const CityCounts& counts);
 
 }  // namespace farlod

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
-#include "console/peak_memory.hpp"
-#include "generator/app/city_summary.hpp"
+#include "console/run_program.hpp"
+#include "generator/app/city_options.hpp"
 
 namespace farlod {
 

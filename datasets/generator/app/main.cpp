@@ -11,15 +11,12 @@
 #include <span>
 #include <vector>
 
-#include "console/output_files.hpp"
 #include "console/run_program.hpp"
 #include "farlod/box.hpp"
 #include "farlod/error.hpp"
 #include "generator/app/city_options.hpp"
-#include "generator/app/city_summary.hpp"
 #include "generator/city_layout.hpp"
 #include "generator/city_settings.hpp"
-#include "generator/city_text_file.hpp"
 #include "generator/city_writer.hpp"
 #include "generator/generated_building.hpp"
 #include "generator/generated_city.hpp"

@@ -6,9 +6,28 @@
 #include <cmath>
 #include <set>
 
-#include "ingest/model_builder/polygon_deduplicator.hpp"
+#include "base/expects.hpp"
 
 namespace farlod::ingest {
+
+std::optional<Placement> Placement::from(std::span<const double> m, const Point3d& reference_point) {
+  if (m.empty()) return Placement({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, reference_point);
+  if (m.size() != 16 || !std::all_of(m.begin(), m.end(), [](double x) { return std::isfinite(x); })) return std::nullopt;
+  return Placement({m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}, Point3d{m[3], m[7], m[11]} + reference_point);
+}
+
+Point3d Placement::place(const Point3d& p) const { return origin_ + p.x * x_axis_ + p.y * y_axis_ + p.z * z_axis_; }
+
+Rings Placement::place(const Rings& rings_prototype) const {
+  const bool mirrors = dot(cross(x_axis_, y_axis_), z_axis_) < 0.0;
+  Rings rings = rings_prototype;
+  for (Ring& ring : rings) {
+    for (Point3d& p : ring) p = place(p);
+    if (mirrors) std::reverse(ring.begin(), ring.end());
+  }
+  return rings;
+}
+
 namespace {
 
 struct WantedPolygon {
@@ -205,6 +224,121 @@ std::vector<std::string> foreign_references(const CityGmlBuilding& building) {
 void add_building(const CityGmlBuilding& building, const GmlSurfaces& foreign, LodChoice lod, ReferenceBudget& budget,
                   CityModelBuilder& builder, const PlacesOfBuilding* places) {
   BuildingAssembler(building, foreign, budget, builder).add(lod, places);
+}
+
+namespace {
+
+/// One more than a matrix has, so that a longer list is noticed.
+constexpr std::size_t most_numbers = 17;
+
+/// Longitudes end at 180. No known projected city is that close to the origin of its CRS.
+bool reads_like_degrees(const Point3d& p) { return std::abs(p.x) <= 180.0 && std::abs(p.y) <= 180.0; }
+
+}  // namespace
+
+void PrototypeReader::begin(std::string_view property, const SurfaceUse& use) {
+  property_ = property;
+  use_ = use;
+  matrix_.clear();
+  position_.clear();
+  is_elsewhere_ = has_surfaces_ = false;
+}
+
+bool PrototypeReader::start(std::string_view name) {
+  if (name == "transformationMatrix")
+    numbers_ = &matrix_;
+  else if (name == "pos" || name == "coordinates")
+    numbers_ = &position_;
+  else
+    return false;
+  numbers_->clear();
+  return true;
+}
+
+void PrototypeReader::text(std::string_view piece) {
+  FARLOD_EXPECTS(numbers_ != nullptr);
+  scanner_.take(piece, [this](double number) {
+    if (numbers_->size() < most_numbers) numbers_->push_back(number);
+  });
+}
+
+void PrototypeReader::end_numbers() {
+  scanner_.end([this](double number) { numbers_->push_back(number); });
+  numbers_ = nullptr;
+}
+
+std::optional<Placement> PrototypeReader::placement(bool has_crs, std::string& unread) const {
+  unread = "a geometry by " + property_;
+  if (!has_surfaces_) {
+    if (is_elsewhere_) unread += " in another file (libraryObject)";
+    return std::nullopt;
+  }
+  const bool has_position = position_.size() == 3 && std::isfinite(position_[0] + position_[1] + position_[2]);
+  const Point3d reference_point = has_position ? Point3d{position_[0], position_[1], position_[2]} : Point3d{};
+  const std::optional<Placement> placement = Placement::from(matrix_, reference_point);
+  if (!has_position)
+    unread += " without a readable referencePoint";
+  else if (!placement)
+    unread += " whose transformationMatrix is not 16 numbers";
+  else if (has_crs && reads_like_degrees(reference_point))
+    unread += " whose referencePoint is in degrees (its matrix counts in metres, so the file has to be in a projected CRS)";
+  else
+    return placement;
+  return std::nullopt;
+}
+
+void ReliefReader::begin(const XmlElement& property) {
+  dimension_ = property.srs_dimension == "2" ? 2 : 3;
+  in_list_ = false;
+}
+
+bool ReliefReader::start(const XmlElement& element) {
+  if (element.srs_dimension == "2") dimension_ = 2;
+  if (element.srs_dimension == "3") dimension_ = 3;
+  // The corners of an envelope are no points of the terrain
+  if (in_list_ || element.name == "boundedBy") return false;
+  if (element.name == "posList" || element.name == "pos" || element.name == "coordinates") {
+    in_list_ = true;
+    numbers_.clear();
+    first_of_list_.reset();
+    points_of_list_ = 0;
+  }
+  return true;
+}
+
+void ReliefReader::text(std::string_view piece) {
+  if (in_list_) scanner_.take(piece, [this](double number) { take_number(number); });
+}
+
+void ReliefReader::end() {
+  if (!in_list_) return;
+  in_list_ = false;
+  scanner_.end([this](double number) { take_number(number); });
+  if (!numbers_.empty()) ++unreadable_points_;
+  const bool is_closed = points_of_list_ > 1 && first_of_list_ == points_.back();
+  if (is_closed) points_.pop_back();
+}
+
+void ReliefReader::append(const ReliefReader& next) {
+  points_.insert(points_.end(), next.points_.begin(), next.points_.end());
+  unreadable_points_ += next.unreadable_points_;
+}
+
+void ReliefReader::take_number(double number) {
+  numbers_.push_back(number);
+  if (numbers_.size() < dimension_) return;
+  add_point();
+  numbers_.clear();
+}
+
+void ReliefReader::add_point() {
+  const std::optional<Point3d> p = dimension_ < 3 ? std::nullopt : std::optional(Point3d{numbers_[0], numbers_[1], numbers_[2]});
+  if (!p || !is_readable(*p)) {
+    ++unreadable_points_;
+    return;
+  }
+  points_.push_back(*p);
+  if (points_of_list_++ == 0) first_of_list_ = points_.back();
 }
 
 }  // namespace farlod::ingest

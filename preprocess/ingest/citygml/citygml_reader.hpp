@@ -2,15 +2,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <stop_token>
 
-#include "city/source.hpp"
-#include "ingest/citygml/citygml_segments.hpp"
+#include "city/city_model.hpp"
+#include "ingest/citygml/citygml_reading.hpp"
+#include "ingest/citygml/citygml_xml.hpp"
 #include "ingest/files/input_file.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
-#include "ingest/model_builder/lod_choice.hpp"
 
 namespace farlod::ingest {
+
+/// Reads a file in segments, on all threads of the task arena that it is called in. The result is that of reading the file as a
+/// whole. Empty for a file that has to be read as a whole, and for one of a single segment: reading it then gives the result, or
+/// says what is wrong, and where. Throws Cancelled when a stop is requested.
+[[nodiscard]] std::optional<CityGmlContents> read_in_segments(const ReadingTask& task);
 
 /// Reads a CityGML file as a stream: besides the city it holds in memory one building or, on several threads of the task arena
 /// that it is called in, two segments for each. The result does not depend on their number. Reads the file again only when

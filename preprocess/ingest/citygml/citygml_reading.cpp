@@ -9,13 +9,9 @@
 
 #include "base/expects.hpp"
 #include "farlod/error.hpp"
-#include "ingest/model_builder/surface_names.hpp"
 
 namespace farlod::ingest {
 namespace {
-
-/// The longest text of a height or a keyword that is kept.
-constexpr std::size_t most_words = 256;
 
 /// Reliefs that are not read: rasters, break lines, and point clouds in other files.
 bool is_unread_relief(std::string_view name) {

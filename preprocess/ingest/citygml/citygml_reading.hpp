@@ -11,21 +11,14 @@
 #include <unordered_set>
 #include <vector>
 
-#include "city/source.hpp"
+#include "city/city_model.hpp"
 #include "farlod/problem.hpp"
 #include "ingest/citygml/citygml_building.hpp"
-#include "ingest/citygml/citygml_places.hpp"
-#include "ingest/citygml/citygml_prototype.hpp"
-#include "ingest/citygml/citygml_relief.hpp"
-#include "ingest/citygml/citygml_segments.hpp"
-#include "ingest/citygml/citygml_skipped.hpp"
 #include "ingest/citygml/citygml_vocabulary.hpp"
-#include "ingest/citygml/gml_references.hpp"
+#include "ingest/citygml/citygml_xml.hpp"
 #include "ingest/citygml/gml_surfaces.hpp"
-#include "ingest/citygml/xml_element.hpp"
 #include "ingest/files/input_file.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
-#include "ingest/model_builder/lod_choice.hpp"
 
 namespace farlod::ingest {
 

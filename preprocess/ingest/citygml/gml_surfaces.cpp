@@ -4,18 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 
 namespace farlod::ingest {
 namespace {
 
 constexpr double unreadable = std::numeric_limits<double>::quiet_NaN();
-
-template <std::size_t n>
-bool is_gml_name(std::string_view name, const std::array<std::string_view, n>& names) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 constexpr std::array<std::string_view, 4> polygon_names{"Polygon", "PolygonPatch", "Triangle", "Rectangle"};
 constexpr std::array<std::string_view, 14> aggregate_names{
@@ -39,11 +33,11 @@ void GmlSurfaceReader::begin_use(std::uint32_t use) {
 GmlSurfaceReader::Answer GmlSurfaceReader::start(const XmlElement& element) {
   note_dimension(element.srs_dimension);
   if (in_polygon_) return start_in_polygon(element);
-  if (is_gml_name(element.name, polygon_names)) {
+  if (is_one_of(element.name, polygon_names)) {
     start_polygon(element);
     return Answer::entered;
   }
-  if (is_gml_name(element.name, aggregate_names)) {
+  if (is_one_of(element.name, aggregate_names)) {
     start_aggregate(element);
     return Answer::entered;
   }
@@ -66,7 +60,7 @@ void GmlSurfaceReader::start_aggregate(const XmlElement& element) {
 }
 
 GmlSurfaceReader::Answer GmlSurfaceReader::start_property(const XmlElement& element) {
-  if (is_gml_name(element.name, property_names)) {
+  if (is_one_of(element.name, property_names)) {
     if (!element.href.empty()) add_reference(element.href);
     return Answer::entered;
   }
@@ -86,10 +80,10 @@ GmlSurfaceReader::Answer GmlSurfaceReader::start_in_polygon(const XmlElement& el
   } else if (element.name == "Ring") {
     surfaces_.polygons.back().has_curves = true;
     return Answer::skip;
-  } else if (in_ring_ && is_gml_name(element.name, coordinate_names)) {
+  } else if (in_ring_ && is_one_of(element.name, coordinate_names)) {
     in_coordinates_ = true;
     numbers_.clear();
-  } else if (!in_ring_ || !is_gml_name(element.name, ring_element_names)) {
+  } else if (!in_ring_ || !is_one_of(element.name, ring_element_names)) {
     return Answer::skip;
   }
   return Answer::entered;
@@ -101,10 +95,10 @@ void GmlSurfaceReader::end(std::string_view name) {
     take_coordinates(name);
   } else if (name == "LinearRing") {
     in_ring_ = false;
-  } else if (is_gml_name(name, polygon_names)) {
+  } else if (is_one_of(name, polygon_names)) {
     in_polygon_ = false;
     end_open();
-  } else if (is_gml_name(name, aggregate_names)) {
+  } else if (is_one_of(name, aggregate_names)) {
     end_open();
   }
 }
@@ -154,6 +148,83 @@ void GmlSurfaceReader::take_coordinates(std::string_view name) {
 void GmlSurfaceReader::note_dimension(std::string_view srs_dimension) {
   if (srs_dimension == "2") dimension_ = 2;
   if (srs_dimension == "3") dimension_ = 3;
+}
+
+namespace {
+
+constexpr std::size_t points_of_prototypes = 5'000'000;
+/// Two or three buildings share a wall, and each visits it three times.
+constexpr std::size_t visits_of_each_point = 16;
+
+}  // namespace
+
+ReferenceBudget::ReferenceBudget(const GmlSurfaces& foreign) : most_points_(points_of_prototypes) {
+  for (const GmlPolygon& polygon : foreign.polygons) most_points_ += visits_of_each_point * polygon.point_count();
+  left_ = most_points_;
+}
+
+bool ReferenceBudget::take(std::size_t points) {
+  if (points > left_) left_ = 0;
+  if (left_ == 0) {
+    ++refusals_;
+    return false;
+  }
+  left_ -= points;
+  return true;
+}
+
+bool ReferenceBudget::append(const ReferenceBudget& other) {
+  const std::size_t given = other.most_points_ - other.left_;
+  if (other.refusals_ > 0 || given > left_) return false;
+  left_ -= given;
+  return true;
+}
+
+void ReferenceWalk::each(const GmlMember& member, const std::function<void(const ResolvedPolygon&)>& visit) {
+  walk(member, [&](const ResolvedPolygon& p) {
+    if (reached_.insert(p.polygon).second) visit(p);
+    return false;
+  });
+}
+
+bool ReferenceWalk::any(const GmlMember& member, const std::function<bool(const GmlPolygon&)>& is_it) {
+  return walk(member, [&](const ResolvedPolygon& p) { return is_it(*p.polygon); });
+}
+
+bool ReferenceWalk::walk(const GmlMember& member, const IsEnough& is_enough) {
+  levels_.clear();
+  bool is_found = step(own_, member, false, is_enough);
+  while (!is_found && !levels_.empty()) {
+    Level& level = levels_.back();
+    if (level.next == level.end)
+      levels_.pop_back();
+    else
+      is_found = step(*level.home, level.home->members[level.next++], level.is_reversed, is_enough);
+  }
+  if (is_found)
+    for (const Level& level : levels_) *level.ends_walks = true;
+  return is_found;
+}
+
+bool ReferenceWalk::step(const GmlSurfaces& home, const GmlMember& member, bool is_reversed, const IsEnough& is_enough) {
+  const bool turned = is_reversed != member.is_reversed;
+  if (&home == &foreign_ && !budget_.take(member.polygon ? home.polygons[*member.polygon].point_count() : 1)) return false;
+  if (!member.polygon) return enter(member.href, turned);
+  return is_enough({&home.polygons[*member.polygon], turned, &home == &foreign_});
+}
+
+bool ReferenceWalk::enter(const std::string& href, bool is_reversed) {
+  const std::string id = href.starts_with('#') ? href.substr(1) : std::string();
+  for (const GmlSurfaces* there : {&own_, &foreign_})
+    if (const auto found = there->ranges.find(id); !id.empty() && found != there->ranges.end()) {
+      const auto [entry, is_new] = entered_.try_emplace(id, false);
+      if (!is_new) return entry->second;
+      const GmlRange& range = found->second;
+      levels_.push_back({there, range.begin, range.end, is_reversed != range.was_reversed, &entry->second});
+      return false;
+    }
+  dangling_.push_back(href);
+  return false;
 }
 
 }  // namespace farlod::ingest

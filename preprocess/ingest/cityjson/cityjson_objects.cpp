@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ingest/cityjson/cityjson_objects.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -14,14 +12,15 @@
 #include <vector>
 
 #include "farlod/error.hpp"
-#include "ingest/model_builder/polygon_deduplicator.hpp"
+#include "ingest/cityjson/cityjson_reader.hpp"
+#include "ingest/model_builder/ring_cleaning.hpp"
 
 namespace farlod::ingest {
 namespace {
 
 enum class ObjectRole { none, building, part, installation, element, relief };
 
-[[nodiscard]] inline ObjectRole role_of(std::string_view type) {
+ObjectRole role_of(std::string_view type) {
   if (type == "TINRelief") return ObjectRole::relief;
   if (type == "OtherConstruction") return ObjectRole::building;
   for (const std::string_view kind : {"Building", "Bridge", "Tunnel"}) {
@@ -36,7 +35,7 @@ enum class ObjectRole { none, building, part, installation, element, relief };
   return ObjectRole::none;
 }
 
-[[nodiscard]] inline bool hides_the_sky(const CityJsonObject& object) {
+bool hides_the_sky(const CityJsonObject& object) {
   const ObjectRole role = role_of(object.type);
   return role != ObjectRole::none && role != ObjectRole::relief;
 }
@@ -90,12 +89,6 @@ std::uint64_t pieces_of(const CityJsonGeometry& geometry) {
   return pieces;
 }
 
-bool has_surfaces(std::string_view type) {
-  for (const std::string_view name : {"MultiSurface", "CompositeSurface", "Solid", "MultiSolid", "CompositeSolid"})
-    if (type == name) return true;
-  return false;
-}
-
 /// A geometry, or an instance with the geometry of its template.
 struct Shape {
   const CityJsonGeometry* geometry = nullptr;
@@ -112,14 +105,14 @@ struct EarlierPolygon {
   std::optional<std::uint32_t> surface;
 };
 
-bool is_usable(const CityJsonPolygon& polygon) {
+bool is_polygon(const CityJsonPolygon& polygon) {
   if (polygon.rings.empty()) return false;
   return std::set<std::int64_t>(polygon.rings[0].begin(), polygon.rings[0].end()).size() >= 3;
 }
 
-class BuildingAssembler {
+class CityJsonAssembler {
  public:
-  BuildingAssembler(const std::vector<CityJsonObject>& objects, const CityJsonFamily& family,
+  CityJsonAssembler(const std::vector<CityJsonObject>& objects, const CityJsonFamily& family,
                     const std::vector<Point3d>& vertices, const CityJsonTemplates& templates, std::vector<bool>& visited,
                     CityModelBuilder& builder, ObjectAccount& account)
       : objects_(objects),
@@ -160,7 +153,8 @@ class BuildingAssembler {
       visited_[k] = true;
       const ObjectRole role = role_of(objects_[k].type);
       const bool shares_part = k == root || role == ObjectRole::installation || role == ObjectRole::element;
-      const std::uint16_t part = shares_part ? part_of_parent : next_part();
+      if (!shares_part && parts_ < std::numeric_limits<std::uint16_t>::max()) ++parts_;
+      const std::uint16_t part = shares_part ? part_of_parent : parts_;
       gather_own(objects_[k], part);
       const std::set<std::size_t>& children = family_.children_of(k);
       for (auto child = children.rbegin(); child != children.rend(); ++child)
@@ -177,11 +171,6 @@ class BuildingAssembler {
         if (!family_.find(id)) builder_.add_problem(ProblemCode::dangling_reference, object.id + " refers to " + id);
   }
 
-  std::uint16_t next_part() {
-    if (parts_ < std::numeric_limits<std::uint16_t>::max()) ++parts_;
-    return parts_;
-  }
-
   void add_shape(const CityJsonObject& object, const CityJsonGeometry& geometry, std::uint16_t part) {
     const auto row = static_cast<std::uint32_t>(places_.objects.size() - 1);
     Shape shape{&geometry, nullptr, &object, row, part, &object == root_ ? ObjectRole::building : role_of(object.type)};
@@ -196,7 +185,7 @@ class BuildingAssembler {
       account_.template_pieces += pieces_of(*shape.geometry);
       if (account_.template_pieces > most_template_pieces) refuse_unfolding();
     }
-    if (has_surfaces(shape.geometry->type))
+    if (nesting_of(shape.geometry->type))
       shapes_.push_back(shape);
     else
       builder_.add_problem(ProblemCode::unsupported_geometry, "a " + shape.geometry->type + " is not read");
@@ -214,7 +203,7 @@ class BuildingAssembler {
     std::vector<std::vector<double>> lods(static_cast<std::size_t>(parts_) + 1);
     for (const Shape& shape : shapes_) {
       const auto& polygons = shape.geometry->polygons;
-      if (decides(shape.role) && std::any_of(polygons.begin(), polygons.end(), is_usable))
+      if (decides(shape.role) && std::any_of(polygons.begin(), polygons.end(), is_polygon))
         lods[shape.part].push_back(shape.geometry->lod);
     }
     return lods;
@@ -396,7 +385,7 @@ void add_objects(const std::vector<CityJsonObject>& objects, const std::vector<P
   for (const bool is_first_round : {true, false})
     for (std::size_t k = 0; k < objects.size(); ++k)
       if (hides_the_sky(objects[k]) && !visited[k] && (!is_first_round || !family.has_parent(k)))
-        BuildingAssembler(objects, family, vertices, templates, visited, builder, account).add(k, lod);
+        CityJsonAssembler(objects, family, vertices, templates, visited, builder, account).add(k, lod);
   ReliefCollector relief(vertices, builder, account.relief_points);
   for (const CityJsonObject& object : objects) {
     if (role_of(object.type) == ObjectRole::relief) relief.add(object);

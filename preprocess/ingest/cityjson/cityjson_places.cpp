@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ingest/cityjson/cityjson_places.hpp"
-
 #include <string>
 #include <utility>
 
 #include "base/expects.hpp"
+#include "ingest/cityjson/cityjson_reader.hpp"
 
 namespace farlod::ingest {
 namespace {

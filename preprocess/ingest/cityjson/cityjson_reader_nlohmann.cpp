@@ -2,19 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <charconv>
 #include <cmath>
-#include <istream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "farlod/error.hpp"
-#include "ingest/cityjson/cityjson_flaws.hpp"
-#include "ingest/cityjson/cityjson_objects.hpp"
-#include "ingest/cityjson/cityjson_places.hpp"
 #include "ingest/cityjson/cityjson_reader.hpp"
-#include "ingest/cityjson/placed_buffer.hpp"
-#include "ingest/model_builder/city_model_builder.hpp"
-#include "ingest/model_builder/surface_names.hpp"
 
 namespace farlod::ingest {
 namespace {

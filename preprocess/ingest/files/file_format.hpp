@@ -2,11 +2,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <initializer_list>
+#include <string>
 #include <string_view>
 
+#include "base/lower_case.hpp"
 #include "ingest/files/input_file.hpp"
 
 namespace farlod::ingest {
+
+/// Whether a file name in any case has one of the endings, which are in lower case with their dots.
+[[nodiscard]] inline bool ends_with_any(std::string_view name, std::initializer_list<std::string_view> endings) {
+  const std::string lower = lower_case(name);
+  return std::any_of(endings.begin(), endings.end(), [&](std::string_view ending) { return lower.ends_with(ending); });
+}
+
+/// Whether a file is CityJSON or CityJSONSeq, by the members of its first JSON object. Reads no farther than needed. A file that
+/// is not JSON up to there is not CityJSON.
+[[nodiscard]] bool is_cityjson(const InputFile& file);
+
+/// What a file or a folder is to GDAL.
+enum class MapKind {
+  unknown,
+  features,
+  raster,
+  only_by_name  ///< its format may name other files, and the user did not name this one
+};
+
+/// By its content, and for some formats by its name. A file with features and a raster counts as features. A raster without a
+/// place on the map, such as a photograph, is `unknown`.
+[[nodiscard]] MapKind map_kind_of(const InputFile& file);
+
+/// Whether bytes begin like a zip archive, or like a gzip file.
+[[nodiscard]] bool is_zip(std::string_view bytes);
+[[nodiscard]] bool is_gzip(std::string_view bytes);
 
 /// Which reader reads a file.
 enum class FileFormat {

@@ -5,14 +5,52 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 #include <istream>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "ingest/files/input_pipe.hpp"
-
 namespace farlod::ingest {
+
+/// Work in pieces, each of which has a place until it ends. The number of places bounds what is in memory.
+struct OrderedWork {
+  std::function<bool(std::size_t place)> begin;  ///< puts the next piece there; false: none is left. In order, one at a time
+  std::function<void(std::size_t place)> work;   ///< on all threads
+  std::function<void(std::size_t place)> end;    ///< takes the piece out. In order, one at a time
+};
+
+/// Works on all threads of the task arena that it is called in, on as many pieces at a time as there are places. What one of the
+/// three throws ends all work and is thrown on. The caller's data must outlive the call, and no piece is at two places.
+void run_in_order(std::size_t places, const OrderedWork& work);
+
+/// The number of threads of the task arena that it is called in.
+[[nodiscard]] std::size_t threads_here();
+
+/// As many places as keep the threads of the task arena at work that it is called in. Of more than 16 threads, the others would
+/// wait: to end a piece takes a twentieth of the time that it takes to work on it (CityGML), or more.
+[[nodiscard]] std::size_t places_for_threads();
+
+/// Whether a path leads to a pipe: one with a name, or the standard input when another program writes to it.
+[[nodiscard]] bool is_pipe(const std::filesystem::path& path);
+
+/// A city that another program writes while it is read. A pipe gives its bytes once; its beginning is kept, so that the format
+/// can be recognized first.
+class InputPipe {
+ public:
+  explicit InputPipe(const std::filesystem::path& path) : name_(path.string()), rest_(path, std::ios::binary) {}
+
+  /// The first bytes, at most so many. Before `take_all`.
+  [[nodiscard]] const std::string& beginning(std::size_t most_bytes);
+  /// All bytes. Throws InputError when it is called a second time.
+  [[nodiscard]] std::unique_ptr<std::istream> take_all();
+
+ private:
+  std::string name_, beginning_;
+  std::ifstream rest_;
+  bool is_taken_ = false;
+};
 
 /// One file of a city: on the disk, a member of an archive, or a pipe.
 struct InputFile {

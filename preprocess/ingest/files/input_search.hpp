@@ -4,13 +4,35 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include "city/source.hpp"
+#include "city/city_model.hpp"
 #include "farlod/problem.hpp"
 #include "ingest/files/input_file.hpp"
 
 namespace farlod::ingest {
+
+/// An entry of the central directory of a zip archive.
+struct ZipListing {
+  std::string name;        ///< printable
+  bool is_locked = false;  ///< encrypted with a password
+};
+
+/// Reads the central directory alone. Empty when there is none, or when it has more than 256 MiB.
+[[nodiscard]] std::vector<ZipListing> zip_listings(const std::filesystem::path& archive);
+
+/// A name that is safe to show: control characters become "?".
+[[nodiscard]] std::string printable(std::string_view name);
+
+/// Whether a name leads out of its archive: it is absolute, or has a drive or `..`.
+[[nodiscard]] bool leads_outside(std::string_view name);
+
+/// The files in a zip archive, ordered by name. Nothing is unpacked and nothing is written. Names that lead out of the archive
+/// (leads_outside) are left out. Links are not followed. Throws InputError when the archive cannot be read, holds more files than
+/// a city has, or declares to unpack to more than most_unpacked_bytes.
+[[nodiscard]] std::vector<InputFile> files_in_zip(const std::filesystem::path& archive);
 
 /// The files that a user's inputs lead to.
 struct FoundInputs {

@@ -7,17 +7,14 @@
 #include <array>
 #include <cmath>
 #include <sstream>
-#include <variant>
 
-#include "city/degree_length.hpp"
 #include "farlod/angle.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/local_data_gdal.hpp"
+#include "gdal/vector_file_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
-#include "ingest/footprints/footprint_heights.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
-#include "ingest/footprints/height_text.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
 
 namespace farlod::ingest {
@@ -28,10 +25,6 @@ constexpr std::array<const char*, 10> id_field_names{"gml_id",      "@id", "id",
 /// Enough features to find out whether a text column holds lengths, and whether features are bodies.
 constexpr int most_features_to_sample = 100;
 
-struct FeatureDeleter {
-  void operator()(OGRFeature* feature) const { OGRFeature::DestroyFeature(feature); }
-};
-using Feature = std::unique_ptr<OGRFeature, FeatureDeleter>;
 Feature next_feature(OGRLayer& layer) { return Feature(layer.GetNextFeature()); }
 
 bool is_set(const OGRFeature& feature, int field) { return field >= 0 && feature.IsFieldSetAndNotNull(field); }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_set>
@@ -11,11 +12,30 @@
 
 #include "city/city_model.hpp"
 #include "farlod/problem.hpp"
-#include "ingest/model_builder/polygon_deduplicator.hpp"
+#include "farlod/surface_kind.hpp"
 #include "ingest/model_builder/ring_cleaning.hpp"
 #include "package/sources_layout.hpp"
 
 namespace farlod::ingest {
+
+/// The level of detail that a user asks for.
+struct LodChoice {
+  std::optional<int> exactly;  ///< 0 to 3; empty: the best from 1 to 3
+};
+
+/// The level of detail to read of each part of a building; empty: nothing is read of the part. `lods_of_parts` has the levels
+/// with usable surfaces, of the building itself (first) and of each part. Refined levels (2.2) belong to their whole number (2).
+///   (1) one level is chosen for the whole building
+///   (2) a part that lacks it is read in its best level
+///   (3) of the building itself nothing is read if it lacks that level: a coarser shell would enclose the parts again
+[[nodiscard]] std::vector<std::optional<double>> choose_lods(std::span<const std::vector<double>> lods_of_parts,
+                                                             LodChoice choice);
+
+/// For messages: "1, 2.2", or "none".
+[[nodiscard]] std::string list_lods(std::span<const std::vector<double>> lods_of_parts);
+
+/// The text of the report about the polygons of levels that were not chosen.
+[[nodiscard]] std::string unused_polygons(std::size_t count, std::span<const std::vector<double>> lods_of_parts);
 
 /// What a polygon is of in its file: rows of PlacesOfBuilding.
 struct PolygonOrigin {
@@ -119,5 +139,20 @@ class CityModelBuilder {
   std::size_t problems_before_ = 0;  ///< problems in the report when the building began
   Rings wall_ = Rings(1);
 };
+
+/// The kind of surface that a class name of CityGML or CityJSON stands for; unknown for other names. Outer ceilings face down and
+/// outer floors face up: they are the undersides and the terraces of a building.
+[[nodiscard]] constexpr SurfaceKind kind_of_surface_name(std::string_view name) {
+  if (name == "RoofSurface" || name == "OuterFloorSurface") return SurfaceKind::roof;
+  if (name == "WallSurface" || name == "Window" || name == "Door" || name == "WindowSurface" || name == "DoorSurface")
+    return SurfaceKind::wall;
+  if (name == "GroundSurface" || name == "OuterCeilingSurface") return SurfaceKind::floor;
+  return SurfaceKind::unknown;
+}
+
+/// Surfaces of rooms. They hide no sky that the building does not hide.
+[[nodiscard]] constexpr bool is_interior_surface_name(std::string_view name) {
+  return name == "InteriorWallSurface" || name == "CeilingSurface" || name == "FloorSurface";
+}
 
 }  // namespace farlod::ingest

@@ -7,18 +7,13 @@
 #include <vector>
 
 #include "ingest/citygml/citygml_xml.hpp"
-#include "ingest/citygml/gml_surfaces_numbers.hpp"
-#include "ingest/footprints/height_text.hpp"
-#include "ingest/trees/city_trees.hpp"
-#include "ingest/trees/foliage_text.hpp"
+#include "ingest/citygml/gml_surfaces.hpp"
+#include "ingest/footprints/footprint_reader.hpp"
 #include "ingest/trees/plant_cover.hpp"
-#include "ingest/trees/tree_shape.hpp"
+#include "ingest/trees/tree_reader.hpp"
 
 namespace farlod::ingest {
 namespace {
-
-/// The longest text of a size or a name that is kept.
-constexpr std::size_t most_words = 256;
 
 bool holds_words(std::string_view name) {
   return name == "height" || name == "crownDiameter" || name == "trunkDiameter" || name == "species";

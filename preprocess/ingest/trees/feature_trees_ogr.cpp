@@ -11,27 +11,20 @@
 
 #include "base/cancellation.hpp"
 #include "base/lower_case.hpp"
-#include "city/degree_length.hpp"
+#include "city/city_model.hpp"
 #include "farlod/angle.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/vector_file_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
-#include "ingest/trees/feature_trees.hpp"
-#include "ingest/trees/tree_collector.hpp"
-#include "ingest/trees/tree_columns.hpp"
 #include "ingest/trees/tree_fields.hpp"
+#include "ingest/trees/tree_reader.hpp"
 
 namespace farlod::ingest {
 namespace {
 
-bool is_table(const std::filesystem::path& file) {
-  const std::string ending = lower_case(file.extension().string());
-  return ending == ".csv" || ending == ".tsv" || ending == ".txt";
-}
-
 GDALDatasetUniquePtr open(const std::filesystem::path& file, GdalErrors& messages) {
-  GDALDatasetUniquePtr dataset = is_table(file) ? open_table(file) : open_vector_file(file);
+  GDALDatasetUniquePtr dataset = open_vector_file_or_table(file);
   if (dataset) return dataset;
   const std::string reason = messages.last();
   throw InputError(file.string() + " cannot be read as an inventory of trees: give a vector file that GDAL reads, or a table" +
@@ -41,13 +34,6 @@ GDALDatasetUniquePtr open(const std::filesystem::path& file, GdalErrors& message
 bool may_hold_trees(OGRLayer& layer) {
   const OGRwkbGeometryType type = wkbFlatten(layer.GetGeomType());
   return OGR_GT_IsCurve(type) == 0 && OGR_GT_IsSubClassOf(type, wkbMultiCurve) == 0;
-}
-
-std::vector<std::string> field_names(OGRLayer& layer) {
-  std::vector<std::string> names;
-  OGRFeatureDefn& fields = *layer.GetLayerDefn();
-  for (int n = 0; n < fields.GetFieldCount(); ++n) names.emplace_back(fields.GetFieldDefn(n)->GetNameRef());
-  return names;
 }
 
 /// The first that may hold trees and has the height field that the settings name; else the first that may hold trees.

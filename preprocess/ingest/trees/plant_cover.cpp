@@ -2,13 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ingest/trees/plant_cover.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <tuple>
 #include <utility>
-
-#include "farlod/box.hpp"
 
 namespace farlod::ingest {
 namespace {
@@ -190,6 +186,13 @@ std::optional<double> PlantCover::height_m() const {
   }
   return area > 0.0 ? std::optional(std::abs(volume) / area) : std::nullopt;
 }
+
+namespace {
+
+/// A lower one is ground cover: it is not above the eyes of a pedestrian, and rasters of canopies are usually cut there, too.
+constexpr double lowest_plant_cover_m = 2.0;
+
+}  // namespace
 
 void PlantCover::hand_over(TreeCollector& trees) const {
   const std::optional<double> height = height_m();

@@ -4,19 +4,32 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "farlod/pack.hpp"
-#include "ingest/footprints/footprint_heights.hpp"
-#include "ingest/footprints/height_text.hpp"
-#include "ingest/trees/tag_text.hpp"
-#include "ingest/trees/tree_sizes.hpp"
+#include "ingest/footprints/footprint_reader.hpp"
+#include "ingest/trees/tree_reader.hpp"
 
 namespace farlod::ingest {
+
+/// Keys with their values.
+using Tags = std::vector<std::pair<std::string, std::string>>;
+
+/// The tags in a field of OpenStreetMap's data: an object of JSON, {"natural": "tree"}, or a list, "natural"=>"tree". Values that
+/// are neither texts nor numbers are left out; of any other text there are none.
+[[nodiscard]] Tags tags_in(const std::string& text);
+
+/// The two columns of a table that hold the places of its rows.
+struct PlaceColumns {
+  std::size_t x = 0, y = 0;
+  bool are_degrees = false;  ///< longitudes and latitudes
+};
+
+/// Finds them by their names, in capitals or not, in any order. Degrees count where a table has them beside other coordinates.
+[[nodiscard]] std::optional<PlaceColumns> find_place_columns(const std::vector<std::string>& names);
 
 /// What a field of a tree is about.
 enum class TreeQuantity : std::uint8_t {
@@ -39,7 +52,6 @@ struct KnownTreeField {
   LengthUnit unit = LengthUnit::metre;  ///< of numbers without a unit
   std::size_t rank = 0;                 ///< of two fields of a quantity, the one of lower rank counts
 };
-[[nodiscard]] std::optional<KnownTreeField> known_tree_field(const std::string& name);
 
 /// Finds what an inventory says of a tree in the fields of its table, and in the keys of OpenStreetMap's tags where a field holds
 /// such. For each quantity, the first of these that has a value counts:

@@ -7,11 +7,11 @@
 #include <map>
 #include <vector>
 
+#include "generator/building_details.hpp"
 #include "generator/convex_faces.hpp"
 #include "generator/generated_building.hpp"
 #include "generator/generated_city.hpp"
 #include "generator/keyed_random.hpp"
-#include "generator/open_shells.hpp"
 #include "tests/datasets/generator/solid_geometry.hpp"
 
 namespace farlod {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/frame.hpp"
-#include "generator/building_plan.hpp"
-#include "generator/touching_walls.hpp"
+#include "generator/generated_building.hpp"
+#include "generator/plan_solid.hpp"
 
 namespace farlod {
 namespace {

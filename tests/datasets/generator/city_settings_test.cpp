@@ -9,8 +9,8 @@
 #include <set>
 
 #include "farlod/error.hpp"
+#include "generator/city_layout.hpp"
 #include "generator/keyed_random.hpp"
-#include "generator/urban_field.hpp"
 
 namespace farlod {
 namespace {

@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "farlod/error.hpp"
-#include "generator/city_text_file.hpp"
 #include "generator/city_writer.hpp"
 #include "generator/convex_faces.hpp"
 #include "generator/generated_city.hpp"

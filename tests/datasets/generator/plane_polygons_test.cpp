@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/frame.hpp"
+#include "generator/city_layout.hpp"
 #include "generator/keyed_random.hpp"
-#include "generator/plan_frame.hpp"
 
 namespace farlod {
 namespace {

@@ -13,7 +13,7 @@
 #include <set>
 #include <string>
 
-#include "generator/plan_frame.hpp"
+#include "generator/city_layout.hpp"
 #include "tests/console/help_options.hpp"
 #include "tests/counted/held_memory.hpp"
 #include "tests/scenes/temporary_folder.hpp"

@@ -8,10 +8,9 @@
 #include <random>
 #include <set>
 
-#include "align/area_cells.hpp"
-#include "align/grid_doubt.hpp"
 #include "extruded_town.hpp"
 #include "farlod/error.hpp"
+#include "pipeline/blocks.hpp"
 #include "tests/preprocess/align/extruded_town.hpp"
 #include "tests/scenes/refusal.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "align/street_alignment.hpp"
+#include "align/align.hpp"
 
 #include <gtest/gtest.h>
 

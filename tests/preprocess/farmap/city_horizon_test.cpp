@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "farmap/viewpoint_horizons.hpp"
+#include "farmap/occlusion_culler.hpp"
 #include "tests/preprocess/farmap/sight.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"

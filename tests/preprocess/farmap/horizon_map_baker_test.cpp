@@ -13,8 +13,8 @@
 
 #include "base/grid.hpp"
 #include "farmap/occlusion_culler.hpp"
-#include "package/baked_block.hpp"
-#include "package/edge_facing.hpp"
+#include "package/far_map.hpp"
+#include "package/horizon_edge.hpp"
 #include "package/tile_set.hpp"
 #include "tests/determinism/threads.hpp"
 #include "tests/oracles/far_view.hpp"

@@ -8,8 +8,8 @@
 
 #include "base/point_columns.hpp"
 #include "farlod/error.hpp"
-#include "georeference/output_crs.hpp"
-#include "georeference/utm_projection.hpp"
+#include "georeference/crs.hpp"
+#include "georeference/georeference.hpp"
 #include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "georeference/crs_definition.hpp"
+#include "georeference/input_crs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,7 @@
 #include <string>
 
 #include "georeference/crs.hpp"
-#include "georeference/crs_name.hpp"
-#include "georeference/file_axes.hpp"
-#include "georeference/utm_projection.hpp"
+#include "georeference/resolved_source.hpp"
 #include "tests/preprocess/georeference/small_source.hpp"
 
 namespace farlod::georeference {

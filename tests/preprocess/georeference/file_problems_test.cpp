@@ -5,7 +5,7 @@
 #include "farlod/error.hpp"
 #include "georeference/crs.hpp"
 #include "georeference/georeference.hpp"
-#include "georeference/problem_locator.hpp"
+#include "georeference/resolved_source.hpp"
 #include "tests/preprocess/georeference/small_source.hpp"
 
 // What is said of a whole file: how it counts, where it lies, and which CRS holds.

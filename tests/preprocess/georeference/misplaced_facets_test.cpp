@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "georeference/misplaced_facets.hpp"
+#include "georeference/implausible_model.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,9 +8,7 @@
 
 #include "farlod/error.hpp"
 #include "georeference/crs.hpp"
-#include "georeference/implausible_model.hpp"
-#include "georeference/output_crs.hpp"
-#include "georeference/tree_places.hpp"
+#include "georeference/georeference.hpp"
 #include "tests/scenes/refusal.hpp"
 
 namespace farlod::georeference {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "city/source.hpp"
+#include "city/city_model.hpp"
 
 namespace farlod::georeference {
 

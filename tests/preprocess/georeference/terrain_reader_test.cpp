@@ -10,9 +10,9 @@
 #include <fstream>
 
 #include "farlod/error.hpp"
-#include "georeference/canopy_reader.hpp"
 #include "georeference/crs.hpp"
-#include "georeference/output_crs.hpp"
+#include "georeference/georeference.hpp"
+#include "georeference/raster_reader.hpp"
 #include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 #include "tests/scenes/test_data.hpp"

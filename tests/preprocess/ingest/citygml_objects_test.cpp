@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "citygml_text.hpp"
 #include "farlod/error.hpp"
-#include "ingest/citygml/citygml_placement.hpp"
-#include "ingest/citygml/citygml_skipped.hpp"
+#include "ingest/citygml/citygml_building.hpp"
+#include "ingest/citygml/citygml_vocabulary.hpp"
 #include "tests/scenes/refusal.hpp"
 #include "tests/scenes/surface_count.hpp"
 

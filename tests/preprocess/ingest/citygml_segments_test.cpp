@@ -4,7 +4,7 @@
 
 #include "citygml_text.hpp"
 #include "farlod/error.hpp"
-#include "ingest/citygml/citygml_segmented_reading.hpp"
+#include "ingest/citygml/citygml_reader.hpp"
 #include "ingest/citygml/citygml_xml.hpp"
 
 namespace farlod::ingest::test {

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "citygml_text.hpp"
 #include "farlod/error.hpp"
-#include "ingest/citygml/gml_references.hpp"
-#include "ingest/citygml/gml_surfaces_numbers.hpp"
+#include "ingest/citygml/gml_surfaces.hpp"
 #include "tests/scenes/surface_count.hpp"
 
 namespace farlod::ingest::test {

@@ -4,10 +4,9 @@
 
 #include <limits>
 
-#include "city/height_limits.hpp"
+#include "city/city_model.hpp"
 #include "farlod/error.hpp"
-#include "ingest/footprints/footprint_heights.hpp"
-#include "ingest/footprints/height_text.hpp"
+#include "ingest/footprints/footprint_reader.hpp"
 #include "reading.hpp"
 #include "small_cities.hpp"
 #include "tests/scenes/refusal.hpp"

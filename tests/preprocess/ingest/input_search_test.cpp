@@ -10,7 +10,6 @@
 
 #include "archive_writer.hpp"
 #include "farlod/error.hpp"
-#include "ingest/files/zip_directory.hpp"
 #include "reading.hpp"
 #include "small_cities.hpp"
 #include "tests/scenes/refusal.hpp"

@@ -6,9 +6,8 @@
 #include <limits>
 
 #include "ingest/model_builder/city_model_builder.hpp"
-#include "ingest/model_builder/lod_choice.hpp"
 #include "ingest/model_builder/ring_cleaning.hpp"
-#include "ingest/obj/planar_faces.hpp"
+#include "ingest/obj/obj_mesh.hpp"
 
 namespace farlod::ingest {
 namespace {

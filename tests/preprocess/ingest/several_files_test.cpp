@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "farlod/error.hpp"
-#include "ingest/ordered/ordered_work.hpp"
+#include "ingest/files/input_file.hpp"
 #include "reading.hpp"
 #include "small_cities.hpp"
 #include "tests/scenes/refusal.hpp"

@@ -4,10 +4,8 @@
 #include <numbers>
 
 #include "farlod/error.hpp"
-#include "ingest/trees/foliage_text.hpp"
-#include "ingest/trees/tag_text.hpp"
-#include "ingest/trees/tree_columns.hpp"
 #include "ingest/trees/tree_fields.hpp"
+#include "ingest/trees/tree_reader.hpp"
 #include "small_cities.hpp"
 #include "tree_reading.hpp"
 

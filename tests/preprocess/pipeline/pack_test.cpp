@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "farlod/error.hpp"
-#include "package/written_stamp.hpp"
+#include "package/file_stamp.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
 
 namespace farlod::pipeline::test {

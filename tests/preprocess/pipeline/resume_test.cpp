@@ -8,10 +8,9 @@
 
 #include "base/shard_parts.hpp"
 #include "farlod/error.hpp"
+#include "package/file_stamp.hpp"
 #include "package/unfinished_package.hpp"
-#include "package/written_stamp.hpp"
-#include "pipeline/city_record.hpp"
-#include "pipeline/saved_city.hpp"
+#include "pipeline/pack_target.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
 #include "tests/scenes/refusal.hpp"
 

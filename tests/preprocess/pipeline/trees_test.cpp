@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "farlod/error.hpp"
-#include "package/crown_layout.hpp"
+#include "package/crown.hpp"
 #include "package/unfinished_package.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
 #include "tests/problems/problem_lists.hpp"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "farlod/box.hpp"
-#include "package/edge_facing.hpp"
+#include "package/horizon_edge.hpp"
 #include "tests/preprocess/tiles/bodies.hpp"
 #include "tests/preprocess/tiles/borders.hpp"
 #include "tiles/horizon_edges.hpp"

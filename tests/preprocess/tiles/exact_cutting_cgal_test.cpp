@@ -11,7 +11,6 @@
 #include <random>
 
 #include "tests/preprocess/tiles/twice_area_vector.hpp"
-#include "tiles/bounded_number.hpp"
 #include "tiles/cutting.hpp"
 
 namespace farlod::tiles {

@@ -8,10 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tiles/facet_projection.hpp"
-#include "tiles/misplaced_holes.hpp"
-#include "tiles/solid_orientation.hpp"
-#include "tiles/spikes.hpp"
+#include "tiles/building_pieces.hpp"
+#include "tiles/facet_triangulation.hpp"
 
 namespace farlod::tiles {
 namespace {

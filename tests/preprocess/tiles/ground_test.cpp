@@ -11,14 +11,12 @@
 
 #include "base/paging/page_file.hpp"
 #include "base/paging/paged_heap.hpp"
-#include "city/height_limits.hpp"
+#include "city/city_model.hpp"
 #include "tests/preprocess/city/temporary_files.hpp"
 #include "tests/preprocess/tiles/whole_ground.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
-#include "tiles/base_points.hpp"
-#include "tiles/lift_onto_terrain.hpp"
-#include "tiles/relief_thinning.hpp"
+#include "tiles/building_bases.hpp"
 #include "tiles/tiles.hpp"
 
 namespace farlod::tiles {

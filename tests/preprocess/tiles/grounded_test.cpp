@@ -10,7 +10,7 @@
 #include "tests/preprocess/tiles/borders.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"
-#include "tiles/base_points.hpp"
+#include "tiles/building_bases.hpp"
 #include "tiles/ground.hpp"
 #include "tiles/grounded_walls.hpp"
 #include "tiles/tiles.hpp"

@@ -15,7 +15,7 @@
 #include "city/cyclic_order.hpp"
 #include "farlod/point.hpp"
 #include "tests/counted/steps.hpp"
-#include "tiles/misplaced_holes.hpp"
+#include "tiles/facet_repair.hpp"
 #include "tiles/ring_sides.hpp"
 
 namespace farlod::tiles::test {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "tests/preprocess/tiles/borders.hpp"
-#include "tiles/contacts.hpp"
 #include "tiles/horizon_edges.hpp"
+#include "tiles/undersides.hpp"
 
 namespace farlod::tiles {
 namespace {

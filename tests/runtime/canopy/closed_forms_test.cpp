@@ -17,7 +17,6 @@
 #include "horizon/receiver_packet.hpp"
 #include "horizon/sky_profile.hpp"
 #include "package/crown.hpp"
-#include "package/crown_light.hpp"
 #include "tests/runtime/canopy/crown_scenes.hpp"
 
 // Sky view factors with canopies that are known, of a receiver that looks up. docs/concepts.md, "Crowns", has the formulas.

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "evaluate/error_budget.hpp"
-#include "package/package_error.hpp"
+#include "package/package_folder.hpp"
 #include "tests/analytic/tolerance.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "package/edge_facing.hpp"
+#include "package/horizon_edge.hpp"
 #include "tests/package/far_horizon_by_hand.hpp"
 #include "tests/runtime/horizon/horizon_oracle.hpp"
 #include "tests/runtime/horizon/packed_overhangs.hpp"

@@ -15,7 +15,7 @@
 
 #include "horizon/packet_horizon.hpp"
 #include "horizon/residual_horizon.hpp"
-#include "package/edge_facing.hpp"
+#include "package/horizon_edge.hpp"
 #include "tests/oracles/distance_to_segment.hpp"
 #include "tests/package/far_horizon_by_hand.hpp"
 #include "tests/runtime/horizon/horizon_oracle.hpp"

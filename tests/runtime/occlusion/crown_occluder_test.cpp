@@ -10,7 +10,7 @@
 #include <random>
 
 #include "farlod/error.hpp"
-#include "package/crown_light.hpp"
+#include "package/crown.hpp"
 #include "tests/runtime/occlusion/crowns_by_hand.hpp"
 
 namespace farlod {

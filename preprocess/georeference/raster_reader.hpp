@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "city/city_model.hpp"
+#include "city/tree.hpp"
+#include "farlod/box.hpp"
+#include "georeference/georeference.hpp"
+
+namespace farlod::georeference {
+
+/// A raster of heights as GDAL opens it. What the user did not name himself must not lead to other files.
+struct TerrainFile {
+  TerrainFile(std::filesystem::path file, bool named = true) : path(std::move(file)), is_named(named) {}  // NOLINT: a file is one
+
+  std::filesystem::path path;
+  bool is_named = true;
+};
+
+/// The place of a raster of heights, by its own metadata.
+struct TerrainExtent {
+  std::string crs_wkt;  ///< empty when the file has no CRS
+  Box2d box;            ///< easting or longitude in x, over whole pixels
+};
+
+/// Throws InputError when the file is not a raster, or has no place on the map.
+[[nodiscard]] TerrainExtent read_terrain_extent(const TerrainFile& file);
+
+/// The frame of a city that consists of a terrain or surface model alone. The CRS is chosen by the same rules as for buildings.
+[[nodiscard]] Georeference georeference_of_terrain(const TerrainFile& file, const GeoreferenceSettings& settings);
+
+/// Reads the heights of the ground from band 1 of any raster that GDAL reads.
+///   (1) a north-up raster in the output CRS is read as it is; the nodes of the terrain are the centres of its pixels
+///   (2) any other raster is resampled into the output CRS, bilinearly, at a similar resolution
+///   (3) pixels that are masked or have no data are empty; the scale and offset of the band are applied
+///   (4) heights are in metres: by the unit of the band, else by the vertical unit of the CRS, else, if that is projected, by its
+///       horizontal unit
+/// A raster without a CRS is in `fallback_crs` or, if that is empty, in the output CRS. Only the part over `wanted_city` is read,
+/// and one pixel around it. Throws InputError when the file cannot be read, or does not cover `wanted_city`.
+[[nodiscard]] TerrainRaster read_terrain(const TerrainFile& file, const std::string& fallback_crs,
+                                         const Georeference& georeference, std::optional<Box2d> wanted_city);
+
+/// The files of a canopy.
+struct CanopyFiles {
+  std::filesystem::path tops;
+  std::optional<std::filesystem::path> trunks;
+};
+
+/// Throws InputError when one of the files is no raster that can be opened, or has no place on the map: told before the long
+/// stages.
+void require_canopy(const CanopyFiles& files);
+
+/// Reads band 1 of a raster of the tops of crowns, and of one of the heights at which they begin.
+///   (1) a raster in the output CRS whose pixels are squares is read as it is, however it is turned
+///   (2) any other raster is brought into squares of the output CRS, each with the height of the nearest pixel
+///   (3) where a pixel has its centre, the raster of trunks is asked for the pixel there, whatever its extent and resolution
+///   (4) units, masks and rasters without a CRS are as for a terrain
+/// Only what lies over `wanted_city` is read. The second value is for the user: what of this was done. Throws InputError when a
+/// file cannot be read, or when the tops do not meet `wanted_city`; Cancelled.
+[[nodiscard]] std::pair<CanopyRaster, std::vector<std::string>> read_canopy(const CanopyFiles& files,
+                                                                            const std::string& fallback_crs,
+                                                                            const Georeference& georeference,
+                                                                            const Box2d& wanted_city,
+                                                                            const std::stop_token& stop = {});
+
+}  // namespace farlod::georeference

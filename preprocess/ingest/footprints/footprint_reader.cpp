@@ -1,0 +1,261 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ingest/footprints/footprint_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <span>
+#include <sstream>
+
+#include "base/expects.hpp"
+#include "base/lower_case.hpp"
+
+namespace farlod::ingest {
+namespace {
+
+constexpr double metres_in_a_foot = 0.3048;
+constexpr double feet_in_an_inch = 1.0 / 12.0;
+
+struct UnitName {
+  std::string_view text;
+  LengthUnit unit;
+};
+constexpr std::array<UnitName, 20> unit_names{
+    {{"m", LengthUnit::metre},        {"m.", LengthUnit::metre},      {"metre", LengthUnit::metre},
+     {"metres", LengthUnit::metre},   {"meter", LengthUnit::metre},   {"meters", LengthUnit::metre},
+     {"ft", LengthUnit::foot},        {"ft.", LengthUnit::foot},      {"feet", LengthUnit::foot},
+     {"foot", LengthUnit::foot},      {"'", LengthUnit::foot},        {"cm", LengthUnit::centimetre},
+     {"cm.", LengthUnit::centimetre}, {"mm", LengthUnit::millimetre}, {"mm.", LengthUnit::millimetre},
+     {"in", LengthUnit::inch},        {"in.", LengthUnit::inch},      {"inch", LengthUnit::inch},
+     {"inches", LengthUnit::inch},    {"\"", LengthUnit::inch}}};
+
+void skip_blanks(std::string_view& text) { text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size())); }
+
+std::optional<double> take_number(std::string_view& text) {
+  skip_blanks(text);
+  // An approximate height is taken as it is
+  if (text.starts_with('~')) text.remove_prefix(1);
+  skip_blanks(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
+  // A comma is a decimal point, as in many countries: no height has so many metres that it needs a separator of thousands
+  std::string pointed(text.substr(0, text.find_first_not_of("0123456789.,eE+-")));
+  std::replace(pointed.begin(), pointed.end(), ',', '.');
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(pointed.data(), pointed.data() + pointed.size(), value);
+  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(end - pointed.data()));
+  skip_blanks(text);
+  return value;
+}
+
+std::optional<double> unit_m(std::string_view unit, LengthUnit plain) {
+  if (unit.empty()) return metres_in(plain);
+  for (const UnitName& name : unit_names)
+    if (unit == name.text) return metres_in(name.unit);
+  return std::nullopt;
+}
+
+std::string_view without_blanks_behind(std::string_view text) { return text.substr(0, text.find_last_not_of(" \t\r\n") + 1); }
+
+}  // namespace
+
+double metres_in(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::metre:
+      return 1.0;
+    case LengthUnit::foot:
+      return metres_in_a_foot;
+    case LengthUnit::centimetre:
+      return 0.01;
+    case LengthUnit::millimetre:
+      return 0.001;
+    case LengthUnit::inch:
+      break;
+  }
+  return feet_in_an_inch * metres_in_a_foot;
+}
+
+std::optional<double> length_m_from(std::string_view text, LengthUnit plain) {
+  text = without_blanks_behind(text);
+  const std::optional<double> number = take_number(text);
+  if (!number) return std::nullopt;
+  if (text.starts_with('\'') && text.size() > 1) {
+    text.remove_prefix(1);
+    const std::optional<double> inches = take_number(text);
+    const bool ends_well = text.empty() || text == "\"" || text == "''";
+    if (!inches || !ends_well) return std::nullopt;
+    return (*number + *inches * feet_in_an_inch) * metres_in_a_foot;
+  }
+  const std::optional<double> unit = unit_m(text, plain);
+  return unit ? std::optional(*number * *unit) : std::nullopt;
+}
+
+std::optional<double> number_from(std::string_view text) {
+  text = without_blanks_behind(text);
+  const std::optional<double> number = take_number(text);
+  return text.empty() ? number : std::nullopt;
+}
+
+namespace {
+
+/// Usual names of fields with heights above the ground, the most specific first.
+constexpr std::array<std::string_view, 11> height_names{"building:height", "height",  "measuredheight", "building_height",
+                                                        "bldg_height",     "heightm", "height_m",       "height_ft",
+                                                        "height_feet",     "hoehe",   "hauteur"};
+/// `roof:levels` is not among them: it counts storeys inside of the roof, and few buildings have it.
+constexpr std::array<std::string_view, 16> storeys_names{
+    "building:levels", "levels",      "num_floors",         "numfloors", "number_of_floors", "floors",    "storeys",
+    "stories",         "num_storeys", "storeysaboveground", "nb_etages", "nombre_d_etages",  "geschosse", "anzahl_geschosse",
+    "plantas",         "pisos"};
+/// The height above the ground at which an elevated part begins, such as an arch or a skyway.
+constexpr std::array<std::string_view, 2> lowest_height_names{"min_height", "building:min_height"};
+/// `min_level` is not among them: it numbers storeys inside of a building, and the ground is 1 in America.
+constexpr std::array<std::string_view, 1> lowest_storeys_names{"building:min_level"};
+
+/// The unit of a column of numbers: its name ends with the unit, or it is in metres.
+LengthUnit unit_of(const std::string& field) {
+  const std::string name = lower_case(field);
+  return name.ends_with("_ft") || name.ends_with("_feet") ? LengthUnit::foot : LengthUnit::metre;
+}
+
+/// The fields with known names, in the order of these names, after the field that the settings name. Of two fields with the same
+/// name, the first.
+std::vector<std::size_t> fields_called(const std::vector<std::string>& names, const std::optional<std::string>& asked,
+                                       std::span<const std::string_view> known) {
+  std::vector<std::size_t> fields;
+  const auto add = [&](const std::string& wanted) {
+    const auto found =
+        std::find_if(names.begin(), names.end(), [&](const std::string& name) { return lower_case(name) == wanted; });
+    const auto field = static_cast<std::size_t>(found - names.begin());
+    if (found != names.end() && std::find(fields.begin(), fields.end(), field) == fields.end()) fields.push_back(field);
+  };
+  if (asked) add(lower_case(*asked));
+  FARLOD_EXPECTS(!asked || fields.size() == 1);
+  for (const std::string_view name : known) add(std::string(name));
+  return fields;
+}
+
+std::string said(const std::string& name, const FieldValue& value) {
+  if (!value.is_set) return name + " is empty";
+  std::ostringstream text;
+  text.precision(10);
+  if (value.number)
+    text << name << " is " << *value.number;
+  else
+    text << name << " is \"" << value.text << "\"";
+  return std::move(text).str();
+}
+
+bool is_elevation(double elevation_m) { return lowest_elevation_m <= elevation_m && elevation_m <= highest_elevation_m; }
+
+/// Why walls of this height cannot be built; empty when they can.
+std::optional<Unraised> objection_to(double height_m, const std::string& said) {
+  if (std::abs(height_m) > highest_building_m)
+    return Unraised{ProblemCode::absurd_height,
+                    said + ": no building is that high; some tables write such numbers for \"unknown\""};
+  if (!(height_m > 0.0)) return Unraised{ProblemCode::height_not_positive, said};
+  return std::nullopt;
+}
+
+Unraised no_elevation(const std::string& said) {
+  return {ProblemCode::absurd_height,
+          said + ": nowhere on land is that an elevation; some tables write such numbers for \"unknown\""};
+}
+
+}  // namespace
+
+FootprintHeights::FootprintHeights(std::vector<std::string> field_names, const FootprintSettings& settings)
+    : names_(std::move(field_names)),
+      default_height_m_(settings.default_height_m),
+      floor_height_m_(settings.floor_height_m),
+      roof_(fields_called(names_, settings.roof_field, {})),
+      base_(fields_called(names_, settings.base_field, {})),
+      heights_(fields_called(names_, settings.height_field, height_names)),
+      storeys_(fields_called(names_, settings.storeys_field, storeys_names)),
+      lowest_heights_(fields_called(names_, {}, lowest_height_names)),
+      lowest_storeys_(fields_called(names_, {}, lowest_storeys_names)) {}
+
+bool FootprintHeights::can_tell() const { return default_height_m_ || !roof_.empty() || !heights_.empty() || !storeys_.empty(); }
+
+std::optional<FootprintHeights::Height> FootprintHeights::length_in(const std::vector<std::size_t>& fields,
+                                                                    const FieldLookup& value_of) const {
+  for (const std::size_t field : fields) {
+    const FieldValue value = value_of(field);
+    if (!value.is_set) continue;
+    const LengthUnit unit = unit_of(names_[field]);
+    const std::optional<double> length_m =
+        value.number ? std::optional(*value.number * metres_in(unit)) : length_m_from(value.text, unit);
+    if (length_m && std::isfinite(*length_m)) return Height{*length_m, said(names_[field], value)};
+  }
+  return std::nullopt;
+}
+
+std::optional<FootprintHeights::Height> FootprintHeights::storeys_in(const std::vector<std::size_t>& fields,
+                                                                     const FieldLookup& value_of) const {
+  for (const std::size_t field : fields) {
+    const FieldValue value = value_of(field);
+    if (!value.is_set) continue;
+    const std::optional<double> count = value.number ? value.number : number_from(value.text);
+    if (count && std::isfinite(*count))
+      return Height{*count * floor_height_m_, said(names_[field], value), HeightSource::storeys};
+  }
+  return std::nullopt;
+}
+
+std::optional<FootprintHeights::Height> FootprintHeights::height_above_base(const FieldLookup& value_of) const {
+  if (auto height = length_in(heights_, value_of)) return height;
+  if (auto height = storeys_in(storeys_, value_of)) return height;
+  if (default_height_m_)
+    return Height{*default_height_m_, "the default height is " + std::to_string(*default_height_m_),
+                  HeightSource::default_height};
+  return std::nullopt;
+}
+
+double FootprintHeights::lowest_part_m(const FieldLookup& value_of) const {
+  std::optional<Height> lowest = length_in(lowest_heights_, value_of);
+  if (!lowest) lowest = storeys_in(lowest_storeys_, value_of);
+  return lowest ? std::max(lowest->value_m, 0.0) : 0.0;
+}
+
+std::string FootprintHeights::what_they_say(const std::vector<std::size_t>& fields, const FieldLookup& value_of) const {
+  std::string text;
+  for (const std::size_t field : fields) text += (text.empty() ? "" : ", ") + said(names_[field], value_of(field));
+  return text;
+}
+
+std::variant<PrismExtent, Unraised> FootprintHeights::below_roof(const Height& roof, const FieldLookup& value_of) const {
+  if (!is_elevation(roof.value_m)) return no_elevation(roof.said);
+  if (base_.empty()) return PrismExtent{roof.value_m - provisional_height_m, roof.value_m, HeightReference::down_to_ground};
+  const std::optional<Height> base = length_in(base_, value_of);
+  if (!base) return Unraised{ProblemCode::no_height, what_they_say(base_, value_of)};
+  if (!is_elevation(base->value_m)) return no_elevation(base->said);
+  if (auto objection = objection_to(roof.value_m - base->value_m, roof.said + " and " + base->said)) return *objection;
+  return PrismExtent{base->value_m, roof.value_m, HeightReference::elevation};
+}
+
+std::variant<PrismExtent, Unraised> FootprintHeights::above_base(const Height& height, const FieldLookup& value_of) const {
+  if (auto objection = objection_to(height.value_m, height.said)) return *objection;
+  const double lowest_m = lowest_part_m(value_of);
+  if (lowest_m >= height.value_m)
+    return Unraised{ProblemCode::height_not_positive,
+                    height.said + ", and it begins only above that: " + what_they_say(lowest_heights_, value_of) +
+                        what_they_say(lowest_storeys_, value_of)};
+  if (base_.empty()) return PrismExtent{lowest_m, height.value_m, HeightReference::on_ground, height.source};
+  const std::optional<Height> base = length_in(base_, value_of);
+  if (!base) return Unraised{ProblemCode::no_height, what_they_say(base_, value_of)};
+  if (!is_elevation(base->value_m)) return no_elevation(base->said);
+  return PrismExtent{base->value_m + lowest_m, base->value_m + height.value_m, HeightReference::elevation, height.source};
+}
+
+std::variant<PrismExtent, Unraised> FootprintHeights::of(const FieldLookup& value_of) const {
+  if (const auto roof = length_in(roof_, value_of)) return below_roof(*roof, value_of);
+  if (const auto height = height_above_base(value_of)) return above_base(*height, value_of);
+  std::vector<std::size_t> asked = roof_;
+  asked.insert(asked.end(), heights_.begin(), heights_.end());
+  asked.insert(asked.end(), storeys_.begin(), storeys_.end());
+  return Unraised{ProblemCode::no_height, what_they_say(asked, value_of)};
+}
+
+}  // namespace farlod::ingest
