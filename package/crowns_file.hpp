@@ -19,13 +19,13 @@ namespace farlod {
 ///   (3) there are as many crowns of each shape as the manifest says
 class CrownsFile {
  public:
-  /// Of a package whose manifest names crowns. Throws PackageDamaged or PackageUnusable.
+  /// Opens that of a package whose manifest names crowns. Throws PackageDamaged or PackageUnusable.
   CrownsFile(const PackageFolder& folder, const package::Manifest& manifest);
 
   /// Those that have crowns, row by row from the south, each row from the west.
   [[nodiscard]] std::span<const package::CrownCellRecord> cells() const { return cells_; }
   [[nodiscard]] std::span<const Crown> crowns() const { return crowns_; }
-  /// Of a cell's own frame.
+  /// In the frame of the cell itself.
   [[nodiscard]] std::span<const Crown> crowns_of(const package::CrownCellRecord& cell) const {
     return crowns_.subspan(cell.first_crown, cell.crown_count);
   }

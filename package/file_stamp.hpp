@@ -25,7 +25,7 @@ struct FileIdentity {
   bool operator==(const FileIdentity&) const = default;
 };
 
-/// Of a file as it is now; all zero where there is none.
+/// The identity of a file as it is now; all zero where there is none.
 [[nodiscard]] FileIdentity identity_of(const std::filesystem::path& path);
 
 /// Throws PackageDamaged where a file of an open package is not what it was when it was opened.

@@ -207,7 +207,7 @@ struct Manifest {
 
 namespace farlod {
 
-/// Of a cell that a package can speak of: beyond it, multiples of the cell edge are no longer exact (exact_cell_edge_m).
+/// The largest index of a cell in a package: beyond it, multiples of the cell edge are no longer exact (exact_cell_edge_m).
 inline constexpr std::int32_t farthest_cell_index = std::int32_t{1} << 29;
 
 /// XXH3-64 with seed 0: what a manifest says at its end of the text before (package::ManifestSeal).

@@ -25,7 +25,7 @@ using namespace package;
 constexpr std::int64_t most_cells = std::int64_t{1} << 34;
 /// Eastings with a zone's number in front come to some ten million metres; no reference system reaches a thousand million.
 constexpr double farthest_origin_m = 1e9;
-/// Of a map of 64 × 64 texels a side, 4096 times over: more than that is not a map of one cell.
+/// A map of 64 × 64 texels a side, 4096 times over: more than that is not a map of one cell.
 constexpr std::uint64_t most_texels = std::uint64_t{1} << 26;
 
 /// Some five million blocks, of 1024 cells each: more than that is not the list of a city.

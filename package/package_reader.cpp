@@ -103,7 +103,7 @@ struct PackageReader::Impl {
     return std::filesystem::path(package::folder_of(manifest.blocks[n])) / file;
   }
   PackageFile file_of(std::size_t n, const char* file) const { return folder->file(name_of(n, file)); }
-  /// Of a package in memory too, whose files have names alone.
+  /// A package in memory has it, too, though its files have names alone.
   std::string shown_name_of(std::size_t n, const char* file) const {
     return folder ? file_of(n, file).name : name_of(n, file).string();
   }
@@ -323,7 +323,7 @@ void BlockCheck::open_far_maps() {
     bytes = file.bytes().size();
     check_stamp(far_map_file_, file.bytes(), files_.far_map);
   });
-  // Of a file that was altered, the maps tell which cells are concerned; of one that was cut there is nothing more to say
+  // The maps of a file that was altered tell which cells are concerned; of one that was cut there is nothing more to say
   if (bytes != files_.far_map.bytes) return;
   if (!succeeds(far_map_file_, [&] { far_maps_.emplace(far_map_file_, cells_, manifest_.far_map, files_.mapped); })) return;
   for (std::size_t place = 0; place < static_cast<std::size_t>(cells_.size()); ++place)

@@ -83,16 +83,16 @@ class PackageReader {
   [[nodiscard]] std::pair<float, float> z_range_m() const;
   /// The cell must exist.
   [[nodiscard]] bool has_far_map(Cell cell) const;
-  /// Of packages whose far maps are of the kind `box`, for a cell that has one.
+  /// For packages whose far maps are of the kind `box`, and a cell that has one.
   [[nodiscard]] BoxFarMap box_far_map(Cell cell) const;
-  /// Of packages whose far maps are of the kind `horizon`, for a cell that has one. The package must outlive it.
+  /// For packages whose far maps are of the kind `horizon`, and a cell that has one. The package must outlive it.
   [[nodiscard]] FarHorizon far_horizon(Cell cell) const;
   /// Bytes that the picture of a cell's far map takes on disk; the cell must have one. Not of a package in memory.
   [[nodiscard]] std::uint64_t far_map_bytes(Cell cell) const;
 
   /// Whether there are trees. Never in a package in memory.
   [[nodiscard]] bool has_crowns() const;
-  /// Of a package that has crowns. It is opened when it is first asked for.
+  /// For a package that has crowns. The file is opened when it is first asked for.
   [[nodiscard]] const CrownsFile& crowns() const;
   /// The crowns whose axes lie in a cell, in the frame of the cell, which must exist; none where there are no trees.
   [[nodiscard]] std::span<const Crown> crowns_of(Cell cell) const;

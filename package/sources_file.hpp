@@ -24,7 +24,7 @@ namespace farlod {
 ///   (3) surfaces are in order, and name objects and semantic surfaces of their building
 class SourcesFile {
  public:
-  /// Of a package whose manifest names it. Throws PackageDamaged or PackageUnusable.
+  /// Opens that of a package whose manifest names it. Throws PackageDamaged or PackageUnusable.
   SourcesFile(const PackageFolder& folder, const package::Manifest& manifest);
 
   [[nodiscard]] const std::vector<PackedCityFile>& files() const { return files_; }

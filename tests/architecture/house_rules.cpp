@@ -38,7 +38,7 @@ struct LongFunction {
 constexpr LongFunction long_functions[] = {
     {"datasets/generator/city_settings.hpp", "describe", "a list: one line for each setting"},
     {"preprocess/app/pack_options.cpp", "add_input_options", "a list: one statement for each option"},
-    {"preprocess/ingest/citygml/citygml_parser.cpp", "undo", "a switch: one case for each meaning of an element"},
+    {"preprocess/ingest/citygml/citygml_reading.cpp", "undo", "a switch: one case for each meaning of an element"},
     {"package/horizon_edge.hpp", "may_be_silhouette", "a proof, case by case"},
     {"preprocess/tiles/tiles.cpp", "place_building", "one building's way through cutting, which shares a dozen values"},
     {"runtime/horizon/gap_rays.cpp", "trace_gaps", "a kernel: its steps share vectors of 16 lanes"},

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
 
 #include "ingest/model_builder/city_model_builder.hpp"
 
