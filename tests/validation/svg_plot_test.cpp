@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/scenes/packed_city.hpp"
+#include "validation/wrapped_document.hpp"
 
 namespace farlod::validation {
 namespace {
@@ -42,6 +43,42 @@ TEST(SvgPlot, LogarithmicAxisLeavesOutWhatItCannotShow) {
 TEST(SvgPlot, SaysThatItCannotWrite) {
   const Plot plot{"", {"x", Scale::linear}, {"y", Scale::linear}, {{"", 0, false, {{0, 1}, {1, 2}}}}};
   EXPECT_THROW(write_svg(plot, "/nowhere/plot.svg"), std::runtime_error);
+}
+
+const std::string fifty_four(54, 'a'), fifty_five(55, 'b');
+
+TEST(WrappedDocument, LinesOfParagraphsEndAfter110Characters) {
+  EXPECT_EQ(wrapped_document(fifty_four + " " + fifty_five + "\n"), fifty_four + " " + fifty_five + "\n");
+  EXPECT_EQ(wrapped_document(fifty_five + " " + fifty_five + "\n"), fifty_five + "\n" + fifty_five + "\n");
+  EXPECT_EQ(wrapped_document("a\n\nb\n"), "a\n\nb\n");
+}
+
+TEST(WrappedDocument, CharactersAreCountedAndNotBytes) {
+  std::string dashes;
+  for (int n = 0; n < 54; ++n) dashes += "–";
+  EXPECT_EQ(wrapped_document(dashes + " " + fifty_five + "\n"), dashes + " " + fifty_five + "\n");
+}
+
+TEST(WrappedDocument, ALongWordStaysWhole) {
+  const std::string word(120, 'w');
+  EXPECT_EQ(wrapped_document("a " + word + " b\n"), "a\n" + word + "\nb\n");
+  EXPECT_EQ(wrapped_document(word + " b\n"), word + "\nb\n");
+}
+
+TEST(WrappedDocument, ACodeSpanStaysOnOneLine) {
+  EXPECT_EQ(wrapped_document(fifty_five + " `a " + fifty_five + "` b\n"), fifty_five + "\n`a " + fifty_five + "` b\n");
+  EXPECT_EQ(wrapped_document("a `never closed\n"), "a `never closed\n");
+}
+
+TEST(WrappedDocument, TablesHeadingsAndPicturesStayWhole) {
+  for (const std::string mark : {"| ", "## ", "!["}) {
+    const std::string line = mark + fifty_five + " " + fifty_five + "\n";
+    EXPECT_EQ(wrapped_document(line), line);
+  }
+}
+
+TEST(WrappedDocument, ItemsOfListsAreIndented) {
+  EXPECT_EQ(wrapped_document("* " + fifty_five + " " + fifty_five + "\n"), "* " + fifty_five + "\n  " + fifty_five + "\n");
 }
 
 }  // namespace

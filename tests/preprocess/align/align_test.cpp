@@ -8,7 +8,6 @@
 #include <random>
 #include <set>
 
-#include "extruded_town.hpp"
 #include "farlod/error.hpp"
 #include "pipeline/blocks.hpp"
 #include "tests/preprocess/align/extruded_town.hpp"
@@ -17,6 +16,8 @@
 namespace farlod::align {
 namespace {
 
+using pipeline::AreaCells;
+using pipeline::cells_met_by;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;

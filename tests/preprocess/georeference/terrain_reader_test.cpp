@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "georeference/terrain_reader.hpp"
+#include "georeference/raster_reader.hpp"
 
 #include <gdal_priv.h>
 #include <gmock/gmock.h>

@@ -12,8 +12,8 @@
 #include "tests/scenes/packed_city.hpp"
 #include "tiles/building_bases.hpp"
 #include "tiles/ground.hpp"
-#include "tiles/grounded_walls.hpp"
 #include "tiles/tiles.hpp"
+#include "tiles/undersides.hpp"
 
 namespace farlod::tiles {
 namespace {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "city/cyclic_order.hpp"
+#include "city/geometry.hpp"
 #include "farlod/point.hpp"
 #include "tests/counted/steps.hpp"
 #include "tiles/facet_repair.hpp"

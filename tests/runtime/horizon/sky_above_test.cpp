@@ -57,7 +57,7 @@ class RandomHorizons {
   std::array<std::vector<float>, ReceiverPacket::lanes> slopes_;
 };
 
-ReceiverPacket packet_with(std::span<const Point3f> normals) {
+ReceiverPacket packet_looking(std::span<const Point3f> normals) {
   ReceiverPacket packet;
   for (std::size_t n = 0; n < ReceiverPacket::lanes; ++n) packet.add({n, {}, normals[n % normals.size()]});
   return packet;
@@ -70,7 +70,7 @@ TEST(SkyAbove, IsTheIntegralOverRandomHorizons) {
     const RandomHorizons random_horizons(ring);
     const std::vector<Point3f> normals = some_normals(random);
     for (const SkyWeight weight : both_weights) {
-      const auto sky = random_horizons.horizon().sky_above(weight, packet_with(normals));
+      const auto sky = random_horizons.horizon().sky_above(weight, packet_looking(normals));
       for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane)
         EXPECT_NEAR(sky[lane], random_horizons.expected(weight, lane, normals[lane]), sky_rounding(azimuths, normals[lane]))
             << "lane " << lane << ", normal z " << normals[lane].z;
@@ -82,9 +82,9 @@ TEST(SkyAbove, WhereAllLookUpAsWellAsWhereOneDoesNot) {
   const AzimuthSampling ring = AzimuthSampling::even(64, {});
   const RandomHorizons random_horizons(ring);
   std::vector<Point3f> normals(ReceiverPacket::lanes, up);
-  const auto alone = random_horizons.horizon().sky_above(SkyWeight::cosine, packet_with(normals));
+  const auto alone = random_horizons.horizon().sky_above(SkyWeight::cosine, packet_looking(normals));
   normals.back() = {0.6F, 0.0F, 0.8F};
-  const auto mixed = random_horizons.horizon().sky_above(SkyWeight::cosine, packet_with(normals));
+  const auto mixed = random_horizons.horizon().sky_above(SkyWeight::cosine, packet_looking(normals));
   for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane) {
     EXPECT_NEAR(alone[lane], random_horizons.expected(SkyWeight::cosine, lane, up), sky_rounding(64, up));
     if (lane + 1 < ReceiverPacket::lanes) {
@@ -102,7 +102,7 @@ TEST(SkyAbove, WhereAllLookLevelAsWellAsWhereOneDoesNot) {
     std::vector<Point3f> normals(ReceiverPacket::lanes, random.direction_at(0.0));
     if (!alike)
       for (Point3f& normal : normals) normal = random.direction_at(0.0);
-    const auto sky = random_horizons.horizon().sky_above(SkyWeight::cosine, packet_with(normals));
+    const auto sky = random_horizons.horizon().sky_above(SkyWeight::cosine, packet_looking(normals));
     for (std::size_t lane = 0; lane < ReceiverPacket::lanes; ++lane)
       EXPECT_NEAR(sky[lane], random_horizons.expected(SkyWeight::cosine, lane, normals[lane]), sky_rounding(64, normals[lane]));
   }
@@ -113,13 +113,13 @@ TEST(SkyAbove, ALevelHorizonLeavesAllAndAnEndlessOneNothing) {
   PacketHorizon horizon(ring);
   const std::vector<Point3f> ups(ReceiverPacket::lanes, up), downs(ReceiverPacket::lanes, down);
   for (const SkyWeight weight : both_weights) {
-    for (const float share : horizon.sky_above(weight, packet_with(ups))) EXPECT_EQ(share, 1.0F);
-    for (const float share : horizon.sky_above(weight, packet_with(downs))) EXPECT_EQ(share, 0.0F);
+    for (const float share : horizon.sky_above(weight, packet_looking(ups))) EXPECT_EQ(share, 1.0F);
+    for (const float share : horizon.sky_above(weight, packet_looking(downs))) EXPECT_EQ(share, 0.0F);
   }
   const std::vector<float> endless{std::numeric_limits<float>::infinity()};
   horizon.raise(endless, everybody, std::vector<std::uint32_t>(ring.size(), 0));
   for (const SkyWeight weight : both_weights)
-    for (const float share : horizon.sky_above(weight, packet_with(ups))) EXPECT_EQ(share, 0.0F);
+    for (const float share : horizon.sky_above(weight, packet_looking(ups))) EXPECT_EQ(share, 0.0F);
 }
 
 /// An even horizon is rounded the same way at each azimuth, so that errors add up and do not cancel.
@@ -133,13 +133,14 @@ TEST(SkyAbove, ManyAzimuthsRoundNoMoreThanFew) {
     horizon.raise(std::vector{slope}, everybody, std::vector<std::uint32_t>(azimuths, 0));
     // Parts of the normal that point outwards average to 0, and those in front of a wall to 1/π
     const double t = slope, upwards = 1.0 / (1.0 + t * t), wall = (std::atan(1.0 / t) - t * upwards) / std::numbers::pi;
-    EXPECT_NEAR(horizon.sky_above(SkyWeight::cosine, packet_with(ups))[0], upwards, sky_rounding(azimuths, up));
-    EXPECT_NEAR(horizon.sky_above(SkyWeight::cosine, packet_with(level))[0], wall, sky_rounding(azimuths, level[0]));
-    EXPECT_NEAR(horizon.sky_above(SkyWeight::solid_angle, packet_with(ups))[0], 1.0 - t / std::sqrt(1.0 + t * t),
+    EXPECT_NEAR(horizon.sky_above(SkyWeight::cosine, packet_looking(ups))[0], upwards, sky_rounding(azimuths, up));
+    EXPECT_NEAR(horizon.sky_above(SkyWeight::cosine, packet_looking(level))[0], wall, sky_rounding(azimuths, level[0]));
+    EXPECT_NEAR(horizon.sky_above(SkyWeight::solid_angle, packet_looking(ups))[0], 1.0 - t / std::sqrt(1.0 + t * t),
                 sky_rounding(azimuths, up));
     // Behind the tilted receiver, too, the sky is above its own plane of slope 0.75
     if (slope > 0.75F) {
-      EXPECT_NEAR(horizon.sky_above(SkyWeight::cosine, packet_with(tilted))[0], 0.8 * upwards, sky_rounding(azimuths, tilted[0]));
+      EXPECT_NEAR(horizon.sky_above(SkyWeight::cosine, packet_looking(tilted))[0], 0.8 * upwards,
+                  sky_rounding(azimuths, tilted[0]));
     }
   }
 }
