@@ -46,7 +46,7 @@ constexpr const char* middle = R"(  esac
   fi
 )";
 
-constexpr const char* end = R"(}
+constexpr const char* end_of_script = R"(}
 complete -F FUNCTION PROGRAM
 )";
 
@@ -93,7 +93,7 @@ std::string bash_completion(const std::string& program, const OptionList& option
   std::ranges::replace(function, '-', '_');
   std::string script = bash_beginning + cases_of(options) + with(middle, "OPTIONS", fmt::format("{}", fmt::join(names, " ")));
   script += options.arguments.empty() ? "" : "  " + completed(options.arguments.front()) + "\n";
-  return with(with(script + end, "FUNCTION", function), "PROGRAM", program);
+  return with(with(script + end_of_script, "FUNCTION", function), "PROGRAM", program);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include "package/tiles_writer.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <iterator>
 #include <limits>
 #include <map>

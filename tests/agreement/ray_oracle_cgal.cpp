@@ -27,7 +27,7 @@ using Traits = CGAL::AABB_traits_3<Kernel, CGAL::AABB_triangle_primitive_3<Kerne
 #else
 using Traits = CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>;
 #endif
-using FacetTree = CGAL::AABB_tree<Traits>;
+using TriangleTree = CGAL::AABB_tree<Traits>;
 
 Triangles triangles_of(const CityModel& city) {
   Triangles triangles;
@@ -45,7 +45,7 @@ Triangles triangles_of(const CityModel& city) {
 
 struct RayOracle::Impl {
   Triangles triangles;
-  FacetTree tree;
+  TriangleTree tree;
   explicit Impl(Triangles t) : triangles(std::move(t)), tree(triangles.cbegin(), triangles.cend()) {}
 };
 

@@ -121,7 +121,7 @@ TEST(HouseRules, AnExcuseForNothingIsFound) {
 TEST(HouseRules, ACommentWithoutASubjectIsFound) {
   EXPECT_THAT(comments_without_subject({{"base/a.hpp", {"/// Of a cell.", "/// The edge.", "int a;  ///< Of it."}},
                                         {"preprocess/tiles/b.cpp", {"  //Of two", "  // Often", "  // one", "  // of two"}},
-                                        {"runtime/c.hpp", {"/// Of a cell."}},
+                                        {"tests/c.hpp", {"/// Of a cell."}},
                                         {"preprocess/d.py", {"# Of a cell."}}}),
               ElementsAre("base/a.hpp:1", "base/a.hpp:3", "preprocess/tiles/b.cpp:1"));
 }
