@@ -152,11 +152,12 @@ void write_surfaces_as_features(std::span<const SurfaceMean> rows, const TableFr
   for (const ColumnDescription& column : frame.columns.further) add_fields(layer, FieldType::real, {column.name + "_mean"});
   writer.begin(layer);
   for (const SurfaceMean& r : rows) {
-    FeatureRow feature{{},
-                       {},
-                       {std::string_view(r.building), whole(r.surface), word_for(surface_kind_words, r.kind), millimetres(r.azimuth.degrees()),
-                        millimetres(r.tilt.degrees()), millimetres(r.area_m2), whole(r.receivers), whole(r.nodata),
-                        share(r.svf_mean), share(r.svf_min), share(r.svf_max), millimetres(r.covered_area_m2)}};
+    FeatureRow feature{
+        {},
+        {},
+        {std::string_view(r.building), whole(r.surface), word_for(surface_kind_words, r.kind), millimetres(r.azimuth.degrees()),
+         millimetres(r.tilt.degrees()), millimetres(r.area_m2), whole(r.receivers), whole(r.nodata), share(r.svf_mean),
+         share(r.svf_min), share(r.svf_max), millimetres(r.covered_area_m2)}};
     for (std::size_t n = 0; n < frame.columns.further.size(); ++n)
       feature.values.push_back(number(further_value(r.further_mean, n)));
     writer.add(feature);

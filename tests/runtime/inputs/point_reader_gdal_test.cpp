@@ -11,8 +11,8 @@
 #include <limits>
 
 #include "farlod/point.hpp"
-#include "inputs/requested_points.hpp"
 #include "inputs/region_reader_gdal.hpp"
+#include "inputs/requested_points.hpp"
 #include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 

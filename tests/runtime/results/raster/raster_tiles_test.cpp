@@ -7,10 +7,10 @@
 #include <array>
 #include <limits>
 
+#include "inputs/raster_plan_gdal.hpp"
 #include "inputs/requested_points.hpp"
 #include "results/output_format.hpp"
 #include "results/picture/raster_preview.hpp"
-#include "inputs/raster_plan_gdal.hpp"
 #include "results/raster/raster_writer_gdal.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
 #include "tests/scenes/refusal.hpp"
