@@ -11,7 +11,6 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "align/align.hpp"
 #include "georeference/georeference.hpp"
 #include "tests/preprocess/align/extruded_town.hpp"
 #include "tests/scenes/test_data.hpp"

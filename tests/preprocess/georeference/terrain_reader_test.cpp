@@ -12,7 +12,6 @@
 #include "farlod/error.hpp"
 #include "georeference/crs.hpp"
 #include "georeference/georeference.hpp"
-#include "georeference/raster_reader.hpp"
 #include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 #include "tests/scenes/test_data.hpp"
