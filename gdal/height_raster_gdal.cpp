@@ -8,10 +8,23 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <sstream>
+#include <utility>
 
 #include "farlod/error.hpp"
 
 namespace farlod {
+namespace {
+
+/// All digits.
+std::string text_of(double number) {
+  std::ostringstream text;
+  text.precision(std::numeric_limits<double>::max_digits10);
+  text << number;
+  return std::move(text).str();
+}
+
+}  // namespace
 
 void refuse_raster(const std::filesystem::path& file, const std::string& what) {
   const std::string reason = CPLGetLastErrorMsg();
@@ -55,6 +68,7 @@ GDALDatasetUniquePtr warped_raster(GDALDataset& dataset, const WarpWay& way) {
     words.insert(words.end(),
                  {"-te", std::to_string(low.x), std::to_string(low.y), std::to_string(high.x), std::to_string(high.y)});
   }
+  if (way.no_data) words.insert(words.end(), {"-srcnodata", text_of(*way.no_data)});
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());

@@ -39,6 +39,7 @@ struct WarpWay {
   const char* resampling = "bilinear";  ///< as GDAL calls it
   std::optional<double> step = {};      ///< of the pixels, which are squares; empty: a similar resolution
   std::optional<Box2d> extent = {};     ///< with `step`
+  std::optional<double> no_data = {};   ///< a number that stands for no data, which the raster does not declare
 };
 /// The raster in another CRS; pixels are computed when they are read. Empty where GDAL cannot.
 [[nodiscard]] GDALDatasetUniquePtr warped_raster(GDALDataset& dataset, const WarpWay& way);

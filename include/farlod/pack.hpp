@@ -101,6 +101,7 @@ struct PackSettings {
   std::vector<std::filesystem::path> inputs;
   std::filesystem::path output;                  ///< the folder to make
   std::optional<std::filesystem::path> terrain;  ///< a raster of ground elevations, any that GDAL reads
+  double terrain_offset_m = 0.0;                 ///< added to them, where they count from another datum than the buildings
   Overwrite overwrite = Overwrite::refuse;
   ProblemPolicy problems = ProblemPolicy::pack;
 

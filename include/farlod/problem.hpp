@@ -55,6 +55,9 @@ enum class ProblemCode : std::uint16_t {
   implausible_size = 208,
   lies_on_its_side = 209,
   tree_outside_of_grid = 210,
+  undeclared_no_data = 211,
+  another_datum = 212,
+  beyond_terrain = 213,
   no_dominant_direction = 301,
   nearly_empty_grid = 302,
   zero_area = 401,
@@ -82,7 +85,7 @@ struct ProblemDescription {
 /// Whether the whole model is in doubt, so that the long work may be in vain: told before it begins.
 [[nodiscard]] constexpr bool doubts_the_model(ProblemCode code) {
   return code == ProblemCode::unlikely_place || code == ProblemCode::implausible_size || code == ProblemCode::lies_on_its_side ||
-         code == ProblemCode::nearly_empty_grid;
+         code == ProblemCode::another_datum || code == ProblemCode::nearly_empty_grid;
 }
 
 /// All problems that exist, by code.
@@ -149,6 +152,11 @@ inline constexpr std::array problem_descriptions{
                        "a file's z axis does not seem to point upward"},
     ProblemDescription{ProblemCode::tree_outside_of_grid, "tree_outside_of_grid", Effect::left_out,
                        "trees stand outside of the grid"},
+    ProblemDescription{ProblemCode::undeclared_no_data, "undeclared_no_data", Effect::left_out,
+                       "pixels of a raster hold a number that is no height"},
+    ProblemDescription{ProblemCode::another_datum, "another_datum", Effect::kept,
+                       "a file's buildings stand above or below the ground, all by one height"},
+    ProblemDescription{ProblemCode::beyond_terrain, "beyond_terrain", Effect::kept, "buildings lie beyond the terrain"},
     ProblemDescription{ProblemCode::no_dominant_direction, "no_dominant_direction", Effect::kept,
                        "the streets have no dominant direction"},
     ProblemDescription{ProblemCode::nearly_empty_grid, "nearly_empty_grid", Effect::kept,
@@ -178,8 +186,8 @@ struct Problem {
   std::string place;   ///< the building's id, the feature's number or the line
   std::string detail;  ///< what exactly, with figures
   /// A place on the ground, where one is known. 1xx and 2xx: as the file counts, in its axis order (an OBJ file with its
-  /// origin added, z up); 123, 124, 207 to 210, 4xx and what waits for the terrain: easting, northing and height in the CRS
-  /// of the package.
+  /// origin added, z up); 123, 124, 207 to 210, 212, 213, 4xx and what waits for the terrain: easting, northing and height in the
+  /// CRS of the package.
   std::optional<Point3d> position = {};
   /// The same in degrees of WGS 84, longitude first; known once the CRS of the position is.
   std::optional<Point2d> lon_lat_deg = {};

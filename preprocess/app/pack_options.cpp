@@ -109,6 +109,10 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("--terrain", raw.terrain, "Raster of ground elevations (any that GDAL reads)")
       ->type_name(file_value)
       ->group("Input");
+  app.add_option("--terrain-offset", o.settings.terrain_offset_m,
+                 "Metres added to the terrain, where its elevations count from another datum than the buildings")
+      ->check(between(-1000.0, 1000.0))
+      ->group("Input");
 }
 
 void add_tree_options(CLI::App& app, RawOptions& raw) {

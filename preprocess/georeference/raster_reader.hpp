@@ -42,10 +42,12 @@ struct TerrainExtent {
 ///   (3) pixels that are masked or have no data are empty; the scale and offset of the band are applied
 ///   (4) heights are in metres: by the unit of the band, else by the vertical unit of the CRS, else, if that is projected, by its
 ///       horizontal unit
+///   (5) numbers that stand for no data though the raster does not declare it are empty, and reported (undeclared_no_data)
 /// A raster without a CRS is in `fallback_crs` or, if that is empty, in the output CRS. Only the part over `wanted_city` is read,
-/// and one pixel around it. Throws InputError when the file cannot be read, or does not cover `wanted_city`.
+/// and one pixel around it; without it, the raster is the city. An unlikely place is reported as that of a city file is
+/// (resolve). Throws InputError when the file cannot be read, does not cover `wanted_city`, or is in degrees and its CRS is not.
 [[nodiscard]] TerrainRaster read_terrain(const TerrainFile& file, const std::string& fallback_crs,
-                                         const Georeference& georeference, std::optional<Box2d> wanted_city);
+                                         const Georeference& georeference, std::optional<Box2d> wanted_city, Report& report);
 
 /// The files of a canopy.
 struct CanopyFiles {

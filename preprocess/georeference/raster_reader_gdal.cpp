@@ -18,9 +18,13 @@
 #include "georeference/crs.hpp"
 #include "georeference/input_crs.hpp"
 #include "georeference/raster_reader.hpp"
+#include "georeference/resolved_source.hpp"
+#include "plausibility/stand_ins.hpp"
 
 namespace farlod::georeference {
 namespace {
+
+using plausibility::HeightsOf;
 
 GDALDatasetUniquePtr open_raster(const TerrainFile& file) {
   return open_height_raster(
@@ -61,6 +65,7 @@ struct HeightScale {
   double scale = 1.0, offset = 0.0;
 
   [[nodiscard]] float metres(double value) const { return static_cast<float>(scale * value + offset); }
+  [[nodiscard]] double number(float height_m) const { return (static_cast<double>(height_m) - offset) / scale; }
 };
 
 /// Where the pixels of a raster are, in the output CRS. Places within it are counted in pixels from the corner of the first one.
@@ -91,6 +96,10 @@ struct Raster {
   std::string note = {};  ///< what was done to it, for the user
 
   [[nodiscard]] GDALDataset& dataset() const { return warped ? *warped : *file; }
+  [[nodiscard]] std::optional<float> height_m(double number) const {
+    const float height = scale.metres(number);
+    return std::isfinite(height) ? std::optional(height) : std::nullopt;
+  }
   [[nodiscard]] PixelFrame frame() const { return PixelFrame(geo_transform_of(dataset(), path)); }
 };
 
@@ -103,6 +112,24 @@ Crs take_crs(Raster& raster, const std::string& fallback_crs, const Crs& output)
   const double unit_m = named_unit_m(band).value_or(crs.height_unit_m());
   raster.scale = {unit_m * band.GetScale(), unit_m * band.GetOffset()};
   return crs;
+}
+
+/// A number that stands for no data, and the first of its pixels in the CRS of the file.
+struct StandInOfFile {
+  double number = 0.0;
+  Point2d place;
+};
+
+/// `where` begins the detail.
+void report_stand_in(const Raster& raster, const Crs& own, const StandInOfFile& found, const std::string& where, Report& report) {
+  std::ostringstream text;
+  text.precision(9);
+  text << where << found.number << " is no height here, and counts as no data; gdal_edit.py -a_nodata " << found.number
+       << " declares it";
+  Problem problem{ProblemCode::undeclared_no_data, raster.path.string(), "band 1", std::move(text).str(),
+                  Point3d{found.place.x, found.place.y, 0.0}};
+  ProblemLocator(own, FileAxes{}, found.place).locate(problem);
+  report.add(std::move(problem));
 }
 
 /// Pixels are computed when they are read.
@@ -123,19 +150,62 @@ std::optional<TerrainRaster> read_window(const Raster& raster, const GeoTransfor
   std::vector<double> values(w.columns());
   for (int row = w.row_end - 1; row >= w.row; --row) {
     if (!read_pixels(*raster.dataset().GetRasterBand(1), w.column, row, values)) return std::nullopt;
-    for (const double value : values)
-      terrain.height_m.push_back(std::isfinite(value) ? std::optional(raster.scale.metres(value)) : std::nullopt);
+    for (const double value : values) terrain.height_m.push_back(raster.height_m(value));
   }
   return terrain;
 }
 
-/// North up.
-Raster make_ready(const TerrainFile& file, const std::string& fallback_crs, const Crs& output) {
+/// What stands for no data, by a sample of the raster that is spread over all of it. Empty where the raster declares it itself.
+std::optional<StandInOfFile> sampled_stand_in(const Raster& raster, HeightsOf of) {
+  constexpr int most = 512;
+  GDALRasterBand& band = *raster.file->GetRasterBand(1);
+  int is_declared = 0;
+  (void)band.GetNoDataValue(&is_declared);
+  if (is_declared != 0) return std::nullopt;
+  const int columns = std::min(band.GetXSize(), most), rows = std::min(band.GetYSize(), most);
+  std::vector<double> numbers(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  if (band.RasterIO(GF_Read, 0, 0, band.GetXSize(), band.GetYSize(), numbers.data(), columns, rows, GDT_Float64, 0, 0, nullptr) !=
+      CE_None)
+    return std::nullopt;
+  std::vector<std::optional<float>> heights_m;
+  for (const double number : numbers) heights_m.push_back(raster.height_m(number));
+  const auto found = plausibility::take_out_stand_ins(heights_m, of);
+  if (found.empty()) return std::nullopt;
+  const std::size_t first = found.front().first, row = first / static_cast<std::size_t>(columns),
+                    column = first % static_cast<std::size_t>(columns);
+  return StandInOfFile{numbers[found.front().first],
+                       raster.frame().place((static_cast<double>(column) + 0.5) * band.GetXSize() / columns,
+                                            (static_cast<double>(row) + 0.5) * band.GetYSize() / rows)};
+}
+
+/// North up. Stand-ins for no data must not become heights between them and their neighbours.
+Raster make_ready(const TerrainFile& file, const std::string& fallback_crs, const Crs& output, HeightsOf of, Report& report) {
   Raster raster{file.path, open_raster(file), nullptr};
   const Crs crs = take_crs(raster, fallback_crs, output);
-  if (!crs.equals(output) || !is_north_up(geo_transform_of(*raster.file, file.path)))
-    warp(raster, {crs.wkt(), output.wkt()}, output);
+  const PixelFrame frame = raster.frame();
+  const Point2d middle{0.5 * raster.file->GetRasterXSize(), 0.5 * raster.file->GetRasterYSize()};
+  report_place(file.path.string(), crs, frame.place(middle.x, middle.y), frame.place(middle.x + 1.0, middle.y), report);
+  if (!crs.equals(output) || !is_north_up(geo_transform_of(*raster.file, file.path))) {
+    WarpWay way{crs.wkt(), output.wkt()};
+    if (const auto found = sampled_stand_in(raster, of)) {
+      way.no_data = found->number;
+      report_stand_in(raster, crs, *found, "", report);
+    }
+    warp(raster, way, output);
+  }
   return raster;
+}
+
+/// Empties what is left of heights that no place has. Where the raster was resampled, all was told before.
+void require_heights(TerrainRaster& terrain, const Raster& raster, HeightsOf of, const Crs& output, Point2d origin_m,
+                     Report& report) {
+  const std::size_t all = terrain.height_m.size();
+  for (const plausibility::StandIn& found : plausibility::take_out_stand_ins(terrain.height_m, of)) {
+    if (raster.warped) continue;
+    const Point2d place = terrain.node(found.first % terrain.columns, found.first / terrain.columns) + origin_m;
+    report_stand_in(raster, output, {raster.scale.number(found.height_m), place},
+                    std::to_string(found.pixels) + " of " + std::to_string(all) + " pixels here: ", report);
+  }
 }
 
 }  // namespace
@@ -162,11 +232,12 @@ Georeference georeference_of_terrain(const TerrainFile& file, const Georeference
 }
 
 TerrainRaster read_terrain(const TerrainFile& file, const std::string& fallback_crs, const Georeference& georeference,
-                           std::optional<Box2d> wanted_city) {
+                           std::optional<Box2d> wanted_city, Report& report) {
   const GdalErrors quiet;
+  const HeightsOf of = wanted_city ? HeightsOf::ground : HeightsOf::surfaces;
   const auto output = Crs::find(georeference.crs_wkt);
   FARLOD_EXPECTS(output.has_value());
-  const Raster ready = make_ready(file, fallback_crs, *output);
+  const Raster ready = make_ready(file, fallback_crs, *output, of, report);
   const GeoTransform t = geo_transform_of(ready.dataset(), file.path);
   if (wanted_city) *wanted_city = {wanted_city->low + georeference.origin_m, wanted_city->high + georeference.origin_m};
   const RasterWindow window = window_of(ready.dataset(), t, wanted_city);
@@ -176,6 +247,7 @@ TerrainRaster read_terrain(const TerrainFile& file, const std::string& fallback_
         ": does not cover the city: check its CRS, which was taken to be that of --crs or the output if it says none");
   auto terrain = read_window(ready, t, window, georeference.origin_m);
   if (!terrain) refuse_raster(file.path, "cannot be read to its end");
+  require_heights(*terrain, ready, of, *output, georeference.origin_m, report);
   return std::move(*terrain);
 }
 

@@ -196,13 +196,15 @@ bool may_count_in(const TypicalPlace& typical, const Crs& crs) {
 }
 
 /// Throws InputError if the coordinates cannot be in the CRS (may_count_in). `advice` ends the message.
-void check_units(const SourceCity& source, const TypicalPlace& typical, const Crs& crs, const std::string& advice) {
+void check_units(const std::string& source, const TypicalPlace& typical, const Crs& crs, const std::string& advice) {
   if (may_count_in(typical, crs)) return;
   const std::string end = " (" + place_text(horizontal(typical.place)) + "): " + advice;
   if (crs.is_projected())
-    throw InputError(source.source + ": its CRS " + crs.name() + " is projected, but its coordinates look like degrees" + end);
-  throw InputError(source.source + ": its CRS " + crs.name() + " counts in degrees, but its coordinates cannot be degrees" + end);
+    throw InputError(source + ": its CRS " + crs.name() + " is projected, but its coordinates look like degrees" + end);
+  throw InputError(source + ": its CRS " + crs.name() + " counts in degrees, but its coordinates cannot be degrees" + end);
 }
+
+constexpr const char* how_to_name_crs = "name the CRS that they are in, in the file or with --crs EPSG:n";
 
 /// The model of a site has its own origin, and no coordinate as large as this.
 constexpr double largest_site_m = 20'000.0;
@@ -274,15 +276,15 @@ std::optional<std::string> doubt_about_place(const Crs& crs, Point2d p_map, std:
 /// Reports problems of a whole file.
 class FileReport {
  public:
-  FileReport(const SourceCity& source, const TypicalPlace& typical, Report& report)
+  FileReport(const std::string& source, const TypicalPlace& typical, Report& report)
       : source_(source), typical_(typical), report_(report) {}
 
   void add(ProblemCode code, const std::string& detail) {
-    report_.add({code, source_.source, "the whole file", detail, typical_.place});
+    report_.add({code, source_, "the whole file", detail, typical_.place});
   }
 
  private:
-  const SourceCity& source_;
+  const std::string source_;
   const TypicalPlace& typical_;
   Report& report_;
 };
@@ -340,9 +342,9 @@ ResolvedSource resolve(SourceCity source, const InputCrs& given, Report& report)
   const InputCrs input = resolved_crs(given, typical);
   const Crs& crs = input.named.crs;
   const bool longitude_first = source.crs.longitude_first || input.named.longitude_first;
-  FileReport of_file(source, typical, report);
+  FileReport of_file(source.source, typical, report);
   if (input.problem) of_file.add(*input.problem, input.detail);
-  check_units(source, typical, crs, "name the CRS that they are in, in the file or with --crs EPSG:n");
+  check_units(source.source, typical, crs, how_to_name_crs);
   FileAxes axes = find_axes(horizontal(typical.place), crs, longitude_first);
   axes.height_unit_m = source.crs.heights_in_metres ? 1.0 : crs.height_unit_m();
   if (is_swapped(axes, crs, longitude_first)) of_file.add(ProblemCode::axes_swapped, detail_of_swap(axes, crs, typical.place));
@@ -351,6 +353,20 @@ ResolvedSource resolve(SourceCity source, const InputCrs& given, Report& report)
   if (const auto doubt = doubt_about_place(crs, place, typical.building_extent)) of_file.add(ProblemCode::unlikely_place, *doubt);
   if (axes != FileAxes{}) normalize_points(source, axes);
   return {std::move(source), crs, place, axes};
+}
+
+void report_place(const std::string& raster, const Crs& crs, Point2d middle, Point2d beside, Report& report) {
+  constexpr double least_pixel_m = 0.01, most_pixel_m = 10e3;
+  const double pixel = norm(beside - middle);
+  const TypicalPlace typical{{middle.x, middle.y, 0.0}, std::nullopt, pixel};
+  check_units(raster, typical, crs, how_to_name_crs);
+  FileReport of_file(raster, typical, report);
+  if (const auto doubt = doubt_about_place(crs, middle, std::nullopt)) of_file.add(ProblemCode::unlikely_place, *doubt);
+  const double pixel_m = pixel * (crs.is_projected() ? crs.unit() : metres_in_a_degree);
+  if (least_pixel_m <= pixel_m && pixel_m <= most_pixel_m) return;
+  std::ostringstream text;
+  text << "its pixels are " << pixel_m << " m wide: is its CRS, or the size of its pixels, in another unit?";
+  of_file.add(ProblemCode::implausible_size, std::move(text).str());
 }
 
 }  // namespace farlod::georeference

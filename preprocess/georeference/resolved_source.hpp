@@ -84,4 +84,8 @@ struct ResolvedSource {
 /// the coordinates are in degrees and the CRS is projected, or the other way round.
 [[nodiscard]] ResolvedSource resolve(SourceCity source, const InputCrs& given, Report& report);
 
+/// The same for a raster, by its middle pixel and the one beside it: unlikely_place, and implausible_size where pixels are
+/// smaller than a centimetre or wider than 10 km. Throws InputError as `resolve` does.
+void report_place(const std::string& raster, const Crs& crs, Point2d middle, Point2d beside, Report& report);
+
 }  // namespace farlod::georeference

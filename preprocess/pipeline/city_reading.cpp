@@ -145,7 +145,7 @@ class CityReading {
   [[nodiscard]] GridOnGround lay_grid(const align::GridSettings& settings, Report& report, const RunStage& run_stage) const {
     std::optional<TerrainRaster> terrain;
     const auto read = [&](const std::optional<Box2d>& wanted_city) {
-      if (files_.terrain) run_stage("terrain", [&] { terrain = read_ground(*files_.terrain, wanted_city); });
+      if (files_.terrain) run_stage("terrain", [&] { terrain = read_ground(*files_.terrain, wanted_city, report); });
     };
     if (read_.located.city.buildings().empty()) {
       read(std::nullopt);
@@ -159,10 +159,14 @@ class CityReading {
     return {aligned.grid, std::move(terrain), aligned.streets};
   }
 
-  [[nodiscard]] TerrainRaster read_ground(const georeference::TerrainFile& file, const std::optional<Box2d>& wanted_city) const {
-    TerrainRaster terrain = georeference::read_terrain(file, settings_.georeference.crs, read_.located.georeference, wanted_city);
+  [[nodiscard]] TerrainRaster read_ground(const georeference::TerrainFile& file, const std::optional<Box2d>& wanted_city,
+                                          Report& report) const {
+    TerrainRaster terrain =
+        georeference::read_terrain(file, settings_.georeference.crs, read_.located.georeference, wanted_city, report);
     if (std::none_of(terrain.height_m.begin(), terrain.height_m.end(), [](const auto& height) { return height.has_value(); }))
       throw InputError(file.path.string() + " has no heights where the city lies: give a terrain that covers it.");
+    for (auto& height_m : terrain.height_m)
+      if (height_m) *height_m += static_cast<float>(settings_.terrain_offset_m);
     return terrain;
   }
 

@@ -47,6 +47,7 @@ enum class PackPart { whole, shard, merge };
 struct StageSettings {
   std::vector<std::filesystem::path> inputs;  ///< files, folders and archives; may be empty when there is a terrain
   std::optional<std::filesystem::path> terrain;
+  double terrain_offset_m = 0.0;
   TreeSettings trees = {};
   std::filesystem::path output;
   Overwrite overwrite = Overwrite::refuse;

@@ -112,6 +112,7 @@ void add_input_settings(const StageSettings& s, Values& values) {
   values.emplace_back("up", s.ingest.up == UpAxis::y ? "y" : "z");
   values.emplace_back("lod", s.ingest.lod.exactly ? std::to_string(*s.ingest.lod.exactly) : "best");
   if (s.terrain) values.emplace_back("terrain", s.terrain->filename().string());
+  if (s.terrain_offset_m != 0.0) values.emplace_back("terrain-offset", fmt::format("{}", s.terrain_offset_m));
 }
 
 void add_tree_settings(const TreeSettings& trees, Values& values) {

@@ -17,6 +17,9 @@
 #include "city/geometry.hpp"
 
 namespace farlod::tiles {
+
+using plausibility::KnownGroundHeightAt;
+
 namespace {
 
 /// A square: the number of doublings of its side, its column and its row.

@@ -13,6 +13,7 @@
 #include "base/cancellation.hpp"
 #include "base/expects.hpp"
 #include "city/geometry.hpp"
+#include "plausibility/standing_heights.hpp"
 #include "tiles/building_bases.hpp"
 #include "tiles/building_pieces.hpp"
 #include "tiles/tile_filler.hpp"
@@ -379,6 +380,9 @@ TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, con
     if (const auto height_m = terrain ? terrain->height_at(p_city) : std::nullopt) return height_m;
     return surveyed ? std::optional(surveyed->height_at(grid.rotation.grid_from_city(p_city))) : std::nullopt;
   };
+  if (surveyed)
+    plausibility::report_standing(
+        located, {ground_height, plausibility::extent_of_survey(terrain, located.relief_points), terrain.has_value()}, report);
   lift_onto_terrain(located, ground_height, report);
   CityModel city = std::move(located.city);
   city.for_each_building([&](std::size_t, const Building& b) {

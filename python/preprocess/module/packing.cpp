@@ -148,6 +148,7 @@ void add_pack_settings(py::module_& module) {
       .def("set_area_file", &set_area_file)
       .def("set_words", &set_words, py::arg("up"), py::arg("assign"), py::arg("far_map"), py::arg("problems"))
       .def("set_overwrite", [](PackSettings& settings) { settings.overwrite = Overwrite::replace; })
+      .def_readwrite("terrain_offset_m", &PackSettings::terrain_offset_m)
       .def_readwrite("crs", &PackSettings::crs)
       .def_readwrite("out_crs", &PackSettings::out_crs)
       .def_readwrite("lod", &PackSettings::lod)

@@ -214,6 +214,7 @@ def pack(
     neighborhood: int | None = None,
     max_error: float | None = None,
     terrain: Any = None,
+    terrain_offset: float = 0.0,
     trees: Any = None,
     heights: Heights | str | None = None,
     crs: Any = None,
@@ -250,6 +251,8 @@ def pack(
         Chooses cells and neighborhood so that sky view factors keep this error, 0.0001 to 1.
     terrain : path or xarray.DataArray, optional
         Elevations of the ground, in metres; not with a surface model, which is all ground.
+    terrain_offset : float, default 0
+        Metres added to them, where they count from another datum than the buildings.
     trees : Trees, path, GeoDataFrame, or a list of paths and GeoDataFrames, optional
         The trees of the city; anything but :class:`Trees` is an inventory.
     heights : Heights or str, optional
@@ -337,6 +340,7 @@ def pack(
         settings.set_inputs([model.path for model in saved])
         if terrain is not None:
             settings.set_terrain(saved_model(terrain, folder, "terrain", crs=settings.crs).path)
+        settings.terrain_offset_m = _arguments.number("terrain_offset", terrain_offset)
         if trees is not None:
             trees = trees if isinstance(trees, Trees) else Trees(inventory=trees)
             settings.trees = _trees(trees, module, folder, settings.crs)

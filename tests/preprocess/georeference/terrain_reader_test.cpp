@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <ogr_spatialref.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 
@@ -19,6 +20,7 @@
 namespace farlod::georeference {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -37,6 +39,8 @@ class TerrainReader : public testing::Test {
                                         "1.5 2.5 3.5\n4.5 -9999 6.5\n";
     return file("small.asc");
   }
+
+  Report report;
 
  private:
   scenes::TemporaryFolder folder_;
@@ -75,7 +79,7 @@ void fill(GDALDataset& dataset, F f) {
 }
 
 TEST_F(TerrainReader, TakesARasterInTheOutputCrsAsItIs) {
-  const TerrainRaster terrain = read_terrain(small_grid(), "EPSG:25832", frame_in("EPSG:25832"), std::nullopt);
+  const TerrainRaster terrain = read_terrain(small_grid(), "EPSG:25832", frame_in("EPSG:25832"), std::nullopt, report);
   EXPECT_EQ(terrain.columns, 3u);
   EXPECT_EQ(terrain.rows, 2u);
   EXPECT_EQ(terrain.first, (Point2d{505.0, 505.0})) << "centre of the south-west pixel, minus the origin";
@@ -85,7 +89,7 @@ TEST_F(TerrainReader, TakesARasterInTheOutputCrsAsItIs) {
 }
 
 TEST_F(TerrainReader, TakesARasterWithoutACrsForOneInTheOutputCrs) {
-  EXPECT_EQ(read_terrain(small_grid(), "", frame_in("EPSG:25832"), std::nullopt).first, (Point2d{505.0, 505.0}));
+  EXPECT_EQ(read_terrain(small_grid(), "", frame_in("EPSG:25832"), std::nullopt, report).first, (Point2d{505.0, 505.0}));
 }
 
 TEST_F(TerrainReader, ReadsOnePixelAroundTheWantedCity) {
@@ -97,7 +101,7 @@ TEST_F(TerrainReader, ReadsOnePixelAroundTheWantedCity) {
   wanted.add({1007.0, 2007.0});
   wanted.add({1012.0, 2018.0});
   const Georeference frame = georeference_around({0.0, 0.0}, *Crs::find("EPSG:25832"));
-  const TerrainRaster terrain = read_terrain(path, "", frame, wanted);
+  const TerrainRaster terrain = read_terrain(path, "", frame, wanted, report);
   EXPECT_TRUE(terrain.height_at({1007.0, 2007.0}).has_value());
   EXPECT_TRUE(terrain.height_at({1012.0, 2018.0}).has_value());
   EXPECT_EQ(terrain.columns, 4u) << "centres at 1005 and 1015 hold it, and one more at either side";
@@ -114,7 +118,7 @@ TEST_F(TerrainReader, HonoursScaleOffsetAndUnit) {
   dataset->GetRasterBand(1)->SetOffset(100.0);
   dataset->GetRasterBand(1)->SetUnitType("ft");
   dataset.reset();
-  const TerrainRaster terrain = read_terrain(path, "", frame_in("EPSG:25832"), std::nullopt);
+  const TerrainRaster terrain = read_terrain(path, "", frame_in("EPSG:25832"), std::nullopt, report);
   EXPECT_EQ(terrain.height_m[0], static_cast<float>(0.3048 * (0.5 * 10.0 + 100.0)));
 }
 
@@ -125,7 +129,7 @@ TEST_F(TerrainReader, CountsHeightsInTheFeetOfTheCrs) {
   dataset.reset();
   const Georeference frame = georeference_of_terrain(path, {});
   EXPECT_EQ(frame.epsg, 32118);
-  const TerrainRaster terrain = read_terrain(path, "", frame, std::nullopt);
+  const TerrainRaster terrain = read_terrain(path, "", frame, std::nullopt, report);
   const auto height_m = terrain.height_at({0.0, 0.0});
   ASSERT_TRUE(height_m.has_value());
   EXPECT_EQ(static_cast<float>(*height_m), static_cast<float>(100.0 * 1200.0 / 3937.0));
@@ -141,7 +145,7 @@ TEST_F(TerrainReader, ResamplesFromDegrees) {
   dataset.reset();
   const Georeference frame = georeference_of_terrain(path, {});
   EXPECT_EQ(frame.epsg, 32632);
-  const TerrainRaster terrain = read_terrain(path, "", frame, std::nullopt);
+  const TerrainRaster terrain = read_terrain(path, "", frame, std::nullopt, report);
   const Crs utm = *Crs::find("EPSG:32632");
   const CrsTransformation to_degrees(utm, *Crs::find("EPSG:4326"), frame.origin_m);
   for (const Point2d p_city : {Point2d{0.0, 0.0}, Point2d{200.0, -300.0}, Point2d{-250.0, 310.0}}) {
@@ -162,7 +166,7 @@ TEST_F(TerrainReader, ResamplesATurnedRaster) {
   fill(*dataset, [](int column, int) { return 1.0 * column; });
   dataset.reset();
   const Georeference frame = georeference_of_terrain(path, {});
-  const TerrainRaster terrain = read_terrain(path, "", frame, std::nullopt);
+  const TerrainRaster terrain = read_terrain(path, "", frame, std::nullopt, report);
   const auto height_m = terrain.height_at({0.0, 0.0});
   ASSERT_TRUE(height_m.has_value());
   constexpr double origin_rounding_pixels = 0.5 * (8.0 + 6.0) / 100.0 + 1e-5;  // half a metre along each axis, in pixels of 10 m
@@ -176,7 +180,7 @@ TEST_F(TerrainReader, SaysWhatIsWrong) {
   Box2d wanted;
   wanted.add({0.0, 0.0});
   const auto message = [&](const std::string& name) -> std::string {
-    return scenes::refusal_of<InputError>([&] { (void)read_terrain(file(name), "", frame_in("EPSG:25832"), wanted); });
+    return scenes::refusal_of<InputError>([&] { (void)read_terrain(file(name), "", frame_in("EPSG:25832"), wanted, report); });
   };
   EXPECT_THAT(message("absent.tif"), HasSubstr("absent.tif"));
   EXPECT_THAT(message("not.tif"), HasSubstr("is not a raster"));
@@ -190,7 +194,7 @@ TEST_F(TerrainReader, ReadsTheSurfaceModelOfGothenburg) {
   const Georeference frame = georeference_of_terrain(path, {"EPSG:3007", ""});
   EXPECT_EQ(frame.epsg, 3007);
   EXPECT_EQ(frame.origin_m, (Point2d{147740.0 + 95.0, 6398620.0 + 65.0}));
-  const TerrainRaster terrain = read_terrain(path, "EPSG:3007", frame, std::nullopt);
+  const TerrainRaster terrain = read_terrain(path, "EPSG:3007", frame, std::nullopt, report);
   EXPECT_EQ(terrain.columns, 190u);
   EXPECT_EQ(terrain.rows, 130u);
   EXPECT_EQ(terrain.first, (Point2d{-94.5, -64.5}));
@@ -293,6 +297,54 @@ TEST_F(CanopyReader, RefusesWhatIsNone) {
   std::ofstream(folder_.file("text.tif")) << "no raster";
   EXPECT_THROW((void)read({folder_.file("text.tif"), {}}), InputError);
   EXPECT_THROW((void)read({tops(), folder_.file("text.tif")}), InputError);
+}
+
+/// The code and the detail of each problem.
+std::vector<std::string> told(const Report& report) {
+  std::vector<std::string> lines;
+  for (const Problem& p : report.problems()) lines.push_back(std::to_string(static_cast<int>(p.code)) + " " + p.detail);
+  return lines;
+}
+
+/// A raster at 500 m whose first 2 × 2 pixels hold `number`, without saying what it stands for.
+std::filesystem::path with_hole(const std::filesystem::path& path, const std::string& code, std::array<double, 6> transform,
+                                double number) {
+  const auto dataset = make_raster(path, {code, transform, 20, 20, GDT_Float32});
+  fill(*dataset, [&](int column, int row) { return column < 2 && row < 2 ? number : 500.0; });
+  return path;
+}
+
+TEST_F(TerrainReader, NumbersThatNobodyDeclaredAsNoDataAreEmpty) {
+  for (const double number : {-9999.0, -3.4028234663852886e38, 0.0}) {
+    report = Report();
+    const auto path = with_hole(file("hole.tif"), "EPSG:25832", {690000.0, 10.0, 0.0, 5335000.0, 0.0, -10.0}, number);
+    const TerrainRaster terrain = read_terrain(path, "", georeference_of_terrain(path, {}), std::nullopt, report);
+    EXPECT_EQ(std::count(terrain.height_m.begin(), terrain.height_m.end(), std::nullopt), 4) << number;
+    EXPECT_EQ(std::count(terrain.height_m.begin(), terrain.height_m.end(), 500.0F), 396) << number;
+    EXPECT_THAT(told(report), ElementsAre(AllOf(HasSubstr("211 4 of 400 pixels here: "), HasSubstr("gdal_edit.py -a_nodata"))));
+  }
+}
+
+TEST_F(TerrainReader, TheyAreNotMixedIntoTheirNeighborsWhereARasterIsResampled) {
+  const auto path = with_hole(file("hole.tif"), "EPSG:4326", {11.55, 1e-4, 0.0, 48.14, 0.0, -1e-4}, -9999.0);
+  const TerrainRaster terrain = read_terrain(path, "", georeference_of_terrain(path, {}), std::nullopt, report);
+  EXPECT_THAT(told(report), ElementsAre(HasSubstr("211 -9999 is no height here")));
+  for (const auto& height_m : terrain.height_m)
+    if (height_m) EXPECT_FLOAT_EQ(*height_m, 500.0F);
+}
+
+TEST_F(TerrainReader, APlaceThatCannotBeIsToldAsThatOfABuildingIs) {
+  const auto read = [&](const std::string& code, std::array<double, 6> transform) {
+    report = Report();
+    const auto path = with_hole(file("place.tif"), code, transform, 500.0);
+    const Georeference frame = georeference_around({transform[0], transform[3]}, *Crs::find(code));
+    return scenes::refusal_of<InputError>([&] { (void)read_terrain(path, "", frame, std::nullopt, report); });
+  };
+  EXPECT_THAT(read("EPSG:25832", {11.55, 1e-4, 0.0, 48.14, 0.0, -1e-4}), HasSubstr("its coordinates look like degrees"));
+  EXPECT_EQ(read("EPSG:25832", {3e6, 10.0, 0.0, 5335000.0, 0.0, -10.0}), "no refusal");
+  EXPECT_THAT(told(report), ElementsAre(HasSubstr("205 the file lies at 3000100, 5334900")));
+  EXPECT_EQ(read("EPSG:25832", {690000.0, 0.0005, 0.0, 5335000.0, 0.0, -0.0005}), "no refusal");
+  EXPECT_THAT(told(report), ElementsAre(HasSubstr("208 its pixels are 0.0005 m wide")));
 }
 
 }  // namespace

@@ -178,6 +178,9 @@ TEST(BrokenFiles, LoseWhatIsLeftOutAndNothingElse) {
       {"zone_in_easting", {{"house"}, 6}},
       {"implausible_size", {{"house"}, 6}},
       {"lies_on_its_side", {house_names(12), 72}},
+      {"undeclared_no_data", {{}, 0}},  // a surface model
+      {"another_datum", {house_names(9), 54}},
+      {"beyond_terrain", {house_names(9), 54}},
       {"no_dominant_direction", {{"rotunda"}, 66}},
       {"nearly_empty_grid", {{"house", "neighbour"}, 12}},
       {"zero_area", {{"house"}, 6}},  // of seven polygons

@@ -186,25 +186,25 @@ TEST(PackedTrees, StandOnTheTerrain) {
   TreePacking p;
   std::string rows;
   for (int row = 0; row < 20; ++row) {
-    for (int column = 0; column < 20; ++column) rows += std::to_string(100 + column) + " ";
+    for (int column = 0; column < 20; ++column) rows += std::to_string(0.1 * column) + " ";
     rows += "\n";
   }
   p.settings.terrain = p.write("dem.asc", "ncols 20\nnrows 20\nxllcorner 549900\nyllcorner 5499900\ncellsize 10\n" + rows);
   p.settings.trees.files = {p.write("trees.csv", "x,y,height,crown,h_trunk\n549990,5499990,9,4,3\n")};
-  p.settings.trees.canopy = p.write_canopy("tops.asc", "120 0 0\n0 0 0\n");
+  p.settings.trees.canopy = p.write_canopy("tops.asc", "20 0 0\n0 0 0\n");
   p.settings.trees.heights = CanopyHeights::elevations;
   p.run();
-  // Its nodes are the centres of its pixels: 100 m at 549905 m, and a tenth more from metre to metre
+  // Its nodes are the centres of its pixels: 0 m at 549905 m, and a hundredth more from metre to metre
   auto crowns = p.crowns();
   ASSERT_EQ(crowns.size(), 2U);
   if (crowns[0].crown.shape == CrownShape::prism) std::swap(crowns[0], crowns[1]);
-  EXPECT_NEAR(crowns[0].bottom_m, 108.5 + 3.0, float_error_m);
-  EXPECT_NEAR(crowns[0].top_m, 108.5 + 9.0, float_error_m);
-  const double ground_m = 100.0 + 0.1 * (550001.0 - 549905.0);
+  EXPECT_NEAR(crowns[0].bottom_m, 0.85 + 3.0, float_error_m);
+  EXPECT_NEAR(crowns[0].top_m, 0.85 + 9.0, float_error_m);
+  const double ground_m = 0.01 * (550001.0 - 549905.0);
   EXPECT_NEAR(crowns[1].place.x, 550001.0, float_error_m);
   EXPECT_NEAR(crowns[1].place.y, 5500003.0, float_error_m);
-  EXPECT_NEAR(crowns[1].top_m, 120.0, float_error_m);
-  EXPECT_NEAR(crowns[1].bottom_m, ground_m + 0.25 * (120.0 - ground_m), float_error_m);
+  EXPECT_NEAR(crowns[1].top_m, 20.0, float_error_m);
+  EXPECT_NEAR(crowns[1].bottom_m, ground_m + 0.25 * (20.0 - ground_m), float_error_m);
 }
 
 TEST(PackedTrees, ShardsMakeThePackageOfOneRun) {

@@ -33,6 +33,7 @@ class TreeSettings:
     def set_elevations(self) -> None: ...
 
 class PackSettings:
+    terrain_offset_m: float
     crs: str
     out_crs: str
     lod: int | None

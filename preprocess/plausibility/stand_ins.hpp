@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace farlod::plausibility {
+
+/// What the heights of a raster are heights of.
+enum class HeightsOf {
+  ground,   ///< a terrain below buildings
+  surfaces  ///< ground and roofs alike
+};
+
+/// A number that a raster has where it knows no height, though it does not declare it as such.
+struct StandIn {
+  float height_m = 0.0F;
+  std::size_t pixels = 0;
+  std::size_t first = 0;  ///< index of the first of them
+};
+
+/// Empties the pixels that hold a stand-in, and returns all stand-ins, the most frequent first.
+///   (1) heights below lowest_elevation_m or above highest_elevation_m, which no place on land has (-9999, -32768, -3.4e38)
+///   (2) heights of exactly 0 where all others are higher: by 20 m for a ground, which slopes down to a sea elsewhere; by 100 m
+///   for
+///       surfaces, since a raster may count from its own ground
+[[nodiscard]] std::vector<StandIn> take_out_stand_ins(std::vector<std::optional<float>>& heights_m, HeightsOf of);
+
+}  // namespace farlod::plausibility
