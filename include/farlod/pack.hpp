@@ -68,6 +68,7 @@ struct FootprintSettings {
   double floor_height_m = 3.0;                    ///< 1 to 20: height of a storey, where only the number of storeys is known
   std::optional<std::string> roof_field = {};     ///< elevation of the roof
   std::optional<double> default_height_m = {};    ///< 0.01 to 1,000: for footprints without any height
+  std::vector<double> unknown_heights = {};       ///< numbers of the table that mean that a height is not known
 };
 
 /// What the heights of a canopy raster count from.

@@ -102,6 +102,10 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
   app.add_option("--default-height", o.settings.footprints.default_height_m, "Height of footprints that have none, in metres")
       ->check(between(0.01, 1000.0))
       ->group("Input");
+  app.add_option("--unknown-height", o.settings.footprints.unknown_heights,
+                 "Numbers that mean that a height is not known, such as 0,-1,999: storeys or the default height count then")
+      ->delimiter(',')
+      ->group("Input");
   app.add_option("--lod", raw.lod, "Level of detail to read")
       ->check(CLI::IsMember({"best", "0", "1", "2", "3"}))
       ->capture_default_str()

@@ -43,6 +43,7 @@ struct Building {
   std::uint64_t first_facet = 0;
   std::uint32_t facet_count = 0;
   HeightReference height_reference = HeightReference::elevation;
+  bool is_raised = false;    ///< the file says that it begins above the ground, as an arch does
   std::uint32_t source = 0;  ///< place in LocatedCity::sources of the file that it comes from
   std::uint64_t first_origin_byte = 0;
   std::uint64_t origin_bytes = 0;  ///< 0: nothing is known of the places of its surfaces in a file
@@ -71,7 +72,8 @@ class CityModel {
   [[nodiscard]] std::span<Point3d> points() { return points_; }
 
   /// Building up: a building, then its facets, each with its rings, outer ring first.
-  void begin_building(std::string id, HeightReference height_reference = HeightReference::elevation, std::uint32_t source = 0);
+  void begin_building(std::string id, HeightReference height_reference = HeightReference::elevation, std::uint32_t source = 0,
+                      bool is_raised = false);
   void begin_facet(SurfaceKind kind, std::uint32_t surface, std::uint16_t part = 0);
   void add_ring(std::span<const Point3d> points);
   /// Where the building begun last comes from in its file, as package::append_origin writes it. Facets that are dropped leave it

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline/pack_target.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -108,6 +108,7 @@ void add_input_settings(const StageSettings& s, Values& values) {
   add_if("storeys-field", f.storeys_field);
   values.emplace_back("floor-height", fmt::format("{}", f.floor_height_m));
   if (f.default_height_m) values.emplace_back("default-height", fmt::format("{}", *f.default_height_m));
+  if (!f.unknown_heights.empty()) values.emplace_back("unknown-height", fmt::format("{}", fmt::join(f.unknown_heights, ",")));
   if (const auto& o = s.ingest.obj_origin) values.emplace_back("origin", fmt::format("{},{},{}", o->x, o->y, o->z));
   values.emplace_back("up", s.ingest.up == UpAxis::y ? "y" : "z");
   values.emplace_back("lod", s.ingest.lod.exactly ? std::to_string(*s.ingest.lod.exactly) : "best");

@@ -260,9 +260,20 @@ class Neighbors {
 
 }  // namespace
 
+namespace {
+
+void raise_as_files_say(const CityModel& city, std::vector<Base>& bases) {
+  for (std::size_t n = 0; n < bases.size(); ++n)
+    if (city.buildings()[n].is_raised) bases[n] = Base::above_ground;
+}
+
+}  // namespace
+
 std::vector<Base> bases_of(const CityModel& city) {
   PagedArray<Footprint> footprints;
-  city.for_each_building([&](std::size_t, const Building& b) { footprints.push_back(footprint_of(city.points_of(b))); });
+  // What the file says to begin above the ground says nothing about it
+  city.for_each_building(
+      [&](std::size_t, const Building& b) { footprints.push_back(b.is_raised ? Footprint{} : footprint_of(city.points_of(b))); });
   const Neighbors neighbors(footprints);
   // Find the bases below the ground first: they must not make bridges of their neighbors
   std::vector<Base> without_bridges(footprints.size(), Base::on_ground);
@@ -274,7 +285,14 @@ std::vector<Base> bases_of(const CityModel& city) {
     if (!footprints[n].outline.empty() && result[n] == Base::on_ground && neighbors.is_above_ground(n, without_bridges))
       result[n] = Base::above_ground;
   });
+  raise_as_files_say(city, result);
   return result;
+}
+
+std::vector<Base> bases_on_survey(const CityModel& city) {
+  std::vector<Base> bases(city.buildings().size(), Base::on_ground);
+  raise_as_files_say(city, bases);
+  return bases;
 }
 
 namespace {

@@ -34,7 +34,11 @@ enum class Base : std::uint8_t {
 ///       slope, or when one neighbor is lower than any slope between the two allows.
 ///   (2) A base is below the ground when at least two neighbors are higher than any slope allows, and more of them than neighbors
 ///       whose bases agree with it up to a gentle slope.
+///   (3) Buildings that the file says to begin above the ground do, and are nobody's neighbors.
 [[nodiscard]] std::vector<Base> bases_of(const CityModel& city);
+
+/// The bases where the ground is surveyed: all are on it, but for (3).
+[[nodiscard]] std::vector<Base> bases_on_survey(const CityModel& city);
 
 /// The points at which buildings meet the ground: the points of each building on the ground that are at most `base_thickness_m`
 /// above its lowest point. Each once for each building.

@@ -389,7 +389,7 @@ TileSet cut_into_tiles(LocatedCity located, const Grid& grid, Assign assign, con
     for (Point3d& p : city.points_of(b)) p = grid.rotation.grid_from_city(p);  // exactness begins here
   });
   // The bases of buildings define the ground only where no survey does
-  const std::vector<Base> bases = surveyed ? std::vector(city.buildings().size(), Base::on_ground) : bases_of(city);
+  const std::vector<Base> bases = surveyed ? bases_on_survey(city) : bases_of(city);
   Ground ground = surveyed ? std::move(*surveyed) : Ground(base_points(city, bases), grid.rectangle(), extent);
   return TileCutter(std::move(city), located, grid, assign, std::move(ground), bases, stop).run(report, on_ground);
 }

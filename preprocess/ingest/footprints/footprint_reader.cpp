@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <sstream>
 
@@ -104,11 +105,13 @@ namespace {
 constexpr std::array<std::string_view, 11> height_names{"building:height", "height",  "measuredheight", "building_height",
                                                         "bldg_height",     "heightm", "height_m",       "height_ft",
                                                         "height_feet",     "hoehe",   "hauteur"};
-/// `roof:levels` is not among them: it counts storeys inside of the roof, and few buildings have it.
 constexpr std::array<std::string_view, 16> storeys_names{
     "building:levels", "levels",      "num_floors",         "numfloors", "number_of_floors", "floors",    "storeys",
     "stories",         "num_storeys", "storeysaboveground", "nb_etages", "nombre_d_etages",  "geschosse", "anzahl_geschosse",
     "plantas",         "pisos"};
+/// The storeys inside of the roof, which `building:levels` does not count.
+constexpr std::string_view levels_below_roof = "building:levels";
+constexpr std::array<std::string_view, 1> roof_storeys_names{"roof:levels"};
 /// The height above the ground at which an elevated part begins, such as an arch or a skyway.
 constexpr std::array<std::string_view, 2> lowest_height_names{"min_height", "building:min_height"};
 /// `min_level` is not among them: it numbers storeys inside of a building, and the ground is 1 in America.
@@ -150,6 +153,10 @@ std::string said(const std::string& name, const FieldValue& value) {
 
 bool is_elevation(double elevation_m) { return lowest_elevation_m <= elevation_m && elevation_m <= highest_elevation_m; }
 
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+bool is_height(double height_m) { return 0.0 < height_m && height_m <= highest_building_m; }
+
 /// Why walls of this height cannot be built; empty when they can.
 std::optional<Unraised> objection_to(double height_m, const std::string& said) {
   if (std::abs(height_m) > highest_building_m)
@@ -169,21 +176,28 @@ Unraised no_elevation(const std::string& said) {
 FootprintHeights::FootprintHeights(std::vector<std::string> field_names, const FootprintSettings& settings)
     : names_(std::move(field_names)),
       default_height_m_(settings.default_height_m),
+      unknown_(settings.unknown_heights),
       floor_height_m_(settings.floor_height_m),
       roof_(fields_called(names_, settings.roof_field, {})),
       base_(fields_called(names_, settings.base_field, {})),
       heights_(fields_called(names_, settings.height_field, height_names)),
       storeys_(fields_called(names_, settings.storeys_field, storeys_names)),
       lowest_heights_(fields_called(names_, {}, lowest_height_names)),
-      lowest_storeys_(fields_called(names_, {}, lowest_storeys_names)) {}
+      lowest_storeys_(fields_called(names_, {}, lowest_storeys_names)),
+      roof_storeys_(fields_called(names_, {}, roof_storeys_names)) {}
 
 bool FootprintHeights::can_tell() const { return default_height_m_ || !roof_.empty() || !heights_.empty() || !storeys_.empty(); }
+
+bool FootprintHeights::means_unknown(double number) const {
+  return std::find(unknown_.begin(), unknown_.end(), number) != unknown_.end();
+}
 
 std::optional<FootprintHeights::Height> FootprintHeights::length_in(const std::vector<std::size_t>& fields,
                                                                     const FieldLookup& value_of) const {
   for (const std::size_t field : fields) {
     const FieldValue value = value_of(field);
     if (!value.is_set) continue;
+    if (means_unknown(value.number ? *value.number : number_from(value.text).value_or(not_a_number))) continue;
     const LengthUnit unit = unit_of(names_[field]);
     const std::optional<double> length_m =
         value.number ? std::optional(*value.number * metres_in(unit)) : length_m_from(value.text, unit);
@@ -198,19 +212,24 @@ std::optional<FootprintHeights::Height> FootprintHeights::storeys_in(const std::
     const FieldValue value = value_of(field);
     if (!value.is_set) continue;
     const std::optional<double> count = value.number ? value.number : number_from(value.text);
-    if (count && std::isfinite(*count))
-      return Height{*count * floor_height_m_, said(names_[field], value), HeightSource::storeys};
+    if (!count || !std::isfinite(*count) || means_unknown(*count)) continue;
+    const bool counts_no_roof = lower_case(names_[field]) == levels_below_roof && !roof_storeys_.empty();
+    const FieldValue roof = counts_no_roof ? value_of(roof_storeys_.front()) : FieldValue{};
+    const double roof_count = roof.number ? *roof.number : number_from(roof.text).value_or(0.0);
+    return Height{(*count + roof_count) * floor_height_m_, said(names_[field], value), HeightSource::storeys};
   }
   return std::nullopt;
 }
 
 std::optional<FootprintHeights::Height> FootprintHeights::height_above_base(const FieldLookup& value_of) const {
-  if (auto height = length_in(heights_, value_of)) return height;
-  if (auto height = storeys_in(storeys_, value_of)) return height;
+  const auto height = length_in(heights_, value_of);
+  if (height && is_height(height->value_m)) return height;
+  const auto storeys = storeys_in(storeys_, value_of);
+  if (storeys && is_height(storeys->value_m)) return storeys;
   if (default_height_m_)
     return Height{*default_height_m_, "the default height is " + std::to_string(*default_height_m_),
                   HeightSource::default_height};
-  return std::nullopt;
+  return height ? height : storeys;
 }
 
 double FootprintHeights::lowest_part_m(const FieldLookup& value_of) const {
@@ -242,11 +261,13 @@ std::variant<PrismExtent, Unraised> FootprintHeights::above_base(const Height& h
     return Unraised{ProblemCode::height_not_positive,
                     height.said + ", and it begins only above that: " + what_they_say(lowest_heights_, value_of) +
                         what_they_say(lowest_storeys_, value_of)};
-  if (base_.empty()) return PrismExtent{lowest_m, height.value_m, HeightReference::on_ground, height.source};
+  const bool is_raised = lowest_m > 0.0;
+  if (base_.empty()) return PrismExtent{lowest_m, height.value_m, HeightReference::on_ground, height.source, is_raised};
   const std::optional<Height> base = length_in(base_, value_of);
   if (!base) return Unraised{ProblemCode::no_height, what_they_say(base_, value_of)};
   if (!is_elevation(base->value_m)) return no_elevation(base->said);
-  return PrismExtent{base->value_m + lowest_m, base->value_m + height.value_m, HeightReference::elevation, height.source};
+  return PrismExtent{base->value_m + lowest_m, base->value_m + height.value_m, HeightReference::elevation, height.source,
+                     is_raised};
 }
 
 std::variant<PrismExtent, Unraised> FootprintHeights::of(const FieldLookup& value_of) const {

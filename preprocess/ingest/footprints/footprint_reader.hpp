@@ -51,6 +51,7 @@ struct PrismExtent {
   double base_m = 0.0, top_m = 0.0;
   HeightReference height_reference = HeightReference::on_ground;
   HeightSource source = HeightSource::measured;
+  bool is_raised = false;  ///< the table says that the base is above the ground
 };
 
 /// Why a footprint has no prism.
@@ -64,7 +65,9 @@ struct Unraised {
 ///   (2) the height: the field that the settings name, then those with a known name
 ///   (3) the number of storeys times their height: the field that the settings name, then those with a known name
 ///   (4) the default height
-/// A field that is empty or has no such number has no value. Names are compared without regard to case.
+/// A field that is empty or has no such number has no value; nor has one with a number that means unknown: by the settings, or
+/// because no building is as high (0, -1, -9999, 99999) and a later rule has another value. Names are compared without regard to
+/// case.
 class FootprintHeights {
  public:
   /// The fields that the settings name must be among the names.
@@ -81,6 +84,7 @@ class FootprintHeights {
     HeightSource source = HeightSource::measured;
   };
 
+  [[nodiscard]] bool means_unknown(double number) const;
   [[nodiscard]] std::optional<Height> length_in(const std::vector<std::size_t>& fields, const FieldLookup& value_of) const;
   [[nodiscard]] std::optional<Height> storeys_in(const std::vector<std::size_t>& fields, const FieldLookup& value_of) const;
   [[nodiscard]] std::optional<Height> height_above_base(const FieldLookup& value_of) const;
@@ -91,8 +95,9 @@ class FootprintHeights {
 
   std::vector<std::string> names_;
   std::optional<double> default_height_m_;
+  std::vector<double> unknown_;
   double floor_height_m_;
-  std::vector<std::size_t> roof_, base_, heights_, storeys_, lowest_heights_, lowest_storeys_;
+  std::vector<std::size_t> roof_, base_, heights_, storeys_, lowest_heights_, lowest_storeys_, roof_storeys_;
 };
 
 /// Reads footprints in any vector format that GDAL knows, and builds prisms of the heights that FootprintHeights finds. Of

@@ -8,12 +8,14 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/lower_case.hpp"
 #include "farlod/angle.hpp"
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"
 #include "gdal/local_data_gdal.hpp"
 #include "gdal/vector_file_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
+#include "ingest/footprints/feature_table_ogr.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
 #include "ingest/model_builder/city_model_builder.hpp"
 
@@ -22,19 +24,7 @@ namespace {
 
 constexpr std::array<const char*, 10> id_field_names{"gml_id",      "@id", "id",         "osm_id",   "osm_way_id",
                                                      "building_id", "bin", "identifier", "objectid", "fid"};
-/// Enough features to find out whether a text column holds lengths, and whether features are bodies.
-constexpr int most_features_to_sample = 100;
-
-Feature next_feature(OGRLayer& layer) { return Feature(layer.GetNextFeature()); }
-
 bool is_set(const OGRFeature& feature, int field) { return field >= 0 && feature.IsFieldSetAndNotNull(field); }
-
-FieldValue value_of(const OGRFeature& feature, int field) {
-  if (!is_set(feature, field)) return {};
-  const OGRFieldType type = feature.GetFieldDefnRef(field)->GetType();
-  if (type == OFTReal || type == OFTInteger || type == OFTInteger64) return {feature.GetFieldAsDouble(field), {}, true};
-  return {std::nullopt, feature.GetFieldAsString(field), true};
-}
 
 bool is_length(const FieldValue& value) { return value.number || (value.is_set && length_m_from(value.text)); }
 
@@ -45,17 +35,16 @@ bool holds_areas(OGRLayer& layer) {
 }
 
 /// The names of the fields whose values are lengths, for a message.
-std::string numeric_fields(OGRLayer& layer) {
-  std::vector<bool> is_numeric(static_cast<std::size_t>(layer.GetLayerDefn()->GetFieldCount()), false);
+std::string numeric_fields(OGRLayer& layer, const FeatureTable& table) {
+  std::vector<bool> is_numeric(table.names().size(), false);
   layer.ResetReading();
   Feature feature = next_feature(layer);
   for (int n = 0; feature && n < most_features_to_sample; feature = next_feature(layer), ++n)
     for (std::size_t f = 0; f < is_numeric.size(); ++f)
-      if (is_length(value_of(*feature, static_cast<int>(f)))) is_numeric[f] = true;
+      if (is_length(FeatureTable::Row(table, *feature).value(f))) is_numeric[f] = true;
   std::string names;
   for (std::size_t f = 0; f < is_numeric.size(); ++f)
-    if (is_numeric[f])
-      names.append(names.empty() ? "" : ", ").append(layer.GetLayerDefn()->GetFieldDefn(static_cast<int>(f))->GetNameRef());
+    if (is_numeric[f]) names.append(names.empty() ? "" : ", ").append(table.names()[f]);
   return names.empty() ? "no field with numbers" : "fields with numbers: " + names;
 }
 
@@ -109,12 +98,16 @@ void flatten(Rings& rings) {
 class FootprintLayer {
  public:
   FootprintLayer(OGRLayer& layer, const FootprintSettings& settings, CityModelBuilder& builder)
-      : layer_(layer), builder_(builder), heights_(field_names(), with_fields_checked(settings)) {
+      : layer_(layer),
+        builder_(builder),
+        table_(layer),
+        parts_(layer, table_),
+        heights_(table_.names(), with_fields_checked(settings)) {
     for (const char* name : id_field_names)
       if (const int field = index_of(name); field >= 0) id_fields_.push_back(field);
     holds_bodies_ = find_bodies();
     if (!holds_bodies_ && !heights_.can_tell())
-      throw InputError(builder_.source() + " does not say how high its footprints are: " + numeric_fields(layer_) +
+      throw InputError(builder_.source() + " does not say how high its footprints are: " + numeric_fields(layer_, table_) +
                        ". Name the field with --height-field or --storeys-field, or give all one --default-height.");
   }
 
@@ -140,17 +133,10 @@ class FootprintLayer {
 
   /// Whether the features are bodies in space, which are read as they are, and not footprints.
   [[nodiscard]] bool holds_bodies() const { return holds_bodies_; }
+  [[nodiscard]] const SkippedFeatures& skipped() const { return skipped_; }
 
  private:
   int index_of(const char* name) const { return layer_.GetLayerDefn()->GetFieldIndex(name); }
-
-  std::vector<std::string> field_names() const {
-    std::vector<std::string> names;
-    const int count = layer_.GetLayerDefn()->GetFieldCount();
-    names.reserve(static_cast<std::size_t>(count));
-    for (int field = 0; field < count; ++field) names.emplace_back(layer_.GetLayerDefn()->GetFieldDefn(field)->GetNameRef());
-    return names;
-  }
 
   const FootprintSettings& with_fields_checked(const FootprintSettings& settings) {
     check_field(settings.height_field, "--height-field");
@@ -161,8 +147,9 @@ class FootprintLayer {
   }
 
   void check_field(const std::optional<std::string>& name, const char* option) {
-    if (!name || index_of(name->c_str()) >= 0) return;
-    throw InputError(builder_.source() + " has no field \"" + *name + "\" (" + numeric_fields(layer_) +
+    const auto is_it = [&](const std::string& field) { return lower_case(field) == lower_case(*name); };
+    if (!name || std::any_of(table_.names().begin(), table_.names().end(), is_it)) return;
+    throw InputError(builder_.source() + " has no field \"" + *name + "\" (" + numeric_fields(layer_, table_) +
                      "). Give one of them as " + option + ".");
   }
 
@@ -192,6 +179,7 @@ class FootprintLayer {
       builder_.add_problem_at(id, ProblemCode::no_geometry, "the feature has no geometry");
       return;
     }
+    if (!is_building(feature, *geometry)) return;
     Areas areas = areas_of(*geometry);
     if (areas.holds_others)
       builder_.add_problem_at(id, ProblemCode::not_an_area, std::string("it is, or holds, a ") + geometry->getGeometryName(),
@@ -206,6 +194,16 @@ class FootprintLayer {
       raise(feature, id, areas.polygons);
   }
 
+  /// Counts what is none.
+  bool is_building(const OGRFeature& feature, const OGRGeometry& geometry) {
+    const FeatureRole role = FeatureTable::Row(table_, feature).role();
+    const bool is_filled = role == FeatureRole::building && parts_.fill(geometry);
+    if (role == FeatureRole::no_building) ++skipped_["features whose tags make them no buildings"];
+    if (role == FeatureRole::underground) ++skipped_["buildings below the ground"];
+    if (is_filled) ++skipped_["outlines of buildings whose parts are there"];
+    return !is_filled && (role == FeatureRole::building || role == FeatureRole::part);
+  }
+
   void add_body(const std::string& id, std::vector<Rings>& polygons) {
     builder_.begin_building(id);
     for (Rings& rings : polygons) builder_.add_polygon(rings, RingEnd::repeats_first, {});
@@ -214,7 +212,8 @@ class FootprintLayer {
 
   void raise(const OGRFeature& feature, const std::string& id, std::vector<Rings>& polygons) {
     for (Rings& rings : polygons) flatten(rings);
-    const auto answer = heights_.of([&](std::size_t field) { return value_of(feature, static_cast<int>(field)); });
+    const FeatureTable::Row row(table_, feature);
+    const auto answer = heights_.of([&](std::size_t field) { return row.value(field); });
     if (const auto* reason = std::get_if<Unraised>(&answer)) {
       builder_.add_problem_at(id, reason->code, reason->detail, first_readable(polygons.front()));
       return;
@@ -222,7 +221,7 @@ class FootprintLayer {
     const auto& extent = std::get<PrismExtent>(answer);
     raised_by_storeys_ += extent.source == HeightSource::storeys ? 1 : 0;
     raised_by_default_ += extent.source == HeightSource::default_height ? 1 : 0;
-    builder_.begin_building(id, extent.height_reference);
+    builder_.begin_building(id, extent.height_reference, extent.is_raised);
     for (std::size_t part = 0; part < polygons.size(); ++part)
       builder_.add_prism(polygons[part], RingEnd::repeats_first, extent.base_m, extent.top_m, static_cast<std::uint16_t>(part));
     builder_.end_building("none of its rings is usable");
@@ -262,7 +261,10 @@ class FootprintLayer {
 
   OGRLayer& layer_;
   CityModelBuilder& builder_;
+  FeatureTable table_;
+  PartsOfLayer parts_;
   FootprintHeights heights_;
+  SkippedFeatures skipped_;
   std::vector<int> id_fields_;
   bool holds_bodies_ = false;
   std::size_t raised_by_storeys_ = 0, raised_by_default_ = 0;
@@ -280,7 +282,11 @@ OGRLayer* choose_layer(GDALDataset& dataset, const FootprintSettings& settings) 
   return first;
 }
 
+bool is_openstreetmap(GDALDataset& dataset) { return EQUAL(dataset.GetDriverName(), "OSM"); }
+
+/// Of a file of OpenStreetMap, the other layers are its points and lines, and groups of things that are there already.
 void report_other_layers(GDALDataset& dataset, OGRLayer* chosen, CityModelBuilder& builder) {
+  if (is_openstreetmap(dataset)) return;
   for (OGRLayer* layer : dataset.GetLayers())
     if (layer != chosen)
       builder.add_problem_at(std::string("layer ") + layer->GetName(), ProblemCode::unsupported_geometry,
@@ -305,6 +311,9 @@ GDALDatasetUniquePtr open(const InputFile& file, GdalErrors& messages) {
 SourceCity read_footprints(const InputFile& file, const FootprintSettings& settings, Report& report) {
   GdalErrors messages;
   const GDALDatasetUniquePtr dataset = open(file, messages);
+  // Else GDAL keeps all points and lines in memory until somebody reads them
+  if (is_openstreetmap(*dataset))
+    dataset->ReleaseResultSet(dataset->ExecuteSQL("SET interest_layers = multipolygons", nullptr, ""));
   OGRLayer* layer = choose_layer(*dataset, settings);
   if (layer == nullptr) throw InputError(file.name + " holds no layer of polygons: footprints are areas.");
   CityModelBuilder builder(file.name, report);
@@ -315,6 +324,7 @@ SourceCity read_footprints(const InputFile& file, const FootprintSettings& setti
   return {.source = file.name,
           .crs = {wkt_of(layer->GetSpatialRef()), true, !footprints.holds_bodies()},
           .city = builder.take_city(),
+          .skipped = footprints.skipped(),
           .notes = footprints.notes(settings.floor_height_m)};
 }
 

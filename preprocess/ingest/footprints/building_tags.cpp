@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ingest/footprints/building_tags.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+
+#include "base/lower_case.hpp"
+
+namespace farlod::ingest {
+namespace {
+
+bool has_any(const std::vector<std::string>& names, std::initializer_list<std::string_view> wanted) {
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return std::find(wanted.begin(), wanted.end(), lower_case(name)) != wanted.end();
+  });
+}
+
+/// Values of `building` that say that there is none, or not any more, or not yet.
+bool is_denied(const std::string& value) {
+  constexpr std::array<std::string_view, 9> denials{"no",    "demolished", "razed",   "removed",  "destroyed",
+                                                    "false", "proposed",   "planned", "collapsed"};
+  return value.empty() || std::find(denials.begin(), denials.end(), lower_case(value)) != denials.end();
+}
+
+bool is_true(const std::optional<std::string>& value) { return value && (lower_case(*value) == "true" || *value == "1"); }
+
+bool is_affirmed(const std::optional<std::string>& value) { return value && !is_denied(*value); }
+
+bool is_underground(const TagLookup& tag) {
+  const auto location = tag("location"), layer = tag("layer");
+  return location == "underground" || (layer && std::atoi(layer->c_str()) < 0) || is_true(tag("is_underground"));
+}
+
+/// Overture's table of parts, which has no column that buildings alone have.
+bool is_of_parts(const std::vector<std::string>& names) {
+  return has_any(names, {"building_id"}) && has_any(names, {"roof_shape", "facade_material", "min_floor"});
+}
+
+/// A text in quotes at the beginning, which is taken off. Escapes are a backslash and the character.
+std::optional<std::string> take_quoted(std::string_view& text) {
+  if (!text.starts_with('"')) return std::nullopt;
+  std::string inside;
+  for (std::size_t k = 1; k < text.size(); ++k) {
+    if (text[k] == '"') {
+      text.remove_prefix(k + 1);
+      return inside;
+    }
+    if (text[k] == '\\' && k + 1 < text.size()) ++k;
+    inside += text[k];
+  }
+  return std::nullopt;
+}
+
+void skip(std::string_view& text, std::string_view characters) {
+  text.remove_prefix(std::min(text.find_first_not_of(characters), text.size()));
+}
+
+}  // namespace
+
+BuildingTags::BuildingTags(const std::vector<std::string>& names, const std::vector<TagLookup>& some)
+    : are_of_overture_(has_any(names, {"has_parts", "is_underground"}) || is_of_parts(names)) {
+  const bool has_collection = has_any(names, {"other_tags", "all_tags"});
+  const bool has_key = has_collection || has_any(names, {"building", "building:part"});
+  const bool has_ids = has_collection || has_any(names, {"osm_id", "osm_way_id", "@id", "@osm_id", "full_id", "osm_type"});
+  const bool says_yes = std::any_of(
+      some.begin(), some.end(), [](const TagLookup& tag) { return tag("building") == "yes" || tag("building:part") == "yes"; });
+  are_known_ = are_of_overture_ || (has_key && (has_ids || says_yes));
+}
+
+FeatureRole BuildingTags::role_of(const TagLookup& tag) const {
+  if (!are_known_) return FeatureRole::building;
+  if (is_underground(tag)) return FeatureRole::underground;
+  if (is_affirmed(tag("building:part"))) return FeatureRole::part;
+  if (are_of_overture_) return tag("building_id") || tag("type") == "building_part" ? FeatureRole::part : FeatureRole::building;
+  return is_affirmed(tag("building")) ? FeatureRole::building : FeatureRole::no_building;
+}
+
+std::map<std::string, std::string, std::less<>> tags_in(std::string_view hstore) {
+  std::map<std::string, std::string, std::less<>> tags;
+  for (skip(hstore, ", "); !hstore.empty(); skip(hstore, ", ")) {
+    auto key = take_quoted(hstore);
+    skip(hstore, "=> ");
+    auto value = take_quoted(hstore);
+    if (!key || !value) break;
+    tags.insert_or_assign(std::move(*key), std::move(*value));
+  }
+  return tags;
+}
+
+const std::vector<std::string>& known_tags() {
+  static const std::vector<std::string> tags{
+      "building",        "building:part",      "height",   "building:height", "min_height",
+      "building:levels", "building:min_level", "location", "layer",           "roof:levels"};
+  return tags;
+}
+
+}  // namespace farlod::ingest

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace farlod::ingest {
+
+/// What a feature is among those of OpenStreetMap or Overture.
+enum class FeatureRole {
+  building,
+  part,  ///< of a building, whose outline has a feature of its own
+  underground,
+  no_building  ///< land use, water, a demolished building …
+};
+
+/// The value of a tag of a feature; empty where it has none.
+using TagLookup = std::function<std::optional<std::string>(std::string_view tag)>;
+
+/// Tells the features of a table of OpenStreetMap or Overture apart, as their wikis define the tags: "Key:building", "Simple 3D
+/// Buildings", and the schema of Overture's theme "buildings".
+class BuildingTags {
+ public:
+  /// Names of the table's fields. `some` are features of it.
+  BuildingTags(const std::vector<std::string>& field_names, const std::vector<TagLookup>& some);
+
+  /// Whether the table is one of OpenStreetMap or Overture. All features of another one are buildings.
+  [[nodiscard]] bool are_known() const { return are_known_; }
+  [[nodiscard]] FeatureRole role_of(const TagLookup& tag) const;
+
+ private:
+  bool are_known_ = false, are_of_overture_ = false;
+};
+
+/// Fields that hold further tags of a feature, as GDAL's driver for OpenStreetMap and osm2pgsql write them.
+inline constexpr std::string_view tag_collections[] = {"other_tags", "all_tags", "tags"};
+
+/// The tags in such a field: "\"height\"=>\"12\",\"layer\"=>\"1\"" (hstore). What is no such text has none.
+[[nodiscard]] std::map<std::string, std::string, std::less<>> tags_in(std::string_view hstore);
+
+/// The tags that the heights and roles of buildings are found in, by name.
+[[nodiscard]] const std::vector<std::string>& known_tags();
+
+}  // namespace farlod::ingest

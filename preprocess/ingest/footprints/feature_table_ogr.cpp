@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ingest/footprints/feature_table_ogr.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "base/lower_case.hpp"
+
+namespace farlod::ingest {
+namespace {
+
+bool is_collection(const std::string& name) {
+  return std::find(std::begin(tag_collections), std::end(tag_collections), lower_case(name)) != std::end(tag_collections);
+}
+
+double area_of(const OGRGeometry& geometry) {
+  if (OGR_GT_IsSurface(geometry.getGeometryType())) return geometry.toSurface()->get_Area();
+  return OGR_GT_IsSubClassOf(wkbFlatten(geometry.getGeometryType()), wkbGeometryCollection) != 0
+             ? geometry.toGeometryCollection()->get_Area()
+             : 0.0;
+}
+
+}  // namespace
+
+FeatureTable::FeatureTable(OGRLayer& layer) {
+  const OGRFeatureDefn& columns = *layer.GetLayerDefn();
+  for (int field = 0; field < columns.GetFieldCount(); ++field) {
+    names_.emplace_back(columns.GetFieldDefn(field)->GetNameRef());
+    if (is_collection(names_.back())) collections_.push_back(field);
+  }
+  columns_ = names_.size();
+  const std::vector<std::string> column_names = names_;
+  for (const std::string& tag : known_tags())
+    if (!collections_.empty() && std::find(column_names.begin(), column_names.end(), tag) == column_names.end())
+      names_.push_back(tag);
+  std::vector<Feature> sample;
+  std::vector<Row> rows;
+  std::vector<TagLookup> some;
+  layer.ResetReading();
+  for (Feature feature = next_feature(layer); feature && sample.size() < most_features_to_sample; feature = next_feature(layer))
+    sample.push_back(std::move(feature));
+  for (const Feature& feature : sample) rows.emplace_back(*this, *feature);
+  for (const Row& row : rows) some.emplace_back([&row](std::string_view name) { return row.tag(name); });
+  tags_.emplace(column_names, some);
+}
+
+FeatureTable::Row::Row(const FeatureTable& table, const OGRFeature& feature) : table_(table), feature_(feature) {
+  for (const int column : table.collections_)
+    if (feature.IsFieldSetAndNotNull(column)) collected_.merge(tags_in(feature.GetFieldAsString(column)));
+}
+
+FieldValue FeatureTable::Row::value(std::size_t field) const {
+  if (field >= table_.columns_) {
+    const auto found = collected_.find(table_.names_[field]);
+    return found == collected_.end() ? FieldValue{} : FieldValue{std::nullopt, found->second, true};
+  }
+  const int column = static_cast<int>(field);
+  if (!feature_.IsFieldSetAndNotNull(column)) return {};
+  const OGRFieldType type = feature_.GetFieldDefnRef(column)->GetType();
+  if (type == OFTReal || type == OFTInteger || type == OFTInteger64) return {feature_.GetFieldAsDouble(column), {}, true};
+  return {std::nullopt, feature_.GetFieldAsString(column), true};
+}
+
+std::optional<std::string> FeatureTable::Row::tag(std::string_view name) const {
+  if (const auto found = collected_.find(name); found != collected_.end()) return found->second;
+  for (std::size_t column = 0; column < table_.columns_; ++column) {
+    if (lower_case(table_.names_[column]) != name) continue;
+    const int n = static_cast<int>(column);
+    return feature_.IsFieldSetAndNotNull(n) ? std::optional<std::string>(feature_.GetFieldAsString(n)) : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+FeatureRole FeatureTable::Row::role() const {
+  return table_.tags().role_of([this](std::string_view name) { return tag(name); });
+}
+
+PartsOfLayer::PartsOfLayer(OGRLayer& layer, const FeatureTable& table) {
+  if (!table.tags().are_known()) return;
+  layer.ResetReading();
+  for (Feature feature = next_feature(layer); feature; feature = next_feature(layer)) {
+    OGRGeometry* geometry = feature->GetGeometryRef();
+    if (geometry == nullptr || FeatureTable::Row(table, *feature).role() != FeatureRole::part) continue;
+    const OGRGeometryUniquePtr inside(OGRGeometry::FromHandle(OGR_G_PointOnSurface(OGRGeometry::ToHandle(geometry))));
+    if (inside && !inside->IsEmpty()) parts_.push_back({*inside->toPoint(), area_of(*geometry)});
+  }
+  std::sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) { return a.inside.getX() < b.inside.getX(); });
+}
+
+bool PartsOfLayer::fill(const OGRGeometry& outline) const {
+  if (parts_.empty()) return false;
+  constexpr double most_of_it = 0.5;
+  OGREnvelope box;
+  outline.getEnvelope(&box);
+  double filled = 0.0;
+  const auto first =
+      std::lower_bound(parts_.begin(), parts_.end(), box.MinX, [](const Part& part, double x) { return part.inside.getX() < x; });
+  for (auto part = first; part != parts_.end() && part->inside.getX() <= box.MaxX; ++part)
+    if (box.MinY <= part->inside.getY() && part->inside.getY() <= box.MaxY && part->inside.Within(&outline)) filled += part->area;
+  return filled >= most_of_it * area_of(outline) && filled > 0.0;
+}
+
+}  // namespace farlod::ingest

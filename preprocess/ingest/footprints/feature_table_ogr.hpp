@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <ogrsf_frmts.h>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gdal/vector_file_gdal.hpp"
+#include "ingest/footprints/building_tags.hpp"
+#include "ingest/footprints/footprint_reader.hpp"
+
+// Private to the wrappers of GDAL: it names its classes.
+
+namespace farlod::ingest {
+
+/// Enough features to find out what the columns of a table hold, and whether features are bodies.
+inline constexpr int most_features_to_sample = 100;
+
+[[nodiscard]] inline Feature next_feature(OGRLayer& layer) { return Feature(layer.GetNextFeature()); }
+
+/// The fields of a layer. Tags that stand together in one column (tag_collections) are fields, too: the known ones, behind the
+/// columns, where no column has their name.
+class FeatureTable {
+ public:
+  explicit FeatureTable(OGRLayer& layer);
+
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  [[nodiscard]] const BuildingTags& tags() const { return *tags_; }
+
+  /// The fields of one feature, which must outlive them, as the table must.
+  class Row {
+   public:
+    Row(const FeatureTable& table, const OGRFeature& feature);
+    [[nodiscard]] FieldValue value(std::size_t field) const;
+    [[nodiscard]] std::optional<std::string> tag(std::string_view name) const;
+    [[nodiscard]] FeatureRole role() const;
+
+   private:
+    const FeatureTable& table_;
+    const OGRFeature& feature_;
+    std::map<std::string, std::string, std::less<>> collected_;
+  };
+
+ private:
+  std::vector<std::string> names_;
+  std::size_t columns_ = 0;
+  std::vector<int> collections_;
+  std::optional<BuildingTags> tags_;
+};
+
+/// The parts of buildings that a layer has, to find out which outlines they stand for.
+class PartsOfLayer {
+ public:
+  /// Reads the layer once, if it may have parts.
+  PartsOfLayer(OGRLayer& layer, const FeatureTable& table);
+
+  /// Whether parts fill most of an area in the plan.
+  [[nodiscard]] bool fill(const OGRGeometry& outline) const;
+
+ private:
+  struct Part {
+    OGRPoint inside;
+    double area = 0.0;
+  };
+  std::vector<Part> parts_;  ///< by the x of their points
+};
+
+}  // namespace farlod::ingest
