@@ -2,22 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "console/program_documents.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <map>
-#include <stdexcept>
 #include <string_view>
 #include <vector>
 
-#include "console/manual_page.hpp"
 #include "console/run_program.hpp"
-#include "farlod/version.hpp"
 
 namespace farlod {
 namespace {
@@ -166,19 +160,8 @@ std::string zsh_completion(const std::string& program, const OptionList& options
 
 namespace {
 
-/// The seconds since 1970 at which a reproducible build takes place: https://reproducible-builds.org/specs/source-date-epoch
-std::string date_of_build() {
-  const char* text = std::getenv("SOURCE_DATE_EPOCH");  // NOLINT(concurrency-mt-unsafe): there is one thread
-  if (text == nullptr) return "";
-  char* end = nullptr;
-  const long long seconds = std::strtoll(text, &end, 10);
-  if (end == text || *end != '\0') throw std::runtime_error("SOURCE_DATE_EPOCH is not a number of seconds");
-  return fmt::format("{:%Y-%m-%d}", fmt::gmtime(static_cast<std::time_t>(seconds)));
-}
-
 void write_documents(const std::filesystem::path& folder, const ProgramDescription& program, const CLI::App& app) {
   const OptionList options = options_of(app);
-  write_text(folder / (program.name + ".1"), manual_page(program, options, {software_version, date_of_build()}));
   write_text(folder / (program.name + ".bash"), bash_completion(program.name, options));
   write_text(folder / (program.name + ".zsh"), zsh_completion(program.name, options));
 }

@@ -19,9 +19,8 @@ namespace farlod {
 /// For zsh, which finds it under the program's name after an underscore. Options come with what --help says of them.
 [[nodiscard]] std::string zsh_completion(const std::string& program, const OptionList& options);
 
-/// What the build does instead of running a program: writes its manual page and its completion into the folder that the command
-/// line names, as PROGRAM.1, PROGRAM.bash and PROGRAM.zsh. The page has the date of the environment's SOURCE_DATE_EPOCH, or none.
-/// `describe` hands over the program. Returns an exit code.
+/// What the build does instead of running a program: writes its completions into the folder that the command line names, as
+/// PROGRAM.bash and PROGRAM.zsh. `describe` hands over the program. Returns an exit code.
 [[nodiscard]] int write_program_documents(int argc, char** argv, const std::function<void(const CommandLineVisitor&)>& describe);
 
 }  // namespace farlod

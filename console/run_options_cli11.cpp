@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -18,14 +20,14 @@ namespace farlod {
 void describe_program(CLI::App& app, const ProgramDescription& program) {
   std::string beginning = program.name + " — " + program.purpose + ".\n\nTry this first:\n";
   for (const std::string& example : program.examples) beginning.append("  ").append(example).append("\n");
-  std::string end = "\n";
-  for (const std::string& note : program.notes) end.append(note).append("\n");
-  end.append("Exit codes:");
+  std::string end = "\nMore:\n";
+  for (const std::string& paragraph : program.background) end.append(paragraph).append("\n");
+  end.append("\nExit codes:\n");
   for (const ExitMeaning& meaning : program.exit_codes)
-    end.append(meaning.code == exit_done ? " " : ", ").append(std::to_string(meaning.code)).append(" ").append(meaning.text);
+    end += fmt::format("  {:<5}{}\n", static_cast<int>(meaning.code), meaning.text);
   app.name(program.name);
   app.description(beginning);
-  app.footer(end + ".");
+  app.footer(end + "\nCopyright The Far-LoD authors; licence: " + program.licence);
 }
 
 namespace {

@@ -29,10 +29,10 @@ ProgramDescription pack_program() {
                      "problem, and --strict packs no city that has one.",
                      "A package is made in NAME.farlod.unfinished, and gets its name in one step when it is whole. A run that "
                      "is interrupted leaves there what it has finished, and the same command goes on with it. One package may be "
-                     "made by several processes, on several machines: --shard and --merge."},
-      .notes = {"Reads CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, OBJ, and footprints in any vector format of GDAL (GeoJSON, "
-                "GeoPackage, Shapefile …); also from folders, .zip and .gz. Several inputs become one city. "
-                "CityGML and OBJ may come through a pipe; - is the standard input."},
+                     "made by several processes, on several machines: --shard and --merge.",
+                     "Reads CityGML 1.0 to 3.0, CityJSON 1.0 to 2.0, OBJ, and footprints in any vector format of GDAL (GeoJSON, "
+                     "GeoPackage, Shapefile …); also from folders, .zip and .gz. Several inputs become one city. "
+                     "CityGML and OBJ may come through a pipe; - is the standard input."},
       .exit_codes = {{exit_done, "done"},
                      {exit_internal, "an internal error"},
                      {exit_usage, "a wrong command line"},
@@ -40,7 +40,6 @@ ProgramDescription pack_program() {
                      {exit_limit_reached, "a limit was reached"},
                      {exit_busy, "another process is at work on the same package: try again later"},
                      {exit_interrupted, "and the number of a signal: interrupted; the same command goes on"}},
-      .see_also = {"farlod-city", "farlod-info", "farlod-svf", "farlod-view"},
       .licence = "GPL-3.0-or-later"};
 }
 

@@ -27,7 +27,7 @@ struct ParsedPackOptions {
 };
 [[nodiscard]] ParsedPackOptions parse_pack_options(int argc, char** argv);
 
-/// Hands over the command line, from which the manual page and the completion are made.
+/// Hands over the command line, from which the completions are made.
 void describe_pack_options(const CommandLineVisitor& visit);
 
 /// The text of `--summary`, with RunOptions::settings_json.

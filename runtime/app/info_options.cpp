@@ -27,14 +27,12 @@ ProgramDescription info_program() {
                      "tells what was packed, how, and what was wrong with it; --check reads all the rest, too.",
                      "The picture of a cell shows its neighborhood from above, and beside it the far map: the horizon that the "
                      "city beyond the neighborhood has in the middle of the cell."},
-      .notes = {},
       .exit_codes = {{exit_done, "done"},
                      {exit_internal, "an internal error"},
                      {exit_usage, "a wrong command line"},
                      {exit_unusable_input, "an input cannot be read or used"},
                      {exit_damaged_package, "a damaged package"},
                      {exit_limit_reached, "a limit was reached"}},
-      .see_also = {"farlod-city", "farlod-pack", "farlod-svf", "farlod-view"},
       .licence = "Apache-2.0"};
 }
 

@@ -27,7 +27,7 @@ struct ParsedInfoOptions {
 };
 [[nodiscard]] ParsedInfoOptions parse_info_options(int argc, char** argv);
 
-/// Hands over the command line, from which the manual page and the completion are made.
+/// Hands over the command line, from which the completions are made.
 void describe_info_options(const CommandLineVisitor& visit);
 
 }  // namespace farlod

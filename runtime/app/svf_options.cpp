@@ -23,28 +23,27 @@ namespace farlod {
 namespace {
 
 ProgramDescription svf_program() {
-  return {
-      .name = "farlod-svf",
-      .purpose = "computes sky view factors from a package that farlod-pack made",
-      .examples = {"farlod-svf town.farlod -o svf.tif --grid 2 --preview svf.png",
-                   "farlod-svf town.farlod -o walls.csv --surfaces walls --spacing 2",
-                   "farlod-svf town.farlod -o sky.png --at 691010,5335990"},
-      .background = {"A package holds a city cut into cells, and for each cell what matters of the city far away. It is made "
-                     "once, and evaluated as often as you like.",
-                     "The receivers are the points where the sky is looked at: the pixels of a raster (--grid), the points of "
-                     "a file (--points), points spread over the buildings (--surfaces), or one point (--at). The sky view "
-                     "factor is the share of the sky that a receiver sees, from 0 to 1."},
-      .notes = {"Receivers inside a building get no answer: the declared no-data value in a raster, an empty field in a table."},
-      .exit_codes = {{exit_done, "done"},
-                     {exit_internal, "an internal error"},
-                     {exit_usage, "a wrong command line"},
-                     {exit_unusable_input, "an input cannot be read or used"},
-                     {exit_damaged_package, "a damaged package"},
-                     {exit_limit_reached, "a limit was reached"},
-                     {exit_busy, "another process is at work on the same output: try again later"},
-                     {exit_interrupted, "and the number of a signal: interrupted; the same command goes on"}},
-      .see_also = {"farlod-city", "farlod-info", "farlod-pack", "farlod-view"},
-      .licence = "Apache-2.0"};
+  return {.name = "farlod-svf",
+          .purpose = "computes sky view factors from a package that farlod-pack made",
+          .examples = {"farlod-svf town.farlod -o svf.tif --grid 2 --preview svf.png",
+                       "farlod-svf town.farlod -o walls.csv --surfaces walls --spacing 2",
+                       "farlod-svf town.farlod -o sky.png --at 691010,5335990"},
+          .background =
+              {"A package holds a city cut into cells, and for each cell what matters of the city far away. It is made "
+               "once, and evaluated as often as you like.",
+               "The receivers are the points where the sky is looked at: the pixels of a raster (--grid), the points of "
+               "a file (--points), points spread over the buildings (--surfaces), or one point (--at). The sky view "
+               "factor is the share of the sky that a receiver sees, from 0 to 1.",
+               "Receivers inside a building get no answer: the declared no-data value in a raster, an empty field in a table."},
+          .exit_codes = {{exit_done, "done"},
+                         {exit_internal, "an internal error"},
+                         {exit_usage, "a wrong command line"},
+                         {exit_unusable_input, "an input cannot be read or used"},
+                         {exit_damaged_package, "a damaged package"},
+                         {exit_limit_reached, "a limit was reached"},
+                         {exit_busy, "another process is at work on the same output: try again later"},
+                         {exit_interrupted, "and the number of a signal: interrupted; the same command goes on"}},
+          .licence = "Apache-2.0"};
 }
 
 std::string known_endings() {

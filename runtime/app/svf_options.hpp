@@ -61,7 +61,7 @@ struct ParsedSvfOptions {
 };
 [[nodiscard]] ParsedSvfOptions parse_svf_options(int argc, char** argv);
 
-/// Hands over the command line, from which the manual page and the completion are made.
+/// Hands over the command line, from which the completions are made.
 void describe_svf_options(const CommandLineVisitor& visit);
 
 }  // namespace farlod

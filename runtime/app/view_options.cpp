@@ -26,7 +26,6 @@ ProgramDescription view_program() {
            "What --export writes has the values down to whole cells of the grid, and answers for no single places, since no "
            "program stands behind it. A file of HTML is for areas of up to 64 MiB, and needs neither a server nor a network. A "
            "folder is for any web server."},
-      .notes = {},
       .exit_codes = {{exit_done, "done"},
                      {exit_internal, "an internal error"},
                      {exit_usage, "a wrong command line"},
@@ -34,7 +33,6 @@ ProgramDescription view_program() {
                      {exit_damaged_package, "a damaged package"},
                      {exit_limit_reached, "a limit was reached"},
                      {exit_interrupted, "and the number of a signal: interrupted"}},
-      .see_also = {"farlod-city", "farlod-info", "farlod-pack", "farlod-svf"},
       .licence = "Apache-2.0"};
 }
 

@@ -28,7 +28,7 @@ struct ParsedViewOptions {
 };
 [[nodiscard]] ParsedViewOptions parse_view_options(int argc, char** argv);
 
-/// Hands over the command line, from which the manual page and the completion are made.
+/// Hands over the command line, from which the completions are made.
 void describe_view_options(const CommandLineVisitor& visit);
 
 }  // namespace farlod

@@ -46,7 +46,7 @@ TEST_P(EachProgram, HelpBeginsWithWhatItIsAndWhatToTry) {
   EXPECT_EQ(lines[2], "Try this first:");
   EXPECT_THAT(lines[3], StartsWith("  " + std::string(GetParam().name) + " "));
   EXPECT_EQ(test::options_in(outcome.out), GetParam().options);
-  EXPECT_THAT(outcome.out, HasSubstr("Exit codes: 0 done"));
+  EXPECT_THAT(outcome.out, HasSubstr("\n\nExit codes:\n  0    done\n"));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -5,10 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <sstream>
 
-#include "console/manual_page.hpp"
 #include "console/program_documents.hpp"
 #include "tests/console/help_options.hpp"
 
@@ -17,7 +14,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
 using testing::StartsWith;
 
 /// A program with an option of each kind.
@@ -126,7 +122,7 @@ TEST(BashCompletion, OptionsWithTheSameValuesShareACase) {
 
 TEST(ZshCompletion, AnOptionComesWithItsText) {
   const std::string script = zsh_completion("farlod-see", list_of({option({"--quiet"}), option({"--height"}, "FLOAT")}));
-  EXPECT_THAT(script, testing::StartsWith("#compdef farlod-see\n"));
+  EXPECT_THAT(script, StartsWith("#compdef farlod-see\n"));
   EXPECT_THAT(script, HasSubstr("  '--quiet[Text]' \\\n  '--height=[Text]:FLOAT: '\n"));
 }
 
@@ -160,118 +156,6 @@ TEST(HelpOptions, AreTheLongNamesThatBeginALine) {
       "town — makes towns; see --size\n\nTry:\n  town -o a.obj --size 3\n\nOptions:\n  -h,--help   Print this\n"
       "  --size FLOAT:[1, 2]=1\n                --not-this\n  --to-centre   as --size\n[One of]\n    --in-a-group\n";
   EXPECT_EQ(test::options_in(help), (std::set<std::string>{"--help", "--in-a-group", "--size", "--to-centre"}));
-}
-
-const ProgramDescription program{.name = "farlod-see",
-                                 .purpose = "sees what farlod-pack made",
-                                 .examples = {"farlod-see a -o b", "farlod-see 'c d'"},
-                                 .background = {"Background."},
-                                 .notes = {"Note."},
-                                 .exit_codes = {{exit_done, "done"}, {exit_usage, "a wrong command line"}},
-                                 .see_also = {"farlod-city", "farlod-pack"},
-                                 .licence = "Apache-2.0"};
-
-OptionDescription page_option(std::vector<std::string> names, std::string value = "") {
-  OptionDescription page_option;
-  page_option.names = std::move(names);
-  page_option.value = std::move(value);
-  page_option.text = "Text";
-  return page_option;
-}
-
-std::string page_of(const OptionList& list, const std::string& date = "") { return manual_page(program, list, {"1.2.3", date}); }
-
-TEST(ManualPage, BeginsWithTitleAndName) {
-  EXPECT_THAT(page_of({}), StartsWith(".TH FARLOD\\-SEE 1 \"\" \"Far\\-LoD 1.2.3\" \"Far\\-LoD manual\"\n"));
-  EXPECT_THAT(page_of({}), HasSubstr("\n.SH NAME\nfarlod\\-see \\- sees what farlod\\-pack made\n.SH SYNOPSIS\n"));
-  EXPECT_THAT(page_of({}, "2001-02-03"), StartsWith(".TH FARLOD\\-SEE 1 \"2001-02-03\" "));
-}
-
-TEST(ManualPage, HasTheSectionsInTheirUsualOrder) {
-  const std::string page = page_of({});
-  std::size_t at = 0;
-  for (const char* section : {"NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "EXIT STATUS", "EXAMPLES", "COPYRIGHT", "SEE ALSO"}) {
-    const std::size_t found = page.find(std::string(".SH ") + section + "\n", at);
-    ASSERT_NE(found, std::string::npos) << section;
-    at = found;
-  }
-}
-
-TEST(ManualPage, SynopsisShowsWhatMustBeGiven) {
-  OptionDescription input = page_option({"INPUT"}, "FILE"), output = page_option({"-o", "--output"}, "FILE");
-  input.repeatable = output.required = true;
-  const OptionGroup place{"Place", "", true, {page_option({"--here"}, "TEXT"), page_option({"--there"})}};
-  const OptionGroup rest{"Rest", "", false, {output, page_option({"--quiet"})}};
-  EXPECT_THAT(page_of({{input}, {place, rest}}),
-              HasSubstr(".SY farlod\\-see\n[\\fIINPUT\\fR...]\n{\\fB\\-\\-here\\fR\\ \\fITEXT\\fR |\n\\fB\\-\\-there\\fR}\n"
-                        "\\fB\\-o\\fR\\ \\fIFILE\\fR\n[\\fIOPTION\\fR]...\n.YS\n"));
-}
-
-TEST(ManualPage, AnOptionIsExplainedAsInHelp) {
-  OptionDescription full = page_option({"-k", "--kind"}, "TEXT");
-  full.text = "a: the first; b: the other";
-  full.choices = {"a", "b"};
-  full.standard = "a";
-  full.required = true;
-  full.excluded = {"--less"};
-  EXPECT_THAT(
-      page_of({{}, {{"Group", "", false, {full}}}}),
-      HasSubstr(".SS Group\n.TP\n\\fB\\-k\\fR, \\fB\\-\\-kind\\fR \\fITEXT\\fR\na: the first; b: the other.\nOne of a, b.\n"
-                "Default: a.\nRequired.\nNot together with \\fB\\-\\-less\\fR.\n"));
-  OptionDescription number = page_option({"--height"}, "FLOAT");
-  number.range = "from 0 to 10";
-  EXPECT_THAT(page_of({{}, {{"Group", "", false, {number}}}}), HasSubstr("Text.\nFrom 0 to 10.\n"));
-}
-
-TEST(ManualPage, AGroupSaysItsRule) {
-  EXPECT_THAT(page_of({{}, {{"Place", "Where", true, {page_option({"--here"})}}}}),
-              HasSubstr(".SS Place\nWhere.\nExactly one of these options is required.\n.TP\n"));
-  EXPECT_THAT(page_of({{}, {{"Place", "", false, {page_option({"--here"})}}}}), HasSubstr(".SS Place\n.TP\n"));
-}
-
-TEST(ManualPage, EndsWithCodesExamplesAndOtherPrograms) {
-  const std::string page = page_of({});
-  EXPECT_THAT(page, HasSubstr(".SH EXIT STATUS\n.TP\n0\nDone.\n.TP\n2\nA wrong command line.\n"));
-  EXPECT_THAT(page, HasSubstr("farlod\\-see a \\-o b\n"));
-  EXPECT_THAT(page, HasSubstr("farlod\\-see \\(aqc d\\(aq\n"));
-  EXPECT_THAT(page, HasSubstr("Licence: Apache-2.0.\n"));
-  EXPECT_THAT(page, HasSubstr(".SH SEE ALSO\n.BR farlod\\-city (1),\n.BR farlod\\-pack (1)\n"));
-  EXPECT_THAT(page, Not(HasSubstr("—")));
-}
-
-TEST(RoffText, NothingIsACommand) {
-  EXPECT_EQ(roff_paragraph(".SH is no heading"), "\\&.SH is no heading\n");
-  EXPECT_EQ(roff_paragraph("in .zip and 'so'"), "in \\&.zip and \\&'so'\n");
-  EXPECT_EQ(roff_paragraph("a\\fBb \"c\""), "a\\(rsfBb \\(dqc\\(dq\n");
-  EXPECT_EQ(roff_literal(".a 'b' \\c"), "\\&.a \\(aqb\\(aq \\(rsc");
-}
-
-TEST(RoffText, IsAscii) {
-  EXPECT_EQ(roff_paragraph("a — b…°"), "a \\[u2014] b\\[u2026]\\[u00B0]\n");
-  EXPECT_EQ(roff_literal("😀"), "\\[u1F600]");
-  const std::string roff = roff_paragraph("\xC3 and \xFF cut");
-  EXPECT_TRUE(std::ranges::all_of(roff, [](char c) { return static_cast<unsigned char>(c) < 0x80; })) << roff;
-}
-
-TEST(RoffText, NamesOfOptionsAndProgramsAreBoldAndCanBeCopied) {
-  EXPECT_EQ(roff_paragraph("(not for --on-surface, nor -o)"), "(not for \\fB\\-\\-on\\-surface\\fR, nor \\fB\\-o\\fR)\n");
-  EXPECT_EQ(roff_paragraph("farlod-pack"), "\\fBfarlod\\-pack\\fR\n");
-  EXPECT_EQ(roff_paragraph("the no-data value of -10"), "the no-data value of \\-10\n");
-  EXPECT_EQ(roff_literal("farlod-svf --at 1,2"), "farlod\\-svf \\-\\-at 1,2");
-}
-
-TEST(RoffText, ASentenceBeginsALine) {
-  EXPECT_EQ(roff_paragraph("One. Two (three.) Four? Five"), "One.\nTwo (three.)\nFour?\nFive\n");
-  EXPECT_EQ(roff_paragraph("  CityGML 1.0\n to 3.0 "), "CityGML 1.0 to 3.0\n");
-}
-
-TEST(RoffText, LinesAreShort) {
-  std::string text;
-  for (int n = 0; n < 100; ++n) text += "word" + std::to_string(n) + " ";
-  std::istringstream lines(roff_paragraph(text));
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U);
-  const std::string long_word(90, 'w');
-  EXPECT_EQ(roff_paragraph("a " + long_word + " b"), "a\n" + long_word + "\nb\n");
 }
 
 }  // namespace

@@ -15,24 +15,22 @@ namespace farlod {
 namespace {
 
 ProgramDescription city_program() {
-  return {
-      .name = "farlod-city",
-      .purpose = "makes test cities of any size: same settings, same bytes, on every machine",
-      .examples = {"farlod-city -o town.city.json --size 1000",
-                   "farlod-city -o metropolis.obj --size 3500 --rotation 29 --lod 2 --overhangs"},
-      .background =
-          {"The cities have avenues, streets, towers and houses, and on demand what real models have: hills, overhangs, "
-           "open shells, wrong heights. They are for tests and measurements of farlod-pack and farlod-svf."},
-      .notes = {"The ending of the output says the format: .gml (CityGML 2.0), .city.json (CityJSON 2.0), .obj, .geojson.",
-                "GeoJSON holds footprints with `height` above `base`, both in metres: roofs of LoD2 and arcades are reduced to "
-                "that, and a bridge has its underside as base. Its coordinates are in the CRS that the file names, since the "
-                "city is not in degrees."},
-      .exit_codes = {{exit_done, "done"},
-                     {exit_internal, "an internal error"},
-                     {exit_usage, "a wrong command line"},
-                     {exit_unusable_input, "the output cannot be written"}},
-      .see_also = {"farlod-pack", "farlod-svf"},
-      .licence = "Apache-2.0"};
+  return {.name = "farlod-city",
+          .purpose = "makes test cities of any size: same settings, same bytes, on every machine",
+          .examples = {"farlod-city -o town.city.json --size 1000",
+                       "farlod-city -o metropolis.obj --size 3500 --rotation 29 --lod 2 --overhangs"},
+          .background =
+              {"The cities have avenues, streets, towers and houses, and on demand what real models have: hills, overhangs, "
+               "open shells, wrong heights. They are for tests and measurements of farlod-pack and farlod-svf.",
+               "The ending of the output says the format: .gml (CityGML 2.0), .city.json (CityJSON 2.0), .obj, .geojson.",
+               "GeoJSON holds footprints with `height` above `base`, both in metres: roofs of LoD2 and arcades are reduced to "
+               "that, and a bridge has its underside as base. Its coordinates are in the CRS that the file names, since the "
+               "city is not in degrees."},
+          .exit_codes = {{exit_done, "done"},
+                         {exit_internal, "an internal error"},
+                         {exit_usage, "a wrong command line"},
+                         {exit_unusable_input, "the output cannot be written"}},
+          .licence = "Apache-2.0"};
 }
 
 /// Options whose texts are resolved after parsing.

@@ -29,7 +29,7 @@ struct ParsedCityOptions {
 };
 [[nodiscard]] ParsedCityOptions parse_city_options(int argc, char** argv);
 
-/// Hands over the command line, from which the manual page and the completion are made.
+/// Hands over the command line, from which the completions are made.
 void describe_city_options(const CommandLineVisitor& visit);
 
 /// The counts of a generated city.
