@@ -127,8 +127,7 @@ TEST_P(DocumentsOf, BashCompletesFilesAndFoldersWhereHelpSaysSo) {
 
 TEST_P(DocumentsOf, BashCompletesArguments) {
   folder.must("mkdir town.farlod && touch town.gml");
-  const std::map<std::string, std::vector<std::string>> expected{{"farlod-city", {}},
-                                                                 {"farlod-info", {"town.farlod"}},
+  const std::map<std::string, std::vector<std::string>> expected{{"farlod-info", {"town.farlod"}},
                                                                  {"farlod-pack", {"town.farlod", "town.gml"}},
                                                                  {"farlod-svf", {"town.farlod"}},
                                                                  {"farlod-view", {"town.farlod"}}};
@@ -164,7 +163,7 @@ TEST_P(PageOf, HasTheDateOfTheSources) {
   EXPECT_THAT(folder.text_of("b.1"), HasSubstr(" \"1\" \"January 1970\" "));
 }
 
-const auto programs = testing::Values("farlod-city", "farlod-info", "farlod-pack", "farlod-svf", "farlod-view");
+const auto programs = testing::Values("farlod-info", "farlod-pack", "farlod-svf", "farlod-view");
 const auto short_name = [](const auto& program) { return program.param.substr(std::string("farlod-").size()); };
 INSTANTIATE_TEST_SUITE_P(Programs, DocumentsOf, programs, short_name);
 INSTANTIATE_TEST_SUITE_P(Programs, PageOf, programs, short_name);

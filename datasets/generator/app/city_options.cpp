@@ -121,6 +121,4 @@ ParsedCityOptions parse_city_options(int argc, char** argv) {
   return {std::move(line.options), exit_done};
 }
 
-void describe_city_options(const CommandLineVisitor& visit) { visit(city_program(), CommandLine().app); }
-
 }  // namespace farlod

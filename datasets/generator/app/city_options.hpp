@@ -29,9 +29,6 @@ struct ParsedCityOptions {
 };
 [[nodiscard]] ParsedCityOptions parse_city_options(int argc, char** argv);
 
-/// Hands over the command line, from which the completions are made.
-void describe_city_options(const CommandLineVisitor& visit);
-
 /// The counts of a generated city.
 struct CityCounts {
   std::uint64_t buildings = 0, polygons = 0, towers = 0, bridges = 0, trees = 0;
