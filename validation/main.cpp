@@ -10,7 +10,7 @@
 
 #include "validation/report.hpp"
 
-// Prints the tables behind docs/validation.md, and writes their plots. scripts/validate runs it.
+// Prints the tables behind docs/validation.md. scripts/validate runs it.
 
 namespace farlod::validation {
 namespace {
@@ -20,7 +20,7 @@ constexpr std::size_t city_count = 3;
 
 struct Options {
   bool quick = false;
-  std::filesystem::path data, figures = "build/validation/figures";
+  std::filesystem::path data;
 };
 
 std::vector<StudiedCity> cities_of(const Options& options, const Extent& extent) {
@@ -59,12 +59,10 @@ CityResults study(const StudiedCity& city, const Extent& extent) {
 
 int run(const Options& options) {
   const Extent extent = options.quick ? quick_extent() : Extent();
-  std::filesystem::create_directories(options.figures);
   const std::vector<StudiedCity> cities = cities_of(options, extent);
   Results results{extent, {}, study_models(options, extent), cities.size() < city_count, cities.front().name, {}};
   for (const StudiedCity& city : cities) results.cities.push_back(study(city, extent));
   results.settings = study_settings(cities.front(), extent);
-  write_plots(results, options.figures);
   std::fputs(markdown(results).c_str(), stdout);
   return 0;
 }
@@ -78,7 +76,6 @@ int main(int argc, char** argv) {
   farlod::validation::Options options;
   app.add_flag("--quick", options.quick, "A small city and few receivers");
   app.add_option("--data", options.data, "Folder of the real cities; those that are absent are left out");
-  app.add_option("--figures", options.figures, "Where plots go")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
     return farlod::validation::run(options);

@@ -139,7 +139,7 @@ std::string far_field_table(const CityStudy& study) {
   for (const FarFieldRow& row : study.rows)
     text += fmt::format("| {:g} | {} | {} | {} | {} |\n", row.cell_edge_m, row.neighborhood, cells_of_row(row.ground.dropped),
                         cells_of_row(row.ground.box), cells_of_row(row.ground.horizon));
-  return text + fmt::format("\n![Errors of the far field]({}/far_field_{}.svg)\n", "figures", study.name);
+  return text;
 }
 
 std::string rays_table(const Results& results) {
@@ -210,7 +210,7 @@ std::string bounds_section(const Results& results) {
       if (row.roofs) text += bounds_row(city.far_field.name, row, "roofs", *row.roofs);
       if (row.facades) text += bounds_row(city.far_field.name, row, "façades", *row.facades);
     }
-  return text + "\n![Width of the certain intervals](figures/bounds.svg)\n";
+  return text;
 }
 
 std::string bytes_section(const Results& results) {
@@ -235,10 +235,7 @@ std::string sampling_table(const CityResults& city) {
     text += fmt::format("| {} | {:.4f} | {} | {} | {} | {:.4f} | {:.4f} | {:.4f} |\n", row.rays, sampling_error(row.rays) / 1.25,
                         cells_of_row(row.ground), cells_of_row(row.roofs), cells_of_row(row.facades),
                         row.ground_solid.max_abs_error, row.roofs_solid.max_abs_error, row.facades_solid.max_abs_error);
-  return text + fmt::format(
-                    "\nThe largest error times rays^(3/4), of all these: {:.2f}.\n\n![Errors of the "
-                    "sampling](figures/sampling_{}.svg)\n",
-                    sampling_constant(city.sampling), city.far_field.name);
+  return text + fmt::format("\nThe largest error times rays^(3/4), of all these: {:.2f}.\n", sampling_constant(city.sampling));
 }
 
 std::string sampling_section(const Results& results) {
@@ -292,9 +289,7 @@ std::string alignment_section(const Results& results) {
       text += fmt::format("| {} | {:g}° | {:.5f} | {:.4f} | {:.5f} | {:.4f} | {:.0f} | {:.0f} | {:.1f} |\n", city.far_field.name,
                           row.turn_deg, row.box.mean_abs_error, row.box.max_abs_error, row.horizon.mean_abs_error,
                           row.horizon.max_abs_error, row.box_bytes_a_cell, row.bytes_a_cell, row.bake_ms_a_cell);
-  text +=
-      "\n![Errors with the grid turned](figures/alignment.svg)\n\nThe mean over the turned grids, divided by that of the grid "
-      "along the streets:\n\n";
+  text += "\nThe mean over the turned grids, divided by that of the grid along the streets:\n\n";
   for (const CityResults& city : results.cities) text += turned_summary(city);
   return text;
 }

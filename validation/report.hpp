@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -48,8 +47,7 @@ struct Results {
   std::vector<SettingRow> settings;
 };
 
-/// The tables behind docs/validation.md, in Markdown; their plots go to a folder, to which the text refers as `figures/`.
+/// The tables behind docs/validation.md, in Markdown.
 [[nodiscard]] std::string markdown(const Results& results);
-void write_plots(const Results& results, const std::filesystem::path& folder);
 
 }  // namespace farlod::validation
