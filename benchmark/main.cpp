@@ -18,7 +18,6 @@
 #include "benchmark/contest.hpp"
 #include "benchmark/line_sweep.hpp"
 #include "console/progress.hpp"
-#include "validation/wrapped_document.hpp"
 
 // Measures us against tracing the whole city, and prints the tables behind docs/performance.md. benchmark/run runs it.
 
@@ -247,11 +246,10 @@ std::string break_even_table(const std::vector<SizeRow>& rows) {
 
 /// The tables behind docs/performance.md.
 std::string markdown(const Results& results) {
-  return wrapped_document(main_table(results) + placing_sentence(results) +
-                          ladder_table("the rival", "rays", results.contests, &Contest::rival_ladder) +
-                          ladder_table("ours", results.ours.sample_name, results.contests, &Contest::our_ladder) +
-                          sweep_table(results.sweep) + variants_table(results.variants) + sizes_table(results.sizes) +
-                          break_even_table(results.sizes));
+  return main_table(results) + placing_sentence(results) +
+         ladder_table("the rival", "rays", results.contests, &Contest::rival_ladder) +
+         ladder_table("ours", results.ours.sample_name, results.contests, &Contest::our_ladder) + sweep_table(results.sweep) +
+         variants_table(results.variants) + sizes_table(results.sizes) + break_even_table(results.sizes);
 }
 
 struct Options {

@@ -10,7 +10,6 @@
 
 #include "evaluate/error_budget.hpp"
 #include "validation/studied_city.hpp"
-#include "validation/wrapped_document.hpp"
 
 namespace farlod::validation {
 namespace {
@@ -330,7 +329,7 @@ std::string markdown(const Results& results) {
   text += sampling_section(results);
   text += settings_section(results);
   text += alignment_section(results);
-  return wrapped_document(text + moved_section(results));
+  return text + moved_section(results);
 }
 
 }  // namespace farlod::validation
