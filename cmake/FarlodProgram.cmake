@@ -11,12 +11,13 @@ find_program(FARLOD_HELP2MAN help2man)
 # Installs a program, with its manual page and its completions. A program of its own writes the completions, from the options as
 # CLI11 knows them: an option that is added appears in all three. No option of the program itself could do that without becoming a
 # part of what users may rely on.
-#   farlod_program(farlod-svf DOCUMENTS svf_documents.cpp OPTIONS farlod::svf_options)
-function(farlod_program name)
-  cmake_parse_arguments(P "" "DOCUMENTS;OPTIONS" "" ${ARGN})
+#   farlod_program(svf): the program farlod-svf, whose options are those of the library farlod::svf_options
+function(farlod_program word)
+  set(name farlod-${word})
   set(writer ${name}-documents)
-  add_executable(${writer} ${P_DOCUMENTS})
-  target_link_libraries(${writer} PRIVATE ${P_OPTIONS})
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/program_documents.cpp.in ${FARLOD_DOCUMENTS_DIR}/${word}_documents.cpp @ONLY)
+  add_executable(${writer} ${FARLOD_DOCUMENTS_DIR}/${word}_documents.cpp)
+  target_link_libraries(${writer} PRIVATE farlod::${word}_options)
   farlod_warnings(${writer})
   farlod_runs_once(${writer})
   set_target_properties(${writer} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${FARLOD_DOCUMENTS_DIR}/bin)
