@@ -48,7 +48,7 @@ struct RawOptions {
   std::vector<std::string> inputs;
   std::string output, origin, up = "z", lod = "best", align = "auto", assign = "clip", far_map = "horizon";
   std::optional<std::string> area;
-  std::string terrain, height_field, base_field, storeys_field, roof_field;
+  std::string terrain, height_field, base_field, storeys_field, roof_field, layer, encoding;
   std::vector<std::string> trees;
   std::string tree_height_field, crown_field, trunk_field, canopy, trunk;
   bool canopy_absolute = false;
@@ -105,6 +105,8 @@ void add_input_options(CLI::App& app, RawOptions& raw, PackOptions& o) {
                  "Numbers that mean that a height is not known, such as 0,-1,999: storeys or the default height count then")
       ->delimiter(',')
       ->group("Input");
+  app.add_option("--layer", raw.layer, "Layer of a file of several (GeoPackage, File Geodatabase) to read")->group("Input");
+  app.add_option("--encoding", raw.encoding, "Of the texts of a Shapefile without .cpg, such as GBK or CP1252")->group("Input");
   app.add_option("--lod", raw.lod, "Level of detail to read")
       ->check(CLI::IsMember({"best", "0", "1", "2", "3"}))
       ->capture_default_str()
@@ -288,6 +290,8 @@ void resolve_fields(const RawOptions& raw, FootprintSettings& footprints) {
   if (!raw.height_field.empty()) footprints.height_field = raw.height_field;
   if (!raw.base_field.empty()) footprints.base_field = raw.base_field;
   if (!raw.storeys_field.empty()) footprints.storeys_field = raw.storeys_field;
+  if (!raw.layer.empty()) footprints.layer = raw.layer;
+  if (!raw.encoding.empty()) footprints.encoding = raw.encoding;
   if (!raw.roof_field.empty()) footprints.roof_field = raw.roof_field;
 }
 

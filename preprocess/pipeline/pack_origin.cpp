@@ -106,6 +106,8 @@ void add_input_settings(const StageSettings& s, Values& values) {
   add_if("base-field", f.base_field);
   add_if("roof-field", f.roof_field);
   add_if("storeys-field", f.storeys_field);
+  add_if("layer", f.layer);
+  add_if("encoding", f.encoding);
   values.emplace_back("floor-height", fmt::format("{}", f.floor_height_m));
   if (f.default_height_m) values.emplace_back("default-height", fmt::format("{}", *f.default_height_m));
   if (!f.unknown_heights.empty()) values.emplace_back("unknown-height", fmt::format("{}", fmt::join(f.unknown_heights, ",")));

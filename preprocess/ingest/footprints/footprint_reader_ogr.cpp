@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cpl_conv.h>
+#include <cpl_string.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
@@ -97,18 +99,21 @@ void flatten(Rings& rings) {
 
 class FootprintLayer {
  public:
-  FootprintLayer(OGRLayer& layer, const FootprintSettings& settings, CityModelBuilder& builder)
+  /// `others`: the names of further layers with areas.
+  FootprintLayer(OGRLayer& layer, const FootprintSettings& settings, const std::string& others, CityModelBuilder& builder)
       : layer_(layer),
         builder_(builder),
         table_(layer),
         parts_(layer, table_),
         heights_(table_.names(), with_fields_checked(settings)) {
+    require_texts();
     for (const char* name : id_field_names)
       if (const int field = index_of(name); field >= 0) id_fields_.push_back(field);
     holds_bodies_ = find_bodies();
     if (!holds_bodies_ && !heights_.can_tell())
       throw InputError(builder_.source() + " does not say how high its footprints are: " + numeric_fields(layer_, table_) +
-                       ". Name the field with --height-field or --storeys-field, or give all one --default-height.");
+                       ". Name the field with --height-field or --storeys-field, or give all one --default-height" +
+                       (others.empty() ? "." : "; or read another layer, by --layer: " + others + "."));
   }
 
   void read(GdalErrors& messages) {
@@ -151,6 +156,21 @@ class FootprintLayer {
     if (!name || std::any_of(table_.names().begin(), table_.names().end(), is_it)) return;
     throw InputError(builder_.source() + " has no field \"" + *name + "\" (" + numeric_fields(layer_, table_) +
                      "). Give one of them as " + option + ".");
+  }
+
+  /// Names and ids go into messages and packages, which are UTF-8.
+  void require_texts() {
+    layer_.ResetReading();
+    const Feature first = next_feature(layer_);
+    bool all = true;
+    for (std::size_t f = 0; f < table_.names().size(); ++f) {
+      all = all && CPLIsUTF8(table_.names()[f].c_str(), -1) != 0;
+      if (first) all = all && CPLIsUTF8(FeatureTable::Row(table_, *first).value(f).text.c_str(), -1) != 0;
+    }
+    if (!all)
+      throw InputError(builder_.source() +
+                       ": its names and texts are not UTF-8: say what they are in, such as --encoding GBK or CP1252, or give it "
+                       "a .cpg file that says so.");
   }
 
   bool find_bodies() {
@@ -270,8 +290,26 @@ class FootprintLayer {
   std::size_t raised_by_storeys_ = 0, raised_by_default_ = 0;
 };
 
-/// The first layer of areas with the height field that the settings name, else the first layer of areas.
-OGRLayer* choose_layer(GDALDataset& dataset, const FootprintSettings& settings) {
+/// The names of the layers that hold areas, but for one.
+std::string other_layers(GDALDataset& dataset, const OGRLayer* chosen) {
+  std::string names;
+  for (OGRLayer* layer : dataset.GetLayers())
+    if (layer != chosen && holds_areas(*layer)) names.append(names.empty() ? "" : ", ").append(layer->GetName());
+  return names;
+}
+
+OGRLayer* named_layer(GDALDataset& dataset, const std::string& file, const std::string& name) {
+  OGRLayer* const layer = dataset.GetLayerByName(name.c_str());
+  if (layer == nullptr)
+    throw InputError(file + " has no layer \"" + name + "\": give one of " + other_layers(dataset, nullptr) + " as --layer.");
+  if (!holds_areas(*layer)) throw InputError(file + ": the layer " + name + " holds no areas, which footprints are.");
+  return layer;
+}
+
+/// The layer that the settings name; else the first one of areas with the height field that they name; else the first one of
+/// areas.
+OGRLayer* choose_layer(GDALDataset& dataset, const std::string& file, const FootprintSettings& settings) {
+  if (settings.layer) return named_layer(dataset, file, *settings.layer);
   OGRLayer* first = nullptr;
   for (OGRLayer* layer : dataset.GetLayers()) {
     if (!holds_areas(*layer)) continue;
@@ -310,15 +348,16 @@ GDALDatasetUniquePtr open(const InputFile& file, GdalErrors& messages) {
 
 SourceCity read_footprints(const InputFile& file, const FootprintSettings& settings, Report& report) {
   GdalErrors messages;
+  const CPLConfigOptionSetter encoding("SHAPE_ENCODING", settings.encoding ? settings.encoding->c_str() : nullptr, true);
   const GDALDatasetUniquePtr dataset = open(file, messages);
   // Else GDAL keeps all points and lines in memory until somebody reads them
   if (is_openstreetmap(*dataset))
     dataset->ReleaseResultSet(dataset->ExecuteSQL("SET interest_layers = multipolygons", nullptr, ""));
-  OGRLayer* layer = choose_layer(*dataset, settings);
+  OGRLayer* layer = choose_layer(*dataset, file.name, settings);
   if (layer == nullptr) throw InputError(file.name + " holds no layer of polygons: footprints are areas.");
   CityModelBuilder builder(file.name, report);
   report_other_layers(*dataset, layer, builder);
-  FootprintLayer footprints(*layer, settings, builder);
+  FootprintLayer footprints(*layer, settings, other_layers(*dataset, layer), builder);
   footprints.read(messages);
   // Attributes are in metres; elevations of vertices are in the unit of the reference system
   return {.source = file.name,
