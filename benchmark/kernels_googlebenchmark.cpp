@@ -15,7 +15,7 @@
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/kernels.hpp"
 #include "horizon/packet_horizon.hpp"
-#include "scene/near_scene.hpp"
+#include "scene/ray_scenes.hpp"
 #include "scene/vertical_profile.hpp"
 
 // Times the parts that an answer is made of, one thread:

@@ -9,8 +9,8 @@
 
 #include "benchmark/contest.hpp"
 #include "evaluate/verification.hpp"
+#include "receivers/point_receivers.hpp"
 #include "receivers/raster_receivers.hpp"
-#include "receivers/surface_receivers.hpp"
 
 namespace farlod::benchmark {
 namespace {

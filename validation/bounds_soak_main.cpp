@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "evaluate/sky_evaluator.hpp"
-#include "receivers/surface_receivers.hpp"
+#include "receivers/point_receivers.hpp"
 #include "scene/vertical_profile.hpp"
 
 // Asks whether certain bounds hold: for random receivers of a package, on the ground, on whatever is highest, on roofs, on walls

@@ -13,7 +13,7 @@
 #include "evaluate/verification.hpp"
 #include "farlod/point.hpp"
 #include "package/package_reader.hpp"
-#include "receivers/surface_receivers.hpp"
+#include "receivers/point_receivers.hpp"
 #include "validation/studied_city.hpp"
 
 namespace farlod::validation {

@@ -11,7 +11,7 @@
 #include "app/package_facts.hpp"
 #include "console/run_program.hpp"
 #include "farlod/error.hpp"
-#include "results/mesh/mesh_obj.hpp"
+#include "results/mesh/mesh_file.hpp"
 #include "results/picture/cell_picture.hpp"
 
 namespace farlod {

@@ -36,9 +36,9 @@
 #include "farlod/surfaces.hpp"
 #include "results/city/enriched_city_file.hpp"
 #include "results/picture/error_map.hpp"
-#include "results/picture/plan_background.hpp"
+#include "results/picture/raster_preview.hpp"
 #include "results/spool_file.hpp"
-#include "results/table/verification_csv.hpp"
+#include "results/table/sky_table_csv.hpp"
 
 namespace farlod {
 namespace {

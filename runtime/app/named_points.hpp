@@ -11,7 +11,6 @@
 #include "farlod/package.hpp"
 #include "farlod/points.hpp"
 #include "farlod/region.hpp"
-#include "inputs/attributes.hpp"
 #include "inputs/requested_points.hpp"
 #include "results/table/table_writer.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "app/svf_options.hpp"
 #include "farlod/surfaces.hpp"
-#include "results/picture/value_counts.hpp"
+#include "results/picture/histogram.hpp"
 
 namespace farlod {
 

@@ -17,7 +17,6 @@
 #include "base/expects.hpp"
 #include "console/option_list.hpp"
 #include "farlod/error.hpp"
-#include "results/city/city_format.hpp"
 
 namespace farlod {
 namespace {

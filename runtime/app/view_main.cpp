@@ -16,7 +16,7 @@
 #include "view/bundle_files.hpp"
 #include "view/exported_view.hpp"
 #include "view/http_server.hpp"
-#include "view/placed_on_globe.hpp"
+#include "view/view_frame.hpp"
 
 namespace farlod {
 namespace {

@@ -19,7 +19,6 @@
 #include "farlod/hemisphere.hpp"
 #include "farlod/points.hpp"
 #include "farlod/raster.hpp"
-#include "results/picture/preview_raster.hpp"
 #include "results/picture/raster_preview.hpp"
 #include "results/picture/sky_picture.hpp"
 #ifdef FARLOD_WITH_GDAL

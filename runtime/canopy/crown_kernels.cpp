@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "canopy/canopy_lanes.hpp"
 #include "canopy/crown_sections.hpp"
 #include "horizon/edge_culling.hpp"
 #include "horizon/lanes.hpp"

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "canopy/canopy_lanes.hpp"
 #include "canopy/crown_kernels.hpp"
 #include "canopy/crown_sections.hpp"
 #include "horizon/lanes.hpp"

@@ -24,8 +24,7 @@
 #include "occlusion/placed_mesh.hpp"
 #include "receivers/receiver.hpp"
 #include "scene/canopy_around.hpp"
-#include "scene/near_crowns.hpp"
-#include "scene/near_scene.hpp"
+#include "scene/ray_scenes.hpp"
 
 namespace farlod {
 namespace {

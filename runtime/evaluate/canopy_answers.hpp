@@ -13,8 +13,6 @@
 #include "evaluate/further_quantities.hpp"
 #include "evaluate/sky_answers.hpp"
 #include "evaluate/sky_directions.hpp"
-#include "evaluate/sky_halves.hpp"
-#include "evaluate/svf_total.hpp"
 #include "evaluate/traced_canopy.hpp"
 #include "farlod/quantities.hpp"
 #include "horizon/horizon_engine.hpp"
@@ -24,7 +22,7 @@
 #include "package/crown.hpp"
 #include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
-#include "scene/whole_city.hpp"
+#include "scene/ray_scenes.hpp"
 
 namespace farlod {
 

@@ -3,12 +3,53 @@
 #include "evaluate/crowns_of_cell.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <limits>
 
+#include "farlod/box.hpp"
 #include "horizon/kernels.hpp"
 
 namespace farlod {
 namespace {
+
+constexpr std::uint32_t all_lanes = (1U << packet_lanes) - 1;
+constexpr double widest_m = 5.0;
+
+/// A packet whose other lanes stand where the first of these does: what they have is not asked for, and it is a small packet.
+ReceiverPacket packet_of(const ReceiverPacket& receivers, std::uint32_t some) {
+  ReceiverPacket packet = receivers;
+  const auto first = static_cast<std::size_t>(std::countr_zero(some));
+  for (auto member : {&ReceiverPacket::x, &ReceiverPacket::y, &ReceiverPacket::z, &ReceiverPacket::normal_x,
+                      &ReceiverPacket::normal_y, &ReceiverPacket::normal_z})
+    for (std::size_t l = 0; l < packet_lanes; ++l)
+      if ((some >> l & 1U) == 0) (packet.*member)[l] = (packet.*member)[first];
+  return packet;
+}
+
+/// The lanes in groups, none of which lies in a box with an edge of more than `widest_m`: the azimuths at which a packet may see
+/// a near pixel grow with its box, and with pixels there is little else to compute.
+std::vector<std::uint32_t> split(const ReceiverPacket& receivers, std::uint32_t some) {
+  Box2d box;
+  const auto place = [&](std::size_t l) { return Point2d{receivers.x[l], receivers.y[l]}; };
+  for (std::size_t l = 0; l < packet_lanes; ++l)
+    if ((some >> l & 1U) != 0) box.add(place(l));
+  const Point2d edges = box.high - box.low;
+  if (std::max(edges.x, edges.y) <= widest_m) return {some};
+  const double middle_x = 0.5 * (box.low.x + box.high.x), middle_y = 0.5 * (box.low.y + box.high.y);
+  std::uint32_t first = 0;
+  for (std::size_t l = 0; l < packet_lanes; ++l)
+    if (edges.x > edges.y ? place(l).x < middle_x : place(l).y < middle_y) first |= 1U << l;
+  std::vector<std::uint32_t> groups = split(receivers, some & first);
+  const std::vector<std::uint32_t> others = split(receivers, some & ~first);
+  groups.insert(groups.end(), others.begin(), others.end());
+  return groups;
+}
+
+void copy_lanes(const PacketHorizon::Lanes& from, std::uint32_t some, PacketHorizon::Lanes& to) {
+  for (std::size_t l = 0; l < packet_lanes; ++l)
+    if ((some >> l & 1U) != 0) to[l] = from[l];
+}
 
 float lowest_z(const CellReceivers& cell) {
   float lowest = std::numeric_limits<float>::infinity();
@@ -23,6 +64,55 @@ CanopySettings settings_of_envelopes(const CanopySettings& settings) {
 }
 
 }  // namespace
+
+CanopyByPlace::CanopyByPlace(const std::vector<Crown>& crowns, const CanopySettings& settings, const AzimuthSampling& azimuths,
+                             const PixelMerging& merging)
+    : levels_(crowns),
+      merging_(merging),
+      depends_on_place_(levels_.has_pixels() && std::isfinite(merging.edges_away)),
+      settings_(settings),
+      sky_(azimuths) {}
+
+CanopyByPlace::Place CanopyByPlace::place_of(const ReceiverPacket& receivers, std::size_t lane) {
+  const auto number = [](float x) { return static_cast<std::int32_t>(std::floor(static_cast<double>(x) / place_m)); };
+  return {number(receivers.x[lane]), number(receivers.y[lane])};
+}
+
+const CrownBatches& CanopyByPlace::batches_at(const Place& place) {
+  const auto found = batches_.find(place);
+  if (found != batches_.end()) return found->second;
+  const Point2d corner{place.first * place_m, place.second * place_m};
+  return batches_.try_emplace(place, levels_.seen_from({corner, corner + Point2d{place_m, place_m}}, merging_), settings_)
+      .first->second;
+}
+
+void CanopyByPlace::evaluate(std::span<const SkyProfile> profiles, std::span<const ReceiverPacket> packets,
+                             std::span<CanopyShares> shares, std::span<PacketHorizon::Row> behind_of_azimuths) {
+  if (!depends_on_place_) return sky_.evaluate(profiles, packets, batches_at({}), shares, behind_of_azimuths);
+  const std::size_t azimuths = behind_of_azimuths.size() / std::max<std::size_t>(packets.size(), 1);
+  for (std::size_t n = 0; n < packets.size(); ++n)
+    shares[n] = evaluate(profiles[n], packets[n], behind_of_azimuths.subspan(n * azimuths, azimuths));
+}
+
+CanopyShares CanopyByPlace::evaluate(const SkyProfile& profile, const ReceiverPacket& receivers,
+                                     std::span<PacketHorizon::Row> behind_of_azimuths) {
+  if (!depends_on_place_) return sky_.evaluate(profile, receivers, batches_at({}), behind_of_azimuths);
+  CanopyShares shares;
+  behind_of_some_.resize(behind_of_azimuths.size());
+  for (std::uint32_t left = all_lanes; left != 0;) {
+    const Place place = place_of(receivers, static_cast<std::size_t>(std::countr_zero(left)));
+    std::uint32_t some = 0;
+    for (std::size_t l = 0; l < packet_lanes; ++l) some |= place_of(receivers, l) == place ? 1U << l : 0U;
+    left &= ~some;
+    for (const std::uint32_t together : split(receivers, some)) {
+      const CanopyShares of_some = sky_.evaluate(profile, packet_of(receivers, together), batches_at(place), behind_of_some_);
+      copy_lanes(of_some.lost, together, shares.lost);
+      copy_lanes(of_some.behind, together, shares.behind);
+      for (std::size_t k = 0; k < behind_of_azimuths.size(); ++k) copy_lanes(behind_of_some_[k], together, behind_of_azimuths[k]);
+    }
+  }
+  return shares;
+}
 
 CrownsOfCell::CrownsOfCell(const PackageReader& package, const CellReceivers& cell, const CanopySettings& settings,
                            const AzimuthSampling& azimuths, const CrownMerging& merging, const PixelMerging& pixel_merging)

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "evaluate/quantity_table.hpp"
-#include "evaluate/sky_halves.hpp"
+#include "evaluate/sky_directions.hpp"
 #include "farlod/point.hpp"
 #include "farlod/quantities.hpp"
 #include "horizon/azimuth_sampling.hpp"

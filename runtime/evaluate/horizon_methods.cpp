@@ -9,8 +9,8 @@
 
 #include "base/cancellation.hpp"
 #include "evaluate/error_budget.hpp"
-#include "evaluate/evaluation_method.hpp"
 #include "evaluate/further_answers.hpp"
+#include "evaluate/sky_evaluator.hpp"
 #include "evaluate/sky_method.hpp"
 #include "horizon/cell_silhouettes.hpp"
 #include "horizon/horizon_engine.hpp"

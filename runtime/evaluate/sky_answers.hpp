@@ -11,7 +11,7 @@
 #include "evaluate/sky_directions.hpp"
 #include "farlod/evaluation.hpp"
 #include "horizon/sky_partition.hpp"
-#include "horizon/svf_interval.hpp"
+#include "horizon/sky_profile.hpp"
 
 namespace farlod {
 

@@ -3,17 +3,53 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stop_token>
+#include <vector>
 
-#include "evaluate/evaluation_method.hpp"
+#include "base/grid.hpp"
 #include "evaluate/sky_answers.hpp"
+#include "farlod/evaluation.hpp"
 #include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
 
 namespace farlod {
+
+/// The far map of a cell.
+enum class FarMapOfCell {
+  horizon,
+  box,
+  missing,         ///< the cell is one of the grid, and far maps were made for others
+  outside_of_grid  ///< there are no cells, and no far maps
+};
+
+[[nodiscard]] FarMapOfCell far_map_of(const PackageReader& package, Cell cell);
+
+/// How the receivers of a cell are answered. A direction is free when
+enum class EvaluationMethod {
+  horizons_and_rays,      ///< it lies above the horizon, or a ray through the gap below an overhang meets nothing
+  horizons_alone,         ///< it lies above the horizon; throws PackageUnusable where rays are needed
+  rays_against_horizons,  ///< the same as horizons_and_rays, asked for each of --rays directions instead of each azimuth
+  near_scene_and_box,     ///< its ray meets no near tile, and the box far map has no occluder in this direction
+  near_scene_alone,       ///< its ray meets no near tile
+  whole_city              ///< its ray meets no tile of the package
+};
+inline constexpr std::size_t evaluation_method_count = 6;
+
+/// The only place that decides which method answers a cell:
+///
+///   engine      far map `horizon`       far map `box`        missing            outside of the grid
+///   automatic   horizons_and_rays       near_scene_and_box   whole_city         whole_city
+///   horizon     horizons_alone          near_scene_and_box   horizons_alone     whole_city
+///   rays        rays_against_horizons   near_scene_and_box   whole_city         whole_city
+///   exact       whole_city              whole_city           whole_city         whole_city
+///   near_only   near_scene_alone        near_scene_alone     near_scene_alone   whole_city
+[[nodiscard]] EvaluationMethod method_of(Engine engine, FarMapOfCell far_map);
 
 class SkyMethod;
 struct Evaluation;
@@ -62,5 +98,54 @@ class SkyEvaluator {
   std::unique_ptr<const Evaluation> evaluation_;
   std::array<std::unique_ptr<const SkyMethod>, evaluation_method_count> methods_;
 };
+
+/// Sky view factors of receivers by their numbers, with bounds where they are wanted (otherwise `low` and `high` are empty).
+struct SvfValues {
+  static constexpr float no_data = std::numeric_limits<float>::quiet_NaN();
+  std::vector<float> svf, low, high;
+  std::vector<float> further;  ///< the values of SkySettings::further, receiver by receiver
+  std::size_t further_columns = 0;
+  RayCounts counts = {};
+
+  SvfValues(std::size_t size, bool bounds, std::size_t columns = 0)
+      : svf(size, no_data),
+        low(bounds ? size : 0, no_data),
+        high(low),
+        further(size * columns, no_data),
+        further_columns(columns) {}
+  /// Those of the n-th receiver.
+  [[nodiscard]] std::span<const float> further_of(std::size_t n) const {
+    return std::span(further).subspan(n * further_columns, further_columns);
+  }
+  /// The n-th of `svf`, `low` or `high`; nothing where it is no data, or where bounds are not wanted.
+  [[nodiscard]] static std::optional<double> value(const std::vector<float>& values, std::size_t n) {
+    return values.empty() || std::isnan(values[n]) ? std::nullopt : std::optional<double>(values[n]);
+  }
+};
+
+/// The cells of a run, in their order, and what becomes of their answers.
+class CellsOfRun {
+ public:
+  virtual ~CellsOfRun() = default;
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  [[nodiscard]] virtual Cell place(std::size_t n) const = 0;
+  /// About how many receivers the n-th cell has, before they are placed.
+  [[nodiscard]] virtual double receivers_about(std::size_t n) const = 0;
+  /// The receivers of the n-th cell: the same at each call, on any thread.
+  [[nodiscard]] virtual CellReceivers receivers(std::size_t n) = 0;
+  /// Takes the values of the n-th cell, which are in the order of its receivers. Called for one cell at a time, in the order of
+  /// the cells.
+  virtual void store(std::size_t n, const CellReceivers& cell, const SvfValues& values) = 0;
+};
+
+/// Evaluates all receivers of a cell. The values are in the order of the receivers, whatever their indices.
+[[nodiscard]] inline SvfValues values_of(const SkyEvaluator& evaluator, CellReceivers cell, bool bounds) {
+  SvfValues values(cell.receivers.size(), bounds, evaluator.further_columns());
+  for (std::size_t k = 0; k < cell.receivers.size(); ++k) cell.receivers[k].index = k;
+  SkyAnswers answers(values.svf, values.low, values.high, values.further);
+  answers.counts = &values.counts;
+  evaluator.evaluate(cell, answers);
+  return values;
+}
 
 }  // namespace farlod

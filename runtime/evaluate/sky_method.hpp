@@ -15,7 +15,7 @@
 #include "evaluate/sky_parts.hpp"
 #include "package/package_reader.hpp"
 #include "receivers/receiver.hpp"
-#include "scene/whole_city.hpp"
+#include "scene/ray_scenes.hpp"
 
 namespace farlod {
 
@@ -64,7 +64,7 @@ class SkyMethod {
                                        const Occluder& near) const = 0;
 };
 
-// The evaluation must outlive the methods. Which one answers a cell says method_of (evaluate/evaluation_method.hpp)
+// The evaluation must outlive the methods. Which one answers a cell says method_of (evaluate/sky_evaluator.hpp)
 /// Horizons, and rays in the gaps below overhangs where they are allowed; otherwise receivers that need them are refused.
 [[nodiscard]] std::unique_ptr<const SkyMethod> horizon_method(const Evaluation& evaluation, bool rays_are_allowed);
 /// Rays against horizons.

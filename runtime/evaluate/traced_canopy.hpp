@@ -8,11 +8,13 @@
 #include <stop_token>
 #include <vector>
 
-#include "evaluate/sky_halves.hpp"
+#include "evaluate/sky_directions.hpp"
 #include "farlod/point.hpp"
+#include "horizon/sky_profile.hpp"
 #include "occlusion/crown_occluder.hpp"
 #include "occlusion/occluder.hpp"
 #include "package/far_map_reader.hpp"
+#include "receivers/receiver.hpp"
 
 namespace farlod {
 
@@ -47,5 +49,21 @@ struct TracedDirections {
 /// The losses of each origin, by rays: the judge of all other ways. Throws Cancelled when `stop` is asked for.
 [[nodiscard]] std::vector<CanopyLoss> trace_canopies(const CanopyScene& scene, std::span<const Point3f> origins,
                                                      const TracedDirections& traced, const std::stop_token& stop = {});
+
+/// The sky of a receiver without its crowns.
+struct SkyOfReceiver {
+  SvfInterval svf;       ///< as it is answered
+  SvfInterval drawn;     ///< that of the profile which the crowns are counted above
+  bool is_drawn = true;  ///< whether the answer is made of the profile, and not of rays
+};
+
+/// The sky view factor with crowns, and what it certainly lies between, where the loss is that of the profile and differs from
+/// that of all crowns by `most_error` at the most. docs/concepts.md, "Bounds with crowns".
+[[nodiscard]] SvfInterval svf_total_of(const SkyOfReceiver& sky, float lost, float most_error);
+
+/// That of receivers of one cell, by rays in their directions against all that there is.
+[[nodiscard]] std::vector<float> trace_svf_totals(const CanopyScene& city, Point2d scene_from_cell_m,
+                                                  const SkyDirections& directions, std::span<const Receiver> receivers,
+                                                  const std::stop_token& stop);
 
 }  // namespace farlod

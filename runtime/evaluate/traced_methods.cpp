@@ -10,7 +10,7 @@
 #include "horizon/receiver_packet.hpp"
 #include "occlusion/crown_occluder.hpp"
 #include "scene/canopy_around.hpp"
-#include "scene/near_scene.hpp"
+#include "scene/ray_scenes.hpp"
 
 namespace farlod {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "evaluate/svf_values.hpp"
+#include "evaluate/sky_evaluator.hpp"
 
 namespace farlod {
 

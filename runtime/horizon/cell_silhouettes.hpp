@@ -5,7 +5,6 @@
 #include <span>
 
 #include "base/grid.hpp"
-#include "horizon/border_ends.hpp"
 #include "horizon/silhouette_edges.hpp"
 #include "package/far_map.hpp"
 #include "package/package_reader.hpp"

@@ -16,13 +16,11 @@
 #include "horizon/gap_rays.hpp"
 #include "horizon/horizon_jumps.hpp"
 #include "horizon/overhangs.hpp"
-#include "horizon/packet_group.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
 #include "horizon/residual_horizon.hpp"
 #include "horizon/sky_partition.hpp"
 #include "horizon/sky_profile.hpp"
-#include "horizon/svf_interval.hpp"
 #include "horizon/undecided_sky.hpp"
 #include "package/far_map.hpp"
 

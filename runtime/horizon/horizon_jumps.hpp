@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "horizon/azimuth_sampling.hpp"
-#include "horizon/border_ends.hpp"
 #include "horizon/packet_horizon.hpp"
 #include "horizon/receiver_packet.hpp"
+#include "horizon/silhouette_edges.hpp"
 #include "horizon/sky_partition.hpp"
 
 namespace farlod {

@@ -18,7 +18,7 @@
 #include "occlusion/occluder.hpp"
 #include "occlusion/placed_mesh.hpp"
 #include "package/package_reader.hpp"
-#include "scene/whole_city.hpp"
+#include "scene/ray_scenes.hpp"
 
 /// Overhangs: occluders that sky may be seen below. docs/concepts.md, "What is grounded, and what overhangs".
 namespace farlod {

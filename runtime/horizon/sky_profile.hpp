@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -9,6 +10,20 @@
 #include "horizon/packet_horizon.hpp"
 
 namespace farlod {
+
+/// A sky view factor, and the bounds that are certain for the same azimuths.
+struct SvfInterval {
+  float low = 0.0F, estimate = 0.0F, high = 0.0F;
+
+  [[nodiscard]] float width() const { return high - low; }
+};
+
+/// The interval with its estimate moved towards the middle, until it is no farther than `error` from either end, as long as
+/// that is possible.
+[[nodiscard]] inline SvfInterval within_error(const SvfInterval& svf, float error) {
+  const float most = std::max(svf.low, svf.high - error), least = std::min(svf.high, svf.low + error);
+  return {svf.low, std::clamp(svf.estimate, std::min(most, least), std::max(most, least)), svf.high};
+}
 
 /// What the receivers of a packet see at each azimuth of a sampling, by slopes (tangents of elevations), from below: nothing; sky
 /// in a gap below an overhang, of which they see a share; nothing; and from `sky_from` upwards, sky. Rows [azimuth][receiver].

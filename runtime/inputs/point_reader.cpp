@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "inputs/point_fields.hpp"
+#include "inputs/requested_points.hpp"
 
 namespace farlod {
 namespace {

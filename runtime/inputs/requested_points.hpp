@@ -3,14 +3,43 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "farlod/error.hpp"
-#include "inputs/attributes.hpp"
 
 namespace farlod {
+
+/// What a file says of its points besides where they are: a table of text, which goes to the output as it is.
+class Attributes {
+ public:
+  Attributes() = default;
+  explicit Attributes(std::vector<std::string> names) : names_(std::move(names)) {}
+
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  void rename(std::size_t column, std::string name) { names_[column] = std::move(name); }
+
+  /// Adds the row of the next point, in the order of the names. A field that the row lacks is empty.
+  void add_row(std::span<const std::string> fields);
+  [[nodiscard]] std::size_t row_count() const { return names_.empty() ? 0 : ends_.size() / names_.size(); }
+  [[nodiscard]] std::string_view value(std::size_t row, std::size_t column) const;
+
+  /// The table of some of its rows.
+  [[nodiscard]] Attributes rows(std::span<const std::size_t> chosen) const;
+
+  /// What all of it takes in memory.
+  [[nodiscard]] std::size_t bytes() const { return text_.size() + ends_.size() * sizeof(std::uint64_t); }
+
+ private:
+  std::vector<std::string> names_;
+  std::string text_;                 // all fields, one behind the other
+  std::vector<std::uint64_t> ends_;  // of each field in it
+};
 
 /// A file of points cannot be read or used. The message names the file and the place in it, says what is wrong, and what to do.
 class PointsError : public InputError {
@@ -55,5 +84,22 @@ template <class Refuse>
   if (!(-360.0 <= azimuth && azimuth <= 360.0)) refuse("the azimuth is not between -360 and 360 degrees");
   return RequestedNormal{azimuth, *tilt_deg};
 }
+
+/// Which columns of a table, or fields of a layer, say what of a point.
+struct PointFields {
+  std::optional<std::size_t> id, x, y, z, azimuth, tilt;
+  std::vector<std::size_t> attributes = {};  ///< all others, and an id that has another name than `id`
+};
+
+/// Where a file says where a point is. What is called x in a file with geometries is an attribute.
+enum class PlacesIn : std::uint8_t { fields, geometry };
+
+/// Finds them by their names (base/point_columns.hpp). An azimuth without a tilt, or the other way round, is no normal but an
+/// attribute. Where two mean the same, `refuse` is called with what is wrong; it throws.
+[[nodiscard]] PointFields point_fields(std::span<const std::string> names, PlacesIn places,
+                                       const std::function<void(const std::string& what)>& refuse);
+
+/// A finite number like 123.4, with or without its sign.
+[[nodiscard]] std::optional<double> number_in(std::string_view field);
 
 }  // namespace farlod

@@ -13,7 +13,6 @@
 #include "occlusion/crown_occluder.hpp"
 #include "occlusion/device_embree.hpp"
 #include "occlusion/queries_embree.hpp"
-#include "occlusion/ray_packet_embree.hpp"
 #include "package/crown.hpp"
 
 namespace farlod {

@@ -7,7 +7,6 @@
 #include "occlusion/device_embree.hpp"
 #include "occlusion/occluder.hpp"
 #include "occlusion/queries_embree.hpp"
-#include "occlusion/ray_packet_embree.hpp"
 
 namespace farlod {
 namespace {

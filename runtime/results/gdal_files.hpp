@@ -5,12 +5,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "inputs/point_reader_gdal.hpp"
-#include "inputs/raster_plan_gdal.hpp"
 #include "inputs/raster_reader_gdal.hpp"
-#include "inputs/region_reader_gdal.hpp"
 #include "inputs/reproject_gdal.hpp"
-#include "results/raster/esri_wkt_gdal.hpp"
+#include "inputs/vector_reader_gdal.hpp"
+#include "results/crs_gdal.hpp"
+#include "results/module.hpp"
 #include "results/raster/raster_writer.hpp"
 #include "results/table/feature_writer.hpp"
 #include "results/table/table_writer.hpp"
@@ -38,6 +37,9 @@ struct GdalFiles {
 };
 
 /// Loads the module at the first call. Throws InputError where it is missing.
-[[nodiscard]] const GdalFiles& gdal_files();
+[[nodiscard]] inline const GdalFiles& gdal_files() {
+  static const auto& files = *static_cast<const GdalFiles*>(functions_of_module("farlod_gdal", "GDAL"));
+  return files;
+}
 
 }  // namespace farlod

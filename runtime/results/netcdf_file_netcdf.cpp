@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "farlod/error.hpp"
+#include "results/crs_gdal.hpp"
 #include "results/netcdf_file.hpp"
-#include "results/raster/cf_grid_mapping_gdal.hpp"
 
 namespace farlod {
 namespace {

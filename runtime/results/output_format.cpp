@@ -3,9 +3,11 @@
 #include "results/output_format.hpp"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "base/lower_case.hpp"
-#include "results/mesh/sky_mesh_glb.hpp"
+#include "results/mesh/mesh_file.hpp"
 #include "results/picture/raster_preview.hpp"
 #include "results/raster/raster_writer_esri_ascii.hpp"
 #include "results/table/sky_features.hpp"
@@ -13,7 +15,7 @@
 #include "results/table/sky_table_ply.hpp"
 #ifdef FARLOD_WITH_GDAL
 #include "results/gdal_files.hpp"
-#include "results/raster/awaited_raster_writer.hpp"
+#include "results/raster/raster_writer.hpp"
 #include "results/raster/raster_writer_cf.hpp"
 #include "results/raster/raster_writer_gdal.hpp"
 #include "results/raster/raster_writer_zarr_gdal.hpp"
@@ -225,6 +227,18 @@ static_assert(std::all_of(std::begin(formats), std::end(formats), [](const Outpu
   return count_of(f.endings[0]) == 1 && (f.endings[1].empty() || count_of(f.endings[1]) == 1);
 }));
 
+struct CityEnding {
+  std::string_view ending;
+  CityFileFormat format;
+};
+
+constexpr std::array<CityEnding, 6> city_endings{{{".city.json", CityFileFormat::cityjson},
+                                                  {".city.jsonl", CityFileFormat::cityjsonseq},
+                                                  {".jsonl", CityFileFormat::cityjsonseq},
+                                                  {".gml", CityFileFormat::citygml},
+                                                  {".xml", CityFileFormat::citygml},
+                                                  {".citygml", CityFileFormat::citygml}}};
+
 }  // namespace
 
 std::span<const OutputFormat> output_formats() { return formats; }
@@ -235,6 +249,28 @@ const OutputFormat* output_format_of(const std::filesystem::path& path) {
   for (const OutputFormat& format : formats)
     if (ending == format.endings[0] || ending == format.endings[1]) return &format;
   return nullptr;
+}
+
+std::string name_of(CityFileFormat format) {
+  if (format == CityFileFormat::cityjsonseq) return "CityJSONSeq";
+  return format == CityFileFormat::cityjson ? "CityJSON" : "CityGML";
+}
+
+std::optional<CityFileFormat> city_format_of(const std::filesystem::path& path) {
+  const std::string name = lower_case(path.filename().string());
+  for (const auto& [ending, format] : city_endings)
+    if (name.size() > ending.size() && name.ends_with(ending)) return format;
+  return std::nullopt;
+}
+
+std::string endings_of(CityFileFormat format) {
+  std::string list, last;
+  for (const auto& [ending, of_format] : city_endings) {
+    if (of_format != format) continue;
+    if (!last.empty()) list += (list.empty() ? "" : ", ") + last;
+    last = ending;
+  }
+  return list.empty() ? last : list + " or " + last;
 }
 
 }  // namespace farlod

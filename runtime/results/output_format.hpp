@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "farlod/building_origin.hpp"
 #include "results/raster/raster_writer.hpp"
 #include "results/table/table_writer.hpp"
 
@@ -57,5 +59,11 @@ template <class Condition>
       if (!ending.empty() && condition(format)) list.append(list.empty() ? "" : ", ").append(ending);
   return list;
 }
+
+[[nodiscard]] std::string name_of(CityFileFormat format);
+/// The format of a city file that the ending of its name promises, in capitals or not.
+[[nodiscard]] std::optional<CityFileFormat> city_format_of(const std::filesystem::path& path);
+/// For messages: ".gml, .xml or .citygml".
+[[nodiscard]] std::string endings_of(CityFileFormat format);
 
 }  // namespace farlod

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "evaluate/svf_values.hpp"
+#include "evaluate/sky_evaluator.hpp"
 #include "farlod/answer_file.hpp"
 
 namespace farlod {

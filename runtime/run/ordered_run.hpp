@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "evaluate/svf_values.hpp"
+#include "evaluate/sky_evaluator.hpp"
 #include "run/package_contents.hpp"
 #include "run/resolved_settings.hpp"
 

@@ -20,7 +20,7 @@
 #include "receivers/raster_receivers.hpp"
 #include "run/memory_limit.hpp"
 #include "run/package_contents.hpp"
-#include "scene/plan_triangle.hpp"
+#include "scene/plan_index.hpp"
 
 namespace farlod {
 namespace {

@@ -10,7 +10,7 @@
 #include "evaluate/error_budget.hpp"
 #include "evaluate/further_quantities.hpp"
 #include "farlod/error.hpp"
-#include "receivers/surface_receivers.hpp"
+#include "receivers/point_receivers.hpp"
 
 namespace farlod {
 namespace {

@@ -6,7 +6,7 @@
 #include "base/run_settings.hpp"
 #include "farlod/surfaces.hpp"
 #include "receivers/hilbert_curve.hpp"
-#include "receivers/surface_receivers.hpp"
+#include "receivers/point_receivers.hpp"
 #include "run/facing.hpp"
 #include "run/memory_limit.hpp"
 #include "run/ordered_run.hpp"

@@ -10,7 +10,6 @@
 #include "base/grid.hpp"
 #include "package/layout.hpp"
 #include "package/package_reader.hpp"
-#include "scene/lattice_crossings.hpp"
 #include "scene/plan_index.hpp"
 
 namespace farlod {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "base/expects.hpp"
-#include "results/picture/colour_map.hpp"
 #include "results/picture/drawing.hpp"
+#include "results/picture/picture.hpp"
 
 namespace farlod {
 namespace {

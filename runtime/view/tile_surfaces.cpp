@@ -3,15 +3,63 @@
 #include "view/tile_surfaces.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
+#include <vector>
 
-#include "view/vertex_clusters.hpp"
+#include "farlod/points.hpp"
 
 namespace farlod {
 namespace {
+
+/// What shares no vertices.
+enum class Layer : std::uint8_t { ground, buildings };
+
+/// The clusters that vertices of a tile have come into, each with their mean height.
+class ClustersOfTile {
+ public:
+  explicit ClustersOfTile(const ClusterLattice& lattice) : lattice_(lattice) {}
+
+  std::uint32_t number_of(const Point3d& p_local, Layer layer) {
+    const ClusterPlace place = lattice_.place_of(p_local);
+    const auto [found, is_new] = numbers_.try_emplace({place, layer}, static_cast<std::uint32_t>(clusters_.size()));
+    if (is_new) clusters_.push_back({place, 0.0, 0});
+    Cluster& cluster = clusters_[found->second];
+    cluster.sum_of_heights += p_local.z;
+    ++cluster.count;
+    return found->second;
+  }
+  [[nodiscard]] Point3d point_local(std::uint32_t number) const {
+    const Cluster& c = clusters_[number];
+    const Point2d p = lattice_.point_local(c.place);
+    return {p.x, p.y, c.sum_of_heights / static_cast<double>(c.count)};
+  }
+
+ private:
+  struct Cluster {
+    ClusterPlace place;
+    double sum_of_heights;
+    std::size_t count;
+  };
+
+  ClusterLattice lattice_;
+  std::map<std::pair<ClusterPlace, Layer>, std::uint32_t> numbers_;
+  std::vector<Cluster> clusters_;
+};
+
+using ClusterTriangle = std::array<std::uint32_t, 3>;
+
+bool is_degenerate(const ClusterTriangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
+ClusterTriangle sorted(ClusterTriangle t) {
+  std::ranges::sort(t);
+  return t;
+}
 
 using Corners = std::array<Point3d, 3>;
 
@@ -117,7 +165,98 @@ void drop_unused_features(TileSurfaces& surfaces) {
   for (TileFacet& facet : surfaces.facets) facet.feature = number_of[facet.feature];
 }
 
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Receivers, coordinate by coordinate.
+struct ReceiverColumns {
+  std::vector<double> x_m, y_m, z_m;
+  std::vector<Angle> azimuth, tilt;
+
+  void add_on_ground(const Point3d& p_projected) { add({p_projected.x, p_projected.y, none}, Angle{}, Angle{}); }
+  void add_on_surface(const Point3d& p_projected, const Point3d& normal, Angle convergence) {
+    const Angle bearing = Angle::radians(std::atan2(normal.x, normal.y)) + convergence;
+    add(p_projected + receiver_offset_m * normal, bearing, Angle::radians(std::acos(std::clamp(normal.z, -1.0, 1.0))));
+  }
+  [[nodiscard]] std::vector<float> values(const Package& package, std::size_t azimuths) const {
+    if (x_m.empty()) return {};
+    EvaluationSettings settings;
+    settings.azimuths = azimuths;
+    return evaluate_points(package, {x_m, y_m, z_m, azimuth, tilt}, {}, settings).svf;
+  }
+
+ private:
+  void add(const Point3d& p, Angle bearing, Angle inclination) {
+    x_m.push_back(p.x);
+    y_m.push_back(p.y);
+    z_m.push_back(p.z);
+    azimuth.push_back(bearing);
+    tilt.push_back(inclination);
+  }
+};
+
+bool is_ground(const TileSurfaces& surfaces, const TileFacet& facet) {
+  return surfaces.features[facet.feature].kind == SurfaceKind::ground;
+}
+
+/// Looks at facets of the ground without a value nearer to their corners.
+void fill_edges_of_buildings(const Package& package, const ViewFrame& frame, const TileSurfaces& surfaces, std::size_t azimuths,
+                             std::vector<float>& values) {
+  constexpr double share = 0.6;
+  std::vector<std::size_t> facets;
+  ReceiverColumns receivers;
+  for (std::size_t n = 0; n < values.size(); ++n) {
+    const TileFacet& facet = surfaces.facets[n];
+    if (!std::isnan(values[n]) || !is_ground(surfaces, facet)) continue;
+    facets.push_back(n);
+    for (const Point3d& corner : facet.corners_local)
+      receivers.add_on_ground(frame.projected_from_local(facet.middle_local + share * (corner - facet.middle_local)));
+  }
+  const std::vector<float> further = receivers.values(package, azimuths);
+  for (std::size_t n = 0; n < facets.size(); ++n) {
+    float sum = 0.0F, count = 0.0F;
+    for (std::size_t k = 3 * n; k < 3 * n + 3; ++k)
+      if (!std::isnan(further[k])) sum += further[k], count += 1.0F;
+    if (count > 0.0F) values[facets[n]] = sum / count;
+  }
+}
+
 }  // namespace
+
+ClusterLattice::ClusterLattice(const ViewFrame& frame, const TileSquare& square, double error_m)
+    : frame_(frame), square_(square), step_m_(square.edge_m / std::ceil(square.edge_m * std::sqrt(1.5) / error_m)) {}
+
+ClusterPlace ClusterLattice::place_of(const Point3d& p_local) const {
+  const Point2d p = frame_.grid_from_local(horizontal(p_local)) - square_.low;
+  const auto nearest = [&](double along) { return static_cast<std::int32_t>(std::floor(along / step_m_ + 0.5)); };
+  return {nearest(p.x), nearest(p.y), nearest(p_local.z)};
+}
+
+Point2d ClusterLattice::point_local(const ClusterPlace& place) const {
+  return frame_.local_from_grid(square_.low + Point2d{place.x * step_m_, place.y * step_m_});
+}
+
+void move_into_clusters(const ViewFrame& frame, const TileSquare& square, double error_m, TileSurfaces& surfaces) {
+  ClustersOfTile clusters(ClusterLattice(frame, square, error_m));
+  std::vector<std::pair<TileFacet, ClusterTriangle>> kept;
+  std::map<ClusterTriangle, std::size_t> known;
+  for (const TileFacet& facet : surfaces.facets) {
+    const bool is_ground = surfaces.features[facet.feature].kind == SurfaceKind::ground;
+    const Layer layer = is_ground ? Layer::ground : Layer::buildings;
+    ClusterTriangle triangle;
+    for (std::size_t k = 0; k < 3; ++k) triangle[k] = clusters.number_of(facet.corners_local[k], layer);
+    if (is_degenerate(triangle)) continue;
+    const auto [found, is_new] = known.try_emplace(sorted(triangle), kept.size());
+    if (is_new)
+      kept.emplace_back(facet, triangle);
+    else if (facet.normal.z > kept[found->second].first.normal.z)  // A flat building shows its roof, not its floor
+      kept[found->second] = {facet, triangle};
+  }
+  surfaces.facets.clear();
+  for (auto& [facet, triangle] : kept) {
+    for (std::size_t k = 0; k < 3; ++k) facet.corners_local[k] = clusters.point_local(triangle[k]);
+    surfaces.facets.push_back(facet);
+  }
+}
 
 TileSurfaces surfaces_of(const Package& package, const ViewFrame& frame, const TileTree& tree, const TileAddress& tile) {
   const double error_m = tree.geometric_error_m(tile.level), longest_edge_m = 2.0 * error_m;
@@ -143,6 +282,20 @@ TileSurfaces surfaces_of(const Package& package, const ViewFrame& frame, const T
   if (is_simplified) move_into_clusters(frame, square, error_m, surfaces);
   drop_unused_features(surfaces);
   return surfaces;
+}
+
+std::vector<float> values_of(const Package& package, const ViewFrame& frame, const TileSurfaces& surfaces, std::size_t azimuths) {
+  ReceiverColumns receivers;
+  for (const TileFacet& facet : surfaces.facets) {
+    const Point3d p = frame.projected_from_local(facet.middle_local);
+    if (is_ground(surfaces, facet))
+      receivers.add_on_ground(p);
+    else
+      receivers.add_on_surface(p, facet.normal, frame.convergence);
+  }
+  std::vector<float> values = receivers.values(package, azimuths);
+  fill_edges_of_buildings(package, frame, surfaces, azimuths, values);
+  return values;
 }
 
 }  // namespace farlod

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -39,5 +40,45 @@ struct TileSurfaces {
 /// Throws PackageUnusable, PackageDamaged.
 [[nodiscard]] TileSurfaces surfaces_of(const Package& package, const ViewFrame& frame, const TileTree& tree,
                                        const TileAddress& tile);
+
+/// A point of a lattice, which all vertices near it move to.
+struct ClusterPlace {
+  std::int32_t x = 0, y = 0, z = 0;
+  auto operator<=>(const ClusterPlace&) const = default;
+};
+
+/// In the plan, vertices go to the nearest point of a lattice that divides the square's edges evenly; in height, to the mean of
+/// those that have the same nearest level. With a step s they move by s/√2 in the plan, and by s in height at the most: √1.5 s.
+class ClusterLattice {
+ public:
+  ClusterLattice(const ViewFrame& frame, const TileSquare& square, double error_m);
+
+  [[nodiscard]] ClusterPlace place_of(const Point3d& p_local) const;
+  [[nodiscard]] Point2d point_local(const ClusterPlace& place) const;
+
+ private:
+  const ViewFrame& frame_;
+  TileSquare square_;
+  double step_m_;
+};
+
+/// Simplifies what is drawn of a tile: vertices near each other become one, and facets that are a line or a point then are left
+/// out. Of facets that then cover one another, the one that looks up the most stays. Ground and buildings do not share vertices.
+///   (1) no vertex moves by more than `error_m`
+///   (2) one on the border of the square stays on it, and moves as the neighboring tile's does, but for its height
+void move_into_clusters(const ViewFrame& frame, const TileSquare& square, double error_m, TileSurfaces& surfaces);
+
+/// Azimuths of the values that colours show: of tiles of one cell or less, and of larger ones, whose facets stand for more than
+/// themselves. Of the places that are asked for one by one, it is default_azimuths.
+inline constexpr std::size_t azimuths_of_cells = 96, azimuths_of_larger_tiles = 32;
+
+/// How far in front of its surface a receiver stands.
+inline constexpr double receiver_offset_m = 0.01;
+
+/// The sky view factor of each facet: of ground 1.5 m above it, looking up; of others on the surface, along its normal. NaN where
+/// there is none. A facet of the ground whose middle lies in a building has the mean of what is free of it.
+/// Throws PackageUnusable, PackageDamaged.
+[[nodiscard]] std::vector<float> values_of(const Package& package, const ViewFrame& frame, const TileSurfaces& surfaces,
+                                           std::size_t azimuths);
 
 }  // namespace farlod

@@ -4,8 +4,15 @@
 
 #include <array>
 #include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <list>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -13,11 +20,35 @@
 
 #include "farlod/package.hpp"
 #include "view/result_layer.hpp"
-#include "view/tile_cache.hpp"
 #include "view/tile_tree.hpp"
 #include "view/view_frame.hpp"
 
 namespace farlod {
+
+/// Tiles that were made, up to so many bytes: of more, those go that were asked for the longest ago.
+class TileCache {
+ public:
+  explicit TileCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+
+  /// The tile, made if it is not there. Of those who ask for a new one at the same time, one makes it, and the others wait; where
+  /// it throws, the next one tries.
+  [[nodiscard]] std::shared_ptr<const std::string> get(const TileAddress& tile, const std::function<std::string()>& make);
+
+ private:
+  struct Entry {
+    std::shared_ptr<const std::string> glb;
+    std::list<TileAddress>::iterator use;
+  };
+  void keep(const TileAddress& tile, const std::shared_ptr<const std::string>& made);
+  void let_go();
+
+  std::size_t most_bytes_, bytes_ = 0;
+  std::mutex mutex_;
+  std::condition_variable nobody_makes_it_;
+  std::set<TileAddress> being_made_;
+  std::map<TileAddress, Entry> entries_;
+  std::list<TileAddress> uses_;  ///< the last one first
+};
 
 /// What a request for a page or its data comes to.
 struct ViewReply {
@@ -27,10 +58,6 @@ struct ViewReply {
 };
 
 using ViewQuery = std::map<std::string, std::string, std::less<>>;
-
-/// How a city is placed on the globe: the matrix that takes local metres to earth-centred ones (WGS 84), column by column. The
-/// unit matrix where the CRS is not known.
-using EcefFromLocal = std::array<double, 16>;
 
 /// A package as the page asks for it: viewer/README.md lists the requests. Any number of threads may ask at the same time. The
 /// package must outlive it.

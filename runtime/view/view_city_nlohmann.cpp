@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
+#include "view/view_city.hpp"
+
 #include <charconv>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -12,11 +15,10 @@
 #include "farlod/hemisphere.hpp"
 #include "farlod/points.hpp"
 #include "farlod/version.hpp"
-#include "results/decimal.hpp"
-#include "results/picture/colour_map.hpp"
+#include "results/picture/picture.hpp"
+#include "results/value_text.hpp"
 #include "view/tile_glb.hpp"
-#include "view/tile_values.hpp"
-#include "view/view_city.hpp"
+#include "view/tile_surfaces.hpp"
 
 namespace farlod {
 namespace {
@@ -161,6 +163,47 @@ Json corners_json(const ViewFrame& frame, const CellContents& contents) {
 }
 
 }  // namespace
+
+std::shared_ptr<const std::string> TileCache::get(const TileAddress& tile, const std::function<std::string()>& make) {
+  std::unique_lock lock(mutex_);
+  nobody_makes_it_.wait(lock, [&] { return !being_made_.contains(tile); });
+  const auto found = entries_.find(tile);
+  if (found != entries_.end()) {
+    uses_.splice(uses_.begin(), uses_, found->second.use);
+    return found->second.glb;
+  }
+  being_made_.insert(tile);
+  lock.unlock();
+  std::shared_ptr<const std::string> made;
+  std::exception_ptr failure;
+  try {
+    made = std::make_shared<const std::string>(make());
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  lock.lock();
+  being_made_.erase(tile);
+  nobody_makes_it_.notify_all();
+  if (failure) std::rethrow_exception(failure);
+  keep(tile, made);
+  return made;
+}
+
+void TileCache::keep(const TileAddress& tile, const std::shared_ptr<const std::string>& made) {
+  uses_.push_front(tile);
+  entries_[tile] = {made, uses_.begin()};
+  bytes_ += made->size();
+  let_go();
+}
+
+void TileCache::let_go() {
+  while (bytes_ > most_bytes_ && uses_.size() > 1) {
+    const auto oldest = entries_.find(uses_.back());
+    bytes_ -= oldest->second.glb->size();
+    entries_.erase(oldest);
+    uses_.pop_back();
+  }
+}
 
 ViewCity::ViewCity(const Package& package, std::string name, const ViewFrame& frame, const EcefFromLocal& ecef_from_local,
                    std::vector<ResultLayer> results)

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include "farlod/angle.hpp"
 #include "farlod/inspection.hpp"
 #include "farlod/package.hpp"
@@ -42,5 +44,19 @@ struct ViewFrame {
 
 /// Throws PackageUnusable, PackageDamaged.
 [[nodiscard]] ViewFrame view_frame_of(const Package& package);
+
+/// How a city is placed on the globe: the matrix that takes local metres to earth-centred ones (WGS 84), column by column. The
+/// unit matrix where the CRS is not known.
+using EcefFromLocal = std::array<double, 16>;
+
+/// Turned, moved and enlarged alike in all directions, as viewers of 3D Tiles expect it: the axes of `east` and `north`, which
+/// are steps of a metre of the map, with the mean of their lengths. Where they are not at right angles, as of a map that is not
+/// conformal, both are turned by the same angle.
+[[nodiscard]] EcefFromLocal similar_frame(const Point3d& east, const Point3d& north, const Point3d& origin);
+
+/// Where the local frame is on the globe: the tangent of the map at its origin, so that a metre of the map is as long as it is
+/// there; heights are enlarged alike, by up to 1 mm a metre in a zone of UTM. They count from the ellipsoid, since the
+/// package does not say how far its zero is from it. Needs GDAL; the unit matrix where the CRS is not known, and without GDAL.
+[[nodiscard]] EcefFromLocal placed_on_globe(const PackageDescription& description, const ViewFrame& frame);
 
 }  // namespace farlod

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "farlod/error.hpp"
-#include "results/picture/colour_map.hpp"
+#include "results/picture/picture.hpp"
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/analytic/tolerance.hpp"
 #include "tests/scenes/glb_reader.hpp"

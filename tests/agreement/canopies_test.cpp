@@ -13,7 +13,7 @@
 #include "georeference/georeference.hpp"
 #include "ingest/files/input_search.hpp"
 #include "ingest/ingest.hpp"
-#include "receivers/surface_receivers.hpp"
+#include "receivers/point_receivers.hpp"
 #include "tests/agreement/random_receivers.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"

@@ -4,8 +4,7 @@
 
 #include <array>
 
-#include "scene/near_scene.hpp"
-#include "scene/whole_city.hpp"
+#include "scene/ray_scenes.hpp"
 #include "tests/agreement/random_receivers.hpp"
 #include "tests/agreement/ray_oracle.hpp"
 #include "tests/oracles/far_view.hpp"

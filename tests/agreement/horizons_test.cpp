@@ -11,7 +11,7 @@
 #include "evaluate/sky_evaluator.hpp"
 #include "evaluate/verification.hpp"
 #include "package/package_reader.hpp"
-#include "receivers/surface_receivers.hpp"
+#include "receivers/point_receivers.hpp"
 #include "tests/agreement/random_receivers.hpp"
 #include "tests/scenes/generated_town.hpp"
 #include "tests/scenes/packed_city.hpp"

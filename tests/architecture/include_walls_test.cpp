@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Planted{"runtime/sun/a.cpp", "#include <erfa.h>", "ERFA's wrapper"},
                     Planted{"runtime/sun/a.cpp", "#include \"run/facing.hpp\"", "a user of the library"},
                     Planted{"runtime/inputs/a.cpp", "#include \"canopy/canopy_sky.hpp\"", "a user of the library"},
-                    Planted{"runtime/canopy/a.cpp", "#include \"scene/near_scene.hpp\"", "above horizons"},
+                    Planted{"runtime/canopy/a.cpp", "#include \"scene/ray_scenes.hpp\"", "above horizons"},
                     Planted{"preprocess/farmap/a.cpp", "#include <iostream>", "neither print"},
                     Planted{"preprocess/farmap/a.cpp", "#include <CLI/CLI.hpp>", "neither print"},
                     Planted{"preprocess/farmap/a.hpp", "#include <tbb/parallel_for.h>", "headers name no foreign library"},

@@ -9,7 +9,7 @@
 #include "occlusion/crown_occluder.hpp"
 #include "package/crown.hpp"
 #include "package/manifest.hpp"
-#include "scene/near_crowns.hpp"
+#include "scene/canopy_around.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
 #include "tests/scenes/sealed_manifest.hpp"

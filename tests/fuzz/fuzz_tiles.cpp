@@ -9,8 +9,8 @@
 #include "farlod/error.hpp"
 #include "package/layout.hpp"
 #include "package/package_reader.hpp"
-#include "receivers/surface_receivers.hpp"
-#include "scene/near_scene.hpp"
+#include "receivers/point_receivers.hpp"
+#include "scene/ray_scenes.hpp"
 #include "scene/vertical_profile.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"
 

@@ -4,8 +4,7 @@
 
 #include "base/expects.hpp"
 #include "farlod/region.hpp"
-#include "inputs/point_reader_gdal.hpp"
-#include "inputs/region_reader_gdal.hpp"
+#include "inputs/vector_reader_gdal.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
 

@@ -23,10 +23,10 @@
 #include "farlod/inspection.hpp"
 #include "farlod/surfaces.hpp"
 #include "results/atomic_file.hpp"
-#include "results/city/city_format.hpp"
-#include "results/decimal.hpp"
+#include "results/output_format.hpp"
 #include "results/provenance.hpp"
 #include "results/table/table_writer.hpp"
+#include "results/value_text.hpp"
 
 namespace farlod {
 namespace {

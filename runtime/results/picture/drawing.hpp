@@ -96,4 +96,20 @@ void write_drawing(const Drawing& drawing, const std::filesystem::path& path);
 /// The bytes of a PNG file. Throws OutputError.
 [[nodiscard]] std::string png_of(const Drawing& drawing);
 
+/// The bytes of files that show a drawing: the functions of the module `farlod_cairo`. `path` is named in errors; nothing is
+/// written. All throw OutputError.
+struct DrawingFormats {
+  using BytesOf = std::string (*)(const Drawing& drawing, const std::filesystem::path& path);
+  BytesOf png, svg, pdf;
+};
+
+/// A length of 1, 2 or 5 times a power of ten, the longest that is not above `limit_m` (which is positive).
+[[nodiscard]] double round_length_m(double limit_m);
+
+/// A scale bar below a place, of 200 pixels at the most.
+void add_scale_bar(Drawing& drawing, PagePoint place, double metres_per_pixel);
+
+/// An arrow that points upwards, with an N below it.
+void add_north_arrow(Drawing& drawing, PagePoint tip);
+
 }  // namespace farlod

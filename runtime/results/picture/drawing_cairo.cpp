@@ -16,7 +16,7 @@
 #include "farlod/export.hpp"
 #include "farlod/version.hpp"
 #include "results/module.hpp"
-#include "results/picture/drawing_formats.hpp"
+#include "results/picture/drawing.hpp"
 
 namespace farlod {
 namespace {

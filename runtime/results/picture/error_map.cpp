@@ -11,11 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "results/decimal.hpp"
-#include "results/picture/colour_map.hpp"
-#include "results/picture/map_ornaments.hpp"
-#include "results/picture/picture_style.hpp"
+#include "results/picture/drawing.hpp"
+#include "results/picture/picture.hpp"
 #include "results/picture/raster_preview.hpp"
+#include "results/value_text.hpp"
 
 namespace farlod {
 namespace {

@@ -8,8 +8,7 @@
 
 #include "farlod/evaluation.hpp"
 #include "results/picture/drawing.hpp"
-#include "results/picture/plan_background.hpp"
-#include "results/picture/preview_raster.hpp"
+#include "results/picture/raster_preview.hpp"
 
 namespace farlod {
 

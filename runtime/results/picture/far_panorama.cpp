@@ -7,8 +7,8 @@
 #include <limits>
 #include <string>
 
-#include "results/picture/map_ornaments.hpp"
-#include "results/picture/picture_style.hpp"
+#include "results/picture/drawing.hpp"
+#include "results/picture/picture.hpp"
 #include "results/picture/sky_picture.hpp"
 
 namespace farlod {

@@ -2,9 +2,45 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/picture/picture.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "base/expects.hpp"
 
 namespace farlod {
+namespace {
+
+// Viridis (S. van der Walt and N. Smith, 2015, placed in the public domain) at every eighth
+constexpr std::array<Colour, 9> viridis{{{68, 1, 84},
+                                         {71, 44, 122},
+                                         {59, 81, 139},
+                                         {44, 113, 142},
+                                         {33, 144, 141},
+                                         {39, 173, 129},
+                                         {92, 200, 99},
+                                         {170, 220, 50},
+                                         {253, 231, 37}}};
+
+// PuOr of ColorBrewer (Harrower and Brewer 2003), every other colour of eleven, the other way round
+constexpr std::array<Colour, 7> violet_to_brown{
+    {{45, 0, 75}, {128, 115, 172}, {216, 218, 235}, {247, 247, 247}, {254, 224, 182}, {224, 130, 20}, {127, 59, 8}}};
+
+std::uint8_t mix(std::uint8_t a, std::uint8_t b, double share_of_b) {
+  return static_cast<std::uint8_t>(std::lround((1.0 - share_of_b) * a + share_of_b * b));
+}
+
+/// Linear between the colours of a map, from 0 to 1.
+template <std::size_t count>
+Colour colour_at(double share, const std::array<Colour, count>& map) {
+  const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(count - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(place), count - 2);
+  const Colour a = map[below], b = map[below + 1];
+  const double t = place - static_cast<double>(below);
+  return {mix(a.red, b.red, t), mix(a.green, b.green, t), mix(a.blue, b.blue, t)};
+}
+
+}  // namespace
 
 Picture::Picture(PixelSize size, Colour background) : size_(size), pixels_(size.width * size.height, background) {}
 
@@ -20,6 +56,16 @@ void Picture::set(Pixel pixel, Colour colour) {
 void Picture::fill(Pixel upper_left, PixelSize size, Colour colour) {
   for (std::size_t y = 0; y < size.height; ++y)
     for (std::size_t x = 0; x < size.width; ++x) set({upper_left.x + x, upper_left.y + y}, colour);
+}
+
+Colour colour_of_svf(double svf) {
+  FARLOD_EXPECTS(!std::isnan(svf));
+  return colour_at(svf, viridis);
+}
+
+Colour colour_of_error(double share) {
+  FARLOD_EXPECTS(!std::isnan(share));
+  return colour_at(0.5 * (1.0 + share), violet_to_brown);
 }
 
 }  // namespace farlod

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 namespace farlod {
@@ -41,5 +42,23 @@ class Picture {
   PixelSize size_;
   std::vector<Colour> pixels_;
 };
+
+/// The colour of a view factor between 0 (dark violet) and 1 (yellow); a value outside is clamped. The
+/// map is viridis, which is perceptually uniform and of monotonic lightness, so that it can be read without colour vision.
+[[nodiscard]] Colour colour_of_svf(double svf);
+
+/// The colour of an error, as a share of the largest of the scale: from −1 (violet) over 0 (nearly white) to 1 (brown); a value
+/// outside is clamped. Of both signs, the darker is the larger, and colours of opposite signs are told apart without one kind of
+/// cones; in a print in grey they are not.
+[[nodiscard]] Colour colour_of_error(double share);
+
+/// The colour of pixels without data: a grey that is not in the colour map.
+inline constexpr Colour nodata_colour{190, 190, 190};
+
+/// What all pictures with words have in common.
+inline constexpr Colour ink{32, 32, 32}, muted{96, 96, 96};
+inline constexpr double title_height = 22.0, text_height = 15.0;
+inline constexpr double half_digit_height = 0.36;  ///< of a font's size
+inline constexpr double rad_per_deg = std::numbers::pi / 180.0;
 
 }  // namespace farlod

@@ -2,17 +2,78 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "farlod/package.hpp"
+#include "farlod/plan_view.hpp"
+#include "farlod/raster.hpp"
 #include "results/picture/drawing.hpp"
-#include "results/picture/map_ornaments.hpp"
-#include "results/picture/plan_background.hpp"
-#include "results/picture/preview_raster.hpp"
 #include "results/raster/raster_writer.hpp"
 
 namespace farlod {
+
+/// A raster at the size of a picture on a screen. NaN where there is no answer.
+struct PreviewRaster {
+  std::size_t columns = 0, rows = 0;
+  double metres_per_pixel = 1.0;
+  std::vector<float> svf;  ///< row by row from the north
+};
+
+/// Neither edge of a preview is longer than this.
+inline constexpr std::size_t longest_preview_edge = 2000;
+/// Small rasters are enlarged towards this, by the largest whole factor that does not pass it.
+inline constexpr std::size_t wished_preview_edge = 1000;
+
+/// What the largest preview and the picture of it hold in memory: a float and three bytes a pixel. Enlarged ones hold the float
+/// twice, and are at most a quarter as large.
+inline constexpr std::size_t bytes_of_largest_preview = longest_preview_edge * longest_preview_edge * (sizeof(float) + 3);
+
+/// Fits a raster to a screen: large ones are averaged over squares of whole pixels, small ones repeat each pixel a whole number
+/// of times. A square without an answer in most of its pixels has none itself. Tiles come in any order, each once or not at all.
+class ScreenFit {
+ public:
+  explicit ScreenFit(const RasterFrame& frame);
+  void add(const RasterTile& tile);
+  [[nodiscard]] PreviewRaster preview() const;
+  /// What the sums over its squares hold in memory.
+  [[nodiscard]] static std::size_t bytes_for(const RasterFrame& frame);
+
+ private:
+  [[nodiscard]] float mean_of_square(std::size_t column, std::size_t row) const;
+
+  RasterFrame frame_;
+  std::size_t pixels_per_square_;  ///< along an edge
+  std::size_t columns_, rows_;     ///< of squares
+  std::vector<double> sums_;
+  std::vector<std::uint32_t> answers_;
+};
+
+/// What a map shows besides its values, so that a reader finds his way.
+struct PlanBackground {
+  /// Outlines of roofs, in pixels from the upper left corner of the map. None where there would be more than most_outlines, or
+  /// where a building would be smaller than smallest_building pixels: they would hide the map.
+  std::vector<Segment> outlines;
+  /// Factors of the lightness of the map's pixels, row by row; empty where no ground rises visibly.
+  std::vector<float> shading;
+};
+
+inline constexpr std::size_t most_outlines = 100'000;
+inline constexpr double smallest_building = 2.0;
+
+/// Looks the background of a map up, whose pixels are those of the plan.
+[[nodiscard]] PlanBackground plan_background(const Package& package, const RasterPlan& plan, std::size_t threads);
+
+/// How a ground is lit from the north-west, at 45° above the horizon, by its heights: 1 where it is level or unknown, more where
+/// it looks to the light. Empty when it is level everywhere, to the eye.
+[[nodiscard]] std::vector<float> shading_of(const std::vector<float>& heights_m, const RasterPlan& plan);
+
+/// What the background of the largest preview holds: heights and shading of each pixel, outlines on the ground and on the page.
+inline constexpr std::size_t bytes_of_largest_background =
+    longest_preview_edge * longest_preview_edge * 2 * sizeof(float) + most_outlines * 3 * (sizeof(PlanSegment) + sizeof(Segment));
 
 /// Where the parts of a preview lie: the title above the map, the colour scale to its right, scale bar and legend below.
 struct PreviewLayout {

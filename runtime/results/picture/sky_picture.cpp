@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/expects.hpp"
-#include "results/decimal.hpp"
-#include "results/picture/map_ornaments.hpp"
-#include "results/picture/picture_style.hpp"
+#include "results/picture/drawing.hpp"
+#include "results/picture/picture.hpp"
+#include "results/value_text.hpp"
 
 namespace farlod {
 namespace {

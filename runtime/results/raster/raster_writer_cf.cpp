@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/expects.hpp"
-#include "results/decimal.hpp"
+#include "results/value_text.hpp"
 
 namespace farlod {
 namespace {

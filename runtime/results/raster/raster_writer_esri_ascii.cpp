@@ -6,7 +6,7 @@
 #include <ostream>
 
 #include "results/atomic_file.hpp"
-#include "results/decimal.hpp"
+#include "results/value_text.hpp"
 
 namespace farlod {
 namespace {

@@ -7,7 +7,7 @@
 #include <iosfwd>
 
 #include "results/raster/raster_writer.hpp"
-#include "results/raster/tile_spool.hpp"
+#include "results/spool_file.hpp"
 
 namespace farlod {
 

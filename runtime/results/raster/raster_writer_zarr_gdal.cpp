@@ -20,7 +20,6 @@
 #include "gdal/gdal_errors.hpp"
 #include "results/atomic_file.hpp"
 #include "results/crs_gdal.hpp"
-#include "results/raster/cf_grid_mapping_gdal.hpp"
 
 namespace farlod {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "base/expects.hpp"
 #include "results/netcdf_file.hpp"
-#include "results/raster/raster_frame.hpp"
+#include "results/raster/raster_writer.hpp"
 
 namespace farlod {
 namespace {

@@ -9,8 +9,7 @@
 
 #include "base/expects.hpp"
 #include "farlod/error.hpp"
-#include "results/decimal.hpp"
-#include "results/json_text.hpp"
+#include "results/value_text.hpp"
 
 namespace farlod {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "results/spool_file.hpp"
 #include "results/table/feature_writer.hpp"
-#include "results/table/surface_spool.hpp"
 #include "results/table/table_writer.hpp"
 
 namespace farlod {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/table/sky_table_csv.hpp"
 
+#include <cmath>
 #include <initializer_list>
 #include <ostream>
 #include <string_view>
@@ -9,7 +10,7 @@
 
 #include "base/expects.hpp"
 #include "results/atomic_file.hpp"
-#include "results/table/csv_text.hpp"
+#include "results/value_text.hpp"
 
 namespace farlod {
 namespace {
@@ -86,6 +87,66 @@ void add_building(const BuildingMean& r, CsvText& text) {
 
 }  // namespace
 
+void CsvText::begin_field() {
+  if (!row_begins_) bytes_ += ',';
+  row_begins_ = false;
+}
+
+CsvText& CsvText::field(std::string_view text) {
+  begin_field();
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+    bytes_ += text;
+    return *this;
+  }
+  bytes_ += '"';
+  for (const char c : text) {
+    if (c == '"') bytes_ += '"';
+    bytes_ += c;
+  }
+  bytes_ += '"';
+  return *this;
+}
+
+CsvText& CsvText::whole(std::uint64_t number) {
+  begin_field();
+  append_whole(bytes_, number);
+  return *this;
+}
+
+CsvText& CsvText::millimetres(double value) {
+  begin_field();
+  append_millimetres(bytes_, value);
+  return *this;
+}
+
+CsvText& CsvText::millimetres(std::optional<double> value) {
+  if (value) return millimetres(*value);
+  begin_field();
+  return *this;
+}
+
+CsvText& CsvText::svf(std::optional<double> value) {
+  begin_field();
+  if (value) append_svf(bytes_, *value);
+  return *this;
+}
+
+CsvText& CsvText::number(float value) {
+  begin_field();
+  if (!std::isnan(value)) bytes_ += shortest_decimal(value);
+  return *this;
+}
+
+CsvText& CsvText::fields(std::initializer_list<std::string_view> texts) {
+  for (const std::string_view text : texts) field(text);
+  return *this;
+}
+
+void CsvText::end_row() {
+  bytes_ += '\n';
+  row_begins_ = true;
+}
+
 void write_points_csv(const PointRows& rows, const AnswerColumns& columns, const std::filesystem::path& path) {
   const std::size_t attributes = rows.attributes == nullptr ? 0 : rows.attributes->names().size();
   write_table(path, point_header(rows, columns), rows.count, [&](std::size_t n, CsvText& text) {
@@ -153,6 +214,17 @@ std::vector<std::filesystem::path> SurfaceTablesCsv::commit(std::span<const Surf
   write_buildings_csv(buildings, columns_, files[2]);
   receivers_.commit();  // the file of -o appears last
   return files;
+}
+
+void write_verification_csv(std::span<const VerifiedReceiver> receivers, const std::string& quantity,
+                            const std::filesystem::path& path) {
+  CsvText text;
+  text.fields({"x_m", "y_m", "z_m", quantity, quantity + "_exact"}).end_row();
+  for (const VerifiedReceiver& r : receivers) {
+    text.millimetres(r.p_projected.x).millimetres(r.p_projected.y).millimetres(r.p_projected.z);
+    text.svf(r.svf).svf(r.exact).end_row();
+  }
+  write_atomically(path, [&text](std::ostream& file) { file << text.bytes(); });
 }
 
 }  // namespace farlod

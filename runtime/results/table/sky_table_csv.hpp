@@ -5,15 +5,44 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "farlod/evaluation.hpp"
 #include "results/spool_file.hpp"
 #include "results/table/table_writer.hpp"
 
 namespace farlod {
+
+/// Text of a CSV file (RFC 4180, lines end with a line feed), written field by field and row by row.
+class CsvText {
+ public:
+  /// Quoted, with quotes doubled, where RFC 4180 demands it.
+  CsvText& field(std::string_view text);
+  CsvText& whole(std::uint64_t number);
+  /// As append_millimetres; empty where there is no value.
+  CsvText& millimetres(double value);
+  CsvText& millimetres(std::optional<double> value);
+  /// As append_svf; empty where there is no answer.
+  CsvText& svf(std::optional<double> value);
+  /// The shortest decimal that reads back as the same number; empty where it is NaN.
+  CsvText& number(float value);
+  CsvText& fields(std::initializer_list<std::string_view> texts);
+  void end_row();
+
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+ private:
+  void begin_field();
+
+  std::string bytes_;
+  bool row_begins_ = true;
+};
 
 // Tables as CSV; docs/stages/results.md says how rows, numbers and missing answers are written. All functions throw OutputError.
 
@@ -63,5 +92,10 @@ class SurfaceTablesCsv : public SurfaceTablesWriter {
   std::filesystem::path path_;
   SurfacePointsCsv receivers_;
 };
+
+/// Writes receivers with their value and their exact value as CSV: x_m, y_m, z_m, `quantity`, `quantity`_exact. Throws
+/// OutputError.
+void write_verification_csv(std::span<const VerifiedReceiver> receivers, const std::string& quantity,
+                            const std::filesystem::path& path);
 
 }  // namespace farlod

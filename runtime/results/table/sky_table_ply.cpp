@@ -11,7 +11,7 @@
 #include <string>
 
 #include "results/atomic_file.hpp"
-#include "results/picture/colour_map.hpp"
+#include "results/picture/picture.hpp"
 
 namespace farlod {
 namespace {
@@ -43,7 +43,7 @@ std::string header_of(std::size_t vertices, const TableFrame& frame) {
 }
 
 /// Number of bytes that are kept before they are written.
-constexpr std::size_t bytes_at_once = 1 << 16;
+constexpr std::size_t bytes_in_memory = 1 << 16;
 
 class Vertices {
  public:
@@ -65,7 +65,7 @@ class Vertices {
     for (std::size_t k = 0; k < frame_.columns.further.size(); ++k) append(bytes_, further_value(row.further, k));
     const Colour colour = row.svf ? colour_of_svf(*row.svf) : nodata_colour;
     for (const std::uint8_t part : {colour.red, colour.green, colour.blue}) append(bytes_, part);
-    if (bytes_.size() >= bytes_at_once) flush();
+    if (bytes_.size() >= bytes_in_memory) flush();
   }
   void flush() {
     out_ << bytes_;

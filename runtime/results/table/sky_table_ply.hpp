@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "results/table/surface_spool.hpp"
+#include "results/spool_file.hpp"
 #include "results/table/table_writer.hpp"
 
 namespace farlod {

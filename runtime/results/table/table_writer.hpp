@@ -16,7 +16,7 @@
 #include "farlod/package.hpp"
 #include "farlod/point.hpp"
 #include "farlod/surfaces.hpp"
-#include "inputs/attributes.hpp"
+#include "inputs/requested_points.hpp"
 #include "results/provenance.hpp"
 
 namespace farlod {

@@ -11,8 +11,8 @@
 
 #include "evaluate/crowns_of_cell.hpp"
 #include "evaluate/sky_evaluator.hpp"
-#include "evaluate/svf_total.hpp"
-#include "scene/near_crowns.hpp"
+#include "evaluate/traced_canopy.hpp"
+#include "scene/canopy_around.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/planted_crowns.hpp"
 #include "tests/scenes/scene_builder.hpp"

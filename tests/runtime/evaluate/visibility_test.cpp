@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "evaluate/canopy_by_place.hpp"
+#include "evaluate/crowns_of_cell.hpp"
 #include "evaluate/sky_directions.hpp"
 #include "horizon/sky_partition.hpp"
 #include "tests/analytic/oracles.hpp"

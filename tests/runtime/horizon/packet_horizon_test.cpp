@@ -9,7 +9,6 @@
 #include "farlod/angle.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/kernels.hpp"
-#include "horizon/packet_group.hpp"
 #include "tests/runtime/horizon/horizon_oracle.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
 

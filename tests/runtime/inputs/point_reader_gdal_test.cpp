@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "inputs/point_reader_gdal.hpp"
+#include "inputs/vector_reader_gdal.hpp"
 
 #include <gdal_priv.h>
 #include <gmock/gmock.h>
@@ -11,7 +11,6 @@
 #include <limits>
 
 #include "farlod/point.hpp"
-#include "inputs/region_reader_gdal.hpp"
 #include "inputs/requested_points.hpp"
 #include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"

@@ -9,7 +9,6 @@
 #include <map>
 
 #include "farlod/error.hpp"
-#include "receivers/surface_receivers.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
 

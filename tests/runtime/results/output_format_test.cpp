@@ -9,9 +9,9 @@
 #include <limits>
 
 #include "farlod/error.hpp"
-#include "results/decimal.hpp"
-#include "results/picture/preview_raster.hpp"
+#include "results/picture/raster_preview.hpp"
 #include "results/provenance.hpp"
+#include "results/value_text.hpp"
 #include "tests/counted/held_memory.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
 #include "tests/scenes/temporary_folder.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/near_crowns.hpp"
+#include "scene/canopy_around.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 #include <numbers>
 #include <random>
 
-#include "scene/canopy_around.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/planted_crowns.hpp"
 #include "tests/scenes/scene_builder.hpp"

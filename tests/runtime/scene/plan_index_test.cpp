@@ -12,9 +12,7 @@
 
 #include "farlod/angle.hpp"
 #include "occlusion/occluder.hpp"
-#include "scene/lattice_crossings.hpp"
-#include "scene/near_scene.hpp"
-#include "scene/whole_city.hpp"
+#include "scene/ray_scenes.hpp"
 #include "tests/scenes/packed_city.hpp"
 #include "tests/scenes/scene_builder.hpp"
 

@@ -16,7 +16,6 @@
 
 #include "farlod/error.hpp"
 #include "tests/scenes/refusal.hpp"
-#include "view/http_request.hpp"
 
 namespace farlod {
 namespace {

@@ -18,9 +18,8 @@
 #include <vector>
 
 #include "tests/library/packed_sample.hpp"
-#include "view/tile_cache.hpp"
 #include "view/tile_glb.hpp"
-#include "view/vertex_clusters.hpp"
+#include "view/view_city.hpp"
 
 namespace farlod {
 namespace {

@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-#include "view/placed_on_globe.hpp"
+#include "view/view_frame.hpp"
 
 namespace farlod {
 namespace {

@@ -13,11 +13,10 @@
 #include "farlod/error.hpp"
 #include "farlod/hemisphere.hpp"
 #include "farlod/points.hpp"
-#include "results/decimal.hpp"
+#include "results/value_text.hpp"
 #include "tests/library/packed_sample.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 #include "view/exported_view.hpp"
-#include "view/one_page.hpp"
 
 namespace farlod {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/mesh/sky_mesh_glb.hpp"
+#include "results/mesh/mesh_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,7 @@
 #include <cmath>
 
 #include "farlod/error.hpp"
-#include "results/mesh/mesh_obj.hpp"
-#include "results/picture/colour_map.hpp"
+#include "results/picture/picture.hpp"
 #include "tests/scenes/glb_reader.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "farlod/error.hpp"
-#include "results/picture/cell_plan.hpp"
-#include "results/picture/colour_map.hpp"
+#include "results/picture/cell_picture.hpp"
+#include "results/picture/picture.hpp"
 #include "tests/runtime/results/picture/decoded_png.hpp"
 #include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"

@@ -7,9 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "results/picture/colour_map.hpp"
 #include "results/picture/histogram.hpp"
-#include "results/picture/plan_background.hpp"
+#include "results/picture/picture.hpp"
 #include "results/picture/raster_preview.hpp"
 #include "tests/runtime/results/picture/decoded_png.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"

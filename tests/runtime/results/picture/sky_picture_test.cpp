@@ -13,10 +13,9 @@
 #include <vector>
 
 #include "results/picture/cell_picture.hpp"
-#include "results/picture/colour_map.hpp"
 #include "results/picture/error_map.hpp"
 #include "results/picture/far_panorama.hpp"
-#include "results/picture/picture_style.hpp"
+#include "results/picture/picture.hpp"
 #include "results/picture/raster_preview.hpp"
 #include "sun/sun_positions.hpp"
 #include "tests/runtime/results/picture/decoded_png.hpp"

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/raster/raster_frame.hpp"
+#include "results/raster/raster_writer.hpp"
 
 #include <gmock/gmock.h>
 
 #include <set>
 
 #include "farlod/error.hpp"
-#include "results/raster/awaited_raster_writer.hpp"
-#include "results/raster/tile_spool.hpp"
+#include "results/spool_file.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <limits>
 
-#include "inputs/raster_plan_gdal.hpp"
+#include "inputs/raster_reader_gdal.hpp"
 #include "inputs/requested_points.hpp"
 #include "results/output_format.hpp"
 #include "results/picture/raster_preview.hpp"

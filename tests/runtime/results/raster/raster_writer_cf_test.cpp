@@ -12,7 +12,7 @@
 #include <memory>
 
 #include "farlod/error.hpp"
-#include "results/raster/cf_grid_mapping_gdal.hpp"
+#include "results/crs_gdal.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 

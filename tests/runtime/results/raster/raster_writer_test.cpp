@@ -12,7 +12,7 @@
 #include <random>
 
 #include "farlod/error.hpp"
-#include "results/raster/esri_wkt_gdal.hpp"
+#include "results/crs_gdal.hpp"
 #include "results/raster/raster_writer_esri_ascii.hpp"
 #include "results/raster/raster_writer_gdal.hpp"
 #include "results/raster/raster_writer_zip_gdal.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "results/raster/raster_frame.hpp"
+#include "results/raster/raster_writer.hpp"
 
 namespace farlod {
 

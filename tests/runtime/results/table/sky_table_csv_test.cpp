@@ -11,11 +11,9 @@
 #include <vector>
 
 #include "inputs/point_reader.hpp"
-#include "results/picture/colour_map.hpp"
-#include "results/table/csv_text.hpp"
+#include "results/picture/picture.hpp"
 #include "results/table/sky_features.hpp"
 #include "results/table/sky_table_ply.hpp"
-#include "results/table/verification_csv.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "farlod/error.hpp"
-#include "inputs/point_reader_gdal.hpp"
+#include "inputs/vector_reader_gdal.hpp"
 #include "results/output_format.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
 #include "tests/scenes/temporary_folder.hpp"
