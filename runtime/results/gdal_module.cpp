@@ -4,40 +4,19 @@
 #include "farlod/version.hpp"
 #include "results/gdal_files.hpp"
 #include "results/module.hpp"
-#include "results/raster/raster_writer_cf.hpp"
-#include "results/raster/raster_writer_gdal.hpp"
-#include "results/raster/raster_writer_zarr_gdal.hpp"
-#include "results/raster/raster_writer_zip_gdal.hpp"
-#include "results/table/feature_writer_cf.hpp"
-#include "results/table/feature_writer_gdal.hpp"
-#include "results/table/feature_writer_geojson.hpp"
+#include "results/raster/raster_writers.hpp"
 
 namespace farlod {
 namespace {
 
-template <class Writer>
-std::unique_ptr<RasterWriter> raster_writer(const RasterFrame& frame, const std::filesystem::path& path) {
-  return std::make_unique<Writer>(frame, path);
-}
-
-template <class Writer>
-std::unique_ptr<FeatureWriter> feature_writer(const TableFrame& frame, const std::filesystem::path& path) {
-  return std::make_unique<Writer>(frame, path);
-}
-
-template <GdalFeatureWriter::Format format>
-std::unique_ptr<FeatureWriter> gdal_feature_writer(const TableFrame& frame, const std::filesystem::path& path) {
-  return std::make_unique<GdalFeatureWriter>(format, frame, path);
-}
-
-constexpr GdalFiles functions{.geotiff = raster_writer<GeotiffWriter>,
-                              .netcdf = raster_writer<CfRasterWriter>,
-                              .zarr = raster_writer<ZarrWriter>,
-                              .zipped_geotiffs = raster_writer<ZippedGeotiffWriter>,
-                              .geopackage = gdal_feature_writer<GdalFeatureWriter::Format::geopackage>,
-                              .flatgeobuf = gdal_feature_writer<GdalFeatureWriter::Format::flatgeobuf>,
-                              .netcdf_points = feature_writer<CfPointWriter>,
-                              .geojson = feature_writer<GeojsonWriter>,
+constexpr GdalFiles functions{.geotiff = geotiff_writer,
+                              .netcdf = netcdf_writer,
+                              .zarr = zarr_writer,
+                              .zipped_geotiffs = zipped_geotiff_writer,
+                              .geopackage = geopackage_writer,
+                              .flatgeobuf = flatgeobuf_writer,
+                              .netcdf_points = netcdf_point_writer,
+                              .geojson = geojson_writer,
                               .esri_wkt_of = esri_wkt_of,
                               .is_raster_file = is_raster_file,
                               .is_vector_file = is_vector_file,

@@ -15,11 +15,7 @@
 #include "results/table/sky_table_ply.hpp"
 #ifdef FARLOD_WITH_GDAL
 #include "results/gdal_files.hpp"
-#include "results/raster/raster_writer.hpp"
-#include "results/raster/raster_writer_cf.hpp"
-#include "results/raster/raster_writer_gdal.hpp"
-#include "results/raster/raster_writer_zarr_gdal.hpp"
-#include "results/raster/raster_writer_zip_gdal.hpp"
+#include "results/raster/raster_writers.hpp"
 #endif
 
 namespace farlod {
@@ -107,13 +103,13 @@ constexpr OutputFormat formats[] = {
      .endings = {".tif", ".tiff"},
      .holds_bounds = true,
      .raster_writer = await<&GdalFiles::geotiff>,
-     .raster_writer_bytes = GeotiffWriter::bytes_for,
+     .raster_writer_bytes = geotiff_bytes,
      .bytes_of_pixel = 2.1},
     {.name = "netCDF",
      .endings = {".nc", ""},
      .holds_bounds = true,
      .raster_writer = await<&GdalFiles::netcdf>,
-     .raster_writer_bytes = CfRasterWriter::bytes_for,
+     .raster_writer_bytes = netcdf_bytes,
      .write_points = write_points_by<&GdalFiles::netcdf_points>,
      .surface_tables_writer = make_layer_beside_csv<&GdalFiles::netcdf_points>,
      .bytes_of_pixel = 1.5,
@@ -123,14 +119,14 @@ constexpr OutputFormat formats[] = {
      .endings = {".zarr", ""},
      .holds_bounds = true,
      .raster_writer = await<&GdalFiles::zarr>,
-     .raster_writer_bytes = ZarrWriter::bytes_for,
+     .raster_writer_bytes = zarr_bytes,
      .bytes_of_pixel = 1.5},
     {.name = "GeoTIFFs in a ZIP file",
      .endings = {".zip", ""},
      .holds_bounds = true,
      .is_for_solweig = true,
      .raster_writer = await<&GdalFiles::zipped_geotiffs>,
-     .raster_writer_bytes = ZippedGeotiffWriter::bytes_for,
+     .raster_writer_bytes = zipped_geotiff_bytes,
      .bytes_of_pixel = 2.1},
 #endif
     {.name = "CSV",

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -26,5 +27,12 @@ void append_whole(std::string& text, std::uint64_t number);
 
 /// Appends a text in quotes, as RFC 8259 says; bytes beyond ASCII stay as they are.
 void append_json_text(std::string& json, std::string_view text);
+
+static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
+/// Appends a number as binary files have it.
+template <class Number>
+void append_bytes(std::string& bytes, Number number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+}
 
 }  // namespace farlod

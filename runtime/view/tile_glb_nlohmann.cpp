@@ -4,31 +4,25 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "base/expects.hpp"
+#include "results/mesh/mesh_file.hpp"
 #include "results/picture/drawing.hpp"
 #include "results/picture/picture.hpp"
+#include "results/value_text.hpp"
 
 namespace farlod {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
-
 constexpr std::size_t ramp_texels = 256;
 
 enum ComponentType : int { unsigned_byte = 5121, unsigned_int = 5125, single_float = 5126 };
-
-template <class Number>
-void append(std::string& bytes, Number number) {
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
-}
 
 /// The colours of view factors, from 0 at the left.
 const std::string& ramp_png() {
@@ -62,7 +56,7 @@ class GlbText {
   /// An accessor for an attribute of vertices.
   std::size_t add_accessor(const std::vector<float>& numbers, const char* type, std::size_t components) {
     std::string bytes;
-    for (const float number : numbers) append(bytes, number);
+    for (const float number : numbers) append_bytes(bytes, number);
     const std::size_t view = add_view(bytes);
     json_["bufferViews"][view]["target"] = 34962;  // ARRAY_BUFFER
     json_["accessors"].push_back({{"bufferView", view},
@@ -74,17 +68,7 @@ class GlbText {
   [[nodiscard]] std::string file() && {
     bytes_.resize((bytes_.size() + 3) / 4 * 4);
     if (!bytes_.empty()) json_["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
-    std::string text = json_.dump();
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    constexpr std::size_t head = 12, chunk_head = 8;
-    std::string glb = "glTF";
-    append(glb, std::uint32_t{2});
-    append(glb, static_cast<std::uint32_t>(head + chunk_head + text.size() + (bytes_.empty() ? 0 : chunk_head + bytes_.size())));
-    append(glb, static_cast<std::uint32_t>(text.size()));
-    glb += "JSON" + text;
-    if (bytes_.empty()) return glb;
-    append(glb, static_cast<std::uint32_t>(bytes_.size()));
-    return glb.append("BIN\0", 4) + bytes_;
+    return glb_head(json_.dump(), bytes_.size()) + bytes_;
   }
 
  private:
@@ -147,10 +131,10 @@ void add_primitive(const Vertices& v, std::size_t features, int material, GlbTex
 /// Texts one after the other, and where each begins.
 Json add_texts(const std::vector<std::string>& texts, GlbText& glb) {
   std::string values, offsets;
-  append(offsets, std::uint32_t{0});
+  append_bytes(offsets, std::uint32_t{0});
   for (const std::string& text : texts) {
     values += text;
-    append(offsets, static_cast<std::uint32_t>(values.size()));
+    append_bytes(offsets, static_cast<std::uint32_t>(values.size()));
   }
   // A buffer view has a byte at least
   const std::size_t of_values = glb.add_view(values.empty() ? std::string(1, '\0') : values);
@@ -163,7 +147,7 @@ void add_property_table(const std::vector<TileFeature>& features, GlbText& glb) 
   for (const TileFeature& feature : features) {
     buildings.push_back(feature.building);
     kinds.emplace_back(word_for(surface_kind_words, feature.kind));
-    append(surfaces, feature.surface);
+    append_bytes(surfaces, feature.surface);
   }
   Json properties;
   properties["building"] = add_texts(buildings, glb);

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "results/value_text.hpp"
+
 namespace farlod {
 namespace {
 
@@ -79,11 +81,6 @@ class SubtreeBuffer {
   std::string bytes_;
 };
 
-template <class Number>
-void append_little_endian(std::string& bytes, Number number) {
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
-}
-
 constexpr const char *class_of_tiles = "tile", *property_of_error = "geometricError";
 
 /// The schema of the tiles' metadata, which overrides what follows from their level.
@@ -97,8 +94,7 @@ Json errors_of_tiles(const TileTree& tree, const TileAddress& root, std::size_t 
   std::string errors;
   for (std::uint32_t depth = 0; depth < levels_of_subtree; ++depth)
     for (std::uint32_t place = 0; place < 1U << (2 * depth); ++place)
-      if (tree.contains(tile_of_morton(root, depth, place)))
-        append_little_endian(errors, tree.error_as_drawn_m(root.level + depth));
+      if (tree.contains(tile_of_morton(root, depth, place))) append_bytes(errors, tree.error_as_drawn_m(root.level + depth));
   return Json::array(
       {{{"class", class_of_tiles}, {"count", tiles}, {"properties", {{property_of_error, {{"values", buffer.add(errors)}}}}}}});
 }
@@ -205,9 +201,9 @@ std::string subtree_file(const TileTree& tree, const TileAddress& root) {
   std::string text = json.dump();
   text.resize((text.size() + 7) / 8 * 8, ' ');
   std::string file = "subt";
-  append_little_endian(file, std::uint32_t{1});
-  append_little_endian(file, std::uint64_t{text.size()});
-  append_little_endian(file, std::uint64_t{buffer.bytes().size()});
+  append_bytes(file, std::uint32_t{1});
+  append_bytes(file, std::uint64_t{text.size()});
+  append_bytes(file, std::uint64_t{buffer.bytes().size()});
   return file + text + buffer.bytes();
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -70,17 +69,10 @@ class GlbFile {
   std::array<float, 3> low_{}, high_{};  ///< of all vertices
 };
 
-static_assert(std::endian::native == std::endian::little, "vertices are written as they lie in memory");
-
 constexpr std::size_t bytes_of_vertex = 3 * sizeof(float) + 4 * sizeof(std::uint16_t);
 constexpr std::size_t bytes_at_once = 1 << 16;
 // All lengths of the format are of 32 bits; a megabyte is for what is not vertices
 constexpr std::uint64_t most_bytes_of_vertices = std::numeric_limits<std::uint32_t>::max() - (std::uint64_t{1} << 20U);
-
-template <class Number>
-void append(std::string& bytes, Number number) {
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
-}
 
 /// glTF takes colours of vertices without the transfer function of sRGB (IEC 61966-2-1).
 std::uint16_t linear(std::uint8_t channel) {
@@ -124,10 +116,10 @@ void GlbFile::add(const Point3d& p_projected, Colour colour) {
   for (std::size_t k = 0; k < 3; ++k) {
     low_[k] = vertices_ == 0 ? place[k] : std::min(low_[k], place[k]);
     high_[k] = vertices_ == 0 ? place[k] : std::max(high_[k], place[k]);
-    append(waiting_, place[k]);
+    append_bytes(waiting_, place[k]);
   }
-  for (const std::uint8_t channel : {colour.red, colour.green, colour.blue}) append(waiting_, linear(channel));
-  append(waiting_, std::numeric_limits<std::uint16_t>::max());
+  for (const std::uint8_t channel : {colour.red, colour.green, colour.blue}) append_bytes(waiting_, linear(channel));
+  append_bytes(waiting_, std::numeric_limits<std::uint16_t>::max());
   ++vertices_;
   if (waiting_.size() >= bytes_at_once) flush();
 }
@@ -159,21 +151,9 @@ std::string GlbFile::json() const {
 
 void GlbFile::commit() {
   flush();
-  std::string json_chunk = json();
-  json_chunk.resize((json_chunk.size() + 3) / 4 * 4, ' ');
-  const std::uint64_t binary = vertices_ * bytes_of_vertex, chunk_head = 8, head = 12;
-  const std::uint64_t all = head + chunk_head + json_chunk.size() + (binary > 0 ? chunk_head + binary : 0);
+  const std::uint64_t binary = vertices_ * bytes_of_vertex;
   write_atomically(path_, [&](std::ostream& out) {
-    std::string bytes = "glTF";
-    append(bytes, std::uint32_t{2});
-    append(bytes, static_cast<std::uint32_t>(all));
-    append(bytes, static_cast<std::uint32_t>(json_chunk.size()));
-    bytes += "JSON" + json_chunk;
-    if (binary > 0) {
-      append(bytes, static_cast<std::uint32_t>(binary));
-      bytes.append("BIN\0", 4);
-    }
-    out << bytes;
+    out << glb_head(json(), binary);
     std::vector<char> part(bytes_at_once);
     for (std::uint64_t done = 0; done < binary; done += part.size()) {
       part.resize(static_cast<std::size_t>(std::min<std::uint64_t>(bytes_at_once, binary - done)));
@@ -232,6 +212,20 @@ void for_each_block(const PackageInventory& package, const std::function<void(co
 }
 
 }  // namespace
+
+std::string glb_head(std::string json, std::uint64_t binary_bytes) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::uint64_t head = 12, chunk_head = 8;
+  const std::uint64_t all = head + chunk_head + json.size() + (binary_bytes > 0 ? chunk_head + binary_bytes : 0);
+  std::string bytes = "glTF";
+  append_bytes(bytes, std::uint32_t{2});
+  append_bytes(bytes, static_cast<std::uint32_t>(all));
+  append_bytes(bytes, static_cast<std::uint32_t>(json.size()));
+  bytes += "JSON" + json;
+  if (binary_bytes == 0) return bytes;
+  append_bytes(bytes, static_cast<std::uint32_t>(binary_bytes));
+  return bytes.append("BIN\0", 4);
+}
 
 void write_obj(const std::vector<MeshPart>& parts, Point2d offset_m, const std::vector<std::string>& remarks,
                const std::filesystem::path& path) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -17,6 +18,9 @@ namespace farlod {
 /// OutputError.
 void write_obj(const std::vector<MeshPart>& parts, Point2d offset_m, const std::vector<std::string>& remarks,
                const std::filesystem::path& path);
+
+/// What a file of binary glTF 2.0 has in front of its binary bytes: the heads, and the JSON.
+[[nodiscard]] std::string glb_head(std::string json, std::uint64_t binary_bytes);
 
 /// Writes points as coloured points of binary glTF. There is none for a point without a height.
 void write_points_glb(const PointRows& rows, const TableFrame& frame, const std::filesystem::path& path);

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/raster/raster_writer_cf.hpp"
-
 #include <algorithm>
 #include <array>
 #include <span>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "base/expects.hpp"
+#include "results/raster/raster_writers.hpp"
 #include "results/value_text.hpp"
 
 namespace farlod {
@@ -55,45 +54,43 @@ void write_axis(NetcdfFile& file, int variable, std::size_t count, double first,
   }
 }
 
-}  // namespace
+class CfRasterWriter final : public RasterWriter {
+ public:
+  CfRasterWriter(const RasterFrame& frame, const std::filesystem::path& path) : frame_(frame), file_(path) {
+    file_.describe(frame.bands.front().definition, frame.provenance);
+    const int y = file_.dimension("y", frame.rows), x = file_.dimension("x", frame.columns);
+    const int y_axis = add_axis(file_, y, "y", "Y"), x_axis = add_axis(file_, x, "x", "X");
+    if (!frame.crs_wkt.empty()) add_grid_mapping(file_, frame);
+    for (const Band& band : frame.bands) bands_.push_back(add_band(file_, band, {y, x}, frame));
+    file_.end_definitions();
+    write_axis(file_, y_axis, frame.rows, frame.north_west_m.y, -frame.step_m);
+    write_axis(file_, x_axis, frame.columns, frame.north_west_m.x, frame.step_m);
+  }
+  void write(const RasterTile& tile) override {
+    const std::vector<std::span<const float>> bands = bands_of(tile);
+    FARLOD_EXPECTS(bands.size() == bands_.size());
+    const std::array<std::size_t, 2> first{tile.place.row * raster_tile_edge, tile.place.column * raster_tile_edge};
+    const std::array<std::size_t, 2> size{pixels_of_tile(tile.place.row, frame_.rows),
+                                          pixels_of_tile(tile.place.column, frame_.columns)};
+    std::vector<float> inside(size[0] * size[1]);
+    for (std::size_t n = 0; n < bands.size(); ++n) {
+      for (std::size_t row = 0; row < size[0]; ++row)
+        std::copy_n(bands[n].data() + row * raster_tile_edge, size[1], inside.data() + row * size[1]);
+      file_.put(bands_[n], first, size, inside);
+    }
+  }
+  void commit() override { file_.commit(); }
 
-struct CfRasterWriter::Impl {
-  RasterFrame frame;
-  NetcdfFile file;
-  std::vector<int> bands;  ///< the variables
-
-  Impl(const RasterFrame& raster, const std::filesystem::path& path) : frame(raster), file(path) {}
+ private:
+  RasterFrame frame_;
+  NetcdfFile file_;
+  std::vector<int> bands_;  ///< the variables
 };
 
-CfRasterWriter::CfRasterWriter(const RasterFrame& frame, const std::filesystem::path& path)
-    : impl_(std::make_unique<Impl>(frame, path)) {
-  NetcdfFile& file = impl_->file;
-  file.describe(frame.bands.front().definition, frame.provenance);
-  const int y = file.dimension("y", frame.rows), x = file.dimension("x", frame.columns);
-  const int y_axis = add_axis(file, y, "y", "Y"), x_axis = add_axis(file, x, "x", "X");
-  if (!frame.crs_wkt.empty()) add_grid_mapping(file, frame);
-  for (const Band& band : frame.bands) impl_->bands.push_back(add_band(file, band, {y, x}, frame));
-  file.end_definitions();
-  write_axis(file, y_axis, frame.rows, frame.north_west_m.y, -frame.step_m);
-  write_axis(file, x_axis, frame.columns, frame.north_west_m.x, frame.step_m);
+}  // namespace
+
+std::unique_ptr<RasterWriter> netcdf_writer(const RasterFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<CfRasterWriter>(frame, path);
 }
-
-CfRasterWriter::~CfRasterWriter() = default;
-
-void CfRasterWriter::write(const RasterTile& tile) {
-  const std::vector<std::span<const float>> bands = bands_of(tile);
-  FARLOD_EXPECTS(bands.size() == impl_->bands.size());
-  const std::array<std::size_t, 2> first{tile.place.row * raster_tile_edge, tile.place.column * raster_tile_edge};
-  const std::array<std::size_t, 2> size{pixels_of_tile(tile.place.row, impl_->frame.rows),
-                                        pixels_of_tile(tile.place.column, impl_->frame.columns)};
-  std::vector<float> inside(size[0] * size[1]);
-  for (std::size_t n = 0; n < bands.size(); ++n) {
-    for (std::size_t row = 0; row < size[0]; ++row)
-      std::copy_n(bands[n].data() + row * raster_tile_edge, size[1], inside.data() + row * size[1]);
-    impl_->file.put(impl_->bands[n], first, size, inside);
-  }
-}
-
-void CfRasterWriter::commit() { impl_->file.commit(); }
 
 }  // namespace farlod

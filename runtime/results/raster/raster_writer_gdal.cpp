@@ -1,17 +1,20 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/raster/raster_writer_gdal.hpp"
-
+#include <cpl_conv.h>
+#include <cpl_string.h>
 #include <gdal_frmts.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include "base/expects.hpp"
 #include "farlod/error.hpp"
@@ -19,6 +22,7 @@
 #include "gdal/gdal_errors.hpp"
 #include "results/atomic_file.hpp"
 #include "results/crs_gdal.hpp"
+#include "results/raster/raster_writers.hpp"
 
 namespace farlod {
 namespace {
@@ -105,64 +109,159 @@ void write_block(GDALRasterBand& band, TilePlace place, std::span<const float> v
   if (refused != CE_None && CPLGetLastErrorType() < CE_Failure) CPLError(CE_Failure, CPLE_FileIO, "the pixels were refused");
 }
 
-}  // namespace
-
-struct GeotiffWriter::Impl {
-  RasterFrame frame;
-  AtomicFile file;
-  std::optional<AtomicFile> spool;  // removed after the dataset is closed
-  GDALDatasetUniquePtr dataset;
-
-  Impl(const RasterFrame& raster, const std::filesystem::path& path)
-      : frame(raster), file(path), spool(path.string() + ".spool") {}
-
-  void throw_if_any(const GdalErrors& errors) const {
-    if (errors.any()) throw OutputError(file.destination(), errors.last());
+class GeotiffWriter final : public RasterWriter {
+ public:
+  GeotiffWriter(const RasterFrame& frame, const std::filesystem::path& path)
+      : frame_(frame), file_(path), spool_(path.string() + ".spool") {
+    const GdalErrors errors;
+    dataset_ = create_spool(frame, file_, *spool_, errors);
+    place(*dataset_, frame);
+    describe(*dataset_, frame);
+    int block_columns = 0, block_rows = 0;
+    dataset_->GetRasterBand(1)->GetBlockSize(&block_columns, &block_rows);
+    FARLOD_EXPECTS(block_columns == raster_tile_edge && block_rows == raster_tile_edge);
+    throw_if_any(errors);
   }
+  ~GeotiffWriter() override {
+    const GdalErrors nobody_hears;  // of a file that is given up
+    dataset_.reset();
+  }
+  void write(const RasterTile& tile) override {
+    const GdalErrors errors;
+    const std::vector<std::span<const float>> bands = bands_of(tile);
+    FARLOD_EXPECTS(bands.size() == frame_.bands.size());
+    for (std::size_t n = 0; n < bands.size(); ++n)
+      write_block(*dataset_->GetRasterBand(static_cast<int>(n) + 1), tile.place, bands[n]);
+    throw_if_any(errors);
+  }
+  void commit() override {
+    const GdalErrors errors;
+    // A full disk may show only now
+    dataset_->FlushCache();
+    throw_if_any(errors);
+    {
+      const SmallCache cache;
+      const GDALDatasetUniquePtr result(
+          driver_called("COG", file_)
+              .CreateCopy(file_.temporary().c_str(), dataset_.get(), TRUE, options_of_result(frame_).List(), nullptr, nullptr));
+      dataset_.reset();
+    }
+    spool_.reset();
+    throw_if_any(errors);
+    file_.commit();
+  }
+
+ private:
+  void throw_if_any(const GdalErrors& errors) const {
+    if (errors.any()) throw OutputError(file_.destination(), errors.last());
+  }
+
+  RasterFrame frame_;
+  AtomicFile file_;
+  std::optional<AtomicFile> spool_;  // removed after the dataset is closed
+  GDALDatasetUniquePtr dataset_;
 };
 
-GeotiffWriter::GeotiffWriter(const RasterFrame& frame, const std::filesystem::path& path)
-    : impl_(std::make_unique<Impl>(frame, path)) {
-  const GdalErrors errors;
-  impl_->dataset = create_spool(frame, impl_->file, *impl_->spool, errors);
-  GDALDataset& dataset = *impl_->dataset;
-  place(dataset, frame);
-  describe(dataset, frame);
-  int block_columns = 0, block_rows = 0;
-  dataset.GetRasterBand(1)->GetBlockSize(&block_columns, &block_rows);
-  FARLOD_EXPECTS(block_columns == raster_tile_edge && block_rows == raster_tile_edge);
-  impl_->throw_if_any(errors);
+RasterFrame frame_of_band(const RasterFrame& frame, std::size_t band) {
+  RasterFrame one = frame;
+  one.bands = {frame.bands[band]};
+  return one;
 }
 
-GeotiffWriter::~GeotiffWriter() {
-  const GdalErrors nobody_hears;  // of a file that is given up
-  impl_->dataset.reset();
+RasterTile tile_of_band(TilePlace place, std::span<const float> values) {
+  RasterTile tile(place, RasterBands::svf);
+  tile.svf.assign(values.begin(), values.end());
+  return tile;
 }
 
-void GeotiffWriter::write(const RasterTile& tile) {
-  const GdalErrors errors;
-  const std::vector<std::span<const float>> bands = bands_of(tile);
-  FARLOD_EXPECTS(bands.size() == impl_->frame.bands.size());
-  for (std::size_t n = 0; n < bands.size(); ++n)
-    write_block(*impl_->dataset->GetRasterBand(static_cast<int>(n) + 1), tile.place, bands[n]);
-  impl_->throw_if_any(errors);
-}
-
-void GeotiffWriter::commit() {
-  const GdalErrors errors;
-  // A full disk may show only now
-  impl_->dataset->FlushCache();
-  impl_->throw_if_any(errors);
-  {
-    const SmallCache cache;
-    const GDALDatasetUniquePtr result(driver_called("COG", impl_->file)
-                                          .CreateCopy(impl_->file.temporary().c_str(), impl_->dataset.get(), TRUE,
-                                                      options_of_result(impl_->frame).List(), nullptr, nullptr));
-    impl_->dataset.reset();
+/// A ZIP file that is being written by GDAL.
+class ZipFile {
+ public:
+  ZipFile(const std::filesystem::path& path, const std::filesystem::path& result)
+      : result_(result), zip_(CPLCreateZip(path.c_str(), nullptr)) {
+    if (zip_ == nullptr) fail();
   }
-  impl_->spool.reset();
-  impl_->throw_if_any(errors);
-  impl_->file.commit();
+  ~ZipFile() {
+    if (zip_ != nullptr) CPLCloseZip(zip_);
+  }
+  ZipFile(const ZipFile&) = delete;
+  ZipFile& operator=(const ZipFile&) = delete;
+
+  /// The file as it is: the blocks of a GeoTIFF are compressed already.
+  void add(const std::filesystem::path& file) {
+    CPLStringList options;
+    options.SetNameValue("COMPRESSED", "NO");
+    options.SetNameValue("TIMESTAMP", "315532800");  // the first second that a ZIP file can name, where GDAL asks (3.7 and later)
+    must(CPLCreateFileInZip(zip_, file.filename().c_str(), options.List()));
+    std::ifstream bytes(file, std::ios::binary);
+    std::vector<char> piece(zip_bytes_at_once);
+    while (bytes.read(piece.data(), static_cast<std::streamsize>(piece.size())) || bytes.gcount() > 0)
+      must(CPLWriteFileInZip(zip_, piece.data(), static_cast<int>(bytes.gcount())));
+    if (!bytes.eof()) fail();
+    must(CPLCloseFileInZip(zip_));
+  }
+  void close() {
+    void* const zip = zip_;
+    zip_ = nullptr;
+    must(CPLCloseZip(zip));
+  }
+
+ private:
+  void must(CPLErr error) const {
+    if (error != CE_None) fail();
+  }
+  [[noreturn]] void fail() const { throw OutputError(result_, errors_.any() ? errors_.last() : "the disk refused the data"); }
+
+  GdalErrors errors_;
+  std::filesystem::path result_;
+  void* zip_;
+};
+
+class ZippedGeotiffWriter final : public RasterWriter {
+ public:
+  ZippedGeotiffWriter(const RasterFrame& frame, const std::filesystem::path& path)
+      : file_(path, ".zip"), folder_(path.string() + ".bands") {
+    std::error_code error;
+    std::filesystem::create_directory(folder_.temporary(), error);
+    if (error) throw OutputError(path, error.message());
+    for (std::size_t n = 0; n < frame.bands.size(); ++n) {
+      paths_.push_back(folder_.temporary() / (frame.bands[n].name + ".tif"));
+      bands_.push_back(geotiff_writer(frame_of_band(frame, n), paths_.back()));
+    }
+  }
+  void write(const RasterTile& tile) override {
+    const std::vector<std::span<const float>> values = bands_of(tile);
+    FARLOD_EXPECTS(values.size() == bands_.size());
+    for (std::size_t n = 0; n < values.size(); ++n) bands_[n]->write(tile_of_band(tile.place, values[n]));
+  }
+  void commit() override {
+    ZipFile zip(file_.temporary(), file_.destination());
+    for (std::size_t n = 0; n < bands_.size(); ++n) {
+      bands_[n]->commit();
+      bands_[n].reset();
+      zip.add(paths_[n]);
+      std::error_code is_removed_later;
+      std::filesystem::remove(paths_[n], is_removed_later);
+    }
+    zip.close();
+    file_.commit();
+  }
+
+ private:
+  AtomicFile file_;
+  AtomicFolder folder_;  ///< of the bands
+  std::vector<std::filesystem::path> paths_;
+  std::vector<std::unique_ptr<RasterWriter>> bands_;
+};
+
+}  // namespace
+
+std::unique_ptr<RasterWriter> geotiff_writer(const RasterFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<GeotiffWriter>(frame, path);
+}
+
+std::unique_ptr<RasterWriter> zipped_geotiff_writer(const RasterFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<ZippedGeotiffWriter>(frame, path);
 }
 
 }  // namespace farlod

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/raster/raster_writer_zarr_gdal.hpp"
-
 #include <gdal_frmts.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
@@ -20,6 +18,7 @@
 #include "gdal/gdal_errors.hpp"
 #include "results/atomic_file.hpp"
 #include "results/crs_gdal.hpp"
+#include "results/raster/raster_writers.hpp"
 
 namespace farlod {
 namespace {
@@ -124,74 +123,74 @@ Array add_band(const ZarrGroup& group, const Band& band, const std::vector<Dimen
   return array;
 }
 
-}  // namespace
+class ZarrWriter final : public RasterWriter {
+ public:
+  ZarrWriter(const RasterFrame& frame, const std::filesystem::path& path) : frame_(frame), path_(path), folder_(path) {
+    // Asked before the work: commit() would find it after hours
+    std::error_code nothing_there;
+    if (std::filesystem::exists(path, nothing_there) && !std::filesystem::exists(path / mark_of_group, nothing_there))
+      throw OutputError(path, "it is there already, and no Zarr group; choose another name");
+    const GdalErrors errors;
+    group_.emplace(folder_.temporary());
+    if (!group_->root) throw OutputError(path, errors.any() ? errors.last() : "this GDAL cannot write Zarr");
+    describe();
+    const Axis northing{"y", "Y", GDAL_DIM_TYPE_HORIZONTAL_Y, "NORTH", "northing of the pixel's centre"};
+    const Axis easting{"x", "X", GDAL_DIM_TYPE_HORIZONTAL_X, "EAST", "easting of the pixel's centre"};
+    const Dimension y = add_axis(*group_, northing, frame.rows, frame.north_west_m.y, -frame.step_m);
+    const Dimension x = add_axis(*group_, easting, frame.columns, frame.north_west_m.x, frame.step_m);
+    if (!frame.crs_wkt.empty()) add_grid_mapping(*group_, frame);
+    throw_if_any(errors);
+    for (const Band& band : frame.bands) bands_.push_back(add_band(*group_, band, {y, x}, frame));
+    throw_if_any(errors);
+  }
+  ~ZarrWriter() override {
+    const GdalErrors nobody_hears;  // of a folder that is given up
+    bands_.clear();
+    group_.reset();
+  }
+  void write(const RasterTile& tile) override {
+    const GdalErrors errors;
+    const std::vector<std::span<const float>> bands = bands_of(tile);
+    FARLOD_EXPECTS(bands.size() == bands_.size());
+    const std::array<GUInt64, 2> first{tile.place.row * raster_tile_edge, tile.place.column * raster_tile_edge};
+    const std::array<std::size_t, 2> size{pixels_of_tile(tile.place.row, frame_.rows),
+                                          pixels_of_tile(tile.place.column, frame_.columns)};
+    const std::array<GPtrDiff_t, 2> stride{raster_tile_edge, 1};
+    for (std::size_t n = 0; n < bands.size(); ++n)
+      bands_[n]->Write(first.data(), size.data(), nullptr, stride.data(), single_real_type(), bands[n].data());
+    throw_if_any(errors);
+  }
+  void commit() override {
+    const GdalErrors errors;
+    bands_.clear();
+    group_.reset();  // a full disk may show only now
+    throw_if_any(errors);
+    folder_.commit(mark_of_group);
+  }
 
-struct ZarrWriter::Impl {
-  RasterFrame frame;
-  std::filesystem::path path;
-  AtomicFolder folder;
-  std::optional<ZarrGroup> group;
-  std::vector<Array> bands;
-
-  Impl(const RasterFrame& raster, const std::filesystem::path& destination)
-      : frame(raster), path(destination), folder(destination) {}
-
+ private:
   void throw_if_any(const GdalErrors& errors) const {
-    if (errors.any()) throw OutputError(path, errors.last());
+    if (errors.any()) throw OutputError(path_, errors.last());
   }
   void describe() {
-    GDALGroup& root = *group->root;
+    GDALGroup& root = *group_->root;
     add_attribute(root, "Conventions", "CF-1.8");
-    add_attribute(root, "title", frame.bands.front().definition);
-    for (const auto& [name, value] : entries_of(frame.provenance))
+    add_attribute(root, "title", frame_.bands.front().definition);
+    for (const auto& [name, value] : entries_of(frame_.provenance))
       add_attribute(root, name == "software" ? "source" : name, value);
   }
+
+  RasterFrame frame_;
+  std::filesystem::path path_;
+  AtomicFolder folder_;
+  std::optional<ZarrGroup> group_;
+  std::vector<Array> bands_;
 };
 
-ZarrWriter::ZarrWriter(const RasterFrame& frame, const std::filesystem::path& path) : impl_(std::make_unique<Impl>(frame, path)) {
-  // Asked before the work: commit() would find it after hours
-  std::error_code nothing_there;
-  if (std::filesystem::exists(path, nothing_there) && !std::filesystem::exists(path / mark_of_group, nothing_there))
-    throw OutputError(path, "it is there already, and no Zarr group; choose another name");
-  const GdalErrors errors;
-  impl_->group.emplace(impl_->folder.temporary());
-  if (!impl_->group->root) throw OutputError(path, errors.any() ? errors.last() : "this GDAL cannot write Zarr");
-  impl_->describe();
-  const Axis northing{"y", "Y", GDAL_DIM_TYPE_HORIZONTAL_Y, "NORTH", "northing of the pixel's centre"};
-  const Axis easting{"x", "X", GDAL_DIM_TYPE_HORIZONTAL_X, "EAST", "easting of the pixel's centre"};
-  const Dimension y = add_axis(*impl_->group, northing, frame.rows, frame.north_west_m.y, -frame.step_m);
-  const Dimension x = add_axis(*impl_->group, easting, frame.columns, frame.north_west_m.x, frame.step_m);
-  if (!frame.crs_wkt.empty()) add_grid_mapping(*impl_->group, frame);
-  impl_->throw_if_any(errors);
-  for (const Band& band : frame.bands) impl_->bands.push_back(add_band(*impl_->group, band, {y, x}, frame));
-  impl_->throw_if_any(errors);
-}
+}  // namespace
 
-ZarrWriter::~ZarrWriter() {
-  const GdalErrors nobody_hears;  // of a folder that is given up
-  impl_->bands.clear();
-  impl_->group.reset();
-}
-
-void ZarrWriter::write(const RasterTile& tile) {
-  const GdalErrors errors;
-  const std::vector<std::span<const float>> bands = bands_of(tile);
-  FARLOD_EXPECTS(bands.size() == impl_->bands.size());
-  const std::array<GUInt64, 2> first{tile.place.row * raster_tile_edge, tile.place.column * raster_tile_edge};
-  const std::array<std::size_t, 2> size{pixels_of_tile(tile.place.row, impl_->frame.rows),
-                                        pixels_of_tile(tile.place.column, impl_->frame.columns)};
-  const std::array<GPtrDiff_t, 2> stride{raster_tile_edge, 1};
-  for (std::size_t n = 0; n < bands.size(); ++n)
-    impl_->bands[n]->Write(first.data(), size.data(), nullptr, stride.data(), single_real_type(), bands[n].data());
-  impl_->throw_if_any(errors);
-}
-
-void ZarrWriter::commit() {
-  const GdalErrors errors;
-  impl_->bands.clear();
-  impl_->group.reset();  // a full disk may show only now
-  impl_->throw_if_any(errors);
-  impl_->folder.commit(mark_of_group);
+std::unique_ptr<RasterWriter> zarr_writer(const RasterFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<ZarrWriter>(frame, path);
 }
 
 }  // namespace farlod

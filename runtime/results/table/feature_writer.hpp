@@ -3,13 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string>
+#include <filesystem>
+#include <memory>
 #include <string_view>
 #include <variant>
-#include <vector>
 
-#include "farlod/point.hpp"
+#include "results/table/table_writer.hpp"
 
 namespace farlod {
 
@@ -52,5 +51,25 @@ class FeatureWriter {
   /// The file appears now, and not before.
   virtual void commit() = 0;
 };
+
+/// Writes layers by GDAL, in the CRS of the frame:
+///   (1) Places are points with three coordinates, rounded to the millimetre. z is NaN where the height is not known.
+///   (2) Fields are text, 64-bit integers or doubles, and null where a feature has no value.
+///   (3) The same features give the same bytes. What a file calls its date is 1 January 1970, or OGR_CURRENT_DATE where the
+///       environment has it.
+[[nodiscard]] std::unique_ptr<FeatureWriter> geopackage_writer(const TableFrame& frame, const std::filesystem::path& path);
+[[nodiscard]] std::unique_ptr<FeatureWriter> flatgeobuf_writer(const TableFrame& frame, const std::filesystem::path& path);
+
+/// Writes one layer as GeoJSON (RFC 7946):
+///   (1) Coordinates are longitude and latitude in WGS 84 with eight digits after the point, which is a millimetre. The third is
+///       the height as the package has it; there is none where it is not known. Without a CRS, coordinates stay as they are.
+///   (2) Properties are all fields of the layer; null where a feature has no value.
+///   (3) The frame's provenance is a member of the collection, which readers that do not know it skip.
+[[nodiscard]] std::unique_ptr<FeatureWriter> geojson_writer(const TableFrame& frame, const std::filesystem::path& path);
+
+/// Writes a layer of points to a netCDF-4 file after the CF conventions, version 1.8, as a discrete sampling geometry of the
+/// feature type `point`: a variable for each field along the dimension `point`, with the coordinates `x_m`, `y_m` and `z_m`, and
+/// `crs` as the grid mapping. Texts are rows of characters in UTF-8. Holds some thousand rows, however many there are.
+[[nodiscard]] std::unique_ptr<FeatureWriter> netcdf_point_writer(const TableFrame& frame, const std::filesystem::path& path);
 
 }  // namespace farlod

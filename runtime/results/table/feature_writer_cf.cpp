@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/table/feature_writer_cf.hpp"
-
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -11,6 +9,7 @@
 #include "base/expects.hpp"
 #include "results/netcdf_file.hpp"
 #include "results/raster/raster_writer.hpp"
+#include "results/table/feature_writer.hpp"
 
 namespace farlod {
 namespace {
@@ -89,83 +88,81 @@ struct Column {
   }
 };
 
-}  // namespace
+class CfPointWriter final : public FeatureWriter {
+ public:
+  CfPointWriter(const TableFrame& frame, const std::filesystem::path& path) : frame_(frame), file_(path) {}
 
-struct CfPointWriter::Impl {
-  TableFrame frame;
-  NetcdfFile file;
-  std::vector<Column> columns;
-  std::size_t written = 0, waiting = 0;
+  void begin(const FeatureLayer& layer) override {
+    FARLOD_EXPECTS(columns_.empty() && layer.has_places);
+    file_.describe(layer.description, frame_.provenance);
+    file_.attribute(NetcdfFile::whole_file, "featureType", "point");
+    const int point = file_.dimension("point", NetcdfFile::unlimited);
+    if (!frame_.crs_wkt.empty()) (void)file_.crs(frame_.crs_wkt, frame_.epsg);
+    const std::vector<Band> bands = bands_of(frame_.columns);
+    for (const FeatureField& field : layer.fields) {
+      columns_.push_back(column_of(field, point));
+      describe(columns_.back().variable, field, bands);
+    }
+    file_.end_definitions();
+  }
+  void add(const FeatureRow& row) override {
+    FARLOD_EXPECTS(row.values.size() == columns_.size());
+    for (std::size_t n = 0; n < row.values.size(); ++n) columns_[n].add(row.values[n]);
+    if (++waiting_ == rows_at_once) put_rows();
+  }
+  void commit() override {
+    put_rows();
+    file_.commit();
+  }
 
-  Impl(const TableFrame& table, const std::filesystem::path& path) : frame(table), file(path) {}
-
+ private:
   Column column_of(const FeatureField& field, int point) {
     const std::string name = name_of_variable(field.name);
     if (field.type != FieldType::text) {
       const NetcdfType type = field.type == FieldType::whole ? NetcdfType::whole : NetcdfType::real;
-      const int variable = file.variable(name, type, std::array{point});
-      file.compress(variable, std::array{rows_at_once});
-      if (name != "x_m" && name != "y_m") file.declare_missing(variable);
+      const int variable = file_.variable(name, type, std::array{point});
+      file_.compress(variable, std::array{rows_at_once});
+      if (name != "x_m" && name != "y_m") file_.declare_missing(variable);
       return {variable, field.type};
     }
     // As many characters as the longest text turns out to have
-    const int characters = file.dimension(name + "_length", NetcdfFile::unlimited);
-    const int variable = file.variable(name, NetcdfType::text, std::array{point, characters});
-    file.compress(variable, std::array{rows_at_once, characters_of_chunk});
-    file.attribute(variable, "_Encoding", "utf-8");
+    const int characters = file_.dimension(name + "_length", NetcdfFile::unlimited);
+    const int variable = file_.variable(name, NetcdfType::text, std::array{point, characters});
+    file_.compress(variable, std::array{rows_at_once, characters_of_chunk});
+    file_.attribute(variable, "_Encoding", "utf-8");
     return {variable, field.type};
   }
   void describe(int variable, const FeatureField& field, const std::vector<Band>& bands) {
     if (const auto m = std::ranges::find(meanings_of_places(), field.name, &Meaning::name); m != meanings_of_places().end()) {
-      file.attribute(variable, "units", m->unit);
-      file.attribute(variable, "long_name", m->text);
-      if (!m->standard_name.empty()) file.attribute(variable, "standard_name", m->standard_name);
-      if (field.name == "z_m") file.attribute(variable, "positive", "up");
+      file_.attribute(variable, "units", m->unit);
+      file_.attribute(variable, "long_name", m->text);
+      if (!m->standard_name.empty()) file_.attribute(variable, "standard_name", m->standard_name);
+      if (field.name == "z_m") file_.attribute(variable, "positive", "up");
     } else if (const auto band = std::ranges::find(bands, field.name, &Band::name); band != bands.end()) {
-      file.attribute(variable, "units", band->unit);
-      file.attribute(variable, "long_name", band->definition);
+      file_.attribute(variable, "units", band->unit);
+      file_.attribute(variable, "long_name", band->definition);
     }
     if (is_coordinate(field.name)) return;
-    file.attribute(variable, "coordinates", "x_m y_m z_m");
-    if (!frame.crs_wkt.empty()) file.attribute(variable, "grid_mapping", "crs");
+    file_.attribute(variable, "coordinates", "x_m y_m z_m");
+    if (!frame_.crs_wkt.empty()) file_.attribute(variable, "grid_mapping", "crs");
   }
   void put_rows() {
-    for (Column& column : columns)
-      if (waiting > 0) column.put(file, written, waiting);
-    written += waiting;
-    waiting = 0;
+    for (Column& column : columns_)
+      if (waiting_ > 0) column.put(file_, written_, waiting_);
+    written_ += waiting_;
+    waiting_ = 0;
   }
+
+  TableFrame frame_;
+  NetcdfFile file_;
+  std::vector<Column> columns_;
+  std::size_t written_ = 0, waiting_ = 0;
 };
 
-CfPointWriter::CfPointWriter(const TableFrame& frame, const std::filesystem::path& path)
-    : impl_(std::make_unique<Impl>(frame, path)) {}
+}  // namespace
 
-CfPointWriter::~CfPointWriter() = default;
-
-void CfPointWriter::begin(const FeatureLayer& layer) {
-  FARLOD_EXPECTS(impl_->columns.empty() && layer.has_places);
-  NetcdfFile& file = impl_->file;
-  file.describe(layer.description, impl_->frame.provenance);
-  file.attribute(NetcdfFile::whole_file, "featureType", "point");
-  const int point = file.dimension("point", NetcdfFile::unlimited);
-  if (!impl_->frame.crs_wkt.empty()) (void)file.crs(impl_->frame.crs_wkt, impl_->frame.epsg);
-  const std::vector<Band> bands = bands_of(impl_->frame.columns);
-  for (const FeatureField& field : layer.fields) {
-    impl_->columns.push_back(impl_->column_of(field, point));
-    impl_->describe(impl_->columns.back().variable, field, bands);
-  }
-  file.end_definitions();
-}
-
-void CfPointWriter::add(const FeatureRow& row) {
-  FARLOD_EXPECTS(row.values.size() == impl_->columns.size());
-  for (std::size_t n = 0; n < row.values.size(); ++n) impl_->columns[n].add(row.values[n]);
-  if (++impl_->waiting == rows_at_once) impl_->put_rows();
-}
-
-void CfPointWriter::commit() {
-  impl_->put_rows();
-  impl_->file.commit();
+std::unique_ptr<FeatureWriter> netcdf_point_writer(const TableFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<CfPointWriter>(frame, path);
 }
 
 }  // namespace farlod

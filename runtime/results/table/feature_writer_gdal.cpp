@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/table/feature_writer_gdal.hpp"
-
 #include <cpl_conv.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
@@ -18,11 +16,15 @@
 #include "gdal/vector_file_gdal.hpp"
 #include "results/atomic_file.hpp"
 #include "results/crs_gdal.hpp"
+#include "results/table/feature_writer.hpp"
 
 namespace farlod {
 namespace {
 
-using Format = GdalFeatureWriter::Format;
+enum class Format {
+  geopackage,  ///< any number of layers without spatial index, and the frame's provenance as metadata
+  flatgeobuf   ///< one layer with a spatial index, whose order its features have
+};
 
 const char* name_of(Format format) { return format == Format::geopackage ? "GPKG" : "FlatGeobuf"; }
 
@@ -74,91 +76,94 @@ void set_value(OGRFeature& feature, int field, const FieldValue& value) {
     feature.SetFieldNull(field);
 }
 
-}  // namespace
-
-struct GdalFeatureWriter::Impl {
-  Format format;
-  TableFrame frame;
-  AtomicFile file;
-  // GeoPackages have dates of their last change
-  CPLConfigOptionSetter date{"OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z", true};
-  // Nobody reads the file before it is complete: no step needs to reach the disk before the next
-  CPLConfigOptionSetter synchronous{"OGR_SQLITE_SYNCHRONOUS", "OFF", true};
-  GDALDatasetUniquePtr dataset;
-  OGRLayer* layer = nullptr;
-  Feature feature;  // one for all rows: making a new one takes a third of the time of writing it
-  OGRPoint* point = nullptr;
-
-  Impl(Format f, const TableFrame& t, const std::filesystem::path& path)
-      : format(f), frame(t), file(path, f == Format::geopackage ? ".gpkg" : ".fgb") {}
-
-  void throw_if_any(const GdalErrors& errors) const {
-    if (errors.any()) throw OutputError(file.destination(), errors.last());
+class GdalFeatureWriter final : public FeatureWriter {
+ public:
+  GdalFeatureWriter(Format format, const TableFrame& frame, const std::filesystem::path& path)
+      : format_(format), frame_(frame), file_(path, format == Format::geopackage ? ".gpkg" : ".fgb") {
+    const GdalErrors errors;
+    dataset_ = create_file(format, file_, errors);
+    if (format == Format::geopackage) {
+      for (const auto& [name, value] : entries_of(frame.provenance)) dataset_->SetMetadataItem(name.c_str(), value.c_str());
+      dataset_->StartTransaction();  // one for all rows
+    }
+    throw_if_any(errors);
   }
+  ~GdalFeatureWriter() override {
+    const GdalErrors nobody_hears;  // of a file that is given up
+    feature_.reset();
+    dataset_.reset();
+  }
+  void begin(const FeatureLayer& layer) override {
+    const GdalErrors errors;
+    feature_.reset();
+    OGRSpatialReference crs;
+    const bool has_crs = layer.has_places && !frame_.crs_wkt.empty();
+    if (has_crs && !read_crs(crs, frame_.crs_wkt, frame_.epsg)) throw_if_any(errors);
+    layer_ = dataset_->CreateLayer(layer.name.c_str(), has_crs ? &crs : nullptr, layer.has_places ? wkbPoint25D : wkbNone,
+                                   options_of(format_, layer).List());
+    throw_if_any(errors);
+    for (const FeatureField& field : layer.fields) {
+      OGRFieldDefn definition(field.name.c_str(), gdal_type_of(field.type));
+      layer_->CreateField(&definition);
+    }
+    throw_if_any(errors);
+    feature_.reset(OGRFeature::CreateFeature(layer_->GetLayerDefn()));
+    point_ = nullptr;
+    if (!layer.has_places) return;
+    feature_->SetGeometryDirectly(new OGRPoint(0.0, 0.0, 0.0));
+    point_ = feature_->GetGeometryRef()->toPoint();
+  }
+  void add(const FeatureRow& row) override {
+    const GdalErrors errors;
+    OGRFeature& feature = *feature_;
+    FARLOD_EXPECTS(static_cast<int>(row.values.size()) == feature.GetFieldCount());
+    feature.SetFID(OGRNullFID);
+    for (std::size_t n = 0; n < row.values.size(); ++n) set_value(feature, static_cast<int>(n), row.values[n]);
+    if (point_ != nullptr) {
+      point_->setX(millimetres(row.p_projected.x));
+      point_->setY(millimetres(row.p_projected.y));
+      point_->setZ(row.height_m ? millimetres(*row.height_m) : std::numeric_limits<double>::quiet_NaN());
+    }
+    if (layer_->CreateFeature(&feature) != OGRERR_NONE && !errors.any())
+      throw OutputError(file_.destination(), "a row was refused");
+    throw_if_any(errors);
+  }
+  void commit() override {
+    const GdalErrors errors;
+    if (format_ == Format::geopackage) dataset_->CommitTransaction();
+    feature_.reset();
+    // A full disk may show only now
+    dataset_.reset();
+    throw_if_any(errors);
+    file_.commit();
+  }
+
+ private:
+  void throw_if_any(const GdalErrors& errors) const {
+    if (errors.any()) throw OutputError(file_.destination(), errors.last());
+  }
+
+  Format format_;
+  TableFrame frame_;
+  AtomicFile file_;
+  // GeoPackages have dates of their last change
+  CPLConfigOptionSetter date_{"OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z", true};
+  // Nobody reads the file before it is complete: no step needs to reach the disk before the next
+  CPLConfigOptionSetter synchronous_{"OGR_SQLITE_SYNCHRONOUS", "OFF", true};
+  GDALDatasetUniquePtr dataset_;
+  OGRLayer* layer_ = nullptr;
+  Feature feature_;  // one for all rows: making a new one takes a third of the time of writing it
+  OGRPoint* point_ = nullptr;
 };
 
-GdalFeatureWriter::GdalFeatureWriter(Format format, const TableFrame& frame, const std::filesystem::path& path)
-    : impl_(std::make_unique<Impl>(format, frame, path)) {
-  const GdalErrors errors;
-  impl_->dataset = create_file(format, impl_->file, errors);
-  if (format == Format::geopackage) {
-    for (const auto& [name, value] : entries_of(frame.provenance)) impl_->dataset->SetMetadataItem(name.c_str(), value.c_str());
-    impl_->dataset->StartTransaction();  // one for all rows
-  }
-  impl_->throw_if_any(errors);
+}  // namespace
+
+std::unique_ptr<FeatureWriter> geopackage_writer(const TableFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<GdalFeatureWriter>(Format::geopackage, frame, path);
 }
 
-GdalFeatureWriter::~GdalFeatureWriter() {
-  const GdalErrors nobody_hears;  // of a file that is given up
-  impl_->feature.reset();
-  impl_->dataset.reset();
-}
-
-void GdalFeatureWriter::begin(const FeatureLayer& layer) {
-  const GdalErrors errors;
-  impl_->feature.reset();
-  OGRSpatialReference crs;
-  const bool has_crs = layer.has_places && !impl_->frame.crs_wkt.empty();
-  if (has_crs && !read_crs(crs, impl_->frame.crs_wkt, impl_->frame.epsg)) impl_->throw_if_any(errors);
-  impl_->layer = impl_->dataset->CreateLayer(layer.name.c_str(), has_crs ? &crs : nullptr,
-                                             layer.has_places ? wkbPoint25D : wkbNone, options_of(impl_->format, layer).List());
-  impl_->throw_if_any(errors);
-  for (const FeatureField& field : layer.fields) {
-    OGRFieldDefn definition(field.name.c_str(), gdal_type_of(field.type));
-    impl_->layer->CreateField(&definition);
-  }
-  impl_->throw_if_any(errors);
-  impl_->feature.reset(OGRFeature::CreateFeature(impl_->layer->GetLayerDefn()));
-  impl_->point = nullptr;
-  if (!layer.has_places) return;
-  impl_->feature->SetGeometryDirectly(new OGRPoint(0.0, 0.0, 0.0));
-  impl_->point = impl_->feature->GetGeometryRef()->toPoint();
-}
-
-void GdalFeatureWriter::add(const FeatureRow& row) {
-  const GdalErrors errors;
-  OGRFeature& feature = *impl_->feature;
-  FARLOD_EXPECTS(static_cast<int>(row.values.size()) == feature.GetFieldCount());
-  feature.SetFID(OGRNullFID);
-  for (std::size_t n = 0; n < row.values.size(); ++n) set_value(feature, static_cast<int>(n), row.values[n]);
-  if (impl_->point != nullptr) {
-    impl_->point->setX(millimetres(row.p_projected.x));
-    impl_->point->setY(millimetres(row.p_projected.y));
-    impl_->point->setZ(row.height_m ? millimetres(*row.height_m) : std::numeric_limits<double>::quiet_NaN());
-  }
-  if (impl_->layer->CreateFeature(&feature) != OGRERR_NONE && !errors.any())
-    throw OutputError(impl_->file.destination(), "a row was refused");
-  impl_->throw_if_any(errors);
-}
-
-void GdalFeatureWriter::commit() {
-  const GdalErrors errors;
-  if (impl_->format == Format::geopackage) impl_->dataset->CommitTransaction();
-  impl_->feature.reset();
-  // A full disk may show only now
-  impl_->dataset.reset();
-  impl_->throw_if_any(errors);
-  impl_->file.commit();
+std::unique_ptr<FeatureWriter> flatgeobuf_writer(const TableFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<GdalFeatureWriter>(Format::flatgeobuf, frame, path);
 }
 
 }  // namespace farlod

@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/table/feature_writer_geojson.hpp"
-
 #include <cerrno>
+#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "base/expects.hpp"
 #include "farlod/error.hpp"
+#include "inputs/reproject_gdal.hpp"
+#include "results/atomic_file.hpp"
+#include "results/table/feature_writer.hpp"
 #include "results/value_text.hpp"
 
 namespace farlod {
@@ -46,7 +48,27 @@ std::string head_of(const FeatureLayer& layer, const Provenance& provenance) {
   throw OutputError(file.destination(), errno != 0 ? std::generic_category().message(errno) : "the disk refused the data");
 }
 
-}  // namespace
+class GeojsonWriter final : public FeatureWriter {
+ public:
+  GeojsonWriter(const TableFrame& frame, const std::filesystem::path& path);
+  void begin(const FeatureLayer& layer) override;
+  void add(const FeatureRow& row) override;
+  void commit() override;
+
+ private:
+  void write_waiting();
+
+  Provenance provenance_;
+  AtomicFile file_;
+  std::ofstream stream_;
+  std::optional<Reprojection> to_wgs84_;
+  std::vector<std::string> keys_;  ///< of the fields, as they are written
+  // Features that wait: many places are transformed at a time
+  std::vector<Point2d> places_;
+  std::vector<std::optional<double>> heights_;
+  std::vector<std::string> properties_;
+  std::size_t written_ = 0;
+};
 
 GeojsonWriter::GeojsonWriter(const TableFrame& frame, const std::filesystem::path& path)
     : provenance_(frame.provenance), file_(path) {
@@ -111,6 +133,12 @@ void GeojsonWriter::commit() {
   stream_.close();
   if (!stream_) refuse(file_);
   file_.commit();
+}
+
+}  // namespace
+
+std::unique_ptr<FeatureWriter> geojson_writer(const TableFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<GeojsonWriter>(frame, path);
 }
 
 }  // namespace farlod

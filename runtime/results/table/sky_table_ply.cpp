@@ -3,7 +3,6 @@
 #include "results/table/sky_table_ply.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -12,16 +11,10 @@
 
 #include "results/atomic_file.hpp"
 #include "results/picture/picture.hpp"
+#include "results/value_text.hpp"
 
 namespace farlod {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "vertices are written as they lie in memory");
-
-template <class Number>
-void append(std::string& bytes, Number number) {
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
-}
 
 /// A comment ends with its line.
 std::string in_one_line(std::string text) {
@@ -53,18 +46,18 @@ class Vertices {
 
   template <class Row>
   void add(const Point3d& p, Angle azimuth, Angle tilt, const Row& row) {
-    for (const double number : {p.x, p.y, p.z}) append(bytes_, number);
+    for (const double number : {p.x, p.y, p.z}) append_bytes(bytes_, number);
     const double level = std::sin(tilt.radians()), bearing = azimuth.radians() - frame_.convergence.radians();
     for (const double number : {level * std::sin(bearing), level * std::cos(bearing), std::cos(tilt.radians())})
-      append(bytes_, static_cast<float>(number));
+      append_bytes(bytes_, static_cast<float>(number));
     add_answer(row.svf);
     if (frame_.columns.bounds == BoundsColumns::yes) {
       add_answer(row.low);
       add_answer(row.high);
     }
-    for (std::size_t k = 0; k < frame_.columns.further.size(); ++k) append(bytes_, further_value(row.further, k));
+    for (std::size_t k = 0; k < frame_.columns.further.size(); ++k) append_bytes(bytes_, further_value(row.further, k));
     const Colour colour = row.svf ? colour_of_svf(*row.svf) : nodata_colour;
-    for (const std::uint8_t part : {colour.red, colour.green, colour.blue}) append(bytes_, part);
+    for (const std::uint8_t part : {colour.red, colour.green, colour.blue}) append_bytes(bytes_, part);
     if (bytes_.size() >= bytes_in_memory) flush();
   }
   void flush() {
@@ -74,7 +67,7 @@ class Vertices {
 
  private:
   void add_answer(const std::optional<double>& value) {
-    append(bytes_, value ? static_cast<float>(*value) : std::numeric_limits<float>::quiet_NaN());
+    append_bytes(bytes_, value ? static_cast<float>(*value) : std::numeric_limits<float>::quiet_NaN());
   }
 
   std::ostream& out_;

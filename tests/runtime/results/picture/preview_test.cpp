@@ -97,7 +97,7 @@ TEST(PreviewLayout, HoldsAllItsParts) {
 
 TEST(Preview, DecodesToTheStatedSizeAndColours) {
   const scenes::TemporaryFolder folder;
-  write_whole<PreviewWriter>(small_raster(), folder.file("a.png"));
+  write_whole<made<PreviewWriter>>(small_raster(), folder.file("a.png"));
   EXPECT_THAT(folder.names(), testing::ElementsAre("a.png"));
   const Picture picture = decoded_png(folder.file("a.png"));
   const PreviewLayout layout = preview_layout({1000, 600});

@@ -11,7 +11,7 @@
 #include "inputs/requested_points.hpp"
 #include "results/output_format.hpp"
 #include "results/picture/raster_preview.hpp"
-#include "results/raster/raster_writer_gdal.hpp"
+#include "results/raster/raster_writers.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
 #include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"
@@ -86,8 +86,7 @@ void write_backwards(RasterWriter& writer, const WholeRaster& raster) {
 TEST(GeotiffTiles, HoldTheSameValuesInWhateverOrderTheyCome) {
   const scenes::TemporaryFolder folder;
   const WholeRaster raster = raster_of_six_tiles();
-  GeotiffWriter writer(raster, folder.file("a.tif"));
-  write_backwards(writer, raster);
+  write_backwards(*geotiff_writer(raster, folder.file("a.tif")), raster);
   EXPECT_THAT(folder.names(), ElementsAre("a.tif"));
   EXPECT_THAT(band_of(folder.file("a.tif"), 1), Pointwise(NanSensitiveFloatEq(), raster.svf));
   EXPECT_THAT(band_of(folder.file("a.tif"), 2), Pointwise(NanSensitiveFloatEq(), raster.low));
@@ -111,9 +110,9 @@ struct WithoutOneTile {
 TEST(GeotiffTiles, WhatDoesNotComeHasNoData) {
   const scenes::TemporaryFolder folder;
   const WithoutOneTile without;
-  GeotiffWriter writer(without.raster, folder.file("a.tif"));
-  for (const RasterTile& tile : without.tiles) writer.write(tile);
-  writer.commit();
+  const auto writer = geotiff_writer(without.raster, folder.file("a.tif"));
+  for (const RasterTile& tile : without.tiles) writer->write(tile);
+  writer->commit();
   for (const int band : {1, 2, 3})
     EXPECT_THAT(band_of(folder.file("a.tif"), band), Pointwise(NanSensitiveFloatEq(), band == 1   ? without.raster.svf
                                                                                       : band == 2 ? without.raster.low
@@ -125,7 +124,7 @@ TEST(PngTiles, MakeTheSamePictureInWhateverOrderTheyCome) {
   const WholeRaster raster = raster_of_six_tiles();
   PreviewWriter writer(raster, folder.file("a.png"));
   write_backwards(writer, raster);
-  write_whole<PreviewWriter>(raster, folder.file("b.png"));
+  write_whole<made<PreviewWriter>>(raster, folder.file("b.png"));
   EXPECT_EQ(scenes::text_of(folder.file("a.png")), scenes::text_of(folder.file("b.png")));
 }
 
@@ -213,7 +212,7 @@ class RasterGridReader : public testing::Test {
 };
 
 TEST_F(RasterGridReader, GivesThePixelsBackThatWereWritten) {
-  write_whole<GeotiffWriter>(small_raster(), folder_.file("a.tif"));
+  write_whole<geotiff_writer>(small_raster(), folder_.file("a.tif"));
   const RasterGrid grid = read_raster_grid_gdal(folder_.file("a.tif"), "EPSG:25832");
   EXPECT_TRUE(grid.says_crs);
   EXPECT_EQ(grid.plan.north_west_m, small_raster().north_west_m);

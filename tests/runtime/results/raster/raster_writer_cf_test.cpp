@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "results/raster/raster_writer_cf.hpp"
+#include "results/raster/raster_writers.hpp"
 
 #include <gdal_priv.h>
 #include <gmock/gmock.h>
@@ -49,7 +49,7 @@ std::string output_of(const std::string& command) {
 
 TEST(Netcdf, HasTheAttributesOfTheConventions) {
   const scenes::TemporaryFolder folder;
-  write_whole<CfRasterWriter>(described_raster(), folder.file("a.nc"));
+  write_whole<netcdf_writer>(described_raster(), folder.file("a.nc"));
   EXPECT_THAT(folder.names(), ElementsAre("a.nc"));
   if (output_of("command -v ncdump").empty()) GTEST_SKIP() << "ncdump is missing; it is in the package netcdf-bin";
   const std::string header = output_of("ncdump -h '" + folder.file("a.nc").string() + "'");
@@ -89,7 +89,7 @@ TEST(Netcdf, LiesWhereTheRasterLies) {
   GDALAllRegister();
   const scenes::TemporaryFolder folder;
   const WholeRaster raster = described_raster();
-  write_whole<CfRasterWriter>(raster, folder.file("a.nc"));
+  write_whole<netcdf_writer>(raster, folder.file("a.nc"));
   const GDALDatasetUniquePtr dataset(GDALDataset::Open(folder.file("a.nc").c_str(), GDAL_OF_RASTER));
   ASSERT_NE(dataset, nullptr);
   std::array<double, 6> geotransform{};
@@ -109,7 +109,7 @@ TEST(Netcdf, LiesWhereTheRasterLies) {
 
 TEST(Netcdf, AFolderThatDoesNotExistIsTold) {
   const scenes::TemporaryFolder folder;
-  EXPECT_THROW(write_whole<CfRasterWriter>(small_raster(), folder.file("missing") / "a.nc"), OutputError);
+  EXPECT_THROW(write_whole<netcdf_writer>(small_raster(), folder.file("missing") / "a.nc"), OutputError);
 }
 
 CfGridMapping mapping_of(int epsg) {

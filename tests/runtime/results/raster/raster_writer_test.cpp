@@ -14,8 +14,7 @@
 #include "farlod/error.hpp"
 #include "results/crs_gdal.hpp"
 #include "results/raster/raster_writer_esri_ascii.hpp"
-#include "results/raster/raster_writer_gdal.hpp"
-#include "results/raster/raster_writer_zip_gdal.hpp"
+#include "results/raster/raster_writers.hpp"
 #include "tests/runtime/results/raster/small_raster.hpp"
 #include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"
@@ -58,7 +57,7 @@ void expect_place_of(const WholeRaster& raster, GDALDataset& dataset) {
 
 TEST(GeoTiff, LiesWhereTheRasterLies) {
   const scenes::TemporaryFolder folder;
-  write_whole<GeotiffWriter>(small_raster(), folder.file("a.tif"));
+  write_whole<geotiff_writer>(small_raster(), folder.file("a.tif"));
   EXPECT_THAT(folder.names(), ElementsAre("a.tif"));
   const auto dataset = open_raster(folder.file("a.tif"));
   ASSERT_NE(dataset, nullptr);
@@ -67,7 +66,7 @@ TEST(GeoTiff, LiesWhereTheRasterLies) {
 
 TEST(GeoTiff, HoldsTheValuesAndDeclaresNoData) {
   const scenes::TemporaryFolder folder;
-  write_whole<GeotiffWriter>(small_raster(), folder.file("a.tif"));
+  write_whole<geotiff_writer>(small_raster(), folder.file("a.tif"));
   const auto dataset = open_raster(folder.file("a.tif"));
   ASSERT_NE(dataset, nullptr);
   EXPECT_THAT(pixels_of(*dataset), testing::Pointwise(testing::NanSensitiveFloatEq(), small_raster().svf));
@@ -81,8 +80,8 @@ TEST(GeoTiff, HoldsTheValuesAndDeclaresNoData) {
 
 TEST(GeoTiff, HasTheSameBytesEachTime) {
   const scenes::TemporaryFolder folder;
-  write_whole<GeotiffWriter>(small_raster(), folder.file("a.tif"));
-  write_whole<GeotiffWriter>(small_raster(), folder.file("b.tif"));
+  write_whole<geotiff_writer>(small_raster(), folder.file("a.tif"));
+  write_whole<geotiff_writer>(small_raster(), folder.file("b.tif"));
   EXPECT_EQ(scenes::text_of(folder.file("a.tif")), scenes::text_of(folder.file("b.tif")));
 }
 
@@ -102,12 +101,12 @@ WholeRaster uneven_raster(std::size_t threads) {
 
 TEST(GeoTiff, HasTheSameBytesWithAnyNumberOfThreads) {
   const scenes::TemporaryFolder folder;
-  write_whole<GeotiffWriter>(uneven_raster(1), folder.file("a.tif"));
+  write_whole<geotiff_writer>(uneven_raster(1), folder.file("a.tif"));
   const auto dataset = open_raster(folder.file("a.tif"));
   ASSERT_NE(dataset, nullptr);
   EXPECT_EQ(pixels_of(*dataset), uneven_raster(1).svf);
   for (const std::size_t threads : {2U, 5U, 40U}) {
-    write_whole<GeotiffWriter>(uneven_raster(threads), folder.file("b.tif"));
+    write_whole<geotiff_writer>(uneven_raster(threads), folder.file("b.tif"));
     EXPECT_TRUE(scenes::text_of(folder.file("a.tif")) == scenes::text_of(folder.file("b.tif"))) << threads;
   }
 }
@@ -132,7 +131,7 @@ Ended ended(const std::string& command) {
 
 TEST(GeoTiff, IsCloudOptimised) {
   const scenes::TemporaryFolder folder;
-  write_whole<GeotiffWriter>(uneven_raster(2), folder.file("a.tif"));
+  write_whole<geotiff_writer>(uneven_raster(2), folder.file("a.tif"));
   const auto dataset = open_raster(folder.file("a.tif"));
   ASSERT_NE(dataset, nullptr);
   EXPECT_STREQ(dataset->GetMetadataItem("LAYOUT", "IMAGE_STRUCTURE"), "COG");
@@ -156,7 +155,7 @@ TEST(GeoTiff, OverviewsAreAveragesOfWhatHasData) {
   raster.svf[2] = 0.75F;
   for (const std::size_t row : {0U, 1U})
     for (const std::size_t column : {4U, 5U}) raster.svf[row * raster.columns + column] = std::nanf("");
-  write_whole<GeotiffWriter>(raster, folder.file("a.tif"));
+  write_whole<geotiff_writer>(raster, folder.file("a.tif"));
   const auto dataset = open_raster(folder.file("a.tif"));
   std::array<float, 4> first{};
   ASSERT_EQ(
@@ -174,7 +173,7 @@ TEST(GeoTiff, SaysWhatItsBandsAreAndWhatMadeIt) {
   raster.bands = svf_bands("svf", RasterBands::svf_and_bounds);
   raster.low = raster.high = raster.svf;
   raster.provenance = {"Far-LoD 1", "town.farlod", "0123", "--grid 2"};
-  write_whole<GeotiffWriter>(raster, folder.file("a.tif"));
+  write_whole<geotiff_writer>(raster, folder.file("a.tif"));
   const auto dataset = open_raster(folder.file("a.tif"));
   ASSERT_NE(dataset, nullptr);
   ASSERT_EQ(dataset->GetRasterCount(), 3);
@@ -219,7 +218,7 @@ TEST(GeoTiff, AFullDiskIsToldWithAnyNumberOfThreads) {
     const WholeRaster raster = uneven_raster(threads);
     {
       const FileSizeLimit limit(300'000);
-      EXPECT_THROW(write_whole<GeotiffWriter>(raster, folder.file("a.tif")), OutputError) << threads;
+      EXPECT_THROW(write_whole<geotiff_writer>(raster, folder.file("a.tif")), OutputError) << threads;
     }
     EXPECT_THAT(folder.names(), IsEmpty()) << threads;
   }
@@ -230,7 +229,7 @@ TEST(GeoTiff, KeepsACrsWithoutACode) {
   WholeRaster raster = small_raster();
   raster.crs_wkt =
       R"(PROJCS["town",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",48.25],PARAMETER["central_meridian",11.5],PARAMETER["scale_factor",1],PARAMETER["false_easting",0],PARAMETER["false_northing",0],UNIT["metre",1]])";
-  write_whole<GeotiffWriter>(raster, folder.file("a.tif"));
+  write_whole<geotiff_writer>(raster, folder.file("a.tif"));
   EXPECT_THAT(folder.names(), ElementsAre("a.tif"));
   expect_place_of(raster, *open_raster(folder.file("a.tif")));
 }
@@ -239,20 +238,20 @@ TEST(GeoTiff, LeavesNothingBehindOnFailure) {
   const scenes::TemporaryFolder folder;
   WholeRaster raster = small_raster();
   raster.crs_wkt = "PROJCS[";
-  EXPECT_THROW(write_whole<GeotiffWriter>(raster, folder.file("a.tif")), OutputError);
+  EXPECT_THROW(write_whole<geotiff_writer>(raster, folder.file("a.tif")), OutputError);
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
 TEST(GeoTiff, NamesTheFileThatCannotBeWritten) {
   const scenes::TemporaryFolder folder;
   EXPECT_THAT(
-      scenes::refusal_of<OutputError>([&] { write_whole<GeotiffWriter>(small_raster(), folder.file("missing") / "a.tif"); }),
+      scenes::refusal_of<OutputError>([&] { write_whole<geotiff_writer>(small_raster(), folder.file("missing") / "a.tif"); }),
       HasSubstr("missing/a.tif: "));
 }
 
 TEST(EsriAscii, IsReadByGdalAsTheSameRaster) {
   const scenes::TemporaryFolder folder;
-  write_whole<EsriAsciiWriter>(small_raster(), folder.file("a.asc"));
+  write_whole<made<EsriAsciiWriter>>(small_raster(), folder.file("a.asc"));
   EXPECT_THAT(folder.names(), UnorderedElementsAre("a.asc", "a.prj"));
   const auto dataset = open_raster(folder.file("a.asc"));
   ASSERT_NE(dataset, nullptr);
@@ -277,7 +276,7 @@ TEST(EsriAscii, TheCrsOfAPackageIsReadByGdal) {
   CPLFree(wkt2);
   ASSERT_THAT(raster.crs_wkt, testing::StartsWith("PROJCRS["));
   raster.crs_wkt = esri_wkt_of(raster.crs_wkt);
-  write_whole<EsriAsciiWriter>(raster, folder.file("a.asc"));
+  write_whole<made<EsriAsciiWriter>>(raster, folder.file("a.asc"));
   const auto dataset = open_raster(folder.file("a.asc"));
   ASSERT_NE(dataset->GetSpatialRef(), nullptr);
   EXPECT_TRUE(dataset->GetSpatialRef()->IsSame(&crs));
@@ -289,7 +288,7 @@ TEST(EsriAscii, OpenFieldIsNotTakenForIntegers) {
   const scenes::TemporaryFolder folder;
   WholeRaster raster = small_raster();
   raster.svf.assign(raster.svf.size(), 1.0F);
-  write_whole<EsriAsciiWriter>(raster, folder.file("a.asc"));
+  write_whole<made<EsriAsciiWriter>>(raster, folder.file("a.asc"));
   EXPECT_EQ(open_raster(folder.file("a.asc"))->GetRasterBand(1)->GetRasterDataType(), GDT_Float32);
 }
 
@@ -297,7 +296,7 @@ TEST(EsriAscii, WithoutCrsHasNoPrj) {
   const scenes::TemporaryFolder folder;
   WholeRaster raster = small_raster();
   raster.crs_wkt.clear();
-  write_whole<EsriAsciiWriter>(raster, folder.file("a.asc"));
+  write_whole<made<EsriAsciiWriter>>(raster, folder.file("a.asc"));
   EXPECT_THAT(folder.names(), ElementsAre("a.asc"));
 }
 
@@ -310,28 +309,28 @@ WholeRaster raster_with_bounds() {
 
 TEST(ZippedGeotiffs, AreTheFilesThatTheirBandsWouldBe) {
   const scenes::TemporaryFolder folder;
-  write_whole<ZippedGeotiffWriter>(raster_with_bounds(), folder.file("a.zip"));
+  write_whole<zipped_geotiff_writer>(raster_with_bounds(), folder.file("a.zip"));
   EXPECT_THAT(folder.names(), ElementsAre("a.zip"));
   const std::string zip = scenes::text_of(folder.file("a.zip"));
   WholeRaster low = small_raster();
   low.bands = {raster_with_bounds().bands[1]};
-  write_whole<GeotiffWriter>(low, folder.file("svf_low.tif"));
+  write_whole<geotiff_writer>(low, folder.file("svf_low.tif"));
   // Stored as it is, so that its bytes stand in the ZIP file
   EXPECT_THAT(zip, HasSubstr(scenes::text_of(folder.file("svf_low.tif"))));
 }
 
 TEST(ZippedGeotiffs, HaveTheSameBytesEachTime) {
   const scenes::TemporaryFolder folder;
-  write_whole<ZippedGeotiffWriter>(raster_with_bounds(), folder.file("a.zip"));
-  write_whole<ZippedGeotiffWriter>(raster_with_bounds(), folder.file("b.zip"));
+  write_whole<zipped_geotiff_writer>(raster_with_bounds(), folder.file("a.zip"));
+  write_whole<zipped_geotiff_writer>(raster_with_bounds(), folder.file("b.zip"));
   EXPECT_EQ(scenes::text_of(folder.file("a.zip")), scenes::text_of(folder.file("b.zip")));
 }
 
 TEST(ZippedGeotiffs, LeaveNothingOfAFileThatIsGivenUp) {
   const scenes::TemporaryFolder folder;
   {
-    ZippedGeotiffWriter writer(raster_with_bounds(), folder.file("a.zip"));
-    writer.write(tile_of(raster_with_bounds(), {0, 0}));
+    const auto writer = zipped_geotiff_writer(raster_with_bounds(), folder.file("a.zip"));
+    writer->write(tile_of(raster_with_bounds(), {0, 0}));
   }
   EXPECT_THAT(folder.names(), IsEmpty());
 }

@@ -40,12 +40,17 @@ struct WholeRaster : RasterFrame {
   return tiles;
 }
 
-/// Writes the raster by a writer of the programs.
 template <class Writer>
+std::unique_ptr<RasterWriter> made(const RasterFrame& frame, const std::filesystem::path& path) {
+  return std::make_unique<Writer>(frame, path);
+}
+
+/// Writes the raster by a writer of the programs, which a function makes.
+template <auto make_writer>
 void write_whole(const WholeRaster& raster, const std::filesystem::path& path) {
-  Writer writer(raster, path);
-  for (const RasterTile& tile : tiles_of(raster)) writer.write(tile);
-  writer.commit();
+  const std::unique_ptr<RasterWriter> writer = make_writer(raster, path);
+  for (const RasterTile& tile : tiles_of(raster)) writer->write(tile);
+  writer->commit();
 }
 
 /// 5 × 3 pixels of 2 m, somewhere in UTM 32N: every value different, two pixels without an answer.
