@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "canopy/canopy_sky.hpp"
 
-#include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "base/expects.hpp"

@@ -8,7 +8,6 @@
 
 #include "base/expects.hpp"
 #include "canopy/crown_kernels.hpp"
-#include "package/crown.hpp"
 
 namespace farlod {
 

@@ -3,8 +3,6 @@
 #include "canopy/crown_kernels.hpp"
 
 #include <bit>
-#include <cstddef>
-#include <cstdint>
 #include <limits>
 
 #include "canopy/crown_sections.hpp"

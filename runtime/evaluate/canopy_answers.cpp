@@ -5,26 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <span>
-#include <stop_token>
 #include <utility>
-#include <vector>
 
 #include "base/cancellation.hpp"
 #include "base/expects.hpp"
 #include "evaluate/quantity_table.hpp"
-#include "evaluate/traced_canopy.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/kernels.hpp"
-#include "horizon/packet_horizon.hpp"
-#include "horizon/receiver_packet.hpp"
-#include "horizon/sky_profile.hpp"
 #include "occlusion/placed_mesh.hpp"
-#include "receivers/receiver.hpp"
 #include "scene/canopy_around.hpp"
-#include "scene/ray_scenes.hpp"
 
 namespace farlod {
 namespace {

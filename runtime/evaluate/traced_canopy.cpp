@@ -3,13 +3,11 @@
 #include "evaluate/traced_canopy.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 #include "base/cancellation.hpp"
 #include "evaluate/visibility.hpp"
 #include "occlusion/placed_mesh.hpp"
-#include "receivers/receiver.hpp"
 
 namespace farlod {
 namespace {

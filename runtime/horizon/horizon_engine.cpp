@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/cancellation.hpp"
 #include "base/expects.hpp"

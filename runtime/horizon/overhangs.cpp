@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "occlusion/placed_mesh.hpp"
 #include "scene/vertical_profile.hpp"
 
 namespace farlod {

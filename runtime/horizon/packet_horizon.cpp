@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "horizon/packet_horizon.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include "base/expects.hpp"
-#include "horizon/kernels.hpp"
 
 namespace farlod {
 namespace {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "horizon/receiver_packet.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <numeric>

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdint>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "base/expects.hpp"
 #include "horizon/kernels.hpp"

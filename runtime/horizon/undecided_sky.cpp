@@ -9,7 +9,6 @@
 
 #include "base/cancellation.hpp"
 #include "horizon/gap_rays.hpp"
-#include "horizon/kernels.hpp"
 
 namespace farlod {
 namespace {}  // namespace

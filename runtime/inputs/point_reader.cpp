@@ -8,12 +8,8 @@
 #include <iterator>
 #include <numeric>
 #include <span>
-#include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
-
-#include "inputs/requested_points.hpp"
 
 namespace farlod {
 namespace {

@@ -6,10 +6,8 @@
 #include <ogr_spatialref.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "farlod/error.hpp"
 #include "gdal/gdal_errors.hpp"

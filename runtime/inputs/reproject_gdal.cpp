@@ -5,8 +5,6 @@
 #include <fmt/core.h>
 #include <ogr_spatialref.h>
 
-#include <memory>
-
 #include "gdal/gdal_errors.hpp"
 #include "inputs/requested_points.hpp"
 

@@ -17,7 +17,6 @@
 #include "gdal/vector_file_gdal.hpp"
 #include "gdal/wkt_gdal.hpp"
 #include "inputs/reproject_gdal.hpp"
-#include "inputs/requested_points.hpp"
 
 namespace farlod {
 namespace {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <new>
 #include <numbers>
 #include <string>
@@ -13,7 +12,6 @@
 #include "occlusion/crown_occluder.hpp"
 #include "occlusion/device_embree.hpp"
 #include "occlusion/queries_embree.hpp"
-#include "package/crown.hpp"
 
 namespace farlod {
 namespace {

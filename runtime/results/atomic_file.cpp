@@ -6,7 +6,6 @@
 
 #include <cerrno>
 #include <fstream>
-#include <string>
 #include <system_error>
 #include <utility>
 

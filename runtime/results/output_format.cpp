@@ -3,8 +3,6 @@
 #include "results/output_format.hpp"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "base/lower_case.hpp"
 #include "results/mesh/mesh_file.hpp"

@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <cstring>
 #include <limits>
-#include <span>
 #include <string>
 #include <system_error>
 #include <type_traits>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/plan_index.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>

@@ -4,7 +4,6 @@
 
 #include <utility>
 
-#include "occlusion/placed_mesh.hpp"
 #include "scene/canopy_around.hpp"
 
 namespace farlod {

@@ -8,9 +8,6 @@
 #include <fstream>
 #include <limits>
 #include <new>
-#include <ostream>
-#include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 

@@ -15,9 +15,7 @@
 #include <boost/beast/http/parser.hpp>
 #include <cerrno>
 #include <charconv>
-#include <chrono>
 #include <exception>
-#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>

@@ -6,9 +6,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <map>
-#include <optional>
 #include <tuple>
 #include <utility>
 

@@ -3,14 +3,11 @@
 #include "view/tile_surfaces.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "farlod/points.hpp"
 

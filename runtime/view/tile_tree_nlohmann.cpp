@@ -3,11 +3,9 @@
 #include "view/tile_tree.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "results/value_text.hpp"
 

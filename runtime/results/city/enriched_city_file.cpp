@@ -13,19 +13,14 @@
 #include <optional>
 #include <ostream>
 #include <span>
-#include <string>
 #include <string_view>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
 #include "farlod/error.hpp"
 #include "farlod/inspection.hpp"
-#include "farlod/surfaces.hpp"
 #include "results/atomic_file.hpp"
 #include "results/output_format.hpp"
 #include "results/provenance.hpp"
-#include "results/table/table_writer.hpp"
 #include "results/value_text.hpp"
 
 namespace farlod {

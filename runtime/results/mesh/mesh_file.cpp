@@ -7,26 +7,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <iterator>
 #include <limits>
 #include <ostream>
-#include <span>
-#include <string>
 #include <string_view>
 #include <tuple>
-#include <vector>
 
 #include "farlod/error.hpp"
-#include "farlod/inspection.hpp"
 #include "farlod/point.hpp"
 #include "results/atomic_file.hpp"
 #include "results/picture/picture.hpp"
 #include "results/spool_file.hpp"
 #include "results/table/sky_table_csv.hpp"
-#include "results/table/table_writer.hpp"
 #include "results/value_text.hpp"
 
 namespace farlod {

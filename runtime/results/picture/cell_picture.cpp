@@ -9,7 +9,6 @@
 #include <cmath>
 #include <utility>
 
-#include "results/picture/drawing.hpp"
 #include "results/picture/far_panorama.hpp"
 #include "results/picture/picture.hpp"
 #include "results/picture/sky_picture.hpp"

@@ -12,7 +12,6 @@
 #include "farlod/error.hpp"
 #include "results/atomic_file.hpp"
 #include "results/module.hpp"
-#include "results/picture/picture.hpp"
 #include "results/value_text.hpp"
 
 namespace farlod {

@@ -11,9 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "results/picture/drawing.hpp"
 #include "results/picture/picture.hpp"
-#include "results/picture/raster_preview.hpp"
 #include "results/value_text.hpp"
 
 namespace farlod {

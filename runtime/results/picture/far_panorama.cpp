@@ -7,7 +7,6 @@
 #include <limits>
 #include <string>
 
-#include "results/picture/drawing.hpp"
 #include "results/picture/picture.hpp"
 #include "results/picture/sky_picture.hpp"
 

@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "base/expects.hpp"
-#include "results/picture/drawing.hpp"
 #include "results/picture/picture.hpp"
 #include "results/value_text.hpp"
 

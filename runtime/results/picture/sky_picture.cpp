@@ -7,10 +7,8 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
-#include <vector>
 
 #include "base/expects.hpp"
-#include "results/picture/drawing.hpp"
 #include "results/picture/picture.hpp"
 #include "results/value_text.hpp"
 

@@ -3,9 +3,7 @@
 #include "results/table/sky_table_csv.hpp"
 
 #include <cmath>
-#include <initializer_list>
 #include <ostream>
-#include <string_view>
 #include <utility>
 
 #include "base/expects.hpp"
