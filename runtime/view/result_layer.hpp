@@ -4,14 +4,11 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "farlod/package.hpp"
-#include "inputs/requested_points.hpp"
 #include "view/view_frame.hpp"
 
 namespace farlod {
