@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The Far-LoD authors
 # SPDX-License-Identifier: Apache-2.0
-"""Packages of each version of the format, and the sky view factors that they gave when they were made.
+"""Packages of each version of the format, and the sky view factors that each of them gives.
 
   golden.py check BIN     reads each package with the programs in BIN, and compares the values
-  golden.py add BIN       packs the town, without trees and with them, with the programs in BIN, and writes the packages and their
-                          values, if their version is not here yet
+  golden.py add BIN       packs the town, without trees and with them, with the programs in BIN, and writes the packages, if their
+                          version is not here yet
 """
 
 import csv
@@ -84,28 +84,16 @@ def pack_town(binaries: pathlib.Path, kind: str, part: str, trees: list, packed:
 def add(binaries: pathlib.Path) -> None:
     with tempfile.TemporaryDirectory() as work:
         folder = pathlib.Path(work)
-        values = {}
         for kind, part, trees in itertools.product(KINDS, PARTS, CANOPIES):
             packed = folder / "town.farlod"
             pack_town(binaries, kind, part, trees, packed)
             version = manifest_of(packed)["version"]
-            package = packed.rename(folder / f"version_{version}_{kind}{part}{'_trees' if trees else ''}.farlod")
-            values |= {(package.stem, *key): value for key, value in values_of(binaries, package).items()}
+            packed.rename(folder / f"version_{version}_{kind}{part}{'_trees' if trees else ''}.farlod")
         if (HERE / f"version_{version}.zip").exists():
             raise SystemExit(f"packages of version {version} are here already")
         with zipfile.ZipFile(HERE / f"version_{version}.zip", "w", zipfile.ZIP_DEFLATED) as archive:
             for path in sorted(path for path in folder.rglob("*") if path.is_file()):
                 archive.write(path, path.relative_to(folder))
-        write_values(HERE / f"version_{version}.csv", values)
-
-
-def write_values(path: pathlib.Path, values: dict[tuple[str, str, str, str], str]) -> None:
-    quantities = ["svf", "svf_total"]
-    with path.open("w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["package", "point", "engine", *quantities])
-        for key in dict.fromkeys(key[:3] for key in values):
-            writer.writerow([*key, *(values.get((*key, quantity), "") for quantity in quantities)])
 
 
 def differences(package: pathlib.Path, then: dict[tuple[str, str], dict[str, str]], now: dict[tuple[str, str, str], str]) -> list[str]:
@@ -123,15 +111,17 @@ def differences(package: pathlib.Path, then: dict[tuple[str, str], dict[str, str
     return found
 
 
-def check_packages(binaries: pathlib.Path, packages: list[pathlib.Path], values: pathlib.Path) -> list[str]:
+def check_packages(binaries: pathlib.Path, packages: list[pathlib.Path]) -> list[str]:
+    """The same town gives the same values, whatever version it was packed in."""
     found = []
-    rows = read_table(values)
+    rows = read_table(HERE / "values.csv")
     for package in packages:
         whole = run(binaries, "farlod-info", package, "--check")
         if whole.returncode != 0:
             found.append(f"{package.name}: {whole.stderr}")
             continue
-        then = {(row["point"], row["engine"]): row for row in rows if row["package"] == package.stem}
+        kind = re.fullmatch(r"version_\d+_(.*?)(_trees)?", package.stem).group(1)
+        then = {(row["point"], row["engine"]): row for row in rows if row["package"] == kind}
         found += differences(package, then, values_of(binaries, package))
     return found
 
@@ -167,7 +157,7 @@ def check(binaries: pathlib.Path) -> None:
     for version in range(version_of("oldest_format_version"), version_of("format_version") + 1):
         with tempfile.TemporaryDirectory() as folder:
             packages = unpack(version, pathlib.Path(folder))
-            found += check_kinds(version, packages) + check_packages(binaries, packages, HERE / f"version_{version}.csv")
+            found += check_kinds(version, packages) + check_packages(binaries, packages)
             found += [line for package in packages for line in check_other_versions(binaries, package)]
     print("\n".join(found) or "All packages of former versions give what they gave.")
     raise SystemExit(1 if found else 0)
