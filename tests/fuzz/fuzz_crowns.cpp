@@ -12,23 +12,9 @@
 #include "scene/canopy_around.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
-#include "tests/scenes/sealed_manifest.hpp"
 
 namespace farlod {
 namespace {
-
-using nlohmann::json;
-
-/// Makes the header what no reader refuses, as far as it does not depend on the crowns: magic, version, length.
-void mend_crowns(std::span<std::byte> bytes) {
-  if (bytes.size() < sizeof(package::CrownsHeader)) return;
-  package::CrownsHeader header{};
-  std::memcpy(&header, bytes.data(), sizeof header);
-  header.magic = package::crowns_magic;
-  header.version = package::crowns_version;
-  header.file_bytes = bytes.size();
-  std::memcpy(bytes.data(), &header, sizeof header);
-}
 
 /// How many crowns of each shape a manifest must count for these bytes to be read, if they can be at all.
 std::array<std::uint64_t, crown_shape_count> crowns_of_shape(std::span<const std::byte> bytes) {
@@ -42,20 +28,17 @@ std::array<std::uint64_t, crown_shape_count> crowns_of_shape(std::span<const std
   return counts;
 }
 
-/// The sample's manifest, which names these crowns.
-std::string manifest_naming(std::span<const std::byte> bytes) {
-  json m = json::parse(file_text(sample_packages()[0] / package::manifest_file));
-  m.erase("xxh3");
+/// Beside the sample's manifest, which names these crowns.
+void write_crowns(const std::filesystem::path& folder, std::span<const std::byte> bytes) {
+  nlohmann::json m = open_manifest(sample_packages()[0]);
   m["version"] = package::format_version;
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const std::string seal = package::ManifestSeal::text_of(checksum_of_manifest(text));
-  m["canopy"] = {{"bytes", bytes.size()},
-                 {"xxh3", seal.substr(package::ManifestSeal::before_digits.size(), package::ManifestSeal::digits)}};
+  m["canopy"] = entry_of_file(bytes);
   auto counts = crowns_of_shape(bytes);
   // A manifest that counts none is refused, and nobody opens the file
   if (counts == decltype(counts){}) counts[0] = 1;
   for (std::size_t n = 0; n < crown_shape_count; ++n) m["canopy"][package::crown_shape_keys[n]] = counts[n];
-  return scenes::sealed(m.dump(1) + "\n");
+  write_bytes(folder / package::crowns_file, bytes);
+  write_sealed(folder, m.dump(1) + "\n");
 }
 
 void ask_light(const std::vector<Crown>& crowns) {
@@ -90,10 +73,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const ScratchFolder scratch;
   const auto all = std::as_bytes(std::span(data, size));
   std::vector<std::byte> bytes(all.begin(), all.end());
-  mend_crowns(bytes);
-  (void)scratch.write({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, package::crowns_file);
-  const std::string manifest = manifest_naming(bytes);
-  (void)scratch.write({reinterpret_cast<const std::uint8_t*>(manifest.data()), manifest.size()}, package::manifest_file);
+  (void)mend_header<package::CrownsHeader>(bytes, package::crowns_magic, package::crowns_version);
+  write_crowns(scratch.path(), bytes);
   expect_answer_or_refusal([&] { ask_everything(scratch.path()); });
   return 0;
 }

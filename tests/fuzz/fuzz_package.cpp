@@ -13,45 +13,26 @@
 #include "tests/fuzz/changed_file.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
-#include "tests/scenes/sealed_manifest.hpp"
 
 namespace farlod {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
-
-/// The sample's manifest, which names the changed file by its new length and checksum.
-std::string manifest_naming(const fs::path& sample, const char* key, std::span<const std::byte> bytes) {
-  json m = json::parse(file_text(sample / package::manifest_file));
-  m.erase("xxh3");
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const std::string seal = package::ManifestSeal::text_of(checksum_of_manifest(text));
-  m["blocks"][0][key] = {{"bytes", bytes.size()},
-                         {"xxh3", seal.substr(package::ManifestSeal::before_digits.size(), package::ManifestSeal::digits)}};
-  return scenes::sealed(m.dump(1) + "\n");
-}
 
 /// A copy of the sample in which one file is changed, and each checksum is right.
 void write_changed(const fs::path& folder, ChangedFile changed, std::span<const std::byte> all) {
-  const fs::path& sample = sample_packages()[changed.package];
   std::vector<std::byte> bytes(all.begin(), all.end());
-  const auto write = [&](const fs::path& name, const void* data, std::size_t size) {
-    fs::create_directories((folder / name).parent_path());
-    std::ofstream(folder / name, std::ios::binary).write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
-  };
-  fs::copy(sample, folder, fs::copy_options::recursive);
-  if (changed.kind == ChangedFile::Kind::manifest) {
-    const std::string whole = scenes::sealed({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    return write(package::manifest_file, whole.data(), whole.size());
-  }
+  fs::copy(sample_packages()[changed.package], folder, fs::copy_options::recursive);
+  if (changed.kind == ChangedFile::Kind::manifest)
+    return write_sealed(folder, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   const bool is_tiles = changed.kind == ChangedFile::Kind::tiles;
-  if (is_tiles) mend_header(bytes);
-  const package::Manifest m = read_manifest(sample);
-  write(fs::path(package::folder_of(m.blocks[0])) / (is_tiles ? package::tiles_file : package::far_map_file), bytes.data(),
-        bytes.size());
-  const std::string text = manifest_naming(sample, is_tiles ? "tiles" : "far_map", bytes);
-  write(package::manifest_file, text.data(), text.size());
+  if (is_tiles) mend_tiles(bytes);
+  nlohmann::json manifest = open_manifest(folder);
+  manifest["blocks"][0][is_tiles ? "tiles" : "far_map"] = entry_of_file(bytes);
+  write_bytes(
+      folder / package::folder_of(read_manifest(folder).blocks[0]) / (is_tiles ? package::tiles_file : package::far_map_file),
+      bytes);
+  write_sealed(folder, manifest.dump(1) + "\n");
 }
 
 void evaluate(const Package& package, Engine engine) {

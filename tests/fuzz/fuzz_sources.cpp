@@ -9,40 +9,29 @@
 #include "package/sources_layout.hpp"
 #include "tests/fuzz/fuzzed_package.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
-#include "tests/scenes/sealed_manifest.hpp"
 
 namespace farlod {
 namespace {
-
-using nlohmann::json;
 
 constexpr std::uint64_t most_buildings = 1000;
 
 /// Makes the header what no reader refuses, as far as it does not depend on the rest. Returns the number of buildings.
 std::uint64_t mend_sources(std::span<std::byte> bytes) {
-  if (bytes.size() < sizeof(package::SourcesHeader)) return 0;
-  package::SourcesHeader header{};
-  std::memcpy(&header, bytes.data(), sizeof header);
-  header.magic = package::sources_magic;
-  header.version = package::sources_version;
-  header.file_bytes = bytes.size();
+  auto header = mend_header<package::SourcesHeader>(bytes, package::sources_magic, package::sources_version);
   header.building_count %= most_buildings;
-  std::memcpy(bytes.data(), &header, sizeof header);
+  if (bytes.size() >= sizeof header) std::memcpy(bytes.data(), &header, sizeof header);
   return header.building_count;
 }
 
-/// The sample's manifest, which names these sources, and two inputs.
-std::string manifest_naming(std::span<const std::byte> bytes, std::uint64_t buildings) {
-  json m = json::parse(file_text(sample_packages()[0] / package::manifest_file));
-  m.erase("xxh3");
+/// Beside the sample's manifest, which names these sources, and two inputs.
+void write_sources(const std::filesystem::path& folder, std::span<const std::byte> bytes, std::uint64_t buildings) {
+  nlohmann::json m = open_manifest(sample_packages()[0]);
   m["version"] = package::format_version;
   m["counts"]["buildings"] = buildings;
   m["inputs"] = {{{"name", "a.gml"}, {"bytes", 300}, {"xxh3", "1"}}, {{"name", "b.city.json"}, {"bytes", 70'000}, {"xxh3", "2"}}};
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  const std::string seal = package::ManifestSeal::text_of(checksum_of_manifest(text));
-  m["sources"] = {{"bytes", bytes.size()},
-                  {"xxh3", seal.substr(package::ManifestSeal::before_digits.size(), package::ManifestSeal::digits)}};
-  return scenes::sealed(m.dump(1) + "\n");
+  m["sources"] = entry_of_file(bytes);
+  write_bytes(folder / package::sources_file, bytes);
+  write_sealed(folder, m.dump(1) + "\n");
 }
 
 void ask_everything(const std::filesystem::path& folder) {
@@ -68,9 +57,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto all = std::as_bytes(std::span(data, size));
   std::vector<std::byte> bytes(all.begin(), all.end());
   const std::uint64_t buildings = mend_sources(bytes);
-  (void)scratch.write({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, package::sources_file);
-  const std::string manifest = manifest_naming(bytes, buildings);
-  (void)scratch.write({reinterpret_cast<const std::uint8_t*>(manifest.data()), manifest.size()}, package::manifest_file);
+  write_sources(scratch.path(), bytes, buildings);
   expect_answer_or_refusal([&] { ask_everything(scratch.path()); });
   return 0;
 }

@@ -104,7 +104,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Sample sample;
   const auto all = std::as_bytes(std::span(data, size));
   std::vector<std::byte> bytes(all.begin(), all.end());
-  mend_header(bytes);
+  mend_tiles(bytes);
   expect_answer_or_refusal([&] {
     const PackageReader package(sample.with(bytes));
     const CellRange cells = sample.cells_of_first();

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/fuzz/fuzzed_package.hpp"
 
-#include <cstring>
 #include <fstream>
 #include <iterator>
-#include <string_view>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/expects.hpp"
 #include "farlod/error.hpp"
 #include "package/layout.hpp"
+#include "package/manifest.hpp"
+#include "tests/scenes/sealed_manifest.hpp"
 
 namespace farlod {
 
@@ -31,14 +33,30 @@ std::vector<std::byte> file_bytes(const std::filesystem::path& file) {
   return {bytes.begin(), bytes.end()};
 }
 
-void mend_header(std::span<std::byte> tiles) {
-  if (tiles.size() < sizeof(package::Header)) return;
-  package::Header header{};
-  std::memcpy(&header, tiles.data(), sizeof header);
-  header.magic = package::magic;
-  header.version = package::tiles_version;
-  header.file_bytes = tiles.size();
-  std::memcpy(tiles.data(), &header, sizeof header);
+void mend_tiles(std::span<std::byte> tiles) { (void)mend_header<package::Header>(tiles, package::magic, package::tiles_version); }
+
+nlohmann::json open_manifest(const std::filesystem::path& package) {
+  auto manifest = nlohmann::json::parse(file_text(package / package::manifest_file));
+  manifest.erase("xxh3");
+  return manifest;
+}
+
+nlohmann::json entry_of_file(std::span<const std::byte> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string seal = package::ManifestSeal::text_of(checksum_of_manifest(text));
+  return {{"bytes", bytes.size()},
+          {"xxh3", seal.substr(package::ManifestSeal::before_digits.size(), package::ManifestSeal::digits)}};
+}
+
+void write_bytes(const std::filesystem::path& file, std::span<const std::byte> bytes) {
+  std::ofstream stream(file, std::ios::binary);
+  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  FARLOD_EXPECTS(stream.flush());
+}
+
+void write_sealed(const std::filesystem::path& package, std::string text) {
+  const std::string whole = scenes::sealed(std::move(text));
+  write_bytes(package / package::manifest_file, std::as_bytes(std::span(whole)));
 }
 
 void expect_answer_or_refusal(const std::function<void()>& work) {
