@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/architecture/house_rules.hpp"
+#include "tests/architecture/rules.hpp"
 
 #include <gmock/gmock.h>
 
@@ -27,35 +27,26 @@ const std::string authors = " SPDX-FileCopyrightText: The Far-LoD authors";
 const std::string apache = " SPDX-License-Identifier: Apache-2.0";
 const std::string gpl = " SPDX-License-Identifier: GPL-3.0-or-later";
 
-TEST(HouseRules, EachFileNamesItsLicence) { EXPECT_THAT(files_without_licence(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty()); }
+struct Rule {
+  const char* name;
+  std::vector<std::string> (*breaches)(const std::vector<SourceFile>& tree);
+};
+class ThisTree : public testing::TestWithParam<Rule> {};
+TEST_P(ThisTree, KeepsTheRule) { EXPECT_THAT(GetParam().breaches(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty()); }
+INSTANTIATE_TEST_SUITE_P(HouseRules, ThisTree,
+                         testing::Values(Rule{"EachFileNamesItsLicence", files_without_licence},
+                                         Rule{"NoFileIsTooLong", files_too_long}, Rule{"NoFunctionIsTooLong", functions_too_long},
+                                         Rule{"FileNamesSayWhatIsInside", files_with_empty_names},
+                                         Rule{"NothingIsLeftForLater", files_with_notes_to_self},
+                                         Rule{"EachTestWritesInAFolderOfItsOwn", tests_without_own_folder},
+                                         Rule{"NoTestDependsOnTheMachine", tests_that_depend_on_the_machine},
+                                         Rule{"EachExcuseExcusesSomething", useless_excuses},
+                                         Rule{"CommentsSayTheirSubjectFirst", comments_without_subject}),
+                         [](const auto& test) { return test.param.name; });
 
 TEST(HouseRules, PythonIsCode) {
   const std::vector<SourceFile> tree = read_source_tree(FARLOD_SOURCE_DIR);
   EXPECT_THAT(tree, Contains(Field(&SourceFile::path, "qgis/farlod/provider.py")));
-}
-
-TEST(HouseRules, NoFileIsTooLong) { EXPECT_THAT(files_too_long(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty()); }
-
-TEST(HouseRules, NoFunctionIsTooLong) { EXPECT_THAT(functions_too_long(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty()); }
-
-TEST(HouseRules, FileNamesSayWhatIsInside) {
-  EXPECT_THAT(files_with_empty_names(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty());
-}
-
-TEST(HouseRules, NothingIsLeftForLater) { EXPECT_THAT(files_with_notes_to_self(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty()); }
-
-TEST(HouseRules, EachTestWritesInAFolderOfItsOwn) {
-  EXPECT_THAT(tests_without_own_folder(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty());
-}
-
-TEST(HouseRules, NoTestDependsOnTheMachine) {
-  EXPECT_THAT(tests_that_depend_on_the_machine(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty());
-}
-
-TEST(HouseRules, EachExcuseExcusesSomething) { EXPECT_THAT(useless_excuses(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty()); }
-
-TEST(HouseRules, CommentsSayTheirSubjectFirst) {
-  EXPECT_THAT(comments_without_subject(read_source_tree(FARLOD_SOURCE_DIR)), IsEmpty());
 }
 
 TEST(HouseRules, LinesOfDocumentsFitAScreen) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/architecture/include_walls.hpp"
+#include "tests/architecture/rules.hpp"
 
 #include <gmock/gmock.h>
 

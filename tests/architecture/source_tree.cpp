@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/architecture/source_tree.hpp"
+#include "tests/architecture/rules.hpp"
 
 #include <algorithm>
 #include <array>
