@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "farlod/error.hpp"
+#include "tests/acceptance/refused_command.hpp"
 #include "tests/acceptance/small_town.hpp"
 #include "tests/acceptance/work_folder.hpp"
 #include "tests/scenes/sealed_manifest.hpp"
@@ -14,20 +14,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A command of farlod-pack that cannot be followed, and what the user must be told.
-struct Refused {
-  const char* name;
-  const char* arguments;
-  int exit_code;
-  std::vector<std::string> said;
-};
-void PrintTo(const Refused& refused, std::ostream* out) { *out << "farlod-pack " << refused.arguments; }
-
-std::string name_of(const testing::TestParamInfo<Refused>& info) { return info.param.name; }
+RefusedCommand wrong_packing(const std::string& name, const std::string& options, const std::vector<std::string>& said) {
+  return wrong_usage(name, "town.geojson -o a.farlod " + options, said);
+}
+RefusedCommand unusable_packing(const std::string& name, const std::string& options, const std::vector<std::string>& said) {
+  return unusable(name, "town.geojson -o a.farlod " + options, said);
+}
 
 constexpr const char* gml_head = "<?xml version=\"1.0\"?>\n<CityModel xmlns=\"http://www.opengis.net/citygml/2.0\">";
 
-class PackRefuses : public testing::TestWithParam<Refused> {
+class PackRefuses : public testing::TestWithParam<RefusedCommand> {
  protected:
   PackRefuses() {
     folder.write("town.geojson", footprints_geojson({{"block", {}, 20.0, 10.0}}));
@@ -49,113 +45,74 @@ class PackRefuses : public testing::TestWithParam<Refused> {
 };
 
 TEST_P(PackRefuses, InOneLine) {
-  expect_refusal(folder.run(std::string("farlod-pack ") + GetParam().arguments), GetParam().exit_code, GetParam().said);
+  expect_refusal(folder.run("farlod-pack " + GetParam().arguments), GetParam().exit_code, GetParam().said);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Files, PackRefuses,
-    testing::Values(
-        Refused{"Missing", "lost.gml -o a.farlod", exit_unusable_input, {"lost.gml does not exist", "Check the path"}},
-        Refused{"CutXml", "cut.gml -o a.farlod", exit_unusable_input, {"cut.gml is not well-formed XML", "line 2", "cut short?"}},
-        Refused{"NotXml",
-                "prose.gml -o a.farlod",
-                exit_unusable_input,
-                {"prose.gml is not well-formed XML", "line 1", "XML checker"}},
-        Refused{"EmptyXml", "empty.gml -o a.farlod", exit_unusable_input, {"empty.gml is empty: 0 bytes"}},
-        Refused{"EmptyObj", "empty.obj -o a.farlod", exit_unusable_input, {"empty.obj is empty: 0 bytes"}},
-        Refused{"CutJson", "cut.city.json -o a.farlod", exit_unusable_input, {"cut.city.json is not JSON", "line 1", "cjval"}},
-        Refused{"GmlWithoutBuildings",
-                "forest.gml -o a.farlod",
-                exit_unusable_input,
-                {"forest.gml holds no Building", "another theme"}},
-        Refused{"CityJsonWithoutBuildings",
-                "forest.city.json -o a.farlod",
-                exit_unusable_input,
-                {"forest.city.json holds no Building"}},
-        Refused{"FootprintsWithoutFeatures", "nothing.geojson -o a.farlod", exit_unusable_input, {"nothing.geojson"}},
-        Refused{"OneOfTwoIsMissing", "town.geojson lost.gml -o a.farlod", exit_unusable_input, {"lost.gml does not exist"}},
-        Refused{"NoTrees", "town.geojson --trees lost.csv -o a.farlod", exit_unusable_input, {"lost.csv", "does not exist"}},
-        Refused{"TreesAreNoInventory", "town.geojson --trees text.txt -o a.farlod --quiet", exit_unusable_input, {"text.txt"}},
-        Refused{"CanopyIsNoRaster",
-                "town.geojson --canopy town.geojson -o a.farlod --quiet",
-                exit_unusable_input,
-                {"town.geojson", "is not a raster of the heights of crowns"}},
-        Refused{"TrunksWithoutCanopy", "town.geojson --trunk a.tif -o a.farlod", exit_usage, {"--trunk", "--canopy"}},
-        Refused{"TrunksAboveCrowns", "town.geojson --trunk-ratio 1.5 -o a.farlod", exit_usage, {"--trunk-ratio"}},
-        Refused{"TreesWithoutAName", "town.geojson --trees '' -o a.farlod", exit_usage, {"--trees", "empty"}},
-        Refused{"NoTerrain", "town.geojson --terrain lost.tif -o a.farlod", exit_unusable_input, {"lost.tif"}},
-        Refused{"TerrainIsNoRaster",
-                "town.geojson --terrain town.geojson -o a.farlod",
-                exit_unusable_input,
-                {"town.geojson: is not a raster", "GeoTIFF"}}),
-    name_of);
+    testing::Values(unusable("Missing", "lost.gml -o a.farlod", {"lost.gml does not exist", "Check the path"}),
+                    unusable("CutXml", "cut.gml -o a.farlod", {"cut.gml is not well-formed XML", "line 2", "cut short?"}),
+                    unusable("NotXml", "prose.gml -o a.farlod", {"prose.gml is not well-formed XML", "line 1", "XML checker"}),
+                    unusable("EmptyXml", "empty.gml -o a.farlod", {"empty.gml is empty: 0 bytes"}),
+                    unusable("EmptyObj", "empty.obj -o a.farlod", {"empty.obj is empty: 0 bytes"}),
+                    unusable("CutJson", "cut.city.json -o a.farlod", {"cut.city.json is not JSON", "line 1", "cjval"}),
+                    unusable("GmlWithoutBuildings", "forest.gml -o a.farlod", {"forest.gml holds no Building", "another theme"}),
+                    unusable("CityJsonWithoutBuildings", "forest.city.json -o a.farlod", {"forest.city.json holds no Building"}),
+                    unusable("FootprintsWithoutFeatures", "nothing.geojson -o a.farlod", {"nothing.geojson"}),
+                    unusable("OneOfTwoIsMissing", "town.geojson lost.gml -o a.farlod", {"lost.gml does not exist"}),
+                    unusable_packing("NoTrees", "--trees lost.csv", {"lost.csv", "does not exist"}),
+                    unusable("TreesAreNoInventory", "town.geojson --trees text.txt -o a.farlod --quiet", {"text.txt"}),
+                    unusable("CanopyIsNoRaster", "town.geojson --canopy town.geojson -o a.farlod --quiet",
+                             {"town.geojson", "is not a raster of the heights of crowns"}),
+                    wrong_packing("TrunksWithoutCanopy", "--trunk a.tif", {"--trunk", "--canopy"}),
+                    wrong_packing("TrunksAboveCrowns", "--trunk-ratio 1.5", {"--trunk-ratio"}),
+                    wrong_packing("TreesWithoutAName", "--trees ''", {"--trees", "empty"}),
+                    unusable_packing("NoTerrain", "--terrain lost.tif", {"lost.tif"}),
+                    unusable_packing("TerrainIsNoRaster", "--terrain town.geojson",
+                                     {"town.geojson: is not a raster", "GeoTIFF"})),
+    name_of_refused);
 
 INSTANTIATE_TEST_SUITE_P(
     Meaning, PackRefuses,
     testing::Values(
-        Refused{"NoCrs", "box.obj -o a.farlod", exit_unusable_input, {"box.obj does not say its CRS", "--crs EPSG:n"}},
-        Refused{"UnknownCrs",
-                "box.obj --crs EPSG:99999 -o a.farlod",
-                exit_unusable_input,
-                {"--crs EPSG:99999", "box.obj", "no such CRS"}},
-        Refused{"CrsInWords", "box.obj --crs Germany -o a.farlod", exit_unusable_input, {"--crs Germany", "give EPSG:n"}},
-        Refused{"UnknownOutCrs", "town.geojson --out-crs EPSG:99999 -o a.farlod", exit_unusable_input, {"--out-crs EPSG:99999"}},
-        Refused{"OutCrsInDegrees",
-                "town.geojson --out-crs EPSG:4326 -o a.farlod",
-                exit_unusable_input,
-                {"EPSG:4326", "not projected", "UTM"}},
-        Refused{"NoSuchHeightField",
-                "town.geojson --height-field tall -o a.farlod",
-                exit_unusable_input,
-                {"no field \"tall\"", "height, floors", "--height-field"}},
-        Refused{"NoSuchBaseField",
-                "town.geojson --base-field sea -o a.farlod",
-                exit_unusable_input,
-                {"no field \"sea\"", "height, floors", "--base-field"}}),
-    name_of);
+        unusable("NoCrs", "box.obj -o a.farlod", {"box.obj does not say its CRS", "--crs EPSG:n"}),
+        unusable("UnknownCrs", "box.obj --crs EPSG:99999 -o a.farlod", {"--crs EPSG:99999", "box.obj", "no such CRS"}),
+        unusable("CrsInWords", "box.obj --crs Germany -o a.farlod", {"--crs Germany", "give EPSG:n"}),
+        unusable_packing("UnknownOutCrs", "--out-crs EPSG:99999", {"--out-crs EPSG:99999"}),
+        unusable_packing("OutCrsInDegrees", "--out-crs EPSG:4326", {"EPSG:4326", "not projected", "UTM"}),
+        unusable_packing("NoSuchHeightField", "--height-field tall", {"no field \"tall\"", "height, floors", "--height-field"}),
+        unusable_packing("NoSuchBaseField", "--base-field sea", {"no field \"sea\"", "height, floors", "--base-field"})),
+    name_of_refused);
 
 INSTANTIATE_TEST_SUITE_P(
     Usage, PackRefuses,
-    testing::Values(
-        Refused{"NoOutput", "town.geojson", exit_usage, {"--output is required"}},
-        Refused{"NoInput", "-o a.farlod", exit_usage, {"INPUT is required"}},
-        Refused{"EmptyOutput", "town.geojson -o ''", exit_usage, {"-o", "name is empty", "NAME.farlod"}},
-        Refused{
-            "EvenNeighborhood", "town.geojson -o a.farlod --neighborhood 4", exit_usage, {"--neighborhood: 4 is even", "odd"}},
-        Refused{"ZeroNeighborhood", "town.geojson -o a.farlod --neighborhood 0", exit_usage, {"--neighborhood", "1 to 999"}},
-        Refused{"NegativeCell", "town.geojson -o a.farlod --cell -5", exit_usage, {"--cell: -5", "from 0.5 to 10000"}},
-        Refused{"ZeroCell", "town.geojson -o a.farlod --cell 0", exit_usage, {"--cell: 0", "from 0.5 to 10000"}},
-        Refused{"HugeCell", "town.geojson -o a.farlod --cell 1e9", exit_usage, {"--cell: 1e9", "from 0.5 to 10000"}},
-        Refused{"CellIsNoNumber", "town.geojson -o a.farlod --cell nan", exit_usage, {"--cell: nan", "from 0.5 to 10000"}},
-        Refused{"NegativeHeight", "town.geojson -o a.farlod --default-height -3", exit_usage, {"--default-height: -3"}},
-        Refused{"AlignInWords",
-                "town.geojson -o a.farlod --align north",
-                exit_usage,
-                {"--align: \"north\"", "auto, none, or degrees"}},
-        Refused{"AlignBeyondATurn", "town.geojson -o a.farlod --align 1e9", exit_usage, {"--align", "full turn"}},
-        Refused{"OriginOfOneNumber", "box.obj -o a.farlod --origin 1", exit_usage, {"--origin: give X,Y or X,Y,Z"}},
-        Refused{"UnknownOption", "town.geojson -o a.farlod --frobnicate", exit_usage, {"--frobnicate"}},
-        Refused{"UnknownLod", "town.geojson -o a.farlod --lod 7", exit_usage, {"--lod: 7", "best,0,1,2,3"}},
-        Refused{"NoSuchConfig", "town.geojson -o a.farlod --config lost.toml", exit_usage, {"lost.toml"}},
-        Refused{"UnknownOptionInConfig", "town.geojson -o a.farlod --config typo.toml", exit_usage, {"--config", "cel"}}),
-    name_of);
+    testing::Values(wrong_usage("NoOutput", "town.geojson", {"--output is required"}),
+                    wrong_usage("NoInput", "-o a.farlod", {"INPUT is required"}),
+                    wrong_usage("EmptyOutput", "town.geojson -o ''", {"-o", "name is empty", "NAME.farlod"}),
+                    wrong_packing("EvenNeighborhood", "--neighborhood 4", {"--neighborhood: 4 is even", "odd"}),
+                    wrong_packing("ZeroNeighborhood", "--neighborhood 0", {"--neighborhood", "1 to 999"}),
+                    wrong_packing("NegativeCell", "--cell -5", {"--cell: -5", "from 0.5 to 10000"}),
+                    wrong_packing("ZeroCell", "--cell 0", {"--cell: 0", "from 0.5 to 10000"}),
+                    wrong_packing("HugeCell", "--cell 1e9", {"--cell: 1e9", "from 0.5 to 10000"}),
+                    wrong_packing("CellIsNoNumber", "--cell nan", {"--cell: nan", "from 0.5 to 10000"}),
+                    wrong_packing("NegativeHeight", "--default-height -3", {"--default-height: -3"}),
+                    wrong_packing("AlignInWords", "--align north", {"--align: \"north\"", "auto, none, or degrees"}),
+                    wrong_packing("AlignBeyondATurn", "--align 1e9", {"--align", "full turn"}),
+                    wrong_usage("OriginOfOneNumber", "box.obj -o a.farlod --origin 1", {"--origin: give X,Y or X,Y,Z"}),
+                    wrong_packing("UnknownOption", "--frobnicate", {"--frobnicate"}),
+                    wrong_packing("UnknownLod", "--lod 7", {"--lod: 7", "best,0,1,2,3"}),
+                    wrong_packing("NoSuchConfig", "--config lost.toml", {"lost.toml"}),
+                    wrong_packing("UnknownOptionInConfig", "--config typo.toml", {"--config", "cel"})),
+    name_of_refused);
 
 INSTANTIATE_TEST_SUITE_P(
     Output, PackRefuses,
-    testing::Values(Refused{"FolderBelowAFile",
-                            "town.geojson -o box.obj/a.farlod",
-                            exit_unusable_input,
-                            {"box.obj/a.farlod cannot be written"}},
-                    Refused{"FolderIsAFile", "town.geojson -o box.obj --force", exit_unusable_input, {"box.obj is a file", "-o"}},
-                    Refused{"ReportInNoFolder",
-                            "town.geojson -o a.farlod --report lost/r.json",
-                            exit_unusable_input,
-                            {"lost/r.json", "no folder lost"}},
-                    Refused{"SummaryInNoFolder",
-                            "town.geojson -o a.farlod --summary lost/s.json",
-                            exit_unusable_input,
-                            {"lost/s.json", "no folder lost"}}),
-    name_of);
+    testing::Values(
+        unusable("FolderBelowAFile", "town.geojson -o box.obj/a.farlod", {"box.obj/a.farlod cannot be written"}),
+        unusable("FolderIsAFile", "town.geojson -o box.obj --force", {"box.obj is a file", "-o"}),
+        unusable("ReportInNoFolder", "town.geojson -o a.farlod --report lost/r.json", {"lost/r.json", "no folder lost"}),
+        unusable("SummaryInNoFolder", "town.geojson -o a.farlod --summary lost/s.json", {"lost/s.json", "no folder lost"})),
+    name_of_refused);
 
 class PackGuardsFolders : public testing::Test {
  protected:

@@ -2,30 +2,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
-#include "farlod/error.hpp"
 #include "results/output_format.hpp"
+#include "tests/acceptance/refused_command.hpp"
 #include "tests/acceptance/small_town.hpp"
 #include "tests/acceptance/work_folder.hpp"
 
 namespace farlod::acceptance {
 namespace {
 
-/// A command of farlod-svf that cannot be followed, and what the user must be told.
-struct RefusedSvf {
-  std::string name;
-  std::string arguments;
-  int exit_code;
-  std::vector<std::string> said;
-};
-void PrintTo(const RefusedSvf& refused, std::ostream* out) { *out << "farlod-svf " << refused.arguments; }
+RefusedCommand wrong_at(const std::string& name, const std::string& options, const std::vector<std::string>& said) {
+  return wrong_usage(name, "a.farlod -o o.csv --at 1,2 " + options, said);
+}
+RefusedCommand wrong_grid(const std::string& name, const std::string& options, const std::vector<std::string>& said) {
+  return wrong_usage(name, "a.farlod -o o.asc --grid 5 " + options, said);
+}
+RefusedCommand unusable_points(const std::string& name, const std::string& file, const std::vector<std::string>& said) {
+  return unusable(name, "a.farlod -o o.csv --points " + file, said);
+}
 
 std::string all_endings() {
   return endings_where([](const OutputFormat&) { return true; });
 }
 
-std::string name_of_refused(const testing::TestParamInfo<RefusedSvf>& info) { return info.param.name; }
-
-class SvfRefuses : public testing::TestWithParam<RefusedSvf> {
+class SvfRefuses : public testing::TestWithParam<RefusedCommand> {
  protected:
   SvfRefuses() {
     add_packed_town(folder, "one_block", {{"block", {}, 20.0, 10.0}});
@@ -48,150 +47,92 @@ TEST_P(SvfRefuses, InOneLine) {
   EXPECT_EQ(folder.names(), before);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    PackageReader, SvfRefuses,
-    testing::Values(RefusedSvf{"Missing",
-                               "lost.farlod -o o.csv --at 1,2",
-                               exit_unusable_input,
-                               {"lost.farlod is not a package", "no such folder", "farlod-pack"}},
-                    RefusedSvf{"OtherFolder",
-                               "no_package -o o.csv --at 1,2",
-                               exit_unusable_input,
-                               {"no_package is not a finished package", "manifest.json"}},
-                    RefusedSvf{"File", "town.geojson -o o.csv --at 1,2", exit_unusable_input, {"town.geojson is not a package"}}),
-    name_of_refused);
+INSTANTIATE_TEST_SUITE_P(PackageReader, SvfRefuses,
+                         testing::Values(unusable("Missing", "lost.farlod -o o.csv --at 1,2",
+                                                  {"lost.farlod is not a package", "no such folder", "farlod-pack"}),
+                                         unusable("OtherFolder", "no_package -o o.csv --at 1,2",
+                                                  {"no_package is not a finished package", "manifest.json"}),
+                                         unusable("File", "town.geojson -o o.csv --at 1,2", {"town.geojson is not a package"})),
+                         name_of_refused);
 
 INSTANTIATE_TEST_SUITE_P(
     Usage, SvfRefuses,
     testing::Values(
-        RefusedSvf{"NoOutput", "a.farlod --at 1,2", exit_usage, {"--output is required"}},
-        RefusedSvf{"NoPackage", "-o o.csv --at 1,2", exit_usage, {"PACKAGE is required"}},
-        RefusedSvf{"UnknownEnding", "a.farlod -o o.no_such_format --at 1,2", exit_usage, {"o.no_such_format", all_endings()}},
-        RefusedSvf{"NoEnding", "a.farlod -o o --at 1,2", exit_usage, {"\"o\"", all_endings()}},
-        RefusedSvf{
-            "NoReceivers", "a.farlod -o o.csv", exit_usage, {"--grid,--grid-like,--points,--along,--surfaces,--at", "required"}},
-        RefusedSvf{"TwoKindsOfReceivers",
-                   "a.farlod -o o.csv --at 1,2 --surfaces all",
-                   exit_usage,
-                   {"--grid,--grid-like,--points,--along,--surfaces,--at", "2 were given"}},
-        RefusedSvf{"NoRays", "a.farlod -o o.csv --at 1,2 --rays 0", exit_usage, {"--rays", "1 to 10000000"}},
-        RefusedSvf{"NegativeRays", "a.farlod -o o.csv --at 1,2 --rays -3", exit_usage, {"--rays", "1 to 10000000"}},
-        RefusedSvf{"NegativeVerify", "a.farlod -o o.csv --at 1,2 --verify -4", exit_usage, {"--verify", "-4"}},
-        RefusedSvf{"UnknownEngine",
-                   "a.farlod -o o.csv --at 1,2 --engine magic",
-                   exit_usage,
-                   {"--engine: magic", "auto,horizon,rays,exact"}},
-        RefusedSvf{"OneCoordinate", "a.farlod -o o.csv --at 1", exit_usage, {"--at: give X,Y or X,Y,Z"}},
-        RefusedSvf{"CoordinateIsNoNumber", "a.farlod -o o.csv --at nan,2", exit_usage, {"--at", "nan,2"}},
-        RefusedSvf{"ZeroStep", "a.farlod -o o.asc --grid 0", exit_usage, {"--grid: 0", "from 0.01 to 10000"}},
-        RefusedSvf{"StepIsNoNumber", "a.farlod -o o.asc --grid nan", exit_usage, {"--grid: nan", "from 0.01 to 10000"}},
-        RefusedSvf{
-            "HeightIsNoNumber", "a.farlod -o o.asc --grid 5 --height nan", exit_usage, {"--height: nan", "from 0 to 10000"}},
-        RefusedSvf{
-            "HeightInSpace", "a.farlod -o o.asc --grid 5 --height 1e30", exit_usage, {"--height: 1e30", "from 0 to 10000"}},
-        RefusedSvf{"SpacingIsNoNumber", "a.farlod -o o.csv --surfaces all --spacing nan", exit_usage, {"--spacing: nan"}},
-        RefusedSvf{"BoxOfThreeNumbers", "a.farlod -o o.asc --grid 5 --bbox 1,2,3", exit_usage, {"--bbox", "X0,Y0,X1,Y1"}},
-        RefusedSvf{"BoxWithACommaTooMany", "a.farlod -o o.asc --grid 5 --bbox 1,2,3,4,", exit_usage, {"--bbox", "X0,Y0,X1,Y1"}},
-        RefusedSvf{"PlaceWithACommaTooMany", "a.farlod -o o.csv --at 1,2,", exit_usage, {"--at", "X,Y"}},
-        RefusedSvf{"BoxInsideOut", "a.farlod -o o.asc --grid 5 --bbox 3,2,1,4", exit_usage, {"--bbox", "X0 < X1"}},
-        RefusedSvf{"BoxBeyondAllMachines",
-                   "a.farlod -o o.asc --grid 1 --bbox 0,0,1e300,1e300",
-                   exit_usage,
-                   {"--bbox", "nowhere on Earth"}},
-        RefusedSvf{"BoxWithoutGrid", "a.farlod -o o.csv --at 1,2 --bbox 0,0,1,1", exit_usage, {"--bbox", "--grid"}},
-        RefusedSvf{"PointsCrsWithoutPoints",
-                   "a.farlod -o o.csv --at 1,2 --points-crs EPSG:4326",
-                   exit_usage,
-                   {"--points-crs", "--points"}},
-        RefusedSvf{"PointsLayerWithoutPoints",
-                   "a.farlod -o o.csv --at 1,2 --points-layer a",
-                   exit_usage,
-                   {"--points-layer", "--points"}},
-        RefusedSvf{"PreviewWithoutGrid", "a.farlod -o o.csv --at 1,2 --preview p.png", exit_usage, {"--preview", "--grid"}},
-        RefusedSvf{"HistogramOfOneValue",
-                   "a.farlod -o o.csv --at 1,2 --histogram h.png",
-                   exit_usage,
-                   {"--histogram", "--grid, --points, --along and --surfaces"}},
-        RefusedSvf{"HistogramIsNoPicture",
-                   "a.farlod -o o.asc --grid 5 --histogram h.csv",
-                   exit_usage,
-                   {"--histogram", "h.csv", ".png, .svg, .pdf"}},
-        RefusedSvf{"MapOfNoVerification",
-                   "a.farlod -o o.asc --grid 5 --verify-map v.png",
-                   exit_usage,
-                   {"--verify-map", "give --verify"}},
-        RefusedSvf{"MapOfOneVerification",
-                   "a.farlod -o o.csv --at 1,2 --verify 1 --verify-map v.png",
-                   exit_usage,
-                   {"--verify-map", "--grid, --points, --along and --surfaces"}},
-        RefusedSvf{"MapOfAVerificationIsNoPicture",
-                   "a.farlod -o o.asc --grid 5 --verify 1 --verify-map v.asc",
-                   exit_usage,
-                   {"--verify-map", "v.asc", ".csv, .png, .svg, .pdf"}},
-        RefusedSvf{"ProjectionOfATable",
-                   "a.farlod -o o.csv --at 1,2 --projection equidistant",
-                   exit_usage,
-                   {"--projection", "picture of --at"}},
-        RefusedSvf{"PreviewIsNoPicture",
-                   "a.farlod -o o.asc --grid 5 --preview p.jpg",
-                   exit_usage,
-                   {"--preview", "p.jpg", ".png, .svg, .pdf"}},
-        RefusedSvf{"NoMemory", "a.farlod -o o.csv --at 1,2 --memory-limit 0", exit_usage, {"--memory-limit", "0"}},
-        RefusedSvf{"UnknownOptionInConfig", "a.farlod -o o.asc --config typo.toml", exit_usage, {"--config", "rayz"}}),
+        wrong_usage("NoOutput", "a.farlod --at 1,2", {"--output is required"}),
+        wrong_usage("NoPackage", "-o o.csv --at 1,2", {"PACKAGE is required"}),
+        wrong_usage("UnknownEnding", "a.farlod -o o.no_such_format --at 1,2", {"o.no_such_format", all_endings()}),
+        wrong_usage("NoEnding", "a.farlod -o o --at 1,2", {"\"o\"", all_endings()}),
+        wrong_usage("NoReceivers", "a.farlod -o o.csv", {"--grid,--grid-like,--points,--along,--surfaces,--at", "required"}),
+        wrong_at("TwoKindsOfReceivers", "--surfaces all",
+                 {"--grid,--grid-like,--points,--along,--surfaces,--at", "2 were given"}),
+        wrong_at("NoRays", "--rays 0", {"--rays", "1 to 10000000"}),
+        wrong_at("NegativeRays", "--rays -3", {"--rays", "1 to 10000000"}),
+        wrong_at("NegativeVerify", "--verify -4", {"--verify", "-4"}),
+        wrong_at("UnknownEngine", "--engine magic", {"--engine: magic", "auto,horizon,rays,exact"}),
+        wrong_usage("OneCoordinate", "a.farlod -o o.csv --at 1", {"--at: give X,Y or X,Y,Z"}),
+        wrong_usage("CoordinateIsNoNumber", "a.farlod -o o.csv --at nan,2", {"--at", "nan,2"}),
+        wrong_usage("ZeroStep", "a.farlod -o o.asc --grid 0", {"--grid: 0", "from 0.01 to 10000"}),
+        wrong_usage("StepIsNoNumber", "a.farlod -o o.asc --grid nan", {"--grid: nan", "from 0.01 to 10000"}),
+        wrong_grid("HeightIsNoNumber", "--height nan", {"--height: nan", "from 0 to 10000"}),
+        wrong_grid("HeightInSpace", "--height 1e30", {"--height: 1e30", "from 0 to 10000"}),
+        wrong_usage("SpacingIsNoNumber", "a.farlod -o o.csv --surfaces all --spacing nan", {"--spacing: nan"}),
+        wrong_grid("BoxOfThreeNumbers", "--bbox 1,2,3", {"--bbox", "X0,Y0,X1,Y1"}),
+        wrong_grid("BoxWithACommaTooMany", "--bbox 1,2,3,4,", {"--bbox", "X0,Y0,X1,Y1"}),
+        wrong_usage("PlaceWithACommaTooMany", "a.farlod -o o.csv --at 1,2,", {"--at", "X,Y"}),
+        wrong_grid("BoxInsideOut", "--bbox 3,2,1,4", {"--bbox", "X0 < X1"}),
+        wrong_usage("BoxBeyondAllMachines", "a.farlod -o o.asc --grid 1 --bbox 0,0,1e300,1e300", {"--bbox", "nowhere on Earth"}),
+        wrong_at("BoxWithoutGrid", "--bbox 0,0,1,1", {"--bbox", "--grid"}),
+        wrong_at("PointsCrsWithoutPoints", "--points-crs EPSG:4326", {"--points-crs", "--points"}),
+        wrong_at("PointsLayerWithoutPoints", "--points-layer a", {"--points-layer", "--points"}),
+        wrong_at("PreviewWithoutGrid", "--preview p.png", {"--preview", "--grid"}),
+        wrong_at("HistogramOfOneValue", "--histogram h.png", {"--histogram", "--grid, --points, --along and --surfaces"}),
+        wrong_grid("HistogramIsNoPicture", "--histogram h.csv", {"--histogram", "h.csv", ".png, .svg, .pdf"}),
+        wrong_grid("MapOfNoVerification", "--verify-map v.png", {"--verify-map", "give --verify"}),
+        wrong_at("MapOfOneVerification", "--verify 1 --verify-map v.png",
+                 {"--verify-map", "--grid, --points, --along and --surfaces"}),
+        wrong_grid("MapOfAVerificationIsNoPicture", "--verify 1 --verify-map v.asc",
+                   {"--verify-map", "v.asc", ".csv, .png, .svg, .pdf"}),
+        wrong_at("ProjectionOfATable", "--projection equidistant", {"--projection", "picture of --at"}),
+        wrong_grid("PreviewIsNoPicture", "--preview p.jpg", {"--preview", "p.jpg", ".png, .svg, .pdf"}),
+        wrong_at("NoMemory", "--memory-limit 0", {"--memory-limit", "0"}),
+        wrong_usage("UnknownOptionInConfig", "a.farlod -o o.asc --config typo.toml", {"--config", "rayz"})),
     name_of_refused);
 
 INSTANTIATE_TEST_SUITE_P(
     City, SvfRefuses,
     testing::Values(
-        RefusedSvf{
-            "WithoutSurfaces", "a.farlod -o o.city.json --grid 5 --city town.geojson", exit_usage, {"--city", "--surfaces"}},
-        RefusedSvf{
-            "OtherEnding", "a.farlod -o o.csv --surfaces all --city town.geojson", exit_usage, {"-o", "ends in .city.json"}},
-        RefusedSvf{"NotNamed", "a.farlod -o o.city.json --surfaces all", exit_usage, {"-o", "--city"}},
-        RefusedSvf{
-            "Bounds", "a.farlod -o o.city.json --surfaces all --city town.geojson --bounds", exit_usage, {"--bounds", "--city"}},
-        RefusedSvf{"Missing",
-                   "a.farlod -o o.city.json --surfaces all --city lost.city.json",
-                   exit_unusable_input,
-                   {"lost.city.json cannot be read"}},
-        RefusedSvf{"AnotherFile",
-                   "a.farlod -o o.city.json --surfaces all --city word.csv",
-                   exit_unusable_input,
-                   {"word.csv is not a file that a.farlod was made of", "checksum"}},
-        RefusedSvf{"NoFolder",
-                   "a.farlod -o lost/o.city.json --surfaces all --city town.geojson",
-                   exit_unusable_input,
-                   {"lost/o.city.json", "no folder lost"}},
-        RefusedSvf{"NoPlaces",
-                   "a.farlod -o o.city.json --surfaces all --city town.geojson",
-                   exit_unusable_input,
-                   {"town.geojson has no places for attributes", "CityGML and CityJSON"}}),
+        wrong_usage("WithoutSurfaces", "a.farlod -o o.city.json --grid 5 --city town.geojson", {"--city", "--surfaces"}),
+        wrong_usage("OtherEnding", "a.farlod -o o.csv --surfaces all --city town.geojson", {"-o", "ends in .city.json"}),
+        wrong_usage("NotNamed", "a.farlod -o o.city.json --surfaces all", {"-o", "--city"}),
+        wrong_usage("Bounds", "a.farlod -o o.city.json --surfaces all --city town.geojson --bounds", {"--bounds", "--city"}),
+        unusable("Missing", "a.farlod -o o.city.json --surfaces all --city lost.city.json", {"lost.city.json cannot be read"}),
+        unusable("AnotherFile", "a.farlod -o o.city.json --surfaces all --city word.csv",
+                 {"word.csv is not a file that a.farlod was made of", "checksum"}),
+        unusable("NoFolder", "a.farlod -o lost/o.city.json --surfaces all --city town.geojson",
+                 {"lost/o.city.json", "no folder lost"}),
+        unusable("NoPlaces", "a.farlod -o o.city.json --surfaces all --city town.geojson",
+                 {"town.geojson has no places for attributes", "CityGML and CityJSON"})),
     name_of_refused);
 
 /// Each format with the receivers that it is not for.
-std::vector<RefusedSvf> formats_that_do_not_fit() {
+std::vector<RefusedCommand> formats_that_do_not_fit() {
   const std::string tables = endings_where([](const OutputFormat& f) { return f.holds_tables(); });
   const std::string pictures = endings_where([](const OutputFormat& f) { return f.is_picture; });
   const std::string rasters = endings_where([](const OutputFormat& f) { return f.raster_writer != nullptr; });
-  std::vector<RefusedSvf> refused;
+  std::vector<RefusedCommand> refused;
   for (const OutputFormat& format : output_formats()) {
     const std::string ending(format.endings[0]), name = ending.substr(1), command = "a.farlod -o o" + ending;
     if (format.raster_writer == nullptr)
-      refused.push_back({"Grid_" + name, command + " --grid 5", exit_usage, {"-o", "--grid makes a raster", ending, rasters}});
+      refused.push_back(wrong_usage("Grid_" + name, command + " --grid 5", {"-o", "--grid makes a raster", ending, rasters}));
     if (!format.holds_tables())
       for (const std::string receivers : {"--points word.csv", "--at 1,2", "--surfaces all"}) {
         // The sky above a place is a picture
         if (format.is_picture && receivers == "--at 1,2") continue;
-        refused.push_back({receivers.substr(2, receivers.find(' ') - 2) + "_" + name,
-                           command + " " + receivers,
-                           exit_usage,
-                           {"-o", "only --grid makes a raster", tables}});
+        refused.push_back(wrong_usage(receivers.substr(2, receivers.find(' ') - 2) + "_" + name, command + " " + receivers,
+                                      {"-o", "only --grid makes a raster", tables}));
       }
     if (!format.is_picture)
-      refused.push_back({"Preview_" + name,
-                         "a.farlod -o o.asc --grid 5 --preview p" + ending,
-                         exit_usage,
-                         {"--preview", "p" + ending, pictures}});
+      refused.push_back(wrong_grid("Preview_" + name, "--preview p" + ending, {"--preview", "p" + ending, pictures}));
   }
   return refused;
 }
@@ -199,63 +140,36 @@ INSTANTIATE_TEST_SUITE_P(Formats, SvfRefuses, testing::ValuesIn(formats_that_do_
 
 INSTANTIATE_TEST_SUITE_P(
     Points, SvfRefuses,
-    testing::Values(
-        RefusedSvf{"Missing", "a.farlod -o o.csv --points lost.csv", exit_unusable_input, {"lost.csv", "cannot be read"}},
-        RefusedSvf{
-            "Word", "a.farlod -o o.csv --points word.csv", exit_unusable_input, {"word.csv:3", "\"north\" is not a number"}},
-        RefusedSvf{"ShortRow", "a.farlod -o o.csv --points short.csv", exit_unusable_input, {"short.csv:3", "ends before y"}},
-        RefusedSvf{
-            "NamelessColumns", "a.farlod -o o.csv --points nameless.csv", exit_unusable_input, {"nameless.csv:1", "x and y"}},
-        RefusedSvf{"Empty", "a.farlod -o o.csv --points empty.csv", exit_unusable_input, {"empty.csv", "no points"}},
-        RefusedSvf{"LayerOfATable",
-                   "a.farlod -o o.csv --points word.csv --points-layer a",
-                   exit_unusable_input,
-                   {"word.csv", "no layers"}},
-        RefusedSvf{"HeaderAlone", "a.farlod -o o.csv --points headed.csv", exit_unusable_input, {"headed.csv", "no points"}},
-        RefusedSvf{
-            "BeyondAllMaps", "a.farlod -o o.csv --points galaxy.csv", exit_unusable_input, {"point 1", "nowhere on Earth"}},
-        RefusedSvf{"AtBeyondAllMaps", "a.farlod -o o.csv --at 1e12,1e12", exit_unusable_input, {"point 1", "nowhere on Earth"}},
-        RefusedSvf{
-            "AtInSpace", "a.farlod -o o.csv --at 500000,5500000,1e30", exit_unusable_input, {"point 1", "nowhere on Earth"}}),
+    testing::Values(unusable_points("Missing", "lost.csv", {"lost.csv", "cannot be read"}),
+                    unusable_points("Word", "word.csv", {"word.csv:3", "\"north\" is not a number"}),
+                    unusable_points("ShortRow", "short.csv", {"short.csv:3", "ends before y"}),
+                    unusable_points("NamelessColumns", "nameless.csv", {"nameless.csv:1", "x and y"}),
+                    unusable_points("Empty", "empty.csv", {"empty.csv", "no points"}),
+                    unusable_points("LayerOfATable", "word.csv --points-layer a", {"word.csv", "no layers"}),
+                    unusable_points("HeaderAlone", "headed.csv", {"headed.csv", "no points"}),
+                    unusable_points("BeyondAllMaps", "galaxy.csv", {"point 1", "nowhere on Earth"}),
+                    unusable("AtBeyondAllMaps", "a.farlod -o o.csv --at 1e12,1e12", {"point 1", "nowhere on Earth"}),
+                    unusable("AtInSpace", "a.farlod -o o.csv --at 500000,5500000,1e30", {"point 1", "nowhere on Earth"})),
     name_of_refused);
 
-INSTANTIATE_TEST_SUITE_P(Output, SvfRefuses,
-                         testing::Values(RefusedSvf{"NoFolder",
-                                                    "a.farlod -o lost/o.csv --at 500030,5500010",
-                                                    exit_unusable_input,
-                                                    {"lost/o.csv", "no folder lost"}},
-                                         RefusedSvf{"NoFolderForPreview",
-                                                    "a.farlod -o o.asc --grid 5 --preview lost/p.png",
-                                                    exit_unusable_input,
-                                                    {"lost/p.png", "no folder lost"}},
-                                         RefusedSvf{"NoFolderForSummary",
-                                                    "a.farlod -o o.asc --grid 5 --summary lost/s.json",
-                                                    exit_unusable_input,
-                                                    {"lost/s.json", "no folder lost"}},
-                                         RefusedSvf{"FolderIsAFile",
-                                                    "a.farlod -o town.geojson/o.csv --at 500030,5500010",
-                                                    exit_unusable_input,
-                                                    {"town.geojson/o.csv"}}),
-                         name_of_refused);
+INSTANTIATE_TEST_SUITE_P(
+    Output, SvfRefuses,
+    testing::Values(
+        unusable("NoFolder", "a.farlod -o lost/o.csv --at 500030,5500010", {"lost/o.csv", "no folder lost"}),
+        unusable("NoFolderForPreview", "a.farlod -o o.asc --grid 5 --preview lost/p.png", {"lost/p.png", "no folder lost"}),
+        unusable("NoFolderForSummary", "a.farlod -o o.asc --grid 5 --summary lost/s.json", {"lost/s.json", "no folder lost"}),
+        unusable("FolderIsAFile", "a.farlod -o town.geojson/o.csv --at 500030,5500010", {"town.geojson/o.csv"})),
+    name_of_refused);
 
 #ifdef FARLOD_WITH_GDAL
 INSTANTIATE_TEST_SUITE_P(Gdal, SvfRefuses,
-                         testing::Values(RefusedSvf{"BeyondThePole",
-                                                    "a.farlod -o o.csv --points pole.csv --points-crs EPSG:4326",
-                                                    exit_unusable_input,
-                                                    {"point 1 at (9, 95)", "x is the longitude"}},
-                                         RefusedSvf{"PolygonsForPoints",
-                                                    "a.farlod -o o.csv --points town.geojson",
-                                                    exit_unusable_input,
-                                                    {"town.geojson", "holds no points"}},
-                                         RefusedSvf{"MissingVectorFile",
-                                                    "a.farlod -o o.csv --points lost.gpkg",
-                                                    exit_unusable_input,
-                                                    {"lost.gpkg", "cannot be read"}},
-                                         RefusedSvf{"UnknownPointsCrs",
-                                                    "a.farlod -o o.csv --points pole.csv --points-crs EPSG:99999",
-                                                    exit_unusable_input,
-                                                    {"EPSG:99999", "not known", "EPSG:4326"}}),
+                         testing::Values(unusable_points("BeyondThePole", "pole.csv --points-crs EPSG:4326",
+                                                         {"point 1 at (9, 95)", "x is the longitude"}),
+                                         unusable_points("PolygonsForPoints", "town.geojson",
+                                                         {"town.geojson", "holds no points"}),
+                                         unusable_points("MissingVectorFile", "lost.gpkg", {"lost.gpkg", "cannot be read"}),
+                                         unusable_points("UnknownPointsCrs", "pole.csv --points-crs EPSG:99999",
+                                                         {"EPSG:99999", "not known", "EPSG:4326"})),
                          name_of_refused);
 #endif
 
