@@ -32,11 +32,7 @@ struct Georeferencing {
     return codes;
   }
   [[nodiscard]] std::string detail() const { return report.problems().empty() ? "" : report.problems()[0].detail; }
-  /// Easting, northing and height of the first vertex of a building.
-  [[nodiscard]] Point3d projected(std::size_t building = 0) const {
-    const Point2d origin = located.georeference.origin_m;
-    return located.city.points_of(located.city.buildings()[building])[0] + Point3d{origin.x, origin.y, 0.0};
-  }
+  [[nodiscard]] Point3d projected(std::size_t building = 0) const { return first_projected(located, building); }
 };
 
 Georeferencing run(std::vector<SourceCity> sources, const GeoreferenceSettings& settings = {}) {
@@ -47,12 +43,6 @@ Georeferencing run(std::vector<SourceCity> sources, const GeoreferenceSettings& 
 
 Georeferencing run(const std::string& crs, const Point3d& first, double extent, const GeoreferenceSettings& settings = {}) {
   return run({source_with(crs, first, extent)}, settings);
-}
-
-void expect_near(const Point3d& p, const Point3d& expected, double tolerance_m) {
-  EXPECT_NEAR(p.x, expected.x, tolerance_m);
-  EXPECT_NEAR(p.y, expected.y, tolerance_m);
-  EXPECT_NEAR(p.z, expected.z, tolerance_m);
 }
 
 const Point3d bonn{365000.0, 5621000.0, 60.0};
@@ -88,7 +78,7 @@ TEST(AxesSwapped, IsSaidOfNorthingsFirstWhereEastingsAreDue) {
   const Georeferencing swapped = run("EPSG:25832", {bonn.y, bonn.x, bonn.z}, 10.0);
   EXPECT_THAT(swapped.codes(), ElementsAre(202));
   EXPECT_THAT(swapped.detail(), HasSubstr("northing first"));
-  expect_near(swapped.projected(), bonn, rounding_m);
+  expect_place(swapped.projected(), bonn, rounding_m);
 }
 
 TEST(AxesSwapped, IsNotSaidOfUsualOrders) {
@@ -115,7 +105,7 @@ TEST(ZoneInEasting, IsTakenOff) {
   EXPECT_THAT(prefixed.codes(), ElementsAre(206));
   EXPECT_THAT(prefixed.detail(), AllOf(HasSubstr("32365000"), HasSubstr("365000 is taken")));
   EXPECT_EQ(prefixed.located.georeference.epsg, 25832);
-  expect_near(prefixed.projected(), bonn, rounding_m);
+  expect_place(prefixed.projected(), bonn, rounding_m);
   EXPECT_EQ(prefixed.report.problems()[0].position, (Point3d{32e6 + bonn.x, bonn.y, bonn.z})) << "as the file has it";
   ASSERT_TRUE(prefixed.report.problems()[0].lon_lat_deg);
   EXPECT_NEAR(prefixed.report.problems()[0].lon_lat_deg->x, 7.1, 0.1) << "Bonn";
@@ -124,13 +114,13 @@ TEST(ZoneInEasting, IsTakenOff) {
 TEST(ZoneInEasting, IsTakenOffBehindANorthing) {
   const Georeferencing both = run("EPSG:25832", {bonn.y, 32e6 + bonn.x, bonn.z}, 10.0);
   EXPECT_THAT(both.codes(), ElementsAre(202, 206));
-  expect_near(both.projected(), bonn, rounding_m);
+  expect_place(both.projected(), bonn, rounding_m);
 }
 
 TEST(ZoneInEasting, IsNoProblemWhereTheCrsHasIt) {
   const Georeferencing honest = run("EPSG:4647", {32e6 + bonn.x, bonn.y, bonn.z}, 10.0);
   EXPECT_THAT(honest.codes(), IsEmpty());
-  expect_near(honest.projected(), {32e6 + bonn.x, bonn.y, bonn.z}, rounding_m);
+  expect_place(honest.projected(), {32e6 + bonn.x, bonn.y, bonn.z}, rounding_m);
   const Georeferencing plain = run("EPSG:25832", bonn, 10.0);
   // PROJ's is a central difference over 1e-5 radians
   constexpr double two_ways_rad = 1e-5 * 1e-5;
@@ -147,11 +137,11 @@ TEST(UnlikelyPlace, IsSaidOfASiteThatStaysWhereItIs) {
     const Georeferencing site = run("", first, 10.0, {crs, ""});
     EXPECT_THAT(site.codes(), ElementsAre(205)) << crs;
     EXPECT_THAT(site.detail(), AllOf(HasSubstr("12, 20"), HasSubstr("--origin"))) << crs;
-    expect_near(site.projected(), first, rounding_m);
+    expect_place(site.projected(), first, rounding_m);
   }
   const Georeferencing in_feet = run("", first, 10.0, {"EPSG:2225", ""});
   EXPECT_THAT(in_feet.codes(), ElementsAre(205));
-  expect_near(in_feet.projected(), foot_m * first, rounding_m);
+  expect_place(in_feet.projected(), foot_m * first, rounding_m);
 }
 
 TEST(UnlikelyPlace, IsNotSaidWhereZeroIsWithinTheCountry) {
@@ -234,7 +224,7 @@ TEST(GivenCrs, LeavesFilesAloneWhenItIsForOthers) {
   const Georeferencing mixed =
       run({source_with("EPSG:32632", bonn, 10.0), source_with("", bonn, 10.0)}, {"EPSG:25832", "EPSG:32632"});
   EXPECT_THAT(mixed.codes(), IsEmpty());
-  expect_near(mixed.projected(), bonn, rounding_m);
+  expect_place(mixed.projected(), bonn, rounding_m);
   EXPECT_THAT(run("EPSG:32632", bonn, 10.0, {"EPSG:25832", "", true}).codes(), IsEmpty()) << "of a raster that says none";
 }
 

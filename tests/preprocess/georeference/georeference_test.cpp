@@ -32,20 +32,8 @@ LocatedCity locate(SourceCity source, const GeoreferenceSettings& settings = {})
   return located;
 }
 
-/// Easting, northing and height of the first vertex.
-Point3d first_projected(const LocatedCity& located) {
-  const Point2d origin = located.georeference.origin_m;
-  return located.city.points()[0] + Point3d{origin.x, origin.y, 0.0};
-}
-
 std::string message_of(const std::function<void()>& action) {
   return scenes::refusal_of<InputError>([&] { action(); });
-}
-
-void expect_place(const Point3d& p, const Point3d& expected, double tolerance_m) {
-  EXPECT_NEAR(p.x, expected.x, tolerance_m);
-  EXPECT_NEAR(p.y, expected.y, tolerance_m);
-  EXPECT_NEAR(p.z, expected.z, tolerance_m);
 }
 
 Point3d in_crs(const std::string& from, const std::string& to, const Point3d& p) {

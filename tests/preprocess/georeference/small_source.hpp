@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <string>
 #include <vector>
 
 #include "city/city_model.hpp"
+#include "georeference/georeference.hpp"
 
 namespace farlod::georeference {
 
@@ -27,6 +30,18 @@ inline SourceCity source_with(const std::string& crs, const Point3d& first, doub
   source.crs.definition = crs;
   add_building(source.city, "first", {first, first + Point3d{extent, 0, 0}, first + Point3d{0, extent, extent}});
   return source;
+}
+
+/// Easting, northing and height of the first vertex of a building.
+inline Point3d first_projected(const LocatedCity& located, std::size_t building = 0) {
+  const Point2d origin = located.georeference.origin_m;
+  return located.city.points_of(located.city.buildings()[building])[0] + Point3d{origin.x, origin.y, 0.0};
+}
+
+inline void expect_place(const Point3d& p, const Point3d& expected, double tolerance_m) {
+  EXPECT_NEAR(p.x, expected.x, tolerance_m);
+  EXPECT_NEAR(p.y, expected.y, tolerance_m);
+  EXPECT_NEAR(p.z, expected.z, tolerance_m);
 }
 
 /// About 10 m of latitude.
