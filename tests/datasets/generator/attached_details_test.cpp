@@ -250,10 +250,8 @@ TEST(Eaves, DoNotReachIntoTouchingBuildings) {
 
 /// Distance of a point from a facet's plane.
 double from_plane_mm(const PointMm& p, const GeneratedFacet& facet, const GeneratedBuilding& building) {
-  const PointMm area = twice_area_mm2(facet.outer, building.vertices), to = p - building.vertices[facet.outer[0]];
-  const Point3d normal =
-      normalized(Point3d{static_cast<double>(area.x), static_cast<double>(area.y), static_cast<double>(area.z)});
-  return std::abs(dot(normal, Point3d{static_cast<double>(to.x), static_cast<double>(to.y), static_cast<double>(to.z)}));
+  const Point3d normal = normalized(as_double(twice_area_mm2(facet.outer, building.vertices)));
+  return std::abs(dot(normal, as_double(p - building.vertices[facet.outer[0]])));
 }
 
 TEST(Eaves, AreTheRoofsOwnPlanes) {

@@ -97,56 +97,34 @@ void expect_same(const WrittenCity& read, const WrittenCity& expected) {
   }
 }
 
-class CityWriters : public ::testing::TestWithParam<int> {
- protected:
-  scenes::TemporaryFolder folder_;
-  CitySettings settings_ = small_city(GetParam());
-};
-INSTANTIATE_TEST_SUITE_P(Lod, CityWriters, ::testing::Values(1, 2));
-
-TEST_P(CityWriters, CityGmlHoldsTheCity) {
-  write(settings_, folder_.file("city.gml"));
-  expect_same(read_citygml(folder_.file("city.gml")), expected_city(settings_, Polygons::facets, Places::solid));
+/// Each level of detail, and a city for each option.
+std::vector<CitySettings> written_cities() {
+  std::vector<CitySettings> cities = cities_with_each_option();
+  for (CitySettings& city : cities) city.size_m = 350.0;
+  cities.insert(cities.begin(), {small_city(1), small_city(2)});
+  return cities;
 }
 
-TEST_P(CityWriters, CityJsonHoldsTheCity) {
-  write(settings_, folder_.file("city.city.json"));
-  expect_same(read_cityjson(folder_.file("city.city.json")), expected_city(settings_, Polygons::facets, Places::solid));
-}
+class CityWriters : public ::testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(Cities, CityWriters, ::testing::Range<std::size_t>(0, 11));
 
-TEST_P(CityWriters, ObjHoldsTheCity) {
-  write(settings_, folder_.file("city.obj"));
-  expect_same(read_obj(folder_.file("city.obj")), expected_city(settings_, Polygons::convex_faces, Places::solid));
-}
-
-TEST_P(CityWriters, GeoJsonHoldsTheFootprints) {
-  write(settings_, folder_.file("city.geojson"));
-  expect_same(read_geojson(folder_.file("city.geojson")), expected_city(settings_, Polygons::none, Places::footprint));
-}
-
-TEST_P(CityWriters, NothingIsLeftBesideTheCity) {
-  for (const char* name : {"city.gml", "city.city.json", "city.obj", "city.geojson"}) write(settings_, folder_.file(name));
-  EXPECT_EQ(folder_.names().size(), 4U);
-}
-
-class CityWritersOfOptions : public ::testing::TestWithParam<int> {
- protected:
-  scenes::TemporaryFolder folder_;
-  CitySettings settings_ = cities_with_each_option().at(static_cast<std::size_t>(GetParam()));
-};
-INSTANTIATE_TEST_SUITE_P(Option, CityWritersOfOptions, ::testing::Range(0, 9));
-
-TEST_P(CityWritersOfOptions, EachFormatHoldsTheCity) {
-  settings_.size_m = 350.0;
-  const WrittenCity expected = expected_city(settings_, Polygons::facets, Places::solid);
-  write(settings_, folder_.file("city.gml"));
-  expect_same(read_citygml(folder_.file("city.gml")), expected);
-  write(settings_, folder_.file("city.city.json"));
-  expect_same(read_cityjson(folder_.file("city.city.json")), expected);
-  write(settings_, folder_.file("city.obj"));
-  expect_same(read_obj(folder_.file("city.obj")), expected_city(settings_, Polygons::convex_faces, Places::solid));
-  write(settings_, folder_.file("city.geojson"));
-  expect_same(read_geojson(folder_.file("city.geojson")), expected_city(settings_, Polygons::none, Places::footprint));
+TEST_P(CityWriters, EachFormatHoldsTheCityAndLeavesNothingBesideIt) {
+  struct Format {
+    const char* file;
+    WrittenCity (*read)(const std::filesystem::path&);
+    Polygons polygons = Polygons::facets;
+    Places places = Places::solid;
+  };
+  const CitySettings settings = written_cities().at(GetParam());
+  const scenes::TemporaryFolder folder;
+  for (const auto& [file, read, polygons, places] : {Format{"city.gml", read_citygml}, Format{"city.city.json", read_cityjson},
+                                                     Format{"city.obj", read_obj, Polygons::convex_faces},
+                                                     Format{"city.geojson", read_geojson, Polygons::none, Places::footprint}}) {
+    SCOPED_TRACE(file);
+    write(settings, folder.file(file));
+    expect_same(read(folder.file(file)), expected_city(settings, polygons, places));
+  }
+  EXPECT_EQ(folder.names().size(), 4U);
 }
 
 CitySettings town(void (*switch_on)(CitySettings&)) {

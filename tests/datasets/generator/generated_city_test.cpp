@@ -230,9 +230,7 @@ TEST(GeneratedBuilding, VerticesAndFacetsAreNotDegenerate) {
 TEST(GeneratedBuilding, RolesAgreeWithTheNormals) {
   for_each_building_of_all_shapes([](const GeneratedBuilding& building, const CitySettings&) {
     for (const GeneratedFacet& facet : building.facets) {
-      const PointMm area = twice_area_mm2(facet.outer, building.vertices);
-      const Point3d normal =
-          normalized(Point3d{static_cast<double>(area.x), static_cast<double>(area.y), static_cast<double>(area.z)});
+      const Point3d normal = normalized(as_double(twice_area_mm2(facet.outer, building.vertices)));
       const bool looks_down = facet.role == FacetRole::ground || facet.role == FacetRole::outer_ceiling;
       const SurfaceKind expected = looks_down                      ? SurfaceKind::floor
                                    : facet.role == FacetRole::wall ? SurfaceKind::wall
@@ -315,9 +313,6 @@ TEST(GeneratedBuilding, EveryShapeOfRoofAndOverhangOccurs) {
 /// Whether no corner of the face turns against its sense by more than rounding can do: a corner moves by at most √3/2 mm, so
 /// that the cross product of two edges changes by at most √3 mm times their lengths, plus the product of the two changes.
 bool is_convex(const FaceRing& face, std::span<const PointMm> vertices) {
-  const auto as_double = [](const PointMm& p) {
-    return Point3d{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-  };
   const Point3d sense = normalized(as_double(twice_area_mm2(face, vertices)));
   for (std::size_t k = 0; k < face.size(); ++k) {
     const Point3d a = as_double(vertices[face[(k + 1) % face.size()]] - vertices[face[k]]);
