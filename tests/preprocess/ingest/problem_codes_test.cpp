@@ -142,69 +142,62 @@ TEST(ProblemPositions, AreNotGuessedForABuildingWithoutVertices) {
   EXPECT_FALSE(w.position(0));
 }
 
-/// What the user is told.
-std::string refusal(const std::filesystem::path& file, const IngestSettings& settings = {}) {
-  return scenes::refusal_of<InputError>([&] { (void)read_file(file, settings); });
-}
+/// A file that cannot be used, and what the user is told.
+struct Unusable {
+  const char *name, *file, *text;
+  std::vector<std::string> said;
+};
+void PrintTo(const Unusable& unusable, std::ostream* out) { *out << unusable.file << ": " << unusable.text; }
 
-void expect_says(const std::string& message, const std::vector<std::string>& words) {
-  for (const std::string& word : words)
+class UnusableInput : public testing::TestWithParam<Unusable> {};
+
+TEST_P(UnusableInput, IsRefusedInOneLine) {
+  const auto& [name, file, text, said] = GetParam();
+  const std::filesystem::path path = std::string(file) == "nowhere/town.gml" ? file : write_file(file, text);
+  const std::string message = scenes::refusal_of<InputError>([&] { (void)read_file(path); });
+  for (const std::string& word : said)
     EXPECT_NE(message.find(word), std::string::npos) << '"' << message << "\" lacks \"" << word << '"';
   EXPECT_EQ(message.find('\n'), std::string::npos) << "one line, please: " << message;
 }
 
-TEST(UnusableInput, MissingFile) { expect_says(refusal("nowhere/town.gml"), {"nowhere/town.gml", "does not exist"}); }
+INSTANTIATE_TEST_SUITE_P(
+    Ingest, UnusableInput,
+    testing::ValuesIn(std::vector<Unusable>{
+        {"MissingFile", "nowhere/town.gml", "", {"nowhere/town.gml", "does not exist"}},
+        {"EmptyFile", "town.obj", "", {"town.obj", "empty"}},
+        {"WrongEnd", "town.gml", "<a>\n  <b></a>", {"town.gml", "line 2", "column 8", "mismatched tag"}},
+        {"CutXml", "town.gml", "<a>\n  <b>", {"line 2", "no element"}},
+        {"OtherXml", "town.xml", "<html/>", {"not CityGML", "<html>"}},
+        {"CityGmlWithoutBuildings",
+         "town.gml",
+         R"(<CityModel xmlns="http://www.opengis.net/citygml/2.0"/>)",
+         {"holds no Building"}},
+        {"CutCityJson", "town.city.json", "{\"type\": \"CityJSON\",\n \"vertices\": [[1,2,}", {"line 2", "column 20"}},
+        {"BrokenJson", "town.json", "{\"a\":\n]", {"not JSON", "line 2"}},
+        {"CityJsonWithoutBuildings",
+         "town.city.json",
+         R"({"type":"CityJSON","CityObjects":{},"vertices":[]})",
+         {"holds no Building"}},
+        {"NoObject", "town.city.json", "[1, 2]", {"no JSON object"}},
+        {"NoType", "town.city.json", R"({"CityObjects":{}})", {"CityJSON"}},
+        {"AnotherTheme",
+         "trees.city.json",
+         R"({"type":"CityJSON","CityObjects":{"t":{"type":"SolitaryVegetationObject"}},"vertices":[]})",
+         {"holds no Building", "1 SolitaryVegetationObject"}},
+        {"MoreBehindItsEnd",
+         "town.city.json",
+         R"({"type":"CityJSON","CityObjects":{},"vertices":[]} and more)",
+         {"not JSON", "behind its end"}},
+        {"Archive", "town.7z", "7z\xBC\xAF\x27\x1C", {"town.7z", "archive", "unpack it first"}},
+        {"ObjWithoutFaces", "town.obj", "v 0 0 0\n", {"1 vertices", "no face"}},
+        {"NothingThatGdalKnows", "town.txt", "hello", {"town.txt", "GDAL"}},
+        {"NoBuildingIsLeft",
+         "town.city.json",
+         R"({"type":"CityJSON","CityObjects":{"ghost":{"type":"Building"}},"vertices":[]})",
+         {"no usable building", "ghost"}}}),
+    [](const auto& test) { return std::string(test.param.name); });
 
-TEST(UnusableInput, EmptyFile) { expect_says(refusal(write_file("town.obj", "")), {"town.obj", "empty"}); }
-
-TEST(UnusableInput, BrokenXmlTellsThePlace) {
-  expect_says(refusal(write_file("town.gml", "<a>\n  <b></a>")), {"town.gml", "line 2", "column 8", "mismatched tag"});
-  expect_says(refusal(write_file("town.gml", "<a>\n  <b>")), {"line 2", "no element"});
-}
-
-TEST(UnusableInput, OtherXml) { expect_says(refusal(write_file("town.xml", "<html/>")), {"not CityGML", "<html>"}); }
-
-TEST(UnusableInput, CityGmlWithoutBuildings) {
-  expect_says(refusal(write_file("town.gml", R"(<CityModel xmlns="http://www.opengis.net/citygml/2.0"/>)")),
-              {"holds no Building"});
-}
-
-TEST(UnusableInput, BrokenJsonTellsThePlace) {
-  expect_says(refusal(write_file("town.city.json", "{\"type\": \"CityJSON\",\n \"vertices\": [[1,2,}")), {"line 2", "column 20"});
-  expect_says(refusal(write_file("town.json", "{\"a\":\n]")), {"not JSON", "line 2"});
-}
-
-TEST(UnusableInput, CityJsonWithoutBuildings) {
-  expect_says(refusal(write_file("town.city.json", R"({"type":"CityJSON","CityObjects":{},"vertices":[]})")),
-              {"holds no Building"});
-  expect_says(refusal(write_file("town.city.json", "[1, 2]")), {"no JSON object"});
-  expect_says(refusal(write_file("town.city.json", R"({"CityObjects":{}})")), {"CityJSON"});
-}
-
-TEST(UnusableInput, CityJsonOfAnotherThemeTellsWhichItIs) {
-  const std::string trees = R"({"type":"CityJSON","CityObjects":{"t":{"type":"SolitaryVegetationObject"}},"vertices":[]})";
-  expect_says(refusal(write_file("trees.city.json", trees)), {"holds no Building", "1 SolitaryVegetationObject"});
-}
-
-TEST(UnusableInput, JsonWithMoreBehindItsEnd) {
-  const std::string text = R"({"type":"CityJSON","CityObjects":{},"vertices":[]} and more)";
-  expect_says(refusal(write_file("town.city.json", text)), {"not JSON", "behind its end"});
-}
-
-TEST(UnusableInput, ArchivesThatAreNotOpened) {
-  expect_says(refusal(write_file("town.7z", "7z\xBC\xAF\x27\x1C")), {"town.7z", "archive", "unpack it first"});
-}
-
-TEST(UnusableInput, ObjWithoutFaces) { expect_says(refusal(write_file("town.obj", "v 0 0 0\n")), {"1 vertices", "no face"}); }
-
-TEST(UnusableInput, NothingThatGdalKnows) { expect_says(refusal(write_file("town.txt", "hello")), {"town.txt", "GDAL"}); }
-
-TEST(UnusableInput, NoBuildingLeftTellsTheFirstReason) {
-  const std::string ghost = R"({"type":"CityJSON","CityObjects":{"ghost":{"type":"Building"}},"vertices":[]})";
-  expect_says(refusal(write_file("town.city.json", ghost)), {"no usable building", "ghost"});
-}
-
-TEST(UnusableInput, NoneOfTheKnownBrokenFilesIsLostInSilence) {
+TEST(UnusableInputs, NoneOfTheKnownBrokenFilesIsLostInSilence) {
   FARLOD_NEEDS_DATA("broken");
   IngestSettings settings;
   settings.footprints.default_height_m = 10.0;
