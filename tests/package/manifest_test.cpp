@@ -276,41 +276,31 @@ TEST(Package, ManifestWithAnImpossibleGrid) {
 TEST(Package, ManifestWithImpossibleSettings) {
   const SmallPackage small;
   const json whole = small.manifest();
-  const std::pair<const char*, json> changes[] = {{"/format", "other"},
-                                                  {"/grid/cell_m", 0.0},
-                                                  {"/grid/cell_m", -20.0},
-                                                  {"/grid/cell_m", 20.1},
-                                                  {"/grid/cell_m", 1e-30},
-                                                  {"/grid/cell_m", 1e300},
-                                                  {"/grid/neighborhood", 0},
-                                                  {"/grid/neighborhood", 2},
-                                                  {"/grid/neighborhood", -1},
-                                                  {"/grid/block_edge", 0},
-                                                  {"/grid/block_edge", 3},
-                                                  {"/grid/block_edge", 100000},
-                                                  {"/settings/assign", "somehow"},
-                                                  {"/settings/far_map/kind", "globe"},
-                                                  {"/settings/far_map/rows", 0},
-                                                  {"/settings/far_map/rows", 4000000000U},
-                                                  {"/settings/far_map/side_columns", 0},
-                                                  {"/settings/far_map/side_columns", 1 << 30},
-                                                  {"/blocks/0/i", 1},
-                                                  {"/blocks/0/tiles/xxh3", "xyz"},
-                                                  {"/blocks/0/tiles/xxh3", ""},
-                                                  {"/blocks/0/tiles/xxh3", "00000000000000000f0"},
-                                                  {"/blocks/0/tiles/bytes", -1},
-                                                  {"/crs/epsg", std::int64_t{1} << 33},
-                                                  {"/frame/origin_m/0", 1e300},
-                                                  {"/frame/origin_m/1", -2e9},
-                                                  {"/frame/height_origin_m", 1e12},
-                                                  {"/counts/buildings", -1}};
-  for (const auto& [place, value] : changes) {
-    json m = whole;
-    m[json::json_pointer(place)] = value;
-    const std::string damage = damage_of(small, m);
-    const bool harmless = std::string(place) == "/blocks/0/tiles/xxh3" && value == "00000000000000000f0";
-    EXPECT_EQ(damage == "no damage", harmless) << place << " = " << value << ": " << damage;
-  }
+  const std::vector<std::pair<std::string, std::vector<json>>> changes{
+      {"/format", {json("other")}},
+      {"/grid/cell_m", {0.0, -20.0, 20.1, 1e-30, 1e300}},
+      {"/grid/neighborhood", {0, 2, -1}},
+      {"/grid/block_edge", {0, 3, 100000}},
+      {"/settings/assign", {json("somehow")}},
+      {"/settings/far_map/kind", {json("globe")}},
+      {"/settings/far_map/rows", {0, 4000000000U}},
+      {"/settings/far_map/side_columns", {0, 1 << 30}},
+      {"/blocks/0/i", {json(1)}},
+      {"/blocks/0/tiles/xxh3", {"xyz", "", "00000000000000000f0"}},
+      {"/blocks/0/tiles/bytes", {json(-1)}},
+      {"/crs/epsg", {json(std::int64_t{1} << 33)}},
+      {"/frame/origin_m/0", {json(1e300)}},
+      {"/frame/origin_m/1", {json(-2e9)}},
+      {"/frame/height_origin_m", {json(1e12)}},
+      {"/counts/buildings", {json(-1)}}};
+  for (const auto& [place, values] : changes)
+    for (const json& value : values) {
+      json m = whole;
+      m[json::json_pointer(place)] = value;
+      const std::string damage = damage_of(small, m);
+      const bool harmless = place == "/blocks/0/tiles/xxh3" && value == "00000000000000000f0";
+      EXPECT_EQ(damage == "no damage", harmless) << place << " = " << value << ": " << damage;
+    }
 }
 
 TEST(Package, ManifestWithImpossibleHorizons) {
