@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "tests/library/packed_sample.hpp"
+#include "tests/scenes/footprints_text.hpp"
 #include "tests/scenes/planted_crowns.hpp"
 #include "tests/scenes/sealed_manifest.hpp"
 
@@ -267,19 +268,11 @@ TEST(PackageWithTrees, TellsThatItsCrownsAreDamaged) {
 class HouseAndTower {
  public:
   HouseAndTower(Point2d direction, FarMapKind kind) {
-    const auto square = [](Point2d middle, double height_m, const std::string& id) {
-      std::string ring;
-      for (const Point2d d : {Point2d{-10, -10}, {10, -10}, {10, 10}, {-10, 10}, {-10, -10}}) {
-        const Point2d p = middle + d;
-        ring.append(ring.empty() ? "[" : ",[").append(std::to_string(p.x)).append(",").append(std::to_string(p.y)).append("]");
-      }
-      return R"({"type":"Feature","properties":{"id":")" + id + R"(","height":)" + std::to_string(height_m) +
-             R"(},"geometry":{"type":"Polygon","coordinates":[[)" + ring + "]]}}";
-    };
-    std::ofstream(folder_.file("town.geojson"))
-        << R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32632"}},"features":[)"
-        << square(house, 5.0, "house") << "," << square(house + 500.0 * direction, 100.0, "tower") << ","
-        << square(house + 800.0 * direction, 6.0, "low") << "]}";
+    scenes::FootprintsText town;
+    for (const auto& [id, place, height_m] :
+         {std::tuple("house", house, 5.0), {"tower", house + 500.0 * direction, 100.0}, {"low", house + 800.0 * direction, 6.0}})
+      town.add(scenes::building(id, height_m), Box2d{place - Point2d{10, 10}, place + Point2d{10, 10}});
+    std::ofstream(folder_.file("town.geojson")) << town.text();
     PackSettings settings;
     settings.inputs = {folder_.file("town.geojson")};
     settings.output = folder_.file("town.farlod");

@@ -17,6 +17,7 @@
 #include "farlod/points.hpp"
 #include "farlod/raster.hpp"
 #include "tests/library/packed_sample.hpp"
+#include "tests/scenes/footprints_text.hpp"
 
 namespace farlod::library {
 namespace {
@@ -27,15 +28,9 @@ constexpr Point2d town_corner{500000.0, 5500000.0};
 class LShapedHouse {
  public:
   LShapedHouse() {
-    std::string ring;
-    for (const Point2d d : {Point2d{0, 0}, {40, 0}, {40, 20}, {20, 20}, {20, 40}, {0, 40}, {0, 0}}) {
-      const Point2d p = town_corner + d;
-      ring.append(ring.empty() ? "[" : ",[").append(std::to_string(p.x)).append(",").append(std::to_string(p.y)).append("]");
-    }
-    std::ofstream(folder_.file("town.geojson"))
-        << R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32632"}},"features":[)"
-        << R"({"type":"Feature","properties":{"id":"L","height":8},"geometry":{"type":"Polygon","coordinates":[[)" << ring
-        << "]]}}]}";
+    std::vector<Point2d> ring;
+    for (const Point2d d : {Point2d{0, 0}, {40, 0}, {40, 20}, {20, 20}, {20, 40}, {0, 40}}) ring.push_back(town_corner + d);
+    std::ofstream(folder_.file("town.geojson")) << scenes::FootprintsText().add(scenes::building("L", 8.0), ring).text();
     PackSettings settings;
     settings.inputs = {folder_.file("town.geojson")};
     settings.output = folder_.file("town.farlod");

@@ -8,6 +8,7 @@
 
 #include "farlod/error.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
+#include "tests/scenes/footprints_text.hpp"
 #include "tests/scenes/sealed_manifest.hpp"
 
 namespace farlod::pipeline::test {
@@ -41,18 +42,14 @@ constexpr double west_m = 500000.0, south_m = 5500000.0;
 
 /// Nine by nine houses of 10 m in 370 m by 370 m, higher to the north-east.
 std::string town(double highest_m = 40.0) {
-  std::ostringstream text;
-  text << R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32632"}},"features":[)";
+  scenes::FootprintsText houses;
   for (int column = 0; column < 9; ++column)
     for (int row = 0; row < 9; ++row) {
-      const double x = west_m + 45.0 * column, y = south_m + 45.0 * row;
-      text << (column + row > 0 ? "," : "") << R"({"type":"Feature","properties":{"height":)"
-           << 5.0 + (highest_m - 5.0) * (column + row) / 16.0 << R"(},"geometry":{"type":"Polygon","coordinates":[[[)"
-           << std::fixed << x << ',' << y << "],[" << x + 10 << ',' << y << "],[" << x + 10 << ',' << y + 10 << "],[" << x << ','
-           << y + 10 << "],[" << x << ',' << y << "]]]}}";
+      const Point2d p{west_m + 45.0 * column, south_m + 45.0 * row};
+      const double height_m = 5.0 + (highest_m - 5.0) * (column + row) / 16.0;
+      houses.add(scenes::building(std::to_string(10 * column + row), height_m), Box2d{p, p + Point2d{10.0, 10.0}});
     }
-  text << "]}";
-  return text.str();
+  return houses.text();
 }
 
 /// Cells of 25 m in blocks of 4 × 4.

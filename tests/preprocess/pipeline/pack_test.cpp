@@ -6,11 +6,11 @@
 
 #include <fstream>
 #include <span>
-#include <sstream>
 
 #include "farlod/error.hpp"
 #include "package/file_stamp.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
+#include "tests/scenes/footprints_text.hpp"
 
 namespace farlod::pipeline::test {
 namespace {
@@ -20,25 +20,23 @@ using testing::ElementsAre;
 using testing::IsSupersetOf;
 
 /// A footprint of 7 m by 11 m.
-std::string footprint(const std::string& id, int column, int row, double height_m) {
-  const double west = 8.4 + 0.001 * column, south = 49.0 + 0.001 * row, east = west + 0.0001, north = south + 0.0001;
-  std::ostringstream text;
-  text << R"({"type":"Feature","properties":{"id":")" << id << R"(","height":)" << height_m
-       << R"(},"geometry":{"type":"Polygon","coordinates":[[[)" << west << ',' << south << "],[" << east << ',' << south << "],["
-       << east << ',' << north << "],[" << west << ',' << north << "],[" << west << ',' << south << "]]]}}";
-  return text.str();
-}
-
-std::string collection(const std::vector<std::string>& features) {
-  std::string text;
-  for (const std::string& f : features) text += (text.empty() ? "" : ",\n") + f;
-  return R"({"type":"FeatureCollection","features":[)" + text + "]}\n";
+struct House {
+  const char* id;
+  int column, row;
+  double height_m;
+};
+std::string houses(const std::vector<House>& list) {
+  scenes::FootprintsText text("");
+  for (const auto& [id, column, row, height_m] : list) {
+    const Point2d p{8.4 + 0.001 * column, 49.0 + 0.001 * row};
+    text.add(scenes::building(id, height_m), Box2d{p, p + Point2d{0.0001, 0.0001}});
+  }
+  return text.text();
 }
 
 /// Three houses at the corners of a triangle of 140 m, and a footprint of height zero between them.
 std::string three_houses_and_a_pit() {
-  return collection(
-      {footprint("west", 0, 0, 9.0), footprint("pit", 1, 0, 0.0), footprint("east", 2, 0, 30.0), footprint("north", 1, 1, 12.0)});
+  return houses({{"west", 0, 0, 9.0}, {"pit", 1, 0, 0.0}, {"east", 2, 0, 30.0}, {"north", 1, 1, 12.0}});
 }
 
 /// Cells of 50 m in blocks of 2 × 2, so that the triangle lies in several of each.
@@ -174,7 +172,7 @@ TEST(Pack, TellsHowFarItIs) {
 
 TEST(Pack, StampsItsInputs) {
   TownPacking p;
-  const std::string town = three_houses_and_a_pit(), more = collection({footprint("south", 1, -1, 7.0)});
+  const std::string town = three_houses_and_a_pit(), more = houses({{"south", 1, -1, 7.0}});
   p.settings.inputs.push_back(p.write("more.geojson", more));
   p.run();
   const auto& inputs = p.result.manifest.inputs;
@@ -207,7 +205,7 @@ TEST(Pack, RefusesAFolderThatExistsBeforeTheLongWork) {
 TEST(Pack, ReplacesAPackageWhenAsked) {
   TownPacking p;
   p.run();
-  p.settings.inputs = {p.write("hut.geojson", collection({footprint("hut", 0, 0, 3.0)}))};
+  p.settings.inputs = {p.write("hut.geojson", houses({{"hut", 0, 0, 3.0}}))};
   p.settings.overwrite = Overwrite::replace;
   p.run();
   EXPECT_EQ(ids_in(PackageReader(p.settings.output)), (std::set<std::string>{"hut"}));

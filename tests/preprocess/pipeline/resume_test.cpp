@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "base/shard_parts.hpp"
 #include "farlod/error.hpp"
@@ -12,6 +11,7 @@
 #include "package/unfinished_package.hpp"
 #include "pipeline/pack_target.hpp"
 #include "tests/preprocess/pipeline/packing.hpp"
+#include "tests/scenes/footprints_text.hpp"
 #include "tests/scenes/refusal.hpp"
 
 namespace farlod::pipeline::test {
@@ -34,18 +34,13 @@ struct ResumedPacking : Packing {
     settings.ingest.footprints.height_field = "height";
   }
   static std::string town(double height_m) {
-    std::ostringstream text;
-    text
-        << std::fixed
-        << R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32632"}},"features":[)";
+    scenes::FootprintsText houses;
     for (int n = 0; n < 36; ++n) {
-      const double x = 500001.0 + 25.0 * (n % 6), y = 5500001.0 + 25.0 * (n / 6);
-      text << (n > 0 ? "," : "") << R"({"type":"Feature","properties":{"id":"h)" << n << R"(","height":)"
-           << (n == 7 ? -1.0 : height_m * (1 + n % 5) / 5.0) << R"(},"geometry":{"type":"Polygon","coordinates":[[[)" << x << ','
-           << y << "],[" << x + 9 << ',' << y << "],[" << x + 9 << ',' << y + 9 << "],[" << x << ',' << y + 9 << "],[" << x << ','
-           << y << "]]]}}";
+      const Point2d p{500001.0 + 25.0 * (n % 6), 5500001.0 + 25.0 * (n / 6)};
+      const double own_m = n == 7 ? -1.0 : height_m * (1 + n % 5) / 5.0;
+      houses.add(scenes::building("h" + std::to_string(n), own_m), Box2d{p, p + Point2d{9.0, 9.0}});
     }
-    return text.str() + "]}";
+    return houses.text();
   }
   void run_as(const std::string& name) {
     settings.output = folder.path() / name;
