@@ -31,6 +31,7 @@ struct WrongPack {
 };
 
 std::vector<WrongPack> wrong_files() {
+  const auto origin = [](const Point3d& p) { return [p](PackSettings& s) { s.obj_origin = p; }; };
   return {{"no output", [](PackSettings& s) { s.output.clear(); }},
           {"no inputs", [](PackSettings& s) { s.inputs.clear(); }},
           {"an input without a name", [](PackSettings& s) { s.inputs.emplace_back(); }},
@@ -46,18 +47,9 @@ std::vector<WrongPack> wrong_files() {
           {"no such axis", [](PackSettings& s) { s.up = static_cast<UpAxis>(2); }},
           {"lod -1", [](PackSettings& s) { s.lod = -1; }},
           {"lod 4", [](PackSettings& s) { s.lod = 4; }},
-          {"an origin at no place",
-           [](PackSettings& s) {
-             s.obj_origin = Point3d{0.0, not_a_number, 0.0};
-           }},
-          {"an origin without end",
-           [](PackSettings& s) {
-             s.obj_origin = Point3d{endless, 0.0, 0.0};
-           }},
-          {"an origin beyond the Earth",
-           [](PackSettings& s) {
-             s.obj_origin = Point3d{0.0, 0.0, 1e10};
-           }},
+          {"an origin at no place", origin({0.0, not_a_number, 0.0})},
+          {"an origin without end", origin({endless, 0.0, 0.0})},
+          {"an origin beyond the Earth", origin({0.0, 0.0, 1e10})},
           {"a storey of nothing", [](PackSettings& s) { s.footprints.floor_height_m = 0.0; }},
           {"a storey at no height", [](PackSettings& s) { s.footprints.floor_height_m = not_a_number; }},
           {"houses of nothing", [](PackSettings& s) { s.footprints.default_height_m = 0.0; }},
