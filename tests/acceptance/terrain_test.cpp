@@ -12,21 +12,17 @@
 namespace farlod::acceptance {
 namespace {
 
-constexpr double terrain_step_m = 10.0;
-constexpr int terrain_nodes = 101;  // along each edge: 1 km
-constexpr double terrain_half_m = 0.5 * terrain_step_m * (terrain_nodes - 1);
-
 /// An ESRI ASCII grid around the town's middle, with pixel centres at whole steps from it. `height_m` gets metres from the
 /// middle.
-std::string ascii_grid(const std::function<double(Point2d)>& height_m) {
+std::string ascii_grid(const std::function<double(Point2d)>& height_m, double step_m = 10.0, double half_m = 500.0) {
+  const int nodes = 1 + static_cast<int>(std::lround(2.0 * half_m / step_m));
   std::ostringstream text;
-  text.precision(10);
-  const Point2d corner = town_middle - (terrain_half_m + 0.5 * terrain_step_m) * Point2d{1.0, 1.0};
-  text << "ncols " << terrain_nodes << "\nnrows " << terrain_nodes << "\nxllcorner " << corner.x << "\nyllcorner " << corner.y
-       << "\ncellsize " << terrain_step_m << "\nNODATA_value -9999\n";
-  for (int row = 0; row < terrain_nodes; ++row) {
-    for (int column = 0; column < terrain_nodes; ++column)
-      text << height_m({-terrain_half_m + column * terrain_step_m, terrain_half_m - row * terrain_step_m}) << ' ';
+  text.precision(12);
+  const Point2d corner = town_middle - (half_m + 0.5 * step_m) * Point2d{1.0, 1.0};
+  text << "ncols " << nodes << "\nnrows " << nodes << "\nxllcorner " << corner.x << "\nyllcorner " << corner.y << "\ncellsize "
+       << step_m << "\nNODATA_value -9999\n";
+  for (int row = 0; row < nodes; ++row) {
+    for (int column = 0; column < nodes; ++column) text << height_m({-half_m + column * step_m, half_m - row * step_m}) << ' ';
     text << '\n';
   }
   return text.str();
@@ -43,6 +39,11 @@ constexpr double plane_error_m = 0.0005 + 0.0001;
 
 class Terrain : public testing::Test {
  protected:
+  /// Packs a terrain, and what else there is.
+  void pack(double (*height_m)(Point2d), const std::string& inputs = "--crs EPSG:32632") const {
+    folder.write("terrain.asc", ascii_grid(height_m));
+    folder.must("farlod-pack --terrain terrain.asc -o a.farlod --summary p.json " + inputs);
+  }
   [[nodiscard]] CsvTable answer_at(Point2d p, const std::string& arguments) const {
     folder.must("farlod-svf a.farlod -o at.csv --at " + text_of(p) + " " + arguments);
     return CsvTable(folder.text_of("at.csv"));
@@ -51,8 +52,7 @@ class Terrain : public testing::Test {
 };
 
 TEST_F(Terrain, ReceiversStandOnIt) {
-  folder.write("slope.asc", ascii_grid(plane_m));
-  folder.must("farlod-pack --terrain slope.asc --crs EPSG:32632 -o a.farlod");
+  pack(plane_m);
   for (const Point2d p : {Point2d{}, {100.0, 0.0}, {-123.0, 77.0}, {401.5, -398.25}}) {
     EXPECT_NEAR(answer_at(town_middle + p, "").number(0, "z_m"), plane_m(p) + 1.5, plane_error_m);
     EXPECT_NEAR(answer_at(town_middle + p, "--on-surface").number(0, "z_m"), plane_m(p) + 1.5, plane_error_m);
@@ -60,8 +60,7 @@ TEST_F(Terrain, ReceiversStandOnIt) {
 }
 
 TEST_F(Terrain, AloneItIsACityToo) {
-  folder.write("slope.asc", ascii_grid(plane_m));
-  folder.must("farlod-pack --terrain slope.asc --crs EPSG:32632 -o a.farlod --summary p.json");
+  pack(plane_m);
   EXPECT_EQ(folder.json_of("p.json").at("buildings"), 0);
   folder.must("farlod-svf a.farlod -o o.asc --grid 20 --on-surface --summary s.json");
   EXPECT_GT(folder.json_of("s.json").at("receivers"), 2000);
@@ -71,8 +70,7 @@ TEST_F(Terrain, AloneItIsACityToo) {
 }
 
 TEST_F(Terrain, AHillHidesTheSky) {
-  folder.write("bowl.asc", ascii_grid(bowl_m));
-  folder.must("farlod-pack --terrain bowl.asc --crs EPSG:32632 -o a.farlod");
+  pack(bowl_m);
   // From the lowest point the rim stands at the sides' own angle, in all directions
   const double expected = cos(bowl_side) * cos(bowl_side);
   const double border = 2.0 * std::numbers::pi * cos(bowl_side);
@@ -83,9 +81,8 @@ TEST_F(Terrain, AHillHidesTheSky) {
 }
 
 TEST_F(Terrain, BuildingsThatKnowOnlyTheirHeightStandOnIt) {
-  folder.write("slope.asc", ascii_grid(plane_m));
   folder.write("town.geojson", footprints_geojson(small_town()));
-  folder.must("farlod-pack town.geojson --terrain slope.asc -o a.farlod");
+  pack(plane_m, "town.geojson");
   folder.must("farlod-svf a.farlod -o o.csv --surfaces roofs --spacing 30");
   const CsvTable roofs(folder.text_of("o.csv"));
   std::map<std::string, double> roof_m;
@@ -100,9 +97,8 @@ TEST_F(Terrain, BuildingsThatKnowOnlyTheirHeightStandOnIt) {
 }
 
 TEST_F(Terrain, BetweenBuildingsReceiversStandOnTheTerrain) {
-  folder.write("slope.asc", ascii_grid(plane_m));
   folder.write("town.geojson", footprints_geojson(small_town()));
-  folder.must("farlod-pack town.geojson --terrain slope.asc -o a.farlod");
+  pack(plane_m, "town.geojson");
   const Point2d street = p_projected({-60.0, 0.0});
   EXPECT_NEAR(answer_at(street, "").number(0, "z_m"), plane_m(street - town_middle) + 1.5, plane_error_m);
 }
@@ -248,28 +244,12 @@ constexpr double rise_m = roof_m - floor_m - receiver_m;
 constexpr double pixel_m = 0.25;
 constexpr std::size_t rays = 20000;
 
-/// A surface model around the town's middle, a square of 80 m with pixel centres at whole pixels from the middle.
-constexpr double half_edge_m = 40.0;
-constexpr int pixels = static_cast<int>(2.0 * half_edge_m / pixel_m) + 1;
-std::string surface_model(const std::function<bool(Point2d)>& is_roof) {
-  std::ostringstream text;
-  text.precision(12);
-  const Point2d corner = town_middle - (half_edge_m + 0.5 * pixel_m) * Point2d{1.0, 1.0};
-  text << "ncols " << pixels << "\nnrows " << pixels << "\nxllcorner " << corner.x << "\nyllcorner " << corner.y << "\ncellsize "
-       << pixel_m << "\nNODATA_value -9999\n";
-  for (int row = 0; row < pixels; ++row) {
-    for (int column = 0; column < pixels; ++column)
-      text << (is_roof({-half_edge_m + column * pixel_m, half_edge_m - row * pixel_m}) ? roof_m : floor_m) << ' ';
-    text << '\n';
-  }
-  return text.str();
-}
-
 /// A city that is known only as a raster of its surface: its walls stand between two pixels, with their tops at the roof's.
 class SurfaceModel : public testing::Test {
  protected:
   void pack(const std::function<bool(Point2d)>& is_roof) const {
-    folder.write("dsm.asc", surface_model(is_roof));
+    constexpr double half_edge_m = 40.0;
+    folder.write("dsm.asc", ascii_grid([&](Point2d p) { return is_roof(p) ? roof_m : floor_m; }, pixel_m, half_edge_m));
     folder.must("farlod-pack --terrain dsm.asc --crs EPSG:32632 --quiet -o a.farlod");
   }
   [[nodiscard]] double svf_at(Point2d p, const std::string& engine) const {
