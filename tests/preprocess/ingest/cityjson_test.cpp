@@ -25,6 +25,15 @@ std::string building(const std::string& geometries, const std::string& more = ""
   return R"("b":{"type":"Building","geometry":[)" + geometries + "]" + more + "}";
 }
 
+/// The template that instances have.
+std::string templates_of(const std::string& geometry) {
+  return R"("geometry-templates":{"templates":[)" + geometry + R"(],"vertices-templates":[[0,0,0],[1,0,0],[0,0,1]]},)";
+}
+std::string instance_at(int vertex, const std::string& matrix = "1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1") {
+  return R"({"type":"GeometryInstance","template":0,"boundaries":[)" + std::to_string(vertex) + R"(],"transformationMatrix":[)" +
+         matrix + "]}";
+}
+
 TEST(CityJson, ReadsSurfacesWithTheTransform) {
   const Reading r = read_text("a.city.json", file_of(building(surface(R"("2.2")", "[[[0,1,2,3]],[[0,1,4]]]"))));
   EXPECT_EQ(r.source.crs.definition, "https://www.opengis.net/def/crs/EPSG/0/28992");
@@ -69,10 +78,8 @@ TEST(CityJson, PartsBelongToTheirBuildingWhicheverSideSaysSo) {
 }
 
 TEST(CityJson, TemplatesAreTurnedAndMoved) {
-  const std::string instance =
-      R"({"type":"GeometryInstance","template":0,"boundaries":[2],"transformationMatrix":[0,-2,0,0,2,0,0,0,0,0,2,0,0,0,0,1]})";
-  const std::string templates = R"("geometry-templates":{"templates":[)" + surface("2", "[[[0,1,2]]]") +
-                                R"(],"vertices-templates":[[0,0,0],[1,0,0],[0,0,1]]},)";
+  const std::string instance = instance_at(2, "0,-2,0,0,2,0,0,0,0,0,2,0,0,0,0,1");
+  const std::string templates = templates_of(surface("2", "[[[0,1,2]]]"));
   const Reading r = read_text("a.city.json", file_of(building(instance), templates));
   const auto ring = r.city().ring(r.city().facets()[0], 0);
   EXPECT_EQ(std::vector<Point3d>(ring.begin(), ring.end()), (std::vector<Point3d>{{11, 21, 30}, {11, 23, 30}, {11, 21, 32}}));
@@ -255,12 +262,8 @@ TEST(CityJson, NestingHasAnEnd) {
 TEST(CityJson, TemplatesThatWouldTakeTheSquareOfTheFileAreRefused) {
   std::string polygons = "[]", instances;
   for (int k = 1; k < 20'000; ++k) polygons += ",[]";
-  for (int k = 0; k < 2'000; ++k)
-    instances +=
-        std::string(k == 0 ? "" : ",") +
-        R"({"type":"GeometryInstance","template":0,"boundaries":[0],"transformationMatrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]})";
-  const std::string templates = R"("geometry-templates":{"templates":[)" + surface("2", "[" + polygons + "]") +
-                                R"(],"vertices-templates":[[0,0,0],[1,0,0],[0,0,1]]},)";
+  for (int k = 0; k < 2'000; ++k) instances += (k == 0 ? "" : ",") + instance_at(0);
+  const std::string templates = templates_of(surface("2", "[" + polygons + "]"));
   EXPECT_THAT(scenes::refusal_of<InputError>([&] { (void)read_text("a.city.json", file_of(building(instances), templates)); }),
               testing::HasSubstr("Split it into tiles"));
 }
@@ -269,12 +272,10 @@ TEST(CityJson, TemplatesThatWouldFillTheMemoryAreRefused) {
   constexpr int corners = 100'000, uses = 101;
   std::string ring = "0,1,2";
   for (int k = 3; k < corners; ++k) ring += "," + std::to_string(k % 3);
-  const std::string instance =
-      R"({"type":"GeometryInstance","template":0,"boundaries":[0],"transformationMatrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]})";
+  const std::string instance = instance_at(0);
   std::string instances = instance;
   for (int k = 1; k < uses; ++k) instances += "," + instance;
-  const std::string templates = R"("geometry-templates":{"templates":[)" + surface("2", "[[[" + ring + "]]]") +
-                                R"(],"vertices-templates":[[0,0,0],[1,0,0],[0,0,1]]},)";
+  const std::string templates = templates_of(surface("2", "[[[" + ring + "]]]"));
   EXPECT_THROW((void)read_text("a.city.json", file_of(building(instances), templates)), InputError);
 }
 

@@ -30,23 +30,25 @@ double volume(const CityModel& city) {
   return sum / 6.0;
 }
 
+Reading read_features(const std::vector<std::string>& features, const IngestSettings& settings = {}) {
+  return read_text("a.geojson", collection(features), settings);
+}
+
 TEST(Footprints, SayHowManyHeightsWereNotMeasured) {
   IngestSettings settings;
   settings.footprints.default_height_m = 5.0;
   settings.footprints.floor_height_m = 2.5;
-  const Reading r =
-      read_text("a.geojson",
-                collection({feature(R"("height":3)", "Polygon", square), feature(R"("levels":4)", "Polygon", square),
-                            feature(R"("levels":2)", "Polygon", square), feature("", "Polygon", square)}),
-                settings);
+  const Reading r = read_features({feature(R"("height":3)", "Polygon", square), feature(R"("levels":4)", "Polygon", square),
+                                   feature(R"("levels":2)", "Polygon", square), feature("", "Polygon", square)},
+                                  settings);
   ASSERT_EQ(r.source.notes.size(), 2u);
   EXPECT_TRUE(r.source.notes[0].ends_with("a.geojson: 2 heights are storeys of 2.5 m")) << r.source.notes[0];
   EXPECT_TRUE(r.source.notes[1].ends_with("a.geojson: 1 heights are the default height")) << r.source.notes[1];
-  EXPECT_TRUE(read_text("a.geojson", collection({feature(R"("height":3)", "Polygon", square)})).source.notes.empty());
+  EXPECT_TRUE(read_features({feature(R"("height":3)", "Polygon", square)}).source.notes.empty());
 }
 
 TEST(Footprints, BecomePrismsThatFaceOutwards) {
-  const Reading r = read_text("a.geojson", collection({feature(R"("height":3)", "Polygon", square)}));
+  const Reading r = read_features({feature(R"("height":3)", "Polygon", square)});
   ASSERT_EQ(r.city().buildings().size(), 1u);
   EXPECT_EQ(surface_count(r.city()), 6u);
   EXPECT_EQ(volume(r.city()), 48.0);
@@ -61,14 +63,13 @@ TEST(Footprints, BecomePrismsThatFaceOutwards) {
 }
 
 TEST(Footprints, HolesGetWallsTooWhicheverWayTheyRun) {
-  const Reading r = read_text("a.geojson", collection({feature(R"("height":2)", "Polygon", court)}));
+  const Reading r = read_features({feature(R"("height":2)", "Polygon", court)});
   EXPECT_EQ(surface_count(r.city()), 10u);
   EXPECT_EQ(volume(r.city()), (16.0 - 4.0) * 2.0);
 }
 
 TEST(Footprints, AFeatureOfSeveralPolygonsIsOneBuildingWithParts) {
-  const Reading r = read_text(
-      "a.geojson", collection({feature(R"("height":2)", "MultiPolygon", "[" + square + ",[[[9,0],[10,0],[10,1],[9,0]]]]")}));
+  const Reading r = read_features({feature(R"("height":2)", "MultiPolygon", "[" + square + ",[[[9,0],[10,0],[10,1],[9,0]]]]")});
   ASSERT_EQ(r.city().buildings().size(), 1u);
   EXPECT_EQ(r.city().facets().front().part, 0);
   EXPECT_EQ(r.city().facets().back().part, 1);
@@ -78,7 +79,7 @@ TEST(Footprints, AFeatureOfSeveralPolygonsIsOneBuildingWithParts) {
 TEST(Footprints, TheBaseComesFromItsOwnField) {
   IngestSettings settings;
   settings.footprints = {.height_field = "h", .base_field = "ground"};
-  const Reading r = read_text("a.geojson", collection({feature(R"("h":"10 ft","ground":100)", "Polygon", square)}), settings);
+  const Reading r = read_features({feature(R"("h":"10 ft","ground":100)", "Polygon", square)}, settings);
   EXPECT_EQ(r.city().buildings()[0].height_reference, HeightReference::elevation);
   EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[0].z, 100.0 + 10.0 * 0.3048);
 }
@@ -86,23 +87,21 @@ TEST(Footprints, TheBaseComesFromItsOwnField) {
 TEST(Footprints, ADefaultHeightServesThoseWithoutOne) {
   IngestSettings settings;
   settings.footprints.default_height_m = 7.0;
-  const Reading r =
-      read_text("a.geojson", collection({feature("", "Polygon", square), feature(R"("height":3)", "Polygon", square)}), settings);
+  const Reading r = read_features({feature("", "Polygon", square), feature(R"("height":3)", "Polygon", square)}, settings);
   EXPECT_EQ(r.city().buildings().size(), 2u);
   EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[0].z, 7.0);
   EXPECT_TRUE(r.codes().empty());
 }
 
 TEST(Footprints, IdsComeFromTheTableOrAreNumbers) {
-  const Reading r = read_text("a.geojson", collection({feature(R"("height":3,"@id":"way/7")", "Polygon", square),
-                                                       feature(R"("height":3)", "Polygon", square)}));
+  const Reading r =
+      read_features({feature(R"("height":3,"@id":"way/7")", "Polygon", square), feature(R"("height":3)", "Polygon", square)});
   EXPECT_EQ(r.city().buildings()[0].id, "way/7");
   EXPECT_EQ(r.city().buildings()[1].id, "1");
 }
 
 TEST(Footprints, ElevationsOfVerticesAreIgnored) {
-  const Reading r =
-      read_text("a.geojson", collection({feature(R"("height":3)", "Polygon", "[[[0,0,50],[4,0,51],[4,4,52],[0,0,50]]]")}));
+  const Reading r = read_features({feature(R"("height":3)", "Polygon", "[[[0,0,50],[4,0,51],[4,4,52],[0,0,50]]]")});
   EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[0].z, 3.0);
 }
 
@@ -122,11 +121,10 @@ TEST(Footprints, ATableWithoutHeightsNamesItsNumbers) {
 TEST(Footprints, StoreysServeThoseWithoutAHeight) {
   IngestSettings settings;
   settings.footprints.floor_height_m = 3.25;
-  const Reading r = read_text("a.geojson",
-                              collection({feature(R"("height":"17.5 m","building:levels":"9")", "Polygon", square),
-                                          feature(R"("height":null,"building:levels":"4")", "Polygon", square),
-                                          feature(R"("height":null,"building:levels":null)", "Polygon", square)}),
-                              settings);
+  const Reading r = read_features({feature(R"("height":"17.5 m","building:levels":"9")", "Polygon", square),
+                                   feature(R"("height":null,"building:levels":"4")", "Polygon", square),
+                                   feature(R"("height":null,"building:levels":null)", "Polygon", square)},
+                                  settings);
   ASSERT_EQ(r.city().buildings().size(), 2u);
   EXPECT_EQ(r.city().points_of(r.city().buildings()[0])[0].z, 17.5);
   EXPECT_EQ(r.city().points_of(r.city().buildings()[1])[0].z, 13.0);
@@ -147,7 +145,7 @@ TEST(Footprints, FieldsThatAreAskedForMustBeThere) {
 TEST(Footprints, OfWhichOnlyTheRoofIsKnownReachDownToTheGround) {
   IngestSettings settings;
   settings.footprints.roof_field = "roof";
-  const Reading r = read_text("a.geojson", collection({feature(R"("roof":"412,5")", "Polygon", court)}), settings);
+  const Reading r = read_features({feature(R"("roof":"412,5")", "Polygon", court)}, settings);
   EXPECT_EQ(r.city().buildings()[0].height_reference, HeightReference::down_to_ground);
   EXPECT_EQ(r.city().ring(r.city().facets()[0], 0)[0].z, 412.5);
 }
@@ -169,7 +167,7 @@ std::string cube_sides() {
 }
 
 TEST(Footprints, BodiesInSpaceStandAsTheyAre) {
-  const Reading r = read_text("a.geojson", collection({feature(R"("name":"cube")", "MultiPolygon", cube_sides())}));
+  const Reading r = read_features({feature(R"("name":"cube")", "MultiPolygon", cube_sides())});
   ASSERT_EQ(r.city().buildings().size(), 1u);
   EXPECT_EQ(r.city().buildings()[0].height_reference, HeightReference::elevation);
   EXPECT_EQ(r.city().facets().size(), 6u);
@@ -192,7 +190,7 @@ TEST(Footprints, DrapedOverTheTerrainAreNoBodies) {
   const std::string draped =
       "[[[[8.4,49,50],[8.4001,49,53],[8.4001,49.0001,55],[8.4,49,50]]],"
       "[[[8.41,49,50],[8.4101,49,51],[8.4101,49.0001,52],[8.41,49,50]]]]";
-  const Reading r = read_text("a.geojson", collection({feature(R"("height":3)", "MultiPolygon", draped)}));
+  const Reading r = read_features({feature(R"("height":3)", "MultiPolygon", draped)});
   EXPECT_EQ(r.city().buildings()[0].height_reference, HeightReference::on_ground);
   EXPECT_EQ(r.city().facets().size(), 10u);
   // A hut of 1 m on a cliff is steep, but still a footprint: one polygon makes no body
@@ -204,7 +202,7 @@ TEST(Footprints, DrapedOverTheTerrainAreNoBodies) {
 TEST(Footprints, AreNotMixedWithBodies) {
   std::vector<std::string> features(100, feature(R"("height":3)", "Polygon", square));
   features.push_back(feature(R"("height":3,"id":"cube")", "MultiPolygon", cube_sides()));
-  const Reading r = read_text("a.geojson", collection(features));
+  const Reading r = read_features(features);
   EXPECT_EQ(r.city().buildings().size(), 100u);
   ASSERT_EQ(r.report.count(ProblemCode::unsupported_geometry), 1u);
 }
