@@ -6,6 +6,7 @@
 
 #include "farlod/error.hpp"
 #include "tests/acceptance/packed_town.hpp"
+#include "tests/acceptance/refused_command.hpp"
 
 // farlod-info, as users type it
 
@@ -160,8 +161,6 @@ TEST_F(Info, TheObjFileCanBePacked) {
 }
 
 TEST_F(Info, PicturesOfACell) {
-  const json cells = facts().at("grid").at("cells");
-  const std::string place = std::to_string(cells[0].get<int>()) + "," + std::to_string(cells[1].get<int>());
   for (const std::string kind : {"horizon", "box"}) {
     folder.must("farlod-pack town.geojson -o " + kind + ".farlod --cell 40 --far-map " + kind + " --quiet");
     for (const std::string ending : {".png", ".svg", ".pdf"}) {
@@ -176,26 +175,20 @@ TEST_F(Info, PicturesOfACell) {
 }
 
 TEST_F(Info, RefusesInOneLine) {
-  struct Refused {
-    std::string arguments;
-    int exit_code;
-    std::vector<std::string> said;
-  };
-  for (const Refused& r : {Refused{"lost.farlod", exit_unusable_input, {"lost.farlod is not a package"}},
-                           Refused{"", exit_usage, {"PACKAGE is required"}},
-                           Refused{"a.farlod --cell 3", exit_usage, {"--cell", "\"3\" is not of the form I,J"}},
-                           Refused{"a.farlod --cell 1,2,3", exit_usage, {"--cell", "I,J"}},
-                           Refused{"a.farlod --cell 1,x", exit_usage, {"--cell", "I,J"}},
-                           Refused{"a.farlod --cell 99,0", exit_unusable_input, {"a.farlod has no cell 99,0: i goes from"}},
-                           Refused{"a.farlod --obj o.obj", exit_usage, {"--obj", "it goes with --cell"}},
-                           Refused{"a.farlod --png o.png", exit_usage, {"--png", "it goes with --cell"}},
-                           Refused{"a.farlod --cell 0,0 --png o.jpg", exit_usage, {"--png", "o.jpg", ".png, .svg, .pdf"}},
-                           Refused{"a.farlod --cell 0,0 --obj lost/o.obj", exit_unusable_input, {"lost/o.obj", "no folder lost"}},
-                           Refused{"a.farlod --summary lost/s.json", exit_unusable_input, {"no folder lost"}},
-                           Refused{"a.farlod --threads 0", exit_usage, {"--threads", "1 to 4096"}}}) {
+  for (const auto& [name, arguments, exit_code, said] :
+       {unusable("", "lost.farlod", {"lost.farlod is not a package"}), wrong_usage("", "", {"PACKAGE is required"}),
+        wrong_usage("", "a.farlod --cell 3", {"--cell", "\"3\" is not of the form I,J"}),
+        wrong_usage("", "a.farlod --cell 1,2,3", {"--cell", "I,J"}), wrong_usage("", "a.farlod --cell 1,x", {"--cell", "I,J"}),
+        unusable("", "a.farlod --cell 99,0", {"a.farlod has no cell 99,0: i goes from"}),
+        wrong_usage("", "a.farlod --obj o.obj", {"--obj", "it goes with --cell"}),
+        wrong_usage("", "a.farlod --png o.png", {"--png", "it goes with --cell"}),
+        wrong_usage("", "a.farlod --cell 0,0 --png o.jpg", {"--png", "o.jpg", ".png, .svg, .pdf"}),
+        unusable("", "a.farlod --cell 0,0 --obj lost/o.obj", {"lost/o.obj", "no folder lost"}),
+        unusable("", "a.farlod --summary lost/s.json", {"no folder lost"}),
+        wrong_usage("", "a.farlod --threads 0", {"--threads", "1 to 4096"})}) {
     const std::vector<std::string> before = folder.names();
-    SCOPED_TRACE(r.arguments);
-    expect_refusal(folder.run("farlod-info " + r.arguments), r.exit_code, r.said);
+    SCOPED_TRACE(arguments);
+    expect_refusal(folder.run("farlod-info " + arguments), exit_code, said);
     EXPECT_EQ(folder.names(), before);
   }
 }

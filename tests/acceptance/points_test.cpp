@@ -26,8 +26,7 @@ TEST_F(PackedTown, APointFarFromTheCitySeesTheWholeSky) {
 
 TEST(TwoBlocks, APointNextToThemButOutsideOfTheGridIsExact) {
   const WorkFolder folder;
-  folder.write("town.geojson", footprints_geojson({{"low", {}, 20.0, 10.0}, {"high", {60.0, 0.0}, 20.0, 40.0}}));
-  folder.must("farlod-pack town.geojson -o a.farlod --cell 10");
+  add_packed_town(folder, "two_blocks", {{"low", {}, 20.0, 10.0}, {"high", {60.0, 0.0}, 20.0, 40.0}}, "--cell 10");
   // The grid ends within one cell of the outermost wall; this point is 12 m away from it
   const std::string place = text_of(p_projected({-22.0, 3.0}));
   const Outcome outcome = folder.run("farlod-svf a.farlod -o o.csv --at " + place);
@@ -110,9 +109,7 @@ TEST_F(PackedTown, PointsInDegreesAreProjected) {
   const double millimetre = 0.001;
   EXPECT_NEAR(answers.number(1, "y_m") - answers.number(0, "y_m"), 111.23 * 0.9996, 10.0 * millimetre);
 }
-#endif
 
-#ifdef FARLOD_WITH_GDAL
 TEST_F(PackedTown, PointsOfAVectorFileAreInItsOwnCrsAndKeepTheirFields) {
   folder.write("p.geojson", R"({"type": "FeatureCollection", "features": [
     {"type": "Feature", "properties": {"name": "south", "svf": 0.7}, "geometry": {"type": "Point", "coordinates": [9, 49.65]}},
@@ -164,8 +161,7 @@ TEST_F(PackedTown, APointWithANormalIsAReceiverOnASurface) {
 
 TEST(LonelyShed, APointInTheOpenSeesTheSkyOfItsTilt) {
   const WorkFolder folder;
-  folder.write("shed.geojson", footprints_geojson({{"shed", {}, 1.0, 0.5}}));
-  folder.must("farlod-pack shed.geojson -o a.farlod");
+  add_packed_town(folder, "shed", {{"shed", {}, 1.0, 0.5}});
   std::string points = "x,y,azimuth,tilt\n";
   const std::vector<double> tilts_deg{0.0, 30.0, 60.0, 90.0, 120.0, 180.0};
   for (std::size_t n = 0; n < tilts_deg.size(); ++n)

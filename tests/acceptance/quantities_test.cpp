@@ -9,6 +9,7 @@
 #include "farlod/error.hpp"
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/analytic/oracles.hpp"
+#include "tests/scenes/footprints_text.hpp"
 
 // What farlod-svf computes besides the sky view factor, and where it computes it.
 
@@ -99,12 +100,9 @@ TEST_F(PackedTown, QuantitiesThatDoNotFitAreRefused) {
 
 /// A triangle over the west of the town, as GeoJSON.
 void write_mask(const WorkFolder& folder) {
-  const Point2d a = town_middle + Point2d{-150.3, -150.3}, b = town_middle + Point2d{10.0, 0.0},
-                c = town_middle + Point2d{-150.3, 150.3};
-  folder.write("mask.geojson", R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": ")" +
-                                   std::string(town_crs) + R"("}}, "features": [{"type": "Feature", "properties": {}, "geometry":
-  {"type": "Polygon", "coordinates": [[[)" +
-                                   text_of(a) + "], [" + text_of(b) + "], [" + text_of(c) + "], [" + text_of(a) + "]]]}}]}");
+  std::vector<Point2d> corners;
+  for (const Point2d d : {Point2d{-150.3, -150.3}, {10.0, 0.0}, {-150.3, 150.3}}) corners.push_back(town_middle + d);
+  folder.write("mask.geojson", scenes::FootprintsText(town_crs).add("", corners).text());
 }
 
 TEST_F(PackedTown, AMaskLeavesTheReceiversWithinIt) {
@@ -165,28 +163,24 @@ TEST_F(PackedTown, PointsAlongAStreetAreAnswered) {
   EXPECT_GT(points.number(0, "svf"), 0.3);
 }
 
-/// An upright rectangle as a GeoJSON feature.
-std::string house(const char* id, const Box2d& outline, double height_m) {
-  const auto point = [](double x, double y) {
-    return "[" + std::to_string(town_middle.x + x) + ", " + std::to_string(town_middle.y + y) + "]";
-  };
-  const Point2d a = outline.low, b = outline.high;
-  return std::string(R"({"type": "Feature", "properties": {"id": ")") + id + R"(", "height": )" + std::to_string(height_m) +
-         R"(}, "geometry": {"type": "Polygon", "coordinates": [[)" + point(a.x, a.y) + ", " + point(b.x, a.y) + ", " +
-         point(b.x, b.y) + ", " + point(a.x, b.y) + ", " + point(a.x, a.y) + "]]}}";
-}
-std::string houses(const std::vector<std::string>& features) {
-  std::string text;
-  for (const std::string& feature : features) text += (text.empty() ? "" : ", ") + feature;
-  return R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "EPSG:32632"}}, "features": [)" + text +
-         "]}";
+/// Upright rectangles around the middle of the town.
+struct House {
+  const char* id;
+  Box2d outline;
+  double height_m;
+};
+std::string houses(const std::vector<House>& list) {
+  scenes::FootprintsText text(town_crs);
+  for (const auto& [id, outline, height_m] : list)
+    text.add(scenes::building(id, height_m), Box2d{town_middle + outline.low, town_middle + outline.high});
+  return text.text();
 }
 
 TEST(FacadeAverages, OfAnEndlessCanyonAreKnown) {
   constexpr double height_m = 20.0, width_m = 15.0, half_length_m = 1500.0;
   const WorkFolder folder;
-  folder.write("canyon.geojson", houses({house("west", {{-20.0, -half_length_m}, {0.0, half_length_m}}, height_m),
-                                         house("east", {{width_m, -half_length_m}, {width_m + 20.0, half_length_m}}, height_m)}));
+  folder.write("canyon.geojson", houses({{"west", {{-20.0, -half_length_m}, {0.0, half_length_m}}, height_m},
+                                         {"east", {{width_m, -half_length_m}, {width_m + 20.0, half_length_m}}, height_m}}));
   folder.must("farlod-pack canyon.geojson -o a.farlod");
   // The walls on either side of the street, in the middle
   folder.must("farlod-svf a.farlod -o o.csv --surfaces walls --spacing 0.5 --bbox 499999,5499980,500016,5500020");
@@ -199,8 +193,7 @@ TEST(FacadeAverages, OfAnEndlessCanyonAreKnown) {
 TEST(FacadeAverages, LeaveOutWhatIsCovered) {
   const WorkFolder folder;
   // A low house leans on the whole eastern side of a high one
-  folder.write("pair.geojson",
-               houses({house("high", {{0.0, 0.0}, {10.0, 12.0}}, 15.0), house("low", {{10.0, 0.0}, {18.0, 12.0}}, 6.0)}));
+  folder.write("pair.geojson", houses({{"high", {{0.0, 0.0}, {10.0, 12.0}}, 15.0}, {"low", {{10.0, 0.0}, {18.0, 12.0}}, 6.0}}));
   folder.must("farlod-pack pair.geojson -o a.farlod");
   folder.must("farlod-svf a.farlod -o o.csv --surfaces walls --spacing 0.25");
   const CsvTable surfaces(folder.text_of("o.surfaces.csv")), buildings(folder.text_of("o.buildings.csv"));
@@ -236,22 +229,15 @@ TEST_P(RasterInPlace, HasNoDataWhereGdalDrawsTheBuildings) {
   const Place& place = GetParam();
   const WorkFolder folder;
   // An L and a triangle, turned so that the grid of cells is turned, too
-  const auto outline = [&](const std::vector<Point2d>& local) {
-    std::string text;
-    for (std::size_t n = 0; n <= local.size(); ++n) {
-      const Point2d turned = GridRotation(Angle::degrees(-27.0)).city_from_grid(local[n % local.size()]);
-      std::array<char, 80> pair{};
-      std::snprintf(pair.data(), pair.size(), "%s[%.9f, %.9f]", n > 0 ? ", " : "", place.middle.x + turned.x * place.unit,
-                    place.middle.y + turned.y * place.unit);
-      text += pair.data();
-    }
-    return R"({"type": "Feature", "properties": {"height": 12}, "geometry": {"type": "Polygon", "coordinates": [[)" + text +
-           "]]}}";
-  };
-  folder.write("town.geojson", R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": ")" +
-                                   std::string(place.crs) + R"("}}, "features": [)" +
-                                   outline({{0, 0}, {41, 0}, {41, 17}, {19, 17}, {19, 38}, {0, 38}}) + ", " +
-                                   outline({{60, 5}, {97, 5}, {97, 44}}) + "]}");
+  scenes::FootprintsText town(place.crs);
+  for (const std::vector<Point2d>& local :
+       {std::vector<Point2d>{{0, 0}, {41, 0}, {41, 17}, {19, 17}, {19, 38}, {0, 38}}, {{60, 5}, {97, 5}, {97, 44}}}) {
+    std::vector<Point2d> ring;
+    for (const Point2d& p : local)
+      ring.push_back(place.middle + place.unit * GridRotation(Angle::degrees(-27.0)).city_from_grid(p));
+    town.add(R"("height":12)", ring);
+  }
+  folder.write("town.geojson", town.text());
   folder.must("farlod-pack town.geojson -o a.farlod --cell 30");
   folder.must("farlod-svf a.farlod -o o.tif --grid 1");
   const RasterFile map = read_raster(folder.path("o.tif"));

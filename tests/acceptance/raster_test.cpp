@@ -9,6 +9,7 @@
 #include "results/output_format.hpp"
 #include "tests/acceptance/packed_town.hpp"
 #include "tests/analytic/tolerance.hpp"
+#include "tests/scenes/footprints_text.hpp"
 
 namespace farlod::acceptance {
 namespace {
@@ -18,11 +19,6 @@ using testing::Not;
 
 /// Streets of 24 m hold whole pixels, wherever the raster begins.
 constexpr double step_m = 4.0;
-
-void expect_same_values(const RasterFile& a, const RasterFile& b) {
-  ASSERT_EQ(a.values.size(), b.values.size());
-  EXPECT_EQ(a.values, b.values);
-}
 
 double mean_difference(const RasterFile& a, const RasterFile& b) {
   double sum = 0.0, count = 0.0;
@@ -232,7 +228,7 @@ TEST_F(PackedTown, VerifyTracesManyMoreRaysThanTheRun) {
 TEST_F(PackedTown, ThreadsChangeNothing) {
   folder.must("farlod-svf a.farlod -o one.asc --grid 4 --threads 1 --summary one.json");
   folder.must("farlod-svf a.farlod -o four.asc --grid 4 --threads 4 --summary four.json");
-  expect_same_values(raster("one.asc"), raster("four.asc"));
+  EXPECT_EQ(raster("one.asc").values, raster("four.asc").values);
   EXPECT_EQ(folder.text_of("one.asc"), folder.text_of("four.asc"));
   EXPECT_EQ(folder.json_of("one.json").at("svf"), folder.json_of("four.json").at("svf"));
 }
@@ -325,13 +321,7 @@ TEST_F(TownWithAnArea, TheMemoryOfTheWholeCityIsAskedForBefore) {
 }
 
 TEST_F(TownWithAnArea, AFileSaysTheSameAsARectangle) {
-  const Point2d a = south_west, b = north_east;
-  const auto corner = [](double x, double y) { return "[" + std::to_string(x) + "," + std::to_string(y) + "]"; };
-  folder.write("area.geojson",
-               R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32632"}},)"
-               R"("features":[{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[)" +
-                   corner(a.x, a.y) + "," + corner(b.x, a.y) + "," + corner(b.x, b.y) + "," + corner(a.x, b.y) + "," +
-                   corner(a.x, a.y) + "]]}}]}");
+  folder.write("area.geojson", scenes::FootprintsText().add("", Box2d{south_west, north_east}).text());
   folder.must("farlod-pack town.geojson -o by_file.farlod --cell 20 --quiet --area area.geojson");
   folder.must("diff -r part.farlod by_file.farlod");
 }

@@ -213,8 +213,7 @@ TEST_F(PackedTown, RoofsLookUp) {
 TEST(LoneBox, AzimuthsAreTrueFarFromTheCentralMeridian) {
   const WorkFolder folder;
   const Block block{"box", {200000.0, 0.0}, 20.0, 10.0};
-  folder.write("box.geojson", footprints_geojson({block}));
-  folder.must("farlod-pack box.geojson -o a.farlod");
+  add_packed_town(folder, "far_box", {block});
   folder.must("farlod-svf a.farlod -o o.csv --surfaces walls");
   // On a sphere of the Earth's radius, the convergence is atan(tan(x/R / cos φ) · sin φ); the ellipsoid changes it by a hundredth
   constexpr double radius_m = 6.38e6, quarter_m = 1.0e7, scale = 0.9996;
@@ -247,8 +246,7 @@ TEST_F(PackedTown, TheTallestRoofSeesTheWholeSky) {
 
 TEST(LoneBox, AWallInTheOpenSeesHalfOfItsHemisphere) {
   const WorkFolder folder;
-  folder.write("box.geojson", footprints_geojson({{"box", {}, 20.0, 10.0}}));
-  folder.must("farlod-pack box.geojson -o a.farlod");
+  add_packed_town(folder, "lone_box", {{"box", {}, 20.0, 10.0}});
   folder.must("farlod-svf a.farlod -o o.csv --surfaces all");
   const CsvTable surfaces(folder.text_of("o.surfaces.csv"));
   ASSERT_EQ(surfaces.size(), 5U);
@@ -270,8 +268,7 @@ class PartyWall : public testing::TestWithParam<Pair> {};
 
 TEST_P(PartyWall, HasNoAnswerWhereItIsCovered) {
   const WorkFolder folder;
-  folder.write("pair.geojson", footprints_geojson(GetParam().blocks));
-  folder.must("farlod-pack pair.geojson -o a.farlod");
+  add_packed_town(folder, std::string("pair_") + GetParam().name, GetParam().blocks);
   folder.must("farlod-svf a.farlod -o o.csv --surfaces walls --summary s.json");
   const CsvTable surfaces(folder.text_of("o.surfaces.csv")), points(folder.text_of("o.csv"));
   std::size_t without_answer = 0;
