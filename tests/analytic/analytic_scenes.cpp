@@ -115,21 +115,21 @@ Scene tilted_in_the_open(double tilt_deg) {
           {sin(t), 0.0, cos(t)}};
 }
 
+/// A scene of what is overhead: it has no horizon whose variation would count, and its receiver looks up.
+Scene overhead(const std::string& name, const std::function<void(Stage&)>& build, double svf_cos, double svf_solid,
+               double nearest_m, double farthest_m, double extra_error = 0.0) {
+  return {name, build, svf_cos, svf_solid, nearest_m, farthest_m, 0.0, extra_error, {0.0, 0.0, 1.0}, true};
+}
+
 /// A half plane overhead, cut off far away: what lies beyond hides no more than an endless wall of its height there.
 Scene overhang(const std::string& name, double h, double e, bool under) {
   const double far = 60 * h, edge = under ? e : -e;
-  return {name,
-          [=](Stage& s) {
-            s.add_polygon({{edge - far, -far, h}, {edge, -far, h}, {edge, far, h}, {edge - far, far, h}});
-          },
-          oracles::overhang_cos(h, e, under),
-          no_closed_form,
-          4 * h,
-          far * 1.5,
-          0.0,
-          4 * (1 - oracles::wall_cos(h, far - e)),
-          {0.0, 0.0, 1.0},
-          true};
+  return overhead(
+      name,
+      [=](Stage& s) {
+        s.add_polygon({{edge - far, -far, h}, {edge, -far, h}, {edge, far, h}, {edge - far, far, h}});
+      },
+      oracles::overhang_cos(h, e, under), no_closed_form, 4 * h, far * 1.5, 4 * (1 - oracles::wall_cos(h, far - e)));
 }
 
 /// What a level rectangle h above the eye hides, from the signed parts of its quadrants.
@@ -144,57 +144,42 @@ double hidden_by_rectangle(Point2d low, Point2d high, double h, const Quadrant& 
 
 /// A slab that floats; places are relative to the eye.
 Scene floating_slab(const std::string& name, Point2d low, Point2d high, double h) {
-  return {name,
-          [=](Stage& s) {
-            s.add_polygon({{low.x, low.y, h}, {high.x, low.y, h}, {high.x, high.y, h}, {low.x, high.y, h}});
-          },
-          1.0 - hidden_by_rectangle(low, high, h, oracles::court_quadrant_cos),
-          1.0 - hidden_by_rectangle(low, high, h, oracles::court_quadrant_solid),
-          h,
-          std::hypot(std::max(-low.x, high.x), std::max(-low.y, high.y)),
-          0.0,
-          0.0,
-          {0.0, 0.0, 1.0},
-          true};
+  return overhead(
+      name,
+      [=](Stage& s) {
+        s.add_polygon({{low.x, low.y, h}, {high.x, low.y, h}, {high.x, high.y, h}, {low.x, high.y, h}});
+      },
+      1.0 - hidden_by_rectangle(low, high, h, oracles::court_quadrant_cos),
+      1.0 - hidden_by_rectangle(low, high, h, oracles::court_quadrant_solid), h,
+      std::hypot(std::max(-low.x, high.x), std::max(-low.y, high.y)));
 }
 
 /// A roof h overhead from a wall behind the eye to an open front, e away. It is cut off far to both sides: through an end no more
 /// is seen than an endless wall of its height hides there.
 Scene arcade(double h, double back, double e) {
   const double far = 60 * h;
-  return {"Arcade",
-          [=](Stage& s) {
-            s.add_polygon({{-back, -far, h}, {e, -far, h}, {e, far, h}, {-back, far, h}});
-            s.add_wall({-back, -far}, {-back, far}, h);
-          },
-          oracles::overhang_cos(h, e, true),
-          no_closed_form,
-          std::min(back, e),
-          far,
-          0.0,
-          2 * (1 - oracles::wall_cos(h, far)),
-          {0.0, 0.0, 1.0},
-          true};
+  return overhead(
+      "Arcade",
+      [=](Stage& s) {
+        s.add_polygon({{-back, -far, h}, {e, -far, h}, {e, far, h}, {-back, far, h}});
+        s.add_wall({-back, -far}, {-back, far}, h);
+      },
+      oracles::overhang_cos(h, e, true), no_closed_form, std::min(back, e), far, 2 * (1 - oracles::wall_cos(h, far)));
 }
 
 /// Three walls and a roof; in the south, d away, it is open: the sky is seen where a wall in the place of the opening would hide
 /// it.
 Scene open_shell(double west, double east, double north, double d, double h) {
-  return {"OpenShell",
-          [=](Stage& s) {
-            s.add_polygon({{-west, -d, h}, {east, -d, h}, {east, north, h}, {-west, north, h}});
-            s.add_wall({-west, -d}, {-west, north}, h);
-            s.add_wall({east, -d}, {east, north}, h);
-            s.add_wall({-west, north}, {east, north}, h);
-          },
-          1.0 - oracles::finite_wall_cos(h, d, west, east),
-          1.0 - oracles::finite_wall_solid(h, d, west, east),
-          std::min({west, east, north, d}),
-          std::hypot(std::max(west, east), std::max(north, d)),
-          0.0,
-          0.0,
-          {0.0, 0.0, 1.0},
-          true};
+  return overhead(
+      "OpenShell",
+      [=](Stage& s) {
+        s.add_polygon({{-west, -d, h}, {east, -d, h}, {east, north, h}, {-west, north, h}});
+        s.add_wall({-west, -d}, {-west, north}, h);
+        s.add_wall({east, -d}, {east, north}, h);
+        s.add_wall({-west, north}, {east, north}, h);
+      },
+      1.0 - oracles::finite_wall_cos(h, d, west, east), 1.0 - oracles::finite_wall_solid(h, d, west, east),
+      std::min({west, east, north, d}), std::hypot(std::max(west, east), std::max(north, d)));
 }
 
 /// The corner of a large house, whose flat roof reaches beyond its walls: the eye stands below the eaves, `west` and `south` of
@@ -202,21 +187,18 @@ Scene open_shell(double west, double east, double north, double d, double h) {
 /// as much as walls in the place of their borders would hide.
 Scene eave_at_corner(double west, double south, Point2d corner, double h) {
   const double far = 20 * h;
-  return {"EaveAtCorner",
-          [=](Stage& s) {
-            s.add_polygon({{-west, -south, h}, {far, -south, h}, {far, far, h}, {-west, far, h}});
-            s.add_wall(corner, {far, corner.y}, h);
-            s.add_wall({corner.x, far}, corner, h);
-          },
-          2.0 - oracles::finite_wall_cos(h, west, south, far) - oracles::finite_wall_cos(h, south, west, far),
-          2.0 - oracles::finite_wall_solid(h, west, south, far) - oracles::finite_wall_solid(h, south, west, far),
-          std::min({west, south, corner.x, corner.y}),
-          far,
-          0.0,
-          // The walls' azimuths end a little before those of endless ones
-          (corner.x + corner.y) / far + 2 * (1 - oracles::wall_cos(h, far)),
-          {0.0, 0.0, 1.0},
-          true};
+  return overhead(
+      "EaveAtCorner",
+      [=](Stage& s) {
+        s.add_polygon({{-west, -south, h}, {far, -south, h}, {far, far, h}, {-west, far, h}});
+        s.add_wall(corner, {far, corner.y}, h);
+        s.add_wall({corner.x, far}, corner, h);
+      },
+      2.0 - oracles::finite_wall_cos(h, west, south, far) - oracles::finite_wall_cos(h, south, west, far),
+      2.0 - oracles::finite_wall_solid(h, west, south, far) - oracles::finite_wall_solid(h, south, west, far),
+      std::min({west, south, corner.x, corner.y}), far,
+      // The walls' azimuths end a little before those of endless ones
+      (corner.x + corner.y) / far + 2 * (1 - oracles::wall_cos(h, far)));
 }
 
 }  // namespace
