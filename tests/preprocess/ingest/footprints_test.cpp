@@ -137,7 +137,7 @@ TEST(Footprints, FieldsThatAreAskedForMustBeThere) {
   IngestSettings storeys, roof;
   storeys.footprints.storeys_field = roof.footprints.roof_field = "nowhere";
   for (const auto& [settings, option] : {std::pair(storeys, "--storeys-field"), std::pair(roof, "--roof-field")}) {
-    const std::string refusal = scenes::refusal_of<InputError>([&] { (void)read_file(file, settings); });
+    const std::string refusal = scenes::refusal_of<InputError>([&, &given = settings] { (void)read_file(file, given); });
     EXPECT_NE(refusal.find(option), std::string::npos) << refusal;
   }
 }
