@@ -22,6 +22,9 @@ inline constexpr std::array<std::string_view, 4> z_names{"z", "z_m", "height_m",
 inline constexpr std::array<std::string_view, 2> azimuth_names{"azimuth", "azimuth_deg"};
 inline constexpr std::array<std::string_view, 2> tilt_names{"tilt", "tilt_deg"};
 
+/// Names of columns of longitudes and latitudes.
+[[nodiscard]] inline bool are_degrees(std::string_view x_name) { return lower_case(std::string(x_name)).starts_with("lon"); }
+
 /// The column that has one of these names, in capitals or not. Two would leave open which one is meant: then `refuse` is called
 /// with what is wrong; it throws.
 template <class Refuse>

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/named_points.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -72,6 +74,54 @@ std::optional<double> known_degrees(const std::vector<Angle>& angles, std::size_
   return angles.empty() ? std::nullopt : known(angles[n].degrees());
 }
 
+/// Nobody asks a city for places that are farther away: something is wrong with their coordinates.
+constexpr double farthest_place_m = 100e3;
+
+bool is_near(Point2d p, const PackageDescription& package) {
+  const auto& [low, high] = package.outline_projected;
+  return std::hypot(std::max({low.x - p.x, p.x - high.x, 0.0}), std::max({low.y - p.y, p.y - high.y, 0.0})) <= farthest_place_m;
+}
+
+/// How many lie near the city.
+std::size_t near_count(const NamedPoints& named, const PackageDescription& package) {
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < named.ids.size(); ++n) count += is_near({named.x_m[n], named.y_m[n]}, package) ? 1 : 0;
+  return count;
+}
+
+/// The points, with their coordinates taken for longitude and latitude, if that brings all of them near the city.
+std::optional<NamedPoints> near_as_degrees(NamedPoints named, const PackageDescription& package) {
+  for (std::size_t n = 0; n < named.ids.size(); ++n)
+    if (!(std::abs(named.x_m[n]) <= 360.0 && std::abs(named.y_m[n]) <= 90.0)) return std::nullopt;
+  move_to_package_crs(named, "OGC:CRS84", package);
+  return near_count(named, package) == named.ids.size() ? std::optional(std::move(named)) : std::nullopt;
+}
+
+NamedPoints with_other_order(NamedPoints named) {
+  std::swap(named.x_m, named.y_m);
+  return named;
+}
+
+/// Takes degrees for what they are where no CRS was said. Throws PointsError where all places lie far from the city.
+NamedPoints near_city(NamedPoints named, bool says_crs, const PackageDescription& package) {
+  const std::size_t all = named.ids.size(), near = near_count(named, package);
+  if (near == all) return named;
+  const std::string first = fmt::format("{:.10g}, {:.10g}", named.x_m.front(), named.y_m.front());
+  if (near > 0) {
+    named.notes.push_back(fmt::format("{} of {} points lie more than 100 km from the city.", all - near, all));
+    return named;
+  }
+  if (auto degrees = says_crs ? std::nullopt : near_as_degrees(named, package)) {
+    degrees->notes.push_back(fmt::format("{} was taken for longitude and latitude (WGS 84).", first));
+    return std::move(*degrees);
+  }
+  const bool is_swapped = !says_crs && near_as_degrees(with_other_order(named), package);
+  const Point2d city = 0.5 * (package.outline_projected.low + package.outline_projected.high);
+  throw PointsError(fmt::format(
+      "{} lies more than 100 km from the city, which is at {:.0f}, {:.0f} in {}: {}", first, city.x, city.y, package.crs_name,
+      is_swapped ? "give the longitude before the latitude." : "check the coordinates, and their CRS (--points-crs)."));
+}
+
 }  // namespace
 
 NamedPoints::NamedPoints(RequestedPoints requested)
@@ -130,14 +180,14 @@ NamedPoints requested_points(const SvfOptions& options, const PackageDescription
   if (options.source == ReceiverSource::at) {
     RequestedPoints one;
     one.points = {options.at};
-    return NamedPoints(std::move(one));
+    return near_city(NamedPoints(std::move(one)), false, package);
   }
-  if (options.source == ReceiverSource::lines) return NamedPoints(read_lines(options, package));
+  if (options.source == ReceiverSource::lines) return near_city(NamedPoints(read_lines(options, package)), true, package);
   RequestedPoints read = read_point_file(options.points_file, options.points_layer);
   const std::string crs = crs_of(read, options, read.notes);
   NamedPoints named(std::move(read));
   if (!crs.empty()) move_to_package_crs(named, crs, package);
-  return named;
+  return near_city(std::move(named), !crs.empty(), package);
 }
 
 PointRows rows_of(const NamedPoints& named, const PointAnswers& answers) {

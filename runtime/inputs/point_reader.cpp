@@ -3,6 +3,7 @@
 #include "inputs/point_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <iterator>
@@ -10,6 +11,8 @@
 #include <span>
 #include <string_view>
 #include <utility>
+
+#include "base/point_columns.hpp"
 
 namespace farlod {
 namespace {
@@ -189,6 +192,8 @@ std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+bool may_be_lon_lat(const RequestedPoint& p) { return std::abs(p.x) <= 360.0 && std::abs(p.y) <= 90.0; }
+
 }  // namespace
 
 RequestedPoints read_points_csv(const std::filesystem::path& path) {
@@ -209,6 +214,8 @@ RequestedPoints read_points_csv(const std::filesystem::path& path) {
     if (points.back().id.empty()) points.back().id = std::to_string(points.size());
   }
   if (points.empty()) throw PointsError(path.string() + ": the file has a header row but no points; add one in each row");
+  if (header && point_columns::are_degrees(records.front().fields[*columns.x]) && std::ranges::all_of(points, may_be_lon_lat))
+    result.crs_wkt = "OGC:CRS84";
   return result;
 }
 

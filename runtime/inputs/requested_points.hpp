@@ -64,11 +64,12 @@ struct RequestedPoint {
 /// The points of a file.
 struct RequestedPoints {
   std::vector<RequestedPoint> points;
-  Attributes attributes;                    ///< a row for each point
-  bool has_normals = false;                 ///< the file has fields for them, even if they are empty
-  std::optional<std::string> crs_wkt = {};  ///< as the file says; empty: it says none; absent: it is a table, which never does
-  std::size_t skipped_features = 0;         ///< of the file, which are no points
-  std::vector<std::string> notes;           ///< what the user should know of how the file was read, a sentence each
+  Attributes attributes;     ///< a row for each point
+  bool has_normals = false;  ///< the file has fields for them, even if they are empty
+  /// As the file says, also by columns of longitudes and latitudes; empty: it says none; absent: it is a table, which need not.
+  std::optional<std::string> crs_wkt = {};
+  std::size_t skipped_features = 0;  ///< of the file, which are no points
+  std::vector<std::string> notes;    ///< what the user should know of how the file was read, a sentence each
 };
 
 /// The normal of two fields, of which an empty one has no number: none where both are empty; a tilt of 0 needs no azimuth.

@@ -48,13 +48,20 @@ FeatureTable::FeatureTable(OGRLayer& layer) {
 
 FeatureTable::Row::Row(const FeatureTable& table, const OGRFeature& feature) : table_(table), feature_(feature) {
   for (const int column : table.collections_)
-    if (feature.IsFieldSetAndNotNull(column)) collected_.merge(tags_in(feature.GetFieldAsString(column)));
+    if (feature.IsFieldSetAndNotNull(column))
+      for (auto& tag : tags_in(feature.GetFieldAsString(column))) collected_.push_back(std::move(tag));
+}
+
+std::optional<std::string> FeatureTable::Row::collected(std::string_view name) const {
+  for (const auto& [key, value] : collected_)
+    if (key == name) return value;
+  return std::nullopt;
 }
 
 FieldValue FeatureTable::Row::value(std::size_t field) const {
   if (field >= table_.columns_) {
-    const auto found = collected_.find(table_.names_[field]);
-    return found == collected_.end() ? FieldValue{} : FieldValue{std::nullopt, found->second, true};
+    const auto found = collected(table_.names_[field]);
+    return found ? FieldValue{std::nullopt, *found, true} : FieldValue{};
   }
   const int column = static_cast<int>(field);
   if (!feature_.IsFieldSetAndNotNull(column)) return {};
@@ -64,7 +71,7 @@ FieldValue FeatureTable::Row::value(std::size_t field) const {
 }
 
 std::optional<std::string> FeatureTable::Row::tag(std::string_view name) const {
-  if (const auto found = collected_.find(name); found != collected_.end()) return found->second;
+  if (auto found = collected(name)) return found;
   for (std::size_t column = 0; column < table_.columns_; ++column) {
     if (lower_case(table_.names_[column]) != name) continue;
     const int n = static_cast<int>(column);

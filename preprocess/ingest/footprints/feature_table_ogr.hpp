@@ -5,14 +5,13 @@
 #include <ogrsf_frmts.h>
 
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "gdal/vector_file_gdal.hpp"
-#include "ingest/footprints/building_tags.hpp"
+#include "ingest/footprints/feature_tags.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
 
 // Private to the wrappers of GDAL: it names its classes.
@@ -44,7 +43,9 @@ class FeatureTable {
    private:
     const FeatureTable& table_;
     const OGRFeature& feature_;
-    std::map<std::string, std::string, std::less<>> collected_;
+    Tags collected_;
+
+    [[nodiscard]] std::optional<std::string> collected(std::string_view name) const;
   };
 
  private:

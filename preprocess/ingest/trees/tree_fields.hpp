@@ -10,17 +10,11 @@
 #include <vector>
 
 #include "farlod/pack.hpp"
+#include "ingest/footprints/feature_tags.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
 #include "ingest/trees/tree_reader.hpp"
 
 namespace farlod::ingest {
-
-/// Keys with their values.
-using Tags = std::vector<std::pair<std::string, std::string>>;
-
-/// The tags in a field of OpenStreetMap's data: an object of JSON, {"natural": "tree"}, or a list, "natural"=>"tree". Values that
-/// are neither texts nor numbers are left out; of any other text there are none.
-[[nodiscard]] Tags tags_in(const std::string& text);
 
 /// The two columns of a table that hold the places of its rows.
 struct PlaceColumns {

@@ -105,7 +105,10 @@ void add_footprints(py::module_& module) {
       .def_readwrite("storeys_field", &FootprintSettings::storeys_field)
       .def_readwrite("roof_field", &FootprintSettings::roof_field)
       .def_readwrite("floor_height_m", &FootprintSettings::floor_height_m)
-      .def_readwrite("default_height_m", &FootprintSettings::default_height_m);
+      .def_readwrite("default_height_m", &FootprintSettings::default_height_m)
+      .def_readwrite("unknown_heights", &FootprintSettings::unknown_heights)
+      .def_readwrite("layer", &FootprintSettings::layer)
+      .def_readwrite("encoding", &FootprintSettings::encoding);
 }
 
 void add_trees(py::module_& module) {

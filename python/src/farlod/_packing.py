@@ -8,7 +8,7 @@ import os
 import tempfile
 import warnings
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, Union
 
@@ -85,6 +85,8 @@ class Heights:
         Metres, 1 to 20.
     default : float, optional
         Metres, 0.01 to 1,000: for footprints without any height.
+    unknown : sequence of float
+        Numbers in these attributes that mean that a height is not known, such as 0, -1 and 999.
     """
 
     height: str | None = None
@@ -93,6 +95,7 @@ class Heights:
     storeys: str | None = None
     storey_height: float = 3.0
     default: float | None = None
+    unknown: Sequence[float] = ()
 
 
 @dataclass(frozen=True)
@@ -137,6 +140,7 @@ def _footprints(heights: Heights, module: Any) -> Any:
     fields.floor_height_m = _arguments.number("heights.storey_height", heights.storey_height)
     if heights.default is not None:
         fields.default_height_m = _arguments.number("heights.default", heights.default)
+    fields.unknown_heights = _arguments.floats("heights.unknown", heights.unknown).tolist()
     return fields
 
 
@@ -222,6 +226,8 @@ def pack(
     area: Any = None,
     align: Align = "auto",
     lod: int | None = None,
+    layer: str | None = None,
+    encoding: str | None = None,
     up: Literal["z", "y"] = "z",
     obj_origin: Any = None,
     assign: Literal["clip", "whole"] = "clip",
@@ -267,6 +273,10 @@ def pack(
         The grid lies along the streets, to grid north, or along a bearing in degrees clockwise from grid north.
     lod : int, optional
         Level of detail to read, 0 to 3 (default: the best from 1 to 3).
+    layer : str, optional
+        Layer of a file of several (GeoPackage, File Geodatabase) to read.
+    encoding : str, optional
+        What the texts of a Shapefile without .cpg are in, such as ``"GBK"`` or ``"CP1252"``.
     up, obj_origin
         Which axis of OBJ files and meshes is up, and (x, y, z) that is added to their coordinates.
     assign, far_map
@@ -332,6 +342,9 @@ def pack(
         settings.set_obj_origin(origin.tolist())
     settings.crs, settings.out_crs = _crs_text("crs", crs), _crs_text("out_crs", out_crs)
     settings.footprints = _footprints(Heights(height=heights) if isinstance(heights, str) else heights or Heights(), module)
+    for name, value in (("layer", layer), ("encoding", encoding)):
+        if value is not None:
+            setattr(settings.footprints, name, _arguments.path(name, value))
     caller = caller_settings(module, threads, memory_limit, progress)
     rows: list[dict[str, Any]] = []
     with tempfile.TemporaryDirectory(prefix="farlod-") as folder:

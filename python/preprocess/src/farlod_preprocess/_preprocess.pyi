@@ -19,6 +19,9 @@ class FootprintSettings:
     roof_field: str | None
     floor_height_m: float
     default_height_m: float | None
+    unknown_heights: list[float]
+    layer: str | None
+    encoding: str | None
     def __init__(self) -> None: ...
 
 class TreeSettings:

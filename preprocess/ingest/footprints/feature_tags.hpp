@@ -3,13 +3,20 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace farlod::ingest {
+
+/// Keys with their values.
+using Tags = std::vector<std::pair<std::string, std::string>>;
+
+/// The tags in a field of OpenStreetMap's data: an object of JSON, {"natural": "tree"}, or a list, "natural"=>"tree". Values that
+/// are neither texts nor numbers are left out; of any other text there are none.
+[[nodiscard]] Tags tags_in(const std::string& text);
 
 /// What a feature is among those of OpenStreetMap or Overture.
 enum class FeatureRole {
@@ -39,9 +46,6 @@ class BuildingTags {
 
 /// Fields that hold further tags of a feature, as GDAL's driver for OpenStreetMap and osm2pgsql write them.
 inline constexpr std::string_view tag_collections[] = {"other_tags", "all_tags", "tags"};
-
-/// The tags in such a field: "\"height\"=>\"12\",\"layer\"=>\"1\"" (hstore). What is no such text has none.
-[[nodiscard]] std::map<std::string, std::string, std::less<>> tags_in(std::string_view hstore);
 
 /// The tags that the heights and roles of buildings are found in, by name.
 [[nodiscard]] const std::vector<std::string>& known_tags();

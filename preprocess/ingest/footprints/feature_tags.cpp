@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "ingest/footprints/building_tags.hpp"
+#include "ingest/footprints/feature_tags.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
 
 #include "base/lower_case.hpp"
@@ -39,25 +38,6 @@ bool is_of_parts(const std::vector<std::string>& names) {
   return has_any(names, {"building_id"}) && has_any(names, {"roof_shape", "facade_material", "min_floor"});
 }
 
-/// A text in quotes at the beginning, which is taken off. Escapes are a backslash and the character.
-std::optional<std::string> take_quoted(std::string_view& text) {
-  if (!text.starts_with('"')) return std::nullopt;
-  std::string inside;
-  for (std::size_t k = 1; k < text.size(); ++k) {
-    if (text[k] == '"') {
-      text.remove_prefix(k + 1);
-      return inside;
-    }
-    if (text[k] == '\\' && k + 1 < text.size()) ++k;
-    inside += text[k];
-  }
-  return std::nullopt;
-}
-
-void skip(std::string_view& text, std::string_view characters) {
-  text.remove_prefix(std::min(text.find_first_not_of(characters), text.size()));
-}
-
 }  // namespace
 
 BuildingTags::BuildingTags(const std::vector<std::string>& names, const std::vector<TagLookup>& some)
@@ -76,18 +56,6 @@ FeatureRole BuildingTags::role_of(const TagLookup& tag) const {
   if (is_affirmed(tag("building:part"))) return FeatureRole::part;
   if (are_of_overture_) return tag("building_id") || tag("type") == "building_part" ? FeatureRole::part : FeatureRole::building;
   return is_affirmed(tag("building")) ? FeatureRole::building : FeatureRole::no_building;
-}
-
-std::map<std::string, std::string, std::less<>> tags_in(std::string_view hstore) {
-  std::map<std::string, std::string, std::less<>> tags;
-  for (skip(hstore, ", "); !hstore.empty(); skip(hstore, ", ")) {
-    auto key = take_quoted(hstore);
-    skip(hstore, "=> ");
-    auto value = take_quoted(hstore);
-    if (!key || !value) break;
-    tags.insert_or_assign(std::move(*key), std::move(*value));
-  }
-  return tags;
 }
 
 const std::vector<std::string>& known_tags() {
