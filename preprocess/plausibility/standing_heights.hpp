@@ -26,7 +26,8 @@ struct SurveyedGround {
 /// The nodes of a terrain that have a height, and the points of a relief.
 [[nodiscard]] Box2d extent_of_survey(const std::optional<TerrainRaster>& terrain, std::span<const Point3d> relief_points_city);
 
-/// Compares the buildings whose heights are elevations, and that the file does not say to begin above it, with the ground below them.
+/// Compares the buildings whose heights are elevations with the ground below them, but for those that the file says to begin
+/// above it.
 ///
 /// A building stands on the ground when its lowest point lies between the lowest and the highest ground under its outline, with a
 /// tolerance of .75 m. With an offset, it does when it is lowered by it.
