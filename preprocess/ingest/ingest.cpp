@@ -11,6 +11,7 @@
 #include "ingest/citygml/citygml_reader.hpp"
 #include "ingest/cityjson/cityjson_reader.hpp"
 #include "ingest/files/file_format.hpp"
+#include "ingest/files/foreign_format.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
 
 namespace farlod::ingest {
@@ -69,6 +70,9 @@ void require_city_size(const InputFile& file) {
 }
 
 SourceCity read(const InputFile& file, const IngestSettings& settings, Report& report, const std::stop_token& stop) {
+  if (const ForeignFormat* foreign = foreign_format_of(file))
+    throw InputError(file.name + " is " + std::string(foreign->name) + ", which is not read: " + std::string(foreign->advice) +
+                     ".");
   switch (format_of(file, report)) {
     case FileFormat::citygml:
       return read_citygml(file, settings.lod, report, stop);

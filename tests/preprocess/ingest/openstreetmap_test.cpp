@@ -33,7 +33,7 @@ std::string way(const std::string& id, const std::string& tags, double x = 0.0, 
   return feature(R"("@id":"way/)" + id + R"(",)" + tags, "Polygon", square_at(x, 0.0, edge));
 }
 
-Reading read_features(const std::vector<std::string>& features, const IngestSettings& settings = {}) {
+Reading read_tagged(const std::vector<std::string>& features, const IngestSettings& settings = {}) {
   return read_text("a.geojson", collection(features), settings);
 }
 
@@ -58,13 +58,13 @@ IngestSettings with_default(double height_m) {
 
 TEST(OpenStreetMap, BuildingsAreReadAndNothingElse) {
   const Reading r =
-      read_features({way("1", R"("building":"yes","height":"12")"), way("2", R"("landuse":"residential")"),
-                     way("3", R"("natural":"water")"), way("4", R"("building":"no","height":"9")"),
-                     way("5", R"("demolished:building":"yes","height":"9")"), way("6", R"("building":"demolished","height":"9")"),
-                     way("7", R"("building":"garage","height":"3","location":"underground")"),
-                     way("8", R"("building":"train_station","height":"8","layer":"-1")"),
-                     way("9", R"("building":"roof","building:levels":"2")")},
-                    with_default(5.0));
+      read_tagged({way("1", R"("building":"yes","height":"12")"), way("2", R"("landuse":"residential")"),
+                   way("3", R"("natural":"water")"), way("4", R"("building":"no","height":"9")"),
+                   way("5", R"("demolished:building":"yes","height":"9")"), way("6", R"("building":"demolished","height":"9")"),
+                   way("7", R"("building":"garage","height":"3","location":"underground")"),
+                   way("8", R"("building":"train_station","height":"8","layer":"-1")"),
+                   way("9", R"("building":"roof","building:levels":"2")")},
+                  with_default(5.0));
   EXPECT_THAT(extents(r), ElementsAre(Pair("way/1", Pair(0.0, 12.0)), Pair("way/9", Pair(0.0, 6.0))));
   EXPECT_THAT(r.source.skipped, ElementsAre(Pair("buildings below the ground", 2), Pair(HasSubstr("no buildings"), 5)));
   EXPECT_THAT(r.codes(), IsEmpty());
@@ -72,7 +72,7 @@ TEST(OpenStreetMap, BuildingsAreReadAndNothingElse) {
 
 TEST(OpenStreetMap, TagsInOneColumnAreFieldsToo) {
   const std::string osm = R"("osm_id":"17","building":"yes","other_tags":)";
-  const Reading r = read_features(
+  const Reading r = read_tagged(
       {feature(osm + R"("\"height\"=>\"21 m\",\"name\"=>\"A\"")", "Polygon", square_at(0, 0)),
        feature(R"("osm_id":"18","building":"yes","other_tags":"\"building:levels\"=>\"3\",\"roof:levels\"=>\"1\"")", "Polygon",
                square_at(20, 0)),
@@ -86,9 +86,9 @@ TEST(OpenStreetMap, TagsInOneColumnAreFieldsToo) {
 TEST(OpenStreetMap, PartsStandForTheirOutline) {
   const std::string outline = R"("building":"commercial","height":"60")";
   const Reading r =
-      read_features({way("outline", outline), way("podium", R"("building:part":"yes","height":"12")"),
-                     way("tower", R"("building:part":"yes","height":"60","min_height":"12")", 2.0, 4.0),
-                     way("neighbor", outline, 100.0), way("mast", R"("building:part":"yes","height":"70")", 101.0, 1.0)});
+      read_tagged({way("outline", outline), way("podium", R"("building:part":"yes","height":"12")"),
+                   way("tower", R"("building:part":"yes","height":"60","min_height":"12")", 2.0, 4.0),
+                   way("neighbor", outline, 100.0), way("mast", R"("building:part":"yes","height":"70")", 101.0, 1.0)});
   EXPECT_THAT(extents(r), ElementsAre(Pair("way/mast", Pair(0.0, 70.0)), Pair("way/neighbor", Pair(0.0, 60.0)),
                                       Pair("way/podium", Pair(0.0, 12.0)), Pair("way/tower", Pair(12.0, 60.0))))
       << "an outline that parts do not fill stays";
@@ -98,16 +98,16 @@ TEST(OpenStreetMap, PartsStandForTheirOutline) {
 
 TEST(Overture, BuildingsHavePartsAndSomeAreUnderground) {
   const auto overture = [](const std::string& properties, double x) { return feature(properties, "Polygon", square_at(x, 0.0)); };
-  const Reading r = read_features({overture(R"("id":"a","height":30,"has_parts":true,"is_underground":false)", 0),
-                                   overture(R"("id":"b","building_id":"a","height":8)", 0),
-                                   overture(R"("id":"c","height":5,"has_parts":false,"is_underground":true)", 20),
-                                   overture(R"("id":"d","num_floors":2,"has_parts":false,"is_underground":false)", 40)});
+  const Reading r = read_tagged({overture(R"("id":"a","height":30,"has_parts":true,"is_underground":false)", 0),
+                                 overture(R"("id":"b","building_id":"a","height":8)", 0),
+                                 overture(R"("id":"c","height":5,"has_parts":false,"is_underground":true)", 20),
+                                 overture(R"("id":"d","num_floors":2,"has_parts":false,"is_underground":false)", 40)});
   EXPECT_THAT(extents(r), ElementsAre(Pair("b", Pair(0.0, 8.0)), Pair("d", Pair(0.0, 6.0))));
 }
 
 TEST(OpenStreetMap, TablesOfOthersMayHaveAFieldOfThatName) {
-  const Reading r = read_features({feature(R"("building":"Town hall","height":5)", "Polygon", square_at(0, 0)),
-                                   feature(R"("building":null,"height":6)", "Polygon", square_at(20, 0))});
+  const Reading r = read_tagged({feature(R"("building":"Town hall","height":5)", "Polygon", square_at(0, 0)),
+                                 feature(R"("building":null,"height":6)", "Polygon", square_at(20, 0))});
   EXPECT_EQ(r.city().buildings().size(), 2u);
 }
 
@@ -117,13 +117,13 @@ TEST(FootprintTable, NumbersThatAreNoHeightGiveWayToStoreysAndTheDefault) {
                                           feature(R"("id":"c","height":0,"levels":0)", "Polygon", square_at(40, 0)),
                                           feature(R"("id":"d","height":999,"levels":4)", "Polygon", square_at(60, 0))};
   IngestSettings settings = with_default(7.0);
-  EXPECT_THAT(extents(read_features(features, settings)), ElementsAre(Pair("a", Pair(0.0, 6.0)), Pair("b", Pair(0.0, 7.0)),
-                                                                      Pair("c", Pair(0.0, 7.0)), Pair("d", Pair(0.0, 999.0))));
+  EXPECT_THAT(extents(read_tagged(features, settings)), ElementsAre(Pair("a", Pair(0.0, 6.0)), Pair("b", Pair(0.0, 7.0)),
+                                                                    Pair("c", Pair(0.0, 7.0)), Pair("d", Pair(0.0, 999.0))));
   settings.footprints.unknown_heights = {999.0, 2.0};
-  EXPECT_THAT(extents(read_features(features, settings)), ElementsAre(Pair("a", Pair(0.0, 7.0)), Pair("b", Pair(0.0, 7.0)),
-                                                                      Pair("c", Pair(0.0, 7.0)), Pair("d", Pair(0.0, 12.0))));
+  EXPECT_THAT(extents(read_tagged(features, settings)), ElementsAre(Pair("a", Pair(0.0, 7.0)), Pair("b", Pair(0.0, 7.0)),
+                                                                    Pair("c", Pair(0.0, 7.0)), Pair("d", Pair(0.0, 12.0))));
   settings.footprints.default_height_m.reset();
-  EXPECT_THAT(extents(read_features(features, settings)), ElementsAre(Pair("d", Pair(0.0, 12.0))));
+  EXPECT_THAT(extents(read_tagged(features, settings)), ElementsAre(Pair("d", Pair(0.0, 12.0))));
 }
 
 TEST(FootprintTable, ALayerIsReadByItsName) {

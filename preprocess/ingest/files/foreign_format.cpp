@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: The Far-LoD authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ingest/files/foreign_format.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "ingest/files/file_format.hpp"
+
+namespace farlod::ingest {
+namespace {
+
+using namespace std::string_view_literals;
+
+/// How a file of a format is known: by its first bytes, by words that its beginning has all of, or by the ending of its name.
+struct KnownBy {
+  std::string_view magic = {};
+  std::array<std::string_view, 3> words = {};
+  std::string_view ending = {};
+};
+
+struct Row {
+  KnownBy by;
+  ForeignFormat format;
+};
+
+constexpr ForeignFormat drawing{"a CAD drawing (DXF, DWG)",
+                                "export the bodies as OBJ, or closed outlines as a Shapefile or GeoPackage"};
+constexpr ForeignFormat building_model{"an IFC model", "`IfcConvert FILE.ifc FILE.obj` of IfcOpenShell makes an OBJ"};
+constexpr ForeignFormat tiles{"a tile or tileset of 3D Tiles",
+                              "take the data that the tiles were made of, or turn its GLB files into OBJ (assimp, Blender)"};
+constexpr ForeignFormat mesh{"a mesh of another format than OBJ", "`assimp export FILE FILE.obj` or Blender makes an OBJ"};
+constexpr ForeignFormat point_cloud{
+    "a point cloud", "make a raster of its highest points, by PDAL's writers.gdal with output_type max, and give that"};
+constexpr ForeignFormat parquet{"a table in (Geo)Parquet, for which this GDAL has no driver",
+                                "write it as a GeoPackage, with geopandas, DuckDB or an ogr2ogr that has one"};
+constexpr ForeignFormat inspire{"GML of INSPIRE's buildings",
+                                "ask the publisher for CityGML or footprints, or convert it with hale studio"};
+constexpr ForeignFormat energy_model{"a model of one building for simulations (gbXML, IDF)", "export its bodies as OBJ"};
+constexpr ForeignFormat document{"a document", "give the data that it shows"};
+
+/// The first row that fits counts.
+const std::vector<Row>& rows() {
+  static const std::vector<Row> all{
+      {{.magic = "AC10"}, drawing},
+      {{.magic = "AutoCAD Binary DXF"}, drawing},
+
+      {{.ending = ".dxf"}, drawing},
+      {{.magic = "ISO-10303-21"}, building_model},
+      {{.magic = "b3dm"}, tiles},
+      {{.magic = "i3dm"}, tiles},
+      {{.magic = "pnts"}, tiles},
+      {{.magic = "cmpt"}, tiles},
+      {{.words = {"\"asset\"", "\"root\"", "\"geometricError\""}}, tiles},
+      {{.magic = "glTF"}, mesh},
+      {{.words = {"\"asset\"", "\"meshes\"", "\"accessors\""}}, mesh},
+      {{.magic = "ply"}, mesh},
+
+      {{.ending = ".stl"}, mesh},
+      {{.words = {"<COLLADA"}}, mesh},
+      {{.magic = "Kaydara FBX Binary"}, mesh},
+      {{.magic = "3D Geometry File Format"}, mesh},
+      {{.ending = ".3ds"}, mesh},
+      {{.ending = ".skp"}, mesh},
+      {{.magic = "LASF"}, point_cloud},
+      {{.ending = ".e57"}, point_cloud},
+      {{.words = {"inspire.ec.europa.eu/schemas/bu", "FeatureCollection"}}, inspire},
+      {{.words = {"<gbXML"}}, energy_model},
+      {{.ending = ".idf"}, energy_model},
+      {{.magic = "%PDF"}, document},
+  };
+  return all;
+}
+
+bool fits(const KnownBy& by, const std::string& beginning, std::string_view file_name) {
+  const bool has_magic = beginning.starts_with(by.magic);
+  const bool has_words =
+      std::ranges::all_of(by.words, [&](std::string_view word) { return beginning.find(word) != beginning.npos; });
+  return has_magic && has_words && (by.ending.empty() || ends_with_any(file_name, {by.ending}));
+}
+
+}  // namespace
+
+const ForeignFormat* foreign_format_of(const InputFile& file) {
+  constexpr std::size_t beginning_bytes = std::size_t{1} << 16;
+  std::error_code error;
+  if (file.pipe || (!file.is_packed() && std::filesystem::is_directory(file.path, error))) return nullptr;
+  const std::string beginning = read_beginning(file, beginning_bytes), name = file.unpacked_name();
+  for (const Row& row : rows())
+    if (fits(row.by, beginning, name)) return &row.format;
+  if (beginning.starts_with("PAR1") && map_kind_of(file) == MapKind::unknown) return &parquet;
+  return nullptr;
+}
+
+}  // namespace farlod::ingest
