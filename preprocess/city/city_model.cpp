@@ -16,8 +16,8 @@ std::span<const Point3d> CityModel::points_of(const Building& b) const {
   return std::span(points_).subspan(begin, end - begin);
 }
 
-void CityModel::begin_building(std::string id, HeightReference height_reference, std::uint32_t source, bool is_raised) {
-  buildings_.push_back({std::move(id), facets_.size(), 0, height_reference, is_raised, source, origins_.size()});
+void CityModel::begin_building(std::string id, HeightReference height_reference, std::uint32_t source, Foot foot) {
+  buildings_.push_back({std::move(id), facets_.size(), 0, height_reference, foot, source, origins_.size()});
 }
 
 void CityModel::begin_facet(SurfaceKind kind, std::uint32_t surface, std::uint16_t part) {
@@ -57,7 +57,7 @@ void CityModel::drop_facets(const std::vector<bool>& is_dropped) {
   if (std::find(is_dropped.begin(), is_dropped.end(), true) == is_dropped.end()) return;
   CityModel kept;
   for (const Building& b : buildings_) {
-    kept.begin_building(b.id, b.height_reference, b.source, b.is_raised);
+    kept.begin_building(b.id, b.height_reference, b.source, b.foot);
     kept.set_origin(origin_of(b));
     for (std::uint64_t n = b.first_facet; n < b.first_facet + b.facet_count; ++n) {
       if (is_dropped[n]) continue;

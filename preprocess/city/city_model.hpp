@@ -38,12 +38,19 @@ enum class HeightReference : std::uint8_t {
   down_to_ground,  ///< the roof has an elevation; the points nearer to the base than to the roof still have to move to the ground
 };
 
+/// What a file says of where a building begins.
+enum class Foot : std::uint8_t {
+  unsaid,        ///< its lowest points are there, whatever is below them
+  on_ground,     ///< it reaches down to the ground: a footprint
+  above_ground,  ///< as an arch does
+};
+
 struct Building {
   std::string id;
   std::uint64_t first_facet = 0;
   std::uint32_t facet_count = 0;
   HeightReference height_reference = HeightReference::elevation;
-  bool is_raised = false;    ///< the file says that it begins above the ground, as an arch does
+  Foot foot = Foot::unsaid;
   std::uint32_t source = 0;  ///< place in LocatedCity::sources of the file that it comes from
   std::uint64_t first_origin_byte = 0;
   std::uint64_t origin_bytes = 0;  ///< 0: nothing is known of the places of its surfaces in a file
@@ -73,7 +80,7 @@ class CityModel {
 
   /// Building up: a building, then its facets, each with its rings, outer ring first.
   void begin_building(std::string id, HeightReference height_reference = HeightReference::elevation, std::uint32_t source = 0,
-                      bool is_raised = false);
+                      Foot foot = Foot::unsaid);
   void begin_facet(SurfaceKind kind, std::uint32_t surface, std::uint16_t part = 0);
   void add_ring(std::span<const Point3d> points);
   /// Where the building begun last comes from in its file, as package::append_origin writes it. Facets that are dropped leave it

@@ -218,7 +218,7 @@ void report_standing(const LocatedCity& located, const SurveyedGround& ground, R
   std::size_t all = 0, impossible = 0;
   const CityModel& city = located.city;
   city.for_each_building([&](std::size_t, const Building& b) {
-    if (b.height_reference != HeightReference::elevation || b.is_raised || city.points_of(b).empty()) return;
+    if (b.height_reference != HeightReference::elevation || b.foot == Foot::above_ground || city.points_of(b).empty()) return;
     files[b.source].add(city.points_of(b), ground);
     ++all;
   });

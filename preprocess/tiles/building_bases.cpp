@@ -264,7 +264,7 @@ namespace {
 
 void raise_as_files_say(const CityModel& city, std::vector<Base>& bases) {
   for (std::size_t n = 0; n < bases.size(); ++n)
-    if (city.buildings()[n].is_raised) bases[n] = Base::above_ground;
+    if (city.buildings()[n].foot == Foot::above_ground) bases[n] = Base::above_ground;
 }
 
 }  // namespace
@@ -272,8 +272,9 @@ void raise_as_files_say(const CityModel& city, std::vector<Base>& bases) {
 std::vector<Base> bases_of(const CityModel& city) {
   PagedArray<Footprint> footprints;
   // What the file says to begin above the ground says nothing about it
-  city.for_each_building(
-      [&](std::size_t, const Building& b) { footprints.push_back(b.is_raised ? Footprint{} : footprint_of(city.points_of(b))); });
+  city.for_each_building([&](std::size_t, const Building& b) {
+    footprints.push_back(b.foot == Foot::above_ground ? Footprint{} : footprint_of(city.points_of(b)));
+  });
   const Neighbors neighbors(footprints);
   // Find the bases below the ground first: they must not make bridges of their neighbors
   std::vector<Base> without_bridges(footprints.size(), Base::on_ground);
@@ -343,8 +344,8 @@ double largest_gap_m(std::span<const HorizonSegment> foot, const GroundHeightAt&
 
 }  // namespace
 
-std::optional<Foundation> take_foundation(std::span<const Point3d> building_points, std::vector<HorizonSegment>& undersides,
-                                          const GroundHeightAt& ground_height) {
+std::optional<Foundation> take_foundation(std::span<const Point3d> building_points, Foot foot,
+                                          std::vector<HorizonSegment>& undersides, const GroundHeightAt& ground_height) {
   double lowest_m = std::numeric_limits<double>::infinity(), least_gap_m = lowest_m;
   double highest_m = -lowest_m;
   for (const Point3d& p : building_points) {
@@ -355,17 +356,18 @@ std::optional<Foundation> take_foundation(std::span<const Point3d> building_poin
   // (1) A person can walk below the floor from all sides
   for (const Point3d& p : building_points)
     if (p.z <= foundation.top_m) least_gap_m = std::min(least_gap_m, p.z - ground_height(horizontal(p)));
-  if (least_gap_m > least_clearance_m) return std::nullopt;
+  const bool must_reach_down = foot == Foot::on_ground;
+  if (least_gap_m > least_clearance_m && !must_reach_down) return std::nullopt;
   // (2) Separate the borders of the lowest floor from the other lower borders
   const auto is_foot = [&](const HorizonSegment& s) { return std::max(s.segment.a.z, s.segment.b.z) <= foundation.top_m; };
-  const auto foot = std::stable_partition(undersides.begin(), undersides.end(), std::not_fn(is_foot));
-  if (foot == undersides.end()) return std::nullopt;
+  const auto feet = std::stable_partition(undersides.begin(), undersides.end(), std::not_fn(is_foot));
+  if (feet == undersides.end()) return std::nullopt;
   // (3) The building is thinner than the gap below it
-  foundation.gap_m = largest_gap_m({foot, undersides.end()}, ground_height);
-  if (foundation.gap_m > highest_m - lowest_m) return std::nullopt;
-  foundation.place = foot->segment.a;
-  foundation.walls = foundation_walls({foot, undersides.end()}, ground_height);
-  undersides.erase(foot, undersides.end());
+  foundation.gap_m = largest_gap_m({feet, undersides.end()}, ground_height);
+  if (foundation.gap_m > highest_m - lowest_m && !must_reach_down) return std::nullopt;
+  foundation.place = feet->segment.a;
+  foundation.walls = foundation_walls({feet, undersides.end()}, ground_height);
+  undersides.erase(feet, undersides.end());
   return foundation;
 }
 

@@ -64,11 +64,11 @@ struct Foundation {
 
 /// Finds the foundation of a building whose base is on the ground, or below it. `undersides` are the parts of its lower borders
 /// that are above the ground; the borders of the lowest floor are taken out of them when there is a foundation.
-/// There is none
+/// There is none, but for a building that the file says to reach down to the ground,
 ///   (1) when the building has a clearance on all sides: it is a roof without walls, or a bridge without neighbors
 ///   (2) when no border of its lowest floor is above the ground
 ///   (3) when the gap is higher than the building: it is a bridge from bank to bank
-[[nodiscard]] std::optional<Foundation> take_foundation(std::span<const Point3d> building_points,
+[[nodiscard]] std::optional<Foundation> take_foundation(std::span<const Point3d> building_points, Foot foot,
                                                         std::vector<HorizonSegment>& undersides,
                                                         const GroundHeightAt& ground_height);
 

@@ -224,8 +224,8 @@ class TileCutter {
     for (const SurfacePiece& p : cut_building.pieces) place(p.piece, first_surface + p.surface);
     std::vector<HorizonSegment> undersides = above_ground(cut_building.undersides);
     double foundation_top_m = -std::numeric_limits<double>::infinity();
-    if (!undersides.empty() && bases_[number] != Base::above_ground)
-      if (const auto foundation = take_foundation(city_.points_of(building), undersides, ground_height())) {
+    if (!undersides.empty() && (bases_[number] != Base::above_ground || building.foot == Foot::on_ground))
+      if (const auto foundation = take_foundation(city_.points_of(building), building.foot, undersides, ground_height())) {
         place_foundation(building, cut_building, *foundation, report);
         foundation_top_m = foundation->top_m;
       }

@@ -261,13 +261,12 @@ std::variant<PrismExtent, Unraised> FootprintHeights::above_base(const Height& h
     return Unraised{ProblemCode::height_not_positive,
                     height.said + ", and it begins only above that: " + what_they_say(lowest_heights_, value_of) +
                         what_they_say(lowest_storeys_, value_of)};
-  const bool is_raised = lowest_m > 0.0;
-  if (base_.empty()) return PrismExtent{lowest_m, height.value_m, HeightReference::on_ground, height.source, is_raised};
+  const Foot foot = lowest_m > 0.0 ? Foot::above_ground : Foot::on_ground;
+  if (base_.empty()) return PrismExtent{lowest_m, height.value_m, HeightReference::on_ground, height.source, foot};
   const std::optional<Height> base = length_in(base_, value_of);
   if (!base) return Unraised{ProblemCode::no_height, what_they_say(base_, value_of)};
   if (!is_elevation(base->value_m)) return no_elevation(base->said);
-  return PrismExtent{base->value_m + lowest_m, base->value_m + height.value_m, HeightReference::elevation, height.source,
-                     is_raised};
+  return PrismExtent{base->value_m + lowest_m, base->value_m + height.value_m, HeightReference::elevation, height.source, foot};
 }
 
 std::variant<PrismExtent, Unraised> FootprintHeights::of(const FieldLookup& value_of) const {

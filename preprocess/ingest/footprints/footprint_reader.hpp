@@ -51,7 +51,7 @@ struct PrismExtent {
   double base_m = 0.0, top_m = 0.0;
   HeightReference height_reference = HeightReference::on_ground;
   HeightSource source = HeightSource::measured;
-  bool is_raised = false;  ///< the table says that the base is above the ground
+  Foot foot = Foot::on_ground;
 };
 
 /// Why a footprint has no prism.

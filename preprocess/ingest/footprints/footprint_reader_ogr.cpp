@@ -241,7 +241,7 @@ class FootprintLayer {
     const auto& extent = std::get<PrismExtent>(answer);
     raised_by_storeys_ += extent.source == HeightSource::storeys ? 1 : 0;
     raised_by_default_ += extent.source == HeightSource::default_height ? 1 : 0;
-    builder_.begin_building(id, extent.height_reference, extent.is_raised);
+    builder_.begin_building(id, extent.height_reference, extent.foot);
     for (std::size_t part = 0; part < polygons.size(); ++part)
       builder_.add_prism(polygons[part], RingEnd::repeats_first, extent.base_m, extent.top_m, static_cast<std::uint16_t>(part));
     builder_.end_building("none of its rings is usable");

@@ -79,7 +79,7 @@ std::string counted(std::size_t n, const char* thing) { return std::to_string(n)
 
 }  // namespace
 
-void CityModelBuilder::begin_building(std::string id, HeightReference height_reference, bool is_raised) {
+void CityModelBuilder::begin_building(std::string id, HeightReference height_reference, Foot foot) {
   id_ = std::move(id);
   ++buildings_met_;
   next_surface_ = 0;
@@ -90,7 +90,7 @@ void CityModelBuilder::begin_building(std::string id, HeightReference height_ref
   origins_.clear();
   object_of_surface_.clear();
   problems_before_ = report_.problems().size();
-  city_.begin_building(id_, height_reference, 0, is_raised);
+  city_.begin_building(id_, height_reference, 0, foot);
   if (repeated_ids_ == RepeatedIds::reported && !ids_.insert(id_).second) report_.add(repeated_id(id_, {}));
 }
 

@@ -68,7 +68,7 @@ class CityModelBuilder {
   CityModelBuilder(std::string source, Report& report, RepeatedIds repeated_ids = RepeatedIds::reported)
       : source_(std::move(source)), report_(report), repeated_ids_(repeated_ids) {}
 
-  void begin_building(std::string id, HeightReference height_reference = HeightReference::elevation, bool is_raised = false);
+  void begin_building(std::string id, HeightReference height_reference = HeightReference::elevation, Foot foot = Foot::unsaid);
   /// Cleans the rings in place and adds the polygon, unless its outer ring is unusable or the part of the building already has
   /// the same polygon. Unusable holes are filled. Returns the number of the surface that the polygon is, the same for one that
   /// is there already; nothing where it is unusable.

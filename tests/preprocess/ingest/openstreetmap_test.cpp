@@ -93,7 +93,7 @@ TEST(OpenStreetMap, PartsStandForTheirOutline) {
                                       Pair("way/podium", Pair(0.0, 12.0)), Pair("way/tower", Pair(12.0, 60.0))))
       << "an outline that parts do not fill stays";
   EXPECT_THAT(r.source.skipped, ElementsAre(Pair("outlines of buildings whose parts are there", 1)));
-  for (const Building& b : r.city().buildings()) EXPECT_EQ(b.is_raised, b.id == "way/tower");
+  for (const Building& b : r.city().buildings()) EXPECT_EQ(b.foot, b.id == "way/tower" ? Foot::above_ground : Foot::on_ground);
 }
 
 TEST(Overture, BuildingsHavePartsAndSomeAreUnderground) {
