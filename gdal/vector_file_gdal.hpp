@@ -19,6 +19,9 @@ struct FeatureDeleter {
 };
 using Feature = std::unique_ptr<OGRFeature, FeatureDeleter>;
 
+/// None after the last one.
+[[nodiscard]] inline Feature next_feature(OGRLayer& layer) { return Feature(layer.GetNextFeature()); }
+
 /// Opens a vector file that the user named, within GdalReach::local_files. Null where GDAL does not know what it is, or cannot
 /// read it. Throws InputError where it leads beyond this computer.
 [[nodiscard]] GDALDatasetUniquePtr open_vector_file(const std::filesystem::path& file);

@@ -53,11 +53,13 @@ SourceCity ingest_obj(const InputFile& file, const IngestSettings& settings, Rep
   const ObjPlacement placement = find_obj_placement(file);
   const Point3d origin = settings.obj_origin ? *settings.obj_origin : placement.origin.value_or(Point3d{});
   CityModelBuilder builder(file.name, report);
-  read_obj(file, {origin, settings.up}, builder, stop);
+  ObjRest rest = read_obj(file, {origin, settings.up}, builder, stop);
   // Meshes have x to the east, whatever the order of axes in the definition of the CRS
   return {.source = file.name,
           .crs = {placement.crs, true, false},
           .city = builder.take_city(),
+          .relief_points = std::move(rest.relief_points),
+          .skipped = std::move(rest.skipped),
           .notes = notes_of(placement, file, settings.obj_origin.has_value())};
 }
 

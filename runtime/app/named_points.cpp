@@ -77,6 +77,12 @@ std::optional<double> known_degrees(const std::vector<Angle>& angles, std::size_
 /// Nobody asks a city for places that are farther away: something is wrong with their coordinates.
 constexpr double farthest_place_m = 100e3;
 
+/// What lies nowhere on Earth is refused where it is evaluated.
+bool is_on_some_map(Point2d p) {
+  constexpr double beyond_all_maps_m = 1e9;
+  return std::abs(p.x) < beyond_all_maps_m && std::abs(p.y) < beyond_all_maps_m;
+}
+
 bool is_near(Point2d p, const PackageDescription& package) {
   const auto& [low, high] = package.outline_projected;
   return std::hypot(std::max({low.x - p.x, p.x - high.x, 0.0}), std::max({low.y - p.y, p.y - high.y, 0.0})) <= farthest_place_m;
@@ -105,7 +111,7 @@ NamedPoints with_other_order(NamedPoints named) {
 /// Takes degrees for what they are where no CRS was said. Throws PointsError where all places lie far from the city.
 NamedPoints near_city(NamedPoints named, bool says_crs, const PackageDescription& package) {
   const std::size_t all = named.ids.size(), near = near_count(named, package);
-  if (near == all) return named;
+  if (near == all || !is_on_some_map({named.x_m.front(), named.y_m.front()})) return named;
   const std::string first = fmt::format("{:.10g}, {:.10g}", named.x_m.front(), named.y_m.front());
   if (near > 0) {
     named.notes.push_back(fmt::format("{} of {} points lie more than 100 km from the city.", all - near, all));

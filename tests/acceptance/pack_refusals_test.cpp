@@ -155,7 +155,9 @@ TEST_F(PackGuardsFolders, AnInputThatCannotBeReadCostsNoPackage) {
 }
 
 TEST_F(PackGuardsFolders, TheReportIsWrittenWhenNoBuildingIsLeft) {
-  folder.write("flat.geojson", footprints_geojson({{"flat", {}, 20.0, 0.0}}));
+  std::string flat = footprints_geojson({{"flat", {}, 20.0, 0.0}});
+  flat.replace(flat.find("floors"), 6, "number");  // storeys would stand in for a height of 0
+  folder.write("flat.geojson", flat);
   expect_refusal(folder.run("farlod-pack flat.geojson -o a.farlod --report r.json"), exit_unusable_input,
                  {"flat.geojson holds no usable building"});
   ASSERT_EQ(folder.json_of("r.json").size(), 1U);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <string>
-#include <vector>
 
 #include "ingest/files/file_format.hpp"
 
@@ -42,37 +41,32 @@ constexpr ForeignFormat energy_model{"a model of one building for simulations (g
 constexpr ForeignFormat document{"a document", "give the data that it shows"};
 
 /// The first row that fits counts.
-const std::vector<Row>& rows() {
-  static const std::vector<Row> all{
-      {{.magic = "AC10"}, drawing},
-      {{.magic = "AutoCAD Binary DXF"}, drawing},
-
-      {{.ending = ".dxf"}, drawing},
-      {{.magic = "ISO-10303-21"}, building_model},
-      {{.magic = "b3dm"}, tiles},
-      {{.magic = "i3dm"}, tiles},
-      {{.magic = "pnts"}, tiles},
-      {{.magic = "cmpt"}, tiles},
-      {{.words = {"\"asset\"", "\"root\"", "\"geometricError\""}}, tiles},
-      {{.magic = "glTF"}, mesh},
-      {{.words = {"\"asset\"", "\"meshes\"", "\"accessors\""}}, mesh},
-      {{.magic = "ply"}, mesh},
-
-      {{.ending = ".stl"}, mesh},
-      {{.words = {"<COLLADA"}}, mesh},
-      {{.magic = "Kaydara FBX Binary"}, mesh},
-      {{.magic = "3D Geometry File Format"}, mesh},
-      {{.ending = ".3ds"}, mesh},
-      {{.ending = ".skp"}, mesh},
-      {{.magic = "LASF"}, point_cloud},
-      {{.ending = ".e57"}, point_cloud},
-      {{.words = {"inspire.ec.europa.eu/schemas/bu", "FeatureCollection"}}, inspire},
-      {{.words = {"<gbXML"}}, energy_model},
-      {{.ending = ".idf"}, energy_model},
-      {{.magic = "%PDF"}, document},
-  };
-  return all;
-}
+constexpr std::array rows{
+    Row{{.magic = "AC10"}, drawing},
+    Row{{.magic = "AutoCAD Binary DXF"}, drawing},
+    Row{{.ending = ".dxf"}, drawing},
+    Row{{.magic = "ISO-10303-21"}, building_model},
+    Row{{.magic = "b3dm"}, tiles},
+    Row{{.magic = "i3dm"}, tiles},
+    Row{{.magic = "pnts"}, tiles},
+    Row{{.magic = "cmpt"}, tiles},
+    Row{{.words = {"\"asset\"", "\"root\"", "\"geometricError\""}}, tiles},
+    Row{{.magic = "glTF"}, mesh},
+    Row{{.words = {"\"asset\"", "\"meshes\"", "\"accessors\""}}, mesh},
+    Row{{.magic = "ply"}, mesh},
+    Row{{.ending = ".stl"}, mesh},
+    Row{{.words = {"<COLLADA"}}, mesh},
+    Row{{.magic = "Kaydara FBX Binary"}, mesh},
+    Row{{.magic = "3D Geometry File Format"}, mesh},
+    Row{{.ending = ".3ds"}, mesh},
+    Row{{.ending = ".skp"}, mesh},
+    Row{{.magic = "LASF"}, point_cloud},
+    Row{{.ending = ".e57"}, point_cloud},
+    Row{{.words = {"inspire.ec.europa.eu/schemas/bu", "FeatureCollection"}}, inspire},
+    Row{{.words = {"<gbXML"}}, energy_model},
+    Row{{.ending = ".idf"}, energy_model},
+    Row{{.magic = "%PDF"}, document},
+};
 
 bool fits(const KnownBy& by, const std::string& beginning, std::string_view file_name) {
   const bool has_magic = beginning.starts_with(by.magic);
@@ -88,7 +82,7 @@ const ForeignFormat* foreign_format_of(const InputFile& file) {
   std::error_code error;
   if (file.pipe || (!file.is_packed() && std::filesystem::is_directory(file.path, error))) return nullptr;
   const std::string beginning = read_beginning(file, beginning_bytes), name = file.unpacked_name();
-  for (const Row& row : rows())
+  for (const Row& row : rows)
     if (fits(row.by, beginning, name)) return &row.format;
   if (beginning.starts_with("PAR1") && map_kind_of(file) == MapKind::unknown) return &parquet;
   return nullptr;

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ingest/footprints/feature_table_ogr.hpp"
 
+#include <ogrsf_frmts.h>
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
 #include "base/lower_case.hpp"
+#include "gdal/vector_file_gdal.hpp"
 
 namespace farlod::ingest {
 namespace {
@@ -91,9 +94,10 @@ PartsOfLayer::PartsOfLayer(OGRLayer& layer, const FeatureTable& table) {
     OGRGeometry* geometry = feature->GetGeometryRef();
     if (geometry == nullptr || FeatureTable::Row(table, *feature).role() != FeatureRole::part) continue;
     const OGRGeometryUniquePtr inside(OGRGeometry::FromHandle(OGR_G_PointOnSurface(OGRGeometry::ToHandle(geometry))));
-    if (inside && !inside->IsEmpty()) parts_.push_back({*inside->toPoint(), area_of(*geometry)});
+    if (inside && !inside->IsEmpty())
+      parts_.push_back({{inside->toPoint()->getX(), inside->toPoint()->getY()}, area_of(*geometry)});
   }
-  std::sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) { return a.inside.getX() < b.inside.getX(); });
+  std::sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) { return a.inside.x < b.inside.x; });
 }
 
 bool PartsOfLayer::fill(const OGRGeometry& outline) const {
@@ -103,9 +107,10 @@ bool PartsOfLayer::fill(const OGRGeometry& outline) const {
   outline.getEnvelope(&box);
   double filled = 0.0;
   const auto first =
-      std::lower_bound(parts_.begin(), parts_.end(), box.MinX, [](const Part& part, double x) { return part.inside.getX() < x; });
-  for (auto part = first; part != parts_.end() && part->inside.getX() <= box.MaxX; ++part)
-    if (box.MinY <= part->inside.getY() && part->inside.getY() <= box.MaxY && part->inside.Within(&outline)) filled += part->area;
+      std::lower_bound(parts_.begin(), parts_.end(), box.MinX, [](const Part& part, double x) { return part.inside.x < x; });
+  for (auto part = first; part != parts_.end() && part->inside.x <= box.MaxX; ++part)
+    if (box.MinY <= part->inside.y && part->inside.y <= box.MaxY && OGRPoint(part->inside.x, part->inside.y).Within(&outline))
+      filled += part->area;
   return filled >= most_of_it * area_of(outline) && filled > 0.0;
 }
 

@@ -2,26 +2,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <ogrsf_frmts.h>
-
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "gdal/vector_file_gdal.hpp"
+#include "farlod/point.hpp"
 #include "ingest/footprints/feature_tags.hpp"
 #include "ingest/footprints/footprint_reader.hpp"
 
 // Private to the wrappers of GDAL: it names its classes.
+class OGRFeature;
+class OGRGeometry;
+class OGRLayer;
 
 namespace farlod::ingest {
 
 /// Enough features to find out what the columns of a table hold, and whether features are bodies.
 inline constexpr int most_features_to_sample = 100;
-
-[[nodiscard]] inline Feature next_feature(OGRLayer& layer) { return Feature(layer.GetNextFeature()); }
 
 /// The fields of a layer. Tags that stand together in one column (tag_collections) are fields, too: the known ones, behind the
 /// columns, where no column has their name.
@@ -66,7 +65,7 @@ class PartsOfLayer {
 
  private:
   struct Part {
-    OGRPoint inside;
+    Point2d inside;  ///< a point in it
     double area = 0.0;
   };
   std::vector<Part> parts_;  ///< by the x of their points

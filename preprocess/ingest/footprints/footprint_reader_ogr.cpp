@@ -322,7 +322,7 @@ OGRLayer* choose_layer(GDALDataset& dataset, const std::string& file, const Foot
 
 bool is_openstreetmap(GDALDataset& dataset) { return EQUAL(dataset.GetDriverName(), "OSM"); }
 
-/// Of a file of OpenStreetMap, the other layers are its points and lines, and groups of things that are there already.
+/// The other layers of OpenStreetMap are points and lines, and groups of things that are there already.
 void report_other_layers(GDALDataset& dataset, OGRLayer* chosen, CityModelBuilder& builder) {
   if (is_openstreetmap(dataset)) return;
   for (OGRLayer* layer : dataset.GetLayers())

@@ -262,6 +262,8 @@ class ObjScanner {
       group_ = add_name(line, mesh_.groups);
     else if (keyword == "o")
       object_ = add_name(line, mesh_.objects);
+    else if (keyword == "usemtl")
+      material_ = add_name(line, mesh_.materials);
     else if (keyword == "l" || keyword == "p" || keyword == "curv" || keyword == "curv2" || keyword == "surf")
       if (mesh_.unread_elements++ == 0) mesh_.first_unread_line = segment_.lines;
   }
@@ -273,7 +275,7 @@ class ObjScanner {
   }
 
   void read_face(std::string_view line) {
-    ObjFace face{mesh_.corners.size(), 0, group_, object_, segment_.lines};
+    ObjFace face{mesh_.corners.size(), 0, group_, object_, material_, segment_.lines};
     const std::size_t relative_before = segment_.relative_corners.size();
     for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
       const std::string_view number = word.substr(0, word.find('/'));
@@ -299,7 +301,7 @@ class ObjScanner {
 
   ObjSegment segment_;
   ObjMesh& mesh_ = segment_.mesh;
-  std::uint32_t group_ = 0, object_ = 0;
+  std::uint32_t group_ = 0, object_ = 0, material_ = 0;
   std::string continued_;
 };
 
@@ -342,12 +344,14 @@ void append(ObjSegment&& next, std::uint64_t lines_before, ObjMesh& mesh) {
   const auto first_vertex = static_cast<std::int64_t>(mesh.vertices.size());
   const std::uint64_t first_corner = mesh.corners.size();
   const auto last_group = static_cast<std::uint32_t>(mesh.groups.size() - 1),
-             last_object = static_cast<std::uint32_t>(mesh.objects.size() - 1);
+             last_object = static_cast<std::uint32_t>(mesh.objects.size() - 1),
+             last_material = static_cast<std::uint32_t>(mesh.materials.size() - 1);
   for (const std::size_t corner : next.relative_corners) next.mesh.corners[corner] += first_vertex;
   for (ObjFace& face : next.mesh.faces) {
     face.first_corner += first_corner;
     face.group += last_group;
     face.object += last_object;
+    face.material += last_material;
     face.line += lines_before;
   }
   mesh.vertices.append(next.mesh.vertices);
@@ -355,6 +359,7 @@ void append(ObjSegment&& next, std::uint64_t lines_before, ObjMesh& mesh) {
   mesh.faces.append(next.mesh.faces);
   append_names(next.mesh.groups, mesh.groups);
   append_names(next.mesh.objects, mesh.objects);
+  append_names(next.mesh.materials, mesh.materials);
   for (const std::uint64_t line : next.mesh.malformed_lines) mesh.malformed_lines.push_back(lines_before + line);
   if (mesh.unread_elements == 0 && next.mesh.unread_elements > 0)
     mesh.first_unread_line = lines_before + next.mesh.first_unread_line;

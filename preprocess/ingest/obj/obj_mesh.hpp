@@ -64,17 +64,17 @@ struct FaceCorners {
 struct ObjFace {
   std::uint64_t first_corner = 0;
   std::uint32_t corner_count = 0;
-  std::uint32_t group = 0, object = 0;  ///< rows in the lists of names
-  std::uint64_t line = 0;               ///< for messages
+  std::uint32_t group = 0, object = 0, material = 0;  ///< rows in the lists of names
+  std::uint64_t line = 0;                             ///< for messages
 };
 
-/// The content of an OBJ file, in its order and with its axes, without textures, normals and materials.
+/// The content of an OBJ file, in its order and with its axes, without textures and normals.
 struct ObjMesh {
   PagedArray<Point3d> vertices;      ///< a coordinate that cannot be read is NaN
   PagedArray<std::int64_t> corners;  ///< vertices counted from 0, not checked against the range yet
   PagedArray<ObjFace> faces;
   /// One row for each statement, even when it repeats a name. Row 0 holds the faces before the first statement.
-  std::vector<std::string> groups{""}, objects{""};
+  std::vector<std::string> groups{""}, objects{""}, materials{""};
   std::vector<std::uint64_t> malformed_lines;                ///< faces whose corners are not numbers
   std::uint64_t unread_elements = 0, first_unread_line = 0;  ///< points, lines and curves, which are not read
 

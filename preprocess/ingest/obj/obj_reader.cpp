@@ -15,6 +15,7 @@
 
 #include "base/cancellation.hpp"
 #include "farlod/error.hpp"
+#include "ingest/obj/obj_classes.hpp"
 #include "ingest/obj/obj_mesh.hpp"
 
 namespace farlod::ingest {
@@ -32,12 +33,12 @@ bool is_in_range(const ObjMesh& mesh, std::int64_t corner) {
 }
 
 /// For each face, the first face of its connected component. Faces are connected if they share a point.
-std::vector<std::uint32_t> components(const ObjMesh& mesh) {
+std::vector<std::uint32_t> components(const ObjMesh& mesh, const std::vector<bool>& is_building) {
   const std::vector<std::uint32_t> point_of = weld(mesh.vertices);
   std::vector<std::uint32_t> first_face(mesh.vertices.size(), 0xFFFFFFFF), roots;
   DisjointSets sets(mesh.faces.size());
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f)
-    for (std::uint32_t c = 0; c < mesh.faces[f].corner_count; ++c) {
+    for (std::uint32_t c = 0; is_building[f] && c < mesh.faces[f].corner_count; ++c) {
       const std::int64_t corner = mesh.corners[mesh.faces[f].first_corner + c];
       if (!is_in_range(mesh, corner)) continue;
       std::uint32_t& first = first_face[point_of[static_cast<std::size_t>(corner)]];
@@ -48,39 +49,49 @@ std::vector<std::uint32_t> components(const ObjMesh& mesh) {
   return roots;
 }
 
-/// Sorts the faces by a key; buildings come in the order of their first face.
-FacesByBuilding sort_by(const std::vector<std::uint32_t>& key_of_face, std::size_t key_count) {
+/// Sorts the faces of buildings by a key; buildings come in the order of their first face.
+FacesByBuilding sort_by(const std::vector<std::uint32_t>& key_of_face, const std::vector<bool>& is_building,
+                        std::size_t key_count) {
   FacesByBuilding sorted;
-  std::vector<std::uint32_t> building_of_key(key_count, 0xFFFFFFFF), building_of_face;
+  constexpr std::uint32_t none = 0xFFFFFFFF;
+  std::vector<std::uint32_t> building_of_key(key_count, none), building_of_face(key_of_face.size(), none);
   std::uint32_t buildings = 0;
-  for (const std::uint32_t key : key_of_face) {
-    if (building_of_key[key] == 0xFFFFFFFF) building_of_key[key] = buildings++;
-    building_of_face.push_back(building_of_key[key]);
+  for (std::size_t f = 0; f < key_of_face.size(); ++f) {
+    if (!is_building[f]) continue;
+    std::uint32_t& building = building_of_key[key_of_face[f]];
+    if (building == none) building = buildings++;
+    building_of_face[f] = building;
   }
   sorted.begin.assign(buildings + 1, 0);
-  for (const std::uint32_t b : building_of_face) ++sorted.begin[b + 1];
+  for (const std::uint32_t b : building_of_face)
+    if (b != none) ++sorted.begin[b + 1];
   std::partial_sum(sorted.begin.begin(), sorted.begin.end(), sorted.begin.begin());
-  sorted.faces.resize(key_of_face.size());
+  sorted.faces.resize(sorted.begin.back());
   std::vector<std::size_t> next = sorted.begin;
-  for (std::uint32_t f = 0; f < key_of_face.size(); ++f) sorted.faces[next[building_of_face[f]]++] = f;
+  for (std::uint32_t f = 0; f < key_of_face.size(); ++f)
+    if (building_of_face[f] != none) sorted.faces[next[building_of_face[f]]++] = f;
   return sorted;
 }
 
-FacesByBuilding group_faces(const ObjMesh& mesh) {
+FacesByBuilding group_faces(const ObjMesh& mesh, const std::vector<bool>& is_building) {
   const bool has_objects = mesh.objects.size() > 2, has_names = mesh.objects.size() > 1 || mesh.groups.size() > 1;
   const bool by_object = has_objects || mesh.groups.size() == 1;
   std::vector<std::uint32_t> keys;
   if (has_names)
     for (const ObjFace& face : mesh.faces) keys.push_back(by_object ? face.object : face.group);
   else
-    keys = components(mesh);
-  FacesByBuilding sorted = sort_by(keys, std::max({mesh.faces.size(), mesh.groups.size(), mesh.objects.size()}));
+    keys = components(mesh, is_building);
+  FacesByBuilding sorted = sort_by(keys, is_building, std::max({mesh.faces.size(), mesh.groups.size(), mesh.objects.size()}));
   for (std::size_t b = 0; b + 1 < sorted.begin.size(); ++b) {
     const std::uint32_t key = keys[sorted.faces[sorted.begin[b]]];
     const std::string name = !has_names ? "" : by_object ? mesh.objects[key] : mesh.groups[key];
     sorted.ids.push_back(!name.empty() ? name : has_names ? "unnamed" : "component " + std::to_string(b + 1));
   }
   return sorted;
+}
+
+Point3d placed(const ObjFrame& frame, const Point3d& p) {
+  return frame.origin + (frame.up == UpAxis::y ? Point3d{p.x, -p.z, p.y} : p);
 }
 
 class ObjBuildings {
@@ -116,13 +127,11 @@ class ObjBuildings {
         continue;
       }
       for (const std::int64_t corner : numbers)
-        corners_.points.push_back(placed(mesh_.vertices[static_cast<std::size_t>(corner)]));
+        corners_.points.push_back(placed(frame_, mesh_.vertices[static_cast<std::size_t>(corner)]));
       corners_.end_face();
       kept_.push_back(f);
     }
   }
-
-  Point3d placed(const Point3d& p) const { return frame_.origin + (frame_.up == UpAxis::y ? Point3d{p.x, -p.z, p.y} : p); }
 
   const ObjMesh& mesh_;
   const ObjFrame frame_;
@@ -184,13 +193,35 @@ void add_buildings(const ObjMesh& mesh, const FacesByBuilding& sorted, const Obj
 
 }  // namespace
 
-void read_obj(const InputFile& file, const ObjFrame& frame, CityModelBuilder& builder, const std::stop_token& stop) {
+namespace {
+
+/// Sorts out what is no building: the corners of ground become points of a relief, other faces are counted.
+std::vector<bool> sort_out(const ObjMesh& mesh, const ObjFrame& frame, ObjRest& rest) {
+  const ObjClasses classes(mesh);
+  std::vector<bool> is_building;
+  for (const ObjFace& face : mesh.faces) {
+    const ObjClass face_class = classes.of(face);
+    is_building.push_back(face_class == ObjClass::building);
+    if (face_class == ObjClass::other) ++rest.skipped["faces of " + classes.name_of(face)];
+    if (face_class != ObjClass::ground) continue;
+    for (const std::int64_t corner : std::span(mesh.corners).subspan(face.first_corner, face.corner_count))
+      if (is_in_range(mesh, corner)) rest.relief_points.push_back(placed(frame, mesh.vertices[static_cast<std::size_t>(corner)]));
+  }
+  return is_building;
+}
+
+}  // namespace
+
+ObjRest read_obj(const InputFile& file, const ObjFrame& frame, CityModelBuilder& builder, const std::stop_token& stop) {
   const ObjMesh mesh = scan_obj(*open_input(file), stop);
   report_unread(mesh, builder);
   if (mesh.faces.empty())
     throw InputError(file.name + " holds " + std::to_string(mesh.vertices.size()) +
                      " vertices and no face: it is not an OBJ file, or it is a point cloud. Export it as a polygon mesh.");
-  add_buildings(mesh, group_faces(mesh), frame, stop, builder);
+  ObjRest rest;
+  const std::vector<bool> is_building = sort_out(mesh, frame, rest);
+  add_buildings(mesh, group_faces(mesh, is_building), frame, stop, builder);
+  return rest;
 }
 
 namespace {

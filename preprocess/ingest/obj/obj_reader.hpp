@@ -20,10 +20,17 @@ struct ObjFrame {
   UpAxis up = UpAxis::z;
 };
 
+/// What an OBJ file holds besides buildings.
+struct ObjRest {
+  std::vector<Point3d> relief_points;  ///< corners of its ground
+  SkippedFeatures skipped;
+};
+
 /// Reads an OBJ file. A building is a group (`g`); an object (`o`) if the file has more than one; or, without either, a connected
 /// component. A repeated name begins another building. Coplanar neighboring faces share a surface number. Works on all threads of
-/// the task arena that it is called in. Throws InputError when there are no faces, and Cancelled when a stop is requested.
-void read_obj(const InputFile& file, const ObjFrame& frame, CityModelBuilder& builder, const std::stop_token& stop = {});
+/// the task arena that it is called in. Returns what the names of groups, objects and materials say to be no building. Throws
+/// InputError when there are no faces, and Cancelled when a stop is requested.
+ObjRest read_obj(const InputFile& file, const ObjFrame& frame, CityModelBuilder& builder, const std::stop_token& stop = {});
 
 /// The place of an OBJ file on the map. The format cannot store it; by convention, small files beside it do.
 struct ObjPlacement {

@@ -276,9 +276,10 @@ TEST(FootprintHeights, ATextThatIsNoLengthSaysNothing) {
   EXPECT_EQ(Feature().number("height", std::numeric_limits<double>::quiet_NaN()).number("floors", 1).extent().top_m, 3.0);
 }
 
-TEST(FootprintHeights, StoreysAreAsHighAsToldAndRoofLevelsAreNone) {
+TEST(FootprintHeights, StoreysAreAsHighAsToldAndThoseOfTheRoofCount) {
   FootprintSettings settings{.floor_height_m = 3.5};
-  EXPECT_EQ(Feature().text("Building:Levels", "4").text("roof:levels", "2").extent(settings).top_m, 14.0);
+  EXPECT_EQ(Feature().text("Building:Levels", "4").text("roof:levels", "2").extent(settings).top_m, 21.0);
+  EXPECT_EQ(Feature().text("num_floors", "4").text("roof:levels", "2").extent(settings).top_m, 14.0) << "it counts them all";
   EXPECT_FALSE(FootprintHeights({"roof:levels", "name"}, settings).can_tell());
   EXPECT_TRUE(FootprintHeights({"name", "NUM_FLOORS"}, settings).can_tell());
 }

@@ -8,6 +8,7 @@
 #include "archive_writer.hpp"
 #include "base/cancellation.hpp"
 #include "ingest/files/input_search.hpp"
+#include "ingest/obj/obj_classes.hpp"
 #include "ingest/obj/obj_mesh.hpp"
 #include "ingest/obj/obj_reader.hpp"
 #include "reading.hpp"
@@ -45,6 +46,23 @@ TEST(Obj, WithoutGroupsBuildingsAreWhatHangsTogether) {
   ASSERT_EQ(r.city().buildings().size(), 2u);
   EXPECT_EQ(r.city().buildings()[0].facet_count, 1u);
   EXPECT_EQ(r.city().buildings()[1].facet_count, 4u);
+}
+
+TEST(Obj, NamesOfGroundAndTreesAreNoBuildings) {
+  for (const char* name : {"Terrain", "water_1", "Road.002", "TINRelief"})
+    EXPECT_EQ(class_of_name(name), ObjClass::ground) << name;
+  for (const char* name : {"Forest", "tree 17"}) EXPECT_EQ(class_of_name(name), ObjClass::other) << name;
+  for (const char* name : {"", "Building", "Water Street 5", "roadhouse", "NL.Pand.00", "Terrain house"})
+    EXPECT_EQ(class_of_name(name), ObjClass::building) << name;
+  const std::string corners = "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 5\n";
+  const Reading r = read_text("a.obj", corners +
+                                           "o Terrain_1\nf 1 2 3\no house\nusemtl wall\nf 1 2 4\nf 2 3 4\nusemtl Road\nf 1 3 2\n"
+                                           "o Tree_5\nf 1 2 4\n");
+  ASSERT_EQ(r.city().buildings().size(), 1u);
+  EXPECT_EQ(r.city().buildings()[0].id, "house");
+  EXPECT_EQ(r.city().buildings()[0].facet_count, 2u);
+  EXPECT_EQ(r.source.relief_points.size(), 6u);
+  EXPECT_EQ(r.source.skipped.at("faces of tree"), 1u);
 }
 
 TEST(Obj, ToleratesAllWaysOfWriting) {

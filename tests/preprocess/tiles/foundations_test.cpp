@@ -91,6 +91,25 @@ TEST(Foundations, WhatIsThinnerThanTheGapBelowItGetsNone) {
   EXPECT_GT(edges_of(tiles, EdgeRole::underside), 0U);
 }
 
+TEST(Foundations, AFootprintReachesDownToTheGroundWhateverTheGap) {
+  for (const double base_m : {2.0, 4.0, 15.0}) {
+    scenes::SceneBuilder town;
+    town.add_box({{40, 40}, {50, 50}}, base_m, base_m + 10.0);
+    std::vector<HorizonSegment> undersides;
+    const std::array<Point3d, 4> floor{{{40, 40, base_m}, {50, 40, base_m}, {50, 50, base_m}, {40, 50, base_m}}};
+    for (std::size_t k = 0; k < floor.size(); ++k)
+      undersides.push_back({{floor[k], floor[(k + 1) % 4]}, {}, EdgeRole::underside});
+    const std::vector<HorizonSegment> all = undersides;
+    const GroundHeightAt plain = [](Point2d) { return 0.0; };
+    const auto foundation = take_foundation(town.city().points(), Foot::on_ground, undersides, plain);
+    ASSERT_TRUE(foundation.has_value()) << base_m;
+    EXPECT_EQ(foundation->walls.size(), 8U);
+    EXPECT_TRUE(undersides.empty());
+    undersides = all;
+    EXPECT_EQ(take_foundation(town.city().points(), Foot::unsaid, undersides, plain).has_value(), base_m < 2.5) << base_m;
+  }
+}
+
 TEST(Foundations, WallsReachBelowTheGroundAllAlong) {
   const HorizonSegment border{{{0, 0, 5}, {10, 0, 5}}, {}, EdgeRole::underside};
   // A trough in the middle of the border
