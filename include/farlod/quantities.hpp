@@ -97,6 +97,7 @@ struct Quantities {
 struct QuantityWord {
   std::string_view word, meaning;
   bool is_of_crowns = false;  ///< it needs a package with trees
+  bool is_weighted = true;    ///< by the cosine: it has no place beside SkyWeight::solid_angle
 };
 /// All that there are, in the order of their columns.
 [[nodiscard]] FARLOD_EXPORT std::vector<QuantityWord> quantity_words();

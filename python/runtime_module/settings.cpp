@@ -24,10 +24,10 @@ namespace py = pybind11;
 namespace farlod {
 namespace {
 
-template <class T, std::size_t n>
-py::tuple texts_of(const std::array<Word<T>, n>& words) {
-  py::tuple texts(n);
-  for (std::size_t k = 0; k < n; ++k) texts[k] = std::string(words[k].text);
+template <class Words>
+py::tuple texts_of(const Words& words, std::string_view Words::value_type::*text = &Words::value_type::text) {
+  py::tuple texts(words.size());
+  for (std::size_t k = 0; k < words.size(); ++k) texts[k] = std::string(words[k].*text);
   return texts;
 }
 
@@ -143,6 +143,7 @@ void add_settings(py::module_& module) {
   words["directions"] = texts_of(direction_set_words);
   words["above"] = texts_of(height_above_words);
   words["sky_patches"] = texts_of(sky_patch_words);
+  words["quantity"] = texts_of(quantity_words(), &QuantityWord::word);
   words["canopy_rule"] = texts_of(canopy_rule_words);
   words["which"] = texts_of(surface_choice_words);
   words["kind"] = texts_of(surface_kind_words);

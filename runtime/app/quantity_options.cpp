@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/quantity_options.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "app/word_choice.hpp"
 #include "console/option_list.hpp"
@@ -50,6 +53,17 @@ std::string words_with_meanings(bool of_crowns) {
     if (q.is_of_crowns == of_crowns)
       words.append(words.empty() ? "" : ", ").append(q.word).append(" (").append(q.meaning).append(")");
   return words;
+}
+
+bool is_of_crowns(const QuantityWord& q) { return q.is_of_crowns; }
+bool is_not_weighted(const QuantityWord& q) { return !q.is_weighted; }
+
+/// "horizon, horizon_distance and sunlit": the words with a property, and what stands before the last.
+std::string words_that(bool (*have_it)(const QuantityWord&), const char* before_last) {
+  std::vector<std::string_view> words;
+  for (const QuantityWord& q : quantity_words())
+    if (have_it(q)) words.push_back(q.word);
+  return fmt::format("{}{}{}", fmt::join(words.begin(), words.end() - 1, ", "), before_last, words.back());
 }
 
 void add(const std::string& word, const RawQuantities& raw, Quantities& quantities) {
@@ -97,8 +111,7 @@ CanopySettings canopy_of(const RawQuantities& raw, bool knows_trees) {
   if (raw.extinction_per_m && !is_beer) throw CLI::ValidationError("--extinction", "it goes with --canopy-rule beer");
   if (!(canopy == CanopySettings{}) && !knows_trees)
     throw CLI::ValidationError("--canopy-rule",
-                               "this run computes nothing of trees: add --quantity svf_total, svfaveg, "
-                               "directional_vegetation or shares");
+                               "this run computes nothing of trees: add --quantity " + words_that(is_of_crowns, " or "));
   return canopy;
 }
 
@@ -116,6 +129,8 @@ void add_sun_options(CLI::App& app, RawQuantities& raw) {
 }
 
 }  // namespace
+
+std::string words_of_unweighted() { return words_that(is_not_weighted, " and "); }
 
 void add_quantity_options(CLI::App& app, RawQuantities& raw) {
   app.add_option("--quantity", raw.quantities,

@@ -41,6 +41,9 @@ struct RequestedQuantities {
   [[nodiscard]] bool any() const { return further.any() || sunshine.has_value(); }
 };
 
+/// The words of the quantities that know other weights than the cosine, for messages.
+[[nodiscard]] std::string words_of_unweighted();
+
 void add_quantity_options(CLI::App& app, RawQuantities& raw);
 
 /// What SOLWEIG reads beside the sky view factor, of a package with trees or without.

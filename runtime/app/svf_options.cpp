@@ -291,7 +291,8 @@ void require_accuracy(const EvaluationSettings& settings) {
 void resolve_quantities(const RawOptions& raw, SvfOptions& o) {
   RequestedQuantities requested = resolved(raw.quantities, o.format != nullptr && o.format->is_for_solweig);
   if (requested.further.any_weighted() && o.evaluation.weight == SkyWeight::solid_angle)
-    throw CLI::ValidationError("--quantity", "with --sky solid only horizon and sunlit can be computed: leave --sky out");
+    throw CLI::ValidationError("--quantity",
+                               "with --sky solid only " + words_of_unweighted() + " can be computed: leave --sky out");
   const bool is_sky = o.source == ReceiverSource::at && o.format != nullptr && o.format->is_picture;
   if (is_sky && requested.further.any())
     throw CLI::ValidationError("--quantity",

@@ -118,33 +118,10 @@ void find_hidden_behind_crowns(const SkyProfile& profile, const ReceiverPacket& 
 }  // namespace
 
 void write_canopy_columns(const Quantities& quantities, float svf, const CanopyAnswer& answer, std::span<float> values) {
-  std::size_t next = 0;
-  const auto add = [&](float value) { values[next++] = value; };
-  // Both are sampled: crowns hide no more than the sky that there is
-  const CanopyLoss& loss = answer.loss;
-  const float behind = std::clamp(loss.sky, 0.0F, svf);
-  if (quantities.svf_total) {
-    add(answer.svf_total.estimate);
-    if (quantities.svf_total_bounds) {
-      add(answer.svf_total.low);
-      add(answer.svf_total.high);
-    }
-    add(1.0F - behind);
-  }
-  if (quantities.svfaveg) add(1.0F - loss.building);
-  if (quantities.directional_vegetation) {
-    // What the answer knows better than the azimuths is not known by halves: each keeps its share of it
-    const float share = loss.sky > 0.0F ? behind / loss.sky : 1.0F;
-    for (const float half : loss.sky_of_half) add(1.0F - share * half);
-    for (const float half : loss.building_of_half) add(1.0F - half);
-  }
-  if (quantities.sky_shares) {
-    const float vegetation = behind + std::clamp(loss.building, 0.0F, 1.0F - svf);
-    add(svf - behind);
-    add(vegetation);
-    add(1.0F - (svf - behind) - vegetation);
-  }
-  FARLOD_EXPECTS(next == values.size());
+  ValuesOfReceiver of_receiver(values);
+  for (const QuantityRow& row : quantity_table())
+    if (row.word.is_of_crowns && row.is_asked(quantities)) row.add_of_crowns(quantities, svf, answer, of_receiver);
+  FARLOD_EXPECTS(of_receiver.count() == values.size());
 }
 
 void store_traced_canopies(const CellReceivers& cell, const CanopyScene& scene, Point2d scene_from_cell_m,

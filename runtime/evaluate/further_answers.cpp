@@ -262,7 +262,7 @@ void FurtherAnswers::store(std::span<const ReceiverPacket> packets, std::span<co
 }
 
 void FurtherAnswers::store(std::size_t packet, const ReceiverPacket& receivers, std::span<const std::uint32_t> numbers) {
-  FurtherQuantities::Sky sky{};
+  ProfiledPacket::Sky sky{};
   for (std::size_t l = 0; l < numbers.size(); ++l) {
     sky.svf[l] = answers_.svf[cell_.receivers[numbers[l]].index];
     if (near_sky_) sky.near_svf[l] = near_sky_->svf(packet, l);
@@ -270,7 +270,7 @@ void FurtherAnswers::store(std::size_t packet, const ReceiverPacket& receivers, 
   }
   const std::size_t columns = quantities_.size();
   values_.resize(numbers.size() * columns);
-  quantities_.evaluate(profiles_[packet], receivers, sky, rows_, values_);
+  quantities_.evaluate({profiles_[packet], receivers, sky, rows_}, values_);
   if (canopies_) {
     const auto [first, count] = quantities_.canopy_columns();
     for (std::size_t l = 0; l < numbers.size(); ++l)

@@ -66,7 +66,7 @@ class FurtherAnswers {
   std::unique_ptr<CanopyAnswers> canopies_;
   std::vector<SkiesOfPacket> skies_;  ///< of each packet, as the next one
   std::span<const CanopyAnswers::Answers> of_canopies_;
-  FurtherQuantities::Rows rows_;
+  ProfiledPacket::Rows rows_;
   std::vector<float> values_;
 };
 

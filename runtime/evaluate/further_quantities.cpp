@@ -106,7 +106,7 @@ void fill_rows(std::size_t count, float value, std::vector<Row>& rows) {
 
 /// Adds the sky that is seen in gaps, between two slopes, to `terms`, by the cosine or by solid angle.
 void add_sky_in_gaps(const SkyProfile& profile, const ReceiverPacket& receivers, const AzimuthSampling& azimuths, float from,
-                     float to, bool is_solid, FurtherQuantities::Rows& rows) {
+                     float to, bool is_solid, ProfiledPacket::Rows& rows) {
   if (profile.gap_share.empty()) return;
   clamp_rows(profile.gap_from, from, to, rows.low);
   clamp_rows(profile.gap_to, from, to, rows.high);
@@ -117,7 +117,7 @@ void add_sky_in_gaps(const SkyProfile& profile, const ReceiverPacket& receivers,
 
 /// The shares of the turn of the sky above profiles, from rows of F(φ) where they are known.
 void find_sky(const SkyProfile& profile, const SkyProfile::Rows& known, const ReceiverPacket& receivers,
-              const AzimuthSampling& azimuths, bool is_solid, FurtherQuantities::Rows& rows) {
+              const AzimuthSampling& azimuths, bool is_solid, ProfiledPacket::Rows& rows) {
   if (known.empty()) {
     fill_rows(azimuths.size(), straight_up, rows.high);
     find_sky_between(profile.sky_from, rows.high, receivers, azimuths, is_solid, rows.terms);
@@ -235,88 +235,51 @@ void FurtherQuantities::sort_sun_positions() {
   }
 }
 
-class FurtherQuantities::Columns {
- public:
-  Columns(std::size_t size, std::span<float> values) : size_(size), values_(values) {}
-
-  void add(const Lanes& column) {
-    for (std::size_t l = 0; l * size_ < values_.size(); ++l) values_[l * size_ + next_] = column[l];
-    ++next_;
-  }
-  void skip(std::size_t count) { next_ += count; }
-  [[nodiscard]] std::size_t count() const { return next_; }
-
- private:
-  std::size_t size_, next_ = 0;
-  std::span<float> values_;
-};
-
-void FurtherQuantities::evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky, Rows& rows,
-                                 std::span<float> values) const {
-  FARLOD_EXPECTS(values.size() == receivers.count * size_);
-  Columns columns(size_, values);
+void FurtherQuantities::evaluate(const ProfiledPacket& packet, std::span<float> values) const {
+  FARLOD_EXPECTS(values.size() == packet.receivers.count * size_);
+  QuantityColumns columns(size_, values);
   for (const QuantityRow& row : quantity_table())
-    if (row.is_asked(quantities_)) add(row.quantity, profile, receivers, sky, rows, columns);
+    if (row.add != nullptr && row.is_asked(quantities_)) (this->*row.add)(packet, columns);
   columns.skip(crowns_.count);
   FARLOD_EXPECTS(columns.count() == size_);
 }
 
-void FurtherQuantities::add(Quantity quantity, const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky,
-                            Rows& rows, Columns& columns) const {
-  switch (quantity) {
-    case Quantity::svf_solid:
-      return add_solid(profile, receivers, rows, columns);
-    case Quantity::directional:
-      return add_directional(profile, receivers, sky, rows, columns);
-    case Quantity::hidden:
-      return add_hidden(receivers, sky, columns);
-    case Quantity::horizon:
-      return add_horizons(profile, columns);
-    case Quantity::sky_patches:
-      return add_patches(profile, receivers, rows, columns);
-    case Quantity::sunlit:
-      return add_sunlit(profile, receivers, columns);
-    case Quantity::horizon_distance:
-      return columns.skip(azimuth_of_horizon_.size());
-    case Quantity::svf_total:
-    case Quantity::svfaveg:
-    case Quantity::directional_vegetation:
-    case Quantity::shares:
-      return;  // the last columns, all together
-  }
-}
-
-void FurtherQuantities::add_hidden(const ReceiverPacket& receivers, const Sky& sky, Columns& columns) {
+void FurtherQuantities::add_hidden(const ProfiledPacket& packet, QuantityColumns& columns) const {
   Lanes near, far;
   for (std::size_t l = 0; l < packet_lanes; ++l) {
     // Both skies are sampled: what is far hides something or nothing
-    const float near_svf = std::max(sky.near_svf[l], sky.svf[l]);
-    near[l] = std::max(0.0F, 0.5F * (1.0F + receivers.normal_z[l]) - near_svf);
-    far[l] = near_svf - sky.svf[l];
+    const float near_svf = std::max(packet.sky.near_svf[l], packet.sky.svf[l]);
+    near[l] = std::max(0.0F, 0.5F * (1.0F + packet.receivers.normal_z[l]) - near_svf);
+    far[l] = near_svf - packet.sky.svf[l];
   }
   columns.add(near);
   columns.add(far);
 }
 
-void FurtherQuantities::add_horizons(const SkyProfile& profile, Columns& columns) const {
+void FurtherQuantities::add_horizons(const ProfiledPacket& packet, QuantityColumns& columns) const {
   for (const std::size_t k : azimuth_of_horizon_) {
     Lanes degrees;
     for (std::size_t l = 0; l < packet_lanes; ++l)
-      degrees[l] = static_cast<float>(Angle::radians(std::atan(static_cast<double>(profile.sky_from[k][l]))).degrees());
+      degrees[l] = static_cast<float>(Angle::radians(std::atan(static_cast<double>(packet.profile.sky_from[k][l]))).degrees());
     columns.add(degrees);
   }
 }
 
-void FurtherQuantities::add_solid(const SkyProfile& profile, const ReceiverPacket& receivers, Rows& rows,
-                                  Columns& columns) const {
+/// Profiles do not tell them: their places are left for trace_horizon_distances.
+void FurtherQuantities::add_distances(const ProfiledPacket&, QuantityColumns& columns) const {
+  columns.skip(azimuth_of_horizon_.size());
+}
+
+void FurtherQuantities::add_solid(const ProfiledPacket& packet, QuantityColumns& columns) const {
+  const auto& [profile, receivers, sky, rows] = packet;
   find_sky(profile, profile.solid_sky, receivers, azimuths_, true, rows);
   Lanes svf = sum(rows.terms);
   for (float& s : svf) s = std::clamp(s, 0.0F, 1.0F);
   columns.add(svf);
 }
 
-void FurtherQuantities::add_directional(const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky, Rows& rows,
-                                        Columns& columns) const {
+void FurtherQuantities::add_directional(const ProfiledPacket& packet, QuantityColumns& columns) const {
+  const auto& [profile, receivers, sky, rows] = packet;
   find_sky(profile, profile.sky, receivers, azimuths_, false, rows);
   const Lanes all = sum(rows.terms);
   for (const std::array<double, packet_lanes>& sums : halves_.sums(rows.terms)) {
@@ -330,8 +293,8 @@ void FurtherQuantities::add_directional(const SkyProfile& profile, const Receive
   }
 }
 
-void FurtherQuantities::add_patches(const SkyProfile& profile, const ReceiverPacket& receivers, Rows& rows,
-                                    Columns& columns) const {
+void FurtherQuantities::add_patches(const ProfiledPacket& packet, QuantityColumns& columns) const {
+  const auto& [profile, receivers, sky, rows] = packet;
   for (const Band& band : bands_) {
     std::vector<std::array<double, packet_lanes>> seen(band.patches), all(band.patches);
     const auto add_to = [&](std::vector<std::array<double, packet_lanes>>& patches, const std::vector<Row>& terms) {
@@ -357,7 +320,8 @@ void FurtherQuantities::add_patches(const SkyProfile& profile, const ReceiverPac
   }
 }
 
-void FurtherQuantities::add_sunlit(const SkyProfile& profile, const ReceiverPacket& receivers, Columns& columns) const {
+void FurtherQuantities::add_sunlit(const ProfiledPacket& packet, QuantityColumns& columns) const {
+  const auto& [profile, receivers, sky, rows] = packet;
   std::array<double, packet_lanes> hours{};
   for (std::size_t k = 0; k < azimuths_.size(); ++k) {
     const SunAtAzimuth& sun = sun_[k];

@@ -35,6 +35,39 @@ void trace_horizon_distances(const Occluder& city, const Point3f& origin, const 
 /// horizons.
 [[nodiscard]] std::size_t azimuths_for(const Quantities& quantities, std::size_t at_least);
 
+/// Takes the values of the receivers of a packet, column by column.
+class QuantityColumns {
+ public:
+  QuantityColumns(std::size_t size, std::span<float> values) : size_(size), values_(values) {}
+
+  void add(const PacketHorizon::Lanes& column) {
+    for (std::size_t l = 0; l * size_ < values_.size(); ++l) values_[l * size_ + next_] = column[l];
+    ++next_;
+  }
+  void skip(std::size_t count) { next_ += count; }
+  [[nodiscard]] std::size_t count() const { return next_; }
+
+ private:
+  std::size_t size_, next_ = 0;
+  std::span<float> values_;
+};
+
+/// A packet of receivers, and what further quantities are made of.
+struct ProfiledPacket {
+  /// Working memory, kept from packet to packet.
+  struct Rows {
+    std::vector<PacketHorizon::Row> low, high, terms, open_terms;
+  };
+  /// svf as it is answered, and with needs_near_sky() that of the near geometry alone.
+  struct Sky {
+    PacketHorizon::Lanes svf, near_svf;
+  };
+  const SkyProfile& profile;
+  const ReceiverPacket& receivers;
+  const Sky& sky;
+  Rows& rows;
+};
+
 /// What is computed beside the sky view factor, from profiles of the sky: the same for all methods that make profiles.
 /// Immutable: threads may share it, each with working memory of its own.
 class FurtherQuantities {
@@ -54,14 +87,6 @@ class FurtherQuantities {
   [[nodiscard]] bool needs_profiles() const { return size_ > crowns_.count; }
   [[nodiscard]] bool needs_near_sky() const { return quantities_.hidden; }
 
-  /// Working memory, kept from packet to packet.
-  struct Rows {
-    std::vector<PacketHorizon::Row> low, high, terms, open_terms;
-  };
-  /// What is known of a packet's receivers: svf as it is answered, and with needs_near_sky() that of the near geometry alone.
-  struct Sky {
-    PacketHorizon::Lanes svf, near_svf;
-  };
   /// Where the horizons are whose distances must be traced: profiles do not tell them, and evaluate() leaves their places out.
   [[nodiscard]] HorizonColumns horizon_columns() const;
   /// Where the values of canopies are, which take crowns beside profiles (CanopyAnswers): evaluate() leaves their places out.
@@ -71,22 +96,18 @@ class FurtherQuantities {
   [[nodiscard]] const SkyHalves& halves() const { return halves_; }
 
   /// Writes the values of the packet's receivers, one receiver after the other, in the order of columns_of.
-  void evaluate(const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky, Rows& rows,
-                std::span<float> values) const;
+  void evaluate(const ProfiledPacket& packet, std::span<float> values) const;
+
+  /// The functions of the table's rows: each adds the columns of its quantity.
+  void add_solid(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_directional(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_hidden(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_horizons(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_distances(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_patches(const ProfiledPacket& packet, QuantityColumns& columns) const;
+  void add_sunlit(const ProfiledPacket& packet, QuantityColumns& columns) const;
 
  private:
-  /// Takes the values of a packet, column by column.
-  class Columns;
-  void add(Quantity quantity, const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky, Rows& rows,
-           Columns& columns) const;
-  void add_solid(const SkyProfile& profile, const ReceiverPacket& receivers, Rows& rows, Columns& columns) const;
-  void add_directional(const SkyProfile& profile, const ReceiverPacket& receivers, const Sky& sky, Rows& rows,
-                       Columns& columns) const;
-  static void add_hidden(const ReceiverPacket& receivers, const Sky& sky, Columns& columns);
-  void add_horizons(const SkyProfile& profile, Columns& columns) const;
-  void add_patches(const SkyProfile& profile, const ReceiverPacket& receivers, Rows& rows, Columns& columns) const;
-  void add_sunlit(const SkyProfile& profile, const ReceiverPacket& receivers, Columns& columns) const;
-
   void divide_into_patches();
   void sort_sun_positions();
   [[nodiscard]] std::size_t nearest_azimuth(Angle azimuth) const;

@@ -9,6 +9,9 @@
 #include <string>
 #include <utility>
 
+#include "evaluate/canopy_answers.hpp"
+#include "evaluate/further_quantities.hpp"
+
 namespace farlod {
 namespace {
 
@@ -90,8 +93,24 @@ void describe_total(const Quantities& q, Columns& columns) {
   columns.push_back({"svfveg", "1", "1 - the sky behind crowns, weighted as in svf"});
 }
 
+/// Both are sampled: crowns hide no more than the sky that there is.
+float sky_behind(float svf, const CanopyAnswer& answer) { return std::clamp(answer.loss.sky, 0.0F, svf); }
+
+void add_total(const Quantities& q, float svf, const CanopyAnswer& answer, ValuesOfReceiver& values) {
+  values.add(answer.svf_total.estimate);
+  if (q.svf_total_bounds) {
+    values.add(answer.svf_total.low);
+    values.add(answer.svf_total.high);
+  }
+  values.add(1.0F - sky_behind(svf, answer));
+}
+
 void describe_svfaveg(const Quantities&, Columns& columns) {
   columns.push_back({"svfaveg", "1", "1 - the view of solid things that crowns hide, weighted as in svf"});
+}
+
+void add_svfaveg(const Quantities&, float, const CanopyAnswer& answer, ValuesOfReceiver& values) {
+  values.add(1.0F - answer.loss.building);
 }
 
 void describe_directional_vegetation(const Quantities&, Columns& columns) {
@@ -100,10 +119,25 @@ void describe_directional_vegetation(const Quantities&, Columns& columns) {
       columns.push_back({"svf" + (letter + of), "1", "svf" + of + " of the " + half + " half of the sky"});
 }
 
+void add_directional_vegetation(const Quantities&, float svf, const CanopyAnswer& answer, ValuesOfReceiver& values) {
+  // What the answer knows better than the azimuths is not known by halves: each keeps its share of it
+  const float share = answer.loss.sky > 0.0F ? sky_behind(svf, answer) / answer.loss.sky : 1.0F;
+  for (const float half : answer.loss.sky_of_half) values.add(1.0F - share * half);
+  for (const float half : answer.loss.building_of_half) values.add(1.0F - half);
+}
+
 void describe_shares(const Quantities&, Columns& columns) {
   columns.push_back({"share_sky", "1", "share of the view that is sky"});
   columns.push_back({"share_vegetation", "1", "share of the view that is crowns of trees"});
   columns.push_back({"share_building", "1", "share of the view that is neither sky nor crowns of trees"});
+}
+
+void add_shares(const Quantities&, float svf, const CanopyAnswer& answer, ValuesOfReceiver& values) {
+  const float behind = sky_behind(svf, answer), sky = svf - behind;
+  const float vegetation = behind + std::clamp(answer.loss.building, 0.0F, 1.0F - svf);
+  values.add(sky);
+  values.add(vegetation);
+  values.add(1.0F - sky - vegetation);
 }
 
 constexpr std::size_t usual_horizons = 36;
@@ -112,76 +146,86 @@ void ask_for_horizons(Quantities& q) {
   if (q.horizons == 0) q.horizons = usual_horizons;
 }
 
-constexpr std::array<QuantityRow, 11> table{{
+constexpr auto table = std::to_array<QuantityRow>({
     {.quantity = Quantity::svf_solid,
-     .word = {"svf_solid", "share of the solid angle"},
+     .word = {.word = "svf_solid", .meaning = "share of the solid angle"},
      .is_asked = is_flagged<&Quantities::svf_solid>,
      .ask = set_flag<&Quantities::svf_solid>,
-     .describe = describe_solid},
+     .describe = describe_solid,
+     .add = &FurtherQuantities::add_solid},
     {.quantity = Quantity::directional,
-     .word = {"directional", "svfN, svfE, svfS, svfW as UMEP has them"},
+     .word = {.word = "directional", .meaning = "svfN, svfE, svfS, svfW as UMEP has them"},
      .is_asked = is_flagged<&Quantities::directional>,
      .ask = set_flag<&Quantities::directional>,
-     .describe = describe_directional},
+     .describe = describe_directional,
+     .add = &FurtherQuantities::add_directional},
     {.quantity = Quantity::hidden,
-     .word = {"hidden", "by near and by far geometry"},
+     .word = {.word = "hidden", .meaning = "by near and by far geometry"},
      .is_asked = is_flagged<&Quantities::hidden>,
      .ask = set_flag<&Quantities::hidden>,
-     .describe = describe_hidden},
+     .describe = describe_hidden,
+     .add = &FurtherQuantities::add_hidden},
     {.quantity = Quantity::horizon,
-     .word = {"horizon", "its elevations, at 36 azimuths"},
-     .is_weighted = false,
+     .word = {.word = "horizon", .meaning = "its elevations, at 36 azimuths", .is_weighted = false},
      .is_asked = [](const Quantities& q) { return q.horizons > 0; },
      .ask = ask_for_horizons,
-     .describe = describe_horizons},
+     .describe = describe_horizons,
+     .add = &FurtherQuantities::add_horizons},
     {.quantity = Quantity::horizon_distance,
-     .word = {"horizon_distance", "with the level distance to it"},
-     .is_weighted = false,
+     .word = {.word = "horizon_distance", .meaning = "with the level distance to it", .is_weighted = false},
      .is_asked = [](const Quantities& q) { return q.horizon_distances; },
      .ask =
          [](Quantities& q) {
            ask_for_horizons(q);
            q.horizon_distances = true;
          },
-     .describe = describe_distances},
+     .describe = describe_distances,
+     .add = &FurtherQuantities::add_distances},
     {.quantity = Quantity::sky_patches,
-     .word = {"sky_patches", "the share seen of each of 145"},
+     .word = {.word = "sky_patches", .meaning = "the share seen of each of 145"},
      .is_asked = [](const Quantities& q) { return q.sky_patches != SkyPatchSet::none; },
      .ask =
          [](Quantities& q) {
            if (q.sky_patches == SkyPatchSet::none) q.sky_patches = SkyPatchSet::tregenza;
          },
-     .describe = describe_patches},
+     .describe = describe_patches,
+     .add = &FurtherQuantities::add_patches},
     {.quantity = Quantity::sunlit,
-     .word = {"sunlit", "hours of sunshine"},
-     .is_weighted = false,
+     .word = {.word = "sunlit", .meaning = "hours of sunshine", .is_weighted = false},
      .is_asked = [](const Quantities& q) { return q.sun.has_value(); },
      .ask =
          [](Quantities& q) {
            if (!q.sun) q.sun.emplace();
          },
-     .describe = describe_sunlit},
+     .describe = describe_sunlit,
+     .add = &FurtherQuantities::add_sunlit},
     {.quantity = Quantity::svf_total,
-     .word = {"svf_total", "and svfveg", true},
+     .word = {.word = "svf_total", .meaning = "and svfveg", .is_of_crowns = true},
      .is_asked = is_flagged<&Quantities::svf_total>,
      .ask = set_flag<&Quantities::svf_total>,
-     .describe = describe_total},
+     .describe = describe_total,
+     .add_of_crowns = add_total},
     {.quantity = Quantity::svfaveg,
-     .word = {"svfaveg", "as UMEP has it", true},
+     .word = {.word = "svfaveg", .meaning = "as UMEP has it", .is_of_crowns = true},
      .is_asked = is_flagged<&Quantities::svfaveg>,
      .ask = set_flag<&Quantities::svfaveg>,
-     .describe = describe_svfaveg},
+     .describe = describe_svfaveg,
+     .add_of_crowns = add_svfaveg},
     {.quantity = Quantity::directional_vegetation,
-     .word = {"directional_vegetation", "both of each half of the sky, as UMEP has them", true},
+     .word = {.word = "directional_vegetation",
+              .meaning = "both of each half of the sky, as UMEP has them",
+              .is_of_crowns = true},
      .is_asked = is_flagged<&Quantities::directional_vegetation>,
      .ask = set_flag<&Quantities::directional_vegetation>,
-     .describe = describe_directional_vegetation},
+     .describe = describe_directional_vegetation,
+     .add_of_crowns = add_directional_vegetation},
     {.quantity = Quantity::shares,
-     .word = {"shares", "of sky, vegetation and building", true},
+     .word = {.word = "shares", .meaning = "of sky, vegetation and building", .is_of_crowns = true},
      .is_asked = is_flagged<&Quantities::sky_shares>,
      .ask = set_flag<&Quantities::sky_shares>,
-     .describe = describe_shares},
-}};
+     .describe = describe_shares,
+     .add_of_crowns = add_shares},
+});
 
 /// The columns of the rows before one.
 std::size_t columns_before(const QuantityRow* end, const Quantities& quantities) {
@@ -265,7 +309,7 @@ bool Quantities::any_of_canopies() const {
 }
 
 bool Quantities::any_weighted() const {
-  return std::ranges::any_of(table, [this](const QuantityRow& row) { return row.is_weighted && row.is_asked(*this); });
+  return std::ranges::any_of(table, [this](const QuantityRow& row) { return row.word.is_weighted && row.is_asked(*this); });
 }
 
 }  // namespace farlod

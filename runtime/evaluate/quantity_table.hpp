@@ -27,15 +27,39 @@ enum class Quantity : std::uint8_t {
   shares
 };
 
-/// A row of the table of quantities. A new quantity is a row here, a member of Quantities, and a function that computes it:
-/// FurtherQuantities of profiles, write_canopy_columns of crowns.
+class FurtherQuantities;
+struct ProfiledPacket;
+class QuantityColumns;
+struct CanopyAnswer;
+
+/// Takes the values of a receiver, one by one.
+class ValuesOfReceiver {
+ public:
+  explicit ValuesOfReceiver(std::span<float> values) : values_(values) {}
+
+  void add(float value) { values_[count_++] = value; }
+  [[nodiscard]] std::size_t count() const { return count_; }
+
+ private:
+  std::span<float> values_;
+  std::size_t count_ = 0;
+};
+
+/// A row of the table of quantities. A new quantity is a member of Quantities, a value of Quantity, and a row with its functions,
+/// of which one computes: `add`, or `add_of_crowns` in the last rows. Options, help, messages, the key of results, rasters and
+/// tables go by the rows; only a number that is chosen besides, as of horizons, needs an option and its place in the key
+/// (runtime/app/quantity_options.cpp, result_key.cpp). Tests hold the lists of Python (python/src/farlod/_settings.py), QGIS
+/// (qgis/farlod/evaluation.py) and docs/stages/evaluate.md to the rows.
 struct QuantityRow {
   Quantity quantity{};
   QuantityWord word;
-  bool is_weighted = true;  ///< by the cosine: it has no place beside SkyWeight::solid_angle
   bool (*is_asked)(const Quantities&) = nullptr;
   void (*ask)(Quantities&) = nullptr;  ///< with as many values as are usual
   void (*describe)(const Quantities&, std::vector<ColumnDescription>&) = nullptr;
+  /// Adds the columns of a packet, from its profile.
+  void (FurtherQuantities::*add)(const ProfiledPacket&, QuantityColumns&) const = nullptr;
+  /// Adds the values of a receiver whose svf is known, from what crowns do to its view.
+  void (*add_of_crowns)(const Quantities&, float svf, const CanopyAnswer&, ValuesOfReceiver&) = nullptr;
 };
 
 [[nodiscard]] std::span<const QuantityRow> quantity_table();

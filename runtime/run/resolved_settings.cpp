@@ -37,10 +37,11 @@ void check(const Quantities& q, SkyWeight weight) {
     require_between("the hours of a position of the sun", sun.hours, 0.0, 8784.0);
   }
   check(q.canopy);
-  if (weight == SkyWeight::solid_angle && q.any_weighted())
-    throw InvalidArgument(
-        "with the weight solid_angle only horizons and sunshine can be computed beside it: the others are weighted by the "
-        "cosine; leave the weight out");
+  if (weight == SkyWeight::cosine) return;
+  for (const QuantityWord& asked : words_of(q))
+    if (asked.is_weighted)
+      throw InvalidArgument("with the weight solid_angle " + std::string(asked.word) +
+                            " cannot be computed beside it, which is weighted by the cosine: leave one of them out");
 }
 
 void check(const EvaluationSettings& s) {
