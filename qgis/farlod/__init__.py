@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from qgis.gui import QgisInterface
 
-    from .plugin import FarlodPlugin
+    from .provider import FarlodPlugin
 
 
 def classFactory(iface: QgisInterface | None) -> FarlodPlugin:  # QGIS gives the name
     """What QGIS calls to load the plug-in. Nothing of QGIS is imported before."""
-    from .plugin import FarlodPlugin
+    from .provider import FarlodPlugin
 
     return FarlodPlugin()

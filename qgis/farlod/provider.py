@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: The Far-LoD authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The provider, and its setting in the options of Processing."""
+"""What QGIS loads and unloads: the provider, and its setting in the options of Processing."""
 from __future__ import annotations
 
 import pathlib
 
 from processing.core.ProcessingConfig import ProcessingConfig, Setting
-from qgis.core import QgsProcessingProvider
+from qgis.core import QgsApplication, QgsProcessingProvider
 from qgis.PyQt.QtGui import QIcon
 
 from .pack import PackCity
@@ -53,3 +53,22 @@ class FarlodProvider(QgsProcessingProvider):
     def supportedOutputRasterLayerExtensions(self) -> list[str]:
         """What farlod-svf writes and QGIS shows; the first one is the default."""
         return ["tif", "nc", "asc"]
+
+
+class FarlodPlugin:
+    """Registers the provider while the plug-in is loaded. Without a window (qgis_process), QGIS calls initProcessing alone."""
+
+    def __init__(self) -> None:
+        self.provider: FarlodProvider | None = None
+
+    def initProcessing(self) -> None:
+        self.provider = FarlodProvider()
+        QgsApplication.processingRegistry().addProvider(self.provider)
+
+    def initGui(self) -> None:
+        self.initProcessing()
+
+    def unload(self) -> None:
+        if self.provider is not None:
+            QgsApplication.processingRegistry().removeProvider(self.provider)
+            self.provider = None
