@@ -8,12 +8,11 @@
 #include <array>
 #include <limits>
 #include <numbers>
-#include <random>
-#include <set>
 
 #include "horizon/sky_partition.hpp"
 #include "tests/oracles/distance_to_segment.hpp"
 #include "tests/package/far_horizon_by_hand.hpp"
+#include "tests/runtime/horizon/random_places.hpp"
 
 // What a far map says is compared with each edge, direction by direction.
 
@@ -28,12 +27,10 @@ std::vector<Point3d> far_directions() { return SkyPartition(SkyWeight::solid_ang
 
 Point3d toward(double azimuth_rad, double slope) { return {std::cos(azimuth_rad), std::sin(azimuth_rad), slope}; }
 
-/// Verdicts in the order in which the far_directions are given.
-std::vector<FarVerdict> verdicts_of(const FarHorizon& map, const std::vector<Point3d>& far_directions, const Point3f& p_cell) {
-  const AzimuthFan fan(far_directions);
-  std::vector<FarVerdict> by_azimuth(far_directions.size()), verdicts(far_directions.size());
-  FarView(fan, map).classify(p_cell, by_azimuth);
-  for (std::size_t n = 0; n < fan.size(); ++n) verdicts[fan.place()[n]] = by_azimuth[n];
+std::vector<FarVerdict> verdicts_of(const FarHorizon& map, const std::vector<Point3d>& directions, const Point3f& p_cell) {
+  const FarView view(map, p_cell);
+  std::vector<FarVerdict> verdicts;
+  for (const Point3d& d : directions) verdicts.push_back(view.verdict(d));
   return verdicts;
 }
 
@@ -46,36 +43,24 @@ HorizonEdge edge_toward(double azimuth_rad, float height_m) {
   return {corner(30.0, -10.0), corner(30.0, 10.0)};
 }
 
-class RandomEdges {
- public:
-  double between(double low, double high) { return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53; }
-  /// Ends at least `nearest_m` from the middle of the cell.
-  HorizonEdge edge(double nearest_m) {
-    while (true) {
-      const HorizonEdge e{corner(), corner()};
-      const auto seen = [](const Point3f& p) { return Point2d{double{p.x} - 10.0, double{p.y} - 10.0}; };
-      if (distance_to_segment(seen(e.a), seen(e.b)) > nearest_m) return e;
-    }
+/// With ends at least `nearest_m` from the middle of the cell.
+HorizonEdge edge_away(RandomPlaces& random, double nearest_m) {
+  const auto from_middle = [](const Point3f& p) { return horizontal(Point3d{p.x, p.y, p.z} - Point3d{10.0, 10.0, 0.0}); };
+  while (true) {
+    const HorizonEdge e = random.edge(100.0, -20.0, 60.0);
+    if (distance_to_segment(from_middle(e.a), from_middle(e.b)) > nearest_m) return e;
   }
-
- private:
-  Point3f corner() {
-    const auto f = [this](double low, double high) { return static_cast<float>(between(low, high)); };
-    return {f(-90.0, 110.0), f(-90.0, 110.0), f(-20.0, 60.0)};
-  }
-  std::mt19937_64 random_{20120901};
-};
+}
 
 TEST(FarView, WhatIsCertainIsTrueForRandomEdges) {
-  RandomEdges random;
+  RandomPlaces random;
   const std::vector<Point3d> looks = far_directions();
   std::array<std::size_t, 4> met{};
   for (int n = 0; n < 200; ++n) {
     std::vector<HorizonEdge> edges;
-    for (int k = 0; k <= n % 4; ++k) edges.push_back(random.edge(15.0));
+    for (int k = 0; k <= n % 4; ++k) edges.push_back(edge_away(random, 15.0));
     FarHorizonByHand far(edges);
-    const Point3f p{static_cast<float>(random.between(0, 20)), static_cast<float>(random.between(0, 20)),
-                    static_cast<float>(random.between(0, 30))};
+    const Point3f p = random.place(10.0, 0.0, 30.0) + Point3f{10.0F, 10.0F, 0.0F};
     const std::vector<FarVerdict> verdicts = verdicts_of(far.map(), looks, p);
     for (std::size_t d = 0; d < looks.size(); ++d) {
       const bool blocked = looks[d].z / std::hypot(looks[d].x, looks[d].y) < far.horizon(p, looks[d]);
@@ -86,7 +71,7 @@ TEST(FarView, WhatIsCertainIsTrueForRandomEdges) {
   }
   EXPECT_GT(met[static_cast<std::size_t>(FarVerdict::blocked)], 10000U);
   EXPECT_GT(met[static_cast<std::size_t>(FarVerdict::free)], 10000U);
-  // A corner's rounding of half a millimetre, 5 m away or more, opens 2e-4 of a turn or of a slope: of 800,000 far_directions few
+  // A corner's rounding of half a millimetre, 5 m away or more, opens 2e-4 of a turn or of a slope: of 800,000 directions few
   EXPECT_LT(
       met[static_cast<std::size_t>(FarVerdict::estimated_free)] + met[static_cast<std::size_t>(FarVerdict::estimated_blocked)],
       looks.size() * 200 / 1000);
@@ -113,9 +98,9 @@ TEST(FarView, BelowAnEdgeIsBlockedAndAboveItIsFree) {
 }
 
 TEST(FarView, TheOrderOfTheEndsMeansNothing) {
-  RandomEdges random;
+  RandomPlaces random;
   for (int n = 0; n < 50; ++n) {
-    const HorizonEdge e = random.edge(15.0);
+    const HorizonEdge e = edge_away(random, 15.0);
     FarHorizonByHand far({e}), turned({HorizonEdge{e.b, e.a}});
     EXPECT_EQ(verdicts_of(far.map(), far_directions(), middle), verdicts_of(turned.map(), far_directions(), middle));
   }
@@ -202,100 +187,6 @@ TEST(FarView, BelowTheLowestLevelNothingUnnamedIsCertain) {
   fill(far.map(), 0, 0.1F, 0.3F, 0.6F);
   EXPECT_EQ(verdicts_of(far.map(), {toward(1.0, 0.05), toward(1.0, 2.0)}, {10.0F, 10.0F, -0.5F}),
             (std::vector<FarVerdict>{FarVerdict::estimated_blocked, FarVerdict::estimated_free}));
-}
-
-TEST(FarView, AReceiverDoesNotRememberTheOneBefore) {
-  FarHorizonByHand far({edge_toward(1.0, 16.5F)});
-  const std::vector<Point3d> looks = far_directions();
-  const AzimuthFan fan(looks);
-  FarView view(fan, far.map());
-  std::vector<FarVerdict> first(looks.size()), again(looks.size()), other(looks.size());
-  view.classify(middle, first);
-  view.classify({1.0F, 19.0F, 12.0F}, other);
-  view.classify(middle, again);
-  EXPECT_EQ(first, again);
-  EXPECT_NE(first, other);
-}
-
-constexpr float float_rounding = std::numeric_limits<float>::epsilon();
-
-std::vector<Point3d> directions() { return SkyPartition(SkyWeight::cosine, 290).directions(); }
-
-double pseudo_angle_of(const Point3d& d) { return pseudo_angle({d.x, d.y}); }
-
-/// One after the other, as the definition says.
-std::size_t first_by_hand(const AzimuthFan& fan, const std::vector<Point3d>& given, double angle) {
-  std::size_t n = 0;
-  while (n < fan.size() && pseudo_angle_of(given[fan.place()[n]]) < angle) ++n;
-  return n;
-}
-
-TEST(AzimuthFan, HoldsEachDirectionOnceInTheOrderOfAzimuths) {
-  const std::vector<Point3d> given = directions();
-  const AzimuthFan fan(given);
-  ASSERT_EQ(fan.size(), given.size());
-  EXPECT_EQ(std::set<std::uint32_t>(fan.place().begin(), fan.place().end()).size(), given.size());
-  for (std::size_t n = 0; n + 1 < fan.size(); ++n)
-    EXPECT_LE(pseudo_angle_of(given[fan.place()[n]]), pseudo_angle_of(given[fan.place()[n + 1]])) << n;
-}
-
-TEST(AzimuthFan, KnowsAzimuthAndSlopeOfEach) {
-  const std::vector<Point3d> given = directions();
-  const AzimuthFan fan(given);
-  for (std::size_t n = 0; n < fan.size(); ++n) {
-    const Point3d& d = given[fan.place()[n]];
-    const double across = std::hypot(d.x, d.y);
-    EXPECT_NEAR(fan.cosine()[n], d.x / across, float_rounding);
-    EXPECT_NEAR(fan.sine()[n], d.y / across, float_rounding);
-    EXPECT_NEAR(fan.slope()[n], d.z / across, d.z / across * float_rounding);
-  }
-}
-
-TEST(AzimuthFan, StraightUpIsSteeperThanAnything) {
-  const std::vector<Point3d> given{{0.6, 0.0, 0.8}, {0.0, 0.0, 1.0}, {-0.6, 0.0, 0.8}};
-  const AzimuthFan fan(given);
-  const auto up = std::find(fan.place().begin(), fan.place().end(), 1U) - fan.place().begin();
-  EXPECT_EQ(fan.slope()[static_cast<std::size_t>(up)], std::numeric_limits<float>::infinity());
-  EXPECT_FALSE(std::isnan(fan.cosine()[static_cast<std::size_t>(up)]));
-}
-
-TEST(AzimuthFan, FindsTheFirstFromEachDirectionAndBesideIt) {
-  const std::vector<Point3d> given = directions();
-  const AzimuthFan fan(given);
-  std::vector<double> asked{0.0, 4.0, 1.0, 2.0, 3.0};
-  for (const Point3d& d : given)
-    for (const double to : {0.0, 2.0, 4.0}) {
-      asked.push_back(pseudo_angle_of(d));
-      asked.push_back(std::nextafter(pseudo_angle_of(d), to));
-    }
-  for (const double angle : asked) EXPECT_EQ(fan.first_from(angle), first_by_hand(fan, given, angle)) << angle;
-}
-
-TEST(AzimuthFan, AtTheEndsOfTheTurn) {
-  const std::vector<Point3d> given = directions();
-  const AzimuthFan fan(given);
-  EXPECT_EQ(fan.first_from(0.0), 0U);
-  EXPECT_EQ(fan.first_from(4.0), fan.size());
-}
-
-TEST(AzimuthFan, WhereAllLookTheSameWay) {
-  const std::vector<Point3d> given(50, Point3d{-0.3, -0.4, 0.5});
-  const AzimuthFan fan(given);
-  const double angle = pseudo_angle_of(given[0]);
-  EXPECT_EQ(fan.first_from(angle), 0U);
-  EXPECT_EQ(fan.first_from(std::nextafter(angle, 4.0)), 50U);
-}
-
-TEST(AzimuthFan, MayBeEmpty) {
-  const AzimuthFan fan({});
-  EXPECT_EQ(fan.size(), 0U);
-  for (const double angle : {0.0, 1.7, 4.0}) EXPECT_EQ(fan.first_from(angle), 0U);
-}
-
-TEST(AzimuthFan, BinsAreThoseOfTheAzimuths) {
-  const std::vector<Point3d> given{{1.0, 0.1, 0.5}, {0.1, 1.0, 0.5}, {-1.0, -0.1, 0.5}, {0.1, -1.0, 0.5}};
-  const AzimuthFan fan(given);
-  EXPECT_EQ(fan.bins({4}), (std::vector<std::uint32_t>{0, 0, 2, 3}));
 }
 
 TEST(DistanceToSegment, IsThatOfTheNearestPlace) {
