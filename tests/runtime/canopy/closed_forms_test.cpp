@@ -18,6 +18,7 @@
 #include "horizon/sky_profile.hpp"
 #include "package/crown.hpp"
 #include "tests/runtime/canopy/crown_scenes.hpp"
+#include "tests/runtime/canopy/ray_in_crown.hpp"
 
 // Sky view factors with canopies that are known, of a receiver that looks up. docs/concepts.md, "Crowns", has the formulas.
 
@@ -33,20 +34,7 @@ constexpr double form_rounding = 258.0 * 0x1p-24;
 /// Of the eight nodes, at most: that of a layer over the whole hemisphere of depth .25.
 constexpr double quadrature_error = 1e-4;
 
-CanopySettings with_psi(CanopyRule rule, double psi) { return {rule, Season::leaf_on, psi}; }
-CanopySettings with_kappa(double kappa_per_m) { return {CanopyRule::beer, Season::leaf_on, {}, kappa_per_m}; }
-
-/// E3(x) = ∫ e^(−x/μ) μ dμ over 0 < μ < 1, by the rule of the middle: its second derivative is below 20 for x ≥ .05, so that the
-/// error is below 20/24 · 1e-8.
-double exponential_integral_3(double x) {
-  constexpr int steps = 10000;
-  double sum = 0.0;
-  for (int n = 0; n < steps; ++n) {
-    const double mu = (n + 0.5) / steps;
-    sum += std::exp(-x / mu) * mu / steps;
-  }
-  return sum;
-}
+CanopySettings with_kappa(double kappa_per_m) { return settings_of(CanopyRule::beer, {}, kappa_per_m); }
 
 TEST(CanopyClosedForms, AnEndlessLayerPasses2E3OfItsDepth) {
   // Slopes below top / radius leave it at the side: they are (top / radius)² of the sky
@@ -57,7 +45,7 @@ TEST(CanopyClosedForms, AnEndlessLayerPasses2E3OfItsDepth) {
     double depth, passed;
   };
   for (const Layer& l : {Layer{0.25, 0.649368}, Layer{0.5, 0.443209}, Layer{1.0, 0.219384}, Layer{2.0, 0.060267}}) {
-    EXPECT_NEAR(2.0 * exponential_integral_3(l.depth), l.passed, 1e-6);
+    EXPECT_NEAR(layer_light(l.depth), l.passed, 1e-6);
     EXPECT_NEAR(svf_total_at_origin(layer, with_kappa(l.depth / thickness_m), 64), l.passed,
                 quadrature_error + side + form_rounding)
         << l.depth;
@@ -73,7 +61,7 @@ TEST(CanopyClosedForms, AnEndlessHedge) {
   const double low = std::atan(1.5 / (near_m + width_m)), high = std::atan(7.0 / near_m);
   const double passed = 1.0 - (1.0 - psi) * 0.5 * (std::cos(low) - std::cos(high));
   EXPECT_NEAR(passed, 0.838941, 1e-6);
-  EXPECT_NEAR(svf_total_at_origin(hedge, with_psi(CanopyRule::once, psi), azimuths), passed,
+  EXPECT_NEAR(svf_total_at_origin(hedge, settings_of(CanopyRule::once, psi), azimuths), passed,
               azimuth_error + cut_off + form_rounding);
 }
 
@@ -83,7 +71,7 @@ TEST(CanopyClosedForms, ASphereAtADistance) {
       crown_at(CrownShape::spheroid, {away_m, 0.0}, radius_m, {height_m - radius_m, height_m + radius_m})};
   const double share = radius_m * radius_m * height_m / std::pow(std::hypot(away_m, height_m), 3);
   EXPECT_NEAR(1.0 - (1.0 - psi) * share, 0.916820, 1e-6);
-  EXPECT_NEAR(svf_total_at_origin(sphere, with_psi(CanopyRule::once, psi), azimuths), 0.916820, azimuth_error + form_rounding);
+  EXPECT_NEAR(svf_total_at_origin(sphere, settings_of(CanopyRule::once, psi), azimuths), 0.916820, azimuth_error + form_rounding);
   const double x = 2.0 * kappa_per_m * radius_m, passed = 2.0 * (1.0 - (1.0 + x) * std::exp(-x)) / (x * x);
   EXPECT_NEAR(1.0 - share * (1.0 - passed), 0.942681, 1e-6);
   EXPECT_NEAR(svf_total_at_origin(sphere, with_kappa(kappa_per_m), azimuths), 0.942681,
@@ -94,13 +82,13 @@ TEST(CanopyClosedForms, ASpheroidOverhead) {
   const std::vector<Crown> spheroid{crown_at(CrownShape::spheroid, {}, 4.0, {7.0 - 2.5, 7.0 + 2.5})};
   EXPECT_NEAR(1.0 - 16.0 / (16.0 + 49.0 - 6.25), 0.727660, 1e-6);
   for (const CanopyRule rule : {CanopyRule::once, CanopyRule::each})
-    EXPECT_NEAR(svf_total_at_origin(spheroid, with_psi(rule, 0.0), 64), 0.727660, 1e-6 + form_rounding);
+    EXPECT_NEAR(svf_total_at_origin(spheroid, settings_of(rule, 0.0), 64), 0.727660, 1e-6 + form_rounding);
 }
 
 TEST(CanopyClosedForms, ACylinderOverhead) {
   const std::vector<Crown> cylinder{crown_at(CrownShape::cylinder, {}, 3.0, {2.5, 9.0})};
   EXPECT_NEAR(1.0 - 9.0 / (9.0 + 2.5 * 2.5), 0.409836, 1e-6);
-  EXPECT_NEAR(svf_total_at_origin(cylinder, with_psi(CanopyRule::once, 0.0), 64), 0.409836, 1e-6 + form_rounding);
+  EXPECT_NEAR(svf_total_at_origin(cylinder, settings_of(CanopyRule::once, 0.0), 64), 0.409836, 1e-6 + form_rounding);
   EXPECT_NEAR(svf_total_at_origin(cylinder, with_kappa(0.4), 64), 0.647656, 1e-6 + quadrature_error + form_rounding);
 }
 
@@ -130,7 +118,7 @@ Sample below_random_spheres(CanopyRule rule, double psi, double cover) {
     for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l)
       packet.add(
           {l, {20.0F * static_cast<float>(l % 4) - 30.0F, 20.0F * static_cast<float>(l / 4) - 30.0F, 0.0F}, {0.0F, 0.0F, 1.0F}});
-    const CanopyShares shares = sky.evaluate(profile, packet, CrownBatches(spheres, with_psi(rule, psi)));
+    const CanopyShares shares = sky.evaluate(profile, packet, CrownBatches(spheres, settings_of(rule, psi)));
     for (std::size_t l = 0; l < ReceiverPacket::lanes; ++l) {
       const auto value = static_cast<double>(shares.svf_total(l, 1.0F));
       sum += value;
@@ -147,64 +135,14 @@ TEST(CanopyClosedForms, RandomSpheresPassWhatALayerOfTheirDepthPasses) {
   // The field ends at 120 m from a receiver or farther: slopes below 8 / 120
   constexpr double end_of_field = (8.0 / 120.0) * (8.0 / 120.0);
   const Sample each = below_random_spheres(CanopyRule::each, psi, cover);
-  EXPECT_NEAR(each.mean, 2.0 * exponential_integral_3(cover * (1.0 - psi)), 4.0 * each.standard_error + end_of_field);
+  EXPECT_NEAR(each.mean, layer_light(cover * (1.0 - psi)), 4.0 * each.standard_error + end_of_field);
   const Sample once = below_random_spheres(CanopyRule::once, psi, cover);
-  EXPECT_NEAR(once.mean, psi + (1.0 - psi) * 2.0 * exponential_integral_3(cover), 4.0 * once.standard_error + end_of_field);
+  EXPECT_NEAR(once.mean, psi + (1.0 - psi) * layer_light(cover), 4.0 * once.standard_error + end_of_field);
   EXPECT_LT(each.standard_error, 0.01);
   EXPECT_LT(once.standard_error, 0.01);
 }
 
 // Random crowns, horizons, gaps and normals against rays.
-
-// What crowns do to the sky, by rays in double that are clipped by solids: none of the formulas of runtime/canopy.
-
-/// The part of a ray within a solid, from and to these distances.
-using RayPart = std::pair<double, double>;
-constexpr RayPart no_part{1.0, 0.0};
-
-/// Where |origin + s direction| ≤ radius, of vectors of two or three coordinates.
-template <std::size_t n>
-RayPart part_in_ball(const std::array<double, n>& origin, const std::array<double, n>& direction, double radius) {
-  double dd = 0.0, od = 0.0, oo = -radius * radius;
-  for (std::size_t i = 0; i < n; ++i) {
-    dd += direction[i] * direction[i];
-    od += origin[i] * direction[i];
-    oo += origin[i] * origin[i];
-  }
-  const double square = od * od - dd * oo;
-  if (square <= 0.0) return no_part;
-  return {(-od - std::sqrt(square)) / dd, (-od + std::sqrt(square)) / dd};
-}
-
-/// Where low ≤ origin + s direction ≤ high.
-RayPart part_in_slab(double origin, double direction, double low, double high) {
-  if (direction == 0.0) return low <= origin && origin <= high ? RayPart{-1e9, 1e9} : no_part;
-  const double a = (low - origin) / direction, b = (high - origin) / direction;
-  return {std::min(a, b), std::max(a, b)};
-}
-
-RayPart common_part(const RayPart& a, const RayPart& b) { return {std::max(a.first, b.first), std::min(a.second, b.second)}; }
-
-/// The length of a ray, whose direction has length 1, in a crown.
-double length_in(const Crown& crown, const Point3d& eye, const Point3d& direction) {
-  const double x = eye.x - double{crown.x_m}, y = eye.y - double{crown.y_m}, a = crown.half_width_m;
-  const double half_height = 0.5 * (double{crown.top_m} - double{crown.bottom_m});
-  const RayPart ahead{0.0, std::numeric_limits<double>::max()};
-  RayPart part = part_in_slab(eye.z, direction.z, crown.bottom_m, crown.top_m);
-  if (crown.shape == CrownShape::spheroid) {
-    const double stretch = a / half_height, z = (eye.z - double{crown.bottom_m} - half_height) * stretch;
-    part = part_in_ball<3>({x, y, z}, {direction.x, direction.y, direction.z * stretch}, a);
-  } else if (crown.shape == CrownShape::cylinder) {
-    // A ray straight up meets its plan everywhere or nowhere
-    part = common_part(part, part_in_ball<2>({x, y}, {direction.x, direction.y}, a));
-  } else {
-    const double c = std::cos(crown.turn_rad()), s = std::sin(crown.turn_rad());
-    part = common_part(part, part_in_slab(c * x + s * y, c * direction.x + s * direction.y, -a, a));
-    part = common_part(part, part_in_slab(c * y - s * x, c * direction.y - s * direction.x, -a, a));
-  }
-  part = common_part(part, ahead);
-  return std::max(0.0, part.second - part.first);
-}
 
 /// The share of the light that passes all crowns along a ray, and whether it meets any.
 struct Passed {
@@ -214,7 +152,8 @@ struct Passed {
 Passed passed(std::span<const Crown> crowns, const CanopySettings& settings, const Point3d& eye, const Point3d& direction) {
   Passed result;
   for (const Crown& crown : crowns) {
-    const double length = length_in(crown, eye, direction);
+    const RayPart part = part_in_crown(crown, eye, direction);
+    const double length = part.second - std::max(0.0, part.first);
     if (length <= 0.0) continue;
     result.meets = true;
     const double psi = transmissivity_of(crown.foliage, settings);

@@ -12,26 +12,10 @@
 #include "farlod/canopy.hpp"
 #include "horizon/azimuth_sampling.hpp"
 #include "horizon/sky_profile.hpp"
-#include "package/crown.hpp"
+#include "tests/runtime/canopy/crowns_by_hand.hpp"
 #include "tests/runtime/horizon/random_places.hpp"
 
 namespace farlod {
-
-/// A crown around (x, y), by the heights of its bottom and its top.
-struct Heights {
-  double bottom_m, top_m;
-};
-[[nodiscard]] inline Crown crown_at(CrownShape shape, Point2d axis, double half_width_m, Heights heights,
-                                    Foliage foliage = Foliage::unknown) {
-  return {static_cast<float>(axis.x),
-          static_cast<float>(axis.y),
-          static_cast<float>(heights.bottom_m),
-          static_cast<float>(heights.top_m),
-          static_cast<float>(half_width_m),
-          shape,
-          foliage,
-          0};
-}
 
 /// A receiver at the origin that looks up, alone.
 [[nodiscard]] inline ReceiverPacket receiver_at_origin() {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "occlusion/crown_occluder.hpp"
-#include "tests/runtime/occlusion/crowns_by_hand.hpp"
+#include "tests/runtime/canopy/crowns_by_hand.hpp"
 
 // Sky view factors below crowns that have a closed form, by the rays of a Fibonacci lattice.
 
@@ -53,12 +53,6 @@ constexpr double six_digits = 0.5e-6;
 /// A share is a float, and the mean of many is as wrong as one is, at the most.
 constexpr double share_rounding = 0x1p-25;
 
-/// 2 E₃(τ): what an endless layer of optical depth τ leaves of the sky.
-double layer_light(double depth) {
-  const double e1 = -std::expint(-depth), e2 = std::exp(-depth) - depth * e1;
-  return std::exp(-depth) - depth * e2;
-}
-
 TEST(ClosedForms, AnEndlessLayer) {
   // It ends 1,000 km away: below an elevation of 1e-5, of which the sky has the square
   constexpr double edge_m = 1e6;
@@ -67,7 +61,7 @@ TEST(ClosedForms, AnEndlessLayer) {
     for (const CrownShape shape : {CrownShape::cylinder, CrownShape::prism}) {
       EXPECT_NEAR(layer_light(depth), light, six_digits);
       const Crown layer =
-          crown_of(shape, {3.0, -4.0}, 10.0, 12.0, edge_m, Foliage::unknown, shape == CrownShape::prism ? 9999 : 0);
+          crown_at(shape, {3.0, -4.0}, edge_m, {10.0, 12.0}, Foliage::unknown, shape == CrownShape::prism ? 9999 : 0);
       const CrownOccluder occluder({layer}, settings_of(CanopyRule::beer, {}, depth / 2.0));
       // The light is a smooth function of the ring of directions, whose mean the lattice takes by the middles of N steps: an
       // error of the order of its slope over N², far below that of the floats of a direction. Six of those, relative, are in the
@@ -81,7 +75,7 @@ TEST(ClosedForms, AHedge) {
   // From x = 6 to 8 m, from 1.5 to 7 m high, endless: 2 km to either side. What lies beyond is seen at elevations below 7/2000,
   // in 7/2000 of the azimuths
   std::vector<Crown> hedge;
-  for (int n = -1000; n <= 1000; ++n) hedge.push_back(crown_of(CrownShape::prism, {7.0, 2.0 * n}, 1.5, 7.0, 1.0));
+  for (int n = -1000; n <= 1000; ++n) hedge.push_back(crown_at(CrownShape::prism, {7.0, 2.0 * n}, 1.0, {1.5, 7.0}));
   const double low_rad = std::atan(1.5 / 8.0), high_rad = std::atan(7.0 / 6.0);
   const double light = 1.0 - (1.0 - 0.03) / 2.0 * (std::cos(low_rad) - std::cos(high_rad));
   EXPECT_NEAR(light, 0.838941, six_digits);
@@ -96,12 +90,12 @@ TEST(ClosedForms, ASphereBesideAndASpheroidAndACylinderAbove) {
     CanopySettings settings;
     double light;
   } cases[] = {
-      {"sphere", crown_of(CrownShape::spheroid, {3.0, 4.0}, 5.0, 11.0, 3.0), settings_of(CanopyRule::once), 0.916820},
-      {"sphere of leaves", crown_of(CrownShape::spheroid, {3.0, 4.0}, 5.0, 11.0, 3.0), settings_of(CanopyRule::beer, {}, 0.3),
+      {"sphere", crown_at(CrownShape::spheroid, {3.0, 4.0}, 3.0, {5.0, 11.0}), settings_of(CanopyRule::once), 0.916820},
+      {"sphere of leaves", crown_at(CrownShape::spheroid, {3.0, 4.0}, 3.0, {5.0, 11.0}), settings_of(CanopyRule::beer, {}, 0.3),
        0.942681},
-      {"spheroid", crown_of(CrownShape::spheroid, {0.0, 0.0}, 4.5, 9.5, 4.0), settings_of(CanopyRule::each, 0.0), 0.727660},
-      {"cylinder", crown_of(CrownShape::cylinder, {0.0, 0.0}, 2.5, 9.0, 3.0), settings_of(CanopyRule::once, 0.0), 0.409836},
-      {"cylinder of leaves", crown_of(CrownShape::cylinder, {0.0, 0.0}, 2.5, 9.0, 3.0), settings_of(CanopyRule::beer, {}, 0.4),
+      {"spheroid", crown_at(CrownShape::spheroid, {0.0, 0.0}, 4.0, {4.5, 9.5}), settings_of(CanopyRule::each, 0.0), 0.727660},
+      {"cylinder", crown_at(CrownShape::cylinder, {0.0, 0.0}, 3.0, {2.5, 9.0}), settings_of(CanopyRule::once, 0.0), 0.409836},
+      {"cylinder of leaves", crown_at(CrownShape::cylinder, {0.0, 0.0}, 3.0, {2.5, 9.0}), settings_of(CanopyRule::beer, {}, 0.4),
        0.647656}};
   for (const auto& [what, crown, settings, light] : cases)
     EXPECT_NEAR(svf(CrownOccluder({crown}, settings), {}), light, six_digits + border_error) << what;
@@ -117,8 +111,8 @@ std::vector<Crown> thrown_spheres(double q, unsigned seed) {
   std::vector<Crown> spheres(count(random));
   for (Crown& sphere : spheres) {
     const double bottom_m = 6.0 + 2.0 * share();
-    sphere = crown_of(CrownShape::spheroid, {edge_m * (share() - 0.5), edge_m * (share() - 0.5)}, bottom_m,
-                      bottom_m + 2.0 * radius_m, radius_m);
+    sphere = crown_at(CrownShape::spheroid, {edge_m * (share() - 0.5), edge_m * (share() - 0.5)}, radius_m,
+                      {bottom_m, bottom_m + 2.0 * radius_m});
   }
   return spheres;
 }

@@ -7,11 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "farlod/error.hpp"
 #include "package/crown.hpp"
-#include "tests/runtime/occlusion/crowns_by_hand.hpp"
+#include "tests/runtime/canopy/crowns_by_hand.hpp"
+#include "tests/runtime/canopy/ray_in_crown.hpp"
+#include "tests/runtime/occlusion/random_rays.hpp"
 
 namespace farlod {
 namespace {
@@ -22,7 +23,7 @@ constexpr std::uint32_t all_lanes = 0xFFFF;
 // One ray
 
 constexpr Point3f up{0.0F, 0.0F, 1.0F}, east{1.0F, 0.0F, 0.0F};
-const Crown tree = crown_of(CrownShape::cylinder, {0.0, 0.0}, 4.0, 10.0, 3.0);
+const Crown tree = crown_at(CrownShape::cylinder, {0.0, 0.0}, 3.0, {4.0, 10.0});
 
 TEST(CrownOccluder, NothingHidesNothing) {
   const CrownOccluder nothing({}, {});
@@ -36,7 +37,7 @@ TEST(CrownOccluder, NothingHidesNothing) {
 }
 
 TEST(CrownOccluder, EachRuleHasItsLight) {
-  const Crown above = crown_of(CrownShape::spheroid, {0.0, 0.0}, 12.0, 14.0, 1.0, Foliage::evergreen);
+  const Crown above = crown_at(CrownShape::spheroid, {0.0, 0.0}, 1.0, {12.0, 14.0}, Foliage::evergreen);
   const auto light = [&](const CanopySettings& settings) {
     return CrownOccluder({tree, above}, settings).light({{}, up}).transmitted;
   };
@@ -52,7 +53,7 @@ TEST(CrownOccluder, EachRuleHasItsLight) {
 }
 
 TEST(CrownOccluder, TheNearestEntryCountsInTheLengthOfTheDirection) {
-  const CrownOccluder occluder({tree, crown_of(CrownShape::prism, {0.0, 0.0}, 2.0, 3.0, 1.0)}, {});
+  const CrownOccluder occluder({tree, crown_at(CrownShape::prism, {0.0, 0.0}, 1.0, {2.0, 3.0})}, {});
   EXPECT_FLOAT_EQ(occluder.light({{}, up}).nearest, 2.0F);
   EXPECT_FLOAT_EQ(occluder.light({{}, {0.0F, 0.0F, 4.0F}}).nearest, 0.5F);
   EXPECT_FLOAT_EQ(occluder.light({{2.0F, 0.0F, 0.0F}, up}).nearest, 4.0F);
@@ -78,7 +79,7 @@ TEST(CrownOccluder, ARayCountsFromItsBeginToItsEnd) {
 }
 
 TEST(CrownOccluder, ARayThatTouchesDoesNotMeet) {
-  const CrownOccluder occluder({tree, crown_of(CrownShape::prism, {10.0, 0.0}, 4.0, 10.0, 1.0)}, {});
+  const CrownOccluder occluder({tree, crown_at(CrownShape::prism, {10.0, 0.0}, 1.0, {4.0, 10.0})}, {});
   for (const float x : {3.0F, -3.0F, 9.0F, 11.0F}) EXPECT_FALSE(occluder.light({{x, 0.0F, 0.0F}, up}).is_met()) << x;
   for (const float z : {4.0F, 10.0F}) EXPECT_FALSE(occluder.light({{-20.0F, 0.0F, z}, east}).is_met()) << z;
 }
@@ -86,7 +87,7 @@ TEST(CrownOccluder, ARayThatTouchesDoesNotMeet) {
 TEST(CrownOccluder, ASquareIsTurnedCounterClockwise) {
   // By atan(1/2): the corner (1, 1) comes to lie at (1, 3)/√5
   const auto turn = static_cast<std::uint16_t>(std::lround(std::atan(0.5) / (std::numbers::pi / 2.0) * 65536.0));
-  const CrownOccluder occluder({crown_of(CrownShape::prism, {0.0, 0.0}, 1.0, 2.0, 1.0, Foliage::unknown, turn)}, {});
+  const CrownOccluder occluder({crown_at(CrownShape::prism, {0.0, 0.0}, 1.0, {1.0, 2.0}, Foliage::unknown, turn)}, {});
   const auto is_met = [&](double x, double y) {
     return occluder.light({{static_cast<float>(x), static_cast<float>(y), 0.0F}, up}).is_met();
   };
@@ -99,7 +100,7 @@ TEST(CrownOccluder, ASquareIsTurnedCounterClockwise) {
 }
 
 TEST(CrownOccluder, LightAloneIsTheSameLight) {
-  const CrownOccluder occluder({tree, crown_of(CrownShape::spheroid, {0.0, 0.0}, 12.0, 14.0, 1.0, Foliage::evergreen)},
+  const CrownOccluder occluder({tree, crown_at(CrownShape::spheroid, {0.0, 0.0}, 1.0, {12.0, 14.0}, Foliage::evergreen)},
                                settings_of(CanopyRule::once, 0.4, 0.1, Season::leaf_off));
   for (const float x : {0.0F, 2.0F, 5.0F}) {
     const Ray ray{{x, 0.0F, 0.0F}, up};
@@ -114,40 +115,7 @@ TEST(CrownOccluder, AStoppedBuildIsCancelled) {
   EXPECT_THROW(CrownOccluder({tree}, {}, stop.get_token()), Cancelled);
 }
 
-// Against an independent judge: bodies by the textbook formula in double, one after the other
-
-struct Piece {
-  double begin = 0.0, end = 0.0;
-};
-
-/// Where a t² + 2 b t + c is below 0.
-Piece below_zero(double a, double b, double c) {
-  const double discriminant = b * b - a * c;
-  if (discriminant <= 0.0) return {};
-  return {(-b - std::sqrt(discriminant)) / a, (-b + std::sqrt(discriminant)) / a};
-}
-
-Piece judged(const Crown& crown, const Ray& ray) {
-  const double a = crown.half_width_m, h = (static_cast<double>(crown.top_m) - crown.bottom_m) / 2.0;
-  const double x = static_cast<double>(ray.origin.x) - crown.x_m, y = static_cast<double>(ray.origin.y) - crown.y_m,
-               z = static_cast<double>(ray.origin.z) - (static_cast<double>(crown.top_m) + crown.bottom_m) / 2.0;
-  const double dx = ray.direction.x, dy = ray.direction.y, dz = ray.direction.z;
-  if (crown.shape == CrownShape::spheroid)
-    return below_zero((dx * dx + dy * dy) / (a * a) + dz * dz / (h * h), (x * dx + y * dy) / (a * a) + z * dz / (h * h),
-                      (x * x + y * y) / (a * a) + z * z / (h * h) - 1.0);
-  Piece piece = below_zero(dx * dx + dy * dy, x * dx + y * dy, x * x + y * y - a * a);
-  if (crown.shape == CrownShape::prism) {
-    piece = {-infinity, infinity};
-    // The four sides, as half-planes whose normals turn with the square
-    for (int side = 0; side < 4; ++side) {
-      const double angle = crown.turn_rad() + side * std::numbers::pi / 2.0, nx = std::cos(angle), ny = std::sin(angle);
-      const double speed = nx * dx + ny * dy, t = (a - nx * x - ny * y) / speed;
-      speed > 0.0 ? piece.end = std::min(piece.end, t) : piece.begin = std::max(piece.begin, t);
-    }
-  }
-  const double low = (-h - z) / dz, high = (h - z) / dz;
-  return {std::max(piece.begin, std::min(low, high)), std::min(piece.end, std::max(low, high))};
-}
+// Against an independent judge: one body after the other
 
 struct Judgement {
   double transmitted = 1.0, nearest = infinity;
@@ -155,47 +123,38 @@ struct Judgement {
 
 Judgement judged(const std::vector<Crown>& crowns, const CanopySettings& settings, const Ray& ray) {
   double least = 1.0, product = 1.0, depth = 0.0, nearest = infinity;
-  const double length_m =
-      std::sqrt(static_cast<double>(ray.direction.x) * ray.direction.x + static_cast<double>(ray.direction.y) * ray.direction.y +
-                static_cast<double>(ray.direction.z) * ray.direction.z);
+  const Point3d origin{ray.origin.x, ray.origin.y, ray.origin.z}, direction{ray.direction.x, ray.direction.y, ray.direction.z};
   for (const Crown& crown : crowns) {
-    const Piece whole = judged(crown, ray);
-    const Piece piece{std::max<double>(whole.begin, ray.begin), std::min<double>(whole.end, ray.end)};
-    if (piece.begin >= piece.end) continue;
+    const auto [begin, end] = common_part(part_in_crown(crown, origin, direction), {ray.begin, ray.end});
+    if (begin >= end) continue;
     least = std::min(least, transmissivity_of(crown.foliage, settings));
     product *= transmissivity_of(crown.foliage, settings);
-    depth += extinction_per_m_of(crown.foliage, settings) * (piece.end - piece.begin) * length_m;
-    nearest = std::min(nearest, piece.begin);
+    depth += extinction_per_m_of(crown.foliage, settings) * (end - begin) * norm(direction);
+    nearest = std::min(nearest, begin);
   }
   const double by_rule[] = {least, product, std::exp(-depth)};
   return {by_rule[static_cast<std::size_t>(settings.rule)], nearest};
 }
 
-class RandomCrowns : public testing::Test {
+class RandomCrowns : public RandomRays {
  protected:
-  /// In [−1, 1), the same on every machine.
-  double random() { return static_cast<double>(random_() >> 11) * 0x1p-52 - 1.0; }
-  Point3f point(double size) {
-    return {static_cast<float>(size * random()), static_cast<float>(size * random()), static_cast<float>(size * random())};
-  }
-
   std::vector<Crown> crowns(std::size_t count) {
     std::vector<Crown> result;
     for (std::size_t n = 0; n < count; ++n) {
-      const double bottom_m = 20.0 * random();
-      result.push_back(crown_of(static_cast<CrownShape>(n % 3), {40.0 * random(), 40.0 * random()}, bottom_m,
-                                bottom_m + 6.0 + 5.0 * random(), 4.0 + 3.5 * random(), static_cast<Foliage>(random_() % 3),
+      const double bottom_m = 20.0 * double{random()};
+      result.push_back(crown_at(static_cast<CrownShape>(n % 3), {40.0 * double{random()}, 40.0 * double{random()}},
+                                4.0 + 3.5 * double{random()}, {bottom_m, bottom_m + 6.0 + 5.0 * double{random()}},
+                                static_cast<Foliage>(random_() % 3),
                                 static_cast<std::uint16_t>(n % 3 == 2 ? random_() & 0xFFFFU : 0U)));
     }
     return result;
   }
   Ray ray() {
-    Ray ray{point(45.0), point(2.0)};
-    if (random() < -0.5) ray.begin = static_cast<float>(5.0 + 5.0 * random());
-    if (random() < -0.5) ray.end = static_cast<float>(25.0 + 10.0 * random());
+    Ray ray{point(45.0F), point(2.0F)};
+    if (random() < -0.5F) ray.begin = 5.0F + 5.0F * random();
+    if (random() < -0.5F) ray.end = 25.0F + 10.0F * random();
     return ray;
   }
-  std::mt19937_64 random_{20150101};
 };
 
 /// All numbers are computed in double, and rounded to a float once. Where a ray grazes a body, or begins far from it, some digits
@@ -232,18 +191,16 @@ TEST_F(RandomCrowns, PacketsAnswerAsSingleRaysDo) {
     for (std::uint32_t n = 0; n < 600; ++n) {
       const std::uint32_t wanted = n % 3 == 0 ? all_lanes : (n * 2654435761U) >> 16;
       const CrownQuestion question = n % 2 == 0 ? CrownQuestion::light : CrownQuestion::light_and_nearest;
-      const Point3f shared = point(1.0), corner = point(40.0);
+      const Point3f shared = point(1.0F), corner = point(40.0F);
       constexpr float begin = 2.0F;
-      RayOrigins origins;
-      Occluder::Directions directions;
+      RayPacket packet;
       std::array<Ray, RayOrigins::lanes> rays;
       for (std::size_t l = 0; l < rays.size(); ++l) {
-        rays[l] = {corner + point(4.0), point(1.0), begin};
-        origins.x[l] = rays[l].origin.x, origins.y[l] = rays[l].origin.y, origins.z[l] = rays[l].origin.z;
-        directions.x[l] = rays[l].direction.x, directions.y[l] = rays[l].direction.y, directions.z[l] = rays[l].direction.z;
+        rays[l] = {corner + point(4.0F), point(1.0F), begin};
+        packet.set(l, rays[l]);
       }
-      const CrownLights lights = occluder.light(origins, directions, begin, wanted, question);
-      const CrownLights lights_shared = occluder.light(origins, shared, begin, wanted, question);
+      const CrownLights lights = occluder.light(packet.origins, packet.directions, begin, wanted, question);
+      const CrownLights lights_shared = occluder.light(packet.origins, shared, begin, wanted, question);
       for (std::size_t l = 0; l < rays.size(); ++l) {
         const bool is_wanted = ((wanted >> l) & 1U) != 0;
         const CrownLight single = is_wanted ? occluder.light(rays[l], question) : CrownLight{};
@@ -264,23 +221,21 @@ TEST_F(RandomCrowns, RaysThatEndMeetTheirCrownsBefore) {
   std::size_t met = 0, ended = 0;
   for (std::uint32_t n = 0; n < 600; ++n) {
     const std::uint32_t wanted = n % 3 == 0 ? all_lanes : (n * 2654435761U) >> 16;
-    const Point3f corner = point(40.0);
+    const Point3f corner = point(40.0F);
     constexpr float begin = 2.0F;
-    RayOrigins origins;
-    Occluder::Directions directions;
+    RayPacket packet;
     Occluder::Distances ends;
     std::uint32_t expected = 0;
     for (std::size_t l = 0; l < RayOrigins::lanes; ++l) {
-      const Ray one{corner + point(4.0), point(1.0), begin, static_cast<float>(40.0 + 39.0 * random())};
-      origins.x[l] = one.origin.x, origins.y[l] = one.origin.y, origins.z[l] = one.origin.z;
-      directions.x[l] = one.direction.x, directions.y[l] = one.direction.y, directions.z[l] = one.direction.z;
+      const Ray one{corner + point(4.0F), point(1.0F), begin, 40.0F + 39.0F * random()};
+      packet.set(l, one);
       ends[l] = l == 0 ? std::numeric_limits<float>::infinity() : one.end;
       const bool is_met = occluder.light({one.origin, one.direction, begin, ends[l]}).is_met();
       expected |= is_met ? 1U << l : 0U;
       met += is_met ? 1U : 0U;
       ended += !is_met && occluder.light({one.origin, one.direction, begin}).is_met() ? 1U : 0U;
     }
-    ASSERT_EQ(occluder.met_before(ends, origins, directions, begin, wanted), expected & wanted) << n;
+    ASSERT_EQ(occluder.met_before(ends, packet.origins, packet.directions, begin, wanted), expected & wanted) << n;
   }
   EXPECT_TRUE(met > 1000 && ended > 500) << met << ' ' << ended;
 }

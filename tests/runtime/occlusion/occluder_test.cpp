@@ -8,9 +8,9 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "occlusion/placed_mesh.hpp"
+#include "tests/runtime/occlusion/random_rays.hpp"
 
 namespace farlod {
 namespace {
@@ -87,27 +87,8 @@ TEST(Occluder, NothingHidesNothing) {
   }
 }
 
-/// Sixteen rays, as the engines trace them.
-struct Packet {
-  RayOrigins origins;
-  Occluder::Directions directions;
-
-  void set(std::size_t lane, const Ray& ray) {
-    origins.x[lane] = ray.origin.x;
-    origins.y[lane] = ray.origin.y;
-    origins.z[lane] = ray.origin.z;
-    directions.x[lane] = ray.direction.x;
-    directions.y[lane] = ray.direction.y;
-    directions.z[lane] = ray.direction.z;
-  }
-};
-
-class RandomScene : public testing::Test {
+class RandomScene : public RandomRays {
  protected:
-  /// In [−1, 1), the same on every machine.
-  float random() { return static_cast<float>(static_cast<double>(random_() >> 11) * 0x1p-52 - 1.0); }
-  Point3f point(float size) { return {size * random(), size * random(), size * random()}; }
-
   Occluder triangles(std::size_t count, const std::stop_token& stop = {}) {
     std::vector<Point3f> vertices;
     std::vector<Triangle> list;
@@ -118,9 +99,6 @@ class RandomScene : public testing::Test {
     }
     return {std::move(vertices), std::move(list), stop};
   }
-
- private:
-  std::mt19937_64 random_{20120901};
 };
 
 TEST_F(RandomScene, PacketsAnswerAsSingleRaysDo) {
@@ -131,7 +109,7 @@ TEST_F(RandomScene, PacketsAnswerAsSingleRaysDo) {
     // Of each pattern of lanes that are asked, many packets; with one direction for all, and with one for each
     const std::uint32_t wanted = n % 3 == 0 ? all_rays : (n * 2654435761U) >> 16;
     const Point3f shared = point(1.0F);
-    Packet packet;
+    RayPacket packet;
     std::uint32_t expected = 0, expected_shared = 0;
     for (std::size_t l = 0; l < RayOrigins::lanes; ++l) {
       const Ray ray{point(60.0F), point(1.0F), begin};
@@ -156,7 +134,7 @@ TEST_F(RandomScene, PacketsAreAsFarAsSingleRays) {
   for (std::uint32_t n = 0; n < 500; ++n) {
     const std::uint32_t wanted = n % 3 == 0 ? all_rays : (n * 2654435761U) >> 16;
     const Point3f shared = point(1.0F);
-    Packet packet;
+    RayPacket packet;
     for (std::size_t l = 0; l < RayOrigins::lanes; ++l) packet.set(l, {point(60.0F), point(1.0F), begin});
     const Occluder::Distances own = occluder.distances(packet.origins, packet.directions, begin, wanted),
                               of_shared = occluder.distances(packet.origins, shared, begin, wanted);
@@ -226,7 +204,7 @@ TEST_F(Fan, SharedEdgesAndASharedVertexLetNothingThrough) {
   for (std::size_t n = 0; n < 50000; ++n) {
     const Ray ray = ray_to_spoke(n);
     EXPECT_TRUE(fan.blocks(ray)) << n;
-    Packet packet;
+    RayPacket packet;
     for (std::size_t l = 0; l < RayOrigins::lanes; ++l) packet.set(l, ray);
     EXPECT_EQ(fan.blocked(packet.origins, packet.directions, 0.0F, all_rays), all_rays) << n;
   }
