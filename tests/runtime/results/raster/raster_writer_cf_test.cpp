@@ -2,18 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "results/raster/raster_writers.hpp"
 
-#include <gdal_priv.h>
 #include <gmock/gmock.h>
-#include <ogr_spatialref.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <memory>
 
 #include "farlod/error.hpp"
 #include "results/crs_gdal.hpp"
-#include "tests/runtime/results/raster/small_raster.hpp"
+#include "tests/runtime/results/raster/read_by_gdal.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
@@ -30,29 +25,12 @@ WholeRaster described_raster() {
   return raster;
 }
 
-struct Closed {
-  void operator()(FILE* pipe) const { pclose(pipe); }
-};
-
-/// What a program prints; nothing where it is missing.
-std::string output_of(const std::string& command) {
-  const std::unique_ptr<FILE, Closed> pipe(popen((command + " 2>/dev/null").c_str(), "r"));
-  std::string text;
-  std::array<char, 4096> bytes{};
-  while (pipe != nullptr) {
-    const std::size_t count = fread(bytes.data(), 1, bytes.size(), pipe.get());
-    if (count == 0) break;
-    text.append(bytes.data(), count);
-  }
-  return text;
-}
-
 TEST(Netcdf, HasTheAttributesOfTheConventions) {
   const scenes::TemporaryFolder folder;
   write_whole<netcdf_writer>(described_raster(), folder.file("a.nc"));
   EXPECT_THAT(folder.names(), ElementsAre("a.nc"));
-  if (output_of("command -v ncdump").empty()) GTEST_SKIP() << "ncdump is missing; it is in the package netcdf-bin";
-  const std::string header = output_of("ncdump -h '" + folder.file("a.nc").string() + "'");
+  if (ended("command -v ncdump").text.empty()) GTEST_SKIP() << "ncdump is missing; it is in the package netcdf-bin";
+  const std::string header = ended("ncdump -h '" + folder.file("a.nc").string() + "'").text;
   for (const char* line : {"y = 3 ;",
                            "x = 5 ;",
                            "double y(y) ;",
@@ -86,25 +64,13 @@ TEST(Netcdf, HasTheAttributesOfTheConventions) {
 }
 
 TEST(Netcdf, LiesWhereTheRasterLies) {
-  GDALAllRegister();
   const scenes::TemporaryFolder folder;
-  const WholeRaster raster = described_raster();
-  write_whole<netcdf_writer>(raster, folder.file("a.nc"));
-  const GDALDatasetUniquePtr dataset(GDALDataset::Open(folder.file("a.nc").c_str(), GDAL_OF_RASTER));
-  ASSERT_NE(dataset, nullptr);
-  std::array<double, 6> geotransform{};
-  ASSERT_EQ(dataset->GetGeoTransform(geotransform.data()), CE_None);
-  EXPECT_THAT(geotransform, ElementsAre(raster.north_west_m.x, raster.step_m, 0.0, raster.north_west_m.y, 0.0, -raster.step_m));
-  OGRSpatialReference expected;
-  ASSERT_EQ(expected.importFromEPSG(25832), OGRERR_NONE);
-  ASSERT_NE(dataset->GetSpatialRef(), nullptr);
-  EXPECT_TRUE(dataset->GetSpatialRef()->IsSame(&expected));
-  GDALRasterBand& band = *dataset->GetRasterBand(1);
-  std::vector<float> pixels(raster.svf.size());
-  ASSERT_EQ(band.RasterIO(GF_Read, 0, 0, 5, 3, pixels.data(), 5, 3, GDT_Float32, 0, 0, nullptr), CE_None);
-  EXPECT_THAT(pixels, testing::Pointwise(testing::NanSensitiveFloatEq(), raster.svf));
-  EXPECT_TRUE(std::isnan(band.GetNoDataValue()));
-  EXPECT_STREQ(band.GetUnitType(), "1");
+  write_whole<netcdf_writer>(described_raster(), folder.file("a.nc"));
+  const GDALDatasetUniquePtr dataset = dataset_of(folder.file("a.nc"));
+  expect_place_of(described_raster(), *dataset);
+  EXPECT_THAT(pixels_of(*dataset), testing::Pointwise(testing::NanSensitiveFloatEq(), described_raster().svf));
+  EXPECT_TRUE(std::isnan(dataset->GetRasterBand(1)->GetNoDataValue()));
+  EXPECT_STREQ(dataset->GetRasterBand(1)->GetUnitType(), "1");
 }
 
 TEST(Netcdf, AFolderThatDoesNotExistIsTold) {

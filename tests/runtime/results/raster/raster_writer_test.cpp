@@ -1,21 +1,18 @@
 // SPDX-FileCopyrightText: The Far-LoD authors
 // SPDX-License-Identifier: Apache-2.0
-#include <gdal_priv.h>
 #include <gmock/gmock.h>
-#include <ogr_spatialref.h>
 #include <sys/resource.h>
 
 #include <array>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <random>
 
 #include "farlod/error.hpp"
 #include "results/crs_gdal.hpp"
 #include "results/raster/raster_writer_esri_ascii.hpp"
 #include "results/raster/raster_writers.hpp"
-#include "tests/runtime/results/raster/small_raster.hpp"
+#include "tests/runtime/results/raster/read_by_gdal.hpp"
 #include "tests/scenes/refusal.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
@@ -29,46 +26,30 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
-GDALDatasetUniquePtr open_raster(const std::filesystem::path& path) {
-  GDALAllRegister();
-  return GDALDatasetUniquePtr(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));
+WholeRaster raster_with_bounds() {
+  WholeRaster raster = small_raster();
+  raster.bands = svf_bands("svf", RasterBands::svf_and_bounds);
+  raster.low = raster.high = raster.svf;
+  return raster;
 }
 
-std::vector<float> pixels_of(GDALDataset& dataset) {
-  const int columns = dataset.GetRasterXSize(), rows = dataset.GetRasterYSize();
-  std::vector<float> pixels(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-  EXPECT_EQ(
-      dataset.GetRasterBand(1)->RasterIO(GF_Read, 0, 0, columns, rows, pixels.data(), columns, rows, GDT_Float32, 0, 0, nullptr),
-      CE_None);
-  return pixels;
-}
+class GeoTiff : public testing::Test {
+ protected:
+  /// Writes a raster, and opens what was written.
+  [[nodiscard]] GDALDatasetUniquePtr written(const WholeRaster& raster) const {
+    write_whole<geotiff_writer>(raster, path);
+    EXPECT_THAT(folder.names(), ElementsAre("a.tif"));
+    return dataset_of(path);
+  }
 
-void expect_place_of(const WholeRaster& raster, GDALDataset& dataset) {
-  EXPECT_EQ(dataset.GetRasterXSize(), static_cast<int>(raster.columns));
-  EXPECT_EQ(dataset.GetRasterYSize(), static_cast<int>(raster.rows));
-  std::array<double, 6> geotransform{};
-  ASSERT_EQ(dataset.GetGeoTransform(geotransform.data()), CE_None);
-  EXPECT_THAT(geotransform, ElementsAre(raster.north_west_m.x, raster.step_m, 0.0, raster.north_west_m.y, 0.0, -raster.step_m));
-  ASSERT_NE(dataset.GetSpatialRef(), nullptr);
-  OGRSpatialReference expected;
-  ASSERT_EQ(expected.importFromWkt(raster.crs_wkt.c_str()), OGRERR_NONE);
-  EXPECT_TRUE(dataset.GetSpatialRef()->IsSame(&expected));
-}
+  scenes::TemporaryFolder folder;
+  std::filesystem::path path = folder.file("a.tif");
+};
 
-TEST(GeoTiff, LiesWhereTheRasterLies) {
-  const scenes::TemporaryFolder folder;
-  write_whole<geotiff_writer>(small_raster(), folder.file("a.tif"));
-  EXPECT_THAT(folder.names(), ElementsAre("a.tif"));
-  const auto dataset = open_raster(folder.file("a.tif"));
-  ASSERT_NE(dataset, nullptr);
-  expect_place_of(small_raster(), *dataset);
-}
+TEST_F(GeoTiff, LiesWhereTheRasterLies) { expect_place_of(small_raster(), *written(small_raster())); }
 
-TEST(GeoTiff, HoldsTheValuesAndDeclaresNoData) {
-  const scenes::TemporaryFolder folder;
-  write_whole<geotiff_writer>(small_raster(), folder.file("a.tif"));
-  const auto dataset = open_raster(folder.file("a.tif"));
-  ASSERT_NE(dataset, nullptr);
+TEST_F(GeoTiff, HoldsTheValuesAndDeclaresNoData) {
+  const auto dataset = written(small_raster());
   EXPECT_THAT(pixels_of(*dataset), testing::Pointwise(testing::NanSensitiveFloatEq(), small_raster().svf));
   GDALRasterBand& band = *dataset->GetRasterBand(1);
   int declared = 0;
@@ -76,13 +57,6 @@ TEST(GeoTiff, HoldsTheValuesAndDeclaresNoData) {
   EXPECT_TRUE(declared);
   EXPECT_STREQ(band.GetDescription(), "svf");
   EXPECT_EQ(band.GetRasterDataType(), GDT_Float32);
-}
-
-TEST(GeoTiff, HasTheSameBytesEachTime) {
-  const scenes::TemporaryFolder folder;
-  write_whole<geotiff_writer>(small_raster(), folder.file("a.tif"));
-  write_whole<geotiff_writer>(small_raster(), folder.file("b.tif"));
-  EXPECT_EQ(scenes::text_of(folder.file("a.tif")), scenes::text_of(folder.file("b.tif")));
 }
 
 /// Tiles that take long to compress before such that take no time.
@@ -99,41 +73,16 @@ WholeRaster uneven_raster(std::size_t threads) {
   return raster;
 }
 
-TEST(GeoTiff, HasTheSameBytesWithAnyNumberOfThreads) {
-  const scenes::TemporaryFolder folder;
-  write_whole<geotiff_writer>(uneven_raster(1), folder.file("a.tif"));
-  const auto dataset = open_raster(folder.file("a.tif"));
-  ASSERT_NE(dataset, nullptr);
-  EXPECT_EQ(pixels_of(*dataset), uneven_raster(1).svf);
+TEST_F(GeoTiff, HasTheSameBytesWithAnyNumberOfThreads) {
+  EXPECT_EQ(pixels_of(*written(uneven_raster(1))), uneven_raster(1).svf);
   for (const std::size_t threads : {2U, 5U, 40U}) {
     write_whole<geotiff_writer>(uneven_raster(threads), folder.file("b.tif"));
-    EXPECT_TRUE(scenes::text_of(folder.file("a.tif")) == scenes::text_of(folder.file("b.tif"))) << threads;
+    EXPECT_TRUE(scenes::text_of(path) == scenes::text_of(folder.file("b.tif"))) << threads;
   }
 }
 
-/// What a program prints and reports, and whether it ended well.
-struct Ended {
-  std::string text;
-  bool is_good = false;
-};
-Ended ended(const std::string& command) {
-  Ended result;
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return result;
-  std::array<char, 4096> bytes{};
-  for (std::size_t count = 1; count != 0;) {
-    count = fread(bytes.data(), 1, bytes.size(), pipe);
-    result.text.append(bytes.data(), count);
-  }
-  result.is_good = pclose(pipe) == 0;
-  return result;
-}
-
-TEST(GeoTiff, IsCloudOptimised) {
-  const scenes::TemporaryFolder folder;
-  write_whole<geotiff_writer>(uneven_raster(2), folder.file("a.tif"));
-  const auto dataset = open_raster(folder.file("a.tif"));
-  ASSERT_NE(dataset, nullptr);
+TEST_F(GeoTiff, IsCloudOptimised) {
+  const auto dataset = written(uneven_raster(2));
   EXPECT_STREQ(dataset->GetMetadataItem("LAYOUT", "IMAGE_STRUCTURE"), "COG");
   // 2304 × 769 pixels: halved until they lie in a block
   EXPECT_EQ(dataset->GetRasterBand(1)->GetOverviewCount(), 3);
@@ -141,13 +90,12 @@ TEST(GeoTiff, IsCloudOptimised) {
   if (!ended(validator + "--help").text.starts_with("usage") &&
       !ended("/usr/bin/python3 -c 'import osgeo_utils.samples'").is_good)
     GTEST_SKIP() << "the validator of GDAL is missing; it is in the package python3-gdal";
-  const Ended validated = ended(validator + folder.file("a.tif").string());
+  const Ended validated = ended(validator + path.string());
   EXPECT_TRUE(validated.is_good) << validated.text;
   EXPECT_THAT(validated.text, HasSubstr("is a valid cloud optimized GeoTIFF"));
 }
 
-TEST(GeoTiff, OverviewsAreAveragesOfWhatHasData) {
-  const scenes::TemporaryFolder folder;
+TEST_F(GeoTiff, OverviewsAreAveragesOfWhatHasData) {
   WholeRaster raster = uneven_raster(1);
   raster.rows -= 1;  // then each pixel of the overview is over two by two
   raster.svf.assign(raster.columns * raster.rows, 0.25F);
@@ -155,8 +103,7 @@ TEST(GeoTiff, OverviewsAreAveragesOfWhatHasData) {
   raster.svf[2] = 0.75F;
   for (const std::size_t row : {0U, 1U})
     for (const std::size_t column : {4U, 5U}) raster.svf[row * raster.columns + column] = std::nanf("");
-  write_whole<geotiff_writer>(raster, folder.file("a.tif"));
-  const auto dataset = open_raster(folder.file("a.tif"));
+  const auto dataset = written(raster);
   std::array<float, 4> first{};
   ASSERT_EQ(
       dataset->GetRasterBand(1)->GetOverview(0)->RasterIO(GF_Read, 0, 0, 4, 1, first.data(), 4, 1, GDT_Float32, 0, 0, nullptr),
@@ -167,15 +114,10 @@ TEST(GeoTiff, OverviewsAreAveragesOfWhatHasData) {
   EXPECT_EQ(first[3], 0.25F);
 }
 
-TEST(GeoTiff, SaysWhatItsBandsAreAndWhatMadeIt) {
-  const scenes::TemporaryFolder folder;
-  WholeRaster raster = small_raster();
-  raster.bands = svf_bands("svf", RasterBands::svf_and_bounds);
-  raster.low = raster.high = raster.svf;
+TEST_F(GeoTiff, SaysWhatItsBandsAreAndWhatMadeIt) {
+  WholeRaster raster = raster_with_bounds();
   raster.provenance = {"Far-LoD 1", "town.farlod", "0123", "--grid 2"};
-  write_whole<geotiff_writer>(raster, folder.file("a.tif"));
-  const auto dataset = open_raster(folder.file("a.tif"));
-  ASSERT_NE(dataset, nullptr);
+  const auto dataset = written(raster);
   ASSERT_EQ(dataset->GetRasterCount(), 3);
   for (std::size_t n = 0; n < raster.bands.size(); ++n) {
     GDALRasterBand& band = *dataset->GetRasterBand(static_cast<int>(n) + 1);
@@ -212,38 +154,32 @@ class FileSizeLimit {
   rlimit before_{};
 };
 
-TEST(GeoTiff, AFullDiskIsToldWithAnyNumberOfThreads) {
+TEST_F(GeoTiff, AFullDiskIsToldWithAnyNumberOfThreads) {
   for (const std::size_t threads : {1U, 2U, 40U}) {
-    const scenes::TemporaryFolder folder;
     const WholeRaster raster = uneven_raster(threads);
     {
       const FileSizeLimit limit(300'000);
-      EXPECT_THROW(write_whole<geotiff_writer>(raster, folder.file("a.tif")), OutputError) << threads;
+      EXPECT_THROW(write_whole<geotiff_writer>(raster, path), OutputError) << threads;
     }
     EXPECT_THAT(folder.names(), IsEmpty()) << threads;
   }
 }
 
-TEST(GeoTiff, KeepsACrsWithoutACode) {
-  const scenes::TemporaryFolder folder;
+TEST_F(GeoTiff, KeepsACrsWithoutACode) {
   WholeRaster raster = small_raster();
   raster.crs_wkt =
       R"(PROJCS["town",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",48.25],PARAMETER["central_meridian",11.5],PARAMETER["scale_factor",1],PARAMETER["false_easting",0],PARAMETER["false_northing",0],UNIT["metre",1]])";
-  write_whole<geotiff_writer>(raster, folder.file("a.tif"));
-  EXPECT_THAT(folder.names(), ElementsAre("a.tif"));
-  expect_place_of(raster, *open_raster(folder.file("a.tif")));
+  expect_place_of(raster, *written(raster));
 }
 
-TEST(GeoTiff, LeavesNothingBehindOnFailure) {
-  const scenes::TemporaryFolder folder;
+TEST_F(GeoTiff, LeavesNothingBehindOnFailure) {
   WholeRaster raster = small_raster();
   raster.crs_wkt = "PROJCS[";
-  EXPECT_THROW(write_whole<geotiff_writer>(raster, folder.file("a.tif")), OutputError);
+  EXPECT_THROW(write_whole<geotiff_writer>(raster, path), OutputError);
   EXPECT_THAT(folder.names(), IsEmpty());
 }
 
-TEST(GeoTiff, NamesTheFileThatCannotBeWritten) {
-  const scenes::TemporaryFolder folder;
+TEST_F(GeoTiff, NamesTheFileThatCannotBeWritten) {
   EXPECT_THAT(
       scenes::refusal_of<OutputError>([&] { write_whole<geotiff_writer>(small_raster(), folder.file("missing") / "a.tif"); }),
       HasSubstr("missing/a.tif: "));
@@ -253,7 +189,7 @@ TEST(EsriAscii, IsReadByGdalAsTheSameRaster) {
   const scenes::TemporaryFolder folder;
   write_whole<made<EsriAsciiWriter>>(small_raster(), folder.file("a.asc"));
   EXPECT_THAT(folder.names(), UnorderedElementsAre("a.asc", "a.prj"));
-  const auto dataset = open_raster(folder.file("a.asc"));
+  const auto dataset = dataset_of(folder.file("a.asc"));
   ASSERT_NE(dataset, nullptr);
   expect_place_of(small_raster(), *dataset);
   EXPECT_EQ(dataset->GetRasterBand(1)->GetRasterDataType(), GDT_Float32);
@@ -277,7 +213,7 @@ TEST(EsriAscii, TheCrsOfAPackageIsReadByGdal) {
   ASSERT_THAT(raster.crs_wkt, testing::StartsWith("PROJCRS["));
   raster.crs_wkt = esri_wkt_of(raster.crs_wkt);
   write_whole<made<EsriAsciiWriter>>(raster, folder.file("a.asc"));
-  const auto dataset = open_raster(folder.file("a.asc"));
+  const auto dataset = dataset_of(folder.file("a.asc"));
   ASSERT_NE(dataset->GetSpatialRef(), nullptr);
   EXPECT_TRUE(dataset->GetSpatialRef()->IsSame(&crs));
 }
@@ -289,7 +225,7 @@ TEST(EsriAscii, OpenFieldIsNotTakenForIntegers) {
   WholeRaster raster = small_raster();
   raster.svf.assign(raster.svf.size(), 1.0F);
   write_whole<made<EsriAsciiWriter>>(raster, folder.file("a.asc"));
-  EXPECT_EQ(open_raster(folder.file("a.asc"))->GetRasterBand(1)->GetRasterDataType(), GDT_Float32);
+  EXPECT_EQ(dataset_of(folder.file("a.asc"))->GetRasterBand(1)->GetRasterDataType(), GDT_Float32);
 }
 
 TEST(EsriAscii, WithoutCrsHasNoPrj) {
@@ -298,13 +234,6 @@ TEST(EsriAscii, WithoutCrsHasNoPrj) {
   raster.crs_wkt.clear();
   write_whole<made<EsriAsciiWriter>>(raster, folder.file("a.asc"));
   EXPECT_THAT(folder.names(), ElementsAre("a.asc"));
-}
-
-WholeRaster raster_with_bounds() {
-  WholeRaster raster = small_raster();
-  raster.bands = svf_bands("svf", RasterBands::svf_and_bounds);
-  raster.low = raster.high = raster.svf;
-  return raster;
 }
 
 TEST(ZippedGeotiffs, AreTheFilesThatTheirBandsWouldBe) {
@@ -317,22 +246,6 @@ TEST(ZippedGeotiffs, AreTheFilesThatTheirBandsWouldBe) {
   write_whole<geotiff_writer>(low, folder.file("svf_low.tif"));
   // Stored as it is, so that its bytes stand in the ZIP file
   EXPECT_THAT(zip, HasSubstr(scenes::text_of(folder.file("svf_low.tif"))));
-}
-
-TEST(ZippedGeotiffs, HaveTheSameBytesEachTime) {
-  const scenes::TemporaryFolder folder;
-  write_whole<zipped_geotiff_writer>(raster_with_bounds(), folder.file("a.zip"));
-  write_whole<zipped_geotiff_writer>(raster_with_bounds(), folder.file("b.zip"));
-  EXPECT_EQ(scenes::text_of(folder.file("a.zip")), scenes::text_of(folder.file("b.zip")));
-}
-
-TEST(ZippedGeotiffs, LeaveNothingOfAFileThatIsGivenUp) {
-  const scenes::TemporaryFolder folder;
-  {
-    const auto writer = zipped_geotiff_writer(raster_with_bounds(), folder.file("a.zip"));
-    writer->write(tile_of(raster_with_bounds(), {0, 0}));
-  }
-  EXPECT_THAT(folder.names(), IsEmpty());
 }
 
 }  // namespace
