@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "farlod/error.hpp"
 #include "results/picture/picture.hpp"
+#include "tests/runtime/results/picture/decoded_png.hpp"
 #include "tests/scenes/glb_reader.hpp"
 #include "tests/scenes/temporary_folder.hpp"
 
@@ -17,17 +17,11 @@ namespace {
 
 using scenes::Glb;
 
-/// Of IEC 61966-2-1.
-double linear(std::uint8_t channel) {
-  const double v = channel / 255.0;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
 void expect_colour(const std::array<std::uint16_t, 4>& found, Colour wanted) {
   const double half_of_last_digit = 0.5 / 65535.0 + 1e-12;
-  EXPECT_NEAR(found[0] / 65535.0, linear(wanted.red), half_of_last_digit);
-  EXPECT_NEAR(found[1] / 65535.0, linear(wanted.green), half_of_last_digit);
-  EXPECT_NEAR(found[2] / 65535.0, linear(wanted.blue), half_of_last_digit);
+  EXPECT_NEAR(found[0] / 65535.0, linear_channel(wanted.red), half_of_last_digit);
+  EXPECT_NEAR(found[1] / 65535.0, linear_channel(wanted.green), half_of_last_digit);
+  EXPECT_NEAR(found[2] / 65535.0, linear_channel(wanted.blue), half_of_last_digit);
   EXPECT_EQ(found[3], 65535);
 }
 

@@ -5,10 +5,14 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
+#include "results/picture/drawing.hpp"
 #include "results/picture/picture.hpp"
+#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 
@@ -24,6 +28,19 @@ namespace farlod {
   for (std::size_t n = 0; 3 * n < bytes.size(); ++n)
     picture.set({n % image.width, n / image.width}, {bytes[3 * n], bytes[3 * n + 1], bytes[3 * n + 2]});
   return picture;
+}
+
+/// The pixels of a drawing that is written as a PNG.
+[[nodiscard]] inline Picture drawn(const Drawing& drawing) {
+  const scenes::TemporaryFolder folder;
+  write_drawing(drawing, folder.file("a.png"));
+  return decoded_png(folder.file("a.png"));
+}
+
+/// A channel of sRGB by the light that it stands for (IEC 61966-2-1).
+[[nodiscard]] inline double linear_channel(std::uint8_t channel) {
+  const double v = channel / 255.0;
+  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
 }  // namespace farlod

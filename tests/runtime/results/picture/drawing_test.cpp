@@ -44,12 +44,6 @@ std::string written(const Drawing& drawing, const std::string& name) {
   return scenes::text_of(folder.file(name));
 }
 
-Picture drawn(const Drawing& drawing) {
-  const scenes::TemporaryFolder folder;
-  write_drawing(drawing, folder.file("a.png"));
-  return decoded_png(folder.file("a.png"));
-}
-
 /// Pixels of a rectangle that are not white.
 std::size_t inked(const Picture& picture, Pixel upper_left, Pixel end) {
   std::size_t count = 0;
@@ -166,11 +160,6 @@ const std::array<Vision, 4> visions{
     Vision{"deuteranopia", {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}}},
     Vision{"tritanopia", {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}}},
     Vision{"grey", {{{0.2126, 0.7152, 0.0722}, {0.2126, 0.7152, 0.0722}, {0.2126, 0.7152, 0.0722}}}}};
-
-double linear_channel(std::uint8_t c) {
-  const double v = c / 255.0;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
 
 double product(const Channels& a, const Channels& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 

@@ -17,13 +17,9 @@
 namespace farlod {
 namespace {
 
-/// Relative luminance of an sRGB colour (IEC 61966-2-1).
+/// Relative luminance of a colour.
 double luminance(Colour colour) {
-  const auto linear = [](std::uint8_t c) {
-    const double v = c / 255.0;
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-  };
-  return 0.2126 * linear(colour.red) + 0.7152 * linear(colour.green) + 0.0722 * linear(colour.blue);
+  return 0.2126 * linear_channel(colour.red) + 0.7152 * linear_channel(colour.green) + 0.0722 * linear_channel(colour.blue);
 }
 
 PreviewRaster fit_to_screen(const WholeRaster& raster) {
@@ -116,9 +112,7 @@ TEST(Preview, DecodesToTheStatedSizeAndColours) {
 TEST(Preview, LightChangesTheColoursOfSlopes) {
   const PreviewRaster raster{2, 2, 1.0, {0.5F, 0.5F, 0.5F, std::numeric_limits<float>::quiet_NaN()}};
   WholeRaster frame = raster_of(2, 2, 0.5F);
-  const scenes::TemporaryFolder folder;
-  write_drawing(draw_preview(raster, frame, {{}, {1.0F, 0.8F, 1.2F, 0.8F}}), folder.file("a.png"));
-  const Picture picture = decoded_png(folder.file("a.png"));
+  const Picture picture = drawn(draw_preview(raster, frame, {{}, {1.0F, 0.8F, 1.2F, 0.8F}}));
   const Pixel map = preview_layout({2, 2}).map;
   EXPECT_EQ(picture.at(map), colour_of_svf(0.5));
   EXPECT_LT(luminance(picture.at({map.x + 1, map.y})), luminance(colour_of_svf(0.5)));
@@ -128,9 +122,7 @@ TEST(Preview, LightChangesTheColoursOfSlopes) {
 
 TEST(Preview, OutlinesAreDarkLinesOfTheMap) {
   PreviewRaster raster{100, 100, 1.0, std::vector<float>(10'000, 1.0F)};
-  const scenes::TemporaryFolder folder;
-  write_drawing(draw_preview(raster, raster_of(100, 100, 1.0F), {{{{20.0, 50.5}, {80.0, 50.5}}}, {}}), folder.file("a.png"));
-  const Picture picture = decoded_png(folder.file("a.png"));
+  const Picture picture = drawn(draw_preview(raster, raster_of(100, 100, 1.0F), {{{{20.0, 50.5}, {80.0, 50.5}}}, {}}));
   const Pixel map = preview_layout({100, 100}).map;
   EXPECT_LT(luminance(picture.at({map.x + 50, map.y + 50})), 0.4 * luminance(colour_of_svf(1.0)));
   EXPECT_EQ(picture.at({map.x + 50, map.y + 52}), colour_of_svf(1.0));
@@ -266,9 +258,7 @@ TEST(Histogram, BarsAreAsHighAsTheirShares) {
   series[1].counts.add(0.11, 0.25);
   series[1].counts.add(0.31, 0.75);
   ASSERT_DOUBLE_EQ(highest_share(series), 1.0);
-  const scenes::TemporaryFolder folder;
-  write_drawing(draw_histogram(series, {"svf", "Share of the area"}), folder.file("h.png"));
-  const Picture picture = decoded_png(folder.file("h.png"));
+  const Picture picture = drawn(draw_histogram(series, {"svf", "Share of the area"}));
   const auto at = [&](double value, double share) {
     const PagePoint p = histogram_point(value, share, 1.0);
     return picture.at({static_cast<std::size_t>(p.x), static_cast<std::size_t>(p.y)});
@@ -285,9 +275,7 @@ TEST(Histogram, BarsAreAsHighAsTheirShares) {
 
 TEST(Histogram, OfNoValuesIsDrawn) {
   const std::vector<HistogramSeries> series{{"pixels", "0", {}}};
-  const scenes::TemporaryFolder folder;
-  write_drawing(draw_histogram(series, {"svf", ""}), folder.file("h.png"));
-  EXPECT_EQ(decoded_png(folder.file("h.png")).size(), (PixelSize{900, 680}));
+  EXPECT_EQ(drawn(draw_histogram(series, {"svf", ""})).size(), (PixelSize{900, 680}));
 }
 
 }  // namespace

@@ -19,7 +19,6 @@
 #include "results/picture/raster_preview.hpp"
 #include "sun/sun_positions.hpp"
 #include "tests/runtime/results/picture/decoded_png.hpp"
-#include "tests/scenes/temporary_folder.hpp"
 
 namespace farlod {
 namespace {
@@ -112,42 +111,36 @@ Pixel equidistant_pixel(double azimuth_deg, double elevation_deg) {
           static_cast<std::size_t>(116.0 + 400.0 - away * std::cos(azimuth))};
 }
 
-class SunInThePicture : public testing::Test {
- protected:
-  [[nodiscard]] Picture drawn(const std::optional<SunOfSky>& sun) const {
-    const auto file = folder_.file("sun.png");
-    write_drawing(draw_sky(basin_with_a_wall_in_the_east(), SkyProjection::equidistant, {"svf", ""}, sun), file);
-    return decoded_png(file);
-  }
-  static SunDirection sun_at(int hour) {
-    return sun_direction({Angle::degrees(0.0), Angle::degrees(50.0)},
-                         std::chrono::sys_days(std::chrono::year(2026) / std::chrono::June / 21) + std::chrono::hours(hour));
-  }
-  static Pixel pixel_at(int hour) { return equidistant_pixel(sun_at(hour).azimuth.degrees(), sun_at(hour).elevation.degrees()); }
+Picture with_sun(const std::optional<SunOfSky>& sun) {
+  return drawn(draw_sky(basin_with_a_wall_in_the_east(), SkyProjection::equidistant, {"svf", ""}, sun));
+}
 
- private:
-  scenes::TemporaryFolder folder_;
-};
+Pixel pixel_of_sun(int hour) {
+  const SunDirection sun =
+      sun_direction({Angle::degrees(0.0), Angle::degrees(50.0)},
+                    std::chrono::sys_days(std::chrono::year(2026) / std::chrono::June / 21) + std::chrono::hours(hour));
+  return equidistant_pixel(sun.azimuth.degrees(), sun.elevation.degrees());
+}
 
-TEST_F(SunInThePicture, HasADotWhereTheSunIsAtEachFullHour) {
-  const Picture with = drawn(longest_day()), without = drawn({});
+TEST(SunInThePicture, HasADotWhereTheSunIsAtEachFullHour) {
+  const Picture with = with_sun(longest_day()), without = with_sun({});
   for (const int hour : {11, 12, 14, 15}) {  // above 30° in the south and the west
-    EXPECT_EQ(without.at(pixel_at(hour)), colour_of(SkyPart::sky)) << hour;
-    EXPECT_EQ(with.at(pixel_at(hour)), (Colour{178, 24, 43})) << hour;
+    EXPECT_EQ(without.at(pixel_of_sun(hour)), colour_of(SkyPart::sky)) << hour;
+    EXPECT_EQ(with.at(pixel_of_sun(hour)), (Colour{178, 24, 43})) << hour;
   }
   EXPECT_EQ(with.at(equidistant_pixel(180.0, 80.0)), colour_of(SkyPart::sky));  // where it never is
 }
 
-TEST_F(SunInThePicture, IsPaleWhereGeometryHidesTheSun) {
-  const Picture picture = drawn(longest_day());
+TEST(SunInThePicture, IsPaleWhereGeometryHidesTheSun) {
+  const Picture picture = with_sun(longest_day());
   // In the morning behind the near wall in the east, in the evening behind what is far
-  for (const int hour : {6, 8, 18}) EXPECT_EQ(picture.at(pixel_at(hour)), (Colour{250, 200, 200})) << hour;
+  for (const int hour : {6, 8, 18}) EXPECT_EQ(picture.at(pixel_of_sun(hour)), (Colour{250, 200, 200})) << hour;
 }
 
-TEST_F(SunInThePicture, IsNotDrawnBelowTheHorizon) {
+TEST(SunInThePicture, IsNotDrawnBelowTheHorizon) {
   SunOfSky sun = longest_day();
   for (HemisphereDirection& d : sun.courses.front().minutes) d.zenith_angle_deg = 91.0;
-  const Picture night = drawn(sun), without = drawn({});
+  const Picture night = with_sun(sun), without = with_sun({});
   for (std::size_t y = 116; y < 916; ++y)
     for (std::size_t x = 56; x < 856; ++x) ASSERT_EQ(night.at({x, y}), without.at({x, y})) << x << ", " << y;
 }
@@ -249,9 +242,7 @@ TEST(CellPicture, UnfoldsTheHorizon) {
   h.low = {0.2F, 0.0F, 0.0F, 0.0F};
   h.estimate = {0.3F, 0.0F, 0.0F, 0.0F};
   h.high = {0.5F, 0.0F, 0.0F, 0.0F};
-  const scenes::TemporaryFolder folder;
-  write_drawing(draw_cell(scenery), folder.file("a.png"));
-  const Picture picture = decoded_png(folder.file("a.png"));
+  const Picture picture = drawn(draw_cell(scenery));
   // The panorama begins at its upper left pixel that has the colour of the sky
   std::size_t left = 0, top = 0;
   const std::size_t width = picture.size().width;
@@ -296,10 +287,7 @@ const std::vector<VerifiedReceiver> two_receivers{{{1050.0, 1950.0, 3.0}, 0.75F,
 constexpr ErrorSummary errors_of_two{2, 0.375, 0.5, 0.5, -0.125, 20000};
 
 TEST(ErrorMap, MarksHaveTheirColoursWhereTheReceiversAre) {
-  const scenes::TemporaryFolder folder;
-  const auto file = folder.path() / "errors.png";
-  write_drawing(draw_error_map(half_a_map(), {}, two_receivers, errors_of_two, {"svf", "EPSG:1"}), file);
-  const Picture picture = decoded_png(file);
+  const Picture picture = drawn(draw_error_map(half_a_map(), {}, two_receivers, errors_of_two, {"svf", "EPSG:1"}));
   const Pixel corner = preview_layout({400, 300}).map;
   const auto at = [&](std::size_t x, std::size_t y) { return picture.at({corner.x + x, corner.y + y}); };
   EXPECT_EQ(at(100, 100), colour_of_error(0.5));  // 50 m east of the corner and 50 m south of it, half a metre a pixel
@@ -313,12 +301,10 @@ TEST(ErrorMap, MarksHaveTheirColoursWhereTheReceiversAre) {
 }
 
 TEST(ErrorMap, LargerErrorsLieOnTop) {
-  const scenes::TemporaryFolder folder;
-  const auto file = folder.path() / "errors.png";
   const std::vector<VerifiedReceiver> at_one_place{{{1050.0, 1950.0, 0.0}, 1.0F, 0.5F}, {{1050.0, 1950.0, 0.0}, 0.5F, 0.5F}};
-  write_drawing(draw_error_map(half_a_map(), {}, at_one_place, {2, 0.25, 0.5, 0.5, 0.25, 20000}, {"svf", ""}), file);
+  const Picture picture = drawn(draw_error_map(half_a_map(), {}, at_one_place, {2, 0.25, 0.5, 0.5, 0.25, 20000}, {"svf", ""}));
   const Pixel corner = preview_layout({400, 300}).map;
-  EXPECT_EQ(decoded_png(file).at({corner.x + 100, corner.y + 100}), colour_of_error(1.0));
+  EXPECT_EQ(picture.at({corner.x + 100, corner.y + 100}), colour_of_error(1.0));
 }
 
 TEST(ErrorMap, ColoursReachToARoundErrorAboveThe99thPercentile) {
